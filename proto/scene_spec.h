@@ -1,0 +1,151 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/axes.h"
+
+/// A scene after validation: every number is finite and in range, every name resolved. Made by proto/scene_text.h only.
+namespace tandem {
+
+enum class PortSpace : std::uint8_t { kTip, kJoint };
+enum class LawKind : std::uint8_t { kSetPosition, kRaw };
+enum class MfsMode : std::uint8_t { kOpen, kTank, kSeed, kSeedSigned };
+enum class SeatKind : std::uint8_t { kMaster, kSlave };
+enum class Role : std::uint8_t { kInstructor, kTrainee, kEvaluator, kObserver };
+
+/// Channel between a seat and the server (control.md 4). Gains are tip gains; joint ports scale them by diag(J^T J).
+struct ChannelSpec {
+  LawKind law = LawKind::kSetPosition;
+  MfsMode mfs = MfsMode::kOpen;
+  double k = 1000;            ///< stiffness at no delay [N/m]
+  double k_min = 60;          ///< stiffness at any delay [N/m]
+  double k_delay = 5;         ///< k <= k_delay / d [N s/m]
+  double b_delay = 0.25;      ///< damping added = b_delay k d [1]
+  double lead_max = 0.1;      ///< longest extrapolation [s]; 0: none
+  bool effort_half = true;    ///< server's target mixes in the effort
+  double e0 = 0.05;           ///< initial energy per axis and end [J]
+  double eta = 0.9;           ///< share of the dissipation that may be spent
+  double margin_max = 0.1;    ///< unspent energy above is forfeited [J]
+  double v_app = 0.1;         ///< approach speed after an outage [m/s]
+  double tank = 0.05;         ///< MFS tank and authority tank, initial [J]
+};
+
+/// Device - virtual mass coupling at a master (control.md 3).
+struct CouplingSpec {
+  double k_c = 400;   ///< [N/m]
+  double b = 1;       ///< [N s/m]
+  double m_c = 0.02;  ///< [kg]
+};
+
+struct GateSpec {
+  double silence_limit = 0.020;  ///< [s]
+  double loop_age_max = 0.100;   ///< [s]
+  bool latch = true;
+  double ramp_in = 0.5;          ///< [s]
+  double force_max = 3.3;        ///< [N], never above what the device declares
+};
+
+struct Point { double x = 0, y = 0, z = 0; };
+
+enum class DeviceModel : std::uint8_t { kTouch, kLinear };
+/// A simulated device (control.md 8).
+struct SimDeviceSpec {
+  DeviceModel model = DeviceModel::kTouch;
+  double friction = 0.1;              ///< Coulomb, at the tip [N]
+  double damping = 0.2;               ///< b_device at the tip [N s/m]
+  bool gravity = true;
+  bool gravity_compensation = true;
+  bool friction_feedforward = false;
+  double force_peak = 3.3;            ///< [N]
+  double encoder = 4.1e-4;            ///< joint resolution [rad], 0: none; LINEAR: 5.5e-5 [m] is the default there
+  double mass = 0.1;                  ///< LINEAR only [kg]
+  Point start;                        ///< tip at the start [m]
+};
+
+enum class HandModel : std::uint8_t { kNone, kLeader, kRelaxed, kResting, kLettingGo, kTremor, kKeyboard, kRecorded };
+struct Waypoint { double at = 0; Point p; };  ///< min-jerk between waypoints, held before the first and after the last
+struct Deviation { double at = 0, length = 0; Point force; };  ///< extra force of the person [N]
+struct Trajectory {
+  enum class Kind : std::uint8_t { kCircle, kWaypoints } kind = Kind::kCircle;
+  Point center;
+  double radius = 0.05;       ///< [m]
+  double frequency = 0.5;     ///< [Hz]
+  char plane = 'y';           ///< axis the circle's plane is normal to: 'x', 'y' or 'z'; LINEAR devices see x only
+  double ramp = 1.0;          ///< radius grows smoothly from 0 in this time [s]
+  std::vector<Waypoint> waypoints;
+};
+struct HandSpec {
+  HandModel model = HandModel::kNone;
+  double k = 0, b = 0, m = 0;      ///< filled from the model unless the scene says otherwise [N/m, N s/m, kg]
+  Trajectory trajectory;
+  std::vector<Deviation> deviations;
+  double release_at = 5;           ///< LETTING_GO: the hand opens [s]
+  double tremor_amplitude = 0.002; ///< [m]
+  double tremor_frequency = 9;     ///< [Hz]
+  double from = 0;                 ///< before this time the hand is RELAXED (contact: the trainee aligns from 13 s) [s]
+};
+
+struct WallSpec { int axis = 0; double at = 0; double k = 20000; double b = 5; bool from_below = true; };
+struct TissueSpec { int axis = 2; double at = 0; double k = 300; double k3 = 1e6; double b = 3; bool from_below = false; };
+struct EnvironmentSpec { std::optional<WallSpec> wall; std::optional<TissueSpec> tissue; };
+
+struct SeatSpec {
+  std::string name;
+  SeatKind kind = SeatKind::kMaster;
+  Role role = Role::kTrainee;
+  bool required = true;
+  std::size_t tool = 0;            ///< SLAVE seats: the tool it serves
+  SimDeviceSpec device;
+  HandSpec hand;                   ///< masters
+  EnvironmentSpec environment;     ///< SLAVE seats
+};
+
+struct ToolSpec {
+  std::string name;
+  double k_s = 400, m_s = 0.05, b_s = 0.5;  ///< [N/m, kg, N s/m]
+  bool remote = false;                      ///< served by a SLAVE seat
+  std::size_t seat = 0;                     ///< that seat, when remote
+  SimDeviceSpec slave;
+  EnvironmentSpec environment;
+};
+
+/// Weights of all masters (index = seat) over one tool; sum 1.
+struct AuthorityRow {
+  std::size_t tool = 0;
+  std::array<double, kSeatsMax> alpha{};
+};
+struct TimedAuthority { double at = 0; AuthorityRow row; };
+struct PhaseSpec { std::string name; double from = 0, to = 0; bool contact = false; };
+
+struct SceneSpec {
+  std::string name;
+  double tick_hz = 1000;
+  std::size_t dof = 3;
+  PortSpace port = PortSpace::kTip;
+  double duration = 18;                                              ///< [s]
+  double alpha_slew = 1;                                             ///< [1/s]; infinity: unslewed
+  bool unsafe_gains = false;
+  bool commanded_force = false;                                      ///< judged on commanded instead of delivered force
+  ChannelSpec channel;
+  CouplingSpec coupling;
+  GateSpec gate;
+  std::vector<SeatSpec> seats;                                       ///< masters first, then slaves
+  std::vector<ToolSpec> tools;
+  std::vector<AuthorityRow> authority;                               ///< one per tool
+  std::array<std::array<double, kToolsMax>, kSeatsMax> follow{};     ///< C_ji as [seat][tool]; each seat's row sums to 1
+  std::vector<TimedAuthority> timeline;                              ///< ascending in time
+  std::vector<PhaseSpec> phases;
+
+  [[nodiscard]] std::size_t masters() const noexcept {
+    std::size_t n = 0;
+    for (const auto& s : seats) n += s.kind == SeatKind::kMaster ? 1 : 0;
+    return n;
+  }
+};
+
+}  // namespace tandem

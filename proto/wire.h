@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "common/base/axes.h"
+
+/// Owned, fixed-size forms of what travels in a datagram. Bytes are made and read by proto/wire_codec.h.
+namespace tandem::wire {
+
+/// Wire type of a datagram, low four bits of its first byte (reliability-security 1.4).
+enum class Type : std::uint8_t {
+  kBind = 1, kBindAck = 2, kState = 3, kForce = 4, kPathChallenge = 5, kPathResponse = 6, kPing = 7, kClose = 8,
+  kAuthority = 9
+};
+
+/// One end's contribution to a channel, per axis of the port.
+struct PortSample {
+  AxisArray x{};       ///< position: xc of a master, q of a slave, target y of the server [rad] or [m]
+  AxisArray v{};       ///< velocity [rad/s] or [m/s]
+  AxisArray f{};       ///< effort of the sender's end of the spring [N m] or [N], law-specific otherwise
+  EnergyArray e_in{};  ///< cumulative energy the channel took in at the sender's end [nJ]
+};
+
+enum class GateState : std::uint8_t { kOff, kZero, kRampIn, kActive, kPassive, kDamped, kFault };
+
+/// What people and reports want to see of a hand; never used by a law. Single precision on the wire.
+struct Telemetry {
+  AxisArray q{};                     ///< joints [rad] or [m]
+  std::array<double, 3> x{};         ///< tip [m]
+  std::array<double, 3> f_cmd{};     ///< commanded at the tip before the gate [N]
+  std::array<double, 3> f_out{};     ///< delivered at the tip [N]
+  EnergyArray e_out{};               ///< [nJ]
+  double dissipated_j = 0;           ///< all axes, cumulative [J]
+  double refused_j = 0;              ///< energy the ledger refused, cumulative [J]
+  double delivered_j = 0;            ///< energy the motor gave the hand, cumulative [J], sampled-device pairing
+  double margin_min_j = 0;           ///< smallest ledger margin so far [J]
+};
+
+/// Client to server, every tick, 1 kHz. No reply but FORCE.
+struct StateMessage {
+  PortSample port;
+  Telemetry telemetry;
+  GateState gate = GateState::kOff;
+  bool ready = false;   ///< the device streams valid readings and waits to be engaged
+  bool engaged = false; ///< port sample may act on tools
+  bool stop = false;    ///< the person asks to stop
+  std::uint32_t gate_trips = 0;
+  std::uint32_t late_ticks = 0;
+  std::uint32_t seat_tick = 0;  ///< session tick at which the sample was taken, 0 before engage
+};
+
+enum class SessionState : std::uint8_t { kWaiting, kRunning, kHeld, kEnding };
+
+/// Server to client, every tick, 1 kHz. No reply.
+struct ForceMessage {
+  PortSample port;
+  SessionState session = SessionState::kWaiting;
+  bool engage = false;           ///< this seat shall be engaged
+  std::uint32_t session_tick = 0;
+  std::uint32_t authority_version = 0;
+  std::uint32_t missing = 0;     ///< required seats that are not ready
+  double alpha = 0;              ///< of this seat over the tool it follows
+};
+
+inline constexpr std::size_t kSeatNameMax = 32;
+inline constexpr std::size_t kReasonMax = 160;
+inline constexpr std::size_t kSetupMax = 1024;
+
+/// Client to server, every 100 ms until answered; at most 1200 bytes; reply: BIND_ACK.
+struct BindMessage {
+  std::array<char, kSeatNameMax> seat{};  ///< zero-terminated unless full
+  std::uint64_t nonce = 0;                ///< names this attempt, so that a repeated BIND is no second join
+  std::uint32_t client_cid = 0;           ///< what the server shall put on its datagrams
+  std::uint32_t joints = 0;
+  std::uint32_t tip_axes = 0;
+  bool simulated = false;
+  bool prismatic = false;
+  double force_peak_n = 0;                ///< 0: unknown
+  double damping_n_s_m = 0;               ///< 0: unknown
+  double mass_kg = 0;                     ///< 0: unknown
+};
+
+enum class BindResult : std::uint8_t { kAccepted, kNoSuchSeat, kSeatTaken, kDeviceUnfit, kSessionOver };
+
+/// Server to client, once per BIND received.
+struct BindAckMessage {
+  std::uint64_t nonce = 0;
+  BindResult result = BindResult::kNoSuchSeat;
+  std::uint32_t server_cid = 0;               ///< what the client shall put on its datagrams
+  std::array<char, kReasonMax> reason{};      ///< for a person, when refused
+  std::array<char, kSetupMax> setup{};        ///< serialized seat setup, see proto/seat_setup.h
+  std::uint32_t setup_size = 0;
+};
+
+/// Instructor to server, every 20 ms until FORCE shows the version. Weights of all masters over one tool; sum 1.
+struct AuthorityMessage {
+  std::uint32_t version = 0;  ///< the version it replaces: compare and set
+  std::uint32_t tool = 0;
+  std::uint32_t masters = 0;
+  std::array<double, kMastersMax> alpha{};
+};
+
+enum class CloseReason : std::uint8_t { kDone, kLeaving, kServerStops, kRefused };
+struct CloseMessage {
+  CloseReason reason = CloseReason::kDone;
+};
+
+/// First bytes of every plaintext.
+struct Preamble {
+  std::uint64_t echo_counter = 0;  ///< newest counter of the peer that was used
+  std::uint32_t echo_age_us = 0;   ///< time between its arrival and this datagram
+  std::uint32_t tick = 0;          ///< sender's tick count
+};
+
+static_assert(std::is_trivially_copyable_v<StateMessage> && std::is_trivially_copyable_v<ForceMessage>);
+
+}  // namespace tandem::wire
