@@ -87,6 +87,8 @@ struct State {
   Jacobian J = Jacobian::Zero();   ///< at q
   AxisArray tau_out{};             ///< joint effort the motors really gave during the last period, without compensation
   Vec3 f_out = Vec3::Zero();       ///< the same at the tip [N]
+  Vec3 f_env = Vec3::Zero();       ///< force of the environment on the tip, where known (simulated slaves) [N]
+  double penetration = 0;          ///< depth of the tip in the environment, where known [m]
   unsigned buttons = 0;            ///< bit mask, 1 = pressed
   bool homed = true;
   bool saturated = false;          ///< the last command was beyond the motors

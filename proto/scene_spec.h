@@ -22,7 +22,7 @@ enum class Role : std::uint8_t { kInstructor, kTrainee, kEvaluator, kObserver };
 struct ChannelSpec {
   LawKind law = LawKind::kSetPosition;
   MfsMode mfs = MfsMode::kOpen;
-  double k = 1000;            ///< stiffness at no delay [N/m]
+  double k = 1500;            ///< stiffness at no delay [N/m]
   double k_min = 60;          ///< stiffness at any delay [N/m]
   double k_delay = 5;         ///< k <= k_delay / d [N s/m]
   double b_delay = 0.25;      ///< damping added = b_delay k d [1]
@@ -38,7 +38,7 @@ struct ChannelSpec {
 /// Device - virtual mass coupling at a master (control.md 3).
 struct CouplingSpec {
   double k_c = 400;   ///< [N/m]
-  double b = 1;       ///< [N s/m]
+  double b = 0.5;     ///< [N s/m]
   double m_c = 0.02;  ///< [kg]
 };
 
@@ -87,7 +87,9 @@ struct HandSpec {
   double release_at = 5;           ///< LETTING_GO: the hand opens [s]
   double tremor_amplitude = 0.002; ///< [m]
   double tremor_frequency = 9;     ///< [Hz]
-  double from = 0;                 ///< before this time the hand is RELAXED (contact: the trainee aligns from 13 s) [s]
+  double from = 0;                 ///< before this time the hand is RELAXED (contact: the trainee aligns from 12 s) [s]
+  double until = std::numeric_limits<double>::infinity();  ///< from this time on it is RELAXED again (who led, follows) [s]
+  double relaxed_b = 2;            ///< damping of the hand outside [from, until), where k = 0 [N s/m]
 };
 
 struct WallSpec { int axis = 0; double at = 0; double k = 20000; double b = 5; bool from_below = true; };
@@ -107,7 +109,7 @@ struct SeatSpec {
 
 struct ToolSpec {
   std::string name;
-  double k_s = 400, m_s = 0.05, b_s = 0.5;  ///< [N/m, kg, N s/m]
+  double k_s = 400, m_s = 0.05, b_s = 0.2;  ///< [N/m, kg, N s/m]
   bool remote = false;                      ///< served by a SLAVE seat
   std::size_t seat = 0;                     ///< that seat, when remote
   SimDeviceSpec slave;

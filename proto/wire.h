@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "common/base/axes.h"
+#include "common/base/port_sample.h"
 
 /// Owned, fixed-size forms of what travels in a datagram. Bytes are made and read by proto/wire_codec.h.
 namespace tandem::wire {
@@ -16,13 +17,7 @@ enum class Type : std::uint8_t {
   kAuthority = 9
 };
 
-/// One end's contribution to a channel, per axis of the port.
-struct PortSample {
-  AxisArray x{};       ///< position: xc of a master, q of a slave, target y of the server [rad] or [m]
-  AxisArray v{};       ///< velocity [rad/s] or [m/s]
-  AxisArray f{};       ///< effort of the sender's end of the spring [N m] or [N], law-specific otherwise
-  EnergyArray e_in{};  ///< cumulative energy the channel took in at the sender's end [nJ]
-};
+using tandem::PortSample;
 
 enum class GateState : std::uint8_t { kOff, kZero, kRampIn, kActive, kPassive, kDamped, kFault };
 
@@ -32,6 +27,8 @@ struct Telemetry {
   std::array<double, 3> x{};         ///< tip [m]
   std::array<double, 3> f_cmd{};     ///< commanded at the tip before the gate [N]
   std::array<double, 3> f_out{};     ///< delivered at the tip [N]
+  std::array<double, 3> f_env{};     ///< force of the environment on a slave, where known [N]
+  double penetration_m = 0;          ///< of a slave in its environment, where known [m]
   EnergyArray e_out{};               ///< [nJ]
   double dissipated_j = 0;           ///< all axes, cumulative [J]
   double refused_j = 0;              ///< energy the ledger refused, cumulative [J]

@@ -1,0 +1,252 @@
+#include "client/seat.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/setup/channel_setup.h"
+
+namespace tandem::client {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kCommandLife = 5ms;     // a device forgets a command that is not renewed
+constexpr Duration kAuthorityRepeat = 20ms;
+constexpr std::uint64_t kLearnSamples = 50;  // round trips known before a hand may be engaged
+constexpr unsigned kBadReadingsHeld = 3;   // the last good reading stands in for this many
+
+control::GateParams gate_params(const SeatSetup& s, const hal::DeviceCaps& caps) {
+  control::GateParams g;
+  g.dof = s.dof;
+  g.scale = s.axis_scale;
+  g.force_max = s.gate.force_max;
+  for (std::size_t a = 0; a < caps.tip_axes; ++a)
+    if (caps.axis[a].peak) g.force_max = std::min(g.force_max, *caps.axis[a].peak);
+  g.mass = caps.mass.value_or(g.mass);
+  g.silence_limit = from_seconds(s.gate.silence_limit);
+  g.loop_age_max = from_seconds(s.gate.loop_age_max);
+  g.ramp_in = from_seconds(s.gate.ramp_in);
+  g.latch = s.gate.latch;
+  return g;
+}
+
+wire::GateState wire_state(control::GatePhase p) noexcept { return static_cast<wire::GateState>(p); }
+static_assert(static_cast<int>(control::GatePhase::kFault) == static_cast<int>(wire::GateState::kFault));
+
+bool finite(const hal::State& s, std::size_t joints) noexcept {
+  for (std::size_t j = 0; j < joints; ++j)
+    if (!std::isfinite(s.q[j]) || !std::isfinite(s.dq[j])) return false;
+  return s.x.allFinite() && s.dx.allFinite() && s.J.allFinite();
+}
+
+}  // namespace
+
+Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link::Params& link)
+    : setup_(setup),
+      map_(setup.port, setup.dof, caps.joints),
+      joints_(caps.joints),
+      dt_(1.0 / setup.tick_hz),
+      link_(link),
+      codec_(setup.dof, setup.port),
+      end_(setup::make_channel(setup.channel, control::Side::kClient, setup.dof, setup.axis_scale, setup.gate.force_max,
+                        !setup.unsafe_gains,
+                        setup.seat.kind == SeatKind::kSlave ? std::optional{setup.k_s} : std::nullopt)),
+      gate_(gate_params(setup, caps)) {
+  for (std::size_t a = 0; a < setup.dof; ++a) {
+    const double s = setup.axis_scale[a];
+    gains_[a] = {setup.coupling.k_c * s, setup.coupling.b * s, setup.coupling.m_c * s};
+  }
+}
+
+void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
+  const auto opened = link_.open(bytes);
+  if (!opened) return;
+  if (opened->type == wire::Type::kForce) {
+    const auto decoded = codec_.decode_force(opened->plaintext);
+    if (!decoded) return link_.refuse_body();
+    if (!opened->newer) return;  // latest wins: nothing acts backwards
+    link_.accept(now, *opened, decoded->preamble);
+    rx_ = decoded->message;
+    fresh_ = heard_force_ = true;
+    if (!session_begin_ && rx_.session == wire::SessionState::kRunning)
+      session_begin_ = now - link_.freshness().age(now) - from_seconds(rx_.session_tick * dt_);
+    if (authority_ && rx_.authority_version != authority_->version) authority_.reset();
+  } else if (opened->type == wire::Type::kClose) {
+    const auto decoded = codec_.decode_close(opened->plaintext);
+    if (!decoded) return link_.refuse_body();
+    closed_ = true;
+    close_reason_ = decoded->message.reason;
+  } else {
+    link_.refuse_body();
+  }
+}
+
+bool Seat::take_reading(const hal::State& device) noexcept {
+  if (finite(device, joints_)) {
+    reading_ = device;
+    bad_readings_ = 0;
+  } else {
+    ++bad_readings_;  // never enters the session: the last good one stands in, then the gate faults
+  }
+  q_ = map_.position(reading_);
+  v_ = map_.velocity(reading_);
+  return bad_readings_ <= kBadReadingsHeld;
+}
+
+hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
+  if (!ticked_) {
+    ticked_ = true;
+    started_ = now;
+    reading_ = hal::State{};
+  }
+  tick_ = static_cast<std::uint32_t>(std::llround(seconds(now - started_) / dt_));
+  link_.tick(now);
+  const bool valid = take_reading(device);
+  meter_.advance(joints_, reading_.q, reading_.tau_out);
+
+  const bool was_active = gate_.active();
+  AxisArray wanted{};
+  if (was_active) {
+    wanted = control(now);
+  } else {
+    rest();
+  }
+
+  control::ForceGate::Input in;
+  in.now = now;
+  in.fresh = fresh_;
+  in.loop_age = link_.freshness().loop_age(now);
+  in.rtt_p99 = link_.freshness().rtt_p99();
+  in.engage = rx_.engage && heard_force_ && !leaving_ && !closed_ && rx_.session != wire::SessionState::kEnding;
+  in.reset = reset_;
+  in.reading_valid = valid;
+  in.wanted = wanted;
+  in.q = q_;
+  in.v = v_;
+  const auto out = gate_.step(in);
+  fresh_ = reset_ = false;
+  effort_ = out.effort;
+  if (was_active != gate_.active()) rest();  // begins, or begins again, with zero elongation
+
+  fill_sample(now, device, wanted);
+  if (leaving_ && !gate_.active() && gate_.phase() != control::GatePhase::kPassive && close_due_ == 0 && !closed_) close_due_ = 3;
+  state_due_ = true;
+
+  hal::Command command;
+  command.seq = ++command_seq_;
+  command.expires = now + kCommandLife;
+  command.kind = hal::CommandKind::kJointEffort;
+  command.effort = map_.joint_effort(reading_, effort_);
+  return command;
+}
+
+AxisArray Seat::control(Time now) noexcept {
+  const bool master = setup_.seat.kind == SeatKind::kMaster;
+  control::EndInput in;
+  in.dt = dt_;
+  in.age = seconds(link_.freshness().age(now));
+  in.rx = rx_.port;
+  for (std::size_t a = 0; a < setup_.dof; ++a) {
+    in.x[a] = master ? ipc_[a].x : q_[a];
+    in.dissipated[a] = master ? ipc_[a].dissipated : 0;
+  }
+  const control::EndState& end = end_->move(in);
+
+  AxisArray wanted{};
+  for (std::size_t a = 0; a < setup_.dof; ++a) {
+    end_->credit(a, end.absorbed[a]);
+    if (master) {
+      ipc_[a].step(gains_[a], dt_, q_[a], end.ref[a], end.k[a], end.b[a]);
+      dissipated_ += ipc_[a].dissipated;
+      wanted[a] = ipc_[a].device_effort(gains_[a], q_[a]);
+    } else {
+      wanted[a] = end.k[a] * (end.ref[a] - q_[a]) - end.b[a] * v_[a];
+    }
+  }
+  return wanted;
+}
+
+void Seat::rest() noexcept {
+  for (std::size_t a = 0; a < setup_.dof; ++a) ipc_[a].rest_at(q_[a]);
+  const auto& f = link_.freshness();
+  end_->engage(q_, f.heard() ? std::max(0.0, 0.5 * seconds(f.rtt_p50()) - 0.5 * dt_) : 0);
+}
+
+void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& wanted) noexcept {
+  const control::EndState& end = end_->state();
+  const bool master = setup_.seat.kind == SeatKind::kMaster;
+  const bool engaged = gate_.active();
+  for (std::size_t a = 0; a < setup_.dof; ++a) {
+    tx_.port.x[a] = master ? ipc_[a].x : q_[a];
+    tx_.port.v[a] = engaged && master ? ipc_[a].v : v_[a];
+    tx_.port.f[a] = end.k[a] * (tx_.port.x[a] - end.ref[a]);
+  }
+  tx_.port.e_in = end_->e_in();
+  const auto put = [](std::array<double, 3>& to, const hal::Vec3& from) {
+    for (int i = 0; i < 3; ++i) to[static_cast<std::size_t>(i)] = from[i];
+  };
+  wire::Telemetry& t = tx_.telemetry;
+  t.q = reading_.q;
+  put(t.x, reading_.x);
+  put(t.f_cmd, map_.tip_force(reading_, wanted));
+  put(t.f_out, reading_.f_out);
+  put(t.f_env, reading_.f_env);
+  t.penetration_m = reading_.penetration;
+  t.e_out = end_->e_out();
+  t.dissipated_j = dissipated_;
+  t.refused_j = end_->refused();
+  t.delivered_j = meter_.total();
+  t.margin_min_j = end_->margin_min();
+  tx_.gate = wire_state(gate_.phase());
+  tx_.engaged = engaged;
+  const bool latched = gate_.phase() == control::GatePhase::kDamped || gate_.phase() == control::GatePhase::kFault;
+  tx_.ready = device.homed && !latched && !leaving_ && link_.freshness().rtt_samples() >= kLearnSamples;
+  tx_.gate_trips = gate_.trips();
+  tx_.seat_tick = static_cast<std::uint32_t>(std::max(0.0, session_time(now).value_or(0)) / dt_ + 0.5);
+}
+
+std::optional<std::size_t> Seat::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
+  if (buffer.size() < link::kHeaderSize) return std::nullopt;
+  const auto body = buffer.subspan(link::kHeaderSize);
+  const auto seal = [&](wire::Type type, const auto& message) -> std::optional<std::size_t> {
+    const std::size_t plain = codec_.encode(link_.preamble(now, tick_), message, body);
+    const std::size_t size = plain == 0 ? 0 : link_.seal(now, type, buffer, plain);
+    return size == 0 ? std::nullopt : std::optional{size};
+  };
+  if (state_due_ && !closed_) {
+    state_due_ = false;
+    return seal(wire::Type::kState, tx_);
+  }
+  if (authority_ && (authority_sent_ == Time{} || now - authority_sent_ >= kAuthorityRepeat)) {
+    authority_sent_ = now;
+    return seal(wire::Type::kAuthority, *authority_);
+  }
+  if (close_due_ > 0) {
+    if (--close_due_ == 0) {
+      closed_ = true;
+      close_reason_ = wire::CloseReason::kLeaving;
+    }
+    return seal(wire::Type::kClose, wire::CloseMessage{wire::CloseReason::kLeaving});
+  }
+  return std::nullopt;
+}
+
+bool Seat::request_authority(std::uint32_t tool, std::span<const double> alpha) noexcept {
+  if (setup_.seat.role != Role::kInstructor || alpha.size() > kMastersMax) return false;
+  wire::AuthorityMessage m;
+  m.version = rx_.authority_version;
+  m.tool = tool;
+  m.masters = static_cast<std::uint32_t>(alpha.size());
+  std::copy(alpha.begin(), alpha.end(), m.alpha.begin());
+  authority_ = m;
+  authority_sent_ = Time{};
+  return true;
+}
+
+std::optional<double> Seat::session_time(Time now) const noexcept {
+  if (!session_begin_) return std::nullopt;
+  return seconds(now - *session_begin_);
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "common/base/time.h"
+#include "common/control/channel.h"
+#include "common/control/energy_meter.h"
+#include "common/control/force_gate.h"
+#include "common/control/ipc.h"
+#include "common/link/link.h"
+#include "hal/device.h"
+#include "hal/port_map.h"
+#include "proto/seat_setup.h"
+#include "proto/wire_codec.h"
+
+namespace tandem::client {
+
+/// One hand at one seat: device state in, device command out, datagrams in between. The same core runs on a device's servo thread
+/// and in virtual time. Order within a tick: move the reference to what was received, IPC, force gate, send (control.md 4).
+///
+/// A MASTER hangs on its reference through device - k_c - virtual mass - k; a SLAVE directly through k, so that a remote slave is
+/// the server's own slave but for the extra tick. No heap, no lock, no clock after construction.
+class Seat {
+ public:
+  /// @throws SetupError-like std::runtime_error if the law is unknown or the crypto library lacks a cipher.
+  Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link::Params& link);
+
+  void on_datagram(Time now, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+  /// Once per device exchange. Total: a reading that is not finite never leaves this seat and never moves the hand.
+  [[nodiscard]] hal::Command on_servo(Time now, const hal::State& device) noexcept TANDEM_REALTIME;
+  /// Writes the next datagram into `buffer`; nullopt when nothing is due.
+  [[nodiscard]] std::optional<std::size_t> poll_transmit(Time now, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
+
+  /// INSTRUCTOR seats: asks for new weights until the server shows a newer version. @return false for other roles.
+  bool request_authority(std::uint32_t tool, std::span<const double> alpha) noexcept;
+  /// The person pressed the button that clears a latched gate.
+  void press_reset() noexcept { reset_ = true; }
+  /// Lets go: the gate ramps out, then the server is told.
+  void leave() noexcept { leaving_ = true; }
+
+  /// Seconds since the session began, on the own clock; nullopt before. What simulated hands follow.
+  [[nodiscard]] std::optional<double> session_time(Time now) const noexcept;
+  [[nodiscard]] bool closed() const noexcept { return closed_; }
+  [[nodiscard]] wire::CloseReason close_reason() const noexcept { return close_reason_; }
+  [[nodiscard]] const wire::ForceMessage& force() const noexcept { return rx_; }
+  [[nodiscard]] const wire::StateMessage& sample() const noexcept { return tx_; }
+  [[nodiscard]] const control::ForceGate& gate() const noexcept { return gate_; }
+  [[nodiscard]] const control::ChannelEnd& channel() const noexcept { return *end_; }
+  [[nodiscard]] const link::Link& link() const noexcept { return link_; }
+  [[nodiscard]] const SeatSetup& setup() const noexcept { return setup_; }
+  [[nodiscard]] const control::MasterIpc& ipc(std::size_t axis) const noexcept { return ipc_[axis]; }
+  [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes
+
+ private:
+  [[nodiscard]] bool take_reading(const hal::State& device) noexcept;
+  [[nodiscard]] AxisArray control(Time now) noexcept TANDEM_REALTIME;
+  void rest() noexcept TANDEM_REALTIME;
+  void fill_sample(Time now, const hal::State& device, const AxisArray& wanted) noexcept TANDEM_REALTIME;
+
+  SeatSetup setup_;
+  hal::PortMap map_;
+  std::size_t joints_;
+  double dt_;
+  link::Link link_;
+  wire::Codec codec_;
+  std::unique_ptr<control::ChannelEnd> end_;
+  std::array<control::MasterIpc, kAxesMax> ipc_{};
+  std::array<control::MasterIpc::Gains, kAxesMax> gains_{};
+  control::ForceGate gate_;
+  control::EnergyMeter meter_;
+
+  hal::State reading_{};       ///< last valid one
+  AxisArray q_{}, v_{};        ///< of the port
+  unsigned bad_readings_ = 0;
+  wire::ForceMessage rx_{};
+  wire::StateMessage tx_{};
+  AxisArray effort_{};
+  bool fresh_ = false;         ///< something newer came since the last servo tick
+  bool heard_force_ = false;
+  Time started_{};
+  std::uint32_t tick_ = 0;
+  bool ticked_ = false;
+  std::optional<Time> session_begin_;
+  double dissipated_ = 0;
+
+  bool state_due_ = false, reset_ = false, leaving_ = false, closed_ = false;
+  unsigned close_due_ = 0;
+  wire::CloseReason close_reason_ = wire::CloseReason::kDone;
+  std::optional<wire::AuthorityMessage> authority_;
+  Time authority_sent_{};
+  std::uint64_t command_seq_ = 0;
+};
+
+}  // namespace tandem::client

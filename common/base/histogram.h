@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace tandem {
+
+/// Counts durations in bins whose width grows with the value: exact below 64 ns, then 32 bins per octave, so a quantile
+/// is at most 1/32 (3.2 %) above the true value. Covers 0 to 2^63 ns in fixed memory (15 KiB); total, no heap,
+/// real-time safe. The idea is HdrHistogram's [Tene 2012].
+class Histogram {
+ public:
+  /// @param ns  duration [ns]; negative counts as 0
+  constexpr void add(std::int64_t ns) noexcept {
+    const std::int64_t value = std::max<std::int64_t>(ns, 0);
+    ++bins_[bin_of(static_cast<std::uint64_t>(value))];
+    ++count_;
+    max_ = std::max(max_, value);
+    sum_ += static_cast<double>(value);
+  }
+
+  /// The smallest bin end below or at which at least a share `q` of all values lies, never above max().
+  /// @param q  share, clamped to [0, 1]; NaN counts as 0
+  /// @return   [ns]; 0 when nothing was added
+  [[nodiscard]] constexpr std::int64_t quantile(double q) const noexcept {
+    if (count_ == 0) return 0;
+    const double share = q >= 0 ? std::min(q, 1.0) : 0.0;
+    const double wanted = share * static_cast<double>(count_);
+    std::uint64_t below = 0;
+    for (std::size_t bin = 0; bin < kBins; ++bin) {
+      below += bins_[bin];
+      if (below > 0 && static_cast<double>(below) >= wanted) return std::min(last_of(bin), max_);
+    }
+    return max_;
+  }
+
+  [[nodiscard]] constexpr std::uint64_t count() const noexcept { return count_; }
+  [[nodiscard]] constexpr std::int64_t max() const noexcept { return max_; }  ///< exact [ns]
+  [[nodiscard]] constexpr double mean() const noexcept {                      ///< [ns]; 0 when empty
+    return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0;
+  }
+
+  constexpr void reset() noexcept { *this = Histogram{}; }
+
+  /// As if all values of `other` had been added here.
+  constexpr void merge(const Histogram& other) noexcept {
+    for (std::size_t bin = 0; bin < kBins; ++bin) bins_[bin] += other.bins_[bin];
+    count_ += other.count_;
+    max_ = std::max(max_, other.max_);
+    sum_ += other.sum_;
+  }
+
+ private:
+  static constexpr int kSubBits = 5;  ///< 2^5 bins per octave
+  static constexpr std::uint64_t kExact = std::uint64_t{2} << kSubBits;
+  static constexpr std::size_t kBins = static_cast<std::size_t>(64 - kSubBits) << kSubBits;
+
+  /// The top kSubBits + 1 bits of the value, after its octave.
+  static constexpr std::size_t bin_of(std::uint64_t value) noexcept {
+    if (value < kExact) return static_cast<std::size_t>(value);
+    const int shift = static_cast<int>(std::bit_width(value)) - kSubBits - 1;
+    return (static_cast<std::size_t>(shift) << kSubBits) + static_cast<std::size_t>(value >> shift);
+  }
+  /// Largest value of a bin.
+  static constexpr std::int64_t last_of(std::size_t bin) noexcept {
+    if (bin < kExact) return static_cast<std::int64_t>(bin);
+    const int shift = static_cast<int>(bin >> kSubBits) - 1;
+    const std::uint64_t top = (bin & ((std::size_t{1} << kSubBits) - 1)) | (std::uint64_t{1} << kSubBits);
+    return static_cast<std::int64_t>((((top + 1) << shift) - 1) &
+                                     std::uint64_t{std::numeric_limits<std::int64_t>::max()});
+  }
+
+  std::array<std::uint64_t, kBins> bins_{};
+  std::uint64_t count_ = 0;
+  std::int64_t max_ = 0;
+  double sum_ = 0;
+};
+
+}  // namespace tandem

@@ -1,0 +1,83 @@
+#include "common/control/authority.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem::control {
+
+namespace {
+/// A lost holder's weight is gone within 200 ms (reliability-security 2.4), however slowly the scene slews otherwise.
+constexpr double kLossSlew = 5.0;
+}  // namespace
+
+double AuthorityTank::pay(double joule) noexcept {
+  if (joule <= 0) {
+    fill(-joule);
+    return 1;
+  }
+  if (joule <= level_) {
+    level_ -= joule;
+    return 1;
+  }
+  const double share = level_ / joule;
+  level_ = 0;
+  return share;
+}
+
+AuthorityRow::AuthorityRow(std::size_t masters, double slew, double tank) noexcept
+    : masters_(std::min(masters, kMastersMax)), slew_(slew), tank_(tank) {}
+
+bool AuthorityRow::request(const Weights& wanted) noexcept {
+  double sum = 0;
+  for (std::size_t i = 0; i < masters_; ++i) {
+    if (!(wanted[i] >= 0) || !(wanted[i] <= 1)) return false;
+    sum += wanted[i];
+  }
+  if (!(std::abs(sum - 1) <= 1e-6)) return false;
+  for (std::size_t i = 0; i < masters_; ++i) wanted_[i] = wanted[i] / sum;
+  return true;
+}
+
+void AuthorityRow::step(const Input& in) noexcept {
+  tank_.fill(in.dissipated);
+  // Renormalised over who is present: a passive watcher (weight 0) never inherits.
+  Weights goal{};
+  double sum = 0;
+  bool somebody_lost = false;
+  for (std::size_t i = 0; i < masters_; ++i) {
+    goal[i] = in.present[i] ? wanted_[i] : 0;
+    somebody_lost |= !in.present[i] && now_[i] > 0;
+    sum += goal[i];
+  }
+  if (!(sum > 0)) {
+    now_.fill(0);
+    held_ = true;
+    return;
+  }
+  for (std::size_t i = 0; i < masters_; ++i) goal[i] /= sum;
+  if (held_) {  // springs are at rest after HELD, so nothing is injected by giving everybody his weight at once
+    now_ = goal;
+    held_ = false;
+    return;
+  }
+
+  double farthest = 0;
+  for (std::size_t i = 0; i < masters_; ++i) farthest = std::max(farthest, std::abs(goal[i] - now_[i]));
+  if (farthest == 0) return;
+  const double slew = somebody_lost ? std::max(slew_, kLossSlew) : slew_;
+  double share = std::min(1.0, slew * in.dt / farthest);
+  double cost = 0;
+  for (std::size_t i = 0; i < masters_; ++i) cost += share * (goal[i] - now_[i]) * in.stored[i];
+  if (std::isfinite(slew_)) share *= tank_.pay(cost);  // an unslewed scene asked for the step, paid or not
+  if (!std::isfinite(share)) return;
+  injected_ += cost;
+
+  double total = 0;
+  for (std::size_t i = 0; i < masters_; ++i) {
+    now_[i] = share >= 1 ? goal[i] : now_[i] + share * (goal[i] - now_[i]);
+    total += now_[i];
+  }
+  for (std::size_t i = 0; i < masters_; ++i) now_[i] /= total;
+}
+
+}  // namespace tandem::control

@@ -1,0 +1,65 @@
+#include "common/control/channel.h"
+
+#include <algorithm>
+
+#include "common/control/channel_raw.h"
+#include "common/control/channel_set_position.h"
+
+namespace tandem::control {
+
+ChannelEnd::ChannelEnd(const ChannelParams& params)
+    : params_(params), schedule_(params.schedule), margin_min_(params.e0) {
+  ledger_.fill(EnergyLedger{params.e0, params.eta});
+}
+
+void ChannelEnd::engage(const AxisArray& x, double age) noexcept {
+  schedule_.settle(age);
+  state_ = EndState{};
+  state_.ref = x;
+  for (std::size_t a = 0; a < params_.dof; ++a) state_.k[a] = schedule_.stiffness() * params_.scale[a];
+}
+
+double ChannelEnd::target(const EndInput& in, std::size_t a, double k) const noexcept {
+  const double ahead = in.rx.x[a] + schedule_.lead(in.age) * in.rx.v[a];
+  const double d = schedule_.delay();
+  // Force feed-forward under the same certificate: the ledger bounds any target, so targets may be mixed freely.
+  const bool mix = params_.side == Side::kServer && params_.effort_half && d >= DelaySchedule::kShort && d <= 0.25;
+  return mix ? 0.5 * ahead + 0.5 * (in.x[a] + in.rx.f[a] / k) : ahead;
+}
+
+EnergyArray ChannelEnd::e_in() const noexcept {
+  EnergyArray e{};
+  for (std::size_t a = 0; a < params_.dof; ++a) e[a] = ledger_[a].in_nj();
+  return e;
+}
+
+EnergyArray ChannelEnd::e_out() const noexcept {
+  EnergyArray e{};
+  for (std::size_t a = 0; a < params_.dof; ++a) e[a] = ledger_[a].out_nj();
+  return e;
+}
+
+namespace {
+
+template <class Law>
+std::unique_ptr<ChannelEnd> make(const ChannelParams& p) {
+  return std::make_unique<Law>(p);
+}
+
+constexpr ChannelLaw kLaws[] = {
+    {"set_position", "positions both ways, every move paid from an energy ledger; stiffness, damping and lead follow the delay",
+     make<SetPositionEnd>},
+    {"raw", "positions both ways, constant stiffness, no passivity: what happens without", make<RawEnd>},
+};
+
+}  // namespace
+
+std::span<const ChannelLaw> channel_laws() noexcept { return kLaws; }
+
+std::unique_ptr<ChannelEnd> make_channel_end(std::string_view law, const ChannelParams& params) {
+  for (const ChannelLaw& l : kLaws)
+    if (l.name == law) return l.make(params);
+  return nullptr;
+}
+
+}  // namespace tandem::control

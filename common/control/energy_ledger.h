@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "common/base/axes.h"
+
+namespace tandem::control {
+
+/// Joule to nanojoule, rounded so that an account never gains: credits down.
+[[nodiscard]] inline std::uint64_t credit_nj(double joule) noexcept {
+  if (!(joule > 0)) return 0;  // also NaN
+  return joule >= 1e9 ? 1'000'000'000'000'000'000ULL : static_cast<std::uint64_t>(std::floor(joule * 1e9));
+}
+/// Debits up. A debit that is not a number is beyond every budget.
+[[nodiscard]] inline std::uint64_t debit_nj(double joule) noexcept {
+  if (joule <= 0) return 0;
+  if (!(joule < 1e9)) return std::numeric_limits<std::uint64_t>::max();
+  return static_cast<std::uint64_t>(std::ceil(joule * 1e9));
+}
+[[nodiscard]] inline std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) noexcept {
+  const std::uint64_t sum = a + b;
+  return sum < a ? std::numeric_limits<std::uint64_t>::max() : sum;
+}
+
+/// The account of one axis at one end of a channel [nJ], in the spirit of passive set-position modulation
+/// [Lee & Huang, T-RO 26(2) 2010] and of the two-port observer [Ryu, Artigas, Preusche, Mechatronics 20(7) 2010]:
+///
+///     out <= initial + received + eta * dissipated        at every instant,
+///
+/// where `received` is the newest cumulative `in` of the other end. All sums are monotone, so loss, duplication,
+/// reordering and any delay make `received` older and the bound smaller, never wrong.
+class EnergyLedger {
+ public:
+  EnergyLedger() = default;
+  /// @param initial  E_0 [J] >= 0.  @param eta  share of dissipation that may be spent, [0, 1].
+  EnergyLedger(double initial, double eta) noexcept : initial_(credit_nj(initial)), eta_(eta) {}
+
+  /// Energy the channel took in here; the other end may spend it [J].
+  void absorb(double joule) noexcept { in_ = saturating_add(in_, credit_nj(joule)); }
+  /// The other end's cumulative `in`; older values change nothing [nJ].
+  void receive(std::uint64_t cumulative) noexcept { received_ = std::max(received_, cumulative); }
+  /// Energy this end turned into heat [J]; spent once, here, and never also sent as `in`.
+  void dissipate(double joule) noexcept { dissipated_ = saturating_add(dissipated_, credit_nj(eta_ * joule)); }
+  /// Pays `joule` if the margin allows. @return whether it was paid.
+  [[nodiscard]] bool spend(double joule) noexcept {
+    const std::uint64_t cost = debit_nj(joule);
+    if (cost > margin_nj()) return false;
+    out_ += cost;
+    return true;
+  }
+  /// Books `joule` whatever the margin is: for laws without passivity, so that their breach can be seen.
+  void spend_unchecked(double joule) noexcept { out_ = saturating_add(out_, debit_nj(joule)); }
+  /// Gives up what is unspent above `limit` [J], so that nobody hoards while his authority is 0 and spends it later at once.
+  void forfeit_above(double limit) noexcept {
+    const std::uint64_t kept = credit_nj(limit);
+    const std::uint64_t margin = margin_nj();
+    if (margin > kept) forfeited_ += margin - kept;
+  }
+
+  [[nodiscard]] std::uint64_t in_nj() const noexcept { return in_; }
+  [[nodiscard]] std::uint64_t out_nj() const noexcept { return out_; }
+  [[nodiscard]] std::uint64_t bound_nj() const noexcept {
+    return saturating_add(saturating_add(initial_, received_), dissipated_);
+  }
+  [[nodiscard]] std::uint64_t margin_nj() const noexcept {
+    const std::uint64_t used = saturating_add(out_, forfeited_);
+    const std::uint64_t bound = bound_nj();
+    return bound > used ? bound - used : 0;
+  }
+  [[nodiscard]] double margin() const noexcept { return static_cast<double>(margin_nj()) * 1e-9; }
+  /// The invariant itself, for monitors: true unless the account is broken.
+  [[nodiscard]] bool holds() const noexcept { return out_ <= bound_nj(); }
+
+ private:
+  std::uint64_t initial_ = 0, in_ = 0, out_ = 0, received_ = 0, dissipated_ = 0, forfeited_ = 0;
+  double eta_ = 0;
+};
+
+}  // namespace tandem::control

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "common/base/axes.h"
+
+namespace tandem::control {
+
+/// Energy a sampled motor gives to the hand: the effort held between two samples does exactly F(k-1) (q(k) - q(k-1)) (control.md 6).
+/// Never F v T with a filtered velocity: a sampled spring of 1000 N/m moved 10 mm at 5 Hz makes 4.9 mJ a cycle, and that product says -4.9.
+class EnergyMeter {
+ public:
+  /// @param q  position now.  @param effort_held  what the motor really held since the last call, saturated.
+  /// @return energy given to the hand since then [J], all axes; 0 at the first call and for readings that are not finite.
+  double advance(std::size_t dof, const AxisArray& q, const AxisArray& effort_held) noexcept TANDEM_REALTIME {
+    double given = 0;
+    if (started_)
+      for (std::size_t a = 0; a < dof; ++a) given += effort_held[a] * (q[a] - q_[a]);
+    if (!std::isfinite(given)) return 0;
+    q_ = q;
+    started_ = true;
+    total_ += given;
+    return given;
+  }
+  [[nodiscard]] double total() const noexcept { return total_; }
+
+ private:
+  AxisArray q_{};
+  double total_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace tandem::control

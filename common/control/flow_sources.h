@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "common/base/axes.h"
+
+namespace tandem::control {
+
+enum class FlowSourceMode : std::uint8_t {
+  kOpen,       ///< every grant is given; stable by weighted passivity (control.md 2)
+  kTank,       ///< grants come from a tank of dissipated energy: absolute passivity, the follower starves
+  kSeed,       ///< velocity gate by E_p exactly as printed in [Licona et al. 2019] eq. 3-4
+  kSeedSigned  ///< the same with the sign that makes the printed rule passive
+};
+
+/// The modulated flow sources (MFS) of a tool, which let a seat feel more of the tool than its authority pays for. Here the
+/// gate acts on credit (open, tank) or on velocity (seed modes), per axis.
+class FlowSources {
+ public:
+  FlowSources(FlowSourceMode mode, double tank_initial) noexcept : mode_(mode), tank_(tank_initial), tank_initial_(tank_initial) {}
+
+  /// Energy for a seat's credit beyond what the tool really paid [J] >= 0. @return what is granted, <= wanted.
+  [[nodiscard]] double grant(double wanted) noexcept {
+    if (mode_ == FlowSourceMode::kTank) {
+      const double given = wanted < tank_ ? wanted : tank_;
+      tank_ -= given;
+      granted_ += given;
+      return given;
+    }
+    granted_ += wanted;
+    return wanted;
+  }
+  /// The tank takes dissipated energy and what the sources absorb; more than four times its start is given up.
+  void fill(double joule) noexcept {
+    if (joule > 0 && mode_ == FlowSourceMode::kTank) tank_ = tank_ + joule < 4 * tank_initial_ ? tank_ + joule : 4 * tank_initial_;
+  }
+
+  /// Observer of eq. 3: E_p = integral of [sum over masters of -(1 - alpha_i) F_ri] v_rs = -E_injected. `injected_power` is
+  /// sum_i (C_i - alpha_i) F_ri v_rs on this axis [W].
+  void observe(std::size_t axis, double injected_power, double dt) noexcept { e_inj_[axis] += injected_power * dt; }
+
+  /// Gate g of eq. 4 on this axis, 0 or 1. As printed (seed) the sources are cut when E_p > 0, that is when they have absorbed.
+  [[nodiscard]] double gate(std::size_t axis) const noexcept {
+    switch (mode_) {
+      case FlowSourceMode::kSeed: return -e_inj_[axis] <= 0 ? 1 : 0;
+      case FlowSourceMode::kSeedSigned: return e_inj_[axis] <= 0 ? 1 : 0;
+      default: return 1;
+    }
+  }
+  [[nodiscard]] bool gates_velocity() const noexcept {
+    return mode_ == FlowSourceMode::kSeed || mode_ == FlowSourceMode::kSeedSigned;
+  }
+  [[nodiscard]] double energy_p(std::size_t axis) const noexcept { return -e_inj_[axis]; }  ///< E_p of eq. 3 [J]
+  [[nodiscard]] double granted() const noexcept { return granted_; }                        ///< cumulative [J]
+  [[nodiscard]] double tank() const noexcept { return tank_; }
+  [[nodiscard]] FlowSourceMode mode() const noexcept { return mode_; }
+
+ private:
+  FlowSourceMode mode_;
+  double tank_, tank_initial_;
+  double granted_ = 0;
+  AxisArray e_inj_{};
+};
+
+}  // namespace tandem::control

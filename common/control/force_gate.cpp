@@ -1,0 +1,179 @@
+#include "common/control/force_gate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem::control {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kRampOut = 100ms;
+constexpr Duration kMargin = 20ms;          // a loop may be this much older than its learned p99
+constexpr double kAgeSlew = 0.010;          // the limit follows the learned RTT by at most 10 ms per s
+constexpr double kSlewActive = 1000;        // [N/s] = 1 N/ms
+constexpr double kSlewRampIn = 10;          // [N/s]
+constexpr double kDamping = 5;              // [N s/m] while ramping out and DAMPED
+constexpr Duration kLatchWindow = 10s;
+
+double tank_for(double mass) noexcept { return 1e-3 * std::min(100.0, std::max(20.0, 180.0 * mass)); }
+
+bool all_finite(const AxisArray& v, std::size_t dof) noexcept {
+  for (std::size_t a = 0; a < dof; ++a)
+    if (!std::isfinite(v[a])) return false;
+  return true;
+}
+
+}  // namespace
+
+ForceGate::ForceGate(const GateParams& p) noexcept : p_(p), tank_size_(tank_for(p.mass)) {}
+
+ForceGate::Output ForceGate::step(const Input& in) noexcept {
+  Output out;
+  if (!started_) {
+    started_ = true;
+    since_ = last_fresh_ = last_step_ = in.now;
+    age_limit_ = std::min(p_.loop_age_max, std::max(kMargin, in.rtt_p99 + kMargin));
+    q_ = in.q;
+  }
+  if (all_finite(in.q, p_.dof)) {
+    for (std::size_t a = 0; a < p_.dof; ++a) given_ += effort_[a] * (in.q[a] - q_[a]);
+    q_ = in.q;
+  }
+  if (!in.fresh && (phase_ == GatePhase::kPassive || active())) given_max_ = std::max(given_max_, given_);
+
+  change_phase(in, out);
+  limit(in, out);
+  effort_ = out.effort;
+  last_step_ = in.now;
+  return out;
+}
+
+void ForceGate::change_phase(const Input& in, Output& out) noexcept {
+  if (!in.reading_valid) {
+    phase_ = GatePhase::kFault;  // untrusted sensors: motors off until a person resets
+    return;
+  }
+  // Before engage the limit is learned freely; with a hand on the device it follows slowly, or a slow attacker could raise it.
+  const Duration learned = std::min(p_.loop_age_max, std::max(kMargin, in.rtt_p99 + kMargin));
+  if (active()) {
+    const Duration step = from_seconds(kAgeSlew * seconds(in.now - last_step_));
+    age_limit_ += std::clamp(learned - age_limit_, -step, step);
+  } else {
+    age_limit_ = learned;
+  }
+
+  const bool too_old = in.loop_age > age_limit_;
+  if (in.fresh && !too_old) {
+    last_fresh_ = in.now;
+    heard_ = true;
+    given_ = 0;
+  }
+  const bool silent = in.now - last_fresh_ >= p_.silence_limit || !heard_;
+
+  switch (phase_) {
+    case GatePhase::kOff:
+    case GatePhase::kZero:
+      if (in.engage && in.fresh && !silent && !too_old) {
+        phase_ = GatePhase::kRampIn;
+        since_ = in.now;
+        out.engaged_now = true;
+      }
+      break;
+    case GatePhase::kRampIn:
+      if (in.now - since_ >= p_.ramp_in) phase_ = GatePhase::kActive;
+      [[fallthrough]];
+    case GatePhase::kActive:
+      if (silent || too_old) {
+        lose(in, out);
+      } else if (!in.engage) {  // asked to let go: the same ramp, but no loss
+        phase_ = GatePhase::kPassive;
+        since_ = in.now;
+        at_loss_ = effort_;
+      }
+      break;
+    case GatePhase::kPassive:
+      if (in.now - since_ >= kRampOut) phase_ = GatePhase::kZero;
+      break;
+    case GatePhase::kDamped:
+    case GatePhase::kFault:
+      if (in.reset) phase_ = GatePhase::kZero;
+      break;
+  }
+}
+
+void ForceGate::lose(const Input& in, Output& out) noexcept {
+  out.tripped = true;
+  ++trips_;
+  phase_ = GatePhase::kPassive;
+  since_ = in.now;
+  at_loss_ = effort_;
+  losses_[trips_ % 3] = in.now;
+  // Otherwise a flapping link would give a tankful at every loss.
+  if (p_.latch && trips_ >= 3 && in.now - losses_[(trips_ + 1) % 3] <= kLatchWindow) phase_ = GatePhase::kDamped;
+}
+
+void ForceGate::limit(const Input& in, Output& out) noexcept {
+  AxisArray& f = out.effort;
+  const double dt = std::clamp(seconds(in.now - last_step_), 0.0, 0.01);
+
+  if (active()) {
+    if (!all_finite(in.wanted, p_.dof)) {
+      out.not_finite = true;
+      ++not_finite_;
+      return;  // zero
+    }
+    const double gain =
+        phase_ == GatePhase::kRampIn ? std::min(1.0, seconds(in.now - since_) / std::max(1e-3, seconds(p_.ramp_in))) : 1.0;
+    // What the growing spring does not hold yet, damping does: a hand found in motion is caught, not flung.
+    for (std::size_t a = 0; a < p_.dof; ++a)
+      f[a] = gain * in.wanted[a] - (std::isfinite(in.v[a]) ? (1.0 - gain) * kDamping * p_.scale[a] * in.v[a] : 0.0);
+  } else if (phase_ == GatePhase::kPassive || phase_ == GatePhase::kDamped) {
+    const double left = std::max(0.0, 1.0 - seconds(in.now - since_) / seconds(kRampOut));
+    for (std::size_t a = 0; a < p_.dof; ++a) {
+      const double v = std::isfinite(in.v[a]) ? in.v[a] : 0;
+      f[a] = left * at_loss_[a] - kDamping * p_.scale[a] * v * (phase_ == GatePhase::kDamped ? 1.0 : 1.0 - left);
+    }
+  } else {
+    return;
+  }
+
+  // Clamp at the tip's norm, direction kept.
+  double norm2 = 0;
+  for (std::size_t a = 0; a < p_.dof; ++a) norm2 += f[a] * f[a] / p_.scale[a];
+  if (norm2 > p_.force_max * p_.force_max) {
+    const double shrink = p_.force_max / std::sqrt(norm2);
+    for (std::size_t a = 0; a < p_.dof; ++a) f[a] *= shrink;
+    out.clipped = true;
+  }
+  if (active()) {  // along the straight line from the last effort, so that the norm's limit holds on the way
+    double change2 = 0;
+    for (std::size_t a = 0; a < p_.dof; ++a) change2 += (f[a] - effort_[a]) * (f[a] - effort_[a]) / p_.scale[a];
+    const double step = (phase_ == GatePhase::kRampIn ? kSlewRampIn : kSlewActive) * dt;
+    if (change2 > step * step) {
+      const double share = step / std::sqrt(change2);
+      for (std::size_t a = 0; a < p_.dof; ++a) f[a] = effort_[a] + share * (f[a] - effort_[a]);
+    }
+  }
+  if (!in.fresh) keep_within_tank(in, f);
+}
+
+/// Predictive rule |f| (|v| + |f| dt / m) dt <= what is left, else 0: with no fresh datagram the motor gives at most the tank.
+/// Braking is free: effort against the motion takes energy out of the hand.
+void ForceGate::keep_within_tank(const Input& in, AxisArray& f) noexcept {
+  const double dt = std::max(1e-3, std::clamp(seconds(in.now - last_step_), 0.0, 0.01));
+  double force2 = 0, speed2 = 0, power = 0;
+  for (std::size_t a = 0; a < p_.dof; ++a) {
+    const double v = std::isfinite(in.v[a]) ? in.v[a] : 0;
+    force2 += f[a] * f[a] / p_.scale[a];
+    speed2 += v * v * p_.scale[a];
+    power += f[a] * v;
+  }
+  const double force = std::sqrt(force2);
+  const double next = force * (std::sqrt(speed2) + force * dt / p_.mass) * dt;
+  const bool braking = power < 0 && -power * dt >= force2 * dt * dt / p_.mass;
+  if (!braking && next > tank_size_ - given_) f.fill(0);
+}
+
+}  // namespace tandem::control

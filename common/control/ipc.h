@@ -1,0 +1,68 @@
+#pragma once
+
+#include "common/base/axes.h"
+
+/// Intrinsically passive controllers of one axis [Stramigioli, LNCIS 266, 2001], stepped implicitly: the virtual mass sees the
+/// springs at the END of the step, so no step creates energy whatever stiffness, mass and sample time are (control.md 3).
+namespace tandem::control {
+
+/// Virtual mass between a device (k_c) and a reference (k). All gains of this axis.
+struct MasterIpc {
+  double x = 0;  ///< position of the virtual mass xc
+  double v = 0;  ///< its velocity vc
+  double dissipated = 0;  ///< by its damper during the last step [J]
+
+  struct Gains {
+    double k_c = 0, b = 0, m_c = 0;
+  };
+
+  /// One step of length T [s] with the device at q and the reference at r through stiffness k.
+  /// @param b_added  damping beside `Gains::b`, from the schedule.
+  /// Total: finite in, finite out for k, k_c, b >= 0, m_c > 0.
+  void step(const Gains& g, double T, double q, double r, double k, double b_added) noexcept TANDEM_REALTIME {
+    const double b = g.b + b_added;
+    v = (g.m_c * v + T * (g.k_c * (q - x) + k * (r - x))) / (g.m_c + T * b + T * T * (g.k_c + k));
+    x += T * v;
+    dissipated = b * v * v * T;
+  }
+  void rest_at(double q) noexcept {
+    x = q;
+    v = 0;
+    dissipated = 0;
+  }
+  /// Effort on the device [N or N m].
+  [[nodiscard]] double device_effort(const Gains& g, double q) const noexcept { return -g.k_c * (q - x); }
+  /// Energy stored in mass and both springs [J].
+  [[nodiscard]] double stored(const Gains& g, double q, double r, double k) const noexcept {
+    return 0.5 * g.m_c * v * v + 0.5 * g.k_c * (q - x) * (q - x) + 0.5 * k * (r - x) * (r - x);
+  }
+};
+
+/// The shared tool of one axis = the slave's virtual mass m_s, pulled by the seats' springs and by its slave device.
+struct ToolIpc {
+  double x = 0;
+  double v = 0;
+  double dissipated = 0;
+
+  struct Gains {
+    double m_s = 0, b_s = 0;
+  };
+  /// Sum of the springs that pull: stiffness and stiffness times anchor. The seats' come in as alpha_i k_i and alpha_i k_i p_i.
+  struct Pull {
+    double k = 0, k_anchor = 0;
+    void add(double stiffness, double anchor) noexcept {
+      k += stiffness;
+      k_anchor += stiffness * anchor;
+    }
+  };
+
+  /// One step; springs act at the end of the step, so the printed explicit form's growth of the weighted storage is absent.
+  void step(const Gains& g, double T, const Pull& pull, double b_added) noexcept TANDEM_REALTIME {
+    const double b = g.b_s + b_added;
+    v = (g.m_s * v + T * (pull.k_anchor - pull.k * x)) / (g.m_s + T * b + T * T * pull.k);
+    x += T * v;
+    dissipated = b * v * v * T;
+  }
+};
+
+}  // namespace tandem::control

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+
+#include "common/base/axes.h"
+
+namespace tandem::control {
+
+/// What a channel does at a delay (control.md 4): the P+d condition [Nuno et al., IJRR 28(7) 2009] says k d must stay small.
+struct ScheduleParams {
+  double k = 1000, k_min = 60;   ///< [N/m]
+  double k_delay = 5;            ///< k <= k_delay / d [N s/m]
+  double b_delay = 0.25;         ///< damping = b_delay k d
+  double lead_max = 0.1;         ///< [s]
+  double k_rise = 500, k_fall = 4000;  ///< slew of k [N/m per s]; falling gives energy back, rising is paid
+};
+
+/// Delay to stiffness, damping and lead; slewed, so that no change is felt as a step.
+class DelaySchedule {
+ public:
+  explicit DelaySchedule(const ScheduleParams& p = {}) noexcept : p_(p), k_(p.k) {}
+
+  /// @param age  age of the datagram in use [s] >= 0 (RTT/2 without synchronised clocks, plus the wait since it came).
+  void step(double age, double dt) noexcept TANDEM_REALTIME {
+    const double tau = age > delay_ ? kRiseTime : kDecayTime;
+    delay_ += (age - delay_) * std::min(1.0, dt / tau);
+    const double wanted = delay_ > 0 ? std::clamp(p_.k_delay / delay_, std::min(p_.k_min, p_.k), p_.k) : p_.k;
+    k_ += std::clamp(wanted - k_, -p_.k_fall * dt, p_.k_rise * dt);
+  }
+  /// Takes the delay known before engage as it is: no spring is loaded then, so nothing can be felt.
+  void settle(double age) noexcept {
+    delay_ = age;
+    k_ = delay_ > 0 ? std::clamp(p_.k_delay / delay_, std::min(p_.k_min, p_.k), p_.k) : p_.k;
+  }
+  [[nodiscard]] double delay() const noexcept { return delay_; }
+  [[nodiscard]] double stiffness() const noexcept { return k_; }
+  [[nodiscard]] double damping() const noexcept { return p_.b_delay * std::min(k_ * delay_, 1.5 * p_.k_delay); }
+  /// How far a position of this age is extrapolated [s].
+  [[nodiscard]] double lead(double age) const noexcept {
+    return std::min(age, p_.lead_max);
+  }
+  static constexpr double kShort = 0.002;  ///< below this the datagram is as good as fresh [s]
+
+ private:
+  static constexpr double kRiseTime = 0.1, kDecayTime = 1.0;  // worst case soon, recovery slowly
+  ScheduleParams p_;
+  double delay_ = 0;
+  double k_;
+};
+
+}  // namespace tandem::control

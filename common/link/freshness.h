@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "common/base/histogram.h"
+#include "common/base/time.h"
+
+namespace tandem::link {
+
+/// Smallest value of the last 5-10 s: two buckets, so that a clock that drifts or a path that changes is followed.
+class WindowedMinimum {
+ public:
+  void add(Time now, std::int64_t value) noexcept {
+    if (!any_ || now - begin_ > kBucket) {
+      previous_ = any_ ? current_ : value;
+      current_ = value;
+      begin_ = now;
+      any_ = true;
+    }
+    current_ = std::min(current_, value);
+  }
+  [[nodiscard]] std::int64_t value() const noexcept { return std::min(current_, previous_); }
+  [[nodiscard]] bool any() const noexcept { return any_; }
+
+ private:
+  static constexpr Duration kBucket = std::chrono::seconds(5);
+  Time begin_{};
+  std::int64_t current_ = std::numeric_limits<std::int64_t>::max();
+  std::int64_t previous_ = std::numeric_limits<std::int64_t>::max();
+  bool any_ = false;
+};
+
+/// How old is what I know? Everything on the own monotonic clock: the peer echoes the newest counter it used, and the own send
+/// times are remembered, so a switch that holds datagrams for seconds and releases them in order is found out.
+class Freshness {
+ public:
+  explicit Freshness(Duration tick) noexcept : tick_(tick) {}
+
+  void sent(Time now, std::uint64_t counter) noexcept {
+    sent_[counter % kRemembered] = {counter, now};
+    next_ = counter + 1;
+  }
+  /// A strictly newer datagram was accepted. @param peer_tick its sender's tick count, for the variation of transit.
+  void accepted(Time now, std::uint64_t echo_counter, Duration echo_age, std::uint32_t peer_tick) noexcept;
+
+  /// Now minus when the newest echoed counter was sent; huge while nothing was echoed.
+  [[nodiscard]] Duration loop_age(Time now) const noexcept {
+    return echoed_ ? now - echo_sent_ : std::chrono::hours(24);
+  }
+  /// One-way age of the newest datagram [RTT/2 of the best case, plus how much later than the best it came, plus the wait since].
+  [[nodiscard]] Duration age(Time now) const noexcept { return heard_ ? one_way_ + (now - arrived_) : std::chrono::hours(24); }
+  [[nodiscard]] Duration silence(Time now) const noexcept { return heard_ ? now - arrived_ : std::chrono::hours(24); }
+  [[nodiscard]] Duration rtt() const noexcept { return rtt_; }
+  [[nodiscard]] Duration rtt_p50() const noexcept { return Duration{rtts_.quantile(0.50)}; }
+  [[nodiscard]] Duration rtt_p99() const noexcept { return Duration{recent_p99_}; }
+  [[nodiscard]] std::uint64_t rtt_samples() const noexcept { return rtts_.count(); }
+  [[nodiscard]] const Histogram& rtts() const noexcept { return rtts_; }
+  [[nodiscard]] bool heard() const noexcept { return heard_; }
+  [[nodiscard]] Time arrived() const noexcept { return arrived_; }
+
+ private:
+  static constexpr std::uint64_t kRemembered = 4096;  // 4 s at 1 kHz: longer loops count as not echoed
+  static constexpr std::uint64_t kLearnEvery = 1000;
+  struct Sent {
+    std::uint64_t counter = ~std::uint64_t{0};
+    Time at{};
+  };
+  Duration tick_;
+  std::array<Sent, kRemembered> sent_{};
+  std::uint64_t next_ = 0;
+  bool heard_ = false, echoed_ = false;
+  Time arrived_{}, echo_sent_{};
+  std::uint64_t echo_counter_ = 0;
+  Duration rtt_{}, one_way_{};
+  WindowedMinimum rtt_floor_, transit_floor_;
+  Histogram rtts_, recent_;
+  std::int64_t recent_p99_ = 0;
+};
+
+}  // namespace tandem::link

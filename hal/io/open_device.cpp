@@ -1,0 +1,176 @@
+#include "hal/io/open_device.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "hal/io/motion_file.h"
+#include "hal/io/sim_servo.h"
+
+namespace tandem::hal {
+namespace {
+
+using Text = std::string_view;
+
+constexpr std::array<std::pair<Text, HandModel>, 7> kHands{{{"none", HandModel::kNone},
+                                                            {"leader", HandModel::kLeader},
+                                                            {"relaxed", HandModel::kRelaxed},
+                                                            {"resting", HandModel::kResting},
+                                                            {"letting_go", HandModel::kLettingGo},
+                                                            {"tremor", HandModel::kTremor},
+                                                            {"keyboard", HandModel::kKeyboard}}};
+constexpr std::array<Text, 9> kOptions{"hand", "keyboard", "motion", "model", "columns", "rec", "scale", "axes", "end"};
+
+/// Levenshtein's distance with one row; words are cut so that a hostile text costs nothing.
+std::size_t distance(Text a, Text b) {
+  a = a.substr(0, 32);
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, change}));
+    }
+  }
+  return row[b.size()];
+}
+
+/// `WHAT 'word' is unknown[; did you mean 'x'?]; valid: ...`
+template <class Words>
+DeviceError unknown(Text what, Text word, const Words& words) {
+  std::string valid;
+  Text nearest;
+  std::size_t best = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const Text w : words) {
+    valid += (valid.empty() ? "" : ", ") + std::string(w);
+    if (const auto d = distance(word, w); d < best) best = d, nearest = w;
+  }
+  std::string text = "device: " + std::string(what) + " '" + std::string(word.substr(0, 60)) + "' is unknown";
+  if (!nearest.empty()) text += "; did you mean '" + std::string(nearest) + "'?";
+  return {Errc::kNotFound, text + "; valid: " + valid};
+}
+
+DeviceError bad(std::string message) { return {Errc::kUnsupported, "device: " + std::move(message)}; }
+
+struct Choice {
+  std::optional<HandModel> hand;
+  std::optional<DeviceModel> model;
+  std::optional<sim::MotionOptions> motion;
+};
+
+Result<> choose(Choice& choice, Text name, std::optional<Text> value) {
+  if (std::find(kOptions.begin(), kOptions.end(), name) == kOptions.end()) {
+    return std::unexpected(unknown("option", name, kOptions));
+  }
+  if (name == "keyboard") {
+    if (value) return std::unexpected(bad("keyboard takes no value"));
+    choice.hand = HandModel::kKeyboard;
+    return {};
+  }
+  if (!value || value->empty())
+    return std::unexpected(bad("option " + std::string(name) + " needs a value: " + std::string(name) + "=..."));
+  if (name == "hand") {
+    for (const auto& [word, model] : kHands) {
+      if (word == *value) {
+        choice.hand = model;
+        return {};
+      }
+    }
+    std::array<Text, kHands.size()> words;
+    std::transform(kHands.begin(), kHands.end(), words.begin(), [](const auto& h) { return h.first; });
+    return std::unexpected(unknown("hand", *value, words));
+  }
+  if (name == "model") {
+    if (*value == "touch")
+      choice.model = DeviceModel::kTouch;
+    else if (*value == "linear")
+      choice.model = DeviceModel::kLinear;
+    else
+      return std::unexpected(unknown("model", *value, std::array<Text, 2>{"touch", "linear"}));
+    return {};
+  }
+  if (name == "motion") {
+    if (choice.motion) return std::unexpected(bad("motion is given twice"));
+    choice.motion.emplace().file = *value;
+    return {};
+  }
+  if (!choice.motion)
+    return std::unexpected(bad(std::string(name) + " belongs to a recording: motion=FILE.csv must come before it"));
+  if (auto ok = sim::set_motion_option(*choice.motion, name, *value); !ok) return std::unexpected(bad(ok.error()));
+  return {};
+}
+
+Result<Choice> parse(Text spec) {
+  const auto colon = spec.find(':');
+  const Text backend = spec.substr(0, colon);
+  if (backend != "sim") return std::unexpected(unknown("backend", backend, std::array<Text, 1>{"sim"}));
+  Choice choice;
+  if (colon == Text::npos) return choice;
+  Text rest = spec.substr(colon + 1);
+  std::vector<Text> seen;
+  while (true) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    const Text part = rest.substr(0, comma);
+    const auto equals = part.find('=');
+    const Text name = part.substr(0, equals);
+    if (part.empty()) return std::unexpected(bad("an option is missing in '" + std::string(spec) + "'"));
+    if (std::find(seen.begin(), seen.end(), name) != seen.end())
+      return std::unexpected(bad(std::string(name) + " is given twice"));
+    seen.push_back(name);
+    auto ok = choose(choice, name, equals == Text::npos ? std::optional<Text>{} : part.substr(equals + 1));
+    if (!ok) return std::unexpected(std::move(ok.error()));
+    if (comma == rest.size()) break;
+    rest.remove_prefix(comma + 1);
+  }
+  if (choice.motion && choice.hand) return std::unexpected(bad("motion and hand exclude each other"));
+  return choice;
+}
+
+Text name_of(HandModel model) {
+  for (const auto& [word, m] : kHands) {
+    if (m == model) return word;
+  }
+  return "recorded";
+}
+
+}  // namespace
+
+Result<OpenedSim> open_stepped(Text spec, const SimDeviceSpec& base, const HandSpec& hand,
+                               const EnvironmentSpec& environment, Time start) {
+  auto choice = parse(spec);
+  if (!choice) return std::unexpected(std::move(choice.error()));
+  sim::SimSetup setup{base, hand, environment, nullptr, start};
+  if (choice->model) setup.device.model = *choice->model;
+  if (choice->motion) choice->hand = HandModel::kRecorded;
+  if (choice->hand && *choice->hand != hand.model) {
+    setup.hand.model = *choice->hand;
+    setup.hand.k = setup.hand.b = setup.hand.m = 0.0;  // the new model's own
+  }
+  OpenedSim opened;
+  opened.note = "simulated " + std::string(setup.device.model == DeviceModel::kTouch ? "Touch" : "one-axis device") +
+                ", hand " + std::string(name_of(setup.hand.model));
+  if (choice->motion) {
+    auto motion = load_motion(*choice->motion);
+    if (!motion) return std::unexpected(DeviceError{Errc::kNotFound, std::move(motion.error())});
+    setup.motion = std::move(*motion);
+    opened.note += " from " + choice->motion->file + ": " + setup.motion->describe();
+  }
+  auto device = sim::SimDevice::make(setup);
+  if (!device) return std::unexpected(std::move(device.error()));
+  opened.device = std::move(*device);
+  opened.id = {"sim", std::string(spec)};
+  return opened;
+}
+
+LiveSim make_live(OpenedSim opened, Duration period) {
+  LiveSim live;
+  live.sim = opened.device.get();
+  live.note = std::move(opened.note);
+  live.device = std::make_unique<SimServo>(std::move(opened.device), std::move(opened.id), period);
+  return live;
+}
+
+}  // namespace tandem::hal

@@ -1,0 +1,39 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+
+#include "netsim/app/proxy_command.h"
+
+#ifndef TANDEM_VERSION
+#define TANDEM_VERSION "unknown"
+#endif
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "tandem-netsim plays networks to control traffic: delay, jitter that keeps order, loss that comes in bursts,\n"
+      "stalls, outages. The same engine sits in front of live UDP (`proxy`) and runs whole sessions in virtual time;\n"
+      "the same seed gives the same network.",
+      "tandem-netsim"};
+  app.set_version_flag("--version", "tandem-netsim " TANDEM_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "`tandem-netsim COMMAND --help` tells more. Exit: 0 done, 1 trouble while running, 2 wrong arguments or files.");
+
+  std::function<int()> action;
+  tandem::netsim::add_proxy_command(app, action);
+  tandem::netsim::add_profiles_command(app, action);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are ends, not mistakes; every mistake in arguments is 2, whatever CLI11 calls it.
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    return action();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tandem-netsim: %s\n", error.what());
+    return 1;
+  }
+}

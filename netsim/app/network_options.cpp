@@ -1,0 +1,213 @@
+#include "netsim/app/network_options.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "netsim/app/number_option.h"
+#include "netsim/network_csv.h"
+#include "netsim/profiles.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr std::uintmax_t kFileMax = 64U << 20;
+constexpr std::array kNumbers{"--delay", "--jitter", "--loss", "--duplicate", "--reorder", "--outage"};
+
+Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
+
+std::expected<std::string, std::string> read_file(const std::string& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) return std::unexpected(path + ": " + error.message());
+  if (size > kFileMax) return std::unexpected(path + ": is larger than 64 MiB");
+  std::ifstream file(path, std::ios::binary);
+  std::string text(static_cast<std::size_t>(size), '\0');
+  file.read(text.data(), static_cast<std::streamsize>(size));
+  if (!file) return std::unexpected(path + ": cannot be read");
+  return text;
+}
+
+/// A file that exists wins; otherwise a name with a slash or an ending is a path.
+bool is_file(const std::string& name) {
+  return std::filesystem::exists(name) || name.find('/') != std::string::npos || name.find('.') != std::string::npos;
+}
+
+std::string lines_of(const InputErrors& errors) {
+  std::string text = to_text(errors);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {
+  const auto wrong = [&text](const std::string& why) { return std::unexpected("--outage: \"" + text + "\": " + why); };
+  std::array<double, 3> values{};
+  std::size_t count = 0;
+  std::istringstream cells(text);
+  for (std::string cell; std::getline(cells, cell, ','); ++count) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (count >= values.size() || error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) {
+      return wrong("must be START,LENGTH or START,LENGTH,PERIOD: numbers of seconds, such as 12,0.4");
+    }
+    values[count] = value;
+  }
+  if (count < 2) return wrong("must be START,LENGTH or START,LENGTH,PERIOD: numbers of seconds, such as 12,0.4");
+  const auto [start, length, period] = values;
+  if (start < 0 || start > 2'592'000) return wrong("START must be in [0, 2592000] s");
+  if (!(length > 0 && length <= 3600)) return wrong("LENGTH must be in (0, 3600] s");
+  if (count == 3 && !(period > length && period <= 2'592'000)) {
+    return wrong("PERIOD must be longer than LENGTH and at most 2592000 s");
+  }
+  OutageSpec outage;
+  outage.start = from_seconds(start);
+  outage.length = from_seconds(length);
+  outage.period = from_seconds(period);
+  return outage;
+}
+
+void NetworkOptions::add_to(CLI::App& command) {
+  command_ = &command;
+  const std::string group = "What the network is like (each direction)";
+  const auto number = [&](const char* option, double& value, double hi, const std::string& unit, const char* help) {
+    command.add_option(option, value, help)
+        ->check(number_in(0, hi, unit))
+        ->option_text(unit == "ms" ? "MS" : "PERCENT")
+        ->group(group);
+  };
+  number("--delay", delay_ms_, 60'000, "ms", "constant delay [ms], 0 to 60000; default 0");
+  number("--jitter", jitter_ms_, 60'000, "ms",
+         "J adds a delay uniform in [0, J] to every datagram [ms], 0 to 60000; order is kept");
+  number("--loss", loss_percent_, 100, "%", "datagrams lost, each alone [%], 0 to 100");
+  number("--duplicate", duplicate_percent_, 100, "%", "datagrams that come twice, the copy within 1 ms [%], 0 to 100");
+  number("--reorder", reorder_percent_, 100, "%", "datagrams that arrive after three later ones [%], 0 to 100");
+  command
+      .add_option("--outage", outages_,
+                  "the link is down from START for LENGTH, again every PERIOD [s]; what is sent meanwhile is lost; "
+                  "may be given several times")
+      ->option_text("START,LENGTH[,PERIOD]")
+      ->allow_extra_args(false)
+      ->group(group);
+  command
+      .add_option("--profile", profile_,
+                  "a named network (`tandem-netsim profiles` lists them) or a .textproto file; numbers given beside "
+                  "it replace its own")
+      ->option_text("NAME|FILE")
+      ->group(group);
+  command
+      .add_option("--network", network_,
+                  "the same, or a recording: .csv with a column rtt_ms or delay_ms (empty: lost) and t_s or t_send_s; "
+                  "excludes the numbers")
+      ->option_text("NAME|FILE")
+      ->group(group);
+  command
+      .add_option("--trace-interval", trace_interval_ms_,
+                  "time between the rows of a recording without a time column [ms]")
+      ->check(number_in(0.001, 60'000, "ms"))
+      ->option_text("MS")
+      ->group(group);
+  command.add_option("--seed", seed_, "the same seed gives the same network; default 1")
+      ->check(whole_number())
+      ->option_text("N")
+      ->group(group);
+}
+
+std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
+  if (given("--network")) {
+    std::string mistakes;
+    for (const char* option : kNumbers) {
+      if (given(option)) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes " + option;
+    }
+    if (given("--profile")) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes --profile";
+    if (!mistakes.empty()) return std::unexpected(mistakes);
+    return from_file(network_);
+  }
+
+  NetworkChoice choice;
+  choice.name = "custom";
+  if (given("--profile")) {
+    auto profile = from_file(profile_);
+    if (!profile) return profile;
+    choice = std::move(*profile);
+  }
+  std::vector<OutageSpec> outages;
+  for (const std::string& text : outages_) {
+    const auto outage = parse_outage(text);
+    if (!outage) return std::unexpected(outage.error());
+    outages.push_back(*outage);
+  }
+  const LinkSpec numbers = link_from({.delay = milliseconds(delay_ms_),
+                                      .jitter = milliseconds(jitter_ms_),
+                                      .loss = loss_percent_ / 100,
+                                      .duplicate = duplicate_percent_ / 100,
+                                      .reorder = reorder_percent_ / 100,
+                                      .outages = outages});
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    PathSpec& path = choice.link[direction];
+    const PathSpec& wanted = numbers[direction];
+    if (given("--delay")) path.floor = wanted.floor;
+    if (given("--jitter")) path.body = wanted.body;
+    if (given("--loss")) path.loss.probability = wanted.loss.probability;
+    if (given("--duplicate")) path.duplicate = wanted.duplicate;
+    if (given("--reorder")) path.reorder = wanted.reorder;
+    path.outages.insert(path.outages.end(), outages.begin(), outages.end());
+    for (const SpecProblem& problem : problems(path)) {
+      return std::unexpected(std::string(netsim::name(direction)) + ": " + problem.key + ": " + problem.message);
+    }
+  }
+  std::ostringstream words;
+  const auto add = [&words](const auto&... parts) {
+    if (words.tellp() > 0) words << ", ";
+    (words << ... << parts);
+  };
+  if (given("--profile")) add(choice.description);
+  if (!given("--profile") || given("--delay")) add("delay ", delay_ms_, " ms");
+  if (given("--jitter")) add("jitter 0 to ", jitter_ms_, " ms");
+  if (given("--loss")) add("loss ", loss_percent_, " %");
+  if (given("--duplicate")) add("duplicates ", duplicate_percent_, " %");
+  if (given("--reorder")) add("reordered ", reorder_percent_, " %");
+  for (const std::string& outage : outages_) add("outage ", outage, " s");
+  choice.description = words.str();
+  return choice;
+}
+
+std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::string& name_or_file) const {
+  NetworkChoice choice;
+  if (!is_file(name_or_file)) {
+    const auto profile = shipped_profile(name_or_file);
+    if (!profile) return std::unexpected(lines_of(profile.error()));
+    choice.link = profile->link;
+    choice.name = profile->name;
+    choice.description = "profile " + profile->name + " (version " + std::to_string(profile->version) + ")";
+    return choice;
+  }
+  const auto text = read_file(name_or_file);
+  if (!text) return std::unexpected(text.error());
+  choice.name = std::filesystem::path(name_or_file).stem().string();
+  if (name_or_file.ends_with(".csv")) {
+    const auto recorded = parse_network_csv(*text, name_or_file, milliseconds(trace_interval_ms_));
+    if (!recorded) return std::unexpected(lines_of(recorded.error()));
+    choice.link = recorded->link;
+    std::ostringstream words;
+    words << "recording " << name_or_file << ": " << recorded->rows << " rows, " << recorded->lost << " lost, "
+          << seconds(recorded->length) << " s, then from the start again";
+    choice.description = words.str();
+    if (recorded->rtt_split) {
+      choice.notes.emplace_back("the recording holds round trips; each direction gets half of them");
+    }
+    return choice;
+  }
+  const auto profile = parse_profile(*text, name_or_file);
+  if (!profile) return std::unexpected(lines_of(profile.error()));
+  choice.link = profile->link;
+  choice.description = "profile " + name_or_file + " (version " + std::to_string(profile->version) + ")";
+  return choice;
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "netsim/path_spec.h"
+
+namespace tandem::netsim {
+
+/// The network that a command line asked for.
+struct NetworkChoice {
+  LinkSpec link;
+  std::string name;                ///< `custom`, the profile's name, or the file's
+  std::string description;         ///< one line for people
+  std::vector<std::string> notes;  ///< what a report must say about it
+};
+
+/// The options that say what the network is like, shared by `proxy` and `run`:
+/// --delay --jitter --loss --duplicate --reorder --outage --profile --network --trace-interval --seed.
+/// Lives as long as the command it was added to.
+class NetworkOptions {
+ public:
+  void add_to(CLI::App& command);
+
+  /// Reads the files named and puts all together. Numbers beside --profile replace the profile's own.
+  /// @return the network, or what is wrong: one mistake per line
+  [[nodiscard]] std::expected<NetworkChoice, std::string> resolve() const;
+
+  [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
+
+ private:
+  [[nodiscard]] std::expected<NetworkChoice, std::string> from_file(const std::string& name_or_file) const;
+  [[nodiscard]] bool given(const char* option) const { return command_->get_option(option)->count() > 0; }
+
+  CLI::App* command_ = nullptr;
+  double delay_ms_ = 0, jitter_ms_ = 0, loss_percent_ = 0, duplicate_percent_ = 0, reorder_percent_ = 0;
+  double trace_interval_ms_ = 0;
+  std::vector<std::string> outages_;
+  std::string profile_, network_;
+  std::uint64_t seed_ = 1;
+};
+
+/// Reads `START,LENGTH[,PERIOD]` in seconds. @return the outage, or what is wrong with it
+[[nodiscard]] std::expected<OutageSpec, std::string> parse_outage(const std::string& text);
+
+}  // namespace tandem::netsim

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/base/axes.h"
+#include "common/base/time.h"
+#include "netsim/path.h"
+
+namespace tandem::netsim {
+
+/// Largest datagram the stores keep: an Ethernet payload.
+inline constexpr std::size_t kSlotBytes = 1500;
+
+/// Keeps datagrams until they are due. Fixed number of slots, taken at construction; pages nobody used cost nothing.
+/// Order: (time due, order of entering). Used by the virtual network (one per path) and the live proxy (one for all).
+class DelayQueue {
+ public:
+  struct Item {
+    Time at;  ///< due
+    Time sent;
+    std::uint64_t index = 0;  ///< on its path
+    std::uint32_t lane = 0;   ///< caller's name of the path
+    std::uint32_t slot = 0;   ///< where the bytes are
+  };
+  enum class Entered : std::uint8_t {
+    kYes,
+    kNoCopy,  ///< the datagram found room, its copy did not
+    kNo,
+  };
+
+  /// @param slots  datagrams at the same time [1, 2^24]
+  /// @param lanes  paths that share the queue; each may hold back 64 datagrams to reorder them
+  explicit DelayQueue(std::size_t slots, std::size_t lanes = 1);
+
+  /// Keeps a datagram according to its verdict (kDeliver or kHeldBack) and lets go those the verdict releases.
+  /// @param bytes  at most kSlotBytes
+  Entered enter(const Verdict& verdict, Time sent, std::uint32_t lane,
+                std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+
+  /// Removes the first item due at `now`. Its bytes stay until `recycle(item.slot)`.
+  std::optional<Item> take(Time now) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::span<const std::byte> bytes(const Item& item) const noexcept;
+  void recycle(std::uint32_t slot) noexcept TANDEM_REALTIME;
+
+  [[nodiscard]] std::optional<Time> next_due() const noexcept;
+  [[nodiscard]] std::size_t size() const noexcept { return heap_.size() + held_.size(); }
+  [[nodiscard]] std::size_t slots() const noexcept { return slots_; }
+
+ private:
+  struct Entry {
+    Time at;
+    std::uint64_t order = 0;
+    std::uint32_t slot = 0;
+  };
+  struct Slot {
+    Time sent;
+    std::uint64_t index = 0;
+    std::uint32_t lane = 0;
+    std::uint32_t size = 0;
+  };
+  static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
+  struct HeldEntry {
+    Time limit;
+    std::uint64_t order = 0;
+    std::uint32_t slot = 0;
+    std::uint32_t copy_slot = kNoSlot;
+    Duration copy_delay{};
+  };
+
+  std::optional<std::uint32_t> store(Time sent, std::uint64_t index, std::uint32_t lane,
+                                     std::span<const std::byte> bytes) noexcept;
+  [[nodiscard]] static bool later(const Entry& a, const Entry& b) noexcept;
+  void push(Time at, std::uint64_t order, std::uint32_t slot) noexcept;
+  void let_go(std::size_t position, Time at, std::uint64_t order) noexcept;
+  void expire(Time now) noexcept;
+
+  std::size_t slots_;
+  std::uint64_t next_order_ = 0;
+  std::vector<Entry> heap_;      ///< binary heap, reserved once
+  std::vector<HeldEntry> held_;  ///< few; waits for later datagrams to pass
+  std::vector<std::uint32_t> free_;
+  std::vector<Slot> meta_;
+  std::unique_ptr<std::byte[]> data_;
+};
+
+}  // namespace tandem::netsim

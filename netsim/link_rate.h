@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "common/base/time.h"
+#include "netsim/path_spec.h"
+
+namespace tandem::netsim {
+
+/// A sender of fixed rate with a tail-drop queue, in exact arithmetic: datagram n of a busy period of equal datagrams
+/// ends at n (size + overhead) 8 / rate, rounded up to the nanosecond, without drift.
+class LinkRate {
+ public:
+  /// No datagram ever waits longer, whatever the limits say: bounds the arithmetic.
+  static constexpr Duration kWaitMax{3'600'000'000'000};
+
+  explicit LinkRate(const RateSpec& spec) noexcept;
+
+  /// @param now   never decreasing
+  /// @param size  payload [bytes]
+  /// @return when the last bit is sent; empty: the queue is full and the datagram dropped
+  std::optional<Time> serve(Time now, std::size_t size) noexcept {
+    if (bits_per_s_ == 0) return now;
+    return serve_queued(now, size);
+  }
+
+ private:
+  std::optional<Time> serve_queued(Time now, std::size_t size) noexcept;
+
+  std::uint64_t bits_per_s_;
+  std::uint64_t overhead_;
+  std::uint64_t queue_bytes_;
+  Duration wait_max_;
+  Time busy_until_{};            ///< whole nanoseconds,
+  std::uint64_t busy_rest_ = 0;  ///< plus this many 1/bits_per_s parts of one
+};
+
+}  // namespace tandem::netsim

@@ -1,0 +1,61 @@
+#include "netsim/loss.h"
+
+#include <algorithm>
+
+#include "netsim/quantiles.h"
+
+namespace tandem::netsim {
+namespace {
+
+enum Purpose : std::uint64_t { kAlone = 1, kInPeriod, kPeriods };
+
+}  // namespace
+
+BadPeriods::BadPeriods(const BadPeriodsSpec& spec, RandomKey key) noexcept
+    : key_(key),
+      good_mean_(spec.good_mean),
+      bad_mean_(spec.bad_mean),
+      bad_share_(seconds(spec.bad_mean) / (seconds(spec.good_mean) + seconds(spec.bad_mean))),
+      block_length_((spec.good_mean + spec.bad_mean) * static_cast<std::int64_t>(kCycles)) {}
+
+bool BadPeriods::bad_at(Time t) noexcept {
+  const std::int64_t block = t.time_since_epoch() / block_length_;
+  if (block != block_) start_block(block);
+  while (end_ <= t) next_period();  // ends: the last draw of a block lasts until the block does
+  return bad_;
+}
+
+void BadPeriods::start_block(std::int64_t block) noexcept {
+  block_ = block;
+  draw_ = static_cast<std::uint64_t>(block) << kDrawBits;
+  bad_ = !(key_.uniform(draw_++) < bad_share_);  // next_period flips it
+  end_ = Time{block_length_ * block};
+  next_period();
+}
+
+void BadPeriods::next_period() noexcept {
+  bad_ = !bad_;
+  const Time block_end{block_length_ * (block_ + 1)};
+  constexpr std::uint64_t kLastDraw = (std::uint64_t{1} << kDrawBits) - 1;
+  if ((draw_ & kLastDraw) == kLastDraw) {
+    end_ = block_end;
+    return;
+  }
+  const double mean = static_cast<double>((bad_ ? bad_mean_ : good_mean_).count());
+  const auto length = static_cast<std::int64_t>(mean * exponential_quantile(key_.uniform(draw_++)));
+  end_ = std::min(block_end, end_ + Duration{std::max<std::int64_t>(length, 1)});
+}
+
+Loss::Loss(const LossSpec& spec, RandomKey key) noexcept
+    : probability_(spec.probability), alone_key_(key.derive(kAlone)), period_key_(key.derive(kInPeriod)) {
+  if (!spec.periods) return;
+  loss_good_ = spec.periods->loss_good;
+  loss_bad_ = spec.periods->loss_bad;
+  periods_.emplace(*spec.periods, key.derive(kPeriods));
+}
+
+bool Loss::lost_by_period(Time now, std::uint64_t index) noexcept {
+  return period_key_.uniform(index) < (periods_->bad_at(now) ? loss_bad_ : loss_good_);
+}
+
+}  // namespace tandem::netsim

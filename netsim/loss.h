@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/base/rng.h"
+#include "common/base/time.h"
+#include "netsim/path_spec.h"
+
+namespace tandem::netsim {
+
+/// Alternating good and bad periods of exponential length: a two-state Markov process in continuous time, advanced
+/// lazily, the same whatever is asked of it and how often.
+///
+/// Identity: P(bad) = bad_mean / (good_mean + bad_mean);
+/// P(bad at t + dt | good at t) = P(bad) (1 - exp(-dt (1/good_mean + 1/bad_mean))).
+/// Time is cut into blocks of 1024 mean cycles, each starting from the stationary distribution, so that a jump of any
+/// length costs a bounded number of draws. (At one cycle in 1024 the past is forgotten; rates are exact.)
+class BadPeriods {
+ public:
+  BadPeriods(const BadPeriodsSpec& spec, RandomKey key) noexcept;
+
+  /// @param t  never decreasing [Time{} or later]
+  bool bad_at(Time t) noexcept;
+
+  /// When the present period ends; valid after `bad_at`.
+  [[nodiscard]] Time period_end() const noexcept { return end_; }
+
+ private:
+  static constexpr std::uint64_t kCycles = 1024;
+  static constexpr std::uint64_t kDrawBits = 13;  ///< 8192 draws per block, four times what is needed on average
+
+  void start_block(std::int64_t block) noexcept;
+  void next_period() noexcept;
+
+  RandomKey key_;
+  Duration good_mean_, bad_mean_;
+  double bad_share_;
+  Duration block_length_;
+  std::int64_t block_ = -1;
+  std::uint64_t draw_ = 0;
+  bool bad_ = false;
+  Time end_{};
+};
+
+/// Decides which datagrams are lost: every one alone, and by the periods.
+class Loss {
+ public:
+  Loss(const LossSpec& spec, RandomKey key) noexcept;
+
+  /// @param now    never decreasing
+  /// @param index  of the datagram
+  bool lost(Time now, std::uint64_t index) noexcept {
+    if (probability_ > 0 && alone_key_.uniform(index) < probability_) return true;
+    return periods_ && lost_by_period(now, index);
+  }
+
+ private:
+  bool lost_by_period(Time now, std::uint64_t index) noexcept;
+
+  double probability_;
+  double loss_good_ = 0, loss_bad_ = 0;
+  RandomKey alone_key_, period_key_;
+  std::optional<BadPeriods> periods_;
+};
+
+}  // namespace tandem::netsim

@@ -1,0 +1,128 @@
+#include "netsim/network_csv.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "common/base/csv.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr double kDelayMaxMs = 60'000;
+constexpr double kTimeMaxS = 1e7;
+constexpr std::size_t kErrorsMax = 50;
+
+class Reader {
+ public:
+  Reader(const CsvTable& table, std::string_view file, Duration interval)
+      : table_(table),
+        file_(file),
+        interval_(interval),
+        rtt_(table.find("rtt_ms")),
+        delay_(table.find("delay_ms")),
+        time_(table.find("t_s")),
+        lost_(table.find("lost")) {
+    if (!time_) time_ = table.find("t_send_s");
+  }
+
+  std::expected<RecordedNetwork, InputErrors> read() {
+    columns();
+    if (errors_.empty()) rows();
+    if (!errors_.empty()) return std::unexpected(std::move(errors_));
+    return finish();
+  }
+
+ private:
+  void mistake(std::size_t line, std::size_t column, std::string key, std::string_view value, std::string message) {
+    if (errors_.size() < kErrorsMax) {
+      errors_.push_back({std::string(file_), static_cast<int>(line), static_cast<int>(column), std::move(key),
+                         std::string(value.substr(0, 40)), std::move(message)});
+    }
+  }
+  void mistake(std::size_t row, std::size_t column, std::string message) {
+    mistake(table_.line(row), column + 1, table_.columns()[column].name, table_.cell(row, column), std::move(message));
+  }
+
+  void columns() {
+    if (rtt_ && delay_) mistake(1, 1, "", "", "rtt_ms and delay_ms exclude each other");
+    if (!rtt_ && !delay_) mistake(1, 1, "", "", "needs a column rtt_ms[ms] or delay_ms[ms]");
+    if (!time_ && interval_ <= Duration::zero()) {
+      mistake(1, 1, "", "", "has no column t_s[s] or t_send_s[s]: give the time between rows, --trace-interval MS");
+    }
+    if (table_.rows() == 0) mistake(1, 1, "", "", "holds no row");
+  }
+
+  void rows() {
+    const std::size_t value = rtt_ ? *rtt_ : *delay_;
+    double start_s = 0;
+    for (std::size_t row = 0; row < table_.rows(); ++row) {
+      DelayTrace::Step step;
+      const auto ms = table_.optional_number(row, value);
+      if (!ms || (*ms && !(**ms >= 0 && **ms <= kDelayMaxMs))) {
+        mistake(row, value, "must be a number in [0, 60000] ms, or empty for lost");
+      } else if (*ms) {
+        step.delay = Duration{std::llround(**ms * (rtt_ ? 0.5e6 : 1e6))};
+      } else {
+        step.lost = true;
+      }
+      if (lost_) {
+        const std::string_view lost = table_.cell(row, *lost_);
+        if (lost == "1") step.lost = true;
+        if (lost != "1" && lost != "0" && !lost.empty()) mistake(row, *lost_, "must be 0 or 1");
+      }
+      step.at = interval_ * static_cast<std::int64_t>(row);
+      if (time_) {
+        const auto s = table_.number(row, *time_);
+        if (!s || std::abs(*s) > kTimeMaxS) {
+          mistake(row, *time_, "must be a number of seconds");
+          continue;
+        }
+        if (row == 0) start_s = *s;
+        step.at = from_seconds(*s - start_s);
+        if (!steps_.empty() && step.at <= steps_.back().at) mistake(row, *time_, "time does not go on");
+      }
+      steps_.push_back(step);
+    }
+  }
+
+  RecordedNetwork finish() {
+    RecordedNetwork network;
+    auto trace = std::make_shared<DelayTrace>();
+    // The last row is in force as long as a row is on average; a single one is in force for ever.
+    const Duration last = steps_.back().at;
+    const auto gaps = static_cast<std::int64_t>(steps_.size()) - 1;
+    trace->period = last + (gaps > 0 ? std::max(last / gaps, Duration{1}) : Duration{1'000'000'000});
+    for (const DelayTrace::Step& step : steps_) network.lost += step.lost ? 1 : 0;
+    network.rows = steps_.size();
+    network.rtt_split = rtt_.has_value();
+    network.length = trace->period;
+    trace->steps = std::move(steps_);
+    network.link.up.trace = trace;
+    network.link.down.trace = std::move(trace);
+    return network;
+  }
+
+  const CsvTable& table_;
+  std::string_view file_;
+  Duration interval_;
+  std::optional<std::size_t> rtt_, delay_, time_, lost_;
+  std::vector<DelayTrace::Step> steps_;
+  InputErrors errors_;
+};
+
+}  // namespace
+
+std::expected<RecordedNetwork, InputErrors> parse_network_csv(std::string_view text, std::string_view file_name,
+                                                              Duration interval) {
+  const auto table = CsvTable::parse(text);
+  if (!table) {
+    const CsvError& e = table.error();
+    return std::unexpected(
+        InputErrors{{std::string(file_name), static_cast<int>(e.line), static_cast<int>(e.column), "", "", e.message}});
+  }
+  return Reader(*table, file_name, interval).read();
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,49 @@
+#include "netsim/outages.h"
+
+#include <algorithm>
+
+namespace tandem::netsim {
+
+std::optional<Time> OutageGate::end_of(const OutageSpec& spec, Time t) noexcept {
+  const Duration since = t.time_since_epoch() - spec.start;
+  if (since < Duration::zero()) return std::nullopt;
+  const Duration into = spec.period > Duration::zero() ? since % spec.period : since;
+  if (into >= spec.length) return std::nullopt;
+  return t + (spec.length - into);
+}
+
+OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
+  Passage passage{State::kUp, now};
+  if (outages_.empty()) return passage;
+
+  std::optional<std::uint64_t> room;  // of the holds that cover now; the smallest counts
+  for (const OutageSpec& outage : outages_) {
+    const auto end = end_of(outage, now);
+    if (!end) continue;
+    if (outage.mode == OutageSpec::Mode::kDrop) return {State::kDropped, now};
+    passage.at = std::max(passage.at, *end);
+    if (outage.hold_bytes > 0) room = std::min(room.value_or(outage.hold_bytes), outage.hold_bytes);
+  }
+  if (passage.at == now) return passage;
+
+  // Another outage may begin before this one ends: still down, so what is held stays held. Each outage is looked at
+  // once per round; schedules that leave no gap at all are cut off after a few rounds, which keeps the loop bounded.
+  bool extended = true;
+  for (int round = 0; extended && round < 8; ++round) {
+    extended = false;
+    for (const OutageSpec& outage : outages_) {
+      if (const auto end = end_of(outage, passage.at)) {
+        passage.at = *end;
+        extended = true;
+      }
+    }
+  }
+  if (now >= held_until_) held_bytes_ = 0;
+  if (room && held_bytes_ + size > *room) return {State::kHoldFull, now};
+  held_bytes_ += size;
+  held_until_ = std::max(held_until_, passage.at);
+  passage.at = held_until_;
+  return passage;
+}
+
+}  // namespace tandem::netsim

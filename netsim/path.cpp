@@ -1,0 +1,132 @@
+#include "netsim/path.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace tandem::netsim {
+namespace {
+
+enum Purpose : std::uint64_t { kLoss = 1, kBody, kStall, kReorder, kDuplicate, kCopy };
+
+/// Far enough from the ends of 64 bits that no sum of delays overflows; 146 years.
+constexpr Time kTimeMax{Duration{std::int64_t{1} << 62}};
+
+/// First member of Path to be made, so that no model ever sees a bad number.
+const PathSpec& checked(const PathSpec& spec) {
+  const auto found = problems(spec);
+  if (found.empty()) return spec;
+  std::string message = "network path:";
+  for (const SpecProblem& problem : found) message += "\n  " + problem.key + ": " + problem.message;
+  throw std::invalid_argument(message);
+}
+
+}  // namespace
+
+const char* name(Outcome outcome) noexcept {
+  switch (outcome) {
+    case Outcome::kDeliver:
+      return "delivered";
+    case Outcome::kHeldBack:
+      return "reordered";
+    case Outcome::kOutage:
+      return "outage";
+    case Outcome::kHoldFull:
+      return "hold full";
+    case Outcome::kLost:
+      return "lost";
+    case Outcome::kQueueFull:
+      return "queue full";
+    case Outcome::kOverflow:
+      return "overflow";
+    case Outcome::kTooLong:
+      return "too long";
+  }
+  return "?";
+}
+
+Path::Path(const PathSpec& spec, RandomKey key)
+    : outages_(checked(spec).outages),
+      loss_(spec.loss, key.derive(kLoss)),
+      rate_(spec.rate),
+      floor_(spec.floor),
+      trace_(spec.trace),
+      body_(spec.body, key.derive(kBody)),
+      stalls_(spec.stall, key.derive(kStall)),
+      order_(spec.order),
+      reorder_(spec.reorder),
+      duplicate_(spec.duplicate),
+      reorder_key_(key.derive(kReorder)),
+      duplicate_key_(key.derive(kDuplicate)),
+      copy_key_(key.derive(kCopy)) {}
+
+Verdict Path::send(Time now, std::size_t size) noexcept {
+  now = std::clamp(now, last_in_, kTimeMax);
+  last_in_ = now;
+  Verdict verdict;
+  verdict.index = count_++;
+  verdict.at = now;
+
+  const OutageGate::Passage passage = outages_.enter(now, size);
+  if (passage.state != OutageGate::State::kUp) {
+    verdict.outcome = passage.state == OutageGate::State::kDropped ? Outcome::kOutage : Outcome::kHoldFull;
+    return verdict;
+  }
+  // Loss belongs to the moment of sending, also for what an outage holds: else a whole burst would meet one state.
+  DelayTrace::Step recorded;
+  if (trace_.present()) recorded = trace_.at(now);
+  if (recorded.lost || loss_.lost(now, verdict.index)) {
+    verdict.outcome = Outcome::kLost;
+    return verdict;
+  }
+  const auto sent = rate_.serve(passage.at, size);
+  if (!sent) {
+    verdict.outcome = Outcome::kQueueFull;
+    return verdict;
+  }
+  Time at = stalls_.release(*sent + floor_ + recorded.delay + body_.at(*sent, verdict.index));
+  if (order_ == Order::kFifo) at = std::max(at, last_out_);
+  last_out_ = std::max(last_out_, at);
+  verdict.at = at;
+
+  if (duplicate_.probability > 0 && duplicate_key_.uniform(verdict.index) < duplicate_.probability) {
+    verdict.copied = true;
+    const double longest = static_cast<double>(duplicate_.delay_max.count()) + 1;
+    verdict.copy_delay = Duration{static_cast<std::int64_t>(copy_key_.uniform(verdict.index) * longest)};
+  }
+  if (reorder_.probability > 0) {
+    if (held_count_ > 0) forget_late(now);
+    if (held_count_ < kHeldMax && reorder_key_.uniform(verdict.index) < reorder_.probability) {
+      verdict.outcome = Outcome::kHeldBack;
+      verdict.at = at + reorder_.hold_limit;
+      held_[held_count_++] = {verdict.index, at, verdict.at, reorder_.displacement};
+    } else if (held_count_ > 0) {
+      verdict.released = pass(at);
+    }
+  }
+  return verdict;
+}
+
+void Path::forget_late(Time now) noexcept {
+  const auto last = held_.begin() + static_cast<std::ptrdiff_t>(held_count_);
+  const auto kept = std::remove_if(held_.begin(), last, [now](const Held& held) { return held.limit <= now; });
+  held_count_ = static_cast<std::size_t>(kept - held_.begin());
+}
+
+std::span<const Release> Path::pass(Time at) noexcept {
+  std::size_t released = 0;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < held_count_; ++i) {
+    Held held = held_[i];
+    if (--held.after > 0) {
+      held_[kept++] = held;
+      continue;
+    }
+    const Time when = std::max(held.nominal, at);
+    if (when < held.limit) released_[released++] = {held.index, when};  // else its limit lets it go
+  }
+  held_count_ = kept;
+  return {released_.data(), released};
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,176 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/time.h"
+
+/// What one direction of a network does to datagrams, as plain numbers. The order of the members is the order in which
+/// a datagram meets them (network.md 3.1). Everything is off by default; what is off costs nothing per packet.
+namespace tandem::netsim {
+
+/// Seen from a client: up is client to server.
+enum class Direction : std::uint8_t { kUp, kDown };
+inline constexpr std::size_t kDirections = 2;
+[[nodiscard]] constexpr const char* name(Direction d) noexcept { return d == Direction::kUp ? "up" : "down"; }
+
+/// The link is down for `length` from `start`, and again every `period`.
+struct OutageSpec {
+  enum class Mode : std::uint8_t {
+    kDrop,  ///< what is sent meanwhile is lost
+    kHold,  ///< what is sent meanwhile leaves, in order and at once, when the link is back
+  };
+  Duration start{};              ///< from Time{} [0, 30 d]
+  Duration length{};             ///< (0, 1 h]
+  Duration period{};             ///< 0: once; else longer than `length`
+  Mode mode = Mode::kDrop;       ///< drop unless said otherwise
+  std::uint64_t hold_bytes = 0;  ///< kHold: what does not fit any more is dropped; 0: no limit of its own
+
+  friend bool operator==(const OutageSpec&, const OutageSpec&) = default;
+};
+
+/// Continuous-time Gilbert-Elliott: good and bad periods of exponential length alternate in time, whatever the packet
+/// rate. Share of bad time = bad_mean / (good_mean + bad_mean).
+struct BadPeriodsSpec {
+  Duration good_mean{};  ///< [1 us, 1 h]
+  Duration bad_mean{};   ///< [1 us, 1 h]
+  double loss_good = 0;  ///< probability of losing a datagram sent in a good period [0, 1]
+  double loss_bad = 1;   ///< the same in a bad period [0, 1]
+
+  friend bool operator==(const BadPeriodsSpec&, const BadPeriodsSpec&) = default;
+};
+
+/// Loss: every datagram alone with `probability`, and by the periods. Either is enough to lose it.
+struct LossSpec {
+  double probability = 0;  ///< Bernoulli, per datagram [0, 1]
+  std::optional<BadPeriodsSpec> periods;
+
+  friend bool operator==(const LossSpec&, const LossSpec&) = default;
+};
+
+/// A sender that serves one datagram after the other at a fixed rate, and what may wait for it (tail drop).
+struct RateSpec {
+  std::uint64_t bits_per_s = 0;        ///< 0: no rate, no queue; else [100, 1e12]
+  std::uint32_t overhead_bytes = 28;   ///< added to every datagram on this link: IPv4 + UDP headers [0, 1000]
+  std::uint64_t queue_bytes = 0;       ///< bytes not yet sent, the new datagram included; 0: no limit
+  std::optional<Duration> queue_wait;  ///< longest wait before a datagram's first bit is sent [0, 1 h]
+
+  friend bool operator==(const RateSpec&, const RateSpec&) = default;
+};
+
+/// A recorded delay as a function of time: steps, held until the next one, repeated with `period`.
+struct DelayTrace {
+  struct Step {
+    Duration at{};     ///< from the start of the recording, ascending, first 0
+    Duration delay{};  ///< [0, 60 s]
+    bool lost = false;
+  };
+  std::vector<Step> steps;  ///< at least one
+  Duration period{};        ///< longer than the last `at`
+};
+
+/// Delay that varies, added to the floor.
+struct BodySpec {
+  enum class Kind : std::uint8_t {
+    kNone,
+    kUniform,      ///< `low` ... `high`
+    kLogNormal,    ///< `scale` exp(`shape` z): scale is the median
+    kLogLogistic,  ///< `scale` (u / (1 - u))^(1 / `shape`): scale is the median
+  };
+  Kind kind = Kind::kNone;
+  Duration low{}, high{};  ///< [0, 60 s], low <= high
+  Duration scale{};        ///< (0, 60 s]
+  double shape = 1;        ///< log-normal [0, 5], log-logistic [0.5, 100]
+  Duration cap{};          ///< longest value; mandatory for kLogNormal and kLogLogistic [0, 60 s]
+  /// Correlation time of the underlying Gaussian process. The distribution of the delay does not depend on it, and its
+  /// course is a function of time, not of the packets. 0: every datagram draws for itself. Else [10 us, 10 s].
+  Duration tau{};
+
+  friend bool operator==(const BodySpec&, const BodySpec&) = default;
+};
+
+/// Stalls begin as a Poisson process; what would leave during one leaves at its end, at once. Length: Pareto.
+struct StallSpec {
+  double rate_per_s = 0;  ///< [0, 100]; rate times cap at most 32
+  Duration length_min{};  ///< Pareto's x_m (0, 60 s]
+  double alpha = 1.5;     ///< Pareto's exponent [0.5, 100]
+  Duration cap{};         ///< longest stall [length_min, 60 s]
+
+  friend bool operator==(const StallSpec&, const StallSpec&) = default;
+};
+
+enum class Order : std::uint8_t {
+  kFifo,  ///< the time of arrival never decreases: jitter delays, it never overtakes
+  kFree,  ///< every datagram has its own delay, as in netem: at 1 kHz even 1 ms of jitter reorders
+};
+
+/// Datagrams chosen to arrive after `displacement` later ones.
+struct ReorderSpec {
+  double probability = 0;            ///< [0, 1]
+  std::uint32_t displacement = 3;    ///< [1, 1000] delivered datagrams
+  Duration hold_limit{100'000'000};  ///< arrives this much late at the latest, when fewer follow (0, 60 s]
+
+  friend bool operator==(const ReorderSpec&, const ReorderSpec&) = default;
+};
+
+/// Datagrams that arrive twice; what is lost has no copy, and a copy is never earlier than its original.
+struct DuplicateSpec {
+  double probability = 0;         ///< [0, 1]
+  Duration delay_max{1'000'000};  ///< the copy comes uniform in [0, delay_max] later [0, 60 s]
+
+  friend bool operator==(const DuplicateSpec&, const DuplicateSpec&) = default;
+};
+
+/// One direction of one link.
+struct PathSpec {
+  std::vector<OutageSpec> outages;  ///< at most 64
+  LossSpec loss;
+  RateSpec rate;
+  Duration floor{};                         ///< propagation: no datagram is faster [0, 60 s]
+  std::shared_ptr<const DelayTrace> trace;  ///< recorded delay added to the floor; null: none
+  BodySpec body;
+  StallSpec stall;
+  Order order = Order::kFifo;
+  ReorderSpec reorder;
+  DuplicateSpec duplicate;
+
+  friend bool operator==(const PathSpec&, const PathSpec&) = default;
+};
+
+/// Both directions of one client's link.
+struct LinkSpec {
+  PathSpec up, down;
+
+  [[nodiscard]] const PathSpec& operator[](Direction d) const noexcept { return d == Direction::kUp ? up : down; }
+  [[nodiscard]] PathSpec& operator[](Direction d) noexcept { return d == Direction::kUp ? up : down; }
+  friend bool operator==(const LinkSpec&, const LinkSpec&) = default;
+};
+
+/// One mistake in a spec.
+struct SpecProblem {
+  std::string key;      ///< member, such as `body.cap`
+  std::string message;  ///< what is wrong and what is allowed
+};
+
+/// All mistakes; empty: the spec can be simulated.
+[[nodiscard]] std::vector<SpecProblem> problems(const PathSpec& spec);
+
+/// The longest delay the spec can add, without the queue of its rate and without the order policy. For sizing stores.
+[[nodiscard]] Duration delay_max(const PathSpec& spec) noexcept;
+
+/// The network of the shared command line options, the same in both directions: `delay` is the floor, `jitter` is
+/// uniform in [0, jitter] and added for every datagram alone, order fifo.
+struct SimpleNetwork {
+  Duration delay{};      ///< [0, 60 s]
+  Duration jitter{};     ///< [0, 60 s]
+  double loss = 0;       ///< probability [0, 1]
+  double duplicate = 0;  ///< probability [0, 1]
+  double reorder = 0;    ///< probability of arriving after three later datagrams [0, 1]
+  std::vector<OutageSpec> outages;
+};
+[[nodiscard]] LinkSpec link_from(const SimpleNetwork& numbers);
+
+}  // namespace tandem::netsim

@@ -1,0 +1,141 @@
+#include "netsim/profiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "proto/nearest.h"
+#include "proto/profile_text.h"
+
+namespace tandem::netsim {
+namespace {
+
+Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
+double probability(double percent) { return percent / 100; }
+
+BodySpec::Kind kind_of(ProfileBody::Kind kind) {
+  switch (kind) {
+    case ProfileBody::Kind::kNone:
+      return BodySpec::Kind::kNone;
+    case ProfileBody::Kind::kUniform:
+      return BodySpec::Kind::kUniform;
+    case ProfileBody::Kind::kLogNormal:
+      return BodySpec::Kind::kLogNormal;
+    case ProfileBody::Kind::kLogLogistic:
+      return BodySpec::Kind::kLogLogistic;
+  }
+  return BodySpec::Kind::kNone;
+}
+
+PathSpec path_from(const ProfilePath& in) {
+  PathSpec path;
+  path.loss.probability = probability(in.loss_percent);
+  if (const auto& bad = in.bad_periods) {
+    path.loss.periods = BadPeriodsSpec{.good_mean = milliseconds(bad->good_mean_s * 1e3),
+                                       .bad_mean = milliseconds(bad->bad_mean_ms),
+                                       .loss_good = probability(bad->loss_good_percent),
+                                       .loss_bad = probability(bad->loss_bad_percent)};
+  }
+  if (const auto& rate = in.rate) {
+    path.rate.bits_per_s = rate->rate_bit_s;
+    path.rate.overhead_bytes = rate->overhead_bytes;
+    path.rate.queue_bytes = rate->queue_bytes;
+    if (rate->queue_ms) path.rate.queue_wait = milliseconds(*rate->queue_ms);
+  }
+  path.floor = milliseconds(in.floor_ms);
+  path.body = {.kind = kind_of(in.body.kind),
+               .low = milliseconds(in.body.low_ms),
+               .high = milliseconds(in.body.high_ms),
+               .scale = milliseconds(in.body.median_ms),
+               .shape = in.body.shape,
+               .cap = milliseconds(in.body.cap_ms),
+               .tau = milliseconds(in.body.tau_ms)};
+  if (const auto& stall = in.stall) {
+    path.stall = {.rate_per_s = stall->rate_per_s,
+                  .length_min = milliseconds(stall->length_min_ms),
+                  .alpha = stall->alpha,
+                  .cap = milliseconds(stall->cap_ms)};
+  }
+  path.order = in.free_order ? Order::kFree : Order::kFifo;
+  if (const auto& reorder = in.reorder) {
+    path.reorder = {.probability = probability(reorder->probability_percent),
+                    .displacement = reorder->displacement,
+                    .hold_limit = milliseconds(reorder->hold_limit_ms)};
+  }
+  if (const auto& duplicate = in.duplicate) {
+    path.duplicate = {.probability = probability(duplicate->probability_percent),
+                      .delay_max = milliseconds(duplicate->delay_max_ms)};
+  }
+  return path;
+}
+
+OutageSpec outage_from(const ProfileOutage& in) {
+  return {.start = milliseconds(in.start_s * 1e3),
+          .length = milliseconds(in.length_ms),
+          .period = milliseconds(in.period_s * 1e3),
+          .mode = in.hold ? OutageSpec::Mode::kHold : OutageSpec::Mode::kDrop,
+          .hold_bytes = in.hold_bytes};
+}
+
+struct Embedded {
+  std::string_view name, unused, text;
+};
+constexpr Embedded kEmbedded[] = {
+#include "profiles_embedded_data.inc"
+};
+
+std::vector<ShippedProfile> sorted() {
+  std::vector<ShippedProfile> all;
+  for (const Embedded& profile : kEmbedded) all.push_back({profile.name, profile.text});
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return all;
+}
+
+}  // namespace
+
+std::expected<Profile, InputErrors> parse_profile(std::string_view text, std::string_view file_name) {
+  auto in = parse_profile_text(text, file_name);
+  if (!in) return std::unexpected(std::move(in.error()));
+  Profile profile;
+  profile.name = std::move(in->name);
+  profile.version = in->version;
+  profile.summary = std::move(in->summary);
+  profile.sources = std::move(in->sources);
+  profile.link = {path_from(in->up), path_from(in->down)};
+  for (const ProfileOutage& outage : in->outages) {
+    if (outage.up) profile.link.up.outages.push_back(outage_from(outage));
+    if (outage.down) profile.link.down.outages.push_back(outage_from(outage));
+  }
+  for (const ProfileQuantiles& check : in->checks) {
+    if (check.up) profile.checks.push_back({Direction::kUp, check.delay_ms});
+    if (check.down) profile.checks.push_back({Direction::kDown, check.delay_ms});
+  }
+  // The engine has the last word: what its rules find and the schema's did not (a value rounded to 0 ns) has no line.
+  InputErrors errors;
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    for (const SpecProblem& problem : problems(profile.link[direction])) {
+      errors.push_back(
+          {std::string(file_name), 0, 0, std::string(name(direction)) + "." + problem.key, "", problem.message});
+    }
+  }
+  if (!errors.empty()) return std::unexpected(std::move(errors));
+  return profile;
+}
+
+std::span<const ShippedProfile> shipped_profiles() noexcept {
+  static const std::vector<ShippedProfile> all = sorted();
+  return all;
+}
+
+std::expected<Profile, InputErrors> shipped_profile(std::string_view name) {
+  std::vector<std::string> names;
+  for (const ShippedProfile& profile : shipped_profiles()) {
+    if (profile.name == name) return parse_profile(profile.text, std::string(name) + ".textproto");
+    names.emplace_back(profile.name);
+  }
+  InputError error;
+  error.message = "no profile is called \"" + std::string(name) + "\"; " + suggest(name, names) +
+                  "; a file needs its path or its ending, such as my.textproto";
+  return std::unexpected(InputErrors{error});
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,149 @@
+#include "proto/profile_text.h"
+
+#include <cmath>
+
+#include "proto/profile.pb.h"
+#include "proto/text_format_reader.h"
+
+namespace tandem {
+namespace {
+
+using text::Checker;
+using text::child_path;
+
+std::uint64_t whole(double value) { return static_cast<std::uint64_t>(std::llround(value)); }
+
+ProfileBody body_from(const pb::Body& in, Checker& checker, const std::string& key) {
+  ProfileBody body;
+  if (in.has_uniform() + in.has_log_normal() + in.has_log_logistic() != 1) {
+    checker.error(key, "needs exactly one of uniform, log_normal, log_logistic");
+  }
+  const auto take = [&body](ProfileBody::Kind kind, const auto& shape) {
+    body.kind = kind;
+    body.median_ms = shape.median_ms();
+    body.shape = shape.shape();
+    body.cap_ms = shape.cap_ms();
+  };
+  if (in.has_log_normal()) take(ProfileBody::Kind::kLogNormal, in.log_normal());
+  if (in.has_log_logistic()) take(ProfileBody::Kind::kLogLogistic, in.log_logistic());
+  if (in.has_uniform()) {
+    body.kind = ProfileBody::Kind::kUniform;
+    body.low_ms = in.uniform().low_ms();
+    body.high_ms = in.uniform().high_ms();
+    if (body.low_ms > body.high_ms) checker.error(child_path(key, "uniform.low_ms"), "is above high_ms");
+  }
+  body.tau_ms = in.tau_ms();
+  if (body.tau_ms > 0 && body.tau_ms < 0.01) checker.error(child_path(key, "tau_ms"), "must be 0 or at least 0.01 ms");
+  return body;
+}
+
+ProfileStall stall_from(const pb::Stall& in, Checker& checker, const std::string& key) {
+  if (in.cap_ms() < in.length_min_ms()) checker.error(child_path(key, "cap_ms"), "is below length_min_ms");
+  if (in.rate_per_s() * in.cap_ms() > 32e3) {
+    checker.error(child_path(key, "rate_per_s"), "times cap_ms must be at most 32 stalls at the same time");
+  }
+  return {in.rate_per_s(), in.length_min_ms(), in.alpha(), in.cap_ms()};
+}
+
+ProfileRate rate_from(const pb::LinkRateProfile& in, Checker& checker, const std::string& key) {
+  ProfileRate rate;
+  rate.rate_bit_s = whole(in.rate_bit_s());
+  if (in.rate_bit_s() != std::floor(in.rate_bit_s())) {
+    checker.error(child_path(key, "rate_bit_s"), "must be a whole number");
+  }
+  if (in.has_overhead_bytes()) rate.overhead_bytes = in.overhead_bytes();
+  if (in.has_queue_bytes()) rate.queue_bytes = whole(in.queue_bytes());
+  if (in.has_queue_ms()) rate.queue_ms = in.queue_ms();
+  return rate;
+}
+
+ProfilePath path_from(const pb::NetworkPath& in, Checker& checker, const std::string& key) {
+  ProfilePath path;
+  path.loss_percent = in.loss_percent();
+  if (in.has_bad_periods()) {
+    const auto& bad = in.bad_periods();
+    path.bad_periods = {bad.good_mean_s(), bad.bad_mean_ms(), bad.loss_good_percent(), bad.loss_bad_percent()};
+  }
+  if (in.has_rate()) path.rate = rate_from(in.rate(), checker, child_path(key, "rate"));
+  path.floor_ms = in.floor_ms();
+  if (in.has_body()) path.body = body_from(in.body(), checker, child_path(key, "body"));
+  if (in.has_stall()) path.stall = stall_from(in.stall(), checker, child_path(key, "stall"));
+  path.free_order = in.order() == pb::NetworkPath::FREE;
+  if (in.has_reorder()) {
+    ProfileReorder& reorder = path.reorder.emplace();
+    reorder.probability_percent = in.reorder().probability_percent();
+    if (in.reorder().has_displacement()) reorder.displacement = in.reorder().displacement();
+    if (in.reorder().has_hold_limit_ms()) reorder.hold_limit_ms = in.reorder().hold_limit_ms();
+  }
+  if (in.has_duplicate()) {
+    ProfileDuplicate& duplicate = path.duplicate.emplace();
+    duplicate.probability_percent = in.duplicate().probability_percent();
+    if (in.duplicate().has_delay_max_ms()) duplicate.delay_max_ms = in.duplicate().delay_max_ms();
+  }
+  return path;
+}
+
+ProfileOutage outage_from(const pb::ProfileOutage& in, Checker& checker, const std::string& key) {
+  ProfileOutage outage{.start_s = in.start_s(),
+                       .length_ms = in.length_ms(),
+                       .period_s = in.period_s(),
+                       .hold = in.mode() == pb::ProfileOutage::HOLD,
+                       .up = in.direction() != pb::ProfileOutage::DOWN,
+                       .down = in.direction() != pb::ProfileOutage::UP,
+                       .hold_bytes = whole(in.hold_bytes())};
+  if (in.has_period_s() && outage.period_s * 1e3 <= outage.length_ms) {
+    checker.error(child_path(key, "period_s"), "must be longer than the outage, or the link is never up");
+  }
+  if (in.has_hold_bytes() && !outage.hold) checker.error(child_path(key, "hold_bytes"), "needs mode: HOLD");
+  return outage;
+}
+
+void directions(const pb::Profile& in, ProfileSpec& profile, Checker& checker) {
+  if (in.has_both()) {
+    for (const char* key : {"up", "down"}) {
+      if (checker.written(key)) checker.error(key, "both directions are described by `both` already");
+    }
+    profile.up = path_from(in.both(), checker, "both");
+    profile.down = profile.up;
+    return;
+  }
+  if (!in.has_up() || !in.has_down()) {
+    checker.error("", "needs `both { ... }`, or `up { ... }` and `down { ... }`; an empty one is a perfect network");
+  }
+  profile.up = path_from(in.up(), checker, "up");
+  profile.down = path_from(in.down(), checker, "down");
+}
+
+std::string stem(std::string_view file) {
+  if (const auto slash = file.rfind('/'); slash != std::string_view::npos) file.remove_prefix(slash + 1);
+  return std::string(file.substr(0, file.find('.')));
+}
+
+}  // namespace
+
+std::expected<ProfileSpec, InputErrors> parse_profile_text(std::string_view text, std::string_view file_name) {
+  Checker checker{file_name};
+  pb::Profile in;
+  text::read_document(text, file_name, in, checker);
+  // Rules between numbers make sense only for numbers that are in range.
+  if (!checker.ok()) return std::unexpected(checker.take());
+
+  ProfileSpec profile;
+  profile.name = stem(file_name);
+  profile.version = in.version();
+  profile.summary = in.summary();
+  profile.sources.assign(in.source().begin(), in.source().end());
+  directions(in, profile, checker);
+  for (int i = 0; i < in.outage_size(); ++i) {
+    profile.outages.push_back(outage_from(in.outage(i), checker, child_path("", "outage", i)));
+  }
+  for (const auto& check : in.check()) {
+    profile.checks.push_back({.up = check.direction() != pb::ProfileOutage::DOWN,
+                              .down = check.direction() != pb::ProfileOutage::UP,
+                              .delay_ms = {check.p5_ms(), check.p50_ms(), check.p95_ms(), check.p99_ms()}});
+  }
+  if (!checker.ok()) return std::unexpected(checker.take());
+  return profile;
+}
+
+}  // namespace tandem

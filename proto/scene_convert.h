@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "proto/checker.h"
+#include "proto/scene.pb.h"
+#include "proto/scene_spec.h"
+
+/// Private to proto/*.cpp: the parts that scene files and seat setups have in common, between tandem::pb and SceneSpec.
+/// `read_*` take messages that passed check_limits or not: what is absent keeps the default, what contradicts itself is
+/// told to the checker. `write_*` set every field in force.
+namespace tandem {
+
+void read_channel(const pb::Channel& in, const std::string& path, text::Checker& checker, ChannelSpec& out);
+void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out);
+void read_gate(const pb::Gate& in, GateSpec& out);
+/// Smallest initial ledger energy that does not dead-lock the channel at its start: F_max^2 / (2 k_min) [J] (control.md
+/// 4).
+[[nodiscard]] double e0_min(const ChannelSpec& channel, const GateSpec& gate);
+/// The default of e0, or the rule about a written one.
+void settle_e0(const pb::Channel& in, const std::string& path, text::Checker& checker, const GateSpec& gate,
+               ChannelSpec& out);
+void check_gate(const GateSpec& gate, double tick_hz, const std::string& path, text::Checker& checker);
+
+/// Reads all of a seat but the tool it serves. @param dof axes of the scene's ports; device and environment must fit
+void read_seat(const pb::Seat& in, std::size_t dof, const std::string& path, text::Checker& checker, SeatSpec& out);
+/// Reads a tool's own slave; `in` may be absent for remote tools.
+void read_slave(const pb::Slave& in, std::size_t dof, const std::string& path, text::Checker& checker,
+                SimDeviceSpec& device, EnvironmentSpec& environment);
+
+void write_channel(const ChannelSpec& in, pb::Channel& out);
+void write_coupling(const CouplingSpec& in, pb::DeviceCoupling& out);
+void write_gate(const GateSpec& in, pb::Gate& out);
+void write_seat(const SeatSpec& in, pb::Seat& out);
+void write_slave(const SimDeviceSpec& device, const EnvironmentSpec& environment, pb::Slave& out);
+
+}  // namespace tandem

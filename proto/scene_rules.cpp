@@ -1,0 +1,292 @@
+#include "proto/scene_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "proto/nearest.h"
+#include "proto/scene_convert.h"
+
+namespace tandem::rules {
+namespace {
+
+using text::Checker;
+using text::child_path;
+using text::number_text;
+
+/// Rows sum to 1 within this; people write 0.333333 and mean it, but then they write 0.333334 for the third.
+constexpr double kSumTolerance = 1e-9;
+
+std::string quoted(const std::string& name) { return '"' + name + '"'; }
+
+/// Index of the first thing called `name`.
+template <class Things>
+std::optional<std::size_t> find(const Things& things, const std::string& name) {
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (things[i].name == name) return i;
+  }
+  return {};
+}
+template <class Things>
+std::optional<std::size_t> resolve(const Things& things, const std::string& name, const char* kind,
+                                   const std::string& path, Checker& checker) {
+  const auto index = find(things, name);
+  if (!index && checker.written(path)) {
+    std::vector<std::string> names;
+    for (const auto& thing : things) names.push_back(thing.name);
+    checker.error(path, std::string("no ") + kind + " has this name; " + suggest(name, names));
+  }
+  return index;
+}
+
+bool may_lead(const SeatSpec& seat) {
+  return seat.kind == SeatKind::kMaster && seat.role != Role::kEvaluator && seat.role != Role::kObserver;
+}
+
+/// Rows of authority from a flat list, one per tool that is named.
+std::vector<AuthorityRow> read_rows(const google::protobuf::RepeatedPtrField<pb::Authority>& in,
+                                    const std::string& path, Checker& checker, const SceneSpec& scene) {
+  struct Sum {
+    bool named = false, whole = true;
+    double sum = 0;
+    std::string first_path, terms;
+    std::array<bool, kSeatsMax> seen{};
+    AuthorityRow row;
+  };
+  std::vector<Sum> sums(scene.tools.size());
+  for (int i = 0; i < in.size(); ++i) {
+    const auto& entry = in[i];
+    const std::string here = child_path(path, "authority", i);
+    const auto tool = resolve(scene.tools, entry.tool(), "tool", child_path(here, "tool"), checker);
+    const auto seat = resolve(scene.seats, entry.seat(), "seat", child_path(here, "seat"), checker);
+    if (!tool) continue;
+    auto& sum = sums[*tool];
+    if (!sum.named) sum.first_path = child_path(here, "alpha");
+    sum.named = true;
+    sum.sum += entry.alpha();
+    sum.terms += (sum.terms.empty() ? "" : " + ") + entry.seat() + " " + number_text(entry.alpha());
+    if (!seat || *seat >= kSeatsMax || !entry.has_alpha()) {
+      sum.whole = false;  // told already; a wrong sum would only follow from it
+      continue;
+    }
+    const auto& who = scene.seats[*seat];
+    if (who.kind == SeatKind::kSlave) {
+      checker.error(child_path(here, "seat"), "is a SLAVE seat; only masters have authority");
+    } else if (entry.alpha() > 0 && !may_lead(who)) {
+      checker.error(
+          child_path(here, "alpha"),
+          "an " + std::string(who.role == Role::kEvaluator ? "EVALUATOR" : "OBSERVER") + " never has authority");
+    }
+    if (sum.seen[*seat])
+      checker.error(child_path(here, "seat"), "has a weight over this tool already, a few lines above");
+    sum.seen[*seat] = true;
+    sum.row.tool = *tool;
+    sum.row.alpha[*seat] = entry.alpha();
+  }
+  std::vector<AuthorityRow> rows;
+  for (std::size_t tool = 0; tool < sums.size(); ++tool) {
+    const auto& sum = sums[tool];
+    if (!sum.named) continue;
+    if (sum.whole && !(std::abs(sum.sum - 1) <= kSumTolerance)) {
+      checker.error(sum.first_path, "weights over tool " + quoted(scene.tools[tool].name) + " sum to " +
+                                        number_text(sum.sum) + " (" + sum.terms + "); they must sum to 1");
+    }
+    if (sum.whole) rows.push_back(sum.row);
+  }
+  return rows;
+}
+
+void read_tool(const pb::Tool& in, const std::string& path, Checker& checker, std::size_t dof, ToolSpec& out) {
+  out.name = in.name();
+  if (in.has_k_s_n_m()) out.k_s = in.k_s_n_m();
+  if (in.has_m_s_kg()) out.m_s = in.m_s_kg();
+  if (in.has_b_s_n_s_m()) out.b_s = in.b_s_n_s_m();
+  if (in.has_slave()) read_slave(in.slave(), dof, child_path(path, "slave"), checker, out.slave, out.environment);
+}
+
+/// Names head the columns of traces and stand on command lines: one thing, one name.
+void check_names(const pb::Scene& in, Checker& checker) {
+  std::vector<std::pair<std::string, std::string>> known;  // name, path
+  const auto add = [&](const std::string& name, const std::string& path) {
+    if (name.empty()) return;
+    const auto same = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == name; });
+    if (same != known.end())
+      checker.error(path, "this name is taken by " + same->second + "; seats and tools need names of their own");
+    known.emplace_back(name, path);
+  };
+  for (int i = 0; i < in.seat_size(); ++i) add(in.seat(i).name(), child_path(child_path("", "seat", i), "name"));
+  for (int i = 0; i < in.tool_size(); ++i) add(in.tool(i).name(), child_path(child_path("", "tool", i), "name"));
+}
+
+}  // namespace
+
+void read_seats_and_tools(const pb::Scene& in, Checker& checker, SceneSpec& out) {
+  if (in.seat_size() == 0) checker.error("seat", "a scene needs at least one seat");
+  if (in.tool_size() == 0) checker.error("tool", "a scene needs at least one tool");
+  check_names(in, checker);
+  for (int i = 0; i < in.tool_size(); ++i) {
+    read_tool(in.tool(i), child_path("", "tool", i), checker, out.dof, out.tools.emplace_back());
+  }
+  std::size_t masters = 0;
+  for (const auto kind : {pb::Seat::MASTER, pb::Seat::SLAVE}) {
+    for (int i = 0; i < in.seat_size(); ++i) {
+      if (in.seat(i).kind() != kind) continue;
+      const std::string path = child_path("", "seat", i);
+      if (kind == pb::Seat::MASTER && ++masters == kMastersMax + 1) {
+        checker.error(path, "at most " + std::to_string(kMastersMax) + " MASTER seats are allowed");
+      }
+      read_seat(in.seat(i), out.dof, path, checker, out.seats.emplace_back());
+    }
+  }
+  if (masters == 0 && in.seat_size() > 0) checker.error("seat", "a scene needs at least one MASTER seat");
+
+  std::vector<int> server(out.tools.size(), -1);  // file index of the SLAVE seat that serves a tool
+  for (int i = 0, slave = static_cast<int>(masters); i < in.seat_size(); ++i) {
+    if (in.seat(i).kind() != pb::Seat::SLAVE) continue;
+    const auto index = static_cast<std::size_t>(slave++);
+    const std::string path = child_path("", "seat", i);
+    if (!in.seat(i).has_tool()) {
+      checker.error(child_path(path, "tool"), "is missing: a SLAVE seat serves a tool");
+      continue;
+    }
+    const auto tool = resolve(out.tools, in.seat(i).tool(), "tool", child_path(path, "tool"), checker);
+    if (!tool) continue;
+    if (server[*tool] >= 0) {
+      checker.error(child_path(path, "tool"), "is served by " + child_path("", "seat", server[*tool]) + " already");
+    } else if (in.tool(static_cast<int>(*tool)).has_slave()) {
+      checker.error(child_path(path, "tool"), "has a slave of its own; take tool { slave { } } or this seat away");
+    }
+    server[*tool] = i;
+    out.seats[index].tool = *tool;
+    auto& spec = out.tools[*tool];
+    spec.remote = true;
+    spec.seat = index;
+    spec.slave = out.seats[index].device;
+    spec.environment = out.seats[index].environment;
+  }
+  for (std::size_t t = 0; t < out.tools.size(); ++t) {
+    const auto& tool = in.tool(static_cast<int>(t));
+    if (!tool.has_slave() && server[t] < 0) {
+      checker.error(
+          child_path("", "tool", static_cast<int>(t)),
+          "nothing serves this tool; add slave { } to it, or a seat { kind: SLAVE tool: " + quoted(tool.name()) + " }");
+    }
+  }
+}
+
+void read_authority(const pb::Scene& in, Checker& checker, SceneSpec& out) {
+  out.authority = read_rows(in.authority(), "", checker, out);
+  for (std::size_t t = 0; t < out.tools.size(); ++t) {
+    const bool named = std::any_of(in.authority().begin(), in.authority().end(),
+                                   [&](const auto& a) { return a.tool() == out.tools[t].name; });
+    if (!named && !out.tools[t].name.empty()) {
+      checker.error(
+          child_path("", "tool", static_cast<int>(t)),
+          "nobody has authority over it; add authority { tool: " + quoted(out.tools[t].name) + " seat: ... alpha: 1 }");
+    }
+  }
+  for (int i = 0; i < in.timeline_size(); ++i) {
+    const auto& step = in.timeline(i);
+    const std::string path = child_path("", "timeline", i);
+    if (step.authority_size() == 0) checker.error(path, "changes nothing; add authority { }");
+    if (i > 0 && !(step.at_s() > in.timeline(i - 1).at_s())) {
+      checker.error(child_path(path, "at_s"),
+                    "the timeline must ascend; before it comes " + number_text(in.timeline(i - 1).at_s()));
+    }
+    if (step.at_s() >= out.duration) {
+      checker.error(child_path(path, "at_s"), "must be before the end, duration_s = " + number_text(out.duration));
+    }
+    for (const auto& row : read_rows(step.authority(), path, checker, out)) out.timeline.push_back({step.at_s(), row});
+  }
+}
+
+void read_follow(const pb::Scene& in, Checker& checker, SceneSpec& out) {
+  const std::size_t seats = std::min(out.seats.size(), kSeatsMax);
+  const std::size_t tools = std::min(out.tools.size(), kToolsMax);
+  std::array<std::string, kSeatsMax> first_path;
+  std::array<bool, kSeatsMax> whole{};
+  whole.fill(true);
+  for (int i = 0; i < in.follow_size(); ++i) {
+    const auto& entry = in.follow(i);
+    const std::string path = child_path("", "follow", i);
+    const auto seat = resolve(out.seats, entry.seat(), "seat", child_path(path, "seat"), checker);
+    const auto tool = resolve(out.tools, entry.tool(), "tool", child_path(path, "tool"), checker);
+    if (!seat || *seat >= seats) continue;
+    if (out.seats[*seat].kind == SeatKind::kSlave)
+      checker.error(child_path(path, "seat"), "is a SLAVE seat; masters follow");
+    if (first_path[*seat].empty()) first_path[*seat] = child_path(path, "weight");
+    if (!tool || *tool >= tools || !entry.has_weight()) {
+      whole[*seat] = false;
+      continue;
+    }
+    out.follow[*seat][*tool] += entry.weight();
+  }
+  for (std::size_t s = 0; s < seats; ++s) {
+    if (out.seats[s].kind != SeatKind::kMaster) continue;
+    if (first_path[s].empty()) {
+      const auto has = [&](std::size_t tool) {
+        const auto over = [&](const AuthorityRow& row) { return row.tool == tool && row.alpha[s] > 0; };
+        return std::any_of(out.authority.begin(), out.authority.end(), over) ||
+               std::any_of(out.timeline.begin(), out.timeline.end(), [&](const auto& step) { return over(step.row); });
+      };
+      std::size_t tool = 0;
+      while (tool < tools && !has(tool)) ++tool;
+      out.follow[s][tool < tools ? tool : 0] = 1;
+      continue;
+    }
+    double sum = 0;
+    for (const double weight : out.follow[s]) sum += weight;
+    if (whole[s] && !(std::abs(sum - 1) <= kSumTolerance)) {
+      checker.error(first_path[s], "weights of seat " + quoted(out.seats[s].name) + " sum to " + number_text(sum) +
+                                       "; they must sum to 1");
+    }
+  }
+}
+
+void read_phases(const pb::Scene& in, Checker& checker, SceneSpec& out) {
+  for (int i = 0; i < in.phase_size(); ++i) {
+    const auto& phase = in.phase(i);
+    const std::string path = child_path("", "phase", i);
+    if (find(out.phases, phase.name())) checker.error(child_path(path, "name"), "another phase has this name");
+    if (phase.has_from_s() && phase.has_to_s() && !(phase.to_s() > phase.from_s())) {
+      checker.error(child_path(path, "to_s"), "must be after from_s = " + number_text(phase.from_s()));
+    }
+    if (phase.to_s() > out.duration) {
+      checker.error(child_path(path, "to_s"), "must not be after the end, duration_s = " + number_text(out.duration));
+    }
+    out.phases.push_back({phase.name(), phase.from_s(), phase.to_s(), phase.contact()});
+  }
+  // The first second after engage is nobody's fault.
+  if (out.phases.empty()) out.phases.push_back({"run", out.duration > 1 ? 1.0 : 0.0, out.duration, false});
+}
+
+void check_passivity(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
+  if (scene.unsafe_gains || !(scene.tick_hz > 0)) return;
+  const auto limit = [&](const SimDeviceSpec& device) { return 2 * device.damping * scene.tick_hz; };
+  const auto judge = [&](double k, const SimDeviceSpec& device, const std::string& whose, const std::string& path) {
+    if (k <= limit(device) * (1 + kSumTolerance)) return;
+    checker.error(
+        path,
+        "is above the passivity limit 2 b/T = " + number_text(limit(device)) + " N/m of " + whose + " (damping " +
+            number_text(device.damping) + " N s/m, tick " + number_text(scene.tick_hz) +
+            " Hz); lower it, raise tick_hz or the device's damping_n_s_m, or accept the risk with unsafe_gains: true",
+        number_text(k));
+  };
+  const SeatSpec* weakest = nullptr;  // one k_c for all: one message, about the device that allows least
+  for (const auto& seat : scene.seats) {
+    if (seat.kind != SeatKind::kMaster) continue;
+    if (weakest == nullptr || limit(seat.device) < limit(weakest->device)) weakest = &seat;
+  }
+  if (weakest != nullptr) {
+    judge(scene.coupling.k_c, weakest->device, "the device of seat " + quoted(weakest->name),
+          "device_coupling.k_c_n_m");
+  }
+  for (std::size_t t = 0; t < scene.tools.size() && t < static_cast<std::size_t>(in.tool_size()); ++t) {
+    const auto& tool = scene.tools[t];
+    judge(tool.k_s, tool.slave, "the slave of tool " + quoted(tool.name),
+          child_path(child_path("", "tool", static_cast<int>(t)), "k_s_n_m"));
+  }
+}
+
+}  // namespace tandem::rules

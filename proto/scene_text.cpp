@@ -1,0 +1,78 @@
+#include "proto/scene_text.h"
+
+#include <limits>
+
+#include "proto/scene_convert.h"
+#include "proto/scene_rules.h"
+#include "proto/seat_setup.h"
+#include "proto/text_format_reader.h"
+#include "proto/wire.h"
+
+namespace tandem {
+namespace {
+
+using text::Checker;
+using text::child_path;
+using text::number_text;
+
+/// `server/scenes/contact.textproto` -> `contact`
+std::string scene_name(std::string_view file_name) {
+  const auto slash = file_name.rfind('/');
+  if (slash != std::string_view::npos) file_name.remove_prefix(slash + 1);
+  return std::string(file_name.substr(0, file_name.find('.')));
+}
+
+void read_basics(const pb::Scene& in, Checker& checker, SceneSpec& out) {
+  if (in.has_tick_hz()) out.tick_hz = in.tick_hz();
+  if (in.has_dof()) out.dof = in.dof();
+  if (in.has_duration_s()) out.duration = in.duration_s();
+  out.port = static_cast<PortSpace>(in.port());
+  out.unsafe_gains = in.unsafe_gains();
+  out.commanded_force = in.judged_on() == pb::Scene::COMMANDED;
+  if (in.alpha_step() && in.has_alpha_slew_per_s()) {
+    checker.error("alpha_step", "excludes alpha_slew_per_s: authority either jumps or slews");
+  }
+  if (in.has_alpha_slew_per_s()) out.alpha_slew = in.alpha_slew_per_s();
+  if (in.alpha_step()) out.alpha_slew = std::numeric_limits<double>::infinity();
+}
+
+/// What BIND_ACK must carry has to fit one datagram.
+void check_setup_size(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
+  std::array<char, wire::kSetupMax> bytes;
+  for (std::size_t s = 0; s < scene.seats.size(); ++s) {
+    if (encode_seat_setup(seat_setup(scene, s), bytes) > 0) continue;
+    for (int i = 0; i < in.seat_size(); ++i) {
+      if (in.seat(i).name() != scene.seats[s].name) continue;
+      checker.error(child_path("", "seat", i),
+                    "does not fit the " + std::to_string(wire::kSetupMax) +
+                        " bytes a client is told at joining; use fewer waypoints or deviations");
+    }
+  }
+}
+
+}  // namespace
+
+std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::string_view file_name) {
+  pb::Scene in;
+  Checker checker(file_name);
+  if (!text::read_document(text, file_name, in, checker)) return std::unexpected(checker.take());
+
+  SceneSpec out;
+  out.name = scene_name(file_name);
+  read_basics(in, checker, out);
+  read_channel(in.channel(), "channel", checker, out.channel);
+  read_coupling(in.device_coupling(), out.coupling);
+  read_gate(in.gate(), out.gate);
+  settle_e0(in.channel(), "channel", checker, out.gate, out.channel);
+  check_gate(out.gate, out.tick_hz, "gate", checker);
+  rules::read_seats_and_tools(in, checker, out);
+  rules::read_authority(in, checker, out);
+  rules::read_follow(in, checker, out);
+  rules::read_phases(in, checker, out);
+  rules::check_passivity(in, checker, out);
+  if (checker.ok()) check_setup_size(in, checker, out);
+  if (!checker.ok()) return std::unexpected(checker.take());
+  return out;
+}
+
+}  // namespace tandem

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <expected>
+#include <string>
+#include <string_view>
+
+#include "proto/input_error.h"
+#include "proto/scene_spec.h"
+
+/// Scene files: Protocol Buffers text format against proto/scene.proto (JSON of the same schema if the name ends in
+/// .json).
+namespace tandem {
+
+using SceneError = InputError;
+
+/// Turns the text of a scene into numbers that cannot be wrong: every value finite and in range, every name resolved,
+/// every row of weights summing to 1, every spring that meets a sampled device within its passivity limit
+/// (k_c, k_s <= 2 b_device / T, control.md 3) unless the scene says `unsafe_gains`.
+/// @param text       whole file, at most 1 MiB
+/// @param file_name  used in messages; a name ending in `.json` selects JSON, where places are key paths only
+/// @return the scene (its `name` is the file's name without folder and ending), or every mistake found, in file order
+[[nodiscard]] std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::string_view file_name);
+
+/// Every value in force, defaults included, one per line: key, value and unit in three aligned columns. For `--check`.
+[[nodiscard]] std::string effective_scene_text(const SceneSpec& scene);
+
+}  // namespace tandem

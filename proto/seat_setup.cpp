@@ -1,0 +1,85 @@
+#include "proto/seat_setup.h"
+
+#include <google/protobuf/stubs/logging.h>
+
+#include "proto/scene_convert.h"
+
+namespace tandem {
+namespace {
+
+using text::Checker;
+
+void check_scale(const pb::SeatSetup& in, Checker& checker) {
+  if (static_cast<std::uint32_t>(in.axis_scale_size()) != in.dof()) {
+    checker.error("axis_scale", "must have one number per axis");
+  }
+}
+
+}  // namespace
+
+SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
+  SeatSetup setup;
+  setup.tick_hz = scene.tick_hz;
+  setup.dof = scene.dof;
+  setup.port = scene.port;
+  setup.duration = scene.duration;
+  setup.channel = scene.channel;
+  setup.coupling = scene.coupling;
+  setup.gate = scene.gate;
+  setup.seat = scene.seats[seat];
+  if (setup.seat.kind == SeatKind::kSlave && setup.seat.tool < scene.tools.size())
+    setup.k_s = scene.tools[setup.seat.tool].k_s;
+  return setup;
+}
+
+std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
+  pb::SeatSetup message;
+  message.set_tick_hz(setup.tick_hz);
+  message.set_dof(static_cast<std::uint32_t>(setup.dof));
+  message.set_port(static_cast<pb::Scene::Port>(setup.port));
+  message.set_duration_s(setup.duration);
+  write_channel(setup.channel, *message.mutable_channel());
+  write_coupling(setup.coupling, *message.mutable_device_coupling());
+  write_gate(setup.gate, *message.mutable_gate());
+  write_seat(setup.seat, *message.mutable_seat());
+  message.set_k_s_n_m(setup.k_s);
+  message.set_tool_index(static_cast<std::uint32_t>(setup.seat.tool));
+  for (std::size_t axis = 0; axis < setup.dof && axis < kAxesMax; ++axis)
+    message.add_axis_scale(setup.axis_scale[axis]);
+  const std::size_t size = message.ByteSizeLong();
+  if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
+  return size;
+}
+
+std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> bytes) {
+  pb::SeatSetup in;
+  Checker checker("seat setup");
+  const google::protobuf::LogSilencer silence;  // bytes from the network must not fill a terminal
+  // Unknown fields inside are skipped: a newer server may say more than this client can use.
+  if (bytes.size() > wire::kSetupMax || !in.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+    checker.error_at({}, "", "is not a seat setup");
+    return std::unexpected(checker.take());
+  }
+  checker.check_limits(in);
+  check_scale(in, checker);
+  SeatSetup out;
+  if (checker.ok()) {  // from here on the numbers are in range, only contradictions can be left
+    out.tick_hz = in.tick_hz();
+    out.dof = in.dof();
+    out.port = static_cast<PortSpace>(in.port());
+    out.duration = in.duration_s();
+    read_channel(in.channel(), "channel", checker, out.channel);
+    read_coupling(in.device_coupling(), out.coupling);
+    read_gate(in.gate(), out.gate);
+    settle_e0(in.channel(), "channel", checker, out.gate, out.channel);
+    check_gate(out.gate, out.tick_hz, "gate", checker);
+    read_seat(in.seat(), out.dof, "seat", checker, out.seat);
+    out.seat.tool = in.tool_index();
+    out.k_s = in.k_s_n_m();
+    for (std::size_t axis = 0; axis < out.dof; ++axis) out.axis_scale[axis] = in.axis_scale(static_cast<int>(axis));
+  }
+  if (!checker.ok()) return std::unexpected(checker.take());
+  return out;
+}
+
+}  // namespace tandem

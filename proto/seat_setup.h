@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <expected>
+#include <span>
+#include <string>
+
+#include "common/base/axes.h"
+#include "proto/input_error.h"
+#include "proto/scene_spec.h"
+#include "proto/wire.h"
+
+namespace tandem {
+
+/// What the server tells a client about the seat it was given (in BIND_ACK): all a seat core needs, no more.
+struct SeatSetup {
+  double tick_hz = 1000;  ///< 100 ... 10000 [Hz]
+  std::size_t dof = 3;    ///< 1 ... 3
+  PortSpace port = PortSpace::kTip;
+  double duration = 18;   ///< [s]
+  ChannelSpec channel;    ///< tip gains
+  CouplingSpec coupling;  ///< masters
+  double k_s = 400;       ///< SLAVE seats: tool - slave spring at the tip [N/m]
+  GateSpec gate;
+  SeatSpec seat;
+  std::array<double, kAxesMax> axis_scale{1, 1, 1, 1,
+                                          1, 1, 1};  ///< tip gain -> port gain, per axis: diag(J^T J), 1 at a TIP port
+};
+
+/// The part of a scene that belongs to one seat; axis_scale is left at 1. @pre seat < scene.seats.size()
+[[nodiscard]] SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat);
+
+/// Writes `setup` as the protobuf message tandem.pb.SeatSetup.
+/// @return bytes written, at most wire::kSetupMax; 0 if it does not fit into `out` (a validated scene always fits
+/// kSetupMax)
+[[nodiscard]] std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out);
+
+/// Reads what encode_seat_setup wrote. Any bytes are safe: the same ranges and rules as for scene files are checked.
+/// @return the setup, or every mistake, by key path
+[[nodiscard]] std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> bytes);
+
+}  // namespace tandem

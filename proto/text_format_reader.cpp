@@ -1,0 +1,358 @@
+#include "proto/text_format_reader.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/message.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "proto/nearest.h"
+
+namespace tandem::text {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::EnumDescriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+using google::protobuf::io::Tokenizer;
+
+class TokenErrors : public google::protobuf::io::ErrorCollector {
+ public:
+  explicit TokenErrors(Checker& checker) : checker_(checker) {}
+  void AddError(int line, int column, const std::string& message) override {
+    checker_.error_at({line + 1, column + 1, ""}, "", message);
+  }
+
+ private:
+  Checker& checker_;
+};
+
+std::vector<std::string> field_names(const Descriptor& d) {
+  std::vector<std::string> names;
+  for (int i = 0; i < d.field_count(); ++i) names.push_back(d.field(i)->name());
+  return names;
+}
+std::vector<std::string> value_names(const EnumDescriptor& d) {
+  std::vector<std::string> names;
+  for (int i = 0; i < d.value_count(); ++i) names.push_back(d.value(i)->name());
+  return names;
+}
+
+class Reader {
+ public:
+  Reader(std::string_view text, Checker& checker)
+      : checker_(checker),
+        token_errors_(checker),
+        stream_(text.data(), static_cast<int>(text.size())),
+        tokens_(&stream_, &token_errors_) {
+    tokens_.set_comment_style(Tokenizer::SH_COMMENT_STYLE);
+    tokens_.set_allow_multiline_strings(false);
+    tokens_.set_require_space_after_number(false);
+    tokens_.Next();
+  }
+
+  void file(Message& message) {
+    fields(message, "");
+    while (!at_end()) {  // only a closing bracket stops `fields` early
+      mistake("", "closes nothing");
+      tokens_.Next();
+      fields(message, "");
+    }
+  }
+
+ private:
+  [[nodiscard]] bool at_end() { return tokens_.current().type == Tokenizer::TYPE_END; }
+  [[nodiscard]] bool at(std::string_view symbol) {
+    return tokens_.current().type == Tokenizer::TYPE_SYMBOL && tokens_.current().text == symbol;
+  }
+  bool take(std::string_view symbol) {
+    if (!at(symbol)) return false;
+    tokens_.Next();
+    return true;
+  }
+  [[nodiscard]] Place here() {
+    const auto& t = tokens_.current();
+    return {t.line + 1, t.column + 1, t.text};
+  }
+  void mistake(std::string_view path, std::string message) {
+    Place place = here();
+    if (path.empty() && !place.value.empty()) {  // no key to name: quote what stands there
+      message = "\"" + place.value.substr(0, 40) + "\" " + message;
+    }
+    checker_.error_at(place, path, std::move(message));
+  }
+
+  /// Fields up to a closing bracket (not taken) or the end.
+  void fields(Message& message, const std::string& path) {
+    std::map<const FieldDescriptor*, int> seen;
+    while (!at_end() && !at("}") && !at(">")) {
+      if (tokens_.current().type != Tokenizer::TYPE_IDENTIFIER) {
+        mistake("", at("[") ? "is not a key: extensions are not used here" : "is not a key");
+        skip_to_next_line();
+        continue;
+      }
+      const Place key_place = here();
+      const std::string key = tokens_.current().text;
+      tokens_.Next();
+      const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(key);
+      if (field == nullptr) {
+        Place place = key_place;
+        place.value.clear();
+        checker_.error_at(place, child_path(path, key),
+                          "unknown key; " + suggest(key, field_names(*message.GetDescriptor())));
+        skip_value();
+      } else {
+        one_field(message, *field, path, key_place, seen[field]);
+      }
+      if (!take(",")) take(";");
+    }
+  }
+
+  void one_field(Message& message, const FieldDescriptor& field, const std::string& path, const Place& key_place,
+                 int& count) {
+    const std::string key = child_path(path, field.name(), field.is_repeated() ? count : -1);
+    const bool is_message = field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+    if (!field.is_repeated() && count > 0) {
+      Place place = key_place;
+      place.value.clear();
+      checker_.error_at(place, key, "is written twice, first in line " + std::to_string(checker_.place(key).line));
+      skip_value();
+      return;
+    }
+    const bool colon = take(":");
+    if (is_message) {
+      ++count;
+      Place place = key_place;
+      place.value.clear();
+      checker_.note(key, place);
+      sub_message(message, field, key, key_place);
+    } else if (!colon) {
+      ++count;
+      checker_.note(key, key_place);
+      checker_.error_at({key_place.line, key_place.column, ""}, key, "needs a colon before its value");
+      take("-");
+      const bool value_follows =
+          tokens_.current().line + 1 == key_place.line && tokens_.current().type != Tokenizer::TYPE_SYMBOL;
+      value_follows && !at_end() ? void(tokens_.Next()) : skip_value();
+    } else if (field.is_repeated() && take("[")) {
+      while (!at_end() && !at("]")) {
+        scalar(message, field, child_path(path, field.name(), count++), key_place);
+        if (!take(",")) break;
+      }
+      if (!take("]")) mistake(key, "] is missing");
+    } else {
+      ++count;
+      scalar(message, field, key, key_place);
+    }
+  }
+
+  void sub_message(Message& message, const FieldDescriptor& field, const std::string& key, const Place& key_place) {
+    const std::string_view close = at("<") ? ">" : "}";
+    if (!take("{") && !take("<")) {
+      mistake(key, "needs { ... }");
+      skip_value();
+      return;
+    }
+    const Reflection& r = *message.GetReflection();
+    fields(field.is_repeated() ? *r.AddMessage(&message, &field) : *r.MutableMessage(&message, &field), key);
+    if (at_end()) {
+      checker_.error_at({key_place.line, key_place.column, ""}, key, "is never closed: } is missing");
+    } else if (!take(close)) {
+      mistake(key, "must be closed with " + std::string(close));
+      tokens_.Next();
+    }
+  }
+
+  /// One scalar. Notes its place also when it cannot be read, so that it is not called missing as well.
+  void scalar(Message& message, const FieldDescriptor& field, const std::string& key, Place key_place) {
+    key_place.value.clear();
+    const Place place = here();
+    const bool negative = take("-");
+    const auto type = tokens_.current().type;
+    if (at_end() || (type == Tokenizer::TYPE_SYMBOL)) {
+      checker_.note(key, key_place);
+      checker_.error_at(key_place, key, "has no value");
+      if (!at("}") && !at(">") && !at_end()) skip_value();
+      return;
+    }
+    Place whole = place;
+    if (negative) whole.value += tokens_.current().text;
+    checker_.note(key, whole);
+    const std::string text = tokens_.current().text;
+    const bool on_later_line = tokens_.previous().line < tokens_.current().line;
+    if (const auto wrong = store(message, field, text, type, negative)) {
+      if (type == Tokenizer::TYPE_IDENTIFIER && on_later_line) {  // rather the next key
+        checker_.note(key, key_place);
+        checker_.error_at(key_place, key, "has no value");
+        return;
+      }
+      checker_.error_at(whole, key, *wrong);
+    }
+    const int line = tokens_.current().line;
+    tokens_.Next();
+    // Adjacent strings would be joined by TextFormat; here a second value is a mistake.
+    const auto next = tokens_.current().type;
+    if (tokens_.current().line == line &&
+        (next == Tokenizer::TYPE_STRING || next == Tokenizer::TYPE_INTEGER || next == Tokenizer::TYPE_FLOAT)) {
+      mistake(key, "one value only");
+      tokens_.Next();
+    }
+  }
+
+  /// @return what is wrong, or nothing
+  std::optional<std::string> store(Message& m, const FieldDescriptor& f, const std::string& text,
+                                   Tokenizer::TokenType type, bool negative) {
+    const Reflection& r = *m.GetReflection();
+    const bool numeric = type == Tokenizer::TYPE_INTEGER || type == Tokenizer::TYPE_FLOAT;
+    switch (f.cpp_type()) {
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+      case FieldDescriptor::CPPTYPE_FLOAT: {
+        double value = 0;
+        if (!numeric) {
+          if (text == "nan" || text == "inf" || text == "infinity" || text == "NaN") return "must be a finite number";
+          return "must be a number";
+        }
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc::result_out_of_range) return "is beyond double precision; must be a finite number";
+        if (error != std::errc{} || end != text.data() + text.size()) return "must be a decimal number";
+        if (negative) value = -value;
+        if (f.cpp_type() == FieldDescriptor::CPPTYPE_FLOAT) {
+          const auto single = static_cast<float>(value);
+          f.is_repeated() ? r.AddFloat(&m, &f, single) : r.SetFloat(&m, &f, single);
+        } else {
+          f.is_repeated() ? r.AddDouble(&m, &f, value) : r.SetDouble(&m, &f, value);
+        }
+        return {};
+      }
+      case FieldDescriptor::CPPTYPE_UINT32:
+      case FieldDescriptor::CPPTYPE_UINT64:
+      case FieldDescriptor::CPPTYPE_INT32:
+      case FieldDescriptor::CPPTYPE_INT64:
+        return integer(m, f, text, type, negative);
+      case FieldDescriptor::CPPTYPE_BOOL:
+        if (negative || type != Tokenizer::TYPE_IDENTIFIER || (text != "true" && text != "false"))
+          return "must be true or false";
+        f.is_repeated() ? r.AddBool(&m, &f, text == "true") : r.SetBool(&m, &f, text == "true");
+        return {};
+      case FieldDescriptor::CPPTYPE_ENUM: {
+        const auto* value = type == Tokenizer::TYPE_IDENTIFIER ? f.enum_type()->FindValueByName(text) : nullptr;
+        if (value == nullptr || negative) return "unknown; " + suggest(text, value_names(*f.enum_type()));
+        f.is_repeated() ? r.AddEnum(&m, &f, value) : r.SetEnum(&m, &f, value);
+        return {};
+      }
+      case FieldDescriptor::CPPTYPE_STRING: {
+        if (negative || type != Tokenizer::TYPE_STRING) return "must be a text in double quotes";
+        std::string value;
+        Tokenizer::ParseString(text, &value);
+        f.is_repeated() ? r.AddString(&m, &f, value) : r.SetString(&m, &f, value);
+        return {};
+      }
+      case FieldDescriptor::CPPTYPE_MESSAGE:
+        break;
+    }
+    return "cannot be written here";
+  }
+
+  static std::optional<std::string> integer(Message& m, const FieldDescriptor& f, const std::string& text,
+                                            Tokenizer::TokenType type, bool negative) {
+    const Reflection& r = *m.GetReflection();
+    const bool is_unsigned =
+        f.cpp_type() == FieldDescriptor::CPPTYPE_UINT32 || f.cpp_type() == FieldDescriptor::CPPTYPE_UINT64;
+    const bool narrow =
+        f.cpp_type() == FieldDescriptor::CPPTYPE_UINT32 || f.cpp_type() == FieldDescriptor::CPPTYPE_INT32;
+    std::uint64_t max = narrow ? 0xffffffffU : ~std::uint64_t{0};
+    if (!is_unsigned) max /= 2;
+    std::uint64_t value = 0;
+    if (type != Tokenizer::TYPE_INTEGER || (negative && is_unsigned)) {
+      return is_unsigned ? "must be a whole number from 0" : "must be a whole number";
+    }
+    if (!Tokenizer::ParseInteger(text, max, &value)) return "must be a whole number of at most " + std::to_string(max);
+    const auto signed_value = negative ? -static_cast<std::int64_t>(value) : static_cast<std::int64_t>(value);
+    switch (f.cpp_type()) {
+      case FieldDescriptor::CPPTYPE_UINT32:
+        f.is_repeated() ? r.AddUInt32(&m, &f, static_cast<std::uint32_t>(value))
+                        : r.SetUInt32(&m, &f, static_cast<std::uint32_t>(value));
+        break;
+      case FieldDescriptor::CPPTYPE_UINT64:
+        f.is_repeated() ? r.AddUInt64(&m, &f, value) : r.SetUInt64(&m, &f, value);
+        break;
+      case FieldDescriptor::CPPTYPE_INT32:
+        f.is_repeated() ? r.AddInt32(&m, &f, static_cast<std::int32_t>(signed_value))
+                        : r.SetInt32(&m, &f, static_cast<std::int32_t>(signed_value));
+        break;
+      default:
+        f.is_repeated() ? r.AddInt64(&m, &f, signed_value) : r.SetInt64(&m, &f, signed_value);
+    }
+    return {};
+  }
+
+  /// Skips `: value`, `{ ... }`, `: [ ... ]` of a key that is not used.
+  void skip_value() {
+    if (!take(":") && !at("{") && !at("<")) return;
+    take("-");
+    int depth = 0;
+    while (!at_end()) {
+      if (at("{") || at("<") || at("[")) {
+        ++depth;
+      } else if (at("}") || at(">") || at("]")) {
+        if (depth == 0) return;  // belongs to the message around
+        --depth;
+      }
+      tokens_.Next();
+      if (depth == 0) return;
+    }
+  }
+  void skip_to_next_line() {
+    const int line = tokens_.current().line;
+    while (!at_end() && tokens_.current().line == line && !at("}") && !at(">")) tokens_.Next();
+  }
+
+  Checker& checker_;
+  TokenErrors token_errors_;
+  google::protobuf::io::ArrayInputStream stream_;
+  Tokenizer tokens_;
+};
+
+}  // namespace
+
+void read_text_format(std::string_view text, Message& message, Checker& checker) {
+  Reader(text, checker).file(message);
+}
+
+void read_json(std::string_view text, Message& message, Checker& checker) {
+  google::protobuf::util::JsonParseOptions options;
+  options.ignore_unknown_fields = false;
+  const auto status = google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message, options);
+  if (!status.ok()) checker.error_at({}, "", "JSON: " + std::string(status.message()));
+}
+
+bool read_document(std::string_view text, std::string_view file_name, Message& message, Checker& checker) {
+  if (text.size() > kTextMax) {
+    checker.error_at({}, "", "is longer than " + std::to_string(kTextMax) + " bytes");
+    return false;
+  }
+  if (file_name.ends_with(".json")) {
+    read_json(text, message, checker);
+    if (!checker.ok()) return false;  // the parser stopped there: what follows would be called missing
+  } else {
+    read_text_format(text, message, checker);
+  }
+  std::vector<const FieldDescriptor*> set;
+  message.GetReflection()->ListFields(message, &set);
+  if (set.empty()) {
+    if (checker.ok()) checker.error_at({1, 1, ""}, "", "the file says nothing: no key is set");
+    return false;
+  }
+  checker.check_limits(message);
+  return true;
+}
+
+}  // namespace tandem::text

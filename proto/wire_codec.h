@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <memory>
+#include <span>
+
+#include "common/base/axes.h"
+#include "proto/scene_spec.h"
+#include "proto/wire.h"
+
+/// Plaintext of a datagram: Preamble (16 bytes, little-endian), then one protobuf message of proto/wire.proto.
+namespace tandem::wire {
+
+/// Header and tag around a plaintext (reliability-security 1.4).
+inline constexpr std::size_t kDatagramMax = 1200;
+inline constexpr std::size_t kDatagramOverhead = 32;
+inline constexpr std::size_t kPlaintextMax = kDatagramMax - kDatagramOverhead;
+inline constexpr std::size_t kPreambleSize = 16;
+
+namespace detail {
+/// Bytes of the fields of a message whose tags are one byte (numbers 1-15) or two.
+constexpr std::size_t packed(std::size_t count, std::size_t each) { return 2 + count * each; }
+constexpr std::size_t scalar(std::size_t count, std::size_t tag, std::size_t each) { return count * (tag + each); }
+}  // namespace detail
+
+/// Exact plaintext sizes [bytes]; a plaintext of another size is refused before it is parsed.
+constexpr std::size_t state_size(std::size_t axes) {
+  return kPreambleSize + 3 * detail::packed(axes, 8)           // x v f
+         + detail::packed(axes, 8)                             // e_in
+         + detail::packed(axes, 4)                             // q
+         + 3 * detail::packed(3, 4)                            // tip x f_cmd f_out
+         + detail::packed(axes, 8)                             // e_out
+         + detail::scalar(4, 1, 4)                             // energies
+         + detail::scalar(2, 1, 4) + detail::scalar(3, 2, 4);  // gate, flags; counts
+}
+constexpr std::size_t force_size(std::size_t axes) {
+  return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8);
+}
+inline constexpr std::size_t kBindSize = kPreambleSize + detail::packed(kSeatNameMax, 1) + detail::scalar(1, 1, 8) +
+                                         detail::scalar(4, 1, 4) + detail::scalar(3, 1, 8);
+inline constexpr std::size_t kBindAckMax =  // a reason or a setup, never both; lengths above 127 take two bytes
+    kPreambleSize + detail::scalar(1, 1, 8) + detail::scalar(2, 1, 4) + 3 + kSetupMax;
+inline constexpr std::size_t kAuthoritySize = kPreambleSize + detail::scalar(3, 1, 4) + 3 + kMastersMax * 8;
+inline constexpr std::size_t kCloseSize = kPreambleSize + detail::scalar(1, 1, 4);
+inline constexpr std::size_t kPingSize = kPreambleSize;
+
+static_assert(state_size(3) <= 400 && state_size(kAxesMax) + kDatagramOverhead <= kDatagramMax);
+static_assert(force_size(kAxesMax) + kDatagramOverhead <= kDatagramMax);
+static_assert(kBindAckMax <= kPlaintextMax);
+
+/// Why bytes were refused. One counter each at the receiver; never an exception, never a log line.
+enum class DecodeError : std::uint8_t {
+  kSize,        ///< not the exact size of (type, axes), or more than the maximum
+  kMalformed,   ///< not the encoding of this message: wrong, unknown, repeated or missing fields
+  kNotFinite,   ///< a NaN or infinity
+  kOutOfRange,  ///< a magnitude, count or enumerator that cannot be meant
+};
+
+/// Largest magnitudes a port sample or telemetry may carry.
+inline constexpr double kPositionMaxM = 10, kPositionMaxRad = 100, kVelocityMax = 100, kEffortMax = 1e4;
+/// Largest cumulative energy [nJ]: 2^62 nJ are 4.6 GJ, so sums of two never wrap.
+inline constexpr std::uint64_t kEnergyMax = std::uint64_t{1} << 62;
+
+template <class Message>
+struct Received {
+  Preamble preamble;
+  Message message;
+};
+template <class Message>
+using Decoded = std::expected<Received<Message>, DecodeError>;
+
+struct PingMessage {};
+
+/// Encodes and decodes everything in proto/wire.h. One codec per link and thread: it reuses its message objects, so
+/// that nothing allocates after construction, whatever bytes arrive (BIND_ACK excepted: it is not decoded below a
+/// tick). Decoding is total: any bytes give a message with finite numbers in range, or an error.
+class Codec {
+ public:
+  /// @param axes  axes of the port, 1 ... kAxesMax; used by STATE and FORCE only
+  /// @param port  decides the range of positions: metres or radians
+  explicit Codec(std::size_t axes = kAxesMax, PortSpace port = PortSpace::kJoint);
+  ~Codec();
+  Codec(Codec&&) noexcept;
+  Codec& operator=(Codec&&) noexcept;
+
+  /// Changes axes and port, as a client does when BIND_ACK tells it the scene's. No heap. @pre 1 <= axes <= kAxesMax
+  void configure(std::size_t axes, PortSpace port) noexcept;
+  [[nodiscard]] std::size_t axes() const noexcept;
+
+  /// Each writes preamble and body to the front of `out`. @return bytes written; 0 if `out` is too small or the message
+  /// has a length beyond its array. Numbers are written as they are: judging them is the receiver's duty.
+  /// Unused axes are not sent. AUTHORITY carries kMastersMax weights, those from `masters` on as 0.
+  [[nodiscard]] std::size_t encode(const Preamble&, const StateMessage&,
+                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const ForceMessage&,
+                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const BindMessage&, std::span<std::byte> out) noexcept;
+  /// `reason` travels only when refused, `setup` only when accepted.
+  [[nodiscard]] std::size_t encode(const Preamble&, const BindAckMessage&, std::span<std::byte> out) noexcept;
+  [[nodiscard]] std::size_t encode(const Preamble&, const AuthorityMessage&,
+                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const CloseMessage&,
+                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const PingMessage&,
+                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
+
+  [[nodiscard]] Decoded<StateMessage> decode_state(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
+  [[nodiscard]] Decoded<ForceMessage> decode_force(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
+  [[nodiscard]] Decoded<BindMessage> decode_bind(std::span<const std::byte> plaintext) noexcept;
+  [[nodiscard]] Decoded<BindAckMessage> decode_bind_ack(std::span<const std::byte> plaintext) noexcept;
+  /// Weights are in [0, 1] and sum to 1 within 1e-9.
+  [[nodiscard]] Decoded<AuthorityMessage> decode_authority(std::span<const std::byte> plaintext) noexcept
+      TANDEM_REALTIME;
+  [[nodiscard]] Decoded<CloseMessage> decode_close(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
+  [[nodiscard]] Decoded<PingMessage> decode_ping(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
+
+ private:
+  struct Messages;  // the reused protobuf objects; generated headers never leave proto
+  std::unique_ptr<Messages> messages_;
+};
+
+}  // namespace tandem::wire

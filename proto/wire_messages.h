@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+
+#include "proto/wire.pb.h"
+#include "proto/wire_codec.h"
+#include "proto/wire_skeleton.h"
+
+namespace tandem::wire {
+
+/// Private to proto/wire_codec.cpp: the protobuf objects a codec reuses, with room for anything a datagram can hold,
+/// and the skeletons of those with a fixed layout.
+struct Codec::Messages {
+  std::size_t axes = 0;
+  double position_max = 0;  ///< of a port sample [m] or [rad]
+  pb::State state;
+  pb::Force force;
+  pb::Bind bind;
+  pb::BindAck bind_ack;
+  pb::AuthorityChange authority;
+  pb::Close close;
+  Skeleton<state_size(kAxesMax) - kPreambleSize> state_skeleton;
+  Skeleton<force_size(kAxesMax) - kPreambleSize> force_skeleton;
+  Skeleton<kBindSize - kPreambleSize> bind_skeleton;
+  Skeleton<kAuthoritySize - kPreambleSize> authority_skeleton;
+  Skeleton<kCloseSize - kPreambleSize> close_skeleton;
+
+  Messages();
+  /// Learns the layout of STATE and FORCE for that many axes. No heap.
+  void configure(std::size_t axes_now, double position_max_now) noexcept;
+};
+
+}  // namespace tandem::wire

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/base/time.h"
+#include "proto/scene_spec.h"
+#include "proto/wire_codec.h"
+#include "common/control/hub.h"
+#include "server/lobby.h"
+#include "server/seat_port.h"
+#include "server/tick_record.h"
+#include "server/tool.h"
+
+namespace tandem::server {
+
+/// People sharing tools: lobby, authority, tools and springs, once per tick. Sans-I/O: it sees time and bytes; the same core runs
+/// over UDP and in virtual time. Order within a tick: authority, references of all seats, tools, send (control.md 4).
+class Session {
+ public:
+  /// @param slaves  one per tool, null for tools whose slave is a seat of its own.
+  /// @param scale   tip gain to port gain at the working pose, per axis.
+  /// @param secret  seeds the connection ids; unpredictable when live, the seed in virtual time.
+  Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale,
+          std::uint64_t secret);
+
+  void on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept;
+  /// @param missed  ticks whose time passed without a call; they are lived through now, silently, up to a bound.
+  void on_tick(Time now, std::uint32_t missed) noexcept TANDEM_REALTIME;
+
+  struct Transmit {
+    Endpoint to;
+    std::size_t size = 0;
+  };
+  /// Writes the next datagram into `buffer`; nullopt when nothing is due.
+  [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::span<std::byte> buffer) noexcept;
+
+  /// Ends the session: all gates ramp out for `kFarewell`, then every client is told.
+  void stop(wire::CloseReason why) noexcept;
+  [[nodiscard]] bool over() const noexcept { return over_; }
+
+  [[nodiscard]] wire::SessionState state() const noexcept { return state_; }
+  [[nodiscard]] double time() const noexcept { return session_tick_ * dt_; }      ///< since all required seats engaged [s]
+  [[nodiscard]] std::uint32_t session_tick() const noexcept { return session_tick_; }
+  [[nodiscard]] const TickRecord& record() const noexcept { return record_; }
+  [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
+  [[nodiscard]] const SeatPort& seat(std::size_t i) const noexcept { return seats_[i]; }
+  [[nodiscard]] const Tool& tool(std::size_t j) const noexcept { return tools_[j]; }
+  [[nodiscard]] std::vector<std::size_t> missing(Time now) const;                 ///< required seats that are not ready
+  [[nodiscard]] std::uint64_t stray() const noexcept { return stray_; }           ///< datagrams for no connection
+  [[nodiscard]] std::uint64_t slipped() const noexcept { return slipped_; }       ///< ticks given up after a long stall
+  [[nodiscard]] std::uint32_t authority_version() const noexcept { return authority_version_; }
+
+ private:
+  void request_authority(const AuthorityRow& row) noexcept;
+  [[nodiscard]] bool slave_present(std::size_t tool) const noexcept;
+  void live_one_tick(Time now) noexcept TANDEM_REALTIME;
+  void change_state(Time now) noexcept;
+  void follow_timeline() noexcept;
+  void share_authority(Time now) noexcept TANDEM_REALTIME;
+  void move_references(Time now) noexcept TANDEM_REALTIME;
+  void step_offset(std::size_t seat, bool engaged) noexcept TANDEM_REALTIME;
+  void credit_seat(std::size_t seat, std::size_t axis) noexcept TANDEM_REALTIME;
+  void step_tools(Time now) noexcept TANDEM_REALTIME;
+  void step_following() noexcept TANDEM_REALTIME;
+  void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
+  void fill_record() noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
+  [[nodiscard]] double share(std::size_t tool, std::size_t seat) const noexcept;
+
+  const SceneSpec* scene_;
+  double dt_;
+  Duration tick_length_;
+  std::uint64_t secret_;
+  AxisArray scale_;
+  std::vector<SeatPort> seats_;
+  std::vector<Tool> tools_;
+  std::size_t masters_;
+  Lobby lobby_;
+
+  wire::SessionState state_ = wire::SessionState::kWaiting;
+  bool engage_ = false;                  ///< all required seats were ready: springs may be loaded
+  std::uint32_t session_tick_ = 0, tick_ = 0;
+  Time started_{};
+  bool ticked_ = false, elapsed_any_ = false, over_ = false;
+  wire::CloseReason close_reason_ = wire::CloseReason::kDone;
+  std::uint32_t farewell_ = 0;           ///< ticks left in ENDING
+  std::size_t next_event_ = 0;           ///< of the timeline
+  std::uint32_t authority_version_ = 1;
+  std::array<AxisArray, kSeatsMax> absolute_{};     ///< y_i: where each seat's tool is
+  std::array<AxisArray, kSeatsMax> offset_{};       ///< hand minus tool, on its way to 0
+  std::array<AxisArray, kSeatsMax> offset_step_{};  ///< during this tick
+  std::array<AxisArray, kSeatsMax> following_{};    ///< y_i plus offset: what each seat follows
+  std::array<AxisArray, kSeatsMax> following_v_{};
+  std::array<AxisArray, kSeatsMax> reference_before_{};
+  std::array<bool, kSeatsMax> present_{};
+  TickRecord record_{};
+
+  std::array<bool, kSeatsMax> send_due_{};
+  std::uint64_t stray_ = 0, slipped_ = 0;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "common/control/authority.h"
+#include "common/control/flow_sources.h"
+#include "common/control/ipc.h"
+#include "hal/device.h"
+#include "hal/port_map.h"
+#include "proto/scene_spec.h"
+
+namespace tandem::server {
+
+/// One shared tool: its virtual mass, who has authority over it, what its flow sources give, and the slave that touches the task.
+/// The slave is stepped here (a simulated device) or is a seat of its own, then `slave` is null and the spring comes from outside.
+class Tool {
+ public:
+  Tool(const SceneSpec& scene, std::size_t index, std::unique_ptr<hal::SteppedDevice> slave);
+
+  /// Puts the virtual mass where the slave is, at rest.
+  void rest_at(const AxisArray& x) noexcept;
+  /// Pull of everything that hangs on the tool, per axis; the caller adds the seats' springs.
+  [[nodiscard]] std::array<control::ToolIpc::Pull, kAxesMax> slave_pull() const noexcept TANDEM_REALTIME;
+  /// Steps the virtual mass, then commands the slave. @param damping  beside the tool's own. @param braked  HELD: nobody entitled is left.
+  void step(Time now, double dt, const std::array<control::ToolIpc::Pull, kAxesMax>& pull, const AxisArray& damping,
+            bool braked) noexcept TANDEM_REALTIME;
+  /// Lets the local slave live through the tick with its command held.
+  void advance_slave(Duration dt) noexcept TANDEM_REALTIME;
+
+  [[nodiscard]] const ToolSpec& spec() const noexcept { return *spec_; }
+  [[nodiscard]] AxisArray position() const noexcept;
+  [[nodiscard]] AxisArray velocity() const noexcept;
+  [[nodiscard]] double x(std::size_t axis) const noexcept { return ipc_[axis].x; }
+  [[nodiscard]] const AxisArray& moved() const noexcept { return moved_; }          ///< during the last step
+  [[nodiscard]] const AxisArray& dissipated() const noexcept { return dissipated_; }  ///< during the last step [J]
+  [[nodiscard]] const hal::SteppedDevice* slave() const noexcept { return slave_.get(); }
+  [[nodiscard]] const AxisArray& slave_effort() const noexcept { return slave_effort_; }  ///< commanded, port axes
+  [[nodiscard]] hal::Vec3 slave_force_commanded() const noexcept;                         ///< at the tip [N]
+  [[nodiscard]] std::uint64_t not_finite() const noexcept { return not_finite_; }
+
+  control::AuthorityRow authority;
+  control::FlowSources sources;
+
+ private:
+  const ToolSpec* spec_;
+  std::size_t dof_;
+  hal::PortMap map_;
+  AxisArray scale_{1, 1, 1, 1, 1, 1, 1};
+  std::unique_ptr<hal::SteppedDevice> slave_;
+  std::array<control::ToolIpc, kAxesMax> ipc_{};
+  AxisArray moved_{}, dissipated_{}, slave_effort_{};
+  hal::Command command_{};
+  std::uint64_t not_finite_ = 0;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,98 @@
+# shellcheck shell=bash
+# What Tandem needs from Debian, and one function that sees to it. Sourced by ./test and ./demo.
+
+# "package: what it is needed for". All of them are in Debian 12.
+# shellcheck disable=SC2034  # used by those who source this
+TANDEM_PACKAGES=(
+  "g++: compiles C++23"
+  "cmake: configures the build"
+  "ninja-build: runs the build"
+  "ccache: makes the second build fast"
+  "pkg-config: lets CMake find installed libraries"
+  "libeigen3-dev: vectors and matrices of the control laws"
+  "libasio-dev: UDP sockets and timers"
+  "libprotobuf-dev: encodes datagrams, reads scenes"
+  "protobuf-compiler: turns proto/*.proto into C++"
+  "libspdlog-dev: log lines for people"
+  "libcli11-dev: command lines and --help"
+  "nlohmann-json3-dev: writes the JSON reports"
+  "libssl-dev: seals datagrams, SHA-256 of traces"
+  "libgtest-dev: unit and simulation tests"
+  "libgmock-dev: matchers of the tests"
+  "libbenchmark-dev: measures the tick path"
+)
+
+packages_say() { printf '%s\n' "$@" >&2; }
+
+# packages_missing "name: reason" ...: prints those entries whose package is not installed.
+packages_missing() {
+  local entry
+  for entry in "$@"; do
+    if [[ "$(dpkg-query -W -f '${db:Status-Status}' "${entry%%:*}" 2>/dev/null)" != installed ]]; then
+      printf '%s\n' "$entry"
+    fi
+  done
+}
+
+# Sets PACKAGES_BECOME to the words that make a command run as root; fails when there is no way.
+packages_become_root() {
+  PACKAGES_BECOME=()
+  if [[ "$(id -u)" == 0 ]]; then return 0; fi
+  command -v sudo >/dev/null || return 1
+  if sudo -n true 2>/dev/null; then
+    PACKAGES_BECOME=(sudo -n)
+  elif [[ -t 0 && -t 2 ]]; then
+    packages_say "  sudo may ask for your password."
+    PACKAGES_BECOME=(sudo)
+  else
+    return 1
+  fi
+}
+
+packages_apt() {
+  "${PACKAGES_BECOME[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get -qq -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 "$@" >&2
+}
+
+# ensure_packages "name: reason" ...: installs what is missing; prints nothing when nothing is.
+# Exits 1, with the command to type, when it cannot.
+ensure_packages() {
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    packages_say "Tandem builds on Debian 12 (Ubuntu 24.04 is intended, untested); this system has no apt." \
+      "Install the equivalents of these yourself and build with 'cmake --workflow --preset release':"
+    printf '  %s\n' "$@" >&2
+    exit 1
+  fi
+
+  local missing=() names=()
+  mapfile -t missing < <(packages_missing "$@")
+  if ((${#missing[@]} == 0)); then return 0; fi
+  names=("${missing[@]%%:*}")
+
+  local prefix="sudo "
+  if [[ "$(id -u)" == 0 ]]; then prefix=""; fi
+  packages_say "Tandem needs ${#missing[@]} package(s) that are not installed:"
+  local entry
+  for entry in "${missing[@]}"; do printf '  %-20s %s\n' "${entry%%:*}" "${entry#*: }" >&2; done
+  packages_say "To remove them again later:" "  ${prefix}apt-get remove ${names[*]}" \
+    "(then '${prefix}apt-get autoremove' offers what nothing needs any more, older things too: read its list)"
+
+  local install=(install -y --no-install-recommends "${names[@]}")
+  if ! packages_become_root; then
+    packages_say "They need root, and there is no sudo that works without asking. Type this, then start again:" \
+      "  sudo apt-get update && sudo apt-get ${install[*]}"
+    exit 1
+  fi
+
+  packages_say "Installing them now."
+  # The lists are fetched only when they do not know a package or point at versions that are gone.
+  if ! apt-get -s -qq "${install[@]}" >/dev/null 2>&1 || ! packages_apt "${install[@]}"; then
+    packages_say "Fetching newer package lists first."
+    if ! packages_apt update || ! packages_apt "${install[@]}"; then
+      packages_say "apt-get could not install them (its words are above). No network? Other package sources?" \
+        "When that is mended, start again, or type:" "  ${prefix}apt-get update && ${prefix}apt-get ${install[*]}"
+      exit 1
+    fi
+  fi
+  packages_say "Installed: ${names[*]}" ""
+}

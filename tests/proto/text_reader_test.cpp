@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "common/base/rng.h"
+#include "proto/nearest.h"
+#include "proto/scene_text.h"
+#include "proto/scenes_embedded.h"
+
+namespace tandem {
+namespace {
+
+TEST(EditDistance, CountsInsertionsDeletionsSubstitutionsAndSwaps) {
+  EXPECT_EQ(edit_distance("", ""), 0u);
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("contact", "contcat"), 1u);
+  EXPECT_EQ(edit_distance("k_n_m", "k_nm"), 1u);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+}
+
+/// Scenes with a byte changed, cut or doubled: an answer, never a crash, and never a half-read scene.
+TEST(SceneReader, SurvivesDamagedFiles) {
+  for (const auto& shipped : shipped_scenes()) {
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+      SCOPED_TRACE(std::string(shipped.name) + " seed " + std::to_string(seed));
+      RandomStream random(seed);
+      std::string text(shipped.text);
+      const auto at = static_cast<std::size_t>(random.below(text.size()));
+      switch (random.below(4)) {
+        case 0:
+          text[at] = static_cast<char>(random.below(256));
+          break;
+        case 1:
+          text.resize(at);
+          break;
+        case 2:
+          text.erase(at, static_cast<std::size_t>(random.below(40)));
+          break;
+        default:
+          text.insert(at, text.substr(static_cast<std::size_t>(random.below(text.size())), 40));
+      }
+      const auto scene = parse_scene(text, "damaged.textproto");
+      if (scene) {
+        EXPECT_FALSE(scene->seats.empty());
+        EXPECT_EQ(scene->authority.size(), scene->tools.size());
+      } else {
+        EXPECT_FALSE(scene.error().empty());
+      }
+    }
+  }
+}
+
+TEST(SceneReader, SurvivesBytesThatAreNoText) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    RandomStream random(seed);
+    std::string text(static_cast<std::size_t>(random.below(400)), '\0');
+    for (auto& c : text) c = static_cast<char>(random.below(256));
+    EXPECT_FALSE(parse_scene(text, "noise.textproto").has_value()) << seed;
+    EXPECT_FALSE(parse_scene(text, "noise.json").has_value()) << seed;
+  }
+}
+
+TEST(SceneReader, BoundsWhatItListsAndHowDeepItGoes) {
+  std::string many = "version: 1\n";
+  for (int i = 0; i < 5000; ++i) many += "nonsense: 1\n";
+  const auto listed = parse_scene(many, "many.textproto");
+  ASSERT_FALSE(listed.has_value());
+  EXPECT_LE(listed.error().size(), 201u);
+  EXPECT_NE(listed.error().back().message.find("more mistakes"), std::string::npos);
+  EXPECT_FALSE(parse_scene(std::string(300000, '{'), "deep.textproto").has_value());
+  EXPECT_FALSE(parse_scene("seat " + std::string(300000, '{'), "deep.textproto").has_value());
+  EXPECT_FALSE(parse_scene(std::string((1 << 20) + 1, ' '), "long.textproto").has_value());
+}
+
+TEST(SceneReader, TakesBothBracketsListsOfSeparatorsAndComments) {
+  const auto scene = parse_scene(
+      "version: 1, dof: 1; # one\n"
+      "seat < name: 'a' role: INSTRUCTOR; >\n"
+      "tool: { name: \"t\", slave { } }\n"
+      "authority { tool: \"t\" seat: \"a\" alpha: 1.0 }",
+      "free.textproto");
+  ASSERT_TRUE(scene.has_value()) << to_text(scene.error());
+  EXPECT_EQ(scene->seats[0].name, "a");
+}
+
+}  // namespace
+}  // namespace tandem

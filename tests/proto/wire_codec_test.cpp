@@ -1,0 +1,288 @@
+#include "proto/wire_codec.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "tests/proto/wire_samples.h"
+#include "tests/support/alloc_guard.h"
+
+namespace tandem::wire {
+namespace {
+
+using Buffer = std::array<std::byte, kPlaintextMax>;
+
+std::span<const std::byte> view(const Buffer& buffer, std::size_t size) { return std::span(buffer).first(size); }
+
+void expect_same(const Preamble& a, const Preamble& b) {
+  EXPECT_EQ(a.echo_counter, b.echo_counter);
+  EXPECT_EQ(a.echo_age_us, b.echo_age_us);
+  EXPECT_EQ(a.tick, b.tick);
+}
+void expect_same(const PortSample& a, const PortSample& b) {
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.v, b.v);
+  EXPECT_EQ(a.f, b.f);
+  EXPECT_EQ(a.e_in, b.e_in);
+}
+
+TEST(WireCodec, StateComesBackAsItWas) {
+  for (std::size_t axes = 1; axes <= kAxesMax; ++axes) {
+    Codec codec(axes, PortSpace::kTip);
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+      SCOPED_TRACE(seed);
+      RandomStream random(seed);
+      const auto preamble = samples::preamble(random);
+      const auto sent = samples::state(random, axes);
+      Buffer buffer;
+      const auto size = codec.encode(preamble, sent, buffer);
+      ASSERT_EQ(size, state_size(axes));
+      const auto got = codec.decode_state(view(buffer, size));
+      ASSERT_TRUE(got.has_value()) << static_cast<int>(got.error());
+      expect_same(got->preamble, preamble);
+      expect_same(got->message.port, sent.port);
+      EXPECT_EQ(got->message.telemetry.q, sent.telemetry.q);
+      EXPECT_EQ(got->message.telemetry.x, sent.telemetry.x);
+      EXPECT_EQ(got->message.telemetry.f_cmd, sent.telemetry.f_cmd);
+      EXPECT_EQ(got->message.telemetry.f_out, sent.telemetry.f_out);
+      EXPECT_EQ(got->message.telemetry.e_out, sent.telemetry.e_out);
+      EXPECT_EQ(got->message.telemetry.dissipated_j, sent.telemetry.dissipated_j);
+      EXPECT_EQ(got->message.telemetry.refused_j, sent.telemetry.refused_j);
+      EXPECT_EQ(got->message.telemetry.delivered_j, sent.telemetry.delivered_j);
+      EXPECT_EQ(got->message.telemetry.margin_min_j, sent.telemetry.margin_min_j);
+      EXPECT_EQ(got->message.gate, sent.gate);
+      EXPECT_EQ(got->message.ready, sent.ready);
+      EXPECT_EQ(got->message.engaged, sent.engaged);
+      EXPECT_EQ(got->message.stop, sent.stop);
+      EXPECT_EQ(got->message.gate_trips, sent.gate_trips);
+      EXPECT_EQ(got->message.late_ticks, sent.late_ticks);
+      EXPECT_EQ(got->message.seat_tick, sent.seat_tick);
+    }
+  }
+}
+
+TEST(WireCodec, ForceComesBackAsItWas) {
+  for (std::size_t axes = 1; axes <= kAxesMax; ++axes) {
+    Codec codec(axes, PortSpace::kJoint);
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+      SCOPED_TRACE(seed);
+      RandomStream random(seed);
+      const auto preamble = samples::preamble(random);
+      const auto sent = samples::force(random, axes);
+      Buffer buffer;
+      const auto size = codec.encode(preamble, sent, buffer);
+      ASSERT_EQ(size, force_size(axes));
+      const auto got = codec.decode_force(view(buffer, size));
+      ASSERT_TRUE(got.has_value()) << static_cast<int>(got.error());
+      expect_same(got->preamble, preamble);
+      expect_same(got->message.port, sent.port);
+      EXPECT_EQ(got->message.session, sent.session);
+      EXPECT_EQ(got->message.engage, sent.engage);
+      EXPECT_EQ(got->message.session_tick, sent.session_tick);
+      EXPECT_EQ(got->message.authority_version, sent.authority_version);
+      EXPECT_EQ(got->message.missing, sent.missing);
+      EXPECT_EQ(got->message.alpha, sent.alpha);
+    }
+  }
+}
+
+TEST(WireCodec, BindAndItsAnswerComeBackAsTheyWere) {
+  Codec codec;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream random(seed);
+    const auto sent = samples::bind(random);
+    Buffer buffer;
+    auto size = codec.encode(samples::preamble(random), sent, buffer);
+    ASSERT_EQ(size, kBindSize);
+    const auto got = codec.decode_bind(view(buffer, size));
+    ASSERT_TRUE(got.has_value());
+    EXPECT_EQ(got->message.seat, sent.seat);
+    EXPECT_EQ(got->message.nonce, sent.nonce);
+    EXPECT_EQ(got->message.client_cid, sent.client_cid);
+    EXPECT_EQ(got->message.joints, sent.joints);
+    EXPECT_EQ(got->message.tip_axes, sent.tip_axes);
+    EXPECT_EQ(got->message.simulated, sent.simulated);
+    EXPECT_EQ(got->message.prismatic, sent.prismatic);
+    EXPECT_EQ(got->message.force_peak_n, sent.force_peak_n);
+    EXPECT_EQ(got->message.damping_n_s_m, sent.damping_n_s_m);
+    EXPECT_EQ(got->message.mass_kg, sent.mass_kg);
+
+    const auto answer = samples::bind_ack(random);
+    size = codec.encode(samples::preamble(random), answer, buffer);
+    ASSERT_GT(size, 0u);
+    ASSERT_LE(size, kBindAckMax);
+    const auto answered = codec.decode_bind_ack(view(buffer, size));
+    ASSERT_TRUE(answered.has_value());
+    EXPECT_EQ(answered->message.nonce, answer.nonce);
+    EXPECT_EQ(answered->message.result, answer.result);
+    EXPECT_EQ(answered->message.server_cid, answer.server_cid);
+    EXPECT_EQ(answered->message.reason, answer.reason);
+    EXPECT_EQ(answered->message.setup_size, answer.setup_size);
+    EXPECT_EQ(answered->message.setup, answer.setup);
+  }
+}
+
+TEST(WireCodec, AuthorityCloseAndPingComeBackAsTheyWere) {
+  Codec codec;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomStream random(seed);
+    const auto sent = samples::authority(random);
+    Buffer buffer;
+    auto size = codec.encode(samples::preamble(random), sent, buffer);
+    ASSERT_EQ(size, kAuthoritySize);
+    const auto got = codec.decode_authority(view(buffer, size));
+    ASSERT_TRUE(got.has_value());
+    EXPECT_EQ(got->message.version, sent.version);
+    EXPECT_EQ(got->message.tool, sent.tool);
+    EXPECT_EQ(got->message.masters, sent.masters);
+    EXPECT_EQ(got->message.alpha, sent.alpha);
+
+    const CloseMessage close{static_cast<CloseReason>(random.below(4))};
+    size = codec.encode(samples::preamble(random), close, buffer);
+    ASSERT_EQ(size, kCloseSize);
+    EXPECT_EQ(codec.decode_close(view(buffer, size))->message.reason, close.reason);
+
+    const auto preamble = samples::preamble(random);
+    size = codec.encode(preamble, PingMessage{}, buffer);
+    ASSERT_EQ(size, kPingSize);
+    expect_same(codec.decode_ping(view(buffer, size))->preamble, preamble);
+  }
+}
+
+TEST(WireCodec, ReconfiguringChangesAxesAndRanges) {
+  Codec codec(7, PortSpace::kJoint);
+  RandomStream random(1);
+  StateMessage m = samples::state(random, 7);
+  m.port.x = {50, 0, 0, 0, 0, 0, 0};
+  Buffer buffer;
+  auto size = codec.encode({}, m, buffer);
+  EXPECT_TRUE(codec.decode_state(view(buffer, size)).has_value()) << "50 rad";
+  codec.configure(3, PortSpace::kTip);
+  EXPECT_EQ(codec.axes(), 3u);
+  EXPECT_EQ(codec.decode_state(view(buffer, size)).error(), DecodeError::kSize);
+  size = codec.encode({}, m, buffer);
+  EXPECT_EQ(size, state_size(3));
+  EXPECT_EQ(codec.decode_state(view(buffer, size)).error(), DecodeError::kOutOfRange) << "50 m";
+}
+
+TEST(WireCodec, RefusesNumbersThatCannotBeMeant) {
+  Codec codec(3, PortSpace::kTip);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const auto state = [&](auto change) {
+    RandomStream random(7);
+    StateMessage m = samples::state(random, 3);
+    change(m);
+    Buffer buffer;
+    const auto got = codec.decode_state(view(buffer, codec.encode({}, m, buffer)));
+    EXPECT_FALSE(got.has_value());
+    return got.has_value() ? DecodeError::kSize : got.error();
+  };
+  EXPECT_EQ(state([&](auto& m) { m.port.x[2] = nan; }), DecodeError::kNotFinite);
+  EXPECT_EQ(state([&](auto& m) { m.port.v[0] = inf; }), DecodeError::kNotFinite);
+  EXPECT_EQ(state([&](auto& m) { m.port.f[1] = -inf; }), DecodeError::kNotFinite);
+  EXPECT_EQ(state([&](auto& m) { m.telemetry.q[0] = nan; }), DecodeError::kNotFinite);
+  EXPECT_EQ(state([&](auto& m) { m.telemetry.f_out[2] = inf; }), DecodeError::kNotFinite);
+  EXPECT_EQ(state([&](auto& m) { m.telemetry.margin_min_j = nan; }), DecodeError::kNotFinite);
+  EXPECT_EQ(state([&](auto& m) { m.telemetry.refused_j = 1e300; }), DecodeError::kNotFinite)
+      << "beyond single precision";
+  EXPECT_EQ(state([&](auto& m) { m.port.x[0] = 10.001; }), DecodeError::kOutOfRange);
+  EXPECT_EQ(state([&](auto& m) { m.port.v[1] = -100.1; }), DecodeError::kOutOfRange);
+  EXPECT_EQ(state([&](auto& m) { m.port.f[2] = 1.0001e4; }), DecodeError::kOutOfRange);
+  EXPECT_EQ(state([&](auto& m) { m.port.e_in[0] = ~std::uint64_t{0}; }), DecodeError::kOutOfRange);
+  EXPECT_EQ(state([&](auto& m) { m.telemetry.e_out[2] = kEnergyMax + 1; }), DecodeError::kOutOfRange);
+  EXPECT_EQ(state([&](auto& m) { m.gate = static_cast<GateState>(7); }), DecodeError::kOutOfRange);
+
+  const auto force = [&](auto change) {
+    RandomStream random(8);
+    ForceMessage m = samples::force(random, 3);
+    change(m);
+    Buffer buffer;
+    const auto got = codec.decode_force(view(buffer, codec.encode({}, m, buffer)));
+    EXPECT_FALSE(got.has_value());
+    return got.has_value() ? DecodeError::kSize : got.error();
+  };
+  EXPECT_EQ(force([&](auto& m) { m.port.x[0] = nan; }), DecodeError::kNotFinite);
+  EXPECT_EQ(force([&](auto& m) { m.alpha = nan; }), DecodeError::kNotFinite);
+  EXPECT_EQ(force([&](auto& m) { m.alpha = 1.0000001; }), DecodeError::kOutOfRange);
+  EXPECT_EQ(force([&](auto& m) { m.session = static_cast<SessionState>(4); }), DecodeError::kOutOfRange);
+  EXPECT_EQ(force([&](auto& m) { m.missing = 25; }), DecodeError::kOutOfRange);
+
+  const auto authority = [&](auto change) {
+    AuthorityMessage m;
+    m.masters = 2;
+    m.alpha[0] = 1;
+    change(m);
+    Buffer buffer;
+    return codec.decode_authority(view(buffer, codec.encode({}, m, buffer))).has_value();
+  };
+  EXPECT_TRUE(authority([](auto&) {}));
+  EXPECT_FALSE(authority([](auto& m) { m.alpha[0] = 0.9; })) << "sum";
+  EXPECT_FALSE(authority([](auto& m) { m.alpha = {2, -1}; }));
+  EXPECT_FALSE(authority([&](auto& m) { m.alpha[1] = nan; }));
+  EXPECT_FALSE(authority([](auto& m) { m.tool = 8; }));
+  EXPECT_FALSE(authority([](auto& m) { m.masters = 0; }));
+}
+
+TEST(WireCodec, RefusesNamesAndReasonsThatHurtATerminal) {
+  Codec codec;
+  Buffer buffer;
+  const auto bind = [&](std::string_view name) {
+    RandomStream random(3);
+    BindMessage m = samples::bind(random);
+    m.seat.fill('\0');
+    std::memcpy(m.seat.data(), name.data(), name.size());
+    return codec.decode_bind(view(buffer, codec.encode({}, m, buffer))).has_value();
+  };
+  EXPECT_TRUE(bind("trainer"));
+  EXPECT_TRUE(bind(std::string(kSeatNameMax, 'x')));
+  EXPECT_FALSE(bind(""));
+  EXPECT_FALSE(bind("a b"));
+  EXPECT_FALSE(bind(std::string_view("a\0b", 3))) << "something after the end";
+  EXPECT_FALSE(bind("\x1b[2J"));
+
+  BindAckMessage ack;
+  ack.result = BindResult::kNoSuchSeat;
+  std::memcpy(ack.reason.data(), "no \x1b[2J", 7);
+  EXPECT_EQ(codec.decode_bind_ack(view(buffer, codec.encode({}, ack, buffer))).error(), DecodeError::kOutOfRange);
+}
+
+TEST(WireCodec, WritesNothingIntoABufferThatIsTooSmall) {
+  Codec codec(3, PortSpace::kTip);
+  Buffer buffer;
+  buffer.fill(std::byte{0x5a});
+  RandomStream random(1);
+  for (std::size_t size = 0; size < state_size(3); ++size) {
+    EXPECT_EQ(codec.encode({}, samples::state(random, 3), std::span(buffer).first(size)), 0u);
+  }
+  EXPECT_EQ(buffer[0], std::byte{0x5a});
+  BindAckMessage ack;
+  ack.result = BindResult::kAccepted;
+  ack.setup_size = kSetupMax + 1;
+  EXPECT_EQ(codec.encode({}, ack, buffer), 0u);
+  AuthorityMessage authority;
+  authority.masters = kMastersMax + 1;
+  EXPECT_EQ(codec.encode({}, authority, buffer), 0u);
+}
+
+TEST(WireCodec, NeverAllocatesAfterConstruction) {
+  Codec codec(3, PortSpace::kTip);
+  RandomStream random(5);
+  Buffer buffer;
+  const test::AllocGuard guard;
+  for (int i = 0; i < 1000; ++i) {
+    codec.configure(1 + static_cast<std::size_t>(random.below(kAxesMax)), PortSpace::kTip);
+    EXPECT_TRUE(codec.decode_state(view(buffer, codec.encode({}, samples::state(random, codec.axes()), buffer))));
+    EXPECT_TRUE(codec.decode_force(view(buffer, codec.encode({}, samples::force(random, codec.axes()), buffer))));
+    EXPECT_TRUE(codec.decode_bind(view(buffer, codec.encode({}, samples::bind(random), buffer))));
+    EXPECT_TRUE(codec.decode_bind_ack(view(buffer, codec.encode({}, samples::bind_ack(random), buffer))));
+    EXPECT_TRUE(codec.decode_authority(view(buffer, codec.encode({}, samples::authority(random), buffer))));
+    EXPECT_TRUE(codec.decode_close(view(buffer, codec.encode({}, CloseMessage{}, buffer))));
+  }
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+}  // namespace
+}  // namespace tandem::wire

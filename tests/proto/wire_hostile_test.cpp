@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "tests/proto/wire_samples.h"
+#include "tests/support/alloc_guard.h"
+
+/// Hostile bytes: every prefix, every flipped byte and bit, noise. The answer is an error or a message in range.
+namespace tandem::wire {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+void expect_in_range(const PortSample& p, double x_max) {
+  for (std::size_t i = 0; i < kAxesMax; ++i) {
+    ASSERT_LE(std::abs(p.x[i]), x_max);
+    ASSERT_LE(std::abs(p.v[i]), kVelocityMax);
+    ASSERT_LE(std::abs(p.f[i]), kEffortMax);
+    ASSERT_LE(p.e_in[i], kEnergyMax);
+  }
+}
+
+struct Case {
+  std::string name;
+  Bytes bytes;
+  bool (*decode)(Codec&, std::span<const std::byte>);
+};
+
+std::vector<Case> cases(Codec& codec) {
+  RandomStream random(11);
+  std::array<std::byte, kPlaintextMax> buffer;
+  const auto bytes = [&](const auto& message) {
+    const auto size = codec.encode(samples::preamble(random), message, buffer);
+    return Bytes(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size));
+  };
+  auto accepted = samples::bind_ack(random);
+  while (accepted.result != BindResult::kAccepted) accepted = samples::bind_ack(random);
+  auto refused = samples::bind_ack(random);
+  while (refused.result == BindResult::kAccepted) refused = samples::bind_ack(random);
+  const auto decode_ack = [](Codec& c, std::span<const std::byte> in) {
+    const auto got = c.decode_bind_ack(in);
+    if (got) {
+      EXPECT_LE(got->message.setup_size, kSetupMax);
+      EXPECT_LE(got->message.result, BindResult::kSessionOver);
+    }
+    return got.has_value();
+  };
+  return {
+      {"STATE", bytes(samples::state(random, 3)),
+       [](Codec& c, std::span<const std::byte> in) {
+         const auto got = c.decode_state(in);
+         if (got) {
+           expect_in_range(got->message.port, kPositionMaxM);
+           EXPECT_LE(got->message.gate, GateState::kFault);
+           for (const double v : got->message.telemetry.x) EXPECT_TRUE(std::isfinite(v));
+         }
+         return got.has_value();
+       }},
+      {"FORCE", bytes(samples::force(random, 3)),
+       [](Codec& c, std::span<const std::byte> in) {
+         const auto got = c.decode_force(in);
+         if (got) {
+           expect_in_range(got->message.port, kPositionMaxM);
+           EXPECT_TRUE(got->message.alpha >= 0 && got->message.alpha <= 1);
+           EXPECT_LE(got->message.session, SessionState::kEnding);
+         }
+         return got.has_value();
+       }},
+      {"BIND", bytes(samples::bind(random)),
+       [](Codec& c, std::span<const std::byte> in) {
+         const auto got = c.decode_bind(in);
+         if (got) {
+           EXPECT_TRUE(got->message.joints >= 1 && got->message.joints <= kAxesMax);
+         }
+         return got.has_value();
+       }},
+      {"AUTHORITY", bytes(samples::authority(random)),
+       [](Codec& c, std::span<const std::byte> in) {
+         const auto got = c.decode_authority(in);
+         if (got) {
+           EXPECT_TRUE(got->message.tool < kToolsMax && got->message.masters <= kMastersMax);
+         }
+         return got.has_value();
+       }},
+      {"CLOSE", bytes(CloseMessage{}),
+       [](Codec& c, std::span<const std::byte> in) { return c.decode_close(in).has_value(); }},
+      {"BIND_ACK accepted", bytes(accepted), decode_ack},
+      {"BIND_ACK refused", bytes(refused), decode_ack},
+  };
+}
+
+TEST(WireHostile, PrefixesAndLongerOnesAreRefused) {
+  Codec codec(3, PortSpace::kTip);
+  for (const auto& c : cases(codec)) {
+    SCOPED_TRACE(c.name);
+    ASSERT_TRUE(c.decode(codec, c.bytes));
+    for (std::size_t size = 0; size < c.bytes.size(); ++size) {
+      const Bytes prefix(c.bytes.begin(),
+                         c.bytes.begin() + static_cast<std::ptrdiff_t>(size));  // its own end: for sanitizers
+      EXPECT_FALSE(c.decode(codec, prefix)) << size;
+    }
+    for (const std::size_t more : {1u, 2u, 8u, 100u}) {
+      Bytes longer = c.bytes;
+      longer.resize(longer.size() + more);
+      EXPECT_FALSE(c.decode(codec, longer)) << more;
+    }
+  }
+}
+
+TEST(WireHostile, EveryFlippedByteIsAnErrorOrAMessageInRange) {
+  Codec codec(3, PortSpace::kTip);
+  for (const auto& c : cases(codec)) {
+    SCOPED_TRACE(c.name);
+    for (std::size_t at = 0; at < c.bytes.size(); ++at) {
+      for (int value = 0; value < 256; ++value) {
+        Bytes changed = c.bytes;
+        changed[at] = static_cast<std::byte>(value);
+        c.decode(codec, changed);
+      }
+    }
+    EXPECT_TRUE(c.decode(codec, c.bytes)) << "the codec has taken no harm";
+  }
+}
+
+/// The tags and lengths of a message with a fixed layout are never anything else.
+TEST(WireHostile, StructureThatChangedIsMalformed) {
+  Codec codec(3, PortSpace::kTip);
+  const auto all = cases(codec);
+  // FORCE, 3 axes: tag and length of x, v, f, e_in, then tags of five fixed32 and a double.
+  const std::vector<std::size_t> structure{16, 17, 42, 43, 68, 69, 94, 95, 120, 125, 130, 135, 140, 145};
+  for (const auto at : structure) {
+    for (int value = 0; value < 256; ++value) {
+      Bytes changed = all[1].bytes;
+      if (changed[at] == static_cast<std::byte>(value)) continue;
+      changed[at] = static_cast<std::byte>(value);
+      const auto got = codec.decode_force(changed);
+      ASSERT_FALSE(got.has_value());
+      EXPECT_EQ(got.error(), DecodeError::kMalformed) << at << " " << value;
+    }
+  }
+}
+
+/// BIND_ACK has no fixed layout: what its schema does not know is refused all the same.
+TEST(WireHostile, UnknownFieldsInABindAckAreMalformed) {
+  Codec codec(3, PortSpace::kTip);
+  for (const auto& c : cases(codec)) {
+    if (!c.name.starts_with("BIND_ACK")) continue;
+    for (const unsigned char tag : {0x30, 0x35, 0x78}) {  // fields 6 and 15 as varint, field 6 as fixed32
+      Bytes more = c.bytes;
+      more.push_back(static_cast<std::byte>(tag));
+      more.resize(more.size() + (tag == 0x35 ? 4 : 1));
+      const auto got = codec.decode_bind_ack(more);
+      ASSERT_FALSE(got.has_value()) << c.name;
+      EXPECT_EQ(got.error(), DecodeError::kMalformed);
+    }
+  }
+}
+
+TEST(WireHostile, NoiseOfTheRightSizeCostsNoHeap) {
+  Codec codec(3, PortSpace::kTip);
+  const auto all = cases(codec);
+  for (std::size_t i = 0; i < 5; ++i) {  // not BIND_ACK: no client decodes it below a tick
+    SCOPED_TRACE(all[i].name);
+    Bytes noise = all[i].bytes;
+    RandomStream random(i + 1);
+    const test::AllocGuard guard;
+    int accepted = 0;
+    for (int round = 0; round < 20000; ++round) {
+      for (auto& byte : noise) byte = static_cast<std::byte>(random.bits());
+      accepted += all[i].decode(codec, noise) ? 1 : 0;
+    }
+    EXPECT_EQ(guard.count(), 0u);
+    EXPECT_EQ(accepted, 0);
+  }
+}
+
+TEST(WireHostile, NoiseOfAnySizeIsRefused) {
+  Codec codec(3, PortSpace::kTip);
+  const auto all = cases(codec);
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    RandomStream random(seed);
+    Bytes noise(static_cast<std::size_t>(random.below(1300)));
+    for (auto& byte : noise) byte = static_cast<std::byte>(random.bits());
+    for (const auto& c : all) EXPECT_FALSE(c.decode(codec, noise)) << c.name << " seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace tandem::wire

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstring>
+
+#include "common/base/rng.h"
+#include "proto/wire_codec.h"
+
+/// Random messages of the wire, in range, for tests.
+namespace tandem::wire::samples {
+
+inline void fill(RandomStream& random, AxisArray& array, std::size_t axes, double limit) {
+  for (std::size_t i = 0; i < axes; ++i) array[i] = random.uniform(-limit, limit);
+}
+inline void fill(RandomStream& random, EnergyArray& array, std::size_t axes) {
+  for (std::size_t i = 0; i < axes; ++i) array[i] = random.below(kEnergyMax);
+}
+inline void port(RandomStream& random, std::size_t axes, PortSample& out) {
+  fill(random, out.x, axes, 10);
+  fill(random, out.v, axes, 100);
+  fill(random, out.f, axes, 1e4);
+  fill(random, out.e_in, axes);
+}
+inline Preamble preamble(RandomStream& random) {
+  return {random.bits(), static_cast<std::uint32_t>(random.bits()), static_cast<std::uint32_t>(random.bits())};
+}
+/// Telemetry in numbers that single precision holds exactly, so that messages can be compared.
+inline double single(RandomStream& random, double limit) {
+  return static_cast<double>(static_cast<float>(random.uniform(-limit, limit)));
+}
+inline StateMessage state(RandomStream& random, std::size_t axes) {
+  StateMessage m;
+  port(random, axes, m.port);
+  for (std::size_t i = 0; i < axes; ++i) m.telemetry.q[i] = single(random, 50);
+  for (auto& v : m.telemetry.x) v = single(random, 5);
+  for (auto& v : m.telemetry.f_cmd) v = single(random, 100);
+  for (auto& v : m.telemetry.f_out) v = single(random, 100);
+  fill(random, m.telemetry.e_out, axes);
+  m.telemetry.dissipated_j = single(random, 1000);
+  m.telemetry.refused_j = single(random, 1000);
+  m.telemetry.delivered_j = single(random, 1000);
+  m.telemetry.margin_min_j = single(random, 1000);
+  m.gate = static_cast<GateState>(random.below(7));
+  m.ready = random.below(2) == 1;
+  m.engaged = random.below(2) == 1;
+  m.stop = random.below(2) == 1;
+  m.gate_trips = static_cast<std::uint32_t>(random.bits());
+  m.late_ticks = static_cast<std::uint32_t>(random.bits());
+  m.seat_tick = static_cast<std::uint32_t>(random.bits());
+  return m;
+}
+inline ForceMessage force(RandomStream& random, std::size_t axes) {
+  ForceMessage m;
+  port(random, axes, m.port);
+  m.session = static_cast<SessionState>(random.below(4));
+  m.engage = random.below(2) == 1;
+  m.session_tick = static_cast<std::uint32_t>(random.bits());
+  m.authority_version = static_cast<std::uint32_t>(random.bits());
+  m.missing = static_cast<std::uint32_t>(random.below(kSeatsMax + 1));
+  m.alpha = random.uniform();
+  return m;
+}
+inline BindMessage bind(RandomStream& random) {
+  BindMessage m;
+  const auto length = 1 + random.below(kSeatNameMax);
+  for (std::size_t i = 0; i < length; ++i) m.seat[i] = "abcdefghijklmnopqrstuvwxyzABC0189_-"[random.below(35)];
+  m.nonce = random.bits();
+  m.client_cid = static_cast<std::uint32_t>(random.bits());
+  m.joints = static_cast<std::uint32_t>(1 + random.below(kAxesMax));
+  m.tip_axes = static_cast<std::uint32_t>(1 + random.below(3));
+  m.simulated = random.below(2) == 1;
+  m.prismatic = random.below(2) == 1;
+  m.force_peak_n = random.uniform(0, 10);
+  m.damping_n_s_m = random.uniform(0, 10);
+  m.mass_kg = random.uniform(0, 10);
+  return m;
+}
+inline BindAckMessage bind_ack(RandomStream& random) {
+  BindAckMessage m;
+  m.nonce = random.bits();
+  m.result = static_cast<BindResult>(random.below(5));
+  m.server_cid = static_cast<std::uint32_t>(random.bits());
+  if (m.result == BindResult::kAccepted) {
+    m.setup_size = static_cast<std::uint32_t>(random.below(kSetupMax + 1));
+    for (std::size_t i = 0; i < m.setup_size; ++i) m.setup[i] = static_cast<char>(random.below(256));
+  } else {
+    const auto length = random.below(kReasonMax + 1);
+    for (std::size_t i = 0; i < length; ++i) m.reason[i] = static_cast<char>(' ' + random.below(95));
+  }
+  return m;
+}
+inline AuthorityMessage authority(RandomStream& random) {
+  AuthorityMessage m;
+  m.version = static_cast<std::uint32_t>(random.bits());
+  m.tool = static_cast<std::uint32_t>(random.below(kToolsMax));
+  m.masters = static_cast<std::uint32_t>(1 + random.below(kMastersMax));
+  double left = 1;
+  for (std::size_t i = 0; i + 1 < m.masters; ++i) left -= m.alpha[i] = left * random.uniform();
+  m.alpha[m.masters - 1] = left;
+  return m;
+}
+
+}  // namespace tandem::wire::samples

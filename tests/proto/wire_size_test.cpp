@@ -1,0 +1,51 @@
+#include <gtest/gtest.h>
+
+#include "tests/proto/wire_samples.h"
+
+namespace tandem::wire {
+namespace {
+
+/// The numbers wire.proto and the documents name. A change here is a change of the protocol.
+TEST(WireSize, IsWhatTheDocumentsSay) {
+  EXPECT_EQ(state_size(3), 250u);
+  EXPECT_EQ(state_size(7), 426u);
+  EXPECT_EQ(force_size(3), 154u);
+  EXPECT_EQ(force_size(7), 282u);
+  EXPECT_EQ(kBindSize, 106u);
+  EXPECT_EQ(kBindAckMax, 1062u);
+  EXPECT_EQ(kAuthoritySize, 162u);
+  EXPECT_EQ(kCloseSize, 21u);
+}
+
+TEST(WireSize, DependsOnAxesOnly) {
+  std::array<std::byte, kPlaintextMax> buffer;
+  for (std::size_t axes = 1; axes <= kAxesMax; ++axes) {
+    Codec codec(axes, PortSpace::kTip);
+    RandomStream random(axes);
+    EXPECT_EQ(codec.encode({}, StateMessage{}, buffer), state_size(axes)) << "zeros are sent as well";
+    EXPECT_EQ(codec.encode({}, ForceMessage{}, buffer), force_size(axes));
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_EQ(codec.encode({}, samples::state(random, axes), buffer), state_size(axes));
+      EXPECT_EQ(codec.encode({}, samples::force(random, axes), buffer), force_size(axes));
+    }
+  }
+}
+
+TEST(WireSize, LargestBindAckFits) {
+  std::array<std::byte, kPlaintextMax> buffer;
+  Codec codec;
+  BindAckMessage ack;
+  ack.result = BindResult::kAccepted;
+  ack.setup_size = kSetupMax;
+  EXPECT_EQ(codec.encode({}, ack, buffer), kBindAckMax);
+  ack.result = BindResult::kSeatTaken;
+  ack.reason.fill('x');
+  const auto size = codec.encode({}, ack, buffer);
+  EXPECT_GT(size, 0u);
+  const auto got = codec.decode_bind_ack(std::span(buffer).first(size));
+  ASSERT_TRUE(got.has_value());
+  EXPECT_EQ(got->message.reason, ack.reason);
+}
+
+}  // namespace
+}  // namespace tandem::wire

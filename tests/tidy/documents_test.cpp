@@ -1,0 +1,97 @@
+#include "tests/tidy/documents.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace tandem::tidy {
+namespace {
+
+const std::filesystem::path kRoot{TANDEM_SOURCE_DIR};
+
+/// The document of that name at the root; a failed test when it is missing.
+const SourceFile* find_document(const std::vector<SourceFile>& files, const std::string& name) {
+  const auto found = std::ranges::find(files, name, &SourceFile::path);
+  if (found == files.end()) ADD_FAILURE() << name << " is missing at the top level";
+  return found == files.end() ? nullptr : &*found;
+}
+
+Known small_world() {
+  const std::vector<SourceFile> files{
+      make_source("tests/link/link_test.cpp",
+                  "TEST(Link, Works) {}\nTEST_P(Gate,\n       Ramps) {}\n// TEST(Not, This)\n"),
+      make_source("server/CMakeLists.txt", "tandem_program(tandem-server SOURCES app/main.cpp)\n"),
+      make_source("server/app/main.cpp", "app.add_option(\"--listen\", x);\n"),
+      make_source("demo", "--quick\n"),
+  };
+  return known_things(files);
+}
+
+TEST(Architecture, EveryInvariantNamesItsCodeAndItsTest) {
+  const auto files = read_repository(kRoot);
+  if (const SourceFile* document = find_document(files, "ARCHITECTURE.md")) {
+    const auto findings = check_invariants(*document, known_things(files), kRoot);
+    EXPECT_TRUE(findings.empty()) << to_string(findings);
+  }
+}
+
+TEST(Architecture, EveryTestAndFileItNamesExists) {
+  const auto files = read_repository(kRoot);
+  if (const SourceFile* document = find_document(files, "ARCHITECTURE.md")) {
+    const auto findings = check_references(*document, known_things(files), kRoot);
+    EXPECT_TRUE(findings.empty()) << to_string(findings);
+  }
+}
+
+TEST(Readme, EveryCommandFileAndTestItNamesExists) {
+  const auto files = read_repository(kRoot);
+  if (const SourceFile* document = find_document(files, "README.md")) {
+    const Known known = known_things(files);
+    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
+    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+        << to_string(check_references(*document, known, kRoot));
+  }
+}
+
+TEST(Documents, KnowsTestsAndPrograms) {
+  const Known known = small_world();
+  EXPECT_EQ(known.tests, (std::set<std::string, std::less<>>{"Link.Works", "Gate.Ramps"}));
+  EXPECT_EQ(known.programs, (std::set<std::string, std::less<>>{"tandem-server", "./demo"}));
+}
+
+TEST(Documents, InvariantsWithoutTestCodeOrOrderAreReported) {
+  std::string good = "# House\n1. not an invariant\n## Invariants\n";
+  for (int i = 1; i <= 9; ++i) good += std::to_string(i) + ". holds: `tests/tidy/documents.h`,\n   test `Link.Works`\n";
+  const std::string row = "| 10 | holds | `tests/tidy/documents.h` | `Gate.Ramps` |\n";
+  const auto trouble = [&](const std::string& text) {
+    return check_invariants(make_source("ARCHITECTURE.md", text), small_world(), kRoot).size();
+  };
+  EXPECT_EQ(trouble(good + row + "## More\n5. something else\n"), 0u);
+  EXPECT_EQ(trouble(good), 1u) << "one too few";
+  EXPECT_EQ(trouble(good + "| 11 | holds | `tests/tidy/documents.h` | `Gate.Ramps` |\n"), 1u) << "a gap";
+  EXPECT_EQ(trouble(good + "10. holds: `tests/tidy/documents.h`, `Gate.Falls`\n"), 1u) << "no such test";
+  EXPECT_EQ(trouble(good + "10. holds: `tests/tidy/nothing.h`, `Gate.Ramps`\n"), 1u) << "no such file";
+}
+
+TEST(Documents, NamesWithoutAThingAreReported) {
+  const auto trouble = [](const std::string& text) {
+    return check_references(make_source("README.md", text), small_world(), kRoot).size();
+  };
+  EXPECT_EQ(trouble("`Link.Works` `README.md` `tests/tidy` `server/<name>` `a.b`\n```\n`Not.Here`\n```\n"), 0u);
+  EXPECT_EQ(trouble("text `Link.Breaks`\n`tests/tidy/nothing.h`\n"), 2u);
+}
+
+TEST(Documents, CommandsThatDoNotExistAreReported) {
+  const auto trouble = [](const std::string& lines) {
+    return check_commands(make_source("README.md", "text\n```sh\n" + lines + "```\n./none\n"), small_world()).size();
+  };
+  EXPECT_EQ(trouble("./demo --quick\n$ A=1 tandem-server run --listen=x --help  # --not here\n"), 0u);
+  EXPECT_EQ(trouble("build/release/bin/tandem-server run \\\n  --listen x\ngit clone --depth 1 x\n"), 0u);
+  EXPECT_EQ(trouble("tandem-servant run\n"), 1u);
+  EXPECT_EQ(trouble("./none\n"), 1u);
+  EXPECT_EQ(trouble("tandem-server run \\\n  --lissen x\n"), 1u);
+}
+
+}  // namespace
+}  // namespace tandem::tidy
