@@ -67,6 +67,8 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
     if (!decoded) return link_.refuse_body();
     if (!opened->newer) return;  // latest wins: nothing acts backwards
     link_.accept(now, *opened, decoded->preamble);
+    if (rx_.session == wire::SessionState::kWaiting && decoded->message.session == wire::SessionState::kRunning)
+      link_.restart_statistics(now);
     rx_ = decoded->message;
     fresh_ = heard_force_ = true;
     if (!session_begin_ && rx_.session == wire::SessionState::kRunning)
@@ -102,6 +104,7 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   }
   tick_ = static_cast<std::uint32_t>(std::llround(seconds(now - started_) / dt_));
   link_.tick(now);
+  if (tick_ % 256 == 0) age_p99_ms_ = 1e3 * seconds(Duration{link_.stats().age.quantile(0.99)});  // a walk over bins: not every tick
   const bool valid = take_reading(device);
   meter_.advance(joints_, reading_.q, reading_.tau_out);
 
@@ -194,6 +197,10 @@ void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& want
   put(t.f_env, reading_.f_env);
   t.penetration_m = reading_.penetration;
   t.e_out = end_->e_out();
+  const link::LinkStats& down = link_.stats();
+  t.down_loss_percent = down.loss_percent();
+  t.down_longest_gap_ms = 1e3 * seconds(down.longest_gap);
+  t.down_age_p99_ms = age_p99_ms_;
   t.dissipated_j = dissipated_;
   t.refused_j = end_->refused();
   t.delivered_j = meter_.total();

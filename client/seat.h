@@ -86,7 +86,7 @@ class Seat {
   std::uint32_t tick_ = 0;
   bool ticked_ = false;
   std::optional<Time> session_begin_;
-  double dissipated_ = 0;
+  double dissipated_ = 0, age_p99_ms_ = 0;
 
   bool state_due_ = false, reset_ = false, leaving_ = false, closed_ = false;
   unsigned close_due_ = 0;

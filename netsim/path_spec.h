@@ -46,17 +46,17 @@ struct BadPeriodsSpec {
 /// Loss: every datagram alone with `probability`, and by the periods. Either is enough to lose it.
 struct LossSpec {
   double probability = 0;  ///< Bernoulli, per datagram [0, 1]
-  std::optional<BadPeriodsSpec> periods;
+  std::optional<BadPeriodsSpec> periods = {};
 
   friend bool operator==(const LossSpec&, const LossSpec&) = default;
 };
 
 /// A sender that serves one datagram after the other at a fixed rate, and what may wait for it (tail drop).
 struct RateSpec {
-  std::uint64_t bits_per_s = 0;        ///< 0: no rate, no queue; else [100, 1e12]
-  std::uint32_t overhead_bytes = 28;   ///< added to every datagram on this link: IPv4 + UDP headers [0, 1000]
-  std::uint64_t queue_bytes = 0;       ///< bytes not yet sent, the new datagram included; 0: no limit
-  std::optional<Duration> queue_wait;  ///< longest wait before a datagram's first bit is sent [0, 1 h]
+  std::uint64_t bits_per_s = 0;             ///< 0: no rate, no queue; else [100, 1e12]
+  std::uint32_t overhead_bytes = 28;        ///< added to every datagram on this link: IPv4 + UDP headers [0, 1000]
+  std::uint64_t queue_bytes = 0;            ///< bytes not yet sent, the new datagram included; 0: no limit
+  std::optional<Duration> queue_wait = {};  ///< longest wait before a datagram's first bit is sent [0, 1 h]
 
   friend bool operator==(const RateSpec&, const RateSpec&) = default;
 };
@@ -68,8 +68,8 @@ struct DelayTrace {
     Duration delay{};  ///< [0, 60 s]
     bool lost = false;
   };
-  std::vector<Step> steps;  ///< at least one
-  Duration period{};        ///< longer than the last `at`
+  std::vector<Step> steps = {};  ///< at least one
+  Duration period{};             ///< longer than the last `at`
 };
 
 /// Delay that varies, added to the floor.
@@ -126,23 +126,23 @@ struct DuplicateSpec {
 
 /// One direction of one link.
 struct PathSpec {
-  std::vector<OutageSpec> outages;  ///< at most 64
-  LossSpec loss;
-  RateSpec rate;
-  Duration floor{};                         ///< propagation: no datagram is faster [0, 60 s]
-  std::shared_ptr<const DelayTrace> trace;  ///< recorded delay added to the floor; null: none
-  BodySpec body;
-  StallSpec stall;
+  std::vector<OutageSpec> outages = {};  ///< at most 64
+  LossSpec loss = {};
+  RateSpec rate = {};
+  Duration floor{};                              ///< propagation: no datagram is faster [0, 60 s]
+  std::shared_ptr<const DelayTrace> trace = {};  ///< recorded delay added to the floor; null: none
+  BodySpec body = {};
+  StallSpec stall = {};
   Order order = Order::kFifo;
-  ReorderSpec reorder;
-  DuplicateSpec duplicate;
+  ReorderSpec reorder = {};
+  DuplicateSpec duplicate = {};
 
   friend bool operator==(const PathSpec&, const PathSpec&) = default;
 };
 
 /// Both directions of one client's link.
 struct LinkSpec {
-  PathSpec up, down;
+  PathSpec up = {}, down = {};
 
   [[nodiscard]] const PathSpec& operator[](Direction d) const noexcept { return d == Direction::kUp ? up : down; }
   [[nodiscard]] PathSpec& operator[](Direction d) noexcept { return d == Direction::kUp ? up : down; }
@@ -169,7 +169,7 @@ struct SimpleNetwork {
   double loss = 0;       ///< probability [0, 1]
   double duplicate = 0;  ///< probability [0, 1]
   double reorder = 0;    ///< probability of arriving after three later datagrams [0, 1]
-  std::vector<OutageSpec> outages;
+  std::vector<OutageSpec> outages = {};
 };
 [[nodiscard]] LinkSpec link_from(const SimpleNetwork& numbers);
 

@@ -42,13 +42,14 @@ PathSpec path_from(const ProfilePath& in) {
     if (rate->queue_ms) path.rate.queue_wait = milliseconds(*rate->queue_ms);
   }
   path.floor = milliseconds(in.floor_ms);
-  path.body = {.kind = kind_of(in.body.kind),
-               .low = milliseconds(in.body.low_ms),
-               .high = milliseconds(in.body.high_ms),
-               .scale = milliseconds(in.body.median_ms),
-               .shape = in.body.shape,
-               .cap = milliseconds(in.body.cap_ms),
-               .tau = milliseconds(in.body.tau_ms)};
+  if (in.body.kind != ProfileBody::Kind::kNone)
+    path.body = {.kind = kind_of(in.body.kind),
+                 .low = milliseconds(in.body.low_ms),
+                 .high = milliseconds(in.body.high_ms),
+                 .scale = milliseconds(in.body.median_ms),
+                 .shape = in.body.shape,
+                 .cap = milliseconds(in.body.cap_ms),
+                 .tau = milliseconds(in.body.tau_ms)};
   if (const auto& stall = in.stall) {
     path.stall = {.rate_per_s = stall->rate_per_s,
                   .length_min = milliseconds(stall->length_min_ms),

@@ -23,6 +23,7 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   setup.dof = scene.dof;
   setup.port = scene.port;
   setup.duration = scene.duration;
+  setup.unsafe_gains = scene.unsafe_gains;
   setup.channel = scene.channel;
   setup.coupling = scene.coupling;
   setup.gate = scene.gate;
@@ -38,6 +39,7 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   message.set_dof(static_cast<std::uint32_t>(setup.dof));
   message.set_port(static_cast<pb::Scene::Port>(setup.port));
   message.set_duration_s(setup.duration);
+  message.set_unsafe_gains(setup.unsafe_gains);
   write_channel(setup.channel, *message.mutable_channel());
   write_coupling(setup.coupling, *message.mutable_device_coupling());
   write_gate(setup.gate, *message.mutable_gate());
@@ -68,6 +70,7 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     out.dof = in.dof();
     out.port = static_cast<PortSpace>(in.port());
     out.duration = in.duration_s();
+    out.unsafe_gains = in.unsafe_gains();
     read_channel(in.channel(), "channel", checker, out.channel);
     read_coupling(in.device_coupling(), out.coupling);
     read_gate(in.gate(), out.gate);

@@ -19,6 +19,7 @@ struct SeatSetup {
   std::size_t dof = 3;    ///< 1 ... 3
   PortSpace port = PortSpace::kTip;
   double duration = 18;   ///< [s]
+  bool unsafe_gains = false;  ///< springs may command more than a motor delivers
   ChannelSpec channel;    ///< tip gains
   CouplingSpec coupling;  ///< masters
   double k_s = 400;       ///< SLAVE seats: tool - slave spring at the tip [N/m]

@@ -30,6 +30,9 @@ struct Telemetry {
   std::array<double, 3> f_env{};     ///< force of the environment on a slave, where known [N]
   double penetration_m = 0;          ///< of a slave in its environment, where known [m]
   EnergyArray e_out{};               ///< [nJ]
+  double down_loss_percent = 0;      ///< of what the server sent, since the session began [%]
+  double down_longest_gap_ms = 0;    ///< between two datagrams that acted [ms]
+  double down_age_p99_ms = 0;        ///< of the newest datagram [ms]
   double dissipated_j = 0;           ///< all axes, cumulative [J]
   double refused_j = 0;              ///< energy the ledger refused, cumulative [J]
   double delivered_j = 0;            ///< energy the motor gave the hand, cumulative [J], sampled-device pairing

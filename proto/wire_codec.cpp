@@ -71,6 +71,8 @@ class Judge {
 
 /// Energies of telemetry are cumulative joules of a hand; beyond this they cannot be meant.
 constexpr double kJouleMax = 1e9;
+/// Gaps and ages of a link: eleven days.
+constexpr double kMillisecondsMax = 1e9;
 
 bool is_seat_name(const std::array<char, kSeatNameMax>& name) noexcept {
   const auto end = std::find(name.begin(), name.end(), '\0');
@@ -85,14 +87,14 @@ std::size_t text_length(std::span<const char> text) noexcept {
   return static_cast<std::size_t>(std::find(text.begin(), text.end(), '\0') - text.begin());
 }
 
-/// Writes preamble and body. ByteSizeLong also caches the lengths that the serializer needs.
+/// Writes preamble and body.
 template <class Body>
 std::size_t write(const Preamble& preamble, const Body& body, std::span<std::byte> out) noexcept {
   const std::size_t size = kPreambleSize + body.ByteSizeLong();
   if (out.size() < size) return 0;
   std::memcpy(out.data(), &preamble, kPreambleSize);
-  body.SerializeWithCachedSizesToArray(reinterpret_cast<std::uint8_t*>(out.data() + kPreambleSize));
-  return size;
+  const auto rest = out.subspan(kPreambleSize, size - kPreambleSize);
+  return body.SerializePartialToArray(rest.data(), static_cast<int>(rest.size())) ? size : 0;
 }
 static_assert(sizeof(Preamble) == kPreambleSize && std::is_trivially_copyable_v<Preamble>);
 
@@ -147,6 +149,11 @@ std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std:
   s.set_gate_trips(in.gate_trips);
   s.set_late_ticks(in.late_ticks);
   s.set_seat_tick(in.seat_tick);
+  put(in.telemetry.f_env, 3, *s.mutable_f_env());
+  s.set_penetration_m(static_cast<float>(in.telemetry.penetration_m));
+  s.set_down_loss_percent(static_cast<float>(in.telemetry.down_loss_percent));
+  s.set_down_longest_gap_ms(static_cast<float>(in.telemetry.down_longest_gap_ms));
+  s.set_down_age_p99_ms(static_cast<float>(in.telemetry.down_age_p99_ms));
   return write(preamble, s, out);
 }
 
@@ -246,6 +253,11 @@ Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) noexcep
   out.gate_trips = s.gate_trips();
   out.late_ticks = s.late_ticks();
   out.seat_tick = s.seat_tick();
+  judge.magnitudes(s.f_env(), kEffortMax, out.telemetry.f_env);
+  out.telemetry.penetration_m = judge.magnitude(static_cast<double>(s.penetration_m()), kPositionMaxM);
+  out.telemetry.down_loss_percent = judge.within(static_cast<double>(s.down_loss_percent()), 0, 100);
+  out.telemetry.down_longest_gap_ms = judge.within(static_cast<double>(s.down_longest_gap_ms()), 0, kMillisecondsMax);
+  out.telemetry.down_age_p99_ms = judge.within(static_cast<double>(s.down_age_p99_ms()), 0, kMillisecondsMax);
   return judge.verdict(result);
 }
 

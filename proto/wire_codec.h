@@ -33,7 +33,8 @@ constexpr std::size_t state_size(std::size_t axes) {
          + 3 * detail::packed(3, 4)                            // tip x f_cmd f_out
          + detail::packed(axes, 8)                             // e_out
          + detail::scalar(4, 1, 4)                             // energies
-         + detail::scalar(2, 1, 4) + detail::scalar(3, 2, 4);  // gate, flags; counts
+         + detail::scalar(2, 1, 4) + detail::scalar(3, 2, 4)  // gate, flags; counts
+         + 1 + detail::packed(3, 4) + detail::scalar(4, 2, 4);  // f_env; penetration, link down
 }
 constexpr std::size_t force_size(std::size_t axes) {
   return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8);

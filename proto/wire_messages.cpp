@@ -26,6 +26,11 @@ void shape(pb::State& s, std::size_t axes, Bits bits) noexcept {
   s.set_gate_trips(of<std::uint32_t>(bits));
   s.set_late_ticks(of<std::uint32_t>(bits));
   s.set_seat_tick(of<std::uint32_t>(bits));
+  fill(*s.mutable_f_env(), 3, bits);
+  s.set_penetration_m(of<float>(bits));
+  s.set_down_loss_percent(of<float>(bits));
+  s.set_down_longest_gap_ms(of<float>(bits));
+  s.set_down_age_p99_ms(of<float>(bits));
 }
 void shape(pb::Force& f, std::size_t axes, Bits bits) noexcept {
   for (auto* array : {f.mutable_x(), f.mutable_v(), f.mutable_f()}) fill(*array, axes, bits);

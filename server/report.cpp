@@ -189,10 +189,12 @@ SeatMetrics ReportBuilder::judge(const Pair& pair, const std::vector<Window>& wi
     const std::vector<char> touching = counted(pair, contact);
     for (std::size_t k = 0; k < n; ++k) {
       if (!touching[k]) continue;
-      error.add(distance2(s[k].f, t[k].f));
+      const std::array<float, 3> felt{pair.answer * s[k].f[0], pair.answer * s[k].f[1], pair.answer * s[k].f[2]};
+      const std::array<float, 3> asked{pair.answer * s[k].f_cmd[0], pair.answer * s[k].f_cmd[1], pair.answer * s[k].f_cmd[2]};
+      error.add(distance2(felt, t[k].f));
       // What was commanded to the slave is what it would have pressed with; the environment answers with the opposite.
       const std::array<float, 3> wanted{-t[k].f_cmd[0], -t[k].f_cmd[1], -t[k].f_cmd[2]};
-      commanded.add(distance2(s[k].f_cmd, wanted));
+      commanded.add(distance2(asked, wanted));
     }
   }
   m.transport_lag_rms_m = transport.value();
@@ -230,7 +232,8 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
     if (scene_->seats[i].kind == SeatKind::kMaster)
       while (j + 1 < tools.size() && scene_->follow[i][j] <= 0) ++j;
     // Delay of the leader's path: up to the server; a remote slave adds its own, which the tracking error then contains.
-    return Pair{&seats[i], &tools[j], i < links.size() ? std::max(0.0, 0.5 * (links[i].rtt_p50_ms * 1e-3 - 1 / scene_->tick_hz)) : 0};
+    return Pair{&seats[i], &tools[j], i < links.size() ? std::max(0.0, 0.5 * (links[i].rtt_p50_ms * 1e-3 - 1 / scene_->tick_hz)) : 0,
+                scene_->seats[i].kind == SeatKind::kSlave ? -1.0f : 1.0f};
   };
   for (std::size_t i = 0; i < seats.size(); ++i) {
     SeatReport s;

@@ -85,6 +85,7 @@ class ReportBuilder {
     const Track* seat = nullptr;
     const Track* slave = nullptr;
     double one_way_s = 0;
+    float answer = 1;  ///< +1: the seat's motor stands for the environment; -1: it is the slave's own, which presses against it
   };
   [[nodiscard]] SeatMetrics judge(const Pair& pair, const std::vector<Window>& windows, const std::vector<Window>& contact) const;
   [[nodiscard]] std::vector<char> counted(const Pair& pair, const std::vector<Window>& windows) const;

@@ -110,7 +110,7 @@ TEST(Profiles, EveryMistakeIsListedWithItsPlace) {
       << text;
   EXPECT_NE(text.find("p.textproto:4:17: both.loss_percent = 101"), std::string::npos) << text;
   EXPECT_NE(text.find("p.textproto:5:34: both.body.log_normal.median_ms = nan"), std::string::npos) << text;
-  EXPECT_NE(text.find("p.textproto:5:55: both.body.log_normal.cap_ms = 1e400"), std::string::npos) << text;
+  EXPECT_NE(text.find("p.textproto:5:57: both.body.log_normal.cap_ms = 1e400"), std::string::npos) << text;
   EXPECT_NE(text.find("p.textproto:6:23: both.stall.rate_per_s"), std::string::npos) << text;
   EXPECT_NE(text.find("both.stall.alpha: is missing"), std::string::npos) << text;
 }

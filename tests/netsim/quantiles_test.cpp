@@ -17,7 +17,9 @@ TEST(Quantiles, NormalMatchesTables) {
 TEST(Quantiles, NormalUndoesItsDistributionInEveryBranch) {
   for (double z = -8; z <= 8; z += 0.01) {
     const double u = normal_cdf(z);
-    if (u < 1 - 1e-9) EXPECT_NEAR(normal_quantile(u), z, 1e-6 + 1e-9 * std::exp(z * z / 2)) << z;
+    // Near 1 a double has no digits left to tell quantiles apart.
+    if (u >= 1 - 1e-9) break;
+    EXPECT_NEAR(normal_quantile(u), z, 1e-6) << z;
   }
 }
 

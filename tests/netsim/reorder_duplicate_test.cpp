@@ -103,7 +103,7 @@ TEST(Reorder, DoesNotMoveTheOthers) {
   const auto a = verdicts(path_of(plain), 10'000);
   const auto b = verdicts(path_of(with), 10'000);
   for (std::size_t i = 0; i < a.size(); ++i) {
-    if (b[i].outcome == Outcome::kDeliver) ASSERT_EQ(a[i].at, b[i].at) << i;
+    ASSERT_TRUE(b[i].outcome == Outcome::kHeldBack || a[i].at == b[i].at) << i;
   }
 }
 

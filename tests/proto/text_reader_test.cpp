@@ -83,5 +83,22 @@ TEST(SceneReader, TakesBothBracketsListsOfSeparatorsAndComments) {
   EXPECT_EQ(scene->seats[0].name, "a");
 }
 
+/// The outline in product.md, word for word.
+TEST(SceneReader, ReadsTheOutlineOfTheProductDocument) {
+  const auto scene = parse_scene(
+      R"(version: 1  tick_hz: 1000  dof: 3  duration_s: 18  alpha_slew_per_s: 1
+channel { law: SET_POSITION k_n_m: 1000 mfs: OPEN }   device_coupling { k_c_n_m: 400 b_n_s_m: 1 m_c_kg: 0.02 }   gate { silence_limit_ms: 20 }
+seat { name: "trainer" kind: MASTER role: INSTRUCTOR required: true hand { model: LEADER } }
+seat { name: "trainee" kind: MASTER role: TRAINEE required: true hand { model: RELAXED } }
+tool { name: "tool" slave { model: TOUCH environment { wall { axis: X at_m: 0 k_n_m: 20000 } } } }        # or: seat { kind: SLAVE … } served by a third client
+authority { tool: "tool" seat: "trainer" alpha: 1 }
+timeline { at_s: 11.5 authority { tool: "tool" seat: "trainee" alpha: 1 } }
+)",
+      "outline.textproto");
+  ASSERT_TRUE(scene.has_value()) << to_text(scene.error());
+  EXPECT_EQ(scene->tools[0].environment.wall->k, 20000);
+  EXPECT_EQ(scene->timeline[0].row.alpha[1], 1);
+}
+
 }  // namespace
 }  // namespace tandem

@@ -149,7 +149,7 @@ TEST(WireHostile, UnknownFieldsInABindAckAreMalformed) {
   Codec codec(3, PortSpace::kTip);
   for (const auto& c : cases(codec)) {
     if (!c.name.starts_with("BIND_ACK")) continue;
-    for (const unsigned char tag : {0x30, 0x35, 0x78}) {  // fields 6 and 15 as varint, field 6 as fixed32
+    for (const int tag : {0x30, 0x35, 0x78}) {  // fields 6 and 15 as varint, field 6 as fixed32
       Bytes more = c.bytes;
       more.push_back(static_cast<std::byte>(tag));
       more.resize(more.size() + (tag == 0x35 ? 4 : 1));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstring>
 
 #include "common/base/rng.h"
@@ -39,6 +40,10 @@ inline StateMessage state(RandomStream& random, std::size_t axes) {
   m.telemetry.refused_j = single(random, 1000);
   m.telemetry.delivered_j = single(random, 1000);
   m.telemetry.margin_min_j = single(random, 1000);
+  for (auto& v : m.telemetry.f_env) v = single(random, 100);
+  m.telemetry.penetration_m = single(random, 1);
+  for (double* v : {&m.telemetry.down_loss_percent, &m.telemetry.down_longest_gap_ms, &m.telemetry.down_age_p99_ms})
+    *v = std::abs(single(random, 100));
   m.gate = static_cast<GateState>(random.below(7));
   m.ready = random.below(2) == 1;
   m.engaged = random.below(2) == 1;

@@ -7,8 +7,8 @@ namespace {
 
 /// The numbers wire.proto and the documents name. A change here is a change of the protocol.
 TEST(WireSize, IsWhatTheDocumentsSay) {
-  EXPECT_EQ(state_size(3), 250u);
-  EXPECT_EQ(state_size(7), 426u);
+  EXPECT_EQ(state_size(3), 289u);
+  EXPECT_EQ(state_size(7), 465u);
   EXPECT_EQ(force_size(3), 154u);
   EXPECT_EQ(force_size(7), 282u);
   EXPECT_EQ(kBindSize, 106u);

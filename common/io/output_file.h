@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace tandem::io {
+
+/// A file a person named for results: opened before anything starts, so that a name that cannot be written is a mistake
+/// found early; checked to the last byte. `-` is standard output where allowed.
+class OutputFile {
+ public:
+  OutputFile() = default;
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// @param name  empty: nothing is wanted, every write is ignored
+  /// @return what is wrong, empty if nothing
+  [[nodiscard]] std::string open(const std::string& name, bool dash_is_stdout);
+  void write(std::string_view text) noexcept;
+  /// @return what is wrong, empty if every byte was written
+  [[nodiscard]] std::string close();
+
+  [[nodiscard]] bool wanted() const noexcept { return file_ != nullptr; }
+  [[nodiscard]] bool on_stdout() const noexcept { return file_ == stdout; }
+
+ private:
+  std::string name_;
+  std::FILE* file_ = nullptr;
+  bool failed_ = false;
+};
+
+}  // namespace tandem::io

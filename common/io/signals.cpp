@@ -1,0 +1,19 @@
+#include "common/io/signals.h"
+
+#include <pthread.h>
+#include <sys/signalfd.h>
+
+#include <csignal>
+
+namespace tandem::io {
+
+Fd signals_as_file() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away must not take a session with it
+  return Fd{signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK)};
+}
+
+}  // namespace tandem::io

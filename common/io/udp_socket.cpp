@@ -1,0 +1,54 @@
+#include "common/io/udp_socket.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include "common/io/datagram_batch.h"
+
+namespace tandem::io {
+namespace {
+
+std::string bind_problem(const SocketAddress& address, int error) {
+  const std::string where = to_text(address);
+  switch (error) {
+    case EADDRINUSE:
+      return where + " is in use by another program: stop that program, or choose another port (0 takes a free one)";
+    case EADDRNOTAVAIL:
+      return where + " is not an address of this computer: use one that `ip address` shows, or 127.0.0.1";
+    case EACCES:
+      return where + " is not allowed: ports below 1024 need root; choose a higher one";
+    default:
+      return where + ": " + std::strerror(error);
+  }
+}
+
+SocketAddress local_address(int fd) {
+  SocketAddress local;
+  local.size = sizeof local.storage;
+  ::getsockname(fd, reinterpret_cast<sockaddr*>(&local.storage), &local.size);
+  return local;
+}
+
+Fd open_udp(int family) { return Fd{::socket(family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)}; }
+
+}  // namespace
+
+std::expected<UdpSocket, std::string> bind_udp(const SocketAddress& at, bool local_wanted) {
+  UdpSocket socket{open_udp(at.family()), {}};
+  if (!socket.fd.open()) return std::unexpected(bind_problem(at, errno));
+  if (::bind(socket.fd.get(), at.get(), at.size) != 0) return std::unexpected(bind_problem(at, errno));
+  ReceiveBatch::prepare(socket.fd.get(), at.family(), local_wanted);
+  socket.local = local_address(socket.fd.get());
+  return socket;
+}
+
+std::expected<UdpSocket, std::string> connect_udp(const SocketAddress& to) {
+  UdpSocket socket{open_udp(to.family()), {}};
+  if (!socket.fd.open() || ::connect(socket.fd.get(), to.get(), to.size) != 0)
+    return std::unexpected(to_text(to) + ": " + std::strerror(errno));
+  ReceiveBatch::prepare(socket.fd.get(), to.family(), false);
+  socket.local = local_address(socket.fd.get());
+  return socket;
+}
+
+}  // namespace tandem::io

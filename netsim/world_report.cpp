@@ -1,0 +1,40 @@
+#include "netsim/world_report.h"
+
+namespace tandem::netsim {
+
+namespace {
+
+constexpr double kMs = 1e3;
+
+server::DirectionReport direction(const link::Link& receiver) {
+  const link::LinkStats& s = receiver.stats();
+  return {s.loss_percent(), seconds(s.longest_gap) * kMs, seconds(Duration{s.age.quantile(0.99)}) * kMs};
+}
+
+}  // namespace
+
+std::vector<server::LinkReport> link_reports(const World& world) {
+  std::vector<server::LinkReport> reports(world.scene().seats.size());
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const client::Seat* seat = world.seat(i);
+    const link::Link* server_end = world.session().seat(i).link();
+    if (seat == nullptr || server_end == nullptr) continue;
+    reports[i].rtt_p50_ms = seconds(seat->link().freshness().rtt_p50()) * kMs;
+    reports[i].rtt_p99_ms = seconds(seat->link().freshness().rtt_p99()) * kMs;
+    reports[i].up = direction(*server_end);
+    reports[i].down = direction(seat->link());
+  }
+  return reports;
+}
+
+server::RunReport world_report(const World& world, const server::ReportBuilder& builder, std::uint64_t seed) {
+  server::RunReport report = builder.build(link_reports(world));
+  report.seed = seed;
+  report.violations = world.violations().list();
+  report.passed = world.violations().passed();
+  for (std::size_t i = 0; i < report.seats.size(); ++i)
+    if (world.seat(i) != nullptr) report.seats[i].gate_trips = world.seat(i)->gate().trips();
+  return report;
+}
+
+}  // namespace tandem::netsim

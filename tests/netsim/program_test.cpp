@@ -1,0 +1,204 @@
+// The program tandem-netsim as people and scripts meet it: exit codes, the line they parse, JSON.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/netsim/udp_peer.h"
+
+extern char** environ;
+
+namespace tandem::netsim {
+namespace {
+
+using namespace test;
+
+/// A run of tandem-netsim; standard output and standard error come through one pipe each.
+class Program {
+ public:
+  explicit Program(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), TANDEM_NETSIM_PROGRAM);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    int out[2], err[2];
+    EXPECT_EQ(pipe2(out, O_CLOEXEC), 0);
+    EXPECT_EQ(pipe2(err, O_CLOEXEC), 0);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
+    EXPECT_EQ(posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&actions);
+    out_ = Fd{out[0]};
+    err_ = Fd{err[0]};
+    ::close(out[1]);
+    ::close(err[1]);
+  }
+  ~Program() {
+    if (pid_ > 0) {
+      kill(SIGKILL);
+      exit_code();
+    }
+  }
+
+  std::string line() {
+    std::string text;
+    char c = 0;
+    while (::read(out_.get(), &c, 1) == 1 && c != '\n') text += c;
+    return text;
+  }
+  std::string rest_of_out() { return all_of(out_); }
+  std::string rest_of_err() { return all_of(err_); }
+  void kill(int signal) { ::kill(pid_, signal); }
+  int exit_code() {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  static std::string all_of(const Fd& fd) {
+    std::string text;
+    char buffer[4096];
+    for (ssize_t n = 0; (n = ::read(fd.get(), buffer, sizeof buffer)) > 0;)
+      text.append(buffer, static_cast<std::size_t>(n));
+    return text;
+  }
+  pid_t pid_ = 0;
+  Fd out_, err_;
+};
+
+TEST(Program, ProxyPrintsItsPortCarriesAndEndsCleanlyOnBothSignals) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    UdpPeer server, client;
+    const std::string json = testing::TempDir() + "proxy_" + std::to_string(signal) + ".json";
+    Program program({"proxy", "--listen", "127.0.0.1:0", "--to", to_text(server.address()), "--delay", "0.5", "--seed",
+                     "9", "--json", json});
+    const std::string line = program.line();
+    ASSERT_TRUE(line.starts_with("listening on 127.0.0.1:")) << line;
+    client.connect(*parse_address(line.substr(13), 1));
+    for (int i = 0; i < 10; ++i) {
+      ASSERT_TRUE(client.send("ping"));
+      const auto got = server.receive();
+      ASSERT_TRUE(got);
+      ASSERT_TRUE(server.send_to(got->from, "pong"));
+      ASSERT_EQ(client.receive()->bytes, "pong");
+    }
+    program.kill(signal);
+    const std::string words = program.rest_of_out();
+    EXPECT_EQ(program.exit_code(), 0);
+    EXPECT_NE(words.find("10 in"), std::string::npos) << words;
+    const auto report = nlohmann::json::parse(std::ifstream(json));
+    EXPECT_EQ(report["up"]["in"], 10);
+    EXPECT_EQ(report["down"]["out"], 10);
+    EXPECT_EQ(report["seed"], 9);
+    EXPECT_GE(report["up"]["delay_mean_ms"], 0.5);
+    EXPECT_EQ(report["clients"].size(), 1U);
+    EXPECT_EQ(report["lateness"]["count"], 20);
+  }
+}
+
+TEST(Program, ProxyEndsByItselfAndPutsNothingButJsonOnStandardOutput) {
+  Program program({"proxy", "--to", "127.0.0.1:9", "--duration", "0.05", "--profile", "wifi-busy", "--json", "-"});
+  const std::string out = program.rest_of_out();
+  EXPECT_NE(program.rest_of_err().find("listening on 127.0.0.1:"), std::string::npos);
+  EXPECT_EQ(program.exit_code(), 0);
+  EXPECT_EQ(nlohmann::json::parse(out)["network"], "wifi-busy");
+}
+
+TEST(Program, APortInUseIsTroubleWithARemedy) {
+  UdpPeer taken;
+  Program program({"proxy", "--listen", to_text(taken.address()), "--to", "127.0.0.1:9"});
+  EXPECT_NE(program.rest_of_err().find("choose another port"), std::string::npos);
+  EXPECT_EQ(program.exit_code(), 1);
+}
+
+TEST(Program, WrongArgumentsAreNamedWithValueAndRangeBeforeAnythingStarts) {
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string says;
+  };
+  const std::vector<Case> cases{
+      {{}, "subcommand"},
+      {{"prox"}, "did you mean proxy?"},
+      {{"proxy"}, "--to is required"},
+      {{"proxy", "--to", "127.0.0.1"}, "needs HOST:PORT"},
+      {{"proxy", "--to", "127.0.0.1:0"}, "[1, 65535]"},
+      {{"proxy", "--to", "127.0.0.1:9", "--listen", "127.0.0.1:9"}, "the proxy itself"},
+      {{"proxy", "--to", "127.0.0.1:9", "--listen", "127.0.0.1:70000"}, "[0, 65535]"},
+      {{"proxy", "--to", "127.0.0.1:9", "--delay", "60000.1"}, "[0, 60000] ms"},
+      {{"proxy", "--to", "127.0.0.1:9", "--delay", "-1"}, "\"-1\" is out of range"},
+      {{"proxy", "--to", "127.0.0.1:9", "--jitter", "nan"}, "\"nan\" is not a number"},
+      {{"proxy", "--to", "127.0.0.1:9", "--loss", "100.5"}, "[0, 100] %"},
+      {{"proxy", "--to", "127.0.0.1:9", "--loss", "5%"}, "\"5%\" is not a number"},
+      {{"proxy", "--to", "127.0.0.1:9", "--duplicate", "1e400"}, "--duplicate"},
+      {{"proxy", "--to", "127.0.0.1:9", "--seed", "1.5"}, "whole number"},
+      {{"proxy", "--to", "127.0.0.1:9", "--duration", "0"}, "--duration"},
+      {{"proxy", "--to", "127.0.0.1:9", "--outage", "5"}, "START,LENGTH"},
+      {{"proxy", "--to", "127.0.0.1:9", "--outage", "5,1,0.5"}, "PERIOD must be longer"},
+      {{"proxy", "--to", "127.0.0.1:9", "--outage", "5,x"}, "numbers of seconds"},
+      {{"proxy", "--to", "127.0.0.1:9", "--profile", "wifi-bussy"}, "did you mean wifi-busy?"},
+      {{"proxy", "--to", "127.0.0.1:9", "--profile", "./none.textproto"}, "No such file"},
+      {{"proxy", "--to", "127.0.0.1:9", "--network", "lan", "--loss", "1"}, "excludes --loss"},
+      {{"proxy", "--to", "127.0.0.1:9", "--json", "/no/such/folder/x.json"}, "cannot be written"},
+      {{"proxy", "--to", "127.0.0.1:9", "--unknown", "1"}, "--unknown"},
+      {{"profiles", "wifi-bussy"}, "did you mean wifi-busy?"},
+  };
+  for (const Case& one : cases) {
+    Program program(one.arguments);
+    const std::string err = program.rest_of_err();
+    EXPECT_EQ(program.exit_code(), 2) << one.says;
+    EXPECT_NE(err.find(one.says), std::string::npos) << err;
+    EXPECT_EQ(program.rest_of_out(), "") << one.says;
+  }
+}
+
+TEST(Program, AFileWithMistakesListsThemAll) {
+  const std::string file = testing::TempDir() + "bad.textproto";
+  std::ofstream(file) << "version: 1\nboth {\n  flor_ms: 1\n  loss_percent: -1\n}\n";
+  Program program({"proxy", "--to", "127.0.0.1:9", "--profile", file});
+  const std::string err = program.rest_of_err();
+  EXPECT_EQ(program.exit_code(), 2);
+  EXPECT_NE(err.find(file + ":3:3: both.flor_ms: unknown key; did you mean floor_ms?"), std::string::npos) << err;
+  EXPECT_NE(err.find(file + ":4:17: both.loss_percent = -1"), std::string::npos) << err;
+}
+
+TEST(Program, TellsItsVersionItsProfilesAndHowToUseIt) {
+  {
+    Program program({"--version"});
+    EXPECT_TRUE(program.rest_of_out().starts_with("tandem-netsim "));
+    EXPECT_EQ(program.exit_code(), 0);
+  }
+  {
+    Program program({"proxy", "--help"});
+    EXPECT_NE(program.rest_of_out().find("Examples"), std::string::npos);
+    EXPECT_EQ(program.exit_code(), 0);
+  }
+  {
+    Program program({"profiles", "--json"});
+    const auto json = nlohmann::json::parse(program.rest_of_out());
+    EXPECT_EQ(program.exit_code(), 0);
+    EXPECT_GE(json.size(), 6U);
+    for (const auto& profile : json) EXPECT_FALSE(profile["summary"].get<std::string>().empty());
+  }
+  {
+    // What it prints can be used as a file.
+    Program program({"profiles", "5g"});
+    const std::string file = testing::TempDir() + "mine.textproto";
+    std::ofstream(file) << program.rest_of_out();
+    EXPECT_EQ(program.exit_code(), 0);
+    Program proxy({"proxy", "--to", "127.0.0.1:9", "--duration", "0.01", "--network", file});
+    EXPECT_EQ(proxy.exit_code(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace tandem::netsim

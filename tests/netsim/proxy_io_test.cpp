@@ -1,0 +1,266 @@
+// The live proxy with real sockets on loopback. Counts, order and states are asserted, never times.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <thread>
+
+#include "netsim/app/proxy.h"
+#include "tests/netsim/support.h"
+#include "tests/netsim/udp_peer.h"
+
+namespace tandem::netsim {
+namespace {
+
+using namespace test;
+
+/// A proxy at work in its own thread.
+class Running {
+ public:
+  Running(const SocketAddress& to, const LinkSpec& link, const std::string& listen = "127.0.0.1:0",
+          Duration idle_limit = 60s) {
+    ProxyOptions options;
+    options.listen = *parse_address(listen, 0);
+    options.to = to;
+    options.link = link;
+    options.idle_limit = idle_limit;
+    auto opened = Proxy::open(options);
+    if (!opened) throw std::runtime_error(opened.error());
+    proxy_ = std::move(*opened);
+    thread_ = std::thread([this] { proxy_->run(); });
+  }
+  ~Running() { end(); }
+  void end() {
+    if (!thread_.joinable()) return;
+    proxy_->stop();
+    thread_.join();
+  }
+  Proxy& operator*() { return *proxy_; }
+  Proxy* operator->() { return proxy_.get(); }
+  /// Until the published picture fulfils `condition`. @return whether it did
+  bool wait_until(const std::function<bool(const ProxyStatus&)>& condition) {
+    for (int i = 0; i < UdpPeer::kPatienceMs / 10; ++i) {
+      if (condition(proxy_->status())) return true;
+      ::poll(nullptr, 0, 10);
+    }
+    return false;
+  }
+
+ private:
+  std::unique_ptr<Proxy> proxy_;
+  std::thread thread_;
+};
+
+TEST(Proxy, CarriesBothDirectionsForEachClientApart) {
+  UdpPeer server, a, b;
+  Running proxy{server.address(), {}};
+  a.connect(proxy->listening());
+  b.connect(proxy->listening());
+  for (int i = 0; i < 200; ++i) {
+    const std::string number = std::to_string(i);
+    ASSERT_TRUE(a.send("a" + number));
+    ASSERT_TRUE(b.send("b" + number));
+    std::set<std::uint16_t> ports;
+    for (int k = 0; k < 2; ++k) {
+      const auto got = server.receive();
+      ASSERT_TRUE(got);
+      ports.insert(got->from.port());
+      ASSERT_TRUE(server.send_to(got->from, "re:" + got->bytes));
+    }
+    EXPECT_EQ(ports.size(), 2U);  // a socket of its own for each
+    EXPECT_EQ(a.receive()->bytes, "re:a" + number);
+    EXPECT_EQ(b.receive()->bytes, "re:b" + number);
+  }
+  proxy.end();
+  const ProxyStatus status = proxy->final_status();
+  EXPECT_EQ(status.clients_seen, 2U);
+  for (const PathCounters& direction : status.total) {
+    EXPECT_EQ(direction.in, 400U);
+    EXPECT_EQ(direction.out, 400U);
+    EXPECT_EQ(direction.dropped(), 0U);
+  }
+  EXPECT_EQ(proxy->lateness().count(), 800U);
+  EXPECT_EQ(proxy->client_reports().size(), 2U);
+}
+
+TEST(Proxy, KeepsOrderThroughJitter) {
+  UdpPeer server, client;
+  Running proxy{server.address(), link_from({.delay = 2ms, .jitter = 10ms})};
+  client.connect(proxy->listening());
+  // A hundred at a time: the kernel's default buffers hold less than three hundred.
+  for (int i = 0; i < 500; ++i) {
+    ASSERT_TRUE(client.send(std::to_string(i)));
+    if (i % 100 != 99) continue;
+    for (int expected = i - 99; expected <= i; ++expected) {
+      const auto got = server.receive();
+      ASSERT_TRUE(got) << expected;
+      ASSERT_EQ(got->bytes, std::to_string(expected));
+    }
+  }
+}
+
+TEST(Proxy, LosesAndCopiesAsTheEngineDecides) {
+  UdpPeer server, client;
+  LinkSpec link = link_from({.loss = 0.3, .duplicate = 0.2});
+  Running proxy{server.address(), link};
+  client.connect(proxy->listening());
+  // Loss and copies are drawn per datagram, not per time: the same as link 0 of a virtual network with this seed.
+  Path path{link.up, Path::key_for(1, 0, Direction::kUp)};
+  std::multiset<std::string> expected, got;
+  for (int i = 0; i < 500; ++i) {
+    const std::string bytes = std::to_string(i);
+    const Verdict v = path.send(Time{}, bytes.size());
+    if (v.outcome == Outcome::kDeliver) expected.insert(bytes);
+    if (v.copied) expected.insert(bytes);
+    ASSERT_TRUE(client.send(bytes));
+    while (i % 50 == 49 && got.size() < expected.size()) {
+      const auto received = server.receive();
+      ASSERT_TRUE(received) << got.size() << " of " << expected.size();
+      got.insert(received->bytes);
+    }
+  }
+  EXPECT_GT(expected.size(), 300U);
+  EXPECT_EQ(got, expected);
+}
+
+TEST(Proxy, AllLostMeansNothingArrives) {
+  UdpPeer server, client;
+  Running proxy{server.address(), link_from({.loss = 1})};
+  client.connect(proxy->listening());
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(client.send("x"));
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.total[0].of(Outcome::kLost) == 20; }));
+  EXPECT_FALSE(server.receive(50));
+}
+
+TEST(Proxy, OutlivesAServerThatIsNotThereYet) {
+  // A port that was free a moment ago.
+  SocketAddress to;
+  { to = UdpPeer{}.address(); }
+  UdpPeer client;
+  Running proxy{to, {}};
+  client.connect(proxy->listening());
+  ASSERT_TRUE(client.send("nobody"));
+  ASSERT_TRUE(client.send("home"));
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.troubles.refused > 0; }));
+  UdpPeer server{to_text(to)};
+  ASSERT_TRUE(server.bound());
+  // What was sent into the void may cost one more datagram; after that all is well.
+  std::optional<UdpPeer::Received> got;
+  for (int i = 0; i < 10 && !got; ++i) {
+    ASSERT_TRUE(client.send("hello"));
+    got = server.receive(500);
+  }
+  ASSERT_TRUE(got);
+  ASSERT_TRUE(server.send_to(got->from, "welcome"));
+  EXPECT_EQ(client.receive()->bytes, "welcome");
+}
+
+TEST(Proxy, OutlivesAClientThatVanishes) {
+  UdpPeer server, other;
+  Running proxy{server.address(), {}};
+  SocketAddress upstream;
+  {
+    UdpPeer gone;
+    gone.connect(proxy->listening());
+    ASSERT_TRUE(gone.send("bye"));
+    upstream = server.receive()->from;
+  }
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(server.send_to(upstream, "are you there"));
+  other.connect(proxy->listening());
+  ASSERT_TRUE(other.send("I am"));
+  EXPECT_EQ(server.receive()->bytes, "I am");
+}
+
+TEST(Proxy, ForgetsASilentClientAndWelcomesItAgain) {
+  UdpPeer server, client;
+  Running proxy{server.address(), {}, "127.0.0.1:0", 1ms};
+  client.connect(proxy->listening());
+  ASSERT_TRUE(client.send("1"));
+  ASSERT_TRUE(server.receive());
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.clients_seen == 1 && s.clients == 0; }));
+  ASSERT_TRUE(client.send("2"));
+  EXPECT_EQ(server.receive()->bytes, "2");
+  proxy.end();
+  EXPECT_EQ(proxy->final_status().clients_seen, 2U);
+  EXPECT_EQ(proxy->final_status().total[0].out, 2U);  // totals keep those who left
+}
+
+TEST(Proxy, HasSixtyFourPlaces) {
+  UdpPeer server;
+  Running proxy{server.address(), {}};
+  std::vector<std::unique_ptr<UdpPeer>> clients;
+  for (int i = 0; i < 65; ++i) {
+    clients.push_back(std::make_unique<UdpPeer>());
+    clients.back()->connect(proxy->listening());
+    ASSERT_TRUE(clients.back()->send("x"));
+    ASSERT_TRUE(i == 64 || server.receive()) << i;
+  }
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.troubles.too_many_clients == 1; }));
+  EXPECT_EQ(proxy->status().clients, 64U);
+}
+
+TEST(Proxy, TakesDatagramsOfAnySize) {
+  UdpPeer server, client;
+  Running proxy{server.address(), {}};
+  client.connect(proxy->listening());
+  ASSERT_TRUE(client.send(std::string(65'507, 'x')));
+  ASSERT_TRUE(client.send(std::string(1501, 'x')));
+  ASSERT_TRUE(client.send(std::string(1500, 'y')));
+  ASSERT_TRUE(client.send(""));
+  EXPECT_EQ(server.receive()->bytes, std::string(1500, 'y'));
+  EXPECT_EQ(server.receive()->bytes, "");
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.troubles.too_long == 2; }));
+}
+
+TEST(Proxy, SpeaksIpv6) {
+  UdpPeer server{"[::1]:0"}, client{"[::1]:0"};
+  if (!server.bound()) GTEST_SKIP() << "this computer has no IPv6 loopback";
+  Running proxy{server.address(), {}, "[::1]:0"};
+  client.connect(proxy->listening());
+  ASSERT_TRUE(client.send("six"));
+  const auto got = server.receive();
+  ASSERT_TRUE(got);
+  ASSERT_TRUE(server.send_to(got->from, "six too"));
+  EXPECT_EQ(client.receive()->bytes, "six too");
+}
+
+// Bound to "any", an answer must come from the address the client sent to, or a connected client never sees it.
+TEST(Proxy, AnswersFromTheAddressItWasCalledBy) {
+  UdpPeer server, client;
+  Running proxy{server.address(), {}, "0.0.0.0:0"};
+  const auto second = parse_address("127.0.0.2:" + std::to_string(proxy->listening().port()), 1);
+  ASSERT_TRUE(second);
+  client.connect(*second);
+  ASSERT_TRUE(client.send("hello"));
+  const auto got = server.receive();
+  ASSERT_TRUE(got);
+  ASSERT_TRUE(server.send_to(got->from, "hello too"));
+  const auto answer = client.receive();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->bytes, "hello too");
+}
+
+TEST(Proxy, SaysWhatToDoWhenThePortIsTaken) {
+  UdpPeer taken;
+  ProxyOptions options;
+  options.listen = taken.address();
+  options.to = taken.address();
+  const auto proxy = Proxy::open(options);
+  ASSERT_FALSE(proxy);
+  EXPECT_NE(proxy.error().find("in use"), std::string::npos);
+  EXPECT_NE(proxy.error().find("choose another port"), std::string::npos);
+}
+
+TEST(SocketAddress, ReadsAndWritesWhatPeopleType) {
+  EXPECT_EQ(to_text(*parse_address("127.0.0.1:7000", 1)), "127.0.0.1:7000");
+  EXPECT_EQ(to_text(*parse_address("[::1]:7000", 1)), "[::1]:7000");
+  EXPECT_EQ(to_text(*parse_address("localhost:80", 1)), "127.0.0.1:80");
+  for (const char* wrong : {"", "127.0.0.1", "127.0.0.1:", "127.0.0.1:0", "127.0.0.1:65536", "127.0.0.1:-1", "::1:7000",
+                            ":7000", "127.0.0.1:7000x", "no.such.host.invalid:1"}) {
+    EXPECT_FALSE(parse_address(wrong, 1)) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace tandem::netsim

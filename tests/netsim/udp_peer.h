@@ -1,0 +1,67 @@
+#pragma once
+
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "netsim/app/fd.h"
+#include "netsim/app/socket_address.h"
+
+namespace tandem::netsim::test {
+
+/// One end of a UDP conversation in a test. Waiting has a limit far above what is needed; its length is never asserted.
+class UdpPeer {
+ public:
+  static constexpr int kPatienceMs = 20'000;
+
+  /// Binds to `HOST:PORT`; port 0 takes a free one.
+  explicit UdpPeer(const std::string& bind_to = "127.0.0.1:0") {
+    const auto address = parse_address(bind_to, 0);
+    fd_ = Fd{::socket(address->family(), SOCK_DGRAM | SOCK_CLOEXEC, 0)};
+    bound_ = ::bind(fd_.get(), address->get(), address->size) == 0;
+    address_.size = sizeof address_.storage;
+    ::getsockname(fd_.get(), reinterpret_cast<sockaddr*>(&address_.storage), &address_.size);
+  }
+
+  [[nodiscard]] bool bound() const { return bound_; }
+  [[nodiscard]] const SocketAddress& address() const { return address_; }
+
+  void connect(const SocketAddress& to) { ::connect(fd_.get(), to.get(), to.size); }
+  bool send(const std::string& bytes) { return ::send(fd_.get(), bytes.data(), bytes.size(), 0) >= 0; }
+  bool send_to(const SocketAddress& to, const std::string& bytes) {
+    return ::sendto(fd_.get(), bytes.data(), bytes.size(), 0, to.get(), to.size) >= 0;
+  }
+
+  struct Received {
+    std::string bytes;
+    SocketAddress from;
+  };
+  /// The next datagram; empty when none comes for `patience_ms`.
+  std::optional<Received> receive(int patience_ms = kPatienceMs) {
+    pollfd ready{fd_.get(), POLLIN, 0};
+    while (::poll(&ready, 1, patience_ms) > 0) {
+      Received received;
+      received.bytes.resize(65'536);
+      received.from.size = sizeof received.from.storage;
+      const auto n = ::recvfrom(fd_.get(), received.bytes.data(), received.bytes.size(), 0,
+                                reinterpret_cast<sockaddr*>(&received.from.storage), &received.from.size);
+      if (n < 0) continue;  // refused: news about an earlier datagram
+      received.bytes.resize(static_cast<std::size_t>(n));
+      return received;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Fd fd_;
+  SocketAddress address_;
+  bool bound_ = false;
+};
+
+}  // namespace tandem::netsim::test
