@@ -1,13 +1,26 @@
 #include "common/io/output_file.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 namespace tandem::io {
 
 OutputFile::~OutputFile() {
   if (file_ != nullptr && !on_stdout()) std::fclose(file_);
+}
+
+std::string OutputFile::problem(const std::string& name) {
+  std::error_code error;
+  if (std::filesystem::is_directory(name, error)) return name + " cannot be written: it is a folder";
+  const bool exists = std::filesystem::exists(name, error);
+  const std::filesystem::path parent = std::filesystem::path(name).parent_path();
+  const std::string target = exists ? name : parent.empty() ? "." : parent.string();
+  if (access(target.c_str(), W_OK) == 0 && (exists || std::filesystem::is_directory(target, error))) return {};
+  return name + " cannot be written: " + (exists ? "" : target + ": ") + std::strerror(errno != 0 ? errno : ENOTDIR);
 }
 
 std::string OutputFile::open(const std::string& name, bool dash_is_stdout) {

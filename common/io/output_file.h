@@ -6,7 +6,7 @@
 
 namespace tandem::io {
 
-/// A file a person named for results: opened before anything starts, so that a name that cannot be written is a mistake
+/// A file a person named for results: judged before anything starts, so that a name that cannot be written is a mistake
 /// found early; checked to the last byte. `-` is standard output where allowed.
 class OutputFile {
  public:
@@ -15,6 +15,8 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
+  /// Why a file of this name could not be written, empty if it could. Touches nothing.
+  [[nodiscard]] static std::string problem(const std::string& name);
   /// @param name  empty: nothing is wanted, every write is ignored
   /// @return what is wrong, empty if nothing
   [[nodiscard]] std::string open(const std::string& name, bool dash_is_stdout);

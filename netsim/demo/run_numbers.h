@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The six runs of the demo and the numbers that come out of each. Pure data.
+namespace tandem::netsim::demo {
+
+enum class Task : std::uint8_t { kFreeMotion, kContact };
+/// Columns of the table.
+enum class Setting : std::uint8_t { kSeed, kDefaults, kBadNetwork };
+inline constexpr std::size_t kSettings = 3, kRuns = 6;
+
+struct RunPlan {
+  std::string_view name;        ///< for --runs and for files
+  std::string_view scene;       ///< a shipped scene
+  Task task = Task::kFreeMotion;
+  Setting setting = Setting::kSeed;
+  double duration_s = 0;        ///< session time [s]
+  [[nodiscard]] constexpr bool joint_port() const noexcept { return setting == Setting::kSeed; }
+};
+/// All of them, in the order in which they run.
+[[nodiscard]] const std::array<RunPlan, kRuns>& run_plans() noexcept;
+[[nodiscard]] const RunPlan& run_plan(Task task, Setting setting) noexcept;
+/// "Free motion, the paper's gains".
+[[nodiscard]] std::string title_of(const RunPlan& plan);
+
+/// The network of Setting::kBadNetwork, each direction.
+inline constexpr double kBadDelayMs = 20, kBadJitterMs = 5, kBadLossPercent = 5;
+inline constexpr std::uint64_t kSeedNumber = 1;
+/// "20 ms + 0–5 ms jitter, 5 % loss each way" or "none added".
+[[nodiscard]] std::string network_text(Setting setting);
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// One seat over one span, from the JSON report (README: report keys).
+struct SeatNumbers {
+  double tracking_m = kUnknown, lag_removed_m = kUnknown, transport_lag_m = kUnknown;
+  std::array<double, 3> joint_rad{kUnknown, kUnknown, kUnknown};
+  double force_error_n = kUnknown, force_error_commanded_n = kUnknown;
+};
+struct LinkNumbers {
+  double rtt_p50_ms = kUnknown, rtt_p99_ms = kUnknown, loss_up_percent = kUnknown, loss_down_percent = kUnknown;
+  double gap_up_ms = kUnknown, gap_down_ms = kUnknown;
+};
+struct PhaseNumbers {
+  std::string name;
+  double from_s = 0, to_s = 0;
+  SeatNumbers trainer, trainee;
+};
+struct ViolationNumbers {
+  std::string invariant, seat;
+  double at_s = 0;
+  bool expected = false;
+};
+struct ReportNumbers {
+  bool passed = false;
+  double duration_s = kUnknown, cpu_s = kUnknown;
+  std::string trace_hash;
+  std::vector<ViolationNumbers> violations;
+  SeatNumbers trainer, trainee;  ///< whole run
+  LinkNumbers trainer_link, trainee_link;
+  double effort_peak_n = kUnknown, speed_peak_m_s = kUnknown;  ///< of both hands
+  double gate_trips = kUnknown;                                ///< of both hands
+  double late_ticks = kUnknown;                                ///< of server and clients; unknown in virtual time
+  double contact_force_n = kUnknown, penetration_m = kUnknown;
+  std::vector<PhaseNumbers> phases;
+  [[nodiscard]] const PhaseNumbers* phase(std::string_view name) const noexcept;
+};
+
+/// What only the trace tells (measure.h).
+struct TraceNumbers {
+  double stiffness_n_m = kUnknown;       ///< rendered, near the working pose
+  double stiffness_held_n_m = kUnknown;  ///< force / depth while the leader holds
+  double force_x_leader_n = kUnknown, force_x_leader_percent = kUnknown;      ///< along x, contact phase
+  double force_x_follower_n = kUnknown, force_x_follower_percent = kUnknown;  ///< along x, alignment phase
+  double aligned_x_m = kUnknown;         ///< RMS of follower - leader along x, alignment phase
+  double force_step_n = kUnknown;        ///< largest change of a commanded force in 1 ms while alpha moves
+};
+
+/// A finished run.
+struct RunResult {
+  const RunPlan* plan = nullptr;
+  ReportNumbers report;
+  TraceNumbers trace;
+  std::vector<std::string> commands;  ///< that repeat it
+  std::string figures_html;           ///< drawn from its trace
+};
+
+}  // namespace tandem::netsim::demo

@@ -1,0 +1,208 @@
+#include "netsim/demo/svg_plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "netsim/demo/ticks.h"
+
+namespace tandem::netsim::demo {
+namespace {
+
+constexpr double kLeft = 62, kRight = 14, kTitle = 20, kTop = 8, kTickRow = 18, kLabelRow = 18, kLegend = 26;
+
+/// Where a panel's plot area stands and what it shows.
+struct Frame {
+  double left = 0, top = 0, width = 0, height = 0;
+  Range x, y;
+  [[nodiscard]] double px(double v) const { return (v - x.lo) / (x.hi - x.lo) * width; }
+  [[nodiscard]] double py(double v) const { return (y.hi - v) / (y.hi - y.lo) * height; }
+};
+
+/// A coordinate to a tenth of a pixel, in ASCII.
+std::string px_text(double v) {
+  const auto tenths = static_cast<long long>(std::llround(std::clamp(v, -1e6, 1e6) * 10));
+  std::string text = tenths < 0 ? "-" : "";
+  const auto magnitude = static_cast<unsigned long long>(tenths < 0 ? -tenths : tenths);
+  text += std::to_string(magnitude / 10);
+  if (magnitude % 10 != 0) (text += '.') += static_cast<char>('0' + magnitude % 10);
+  return text;
+}
+
+void text_at(std::ostream& out, double x, double y, std::string_view kind, std::string_view text, std::string_view more = "") {
+  out << "<text class=\"" << kind << "\" x=\"" << px_text(x) << "\" y=\"" << px_text(y) << '"' << more << '>'
+      << escaped(text) << "</text>";
+}
+
+void line(std::ostream& out, double x1, double y1, double x2, double y2, std::string_view kind) {
+  out << "<line class=\"" << kind << "\" x1=\"" << px_text(x1) << "\" y1=\"" << px_text(y1) << "\" x2=\"" << px_text(x2)
+      << "\" y2=\"" << px_text(y2) << "\"/>";
+}
+
+void draw_curve(std::ostream& out, const Frame& f, const Curve& curve) {
+  std::vector<Point2> at;
+  at.reserve(curve.points.size());
+  for (const Point2& p : curve.points) at.push_back({f.px(p.x), f.py(p.y)});
+  at = curve.path ? downsample_path(at, 1.0, kCurvePointsMax) : downsample_extremes(at, kCurvePointsMax);
+  if (at.empty()) return;
+  // Relative moves in tenths of a pixel, summed exactly so that rounding does not drift.
+  const auto tenths = [](double v) { return std::llround(std::clamp(v, -1e6, 1e6) * 10); };
+  long long x = tenths(at.front().x), y = tenths(at.front().y);
+  out << "<path class=\"line " << curve.ink << "\" d=\"M" << px_text(at.front().x) << ' ' << px_text(at.front().y) << 'l';
+  bool first = true;
+  for (std::size_t k = 1; k < at.size(); ++k) {
+    const long long nx = tenths(at[k].x), ny = tenths(at[k].y);
+    if (nx == x && ny == y) continue;
+    const std::string dx = px_text(static_cast<double>(nx - x) / 10), dy = px_text(static_cast<double>(ny - y) / 10);
+    out << (first || dx.front() == '-' ? "" : " ") << dx << (dy.front() == '-' ? "" : " ") << dy;
+    x = nx, y = ny;
+    first = false;
+  }
+  if (first) out << "0 0";
+  out << "\"/>";
+}
+
+void draw_axes(std::ostream& out, const Frame& f, const Panel& panel, bool x_numbers) {
+  const Ticks xs = round_ticks(f.x.lo, f.x.hi, std::max(2, static_cast<int>(f.width / 95)));
+  const Ticks ys = round_ticks(f.y.lo, f.y.hi, std::max(2, static_cast<int>(f.height / 34)));
+  for (const double v : xs.values) {
+    line(out, f.left + f.px(v), f.top, f.left + f.px(v), f.top + f.height, "grid");
+    if (x_numbers) text_at(out, f.left + f.px(v), f.top + f.height + 15, "tick mid", number_text(v, xs.decimals));
+  }
+  for (const double v : ys.values) {
+    line(out, f.left, f.top + f.py(v), f.left + f.width, f.top + f.py(v), "grid");
+    text_at(out, f.left - 6, f.top + f.py(v) + 4, "tick end", number_text(v, ys.decimals));
+  }
+  out << "<rect class=\"frame\" x=\"" << px_text(f.left) << "\" y=\"" << px_text(f.top) << "\" width=\"" << px_text(f.width)
+      << "\" height=\"" << px_text(f.height) << "\"/>";
+  const double middle = f.top + f.height / 2;
+  text_at(out, f.left - 46, middle, "label mid", panel.y_label,
+          " transform=\"rotate(-90 " + px_text(f.left - 46) + " " + px_text(middle) + ")\"");
+  if (x_numbers) text_at(out, f.left + f.width / 2, f.top + f.height + 32, "label mid", panel.x_label);
+}
+
+void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_numbers) {
+  if (!panel.title.empty()) text_at(out, f.left, f.top - 7, "title", panel.title);
+  for (const Band& b : panel.bands) {
+    const double from = std::clamp(f.px(b.from), 0.0, f.width), to = std::clamp(f.px(b.to), 0.0, f.width);
+    out << "<rect class=\"band\" x=\"" << px_text(f.left + from) << "\" y=\"" << px_text(f.top) << "\" width=\""
+        << px_text(to - from) << "\" height=\"" << px_text(f.height) << "\"/>";
+  }
+  draw_axes(out, f, panel, x_numbers);
+  // A nested svg cuts off what is outside of the plot area.
+  out << "<svg x=\"" << px_text(f.left) << "\" y=\"" << px_text(f.top) << "\" width=\"" << px_text(f.width) << "\" height=\""
+      << px_text(f.height) << "\">";
+  for (const Line& v : panel.verticals) line(out, f.px(v.at), 0, f.px(v.at), f.height, "mark");
+  for (const Line& h : panel.horizontals) line(out, 0, f.py(h.at), f.width, f.py(h.at), "mark");
+  for (const Curve& c : panel.curves) draw_curve(out, f, c);
+  out << "</svg>";
+  for (const Band& b : panel.bands)
+    text_at(out, f.left + std::clamp(f.px((b.from + b.to) / 2), 0.0, f.width), f.top + 14, "note mid", b.label);
+  for (const Line& v : panel.verticals) text_at(out, f.left + f.px(v.at) + 5, f.top + 14, "note", v.label);
+  for (const Line& h : panel.horizontals) text_at(out, f.left + f.width - 5, f.top + f.py(h.at) - 5, "note end", h.label);
+  for (const Note& n : panel.notes) {
+    const double x = f.px(n.at.x), y = f.py(n.at.y);
+    if (!(x >= 0 && x <= f.width && y >= 0 && y <= f.height)) continue;
+    out << "<circle class=\"dot\" cx=\"" << px_text(f.left + x) << "\" cy=\"" << px_text(f.top + y) << "\" r=\"4\"/>";
+    const bool right = x < f.width * 0.7;
+    text_at(out, f.left + x + (right ? 8 : -8), f.top + y + (y < 20 ? 14 : -6), right ? "note" : "note end", n.label);
+  }
+}
+
+/// Legend entries in the order they first appear: label and ink.
+std::vector<const Curve*> legend_of(const Figure& figure) {
+  std::vector<const Curve*> entries;
+  for (const Panel& p : figure.panels)
+    for (const Curve& c : p.curves)
+      if (!c.label.empty() && std::ranges::none_of(entries, [&](const Curve* e) { return e->label == c.label; }))
+        entries.push_back(&c);
+  return entries;
+}
+
+Range widened(Range r, double span) {
+  const double add = std::max(0.0, span - (r.hi - r.lo)) / 2;
+  return {r.lo - add, r.hi + add};
+}
+
+Frame frame_of(const Panel& panel, double left, double top, double width) {
+  Frame f{left, top, width, panel.height, {}, {}};
+  f.x = panel.x ? *panel.x : range_of(panel.curves, false, 0);
+  f.y = panel.y ? *panel.y : range_of(panel.curves, true, panel.y_span_min);
+  if (panel.equal_scale) {
+    const double per_px = std::max((f.x.hi - f.x.lo) / f.width, (f.y.hi - f.y.lo) / f.height);
+    f.x = widened(f.x, per_px * f.width);
+    f.y = widened(f.y, per_px * f.height);
+  }
+  return f;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+Range range_of(const std::vector<Curve>& curves, bool along_y, double span_min) {
+  double lo = INFINITY, hi = -INFINITY;
+  for (const Curve& c : curves)
+    for (const Point2& p : c.points) {
+      const double v = along_y ? p.y : p.x;
+      if (!std::isfinite(v)) continue;
+      lo = std::min(lo, v);
+      hi = std::max(hi, v);
+    }
+  if (!(lo <= hi)) return {0, 1};
+  const double margin = along_y ? 0.06 * (hi - lo) : 0.03 * (hi - lo);
+  const double least = span_min > 0 ? span_min : std::max(1e-9, 1e-6 * std::max(std::abs(lo), std::abs(hi)));
+  return widened({lo - margin, hi + margin}, least);
+}
+
+std::string to_svg(const Figure& figure) {
+  const std::size_t columns = std::max<std::size_t>(1, figure.columns);
+  const std::vector<const Curve*> legend = legend_of(figure);
+  const double cell = kFigureWidth / static_cast<double>(columns);
+  std::ostringstream body;
+
+  double x = kLeft;
+  for (const Curve* entry : legend) {
+    body << "<path class=\"line " << entry->ink << "\" d=\"M" << px_text(x) << " 12h30\"/>";
+    text_at(body, x + 37, 16, "legend", entry->label);
+    x += 37 + 30 + 6.7 * static_cast<double>(entry->label.size());
+  }
+  double top = legend.empty() ? 0 : kLegend;
+  for (std::size_t first = 0; first < figure.panels.size(); first += columns) {
+    const std::size_t end = std::min(first + columns, figure.panels.size());
+    bool titled = false, numbered = false;
+    double height = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      titled = titled || !figure.panels[i].title.empty();
+      numbered = numbered || !figure.panels[i].x_label.empty();
+      height = std::max(height, figure.panels[i].height);
+    }
+    top += titled ? kTitle : kTop;
+    for (std::size_t i = first; i < end; ++i) {
+      const double left = cell * static_cast<double>(i - first) + kLeft;
+      draw_panel(body, frame_of(figure.panels[i], left, top, cell - kLeft - kRight), figure.panels[i],
+                 !figure.panels[i].x_label.empty());
+    }
+    top += height + (numbered ? kTickRow + kLabelRow : kTop);
+  }
+  std::ostringstream out;
+  out << "<svg class=\"figure\" viewBox=\"0 0 " << px_text(kFigureWidth) << ' ' << px_text(top + 4)
+      << "\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\"><title>" << escaped(figure.description) << "</title>" << body.str()
+      << "</svg>\n";
+  return out.str();
+}
+
+}  // namespace tandem::netsim::demo

@@ -1,0 +1,39 @@
+#include "server/app/attendance.h"
+
+namespace tandem::server {
+
+Attendance::News Attendance::look(Time now, const SessionStatus& status, const SceneSpec& scene) {
+  using State = wire::SessionState;
+  News news;
+  const bool runs = status.state == State::kRunning || status.state == State::kHeld;
+  std::size_t came = 0, lost = 0;
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) {
+    const SeatStatus& now_there = status.seats[i];
+    Seat& seat = seats_[i];
+    const std::string& name = scene.seats[i].name;
+    if (now_there.bound && !seat.bound) news.notes.push_back(name + " joined");
+    if (!now_there.bound && seat.bound) news.notes.push_back(name + " left");
+    seat.bound = now_there.bound;
+    came += now_there.ever_bound ? 1 : 0;
+    if (!runs || !now_there.ever_bound || now_there.alive) {
+      if (seat.warned && now_there.alive) news.notes.push_back(name + " is back");
+      seat.away_since.reset();
+      seat.warned = false;
+      continue;
+    }
+    if (!seat.away_since) seat.away_since = now;
+    if (now - *seat.away_since < kLost) continue;
+    ++lost;
+    if (!seat.warned) news.warnings.push_back(name + " has been gone for 10 s; its weight went to the others, or the tool is held");
+    seat.warned = true;
+  }
+  if (state_ != status.state) {
+    if (status.state == State::kRunning) news.notes.push_back(state_ == State::kHeld ? "the session runs again" : "the session runs");
+    if (status.state == State::kHeld) news.notes.push_back("HELD: nobody entitled is present, the tools are braked");
+    state_ = status.state;
+  }
+  news.all_lost = runs && came > 0 && lost == came;
+  return news;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/time.h"
+#include "server/app/status.h"
+
+namespace tandem::server {
+
+/// Notices who comes, goes and stays away while a session runs.
+class Attendance {
+ public:
+  static constexpr Duration kLost = std::chrono::seconds(10);
+
+  struct News {
+    std::vector<std::string> notes;     ///< somebody came or went
+    std::vector<std::string> warnings;  ///< somebody stays away
+    bool all_lost = false;              ///< everybody who was there has been away for `kLost`
+  };
+  [[nodiscard]] News look(Time now, const SessionStatus& status, const SceneSpec& scene);
+
+ private:
+  struct Seat {
+    bool bound = false, warned = false;
+    std::optional<Time> away_since;
+  };
+  std::array<Seat, kSeatsMax> seats_{};
+  std::optional<wire::SessionState> state_;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,41 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <functional>
+
+#include "common/io/log.h"
+#include "server/app/run_command.h"
+
+#include <spdlog/spdlog.h>
+
+#ifndef TANDEM_VERSION
+#define TANDEM_VERSION "unknown"
+#endif
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "tandem-server hosts sessions in which several people hold the same tool over a network. It couples all hands to the\n"
+      "tools of a scene, shares authority between them, and reports how well it went.",
+      "tandem-server"};
+  app.set_version_flag("--version", "tandem-server " TANDEM_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "`tandem-server COMMAND --help` tells more; a first session: `tandem-server run free_motion`.\n"
+      "Exit: 0 done, 1 trouble while running or verdict fail, 2 wrong arguments or files. Not a medical device.");
+
+  std::function<int()> action;
+  tandem::server::add_run_command(app, action);
+  tandem::server::add_scenes_command(app, action);
+  tandem::io::log_to_stderr("tandem-server");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are ends, not mistakes; every mistake in arguments is 2, whatever CLI11 calls it.
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    return action();
+  } catch (const std::exception& error) {
+    spdlog::error(error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,129 @@
+#include "server/app/run_command.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "proto/io/scene_file.h"
+#include "proto/scene_text.h"
+#include "server/app/host.h"
+
+namespace tandem::server {
+namespace {
+
+constexpr int kWrong = 2;
+
+/// As typed. Numbers stay text until `understand`, so that all mistakes are told together.
+struct RunArguments {
+  std::string scene, listen = "127.0.0.1:0", duration, wait, seed = "1", json, trace;
+  bool check = false, quiet = false;
+};
+
+using Mistakes = std::vector<std::string>;
+
+void check_loopback(const io::SocketAddress& listen, Mistakes& mistakes) {
+  if (listen.loopback()) return;
+  mistakes.push_back("--listen: " + io::to_text(listen) +
+                     " is not a loopback address and is refused: sealed sessions do not exist yet, the keys are public, and "
+                     "whoever reaches the port could take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT and join "
+                     "from this computer; `tandem-netsim proxy` plays any network in between");
+}
+
+double number(const char* option, std::string text, double lo, double hi, const char* unit, Mistakes& mistakes) {
+  if (text.empty()) return 0;
+  if (const std::string problem = io::number_in(lo, hi, unit)(text); !problem.empty()) {
+    mistakes.push_back(std::string(option) + ": " + problem);
+    return 0;
+  }
+  return std::stod(text);
+}
+
+/// A plan, or everything that is wrong with what was typed.
+HostPlan understand(const RunArguments& arguments, Mistakes& mistakes) {
+  HostPlan plan;
+  if (auto scene = load_scene(arguments.scene)) {
+    plan.scene = std::move(*scene);
+  } else {
+    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
+  }
+  if (const auto listen = io::parse_address(arguments.listen, 0)) {
+    plan.listen = *listen;
+    check_loopback(*listen, mistakes);
+  } else {
+    mistakes.push_back("--listen: " + listen.error());
+  }
+  if (const double s = number("--duration", arguments.duration, 0.1, 3e6, "s", mistakes); s > 0) plan.scene.duration = s;
+  plan.wait_s = number("--wait", arguments.wait, 0.1, 3e6, "s", mistakes);
+  std::string seed = arguments.seed;
+  if (const std::string problem = io::whole_number()(seed); problem.empty()) {
+    plan.seed = std::stoull(seed);
+  } else {
+    mistakes.push_back("--seed: " + problem);
+  }
+  plan.json = arguments.json;
+  plan.trace = arguments.trace;
+  plan.quiet = arguments.quiet;
+  if (!plan.json.empty() && plan.json != "-")
+    if (const auto problem = io::OutputFile::problem(plan.json); !problem.empty()) mistakes.push_back("--json: " + problem);
+  if (!plan.trace.empty())
+    if (const auto problem = io::OutputFile::problem(plan.trace); !problem.empty()) mistakes.push_back("--trace: " + problem);
+  if (!plan.trace.empty() && plan.trace == plan.json) mistakes.push_back("--trace: is the same file as --json");
+  return plan;
+}
+
+int run_command(const RunArguments& arguments) {
+  Mistakes mistakes;
+  const HostPlan plan = understand(arguments, mistakes);
+  if (!mistakes.empty()) {
+    for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
+    std::fprintf(stderr, "tandem-server run: %zu mistake%s, nothing was started\n", mistakes.size(),
+                 mistakes.size() == 1 ? "" : "s");
+    return kWrong;
+  }
+  if (!arguments.check) return host(plan);
+  std::fputs(effective_scene_text(plan.scene).c_str(), stdout);
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& root, std::function<int()>& action) {
+  // Lives as long as the program's options, which refer to it.
+  const auto arguments = std::make_shared<RunArguments>();
+  CLI::App* const command = root.add_subcommand("run", "Hosts a session: waits for the scene's seats, runs it, reports.");
+  command->add_option("scene", arguments->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
+      ->option_text("SCENE")
+      ->required();
+  command
+      ->add_option("--listen", arguments->listen,
+                   "where clients join; port 0 takes a free one; loopback only until sealed sessions exist; "
+                   "default 127.0.0.1:0")
+      ->option_text("HOST:PORT");
+  command->add_option("--duration", arguments->duration, "session time instead of the scene's [s]")->option_text("S");
+  command
+      ->add_option("--wait", arguments->wait,
+                   "gives up when the required seats have not come after so many seconds; default: waits until Ctrl-C")
+      ->option_text("S");
+  command
+      ->add_option("--json", arguments->json,
+                   "writes the report; `-`: to standard output, and everything else to standard error")
+      ->option_text("FILE|-");
+  command->add_option("--trace", arguments->trace, "writes one row per tick of the session")->option_text("FILE.csv");
+  command->add_flag("--check", arguments->check, "only checks everything and prints every value in force, with units");
+  command
+      ->add_option("--seed", arguments->seed, "a number for the report, to name the run; default 1 (a live session draws nothing)")
+      ->option_text("N");
+  command->add_flag("--quiet", arguments->quiet, "no status and no summary");
+  command->footer(
+      "Prints `listening on HOST:PORT` first, then the command of each seat to type. The session begins when all required\n"
+      "seats are ready. Ctrl-C lets all hands go gently, tells the clients, writes the reports and ends with 0.\n"
+      "Exit: 0 done and verdict pass; 1 verdict fail, port in use, nobody came, peers lost; 2 wrong arguments or files.\n\n"
+      "Examples\n"
+      "  tandem-server run free_motion\n"
+      "  tandem-server run contact --listen 127.0.0.1:7000 --json report.json --trace contact.csv\n"
+      "  tandem-server run mine.textproto --check");
+  command->callback([arguments, &action] { action = [arguments] { return run_command(*arguments); }; });
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,33 @@
+#include "server/app/slaves.h"
+
+#include "hal/port_map.h"
+#include "hal/sim/sim_device.h"
+
+namespace tandem::server {
+
+std::expected<Slaves, std::vector<std::string>> make_slaves(const SceneSpec& scene, Time start) {
+  Slaves slaves;
+  std::vector<std::string> mistakes;
+  for (const ToolSpec& tool : scene.tools) {
+    if (tool.remote) {
+      slaves.devices.push_back(nullptr);
+      continue;
+    }
+    auto device = hal::sim::SimDevice::make({tool.slave, HandSpec{}, tool.environment, nullptr, start});
+    if (!device) mistakes.push_back("tool " + tool.name + ": " + device.error().message);
+    slaves.devices.push_back(device ? std::move(*device) : nullptr);
+  }
+  // Clients bring their devices later; the gains are scaled at the pose the scene works in, which the first seat knows.
+  for (const SeatSpec& seat : scene.seats) {
+    const auto device = hal::sim::SimDevice::make({seat.device, HandSpec{}, seat.environment, nullptr, start});
+    if (!device) {
+      mistakes.push_back("seat " + seat.name + ": " + device.error().message);
+    } else if (&seat == &scene.seats.front()) {
+      slaves.scale = hal::PortMap(scene.port, scene.dof, (*device)->caps().joints).scale((*device)->state());
+    }
+  }
+  if (!mistakes.empty()) return std::unexpected(std::move(mistakes));
+  return slaves;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,74 @@
+#include "server/app/status.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace tandem::server {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  char line[256];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(line, sizeof line, pattern, arguments);
+  va_end(arguments);
+  return line;
+}
+
+std::string seat_text(const SeatStatus& seat, const std::string& name) {
+  if (!seat.bound) return name + (seat.ever_bound ? " gone" : " -");
+  if (!seat.alive) return name + " silent";
+  std::string text = format("%s %s alpha %.2f rtt %.1f ms", name.c_str(), to_text(seat.gate), seat.alpha, seat.link.rtt_p50_ms);
+  if (seat.link.up.loss_percent + seat.link.down.loss_percent > 0)
+    text += format(" loss %.1f/%.1f %%", seat.link.up.loss_percent, seat.link.down.loss_percent);
+  text += format(" margin %.0f mJ", seat.margin_j * 1e3);
+  if (seat.gate_trips > 0) text += format(" trips %u", seat.gate_trips);
+  if (seat.late_ticks > 0) text += format(" late %u", seat.late_ticks);
+  return text;
+}
+
+}  // namespace
+
+const char* to_text(wire::GateState gate) noexcept {
+  switch (gate) {
+    case wire::GateState::kOff: return "off";
+    case wire::GateState::kZero: return "zero";
+    case wire::GateState::kRampIn: return "ramp-in";
+    case wire::GateState::kActive: return "active";
+    case wire::GateState::kPassive: return "passive";
+    case wire::GateState::kDamped: return "DAMPED";
+    case wire::GateState::kFault: return "FAULT";
+  }
+  return "?";
+}
+
+std::string waiting_for(const SessionStatus& status, const SceneSpec& scene) {
+  std::string text;
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) {
+    const SeatStatus& seat = status.seats[i];
+    if (!scene.seats[i].required || seat.ready) continue;
+    text += (text.empty() ? "" : ", ") + scene.seats[i].name;
+    text += !seat.bound ? (seat.ever_bound ? " (left)" : " (nobody joined)") : seat.alive ? " (not ready)" : " (silent)";
+  }
+  return text;
+}
+
+std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
+  std::string line = format("%.1f/%g s ", status.time, scene.duration);
+  switch (status.state) {
+    case wire::SessionState::kWaiting: {
+      const std::string whom = waiting_for(status, scene);
+      line = whom.empty() ? "engaging" : "waiting for " + whom;
+      break;
+    }
+    case wire::SessionState::kRunning: line += "running"; break;
+    case wire::SessionState::kHeld: line += "HELD (nobody entitled is present)"; break;
+    case wire::SessionState::kEnding: line += "ending"; break;
+  }
+  for (std::size_t i = 0; i < scene.seats.size(); ++i)
+    if (status.seats[i].ever_bound || scene.seats[i].required)
+      line += " | " + seat_text(status.seats[i], scene.seats[i].name);
+  return line + format(" | late ticks %llu", static_cast<unsigned long long>(status.machine.late_ticks));
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "proto/scene_spec.h"
+#include "proto/wire.h"
+#include "server/report.h"
+
+namespace tandem::server {
+
+/// What people want to see of a seat while it runs: plain data, copied out of the shard now and then.
+struct SeatStatus {
+  bool bound = false;        ///< somebody sits here
+  bool ever_bound = false;
+  bool ready = false;        ///< its device waits to be engaged, or is
+  bool alive = false;        ///< heard from just now
+  wire::GateState gate = wire::GateState::kOff;
+  double alpha = 0;
+  double margin_j = 0;       ///< smallest energy margin of its ledger so far [J]
+  std::uint32_t gate_trips = 0;
+  std::uint32_t late_ticks = 0;  ///< of the client's machine
+  LinkReport link;
+};
+
+/// How punctual this machine was.
+struct MachineStatus {
+  std::uint64_t late_ticks = 0;    ///< began more than 1 ms after their time
+  std::uint64_t missed_ticks = 0;  ///< whose time passed altogether; lived through afterwards
+  bool realtime = false;           ///< the kernel granted real-time priority
+};
+
+struct SessionStatus {
+  wire::SessionState state = wire::SessionState::kWaiting;
+  double time = 0;  ///< session time [s]
+  std::array<SeatStatus, kSeatsMax> seats{};
+  MachineStatus machine;
+};
+
+[[nodiscard]] const char* to_text(wire::GateState gate) noexcept;
+
+/// One line for a terminal.
+[[nodiscard]] std::string status_line(const SessionStatus& status, const SceneSpec& scene);
+
+/// `trainee (nobody joined), slave (not ready)`: the required seats a session waits for; empty if for none.
+[[nodiscard]] std::string waiting_for(const SessionStatus& status, const SceneSpec& scene);
+
+}  // namespace tandem::server

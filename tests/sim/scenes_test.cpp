@@ -1,0 +1,158 @@
+// Every shipped scene runs to its end and keeps every promise; seats, tools and sizes beside the usual two hands.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "proto/scenes_embedded.h"
+#include "server/trace_csv.h"
+#include "tests/support/alloc_guard.h"
+#include "tests/support/world_run.h"
+
+namespace tandem {
+namespace {
+
+using test::delayed;
+using test::run;
+using test::shipped;
+
+class ShippedScene : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedScene, RunsToItsEndAndPasses) {
+  const SceneSpec scene = shipped(GetParam());
+  const auto r = run(scene);
+  EXPECT_TRUE(r.trouble.empty()) << r.trouble;
+  EXPECT_TRUE(r.report.passed);
+  EXPECT_TRUE(r.report.violations.empty());
+  EXPECT_NEAR(r.report.duration_s, scene.duration, 0.01);
+  EXPECT_EQ(r.report.trace_hash.size(), 64u);
+  for (const auto& s : r.report.seats) {
+    EXPECT_TRUE(s.last.engaged) << s.name;
+    EXPECT_EQ(s.gate_trips, 0u) << s.name;
+    EXPECT_TRUE(std::isfinite(s.metrics.tracking_rms_m)) << s.name;
+  }
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const auto& s : shipped_scenes()) all.emplace_back(s.name);
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::ValuesIn(names()), [](const auto& scene) { return scene.param; });
+
+/// n hands on m tools; hand i leads tool i mod m, everybody follows the tool he leads.
+SceneSpec crowd(std::size_t n, std::size_t m) {
+  SceneSpec scene = shipped("free_motion");
+  const SeatSpec leader = scene.seats[0];
+  scene.seats.clear();
+  scene.timeline.clear();
+  scene.phases = {{"run", 1, 8, false}};
+  scene.duration = 8;
+  for (std::size_t i = 0; i < n; ++i) {
+    SeatSpec s = leader;
+    s.name = "hand" + std::to_string(i);
+    s.hand.deviations.clear();
+    s.hand.until = 1e6;
+    s.hand.trajectory.radius = 0.02 + 0.002 * static_cast<double>(i);
+    if (i >= m) s.hand.model = HandModel::kRelaxed, s.hand.k = s.hand.b = s.hand.m = 0;
+    scene.seats.push_back(s);
+  }
+  const ToolSpec tool = scene.tools[0];
+  scene.tools.clear();
+  scene.authority.clear();
+  scene.follow = {};
+  for (std::size_t j = 0; j < m; ++j) {
+    scene.tools.push_back(tool);
+    scene.tools.back().name = "tool" + std::to_string(j);
+    AuthorityRow row;
+    row.tool = j;
+    std::size_t sharers = 0;
+    for (std::size_t i = j; i < n; i += m) ++sharers;
+    for (std::size_t i = j; i < n; i += m) row.alpha[i] = 1.0 / static_cast<double>(sharers);
+    scene.authority.push_back(row);
+  }
+  for (std::size_t i = 0; i < n; ++i) scene.follow[i][i % m] = 1;
+  return scene;
+}
+
+TEST(ManyHands, AnyNumberOnAnyNumberOfToolsKeepsTheInvariants) {
+  for (const auto& [n, m] : {std::pair{3, 1}, std::pair{2, 2}, std::pair{8, 1}, std::pair{8, 4}, std::pair{16, 8}})
+    for (const double ms : {0.0, 30.0}) {
+      const auto r = run(crowd(static_cast<std::size_t>(n), static_cast<std::size_t>(m)), delayed(ms, 5, 5));
+      EXPECT_TRUE(r.report.passed) << n << " on " << m << " at " << ms;
+      EXPECT_TRUE(r.trouble.empty()) << r.trouble;
+      EXPECT_LE(r.authority_error_max, 1e-12);
+      EXPECT_LE(r.hand_speed_max, 0.6) << n << " on " << m << " at " << ms;
+    }
+}
+
+TEST(World, TakesNoHeapBelowATickOnEitherSide) {
+  auto made = netsim::World::make({shipped("free_motion"), netsim::link_from(delayed(20, 5, 5)), 1, {}});
+  ASSERT_TRUE(made);
+  netsim::World& world = **made;
+  for (int k = 0; k < 3000; ++k) ASSERT_TRUE(world.step());
+  test::AllocGuard guard;
+  for (int k = 0; k < 10'000; ++k) world.step();
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+TEST(World, SeatsAreRefusedWhenTakenOrUnknown) {
+  const SceneSpec scene = shipped("one_axis");
+  AxisArray scale;
+  scale.fill(1);
+  std::vector<std::unique_ptr<hal::SteppedDevice>> slaves;
+  slaves.push_back(std::move(*hal::sim::SimDevice::make({scene.tools[0].slave, {}, {}, nullptr, Time{}})));
+  server::Session session{scene, std::move(slaves), scale, 1};
+  const auto ask = [&](const std::string& seat, std::uint64_t nonce, std::uint8_t from) {
+    hal::DeviceCaps caps;
+    caps.joints = caps.tip_axes = 1;
+    caps.simulated = true;
+    client::Joining joining{{seat, caps, nonce, 5, std::chrono::seconds(1)}};
+    std::array<std::byte, link::kDatagramMax> buffer{};
+    const Time now{std::chrono::milliseconds(5)};
+    server::Endpoint at;
+    at.bytes[0] = std::byte{from};
+    at.size = 1;
+    const auto size = joining.poll_transmit(now, buffer);
+    session.on_datagram(now, at, std::span{buffer}.first(*size));
+    const auto answer = session.poll_transmit(now, buffer);
+    EXPECT_TRUE(answer.has_value());
+    if (answer) joining.on_datagram(now, std::span{buffer}.first(answer->size));
+    return std::pair{joining.result(), joining.reason()};
+  };
+  EXPECT_EQ(ask("trainer", 1, 1).first, wire::BindResult::kAccepted);
+  EXPECT_EQ(ask("trainer", 1, 1).first, wire::BindResult::kAccepted) << "asking again is no second join";
+  EXPECT_EQ(ask("trainer", 2, 2).first, wire::BindResult::kSeatTaken);
+  const auto [result, reason] = ask("nobody", 3, 3);
+  EXPECT_EQ(result, wire::BindResult::kNoSuchSeat);
+  EXPECT_NE(reason.find("trainer"), std::string::npos) << "the refusal names the seats";
+}
+
+TEST(World, RandomBytesOnThePortChangeNothing) {
+  const auto trace_with_noise = [](bool noise) {
+    auto made = netsim::World::make({shipped("one_axis"), {}, 1, {}});
+    netsim::World& world = **made;
+    server::TraceCsv csv{world.scene()};
+    RandomStream random{99};
+    std::string trace;
+    std::array<std::byte, 1300> bytes{};
+    while (world.step()) {
+      if (noise && world.session().time() < 2) {
+        for (int i = 0; i < 20; ++i) {
+          const std::size_t size = random.below(bytes.size());
+          for (std::size_t b = 0; b < size; ++b) bytes[b] = static_cast<std::byte>(random.bits());
+          if (size > 1 && i % 2 == 0) bytes[0] = static_cast<std::byte>(0x10 | (1 + i % 9)), bytes[2] = bytes[3] = std::byte{0};
+          server::Endpoint from;
+          from.bytes[0] = static_cast<std::byte>(random.below(3));
+          from.size = 1;
+          const_cast<server::Session&>(world.session()).on_datagram(world.now(), from, std::span{bytes}.first(size));
+        }
+      }
+      if (world.record().running) csv.append(world.record(), trace);
+    }
+    return trace;
+  };
+  EXPECT_EQ(trace_with_noise(true), trace_with_noise(false));
+}
+
+}  // namespace
+}  // namespace tandem

@@ -1,0 +1,162 @@
+// Two routes to one number: networked and monolithic, remote and local slave, one run and its repetition.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/control/ipc.h"
+#include "tests/support/world_run.h"
+
+namespace tandem {
+namespace {
+
+using test::delayed;
+using test::run;
+using test::shipped;
+
+TEST(Twins, SameSeedSameTrace) {
+  const auto scene = shipped("free_motion");
+  const auto net = delayed(20, 10, 10);
+  const auto a = run(scene, net, 7), b = run(scene, net, 7), c = run(scene, net, 8);
+  EXPECT_EQ(a.report.trace_hash, b.report.trace_hash);
+  EXPECT_NE(a.report.trace_hash, c.report.trace_hash) << "the seed does nothing";
+  auto plain = [](server::RunReport r) {
+    r.cpu_s = 0;
+    return server::to_json(r);
+  };
+  EXPECT_EQ(plain(a.report), plain(b.report));
+}
+
+/// Energy Shared Control in one loop: no datagrams, no ledgers, no gate; springs and masses of control.md 3 with the order of
+/// one tick. `order` 1: hands see the tool one tick late, as over the network; 0: all springs at once.
+class Monolith {
+ public:
+  Monolith(const SceneSpec& scene, bool one_tick) : scene_(scene), one_tick_(one_tick) {
+    for (const auto& s : scene.seats) hands_.push_back(make(s.device, s.hand, {}));
+    slave_ = make(scene.tools[0].slave, {}, scene.tools[0].environment);
+    for (std::size_t a = 0; a < 3; ++a) {
+      tool_[a].x = slave_->state().x[static_cast<Eigen::Index>(a)];
+      for (std::size_t i = 0; i < hands_.size(); ++i) ipc_[i][a].rest_at(hands_[i]->state().x[static_cast<Eigen::Index>(a)]);
+    }
+  }
+  void step(double t, const std::array<double, 2>& alpha) {
+    const double T = 1e-3, k = scene_.channel.k, lead = one_tick_ ? 0.5e-3 : 0;
+    std::array<AxisArray, 2> effort{};
+    AxisArray pull_slave{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto e = static_cast<Eigen::Index>(a);
+      const control::ToolIpc before = tool_[a];
+      control::ToolIpc::Pull pull;
+      pull.add(scene_.tools[0].k_s, slave_->state().x[e]);
+      const auto move_hand = [&](std::size_t i, double r) {
+        const control::MasterIpc::Gains g{scene_.coupling.k_c, scene_.coupling.b, scene_.coupling.m_c};
+        ipc_[i][a].step(g, T, hands_[i]->state().x[e], r, k, 0);
+        effort[i][a] = ipc_[i][a].device_effort(g, hands_[i]->state().x[e]);
+      };
+      for (std::size_t i = 0; i < 2; ++i) move_hand(i, before.x + lead * before.v);
+      for (std::size_t i = 0; i < 2; ++i) pull.add(alpha[i] * k, ipc_[i][a].x + lead * ipc_[i][a].v);
+      tool_[a].step({scene_.tools[0].m_s, scene_.tools[0].b_s}, T, pull, 0);
+      pull_slave[a] = scene_.tools[0].k_s * (tool_[a].x - slave_->state().x[e]);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      hands_[i]->set_session_time(t);
+      advance(*hands_[i], effort[i]);
+    }
+    advance(*slave_, pull_slave);
+  }
+  [[nodiscard]] hal::Vec3 hand(std::size_t i) const { return hands_[i]->truth().x; }
+  [[nodiscard]] hal::Vec3 slave() const { return slave_->truth().x; }
+
+ private:
+  static std::unique_ptr<hal::sim::SimDevice> make(const SimDeviceSpec& d, const HandSpec& h, const EnvironmentSpec& e) {
+    return std::move(*hal::sim::SimDevice::make({d, h, e, nullptr, Time{}}));
+  }
+  static void advance(hal::sim::SimDevice& d, const AxisArray& effort) {
+    hal::Command c;
+    c.kind = hal::CommandKind::kJointEffort;
+    c.expires = d.state().sampled_at + std::chrono::seconds(1);
+    c.effort = hal::PortMap(PortSpace::kTip, 3, 3).joint_effort(d.state(), effort);
+    d.advance(c, std::chrono::milliseconds(1));
+  }
+  SceneSpec scene_;
+  bool one_tick_;
+  std::vector<std::unique_ptr<hal::sim::SimDevice>> hands_;
+  std::unique_ptr<hal::sim::SimDevice> slave_;
+  std::array<std::array<control::MasterIpc, 3>, 2> ipc_{};
+  std::array<control::ToolIpc, 3> tool_{};
+};
+
+SceneSpec calm_free_motion() {
+  SceneSpec scene = shipped("free_motion");
+  for (auto& s : scene.seats) s.hand.deviations.clear();
+  scene.duration = 10;
+  scene.timeline.clear();
+  scene.seats[0].hand.until = 1e6;
+  scene.seats[1].hand.from = 1e6;
+  return scene;
+}
+
+TEST(Twins, OverANetworkWithoutDelayTheSystemIsTheMonolithicOne) {
+  const SceneSpec scene = calm_free_motion();
+  Monolith twin{scene, true}, simultaneous{scene, false};
+  double apart = 0, square = 0, square_once = 0;
+  std::uint64_t n = 0, settled = 0;
+  const auto r = run(scene, {}, 1, [&](netsim::World& w) {
+    if (!w.record().running) return;
+    const double t = w.session().time();
+    twin.step(t, {1, 0});
+    simultaneous.step(t, {1, 0});
+    ++n;
+    if (t < 3) return;  // the ramp-in is the gate's, not the law's
+    ++settled;
+    apart = std::max({apart, (w.device(0).truth().x - twin.hand(0)).norm(), (w.device(1).truth().x - twin.hand(1)).norm()});
+    square += (twin.hand(0) - twin.slave()).squaredNorm();
+    square_once += (simultaneous.hand(0) - simultaneous.slave()).squaredNorm();
+  });
+  ASSERT_TRUE(r.report.passed);
+  ASSERT_GT(settled, 6000u);
+  // The ramp-in leaves encoder steps at other instants; nothing else differs.
+  EXPECT_LE(apart, 0.15e-3);
+  const double networked = r.phase("demonstration", "trainer").tracking_rms_m;
+  const double monolithic = std::sqrt(square / static_cast<double>(settled));
+  const double at_once = std::sqrt(square_once / static_cast<double>(settled));
+  EXPECT_NEAR(networked, monolithic, 0.05e-3);
+  EXPECT_LE(networked, at_once + 0.8e-3) << "k T drag of the two ticks";
+}
+
+TEST(Twins, ARemoteSlaveFollowsTheServersWithinTheDragOfItsExtraTick) {
+  // The extra tick shows the slave the tool T later (v T), and drags the tool by k_s v T, which the seat's spring k bears.
+  const SceneSpec local = calm_free_motion();
+  SceneSpec remote = local;
+  SeatSpec slave;
+  slave.name = "slave";
+  slave.kind = SeatKind::kSlave;
+  slave.tool = 0;
+  slave.device = local.tools[0].slave;
+  remote.seats.push_back(slave);
+  remote.tools[0].remote = true;
+  remote.tools[0].seat = 2;
+  std::vector<hal::Vec3> path;
+  const auto a = run(local, {}, 1, [&](netsim::World& w) {
+    if (w.record().running) path.emplace_back(w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]);
+  });
+  double apart = 0;
+  std::size_t k = 0;
+  const auto b = run(remote, {}, 1, [&](netsim::World& w) {
+    if (!w.record().running) return;
+    if (w.session().time() > 2 && k < path.size()) {
+      const hal::Vec3 x{w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]};
+      apart = std::max(apart, (x - path[k]).norm());
+    }
+    ++k;
+  });
+  ASSERT_TRUE(a.report.passed);
+  ASSERT_TRUE(b.report.passed);
+  const double v = 2 * 3.14159265 * 0.5 * 0.05, T = 1e-3;  // of the circle
+  const double drag = v * T * (1 + local.tools[0].k_s / local.channel.k);
+  const double encoder = 2 * 5.5e-5;  // steps of the two devices fall at different instants
+  EXPECT_LE(apart, drag + encoder);
+  EXPECT_GT(apart, 0) << "the same run twice";
+}
+
+}  // namespace
+}  // namespace tandem
