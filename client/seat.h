@@ -40,6 +40,8 @@ class Seat {
   bool request_authority(std::uint32_t tool, std::span<const double> alpha) noexcept;
   /// The person pressed the button that clears a latched gate.
   void press_reset() noexcept { reset_ = true; }
+  /// Ticks of this machine that began late, so far: told to the server for its status.
+  void note_late_ticks(std::uint32_t total) noexcept { tx_.late_ticks = total; }
   /// Lets go: the gate ramps out, then the server is told.
   void leave() noexcept { leaving_ = true; }
 

@@ -30,6 +30,17 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   setup.seat = scene.seats[seat];
   if (setup.seat.kind == SeatKind::kSlave && setup.seat.tool < scene.tools.size())
     setup.k_s = scene.tools[setup.seat.tool].k_s;
+  if (setup.seat.kind == SeatKind::kMaster)  // the tool whose authority this seat is told, and may move as INSTRUCTOR
+    for (std::size_t j = scene.tools.size(); j-- > 0;)
+      if (scene.follow[seat][j] > 0) setup.seat.tool = j;
+  if (setup.seat.kind == SeatKind::kMaster && setup.seat.role == Role::kInstructor) {
+    for (std::size_t i = 0; i < scene.masters(); ++i) {
+      const Role role = scene.seats[i].role;
+      setup.masters.push_back(scene.seats[i].name);
+      if (role == Role::kInstructor || role == Role::kTrainee) setup.drivers |= 1u << i;
+    }
+    setup.own_master = seat;
+  }
   return setup;
 }
 
@@ -48,6 +59,11 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   message.set_tool_index(static_cast<std::uint32_t>(setup.seat.tool));
   for (std::size_t axis = 0; axis < setup.dof && axis < kAxesMax; ++axis)
     message.add_axis_scale(setup.axis_scale[axis]);
+  for (const std::string& name : setup.masters) message.add_master(name);
+  if (!setup.masters.empty()) {
+    message.set_own_master(static_cast<std::uint32_t>(setup.own_master));
+    message.set_drivers(setup.drivers);
+  }
   const std::size_t size = message.ByteSizeLong();
   if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
   return size;
@@ -80,6 +96,10 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     out.seat.tool = in.tool_index();
     out.k_s = in.k_s_n_m();
     for (std::size_t axis = 0; axis < out.dof; ++axis) out.axis_scale[axis] = in.axis_scale(static_cast<int>(axis));
+    out.masters.assign(in.master().begin(), in.master().end());
+    out.own_master = in.own_master();
+    out.drivers = in.drivers();
+    if (!out.masters.empty() && out.own_master >= out.masters.size()) checker.error("own_master", "is not one of the masters");
   }
   if (!checker.ok()) return std::unexpected(checker.take());
   return out;

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <expected>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/base/axes.h"
 #include "proto/input_error.h"
@@ -27,6 +29,9 @@ struct SeatSetup {
   SeatSpec seat;
   std::array<double, kAxesMax> axis_scale{1, 1, 1, 1,
                                           1, 1, 1};  ///< tip gain -> port gain, per axis: diag(J^T J), 1 at a TIP port
+  std::vector<std::string> masters;  ///< INSTRUCTOR seats: names in the order of authority weights; empty for others
+  std::size_t own_master = 0;        ///< place of this seat among them
+  std::uint32_t drivers = 0;         ///< bit i: master i may be given authority
 };
 
 /// The part of a scene that belongs to one seat; axis_scale is left at 1. @pre seat < scene.seats.size()

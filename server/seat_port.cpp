@@ -76,23 +76,23 @@ bool SeatPort::alive(Time now) const noexcept {
   return link_ && generation_ > 0 && link_->freshness().silence(now) < kHoldLimit;
 }
 
-void SeatPort::move(Time now, double dt, bool present, const AxisArray& near, double weight, const AxisArray& dissipated,
-                    const AxisArray& offset) noexcept {
+void SeatPort::move(Time now, double dt, bool present, const Near& near) noexcept {
   const double age = link_ ? seconds(link_->freshness().age(now)) : 0;
   if (!present || !was_present_) {
     if (was_present_) ++outages_;
-    end_->engage(near, age);
+    end_->engage(near.x, age);
     was_present_ = present;
     return;
   }
   control::EndInput in;
   in.dt = dt;
   in.age = age;
-  in.weight = weight;
-  in.x = near;
-  in.dissipated = dissipated;
+  in.weight = near.weight;
+  in.x = near.x;
+  in.dissipated = near.dissipated;
+  in.pass_on = near.pass_on;
   in.rx = rx_.port;
-  for (std::size_t a = 0; a < scene_->dof; ++a) in.rx.x[a] -= offset[a];
+  for (std::size_t a = 0; a < scene_->dof; ++a) in.rx.x[a] -= near.offset[a];
   end_->move(in);
 }
 

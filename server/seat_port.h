@@ -45,12 +45,16 @@ class SeatPort {
   /// Its spring may act on tools.
   [[nodiscard]] bool present(Time now) const noexcept { return alive(now) && rx_.engaged; }
 
+  /// What the near end of the spring hangs on.
+  struct Near {
+    AxisArray x{};           ///< the tool's position, a weighted one where a seat serves several tools
+    AxisArray offset{};      ///< hand minus tool, taken off what was received
+    AxisArray dissipated{};  ///< heat at the tools this seat may spend [J]
+    double weight = 0;       ///< how many such springs a move loads
+    double pass_on = 1;      ///< share of the heat the client may have when it is not needed here
+  };
   /// Moves this end's reference; rests it (no elongation) while the seat is not present.
-  /// @param near  what hangs on the near end: the tool's position, a weighted one where a seat serves several tools.
-  /// @param offset  hand minus tool, taken off what was received.
-  /// @param weight  how many such springs the move loads.
-  void move(Time now, double dt, bool present, const AxisArray& near, double weight, const AxisArray& dissipated,
-            const AxisArray& offset) noexcept TANDEM_REALTIME;
+  void move(Time now, double dt, bool present, const Near& near) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] control::ChannelEnd& end() noexcept { return *end_; }
   [[nodiscard]] const control::ChannelEnd& end() const noexcept { return *end_; }

@@ -85,9 +85,9 @@ void Session::live_one_tick(Time now) noexcept {
   change_state(now);
   if (over_) return;
   follow_timeline();
-  share_authority(now);
+  share_authority();
   move_references(now);
-  step_tools(now);
+  step_tools();
   step_following();
   fill_record();
 }
@@ -146,7 +146,7 @@ bool Session::slave_present(std::size_t j) const noexcept {
   return !scene_->tools[j].remote || present_[scene_->tools[j].seat];
 }
 
-void Session::share_authority(Time) noexcept {
+void Session::share_authority() noexcept {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     Tool& tool = tools_[j];
     control::AuthorityRow::Input in;
@@ -171,32 +171,33 @@ double Session::share(std::size_t j, std::size_t i) const noexcept {
 void Session::move_references(Time now) noexcept {
   const bool tank = scene_->channel.mfs == MfsMode::kTank;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
-    AxisArray near{}, heat{};
-    double weight = 0;
+    SeatPort::Near near;
     bool held = false;
     if (scene_->seats[i].kind == SeatKind::kSlave) {
-      const Tool& tool = tools_[scene_->seats[i].tool];
-      if (!present_[i] && seats_[i].alive(now)) tools_[scene_->seats[i].tool].rest_at(seats_[i].heard().port.x);
-      near = tool.position();
-      weight = 1;
+      Tool& tool = tools_[scene_->seats[i].tool];
+      if (!present_[i] && seats_[i].alive(now)) tool.rest_at(seats_[i].heard().port.x);
+      near.x = tool.position();
+      near.weight = 1;
     } else {
       for (std::size_t j = 0; j < tools_.size(); ++j) {
         const double w = share(j, i);
-        weight += w;
+        near.weight += w;
         held |= w > 0 && tools_[j].authority.held();
         // Each seat may count all of a tool's heat: it delivers alpha_i of what it spends, and the alphas sum to 1. With a tank
-        // for the flow sources the heat is split, so that nothing is spent twice.
+        // for the flow sources the heat is split and only alpha_i of it travels, so that nothing is spent twice.
+        if (tank && scene_->follow[i][j] > 0) near.pass_on = tools_[j].authority.alpha(i);
         for (std::size_t a = 0; a < scene_->dof; ++a) {
-          near[a] += w * tools_[j].x(a);
-          heat[a] += (tank ? 0.5 : 1.0) * scene_->follow[i][j] * tools_[j].dissipated()[a];
+          near.x[a] += w * tools_[j].x(a);
+          near.dissipated[a] += (tank ? 0.5 : 1.0) * scene_->follow[i][j] * tools_[j].dissipated()[a];
         }
       }
-      for (std::size_t a = 0; a < scene_->dof; ++a) near[a] /= weight > 0 ? weight : 1;
+      for (std::size_t a = 0; a < scene_->dof; ++a) near.x[a] /= near.weight > 0 ? near.weight : 1;
     }
     reference_before_[i] = seats_[i].end().state().ref;
     const bool engaged = present_[i] && !held;
     step_offset(i, engaged);
-    seats_[i].move(now, dt_, engaged, near, weight, heat, offset_[i]);
+    near.offset = offset_[i];
+    seats_[i].move(now, dt_, engaged, near);
     for (std::size_t a = 0; a < scene_->dof; ++a) credit_seat(i, a);
   }
 }
@@ -239,7 +240,9 @@ void Session::credit_seat(std::size_t i, std::size_t a) noexcept {
   // The offset's way home moves the follower like a tool that moves: the share nobody has authority for is the sources'.
   const std::size_t first = first_tool(i);
   const double work = -s.k[a] * (s.ref[a] - tools_[first].x(a)) * offset_step_[i][a];
-  end.credit(a, tools_[first].sources.grant(std::max(0.0, (1 - tools_[first].authority.alpha(i)) * work)));
+  const double unpaid = 1 - tools_[first].authority.alpha(i);
+  end.credit(a, tools_[first].sources.grant(std::max(0.0, unpaid * work)));
+  if (scene_->channel.mfs != MfsMode::kTank) static_cast<void>(tools_[first].sources.grant(unpaid * s.passed[a]));  // already credited: booked
   end.credit(a, tools_.size() == 1 ? tools_[0].sources.grant(left) : 0);  // a falling stiffness gives back as well
 }
 
@@ -249,10 +252,10 @@ std::size_t Session::first_tool(std::size_t i) const noexcept {
   return 0;
 }
 
-void Session::step_tools(Time now) noexcept {
+void Session::step_tools() noexcept {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     Tool& tool = tools_[j];
-    auto pull = tool.slave_pull();
+    std::array<control::ToolIpc::Pull, kAxesMax> pull{};
     AxisArray damping{};  // the schedule's, shared like the springs: P+d wants it at both ends
     for (std::size_t a = 0; a < scene_->dof; ++a) {
       for (std::size_t i = 0; i < masters_; ++i) {
@@ -269,7 +272,7 @@ void Session::step_tools(Time now) noexcept {
         }
       }
     }
-    tool.step(now, dt_, pull, damping, tool.authority.held());
+    tool.step(dt_, pull, damping, tool.authority.held());
     if (tool.sources.mode() == control::FlowSourceMode::kTank)
       for (std::size_t a = 0; a < scene_->dof; ++a) tool.sources.fill(0.5 * scene_->channel.eta * tool.dissipated()[a]);
   }

@@ -59,11 +59,11 @@ class Session {
   void live_one_tick(Time now) noexcept TANDEM_REALTIME;
   void change_state(Time now) noexcept;
   void follow_timeline() noexcept;
-  void share_authority(Time now) noexcept TANDEM_REALTIME;
+  void share_authority() noexcept TANDEM_REALTIME;
   void move_references(Time now) noexcept TANDEM_REALTIME;
   void step_offset(std::size_t seat, bool engaged) noexcept TANDEM_REALTIME;
   void credit_seat(std::size_t seat, std::size_t axis) noexcept TANDEM_REALTIME;
-  void step_tools(Time now) noexcept TANDEM_REALTIME;
+  void step_tools() noexcept TANDEM_REALTIME;
   void step_following() noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
   void fill_record() noexcept TANDEM_REALTIME;

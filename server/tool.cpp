@@ -27,20 +27,15 @@ void Tool::rest_at(const AxisArray& x) noexcept {
   for (std::size_t a = 0; a < dof_; ++a) ipc_[a] = {x[a], 0, 0};
 }
 
-std::array<control::ToolIpc::Pull, kAxesMax> Tool::slave_pull() const noexcept {
-  std::array<control::ToolIpc::Pull, kAxesMax> pull{};
-  if (!slave_) return pull;
-  const AxisArray q = map_.position(slave_->state());
-  for (std::size_t a = 0; a < dof_; ++a) pull[a].add(spec_->k_s * scale_[a], q[a]);
-  return pull;
-}
-
-void Tool::step(Time now, double dt, const std::array<control::ToolIpc::Pull, kAxesMax>& pull, const AxisArray& damping,
+void Tool::step(double dt, const std::array<control::ToolIpc::Pull, kAxesMax>& seats, const AxisArray& damping,
                 bool braked) noexcept {
+  const AxisArray q = slave_ ? map_.position(slave_->state()) : AxisArray{};
   for (std::size_t a = 0; a < dof_; ++a) {
     const control::ToolIpc before = ipc_[a];
-    ipc_[a].step({spec_->m_s * scale_[a], spec_->b_s * scale_[a]}, dt, pull[a],
-                  damping[a] + (braked ? kBrake * scale_[a] : 0.0));
+    control::ToolIpc::Pull pull = seats[a];
+    if (slave_) pull.add(spec_->k_s * scale_[a], q[a]);
+    ipc_[a].step({spec_->m_s * scale_[a], spec_->b_s * scale_[a]}, dt, pull, seats[a].k,
+                 damping[a] + (braked ? kBrake * scale_[a] : 0.0));
     if (!std::isfinite(ipc_[a].x) || !std::isfinite(ipc_[a].v)) {  // one tick back, at rest; counted
       ipc_[a] = {before.x, 0, 0};
       ++not_finite_;
@@ -50,13 +45,11 @@ void Tool::step(Time now, double dt, const std::array<control::ToolIpc::Pull, kA
   }
   if (!slave_) return;
   const hal::State& s = slave_->state();
-  const AxisArray q = map_.position(s);
   for (std::size_t a = 0; a < dof_; ++a) slave_effort_[a] = spec_->k_s * scale_[a] * (ipc_[a].x - q[a]);
   command_.seq += 1;
   command_.expires = s.sampled_at + std::chrono::milliseconds(20);
   command_.kind = hal::CommandKind::kJointEffort;
   command_.effort = map_.joint_effort(s, slave_effort_);
-  (void)now;
 }
 
 void Tool::advance_slave(Duration dt) noexcept {

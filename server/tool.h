@@ -21,10 +21,8 @@ class Tool {
 
   /// Puts the virtual mass where the slave is, at rest.
   void rest_at(const AxisArray& x) noexcept;
-  /// Pull of everything that hangs on the tool, per axis; the caller adds the seats' springs.
-  [[nodiscard]] std::array<control::ToolIpc::Pull, kAxesMax> slave_pull() const noexcept TANDEM_REALTIME;
-  /// Steps the virtual mass, then commands the slave. @param damping  beside the tool's own. @param braked  HELD: nobody entitled is left.
-  void step(Time now, double dt, const std::array<control::ToolIpc::Pull, kAxesMax>& pull, const AxisArray& damping,
+  /// Steps the virtual mass under the slave's and the seats' springs, then commands the slave. @param damping  beside the tool's own. @param braked  HELD: nobody entitled is left.
+  void step(double dt, const std::array<control::ToolIpc::Pull, kAxesMax>& seats, const AxisArray& damping,
             bool braked) noexcept TANDEM_REALTIME;
   /// Lets the local slave live through the tick with its command held.
   void advance_slave(Duration dt) noexcept TANDEM_REALTIME;

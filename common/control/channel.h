@@ -42,6 +42,7 @@ struct EndInput {
   double weight = 1;            ///< how many such springs this end loads: 1 but for seats that drive several tools
   AxisArray x{};                ///< what hangs on the near end of the spring: xc at a client, the tool at the server
   AxisArray dissipated{};       ///< heat made here during the last step that may be spent [J]
+  double pass_on = 1;           ///< share of this end's heat the other end may have when it is not needed here [0, 1]
   PortSample rx{};              ///< newest datagram's port
 };
 
@@ -51,6 +52,7 @@ struct EndState {
   AxisArray b{};                ///< damping to be added at this end (client)
   AxisArray absorbed{};         ///< energy this move gave back [J]; the owner decides how much becomes credit
   AxisArray paid{};             ///< energy this move cost [J]
+  AxisArray passed{};           ///< heat of this end that was passed on [J]
 };
 
 class ChannelEnd {

@@ -5,7 +5,7 @@
 namespace tandem::control {
 
 const EndState& RawEnd::move(const EndInput& in) noexcept {
-  schedule_.step(in.age, in.dt);  // for the report; this law does not use it
+  schedule_.step(std::max(0.0, in.age - 0.5 * in.dt), in.dt);  // for the report; this law does not use it
   for (std::size_t a = 0; a < params_.dof; ++a) {
     EnergyLedger& ledger = ledger_[a];
     ledger.dissipate(in.dissipated[a]);

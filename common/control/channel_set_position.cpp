@@ -6,11 +6,13 @@
 namespace tandem::control {
 
 const EndState& SetPositionEnd::move(const EndInput& in) noexcept {
-  schedule_.step(in.age, in.dt);
+  schedule_.step(std::max(0.0, in.age - 0.5 * in.dt), in.dt);  // half a tick is sampling, there without a network too
   for (std::size_t a = 0; a < params_.dof; ++a) {
     EnergyLedger& ledger = ledger_[a];
-    ledger.dissipate(in.dissipated[a]);
+    const std::uint64_t heat = ledger.dissipate(in.dissipated[a]);
     ledger.receive(in.rx.e_in[a]);
+    const auto most = static_cast<std::uint64_t>(in.pass_on * static_cast<double>(heat));
+    state_.passed[a] = 1e-9 * static_cast<double>(ledger.pass_on_above(params_.margin_max, most));
     ledger.forfeit_above(params_.margin_max);
     state_.absorbed[a] = 0;
     state_.paid[a] = 0;

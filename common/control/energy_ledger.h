@@ -30,7 +30,7 @@ namespace tandem::control {
 ///
 ///     out <= initial + received + eta * dissipated        at every instant,
 ///
-/// where `received` is the newest cumulative `in` of the other end. All sums are monotone, so loss, duplication,
+/// where `received` is the newest cumulative `in` of the other end. All sums that travel are monotone, so loss, duplication,
 /// reordering and any delay make `received` older and the bound smaller, never wrong.
 class EnergyLedger {
  public:
@@ -43,7 +43,21 @@ class EnergyLedger {
   /// The other end's cumulative `in`; older values change nothing [nJ].
   void receive(std::uint64_t cumulative) noexcept { received_ = std::max(received_, cumulative); }
   /// Energy this end turned into heat [J]; spent once, here, and never also sent as `in`.
-  void dissipate(double joule) noexcept { dissipated_ = saturating_add(dissipated_, credit_nj(eta_ * joule)); }
+  /// @return what was credited [nJ].
+  std::uint64_t dissipate(double joule) noexcept {
+    const std::uint64_t credited = credit_nj(eta_ * joule);
+    dissipated_ = saturating_add(dissipated_, credited);
+    return credited;
+  }
+  /// Hands on what is unspent above `limit` [J], at most `most` [nJ], to the other end: here it counts as given up, there as received.
+  /// @return what was passed on [nJ].
+  std::uint64_t pass_on_above(double limit, std::uint64_t most) noexcept {
+    const std::uint64_t kept = credit_nj(limit), margin = margin_nj();
+    const std::uint64_t surplus = margin > kept ? std::min(margin - kept, most) : 0;
+    forfeited_ += surplus;
+    in_ = saturating_add(in_, surplus);
+    return surplus;
+  }
   /// Pays `joule` if the margin allows. @return whether it was paid.
   [[nodiscard]] bool spend(double joule) noexcept {
     const std::uint64_t cost = debit_nj(joule);
@@ -70,6 +84,9 @@ class EnergyLedger {
     const std::uint64_t bound = bound_nj();
     return bound > used ? bound - used : 0;
   }
+  [[nodiscard]] std::uint64_t received_nj() const noexcept { return received_; }
+  [[nodiscard]] std::uint64_t dissipated_nj() const noexcept { return dissipated_; }
+  [[nodiscard]] std::uint64_t forfeited_nj() const noexcept { return forfeited_; }
   [[nodiscard]] double margin() const noexcept { return static_cast<double>(margin_nj()) * 1e-9; }
   /// The invariant itself, for monitors: true unless the account is broken.
   [[nodiscard]] bool holds() const noexcept { return out_ <= bound_nj(); }

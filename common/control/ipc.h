@@ -10,7 +10,10 @@ namespace tandem::control {
 struct MasterIpc {
   double x = 0;  ///< position of the virtual mass xc
   double v = 0;  ///< its velocity vc
-  double dissipated = 0;  ///< by its damper during the last step [J]
+  /// During the last step [J]: the damper's heat, and what the implicit step takes out of the channel spring, 1/2 k (dx)^2 exactly
+  /// (H' - H = supplied - b v'^2 T - 1/2 m (dv)^2 - 1/2 (k_c + k)(dx)^2). k_c's share is not counted: the held force of a sampled
+  /// device makes as much.
+  double dissipated = 0;
 
   struct Gains {
     double k_c = 0, b = 0, m_c = 0;
@@ -23,7 +26,7 @@ struct MasterIpc {
     const double b = g.b + b_added;
     v = (g.m_c * v + T * (g.k_c * (q - x) + k * (r - x))) / (g.m_c + T * b + T * T * (g.k_c + k));
     x += T * v;
-    dissipated = b * v * v * T;
+    dissipated = (b + 0.5 * k * T) * v * v * T;
   }
   void rest_at(double q) noexcept {
     x = q;
@@ -42,7 +45,7 @@ struct MasterIpc {
 struct ToolIpc {
   double x = 0;
   double v = 0;
-  double dissipated = 0;
+  double dissipated = 0;  ///< during the last step, as for MasterIpc: damper and the seats' springs, not the slave's [J]
 
   struct Gains {
     double m_s = 0, b_s = 0;
@@ -57,11 +60,12 @@ struct ToolIpc {
   };
 
   /// One step; springs act at the end of the step, so the printed explicit form's growth of the weighted storage is absent.
-  void step(const Gains& g, double T, const Pull& pull, double b_added) noexcept TANDEM_REALTIME {
+  /// @param k_seats  the seats' part of pull.k.
+  void step(const Gains& g, double T, const Pull& pull, double k_seats, double b_added) noexcept TANDEM_REALTIME {
     const double b = g.b_s + b_added;
     v = (g.m_s * v + T * (pull.k_anchor - pull.k * x)) / (g.m_s + T * b + T * T * pull.k);
     x += T * v;
-    dissipated = b * v * v * T;
+    dissipated = (b + 0.5 * k_seats * T) * v * v * T;
   }
 };
 

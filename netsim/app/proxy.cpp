@@ -16,6 +16,7 @@ constexpr std::uint64_t kListenEvent = ProxyCore::kClientsMax;
 constexpr std::uint64_t kWakeEvent = kListenEvent + 1;
 constexpr Duration kHousekeeping{200'000'000};
 constexpr std::size_t kReportsMax = 1024;
+static_assert(io::ReceiveBatch::kSlotBytes == kSlotBytes, "what can be received can be kept");
 /// Batches read from one socket before others get their turn.
 constexpr int kRounds = 4;
 
@@ -40,8 +41,8 @@ bool watch(int poll, int fd, std::uint64_t name) noexcept {
   return epoll_ctl(poll, EPOLL_CTL_ADD, fd, &event) == 0;
 }
 
-std::string bind_problem(const SocketAddress& address, int error) {
-  const std::string where = to_text(address);
+std::string bind_problem(const io::SocketAddress& address, int error) {
+  const std::string where = io::to_text(address);
   switch (error) {
     case EADDRINUSE:
       return where + " is in use by another program: stop that program, or choose another port (0 takes a free one)";
@@ -57,18 +58,18 @@ std::string bind_problem(const SocketAddress& address, int error) {
 }  // namespace
 
 std::expected<std::unique_ptr<Proxy>, std::string> Proxy::open(const ProxyOptions& options) {
-  Fd socket{::socket(options.listen.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
+  io::Fd socket{::socket(options.listen.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
   if (!socket.open()) return std::unexpected(bind_problem(options.listen, errno));
   if (::bind(socket.get(), options.listen.get(), options.listen.size) != 0) {
     return std::unexpected(bind_problem(options.listen, errno));
   }
-  ReceiveBatch::prepare(socket.get(), options.listen.family(), options.listen.any());
-  SocketAddress listening;
+  io::ReceiveBatch::prepare(socket.get(), options.listen.family(), options.listen.any());
+  io::SocketAddress listening;
   listening.size = sizeof listening.storage;
   ::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&listening.storage), &listening.size);
 
-  Fd poll{epoll_create1(EPOLL_CLOEXEC)};
-  Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  io::Fd poll{epoll_create1(EPOLL_CLOEXEC)};
+  io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
   if (!poll.open() || !wake.open() || !watch(poll.get(), socket.get(), kListenEvent) ||
       !watch(poll.get(), wake.get(), kWakeEvent)) {
     return std::unexpected(std::string("the system gives no file descriptors: ") + std::strerror(errno));
@@ -76,7 +77,7 @@ std::expected<std::unique_ptr<Proxy>, std::string> Proxy::open(const ProxyOption
   return std::unique_ptr<Proxy>(new Proxy(options, std::move(socket), std::move(poll), std::move(wake), listening));
 }
 
-Proxy::Proxy(const ProxyOptions& options, Fd socket, Fd poll, Fd wake, const SocketAddress& listening)
+Proxy::Proxy(const ProxyOptions& options, io::Fd socket, io::Fd poll, io::Fd wake, const io::SocketAddress& listening)
     : options_(options),
       socket_(std::move(socket)),
       poll_(std::move(poll)),
@@ -149,7 +150,7 @@ void Proxy::receive_from_clients() noexcept {
       core_.ingress(Time{now_ - details.age}, *client, Direction::kUp, in_.bytes(i));
     }
     send_due();
-    if (count < static_cast<int>(ReceiveBatch::kMax)) return;
+    if (count < static_cast<int>(io::ReceiveBatch::kMax)) return;
   }
 }
 
@@ -175,12 +176,12 @@ void Proxy::receive_from_server(std::uint32_t client) noexcept {
       core_.ingress(Time{now_ - details.age}, client, Direction::kDown, in_.bytes(i));
     }
     send_due();
-    if (count < static_cast<int>(ReceiveBatch::kMax)) return;
+    if (count < static_cast<int>(io::ReceiveBatch::kMax)) return;
   }
 }
 
 void Proxy::send_due() noexcept {
-  std::array<ProxyCore::Egress, SendBatch::kMax> batch;
+  std::array<ProxyCore::Egress, io::SendBatch::kMax> batch;
   while (true) {
     now_ = read_clock(CLOCK_MONOTONIC) - started_;
     std::size_t count = 0;
@@ -194,8 +195,8 @@ void Proxy::send_due() noexcept {
     // keeps the order within each client and direction.
     const auto first = batch.begin();
     const auto last = first + static_cast<std::ptrdiff_t>(count);
-    std::array<ProxyCore::Egress, SendBatch::kMax> group;
-    std::array<bool, SendBatch::kMax> taken{};
+    std::array<ProxyCore::Egress, io::SendBatch::kMax> group;
+    std::array<bool, io::SendBatch::kMax> taken{};
     for (auto lead = first; lead != last; ++lead) {
       if (taken[static_cast<std::size_t>(lead - first)]) continue;
       std::size_t size = 0;
@@ -222,7 +223,7 @@ void Proxy::flush(int fd, std::span<const ProxyCore::Egress> sent) noexcept {
     const bool down = egress.direction == Direction::kDown;
     out_.add(egress.bytes, down ? &client.address : nullptr, down && any_address_ ? &client.local : nullptr);
   }
-  const SendBatch::Result result = out_.send(fd);
+  const io::SendBatch::Result result = out_.send(fd);
   troubles_.refused += result.refused;
   troubles_.no_room += result.no_room;
   troubles_.other += result.other;
@@ -233,8 +234,8 @@ void Proxy::flush(int fd, std::span<const ProxyCore::Egress> sent) noexcept {
   }
 }
 
-std::optional<std::uint32_t> Proxy::client_of(std::size_t message, const LocalAddress& local) noexcept {
-  const PeerKey key = PeerKey::of(in_.from(message));
+std::optional<std::uint32_t> Proxy::client_of(std::size_t message, const io::LocalAddress& local) noexcept {
+  const io::PeerKey key = io::PeerKey::of(in_.from(message));
   std::optional<std::uint32_t> found;
   if (present_[last_client_] && keys_[last_client_] == key) {
     found = last_client_;
@@ -251,18 +252,18 @@ std::optional<std::uint32_t> Proxy::client_of(std::size_t message, const LocalAd
   return found;
 }
 
-std::optional<std::uint32_t> Proxy::welcome(const PeerKey& key, std::size_t message,
-                                            const LocalAddress& local) noexcept {
+std::optional<std::uint32_t> Proxy::welcome(const io::PeerKey& key, std::size_t message,
+                                            const io::LocalAddress& local) noexcept {
   if (core_.clients() == ProxyCore::kClientsMax) {
     ++troubles_.too_many_clients;
     return std::nullopt;
   }
-  Fd upstream{::socket(options_.to.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
+  io::Fd upstream{::socket(options_.to.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
   if (!upstream.open() || ::connect(upstream.get(), options_.to.get(), options_.to.size) != 0) {
     ++troubles_.other;
     return std::nullopt;
   }
-  ReceiveBatch::prepare(upstream.get(), options_.to.family(), false);
+  io::ReceiveBatch::prepare(upstream.get(), options_.to.family(), false);
   const auto number = core_.add_client();
   if (!number || !watch(poll_.get(), upstream.get(), *number)) {
     if (number) core_.remove_client(*number);

@@ -11,17 +11,17 @@
 
 #include "common/base/histogram.h"
 #include "common/base/time.h"
-#include "netsim/app/datagram_batch.h"
-#include "netsim/app/fd.h"
-#include "netsim/app/socket_address.h"
+#include "common/io/datagram_batch.h"
+#include "common/io/fd.h"
+#include "common/io/socket_address.h"
 #include "netsim/path_spec.h"
 #include "netsim/proxy_core.h"
 
 namespace tandem::netsim {
 
 struct ProxyOptions {
-  SocketAddress listen;
-  SocketAddress to;
+  io::SocketAddress listen;
+  io::SocketAddress to;
   LinkSpec link;
   std::uint64_t seed = 1;
   Duration duration{};                  ///< 0: until told to stop
@@ -62,7 +62,7 @@ class Proxy {
   [[nodiscard]] static std::expected<std::unique_ptr<Proxy>, std::string> open(const ProxyOptions& options);
 
   /// The address that clients send to, with the port in force.
-  [[nodiscard]] const SocketAddress& listening() const noexcept { return listening_; }
+  [[nodiscard]] const io::SocketAddress& listening() const noexcept { return listening_; }
 
   /// Works until `stop`, or until the duration is over.
   void run();
@@ -78,24 +78,24 @@ class Proxy {
 
  private:
   struct Client {
-    Fd upstream;
-    SocketAddress address;
-    LocalAddress local;
-    PeerKey key;
+    io::Fd upstream;
+    io::SocketAddress address;
+    io::LocalAddress local;
+    io::PeerKey key;
     Duration last_seen{};
     std::uint32_t kernel_drops = 0;
   };
 
-  Proxy(const ProxyOptions& options, Fd socket, Fd poll, Fd wake, const SocketAddress& listening);
+  Proxy(const ProxyOptions& options, io::Fd socket, io::Fd poll, io::Fd wake, const io::SocketAddress& listening);
 
   [[nodiscard]] Duration wait_limit(Duration now) const noexcept;
   void receive_from_clients() noexcept;
   void receive_from_server(std::uint32_t client) noexcept;
   void send_due() noexcept;
   void flush(int fd, std::span<const ProxyCore::Egress> sent) noexcept;
-  [[nodiscard]] std::optional<std::uint32_t> client_of(std::size_t message, const LocalAddress& local) noexcept;
-  [[nodiscard]] std::optional<std::uint32_t> welcome(const PeerKey& key, std::size_t message,
-                                                     const LocalAddress& local) noexcept;
+  [[nodiscard]] std::optional<std::uint32_t> client_of(std::size_t message, const io::LocalAddress& local) noexcept;
+  [[nodiscard]] std::optional<std::uint32_t> welcome(const io::PeerKey& key, std::size_t message,
+                                                     const io::LocalAddress& local) noexcept;
   void forget_idle() noexcept;
   void forget(std::uint32_t client) noexcept;
   void count_kernel_drops(std::uint32_t& seen, std::uint32_t now) noexcept;
@@ -103,17 +103,17 @@ class Proxy {
   void publish() noexcept;
 
   ProxyOptions options_;
-  Fd socket_, poll_, wake_;
-  SocketAddress listening_;
+  io::Fd socket_, poll_, wake_;
+  io::SocketAddress listening_;
   bool any_address_;
   ProxyCore core_;
-  std::array<PeerKey, ProxyCore::kClientsMax> keys_{};
+  std::array<io::PeerKey, ProxyCore::kClientsMax> keys_{};
   std::array<bool, ProxyCore::kClientsMax> present_{};
   std::array<Client, ProxyCore::kClientsMax> clients_;
   std::uint32_t last_client_ = 0;
   std::uint32_t kernel_drops_seen_ = 0;
-  ReceiveBatch in_;
-  SendBatch out_;
+  io::ReceiveBatch in_;
+  io::SendBatch out_;
   Histogram lateness_;
   ProxyTroubles troubles_;
   Duration started_{};  ///< CLOCK_MONOTONIC

@@ -6,7 +6,7 @@
 namespace tandem::netsim::demo {
 namespace {
 
-constexpr double kTouching = 0.3;    // [N]
+constexpr double kTouching = 0.3;       // [N]
 constexpr std::size_t kSpeedHalf = 25;  // samples on each side: encoder steps vanish, the approach does not
 
 /// Mean of squares, bit by bit.
@@ -99,8 +99,8 @@ double force_step(const TraceData& trace) {
   for (std::size_t k = 1; k < trace.rows() && !arrived; ++k) {
     if (trace.t[k] < kAlphaMovesAt - 0.01) continue;
     // A tenth of a second beyond, since the springs need a moment to answer.
-    arrived = trace.t[k] > kAlphaMovesAt + 0.1 && std::abs(trace.trainer.alpha[k] - trace.trainer.alpha[k - 1]) < 1e-9 &&
-              trace.trainer.alpha[k] < 1e-6;
+    arrived = trace.t[k] > kAlphaMovesAt + 0.1 &&
+              std::abs(trace.trainer.alpha[k] - trace.trainer.alpha[k - 1]) < 1e-9 && trace.trainer.alpha[k] < 1e-6;
     for (const SeatTrace* seat : {&trace.trainer, &trace.trainee}) {
       double square = 0;
       for (const Column& f : seat->f_cmd) square += (f[k] - f[k - 1]) * (f[k] - f[k - 1]);

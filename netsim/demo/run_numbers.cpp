@@ -23,9 +23,12 @@ const RunPlan& run_plan(Task task, Setting setting) noexcept {
 std::string title_of(const RunPlan& plan) {
   const std::string task = plan.task == Task::kFreeMotion ? "Free motion, " : "Contact, ";
   switch (plan.setting) {
-    case Setting::kSeed: return task + "the paper’s gains";
-    case Setting::kDefaults: return task + "Tandem’s defaults";
-    case Setting::kBadNetwork: return task + "Tandem’s defaults on the bad network";
+    case Setting::kSeed:
+      return task + "the paper’s gains";
+    case Setting::kDefaults:
+      return task + "Tandem’s defaults";
+    case Setting::kBadNetwork:
+      return task + "Tandem’s defaults on the bad network";
   }
   return task;
 }

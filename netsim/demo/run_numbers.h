@@ -17,11 +17,11 @@ enum class Setting : std::uint8_t { kSeed, kDefaults, kBadNetwork };
 inline constexpr std::size_t kSettings = 3, kRuns = 6;
 
 struct RunPlan {
-  std::string_view name;        ///< for --runs and for files
-  std::string_view scene;       ///< a shipped scene
+  std::string_view name;   ///< for --runs and for files
+  std::string_view scene;  ///< a shipped scene
   Task task = Task::kFreeMotion;
   Setting setting = Setting::kSeed;
-  double duration_s = 0;        ///< session time [s]
+  double duration_s = 0;  ///< session time [s]
   [[nodiscard]] constexpr bool joint_port() const noexcept { return setting == Setting::kSeed; }
 };
 /// All of them, in the order in which they run.
@@ -75,12 +75,18 @@ struct ReportNumbers {
 
 /// What only the trace tells (measure.h).
 struct TraceNumbers {
-  double stiffness_n_m = kUnknown;       ///< rendered, near the working pose
-  double stiffness_held_n_m = kUnknown;  ///< force / depth while the leader holds
+  double stiffness_n_m = kUnknown;                                            ///< rendered, near the working pose
+  double stiffness_held_n_m = kUnknown;                                       ///< force / depth while the leader holds
   double force_x_leader_n = kUnknown, force_x_leader_percent = kUnknown;      ///< along x, contact phase
   double force_x_follower_n = kUnknown, force_x_follower_percent = kUnknown;  ///< along x, alignment phase
-  double aligned_x_m = kUnknown;         ///< RMS of follower - leader along x, alignment phase
-  double force_step_n = kUnknown;        ///< largest change of a commanded force in 1 ms while alpha moves
+  double aligned_x_m = kUnknown;   ///< RMS of follower - leader along x, alignment phase
+  double force_step_n = kUnknown;  ///< largest change of a commanded force in 1 ms while alpha moves
+};
+
+/// Springs between a hand and the slave at no delay [N/m].
+struct Springs {
+  double device = kUnknown, channel = kUnknown, slave = kUnknown;
+  [[nodiscard]] double series() const noexcept { return 1 / (1 / device + 1 / channel + 1 / slave); }
 };
 
 /// A finished run.
@@ -88,6 +94,7 @@ struct RunResult {
   const RunPlan* plan = nullptr;
   ReportNumbers report;
   TraceNumbers trace;
+  Springs springs;
   std::vector<std::string> commands;  ///< that repeat it
   std::string figures_html;           ///< drawn from its trace
 };

@@ -29,7 +29,8 @@ std::string px_text(double v) {
   return text;
 }
 
-void text_at(std::ostream& out, double x, double y, std::string_view kind, std::string_view text, std::string_view more = "") {
+void text_at(std::ostream& out, double x, double y, std::string_view kind, std::string_view text,
+             std::string_view more = "") {
   out << "<text class=\"" << kind << "\" x=\"" << px_text(x) << "\" y=\"" << px_text(y) << '"' << more << '>'
       << escaped(text) << "</text>";
 }
@@ -48,7 +49,8 @@ void draw_curve(std::ostream& out, const Frame& f, const Curve& curve) {
   // Relative moves in tenths of a pixel, summed exactly so that rounding does not drift.
   const auto tenths = [](double v) { return std::llround(std::clamp(v, -1e6, 1e6) * 10); };
   long long x = tenths(at.front().x), y = tenths(at.front().y);
-  out << "<path class=\"line " << curve.ink << "\" d=\"M" << px_text(at.front().x) << ' ' << px_text(at.front().y) << 'l';
+  out << "<path class=\"line " << curve.ink << "\" d=\"M" << px_text(at.front().x) << ' ' << px_text(at.front().y)
+      << 'l';
   bool first = true;
   for (std::size_t k = 1; k < at.size(); ++k) {
     const long long nx = tenths(at[k].x), ny = tenths(at[k].y);
@@ -73,8 +75,8 @@ void draw_axes(std::ostream& out, const Frame& f, const Panel& panel, bool x_num
     line(out, f.left, f.top + f.py(v), f.left + f.width, f.top + f.py(v), "grid");
     text_at(out, f.left - 6, f.top + f.py(v) + 4, "tick end", number_text(v, ys.decimals));
   }
-  out << "<rect class=\"frame\" x=\"" << px_text(f.left) << "\" y=\"" << px_text(f.top) << "\" width=\"" << px_text(f.width)
-      << "\" height=\"" << px_text(f.height) << "\"/>";
+  out << "<rect class=\"frame\" x=\"" << px_text(f.left) << "\" y=\"" << px_text(f.top) << "\" width=\""
+      << px_text(f.width) << "\" height=\"" << px_text(f.height) << "\"/>";
   const double middle = f.top + f.height / 2;
   text_at(out, f.left - 46, middle, "label mid", panel.y_label,
           " transform=\"rotate(-90 " + px_text(f.left - 46) + " " + px_text(middle) + ")\"");
@@ -90,8 +92,8 @@ void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_nu
   }
   draw_axes(out, f, panel, x_numbers);
   // A nested svg cuts off what is outside of the plot area.
-  out << "<svg x=\"" << px_text(f.left) << "\" y=\"" << px_text(f.top) << "\" width=\"" << px_text(f.width) << "\" height=\""
-      << px_text(f.height) << "\">";
+  out << "<svg x=\"" << px_text(f.left) << "\" y=\"" << px_text(f.top) << "\" width=\"" << px_text(f.width)
+      << "\" height=\"" << px_text(f.height) << "\">";
   for (const Line& v : panel.verticals) line(out, f.px(v.at), 0, f.px(v.at), f.height, "mark");
   for (const Line& h : panel.horizontals) line(out, 0, f.py(h.at), f.width, f.py(h.at), "mark");
   for (const Curve& c : panel.curves) draw_curve(out, f, c);
@@ -99,7 +101,8 @@ void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_nu
   for (const Band& b : panel.bands)
     text_at(out, f.left + std::clamp(f.px((b.from + b.to) / 2), 0.0, f.width), f.top + 14, "note mid", b.label);
   for (const Line& v : panel.verticals) text_at(out, f.left + f.px(v.at) + 5, f.top + 14, "note", v.label);
-  for (const Line& h : panel.horizontals) text_at(out, f.left + f.width - 5, f.top + f.py(h.at) - 5, "note end", h.label);
+  for (const Line& h : panel.horizontals)
+    text_at(out, f.left + f.width - 5, f.top + f.py(h.at) - 5, "note end", h.label);
   for (const Note& n : panel.notes) {
     const double x = f.px(n.at.x), y = f.py(n.at.y);
     if (!(x >= 0 && x <= f.width && y >= 0 && y <= f.height)) continue;
@@ -143,11 +146,20 @@ std::string escaped(std::string_view text) {
   out.reserve(text.size());
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -200,8 +212,8 @@ std::string to_svg(const Figure& figure) {
   }
   std::ostringstream out;
   out << "<svg class=\"figure\" viewBox=\"0 0 " << px_text(kFigureWidth) << ' ' << px_text(top + 4)
-      << "\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\"><title>" << escaped(figure.description) << "</title>" << body.str()
-      << "</svg>\n";
+      << "\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\"><title>" << escaped(figure.description) << "</title>"
+      << body.str() << "</svg>\n";
   return out.str();
 }
 

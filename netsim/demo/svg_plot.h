@@ -7,8 +7,8 @@
 
 #include "netsim/demo/downsample.h"
 
-/// Line plots as inline SVG. Pure: numbers in, text out. Colours and fonts are classes that the page's style sheet defines
-/// (report_style.h), so that one drawing serves light, dark and paper.
+/// Line plots as inline SVG. Pure: numbers in, text out. Colours and fonts are classes that the page's style sheet
+/// defines (report_style.h), so that one drawing serves light, dark and paper.
 namespace tandem::netsim::demo {
 
 struct Curve {
@@ -37,21 +37,21 @@ struct Range {
 };
 
 struct Panel {
-  std::string title, x_label, y_label;  ///< labels carry their unit: "time [s]"
-  std::vector<Curve> curves;
-  std::vector<Band> bands;
-  std::vector<Line> verticals, horizontals;
-  std::vector<Note> notes;
-  std::optional<Range> x, y;  ///< default: what the curves need, and a margin
-  double y_span_min = 0;      ///< the automatic y range is at least so wide: noise stays small
-  bool equal_scale = false;   ///< one unit is as long along x as along y
-  double height = 150;        ///< of the plot area [px]
+  std::string title = {}, x_label = {}, y_label = {};  ///< labels carry their unit: "time [s]"
+  std::vector<Curve> curves = {};
+  std::vector<Band> bands = {};
+  std::vector<Line> verticals = {}, horizontals = {};
+  std::vector<Note> notes = {};
+  std::optional<Range> x = {}, y = {};  ///< default: what the curves need, and a margin
+  double y_span_min = 0;                ///< the automatic y range is at least so wide: noise stays small
+  bool equal_scale = false;             ///< one unit is as long along x as along y
+  double height = 150;                  ///< of the plot area [px]
 };
 
 struct Figure {
-  std::string description;     ///< for those who cannot see it
-  std::size_t columns = 1;     ///< panels side by side
-  std::vector<Panel> panels;   ///< row by row
+  std::string description;    ///< for those who cannot see it
+  std::size_t columns = 1;    ///< panels side by side
+  std::vector<Panel> panels;  ///< row by row
 };
 
 inline constexpr double kFigureWidth = 1080;          ///< of the drawing [px]; the page scales it

@@ -37,8 +37,8 @@ struct TraceData {
   [[nodiscard]] std::size_t rows() const noexcept { return t.size(); }
 };
 
-/// Reads a trace of server/trace_csv.h with the seats `trainer` and `trainee`, the tool `tool` and three axes. Columns the
-/// demo has no use for are not looked at; a cell that is no finite number becomes NaN.
+/// Reads a trace of server/trace_csv.h with the seats `trainer` and `trainee`, the tool `tool` and three axes. Columns
+/// the demo has no use for are not looked at; a cell that is no finite number becomes NaN.
 /// @return the columns; or what is wrong: no rows, a column missing, a row of another length
 [[nodiscard]] std::expected<TraceData, std::string> read_trace(std::string_view text);
 

@@ -43,6 +43,25 @@ TEST(Robustness, HalfSecondOutagesEndWithoutAKick) {
   }
 }
 
+TEST(Robustness, FiveMinutesOfMotionNeverStarveALedger) {
+  // The channel must live on what moves through it; E_0 alone lasts some seconds.
+  SceneSpec scene = without_deviations(shipped("free_motion"));
+  scene.duration = 300;
+  scene.timeline.clear();
+  scene.seats[0].hand.until = 1e6;
+  scene.seats[1].hand.from = 1e6;
+  scene.phases = {{"early", 5, 20, false}, {"late", 250, 300, false}};
+  for (const double ms : {0.0, 20.0}) {
+    const auto r = run(scene, delayed(ms));
+    ASSERT_TRUE(r.report.passed);
+    for (const auto& s : r.report.seats) {
+      EXPECT_EQ(s.last.refused_j, 0) << s.name << " at " << ms;
+      EXPECT_GT(s.last.margin_min_j, 0.01) << s.name << " at " << ms;
+      EXPECT_LE(r.phase("late", s.name).tracking_rms_m, 1.02 * r.phase("early", s.name).tracking_rms_m) << s.name << " at " << ms;
+    }
+  }
+}
+
 TEST(Robustness, ThreeLossesInTenSecondsLatchTheGate) {
   SceneSpec scene = without_deviations(shipped("free_motion"));
   scene.gate.latch = true;

@@ -54,7 +54,7 @@ class Monolith {
       };
       for (std::size_t i = 0; i < 2; ++i) move_hand(i, before.x + lead * before.v);
       for (std::size_t i = 0; i < 2; ++i) pull.add(alpha[i] * k, ipc_[i][a].x + lead * ipc_[i][a].v);
-      tool_[a].step({scene_.tools[0].m_s, scene_.tools[0].b_s}, T, pull, 0);
+      tool_[a].step({scene_.tools[0].m_s, scene_.tools[0].b_s}, T, pull, 0, 0);
       pull_slave[a] = scene_.tools[0].k_s * (tool_[a].x - slave_->state().x[e]);
     }
     for (std::size_t i = 0; i < 2; ++i) {
@@ -95,32 +95,47 @@ SceneSpec calm_free_motion() {
   return scene;
 }
 
+/// Largest distance of two paths at the best shift of up to three ticks: hands of a session learn its time to within a tick.
+double apart(const std::vector<hal::Vec3>& a, const std::vector<hal::Vec3>& b) {
+  double least = 1e9;
+  for (int shift = -3; shift <= 3; ++shift) {
+    double most = 0;
+    for (std::size_t k = 3; k + 3 < std::min(a.size(), b.size()); ++k)
+      most = std::max(most, (a[k] - b[static_cast<std::size_t>(static_cast<int>(k) + shift)]).norm());
+    least = std::min(least, most);
+  }
+  return least;
+}
+
 TEST(Twins, OverANetworkWithoutDelayTheSystemIsTheMonolithicOne) {
   const SceneSpec scene = calm_free_motion();
   Monolith twin{scene, true}, simultaneous{scene, false};
-  double apart = 0, square = 0, square_once = 0;
-  std::uint64_t n = 0, settled = 0;
+  std::array<std::vector<hal::Vec3>, 3> networked, monolithic;  // leader, follower, slave
+  double square = 0, square_twin = 0, square_once = 0;
   const auto r = run(scene, {}, 1, [&](netsim::World& w) {
     if (!w.record().running) return;
     const double t = w.session().time();
     twin.step(t, {1, 0});
     simultaneous.step(t, {1, 0});
-    ++n;
-    if (t < 3) return;  // the ramp-in is the gate's, not the law's
-    ++settled;
-    apart = std::max({apart, (w.device(0).truth().x - twin.hand(0)).norm(), (w.device(1).truth().x - twin.hand(1)).norm()});
-    square += (twin.hand(0) - twin.slave()).squaredNorm();
+    if (t < 5) return;  // the ramp-in is the gate's, not the law's
+    const hal::Vec3 slave{w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]};
+    for (std::size_t i = 0; i < 2; ++i) {
+      networked[i].push_back(w.device(i).truth().x);
+      monolithic[i].push_back(twin.hand(i));
+    }
+    networked[2].push_back(slave);
+    monolithic[2].push_back(twin.slave());
+    square += (w.device(0).truth().x - slave).squaredNorm();
+    square_twin += (twin.hand(0) - twin.slave()).squaredNorm();
     square_once += (simultaneous.hand(0) - simultaneous.slave()).squaredNorm();
   });
   ASSERT_TRUE(r.report.passed);
-  ASSERT_GT(settled, 6000u);
-  // The ramp-in leaves encoder steps at other instants; nothing else differs.
-  EXPECT_LE(apart, 0.15e-3);
-  const double networked = r.phase("demonstration", "trainer").tracking_rms_m;
-  const double monolithic = std::sqrt(square / static_cast<double>(settled));
-  const double at_once = std::sqrt(square_once / static_cast<double>(settled));
-  EXPECT_NEAR(networked, monolithic, 0.05e-3);
-  EXPECT_LE(networked, at_once + 0.8e-3) << "k T drag of the two ticks";
+  const auto n = static_cast<double>(networked[0].size());
+  ASSERT_GT(n, 4000);
+  // Encoder steps fall at other instants (0.055 mm at the tip, each hand its own); nothing else differs.
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(apart(networked[i], monolithic[i]), 0.25e-3) << i;
+  EXPECT_NEAR(std::sqrt(square / n), std::sqrt(square_twin / n), 0.05e-3);
+  EXPECT_LE(std::sqrt(square / n), std::sqrt(square_once / n) + 0.8e-3) << "k T drag of the two ticks";
 }
 
 TEST(Twins, ARemoteSlaveFollowsTheServersWithinTheDragOfItsExtraTick) {
@@ -139,18 +154,15 @@ TEST(Twins, ARemoteSlaveFollowsTheServersWithinTheDragOfItsExtraTick) {
   const auto a = run(local, {}, 1, [&](netsim::World& w) {
     if (w.record().running) path.emplace_back(w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]);
   });
-  double apart = 0;
-  std::size_t k = 0;
+  std::vector<hal::Vec3> remote_path;
   const auto b = run(remote, {}, 1, [&](netsim::World& w) {
-    if (!w.record().running) return;
-    if (w.session().time() > 2 && k < path.size()) {
-      const hal::Vec3 x{w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]};
-      apart = std::max(apart, (x - path[k]).norm());
-    }
-    ++k;
+    if (w.record().running) remote_path.emplace_back(w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]);
   });
   ASSERT_TRUE(a.report.passed);
   ASSERT_TRUE(b.report.passed);
+  ASSERT_EQ(path.size(), remote_path.size());
+  double apart = 0;
+  for (std::size_t k = 3000; k < path.size(); ++k) apart = std::max(apart, (path[k] - remote_path[k]).norm());
   const double v = 2 * 3.14159265 * 0.5 * 0.05, T = 1e-3;  // of the circle
   const double drag = v * T * (1 + local.tools[0].k_s / local.channel.k);
   const double encoder = 2 * 5.5e-5;  // steps of the two devices fall at different instants

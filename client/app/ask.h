@@ -1,0 +1,29 @@
+#pragma once
+
+#include <expected>
+#include <string>
+
+#include "client/joining.h"
+#include "common/io/udp_socket.h"
+
+namespace tandem::client {
+
+/// A seat that was given.
+struct GivenSeat {
+  SeatSetup setup;
+  link::Link::Params link;
+};
+
+/// Why there is none.
+struct NotSeated {
+  bool interrupted = false;  ///< the person pressed Ctrl-C
+  std::string reason;        ///< cause and remedy
+};
+
+/// Asks the server for a seat and waits for its answer.
+/// @param signals  file of signals.h
+[[nodiscard]] std::expected<GivenSeat, NotSeated> ask_for_seat(const io::UdpSocket& socket, const std::string& server,
+                                                               const std::string& seat, const hal::DeviceCaps& caps,
+                                                               Duration patience, int signals);
+
+}  // namespace tandem::client

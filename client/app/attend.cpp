@@ -1,0 +1,178 @@
+#include "client/app/attend.h"
+
+#include <poll.h>
+#include <sys/signalfd.h>
+
+#include <cstdio>
+#include <memory>
+
+#include <spdlog/spdlog.h>
+
+#include "client/app/ask.h"
+#include "client/app/person.h"
+#include "client/app/sample_trace.h"
+#include "client/app/seat_pump.h"
+#include "common/io/clock.h"
+#include "common/io/output_file.h"
+#include "common/io/realtime.h"
+#include "common/io/signals.h"
+#include "common/io/terminal.h"
+#include "hal/io/open_device.h"
+#include "hal/io/sim_servo.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kTrouble = 1;  // while running
+constexpr int kWrong = 2;    // in arguments or files
+constexpr double kServerLost = 10;   // [s] without news
+constexpr Duration kLeaveMax = 2s;   // for the gate to ramp out and the server to be told
+constexpr int kLookEveryMs = 100;
+
+int trouble(const std::string& what, int code = kTrouble) {
+  spdlog::error("join: {}", what);
+  return code;
+}
+
+/// Whether the device, now that the scene chose its model, has the axes the session needs; empty if so.
+std::string unfit(const SeatSetup& setup, const hal::DeviceCaps& caps) {
+  const std::size_t has = setup.port == PortSpace::kTip ? caps.tip_axes : caps.joints;
+  if (has >= setup.dof) return {};
+  return "the scene needs " + std::to_string(setup.dof) + " axes, the device has " + std::to_string(has);
+}
+
+/// Waits for the end, shows the status, hands keys to the person.
+SeatEnd watch(SeatPump& pump, Person& person, const SeatSetup& setup, const AttendPlan& plan, int signals, io::StatusLine& line) {
+  io::KeyReader keys;
+  if (keys.interactive()) line.note(person.help());
+  const Time begin = io::monotonic_now();
+  Time shown = begin;
+  std::optional<Time> left;
+  wire::SessionState before = wire::SessionState::kWaiting;
+  const auto leave = [&](const char* why) {
+    if (left) return;
+    line.note(why);
+    left = io::monotonic_now();
+    pump.leave();
+  };
+  while (true) {
+    pollfd files[] = {{pump.finished_fd(), POLLIN, 0}, {signals, POLLIN, 0}, {keys.fd(), POLLIN, 0}};
+    poll(files, keys.interactive() ? 3 : 2, kLookEveryMs);
+    if (files[0].revents != 0) break;
+    if (files[1].revents != 0) {
+      signalfd_siginfo taken;
+      [[maybe_unused]] const auto got = ::read(signals, &taken, sizeof taken);
+      leave("letting go");
+    }
+    for (std::string key = keys.next(); !key.empty(); key = keys.next())
+      if (person.press(key)) leave("letting go");
+    const Time now = io::monotonic_now();
+    const ClientStatus status = pump.status();
+    if (left && now - *left > kLeaveMax) break;  // nobody is there to be told
+    if (plan.duration_s > 0 && seconds(now - begin) > plan.duration_s) leave("the time given by --duration is over: letting go");
+    // Silence alone made the gate ramp out long before.
+    if (!left && status.silence_s > kServerLost) return SeatEnd::kServerLost;
+    if (status.session != before && status.session == wire::SessionState::kRunning) line.note("the session runs");
+    before = status.session;
+    if (now - shown >= std::chrono::milliseconds(line.interval_ms())) {
+      shown = now;
+      line.show(status_line(status, setup));
+    }
+  }
+  if (pump.device_lost()) return SeatEnd::kDeviceLost;
+  const ClientStatus last = pump.status();
+  if (left || last.close_reason == wire::CloseReason::kLeaving) return SeatEnd::kLeft;
+  return last.close_reason == wire::CloseReason::kDone ? SeatEnd::kDone : SeatEnd::kServerStopped;
+}
+
+const char* farewell(SeatEnd end) {
+  switch (end) {
+    case SeatEnd::kDone: return "the session is over";
+    case SeatEnd::kServerStopped: return "the server ended the session";
+    case SeatEnd::kLeft: return "left the seat";
+    case SeatEnd::kServerLost:
+      return "server lost: no news for 10 s; the force was let go after the first losses. Look at the network and the server, then "
+             "join again";
+    case SeatEnd::kDeviceLost: return "device lost: it is unplugged or stopped answering; plug it in and join again";
+  }
+  return "";
+}
+
+}  // namespace
+
+int attend(const AttendPlan& plan) {
+  const io::Fd signals = io::signals_as_file();
+  auto socket = io::connect_udp(plan.server);
+  if (!socket) return trouble("--server: " + socket.error());
+  const std::string server = io::to_text(plan.server);
+  auto given = ask_for_seat(*socket, server, plan.seat, plan.caps, from_seconds(plan.patience_s), signals.get());
+  if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
+  const SeatSetup& setup = given->setup;
+
+  std::vector<AlphaScript::Change> script;
+  if (plan.script) {
+    if (setup.seat.role != Role::kInstructor || setup.seat.kind != SeatKind::kMaster)
+      return trouble("--alpha-script: only the INSTRUCTOR moves authority, and " + setup.seat.name + " is " +
+                     to_text(setup.seat.role) + "; give the script to the instructor's client");
+    auto changes = plan.script->for_session(setup.masters, setup.drivers);
+    if (!changes) return trouble("--alpha-script: " + changes.error(), kWrong);
+    script = std::move(*changes);
+  }
+  auto opened = hal::open_stepped(plan.device, setup.seat.device, setup.seat.hand, setup.seat.environment, io::monotonic_now());
+  if (!opened) return trouble("--device: " + opened.error().message, kWrong);
+  const hal::DeviceCaps caps = opened->device->caps();
+  if (const std::string why = unfit(setup, caps); !why.empty()) return trouble("the device does not fit this scene: " + why);
+
+  io::OutputFile json, trace;
+  if (const auto problem = json.open(plan.json, true); !problem.empty()) return trouble("--json: " + problem, kWrong);
+  if (const auto problem = trace.open(plan.trace, false); !problem.empty()) return trouble("--trace: " + problem, kWrong);
+  std::optional<SampleTrace> writer;
+  if (trace.wanted()) writer.emplace(trace, caps.joints, caps.prismatic);
+
+  io::StatusLine line{plan.quiet};
+  line.note("seat " + setup.seat.name + " at " + server + ", " + opened->note);
+  Seat seat{setup, caps, given->link};
+  hal::LiveSim live = hal::make_live(std::move(*opened), from_seconds(1.0 / setup.tick_hz));
+  const auto pump = std::make_unique<SeatPump>(std::move(*socket), seat, live.sim, std::move(script),
+                                               writer ? &writer->queue() : nullptr);
+  Person person{*pump, setup,
+                live.sim->hand().model() == HandModel::kKeyboard ? live.sim->hand().keyboard() : nullptr};
+  const io::AwakeProcessor awake;
+  const bool memory = io::lock_memory();
+  if (auto ok = live.device->start(*pump); !ok) return trouble(ok.error().message);
+  if (auto ok = live.device->enable(); !ok) return trouble(ok.error().message);
+
+  const Time begin = io::monotonic_now();
+  const SeatEnd end = watch(*pump, person, setup, plan, signals.get(), line);
+  ClientReport report;
+  report.seconds = seconds(io::monotonic_now() - begin);
+  live.device->disable();
+  live.device->close();
+  line.clear();
+  if (writer) writer->finish();
+
+  report.server = server;
+  report.device_note = live.note;
+  report.end = end;
+  report.last = pump->final_status();
+  report.device = live.device->stats();
+  report.trace_dropped = writer ? writer->queue().dropped() : 0;
+  if (const auto* servo = dynamic_cast<const hal::SimServo*>(live.device.get())) report.realtime = servo->realtime();
+  if (const std::string notice = io::realtime_notice(report.realtime, memory, awake.granted());
+      !notice.empty() && report.last.late_ticks > 0)
+    line.note(std::to_string(report.last.late_ticks) + " late ticks; " + notice);
+  const bool lost = end == SeatEnd::kServerLost || end == SeatEnd::kDeviceLost;
+  if (lost) {
+    spdlog::error("join: {}", farewell(end));
+  } else {
+    line.note(farewell(end));
+  }
+  json.write(to_json(report, setup));
+  for (io::OutputFile* file : {&json, &trace})
+    if (const auto problem = file->close(); !problem.empty()) return trouble(problem);
+  return lost ? kTrouble : 0;
+}
+
+}  // namespace tandem::client

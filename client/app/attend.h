@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "client/app/alpha_script.h"
+#include "common/io/socket_address.h"
+#include "hal/device.h"
+
+namespace tandem::client {
+
+/// A seat as a person asked for it, everything checked that can be checked alone.
+struct AttendPlan {
+  io::SocketAddress server;
+  std::string seat, device;
+  hal::DeviceCaps caps;  ///< what is certain of the device before the scene is known
+  std::optional<AlphaScript> script;
+  std::string trace, json;  ///< file names; `-` (JSON only) is standard output; empty: not wanted
+  double duration_s = 0;    ///< at the seat; 0: until the session ends
+  double patience_s = 5;    ///< for a server that does not answer
+  bool quiet = false;
+};
+
+/// Joins, attends the session, leaves. @return exit code
+[[nodiscard]] int attend(const AttendPlan& plan);
+
+}  // namespace tandem::client

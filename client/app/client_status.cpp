@@ -1,0 +1,125 @@
+#include "client/app/client_status.h"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace tandem::client {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  char line[256];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(line, sizeof line, pattern, arguments);
+  va_end(arguments);
+  return line;
+}
+
+std::string session_text(const ClientStatus& s) {
+  if (s.closed) return "closed";
+  if (!s.heard) return "waiting for the server";
+  if (s.silence_s > 0.5) return format("SERVER SILENT for %.0f s", s.silence_s);
+  switch (s.session) {
+    case wire::SessionState::kWaiting:
+      return s.missing == 0 ? "engaging" : format("waiting for %u seat%s", s.missing, s.missing == 1 ? "" : "s");
+    case wire::SessionState::kRunning: return format("%.1f s", s.session_time);
+    case wire::SessionState::kHeld: return format("%.1f s HELD", s.session_time);
+    case wire::SessionState::kEnding: return "ending";
+  }
+  return "";
+}
+
+nlohmann::ordered_json number(double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); }
+
+}  // namespace
+
+const char* to_text(wire::GateState gate) noexcept {
+  switch (gate) {
+    case wire::GateState::kOff: return "off";
+    case wire::GateState::kZero: return "zero";
+    case wire::GateState::kRampIn: return "ramp-in";
+    case wire::GateState::kActive: return "active";
+    case wire::GateState::kPassive: return "passive";
+    case wire::GateState::kDamped: return "DAMPED (press b)";
+    case wire::GateState::kFault: return "FAULT";
+  }
+  return "?";
+}
+
+const char* to_text(SeatEnd end) noexcept {
+  switch (end) {
+    case SeatEnd::kDone: return "done";
+    case SeatEnd::kServerStopped: return "server_stopped";
+    case SeatEnd::kLeft: return "left";
+    case SeatEnd::kServerLost: return "server_lost";
+    case SeatEnd::kDeviceLost: return "device_lost";
+  }
+  return "";
+}
+
+const char* to_text(Role role) noexcept {
+  switch (role) {
+    case Role::kInstructor: return "INSTRUCTOR";
+    case Role::kTrainee: return "TRAINEE";
+    case Role::kEvaluator: return "EVALUATOR";
+    case Role::kObserver: return "OBSERVER";
+  }
+  return "";
+}
+
+std::string status_line(const ClientStatus& s, const SeatSetup& setup) {
+  const bool slave = setup.seat.kind == SeatKind::kSlave;
+  std::string line = setup.seat.name + " (" + (slave ? "SLAVE" : to_text(setup.seat.role)) + ") " + session_text(s);
+  line += std::string(" | gate ") + to_text(s.gate);
+  if (!slave) line += format(" | alpha %.2f", s.alpha);
+  line += format(" | %.2f N | rtt %.1f ms loss %.1f %%", s.force_n, s.rtt_ms, s.down_loss_percent);
+  line += format(" | margin %.0f mJ | late ticks %u", s.margin_min_j * 1e3, s.late_ticks);
+  if (s.gate_trips > 0) line += format(" | trips %u", s.gate_trips);
+  return line;
+}
+
+std::string to_json(const ClientReport& r, const SeatSetup& setup) {
+  const ClientStatus& s = r.last;
+  nlohmann::ordered_json j;
+  j["seat"] = setup.seat.name;
+  j["kind"] = setup.seat.kind == SeatKind::kMaster ? "MASTER" : "SLAVE";
+  j["role"] = to_text(setup.seat.role);
+  j["server"] = r.server;
+  j["device"] = r.device_note;
+  j["ended_by"] = to_text(r.end);
+  j["seconds"] = number(r.seconds);
+  j["session_s"] = number(std::max(0.0, s.session_time));
+  j["alpha"] = number(s.alpha);
+  j["effort_peak_n"] = number(s.force_peak_n);
+  j["gate"] = {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.given_after_loss_max_j)}};
+  j["energy"] = {{"in_j", number(s.energy_in_j)},
+                 {"out_j", number(s.energy_out_j)},
+                 {"dissipated_j", number(s.dissipated_j)},
+                 {"refused_j", number(s.refused_j)},
+                 {"margin_min_j", number(s.margin_min_j)},
+                 {"delivered_j", number(s.delivered_j)}};
+  j["link"] = {{"rtt_p50_ms", number(s.rtt_p50_ms)},
+               {"rtt_p99_ms", number(s.rtt_p99_ms)},
+               {"sent", s.sent},
+               {"accepted", s.accepted},
+               {"late", s.late_datagrams},
+               {"refused", s.refused_datagrams},
+               {"down",
+                {{"loss_percent", number(s.down_loss_percent)},
+                 {"longest_gap_ms", number(s.down_longest_gap_ms)},
+                 {"age_p99_ms", number(s.down_age_p99_ms)}}}};
+  j["machine"] = {{"ticks", r.device.ticks},
+                  {"late_ticks", s.late_ticks},
+                  {"missed_ticks", r.device.missed},
+                  {"expired_commands", r.device.expired},
+                  {"period_p50_ms", number(r.device.period_p50_s * 1e3)},
+                  {"period_p99_ms", number(r.device.period_p99_s * 1e3)},
+                  {"period_max_ms", number(r.device.period_max_s * 1e3)},
+                  {"trace_dropped", r.trace_dropped},
+                  {"realtime", r.realtime}};
+  return j.dump(2) + "\n";
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "client/seat.h"
+#include "hal/device.h"
+#include "proto/seat_setup.h"
+
+namespace tandem::client {
+
+/// What a person wants to see of his seat: plain data, copied out of the servo thread now and then.
+struct ClientStatus {
+  wire::SessionState session = wire::SessionState::kWaiting;
+  wire::GateState gate = wire::GateState::kOff;
+  bool heard = false;         ///< anything at all from the server
+  bool closed = false;
+  wire::CloseReason close_reason = wire::CloseReason::kDone;
+  std::uint32_t missing = 0;  ///< required seats that are not ready
+  double session_time = -1;   ///< [s], negative before the session began
+  double silence_s = 0;       ///< since something newer came from the server [s]
+  double alpha = 0;
+  double force_n = 0;         ///< delivered to the hand [N]
+  std::array<double, 3> x{};  ///< tip [m]
+  double rtt_ms = 0, rtt_p50_ms = 0, rtt_p99_ms = 0;
+  double down_loss_percent = 0, down_longest_gap_ms = 0, down_age_p99_ms = 0;
+  double energy_in_j = 0, energy_out_j = 0, dissipated_j = 0, refused_j = 0, delivered_j = 0, margin_min_j = 0;
+  double given_after_loss_max_j = 0;
+  double force_peak_n = 0;    ///< so far [N]
+  std::uint32_t gate_trips = 0, late_ticks = 0;
+  std::uint64_t sent = 0, accepted = 0, late_datagrams = 0, refused_datagrams = 0;
+};
+
+/// How a seat's life ended.
+enum class SeatEnd : std::uint8_t { kDone, kServerStopped, kLeft, kServerLost, kDeviceLost };
+
+[[nodiscard]] const char* to_text(wire::GateState gate) noexcept;
+[[nodiscard]] const char* to_text(SeatEnd end) noexcept;
+[[nodiscard]] const char* to_text(Role role) noexcept;
+
+/// One line for a terminal.
+[[nodiscard]] std::string status_line(const ClientStatus& status, const SeatSetup& setup);
+
+/// What the client knows of the run, for machines.
+struct ClientReport {
+  std::string server, device_note;
+  double seconds = 0;  ///< at the seat
+  SeatEnd end = SeatEnd::kDone;
+  ClientStatus last;
+  hal::DeviceStats device;
+  std::uint64_t trace_dropped = 0;
+  bool realtime = false;
+};
+[[nodiscard]] std::string to_json(const ClientReport& report, const SeatSetup& setup);
+
+}  // namespace tandem::client

@@ -1,0 +1,149 @@
+#include "client/app/join_command.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "client/app/attend.h"
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "hal/io/open_device.h"
+#include "proto/wire.h"
+
+namespace tandem::client {
+namespace {
+
+constexpr int kWrong = 2;
+
+/// As typed. Numbers stay text until `understand`, so that all mistakes are told together.
+struct JoinArguments {
+  std::string server, seat, device, script, trace, json, duration, patience = "5";
+  bool quiet = false;
+};
+
+using Mistakes = std::vector<std::string>;
+
+double number(const char* option, std::string text, double lo, double hi, Mistakes& mistakes) {
+  if (text.empty()) return 0;
+  if (const std::string problem = io::number_in(lo, hi, "s")(text); !problem.empty()) {
+    mistakes.push_back(std::string(option) + ": " + problem);
+    return 0;
+  }
+  return std::stod(text);
+}
+
+/// What can be said of the device before the scene is known: a simulated one gets its numbers from the scene, so that only its
+/// axes are certain, and not more than a Touch's three.
+hal::DeviceCaps certain_caps(const hal::DeviceCaps& opened) {
+  hal::DeviceCaps caps = opened;
+  caps.damping.reset();
+  caps.mass.reset();
+  caps.stiffness.reset();
+  for (hal::AxisLimit& axis : caps.axis) axis = {};
+  return caps;
+}
+
+void understand_files(const JoinArguments& arguments, Mistakes& mistakes) {
+  if (!arguments.json.empty() && arguments.json != "-")
+    if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty()) mistakes.push_back("--json: " + problem);
+  if (!arguments.trace.empty())
+    if (const auto problem = io::OutputFile::problem(arguments.trace); !problem.empty())
+      mistakes.push_back("--trace: " + problem);
+  if (!arguments.trace.empty() && arguments.trace == arguments.json) mistakes.push_back("--trace: is the same file as --json");
+}
+
+/// A plan, or everything that is wrong with what was typed.
+AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
+  AttendPlan plan;
+  if (const auto server = io::parse_address(arguments.server, 1)) {
+    plan.server = *server;
+    if (!server->loopback())
+      mistakes.push_back("--server: " + io::to_text(*server) +
+                         " is not on this computer and is refused: sealed sessions do not exist yet, nobody could tell the server "
+                         "from somebody else who moves your hand. Use the 127.0.0.1:PORT that tandem-server prints");
+  } else {
+    mistakes.push_back("--server: " + server.error());
+  }
+  if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
+    mistakes.push_back("--seat: a name has 1 to 32 characters");
+  const auto device = hal::open_stepped(arguments.device, SimDeviceSpec{}, HandSpec{});
+  if (device) {
+    plan.caps = certain_caps(device->device->caps());
+  } else {
+    mistakes.push_back("--device: " + device.error().message);
+  }
+  if (!arguments.script.empty()) {
+    auto script = AlphaScript::load(arguments.script);
+    if (script) {
+      plan.script = std::move(*script);
+    } else {
+      mistakes.insert(mistakes.end(), script.error().begin(), script.error().end());
+    }
+  }
+  understand_files(arguments, mistakes);
+  plan.duration_s = number("--duration", arguments.duration, 0.1, 3e6, mistakes);
+  plan.patience_s = number("--patience", arguments.patience, 0.1, 3600, mistakes);
+  plan.seat = arguments.seat;
+  plan.device = arguments.device;
+  plan.trace = arguments.trace;
+  plan.json = arguments.json;
+  plan.quiet = arguments.quiet;
+  return plan;
+}
+
+int join_command(const JoinArguments& arguments) {
+  Mistakes mistakes;
+  const AttendPlan plan = understand(arguments, mistakes);
+  if (mistakes.empty()) return attend(plan);
+  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
+  std::fprintf(stderr, "tandem-client join: %zu mistake%s, nothing was started\n", mistakes.size(),
+               mistakes.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+}  // namespace
+
+void add_join_command(CLI::App& root, std::function<int()>& action) {
+  // Lives as long as the program's options, which refer to it.
+  const auto arguments = std::make_shared<JoinArguments>();
+  CLI::App* const command = root.add_subcommand("join", "Attaches one device to one seat of a session.");
+  command->add_option("--server", arguments->server, "the address that tandem-server prints as `listening on`")
+      ->option_text("HOST:PORT")
+      ->required();
+  command->add_option("--seat", arguments->seat, "which seat of the scene; the server prints their names")
+      ->option_text("NAME")
+      ->required();
+  command->add_option("--device", arguments->device, "what to hold, see below")->option_text("SPEC")->required();
+  command
+      ->add_option("--alpha-script", arguments->script,
+                   "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; INSTRUCTOR's seat only")
+      ->option_text("FILE.csv");
+  command->add_option("--trace", arguments->trace, "writes this seat's own samples, one row per servo tick")
+      ->option_text("FILE.csv");
+  command
+      ->add_option("--json", arguments->json,
+                   "writes link statistics, gate trips, late ticks, energies; `-`: to standard output")
+      ->option_text("FILE|-");
+  command->add_option("--duration", arguments->duration, "leaves after so many seconds at the seat; default: stays to the end")
+      ->option_text("S");
+  command->add_option("--patience", arguments->patience, "how long to wait for a server that does not answer [s]; default 5")
+      ->option_text("S");
+  command->add_flag("--quiet", arguments->quiet, "no status");
+  command->footer(
+      "Devices\n"
+      "  sim                         simulated, as the scene describes the seat's device and hand\n"
+      "  sim:hand=NAME               another hand: none leader relaxed resting letting_go tremor keyboard\n"
+      "  sim:keyboard                you move the hand: arrow keys and PgUp/PgDn\n"
+      "  sim:motion=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop]\n"
+      "                              a recorded motion moves the hand\n"
+      "Keys: the instructor moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched gate;\n"
+      "q or Ctrl-C lets go gently and leaves.\n"
+      "Exit: 0 session over or left; 1 refused, server not there or lost; 2 wrong arguments or files.\n\n"
+      "Examples\n"
+      "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim\n"
+      "  tandem-client join --server 127.0.0.1:7000 --seat trainee --device sim:keyboard\n"
+      "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim:motion=baton.csv,columns=baton\n"
+      "      --alpha-script handover.csv --json trainer.json");
+  command->callback([arguments, &action] { action = [arguments] { return join_command(*arguments); }; });
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,40 @@
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <functional>
+
+#include "client/app/join_command.h"
+#include "common/io/log.h"
+
+#ifndef TANDEM_VERSION
+#define TANDEM_VERSION "unknown"
+#endif
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "tandem-client attaches a haptic device to a session of tandem-server: your hand and the hands of others hold the same\n"
+      "tool. The force that reaches your hand is limited here, whatever the network or the server does.",
+      "tandem-client"};
+  app.set_version_flag("--version", "tandem-client " TANDEM_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "`tandem-client join --help` tells more.\n"
+      "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files. Not a medical device.");
+
+  std::function<int()> action;
+  tandem::client::add_join_command(app, action);
+  tandem::io::log_to_stderr("tandem-client");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are ends, not mistakes; every mistake in arguments is 2, whatever CLI11 calls it.
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    return action();
+  } catch (const std::exception& error) {
+    spdlog::error(error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,155 @@
+#include "client/app/seat_pump.h"
+
+#include <sys/eventfd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/io/clock.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kRounds = 4;  // batches read per tick: a flood cannot stop the servo
+constexpr Duration kLate = 1ms;
+constexpr std::uint64_t kLookEvery = 64;  // ticks between two pictures for people
+
+double sum_j(const EnergyArray& nj) {
+  double sum = 0;
+  for (const auto e : nj) sum += static_cast<double>(e) * 1e-9;
+  return sum;
+}
+
+double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+}  // namespace
+
+SeatPump::SeatPump(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* sim, std::vector<AlphaScript::Change> script,
+                   SampleQueue* samples)
+    : socket_(std::move(socket)),
+      finished_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      seat_(&seat),
+      sim_(sim),
+      script_(std::move(script)),
+      samples_(samples),
+      masters_(seat.setup().masters.size()) {}
+
+hal::Command SeatPump::tick(const hal::State& state) noexcept {
+  const Time now = io::monotonic_now();
+  if (ticks_++ == 0) began_ = now;
+  if (now - state.sampled_at > kLate) ++picture_.late_ticks;
+  receive(now);
+  obey_person();
+  obey_script(now);
+  const auto session = seat_->session_time(now);
+  if (sim_ != nullptr) sim_->set_session_time(session);
+  seat_->note_late_ticks(picture_.late_ticks);
+  const hal::Command command = seat_->on_servo(now, state);
+  send(now);
+
+  const wire::Telemetry& t = seat_->sample().telemetry;
+  picture_.force_peak_n = std::max(picture_.force_peak_n, norm(t.f_out));
+  if (samples_ != nullptr)
+    samples_->push({session.value_or(-seconds(now - began_)), t.q, t.x, t.f_cmd, t.f_out, seat_->sample().gate,
+                    seat_->force().alpha});
+  if (ticks_ % kLookEvery == 1 || seat_->closed()) look(now);
+  if (seat_->closed() && !std::exchange(told_, true)) {
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const auto written = ::write(finished_.get(), &one, sizeof one);
+  }
+  return command;
+}
+
+void SeatPump::lost(hal::Errc) noexcept {
+  lost_.store(true, std::memory_order_release);
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(finished_.get(), &one, sizeof one);
+}
+
+void SeatPump::receive(Time now) noexcept {
+  for (int round = 0; round < kRounds; ++round) {
+    const int count = in_.receive(socket_.fd.get());
+    for (int k = 0; k < count; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (!in_.too_long(i)) seat_->on_datagram(now, in_.bytes(i));
+    }
+    if (count < static_cast<int>(io::ReceiveBatch::kMax)) return;
+  }
+}
+
+void SeatPump::obey_person() noexcept {
+  if (reset_.exchange(false, std::memory_order_relaxed)) seat_->press_reset();
+  if (leave_.load(std::memory_order_relaxed)) seat_->leave();
+  while (const control::Weights* wish = wishes_.front()) {
+    seat_->request_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool), std::span{*wish}.first(masters_));
+    wishes_.pop();
+  }
+}
+
+void SeatPump::obey_script(Time now) noexcept {
+  const auto t = seat_->session_time(now);
+  if (!t || next_change_ >= script_.size() || script_[next_change_].at > *t) return;
+  while (next_change_ + 1 < script_.size() && script_[next_change_ + 1].at <= *t) ++next_change_;
+  seat_->request_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool),
+                           std::span{script_[next_change_++].alpha}.first(masters_));
+}
+
+void SeatPump::send(Time now) noexcept {
+  while (out_.size() < kSendMax) {
+    auto& buffer = buffers_[out_.size()];
+    const auto size = seat_->poll_transmit(now, buffer);
+    if (!size) break;
+    out_.add(std::span{buffer}.first(*size), nullptr, nullptr);
+  }
+  if (out_.size() > 0) out_.send(socket_.fd.get());  // what cannot be sent is lost, as on any network
+}
+
+void SeatPump::look(Time now) noexcept {
+  const wire::StateMessage& sample = seat_->sample();
+  const wire::Telemetry& t = sample.telemetry;
+  const link::Freshness& f = seat_->link().freshness();
+  const link::LinkStats& l = seat_->link().stats();
+  ClientStatus& p = picture_;
+  p.session = seat_->force().session;
+  p.gate = sample.gate;
+  p.heard = f.heard();
+  p.closed = seat_->closed();
+  p.close_reason = seat_->close_reason();
+  p.missing = seat_->force().missing;
+  p.session_time = seat_->session_time(now).value_or(-1);
+  p.silence_s = seconds(f.heard() ? f.silence(now) : now - began_);
+  p.alpha = seat_->force().alpha;
+  p.force_n = norm(t.f_out);
+  p.x = t.x;
+  p.rtt_ms = 1e3 * seconds(f.rtt());
+  p.rtt_p50_ms = 1e3 * seconds(f.rtt_p50());
+  p.rtt_p99_ms = 1e3 * seconds(f.rtt_p99());
+  p.down_loss_percent = t.down_loss_percent;
+  p.down_longest_gap_ms = t.down_longest_gap_ms;
+  p.down_age_p99_ms = t.down_age_p99_ms;
+  p.energy_in_j = sum_j(sample.port.e_in);
+  p.energy_out_j = sum_j(t.e_out);
+  p.dissipated_j = t.dissipated_j;
+  p.refused_j = t.refused_j;
+  p.delivered_j = t.delivered_j;
+  p.margin_min_j = t.margin_min_j;
+  p.given_after_loss_max_j = seat_->gate().given_after_loss_max();
+  p.gate_trips = sample.gate_trips;
+  p.sent = l.sent;
+  p.accepted = l.accepted;
+  p.late_datagrams = l.late;
+  p.refused_datagrams = 0;
+  for (const auto r : l.refused) p.refused_datagrams += r;
+  const std::unique_lock lock{published_lock_, std::try_to_lock};
+  if (lock) published_ = p;
+}
+
+ClientStatus SeatPump::status() const {
+  const std::lock_guard lock{published_lock_};
+  return published_;
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "client/app/alpha_script.h"
+#include "client/app/client_status.h"
+#include "client/seat.h"
+#include "common/io/datagram_batch.h"
+#include "common/io/spsc_queue.h"
+#include "common/io/udp_socket.h"
+#include "hal/sim/sim_device.h"
+
+namespace tandem::client {
+
+/// One servo tick for a trace.
+struct Sample {
+  double t_s = 0;  ///< session time, or time before it as a negative number [s]
+  AxisArray q{};
+  std::array<double, 3> x{}, f_cmd{}, f_out{};
+  wire::GateState gate = wire::GateState::kOff;
+  double alpha = 0;
+};
+using SampleQueue = io::SpscQueue<Sample>;
+
+/// Runs a seat on its device's servo thread: drains the socket, steps the seat, sends. People's wishes come through atomics and
+/// a bounded queue; nothing here waits for anybody.
+class SeatPump final : public hal::ServoClient {
+ public:
+  /// @param seat     must outlive the pump; only the servo thread touches it from `Device::start` to `close`
+  /// @param sim      to be told the session time; null for hardware
+  /// @param script   changes of authority by session time, ascending
+  /// @param samples  every tick, null: not wanted
+  SeatPump(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* sim, std::vector<AlphaScript::Change> script,
+           SampleQueue* samples);
+
+  hal::Command tick(const hal::State& state) noexcept override;
+  void lost(hal::Errc why) noexcept override;
+
+  // Of the person's thread.
+  void press_reset() noexcept { reset_.store(true, std::memory_order_relaxed); }
+  void leave() noexcept { leave_.store(true, std::memory_order_relaxed); }
+  void request_authority(const control::Weights& alpha) noexcept { wishes_.push(alpha); }
+  [[nodiscard]] ClientStatus status() const;
+  /// Readable once the session is closed or the device is lost.
+  [[nodiscard]] int finished_fd() const noexcept { return finished_.get(); }
+  [[nodiscard]] bool device_lost() const noexcept { return lost_.load(std::memory_order_acquire); }
+
+  /// After the device is closed.
+  [[nodiscard]] const ClientStatus& final_status() const noexcept { return picture_; }
+
+ private:
+  void receive(Time now) noexcept;
+  void obey_person() noexcept;
+  void obey_script(Time now) noexcept;
+  void send(Time now) noexcept;
+  void look(Time now) noexcept;
+
+  io::UdpSocket socket_;
+  io::Fd finished_;
+  Seat* seat_;
+  hal::sim::SimDevice* sim_;
+  std::vector<AlphaScript::Change> script_;
+  std::size_t next_change_ = 0;
+  SampleQueue* samples_;
+  io::SpscQueue<control::Weights> wishes_{64};
+  std::atomic<bool> reset_{false}, leave_{false}, lost_{false};
+  std::size_t masters_;
+
+  static constexpr std::size_t kSendMax = 4;
+  io::ReceiveBatch in_;
+  io::SendBatch out_;
+  std::array<std::array<std::byte, link::kDatagramMax>, kSendMax> buffers_;
+
+  std::uint64_t ticks_ = 0;
+  Time began_{};
+  bool told_ = false;
+  ClientStatus picture_;
+  mutable std::mutex published_lock_;  ///< the servo thread only tries it
+  ClientStatus published_;
+};
+
+}  // namespace tandem::client

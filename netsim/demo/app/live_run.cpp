@@ -1,0 +1,192 @@
+#include "netsim/demo/app/live_run.h"
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "netsim/demo/app/child_process.h"
+#include "netsim/demo/app/progress.h"
+
+namespace tandem::netsim::demo {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kLook = 25ms;
+constexpr double kStartPatience = 10;  // [s] until a program says where it listens
+constexpr double kEndPatience = 30;    // [s] beyond the session's length
+constexpr std::size_t kLogLines = 12;
+
+std::string last_lines(const std::string& text, std::size_t count) {
+  std::size_t at = text.size();
+  for (std::size_t n = 0; at > 0 && n <= count; --at) n += text[at - 1] == '\n' ? 1 : 0;
+  std::string out;
+  std::istringstream lines(text.substr(at > 0 ? at + 1 : 0));
+  for (std::string line; std::getline(lines, line);) {
+    if (const auto redrawn = line.rfind('\r'); redrawn != std::string::npos) line.erase(0, redrawn + 1);
+    if (!line.empty()) out += "    " + line + "\n";
+  }
+  return out;
+}
+
+/// All that belongs to one run, ended together.
+class Cast {
+ public:
+  Cast(const RunPlan& plan, const LivePlaces& places, const RunWatch& watch)
+      : plan_(plan), places_(places), watch_(watch) {}
+
+  std::expected<RawRun, std::string> play();
+
+ private:
+  std::string program(const char* name) const { return (places_.programs / name).string(); }
+  std::string file(const std::string& ending) const {
+    return (places_.output / (std::string(plan_.name) + ending)).string();
+  }
+  bool start(const std::string& name, std::vector<std::string> arguments);
+  bool wait_for_address(std::size_t child, std::string& address);
+  bool wait_for_end();
+  bool blame(ChildProcess& child, const std::string& what);
+  static std::expected<std::string, std::string> contents(const std::string& path);
+
+  const RunPlan& plan_;
+  const LivePlaces& places_;
+  const RunWatch& watch_;
+  std::vector<ChildProcess> children_;  // server, netsim, trainer, trainee
+  std::vector<std::string> commands_;
+  std::string trouble_;
+};
+
+bool Cast::start(const std::string& name, std::vector<std::string> arguments) {
+  auto child = ChildProcess::start(name, arguments, file("-" + name + ".log"));
+  if (!child) {
+    trouble_ = child.error();
+    return false;
+  }
+  children_.push_back(std::move(*child));
+  arguments[0] = std::filesystem::path(arguments[0]).filename().string();
+  commands_.push_back(command_text(arguments));
+  return true;
+}
+
+bool Cast::blame(ChildProcess& child, const std::string& what) {
+  trouble_ = child.name() + " " + what + ". The end of its log (" + child.log() + "):\n" +
+             last_lines(child.output(), kLogLines);
+  return false;
+}
+
+bool Cast::wait_for_address(std::size_t index, std::string& address) {
+  const double begin = monotonic_seconds();
+  ChildProcess& child = children_[index];
+  while (true) {
+    address = listening_address(child.output());
+    if (!address.empty()) return true;
+    if (watch_.stop->load()) return trouble_ = kInterrupted, false;
+    if (!child.running())
+      return blame(child,
+                   "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " before it listened");
+    if (monotonic_seconds() - begin > kStartPatience) return blame(child, "did not say where it listens within 10 s");
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+/// Until the server has ended the session. A client or the network that goes first is why it failed.
+bool Cast::wait_for_end() {
+  const double begin = monotonic_seconds();
+  ChildProcess& server = children_.front();
+  while (server.running()) {
+    const double elapsed = monotonic_seconds() - begin;
+    if (watch_.stop->load()) return trouble_ = kInterrupted, false;
+    for (std::size_t k = 1; k < children_.size(); ++k) {
+      ChildProcess& child = children_[k];
+      if (child.running() || (child.exit_code() == 0 && elapsed > plan_.duration_s)) continue;
+      // The server says goodbye first and ends a moment later: that is no failure.
+      std::this_thread::sleep_for(1s);
+      if (!server.running() && child.exit_code() == 0) return true;
+      return blame(child,
+                   "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " while the session ran");
+    }
+    if (elapsed > plan_.duration_s + kEndPatience) return blame(server, "did not end the session in time");
+    watch_.progress(elapsed);
+    std::this_thread::sleep_for(kLook);
+  }
+  return true;
+}
+
+std::expected<std::string, std::string> Cast::contents(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) return std::unexpected(path + " cannot be read");
+  return text.str();
+}
+
+std::expected<RawRun, std::string> Cast::play() {
+  const std::string json = file(".json"), trace = file(".csv");
+  std::error_code ignored;
+  for (const std::string& old : {json, trace}) std::filesystem::remove(old, ignored);
+
+  std::string server, network;
+  bool fine = start("server", {program("tandem-server"), "run", std::string(plan_.scene), "--listen", "127.0.0.1:0",
+                               "--json", json, "--trace", trace, "--wait", "20"}) &&
+              wait_for_address(0, server);
+  std::vector<std::string> proxy{program("tandem-netsim"), "proxy", "--listen", "127.0.0.1:0", "--to", server};
+  const std::vector<std::string> impairment =
+      plan_.setting == Setting::kBadNetwork
+          ? std::vector<std::string>{"--delay", "20", "--jitter", "5",
+                                     "--loss",  "5",  "--seed",   std::to_string(kSeedNumber)}
+          : std::vector<std::string>{"--profile", "ideal"};
+  proxy.insert(proxy.end(), impairment.begin(), impairment.end());
+  // Should we be killed, it ends by itself.
+  proxy.insert(proxy.end(), {"--duration", "120"});
+  fine = fine && start("netsim", proxy) && wait_for_address(1, network);
+  for (const char* seat : {"trainer", "trainee"})
+    fine =
+        fine && start(seat, {program("tandem-client"), "join", "--server", network, "--seat", seat, "--device", "sim"});
+  fine = fine && wait_for_end();
+  if (fine) {
+    // Clients have been told; they need a moment, and the network until then.
+    for (int n = 0; n < 80 && (children_[2].running() || children_[3].running()); ++n)
+      std::this_thread::sleep_for(kLook);
+  }
+  end_all(children_);
+  if (!fine) return std::unexpected(trouble_);
+
+  const auto report = contents(json), rows = contents(trace);
+  if (!report || report->empty() || !rows) {
+    blame(children_.front(),
+          "ended with exit code " + std::to_string(children_.front().exit_code().value_or(-1)) + " without a report");
+    return std::unexpected(trouble_);
+  }
+  return RawRun{*report, *rows, commands_};
+}
+
+}  // namespace
+
+std::string listening_address(const std::string& output) {
+  constexpr std::string_view kWords = "listening on ";
+  std::size_t at = output.find(kWords);
+  while (at != std::string::npos && at != 0 && output[at - 1] != '\n') at = output.find(kWords, at + 1);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = at + kWords.size(), end = output.find('\n', begin);
+  if (end == std::string::npos) return {};
+  const std::string rest = output.substr(begin, end - begin);
+  return rest.substr(0, rest.find_first_of(" ,;\r"));
+}
+
+std::string missing_programs(const LivePlaces& places) {
+  std::string missing;
+  for (const char* name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(places.programs / name, ignored))
+      missing += (missing.empty() ? "" : ", ") + (places.programs / name).string();
+  }
+  return missing;
+}
+
+std::expected<RawRun, std::string> live_run(const RunPlan& plan, const LivePlaces& places, const RunWatch& watch) {
+  return Cast(plan, places, watch).play();
+}
+
+}  // namespace tandem::netsim::demo

@@ -1,0 +1,82 @@
+#include "netsim/demo/app/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "netsim/demo/ticks.h"
+
+namespace tandem::netsim::demo {
+
+namespace {
+constexpr double kEvery = 0.2;     // [s] between two looks of the line
+constexpr double kOverhead = 2.5;  // [s] of starting and ending a run in real time
+}  // namespace
+
+double monotonic_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(std::lround(std::max(0.0, seconds)));
+  if (whole < 60) return std::to_string(whole) + " s";
+  const std::string rest = std::to_string(whole % 60);
+  return std::to_string(whole / 60) + " min " + (rest.size() < 2 ? "0" : "") + rest + " s";
+}
+
+Progress::Progress(std::vector<const RunPlan*> plans, double rate)
+    : plans_(std::move(plans)), rate_(rate), terminal_(isatty(STDOUT_FILENO) != 0), begun_(monotonic_seconds()) {}
+
+void Progress::begin(std::size_t run) {
+  run_ = run;
+  session_s_ = 0;
+  run_begun_ = monotonic_seconds();
+  shown_ = -1;
+  at(0);
+}
+
+std::string Progress::remaining() const {
+  double session = -session_s_, runs = 0;
+  for (std::size_t k = run_; k < plans_.size(); ++k) session += plans_[k]->duration_s, ++runs;
+  return duration_text(session / rate_ + (rate_ <= 1 ? kOverhead * (runs - 1) : 0));
+}
+
+void Progress::at(double session_s) {
+  const double now = monotonic_seconds();
+  if (!terminal_ || now - shown_ < kEvery) {
+    session_s_ = std::max(session_s_, session_s);
+    return;
+  }
+  session_s_ = std::max(session_s_, session_s);
+  shown_ = now;
+  const RunPlan& plan = *plans_[run_];
+  const int width = 24, full = static_cast<int>(std::clamp(session_s_ / plan.duration_s, 0.0, 1.0) * width);
+  std::string bar;
+  for (int k = 0; k < width; ++k) bar += k < full ? "━" : "╌";
+  std::printf("\r\x1b[K[%zu/%zu] %-44s %s %4.1f / %.0f s, %s left", run_ + 1, plans_.size(), title_of(plan).c_str(),
+              bar.c_str(), session_s_, plan.duration_s, remaining().c_str());
+  std::fflush(stdout);
+}
+
+void Progress::end() {
+  const double now = monotonic_seconds();
+  done_s_ += plans_[run_]->duration_s;
+  if (rate_ > 1) rate_ = done_s_ / std::max(1e-3, now - begun_);  // virtual time: as fast as it has been
+  session_s_ = plans_[run_]->duration_s;
+  clear();
+  const std::string left = run_ + 1 < plans_.size() ? ", " + remaining() + " left" : "";
+  std::printf("[%zu/%zu] %s: done in %s s%s\n", run_ + 1, plans_.size(), title_of(*plans_[run_]).c_str(),
+              number_text(now - run_begun_, 1).c_str(), left.c_str());
+  std::fflush(stdout);
+}
+
+void Progress::clear() const {
+  if (!terminal_) return;
+  std::printf("\r\x1b[K");
+  std::fflush(stdout);
+}
+
+}  // namespace tandem::netsim::demo

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tandem::netsim::demo {
+
+/// What a run leaves behind, before anybody has read it.
+struct RawRun {
+  std::string json, trace;            ///< as the programs write them
+  std::vector<std::string> commands;  ///< that repeat it
+};
+
+/// Told now and then how far a run is [s of session time]; set `stop` from a signal handler and the run ends soon.
+struct RunWatch {
+  std::function<void(double session_s)> progress;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+inline constexpr const char* kInterrupted = "interrupted";
+
+}  // namespace tandem::netsim::demo

@@ -1,0 +1,176 @@
+#include "netsim/demo/app/show.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "netsim/demo/app/joint_torques.h"
+#include "netsim/demo/app/live_run.h"
+#include "netsim/demo/app/machine.h"
+#include "netsim/demo/app/progress.h"
+#include "netsim/demo/app/quick_run.h"
+#include "netsim/demo/app/read_report.h"
+#include "netsim/demo/comparison.h"
+#include "netsim/demo/figures.h"
+#include "netsim/demo/html_report.h"
+#include "netsim/demo/measure.h"
+#include "netsim/demo/text_table.h"
+
+namespace tandem::netsim::demo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDone = 0, kTrouble = 1, kInterruptedCode = 130;
+
+std::atomic<bool> stop{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+void watch_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stop = true; };
+  sigemptyset(&action.sa_mask);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP}) sigaction(s, &action, nullptr);
+}
+
+int trouble(const std::string& what) {
+  std::fprintf(stderr, "tandem-demo: %s\n", what.c_str());
+  return kTrouble;
+}
+
+/// The files of a run that we or our programs made.
+std::vector<fs::path> files_of(const RunPlan& plan, const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const char* ending : {".json", ".csv", "-server.log", "-netsim.log", "-trainer.log", "-trainee.log"})
+    files.push_back(folder / (std::string(plan.name) + ending));
+  return files;
+}
+
+bool write_file(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  file.close();
+  return !file.fail();
+}
+
+/// Report and trace of a run, read, measured and drawn.
+std::expected<RunResult, std::string> digest(const RunPlan& plan, const RawRun& raw) {
+  auto report = read_report(raw.json);
+  if (!report) return std::unexpected(report.error());
+  auto trace = read_trace(raw.trace);
+  if (!trace) return std::unexpected(trace.error());
+  add_joint_torques(*trace);
+  return RunResult{&plan,        std::move(*report),        measure(plan, *trace), springs_of(plan),
+                   raw.commands, figures_html(plan, *trace)};
+}
+
+struct Folders {
+  fs::path files, report;
+  bool temporary = false;  ///< files are removed when all went well
+};
+
+std::expected<Folders, std::string> folders_of(const ShowPlan& plan) {
+  Folders f;
+  f.files = plan.out.empty() ? fs::path("demo-output") : fs::path(plan.out);
+  f.report = plan.out.empty() ? fs::path("report.html") : f.files / "report.html";
+  f.temporary = plan.out.empty() && !plan.keep;
+  std::error_code error;
+  fs::create_directories(f.files, error);
+  if (error) return std::unexpected(f.files.string() + " cannot be made: " + error.message());
+  // Found out now rather than after two minutes.
+  const bool existed = fs::exists(f.report, error);
+  if (!std::ofstream(f.report, std::ios::app)) return std::unexpected(f.report.string() + " cannot be written");
+  if (!existed) fs::remove(f.report, error);
+  return f;
+}
+
+void remove_files(const ShowPlan& plan, const Folders& folders) {
+  std::error_code ignored;
+  for (const RunPlan* run : plan.runs)
+    for (const fs::path& file : files_of(*run, folders.files)) fs::remove(file, ignored);
+  fs::remove(folders.files, ignored);  // only if empty
+}
+
+/// Says at once what is wrong with a run and goes on.
+std::size_t count_failed(const std::vector<RunResult>& results) {
+  std::size_t failed = 0;
+  for (const RunResult& run : results) {
+    if (run.report.passed) continue;
+    ++failed;
+    for (const ViolationNumbers& v : run.report.violations)
+      if (!v.expected)
+        std::fprintf(stderr, "tandem-demo: %s: broken invariant %s %s at %.3f s\n", std::string(run.plan->name).c_str(),
+                     v.invariant.c_str(), v.seat.c_str(), v.at_s);
+  }
+  return failed;
+}
+
+}  // namespace
+
+int show(const ShowPlan& plan) {
+  watch_signals();
+  const auto folders = folders_of(plan);
+  if (!folders) return trouble(folders.error());
+  const LivePlaces places{own_folder(), folders->files};
+  if (!plan.quick) {
+    const std::string missing = missing_programs(places);
+    if (!missing.empty())
+      return trouble("not there: " + missing + ". Build them, or use --quick: virtual time needs no other program");
+  }
+  std::printf("Three hands on one tool: %zu run%s %s.\n", plan.runs.size(), plan.runs.size() == 1 ? "" : "s",
+              plan.quick ? "in virtual time"
+                         : "in real time over UDP on loopback: a server, two clients and the network simulator");
+
+  Progress progress(plan.runs, plan.quick ? 60 : 1);
+  const RunWatch watch{[&](double session_s) { progress.at(session_s); }, &stop};
+  std::vector<RunResult> results;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const RunPlan& run = *plan.runs[k];
+    progress.begin(k);
+    const auto raw = plan.quick ? quick_run(run, watch) : live_run(run, places, watch);
+    if (!raw) {
+      progress.clear();
+      if (stop) {
+        std::fprintf(stderr, "tandem-demo: interrupted; every program it started has ended\n");
+        if (folders->temporary) remove_files(plan, *folders);
+        return kInterruptedCode;
+      }
+      return trouble(title_of(run) + ": " + raw.error());
+    }
+    if (plan.quick && !folders->temporary &&
+        !(write_file(folders->files / (std::string(run.name) + ".json"), raw->json) &&
+          write_file(folders->files / (std::string(run.name) + ".csv"), raw->trace)))
+      return trouble("report and trace cannot be written to " + folders->files.string());
+    auto result = digest(run, *raw);
+    if (!result) {
+      progress.clear();
+      return trouble(title_of(run) + ": " + result.error());
+    }
+    results.push_back(std::move(*result));
+    progress.end();
+  }
+
+  const Comparison comparison = compare(results);
+  const char* no_colour = std::getenv("NO_COLOR");
+  const bool colour = isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
+  std::printf("\n%s", to_text(comparison, colour).c_str());
+  const Circumstances where{!plan.quick, date_text(), machine_text(), plan.version, plan.repeat};
+  std::printf("%s\nBad network: %s. ✓ ✗: within what is asked, or not; %zu missed.\n", where.machine.c_str(),
+              network_text(Setting::kBadNetwork).c_str(), comparison.missed);
+  if (!write_file(folders->report, html_report(results, comparison, where)))
+    return trouble(folders->report.string() + " could not be written to the end");
+  const std::size_t failed = count_failed(results);
+  if (folders->temporary && failed == 0) {
+    remove_files(plan, *folders);
+  } else {
+    std::printf("Traces and reports of the runs: %s\n", folders->files.string().c_str());
+  }
+  std::printf("%s\n", file_link(folders->report).c_str());
+  return failed == 0 ? kDone : kTrouble;
+}
+
+}  // namespace tandem::netsim::demo

@@ -1,0 +1,204 @@
+#include "netsim/demo/figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem::netsim::demo {
+namespace {
+
+constexpr double kMm = 1e3;
+const char* const kTimeAxis = "time [s]";
+
+Curve curve(const std::string& label, const std::string& ink, const Column& x, const Column& y, double x_scale,
+            double y_scale, bool path) {
+  Curve c{label, ink, {}, path};
+  c.points.reserve(x.size());
+  for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k) c.points.push_back({x_scale * x[k], y_scale * y[k]});
+  return c;
+}
+
+Curve over_time(const TraceData& d, const std::string& label, const std::string& ink, const Column& y,
+                double scale = 1) {
+  return curve(label, ink, d.t, y, 1, scale, false);
+}
+
+/// Slave first: it is drawn broad and pale, and the hands lie over it.
+std::vector<Curve> three(const TraceData& d, const Column& tool, const Column& trainer, const Column& trainee,
+                         double tool_scale, double hand_scale) {
+  return {over_time(d, "slave", "slave", tool, tool_scale), over_time(d, "trainer", "trainer", trainer, hand_scale),
+          over_time(d, "trainee", "trainee", trainee, hand_scale)};
+}
+
+void mark_free_motion(Panel& panel, double duration, bool named) {
+  panel.x = Range{0, duration};
+  panel.bands = {{7, 8.5, named ? "a: trainee pushes" : ""}, {14, 15.5, named ? "b: trainer pushes" : ""}};
+  panel.verticals = {{11.5, named ? "α moves" : ""}};
+}
+
+void mark_contact(Panel& panel, double duration, bool named) {
+  panel.x = Range{0, duration};
+  panel.verticals = {{3, named ? "reaches the wall" : ""}, {13, named ? "trainee aligned" : ""}};
+}
+
+/// Row of `t` closest to a time from below.
+std::size_t row_at(const TraceData& d, double t) {
+  const auto it = std::ranges::lower_bound(d.t, t);
+  return std::min<std::size_t>(static_cast<std::size_t>(it - d.t.begin()), d.rows() - 1);
+}
+
+struct Plane {
+  std::size_t across, up;
+  const char *title, *x_label, *y_label;
+};
+constexpr std::array<Plane, 3> kPlanes{{{0, 2, "seen from the front", "x, right [mm]", "z, up [mm]"},
+                                        {0, 1, "seen from above", "x, right [mm]", "y, away [mm]"},
+                                        {1, 2, "seen from the side", "y, away [mm]", "z, up [mm]"}}};
+
+Panel path_panel(const TraceData& d, const Plane& plane) {
+  Panel p{.title = plane.title, .x_label = plane.x_label, .y_label = plane.y_label, .equal_scale = true, .height = 280};
+  for (const auto& [label, x] :
+       {std::pair{"slave", &d.tool.x}, std::pair{"trainer", &d.trainer.x}, std::pair{"trainee", &d.trainee.x}})
+    p.curves.push_back(curve(label, label, (*x)[plane.across], (*x)[plane.up], kMm, kMm, true));
+  return p;
+}
+
+Note note_at(const TraceData& d, const Plane& plane, const Column3& x, double t, const char* label) {
+  const std::size_t k = row_at(d, t);
+  return {{kMm * x[plane.across][k], kMm * x[plane.up][k]}, label};
+}
+
+CaptionedFigure figure_6(const TraceData& d) {
+  CaptionedFigure f{
+      "fig6",
+      "Figure 6: path in free motion",
+      "Tips of both hands and of the slave in space. In a the trainee pulls away while he follows, in b the trainer; "
+      "their devices lead them back.",
+      {"Path of trainer, trainee and slave in three projections", 3, {}}};
+  for (const Plane& plane : kPlanes) f.figure.panels.push_back(path_panel(d, plane));
+  f.figure.panels[0].notes = {
+      note_at(d, kPlanes[0], d.tool.x, 0, "start"), note_at(d, kPlanes[0], d.trainee.x, 7.75, "a"),
+      note_at(d, kPlanes[0], d.trainer.x, 14.75, "b"), note_at(d, kPlanes[0], d.tool.x, 11.5, "α moves")};
+  return f;
+}
+
+CaptionedFigure figure_7(const TraceData& d, double duration) {
+  CaptionedFigure f{
+      "fig7",
+      "Figure 7: joint angles in free motion",
+      "θ3 is measured against the vertical, as the device reports it. While somebody follows his curve may leave the "
+      "others by what his hand resists.",
+      {"Joint angles of trainer, trainee and slave over time", 1, {}}};
+  for (std::size_t j = 0; j < 3; ++j) {
+    Panel p{.x_label = j == 2 ? kTimeAxis : "",
+            .y_label = "θ" + std::to_string(j + 1) + " [rad]",
+            .curves = three(d, d.tool.q[j], d.trainer.q[j], d.trainee.q[j], 1, 1)};
+    mark_free_motion(p, duration, j == 0);
+    f.figure.panels.push_back(std::move(p));
+  }
+  return f;
+}
+
+CaptionedFigure figure_8(const TraceData& d, double duration) {
+  CaptionedFigure f{
+      "fig8",
+      "Figure 8: exchanged torques in free motion, and α",
+      "T = Jᵀ f of the force commanded to each device, at the measured pose; the slave’s with the opposite sign, so "
+      "that it lies on the leader’s. Nothing is touched: what is left is friction, inertia, weight where it is not "
+      "compensated, and the pushes a and b.",
+      {"Torques of the three joints of trainer, trainee and slave, and alpha, over time", 1, {}}};
+  for (std::size_t j = 0; j < 3; ++j) {
+    Panel p{.y_label = "T" + std::to_string(j + 1) + " [N m]",
+            .curves = three(d, d.tool.torque[j], d.trainer.torque[j], d.trainee.torque[j], -1, 1),
+            .y_span_min = 0.02};
+    mark_free_motion(p, duration, j == 0);
+    f.figure.panels.push_back(std::move(p));
+  }
+  Panel alpha{.x_label = kTimeAxis,
+              .y_label = "α [1]",
+              .curves = {over_time(d, "α of the trainer", "alpha", d.trainer.alpha)},
+              .y = Range{-0.1, 1.1},
+              .height = 70};
+  mark_free_motion(alpha, duration, false);
+  f.figure.panels.push_back(std::move(alpha));
+  return f;
+}
+
+CaptionedFigure energy(const RunPlan& plan, const TraceData& d, const std::string& anchor, const std::string& title) {
+  const std::array<const char*, 3> joints{"joint 1", "joint 2", "joint 3"}, axes{"x axis", "y axis", "z axis"};
+  CaptionedFigure f{
+      anchor,
+      title,
+      "E_p of the paper’s equation 3, with its sign: energy taken up is negative. Tandem’s flow sources are open "
+      "here and E_p is only watched; what keeps the hands safe is the energy ledger of each spring.",
+      {"Energy of the flow sources over time, per axis", 1, {}}};
+  Panel p{.x_label = kTimeAxis, .y_label = "E_p [J]", .height = 200};
+  const std::array<const char*, 3> inks{"first", "second", "third"};
+  for (std::size_t a = 0; a < 3; ++a)
+    p.curves.push_back(over_time(d, plan.joint_port() ? joints[a] : axes[a], inks[a], d.tool.e_p[a]));
+  if (plan.task == Task::kFreeMotion) {
+    mark_free_motion(p, plan.duration_s, true);
+  } else {
+    mark_contact(p, plan.duration_s, true);
+  }
+  f.figure.panels.push_back(std::move(p));
+  return f;
+}
+
+CaptionedFigure figure_10(const TraceData& d) {
+  CaptionedFigure f{"fig10",
+                    "Figure 10: path in contact",
+                    "The slave stops at the block (x = 0); the hands go on into it, by force / stiffness.",
+                    {"Path of trainer, trainee and slave at the wall, in two projections", 2, {}}};
+  for (const Plane& plane : {kPlanes[0], kPlanes[1]}) {
+    Panel p = path_panel(d, plane);
+    p.verticals = {{0, "wall"}};
+    p.height = 240;
+    f.figure.panels.push_back(std::move(p));
+  }
+  f.figure.panels[0].notes = {note_at(d, kPlanes[0], d.tool.x, 0, "start")};
+  return f;
+}
+
+CaptionedFigure figure_11(const TraceData& d, double duration) {
+  CaptionedFigure f{
+      "fig11",
+      "Figure 11: position and force along x in contact",
+      "Forces are those that press towards the block: commanded to each device, and delivered (of the slave: what "
+      "the block bears). A Touch delivers 3.3 N at most.",
+      {"Position along x, commanded and delivered force along x, over time", 1, {}}};
+  Panel x{
+      .y_label = "x [mm]", .curves = three(d, d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMm, kMm), .height = 170};
+  x.horizontals = {{0, "wall"}};
+  mark_contact(x, duration, true);
+  Panel cmd{.y_label = "commanded [N]",
+            .curves = three(d, d.tool.f_cmd[0], d.trainer.f_cmd[0], d.trainee.f_cmd[0], 1, -1)};
+  mark_contact(cmd, duration, false);
+  Panel out{.x_label = kTimeAxis,
+            .y_label = "delivered [N]",
+            .curves = three(d, d.tool.f_env[0], d.trainer.f_out[0], d.trainee.f_out[0], -1, -1)};
+  mark_contact(out, duration, false);
+  f.figure.panels = {std::move(x), std::move(cmd), std::move(out)};
+  return f;
+}
+
+}  // namespace
+
+std::vector<CaptionedFigure> figures_of(const RunPlan& plan, const TraceData& trace) {
+  if (trace.rows() == 0) return {};
+  if (plan.task == Task::kFreeMotion)
+    return {figure_6(trace), figure_7(trace, plan.duration_s), figure_8(trace, plan.duration_s),
+            energy(plan, trace, "fig9", "Figure 9: energy of the flow sources in free motion")};
+  return {figure_10(trace), figure_11(trace, plan.duration_s),
+          energy(plan, trace, "fig12", "Figure 12: energy of the flow sources in contact")};
+}
+
+std::string figures_html(const RunPlan& plan, const TraceData& trace) {
+  std::string html;
+  for (const CaptionedFigure& f : figures_of(plan, trace)) {
+    html += "<figure id=\"" + std::string(plan.name) + "-" + f.anchor + "\">\n<h4>" + escaped(f.title) + "</h4>\n" +
+            to_svg(f.figure) + "<figcaption>" + escaped(f.caption) + "</figcaption>\n</figure>\n";
+  }
+  return html;
+}
+
+}  // namespace tandem::netsim::demo

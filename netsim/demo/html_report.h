@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "netsim/demo/comparison.h"
+#include "netsim/demo/run_numbers.h"
+
+/// report.html: one file, no network, no script. Pure.
+namespace tandem::netsim::demo {
+
+/// Where and when the runs were made.
+struct Circumstances {
+  bool real_time = false;  ///< processes over UDP; otherwise virtual time
+  std::string date;        ///< "2026-11-21 10:30 UTC"
+  std::string machine;     ///< "2 cores, Linux 6.1, x86_64"
+  std::string version;
+  std::string repeat;  ///< command that repeats the whole demo
+};
+
+[[nodiscard]] std::string html_report(std::span<const RunResult> runs, const Comparison& comparison,
+                                      const Circumstances& where);
+
+}  // namespace tandem::netsim::demo

@@ -1,0 +1,103 @@
+#include "netsim/demo/text_table.h"
+
+namespace tandem::netsim::demo {
+namespace {
+
+constexpr std::size_t kLabel = 44, kPaper = 6, kValue = 7, kLimit = 9;  // a cell: value, limit, mark, gaps: 20
+
+std::string left(std::string_view text, std::size_t width) {
+  const std::size_t own = width_of(text);
+  return std::string(text) + std::string(own < width ? width - own : 0, ' ');
+}
+std::string right(std::string_view text, std::size_t width) {
+  const std::size_t own = width_of(text);
+  return std::string(own < width ? width - own : 0, ' ') + std::string(text);
+}
+
+/// ANSI escapes, or nothing.
+struct Paint {
+  bool on;
+  [[nodiscard]] std::string operator()(const char* code, const std::string& text) const {
+    return on && !text.empty() ? std::string("\x1b[") + code + "m" + text + "\x1b[0m" : text;
+  }
+};
+
+void trim(std::string& line) {
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+}
+
+std::string row_text(const Row& row, const Paint& paint) {
+  std::string label = "  " + row.label;
+  if (!row.unit.empty()) label += " [" + row.unit + "]";
+  if (!row.notes.empty()) label += " (" + row.notes + ")";
+  std::string line = left(label, kLabel) + right(row.paper, kPaper);
+  for (const Cell& cell : row.cells) {
+    const std::string mark(symbol(cell.mark));
+    line += right(cell.value, kValue) + " " + paint("2", left(cell.limit, kLimit)) + " ";
+    line += mark.empty() ? " " : paint(cell.mark == Mark::kMet ? "32" : "31;1", mark);
+    line += ' ';
+  }
+  trim(line);
+  return line + "\n";
+}
+
+}  // namespace
+
+std::size_t width_of(std::string_view text) noexcept {
+  std::size_t n = 0;
+  for (const char c : text) n += (static_cast<unsigned char>(c) & 0xC0u) != 0x80u ? 1 : 0;
+  return n;
+}
+
+std::string_view symbol(Mark mark) noexcept {
+  switch (mark) {
+    case Mark::kMet:
+      return "✓";
+    case Mark::kMissed:
+      return "✗";
+    case Mark::kNone:
+      break;
+  }
+  return "";
+}
+
+std::string wrapped(std::string_view text, std::size_t width, const std::string& indent) {
+  std::string out;
+  std::size_t column = 0;
+  while (!text.empty()) {
+    const std::size_t cut = text.find(' ');
+    const std::string_view word = text.substr(0, cut);
+    if (column > 0 && column + 1 + width_of(word) > width) {
+      out += "\n" + indent;
+      column = width_of(indent);
+    } else if (column > 0) {
+      out += ' ';
+      ++column;
+    }
+    out += word;
+    column += width_of(word);
+    text = cut == std::string_view::npos ? std::string_view{} : text.substr(cut + 1);
+  }
+  return out;
+}
+
+std::string to_text(const Comparison& comparison, bool colour) {
+  const Paint paint{colour};
+  std::string rule;
+  for (std::size_t k = 0; k < kTextWidth; ++k) rule += "─";
+  std::string head = left("", kLabel) + right("paper", kPaper);
+  for (const char* column : {"  our seed", "  our defaults", "  defaults, bad net"}) head += left(column, 20);
+  trim(head);
+  std::string out = rule + "\n" + paint("1", head) + "\n" + rule + "\n";
+  for (const Section& section : comparison.sections) {
+    out += paint("1", section.title) + "\n";
+    for (const Row& row : section.rows) out += row_text(row, paint);
+  }
+  out += rule + "\n";
+  char letter = 'a';
+  for (const std::string& note : comparison.footnotes)
+    out += wrapped(std::string("(") + letter++ + ") " + note, kTextWidth, "    ") + "\n";
+  return out;
+}
+
+}  // namespace tandem::netsim::demo
