@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proto/seat_setup.h"
+#include "server/session_record.h"
 
 namespace tandem::server {
 
@@ -89,7 +89,7 @@ void Session::live_one_tick(Time now) noexcept {
   move_references(now);
   step_tools();
   step_following();
-  fill_record();
+  take_record(*this, record_);
 }
 
 void Session::change_state(Time now) noexcept {
@@ -364,67 +364,6 @@ std::vector<std::size_t> Session::missing(Time now) const {
   for (std::size_t i = 0; i < seats_.size(); ++i)
     if (scene_->seats[i].required && !seats_[i].ready(now)) out.push_back(i);
   return out;
-}
-
-void Session::fill_record() noexcept {
-  record_.tick = session_tick_;
-  record_.running = state_ == wire::SessionState::kRunning || state_ == wire::SessionState::kHeld;
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    const wire::StateMessage& m = seats_[i].heard();
-    SeatRecord& r = record_.seats[i];
-    r.alpha = seats_[i].tx.alpha;
-    if (i < masters_) {
-      r.alpha = 0;
-      for (std::size_t j = 0; j < tools_.size() && r.alpha == 0; ++j)
-        if (scene_->follow[i][j] > 0) r.alpha = tools_[j].authority.alpha(i);
-    }
-    r.q = m.telemetry.q;
-    r.x = m.telemetry.x;
-    r.f_cmd = m.telemetry.f_cmd;
-    r.f_out = m.telemetry.f_out;
-    r.e_in = m.port.e_in;
-    r.e_out = m.telemetry.e_out;
-    r.dissipated_j = m.telemetry.dissipated_j;
-    r.refused_j = m.telemetry.refused_j;
-    r.margin_min_j = m.telemetry.margin_min_j;
-    r.delivered_j = m.telemetry.delivered_j;
-    r.gate = m.gate;
-    r.engaged = m.engaged;
-    r.sample_tick = m.seat_tick;
-  }
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
-    const Tool& tool = tools_[j];
-    ToolRecord& r = record_.tools[j];
-    for (std::size_t a = 0; a < std::min<std::size_t>(3, scene_->dof); ++a) r.x_tool[a] = tool.x(a);
-    if (tool.slave() != nullptr) {
-      const hal::State& s = tool.slave()->state();
-      const hal::Vec3 f = tool.slave_force_commanded();
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto e = static_cast<Eigen::Index>(k);
-        r.x[k] = s.x[e];
-        r.f_env[k] = s.f_env[e];
-        r.f_cmd[k] = f[e];
-      }
-      r.q = s.q;
-      r.penetration = s.penetration;
-      r.sample_tick = session_tick_;
-    } else {
-      const wire::Telemetry& t = seats_[tool.spec().seat].heard().telemetry;
-      r.q = t.q;
-      r.x = t.x;
-      r.f_env = t.f_env;
-      r.f_cmd = t.f_cmd;
-      r.penetration = t.penetration_m;
-      r.sample_tick = seats_[tool.spec().seat].heard().seat_tick;
-    }
-    r.held = tool.authority.held();
-    r.mfs_j = tool.sources.granted();
-    r.e_p_j = 0;
-    for (std::size_t a = 0; a < scene_->dof; ++a) {
-      r.e_p_j += tool.sources.energy_p(a);
-      if (a < 3) r.e_p_axis_j[a] = tool.sources.energy_p(a);
-    }
-  }
 }
 
 }  // namespace tandem::server

@@ -66,7 +66,6 @@ class Session {
   void step_tools() noexcept TANDEM_REALTIME;
   void step_following() noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
-  void fill_record() noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
   [[nodiscard]] double share(std::size_t tool, std::size_t seat) const noexcept;
 

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "client/seat.h"
 #include "common/io/clock.h"
 #include "common/io/datagram_batch.h"
 
@@ -79,6 +80,15 @@ std::expected<GivenSeat, NotSeated> ask_for_seat(const io::UdpSocket& socket, co
     case Joining::Outcome::kRefused: return std::unexpected(NotSeated{false, refusal(joining, seat)});
     default: return std::unexpected(NotSeated{false, no_answer(server, nobody_listens, patience)});
   }
+}
+
+void give_back(const io::UdpSocket& socket, const GivenSeat& given, const hal::DeviceCaps& caps) {
+  const Time now = io::monotonic_now();
+  Seat seat{given.setup, caps, given.link};
+  seat.leave();
+  [[maybe_unused]] const hal::Command nothing = seat.on_servo(now, hal::State{});
+  std::array<std::byte, link::kDatagramMax> buffer;
+  while (const auto size = seat.poll_transmit(now, buffer)) ::send(socket.fd.get(), buffer.data(), *size, MSG_NOSIGNAL);
 }
 
 }  // namespace tandem::client

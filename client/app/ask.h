@@ -26,4 +26,7 @@ struct NotSeated {
                                                                const std::string& seat, const hal::DeviceCaps& caps,
                                                                Duration patience, int signals);
 
+/// Tells the server that a seat just given will not be used, so that it is free for others at once.
+void give_back(const io::UdpSocket& socket, const GivenSeat& given, const hal::DeviceCaps& caps);
+
 }  // namespace tandem::client

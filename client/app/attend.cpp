@@ -111,23 +111,28 @@ int attend(const AttendPlan& plan) {
   if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
   const SeatSetup& setup = given->setup;
 
+  const auto refuse = [&](const std::string& why, int code) {
+    give_back(*socket, *given, plan.caps);
+    return trouble(why, code);
+  };
   std::vector<AlphaScript::Change> script;
   if (plan.script) {
     if (setup.seat.role != Role::kInstructor || setup.seat.kind != SeatKind::kMaster)
-      return trouble("--alpha-script: only the INSTRUCTOR moves authority, and " + setup.seat.name + " is " +
-                     to_text(setup.seat.role) + "; give the script to the instructor's client");
+      return refuse("--alpha-script: only the INSTRUCTOR moves authority, and " + setup.seat.name + " is " +
+                        to_text(setup.seat.role) + "; give the script to the instructor's client",
+                    kTrouble);
     auto changes = plan.script->for_session(setup.masters, setup.drivers);
-    if (!changes) return trouble("--alpha-script: " + changes.error(), kWrong);
+    if (!changes) return refuse("--alpha-script: " + changes.error(), kWrong);
     script = std::move(*changes);
   }
   auto opened = hal::open_stepped(plan.device, setup.seat.device, setup.seat.hand, setup.seat.environment, io::monotonic_now());
-  if (!opened) return trouble("--device: " + opened.error().message, kWrong);
+  if (!opened) return refuse("--device: " + opened.error().message, kWrong);
   const hal::DeviceCaps caps = opened->device->caps();
-  if (const std::string why = unfit(setup, caps); !why.empty()) return trouble("the device does not fit this scene: " + why);
+  if (const std::string why = unfit(setup, caps); !why.empty()) return refuse("the device does not fit this scene: " + why, kTrouble);
 
   io::OutputFile json, trace;
-  if (const auto problem = json.open(plan.json, true); !problem.empty()) return trouble("--json: " + problem, kWrong);
-  if (const auto problem = trace.open(plan.trace, false); !problem.empty()) return trouble("--trace: " + problem, kWrong);
+  if (const auto problem = json.open(plan.json, true); !problem.empty()) return refuse("--json: " + problem, kWrong);
+  if (const auto problem = trace.open(plan.trace, false); !problem.empty()) return refuse("--trace: " + problem, kWrong);
   std::optional<SampleTrace> writer;
   if (trace.wanted()) writer.emplace(trace, caps.joints, caps.prismatic);
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "netsim/app/number_option.h"
+#include "common/io/number_option.h"
 #include "netsim/network_csv.h"
 #include "netsim/profiles.h"
 
@@ -77,7 +77,7 @@ void NetworkOptions::add_to(CLI::App& command) {
   const std::string group = "What the network is like (each direction)";
   const auto number = [&](const char* option, double& value, double hi, const std::string& unit, const char* help) {
     command.add_option(option, value, help)
-        ->check(number_in(0, hi, unit))
+        ->check(io::number_in(0, hi, unit))
         ->option_text(unit == "ms" ? "MS" : "PERCENT")
         ->group(group);
   };
@@ -109,11 +109,11 @@ void NetworkOptions::add_to(CLI::App& command) {
   command
       .add_option("--trace-interval", trace_interval_ms_,
                   "time between the rows of a recording without a time column [ms]")
-      ->check(number_in(0.001, 60'000, "ms"))
+      ->check(io::number_in(0.001, 60'000, "ms"))
       ->option_text("MS")
       ->group(group);
   command.add_option("--seed", seed_, "the same seed gives the same network; default 1")
-      ->check(whole_number())
+      ->check(io::whole_number())
       ->option_text("N")
       ->group(group);
 }

@@ -2,17 +2,18 @@
 
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <sys/signalfd.h>
 
-#include <csignal>
 #include <cstdio>
-#include <exception>
-#include <fstream>
 #include <memory>
 #include <thread>
 
+#include "common/io/fd.h"
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "common/io/signals.h"
+#include "common/io/socket_address.h"
+#include "common/io/terminal.h"
 #include "netsim/app/network_options.h"
-#include "netsim/app/number_option.h"
 #include "netsim/app/proxy.h"
 #include "netsim/app/proxy_report.h"
 
@@ -35,48 +36,37 @@ int wrong(const std::string& message) {
   return kWrong;
 }
 
-/// SIGINT and SIGTERM as something to wait for. Blocked before threads start, so that all of them leave it to us.
-Fd signals_as_file() {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  return Fd{signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK)};
-}
-
 /// Waits for a signal or the proxy's end, and keeps a line on the terminal alive meanwhile.
 void watch(Proxy& proxy, int signals, int finished) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
+  io::StatusLine line{!terminal};
   ProxyStatus before = proxy.status();
   pollfd fds[] = {{signals, POLLIN, 0}, {finished, POLLIN, 0}};
-  while (true) {
-    const int ready = poll(fds, 2, terminal ? 500 : -1);
-    if (ready > 0) break;
+  while (poll(fds, 2, terminal ? 500 : -1) <= 0) {
     const ProxyStatus now = proxy.status();
-    if (now.since_start > before.since_start) {
-      std::fprintf(stderr, "\r\x1b[K%s", status_line(now, before).c_str());
-      std::fflush(stderr);
-      before = now;
-    }
+    if (now.since_start <= before.since_start) continue;
+    line.show(status_line(now, before));
+    before = now;
   }
-  if (terminal) std::fprintf(stderr, "\r\x1b[K");
+  line.clear();
   proxy.stop();
 }
 
 int proxy_command(const ProxyArguments& arguments) {
-  const auto listen = parse_address(arguments.listen, 0);
+  const auto listen = io::parse_address(arguments.listen, 0);
   if (!listen) return wrong("--listen: " + listen.error());
-  const auto to = parse_address(arguments.to, 1);
+  const auto to = io::parse_address(arguments.to, 1);
   if (!to) return wrong("--to: " + to.error());
-  if (PeerKey::of(listen->storage) == PeerKey::of(to->storage)) return wrong("--to is the proxy itself (--listen)");
+  if (io::PeerKey::of(listen->storage) == io::PeerKey::of(to->storage))
+    return wrong("--to is the proxy itself (--listen)");
   const auto network = arguments.network.resolve();
   if (!network) return wrong(network.error());
   const bool json_on_stdout = arguments.json == "-";
-  std::ofstream json_file;
   if (!arguments.json.empty() && !json_on_stdout) {
-    json_file.open(arguments.json);
-    if (!json_file) return wrong("--json: " + arguments.json + " cannot be written");
+    // Judged now, opened when there is something to write: a run that never starts leaves an older file alone.
+    if (const std::string problem = io::OutputFile::problem(arguments.json); !problem.empty()) {
+      return wrong("--json: " + problem);
+    }
   }
 
   ProxyOptions options;
@@ -85,8 +75,8 @@ int proxy_command(const ProxyArguments& arguments) {
   options.link = network->link;
   options.seed = arguments.network.seed();
   options.duration = from_seconds(arguments.duration_s);
-  const Fd signals = signals_as_file();
-  const Fd finished{eventfd(0, EFD_CLOEXEC)};
+  const io::Fd signals = io::signals_as_file();
+  const io::Fd finished{eventfd(0, EFD_CLOEXEC)};
   auto proxy = Proxy::open(options);
   if (!proxy) {
     std::fprintf(stderr, "tandem-netsim proxy: %s\n", proxy.error().c_str());
@@ -94,9 +84,9 @@ int proxy_command(const ProxyArguments& arguments) {
   }
   // Scripts wait for this line; with JSON on standard output it moves out of the way.
   std::FILE* const people = json_on_stdout ? stderr : stdout;
-  std::fprintf(people, "listening on %s\n", to_text((*proxy)->listening()).c_str());
-  std::fprintf(people, "to %s, %s, seed %llu; Ctrl-C ends\n", to_text(options.to).c_str(), network->description.c_str(),
-               static_cast<unsigned long long>(options.seed));
+  std::fprintf(people, "listening on %s\n", io::to_text((*proxy)->listening()).c_str());
+  std::fprintf(people, "to %s, %s, seed %llu; Ctrl-C ends\n", io::to_text(options.to).c_str(),
+               network->description.c_str(), static_cast<unsigned long long>(options.seed));
   for (const std::string& note : network->notes) std::fprintf(people, "note: %s\n", note.c_str());
   std::fflush(people);
 
@@ -110,16 +100,12 @@ int proxy_command(const ProxyArguments& arguments) {
 
   std::fputs(summary_text(**proxy).c_str(), people);
   std::fflush(people);
-  if (arguments.json.empty()) return 0;
-  const std::string json = summary_json(**proxy, options, *network);
-  if (json_on_stdout) {
-    std::fputs(json.c_str(), stdout);
-    return std::fflush(stdout) == 0 ? 0 : kTrouble;
-  }
-  json_file << json;
-  json_file.close();
-  if (json_file) return 0;
-  std::fprintf(stderr, "tandem-netsim proxy: --json: %s could not be written to the end\n", arguments.json.c_str());
+  io::OutputFile json;
+  std::string problem = json.open(arguments.json, true);
+  if (json.wanted()) json.write(summary_json(**proxy, options, *network));
+  if (problem.empty()) problem = json.close();
+  if (problem.empty()) return 0;
+  std::fprintf(stderr, "tandem-netsim proxy: --json: %s\n", problem.c_str());
   return kTrouble;
 }
 
@@ -135,7 +121,7 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--to", arguments->to, "the server")->option_text("HOST:PORT")->required();
   arguments->network.add_to(*command);
   command->add_option("--duration", arguments->duration_s, "ends after so many seconds; default: at Ctrl-C")
-      ->check(number_in(0.001, 3e6, "s"))
+      ->check(io::number_in(0.001, 3e6, "s"))
       ->option_text("S");
   command
       ->add_option("--json", arguments->json,

@@ -89,11 +89,11 @@ std::string status_line(const ProxyStatus& now, const ProxyStatus& before) {
   };
   const PathCounters up = window(now.total[0], before.total[0]);
   const PathCounters down = window(now.total[1], before.total[1]);
-  return format(
-      "%6.0f s  %llu client%s  up %5.0f/s lost %5.2f %% delay %7.2f ms  down %5.0f/s lost %5.2f %% delay %7.2f ms",
-      seconds(now.since_start), static_cast<unsigned long long>(now.clients), now.clients == 1 ? "" : "s",
-      rate(now.total[0], before.total[0]), lost_percent(up), delay_mean_ms(up), rate(now.total[1], before.total[1]),
-      lost_percent(down), delay_mean_ms(down));
+  // Short enough for 80 columns.
+  return format("%.0f s, %llu client%s; up %.0f/s lost %.1f %% %.1f ms; down %.0f/s lost %.1f %% %.1f ms",
+                seconds(now.since_start), static_cast<unsigned long long>(now.clients), now.clients == 1 ? "" : "s",
+                rate(now.total[0], before.total[0]), lost_percent(up), delay_mean_ms(up),
+                rate(now.total[1], before.total[1]), lost_percent(down), delay_mean_ms(down));
 }
 
 std::string summary_text(const Proxy& proxy) {
@@ -128,8 +128,8 @@ std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const 
   const ProxyStatus status = proxy.final_status();
   Json json;
   json["program"] = "tandem-netsim proxy";
-  json["listen"] = to_text(proxy.listening());
-  json["to"] = to_text(options.to);
+  json["listen"] = io::to_text(proxy.listening());
+  json["to"] = io::to_text(options.to);
   json["network"] = network.name;
   json["description"] = network.description;
   json["notes"] = network.notes;
@@ -140,7 +140,7 @@ std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const 
   json["down"] = path_json(status.total[1]);
   json["clients"] = Json::array();
   for (const ProxyClientReport& client : proxy.client_reports()) {
-    json["clients"].push_back({{"address", to_text(client.address)},
+    json["clients"].push_back({{"address", io::to_text(client.address)},
                                {"present", client.present},
                                {"up", path_json(client.counters[0])},
                                {"down", path_json(client.counters[1])}});

@@ -270,6 +270,15 @@ void circumstances(Comparison& out, const Runs& runs, const std::string& task) {
         });
 }
 
+/// Three significant digits, without zeros at the end of decimals: 2, 16.4, 0.2.
+std::string short_text(double value) {
+  std::string text = significant_text(value, 3);
+  if (text.find('.') == std::string::npos) return text;
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 }  // namespace
 
 Cell cell_of(double value, int decimals, const Limit& limit) {
@@ -277,12 +286,9 @@ Cell cell_of(double value, int decimals, const Limit& limit) {
   if (!limit.asked()) return cell;
   if (std::isfinite(limit.least)) {
     const double middle = (limit.least + limit.most) / 2;
-    cell.limit = significant_text(middle, 3) + " ± " + significant_text(100 * (limit.most - middle) / middle, 2) + " %";
+    cell.limit = short_text(middle) + " ± " + short_text(100 * (limit.most - middle) / middle) + " %";
   } else {
-    const double round = std::round(limit.most * 10) / 10;
-    cell.limit =
-        "≤ " + (std::abs(round - limit.most) < 1e-9 ? significant_text(limit.most, round == std::floor(round) ? 1 : 3)
-                                                    : significant_text(limit.most, 3));
+    cell.limit = "≤ " + short_text(limit.most);
   }
   if (std::isfinite(value)) cell.mark = value >= limit.least && value <= limit.most ? Mark::kMet : Mark::kMissed;
   return cell;

@@ -36,8 +36,8 @@ class Program {
     posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
     EXPECT_EQ(posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ), 0);
     posix_spawn_file_actions_destroy(&actions);
-    out_ = Fd{out[0]};
-    err_ = Fd{err[0]};
+    out_ = io::Fd{out[0]};
+    err_ = io::Fd{err[0]};
     ::close(out[1]);
     ::close(err[1]);
   }
@@ -65,7 +65,7 @@ class Program {
   }
 
  private:
-  static std::string all_of(const Fd& fd) {
+  static std::string all_of(const io::Fd& fd) {
     std::string text;
     char buffer[4096];
     for (ssize_t n = 0; (n = ::read(fd.get(), buffer, sizeof buffer)) > 0;)
@@ -73,18 +73,18 @@ class Program {
     return text;
   }
   pid_t pid_ = 0;
-  Fd out_, err_;
+  io::Fd out_, err_;
 };
 
 TEST(Program, ProxyPrintsItsPortCarriesAndEndsCleanlyOnBothSignals) {
   for (const int signal : {SIGINT, SIGTERM}) {
     UdpPeer server, client;
     const std::string json = testing::TempDir() + "proxy_" + std::to_string(signal) + ".json";
-    Program program({"proxy", "--listen", "127.0.0.1:0", "--to", to_text(server.address()), "--delay", "0.5", "--seed",
-                     "9", "--json", json});
+    Program program({"proxy", "--listen", "127.0.0.1:0", "--to", io::to_text(server.address()), "--delay", "0.5",
+                     "--seed", "9", "--json", json});
     const std::string line = program.line();
     ASSERT_TRUE(line.starts_with("listening on 127.0.0.1:")) << line;
-    client.connect(*parse_address(line.substr(13), 1));
+    client.connect(*io::parse_address(line.substr(13), 1));
     for (int i = 0; i < 10; ++i) {
       ASSERT_TRUE(client.send("ping"));
       const auto got = server.receive();
@@ -116,7 +116,7 @@ TEST(Program, ProxyEndsByItselfAndPutsNothingButJsonOnStandardOutput) {
 
 TEST(Program, APortInUseIsTroubleWithARemedy) {
   UdpPeer taken;
-  Program program({"proxy", "--listen", to_text(taken.address()), "--to", "127.0.0.1:9"});
+  Program program({"proxy", "--listen", io::to_text(taken.address()), "--to", "127.0.0.1:9"});
   EXPECT_NE(program.rest_of_err().find("choose another port"), std::string::npos);
   EXPECT_EQ(program.exit_code(), 1);
 }

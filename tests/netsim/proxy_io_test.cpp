@@ -19,10 +19,10 @@ using namespace test;
 /// A proxy at work in its own thread.
 class Running {
  public:
-  Running(const SocketAddress& to, const LinkSpec& link, const std::string& listen = "127.0.0.1:0",
+  Running(const io::SocketAddress& to, const LinkSpec& link, const std::string& listen = "127.0.0.1:0",
           Duration idle_limit = 60s) {
     ProxyOptions options;
-    options.listen = *parse_address(listen, 0);
+    options.listen = *io::parse_address(listen, 0);
     options.to = to;
     options.link = link;
     options.idle_limit = idle_limit;
@@ -136,7 +136,7 @@ TEST(Proxy, AllLostMeansNothingArrives) {
 
 TEST(Proxy, OutlivesAServerThatIsNotThereYet) {
   // A port that was free a moment ago.
-  SocketAddress to;
+  io::SocketAddress to;
   { to = UdpPeer{}.address(); }
   UdpPeer client;
   Running proxy{to, {}};
@@ -144,7 +144,7 @@ TEST(Proxy, OutlivesAServerThatIsNotThereYet) {
   ASSERT_TRUE(client.send("nobody"));
   ASSERT_TRUE(client.send("home"));
   ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.troubles.refused > 0; }));
-  UdpPeer server{to_text(to)};
+  UdpPeer server{io::to_text(to)};
   ASSERT_TRUE(server.bound());
   // What was sent into the void may cost one more datagram; after that all is well.
   std::optional<UdpPeer::Received> got;
@@ -160,7 +160,7 @@ TEST(Proxy, OutlivesAServerThatIsNotThereYet) {
 TEST(Proxy, OutlivesAClientThatVanishes) {
   UdpPeer server, other;
   Running proxy{server.address(), {}};
-  SocketAddress upstream;
+  io::SocketAddress upstream;
   {
     UdpPeer gone;
     gone.connect(proxy->listening());
@@ -233,7 +233,7 @@ TEST(Proxy, SpeaksIpv6) {
 TEST(Proxy, AnswersFromTheAddressItWasCalledBy) {
   UdpPeer server, client;
   Running proxy{server.address(), {}, "0.0.0.0:0"};
-  const auto second = parse_address("127.0.0.2:" + std::to_string(proxy->listening().port()), 1);
+  const auto second = io::parse_address("127.0.0.2:" + std::to_string(proxy->listening().port()), 1);
   ASSERT_TRUE(second);
   client.connect(*second);
   ASSERT_TRUE(client.send("hello"));
@@ -257,12 +257,12 @@ TEST(Proxy, SaysWhatToDoWhenThePortIsTaken) {
 }
 
 TEST(SocketAddress, ReadsAndWritesWhatPeopleType) {
-  EXPECT_EQ(to_text(*parse_address("127.0.0.1:7000", 1)), "127.0.0.1:7000");
-  EXPECT_EQ(to_text(*parse_address("[::1]:7000", 1)), "[::1]:7000");
-  EXPECT_EQ(to_text(*parse_address("localhost:80", 1)), "127.0.0.1:80");
+  EXPECT_EQ(io::to_text(*io::parse_address("127.0.0.1:7000", 1)), "127.0.0.1:7000");
+  EXPECT_EQ(io::to_text(*io::parse_address("[::1]:7000", 1)), "[::1]:7000");
+  EXPECT_EQ(io::to_text(*io::parse_address("localhost:80", 1)), "127.0.0.1:80");
   for (const char* wrong : {"", "127.0.0.1", "127.0.0.1:", "127.0.0.1:0", "127.0.0.1:65536", "127.0.0.1:-1", "::1:7000",
                             ":7000", "127.0.0.1:7000x", "no.such.host.invalid:1"}) {
-    EXPECT_FALSE(parse_address(wrong, 1)) << wrong;
+    EXPECT_FALSE(io::parse_address(wrong, 1)) << wrong;
   }
 }
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "netsim/app/fd.h"
-#include "netsim/app/socket_address.h"
+#include "common/io/fd.h"
+#include "common/io/socket_address.h"
 
 namespace tandem::netsim::test {
 
@@ -22,25 +22,25 @@ class UdpPeer {
 
   /// Binds to `HOST:PORT`; port 0 takes a free one.
   explicit UdpPeer(const std::string& bind_to = "127.0.0.1:0") {
-    const auto address = parse_address(bind_to, 0);
-    fd_ = Fd{::socket(address->family(), SOCK_DGRAM | SOCK_CLOEXEC, 0)};
+    const auto address = io::parse_address(bind_to, 0);
+    fd_ = io::Fd{::socket(address->family(), SOCK_DGRAM | SOCK_CLOEXEC, 0)};
     bound_ = ::bind(fd_.get(), address->get(), address->size) == 0;
     address_.size = sizeof address_.storage;
     ::getsockname(fd_.get(), reinterpret_cast<sockaddr*>(&address_.storage), &address_.size);
   }
 
   [[nodiscard]] bool bound() const { return bound_; }
-  [[nodiscard]] const SocketAddress& address() const { return address_; }
+  [[nodiscard]] const io::SocketAddress& address() const { return address_; }
 
-  void connect(const SocketAddress& to) { ::connect(fd_.get(), to.get(), to.size); }
+  void connect(const io::SocketAddress& to) { ::connect(fd_.get(), to.get(), to.size); }
   bool send(const std::string& bytes) { return ::send(fd_.get(), bytes.data(), bytes.size(), 0) >= 0; }
-  bool send_to(const SocketAddress& to, const std::string& bytes) {
+  bool send_to(const io::SocketAddress& to, const std::string& bytes) {
     return ::sendto(fd_.get(), bytes.data(), bytes.size(), 0, to.get(), to.size) >= 0;
   }
 
   struct Received {
     std::string bytes;
-    SocketAddress from;
+    io::SocketAddress from;
   };
   /// The next datagram; empty when none comes for `patience_ms`.
   std::optional<Received> receive(int patience_ms = kPatienceMs) {
@@ -59,8 +59,8 @@ class UdpPeer {
   }
 
  private:
-  Fd fd_;
-  SocketAddress address_;
+  io::Fd fd_;
+  io::SocketAddress address_;
   bool bound_ = false;
 };
 

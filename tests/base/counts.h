@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace tandem::test {
+
+/// How many seeds a random test tries: `reduced` of them, ten times as many for TANDEM_COUNTS=full, a hundred times for nightly.
+/// Prints the number, so that a short run is never mistaken for a long one.
+inline std::uint64_t seeds(std::uint64_t reduced) {
+  const char* counts = std::getenv("TANDEM_COUNTS");
+  const std::string_view name = counts == nullptr ? "reduced" : counts;
+  const std::uint64_t factor = name == "nightly" ? 100 : name == "full" ? 10 : 1;
+  std::printf("[  seeds   ] 1..%llu (TANDEM_COUNTS=%.*s)\n", static_cast<unsigned long long>(factor * reduced),
+              static_cast<int>(name.size()), name.data());
+  return factor * reduced;
+}
+
+}  // namespace tandem::test

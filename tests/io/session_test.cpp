@@ -1,0 +1,177 @@
+// Real programs, real sockets on loopback: a whole session. Outcomes are asserted, never how long anything took.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/socket.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "common/base/rng.h"
+#include "common/io/udp_socket.h"
+#include "common/link/digest.h"
+#include "tests/io/programs.h"
+
+namespace tandem::test {
+namespace {
+
+std::size_t lines(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
+
+void expect_good_report(const Json& report, const std::string& scene, std::size_t seats) {
+  ASSERT_FALSE(report.is_discarded());
+  EXPECT_EQ(report["scenario"], scene);
+  EXPECT_EQ(report["verdict"], "pass") << report["violations"];
+  EXPECT_EQ(report["ended_by"], "scene");
+  EXPECT_EQ(report["machine"]["recorder_dropped"], 0);
+  EXPECT_GE(report["machine"]["late_ticks"], 0);
+  EXPECT_GE(report["machine"]["missed_ticks"], 0);
+  EXPECT_TRUE(report["machine"]["realtime"].is_boolean());
+  EXPECT_NEAR(report["duration_s"].get<double>(), 3.0, 0.5);
+  ASSERT_EQ(report["seats"].size(), seats);
+  for (const Json& seat : report["seats"]) {
+    SCOPED_TRACE(seat["name"]);
+    ASSERT_TRUE(seat["tracking_rms_m"].is_number());  // NaN would be null
+    EXPECT_LT(seat["tracking_rms_m"].get<double>(), 0.05);
+    EXPECT_GT(seat["speed_peak_m_s"].get<double>(), 0.01) << "nobody moved";
+    EXPECT_GT(seat["link"]["rtt_p50_ms"].get<double>(), 0);
+    EXPECT_GT(seat["energy"]["in_j"].get<double>() + seat["energy"]["out_j"].get<double>(), 0);
+  }
+}
+
+TEST(LiveSession, OfOneAxisRunsToItsEnd) {
+  const Folder folder;
+  Process host = hosting("one_axis", {"--duration", "3", "--json", folder.file("s.json"), "--trace", folder.file("s.csv")});
+  Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json"), "--trace", folder.file("c.csv")});
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  expect_good_report(folder.json("s.json"), "one_axis", 1);
+  const Json own = folder.json("c.json");
+  EXPECT_EQ(own["ended_by"], "done");
+  EXPECT_EQ(own["seat"], "trainer");
+  EXPECT_GT(own["link"]["accepted"].get<double>(), 100);
+  EXPECT_EQ(own["link"]["refused"], 0);
+  EXPECT_EQ(folder.read("c.csv").substr(0, 24), "t_s[s],q0[m],x[m],y[m],z");
+  EXPECT_GT(lines(folder.read("c.csv")), 100u);
+}
+
+TEST(LiveSession, OfTwoHandsIsTracedAndHashedToTheLastByte) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--duration", "3", "--json", "-", "--trace", folder.file("s.csv"), "--seed", "7"});
+  // With the report on standard output, people's lines are on standard error.
+  EXPECT_TRUE(host.out().empty()) << host.out();
+  const auto at = host.err().find("listening on ");
+  ASSERT_NE(at, std::string::npos);
+  const std::string address = host.err().substr(at + 13, host.err().find('\n', at) - at - 13);
+  Process trainer = client(address, "trainer"), trainee = client(address, "trainee");
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(trainee.wait(), 0) << trainee.err();
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  const Json report = Json::parse(host.out(), nullptr, false);
+  expect_good_report(report, "free_motion", 2);
+  EXPECT_EQ(report["seed"], 7);
+  const std::string trace = folder.read("s.csv");
+  link::Digest digest;
+  digest.add(trace);
+  EXPECT_EQ(report["trace_hash"], digest.hex());
+  EXPECT_EQ(trace.substr(0, 13), "tick[1],t_s[s");
+  // Every tick of the session is a row, but for those that a busy machine made the server live through at once.
+  EXPECT_GE(lines(trace) + report["machine"]["missed_ticks"].get<std::size_t>(), 3000u);
+  EXPECT_LE(lines(trace), 3002u);
+}
+
+TEST(LiveSession, IsNotTouchedByRandomBytes) {
+  const Folder folder;
+  Process host = hosting("one_axis", {"--duration", "3", "--json", folder.file("s.json")});
+  const auto port = io::parse_address(address_of(host), 1);
+  ASSERT_TRUE(port);
+  Process trainer = client(address_of(host), "trainer");
+  ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
+  auto noise = io::connect_udp(*port);
+  ASSERT_TRUE(noise);
+  const RandomKey random{1};
+  std::uint64_t draws = 0;
+  std::array<std::byte, 1400> bytes;
+  for (int i = 0; i < 20'000; ++i) {
+    const std::size_t size = random.bits(draws++) % bytes.size();
+    for (std::size_t k = 0; k < size; ++k) bytes[k] = static_cast<std::byte>(random.bits(draws++));
+    // Most are refused at the first byte; these look like datagrams of ours, for nobody and for the first seats.
+    if (i % 2 == 0 && size > 24) bytes[0] = static_cast<std::byte>(0x50 | (i % 16));
+    ::send(noise->fd.get(), bytes.data(), size, 0);
+  }
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_LT(::recv(noise->fd.get(), bytes.data(), bytes.size(), MSG_DONTWAIT), 0) << "random bytes were answered";
+  expect_good_report(folder.json("s.json"), "one_axis", 1);
+}
+
+TEST(LiveSession, LetsTheInstructorsScriptMoveAuthority) {
+  const Folder folder;
+  const std::string script = folder.write("a.csv", "t_s[s],trainer[1],trainee[1]\n0,1,0\n0.3,0.25,0.75\n");
+  Process host = hosting("free_motion", {"--duration", "2", "--json", folder.file("s.json")});
+  Process trainer = client(address_of(host), "trainer", {"--alpha-script", script});
+  Process trainee = client(address_of(host), "trainee", {"--json", folder.file("c.json")});
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(trainee.wait(), 0) << trainee.err();
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  const Json seats = folder.json("s.json")["seats"];
+  EXPECT_NEAR(seats[0]["alpha_mean"].get<double>() + seats[1]["alpha_mean"].get<double>(), 1, 1e-9);
+  EXPECT_GT(seats[1]["alpha_mean"].get<double>(), 0.2);
+}
+
+TEST(LiveSession, GoesOnWhenATraineeIsKilled) {
+  Process host = hosting("free_motion");
+  Process trainer = client(address_of(host), "trainer"), trainee = client(address_of(host), "trainee");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  trainee.signal(SIGKILL);
+  EXPECT_EQ(trainee.wait(), -SIGKILL);
+  // He had no authority: the trainer goes on alone, and somebody else may take the seat.
+  Process again = client(address_of(host), "trainee", {"--patience", "20", "--duration", "0.5"});
+  while (again.wait() == 1) {  // "seat taken" until the server knows that its owner is gone
+    ASSERT_NE(again.err().find("somebody sits there already"), std::string::npos) << again.err();
+    again = client(address_of(host), "trainee", {"--patience", "20", "--duration", "0.5"});
+  }
+  EXPECT_EQ(again.wait(), 0) << again.err();
+  EXPECT_EQ(host.err().find("HELD"), std::string::npos) << host.err();
+  host.signal(SIGINT);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_NE(trainer.err().find("the server ended the session"), std::string::npos) << trainer.err();
+}
+
+TEST(LiveSession, IsHeldWhenWhoeverHasAuthorityIsKilled) {
+  const Folder folder;
+  Process host = hosting("eight_seats", {"--json", folder.file("s.json")});
+  Process trainee = client(address_of(host), "trainee"), evaluator = client(address_of(host), "evaluator3");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  trainee.signal(SIGKILL);
+  EXPECT_TRUE(host.wait_for("HELD")) << host.err();
+  host.signal(SIGTERM);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_EQ(evaluator.wait(), 0) << evaluator.err();
+  const Json report = folder.json("s.json");
+  EXPECT_EQ(report["ended_by"], "signal");
+  EXPECT_EQ(report["verdict"], "pass") << report["violations"];
+}
+
+TEST(LiveSession, EndsGentlyOnCtrlCOfTheClient) {
+  const Folder folder;
+  Process host = hosting("one_axis");
+  Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json")});
+  ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
+  trainer.signal(SIGINT);
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_TRUE(host.wait_for("trainer left")) << host.err();
+  EXPECT_EQ(folder.json("c.json")["ended_by"], "left");
+  host.signal(SIGINT);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
+TEST(LiveSession, WaitsForRequiredSeatsAsLongAsItWasTold) {
+  Process host = hosting("free_motion", {"--wait", "1"});
+  Process trainer = client(address_of(host), "trainer");
+  EXPECT_EQ(host.wait(), 1);
+  EXPECT_NE(host.err().find("trainee (nobody joined)"), std::string::npos) << host.err();
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+}
+
+}  // namespace
+}  // namespace tandem::test

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/io/fd.h"
+
+namespace tandem::test {
+
+/// A real program with its output. Everything that waits has a generous limit, so that a hanging program fails a test
+/// instead of hanging it; no test may assert how long anything took.
+class Process {
+ public:
+  static constexpr std::chrono::seconds kPatience{30};
+
+  /// @param command  program and arguments; standard input is /dev/null
+  explicit Process(std::vector<std::string> command);
+  ~Process();  ///< kills what still runs
+  Process(Process&& other) noexcept;
+  Process& operator=(Process&& other) noexcept;
+
+  /// Waits until standard output or standard error holds `text`. @return whether it came before the end or the limit
+  bool wait_for(std::string_view text);
+  /// Waits for the end. @return the exit code, minus the signal that killed it, or nothing if it still runs
+  std::optional<int> wait();
+  void signal(int number) const;
+
+  [[nodiscard]] const std::string& out() const { return out_; }
+  [[nodiscard]] const std::string& err() const { return err_; }
+  /// What follows `mark` on its line of standard output, empty if there is no such line.
+  [[nodiscard]] std::string after(std::string_view mark) const;
+
+ private:
+  /// Reads what comes within `slice`. @return false once both pipes are closed
+  bool read_some(std::chrono::milliseconds slice);
+
+  pid_t pid_ = 0;
+  std::optional<int> code_;
+  io::Fd out_fd_, err_fd_;
+  std::string out_, err_;
+};
+
+}  // namespace tandem::test
