@@ -25,16 +25,18 @@ std::string cell(double value, double factor, int decimals) {
 }
 
 void put_row(std::string& out, const std::string& what, const std::string& seat, const SeatMetrics& m) {
-  put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", what.c_str(), seat.c_str(), cell(m.tracking_rms_m, 1e3, 2).c_str(),
-      cell(m.tracking_rms_lag_removed_m, 1e3, 2).c_str(), cell(m.transport_lag_rms_m, 1e3, 2).c_str(),
-      cell(m.force_error_rms_n, 1, 3).c_str(), cell(m.effort_peak_n, 1, 2).c_str(), cell(m.speed_peak_m_s, 1, 2).c_str());
+  put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", what.c_str(), seat.c_str(),
+      cell(m.tracking_rms_m, 1e3, 2).c_str(), cell(m.tracking_rms_lag_removed_m, 1e3, 2).c_str(),
+      cell(m.transport_lag_rms_m, 1e3, 2).c_str(), cell(m.force_error_rms_n, 1, 3).c_str(),
+      cell(m.effort_peak_n, 1, 2).c_str(), cell(m.speed_peak_m_s, 1, 2).c_str());
 }
 
 }  // namespace
 
 std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   std::string out;
-  put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", "phase", "seat", "tracking", "lag free", "lag", "force err", "peak", "speed");
+  put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", "phase", "seat", "tracking", "lag free", "lag", "force err",
+      "peak", "speed");
   put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", "", "", "RMS [mm]", "[mm]", "[mm]", "RMS [N]", "[N]", "[m/s]");
   for (const auto& s : r.seats)
     if (s.kind == SeatKind::kMaster) put_row(out, "all phases", s.name, s.metrics);
@@ -42,7 +44,9 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
     for (std::size_t i = 0; i < p.seats.size(); ++i)
       if (r.seats[i].kind == SeatKind::kMaster) put_row(out, p.name, r.seats[i].name, p.seats[i]);
   for (const auto& s : r.seats)
-    put(out, "  %s: round trip %.1f ms (p99 %.1f), loss up %.1f %% down %.1f %%, longest gap %.0f / %.0f ms, gate trips %u\n",
+    put(out,
+        "  %s: round trip %.1f ms (p99 %.1f), loss up %.1f %% down %.1f %%, longest gap %.0f / %.0f ms, gate trips "
+        "%u\n",
         s.name.c_str(), s.link.rtt_p50_ms, s.link.rtt_p99_ms, s.link.up.loss_percent, s.link.down.loss_percent,
         s.link.up.longest_gap_ms, s.link.down.longest_gap_ms, s.gate_trips);
   for (std::size_t j = 0; j < r.tools.size(); ++j)
@@ -50,9 +54,9 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
       put(out, "  %s: contact force RMS %.2f N, penetration at most %.3f mm\n", scene.tools[j].name.c_str(),
           r.tools[j].contact_force_rms_n, r.tools[j].penetration_max_m * 1e3);
   for (const auto& v : r.violations)
-    put(out, "  %s invariant %s%s%s first at %.3f s, %llu times%s\n", v.expected ? "broken, never promised:" : "BROKEN:",
-        v.invariant.c_str(), v.seat.empty() ? "" : " at ", v.seat.c_str(), v.at_s, static_cast<unsigned long long>(v.count),
-        v.expected ? "" : " - the verdict fails");
+    put(out, "  %s invariant %s%s%s first at %.3f s, %llu times%s\n",
+        v.expected ? "broken, never promised:" : "BROKEN:", v.invariant.c_str(), v.seat.empty() ? "" : " at ",
+        v.seat.c_str(), v.at_s, static_cast<unsigned long long>(v.count), v.expected ? "" : " - the verdict fails");
   return out;
 }
 

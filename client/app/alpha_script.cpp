@@ -20,7 +20,8 @@ std::string short_number(double v) {
 
 }  // namespace
 
-std::expected<AlphaScript, std::vector<std::string>> AlphaScript::parse(const std::string& text, const std::string& file) {
+std::expected<AlphaScript, std::vector<std::string>> AlphaScript::parse(const std::string& text,
+                                                                        const std::string& file) {
   std::vector<std::string> mistakes;
   const auto table = CsvTable::parse(text);
   if (!table) return std::unexpected(std::vector{table.error().text(file)});
@@ -81,8 +82,8 @@ std::expected<AlphaScript, std::vector<std::string>> AlphaScript::load(const std
   return std::unexpected(std::move(mistakes));
 }
 
-std::expected<std::vector<AlphaScript::Change>, std::string> AlphaScript::for_session(std::span<const std::string> masters,
-                                                                                    std::uint32_t drivers) const {
+std::expected<std::vector<AlphaScript::Change>, std::string> AlphaScript::for_session(
+    std::span<const std::string> masters, std::uint32_t drivers) const {
   std::vector<std::size_t> place;
   for (const std::string& seat : seats_) {
     const auto found = std::ranges::find(masters, seat);

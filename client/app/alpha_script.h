@@ -10,8 +10,8 @@
 
 namespace tandem::client {
 
-/// Authority over time, from a CSV: `t_s[s],SEAT[1],...`, one row per change, ascending in time, each row of sum 1. Seats that
-/// are not named have no authority.
+/// Authority over time, from a CSV: `t_s[s],SEAT[1],...`, one row per change, ascending in time, each row of sum 1.
+/// Seats that are not named have no authority.
 class AlphaScript {
  public:
   struct Row {
@@ -20,7 +20,8 @@ class AlphaScript {
     std::size_t line = 0;         ///< of the file
   };
   /// @return the script, or every mistake as `FILE:LINE: ...`
-  [[nodiscard]] static std::expected<AlphaScript, std::vector<std::string>> parse(const std::string& text, const std::string& file);
+  [[nodiscard]] static std::expected<AlphaScript, std::vector<std::string>> parse(const std::string& text,
+                                                                                  const std::string& file);
   /// The same, of a file.
   [[nodiscard]] static std::expected<AlphaScript, std::vector<std::string>> load(const std::string& file);
 

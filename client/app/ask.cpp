@@ -24,12 +24,17 @@ std::uint64_t unpredictable() {
 std::string refusal(const Joining& joining, const std::string& seat) {
   const std::string said = joining.reason();
   switch (joining.result()) {
-    case wire::BindResult::kNoSuchSeat: return "--seat " + seat + ": " + said;
+    case wire::BindResult::kNoSuchSeat:
+      return "--seat " + seat + ": " + said;
     case wire::BindResult::kSeatTaken:
-      return "--seat " + seat + ": " + said + "; take another seat, or wait until it is free (2 s after its owner fell silent)";
-    case wire::BindResult::kDeviceUnfit: return "the device does not fit this scene: " + said;
-    case wire::BindResult::kSessionOver: return said + "; start the server again";
-    case wire::BindResult::kAccepted: break;
+      return "--seat " + seat + ": " + said +
+             "; take another seat, or wait until it is free (2 s after its owner fell silent)";
+    case wire::BindResult::kDeviceUnfit:
+      return "the device does not fit this scene: " + said;
+    case wire::BindResult::kSessionOver:
+      return said + "; start the server again";
+    case wire::BindResult::kAccepted:
+      break;
   }
   return said;
 }
@@ -41,13 +46,15 @@ std::string no_answer(const std::string& server, bool nobody_listens, Duration p
     return "no server at " + server + ": nothing listens there (asked for " + waited +
            "). Start `tandem-server run SCENE` first, and use the address it prints as `listening on`";
   return "no answer from " + server + " within " + waited +
-         ": is a tandem-server listening there, of this version, and is the network (or tandem-netsim proxy) between up?";
+         ": is a tandem-server listening there, of this version, and is the network (or tandem-netsim proxy) between "
+         "up?";
 }
 
 }  // namespace
 
-std::expected<GivenSeat, NotSeated> ask_for_seat(const io::UdpSocket& socket, const std::string& server, const std::string& seat,
-                                                 const hal::DeviceCaps& caps, Duration patience, int signals) {
+std::expected<GivenSeat, NotSeated> ask_for_seat(const io::UdpSocket& socket, const std::string& server,
+                                                 const std::string& seat, const hal::DeviceCaps& caps,
+                                                 Duration patience, int signals) {
   Joining::Params params;
   params.seat = seat;
   params.caps = caps;
@@ -68,7 +75,8 @@ std::expected<GivenSeat, NotSeated> ask_for_seat(const io::UdpSocket& socket, co
     if ((files[0].revents & POLLERR) != 0) {  // takes the news off the socket
       int error = 0;
       socklen_t size = sizeof error;
-      if (getsockopt(socket.fd.get(), SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == ECONNREFUSED) nobody_listens = true;
+      if (getsockopt(socket.fd.get(), SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == ECONNREFUSED)
+        nobody_listens = true;
     }
     const int count = in->receive(socket.fd.get());
     for (int k = 0; k < count; ++k) joining.on_datagram(io::monotonic_now(), in->bytes(static_cast<std::size_t>(k)));
@@ -76,9 +84,12 @@ std::expected<GivenSeat, NotSeated> ask_for_seat(const io::UdpSocket& socket, co
     if (count <= 0 && files[0].revents != 0) poll(nullptr, 0, kWaitMs);
   }
   switch (joining.outcome(io::monotonic_now())) {
-    case Joining::Outcome::kAccepted: return GivenSeat{joining.setup(), joining.link()};
-    case Joining::Outcome::kRefused: return std::unexpected(NotSeated{false, refusal(joining, seat)});
-    default: return std::unexpected(NotSeated{false, no_answer(server, nobody_listens, patience)});
+    case Joining::Outcome::kAccepted:
+      return GivenSeat{joining.setup(), joining.link()};
+    case Joining::Outcome::kRefused:
+      return std::unexpected(NotSeated{false, refusal(joining, seat)});
+    default:
+      return std::unexpected(NotSeated{false, no_answer(server, nobody_listens, patience)});
   }
 }
 

@@ -1,12 +1,11 @@
 #include "client/app/attend.h"
 
 #include <poll.h>
+#include <spdlog/spdlog.h>
 #include <sys/signalfd.h>
 
 #include <cstdio>
 #include <memory>
-
-#include <spdlog/spdlog.h>
 
 #include "client/app/ask.h"
 #include "client/app/person.h"
@@ -25,10 +24,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kTrouble = 1;  // while running
-constexpr int kWrong = 2;    // in arguments or files
-constexpr double kServerLost = 10;   // [s] without news
-constexpr Duration kLeaveMax = 2s;   // for the gate to ramp out and the server to be told
+constexpr int kTrouble = 1;         // while running
+constexpr int kWrong = 2;           // in arguments or files
+constexpr double kServerLost = 10;  // [s] without news
+constexpr Duration kLeaveMax = 2s;  // for the gate to ramp out and the server to be told
 constexpr int kLookEveryMs = 100;
 
 int trouble(const std::string& what, int code = kTrouble) {
@@ -44,7 +43,8 @@ std::string unfit(const SeatSetup& setup, const hal::DeviceCaps& caps) {
 }
 
 /// Waits for the end, shows the status, hands keys to the person.
-SeatEnd watch(SeatPump& pump, Person& person, const SeatSetup& setup, const AttendPlan& plan, int signals, io::StatusLine& line) {
+SeatEnd watch(SeatPump& pump, Person& person, const SeatSetup& setup, const AttendPlan& plan, int signals,
+              io::StatusLine& line) {
   io::KeyReader keys;
   if (keys.interactive()) line.note(person.help());
   const Time begin = io::monotonic_now();
@@ -71,7 +71,8 @@ SeatEnd watch(SeatPump& pump, Person& person, const SeatSetup& setup, const Atte
     const Time now = io::monotonic_now();
     const ClientStatus status = pump.status();
     if (left && now - *left > kLeaveMax) break;  // nobody is there to be told
-    if (plan.duration_s > 0 && seconds(now - begin) > plan.duration_s) leave("the time given by --duration is over: letting go");
+    if (plan.duration_s > 0 && seconds(now - begin) > plan.duration_s)
+      leave("the time given by --duration is over: letting go");
     // Silence alone made the gate ramp out long before.
     if (!left && status.silence_s > kServerLost) return SeatEnd::kServerLost;
     if (status.session != before && status.session == wire::SessionState::kRunning) line.note("the session runs");
@@ -89,13 +90,18 @@ SeatEnd watch(SeatPump& pump, Person& person, const SeatSetup& setup, const Atte
 
 const char* farewell(SeatEnd end) {
   switch (end) {
-    case SeatEnd::kDone: return "the session is over";
-    case SeatEnd::kServerStopped: return "the server ended the session";
-    case SeatEnd::kLeft: return "left the seat";
+    case SeatEnd::kDone:
+      return "the session is over";
+    case SeatEnd::kServerStopped:
+      return "the server ended the session";
+    case SeatEnd::kLeft:
+      return "left the seat";
     case SeatEnd::kServerLost:
-      return "server lost: no news for 10 s; the force was let go after the first losses. Look at the network and the server, then "
+      return "server lost: no news for 10 s; the force was let go after the first losses. Look at the network and the "
+             "server, then "
              "join again";
-    case SeatEnd::kDeviceLost: return "device lost: it is unplugged or stopped answering; plug it in and join again";
+    case SeatEnd::kDeviceLost:
+      return "device lost: it is unplugged or stopped answering; plug it in and join again";
   }
   return "";
 }
@@ -125,14 +131,17 @@ int attend(const AttendPlan& plan) {
     if (!changes) return refuse("--alpha-script: " + changes.error(), kWrong);
     script = std::move(*changes);
   }
-  auto opened = hal::open_stepped(plan.device, setup.seat.device, setup.seat.hand, setup.seat.environment, io::monotonic_now());
+  auto opened =
+      hal::open_stepped(plan.device, setup.seat.device, setup.seat.hand, setup.seat.environment, io::monotonic_now());
   if (!opened) return refuse("--device: " + opened.error().message, kWrong);
   const hal::DeviceCaps caps = opened->device->caps();
-  if (const std::string why = unfit(setup, caps); !why.empty()) return refuse("the device does not fit this scene: " + why, kTrouble);
+  if (const std::string why = unfit(setup, caps); !why.empty())
+    return refuse("the device does not fit this scene: " + why, kTrouble);
 
   io::OutputFile json, trace;
   if (const auto problem = json.open(plan.json, true); !problem.empty()) return refuse("--json: " + problem, kWrong);
-  if (const auto problem = trace.open(plan.trace, false); !problem.empty()) return refuse("--trace: " + problem, kWrong);
+  if (const auto problem = trace.open(plan.trace, false); !problem.empty())
+    return refuse("--trace: " + problem, kWrong);
   std::optional<SampleTrace> writer;
   if (trace.wanted()) writer.emplace(trace, caps.joints, caps.prismatic);
 
@@ -142,8 +151,7 @@ int attend(const AttendPlan& plan) {
   hal::LiveSim live = hal::make_live(std::move(*opened), from_seconds(1.0 / setup.tick_hz));
   const auto pump = std::make_unique<SeatPump>(std::move(*socket), seat, live.sim, std::move(script),
                                                writer ? &writer->queue() : nullptr);
-  Person person{*pump, setup,
-                live.sim->hand().model() == HandModel::kKeyboard ? live.sim->hand().keyboard() : nullptr};
+  Person person{*pump, setup, live.sim->hand().model() == HandModel::kKeyboard ? live.sim->hand().keyboard() : nullptr};
   const io::AwakeProcessor awake;
   const bool memory = io::lock_memory();
   if (auto ok = live.device->start(*pump); !ok) return trouble(ok.error().message);

@@ -24,47 +24,68 @@ std::string session_text(const ClientStatus& s) {
   switch (s.session) {
     case wire::SessionState::kWaiting:
       return s.missing == 0 ? "engaging" : format("waiting for %u seat%s", s.missing, s.missing == 1 ? "" : "s");
-    case wire::SessionState::kRunning: return format("%.1f s", s.session_time);
-    case wire::SessionState::kHeld: return format("%.1f s HELD", s.session_time);
-    case wire::SessionState::kEnding: return "ending";
+    case wire::SessionState::kRunning:
+      return format("%.1f s", s.session_time);
+    case wire::SessionState::kHeld:
+      return format("%.1f s HELD", s.session_time);
+    case wire::SessionState::kEnding:
+      return "ending";
   }
   return "";
 }
 
-nlohmann::ordered_json number(double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); }
+nlohmann::ordered_json number(double v) {
+  return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
+}
 
 }  // namespace
 
 const char* to_text(wire::GateState gate) noexcept {
   switch (gate) {
-    case wire::GateState::kOff: return "off";
-    case wire::GateState::kZero: return "zero";
-    case wire::GateState::kRampIn: return "ramp-in";
-    case wire::GateState::kActive: return "active";
-    case wire::GateState::kPassive: return "passive";
-    case wire::GateState::kDamped: return "DAMPED (press b)";
-    case wire::GateState::kFault: return "FAULT";
+    case wire::GateState::kOff:
+      return "off";
+    case wire::GateState::kZero:
+      return "zero";
+    case wire::GateState::kRampIn:
+      return "ramp-in";
+    case wire::GateState::kActive:
+      return "active";
+    case wire::GateState::kPassive:
+      return "passive";
+    case wire::GateState::kDamped:
+      return "DAMPED (press b)";
+    case wire::GateState::kFault:
+      return "FAULT";
   }
   return "?";
 }
 
 const char* to_text(SeatEnd end) noexcept {
   switch (end) {
-    case SeatEnd::kDone: return "done";
-    case SeatEnd::kServerStopped: return "server_stopped";
-    case SeatEnd::kLeft: return "left";
-    case SeatEnd::kServerLost: return "server_lost";
-    case SeatEnd::kDeviceLost: return "device_lost";
+    case SeatEnd::kDone:
+      return "done";
+    case SeatEnd::kServerStopped:
+      return "server_stopped";
+    case SeatEnd::kLeft:
+      return "left";
+    case SeatEnd::kServerLost:
+      return "server_lost";
+    case SeatEnd::kDeviceLost:
+      return "device_lost";
   }
   return "";
 }
 
 const char* to_text(Role role) noexcept {
   switch (role) {
-    case Role::kInstructor: return "INSTRUCTOR";
-    case Role::kTrainee: return "TRAINEE";
-    case Role::kEvaluator: return "EVALUATOR";
-    case Role::kObserver: return "OBSERVER";
+    case Role::kInstructor:
+      return "INSTRUCTOR";
+    case Role::kTrainee:
+      return "TRAINEE";
+    case Role::kEvaluator:
+      return "EVALUATOR";
+    case Role::kObserver:
+      return "OBSERVER";
   }
   return "";
 }
@@ -94,12 +115,9 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   j["alpha"] = number(s.alpha);
   j["effort_peak_n"] = number(s.force_peak_n);
   j["gate"] = {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.given_after_loss_max_j)}};
-  j["energy"] = {{"in_j", number(s.energy_in_j)},
-                 {"out_j", number(s.energy_out_j)},
-                 {"dissipated_j", number(s.dissipated_j)},
-                 {"refused_j", number(s.refused_j)},
-                 {"margin_min_j", number(s.margin_min_j)},
-                 {"delivered_j", number(s.delivered_j)}};
+  j["energy"] = {{"in_j", number(s.energy_in_j)},          {"out_j", number(s.energy_out_j)},
+                 {"dissipated_j", number(s.dissipated_j)}, {"refused_j", number(s.refused_j)},
+                 {"margin_min_j", number(s.margin_min_j)}, {"delivered_j", number(s.delivered_j)}};
   j["link"] = {{"rtt_p50_ms", number(s.rtt_p50_ms)},
                {"rtt_p99_ms", number(s.rtt_p99_ms)},
                {"sent", s.sent},

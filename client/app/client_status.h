@@ -14,7 +14,7 @@ namespace tandem::client {
 struct ClientStatus {
   wire::SessionState session = wire::SessionState::kWaiting;
   wire::GateState gate = wire::GateState::kOff;
-  bool heard = false;         ///< anything at all from the server
+  bool heard = false;  ///< anything at all from the server
   bool closed = false;
   wire::CloseReason close_reason = wire::CloseReason::kDone;
   std::uint32_t missing = 0;  ///< required seats that are not ready
@@ -27,7 +27,7 @@ struct ClientStatus {
   double down_loss_percent = 0, down_longest_gap_ms = 0, down_age_p99_ms = 0;
   double energy_in_j = 0, energy_out_j = 0, dissipated_j = 0, refused_j = 0, delivered_j = 0, margin_min_j = 0;
   double given_after_loss_max_j = 0;
-  double force_peak_n = 0;    ///< so far [N]
+  double force_peak_n = 0;  ///< so far [N]
   std::uint32_t gate_trips = 0, late_ticks = 0;
   std::uint64_t sent = 0, accepted = 0, late_datagrams = 0, refused_datagrams = 0;
 };

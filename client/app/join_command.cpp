@@ -31,8 +31,8 @@ double number(const char* option, std::string text, double lo, double hi, Mistak
   return std::stod(text);
 }
 
-/// What can be said of the device before the scene is known: a simulated one gets its numbers from the scene, so that only its
-/// axes are certain, and not more than a Touch's three.
+/// What can be said of the device before the scene is known: a simulated one gets its numbers from the scene, so that
+/// only its axes are certain, and not more than a Touch's three.
 hal::DeviceCaps certain_caps(const hal::DeviceCaps& opened) {
   hal::DeviceCaps caps = opened;
   caps.damping.reset();
@@ -44,11 +44,13 @@ hal::DeviceCaps certain_caps(const hal::DeviceCaps& opened) {
 
 void understand_files(const JoinArguments& arguments, Mistakes& mistakes) {
   if (!arguments.json.empty() && arguments.json != "-")
-    if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty()) mistakes.push_back("--json: " + problem);
+    if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty())
+      mistakes.push_back("--json: " + problem);
   if (!arguments.trace.empty())
     if (const auto problem = io::OutputFile::problem(arguments.trace); !problem.empty())
       mistakes.push_back("--trace: " + problem);
-  if (!arguments.trace.empty() && arguments.trace == arguments.json) mistakes.push_back("--trace: is the same file as --json");
+  if (!arguments.trace.empty() && arguments.trace == arguments.json)
+    mistakes.push_back("--trace: is the same file as --json");
 }
 
 /// A plan, or everything that is wrong with what was typed.
@@ -57,9 +59,10 @@ AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   if (const auto server = io::parse_address(arguments.server, 1)) {
     plan.server = *server;
     if (!server->loopback())
-      mistakes.push_back("--server: " + io::to_text(*server) +
-                         " is not on this computer and is refused: sealed sessions do not exist yet, nobody could tell the server "
-                         "from somebody else who moves your hand. Use the 127.0.0.1:PORT that tandem-server prints");
+      mistakes.push_back(
+          "--server: " + io::to_text(*server) +
+          " is not on this computer and is refused: sealed sessions do not exist yet, nobody could tell the server "
+          "from somebody else who moves your hand. Use the 127.0.0.1:PORT that tandem-server prints");
   } else {
     mistakes.push_back("--server: " + server.error());
   }
@@ -123,9 +126,13 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--json", arguments->json,
                    "writes link statistics, gate trips, late ticks, energies; `-`: to standard output")
       ->option_text("FILE|-");
-  command->add_option("--duration", arguments->duration, "leaves after so many seconds at the seat; default: stays to the end")
+  command
+      ->add_option("--duration", arguments->duration,
+                   "leaves after so many seconds at the seat; default: stays to the end")
       ->option_text("S");
-  command->add_option("--patience", arguments->patience, "how long to wait for a server that does not answer [s]; default 5")
+  command
+      ->add_option("--patience", arguments->patience,
+                   "how long to wait for a server that does not answer [s]; default 5")
       ->option_text("S");
   command->add_flag("--quiet", arguments->quiet, "no status");
   command->footer(
@@ -135,7 +142,8 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       "  sim:keyboard                you move the hand: arrow keys and PgUp/PgDn\n"
       "  sim:motion=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop]\n"
       "                              a recorded motion moves the hand\n"
-      "Keys: the instructor moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched gate;\n"
+      "Keys: the instructor moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
+      "gate;\n"
       "q or Ctrl-C lets go gently and leaves.\n"
       "Exit: 0 session over or left; 1 refused, server not there or lost; 2 wrong arguments or files.\n\n"
       "Examples\n"

@@ -13,7 +13,8 @@
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "tandem-client attaches a haptic device to a session of tandem-server: your hand and the hands of others hold the same\n"
+      "tandem-client attaches a haptic device to a session of tandem-server: your hand and the hands of others hold "
+      "the same\n"
       "tool. The force that reaches your hand is limited here, whatever the network or the server does.",
       "tandem-client"};
   app.set_version_flag("--version", "tandem-client " TANDEM_VERSION);

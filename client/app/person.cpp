@@ -7,8 +7,8 @@ namespace tandem::client {
 
 namespace {
 constexpr double kAlphaStep = 0.05;
-constexpr double kHandStep = 0.005;   // [m] per key
-constexpr double kHandReach = 0.06;   // [m] about the start, per axis
+constexpr double kHandStep = 0.005;  // [m] per key
+constexpr double kHandReach = 0.06;  // [m] about the start, per axis
 }  // namespace
 
 Person::Person(SeatPump& pump, const SeatSetup& setup, std::shared_ptr<hal::sim::KeyboardTarget> keyboard)
@@ -27,7 +27,8 @@ Person::Person(SeatPump& pump, const SeatSetup& setup, std::shared_ptr<hal::sim:
 std::string Person::help() const {
   std::string text = "keys:";
   if (may_move_alpha())
-    text += keyboard_ ? " a/d less/more authority for you, 0/1 none/all;" : " left/right less/more authority for you, 0/1 none/all;";
+    text += keyboard_ ? " a/d less/more authority for you, 0/1 none/all;"
+                      : " left/right less/more authority for you, 0/1 none/all;";
   if (keyboard_) text += " arrows move right/left and away/towards you, PgUp/PgDn up/down;";
   return text + " b button that clears DAMPED; q leaves";
 }
@@ -60,7 +61,8 @@ void Person::set_alpha(double own) {
   if (!anybody) own = 1;
   asked_ = own;
   control::Weights alpha{};
-  for (std::size_t i = 0; i < setup_->masters.size(); ++i) alpha[i] = i == setup_->own_master ? own : (1 - own) * others_[i];
+  for (std::size_t i = 0; i < setup_->masters.size(); ++i)
+    alpha[i] = i == setup_->own_master ? own : (1 - own) * others_[i];
   pump_->request_authority(alpha);
 }
 

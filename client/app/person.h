@@ -8,7 +8,8 @@
 
 namespace tandem::client {
 
-/// Turns keys into wishes: authority (INSTRUCTOR), the button that clears a latched gate, a hand moved by arrow keys, leaving.
+/// Turns keys into wishes: authority (INSTRUCTOR), the button that clears a latched gate, a hand moved by arrow keys,
+/// leaving.
 class Person {
  public:
   /// @param keyboard  of a hand that is moved by keys; null for all others

@@ -25,8 +25,8 @@ struct Sample {
 };
 using SampleQueue = io::SpscQueue<Sample>;
 
-/// Runs a seat on its device's servo thread: drains the socket, steps the seat, sends. People's wishes come through atomics and
-/// a bounded queue; nothing here waits for anybody.
+/// Runs a seat on its device's servo thread: drains the socket, steps the seat, sends. People's wishes come through
+/// atomics and a bounded queue; nothing here waits for anybody.
 class SeatPump final : public hal::ServoClient {
  public:
   /// @param seat     must outlive the pump; only the servo thread touches it from `Device::start` to `close`

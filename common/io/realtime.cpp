@@ -40,7 +40,8 @@ std::string realtime_notice(bool fifo, bool memory, bool awake) {
   add(awake, "a processor kept awake");
   if (missing.empty()) return {};
   return "not permitted here: " + missing +
-         "; ticks may come late when the machine is busy (they are counted). Remedy: run as root, or allow `rtprio 80` and "
+         "; ticks may come late when the machine is busy (they are counted). Remedy: run as root, or allow `rtprio 80` "
+         "and "
          "`memlock unlimited` in /etc/security/limits.conf";
 }
 

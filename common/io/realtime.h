@@ -6,8 +6,8 @@
 
 namespace tandem::io {
 
-/// Keeps the processor out of deep sleep as long as it lives, where permitted (root): the cheapest gain in wake-up jitter
-/// (performance.md 2: p99 153 -> 57 us).
+/// Keeps the processor out of deep sleep as long as it lives, where permitted (root): the cheapest gain in wake-up
+/// jitter (performance.md 2: p99 153 -> 57 us).
 class AwakeProcessor {
  public:
   AwakeProcessor() noexcept;
@@ -17,7 +17,8 @@ class AwakeProcessor {
   Fd fd_;
 };
 
-/// Locks the process's memory as it is used, where that cannot make a later allocation fail. @return whether it is locked
+/// Locks the process's memory as it is used, where that cannot make a later allocation fail. @return whether it is
+/// locked
 bool lock_memory() noexcept;
 
 /// Asks for SCHED_FIFO and exact timers for the calling thread. @return whether SCHED_FIFO was granted

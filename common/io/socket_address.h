@@ -18,7 +18,7 @@ struct SocketAddress {
   [[nodiscard]] const sockaddr* get() const noexcept;
   [[nodiscard]] int family() const noexcept { return storage.ss_family; }
   [[nodiscard]] std::uint16_t port() const noexcept;
-  [[nodiscard]] bool any() const noexcept;  ///< 0.0.0.0 or ::
+  [[nodiscard]] bool any() const noexcept;       ///< 0.0.0.0 or ::
   [[nodiscard]] bool loopback() const noexcept;  ///< 127.0.0.0/8, ::1
 };
 

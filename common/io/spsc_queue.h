@@ -8,8 +8,8 @@
 
 namespace tandem::io {
 
-/// A bounded queue of plain data from one thread to another, without lock, and without heap after construction. Full: what
-/// comes is dropped and counted; a reader that is late never delays the writer.
+/// A bounded queue of plain data from one thread to another, without lock, and without heap after construction. Full:
+/// what comes is dropped and counted; a reader that is late never delays the writer.
 template <class T>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -1,8 +1,8 @@
 #include "common/io/terminal.h"
 
 #include <poll.h>
-#include <sys/ioctl.h>
 #include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,15 +14,15 @@ namespace tandem::io {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kKeys{{{"\x1b[A", "up"},
-                                                                              {"\x1b[B", "down"},
-                                                                              {"\x1b[C", "right"},
-                                                                              {"\x1b[D", "left"},
-                                                                              {"\x1bOA", "up"},
-                                                                              {"\x1bOB", "down"},
-                                                                              {"\x1bOC", "right"},
-                                                                              {"\x1bOD", "left"},
-                                                                              {"\x1b[5~", "pageup"},
-                                                                              {"\x1b[6~", "pagedown"}}};
+                                                                               {"\x1b[B", "down"},
+                                                                               {"\x1b[C", "right"},
+                                                                               {"\x1b[D", "left"},
+                                                                               {"\x1bOA", "up"},
+                                                                               {"\x1bOB", "down"},
+                                                                               {"\x1bOC", "right"},
+                                                                               {"\x1bOD", "left"},
+                                                                               {"\x1b[5~", "pageup"},
+                                                                               {"\x1b[6~", "pagedown"}}};
 
 /// Length of the first `columns` characters of UTF-8 text, in bytes.
 std::size_t bytes_of_columns(const std::string& text, std::size_t columns) {
@@ -39,7 +39,8 @@ std::size_t bytes_of_columns(const std::string& text, std::size_t columns) {
 
 KeyReader::KeyReader() {
   // A program in the background may not touch the terminal: it would be stopped.
-  interactive_ = isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp() && tcgetattr(STDIN_FILENO, &before_) == 0;
+  interactive_ =
+      isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp() && tcgetattr(STDIN_FILENO, &before_) == 0;
   if (!interactive_) return;
   termios raw = before_;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);

@@ -7,8 +7,8 @@
 
 namespace tandem::io {
 
-/// Single keys from the terminal, without echo and without waiting. Everything is put back when it ends; signals are read
-/// elsewhere (signals.h), so that no end of the program goes around it.
+/// Single keys from the terminal, without echo and without waiting. Everything is put back when it ends; signals are
+/// read elsewhere (signals.h), so that no end of the program goes around it.
 class KeyReader {
  public:
   KeyReader();

@@ -12,11 +12,11 @@
 #include "common/link/digest.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/network_options.h"
-#include "netsim/app/number_option.h"
-#include "netsim/app/run_summary.h"
+#include "common/io/number_option.h"
 #include "netsim/world_report.h"
 #include "proto/io/scene_file.h"
 #include "proto/scene_text.h"
+#include "server/report_summary.h"
 #include "server/session_monitor.h"
 #include "server/trace_csv.h"
 
@@ -145,7 +145,10 @@ int run_command(const RunArguments& arguments) {
   report.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   if (interrupted) std::fprintf(stderr, "interrupted at %.3f s; what follows judges that much\n", world.session().time());
   if (!arguments.quiet || !json_on_stdout)
-    std::fputs(run_summary(report, world.scene(), network->description).c_str(), json_on_stdout ? stderr : stdout);
+    std::fprintf(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s",
+                 report.scenario.c_str(), report.passed ? "pass" : "FAIL", report.duration_s, network->description.c_str(),
+                 static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
+                 server::report_summary(report, world.scene()).c_str());
   trace_file.close();
   if (!arguments.trace.empty() && !trace_file) {
     std::fprintf(stderr, "tandem-netsim run: --trace: %s could not be written to the end\n", arguments.trace.c_str());
@@ -188,7 +191,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--mfs", arguments->mfs, "flow source mode instead of the scene's")
       ->check(CLI::IsMember({"open", "tank", "seed", "seed_signed"}));
   command->add_option("--duration", arguments->duration_s, "session time instead of the scene's")
-      ->check(number_in(0.1, 3e6, "s"))
+      ->check(io::number_in(0.1, 3e6, "s"))
       ->option_text("S");
   command->add_option("--json", arguments->json, "writes the report; `-`: to standard output")->option_text("FILE|-");
   command->add_option("--trace", arguments->trace, "writes one row per tick; the same seed and build give the same bytes")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tandem::netsim::demo {
 namespace {
@@ -94,17 +95,25 @@ ForceError force_error_x(const TraceData& trace, const SeatTrace& seat, double f
 }
 
 double force_step(const TraceData& trace) {
+  // Until the trainer's weight has arrived at 0, and a tenth of a second: the springs need a moment to answer.
+  double until = kAlphaMovesAt;
+  for (std::size_t k = 0; k < trace.rows(); ++k)
+    if (trace.t[k] >= kAlphaMovesAt && trace.trainer.alpha[k] > 1e-6) until = trace.t[k];
+  until += 0.1;
   double largest = kUnknown;
-  bool arrived = false;
-  for (std::size_t k = 1; k < trace.rows() && !arrived; ++k) {
-    if (trace.t[k] < kAlphaMovesAt - 0.01) continue;
-    // A tenth of a second beyond, since the springs need a moment to answer.
-    arrived = trace.t[k] > kAlphaMovesAt + 0.1 &&
-              std::abs(trace.trainer.alpha[k] - trace.trainer.alpha[k - 1]) < 1e-9 && trace.trainer.alpha[k] < 1e-6;
-    for (const SeatTrace* seat : {&trace.trainer, &trace.trainee}) {
+  const auto look = [&](const Column& t, const Column3& force) {
+    for (std::size_t k = 1; k < t.size(); ++k) {
+      if (t[k] < kAlphaMovesAt - 0.01 || t[k] > until) continue;
       double square = 0;
-      for (const Column& f : seat->f_cmd) square += (f[k] - f[k - 1]) * (f[k] - f[k - 1]);
+      for (const Column& f : force) square += (f[k] - f[k - 1]) * (f[k] - f[k - 1]);
       if (std::isfinite(square) && !(std::sqrt(square) <= largest)) largest = std::sqrt(square);
+    }
+  };
+  for (const auto& [seat, own] : {std::pair{&trace.trainer, &trace.trainer_own}, std::pair{&trace.trainee, &trace.trainee_own}}) {
+    if (own->t.empty()) {
+      look(trace.t, seat->f_cmd);
+    } else {
+      look(own->t, own->f_cmd);
     }
   }
   return largest;

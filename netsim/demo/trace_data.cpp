@@ -1,6 +1,8 @@
 #include "netsim/demo/trace_data.h"
 
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/base/csv.h"
 
@@ -32,6 +34,7 @@ class Taker {
   std::string missing_;
 };
 
+constexpr double kNear = 0.002;  // [s]
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"}, kNumbers{"0", "1", "2"};
 
 }  // namespace
@@ -58,6 +61,57 @@ std::expected<TraceData, std::string> read_trace(std::string_view text) {
   taker.take("tool.e_p", kNumbers, data.tool.e_p);
   if (!taker.missing().empty()) return std::unexpected("trace: no column " + taker.missing());
   return data;
+}
+
+std::expected<SeatSamples, std::string> read_samples(std::string_view text) {
+  const auto table = CsvTable::parse(text);
+  if (!table) return std::unexpected(table.error().text("samples"));
+  SeatSamples all;
+  Taker taker(*table);
+  taker.take("t_s", all.t);
+  taker.take("q", kNumbers, all.q);
+  taker.take("", kAxes, all.x);
+  taker.take("f_cmd_", kAxes, all.f_cmd);
+  taker.take("f_out_", kAxes, all.f_out);
+  if (!taker.missing().empty()) return std::unexpected("samples: no column " + taker.missing());
+  // The session's part: ascending from 0.
+  std::vector<std::size_t> rows;
+  double newest = -1e-9;
+  for (std::size_t k = 0; k < all.t.size(); ++k) {
+    if (!(all.t[k] > newest)) continue;
+    rows.push_back(k);
+    newest = all.t[k];
+  }
+  if (rows.empty()) return std::unexpected("samples: no row of the session");
+  const auto keep = [&](Column& column) {
+    for (std::size_t n = 0; n < rows.size(); ++n) column[n] = column[rows[n]];
+    column.resize(rows.size());
+  };
+  keep(all.t);
+  for (Column3* triple : {&all.q, &all.x, &all.f_cmd, &all.f_out})
+    for (Column& column : *triple) keep(column);
+  return all;
+}
+
+void put_samples(const Column& t, const SeatSamples& own, SeatTrace& seat) {
+  const std::array<std::pair<const Column3*, Column3*>, 4> pairs{
+      {{&own.q, &seat.q}, {&own.x, &seat.x}, {&own.f_cmd, &seat.f_cmd}, {&own.f_out, &seat.f_out}}};
+  std::size_t after = 0;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    while (after < own.t.size() && own.t[after] < t[k]) ++after;
+    // At the very ends the nearest sample may stand half a tick aside.
+    const bool inside = after > 0 && after < own.t.size();
+    const double gap = inside ? own.t[after] - own.t[after - 1] : 1;
+    const double w = inside ? (t[k] - own.t[after - 1]) / gap : 0;
+    const std::size_t edge = after == 0 ? 0 : own.t.size() - 1;
+    const bool near = !own.t.empty() && std::abs(own.t[edge] - t[k]) < kNear;
+    for (const auto& [from, to] : pairs)
+      for (std::size_t a = 0; a < 3; ++a) {
+        const Column& c = (*from)[a];
+        (*to)[a][k] = inside ? c[after - 1] + w * (c[after] - c[after - 1])
+                             : (near ? c[edge] : std::numeric_limits<double>::quiet_NaN());
+      }
+  }
 }
 
 }  // namespace tandem::netsim::demo

@@ -30,10 +30,16 @@ struct ToolTrace {
   Column3 e_p;     ///< E_p of [Licona et al. 2019] eq. 3, per axis of the port [J]
   Column3 torque;  ///< J^T f_cmd [N m]; filled by app/joint_torques.h
 };
+/// What a workstation itself wrote of its hand, one row per servo tick: nothing lost, nothing late.
+struct SeatSamples {
+  Column t;                   ///< session time [s], as the workstation knows it
+  Column3 q, x, f_cmd, f_out;  ///< as in SeatTrace
+};
 struct TraceData {
   Column t;  ///< since the session began [s]
   SeatTrace trainer, trainee;
   ToolTrace tool;
+  SeatSamples trainer_own, trainee_own;  ///< empty in virtual time, where the trace is as good
   [[nodiscard]] std::size_t rows() const noexcept { return t.size(); }
 };
 
@@ -41,5 +47,13 @@ struct TraceData {
 /// the demo has no use for are not looked at; a cell that is no finite number becomes NaN.
 /// @return the columns; or what is wrong: no rows, a column missing, a row of another length
 [[nodiscard]] std::expected<TraceData, std::string> read_trace(std::string_view text);
+
+/// Reads a trace of `tandem-client join --trace`; rows before the session began are left out.
+/// @return the samples, or what is wrong
+[[nodiscard]] std::expected<SeatSamples, std::string> read_samples(std::string_view text);
+
+/// Puts a workstation's own samples in the place of what the server heard of that seat: interpolated to the rows of the trace,
+/// so that hands and slave show the same moment whatever the network did. Rows beyond the samples become NaN.
+void put_samples(const Column& t, const SeatSamples& own, SeatTrace& seat);
 
 }  // namespace tandem::netsim::demo

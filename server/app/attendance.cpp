@@ -24,11 +24,13 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (!seat.away_since) seat.away_since = now;
     if (now - *seat.away_since < kLost) continue;
     ++lost;
-    if (!seat.warned) news.warnings.push_back(name + " has been gone for 10 s; its weight went to the others, or the tool is held");
+    if (!seat.warned)
+      news.warnings.push_back(name + " has been gone for 10 s; its weight went to the others, or the tool is held");
     seat.warned = true;
   }
   if (state_ != status.state) {
-    if (status.state == State::kRunning) news.notes.push_back(state_ == State::kHeld ? "the session runs again" : "the session runs");
+    if (status.state == State::kRunning)
+      news.notes.push_back(state_ == State::kHeld ? "the session runs again" : "the session runs");
     if (status.state == State::kHeld) news.notes.push_back("HELD: nobody entitled is present, the tools are braked");
     state_ = status.state;
   }

@@ -1,6 +1,7 @@
 #include "server/app/host.h"
 
 #include <poll.h>
+#include <spdlog/spdlog.h>
 #include <sys/random.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
@@ -10,8 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
-
-#include <spdlog/spdlog.h>
 
 #include "common/io/clock.h"
 #include "common/io/output_file.h"
@@ -38,10 +37,14 @@ enum class End { kScene, kSignal, kNobodyCame, kPeersLost };
 
 const char* to_text(End end) {
   switch (end) {
-    case End::kScene: return "scene";
-    case End::kSignal: return "signal";
-    case End::kNobodyCame: return "nobody_came";
-    case End::kPeersLost: return "peers_lost";
+    case End::kScene:
+      return "scene";
+    case End::kSignal:
+      return "signal";
+    case End::kNobodyCame:
+      return "nobody_came";
+    case End::kPeersLost:
+      return "peers_lost";
   }
   return "";
 }
@@ -178,14 +181,16 @@ int host(const HostPlan& plan) {
   if (!socket) return trouble("--listen: " + socket.error(), kTrouble);
   io::OutputFile json, trace;
   if (const auto problem = json.open(plan.json, true); !problem.empty()) return trouble("--json: " + problem, kWrong);
-  if (const auto problem = trace.open(plan.trace, false); !problem.empty()) return trouble("--trace: " + problem, kWrong);
+  if (const auto problem = trace.open(plan.trace, false); !problem.empty())
+    return trouble("--trace: " + problem, kWrong);
 
   const io::AwakeProcessor awake;
   const bool memory = io::lock_memory();
   TickQueue queue{kQueueTicks};
   Recorder recorder{plan.scene, queue, trace};
   const io::SocketAddress at = socket->local;
-  const auto shard = std::make_unique<Shard>(std::move(*socket), plan.scene, std::move(*slaves), unpredictable(), queue);
+  const auto shard =
+      std::make_unique<Shard>(std::move(*socket), plan.scene, std::move(*slaves), unpredictable(), queue);
   std::thread ticks{[&] { shard->run(); }};
 
   // With JSON on standard output people's lines move out of the way.
@@ -201,10 +206,13 @@ int host(const HostPlan& plan) {
   for (io::OutputFile* file : {&json, &trace})
     if (const auto problem = file->close(); !problem.empty()) return trouble(problem, kTrouble);
   switch (end) {
-    case End::kSignal: return 0;
-    case End::kScene: return report.passed ? 0 : kFailed;
+    case End::kSignal:
+      return 0;
+    case End::kScene:
+      return report.passed ? 0 : kFailed;
     case End::kNobodyCame:
-    case End::kPeersLost: return kTrouble;
+    case End::kPeersLost:
+      return kTrouble;
   }
   return kTrouble;
 }

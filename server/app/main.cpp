@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <functional>
@@ -5,15 +7,14 @@
 #include "common/io/log.h"
 #include "server/app/run_command.h"
 
-#include <spdlog/spdlog.h>
-
 #ifndef TANDEM_VERSION
 #define TANDEM_VERSION "unknown"
 #endif
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "tandem-server hosts sessions in which several people hold the same tool over a network. It couples all hands to the\n"
+      "tandem-server hosts sessions in which several people hold the same tool over a network. It couples all hands to "
+      "the\n"
       "tools of a scene, shares authority between them, and reports how well it went.",
       "tandem-server"};
   app.set_version_flag("--version", "tandem-server " TANDEM_VERSION);

@@ -9,7 +9,9 @@ constexpr std::size_t kRowsMax = 60'000;  // bytes collected before they are wri
 }
 
 Recorder::Recorder(const SceneSpec& scene, TickQueue& records, io::OutputFile& trace)
-    : records_(&records), trace_(&trace), builder_(scene), csv_(scene), rows_(csv_.header()), thread_([this] { work(); }) {}
+    : records_(&records), trace_(&trace), builder_(scene), csv_(scene), rows_(csv_.header()), thread_([this] {
+        work();
+      }) {}
 
 void Recorder::finish() {
   finish_.store(true, std::memory_order_release);

@@ -12,7 +12,8 @@
 
 namespace tandem::server {
 
-/// An ordinary thread that judges and writes what the shard lived through. It may be late; the shard never waits for it.
+/// An ordinary thread that judges and writes what the shard lived through. It may be late; the shard never waits for
+/// it.
 class Recorder {
  public:
   /// @param trace  opened; rows are written if wanted, and hashed always

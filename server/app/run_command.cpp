@@ -24,10 +24,11 @@ using Mistakes = std::vector<std::string>;
 
 void check_loopback(const io::SocketAddress& listen, Mistakes& mistakes) {
   if (listen.loopback()) return;
-  mistakes.push_back("--listen: " + io::to_text(listen) +
-                     " is not a loopback address and is refused: sealed sessions do not exist yet, the keys are public, and "
-                     "whoever reaches the port could take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT and join "
-                     "from this computer; `tandem-netsim proxy` plays any network in between");
+  mistakes.push_back(
+      "--listen: " + io::to_text(listen) +
+      " is not a loopback address and is refused: sealed sessions do not exist yet, the keys are public, and "
+      "whoever reaches the port could take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT and join "
+      "from this computer; `tandem-netsim proxy` plays any network in between");
 }
 
 double number(const char* option, std::string text, double lo, double hi, const char* unit, Mistakes& mistakes) {
@@ -53,7 +54,8 @@ HostPlan understand(const RunArguments& arguments, Mistakes& mistakes) {
   } else {
     mistakes.push_back("--listen: " + listen.error());
   }
-  if (const double s = number("--duration", arguments.duration, 0.1, 3e6, "s", mistakes); s > 0) plan.scene.duration = s;
+  if (const double s = number("--duration", arguments.duration, 0.1, 3e6, "s", mistakes); s > 0)
+    plan.scene.duration = s;
   plan.wait_s = number("--wait", arguments.wait, 0.1, 3e6, "s", mistakes);
   std::string seed = arguments.seed;
   if (const std::string problem = io::whole_number()(seed); problem.empty()) {
@@ -65,9 +67,11 @@ HostPlan understand(const RunArguments& arguments, Mistakes& mistakes) {
   plan.trace = arguments.trace;
   plan.quiet = arguments.quiet;
   if (!plan.json.empty() && plan.json != "-")
-    if (const auto problem = io::OutputFile::problem(plan.json); !problem.empty()) mistakes.push_back("--json: " + problem);
+    if (const auto problem = io::OutputFile::problem(plan.json); !problem.empty())
+      mistakes.push_back("--json: " + problem);
   if (!plan.trace.empty())
-    if (const auto problem = io::OutputFile::problem(plan.trace); !problem.empty()) mistakes.push_back("--trace: " + problem);
+    if (const auto problem = io::OutputFile::problem(plan.trace); !problem.empty())
+      mistakes.push_back("--trace: " + problem);
   if (!plan.trace.empty() && plan.trace == plan.json) mistakes.push_back("--trace: is the same file as --json");
   return plan;
 }
@@ -91,9 +95,10 @@ int run_command(const RunArguments& arguments) {
 void add_run_command(CLI::App& root, std::function<int()>& action) {
   // Lives as long as the program's options, which refer to it.
   const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* const command = root.add_subcommand("run", "Hosts a session: waits for the scene's seats, runs it, reports.");
-  command->add_option("scene", arguments->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
-      ->option_text("SCENE")
+  CLI::App* const command =
+      root.add_subcommand("run", "Hosts a session: waits for the scene's seats, runs it, reports.");
+  command->add_option("SCENE", arguments->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
+      ->option_text(" ")
       ->required();
   command
       ->add_option("--listen", arguments->listen,
@@ -112,13 +117,16 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--trace", arguments->trace, "writes one row per tick of the session")->option_text("FILE.csv");
   command->add_flag("--check", arguments->check, "only checks everything and prints every value in force, with units");
   command
-      ->add_option("--seed", arguments->seed, "a number for the report, to name the run; default 1 (a live session draws nothing)")
+      ->add_option("--seed", arguments->seed,
+                   "a number for the report, to name the run; default 1 (a live session draws nothing)")
       ->option_text("N");
   command->add_flag("--quiet", arguments->quiet, "no status and no summary");
   command->footer(
-      "Prints `listening on HOST:PORT` first, then the command of each seat to type. The session begins when all required\n"
+      "Prints `listening on HOST:PORT` first, then the command of each seat to type. The session begins when all "
+      "required\n"
       "seats are ready. Ctrl-C lets all hands go gently, tells the clients, writes the reports and ends with 0.\n"
-      "Exit: 0 done and verdict pass; 1 verdict fail, port in use, nobody came, peers lost; 2 wrong arguments or files.\n\n"
+      "Exit: 0 done and verdict pass; 1 verdict fail, port in use, nobody came, peers lost; 2 wrong arguments or "
+      "files.\n\n"
       "Examples\n"
       "  tandem-server run free_motion\n"
       "  tandem-server run contact --listen 127.0.0.1:7000 --json report.json --trace contact.csv\n"

@@ -51,8 +51,8 @@ int scenes_command(const ScenesArguments& arguments) {
 
 void add_scenes_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<ScenesArguments>();
-  CLI::App* const command =
-      root.add_subcommand("scenes", "Lists the shipped scenes, or prints one as text: a start for a scene of your own.");
+  CLI::App* const command = root.add_subcommand(
+      "scenes", "Lists the shipped scenes, or prints one as text: a start for a scene of your own.");
   command->add_option("--print", arguments->print, "the scene to print")->option_text("NAME");
   command->add_flag("--json", arguments->json, "for machines: name and summary, with --print also the text");
   command->footer(

@@ -15,9 +15,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kPriority = 70;          // above the devices' threads: one late server is late for everybody
+constexpr int kPriority = 70;  // above the devices' threads: one late server is late for everybody
 constexpr Duration kLate = 1ms;
-constexpr int kRounds = 4;             // batches read before the clock is looked at again: a flood cannot stop the tick
+constexpr int kRounds = 4;  // batches read before the clock is looked at again: a flood cannot stop the tick
 constexpr std::uint64_t kLookEvery = 64;  // ticks between two looks at one seat, and between two pictures
 
 double ms(Duration d) { return seconds(d) * 1e3; }
@@ -134,7 +134,8 @@ void Shard::look_at_seat(std::size_t i, Time now) noexcept {
   seat.margin_j = heard.telemetry.margin_min_j;
   seat.gate_trips = heard.gate_trips;
   seat.late_ticks = heard.late_ticks;
-  seat.link.down = {heard.telemetry.down_loss_percent, heard.telemetry.down_longest_gap_ms, heard.telemetry.down_age_p99_ms};
+  seat.link.down = {heard.telemetry.down_loss_percent, heard.telemetry.down_longest_gap_ms,
+                    heard.telemetry.down_age_p99_ms};
   if (const link::Link* link = port.link()) {  // of a seat that left, the last numbers stay
     seat.link.rtt_p50_ms = ms(link->freshness().rtt_p50());
     seat.link.rtt_p99_ms = ms(link->freshness().rtt_p99());

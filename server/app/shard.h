@@ -17,8 +17,9 @@ namespace tandem::server {
 
 using TickQueue = io::SpscQueue<TickRecord>;
 
-/// One thread, one socket, one session: receives a batch, steps the session once per tick on an absolute schedule, sends a
-/// batch, and hands each tick's record to a queue. Nothing else ever delays it; no heap and no lock it could wait for.
+/// One thread, one socket, one session: receives a batch, steps the session once per tick on an absolute schedule,
+/// sends a batch, and hands each tick's record to a queue. Nothing else ever delays it; no heap and no lock it could
+/// wait for.
 class Shard {
  public:
   /// @param socket   bound

@@ -18,7 +18,8 @@ namespace {
 std::string seat_text(const SeatStatus& seat, const std::string& name) {
   if (!seat.bound) return name + (seat.ever_bound ? " gone" : " -");
   if (!seat.alive) return name + " silent";
-  std::string text = format("%s %s alpha %.2f rtt %.1f ms", name.c_str(), to_text(seat.gate), seat.alpha, seat.link.rtt_p50_ms);
+  std::string text =
+      format("%s %s alpha %.2f rtt %.1f ms", name.c_str(), to_text(seat.gate), seat.alpha, seat.link.rtt_p50_ms);
   if (seat.link.up.loss_percent + seat.link.down.loss_percent > 0)
     text += format(" loss %.1f/%.1f %%", seat.link.up.loss_percent, seat.link.down.loss_percent);
   text += format(" margin %.0f mJ", seat.margin_j * 1e3);
@@ -31,13 +32,20 @@ std::string seat_text(const SeatStatus& seat, const std::string& name) {
 
 const char* to_text(wire::GateState gate) noexcept {
   switch (gate) {
-    case wire::GateState::kOff: return "off";
-    case wire::GateState::kZero: return "zero";
-    case wire::GateState::kRampIn: return "ramp-in";
-    case wire::GateState::kActive: return "active";
-    case wire::GateState::kPassive: return "passive";
-    case wire::GateState::kDamped: return "DAMPED";
-    case wire::GateState::kFault: return "FAULT";
+    case wire::GateState::kOff:
+      return "off";
+    case wire::GateState::kZero:
+      return "zero";
+    case wire::GateState::kRampIn:
+      return "ramp-in";
+    case wire::GateState::kActive:
+      return "active";
+    case wire::GateState::kPassive:
+      return "passive";
+    case wire::GateState::kDamped:
+      return "DAMPED";
+    case wire::GateState::kFault:
+      return "FAULT";
   }
   return "?";
 }
@@ -48,7 +56,9 @@ std::string waiting_for(const SessionStatus& status, const SceneSpec& scene) {
     const SeatStatus& seat = status.seats[i];
     if (!scene.seats[i].required || seat.ready) continue;
     text += (text.empty() ? "" : ", ") + scene.seats[i].name;
-    text += !seat.bound ? (seat.ever_bound ? " (left)" : " (nobody joined)") : seat.alive ? " (not ready)" : " (silent)";
+    text += !seat.bound  ? (seat.ever_bound ? " (left)" : " (nobody joined)")
+            : seat.alive ? " (not ready)"
+                         : " (silent)";
   }
   return text;
 }
@@ -61,9 +71,15 @@ std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
       line = whom.empty() ? "engaging" : "waiting for " + whom;
       break;
     }
-    case wire::SessionState::kRunning: line += "running"; break;
-    case wire::SessionState::kHeld: line += "HELD (nobody entitled is present)"; break;
-    case wire::SessionState::kEnding: line += "ending"; break;
+    case wire::SessionState::kRunning:
+      line += "running";
+      break;
+    case wire::SessionState::kHeld:
+      line += "HELD (nobody entitled is present)";
+      break;
+    case wire::SessionState::kEnding:
+      line += "ending";
+      break;
   }
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     if (status.seats[i].ever_bound || scene.seats[i].required)

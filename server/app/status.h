@@ -12,13 +12,13 @@ namespace tandem::server {
 
 /// What people want to see of a seat while it runs: plain data, copied out of the shard now and then.
 struct SeatStatus {
-  bool bound = false;        ///< somebody sits here
+  bool bound = false;  ///< somebody sits here
   bool ever_bound = false;
-  bool ready = false;        ///< its device waits to be engaged, or is
-  bool alive = false;        ///< heard from just now
+  bool ready = false;  ///< its device waits to be engaged, or is
+  bool alive = false;  ///< heard from just now
   wire::GateState gate = wire::GateState::kOff;
   double alpha = 0;
-  double margin_j = 0;       ///< smallest energy margin of its ledger so far [J]
+  double margin_j = 0;  ///< smallest energy margin of its ledger so far [J]
   std::uint32_t gate_trips = 0;
   std::uint32_t late_ticks = 0;  ///< of the client's machine
   LinkReport link;

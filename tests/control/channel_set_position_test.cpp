@@ -45,7 +45,7 @@ TEST(SetPosition, PaysExactlyTheSpringEnergyOfAMove) {
   EXPECT_EQ(s.paid[0], 0);
   EXPECT_EQ(end.ledger(0).in_nj(), 0U);  // until the owner credits it
   end.credit(0, s.absorbed[0]);
-  EXPECT_NEAR(end.e_in()[0] * 1e-9, 0.030, 1e-9);
+  EXPECT_NEAR(1e-9 * static_cast<double>(end.e_in()[0]), 0.030, 1e-9);
   EXPECT_NEAR(end.ledger(0).margin(), 0.018, 2e-9);
 }
 

@@ -41,7 +41,7 @@ struct Monolith {
     }
     pull.add(k_s, q_s);
     if (!implicit) pull.k_anchor += printed;
-    tool.step(tool_gains, kT, pull, 0);
+    tool.step(tool_gains, kT, pull, pull.k - k_s, 0);
   }
 };
 

@@ -39,8 +39,10 @@ void expect_good_report(const Json& report, const std::string& scene, std::size_
 
 TEST(LiveSession, OfOneAxisRunsToItsEnd) {
   const Folder folder;
-  Process host = hosting("one_axis", {"--duration", "3", "--json", folder.file("s.json"), "--trace", folder.file("s.csv")});
-  Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json"), "--trace", folder.file("c.csv")});
+  Process host =
+      hosting("one_axis", {"--duration", "3", "--json", folder.file("s.json"), "--trace", folder.file("s.csv")});
+  Process trainer =
+      client(address_of(host), "trainer", {"--json", folder.file("c.json"), "--trace", folder.file("c.csv")});
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(host.wait(), 0) << host.err();
   expect_good_report(folder.json("s.json"), "one_axis", 1);
@@ -55,7 +57,8 @@ TEST(LiveSession, OfOneAxisRunsToItsEnd) {
 
 TEST(LiveSession, OfTwoHandsIsTracedAndHashedToTheLastByte) {
   const Folder folder;
-  Process host = hosting("free_motion", {"--duration", "3", "--json", "-", "--trace", folder.file("s.csv"), "--seed", "7"});
+  Process host =
+      hosting("free_motion", {"--duration", "3", "--json", "-", "--trace", folder.file("s.csv"), "--seed", "7"});
   // With the report on standard output, people's lines are on standard error.
   EXPECT_TRUE(host.out().empty()) << host.out();
   const auto at = host.err().find("listening on ");

@@ -127,6 +127,47 @@ TEST(World, SeatsAreRefusedWhenTakenOrUnknown) {
   EXPECT_NE(reason.find("trainer"), std::string::npos) << "the refusal names the seats";
 }
 
+TEST(World, NobodyGivesAuthorityToAnEvaluator) {
+  SceneSpec scene = shipped("eight_seats");
+  scene.seats[0].role = Role::kInstructor;  // he may move alpha, but not onto an evaluator
+  scene.duration = 4;
+  scene.phases = {{"work", 1, 4, false}};
+  bool asked = false, asked_by_evaluator = false;
+  const auto r = run(scene, {}, 1, [&](netsim::World& w) {
+    if (w.session().time() < 2 || w.seat(0) == nullptr) return;
+    std::array<double, 8> alpha{};
+    alpha[3] = 1;
+    asked |= w.seat(0)->request_authority(0, alpha);
+    asked_by_evaluator |= w.seat(3)->request_authority(0, alpha);
+    EXPECT_EQ(w.session().tool(0).authority.alpha(3), 0);
+    EXPECT_EQ(w.session().tool(0).authority.alpha(0), 1);
+  });
+  EXPECT_TRUE(r.report.passed);
+  EXPECT_TRUE(asked);
+  EXPECT_FALSE(asked_by_evaluator) << "a client refuses already";
+}
+
+TEST(World, AnInstructorMovesAuthorityFromHisSeat) {
+  SceneSpec scene = shipped("free_motion");
+  scene.timeline.clear();
+  scene.duration = 6;
+  scene.phases = {{"run", 1, 6, false}};
+  double at_three = 1, at_end = 1;
+  const auto r = run(scene, delayed(20, 5, 20), 1, [&](netsim::World& w) {
+    const double t = w.session().time();
+    if (t >= 3 && t < 3.0015) {
+      const std::array<double, 2> half{0.5, 0.5};
+      EXPECT_TRUE(w.seat(0)->request_authority(0, half));
+      EXPECT_FALSE(w.seat(1)->request_authority(0, half)) << "only the instructor";
+      at_three = w.session().tool(0).authority.alpha(0);
+    }
+    if (w.record().running) at_end = w.session().tool(0).authority.alpha(0);
+  });
+  EXPECT_TRUE(r.report.passed);
+  EXPECT_EQ(at_three, 1);
+  EXPECT_NEAR(at_end, 0.5, 1e-9) << "lost datagrams are asked again until the server shows the version";
+}
+
 TEST(World, RandomBytesOnThePortChangeNothing) {
   const auto trace_with_noise = [](bool noise) {
     auto made = netsim::World::make({shipped("one_axis"), {}, 1, {}});

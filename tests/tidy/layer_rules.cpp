@@ -40,7 +40,7 @@ constexpr std::array<std::string_view, 7> kTopFolders{"client/", "common/", "hal
                                                       "proto/",  "server/", "tests/"};
 
 /// Mirrors "Rooms and who may know whom". The room with the longest `folder` that the path begins with decides.
-const std::array<Room, 13> kRooms{{
+const std::array<Room, 14> kRooms{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -76,6 +76,10 @@ const std::array<Room, 13> kRooms{{
      {"common", "proto", "hal/device.h", "hal/port_map.h", "server"},
      {"Eigen"},
      "the server's core knows control, link and the hal interface; wiring belongs to server/app"},
+    {"server/report",
+     {"common", "proto", "server"},
+     {"json"},
+     "reports are made after the fact from plain records: text and JSON, no session, no device"},
     {"client",
      {"common", "proto", "hal/device.h", "hal/port_map.h", "client"},
      {"Eigen"},

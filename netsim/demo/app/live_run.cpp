@@ -143,7 +143,7 @@ std::expected<RawRun, std::string> Cast::play() {
   fine = fine && start("netsim", proxy) && wait_for_address(1, network);
   for (const char* seat : {"trainer", "trainee"})
     fine =
-        fine && start(seat, {program("tandem-client"), "join", "--server", network, "--seat", seat, "--device", "sim"});
+        fine && start(seat, {program("tandem-client"), "join", "--server", network, "--seat", seat, "--device", "sim", "--trace", file(std::string("-") + seat + ".csv")});
   fine = fine && wait_for_end();
   if (fine) {
     // Clients have been told; they need a moment, and the network until then.

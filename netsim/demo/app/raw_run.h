@@ -10,6 +10,7 @@ namespace tandem::netsim::demo {
 /// What a run leaves behind, before anybody has read it.
 struct RawRun {
   std::string json, trace;            ///< as the programs write them
+  std::string trainer, trainee;       ///< traces of the workstations; empty in virtual time
   std::vector<std::string> commands;  ///< that repeat it
 };
 

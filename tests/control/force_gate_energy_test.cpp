@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "tests/control/force_gate_drive.h"
+
+/// Energy in a hand: what the motor may give after the last fresh datagram, and how far a pushing hand falls through.
+namespace tandem::control {
+namespace {
+
+using namespace std::chrono_literals;
+using test::GateDrive;
+
+/// Force of a hand on the device [N], from time since the last fresh datagram, position and velocity.
+using Hand = std::function<double(double t, double x, double v)>;
+
+struct Fall {
+  double energy = 0;  ///< most the motor had given at any time after the last fresh datagram [J]
+  double x_max = 0, speed = 0;
+  double force_end = 0;
+  double counted = 0;  ///< by the gate itself
+};
+
+struct Loss {
+  bool old = false;  ///< datagrams keep coming, but from long ago
+};
+
+/// The gate holds `force` on a device of `mass` that stands still; then nothing fresh comes any more for 400 ms.
+Fall fall(double mass, double force, double hand_mass, const Hand& hand, Loss loss = {}) {
+  GateParams p;
+  p.dof = 1;
+  p.mass = mass;
+  p.force_max = std::max(3.3, force);
+  GateDrive d(p);
+  d.in.wanted[0] = force;
+  d.ticks(700);
+  EXPECT_NEAR(d.out.effort[0], force, 1e-9);
+  d.in.fresh = loss.old;
+  if (loss.old) d.in.loop_age = 1s;
+  Fall f;
+  double x = 0, v = 0, given = 0;
+  const double total = mass + hand_mass;
+  for (int ms = 0; ms < 400; ++ms) {
+    const double held = d.out.effort[0];
+    for (int i = 0; i < 50; ++i) {  // the plant is continuous
+      const double h = 0.001 / 50;
+      v += h * (held + hand(0.001 * ms + h * i, x, v)) / total;
+      x += h * v;
+      given += h * v * held;
+      f.energy = std::max(f.energy, given);
+      f.x_max = std::max(f.x_max, std::abs(x));
+      f.speed = std::max(f.speed, std::abs(v));
+    }
+    d.in.q[0] = x;
+    d.in.v[0] = v;
+    d.tick();
+    f.counted = std::max(f.counted, d.gate.given_since_fresh());
+    if (ms == 119) f.force_end = d.out.effort[0] + 5 * v;  // beside its damping
+  }
+  EXPECT_GE(d.gate.given_after_loss_max(), f.counted - 1e-12);
+  return f;
+}
+
+struct Grip {
+  const char* name;
+  double hand_mass;
+  std::function<Hand(double force)> hand;
+};
+
+const Grip kGrips[] = {
+    {"released", 0, [](double) { return [](double, double, double) { return 0.0; }; }},
+    {"pulling along", 0, [](double) { return [](double, double, double) { return 3.0; }; }},
+    {"holding", 0.55, [](double F) { return [F](double, double x, double v) { return -F - 6.45 * v - 135 * x; }; }},
+};
+
+TEST(ForceGate, GivesAReleasedOrHoldingHandNoMoreThanItsTank) {
+  struct Case {
+    double force, mass;
+  };
+  for (const Case c : {Case{0.5, 0.05}, Case{3.3, 0.05}, Case{3.3, 0.1}, Case{7.9, 0.15}, Case{20, 0.4}}) {
+    for (const Grip& grip : kGrips) {
+      for (const bool old : {false, true}) {
+        SCOPED_TRACE(std::string(grip.name) + ", " + std::to_string(c.force) + " N, " + std::to_string(c.mass) + " kg, " +
+                     (old ? "old datagrams" : "silence"));
+        const Fall f = fall(c.mass, c.force, grip.hand_mass, grip.hand(c.force), {.old = old});
+        const double tank = ForceGate({.mass = c.mass}).tank_size();
+        EXPECT_LE(f.energy, tank + 1e-6);
+        EXPECT_LE(f.counted, f.energy + 1e-9);
+        if (grip.hand_mass > 0 || c.force > 1) {
+          EXPECT_LE(f.force_end, 1e-9);
+        }
+      }
+    }
+  }
+}
+
+TEST(ForceGate, HasATankThatFitsItsDevice) {
+  EXPECT_DOUBLE_EQ(ForceGate({.mass = 0.05}).tank_size(), 0.020);
+  EXPECT_DOUBLE_EQ(ForceGate({.mass = 0.1}).tank_size(), 0.020);
+  EXPECT_DOUBLE_EQ(ForceGate({.mass = 0.4}).tank_size(), 0.072);
+  EXPECT_DOUBLE_EQ(ForceGate({.mass = 5}).tank_size(), 0.100);
+}
+
+TEST(ForceGate, LetsAHandThatPushedIntoAWallOvershootLittle) {  // zero at once: 7.6 and 18 mm
+  for (const double F : {3.3, 7.9}) {
+    const double target = F / 135;  // behind the wall: where the hand wants to be
+    const Hand hand = [target](double, double x, double v) { return 135 * (target - x) - 6.45 * v; };
+    const Fall f = fall(0.1, -F, 0.55, hand);
+    EXPECT_LE(f.x_max, target + 0.006) << F;
+    EXPECT_GE(f.x_max, target) << F;  // it does move: the force is gone
+  }
+}
+
+TEST(ForceGate, TakesEnergyFromAHandForFree) {  // braking is never refused by the tank
+  GateParams p;
+  p.dof = 1;
+  GateDrive d(p);
+  d.hold(3);
+  d.in.fresh = false;
+  for (int ms = 0; ms < 20; ++ms) {  // the hand pushes against it at 0.5 m/s
+    d.in.v[0] = -0.5;
+    d.in.q[0] -= 0.0005;
+    ASSERT_NEAR(d.tick().effort[0], 3, 0.1) << ms;
+  }
+  EXPECT_LT(d.gate.given_since_fresh(), 0);
+}
+
+}  // namespace
+}  // namespace tandem::control

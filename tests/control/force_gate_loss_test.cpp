@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include "tests/control/force_gate_drive.h"
+
+/// What the gate calls a loss, and what follows.
+namespace tandem::control {
+namespace {
+
+using namespace std::chrono_literals;
+using test::GateDrive;
+
+TEST(ForceGate, CallsSilenceALossAtExactlyItsLimit) {
+  GateDrive d;
+  d.hold(2);
+  d.in.fresh = false;
+  d.ticks(19);
+  EXPECT_EQ(d.gate.trips(), 0U);
+  EXPECT_NEAR(d.out.effort[0], 2, 1e-9);
+  EXPECT_TRUE(d.tick().tripped);  // 20 ms after the last fresh datagram
+  EXPECT_EQ(d.gate.phase(), GatePhase::kPassive);
+  EXPECT_FALSE(d.tick().tripped);
+  EXPECT_EQ(d.gate.trips(), 1U);
+}
+
+TEST(ForceGate, ForgetsSilenceWithEveryFreshDatagram) {
+  GateDrive d;
+  d.hold(2);
+  for (int i = 0; i < 2000; ++i) {
+    d.in.fresh = i % 20 == 19;
+    d.tick();
+  }
+  EXPECT_EQ(d.gate.trips(), 0U);
+  EXPECT_EQ(d.gate.phase(), GatePhase::kActive);
+}
+
+TEST(ForceGate, TakesItsForceAwayWithin120Milliseconds) {
+  GateDrive d;
+  d.hold(3);
+  d.in.fresh = false;
+  double before = d.out.effort[0];
+  for (int ms = 1; ms <= 120; ++ms) {
+    d.tick();
+    ASSERT_LE(d.out.effort[0], before + 1e-9) << ms;           // never more
+    ASSERT_GE(d.out.effort[0], before - 3.0 / 100 - 1e-9) << ms;  // never dropped either, while the hand stands still
+    before = d.out.effort[0];
+  }
+  EXPECT_EQ(d.out.effort[0], 0);
+  d.in.v[0] = 0.1;  // what is left is damping
+  d.in.fresh = true;
+  d.in.engage = false;
+  for (int i = 0; i < 50; ++i) EXPECT_LE(d.tick().effort[0], 0);
+}
+
+TEST(ForceGate, CallsAnOldLoopALossThoughDatagramsAreFresh) {  // a switch that holds and releases in order
+  GateDrive d;
+  d.hold(2);
+  EXPECT_EQ(d.gate.loop_age_limit(), 22ms);  // p99 + 20 ms
+  d.in.loop_age = 22ms;
+  d.ticks(100);
+  EXPECT_EQ(d.gate.trips(), 0U);
+  d.in.loop_age = 22ms + 1us;
+  EXPECT_TRUE(d.tick().tripped);
+  d.ticks(200);
+  EXPECT_EQ(d.out.effort[0], 0);
+  EXPECT_FALSE(d.gate.active());
+  d.in.loop_age = 5ms;
+  EXPECT_TRUE(d.tick().engaged_now);  // young again, and asked for
+}
+
+TEST(ForceGate, LearnsItsAgeLimitFreelyBeforeAndSlowlyWithAHandOnIt) {
+  GateDrive d;
+  d.in.engage = false;
+  d.in.rtt_p99 = 60ms;
+  d.ticks(2);
+  EXPECT_EQ(d.gate.loop_age_limit(), 80ms);
+  d.in.rtt_p99 = 3s;  // never beyond the scene's
+  d.ticks(2);
+  EXPECT_EQ(d.gate.loop_age_limit(), 100ms);
+  d.in.rtt_p99 = 0ms;
+  d.ticks(2);
+  EXPECT_EQ(d.gate.loop_age_limit(), 20ms);  // never below 20 ms
+  d.in.engage = true;
+  d.ticks(5);
+  d.in.rtt_p99 = 60ms;
+  d.ticks(1000);
+  EXPECT_NEAR(seconds(d.gate.loop_age_limit()), 0.030, 1e-6);  // 10 ms per second
+  d.in.rtt_p99 = 0ms;
+  d.ticks(500);
+  EXPECT_NEAR(seconds(d.gate.loop_age_limit()), 0.025, 1e-6);
+}
+
+/// A loss now, then 150 ms of rest, then engaged again until `period` has passed.
+void lose_once(GateDrive& d, int period) {
+  d.in.fresh = false;
+  d.ticks(30);
+  d.in.fresh = true;
+  d.ticks(period - 30);
+}
+
+TEST(ForceGate, LatchesAfterThreeLossesInTenSeconds) {
+  GateDrive d;
+  d.ticks(700);
+  lose_once(d, 4900);
+  EXPECT_EQ(d.gate.phase(), GatePhase::kActive);
+  lose_once(d, 4900);
+  EXPECT_EQ(d.gate.phase(), GatePhase::kActive);
+  lose_once(d, 4900);  // 9.8 s after the first
+  EXPECT_EQ(d.gate.phase(), GatePhase::kDamped);
+  EXPECT_EQ(d.gate.trips(), 3U);
+  d.in.v[0] = 0.2;
+  d.in.wanted[0] = 3;
+  d.tick();
+  EXPECT_NEAR(d.out.effort[0], -1, 1e-9);  // 5 N s/m and nothing else
+  d.in.v[0] = 0;
+  d.in.reset = true;
+  d.tick();
+  EXPECT_EQ(d.gate.phase(), GatePhase::kZero);
+  EXPECT_TRUE(d.tick().engaged_now);
+}
+
+TEST(ForceGate, DoesNotLatchWhenThreeLossesTakeElevenSeconds) {
+  GateDrive d;
+  d.ticks(700);
+  for (int i = 0; i < 8; ++i) lose_once(d, 5500);
+  EXPECT_EQ(d.gate.phase(), GatePhase::kActive);
+  EXPECT_EQ(d.gate.trips(), 8U);
+}
+
+TEST(ForceGate, DoesNotLatchWhereTheSceneSaysSo) {
+  GateParams p;
+  p.latch = false;
+  GateDrive d(p);
+  d.ticks(700);
+  for (int i = 0; i < 5; ++i) lose_once(d, 1000);
+  EXPECT_EQ(d.gate.phase(), GatePhase::kActive);
+}
+
+TEST(ForceGate, RampsOutBeforeItOnlyDamps) {  // the third loss may latch, but not drop
+  GateDrive d;
+  d.in.wanted[0] = 3;
+  d.ticks(700);
+  lose_once(d, 1000);
+  lose_once(d, 1000);
+  d.in.fresh = false;
+  d.ticks(20);
+  ASSERT_EQ(d.gate.phase(), GatePhase::kDamped);
+  EXPECT_NEAR(d.out.effort[0], 3, 0.05);
+  d.ticks(50);
+  EXPECT_NEAR(d.out.effort[0], 1.5, 0.05);
+  d.ticks(50);
+  EXPECT_EQ(d.out.effort[0], 0);
+}
+
+}  // namespace
+}  // namespace tandem::control
