@@ -103,8 +103,9 @@ CaptionedFigure figure_8(const TraceData& d, double duration) {
       "fig8",
       "Figure 8: exchanged torques in free motion, and α",
       "T = Jᵀ f of the force commanded to each device, at the measured pose; the slave’s with the opposite sign, so "
-      "that it lies on the leader’s. Nothing is touched: what is left is friction, inertia, weight where it is not "
-      "compensated, and the pushes a and b.",
+                    "that it lies on the leader’s. A hand’s contains what the damper of its own virtual mass takes (12 N s/m with "
+                    "the paper’s gains). Nothing is touched: the rest is friction, inertia, weight where it is not compensated, and "
+                    "the pushes a and b.",
       {"Torques of the three joints of trainer, trainee and slave, and alpha, over time", 1, {}}};
   for (std::size_t j = 0; j < 3; ++j) {
     Panel p{.y_label = "T" + std::to_string(j + 1) + " [N m]",
@@ -128,8 +129,8 @@ CaptionedFigure energy(const RunPlan& plan, const TraceData& d, const std::strin
   CaptionedFigure f{
       anchor,
       title,
-      "E_p of the paper’s equation 3, with its sign: energy taken up is negative. Tandem’s flow sources are open "
-      "here and E_p is only watched; what keeps the hands safe is the energy ledger of each spring.",
+      "E_p of the paper’s equation 3, with its sign: it falls while the sources give energy to the follower. They are "
+                    "open here and E_p is only watched; what keeps hands safe is the energy ledger of each spring.",
       {"Energy of the flow sources over time, per axis", 1, {}}};
   Panel p{.x_label = kTimeAxis, .y_label = "E_p [J]", .height = 200};
   const std::array<const char*, 3> inks{"first", "second", "third"};

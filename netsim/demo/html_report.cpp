@@ -26,6 +26,12 @@ std::string cell_html(const Cell& cell) {
   return tag("td", value, "class=\"value\"") + tag("td", limit, "class=\"limit\"");
 }
 
+/// Spaces at the beginning indent.
+std::string indented(const std::string& label) {
+  const std::size_t spaces = label.find_first_not_of(' ');
+  return (spaces == 0 ? "" : "&emsp;") + escaped(label.substr(spaces));
+}
+
 std::string table_html(const Comparison& comparison) {
   std::string html =
       "<div class=\"scroll\"><table>\n<thead><tr><th></th><th></th><th>paper</th><th colspan=\"2\">our "
@@ -38,7 +44,7 @@ std::string table_html(const Comparison& comparison) {
       std::string notes;
       for (const char letter : row.notes)
         notes += (notes.empty() ? "" : ",") + ("<a href=\"#note-" + std::string(1, letter) + "\">" + letter + "</a>");
-      html += "<tr>" + tag("td", escaped(row.label) + (notes.empty() ? "" : " " + tag("sup", notes))) +
+      html += "<tr>" + tag("td", indented(row.label) + (notes.empty() ? "" : " " + tag("sup", notes))) +
               tag("td", escaped(row.unit)) + tag("td", row.paper, "class=\"paper\"");
       for (const Cell& cell : row.cells) html += cell_html(cell);
       html += "</tr>\n";

@@ -65,7 +65,7 @@ void draw_curve(std::ostream& out, const Frame& f, const Curve& curve) {
 }
 
 void draw_axes(std::ostream& out, const Frame& f, const Panel& panel, bool x_numbers) {
-  const Ticks xs = round_ticks(f.x.lo, f.x.hi, std::max(2, static_cast<int>(f.width / 95)));
+  const Ticks xs = round_ticks(f.x.lo, f.x.hi, std::max(2, static_cast<int>(f.width / 62)));
   const Ticks ys = round_ticks(f.y.lo, f.y.hi, std::max(2, static_cast<int>(f.height / 34)));
   for (const double v : xs.values) {
     line(out, f.left + f.px(v), f.top, f.left + f.px(v), f.top + f.height, "grid");
@@ -99,8 +99,8 @@ void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_nu
   for (const Curve& c : panel.curves) draw_curve(out, f, c);
   out << "</svg>";
   for (const Band& b : panel.bands)
-    text_at(out, f.left + std::clamp(f.px((b.from + b.to) / 2), 0.0, f.width), f.top + 14, "note mid", b.label);
-  for (const Line& v : panel.verticals) text_at(out, f.left + f.px(v.at) + 5, f.top + 14, "note", v.label);
+    text_at(out, f.left + std::clamp(f.px((b.from + b.to) / 2), 0.0, f.width), f.top - 6, "note mid", b.label);
+  for (const Line& v : panel.verticals) text_at(out, f.left + f.px(v.at), f.top - 6, "note mid", v.label);
   for (const Line& h : panel.horizontals)
     text_at(out, f.left + f.width - 5, f.top + f.py(h.at) - 5, "note end", h.label);
   for (const Note& n : panel.notes) {
@@ -110,6 +110,12 @@ void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_nu
     const bool right = x < f.width * 0.7;
     text_at(out, f.left + x + (right ? 8 : -8), f.top + y + (y < 20 ? 14 : -6), right ? "note" : "note end", n.label);
   }
+}
+
+/// Names of bands and lines stand above the panel.
+bool has_marks(const Panel& panel) {
+  return std::ranges::any_of(panel.bands, [](const Band& b) { return !b.label.empty(); }) ||
+         std::ranges::any_of(panel.verticals, [](const Line& v) { return !v.label.empty(); });
 }
 
 /// Legend entries in the order they first appear: label and ink.
@@ -198,7 +204,7 @@ std::string to_svg(const Figure& figure) {
     bool titled = false, numbered = false;
     double height = 0;
     for (std::size_t i = first; i < end; ++i) {
-      titled = titled || !figure.panels[i].title.empty();
+      titled = titled || !figure.panels[i].title.empty() || has_marks(figure.panels[i]);
       numbered = numbered || !figure.panels[i].x_label.empty();
       height = std::max(height, figure.panels[i].height);
     }

@@ -134,7 +134,7 @@ TEST(World, NobodyGivesAuthorityToAnEvaluator) {
   scene.phases = {{"work", 1, 4, false}};
   bool asked = false, asked_by_evaluator = false;
   const auto r = run(scene, {}, 1, [&](netsim::World& w) {
-    if (w.session().time() < 2 || w.seat(0) == nullptr) return;
+    if (w.session().time() < 2 || w.session().time() > 3.9) return;
     std::array<double, 8> alpha{};
     alpha[3] = 1;
     asked |= w.seat(0)->request_authority(0, alpha);
