@@ -51,6 +51,7 @@ SeatPort::Heard SeatPort::on_datagram(Time now, std::span<const std::byte> bytes
     }
     case wire::Type::kAuthority:
       if (const auto decoded = codec_.decode_authority(opened->plaintext)) {
+        link_->accept_other();
         heard.authority = decoded->message;
       } else {
         link_->refuse_body();

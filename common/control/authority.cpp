@@ -68,7 +68,11 @@ void AuthorityRow::step(const Input& in) noexcept {
   double share = std::min(1.0, slew * in.dt / farthest);
   double cost = 0;
   for (std::size_t i = 0; i < masters_; ++i) cost += share * (goal[i] - now_[i]) * in.stored[i];
-  if (std::isfinite(slew_)) share *= tank_.pay(cost);  // an unslewed scene asked for the step, paid or not
+  if (std::isfinite(slew_)) {  // an unslewed scene asked for the step, paid or not
+    const double paid = tank_.pay(cost);
+    share *= paid;
+    cost *= paid;
+  }
   if (!std::isfinite(share)) return;
   injected_ += cost;
 

@@ -51,6 +51,7 @@ void SetPositionEnd::move_reference(std::size_t a, double wanted, double x, doub
   const double before = state_.ref[a] - x;
   const double after = wanted - x;
   const double dE = stiffness * (after * after - before * before);
+  if (!std::isfinite(dE)) return;  // a position that is no number, or whose square is none
   if (dE <= 0) {
     state_.absorbed[a] -= dE;
     state_.ref[a] = wanted;

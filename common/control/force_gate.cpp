@@ -38,12 +38,13 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
     q_ = in.q;
   }
   if (all_finite(in.q, p_.dof)) {
-    for (std::size_t a = 0; a < p_.dof; ++a) given_ += effort_[a] * (in.q[a] - q_[a]);
+    double given = 0;
+    for (std::size_t a = 0; a < p_.dof; ++a) given += effort_[a] * (in.q[a] - q_[a]);
+    if (std::isfinite(given)) given_ += given;
     q_ = in.q;
   }
-  if (!in.fresh && (phase_ == GatePhase::kPassive || active())) given_max_ = std::max(given_max_, given_);
-
   change_phase(in, out);
+  if (phase_ == GatePhase::kPassive || phase_ == GatePhase::kDamped || active()) given_max_ = std::max(given_max_, given_);
   limit(in, out);
   effort_ = out.effort;
   last_step_ = in.now;
@@ -51,6 +52,7 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
 }
 
 void ForceGate::change_phase(const Input& in, Output& out) noexcept {
+  renewed_ = false;
   if (!in.reading_valid) {
     phase_ = GatePhase::kFault;  // untrusted sensors: motors off until a person resets
     return;
@@ -65,7 +67,8 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
   }
 
   const bool too_old = in.loop_age > age_limit_;
-  if (in.fresh && !too_old) {
+  renewed_ = in.fresh && !too_old;
+  if (renewed_) {
     last_fresh_ = in.now;
     heard_ = true;
     given_ = 0;
@@ -142,6 +145,12 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
   // Clamp at the tip's norm, direction kept.
   double norm2 = 0;
   for (std::size_t a = 0; a < p_.dof; ++a) norm2 += f[a] * f[a] / p_.scale[a];
+  if (!std::isfinite(norm2)) {  // finite numbers whose product is none
+    f.fill(0);
+    out.not_finite = true;
+    ++not_finite_;
+    return;
+  }
   if (norm2 > p_.force_max * p_.force_max) {
     const double shrink = p_.force_max / std::sqrt(norm2);
     for (std::size_t a = 0; a < p_.dof; ++a) f[a] *= shrink;
@@ -156,7 +165,7 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
       for (std::size_t a = 0; a < p_.dof; ++a) f[a] = effort_[a] + share * (f[a] - effort_[a]);
     }
   }
-  if (!in.fresh) keep_within_tank(in, f);
+  if (!renewed_) keep_within_tank(in, f);
 }
 
 /// Predictive rule |f| (|v| + |f| dt / m) dt <= what is left, else 0: with no fresh datagram the motor gives at most the tank.

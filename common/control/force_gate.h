@@ -69,6 +69,7 @@ class ForceGate {
   Time since_{};                 ///< begin of the phase
   Time last_fresh_{}, last_step_{};
   bool started_ = false, heard_ = false;
+  bool renewed_ = false;         ///< this tick brought a fresh datagram from a loop that is young enough
   Duration age_limit_{};
   AxisArray effort_{};           ///< held by the motor
   AxisArray at_loss_{};          ///< effort when PASSIVE began

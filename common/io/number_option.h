@@ -11,6 +11,7 @@ namespace tandem::io {
 /// A decimal number in [lo, hi]: whole text, finite. CLI11's own ranges let `nan` pass.
 [[nodiscard]] inline CLI::Validator number_in(double lo, double hi, const std::string& unit) {
   std::ostringstream range;
+  range.precision(12);  // 3000000, not 3e+06
   range << "[" << lo << ", " << hi << "]" << (unit.empty() ? "" : " " + unit);
   const std::string allowed = range.str();
   const auto check = [lo, hi, allowed](std::string& text) {

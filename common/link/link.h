@@ -22,13 +22,14 @@ struct LinkStats {
   std::uint64_t sent = 0;
   std::uint64_t accepted = 0;    ///< strictly newer and in range: they acted
   std::uint64_t late = 0;        ///< authentic, but older than one that acted already
+  std::uint64_t others = 0;      ///< authentic messages that are no sample: they use a counter, but nothing was lost
   std::uint64_t first = 0, newest = 0;  ///< counters of the peer between which loss is counted
   std::array<std::uint64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};
   Duration longest_gap{};        ///< between two that acted
   Histogram age;                 ///< of the newest datagram, sampled once per tick [ns]
   [[nodiscard]] std::uint64_t lost() const noexcept {
     const std::uint64_t span = accepted == 0 ? 0 : newest - first + 1;
-    return span > accepted + late ? span - accepted - late : 0;
+    return span > accepted + late + others ? span - accepted - late - others : 0;
   }
   [[nodiscard]] double loss_percent() const noexcept {
     return accepted == 0 ? 0 : 100.0 * static_cast<double>(lost()) / static_cast<double>(newest - first + 1);
@@ -56,6 +57,8 @@ class Link {
   [[nodiscard]] std::expected<Opened, Refusal> open(std::span<const std::byte> datagram) noexcept TANDEM_REALTIME;
   /// The plaintext was decoded and is in range and `newer`: it acts now.
   void accept(Time now, const Opened& opened, const wire::Preamble& preamble) noexcept TANDEM_REALTIME;
+  /// Decoded and in range, but no sample (AUTHORITY).
+  void accept_other() noexcept { ++stats_.others; }
   void refuse_body() noexcept { ++stats_.refused[static_cast<std::size_t>(Refusal::kBody)]; }
 
   /// First bytes of the next plaintext.

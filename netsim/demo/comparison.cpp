@@ -283,14 +283,14 @@ std::string short_text(double value) {
 
 Cell cell_of(double value, int decimals, const Limit& limit) {
   Cell cell{number_text(value, decimals), "", Mark::kNone};
-  if (!limit.asked()) return cell;
+  if (!limit.asked() || !std::isfinite(value)) return cell;
   if (std::isfinite(limit.least)) {
     const double middle = (limit.least + limit.most) / 2;
     cell.limit = short_text(middle) + " ± " + short_text(100 * (limit.most - middle) / middle) + " %";
   } else {
     cell.limit = "≤ " + short_text(limit.most);
   }
-  if (std::isfinite(value)) cell.mark = value >= limit.least && value <= limit.most ? Mark::kMet : Mark::kMissed;
+  cell.mark = value >= limit.least && value <= limit.most ? Mark::kMet : Mark::kMissed;
   return cell;
 }
 

@@ -6,7 +6,7 @@
 namespace tandem::netsim::demo {
 namespace {
 
-constexpr double kMm = 1e3;
+constexpr double kMm = 1e3, kMilli = 1e3;
 const char* const kTimeAxis = "time [s]";
 
 Curve curve(const std::string& label, const std::string& ink, const Column& x, const Column& y, double x_scale,
@@ -103,9 +103,9 @@ CaptionedFigure figure_8(const TraceData& d, double duration) {
       "fig8",
       "Figure 8: exchanged torques in free motion, and α",
       "T = Jᵀ f of the force commanded to each device, at the measured pose; the slave’s with the opposite sign, so "
-                    "that it lies on the leader’s. A hand’s contains what the damper of its own virtual mass takes (12 N s/m with "
-                    "the paper’s gains). Nothing is touched: the rest is friction, inertia, weight where it is not compensated, and "
-                    "the pushes a and b.",
+      "that it lies on the leader’s. A hand’s contains what the damper of its own virtual mass takes (12 N s/m with "
+      "the paper’s gains). Nothing is touched: the rest is friction, inertia, weight where it is not compensated, and "
+      "the pushes a and b.",
       {"Torques of the three joints of trainer, trainee and slave, and alpha, over time", 1, {}}};
   for (std::size_t j = 0; j < 3; ++j) {
     Panel p{.y_label = "T" + std::to_string(j + 1) + " [N m]",
@@ -129,13 +129,15 @@ CaptionedFigure energy(const RunPlan& plan, const TraceData& d, const std::strin
   CaptionedFigure f{
       anchor,
       title,
-      "E_p of the paper’s equation 3, with its sign: it falls while the sources give energy to the follower. They are "
-                    "open here and E_p is only watched; what keeps hands safe is the energy ledger of each spring.",
+      "Eₚ of the paper’s equation 3, with its sign: it falls while the sources give energy to the follower. They are "
+      "open here and Eₚ is only watched; what keeps hands safe is the energy ledger of each spring.",
       {"Energy of the flow sources over time, per axis", 1, {}}};
-  Panel p{.x_label = kTimeAxis, .y_label = "E_p [J]", .height = 200};
+  const bool milli = plan.task == Task::kContact;  // hardly anything moves there
+  Panel p{.x_label = kTimeAxis, .y_label = milli ? "Eₚ [mJ]" : "Eₚ [J]", .height = 200};
   const std::array<const char*, 3> inks{"first", "second", "third"};
   for (std::size_t a = 0; a < 3; ++a)
-    p.curves.push_back(over_time(d, plan.joint_port() ? joints[a] : axes[a], inks[a], d.tool.e_p[a]));
+    p.curves.push_back(
+        over_time(d, plan.joint_port() ? joints[a] : axes[a], inks[a], d.tool.e_p[a], milli ? kMilli : 1));
   if (plan.task == Task::kFreeMotion) {
     mark_free_motion(p, plan.duration_s, true);
   } else {

@@ -115,9 +115,9 @@ std::string introduction(const Circumstances& where) {
       "loss each way.</p>\n";
   text += where.real_time ? "<p class=\"soft\">In real time: a server, two clients and the network simulator, each a "
                             "process of its own, talked "
-                            "over UDP on this machine. A row of a trace is what the server knew at that tick, so a "
-                            "hand’s curve is as old "
-                            "as the network made it; the table compares what happened at the same moment."
+                            "over UDP on this machine. Hands are drawn from what their workstations wrote, the slave "
+                            "from what the server wrote; "
+                            "table and figures compare what happened at the same moment."
                           : "<p class=\"soft\">In virtual time (<code>--quick</code>): the same server, client and "
                             "network cores in one process, one "
                             "round per millisecond, without sockets and clocks. The same seed gives the same bytes.";

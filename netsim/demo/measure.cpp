@@ -109,7 +109,8 @@ double force_step(const TraceData& trace) {
       if (std::isfinite(square) && !(std::sqrt(square) <= largest)) largest = std::sqrt(square);
     }
   };
-  for (const auto& [seat, own] : {std::pair{&trace.trainer, &trace.trainer_own}, std::pair{&trace.trainee, &trace.trainee_own}}) {
+  for (const auto& [seat, own] :
+       {std::pair{&trace.trainer, &trace.trainer_own}, std::pair{&trace.trainee, &trace.trainee_own}}) {
     if (own->t.empty()) {
       look(trace.t, seat->f_cmd);
     } else {

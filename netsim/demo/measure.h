@@ -30,8 +30,9 @@ struct ForceError {
 [[nodiscard]] ForceError force_error_x(const TraceData& trace, const SeatTrace& seat, double from_s, double to_s,
                                        bool commanded);
 
-/// Largest change of a hand's commanded force from one servo tick to the next, from the moment alpha moves until 0.1 s after
-/// it has arrived [N]. From the workstations' own samples where there are any: over a network the server misses some.
+/// Largest change of a hand's commanded force from one servo tick to the next, from the moment alpha moves until 0.1 s
+/// after it has arrived [N]. From the workstations' own samples where there are any: over a network the server misses
+/// some.
 [[nodiscard]] double force_step(const TraceData& trace);
 
 /// All that fits the task. The seed's contact is judged on commanded force, since no Touch can deliver it.

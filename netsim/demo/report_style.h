@@ -19,7 +19,7 @@ body { margin: 0 auto; padding: 32px 28px 64px; max-width: 1160px; background: v
 h1 { font-size: 30px; line-height: 1.2; margin: 0 0 6px; letter-spacing: -.01em; }
 h2 { font-size: 22px; margin: 48px 0 10px; padding-top: 14px; border-top: 1px solid var(--rule); }
 h3 { font-size: 19px; margin: 44px 0 6px; } h4 { font-size: 15px; margin: 0 0 6px; }
-p { margin: 8px 0; max-width: 84ch; } a { color: var(--trainer); } .soft, figcaption, .facts { color: var(--soft); font-size: 14px; }
+p { margin: 8px 0; max-width: 96ch; } a { color: var(--trainer); } .soft, figcaption, .facts { color: var(--soft); font-size: 14px; }
 nav { display: flex; flex-wrap: wrap; gap: 4px 18px; font-size: 14px; margin: 14px 0 0; }
 code, pre { font-family: ui-monospace, "DejaVu Sans Mono", "Liberation Mono", monospace; font-size: 13px; }
 pre { background: var(--panel); border: 1px solid var(--rule); border-radius: 6px; padding: 10px 12px; overflow-x: auto; margin: 8px 0 16px; }
@@ -27,13 +27,13 @@ pre { background: var(--panel); border: 1px solid var(--rule); border-radius: 6p
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; width: 100%; }
 th, td { padding: 3px 8px; text-align: right; border-bottom: 1px solid var(--grid); white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; } td:nth-child(2), th:nth-child(2) { text-align: left; color: var(--soft); }
-thead th { border-bottom: 2px solid var(--rule); font-weight: 600; vertical-align: bottom; }
+thead th[colspan] { text-align: center; } thead th { border-bottom: 2px solid var(--rule); font-weight: 600; vertical-align: bottom; }
 tr.section th { text-align: left; padding: 16px 8px 4px; font-weight: 600; border-bottom: 1px solid var(--rule); }
 td.limit { color: var(--soft); text-align: left; padding-left: 0; font-size: 13px; } td.value { padding-right: 6px; padding-left: 22px; }
 td.paper { font-weight: 600; } .met { color: var(--met); } .missed { color: var(--missed); font-weight: 700; } sup { line-height: 0; }
 table.facts { width: auto; } table.facts td { text-align: right; } table.facts td:first-child { text-align: left; }
-ol.notes { list-style: lower-alpha; padding-left: 26px; color: var(--soft); font-size: 14px; max-width: 100ch; } ol.notes li { margin: 3px 0; }
-figure { margin: 22px 0 30px; break-inside: avoid; } figcaption { max-width: 100ch; }
+ol.notes { list-style: lower-alpha; padding-left: 26px; color: var(--soft); font-size: 14px; max-width: 118ch; } ol.notes li { margin: 3px 0; }
+figure { margin: 22px 0 30px; break-inside: avoid; } figcaption, p.facts, p.soft { max-width: 118ch; }
 svg.figure { display: block; width: 100%; height: auto; } svg text { font: 12px system-ui, "Segoe UI", "Noto Sans", "DejaVu Sans", sans-serif; fill: var(--fg); }
 svg .tick { fill: var(--soft); font-size: 11px; } svg .mid { text-anchor: middle; } svg .end { text-anchor: end; }
 svg .title { font-weight: 600; } svg .legend { font-size: 13px; }

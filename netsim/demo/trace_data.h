@@ -32,7 +32,7 @@ struct ToolTrace {
 };
 /// What a workstation itself wrote of its hand, one row per servo tick: nothing lost, nothing late.
 struct SeatSamples {
-  Column t;                   ///< session time [s], as the workstation knows it
+  Column t;                    ///< session time [s], as the workstation knows it
   Column3 q, x, f_cmd, f_out;  ///< as in SeatTrace
 };
 struct TraceData {
@@ -52,8 +52,8 @@ struct TraceData {
 /// @return the samples, or what is wrong
 [[nodiscard]] std::expected<SeatSamples, std::string> read_samples(std::string_view text);
 
-/// Puts a workstation's own samples in the place of what the server heard of that seat: interpolated to the rows of the trace,
-/// so that hands and slave show the same moment whatever the network did. Rows beyond the samples become NaN.
+/// Puts a workstation's own samples in the place of what the server heard of that seat: interpolated to the rows of the
+/// trace, so that hands and slave show the same moment whatever the network did. Rows beyond the samples become NaN.
 void put_samples(const Column& t, const SeatSamples& own, SeatTrace& seat);
 
 }  // namespace tandem::netsim::demo

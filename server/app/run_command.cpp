@@ -86,7 +86,7 @@ int run_command(const RunArguments& arguments) {
     return kWrong;
   }
   if (!arguments.check) return host(plan);
-  std::fputs(effective_scene_text(plan.scene).c_str(), stdout);
+  std::puts(effective_scene_text(plan.scene).c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 

@@ -16,8 +16,9 @@ namespace {
 }
 
 std::string seat_text(const SeatStatus& seat, const std::string& name) {
-  if (!seat.bound) return name + (seat.ever_bound ? " gone" : " -");
+  if (!seat.bound) return name + " gone";
   if (!seat.alive) return name + " silent";
+  if (seat.gate == wire::GateState::kOff) return name + " joining";
   std::string text =
       format("%s %s alpha %.2f rtt %.1f ms", name.c_str(), to_text(seat.gate), seat.alpha, seat.link.rtt_p50_ms);
   if (seat.link.up.loss_percent + seat.link.down.loss_percent > 0)
@@ -82,7 +83,7 @@ std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
       break;
   }
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
-    if (status.seats[i].ever_bound || scene.seats[i].required)
+    if (status.seats[i].ever_bound)
       line += " | " + seat_text(status.seats[i], scene.seats[i].name);
   return line + format(" | late ticks %llu", static_cast<unsigned long long>(status.machine.late_ticks));
 }

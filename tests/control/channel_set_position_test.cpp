@@ -94,11 +94,15 @@ TEST(SetPosition, FlipsWithoutBudgetByNoMoreThanTheApproachStep) {
     ASSERT_LE(std::abs(after - ref), 0.1 * 0.001 + 1e-15) << i;
     ref = after;
   }
-  EXPECT_LT(ref, -0.009);  // it did get there: E_0 is out, but what it held came back as absorbed, and the flip is free
+  EXPECT_LE(std::abs(ref), 0.1 * 0.001);  // what it held went to the other end: here nothing is left for the far side
+  SetPositionEnd unbounded(plain(0.05));
+  unbounded.engage({}, 0);
+  unbounded.move(towards(0.05));
+  EXPECT_NEAR(unbounded.move(towards(-0.05)).ref[0], -0.01, 1e-8);  // at dE = 0: that is why there is a limit
 }
 
 TEST(SetPosition, NeverClipsMotionItself) {
-  ChannelParams p = plain(5);
+  ChannelParams p = plain(10);
   p.v_app = 0.1;
   SetPositionEnd end(p);
   end.engage({}, 0);
@@ -119,7 +123,7 @@ TEST(SetPosition, TakesAStiffnessChangeThroughTheLedger) {
   EndInput in = towards(0.03);
   in.age = 0.05;
   const EndState& s = end.move(in);
-  ASSERT_NEAR(s.k[0], 100, 1e-6);
+  ASSERT_NEAR(s.k[0], 100, 0.01);
   double paid = s.paid[0], absorbed = 0, k = s.k[0];
   in.age = 0;
   for (int i = 0; i < 3000; ++i) {  // stiffer as the delay goes: paid, until nothing is left

@@ -20,7 +20,7 @@ using Hand = std::function<double(double t, double x, double v)>;
 struct Fall {
   double energy = 0;  ///< most the motor had given at any time after the last fresh datagram [J]
   double x_max = 0, speed = 0;
-  double force_end = 0;
+  double power_late = -1e9;  ///< most power the motor gives 120 ms or later [W]: what is left only damps
   double counted = 0;  ///< by the gate itself
 };
 
@@ -33,7 +33,7 @@ Fall fall(double mass, double force, double hand_mass, const Hand& hand, Loss lo
   GateParams p;
   p.dof = 1;
   p.mass = mass;
-  p.force_max = std::max(3.3, force);
+  p.force_max = std::max(3.3, std::abs(force));
   GateDrive d(p);
   d.in.wanted[0] = force;
   d.ticks(700);
@@ -58,7 +58,7 @@ Fall fall(double mass, double force, double hand_mass, const Hand& hand, Loss lo
     d.in.v[0] = v;
     d.tick();
     f.counted = std::max(f.counted, d.gate.given_since_fresh());
-    if (ms == 119) f.force_end = d.out.effort[0] + 5 * v;  // beside its damping
+    if (ms >= 119) f.power_late = std::max(f.power_late, d.out.effort[0] * v);
   }
   EXPECT_GE(d.gate.given_after_loss_max(), f.counted - 1e-12);
   return f;
@@ -87,11 +87,11 @@ TEST(ForceGate, GivesAReleasedOrHoldingHandNoMoreThanItsTank) {
                      (old ? "old datagrams" : "silence"));
         const Fall f = fall(c.mass, c.force, grip.hand_mass, grip.hand(c.force), {.old = old});
         const double tank = ForceGate({.mass = c.mass}).tank_size();
-        EXPECT_LE(f.energy, tank + 1e-6);
+        // The rule foresees the motor's own acceleration for a whole tick, not a hand's: at most 1/2 F_hand F dt^2 / m more.
+        const double unforeseen = grip.hand_mass > 0 ? 0 : 0.5 * 3 * c.force * 1e-6 / c.mass;
+        EXPECT_LE(f.energy, tank + 1e-6 + unforeseen);
         EXPECT_LE(f.counted, f.energy + 1e-9);
-        if (grip.hand_mass > 0 || c.force > 1) {
-          EXPECT_LE(f.force_end, 1e-9);
-        }
+        EXPECT_LE(f.power_late, 1e-9);
       }
     }
   }

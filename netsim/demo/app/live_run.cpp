@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "netsim/demo/app/child_process.h"
 #include "netsim/demo/app/progress.h"
@@ -125,7 +126,8 @@ std::expected<std::string, std::string> Cast::contents(const std::string& path) 
 std::expected<RawRun, std::string> Cast::play() {
   const std::string json = file(".json"), trace = file(".csv");
   std::error_code ignored;
-  for (const std::string& old : {json, trace}) std::filesystem::remove(old, ignored);
+  for (const char* ending : {".json", ".csv", "-trainer.csv", "-trainee.csv", "-trainer.json", "-trainee.json"})
+    std::filesystem::remove(file(ending), ignored);
 
   std::string server, network;
   bool fine = start("server", {program("tandem-server"), "run", std::string(plan_.scene), "--listen", "127.0.0.1:0",
@@ -142,8 +144,9 @@ std::expected<RawRun, std::string> Cast::play() {
   proxy.insert(proxy.end(), {"--duration", "120"});
   fine = fine && start("netsim", proxy) && wait_for_address(1, network);
   for (const char* seat : {"trainer", "trainee"})
-    fine =
-        fine && start(seat, {program("tandem-client"), "join", "--server", network, "--seat", seat, "--device", "sim", "--trace", file(std::string("-") + seat + ".csv")});
+    fine = fine && start(seat, {program("tandem-client"), "join", "--server", network, "--seat", seat, "--device",
+                                "sim", "--trace", file(std::string("-") + seat + ".csv"), "--json",
+                                file(std::string("-") + seat + ".json")});
   fine = fine && wait_for_end();
   if (fine) {
     // Clients have been told; they need a moment, and the network until then.
@@ -159,7 +162,15 @@ std::expected<RawRun, std::string> Cast::play() {
           "ended with exit code " + std::to_string(children_.front().exit_code().value_or(-1)) + " without a report");
     return std::unexpected(trouble_);
   }
-  return RawRun{*report, *rows, commands_};
+  RawRun run{*report, *rows, {}, {}, {}, {}, commands_};
+  for (const auto& [ending, into] :
+       {std::pair{"-trainer.csv", &run.trainer}, std::pair{"-trainee.csv", &run.trainee},
+        std::pair{"-trainer.json", &run.trainer_json}, std::pair{"-trainee.json", &run.trainee_json}}) {
+    auto text = contents(file(ending));
+    if (!text) return std::unexpected(text.error());
+    *into = std::move(*text);
+  }
+  return run;
 }
 
 }  // namespace

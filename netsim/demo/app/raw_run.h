@@ -9,9 +9,10 @@ namespace tandem::netsim::demo {
 
 /// What a run leaves behind, before anybody has read it.
 struct RawRun {
-  std::string json, trace;            ///< as the programs write them
-  std::string trainer, trainee;       ///< traces of the workstations; empty in virtual time
-  std::vector<std::string> commands;  ///< that repeat it
+  std::string json, trace;                 ///< as the programs write them
+  std::string trainer, trainee;            ///< traces of the workstations; empty in virtual time
+  std::string trainer_json, trainee_json;  ///< their reports, likewise
+  std::vector<std::string> commands;       ///< that repeat it
 };
 
 /// Told now and then how far a run is [s of session time]; set `stop` from a signal handler and the run ends soon.

@@ -1,6 +1,7 @@
 #include "netsim/demo/app/read_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace tandem::netsim::demo {
@@ -100,6 +101,15 @@ std::expected<ReportNumbers, std::string> read_report(const std::string& json) {
   } catch (const Json::exception& error) {
     return std::unexpected(std::string("the report is not what was expected: ") + error.what());
   }
+}
+
+double read_late_ticks(const std::string& json) {
+  const Json j = Json::parse(json, nullptr, false);
+  if (!j.is_object()) return 0;
+  const double own = number(j, "late_ticks");
+  const auto machine = j.find("machine");
+  const double of_machine = machine != j.end() ? number(*machine, "late_ticks") : kUnknown;
+  return std::isfinite(own) ? own : std::isfinite(of_machine) ? of_machine : 0;
 }
 
 }  // namespace tandem::netsim::demo

@@ -12,4 +12,7 @@ namespace tandem::netsim::demo {
 /// @return the numbers, or why the text is no such report
 [[nodiscard]] std::expected<ReportNumbers, std::string> read_report(const std::string& json);
 
+/// Late ticks in the report of `tandem-client join --json`; 0 if it does not say.
+[[nodiscard]] double read_late_ticks(const std::string& json);
+
 }  // namespace tandem::netsim::demo

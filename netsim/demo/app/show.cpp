@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "netsim/demo/app/joint_torques.h"
 #include "netsim/demo/app/live_run.h"
@@ -45,7 +46,8 @@ int trouble(const std::string& what) {
 /// The files of a run that we or our programs made.
 std::vector<fs::path> files_of(const RunPlan& plan, const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const char* ending : {".json", ".csv", "-server.log", "-netsim.log", "-trainer.log", "-trainee.log"})
+  for (const char* ending : {".json", ".csv", "-server.log", "-netsim.log", "-trainer.log", "-trainee.log",
+                             "-trainer.csv", "-trainee.csv", "-trainer.json", "-trainee.json"})
     files.push_back(folder / (std::string(plan.name) + ending));
   return files;
 }
@@ -63,7 +65,17 @@ std::expected<RunResult, std::string> digest(const RunPlan& plan, const RawRun& 
   if (!report) return std::unexpected(report.error());
   auto trace = read_trace(raw.trace);
   if (!trace) return std::unexpected(trace.error());
+  for (const auto& [text, own, seat] : {std::tuple{&raw.trainer, &trace->trainer_own, &trace->trainer},
+                                        std::tuple{&raw.trainee, &trace->trainee_own, &trace->trainee}}) {
+    if (text->empty()) continue;
+    auto samples = read_samples(*text);
+    if (!samples) return std::unexpected(samples.error());
+    *own = std::move(*samples);
+    put_samples(trace->t, *own, *seat);
+  }
   add_joint_torques(*trace);
+  for (const std::string* client : {&raw.trainer_json, &raw.trainee_json})
+    if (!client->empty()) report->late_ticks += read_late_ticks(*client);
   return RunResult{&plan,        std::move(*report),        measure(plan, *trace), springs_of(plan),
                    raw.commands, figures_html(plan, *trace)};
 }
