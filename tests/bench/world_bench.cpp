@@ -1,0 +1,74 @@
+// What a scene costs in virtual time, per tick and as a multiple of real time, beside the smallest scene in the same run.
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/link/digest.h"
+#include "server/trace_csv.h"
+#include "tests/support/alloc_guard.h"
+#include "tests/support/world_run.h"
+
+namespace {
+
+using namespace tandem;
+
+struct Cost {
+  double us_per_tick = 0;
+  double allocations_per_tick = 0;
+};
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// CPU of `ticks` ticks after a second of settling; with trace and hash, as `tandem-netsim run` works.
+Cost measure(const std::string& name, const netsim::SimpleNetwork& net, int ticks) {
+  auto world = std::move(*netsim::World::make({test::shipped(name), netsim::link_from(net), 1, {}}));
+  const server::TraceCsv csv{world->scene()};
+  link::Digest digest;
+  std::string row;
+  for (int k = 0; k < 2000; ++k) world->step();
+  test::AllocGuard guard;
+  const double begin = cpu_seconds();
+  for (int k = 0; k < ticks; ++k) {
+    world->step();
+    row.clear();
+    csv.append(world->record(), row);
+    digest.add(row);
+  }
+  // The row grows to its size once; nothing else may allocate.
+  return {1e6 * (cpu_seconds() - begin) / ticks, static_cast<double>(guard.count()) / ticks};
+}
+
+}  // namespace
+
+int main() {
+  struct Case {
+    const char* scene;
+    double delay_ms, jitter_ms, loss;
+  };
+  const std::vector<Case> cases{{"one_axis", 0, 0, 0},     {"free_motion", 0, 0, 0},  {"free_motion", 20, 5, 5},
+                                {"contact", 0, 0, 0},      {"contact_remote", 0, 0, 0}, {"seed_free_motion", 0, 0, 0},
+                                {"two_by_two", 0, 0, 0},   {"eight_seats", 0, 0, 0}};
+  constexpr int kRounds = 5, kTicks = 4000;
+  std::vector<std::vector<Cost>> costs(cases.size());
+  for (int round = 0; round < kRounds; ++round)  // interleaved: a noisy moment hits all cases alike
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      costs[i].push_back(measure(cases[i].scene, test::delayed(cases[i].delay_ms, cases[i].jitter_ms, cases[i].loss), kTicks));
+  const auto median = [](std::vector<Cost> c) {
+    std::ranges::sort(c, {}, &Cost::us_per_tick);
+    return c[c.size() / 2];
+  };
+  const double reference = median(costs[0]).us_per_tick;
+  std::printf("%-18s %-22s %12s %18s %14s %12s\n", "scene", "network", "us per tick", "x real time", "x one_axis", "heap/tick");
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Cost m = median(costs[i]);
+    char network[64];
+    std::snprintf(network, sizeof network, "%.0f + %.0f ms, %.0f %%", cases[i].delay_ms, cases[i].jitter_ms, cases[i].loss);
+    std::printf("%-18s %-22s %12.2f %18.0f %14.2f %12.4f\n", cases[i].scene, network, m.us_per_tick, 1000.0 / m.us_per_tick,
+                m.us_per_tick / reference, m.allocations_per_tick);
+  }
+  std::printf("median of %d interleaved rounds of %d ticks; CPU time of this process, trace and SHA-256 included\n", kRounds, kTicks);
+  return 0;
+}

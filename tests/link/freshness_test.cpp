@@ -1,0 +1,132 @@
+#include "common/link/freshness.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/rng.h"
+
+namespace tandem::link {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Time at(Duration d) { return Time{1h + d}; }
+
+TEST(Freshness, KnowsNothingBeforeItHeard) {
+  const Freshness f(1ms);
+  EXPECT_FALSE(f.heard());
+  EXPECT_GE(f.loop_age(at(0s)), 1h);
+  EXPECT_GE(f.age(at(0s)), 1h);
+  EXPECT_GE(f.silence(at(0s)), 1h);
+}
+
+TEST(Freshness, TakesThePeersHoldingTimeOffTheRoundTrip) {
+  Freshness f(1ms);
+  f.sent(at(0ms), 7);
+  f.accepted(at(30ms), 7, 4ms, 0);
+  EXPECT_EQ(f.rtt(), 26ms);
+  EXPECT_EQ(f.loop_age(at(30ms)), 30ms);  // but not off the loop's age: that is how old it is
+  EXPECT_EQ(f.loop_age(at(35ms)), 35ms);
+  EXPECT_EQ(f.silence(at(35ms)), 5ms);
+  f.sent(at(40ms), 8);
+  f.accepted(at(50ms), 8, 5s, 0);  // a peer that lies
+  EXPECT_EQ(f.rtt(), 0ms);
+}
+
+TEST(Freshness, IsNotFooledByCountersThatWereNeverSent) {
+  Freshness f(1ms);
+  for (const std::uint64_t never : {std::uint64_t{5}, ~std::uint64_t{0}, std::uint64_t{4096}, std::uint64_t{0}}) {
+    f.accepted(at(1ms), never, 0ms, 0);
+    EXPECT_EQ(f.rtt_samples(), 0U) << never;
+    EXPECT_GE(f.loop_age(at(1ms)), 1h);
+  }
+  f.sent(at(2ms), 3);
+  f.accepted(at(4ms), 4, 0ms, 0);  // not yet
+  EXPECT_EQ(f.rtt_samples(), 0U);
+  EXPECT_TRUE(f.heard());
+}
+
+TEST(Freshness, DoesNotGrowYoungerThroughAnOlderEcho) {
+  Freshness f(1ms);
+  f.sent(at(0ms), 0);
+  f.sent(at(10ms), 1);
+  f.accepted(at(20ms), 1, 0ms, 0);
+  f.accepted(at(21ms), 0, 0ms, 1);
+  EXPECT_EQ(f.loop_age(at(21ms)), 11ms);
+  EXPECT_EQ(f.rtt(), 10ms);
+}
+
+TEST(Freshness, ForgetsWhatItSentLongAgo) {
+  Freshness f(1ms);
+  for (std::uint64_t c = 0; c < 5000; ++c) f.sent(at(c * 1ms), c);
+  f.accepted(at(5000ms), 903, 0ms, 0);  // 4097 back: its place was taken by 4999
+  EXPECT_EQ(f.rtt_samples(), 0U);
+  f.accepted(at(5000ms), 904, 0ms, 0);
+  EXPECT_EQ(f.rtt_samples(), 1U);
+  EXPECT_EQ(f.loop_age(at(5000ms)), 4096ms);
+}
+
+TEST(Freshness, SeesThroughASwitchThatHoldsAndReleasesInOrder) {
+  Freshness f(1ms);
+  std::uint64_t c = 0;
+  for (int ms = 0; ms < 2000; ++ms) {
+    f.sent(at(ms * 1ms), c);
+    f.accepted(at(ms * 1ms + 2ms), c, 1ms, static_cast<std::uint32_t>(ms));
+    ++c;
+  }
+  EXPECT_EQ(f.loop_age(at(2001ms)), 2ms);
+  // 1 s of silence, then everything at once: fresh, in order, old.
+  for (int ms = 2000; ms < 3000; ++ms) f.sent(at(ms * 1ms), static_cast<std::uint64_t>(ms));
+  for (int ms = 2000; ms < 2100; ++ms) f.accepted(at(3s), static_cast<std::uint64_t>(ms), 1ms, static_cast<std::uint32_t>(ms));
+  EXPECT_EQ(f.silence(at(3s)), 0ms);
+  EXPECT_EQ(f.loop_age(at(3s)), 3000ms - 2099ms);
+  EXPECT_NEAR(seconds(f.age(at(3s))), 0.899, 0.002);  // the one-way age knows it too
+}
+
+TEST(Freshness, EstimatesTheOneWayAgeThroughJitter) {
+  RandomStream random{4};
+  Freshness f(1ms);
+  constexpr Duration kFloor = 20ms, kSkew = 1234567ms;  // the peer's clock began at another time
+  Time last_arrival{};
+  double worst = 0;
+  for (int ms = 0; ms < 4000; ++ms) {
+    const Time now = at(ms * 1ms);
+    f.sent(now, static_cast<std::uint64_t>(ms));
+    if (ms < 100) continue;
+    const Duration transit = kFloor + from_seconds(random.uniform(0, 0.010));
+    const Time made = now - transit;  // what arrives now was made then
+    const auto peer_tick = static_cast<std::uint32_t>((made - Time{1h} + kSkew) / 1ms);
+    f.accepted(now, static_cast<std::uint64_t>(ms - 40), 0ms, peer_tick);
+    last_arrival = now;
+    if (ms > 1000) worst = std::max(worst, std::abs(seconds(f.age(now) - transit)));
+  }
+  EXPECT_LE(worst, 0.0025);
+  EXPECT_EQ(f.age(last_arrival + 7ms) - f.age(last_arrival), 7ms);
+}
+
+TEST(Freshness, LearnsTheRoundTripItMustExpect) {
+  Freshness f(1ms);
+  for (int i = 0; i < 3000; ++i) {
+    f.sent(at(i * 1ms), static_cast<std::uint64_t>(i));
+    f.accepted(at(i * 1ms + (i % 20 == 0 ? 30ms : 10ms)), static_cast<std::uint64_t>(i), 0ms, static_cast<std::uint32_t>(i));
+  }
+  EXPECT_NEAR(seconds(f.rtt_p50()), 0.010, 0.0005);
+  EXPECT_NEAR(seconds(f.rtt_p99()), 0.030, 0.0015);
+}
+
+TEST(WindowedMinimum, ForgetsAFloorThatIsGone) {
+  WindowedMinimum m;
+  EXPECT_FALSE(m.any());
+  m.add(at(0s), 5);
+  for (int s = 1; s <= 4; ++s) m.add(at(s * 1s), 50);
+  EXPECT_EQ(m.value(), 5);
+  for (int s = 5; s <= 20; ++s) m.add(at(s * 1s), 50);
+  EXPECT_EQ(m.value(), 50);
+  m.add(at(21s), 7);
+  EXPECT_EQ(m.value(), 7);
+}
+
+}  // namespace
+}  // namespace tandem::link
