@@ -109,13 +109,16 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
   // Lives as long as the program's options, which refer to it.
   const auto arguments = std::make_shared<JoinArguments>();
   CLI::App* const command = root.add_subcommand("join", "Attaches one device to one seat of a session.");
-  command->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
+  command
+      ->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
       ->option_text("HOST:PORT")
       ->required();
   command->add_option("--seat", arguments->seat, "required: which seat of the scene; the server prints their names")
       ->option_text("NAME")
       ->required();
-  command->add_option("--device", arguments->device, "required: what to hold, see below")->option_text("SPEC")->required();
+  command->add_option("--device", arguments->device, "required: what to hold, see below")
+      ->option_text("SPEC")
+      ->required();
   command
       ->add_option("--alpha-script", arguments->script,
                    "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; INSTRUCTOR's seat only")

@@ -10,6 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kRampOut = 100ms;
+constexpr Duration kDampOut = 500ms;        // damping alone goes on for so long without a link
 constexpr Duration kMargin = 20ms;          // a loop may be this much older than its learned p99
 constexpr double kAgeSlew = 0.010;          // the limit follows the learned RTT by at most 10 ms per s
 constexpr double kSlewActive = 1000;        // [N/s] = 1 N/ms
@@ -97,7 +98,8 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
       }
       break;
     case GatePhase::kPassive:
-      if (in.now - since_ >= kRampOut) phase_ = GatePhase::kZero;
+      // Damping stays until the link is back or the hand has come to rest: it moves fastest when the ramp ends.
+      if (in.now - since_ >= (renewed_ ? kRampOut : kDampOut)) phase_ = GatePhase::kZero;
       break;
     case GatePhase::kDamped:
     case GatePhase::kFault:

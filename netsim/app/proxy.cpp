@@ -9,6 +9,9 @@
 #include <cstring>
 #include <ctime>
 
+#include "common/io/clock.h"
+#include "common/io/udp_socket.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -20,20 +23,6 @@ static_assert(io::ReceiveBatch::kSlotBytes == kSlotBytes, "what can be received 
 /// Batches read from one socket before others get their turn.
 constexpr int kRounds = 4;
 
-Duration read_clock(clockid_t clock) noexcept {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return std::chrono::seconds(t.tv_sec) + Duration{t.tv_nsec};
-}
-
-timespec to_timespec(Duration d) noexcept {
-  const auto whole = std::chrono::duration_cast<std::chrono::seconds>(d);
-  timespec t{};
-  t.tv_sec = whole.count();
-  t.tv_nsec = (d - whole).count();
-  return t;
-}
-
 bool watch(int poll, int fd, std::uint64_t name) noexcept {
   epoll_event event{};
   event.events = EPOLLIN;
@@ -41,40 +30,19 @@ bool watch(int poll, int fd, std::uint64_t name) noexcept {
   return epoll_ctl(poll, EPOLL_CTL_ADD, fd, &event) == 0;
 }
 
-std::string bind_problem(const io::SocketAddress& address, int error) {
-  const std::string where = io::to_text(address);
-  switch (error) {
-    case EADDRINUSE:
-      return where + " is in use by another program: stop that program, or choose another port (0 takes a free one)";
-    case EADDRNOTAVAIL:
-      return where + " is not an address of this computer: use one that `ip address` shows, or 127.0.0.1";
-    case EACCES:
-      return where + " is not allowed: ports below 1024 need root; choose a higher one";
-    default:
-      return where + ": " + std::strerror(error);
-  }
-}
-
 }  // namespace
 
 std::expected<std::unique_ptr<Proxy>, std::string> Proxy::open(const ProxyOptions& options) {
-  io::Fd socket{::socket(options.listen.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
-  if (!socket.open()) return std::unexpected(bind_problem(options.listen, errno));
-  if (::bind(socket.get(), options.listen.get(), options.listen.size) != 0) {
-    return std::unexpected(bind_problem(options.listen, errno));
-  }
-  io::ReceiveBatch::prepare(socket.get(), options.listen.family(), options.listen.any());
-  io::SocketAddress listening;
-  listening.size = sizeof listening.storage;
-  ::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&listening.storage), &listening.size);
-
+  auto socket = io::bind_udp(options.listen, options.listen.any());
+  if (!socket) return std::unexpected(socket.error());
   io::Fd poll{epoll_create1(EPOLL_CLOEXEC)};
   io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
-  if (!poll.open() || !wake.open() || !watch(poll.get(), socket.get(), kListenEvent) ||
+  if (!poll.open() || !wake.open() || !watch(poll.get(), socket->fd.get(), kListenEvent) ||
       !watch(poll.get(), wake.get(), kWakeEvent)) {
     return std::unexpected(std::string("the system gives no file descriptors: ") + std::strerror(errno));
   }
-  return std::unique_ptr<Proxy>(new Proxy(options, std::move(socket), std::move(poll), std::move(wake), listening));
+  return std::unique_ptr<Proxy>(
+      new Proxy(options, std::move(socket->fd), std::move(poll), std::move(wake), socket->local));
 }
 
 Proxy::Proxy(const ProxyOptions& options, io::Fd socket, io::Fd poll, io::Fd wake, const io::SocketAddress& listening)
@@ -95,18 +63,18 @@ void Proxy::stop() noexcept {
 
 void Proxy::run() {
   prctl(PR_SET_TIMERSLACK, 1UL);  // else the kernel may wake us 50 us late to save power
-  started_ = read_clock(CLOCK_MONOTONIC);
+  started_ = io::read_clock(CLOCK_MONOTONIC);
   Duration housekeeping{};
   std::array<epoll_event, ProxyCore::kClientsMax + 2> events{};
   while (true) {
-    now_ = read_clock(CLOCK_MONOTONIC) - started_;
+    now_ = io::read_clock(CLOCK_MONOTONIC) - started_;
     if (now_ >= housekeeping) {
       forget_idle();
       publish();
       housekeeping = now_ + kHousekeeping;
     }
     if (options_.duration > Duration::zero() && now_ >= options_.duration) break;
-    const timespec timeout = to_timespec(wait_limit(now_));
+    const timespec timeout = io::to_timespec(wait_limit(now_));
     const int ready = epoll_pwait2(poll_.get(), events.data(), static_cast<int>(events.size()), &timeout, nullptr);
     bool stopping = false;
     for (int i = 0; i < ready; ++i) {
@@ -136,8 +104,8 @@ void Proxy::receive_from_clients() noexcept {
   for (int round = 0; round < kRounds; ++round) {
     const int count = in_.receive(socket_.get());
     if (count <= 0) return;
-    const Duration read_at = read_clock(CLOCK_REALTIME);
-    now_ = read_clock(CLOCK_MONOTONIC) - started_;
+    const Duration read_at = io::read_clock(CLOCK_REALTIME);
+    now_ = io::read_clock(CLOCK_MONOTONIC) - started_;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const auto details = in_.details(i, read_at);
       count_kernel_drops(kernel_drops_seen_, details.dropped);
@@ -163,8 +131,8 @@ void Proxy::receive_from_server(std::uint32_t client) noexcept {
       continue;
     }
     if (count == 0) return;
-    const Duration read_at = read_clock(CLOCK_REALTIME);
-    now_ = read_clock(CLOCK_MONOTONIC) - started_;
+    const Duration read_at = io::read_clock(CLOCK_REALTIME);
+    now_ = io::read_clock(CLOCK_MONOTONIC) - started_;
     clients_[client].last_seen = now_;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const auto details = in_.details(i, read_at);
@@ -183,7 +151,7 @@ void Proxy::receive_from_server(std::uint32_t client) noexcept {
 void Proxy::send_due() noexcept {
   std::array<ProxyCore::Egress, io::SendBatch::kMax> batch;
   while (true) {
-    now_ = read_clock(CLOCK_MONOTONIC) - started_;
+    now_ = io::read_clock(CLOCK_MONOTONIC) - started_;
     std::size_t count = 0;
     while (count < batch.size()) {
       const auto egress = core_.take(Time{now_});
@@ -227,7 +195,7 @@ void Proxy::flush(int fd, std::span<const ProxyCore::Egress> sent) noexcept {
   troubles_.refused += result.refused;
   troubles_.no_room += result.no_room;
   troubles_.other += result.other;
-  const Duration sent_at = read_clock(CLOCK_MONOTONIC) - started_;
+  const Duration sent_at = io::read_clock(CLOCK_MONOTONIC) - started_;
   for (const ProxyCore::Egress& egress : sent) {
     lateness_.add((sent_at - egress.item.at.time_since_epoch()).count());
     core_.done(egress);

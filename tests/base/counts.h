@@ -7,8 +7,8 @@
 
 namespace tandem::test {
 
-/// How many seeds a random test tries: `reduced` of them, ten times as many for TANDEM_COUNTS=full, a hundred times for nightly.
-/// Prints the number, so that a short run is never mistaken for a long one.
+/// How many seeds a random test tries: `reduced` of them, ten times as many for TANDEM_COUNTS=full, a hundred times for
+/// nightly. Prints the number, so that a short run is never mistaken for a long one.
 inline std::uint64_t seeds(std::uint64_t reduced) {
   const char* counts = std::getenv("TANDEM_COUNTS");
   const std::string_view name = counts == nullptr ? "reduced" : counts;

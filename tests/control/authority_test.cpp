@@ -127,8 +127,8 @@ TEST(Authority, RefusesWhatIsNoShare) {
   AuthorityRow row(3, 1, 0.05);
   ASSERT_TRUE(row.request({0.2, 0.3, 0.5}));
   const Weights before = row.requested();
-  for (const Weights& bad : {Weights{kNan, 0.5, 0.5}, Weights{-0.1, 0.6, 0.5}, Weights{0.5, 0.5, 0.1}, Weights{}, Weights{kInf, 0, 0},
-                             Weights{2, -1, 0}, Weights{0.5, 0.499, 0}}) {
+  for (const Weights& bad : {Weights{kNan, 0.5, 0.5}, Weights{-0.1, 0.6, 0.5}, Weights{0.5, 0.5, 0.1}, Weights{},
+                             Weights{kInf, 0, 0}, Weights{2, -1, 0}, Weights{0.5, 0.499, 0}}) {
     EXPECT_FALSE(row.request(bad));
     EXPECT_EQ(row.requested(), before);
   }

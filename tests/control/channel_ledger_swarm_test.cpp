@@ -19,7 +19,8 @@ namespace {
 constexpr double kT = 0.001;
 constexpr std::size_t kDof = 3;
 
-/// Random delay up to 300 ms (so: reordering), duplicates, 90 % loss at times, 1 s holds, and energies older than the positions.
+/// Random delay up to 300 ms (so: reordering), duplicates, 90 % loss at times, 1 s holds, and energies older than the
+/// positions.
 class Enemy {
  public:
   explicit Enemy(std::uint64_t seed) : random_(seed), loss_(random_.below(3) == 0 ? 0.9 : random_.uniform(0, 0.5)) {}
@@ -30,7 +31,9 @@ class Enemy {
     past_[static_cast<std::size_t>(now) % past_.size()] = sample.e_in;
     for (int i = 0; i < copies; ++i) {
       Flying f{std::max(now + 1 + static_cast<int>(random_.below(300)), hold_until_), now, sample};
-      if (random_.below(5) == 0) f.sample.e_in = past_[random_.below(std::min<std::uint64_t>(past_.size(), static_cast<std::uint64_t>(now) + 1))];
+      if (random_.below(5) == 0)
+        f.sample.e_in =
+            past_[random_.below(std::min<std::uint64_t>(past_.size(), static_cast<std::uint64_t>(now) + 1))];
       flying_.push_back(f);
     }
   }
@@ -66,7 +69,8 @@ class Enemy {
   std::array<EnergyArray, 2048> past_{};
 };
 
-/// One end, with the test's own account of it [J]: from positions and stiffnesses alone, nothing is asked of the ledger.
+/// One end, with the test's own account of it [J]: from positions and stiffnesses alone, nothing is asked of the
+/// ledger.
 struct End {
   std::unique_ptr<ChannelEnd> channel;
   PortSample rx{};
@@ -78,16 +82,19 @@ struct End {
     if (const auto sample = from.receive(now)) {
       rx = *sample;
       age = from.age_at_arrival;
-      for (std::size_t a = 0; a < kDof; ++a) received[a] = std::max(received[a], 1e-9 * static_cast<double>(rx.e_in[a]));
+      for (std::size_t a = 0; a < kDof; ++a)
+        received[a] = std::max(received[a], 1e-9 * static_cast<double>(rx.e_in[a]));
     }
   }
   const EndState& move(const AxisArray& x, const AxisArray& dissipated) {
     const EndState before = channel->state();
-    const EndState& s = channel->move({.dt = kT, .age = age, .weight = 1, .x = x, .dissipated = dissipated, .pass_on = pass_on, .rx = rx});
+    const EndState& s = channel->move(
+        {.dt = kT, .age = age, .weight = 1, .x = x, .dissipated = dissipated, .pass_on = pass_on, .rx = rx});
     for (std::size_t a = 0; a < kDof; ++a) {
       heat[a] += dissipated[a];
       const double old_e = before.ref[a] - x[a], new_e = s.ref[a] - x[a];
-      for (const double energy : {0.5 * (s.k[a] - before.k[a]) * old_e * old_e, 0.5 * s.k[a] * (new_e * new_e - old_e * old_e)})
+      for (const double energy :
+           {0.5 * (s.k[a] - before.k[a]) * old_e * old_e, 0.5 * s.k[a] * (new_e * new_e - old_e * old_e)})
         (energy > 0 ? paid : absorbed)[a] += std::abs(energy);
       passed[a] += s.passed[a];
       channel->credit(a, s.absorbed[a]);
@@ -97,11 +104,11 @@ struct End {
 };
 
 struct Worst {
-  double overdraft = -1e9;   ///< paid beyond E_0 + received + eta D [J], any end, axis and sample
-  double session = -1e9;     ///< net energy given to both plants beyond the sum of all E_0 and heat [J]
-  double credit = -1e9;      ///< energy claimed by e_in beyond what was really absorbed or passed on [J]
+  double overdraft = -1e9;  ///< paid beyond E_0 + received + eta D [J], any end, axis and sample
+  double session = -1e9;    ///< net energy given to both plants beyond the sum of all E_0 and heat [J]
+  double credit = -1e9;     ///< energy claimed by e_in beyond what was really absorbed or passed on [J]
   bool ledger_held = true;
-  double moved = 0;          ///< how far the tool went: the channel is no brick wall [m]
+  double moved = 0;  ///< how far the tool went: the channel is no brick wall [m]
 };
 
 Worst play(std::string_view law, std::uint64_t seed, int ticks) {
@@ -123,7 +130,8 @@ Worst play(std::string_view law, std::uint64_t seed, int ticks) {
   std::array<MasterIpc, kDof> ipc{};
   std::array<ToolIpc, kDof> tool{};
   std::array<double, kDof> q{}, wish{}, reach{};
-  const double tip = 1 / std::sqrt(p.scale[0]), environment = random.below(2) == 0 ? 0 : 400, b_hand = random.uniform(0, 2);
+  const double tip = 1 / std::sqrt(p.scale[0]), environment = random.below(2) == 0 ? 0 : 400,
+               b_hand = random.uniform(0, 2);
   for (double& r : reach) r = random.uniform(0.01, 0.2) * tip;
   client.channel->engage({}, 0.15);
   server.channel->engage({}, 0.15);
@@ -174,7 +182,8 @@ Worst play(std::string_view law, std::uint64_t seed, int ticks) {
       for (std::size_t a = 0; a < kDof; ++a) {
         const double own = p.e0 + p.eta * end->heat[a];
         worst.overdraft = std::max(worst.overdraft, end->paid[a] - own - end->received[a]);
-        worst.credit = std::max(worst.credit, 1e-9 * static_cast<double>(end->channel->e_in()[a]) - end->absorbed[a] - end->passed[a]);
+        worst.credit = std::max(
+            worst.credit, 1e-9 * static_cast<double>(end->channel->e_in()[a]) - end->absorbed[a] - end->passed[a]);
         worst.ledger_held &= end->channel->ledger(a).holds();
         given += end->paid[a] - end->absorbed[a];
         allowed += own;

@@ -148,15 +148,23 @@ TEST(EnergyLedger, IsNeverOverdrawnAndNeverRunsBackwards) {
     for (int i = 0; i < 500; ++i) {
       const double joule = std::pow(10.0, random.uniform(-10, 0));
       switch (random.below(6)) {
-        case 0: ledger.absorb(joule); absorbed += joule; break;
+        case 0:
+          ledger.absorb(joule);
+          absorbed += joule;
+          break;
         case 1: {
           const std::uint64_t rx = random.below(2) == 0 ? newest + random.below(100'000'000) : random.below(newest + 1);
           newest = std::max(newest, rx);
           ledger.receive(rx);
           break;
         }
-        case 2: ledger.dissipate(joule); heat += joule; break;
-        case 3: ledger.forfeit_above(random.uniform(0, 0.2)); break;
+        case 2:
+          ledger.dissipate(joule);
+          heat += joule;
+          break;
+        case 3:
+          ledger.forfeit_above(random.uniform(0, 0.2));
+          break;
         default:
           if (ledger.spend(joule)) spent += joule;
       }

@@ -61,7 +61,8 @@ TEST(FlowSources, GateAsPrintedInTheSeed) {
   double E_p = 0;
   int open = 0;
   for (int i = 0; i < 5000; ++i) {
-    const double alpha = random.uniform(), T_r1 = random.uniform(-1, 1), T_r2 = random.uniform(-1, 1), v = random.uniform(-1, 1);
+    const double alpha = random.uniform(), T_r1 = random.uniform(-1, 1), T_r2 = random.uniform(-1, 1),
+                 v = random.uniform(-1, 1);
     E_p += ((alpha - 1) * T_r1 - alpha * T_r2) * v * 0.001;
     const double injected = (1 - alpha) * T_r1 * v + alpha * T_r2 * v;  // sum (C - alpha_i) F_ri v, C = 1
     sources.observe(2, injected, 0.001);

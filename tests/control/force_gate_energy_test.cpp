@@ -21,7 +21,7 @@ struct Fall {
   double energy = 0;  ///< most the motor had given at any time after the last fresh datagram [J]
   double x_max = 0, speed = 0;
   double power_late = -1e9;  ///< most power the motor gives 120 ms or later [W]: what is left only damps
-  double counted = 0;  ///< by the gate itself
+  double counted = 0;        ///< by the gate itself
 };
 
 struct Loss {
@@ -83,11 +83,12 @@ TEST(ForceGate, GivesAReleasedOrHoldingHandNoMoreThanItsTank) {
   for (const Case c : {Case{0.5, 0.05}, Case{3.3, 0.05}, Case{3.3, 0.1}, Case{7.9, 0.15}, Case{20, 0.4}}) {
     for (const Grip& grip : kGrips) {
       for (const bool old : {false, true}) {
-        SCOPED_TRACE(std::string(grip.name) + ", " + std::to_string(c.force) + " N, " + std::to_string(c.mass) + " kg, " +
-                     (old ? "old datagrams" : "silence"));
+        SCOPED_TRACE(std::string(grip.name) + ", " + std::to_string(c.force) + " N, " + std::to_string(c.mass) +
+                     " kg, " + (old ? "old datagrams" : "silence"));
         const Fall f = fall(c.mass, c.force, grip.hand_mass, grip.hand(c.force), {.old = old});
         const double tank = ForceGate({.mass = c.mass}).tank_size();
-        // The rule foresees the motor's own acceleration for a whole tick, not a hand's: at most 1/2 F_hand F dt^2 / m more.
+        // The rule foresees the motor's own acceleration for a whole tick, not a hand's: at most 1/2 F_hand F dt^2 / m
+        // more.
         const double unforeseen = grip.hand_mass > 0 ? 0 : 0.5 * 3 * c.force * 1e-6 / c.mass;
         EXPECT_LE(f.energy, tank + 1e-6 + unforeseen);
         EXPECT_LE(f.counted, f.energy + 1e-9);

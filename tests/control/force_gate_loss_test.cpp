@@ -40,7 +40,7 @@ TEST(ForceGate, TakesItsForceAwayWithin120Milliseconds) {
   double before = d.out.effort[0];
   for (int ms = 1; ms <= 120; ++ms) {
     d.tick();
-    ASSERT_LE(d.out.effort[0], before + 1e-9) << ms;           // never more
+    ASSERT_LE(d.out.effort[0], before + 1e-9) << ms;              // never more
     ASSERT_GE(d.out.effort[0], before - 3.0 / 100 - 1e-9) << ms;  // never dropped either, while the hand stands still
     before = d.out.effort[0];
   }
@@ -49,6 +49,18 @@ TEST(ForceGate, TakesItsForceAwayWithin120Milliseconds) {
   d.in.fresh = true;
   d.in.engage = false;
   for (int i = 0; i < 50; ++i) EXPECT_LE(d.tick().effort[0], 0);
+}
+
+TEST(ForceGate, GoesOnDampingWithoutALink) {  // a hand that pushed moves fastest when the ramp ends
+  GateDrive d;
+  d.hold(2);
+  d.in.fresh = false;
+  d.in.v[0] = -0.2;
+  d.ticks(300);
+  EXPECT_NEAR(d.out.effort[0], 1, 1e-9);
+  d.in.fresh = true;
+  d.ticks(2);
+  EXPECT_EQ(d.gate.phase(), GatePhase::kRampIn);  // and yields to the link at once
 }
 
 TEST(ForceGate, CallsAnOldLoopALossThoughDatagramsAreFresh) {  // a switch that holds and releases in order
@@ -64,6 +76,8 @@ TEST(ForceGate, CallsAnOldLoopALossThoughDatagramsAreFresh) {  // a switch that 
   EXPECT_EQ(d.out.effort[0], 0);
   EXPECT_FALSE(d.gate.active());
   d.in.loop_age = 5ms;
+  d.tick();
+  EXPECT_EQ(d.gate.phase(), GatePhase::kZero);
   EXPECT_TRUE(d.tick().engaged_now);  // young again, and asked for
 }
 

@@ -110,8 +110,8 @@ TEST(ForceGate, RampsInWithoutABump) {
   for (int i = 1; i < 500; ++i) {
     EXPECT_FALSE(d.tick().engaged_now);
     ASSERT_EQ(d.gate.phase(), GatePhase::kRampIn);
-    ASSERT_LE(std::abs(d.out.effort[0] - before), 0.01 + 1e-12) << i;      // 10 N/s
-    ASSERT_LE(d.out.effort[0], 3.0 * i / 500 + 1e-9) << i;                 // gain 0 to 1 in half a second
+    ASSERT_LE(std::abs(d.out.effort[0] - before), 0.01 + 1e-12) << i;  // 10 N/s
+    ASSERT_LE(d.out.effort[0], 3.0 * i / 500 + 1e-9) << i;             // gain 0 to 1 in half a second
     before = d.out.effort[0];
   }
   d.ticks(10);

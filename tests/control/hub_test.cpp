@@ -66,10 +66,10 @@ Printed printed(double alpha, double g, double v_rs, double F_r1, double F_r2) {
   const bool edge = alpha == 0 || alpha == 1;
   const double beta1 = edge ? alpha : 1;
   const double beta2 = edge ? alpha : 0;
-  const double v_s1 = beta1 * v_rs;        // eq. 2
+  const double v_s1 = beta1 * v_rs;  // eq. 2
   const double v_s2 = (1 - beta2) * v_rs;
-  const double v_sf = g * v_rs;            // eq. 4
-  const double T_s1 = -alpha * F_r1;       // eq. 1
+  const double v_sf = g * v_rs;       // eq. 4
+  const double T_s1 = -alpha * F_r1;  // eq. 1
   const double T_s2 = (alpha - 1) * F_r2;
   return {alpha * v_s1 + (1 - alpha) * v_sf, (1 - alpha) * v_s2 + alpha * v_sf, beta1 * T_s1 + (1 - beta2) * T_s2};
 }

@@ -28,7 +28,8 @@ double spectral_radius(const MasterIpc::Gains& g, double k, const test::HeldMass
   return M.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-/// Damping a device needs so that the loop is stable whatever its mass: without mass, b alone decides, at half the sample rate.
+/// Damping a device needs so that the loop is stable whatever its mass: without mass, b alone decides, at half the
+/// sample rate.
 double least_device_damping(const MasterIpc::Gains& g, double k) {
   double worst = 0;
   for (double m = 1e-8; m < 10; m *= 2) {

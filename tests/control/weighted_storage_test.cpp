@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kT = 0.001;
 
-/// Energy Shared Control of one axis with all its sources open, in the order of a tick: IPCs, tool, references follow the tool.
+/// Energy Shared Control of one axis with all its sources open, in the order of a tick: IPCs, tool, references follow
+/// the tool.
 struct Monolith {
   MasterIpc::Gains gains{400, 1, 0.02};
   ToolIpc::Gains tool_gains{0.05, 0.5};

@@ -79,7 +79,8 @@ TEST(Freshness, SeesThroughASwitchThatHoldsAndReleasesInOrder) {
   EXPECT_EQ(f.loop_age(at(2001ms)), 2ms);
   // 1 s of silence, then everything at once: fresh, in order, old.
   for (int ms = 2000; ms < 3000; ++ms) f.sent(at(ms * 1ms), static_cast<std::uint64_t>(ms));
-  for (int ms = 2000; ms < 2100; ++ms) f.accepted(at(3s), static_cast<std::uint64_t>(ms), 1ms, static_cast<std::uint32_t>(ms));
+  for (int ms = 2000; ms < 2100; ++ms)
+    f.accepted(at(3s), static_cast<std::uint64_t>(ms), 1ms, static_cast<std::uint32_t>(ms));
   EXPECT_EQ(f.silence(at(3s)), 0ms);
   EXPECT_EQ(f.loop_age(at(3s)), 3000ms - 2099ms);
   EXPECT_NEAR(seconds(f.age(at(3s))), 0.899, 0.002);  // the one-way age knows it too
@@ -110,7 +111,8 @@ TEST(Freshness, LearnsTheRoundTripItMustExpect) {
   Freshness f(1ms);
   for (int i = 0; i < 3000; ++i) {
     f.sent(at(i * 1ms), static_cast<std::uint64_t>(i));
-    f.accepted(at(i * 1ms + (i % 20 == 0 ? 30ms : 10ms)), static_cast<std::uint64_t>(i), 0ms, static_cast<std::uint32_t>(i));
+    f.accepted(at(i * 1ms + (i % 20 == 0 ? 30ms : 10ms)), static_cast<std::uint64_t>(i), 0ms,
+               static_cast<std::uint32_t>(i));
   }
   EXPECT_NEAR(seconds(f.rtt_p50()), 0.010, 0.0005);
   EXPECT_NEAR(seconds(f.rtt_p99()), 0.030, 0.0015);

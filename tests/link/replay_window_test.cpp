@@ -37,9 +37,14 @@ TEST(ReplayWindow, SaysWhatOneThatRemembersEverythingSays) {
     std::uint64_t now = seed % 3 == 0 ? kEnd - 3000 : seed % 3 == 1 ? 0 : random.bits() / 2;
     for (int i = 0; i < 4000; ++i) {
       switch (random.below(40)) {
-        case 0: now += std::min<std::uint64_t>(random.below(2500), kEnd - now); break;
-        case 1: now += std::min<std::uint64_t>(1023 + random.below(3), kEnd - now); break;
-        default: now += std::min<std::uint64_t>(random.below(3), kEnd - now);
+        case 0:
+          now += std::min<std::uint64_t>(random.below(2500), kEnd - now);
+          break;
+        case 1:
+          now += std::min<std::uint64_t>(1023 + random.below(3), kEnd - now);
+          break;
+        default:
+          now += std::min<std::uint64_t>(random.below(3), kEnd - now);
       }
       const std::uint64_t back = random.below(3) == 0 ? random.below(1100) : random.below(4);
       const std::uint64_t c = now - std::min(now, back);

@@ -26,7 +26,8 @@ constexpr std::size_t bytes(std::align_val_t a) noexcept { return static_cast<st
 
 }  // namespace
 
-// Every form, nothrow too: std::stable_sort takes its buffer through it, and a form left to the library would meet our delete.
+// Every form, nothrow too: std::stable_sort takes its buffer through it, and a form left to the library would meet our
+// delete.
 void* operator new(std::size_t n) { return counted_or_throw(n, 1); }
 void* operator new[](std::size_t n) { return counted_or_throw(n, 1); }
 void* operator new(std::size_t n, std::align_val_t a) { return counted_or_throw(n, bytes(a)); }

@@ -27,7 +27,8 @@ struct SampledWall {
   double m = 0.045, b = 0.1, B = 0, T = 0.001;
   int delay = 0;
 
-  /// Largest magnitude of an eigenvalue of one tick; the loop is stable below 1. Exact: no frequency-domain approximation.
+  /// Largest magnitude of an eigenvalue of one tick; the loop is stable below 1. Exact: no frequency-domain
+  /// approximation.
   [[nodiscard]] double spectral_radius(double K) const {
     const HeldMass mass(m, b, T);
     const int n = 3 + delay;  // x(k), v(k), then x(k-1) ... x(k-delay-1)

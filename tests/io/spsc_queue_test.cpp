@@ -1,0 +1,52 @@
+#include "common/io/spsc_queue.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <thread>
+
+namespace tandem::io {
+namespace {
+
+TEST(SpscQueue, DropsWhatDoesNotFitAndCountsIt) {
+  SpscQueue<int> queue{3};
+  EXPECT_EQ(queue.front(), nullptr);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(queue.push(i), i < 3);
+  EXPECT_EQ(queue.dropped(), 2u);
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_NE(queue.front(), nullptr);
+    EXPECT_EQ(*queue.front(), i);
+    queue.pop();
+  }
+  EXPECT_EQ(queue.front(), nullptr);
+  EXPECT_TRUE(queue.push(7));
+  EXPECT_EQ(*queue.front(), 7);
+}
+
+TEST(SpscQueue, CarriesEverythingInOrderBetweenTwoThreads) {
+  constexpr std::uint64_t kCount = 200'000;
+  struct Pair {
+    std::uint64_t value = 0, twice = 0;  // torn copies would disagree
+  };
+  SpscQueue<Pair> queue{16};
+  std::thread writer{[&] {
+    for (std::uint64_t i = 0; i < kCount;)
+      if (queue.push({i, 2 * i})) ++i;
+  }};
+  std::uint64_t wrong = 0;
+  for (std::uint64_t i = 0; i < kCount;) {
+    const Pair* pair = queue.front();
+    if (pair == nullptr) {
+      std::this_thread::yield();
+      continue;
+    }
+    wrong += pair->value != i || pair->twice != 2 * i ? 1 : 0;
+    queue.pop();
+    ++i;
+  }
+  writer.join();
+  EXPECT_EQ(wrong, 0u);
+}
+
+}  // namespace
+}  // namespace tandem::io
