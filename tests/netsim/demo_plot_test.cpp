@@ -65,8 +65,8 @@ TEST(DownsampleExtremes, KeepsEveryPeakTheEndsAndTheOrder) {
   EXPECT_EQ(thin.front(), curve.front());
   EXPECT_EQ(thin.back(), curve.back());
   EXPECT_TRUE(std::ranges::is_sorted(thin, {}, &Point2::x));
-  EXPECT_TRUE(std::ranges::contains(thin, curve[7321]));
-  EXPECT_TRUE(std::ranges::contains(thin, curve[15'002]));
+  EXPECT_EQ(std::ranges::count(thin, curve[7321]), 1);
+  EXPECT_EQ(std::ranges::count(thin, curve[15'002]), 1);
 }
 
 TEST(DownsampleExtremes, LeavesShortCurvesAloneAndDropsWhatIsNotFinite) {
