@@ -25,7 +25,7 @@ class ReplayWindow {
       if (counter - first >= kSize) {
         bits_.fill(0);
       } else {
-        for (std::uint64_t c = first; c <= counter; ++c) clear(c);
+        for (std::uint64_t n = 0; n <= counter - first; ++n) clear(first + n);  // `c <= counter` never ends at 2^64 - 1
       }
       newest_ = counter;
       any_ = true;

@@ -27,10 +27,12 @@ class Enemy {
 
   void send(int now, const PortSample& sample) {
     if (random_.below(1500) == 0) hold_until_ = now + 1000;
+    if (random_.below(600) == 0)
+      spread_ = random_.below(2) == 0 ? 300 : 1 + random_.below(30);  // stiffness falls and rises
     const int copies = random_.uniform() < loss_ ? 0 : random_.below(10) == 0 ? 3 : 1;
     past_[static_cast<std::size_t>(now) % past_.size()] = sample.e_in;
     for (int i = 0; i < copies; ++i) {
-      Flying f{std::max(now + 1 + static_cast<int>(random_.below(300)), hold_until_), now, sample};
+      Flying f{std::max(now + 1 + static_cast<int>(random_.below(spread_)), hold_until_), now, sample};
       if (random_.below(5) == 0)
         f.sample.e_in =
             past_[random_.below(std::min<std::uint64_t>(past_.size(), static_cast<std::uint64_t>(now) + 1))];
@@ -64,6 +66,7 @@ class Enemy {
   };
   RandomStream random_;
   double loss_;
+  std::uint64_t spread_ = 300;
   int hold_until_ = 0, newest_ = -1;
   std::vector<Flying> flying_;
   std::array<EnergyArray, 2048> past_{};
@@ -104,7 +107,7 @@ struct End {
 };
 
 struct Worst {
-  double overdraft = -1e9;  ///< paid beyond E_0 + received + eta D [J], any end, axis and sample
+  double overdraft = -1e9;  ///< paid or passed on beyond E_0 + received + eta D [J], any end, axis and sample
   double session = -1e9;    ///< net energy given to both plants beyond the sum of all E_0 and heat [J]
   double credit = -1e9;     ///< energy claimed by e_in beyond what was really absorbed or passed on [J]
   bool ledger_held = true;
@@ -120,6 +123,8 @@ Worst play(std::string_view law, std::uint64_t seed, int ticks) {
   p.v_app = random.below(3) == 0 ? 1e6 : 0.1;
   p.margin_max = random.below(2) == 0 ? 0.1 : 1e6;
   if (random.below(3) == 0) p.effort_max = 3.3;
+  if (random.below(2) == 0) p.e0 = random.uniform(0, 0.01);  // a tight account shows every cheat
+  if (random.below(3) == 0) p.margin_max = random.uniform(0, 0.01);
   p.side = Side::kClient;
   End client{make_channel_end(law, p)};
   p.side = Side::kServer;
@@ -181,7 +186,7 @@ Worst play(std::string_view law, std::uint64_t seed, int ticks) {
     for (const End* end : {&client, &server}) {
       for (std::size_t a = 0; a < kDof; ++a) {
         const double own = p.e0 + p.eta * end->heat[a];
-        worst.overdraft = std::max(worst.overdraft, end->paid[a] - own - end->received[a]);
+        worst.overdraft = std::max(worst.overdraft, end->paid[a] + end->passed[a] - own - end->received[a]);
         worst.credit = std::max(
             worst.credit, 1e-9 * static_cast<double>(end->channel->e_in()[a]) - end->absorbed[a] - end->passed[a]);
         worst.ledger_held &= end->channel->ledger(a).holds();

@@ -100,6 +100,23 @@ TEST(EnergyLedger, GivesUpWhatItHoards) {
   EXPECT_EQ(ledger.margin_nj(), 10U);
 }
 
+TEST(EnergyLedger, HandsOnWhatItDoesNotNeedOnceAndOnlyOnce) {
+  EnergyLedger here(0.05, 1), there(0, 1);
+  const std::uint64_t heat = here.dissipate(0.2);
+  EXPECT_EQ(heat, 200'000'000U);
+  EXPECT_EQ(here.pass_on_above(0.1, heat), 150'000'000U);
+  EXPECT_EQ(here.margin_nj(), 100'000'000U);  // gone here
+  EXPECT_EQ(here.in_nj(), 150'000'000U);      // to be received there
+  EXPECT_EQ(here.pass_on_above(0.1, heat), 0U);
+  there.receive(here.in_nj());
+  EXPECT_TRUE(there.spend(0.15));
+  EXPECT_TRUE(here.spend(0.1));
+  EXPECT_FALSE(there.spend(1e-9));
+  EXPECT_FALSE(here.spend(1e-9));
+  here.receive(1'000'000'000);
+  EXPECT_EQ(here.pass_on_above(0, 7), 7U);  // never more than allowed: what came from there does not go back
+}
+
 TEST(EnergyLedger, RefusesADebitThatIsNoNumber) {
   EnergyLedger ledger(0.05, 0.9);
   EXPECT_FALSE(ledger.spend(kNan));

@@ -132,8 +132,8 @@ TEST(ShippedScenes, OthersHaveTheSeatsTheirNamesSay) {
   EXPECT_EQ(eight.seats[7].role, Role::kEvaluator);
   const auto two = shipped("two_by_two");
   EXPECT_EQ(two.tools.size(), 2u);
-  EXPECT_EQ(two.follow[1][0], 0.5);
-  EXPECT_EQ(two.follow[1][1], 0.5);
+  EXPECT_EQ(two.follow[0][0], 1);
+  EXPECT_EQ(two.follow[1][1], 1);
 }
 
 TEST(EffectiveScene, ListsDefaultsWithUnitsInColumns) {
