@@ -68,7 +68,9 @@ void AuthorityRow::step(const Input& in) noexcept {
   double share = std::min(1.0, slew * in.dt / farthest);
   double cost = 0;
   for (std::size_t i = 0; i < masters_; ++i) cost += share * (goal[i] - now_[i]) * in.stored[i];
-  if (std::isfinite(slew_)) {  // an unslewed scene asked for the step, paid or not
+  if (!std::isfinite(cost)) return;
+  // An unslewed scene asked for the step, paid or not; and a lost holder's weight must go, whatever the tank says.
+  if (std::isfinite(slew_) && !somebody_lost) {
     const double paid = tank_.pay(cost);
     share *= paid;
     cost *= paid;

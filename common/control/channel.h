@@ -33,7 +33,7 @@ struct ChannelParams {
 /// What a law promises; a breach of anything else is reported as expected and fails nothing.
 struct Promises {
   bool ledger = false;          ///< E_out <= E_0 + E_in received + eta D
-  bool bounded_step = false;    ///< |dr| <= (|v_rx| + v_app) T
+  bool bounded_step = false;    ///< |dr| <= (|v_rx| + v_app) T away from x; giving way to a hand is faster
 };
 
 struct EndInput {

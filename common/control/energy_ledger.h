@@ -11,7 +11,7 @@ namespace tandem::control {
 
 /// Joule to nanojoule, rounded so that an account never gains: credits down.
 [[nodiscard]] inline std::uint64_t credit_nj(double joule) noexcept {
-  if (!(joule > 0)) return 0;  // also NaN
+  if (!(joule > 0) || std::isinf(joule)) return 0;  // also NaN: what is no number is no credit
   return joule >= 1e9 ? 1'000'000'000'000'000'000ULL : static_cast<std::uint64_t>(std::floor(joule * 1e9));
 }
 /// Debits up. A debit that is not a number is beyond every budget.
@@ -61,7 +61,7 @@ class EnergyLedger {
   /// Pays `joule` if the margin allows. @return whether it was paid.
   [[nodiscard]] bool spend(double joule) noexcept {
     const std::uint64_t cost = debit_nj(joule);
-    if (cost > margin_nj()) return false;
+    if (cost > margin_nj() || cost == std::numeric_limits<std::uint64_t>::max()) return false;
     out_ += cost;
     return true;
   }

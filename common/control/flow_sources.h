@@ -22,6 +22,7 @@ class FlowSources {
 
   /// Energy for a seat's credit beyond what the tool really paid [J] >= 0. @return what is granted, <= wanted.
   [[nodiscard]] double grant(double wanted) noexcept {
+    if (!(wanted > 0)) return 0;
     if (mode_ == FlowSourceMode::kTank) {
       const double given = wanted < tank_ ? wanted : tank_;
       tank_ -= given;

@@ -72,7 +72,8 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
   if (renewed_) {
     last_fresh_ = in.now;
     heard_ = true;
-    given_ = 0;
+    // A ramp that has begun still holds the stale force: its account closes when the gate engages again, not with the next datagram.
+    if (phase_ != GatePhase::kPassive && phase_ != GatePhase::kDamped) given_ = 0;
   }
   const bool silent = in.now - last_fresh_ >= p_.silence_limit || !heard_;
 
@@ -82,6 +83,7 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
       if (in.engage && in.fresh && !silent && !too_old) {
         phase_ = GatePhase::kRampIn;
         since_ = in.now;
+        given_ = 0;
         out.engaged_now = true;
       }
       break;
@@ -98,8 +100,8 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
       }
       break;
     case GatePhase::kPassive:
-      // Damping stays until the link is back or the hand has come to rest: it moves fastest when the ramp ends.
-      if (in.now - since_ >= (renewed_ ? kRampOut : kDampOut)) phase_ = GatePhase::kZero;
+      // Damping stays until the seat may engage again or the hand has come to rest: it moves fastest when the ramp ends.
+      if (in.now - since_ >= (renewed_ && in.engage ? kRampOut : kDampOut)) phase_ = GatePhase::kZero;
       break;
     case GatePhase::kDamped:
     case GatePhase::kFault:
@@ -167,7 +169,7 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
       for (std::size_t a = 0; a < p_.dof; ++a) f[a] = effort_[a] + share * (f[a] - effort_[a]);
     }
   }
-  if (!renewed_) keep_within_tank(in, f);
+  if (!renewed_ || phase_ == GatePhase::kPassive) keep_within_tank(in, f);
 }
 
 /// Predictive rule |f| (|v| + |f| dt / m) dt <= what is left, else 0: with no fresh datagram the motor gives at most the tank.

@@ -27,7 +27,7 @@ std::expected<Link::Opened, Refusal> Link::open(std::span<const std::byte> datag
   if (!opening_.open(header->counter, datagram, plaintext)) return refuse(Refusal::kTag);
   if (window_.note(header->counter) == ReplayWindow::Verdict::kDuplicate) return refuse(Refusal::kDuplicate);
   Opened opened{header->type, header->counter, !any_acted_ || header->counter > acted_, plaintext};
-  if (!opened.newer) ++stats_.late;
+  if (!opened.newer && stats_.accepted > 0 && opened.counter >= stats_.first) ++stats_.late;
   return opened;
 }
 

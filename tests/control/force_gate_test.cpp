@@ -157,11 +157,33 @@ TEST(ForceGate, LetsGoOnRequestThroughTheRampAndCountsNoLoss) {
   d.ticks(50);
   EXPECT_NEAR(d.out.effort[0], 1, 0.05);
   d.ticks(60);
-  EXPECT_EQ(d.gate.phase(), GatePhase::kZero);
   EXPECT_EQ(d.out.effort[0], 0);
+  EXPECT_EQ(d.gate.phase(), GatePhase::kPassive) << "a hand that pushed is still caught";
+  d.in.v[0] = 0.2;
+  d.tick();
+  EXPECT_NEAR(d.out.effort[0], -1, 1e-9) << "5 N s/m";
+  d.in.v[0] = 0;
+  d.ticks(400);
+  EXPECT_EQ(d.gate.phase(), GatePhase::kZero);
   EXPECT_EQ(d.gate.trips(), 0U);
   d.in.engage = true;
   EXPECT_TRUE(d.tick().engaged_now);
+}
+
+TEST(ForceGate, KeepsTheAccountOfALossOpenUntilItEngagesAgain) {
+  // A link that flaps: one datagram during the ramp renews the link, but the force that ramps out is still the stale one.
+  GateDrive d;
+  d.hold(3);
+  d.in.fresh = false;
+  d.ticks(25);
+  ASSERT_EQ(d.gate.phase(), GatePhase::kPassive);
+  d.in.q[0] += 0.002;  // the motor pushes the hand: 3 N over 2 mm
+  d.tick();
+  const double given = d.gate.given_since_fresh();
+  ASSERT_GT(given, 0.003);
+  d.in.fresh = true;
+  d.tick();
+  EXPECT_GE(d.gate.given_since_fresh(), given);
 }
 
 TEST(ForceGate, FaultsAtOnceAndUntilAPersonResets) {
