@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proto/nearest.h"
+#include "common/base/nearest.h"
 #include "proto/profile_text.h"
 
 namespace tandem::netsim {

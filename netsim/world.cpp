@@ -4,6 +4,7 @@
 
 #include "hal/port_map.h"
 #include "server/session_monitor.h"
+#include "server/session_record.h"
 
 namespace tandem::netsim {
 
@@ -134,33 +135,14 @@ void World::take_record() {
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const client::Seat* seat = hands_[i].seat.get();
     if (seat == nullptr) continue;
-    const wire::StateMessage& m = seat->sample();
-    server::SeatRecord& r = record_.seats[i];
-    r.q = m.telemetry.q;
-    r.x = m.telemetry.x;
-    r.f_cmd = m.telemetry.f_cmd;
-    r.f_out = m.telemetry.f_out;
-    r.e_in = m.port.e_in;
-    r.e_out = m.telemetry.e_out;
-    r.dissipated_j = m.telemetry.dissipated_j;
-    r.refused_j = m.telemetry.refused_j;
-    r.margin_min_j = m.telemetry.margin_min_j;
-    r.delivered_j = m.telemetry.delivered_j;
-    r.gate = m.gate;
-    r.engaged = m.engaged;
-    r.sample_tick = record_.tick;
+    server::put_seat(seat->sample(), record_.seats[i]);
+    record_.seats[i].sample_tick = record_.tick;
   }
   for (std::size_t j = 0; j < setup_.scene.tools.size(); ++j) {
     const ToolSpec& tool = setup_.scene.tools[j];
     if (!tool.remote) continue;
-    const wire::Telemetry& t = hands_[tool.seat].seat ? hands_[tool.seat].seat->sample().telemetry : wire::Telemetry{};
-    server::ToolRecord& r = record_.tools[j];
-    r.q = t.q;
-    r.x = t.x;
-    r.f_env = t.f_env;
-    r.f_cmd = t.f_cmd;
-    r.penetration = t.penetration_m;
-    r.sample_tick = record_.tick;
+    if (hands_[tool.seat].seat) server::put_slave(hands_[tool.seat].seat->sample().telemetry, record_.tools[j]);
+    record_.tools[j].sample_tick = record_.tick;
   }
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "proto/nearest.h"
+#include "common/base/nearest.h"
 #include "proto/scene_convert.h"
 
 namespace tandem::rules {

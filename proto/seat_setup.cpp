@@ -60,10 +60,8 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   for (std::size_t axis = 0; axis < setup.dof && axis < kAxesMax; ++axis)
     message.add_axis_scale(setup.axis_scale[axis]);
   for (const std::string& name : setup.masters) message.add_master(name);
-  if (!setup.masters.empty()) {
-    message.set_own_master(static_cast<std::uint32_t>(setup.own_master));
-    message.set_drivers(setup.drivers);
-  }
+  message.set_own_master(static_cast<std::uint32_t>(setup.own_master));
+  message.set_drivers(setup.drivers);
   const std::size_t size = message.ByteSizeLong();
   if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
   return size;

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "proto/nearest.h"
+#include "common/base/nearest.h"
 
 namespace tandem::text {
 namespace {

@@ -20,6 +20,11 @@ enum class Type : std::uint8_t {
 using tandem::PortSample;
 
 enum class GateState : std::uint8_t { kOff, kZero, kRampIn, kActive, kPassive, kDamped, kFault };
+/// For people.
+[[nodiscard]] constexpr const char* to_text(GateState gate) noexcept {
+  constexpr const char* kNames[] = {"off", "zero", "ramp-in", "active", "passive", "DAMPED", "FAULT"};
+  return gate <= GateState::kFault ? kNames[static_cast<std::size_t>(gate)] : "?";
+}
 
 /// What people and reports want to see of a hand; never used by a law. Single precision on the wire.
 struct Telemetry {

@@ -4,6 +4,30 @@
 
 namespace tandem::server {
 
+void put_seat(const wire::StateMessage& said, SeatRecord& r) noexcept {
+  r.q = said.telemetry.q;
+  r.x = said.telemetry.x;
+  r.f_cmd = said.telemetry.f_cmd;
+  r.f_out = said.telemetry.f_out;
+  r.e_in = said.port.e_in;
+  r.e_out = said.telemetry.e_out;
+  r.dissipated_j = said.telemetry.dissipated_j;
+  r.refused_j = said.telemetry.refused_j;
+  r.margin_min_j = said.telemetry.margin_min_j;
+  r.delivered_j = said.telemetry.delivered_j;
+  r.gate = said.gate;
+  r.engaged = said.engaged;
+  r.sample_tick = said.seat_tick;
+}
+
+void put_slave(const wire::Telemetry& said, ToolRecord& r) noexcept {
+  r.q = said.q;
+  r.x = said.x;
+  r.f_env = said.f_env;
+  r.f_cmd = said.f_cmd;
+  r.penetration = said.penetration_m;
+}
+
 void take_record(const Session& session, TickRecord& record) noexcept {
   const SceneSpec& scene = session.scene();
   const std::size_t masters = scene.masters();
@@ -18,19 +42,7 @@ void take_record(const Session& session, TickRecord& record) noexcept {
       for (std::size_t j = 0; j < scene.tools.size() && r.alpha == 0; ++j)
         if (scene.follow[i][j] > 0) r.alpha = session.tool(j).authority.alpha(i);
     }
-    r.q = m.telemetry.q;
-    r.x = m.telemetry.x;
-    r.f_cmd = m.telemetry.f_cmd;
-    r.f_out = m.telemetry.f_out;
-    r.e_in = m.port.e_in;
-    r.e_out = m.telemetry.e_out;
-    r.dissipated_j = m.telemetry.dissipated_j;
-    r.refused_j = m.telemetry.refused_j;
-    r.margin_min_j = m.telemetry.margin_min_j;
-    r.delivered_j = m.telemetry.delivered_j;
-    r.gate = m.gate;
-    r.engaged = m.engaged;
-    r.sample_tick = m.seat_tick;
+    put_seat(m, r);
   }
   for (std::size_t j = 0; j < scene.tools.size(); ++j) {
     const Tool& tool = session.tool(j);
@@ -49,12 +61,7 @@ void take_record(const Session& session, TickRecord& record) noexcept {
       r.penetration = s.penetration;
       r.sample_tick = session.session_tick();
     } else {
-      const wire::Telemetry& t = session.seat(tool.spec().seat).heard().telemetry;
-      r.q = t.q;
-      r.x = t.x;
-      r.f_env = t.f_env;
-      r.f_cmd = t.f_cmd;
-      r.penetration = t.penetration_m;
+      put_slave(session.seat(tool.spec().seat).heard().telemetry, r);
       r.sample_tick = session.seat(tool.spec().seat).heard().seat_tick;
     }
     r.held = tool.authority.held();

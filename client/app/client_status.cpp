@@ -1,21 +1,13 @@
 #include "client/app/client_status.h"
 
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "common/base/format.h"
+
 namespace tandem::client {
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char line[256];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(line, sizeof line, pattern, arguments);
-  va_end(arguments);
-  return line;
-}
 
 std::string session_text(const ClientStatus& s) {
   if (s.closed) return "closed";
@@ -39,26 +31,6 @@ nlohmann::ordered_json number(double v) {
 }
 
 }  // namespace
-
-const char* to_text(wire::GateState gate) noexcept {
-  switch (gate) {
-    case wire::GateState::kOff:
-      return "off";
-    case wire::GateState::kZero:
-      return "zero";
-    case wire::GateState::kRampIn:
-      return "ramp-in";
-    case wire::GateState::kActive:
-      return "active";
-    case wire::GateState::kPassive:
-      return "passive";
-    case wire::GateState::kDamped:
-      return "DAMPED (press b)";
-    case wire::GateState::kFault:
-      return "FAULT";
-  }
-  return "?";
-}
 
 const char* to_text(SeatEnd end) noexcept {
   switch (end) {
@@ -93,7 +65,7 @@ const char* to_text(Role role) noexcept {
 std::string status_line(const ClientStatus& s, const SeatSetup& setup) {
   const bool slave = setup.seat.kind == SeatKind::kSlave;
   std::string line = setup.seat.name + " (" + (slave ? "SLAVE" : to_text(setup.seat.role)) + ") " + session_text(s);
-  line += std::string(" | gate ") + to_text(s.gate);
+  line += std::string(" | gate ") + to_text(s.gate) + (s.gate == wire::GateState::kDamped ? " (press b)" : "");
   if (!slave) line += format(" | alpha %.2f", s.alpha);
   line += format(" | %.2f N | rtt %.1f ms loss %.1f %%", s.force_n, s.rtt_ms, s.down_loss_percent);
   line += format(" | margin %.0f mJ | late ticks %u", s.margin_min_j * 1e3, s.late_ticks);

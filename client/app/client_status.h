@@ -35,7 +35,6 @@ struct ClientStatus {
 /// How a seat's life ended.
 enum class SeatEnd : std::uint8_t { kDone, kServerStopped, kLeft, kServerLost, kDeviceLost };
 
-[[nodiscard]] const char* to_text(wire::GateState gate) noexcept;
 [[nodiscard]] const char* to_text(SeatEnd end) noexcept;
 [[nodiscard]] const char* to_text(Role role) noexcept;
 

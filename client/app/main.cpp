@@ -1,11 +1,9 @@
-#include <spdlog/spdlog.h>
-
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <functional>
 
 #include "client/app/join_command.h"
 #include "common/io/log.h"
+#include "common/io/program.h"
 
 #ifndef TANDEM_VERSION
 #define TANDEM_VERSION "unknown"
@@ -26,16 +24,5 @@ int main(int argc, char** argv) {
   std::function<int()> action;
   tandem::client::add_join_command(app, action);
   tandem::io::log_to_stderr("tandem-client");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    // Help and version are ends, not mistakes; every mistake in arguments is 2, whatever CLI11 calls it.
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    return action();
-  } catch (const std::exception& error) {
-    spdlog::error(error.what());
-    return 1;
-  }
+  return tandem::io::run_program(app, action, argc, argv);
 }

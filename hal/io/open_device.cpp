@@ -1,11 +1,11 @@
 #include "hal/io/open_device.h"
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "common/base/nearest.h"
 #include "hal/io/motion_file.h"
 #include "hal/io/sim_servo.h"
 
@@ -23,34 +23,12 @@ constexpr std::array<std::pair<Text, HandModel>, 7> kHands{{{"none", HandModel::
                                                             {"keyboard", HandModel::kKeyboard}}};
 constexpr std::array<Text, 9> kOptions{"hand", "keyboard", "motion", "model", "columns", "rec", "scale", "axes", "end"};
 
-/// Levenshtein's distance with one row; words are cut so that a hostile text costs nothing.
-std::size_t distance(Text a, Text b) {
-  a = a.substr(0, 32);
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, change}));
-    }
-  }
-  return row[b.size()];
-}
-
-/// `WHAT 'word' is unknown[; did you mean 'x'?]; valid: ...`
+/// `WHAT 'word' is unknown; ...`, with the nearest word and all of them.
 template <class Words>
 DeviceError unknown(Text what, Text word, const Words& words) {
-  std::string valid;
-  Text nearest;
-  std::size_t best = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const Text w : words) {
-    valid += (valid.empty() ? "" : ", ") + std::string(w);
-    if (const auto d = distance(word, w); d < best) best = d, nearest = w;
-  }
-  std::string text = "device: " + std::string(what) + " '" + std::string(word.substr(0, 60)) + "' is unknown";
-  if (!nearest.empty()) text += "; did you mean '" + std::string(nearest) + "'?";
-  return {Errc::kNotFound, text + "; valid: " + valid};
+  const std::vector<std::string> known(words.begin(), words.end());
+  return {Errc::kNotFound,
+          "device: " + std::string(what) + " '" + std::string(word.substr(0, 60)) + "' is unknown; " + suggest(word, known)};
 }
 
 DeviceError bad(std::string message) { return {Errc::kUnsupported, "device: " + std::move(message)}; }

@@ -1,23 +1,15 @@
 #include "netsim/app/proxy_report.h"
 
-#include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "common/base/format.h"
 
 namespace tandem::netsim {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char line[512];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(line, sizeof line, pattern, arguments);
-  va_end(arguments);
-  return line;
-}
 
 double count(std::uint64_t n) { return static_cast<double>(n); }
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <vector>
 
-#include "proto/nearest.h"
+#include "common/base/nearest.h"
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
 

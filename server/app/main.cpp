@@ -1,10 +1,8 @@
-#include <spdlog/spdlog.h>
-
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <functional>
 
 #include "common/io/log.h"
+#include "common/io/program.h"
 #include "server/app/run_command.h"
 
 #ifndef TANDEM_VERSION
@@ -27,16 +25,5 @@ int main(int argc, char** argv) {
   tandem::server::add_run_command(app, action);
   tandem::server::add_scenes_command(app, action);
   tandem::io::log_to_stderr("tandem-server");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    // Help and version are ends, not mistakes; every mistake in arguments is 2, whatever CLI11 calls it.
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    return action();
-  } catch (const std::exception& error) {
-    spdlog::error(error.what());
-    return 1;
-  }
+  return tandem::io::run_program(app, action, argc, argv);
 }

@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "proto/nearest.h"
+#include "common/base/nearest.h"
 #include "proto/scenes_embedded.h"
 #include "server/app/run_command.h"
 

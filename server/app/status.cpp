@@ -1,19 +1,11 @@
 #include "server/app/status.h"
 
-#include <cstdarg>
 #include <cstdio>
+
+#include "common/base/format.h"
 
 namespace tandem::server {
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char line[256];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(line, sizeof line, pattern, arguments);
-  va_end(arguments);
-  return line;
-}
 
 std::string seat_text(const SeatStatus& seat, const std::string& name) {
   if (!seat.bound) return name + " gone";
@@ -30,26 +22,6 @@ std::string seat_text(const SeatStatus& seat, const std::string& name) {
 }
 
 }  // namespace
-
-const char* to_text(wire::GateState gate) noexcept {
-  switch (gate) {
-    case wire::GateState::kOff:
-      return "off";
-    case wire::GateState::kZero:
-      return "zero";
-    case wire::GateState::kRampIn:
-      return "ramp-in";
-    case wire::GateState::kActive:
-      return "active";
-    case wire::GateState::kPassive:
-      return "passive";
-    case wire::GateState::kDamped:
-      return "DAMPED";
-    case wire::GateState::kFault:
-      return "FAULT";
-  }
-  return "?";
-}
 
 std::string waiting_for(const SessionStatus& status, const SceneSpec& scene) {
   std::string text;

@@ -38,7 +38,6 @@ struct SessionStatus {
   MachineStatus machine;
 };
 
-[[nodiscard]] const char* to_text(wire::GateState gate) noexcept;
 
 /// One line for a terminal.
 [[nodiscard]] std::string status_line(const SessionStatus& status, const SceneSpec& scene);

@@ -36,11 +36,11 @@ TEST(OpenDevice, SaysWhatIsWrongAndWhatWasMeant) {
     const char* text;
     const char* part;
   } cases[] = {
-      {"falcon", "valid: sim"},
-      {"simm", "did you mean 'sim'?"},
-      {"sim:hnad=relaxed", "did you mean 'hand'?"},
-      {"sim:hand=relxed", "did you mean 'relaxed'?"},
-      {"sim:hand=relxed", "valid: none, leader"},
+      {"falcon", "known here: sim"},
+      {"simm", "did you mean sim?"},
+      {"sim:hnad=relaxed", "did you mean hand?"},
+      {"sim:hand=relxed", "did you mean relaxed?"},
+      {"sim:hand=relxed", "known here: none, leader"},
       {"sim:hand", "needs a value"},
       {"sim:", "missing"},
       {"sim:keyboard=1", "no value"},

@@ -93,7 +93,7 @@ TEST(ClientMistakes, AreAllToldTogether) {
   const std::string script =
       folder.write("a.csv", "t_s[s],trainer[1],trainee[1]\n0,1,0\n2,0.5,0.6\n1,half,0\n3,2,-1\n");
   expect_refused(client("127.0.0.1", "trainer", {"--alpha-script", script, "--duration", "-1"}, "sim:hand=leadr"), 2,
-                 {"needs HOST:PORT", "did you mean 'leader'", "a.csv:3: the weights sum to 1.1", "a.csv:4: column 2",
+                 {"needs HOST:PORT", "did you mean leader", "a.csv:3: the weights sum to 1.1", "a.csv:4: column 2",
                   "half", "a.csv:5: trainer = 2", "--duration: \"-1\"", "nothing was started"});
 }
 

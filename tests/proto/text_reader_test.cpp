@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/base/rng.h"
-#include "proto/nearest.h"
+#include "common/base/nearest.h"
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
 
