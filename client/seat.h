@@ -21,7 +21,7 @@
 namespace tandem::client {
 
 /// One hand at one seat: device state in, device command out, datagrams in between. The same core runs on a device's servo thread
-/// and in virtual time. Order within a tick: move the reference to what was received, IPC, force gate, send (control.md 4).
+/// and in virtual time. Order within a tick: move the reference to what was received, IPC, force gate, send (design notes, control 4).
 ///
 /// A MASTER hangs on its reference through device - k_c - virtual mass - k; a SLAVE directly through k, so that a remote slave is
 /// the server's own slave but for the extra tick. No heap, no lock, no clock after construction.

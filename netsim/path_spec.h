@@ -9,7 +9,7 @@
 #include "common/base/time.h"
 
 /// What one direction of a network does to datagrams, as plain numbers. The order of the members is the order in which
-/// a datagram meets them (network.md 3.1). Everything is off by default; what is off costs nothing per packet.
+/// a datagram meets them (design notes, network 3.1). Everything is off by default; what is off costs nothing per packet.
 namespace tandem::netsim {
 
 /// Seen from a client: up is client to server.

@@ -6,9 +6,9 @@ namespace {
 
 constexpr double kMs = 1e3;
 
-server::DirectionReport direction(const link::Link& receiver) {
+server::DirectionReport direction(const link::Link& receiver, Time now) {
   const link::LinkStats& s = receiver.stats();
-  return {s.loss_percent(), seconds(s.longest_gap) * kMs, seconds(Duration{s.age.quantile(0.99)}) * kMs};
+  return {s.loss_percent(), seconds(receiver.longest_gap(now)) * kMs, seconds(Duration{s.age.quantile(0.99)}) * kMs};
 }
 
 }  // namespace
@@ -21,8 +21,8 @@ std::vector<server::LinkReport> link_reports(const World& world) {
     if (seat == nullptr || server_end == nullptr) continue;
     reports[i].rtt_p50_ms = seconds(seat->link().freshness().rtt_p50()) * kMs;
     reports[i].rtt_p99_ms = seconds(seat->link().freshness().rtt_p99()) * kMs;
-    reports[i].up = direction(*server_end);
-    reports[i].down = direction(seat->link());
+    reports[i].up = direction(*server_end, world.now());
+    reports[i].down = direction(seat->link(), world.now());
   }
   return reports;
 }

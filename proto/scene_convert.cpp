@@ -174,7 +174,7 @@ void write_trajectory(const Trajectory& in, pb::Trajectory& out) {
   }
 }
 
-/// Impedance of a person's hand (control.md 8): a leader's grip is tight, a relaxed hand only adds mass and damping.
+/// Impedance of a person's hand (design notes, control 8): a leader's grip is tight, a relaxed hand only adds mass and damping.
 void set_model(HandModel model, HandSpec& out) {
   out.model = model;
   switch (model) {

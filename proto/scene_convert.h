@@ -15,7 +15,7 @@ namespace tandem {
 void read_channel(const pb::Channel& in, const std::string& path, text::Checker& checker, ChannelSpec& out);
 void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out);
 void read_gate(const pb::Gate& in, GateSpec& out);
-/// Smallest initial ledger energy that does not dead-lock the channel at its start: F_max^2 / (2 k_min) [J] (control.md
+/// Smallest initial ledger energy that does not dead-lock the channel at its start: F_max^2 / (2 k_min) [J] (design notes, control
 /// 4).
 [[nodiscard]] double e0_min(const ChannelSpec& channel, const GateSpec& gate);
 /// The default of e0, or the rule about a written one.

@@ -18,7 +18,7 @@ enum class MfsMode : std::uint8_t { kOpen, kTank, kSeed, kSeedSigned };
 enum class SeatKind : std::uint8_t { kMaster, kSlave };
 enum class Role : std::uint8_t { kInstructor, kTrainee, kEvaluator, kObserver };
 
-/// Channel between a seat and the server (control.md 4). Gains are tip gains; joint ports scale them by diag(J^T J).
+/// Channel between a seat and the server (design notes, control 4). Gains are tip gains; joint ports scale them by diag(J^T J).
 struct ChannelSpec {
   LawKind law = LawKind::kSetPosition;
   MfsMode mfs = MfsMode::kOpen;
@@ -35,7 +35,7 @@ struct ChannelSpec {
   double tank = 0.05;         ///< MFS tank and authority tank, initial [J]
 };
 
-/// Device - virtual mass coupling at a master (control.md 3).
+/// Device - virtual mass coupling at a master (design notes, control 3).
 struct CouplingSpec {
   double k_c = 400;   ///< [N/m]
   double b = 0.5;     ///< [N s/m]
@@ -53,7 +53,7 @@ struct GateSpec {
 struct Point { double x = 0, y = 0, z = 0; };
 
 enum class DeviceModel : std::uint8_t { kTouch, kLinear };
-/// A simulated device (control.md 8).
+/// A simulated device (design notes, control 8).
 struct SimDeviceSpec {
   DeviceModel model = DeviceModel::kTouch;
   double friction = 0.1;              ///< Coulomb, at the tip [N]

@@ -11,7 +11,7 @@
 /// Owned, fixed-size forms of what travels in a datagram. Bytes are made and read by proto/wire_codec.h.
 namespace tandem::wire {
 
-/// Wire type of a datagram, low four bits of its first byte (reliability-security 1.4).
+/// Wire type of a datagram, low four bits of its first byte (design notes, security 1.4).
 enum class Type : std::uint8_t {
   kBind = 1, kBindAck = 2, kState = 3, kForce = 4, kPathChallenge = 5, kPathResponse = 6, kPing = 7, kClose = 8,
   kAuthority = 9

@@ -13,7 +13,7 @@
 /// Plaintext of a datagram: Preamble (16 bytes, little-endian), then one protobuf message of proto/wire.proto.
 namespace tandem::wire {
 
-/// Header and tag around a plaintext (reliability-security 1.4).
+/// Header and tag around a plaintext (design notes, security 1.4).
 inline constexpr std::size_t kDatagramMax = 1200;
 inline constexpr std::size_t kDatagramOverhead = 32;
 inline constexpr std::size_t kPlaintextMax = kDatagramMax - kDatagramOverhead;

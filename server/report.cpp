@@ -52,6 +52,7 @@ ReportBuilder::ReportBuilder(const SceneSpec& scene)
       contact_square_(scene.tools.size()),
       penetration_(scene.tools.size()),
       contact_count_(scene.tools.size()),
+      held_ticks_(scene.tools.size()),
       engaged_since_(scene.seats.size(), ~0u),
       held_since_(scene.tools.size(), ~0u),
       last_(scene.seats.size()),
@@ -89,6 +90,7 @@ void ReportBuilder::add(const TickRecord& record) {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     const ToolRecord& t = record.tools[j];
     mfs_[j] = t.mfs_j;
+    held_ticks_[j] += t.held ? 1 : 0;
     const bool usable = settled(held_since_[j], !t.held);
     place(tools_[j], t.sample_tick, {single(t.x), single(t.f_env), single(t.f_cmd), single({t.q[0], t.q[1], t.q[2]}), true, usable});
     const double square = t.f_env[0] * t.f_env[0] + t.f_env[1] * t.f_env[1] + t.f_env[2] * t.f_env[2];
@@ -138,7 +140,8 @@ std::vector<char> ReportBuilder::counted(const Pair& pair, const std::vector<Win
   return use;
 }
 
-SeatMetrics ReportBuilder::judge(const Pair& pair, const std::vector<Window>& windows, const std::vector<Window>& contact) const {
+SeatMetrics ReportBuilder::judge(const Pair& pair, const std::vector<Window>& windows, const std::vector<Window>& contact,
+                                 const Window& peaks) const {
   const Track& s = *pair.seat;
   const Track& t = *pair.slave;
   const std::vector<char> use = counted(pair, windows);
@@ -181,9 +184,11 @@ SeatMetrics ReportBuilder::judge(const Pair& pair, const std::vector<Window>& wi
     }
   }
   for (std::size_t k = 0; k < n; ++k) {
+    environment = std::max(environment, norm(t[k].f));  // percent is always of the run's peak
+    const double time = static_cast<double>(k) / scene_->tick_hz;
+    if (time < peaks.from || time >= peaks.to || !s[k].known) continue;
     effort = std::max(effort, norm(s[k].f));
     if (k >= span) speed = std::max(speed, std::sqrt(distance2(s[k].x, s[k - span].x)) * scene_->tick_hz / static_cast<double>(span));
-    environment = std::max(environment, norm(t[k].f));
   }
   if (!contact.empty()) {
     const std::vector<char> touching = counted(pair, contact);
@@ -241,7 +246,8 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
     s.kind = scene_->seats[i].kind;
     s.role = scene_->seats[i].role;
     s.alpha_mean = ticks_ > 0 ? alpha_sum_[i] / static_cast<double>(ticks_) : 0;
-    s.metrics = judge(pair_of(i), all, contact);
+    s.metrics = judge(pair_of(i), all, contact, {0, std::numeric_limits<double>::infinity()});
+    s.gate = wire::to_text(last_[i].gate);
     s.last = last_[i];
     for (std::size_t j = 0; j < tools.size(); ++j) s.mfs_j += scene_->follow[i][j] > 0 ? mfs_[j] : 0;
     if (i < links.size()) s.link = links[i];
@@ -250,12 +256,12 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
   for (std::size_t j = 0; j < tools.size(); ++j)
     r.tools.push_back({scene_->tools[j].name,
                        contact_count_[j] > 0 ? std::sqrt(contact_square_[j] / static_cast<double>(contact_count_[j])) : 0.0,
-                       penetration_[j]});
+                       penetration_[j], static_cast<double>(held_ticks_[j]) / scene_->tick_hz});
   for (const PhaseSpec& p : scene_->phases) {
     PhaseReport phase{p.name, p.from, p.to, {}};
     const std::vector<Window> only{{p.from, p.to}};
     for (std::size_t i = 0; i < seats.size(); ++i)
-      phase.seats.push_back(judge(pair_of(i), only, p.contact ? only : std::vector<Window>{}));
+      phase.seats.push_back(judge(pair_of(i), only, p.contact ? only : std::vector<Window>{}, only.front()));
     r.phases.push_back(std::move(phase));
   }
   return r;

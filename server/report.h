@@ -35,10 +35,12 @@ struct SeatReport {
   double mfs_j = 0;
   LinkReport link;
   std::uint32_t gate_trips = 0;
+  std::string gate;     ///< state at the end, for people
 };
 struct ToolReport {
   std::string name;
   double contact_force_rms_n = 0, penetration_max_m = 0;
+  double held_s = 0;    ///< nobody entitled was there: the tool stood braked [s]
 };
 struct PhaseReport {
   std::string name;
@@ -87,7 +89,9 @@ class ReportBuilder {
     double one_way_s = 0;
     float answer = 1;  ///< +1: the seat's motor stands for the environment; -1: it is the slave's own, which presses against it
   };
-  [[nodiscard]] SeatMetrics judge(const Pair& pair, const std::vector<Window>& windows, const std::vector<Window>& contact) const;
+  /// @param peaks  where peaks are looked for: a phase, or the whole run.
+  [[nodiscard]] SeatMetrics judge(const Pair& pair, const std::vector<Window>& windows, const std::vector<Window>& contact,
+                                  const Window& peaks) const;
   [[nodiscard]] std::vector<char> counted(const Pair& pair, const std::vector<Window>& windows) const;
   [[nodiscard]] static Track without_gaps(const Track& track);
   static void place(Track& track, std::uint32_t tick, const Sample& sample);
@@ -95,7 +99,7 @@ class ReportBuilder {
   const SceneSpec* scene_;
   std::vector<Track> seats_, tools_;
   std::vector<double> alpha_sum_, contact_square_, penetration_;
-  std::vector<std::uint64_t> contact_count_;
+  std::vector<std::uint64_t> contact_count_, held_ticks_;
   std::vector<std::uint32_t> engaged_since_, held_since_;
   std::vector<SeatRecord> last_;
   std::vector<double> mfs_;

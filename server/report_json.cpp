@@ -56,6 +56,7 @@ Json seat(const SeatReport& s) {
   j["alpha_mean"] = number(s.alpha_mean);
   put(j, s.metrics);
   j["gate_trips"] = s.gate_trips;
+  j["gate"] = s.gate;
   j["energy"] = {{"in_j", joule(s.last.e_in)},
                  {"out_j", joule(s.last.e_out)},
                  {"dissipated_j", number(s.last.dissipated_j)},
@@ -90,7 +91,8 @@ std::string to_json(const RunReport& r, int indent) {
   for (const ToolReport& t : r.tools)
     j["tools"].push_back({{"name", t.name},
                           {"contact_force_rms_n", number(t.contact_force_rms_n)},
-                          {"penetration_max_m", number(t.penetration_max_m)}});
+                          {"penetration_max_m", number(t.penetration_max_m)},
+                          {"held_s", number(t.held_s)}});
   j["phases"] = Json::array();
   for (const PhaseReport& p : r.phases) {
     Json phase{{"name", p.name}, {"from_s", p.from_s}, {"to_s", p.to_s}, {"seats", Json::array()}};

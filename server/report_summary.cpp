@@ -46,13 +46,18 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   for (const auto& s : r.seats)
     put(out,
         "  %s: round trip %.1f ms (p99 %.1f), loss up %.1f %% down %.1f %%, longest gap %.0f / %.0f ms, gate trips "
-        "%u\n",
+        "%u, gate at the end %s\n",
         s.name.c_str(), s.link.rtt_p50_ms, s.link.rtt_p99_ms, s.link.up.loss_percent, s.link.down.loss_percent,
-        s.link.up.longest_gap_ms, s.link.down.longest_gap_ms, s.gate_trips);
+        s.link.up.longest_gap_ms, s.link.down.longest_gap_ms, s.gate_trips, s.gate.empty() ? "-" : s.gate.c_str());
   for (std::size_t j = 0; j < r.tools.size(); ++j)
     if (r.tools[j].contact_force_rms_n > 0)
       put(out, "  %s: contact force RMS %.2f N, penetration at most %.3f mm\n", scene.tools[j].name.c_str(),
           r.tools[j].contact_force_rms_n, r.tools[j].penetration_max_m * 1e3);
+  for (std::size_t j = 0; j < r.tools.size(); ++j)
+    if (r.tools[j].held_s > 0.01)
+      put(out, "  %s: HELD for %.1f s: nobody entitled to it was there, it stood braked and no hand was guided\n",
+          scene.tools[j].name.c_str(), r.tools[j].held_s);
+  if (r.duration_s <= 0) out += "  the session never ran: nothing was judged\n";
   for (const auto& v : r.violations)
     put(out, "  %s invariant %s%s%s first at %.3f s, %llu times%s\n",
         v.expected ? "broken, never promised:" : "BROKEN:", v.invariant.c_str(), v.seat.empty() ? "" : " at ",

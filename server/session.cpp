@@ -218,7 +218,7 @@ void Session::step_offset(std::size_t i, bool engaged) noexcept {
   }
 }
 
-/// What the tool really paid becomes credit; what its authority does not pay for is asked from the flow sources (control.md 4).
+/// What the tool really paid becomes credit; what its authority does not pay for is asked from the flow sources (design notes, control 4).
 void Session::credit_seat(std::size_t i, std::size_t a) noexcept {
   control::ChannelEnd& end = seats_[i].end();
   const control::EndState& s = end.state();

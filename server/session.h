@@ -17,7 +17,7 @@
 namespace tandem::server {
 
 /// People sharing tools: lobby, authority, tools and springs, once per tick. Sans-I/O: it sees time and bytes; the same core runs
-/// over UDP and in virtual time. Order within a tick: authority, references of all seats, tools, send (control.md 4).
+/// over UDP and in virtual time. Order within a tick: authority, references of all seats, tools, send (design notes, control 4).
 class Session {
  public:
   /// @param slaves  one per tool, null for tools whose slave is a seat of its own.

@@ -68,6 +68,7 @@ std::string status_line(const ClientStatus& s, const SeatSetup& setup) {
   line += std::string(" | gate ") + to_text(s.gate) + (s.gate == wire::GateState::kDamped ? " (press b)" : "");
   if (!slave) line += format(" | alpha %.2f", s.alpha);
   line += format(" | %.2f N | rtt %.1f ms loss %.1f %%", s.force_n, s.rtt_ms, s.down_loss_percent);
+  line += format(" | tip %.0f %.0f %.0f mm", s.x[0] * 1e3, s.x[1] * 1e3, s.x[2] * 1e3);
   line += format(" | margin %.0f mJ | late ticks %u", s.margin_min_j * 1e3, s.late_ticks);
   if (s.gate_trips > 0) line += format(" | trips %u", s.gate_trips);
   return line;

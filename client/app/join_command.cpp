@@ -1,5 +1,7 @@
 #include "client/app/join_command.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <memory>
 
@@ -74,6 +76,8 @@ AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   } else {
     mistakes.push_back("--device: " + device.error().message);
   }
+  if (device && arguments.device.find("keyboard") != std::string::npos && isatty(STDIN_FILENO) == 0)
+    mistakes.push_back("--device " + arguments.device + ": the keys are read from a terminal, and standard input is none");
   if (!arguments.script.empty()) {
     auto script = AlphaScript::load(arguments.script);
     if (script) {

@@ -6,7 +6,7 @@
 namespace tandem::control {
 
 namespace {
-/// A lost holder's weight is gone within 200 ms (reliability-security 2.4), however slowly the scene slews otherwise.
+/// A lost holder's weight is gone within 200 ms (design notes, security 2.4), however slowly the scene slews otherwise.
 constexpr double kLossSlew = 5.0;
 }  // namespace
 

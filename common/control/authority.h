@@ -9,7 +9,7 @@
 namespace tandem::control {
 
 /// Pays for what changing authority injects. Weighted storage V = sum alpha_i V_i: a change of alpha adds sum alpha'_i V_i,
-/// whatever the flow sources do (control.md 2, "weighted passivity").
+/// whatever the flow sources do (design notes, control 2, "weighted passivity").
 class AuthorityTank {
  public:
   explicit AuthorityTank(double initial = 0.05) noexcept : level_(initial), capacity_(2 * initial) {}

@@ -11,7 +11,7 @@
 #include "common/control/energy_ledger.h"
 #include "common/control/schedule.h"
 
-/// The network is cut at the reference port: every seat is a spring whose two ends live on two machines (control.md 4). A
+/// The network is cut at the reference port: every seat is a spring whose two ends live on two machines (design notes, control 4). A
 /// channel law says where this end's reference goes when a datagram came, or none did.
 namespace tandem::control {
 
@@ -80,7 +80,7 @@ class ChannelEnd {
   [[nodiscard]] EnergyArray e_out() const noexcept;
 
  protected:
-  /// Where the reference would go if energy were free (control.md 4, "lead" and "effort half").
+  /// Where the reference would go if energy were free (design notes, control 4, "lead" and "effort half").
   [[nodiscard]] double target(const EndInput& in, std::size_t axis, double k) const noexcept;
 
   ChannelParams params_;

@@ -4,7 +4,7 @@
 
 namespace tandem::control {
 
-/// Set-position modulation with an energy ledger (control.md 4; in the spirit of [Lee & Huang, T-RO 26(2) 2010]). A received
+/// Set-position modulation with an energy ledger (design notes, control 4; in the spirit of [Lee & Huang, T-RO 26(2) 2010]). A received
 /// position is a target; the reference moves as far towards it as the ledger pays, per axis:
 ///
 ///     dE = 1/2 k [(r' - x)^2 - (r - x)^2]        exact spring energy of the move r -> r'

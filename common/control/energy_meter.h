@@ -7,7 +7,7 @@
 
 namespace tandem::control {
 
-/// Energy a sampled motor gives to the hand: the effort held between two samples does exactly F(k-1) (q(k) - q(k-1)) (control.md 6).
+/// Energy a sampled motor gives to the hand: the effort held between two samples does exactly F(k-1) (q(k) - q(k-1)) (design notes, control 6).
 /// Never F v T with a filtered velocity: a sampled spring of 1000 N/m moved 10 mm at 5 Hz makes 4.9 mJ a cycle, and that product says -4.9.
 class EnergyMeter {
  public:

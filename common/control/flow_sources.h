@@ -8,7 +8,7 @@
 namespace tandem::control {
 
 enum class FlowSourceMode : std::uint8_t {
-  kOpen,       ///< every grant is given; stable by weighted passivity (control.md 2)
+  kOpen,       ///< every grant is given; stable by weighted passivity (design notes, control 2)
   kTank,       ///< grants come from a tank of dissipated energy: absolute passivity, the follower starves
   kSeed,       ///< velocity gate by E_p exactly as printed in [Licona et al. 2019] eq. 3-4
   kSeedSigned  ///< the same with the sign that makes the printed rule passive

@@ -10,7 +10,7 @@ namespace tandem::control {
 
 enum class GatePhase : std::uint8_t { kOff, kZero, kRampIn, kActive, kPassive, kDamped, kFault };
 
-/// The last instance before the motor, at the client, trusting nobody (control.md 7; reliability-security 2.3):
+/// The last instance before the motor, at the client, trusting nobody (design notes, control 7; design notes, security 2.3):
 /// finite -> clamp -> slew -> silence and loop age -> energy tank -> latched state.
 struct GateParams {
   std::size_t dof = 3;

@@ -5,7 +5,7 @@
 
 #include "common/base/axes.h"
 
-/// The Dirac structure of Energy Shared Control for n masters and m slaves, one axis (control.md 2; for n = 2, m = 1 it is
+/// The Dirac structure of Energy Shared Control for n masters and m slaves, one axis (design notes, control 2; for n = 2, m = 1 it is
 /// eq. 1-2 of [Licona et al., ICVARS 2019], where every beta multiplies something alpha already multiplied and cancels):
 ///
 ///     F_rs,j = - sum_i A_ji F_ri          v_ri = sum_j [A_ji + g_ji (C_ji - A_ji)] v_rs,j

@@ -3,7 +3,7 @@
 #include "common/base/axes.h"
 
 /// Intrinsically passive controllers of one axis [Stramigioli, LNCIS 266, 2001], stepped implicitly: the virtual mass sees the
-/// springs at the END of the step, so no step creates energy whatever stiffness, mass and sample time are (control.md 3).
+/// springs at the END of the step, so no step creates energy whatever stiffness, mass and sample time are (design notes, control 3).
 namespace tandem::control {
 
 /// Virtual mass between a device (k_c) and a reference (k). All gains of this axis.

@@ -6,7 +6,7 @@
 
 namespace tandem::control {
 
-/// What a channel does at a delay (control.md 4): the P+d condition [Nuno et al., IJRR 28(7) 2009] says k d must stay small.
+/// What a channel does at a delay (design notes, control 4): the P+d condition [Nuno et al., IJRR 28(7) 2009] says k d must stay small.
 struct ScheduleParams {
   double k = 1000, k_min = 60;   ///< [N/m]
   double k_delay = 5;            ///< k <= k_delay / d [N s/m]

@@ -7,7 +7,7 @@
 namespace tandem::io {
 
 /// Keeps the processor out of deep sleep as long as it lives, where permitted (root): the cheapest gain in wake-up
-/// jitter (performance.md 2: p99 153 -> 57 us).
+/// jitter (design notes, performance 2: p99 153 -> 57 us).
 class AwakeProcessor {
  public:
   AwakeProcessor() noexcept;

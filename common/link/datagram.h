@@ -8,7 +8,7 @@
 
 #include "proto/wire.h"
 
-/// The clear header of a datagram (reliability-security 1.4), little-endian:
+/// The clear header of a datagram (design notes, security 1.4), little-endian:
 ///
 ///      0  u8   version (4 bits) = 1 | type (4 bits)
 ///      1  u8   key phase

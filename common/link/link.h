@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -68,6 +69,11 @@ class Link {
   [[nodiscard]] std::size_t seal(Time now, wire::Type type, std::span<std::byte> datagram, std::size_t plaintext_size) noexcept
       TANDEM_REALTIME;
 
+  /// Longest gap so far, a silence that still lasts included once it is no mere farewell (200 ms).
+  [[nodiscard]] Duration longest_gap(Time now) const noexcept {
+    const Duration silence = any_acted_ ? now - last_acted_ : Duration{0};
+    return silence > std::chrono::milliseconds(200) ? std::max(stats_.longest_gap, silence) : stats_.longest_gap;
+  }
   /// Samples the age for the statistics: once per tick.
   void tick(Time now) noexcept {
     if (freshness_.heard()) stats_.age.add(freshness_.age(now).count());

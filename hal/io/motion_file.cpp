@@ -14,7 +14,9 @@ std::expected<std::shared_ptr<const sim::RecordedMotion>, std::string> load_moti
   errno = 0;
   std::ifstream in(options.file, std::ios::binary);
   std::ostringstream text;
-  if (in) text << in.rdbuf();
+  // An empty file is no trouble of reading: the parser says what it misses.
+  if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
+  if (in.eof()) in.clear();
   if (!in || !text) {
     const int code = errno != 0 ? errno : EIO;
     return std::unexpected(options.file + ": cannot be read: " + std::generic_category().message(code));

@@ -36,7 +36,7 @@ class KeyboardTarget {
 /// Stiffness, damping and mass of a model; zeros in HandSpec mean these.
 [[nodiscard]] HandPull impedance_of(HandModel model) noexcept;
 
-/// A simulated person's hand: an impedance about an intended motion (control.md 8), following session time.
+/// A simulated person's hand: an impedance about an intended motion (design notes, control 8), following session time.
 /// - Not engaged (no session time): holds the pose, k 300 N/m, b 10 N s/m, so that nothing drifts.
 /// - Engaged: fades within 0.5 s into its model, without a jump of the intended position or of the stiffness.
 /// - `HandSpec::from`: RELAXED before, then fades within 0.5 s into its own model, moving there with minimum jerk;

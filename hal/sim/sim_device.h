@@ -40,7 +40,7 @@ struct SimSetup {
   Time start{};                                  ///< `State::sampled_at` of the first reading
 };
 
-/// A simulated device, Touch or one axis (control.md 8), with a hand or an environment at its tip. State is what a host
+/// A simulated device, Touch or one axis (design notes, control 8), with a hand or an environment at its tip. State is what a host
 /// would see: q is quantised by the encoder, dq is its filtered difference, x, dx, J follow from these. The effort of a
 /// command is limited to `force_peak` at the tip; gravity compensation and friction feed-forward are added inside, as a
 /// host would, and are reported nowhere.

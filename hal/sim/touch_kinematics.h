@@ -5,7 +5,7 @@
 
 #include "hal/device.h"
 
-/// Kinematics of the simulated Touch (control.md 8): three actuated joints, q3 absolute (measured against gravity, not
+/// Kinematics of the simulated Touch (design notes, control 8): three actuated joints, q3 absolute (measured against gravity, not
 /// against link 2). Joint vectors are (q1, q2, q3) [rad]; positions and forces are in the HAL frame: vendor (x, y, z)
 /// is HAL (x, -z, y).
 namespace tandem::hal::sim {

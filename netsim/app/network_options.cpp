@@ -83,7 +83,7 @@ void NetworkOptions::add_to(CLI::App& command) {
   };
   number("--delay", delay_ms_, 60'000, "ms", "constant delay [ms], 0 to 60000; default 0");
   number("--jitter", jitter_ms_, 60'000, "ms",
-         "J adds a delay uniform in [0, J] to every datagram [ms], 0 to 60000; order is kept");
+         "adds a delay uniform in [0, MS] to every datagram [ms], 0 to 60000; order is kept");
   number("--loss", loss_percent_, 100, "%", "datagrams lost, each alone [%], 0 to 100");
   number("--duplicate", duplicate_percent_, 100, "%", "datagrams that come twice, the copy within 1 ms [%], 0 to 100");
   number("--reorder", reorder_percent_, 100, "%", "datagrams that arrive after three later ones [%], 0 to 100");

@@ -59,6 +59,11 @@ int proxy_command(const ProxyArguments& arguments) {
   if (!to) return wrong("--to: " + to.error());
   if (io::PeerKey::of(listen->storage) == io::PeerKey::of(to->storage))
     return wrong("--to is the proxy itself (--listen)");
+  for (const auto& [option, address] : {std::pair{"--listen", *listen}, std::pair{"--to", *to}})
+    if (!address.loopback())
+      return wrong(std::string(option) + ": " + io::to_text(address) +
+                   " is not a loopback address and is refused: until sealed sessions exist the keys of Tandem are public, and a "
+                   "proxy that others can reach would let them take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT");
   const auto network = arguments.network.resolve();
   if (!network) return wrong(network.error());
   const bool json_on_stdout = arguments.json == "-";

@@ -6,13 +6,13 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <memory>
 
 #include "common/link/digest.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/network_options.h"
 #include "common/io/number_option.h"
+#include "common/io/output_file.h"
 #include "netsim/world_report.h"
 #include "proto/io/scene_file.h"
 #include "proto/scene_text.h"
@@ -35,19 +35,22 @@ struct RunArguments {
 
 std::atomic<bool> interrupted{false};
 
-int wrong(const std::string& message) {
-  std::fprintf(stderr, "tandem-netsim run: %s\n", message.c_str());
+using Mistakes = std::vector<std::string>;
+
+int wrong(const Mistakes& mistakes) {
+  for (const std::string& m : mistakes) std::fprintf(stderr, "tandem-netsim run: %s\n", m.c_str());
+  std::fprintf(stderr, "%zu mistake%s; nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
   return kWrong;
 }
 
-/// Everything a person typed, turned into a setup; or all that is wrong with it.
-std::expected<WorldSetup, std::string> understand(const RunArguments& arguments, const NetworkChoice& network) {
+/// Everything a person typed, turned into a setup; and all that is wrong with it.
+WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
   WorldSetup setup;
-  std::string problems;
   if (auto scene = load_scene(arguments.scene)) {
     setup.scene = std::move(*scene);
   } else {
-    return std::unexpected(to_text(scene.error()));
+    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
+    return setup;
   }
   if (arguments.duration_s > 0) setup.scene.duration = arguments.duration_s;
   if (arguments.channel == "raw") setup.scene.channel.law = LawKind::kRaw;
@@ -60,27 +63,30 @@ std::expected<WorldSetup, std::string> understand(const RunArguments& arguments,
     const auto known = std::ranges::find_if(
         setup.scene.seats, [&](const SeatSpec& s) { return s.name == seat && s.kind == SeatKind::kMaster; });
     if (cut == std::string::npos || known == setup.scene.seats.end()) {
-      problems += "--hand " + text + ": must be SEAT=FILE.csv[,...] with SEAT one of:";
+      std::string problem = "--hand " + text + ": must be SEAT=FILE.csv[,...] with SEAT one of:";
       for (const SeatSpec& s : setup.scene.seats)
-        if (s.kind == SeatKind::kMaster) problems += " " + s.name;
-      problems += "\n";
+        if (s.kind == SeatKind::kMaster) problem += " " + s.name;
+      mistakes.push_back(problem);
       continue;
     }
     const auto options = hal::sim::parse_motion_options(text.substr(cut + 1));
     if (!options) {
-      problems += "--hand " + seat + ": " + options.error() + "\n";
+      mistakes.push_back("--hand " + seat + ": " + options.error());
       continue;
     }
     if (auto motion = hal::load_motion(*options)) {
       if (!arguments.quiet) std::fprintf(stderr, "%s: %s\n", seat.c_str(), (*motion)->describe().c_str());
       setup.motions[seat] = std::move(*motion);
     } else {
-      problems += motion.error() + "\n";
+      mistakes.push_back(motion.error());
     }
   }
-  setup.network = network.link;
+  for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
+    if (!file.empty() && !(file == "-" && file == arguments.json))
+      if (const auto problem = io::OutputFile::problem(file); !problem.empty()) mistakes.push_back(std::string(option) + ": " + problem);
+  if (arguments.trace == "-") mistakes.push_back("--trace: standard output is for --json; name a file");
+  if (!arguments.trace.empty() && arguments.trace == arguments.json) mistakes.push_back("--trace: is the same file as --json");
   setup.seed = arguments.network.seed();
-  if (!problems.empty()) return std::unexpected(problems);
   return setup;
 }
 
@@ -91,26 +97,22 @@ void show_progress(const World& world) {
 }
 
 int run_command(const RunArguments& arguments) {
+  Mistakes mistakes;
   const auto network = arguments.network.resolve();
-  if (!network) return wrong(network.error());
-  auto setup = understand(arguments, *network);
-  if (!setup) return wrong(setup.error());
+  if (!network) mistakes.push_back(network.error());
+  WorldSetup setup = understand(arguments, mistakes);
+  if (!mistakes.empty()) return wrong(mistakes);
+  setup.network = network->link;
   if (arguments.check) {
-    std::fputs(effective_scene_text(setup->scene).c_str(), stdout);
+    std::fputs(effective_scene_text(setup.scene).c_str(), stdout);
     return 0;
   }
+  auto made = World::make(setup);
+  if (!made) return wrong({made.error()});
   const bool json_on_stdout = arguments.json == "-";
-  std::ofstream json_file, trace_file;
-  if (!arguments.json.empty() && !json_on_stdout) {
-    json_file.open(arguments.json);
-    if (!json_file) return wrong("--json: " + arguments.json + " cannot be written");
-  }
-  if (!arguments.trace.empty()) {
-    trace_file.open(arguments.trace, std::ios::binary);
-    if (!trace_file) return wrong("--trace: " + arguments.trace + " cannot be written");
-  }
-  auto made = World::make(*setup);
-  if (!made) return wrong(made.error());
+  io::OutputFile json_file, trace_file;
+  if (const auto problem = json_file.open(arguments.json, true); !problem.empty()) return wrong({"--json: " + problem});
+  if (const auto problem = trace_file.open(arguments.trace, false); !problem.empty()) return wrong({"--trace: " + problem});
   World& world = **made;
 
   std::signal(SIGINT, [](int) { interrupted = true; });
@@ -123,7 +125,7 @@ int run_command(const RunArguments& arguments) {
   std::string rows = csv.header();
   const auto flush = [&] {
     digest.add(rows);
-    if (trace_file.is_open()) trace_file.write(rows.data(), static_cast<std::streamsize>(rows.size()));
+    trace_file.write(rows);
     rows.clear();
   };
   for (std::uint64_t n = 0; world.step() && !interrupted; ++n) {
@@ -140,7 +142,7 @@ int run_command(const RunArguments& arguments) {
     return kTrouble;
   }
 
-  server::RunReport report = world_report(world, builder, setup->seed);
+  server::RunReport report = world_report(world, builder, setup.seed);
   report.trace_hash = digest.hex();
   report.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   if (interrupted) std::fprintf(stderr, "interrupted at %.3f s; what follows judges that much\n", world.session().time());
@@ -149,24 +151,12 @@ int run_command(const RunArguments& arguments) {
                  report.scenario.c_str(), report.passed ? "pass" : "FAIL", report.duration_s, network->description.c_str(),
                  static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
                  server::report_summary(report, world.scene()).c_str());
-  trace_file.close();
-  if (!arguments.trace.empty() && !trace_file) {
-    std::fprintf(stderr, "tandem-netsim run: --trace: %s could not be written to the end\n", arguments.trace.c_str());
-    return kTrouble;
-  }
-  if (!arguments.json.empty()) {
-    const std::string json = server::to_json(report);
-    if (json_on_stdout) {
-      std::fputs(json.c_str(), stdout);
-    } else {
-      json_file << json;
-      json_file.close();
-      if (!json_file) {
-        std::fprintf(stderr, "tandem-netsim run: --json: %s could not be written to the end\n", arguments.json.c_str());
-        return kTrouble;
-      }
+  json_file.write(server::to_json(report));
+  for (const auto& problem : {trace_file.close(), json_file.close()})
+    if (!problem.empty()) {
+      std::fprintf(stderr, "tandem-netsim run: %s\n", problem.c_str());
+      return kTrouble;
     }
-  }
   return report.passed ? 0 : kFailed;
 }
 
@@ -177,7 +167,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
   CLI::App* const command =
       root.add_subcommand("run", "Runs a whole session in virtual time: the same server and client cores, seeded.");
   command->add_option("scene", arguments->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
-      ->option_text("SCENE")
+      ->option_text(" ")
       ->required();
   arguments->network.add_to(*command);
   command
@@ -186,9 +176,10 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
                    "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
       ->option_text("SEAT=FILE...")
       ->allow_extra_args(false);
-  command->add_option("--channel", arguments->channel, "channel law instead of the scene's")
+  command->add_option("--channel", arguments->channel, "channel law instead of the scene's: set_position (passive whatever the network does), raw (what happens without)")
       ->check(CLI::IsMember({"set_position", "raw"}));
-  command->add_option("--mfs", arguments->mfs, "flow source mode instead of the scene's")
+  command->add_option("--mfs", arguments->mfs, "flow sources instead of the scene's: open (followers get what they need), tank (only what was dissipated), "
+                   "seed, seed_signed (two readings of the source paper's equation 3)")
       ->check(CLI::IsMember({"open", "tank", "seed", "seed_signed"}));
   command->add_option("--duration", arguments->duration_s, "session time instead of the scene's")
       ->check(io::number_in(0.1, 3e6, "s"))

@@ -22,8 +22,9 @@ constexpr std::uint64_t kLookEvery = 64;  // ticks between two looks at one seat
 
 double ms(Duration d) { return seconds(d) * 1e3; }
 
-DirectionReport direction(const link::LinkStats& s) {
-  return {s.loss_percent(), ms(s.longest_gap), ms(Duration{s.age.quantile(0.99)})};
+DirectionReport direction(const link::Link& receiver, Time now) {
+  const link::LinkStats& s = receiver.stats();
+  return {s.loss_percent(), ms(receiver.longest_gap(now)), ms(Duration{s.age.quantile(0.99)})};
 }
 
 void raise(const io::Fd& event) noexcept {
@@ -139,7 +140,7 @@ void Shard::look_at_seat(std::size_t i, Time now) noexcept {
   if (const link::Link* link = port.link()) {  // of a seat that left, the last numbers stay
     seat.link.rtt_p50_ms = ms(link->freshness().rtt_p50());
     seat.link.rtt_p99_ms = ms(link->freshness().rtt_p99());
-    seat.link.up = direction(link->stats());
+    seat.link.up = direction(*link, now);
   }
 }
 

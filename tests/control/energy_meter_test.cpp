@@ -9,7 +9,7 @@
 namespace tandem::control {
 namespace {
 
-TEST(EnergyMeter, SeesWhatASampledSpringMakes) {  // 1000 N/m, 10 mm, 5 Hz, 1 kHz: 4.9 mJ a cycle (control.md 6)
+TEST(EnergyMeter, SeesWhatASampledSpringMakes) {  // 1000 N/m, 10 mm, 5 Hz, 1 kHz: 4.9 mJ a cycle (design notes, control 6)
   EnergyMeter meter;
   AxisArray q{}, held{};
   double wrong = 0, q_old = 0;

@@ -10,7 +10,6 @@ TANDEM_PACKAGES=(
   "ccache: makes the second build fast"
   "pkg-config: lets CMake find installed libraries"
   "libeigen3-dev: vectors and matrices of the control laws"
-  "libasio-dev: UDP sockets and timers"
   "libprotobuf-dev: encodes datagrams, reads scenes"
   "protobuf-compiler: turns proto/*.proto into C++"
   "libspdlog-dev: log lines for people"

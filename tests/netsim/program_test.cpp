@@ -133,6 +133,8 @@ TEST(Program, WrongArgumentsAreNamedWithValueAndRangeBeforeAnythingStarts) {
       {{"proxy", "--to", "127.0.0.1"}, "needs HOST:PORT"},
       {{"proxy", "--to", "127.0.0.1:0"}, "[1, 65535]"},
       {{"proxy", "--to", "127.0.0.1:9", "--listen", "127.0.0.1:9"}, "the proxy itself"},
+      {{"proxy", "--to", "127.0.0.1:9", "--listen", "0.0.0.0:0"}, "not a loopback address"},
+      {{"proxy", "--to", "192.0.2.1:9"}, "not a loopback address"},
       {{"proxy", "--to", "127.0.0.1:9", "--listen", "127.0.0.1:70000"}, "[0, 65535]"},
       {{"proxy", "--to", "127.0.0.1:9", "--delay", "60000.1"}, "[0, 60000] ms"},
       {{"proxy", "--to", "127.0.0.1:9", "--delay", "-1"}, "\"-1\" is out of range"},

@@ -26,7 +26,7 @@ TEST(Twins, SameSeedSameTrace) {
   EXPECT_EQ(plain(a.report), plain(b.report));
 }
 
-/// Energy Shared Control in one loop: no datagrams, no ledgers, no gate; springs and masses of control.md 3 with the order of
+/// Energy Shared Control in one loop: no datagrams, no ledgers, no gate; springs and masses of design notes, control 3 with the order of
 /// one tick. `order` 1: hands see the tool one tick late, as over the network; 0: all springs at once.
 class Monolith {
  public:
