@@ -17,8 +17,6 @@ TANDEM_PACKAGES=(
   "nlohmann-json3-dev: writes the JSON reports"
   "libssl-dev: seals datagrams, SHA-256 of traces"
   "libgtest-dev: unit and simulation tests"
-  "libgmock-dev: matchers of the tests"
-  "libbenchmark-dev: measures the tick path"
 )
 
 packages_say() { printf '%s\n' "$@" >&2; }
