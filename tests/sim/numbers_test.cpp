@@ -111,7 +111,7 @@ TEST(Numbers, LongDelaysCostNoMoreThanTheirTransport) {
     ASSERT_TRUE(r.report.passed) << ms;
     for (const auto& [phase, leader] : {std::pair{"demonstration", "trainer"}, std::pair{"evaluation", "trainee"}}) {
       const auto& m = r.phase(phase, leader);
-      EXPECT_LE(m.tracking_rms_m, m.transport_lag_rms_m + 0.1 * kMm) << phase << " at " << ms << " ms";
+      EXPECT_LE(m.tracking_rms_m, m.transport_lag_rms_m) << phase << " at " << ms << " ms";
     }
   }
 }
