@@ -100,7 +100,6 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   if (!ticked_) {
     ticked_ = true;
     started_ = now;
-    reading_ = hal::State{};
   }
   tick_ = static_cast<std::uint32_t>(std::llround(seconds(now - started_) / dt_));
   link_.tick(now);
