@@ -17,6 +17,9 @@ server::Endpoint endpoint_of(std::size_t seat) {
   return e;
 }
 
+/// Longest wait for a session to begin; covers joining over the longest delay there is, 60 s one way.
+constexpr Duration kPatience = std::chrono::seconds(300);
+
 std::size_t seat_of(const server::Endpoint& e) { return std::to_integer<std::size_t>(e.bytes[0]) - 1; }
 
 }  // namespace
@@ -61,7 +64,7 @@ std::expected<std::unique_ptr<World>, std::string> World::make(const WorldSetup&
     const RandomKey key = RandomKey{setup.seed}.derive(1000 + i);
     world->hands_[i].joining = std::make_unique<client::Joining>(
         client::Joining::Params{scene.seats[i].name, world->hands_[i].device->caps(), key.bits(0) >> 16,
-                                static_cast<std::uint32_t>(key.bits(1) | 1), std::chrono::seconds(60)});
+                                static_cast<std::uint32_t>(key.bits(1) | 1), kPatience});
   }
   return world;
 }
@@ -72,8 +75,23 @@ bool World::step() {
   serve_server();
   take_record();
   watch();
+  give_up_waiting();
   now_ += tick_;
   return !session_->over() && trouble_.empty();
+}
+
+/// A session that cannot begin would wait for ever; people get the reason instead.
+void World::give_up_waiting() {
+  if (session_->state() != wire::SessionState::kWaiting || now_ - Time{} < kPatience) return;
+  trouble_ = "the session did not begin within " + std::to_string(kPatience / std::chrono::seconds(1)) + " s of virtual time;";
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const client::Seat* seat = hands_[i].seat.get();
+    if (seat != nullptr && seat->gate().active()) continue;
+    trouble_ += " " + setup_.scene.seats[i].name + (seat == nullptr ? " never got its seat;" : " could not be engaged;");
+  }
+  trouble_ += " a hand is engaged only over a loop younger than gate.loop_age_max_ms = " +
+              std::to_string(static_cast<int>(1e3 * setup_.scene.gate.loop_age_max + 0.5)) + " (both ways) that is heard within " +
+              std::to_string(static_cast<int>(1e3 * setup_.scene.gate.silence_limit + 0.5)) + " ms";
 }
 
 void World::join(std::size_t i) {

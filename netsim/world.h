@@ -53,6 +53,7 @@ class World {
   void serve_clients();
   void serve_server();
   void join(std::size_t i);
+  void give_up_waiting();
   void watch();
   void take_record();
 

@@ -177,10 +177,10 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("SEAT=FILE...")
       ->allow_extra_args(false);
   command->add_option("--channel", arguments->channel, "channel law instead of the scene's: set_position (passive whatever the network does), raw (what happens without)")
-      ->check(CLI::IsMember({"set_position", "raw"}));
+      ->transform(CLI::IsMember({"set_position", "raw"}, CLI::ignore_case));
   command->add_option("--mfs", arguments->mfs, "flow sources instead of the scene's: open (followers get what they need), tank (only what was dissipated), "
                    "seed, seed_signed (two readings of the source paper's equation 3)")
-      ->check(CLI::IsMember({"open", "tank", "seed", "seed_signed"}));
+      ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
   command->add_option("--duration", arguments->duration_s, "session time instead of the scene's")
       ->check(io::number_in(0.1, 3e6, "s"))
       ->option_text("S");

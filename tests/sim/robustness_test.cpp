@@ -62,6 +62,18 @@ TEST(Robustness, FiveMinutesOfMotionNeverStarveALedger) {
   }
 }
 
+TEST(Robustness, ASessionThatCannotBeginSaysWhy) {
+  const SceneSpec scene = shipped("one_axis");
+  for (const double ms : {1500.0, 5000.0, 60'000.0}) {  // loops of 3 s and more are older than any gate allows
+    auto made = netsim::World::make({scene, netsim::link_from(delayed(ms)), 1, {}});
+    ASSERT_TRUE(made);
+    std::uint64_t ticks = 0;
+    while ((*made)->step()) ASSERT_LT(++ticks, 400'000u) << "waits for ever at " << ms;
+    EXPECT_NE((*made)->trouble().find("trainer"), std::string::npos) << (*made)->trouble();
+    EXPECT_NE((*made)->trouble().find("loop_age_max_ms = 2500"), std::string::npos) << (*made)->trouble();
+  }
+}
+
 TEST(Robustness, ThreeLossesInTenSecondsLatchTheGate) {
   SceneSpec scene = without_deviations(shipped("free_motion"));
   scene.gate.latch = true;
