@@ -70,11 +70,9 @@ void ReportBuilder::place(Track& track, std::uint32_t tick, const Sample& sample
 
 void ReportBuilder::add(const TickRecord& record) {
   if (!record.running) return;
-  if (record.tick >= kTicksMax) {
-    truncated_ = true;
-    return;
-  }
   ++ticks_;
+  if (record.tick >= kTicksMax) return;
+  ++judged_;
   const auto settled = [&](std::uint32_t& since, bool on) {
     if (!on) since = ~0u;
     if (on && since == ~0u) since = record.tick;
@@ -223,6 +221,7 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
   RunReport r;
   r.scenario = scene_->name;
   r.duration_s = static_cast<double>(ticks_) / scene_->tick_hz;
+  r.judged_s = static_cast<double>(judged_) / scene_->tick_hz;
   std::vector<Track> seats, tools;
   for (const auto& t : seats_) seats.push_back(without_gaps(t));
   for (const auto& t : tools_) tools.push_back(without_gaps(t));
@@ -245,7 +244,7 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
     s.name = scene_->seats[i].name;
     s.kind = scene_->seats[i].kind;
     s.role = scene_->seats[i].role;
-    s.alpha_mean = ticks_ > 0 ? alpha_sum_[i] / static_cast<double>(ticks_) : 0;
+    s.alpha_mean = judged_ > 0 ? alpha_sum_[i] / static_cast<double>(judged_) : 0;
     s.metrics = judge(pair_of(i), all, contact, {0, std::numeric_limits<double>::infinity()});
     s.gate = wire::to_text(last_[i].gate);
     s.last = last_[i];

@@ -51,6 +51,7 @@ struct RunReport {
   std::string scenario;
   std::uint64_t seed = 0;
   double duration_s = 0;
+  double judged_s = 0;  ///< less than duration_s when the run outlived ReportBuilder::kTicksMax
   std::vector<Violation> violations;
   bool passed = true;
   std::string trace_hash;
@@ -69,7 +70,6 @@ class ReportBuilder {
   void add(const TickRecord& record);
   /// @param links  one per seat.
   [[nodiscard]] RunReport build(const std::vector<LinkReport>& links) const;
-  [[nodiscard]] bool truncated() const noexcept { return truncated_; }
 
  private:
   using Point3 = std::array<float, 3>;
@@ -103,8 +103,7 @@ class ReportBuilder {
   std::vector<std::uint32_t> engaged_since_, held_since_;
   std::vector<SeatRecord> last_;
   std::vector<double> mfs_;
-  std::uint64_t ticks_ = 0;
-  bool truncated_ = false;
+  std::uint64_t ticks_ = 0, judged_ = 0;
 };
 
 /// The report as JSON text; keys as README documents them. NaN becomes null.

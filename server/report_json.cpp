@@ -78,6 +78,7 @@ std::string to_json(const RunReport& r, int indent) {
   j["scenario"] = r.scenario;
   j["seed"] = r.seed;
   j["duration_s"] = number(r.duration_s);
+  j["judged_s"] = number(r.judged_s);
   j["verdict"] = r.passed ? "pass" : "fail";
   j["violations"] = Json::array();
   for (const Violation& v : r.violations)

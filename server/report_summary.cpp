@@ -57,6 +57,7 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
     if (r.tools[j].held_s > 0.01)
       put(out, "  %s: HELD for %.1f s: nobody entitled to it was there, it stood braked and no hand was guided\n",
           scene.tools[j].name.c_str(), r.tools[j].held_s);
+  if (r.judged_s < r.duration_s) put(out, "  errors and peaks are of the first %.0f s; invariants of the whole run\n", r.judged_s);
   if (r.duration_s <= 0) out += "  the session never ran: nothing was judged\n";
   for (const auto& v : r.violations)
     put(out, "  %s invariant %s%s%s first at %.3f s, %llu times%s\n",
