@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -25,6 +26,9 @@ class LinkRate {
     if (bits_per_s_ == 0) return now;
     return serve_queued(now, size);
   }
+
+  /// How long a datagram that comes now waits before its first bit is sent, to the whole nanosecond.
+  [[nodiscard]] Duration waiting(Time now) const noexcept { return std::max(busy_until_ - now, Duration::zero()); }
 
  private:
   std::optional<Time> serve_queued(Time now, std::size_t size) noexcept;

@@ -67,6 +67,8 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
   verdict.index = count_++;
   verdict.at = now;
 
+  // Loss is asked even while the link is down: its models count every datagram, and outages must not move them.
+  const bool lost = loss_.lost(now, verdict.index);
   const OutageGate::Passage passage = outages_.enter(now, size);
   if (passage.state != OutageGate::State::kUp) {
     verdict.outcome = passage.state == OutageGate::State::kDropped ? Outcome::kOutage : Outcome::kHoldFull;
@@ -75,7 +77,11 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
   // Loss belongs to the moment of sending, also for what an outage holds: else a whole burst would meet one state.
   DelayTrace::Step recorded;
   if (trace_.present()) recorded = trace_.at(now);
-  if (recorded.lost || loss_.lost(now, verdict.index)) {
+  if (recorded.lost || lost) {
+    verdict.outcome = Outcome::kLost;
+    return verdict;
+  }
+  if (loss_.minds_queue() && loss_.lost_in_queue(rate_.waiting(passage.at), verdict.index)) {
     verdict.outcome = Outcome::kLost;
     return verdict;
   }
@@ -84,7 +90,12 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
     verdict.outcome = Outcome::kQueueFull;
     return verdict;
   }
-  Time at = stalls_.release(*sent + floor_ + recorded.delay + body_.at(*sent, verdict.index));
+  const Time due = *sent + floor_ + recorded.delay + body_.at(*sent, verdict.index);
+  Time at = stalls_.release(due);
+  if (at > due && loss_.lost_in_stall(verdict.index)) {
+    verdict.outcome = Outcome::kLost;
+    return verdict;
+  }
   if (order_ == Order::kFifo) at = std::max(at, last_out_);
   last_out_ = std::max(last_out_, at);
   verdict.at = at;

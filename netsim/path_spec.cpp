@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string_view>
 
 namespace tandem::netsim {
@@ -13,38 +12,6 @@ using std::chrono::microseconds;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-/// 1.5 ms as "1.5 ms": what a person wrote in the profile or on the command line.
-std::string text(Duration d) {
-  std::ostringstream out;
-  out << static_cast<double>(d.count()) / 1e6 << " ms";
-  return out.str();
-}
-
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-/// Collects mistakes; every check names the member, its value and what is allowed.
-class Findings {
- public:
-  template <typename T>
-  void range(std::string_view key, T value, T lo, T hi) {
-    if (!(value >= lo && value <= hi)) {  // also NaN
-      add(key, text(value) + " is not in [" + text(lo) + ", " + text(hi) + "]");
-    }
-  }
-  void above(std::string_view key, Duration value, Duration lo, Duration hi) {
-    if (!(value > lo && value <= hi)) add(key, text(value) + " is not in (" + text(lo) + ", " + text(hi) + "]");
-  }
-  void add(std::string_view key, std::string message) { all_.push_back({std::string(key), std::move(message)}); }
-  [[nodiscard]] std::vector<SpecProblem> take() { return std::move(all_); }
-
- private:
-  std::vector<SpecProblem> all_;
-};
-
 constexpr Duration kDelayMax = seconds(60);
 
 void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
@@ -53,23 +20,14 @@ void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
     const OutageSpec& outage = outages[i];
     const std::string key = "outages[" + std::to_string(i) + "]";
     found.range<Duration>(key + ".start", outage.start, Duration::zero(), hours(24 * 30));
-    found.above(key + ".length", outage.length, Duration::zero(), hours(1));
+    found.above<Duration>(key + ".length", outage.length, Duration::zero(), hours(1));
     if (outage.period == Duration::zero()) continue;
     found.range<Duration>(key + ".period", outage.period, Duration::zero(), hours(24 * 30));
     if (outage.period > Duration::zero() && outage.period <= outage.length) {
-      found.add(key + ".period", text(outage.period) + " is not longer than the outage (" + text(outage.length) +
-                                     "): the link would never be up");
+      found.add(key + ".period", Findings::text(outage.period) + " is not longer than the outage (" +
+                                     Findings::text(outage.length) + "): the link would never be up");
     }
   }
-}
-
-void check_loss(const LossSpec& loss, Findings& found) {
-  found.range("loss.probability", loss.probability, 0.0, 1.0);
-  if (!loss.periods) return;
-  found.range<Duration>("loss.periods.good_mean", loss.periods->good_mean, microseconds(1), hours(1));
-  found.range<Duration>("loss.periods.bad_mean", loss.periods->bad_mean, microseconds(1), hours(1));
-  found.range("loss.periods.loss_good", loss.periods->loss_good, 0.0, 1.0);
-  found.range("loss.periods.loss_bad", loss.periods->loss_bad, 0.0, 1.0);
 }
 
 void check_rate(const RateSpec& rate, Findings& found) {
@@ -104,11 +62,12 @@ void check_body(const BodySpec& body, Findings& found) {
   if (body.kind == Kind::kUniform) {
     found.range<Duration>("body.low", body.low, Duration::zero(), kDelayMax);
     found.range<Duration>("body.high", body.high, Duration::zero(), kDelayMax);
-    if (body.low > body.high) found.add("body.low", text(body.low) + " is above the high end, " + text(body.high));
+    if (body.low > body.high)
+      found.add("body.low", Findings::text(body.low) + " is above the high end, " + Findings::text(body.high));
     return;
   }
-  found.above("body.scale", body.scale, Duration::zero(), kDelayMax);
-  found.above("body.cap", body.cap, Duration::zero(), kDelayMax);
+  found.above<Duration>("body.scale", body.scale, Duration::zero(), kDelayMax);
+  found.above<Duration>("body.cap", body.cap, Duration::zero(), kDelayMax);
   if (body.kind == Kind::kLogNormal) {
     found.range("body.shape", body.shape, 0.0, 5.0);
   } else {
@@ -119,12 +78,13 @@ void check_body(const BodySpec& body, Findings& found) {
 void check_stall(const StallSpec& stall, Findings& found) {
   if (stall.rate_per_s == 0) return;
   found.range("stall.rate_per_s", stall.rate_per_s, 0.0, 100.0);
-  found.above("stall.length_min", stall.length_min, Duration::zero(), kDelayMax);
+  found.above<Duration>("stall.length_min", stall.length_min, Duration::zero(), kDelayMax);
   found.range("stall.alpha", stall.alpha, 0.5, 100.0);
   found.range<Duration>("stall.cap", stall.cap, std::max(Duration{1}, stall.length_min), kDelayMax);
   const double covered = stall.rate_per_s * tandem::seconds(stall.cap);
   if (covered > 32) {
-    found.add("stall.rate_per_s", text(covered) + " stalls of the longest length at the same time; at most 32");
+    found.add("stall.rate_per_s",
+              Findings::text(covered) + " stalls of the longest length at the same time; at most 32");
   }
 }
 
@@ -133,7 +93,7 @@ void check_stall(const StallSpec& stall, Findings& found) {
 std::vector<SpecProblem> problems(const PathSpec& spec) {
   Findings found;
   check_outages(spec.outages, found);
-  check_loss(spec.loss, found);
+  check_loss(spec.loss, spec.rate.bits_per_s > 0, spec.stall.rate_per_s > 0, found);
   check_rate(spec.rate, found);
   found.range<Duration>("floor", spec.floor, Duration::zero(), kDelayMax);
   check_trace(spec.trace.get(), found);
@@ -142,7 +102,7 @@ std::vector<SpecProblem> problems(const PathSpec& spec) {
   found.range("reorder.probability", spec.reorder.probability, 0.0, 1.0);
   if (spec.reorder.probability > 0) {
     found.range("reorder.displacement", static_cast<double>(spec.reorder.displacement), 1.0, 1000.0);
-    found.above("reorder.hold_limit", spec.reorder.hold_limit, Duration::zero(), kDelayMax);
+    found.above<Duration>("reorder.hold_limit", spec.reorder.hold_limit, Duration::zero(), kDelayMax);
   }
   found.range("duplicate.probability", spec.duplicate.probability, 0.0, 1.0);
   if (spec.duplicate.probability > 0) {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "common/base/time.h"
+#include "netsim/findings.h"
+#include "netsim/loss_spec.h"
 
 /// What one direction of a network does to datagrams, as plain numbers. The order of the members is the order in which
 /// a datagram meets them (network.md 3.1). Everything is off by default; what is off costs nothing per packet.
@@ -30,25 +32,6 @@ struct OutageSpec {
   std::uint64_t hold_bytes = 0;  ///< kHold: what does not fit any more is dropped; 0: no limit of its own
 
   friend bool operator==(const OutageSpec&, const OutageSpec&) = default;
-};
-
-/// Continuous-time Gilbert-Elliott: good and bad periods of exponential length alternate in time, whatever the packet
-/// rate. Share of bad time = bad_mean / (good_mean + bad_mean).
-struct BadPeriodsSpec {
-  Duration good_mean{};  ///< [1 us, 1 h]
-  Duration bad_mean{};   ///< [1 us, 1 h]
-  double loss_good = 0;  ///< probability of losing a datagram sent in a good period [0, 1]
-  double loss_bad = 1;   ///< the same in a bad period [0, 1]
-
-  friend bool operator==(const BadPeriodsSpec&, const BadPeriodsSpec&) = default;
-};
-
-/// Loss: every datagram alone with `probability`, and by the periods. Either is enough to lose it.
-struct LossSpec {
-  double probability = 0;  ///< Bernoulli, per datagram [0, 1]
-  std::optional<BadPeriodsSpec> periods = {};
-
-  friend bool operator==(const LossSpec&, const LossSpec&) = default;
 };
 
 /// A sender that serves one datagram after the other at a fixed rate, and what may wait for it (tail drop).
@@ -147,12 +130,6 @@ struct LinkSpec {
   [[nodiscard]] const PathSpec& operator[](Direction d) const noexcept { return d == Direction::kUp ? up : down; }
   [[nodiscard]] PathSpec& operator[](Direction d) noexcept { return d == Direction::kUp ? up : down; }
   friend bool operator==(const LinkSpec&, const LinkSpec&) = default;
-};
-
-/// One mistake in a spec.
-struct SpecProblem {
-  std::string key;      ///< member, such as `body.cap`
-  std::string message;  ///< what is wrong and what is allowed
 };
 
 /// All mistakes; empty: the spec can be simulated.

@@ -26,15 +26,57 @@ BodySpec::Kind kind_of(ProfileBody::Kind kind) {
   return BodySpec::Kind::kNone;
 }
 
+LossSpec loss_from(const ProfilePath& in) {
+  LossSpec loss;
+  loss.probability = probability(in.loss_percent);
+  if (const auto& bad = in.bad_periods) {
+    loss.periods = BadPeriodsSpec{.good_mean = milliseconds(bad->good_mean_s * 1e3),
+                                  .bad_mean = milliseconds(bad->bad_mean_ms),
+                                  .loss_good = probability(bad->loss_good_percent),
+                                  .loss_bad = probability(bad->loss_bad_percent)};
+  }
+  if (const auto& ge = in.gilbert_elliott) {
+    loss.gilbert_elliott = GilbertElliottSpec{.p = probability(ge->p_percent),
+                                              .r = probability(ge->r_percent),
+                                              .h = probability(ge->h_percent),
+                                              .k = probability(ge->k_percent)};
+  }
+  if (const auto& four = in.four_state) {
+    loss.four_state = FourStateSpec{.p13 = probability(four->p13_percent),
+                                    .p31 = probability(four->p31_percent),
+                                    .p32 = probability(four->p32_percent),
+                                    .p23 = probability(four->p23_percent),
+                                    .p14 = probability(four->p14_percent)};
+  }
+  if (const auto& bursts = in.loss_bursts) {
+    loss.bursts = LossBurstsSpec{
+        .rate_per_s = bursts->rate_per_s,
+        .law = static_cast<LossBurstsSpec::Law>(bursts->law),
+        .unit = bursts->datagrams ? LossBurstsSpec::Unit::kDatagrams : LossBurstsSpec::Unit::kMilliseconds,
+        .length = bursts->length,
+        .alpha = bursts->alpha,
+        .cap = bursts->cap};
+  }
+  if (const auto& pattern = in.loss_pattern) {
+    LossPatternSpec& out = loss.pattern.emplace();
+    out = {.lost = pattern->lost, .of = pattern->of, .every = pattern->every, .indices = pattern->indices};
+    for (const double s : pattern->times_s) out.times.push_back(milliseconds(s * 1e3));
+  }
+  if (const auto& congestion = in.congestion_loss) {
+    loss.congestion = CongestionLossSpec{.wait_low = milliseconds(congestion->wait_low_ms),
+                                         .wait_high = milliseconds(congestion->wait_high_ms),
+                                         .probability = probability(congestion->queue_percent),
+                                         .in_stall = probability(congestion->stall_percent)};
+  }
+  if (const auto& trace = in.loss_trace) {
+    loss.trace = std::make_shared<LossTrace>(LossTrace{trace->lost, milliseconds(trace->interval_ms)});
+  }
+  return loss;
+}
+
 PathSpec path_from(const ProfilePath& in) {
   PathSpec path;
-  path.loss.probability = probability(in.loss_percent);
-  if (const auto& bad = in.bad_periods) {
-    path.loss.periods = BadPeriodsSpec{.good_mean = milliseconds(bad->good_mean_s * 1e3),
-                                       .bad_mean = milliseconds(bad->bad_mean_ms),
-                                       .loss_good = probability(bad->loss_good_percent),
-                                       .loss_bad = probability(bad->loss_bad_percent)};
-  }
+  path.loss = loss_from(in);
   if (const auto& rate = in.rate) {
     path.rate.bits_per_s = rate->rate_bit_s;
     path.rate.overhead_bytes = rate->overhead_bytes;

@@ -29,6 +29,30 @@ struct ProfileBody {
 struct ProfileStall {
   double rate_per_s = 0, length_min_ms = 0, alpha = 0, cap_ms = 0;
 };
+struct ProfileGilbertElliott {
+  double p_percent = 0, r_percent = 0, h_percent = 0, k_percent = 100;
+};
+struct ProfileFourState {
+  double p13_percent = 0, p31_percent = 0, p32_percent = 0, p23_percent = 0, p14_percent = 0;
+};
+struct ProfileLossBursts {
+  double rate_per_s = 0;
+  enum class Law : std::uint8_t { kFixed, kGeometric, kParetoII } law = Law::kFixed;
+  bool datagrams = true;  ///< the unit of `length` and `cap`; else ms
+  double length = 0, alpha = 1, cap = 0;
+};
+struct ProfileLossPattern {
+  std::uint32_t lost = 0, of = 0, every = 0;
+  std::vector<std::uint64_t> indices;
+  std::vector<double> times_s;
+};
+struct ProfileCongestionLoss {
+  double wait_low_ms = 0, wait_high_ms = 0, queue_percent = 0, stall_percent = 0;
+};
+struct ProfileLossTrace {
+  std::vector<bool> lost;
+  double interval_ms = 0;  ///< 0: one per datagram
+};
 struct ProfileReorder {
   double probability_percent = 0;
   std::uint32_t displacement = 3;
@@ -50,6 +74,12 @@ struct ProfilePath {
   bool free_order = false;
   std::optional<ProfileReorder> reorder;
   std::optional<ProfileDuplicate> duplicate;
+  std::optional<ProfileGilbertElliott> gilbert_elliott;
+  std::optional<ProfileFourState> four_state;
+  std::optional<ProfileLossBursts> loss_bursts;
+  std::optional<ProfileLossPattern> loss_pattern;
+  std::optional<ProfileCongestionLoss> congestion_loss;
+  std::optional<ProfileLossTrace> loss_trace;
 };
 
 struct ProfileOutage {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "proto/profile.pb.h"
+#include "proto/profile_loss.h"
 #include "proto/text_format_reader.h"
 
 namespace tandem {
@@ -80,6 +81,7 @@ ProfilePath path_from(const pb::NetworkPath& in, Checker& checker, const std::st
     duplicate.probability_percent = in.duplicate().probability_percent();
     if (in.duplicate().has_delay_max_ms()) duplicate.delay_max_ms = in.duplicate().delay_max_ms();
   }
+  loss_from(in, path, checker, key);
   return path;
 }
 
