@@ -228,8 +228,8 @@ TEST(CongestionLoss, TakesItsShareOfWhatAStallWouldHold) {
 LossSpec all_models() {
   LossSpec loss{.probability = 0.01};
   loss.periods = BadPeriodsSpec{.good_mean = 500ms, .bad_mean = 20ms};
-  loss.gilbert_elliott = GilbertElliottSpec{.p = 0.001, .r = 0.2};
-  loss.four_state = FourStateSpec{.p13 = 0.001, .p31 = 0.3, .p32 = 0.1, .p23 = 0.5, .p14 = 0.001};
+  loss.gilbert_elliott = GilbertElliottSpec{.p = 0.05, .r = 0.2};
+  loss.four_state = FourStateSpec{.p13 = 0.05, .p31 = 0.3, .p32 = 0.1, .p23 = 0.5, .p14 = 0.01};
   loss.bursts = LossBurstsSpec{0.5, Law::kParetoII, Unit::kDatagrams, 5, 1.5, 100};
   loss.pattern = LossPatternSpec{.lost = 1, .of = 100, .every = 77, .indices = {5}, .times = {1s}};
   loss.trace = std::make_shared<LossTrace>(LossTrace{{false, false, true}, 1s});
