@@ -28,15 +28,20 @@ class LinkRate {
   }
 
   /// How long a datagram that comes now waits before its first bit is sent, to the whole nanosecond.
-  [[nodiscard]] Duration waiting(Time now) const noexcept { return std::max(busy_until_ - now, Duration::zero()); }
+  [[nodiscard]] Duration waiting(Time now) const noexcept {
+    return std::max(busy_until_ - now, Duration::zero()) + others(now);
+  }
 
  private:
+  /// What the competing flow has in the queue, as waiting time: linear up to the peak, then falling with time itself.
+  [[nodiscard]] Duration others(Time now) const noexcept;
   std::optional<Time> serve_queued(Time now, std::size_t size) noexcept;
 
   std::uint64_t bits_per_s_;
   std::uint64_t overhead_;
   std::uint64_t queue_bytes_;
   Duration wait_max_;
+  Duration competing_peak_, competing_period_;
   Time busy_until_{};            ///< whole nanoseconds,
   std::uint64_t busy_rest_ = 0;  ///< plus this many 1/bits_per_s parts of one
 };

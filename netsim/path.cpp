@@ -7,7 +7,7 @@
 namespace tandem::netsim {
 namespace {
 
-enum Purpose : std::uint64_t { kLoss = 1, kBody, kStall, kReorder, kDuplicate, kCopy };
+enum Purpose : std::uint64_t { kLoss = 1, kBody, kStall, kReorder, kDuplicate, kCopy, kRegimes, kBoundary };
 
 /// Far enough from the ends of 64 bits that no sum of delays overflows; 146 years.
 constexpr Time kTimeMax{Duration{std::int64_t{1} << 62}};
@@ -52,7 +52,10 @@ Path::Path(const PathSpec& spec, RandomKey key)
       floor_(spec.floor),
       trace_(spec.trace),
       body_(spec.body, key.derive(kBody)),
+      regimes_(spec.regimes, key.derive(kRegimes)),
+      boundary_(spec.boundary, key.derive(kBoundary)),
       stalls_(spec.stall, key.derive(kStall)),
+      slots_(spec.slots),
       order_(spec.order),
       reorder_(spec.reorder),
       duplicate_(spec.duplicate),
@@ -77,7 +80,7 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
   // Loss belongs to the moment of sending, also for what an outage holds: else a whole burst would meet one state.
   DelayTrace::Step recorded;
   if (trace_.present()) recorded = trace_.at(now);
-  if (recorded.lost || lost) {
+  if (recorded.lost || lost || boundary_.lost(now, verdict.index)) {
     verdict.outcome = Outcome::kLost;
     return verdict;
   }
@@ -90,13 +93,14 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
     verdict.outcome = Outcome::kQueueFull;
     return verdict;
   }
-  const Time due = *sent + floor_ + recorded.delay + body_.at(*sent, verdict.index);
-  Time at = stalls_.release(due);
+  const Time due = *sent + floor_ + recorded.delay + body_.at(*sent, verdict.index) +
+                   regimes_.at(*sent, verdict.index) + boundary_.floor(*sent);
+  Time at = stalls_.release(boundary_.release(due));
   if (at > due && loss_.lost_in_stall(verdict.index)) {
     verdict.outcome = Outcome::kLost;
     return verdict;
   }
-  if (order_ == Order::kFifo) at = std::max(at, last_out_);
+  if (order_ == Order::kFifo) at = slots_.release(std::max(at, last_out_), size);
   last_out_ = std::max(last_out_, at);
   verdict.at = at;
 

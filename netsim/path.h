@@ -9,6 +9,7 @@
 #include "common/base/rng.h"
 #include "common/base/time.h"
 #include "netsim/body_delay.h"
+#include "netsim/delay_models.h"
 #include "netsim/link_rate.h"
 #include "netsim/loss.h"
 #include "netsim/outages.h"
@@ -90,7 +91,10 @@ class Path {
   Duration floor_;
   TracePlayer trace_;
   BodyDelay body_;
+  Regimes regimes_;
+  Boundary boundary_;
   Stalls stalls_;
+  Slots slots_;
   Order order_;
   ReorderSpec reorder_;
   DuplicateSpec duplicate_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "netsim/delay_checks.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -34,11 +36,15 @@ void check_rate(const RateSpec& rate, Findings& found) {
   if (rate.bits_per_s == 0) {
     if (rate.queue_bytes != 0) found.add("rate.queue_bytes", "a queue needs a rate");
     if (rate.queue_wait) found.add("rate.queue_wait", "a queue needs a rate");
+    if (rate.competing_peak != Duration::zero()) found.add("rate.competing_peak", "a queue needs a rate");
     return;
   }
   found.range("rate.bits_per_s", static_cast<double>(rate.bits_per_s), 100.0, 1e12);
   found.range("rate.overhead_bytes", static_cast<double>(rate.overhead_bytes), 0.0, 1000.0);
   if (rate.queue_wait) found.range<Duration>("rate.queue_wait", *rate.queue_wait, Duration::zero(), hours(1));
+  if (rate.competing_peak == Duration::zero() && rate.competing_period == Duration::zero()) return;
+  found.above<Duration>("rate.competing_peak", rate.competing_peak, Duration::zero(), hours(1));
+  found.above<Duration>("rate.competing_period", rate.competing_period, rate.competing_peak, hours(1));
 }
 
 void check_trace(const DelayTrace* trace, Findings& found) {
@@ -53,26 +59,6 @@ void check_trace(const DelayTrace* trace, Findings& found) {
     if (i > 0 && trace->steps[i].at <= trace->steps[i - 1].at) found.add(key + ".at", "time does not go on");
   }
   if (trace->period <= trace->steps.back().at) found.add("trace.period", "ends before the last step");
-}
-
-void check_body(const BodySpec& body, Findings& found) {
-  using Kind = BodySpec::Kind;
-  if (body.kind == Kind::kNone) return;
-  if (body.tau != Duration::zero()) found.range<Duration>("body.tau", body.tau, microseconds(10), seconds(10));
-  if (body.kind == Kind::kUniform) {
-    found.range<Duration>("body.low", body.low, Duration::zero(), kDelayMax);
-    found.range<Duration>("body.high", body.high, Duration::zero(), kDelayMax);
-    if (body.low > body.high)
-      found.add("body.low", Findings::text(body.low) + " is above the high end, " + Findings::text(body.high));
-    return;
-  }
-  found.above<Duration>("body.scale", body.scale, Duration::zero(), kDelayMax);
-  found.above<Duration>("body.cap", body.cap, Duration::zero(), kDelayMax);
-  if (body.kind == Kind::kLogNormal) {
-    found.range("body.shape", body.shape, 0.0, 5.0);
-  } else {
-    found.range("body.shape", body.shape, 0.5, 100.0);
-  }
 }
 
 void check_stall(const StallSpec& stall, Findings& found) {
@@ -97,7 +83,8 @@ std::vector<SpecProblem> problems(const PathSpec& spec) {
   check_rate(spec.rate, found);
   found.range<Duration>("floor", spec.floor, Duration::zero(), kDelayMax);
   check_trace(spec.trace.get(), found);
-  check_body(spec.body, found);
+  check_body("body", spec.body, found);
+  check_delay_models(spec, found);
   check_stall(spec.stall, found);
   found.range("reorder.probability", spec.reorder.probability, 0.0, 1.0);
   if (spec.reorder.probability > 0) {
@@ -118,11 +105,10 @@ Duration delay_max(const PathSpec& spec) noexcept {
     for (const DelayTrace::Step& step : spec.trace->steps) longest = std::max(longest, step.delay);
     sum += longest;
   }
-  if (spec.body.kind == BodySpec::Kind::kUniform) {
-    sum += spec.body.high;
-  } else if (spec.body.kind != BodySpec::Kind::kNone) {
-    sum += spec.body.cap;
-  }
+  sum += spec.body.longest();
+  Duration regime{};
+  for (const RegimeSpec& state : spec.regimes) regime = std::max(regime, state.floor + state.body.longest());
+  sum += regime + spec.boundary.floor_high + spec.boundary.stall_high + spec.slots.period;
   if (spec.stall.rate_per_s > 0) sum += spec.stall.cap;
   if (spec.reorder.probability > 0) sum += spec.reorder.hold_limit;
   if (spec.duplicate.probability > 0) sum += spec.duplicate.delay_max;

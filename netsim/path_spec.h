@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/time.h"
+#include "netsim/body_spec.h"
 #include "netsim/findings.h"
 #include "netsim/loss_spec.h"
 
@@ -40,6 +41,9 @@ struct RateSpec {
   std::uint32_t overhead_bytes = 28;        ///< added to every datagram on this link: IPv4 + UDP headers [0, 1000]
   std::uint64_t queue_bytes = 0;            ///< bytes not yet sent, the new datagram included; 0: no limit
   std::optional<Duration> queue_wait = {};  ///< longest wait before a datagram's first bit is sent [0, 1 h]
+  /// The queue is shared with a TCP flow, which fills it to `competing_peak` of waiting and lets it drain, every
+  /// `competing_period` [period above peak, at most 1 h; 0: nobody].
+  Duration competing_peak{}, competing_period{};
 
   friend bool operator==(const RateSpec&, const RateSpec&) = default;
 };
@@ -53,26 +57,6 @@ struct DelayTrace {
   };
   std::vector<Step> steps = {};  ///< at least one
   Duration period{};             ///< longer than the last `at`
-};
-
-/// Delay that varies, added to the floor.
-struct BodySpec {
-  enum class Kind : std::uint8_t {
-    kNone,
-    kUniform,      ///< `low` ... `high`
-    kLogNormal,    ///< `scale` exp(`shape` z): scale is the median
-    kLogLogistic,  ///< `scale` (u / (1 - u))^(1 / `shape`): scale is the median
-  };
-  Kind kind = Kind::kNone;
-  Duration low{}, high{};  ///< [0, 60 s], low <= high
-  Duration scale{};        ///< (0, 60 s]
-  double shape = 1;        ///< log-normal [0, 5], log-logistic [0.5, 100]
-  Duration cap{};          ///< longest value; mandatory for kLogNormal and kLogLogistic [0, 60 s]
-  /// Correlation time of the underlying Gaussian process. The distribution of the delay does not depend on it, and its
-  /// course is a function of time, not of the packets. 0: every datagram draws for itself. Else [10 us, 10 s].
-  Duration tau{};
-
-  friend bool operator==(const BodySpec&, const BodySpec&) = default;
 };
 
 /// Stalls begin as a Poisson process; what would leave during one leaves at its end, at once. Length: Pareto.
@@ -115,7 +99,10 @@ struct PathSpec {
   Duration floor{};                              ///< propagation: no datagram is faster [0, 60 s]
   std::shared_ptr<const DelayTrace> trace = {};  ///< recorded delay added to the floor; null: none
   BodySpec body = {};
+  std::vector<RegimeSpec> regimes = {};  ///< none, or [2, 16]
+  BoundarySpec boundary = {};
   StallSpec stall = {};
+  SlotsSpec slots = {};  ///< needs Order::kFifo
   Order order = Order::kFifo;
   ReorderSpec reorder = {};
   DuplicateSpec duplicate = {};

@@ -12,18 +12,22 @@ namespace {
 Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
 double probability(double percent) { return percent / 100; }
 
-BodySpec::Kind kind_of(ProfileBody::Kind kind) {
-  switch (kind) {
-    case ProfileBody::Kind::kNone:
-      return BodySpec::Kind::kNone;
-    case ProfileBody::Kind::kUniform:
-      return BodySpec::Kind::kUniform;
-    case ProfileBody::Kind::kLogNormal:
-      return BodySpec::Kind::kLogNormal;
-    case ProfileBody::Kind::kLogLogistic:
-      return BodySpec::Kind::kLogLogistic;
+BodySpec body_from(const ProfileBody& in) {
+  BodySpec body;
+  if (in.kind == ProfileBody::Kind::kNone) return body;
+  body = {.kind = static_cast<BodySpec::Kind>(in.kind),
+          .low = milliseconds(in.low_ms),
+          .high = milliseconds(in.high_ms),
+          .scale = milliseconds(in.scale_ms),
+          .shape = in.shape,
+          .cap = milliseconds(in.cap_ms),
+          .tau = milliseconds(in.tau_ms),
+          .sd = milliseconds(in.sd_ms)};
+  for (const auto& phase : in.phases) body.phases.push_back({phase.weight, milliseconds(phase.mean_ms)});
+  for (const auto& point : in.points) {
+    body.quantiles.push_back({probability(point.percent), milliseconds(point.delay_ms)});
   }
-  return BodySpec::Kind::kNone;
+  return body;
 }
 
 LossSpec loss_from(const ProfilePath& in) {
@@ -82,16 +86,24 @@ PathSpec path_from(const ProfilePath& in) {
     path.rate.overhead_bytes = rate->overhead_bytes;
     path.rate.queue_bytes = rate->queue_bytes;
     if (rate->queue_ms) path.rate.queue_wait = milliseconds(*rate->queue_ms);
+    path.rate.competing_peak = milliseconds(rate->competing_peak_ms);
+    path.rate.competing_period = milliseconds(rate->competing_period_ms);
   }
   path.floor = milliseconds(in.floor_ms);
-  if (in.body.kind != ProfileBody::Kind::kNone)
-    path.body = {.kind = kind_of(in.body.kind),
-                 .low = milliseconds(in.body.low_ms),
-                 .high = milliseconds(in.body.high_ms),
-                 .scale = milliseconds(in.body.median_ms),
-                 .shape = in.body.shape,
-                 .cap = milliseconds(in.body.cap_ms),
-                 .tau = milliseconds(in.body.tau_ms)};
+  path.body = body_from(in.body);
+  for (const ProfileRegime& regime : in.regimes) {
+    path.regimes.push_back({milliseconds(regime.mean_ms), milliseconds(regime.floor_ms), body_from(regime.body)});
+  }
+  if (const auto& boundary = in.boundary) {
+    path.boundary = {.period = milliseconds(boundary->period_s * 1e3),
+                     .phase = milliseconds(boundary->phase_s * 1e3),
+                     .stall_low = milliseconds(boundary->stall_low_ms),
+                     .stall_high = milliseconds(boundary->stall_high_ms),
+                     .floor_high = milliseconds(boundary->floor_high_ms),
+                     .loss_window = milliseconds(boundary->loss_window_ms),
+                     .loss = probability(boundary->loss_percent)};
+  }
+  if (const auto& slots = in.slots) path.slots = {milliseconds(slots->period_ms), slots->datagrams, slots->bytes};
   if (const auto& stall = in.stall) {
     path.stall = {.rate_per_s = stall->rate_per_s,
                   .length_min = milliseconds(stall->length_min_ms),

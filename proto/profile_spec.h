@@ -19,12 +19,47 @@ struct ProfileRate {
   std::uint32_t overhead_bytes = 28;
   std::uint64_t queue_bytes = 0;  ///< 0: no limit
   std::optional<double> queue_ms;
+  double competing_peak_ms = 0, competing_period_ms = 0;
 };
 struct ProfileBody {
-  enum class Kind : std::uint8_t { kNone, kUniform, kLogNormal, kLogLogistic } kind = Kind::kNone;
-  double low_ms = 0, high_ms = 0;               ///< uniform
-  double median_ms = 0, shape = 0, cap_ms = 0;  ///< the others
+  enum class Kind : std::uint8_t {
+    kNone,
+    kUniform,
+    kLogNormal,
+    kLogLogistic,
+    kTruncatedNormal,
+    kExponential,
+    kGamma,
+    kHyperExponential,
+    kPareto,
+    kEmpirical
+  } kind = Kind::kNone;
+  double low_ms = 0, high_ms = 0;              ///< uniform; truncated normal: low
+  double scale_ms = 0, shape = 0, cap_ms = 0;  ///< median, mean, scale or least value, as the kind has it
+  double sd_ms = 0;
   double tau_ms = 0;
+  struct Phase {
+    double weight = 0, mean_ms = 0;
+  };
+  struct Point {
+    double percent = 0, delay_ms = 0;
+  };
+  std::vector<Phase> phases = {};
+  std::vector<Point> points = {};
+};
+struct ProfileRegime {
+  double mean_ms = 0, floor_ms = 0;
+  ProfileBody body;
+};
+struct ProfileBoundary {
+  double period_s = 0, phase_s = 0;
+  double stall_low_ms = 0, stall_high_ms = 0, floor_high_ms = 0;
+  double loss_window_ms = 0, loss_percent = 0;
+};
+struct ProfileSlots {
+  double period_ms = 0;
+  std::uint32_t datagrams = 0;
+  std::uint64_t bytes = 0;
 };
 struct ProfileStall {
   double rate_per_s = 0, length_min_ms = 0, alpha = 0, cap_ms = 0;
@@ -80,6 +115,9 @@ struct ProfilePath {
   std::optional<ProfileLossPattern> loss_pattern;
   std::optional<ProfileCongestionLoss> congestion_loss;
   std::optional<ProfileLossTrace> loss_trace;
+  std::vector<ProfileRegime> regimes;
+  std::optional<ProfileBoundary> boundary;
+  std::optional<ProfileSlots> slots;
 };
 
 struct ProfileOutage {

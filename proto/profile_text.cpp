@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "proto/profile.pb.h"
+#include "proto/profile_delay.h"
 #include "proto/profile_loss.h"
 #include "proto/text_format_reader.h"
 
@@ -13,30 +14,6 @@ using text::Checker;
 using text::child_path;
 
 std::uint64_t whole(double value) { return static_cast<std::uint64_t>(std::llround(value)); }
-
-ProfileBody body_from(const pb::Body& in, Checker& checker, const std::string& key) {
-  ProfileBody body;
-  if (in.has_uniform() + in.has_log_normal() + in.has_log_logistic() != 1) {
-    checker.error(key, "needs exactly one of uniform, log_normal, log_logistic");
-  }
-  const auto take = [&body](ProfileBody::Kind kind, const auto& shape) {
-    body.kind = kind;
-    body.median_ms = shape.median_ms();
-    body.shape = shape.shape();
-    body.cap_ms = shape.cap_ms();
-  };
-  if (in.has_log_normal()) take(ProfileBody::Kind::kLogNormal, in.log_normal());
-  if (in.has_log_logistic()) take(ProfileBody::Kind::kLogLogistic, in.log_logistic());
-  if (in.has_uniform()) {
-    body.kind = ProfileBody::Kind::kUniform;
-    body.low_ms = in.uniform().low_ms();
-    body.high_ms = in.uniform().high_ms();
-    if (body.low_ms > body.high_ms) checker.error(child_path(key, "uniform.low_ms"), "is above high_ms");
-  }
-  body.tau_ms = in.tau_ms();
-  if (body.tau_ms > 0 && body.tau_ms < 0.01) checker.error(child_path(key, "tau_ms"), "must be 0 or at least 0.01 ms");
-  return body;
-}
 
 ProfileStall stall_from(const pb::Stall& in, Checker& checker, const std::string& key) {
   if (in.cap_ms() < in.length_min_ms()) checker.error(child_path(key, "cap_ms"), "is below length_min_ms");
@@ -55,6 +32,14 @@ ProfileRate rate_from(const pb::LinkRateProfile& in, Checker& checker, const std
   if (in.has_overhead_bytes()) rate.overhead_bytes = in.overhead_bytes();
   if (in.has_queue_bytes()) rate.queue_bytes = whole(in.queue_bytes());
   if (in.has_queue_ms()) rate.queue_ms = in.queue_ms();
+  rate.competing_peak_ms = in.competing_peak_ms();
+  rate.competing_period_ms = in.competing_period_ms();
+  if (in.has_competing_peak_ms() != in.has_competing_period_ms()) {
+    checker.error(key, "competing_peak_ms and competing_period_ms belong together");
+  } else if (in.has_competing_peak_ms() && rate.competing_period_ms <= rate.competing_peak_ms) {
+    checker.error(child_path(key, "competing_period_ms"),
+                  "must be above competing_peak_ms: a queue drains in real time");
+  }
   return rate;
 }
 
@@ -67,7 +52,7 @@ ProfilePath path_from(const pb::NetworkPath& in, Checker& checker, const std::st
   }
   if (in.has_rate()) path.rate = rate_from(in.rate(), checker, child_path(key, "rate"));
   path.floor_ms = in.floor_ms();
-  if (in.has_body()) path.body = body_from(in.body(), checker, child_path(key, "body"));
+  delay_from(in, path, checker, key);
   if (in.has_stall()) path.stall = stall_from(in.stall(), checker, child_path(key, "stall"));
   path.free_order = in.order() == pb::NetworkPath::FREE;
   if (in.has_reorder()) {
