@@ -7,7 +7,18 @@
 namespace tandem::netsim {
 namespace {
 
-enum Purpose : std::uint64_t { kLoss = 1, kBody, kStall, kReorder, kDuplicate, kCopy, kRegimes, kBoundary };
+enum Purpose : std::uint64_t {
+  kLoss = 1,
+  kBody,
+  kStall,
+  kReorder,
+  kDuplicate,
+  kCopy,
+  kRegimes,
+  kBoundary,
+  kOutages,
+  kDamage
+};
 
 /// Far enough from the ends of 64 bits that no sum of delays overflows; 146 years.
 constexpr Time kTimeMax{Duration{std::int64_t{1} << 62}};
@@ -41,12 +52,16 @@ const char* name(Outcome outcome) noexcept {
       return "overflow";
     case Outcome::kTooLong:
       return "too long";
+    case Outcome::kCorrupted:
+      return "corrupted";
+    case Outcome::kAboveMtu:
+      return "above MTU";
   }
   return "?";
 }
 
-Path::Path(const PathSpec& spec, RandomKey key)
-    : outages_(checked(spec).outages),
+Path::Path(const PathSpec& spec, RandomKey key, RandomKey link_key)
+    : outages_(checked(spec).outages, link_key.derive(kOutages)),
       loss_(spec.loss, key.derive(kLoss)),
       rate_(spec.rate),
       floor_(spec.floor),
@@ -59,6 +74,9 @@ Path::Path(const PathSpec& spec, RandomKey key)
       order_(spec.order),
       reorder_(spec.reorder),
       duplicate_(spec.duplicate),
+      mtu_(spec.mtu == 0 ? ~std::uint64_t{0} : spec.mtu - std::min(spec.mtu, spec.rate.overhead_bytes)),
+      corrupted_(spec.corrupted),
+      corrupted_key_(key.derive(kDamage)),
       reorder_key_(key.derive(kReorder)),
       duplicate_key_(key.derive(kDuplicate)),
       copy_key_(key.derive(kCopy)) {}
@@ -88,9 +106,17 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
     verdict.outcome = Outcome::kLost;
     return verdict;
   }
+  if (size > mtu_) {
+    verdict.outcome = Outcome::kAboveMtu;
+    return verdict;
+  }
   const auto sent = rate_.serve(passage.at, size);
   if (!sent) {
     verdict.outcome = Outcome::kQueueFull;
+    return verdict;
+  }
+  if (corrupted_ > 0 && corrupted_key_.uniform(verdict.index) < corrupted_) {
+    verdict.outcome = Outcome::kCorrupted;
     return verdict;
   }
   const Time due = *sent + floor_ + recorded.delay + body_.at(*sent, verdict.index) +

@@ -23,6 +23,15 @@ void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
     const std::string key = "outages[" + std::to_string(i) + "]";
     found.range<Duration>(key + ".start", outage.start, Duration::zero(), hours(24 * 30));
     found.above<Duration>(key + ".length", outage.length, Duration::zero(), hours(1));
+    if (outage.mean_gap != Duration::zero()) {
+      found.range<Duration>(key + ".mean_gap", outage.mean_gap, microseconds(1000), hours(24));
+      found.range<Duration>(key + ".length_max", outage.length_max, outage.length, hours(1));
+      if (outage.length_max / 32 > outage.mean_gap) found.add(key + ".length_max", "is above 32 times mean_gap");
+      if (outage.period != Duration::zero() || outage.start != Duration::zero()) {
+        found.add(key + ".mean_gap", "excludes start and period");
+      }
+      continue;
+    }
     if (outage.period == Duration::zero()) continue;
     found.range<Duration>(key + ".period", outage.period, Duration::zero(), hours(24 * 30));
     if (outage.period > Duration::zero() && outage.period <= outage.length) {
@@ -32,9 +41,32 @@ void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
   }
 }
 
+void check_capacity(const RateSpec& rate, Findings& found) {
+  if (rate.bits_per_s != 0) found.add("rate.trace", "a recorded capacity excludes bits_per_s");
+  if (rate.competing_peak != Duration::zero()) found.add("rate.competing_peak", "not with a recorded capacity");
+  const auto& entries = rate.trace->entries;
+  bool ascends = !entries.empty() && entries.front().ms >= 0;
+  for (std::size_t i = 0; ascends && i < entries.size(); ++i) {
+    ascends = entries[i].opportunities > 0 && (i == 0 || entries[i].ms > entries[i - 1].ms);
+  }
+  if (!ascends) return found.add("rate.trace.entries", "are none, do not ascend or hold no opportunity");
+  const Duration end = std::chrono::milliseconds(1) * entries.back().ms;
+  if (rate.trace->period <= end || rate.trace->period % std::chrono::milliseconds(1) != Duration::zero()) {
+    found.add("rate.trace.period", "is not after the last entry, or no whole millisecond");
+  }
+}
+
 void check_rate(const RateSpec& rate, Findings& found) {
+  if (rate.queue_datagrams > 65'536) found.add("rate.queue_datagrams", "is above 65536");
+  if (rate.codel) {
+    found.above<Duration>("rate.codel.target", rate.codel->target, Duration::zero(), seconds(10));
+    found.above<Duration>("rate.codel.interval", rate.codel->interval, rate.codel->target, seconds(60));
+  }
+  if (rate.trace) return check_capacity(rate, found);
   if (rate.bits_per_s == 0) {
     if (rate.queue_bytes != 0) found.add("rate.queue_bytes", "a queue needs a rate");
+    if (rate.queue_datagrams != 0) found.add("rate.queue_datagrams", "a queue needs a rate");
+    if (rate.codel) found.add("rate.codel", "a queue needs a rate");
     if (rate.queue_wait) found.add("rate.queue_wait", "a queue needs a rate");
     if (rate.competing_peak != Duration::zero()) found.add("rate.competing_peak", "a queue needs a rate");
     return;
@@ -79,7 +111,7 @@ void check_stall(const StallSpec& stall, Findings& found) {
 std::vector<SpecProblem> problems(const PathSpec& spec) {
   Findings found;
   check_outages(spec.outages, found);
-  check_loss(spec.loss, spec.rate.bits_per_s > 0, spec.stall.rate_per_s > 0, found);
+  check_loss(spec.loss, spec.rate.present(), spec.stall.rate_per_s > 0, found);
   check_rate(spec.rate, found);
   found.range<Duration>("floor", spec.floor, Duration::zero(), kDelayMax);
   check_trace(spec.trace.get(), found);
@@ -91,6 +123,7 @@ std::vector<SpecProblem> problems(const PathSpec& spec) {
     found.range("reorder.displacement", static_cast<double>(spec.reorder.displacement), 1.0, 1000.0);
     found.above<Duration>("reorder.hold_limit", spec.reorder.hold_limit, Duration::zero(), kDelayMax);
   }
+  found.range("corrupted", spec.corrupted, 0.0, 1.0);
   found.range("duplicate.probability", spec.duplicate.probability, 0.0, 1.0);
   if (spec.duplicate.probability > 0) {
     found.range<Duration>("duplicate.delay_max", spec.duplicate.delay_max, Duration::zero(), kDelayMax);
@@ -114,7 +147,7 @@ Duration delay_max(const PathSpec& spec) noexcept {
   if (spec.duplicate.probability > 0) sum += spec.duplicate.delay_max;
   Duration held{};
   for (const OutageSpec& outage : spec.outages) {
-    if (outage.mode == OutageSpec::Mode::kHold) held = std::max(held, outage.length);
+    if (outage.mode == OutageSpec::Mode::kHold) held = std::max({held, outage.length, outage.length_max});
   }
   return sum + held;
 }

@@ -31,8 +31,31 @@ struct OutageSpec {
   Duration period{};             ///< 0: once; else longer than `length`
   Mode mode = Mode::kDrop;       ///< drop unless said otherwise
   std::uint64_t hold_bytes = 0;  ///< kHold: what does not fit any more is dropped; 0: no limit of its own
+  /// Above 0: instead of `start` and `period` the outages begin as a Poisson process, so long apart on average, each
+  /// uniform in [`length`, `length_max`] long; the same moments in both directions of a link. length_max <= 32
+  /// mean_gap.
+  Duration mean_gap{};
+  Duration length_max{};  ///< [length, 1 h]
 
   friend bool operator==(const OutageSpec&, const OutageSpec&) = default;
+};
+
+/// Recorded capacity: so many opportunities of 1500 bytes in a millisecond, from the start again after `period`.
+struct CapacityTrace {
+  struct Entry {
+    std::int64_t ms = 0;              ///< ascending from 0
+    std::uint64_t opportunities = 1;  ///< at least 1
+  };
+  std::vector<Entry> entries = {};  ///< at least one
+  Duration period{};                ///< whole milliseconds, after the last entry
+};
+
+/// Controlled delay [RFC 8289].
+struct CoDelSpec {
+  Duration target{5'000'000};      ///< (0, 10 s]
+  Duration interval{100'000'000};  ///< above target, at most 60 s
+
+  friend bool operator==(const CoDelSpec&, const CoDelSpec&) = default;
 };
 
 /// A sender that serves one datagram after the other at a fixed rate, and what may wait for it (tail drop).
@@ -44,6 +67,10 @@ struct RateSpec {
   /// The queue is shared with a TCP flow, which fills it to `competing_peak` of waiting and lets it drain, every
   /// `competing_period` [period above peak, at most 1 h; 0: nobody].
   Duration competing_peak{}, competing_period{};
+  std::uint32_t queue_datagrams = 0;  ///< not yet sent, the new one included; 0: no limit; at most 65536
+  std::optional<CoDelSpec> codel = {};
+  std::shared_ptr<const CapacityTrace> trace = {};  ///< instead of bits_per_s; null: none
+  [[nodiscard]] bool present() const noexcept { return bits_per_s != 0 || trace != nullptr; }
 
   friend bool operator==(const RateSpec&, const RateSpec&) = default;
 };
@@ -106,6 +133,8 @@ struct PathSpec {
   Order order = Order::kFifo;
   ReorderSpec reorder = {};
   DuplicateSpec duplicate = {};
+  double corrupted = 0;   ///< damaged under way; the checksum of UDP drops it, after it used the queue [0, 1]
+  std::uint32_t mtu = 0;  ///< datagrams that are longer, with the overhead of the rate, are dropped; 0: no limit
 
   friend bool operator==(const PathSpec&, const PathSpec&) = default;
 };

@@ -86,6 +86,10 @@ PathSpec path_from(const ProfilePath& in) {
     path.rate.overhead_bytes = rate->overhead_bytes;
     path.rate.queue_bytes = rate->queue_bytes;
     if (rate->queue_ms) path.rate.queue_wait = milliseconds(*rate->queue_ms);
+    path.rate.queue_datagrams = rate->queue_datagrams;
+    if (rate->codel) {
+      path.rate.codel = CoDelSpec{milliseconds(rate->codel_target_ms), milliseconds(rate->codel_interval_ms)};
+    }
     path.rate.competing_peak = milliseconds(rate->competing_peak_ms);
     path.rate.competing_period = milliseconds(rate->competing_period_ms);
   }
@@ -110,6 +114,8 @@ PathSpec path_from(const ProfilePath& in) {
                   .alpha = stall->alpha,
                   .cap = milliseconds(stall->cap_ms)};
   }
+  path.corrupted = probability(in.corrupted_percent);
+  path.mtu = in.mtu_bytes;
   path.order = in.free_order ? Order::kFree : Order::kFifo;
   if (const auto& reorder = in.reorder) {
     path.reorder = {.probability = probability(reorder->probability_percent),
@@ -128,7 +134,9 @@ OutageSpec outage_from(const ProfileOutage& in) {
           .length = milliseconds(in.length_ms),
           .period = milliseconds(in.period_s * 1e3),
           .mode = in.hold ? OutageSpec::Mode::kHold : OutageSpec::Mode::kDrop,
-          .hold_bytes = in.hold_bytes};
+          .hold_bytes = in.hold_bytes,
+          .mean_gap = milliseconds(in.mean_gap_s * 1e3),
+          .length_max = in.mean_gap_s > 0 ? milliseconds(in.length_max_ms) : Duration::zero()};
 }
 
 struct Embedded {

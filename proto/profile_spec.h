@@ -20,6 +20,9 @@ struct ProfileRate {
   std::uint64_t queue_bytes = 0;  ///< 0: no limit
   std::optional<double> queue_ms;
   double competing_peak_ms = 0, competing_period_ms = 0;
+  std::uint32_t queue_datagrams = 0;  ///< 0: no limit
+  bool codel = false;
+  double codel_target_ms = 5, codel_interval_ms = 100;
 };
 struct ProfileBody {
   enum class Kind : std::uint8_t {
@@ -118,13 +121,16 @@ struct ProfilePath {
   std::vector<ProfileRegime> regimes;
   std::optional<ProfileBoundary> boundary;
   std::optional<ProfileSlots> slots;
+  double corrupted_percent = 0;
+  std::uint32_t mtu_bytes = 0;  ///< 0: no limit
 };
 
 struct ProfileOutage {
   double start_s = 0, length_ms = 0, period_s = 0;  ///< period 0: once
   bool hold = false;
   bool up = true, down = true;
-  std::uint64_t hold_bytes = 0;  ///< 0: no limit
+  std::uint64_t hold_bytes = 0;              ///< 0: no limit
+  double mean_gap_s = 0, length_max_ms = 0;  ///< above 0: at random moments
 };
 
 struct ProfileQuantiles {

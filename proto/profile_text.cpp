@@ -32,6 +32,13 @@ ProfileRate rate_from(const pb::LinkRateProfile& in, Checker& checker, const std
   if (in.has_overhead_bytes()) rate.overhead_bytes = in.overhead_bytes();
   if (in.has_queue_bytes()) rate.queue_bytes = whole(in.queue_bytes());
   if (in.has_queue_ms()) rate.queue_ms = in.queue_ms();
+  rate.queue_datagrams = in.queue_datagrams();
+  rate.codel = in.has_codel();
+  if (in.codel().has_target_ms()) rate.codel_target_ms = in.codel().target_ms();
+  if (in.codel().has_interval_ms()) rate.codel_interval_ms = in.codel().interval_ms();
+  if (rate.codel_target_ms >= rate.codel_interval_ms) {
+    checker.error(child_path(key, "codel"), "target_ms must be below interval_ms");
+  }
   rate.competing_peak_ms = in.competing_peak_ms();
   rate.competing_period_ms = in.competing_period_ms();
   if (in.has_competing_peak_ms() != in.has_competing_period_ms()) {
@@ -53,6 +60,8 @@ ProfilePath path_from(const pb::NetworkPath& in, Checker& checker, const std::st
   if (in.has_rate()) path.rate = rate_from(in.rate(), checker, child_path(key, "rate"));
   path.floor_ms = in.floor_ms();
   delay_from(in, path, checker, key);
+  path.corrupted_percent = in.corrupted_percent();
+  path.mtu_bytes = in.mtu_bytes();
   if (in.has_stall()) path.stall = stall_from(in.stall(), checker, child_path(key, "stall"));
   path.free_order = in.order() == pb::NetworkPath::FREE;
   if (in.has_reorder()) {
@@ -78,6 +87,16 @@ ProfileOutage outage_from(const pb::ProfileOutage& in, Checker& checker, const s
                        .up = in.direction() != pb::ProfileOutage::DOWN,
                        .down = in.direction() != pb::ProfileOutage::UP,
                        .hold_bytes = whole(in.hold_bytes())};
+  outage.mean_gap_s = in.mean_gap_s();
+  outage.length_max_ms = in.has_length_max_ms() ? in.length_max_ms() : outage.length_ms;
+  if (in.has_mean_gap_s() == in.has_start_s()) checker.error(key, "needs exactly one of start_s, mean_gap_s");
+  if (in.has_mean_gap_s() && in.has_period_s()) checker.error(child_path(key, "period_s"), "not with mean_gap_s");
+  if (in.has_length_max_ms() && !in.has_mean_gap_s())
+    checker.error(child_path(key, "length_max_ms"), "needs mean_gap_s");
+  if (outage.length_max_ms < outage.length_ms) checker.error(child_path(key, "length_max_ms"), "is below length_ms");
+  if (outage.mean_gap_s > 0 && outage.length_max_ms > 32e3 * outage.mean_gap_s) {
+    checker.error(child_path(key, "length_max_ms"), "is above 32 times mean_gap_s");
+  }
   if (in.has_period_s() && outage.period_s * 1e3 <= outage.length_ms) {
     checker.error(child_path(key, "period_s"), "must be longer than the outage, or the link is never up");
   }
