@@ -6,29 +6,73 @@ namespace tandem::netsim {
 namespace {
 
 __extension__ using Wide = unsigned __int128;
+constexpr std::size_t kBacklogMax = 65'536;
 constexpr std::uint64_t kBitNanoseconds = 8'000'000'000;  // one byte at 1 bit/s [ns]
 
 }  // namespace
 
-LinkRate::LinkRate(const RateSpec& spec) noexcept
-    : bits_per_s_(spec.bits_per_s),
+LinkRate::LinkRate(const RateSpec& spec)
+    : limited_(spec.present()),
+      bits_per_s_(spec.bits_per_s),
       overhead_(spec.overhead_bytes),
       queue_bytes_(spec.queue_bytes),
-      wait_max_(std::min(spec.queue_wait.value_or(kWaitMax), kWaitMax)) {}
+      wait_max_(std::min(spec.queue_wait.value_or(kWaitMax), kWaitMax)),
+      competing_peak_(spec.competing_peak),
+      competing_period_(spec.competing_period),
+      capacity_(spec.trace) {
+  // A recorded capacity cannot tell its backlog from the time alone, so it keeps it.
+  if (spec.queue_datagrams > 0) {
+    backlog_.emplace(spec.queue_datagrams);
+  } else if (spec.trace && spec.queue_bytes > 0) {
+    backlog_.emplace(kBacklogMax);
+  }
+  if (spec.codel) codel_.emplace(*spec.codel);
+}
+
+Duration LinkRate::others(Time now) const noexcept {
+  if (competing_peak_ == Duration::zero()) return Duration::zero();
+  const Duration into = now.time_since_epoch() % competing_period_;
+  const Duration rise = competing_period_ - competing_peak_;
+  if (into >= rise) return competing_period_ - into;
+  const Wide filled = Wide{static_cast<std::uint64_t>(competing_peak_.count())} *
+                      static_cast<std::uint64_t>(into.count()) / static_cast<std::uint64_t>(rise.count());
+  return Duration{static_cast<std::int64_t>(filled)};
+}
 
 std::optional<Time> LinkRate::serve_queued(Time now, std::size_t size) noexcept {
+  const std::uint64_t bytes = size + overhead_;
+  if (backlog_) {
+    backlog_->advance(now);
+    if (backlog_->full()) return std::nullopt;
+  }
+  const auto sent = capacity_.present() ? by_trace(now, bytes) : at_rate(now, bytes);
+  if (sent && backlog_) backlog_->add(*sent, bytes);
+  return sent;
+}
+
+std::optional<Time> LinkRate::by_trace(Time now, std::uint64_t bytes) noexcept {
+  if (queue_bytes_ > 0 && backlog_->bytes() + bytes > queue_bytes_) return std::nullopt;
+  const Time sent = capacity_.offer(now, bytes);
+  if (sent - now > wait_max_ || (codel_ && codel_->drops(sent, sent - now))) return std::nullopt;
+  capacity_.accept();
+  busy_until_ = sent;
+  return sent;
+}
+
+std::optional<Time> LinkRate::at_rate(Time now, std::uint64_t bytes) noexcept {
   if (busy_until_ < now) {
     busy_until_ = now;
     busy_rest_ = 0;
   }
-  const Duration wait = busy_until_ - now;
+  const Duration shared = others(now);
+  const Duration wait = busy_until_ - now + shared;
   if (wait > wait_max_ || (wait == wait_max_ && busy_rest_ > 0)) return std::nullopt;
-  const std::uint64_t bytes = size + overhead_;
   if (queue_bytes_ > 0) {
     const Wide work = Wide{static_cast<std::uint64_t>(wait.count())} * bits_per_s_ + busy_rest_;
     const Wide waiting = (work + kBitNanoseconds - 1) / kBitNanoseconds;
     if (waiting + bytes > queue_bytes_) return std::nullopt;
   }
+  if (codel_ && codel_->drops(now + wait, wait)) return std::nullopt;
   const std::uint64_t work = bytes * kBitNanoseconds;
   busy_until_ += Duration{static_cast<std::int64_t>(work / bits_per_s_)};
   busy_rest_ += work % bits_per_s_;
@@ -36,7 +80,7 @@ std::optional<Time> LinkRate::serve_queued(Time now, std::size_t size) noexcept 
     busy_rest_ -= bits_per_s_;
     busy_until_ += Duration{1};
   }
-  return busy_until_ + Duration{busy_rest_ > 0 ? 1 : 0};
+  return busy_until_ + shared + Duration{busy_rest_ > 0 ? 1 : 0};
 }
 
 }  // namespace tandem::netsim

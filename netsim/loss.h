@@ -5,7 +5,8 @@
 
 #include "common/base/rng.h"
 #include "common/base/time.h"
-#include "netsim/path_spec.h"
+#include "netsim/loss_models.h"
+#include "netsim/loss_spec.h"
 
 namespace tandem::netsim {
 
@@ -43,25 +44,41 @@ class BadPeriods {
   Time end_{};
 };
 
-/// Decides which datagrams are lost: every one alone, and by the periods.
+/// Decides which datagrams are lost. Every model is asked about every datagram, whatever the others say, so that
+/// switching one on moves no decision of another.
 class Loss {
  public:
-  Loss(const LossSpec& spec, RandomKey key) noexcept;
+  Loss(const LossSpec& spec, RandomKey key);
 
   /// @param now    never decreasing
   /// @param index  of the datagram
   bool lost(Time now, std::uint64_t index) noexcept {
-    if (probability_ > 0 && alone_key_.uniform(index) < probability_) return true;
-    return periods_ && lost_by_period(now, index);
+    const bool alone = probability_ > 0 && alone_key_.uniform(index) < probability_;
+    return (models_ && lost_by_model(now, index)) || alone;
   }
 
+  /// Lost because of the queue the datagram finds. @param wait before its first bit is sent
+  [[nodiscard]] bool lost_in_queue(Duration wait, std::uint64_t index) const noexcept;
+  /// Lost because it would leave during a stall.
+  [[nodiscard]] bool lost_in_stall(std::uint64_t index) const noexcept {
+    return congestion_ && stall_key_.uniform(index) < congestion_->in_stall;
+  }
+  [[nodiscard]] bool minds_queue() const noexcept { return congestion_ && congestion_->probability > 0; }
+
  private:
-  bool lost_by_period(Time now, std::uint64_t index) noexcept;
+  bool lost_by_model(Time now, std::uint64_t index) noexcept;
 
   double probability_;
   double loss_good_ = 0, loss_bad_ = 0;
-  RandomKey alone_key_, period_key_;
+  bool models_;  ///< any of those below
+  RandomKey alone_key_, period_key_, queue_key_, stall_key_;
   std::optional<BadPeriods> periods_;
+  std::optional<GilbertElliott> gilbert_elliott_;
+  std::optional<FourState> four_state_;
+  std::optional<LossBursts> bursts_;
+  std::optional<LossPattern> pattern_;
+  std::optional<LossPlayer> player_;
+  std::optional<CongestionLossSpec> congestion_;
 };
 
 }  // namespace tandem::netsim

@@ -4,6 +4,24 @@
 
 namespace tandem::netsim {
 
+OutageGate::OutageGate(const std::vector<OutageSpec>& outages, RandomKey key) {
+  for (std::size_t i = 0; i < outages.size(); ++i) {
+    Outage& outage = outages_.emplace_back(Outage{outages[i], std::nullopt});
+    if (outages[i].mean_gap == Duration::zero()) continue;
+    const LengthLaw law{.low = static_cast<double>(outages[i].length.count()),
+                        .high = static_cast<double>(outages[i].length_max.count()),
+                        .cap = static_cast<double>(outages[i].length_max.count())};
+    outage.random = random_.size();
+    random_.emplace_back(1 / seconds(outages[i].mean_gap), law, key.derive(i));
+  }
+}
+
+std::optional<Time> OutageGate::end_of(const Outage& outage, Time t) noexcept {
+  if (!outage.random) return end_of(outage.spec, t);
+  const Time end = random_[*outage.random].end_of_chain(t);
+  return end > t ? std::optional{end} : std::nullopt;
+}
+
 std::optional<Time> OutageGate::end_of(const OutageSpec& spec, Time t) noexcept {
   const Duration since = t.time_since_epoch() - spec.start;
   if (since < Duration::zero()) return std::nullopt;
@@ -17,12 +35,12 @@ OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
   if (outages_.empty()) return passage;
 
   std::optional<std::uint64_t> room;  // of the holds that cover now; the smallest counts
-  for (const OutageSpec& outage : outages_) {
+  for (const Outage& outage : outages_) {
     const auto end = end_of(outage, now);
     if (!end) continue;
-    if (outage.mode == OutageSpec::Mode::kDrop) return {State::kDropped, now};
+    if (outage.spec.mode == OutageSpec::Mode::kDrop) return {State::kDropped, now};
     passage.at = std::max(passage.at, *end);
-    if (outage.hold_bytes > 0) room = std::min(room.value_or(outage.hold_bytes), outage.hold_bytes);
+    if (outage.spec.hold_bytes > 0) room = std::min(room.value_or(outage.spec.hold_bytes), outage.spec.hold_bytes);
   }
   if (passage.at == now) return passage;
 
@@ -31,7 +49,7 @@ OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
   bool extended = true;
   for (int round = 0; extended && round < 8; ++round) {
     extended = false;
-    for (const OutageSpec& outage : outages_) {
+    for (const Outage& outage : outages_) {
       if (const auto end = end_of(outage, passage.at)) {
         passage.at = *end;
         extended = true;

@@ -5,8 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/rng.h"
 #include "common/base/time.h"
 #include "netsim/path_spec.h"
+#include "netsim/poisson_intervals.h"
 
 namespace tandem::netsim {
 
@@ -19,7 +21,8 @@ class OutageGate {
     Time at;  ///< kUp: when the datagram is past the gate: now, or the end of the outage that holds it
   };
 
-  explicit OutageGate(const std::vector<OutageSpec>& outages) : outages_(outages) {}
+  /// @param key  of the moments of random outages
+  explicit OutageGate(const std::vector<OutageSpec>& outages, RandomKey key = RandomKey{0});
 
   /// @param now   never decreasing [Time{} or later]
   /// @param size  payload [bytes]
@@ -29,7 +32,14 @@ class OutageGate {
   [[nodiscard]] static std::optional<Time> end_of(const OutageSpec& spec, Time t) noexcept;
 
  private:
-  std::vector<OutageSpec> outages_;
+  struct Outage {
+    OutageSpec spec;
+    std::optional<std::size_t> random;  ///< its place in random_; else scheduled
+  };
+  [[nodiscard]] std::optional<Time> end_of(const Outage& outage, Time t) noexcept;
+
+  std::vector<Outage> outages_;
+  std::vector<PoissonIntervals> random_;
   Time held_until_{};
   std::uint64_t held_bytes_ = 0;
 };

@@ -7,7 +7,18 @@
 namespace tandem::netsim {
 namespace {
 
-enum Purpose : std::uint64_t { kLoss = 1, kBody, kStall, kReorder, kDuplicate, kCopy };
+enum Purpose : std::uint64_t {
+  kLoss = 1,
+  kBody,
+  kStall,
+  kReorder,
+  kDuplicate,
+  kCopy,
+  kRegimes,
+  kBoundary,
+  kOutages,
+  kDamage
+};
 
 /// Far enough from the ends of 64 bits that no sum of delays overflows; 146 years.
 constexpr Time kTimeMax{Duration{std::int64_t{1} << 62}};
@@ -41,21 +52,31 @@ const char* name(Outcome outcome) noexcept {
       return "overflow";
     case Outcome::kTooLong:
       return "too long";
+    case Outcome::kCorrupted:
+      return "corrupted";
+    case Outcome::kAboveMtu:
+      return "above MTU";
   }
   return "?";
 }
 
-Path::Path(const PathSpec& spec, RandomKey key)
-    : outages_(checked(spec).outages),
+Path::Path(const PathSpec& spec, RandomKey key, RandomKey link_key)
+    : outages_(checked(spec).outages, link_key.derive(kOutages)),
       loss_(spec.loss, key.derive(kLoss)),
       rate_(spec.rate),
       floor_(spec.floor),
       trace_(spec.trace),
       body_(spec.body, key.derive(kBody)),
+      regimes_(spec.regimes, key.derive(kRegimes)),
+      boundary_(spec.boundary, key.derive(kBoundary)),
       stalls_(spec.stall, key.derive(kStall)),
+      slots_(spec.slots),
       order_(spec.order),
       reorder_(spec.reorder),
       duplicate_(spec.duplicate),
+      mtu_(spec.mtu == 0 ? ~std::uint64_t{0} : spec.mtu - std::min(spec.mtu, spec.rate.overhead_bytes)),
+      corrupted_(spec.corrupted),
+      corrupted_key_(key.derive(kDamage)),
       reorder_key_(key.derive(kReorder)),
       duplicate_key_(key.derive(kDuplicate)),
       copy_key_(key.derive(kCopy)) {}
@@ -67,6 +88,8 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
   verdict.index = count_++;
   verdict.at = now;
 
+  // Loss is asked even while the link is down: its models count every datagram, and outages must not move them.
+  const bool lost = loss_.lost(now, verdict.index);
   const OutageGate::Passage passage = outages_.enter(now, size);
   if (passage.state != OutageGate::State::kUp) {
     verdict.outcome = passage.state == OutageGate::State::kDropped ? Outcome::kOutage : Outcome::kHoldFull;
@@ -75,8 +98,16 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
   // Loss belongs to the moment of sending, also for what an outage holds: else a whole burst would meet one state.
   DelayTrace::Step recorded;
   if (trace_.present()) recorded = trace_.at(now);
-  if (recorded.lost || loss_.lost(now, verdict.index)) {
+  if (recorded.lost || lost || boundary_.lost(now, verdict.index)) {
     verdict.outcome = Outcome::kLost;
+    return verdict;
+  }
+  if (loss_.minds_queue() && loss_.lost_in_queue(rate_.waiting(passage.at), verdict.index)) {
+    verdict.outcome = Outcome::kLost;
+    return verdict;
+  }
+  if (size > mtu_) {
+    verdict.outcome = Outcome::kAboveMtu;
     return verdict;
   }
   const auto sent = rate_.serve(passage.at, size);
@@ -84,8 +115,18 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
     verdict.outcome = Outcome::kQueueFull;
     return verdict;
   }
-  Time at = stalls_.release(*sent + floor_ + recorded.delay + body_.at(*sent, verdict.index));
-  if (order_ == Order::kFifo) at = std::max(at, last_out_);
+  if (corrupted_ > 0 && corrupted_key_.uniform(verdict.index) < corrupted_) {
+    verdict.outcome = Outcome::kCorrupted;
+    return verdict;
+  }
+  const Time due = *sent + floor_ + recorded.delay + body_.at(*sent, verdict.index) +
+                   regimes_.at(*sent, verdict.index) + boundary_.floor(*sent);
+  Time at = stalls_.release(boundary_.release(due));
+  if (at > due && loss_.lost_in_stall(verdict.index)) {
+    verdict.outcome = Outcome::kLost;
+    return verdict;
+  }
+  if (order_ == Order::kFifo) at = slots_.release(std::max(at, last_out_), size);
   last_out_ = std::max(last_out_, at);
   verdict.at = at;
 

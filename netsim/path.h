@@ -9,6 +9,7 @@
 #include "common/base/rng.h"
 #include "common/base/time.h"
 #include "netsim/body_delay.h"
+#include "netsim/delay_models.h"
 #include "netsim/link_rate.h"
 #include "netsim/loss.h"
 #include "netsim/outages.h"
@@ -28,8 +29,10 @@ enum class Outcome : std::uint8_t {
   kQueueFull,  ///< dropped: tail of the rate's queue
   kOverflow,   ///< dropped by the store, not by the model: too many datagrams in flight
   kTooLong,    ///< dropped by the store: larger than a slot
+  kCorrupted,  ///< dropped: damaged under way, the checksum tells
+  kAboveMtu,   ///< dropped: larger than the path lets through
 };
-inline constexpr std::size_t kOutcomes = 8;
+inline constexpr std::size_t kOutcomes = 10;
 [[nodiscard]] const char* name(Outcome outcome) noexcept;
 [[nodiscard]] constexpr bool dropped(Outcome o) noexcept { return o >= Outcome::kOutage; }
 
@@ -58,11 +61,18 @@ struct Verdict {
 class Path {
  public:
   /// @throws std::invalid_argument listing all problems of the spec.
-  Path(const PathSpec& spec, RandomKey key);
+  /// @param link_key  of what both directions of a link share: the moments of random outages
+  Path(const PathSpec& spec, RandomKey key, RandomKey link_key);
+  Path(const PathSpec& spec, RandomKey key) : Path(spec, key, key) {}
 
   /// The key of one direction of one link. `link` is the caller's name for it (seat index, client number).
   [[nodiscard]] static RandomKey key_for(std::uint64_t seed, std::uint64_t link, Direction direction) noexcept {
     return RandomKey{seed}.derive(link).derive(static_cast<std::uint64_t>(direction));
+  }
+
+  /// The key both directions of a link share.
+  [[nodiscard]] static RandomKey key_for(std::uint64_t seed, std::uint64_t link) noexcept {
+    return RandomKey{seed}.derive(link).derive(kDirections);
   }
 
   /// Decides about one datagram.
@@ -90,10 +100,16 @@ class Path {
   Duration floor_;
   TracePlayer trace_;
   BodyDelay body_;
+  Regimes regimes_;
+  Boundary boundary_;
   Stalls stalls_;
+  Slots slots_;
   Order order_;
   ReorderSpec reorder_;
   DuplicateSpec duplicate_;
+  std::uint64_t mtu_;  ///< payload
+  double corrupted_;
+  RandomKey corrupted_key_;
   RandomKey reorder_key_, duplicate_key_, copy_key_;
   std::uint64_t count_ = 0;
   Time last_in_{};

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string_view>
+
+#include "netsim/delay_checks.h"
 
 namespace tandem::netsim {
 namespace {
@@ -13,38 +14,6 @@ using std::chrono::microseconds;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-/// 1.5 ms as "1.5 ms": what a person wrote in the profile or on the command line.
-std::string text(Duration d) {
-  std::ostringstream out;
-  out << static_cast<double>(d.count()) / 1e6 << " ms";
-  return out.str();
-}
-
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-/// Collects mistakes; every check names the member, its value and what is allowed.
-class Findings {
- public:
-  template <typename T>
-  void range(std::string_view key, T value, T lo, T hi) {
-    if (!(value >= lo && value <= hi)) {  // also NaN
-      add(key, text(value) + " is not in [" + text(lo) + ", " + text(hi) + "]");
-    }
-  }
-  void above(std::string_view key, Duration value, Duration lo, Duration hi) {
-    if (!(value > lo && value <= hi)) add(key, text(value) + " is not in (" + text(lo) + ", " + text(hi) + "]");
-  }
-  void add(std::string_view key, std::string message) { all_.push_back({std::string(key), std::move(message)}); }
-  [[nodiscard]] std::vector<SpecProblem> take() { return std::move(all_); }
-
- private:
-  std::vector<SpecProblem> all_;
-};
-
 constexpr Duration kDelayMax = seconds(60);
 
 void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
@@ -53,34 +22,61 @@ void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
     const OutageSpec& outage = outages[i];
     const std::string key = "outages[" + std::to_string(i) + "]";
     found.range<Duration>(key + ".start", outage.start, Duration::zero(), hours(24 * 30));
-    found.above(key + ".length", outage.length, Duration::zero(), hours(1));
+    found.above<Duration>(key + ".length", outage.length, Duration::zero(), hours(1));
+    if (outage.mean_gap != Duration::zero()) {
+      found.range<Duration>(key + ".mean_gap", outage.mean_gap, microseconds(1000), hours(24));
+      found.range<Duration>(key + ".length_max", outage.length_max, outage.length, hours(1));
+      if (outage.length_max / 32 > outage.mean_gap) found.add(key + ".length_max", "is above 32 times mean_gap");
+      if (outage.period != Duration::zero() || outage.start != Duration::zero()) {
+        found.add(key + ".mean_gap", "excludes start and period");
+      }
+      continue;
+    }
     if (outage.period == Duration::zero()) continue;
     found.range<Duration>(key + ".period", outage.period, Duration::zero(), hours(24 * 30));
     if (outage.period > Duration::zero() && outage.period <= outage.length) {
-      found.add(key + ".period", text(outage.period) + " is not longer than the outage (" + text(outage.length) +
-                                     "): the link would never be up");
+      found.add(key + ".period", Findings::text(outage.period) + " is not longer than the outage (" +
+                                     Findings::text(outage.length) + "): the link would never be up");
     }
   }
 }
 
-void check_loss(const LossSpec& loss, Findings& found) {
-  found.range("loss.probability", loss.probability, 0.0, 1.0);
-  if (!loss.periods) return;
-  found.range<Duration>("loss.periods.good_mean", loss.periods->good_mean, microseconds(1), hours(1));
-  found.range<Duration>("loss.periods.bad_mean", loss.periods->bad_mean, microseconds(1), hours(1));
-  found.range("loss.periods.loss_good", loss.periods->loss_good, 0.0, 1.0);
-  found.range("loss.periods.loss_bad", loss.periods->loss_bad, 0.0, 1.0);
+void check_capacity(const RateSpec& rate, Findings& found) {
+  if (rate.bits_per_s != 0) found.add("rate.trace", "a recorded capacity excludes bits_per_s");
+  if (rate.competing_peak != Duration::zero()) found.add("rate.competing_peak", "not with a recorded capacity");
+  const auto& entries = rate.trace->entries;
+  bool ascends = !entries.empty() && entries.front().ms >= 0;
+  for (std::size_t i = 0; ascends && i < entries.size(); ++i) {
+    ascends = entries[i].opportunities > 0 && (i == 0 || entries[i].ms > entries[i - 1].ms);
+  }
+  if (!ascends) return found.add("rate.trace.entries", "are none, do not ascend or hold no opportunity");
+  const Duration end = std::chrono::milliseconds(1) * entries.back().ms;
+  if (rate.trace->period <= end || rate.trace->period % std::chrono::milliseconds(1) != Duration::zero()) {
+    found.add("rate.trace.period", "is not after the last entry, or no whole millisecond");
+  }
 }
 
 void check_rate(const RateSpec& rate, Findings& found) {
+  if (rate.queue_datagrams > 65'536) found.add("rate.queue_datagrams", "is above 65536");
+  if (rate.codel) {
+    found.above<Duration>("rate.codel.target", rate.codel->target, Duration::zero(), seconds(10));
+    found.above<Duration>("rate.codel.interval", rate.codel->interval, rate.codel->target, seconds(60));
+  }
+  if (rate.trace) return check_capacity(rate, found);
   if (rate.bits_per_s == 0) {
     if (rate.queue_bytes != 0) found.add("rate.queue_bytes", "a queue needs a rate");
+    if (rate.queue_datagrams != 0) found.add("rate.queue_datagrams", "a queue needs a rate");
+    if (rate.codel) found.add("rate.codel", "a queue needs a rate");
     if (rate.queue_wait) found.add("rate.queue_wait", "a queue needs a rate");
+    if (rate.competing_peak != Duration::zero()) found.add("rate.competing_peak", "a queue needs a rate");
     return;
   }
   found.range("rate.bits_per_s", static_cast<double>(rate.bits_per_s), 100.0, 1e12);
   found.range("rate.overhead_bytes", static_cast<double>(rate.overhead_bytes), 0.0, 1000.0);
   if (rate.queue_wait) found.range<Duration>("rate.queue_wait", *rate.queue_wait, Duration::zero(), hours(1));
+  if (rate.competing_peak == Duration::zero() && rate.competing_period == Duration::zero()) return;
+  found.above<Duration>("rate.competing_peak", rate.competing_peak, Duration::zero(), hours(1));
+  found.above<Duration>("rate.competing_period", rate.competing_period, rate.competing_peak, hours(1));
 }
 
 void check_trace(const DelayTrace* trace, Findings& found) {
@@ -97,34 +93,16 @@ void check_trace(const DelayTrace* trace, Findings& found) {
   if (trace->period <= trace->steps.back().at) found.add("trace.period", "ends before the last step");
 }
 
-void check_body(const BodySpec& body, Findings& found) {
-  using Kind = BodySpec::Kind;
-  if (body.kind == Kind::kNone) return;
-  if (body.tau != Duration::zero()) found.range<Duration>("body.tau", body.tau, microseconds(10), seconds(10));
-  if (body.kind == Kind::kUniform) {
-    found.range<Duration>("body.low", body.low, Duration::zero(), kDelayMax);
-    found.range<Duration>("body.high", body.high, Duration::zero(), kDelayMax);
-    if (body.low > body.high) found.add("body.low", text(body.low) + " is above the high end, " + text(body.high));
-    return;
-  }
-  found.above("body.scale", body.scale, Duration::zero(), kDelayMax);
-  found.above("body.cap", body.cap, Duration::zero(), kDelayMax);
-  if (body.kind == Kind::kLogNormal) {
-    found.range("body.shape", body.shape, 0.0, 5.0);
-  } else {
-    found.range("body.shape", body.shape, 0.5, 100.0);
-  }
-}
-
 void check_stall(const StallSpec& stall, Findings& found) {
   if (stall.rate_per_s == 0) return;
   found.range("stall.rate_per_s", stall.rate_per_s, 0.0, 100.0);
-  found.above("stall.length_min", stall.length_min, Duration::zero(), kDelayMax);
+  found.above<Duration>("stall.length_min", stall.length_min, Duration::zero(), kDelayMax);
   found.range("stall.alpha", stall.alpha, 0.5, 100.0);
   found.range<Duration>("stall.cap", stall.cap, std::max(Duration{1}, stall.length_min), kDelayMax);
   const double covered = stall.rate_per_s * tandem::seconds(stall.cap);
   if (covered > 32) {
-    found.add("stall.rate_per_s", text(covered) + " stalls of the longest length at the same time; at most 32");
+    found.add("stall.rate_per_s",
+              Findings::text(covered) + " stalls of the longest length at the same time; at most 32");
   }
 }
 
@@ -133,17 +111,19 @@ void check_stall(const StallSpec& stall, Findings& found) {
 std::vector<SpecProblem> problems(const PathSpec& spec) {
   Findings found;
   check_outages(spec.outages, found);
-  check_loss(spec.loss, found);
+  check_loss(spec.loss, spec.rate.present(), spec.stall.rate_per_s > 0, found);
   check_rate(spec.rate, found);
   found.range<Duration>("floor", spec.floor, Duration::zero(), kDelayMax);
   check_trace(spec.trace.get(), found);
-  check_body(spec.body, found);
+  check_body("body", spec.body, found);
+  check_delay_models(spec, found);
   check_stall(spec.stall, found);
   found.range("reorder.probability", spec.reorder.probability, 0.0, 1.0);
   if (spec.reorder.probability > 0) {
     found.range("reorder.displacement", static_cast<double>(spec.reorder.displacement), 1.0, 1000.0);
-    found.above("reorder.hold_limit", spec.reorder.hold_limit, Duration::zero(), kDelayMax);
+    found.above<Duration>("reorder.hold_limit", spec.reorder.hold_limit, Duration::zero(), kDelayMax);
   }
+  found.range("corrupted", spec.corrupted, 0.0, 1.0);
   found.range("duplicate.probability", spec.duplicate.probability, 0.0, 1.0);
   if (spec.duplicate.probability > 0) {
     found.range<Duration>("duplicate.delay_max", spec.duplicate.delay_max, Duration::zero(), kDelayMax);
@@ -158,17 +138,16 @@ Duration delay_max(const PathSpec& spec) noexcept {
     for (const DelayTrace::Step& step : spec.trace->steps) longest = std::max(longest, step.delay);
     sum += longest;
   }
-  if (spec.body.kind == BodySpec::Kind::kUniform) {
-    sum += spec.body.high;
-  } else if (spec.body.kind != BodySpec::Kind::kNone) {
-    sum += spec.body.cap;
-  }
+  sum += spec.body.longest();
+  Duration regime{};
+  for (const RegimeSpec& state : spec.regimes) regime = std::max(regime, state.floor + state.body.longest());
+  sum += regime + spec.boundary.floor_high + spec.boundary.stall_high + spec.slots.period;
   if (spec.stall.rate_per_s > 0) sum += spec.stall.cap;
   if (spec.reorder.probability > 0) sum += spec.reorder.hold_limit;
   if (spec.duplicate.probability > 0) sum += spec.duplicate.delay_max;
   Duration held{};
   for (const OutageSpec& outage : spec.outages) {
-    if (outage.mode == OutageSpec::Mode::kHold) held = std::max(held, outage.length);
+    if (outage.mode == OutageSpec::Mode::kHold) held = std::max({held, outage.length, outage.length_max});
   }
   return sum + held;
 }

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "common/base/time.h"
+#include "netsim/body_spec.h"
+#include "netsim/findings.h"
+#include "netsim/loss_spec.h"
 
 /// What one direction of a network does to datagrams, as plain numbers. The order of the members is the order in which
 /// a datagram meets them (design notes, network 3.1). Everything is off by default; what is off costs nothing per packet.
@@ -28,27 +31,31 @@ struct OutageSpec {
   Duration period{};             ///< 0: once; else longer than `length`
   Mode mode = Mode::kDrop;       ///< drop unless said otherwise
   std::uint64_t hold_bytes = 0;  ///< kHold: what does not fit any more is dropped; 0: no limit of its own
+  /// Above 0: instead of `start` and `period` the outages begin as a Poisson process, so long apart on average, each
+  /// uniform in [`length`, `length_max`] long; the same moments in both directions of a link. length_max <= 32
+  /// mean_gap.
+  Duration mean_gap{};
+  Duration length_max{};  ///< [length, 1 h]
 
   friend bool operator==(const OutageSpec&, const OutageSpec&) = default;
 };
 
-/// Continuous-time Gilbert-Elliott: good and bad periods of exponential length alternate in time, whatever the packet
-/// rate. Share of bad time = bad_mean / (good_mean + bad_mean).
-struct BadPeriodsSpec {
-  Duration good_mean{};  ///< [1 us, 1 h]
-  Duration bad_mean{};   ///< [1 us, 1 h]
-  double loss_good = 0;  ///< probability of losing a datagram sent in a good period [0, 1]
-  double loss_bad = 1;   ///< the same in a bad period [0, 1]
-
-  friend bool operator==(const BadPeriodsSpec&, const BadPeriodsSpec&) = default;
+/// Recorded capacity: so many opportunities of 1500 bytes in a millisecond, from the start again after `period`.
+struct CapacityTrace {
+  struct Entry {
+    std::int64_t ms = 0;              ///< ascending from 0
+    std::uint64_t opportunities = 1;  ///< at least 1
+  };
+  std::vector<Entry> entries = {};  ///< at least one
+  Duration period{};                ///< whole milliseconds, after the last entry
 };
 
-/// Loss: every datagram alone with `probability`, and by the periods. Either is enough to lose it.
-struct LossSpec {
-  double probability = 0;  ///< Bernoulli, per datagram [0, 1]
-  std::optional<BadPeriodsSpec> periods = {};
+/// Controlled delay [RFC 8289].
+struct CoDelSpec {
+  Duration target{5'000'000};      ///< (0, 10 s]
+  Duration interval{100'000'000};  ///< above target, at most 60 s
 
-  friend bool operator==(const LossSpec&, const LossSpec&) = default;
+  friend bool operator==(const CoDelSpec&, const CoDelSpec&) = default;
 };
 
 /// A sender that serves one datagram after the other at a fixed rate, and what may wait for it (tail drop).
@@ -57,6 +64,13 @@ struct RateSpec {
   std::uint32_t overhead_bytes = 28;        ///< added to every datagram on this link: IPv4 + UDP headers [0, 1000]
   std::uint64_t queue_bytes = 0;            ///< bytes not yet sent, the new datagram included; 0: no limit
   std::optional<Duration> queue_wait = {};  ///< longest wait before a datagram's first bit is sent [0, 1 h]
+  /// The queue is shared with a TCP flow, which fills it to `competing_peak` of waiting and lets it drain, every
+  /// `competing_period` [period above peak, at most 1 h; 0: nobody].
+  Duration competing_peak{}, competing_period{};
+  std::uint32_t queue_datagrams = 0;  ///< not yet sent, the new one included; 0: no limit; at most 65536
+  std::optional<CoDelSpec> codel = {};
+  std::shared_ptr<const CapacityTrace> trace = {};  ///< instead of bits_per_s; null: none
+  [[nodiscard]] bool present() const noexcept { return bits_per_s != 0 || trace != nullptr; }
 
   friend bool operator==(const RateSpec&, const RateSpec&) = default;
 };
@@ -70,26 +84,6 @@ struct DelayTrace {
   };
   std::vector<Step> steps = {};  ///< at least one
   Duration period{};             ///< longer than the last `at`
-};
-
-/// Delay that varies, added to the floor.
-struct BodySpec {
-  enum class Kind : std::uint8_t {
-    kNone,
-    kUniform,      ///< `low` ... `high`
-    kLogNormal,    ///< `scale` exp(`shape` z): scale is the median
-    kLogLogistic,  ///< `scale` (u / (1 - u))^(1 / `shape`): scale is the median
-  };
-  Kind kind = Kind::kNone;
-  Duration low{}, high{};  ///< [0, 60 s], low <= high
-  Duration scale{};        ///< (0, 60 s]
-  double shape = 1;        ///< log-normal [0, 5], log-logistic [0.5, 100]
-  Duration cap{};          ///< longest value; mandatory for kLogNormal and kLogLogistic [0, 60 s]
-  /// Correlation time of the underlying Gaussian process. The distribution of the delay does not depend on it, and its
-  /// course is a function of time, not of the packets. 0: every datagram draws for itself. Else [10 us, 10 s].
-  Duration tau{};
-
-  friend bool operator==(const BodySpec&, const BodySpec&) = default;
 };
 
 /// Stalls begin as a Poisson process; what would leave during one leaves at its end, at once. Length: Pareto.
@@ -132,10 +126,15 @@ struct PathSpec {
   Duration floor{};                              ///< propagation: no datagram is faster [0, 60 s]
   std::shared_ptr<const DelayTrace> trace = {};  ///< recorded delay added to the floor; null: none
   BodySpec body = {};
+  std::vector<RegimeSpec> regimes = {};  ///< none, or [2, 16]
+  BoundarySpec boundary = {};
   StallSpec stall = {};
+  SlotsSpec slots = {};  ///< needs Order::kFifo
   Order order = Order::kFifo;
   ReorderSpec reorder = {};
   DuplicateSpec duplicate = {};
+  double corrupted = 0;   ///< damaged under way; the checksum of UDP drops it, after it used the queue [0, 1]
+  std::uint32_t mtu = 0;  ///< datagrams that are longer, with the overhead of the rate, are dropped; 0: no limit
 
   friend bool operator==(const PathSpec&, const PathSpec&) = default;
 };
@@ -147,12 +146,6 @@ struct LinkSpec {
   [[nodiscard]] const PathSpec& operator[](Direction d) const noexcept { return d == Direction::kUp ? up : down; }
   [[nodiscard]] PathSpec& operator[](Direction d) noexcept { return d == Direction::kUp ? up : down; }
   friend bool operator==(const LinkSpec&, const LinkSpec&) = default;
-};
-
-/// One mistake in a spec.
-struct SpecProblem {
-  std::string key;      ///< member, such as `body.cap`
-  std::string message;  ///< what is wrong and what is allowed
 };
 
 /// All mistakes; empty: the spec can be simulated.

@@ -12,50 +12,110 @@ namespace {
 Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
 double probability(double percent) { return percent / 100; }
 
-BodySpec::Kind kind_of(ProfileBody::Kind kind) {
-  switch (kind) {
-    case ProfileBody::Kind::kNone:
-      return BodySpec::Kind::kNone;
-    case ProfileBody::Kind::kUniform:
-      return BodySpec::Kind::kUniform;
-    case ProfileBody::Kind::kLogNormal:
-      return BodySpec::Kind::kLogNormal;
-    case ProfileBody::Kind::kLogLogistic:
-      return BodySpec::Kind::kLogLogistic;
+BodySpec body_from(const ProfileBody& in) {
+  BodySpec body;
+  if (in.kind == ProfileBody::Kind::kNone) return body;
+  body = {.kind = static_cast<BodySpec::Kind>(in.kind),
+          .low = milliseconds(in.low_ms),
+          .high = milliseconds(in.high_ms),
+          .scale = milliseconds(in.scale_ms),
+          .shape = in.shape,
+          .cap = milliseconds(in.cap_ms),
+          .tau = milliseconds(in.tau_ms),
+          .sd = milliseconds(in.sd_ms)};
+  for (const auto& phase : in.phases) body.phases.push_back({phase.weight, milliseconds(phase.mean_ms)});
+  for (const auto& point : in.points) {
+    body.quantiles.push_back({probability(point.percent), milliseconds(point.delay_ms)});
   }
-  return BodySpec::Kind::kNone;
+  return body;
+}
+
+LossSpec loss_from(const ProfilePath& in) {
+  LossSpec loss;
+  loss.probability = probability(in.loss_percent);
+  if (const auto& bad = in.bad_periods) {
+    loss.periods = BadPeriodsSpec{.good_mean = milliseconds(bad->good_mean_s * 1e3),
+                                  .bad_mean = milliseconds(bad->bad_mean_ms),
+                                  .loss_good = probability(bad->loss_good_percent),
+                                  .loss_bad = probability(bad->loss_bad_percent)};
+  }
+  if (const auto& ge = in.gilbert_elliott) {
+    loss.gilbert_elliott = GilbertElliottSpec{.p = probability(ge->p_percent),
+                                              .r = probability(ge->r_percent),
+                                              .h = probability(ge->h_percent),
+                                              .k = probability(ge->k_percent)};
+  }
+  if (const auto& four = in.four_state) {
+    loss.four_state = FourStateSpec{.p13 = probability(four->p13_percent),
+                                    .p31 = probability(four->p31_percent),
+                                    .p32 = probability(four->p32_percent),
+                                    .p23 = probability(four->p23_percent),
+                                    .p14 = probability(four->p14_percent)};
+  }
+  if (const auto& bursts = in.loss_bursts) {
+    loss.bursts = LossBurstsSpec{
+        .rate_per_s = bursts->rate_per_s,
+        .law = static_cast<LossBurstsSpec::Law>(bursts->law),
+        .unit = bursts->datagrams ? LossBurstsSpec::Unit::kDatagrams : LossBurstsSpec::Unit::kMilliseconds,
+        .length = bursts->length,
+        .alpha = bursts->alpha,
+        .cap = bursts->cap};
+  }
+  if (const auto& pattern = in.loss_pattern) {
+    LossPatternSpec& out = loss.pattern.emplace();
+    out = {.lost = pattern->lost, .of = pattern->of, .every = pattern->every, .indices = pattern->indices};
+    for (const double s : pattern->times_s) out.times.push_back(milliseconds(s * 1e3));
+  }
+  if (const auto& congestion = in.congestion_loss) {
+    loss.congestion = CongestionLossSpec{.wait_low = milliseconds(congestion->wait_low_ms),
+                                         .wait_high = milliseconds(congestion->wait_high_ms),
+                                         .probability = probability(congestion->queue_percent),
+                                         .in_stall = probability(congestion->stall_percent)};
+  }
+  if (const auto& trace = in.loss_trace) {
+    loss.trace = std::make_shared<LossTrace>(LossTrace{trace->lost, milliseconds(trace->interval_ms)});
+  }
+  return loss;
 }
 
 PathSpec path_from(const ProfilePath& in) {
   PathSpec path;
-  path.loss.probability = probability(in.loss_percent);
-  if (const auto& bad = in.bad_periods) {
-    path.loss.periods = BadPeriodsSpec{.good_mean = milliseconds(bad->good_mean_s * 1e3),
-                                       .bad_mean = milliseconds(bad->bad_mean_ms),
-                                       .loss_good = probability(bad->loss_good_percent),
-                                       .loss_bad = probability(bad->loss_bad_percent)};
-  }
+  path.loss = loss_from(in);
   if (const auto& rate = in.rate) {
     path.rate.bits_per_s = rate->rate_bit_s;
     path.rate.overhead_bytes = rate->overhead_bytes;
     path.rate.queue_bytes = rate->queue_bytes;
     if (rate->queue_ms) path.rate.queue_wait = milliseconds(*rate->queue_ms);
+    path.rate.queue_datagrams = rate->queue_datagrams;
+    if (rate->codel) {
+      path.rate.codel = CoDelSpec{milliseconds(rate->codel_target_ms), milliseconds(rate->codel_interval_ms)};
+    }
+    path.rate.competing_peak = milliseconds(rate->competing_peak_ms);
+    path.rate.competing_period = milliseconds(rate->competing_period_ms);
   }
   path.floor = milliseconds(in.floor_ms);
-  if (in.body.kind != ProfileBody::Kind::kNone)
-    path.body = {.kind = kind_of(in.body.kind),
-                 .low = milliseconds(in.body.low_ms),
-                 .high = milliseconds(in.body.high_ms),
-                 .scale = milliseconds(in.body.median_ms),
-                 .shape = in.body.shape,
-                 .cap = milliseconds(in.body.cap_ms),
-                 .tau = milliseconds(in.body.tau_ms)};
+  path.body = body_from(in.body);
+  for (const ProfileRegime& regime : in.regimes) {
+    path.regimes.push_back({milliseconds(regime.mean_ms), milliseconds(regime.floor_ms), body_from(regime.body)});
+  }
+  if (const auto& boundary = in.boundary) {
+    path.boundary = {.period = milliseconds(boundary->period_s * 1e3),
+                     .phase = milliseconds(boundary->phase_s * 1e3),
+                     .stall_low = milliseconds(boundary->stall_low_ms),
+                     .stall_high = milliseconds(boundary->stall_high_ms),
+                     .floor_high = milliseconds(boundary->floor_high_ms),
+                     .loss_window = milliseconds(boundary->loss_window_ms),
+                     .loss = probability(boundary->loss_percent)};
+  }
+  if (const auto& slots = in.slots) path.slots = {milliseconds(slots->period_ms), slots->datagrams, slots->bytes};
   if (const auto& stall = in.stall) {
     path.stall = {.rate_per_s = stall->rate_per_s,
                   .length_min = milliseconds(stall->length_min_ms),
                   .alpha = stall->alpha,
                   .cap = milliseconds(stall->cap_ms)};
   }
+  path.corrupted = probability(in.corrupted_percent);
+  path.mtu = in.mtu_bytes;
   path.order = in.free_order ? Order::kFree : Order::kFifo;
   if (const auto& reorder = in.reorder) {
     path.reorder = {.probability = probability(reorder->probability_percent),
@@ -74,7 +134,9 @@ OutageSpec outage_from(const ProfileOutage& in) {
           .length = milliseconds(in.length_ms),
           .period = milliseconds(in.period_s * 1e3),
           .mode = in.hold ? OutageSpec::Mode::kHold : OutageSpec::Mode::kDrop,
-          .hold_bytes = in.hold_bytes};
+          .hold_bytes = in.hold_bytes,
+          .mean_gap = milliseconds(in.mean_gap_s * 1e3),
+          .length_max = in.mean_gap_s > 0 ? milliseconds(in.length_max_ms) : Duration::zero()};
 }
 
 struct Embedded {

@@ -32,8 +32,8 @@ std::optional<std::uint32_t> ProxyCore::add_client() {
     Client& place = places_[number];
     if (place.lanes[0]) continue;
     for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-      place.lanes[static_cast<std::size_t>(direction)].emplace(spec_[direction],
-                                                               Path::key_for(seed_, clients_seen_, direction));
+      place.lanes[static_cast<std::size_t>(direction)].emplace(
+          spec_[direction], Path::key_for(seed_, clients_seen_, direction), Path::key_for(seed_, clients_seen_));
     }
     ++clients_;
     ++clients_seen_;

@@ -64,7 +64,7 @@ class ProxyCore {
 
  private:
   struct Lane {
-    Lane(const PathSpec& spec, RandomKey key) : path(spec, key) {}
+    Lane(const PathSpec& spec, RandomKey key, RandomKey link_key) : path(spec, key, link_key) {}
     Path path;
     PathCounters counters;
   };

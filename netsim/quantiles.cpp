@@ -17,6 +17,8 @@ constexpr double polynomial(double x, double first, Rest... rest) noexcept {
 
 double natural_exp(double x) noexcept { return std::exp(x); }
 
+double natural_log1p(double x) noexcept { return std::log1p(x); }
+
 double normal_quantile(double u) noexcept {
   const double q = u - 0.5;
   if (std::abs(q) <= 0.425) {

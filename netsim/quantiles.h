@@ -10,6 +10,9 @@ namespace tandem::netsim {
 
 [[nodiscard]] double natural_exp(double x) noexcept;
 
+/// ln(1 + x).
+[[nodiscard]] double natural_log1p(double x) noexcept;
+
 /// z with P(N(0,1) <= z) = u. Relative error below 1e-15.
 /// Source [Wichura 1988]: algorithm AS 241, PPND16, Applied Statistics 37(3).
 [[nodiscard]] double normal_quantile(double u) noexcept;

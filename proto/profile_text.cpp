@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "proto/profile.pb.h"
+#include "proto/profile_delay.h"
+#include "proto/profile_loss.h"
 #include "proto/text_format_reader.h"
 
 namespace tandem {
@@ -12,30 +14,6 @@ using text::Checker;
 using text::child_path;
 
 std::uint64_t whole(double value) { return static_cast<std::uint64_t>(std::llround(value)); }
-
-ProfileBody body_from(const pb::Body& in, Checker& checker, const std::string& key) {
-  ProfileBody body;
-  if (in.has_uniform() + in.has_log_normal() + in.has_log_logistic() != 1) {
-    checker.error(key, "needs exactly one of uniform, log_normal, log_logistic");
-  }
-  const auto take = [&body](ProfileBody::Kind kind, const auto& shape) {
-    body.kind = kind;
-    body.median_ms = shape.median_ms();
-    body.shape = shape.shape();
-    body.cap_ms = shape.cap_ms();
-  };
-  if (in.has_log_normal()) take(ProfileBody::Kind::kLogNormal, in.log_normal());
-  if (in.has_log_logistic()) take(ProfileBody::Kind::kLogLogistic, in.log_logistic());
-  if (in.has_uniform()) {
-    body.kind = ProfileBody::Kind::kUniform;
-    body.low_ms = in.uniform().low_ms();
-    body.high_ms = in.uniform().high_ms();
-    if (body.low_ms > body.high_ms) checker.error(child_path(key, "uniform.low_ms"), "is above high_ms");
-  }
-  body.tau_ms = in.tau_ms();
-  if (body.tau_ms > 0 && body.tau_ms < 0.01) checker.error(child_path(key, "tau_ms"), "must be 0 or at least 0.01 ms");
-  return body;
-}
 
 ProfileStall stall_from(const pb::Stall& in, Checker& checker, const std::string& key) {
   if (in.cap_ms() < in.length_min_ms()) checker.error(child_path(key, "cap_ms"), "is below length_min_ms");
@@ -54,6 +32,21 @@ ProfileRate rate_from(const pb::LinkRateProfile& in, Checker& checker, const std
   if (in.has_overhead_bytes()) rate.overhead_bytes = in.overhead_bytes();
   if (in.has_queue_bytes()) rate.queue_bytes = whole(in.queue_bytes());
   if (in.has_queue_ms()) rate.queue_ms = in.queue_ms();
+  rate.queue_datagrams = in.queue_datagrams();
+  rate.codel = in.has_codel();
+  if (in.codel().has_target_ms()) rate.codel_target_ms = in.codel().target_ms();
+  if (in.codel().has_interval_ms()) rate.codel_interval_ms = in.codel().interval_ms();
+  if (rate.codel_target_ms >= rate.codel_interval_ms) {
+    checker.error(child_path(key, "codel"), "target_ms must be below interval_ms");
+  }
+  rate.competing_peak_ms = in.competing_peak_ms();
+  rate.competing_period_ms = in.competing_period_ms();
+  if (in.has_competing_peak_ms() != in.has_competing_period_ms()) {
+    checker.error(key, "competing_peak_ms and competing_period_ms belong together");
+  } else if (in.has_competing_peak_ms() && rate.competing_period_ms <= rate.competing_peak_ms) {
+    checker.error(child_path(key, "competing_period_ms"),
+                  "must be above competing_peak_ms: a queue drains in real time");
+  }
   return rate;
 }
 
@@ -66,7 +59,9 @@ ProfilePath path_from(const pb::NetworkPath& in, Checker& checker, const std::st
   }
   if (in.has_rate()) path.rate = rate_from(in.rate(), checker, child_path(key, "rate"));
   path.floor_ms = in.floor_ms();
-  if (in.has_body()) path.body = body_from(in.body(), checker, child_path(key, "body"));
+  delay_from(in, path, checker, key);
+  path.corrupted_percent = in.corrupted_percent();
+  path.mtu_bytes = in.mtu_bytes();
   if (in.has_stall()) path.stall = stall_from(in.stall(), checker, child_path(key, "stall"));
   path.free_order = in.order() == pb::NetworkPath::FREE;
   if (in.has_reorder()) {
@@ -80,6 +75,7 @@ ProfilePath path_from(const pb::NetworkPath& in, Checker& checker, const std::st
     duplicate.probability_percent = in.duplicate().probability_percent();
     if (in.duplicate().has_delay_max_ms()) duplicate.delay_max_ms = in.duplicate().delay_max_ms();
   }
+  loss_from(in, path, checker, key);
   return path;
 }
 
@@ -91,6 +87,16 @@ ProfileOutage outage_from(const pb::ProfileOutage& in, Checker& checker, const s
                        .up = in.direction() != pb::ProfileOutage::DOWN,
                        .down = in.direction() != pb::ProfileOutage::UP,
                        .hold_bytes = whole(in.hold_bytes())};
+  outage.mean_gap_s = in.mean_gap_s();
+  outage.length_max_ms = in.has_length_max_ms() ? in.length_max_ms() : outage.length_ms;
+  if (in.has_mean_gap_s() == in.has_start_s()) checker.error(key, "needs exactly one of start_s, mean_gap_s");
+  if (in.has_mean_gap_s() && in.has_period_s()) checker.error(child_path(key, "period_s"), "not with mean_gap_s");
+  if (in.has_length_max_ms() && !in.has_mean_gap_s())
+    checker.error(child_path(key, "length_max_ms"), "needs mean_gap_s");
+  if (outage.length_max_ms < outage.length_ms) checker.error(child_path(key, "length_max_ms"), "is below length_ms");
+  if (outage.mean_gap_s > 0 && outage.length_max_ms > 32e3 * outage.mean_gap_s) {
+    checker.error(child_path(key, "length_max_ms"), "is above 32 times mean_gap_s");
+  }
   if (in.has_period_s() && outage.period_s * 1e3 <= outage.length_ms) {
     checker.error(child_path(key, "period_s"), "must be longer than the outage, or the link is never up");
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "netsim/network_csv.h"
@@ -23,7 +24,42 @@ TEST(Profiles, AllShippedOnesAreSoundAndSaySomething) {
     EXPECT_TRUE(!profile->sources.empty() || profile->name == "ideal") << shipped.name;
     names.insert(profile->name);
   }
-  for (const char* name : {"ideal", "lan", "wifi-busy", "5g", "transcontinental", "outage"}) {
+  for (const char* name : {"ideal",
+                           "lan",
+                           "campus",
+                           "metro",
+                           "wifi-good",
+                           "wifi-busy",
+                           "wifi-roaming",
+                           "4g",
+                           "5g",
+                           "5g-urllc",
+                           "5g-rural",
+                           "intercity",
+                           "transcontinental",
+                           "intercontinental",
+                           "starlink",
+                           "geo-satellite",
+                           "burst-loss",
+                           "random-loss-1",
+                           "random-loss-5",
+                           "random-loss-10",
+                           "outage",
+                           "stall",
+                           "reorder",
+                           "duplicate",
+                           "bufferbloat",
+                           "telesurgery-100",
+                           "telesurgery-300",
+                           "telesurgery-500",
+                           "telesurgery-loss-10",
+                           "telesurgery-loss-30",
+                           "telesurgery-loss-50",
+                           "comm-loss",
+                           "g1050-a",
+                           "g1050-b",
+                           "g1050-c",
+                           "worst"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
 }
@@ -44,6 +80,33 @@ TEST(Profiles, GiveTheQuantilesTheyPromise) {
         EXPECT_NEAR(ms, check.delay_ms[i], check.delay_ms[i] * (i < 3 ? 0.10 : 0.20)) << q[i];
       }
     }
+  }
+}
+
+TEST(Profiles, LoseTheShareInTheirName) {
+  const std::map<std::string, double> shares{
+      {"random-loss-1", 0.01},       {"random-loss-5", 0.05},       {"random-loss-10", 0.10},     {"burst-loss", 0.05},
+      {"telesurgery-loss-10", 0.10}, {"telesurgery-loss-30", 0.30}, {"telesurgery-loss-50", 0.50}};
+  for (const auto& [name, share] : shares) {
+    SCOPED_TRACE(name);
+    const auto profile = shipped_profile(name);
+    ASSERT_TRUE(profile);
+    constexpr std::size_t n = 1'800'000;
+    const double lost = static_cast<double>(count_of(verdicts(path_of(profile->link.up), n), Outcome::kLost)) / n;
+    EXPECT_NEAR(lost, share, 0.05 * share);
+  }
+}
+
+TEST(Profiles, TelesurgeryHasTheMeanInItsName) {
+  for (const auto& [name, mean_ms] :
+       {std::pair{"telesurgery-100", 100.0}, {"telesurgery-300", 300.0}, {"telesurgery-500", 500.0}}) {
+    auto profile = shipped_profile(name);
+    ASSERT_TRUE(profile);
+    profile->link.up.order = Order::kFree;  // the numbers describe the raw process; the order fifo adds to it
+    const auto all = delays(verdicts(path_of(profile->link.up), 1'800'000));
+    double sum = 0;
+    for (const double d : all) sum += d / 1e6;
+    EXPECT_NEAR(sum / static_cast<double>(all.size()), mean_ms, 0.05 * mean_ms) << name;
   }
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "proto/checker.h"
+#include "proto/profile_spec.h"
+
+namespace tandem::pb {
+class NetworkPath;
+}
+
+/// Private to proto/profile*.cpp: the delay models of one direction.
+namespace tandem {
+
+/// Fills body, regimes, boundary and slots of `path`; mistakes between numbers go to `checker` under `key`.
+void delay_from(const pb::NetworkPath& in, ProfilePath& path, text::Checker& checker, const std::string& key);
+
+}  // namespace tandem

@@ -1,0 +1,245 @@
+// Queues that are more than a tail: recorded capacity, limits in datagrams, CoDel; corruption, MTU, random outages.
+#include "netsim/capacity.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "netsim/capacity_csv.h"
+#include "netsim/profiles.h"
+#include "tests/netsim/support.h"
+#include "tests/support/alloc_guard.h"
+
+namespace tandem::netsim {
+namespace {
+
+using namespace test;
+
+/// Up of a recording in mahimahi's form; no overhead, so that bytes are easy to count.
+PathSpec recorded(std::string_view lines) {
+  const auto link = parse_capacity(lines, "c.trace");
+  if (!link) {
+    ADD_FAILURE() << to_text(link.error());
+    return {};
+  }
+  PathSpec spec = link->up;
+  spec.rate.overhead_bytes = 0;
+  return spec;
+}
+
+TEST(Capacity, SendsOnlyWhenThereIsAnOpportunity) {
+  // Opportunities at 2, 2 and 5 ms; the recording is 6 ms long.
+  Path path = path_of(recorded("2\n2\n5\n"));
+  EXPECT_EQ(path.send(Time{}, 1500).at, Time{2ms});
+  EXPECT_EQ(path.send(Time{}, 1500).at, Time{2ms});
+  EXPECT_EQ(path.send(Time{}, 1500).at, Time{5ms});
+  EXPECT_EQ(path.send(Time{}, 1500).at, Time{8ms});  // from the start again
+}
+
+TEST(Capacity, CarriesPartsOfDatagramsAndLosesWhatNobodyUsed) {
+  Path parts = path_of(recorded("2\n5\n"));
+  EXPECT_EQ(parts.send(Time{}, 1000).at, Time{2ms});
+  EXPECT_EQ(parts.send(Time{}, 1000).at, Time{5ms});  // 500 at 2 ms, 500 at 5 ms
+  EXPECT_EQ(parts.send(Time{}, 1000).at, Time{5ms});
+  Path late = path_of(recorded("2\n5\n"));
+  EXPECT_EQ(late.send(Time{2'400us}, 1000).at, Time{2'400us});  // its millisecond is not over
+  EXPECT_EQ(late.send(Time{2'500us}, 500).at, Time{2'500us});
+  EXPECT_EQ(late.send(Time{2'600us}, 1).at, Time{5ms});
+  EXPECT_EQ(late.send(Time{6ms + 3ms}, 1).at, Time{6ms + 5ms});
+  EXPECT_EQ(late.send(Time{6h + 5'900us}, 1).at, Time{6h + 5'900us});
+}
+
+TEST(Capacity, KeepsItsLimits) {
+  PathSpec bytes = recorded("9\n");
+  bytes.rate.queue_bytes = 1000;
+  Path b = path_of(bytes);
+  EXPECT_EQ(b.send(Time{}, 600).outcome, Outcome::kDeliver);
+  EXPECT_EQ(b.send(Time{}, 400).outcome, Outcome::kDeliver);
+  EXPECT_EQ(b.send(Time{}, 1).outcome, Outcome::kQueueFull);
+  EXPECT_EQ(b.send(Time{9ms}, 500).outcome, Outcome::kDeliver);  // the others have left
+  PathSpec wait = recorded("9\n");
+  wait.rate.queue_wait = 5ms;
+  Path w = path_of(wait);
+  EXPECT_EQ(w.send(Time{3ms}, 1).outcome, Outcome::kQueueFull);
+  EXPECT_EQ(w.send(Time{4ms}, 1).at, Time{9ms});
+}
+
+TEST(Capacity, MistakesHaveTheirLine) {
+  const auto text = [](std::string_view trace) {
+    const auto link = parse_capacity(trace, "c.trace");
+    return link ? std::string("none") : to_text(link.error());
+  };
+  EXPECT_NE(text("1\n3\n2\n").find("c.trace:3:1: t_ms = 2: time goes back"), std::string::npos) << text("1\n3\n2\n");
+  EXPECT_NE(text("1\nx\n").find("c.trace:2:1: t_ms = x: must be a whole number"), std::string::npos) << text("1\nx\n");
+  EXPECT_NE(text(""), "none");
+  const std::string head = "direction[up|down],t_ms[ms],opportunities[count]\n";
+  EXPECT_EQ(text(head + "up,1,1\ndown,1,2\n"), "none");
+  EXPECT_NE(text(head + "up,1,1\n").find("holds no opportunity down"), std::string::npos);
+  EXPECT_NE(text(head + "up,1,1\nup,1,1\n").find("c.trace:3:2: t_ms = 1: time does not go on"), std::string::npos);
+  EXPECT_NE(text(head + "left,1,0\n").find("c.trace:2:3: opportunities = 0"), std::string::npos);
+  EXPECT_NE(text("a[1],b[1]\n1,2\n").find("needs the columns"), std::string::npos);
+}
+
+// The reference answers of the trace's description: one datagram every millisecond, queueing delay in milliseconds.
+TEST(Capacity, GivesTheReferenceAnswersOfTheRecordedLteLink) {
+  const char* folder = std::getenv("TANDEM_TRACES");
+  if (folder == nullptr) {
+    std::printf("[ NOT RUN  ] the recorded LTE capacity: TANDEM_TRACES is not set\n");
+    return;
+  }
+  std::ifstream file(std::string(folder) + "/net_lte_verizon_capacity_updown.csv", std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  const auto link = parse_capacity(text.str(), "net_lte_verizon_capacity_updown.csv");
+  ASSERT_TRUE(link) << to_text(link.error());
+  struct Answer {
+    Direction direction;
+    std::size_t size;
+    double p50, p90, p99, longest;  ///< 0: not stated
+  };
+  for (const Answer& answer :
+       {Answer{Direction::kUp, 92, 2, 21, 944, 1743}, Answer{Direction::kDown, 92, 2, 30, 573, 1446},
+        Answer{Direction::kUp, 256, 3, 1065, 0, 3264}, Answer{Direction::kDown, 256, 5, 1147, 0, 2720}}) {
+    SCOPED_TRACE(std::string(name(answer.direction)) + " " + std::to_string(answer.size));
+    PathSpec spec = (*link)[answer.direction];
+    spec.rate.overhead_bytes = 0;
+    // As long as the recording lasts: the reference stops with it, and so what is not out by then does not count.
+    const auto length = static_cast<std::size_t>(spec.rate.trace->period / 1ms);
+    std::vector<double> ms;
+    const auto all = verdicts(path_of(spec), length, 1ms, answer.size);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].at < Time{spec.rate.trace->period}) ms.push_back(seconds(all[i].at - Time{i * 1ms}) * 1e3);
+    }
+    EXPECT_NEAR(quantile(ms, 0.5), answer.p50, 1);
+    EXPECT_NEAR(quantile(ms, 0.9), answer.p90, 1);
+    if (answer.p99 > 0) {
+      EXPECT_NEAR(quantile(ms, 0.99), answer.p99, 1);
+    }
+    EXPECT_NEAR(quantile(ms, 1), answer.longest, 1);
+  }
+}
+
+TEST(LinkRate, CountsDatagramsInItsQueue) {
+  // 100 bytes at 800 kbit/s: 1 ms each; three may be there.
+  LinkRate rate{{.bits_per_s = 800'000, .overhead_bytes = 0, .queue_datagrams = 3}};
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(rate.serve(Time{}, 100));
+  EXPECT_FALSE(rate.serve(Time{1ms - 1ns}, 1));
+  EXPECT_EQ(rate.serve(Time{1ms}, 100), Time{4ms});
+  EXPECT_FALSE(rate.serve(Time{1ms}, 1));
+}
+
+TEST(CoDel, DropsAtTheTimesOfItsLaw) {
+  // Waits of 10 ms for ever: first drop one interval after the first, then after 100/sqrt(1), 100/sqrt(2), ... ms.
+  CoDel codel{{.target = 5ms, .interval = 100ms}};
+  std::vector<int> drops;
+  for (int ms = 0; ms < 400; ++ms) {
+    if (codel.drops(Time{ms * 1ms}, 10ms)) drops.push_back(ms);
+  }
+  EXPECT_EQ(drops, (std::vector<int>{100, 200, 271, 329, 379}));
+  EXPECT_FALSE(codel.drops(Time{400ms}, 4ms));  // below the target: the interval begins anew
+  EXPECT_FALSE(codel.drops(Time{401ms}, 10ms));
+  EXPECT_FALSE(codel.drops(Time{500ms}, 10ms));
+  EXPECT_TRUE(codel.drops(Time{501ms}, 10ms));
+}
+
+TEST(CoDel, KeepsTheWaitLowWhereATailDropDoesNot) {
+  PathSpec spec;
+  spec.rate = {.bits_per_s = 1'000'000, .queue_wait = 1s};  // 1.248 ms of work every 1 ms
+  const double tail = quantile(delays(verdicts(path_of(spec), 100'000)), 0.5);
+  spec.rate.codel = CoDelSpec{};
+  const auto all = verdicts(path_of(spec), 100'000);
+  EXPECT_GT(tail, 900e6);
+  EXPECT_LT(quantile(delays(all), 0.5), 300e6);
+  EXPECT_NEAR(static_cast<double>(count_of(all, Outcome::kQueueFull)) / 100'000, 1 - 1 / 1.248, 0.02);
+}
+
+TEST(Path, DropsWhatIsAboveTheMtuAndWhatWasDamaged) {
+  PathSpec mtu;
+  mtu.mtu = 528;
+  EXPECT_EQ(path_of(mtu).send(Time{}, 500).outcome, Outcome::kDeliver);
+  EXPECT_EQ(path_of(mtu).send(Time{}, 501).outcome, Outcome::kAboveMtu);
+  PathSpec damage;
+  damage.corrupted = 0.03;
+  const auto all = verdicts(path_of(damage), 300'000);
+  EXPECT_TRUE(binomial_fits(count_of(all, Outcome::kCorrupted), all.size(), 0.03));
+  damage.loss.probability = mtu.loss.probability = 0.1;
+  const auto a = verdicts(path_of(damage), 20'000), b = verdicts(path_of(mtu), 20'000);
+  EXPECT_EQ(count_of(a, Outcome::kLost), count_of(b, Outcome::kLost));
+}
+
+TEST(Outages, AtRandomMomentsAreTheSameInBothDirections) {
+  PathSpec spec;
+  spec.outages = {{.length = 100ms, .mean_gap = 2s, .length_max = 300ms}};
+  Path up{spec, Path::key_for(3, 0, Direction::kUp), Path::key_for(3, 0)};
+  Path down{spec, Path::key_for(3, 0, Direction::kDown), Path::key_for(3, 0)};
+  Path other{spec, Path::key_for(3, 1, Direction::kUp), Path::key_for(3, 1)};
+  constexpr std::size_t n = 4'000'000;
+  std::size_t lost = 0, differs = 0, run = 0, longest = 0, shortest = n;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Time now{static_cast<std::int64_t>(i) * 1ms};
+    const bool gone = up.send(now, kSize).outcome == Outcome::kOutage;
+    ASSERT_EQ(down.send(now, kSize).outcome == Outcome::kOutage, gone);
+    differs += (other.send(now, kSize).outcome == Outcome::kOutage) != gone ? 1 : 0;
+    lost += gone ? 1 : 0;
+    if (!gone && run > 0) shortest = std::min(shortest, run);
+    run = gone ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  EXPECT_NEAR(static_cast<double>(lost) / n, 1 - std::exp(-0.2 / 2), 0.01);
+  EXPECT_GE(shortest, 99U);
+  EXPECT_GT(longest, 290U);
+  EXPECT_GT(differs, n / 20);
+}
+
+TEST(Capacity, TakesNoHeap) {
+  PathSpec spec = recorded("2\n2\n5\n");
+  spec.rate.queue_datagrams = 50;
+  spec.rate.codel = CoDelSpec{};
+  spec.outages = {{.length = 10ms, .mode = OutageSpec::Mode::kHold, .mean_gap = 1s, .length_max = 300ms}};
+  Path path = path_of(spec);
+  const tandem::test::AllocGuard guard;
+  for (std::int64_t i = 0; i < 50'000; ++i) static_cast<void>(path.send(Time{i * 300us}, kSize));
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+TEST(Capacity, LimitsAreReadFromAProfile) {
+  const auto profile = parse_profile(R"(
+    version: 1
+    both {
+      rate { rate_bit_s: 1e6 queue_datagrams: 50 codel { target_ms: 10 } }
+      corrupted_percent: 2 mtu_bytes: 600
+    }
+    outage { mean_gap_s: 20 length_ms: 50 length_max_ms: 250 mode: HOLD })",
+                                     "p.textproto");
+  ASSERT_TRUE(profile) << to_text(profile.error());
+  const PathSpec& up = profile->link.up;
+  EXPECT_EQ(up.rate.queue_datagrams, 50U);
+  EXPECT_EQ(up.rate.codel, (CoDelSpec{10ms, 100ms}));
+  EXPECT_EQ(up.corrupted, 0.02);
+  EXPECT_EQ(up.mtu, 600U);
+  ASSERT_EQ(up.outages.size(), 1U);
+  EXPECT_EQ(up.outages[0].mean_gap, 20s);
+  EXPECT_EQ(up.outages[0].length_max, 250ms);
+  const auto expect = [](std::string_view text, std::string_view message) {
+    const auto bad = parse_profile("version: 1\n" + std::string(text) + "\n", "p.textproto");
+    ASSERT_FALSE(bad) << text;
+    EXPECT_NE(to_text(bad.error()).find(message), std::string::npos) << to_text(bad.error());
+  };
+  expect("both {} outage { length_ms: 5 }", "p.textproto:2:9: outage[0]: needs exactly one of");
+  expect("both {} outage { mean_gap_s: 5 length_ms: 5 length_max_ms: 4 }",
+         "p.textproto:2:60: outage[0].length_max_ms = 4");
+  expect("both { rate { rate_bit_s: 1e6 queue_datagrams: 0 } }", "p.textproto:2:48: both.rate.queue_datagrams = 0");
+  expect("both { rate { rate_bit_s: 1e6 codel { target_ms: 200 } } }", "p.textproto:2:31: both.rate.codel");
+  PathSpec bad;
+  bad.rate.queue_datagrams = 4;
+  bad.rate.codel = CoDelSpec{5ms, 5ms};
+  std::string keys;
+  for (const SpecProblem& problem : problems(bad)) keys += problem.key + " ";
+  EXPECT_EQ(keys, "rate.codel.interval rate.queue_datagrams rate.codel ");
+}
+
+}  // namespace
+}  // namespace tandem::netsim
