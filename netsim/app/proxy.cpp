@@ -10,283 +10,322 @@
 #include <ctime>
 
 #include "common/io/clock.h"
-#include "common/io/udp_socket.h"
 
 namespace tandem::netsim {
 namespace {
 
-constexpr std::uint64_t kListenEvent = ProxyCore::kClientsMax;
-constexpr std::uint64_t kWakeEvent = kListenEvent + 1;
 constexpr Duration kHousekeeping{200'000'000};
+/// Reading later than the moment of arrival is free as long as nothing can be due before; but the kernel's buffers hold a
+/// limited number, and clients that just came wait for their sockets.
+constexpr Duration kReadingMax{500'000};
+constexpr Duration kReadingMin{100'000};
+/// After a round of sending the next begins so much later at the earliest: a wake-up costs more than sending a datagram,
+/// and datagrams of many clients are due at any moment. Part of the reported lateness.
+constexpr Duration kCoalesce{15'000};
+/// What is due so soon is waited for: going to sleep takes longer.
+constexpr Duration kShorterThanSleep{3'000};
+constexpr Duration kNewcomersMax{10'000'000};
 constexpr std::size_t kReportsMax = 1024;
+constexpr int kRoundsOfSending = 8;
 static_assert(io::ReceiveBatch::kSlotBytes == kSlotBytes, "what can be received can be kept");
-/// Batches read from one socket before others get their turn.
-constexpr int kRounds = 4;
+static_assert(ProxyOutbox::kMax == io::SendBatch::kMax);
 
-bool watch(int poll, int fd, std::uint64_t name) noexcept {
-  epoll_event event{};
-  event.events = EPOLLIN;
-  event.data.u64 = name;
-  return epoll_ctl(poll, EPOLL_CTL_ADD, fd, &event) == 0;
+/// CLOCK_REALTIME less CLOCK_MONOTONIC: turns the kernel's stamps into the proxy's time. Read anew each round, as the
+/// wall clock may be set; the reading in the middle must not be torn off by a pause of this thread.
+Duration wall_ahead() noexcept {
+  Duration ahead{};
+  for (int i = 0; i < 3; ++i) {
+    const Duration before = io::read_clock(CLOCK_MONOTONIC);
+    const Duration wall = io::read_clock(CLOCK_REALTIME);
+    const Duration after = io::read_clock(CLOCK_MONOTONIC);
+    ahead = wall - (before + (after - before) / 2);
+    if (after - before < Duration{2'000}) break;
+  }
+  return ahead;
 }
 
 }  // namespace
 
 std::expected<std::unique_ptr<Proxy>, std::string> Proxy::open(const ProxyOptions& options) {
-  auto socket = io::bind_udp(options.listen, options.listen.any());
-  if (!socket) return std::unexpected(socket.error());
-  io::Fd poll{epoll_create1(EPOLL_CLOEXEC)};
+  auto clients = ProxyClients::open(options.listen, options.to);
+  if (!clients) return std::unexpected(clients.error());
   io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
-  if (!poll.open() || !wake.open() || !watch(poll.get(), socket->fd.get(), kListenEvent) ||
-      !watch(poll.get(), wake.get(), kWakeEvent)) {
+  io::Fd sleep{epoll_create1(EPOLL_CLOEXEC)};
+  epoll_event event{};
+  event.events = EPOLLIN;
+  if (!wake.open() || !sleep.open() || !clients->watch(wake.get(), {ProxySource::Kind::kWake, 0}) ||
+      epoll_ctl(sleep.get(), EPOLL_CTL_ADD, wake.get(), &event) != 0) {
     return std::unexpected(std::string("the system gives no file descriptors: ") + std::strerror(errno));
   }
-  return std::unique_ptr<Proxy>(
-      new Proxy(options, std::move(socket->fd), std::move(poll), std::move(wake), socket->local));
+  return std::unique_ptr<Proxy>(new Proxy(options, std::move(*clients), std::move(wake), std::move(sleep)));
 }
 
-Proxy::Proxy(const ProxyOptions& options, io::Fd socket, io::Fd poll, io::Fd wake, const io::SocketAddress& listening)
+Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake, io::Fd sleep)
     : options_(options),
-      socket_(std::move(socket)),
-      poll_(std::move(poll)),
+      clients_(std::move(clients)),
       wake_(std::move(wake)),
-      listening_(listening),
-      any_address_(options.listen.any()),
-      core_(options.link, options.seed) {
+      sleep_(std::move(sleep)),
+      core_(options.link, options.seed),
+      delays_(std::make_unique<DelayBins[]>(ProxyCore::kClientsMax * kDirections)) {
   left_.reserve(kReportsMax);
+  plan_reading();
 }
 
 void Proxy::stop() noexcept {
+  stopping_.store(true, std::memory_order_release);
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
 }
 
+Duration Proxy::since_start() const noexcept { return io::read_clock(CLOCK_MONOTONIC) - started_; }
+
 void Proxy::run() {
   prctl(PR_SET_TIMERSLACK, 1UL);  // else the kernel may wake us 50 us late to save power
   started_ = io::read_clock(CLOCK_MONOTONIC);
-  Duration housekeeping{};
-  std::array<epoll_event, ProxyCore::kClientsMax + 2> events{};
-  while (true) {
-    now_ = io::read_clock(CLOCK_MONOTONIC) - started_;
-    if (now_ >= housekeeping) {
-      forget_idle();
-      publish();
-      housekeeping = now_ + kHousekeeping;
-    }
+  while (!stopping_.load(std::memory_order_acquire)) {
+    now_ = since_start();
+    if (now_ >= next_housekeeping_) housekeeping(now_);
     if (options_.duration > Duration::zero() && now_ >= options_.duration) break;
-    const timespec timeout = io::to_timespec(wait_limit(now_));
-    const int ready = epoll_pwait2(poll_.get(), events.data(), static_cast<int>(events.size()), &timeout, nullptr);
-    bool stopping = false;
-    for (int i = 0; i < ready; ++i) {
-      const std::uint64_t name = events[static_cast<std::size_t>(i)].data.u64;
-      if (name == kWakeEvent) {
-        stopping = true;
-      } else if (name == kListenEvent) {
-        receive_from_clients();
-      } else {
-        receive_from_server(static_cast<std::uint32_t>(name));
-      }
-    }
-    send_due();
-    if (stopping) break;
+    work(now_);
   }
+  now_ = since_start();
   publish();
 }
 
-Duration Proxy::wait_limit(Duration now) const noexcept {
-  Duration limit = kHousekeeping;
-  if (const auto due = core_.next_due()) limit = std::min(limit, due->time_since_epoch() - now);
-  if (options_.duration > Duration::zero()) limit = std::min(limit, options_.duration - now);
-  return std::max(limit, Duration::zero());
+void Proxy::housekeeping(Duration now) noexcept {
+  forget_idle();
+  publish();
+  next_housekeeping_ = now + kHousekeeping;
 }
 
-void Proxy::receive_from_clients() noexcept {
-  for (int round = 0; round < kRounds; ++round) {
-    const int count = in_.receive(socket_.get());
-    if (count <= 0) return;
-    const Duration read_at = io::read_clock(CLOCK_REALTIME);
-    now_ = io::read_clock(CLOCK_MONOTONIC) - started_;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const auto details = in_.details(i, read_at);
-      count_kernel_drops(kernel_drops_seen_, details.dropped);
-      if (in_.too_long(i)) {
-        ++troubles_.too_long;
-        continue;
-      }
-      const auto client = client_of(i, details.local);
-      if (!client) continue;
-      core_.ingress(Time{now_ - details.age}, *client, Direction::kUp, in_.bytes(i));
-    }
-    send_due();
-    if (count < static_cast<int>(io::ReceiveBatch::kMax)) return;
+void Proxy::work(Duration now) noexcept {
+  Duration until = next_housekeeping_;
+  if (options_.duration > Duration::zero()) until = std::min(until, options_.duration);
+  const auto due = core_.next_due();
+  if (due) until = std::min(until, std::max(due->time_since_epoch(), last_sent_ + kCoalesce));
+
+  const bool lazy = busy_ && reading_interval_ > Duration::zero();
+  if (!lazy) {
+    const Duration wait = until - now <= std::max(options_.spin, kShorterThanSleep) ? Duration{} : until - now - options_.spin;
+    if (read_ready(std::max(wait, Duration{})) > 0) busy_ = true;
+  } else {
+    // Another moment for reading is not worth a wake-up of its own.
+    const bool read_too = until >= last_read_ + reading_interval_ / 2;
+    until = std::min(until, last_read_ + reading_interval_);
+    sleep_until(until);
+    if (read_too) busy_ = read_ready(Duration{}) > 0 || due.has_value();
   }
+  send_due();
 }
 
-void Proxy::receive_from_server(std::uint32_t client) noexcept {
-  if (!present_[client]) return;
-  for (int round = 0; round < kRounds; ++round) {
-    const int count = in_.receive(clients_[client].upstream.get());
-    if (count < 0) {  // the server is not there (yet, or any more); it may come back
-      ++(errno == ECONNREFUSED ? troubles_.refused : troubles_.other);
+void Proxy::sleep_until(Duration moment) noexcept {
+  Duration left = moment - since_start();
+  const Duration spin = std::max(options_.spin, kShorterThanSleep);
+  if (left > spin) {
+    const timespec timeout = io::to_timespec(left - options_.spin);
+    epoll_event event{};
+    if (epoll_pwait2(sleep_.get(), &event, 1, &timeout, nullptr) > 0) return;
+    left = moment - since_start();
+  }
+  while (left > Duration::zero() && !stopping_.load(std::memory_order_relaxed)) left = moment - since_start();
+}
+
+std::size_t Proxy::read_ready(Duration wait) noexcept {
+  std::array<epoll_event, ProxyClients::kMax * 3 + 2> events;
+  const timespec timeout = io::to_timespec(wait);
+  const int ready =
+      epoll_pwait2(clients_.poll_fd(), events.data(), static_cast<int>(events.size()), &timeout, nullptr);
+  const Duration ahead = wall_ahead();
+  now_ = since_start();
+  last_read_ = now_;
+  std::size_t count = 0, unsent = 0;
+  for (int i = 0; i < ready; ++i) {
+    const ProxySource source = ProxySource::of(events[static_cast<std::size_t>(i)].data.u64);
+    if (source.kind == ProxySource::Kind::kWake) {
+      std::uint64_t times = 0;
+      [[maybe_unused]] const auto got = ::read(wake_.get(), &times, sizeof times);
       continue;
     }
-    if (count == 0) return;
-    const Duration read_at = io::read_clock(CLOCK_REALTIME);
-    now_ = io::read_clock(CLOCK_MONOTONIC) - started_;
-    clients_[client].last_seen = now_;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const auto details = in_.details(i, read_at);
-      count_kernel_drops(clients_[client].kernel_drops, details.dropped);
-      if (in_.too_long(i)) {
-        ++troubles_.too_long;
-        continue;
-      }
-      core_.ingress(Time{now_ - details.age}, client, Direction::kDown, in_.bytes(i));
+    // One batch of each: whoever sends much waits for the others.
+    const std::size_t got = read(source, ahead + started_);
+    count += got;
+    unsent += got;
+    if (unsent >= io::ReceiveBatch::kMax / 2) {
+      send_due();
+      unsent = 0;
     }
-    send_due();
-    if (count < static_cast<int>(io::ReceiveBatch::kMax)) return;
   }
+  if (clients_.newcomers() && now_ - newcomers_since_ >= kNewcomersMax) clients_.listen_to_newcomers();
+  return count;
+}
+
+std::size_t Proxy::read(ProxySource source, Duration wall_at_start) noexcept {
+  const int fd = clients_.fd_of(source);
+  if (fd < 0) return 0;  // forgotten by an earlier event of this round
+  const int received = in_.receive(fd);
+  if (received <= 0) {
+    if (received < 0) receive_error(source);
+    return 0;
+  }
+  const auto count = static_cast<std::size_t>(received);
+  const bool down = source.kind == ProxySource::Kind::kUpside || source.kind == ProxySource::Kind::kFormer;
+  const Duration earliest = now_ - Duration{1'000'000'000};
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto details = in_.details(i, Duration{});
+    count_kernel_drops(source, details.dropped);
+    if (in_.too_long(i)) {
+      ++troubles_.too_long;
+      continue;
+    }
+    // Whatever else may be wrong with a clock, nothing came before the last round by more than the buffers can hold.
+    const Duration at = details.stamp == Duration{}
+                            ? now_
+                            : std::clamp(details.stamp - wall_at_start, earliest, now_ + Duration{1'000'000});
+    if (down) {
+      clients_[source.place].last_seen = now_;
+      core_.ingress(Time{at}, source.place, Direction::kDown, in_.bytes(i));
+    } else if (const auto place = client_of(i, details.local)) {
+      core_.ingress(Time{at}, *place, Direction::kUp, in_.bytes(i));
+    }
+  }
+  if (source.kind == ProxySource::Kind::kListen && count < io::ReceiveBatch::kMax && clients_.newcomers()) {
+    clients_.listen_to_newcomers();
+  }
+  return count;
+}
+
+void Proxy::receive_error(ProxySource source) noexcept {
+  // The other end is not there (yet, or any more); it may come back.
+  static_cast<void>(source);
+  ++(errno == ECONNREFUSED ? troubles_.refused : troubles_.other);
 }
 
 void Proxy::send_due() noexcept {
-  std::array<ProxyCore::Egress, io::SendBatch::kMax> batch;
-  while (true) {
-    now_ = io::read_clock(CLOCK_MONOTONIC) - started_;
-    std::size_t count = 0;
-    while (count < batch.size()) {
+  for (int round = 0; round < kRoundsOfSending; ++round) {
+    now_ = since_start();
+    while (!outbox_.full()) {
       const auto egress = core_.take(Time{now_});
       if (!egress) break;
-      batch[count++] = *egress;
+      outbox_.add(*egress);
     }
-    if (count == 0) return;
-    // One call for all answers, which leave by one socket; one call per client towards the server. A stable partition
-    // keeps the order within each client and direction.
-    const auto first = batch.begin();
-    const auto last = first + static_cast<std::ptrdiff_t>(count);
-    std::array<ProxyCore::Egress, io::SendBatch::kMax> group;
-    std::array<bool, io::SendBatch::kMax> taken{};
-    for (auto lead = first; lead != last; ++lead) {
-      if (taken[static_cast<std::size_t>(lead - first)]) continue;
-      std::size_t size = 0;
-      for (auto other = lead; other != last; ++other) {
-        const auto place = static_cast<std::size_t>(other - first);
-        const bool same = lead->direction == Direction::kDown
-                              ? other->direction == Direction::kDown
-                              : other->direction == Direction::kUp && other->client == lead->client;
-        if (taken[place] || !same) continue;
-        taken[place] = true;
-        group[size++] = *other;
-      }
-      const int fd = lead->direction == Direction::kDown ? socket_.get() : clients_[lead->client].upstream.get();
-      flush(fd, {group.data(), size});
-    }
-    if (count < batch.size()) return;
-  }
-}
-
-void Proxy::flush(int fd, std::span<const ProxyCore::Egress> sent) noexcept {
-  out_.clear();
-  for (const ProxyCore::Egress& egress : sent) {
-    const Client& client = clients_[egress.client];
-    const bool down = egress.direction == Direction::kDown;
-    out_.add(egress.bytes, down ? &client.address : nullptr, down && any_address_ ? &client.local : nullptr);
-  }
-  const io::SendBatch::Result result = out_.send(fd);
-  troubles_.refused += result.refused;
-  troubles_.no_room += result.no_room;
-  troubles_.other += result.other;
-  const Duration sent_at = io::read_clock(CLOCK_MONOTONIC) - started_;
-  for (const ProxyCore::Egress& egress : sent) {
-    lateness_.add((sent_at - egress.item.at.time_since_epoch()).count());
-    core_.done(egress);
+    if (outbox_.size() == 0) return;
+    outbox_.empty(
+        [this](const ProxyCore::Egress& egress) { out_.add(egress.bytes, nullptr, nullptr); },
+        [this](const ProxyCore::Egress& lead, const ProxyOutbox& box, std::uint8_t first) {
+          const bool down = lead.direction == Direction::kDown;
+          const ProxyClients::Client& client = clients_[lead.client];
+          const io::SendBatch::Result result = out_.send(down ? client.downside.get() : client.upside.get());
+          troubles_.refused += result.refused;
+          troubles_.no_room += result.no_room;
+          troubles_.other += result.other;
+          const Duration sent_at = since_start();
+          DelayBins& delays = delays_[lead.client * kDirections + static_cast<std::size_t>(lead.direction)];
+          box.again(first, [&](const ProxyCore::Egress& egress) {
+            const Duration late = sent_at - egress.item.at.time_since_epoch();
+            lateness_.add(late.count());
+            late_ += late > options_.late_limit ? 1 : 0;
+            ++released_;
+            delays.add(sent_at - egress.item.sent.time_since_epoch());
+            core_.done(egress);
+          });
+          last_sent_ = sent_at;
+        });
   }
 }
 
 std::optional<std::uint32_t> Proxy::client_of(std::size_t message, const io::LocalAddress& local) noexcept {
+  // Asked for datagrams of a client's own socket too: while it was being connected, others could get into it.
   const io::PeerKey key = io::PeerKey::of(in_.from(message));
-  std::optional<std::uint32_t> found;
-  if (present_[last_client_] && keys_[last_client_] == key) {
-    found = last_client_;
-  } else {
-    for (std::uint32_t i = 0; i < keys_.size() && !found; ++i) {
-      if (present_[i] && keys_[i] == key) found = i;
-    }
-  }
+  auto found = clients_.find(key);
   if (!found) found = welcome(key, message, local);
-  if (found) {
-    last_client_ = *found;
-    clients_[*found].last_seen = now_;
-  }
+  if (found) clients_[*found].last_seen = now_;
   return found;
 }
 
 std::optional<std::uint32_t> Proxy::welcome(const io::PeerKey& key, std::size_t message,
                                             const io::LocalAddress& local) noexcept {
-  if (core_.clients() == ProxyCore::kClientsMax) {
+  const auto place = core_.add_client();
+  if (!place) {
     ++troubles_.too_many_clients;
     return std::nullopt;
   }
-  io::Fd upstream{::socket(options_.to.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
-  if (!upstream.open() || ::connect(upstream.get(), options_.to.get(), options_.to.size) != 0) {
+  if (!clients_.welcome(*place, core_.clients_seen(), key, in_.from(message), local)) {
+    core_.remove_client(*place);
     ++troubles_.other;
     return std::nullopt;
   }
-  io::ReceiveBatch::prepare(upstream.get(), options_.to.family(), false);
-  const auto number = core_.add_client();
-  if (!number || !watch(poll_.get(), upstream.get(), *number)) {
-    if (number) core_.remove_client(*number);
-    ++troubles_.other;
-    return std::nullopt;
+  newcomers_since_ = now_;
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    delays_[*place * kDirections + static_cast<std::size_t>(direction)].clear();
   }
-  Client& client = clients_[*number];
-  client.upstream = std::move(upstream);
-  client.address.storage = in_.from(message);
-  client.address.size = client.address.family() == AF_INET6 ? sizeof(sockaddr_in6) : sizeof(sockaddr_in);
-  client.local = local;
-  client.kernel_drops = 0;
-  keys_[*number] = key;
-  present_[*number] = true;
-  return number;
+  return place;
 }
 
 void Proxy::forget_idle() noexcept {
-  for (std::uint32_t i = 0; i < clients_.size(); ++i) {
-    if (!present_[i] || now_ - clients_[i].last_seen < options_.idle_limit) continue;
+  for (std::uint32_t i = 0; i < ProxyClients::kMax; ++i) {
+    if (!clients_[i].present || now_ - clients_[i].last_seen < options_.idle_limit) continue;
     const bool under_way =
         core_.counters(i, Direction::kUp).in_flight() + core_.counters(i, Direction::kDown).in_flight() > 0;
     if (!under_way) forget(i);
   }
 }
 
-void Proxy::forget(std::uint32_t client) noexcept {
+void Proxy::forget(std::uint32_t place) noexcept {
   if (left_.size() < kReportsMax) {
-    left_.push_back({clients_[client].address.storage,
-                     false,
-                     {core_.counters(client, Direction::kUp), core_.counters(client, Direction::kDown)}});
+    left_.push_back(picture_of(place));
+    left_.back().present = false;
   }
-  core_.remove_client(client);
-  clients_[client].upstream.reset();  // closing takes it out of epoll
-  present_[client] = false;
+  core_.remove_client(place);
+  clients_.forget(place);
 }
 
-void Proxy::count_kernel_drops(std::uint32_t& seen, std::uint32_t now) noexcept {
-  if (now == 0) return;  // not told with this datagram
-  troubles_.kernel_drops += now - seen;
-  seen = now;
+void Proxy::count_kernel_drops(ProxySource source, std::uint32_t seen) noexcept {
+  if (seen == 0) return;  // not told with this datagram
+  if (source.kind == ProxySource::Kind::kListen) {
+    troubles_.kernel_drops += seen - strangers_dropped_;
+    strangers_dropped_ = seen;
+    return;
+  }
+  ProxyClients::Client& client = clients_[source.place];
+  std::uint32_t& before = client.drops_seen[static_cast<std::size_t>(source.kind) - 1];
+  troubles_.kernel_drops += seen - before;
+  client.kernel_drops += seen - before;
+  before = seen;
 }
 
-ProxyStatus Proxy::snapshot() const {
-  return {now_,
-          core_.clients(),
-          core_.clients_seen(),
-          {core_.total(Direction::kUp), core_.total(Direction::kDown)},
-          troubles_};
+ProxyClientStatus Proxy::picture_of(std::uint32_t place) const noexcept {
+  const ProxyClients::Client& client = clients_[place];
+  return {client.number,
+          place,
+          client.address.storage,
+          client.present,
+          client.kernel_drops,
+          {core_.counters(place, Direction::kUp), core_.counters(place, Direction::kDown)}};
+}
+
+void Proxy::fill(ProxyStatus& status) const noexcept {
+  status.since_start = now_;
+  status.clients = 0;
+  status.clients_seen = core_.clients_seen();
+  status.total = {core_.total(Direction::kUp), core_.total(Direction::kDown)};
+  status.troubles = troubles_;
+  status.released = released_;
+  status.late = late_;
+  for (std::uint32_t i = 0; i < ProxyClients::kMax; ++i) {
+    if (clients_[i].present) status.client[status.clients++] = picture_of(i);
+  }
+}
+
+ProxyStatus Proxy::final_status() const {
+  ProxyStatus status;
+  fill(status);
+  return status;
 }
 
 void Proxy::publish() noexcept {
   // Whoever looks must not hold up the packets: then the next picture is the one they get.
   const std::unique_lock lock{published_lock_, std::try_to_lock};
-  if (lock) published_ = snapshot();
+  if (lock) fill(published_);
 }
 
 ProxyStatus Proxy::status() const {
@@ -294,14 +333,18 @@ ProxyStatus Proxy::status() const {
   return published_;
 }
 
-std::vector<ProxyClientReport> Proxy::client_reports() const {
-  std::vector<ProxyClientReport> reports = left_;
-  for (std::uint32_t i = 0; i < clients_.size(); ++i) {
-    if (!present_[i]) continue;
-    reports.push_back(
-        {clients_[i].address.storage, true, {core_.counters(i, Direction::kUp), core_.counters(i, Direction::kDown)}});
+std::vector<ProxyClientStatus> Proxy::client_reports() const {
+  std::vector<ProxyClientStatus> reports = left_;
+  for (std::uint32_t i = 0; i < ProxyClients::kMax; ++i) {
+    if (clients_[i].present) reports.push_back(picture_of(i));
   }
   return reports;
+}
+
+void Proxy::plan_reading() noexcept {
+  const Duration least = std::min(options_.link.up.floor, options_.link.down.floor);
+  const Duration interval = std::min(least / 2, kReadingMax);
+  reading_interval_ = interval < kReadingMin ? Duration{} : interval;
 }
 
 }  // namespace tandem::netsim

@@ -131,7 +131,7 @@ std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const 
   json["up"] = path_json(status.total[0]);
   json["down"] = path_json(status.total[1]);
   json["clients"] = Json::array();
-  for (const ProxyClientReport& client : proxy.client_reports()) {
+  for (const ProxyClientStatus& client : proxy.client_reports()) {
     json["clients"].push_back({{"address", io::to_text(client.address)},
                                {"present", client.present},
                                {"up", path_json(client.counters[0])},
