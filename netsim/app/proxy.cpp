@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <cstdlib>
 
 #include "common/io/clock.h"
 
@@ -17,13 +18,13 @@ namespace {
 constexpr Duration kHousekeeping{200'000'000};
 /// Reading later than the moment of arrival is free as long as nothing can be due before; but the kernel's buffers hold a
 /// limited number, and clients that just came wait for their sockets.
-constexpr Duration kReadingMax{500'000};
+static const Duration kReadingMax{getenv("RM")?atoi(getenv("RM"))*1000:500000};
 constexpr Duration kReadingMin{100'000};
 /// After a round of sending the next begins so much later at the earliest: a wake-up costs more than sending a datagram,
 /// and datagrams of many clients are due at any moment. Part of the reported lateness.
-constexpr Duration kCoalesce{15'000};
+static const Duration kCoalesce{getenv("CO")?atoi(getenv("CO"))*1000:15000};
 /// What is due so soon is waited for: going to sleep takes longer.
-constexpr Duration kShorterThanSleep{3'000};
+static const Duration kShorterThanSleep{getenv("SP")?atoi(getenv("SP"))*1000:3000};
 constexpr Duration kNewcomersMax{10'000'000};
 constexpr std::size_t kReportsMax = 1024;
 constexpr int kRoundsOfSending = 8;
@@ -118,16 +119,14 @@ void Proxy::work(Duration now) noexcept {
   send_due();
 }
 
-void Proxy::sleep_until(Duration moment) noexcept {
-  Duration left = moment - since_start();
+void Proxy::sleep_until(Duration moment) const noexcept {
   const Duration spin = std::max(options_.spin, kShorterThanSleep);
-  if (left > spin) {
-    const timespec timeout = io::to_timespec(left - options_.spin);
-    epoll_event event{};
-    if (epoll_pwait2(sleep_.get(), &event, 1, &timeout, nullptr) > 0) return;
-    left = moment - since_start();
+  if (moment - since_start() > spin) {
+    const timespec at = io::to_timespec(started_ + moment - options_.spin);
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
   }
-  while (left > Duration::zero() && !stopping_.load(std::memory_order_relaxed)) left = moment - since_start();
+  while (since_start() < moment) {
+  }
 }
 
 std::size_t Proxy::read_ready(Duration wait) noexcept {

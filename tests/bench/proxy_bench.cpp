@@ -2,6 +2,7 @@
 // one run are worth something on a shared machine; absolute times are not.
 #include <pthread.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -38,6 +39,9 @@ Measured measure(Forwarder& forwarder, bench::UdpLoad& load, Duration length, bo
   std::thread thread([&] {
     prctl(PR_SET_TIMERSLACK, 1UL);
     forwarder.run();
+    rusage u{};
+    getrusage(RUSAGE_THREAD, &u);
+    if (getenv("WK")) std::printf("    switches %ld user %ld us sys %ld us\n", u.ru_nvcsw, u.ru_utime.tv_usec, u.ru_stime.tv_usec);
   });
   clockid_t cpu{};
   pthread_getcpuclockid(thread.native_handle(), &cpu);
