@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "netsim/link_watch.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -41,7 +43,9 @@ Outcome Network::send(Time now, std::uint32_t link, Direction direction, std::sp
   Lane* const to = lane(link, direction);
   if (to == nullptr) return Outcome::kOverflow;
   const auto number = static_cast<std::uint32_t>(lane_number(link, direction));
-  return submit(to->path, to->queue, to->counters, now, number, bytes);
+  const Outcome outcome = submit(to->path, to->queue, to->counters, now, number, bytes);
+  if (to->watch != nullptr) to->watch->decided(direction, now, to->path.count() - 1, dropped(outcome));
+  return outcome;
 }
 
 std::optional<Delivery> Network::poll(Time now, std::uint32_t link, Direction direction,
@@ -84,6 +88,12 @@ const PathCounters& Network::counters(std::uint32_t link, Direction direction) c
   return of == nullptr ? kNothing : of->counters;
 }
 
+void Network::watch(std::uint32_t link, LinkWatch* watch) noexcept {
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    if (Lane* const of = lane(link, direction)) of->watch = watch;
+  }
+}
+
 Network::Lane* Network::lane(std::uint32_t link, Direction direction) const noexcept {
   const std::size_t number = lane_number(link, direction);
   return number < lanes_.size() ? lanes_[number].get() : nullptr;
@@ -96,9 +106,11 @@ std::optional<Delivery> Network::take(Lane& from, Time now, std::span<std::byte>
   const std::size_t fits = std::min(bytes.size(), buffer.size());
   if (fits > 0) std::memcpy(buffer.data(), bytes.data(), fits);
   from.counters.left(*item, bytes.size());
+  const auto direction = static_cast<Direction>(item->lane % kDirections);
+  if (from.watch != nullptr) from.watch->arrived(direction, item->sent, item->at, item->index);
   from.queue.recycle(item->slot);
   return Delivery{item->lane / static_cast<std::uint32_t>(kDirections),
-                  static_cast<Direction>(item->lane % kDirections),
+                  direction,
                   item->sent,
                   item->at,
                   item->index,

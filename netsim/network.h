@@ -16,6 +16,8 @@
 
 namespace tandem::netsim {
 
+class LinkWatch;
+
 /// A datagram that came out.
 struct Delivery {
   std::uint32_t link = 0;
@@ -60,12 +62,16 @@ class Network {
 
   [[nodiscard]] const PathCounters& counters(std::uint32_t link, Direction direction) const noexcept;
 
+  /// From now on `watch` is told what happens on this link, until it is told no more (nullptr); it must live as long.
+  void watch(std::uint32_t link, LinkWatch* watch) noexcept;
+
  private:
   struct Lane {
     Lane(const PathSpec& spec, RandomKey key, RandomKey link_key);
     Path path;
     DelayQueue queue;
     PathCounters counters;
+    LinkWatch* watch = nullptr;
   };
   [[nodiscard]] Lane* lane(std::uint32_t link, Direction direction) const noexcept;
   std::optional<Delivery> take(Lane& from, Time now, std::span<std::byte> buffer) noexcept;

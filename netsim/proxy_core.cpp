@@ -1,5 +1,7 @@
 #include "netsim/proxy_core.h"
 
+#include "netsim/link_watch.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -51,6 +53,7 @@ void ProxyCore::remove_client(std::uint32_t client) noexcept {
     add(left_[direction], counters);
     place.lanes[direction].reset();
   }
+  place.watch = nullptr;
   ++place.generation;
   --clients_;
 }
@@ -66,7 +69,11 @@ Outcome ProxyCore::ingress(Time now, std::uint32_t client, Direction direction,
     ++lane->counters.by_outcome[static_cast<std::size_t>(Outcome::kOverflow)];
     return Outcome::kOverflow;
   }
-  return submit(lane->path, queue_, lane->counters, now, lane_name(client, direction), bytes);
+  const Outcome outcome = submit(lane->path, queue_, lane->counters, now, lane_name(client, direction), bytes);
+  if (LinkWatch* const watch = places_[client].watch) {
+    watch->decided(direction, now, lane->path.count() - 1, dropped(outcome));
+  }
+  return outcome;
 }
 
 std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
@@ -80,6 +87,7 @@ std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
     }
     const auto bytes = queue_.bytes(*item);
     lane->counters.left(*item, bytes.size());
+    if (LinkWatch* const watch = places_[client].watch) watch->arrived(direction, item->sent, item->at, item->index);
     return Egress{client, direction, bytes, *item};
   }
   return std::nullopt;
@@ -98,6 +106,10 @@ PathCounters ProxyCore::total(Direction direction) const noexcept {
     if (const auto& lane = place.lanes[static_cast<std::size_t>(direction)]) add(sum, lane->counters);
   }
   return sum;
+}
+
+void ProxyCore::watch(std::uint32_t client, LinkWatch* watch) noexcept {
+  if (client < kClientsMax && places_[client].lanes[0]) places_[client].watch = watch;
 }
 
 std::uint32_t ProxyCore::lane_name(std::uint32_t client, Direction direction) const noexcept {

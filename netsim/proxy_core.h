@@ -17,6 +17,8 @@
 
 namespace tandem::netsim {
 
+class LinkWatch;
+
 /// The proxy without sockets and clock: datagrams in, scheduled datagrams out. It uses the same Path and the same way
 /// in as the virtual network, so equal seed, client number, times and sizes give equal verdicts (a test holds it to
 /// that).
@@ -62,6 +64,10 @@ class ProxyCore {
   [[nodiscard]] const PathCounters& counters(std::uint32_t client, Direction direction) const noexcept;
   [[nodiscard]] PathCounters total(Direction direction) const noexcept;
 
+  /// From now on `watch` is told what happens on the link of this present client; it must live until the client is
+  /// removed or nullptr is given.
+  void watch(std::uint32_t client, LinkWatch* watch) noexcept;
+
  private:
   struct Lane {
     Lane(const PathSpec& spec, RandomKey key, RandomKey link_key) : path(spec, key, link_key) {}
@@ -70,6 +76,7 @@ class ProxyCore {
   };
   struct Client {
     std::array<std::optional<Lane>, kDirections> lanes;
+    LinkWatch* watch = nullptr;
     std::uint32_t generation = 0;  ///< tells datagrams of a client that left from those of its successor
   };
   [[nodiscard]] std::uint32_t lane_name(std::uint32_t client, Direction direction) const noexcept;
