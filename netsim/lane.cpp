@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "netsim/link_watch.h"
+
 namespace tandem::netsim {
 
 Lane::Lane(const LinkSchedule& schedule, Direction direction, std::uint64_t seed, std::uint64_t name)
@@ -13,6 +15,23 @@ Lane::Lane(const LinkSchedule& schedule, Direction direction, std::uint64_t seed
       later_.push_back({Time{change.at}, make_path(change.link, direction, seed, name)});
     }
     before = &change.link;
+  }
+}
+
+Outcome Lane::enter(const Verdict& verdict, DelayQueue& queue, const Entrance& entrance,
+                    std::span<const std::byte> bytes) noexcept {
+  const Outcome outcome = submit(verdict, queue, counters, tap, entrance, bytes);
+  if (watch != nullptr) watch->decided(tap.direction, entrance.now, verdict.index, dropped(outcome));
+  return outcome;
+}
+
+void Lane::leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome) noexcept {
+  netsim::leave(item, size, outcome, counters, tap);
+  if (watch == nullptr) return;
+  if (!dropped(outcome)) {
+    watch->arrived(tap.direction, item.sent, item.at, item.index);
+  } else if (!item.copy) {
+    watch->lost(tap.direction, item.sent, item.index);
   }
 }
 

@@ -14,6 +14,8 @@
 
 namespace tandem::netsim {
 
+class LinkWatch;
+
 /// One direction of one client's link over time: the path in force and those to come, or a recording in their place;
 /// what it counted, and who is told. All memory is taken by the constructor.
 class Lane {
@@ -39,8 +41,20 @@ class Lane {
 
   [[nodiscard]] const ReplayPath* replay() const noexcept { return replay_ ? &*replay_ : nullptr; }
 
+  /// One datagram goes in: decided, counted, kept in `queue`, told to whoever listens.
+  Outcome enter(DelayQueue& queue, const Entrance& entrance,
+                std::span<const std::byte> bytes) noexcept TANDEM_REALTIME {
+    return enter(send(entrance.now, bytes.size()), queue, entrance, bytes);
+  }
+  /// The same with a verdict of the caller's.
+  Outcome enter(const Verdict& verdict, DelayQueue& queue, const Entrance& entrance,
+                std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+  /// One that `enter` kept is at the other end: handed over, or dropped on arrival.
+  void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome) noexcept TANDEM_REALTIME;
+
   PathCounters counters = {};
   DecisionTap tap = {};
+  LinkWatch* watch = nullptr;  ///< told too, if any
 
  private:
   struct Later {

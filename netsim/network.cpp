@@ -72,9 +72,7 @@ Outcome Network::enter(Time now, std::uint32_t link, Direction direction, std::u
                        std::span<const std::byte> bytes) noexcept {
   const std::size_t number = lane_number(link, direction);
   Stored& to = *lanes_[number];
-  const Verdict verdict = to.lane.send(now, bytes.size());
-  return submit(verdict, to.queue, to.lane.counters, to.lane.tap, {now, static_cast<std::uint32_t>(number), address},
-                bytes);
+  return to.lane.enter(to.queue, {now, static_cast<std::uint32_t>(number), address}, bytes);
 }
 
 bool Network::rebind(Time now, std::uint32_t link, const Rebind& rebind) noexcept {
@@ -123,6 +121,12 @@ const PathCounters& Network::counters(std::uint32_t link, Direction direction) c
   return of == nullptr ? kNothing : of->lane.counters;
 }
 
+void Network::watch(std::uint32_t link, LinkWatch* watch) noexcept {
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    if (Stored* const of = stored(link, direction)) of->lane.watch = watch;
+  }
+}
+
 std::uint64_t Network::replayed(std::uint32_t link, Direction direction) const noexcept {
   const Stored* const of = stored(link, direction);
   return of == nullptr || of->lane.replay() == nullptr ? 0 : of->lane.replay()->matched();
@@ -145,7 +149,7 @@ std::optional<Delivery> Network::take(Stored& from, Time now, std::span<std::byt
       if (fits > 0) std::memcpy(buffer.data(), bytes.data(), fits);
       if (direction == Direction::kUp) addresses_[link].hear(item->tag);
     }
-    leave(*item, size, dead ? Outcome::kOldAddress : Outcome::kDeliver, from.lane.counters, from.lane.tap);
+    from.lane.leave(*item, size, dead ? Outcome::kOldAddress : Outcome::kDeliver);
     from.queue.recycle(item->slot);
     if (!dead) return Delivery{link, direction, item->sent, item->at, item->index, size, item->tag};
   }

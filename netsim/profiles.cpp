@@ -129,6 +129,8 @@ PathSpec path_from(const ProfilePath& in) {
   return path;
 }
 
+}  // namespace
+
 OutageSpec outage_from(const ProfileOutage& in) {
   return {.start = milliseconds(in.start_s * 1e3),
           .length = milliseconds(in.length_ms),
@@ -138,6 +140,8 @@ OutageSpec outage_from(const ProfileOutage& in) {
           .mean_gap = milliseconds(in.mean_gap_s * 1e3),
           .length_max = in.mean_gap_s > 0 ? milliseconds(in.length_max_ms) : Duration::zero()};
 }
+
+namespace {
 
 struct Embedded {
   std::string_view name, unused, text;

@@ -163,11 +163,10 @@ Outcome ProxyCore::ingress(Time now, std::uint32_t client, Direction direction, 
     verdict.outcome = Outcome::kOverflow;
     verdict.at = now;
     verdict.copied = false;
-    return submit(verdict, queue_, lane->counters, lane->tap, {now}, bytes);
+    return lane->enter(verdict, queue_, {now}, bytes);
   }
   if (direction == Direction::kUp) address = places_[client].addresses.present(now);
-  return submit(lane->send(now, bytes.size()), queue_, lane->counters, lane->tap,
-                {now, lane_name(client, direction), address}, bytes);
+  return lane->enter(queue_, {now, lane_name(client, direction), address}, bytes);
 }
 
 std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
@@ -181,7 +180,7 @@ std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
     }
     const auto bytes = queue_.bytes(*item);
     const bool dead = direction == Direction::kDown && places_[client].addresses.dead(item->tag, item->at);
-    leave(*item, bytes.size(), dead ? Outcome::kOldAddress : Outcome::kDeliver, lane->counters, lane->tap);
+    lane->leave(*item, bytes.size(), dead ? Outcome::kOldAddress : Outcome::kDeliver);
     if (dead) {
       queue_.recycle(item->slot);
       continue;
@@ -204,6 +203,11 @@ PathCounters ProxyCore::total(Direction direction) const noexcept {
     if (const auto& lane = place.lanes[static_cast<std::size_t>(direction)]) add(sum, lane->counters);
   }
   return sum;
+}
+
+void ProxyCore::watch(std::uint32_t client, LinkWatch* watch) noexcept {
+  if (!present(client)) return;
+  for (auto& lane : places_[client].lanes) lane->watch = watch;
 }
 
 std::uint32_t ProxyCore::lane_name(std::uint32_t client, Direction direction) const noexcept {
