@@ -14,10 +14,13 @@
 #include "common/io/datagram_batch.h"
 #include "common/io/fd.h"
 #include "common/io/socket_address.h"
-#include "netsim/app/delay_bins.h"
+#include "common/io/spsc_queue.h"
+#include "netsim/app/live_delays.h"
 #include "netsim/app/proxy_clients.h"
+#include "netsim/app/proxy_order.h"
 #include "netsim/app/proxy_outbox.h"
 #include "netsim/app/proxy_status.h"
+#include "netsim/link_watch.h"
 #include "netsim/proxy_core.h"
 
 namespace tandem::netsim {
@@ -39,10 +42,16 @@ class Proxy {
   /// From any thread or signal handler.
   void stop() noexcept;
 
+  /// Hands an order to the packet thread; from one thread only. It must live until `done`, or until `run` returned.
+  /// @return false: too many wait
+  bool post(ProxyOrder& order) noexcept;
+  /// To prepare changes; only what ProxyCore allows to any thread.
+  [[nodiscard]] const ProxyCore& core() const noexcept { return core_; }
+
   /// A recent picture, from any thread.
   [[nodiscard]] ProxyStatus status() const;
   /// What the client in this place got, actually, not by schedule; from any thread.
-  [[nodiscard]] const DelayBins& delays(std::uint32_t place, Direction direction) const noexcept {
+  [[nodiscard]] const LiveDelays& delays(std::uint32_t place, Direction direction) const noexcept {
     return delays_[place * kDirections + static_cast<std::size_t>(direction)];
   }
 
@@ -51,49 +60,60 @@ class Proxy {
   [[nodiscard]] const Histogram& lateness() const noexcept { return lateness_; }
   /// All clients, also those that left; of very many the first thousand.
   [[nodiscard]] std::vector<ProxyClientStatus> client_reports() const;
+  /// Of the first ProxyCore::kClientsMax clients.
+  [[nodiscard]] std::vector<ProxyClientQuality> qualities() const;
 
  private:
-  Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake, io::Fd sleep);
+  struct Watched {
+    std::uint64_t number = 0;
+    std::unique_ptr<LinkWatch> watch;
+  };
+  Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake);
 
+  // The pump: proxy.cpp
   [[nodiscard]] Duration since_start() const noexcept;
-  void housekeeping(Duration now) noexcept;
   void work(Duration now) noexcept;
-  void sleep_until(Duration moment) noexcept;
+  void sleep_until(Duration moment) const noexcept;
   [[nodiscard]] std::size_t read_ready(Duration wait) noexcept;
   std::size_t read(ProxySource source, Duration wall_at_start) noexcept;
-  void receive_error(ProxySource source) noexcept;
   void send_due() noexcept;
+  void send_outbox() noexcept;
+  [[nodiscard]] ProxySource way_out(const ProxyCore::Egress& egress) noexcept;
+  // Who is there, and what others are told: proxy_house.cpp
+  void housekeeping(Duration now) noexcept;
   [[nodiscard]] std::optional<std::uint32_t> client_of(std::size_t message, const io::LocalAddress& local) noexcept;
   [[nodiscard]] std::optional<std::uint32_t> welcome(const io::PeerKey& key, std::size_t message,
                                                      const io::LocalAddress& local) noexcept;
   void forget_idle() noexcept;
   void forget(std::uint32_t place) noexcept;
-  void count_kernel_drops(ProxySource source, std::uint32_t seen) noexcept;
+  void carry_out_orders() noexcept;
+  void plan_reading(const LinkSpec& link) noexcept;
   [[nodiscard]] ProxyClientStatus picture_of(std::uint32_t place) const noexcept;
   void fill(ProxyStatus& status) const noexcept;
   void publish() noexcept;
-  void plan_reading() noexcept;
 
   ProxyOptions options_;
   ProxyClients clients_;
-  io::Fd wake_;   ///< others write to it
-  io::Fd sleep_;  ///< epoll on `wake_` alone, to sleep without minding the sockets
+  io::Fd wake_;  ///< others write to it
   std::atomic<bool> stopping_{false};
+  io::SpscQueue<ProxyOrder*> orders_;
   ProxyCore core_;
   io::ReceiveBatch in_;
   io::SendBatch out_;
   ProxyOutbox outbox_;
   Histogram lateness_;
-  std::unique_ptr<DelayBins[]> delays_;
+  std::unique_ptr<LiveDelays[]> delays_;
+  std::vector<Watched> watched_;  ///< by arrival; never more than reserved
   ProxyTroubles troubles_;
   std::uint64_t released_ = 0, late_ = 0;
-  std::uint32_t strangers_dropped_ = 0;  ///< last word of the kernel about the listening socket
-  Duration started_{};                   ///< CLOCK_MONOTONIC
-  Duration now_{};                       ///< since start, read once per round
-  Duration reading_interval_{};          ///< 0: as soon as something comes
+  Duration started_{};           ///< CLOCK_MONOTONIC
+  Duration now_{};               ///< since start, read once per round
+  Duration least_delay_{};       ///< of all links there are and will be
+  Duration reading_interval_{};  ///< 0: as soon as something comes
   Duration last_read_{}, last_sent_{}, next_housekeeping_{}, newcomers_since_{};
   bool busy_ = false;  ///< something came lately or is under way
   std::vector<ProxyClientStatus> left_;
+  std::uint64_t drops_of_left_ = 0;  ///< by the kernel, of clients that left
   mutable std::mutex published_lock_;
   ProxyStatus published_;
 };

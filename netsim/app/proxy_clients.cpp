@@ -1,5 +1,6 @@
 #include "netsim/app/proxy_clients.h"
 
+#include <linux/sock_diag.h>
 #include <sys/epoll.h>
 
 #include <cerrno>
@@ -18,6 +19,20 @@ void reuse(int fd, bool on) noexcept {
   setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &value, sizeof value);
 }
 
+/// Stamps and buffers, but no word about drops with every datagram: they are asked for.
+void prepare(int fd, int family, bool local, int buffer_bytes) noexcept {
+  io::ReceiveBatch::prepare(fd, family, local, buffer_bytes);
+  const int off = 0;
+  setsockopt(fd, SOL_SOCKET, SO_RXQ_OVFL, &off, sizeof off);
+}
+
+std::uint64_t drops_of(const io::Fd& fd) noexcept {
+  std::array<std::uint32_t, SK_MEMINFO_VARS> numbers{};
+  socklen_t size = sizeof numbers;
+  if (!fd.open() || getsockopt(fd.get(), SOL_SOCKET, SO_MEMINFO, numbers.data(), &size) != 0) return 0;
+  return numbers[SK_MEMINFO_DROPS];
+}
+
 }  // namespace
 
 std::expected<ProxyClients, std::string> ProxyClients::open(const io::SocketAddress& listen,
@@ -26,6 +41,7 @@ std::expected<ProxyClients, std::string> ProxyClients::open(const io::SocketAddr
   if (!socket) return std::unexpected(socket.error());
   ProxyClients clients;
   clients.listen_ = std::move(socket->fd);
+  prepare(clients.listen_.get(), listen.family(), listen.any(), io::ReceiveBatch::kBufferBytes);
   clients.listening_ = socket->local;
   clients.to_ = to;
   clients.poll_ = io::Fd{epoll_create1(EPOLL_CLOEXEC)};
@@ -88,11 +104,10 @@ void ProxyClients::forget(std::uint32_t place) noexcept {
   index();
 }
 
-bool ProxyClients::change_address(std::uint32_t place, Duration dead_at) noexcept {
+bool ProxyClients::change_address(std::uint32_t place, std::uint32_t number) noexcept {
   Client& client = clients_[place];
   io::Fd up = connect_upside();
   if (!up.open()) return false;
-  // The old socket is watched under a new name; a number seen from here on names the right one.
   epoll_event event{};
   event.events = EPOLLIN;
   event.data.u64 = ProxySource{ProxySource::Kind::kFormer, place}.as_number();
@@ -100,12 +115,24 @@ bool ProxyClients::change_address(std::uint32_t place, Duration dead_at) noexcep
       !watch(up.get(), {ProxySource::Kind::kUpside, place})) {
     return false;
   }
+  close_former(place);
   client.former = std::exchange(client.upside, std::move(up));
-  client.former_until = dead_at;
-  client.drops_seen[1] = 0;
-  client.drops_seen[2] = 0;
+  client.former_number = std::exchange(client.address_number, number);
   return true;
 }
+
+void ProxyClients::close_former(std::uint32_t place) noexcept {
+  Client& client = clients_[place];
+  client.kernel_drops += drops_of(client.former);
+  client.former.reset();
+}
+
+std::uint64_t ProxyClients::kernel_drops(std::uint32_t place) const noexcept {
+  const Client& client = clients_[place];
+  return client.kernel_drops + drops_of(client.downside) + drops_of(client.upside) + drops_of(client.former);
+}
+
+std::uint64_t ProxyClients::kernel_drops() const noexcept { return drops_of(listen_); }
 
 void ProxyClients::listen_to_newcomers() noexcept {
   for (std::uint32_t i = 0; i < newcomers_; ++i) {
@@ -141,14 +168,14 @@ io::Fd ProxyClients::connect_downside(const io::SocketAddress& address, const io
   reuse(fd.get(), false);
   share_port(false);
   if (!bound) return {};
-  io::ReceiveBatch::prepare(fd.get(), ours.family(), false, kBufferBytes);
+  prepare(fd.get(), ours.family(), false, kBufferBytes);
   return fd;
 }
 
 io::Fd ProxyClients::connect_upside() noexcept {
   io::Fd fd = udp(to_.family());
   if (!fd.open() || ::connect(fd.get(), to_.get(), to_.size) != 0) return {};
-  io::ReceiveBatch::prepare(fd.get(), to_.family(), false, kBufferBytes);
+  prepare(fd.get(), to_.family(), false, kBufferBytes);
   return fd;
 }
 

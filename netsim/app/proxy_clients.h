@@ -23,6 +23,7 @@ struct ProxySource {
     kFormer,    ///< the same before the client's address changed
     kWake,      ///< not a socket: somebody wants the packet thread's attention
   };
+  static constexpr std::size_t kKinds = 5;
   Kind kind = Kind::kListen;
   std::uint32_t place = 0;
 
@@ -42,15 +43,16 @@ class ProxyClients {
   static constexpr int kBufferBytes = 1 << 20;  ///< of each socket: about 2500 small datagrams
 
   struct Client {
-    io::Fd downside, upside, former;
-    Duration former_until{};
+    io::Fd downside, upside;
+    io::Fd former;                 ///< `upside` before the client's address changed
+    std::uint32_t address_number = 0;  ///< of `upside`; ProxyCore counts a client's addresses
+    std::uint32_t former_number = 0;
     io::SocketAddress address;
     io::PeerKey key;
     std::uint64_t number = 0;  ///< in order of arrival, from 1
     Duration last_seen{};
     bool present = false;
-    std::uint32_t drops_seen[3] = {};   ///< last word of the kernel about each socket
-    std::uint64_t kernel_drops = 0;
+    std::uint64_t kernel_drops = 0;  ///< of sockets it has no more
   };
 
   /// Binds the listening socket. @return what went wrong and what to do about it
@@ -72,9 +74,13 @@ class ProxyClients {
   bool welcome(std::uint32_t place, std::uint64_t number, const io::PeerKey& key, const sockaddr_storage& address,
                const io::LocalAddress& local) noexcept;
   void forget(std::uint32_t place) noexcept;
-  /// From now on the server sees the client at a new address; the old one is heard until `dead_at`.
-  bool change_address(std::uint32_t place, Duration dead_at) noexcept;
-  void close_former(std::uint32_t place) noexcept { clients_[place].former.reset(); }
+  /// From now on the server sees the client at a new address, its `number`th; the old one is heard until it is closed.
+  bool change_address(std::uint32_t place, std::uint32_t number) noexcept;
+  void close_former(std::uint32_t place) noexcept;
+
+  /// Datagrams the kernel dropped because a buffer was full: the client's so far, all strangers' so far.
+  [[nodiscard]] std::uint64_t kernel_drops(std::uint32_t place) const noexcept;
+  [[nodiscard]] std::uint64_t kernel_drops() const noexcept;
 
   /// What strangers sent before they had sockets of their own was read: listen to these from now on.
   void listen_to_newcomers() noexcept;

@@ -2,7 +2,6 @@
 // one run are worth something on a shared machine; absolute times are not.
 #include <pthread.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -35,13 +34,11 @@ struct Measured {
 
 /// CPU of the thread that runs `work` while `load` is on it.
 template <class Forwarder>
-Measured measure(Forwarder& forwarder, bench::UdpLoad& load, Duration length, bool spread, Duration delay_max) {
+Measured measure(Forwarder& forwarder, bench::UdpLoad& load, Duration length, bool spread, Duration delay_max, const char* name) {
   std::thread thread([&] {
     prctl(PR_SET_TIMERSLACK, 1UL);
+    prctl(PR_SET_NAME, name);
     forwarder.run();
-    rusage u{};
-    getrusage(RUSAGE_THREAD, &u);
-    if (getenv("WK")) std::printf("    switches %ld user %ld us sys %ld us\n", u.ru_nvcsw, u.ru_utime.tv_usec, u.ru_stime.tv_usec);
   });
   clockid_t cpu{};
   pthread_getcpuclockid(thread.native_handle(), &cpu);
@@ -88,14 +85,16 @@ double median(std::vector<double> values) {
 void one_round(const Case& c, Row& row, Duration length) {
   bench::UdpLoad load{kClients};
   bench::BareForwarder bare{load.server()};
-  const Measured reference = measure(bare, load, length, c.spread, {});
+  const Measured reference = measure(bare, load, length, c.spread, {}, "bare");
   netsim::ProxyOptions options;
   options.listen = *io::parse_address("127.0.0.1:0", 0);
   options.to = load.server();
   options.link = c.link;
+  options.watch_quality = getenv("NOWATCH") == nullptr;
+  if (getenv("CO")) options.coalesce = Duration{atoi(getenv("CO")) * 1000};
   auto proxy = netsim::Proxy::open(options);
   if (!proxy) std::printf("%s\n", proxy.error().c_str()), std::exit(1);
-  const Measured ours = measure(**proxy, load, length, c.spread, c.delay_max);
+  const Measured ours = measure(**proxy, load, length, c.spread, c.delay_max, "proxy");
   const netsim::ProxyStatus end = (*proxy)->final_status();
   row.bare.push_back(reference.cpu_ns);
   row.ours.push_back(ours.cpu_ns);

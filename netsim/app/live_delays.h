@@ -13,7 +13,7 @@ namespace tandem::netsim {
 
 /// Delays of one direction of one client, counted by the packet thread and looked at by others without a lock: each
 /// number is whole, a picture taken meanwhile may miss the newest. Bins are at most 1/32 wide; below 1 us all is one.
-class DelayBins {
+class LiveDelays {
  public:
   static constexpr std::size_t kBins = 36 * 32;
   /// A picture; the difference of two is what happened in between.
