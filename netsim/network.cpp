@@ -50,6 +50,14 @@ void Network::log_to(DecisionSink* sink) noexcept {
   for (const auto& each : lanes_) each->lane.tap.sink = sink;
 }
 
+std::optional<Time> Network::oldest_under_way() const noexcept {
+  std::optional<Time> oldest;
+  for (const auto& each : lanes_) {
+    each->queue.for_each([&](const DelayQueue::Item& item) { oldest = std::min(oldest.value_or(item.sent), item.sent); });
+  }
+  return oldest;
+}
+
 void Network::log_waiting() const noexcept {
   for (const auto& each : lanes_) {
     each->queue.for_each(

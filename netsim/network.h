@@ -51,6 +51,8 @@ class Network {
 
   /// From now on every decision is told to `sink`; null: nobody. Setup only; the sink must outlive the network.
   void log_to(DecisionSink* sink) noexcept;
+  /// The earliest time of entering of anything under way, or none: what entered before that is all in the log.
+  [[nodiscard]] std::optional<Time> oldest_under_way() const noexcept;
   /// Tells the sink what is still under way: the end of a complete log.
   void log_waiting() const noexcept;
 
