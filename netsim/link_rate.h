@@ -28,6 +28,12 @@ class LinkRate {
     return serve_queued(now, size);
   }
 
+  /// When the first bit of something would be sent that comes now, behind so many bytes that wait and that this sender
+  /// does not know of yet; in whole nanoseconds. A recorded capacity: at the first opportunity that is not used up.
+  [[nodiscard]] Time begins(Time now, std::uint64_t bytes_before) noexcept;
+  /// What is not sent yet of those served, in whole bytes; empty: a recorded capacity cannot tell.
+  [[nodiscard]] std::optional<std::uint64_t> unsent(Time now) const noexcept;
+
   /// How long a datagram that comes now waits before its first bit is sent, to the whole nanosecond.
   [[nodiscard]] Duration waiting(Time now) const noexcept {
     return std::max(busy_until_ - now, Duration::zero()) + others(now);

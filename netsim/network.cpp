@@ -21,16 +21,15 @@ std::size_t lane_number(std::uint32_t link, Direction direction) noexcept {
 
 }  // namespace
 
-Network::Lane::Lane(const PathSpec& spec, RandomKey key, RandomKey link_key)
-    : path(spec, key, link_key), queue(slots_for(spec)) {}
+Network::Lane::Lane(const PathSpec& spec, const Path::Keys& keys)
+    : path(spec, keys), queue(slots_for(spec)) {}
 
 std::uint32_t Network::add_link(const LinkSpec& spec) { return add_link(spec, links()); }
 
 std::uint32_t Network::add_link(const LinkSpec& spec, std::uint64_t name) {
   const auto link = static_cast<std::uint32_t>(links());
-  auto up = std::make_unique<Lane>(spec.up, Path::key_for(seed_, name, Direction::kUp), Path::key_for(seed_, name));
-  auto down =
-      std::make_unique<Lane>(spec.down, Path::key_for(seed_, name, Direction::kDown), Path::key_for(seed_, name));
+  auto up = std::make_unique<Lane>(spec.up, Path::keys_for(seed_, name, Direction::kUp));
+  auto down = std::make_unique<Lane>(spec.down, Path::keys_for(seed_, name, Direction::kDown));
   lanes_.reserve(lanes_.size() + kDirections);
   lanes_.push_back(std::move(up));
   lanes_.push_back(std::move(down));

@@ -62,7 +62,7 @@ class Network {
 
  private:
   struct Lane {
-    Lane(const PathSpec& spec, RandomKey key, RandomKey link_key);
+    Lane(const PathSpec& spec, const Path::Keys& keys);
     Path path;
     DelayQueue queue;
     PathCounters counters;

@@ -33,7 +33,7 @@ std::optional<std::uint32_t> ProxyCore::add_client() {
     if (place.lanes[0]) continue;
     for (const Direction direction : {Direction::kUp, Direction::kDown}) {
       place.lanes[static_cast<std::size_t>(direction)].emplace(
-          spec_[direction], Path::key_for(seed_, clients_seen_, direction), Path::key_for(seed_, clients_seen_));
+          spec_[direction], Path::keys_for(seed_, clients_seen_, direction));
     }
     ++clients_;
     ++clients_seen_;

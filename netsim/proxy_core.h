@@ -64,7 +64,7 @@ class ProxyCore {
 
  private:
   struct Lane {
-    Lane(const PathSpec& spec, RandomKey key, RandomKey link_key) : path(spec, key, link_key) {}
+    Lane(const PathSpec& spec, const Path::Keys& keys) : path(spec, keys) {}
     Path path;
     PathCounters counters;
   };
