@@ -33,6 +33,9 @@ class LinkRate {
   [[nodiscard]] Time begins(Time now, std::uint64_t bytes_before) noexcept;
   /// What is not sent yet of those served, in whole bytes; empty: a recorded capacity cannot tell.
   [[nodiscard]] std::optional<std::uint64_t> unsent(Time now) const noexcept;
+  /// Goes on where a sender of other numbers was: what it still had to send at `at` is sent at this rate, before all
+  /// that comes later. (What it said about datagrams already in its queue stays said.)
+  void take_over(const LinkRate& before, Time at) noexcept;
 
   /// How long a datagram that comes now waits before its first bit is sent, to the whole nanosecond.
   [[nodiscard]] Duration waiting(Time now) const noexcept {
@@ -56,6 +59,7 @@ class LinkRate {
   std::optional<Backlog> backlog_;
   std::optional<CoDel> codel_;
   CapacityPlayer capacity_;
+  Time not_before_{};            ///< a recorded capacity begins here
   Time busy_until_{};            ///< whole nanoseconds,
   std::uint64_t busy_rest_ = 0;  ///< plus this many 1/bits_per_s parts of one
 };

@@ -77,6 +77,12 @@ Loss::Loss(const LossSpec& spec, RandomKey key, std::uint64_t salt)
   if (spec.trace) player_.emplace(spec.trace);
 }
 
+void Loss::set_salt(std::uint64_t salt) noexcept {
+  salt_ = salt;
+  if (gilbert_elliott_) gilbert_elliott_->begin(salt);
+  if (pattern_) pattern_->set_salt(salt);
+}
+
 bool Loss::lost_by_model(Time now, std::uint64_t index) noexcept {
   bool lost = false;
   const std::uint64_t draw = index | salt_;

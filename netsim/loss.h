@@ -52,6 +52,9 @@ class Loss {
   ///              themselves and count for themselves, and meet the same bad times
   Loss(const LossSpec& spec, RandomKey key, std::uint64_t salt = 0);
 
+  /// The salt of another flow, as if made with it. Takes no memory.
+  void set_salt(std::uint64_t salt) noexcept;
+
   /// @param now    never decreasing
   /// @param index  of the datagram in its flow
   bool lost(Time now, std::uint64_t index) noexcept {

@@ -32,7 +32,9 @@ GilbertElliott::GilbertElliott(const GilbertElliottSpec& spec, RandomKey key, st
     : spec_(spec),
       state_key_(key.derive(kState)),
       loss_key_(key.derive(kLoss)),
-      bad_(key.derive(kFirst).uniform(salt) < spec.p / (spec.p + spec.r)) {}
+      first_key_(key.derive(kFirst)) {
+  begin(salt);
+}
 
 bool GilbertElliott::lost(std::uint64_t index) noexcept {
   if (state_key_.uniform(index) < (bad_ ? spec_.r : spec_.p)) bad_ = !bad_;

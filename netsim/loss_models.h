@@ -18,12 +18,14 @@ class GilbertElliott {
   /// The first datagram finds the stationary distribution.
   GilbertElliott(const GilbertElliottSpec& spec, RandomKey key, std::uint64_t salt = 0) noexcept;
   [[nodiscard]] bool lost(std::uint64_t index) noexcept;
+  /// Draws the first state of the flow of this salt.
+  void begin(std::uint64_t salt) noexcept { bad_ = first_key_.uniform(salt) < spec_.p / (spec_.p + spec_.r); }
   [[nodiscard]] bool bad() const noexcept { return bad_; }  ///< the state that decided last
 
  private:
   GilbertElliottSpec spec_;
-  RandomKey state_key_, loss_key_;
-  bool bad_;
+  RandomKey state_key_, loss_key_, first_key_;
+  bool bad_ = false;
 };
 
 class FourState {
@@ -57,6 +59,7 @@ class LossPattern {
   LossPattern(const LossPatternSpec& spec, RandomKey key, std::uint64_t salt = 0)
       : spec_(spec), key_(key), salt_(salt) {}
   [[nodiscard]] bool lost(Time now, std::uint64_t index) noexcept;
+  void set_salt(std::uint64_t salt) noexcept { salt_ = salt; }
 
  private:
   LossPatternSpec spec_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tandem::netsim {
 namespace {
@@ -41,38 +42,6 @@ std::uint64_t salt_of(std::uint64_t name) noexcept {
 
 }  // namespace
 
-const char* name(Outcome outcome) noexcept {
-  switch (outcome) {
-    case Outcome::kDeliver:
-      return "delivered";
-    case Outcome::kHeldBack:
-      return "reordered";
-    case Outcome::kOutage:
-      return "outage";
-    case Outcome::kHoldFull:
-      return "hold full";
-    case Outcome::kLost:
-      return "lost";
-    case Outcome::kQueueFull:
-      return "queue full";
-    case Outcome::kOverflow:
-      return "overflow";
-    case Outcome::kTooLong:
-      return "too long";
-    case Outcome::kCorrupted:
-      return "corrupted";
-    case Outcome::kAboveMtu:
-      return "above MTU";
-    case Outcome::kPushedOut:
-      return "pushed out";
-    case Outcome::kReplaced:
-      return "replaced";
-    case Outcome::kWaiting:
-      return "waiting";
-  }
-  return "?";
-}
-
 Path::Path(const PathSpec& spec, const Keys& keys)
     : spec_(checked(spec)),
       loss_key_(keys.path.derive(kLoss)),
@@ -106,9 +75,35 @@ void Path::set_flow(std::uint32_t flow, std::uint64_t name) {
     return;
   }
   flows_[flow] = std::move(made);
+  forget(flow);
+}
+
+void Path::forget(std::uint32_t flow) noexcept {
   if (head_) head_->forget(flow, kNobody);
   for (Newest& newest : newest_) {
     if (newest.datagram.flow == flow) newest.datagram.flow = kNobody;
+  }
+}
+
+void Path::take_over(Path& before, Time at) noexcept {
+  last_in_ = before.last_in_;
+  last_out_ = before.last_out_;
+  // Models that are functions of time need nothing. Of those with a memory, an unchanged one is moved over whole.
+  const bool same_loss = spec_.loss == before.spec_.loss;
+  for (std::size_t i = 0; i < std::min(flows_.size(), before.flows_.size()); ++i) {
+    std::swap(flows_[i], before.flows_[i]);
+    if (same_loss) continue;
+    std::swap(flows_[i].loss, before.flows_[i].loss);
+    flows_[i].loss.set_salt(flows_[i].salt);
+  }
+  outages_.take_over(before.outages_);
+  std::swap(newest_, before.newest_);
+  if (spec_.slots == before.spec_.slots) std::swap(slots_, before.slots_);
+  if (spec_.rate == before.spec_.rate) {
+    std::swap(rate_, before.rate_);
+    std::swap(head_, before.head_);
+  } else {
+    rate_.take_over(before.rate_, at);
   }
 }
 
@@ -292,7 +287,7 @@ void Path::arrive(Flow& from, const InTransit& datagram, bool hit, Time at, Verd
     verdict.copy_delay = Duration{static_cast<std::int64_t>(copy_key_.uniform(draw) * longest)};
   }
   const ReorderSpec& reorder = spec_.reorder;
-  if (reorder.probability > 0) {
+  if (reorder.probability > 0 || from.held_count > 0) {  // what is held may be older than the present spec
     if (from.held_count > 0) forget_late(from, last_in_);
     if (from.held_count < kHeldMax && reorder_key_.uniform(draw) < reorder.probability) {
       verdict.outcome = Outcome::kHeldBack;
@@ -314,27 +309,26 @@ void Path::set_ticket(std::uint32_t flow, std::uint32_t ticket) noexcept {
   }
 }
 
-std::optional<Path::Settled> Path::settle(Time now) noexcept {
-  if (replaced_) {
-    const Settled settled = *replaced_;
-    replaced_.reset();
-    return settled;
+Path::Settled Path::decided(const HeadDropQueue::Left& left) noexcept {
+  const InTransit& datagram = left.datagram;
+  Settled settled{datagram.flow, datagram.ticket, {}};
+  if (left.dropped) {
+    settled.verdict.outcome = Outcome::kPushedOut;
+    settled.verdict.index = datagram.index;
+    settled.verdict.at = left.at;
+  } else if (datagram.flow != kNobody) {
+    settled.verdict = leave_queue(datagram, left.at);
   }
+  return settled;
+}
+
+std::optional<Path::Settled> Path::settle(Time now) noexcept {
+  if (replaced_) return std::exchange(replaced_, std::nullopt);
   while (true) {
+    // What the end of an outage lets go reaches the queue at that very moment, and may push others out.
     const bool lets_go = !newest_.empty() && newest_.front().until <= now;
     if (head_) {
-      if (const auto left = head_->next(rate_, lets_go ? newest_.front().until : now)) {
-        const InTransit& datagram = left->datagram;
-        Settled settled{datagram.flow, datagram.ticket, {}};
-        if (left->dropped) {
-          settled.verdict.outcome = Outcome::kPushedOut;
-          settled.verdict.index = datagram.index;
-          settled.verdict.at = left->at;
-        } else if (datagram.flow != kNobody) {
-          settled.verdict = leave_queue(datagram, left->at);
-        }
-        return settled;
-      }
+      if (const auto left = head_->next(rate_, lets_go ? newest_.front().until : now)) return decided(*left);
     }
     if (!lets_go) return std::nullopt;
     const Newest first = newest_.front();
@@ -345,6 +339,12 @@ std::optional<Path::Settled> Path::settle(Time now) noexcept {
     if (settled.verdict.outcome != Outcome::kWaiting) return settled;
     head_->set_ticket(first.datagram.ticket);
   }
+}
+
+std::optional<Path::Settled> Path::drain(const Path& next) noexcept {
+  if (!head_ || next.spec_.rate == spec_.rate) return std::nullopt;
+  const auto left = head_->next(rate_, kTimeMax);
+  return left ? std::optional{decided(*left)} : std::nullopt;
 }
 
 std::optional<Time> Path::next_settle() noexcept {

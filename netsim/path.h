@@ -11,7 +11,6 @@
 #include "common/base/rng.h"
 #include "common/base/time.h"
 #include "netsim/body_delay.h"
-#include "netsim/damage.h"
 #include "netsim/delay_models.h"
 #include "netsim/head_drop.h"
 #include "netsim/link_rate.h"
@@ -20,45 +19,9 @@
 #include "netsim/path_spec.h"
 #include "netsim/stalls.h"
 #include "netsim/trace_player.h"
+#include "netsim/verdict.h"
 
 namespace tandem::netsim {
-
-/// What happened to a datagram at the entrance, or the reason why it will not come out.
-enum class Outcome : std::uint8_t {
-  kDeliver,    ///< comes out at `Verdict::at`
-  kHeldBack,   ///< chosen to be reordered: comes out when Path says so, at `Verdict::at` at the latest
-  kOutage,     ///< dropped: link down
-  kHoldFull,   ///< dropped: link down and its hold full
-  kLost,       ///< dropped: random loss
-  kQueueFull,  ///< dropped: tail of the rate's queue
-  kOverflow,   ///< dropped by the store, not by the model: too many datagrams in flight
-  kTooLong,    ///< dropped by the store: larger than a slot
-  kCorrupted,  ///< dropped: damaged under way, the checksum tells
-  kAboveMtu,   ///< dropped: larger than the path lets through
-  kPushedOut,  ///< dropped: waited longest in a queue that makes room at its head
-  kReplaced,   ///< dropped: link down, and only the newest is kept
-  kWaiting,    ///< not decided yet: comes out, or not, when Path::settle says so
-};
-inline constexpr std::size_t kOutcomes = 13;
-[[nodiscard]] const char* name(Outcome outcome) noexcept;
-[[nodiscard]] constexpr bool dropped(Outcome o) noexcept { return o >= Outcome::kOutage && o != Outcome::kWaiting; }
-
-/// A datagram held back earlier that may now come out.
-struct Release {
-  std::uint64_t index = 0;  ///< of the datagram held back
-  Time at;                  ///< when it comes out; earlier than the limit of its verdict
-};
-
-struct Verdict {
-  Outcome outcome = Outcome::kDeliver;
-  std::uint64_t index = 0;  ///< of this datagram in its flow, from 0
-  Time at;                  ///< arrival; kHeldBack: latest arrival; dropped: the time of sending, or of being pushed out
-  bool copied = false;      ///< a second one comes out `copy_delay` after the first
-  Duration copy_delay{};
-  Damage damage = {};  ///< what comes out is not what went in
-  /// Datagrams of this flow held back that this one lets go. Valid until the next call.
-  std::span<const Release> released;
-};
 
 /// One direction of one link: tells, for every datagram, whether and when it comes out. It keeps no bytes, reads no
 /// clock and takes no memory after construction; decisions are a pure function of (spec, keys, flows, times and sizes).
@@ -114,7 +77,7 @@ class Path {
   Verdict send(Time now, std::size_t size) noexcept TANDEM_REALTIME { return send(now, 0, size); }
 
   /// Whether kWaiting can happen at all.
-  [[nodiscard]] bool defers() const noexcept { return head_.has_value() || keeps_newest_; }
+  [[nodiscard]] bool defers() const noexcept { return head_.has_value() || keeps_newest_ || !newest_.empty(); }
   /// Remembers where the caller keeps the datagram just sent, of which `send` said kWaiting.
   void set_ticket(std::uint32_t flow, std::uint32_t ticket) noexcept TANDEM_REALTIME;
   struct Settled {
@@ -127,6 +90,18 @@ class Path {
   std::optional<Settled> settle(Time now) noexcept TANDEM_REALTIME;
   /// When `settle` has something to say, if nothing is sent before.
   [[nodiscard]] std::optional<Time> next_settle() noexcept;
+  /// The client of a flow left: what waits of it stays in the queue, and is nobody's.
+  void forget(std::uint32_t flow) noexcept TANDEM_REALTIME;
+
+  /// Everything that waits in the queue, as this path would serve it, unless `next` has the same queue and takes it over.
+  std::optional<Settled> drain(const Path& next) noexcept TANDEM_REALTIME;
+  /// From now on this path is the one in force, in the place of `before`, which is used no more. Datagrams go on being
+  /// counted, order is kept across the change, what is held stays held, and what waits in the queue is served at the
+  /// new rate; call `drain` of the old one before. Models whose numbers stay the same go on as if nothing
+  /// had happened. Takes no memory.
+  /// @param before  with as many flows
+  /// @param at      the moment of the change
+  void take_over(Path& before, Time at) noexcept TANDEM_REALTIME;
 
   /// Datagrams decided about or waiting.
   [[nodiscard]] std::uint64_t count(std::uint32_t flow = 0) const noexcept { return flows_[flow].count; }
@@ -157,6 +132,7 @@ class Path {
 
   bool lost_at_entrance(Flow& from, const InTransit& datagram) noexcept;
   void keep_newest(const InTransit& datagram, Time until) noexcept;
+  Settled decided(const HeadDropQueue::Left& left) noexcept;
   Verdict reach_queue(const InTransit& datagram, Time at) noexcept;
   Verdict reach_queue_in_pieces(const InTransit& datagram, Time at) noexcept;
   Verdict leave_queue(const InTransit& datagram, Time sent) noexcept;

@@ -171,6 +171,12 @@ std::vector<SpecProblem> problems(const PathSpec& spec) {
   return found.take();
 }
 
+bool defers(const PathSpec& spec) noexcept {
+  return spec.rate.drop == RateSpec::Drop::kHead || std::ranges::any_of(spec.outages, [](const OutageSpec& outage) {
+           return outage.mode == OutageSpec::Mode::kHoldLast;
+         });
+}
+
 Duration delay_max(const PathSpec& spec) noexcept {
   Duration sum = spec.floor;
   if (spec.trace) {

@@ -196,6 +196,9 @@ struct LinkSpec {
 /// All mistakes; empty: the spec can be simulated.
 [[nodiscard]] std::vector<SpecProblem> problems(const PathSpec& spec);
 
+/// Whether the fate of a datagram may be known only later than when it is sent: see Path.
+[[nodiscard]] bool defers(const PathSpec& spec) noexcept;
+
 /// The longest delay the spec can add, without the queue of its rate and without the order policy. For sizing stores.
 [[nodiscard]] Duration delay_max(const PathSpec& spec) noexcept;
 

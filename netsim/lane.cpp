@@ -1,0 +1,52 @@
+#include "netsim/lane.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "netsim/link_watch.h"
+
+namespace tandem::netsim {
+
+Outcome Lane::enter(const Verdict& verdict, DelayQueue& queue, const Entrance& entrance,
+                    std::span<const std::byte> bytes) noexcept {
+  const Outcome outcome = submit(verdict, queue, counters, tap, entrance, bytes);
+  if (watch != nullptr) watch->decided(tap.direction, entrance.now, verdict.index, dropped(outcome));
+  if (outcome == Outcome::kWaiting && course_) course_->keep(entrance.now, flow_, queue.newest());
+  return outcome;
+}
+
+void Lane::settled(const Verdict& verdict, DelayQueue& queue, std::uint32_t slot) noexcept {
+  const Time sent = queue.peek(slot, verdict.at).sent;
+  netsim::settle(verdict, slot, queue, counters, tap);
+  if (watch != nullptr && dropped(verdict.outcome)) watch->lost(tap.direction, sent, verdict.index);
+}
+
+void Lane::leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome) noexcept {
+  netsim::leave(item, size, outcome, counters, tap);
+  if (watch == nullptr) return;
+  if (!dropped(outcome)) {
+    watch->arrived(tap.direction, item.sent, item.at, item.index);
+  } else if (!item.copy) {
+    watch->lost(tap.direction, item.sent, item.index);
+  }
+}
+
+/// Room for 10 s of 1 kHz traffic besides everything that is under way for the longest delay of the models, doubled
+/// when everything may come twice. Never more than two minutes' worth: what comes on top is counted as overflow.
+std::size_t slots_for(Duration delay_max, double copies) noexcept {
+  constexpr double kPerSecond = 1000;
+  const double room = kPerSecond * (10.5 + 1.1 * seconds(delay_max));
+  return static_cast<std::size_t>(std::min(room * (1 + copies), 120'000.0));
+}
+
+std::size_t slots_for(const LinkSchedule& schedule, Direction direction) noexcept {
+  const auto needs = [direction](const LinkSpec& link) {
+    const PathSpec& spec = link[direction];
+    return slots_for(delay_max(spec), spec.duplicate.probability);
+  };
+  std::size_t most = needs(schedule.initial);
+  for (const LinkSchedule::Change& change : schedule.changes) most = std::max(most, needs(change.link));
+  return most;
+}
+
+}  // namespace tandem::netsim
