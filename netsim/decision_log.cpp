@@ -25,6 +25,14 @@ void sort_decisions(std::vector<Decision>& rows) {
   std::ranges::stable_sort(rows, [](const Decision& a, const Decision& b) { return rank(a) < rank(b); });
 }
 
+std::vector<Decision> DecisionLog::take_before(Time until) {
+  const auto kept = std::stable_partition(rows_.begin(), rows_.end(), [until](const Decision& d) { return d.in >= until; });
+  std::vector<Decision> taken(kept, rows_.end());
+  rows_.erase(kept, rows_.end());
+  sort_decisions(taken);
+  return taken;
+}
+
 std::vector<Decision> DecisionLog::sorted() const {
   std::vector<Decision> rows = rows_;
   sort_decisions(rows);

@@ -66,6 +66,10 @@ class DecisionLog final : public DecisionSink {
   [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
   void clear() noexcept { rows_.clear(); }
 
+  /// Takes out the rows of datagrams that entered before `until`, in the order of `sorted`: pieces of a file, one after
+  /// the other, are then in that order as a whole, if nothing that entered earlier is still under way.
+  [[nodiscard]] std::vector<Decision> take_before(Time until);
+
   /// The rows in the one order that says nothing about who was polled when: (in, link, flow, direction, index, copy).
   [[nodiscard]] std::vector<Decision> sorted() const;
 

@@ -114,8 +114,8 @@ PathSpec path_from(const ProfilePath& in) {
                   .alpha = stall->alpha,
                   .cap = milliseconds(stall->cap_ms)};
   }
-  path.corrupted = probability(in.corrupted_percent);
-  path.mtu = in.mtu_bytes;
+  path.corruption.probability = probability(in.corrupted_percent);
+  path.mtu.bytes = in.mtu_bytes;
   path.order = in.free_order ? Order::kFree : Order::kFifo;
   if (const auto& reorder = in.reorder) {
     path.reorder = {.probability = probability(reorder->probability_percent),

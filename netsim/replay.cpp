@@ -101,7 +101,8 @@ Verdict ReplayPath::send(Time now) noexcept {
     fate = &at(now);
   }
   last_in_ = std::max(last_in_, now);
-  verdict.outcome = fate->outcome;
+  // What never got its verdict waits again; another datagram in its place would wait for nothing.
+  verdict.outcome = !matched && fate->outcome == Outcome::kWaiting ? Outcome::kReplaced : fate->outcome;
   verdict.copied = fate->copied;
   verdict.copy_delay = fate->copy_delay;
   verdict.copy_outcome = fate->copy_outcome;
