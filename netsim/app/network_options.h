@@ -31,6 +31,12 @@ class NetworkOptions {
   /// @return the network, or what is wrong: one mistake per line
   [[nodiscard]] std::expected<NetworkChoice, std::string> resolve() const;
 
+  /// A network by name or file, as --profile and --network take it.
+  /// @return the network, or what is wrong
+  [[nodiscard]] std::expected<NetworkChoice, std::string> named(const std::string& name_or_file) const {
+    return from_file(name_or_file);
+  }
+
   /// Reads --script: what changes while it runs. Networks it names are shipped profiles, or files beside the script.
   /// @param clients  names that the script may use; none: "1", "2", ... in order of arrival
   /// @return the events (none without a script), or what is wrong: one mistake per line

@@ -38,7 +38,7 @@ Duration wall_ahead() noexcept {
 
 }  // namespace
 
-Duration Proxy::since_start() const noexcept { return io::read_clock(CLOCK_MONOTONIC) - started_; }
+Duration Proxy::since_start() const noexcept { return io::read_clock(CLOCK_MONOTONIC) - started_.load(std::memory_order_relaxed); }
 
 void Proxy::run() {
   prctl(PR_SET_TIMERSLACK, 1UL);  // else the kernel may wake us 50 us late to save power
@@ -51,7 +51,6 @@ void Proxy::run() {
     work(now_);
   }
   now_ = since_start();
-  core_.log_waiting();
   publish();
 }
 
@@ -78,7 +77,7 @@ void Proxy::work(Duration now) noexcept {
 void Proxy::sleep_until(Duration moment) const noexcept {
   const Duration spin = std::max(options_.spin, kShorterThanSleep);
   if (moment - since_start() > spin) {
-    const timespec at = io::to_timespec(started_ + moment - options_.spin);
+    const timespec at = io::to_timespec(started_.load(std::memory_order_relaxed) + moment - options_.spin);
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
   }
   while (since_start() < moment) {
@@ -102,7 +101,7 @@ std::size_t Proxy::read_ready(Duration wait) noexcept {
       continue;
     }
     // One batch of each: whoever sends much waits for the others.
-    const std::size_t got = read(source, ahead + started_);
+    const std::size_t got = read(source, ahead + started_.load(std::memory_order_relaxed));
     count += got;
     unsent += got;
     if (unsent >= io::ReceiveBatch::kMax / 2) {
@@ -186,6 +185,7 @@ void Proxy::send_outbox() noexcept {
     group.for_each([&](const ProxyCore::Egress& egress) {
       const Duration late = sent_at - egress.item.at.time_since_epoch();
       lateness_.add(late.count());
+      late_now_.add(late);
       late_ += late > options_.late_limit ? 1 : 0;
       ++released_;
       delays.add(sent_at - egress.item.sent.time_since_epoch());

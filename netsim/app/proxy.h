@@ -45,6 +45,8 @@ class Proxy {
   /// Hands an order to the packet thread; from one thread only. It must live until `done`, or until `run` returned.
   /// @return false: too many wait
   bool post(ProxyOrder& order) noexcept;
+  /// Time since `run` began, from any thread once it has.
+  [[nodiscard]] Duration now() const noexcept { return since_start(); }
   /// To prepare changes; only what ProxyCore allows to any thread.
   [[nodiscard]] const ProxyCore& core() const noexcept { return core_; }
 
@@ -55,6 +57,12 @@ class Proxy {
     return delays_[place * kDirections + static_cast<std::size_t>(direction)];
   }
 
+  [[nodiscard]] Duration late_limit() const noexcept { return options_.late_limit; }
+  /// How late datagrams left, from any thread.
+  [[nodiscard]] const LiveDelays& late_now() const noexcept { return late_now_; }
+
+  /// After `run`: tells the sink what is still under way.
+  void log_waiting() const noexcept { core_.log_waiting(); }
   /// After `run`: everything, and how late datagrams were sent compared with their schedule.
   [[nodiscard]] ProxyStatus final_status() const;
   [[nodiscard]] const Histogram& lateness() const noexcept { return lateness_; }
@@ -102,12 +110,14 @@ class Proxy {
   io::SendBatch out_;
   ProxyOutbox outbox_;
   Histogram lateness_;
+  LiveDelays late_now_;
   std::unique_ptr<LiveDelays[]> delays_;
   std::vector<Watched> watched_;  ///< by arrival; never more than reserved
   ProxyTroubles troubles_;
   std::uint64_t released_ = 0, late_ = 0;
-  Duration started_{};           ///< CLOCK_MONOTONIC
+  std::atomic<Duration> started_{};  ///< CLOCK_MONOTONIC
   Duration now_{};               ///< since start, read once per round
+  bool shared_ = false;          ///< the clients share a link
   Duration least_delay_{};       ///< of all links there are and will be
   Duration reading_interval_{};  ///< 0: as soon as something comes
   Duration last_read_{}, last_sent_{}, next_housekeeping_{}, newcomers_since_{};

@@ -67,14 +67,16 @@ void Proxy::carry_out_orders() noexcept {
     ProxyOrder& order = **waiting;
     orders_.pop();
     order.at = now_;
-    if (!order.rebind) {
-      core_.change(Time{now_}, order.links);
-      plan_reading(order.links.link);
-      order.carried_out = true;
-    } else {
+    for (LinkChange& links : order.links) {
+      core_.change(Time{now_}, links);
+      plan_reading(links.link);
+    }
+    for (const std::uint64_t number : order.rebinds) {
+      bool found = false;
       for (std::uint32_t place = 0; place < ProxyClients::kMax; ++place) {
-        if (core_.number(place) == order.number) order.carried_out = core_.rebind(Time{now_}, place, *order.rebind);
+        if (core_.number(place) == number) found = core_.rebind(Time{now_}, place, order.rebind);
       }
+      order.carried_out = order.carried_out && found;
     }
     order.done.store(true, std::memory_order_release);
   }
@@ -83,7 +85,9 @@ void Proxy::carry_out_orders() noexcept {
 void Proxy::plan_reading(const LinkSpec& link) noexcept {
   least_delay_ = std::min({least_delay_, link.up.floor, link.down.floor});
   const Duration interval = std::min(least_delay_ / 2, kReadingMax);
-  reading_interval_ = interval < kReadingMin ? Duration{} : interval;
+  // Clients on one link must be read in the order of their datagrams, so soon.
+  shared_ = shared_ || link.shared;
+  reading_interval_ = interval < kReadingMin || shared_ ? Duration{} : interval;
 }
 
 void Proxy::housekeeping(Duration now) noexcept {

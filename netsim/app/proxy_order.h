@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "common/base/time.h"
 #include "netsim/proxy_core.h"
@@ -12,11 +14,11 @@ namespace tandem::netsim {
 /// Something for the packet thread to do between two datagrams. Whoever posts it made it, waits for `done` and frees it:
 /// memory is taken and given back outside the packet thread.
 struct ProxyOrder {
-  LinkChange links;                    ///< the new links; unused when `rebind` is there
-  std::uint64_t number = 0;            ///< of the client whose address changes, by arrival, from 0
-  std::optional<Rebind> rebind;        ///< the address changes
-  Duration at{};                       ///< answer: when it was carried out, since the proxy's start
-  bool carried_out = false;            ///< answer: false: there is no such client (any more)
+  std::vector<LinkChange> links = {};       ///< new links, one after the other at the same moment
+  std::vector<std::uint64_t> rebinds = {};  ///< clients by arrival, from 0, whose address changes
+  Rebind rebind = {};
+  Duration at{};          ///< answer: when it was carried out, since the proxy's start
+  bool carried_out = true;  ///< answer: false: a client to rebind is not there (any more), or had too many addresses
   std::atomic<bool> done{false};
 };
 
