@@ -4,6 +4,7 @@
 #include "common/io/program.h"
 #include "netsim/app/proxy_command.h"
 #include "netsim/app/run_command.h"
+#include "netsim/app/swarm_command.h"
 
 #ifndef TANDEM_VERSION
 #define TANDEM_VERSION "unknown"
@@ -24,5 +25,6 @@ int main(int argc, char** argv) {
   tandem::netsim::add_run_command(app, action);
   tandem::netsim::add_proxy_command(app, action);
   tandem::netsim::add_profiles_command(app, action);
+  tandem::netsim::add_swarm_command(app, action);
   return tandem::io::run_program(app, action, argc, argv);
 }
