@@ -67,6 +67,7 @@ Outcome ProxyCore::ingress(Time now, std::uint32_t client, Direction direction,
     ++lane->counters.in;
     lane->counters.bytes_in += bytes.size();
     ++lane->counters.by_outcome[static_cast<std::size_t>(Outcome::kOverflow)];
+    if (LinkWatch* const watch = places_[client].watch) watch->decided(direction, now, lane->path.count(), true);
     return Outcome::kOverflow;
   }
   const Outcome outcome = submit(lane->path, queue_, lane->counters, now, lane_name(client, direction), bytes);
