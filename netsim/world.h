@@ -2,33 +2,25 @@
 
 #include <cstdint>
 #include <expected>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "client/joining.h"
-#include "client/seat.h"
-#include "hal/sim/sim_device.h"
 #include "netsim/network.h"
+#include "netsim/world_setup.h"
+#include "netsim/world_station.h"
+#include "netsim/world_watch.h"
 #include "server/session.h"
 #include "server/violations.h"
 
 namespace tandem::netsim {
 
-/// What `tandem-netsim run` needs to know.
-struct WorldSetup {
-  SceneSpec scene;
-  LinkSpec network;  ///< every seat has one of its own
-  std::uint64_t seed = 1;
-  std::map<std::string, std::shared_ptr<const hal::sim::RecordedMotion>> motions;  ///< by seat
-};
-
 /// The whole system in virtual time: the server's and the clients' own cores, simulated devices, hands and slaves, and
 /// a network between them. One thread, no clock: same setup and build, same trace, byte for byte.
 class World {
  public:
-  /// Error: a device that cannot be made, a slave out of reach, a seat that is refused.
+  /// Error: a device that cannot be made, a slave out of reach, a fault or an endpoint of a seat that is not there.
+  /// @throws std::invalid_argument listing all problems of a link that cannot be simulated.
   [[nodiscard]] static std::expected<std::unique_ptr<World>, std::string> make(const WorldSetup& setup);
 
   /// One tick. @return false once the session is over.
@@ -36,46 +28,42 @@ class World {
 
   [[nodiscard]] Time now() const noexcept { return now_; }
   [[nodiscard]] const server::Session& session() const noexcept { return *session_; }
-  [[nodiscard]] const client::Seat* seat(std::size_t i) const noexcept { return hands_[i].seat.get(); }
-  [[nodiscard]] const hal::sim::SimDevice& device(std::size_t i) const noexcept { return *hands_[i].device; }
-  [[nodiscard]] hal::sim::SimDevice& device(std::size_t i) noexcept { return *hands_[i].device; }
-  [[nodiscard]] client::Seat* seat(std::size_t i) noexcept { return hands_[i].seat.get(); }
+  [[nodiscard]] const client::Seat* seat(std::size_t i) const noexcept { return stations_[i].seat(); }
+  [[nodiscard]] client::Seat* seat(std::size_t i) noexcept { return stations_[i].seat(); }
+  [[nodiscard]] const hal::sim::SimDevice& device(std::size_t i) const noexcept { return stations_[i].device(); }
+  [[nodiscard]] hal::sim::SimDevice& device(std::size_t i) noexcept { return stations_[i].device(); }
+  /// Now, on the clock of this seat's program.
+  [[nodiscard]] Time own_time(std::size_t i) const noexcept { return stations_[i].own_time(now_); }
   /// The session's record with every seat's values of this very tick, not as old as the network made them.
   [[nodiscard]] const server::TickRecord& record() const noexcept { return record_; }
-  [[nodiscard]] const server::Violations& violations() const noexcept { return violations_; }
+  [[nodiscard]] const server::Violations& violations() const noexcept { return watch_.violations(); }
   [[nodiscard]] const Network& network() const noexcept { return network_; }
+  [[nodiscard]] Network& network() noexcept { return network_; }
   /// Why a seat could not join, if so.
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
   [[nodiscard]] const SceneSpec& scene() const noexcept { return setup_.scene; }
 
  private:
-  explicit World(const WorldSetup& setup) : setup_(setup), network_(setup.seed) {}
+  explicit World(const WorldSetup& setup) : setup_(setup), network_(setup.seed), watch_(setup_.scene) {}
+  [[nodiscard]] std::string add_station(std::size_t seat);
   void serve_clients();
   void serve_server();
-  void join(std::size_t i);
+  void attack_server();
+  [[nodiscard]] bool server_stands_still() const noexcept;
   void give_up_waiting();
-  void watch();
   void take_record();
-
-  /// A workstation: device, hand and client core.
-  struct Workstation {
-    std::unique_ptr<hal::sim::SimDevice> device;
-    std::unique_ptr<client::Joining> joining;
-    std::unique_ptr<client::Seat> seat;
-    hal::Command command{};
-    std::uint64_t accepted_before = 0;
-    double last_effort = 0;
-  };
 
   WorldSetup setup_;
   Network network_;
   Duration tick_{};
   Time now_{};
   std::unique_ptr<server::Session> session_;
-  std::vector<Workstation> hands_;
+  std::vector<WorldStation> stations_;
+  std::vector<Fault> server_faults_;
+  std::uint32_t server_missed_ = 0;  ///< ticks the server's thread stood still
   std::array<std::byte, link::kDatagramMax> buffer_{};
   server::TickRecord record_{};
-  server::Violations violations_;
+  WorldWatch watch_;
   std::string trouble_;
 };
 

@@ -22,7 +22,7 @@ std::vector<server::LinkReport> link_reports(const World& world) {
     reports[i].rtt_p50_ms = seconds(seat->link().freshness().rtt_p50()) * kMs;
     reports[i].rtt_p99_ms = seconds(seat->link().freshness().rtt_p99()) * kMs;
     reports[i].up = direction(*server_end, world.now());
-    reports[i].down = direction(seat->link(), world.now());
+    reports[i].down = direction(seat->link(), world.own_time(i));
   }
   return reports;
 }

@@ -40,7 +40,7 @@ constexpr std::array<std::string_view, 7> kTopFolders{"client/", "common/", "hal
                                                       "proto/",  "server/", "tests/"};
 
 /// Mirrors "Rooms and who may know whom". The room with the longest `folder` that the path begins with decides.
-const std::array<Room, 14> kRooms{{
+const std::array<Room, 15> kRooms{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -72,6 +72,10 @@ const std::array<Room, 14> kRooms{{
      {"common", "proto", "hal", "server", "client", "netsim"},
      {"Eigen", "openssl", "json"},
      "the World runs the cores in virtual time: no asio, spdlog or system headers"},
+    {"netsim/testing",
+     {"common", "proto", "hal", "server", "client", "netsim"},
+     {"gtest"},
+     "what other projects test with: the World, the network and GoogleTest; no clock, no file"},
     {"server",
      {"common", "proto", "hal/device.h", "hal/port_map.h", "server"},
      {"Eigen"},

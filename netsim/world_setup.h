@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/sim/recorded_motion.h"
+#include "netsim/endpoint_clock.h"
+#include "netsim/fault.h"
+#include "netsim/path_spec.h"
+#include "netsim/script.h"
+#include "proto/scene_spec.h"
+
+namespace tandem::netsim {
+
+/// A whole session in virtual time: who, over which network, and what goes wrong.
+struct WorldSetup {
+  SceneSpec scene;
+  LinkSpec network = {};  ///< every seat has one of its own
+  std::uint64_t seed = 1;
+  std::map<std::string, std::shared_ptr<const hal::sim::RecordedMotion>> motions = {};  ///< by seat
+  std::map<std::string, LinkSpec> seat_networks = {};                                   ///< by seat, instead of `network`
+  std::vector<NetworkEvent> events = {};                                                ///< by time of the network
+  std::vector<Fault> faults = {};                                                       ///< in any order
+  std::map<std::string, EndpointSpec> endpoints = {};  ///< by seat: its clock, and when its program wakes up
+  bool keep_record = true;  ///< false: World::record() stays empty; for runs that only judge invariants
+};
+
+}  // namespace tandem::netsim

@@ -1,0 +1,185 @@
+#include "netsim/world_station.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace tandem::netsim {
+
+namespace {
+
+/// A seat whose owner died is free after two seconds of silence; until then whoever asks is told so, and asks again.
+constexpr Duration kAskAgain = std::chrono::milliseconds(200);
+
+bool tampers(Fault::Kind kind) noexcept {
+  return kind == Fault::Kind::kReplay || kind == Fault::Kind::kJunk || kind == Fault::Kind::kLiar;
+}
+
+/// Where an own clock begins, so that it never shows less than zero.
+constexpr Duration kOwnEpoch = std::chrono::days(2);
+
+/// Joint positions no device has, and far enough from infinity that their squares are finite or not, as it comes.
+constexpr double kAbsurd[] = {1e5, -1e9, 1e160, -1e300};
+
+}  // namespace
+
+WorldStation::WorldStation(Setup setup)
+    : scene_(setup.scene),
+      number_(setup.seat),
+      tick_(from_seconds(1.0 / setup.scene->tick_hz)),
+      patience_(setup.patience),
+      key_(RandomKey{setup.seed}.derive(1000 + setup.seat)),
+      faults_(std::move(setup.faults)),
+      device_(std::move(setup.device)) {
+  if (setup.endpoint) {
+    clock_.emplace(*setup.endpoint);
+    if (setup.endpoint->wake.kind != WakeSpec::Kind::kExact) wake_.emplace(setup.endpoint->wake, tick_, Time{}, key_.derive(3));
+  }
+  if (std::ranges::any_of(faults_, [](const Fault& f) { return tampers(f.kind); }))
+    tamper_ = std::make_unique<WorldTamper>(key_.derive(1), scene_->dof, scene_->port);
+  start_program();
+}
+
+bool WorldStation::suffers(Fault::Kind kind, Time now) const noexcept {
+  return std::ranges::any_of(faults_, [&](const Fault& f) {
+    return f.kind == kind && now >= Time{} + f.at && now < Time{} + f.at + f.length;
+  });
+}
+
+bool WorldStation::ever_suffers(Fault::Kind kind) const noexcept {
+  return std::ranges::any_of(faults_, [&](const Fault& f) { return f.kind == kind; });
+}
+
+void WorldStation::start_program() {
+  const std::uint64_t draw = 2 * starts_++;
+  seat_.reset();
+  joining_ = std::make_unique<client::Joining>(
+      client::Joining::Params{scene_->seats[number_].name, device_->caps(), key_.bits(draw) >> 16,
+                              static_cast<std::uint32_t>(key_.bits(draw + 1) | 1), patience_});
+}
+
+Time WorldStation::own_time(Time now) const noexcept { return clock_ ? clock_->at(now) + kOwnEpoch : now; }
+
+std::string WorldStation::step(Time now, Network& network, std::span<std::byte> buffer) {
+  device_->advance(command_, tick_);
+  heard_now_ = 0;
+  served_now_ = false;
+  if (suffers(Fault::Kind::kRestart, now)) {
+    if (!down_) {
+      down_ = true;
+      seat_.reset();
+      joining_.reset();
+      device_->set_session_time(std::nullopt);
+    }
+    while (network.poll(now, static_cast<std::uint32_t>(number_), Direction::kDown, buffer)) {}  // to a closed port
+    return {};
+  }
+  if (std::exchange(down_, false)) start_program();
+  const bool awake = !wake_ || wake_->due(now);
+  if (awake && !suffers(Fault::Kind::kPause, now)) {
+    listen(now, network, buffer);
+    if (!seat_) {
+      if (std::string trouble = join(now, network, buffer); !trouble.empty()) return trouble;
+    }
+    if (seat_) serve(now, network, buffer);
+  } else if (seat_) {
+    device_->set_session_time(seat_->session_time(own_time(now)));  // the person goes on, the program does not
+  }
+  return {};
+}
+
+void WorldStation::listen(Time now, Network& network, std::span<std::byte> buffer) {
+  while (const auto d = network.poll(now, static_cast<std::uint32_t>(number_), Direction::kDown, buffer)) {
+    const auto bytes = buffer.first(std::min(d->size, buffer.size()));
+    if (!newest_index_ || d->index > *newest_index_) {  // what comes late acts no more, so it need not be told from a copy
+      newest_index_ = d->index;
+      ++heard_now_;
+    }
+    if (tamper_) tamper_->remember(Direction::kDown, bytes);
+    hear(now, bytes);
+  }
+  if (tamper_ == nullptr) return;
+  if (suffers(Fault::Kind::kReplay, now)) hear(now, tamper_->again(Direction::kDown));
+  if (suffers(Fault::Kind::kJunk, now)) hear(now, tamper_->junk(seat_ ? seat_->link().params().own_cid : 0));
+}
+
+void WorldStation::hear(Time now, std::span<const std::byte> bytes) noexcept {
+  if (seat_) {
+    seat_->on_datagram(own_time(now), bytes);
+  } else if (joining_) {
+    joining_->on_datagram(own_time(now), bytes);
+  }
+}
+
+std::string WorldStation::join(Time now, Network& network, std::span<std::byte> buffer) {
+  const std::string& name = scene_->seats[number_].name;
+  switch (joining_->outcome(own_time(now))) {
+    case client::Joining::Outcome::kAccepted:
+      seat_ = std::make_unique<client::Seat>(joining_->setup(), device_->caps(), joining_->link());
+      server_cid_ = joining_->link().peer_cid;
+      joining_.reset();
+      return {};
+    case client::Joining::Outcome::kRefused:
+      if (joining_->result() == wire::BindResult::kSeatTaken && starts_ > 1) {
+        if (ask_again_ == Time{}) ask_again_ = now + kAskAgain;
+        if (now < ask_again_) return {};
+        ask_again_ = Time{};
+        start_program();
+        return {};
+      }
+      return "seat " + name + ": " + joining_->reason();
+    case client::Joining::Outcome::kNoAnswer:
+      return "seat " + name + ": the server did not answer";
+    case client::Joining::Outcome::kAsking:
+      break;
+  }
+  if (const auto size = joining_->poll_transmit(own_time(now), buffer))
+    network.send(now, static_cast<std::uint32_t>(number_), Direction::kUp, buffer.first(*size));
+  return {};
+}
+
+const hal::State& WorldStation::reading(Time now) noexcept {
+  misread_now_ = false;
+  if (faults_.empty()) return device_->state();
+  const bool frozen = suffers(Fault::Kind::kFrozen, now);
+  if (!frozen || !frozen_) reading_ = device_->state();
+  frozen_ = frozen;
+  const bool nan = suffers(Fault::Kind::kNotANumber, now);
+  if (nan || suffers(Fault::Kind::kOutOfRange, now)) {
+    const auto n = static_cast<std::uint64_t>(now.time_since_epoch() / tick_);
+    const std::uint64_t drawn = key_.derive(2).bits(n);
+    const std::size_t joint = drawn % device_->caps().joints;
+    const double wrong = nan ? std::numeric_limits<double>::quiet_NaN() : kAbsurd[(drawn >> 8) % std::size(kAbsurd)];
+    switch ((drawn >> 16) % 3) {
+      case 0: reading_.q[joint] = wrong; break;
+      case 1: reading_.dq[joint] = wrong; break;
+      default: reading_.x[0] = wrong; break;
+    }
+    frozen_ = false;
+    misread_now_ = true;
+  }
+  return reading_;
+}
+
+void WorldStation::serve(Time now, Network& network, std::span<std::byte> buffer) {
+  served_now_ = true;
+  const Time own = own_time(now);
+  device_->set_session_time(seat_->session_time(own));
+  command_ = seat_->on_servo(own, reading(now));
+  command_.expires = now + (command_.expires - own);  // the device has a clock of its own
+  while (const auto size = seat_->poll_transmit(own, buffer)) {
+    const auto bytes = buffer.first(*size);
+    if (tamper_ && suffers(Fault::Kind::kLiar, now)) tamper_->lie(server_cid_, bytes);
+    network.send(now, static_cast<std::uint32_t>(number_), Direction::kUp, bytes);
+  }
+}
+
+WorldStation::Forged WorldStation::forged(Time now) noexcept {
+  Forged out;
+  if (tamper_ == nullptr) return out;
+  if (suffers(Fault::Kind::kReplay, now)) out.replayed = tamper_->again(Direction::kUp);
+  if (suffers(Fault::Kind::kJunk, now)) out.junk = tamper_->junk(server_cid_);
+  return out;
+}
+
+}  // namespace tandem::netsim

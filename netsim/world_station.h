@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client/joining.h"
+#include "client/seat.h"
+#include "hal/sim/sim_device.h"
+#include "netsim/endpoint_clock.h"
+#include "netsim/fault.h"
+#include "netsim/network.h"
+#include "netsim/world_tamper.h"
+#include "proto/scene_spec.h"
+
+namespace tandem::netsim {
+
+/// A workstation of the virtual world: device, hand, the client's own core, and what goes wrong with them.
+class WorldStation {
+ public:
+  struct Setup {
+    const SceneSpec* scene = nullptr;
+    std::size_t seat = 0;
+    std::uint64_t seed = 1;
+    std::unique_ptr<hal::sim::SimDevice> device;
+    std::vector<Fault> faults;             ///< of this seat
+    std::optional<EndpointSpec> endpoint;  ///< absent: the world's clock, and awake at every tick
+    Duration patience{};                   ///< how long it asks for its seat
+  };
+  explicit WorldStation(Setup setup);
+
+  /// One tick: the device lives, datagrams are heard, the client's core works and sends. The station's number on the network
+  /// is its seat's. @return why the seat cannot be had, else empty.
+  [[nodiscard]] std::string step(Time now, Network& network, std::span<std::byte> buffer);
+
+  /// What an attacker sends to the server in this tick in the seat's name; empty: nothing.
+  struct Forged {
+    std::span<const std::byte> replayed, junk;
+  };
+  [[nodiscard]] Forged forged(Time now) noexcept;
+
+  [[nodiscard]] const client::Seat* seat() const noexcept { return seat_.get(); }
+  [[nodiscard]] client::Seat* seat() noexcept { return seat_.get(); }
+  [[nodiscard]] const hal::sim::SimDevice& device() const noexcept { return *device_; }
+  [[nodiscard]] hal::sim::SimDevice& device() noexcept { return *device_; }
+
+  /// The program's own clock at `now`.
+  [[nodiscard]] Time own_time(Time now) const noexcept;
+  /// The server was given this datagram: an attacker may use it again.
+  void overheard(std::span<const std::byte> bytes) noexcept {
+    if (tamper_) tamper_->remember(Direction::kUp, bytes);
+  }
+
+  /// For oracles, of the last step: datagrams newer than any before that the core was given; whether the core worked, and
+  /// was given a reading that cannot be. And how often its program was started.
+  [[nodiscard]] std::uint64_t heard_now() const noexcept { return heard_now_; }
+  [[nodiscard]] bool served_now() const noexcept { return served_now_; }
+  [[nodiscard]] bool misread_now() const noexcept { return misread_now_; }
+  [[nodiscard]] std::uint32_t starts() const noexcept { return starts_; }
+  [[nodiscard]] bool suffers(Fault::Kind kind, Time now) const noexcept;
+  [[nodiscard]] bool ever_suffers(Fault::Kind kind) const noexcept;
+
+ private:
+  void start_program();
+  void listen(Time now, Network& network, std::span<std::byte> buffer);
+  [[nodiscard]] std::string join(Time now, Network& network, std::span<std::byte> buffer);
+  void serve(Time now, Network& network, std::span<std::byte> buffer);
+  void hear(Time now, std::span<const std::byte> bytes) noexcept;
+  [[nodiscard]] const hal::State& reading(Time now) noexcept;
+
+  const SceneSpec* scene_;
+  std::size_t number_;
+  Duration tick_;
+  Duration patience_;
+  RandomKey key_;
+  std::optional<EndpointClock> clock_;
+  std::optional<WakeUps> wake_;
+  std::vector<Fault> faults_;
+  std::unique_ptr<hal::sim::SimDevice> device_;
+  std::unique_ptr<client::Joining> joining_;
+  std::unique_ptr<client::Seat> seat_;
+  std::unique_ptr<WorldTamper> tamper_;  ///< only where a fault needs it
+  std::uint32_t server_cid_ = 0;
+  hal::Command command_{};
+  hal::State reading_{};  ///< in place of the device's, where a fault says so
+  bool frozen_ = false, down_ = false, served_now_ = false, misread_now_ = false;
+  std::uint32_t starts_ = 0;
+  std::uint64_t heard_now_ = 0;
+  std::optional<std::uint64_t> newest_index_;
+  Time ask_again_{};
+};
+
+}  // namespace tandem::netsim

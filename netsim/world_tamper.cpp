@@ -1,0 +1,55 @@
+#include "netsim/world_tamper.h"
+
+#include <algorithm>
+
+namespace tandem::netsim {
+
+void WorldTamper::remember(Direction direction, std::span<const std::byte> datagram) noexcept {
+  const auto d = static_cast<std::size_t>(direction);
+  Kept& place = kept_[d][count_[d]++ % kRemembered];
+  place.size = std::min(datagram.size(), place.bytes.size());
+  std::copy_n(datagram.begin(), place.size, place.bytes.begin());
+}
+
+std::span<const std::byte> WorldTamper::again(Direction direction) noexcept {
+  const auto d = static_cast<std::size_t>(direction);
+  const std::uint64_t known = std::min<std::uint64_t>(count_[d], kRemembered);
+  if (known == 0) return {};
+  const Kept& chosen = kept_[d][key_.bits(draws_++) % known];
+  return std::span{chosen.bytes}.first(chosen.size);
+}
+
+std::span<const std::byte> WorldTamper::junk(std::uint32_t cid) noexcept {
+  const std::uint64_t drawn = key_.bits(draws_++);
+  const std::size_t size = drawn % (junk_.size() + 1);
+  for (std::size_t i = 0; i < size; i += 8) {
+    const std::uint64_t word = key_.bits(draws_++);
+    for (std::size_t j = i; j < std::min(size, i + 8); ++j) junk_[j] = static_cast<std::byte>(word >> (8 * (j - i)));
+  }
+  if (drawn >> 63 != 0 && size >= link::kHeaderSize) {
+    const auto type = static_cast<wire::Type>(1 + (drawn >> 32) % 9);
+    link::write_header({type, 0, cid, drawn >> 8}, std::span{junk_}.first<link::kHeaderSize>());
+  }
+  return std::span{junk_}.first(size);
+}
+
+void WorldTamper::lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept {
+  const auto header = link::read_header(datagram);
+  if (!header || header->type != wire::Type::kState || header->cid != cid) return;
+  if (!keys_ || keys_->cid != cid) {
+    const link::Key key = link::loopback_key(cid, link::Direction::kToServer);
+    keys_ = std::make_unique<Keys>(
+        Keys{cid, link::Seal(key, link::Seal::Use::kOpening), link::Seal(key, link::Seal::Use::kSealing)});
+  }
+  std::array<std::byte, link::kDatagramMax> plain;
+  const std::span<std::byte> plaintext{plain.data(), datagram.size() - link::kHeaderSize - link::kTagSize};
+  if (!keys_->opening.open(header->counter, datagram, plaintext)) return;
+  auto decoded = codec_.decode_state(plaintext);
+  if (!decoded) return;
+  for (std::uint64_t& e : decoded->message.port.e_in) e = static_cast<std::uint64_t>(static_cast<double>(e) * key_.uniform(draws_));
+  ++draws_;
+  static_cast<void>(codec_.encode(decoded->preamble, decoded->message, datagram.subspan(link::kHeaderSize)));
+  static_cast<void>(keys_->sealing.seal(header->counter, datagram));
+}
+
+}  // namespace tandem::netsim

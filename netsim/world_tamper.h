@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "common/base/rng.h"
+#include "common/link/datagram.h"
+#include "common/link/seal.h"
+#include "netsim/path_spec.h"
+#include "proto/wire_codec.h"
+
+namespace tandem::netsim {
+
+/// What an attacker, a broken switch or a lying client makes of one seat's datagrams: old ones once more, random bytes,
+/// accounts that run backwards. Knows the public keys of the loopback profile, as anybody does.
+class WorldTamper {
+ public:
+  WorldTamper(RandomKey key, std::size_t dof, PortSpace port) : key_(key), codec_(dof, port) {}
+
+  /// Remembers a datagram that passed; the last kRemembered of each direction.
+  void remember(Direction direction, std::span<const std::byte> datagram) noexcept;
+  /// One of those remembered; empty when there is none.
+  [[nodiscard]] std::span<const std::byte> again(Direction direction) noexcept;
+  /// Random bytes of random length, every other one with a header that names `cid`.
+  [[nodiscard]] std::span<const std::byte> junk(std::uint32_t cid) noexcept;
+  /// Turns the energy account of a STATE back, in place: well-formed, sealed, wrong. Other datagrams stay as they are.
+  /// @param cid  connection at the server
+  void lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept;
+
+ private:
+  static constexpr std::size_t kRemembered = 64;
+  struct Kept {
+    std::size_t size = 0;
+    std::array<std::byte, link::kDatagramMax> bytes{};
+  };
+  struct Keys {
+    std::uint32_t cid;
+    link::Seal opening, sealing;
+  };
+  RandomKey key_;
+  std::uint64_t draws_ = 0;
+  wire::Codec codec_;
+  std::array<std::array<Kept, kRemembered>, kDirections> kept_{};
+  std::array<std::uint64_t, kDirections> count_{};
+  std::array<std::byte, link::kDatagramMax> junk_{};
+  std::unique_ptr<Keys> keys_;
+};
+
+}  // namespace tandem::netsim

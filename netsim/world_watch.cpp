@@ -1,0 +1,189 @@
+#include "netsim/world_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "server/session_monitor.h"
+
+namespace tandem::netsim {
+
+namespace {
+
+// The limits of the force gate and of authority (design notes, control 7; security 2.4), said here once more: an oracle that read
+// them from the guard would follow its mistakes.
+constexpr double kSlewActive = 1000, kSlewRampIn = 10;  // [N/s]
+constexpr double kGateStepMax = 0.01;                   // [s] of lateness the slew makes up for
+constexpr double kRampOut = 0.1;                        // [s]
+constexpr double kLossSlew = 5;                         // [1/s] when a holder is lost
+constexpr unsigned kMisreadMax = 3;                     // samples the last good reading stands in for
+constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls along overdraws within one tick
+constexpr double kFar = 1.0;                            // [m] no hand of a desktop device is here
+
+double tip_norm(const AxisArray& effort, const AxisArray& scale, std::size_t dof) noexcept {
+  double sum = 0;
+  for (std::size_t a = 0; a < dof; ++a) sum += effort[a] * effort[a] / scale[a];
+  return std::sqrt(sum);
+}
+
+bool all_finite(const AxisArray& v, std::size_t dof) noexcept {
+  return std::all_of(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(dof), [](double e) { return std::isfinite(e); });
+}
+
+}  // namespace
+
+WorldWatch::WorldWatch(const SceneSpec& scene)
+    : scene_(&scene), seats_(scene.seats.size()), alpha_(scene.tools.size()), held_(scene.tools.size(), true) {}
+
+void WorldWatch::server_heard(std::size_t seat, std::uint64_t index) noexcept {
+  Seat& s = seats_[seat];
+  if (s.newest && index <= *s.newest) return;
+  s.newest = index;
+  ++s.server_heard;
+}
+
+void WorldWatch::note(std::string_view invariant, std::size_t seat, bool expected) {
+  violations_.note(invariant, scene_->seats[seat].name, t_, expected);
+}
+
+void WorldWatch::check(Time now, std::uint32_t lived, const server::Session& session,
+                       const std::vector<WorldStation>& stations) {
+  t_ = session.time();
+  server::SessionMonitor{}.check(session, violations_);
+  check_authority(lived, session);
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const WorldStation& station = stations[i];
+    Seat& s = seats_[i];
+    const server::SeatPort& port = session.seat(i);
+    const client::Seat* seat = station.seat();
+    const hal::sim::Truth& truth = station.device().truth();
+    if (!truth.x.allFinite() || truth.x.norm() > kFar) note("diverged", i);
+    if (s.starts != station.starts()) s.begin_anew(station.starts());
+
+    const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
+    if (lived == 1 && (slave || scene_->tools.size() == 1)) {
+      const std::size_t tool = slave ? scene_->seats[i].tool : 0;
+      check_end(i, port.end(), s.server, seat ? seat->setup().axis_scale : AxisArray{1, 1, 1, 1, 1, 1, 1}, port.heard().port,
+                session.tool(tool).position(), seat != nullptr);
+    } else {
+      s.server.known = false;
+    }
+    check_once(i, station, port);
+    if (seat == nullptr) continue;
+    if (!station.served_now()) {
+      s.client.known = false;
+      continue;
+    }
+    const Time own = station.own_time(now);
+    check_effort(own, i, station);
+    check_silence(own, i, station);
+    check_reading(i, station);
+    check_end(i, seat->channel(), s.client, seat->setup().axis_scale, seat->force().port, seat->sample().port.x,
+              s.was_active && seat->gate().active());
+    s.was_active = seat->gate().active();
+    s.effort = seat->effort();
+    s.served = own;
+  }
+}
+
+void WorldWatch::check_effort(Time own, std::size_t i, const WorldStation& station) {
+  const client::Seat& seat = *station.seat();
+  const Seat& s = seats_[i];
+  const AxisArray& scale = seat.setup().axis_scale;
+  if (!all_finite(seat.effort(), scene_->dof)) return note("effort_finite", i);
+  if (!all_finite(seat.sample().port.x, scene_->dof) || !all_finite(seat.sample().port.v, scene_->dof)) note("sample_finite", i);
+  const double norm = tip_norm(seat.effort(), scale, scene_->dof);
+  if (norm > scene_->gate.force_max * (1 + 1e-9)) note("effort_limited", i);
+  if (!seat.gate().active() || norm == 0) return;  // letting go at once is always allowed
+  AxisArray change{};
+  for (std::size_t a = 0; a < scene_->dof; ++a) change[a] = seat.effort()[a] - s.effort[a];
+  const double dt = s.served == Time{} ? 0 : std::clamp(seconds(own - s.served), 0.0, kGateStepMax);
+  const double rate = seat.gate().phase() == control::GatePhase::kRampIn ? kSlewRampIn : kSlewActive;
+  if (tip_norm(change, scale, scene_->dof) > rate * dt * (1 + 1e-6) + 1e-9) note("effort_slew", i);
+}
+
+void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& station) {
+  const client::Seat& seat = *station.seat();
+  Seat& s = seats_[i];
+  const link::Freshness& fresh = seat.link().freshness();
+  const double half_tick = 0.5 / scene_->tick_hz;
+  if (s.fresh != Time{}) {
+    const double silence = seconds(own - s.fresh);
+    if (seat.gate().active() && silence > scene_->gate.silence_limit + half_tick) note("silence_ramps", i);
+    if (silence > scene_->gate.silence_limit + kRampOut + 3 * half_tick) {
+      double power = 0;  // what is left may brake a hand and never push it
+      for (std::size_t a = 0; a < scene_->dof; ++a) power += seat.effort()[a] * seat.sample().port.v[a];
+      if (power > 1e-9) note("silence_brakes", i);
+    }
+  }
+  if (seat.gate().active() && seconds(fresh.loop_age(own)) > scene_->gate.loop_age_max + 1e-9) note("loop_age", i);
+  if (seat.gate().given_after_loss_max() > seat.gate().tank_size() + kTankSlack) note("loss_energy", i);
+}
+
+void WorldWatch::check_reading(std::size_t i, const WorldStation& station) {
+  const client::Seat& seat = *station.seat();
+  Seat& s = seats_[i];
+  s.misread = station.misread_now() ? s.misread + 1 : 0;
+  if (s.misread <= kMisreadMax) return;
+  if (seat.gate().phase() != control::GatePhase::kFault || tip_norm(seat.effort(), seat.setup().axis_scale, scene_->dof) != 0)
+    note("bad_reading_faults", i);
+}
+
+/// A datagram acts at most once and never backwards: no more act than came new, and the ticks they tell never decrease.
+void WorldWatch::check_once(std::size_t i, const WorldStation& station, const server::SeatPort& port) {
+  Seat& s = seats_[i];
+  if (port.generation() >= s.generation) {
+    if (port.generation() - s.generation > s.server_heard) note("acts_once", i);
+    if (port.heard().seat_tick < s.seat_tick) note("never_backwards", i);
+  }
+  s.generation = port.generation();
+  s.seat_tick = port.heard().seat_tick;
+  s.server_heard = 0;
+  const client::Seat* seat = station.seat();
+  if (seat == nullptr) return;
+  const std::uint64_t accepted = seat->link().stats().accepted;
+  if (accepted > s.accepted && accepted - s.accepted > station.heard_now()) note("acts_once", i);
+  if (seat->force().session_tick < s.session_tick) note("never_backwards", i);
+  if (seat->link().freshness().heard()) s.fresh = seat->link().freshness().arrived();
+  s.accepted = accepted;
+  s.session_tick = seat->force().session_tick;
+}
+
+void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale,
+                           const PortSample& rx, const AxisArray& x, bool steady) {
+  const control::EndState& state = end.state();
+  const control::Promises promises = end.promises();
+  End now{.known = true, .ref = state.ref, .x = x, .k = state.k, .in = {}, .received = {}};
+  const double dt = 1 / scene_->tick_hz;
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    const control::EnergyLedger& ledger = end.ledger(a);
+    now.in[a] = ledger.in_nj();
+    now.received[a] = ledger.received_nj();
+    if (!ledger.holds()) note("ledger", i, !promises.ledger);
+    if (!before.known || !steady) continue;
+    const bool anew = ledger.in_nj() == 0 && ledger.received_nj() == 0;  // a client took the seat: a new account
+    if (!anew && (now.in[a] < before.in[a] || now.received[a] < before.received[a])) note("energy_monotone", i, !promises.ledger);
+    const double was = std::abs(before.ref[a] - before.x[a]), is = std::abs(now.ref[a] - before.x[a]);
+    const double step = (std::abs(rx.v[a]) + scene_->channel.v_app / std::sqrt(scale[a])) * dt;
+    const bool rested = now.ref[a] == x[a] || now.ref[a] == before.x[a];  // engaged anew, without elongation
+    if (is > was && !rested && std::abs(now.ref[a] - before.ref[a]) > step * (1 + 1e-9) + 1e-12)
+      note("approach", i, !promises.bounded_step);
+  }
+  before = now;
+}
+
+void WorldWatch::check_authority(std::uint32_t lived, const server::Session& session) {
+  const double step = std::max(scene_->alpha_slew, kLossSlew) * lived / scene_->tick_hz + 1e-9;
+  for (std::size_t j = 0; j < scene_->tools.size(); ++j) {
+    const control::AuthorityRow& row = session.tool(j).authority;
+    for (std::size_t i = 0; i < scene_->masters(); ++i) {
+      const double alpha = row.alpha(i);
+      const Role role = scene_->seats[i].role;
+      if (alpha > 0 && (role == Role::kEvaluator || role == Role::kObserver)) note("authority_role", i);
+      if (!row.held() && !held_[j] && std::abs(alpha - alpha_[j][i]) > step) note("authority_slew", i);
+      alpha_[j][i] = alpha;
+    }
+    held_[j] = row.held();
+  }
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "netsim/world_station.h"
+#include "server/session.h"
+#include "server/violations.h"
+
+namespace tandem::netsim {
+
+/// What must hold in every tick whatever the network, the hands and the faults do: the invariants of ARCHITECTURE.md that a
+/// World can see, each judged from the outside, by numbers the guard itself does not decide about.
+class WorldWatch {
+ public:
+  explicit WorldWatch(const SceneSpec& scene);
+
+  /// After a tick of everybody.
+  /// @param lived  ticks the server lived through in it
+  void check(Time now, std::uint32_t lived, const server::Session& session, const std::vector<WorldStation>& stations);
+  /// The server was given datagram number `index` of this seat.
+  void server_heard(std::size_t seat, std::uint64_t index) noexcept;
+  /// The server wrote to an address that never showed who it is.
+  void server_answered_a_stranger(double t) { violations_.note("mute", "", t, false); }
+  /// A seat that is made to lie about its energy: that its account is seen to run backwards is no breach of ours.
+  void excuse(std::string_view invariant, std::string_view seat) { violations_.excuse(invariant, seat); }
+
+  [[nodiscard]] const server::Violations& violations() const noexcept { return violations_; }
+
+ private:
+  struct End {  ///< of a channel, as it was a tick ago
+    bool known = false;
+    AxisArray ref{}, x{}, k{};
+    EnergyArray in{}, received{};
+  };
+  struct Seat {
+    std::uint32_t starts = 0;
+    bool was_active = false;
+    AxisArray effort{};
+    Time served{};
+    Time fresh{};  ///< when something newer last acted
+    unsigned misread = 0;
+    std::uint64_t accepted = 0, generation = 0, server_heard = 0;
+    std::uint32_t session_tick = 0, seat_tick = 0;
+    std::optional<std::uint64_t> newest;  ///< of the datagrams the server was given
+    End client, server;
+
+    /// The client's program was started once more: what was known of the one before is void.
+    void begin_anew(std::uint32_t start) noexcept {
+      starts = start;
+      was_active = false;
+      effort = {};
+      served = fresh = Time{};
+      misread = session_tick = 0;
+      accepted = 0;
+      client = {};
+    }
+  };
+  /// @param own  on the seat's own clock
+  void check_effort(Time own, std::size_t i, const WorldStation& station);
+  void check_silence(Time own, std::size_t i, const WorldStation& station);
+  void check_reading(std::size_t i, const WorldStation& station);
+  void check_once(std::size_t i, const WorldStation& station, const server::SeatPort& port);
+  void check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const PortSample& rx,
+                 const AxisArray& x, bool steady);
+  void check_authority(std::uint32_t lived, const server::Session& session);
+  void note(std::string_view invariant, std::size_t seat, bool expected = false);
+
+  const SceneSpec* scene_;
+  double t_ = 0;
+  std::vector<Seat> seats_;
+  std::vector<std::array<double, kMastersMax>> alpha_;
+  std::vector<bool> held_;
+  server::Violations violations_;
+};
+
+}  // namespace tandem::netsim
