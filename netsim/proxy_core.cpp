@@ -211,10 +211,6 @@ PathCounters ProxyCore::total(Direction direction) const noexcept {
   return sum;
 }
 
-void ProxyCore::watch(std::uint32_t client, LinkWatch* watch) noexcept {
-  if (client < kClientsMax && places_[client].lanes[0]) places_[client].watch = watch;
-}
-
 std::uint32_t ProxyCore::lane_name(std::uint32_t client, Direction direction) const noexcept {
   return (places_[client].generation << (kPlaceBits + kDirectionBits)) | (client << kDirectionBits) |
          static_cast<std::uint32_t>(direction);
