@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +17,13 @@ inline std::uint64_t seeds(std::uint64_t reduced) {
   std::printf("[  seeds   ] 1..%llu (TANDEM_COUNTS=%.*s)\n", static_cast<unsigned long long>(factor * reduced),
               static_cast<int>(name.size()), name.data());
   return factor * reduced;
+}
+
+/// How many draws a statistical test makes, by TANDEM_COUNTS.
+inline std::size_t draws(std::size_t reduced, std::size_t full, std::size_t nightly) {
+  const char* counts = std::getenv("TANDEM_COUNTS");
+  const std::string_view name = counts == nullptr ? "reduced" : counts;
+  return name == "nightly" ? nightly : name == "full" ? full : reduced;
 }
 
 }  // namespace tandem::test
