@@ -48,7 +48,8 @@ class DelayQueue {
   void recycle(std::uint32_t slot) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] std::optional<Time> next_due() const noexcept;
-  [[nodiscard]] std::size_t size() const noexcept { return heap_.size() + held_.size(); }
+  /// Datagrams kept, copies counted each; what was taken counts until it is recycled.
+  [[nodiscard]] std::size_t size() const noexcept { return slots_ - free_.size(); }
   [[nodiscard]] std::size_t slots() const noexcept { return slots_; }
 
  private:
