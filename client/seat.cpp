@@ -34,10 +34,15 @@ control::GateParams gate_params(const SeatSetup& s, const hal::DeviceCaps& caps)
 wire::GateState wire_state(control::GatePhase p) noexcept { return static_cast<wire::GateState>(p); }
 static_assert(static_cast<int>(control::GatePhase::kFault) == static_cast<int>(wire::GateState::kFault));
 
-bool finite(const hal::State& s, std::size_t joints) noexcept {
+/// No device of this kind is there or moves so: [rad or m], [rad/s or m/s], tip [m], [m/s], entries of J [m or 1].
+constexpr double kJointMax = 100, kJointRateMax = 1000, kTipMax = 10, kTipSpeedMax = 100, kJacobianMax = 100;
+
+/// False also for NaN: a comparison with it never holds.
+bool plausible(const hal::State& s, std::size_t joints) noexcept {
   for (std::size_t j = 0; j < joints; ++j)
-    if (!std::isfinite(s.q[j]) || !std::isfinite(s.dq[j])) return false;
-  return s.x.allFinite() && s.dx.allFinite() && s.J.allFinite();
+    if (!(std::abs(s.q[j]) <= kJointMax) || !(std::abs(s.dq[j]) <= kJointRateMax)) return false;
+  return (s.x.array().abs() <= kTipMax).all() && (s.dx.array().abs() <= kTipSpeedMax).all() &&
+         (s.J.array().abs() <= kJacobianMax).all();
 }
 
 }  // namespace
@@ -85,7 +90,7 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
 }
 
 bool Seat::take_reading(const hal::State& device) noexcept {
-  if (finite(device, joints_)) {
+  if (plausible(device, joints_)) {
     reading_ = device;
     bad_readings_ = 0;
   } else {

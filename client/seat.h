@@ -31,7 +31,8 @@ class Seat {
   Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link::Params& link);
 
   void on_datagram(Time now, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
-  /// Once per device exchange. Total: a reading that is not finite never leaves this seat and never moves the hand.
+  /// Once per device exchange. Total: a reading that is not finite, or that no device can have, never leaves this seat and never
+  /// moves the hand.
   [[nodiscard]] hal::Command on_servo(Time now, const hal::State& device) noexcept TANDEM_REALTIME;
   /// Writes the next datagram into `buffer`; nullopt when nothing is due.
   [[nodiscard]] std::optional<std::size_t> poll_transmit(Time now, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;

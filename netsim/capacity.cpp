@@ -56,6 +56,16 @@ void Backlog::advance(Time now) noexcept {
   }
 }
 
+void Backlog::take_over(const Backlog& before) noexcept {
+  first_ = count_ = 0;
+  bytes_ = 0;
+  const std::size_t taken = std::min(before.count_, ring_.size());
+  for (std::size_t i = before.count_ - taken; i < before.count_; ++i) {
+    const Entry& entry = before.ring_[(before.first_ + i) % before.ring_.size()];
+    add(entry.departure, entry.bytes);
+  }
+}
+
 void Backlog::add(Time departure, std::uint64_t bytes) noexcept {
   ring_[(first_ + count_) % ring_.size()] = {departure, bytes};
   ++count_;

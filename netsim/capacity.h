@@ -53,6 +53,8 @@ class Backlog {
   [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }
   /// @param departure  never decreasing. Not when full.
   void add(Time departure, std::uint64_t bytes) noexcept;
+  /// What waits in `before`, as far as there is room: the newest.
+  void take_over(const Backlog& before) noexcept;
 
  private:
   struct Entry {

@@ -24,12 +24,18 @@ DelayQueue::DelayQueue(std::size_t slots, std::size_t lanes) : slots_(slots) {
 }
 
 DelayQueue::Entered DelayQueue::enter(const Verdict& verdict, Time sent, std::uint32_t lane,
-                                      std::span<const std::byte> bytes) noexcept {
-  const auto slot = store(sent, verdict.index, lane, bytes);
+                                      std::span<const std::byte> bytes, std::uint32_t tag) noexcept {
+  Slot about{.sent = sent,
+             .index = verdict.index,
+             .lane = lane,
+             .tag = tag,
+             .held_back = verdict.outcome == Outcome::kHeldBack};
+  const auto slot = store(about, bytes);
   Entered entered = slot ? Entered::kYes : Entered::kNo;
   std::uint32_t copy = kNoSlot;
-  if (slot && verdict.copied) {
-    const auto second = store(sent, verdict.index, lane, bytes);
+  if (slot && verdict.copied && !dropped(verdict.copy_outcome)) {
+    about.copy = true;
+    const auto second = store(about, bytes);
     if (second) copy = *second;
     if (!second) entered = Entered::kNoCopy;
   }
@@ -54,8 +60,12 @@ std::optional<DelayQueue::Item> DelayQueue::take(Time now) noexcept {
   const Entry first = heap_.front();
   std::pop_heap(heap_.begin(), heap_.end(), later);
   heap_.pop_back();
-  const Slot& slot = meta_[first.slot];
-  return Item{first.at, slot.sent, slot.index, slot.lane, first.slot};
+  return item_of(first.at, first.slot);
+}
+
+DelayQueue::Item DelayQueue::item_of(Time at, std::uint32_t slot) const noexcept {
+  const Slot& about = meta_[slot];
+  return {at, about.sent, about.index, about.lane, slot, about.tag, about.copy, about.held_back};
 }
 
 std::span<const std::byte> DelayQueue::bytes(const Item& item) const noexcept {
@@ -71,12 +81,12 @@ std::optional<Time> DelayQueue::next_due() const noexcept {
   return next;
 }
 
-std::optional<std::uint32_t> DelayQueue::store(Time sent, std::uint64_t index, std::uint32_t lane,
-                                               std::span<const std::byte> bytes) noexcept {
+std::optional<std::uint32_t> DelayQueue::store(const Slot& about, std::span<const std::byte> bytes) noexcept {
   if (free_.empty() || bytes.size() > kSlotBytes) return std::nullopt;
   const std::uint32_t slot = free_.back();
   free_.pop_back();
-  meta_[slot] = {sent, index, lane, static_cast<std::uint32_t>(bytes.size())};
+  meta_[slot] = about;
+  meta_[slot].size = static_cast<std::uint32_t>(bytes.size());
   if (!bytes.empty()) std::memcpy(data_.get() + std::size_t{slot} * kSlotBytes, bytes.data(), bytes.size());
   return slot;
 }

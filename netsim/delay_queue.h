@@ -26,6 +26,9 @@ class DelayQueue {
     std::uint64_t index = 0;  ///< on its path
     std::uint32_t lane = 0;   ///< caller's name of the path
     std::uint32_t slot = 0;   ///< where the bytes are
+    std::uint32_t tag = 0;    ///< the caller's own
+    bool copy = false;        ///< made by duplication
+    bool held_back = false;   ///< to be reordered
   };
   enum class Entered : std::uint8_t {
     kYes,
@@ -39,8 +42,9 @@ class DelayQueue {
 
   /// Keeps a datagram according to its verdict (kDeliver or kHeldBack) and lets go those the verdict releases.
   /// @param bytes  at most kSlotBytes
-  Entered enter(const Verdict& verdict, Time sent, std::uint32_t lane,
-                std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+  /// @param tag    comes out with the item
+  Entered enter(const Verdict& verdict, Time sent, std::uint32_t lane, std::span<const std::byte> bytes,
+                std::uint32_t tag = 0) noexcept TANDEM_REALTIME;
 
   /// Removes the first item due at `now`. Its bytes stay until `recycle(item.slot)`.
   std::optional<Item> take(Time now) noexcept TANDEM_REALTIME;
@@ -48,6 +52,16 @@ class DelayQueue {
   void recycle(std::uint32_t slot) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] std::optional<Time> next_due() const noexcept;
+
+  /// Calls `visit(item)` for everything that is in here, in no particular order; what is held back has its latest time.
+  template <typename Visit>
+  void for_each(Visit visit) const {
+    for (const Entry& entry : heap_) visit(item_of(entry.at, entry.slot));
+    for (const HeldEntry& held : held_) {
+      visit(item_of(held.limit, held.slot));
+      if (held.copy_slot != kNoSlot) visit(item_of(held.limit + held.copy_delay, held.copy_slot));
+    }
+  }
   /// Datagrams kept, copies counted each; what was taken counts until it is recycled.
   [[nodiscard]] std::size_t size() const noexcept { return slots_ - free_.size(); }
   [[nodiscard]] std::size_t slots() const noexcept { return slots_; }
@@ -63,6 +77,8 @@ class DelayQueue {
     std::uint64_t index = 0;
     std::uint32_t lane = 0;
     std::uint32_t size = 0;
+    std::uint32_t tag = 0;
+    bool copy = false, held_back = false;
   };
   static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
   struct HeldEntry {
@@ -73,8 +89,8 @@ class DelayQueue {
     Duration copy_delay{};
   };
 
-  std::optional<std::uint32_t> store(Time sent, std::uint64_t index, std::uint32_t lane,
-                                     std::span<const std::byte> bytes) noexcept;
+  std::optional<std::uint32_t> store(const Slot& about, std::span<const std::byte> bytes) noexcept;
+  [[nodiscard]] Item item_of(Time at, std::uint32_t slot) const noexcept;
   [[nodiscard]] static bool later(const Entry& a, const Entry& b) noexcept;
   void push(Time at, std::uint64_t order, std::uint32_t slot) noexcept;
   void let_go(std::size_t position, Time at, std::uint64_t order) noexcept;

@@ -52,11 +52,23 @@ std::optional<Time> LinkRate::serve_queued(Time now, std::size_t size) noexcept 
 
 std::optional<Time> LinkRate::by_trace(Time now, std::uint64_t bytes) noexcept {
   if (queue_bytes_ > 0 && backlog_->bytes() + bytes > queue_bytes_) return std::nullopt;
-  const Time sent = capacity_.offer(now, bytes);
+  const Time sent = capacity_.offer(std::max(now, not_before_), bytes);
   if (sent - now > wait_max_ || (codel_ && codel_->drops(sent, sent - now))) return std::nullopt;
   capacity_.accept();
   busy_until_ = sent;
   return sent;
+}
+
+void LinkRate::take_over(const LinkRate& before, Time at) noexcept {
+  if (backlog_ && before.backlog_) backlog_->take_over(*before.backlog_);
+  if (!limited_ || !before.limited_) return;
+  busy_until_ = std::max(before.busy_until_, at);
+  not_before_ = busy_until_;
+  if (capacity_.present() || before.capacity_.present()) return;  // its work has no rate to be told in
+  const Wide left = Wide{static_cast<std::uint64_t>((busy_until_ - at).count())} * before.bits_per_s_ +
+                    (before.busy_until_ >= at ? before.busy_rest_ : 0);
+  busy_until_ = at + Duration{static_cast<std::int64_t>(left / bits_per_s_)};
+  busy_rest_ = static_cast<std::uint64_t>(left % bits_per_s_);
 }
 
 std::optional<Time> LinkRate::at_rate(Time now, std::uint64_t bytes) noexcept {

@@ -28,6 +28,10 @@ class LinkRate {
     return serve_queued(now, size);
   }
 
+  /// Goes on where a sender of other numbers was: what it still had to send at `at` is sent at this rate, before all
+  /// that comes later. (What it said about datagrams already in its queue stays said.)
+  void take_over(const LinkRate& before, Time at) noexcept;
+
   /// How long a datagram that comes now waits before its first bit is sent, to the whole nanosecond.
   [[nodiscard]] Duration waiting(Time now) const noexcept {
     return std::max(busy_until_ - now, Duration::zero()) + others(now);
@@ -50,6 +54,7 @@ class LinkRate {
   std::optional<Backlog> backlog_;
   std::optional<CoDel> codel_;
   CapacityPlayer capacity_;
+  Time not_before_{};            ///< a recorded capacity begins here
   Time busy_until_{};            ///< whole nanoseconds,
   std::uint64_t busy_rest_ = 0;  ///< plus this many 1/bits_per_s parts of one
 };

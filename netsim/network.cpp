@@ -6,67 +6,106 @@
 namespace tandem::netsim {
 namespace {
 
-/// Room for 10 s of 1 kHz traffic besides everything that is under way for the longest delay of the models, doubled
-/// when everything may come twice. Never more than two minutes' worth: what comes on top is counted as overflow.
-std::size_t slots_for(const PathSpec& spec) noexcept {
-  constexpr double kPerSecond = 1000;
-  const double room = kPerSecond * (10.5 + 1.1 * seconds(delay_max(spec)));
-  const double copies = 1 + spec.duplicate.probability;
-  return static_cast<std::size_t>(std::min(room * copies, 120'000.0));
-}
-
 std::size_t lane_number(std::uint32_t link, Direction direction) noexcept {
   return std::size_t{link} * kDirections + static_cast<std::size_t>(direction);
 }
 
 }  // namespace
 
-Network::Lane::Lane(const PathSpec& spec, RandomKey key, RandomKey link_key)
-    : path(spec, key, link_key), queue(slots_for(spec)) {}
-
 std::uint32_t Network::add_link(const LinkSpec& spec) { return add_link(spec, links()); }
 
 std::uint32_t Network::add_link(const LinkSpec& spec, std::uint64_t name) {
+  return add_link(LinkSchedule{.initial = spec}, name);
+}
+
+std::uint32_t Network::add_link(const LinkSchedule& schedule, std::uint64_t name) {
+  const auto make = [&](Direction direction) {
+    return std::make_unique<Stored>(Lane(schedule, direction, seed_, name), slots_for(schedule, direction));
+  };
+  auto up = make(Direction::kUp);
+  return add(std::move(up), make(Direction::kDown), schedule);
+}
+
+std::uint32_t Network::add_replay(std::shared_ptr<const Replay> replay, std::uint32_t flow) {
+  const auto make = [&](Direction direction) {
+    return std::make_unique<Stored>(Lane(replay, flow, direction), slots_for(replay->delay_max(flow, direction), 1));
+  };
+  auto up = make(Direction::kUp);
+  return add(std::move(up), make(Direction::kDown), {});
+}
+
+std::uint32_t Network::add(std::unique_ptr<Stored> up, std::unique_ptr<Stored> down, const LinkSchedule& schedule) {
   const auto link = static_cast<std::uint32_t>(links());
-  auto up = std::make_unique<Lane>(spec.up, Path::key_for(seed_, name, Direction::kUp), Path::key_for(seed_, name));
-  auto down =
-      std::make_unique<Lane>(spec.down, Path::key_for(seed_, name, Direction::kDown), Path::key_for(seed_, name));
+  addresses_.emplace_back(schedule.rebinds);
+  up->lane.tap = {sink_, link, link, Direction::kUp};
+  down->lane.tap = {sink_, link, link, Direction::kDown};
   lanes_.reserve(lanes_.size() + kDirections);
   lanes_.push_back(std::move(up));
   lanes_.push_back(std::move(down));
   return link;
 }
 
+void Network::log_to(DecisionSink* sink) noexcept {
+  sink_ = sink;
+  for (const auto& each : lanes_) each->lane.tap.sink = sink;
+}
+
+void Network::log_waiting() const noexcept {
+  for (const auto& each : lanes_) {
+    each->queue.for_each(
+        [&](const DelayQueue::Item& item) { tell_waiting(item, each->queue.bytes(item).size(), each->lane.tap); });
+  }
+}
+
 Outcome Network::send(Time now, std::uint32_t link, Direction direction, std::span<const std::byte> bytes) noexcept {
-  Lane* const to = lane(link, direction);
-  if (to == nullptr) return Outcome::kOverflow;
-  const auto number = static_cast<std::uint32_t>(lane_number(link, direction));
-  return submit(to->path, to->queue, to->counters, now, number, bytes);
+  if (link >= links()) return Outcome::kOverflow;
+  Addresses& addresses = addresses_[link];
+  return enter(now, link, direction, direction == Direction::kUp ? addresses.present(now) : addresses.heard(), bytes);
+}
+
+Outcome Network::send_to(Time now, std::uint32_t link, std::uint32_t address,
+                         std::span<const std::byte> bytes) noexcept {
+  return link >= links() ? Outcome::kOverflow : enter(now, link, Direction::kDown, address, bytes);
+}
+
+Outcome Network::enter(Time now, std::uint32_t link, Direction direction, std::uint32_t address,
+                       std::span<const std::byte> bytes) noexcept {
+  const std::size_t number = lane_number(link, direction);
+  Stored& to = *lanes_[number];
+  const Verdict verdict = to.lane.send(now, bytes.size());
+  return submit(verdict, to.queue, to.lane.counters, to.lane.tap, {now, static_cast<std::uint32_t>(number), address},
+                bytes);
+}
+
+bool Network::rebind(Time now, std::uint32_t link, const Rebind& rebind) noexcept {
+  return link < links() && addresses_[link].change(now, rebind);
 }
 
 std::optional<Delivery> Network::poll(Time now, std::uint32_t link, Direction direction,
                                       std::span<std::byte> buffer) noexcept {
-  Lane* const from = lane(link, direction);
+  Stored* const from = stored(link, direction);
   if (from == nullptr) return std::nullopt;
   return take(*from, now, buffer);
 }
 
 std::optional<Delivery> Network::poll_any(Time now, std::span<std::byte> buffer) noexcept {
-  Lane* first = nullptr;
-  Time first_due = now;
-  for (const auto& candidate : lanes_) {
-    const auto due = candidate->queue.next_due();
-    if (!due || *due > now) continue;
-    if (first != nullptr && *due >= first_due) continue;
-    first = candidate.get();
-    first_due = *due;
+  while (true) {  // a datagram to a dead address leaves nothing: then the next one
+    Stored* first = nullptr;
+    Time first_due = now;
+    for (const auto& candidate : lanes_) {
+      const auto due = candidate->queue.next_due();
+      if (!due || *due > now) continue;
+      if (first != nullptr && *due >= first_due) continue;
+      first = candidate.get();
+      first_due = *due;
+    }
+    if (first == nullptr) return std::nullopt;
+    if (const auto delivery = take(*first, first_due, buffer)) return delivery;
   }
-  if (first == nullptr) return std::nullopt;
-  return take(*first, now, buffer);
 }
 
 std::optional<Time> Network::next_due(std::uint32_t link, Direction direction) const noexcept {
-  const Lane* const of = lane(link, direction);
+  const Stored* const of = stored(link, direction);
   return of == nullptr ? std::nullopt : of->queue.next_due();
 }
 
@@ -80,29 +119,37 @@ std::optional<Time> Network::next_due() const noexcept {
 
 const PathCounters& Network::counters(std::uint32_t link, Direction direction) const noexcept {
   static constexpr PathCounters kNothing;
-  const Lane* const of = lane(link, direction);
-  return of == nullptr ? kNothing : of->counters;
+  const Stored* const of = stored(link, direction);
+  return of == nullptr ? kNothing : of->lane.counters;
 }
 
-Network::Lane* Network::lane(std::uint32_t link, Direction direction) const noexcept {
+std::uint64_t Network::replayed(std::uint32_t link, Direction direction) const noexcept {
+  const Stored* const of = stored(link, direction);
+  return of == nullptr || of->lane.replay() == nullptr ? 0 : of->lane.replay()->matched();
+}
+
+Network::Stored* Network::stored(std::uint32_t link, Direction direction) const noexcept {
   const std::size_t number = lane_number(link, direction);
   return number < lanes_.size() ? lanes_[number].get() : nullptr;
 }
 
-std::optional<Delivery> Network::take(Lane& from, Time now, std::span<std::byte> buffer) noexcept {
-  const auto item = from.queue.take(now);
-  if (!item) return std::nullopt;
-  const auto bytes = from.queue.bytes(*item);
-  const std::size_t fits = std::min(bytes.size(), buffer.size());
-  if (fits > 0) std::memcpy(buffer.data(), bytes.data(), fits);
-  from.counters.left(*item, bytes.size());
-  from.queue.recycle(item->slot);
-  return Delivery{item->lane / static_cast<std::uint32_t>(kDirections),
-                  static_cast<Direction>(item->lane % kDirections),
-                  item->sent,
-                  item->at,
-                  item->index,
-                  bytes.size()};
+std::optional<Delivery> Network::take(Stored& from, Time now, std::span<std::byte> buffer) noexcept {
+  while (const auto item = from.queue.take(now)) {
+    const auto link = item->lane / static_cast<std::uint32_t>(kDirections);
+    const auto direction = static_cast<Direction>(item->lane % kDirections);
+    const auto bytes = from.queue.bytes(*item);
+    const std::size_t size = bytes.size();
+    const bool dead = direction == Direction::kDown && addresses_[link].dead(item->tag, item->at);
+    if (!dead) {
+      const std::size_t fits = std::min(size, buffer.size());
+      if (fits > 0) std::memcpy(buffer.data(), bytes.data(), fits);
+      if (direction == Direction::kUp) addresses_[link].hear(item->tag);
+    }
+    leave(*item, size, dead ? Outcome::kOldAddress : Outcome::kDeliver, from.lane.counters, from.lane.tap);
+    from.queue.recycle(item->slot);
+    if (!dead) return Delivery{link, direction, item->sent, item->at, item->index, size, item->tag};
+  }
+  return std::nullopt;
 }
 
 }  // namespace tandem::netsim

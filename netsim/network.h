@@ -9,9 +9,13 @@
 
 #include "common/base/axes.h"
 #include "common/base/time.h"
+#include "netsim/addresses.h"
 #include "netsim/delay_queue.h"
+#include "netsim/lane.h"
 #include "netsim/path.h"
 #include "netsim/path_spec.h"
+#include "netsim/replay.h"
+#include "netsim/script.h"
 #include "netsim/submit.h"
 
 namespace tandem::netsim {
@@ -22,12 +26,14 @@ struct Delivery {
   Direction direction = Direction::kUp;
   Time sent;
   Time at;
-  std::uint64_t index = 0;  ///< of the datagram on its path; a copy has the index of its original
-  std::size_t size = 0;     ///< [bytes]; also when the buffer was smaller and the rest was cut off
+  std::uint64_t index = 0;    ///< of the datagram on its path; a copy has the index of its original
+  std::size_t size = 0;       ///< [bytes]; also when the buffer was smaller and the rest was cut off
+  std::uint32_t address = 0;  ///< the client's, counted from 0: up, whom it came from; down, whom it was sent to
 };
 
 /// Links of a virtual network: datagrams go in, and come out when the caller's clock has reached their time.
-/// All memory is taken by `add_link`; `send` and `poll` take none. Same seed, specs and calls: same deliveries.
+/// All memory is taken by `add_link` and `add_replay`; `send` and `poll` take none, also when a link changes. Same
+/// seed, specs and calls: same deliveries.
 class Network {
  public:
   explicit Network(std::uint64_t seed) noexcept : seed_(seed) {}
@@ -38,13 +44,31 @@ class Network {
   /// @throws std::invalid_argument listing all problems of the spec.
   std::uint32_t add_link(const LinkSpec& spec);
   std::uint32_t add_link(const LinkSpec& spec, std::uint64_t name);
+  /// The same with changes: each is in force from its own time on, whenever datagrams come.
+  std::uint32_t add_link(const LinkSchedule& schedule, std::uint64_t name);
+  /// Adds a link that does again what was recorded of `flow`; seed and name do not matter.
+  std::uint32_t add_replay(std::shared_ptr<const Replay> replay, std::uint32_t flow);
 
-  [[nodiscard]] std::size_t links() const noexcept { return lanes_.size() / kDirections; }
+  /// From now on every decision is told to `sink`; null: nobody. Setup only; the sink must outlive the network.
+  void log_to(DecisionSink* sink) noexcept;
+  /// Tells the sink what is still under way: the end of a complete log.
+  void log_waiting() const noexcept;
+
+  [[nodiscard]] std::size_t links() const noexcept { return addresses_.size(); }
 
   /// Sends one datagram of at most kSlotBytes.
+  /// Up: from the address the client has at `now`; down: to the newest address anything delivered came from.
   /// @return what was decided; an unknown link drops (kOverflow)
   Outcome send(Time now, std::uint32_t link, Direction direction,
                std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+
+  /// The same down to one of the client's addresses, which may be dead when the datagram arrives: then it is dropped.
+  Outcome send_to(Time now, std::uint32_t link, std::uint32_t address,
+                  std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+
+  /// The client's address changes at `now`, besides the changes of its schedule.
+  /// @return false: unknown link, or it had Addresses::kMax already
+  bool rebind(Time now, std::uint32_t link, const Rebind& rebind) noexcept TANDEM_REALTIME;
 
   /// Takes the next datagram of this link and direction that is due at `now` into `buffer`; call until empty.
   /// Without delay a datagram is due at the very `now` it was sent. Equal times: order of sending.
@@ -59,19 +83,25 @@ class Network {
   [[nodiscard]] std::optional<Time> next_due() const noexcept;
 
   [[nodiscard]] const PathCounters& counters(std::uint32_t link, Direction direction) const noexcept;
+  /// Of a link that replays: datagrams that met their own recorded fate; else 0.
+  [[nodiscard]] std::uint64_t replayed(std::uint32_t link, Direction direction) const noexcept;
 
  private:
-  struct Lane {
-    Lane(const PathSpec& spec, RandomKey key, RandomKey link_key);
-    Path path;
+  struct Stored {
+    Stored(Lane&& with, std::size_t slots) : lane(std::move(with)), queue(slots) {}
+    Lane lane;
     DelayQueue queue;
-    PathCounters counters;
   };
-  [[nodiscard]] Lane* lane(std::uint32_t link, Direction direction) const noexcept;
-  std::optional<Delivery> take(Lane& from, Time now, std::span<std::byte> buffer) noexcept;
+  std::uint32_t add(std::unique_ptr<Stored> up, std::unique_ptr<Stored> down, const LinkSchedule& schedule);
+  [[nodiscard]] Stored* stored(std::uint32_t link, Direction direction) const noexcept;
+  Outcome enter(Time now, std::uint32_t link, Direction direction, std::uint32_t address,
+                std::span<const std::byte> bytes) noexcept;
+  std::optional<Delivery> take(Stored& from, Time now, std::span<std::byte> buffer) noexcept;
 
   std::uint64_t seed_;
-  std::vector<std::unique_ptr<Lane>> lanes_;  ///< link * 2 + direction
+  DecisionSink* sink_ = nullptr;
+  std::vector<std::unique_ptr<Stored>> lanes_;  ///< link * 2 + direction
+  std::vector<Addresses> addresses_;            ///< by link
 };
 
 }  // namespace tandem::netsim

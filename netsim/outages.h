@@ -28,6 +28,12 @@ class OutageGate {
   /// @param size  payload [bytes]
   Passage enter(Time now, std::size_t size) noexcept;
 
+  /// Goes on where `before` was: what it holds stays held.
+  void take_over(const OutageGate& before) noexcept {
+    held_until_ = before.held_until_;
+    held_bytes_ = before.held_bytes_;
+  }
+
   /// The end of the outage of `spec` that covers `t`, if any. Half open: down in [start, start + length).
   [[nodiscard]] static std::optional<Time> end_of(const OutageSpec& spec, Time t) noexcept;
 

@@ -56,12 +56,17 @@ const char* name(Outcome outcome) noexcept {
       return "corrupted";
     case Outcome::kAboveMtu:
       return "above MTU";
+    case Outcome::kOldAddress:
+      return "old address";
+    case Outcome::kClientGone:
+      return "client gone";
   }
   return "?";
 }
 
 Path::Path(const PathSpec& spec, RandomKey key, RandomKey link_key)
-    : outages_(checked(spec).outages, link_key.derive(kOutages)),
+    : spec_(checked(spec)),
+      outages_(spec.outages, link_key.derive(kOutages)),
       loss_(spec.loss, key.derive(kLoss)),
       rate_(spec.rate),
       floor_(spec.floor),
@@ -135,7 +140,7 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
     const double longest = static_cast<double>(duplicate_.delay_max.count()) + 1;
     verdict.copy_delay = Duration{static_cast<std::int64_t>(copy_key_.uniform(verdict.index) * longest)};
   }
-  if (reorder_.probability > 0) {
+  if (reorder_.probability > 0 || held_count_ > 0) {  // what is held may be older than the present spec
     if (held_count_ > 0) forget_late(now);
     if (held_count_ < kHeldMax && reorder_key_.uniform(verdict.index) < reorder_.probability) {
       verdict.outcome = Outcome::kHeldBack;
@@ -146,6 +151,23 @@ Verdict Path::send(Time now, std::size_t size) noexcept {
     }
   }
   return verdict;
+}
+
+void Path::take_over(Path& before, Time at) noexcept {
+  count_ = before.count_;
+  last_in_ = before.last_in_;
+  last_out_ = before.last_out_;
+  held_count_ = before.held_count_;
+  held_ = before.held_;
+  outages_.take_over(before.outages_);
+  // Models that are functions of time need nothing. Of those with a memory, an unchanged one is moved over whole.
+  if (spec_.loss == before.spec_.loss) std::swap(loss_, before.loss_);
+  if (spec_.slots == before.spec_.slots) std::swap(slots_, before.slots_);
+  if (spec_.rate == before.spec_.rate) {
+    std::swap(rate_, before.rate_);
+  } else {
+    rate_.take_over(before.rate_, at);
+  }
 }
 
 void Path::forget_late(Time now) noexcept {

@@ -21,18 +21,20 @@ namespace tandem::netsim {
 
 /// What happened to a datagram at the entrance, or the reason why it will not come out.
 enum class Outcome : std::uint8_t {
-  kDeliver,    ///< comes out at `Verdict::at`
-  kHeldBack,   ///< chosen to be reordered: comes out when Path says so, at `Verdict::at` at the latest
-  kOutage,     ///< dropped: link down
-  kHoldFull,   ///< dropped: link down and its hold full
-  kLost,       ///< dropped: random loss
-  kQueueFull,  ///< dropped: tail of the rate's queue
-  kOverflow,   ///< dropped by the store, not by the model: too many datagrams in flight
-  kTooLong,    ///< dropped by the store: larger than a slot
-  kCorrupted,  ///< dropped: damaged under way, the checksum tells
-  kAboveMtu,   ///< dropped: larger than the path lets through
+  kDeliver,     ///< comes out at `Verdict::at`
+  kHeldBack,    ///< chosen to be reordered: comes out when Path says so, at `Verdict::at` at the latest
+  kOutage,      ///< dropped: link down
+  kHoldFull,    ///< dropped: link down and its hold full
+  kLost,        ///< dropped: random loss
+  kQueueFull,   ///< dropped: tail of the rate's queue
+  kOverflow,    ///< dropped by the store, not by the model: too many datagrams in flight
+  kTooLong,     ///< dropped by the store: larger than a slot
+  kCorrupted,   ///< dropped: damaged under way, the checksum tells
+  kAboveMtu,    ///< dropped: larger than the path lets through
+  kOldAddress,  ///< dropped at its arrival: sent to an address that the client has left
+  kClientGone,  ///< dropped while under way: its client left (proxy)
 };
-inline constexpr std::size_t kOutcomes = 10;
+inline constexpr std::size_t kOutcomes = 12;
 [[nodiscard]] const char* name(Outcome outcome) noexcept;
 [[nodiscard]] constexpr bool dropped(Outcome o) noexcept { return o >= Outcome::kOutage; }
 
@@ -48,6 +50,8 @@ struct Verdict {
   Time at;                  ///< arrival; kHeldBack: latest arrival; dropped: the time of sending
   bool copied = false;      ///< a second one comes out `copy_delay` after the first
   Duration copy_delay{};
+  /// Not delivered: the copy is dropped, for this reason, at `at + copy_delay`; models never say so, a replay does.
+  Outcome copy_outcome = Outcome::kDeliver;
   /// Datagrams held back that this one lets go. Valid until the next call.
   std::span<const Release> released;
 };
@@ -82,6 +86,12 @@ class Path {
 
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }  ///< datagrams decided about
 
+  /// From now on this path is the one in force, in the place of `before`, which is used no more. Datagrams go on being
+  /// counted, order is kept across the change, what is held stays held, and what waits in the queue is served at the
+  /// new rate. Models whose numbers stay the same go on as if nothing had happened. Takes no memory.
+  /// @param at  the moment of the change
+  void take_over(Path& before, Time at) noexcept TANDEM_REALTIME;
+
  private:
   static constexpr std::size_t kHeldMax = 64;
   struct Held {
@@ -94,6 +104,7 @@ class Path {
   void forget_late(Time now) noexcept;
   std::span<const Release> pass(Time at) noexcept;
 
+  PathSpec spec_;
   OutageGate outages_;
   Loss loss_;
   LinkRate rate_;

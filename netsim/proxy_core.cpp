@@ -1,5 +1,10 @@
 #include "netsim/proxy_core.h"
 
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+
 namespace tandem::netsim {
 namespace {
 
@@ -20,20 +25,39 @@ void add(PathCounters& to, const PathCounters& from) noexcept {
 
 }  // namespace
 
-ProxyCore::ProxyCore(const LinkSpec& spec, std::uint64_t seed)
-    : spec_(spec), seed_(seed), queue_(kSlots, kClientsMax * kDirections), places_(kClientsMax) {
+ProxyCore::ProxyCore(const LinkSpec& spec, std::uint64_t seed, std::vector<NetworkEvent> events)
+    : spec_(spec),
+      seed_(seed),
+      events_(std::move(events)),
+      queue_(kSlots, kClientsMax * kDirections),
+      places_(kClientsMax) {
   // A spec that cannot be simulated is refused here, not when the first client comes.
-  static_cast<void>(Path(spec.up, RandomKey{seed}));
-  static_cast<void>(Path(spec.down, RandomKey{seed}));
+  std::ranges::copy_if(events_, std::back_inserter(outages_),
+                       [](const NetworkEvent& e) { return e.outage.has_value(); });
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    static_cast<void>(Path(spec[direction], RandomKey{seed}));
+    for (const NetworkEvent& event : events_) {
+      if (event.link) static_cast<void>(Path((*event.link)[direction], RandomKey{seed}));
+    }
+  }
+}
+
+LinkSchedule ProxyCore::schedule(const LinkSpec& link, std::uint64_t number) const {
+  return schedule_for(link, events_, std::to_string(number + 1));
 }
 
 std::optional<std::uint32_t> ProxyCore::add_client() {
   for (std::uint32_t number = 0; number < kClientsMax; ++number) {
     Client& place = places_[number];
     if (place.lanes[0]) continue;
+    const LinkSchedule over_time = schedule(spec_, clients_seen_);
+    place.number = clients_seen_;
+    place.addresses = Addresses{over_time.rebinds};
     for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-      place.lanes[static_cast<std::size_t>(direction)].emplace(
-          spec_[direction], Path::key_for(seed_, clients_seen_, direction), Path::key_for(seed_, clients_seen_));
+      auto& lane = place.lanes[static_cast<std::size_t>(direction)];
+      lane.emplace(over_time, direction, seed_, clients_seen_);
+      const auto name = static_cast<std::uint32_t>(clients_seen_);
+      lane->tap = {sink_, name, name, direction};
     }
     ++clients_;
     ++clients_seen_;
@@ -43,11 +67,20 @@ std::optional<std::uint32_t> ProxyCore::add_client() {
 }
 
 void ProxyCore::remove_client(std::uint32_t client) noexcept {
-  if (client >= kClientsMax || !places_[client].lanes[0]) return;
+  if (!present(client)) return;
   Client& place = places_[client];
+  if (sink_ != nullptr) {  // the queue finds out only when they are due; the log ends here for them
+    queue_.for_each([&](const DelayQueue::Item& item) {
+      const auto direction = static_cast<Direction>(item.lane & 1U);
+      if (item.lane != lane_name(client, direction)) return;
+      PathCounters unused;
+      leave(item, queue_.bytes(item).size(), Outcome::kClientGone, unused,
+            place.lanes[static_cast<std::size_t>(direction)]->tap);
+    });
+  }
   for (std::size_t direction = 0; direction < kDirections; ++direction) {
     PathCounters& counters = place.lanes[direction]->counters;
-    counters.by_outcome[static_cast<std::size_t>(Outcome::kOverflow)] += counters.in_flight();
+    counters.by_outcome[static_cast<std::size_t>(Outcome::kClientGone)] += counters.in_flight();
     add(left_[direction], counters);
     place.lanes[direction].reset();
   }
@@ -55,18 +88,86 @@ void ProxyCore::remove_client(std::uint32_t client) noexcept {
   --clients_;
 }
 
-Outcome ProxyCore::ingress(Time now, std::uint32_t client, Direction direction,
-                           std::span<const std::byte> bytes) noexcept {
-  if (client >= kClientsMax) return Outcome::kOverflow;
-  auto& lane = places_[client].lanes[static_cast<std::size_t>(direction)];
-  if (!lane) return Outcome::kOverflow;
-  if (lane->counters.in_flight() >= kPerLaneMax) {  // one client that floods must not take the room of the others
-    ++lane->counters.in;
-    lane->counters.bytes_in += bytes.size();
-    ++lane->counters.by_outcome[static_cast<std::size_t>(Outcome::kOverflow)];
-    return Outcome::kOverflow;
+void ProxyCore::log_to(DecisionSink* sink) noexcept {
+  sink_ = sink;
+  for (Client& place : places_) {
+    for (auto& lane : place.lanes) {
+      if (lane) lane->tap.sink = sink;
+    }
   }
-  return submit(lane->path, queue_, lane->counters, now, lane_name(client, direction), bytes);
+}
+
+void ProxyCore::log_waiting() const noexcept {
+  queue_.for_each([&](const DelayQueue::Item& item) {
+    const auto direction = static_cast<Direction>(item.lane & 1U);
+    const std::uint32_t client = (item.lane >> kDirectionBits) & (kClientsMax - 1);
+    if (!present(client) || item.lane != lane_name(client, direction)) return;
+    const auto& lane = places_[client].lanes[static_cast<std::size_t>(direction)];
+    tell_waiting(item, queue_.bytes(item).size(), lane->tap);
+  });
+}
+
+std::optional<std::uint64_t> ProxyCore::number(std::uint32_t client) const noexcept {
+  return present(client) ? std::optional{places_[client].number} : std::nullopt;
+}
+
+LinkChange ProxyCore::prepare(const LinkSpec& link, std::span<const std::uint64_t> numbers, bool all) const {
+  LinkChange change{.for_new = all ? std::optional{link} : std::nullopt, .link = link};
+  for (const std::uint64_t number : numbers) {
+    // Of the events only the outages count here: the others come at their own time.
+    const LinkSpec with_outages = schedule_for(link, outages_, std::to_string(number + 1)).initial;
+    LinkChange::Client& client = change.clients.emplace_back();
+    client.number = number;
+    for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+      client.paths[static_cast<std::size_t>(direction)] = make_path(with_outages, direction, seed_, number);
+    }
+  }
+  return change;
+}
+
+void ProxyCore::change(Time now, LinkChange& change) {
+  if (change.for_new) std::swap(spec_, *change.for_new);
+  for (std::uint32_t i = 0; i < kClientsMax; ++i) {
+    if (!present(i)) continue;
+    Client& place = places_[i];
+    auto found = std::ranges::find(change.clients, place.number, &LinkChange::Client::number);
+    if (found == change.clients.end()) {
+      if (!change.for_new) continue;
+      const std::uint64_t newcomer[] = {place.number};
+      LinkChange late = prepare(spec_, newcomer, false);
+      change.clients.push_back(std::move(late.clients.front()));
+      found = std::prev(change.clients.end());
+    }
+    for (std::size_t d = 0; d < kDirections; ++d) place.lanes[d]->change(now, found->paths[d]);
+  }
+}
+
+bool ProxyCore::rebind(Time now, std::uint32_t client, const Rebind& rebind) noexcept {
+  return present(client) && places_[client].addresses.change(now, rebind);
+}
+
+std::uint32_t ProxyCore::address(Time now, std::uint32_t client) noexcept {
+  return present(client) ? places_[client].addresses.present(now) : 0;
+}
+
+bool ProxyCore::dead(Time now, std::uint32_t client, std::uint32_t address) const noexcept {
+  return present(client) && places_[client].addresses.dead(address, now);
+}
+
+Outcome ProxyCore::ingress(Time now, std::uint32_t client, Direction direction, std::span<const std::byte> bytes,
+                           std::uint32_t address) noexcept {
+  if (!present(client)) return Outcome::kOverflow;
+  auto& lane = places_[client].lanes[static_cast<std::size_t>(direction)];
+  if (lane->counters.in_flight() >= kPerLaneMax) {    // one client that floods must not take the room of the others
+    Verdict verdict = lane->send(now, bytes.size());  // it has its number, and used the link
+    verdict.outcome = Outcome::kOverflow;
+    verdict.at = now;
+    verdict.copied = false;
+    return submit(verdict, queue_, lane->counters, lane->tap, {now}, bytes);
+  }
+  if (direction == Direction::kUp) address = places_[client].addresses.present(now);
+  return submit(lane->send(now, bytes.size()), queue_, lane->counters, lane->tap,
+                {now, lane_name(client, direction), address}, bytes);
 }
 
 std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
@@ -79,8 +180,13 @@ std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
       continue;
     }
     const auto bytes = queue_.bytes(*item);
-    lane->counters.left(*item, bytes.size());
-    return Egress{client, direction, bytes, *item};
+    const bool dead = direction == Direction::kDown && places_[client].addresses.dead(item->tag, item->at);
+    leave(*item, bytes.size(), dead ? Outcome::kOldAddress : Outcome::kDeliver, lane->counters, lane->tap);
+    if (dead) {
+      queue_.recycle(item->slot);
+      continue;
+    }
+    return Egress{client, direction, bytes, *item, item->tag};
   }
   return std::nullopt;
 }

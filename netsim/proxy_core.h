@@ -10,12 +10,28 @@
 
 #include "common/base/axes.h"
 #include "common/base/time.h"
+#include "netsim/addresses.h"
 #include "netsim/delay_queue.h"
+#include "netsim/lane.h"
 #include "netsim/path.h"
 #include "netsim/path_spec.h"
+#include "netsim/script.h"
 #include "netsim/submit.h"
 
 namespace tandem::netsim {
+
+/// A change of the network while the proxy runs, with all the memory it needs. Made by ProxyCore::prepare on any
+/// thread, used once by ProxyCore::change on the packets' thread; what it holds afterwards is the network that was, to
+/// be freed elsewhere.
+struct LinkChange {
+  struct Client {
+    std::uint64_t number = 0;  ///< by arrival, from 0
+    std::array<std::unique_ptr<Path>, kDirections> paths = {};
+  };
+  std::optional<LinkSpec> for_new;  ///< of clients that come later; empty: theirs stays
+  LinkSpec link;                    ///< as asked for
+  std::vector<Client> clients = {};
+};
 
 /// The proxy without sockets and clock: datagrams in, scheduled datagrams out. It uses the same Path and the same way
 /// in as the virtual network, so equal seed, client number, times and sizes give equal verdicts (a test holds it to
@@ -28,7 +44,13 @@ class ProxyCore {
   static constexpr std::uint64_t kPerLaneMax = 65'536;
 
   /// @throws std::invalid_argument listing all problems of the spec.
-  ProxyCore(const LinkSpec& spec, std::uint64_t seed);
+  /// @param events  changes by network time, for clients named "1", "2", ... in order of arrival
+  ProxyCore(const LinkSpec& spec, std::uint64_t seed, std::vector<NetworkEvent> events = {});
+
+  /// From now on every decision is told to `sink`; null: nobody. Links and flows are numbered by arrival from 0.
+  void log_to(DecisionSink* sink) noexcept;
+  /// Tells the sink what is still under way: the end of a complete log.
+  void log_waiting() const noexcept;
 
   /// Takes a free place for a new client.
   /// @return its number in [0, kClientsMax); empty: the house is full
@@ -40,9 +62,31 @@ class ProxyCore {
   [[nodiscard]] std::size_t clients() const noexcept { return clients_; }
   [[nodiscard]] std::uint64_t clients_seen() const noexcept { return clients_seen_; }
 
+  /// By arrival, from 0, of a present client.
+  [[nodiscard]] std::optional<std::uint64_t> number(std::uint32_t client) const noexcept;
+
+  /// Takes the memory of a change; reads only what never changes, so any thread may call it.
+  /// @param numbers  the present clients that it is for (ProxyCore::number)
+  /// @param all      also those that come later, and those that came since
+  /// @throws std::invalid_argument listing all problems of the spec.
+  [[nodiscard]] LinkChange prepare(const LinkSpec& link, std::span<const std::uint64_t> numbers, bool all) const;
+
+  /// The links of `change` are in force from `now` on. Outages of the events stay, further events still come. Takes no
+  /// memory, except for clients that came after an `all` was prepared. Clients that left are passed over.
+  void change(Time now, LinkChange& change);
+
+  /// The client's address changes at `now`: what it sends from then on comes out with the next number.
+  /// @return false: no such client, or it had Addresses::kMax already
+  bool rebind(Time now, std::uint32_t client, const Rebind& rebind) noexcept TANDEM_REALTIME;
+
+  /// The address a present client sends from at `now`, from 0; and whether one of its addresses is dead by `now`.
+  [[nodiscard]] std::uint32_t address(Time now, std::uint32_t client) noexcept TANDEM_REALTIME;
+  [[nodiscard]] bool dead(Time now, std::uint32_t client, std::uint32_t address) const noexcept TANDEM_REALTIME;
+
   /// A datagram of at most kSlotBytes came in at `now`.
-  Outcome ingress(Time now, std::uint32_t client, Direction direction,
-                  std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+  /// @param address  down: of the client, that the datagram was sent to; up: the present one, whatever is said here
+  Outcome ingress(Time now, std::uint32_t client, Direction direction, std::span<const std::byte> bytes,
+                  std::uint32_t address = 0) noexcept TANDEM_REALTIME;
 
   /// Something to be sent: bytes stay valid until `done`.
   struct Egress {
@@ -50,6 +94,7 @@ class ProxyCore {
     Direction direction = Direction::kUp;
     std::span<const std::byte> bytes;
     DelayQueue::Item item;
+    std::uint32_t address = 0;  ///< the client's: up, whom it comes from; down, whom it was sent to
   };
   /// The next datagram due at `now`, in the order (time, arrival).
   std::optional<Egress> take(Time now) noexcept TANDEM_REALTIME;
@@ -63,19 +108,24 @@ class ProxyCore {
   [[nodiscard]] PathCounters total(Direction direction) const noexcept;
 
  private:
-  struct Lane {
-    Lane(const PathSpec& spec, RandomKey key, RandomKey link_key) : path(spec, key, link_key) {}
-    Path path;
-    PathCounters counters;
-  };
   struct Client {
     std::array<std::optional<Lane>, kDirections> lanes;
+    std::uint64_t number = 0;  ///< by arrival
+    Addresses addresses;
     std::uint32_t generation = 0;  ///< tells datagrams of a client that left from those of its successor
   };
   [[nodiscard]] std::uint32_t lane_name(std::uint32_t client, Direction direction) const noexcept;
 
+  [[nodiscard]] bool present(std::uint32_t client) const noexcept {
+    return client < kClientsMax && places_[client].lanes[0].has_value();
+  }
+  [[nodiscard]] LinkSchedule schedule(const LinkSpec& link, std::uint64_t number) const;
+
   LinkSpec spec_;
-  std::uint64_t seed_;
+  const std::uint64_t seed_;
+  const std::vector<NetworkEvent> events_;
+  std::vector<NetworkEvent> outages_;  ///< those of the events; set once
+  DecisionSink* sink_ = nullptr;
   DelayQueue queue_;
   std::vector<Client> places_;
   std::size_t clients_ = 0;

@@ -1,6 +1,22 @@
 #include "netsim/submit.h"
 
 namespace tandem::netsim {
+namespace {
+
+Decision about(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept {
+  return {.in = item.sent,
+          .out = item.at,
+          .index = item.index,
+          .link = tap.link,
+          .flow = tap.flow,
+          .size = static_cast<std::uint32_t>(size),
+          .direction = tap.direction,
+          .outcome = item.held_back ? Outcome::kHeldBack : Outcome::kDeliver,
+          .copy = item.copy,
+          .under_way = false};
+}
+
+}  // namespace
 
 std::uint64_t PathCounters::dropped() const noexcept {
   std::uint64_t sum = 0;
@@ -10,34 +26,66 @@ std::uint64_t PathCounters::dropped() const noexcept {
   return sum;
 }
 
-void PathCounters::left(const DelayQueue::Item& item, std::size_t size) noexcept {
-  ++out;
-  bytes_out += size;
-  delay_sum_ns += (item.at - item.sent).count();
-}
-
-Outcome submit(Path& path, DelayQueue& queue, PathCounters& counters, Time now, std::uint32_t lane,
-               std::span<const std::byte> bytes) noexcept {
+Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters, const DecisionTap& tap,
+               const Entrance& entrance, std::span<const std::byte> bytes) noexcept {
   ++counters.in;
   counters.bytes_in += bytes.size();
-  const auto count = [&counters](Outcome outcome) { ++counters.by_outcome[static_cast<std::size_t>(outcome)]; };
-  const Verdict verdict = path.send(now, bytes.size());
+  const auto drop = [&](Outcome reason, bool copy, Time at) {
+    counters.count(reason);
+    if (tap.sink == nullptr) return;
+    tap.sink->decided({.in = entrance.now,
+                       .out = at,
+                       .index = verdict.index,
+                       .link = tap.link,
+                       .flow = tap.flow,
+                       .size = static_cast<std::uint32_t>(bytes.size()),
+                       .direction = tap.direction,
+                       .outcome = reason,
+                       .copy = copy,
+                       .under_way = false});
+  };
+  if (verdict.copied && dropped(verdict.copy_outcome)) {
+    ++counters.copies;
+    drop(verdict.copy_outcome, true, verdict.at + verdict.copy_delay);
+  }
   if (dropped(verdict.outcome)) {
-    count(verdict.outcome);
+    drop(verdict.outcome, false, verdict.at);
     return verdict.outcome;
   }
-  const auto entered = queue.enter(verdict, now, lane, bytes);
+  const auto entered = queue.enter(verdict, entrance.now, entrance.lane, bytes, entrance.tag);
   if (entered == DelayQueue::Entered::kNo) {
     const Outcome reason = bytes.size() > kSlotBytes ? Outcome::kTooLong : Outcome::kOverflow;
-    count(reason);
+    drop(reason, false, entrance.now);
     return reason;
   }
-  if (verdict.copied) {
+  if (verdict.copied && !dropped(verdict.copy_outcome)) {
     ++counters.copies;
-    if (entered == DelayQueue::Entered::kNoCopy) count(Outcome::kOverflow);
+    if (entered == DelayQueue::Entered::kNoCopy) drop(Outcome::kOverflow, true, entrance.now);
   }
-  count(verdict.outcome);
+  counters.count(verdict.outcome);
   return verdict.outcome;
+}
+
+void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome, PathCounters& counters,
+           const DecisionTap& tap) noexcept {
+  if (dropped(outcome)) {
+    counters.count(outcome);
+  } else {
+    ++counters.out;
+    counters.bytes_out += size;
+    counters.delay_sum_ns += (item.at - item.sent).count();
+  }
+  if (tap.sink == nullptr) return;
+  Decision decision = about(item, size, tap);
+  if (dropped(outcome)) decision.outcome = outcome;
+  tap.sink->decided(decision);
+}
+
+void tell_waiting(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept {
+  if (tap.sink == nullptr) return;
+  Decision decision = about(item, size, tap);
+  decision.under_way = true;
+  tap.sink->decided(decision);
 }
 
 }  // namespace tandem::netsim

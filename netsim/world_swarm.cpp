@@ -1,0 +1,243 @@
+#include "netsim/world_swarm.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/base/format.h"
+#include "netsim/profiles.h"
+#include "netsim/world_swarm_scene.h"
+#include "proto/scene_text.h"
+
+namespace tandem::netsim {
+
+namespace {
+
+enum Purpose : std::uint64_t { kScene = 1, kTimes, kLinks, kFaults, kClocks };
+
+Duration ms(double value) { return Duration{std::llround(value * 1e6)}; }
+
+/// Draws of one purpose.
+class Draw {
+ public:
+  Draw(std::uint64_t seed, Purpose purpose) : random_(RandomKey{seed}.derive(0x5a).derive(purpose)) {}
+  bool chance(double p) { return random_.uniform() < p; }
+  double between(double lo, double hi) { return random_.uniform(lo, hi); }
+  double log_between(double lo, double hi) { return std::exp(between(std::log(lo), std::log(hi))); }
+  std::size_t below(std::size_t n) { return random_.below(n); }
+
+ private:
+  RandomStream random_;
+};
+
+/// One direction, every impairment with some probability of its own.
+PathSpec draw_path(Draw& d) {
+  PathSpec path;
+  path.floor = ms(d.chance(0.3) ? 0 : d.log_between(0.05, 200));
+  if (d.chance(0.5)) {
+    path.body.kind = BodySpec::Kind::kUniform;
+    path.body.high = ms(d.log_between(0.1, 60));
+    if (d.chance(0.5)) path.body.tau = ms(d.log_between(1, 300));
+  }
+  if (d.chance(0.3)) path.loss.probability = d.log_between(0.001, 0.6);
+  if (d.chance(0.3)) {
+    const Duration good = ms(d.log_between(50, 5000)), bad = ms(d.log_between(1, 300));
+    path.loss.periods = BadPeriodsSpec{good, bad, 0, d.between(0.3, 1)};
+  }
+  if (d.chance(0.3)) {
+    path.stall.rate_per_s = d.between(0.05, 2);
+    path.stall.length_min = ms(d.log_between(2, 100));
+    path.stall.cap = path.stall.length_min + ms(d.log_between(1, 600));
+  }
+  if (d.chance(0.25)) {
+    path.rate.bits_per_s = static_cast<std::uint64_t>(d.log_between(2e6, 1e8));
+    path.rate.queue_wait = ms(d.log_between(5, 500));
+  }
+  if (d.chance(0.2)) path.reorder.probability = d.log_between(0.001, 0.3);
+  if (d.chance(0.2)) path.order = Order::kFree;
+  if (d.chance(0.3)) path.duplicate = {d.log_between(0.001, 0.5), ms(d.log_between(0.01, 50))};
+  if (d.chance(0.1)) path.corrupted = d.log_between(0.001, 0.1);
+  return path;
+}
+
+LinkSpec draw_link(Draw& d, std::string& words) {
+  if (d.chance(0.4)) {
+    const auto shipped = shipped_profiles();
+    const ShippedProfile& chosen = shipped[d.below(shipped.size())];
+    if (const auto profile = shipped_profile(chosen.name)) {
+      words = chosen.name;
+      return profile->link;
+    }
+  }
+  words = "own";
+  return {draw_path(d), draw_path(d)};
+}
+
+NetworkEvent change(Duration at, const LinkSpec& link, const std::string& client = {}) {
+  NetworkEvent event;
+  event.at = at;
+  event.link = link;
+  if (!client.empty()) event.clients = {client};
+  return event;
+}
+
+void draw_network(SwarmCase& out) {
+  Draw d(out.seed, kLinks);
+  LinkSpec clean;
+  clean.up.floor = clean.down.floor = ms(d.chance(0.3) ? 0 : d.log_between(0.05, 60));
+  std::string words;
+  const LinkSpec bad = draw_link(d, words);
+  const Duration begin = d.chance(0.4) ? Duration{} : ms(d.between(100, 2000));
+  out.setup.network = begin == Duration{} ? bad : clean;
+  if (begin > Duration{} && begin < out.calm) out.setup.events.push_back(change(begin, bad));
+  for (const SeatSpec& seat : out.setup.scene.seats) {
+    if (d.chance(0.2)) {
+      std::string own;
+      const Duration at = ms(d.between(0, 1e3 * seconds(out.calm)));
+      if (at > begin && at < out.calm) out.setup.events.push_back(change(at, draw_link(d, own), seat.name));
+    }
+    for (std::size_t n = d.chance(0.4) ? 1 + d.below(4) : 0; n > 0; --n) {
+      NetworkEvent event;
+      event.at = ms(d.between(0, 1e3 * seconds(out.calm)));
+      event.clients = {seat.name};
+      if (d.chance(0.3)) event.direction = d.chance(0.5) ? Direction::kUp : Direction::kDown;
+      OutageSpec outage;
+      outage.length = std::min(ms(d.log_between(1, 3000)), out.calm - event.at);
+      outage.mode = d.chance(0.5) ? OutageSpec::Mode::kDrop : OutageSpec::Mode::kHold;
+      event.outage = outage;
+      if (outage.length > Duration{}) out.setup.events.push_back(event);
+    }
+  }
+  out.setup.events.push_back(change(out.calm, clean));
+  std::ranges::stable_sort(out.setup.events, {}, &NetworkEvent::at);
+  out.words += ", " + words;
+}
+
+void draw_faults(SwarmCase& out) {
+  Draw d(out.seed, kFaults);
+  struct Choice {
+    Fault::Kind kind;
+    double shortest_ms, longest_ms;
+  };
+  constexpr std::array kChoices{
+      Choice{Fault::Kind::kPause, 2, 1500},    Choice{Fault::Kind::kRestart, 50, 4000},  Choice{Fault::Kind::kNotANumber, 1, 30},
+      Choice{Fault::Kind::kOutOfRange, 1, 30}, Choice{Fault::Kind::kFrozen, 5, 1000},    Choice{Fault::Kind::kReplay, 100, 5000},
+      Choice{Fault::Kind::kJunk, 100, 3000},   Choice{Fault::Kind::kLiar, 100, 10000},   Choice{Fault::Kind::kServerLate, 2, 800}};
+  for (std::size_t n = d.below(5); n > 0; --n) {
+    const Choice& c = kChoices[d.below(kChoices.size())];
+    Fault fault{c.kind, {}, ms(d.between(0, 1e3 * seconds(out.calm))), ms(d.log_between(c.shortest_ms, c.longest_ms))};
+    if (fault.kind != Fault::Kind::kServerLate && !d.chance(0.1))
+      fault.seat = out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name;
+    fault.length = std::min(fault.length, out.calm - fault.at);
+    if (fault.length <= Duration{}) continue;
+    out.words += format(", %s", std::string(name(fault.kind)).c_str());
+    out.setup.faults.push_back(fault);
+  }
+}
+
+void draw_clocks(SwarmCase& out) {
+  Draw d(out.seed, kClocks);
+  for (const SeatSpec& seat : out.setup.scene.seats) {
+    if (!d.chance(0.3)) continue;
+    EndpointSpec endpoint;
+    endpoint.offset = ms(d.between(-8e7, 8e7));
+    endpoint.drift_ppm = d.between(-200, 200);
+    if (d.chance(0.2)) endpoint.steps = {{ms(d.between(0, 1e3 * seconds(out.calm))), ms(d.log_between(1, 1e6))}};
+    if (d.chance(0.3)) endpoint.wake = {WakeSpec::Kind::kUniform, ms(d.log_between(0.1, 5))};
+    else if (d.chance(0.3)) endpoint.wake.kind = WakeSpec::Kind::kMeasured;
+    out.setup.endpoints[seat.name] = endpoint;
+  }
+}
+
+std::uint64_t mixed(std::uint64_t into, double value) noexcept { return mix64(into ^ std::bit_cast<std::uint64_t>(value)); }
+
+/// A person at every device that latched presses the button, now and then.
+void press_buttons(World& world) {
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
+    client::Seat* const seat = world.seat(i);
+    if (seat == nullptr) continue;
+    const auto phase = seat->gate().phase();
+    if (phase == control::GatePhase::kDamped || phase == control::GatePhase::kFault) seat->press_reset();
+  }
+}
+
+bool everybody_active(const World& world) {
+  if (world.session().state() != wire::SessionState::kRunning) return false;
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
+    if (world.seat(i) == nullptr || world.seat(i)->gate().phase() != control::GatePhase::kActive) return false;
+  return true;
+}
+
+std::string who_is_not_active(const World& world) {
+  std::string text = format("not everybody was active again %g s after the calm:", kLivenessLimit);
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
+    const client::Seat* const seat = world.seat(i);
+    if (seat != nullptr && seat->gate().phase() == control::GatePhase::kActive) continue;
+    text += " " + world.scene().seats[i].name + " " +
+            (seat == nullptr ? "has no seat" : wire::to_text(static_cast<wire::GateState>(seat->gate().phase()))) + ";";
+  }
+  if (world.session().state() != wire::SessionState::kRunning) text += " the session does not run";
+  return text;
+}
+
+}  // namespace
+
+SwarmCase draw_swarm_case(std::uint64_t seed, double safety_max) {
+  SwarmCase out;
+  out.seed = seed;
+  Draw d(seed, kTimes);
+  out.calm = ms(1e3 * d.between(1, std::max(2.0, safety_max)));
+  out.scene_text = draw_scene_text(RandomKey{seed}.derive(0x5a).derive(kScene), std::ceil(seconds(out.calm)) + 2 * kLivenessLimit);
+  auto scene = parse_scene(out.scene_text, format("swarm-%llu.textproto", static_cast<unsigned long long>(seed)));
+  if (!scene) throw std::logic_error("swarm: seed " + std::to_string(seed) + ": " + to_text(scene.error()));
+  out.words = format("%zu masters, %zu tools, %.1f s", scene->masters(), scene->tools.size(), seconds(out.calm));
+  out.setup.scene = std::move(*scene);
+  out.setup.seed = seed;
+  out.setup.keep_record = false;
+  draw_network(out);
+  draw_faults(out);
+  draw_clocks(out);
+  return out;
+}
+
+SwarmResult live_swarm_case(const SwarmCase& which, const std::function<void(World&)>& each_tick) {
+  SwarmResult result;
+  auto made = World::make(which.setup);
+  if (!made) {
+    result.trouble = made.error();
+    return result;
+  }
+  World& world = **made;
+  const Time calm = Time{} + which.calm;
+  const Time end = calm + from_seconds(kLivenessLimit);
+  Time buttons = calm;
+  while (world.now() < end) {
+    if (world.now() >= buttons) {
+      press_buttons(world);
+      buttons += ms(500);
+    }
+    const bool goes_on = world.step();
+    for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
+      if (world.seat(i) != nullptr) result.fingerprint = mixed(result.fingerprint, world.seat(i)->effort()[0]);
+      result.fingerprint = mixed(result.fingerprint, world.device(i).truth().x[0]);
+    }
+    if (each_tick) each_tick(world);
+    if (!goes_on) break;
+    if (world.now() > calm && everybody_active(world)) {
+      result.recovered_s = seconds(world.now() - calm);
+      break;
+    }
+  }
+  result.lived_s = seconds(world.now() - Time{});
+  result.trouble = world.trouble();
+  if (result.trouble.empty() && result.recovered_s == 0) result.trouble = who_is_not_active(world);
+  for (const server::Violation& violation : world.violations().list())
+    if (!violation.expected) result.broken.push_back(violation);
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
+    if (world.seat(i) != nullptr) result.gate_trips += world.seat(i)->gate().trips();
+  return result;
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "common/base/rng.h"
+
+namespace tandem::netsim {
+
+/// The text of a random scene of 1 to 8 masters and 1 to 4 tools. Valid by construction: weights sum to 1, gains keep their
+/// devices' passivity limits, and only simulated devices are in it.
+/// @param duration_s  of the session
+[[nodiscard]] std::string draw_scene_text(RandomKey key, double duration_s);
+
+}  // namespace tandem::netsim
