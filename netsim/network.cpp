@@ -37,8 +37,8 @@ std::uint32_t Network::add_replay(std::shared_ptr<const Replay> replay, std::uin
 std::uint32_t Network::add(std::unique_ptr<Stored> up, std::unique_ptr<Stored> down, const LinkSchedule& schedule) {
   const auto link = static_cast<std::uint32_t>(links());
   addresses_.emplace_back(schedule.rebinds);
-  up->lane.tap = {sink_, link, link, Direction::kUp};
-  down->lane.tap = {sink_, link, link, Direction::kDown};
+  up->lane.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kUp};
+  down->lane.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kDown};
   lanes_.reserve(lanes_.size() + kDirections);
   lanes_.push_back(std::move(up));
   lanes_.push_back(std::move(down));
@@ -121,6 +121,12 @@ const PathCounters& Network::counters(std::uint32_t link, Direction direction) c
   static constexpr PathCounters kNothing;
   const Stored* const of = stored(link, direction);
   return of == nullptr ? kNothing : of->lane.counters;
+}
+
+void Network::watch(std::uint32_t link, LinkWatch* watch) noexcept {
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    if (Stored* const of = stored(link, direction)) of->lane.tap.watch = watch;
+  }
 }
 
 std::uint64_t Network::replayed(std::uint32_t link, Direction direction) const noexcept {

@@ -86,6 +86,9 @@ class Network {
   /// Of a link that replays: datagrams that met their own recorded fate; else 0.
   [[nodiscard]] std::uint64_t replayed(std::uint32_t link, Direction direction) const noexcept;
 
+  /// From now on `watch` is told what happens on this link, until it is told no more (nullptr); it must live as long.
+  void watch(std::uint32_t link, LinkWatch* watch) noexcept;
+
  private:
   struct Stored {
     Stored(Lane&& with, std::size_t slots) : lane(std::move(with)), queue(slots) {}

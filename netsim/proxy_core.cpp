@@ -57,7 +57,7 @@ std::optional<std::uint32_t> ProxyCore::add_client() {
       auto& lane = place.lanes[static_cast<std::size_t>(direction)];
       lane.emplace(over_time, direction, seed_, clients_seen_);
       const auto name = static_cast<std::uint32_t>(clients_seen_);
-      lane->tap = {sink_, name, name, direction};
+      lane->tap = {.sink = sink_, .link = name, .flow = name, .direction = direction};
     }
     ++clients_;
     ++clients_seen_;
@@ -189,6 +189,11 @@ std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
     return Egress{client, direction, bytes, *item, item->tag};
   }
   return std::nullopt;
+}
+
+void ProxyCore::watch(std::uint32_t client, LinkWatch* watch) noexcept {
+  if (!present(client)) return;
+  for (auto& lane : places_[client].lanes) lane->tap.watch = watch;
 }
 
 const PathCounters& ProxyCore::counters(std::uint32_t client, Direction direction) const noexcept {

@@ -107,6 +107,10 @@ class ProxyCore {
   [[nodiscard]] const PathCounters& counters(std::uint32_t client, Direction direction) const noexcept;
   [[nodiscard]] PathCounters total(Direction direction) const noexcept;
 
+  /// From now on `watch` is told what happens on the link of this present client; it must live until the client is
+  /// removed or nullptr is given.
+  void watch(std::uint32_t client, LinkWatch* watch) noexcept;
+
  private:
   struct Client {
     std::array<std::optional<Lane>, kDirections> lanes;

@@ -1,0 +1,67 @@
+#include "netsim/age_meter.h"
+
+#include <algorithm>
+
+#include "netsim/delay_bins.h"
+
+namespace tandem::netsim {
+namespace {
+
+/// Longer is as good as this; the last bin ends here.
+constexpr Duration kAgeMax = DelayBins::begin_of(DelayBins::kBins - 1);
+
+}  // namespace
+
+AgeMeter::AgeMeter() : bins_(DelayBins::kBins) {}
+
+void AgeMeter::add(Duration from, Duration to, Time end) noexcept {
+  from = std::clamp(from, Duration::zero(), kAgeMax);
+  to = std::clamp(to, Duration::zero(), kAgeMax);
+  if (to <= from) return;
+  const auto mark = [this](Duration age, std::int64_t sign) {
+    const std::size_t bin = DelayBins::bin_of(age);
+    const Duration left = (bin + 1 < DelayBins::kBins ? DelayBins::begin_of(bin + 1) : kAgeMax) - age;
+    bins_[bin].begun += sign;
+    bins_[bin].rest += sign * left;
+  };
+  mark(from, 1);
+  mark(to, -1);
+  watched_ += to - from;
+  integral_ += (seconds(to) - seconds(from)) * (seconds(to) + seconds(from)) / 2;
+  if (to > max_) {
+    max_ = to;
+    max_at_ = end;
+  }
+}
+
+Duration AgeMeter::quantile(double share) const noexcept {
+  const double wanted = share * static_cast<double>(watched_.count());
+  double below = 0;
+  std::int64_t over = 0;
+  for (std::size_t bin = 0; bin + 1 < bins_.size(); ++bin) {
+    const Duration begin = DelayBins::begin_of(bin), width = DelayBins::begin_of(bin + 1) - begin;
+    const double here = static_cast<double>(over) * static_cast<double>(width.count()) +
+                        static_cast<double>(bins_[bin].rest.count());
+    if (here > 0 && below + here >= wanted) {
+      const double part = std::clamp((wanted - below) / here, 0.0, 1.0);
+      return begin + Duration{static_cast<std::int64_t>(part * static_cast<double>(width.count()))};
+    }
+    below += here;
+    over += bins_[bin].begun;
+  }
+  return max_;
+}
+
+AgeSummary AgeMeter::summary() const noexcept {
+  AgeSummary s;
+  s.watched = watched_;
+  if (watched_ == Duration::zero()) return s;
+  s.mean_s = integral_ / seconds(watched_);
+  s.p50 = std::min(quantile(0.5), max_);
+  s.p99 = std::min(quantile(0.99), max_);
+  s.max = max_;
+  s.max_at = max_at_;
+  return s;
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "common/base/time.h"
+
+namespace tandem::netsim {
+
+/// Delays as people write them: 1 us wide below 1 ms, 10 us below 10 ms, 0.1 ms below 100 ms, 0.5 ms below 1 s, then 1 %.
+/// Finer than tandem::Histogram where bands are decided (jitter of 2 ms on a delay of 280 ms), and decimal, so that 10 ms
+/// is 10 ms and not 9.98. All from 0 to 10 000 s have a bin, what is above shares the last.
+struct DelayBins {
+  struct Decade {
+    std::int64_t from_us, width_us;
+    std::size_t first;  ///< bin
+  };
+  static constexpr std::array<Decade, 8> kDecades{{{0, 1, 0},
+                                                   {1'000, 10, 1'000},
+                                                   {10'000, 100, 1'900},
+                                                   {100'000, 500, 2'800},
+                                                   {1'000'000, 10'000, 4'600},
+                                                   {10'000'000, 100'000, 5'500},
+                                                   {100'000'000, 1'000'000, 6'400},
+                                                   {1'000'000'000, 10'000'000, 7'300}}};
+  static constexpr std::size_t kBins = 8'201;
+
+  /// @param delay  negative counts as 0
+  [[nodiscard]] static constexpr std::size_t bin_of(Duration delay) noexcept {
+    const std::int64_t us = std::max<std::int64_t>(delay.count(), 0) / 1000;
+    if (us < 1'000) return static_cast<std::size_t>(us);
+    if (us < 10'000) return in<1>(us);
+    if (us < 100'000) return in<2>(us);
+    if (us < 1'000'000) return in<3>(us);
+    if (us < 10'000'000) return in<4>(us);
+    if (us < 100'000'000) return in<5>(us);
+    if (us < 1'000'000'000) return in<6>(us);
+    return std::min(in<7>(us), kBins - 1);
+  }
+  /// The least delay of a bin; of kBins: the end of the last but one.
+  [[nodiscard]] static constexpr Duration begin_of(std::size_t bin) noexcept {
+    std::size_t d = kDecades.size() - 1;
+    while (bin < kDecades[d].first) --d;
+    const auto steps = static_cast<std::int64_t>(bin - kDecades[d].first);
+    return Duration{1000 * (kDecades[d].from_us + steps * kDecades[d].width_us)};
+  }
+
+ private:
+  template <std::size_t D>
+  [[nodiscard]] static constexpr std::size_t in(std::int64_t us) noexcept {
+    return kDecades[D].first + static_cast<std::size_t>((us - kDecades[D].from_us) / kDecades[D].width_us);
+  }
+};
+
+/// How many delays fell in each bin. Memory is taken once; adding, removing and asking are total and real-time safe.
+template <typename Count>
+class DelayCounts {
+ public:
+  DelayCounts() : bins_(DelayBins::kBins), blocks_(DelayBins::kBins / kBlock + 1) {}
+
+  void add(std::size_t bin) noexcept {
+    ++bins_[bin];
+    ++blocks_[bin / kBlock];
+    ++count_;
+  }
+  /// @param bin  of a delay added before
+  void remove(std::size_t bin) noexcept {
+    --bins_[bin];
+    --blocks_[bin / kBlock];
+    --count_;
+  }
+  [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+
+  /// The ceil(percent / 100 * count)-th smallest, as the begin of its bin; 0 of none.
+  [[nodiscard]] Duration quantile(unsigned percent) const noexcept {
+    if (count_ == 0) return Duration::zero();
+    const std::uint64_t rank = std::max<std::uint64_t>(1, (count_ * percent + 99) / 100);
+    std::uint64_t below = 0;
+    std::size_t block = 0;
+    while (block + 1 < blocks_.size() && below + blocks_[block] < rank) below += blocks_[block++];
+    std::size_t bin = block * kBlock;
+    while (bin + 1 < bins_.size() && below + bins_[bin] < rank) below += bins_[bin++];
+    return DelayBins::begin_of(bin);
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 64;
+  std::vector<Count> bins_, blocks_;
+  std::uint64_t count_ = 0;
+};
+
+static_assert(DelayBins::bin_of(Duration{std::numeric_limits<std::int64_t>::max()}) == DelayBins::kBins - 1);
+static_assert(DelayBins::kBins <= std::numeric_limits<std::uint16_t>::max());
+
+}  // namespace tandem::netsim
