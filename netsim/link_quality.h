@@ -40,7 +40,7 @@ class LinkQuality {
  public:
   static constexpr Duration kPause = std::chrono::milliseconds(100);
 
-  /// @param from  what was sent before is ignored
+  /// @param from  what was sent before is ignored, and what was sent before the first that is told of
   explicit LinkQuality(Time from = Time{});
 
   /// A datagram went in. @param index  numbers of one direction ascend
