@@ -62,7 +62,8 @@ class DelayQueue {
       if (held.copy_slot != kNoSlot) visit(item_of(held.limit + held.copy_delay, held.copy_slot));
     }
   }
-  [[nodiscard]] std::size_t size() const noexcept { return heap_.size() + held_.size(); }
+  /// Datagrams kept, copies counted each; what was taken counts until it is recycled.
+  [[nodiscard]] std::size_t size() const noexcept { return slots_ - free_.size(); }
   [[nodiscard]] std::size_t slots() const noexcept { return slots_; }
 
  private:
