@@ -188,6 +188,20 @@ TEST(LinkQuality, IgnoresWhatWasSentBeforeItsTime) {
   EXPECT_EQ(s.longest_gap, 1ms);
 }
 
+TEST(LinkQuality, IgnoresArrivalsOfWhatItWasNotTold) {
+  // It is asked to watch while ten datagrams are under way.
+  const auto all = regular(3000, 10ms);
+  LinkQuality quality;
+  for (const Told& event : story(all)) {
+    if (event.kind == 1 || event.when >= Time{1s}) tell(quality, event, all);
+  }
+  const DirectionSummary s = quality.summary();
+  EXPECT_EQ(s.sent, 2000U);
+  EXPECT_EQ(s.arrived, 2000U);
+  EXPECT_EQ(s.longest_gap, 1ms);
+  EXPECT_EQ(s.age.max, 11ms);
+}
+
 TEST(LinkQuality, BurstsBeyondItsMemoryAreCountedInTheTotals) {
   // 200 000 datagrams in a millisecond: more than a window remembers.
   LinkQuality quality;

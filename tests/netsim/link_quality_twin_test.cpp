@@ -160,7 +160,7 @@ class Twin {
       const auto from =
           std::partition_point(arrivals_.begin(), arrivals_.end(), [&](const Arrival& a) { return a.at < begin; });
       for (auto a = from; a != arrivals_.end() && a->at < end; ++a)
-        delays.push_back(DelayBins::begin_of(DelayBins::bin_of(a->at - a->sent)));
+        delays.push_back(DelayScale::begin_of(DelayScale::bin_of(a->at - a->sent)));
       if (sent == 0 && delays.empty()) continue;
       Duration gap{};
       for (auto g = gap_of_step_.lower_bound(step - steps + 1); g != gap_of_step_.end() && g->first <= step; ++g)
