@@ -91,8 +91,8 @@ std::uint32_t Network::add(std::unique_ptr<Stored> up, std::unique_ptr<Stored> d
                            const std::vector<LinkSchedule::AddressChange>& rebinds) {
   const auto link = static_cast<std::uint32_t>(links());
   addresses_.emplace_back(rebinds);
-  up->lane.tap = {sink_, link, link, Direction::kUp};
-  down->lane.tap = {sink_, link, link, Direction::kDown};
+  up->lane.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kUp};
+  down->lane.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kDown};
   lanes_.reserve(lanes_.size() + kDirections);
   lanes_.push_back(std::move(up));
   lanes_.push_back(std::move(down));
@@ -186,7 +186,7 @@ const PathCounters& Network::counters(std::uint32_t link, Direction direction) c
 
 void Network::watch(std::uint32_t link, LinkWatch* watch) noexcept {
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    if (Stored* const of = stored(link, direction)) of->lane.watch = watch;
+    if (Stored* const of = stored(link, direction)) of->lane.tap.watch = watch;
   }
 }
 
