@@ -16,8 +16,6 @@
 
 namespace tandem::netsim {
 
-class LinkWatch;
-
 /// One direction of one client's link, its own or one it shares, or a recording in its place; what it counted, and who
 /// is told. All memory is taken by the constructor.
 class Lane {
@@ -78,7 +76,6 @@ class Lane {
 
   PathCounters counters = {};
   DecisionTap tap = {};
-  LinkWatch* watch = nullptr;  ///< told too, if any
 
  private:
   std::shared_ptr<Course> course_;

@@ -92,8 +92,8 @@ class Network {
   /// The same over all links, ordered by (time, link, direction, sequence).
   std::optional<Delivery> poll_any(Time now, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
 
-  /// When the next datagram is due on this link and direction, or on any; or a waiting one is decided about, which may be
-  /// earlier than it is due.
+  /// When the next datagram is due on this link and direction, or on any; or a waiting one is decided about, which may
+  /// be earlier than it is due.
   [[nodiscard]] std::optional<Time> next_due(std::uint32_t link, Direction direction) const noexcept;
   [[nodiscard]] std::optional<Time> next_due() const noexcept;
 

@@ -50,8 +50,8 @@ ProxyCore::ProxyCore(const LinkSpec& spec, std::uint64_t seed, std::vector<Netwo
     }
     if (!sharing_) continue;
     // Events that name a client are not those of a link that all share.
-    shared_[static_cast<std::size_t>(direction)] = std::make_shared<Course>(
-        schedule_for(spec, events_, ""), direction, seed, Course::Shared{.flows = kClientsMax});
+    shared_[static_cast<std::size_t>(direction)] = std::make_shared<Course>(schedule_for(spec, events_, ""), direction,
+                                                                            seed, Course::Shared{.flows = kClientsMax});
   }
 }
 
@@ -77,7 +77,7 @@ std::optional<std::uint32_t> ProxyCore::add_client() {
       }
       lane->settle_in(queue_);
       const auto name = static_cast<std::uint32_t>(clients_seen_);
-      lane->tap = {sink_, sharing_ ? 0 : name, name, direction};
+      lane->tap = {.sink = sink_, .link = sharing_ ? 0 : name, .flow = name, .direction = direction};
     }
     ++clients_;
     ++clients_seen_;
@@ -125,7 +125,7 @@ void ProxyCore::log_waiting() const noexcept {
     const std::uint32_t client = (item.lane >> kDirectionBits) & (kClientsMax - 1);
     if (!present(client) || item.lane != lane_name(client, direction)) return;
     const auto& lane = places_[client].lanes[static_cast<std::size_t>(direction)];
-    tell_waiting(item, queue_.bytes(item).size(), lane->tap);
+    tell_waiting(item, lane->tap);
   });
 }
 
@@ -247,6 +247,11 @@ std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
   return std::nullopt;
 }
 
+void ProxyCore::watch(std::uint32_t client, LinkWatch* watch) noexcept {
+  if (!present(client)) return;
+  for (auto& lane : places_[client].lanes) lane->tap.watch = watch;
+}
+
 const PathCounters& ProxyCore::counters(std::uint32_t client, Direction direction) const noexcept {
   static constexpr PathCounters kNothing;
   if (client >= kClientsMax) return kNothing;
@@ -260,11 +265,6 @@ PathCounters ProxyCore::total(Direction direction) const noexcept {
     if (const auto& lane = place.lanes[static_cast<std::size_t>(direction)]) add(sum, lane->counters);
   }
   return sum;
-}
-
-void ProxyCore::watch(std::uint32_t client, LinkWatch* watch) noexcept {
-  if (!present(client)) return;
-  for (auto& lane : places_[client].lanes) lane->watch = watch;
 }
 
 std::uint32_t ProxyCore::lane_name(std::uint32_t client, Direction direction) const noexcept {

@@ -1,21 +1,24 @@
 #include "netsim/submit.h"
 
+#include "netsim/link_watch.h"
+
 namespace tandem::netsim {
 namespace {
 
-Decision about(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept {
+Decision about(const DelayQueue::Item& item, const DecisionTap& tap) noexcept {
   return {.in = item.sent,
           .out = item.at,
           .index = item.index,
           .link = tap.link,
           .flow = tap.flow,
-          .size = static_cast<std::uint32_t>(size),
+          .size = item.size_in,
           .direction = tap.direction,
           .outcome = item.waiting     ? Outcome::kWaiting
                      : item.held_back ? Outcome::kHeldBack
                                       : Outcome::kDeliver,
           .copy = item.copy,
-          .under_way = false};
+          .under_way = false,
+          .damage = item.damage};
 }
 
 void let_in(const Verdict& verdict, PathCounters& counters) noexcept {
@@ -39,8 +42,10 @@ Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters
                const Entrance& entrance, std::span<const std::byte> bytes) noexcept {
   ++counters.in;
   counters.bytes_in += bytes.size();
+  if (tap.watch != nullptr) tap.watch->sent(tap.direction, entrance.now, verdict.index);
   const auto drop = [&](Outcome reason, bool copy, Time at) {
     counters.count(reason);
+    if (tap.watch != nullptr && !copy) tap.watch->lost(tap.direction, entrance.now, verdict.index);
     if (tap.sink == nullptr) return;
     tap.sink->decided({.in = entrance.now,
                        .out = at,
@@ -51,7 +56,8 @@ Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters
                        .direction = tap.direction,
                        .outcome = reason,
                        .copy = copy,
-                       .under_way = false});
+                       .under_way = false,
+                       .damage = {}});
   };
   if (verdict.copied && dropped(verdict.copy_outcome)) {
     ++counters.copies;
@@ -94,20 +100,27 @@ void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome, Path
            const DecisionTap& tap) noexcept {
   if (dropped(outcome)) {
     counters.count(outcome);
+    // What was on its way to a client that left is nobody's loss.
+    const bool lost = !item.copy && outcome != Outcome::kClientGone;
+    if (tap.watch != nullptr && lost) tap.watch->lost(tap.direction, item.sent, item.index);
   } else {
+    if (tap.watch != nullptr) tap.watch->arrived(tap.direction, item.sent, item.at, item.index);
     ++counters.out;
     counters.bytes_out += size;
     counters.delay_sum_ns += (item.at - item.sent).count();
   }
   if (tap.sink == nullptr) return;
-  Decision decision = about(item, size, tap);
-  if (dropped(outcome)) decision.outcome = outcome;
+  Decision decision = about(item, tap);
+  if (dropped(outcome)) {
+    decision.outcome = outcome;
+    decision.damage = {};
+  }
   tap.sink->decided(decision);
 }
 
-void tell_waiting(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept {
+void tell_waiting(const DelayQueue::Item& item, const DecisionTap& tap) noexcept {
   if (tap.sink == nullptr) return;
-  Decision decision = about(item, size, tap);
+  Decision decision = about(item, tap);
   decision.under_way = true;
   tap.sink->decided(decision);
 }

@@ -114,8 +114,17 @@ bool World::step() {
   if (setup_.keep_record) take_record();
   watch_.check(now_, lived, *session_, stations_);
   give_up_waiting();
+  if (setup_.watch_quality && qualities_.empty() && session_->state() == wire::SessionState::kRunning) watch_links();
   now_ += tick_;
   return !session_->over() && trouble_.empty();
+}
+
+/// Joining is slower and waits for people: what it meets is not judged.
+void World::watch_links() {
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    qualities_.push_back(std::make_unique<LinkWatch>(now_));
+    network_.watch(static_cast<std::uint32_t>(i), qualities_.back().get());
+  }
 }
 
 /// A session that cannot begin would wait for ever; people get the reason instead.

@@ -46,6 +46,10 @@ std::expected<std::string, std::string> read_whole_file(const std::string& path,
   return text;
 }
 
+std::expected<std::string, std::string> read_network_file(const std::string& path) {
+  return read_whole_file(path, kFileMax);
+}
+
 std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {
   const auto wrong = [&text](const std::string& why) { return std::unexpected("--outage: \"" + text + "\": " + why); };
   std::array<double, 3> values{};
@@ -187,7 +191,7 @@ std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
 std::expected<std::vector<NetworkEvent>, std::string> NetworkOptions::events(
     std::span<const std::string> clients) const {
   if (!given("--script")) return std::vector<NetworkEvent>{};
-  const auto text = read_whole_file(script_, kFileMax);
+  const auto text = read_network_file(script_);
   if (!text) return std::unexpected("--script: " + text.error());
   const auto find = [this](const std::string& name) -> std::expected<LinkSpec, InputErrors> {
     const bool file = name.find_first_of("/.") != std::string::npos;
@@ -223,7 +227,7 @@ std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::s
     choice.description = "profile " + profile->name + " (version " + std::to_string(profile->version) + ")";
     return choice;
   }
-  const auto text = read_whole_file(name_or_file, kFileMax);
+  const auto text = read_network_file(name_or_file);
   if (!text) return std::unexpected(text.error());
   choice.name = std::filesystem::path(name_or_file).stem().string();
   if (name_or_file.ends_with(".csv")) {

@@ -63,6 +63,8 @@ class NetworkOptions {
 /// A whole file of at most `bytes_max` bytes, or why not: `FILE: reason`.
 [[nodiscard]] std::expected<std::string, std::string> read_whole_file(const std::string& path,
                                                                       std::uintmax_t bytes_max);
+/// A profile or recording of at most 64 MiB. @return its bytes, or what is wrong
+[[nodiscard]] std::expected<std::string, std::string> read_network_file(const std::string& path);
 
 /// Reads `START,LENGTH[,PERIOD]` in seconds. @return the outage, or what is wrong with it
 [[nodiscard]] std::expected<OutageSpec, std::string> parse_outage(const std::string& text);

@@ -28,6 +28,9 @@ struct Traffic {
 /// The same through a proxy's core; it has no clients yet.
 [[nodiscard]] std::vector<Decision> log_of(ProxyCore& core, const std::vector<Traffic>& traffic);
 
+/// Empty if two logs are the same, byte for byte; else the first line that differs, as both have it.
+[[nodiscard]] std::string difference(const std::vector<Decision>& a, const std::vector<Decision>& b);
+
 /// The rows of one flow.
 [[nodiscard]] std::vector<Decision> of_flow(const std::vector<Decision>& rows, std::uint32_t flow);
 
@@ -36,8 +39,8 @@ struct MatrixEntry {
   std::string name;
   std::function<std::vector<Decision>()> log;
 };
-/// Every shipped profile that needs no file of the user, every model at once, changes, addresses, replay, shared stores:
-/// what the promise "same seed, same decisions on every build" is held to.
+/// Every shipped profile that needs no file of the user, every model at once, changes, addresses, replay, shared
+/// stores: what the promise "same seed, same decisions on every build" is held to.
 [[nodiscard]] std::vector<MatrixEntry> decision_matrix();
 
 }  // namespace tandem::netsim::test

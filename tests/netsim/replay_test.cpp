@@ -22,7 +22,8 @@ Decision row(std::uint64_t index, Duration in, Duration out, Outcome outcome = O
           .direction = Direction::kUp,
           .outcome = outcome,
           .copy = copy,
-          .under_way = false};
+          .under_way = false,
+          .damage = {}};
 }
 
 ReplayPath path_from(const std::vector<Decision>& rows) {
@@ -54,7 +55,7 @@ TEST(Replay, TheSameTrafficGivesTheSameLogByteForByte) {
     Network again{999};
     again.add_replay(replay, 0);
     again.add_replay(replay, 1);
-    EXPECT_EQ(decision_csv(log_of(again, traffic)), text);
+    EXPECT_TRUE(decision_csv(log_of(again, traffic)) == text);
     for (const std::uint32_t link : {0U, 1U}) {
       for (const Direction direction : {Direction::kUp, Direction::kDown}) {
         EXPECT_EQ(again.replayed(link, direction), again.counters(link, direction).in);
@@ -71,7 +72,7 @@ TEST(Replay, ALogOfTheProxyIsAVirtualNetworkToo) {
   ASSERT_TRUE(made) << made.error();
   Network again{1};
   again.add_replay(std::make_shared<const Replay>(*made), 0);
-  EXPECT_EQ(decision_csv(log_of(again, traffic)), decision_csv(rows));
+  EXPECT_EQ(difference(log_of(again, traffic), rows), "");
 }
 
 TEST(Replay, WhatDiedOnTheWayDiesAgain) {
@@ -85,12 +86,13 @@ TEST(Replay, WhatDiedOnTheWayDiesAgain) {
   ASSERT_TRUE(made) << made.error();
   Network again{1};
   again.add_replay(std::make_shared<const Replay>(*made), 0);
-  EXPECT_EQ(decision_csv(log_of(again, traffic)), decision_csv(rows));
+  EXPECT_EQ(difference(log_of(again, traffic), rows), "");
 }
 
 TEST(Replay, OtherTimesTakeTheFateOfTheLastRecordedBeforeThem) {
   // Delays 5, 8 and 2 ms; the second datagram of four is lost; sent every 10 ms.
-  ReplayPath path = path_from({row(0, 0ms, 5ms), row(1, 10ms, 10ms, Outcome::kLost), row(2, 20ms, 28ms), row(3, 30ms, 32ms)});
+  ReplayPath path =
+      path_from({row(0, 0ms, 5ms), row(1, 10ms, 10ms, Outcome::kLost), row(2, 20ms, 28ms), row(3, 30ms, 32ms)});
   const auto expect = [&](Duration sent, Outcome outcome, Duration at) {
     const Verdict v = path.send(Time{sent});
     EXPECT_EQ(v.outcome, outcome) << sent.count();
@@ -113,7 +115,7 @@ TEST(Replay, AfterItsEndTheRecordingStartsAgain) {
   EXPECT_EQ(path.send(Time{130ms}).at, Time{137ms});  // 100 ms again: 5 ms, but not before the last
   EXPECT_EQ(path.send(Time{141ms}).outcome, Outcome::kLost);
   EXPECT_EQ(path.send(Time{150ms}).at, Time{158ms});
-  EXPECT_EQ(path.send(Time{10'160ms + 3ms}).at, Time{10'168ms});  // 335 rounds later
+  EXPECT_EQ(path.send(Time{10'150ms + 3ms}).at, Time{10'158ms});  // 335 rounds later
   EXPECT_EQ(path.matched(), 0U);
   ReplayPath single = path_from({row(0, 0ms, 5ms)});
   EXPECT_EQ(single.send(Time{77s}).at, Time{77'005ms});
@@ -128,8 +130,9 @@ TEST(Replay, ANumberMustMeetItsOwnTime) {
 }
 
 TEST(Replay, CopiesAndReorderedOnesComeAsTheyCame) {
-  const std::vector<Decision> rows{row(0, 0ms, 9ms, Outcome::kHeldBack), row(1, 1ms, 6ms), row(1, 1ms, 8ms, Outcome::kDeliver, true),
-                                   row(2, 2ms, 7ms), row(2, 2ms, 2ms, Outcome::kOverflow, true)};
+  const std::vector<Decision> rows{row(0, 0ms, 9ms, Outcome::kHeldBack), row(1, 1ms, 6ms),
+                                   row(1, 1ms, 8ms, Outcome::kDeliver, true), row(2, 2ms, 7ms),
+                                   row(2, 2ms, 2ms, Outcome::kOverflow, true)};
   ReplayPath path = path_from(rows);
   Verdict v = path.send(Time{0ms});
   EXPECT_EQ(v.outcome, Outcome::kHeldBack);
@@ -178,8 +181,9 @@ TEST(Replay, WhatCannotBePlayedIsRefused) {
   EXPECT_EQ(mistake({row(3, 0ms, 1ms, Outcome::kDeliver, true)}), "flow 0 up, datagram 3: a copy without its original");
   EXPECT_EQ(mistake({row(3, 0ms, 0ms, Outcome::kLost), row(3, 0ms, 1ms, Outcome::kDeliver, true)}),
             "flow 0 up, datagram 3: its copy arrived, it did not");
-  EXPECT_EQ(mistake({row(0, 0ms, 1ms), row(0, 0ms, 1ms, Outcome::kDeliver, true), row(0, 0ms, 2ms, Outcome::kDeliver, true)}),
-            "flow 0 up, datagram 0: two copies; one can be played");
+  EXPECT_EQ(
+      mistake({row(0, 0ms, 1ms), row(0, 0ms, 1ms, Outcome::kDeliver, true), row(0, 0ms, 2ms, Outcome::kDeliver, true)}),
+      "flow 0 up, datagram 0: two copies; one can be played");
 }
 
 // Whatever is sent whenever: nothing arrives before it was sent, and in order.

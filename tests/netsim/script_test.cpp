@@ -65,7 +65,7 @@ TEST(Script, EventsThatCannotBeAreRefusedWithTheirKey) {
   EXPECT_EQ(keys({.at = 1s, .outage = OutageSpec{.length = 1s}, .rebind = Rebind{}}), "event ");
   EXPECT_EQ(keys({.at = -1s, .rebind = Rebind{}}), "at ");
   EXPECT_EQ(keys({.at = 1s, .direction = Direction::kUp, .rebind = Rebind{2h}}), "rebind.dead_after direction ");
-  EXPECT_EQ(keys({.at = 1s, .outage = OutageSpec{.length = -1s}}), "outage.length ");
+  EXPECT_EQ(keys({.at = 1s, .outage = OutageSpec{.length = 2h}}), "outage.length ");
   LinkSpec bad;
   bad.down.loss.probability = 2;
   EXPECT_EQ(keys({.at = 1s, .link = bad}), "link.down.loss.probability ");
@@ -82,7 +82,8 @@ TEST(Script, SchedulesThatCannotBeAreRefused) {
   EXPECT_EQ(keys, "up.floor changes[1].at rebinds[1].at rebinds[1].rebind.dead_after ");
 }
 
-// ---- As text ----------------------------------------------------------------------------------------------------------
+// ---- As text
+// ----------------------------------------------------------------------------------------------------------
 
 const std::vector<std::string> kSeats{"trainer", "trainee"};
 
@@ -126,7 +127,8 @@ TEST(ScriptText, EveryMistakeHasItsPlaceAndTheNearestName) {
             "day.textproto:3:10: event[0].client[0] = \"trainees\": no such client; did you mean trainee? known here: "
             "trainer, trainee\n");
   EXPECT_NE(mistakes("event { outage_ms: 400 }").find("event[0].at_s"), std::string::npos);
-  EXPECT_NE(mistakes("event { at_s: -1 outage_ms: 4 }").find("day.textproto:1:15: event[0].at_s = -1"), std::string::npos);
+  EXPECT_NE(mistakes("event { at_s: -1 outage_ms: 4 }").find("day.textproto:1:15: event[0].at_s = -1"),
+            std::string::npos);
   EXPECT_NE(mistakes("event { at_s: 1 }").find("needs exactly one of outage_ms, profile, rebind"), std::string::npos);
   EXPECT_NE(mistakes("event { at_s: 1 outage_ms: 1 profile: \"4g\" }").find("needs exactly one"), std::string::npos);
   EXPECT_NE(mistakes("event { at_s: 1 profile: \"4g\" mode: HOLD }").find("mode = HOLD: belongs to outage_ms"),
@@ -147,8 +149,8 @@ TEST(ScriptText, EveryMistakeHasItsPlaceAndTheNearestName) {
 TEST(ScriptText, ClientsOfAProxyAreNumbers) {
   EXPECT_EQ(mistakes("event { at_s: 1 client: \"12\" outage_ms: 1 }", {}), "none");
   for (const char* name : {"0", "-1", "+1", "01", "1x", "", "trainee", "99999999999"}) {
-    EXPECT_NE(mistakes("event { at_s: 1 client: \"" + std::string(name) + "\" outage_ms: 1 }", {}).find(
-                  "must be a whole number from 1"),
+    EXPECT_NE(mistakes("event { at_s: 1 client: \"" + std::string(name) + "\" outage_ms: 1 }", {})
+                  .find("must be a whole number from 1"),
               std::string::npos)
         << name;
   }
