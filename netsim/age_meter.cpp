@@ -2,25 +2,25 @@
 
 #include <algorithm>
 
-#include "netsim/delay_bins.h"
+#include "netsim/delay_counts.h"
 
 namespace tandem::netsim {
 namespace {
 
 /// Longer is as good as this; the last bin ends here.
-constexpr Duration kAgeMax = DelayBins::begin_of(DelayBins::kBins - 1);
+constexpr Duration kAgeMax = DelayScale::begin_of(DelayScale::kBins - 1);
 
 }  // namespace
 
-AgeMeter::AgeMeter() : bins_(DelayBins::kBins) {}
+AgeMeter::AgeMeter() : bins_(DelayScale::kBins) {}
 
 void AgeMeter::add(Duration from, Duration to, Time end) noexcept {
   from = std::clamp(from, Duration::zero(), kAgeMax);
   to = std::clamp(to, Duration::zero(), kAgeMax);
   if (to <= from) return;
   const auto mark = [this](Duration age, std::int64_t sign) {
-    const std::size_t bin = DelayBins::bin_of(age);
-    const Duration left = (bin + 1 < DelayBins::kBins ? DelayBins::begin_of(bin + 1) : kAgeMax) - age;
+    const std::size_t bin = DelayScale::bin_of(age);
+    const Duration left = (bin + 1 < DelayScale::kBins ? DelayScale::begin_of(bin + 1) : kAgeMax) - age;
     bins_[bin].begun += sign;
     bins_[bin].rest += sign * left;
   };
@@ -39,7 +39,7 @@ Duration AgeMeter::quantile(double share) const noexcept {
   double below = 0;
   std::int64_t over = 0;
   for (std::size_t bin = 0; bin + 1 < bins_.size(); ++bin) {
-    const Duration begin = DelayBins::begin_of(bin), width = DelayBins::begin_of(bin + 1) - begin;
+    const Duration begin = DelayScale::begin_of(bin), width = DelayScale::begin_of(bin + 1) - begin;
     const double here = static_cast<double>(over) * static_cast<double>(width.count()) +
                         static_cast<double>(bins_[bin].rest.count());
     if (here > 0 && below + here >= wanted) {

@@ -39,9 +39,12 @@ class DecisionSink {
   virtual void decided(const Decision& decision) noexcept TANDEM_REALTIME = 0;
 };
 
-/// Whose decisions they are; a sink that is null costs one comparison per datagram.
+class LinkWatch;
+
+/// Whose decisions they are; a sink or watch that is null costs one comparison per datagram.
 struct DecisionTap {
   DecisionSink* sink = nullptr;
+  LinkWatch* watch = nullptr;
   std::uint32_t link = 0, flow = 0;
   Direction direction = Direction::kUp;
 };

@@ -77,7 +77,8 @@ class DelayQueue {
       if (meta_[slot].waiting) visit(item_of(meta_[slot].sent, slot));
     }
   }
-  [[nodiscard]] std::size_t size() const noexcept { return heap_.size() + held_.size() + waiting_; }
+  /// Datagrams kept, copies counted each; what was taken counts until it is recycled.
+  [[nodiscard]] std::size_t size() const noexcept { return slots_ - free_.size(); }
   [[nodiscard]] std::size_t slots() const noexcept { return slots_; }
 
  private:

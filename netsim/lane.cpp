@@ -3,32 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "netsim/link_watch.h"
-
 namespace tandem::netsim {
 
 Outcome Lane::enter(const Verdict& verdict, DelayQueue& queue, const Entrance& entrance,
                     std::span<const std::byte> bytes) noexcept {
   const Outcome outcome = submit(verdict, queue, counters, tap, entrance, bytes);
-  if (watch != nullptr) watch->decided(tap.direction, entrance.now, verdict.index, dropped(outcome));
   if (outcome == Outcome::kWaiting && course_) course_->keep(entrance.now, flow_, queue.newest());
   return outcome;
-}
-
-void Lane::settled(const Verdict& verdict, DelayQueue& queue, std::uint32_t slot) noexcept {
-  const Time sent = queue.peek(slot, verdict.at).sent;
-  netsim::settle(verdict, slot, queue, counters, tap);
-  if (watch != nullptr && dropped(verdict.outcome)) watch->lost(tap.direction, sent, verdict.index);
-}
-
-void Lane::leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome) noexcept {
-  netsim::leave(item, size, outcome, counters, tap);
-  if (watch == nullptr) return;
-  if (!dropped(outcome)) {
-    watch->arrived(tap.direction, item.sent, item.at, item.index);
-  } else if (!item.copy) {
-    watch->lost(tap.direction, item.sent, item.index);
-  }
 }
 
 /// Room for 10 s of 1 kHz traffic besides everything that is under way for the longest delay of the models, doubled

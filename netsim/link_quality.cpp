@@ -59,13 +59,13 @@ void LinkQuality::sent(Time at, std::uint64_t /*index*/) noexcept {
 }
 
 void LinkQuality::lost(Time sent, std::uint64_t /*index*/) noexcept {
-  if (sent < from_ || !talked_) return;
+  if (!talked_ || sent < counts_.from) return;
   ++counts_.lost;
   ++step_at(sent).lost;
 }
 
 void LinkQuality::arrived(Time sent, Time at, std::uint64_t index) noexcept {
-  if (sent < from_ || !talked_) return;
+  if (!talked_ || sent < counts_.from) return;  // nobody told of its sending
   const SeenNumbers::Kind kind = seen_.see(index);
   if (kind == SeenNumbers::Kind::kAgain) {
     ++counts_.duplicates;

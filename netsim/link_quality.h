@@ -34,13 +34,13 @@ class SeenNumbers {
 ///
 /// Each measure counts where it happened: loss when it was sent, delay and gap when they came. A gap counts in every
 /// window that it touches, and while it lasts; the sender's own pauses, longer than kPause, are none, and neither is its
-/// silence at the end. Events may be told up to 100 ms out of order; what comes later counts 100 ms before the newest.
+/// silence at the end. Events may be told up to 200 ms out of order; what comes later counts 200 ms before the newest.
 /// A loss known later than that counts then.
 class LinkQuality {
  public:
   static constexpr Duration kPause = std::chrono::milliseconds(100);
 
-  /// @param from  what was sent before is ignored
+  /// @param from  what was sent before is ignored, and what was sent before the first that is told of
   explicit LinkQuality(Time from = Time{});
 
   /// A datagram went in. @param index  numbers of one direction ascend

@@ -24,11 +24,6 @@ class LinkWatch {
 
   /// A datagram went in; numbers of one direction ascend.
   void sent(Direction direction, Time at, std::uint64_t index) noexcept TANDEM_REALTIME;
-  /// `sent`, and `lost` with it when that is known already.
-  void decided(Direction direction, Time at, std::uint64_t index, bool dropped) noexcept TANDEM_REALTIME {
-    sent(direction, at, index);
-    if (dropped) lost(direction, at, index);
-  }
   /// One that went in will not come out.
   void lost(Direction direction, Time sent, std::uint64_t index) noexcept TANDEM_REALTIME;
   /// One came out, or a copy of one.

@@ -84,8 +84,8 @@ std::uint32_t Network::add(std::unique_ptr<Stored> up, std::unique_ptr<Stored> d
                            const std::vector<LinkSchedule::AddressChange>& rebinds) {
   const auto link = static_cast<std::uint32_t>(links());
   addresses_.emplace_back(rebinds);
-  up->lane.tap = {sink_, link, link, Direction::kUp};
-  down->lane.tap = {sink_, link, link, Direction::kDown};
+  up->lane.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kUp};
+  down->lane.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kDown};
   lanes_.reserve(lanes_.size() + kDirections);
   lanes_.push_back(std::move(up));
   lanes_.push_back(std::move(down));
@@ -171,7 +171,7 @@ const PathCounters& Network::counters(std::uint32_t link, Direction direction) c
 
 void Network::watch(std::uint32_t link, LinkWatch* watch) noexcept {
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    if (Stored* const of = stored(link, direction)) of->lane.watch = watch;
+    if (Stored* const of = stored(link, direction)) of->lane.tap.watch = watch;
   }
 }
 
@@ -198,7 +198,7 @@ std::optional<Delivery> Network::take(Stored& from, Time now, std::span<std::byt
       if (fits > 0) std::memcpy(buffer.data(), bytes.data(), fits);
       if (direction == Direction::kUp) addresses_[link].hear(item->tag);
     }
-    from.lane.leave(*item, size, dead ? Outcome::kOldAddress : Outcome::kDeliver);
+    leave(*item, size, dead ? Outcome::kOldAddress : Outcome::kDeliver, from.lane.counters, from.lane.tap);
     from.queue.recycle(item->slot);
     if (!dead) return Delivery{link, direction, item->sent, item->at, item->index, size, item->tag};
   }

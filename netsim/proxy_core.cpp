@@ -77,7 +77,7 @@ std::optional<std::uint32_t> ProxyCore::add_client() {
       }
       lane->settle_in(queue_);
       const auto name = static_cast<std::uint32_t>(clients_seen_);
-      lane->tap = {sink_, sharing_ ? 0 : name, name, direction};
+      lane->tap = {.sink = sink_, .link = sharing_ ? 0 : name, .flow = name, .direction = direction};
     }
     ++clients_;
     ++clients_seen_;
@@ -237,7 +237,7 @@ std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
     }
     const auto bytes = queue_.bytes(*item);
     const bool dead = direction == Direction::kDown && places_[client].addresses.dead(item->tag, item->at);
-    lane->leave(*item, bytes.size(), dead ? Outcome::kOldAddress : Outcome::kDeliver);
+    leave(*item, bytes.size(), dead ? Outcome::kOldAddress : Outcome::kDeliver, lane->counters, lane->tap);
     if (dead) {
       queue_.recycle(item->slot);
       continue;
@@ -245,6 +245,11 @@ std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
     return Egress{client, direction, bytes, *item, item->tag};
   }
   return std::nullopt;
+}
+
+void ProxyCore::watch(std::uint32_t client, LinkWatch* watch) noexcept {
+  if (!present(client)) return;
+  for (auto& lane : places_[client].lanes) lane->tap.watch = watch;
 }
 
 const PathCounters& ProxyCore::counters(std::uint32_t client, Direction direction) const noexcept {
@@ -260,11 +265,6 @@ PathCounters ProxyCore::total(Direction direction) const noexcept {
     if (const auto& lane = place.lanes[static_cast<std::size_t>(direction)]) add(sum, lane->counters);
   }
   return sum;
-}
-
-void ProxyCore::watch(std::uint32_t client, LinkWatch* watch) noexcept {
-  if (!present(client)) return;
-  for (auto& lane : places_[client].lanes) lane->watch = watch;
 }
 
 std::uint32_t ProxyCore::lane_name(std::uint32_t client, Direction direction) const noexcept {

@@ -24,7 +24,7 @@ Duration SlidingMax::add(std::int64_t step, Duration value) noexcept {
 SlidingDelays::SlidingDelays() : samples_(kSamples), steps_(kStepsKept) {}
 
 void SlidingDelays::add(std::int64_t step, Duration delay) noexcept {
-  const std::size_t bin = DelayBins::bin_of(delay);
+  const std::size_t bin = DelayScale::bin_of(delay);
   all_.add(bin);
   sum_s_ += seconds(delay);
   max_ = std::max(max_, delay);

@@ -7,7 +7,7 @@
 
 #include "common/base/axes.h"
 #include "common/base/time.h"
-#include "netsim/delay_bins.h"
+#include "netsim/delay_counts.h"
 #include "netsim/quality_bands.h"
 #include "netsim/quality_summary.h"
 
@@ -21,7 +21,7 @@ namespace tandem::netsim {
 [[nodiscard]] constexpr Time end_of_step(std::int64_t step) noexcept { return Time{kWindowStep * (step + 1)}; }
 
 /// Steps are closed so many steps late: two ends of a link need not be asked in the order of their clocks.
-inline constexpr std::int64_t kStepsOpen = 10;
+inline constexpr std::int64_t kStepsOpen = 20;
 /// Steps that are remembered: the longest window, those open, and one that leaves.
 inline constexpr std::size_t kStepsKept = 1024;
 static_assert(kStepsKept > kWindowSteps.back() + kStepsOpen + 1);

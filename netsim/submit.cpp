@@ -1,5 +1,7 @@
 #include "netsim/submit.h"
 
+#include "netsim/link_watch.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -39,8 +41,10 @@ Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters
                const Entrance& entrance, std::span<const std::byte> bytes) noexcept {
   ++counters.in;
   counters.bytes_in += bytes.size();
+  if (tap.watch != nullptr) tap.watch->sent(tap.direction, entrance.now, verdict.index);
   const auto drop = [&](Outcome reason, bool copy, Time at) {
     counters.count(reason);
+    if (tap.watch != nullptr && !copy) tap.watch->lost(tap.direction, entrance.now, verdict.index);
     if (tap.sink == nullptr) return;
     tap.sink->decided({.in = entrance.now,
                        .out = at,
@@ -94,7 +98,11 @@ void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome, Path
            const DecisionTap& tap) noexcept {
   if (dropped(outcome)) {
     counters.count(outcome);
+    // What was on its way to a client that left is nobody's loss.
+    const bool lost = !item.copy && outcome != Outcome::kClientGone;
+    if (tap.watch != nullptr && lost) tap.watch->lost(tap.direction, item.sent, item.index);
   } else {
+    if (tap.watch != nullptr) tap.watch->arrived(tap.direction, item.sent, item.at, item.index);
     ++counters.out;
     counters.bytes_out += size;
     counters.delay_sum_ns += (item.at - item.sent).count();

@@ -82,10 +82,12 @@ std::string World::add_station(std::size_t i) {
   if (const auto e = setup_.endpoints.find(spec.name); e != setup_.endpoints.end()) station.endpoint = e->second;
   stations_.emplace_back(std::move(station));
   if (stations_.back().ever_suffers(Fault::Kind::kLiar)) watch_.excuse("energy_monotone", spec.name);
+  // Nobody can account for motion that the encoders do not tell.
+  if (stations_.back().ever_suffers(Fault::Kind::kFrozen)) watch_.excuse("loss_energy", spec.name);
 
   const auto own = setup_.seat_networks.find(spec.name);
   const LinkSpec& link = own == setup_.seat_networks.end() ? setup_.network : own->second;
-  network_.add_link(schedule_for(link, setup_.events, spec.name).initial);
+  network_.add_link(schedule_for(link, setup_.events, spec.name), i);
   return {};
 }
 
@@ -102,8 +104,17 @@ bool World::step() {
   if (setup_.keep_record) take_record();
   watch_.check(now_, lived, *session_, stations_);
   give_up_waiting();
+  if (setup_.watch_quality && qualities_.empty() && session_->state() == wire::SessionState::kRunning) watch_links();
   now_ += tick_;
   return !session_->over() && trouble_.empty();
+}
+
+/// Joining is slower and waits for people: what it meets is not judged.
+void World::watch_links() {
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    qualities_.push_back(std::make_unique<LinkWatch>(now_));
+    network_.watch(static_cast<std::uint32_t>(i), qualities_.back().get());
+  }
 }
 
 /// A session that cannot begin would wait for ever; people get the reason instead.
@@ -156,7 +167,10 @@ void World::attack_server() {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     const auto forged = stations_[i].forged(now_);
     for (const std::size_t from : {i, kStranger}) {
-      if (!forged.replayed.empty()) session_->on_datagram(now_, endpoint_of(from), forged.replayed);
+      // Who asks for a seat with an old BIND is answered, whoever he is, until joining has tickets (design notes, security 1.4).
+      const auto header = link::read_header(forged.replayed);
+      const bool asks = header && header->type == wire::Type::kBind;
+      if (!forged.replayed.empty() && !(asks && from == kStranger)) session_->on_datagram(now_, endpoint_of(from), forged.replayed);
       if (!forged.junk.empty()) session_->on_datagram(now_, endpoint_of(from), forged.junk);
     }
   }

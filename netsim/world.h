@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "netsim/link_watch.h"
 #include "netsim/network.h"
 #include "netsim/world_setup.h"
 #include "netsim/world_station.h"
@@ -39,6 +40,10 @@ class World {
   [[nodiscard]] const server::Violations& violations() const noexcept { return watch_.violations(); }
   [[nodiscard]] const Network& network() const noexcept { return network_; }
   [[nodiscard]] Network& network() noexcept { return network_; }
+  /// What this seat's link was like since the session began; null unless the setup asked for it.
+  [[nodiscard]] const LinkWatch* quality(std::size_t i) const noexcept {
+    return i < qualities_.size() ? qualities_[i].get() : nullptr;
+  }
   /// Why a seat could not join, if so.
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
   [[nodiscard]] const SceneSpec& scene() const noexcept { return setup_.scene; }
@@ -52,6 +57,7 @@ class World {
   [[nodiscard]] bool server_stands_still() const noexcept;
   void give_up_waiting();
   void take_record();
+  void watch_links();
 
   WorldSetup setup_;
   Network network_;
@@ -64,6 +70,7 @@ class World {
   std::array<std::byte, link::kDatagramMax> buffer_{};
   server::TickRecord record_{};
   WorldWatch watch_;
+  std::vector<std::unique_ptr<LinkWatch>> qualities_;  ///< by seat
   std::string trouble_;
 };
 

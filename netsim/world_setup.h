@@ -25,6 +25,7 @@ struct WorldSetup {
   std::vector<NetworkEvent> events = {};                                                ///< by time of the network
   std::vector<Fault> faults = {};                                                       ///< in any order
   std::map<std::string, EndpointSpec> endpoints = {};  ///< by seat: its clock, and when its program wakes up
+  bool watch_quality = false;  ///< judges every seat's link from the session's begin on: World::quality
   bool keep_record = true;  ///< false: World::record() stays empty; for runs that only judge invariants
 };
 

@@ -17,7 +17,7 @@ constexpr double kRampOut = 0.1;                        // [s]
 constexpr double kLossSlew = 5;                         // [1/s] when a holder is lost
 constexpr unsigned kMisreadMax = 3;                     // samples the last good reading stands in for
 constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls along overdraws within one tick
-constexpr double kFar = 1.0;                            // [m] no hand of a desktop device is here
+constexpr double kFarTouch = 1, kFarLinear = 50;        // [m] no hand of such a device is there; a rail has no end
 
 double tip_norm(const AxisArray& effort, const AxisArray& scale, std::size_t dof) noexcept {
   double sum = 0;
@@ -56,7 +56,9 @@ void WorldWatch::check(Time now, std::uint32_t lived, const server::Session& ses
     const server::SeatPort& port = session.seat(i);
     const client::Seat* seat = station.seat();
     const hal::sim::Truth& truth = station.device().truth();
-    if (!truth.x.allFinite() || truth.x.norm() > kFar) note("diverged", i);
+    const double far = scene_->seats[i].device.model == DeviceModel::kTouch ? kFarTouch : kFarLinear;
+    if (!truth.x.allFinite() || truth.x.norm() > far) note("diverged", i);
+    check_energy(i, station);
     if (s.starts != station.starts()) s.begin_anew(station.starts());
 
     const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
@@ -75,7 +77,7 @@ void WorldWatch::check(Time now, std::uint32_t lived, const server::Session& ses
     }
     const Time own = station.own_time(now);
     check_effort(own, i, station);
-    check_silence(own, i, station);
+    check_silence(now, own, i, station);
     check_reading(i, station);
     check_end(i, seat->channel(), s.client, seat->setup().axis_scale, seat->force().port, seat->sample().port.x,
               s.was_active && seat->gate().active());
@@ -101,13 +103,18 @@ void WorldWatch::check_effort(Time own, std::size_t i, const WorldStation& stati
   if (tip_norm(change, scale, scene_->dof) > rate * dt * (1 + 1e-6) + 1e-9) note("effort_slew", i);
 }
 
-void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& station) {
+void WorldWatch::check_silence(Time now, Time own, std::size_t i, const WorldStation& station) {
   const client::Seat& seat = *station.seat();
   Seat& s = seats_[i];
   const link::Freshness& fresh = seat.link().freshness();
+  if (fresh.heard() && fresh.arrived() != s.arrived) {
+    s.arrived = fresh.arrived();
+    s.fresh = now;
+    if (seat.gate().active()) s.given = 0;
+  }
   const double half_tick = 0.5 / scene_->tick_hz;
   if (s.fresh != Time{}) {
-    const double silence = seconds(own - s.fresh);
+    const double silence = seconds(now - s.fresh);
     if (seat.gate().active() && silence > scene_->gate.silence_limit + half_tick) note("silence_ramps", i);
     if (silence > scene_->gate.silence_limit + kRampOut + 3 * half_tick) {
       double power = 0;  // what is left may brake a hand and never push it
@@ -116,7 +123,20 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
     }
   }
   if (seat.gate().active() && seconds(fresh.loop_age(own)) > scene_->gate.loop_age_max + 1e-9) note("loop_age", i);
-  if (seat.gate().given_after_loss_max() > seat.gate().tank_size() + kTankSlack) note("loss_energy", i);
+}
+
+/// After the last fresh datagram a motor gives its hand at most the tank of its gate; judged by what the motor did, not by the
+/// gate's own account.
+void WorldWatch::check_energy(std::size_t i, const WorldStation& station) {
+  Seat& s = seats_[i];
+  const hal::sim::SimDevice& device = station.device();
+  const hal::Vec3 moved = device.truth().x - s.place;
+  s.place = device.truth().x;
+  const client::Seat* seat = station.seat();
+  if (seat == nullptr || s.fresh == Time{}) return;
+  if (seat->gate().active() && !s.was_active) s.given = 0;
+  s.given += device.state().f_out.dot(moved);
+  if (s.given > seat->gate().tank_size() + kTankSlack) note("loss_energy", i);
 }
 
 void WorldWatch::check_reading(std::size_t i, const WorldStation& station) {
@@ -143,7 +163,6 @@ void WorldWatch::check_once(std::size_t i, const WorldStation& station, const se
   const std::uint64_t accepted = seat->link().stats().accepted;
   if (accepted > s.accepted && accepted - s.accepted > station.heard_now()) note("acts_once", i);
   if (seat->force().session_tick < s.session_tick) note("never_backwards", i);
-  if (seat->link().freshness().heard()) s.fresh = seat->link().freshness().arrived();
   s.accepted = accepted;
   s.session_tick = seat->force().session_tick;
 }

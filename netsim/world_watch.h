@@ -41,7 +41,9 @@ class WorldWatch {
     bool was_active = false;
     AxisArray effort{};
     Time served{};
-    Time fresh{};  ///< when something newer last acted
+    Time arrived{}, fresh{};  ///< when something newer last acted: on the seat's clock, on the world's
+    double given = 0;         ///< energy the motor really gave the hand since then, and since the gate let go [J]
+    hal::Vec3 place = hal::Vec3::Zero();
     unsigned misread = 0;
     std::uint64_t accepted = 0, generation = 0, server_heard = 0;
     std::uint32_t session_tick = 0, seat_tick = 0;
@@ -53,7 +55,8 @@ class WorldWatch {
       starts = start;
       was_active = false;
       effort = {};
-      served = fresh = Time{};
+      served = arrived = fresh = Time{};
+      given = 0;
       misread = session_tick = 0;
       accepted = 0;
       client = {};
@@ -61,7 +64,8 @@ class WorldWatch {
   };
   /// @param own  on the seat's own clock
   void check_effort(Time own, std::size_t i, const WorldStation& station);
-  void check_silence(Time own, std::size_t i, const WorldStation& station);
+  void check_silence(Time now, Time own, std::size_t i, const WorldStation& station);
+  void check_energy(std::size_t i, const WorldStation& station);
   void check_reading(std::size_t i, const WorldStation& station);
   void check_once(std::size_t i, const WorldStation& station, const server::SeatPort& port);
   void check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const PortSample& rx,

@@ -82,14 +82,8 @@ void check_value(Checker& checker, const Message& m, const FieldDescriptor& f, i
     }
     case FieldDescriptor::CPPTYPE_BOOL:
       return;
-    default: {
-      const double value = number(m, f, index);
-      if (!std::isfinite(value)) {
-        checker.error(path, "must be a finite number, in " + range_text(limit), number_text(value));
-      } else if (!in_range(limit, value)) {
-        checker.error(path, "must be in " + range_text(limit), number_text(value));
-      }
-    }
+    default:
+      checker.check_number(f, number(m, f, index), path);
   }
 }
 
@@ -178,6 +172,15 @@ void Checker::error_at(const Place& place, std::string_view path, std::string me
     return;
   }
   errors_.push_back({file_, place.line, place.column, std::string(path), place.value, std::move(message)});
+}
+
+void Checker::check_number(const FieldDescriptor& field, double value, std::string_view path) {
+  const pb::Limits& limit = field.options().GetExtension(pb::limit);
+  if (!std::isfinite(value)) {
+    error(path, "must be a finite number, in " + range_text(limit), number_text(value));
+  } else if (!in_range(limit, value)) {
+    error(path, "must be in " + range_text(limit), number_text(value));
+  }
 }
 
 void Checker::check_limits(const Message& message, const std::string& path) {

@@ -7,6 +7,7 @@
 #include "proto/input_error.h"
 
 namespace google::protobuf {
+class FieldDescriptor;
 class Message;
 }
 
@@ -48,6 +49,9 @@ class Checker {
   /// Every value of `message` against the limits its schema states: finite, in range, known enumerators, names of legal
   /// form, mandatory fields written, not too many items.
   void check_limits(const google::protobuf::Message& message, const std::string& path = {});
+
+  /// One number against the limits stated at `field`, for schemas whose limits stand at the message that holds the number.
+  void check_number(const google::protobuf::FieldDescriptor& field, double value, std::string_view path);
 
   [[nodiscard]] bool ok() const noexcept { return errors_.empty(); }
   /// All mistakes, in file order, those without a place last. Leaves the checker empty.

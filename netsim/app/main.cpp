@@ -4,6 +4,8 @@
 #include "common/io/program.h"
 #include "netsim/app/proxy_command.h"
 #include "netsim/app/run_command.h"
+#include "netsim/app/swarm_command.h"
+#include "netsim/app/test_command.h"
 
 #ifndef TANDEM_VERSION
 #define TANDEM_VERSION "unknown"
@@ -22,7 +24,9 @@ int main(int argc, char** argv) {
 
   std::function<int()> action;
   tandem::netsim::add_run_command(app, action);
+  tandem::netsim::add_test_command(app, action);
   tandem::netsim::add_proxy_command(app, action);
   tandem::netsim::add_profiles_command(app, action);
+  tandem::netsim::add_swarm_command(app, action);
   return tandem::io::run_program(app, action, argc, argv);
 }

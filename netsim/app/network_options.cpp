@@ -20,18 +20,6 @@ constexpr std::array kNumbers{"--delay", "--jitter", "--loss", "--duplicate", "-
 
 Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
 
-std::expected<std::string, std::string> read_file(const std::string& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) return std::unexpected(path + ": " + error.message());
-  if (size > kFileMax) return std::unexpected(path + ": is larger than 64 MiB");
-  std::ifstream file(path, std::ios::binary);
-  std::string text(static_cast<std::size_t>(size), '\0');
-  file.read(text.data(), static_cast<std::streamsize>(size));
-  if (!file) return std::unexpected(path + ": cannot be read");
-  return text;
-}
-
 /// A file that exists wins; otherwise a name with a slash or an ending is a path.
 bool is_file(const std::string& name) {
   return std::filesystem::exists(name) || name.find('/') != std::string::npos || name.find('.') != std::string::npos;
@@ -44,6 +32,18 @@ std::string lines_of(const InputErrors& errors) {
 }
 
 }  // namespace
+
+std::expected<std::string, std::string> read_network_file(const std::string& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) return std::unexpected(path + ": " + error.message());
+  if (size > kFileMax) return std::unexpected(path + ": is larger than 64 MiB");
+  std::ifstream file(path, std::ios::binary);
+  std::string text(static_cast<std::size_t>(size), '\0');
+  file.read(text.data(), static_cast<std::streamsize>(size));
+  if (!file) return std::unexpected(path + ": cannot be read");
+  return text;
+}
 
 std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {
   const auto wrong = [&text](const std::string& why) { return std::unexpected("--outage: \"" + text + "\": " + why); };
@@ -187,7 +187,7 @@ std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::s
     choice.description = "profile " + profile->name + " (version " + std::to_string(profile->version) + ")";
     return choice;
   }
-  const auto text = read_file(name_or_file);
+  const auto text = read_network_file(name_or_file);
   if (!text) return std::unexpected(text.error());
   choice.name = std::filesystem::path(name_or_file).stem().string();
   if (name_or_file.ends_with(".csv")) {

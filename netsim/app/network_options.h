@@ -43,6 +43,9 @@ class NetworkOptions {
   std::uint64_t seed_ = 1;
 };
 
+/// A profile or recording of at most 64 MiB. @return its bytes, or what is wrong
+[[nodiscard]] std::expected<std::string, std::string> read_network_file(const std::string& path);
+
 /// Reads `START,LENGTH[,PERIOD]` in seconds. @return the outage, or what is wrong with it
 [[nodiscard]] std::expected<OutageSpec, std::string> parse_outage(const std::string& text);
 

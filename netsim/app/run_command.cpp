@@ -13,6 +13,8 @@
 #include "netsim/app/network_options.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "netsim/app/quality_json.h"
+#include "netsim/world_quality.h"
 #include "netsim/world_report.h"
 #include "proto/io/scene_file.h"
 #include "proto/scene_text.h"
@@ -29,7 +31,7 @@ struct RunArguments {
   std::string scene, channel, mfs, json, trace;
   std::vector<std::string> hands;
   double duration_s = 0;
-  bool check = false, quiet = false;
+  bool check = false, quiet = false, verbose = false, no_quality = false;
   NetworkOptions network;
 };
 
@@ -96,6 +98,15 @@ void show_progress(const World& world) {
   std::fflush(stderr);
 }
 
+/// The report, with every seat's network beside its link.
+std::string report_json(const server::RunReport& report, const std::vector<NamedLink>& links) {
+  auto json = nlohmann::ordered_json::parse(server::to_json(report));
+  for (auto& seat : json["seats"])
+    for (const NamedLink& one : links)
+      if (seat["name"] == one.name) seat["quality"] = quality_json(one.link);
+  return json.dump(2) + "\n";
+}
+
 int run_command(const RunArguments& arguments) {
   Mistakes mistakes;
   const auto network = arguments.network.resolve();
@@ -103,6 +114,7 @@ int run_command(const RunArguments& arguments) {
   WorldSetup setup = understand(arguments, mistakes);
   if (!mistakes.empty()) return wrong(mistakes);
   setup.network = network->link;
+  setup.watch_quality = !arguments.no_quality;
   if (arguments.check) {
     std::fputs(effective_scene_text(setup.scene).c_str(), stdout);
     return 0;
@@ -146,12 +158,13 @@ int run_command(const RunArguments& arguments) {
   report.trace_hash = digest.hex();
   report.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   if (interrupted) std::fprintf(stderr, "interrupted at %.3f s; what follows judges that much\n", world.session().time());
+  const std::vector<NamedLink> links = link_qualities(world);
   if (!arguments.quiet || !json_on_stdout)
-    std::fprintf(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s",
+    std::fprintf(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s",
                  report.scenario.c_str(), report.passed ? "pass" : "FAIL", report.duration_s, network->description.c_str(),
                  static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
-                 server::report_summary(report, world.scene()).c_str());
-  json_file.write(server::to_json(report));
+                 server::report_summary(report, world.scene()).c_str(), quality_report(links, arguments.verbose).c_str());
+  if (json_file.wanted()) json_file.write(report_json(report, links));
   for (const auto& problem : {trace_file.close(), json_file.close()})
     if (!problem.empty()) {
       std::fprintf(stderr, "tandem-netsim run: %s\n", problem.c_str());
@@ -188,9 +201,13 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--trace", arguments->trace, "writes one row per tick; the same seed and build give the same bytes")
       ->option_text("FILE.csv");
   command->add_flag("--check", arguments->check, "only checks the scene and prints every value in force, with units");
+  command->add_flag("--verbose", arguments->verbose, "the network of every seat in words and numbers, not only of the worst");
+  command->add_flag("--no-quality", arguments->no_quality, "does not judge the network");
   command->add_flag("--quiet", arguments->quiet, "no progress, and no summary beside --json -");
   command->footer(
       "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then.\n"
+      "The network is judged apart, by what force feedback needs (green, amber, red; loss, gaps and jitter in every\n"
+      "100 ms, 1 s and 10 s of the session, round trips): it never changes the verdict.\n"
       "Exit: 0 pass, 1 fail, 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim run free_motion\n"

@@ -72,11 +72,16 @@ TEST(Profiles, GiveTheQuantilesTheyPromise) {
     for (const ProfileCheck& check : profile->checks) {
       SCOPED_TRACE(profile->name + " " + name(check.direction));
       Path path{profile->link[check.direction], Path::key_for(1, 0, check.direction)};
-      auto all = delays(verdicts(path, 1'800'000));
-      std::sort(all.begin(), all.end());
+      std::vector<double> all;
+      for (std::int64_t i = 0; i < 1'800'000; ++i) {
+        const Verdict v = path.send(Time{i * 1ms}, kSize);
+        if (!dropped(v.outcome)) all.push_back(static_cast<double>((v.at - Time{i * 1ms}).count()));
+      }
       const std::array q{0.05, 0.50, 0.95, 0.99};
       for (std::size_t i = 0; i < q.size(); ++i) {
-        const double ms = all[static_cast<std::size_t>(q[i] * static_cast<double>(all.size() - 1))] / 1e6;
+        const auto nth = all.begin() + static_cast<std::ptrdiff_t>(q[i] * static_cast<double>(all.size() - 1));
+        std::nth_element(all.begin(), nth, all.end());
+        const double ms = *nth / 1e6;
         EXPECT_NEAR(ms, check.delay_ms[i], check.delay_ms[i] * (i < 3 ? 0.10 : 0.20)) << q[i];
       }
     }

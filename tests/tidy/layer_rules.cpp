@@ -40,7 +40,7 @@ constexpr std::array<std::string_view, 7> kTopFolders{"client/", "common/", "hal
                                                       "proto/",  "server/", "tests/"};
 
 /// Mirrors "Rooms and who may know whom". The room with the longest `folder` that the path begins with decides.
-const std::array<Room, 15> kRooms{{
+const std::array<Room, 16> kRooms{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -68,6 +68,10 @@ const std::array<Room, 15> kRooms{{
      "impairments and the virtual network are base only; what runs a whole scene is netsim/world..., programs "
      "netsim/app"},
     {"netsim/profile", {"common/base", "proto", "netsim"}, {}, "profiles are text: base and proto's reader of text"},
+    {"netsim/scenario",
+     {"common", "proto", "hal", "server", "client", "netsim"},
+     {},
+     "scenarios hold text against a scene and judge reports: no JSON, no files; those belong to netsim/app"},
     {"netsim/world",
      {"common", "proto", "hal", "server", "client", "netsim"},
      {"Eigen", "openssl", "json"},

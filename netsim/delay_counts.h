@@ -14,7 +14,7 @@ namespace tandem::netsim {
 /// Delays as people write them: 1 us wide below 1 ms, 10 us below 10 ms, 0.1 ms below 100 ms, 0.5 ms below 1 s, then 1 %.
 /// Finer than tandem::Histogram where bands are decided (jitter of 2 ms on a delay of 280 ms), and decimal, so that 10 ms
 /// is 10 ms and not 9.98. All from 0 to 10 000 s have a bin, what is above shares the last.
-struct DelayBins {
+struct DelayScale {
   struct Decade {
     std::int64_t from_us, width_us;
     std::size_t first;  ///< bin
@@ -60,7 +60,7 @@ struct DelayBins {
 template <typename Count>
 class DelayCounts {
  public:
-  DelayCounts() : bins_(DelayBins::kBins), blocks_(DelayBins::kBins / kBlock + 1) {}
+  DelayCounts() : bins_(DelayScale::kBins), blocks_(DelayScale::kBins / kBlock + 1) {}
 
   void add(std::size_t bin) noexcept {
     ++bins_[bin];
@@ -84,7 +84,7 @@ class DelayCounts {
     while (block + 1 < blocks_.size() && below + blocks_[block] < rank) below += blocks_[block++];
     std::size_t bin = block * kBlock;
     while (bin + 1 < bins_.size() && below + bins_[bin] < rank) below += bins_[bin++];
-    return DelayBins::begin_of(bin);
+    return DelayScale::begin_of(bin);
   }
 
  private:
@@ -93,7 +93,7 @@ class DelayCounts {
   std::uint64_t count_ = 0;
 };
 
-static_assert(DelayBins::bin_of(Duration{std::numeric_limits<std::int64_t>::max()}) == DelayBins::kBins - 1);
-static_assert(DelayBins::kBins <= std::numeric_limits<std::uint16_t>::max());
+static_assert(DelayScale::bin_of(Duration{std::numeric_limits<std::int64_t>::max()}) == DelayScale::kBins - 1);
+static_assert(DelayScale::kBins <= std::numeric_limits<std::uint16_t>::max());
 
 }  // namespace tandem::netsim

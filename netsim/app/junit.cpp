@@ -1,0 +1,128 @@
+#include <array>
+#include <cstdint>
+#include <cstdio>
+
+#include "netsim/app/test_report.h"
+
+namespace tandem::netsim {
+namespace {
+
+using State = SeedOutcome::State;
+
+/// Bytes of the UTF-8 character that begins here, 0 if none does [RFC 3629].
+std::size_t character(std::string_view text) {
+  const auto at = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const unsigned first = at(0);
+  if (first < 0x80) return 1;
+  const std::size_t size = first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if ((at(i) & 0xC0) != 0x80) return 0;
+  const bool overlong = (first == 0xE0 && at(1) < 0xA0) || (first == 0xF0 && at(1) < 0x90);
+  const bool surrogate = first == 0xED && at(1) >= 0xA0;
+  const bool beyond = first == 0xF4 && at(1) >= 0x90;
+  const bool never = first == 0xEF && at(1) == 0xBF && at(2) >= 0xBE;  // U+FFFE, U+FFFF are no characters of XML
+  return overlong || surrogate || beyond || never ? 0 : size;
+}
+
+/// Text for content and attributes. What XML 1.0 cannot carry (control characters, broken UTF-8) becomes `?`.
+std::string escaped(std::string_view text, bool attribute = true) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t size = character(text);
+    const char c = text.front();
+    if (size > 1) {
+      out += text.substr(0, size);
+    } else if (size == 0 || (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' && c != '\r')) {
+      out += '?';
+    } else if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (c == '\n' && attribute) {
+      out += "&#10;";
+    } else {
+      out += c;
+    }
+    text.remove_prefix(size > 1 ? size : 1);
+  }
+  return out;
+}
+
+std::string attribute(std::string_view key, std::string_view value) {
+  return " " + std::string(key) + "=\"" + escaped(value) + "\"";
+}
+std::string attribute(std::string_view key, std::size_t value) { return attribute(key, std::to_string(value)); }
+std::string time_attribute(double cpu_s) {
+  std::array<char, 40> text;
+  std::snprintf(text.data(), text.size(), "%.3f", cpu_s);
+  return attribute("time", text.data());
+}
+
+struct Counts {
+  std::size_t tests = 0, failures = 0, errors = 0, skipped = 0;
+  double cpu_s = 0;
+  void add(const ScenarioResult& r) {
+    tests += r.seeds.size();
+    failures += r.count(State::kFail);
+    errors += r.count(State::kTrouble) + r.count(State::kCrash);
+    skipped += r.count(State::kNotRun);
+    for (const SeedOutcome& s : r.seeds) cpu_s += s.cpu_s;
+  }
+  [[nodiscard]] std::string text() const {
+    return attribute("tests", tests) + attribute("failures", failures) + attribute("errors", errors) + attribute("skipped", skipped) +
+           time_attribute(cpu_s);
+  }
+};
+
+void put_case(const Scenario& scenario, const SeedOutcome& s, std::string& out) {
+  out += "    <testcase" + attribute("name", "seed " + std::to_string(s.seed)) + attribute("classname", "tandem." + scenario.name) +
+         time_attribute(s.cpu_s);
+  if (s.state == State::kPass) {
+    out += "/>\n";
+    return;
+  }
+  out += ">\n";
+  if (s.state == State::kNotRun) {
+    out += "      <skipped" + attribute("message", "not run") + "/>\n";
+  } else {
+    const auto all = causes(scenario, s);
+    std::string text;
+    for (const std::string& cause : all) text += cause + "\n";
+    text += "replay: " + replay_command(scenario, s.seed) + "\n";
+    const char* const element = s.state == State::kFail ? "failure" : "error";
+    out += std::string("      <") + element + attribute("message", all.empty() ? "failed" : all.front()) + attribute("type", name(s.state)) +
+           ">" + escaped(text, false) + "</" + element + ">\n";
+  }
+  out += "    </testcase>\n";
+}
+
+}  // namespace
+
+std::string junit_xml(const TestResult& result) {
+  Counts all;
+  for (const ScenarioResult& r : result.scenarios) all.add(r);
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", "tandem-netsim test") + all.text() + ">\n";
+  for (const ScenarioResult& r : result.scenarios) {
+    Counts own;
+    own.add(r);
+    out += "  <testsuite" + attribute("name", r.scenario.name) + own.text() + ">\n    <properties>\n";
+    const auto property = [&](std::string_view key, std::string_view value) {
+      out += "      <property" + attribute("name", key) + attribute("value", value) + "/>\n";
+    };
+    property("file", r.scenario.file);
+    property("summary", r.scenario.summary);
+    property("scene", r.scenario.scene);
+    property("network", r.scenario.network);
+    for (const auto& [seat, network] : r.scenario.seat_networks) property("network of " + seat, network);
+    out += "    </properties>\n";
+    for (const SeedOutcome& s : r.seeds) put_case(r.scenario, s, out);
+    out += "  </testsuite>\n";
+  }
+  return out + "</testsuites>\n";
+}
+
+}  // namespace tandem::netsim

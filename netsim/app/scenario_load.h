@@ -1,0 +1,23 @@
+#pragma once
+
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "netsim/scenario.h"
+
+namespace tandem::netsim {
+
+/// The word that stands for all shipped scenarios.
+inline constexpr std::string_view kAllShipped = "shipped";
+
+/// Loads what a person typed as SCENARIO...: a path, a folder (its *.textproto, by name), the name of a shipped scenario, or
+/// `shipped`. A file is read once, however often it is named.
+/// @return the scenarios in that order, or every mistake in all of them
+[[nodiscard]] std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vector<std::string>& arguments);
+
+/// One scenario's text, its files relative to `file_name`'s folder. @param shipped  it may name shipped things only
+[[nodiscard]] std::expected<Scenario, InputErrors> load_scenario_text(const std::string& text, const std::string& file_name,
+                                                                      bool shipped);
+
+}  // namespace tandem::netsim

@@ -1,0 +1,250 @@
+#include "netsim/app/swarm_command.h"
+
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "common/base/format.h"
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "common/io/parallel_jobs.h"
+#include "common/io/signals.h"
+#include "common/io/terminal.h"
+#include "netsim/world_swarm.h"
+#include "server/trace_csv.h"
+
+namespace tandem::netsim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFailed = 1, kTrouble = 1, kWrong = 2;
+/// Failures named one by one; the rest is counted.
+constexpr std::size_t kShown = 20;
+
+struct SwarmArguments {
+  std::uint64_t first = 1, seeds = 500;
+  double safety_max_s = 40;
+  std::size_t jobs = 0;
+  bool fail_fast = false, scene = false;
+  std::string json, trace;
+};
+
+std::string replay_command(const SwarmArguments& arguments, std::uint64_t seed) {
+  std::string text = format("tandem-netsim swarm --first %llu --seeds 1", static_cast<unsigned long long>(seed));
+  if (arguments.safety_max_s != SwarmArguments{}.safety_max_s) text += format(" --safety %g", arguments.safety_max_s);
+  return text + " --trace trace.csv";
+}
+
+Json to_json(const SwarmCase& which, const SwarmResult& result, double cpu_s) {
+  Json json;
+  json["seed"] = which.seed;
+  json["what"] = which.words;
+  json["passed"] = result.passed();
+  json["masters"] = which.setup.scene.masters();
+  json["seats"] = which.setup.scene.seats.size();
+  json["tools"] = which.setup.scene.tools.size();
+  json["lived_s"] = result.lived_s;
+  json["recovered_s"] = result.recovered_s;
+  json["gate_trips"] = result.gate_trips;
+  json["fingerprint"] = format("%016llx", static_cast<unsigned long long>(result.fingerprint));
+  json["trouble"] = result.trouble;
+  json["violations"] = Json::array();
+  for (const server::Violation& v : result.broken)
+    json["violations"].push_back({{"invariant", v.invariant}, {"seat", v.seat}, {"at_s", v.at_s}, {"count", v.count}});
+  json["cpu_s"] = cpu_s;
+  return json;
+}
+
+/// One seed in the process of its job.
+std::string live_seed(const SwarmArguments& arguments, std::uint64_t seed, io::JobShare share) {
+  const std::clock_t begin = std::clock();
+  SwarmCase which = draw_swarm_case(seed, arguments.safety_max_s);
+  which.setup.keep_record = !arguments.trace.empty();
+  const double whole = seconds(which.calm) + 1;
+  io::OutputFile trace;
+  if (const auto problem = trace.open(arguments.trace, false); !problem.empty()) throw std::runtime_error("--trace: " + problem);
+  const server::TraceCsv csv{which.setup.scene};
+  std::string rows = csv.header();
+  const SwarmResult result = live_swarm_case(which, [&](World& world) {
+    share.set(seconds(world.now() - Time{}) / whole);
+    if (!trace.wanted()) return;
+    csv.append(world.record(), rows);
+    if (rows.size() < 60'000) return;
+    trace.write(rows);
+    rows.clear();
+  });
+  trace.write(rows);
+  if (const auto problem = trace.close(); !problem.empty()) throw std::runtime_error("--trace: " + problem);
+  return to_json(which, result, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC).dump();
+}
+
+/// All seeds together.
+struct SwarmSum {
+  std::size_t done = 0, failed = 0, not_run = 0;
+  double lived_s = 0, cpu_s = 0, recovered_max_s = 0, small_lived_s = 0, small_cpu_s = 0;
+  std::uint64_t gate_trips = 0;
+  std::map<std::string, std::size_t> by_reason;
+  Json seeds = Json::array();
+  std::vector<std::string> failures;
+
+  void add(const SwarmArguments& arguments, std::uint64_t seed, const io::JobResult& result) {
+    if (result.state == io::JobResult::State::kNotRun) {
+      ++not_run;
+      return;
+    }
+    ++done;
+    Json json;
+    if (result.state == io::JobResult::State::kCrashed) {
+      json = {{"seed", seed}, {"passed", false}, {"trouble", result.reason}, {"violations", Json::array()}};
+    } else {
+      json = Json::parse(result.text);
+      lived_s += json["lived_s"].get<double>();
+      cpu_s += json["cpu_s"].get<double>();
+      recovered_max_s = std::max(recovered_max_s, json["recovered_s"].get<double>());
+      gate_trips += json["gate_trips"].get<std::uint64_t>();
+      if (json["masters"] == 2 && json["seats"] == 2 && json["tools"] == 1) {
+        small_lived_s += json["lived_s"].get<double>();
+        small_cpu_s += json["cpu_s"].get<double>();
+      }
+    }
+    if (!json["passed"].get<bool>()) {
+      ++failed;
+      describe(arguments, seed, json);
+    }
+    seeds.push_back(std::move(json));
+  }
+
+  void describe(const SwarmArguments& arguments, std::uint64_t seed, const Json& json) {
+    std::string text = format("seed %llu", static_cast<unsigned long long>(seed));
+    if (json.contains("what")) text += " (" + json["what"].get<std::string>() + ")";
+    text += "\n";
+    for (const Json& v : json["violations"]) {
+      ++by_reason[v["invariant"].get<std::string>()];
+      text += "  " + v["invariant"].get<std::string>() + " broken" + (v["seat"] == "" ? "" : " at " + v["seat"].get<std::string>()) +
+              format(", first at %.3f s of session time, %llu times\n", v["at_s"].get<double>(),
+                     static_cast<unsigned long long>(v["count"].get<std::uint64_t>()));
+    }
+    if (json["trouble"] != "") {
+      ++by_reason["liveness"];
+      text += "  " + json["trouble"].get<std::string>() + "\n";
+    }
+    failures.push_back(text + "  again: " + replay_command(arguments, seed) + "\n");
+  }
+};
+
+int wrong(const std::string& message) {
+  std::fprintf(stderr, "tandem-netsim swarm: %s\n", message.c_str());
+  return kWrong;
+}
+
+std::string summary(const SwarmArguments& arguments, const SwarmSum& sum, double wall_s) {
+  std::string text;
+  for (std::size_t i = 0; i < sum.failures.size() && i < kShown; ++i) text += sum.failures[i];
+  if (sum.failures.size() > kShown) text += format("and %zu more that failed\n", sum.failures.size() - kShown);
+  for (const auto& [reason, count] : sum.by_reason) text += format("%-22s broken %zu times\n", reason.c_str(), count);
+  text += format("%zu of %llu sessions passed, %zu failed%s\n", sum.done - sum.failed, static_cast<unsigned long long>(arguments.seeds), sum.failed,
+                 sum.not_run > 0 ? format(", %zu not run", sum.not_run).c_str() : "");
+  text += format("%.0f session-seconds in %.1f s, %.0f CPU-seconds: %.0f x real time per core over all sizes", sum.lived_s, wall_s, sum.cpu_s,
+                 sum.cpu_s > 0 ? sum.lived_s / sum.cpu_s : 0.0);
+  if (sum.small_cpu_s > 0) text += format(", %.0f x with two masters and a slave", sum.small_lived_s / sum.small_cpu_s);
+  return text + format("\nhands let go %llu times; everybody was active again at most %.1f s after the calm (limit %g s)\n",
+                       static_cast<unsigned long long>(sum.gate_trips), sum.recovered_max_s, kLivenessLimit);
+}
+
+int print_scene(const SwarmArguments& arguments) {
+  const SwarmCase which = draw_swarm_case(arguments.first, arguments.safety_max_s);
+  std::printf("# seed %llu: %s\n%s", static_cast<unsigned long long>(which.seed), which.words.c_str(), which.scene_text.c_str());
+  for (const Fault& f : which.setup.faults)
+    std::printf("# fault at %.3f s for %.3f s: %s%s%s\n", seconds(f.at), seconds(f.length), std::string(name(f.kind)).c_str(),
+                f.seat.empty() ? "" : " at ", f.seat.c_str());
+  for (const NetworkEvent& e : which.setup.events)
+    std::printf("# network at %.3f s: %s%s%s\n", seconds(e.at), e.outage ? format("outage of %.3f s", seconds(e.outage->length)).c_str() : "another link",
+                e.clients.empty() ? "" : " for ", e.clients.empty() ? "" : e.clients.front().c_str());
+  return 0;
+}
+
+int swarm_command(const SwarmArguments& arguments) {
+  if (arguments.scene) return print_scene(arguments);
+  if (!arguments.trace.empty() && arguments.seeds != 1) return wrong("--trace is of one session; add --seeds 1");
+  for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
+    if (!file.empty() && file != "-")
+      if (const auto problem = io::OutputFile::problem(file); !problem.empty()) return wrong(std::string(option) + ": " + problem);
+  if (arguments.trace == "-") return wrong("--trace: standard output is for --json; name a file");
+
+  const io::Fd signals = io::signals_as_file();
+  io::StatusLine line{false};
+  double wall_s = 0, shown_s = -1e9;
+  io::JobsOptions options;
+  options.jobs = arguments.jobs;
+  options.stop_fd = signals.get();
+  options.watch = [&](const io::JobsProgress& p) {
+    wall_s = p.elapsed_s;
+    if (wall_s - shown_s < 1e-3 * line.interval_ms()) return;
+    shown_s = wall_s;
+    line.show(format("%zu of %zu sessions, %.0f s%s", p.done, p.count, p.elapsed_s, std::isnan(p.left_s) ? "" : format(", about %.0f s left", p.left_s).c_str()));
+  };
+  options.keep_going = [&](std::size_t, const io::JobResult& result) {
+    return !arguments.fail_fast || (result.state == io::JobResult::State::kDone && Json::parse(result.text)["passed"].get<bool>());
+  };
+  const auto results = io::run_jobs(
+      arguments.seeds, [&](std::size_t i, io::JobShare share) { return live_seed(arguments, arguments.first + i, share); }, options);
+  line.clear();
+
+  SwarmSum sum;
+  for (std::size_t i = 0; i < results.size(); ++i) sum.add(arguments, arguments.first + i, results[i]);
+  const bool json_on_stdout = arguments.json == "-";
+  std::fputs(summary(arguments, sum, wall_s).c_str(), json_on_stdout ? stderr : stdout);
+  io::OutputFile json;
+  std::string problem = json.open(arguments.json, true);
+  if (json.wanted()) {
+    Json out;
+    out["program"] = "tandem-netsim swarm";
+    out["passed"] = sum.failed == 0 && sum.not_run == 0;
+    out["lived_s"] = sum.lived_s;
+    out["failed"] = sum.failed;
+    out["not_run"] = sum.not_run;
+    out["seeds"] = std::move(sum.seeds);
+    json.write(out.dump(1) + "\n");
+  }
+  if (problem.empty()) problem = json.close();
+  if (!problem.empty()) {
+    std::fprintf(stderr, "tandem-netsim swarm: --json: %s\n", problem.c_str());
+    return kTrouble;
+  }
+  return sum.failed == 0 && sum.not_run == 0 ? 0 : kFailed;
+}
+
+}  // namespace
+
+void add_swarm_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<SwarmArguments>();
+  CLI::App* const command = root.add_subcommand(
+      "swarm", "Runs random sessions: seats, tools, hands, networks and faults from one seed each, every invariant checked in every tick.");
+  command->add_option("--first", arguments->first, "first seed; default 1")->check(io::whole_number())->option_text("N");
+  command->add_option("--seeds", arguments->seeds, "how many sessions; default 500")->check(CLI::Range(1, 10'000'000))->option_text("N");
+  command->add_option("--safety", arguments->safety_max_s, "longest time in which things go wrong; default 40")
+      ->check(io::number_in(2, 3600, "s"))
+      ->option_text("S");
+  command->add_option("--jobs", arguments->jobs, "sessions at a time; default one per core")->check(CLI::Range(1, 1024))->option_text("N");
+  command->add_flag("--fail-fast", arguments->fail_fast, "stops at the first session that fails");
+  command->add_flag("--scene", arguments->scene, "only prints the scene, faults and network of the first seed");
+  command->add_option("--json", arguments->json, "writes every session's result; `-`: to standard output")->option_text("FILE|-");
+  command->add_option("--trace", arguments->trace, "with --seeds 1: writes one row per tick")->option_text("FILE.csv");
+  command->footer(
+      "A session first lives through everything that was drawn for it; then the network is good and nothing fails any more,\n"
+      "people press the button of a device that latched, and everybody must be active again within 10 s. The same seed gives\n"
+      "the same session on every machine with the same build.\n\n"
+      "Examples\n"
+      "  tandem-netsim swarm --seeds 500\n"
+      "  tandem-netsim swarm --first 17 --seeds 1 --trace trace.csv\n"
+      "  tandem-netsim swarm --first 17 --scene\n"
+      "Exit: 0 all passed, 1 something failed or was interrupted, 2 wrong arguments or files.");
+  command->callback([arguments, &action] { action = [arguments] { return swarm_command(*arguments); }; });
+}
+
+}  // namespace tandem::netsim

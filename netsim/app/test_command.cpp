@@ -1,0 +1,201 @@
+#include "netsim/app/test_command.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "common/io/signals.h"
+#include "common/io/terminal.h"
+#include "netsim/app/scenario_load.h"
+#include "netsim/app/test_report.h"
+#include "netsim/scenario_shipped.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr int kPass = 0, kFailed = 1, kWrong = 2;
+constexpr double kJobsMax = 256, kSeedsMax = 100'000;
+
+struct TestArguments {
+  std::vector<std::string> scenarios;
+  std::uint64_t seed = 1;
+  double seeds = 1, jobs = 0;
+  std::string junit, json, trace;
+  bool seed_given = false, seeds_given = false;
+  bool keep_going = false, fail_fast = false, list = false, check = false, reports = false, quiet = false;
+};
+
+int wrong(const std::vector<std::string>& mistakes) {
+  for (const std::string& m : mistakes) std::fprintf(stderr, "tandem-netsim test: %s\n", m.c_str());
+  std::fprintf(stderr, "%zu mistake%s; nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+void list(const std::vector<Scenario>& scenarios) {
+  std::size_t width = 0;
+  for (const Scenario& s : scenarios) width = std::max(width, s.name.size());
+  for (const Scenario& s : scenarios)
+    std::printf("%-*s  %3u seed%s  %5.0f s  %s\n", static_cast<int>(width), s.name.c_str(), s.seeds, s.seeds == 1 ? " " : "s",
+                s.setup.scene.duration, s.summary.c_str());
+}
+
+std::string length_text(double s) {
+  std::array<char, 40> text;
+  std::snprintf(text.data(), text.size(), s < 100 ? "%.0f s" : "%.1f min", s < 100 ? s : s / 60);
+  return text.data();
+}
+
+/// How far all seeds are, on one line of the terminal.
+class Progress {
+ public:
+  explicit Progress(bool quiet) : line_(quiet || isatty(STDERR_FILENO) == 0) {}
+  void show(const io::JobsProgress& p, std::size_t failed) {
+    std::array<char, 120> text;
+    std::snprintf(text.data(), text.size(), "%3.0f %%  %zu of %zu seeds done, %zu running, %zu failed", 100 * p.share, p.done, p.count,
+                  p.running, failed);
+    std::string words = text.data();
+    if (std::isfinite(p.left_s) && p.done < p.count) words += ", about " + length_text(p.left_s) + " left";
+    if (line_.wanted()) line_.show(words);
+  }
+  void end() { line_.clear(); }
+
+ private:
+  io::StatusLine line_;
+};
+
+/// What only shows once the scenarios are known.
+void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, std::vector<std::string>& mistakes) {
+  std::uint64_t runs = 0;
+  for (const Scenario& s : scenarios) {
+    const std::uint64_t seeds = a.seeds_given ? static_cast<std::uint64_t>(a.seeds) : s.seeds;
+    const std::uint64_t first = a.seed_given ? a.seed : s.seed;
+    runs += seeds;
+    if (first > std::numeric_limits<std::uint64_t>::max() - (seeds - 1))
+      mistakes.push_back(s.name + ": seed " + std::to_string(first) + " and " + std::to_string(seeds - 1) + " more are beyond 64 bits");
+  }
+  if (!a.trace.empty() && runs != 1)
+    mistakes.push_back("--trace: is of one seed of one scenario, these are " + std::to_string(runs) + "; add --seeds 1 and name one");
+}
+
+std::vector<std::string> output_mistakes(const TestArguments& a) {
+  std::vector<std::string> mistakes;
+  const std::array<std::pair<const char*, const std::string*>, 3> files{{{"--json", &a.json}, {"--junit", &a.junit}, {"--trace", &a.trace}}};
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto& [option, file] = files[i];
+    if (file->empty() || (*file == "-" && i == 0)) continue;
+    if (*file == "-") {
+      mistakes.push_back(std::string(option) + ": standard output is for --json; name a file");
+    } else if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) {
+      mistakes.push_back(std::string(option) + ": " + problem);
+    }
+    for (std::size_t k = 0; k < i; ++k)
+      if (*files[k].second == *file) mistakes.push_back(std::string(option) + ": is the same file as " + files[k].first);
+  }
+  return mistakes;
+}
+
+int test_command(const TestArguments& a) {
+  std::vector<std::string> mistakes = output_mistakes(a);
+  std::vector<std::string> names = a.scenarios;
+  if (names.empty() && a.list) names.emplace_back(kAllShipped);
+  if (names.empty()) {
+    std::string all;
+    for (const ShippedScenario& s : shipped_scenarios()) all += " " + std::string(s.name);
+    mistakes.push_back("SCENARIO is required: a file, a folder, `shipped` for all shipped ones, or one of:" + all);
+  }
+  if (a.keep_going && a.fail_fast) mistakes.emplace_back("--keep-going excludes --fail-fast");
+  auto scenarios = load_scenarios(names);
+  if (scenarios) {
+    check_together(a, *scenarios, mistakes);
+  } else {
+    for (const InputError& error : scenarios.error()) mistakes.push_back(to_text(error));
+  }
+  if (!mistakes.empty()) return wrong(mistakes);
+  if (a.list) {
+    list(*scenarios);
+    return kPass;
+  }
+  if (a.check) {
+    for (const Scenario& s : *scenarios)
+      std::printf("%s%s\n%s", &s == &scenarios->front() ? "" : "\n", s.name.c_str(), effective_scenario_text(s).c_str());
+    return kPass;
+  }
+  const io::Fd stop = io::signals_as_file();
+  io::OutputFile json_file, junit_file;
+  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong({"--json: " + problem});
+  if (const auto problem = junit_file.open(a.junit, false); !problem.empty()) return wrong({"--junit: " + problem});
+
+  Progress progress(a.quiet);
+  TestOptions options{.jobs = static_cast<std::size_t>(a.jobs), .fail_fast = a.fail_fast, .reports = a.reports, .trace = a.trace, .stop_fd = stop.get()};
+  if (a.seed_given) options.seed = a.seed;
+  if (a.seeds_given) options.seeds = static_cast<std::uint64_t>(a.seeds);
+  options.watch = [&](const io::JobsProgress& p, std::size_t failed) { progress.show(p, failed); };
+  const TestResult result = run_tests(std::move(*scenarios), options);
+  progress.end();
+
+  const bool json_on_stdout = a.json == "-";
+  if (!a.quiet || !json_on_stdout) std::fputs(test_summary(result).c_str(), json_on_stdout ? stderr : stdout);
+  if (result.not_run() > 0 && !a.fail_fast) std::fputs("interrupted: the verdict is of what was run\n", stderr);
+  json_file.write(test_json(result));
+  junit_file.write(junit_xml(result));
+  int code = result.passed() ? kPass : kFailed;
+  for (const auto& problem : {json_file.close(), junit_file.close()})
+    if (!problem.empty()) {
+      std::fprintf(stderr, "tandem-netsim test: %s\n", problem.c_str());
+      code = kFailed;
+    }
+  return code;
+}
+
+}  // namespace
+
+void add_test_command(CLI::App& root, std::function<int()>& action) {
+  const auto a = std::make_shared<TestArguments>();
+  CLI::App* const command = root.add_subcommand("test", "Runs scenarios over many seeds and passes a verdict: for CI.");
+  command
+      ->add_option("SCENARIO", a->scenarios,
+                   "scenario files, folders of them, names of shipped ones (--list), or `shipped`: all of these")
+      ->option_text(" ");
+  CLI::Option* const seeds = command->add_option("--seeds", a->seeds, "how many seeds of each scenario, instead of its own number")
+                                 ->check(io::number_in(1, kSeedsMax, ""))
+                                 ->check(io::whole_number())
+                                 ->option_text("N");
+  CLI::Option* const seed =
+      command->add_option("--seed", a->seed, "the first seed, instead of the scenario's")->check(io::whole_number())->option_text("FIRST");
+  command->add_option("--jobs", a->jobs, "seeds that run at a time; default: one per core. No result depends on it")
+      ->check(io::number_in(1, kJobsMax, ""))
+      ->check(io::whole_number())
+      ->option_text("N");
+  command->add_option("--junit", a->junit, "writes JUnit XML: one testsuite per scenario, one testcase per seed")->option_text("FILE");
+  command->add_option("--json", a->json, "writes the verdicts; `-`: to standard output. Equal but for the keys cpu_s for equal seeds")
+      ->option_text("FILE|-");
+  command->add_flag("--reports", a->reports, "adds to --json what `run --json` says of each seed");
+  command->add_option("--trace", a->trace, "writes one row per tick; of one seed only")->option_text("FILE.csv");
+  command->add_flag("--keep-going", a->keep_going, "runs all seeds whatever fails (so it is anyway)");
+  command->add_flag("--fail-fast", a->fail_fast, "runs nothing after the first seed that fails, in the order of the table");
+  command->add_flag("--list", a->list, "only lists scenarios: seeds, length, summary; without SCENARIO the shipped ones");
+  command->add_flag("--check", a->check, "only checks the files and prints every value in force, with units");
+  command->add_flag("--quiet", a->quiet, "no progress, and no table beside --json -");
+  command->footer(
+      "A seed passes when no promised invariant is broken (as `run` judges) and every limit of its scenario holds.\n"
+      "For each failure the one command is printed that runs that seed again, to the same trace_hash, with its trace.\n"
+      "Exit: 0 all passed, 1 something failed or was not run, 2 wrong arguments or files.\n\n"
+      "Examples\n"
+      "  tandem-netsim test --list\n"
+      "  tandem-netsim test shipped --junit verdict.xml\n"
+      "  tandem-netsim test my-scenarios/ --seeds 100 --jobs 8 --json -\n"
+      "  tandem-netsim test outage-one-seat --seed 17 --seeds 1 --trace out.csv");
+  command->callback([a, seed, seeds, &action] {
+    a->seed_given = seed->count() > 0;
+    a->seeds_given = seeds->count() > 0;
+    action = [a] { return test_command(*a); };
+  });
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "netsim/world_setup.h"
+#include "server/report.h"
+
+namespace tandem::netsim {
+
+/// Who looks on while a world runs. Both may be empty.
+struct WorldRunWatch {
+  /// Told the session's time [s] some times per virtual second; false ends the run early.
+  std::function<bool(double session_s)> go_on = {};
+  /// The rows of the trace (server/trace_csv.h), header first, in pieces.
+  std::function<void(std::string_view rows)> trace = {};
+};
+
+struct WorldRun {
+  server::RunReport report;  ///< `cpu_s` is the caller's: cores read no clock
+  std::string trouble;       ///< why there is nothing to judge; empty: the session ran
+  bool interrupted = false;  ///< `go_on` said no; the report is of what ran until then
+};
+
+/// Runs a session in virtual time to its end and judges it. Same setup and build: same report, `trace_hash` included.
+/// Keeps nothing outside: many may run side by side.
+[[nodiscard]] WorldRun run_world(const WorldSetup& setup, const WorldRunWatch& watch = {});
+
+}  // namespace tandem::netsim

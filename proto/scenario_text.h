@@ -1,0 +1,18 @@
+#pragma once
+
+#include <expected>
+#include <string_view>
+
+#include "proto/input_error.h"
+#include "proto/scenario_spec.h"
+
+namespace tandem {
+
+/// Reads a scenario (proto/scenario.proto in text format, or JSON if the name ends in `.json`).
+/// @param text       whole file, at most 1 MiB
+/// @param file_name  used in messages and for the scenario's name
+/// @return what it says, or every mistake found, in file order
+[[nodiscard]] std::expected<ScenarioSpec, InputErrors> parse_scenario_text(std::string_view text,
+                                                                           std::string_view file_name);
+
+}  // namespace tandem

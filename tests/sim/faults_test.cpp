@@ -1,0 +1,171 @@
+// What goes wrong at the ends of the network: programs that stand still or die, readings that lie, bytes from strangers, clocks.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "tests/support/world_run.h"
+
+namespace tandem {
+namespace {
+
+using namespace std::chrono_literals;
+using netsim::Fault;
+
+SceneSpec calm_scene() {
+  SceneSpec scene = test::shipped("free_motion");
+  for (auto& s : scene.seats) s.hand.deviations.clear();
+  scene.timeline.clear();
+  scene.duration = 12;
+  scene.phases = {{"run", 1, 12, false}};
+  return scene;
+}
+
+struct Lived {
+  std::unique_ptr<netsim::World> world;
+  std::uint64_t fingerprint = 0;  ///< of where every hand was at every tick
+  std::uint64_t faulted_ticks = 0;
+};
+
+Lived live(netsim::WorldSetup setup, const test::Observer& observer = {}) {
+  auto made = netsim::World::make(setup);
+  if (!made) throw std::runtime_error(made.error());
+  Lived out{std::move(*made)};
+  while (out.world->step()) {
+    for (std::size_t i = 0; i < out.world->scene().seats.size(); ++i)
+      out.fingerprint = mix64(out.fingerprint ^ std::bit_cast<std::uint64_t>(out.world->device(i).truth().x[0]));
+    if (observer) observer(*out.world);
+  }
+  return out;
+}
+
+netsim::WorldSetup with_fault(Fault::Kind kind, Duration length, const std::string& seat = "trainee") {
+  netsim::WorldSetup setup{.scene = calm_scene()};
+  setup.faults = {{kind, seat, 5s, length}};
+  return setup;
+}
+
+void expect_nothing_broken(const netsim::World& world) {
+  EXPECT_EQ(world.trouble(), "");
+  for (const auto& v : world.violations().list()) EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
+}
+
+constexpr std::size_t kTrainer = 0, kTrainee = 1;
+
+TEST(Faults, AProgramThatStandsStillLetsGoAndComesBack) {
+  Duration let_go_after{};
+  const Lived run = live(with_fault(Fault::Kind::kPause, 500ms), [&](netsim::World& w) {
+    // The device forgets its command by itself, 5 ms after the program's last word.
+    const Duration into = w.now() - (Time{} + 5s);
+    if (into > 6ms && into < 490ms) {
+      EXPECT_EQ(w.device(kTrainee).state().f_out.norm(), 0) << seconds(into);
+    }
+    if (let_go_after == Duration{} && into > 0s && !w.seat(kTrainee)->gate().active()) let_go_after = into;
+  });
+  expect_nothing_broken(*run.world);
+  EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
+  EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 0u) << "the others are not to suffer";
+  EXPECT_EQ(run.world->device(kTrainee).counts().expired, 497u) << "the command of 4.999 s lives until 5.004 s, the next comes at 5.500 s";
+  EXPECT_GE(let_go_after, 500ms) << "nobody was there to let go before";
+}
+
+TEST(Faults, AProgramThatIsStartedAgainGetsItsSeatAndTheHandIsEngagedAgain) {
+  bool gone = false, back = false;
+  const Lived run = live(with_fault(Fault::Kind::kRestart, 1s), [&](netsim::World& w) {
+    gone |= w.seat(kTrainee) == nullptr;
+    back |= gone && w.seat(kTrainee) != nullptr && w.seat(kTrainee)->gate().phase() == control::GatePhase::kActive;
+  });
+  expect_nothing_broken(*run.world);
+  EXPECT_TRUE(gone);
+  EXPECT_TRUE(back);
+}
+
+TEST(Faults, WrongReadingsAreHeldForThreeSamplesThenFaultOneSeat) {
+  for (const auto kind : {Fault::Kind::kNotANumber, Fault::Kind::kOutOfRange}) {
+    const Lived shortly = live(with_fault(kind, 3ms));
+    expect_nothing_broken(*shortly.world);
+    EXPECT_EQ(shortly.world->seat(kTrainee)->gate().phase(), control::GatePhase::kPassive) << "the session's end, not FAULT";
+    EXPECT_EQ(shortly.world->seat(kTrainee)->gate().trips(), 0u);
+
+    Duration faulted{};
+    const Lived longer = live(with_fault(kind, 10ms), [&](netsim::World& w) {
+      const auto phase = w.seat(kTrainee) ? w.seat(kTrainee)->gate().phase() : control::GatePhase::kOff;
+      if (faulted == Duration{} && phase == control::GatePhase::kFault) faulted = w.now() - (Time{} + 5s);
+    });
+    expect_nothing_broken(*longer.world);
+    EXPECT_EQ(longer.world->seat(kTrainee)->gate().phase(), control::GatePhase::kFault);
+    EXPECT_EQ(longer.world->seat(kTrainer)->gate().trips(), 0u);
+    EXPECT_EQ(faulted, 4ms) << "the fourth wrong sample, seen after its tick";
+  }
+}
+
+TEST(Faults, ReplayedAndRandomDatagramsChangeNothingAtAll) {
+  netsim::WorldSetup clean{.scene = calm_scene()};
+  clean.network = netsim::link_from(test::delayed(10, 5, 2));
+  netsim::WorldSetup attacked = clean;
+  attacked.faults = {{Fault::Kind::kReplay, "", 1s, 9s}, {Fault::Kind::kJunk, "", 1s, 9s}};
+  const Lived quiet = live(clean), loud = live(attacked);
+  expect_nothing_broken(*loud.world);
+  EXPECT_EQ(quiet.fingerprint, loud.fingerprint) << "a hand moved by what an attacker sent";
+  EXPECT_EQ(quiet.world->session().stray(), 0u);
+  EXPECT_GT(loud.world->session().stray(), 18'000u) << "nothing was sent";
+  const auto& refused = loud.world->session().seat(kTrainee).link()->stats().refused;
+  EXPECT_GT(refused[static_cast<std::size_t>(link::Refusal::kDuplicate)] + refused[static_cast<std::size_t>(link::Refusal::kTooOld)], 8000u);
+}
+
+TEST(Faults, AnAccountThatRunsBackwardsIsSeenAndGivesNobodyAnything) {
+  const Lived honest = live(with_fault(Fault::Kind::kLiar, 1ms));
+  const Lived run = live(with_fault(Fault::Kind::kLiar, 5s));
+  expect_nothing_broken(*run.world);
+  bool seen = false;
+  for (const auto& v : run.world->violations().list()) seen |= v.invariant == "energy_monotone" && v.seat == "trainee" && v.expected;
+  EXPECT_TRUE(seen);
+  EXPECT_GT(honest.world->session().time(), 11.9);
+}
+
+TEST(Faults, AServerThatStandsStillMakesUpForItAndHandsLetGoMeanwhile) {
+  const Lived run = live(with_fault(Fault::Kind::kServerLate, 300ms, ""));
+  expect_nothing_broken(*run.world);
+  EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 1u);
+  EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
+  EXPECT_EQ(run.world->session().slipped(), 250u) << "it lives through 50 missed ticks, gives up the rest";
+}
+
+TEST(Clocks, AnOffsetOfADayChangesNothingAtAll) {
+  netsim::WorldSetup same{.scene = calm_scene()};
+  netsim::WorldSetup other = same;
+  other.endpoints["trainee"].offset = std::chrono::hours(24);
+  other.endpoints["trainer"].offset = -std::chrono::hours(24);
+  const Lived a = live(same), b = live(other);
+  expect_nothing_broken(*b.world);
+  EXPECT_EQ(a.fingerprint, b.fingerprint);
+}
+
+TEST(Clocks, DriftAndLateWakeUpsOfALoggerCostNobodyHisHand) {
+  netsim::WorldSetup setup{.scene = calm_scene()};
+  setup.endpoints["trainee"] = {.drift_ppm = 200, .wake = {.kind = netsim::WakeSpec::Kind::kMeasured}};
+  setup.endpoints["trainer"] = {.drift_ppm = -200, .wake = {.kind = netsim::WakeSpec::Kind::kUniform, .late_max = 900us}};
+  const Lived run = live(setup);
+  expect_nothing_broken(*run.world);
+  EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 0u);
+  EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 0u);
+}
+
+TEST(Clocks, AStepOfASecondMakesTheHandLetGoOnce) {
+  netsim::WorldSetup setup{.scene = calm_scene()};
+  setup.endpoints["trainee"].steps = {{5s, 1s}};
+  const Lived run = live(setup);
+  expect_nothing_broken(*run.world);
+  EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
+}
+
+TEST(Faults, OfASeatThatIsNotThereAreRefused) {
+  netsim::WorldSetup setup{.scene = calm_scene()};
+  setup.faults = {{Fault::Kind::kPause, "nobody", 1s, 1s}};
+  const auto made = netsim::World::make(setup);
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().find("nobody"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tandem

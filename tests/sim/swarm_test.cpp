@@ -1,0 +1,55 @@
+// The generator of random sessions, and that a seed is one session and no other. The swarm itself runs as a program (Swarm.*).
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "netsim/world_swarm.h"
+
+namespace tandem {
+namespace {
+
+TEST(SwarmCases, AreValidAndCoverWhatTheyPromise) {
+  std::set<std::size_t> masters, tools;
+  std::set<netsim::Fault::Kind> faults;
+  std::size_t remote = 0, joint = 0, one_axis = 0, evaluators = 0, scripted = 0, clocks = 0;
+  constexpr std::uint64_t kCases = 1000;
+  for (std::uint64_t seed = 1; seed <= kCases; ++seed) {
+    const netsim::SwarmCase c = netsim::draw_swarm_case(seed);  // throws if its scene is not valid
+    const SceneSpec& scene = c.setup.scene;
+    masters.insert(scene.masters());
+    tools.insert(scene.tools.size());
+    for (const auto& f : c.setup.faults) {
+      faults.insert(f.kind);
+      EXPECT_LE(f.at + f.length, c.calm) << seed;
+    }
+    for (const auto& e : c.setup.events) {
+      EXPECT_TRUE(problems(e).empty()) << seed;
+      EXPECT_LE(e.at + (e.outage ? e.outage->length : Duration{}), c.calm) << seed;
+    }
+    remote += scene.seats.size() > scene.masters();
+    joint += scene.port == PortSpace::kJoint;
+    one_axis += scene.dof == 1;
+    for (const auto& s : scene.seats) evaluators += s.role == Role::kEvaluator;
+    scripted += c.setup.events.size() > 1;
+    clocks += !c.setup.endpoints.empty();
+  }
+  EXPECT_EQ(masters, (std::set<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(tools, (std::set<std::size_t>{1, 2, 3, 4}));
+  EXPECT_EQ(faults.size(), netsim::kFaultNames.size()) << "a kind of fault never comes";
+  for (const std::size_t n : {remote, joint, one_axis, evaluators, scripted, clocks}) EXPECT_GT(n, kCases / 20);
+}
+
+TEST(SwarmCases, AreTheSameSessionEveryTime) {
+  for (const std::uint64_t seed : {3, 8}) {
+    const auto once = netsim::live_swarm_case(netsim::draw_swarm_case(seed, 6));
+    const auto again = netsim::live_swarm_case(netsim::draw_swarm_case(seed, 6));
+    EXPECT_TRUE(once.passed()) << once.trouble;
+    EXPECT_EQ(once.fingerprint, again.fingerprint);
+    EXPECT_EQ(once.lived_s, again.lived_s);
+  }
+  EXPECT_NE(netsim::live_swarm_case(netsim::draw_swarm_case(3, 6)).fingerprint,
+            netsim::live_swarm_case(netsim::draw_swarm_case(4, 6)).fingerprint);
+}
+
+}  // namespace
+}  // namespace tandem
