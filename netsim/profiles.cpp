@@ -114,8 +114,8 @@ PathSpec path_from(const ProfilePath& in) {
                   .alpha = stall->alpha,
                   .cap = milliseconds(stall->cap_ms)};
   }
-  path.corrupted = probability(in.corrupted_percent);
-  path.mtu = in.mtu_bytes;
+  path.corruption.probability = probability(in.corrupted_percent);
+  path.mtu.bytes = in.mtu_bytes;
   path.order = in.free_order ? Order::kFree : Order::kFifo;
   if (const auto& reorder = in.reorder) {
     path.reorder = {.probability = probability(reorder->probability_percent),
@@ -129,6 +129,8 @@ PathSpec path_from(const ProfilePath& in) {
   return path;
 }
 
+}  // namespace
+
 OutageSpec outage_from(const ProfileOutage& in) {
   return {.start = milliseconds(in.start_s * 1e3),
           .length = milliseconds(in.length_ms),
@@ -138,6 +140,8 @@ OutageSpec outage_from(const ProfileOutage& in) {
           .mean_gap = milliseconds(in.mean_gap_s * 1e3),
           .length_max = in.mean_gap_s > 0 ? milliseconds(in.length_max_ms) : Duration::zero()};
 }
+
+namespace {
 
 struct Embedded {
   std::string_view name, unused, text;

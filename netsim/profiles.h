@@ -11,6 +11,10 @@
 #include "netsim/path_spec.h"
 #include "proto/input_error.h"
 
+namespace tandem {
+struct ProfileOutage;
+}
+
 /// Named networks. A profile is a text file (proto/profile.proto) with numbers, their sources and a version.
 namespace tandem::netsim {
 
@@ -28,6 +32,9 @@ struct Profile {
   LinkSpec link;
   std::vector<ProfileCheck> checks;
 };
+
+/// An outage as people write it, in the engine's numbers.
+[[nodiscard]] OutageSpec outage_from(const ProfileOutage& in);
 
 /// Turns the text of a profile into numbers that cannot be wrong.
 /// @param file_name  used in messages and for the name
