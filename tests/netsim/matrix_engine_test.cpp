@@ -4,8 +4,11 @@
 #include <cmath>
 #include <map>
 
+#include "netsim/decision_csv.h"
 #include "netsim/link_rate.h"
+#include "netsim/network.h"
 #include "tests/base/counts.h"
+#include "tests/netsim/random_spec.h"
 #include "tests/netsim/statistics.h"
 #include "tests/netsim/support.h"
 
@@ -108,6 +111,47 @@ TEST(Matrix, StreamsOfDirectionsFlowsAndPurposesAreIndependent) {
         EXPECT_LT(std::abs((joint[0] + joint[3] - joint[1] - joint[2]) / static_cast<double>(n)), most) << b->first;
       }
     }
+  }
+}
+
+/// Both directions of a link for 3 s of uneven traffic, as a log.
+std::string log_of(Network& network, std::uint64_t seed) {
+  DecisionLog log{100'000};
+  network.log_to(&log);
+  RandomStream random{RandomKey{seed}.derive(5)};
+  std::array<std::byte, kSlotBytes> buffer{};
+  for (Time now{}; now < Time{3s};) {
+    now += Duration{static_cast<std::int64_t>(random.below(1'500'000))};
+    const std::size_t size = 20 + random.below(400);
+    for (const Direction direction : {Direction::kUp, Direction::kDown}) network.send(now, 0, direction, std::span{buffer}.first(size));
+    while (network.poll_any(now, buffer)) {
+    }
+  }
+  network.log_waiting();
+  EXPECT_EQ(log.missed(), 0U);
+  return decision_csv(log.sorted());
+}
+
+// Log, text, reader, recording, network, log: the same bytes.
+TEST(Matrix, ALogPlaysAgainToTheIdenticalLog) {
+  for (std::uint64_t seed = 1, last = tandem::test::seeds(40); seed <= last && !HasFailure(); ++seed) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    RandomStream random{seed};
+    LinkSpec spec;
+    spec.up = random_path(random, seed % 3 == 0 ? Order::kFree : Order::kFifo);
+    spec.down = random_path(random, Order::kFifo);
+    Network live{seed}, again{seed + 1};
+    live.add_link(spec);
+    const std::string log = log_of(live, seed);
+    const auto rows = parse_decision_csv(log, "log.csv");
+    ASSERT_TRUE(rows) << to_text(rows.error());
+    auto replay = Replay::make(*rows);
+    ASSERT_TRUE(replay) << replay.error();
+    again.add_replay(std::make_shared<const Replay>(std::move(*replay)), 0);
+    const std::string second = log_of(again, seed);
+    const auto differs = std::ranges::mismatch(log, second);
+    EXPECT_TRUE(log == second) << "first difference near: " << log.substr(static_cast<std::size_t>(differs.in1 - log.begin()) / 60 * 60, 120);
+    EXPECT_GT(log.size(), 100'000U);
   }
 }
 

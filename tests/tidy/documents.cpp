@@ -205,6 +205,21 @@ std::vector<Finding> check_references(const SourceFile& document, const Known& k
   return findings;
 }
 
+std::vector<Finding> check_rows(const SourceFile& document, const Known& known) {
+  std::vector<Finding> findings;
+  std::size_t number = 0;
+  bool body = false;  // of a table: below the line of dashes
+  for (const std::string_view line : lines_of(document.text)) {
+    ++number;
+    const bool row = line.starts_with('|');
+    if (body && row && std::ranges::none_of(quoted_in(line), [&](auto q) { return known.tests.contains(q); })) {
+      findings.push_back({document.path, number, "this row names no existing test as `Suite.Name`"});
+    }
+    body = row && (body || line.starts_with("|-"));
+  }
+  return findings;
+}
+
 std::vector<Finding> check_commands(const SourceFile& document, const Known& known) {
   std::vector<Finding> findings;
   std::size_t number = 0;

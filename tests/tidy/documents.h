@@ -35,6 +35,9 @@ inline constexpr std::size_t kInvariantsMin = 10;
 [[nodiscard]] std::vector<Finding> check_references(const SourceFile& document, const Known& known,
                                                     const std::filesystem::path& root);
 
+/// Each row of the document's tables names, in backticks, at least one test that exists as `Suite.Name`.
+[[nodiscard]] std::vector<Finding> check_rows(const SourceFile& document, const Known& known);
+
 /// In ``` blocks: a line that begins with tandem-... or ./... (after "$ " or NAME=value) names an existing program, and
 /// each of its --options occurs in the sources.
 [[nodiscard]] std::vector<Finding> check_commands(const SourceFile& document, const Known& known);

@@ -54,6 +54,17 @@ TEST(Readme, EveryCommandFileAndTestItNamesExists) {
   }
 }
 
+TEST(ValidationMatrix, EveryRowNamesTestsThatExist) {
+  const auto files = read_repository(kRoot);
+  if (const SourceFile* document = find_document(files, "tests/netsim/MATRIX.md")) {
+    const Known known = known_things(files);
+    EXPECT_GE(lines_with(document->text, "exact").size(), 10u) << "the table is not there";
+    EXPECT_TRUE(check_rows(*document, known).empty()) << to_string(check_rows(*document, known));
+    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+        << to_string(check_references(*document, known, kRoot));
+  }
+}
+
 TEST(Documents, KnowsTestsAndPrograms) {
   const Known known = small_world();
   EXPECT_EQ(known.tests, (std::set<std::string, std::less<>>{"Link.Works", "Gate.Ramps"}));
@@ -80,6 +91,14 @@ TEST(Documents, NamesWithoutAThingAreReported) {
   };
   EXPECT_EQ(trouble("`Link.Works` `README.md` `tests/tidy` `server/<name>` `a.b`\n```\n`Not.Here`\n```\n"), 0u);
   EXPECT_EQ(trouble("text `Link.Breaks`\n`tests/tidy/nothing.h`\n"), 2u);
+}
+
+TEST(Documents, RowsWithoutATestAreReported) {
+  const auto trouble = [](const std::string& rows) {
+    return check_rows(make_source("M.md", "| a | b |\n|---|---|\n" + rows), small_world()).size();
+  };
+  EXPECT_EQ(trouble("| x | `Link.Works`, more |\n| y | `Gate.Ramps` |\ntext\n| no table |\n"), 0u);
+  EXPECT_EQ(trouble("| x | `Link.Breaks` |\n| y | nothing |\n| z | `Link.Works` |\n"), 2u);
 }
 
 TEST(Documents, CommandsThatDoNotExistAreReported) {
