@@ -25,33 +25,75 @@ DelayQueue::DelayQueue(std::size_t slots, std::size_t lanes) : slots_(slots) {
 
 DelayQueue::Entered DelayQueue::enter(const Verdict& verdict, Time sent, std::uint32_t lane,
                                       std::span<const std::byte> bytes, std::uint32_t tag) noexcept {
-  Slot about{.sent = sent,
-             .index = verdict.index,
-             .lane = lane,
-             .tag = tag,
-             .held_back = verdict.outcome == Outcome::kHeldBack};
-  const auto slot = store(about, bytes);
-  Entered entered = slot ? Entered::kYes : Entered::kNo;
-  std::uint32_t copy = kNoSlot;
-  if (slot && verdict.copied && !dropped(verdict.copy_outcome)) {
-    about.copy = true;
-    const auto second = store(about, bytes);
-    if (second) copy = *second;
-    if (!second) entered = Entered::kNoCopy;
+  const bool waits = verdict.outcome == Outcome::kWaiting;
+  const auto slot = store({.sent = sent,
+                           .index = verdict.index,
+                           .lane = lane,
+                           .tag = tag,
+                           .size_in = static_cast<std::uint32_t>(bytes.size()),
+                           .waiting = waits},
+                          bytes);
+  if (!slot) {
+    release(verdict, lane);
+    return Entered::kNo;
   }
-  if (slot && verdict.outcome == Outcome::kHeldBack && held_.size() < held_.capacity()) {
-    held_.push_back({verdict.at, next_order_++, *slot, copy, verdict.copy_delay});
-  } else if (slot) {
-    push(verdict.at, next_order_++, *slot);
+  newest_ = *slot;
+  if (!waits) return admit(*slot, verdict);
+  ++waiting_;
+  return Entered::kYes;
+}
+
+DelayQueue::Entered DelayQueue::decide(std::uint32_t slot, const Verdict& verdict) noexcept {
+  meta_[slot].waiting = false;
+  --waiting_;
+  return admit(slot, verdict);
+}
+
+void DelayQueue::revoke(std::uint32_t slot) noexcept {
+  meta_[slot].waiting = false;
+  --waiting_;
+  recycle(slot);
+}
+
+void DelayQueue::forget_waiting(std::uint32_t lane) noexcept {
+  for (std::uint32_t slot = 0; waiting_ > 0 && slot < meta_.size(); ++slot) {
+    if (!meta_[slot].waiting || meta_[slot].lane != lane) continue;
+    revoke(slot);
+  }
+}
+
+DelayQueue::Entered DelayQueue::admit(std::uint32_t slot, const Verdict& verdict) noexcept {
+  Slot& about = meta_[slot];
+  about.held_back = verdict.outcome == Outcome::kHeldBack;
+  if (verdict.damage.kind != Damage::Kind::kNone) {
+    about.damage = verdict.damage;
+    about.size = static_cast<std::uint32_t>(inflict(verdict.damage, room(slot)));
+  }
+  Entered entered = Entered::kYes;
+  std::uint32_t copy = kNoSlot;
+  if (verdict.copied && !dropped(verdict.copy_outcome)) {
+    Slot second = about;
+    second.copy = true;
+    if (const auto stored = store(second, room(slot))) copy = *stored;
+    if (copy == kNoSlot) entered = Entered::kNoCopy;
+  }
+  if (verdict.outcome == Outcome::kHeldBack && held_.size() < held_.capacity()) {
+    held_.push_back({verdict.at, next_order_++, slot, copy, verdict.copy_delay});
+  } else {
+    push(verdict.at, next_order_++, slot);
     if (copy != kNoSlot) push(verdict.at + verdict.copy_delay, next_order_++, copy);
   }
+  release(verdict, about.lane);
+  return entered;
+}
+
+void DelayQueue::release(const Verdict& verdict, std::uint32_t lane) noexcept {
   for (const Release& release : verdict.released) {
     const auto found = std::find_if(held_.begin(), held_.end(), [&](const HeldEntry& held) {
       return meta_[held.slot].index == release.index && meta_[held.slot].lane == lane;
     });
     if (found != held_.end()) let_go(static_cast<std::size_t>(found - held_.begin()), release.at, next_order_++);
   }
-  return entered;
 }
 
 std::optional<DelayQueue::Item> DelayQueue::take(Time now) noexcept {
@@ -65,7 +107,8 @@ std::optional<DelayQueue::Item> DelayQueue::take(Time now) noexcept {
 
 DelayQueue::Item DelayQueue::item_of(Time at, std::uint32_t slot) const noexcept {
   const Slot& about = meta_[slot];
-  return {at, about.sent, about.index, about.lane, slot, about.tag, about.copy, about.held_back};
+  return {at,         about.sent,      about.index,   about.lane,  slot, about.tag, about.size_in,
+          about.copy, about.held_back, about.waiting, about.damage};
 }
 
 std::span<const std::byte> DelayQueue::bytes(const Item& item) const noexcept {

@@ -5,24 +5,11 @@
 
 namespace tandem::netsim {
 
-Lane::Lane(const LinkSchedule& schedule, Direction direction, std::uint64_t seed, std::uint64_t name)
-    : path_(make_path(schedule.initial, direction, seed, name)) {
-  const LinkSpec* before = &schedule.initial;
-  for (const LinkSchedule::Change& change : schedule.changes) {
-    if (change.link[direction] != (*before)[direction]) {
-      later_.push_back({Time{change.at}, make_path(change.link, direction, seed, name)});
-    }
-    before = &change.link;
-  }
-}
-
-void Lane::switch_to(std::unique_ptr<Path>& next, Time at) noexcept {
-  next->take_over(*path_, at);
-  std::swap(next, path_);
-}
-
-std::unique_ptr<Path> make_path(const LinkSpec& link, Direction direction, std::uint64_t seed, std::uint64_t name) {
-  return std::make_unique<Path>(link[direction], Path::key_for(seed, name, direction), Path::key_for(seed, name));
+Outcome Lane::enter(const Verdict& verdict, DelayQueue& queue, const Entrance& entrance,
+                    std::span<const std::byte> bytes) noexcept {
+  const Outcome outcome = submit(verdict, queue, counters, tap, entrance, bytes);
+  if (outcome == Outcome::kWaiting && course_) course_->keep(entrance.now, flow_, queue.newest());
+  return outcome;
 }
 
 /// Room for 10 s of 1 kHz traffic besides everything that is under way for the longest delay of the models, doubled

@@ -15,11 +15,13 @@ LinkRate::LinkRate(const RateSpec& spec)
     : limited_(spec.present()),
       bits_per_s_(spec.bits_per_s),
       overhead_(spec.overhead_bytes),
-      queue_bytes_(spec.queue_bytes),
-      wait_max_(std::min(spec.queue_wait.value_or(kWaitMax), kWaitMax)),
+      queue_bytes_(spec.drop == RateSpec::Drop::kHead ? 0 : spec.queue_bytes),
+      wait_max_(spec.drop == RateSpec::Drop::kHead ? kWaitMax : std::min(spec.queue_wait.value_or(kWaitMax), kWaitMax)),
       competing_peak_(spec.competing_peak),
       competing_period_(spec.competing_period),
       capacity_(spec.trace) {
+  // What makes room at the head keeps the limits itself (head_drop.h).
+  if (spec.drop == RateSpec::Drop::kHead) return;
   // A recorded capacity cannot tell its backlog from the time alone, so it keeps it.
   if (spec.queue_datagrams > 0) {
     backlog_.emplace(spec.queue_datagrams);
@@ -48,6 +50,20 @@ std::optional<Time> LinkRate::serve_queued(Time now, std::size_t size) noexcept 
   const auto sent = capacity_.present() ? by_trace(now, bytes) : at_rate(now, bytes);
   if (sent && backlog_) backlog_->add(*sent, bytes);
   return sent;
+}
+
+Time LinkRate::begins(Time now, std::uint64_t bytes_before) noexcept {
+  if (capacity_.present()) return capacity_.offer(std::max(now, not_before_), bytes_before + 1);
+  const bool busy = busy_until_ >= now;
+  const Wide work = Wide{bytes_before} * kBitNanoseconds + (busy ? busy_rest_ : 0) + bits_per_s_ - 1;
+  return (busy ? busy_until_ : now) + Duration{static_cast<std::int64_t>(work / bits_per_s_)};
+}
+
+std::optional<std::uint64_t> LinkRate::unsent(Time now) const noexcept {
+  if (capacity_.present()) return std::nullopt;
+  if (busy_until_ < now) return 0;
+  const Wide work = Wide{static_cast<std::uint64_t>((busy_until_ - now).count())} * bits_per_s_ + busy_rest_;
+  return static_cast<std::uint64_t>((work + kBitNanoseconds - 1) / kBitNanoseconds);
 }
 
 std::optional<Time> LinkRate::by_trace(Time now, std::uint64_t bytes) noexcept {

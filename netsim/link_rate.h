@@ -28,6 +28,11 @@ class LinkRate {
     return serve_queued(now, size);
   }
 
+  /// When the first bit of something would be sent that comes now, behind so many bytes that wait and that this sender
+  /// does not know of yet; in whole nanoseconds. A recorded capacity: at the first opportunity that is not used up.
+  [[nodiscard]] Time begins(Time now, std::uint64_t bytes_before) noexcept;
+  /// What is not sent yet of those served, in whole bytes; empty: a recorded capacity cannot tell.
+  [[nodiscard]] std::optional<std::uint64_t> unsent(Time now) const noexcept;
   /// Goes on where a sender of other numbers was: what it still had to send at `at` is sent at this rate, before all
   /// that comes later. (What it said about datagrams already in its queue stays said.)
   void take_over(const LinkRate& before, Time at) noexcept;

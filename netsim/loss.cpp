@@ -56,8 +56,9 @@ void BadPeriods::next_period() noexcept {
   end_ = std::min(block_end, end_ + Duration{std::max<std::int64_t>(length, 1)});
 }
 
-Loss::Loss(const LossSpec& spec, RandomKey key)
+Loss::Loss(const LossSpec& spec, RandomKey key, std::uint64_t salt)
     : probability_(spec.probability),
+      salt_(salt),
       models_(spec.periods || spec.gilbert_elliott || spec.four_state || spec.bursts || spec.pattern || spec.trace),
       alone_key_(key.derive(kAlone)),
       period_key_(key.derive(kInPeriod)),
@@ -69,18 +70,25 @@ Loss::Loss(const LossSpec& spec, RandomKey key)
     loss_bad_ = spec.periods->loss_bad;
     periods_.emplace(*spec.periods, key.derive(kPeriods));
   }
-  if (spec.gilbert_elliott) gilbert_elliott_.emplace(*spec.gilbert_elliott, key.derive(kGilbertElliott));
+  if (spec.gilbert_elliott) gilbert_elliott_.emplace(*spec.gilbert_elliott, key.derive(kGilbertElliott), salt);
   if (spec.four_state) four_state_.emplace(*spec.four_state, key.derive(kFourState));
   if (spec.bursts) bursts_.emplace(*spec.bursts, key.derive(kBursts));
-  if (spec.pattern) pattern_.emplace(*spec.pattern, key.derive(kPattern));
+  if (spec.pattern) pattern_.emplace(*spec.pattern, key.derive(kPattern), salt);
   if (spec.trace) player_.emplace(spec.trace);
+}
+
+void Loss::set_salt(std::uint64_t salt) noexcept {
+  salt_ = salt;
+  if (gilbert_elliott_) gilbert_elliott_->begin(salt);
+  if (pattern_) pattern_->set_salt(salt);
 }
 
 bool Loss::lost_by_model(Time now, std::uint64_t index) noexcept {
   bool lost = false;
-  if (periods_) lost = period_key_.uniform(index) < (periods_->bad_at(now) ? loss_bad_ : loss_good_);
-  if (gilbert_elliott_ && gilbert_elliott_->lost(index)) lost = true;
-  if (four_state_ && four_state_->lost(index)) lost = true;
+  const std::uint64_t draw = index | salt_;
+  if (periods_) lost = period_key_.uniform(draw) < (periods_->bad_at(now) ? loss_bad_ : loss_good_);
+  if (gilbert_elliott_ && gilbert_elliott_->lost(draw)) lost = true;
+  if (four_state_ && four_state_->lost(draw)) lost = true;
   if (bursts_ && bursts_->lost(now)) lost = true;
   if (pattern_ && pattern_->lost(now, index)) lost = true;
   if (player_ && player_->lost(now, index)) lost = true;
@@ -91,7 +99,7 @@ bool Loss::lost_in_queue(Duration wait, std::uint64_t index) const noexcept {
   if (!congestion_ || wait <= congestion_->wait_low) return false;
   const Duration span = congestion_->wait_high - congestion_->wait_low;
   const double share = std::min(1.0, seconds(wait - congestion_->wait_low) / seconds(span));
-  return queue_key_.uniform(index) < congestion_->probability * share;
+  return queue_key_.uniform(index | salt_) < congestion_->probability * share;
 }
 
 }  // namespace tandem::netsim

@@ -48,12 +48,17 @@ class BadPeriods {
 /// switching one on moves no decision of another.
 class Loss {
  public:
-  Loss(const LossSpec& spec, RandomKey key);
+  /// @param salt  put on top of the index where a number is drawn for it, see Path: flows of one link draw for
+  ///              themselves and count for themselves, and meet the same bad times
+  Loss(const LossSpec& spec, RandomKey key, std::uint64_t salt = 0);
+
+  /// The salt of another flow, as if made with it. Takes no memory.
+  void set_salt(std::uint64_t salt) noexcept;
 
   /// @param now    never decreasing
-  /// @param index  of the datagram
+  /// @param index  of the datagram in its flow
   bool lost(Time now, std::uint64_t index) noexcept {
-    const bool alone = probability_ > 0 && alone_key_.uniform(index) < probability_;
+    const bool alone = probability_ > 0 && alone_key_.uniform(index | salt_) < probability_;
     return (models_ && lost_by_model(now, index)) || alone;
   }
 
@@ -61,7 +66,7 @@ class Loss {
   [[nodiscard]] bool lost_in_queue(Duration wait, std::uint64_t index) const noexcept;
   /// Lost because it would leave during a stall.
   [[nodiscard]] bool lost_in_stall(std::uint64_t index) const noexcept {
-    return congestion_ && stall_key_.uniform(index) < congestion_->in_stall;
+    return congestion_ && stall_key_.uniform(index | salt_) < congestion_->in_stall;
   }
   [[nodiscard]] bool minds_queue() const noexcept { return congestion_ && congestion_->probability > 0; }
 
@@ -69,6 +74,7 @@ class Loss {
   bool lost_by_model(Time now, std::uint64_t index) noexcept;
 
   double probability_;
+  std::uint64_t salt_;
   double loss_good_ = 0, loss_bad_ = 0;
   bool models_;  ///< any of those below
   RandomKey alone_key_, period_key_, queue_key_, stall_key_;

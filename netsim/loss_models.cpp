@@ -28,11 +28,13 @@ LengthLaw law_of(const LossBurstsSpec& spec) noexcept {
 
 }  // namespace
 
-GilbertElliott::GilbertElliott(const GilbertElliottSpec& spec, RandomKey key) noexcept
+GilbertElliott::GilbertElliott(const GilbertElliottSpec& spec, RandomKey key, std::uint64_t salt) noexcept
     : spec_(spec),
       state_key_(key.derive(kState)),
       loss_key_(key.derive(kLoss)),
-      bad_(key.derive(kFirst).uniform(0) < spec.p / (spec.p + spec.r)) {}
+      first_key_(key.derive(kFirst)) {
+  begin(salt);
+}
 
 bool GilbertElliott::lost(std::uint64_t index) noexcept {
   if (state_key_.uniform(index) < (bad_ ? spec_.r : spec_.p)) bad_ = !bad_;
@@ -80,7 +82,7 @@ bool LossPattern::lost(Time now, std::uint64_t index) noexcept {
     // Selection sampling: the chance is what is still to be lost over what is still to come, so it always adds up.
     const auto place = static_cast<std::uint32_t>(index % spec_.of);
     if (place == 0) lost_in_window_ = 0;
-    if (key_.uniform(index) * (spec_.of - place) < spec_.lost - lost_in_window_) {
+    if (key_.uniform(index | salt_) * (spec_.of - place) < spec_.lost - lost_in_window_) {
       ++lost_in_window_;
       lost = true;
     }

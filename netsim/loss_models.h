@@ -16,14 +16,16 @@ namespace tandem::netsim {
 class GilbertElliott {
  public:
   /// The first datagram finds the stationary distribution.
-  GilbertElliott(const GilbertElliottSpec& spec, RandomKey key) noexcept;
+  GilbertElliott(const GilbertElliottSpec& spec, RandomKey key, std::uint64_t salt = 0) noexcept;
   [[nodiscard]] bool lost(std::uint64_t index) noexcept;
+  /// Draws the first state of the flow of this salt.
+  void begin(std::uint64_t salt) noexcept { bad_ = first_key_.uniform(salt) < spec_.p / (spec_.p + spec_.r); }
   [[nodiscard]] bool bad() const noexcept { return bad_; }  ///< the state that decided last
 
  private:
   GilbertElliottSpec spec_;
-  RandomKey state_key_, loss_key_;
-  bool bad_;
+  RandomKey state_key_, loss_key_, first_key_;
+  bool bad_ = false;
 };
 
 class FourState {
@@ -54,12 +56,15 @@ class LossBursts {
 
 class LossPattern {
  public:
-  LossPattern(const LossPatternSpec& spec, RandomKey key) : spec_(spec), key_(key) {}
+  LossPattern(const LossPatternSpec& spec, RandomKey key, std::uint64_t salt = 0)
+      : spec_(spec), key_(key), salt_(salt) {}
   [[nodiscard]] bool lost(Time now, std::uint64_t index) noexcept;
+  void set_salt(std::uint64_t salt) noexcept { salt_ = salt; }
 
  private:
   LossPatternSpec spec_;
   RandomKey key_;
+  std::uint64_t salt_;
   std::uint32_t lost_in_window_ = 0;
   std::size_t next_index_ = 0, next_time_ = 0;
 };

@@ -10,7 +10,18 @@ std::size_t lane_number(std::uint32_t link, Direction direction) noexcept {
   return std::size_t{link} * kDirections + static_cast<std::size_t>(direction);
 }
 
+bool alike(const LinkSchedule& a, const LinkSchedule& b) {
+  return a.initial == b.initial && std::ranges::equal(a.changes, b.changes, [](const auto& x, const auto& y) {
+           return x.at == y.at && x.link == y.link;
+         });
+}
+
 }  // namespace
+
+std::optional<Time> Network::Stored::next_due() const noexcept {
+  const auto due = queue.next_due(), settle = lane.next_settle();
+  return due && settle ? std::min(*due, *settle) : due ? due : settle;
+}
 
 std::uint32_t Network::add_link(const LinkSpec& spec) { return add_link(spec, links()); }
 
@@ -19,11 +30,47 @@ std::uint32_t Network::add_link(const LinkSpec& spec, std::uint64_t name) {
 }
 
 std::uint32_t Network::add_link(const LinkSchedule& schedule, std::uint64_t name) {
+  if (schedule.initial.shared) {
+    const auto found =
+        std::ranges::find_if(shared_, [&](const Shared& link) { return alike(link.schedule, schedule); });
+    const auto number = static_cast<std::uint32_t>(found - shared_.begin());
+    return add_flow(found == shared_.end() ? add_shared(schedule) : number, name, schedule.rebinds);
+  }
   const auto make = [&](Direction direction) {
     return std::make_unique<Stored>(Lane(schedule, direction, seed_, name), slots_for(schedule, direction));
   };
   auto up = make(Direction::kUp);
-  return add(std::move(up), make(Direction::kDown), schedule);
+  return add(std::move(up), make(Direction::kDown), schedule.rebinds);
+}
+
+std::uint32_t Network::add_shared(const LinkSchedule& schedule) {
+  const auto number = static_cast<std::uint32_t>(shared_.size());
+  Shared link{schedule, {}, 0, 0};
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    link.courses[static_cast<std::size_t>(direction)] =
+        std::make_shared<Course>(schedule, direction, seed_, Course::Shared{number});
+  }
+  shared_.push_back(std::move(link));
+  return number;
+}
+
+std::uint32_t Network::add_flow(std::uint32_t shared, std::uint64_t name,
+                                const std::vector<LinkSchedule::AddressChange>& rebinds) {
+  Shared& link = shared_.at(shared);
+  if (link.flows == 0) link.first = static_cast<std::uint32_t>(links());
+  const auto make = [&](Direction direction) {
+    const auto& course = link.courses[static_cast<std::size_t>(direction)];
+    course->join(link.flows, name);
+    return std::make_unique<Stored>(Lane(course, link.flows), slots_for(link.schedule, direction));
+  };
+  auto up = make(Direction::kUp);
+  auto down = make(Direction::kDown);
+  ++link.flows;
+  const std::uint32_t number = add(std::move(up), std::move(down), rebinds);
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    stored(number, direction)->lane.tap.link = link.first;
+  }
+  return number;
 }
 
 std::uint32_t Network::add_replay(std::shared_ptr<const Replay> replay, std::uint32_t flow) {
@@ -31,12 +78,19 @@ std::uint32_t Network::add_replay(std::shared_ptr<const Replay> replay, std::uin
     return std::make_unique<Stored>(Lane(replay, flow, direction), slots_for(replay->delay_max(flow, direction), 1));
   };
   auto up = make(Direction::kUp);
-  return add(std::move(up), make(Direction::kDown), {});
+  const std::uint32_t number = add(std::move(up), make(Direction::kDown), {});
+  if (number != flow) return number;
+  // A flow in its own place again: then the log says its link as it was, also if it was shared.
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    stored(number, direction)->lane.tap.link = replay->link(flow);
+  }
+  return number;
 }
 
-std::uint32_t Network::add(std::unique_ptr<Stored> up, std::unique_ptr<Stored> down, const LinkSchedule& schedule) {
+std::uint32_t Network::add(std::unique_ptr<Stored> up, std::unique_ptr<Stored> down,
+                           const std::vector<LinkSchedule::AddressChange>& rebinds) {
   const auto link = static_cast<std::uint32_t>(links());
-  addresses_.emplace_back(schedule.rebinds);
+  addresses_.emplace_back(rebinds);
   up->lane.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kUp};
   down->lane.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kDown};
   lanes_.reserve(lanes_.size() + kDirections);
@@ -50,10 +104,18 @@ void Network::log_to(DecisionSink* sink) noexcept {
   for (const auto& each : lanes_) each->lane.tap.sink = sink;
 }
 
-void Network::log_waiting() const noexcept {
+std::optional<Time> Network::oldest_under_way() const noexcept {
+  std::optional<Time> oldest;
   for (const auto& each : lanes_) {
     each->queue.for_each(
-        [&](const DelayQueue::Item& item) { tell_waiting(item, each->queue.bytes(item).size(), each->lane.tap); });
+        [&](const DelayQueue::Item& item) { oldest = std::min(oldest.value_or(item.sent), item.sent); });
+  }
+  return oldest;
+}
+
+void Network::log_waiting() const noexcept {
+  for (const auto& each : lanes_) {
+    each->queue.for_each([&](const DelayQueue::Item& item) { tell_waiting(item, each->lane.tap); });
   }
 }
 
@@ -72,9 +134,7 @@ Outcome Network::enter(Time now, std::uint32_t link, Direction direction, std::u
                        std::span<const std::byte> bytes) noexcept {
   const std::size_t number = lane_number(link, direction);
   Stored& to = *lanes_[number];
-  const Verdict verdict = to.lane.send(now, bytes.size());
-  return submit(verdict, to.queue, to.lane.counters, to.lane.tap, {now, static_cast<std::uint32_t>(number), address},
-                bytes);
+  return to.lane.enter(to.queue, {now, static_cast<std::uint32_t>(number), address}, bytes);
 }
 
 bool Network::rebind(Time now, std::uint32_t link, const Rebind& rebind) noexcept {
@@ -89,6 +149,7 @@ std::optional<Delivery> Network::poll(Time now, std::uint32_t link, Direction di
 }
 
 std::optional<Delivery> Network::poll_any(Time now, std::span<std::byte> buffer) noexcept {
+  for (const auto& each : lanes_) each->lane.settle(now);
   while (true) {  // a datagram to a dead address leaves nothing: then the next one
     Stored* first = nullptr;
     Time first_due = now;
@@ -106,13 +167,13 @@ std::optional<Delivery> Network::poll_any(Time now, std::span<std::byte> buffer)
 
 std::optional<Time> Network::next_due(std::uint32_t link, Direction direction) const noexcept {
   const Stored* const of = stored(link, direction);
-  return of == nullptr ? std::nullopt : of->queue.next_due();
+  return of == nullptr ? std::nullopt : of->next_due();
 }
 
 std::optional<Time> Network::next_due() const noexcept {
   std::optional<Time> next;
   for (const auto& candidate : lanes_) {
-    if (const auto due = candidate->queue.next_due()) next = std::min(next.value_or(*due), *due);
+    if (const auto due = candidate->next_due()) next = std::min(next.value_or(*due), *due);
   }
   return next;
 }
@@ -140,6 +201,7 @@ Network::Stored* Network::stored(std::uint32_t link, Direction direction) const 
 }
 
 std::optional<Delivery> Network::take(Stored& from, Time now, std::span<std::byte> buffer) noexcept {
+  from.lane.settle(now);
   while (const auto item = from.queue.take(now)) {
     const auto link = item->lane / static_cast<std::uint32_t>(kDirections);
     const auto direction = static_cast<Direction>(item->lane % kDirections);

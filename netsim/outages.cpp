@@ -4,7 +4,7 @@
 
 namespace tandem::netsim {
 
-OutageGate::OutageGate(const std::vector<OutageSpec>& outages, RandomKey key) {
+OutageGate::OutageGate(const std::vector<OutageSpec>& outages, RandomKey key, RandomKey all_key) {
   for (std::size_t i = 0; i < outages.size(); ++i) {
     Outage& outage = outages_.emplace_back(Outage{outages[i], std::nullopt});
     if (outages[i].mean_gap == Duration::zero()) continue;
@@ -12,7 +12,8 @@ OutageGate::OutageGate(const std::vector<OutageSpec>& outages, RandomKey key) {
                         .high = static_cast<double>(outages[i].length_max.count()),
                         .cap = static_cast<double>(outages[i].length_max.count())};
     outage.random = random_.size();
-    random_.emplace_back(1 / seconds(outages[i].mean_gap), law, key.derive(i));
+    random_.emplace_back(1 / seconds(outages[i].mean_gap), law,
+                         (outages[i].scope == OutageSpec::Scope::kAll ? all_key : key).derive(i));
   }
 }
 
@@ -20,6 +21,14 @@ std::optional<Time> OutageGate::end_of(const Outage& outage, Time t) noexcept {
   if (!outage.random) return end_of(outage.spec, t);
   const Time end = random_[*outage.random].end_of_chain(t);
   return end > t ? std::optional{end} : std::nullopt;
+}
+
+bool OutageGate::just_begun(const Outage& outage, Time t) noexcept {
+  const OutageSpec& spec = outage.spec;
+  if (spec.loss_at_start == Duration::zero()) return false;
+  if (outage.random) return random_[*outage.random].begun_within(t, spec.loss_at_start);
+  const Duration since = t.time_since_epoch() - spec.start;
+  return (spec.period > Duration::zero() ? since % spec.period : since) < spec.loss_at_start;
 }
 
 std::optional<Time> OutageGate::end_of(const OutageSpec& spec, Time t) noexcept {
@@ -35,10 +44,12 @@ OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
   if (outages_.empty()) return passage;
 
   std::optional<std::uint64_t> room;  // of the holds that cover now; the smallest counts
+  bool newest = false;                // one that keeps the newest only is enough
   for (const Outage& outage : outages_) {
     const auto end = end_of(outage, now);
     if (!end) continue;
-    if (outage.spec.mode == OutageSpec::Mode::kDrop) return {State::kDropped, now};
+    if (outage.spec.mode == OutageSpec::Mode::kDrop || just_begun(outage, now)) return {State::kDropped, now};
+    if (outage.spec.mode == OutageSpec::Mode::kHoldLast) newest = true;
     passage.at = std::max(passage.at, *end);
     if (outage.spec.hold_bytes > 0) room = std::min(room.value_or(outage.spec.hold_bytes), outage.spec.hold_bytes);
   }
@@ -55,6 +66,10 @@ OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
         extended = true;
       }
     }
+  }
+  if (newest) {
+    held_until_ = std::max(held_until_, passage.at);
+    return {State::kNewest, held_until_};
   }
   if (now >= held_until_) held_bytes_ = 0;
   if (room && held_bytes_ + size > *room) return {State::kHoldFull, now};

@@ -15,14 +15,22 @@ namespace tandem::netsim {
 /// The link-up gate: functions of time alone, so all clients of a schedule are down at the same time.
 class OutageGate {
  public:
-  enum class State : std::uint8_t { kUp, kDropped, kHoldFull };
+  enum class State : std::uint8_t {
+    kUp,
+    kDropped,
+    kHoldFull,
+    kNewest,  ///< held until `at`, unless a newer one of its flow comes before that
+  };
   struct Passage {
     State state = State::kUp;
-    Time at;  ///< kUp: when the datagram is past the gate: now, or the end of the outage that holds it
+    Time at;  ///< kUp, kNewest: when the datagram is past the gate: now, or the end of the outage that holds it
   };
 
-  /// @param key  of the moments of random outages
-  explicit OutageGate(const std::vector<OutageSpec>& outages, RandomKey key = RandomKey{0});
+  /// @param key      of the moments of random outages of this link
+  /// @param all_key  of those that all links have together
+  OutageGate(const std::vector<OutageSpec>& outages, RandomKey key, RandomKey all_key);
+  explicit OutageGate(const std::vector<OutageSpec>& outages, RandomKey key = RandomKey{0})
+      : OutageGate(outages, key, key) {}
 
   /// @param now   never decreasing [Time{} or later]
   /// @param size  payload [bytes]
@@ -43,6 +51,7 @@ class OutageGate {
     std::optional<std::size_t> random;  ///< its place in random_; else scheduled
   };
   [[nodiscard]] std::optional<Time> end_of(const Outage& outage, Time t) noexcept;
+  [[nodiscard]] bool just_begun(const Outage& outage, Time t) noexcept;
 
   std::vector<Outage> outages_;
   std::vector<PoissonIntervals> random_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tandem::netsim {
 namespace {
@@ -17,7 +18,8 @@ enum Purpose : std::uint64_t {
   kRegimes,
   kBoundary,
   kOutages,
-  kDamage
+  kDamage,
+  kPlaces
 };
 
 /// Far enough from the ends of 64 bits that no sum of delays overflows; 146 years.
@@ -32,163 +34,346 @@ const PathSpec& checked(const PathSpec& spec) {
   throw std::invalid_argument(message);
 }
 
-}  // namespace
-
-const char* name(Outcome outcome) noexcept {
-  switch (outcome) {
-    case Outcome::kDeliver:
-      return "delivered";
-    case Outcome::kHeldBack:
-      return "reordered";
-    case Outcome::kOutage:
-      return "outage";
-    case Outcome::kHoldFull:
-      return "hold full";
-    case Outcome::kLost:
-      return "lost";
-    case Outcome::kQueueFull:
-      return "queue full";
-    case Outcome::kOverflow:
-      return "overflow";
-    case Outcome::kTooLong:
-      return "too long";
-    case Outcome::kCorrupted:
-      return "corrupted";
-    case Outcome::kAboveMtu:
-      return "above MTU";
-    case Outcome::kOldAddress:
-      return "old address";
-    case Outcome::kClientGone:
-      return "client gone";
-  }
-  return "?";
+/// Indices stay below 2^40; a name of 23 bits sits above them as it is, a longer one as a hash.
+std::uint64_t salt_of(std::uint64_t name) noexcept {
+  constexpr std::uint64_t kPlain = std::uint64_t{1} << 23;
+  return (name < kPlain ? name : kPlain | (mix64(name) >> 41)) << 40;
 }
 
-Path::Path(const PathSpec& spec, RandomKey key, RandomKey link_key)
-    : spec_(checked(spec)),
-      outages_(spec.outages, link_key.derive(kOutages)),
-      loss_(spec.loss, key.derive(kLoss)),
-      rate_(spec.rate),
-      floor_(spec.floor),
-      trace_(spec.trace),
-      body_(spec.body, key.derive(kBody)),
-      regimes_(spec.regimes, key.derive(kRegimes)),
-      boundary_(spec.boundary, key.derive(kBoundary)),
-      stalls_(spec.stall, key.derive(kStall)),
-      slots_(spec.slots),
-      order_(spec.order),
-      reorder_(spec.reorder),
-      duplicate_(spec.duplicate),
-      mtu_(spec.mtu == 0 ? ~std::uint64_t{0} : spec.mtu - std::min(spec.mtu, spec.rate.overhead_bytes)),
-      corrupted_(spec.corrupted),
-      corrupted_key_(key.derive(kDamage)),
-      reorder_key_(key.derive(kReorder)),
-      duplicate_key_(key.derive(kDuplicate)),
-      copy_key_(key.derive(kCopy)) {}
+}  // namespace
 
-Verdict Path::send(Time now, std::size_t size) noexcept {
+Path::Path(const PathSpec& spec, const Keys& keys)
+    : spec_(checked(spec)),
+      loss_key_(keys.path.derive(kLoss)),
+      outages_(spec.outages, keys.link.derive(kOutages), keys.network.derive(kOutages)),
+      rate_(spec.rate),
+      trace_(spec.trace),
+      body_(spec.body, keys.path.derive(kBody)),
+      regimes_(spec.regimes, keys.path.derive(kRegimes)),
+      boundary_(spec.boundary, keys.path.derive(kBoundary)),
+      stalls_(spec.stall, keys.path.derive(kStall)),
+      slots_(spec.slots),
+      payload_max_(spec.mtu.bytes == 0 ? ~std::uint64_t{0} : spec.mtu.bytes - spec.rate.overhead_bytes),
+      damage_key_(keys.path.derive(kDamage)),
+      place_key_(keys.path.derive(kPlaces)),
+      reorder_key_(keys.path.derive(kReorder)),
+      duplicate_key_(keys.path.derive(kDuplicate)),
+      copy_key_(keys.path.derive(kCopy)) {
+  if (spec.rate.drop == RateSpec::Drop::kHead) head_.emplace(spec.rate);
+  for (const OutageSpec& outage : spec.outages) {
+    if (outage.mode == OutageSpec::Mode::kHoldLast) keeps_newest_ = true;
+  }
+  set_flow(0, 0);
+}
+
+void Path::set_flow(std::uint32_t flow, std::uint64_t name) {
+  const std::uint64_t salt = salt_of(name);
+  Flow made{salt, Loss{spec_.loss, loss_key_, salt}};
+  if (flow == flows_.size()) {
+    flows_.push_back(std::move(made));
+    newest_.reserve(flows_.size());
+    return;
+  }
+  flows_[flow] = std::move(made);
+  forget(flow);
+}
+
+void Path::forget(std::uint32_t flow) noexcept {
+  if (head_) head_->forget(flow, kNobody);
+  for (Newest& newest : newest_) {
+    if (newest.datagram.flow == flow) newest.datagram.flow = kNobody;
+  }
+}
+
+void Path::take_over(Path& before, Time at) noexcept {
+  last_in_ = before.last_in_;
+  last_out_ = before.last_out_;
+  // Models that are functions of time need nothing. Of those with a memory, an unchanged one is moved over whole.
+  const bool same_loss = spec_.loss == before.spec_.loss;
+  for (std::size_t i = 0; i < std::min(flows_.size(), before.flows_.size()); ++i) {
+    std::swap(flows_[i], before.flows_[i]);
+    if (same_loss) continue;
+    std::swap(flows_[i].loss, before.flows_[i].loss);
+    flows_[i].loss.set_salt(flows_[i].salt);
+  }
+  outages_.take_over(before.outages_);
+  std::swap(newest_, before.newest_);
+  if (spec_.slots == before.spec_.slots) std::swap(slots_, before.slots_);
+  if (spec_.rate == before.spec_.rate) {
+    std::swap(rate_, before.rate_);
+    std::swap(head_, before.head_);
+  } else {
+    rate_.take_over(before.rate_, at);
+  }
+}
+
+Verdict Path::send(Time now, std::uint32_t flow, std::size_t size) noexcept {
+  Flow& from = flows_[flow];
   now = std::clamp(now, last_in_, kTimeMax);
   last_in_ = now;
+  InTransit datagram{.flow = flow, .index = from.count++, .packet = from.packets, .size = size, .sent = now};
   Verdict verdict;
-  verdict.index = count_++;
+  verdict.index = datagram.index;
   verdict.at = now;
+  if (size > payload_max_ && spec_.mtu.above == MtuSpec::Above::kFragment) {
+    datagram.pieces = static_cast<std::uint32_t>((size + payload_max_ - 1) / payload_max_);
+  }
+  from.packets += datagram.pieces;
 
   // Loss is asked even while the link is down: its models count every datagram, and outages must not move them.
-  const bool lost = loss_.lost(now, verdict.index);
+  const bool lost = lost_at_entrance(from, datagram);
   const OutageGate::Passage passage = outages_.enter(now, size);
-  if (passage.state != OutageGate::State::kUp) {
+  if (passage.state == OutageGate::State::kDropped || passage.state == OutageGate::State::kHoldFull) {
     verdict.outcome = passage.state == OutageGate::State::kDropped ? Outcome::kOutage : Outcome::kHoldFull;
     return verdict;
   }
   // Loss belongs to the moment of sending, also for what an outage holds: else a whole burst would meet one state.
   DelayTrace::Step recorded;
   if (trace_.present()) recorded = trace_.at(now);
-  if (recorded.lost || lost || boundary_.lost(now, verdict.index)) {
+  datagram.recorded = recorded.delay;
+  if (recorded.lost || lost) {
     verdict.outcome = Outcome::kLost;
     return verdict;
   }
-  if (loss_.minds_queue() && loss_.lost_in_queue(rate_.waiting(passage.at), verdict.index)) {
-    verdict.outcome = Outcome::kLost;
+  if (passage.state == OutageGate::State::kNewest) {
+    keep_newest(datagram, passage.at);
+    verdict.outcome = Outcome::kWaiting;
     return verdict;
   }
-  if (size > mtu_) {
+  return reach_queue(datagram, passage.at);
+}
+
+bool Path::lost_at_entrance(Flow& from, const InTransit& datagram) noexcept {
+  bool lost = false;
+  for (std::uint64_t packet = datagram.packet; packet < datagram.packet + datagram.pieces; ++packet) {
+    if (from.loss.lost(datagram.sent, packet)) lost = true;
+    if (boundary_.lost(datagram.sent, packet | from.salt)) lost = true;
+  }
+  return lost;
+}
+
+void Path::keep_newest(const InTransit& datagram, Time until) noexcept {
+  const auto before = std::find_if(newest_.begin(), newest_.end(), [&](const Newest& newest) {
+    return newest.datagram.flow == datagram.flow;
+  });
+  if (before != newest_.end()) {
+    const InTransit& old = before->datagram;
+    replaced_ = Settled{old.flow, old.ticket, {}};
+    replaced_->verdict.outcome = Outcome::kReplaced;
+    replaced_->verdict.index = old.index;
+    replaced_->verdict.at = datagram.sent;
+    newest_.erase(before);
+  }
+  newest_.push_back({datagram, until});
+}
+
+Verdict Path::reach_queue(const InTransit& datagram, Time at) noexcept {
+  const Flow& from = flows_[datagram.flow];
+  Verdict verdict;
+  verdict.index = datagram.index;
+  verdict.at = datagram.sent;
+  if (from.loss.minds_queue()) {
+    const Duration wait = head_ ? head_->waiting(rate_, at) : rate_.waiting(at);
+    if (from.loss.lost_in_queue(wait, datagram.packet)) {
+      verdict.outcome = Outcome::kLost;
+      return verdict;
+    }
+  }
+  if (datagram.size > payload_max_ && datagram.pieces == 1) {
     verdict.outcome = Outcome::kAboveMtu;
     return verdict;
   }
-  const auto sent = rate_.serve(passage.at, size);
+  if (head_) {
+    verdict.outcome = head_->enter(rate_, at, datagram) ? Outcome::kWaiting : Outcome::kQueueFull;
+    return verdict;
+  }
+  if (datagram.pieces > 1) return reach_queue_in_pieces(datagram, at);
+  const auto sent = rate_.serve(at, datagram.size);
   if (!sent) {
     verdict.outcome = Outcome::kQueueFull;
     return verdict;
   }
-  if (corrupted_ > 0 && corrupted_key_.uniform(verdict.index) < corrupted_) {
+  return leave_queue(datagram, *sent);
+}
+
+Verdict Path::reach_queue_in_pieces(const InTransit& datagram, Time at) noexcept {
+  Flow& from = flows_[datagram.flow];
+  Verdict verdict;
+  verdict.index = datagram.index;
+  verdict.at = datagram.sent;
+  // What is left of a datagram of which a fragment was dropped still uses the link: nobody there knows.
+  std::size_t left = datagram.size;
+  Time last{};
+  for (std::uint32_t piece = 0; piece < datagram.pieces; ++piece) {
+    const std::size_t size = std::min<std::size_t>(left, payload_max_);
+    left -= size;
+    const auto sent = rate_.serve(at, size);
+    if (!sent) {
+      verdict.outcome = Outcome::kQueueFull;
+      continue;
+    }
+    const auto arrived = travel(from, datagram.packet + piece, datagram.recorded, *sent, size);
+    if (!arrived) {
+      if (verdict.outcome == Outcome::kDeliver) verdict.outcome = Outcome::kLost;
+      continue;
+    }
+    last = std::max(last, *arrived);
+  }
+  const bool hit = damaged(from, datagram);
+  if (dropped(verdict.outcome)) return verdict;
+  if (hit && spec_.corruption.mode == CorruptionSpec::Mode::kChecksum) {
     verdict.outcome = Outcome::kCorrupted;
     return verdict;
   }
-  const Time due = *sent + floor_ + recorded.delay + body_.at(*sent, verdict.index) +
-                   regimes_.at(*sent, verdict.index) + boundary_.floor(*sent);
-  Time at = stalls_.release(boundary_.release(due));
-  if (at > due && loss_.lost_in_stall(verdict.index)) {
-    verdict.outcome = Outcome::kLost;
-    return verdict;
-  }
-  if (order_ == Order::kFifo) at = slots_.release(std::max(at, last_out_), size);
-  last_out_ = std::max(last_out_, at);
-  verdict.at = at;
-
-  if (duplicate_.probability > 0 && duplicate_key_.uniform(verdict.index) < duplicate_.probability) {
-    verdict.copied = true;
-    const double longest = static_cast<double>(duplicate_.delay_max.count()) + 1;
-    verdict.copy_delay = Duration{static_cast<std::int64_t>(copy_key_.uniform(verdict.index) * longest)};
-  }
-  if (reorder_.probability > 0 || held_count_ > 0) {  // what is held may be older than the present spec
-    if (held_count_ > 0) forget_late(now);
-    if (held_count_ < kHeldMax && reorder_key_.uniform(verdict.index) < reorder_.probability) {
-      verdict.outcome = Outcome::kHeldBack;
-      verdict.at = at + reorder_.hold_limit;
-      held_[held_count_++] = {verdict.index, at, verdict.at, reorder_.displacement};
-    } else if (held_count_ > 0) {
-      verdict.released = pass(at);
-    }
-  }
+  arrive(from, datagram, hit, last, verdict);
   return verdict;
 }
 
-void Path::take_over(Path& before, Time at) noexcept {
-  count_ = before.count_;
-  last_in_ = before.last_in_;
-  last_out_ = before.last_out_;
-  held_count_ = before.held_count_;
-  held_ = before.held_;
-  outages_.take_over(before.outages_);
-  // Models that are functions of time need nothing. Of those with a memory, an unchanged one is moved over whole.
-  if (spec_.loss == before.spec_.loss) std::swap(loss_, before.loss_);
-  if (spec_.slots == before.spec_.slots) std::swap(slots_, before.slots_);
-  if (spec_.rate == before.spec_.rate) {
-    std::swap(rate_, before.rate_);
-  } else {
-    rate_.take_over(before.rate_, at);
+Verdict Path::leave_queue(const InTransit& datagram, Time sent) noexcept {
+  Flow& from = flows_[datagram.flow];
+  Verdict verdict;
+  verdict.index = datagram.index;
+  verdict.at = datagram.sent;
+  const bool hit = spec_.corruption.probability > 0 && damaged(from, datagram);
+  if (hit && spec_.corruption.mode == CorruptionSpec::Mode::kChecksum) {
+    verdict.outcome = Outcome::kCorrupted;
+    return verdict;
+  }
+  const auto at = travel(from, datagram.packet, datagram.recorded, sent, datagram.size);
+  if (!at) {
+    verdict.outcome = Outcome::kLost;
+    return verdict;
+  }
+  arrive(from, datagram, hit, *at, verdict);
+  return verdict;
+}
+
+bool Path::damaged(const Flow& from, const InTransit& datagram) const noexcept {
+  bool hit = false;
+  for (std::uint64_t packet = datagram.packet; packet < datagram.packet + datagram.pieces; ++packet) {
+    if (damage_key_.uniform(packet | from.salt) < spec_.corruption.probability) hit = true;
+  }
+  return hit;
+}
+
+/// Floor, body, stalls, order and slots for one packet. Empty: lost in a stall.
+std::optional<Time> Path::travel(Flow& from, std::uint64_t packet, Duration recorded, Time sent,
+                                 std::size_t size) noexcept {
+  const std::uint64_t draw = packet | from.salt;
+  const Time due =
+      sent + spec_.floor + recorded + body_.at(sent, draw) + regimes_.at(sent, draw) + boundary_.floor(sent);
+  Time at = stalls_.release(boundary_.release(due));
+  if (at > due && from.loss.lost_in_stall(packet)) return std::nullopt;
+  if (spec_.order == Order::kFifo) at = slots_.release(std::max(at, last_out_), size);
+  last_out_ = std::max(last_out_, at);
+  return at;
+}
+
+void Path::arrive(Flow& from, const InTransit& datagram, bool hit, Time at, Verdict& verdict) noexcept {
+  verdict.at = at;
+  const std::uint64_t draw = datagram.index | from.salt;
+  if (hit && datagram.size > 0) {
+    if (spec_.corruption.mode == CorruptionSpec::Mode::kBitFlips) {
+      verdict.damage = {.kind = Damage::Kind::kBitFlips, .bits = spec_.corruption.bits, .seed = place_key_.bits(draw)};
+    } else {
+      const double length = place_key_.uniform(draw) * static_cast<double>(datagram.size);
+      verdict.damage = {.kind = Damage::Kind::kTruncated, .length = static_cast<std::uint32_t>(length)};
+    }
+  }
+  const DuplicateSpec& duplicate = spec_.duplicate;
+  if (duplicate.probability > 0 && duplicate_key_.uniform(draw) < duplicate.probability) {
+    verdict.copied = true;
+    const double longest = static_cast<double>(duplicate.delay_max.count()) + 1;
+    verdict.copy_delay = Duration{static_cast<std::int64_t>(copy_key_.uniform(draw) * longest)};
+  }
+  const ReorderSpec& reorder = spec_.reorder;
+  if (reorder.probability > 0 || from.held_count > 0) {  // what is held may be older than the present spec
+    if (from.held_count > 0) forget_late(from, last_in_);
+    if (from.held_count < kHeldMax && reorder_key_.uniform(draw) < reorder.probability) {
+      verdict.outcome = Outcome::kHeldBack;
+      verdict.at = at + reorder.hold_limit;
+      from.held[from.held_count++] = {verdict.index, at, verdict.at, reorder.displacement};
+    } else if (from.held_count > 0) {
+      verdict.released = pass(from, at);
+    }
   }
 }
 
-void Path::forget_late(Time now) noexcept {
-  const auto last = held_.begin() + static_cast<std::ptrdiff_t>(held_count_);
-  const auto kept = std::remove_if(held_.begin(), last, [now](const Held& held) { return held.limit <= now; });
-  held_count_ = static_cast<std::size_t>(kept - held_.begin());
+void Path::set_ticket(std::uint32_t flow, std::uint32_t ticket) noexcept {
+  // The datagram just sent is the newest in one of the two places; the newer of both.
+  if (!newest_.empty() && newest_.back().datagram.flow == flow &&
+      newest_.back().datagram.index + 1 == flows_[flow].count) {
+    newest_.back().datagram.ticket = ticket;
+  } else if (head_) {
+    head_->set_ticket(ticket);
+  }
 }
 
-std::span<const Release> Path::pass(Time at) noexcept {
+Path::Settled Path::decided(const HeadDropQueue::Left& left) noexcept {
+  const InTransit& datagram = left.datagram;
+  Settled settled{datagram.flow, datagram.ticket, {}};
+  if (left.dropped) {
+    settled.verdict.outcome = Outcome::kPushedOut;
+    settled.verdict.index = datagram.index;
+    settled.verdict.at = left.at;
+  } else if (datagram.flow != kNobody) {
+    settled.verdict = leave_queue(datagram, left.at);
+  }
+  return settled;
+}
+
+std::optional<Path::Settled> Path::settle(Time now) noexcept {
+  if (replaced_) return std::exchange(replaced_, std::nullopt);
+  while (true) {
+    // What the end of an outage lets go reaches the queue at that very moment, and may push others out.
+    const bool lets_go = !newest_.empty() && newest_.front().until <= now;
+    if (head_) {
+      if (const auto left = head_->next(rate_, lets_go ? newest_.front().until : now)) return decided(*left);
+    }
+    if (!lets_go) return std::nullopt;
+    const Newest first = newest_.front();
+    newest_.erase(newest_.begin());
+    Settled settled{first.datagram.flow, first.datagram.ticket, {}};
+    if (settled.flow == kNobody) return settled;
+    settled.verdict = reach_queue(first.datagram, first.until);
+    if (settled.verdict.outcome != Outcome::kWaiting) return settled;
+    head_->set_ticket(first.datagram.ticket);
+  }
+}
+
+std::optional<Path::Settled> Path::drain(const Path& next) noexcept {
+  if (!head_ || next.spec_.rate == spec_.rate) return std::nullopt;
+  const auto left = head_->next(rate_, kTimeMax);
+  return left ? std::optional{decided(*left)} : std::nullopt;
+}
+
+std::optional<Time> Path::next_settle() noexcept {
+  if (replaced_) return last_in_;
+  std::optional<Time> next;
+  if (head_) next = head_->next_time(rate_);
+  if (!newest_.empty()) next = std::min(next.value_or(newest_.front().until), newest_.front().until);
+  return next;
+}
+
+void Path::forget_late(Flow& flow, Time now) noexcept {
+  const auto last = flow.held.begin() + static_cast<std::ptrdiff_t>(flow.held_count);
+  const auto kept = std::remove_if(flow.held.begin(), last, [now](const Held& held) { return held.limit <= now; });
+  flow.held_count = static_cast<std::size_t>(kept - flow.held.begin());
+}
+
+std::span<const Release> Path::pass(Flow& flow, Time at) noexcept {
   std::size_t released = 0;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < held_count_; ++i) {
-    Held held = held_[i];
+  for (std::size_t i = 0; i < flow.held_count; ++i) {
+    Held held = flow.held[i];
     if (--held.after > 0) {
-      held_[kept++] = held;
+      flow.held[kept++] = held;
       continue;
     }
     const Time when = std::max(held.nominal, at);
     if (when < held.limit) released_[released++] = {held.index, when};  // else its limit lets it go
   }
-  held_count_ = kept;
+  flow.held_count = kept;
   return {released_.data(), released};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "netsim/damage.h"
 #include "netsim/delay_checks.h"
 
 namespace tandem::netsim {
@@ -23,6 +24,10 @@ void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
     const std::string key = "outages[" + std::to_string(i) + "]";
     found.range<Duration>(key + ".start", outage.start, Duration::zero(), hours(24 * 30));
     found.above<Duration>(key + ".length", outage.length, Duration::zero(), hours(1));
+    found.range<Duration>(key + ".loss_at_start", outage.loss_at_start, Duration::zero(), outage.length);
+    if (outage.hold_bytes > 0 && outage.mode != OutageSpec::Mode::kHold) {
+      found.add(key + ".hold_bytes", "nothing is held: belongs to the mode hold");
+    }
     if (outage.mean_gap != Duration::zero()) {
       found.range<Duration>(key + ".mean_gap", outage.mean_gap, microseconds(1000), hours(24));
       found.range<Duration>(key + ".length_max", outage.length_max, outage.length, hours(1));
@@ -32,6 +37,8 @@ void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
       }
       continue;
     }
+    if (outage.length_max != Duration::zero()) found.add(key + ".length_max", "needs mean_gap");
+    if (outage.scope == OutageSpec::Scope::kAll) found.add(key + ".scope", "needs mean_gap");
     if (outage.period == Duration::zero()) continue;
     found.range<Duration>(key + ".period", outage.period, Duration::zero(), hours(24 * 30));
     if (outage.period > Duration::zero() && outage.period <= outage.length) {
@@ -56,14 +63,43 @@ void check_capacity(const RateSpec& rate, Findings& found) {
   }
 }
 
+void check_head_drop(const RateSpec& rate, Findings& found) {
+  if (rate.drop != RateSpec::Drop::kHead) return;
+  if (rate.queue_bytes == 0 && rate.queue_datagrams == 0 && !rate.queue_wait) {
+    found.add("rate.drop", "a queue without a limit drops nothing at its head");
+  }
+  if (rate.codel) found.add("rate.codel", "drops at the head by a law of its own: excludes the drop at the head");
+  if (rate.competing_peak != Duration::zero()) found.add("rate.competing_peak", "excludes the drop at the head");
+}
+
+void check_mtu(const PathSpec& spec, Findings& found) {
+  if (spec.mtu.bytes == 0) {
+    if (spec.mtu.above == MtuSpec::Above::kFragment) found.add("mtu.above", "fragments need an MTU");
+    return;
+  }
+  const std::uint32_t least = spec.rate.overhead_bytes + (spec.mtu.above == MtuSpec::Above::kFragment ? 8 : 1);
+  if (spec.mtu.bytes < least) {
+    found.add("mtu.bytes", std::to_string(spec.mtu.bytes) + " leaves no room beside the overhead of " +
+                               std::to_string(spec.rate.overhead_bytes) + " bytes; at least " + std::to_string(least));
+  }
+}
+
 void check_rate(const RateSpec& rate, Findings& found) {
+  if (rate.recorded && !rate.trace) {
+    return found.add("rate.trace", "the capacity comes from a recording that must be supplied");
+  }
+  check_head_drop(rate, found);
   if (rate.queue_datagrams > 65'536) found.add("rate.queue_datagrams", "is above 65536");
   if (rate.codel) {
     found.above<Duration>("rate.codel.target", rate.codel->target, Duration::zero(), seconds(10));
     found.above<Duration>("rate.codel.interval", rate.codel->interval, rate.codel->target, seconds(60));
   }
-  if (rate.trace) return check_capacity(rate, found);
+  if (rate.trace) {
+    if (rate.queue_wait) found.range<Duration>("rate.queue_wait", *rate.queue_wait, Duration::zero(), hours(1));
+    return check_capacity(rate, found);
+  }
   if (rate.bits_per_s == 0) {
+    if (rate.drop == RateSpec::Drop::kHead) found.add("rate.drop", "a queue needs a rate");
     if (rate.queue_bytes != 0) found.add("rate.queue_bytes", "a queue needs a rate");
     if (rate.queue_datagrams != 0) found.add("rate.queue_datagrams", "a queue needs a rate");
     if (rate.codel) found.add("rate.codel", "a queue needs a rate");
@@ -123,12 +159,22 @@ std::vector<SpecProblem> problems(const PathSpec& spec) {
     found.range("reorder.displacement", static_cast<double>(spec.reorder.displacement), 1.0, 1000.0);
     found.above<Duration>("reorder.hold_limit", spec.reorder.hold_limit, Duration::zero(), kDelayMax);
   }
-  found.range("corrupted", spec.corrupted, 0.0, 1.0);
+  found.range("corruption.probability", spec.corruption.probability, 0.0, 1.0);
+  if (spec.corruption.mode == CorruptionSpec::Mode::kBitFlips) {
+    found.range("corruption.bits", static_cast<double>(spec.corruption.bits), 1.0, static_cast<double>(kFlipsMax));
+  }
+  check_mtu(spec, found);
   found.range("duplicate.probability", spec.duplicate.probability, 0.0, 1.0);
   if (spec.duplicate.probability > 0) {
     found.range<Duration>("duplicate.delay_max", spec.duplicate.delay_max, Duration::zero(), kDelayMax);
   }
   return found.take();
+}
+
+bool defers(const PathSpec& spec) noexcept {
+  return spec.rate.drop == RateSpec::Drop::kHead || std::ranges::any_of(spec.outages, [](const OutageSpec& outage) {
+           return outage.mode == OutageSpec::Mode::kHoldLast;
+         });
 }
 
 Duration delay_max(const PathSpec& spec) noexcept {
@@ -147,7 +193,7 @@ Duration delay_max(const PathSpec& spec) noexcept {
   if (spec.duplicate.probability > 0) sum += spec.duplicate.delay_max;
   Duration held{};
   for (const OutageSpec& outage : spec.outages) {
-    if (outage.mode == OutageSpec::Mode::kHold) held = std::max({held, outage.length, outage.length_max});
+    if (outage.mode != OutageSpec::Mode::kDrop) held = std::max({held, outage.length, outage.length_max});
   }
   return sum + held;
 }

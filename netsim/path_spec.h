@@ -25,6 +25,12 @@ struct OutageSpec {
   enum class Mode : std::uint8_t {
     kDrop,  ///< what is sent meanwhile is lost
     kHold,  ///< what is sent meanwhile leaves, in order and at once, when the link is back
+    kHoldLast,  ///< of what is sent meanwhile only the newest of every flow leaves when the link is back
+  };
+  /// Whose random moments they are. Scheduled outages are those of all links that have them in their spec anyway.
+  enum class Scope : std::uint8_t {
+    kLink,  ///< every link has its own
+    kAll,   ///< all links of the network are down together
   };
   Duration start{};              ///< from Time{} [0, 30 d]
   Duration length{};             ///< (0, 1 h]
@@ -36,6 +42,8 @@ struct OutageSpec {
   /// mean_gap.
   Duration mean_gap{};
   Duration length_max{};  ///< [length, 1 h]
+  Scope scope = Scope::kLink;
+  Duration loss_at_start{};  ///< what is sent so soon after the start is lost, whatever the mode [0, length]
 
   friend bool operator==(const OutageSpec&, const OutageSpec&) = default;
 };
@@ -58,7 +66,7 @@ struct CoDelSpec {
   friend bool operator==(const CoDelSpec&, const CoDelSpec&) = default;
 };
 
-/// A sender that serves one datagram after the other at a fixed rate, and what may wait for it (tail drop).
+/// A sender that serves one datagram after the other at a fixed rate, and what may wait for it.
 struct RateSpec {
   std::uint64_t bits_per_s = 0;             ///< 0: no rate, no queue; else [100, 1e12]
   std::uint32_t overhead_bytes = 28;        ///< added to every datagram on this link: IPv4 + UDP headers [0, 1000]
@@ -70,6 +78,12 @@ struct RateSpec {
   std::uint32_t queue_datagrams = 0;  ///< not yet sent, the new one included; 0: no limit; at most 65536
   std::optional<CoDelSpec> codel = {};
   std::shared_ptr<const CapacityTrace> trace = {};  ///< instead of bits_per_s; null: none
+  /// What goes when something does not fit.
+  enum class Drop : std::uint8_t {
+    kTail,  ///< it
+    kHead,  ///< what waits longest, until it fits; not what is being sent. Excludes CoDel and a competing flow
+  } drop = Drop::kTail;
+  bool recorded = false;  ///< plays a recording: one must be supplied as `trace` before the spec can be simulated
   [[nodiscard]] bool present() const noexcept { return bits_per_s != 0 || trace != nullptr; }
 
   friend bool operator==(const RateSpec&, const RateSpec&) = default;
@@ -118,6 +132,34 @@ struct DuplicateSpec {
   friend bool operator==(const DuplicateSpec&, const DuplicateSpec&) = default;
 };
 
+/// Damage under way, after the datagram used the queue. Of a fragmented one every fragment may be hit.
+struct CorruptionSpec {
+  enum class Mode : std::uint8_t {
+    kChecksum,  ///< the checksum of UDP tells, and the datagram is dropped: what happens to nearly all
+    kBitFlips,  ///< `bits` different bits of the payload are wrong, at drawn places
+    kTruncate,  ///< the payload ends early: its length is drawn, uniform in [0, size - 1]
+  };
+  double probability = 0;  ///< [0, 1]
+  Mode mode = Mode::kChecksum;
+  std::uint32_t bits = 1;  ///< kBitFlips [1, 64]
+
+  friend bool operator==(const CorruptionSpec&, const CorruptionSpec&) = default;
+};
+
+/// What a link does with datagrams that are longer than it can carry, overhead of the rate included.
+struct MtuSpec {
+  enum class Above : std::uint8_t {
+    kDrop,
+    /// As many fragments as needed, each with the overhead: they meet loss, queue and delay one by one; all must arrive,
+    /// and the datagram comes out with the last. In a queue with Drop::kHead they stay together.
+    kFragment,
+  };
+  std::uint32_t bytes = 0;  ///< 0: no limit; else above the overhead, kFragment: by 8 or more
+  Above above = Above::kDrop;
+
+  friend bool operator==(const MtuSpec&, const MtuSpec&) = default;
+};
+
 /// One direction of one link.
 struct PathSpec {
   std::vector<OutageSpec> outages = {};  ///< at most 64
@@ -133,15 +175,18 @@ struct PathSpec {
   Order order = Order::kFifo;
   ReorderSpec reorder = {};
   DuplicateSpec duplicate = {};
-  double corrupted = 0;   ///< damaged under way; the checksum of UDP drops it, after it used the queue [0, 1]
-  std::uint32_t mtu = 0;  ///< datagrams that are longer, with the overhead of the rate, are dropped; 0: no limit
+  CorruptionSpec corruption = {};
+  MtuSpec mtu = {};
 
   friend bool operator==(const PathSpec&, const PathSpec&) = default;
 };
 
-/// Both directions of one client's link.
+/// Both directions of one client's link, or of the one that all clients share.
 struct LinkSpec {
   PathSpec up = {}, down = {};
+  /// All clients with this spec are on one link: one access point, one uplink. Queue, order, outages, stalls and every
+  /// other process in time are common; what is drawn or counted per datagram is each client's own.
+  bool shared = false;
 
   [[nodiscard]] const PathSpec& operator[](Direction d) const noexcept { return d == Direction::kUp ? up : down; }
   [[nodiscard]] PathSpec& operator[](Direction d) noexcept { return d == Direction::kUp ? up : down; }
@@ -150,6 +195,9 @@ struct LinkSpec {
 
 /// All mistakes; empty: the spec can be simulated.
 [[nodiscard]] std::vector<SpecProblem> problems(const PathSpec& spec);
+
+/// Whether the fate of a datagram may be known only later than when it is sent: see Path.
+[[nodiscard]] bool defers(const PathSpec& spec) noexcept;
 
 /// The longest delay the spec can add, without the queue of its rate and without the order policy. For sizing stores.
 [[nodiscard]] Duration delay_max(const PathSpec& spec) noexcept;

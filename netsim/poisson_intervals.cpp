@@ -55,6 +55,18 @@ const PoissonIntervals::Slot& PoissonIntervals::slot(std::int64_t number) noexce
   return slot;
 }
 
+bool PoissonIntervals::begun_within(Time t, Duration window) noexcept {
+  if (!(rate_ > 0) || window == Duration::zero()) return false;
+  const std::int64_t here = t.time_since_epoch() / slot_length_;
+  for (std::int64_t number = std::max<std::int64_t>(here - 1, 0); number <= here; ++number) {
+    const Slot& candidates = slot(number);
+    for (std::size_t i = 0; i < candidates.count && candidates.intervals[i].start <= t; ++i) {
+      if (t - candidates.intervals[i].start < window) return true;
+    }
+  }
+  return false;
+}
+
 Time PoissonIntervals::chain_end(Time t) noexcept {
   // An interval may begin before another ends; follow the chain. Bounded: rate * cap <= 32 makes longer chains
   // impossible to meet in practice, and cutting one off only ends it a little earlier.

@@ -40,6 +40,9 @@ class PoissonIntervals {
   /// `t`, or the end of the interval(s) that cover it, each beginning before the last one ended.
   [[nodiscard]] Time end_of_chain(Time t) noexcept { return rate_ > 0 ? chain_end(t) : t; }
 
+  /// Whether one began in (t - window, t]. @param window  at most the longest interval
+  [[nodiscard]] bool begun_within(Time t, Duration window) noexcept;
+
   /// Calls `visit(interval)` for those that begin in (after, upto]; of a longer time than 32 slots only the last.
   template <typename Visit>
   void begun(Time after, Time upto, Visit visit) noexcept {

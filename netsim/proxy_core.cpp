@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -21,12 +22,15 @@ void add(PathCounters& to, const PathCounters& from) noexcept {
   to.bytes_in += from.bytes_in;
   to.bytes_out += from.bytes_out;
   to.delay_sum_ns += from.delay_sum_ns;
+  to.flipped += from.flipped;
+  to.truncated += from.truncated;
 }
 
 }  // namespace
 
 ProxyCore::ProxyCore(const LinkSpec& spec, std::uint64_t seed, std::vector<NetworkEvent> events)
     : spec_(spec),
+      sharing_(spec.shared),
       seed_(seed),
       events_(std::move(events)),
       queue_(kSlots, kClientsMax * kDirections),
@@ -34,11 +38,20 @@ ProxyCore::ProxyCore(const LinkSpec& spec, std::uint64_t seed, std::vector<Netwo
   // A spec that cannot be simulated is refused here, not when the first client comes.
   std::ranges::copy_if(events_, std::back_inserter(outages_),
                        [](const NetworkEvent& e) { return e.outage.has_value(); });
+  note(spec);
+  for (const NetworkEvent& event : events_) {
+    if (event.link) note(*event.link);
+    if (event.outage && event.outage->mode == OutageSpec::Mode::kHoldLast) may_defer_ = true;
+  }
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     static_cast<void>(Path(spec[direction], RandomKey{seed}));
     for (const NetworkEvent& event : events_) {
       if (event.link) static_cast<void>(Path((*event.link)[direction], RandomKey{seed}));
     }
+    if (!sharing_) continue;
+    // Events that name a client are not those of a link that all share.
+    shared_[static_cast<std::size_t>(direction)] = std::make_shared<Course>(schedule_for(spec, events_, ""), direction,
+                                                                            seed, Course::Shared{.flows = kClientsMax});
   }
 }
 
@@ -55,9 +68,16 @@ std::optional<std::uint32_t> ProxyCore::add_client() {
     place.addresses = Addresses{over_time.rebinds};
     for (const Direction direction : {Direction::kUp, Direction::kDown}) {
       auto& lane = place.lanes[static_cast<std::size_t>(direction)];
-      lane.emplace(over_time, direction, seed_, clients_seen_);
+      if (sharing_) {
+        const auto& course = shared_[static_cast<std::size_t>(direction)];
+        course->join(number, clients_seen_);
+        lane.emplace(course, number);
+      } else {
+        lane.emplace(over_time, direction, seed_, clients_seen_);
+      }
+      lane->settle_in(queue_);
       const auto name = static_cast<std::uint32_t>(clients_seen_);
-      lane->tap = {.sink = sink_, .link = name, .flow = name, .direction = direction};
+      lane->tap = {.sink = sink_, .link = sharing_ ? 0 : name, .flow = name, .direction = direction};
     }
     ++clients_;
     ++clients_seen_;
@@ -82,6 +102,8 @@ void ProxyCore::remove_client(std::uint32_t client) noexcept {
     PathCounters& counters = place.lanes[direction]->counters;
     counters.by_outcome[static_cast<std::size_t>(Outcome::kClientGone)] += counters.in_flight();
     add(left_[direction], counters);
+    place.lanes[direction]->retire();
+    queue_.forget_waiting(lane_name(client, static_cast<Direction>(direction)));
     place.lanes[direction].reset();
   }
   ++place.generation;
@@ -103,7 +125,7 @@ void ProxyCore::log_waiting() const noexcept {
     const std::uint32_t client = (item.lane >> kDirectionBits) & (kClientsMax - 1);
     if (!present(client) || item.lane != lane_name(client, direction)) return;
     const auto& lane = places_[client].lanes[static_cast<std::size_t>(direction)];
-    tell_waiting(item, queue_.bytes(item).size(), lane->tap);
+    tell_waiting(item, lane->tap);
   });
 }
 
@@ -113,6 +135,15 @@ std::optional<std::uint64_t> ProxyCore::number(std::uint32_t client) const noexc
 
 LinkChange ProxyCore::prepare(const LinkSpec& link, std::span<const std::uint64_t> numbers, bool all) const {
   LinkChange change{.for_new = all ? std::optional{link} : std::nullopt, .link = link};
+  if (sharing_) {
+    if (!all) throw std::invalid_argument("all clients share this link: it can be changed for all of them only");
+    const LinkSpec with_outages = schedule_for(link, outages_, "").initial;
+    for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+      change.shared[static_cast<std::size_t>(direction)] =
+          make_path(with_outages, direction, seed_, Course::Shared{.flows = kClientsMax});
+    }
+    return change;
+  }
   for (const std::uint64_t number : numbers) {
     // Of the events only the outages count here: the others come at their own time.
     const LinkSpec with_outages = schedule_for(link, outages_, std::to_string(number + 1)).initial;
@@ -126,7 +157,12 @@ LinkChange ProxyCore::prepare(const LinkSpec& link, std::span<const std::uint64_
 }
 
 void ProxyCore::change(Time now, LinkChange& change) {
+  note(change.link);
   if (change.for_new) std::swap(spec_, *change.for_new);
+  if (sharing_) {
+    for (std::size_t d = 0; d < kDirections; ++d) shared_[d]->change(now, change.shared[d]);
+    return;
+  }
   for (std::uint32_t i = 0; i < kClientsMax; ++i) {
     if (!present(i)) continue;
     Client& place = places_[i];
@@ -163,14 +199,34 @@ Outcome ProxyCore::ingress(Time now, std::uint32_t client, Direction direction, 
     verdict.outcome = Outcome::kOverflow;
     verdict.at = now;
     verdict.copied = false;
-    return submit(verdict, queue_, lane->counters, lane->tap, {now}, bytes);
+    return lane->enter(verdict, queue_, {now}, bytes);
   }
   if (direction == Direction::kUp) address = places_[client].addresses.present(now);
-  return submit(lane->send(now, bytes.size()), queue_, lane->counters, lane->tap,
-                {now, lane_name(client, direction), address}, bytes);
+  return lane->enter(queue_, {now, lane_name(client, direction), address}, bytes);
+}
+
+void ProxyCore::settle(Time now) noexcept {
+  for (Client& place : places_) {
+    for (auto& lane : place.lanes) {
+      if (lane) lane->settle(now);
+    }
+  }
+}
+
+std::optional<Time> ProxyCore::next_due() const noexcept {
+  std::optional<Time> next = queue_.next_due();
+  for (const Client& place : places_) {
+    if (!may_defer_) break;
+    for (const auto& lane : place.lanes) {
+      const auto settle = lane ? lane->next_settle() : std::nullopt;
+      if (settle) next = std::min(next.value_or(*settle), *settle);
+    }
+  }
+  return next;
 }
 
 std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
+  if (may_defer_) settle(now);
   while (const auto item = queue_.take(now)) {
     const auto direction = static_cast<Direction>(item->lane & 1U);
     const std::uint32_t client = (item->lane >> kDirectionBits) & (kClientsMax - 1);

@@ -31,6 +31,7 @@ struct LinkChange {
   std::optional<LinkSpec> for_new;  ///< of clients that come later; empty: theirs stays
   LinkSpec link;                    ///< as asked for
   std::vector<Client> clients = {};
+  std::array<std::unique_ptr<Path>, kDirections> shared = {};  ///< instead of the clients': of the link they share
 };
 
 /// The proxy without sockets and clock: datagrams in, scheduled datagrams out. It uses the same Path and the same way
@@ -68,7 +69,8 @@ class ProxyCore {
   /// Takes the memory of a change; reads only what never changes, so any thread may call it.
   /// @param numbers  the present clients that it is for (ProxyCore::number)
   /// @param all      also those that come later, and those that came since
-  /// @throws std::invalid_argument listing all problems of the spec.
+  /// @throws std::invalid_argument listing all problems of the spec; or the clients share their link, which changes for
+  ///         all of them only. Whether they share is settled by the first spec.
   [[nodiscard]] LinkChange prepare(const LinkSpec& link, std::span<const std::uint64_t> numbers, bool all) const;
 
   /// The links of `change` are in force from `now` on. Outages of the events stay, further events still come. Takes no
@@ -101,7 +103,8 @@ class ProxyCore {
   /// Gives the bytes back after sending.
   void done(const Egress& egress) noexcept TANDEM_REALTIME { queue_.recycle(egress.item.slot); }
 
-  [[nodiscard]] std::optional<Time> next_due() const noexcept { return queue_.next_due(); }
+  /// When `take` has something to do.
+  [[nodiscard]] std::optional<Time> next_due() const noexcept;
 
   /// Of one present client; of all clients together, also those that left.
   [[nodiscard]] const PathCounters& counters(std::uint32_t client, Direction direction) const noexcept;
@@ -123,12 +126,17 @@ class ProxyCore {
   [[nodiscard]] bool present(std::uint32_t client) const noexcept {
     return client < kClientsMax && places_[client].lanes[0].has_value();
   }
+  void settle(Time now) noexcept;
+  void note(const LinkSpec& link) noexcept { may_defer_ = may_defer_ || defers(link.up) || defers(link.down); }
   [[nodiscard]] LinkSchedule schedule(const LinkSpec& link, std::uint64_t number) const;
 
   LinkSpec spec_;
+  const bool sharing_;  ///< all clients are on `shared_`
+  std::array<std::shared_ptr<Course>, kDirections> shared_ = {};
   const std::uint64_t seed_;
   const std::vector<NetworkEvent> events_;
   std::vector<NetworkEvent> outages_;  ///< those of the events; set once
+  bool may_defer_ = false;             ///< some datagrams may wait for their verdict
   DecisionSink* sink_ = nullptr;
   DelayQueue queue_;
   std::vector<Client> places_;

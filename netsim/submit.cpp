@@ -5,17 +5,27 @@
 namespace tandem::netsim {
 namespace {
 
-Decision about(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept {
+Decision about(const DelayQueue::Item& item, const DecisionTap& tap) noexcept {
   return {.in = item.sent,
           .out = item.at,
           .index = item.index,
           .link = tap.link,
           .flow = tap.flow,
-          .size = static_cast<std::uint32_t>(size),
+          .size = item.size_in,
           .direction = tap.direction,
-          .outcome = item.held_back ? Outcome::kHeldBack : Outcome::kDeliver,
+          .outcome = item.waiting     ? Outcome::kWaiting
+                     : item.held_back ? Outcome::kHeldBack
+                                      : Outcome::kDeliver,
           .copy = item.copy,
-          .under_way = false};
+          .under_way = false,
+          .damage = item.damage};
+}
+
+void let_in(const Verdict& verdict, PathCounters& counters) noexcept {
+  counters.count(verdict.outcome);
+  if (verdict.copied && !dropped(verdict.copy_outcome)) ++counters.copies;
+  if (verdict.damage.kind == Damage::Kind::kBitFlips) ++counters.flipped;
+  if (verdict.damage.kind == Damage::Kind::kTruncated) ++counters.truncated;
 }
 
 }  // namespace
@@ -46,7 +56,8 @@ Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters
                        .direction = tap.direction,
                        .outcome = reason,
                        .copy = copy,
-                       .under_way = false});
+                       .under_way = false,
+                       .damage = {}});
   };
   if (verdict.copied && dropped(verdict.copy_outcome)) {
     ++counters.copies;
@@ -62,12 +73,27 @@ Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters
     drop(reason, false, entrance.now);
     return reason;
   }
-  if (verdict.copied && !dropped(verdict.copy_outcome)) {
-    ++counters.copies;
-    if (entered == DelayQueue::Entered::kNoCopy) drop(Outcome::kOverflow, true, entrance.now);
-  }
-  counters.count(verdict.outcome);
+  if (verdict.outcome == Outcome::kWaiting) return verdict.outcome;
+  let_in(verdict, counters);
+  if (entered == DelayQueue::Entered::kNoCopy) drop(Outcome::kOverflow, true, entrance.now);
   return verdict.outcome;
+}
+
+void settle(const Verdict& verdict, std::uint32_t slot, DelayQueue& queue, PathCounters& counters,
+            const DecisionTap& tap) noexcept {
+  const DelayQueue::Item item = queue.peek(slot, verdict.at);
+  const std::size_t size = queue.bytes(item).size();
+  if (dropped(verdict.outcome)) {
+    leave(item, size, verdict.outcome, counters, tap);
+    queue.revoke(slot);
+    return;
+  }
+  const auto entered = queue.decide(slot, verdict);
+  let_in(verdict, counters);
+  if (entered != DelayQueue::Entered::kNoCopy) return;
+  DelayQueue::Item copy = item;
+  copy.copy = true;
+  leave(copy, size, Outcome::kOverflow, counters, tap);
 }
 
 void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome, PathCounters& counters,
@@ -84,14 +110,17 @@ void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome, Path
     counters.delay_sum_ns += (item.at - item.sent).count();
   }
   if (tap.sink == nullptr) return;
-  Decision decision = about(item, size, tap);
-  if (dropped(outcome)) decision.outcome = outcome;
+  Decision decision = about(item, tap);
+  if (dropped(outcome)) {
+    decision.outcome = outcome;
+    decision.damage = {};
+  }
   tap.sink->decided(decision);
 }
 
-void tell_waiting(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept {
+void tell_waiting(const DelayQueue::Item& item, const DecisionTap& tap) noexcept {
   if (tap.sink == nullptr) return;
-  Decision decision = about(item, size, tap);
+  Decision decision = about(item, tap);
   decision.under_way = true;
   tap.sink->decided(decision);
 }

@@ -24,6 +24,8 @@ struct PathCounters {
   std::uint64_t bytes_in = 0;
   std::uint64_t bytes_out = 0;
   std::int64_t delay_sum_ns = 0;  ///< of all that came out [ns]
+  /// Datagrams let in whose bytes were changed under way: bits flipped, cut short.
+  std::uint64_t flipped = 0, truncated = 0;
 
   [[nodiscard]] std::uint64_t of(Outcome outcome) const noexcept {
     return by_outcome[static_cast<std::size_t>(outcome)];
@@ -45,11 +47,15 @@ struct Entrance {
 Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters, const DecisionTap& tap,
                const Entrance& entrance, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
 
+/// The verdict about one that `submit` kept waiting in `slot`: count, keep or let go, tell.
+void settle(const Verdict& verdict, std::uint32_t slot, DelayQueue& queue, PathCounters& counters,
+            const DecisionTap& tap) noexcept TANDEM_REALTIME;
+
 /// The one way out: an item taken from the queue reached the receiver, or was dropped on arrival.
 void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome, PathCounters& counters,
            const DecisionTap& tap) noexcept TANDEM_REALTIME;
 
 /// An item still in the queue when a log ends.
-void tell_waiting(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept;
+void tell_waiting(const DelayQueue::Item& item, const DecisionTap& tap) noexcept;
 
 }  // namespace tandem::netsim

@@ -58,7 +58,7 @@ PathSpec draw_path(Draw& d) {
   if (d.chance(0.2)) path.reorder.probability = d.log_between(0.001, 0.3);
   if (d.chance(0.2)) path.order = Order::kFree;
   if (d.chance(0.3)) path.duplicate = {d.log_between(0.001, 0.5), ms(d.log_between(0.01, 50))};
-  if (d.chance(0.1)) path.corrupted = d.log_between(0.001, 0.1);
+  if (d.chance(0.1)) path.corruption.probability = d.log_between(0.001, 0.1);
   return path;
 }
 

@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <expected>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "netsim/path_spec.h"
+#include "netsim/script.h"
 
 namespace tandem::netsim {
 
@@ -19,7 +21,7 @@ struct NetworkChoice {
 };
 
 /// The options that say what the network is like, shared by `proxy` and `run`:
-/// --delay --jitter --loss --duplicate --reorder --outage --profile --network --trace-interval --seed.
+/// --delay --jitter --loss --duplicate --reorder --outage --profile --network --trace-interval --script --seed.
 /// Lives as long as the command it was added to.
 class NetworkOptions {
  public:
@@ -28,6 +30,21 @@ class NetworkOptions {
   /// Reads the files named and puts all together. Numbers beside --profile replace the profile's own.
   /// @return the network, or what is wrong: one mistake per line
   [[nodiscard]] std::expected<NetworkChoice, std::string> resolve() const;
+
+  /// A network by name or file, as --profile and --network take it.
+  /// @return the network, or what is wrong
+  [[nodiscard]] std::expected<NetworkChoice, std::string> named(const std::string& name_or_file) const {
+    return from_file(name_or_file);
+  }
+
+  /// Reads --script: what changes while it runs. Networks it names are shipped profiles, or files beside the script.
+  /// @param clients  names that the script may use; none: "1", "2", ... in order of arrival
+  /// @return the events (none without a script), or what is wrong: one mistake per line
+  [[nodiscard]] std::expected<std::vector<NetworkEvent>, std::string> events(
+      std::span<const std::string> clients = {}) const;
+
+  /// The first option given that says what the network is like, empty if none: for what replaces them all.
+  [[nodiscard]] std::string first_given() const;
 
   [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
 
@@ -39,9 +56,15 @@ class NetworkOptions {
   double delay_ms_ = 0, jitter_ms_ = 0, loss_percent_ = 0, duplicate_percent_ = 0, reorder_percent_ = 0;
   double trace_interval_ms_ = 0;
   std::vector<std::string> outages_;
-  std::string profile_, network_;
+  std::string profile_, network_, script_;
   std::uint64_t seed_ = 1;
 };
+
+/// A whole file of at most `bytes_max` bytes, or why not: `FILE: reason`.
+[[nodiscard]] std::expected<std::string, std::string> read_whole_file(const std::string& path,
+                                                                      std::uintmax_t bytes_max);
+/// A profile or recording of at most 64 MiB. @return its bytes, or what is wrong
+[[nodiscard]] std::expected<std::string, std::string> read_network_file(const std::string& path);
 
 /// Reads `START,LENGTH[,PERIOD]` in seconds. @return the outage, or what is wrong with it
 [[nodiscard]] std::expected<OutageSpec, std::string> parse_outage(const std::string& text);

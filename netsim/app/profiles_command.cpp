@@ -1,68 +1,114 @@
-#include <cstdio>
-#include <memory>
-#include <nlohmann/json.hpp>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string_view>
+
+#include "common/base/format.h"
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "common/io/terminal.h"
+#include "netsim/app/profile_report.h"
+#include "netsim/app/profile_subject.h"
 #include "netsim/app/proxy_command.h"
 #include "netsim/profiles.h"
 
 namespace tandem::netsim {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr int kTrouble = 1, kWrong = 2;
+constexpr std::size_t kPipeWidth = 100;  ///< when nobody says how wide the paper is
 
 struct ProfilesArguments {
-  std::string name;
-  bool json = false;
+  std::string name, svg;
+  double minutes = 30, shown_s = 60, interval_ms = 0;
+  std::uint64_t seed = 1;
+  bool json = false, text = false, ascii = false;
 };
 
-Json to_json(const Profile& profile) {
-  Json json;
-  json["name"] = profile.name;
-  json["version"] = profile.version;
-  json["summary"] = profile.summary;
-  json["sources"] = profile.sources;
-  json["checks"] = Json::array();
-  for (const ProfileCheck& check : profile.checks) {
-    json["checks"].push_back({{"direction", name(check.direction)},
-                              {"p5_ms", check.delay_ms[0]},
-                              {"p50_ms", check.delay_ms[1]},
-                              {"p95_ms", check.delay_ms[2]},
-                              {"p99_ms", check.delay_ms[3]}});
-  }
-  return json;
+int wrong(const std::string& message) {
+  std::fprintf(stderr, "tandem-netsim profiles: %s\n", message.c_str());
+  return kWrong;
 }
 
-int profiles_command(const ProfilesArguments& arguments) {
-  std::vector<Profile> profiles;
-  if (arguments.name.empty()) {
-    for (const ShippedProfile& shipped : shipped_profiles()) {
-      // Profiles are tested with the program; one that cannot be read would be our mistake, and is said so.
-      if (auto profile = shipped_profile(shipped.name)) profiles.push_back(std::move(*profile));
+std::size_t paper_width() {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1) return size.ws_col;
+  return kPipeWidth;
+}
+
+/// As the C library decides: the first of these that is set names the encoding.
+bool speaks_utf8() {
+  for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* const value = std::getenv(variable);
+    if (value == nullptr || *value == '\0') continue;
+    const std::string_view text(value);
+    return text.find("UTF-8") != text.npos || text.find("utf8") != text.npos || text.find("UTF8") != text.npos ||
+           text.find("utf-8") != text.npos;
+  }
+  return false;
+}
+
+int list(bool json) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const ShippedProfile& shipped : shipped_profiles()) {
+    const auto profile = shipped_profile(shipped.name);
+    if (!profile) continue;  // a test reads them all; one that cannot be read would be our mistake
+    if (json) {
+      all.push_back(profile_json(*profile));
+    } else {
+      std::printf("%-20s %s\n", profile->name.c_str(), profile->summary.c_str());
     }
-  } else {
-    auto profile = shipped_profile(arguments.name);
-    if (!profile) {
-      std::fprintf(stderr, "tandem-netsim profiles: %s", to_text(profile.error()).c_str());
-      return 2;
-    }
-    profiles.push_back(std::move(*profile));
   }
-  if (arguments.json) {
-    Json json = Json::array();
-    for (const Profile& profile : profiles) json.push_back(to_json(profile));
-    std::printf("%s\n", (arguments.name.empty() ? json : json.front()).dump(2).c_str());
-    return 0;
-  }
-  if (!arguments.name.empty()) {
-    for (const ShippedProfile& shipped : shipped_profiles()) {
-      if (shipped.name == arguments.name) std::fwrite(shipped.text.data(), 1, shipped.text.size(), stdout);
-    }
-    return 0;
-  }
-  for (const Profile& profile : profiles) {
-    std::printf("%-18s %s\n", profile.name.c_str(), profile.summary.c_str());
-  }
+  if (json) std::printf("%s\n", all.dump(2).c_str());
   return 0;
+}
+
+int show(const ProfilesArguments& arguments) {
+  const auto subject = load_profile_subject(arguments.name, from_seconds(arguments.interval_ms * 1e-3));
+  if (!subject) return wrong(subject.error());
+  if (arguments.text) {
+    if (subject->recording) return wrong("--text: " + arguments.name + " is a recording and has no text of a profile");
+    std::fputs(subject->text.c_str(), stdout);
+    return 0;
+  }
+  if (!arguments.svg.empty()) {
+    if (const std::string problem = io::OutputFile::problem(arguments.svg); !problem.empty()) return wrong("--svg: " + problem);
+  }
+  if (!arguments.json) {
+    std::fputs(profile_heading(*subject).c_str(), stdout);
+    std::fflush(stdout);
+  }
+  io::StatusLine line{isatty(STDERR_FILENO) == 0};
+  const PortraitSetup setup{.link = subject->profile.link,
+                            .seed = arguments.seed,
+                            .length = from_seconds(arguments.minutes * 60),
+                            .shown = from_seconds(arguments.shown_s)};
+  const Portrait portrait = portrait_of(setup, [&](double share) {
+    if (line.wanted()) line.show(format("measuring: %.1f of %.1f virtual minutes", share * arguments.minutes, arguments.minutes));
+  });
+  line.clear();
+  if (arguments.json) {
+    std::printf("%s\n", profile_json(*subject, portrait).dump(2).c_str());
+  } else {
+    const PictureStyle style{paper_width(), !arguments.ascii && speaks_utf8()};
+    std::fputs(profile_report(*subject, portrait, style).c_str(), stdout);
+  }
+  io::OutputFile svg;
+  std::string problem = svg.open(arguments.svg, false);
+  if (svg.wanted()) svg.write(plot::to_svg_file(profile_figure(*subject, portrait)));
+  if (problem.empty()) problem = svg.close();
+  if (problem.empty()) return 0;
+  std::fprintf(stderr, "tandem-netsim profiles: --svg: %s\n", problem.c_str());
+  return kTrouble;
+}
+
+int profiles_command(const ProfilesArguments& arguments, bool measured) {
+  if (!arguments.name.empty()) return show(arguments);
+  if (measured) return wrong("--text, --svg, --minutes, --seconds, --seed and --trace-interval need NAME");
+  return list(arguments.json);
 }
 
 }  // namespace
@@ -70,10 +116,41 @@ int profiles_command(const ProfilesArguments& arguments) {
 void add_profiles_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<ProfilesArguments>();
   CLI::App* const command = root.add_subcommand(
-      "profiles", "Lists the named networks, or prints one as text: a start for a file of your own.");
-  command->add_option("NAME", arguments->name, "the profile to print");
-  command->add_flag("--json", arguments->json, "for machines: name, version, summary, sources, delay quantiles");
-  command->callback([arguments, &action] { action = [arguments] { return profiles_command(*arguments); }; });
+      "profiles", "Lists the named networks, or shows what one does: measured, judged and drawn.");
+  command->add_option("NAME", arguments->name, "a profile to show, or a file: a .textproto profile, a .csv recording");
+  command->add_flag("--json", arguments->json, "for machines: name, version, summary, sources, checks; with NAME also what was measured");
+  command->add_flag("--text", arguments->text, "only prints the profile as text: a start for a file of your own");
+  command->add_option("--svg", arguments->svg, "also draws it into this file")->option_text("FILE.svg");
+  command->add_option("--minutes", arguments->minutes, "virtual time to measure; default 30")
+      ->check(io::number_in(0.05, 1440, "min"))
+      ->option_text("M");
+  command->add_option("--seconds", arguments->shown_s, "how much of the beginning the pictures show; default 60")
+      ->check(io::number_in(1, 600, "s"))
+      ->option_text("S");
+  command->add_option("--seed", arguments->seed, "the same seed gives the same network; default 1")
+      ->check(io::whole_number())
+      ->option_text("N");
+  command->add_option("--trace-interval", arguments->interval_ms, "time between the rows of a recording without a time column [ms]")
+      ->check(io::number_in(0.001, 60'000, "ms"))
+      ->option_text("MS");
+  command->add_flag("--ascii", arguments->ascii, "pictures of plain letters; so it is anyway where the terminal does not speak UTF-8");
+  command->footer(
+      "Each profile promises quantiles of its delay (`check` in its file); they stand beside those measured now.\n"
+      "Green, amber and red are what force feedback needs: round trip p99 20 / 100 ms, jitter (p99 - p50) 2 / 10 ms,\n"
+      "loss 0.1 / 10 %, no gap above 5 / 50 ms, judged in every 100 ms, 1 s and 10 s.\n\n"
+      "Examples\n"
+      "  tandem-netsim profiles\n"
+      "  tandem-netsim profiles wifi-busy --svg wifi-busy.svg\n"
+      "  tandem-netsim profiles 5g --text > mine.textproto\n"
+      "  tandem-netsim profiles mine.textproto --minutes 5\n"
+      "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files.");
+  command->callback([arguments, command, &action] {
+    bool measured = false;
+    for (const char* option : {"--text", "--svg", "--minutes", "--seconds", "--seed", "--trace-interval"}) {
+      measured = measured || command->get_option(option)->count() > 0;
+    }
+    action = [arguments, measured] { return profiles_command(*arguments, measured); };
+  });
 }
 
 }  // namespace tandem::netsim

@@ -126,11 +126,11 @@ int test_command(const TestArguments& a) {
       std::printf("%s%s\n%s", &s == &scenarios->front() ? "" : "\n", s.name.c_str(), effective_scenario_text(s).c_str());
     return kPass;
   }
+  const io::Fd stop = io::signals_as_file();
   io::OutputFile json_file, junit_file;
   if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong({"--json: " + problem});
   if (const auto problem = junit_file.open(a.junit, false); !problem.empty()) return wrong({"--junit: " + problem});
 
-  const io::Fd stop = io::signals_as_file();
   Progress progress(a.quiet);
   TestOptions options{.jobs = static_cast<std::size_t>(a.jobs), .fail_fast = a.fail_fast, .reports = a.reports, .trace = a.trace, .stop_fd = stop.get()};
   if (a.seed_given) options.seed = a.seed;

@@ -70,7 +70,7 @@ void put_limits(const ScenarioResult& r, std::string& out) {
     }
     if (!worst) continue;
     const Limit& limit = *worst->limit;
-    rows.push_back({limit.metric, short_number(worst->value) + (limit.unit.empty() ? "" : " " + limit.unit), range_text(limit),
+    rows.push_back({limit.metric, short_number(worst->value) + (limit.unit.empty() || std::isnan(worst->value) ? "" : " " + limit.unit), range_text(limit),
                     holds(limit, worst->value) ? percent(margin_percent(limit, worst->value)) : "BROKEN",
                     limit.subject + ", seed " + std::to_string(worst->seed)});
   }

@@ -1,6 +1,7 @@
 #include "netsim/app/test_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
@@ -129,7 +130,7 @@ std::vector<std::string> causes(const Scenario& scenario, const SeedOutcome& out
     const Limit& limit = scenario.limits[i];
     const double value = outcome.values[i];
     if (holds(limit, value)) continue;
-    out.push_back(limit.subject + ": " + limit.metric + " = " + short_number(value) + (limit.unit.empty() ? "" : " " + limit.unit) +
+    out.push_back(limit.subject + ": " + limit.metric + " = " + short_number(value) + (limit.unit.empty() || std::isnan(value) ? "" : " " + limit.unit) +
                   ", must be " + range_text(limit));
   }
   return out;

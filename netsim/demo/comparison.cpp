@@ -4,9 +4,12 @@
 #include <functional>
 
 #include "netsim/demo/comparison_notes.h"
-#include "netsim/demo/ticks.h"
+#include "netsim/plot/ticks.h"
 
 namespace tandem::netsim::demo {
+
+using namespace plot;
+
 namespace {
 
 constexpr double kMilli = 1e3;

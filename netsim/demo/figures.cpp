@@ -4,6 +4,9 @@
 #include <cmath>
 
 namespace tandem::netsim::demo {
+
+using namespace plot;
+
 namespace {
 
 constexpr double kMm = 1e3, kMilli = 1e3;

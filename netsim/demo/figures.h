@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "netsim/demo/run_numbers.h"
-#include "netsim/demo/svg_plot.h"
 #include "netsim/demo/trace_data.h"
+#include "netsim/plot/svg_plot.h"
 
 /// The paper's figures 6 to 12, drawn from a trace. Pure.
 namespace tandem::netsim::demo {
@@ -14,7 +14,7 @@ struct CaptionedFigure {
   std::string anchor;   ///< "fig7"
   std::string title;    ///< "Figure 7: joint angles"
   std::string caption;  ///< what to look at, in sentences
-  Figure figure;
+  plot::Figure figure;
 };
 
 /// Free motion: 6 path, 7 joint angles, 8 exchanged torques and alpha, 9 energy of the flow sources.

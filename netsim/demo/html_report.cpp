@@ -3,11 +3,15 @@
 #include <cmath>
 
 #include "netsim/demo/report_style.h"
-#include "netsim/demo/svg_plot.h"
 #include "netsim/demo/text_table.h"
-#include "netsim/demo/ticks.h"
+#include "netsim/plot/plot_style.h"
+#include "netsim/plot/svg_plot.h"
+#include "netsim/plot/ticks.h"
 
 namespace tandem::netsim::demo {
+
+using namespace plot;
+
 namespace {
 
 std::string tag(const std::string& name, const std::string& text, const std::string& attributes = "") {
@@ -134,7 +138,7 @@ std::string html_report(std::span<const RunResult> runs, const Comparison& compa
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width, "
       "initial-scale=1\">\n<title>Tandem: three hands on one tool</title>\n<style>" +
-      std::string(kReportStyle) + "</style>\n</head>\n<body>\n<header>\n<h1>Tandem: three hands on one tool</h1>\n" +
+      std::string(kPlotColours) + std::string(kReportStyle) + std::string(kPlotRules) + "</style>\n</head>\n<body>\n<header>\n<h1>Tandem: three hands on one tool</h1>\n" +
       introduction(where) + "<nav><a href=\"#numbers\">Numbers</a>";
   for (const RunResult& run : runs)
     html += "<a href=\"#" + std::string(run.plan->name) + "\">" + escaped(title_of(*run.plan)) + "</a>";

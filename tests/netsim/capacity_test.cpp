@@ -158,11 +158,11 @@ TEST(CoDel, KeepsTheWaitLowWhereATailDropDoesNot) {
 
 TEST(Path, DropsWhatIsAboveTheMtuAndWhatWasDamaged) {
   PathSpec mtu;
-  mtu.mtu = 528;
+  mtu.mtu.bytes = 528;
   EXPECT_EQ(path_of(mtu).send(Time{}, 500).outcome, Outcome::kDeliver);
   EXPECT_EQ(path_of(mtu).send(Time{}, 501).outcome, Outcome::kAboveMtu);
   PathSpec damage;
-  damage.corrupted = 0.03;
+  damage.corruption.probability = 0.03;
   const auto all = verdicts(path_of(damage), 300'000);
   EXPECT_TRUE(binomial_fits(count_of(all, Outcome::kCorrupted), all.size(), 0.03));
   damage.loss.probability = mtu.loss.probability = 0.1;
@@ -173,9 +173,9 @@ TEST(Path, DropsWhatIsAboveTheMtuAndWhatWasDamaged) {
 TEST(Outages, AtRandomMomentsAreTheSameInBothDirections) {
   PathSpec spec;
   spec.outages = {{.length = 100ms, .mean_gap = 2s, .length_max = 300ms}};
-  Path up{spec, Path::key_for(3, 0, Direction::kUp), Path::key_for(3, 0)};
-  Path down{spec, Path::key_for(3, 0, Direction::kDown), Path::key_for(3, 0)};
-  Path other{spec, Path::key_for(3, 1, Direction::kUp), Path::key_for(3, 1)};
+  Path up{spec, Path::keys_for(3, 0, Direction::kUp)};
+  Path down{spec, Path::keys_for(3, 0, Direction::kDown)};
+  Path other{spec, Path::keys_for(3, 1, Direction::kUp)};
   constexpr std::size_t n = 4'000'000;
   std::size_t lost = 0, differs = 0, run = 0, longest = 0, shortest = n;
   for (std::size_t i = 0; i < n; ++i) {
@@ -218,8 +218,8 @@ TEST(Capacity, LimitsAreReadFromAProfile) {
   const PathSpec& up = profile->link.up;
   EXPECT_EQ(up.rate.queue_datagrams, 50U);
   EXPECT_EQ(up.rate.codel, (CoDelSpec{10ms, 100ms}));
-  EXPECT_EQ(up.corrupted, 0.02);
-  EXPECT_EQ(up.mtu, 600U);
+  EXPECT_EQ(up.corruption.probability, 0.02);
+  EXPECT_EQ(up.mtu.bytes, 600U);
   ASSERT_EQ(up.outages.size(), 1U);
   EXPECT_EQ(up.outages[0].mean_gap, 20s);
   EXPECT_EQ(up.outages[0].length_max, 250ms);

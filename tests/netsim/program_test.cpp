@@ -153,6 +153,10 @@ TEST(Program, WrongArgumentsAreNamedWithValueAndRangeBeforeAnythingStarts) {
       {{"proxy", "--to", "127.0.0.1:9", "--json", "/no/such/folder/x.json"}, "cannot be written"},
       {{"proxy", "--to", "127.0.0.1:9", "--unknown", "1"}, "--unknown"},
       {{"profiles", "wifi-bussy"}, "did you mean wifi-busy?"},
+      {{"profiles", "./none.textproto"}, "No such file"},
+      {{"profiles", "5g", "--minutes", "0"}, "[0.05, 1440] min"},
+      {{"profiles", "5g", "--svg", "/no/such/folder/x.svg"}, "cannot be written"},
+      {{"profiles", "--svg", "x.svg"}, "need NAME"},
   };
   for (const Case& one : cases) {
     Program program(one.arguments);
@@ -193,12 +197,77 @@ TEST(Program, TellsItsVersionItsProfilesAndHowToUseIt) {
   }
   {
     // What it prints can be used as a file.
-    Program program({"profiles", "5g"});
+    Program program({"profiles", "5g", "--text"});
     const std::string file = testing::TempDir() + "mine.textproto";
     std::ofstream(file) << program.rest_of_out();
     EXPECT_EQ(program.exit_code(), 0);
     Program proxy({"proxy", "--to", "127.0.0.1:9", "--duration", "0.01", "--network", file});
     EXPECT_EQ(proxy.exit_code(), 0);
+  }
+}
+
+TEST(Program, ShowsWhatAProfileDoesBesideWhatItPromises) {
+  const std::string svg = testing::TempDir() + "5g.svg";
+  {
+    Program program({"profiles", "5g", "--minutes", "2", "--svg", svg, "--ascii"});
+    const std::string text = program.rest_of_out();
+    EXPECT_EQ(program.exit_code(), 0);
+    for (const char* says : {"5g, version", "source:", "log_normal", "promised", "for force feedback: ", "windows of",
+                             "delay of the first 60 s", "lost", "delay of all 2.0 minutes"}) {
+      EXPECT_NE(text.find(says), std::string::npos) << says << "\n" << text;
+    }
+    for (const char c : text) ASSERT_LT(static_cast<unsigned char>(c), 0x80) << "--ascii";
+    std::ifstream drawn(svg);
+    const std::string all{std::istreambuf_iterator<char>(drawn), {}};
+    EXPECT_TRUE(all.starts_with("<?xml")) << all.substr(0, 80);
+    EXPECT_TRUE(all.ends_with("</svg>\n"));
+  }
+  {
+    Program program({"profiles", "random-loss-10", "--minutes", "1", "--json"});
+    const auto json = nlohmann::json::parse(program.rest_of_out());
+    EXPECT_EQ(program.exit_code(), 0);
+    EXPECT_EQ(json["name"], "random-loss-10");
+    EXPECT_NEAR(json["measured"]["up"]["lost_percent"].get<double>(), 10, 1);
+    EXPECT_EQ(json["measured"]["up"]["p50_ms"], 10);
+    EXPECT_EQ(json["quality"]["verdict"], "red");
+    EXPECT_EQ(json["quality"]["up"]["windows"].size(), 3U);
+  }
+  {
+    const std::string file = testing::TempDir() + "recorded.csv";
+    std::ofstream(file) << "t_s[s],rtt_ms[ms]\n0,20\n0.5,\n0.6,40\n1,20\n";
+    Program program({"profiles", file, "--minutes", "0.1", "--ascii"});
+    const std::string text = program.rest_of_out();
+    EXPECT_EQ(program.exit_code(), 0);
+    EXPECT_NE(text.find("4 rows, 1 lost"), std::string::npos) << text;
+    EXPECT_NE(text.find("each direction gets half"), std::string::npos) << text;
+    EXPECT_NE(text.find("lost in the second"), std::string::npos) << text;
+  }
+}
+
+TEST(Program, RunJudgesTheNetworkApartFromTheSession) {
+  {
+    Program program({"run", "one_axis", "--duration", "5", "--outage", "3,0.4", "--json", "-"});
+    const auto json = nlohmann::json::parse(program.rest_of_out());
+    const std::string words = program.rest_of_err();
+    EXPECT_EQ(program.exit_code(), 0);
+    for (const auto& seat : json["seats"]) {
+      EXPECT_EQ(seat["quality"]["up"]["lost"], 400) << seat["name"];
+      EXPECT_NEAR(seat["quality"]["up"]["longest_gap_ms"].get<double>(), 401, 1.01);
+      EXPECT_EQ(seat["quality"]["verdict"], "red");
+    }
+    EXPECT_NE(words.find("network of"), std::string::npos) << words;
+    EXPECT_NE(words.find("40 % lost in the second to"), std::string::npos) << words;
+  }
+  {
+    Program program({"run", "one_axis", "--duration", "2", "--no-quality", "--json", "-", "--quiet"});
+    const auto json = nlohmann::json::parse(program.rest_of_out());
+    EXPECT_EQ(program.exit_code(), 0);
+    EXPECT_FALSE(json["seats"][0].contains("quality"));
+  }
+  {
+    Program program({"run", "one_axis", "--duration", "2"});
+    EXPECT_NE(program.rest_of_out().find("network: green for trainer"), std::string::npos);
+    EXPECT_EQ(program.exit_code(), 0);
   }
 }
 

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "netsim/demo/ticks.h"
+#include "netsim/plot/ticks.h"
 
 namespace tandem::netsim::demo {
+
+using namespace plot;
 
 namespace {
 constexpr double kEvery = 0.2;     // [s] between two looks of the line

@@ -5,7 +5,7 @@
 #include <vector>
 
 /// Fewer points that draw the same picture. Pure.
-namespace tandem::netsim::demo {
+namespace tandem::netsim::plot {
 
 struct Point2 {
   double x = 0, y = 0;
@@ -22,4 +22,4 @@ struct Point2 {
 /// @param step  in units of the axes; > 0
 [[nodiscard]] std::vector<Point2> downsample_path(std::span<const Point2> path, double step, std::size_t most);
 
-}  // namespace tandem::netsim::demo
+}  // namespace tandem::netsim::plot

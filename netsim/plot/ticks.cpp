@@ -1,10 +1,10 @@
-#include "netsim/demo/ticks.h"
+#include "netsim/plot/ticks.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-namespace tandem::netsim::demo {
+namespace tandem::netsim::plot {
 
 Ticks round_ticks(double lo, double hi, int wanted) {
   Ticks ticks;
@@ -41,4 +41,4 @@ std::string significant_text(double value, int digits) {
   return number_text(value, std::clamp(digits - whole, 0, 9));
 }
 
-}  // namespace tandem::netsim::demo
+}  // namespace tandem::netsim::plot

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "netsim/demo/downsample.h"
-#include "netsim/demo/svg_plot.h"
-#include "netsim/demo/ticks.h"
+#include "netsim/plot/downsample.h"
+#include "netsim/plot/svg_plot.h"
+#include "netsim/plot/ticks.h"
 
-namespace tandem::netsim::demo {
+namespace tandem::netsim::plot {
 namespace {
 
 TEST(RoundTicks, AreRoundNumbersInsideTheRange) {
@@ -120,4 +120,4 @@ TEST(SvgPlot, SurvivesCurvesWithoutPointsAndWithoutHeight) {
 }
 
 }  // namespace
-}  // namespace tandem::netsim::demo
+}  // namespace tandem::netsim::plot

@@ -1,9 +1,9 @@
-#include "netsim/demo/downsample.h"
+#include "netsim/plot/downsample.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tandem::netsim::demo {
+namespace tandem::netsim::plot {
 namespace {
 
 std::vector<Point2> finite_only(std::span<const Point2> curve) {
@@ -60,4 +60,4 @@ std::vector<Point2> downsample_path(std::span<const Point2> path, double step, s
   return out;
 }
 
-}  // namespace tandem::netsim::demo
+}  // namespace tandem::netsim::plot

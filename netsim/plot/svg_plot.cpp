@@ -1,12 +1,13 @@
-#include "netsim/demo/svg_plot.h"
+#include "netsim/plot/svg_plot.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include "netsim/demo/ticks.h"
+#include "netsim/plot/plot_style.h"
+#include "netsim/plot/ticks.h"
 
-namespace tandem::netsim::demo {
+namespace tandem::netsim::plot {
 namespace {
 
 constexpr double kLeft = 62, kRight = 14, kTitle = 20, kTop = 8, kTickRow = 18, kLabelRow = 18, kLegend = 26;
@@ -83,6 +84,20 @@ void draw_axes(std::ostream& out, const Frame& f, const Panel& panel, bool x_num
   if (x_numbers) text_at(out, f.left + f.width / 2, f.top + f.height + 32, "label mid", panel.x_label);
 }
 
+/// Spans that would stand in the same pixel are drawn as one.
+void draw_rug(std::ostream& out, const Frame& f, const std::vector<Band>& rug) {
+  constexpr double kHeight = 7;
+  double done = -1;
+  for (std::size_t i = 0; i < rug.size();) {
+    const double from = std::max(f.px(rug[i].from), done);
+    double to = std::max(f.px(rug[i].to), from + 1);
+    for (++i; i < rug.size() && f.px(rug[i].from) <= to; ++i) to = std::max(to, f.px(rug[i].to));
+    done = to;
+    out << "<rect class=\"rug\" x=\"" << px_text(from) << "\" y=\"" << px_text(f.height - kHeight) << "\" width=\""
+        << px_text(to - from) << "\" height=\"" << px_text(kHeight) << "\"/>";
+  }
+}
+
 void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_numbers) {
   if (!panel.title.empty()) text_at(out, f.left, f.top - 7, "title", panel.title);
   for (const Band& b : panel.bands) {
@@ -97,6 +112,7 @@ void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_nu
   for (const Line& v : panel.verticals) line(out, f.px(v.at), 0, f.px(v.at), f.height, "mark");
   for (const Line& h : panel.horizontals) line(out, 0, f.py(h.at), f.width, f.py(h.at), "mark");
   for (const Curve& c : panel.curves) draw_curve(out, f, c);
+  draw_rug(out, f, panel.rug);
   out << "</svg>";
   for (const Band& b : panel.bands)
     text_at(out, f.left + std::clamp(f.px((b.from + b.to) / 2), 0.0, f.width), f.top - 6, "note mid", b.label);
@@ -223,4 +239,12 @@ std::string to_svg(const Figure& figure) {
   return out.str();
 }
 
-}  // namespace tandem::netsim::demo
+std::string to_svg_file(const Figure& figure) {
+  std::string svg = to_svg(figure);
+  const std::size_t inside = svg.find("</title>") + 8;
+  svg.insert(inside, "<style>" + std::string(kPlotColours) + std::string(kPlotRules) +
+                         "</style><rect width=\"100%\" height=\"100%\" style=\"fill:var(--bg)\"/>");
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + svg;
+}
+
+}  // namespace tandem::netsim::plot

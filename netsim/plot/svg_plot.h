@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "netsim/demo/downsample.h"
+#include "netsim/plot/downsample.h"
 
 /// Line plots as inline SVG. Pure: numbers in, text out. Colours and fonts are classes that the page's style sheet
-/// defines (report_style.h), so that one drawing serves light, dark and paper.
-namespace tandem::netsim::demo {
+/// defines (plot_style.h), so that one drawing serves light, dark and paper.
+namespace tandem::netsim::plot {
 
 struct Curve {
   std::string label;  ///< in the legend, once per figure; empty: not there
@@ -40,6 +40,7 @@ struct Panel {
   std::string title = {}, x_label = {}, y_label = {};  ///< labels carry their unit: "time [s]"
   std::vector<Curve> curves = {};
   std::vector<Band> bands = {};
+  std::vector<Band> rug = {};  ///< spans marked along the lower edge, at least a pixel wide each
   std::vector<Line> verticals = {}, horizontals = {};
   std::vector<Note> notes = {};
   std::optional<Range> x = {}, y = {};  ///< default: what the curves need, and a margin
@@ -60,6 +61,9 @@ inline constexpr std::size_t kCurvePointsMax = 1000;  ///< per curve
 /// The figure as one <svg> element.
 [[nodiscard]] std::string to_svg(const Figure& figure);
 
+/// The same as a file of its own, with its style sheet and a background.
+[[nodiscard]] std::string to_svg_file(const Figure& figure);
+
 /// The range a panel shows along y (or x): the curves' extremes and 6 % on each side, at least `span_min` wide.
 /// No finite point: [0, 1].
 [[nodiscard]] Range range_of(const std::vector<Curve>& curves, bool along_y, double span_min);
@@ -67,4 +71,4 @@ inline constexpr std::size_t kCurvePointsMax = 1000;  ///< per curve
 /// Text with &, <, > and quotes escaped.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-}  // namespace tandem::netsim::demo
+}  // namespace tandem::netsim::plot

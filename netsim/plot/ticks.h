@@ -4,7 +4,7 @@
 #include <vector>
 
 /// Round numbers for axes. Pure.
-namespace tandem::netsim::demo {
+namespace tandem::netsim::plot {
 
 /// Values to write at an axis: multiples of 1, 2 or 5 times a power of ten.
 struct Ticks {
@@ -22,4 +22,4 @@ struct Ticks {
 /// `value` with so many significant digits (at least the whole part), as number_text writes it: 8.2, 0.35, 250.
 [[nodiscard]] std::string significant_text(double value, int digits);
 
-}  // namespace tandem::netsim::demo
+}  // namespace tandem::netsim::plot

@@ -1,0 +1,59 @@
+#include "netsim/app/profile_subject.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/base/format.h"
+#include "netsim/app/network_options.h"
+#include "netsim/network_csv.h"
+
+namespace tandem::netsim {
+namespace {
+
+/// A file that exists wins; otherwise a name with a slash or an ending is a path.
+bool is_file(const std::string& name) {
+  return std::filesystem::is_regular_file(name) || name.find('/') != std::string::npos ||
+         name.find('.') != std::string::npos;
+}
+
+std::string lines_of(const InputErrors& errors) {
+  std::string text = to_text(errors);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::expected<ProfileSubject, std::string> load_profile_subject(const std::string& name_or_file, Duration interval) {
+  ProfileSubject subject;
+  if (!is_file(name_or_file)) {
+    auto profile = shipped_profile(name_or_file);
+    if (!profile) return std::unexpected(lines_of(profile.error()));
+    subject.profile = std::move(*profile);
+    for (const ShippedProfile& shipped : shipped_profiles()) {
+      if (shipped.name == name_or_file) subject.text = std::string(shipped.text);
+    }
+    return subject;
+  }
+  auto text = read_network_file(name_or_file);
+  if (!text) return std::unexpected(text.error());
+  if (!name_or_file.ends_with(".csv")) {
+    auto profile = parse_profile(*text, name_or_file);
+    if (!profile) return std::unexpected(lines_of(profile.error()));
+    subject.profile = std::move(*profile);
+    subject.text = std::move(*text);
+    return subject;
+  }
+  auto recorded = parse_network_csv(*text, name_or_file, interval);
+  if (!recorded) return std::unexpected(lines_of(recorded.error()));
+  subject.recording = true;
+  subject.profile.name = std::filesystem::path(name_or_file).stem().string();
+  subject.profile.summary =
+      format("recording of %.1f s in %zu rows, %zu lost; then from the start again", seconds(recorded->length),
+             recorded->rows, recorded->lost);
+  subject.profile.link = std::move(recorded->link);
+  if (recorded->rtt_split) subject.notes.emplace_back("the recording holds round trips; each direction gets half of them");
+  return subject;
+}
+
+}  // namespace tandem::netsim

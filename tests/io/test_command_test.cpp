@@ -1,0 +1,155 @@
+// `tandem-netsim test` as people and CI jobs start it.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "tests/io/programs.h"
+
+namespace tandem {
+namespace {
+
+using test::Folder;
+using test::Json;
+using test::Process;
+
+Process netsim_test(test::Words arguments) {
+  arguments.insert(arguments.begin(), {TANDEM_NETSIM, "test"});
+  return Process(std::move(arguments));
+}
+
+/// Must fail: 30 ms each way on a scene whose tracking is then worse than 1 mm, and 5 % lost where nothing may be.
+constexpr const char* kMustFail =
+    "version: 1\nscene: \"one_axis\"\nduration_s: 3\nseeds: 3\nnetwork { delay_ms: 30 loss_percent: 5 }\n"
+    "seat_limits { tracking_rms_m { max: 0.001 } loss_percent { max: 0 } }\n";
+
+TEST(NetsimTest, ShippedScenariosPassWithinTheirLimits) {
+  const Folder folder;
+  auto run = netsim_test({"shipped", "--json", folder.file("v.json"), "--junit", folder.file("v.xml")});
+  std::optional<int> code;
+  for (int patience = 0; patience < 10 && !(code = run.wait()); ++patience) {
+  }
+  ASSERT_EQ(code, 0) << run.out() << run.err();
+  const Json json = folder.json("v.json");
+  EXPECT_EQ(json["verdict"], "pass");
+  EXPECT_GE(json["scenarios"].size(), 6u);
+  for (const Json& scenario : json["scenarios"]) {
+    EXPECT_EQ(scenario["verdict"], "pass");
+    for (const Json& limit : scenario["limits"]) EXPECT_FALSE(limit["worst"].is_null()) << scenario["name"] << " " << limit;
+  }
+  std::printf("[  cpu     ] %.1f s for %d seeds of all shipped scenarios\n", json["cpu_s"].get<double>(), json["seeds_run"].get<int>());
+  if (!std::filesystem::exists("/usr/bin/xmllint")) {
+    std::printf("[ NOT RUN ] JUnit XML through xmllint: it is not installed (package libxml2-utils)\n");
+    return;
+  }
+  Process lint({"/usr/bin/xmllint", "--noout", folder.file("v.xml")});
+  EXPECT_EQ(lint.wait(), 0) << lint.err();
+}
+
+TEST(NetsimTest, AFailureSaysWhyAndItsCommandRepeatsTheTraceToTheByte) {
+  const Folder folder;
+  const std::string file = folder.write("must fail.textproto", kMustFail);
+  auto run = netsim_test({file, "--json", folder.file("v.json"), "--junit", folder.file("v.xml")});
+  ASSERT_EQ(run.wait(), 1) << run.err();
+  for (const char* part : {"FFF", "FAIL 3 of 3", "tracking_rms_m", "must be at most 0.001 m", "must be at most 0 %", "--seed 2 --seeds 1 --trace"})
+    EXPECT_NE(run.out().find(part), std::string::npos) << part << " not in\n" << run.out();
+  const Json seed = folder.json("v.json")["scenarios"][0]["seeds"][1];
+  EXPECT_EQ(seed["verdict"], "fail");
+  EXPECT_EQ(seed["causes"].size(), 3u) << seed;
+  EXPECT_NE(folder.read("v.xml").find("failures=\"3\""), std::string::npos);
+
+  // The command, word for word, in a shell.
+  const std::string bin = std::filesystem::path(TANDEM_NETSIM).parent_path().string();
+  const std::string command = "cd '" + folder.file("") + "' && PATH=" + bin + ":$PATH && " + seed["replay"].get<std::string>() +
+                              " --json again.json && echo passed || sha256sum 'must fail-2.csv'";
+  Process again({"/bin/sh", "-c", command});
+  ASSERT_EQ(again.wait(), 0) << again.err();
+  EXPECT_EQ(folder.json("again.json")["scenarios"][0]["seeds"][0]["trace_hash"], seed["trace_hash"]);
+  EXPECT_NE(again.out().find(seed["trace_hash"].get<std::string>()), std::string::npos) << again.out();
+}
+
+TEST(NetsimTest, RunOfTheSameSceneNetworkAndSeedHasTheSameTrace) {
+  const Folder folder;
+  const std::string file = folder.write("same.textproto", "version: 1 scene: \"one_axis\" duration_s: 3 network { delay_ms: 10 jitter_ms: 5 loss_percent: 5 }");
+  auto test = netsim_test({file, "--seed", "9", "--json", "-", "--quiet"});
+  ASSERT_EQ(test.wait(), 0) << test.err();
+  Process run({TANDEM_NETSIM, "run", "one_axis", "--duration", "3", "--delay", "10", "--jitter", "5", "--loss", "5", "--seed", "9", "--json", "-", "--quiet"});
+  ASSERT_EQ(run.wait(), 0) << run.err();
+  EXPECT_EQ(Json::parse(test.out())["scenarios"][0]["seeds"][0]["trace_hash"], Json::parse(run.out())["trace_hash"]);
+}
+
+TEST(NetsimTest, GivesTheSameBytesForAnyNumberOfJobs) {
+  const Folder folder;
+  const std::string file = folder.write("f.textproto", kMustFail);
+  std::vector<std::string> bytes;
+  for (const char* jobs : {"1", "4"}) {
+    auto run = netsim_test({file, "--jobs", jobs, "--seeds", "5", "--json", "-", "--quiet"});
+    ASSERT_EQ(run.wait(), 1);
+    std::string text;
+    std::istringstream lines(run.out());
+    for (std::string line; std::getline(lines, line);)
+      if (line.find("\"cpu_s\"") == std::string::npos) text += line + "\n";
+    bytes.push_back(text);
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+}
+
+TEST(NetsimTest, SaysWhatIsWrongAndStartsNothing) {
+  const Folder folder;
+  const std::string bad = folder.write("bad.textproto", "version: 1\nscene: \"free_motoin\"\nseeds: 0\nnetwrk { }\n");
+  const std::string good = folder.write("good.textproto", "version: 1 scene: \"one_axis\" duration_s: 1");
+  std::filesystem::create_directory(folder.file("empty"));
+  for (const auto& [arguments, part] : std::vector<std::pair<test::Words, std::string>>{
+           {{}, "SCENARIO is required"},
+           {{"free-motion-lam"}, "did you mean free-motion-lan?"},
+           {{bad}, "bad.textproto:3:8: seeds = 0: must be in [1, 1e5]"},
+           {{bad}, "bad.textproto:4:1: netwrk: unknown key; did you mean network?"},
+           {{folder.file("empty")}, "holds no *.textproto"},
+           {{good, "--seeds", "0"}, "[1, 100000]"},
+           {{good, "--seeds", "1.5"}, "whole number"},
+           {{good, "--seed", "18446744073709551615", "--seeds", "2"}, "beyond 64 bits"},
+           {{good, "--jobs", "257"}, "[1, 256]"},
+           {{good, "--seeds", "2", "--trace", folder.file("t.csv")}, "of one seed of one scenario, these are 2"},
+           {{good, "--trace", "-"}, "standard output is for --json"},
+           {{good, "--junit", folder.file("x"), "--json", folder.file("x")}, "is the same file as --json"},
+           {{good, "--json", "/no/such/folder/x.json"}, "cannot be written"},
+           {{good, "--keep-going", "--fail-fast"}, "excludes"}}) {
+    auto run = netsim_test(arguments);
+    EXPECT_EQ(run.wait(), 2) << part;
+    EXPECT_NE(run.err().find(part), std::string::npos) << part << " not in: " << run.err() << run.out();
+    EXPECT_EQ(run.out(), "") << part;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.file("t.csv")));
+}
+
+TEST(NetsimTest, ListsAndChecksWithoutRunning) {
+  auto list = netsim_test({"--list"});
+  EXPECT_EQ(list.wait(), 0);
+  EXPECT_NE(list.out().find("free-motion-lan"), std::string::npos);
+  auto check = netsim_test({"contact-delay", "--check"});
+  EXPECT_EQ(check.wait(), 0);
+  for (const char* part : {"scene ", "delay 20 ms, jitter 0 to 5 ms, loss 5 %", "seeds ", "1 to 4", "force_error_rms_n", "at most 0.02"})
+    EXPECT_NE(check.out().find(part), std::string::npos) << part << " not in\n" << check.out();
+}
+
+TEST(NetsimTest, AnInterruptEndsItAtOnceAndNamesWhatWasNotRun) {
+  const Folder folder;
+  // The second is hours of work; result files are opened once signals are waited for.
+  const std::string soon = folder.write("a-soon.textproto", "version: 1 scene: \"one_axis\" duration_s: 0.5");
+  const std::string later = folder.write("b-later.textproto", "version: 1 scene: \"one_axis\" duration_s: 3e5");
+  auto run = netsim_test({soon, later, "--jobs", "1", "--json", folder.file("v.json")});
+  for (int i = 0; i < 1000 && !std::filesystem::exists(folder.file("v.json")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  run.signal(SIGINT);
+  EXPECT_EQ(run.wait(), 1) << run.err();
+  EXPECT_NE(run.out().find("not run:"), std::string::npos) << run.out();
+  EXPECT_NE(run.out().find("b-later (1)"), std::string::npos) << run.out();
+  EXPECT_NE(run.err().find("interrupted"), std::string::npos) << run.err();
+  const Json json = folder.json("v.json");
+  EXPECT_EQ(json["verdict"], "fail");
+  EXPECT_EQ(json["scenarios"][1]["seeds"][0]["verdict"], "not run");
+}
+
+}  // namespace
+}  // namespace tandem

@@ -1,0 +1,153 @@
+#include "netsim/portrait.h"
+
+#include <gtest/gtest.h>
+
+#include "netsim/portrait_figure.h"
+#include "netsim/portrait_text.h"
+#include "netsim/profiles.h"
+#include "tests/netsim/support.h"
+
+namespace tandem::netsim {
+namespace {
+
+using namespace test;
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++n;
+  return n;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+TEST(Portrait, CountsEveryDatagramOnce) {
+  LinkSpec link = link_from({.delay = 10ms, .duplicate = 0.5});
+  link.up.outages = {{.start = 1s, .length = 400ms, .period = 2s}};
+  const Portrait p = portrait_of({.link = link, .length = 10s, .shown = 4s});
+  EXPECT_EQ(p.ways[0].delays.size(), 10'000U - 5 * 400);
+  EXPECT_EQ(p.ways[1].delays.size(), 10'000U) << "what is under way at the end still comes; copies are none";
+  EXPECT_EQ(p.ways[0].fates[static_cast<std::size_t>(Outcome::kOutage)], 2000U);
+  EXPECT_EQ(p.ways[0].quantile(0), 10ms);
+  EXPECT_EQ(p.ways[0].quantile(1), 10ms);
+  ASSERT_EQ(p.ways[0].shown.size(), 4000U);
+  for (std::size_t i = 0; i < 4000; ++i) {
+    const bool out = i % 2000 >= 1000 && i % 2000 < 1400;
+    ASSERT_EQ(p.ways[0].shown[i], out ? PortraitWay::kLost : 10'000) << i;
+  }
+  EXPECT_EQ(p.quality.up.lost, 2000U);
+  EXPECT_EQ(p.quality.up.longest_gap, 401ms);
+}
+
+TEST(Portrait, MeasuresQuantilesAsTheChecksOfProfilesDo) {
+  const auto profile = shipped_profile("wifi-busy");
+  ASSERT_TRUE(profile);
+  const Portrait p = portrait_of({.link = profile->link, .length = 60s});
+  Path path{profile->link.down, Path::key_for(1, 0, Direction::kDown)};
+  auto all = delays(verdicts(path, 60'000));
+  std::sort(all.begin(), all.end());
+  ASSERT_EQ(p.ways[1].delays.size(), all.size());
+  for (const double q : {0.05, 0.5, 0.95, 0.99}) {
+    const double expected = all[static_cast<std::size_t>(q * static_cast<double>(all.size() - 1))];
+    EXPECT_EQ(static_cast<double>(p.ways[1].quantile(q).count()), expected);
+  }
+}
+
+TEST(Portrait, TellsHowFarItIsAndShowsNoMoreThanItHas) {
+  std::vector<double> told;
+  const Portrait p = portrait_of({.link = {}, .length = 45s, .shown = 60s}, [&](double s) { told.push_back(s); });
+  EXPECT_EQ(p.shown, 45s);
+  EXPECT_EQ(told, (std::vector<double>{0, 20.0 / 45, 40.0 / 45}));
+}
+
+/// 60 columns of 100 datagrams: 10 ms; a second of 100 ms in the middle, then half lost, then all, then one of 100.
+PortraitWay drawn() {
+  PortraitWay way;
+  for (int i = 0; i < 6000; ++i) {
+    std::int32_t us = 10'000;
+    if (i >= 3000 && i < 3100) us = 100'000;
+    if (i >= 3100 && i < 3200 && i % 2 == 0) us = PortraitWay::kLost;
+    if (i >= 3200 && i < 3300) us = PortraitWay::kLost;
+    if (i == 3350) us = PortraitWay::kLost;
+    way.shown.push_back(us);
+    if (us >= 0) way.delays.push_back(1us * us);
+  }
+  std::sort(way.delays.begin(), way.delays.end());
+  return way;
+}
+
+TEST(Portrait, PictureIsDarkWhereTheDatagramsAre) {
+  const std::string text = delay_picture(drawn(), 6s, {.width = 72, .utf8 = false});
+  const auto lines = lines_of(text);
+  ASSERT_EQ(lines.size(), 12U + 2 + 2) << text;
+  const std::string margin(11, ' ');
+  EXPECT_EQ(lines[0], "   100 ms |" + std::string(30, ' ') + "#");
+  for (int row = 1; row < 11; ++row) EXPECT_EQ(lines[static_cast<std::size_t>(row)].substr(10), "|") << row;
+  // Column 31 has half of its datagrams, which is dark; 32 has none; 33 all but one.
+  EXPECT_EQ(lines[11], "  10.0 ms |" + std::string(30, '#') + " # " + std::string(27, '#'));
+  // Every 2 s: at columns 0, 20, 39 and 59.
+  EXPECT_EQ(lines[12], "          ++-------------------+------------------+-------------------+");
+  EXPECT_EQ(lines[13], "           0 s                 2 s                4 s                 6 s");
+  EXPECT_EQ(lines[14], "     lost  " + std::string(31, ' ') + "##:");
+}
+
+TEST(Portrait, PictureOfUtf8IsAsWideAndOfAConstantDelayIsOneLine) {
+  const auto plain = lines_of(delay_picture(drawn(), 6s, {.width = 72, .utf8 = false}));
+  const auto fine = lines_of(delay_picture(drawn(), 6s, {.width = 72, .utf8 = true}));
+  ASSERT_EQ(plain.size(), fine.size());
+  for (std::size_t i = 0; i + 1 < plain.size(); ++i) {
+    std::size_t width = 0;
+    for (const char c : fine[i]) width += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U ? 1 : 0;
+    EXPECT_EQ(width, plain[i].size()) << fine[i];
+  }
+  PortraitWay constant;
+  constant.shown.assign(3000, 20'000);
+  const std::string text = delay_picture(constant, 3s, {.width = 72, .utf8 = false});
+  EXPECT_EQ(count(text, "####"), 60U / 4) << text;
+  PortraitWay lost;
+  lost.shown.assign(3000, PortraitWay::kLost);
+  EXPECT_EQ(count(delay_picture(lost, 3s, {.width = 72, .utf8 = false}), "####"), 60U / 4);
+}
+
+TEST(Portrait, HistogramAddsUpToEverything) {
+  const std::string text = delay_histogram(drawn(), {.width = 72, .utf8 = false});
+  const auto lines = lines_of(text);
+  ASSERT_EQ(lines.size(), 12U) << text;
+  EXPECT_NE(lines.front().find("98 %"), std::string::npos) << text;
+  EXPECT_NE(lines.back().find("to 100 ms"), std::string::npos) << text;
+  EXPECT_NE(lines.back().find("100 %"), std::string::npos) << text;
+  EXPECT_EQ(delay_histogram(PortraitWay{}, {.width = 72, .utf8 = false}), "           nothing arrived\n");
+}
+
+TEST(Portrait, FigureShadesOutagesAndMarksEveryLoss) {
+  Portrait p;
+  p.length = p.shown = 6s;
+  p.ways = {drawn(), drawn()};
+  const plot::Figure figure = portrait_figure(p, "a < b", {{Direction::kUp, 0.99, 12.0}, {Direction::kUp, 0.05, 9.0}});
+  ASSERT_EQ(figure.panels.size(), 3U);
+  ASSERT_EQ(figure.panels[0].bands.size(), 1U) << "lost for 5 ms and more";
+  EXPECT_DOUBLE_EQ(figure.panels[0].bands[0].from, 3.2);
+  EXPECT_DOUBLE_EQ(figure.panels[0].bands[0].to, 3.3);
+  EXPECT_EQ(figure.panels[0].rug.size(), 50U + 1 + 1);
+  EXPECT_EQ(figure.panels[2].notes.size(), 1U) << "what is below the median stands on the edge";
+  EXPECT_DOUBLE_EQ(figure.panels[2].notes[0].at.x, 2);
+  const std::string svg = plot::to_svg_file(figure);
+  EXPECT_TRUE(svg.starts_with("<?xml"));
+  EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
+  EXPECT_EQ(count(svg, "<style>"), 1U);
+  EXPECT_EQ(count(svg, "<svg"), count(svg, "</svg>"));
+  EXPECT_EQ(count(svg, "class=\"band\""), 2U);
+  // Losses 2 ms apart are a pixel at 1004 pixels for 6 s: marks merge, but none is gone.
+  EXPECT_GE(count(svg, "class=\"rug\""), 4U);
+  EXPECT_EQ(count(svg, "nan"), 0U);
+}
+
+}  // namespace
+}  // namespace tandem::netsim
