@@ -17,6 +17,24 @@ enum Column : std::size_t { kIn, kLink, kDirection, kFlow, kIndex, kSize, kVerdi
 constexpr std::array<const char*, kColumns> kNames{"t_in_ns", "link",    "dir",      "flow", "idx",
                                                    "size",    "verdict", "t_out_ns", "cause"};
 
+/// `cut 12` or `flipped 3 1234567`.
+bool read_damage(std::string_view text, Damage& damage) {
+  const auto number = [](std::string_view word, auto& value) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc{} && end == word.data() + word.size() && !word.empty();
+  };
+  if (text.starts_with("cut ")) {
+    damage.kind = Damage::Kind::kTruncated;
+    return number(text.substr(4), damage.length);
+  }
+  if (!text.starts_with("flipped ")) return false;
+  text.remove_prefix(8);
+  const std::size_t space = text.find(' ');
+  if (space == text.npos) return false;
+  damage.kind = Damage::Kind::kBitFlips;
+  return number(text.substr(0, space), damage.bits) && number(text.substr(space + 1), damage.seed);
+}
+
 class Reader {
  public:
   Reader(const CsvTable& table, std::string_view file) : table_(table), file_(file) {}
@@ -63,7 +81,15 @@ class Reader {
     if (verdict != "delivered" && verdict != "dropped" && verdict != "waiting") {
       return mistake(row, kVerdict, "must be delivered, dropped or waiting, `copy ` before it for a copy");
     }
-    const std::string_view cause = table_.cell(row, column_[kCause]);
+    std::string_view cause = table_.cell(row, column_[kCause]);
+    const std::size_t cut = cause.find("; ");
+    const std::string_view damage = cut == cause.npos ? cause : cause.substr(cut + 2);
+    if (read_damage(damage, d.damage)) {
+      if (cut == cause.npos) return checked(row, verdict, d);
+      cause = cause.substr(0, cut);
+    } else if (cut != cause.npos) {
+      return mistake(row, kCause, "behind `; ` must be `flipped BITS SEED` or `cut LENGTH`");
+    }
     std::vector<std::string> known{"-"};
     bool found = cause == "-";
     for (std::size_t i = 1; i < kOutcomes && !found; ++i) {
@@ -71,9 +97,13 @@ class Reader {
       known.emplace_back(name(d.outcome));
       found = cause == known.back();
     }
-    if (!found) {
-      mistake(row, kCause, suggest(cause, known));
-    } else if (dropped(d.outcome) != (verdict == "dropped")) {
+    if (!found) return mistake(row, kCause, suggest(cause, known));
+    checked(row, verdict, d);
+  }
+
+  void checked(std::size_t row, std::string_view verdict, const Decision& d) {
+    const bool undecided = d.outcome == Outcome::kWaiting;
+    if (dropped(d.outcome) != (verdict == "dropped") || (undecided && verdict != "waiting")) {
       mistake(row, kCause, "does not go with this verdict");
     }
   }

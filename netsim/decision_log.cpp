@@ -19,10 +19,37 @@ void append(std::int64_t value, std::string& text) {
   text.append(digits.data(), end);
 }
 
+void append_cause(const Decision& d, std::string& text) {
+  const bool plain = d.outcome == Outcome::kDeliver;
+  if (d.damage.kind == Damage::Kind::kNone) {
+    text += plain ? "-" : name(d.outcome);
+    return;
+  }
+  if (!plain) text.append(name(d.outcome)) += "; ";
+  if (d.damage.kind == Damage::Kind::kTruncated) {
+    text += "cut ";
+    append(d.damage.length, text);
+    return;
+  }
+  text += "flipped ";
+  append(d.damage.bits, text);
+  text += ' ';
+  text += std::to_string(d.damage.seed);
+}
+
 }  // namespace
 
 void sort_decisions(std::vector<Decision>& rows) {
   std::ranges::stable_sort(rows, [](const Decision& a, const Decision& b) { return rank(a) < rank(b); });
+}
+
+std::vector<Decision> DecisionLog::take_before(Time until) {
+  const auto kept =
+      std::stable_partition(rows_.begin(), rows_.end(), [until](const Decision& d) { return d.in >= until; });
+  std::vector<Decision> taken(kept, rows_.end());
+  rows_.erase(kept, rows_.end());
+  sort_decisions(taken);
+  return taken;
 }
 
 std::vector<Decision> DecisionLog::sorted() const {
@@ -50,7 +77,7 @@ void append_csv(const Decision& d, std::string& text) {
   if (d.copy) text += "copy ";
   text += d.under_way ? "waiting," : dropped(d.outcome) ? "dropped," : "delivered,";
   number(d.out.time_since_epoch().count());
-  text += d.outcome == Outcome::kDeliver ? "-" : name(d.outcome);
+  append_cause(d, text);
   text += '\n';
 }
 
@@ -68,9 +95,12 @@ std::uint64_t decision_hash(std::span<const Decision> rows) noexcept {
     add(static_cast<std::uint64_t>(d.in.time_since_epoch().count()));
     add(static_cast<std::uint64_t>(d.out.time_since_epoch().count()));
     add(d.index);
+    add(d.damage.seed);
+    add(std::uint64_t{d.damage.bits} << 32 | d.damage.length);
     add(std::uint64_t{d.link} << 32 | d.flow);
     add(std::uint64_t{d.size} << 32 | static_cast<std::uint64_t>(d.direction) << 16 |
-        static_cast<std::uint64_t>(d.outcome) << 8 | (d.copy ? 2U : 0U) | (d.under_way ? 1U : 0U));
+        static_cast<std::uint64_t>(d.damage.kind) << 24 | static_cast<std::uint64_t>(d.outcome) << 8 |
+        (d.copy ? 2U : 0U) | (d.under_way ? 1U : 0U));
   }
   return hash;
 }

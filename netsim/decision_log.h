@@ -8,8 +8,9 @@
 
 #include "common/base/axes.h"
 #include "common/base/time.h"
-#include "netsim/path.h"
+#include "netsim/damage.h"
 #include "netsim/path_spec.h"
+#include "netsim/verdict.h"
 
 /// Every decision of a network as a row: what a network did can be looked at, compared byte by byte, and played again
 /// (netsim/replay.h). The reader of the text is netsim/decision_csv.h.
@@ -22,11 +23,12 @@ struct Decision {
   std::uint64_t index = 0;  ///< of the datagram on its path, from 0; a copy has that of its original
   std::uint32_t link = 0;   ///< the link it went over; flows with a link of their own: the flow's number
   std::uint32_t flow = 0;   ///< the client, in order of adding or arrival
-  std::uint32_t size = 0;   ///< [bytes]
+  std::uint32_t size = 0;   ///< [bytes] as sent
   Direction direction = Direction::kUp;
-  Outcome outcome = Outcome::kDeliver;  ///< or why it did not come out
+  Outcome outcome = Outcome::kDeliver;  ///< or why it did not come out; kWaiting: the log ended before that was known
   bool copy = false;                    ///< made by duplication
   bool under_way = false;               ///< not dropped and not out when the log ended: it would come out at `out`
+  Damage damage = {};                   ///< what came out is not what went in
 
   friend bool operator==(const Decision&, const Decision&) = default;
 };
@@ -69,6 +71,10 @@ class DecisionLog final : public DecisionSink {
   [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
   void clear() noexcept { rows_.clear(); }
 
+  /// Takes out the rows of datagrams that entered before `until`, in the order of `sorted`: pieces of a file, one after
+  /// the other, are then in that order as a whole, if nothing that entered earlier is still under way.
+  [[nodiscard]] std::vector<Decision> take_before(Time until);
+
   /// The rows in the one order that says nothing about who was polled when: (in, link, flow, direction, index, copy).
   [[nodiscard]] std::vector<Decision> sorted() const;
 
@@ -84,7 +90,8 @@ void sort_decisions(std::vector<Decision>& rows);
 [[nodiscard]] std::string_view decision_csv_header() noexcept;
 
 /// Appends one row. Verdict: `delivered`, `dropped` or `waiting` (under way at the end), `copy ` before it for a copy;
-/// cause: the name of the outcome, `-` for plain delivery.
+/// cause: the name of the outcome, what was done to the bytes (`flipped BITS SEED`, `cut LENGTH`), both with `; `
+/// between them, `-` for plain delivery.
 void append_csv(const Decision& decision, std::string& text);
 
 /// Header and rows, in the order given.

@@ -26,7 +26,13 @@ DelayQueue::DelayQueue(std::size_t slots, std::size_t lanes) : slots_(slots) {
 DelayQueue::Entered DelayQueue::enter(const Verdict& verdict, Time sent, std::uint32_t lane,
                                       std::span<const std::byte> bytes, std::uint32_t tag) noexcept {
   const bool waits = verdict.outcome == Outcome::kWaiting;
-  const auto slot = store({.sent = sent, .index = verdict.index, .lane = lane, .tag = tag, .waiting = waits}, bytes);
+  const auto slot = store({.sent = sent,
+                           .index = verdict.index,
+                           .lane = lane,
+                           .tag = tag,
+                           .size_in = static_cast<std::uint32_t>(bytes.size()),
+                           .waiting = waits},
+                          bytes);
   if (!slot) {
     release(verdict, lane);
     return Entered::kNo;
@@ -60,6 +66,7 @@ DelayQueue::Entered DelayQueue::admit(std::uint32_t slot, const Verdict& verdict
   Slot& about = meta_[slot];
   about.held_back = verdict.outcome == Outcome::kHeldBack;
   if (verdict.damage.kind != Damage::Kind::kNone) {
+    about.damage = verdict.damage;
     about.size = static_cast<std::uint32_t>(inflict(verdict.damage, room(slot)));
   }
   Entered entered = Entered::kYes;
@@ -100,8 +107,8 @@ std::optional<DelayQueue::Item> DelayQueue::take(Time now) noexcept {
 
 DelayQueue::Item DelayQueue::item_of(Time at, std::uint32_t slot) const noexcept {
   const Slot& about = meta_[slot];
-  return {at,        about.sent, about.index,     about.lane,   slot,
-          about.tag, about.copy, about.held_back, about.waiting};
+  return {at,         about.sent,      about.index,   about.lane,  slot, about.tag, about.size_in,
+          about.copy, about.held_back, about.waiting, about.damage};
 }
 
 std::span<const std::byte> DelayQueue::bytes(const Item& item) const noexcept {

@@ -23,13 +23,15 @@ class DelayQueue {
   struct Item {
     Time at;  ///< due
     Time sent;
-    std::uint64_t index = 0;  ///< on its path
-    std::uint32_t lane = 0;   ///< caller's name of the path
-    std::uint32_t slot = 0;   ///< where the bytes are
-    std::uint32_t tag = 0;    ///< the caller's own
-    bool copy = false;        ///< made by duplication
-    bool held_back = false;   ///< to be reordered
-    bool waiting = false;     ///< not decided yet: `at` is the time of sending
+    std::uint64_t index = 0;    ///< on its path
+    std::uint32_t lane = 0;     ///< caller's name of the path
+    std::uint32_t slot = 0;     ///< where the bytes are
+    std::uint32_t tag = 0;      ///< the caller's own
+    std::uint32_t size_in = 0;  ///< [bytes] as sent; damage may have cut it
+    bool copy = false;          ///< made by duplication
+    bool held_back = false;     ///< to be reordered
+    bool waiting = false;       ///< not decided yet: `at` is the time of sending
+    Damage damage = {};         ///< done to the bytes
   };
   enum class Entered : std::uint8_t {
     kYes,
@@ -41,7 +43,8 @@ class DelayQueue {
   /// @param lanes  paths that share the queue; each may hold back 64 datagrams to reorder them
   explicit DelayQueue(std::size_t slots, std::size_t lanes = 1);
 
-  /// Keeps a datagram according to its verdict (kDeliver, kHeldBack or kWaiting) and lets go those the verdict releases.
+  /// Keeps a datagram according to its verdict (kDeliver, kHeldBack or kWaiting) and lets go those the verdict
+  /// releases.
   /// @param bytes  at most kSlotBytes
   /// @param tag    comes out with the item
   Entered enter(const Verdict& verdict, Time sent, std::uint32_t lane, std::span<const std::byte> bytes,
@@ -93,7 +96,9 @@ class DelayQueue {
     std::uint32_t lane = 0;
     std::uint32_t size = 0;
     std::uint32_t tag = 0;
+    std::uint32_t size_in = 0;
     bool copy = false, held_back = false, waiting = false;
+    Damage damage = {};
   };
   static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
   struct HeldEntry {

@@ -31,7 +31,8 @@ std::uint32_t Network::add_link(const LinkSpec& spec, std::uint64_t name) {
 
 std::uint32_t Network::add_link(const LinkSchedule& schedule, std::uint64_t name) {
   if (schedule.initial.shared) {
-    const auto found = std::ranges::find_if(shared_, [&](const Shared& link) { return alike(link.schedule, schedule); });
+    const auto found =
+        std::ranges::find_if(shared_, [&](const Shared& link) { return alike(link.schedule, schedule); });
     const auto number = static_cast<std::uint32_t>(found - shared_.begin());
     return add_flow(found == shared_.end() ? add_shared(schedule) : number, name, schedule.rebinds);
   }
@@ -77,7 +78,13 @@ std::uint32_t Network::add_replay(std::shared_ptr<const Replay> replay, std::uin
     return std::make_unique<Stored>(Lane(replay, flow, direction), slots_for(replay->delay_max(flow, direction), 1));
   };
   auto up = make(Direction::kUp);
-  return add(std::move(up), make(Direction::kDown), {});
+  const std::uint32_t number = add(std::move(up), make(Direction::kDown), {});
+  if (number != flow) return number;
+  // A flow in its own place again: then the log says its link as it was, also if it was shared.
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    stored(number, direction)->lane.tap.link = replay->link(flow);
+  }
+  return number;
 }
 
 std::uint32_t Network::add(std::unique_ptr<Stored> up, std::unique_ptr<Stored> down,
@@ -97,10 +104,18 @@ void Network::log_to(DecisionSink* sink) noexcept {
   for (const auto& each : lanes_) each->lane.tap.sink = sink;
 }
 
-void Network::log_waiting() const noexcept {
+std::optional<Time> Network::oldest_under_way() const noexcept {
+  std::optional<Time> oldest;
   for (const auto& each : lanes_) {
     each->queue.for_each(
-        [&](const DelayQueue::Item& item) { tell_waiting(item, each->queue.bytes(item).size(), each->lane.tap); });
+        [&](const DelayQueue::Item& item) { oldest = std::min(oldest.value_or(item.sent), item.sent); });
+  }
+  return oldest;
+}
+
+void Network::log_waiting() const noexcept {
+  for (const auto& each : lanes_) {
+    each->queue.for_each([&](const DelayQueue::Item& item) { tell_waiting(item, each->lane.tap); });
   }
 }
 

@@ -62,6 +62,8 @@ class Network {
 
   /// From now on every decision is told to `sink`; null: nobody. Setup only; the sink must outlive the network.
   void log_to(DecisionSink* sink) noexcept;
+  /// The earliest time of entering of anything under way, or none: what entered before that is all in the log.
+  [[nodiscard]] std::optional<Time> oldest_under_way() const noexcept;
   /// Tells the sink what is still under way: the end of a complete log.
   void log_waiting() const noexcept;
 
@@ -90,8 +92,8 @@ class Network {
   /// The same over all links, ordered by (time, link, direction, sequence).
   std::optional<Delivery> poll_any(Time now, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
 
-  /// When the next datagram is due on this link and direction, or on any; or a waiting one is decided about, which may be
-  /// earlier than it is due.
+  /// When the next datagram is due on this link and direction, or on any; or a waiting one is decided about, which may
+  /// be earlier than it is due.
   [[nodiscard]] std::optional<Time> next_due(std::uint32_t link, Direction direction) const noexcept;
   [[nodiscard]] std::optional<Time> next_due() const noexcept;
 

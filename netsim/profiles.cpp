@@ -133,6 +133,8 @@ PathSpec path_from(const ProfilePath& in) {
   return path;
 }
 
+}  // namespace
+
 OutageSpec outage_from(const ProfileOutage& in) {
   return {.start = milliseconds(in.start_s * 1e3),
           .length = milliseconds(in.length_ms),
@@ -151,6 +153,8 @@ OutageSpec outage_from(const ProfileOutage& in) {
 std::shared_ptr<const CapacityTrace> stand_in() {
   return std::make_shared<CapacityTrace>(CapacityTrace{{{0, 1}}, std::chrono::milliseconds(1)});
 }
+
+namespace {
 
 struct Embedded {
   std::string_view name, unused, text;

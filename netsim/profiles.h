@@ -12,6 +12,10 @@
 #include "netsim/path_spec.h"
 #include "proto/input_error.h"
 
+namespace tandem {
+struct ProfileOutage;
+}
+
 /// Named networks. A profile is a text file (proto/profile.proto) with numbers, their sources and a version.
 namespace tandem::netsim {
 
@@ -32,6 +36,9 @@ struct Profile {
   /// The file the profile names, or empty: the user must name one.
   std::optional<std::string> capacity_file = {};
 };
+
+/// An outage as people write it, in the engine's numbers.
+[[nodiscard]] OutageSpec outage_from(const ProfileOutage& in);
 
 /// Puts a recorded capacity (netsim/capacity_csv.h) where the link asks for one.
 /// @return whether it did

@@ -50,8 +50,8 @@ ProxyCore::ProxyCore(const LinkSpec& spec, std::uint64_t seed, std::vector<Netwo
     }
     if (!sharing_) continue;
     // Events that name a client are not those of a link that all share.
-    shared_[static_cast<std::size_t>(direction)] = std::make_shared<Course>(
-        schedule_for(spec, events_, ""), direction, seed, Course::Shared{.flows = kClientsMax});
+    shared_[static_cast<std::size_t>(direction)] = std::make_shared<Course>(schedule_for(spec, events_, ""), direction,
+                                                                            seed, Course::Shared{.flows = kClientsMax});
   }
 }
 
@@ -125,7 +125,7 @@ void ProxyCore::log_waiting() const noexcept {
     const std::uint32_t client = (item.lane >> kDirectionBits) & (kClientsMax - 1);
     if (!present(client) || item.lane != lane_name(client, direction)) return;
     const auto& lane = places_[client].lanes[static_cast<std::size_t>(direction)];
-    tell_waiting(item, queue_.bytes(item).size(), lane->tap);
+    tell_waiting(item, lane->tap);
   });
 }
 

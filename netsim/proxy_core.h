@@ -131,12 +131,12 @@ class ProxyCore {
   [[nodiscard]] LinkSchedule schedule(const LinkSpec& link, std::uint64_t number) const;
 
   LinkSpec spec_;
-  const bool sharing_;                                             ///< all clients are on `shared_`
+  const bool sharing_;  ///< all clients are on `shared_`
   std::array<std::shared_ptr<Course>, kDirections> shared_ = {};
   const std::uint64_t seed_;
   const std::vector<NetworkEvent> events_;
   std::vector<NetworkEvent> outages_;  ///< those of the events; set once
-  bool may_defer_ = false;  ///< some datagrams may wait for their verdict
+  bool may_defer_ = false;             ///< some datagrams may wait for their verdict
   DecisionSink* sink_ = nullptr;
   DelayQueue queue_;
   std::vector<Client> places_;

@@ -28,7 +28,9 @@ std::expected<Replay, std::string> Replay::make(std::span<const Decision> rows) 
   Replay replay;
   const Decision* original = nullptr;
   for (const Decision& d : ordered) {
-    Track& track = replay.tracks_[d.flow][static_cast<std::size_t>(d.direction)];
+    Flow& flow = replay.flows_[d.flow];
+    flow.link = d.link;
+    Track& track = flow.tracks[static_cast<std::size_t>(d.direction)];
     const bool same = original != nullptr && original->flow == d.flow && original->direction == d.direction &&
                       original->index == d.index;
     if (d.copy) {
@@ -46,24 +48,39 @@ std::expected<Replay, std::string> Replay::make(std::span<const Decision> rows) 
     if (same) return std::unexpected(place(d) + ": is there twice");
     original = &d;
     const Time clock = track.fates.empty() ? d.in : std::max(track.fates.back().clock, d.in);
-    track.fates.push_back({.in = d.in, .clock = clock, .index = d.index, .delay = d.out - d.in, .outcome = d.outcome});
+    track.fates.push_back({.in = d.in,
+                           .clock = clock,
+                           .index = d.index,
+                           .delay = d.out - d.in,
+                           .outcome = d.outcome,
+                           .damage = d.damage});
   }
-  for (auto& [flow, directions] : replay.tracks_) {
-    for (Track& track : directions) track.period = period_of(track.fates);
+  for (auto& [number, flow] : replay.flows_) {
+    for (Track& track : flow.tracks) {
+      track.period = period_of(track.fates);
+      for (std::uint32_t i = 0; i < track.fates.size(); ++i) {
+        if (track.fates[i].outcome != Outcome::kWaiting) track.decided.push_back(i);
+      }
+    }
   }
   return replay;
 }
 
 std::vector<std::uint32_t> Replay::flows() const {
   std::vector<std::uint32_t> all;
-  for (const auto& [flow, directions] : tracks_) all.push_back(flow);
+  for (const auto& [number, flow] : flows_) all.push_back(number);
   return all;
 }
 
 const Replay::Track& Replay::track(std::uint32_t flow, Direction direction) const noexcept {
   static const Track kNothing;
-  const auto found = tracks_.find(flow);
-  return found == tracks_.end() ? kNothing : found->second[static_cast<std::size_t>(direction)];
+  const auto found = flows_.find(flow);
+  return found == flows_.end() ? kNothing : found->second.tracks[static_cast<std::size_t>(direction)];
+}
+
+std::uint32_t Replay::link(std::uint32_t flow) const noexcept {
+  const auto found = flows_.find(flow);
+  return found == flows_.end() ? flow : found->second.link;
 }
 
 Duration Replay::delay_max(std::uint32_t flow, Direction direction) const noexcept {
@@ -80,12 +97,14 @@ const Replay::Fate* ReplayPath::own(Time now, std::uint64_t index) const noexcep
   return found != fates.end() && found->index == index && found->in == now ? &*found : nullptr;
 }
 
-const Replay::Fate& ReplayPath::at(Time now) const noexcept {
-  const auto& fates = track_->fates;
+const Replay::Fate* ReplayPath::at(Time now) const noexcept {
+  const auto& [fates, decided, period] = *track_;
+  if (decided.empty()) return nullptr;
   const Time first = fates.front().clock;
-  if (now > first) now = first + (now - first) % track_->period;
-  const auto after = std::ranges::upper_bound(fates, now, {}, &Replay::Fate::clock);
-  return after == fates.begin() ? *after : *std::prev(after);
+  if (now > first) now = first + (now - first) % period;
+  const auto after =
+      std::ranges::upper_bound(decided, now, {}, [&fates = fates](std::uint32_t i) { return fates[i].clock; });
+  return &fates[after == decided.begin() ? *after : *std::prev(after)];
 }
 
 Verdict ReplayPath::send(Time now) noexcept {
@@ -98,7 +117,8 @@ Verdict ReplayPath::send(Time now) noexcept {
   if (matched) ++matched_;
   if (!matched) {
     now = std::max(now, last_in_);
-    fate = &at(now);
+    fate = at(now);
+    if (fate == nullptr) return verdict;  // nothing to imitate: it passes
   }
   last_in_ = std::max(last_in_, now);
   // What never got its verdict waits again; another datagram in its place would wait for nothing.
@@ -106,6 +126,7 @@ Verdict ReplayPath::send(Time now) noexcept {
   verdict.copied = fate->copied;
   verdict.copy_delay = fate->copy_delay;
   verdict.copy_outcome = fate->copy_outcome;
+  verdict.damage = fate->damage;
   verdict.at = now + fate->delay;
   if (fate->outcome == Outcome::kDeliver) {
     if (!matched) verdict.at = std::max(verdict.at, last_out_);

@@ -21,8 +21,9 @@
 /// the fate of the last one recorded at or before its own time of sending: as long a delay, or the same loss, and the
 /// same copies; before the first recorded datagram, that of the first. It never overtakes (its time of arrival is at
 /// least the latest one given so far), unless what it imitates was reordered. After the end, which is one mean gap
-/// after the last recorded time of sending, the recording starts again with its first datagram. Sizes do not matter,
-/// and addresses are not recorded.
+/// after the last recorded time of sending, the recording starts again with its first datagram. What was not decided
+/// yet when the log ended stays undecided for its own datagram, and is imitated by no other. Sizes do not matter, and
+/// addresses are not recorded.
 namespace tandem::netsim {
 
 /// The recorded fates of all flows. Immutable, shared by those who play it.
@@ -37,11 +38,13 @@ class Replay {
     Outcome outcome = Outcome::kDeliver;
     Outcome copy_outcome = Outcome::kDeliver;
     bool copied = false;
+    Damage damage = {};
   };
   /// One direction of one flow, by index.
   struct Track {
     std::vector<Fate> fates = {};
-    Duration period{};  ///< from the first `clock` to the end
+    std::vector<std::uint32_t> decided = {};  ///< places of those that other traffic can imitate
+    Duration period{};                        ///< from the first `clock` to the end
   };
 
   /// @param rows  of a log, in any order
@@ -50,14 +53,20 @@ class Replay {
 
   /// The flows recorded, ascending.
   [[nodiscard]] std::vector<std::uint32_t> flows() const;
-  [[nodiscard]] bool has(std::uint32_t flow) const noexcept { return tracks_.contains(flow); }
+  /// The link a flow went over.
+  [[nodiscard]] std::uint32_t link(std::uint32_t flow) const noexcept;
+  [[nodiscard]] bool has(std::uint32_t flow) const noexcept { return flows_.contains(flow); }
   /// Empty of fates when nothing was recorded there: then everything passes at once.
   [[nodiscard]] const Track& track(std::uint32_t flow, Direction direction) const noexcept;
   /// The longest delay of a flow and direction; for sizing stores.
   [[nodiscard]] Duration delay_max(std::uint32_t flow, Direction direction) const noexcept;
 
  private:
-  std::map<std::uint32_t, std::array<Track, kDirections>> tracks_;
+  struct Flow {
+    std::uint32_t link = 0;
+    std::array<Track, kDirections> tracks = {};
+  };
+  std::map<std::uint32_t, Flow> flows_;
 };
 
 /// Plays one direction of one flow, in the place of a Path.
@@ -74,7 +83,7 @@ class ReplayPath {
 
  private:
   [[nodiscard]] const Replay::Fate* own(Time now, std::uint64_t index) const noexcept;
-  [[nodiscard]] const Replay::Fate& at(Time now) const noexcept;
+  [[nodiscard]] const Replay::Fate* at(Time now) const noexcept;
 
   std::shared_ptr<const Replay> replay_;
   const Replay::Track* track_;

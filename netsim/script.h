@@ -28,7 +28,7 @@ struct NetworkEvent {
   std::optional<Direction> direction = {};  ///< empty: both. Not for `rebind`
   std::optional<OutageSpec> outage = {};    ///< its start is `at`
   std::optional<LinkSpec> link = {};        ///< from now on; of `direction` only that half is used
-  std::optional<Rebind> rebind;
+  std::optional<Rebind> rebind = {};
 };
 
 /// One client's link over time.

@@ -5,19 +5,20 @@
 namespace tandem::netsim {
 namespace {
 
-Decision about(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept {
+Decision about(const DelayQueue::Item& item, const DecisionTap& tap) noexcept {
   return {.in = item.sent,
           .out = item.at,
           .index = item.index,
           .link = tap.link,
           .flow = tap.flow,
-          .size = static_cast<std::uint32_t>(size),
+          .size = item.size_in,
           .direction = tap.direction,
           .outcome = item.waiting     ? Outcome::kWaiting
                      : item.held_back ? Outcome::kHeldBack
                                       : Outcome::kDeliver,
           .copy = item.copy,
-          .under_way = false};
+          .under_way = false,
+          .damage = item.damage};
 }
 
 void let_in(const Verdict& verdict, PathCounters& counters) noexcept {
@@ -55,7 +56,8 @@ Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters
                        .direction = tap.direction,
                        .outcome = reason,
                        .copy = copy,
-                       .under_way = false});
+                       .under_way = false,
+                       .damage = {}});
   };
   if (verdict.copied && dropped(verdict.copy_outcome)) {
     ++counters.copies;
@@ -108,14 +110,17 @@ void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome, Path
     counters.delay_sum_ns += (item.at - item.sent).count();
   }
   if (tap.sink == nullptr) return;
-  Decision decision = about(item, size, tap);
-  if (dropped(outcome)) decision.outcome = outcome;
+  Decision decision = about(item, tap);
+  if (dropped(outcome)) {
+    decision.outcome = outcome;
+    decision.damage = {};
+  }
   tap.sink->decided(decision);
 }
 
-void tell_waiting(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept {
+void tell_waiting(const DelayQueue::Item& item, const DecisionTap& tap) noexcept {
   if (tap.sink == nullptr) return;
-  Decision decision = about(item, size, tap);
+  Decision decision = about(item, tap);
   decision.under_way = true;
   tap.sink->decided(decision);
 }

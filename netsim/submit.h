@@ -56,6 +56,6 @@ void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome, Path
            const DecisionTap& tap) noexcept TANDEM_REALTIME;
 
 /// An item still in the queue when a log ends.
-void tell_waiting(const DelayQueue::Item& item, std::size_t size, const DecisionTap& tap) noexcept;
+void tell_waiting(const DelayQueue::Item& item, const DecisionTap& tap) noexcept;
 
 }  // namespace tandem::netsim

@@ -9,10 +9,13 @@ namespace tandem::netsim {
 
 namespace {
 
-server::Endpoint endpoint_of(std::size_t seat) {
+/// @param address  which of the client's source addresses it is, at most Addresses::kMax
+server::Endpoint endpoint_of(std::size_t seat, std::uint32_t address = 0) {
   server::Endpoint e;
   e.bytes[0] = static_cast<std::byte>(seat + 1);
-  e.size = 1;
+  e.bytes[1] = static_cast<std::byte>(address & 0xff);
+  e.bytes[2] = static_cast<std::byte>(address >> 8);
+  e.size = 3;
   return e;
 }
 
@@ -23,6 +26,9 @@ constexpr std::size_t kStranger = 254;
 constexpr Duration kPatience = std::chrono::seconds(300);
 
 std::size_t seat_of(const server::Endpoint& e) { return std::to_integer<std::size_t>(e.bytes[0]) - 1; }
+std::uint32_t address_of(const server::Endpoint& e) {
+  return std::to_integer<std::uint32_t>(e.bytes[1]) | std::to_integer<std::uint32_t>(e.bytes[2]) << 8;
+}
 
 }  // namespace
 
@@ -87,7 +93,11 @@ std::string World::add_station(std::size_t i) {
 
   const auto own = setup_.seat_networks.find(spec.name);
   const LinkSpec& link = own == setup_.seat_networks.end() ? setup_.network : own->second;
-  network_.add_link(schedule_for(link, setup_.events, spec.name), i);
+  if (setup_.replay) {
+    network_.add_replay(setup_.replay, static_cast<std::uint32_t>(i));
+  } else {
+    network_.add_link(schedule_for(link, setup_.events, spec.name), i);
+  }
   return {};
 }
 
@@ -146,7 +156,7 @@ void World::serve_server() {
       const auto bytes = std::span{buffer_}.first(std::min(d->size, buffer_.size()));
       watch_.server_heard(i, d->index);
       stations_[i].overheard(bytes);
-      session_->on_datagram(now_, endpoint_of(i), bytes);
+      session_->on_datagram(now_, endpoint_of(i, d->address), bytes);
     }
   }
   attack_server();
@@ -158,7 +168,7 @@ void World::serve_server() {
       watch_.server_answered_a_stranger(session_->time());
       continue;
     }
-    network_.send(now_, static_cast<std::uint32_t>(to), Direction::kDown, std::span{buffer_}.first(out->size));
+    network_.send_to(now_, static_cast<std::uint32_t>(to), address_of(out->to), std::span{buffer_}.first(out->size));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "netsim/endpoint_clock.h"
 #include "netsim/fault.h"
 #include "netsim/path_spec.h"
+#include "netsim/replay.h"
 #include "netsim/script.h"
 #include "proto/scene_spec.h"
 
@@ -23,6 +24,7 @@ struct WorldSetup {
   std::map<std::string, std::shared_ptr<const hal::sim::RecordedMotion>> motions = {};  ///< by seat
   std::map<std::string, LinkSpec> seat_networks = {};                                   ///< by seat, instead of `network`
   std::vector<NetworkEvent> events = {};                                                ///< by time of the network
+  std::shared_ptr<const Replay> replay = {};  ///< instead of every network and event: seat i is flow i of the recording
   std::vector<Fault> faults = {};                                                       ///< in any order
   std::map<std::string, EndpointSpec> endpoints = {};  ///< by seat: its clock, and when its program wakes up
   bool watch_quality = false;  ///< judges every seat's link from the session's begin on: World::quality

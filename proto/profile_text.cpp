@@ -5,6 +5,7 @@
 #include "proto/profile.pb.h"
 #include "proto/profile_delay.h"
 #include "proto/profile_loss.h"
+#include "proto/profile_outage.h"
 #include "proto/text_format_reader.h"
 
 namespace tandem {
@@ -117,6 +118,8 @@ ProfilePath path_from(const pb::NetworkPath& in, Checker& checker, const std::st
   return path;
 }
 
+}  // namespace
+
 ProfileOutage outage_from(const pb::ProfileOutage& in, Checker& checker, const std::string& key) {
   ProfileOutage outage{.start_s = in.start_s(),
                        .length_ms = in.length_ms(),
@@ -150,6 +153,8 @@ ProfileOutage outage_from(const pb::ProfileOutage& in, Checker& checker, const s
   if (in.has_hold_bytes() && !outage.hold) checker.error(child_path(key, "hold_bytes"), "needs mode: HOLD");
   return outage;
 }
+
+namespace {
 
 void directions(const pb::Profile& in, ProfileSpec& profile, Checker& checker) {
   if (in.has_both()) {

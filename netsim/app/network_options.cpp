@@ -11,6 +11,7 @@
 #include "common/io/number_option.h"
 #include "netsim/app/capacity_file.h"
 #include "netsim/network_csv.h"
+#include "netsim/profile_script.h"
 #include "netsim/profiles.h"
 
 namespace tandem::netsim {
@@ -34,16 +35,20 @@ std::string lines_of(const InputErrors& errors) {
 
 }  // namespace
 
-std::expected<std::string, std::string> read_network_file(const std::string& path) {
+std::expected<std::string, std::string> read_whole_file(const std::string& path, std::uintmax_t bytes_max) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error) return std::unexpected(path + ": " + error.message());
-  if (size > kFileMax) return std::unexpected(path + ": is larger than 64 MiB");
+  if (size > bytes_max) return std::unexpected(path + ": is larger than " + std::to_string(bytes_max >> 20) + " MiB");
   std::ifstream file(path, std::ios::binary);
   std::string text(static_cast<std::size_t>(size), '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
   if (!file) return std::unexpected(path + ": cannot be read");
   return text;
+}
+
+std::expected<std::string, std::string> read_network_file(const std::string& path) {
+  return read_whole_file(path, kFileMax);
 }
 
 std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {
@@ -120,6 +125,12 @@ void NetworkOptions::add_to(CLI::App& command) {
       ->check(io::number_in(0.001, 60'000, "ms"))
       ->option_text("MS")
       ->group(group);
+  command
+      .add_option("--script", script_,
+                  "what changes while it runs: outages, other networks, other addresses at their times; a .textproto "
+                  "file of `event { at_s: 12 client: \"trainee\" outage_ms: 400 }`, schema proto/script.proto")
+      ->option_text("FILE")
+      ->group(group);
   command.add_option("--seed", seed_, "the same seed gives the same network; default 1")
       ->check(io::whole_number())
       ->option_text("N")
@@ -148,6 +159,10 @@ std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
   if (given("--profile")) {
     auto profile = from_file(profile_);
     if (!profile) return profile;
+    if (given("--capacity") && !profile->plays_capacity) {
+      return std::unexpected("--capacity: profile " + profile->name + " plays no recorded capacity; 4g-trace does, or a " +
+                             "profile with rate { capacity {} }");
+    }
     choice = std::move(*profile);
   }
   std::vector<OutageSpec> outages;
@@ -191,6 +206,35 @@ std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
   return choice;
 }
 
+std::expected<std::vector<NetworkEvent>, std::string> NetworkOptions::events(
+    std::span<const std::string> clients) const {
+  if (!given("--script")) return std::vector<NetworkEvent>{};
+  const auto text = read_network_file(script_);
+  if (!text) return std::unexpected("--script: " + text.error());
+  const auto find = [this](const std::string& name) -> std::expected<LinkSpec, InputErrors> {
+    const bool file = name.find_first_of("/.") != std::string::npos;
+    const bool beside = file && !std::filesystem::path(name).is_absolute();
+    auto choice = from_file(beside ? (std::filesystem::path(script_).parent_path() / name).string() : name);
+    if (choice) return std::move(choice->link);
+    InputError error;
+    error.message = choice.error();
+    return std::unexpected(InputErrors{error});
+  };
+  auto events = parse_script(*text, script_, clients, find);
+  if (!events) return std::unexpected(lines_of(events.error()));
+  return std::move(*events);
+}
+
+std::string NetworkOptions::first_given() const {
+  for (const char* option : kNumbers) {
+    if (given(option)) return option;
+  }
+  for (const char* option : {"--profile", "--network", "--script"}) {
+    if (given(option)) return option;
+  }
+  return {};
+}
+
 std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::string& name_or_file) const {
   NetworkChoice choice;
   if (!is_file(name_or_file)) return from_profile(shipped_profile(name_or_file), "");
@@ -228,6 +272,7 @@ std::expected<NetworkChoice, std::string> NetworkOptions::from_profile(std::expe
   choice.description = "profile " + (file.empty() ? profile->name : file) + " (version " +
                        std::to_string(profile->version) + ")" + (capacity->empty() ? "" : ", " + *capacity);
   choice.link = std::move(profile->link);
+  choice.plays_capacity = !capacity->empty();
   return choice;
 }
 

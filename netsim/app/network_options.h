@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <expected>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "netsim/path_spec.h"
 #include "netsim/profiles.h"
+#include "netsim/script.h"
 #include "proto/input_error.h"
 
 namespace tandem::netsim {
@@ -18,10 +20,12 @@ struct NetworkChoice {
   std::string name;                ///< `custom`, the profile's name, or the file's
   std::string description;         ///< one line for people
   std::vector<std::string> notes;  ///< what a report must say about it
+  bool plays_capacity = false;     ///< a profile that asked for a recorded capacity, and has it
 };
 
 /// The options that say what the network is like, shared by `proxy` and `run`:
-/// --delay --jitter --loss --duplicate --reorder --outage --profile --capacity --network --trace-interval --seed.
+/// --delay --jitter --loss --duplicate --reorder --outage --profile --capacity --network --trace-interval --script
+/// --seed.
 /// Lives as long as the command it was added to.
 class NetworkOptions {
  public:
@@ -30,6 +34,21 @@ class NetworkOptions {
   /// Reads the files named and puts all together. Numbers beside --profile replace the profile's own.
   /// @return the network, or what is wrong: one mistake per line
   [[nodiscard]] std::expected<NetworkChoice, std::string> resolve() const;
+
+  /// A network by name or file, as --profile and --network take it.
+  /// @return the network, or what is wrong
+  [[nodiscard]] std::expected<NetworkChoice, std::string> named(const std::string& name_or_file) const {
+    return from_file(name_or_file);
+  }
+
+  /// Reads --script: what changes while it runs. Networks it names are shipped profiles, or files beside the script.
+  /// @param clients  names that the script may use; none: "1", "2", ... in order of arrival
+  /// @return the events (none without a script), or what is wrong: one mistake per line
+  [[nodiscard]] std::expected<std::vector<NetworkEvent>, std::string> events(
+      std::span<const std::string> clients = {}) const;
+
+  /// The first option given that says what the network is like, empty if none: for what replaces them all.
+  [[nodiscard]] std::string first_given() const;
 
   [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
 
@@ -44,10 +63,13 @@ class NetworkOptions {
   double delay_ms_ = 0, jitter_ms_ = 0, loss_percent_ = 0, duplicate_percent_ = 0, reorder_percent_ = 0;
   double trace_interval_ms_ = 0;
   std::vector<std::string> outages_;
-  std::string profile_, network_, capacity_;
+  std::string profile_, network_, capacity_, script_;
   std::uint64_t seed_ = 1;
 };
 
+/// A whole file of at most `bytes_max` bytes, or why not: `FILE: reason`.
+[[nodiscard]] std::expected<std::string, std::string> read_whole_file(const std::string& path,
+                                                                      std::uintmax_t bytes_max);
 /// A profile or recording of at most 64 MiB. @return its bytes, or what is wrong
 [[nodiscard]] std::expected<std::string, std::string> read_network_file(const std::string& path);
 

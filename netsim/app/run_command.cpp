@@ -11,6 +11,7 @@
 #include "common/link/digest.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/network_options.h"
+#include "netsim/app/run_log.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "netsim/app/quality_json.h"
@@ -28,7 +29,7 @@ namespace {
 constexpr int kFailed = 1, kTrouble = 1, kWrong = 2;
 
 struct RunArguments {
-  std::string scene, channel, mfs, json, trace;
+  std::string scene, channel, mfs, json, trace, log, replay;
   std::vector<std::string> hands;
   double duration_s = 0;
   bool check = false, quiet = false, verbose = false, no_quality = false;
@@ -43,6 +44,40 @@ int wrong(const Mistakes& mistakes) {
   for (const std::string& m : mistakes) std::fprintf(stderr, "tandem-netsim run: %s\n", m.c_str());
   std::fprintf(stderr, "%zu mistake%s; nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
   return kWrong;
+}
+
+/// What depends on the seats: a script names them, a recording must have them.
+void understand_network(const RunArguments& arguments, WorldSetup& setup, Mistakes& mistakes) {
+  std::vector<std::string> seats;
+  for (const SeatSpec& seat : setup.scene.seats) seats.push_back(seat.name);
+  if (auto events = arguments.network.events(seats)) {
+    setup.events = std::move(*events);
+  } else {
+    mistakes.push_back(events.error());
+  }
+  if (arguments.replay.empty()) return;
+  if (const std::string other = arguments.network.first_given(); !other.empty()) mistakes.push_back("--replay excludes " + other);
+  const auto replay = load_replay(arguments.replay);
+  if (!replay) {
+    mistakes.push_back("--replay: " + replay.error());
+    return;
+  }
+  setup.replay = *replay;
+  for (std::size_t i = 0; i < seats.size(); ++i)
+    if (!setup.replay->has(static_cast<std::uint32_t>(i)))
+      mistakes.push_back("--replay: " + arguments.replay + " holds no flow " + std::to_string(i) + ", which is seat " + seats[i]);
+}
+
+/// How much of a replay met its own record, for people.
+std::string replay_summary(const World& world) {
+  std::uint64_t sent = 0, own = 0;
+  for (std::uint32_t link = 0; link < world.network().links(); ++link)
+    for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+      sent += world.network().counters(link, direction).in;
+      own += world.network().replayed(link, direction);
+    }
+  return "replay: " + std::to_string(own) + " of " + std::to_string(sent) + " datagrams met their own recorded fate" +
+         (own == sent ? "\n" : ", the others that of the last one recorded before them\n");
 }
 
 /// Everything a person typed, turned into a setup; and all that is wrong with it.
@@ -88,7 +123,14 @@ WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
       if (const auto problem = io::OutputFile::problem(file); !problem.empty()) mistakes.push_back(std::string(option) + ": " + problem);
   if (arguments.trace == "-") mistakes.push_back("--trace: standard output is for --json; name a file");
   if (!arguments.trace.empty() && arguments.trace == arguments.json) mistakes.push_back("--trace: is the same file as --json");
+  if (!arguments.log.empty()) {
+    if (const auto problem = io::OutputFile::problem(arguments.log); !problem.empty()) mistakes.push_back("--log: " + problem);
+    if (arguments.log == "-") mistakes.push_back("--log: standard output is for --json; name a file");
+    if (arguments.log == arguments.json || arguments.log == arguments.trace) mistakes.push_back("--log: is the same file as another result");
+    if (arguments.log == arguments.replay) mistakes.push_back("--log: would overwrite what --replay reads");
+  }
   setup.seed = arguments.network.seed();
+  understand_network(arguments, setup, mistakes);
   return setup;
 }
 
@@ -126,6 +168,9 @@ int run_command(const RunArguments& arguments) {
   if (const auto problem = json_file.open(arguments.json, true); !problem.empty()) return wrong({"--json: " + problem});
   if (const auto problem = trace_file.open(arguments.trace, false); !problem.empty()) return wrong({"--trace: " + problem});
   World& world = **made;
+  RunLog log;
+  if (const auto problem = log.open(arguments.log); !problem.empty()) return wrong({"--log: " + problem});
+  log.attach(world.network());
 
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
@@ -141,6 +186,7 @@ int run_command(const RunArguments& arguments) {
     rows.clear();
   };
   for (std::uint64_t n = 0; world.step() && !interrupted; ++n) {
+    log.on_tick(world.now());
     const server::TickRecord& record = world.record();
     builder.add(record);
     if (record.running) csv.append(record, rows);
@@ -160,12 +206,14 @@ int run_command(const RunArguments& arguments) {
   if (interrupted) std::fprintf(stderr, "interrupted at %.3f s; what follows judges that much\n", world.session().time());
   const std::vector<NamedLink> links = link_qualities(world);
   if (!arguments.quiet || !json_on_stdout)
-    std::fprintf(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s",
-                 report.scenario.c_str(), report.passed ? "pass" : "FAIL", report.duration_s, network->description.c_str(),
+    std::fprintf(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s%s",
+                 report.scenario.c_str(), report.passed ? "pass" : "FAIL", report.duration_s,
+                 setup.replay ? ("replay of " + arguments.replay).c_str() : network->description.c_str(),
                  static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
-                 server::report_summary(report, world.scene()).c_str(), quality_report(links, arguments.verbose).c_str());
+                 server::report_summary(report, world.scene()).c_str(), quality_report(links, arguments.verbose).c_str(),
+                 setup.replay ? replay_summary(world).c_str() : "");
   if (json_file.wanted()) json_file.write(report_json(report, links));
-  for (const auto& problem : {trace_file.close(), json_file.close()})
+  for (const auto& problem : {trace_file.close(), log.close(), json_file.close()})
     if (!problem.empty()) {
       std::fprintf(stderr, "tandem-netsim run: %s\n", problem.c_str());
       return kTrouble;
@@ -200,6 +248,11 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--json", arguments->json, "writes the report; `-`: to standard output")->option_text("FILE|-");
   command->add_option("--trace", arguments->trace, "writes one row per tick; the same seed and build give the same bytes")
       ->option_text("FILE.csv");
+  command->add_option("--log", arguments->log, "writes the fate of every datagram and copy: t_in_ns,link,dir,flow,idx,size,verdict,t_out_ns,cause")
+      ->option_text("FILE.csv");
+  command->add_option("--replay", arguments->replay, "a --log file is the network: the same run meets the same fates, another one those of the last datagram recorded "
+                   "before, from the start again after the end; excludes what says what the network is like")
+      ->option_text("LOG.csv");
   command->add_flag("--check", arguments->check, "only checks the scene and prints every value in force, with units");
   command->add_flag("--verbose", arguments->verbose, "the network of every seat in words and numbers, not only of the worst");
   command->add_flag("--no-quality", arguments->no_quality, "does not judge the network");
@@ -213,6 +266,9 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim run free_motion\n"
       "  tandem-netsim run contact --delay 20 --jitter 5 --loss 5 --json -\n"
       "  tandem-netsim run free_motion --profile 5g --seed 7 --trace out.csv\n"
+      "  tandem-netsim run contact --profile wifi-busy --log net.csv\n"
+      "  tandem-netsim run contact --replay net.csv --channel raw\n"
+      "  tandem-netsim run contact --delay 10 --script bad_day.textproto\n"
       "  tandem-netsim run free_motion --hand trainer=motion.csv,columns=baton");
   command->callback([arguments, &action] { action = [arguments] { return run_command(*arguments); }; });
 }
