@@ -259,6 +259,13 @@ std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::s
   if (recorded->rtt_split) {
     choice.notes.emplace_back("the recording holds round trips; each direction gets half of them");
   }
+  if (recorded->gaps > 0) {
+    std::ostringstream note;
+    note << name_or_file << ":" << recorded->gap_line << ": the recording has " << recorded->gaps
+         << (recorded->gaps == 1 ? " gap" : " gaps") << ", the longest of " << seconds(recorded->gap_longest)
+         << " s after this line; through a gap the last delay stays in force";
+    choice.notes.push_back(note.str());
+  }
   return choice;
 }
 
