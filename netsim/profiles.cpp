@@ -222,6 +222,18 @@ std::span<const ShippedProfile> shipped_profiles() noexcept {
   return all;
 }
 
+std::span<const ShippedProfile> complete_profiles() {
+  static const std::vector<ShippedProfile> all = [] {
+    std::vector<ShippedProfile> some;
+    for (const ShippedProfile& profile : shipped_profiles()) {
+      const auto read = shipped_profile(profile.name);
+      if (read && !read->capacity_file) some.push_back(profile);
+    }
+    return some;
+  }();
+  return all;
+}
+
 std::expected<Profile, InputErrors> shipped_profile(std::string_view name) {
   std::vector<std::string> names;
   for (const ShippedProfile& profile : shipped_profiles()) {

@@ -40,18 +40,17 @@ ReceiveBatch::ReceiveBatch() : data_(std::make_unique<std::byte[]>(kMax * kSlotB
   }
 }
 
-void ReceiveBatch::prepare(int fd, int family, bool local) noexcept {
+void ReceiveBatch::prepare(int fd, int family, bool local, int buffer_bytes) noexcept {
   // All of these are wishes: without them datagrams flow as well, with less to tell.
   const int on = 1;
-  const int buffer = 4 << 20;
   setsockopt(fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   setsockopt(fd, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
   // The usual limit holds about 280 small datagrams; root may have more.
-  if (setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &buffer, sizeof buffer) != 0) {
-    setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &buffer, sizeof buffer);
+  if (setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &buffer_bytes, sizeof buffer_bytes) != 0) {
+    setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &buffer_bytes, sizeof buffer_bytes);
   }
-  if (setsockopt(fd, SOL_SOCKET, SO_SNDBUFFORCE, &buffer, sizeof buffer) != 0) {
-    setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
+  if (setsockopt(fd, SOL_SOCKET, SO_SNDBUFFORCE, &buffer_bytes, sizeof buffer_bytes) != 0) {
+    setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &buffer_bytes, sizeof buffer_bytes);
   }
   if (!local) return;
   if (family == AF_INET6) {
@@ -62,12 +61,15 @@ void ReceiveBatch::prepare(int fd, int family, bool local) noexcept {
 }
 
 int ReceiveBatch::receive(int fd) noexcept {
-  for (mmsghdr& header : headers_) {  // the kernel wrote its own lengths here
-    header.msg_hdr.msg_namelen = sizeof(sockaddr_storage);
-    header.msg_hdr.msg_controllen = kControl;
-    header.msg_hdr.msg_flags = 0;
+  for (std::size_t i = 0; i < used_; ++i) {
+    msghdr& header = headers_[i].msg_hdr;
+    header.msg_namelen = sizeof(sockaddr_storage);
+    header.msg_controllen = kControl;
+    header.msg_flags = 0;
   }
   const int count = recvmmsg(fd, headers_.data(), kMax, MSG_DONTWAIT, nullptr);
+  // The one after the last may have been begun before the kernel found nothing for it.
+  used_ = std::min<std::size_t>(count < 0 ? kMax : static_cast<std::size_t>(count) + 1, kMax);
   if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return 0;
   return count;
 }
@@ -82,8 +84,8 @@ ReceiveBatch::Details ReceiveBatch::details(std::size_t i, Duration read_at) con
   for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr; header = CMSG_NXTHDR(&message, header)) {
     if (header->cmsg_level == SOL_SOCKET && header->cmsg_type == SCM_TIMESTAMPNS) {
       const auto stamp = read_control<timespec>(header);
-      const Duration arrived = std::chrono::seconds(stamp.tv_sec) + Duration{stamp.tv_nsec};
-      details.age = std::clamp(read_at - arrived, Duration::zero(), kAgeMax);
+      details.stamp = std::chrono::seconds(stamp.tv_sec) + Duration{stamp.tv_nsec};
+      details.age = std::clamp(read_at - details.stamp, Duration::zero(), kAgeMax);
     } else if (header->cmsg_level == SOL_SOCKET && header->cmsg_type == SO_RXQ_OVFL) {
       details.dropped = read_control<std::uint32_t>(header);
     } else if (header->cmsg_level == IPPROTO_IP && header->cmsg_type == IP_PKTINFO) {

@@ -31,8 +31,10 @@ class ReceiveBatch {
 
   ReceiveBatch();
 
+  static constexpr int kBufferBytes = 4 << 20;  ///< about 10 000 small datagrams
   /// Asks a socket for what `receive` wants to know: kernel time stamps, drop counts, and the local address if `local`.
-  static void prepare(int fd, int family, bool local) noexcept;
+  /// @param buffer_bytes  of the kernel, for datagrams that wait
+  static void prepare(int fd, int family, bool local, int buffer_bytes = kBufferBytes) noexcept;
 
   /// @return how many were received; 0: none waits; -1: see errno
   int receive(int fd) noexcept;
@@ -44,6 +46,8 @@ class ReceiveBatch {
   struct Details {
     /// Time between arrival in the kernel and `read_at` [0, 1 s].
     Duration age{};
+    /// The kernel's time of arrival, CLOCK_REALTIME; 0 when it gave none.
+    Duration stamp{};
     std::uint32_t dropped = 0;  ///< by the kernel on this socket so far, when known
     LocalAddress local;
   };
@@ -61,6 +65,7 @@ class ReceiveBatch {
   std::array<mmsghdr, kMax> headers_{};
   std::array<iovec, kMax> pieces_{};
   std::array<sockaddr_storage, kMax> from_{};
+  std::size_t used_ = kMax;  ///< headers the kernel may have written its own lengths into
 };
 
 /// Sends many datagrams of one socket with one system call.

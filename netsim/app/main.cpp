@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   tandem::netsim::add_run_command(app, action);
   tandem::netsim::add_test_command(app, action);
   tandem::netsim::add_proxy_command(app, action);
+  tandem::netsim::add_control_command(app, action);
   tandem::netsim::add_profiles_command(app, action);
   tandem::netsim::add_swarm_command(app, action);
   return tandem::io::run_program(app, action, argc, argv);

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "netsim/path_spec.h"
+#include "netsim/profiles.h"
 #include "netsim/script.h"
+#include "proto/input_error.h"
 
 namespace tandem::netsim {
 
@@ -21,7 +23,7 @@ struct NetworkChoice {
 };
 
 /// The options that say what the network is like, shared by `proxy` and `run`:
-/// --delay --jitter --loss --duplicate --reorder --outage --profile --network --trace-interval --script --seed.
+/// --delay --jitter --loss --duplicate --reorder --outage --profile --capacity --network --trace-interval --script --seed.
 /// Lives as long as the command it was added to.
 class NetworkOptions {
  public:
@@ -30,6 +32,12 @@ class NetworkOptions {
   /// Reads the files named and puts all together. Numbers beside --profile replace the profile's own.
   /// @return the network, or what is wrong: one mistake per line
   [[nodiscard]] std::expected<NetworkChoice, std::string> resolve() const;
+
+  /// A network by name or file, as --profile and --network take it.
+  /// @return the network, or what is wrong
+  [[nodiscard]] std::expected<NetworkChoice, std::string> named(const std::string& name_or_file) const {
+    return from_file(name_or_file);
+  }
 
   /// Reads --script: what changes while it runs. Networks it names are shipped profiles, or files beside the script.
   /// @param clients  names that the script may use; none: "1", "2", ... in order of arrival
@@ -44,13 +52,16 @@ class NetworkOptions {
 
  private:
   [[nodiscard]] std::expected<NetworkChoice, std::string> from_file(const std::string& name_or_file) const;
+  /// @param file  it was read from; empty: a shipped one
+  [[nodiscard]] std::expected<NetworkChoice, std::string> from_profile(std::expected<Profile, InputErrors> profile,
+                                                                       const std::string& file) const;
   [[nodiscard]] bool given(const char* option) const { return command_->get_option(option)->count() > 0; }
 
   CLI::App* command_ = nullptr;
   double delay_ms_ = 0, jitter_ms_ = 0, loss_percent_ = 0, duplicate_percent_ = 0, reorder_percent_ = 0;
   double trace_interval_ms_ = 0;
   std::vector<std::string> outages_;
-  std::string profile_, network_, script_;
+  std::string profile_, network_, capacity_, script_;
   std::uint64_t seed_ = 1;
 };
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "common/base/format.h"
+#include "netsim/app/capacity_file.h"
 #include "netsim/app/network_options.h"
 #include "netsim/network_csv.h"
 
@@ -29,6 +30,7 @@ std::expected<ProfileSubject, std::string> load_profile_subject(const std::strin
   if (!is_file(name_or_file)) {
     auto profile = shipped_profile(name_or_file);
     if (!profile) return std::unexpected(lines_of(profile.error()));
+    if (const auto capacity = complete_capacity(*profile, "", ""); !capacity) return std::unexpected(capacity.error());
     subject.profile = std::move(*profile);
     for (const ShippedProfile& shipped : shipped_profiles()) {
       if (shipped.name == name_or_file) subject.text = std::string(shipped.text);
@@ -37,9 +39,20 @@ std::expected<ProfileSubject, std::string> load_profile_subject(const std::strin
   }
   auto text = read_network_file(name_or_file);
   if (!text) return std::unexpected(text.error());
+  if (looks_like_capacity(*text)) {
+    auto recorded = parse_capacity_file(*text, name_or_file);
+    if (!recorded) return std::unexpected(recorded.error());
+    subject.recording = true;
+    subject.profile.name = std::filesystem::path(name_or_file).stem().string();
+    subject.profile.summary = std::move(recorded->description);
+    subject.profile.link = std::move(recorded->link);
+    return subject;
+  }
   if (!name_or_file.ends_with(".csv")) {
     auto profile = parse_profile(*text, name_or_file);
     if (!profile) return std::unexpected(lines_of(profile.error()));
+    const auto capacity = complete_capacity(*profile, name_or_file, "");
+    if (!capacity) return std::unexpected(capacity.error());
     subject.profile = std::move(*profile);
     subject.text = std::move(*text);
     return subject;

@@ -14,47 +14,20 @@
 #include "common/io/datagram_batch.h"
 #include "common/io/fd.h"
 #include "common/io/socket_address.h"
-#include "netsim/path_spec.h"
+#include "common/io/spsc_queue.h"
+#include "netsim/app/live_delays.h"
+#include "netsim/app/proxy_clients.h"
+#include "netsim/app/proxy_order.h"
+#include "netsim/app/proxy_outbox.h"
+#include "netsim/app/proxy_status.h"
+#include "netsim/link_watch.h"
 #include "netsim/proxy_core.h"
 
 namespace tandem::netsim {
 
-struct ProxyOptions {
-  io::SocketAddress listen;
-  io::SocketAddress to;
-  LinkSpec link;
-  std::uint64_t seed = 1;
-  Duration duration{};                  ///< 0: until told to stop
-  Duration idle_limit{60'000'000'000};  ///< a client without a datagram for so long is forgotten
-};
-
-/// What the proxy met besides the network it plays.
-struct ProxyTroubles {
-  std::uint64_t too_many_clients = 0;  ///< datagrams of clients beyond the 64th
-  std::uint64_t too_long = 0;          ///< datagrams above 1500 bytes
-  std::uint64_t kernel_drops = 0;      ///< the kernel's receive buffers were full
-  std::uint64_t no_room = 0;           ///< the kernel's send buffers were full
-  std::uint64_t refused = 0;           ///< nobody listened at the other end
-  std::uint64_t other = 0;             ///< anything else a socket said
-};
-
-struct ProxyStatus {
-  Duration since_start{};
-  std::uint64_t clients = 0;
-  std::uint64_t clients_seen = 0;
-  std::array<PathCounters, kDirections> total;
-  ProxyTroubles troubles;
-};
-
-struct ProxyClientReport {
-  sockaddr_storage address{};
-  bool present = false;
-  std::array<PathCounters, kDirections> counters;
-};
-
-/// The live proxy: one thread, one socket for all clients, one connected socket per client towards the server.
-/// Deadlines are absolute; datagrams are stamped by the kernel, so a late wake-up of ours does not add to the delay
-/// twice.
+/// The live proxy: one thread, two sockets per client (ProxyClients). Moments of arrival are the kernel's, so neither a
+/// late wake-up nor late reading moves the schedule: a network that delays by L is read only every L / 2, many datagrams
+/// at a time. Deadlines are absolute; how late each datagram left is counted.
 class Proxy {
  public:
   /// Binds the listening socket. @return the proxy, or what went wrong and what to do about it
@@ -62,63 +35,95 @@ class Proxy {
   [[nodiscard]] static std::expected<std::unique_ptr<Proxy>, std::string> open(const ProxyOptions& options);
 
   /// The address that clients send to, with the port in force.
-  [[nodiscard]] const io::SocketAddress& listening() const noexcept { return listening_; }
+  [[nodiscard]] const io::SocketAddress& listening() const noexcept { return clients_.listening(); }
 
   /// Works until `stop`, or until the duration is over.
   void run();
   /// From any thread or signal handler.
   void stop() noexcept;
 
+  /// Hands an order to the packet thread; from one thread only. It must live until `done`, or until `run` returned.
+  /// @return false: too many wait
+  bool post(ProxyOrder& order) noexcept;
+  /// Time since `run` began, from any thread once it has.
+  [[nodiscard]] Duration now() const noexcept { return since_start(); }
+  /// To prepare changes; only what ProxyCore allows to any thread.
+  [[nodiscard]] const ProxyCore& core() const noexcept { return core_; }
+
   /// A recent picture, from any thread.
   [[nodiscard]] ProxyStatus status() const;
+  /// What the client in this place got, actually, not by schedule; from any thread.
+  [[nodiscard]] const LiveDelays& delays(std::uint32_t place, Direction direction) const noexcept {
+    return delays_[place * kDirections + static_cast<std::size_t>(direction)];
+  }
+
+  [[nodiscard]] Duration late_limit() const noexcept { return options_.late_limit; }
+  /// How late datagrams left, from any thread.
+  [[nodiscard]] const LiveDelays& late_now() const noexcept { return late_now_; }
+
+  /// After `run`: tells the sink what is still under way.
+  void log_waiting() const noexcept { core_.log_waiting(); }
   /// After `run`: everything, and how late datagrams were sent compared with their schedule.
-  [[nodiscard]] ProxyStatus final_status() const { return snapshot(); }
+  [[nodiscard]] ProxyStatus final_status() const;
   [[nodiscard]] const Histogram& lateness() const noexcept { return lateness_; }
-  [[nodiscard]] std::vector<ProxyClientReport> client_reports() const;
+  /// All clients, also those that left; of very many the first thousand.
+  [[nodiscard]] std::vector<ProxyClientStatus> client_reports() const;
+  /// Of the first ProxyCore::kClientsMax clients.
+  [[nodiscard]] std::vector<ProxyClientQuality> qualities() const;
 
  private:
-  struct Client {
-    io::Fd upstream;
-    io::SocketAddress address;
-    io::LocalAddress local;
-    io::PeerKey key;
-    Duration last_seen{};
-    std::uint32_t kernel_drops = 0;
+  struct Watched {
+    std::uint64_t number = 0;
+    std::unique_ptr<LinkWatch> watch;
   };
+  Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake);
 
-  Proxy(const ProxyOptions& options, io::Fd socket, io::Fd poll, io::Fd wake, const io::SocketAddress& listening);
-
-  [[nodiscard]] Duration wait_limit(Duration now) const noexcept;
-  void receive_from_clients() noexcept;
-  void receive_from_server(std::uint32_t client) noexcept;
+  // The pump: proxy.cpp
+  [[nodiscard]] Duration since_start() const noexcept;
+  void work(Duration now) noexcept;
+  void sleep_until(Duration moment) const noexcept;
+  [[nodiscard]] std::size_t read_ready(Duration wait) noexcept;
+  std::size_t read(ProxySource source, Duration wall_at_start) noexcept;
   void send_due() noexcept;
-  void flush(int fd, std::span<const ProxyCore::Egress> sent) noexcept;
+  void send_outbox() noexcept;
+  [[nodiscard]] ProxySource way_out(const ProxyCore::Egress& egress) noexcept;
+  // Who is there, and what others are told: proxy_house.cpp
+  void housekeeping(Duration now) noexcept;
   [[nodiscard]] std::optional<std::uint32_t> client_of(std::size_t message, const io::LocalAddress& local) noexcept;
   [[nodiscard]] std::optional<std::uint32_t> welcome(const io::PeerKey& key, std::size_t message,
                                                      const io::LocalAddress& local) noexcept;
   void forget_idle() noexcept;
-  void forget(std::uint32_t client) noexcept;
-  void count_kernel_drops(std::uint32_t& seen, std::uint32_t now) noexcept;
-  [[nodiscard]] ProxyStatus snapshot() const;
+  void forget(std::uint32_t place) noexcept;
+  void carry_out_orders() noexcept;
+  void plan_reading(const LinkSpec& link) noexcept;
+  [[nodiscard]] ProxyClientStatus picture_of(std::uint32_t place) const noexcept;
+  void fill(ProxyStatus& status) const noexcept;
   void publish() noexcept;
 
   ProxyOptions options_;
-  io::Fd socket_, poll_, wake_;
-  io::SocketAddress listening_;
-  bool any_address_;
+  ProxyClients clients_;
+  io::Fd wake_;  ///< others write to it
+  std::atomic<bool> stopping_{false};
+  io::SpscQueue<ProxyOrder*> orders_;
   ProxyCore core_;
-  std::array<io::PeerKey, ProxyCore::kClientsMax> keys_{};
-  std::array<bool, ProxyCore::kClientsMax> present_{};
-  std::array<Client, ProxyCore::kClientsMax> clients_;
-  std::uint32_t last_client_ = 0;
-  std::uint32_t kernel_drops_seen_ = 0;
   io::ReceiveBatch in_;
   io::SendBatch out_;
+  ProxyOutbox outbox_;
   Histogram lateness_;
+  LiveDelays late_now_;
+  std::unique_ptr<LiveDelays[]> delays_;
+  std::vector<Watched> watched_;  ///< by arrival; never more than reserved
   ProxyTroubles troubles_;
-  Duration started_{};  ///< CLOCK_MONOTONIC
-  Duration now_{};      ///< since start, read once per round
-  std::vector<ProxyClientReport> left_;
+  std::uint64_t released_ = 0, late_ = 0;
+  std::atomic<Duration> started_{};  ///< CLOCK_MONOTONIC
+  Duration now_{};               ///< since start, read once per round
+  bool shared_ = false;          ///< the clients share a link
+  Duration least_delay_{};       ///< of all links there are and will be
+  Duration reading_interval_{};  ///< 0: as soon as something comes
+  Duration last_read_{}, last_sent_{}, next_housekeeping_{}, newcomers_since_{};
+  bool busy_ = false;  ///< something came lately or is under way
+  std::vector<ProxyClientStatus> left_;
+  std::uint64_t drops_of_left_ = 0;  ///< by the kernel, of clients that left
   mutable std::mutex published_lock_;
   ProxyStatus published_;
 };

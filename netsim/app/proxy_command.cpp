@@ -1,26 +1,33 @@
 #include "netsim/app/proxy_command.h"
 
-#include <poll.h>
 #include <sys/eventfd.h>
+#include <unistd.h>
 
 #include <cstdio>
+#include <expected>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include "common/io/fd.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/realtime.h"
 #include "common/io/signals.h"
 #include "common/io/socket_address.h"
-#include "common/io/terminal.h"
+#include "netsim/app/control_socket.h"
+#include "netsim/app/decision_writer.h"
 #include "netsim/app/network_options.h"
 #include "netsim/app/proxy.h"
+#include "netsim/app/proxy_control.h"
 #include "netsim/app/proxy_report.h"
+#include "netsim/app/proxy_watch.h"
 
 namespace tandem::netsim {
 namespace {
 
 constexpr int kTrouble = 1;  // while running
+constexpr int kPriority = 50;
 constexpr int kWrong = 2;    // in arguments or files, found before anything starts
 
 struct ProxyArguments {
@@ -28,28 +35,46 @@ struct ProxyArguments {
   std::string to;
   NetworkOptions network;
   double duration_s = 0;
-  std::string json;
+  double lateness_max_us = 0, spin_us = 0, coalesce_us = 80;
+  bool realtime = false;
+  std::string control, log, json;
 };
+
+Duration microseconds(double us) { return from_seconds(us * 1e-6); }
+
+int trouble(const std::string& message) {
+  std::fprintf(stderr, "tandem-netsim proxy: %s\n", message.c_str());
+  return kTrouble;
+}
 
 int wrong(const std::string& message) {
   std::fprintf(stderr, "tandem-netsim proxy: %s\n", message.c_str());
   return kWrong;
 }
 
-/// Waits for a signal or the proxy's end, and keeps a line on the terminal alive meanwhile.
-void watch(Proxy& proxy, int signals, int finished) {
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  io::StatusLine line{!terminal};
-  ProxyStatus before = proxy.status();
-  pollfd fds[] = {{signals, POLLIN, 0}, {finished, POLLIN, 0}};
-  while (poll(fds, 2, terminal ? 500 : -1) <= 0) {
-    const ProxyStatus now = proxy.status();
-    if (now.since_start <= before.since_start) continue;
-    line.show(status_line(now, before));
-    before = now;
-  }
-  line.clear();
-  proxy.stop();
+/// Why a file named for results cannot be written, found before anything starts.
+std::string output_problem(const char* option, const std::string& name) {
+  if (name.empty() || name == "-") return {};
+  const std::string problem = io::OutputFile::problem(name);
+  return problem.empty() ? problem : std::string(option) + ": " + problem;
+}
+
+/// A network named while the proxy runs.
+ProxyControl::Find find_network(const NetworkOptions& networks) {
+  return [&networks](const std::string& name) -> std::expected<LinkSpec, std::string> {
+    auto choice = networks.named(name);
+    if (!choice) return std::unexpected(choice.error());
+    return std::move(choice->link);
+  };
+}
+
+/// What the packet thread needs of the machine, as far as it is granted.
+void ask_for_machine(bool realtime, std::string& notice) {
+  if (!realtime) return;
+  static const io::AwakeProcessor awake;  // as long as the program
+  const bool memory = io::lock_memory();
+  const bool fifo = io::ask_for_realtime(kPriority);
+  notice = io::realtime_notice(fifo, memory, awake.granted());
 }
 
 int proxy_command(const ProxyArguments& arguments) {
@@ -66,29 +91,37 @@ int proxy_command(const ProxyArguments& arguments) {
                    "proxy that others can reach would let them take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT");
   const auto network = arguments.network.resolve();
   if (!network) return wrong(network.error());
-  const bool json_on_stdout = arguments.json == "-";
-  if (!arguments.json.empty() && !json_on_stdout) {
-    // Judged now, opened when there is something to write: a run that never starts leaves an older file alone.
-    if (const std::string problem = io::OutputFile::problem(arguments.json); !problem.empty()) {
-      return wrong("--json: " + problem);
-    }
-  }
+  auto events = arguments.network.events();
+  if (!events) return wrong(events.error());
+  // Judged now, opened when there is something to write: a run that never starts leaves an older file alone.
+  if (const std::string problem = output_problem("--json", arguments.json); !problem.empty()) return wrong(problem);
+  if (arguments.log == "-") return wrong("--log needs a file");
+  if (const std::string problem = output_problem("--log", arguments.log); !problem.empty()) return wrong(problem);
 
+  DecisionWriter log;
   ProxyOptions options;
   options.listen = *listen;
   options.to = *to;
   options.link = network->link;
+  options.events = std::move(*events);
   options.seed = arguments.network.seed();
   options.duration = from_seconds(arguments.duration_s);
+  options.spin = microseconds(arguments.spin_us);
+  options.coalesce = microseconds(arguments.coalesce_us);
+  if (arguments.lateness_max_us > 0) options.late_limit = microseconds(arguments.lateness_max_us);
+  options.sink = arguments.log.empty() ? nullptr : &log;
   const io::Fd signals = io::signals_as_file();
   const io::Fd finished{eventfd(0, EFD_CLOEXEC)};
   auto proxy = Proxy::open(options);
-  if (!proxy) {
-    std::fprintf(stderr, "tandem-netsim proxy: %s\n", proxy.error().c_str());
-    return kTrouble;
+  if (!proxy) return trouble(proxy.error());
+  ControlSocket socket;
+  if (!arguments.control.empty()) {
+    if (const std::string problem = socket.open(arguments.control); !problem.empty()) return wrong("--control: " + problem);
   }
+  if (const std::string problem = log.open(arguments.log); !problem.empty()) return trouble("--log: " + problem);
+
   // Scripts wait for this line; with JSON on standard output it moves out of the way.
-  std::FILE* const people = json_on_stdout ? stderr : stdout;
+  std::FILE* const people = arguments.json == "-" ? stderr : stdout;
   std::fprintf(people, "listening on %s\n", io::to_text((*proxy)->listening()).c_str());
   std::fprintf(people, "to %s, %s, seed %llu; Ctrl-C ends\n", io::to_text(options.to).c_str(),
                network->description.c_str(), static_cast<unsigned long long>(options.seed));
@@ -96,22 +129,31 @@ int proxy_command(const ProxyArguments& arguments) {
   std::fflush(people);
 
   std::thread packets([&] {
+    std::string notice;
+    ask_for_machine(arguments.realtime, notice);
+    if (!notice.empty()) std::fprintf(stderr, "tandem-netsim proxy: %s\n", notice.c_str());
     (*proxy)->run();
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(finished.get(), &one, sizeof one);
   });
-  watch(**proxy, signals.get(), finished.get());
+  ProxyControl control{**proxy, options.link, find_network(arguments.network)};
+  watch_proxy(**proxy, control, socket, signals.get(), finished.get());
   packets.join();
+  log.stop();
+  (*proxy)->log_waiting();
+  const std::string log_problem = log.close();
 
-  std::fputs(summary_text(**proxy).c_str(), people);
+  ProxyReportNotes notes{.changes = control.notes(), .log_rows = log.written(), .log_missed = log.missed()};
+  if (arguments.lateness_max_us > 0) notes.lateness_max = microseconds(arguments.lateness_max_us);
+  std::fputs(summary_text(**proxy, notes).c_str(), people);
   std::fflush(people);
   io::OutputFile json;
   std::string problem = json.open(arguments.json, true);
-  if (json.wanted()) json.write(summary_json(**proxy, options, *network));
+  if (json.wanted()) json.write(summary_json(**proxy, options, *network, notes));
   if (problem.empty()) problem = json.close();
-  if (problem.empty()) return 0;
-  std::fprintf(stderr, "tandem-netsim proxy: --json: %s\n", problem.c_str());
-  return kTrouble;
+  if (!problem.empty()) return trouble("--json: " + problem);
+  if (!log_problem.empty()) return trouble("--log: " + log_problem);
+  return in_time(**proxy, notes) ? 0 : kTrouble;
 }
 
 }  // namespace
@@ -132,15 +174,53 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--json", arguments->json,
                    "writes the summary as JSON; `-`: to standard output, and everything else to standard error")
       ->option_text("FILE|-");
+  command
+      ->add_option("--control", arguments->control,
+                   "a socket for `tandem-netsim control PATH ...`, which changes the network while it runs; only you may "
+                   "use it")
+      ->option_text("PATH");
+  command
+      ->add_option("--log", arguments->log,
+                   "writes every decision as CSV: when it came in, what became of it, when it left")
+      ->option_text("FILE");
+  const std::string timing = "How exact";
+  command
+      ->add_option("--max-lateness", arguments->lateness_max_us,
+                   "exit code 1 when the 99th percentile of the proxy's own lateness is above so many microseconds; "
+                   "counted from the moment each datagram was due by the kernel's time of its arrival")
+      ->check(io::number_in(1, 1e7, "us"))
+      ->option_text("US")
+      ->group(timing);
+  command
+      ->add_option("--coalesce", arguments->coalesce_us,
+                   "datagrams due less than so many microseconds after others left may leave together, so late at most: "
+                   "saves wake-ups when there are many clients; default 80, 0: each at its own moment")
+      ->check(io::number_in(0, 1000, "us"))
+      ->option_text("US")
+      ->group(timing);
+  command
+      ->add_option("--spin", arguments->spin_us,
+                   "watches the clock instead of sleeping for the last so many microseconds before a datagram is due; "
+                   "costs up to a whole core; default 0")
+      ->check(io::number_in(0, 1000, "us"))
+      ->option_text("US")
+      ->group(timing);
+  command
+      ->add_flag("--realtime", arguments->realtime,
+                 "asks for real-time priority, locked memory and a processor that stays awake; says what was not granted")
+      ->group(timing);
   command->footer(
       "Clients send to --listen instead of the server. Each client (address and port) gets its own link and its own\n"
       "socket towards the server; up is client to server. At most 64 clients; a client silent for 60 s is forgotten.\n"
-      "Datagrams above 1500 bytes are dropped and counted. Prints `listening on HOST:PORT` first.\n\n"
+      "Datagrams above 1500 bytes are dropped and counted. Prints `listening on HOST:PORT` first. On a terminal it shows\n"
+      "each client's rate, delay and loss, and takes commands (`tandem-netsim control --help` lists them); elsewhere it\n"
+      "prints a line every 5 s. In a --script clients are \"1\", \"2\", ... in order of arrival.\n\n"
       "Examples\n"
       "  tandem-netsim proxy --listen 127.0.0.1:7001 --to 127.0.0.1:7000 --delay 20 --jitter 5 --loss 5\n"
       "  tandem-netsim proxy --to [::1]:7000 --profile wifi-busy --seed 7 --duration 60 --json proxy.json\n"
       "  tandem-netsim proxy --to 127.0.0.1:7000 --delay 10 --outage 5,0.5,3\n"
-      "Exit: 0 done, 1 trouble (port in use), 2 wrong arguments or files.");
+      "  tandem-netsim proxy --to 127.0.0.1:7000 --profile 5g --control /tmp/proxy.sock --max-lateness 500\n"
+      "Exit: 0 done, 1 trouble (port in use) or later than --max-lateness, 2 wrong arguments or files.");
   command->callback([arguments, &action] { action = [arguments] { return proxy_command(*arguments); }; });
 }
 

@@ -42,9 +42,11 @@ Json path_json(const PathCounters& c) {
   return json;
 }
 
+/// @param duration_s  0: no rate
 std::string direction_text(const char* title, const PathCounters& c, double duration_s) {
-  std::string text = format("%s: %llu in (%.0f/s), %llu out, %.2f %% lost, mean delay %.3f ms\n", title,
-                            static_cast<unsigned long long>(c.in), duration_s > 0 ? count(c.in) / duration_s : 0,
+  const std::string rate = duration_s > 0 ? format(" (%.0f/s)", count(c.in) / duration_s) : "";
+  std::string text = format("%s: %llu in%s, %llu out, %.2f %% lost, mean delay %.3f ms\n", title,
+                            static_cast<unsigned long long>(c.in), rate.c_str(),
                             static_cast<unsigned long long>(c.out), lost_percent(c), delay_mean_ms(c));
   std::string causes;
   for (std::size_t i = 0; i < kOutcomes; ++i) {
@@ -63,60 +65,112 @@ std::string direction_text(const char* title, const PathCounters& c, double dura
   return causes.empty() ? text : text + causes + "\n";
 }
 
-}  // namespace
-
-std::string status_line(const ProxyStatus& now, const ProxyStatus& before) {
-  const double s = seconds(now.since_start - before.since_start);
-  const auto rate = [s](const PathCounters& new_, const PathCounters& old) {
-    return s > 0 ? count(new_.in - old.in) / s : 0;
-  };
-  // Counters that end, as clients leave, never go back: totals keep those who left.
-  const auto window = [](const PathCounters& new_, const PathCounters& old) {
-    PathCounters c;
-    c.in = new_.in - old.in;
-    c.out = new_.out - old.out;
-    c.delay_sum_ns = new_.delay_sum_ns - old.delay_sum_ns;
-    for (std::size_t i = 0; i < kOutcomes; ++i) c.by_outcome[i] = new_.by_outcome[i] - old.by_outcome[i];
-    return c;
-  };
-  const PathCounters up = window(now.total[0], before.total[0]);
-  const PathCounters down = window(now.total[1], before.total[1]);
-  // Short enough for 80 columns.
-  return format("%.0f s, %llu client%s; up %.0f/s lost %.1f %% %.1f ms; down %.0f/s lost %.1f %% %.1f ms",
-                seconds(now.since_start), static_cast<unsigned long long>(now.clients), now.clients == 1 ? "" : "s",
-                rate(now.total[0], before.total[0]), lost_percent(up), delay_mean_ms(up),
-                rate(now.total[1], before.total[1]), lost_percent(down), delay_mean_ms(down));
-}
-
-std::string summary_text(const Proxy& proxy) {
-  const ProxyStatus status = proxy.final_status();
-  const double duration_s = seconds(status.since_start);
-  std::string text = format("%.1f s, %llu client%s\n", duration_s, static_cast<unsigned long long>(status.clients_seen),
-                            status.clients_seen == 1 ? "" : "s");
-  text += direction_text("  up  ", status.total[0], duration_s);
-  text += direction_text("  down", status.total[1], duration_s);
-  const Histogram& late = proxy.lateness();
-  if (late.count() > 0) {
-    text += format("  sent later than scheduled by p50 %.1f us, p99 %.1f us, at most %.1f us\n",
-                   static_cast<double>(late.quantile(0.5)) / 1e3, static_cast<double>(late.quantile(0.99)) / 1e3,
-                   static_cast<double>(late.max()) / 1e3);
-  }
-  const ProxyTroubles& t = status.troubles;
+std::string troubles_text(const ProxyTroubles& t) {
   const std::pair<std::uint64_t, const char*> troubles[] = {
       {t.too_many_clients, "datagrams of clients beyond the 64th were dropped"},
       {t.too_long, "datagrams above 1500 bytes were dropped"},
-      {t.kernel_drops, "datagrams were dropped by the kernel before the proxy saw them: this computer was too slow"},
+      {t.kernel_drops, "datagrams were dropped by the kernel before the proxy saw them: more came than this computer carries"},
       {t.no_room, "datagrams found no room in the kernel's send buffer"},
       {t.refused, "times nobody listened at the other end"},
       {t.other, "other socket errors"},
   };
+  std::string text;
   for (const auto& [times, what] : troubles) {
     if (times > 0) text += format("  %llu %s\n", static_cast<unsigned long long>(times), what);
   }
   return text;
 }
 
-std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const NetworkChoice& network) {
+Json troubles_json(const ProxyTroubles& t) {
+  return {{"too_many_clients", t.too_many_clients}, {"too_long", t.too_long}, {"kernel_drops", t.kernel_drops},
+          {"no_room", t.no_room},                   {"refused", t.refused},   {"other", t.other}};
+}
+
+Json client_json(const ProxyClientStatus& client) {
+  return {{"number", client.number},
+          {"address", io::to_text(client.address)},
+          {"present", client.present},
+          {"kernel_drops", client.kernel_drops},
+          {"up", path_json(client.counters[0])},
+          {"down", path_json(client.counters[1])}};
+}
+
+Json changes_json(std::span<const ProxyControl::Note> changes) {
+  Json json = Json::array();
+  for (const ProxyControl::Note& change : changes) {
+    json.push_back({{"at_s", seconds(change.at)}, {"command", change.words}});
+  }
+  return json;
+}
+
+}  // namespace
+
+bool in_time(const Proxy& proxy, const ProxyReportNotes& notes) {
+  return !notes.lateness_max || proxy.lateness().quantile(0.99) <= notes.lateness_max->count();
+}
+
+std::string status_text(const ProxyStatus& status) {
+  std::string text = format("%.1f s, %llu client%s present, %llu seen\n", seconds(status.since_start),
+                            static_cast<unsigned long long>(status.clients), status.clients == 1 ? "" : "s",
+                            static_cast<unsigned long long>(status.clients_seen));
+  for (std::size_t i = 0; i < status.clients; ++i) {
+    const ProxyClientStatus& client = status.client[i];
+    text += format("client %llu at %s\n", static_cast<unsigned long long>(client.number),
+                   io::to_text(client.address).c_str());
+    text += direction_text("  up  ", client.counters[0], 0);
+    text += direction_text("  down", client.counters[1], 0);
+  }
+  return text + troubles_text(status.troubles);
+}
+
+std::string status_json(const ProxyStatus& status, std::span<const ProxyControl::Note> changes) {
+  Json json;
+  json["time_s"] = seconds(status.since_start);
+  json["clients_seen"] = status.clients_seen;
+  json["up"] = path_json(status.total[0]);
+  json["down"] = path_json(status.total[1]);
+  json["clients"] = Json::array();
+  for (std::size_t i = 0; i < status.clients; ++i) json["clients"].push_back(client_json(status.client[i]));
+  json["changes"] = changes_json(changes);
+  json["released"] = status.released;
+  json["released_late"] = status.late;
+  json["troubles"] = troubles_json(status.troubles);
+  return json.dump() + "\n";
+}
+
+std::string summary_text(const Proxy& proxy, const ProxyReportNotes& notes) {
+  const ProxyStatus status = proxy.final_status();
+  const double duration_s = seconds(status.since_start);
+  std::string text = format("%.1f s, %llu client%s\n", duration_s, static_cast<unsigned long long>(status.clients_seen),
+                            status.clients_seen == 1 ? "" : "s");
+  text += direction_text("  up  ", status.total[0], duration_s);
+  text += direction_text("  down", status.total[1], duration_s);
+  for (const ProxyControl::Note& change : notes.changes) {
+    text += format("  at %.3f s: %s\n", seconds(change.at), change.words.c_str());
+  }
+  const Histogram& late = proxy.lateness();
+  const auto us = [&late](double q) { return static_cast<double>(late.quantile(q)) / 1e3; };
+  if (late.count() > 0) {
+    text += format("  own error: sent later than scheduled by p50 %.1f us, p99 %.1f us, at most %.1f us;\n", us(0.5),
+                   us(0.99), static_cast<double>(late.max()) / 1e3);
+    text += format("    %llu of %llu datagrams more than %.0f us late (%.2f %%)\n",
+                   static_cast<unsigned long long>(status.late), static_cast<unsigned long long>(status.released),
+                   static_cast<double>(proxy.late_limit().count()) / 1e3, 100 * count(status.late) / count(status.released));
+  }
+  if (!in_time(proxy, notes)) {
+    text += format("  TOO LATE: p99 %.1f us is above --max-lateness %.0f us. This computer was too busy for that: what\n"
+                   "    was measured over this network says little. Remedy: --realtime, fewer programs, --coalesce 0\n",
+                   us(0.99), static_cast<double>(notes.lateness_max->count()) / 1e3);
+  }
+  if (notes.log_missed > 0) {
+    text += format("  %llu decisions are missing in the log: the disk was too slow; packets did not wait for it\n",
+                   static_cast<unsigned long long>(notes.log_missed));
+  }
+  return text + troubles_text(status.troubles);
+}
+
+std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const NetworkChoice& network,
+                         const ProxyReportNotes& notes) {
   const ProxyStatus status = proxy.final_status();
   Json json;
   json["program"] = "tandem-netsim proxy";
@@ -131,24 +185,18 @@ std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const 
   json["up"] = path_json(status.total[0]);
   json["down"] = path_json(status.total[1]);
   json["clients"] = Json::array();
-  for (const ProxyClientReport& client : proxy.client_reports()) {
-    json["clients"].push_back({{"address", io::to_text(client.address)},
-                               {"present", client.present},
-                               {"up", path_json(client.counters[0])},
-                               {"down", path_json(client.counters[1])}});
-  }
+  for (const ProxyClientStatus& client : proxy.client_reports()) json["clients"].push_back(client_json(client));
+  json["changes"] = changes_json(notes.changes);
   const Histogram& late = proxy.lateness();
   json["lateness"] = {{"count", late.count()},
                       {"p50_us", static_cast<double>(late.quantile(0.5)) / 1e3},
                       {"p99_us", static_cast<double>(late.quantile(0.99)) / 1e3},
-                      {"max_us", static_cast<double>(late.max()) / 1e3}};
-  const ProxyTroubles& t = status.troubles;
-  json["troubles"] = {{"too_many_clients", t.too_many_clients},
-                      {"too_long", t.too_long},
-                      {"kernel_drops", t.kernel_drops},
-                      {"no_room", t.no_room},
-                      {"refused", t.refused},
-                      {"other", t.other}};
+                      {"max_us", static_cast<double>(late.max()) / 1e3},
+                      {"late_limit_us", static_cast<double>(proxy.late_limit().count()) / 1e3},
+                      {"late", status.late},
+                      {"in_time", in_time(proxy, notes)}};
+  json["log"] = {{"rows", notes.log_rows}, {"missed", notes.log_missed}};
+  json["troubles"] = troubles_json(status.troubles);
   return json.dump(2) + "\n";
 }
 

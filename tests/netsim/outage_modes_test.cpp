@@ -153,16 +153,16 @@ TEST(OutageModes, AreReadFromAProfileAndContradictionsAreNamed) {
   EXPECT_EQ(outage.mode, OutageSpec::Mode::kHoldLast);
   EXPECT_EQ(outage.scope, OutageSpec::Scope::kAll);
   EXPECT_EQ(outage.loss_at_start, 20ms);
-  const auto expect = [](std::string_view outage, std::string_view message) {
-    const auto bad = parse_profile("version: 1 both {}\noutage { " + std::string(outage) + " }\n", "p.textproto");
-    ASSERT_FALSE(bad) << outage;
+  const auto expect = [](std::string_view keys, std::string_view message) {
+    const auto bad = parse_profile("version: 1 both {}\noutage { " + std::string(keys) + " }\n", "p.textproto");
+    ASSERT_FALSE(bad) << keys;
     EXPECT_NE(to_text(bad.error()).find(message), std::string::npos) << to_text(bad.error());
   };
-  expect("start_s: 1 length_ms: 5 scope: ALL_LINKS", "p.textproto:2:39: outage[0].scope = ALL_LINKS: needs mean_gap_s");
+  expect("start_s: 1 length_ms: 5 scope: ALL_LINKS", "p.textproto:2:41: outage[0].scope = ALL_LINKS: needs mean_gap_s");
   expect("start_s: 1 length_ms: 5 loss_at_start_ms: 6", "outage[0].loss_at_start_ms = 6: is longer than the outage");
   expect("start_s: 1 length_ms: 5 mode: HOLD_LAST hold_bytes: 9", "hold_bytes = 9: needs mode: HOLD");
   expect("start_s: 1 length_ms: 5 mode: HOLDLAST", "p.textproto:2:");
-  expect("start_s: 1 length_ms: 0", "p.textproto:2:31: outage[0].length_ms = 0");
+  expect("start_s: 1 length_ms: 0", "p.textproto:2:32: outage[0].length_ms = 0");
   expect("start_s: -1 length_ms: 5", "p.textproto:2:19: outage[0].start_s = -1");
 }
 

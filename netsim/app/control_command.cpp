@@ -1,0 +1,60 @@
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "netsim/app/control_socket.h"
+#include "netsim/app/control_words.h"
+#include "netsim/app/proxy_command.h"
+
+namespace tandem::netsim {
+namespace {
+
+struct ControlArguments {
+  std::string path;
+  std::vector<std::string> words;
+};
+
+int control_command(const ControlArguments& arguments) {
+  std::string line;
+  for (const std::string& word : arguments.words) line += (line.empty() ? "" : " ") + word;
+  // A mistake is found here already; whether the network or the client exists, the proxy knows.
+  if (const auto request = parse_control(line); !request) {
+    std::fprintf(stderr, "tandem-netsim control: %s\n", request.error().c_str());
+    return 2;
+  }
+  const auto answer = ask_control(arguments.path, line);
+  if (!answer) {
+    std::fprintf(stderr, "tandem-netsim control: %s\n", answer.error().c_str());
+    return 1;
+  }
+  const int code = answer->front() == '0' ? 0 : answer->front() == '1' ? 1 : 2;
+  std::fprintf(code == 0 ? stdout : stderr, "%s%s", code == 0 ? "" : "tandem-netsim control: ", answer->c_str() + 1);
+  return code;
+}
+
+}  // namespace
+
+void add_control_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<ControlArguments>();
+  CLI::App* const command =
+      root.add_subcommand("control", "Changes the network of a running proxy, or asks how it is.");
+  command->add_option("path", arguments->path, "the socket given to `proxy --control`")->option_text("PATH")->required();
+  command->add_option("command", arguments->words, "what to do; quotes around it are not needed")
+      ->option_text("COMMAND...")
+      ->required();
+  command->prefix_command();
+  command->footer(std::string("Commands, also typed into the proxy's terminal\n") + control_help() +
+                  "\nExamples\n"
+                  "  tandem-netsim control /tmp/proxy.sock profile wifi-busy\n"
+                  "  tandem-netsim control /tmp/proxy.sock delay 20 loss 2 client 2 up\n"
+                  "  tandem-netsim control /tmp/proxy.sock outage 400ms\n"
+                  "  tandem-netsim control /tmp/proxy.sock status --json\n"
+                  "Exit: 0 done, 1 no proxy there or it could not do it, 2 a wrong command or file.");
+  command->callback([arguments, &action, command] {
+    for (const std::string& word : command->remaining()) arguments->words.push_back(word);
+    action = [arguments] { return control_command(*arguments); };
+  });
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,212 @@
+#include <sys/eventfd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "netsim/app/proxy.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr Duration kHousekeeping{200'000'000};
+/// Reading later than the moment of arrival is free as long as nothing can be due before; but the kernel's buffers hold
+/// a limited number: 2 ms of a flood of half a million datagrams a second are a thousand.
+constexpr Duration kReadingMax{2'000'000};
+constexpr Duration kReadingMin{100'000};
+constexpr std::size_t kReportsMax = 1024;
+constexpr std::size_t kOrdersMax = 64;
+
+}  // namespace
+
+std::expected<std::unique_ptr<Proxy>, std::string> Proxy::open(const ProxyOptions& options) {
+  auto clients = ProxyClients::open(options.listen, options.to);
+  if (!clients) return std::unexpected(clients.error());
+  io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  if (!wake.open() || !clients->watch(wake.get(), {ProxySource::Kind::kWake, 0})) {
+    return std::unexpected(std::string("the system gives no file descriptors: ") + std::strerror(errno));
+  }
+  return std::unique_ptr<Proxy>(new Proxy(options, std::move(*clients), std::move(wake)));
+}
+
+Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake)
+    : options_(options),
+      clients_(std::move(clients)),
+      wake_(std::move(wake)),
+      orders_(kOrdersMax),
+      core_(options.link, options.seed, options.events),
+      delays_(std::make_unique<LiveDelays[]>(ProxyCore::kClientsMax * kDirections)),
+      least_delay_(std::min(options.link.up.floor, options.link.down.floor)) {
+  left_.reserve(kReportsMax);
+  watched_.reserve(ProxyCore::kClientsMax);
+  core_.log_to(options.sink);
+  plan_reading(options.link);
+  for (const NetworkEvent& event : options.events) {
+    if (event.link) plan_reading(*event.link);
+  }
+}
+
+void Proxy::stop() noexcept {
+  stopping_.store(true, std::memory_order_release);
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
+}
+
+bool Proxy::post(ProxyOrder& order) noexcept {
+  if (!orders_.push(&order)) return false;
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
+  return true;
+}
+
+void Proxy::carry_out_orders() noexcept {
+  if (orders_.front() == nullptr) return;
+  // What came before the order still meets the network that was.
+  [[maybe_unused]] const std::size_t count = read_ready(Duration{});
+  while (ProxyOrder* const* waiting = orders_.front()) {
+    ProxyOrder& order = **waiting;
+    orders_.pop();
+    order.at = now_;
+    for (LinkChange& links : order.links) {
+      core_.change(Time{now_}, links);
+      plan_reading(links.link);
+    }
+    for (const std::uint64_t number : order.rebinds) {
+      bool found = false;
+      for (std::uint32_t place = 0; place < ProxyClients::kMax; ++place) {
+        if (core_.number(place) == number) found = core_.rebind(Time{now_}, place, order.rebind);
+      }
+      order.carried_out = order.carried_out && found;
+    }
+    order.done.store(true, std::memory_order_release);
+  }
+}
+
+void Proxy::plan_reading(const LinkSpec& link) noexcept {
+  least_delay_ = std::min({least_delay_, link.up.floor, link.down.floor});
+  const Duration interval = std::min(least_delay_ / 2, kReadingMax);
+  // Clients on one link must be read in the order of their datagrams, so soon.
+  shared_ = shared_ || link.shared;
+  reading_interval_ = interval < kReadingMin || shared_ ? Duration{} : interval;
+}
+
+void Proxy::housekeeping(Duration now) noexcept {
+  forget_idle();
+  for (std::uint32_t i = 0; i < ProxyClients::kMax; ++i) {
+    const ProxyClients::Client& client = clients_[i];
+    if (client.former.open() && core_.dead(Time{now}, i, client.former_number)) clients_.close_former(i);
+  }
+  publish();
+  next_housekeeping_ = now + kHousekeeping;
+}
+
+std::optional<std::uint32_t> Proxy::client_of(std::size_t message, const io::LocalAddress& local) noexcept {
+  // Asked for datagrams of a client's own socket too: while it was being connected, others could get into it.
+  const io::PeerKey key = io::PeerKey::of(in_.from(message));
+  auto found = clients_.find(key);
+  if (!found) found = welcome(key, message, local);
+  if (found) clients_[*found].last_seen = now_;
+  return found;
+}
+
+std::optional<std::uint32_t> Proxy::welcome(const io::PeerKey& key, std::size_t message,
+                                            const io::LocalAddress& local) noexcept {
+  const auto place = core_.add_client();
+  if (!place) {
+    ++troubles_.too_many_clients;
+    return std::nullopt;
+  }
+  if (!clients_.welcome(*place, core_.clients_seen(), key, in_.from(message), local)) {
+    core_.remove_client(*place);
+    ++troubles_.other;
+    return std::nullopt;
+  }
+  newcomers_since_ = now_;
+  if (options_.watch_quality && watched_.size() < watched_.capacity()) {
+    watched_.push_back({core_.clients_seen(), std::make_unique<LinkWatch>()});
+    core_.watch(*place, watched_.back().watch.get());
+  }
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    delays_[*place * kDirections + static_cast<std::size_t>(direction)].clear();
+  }
+  return place;
+}
+
+void Proxy::forget_idle() noexcept {
+  for (std::uint32_t i = 0; i < ProxyClients::kMax; ++i) {
+    if (!clients_[i].present || now_ - clients_[i].last_seen < options_.idle_limit) continue;
+    const bool under_way =
+        core_.counters(i, Direction::kUp).in_flight() + core_.counters(i, Direction::kDown).in_flight() > 0;
+    if (!under_way) forget(i);
+  }
+}
+
+void Proxy::forget(std::uint32_t place) noexcept {
+  if (left_.size() < kReportsMax) {
+    left_.push_back(picture_of(place));
+    left_.back().present = false;
+  }
+  drops_of_left_ += clients_.kernel_drops(place);
+  core_.remove_client(place);
+  clients_.forget(place);
+}
+
+ProxyClientStatus Proxy::picture_of(std::uint32_t place) const noexcept {
+  const ProxyClients::Client& client = clients_[place];
+  return {client.number,
+          place,
+          client.address.storage,
+          client.present,
+          clients_.kernel_drops(place),
+          {core_.counters(place, Direction::kUp), core_.counters(place, Direction::kDown)}};
+}
+
+void Proxy::fill(ProxyStatus& status) const noexcept {
+  status.since_start = now_;
+  status.clients = 0;
+  status.clients_seen = core_.clients_seen();
+  status.total = {core_.total(Direction::kUp), core_.total(Direction::kDown)};
+  status.troubles = troubles_;
+  status.troubles.kernel_drops = clients_.kernel_drops() + drops_of_left_;
+  status.released = released_;
+  status.late = late_;
+  for (std::uint32_t i = 0; i < ProxyClients::kMax; ++i) {
+    if (!clients_[i].present) continue;
+    ProxyClientStatus& client = status.client[status.clients++];
+    client = picture_of(i);
+    status.troubles.kernel_drops += client.kernel_drops;
+  }
+}
+
+ProxyStatus Proxy::final_status() const {
+  ProxyStatus status;
+  fill(status);
+  return status;
+}
+
+void Proxy::publish() noexcept {
+  // Whoever looks must not hold up the packets: then the next picture is the one they get.
+  const std::unique_lock lock{published_lock_, std::try_to_lock};
+  if (lock) fill(published_);
+}
+
+ProxyStatus Proxy::status() const {
+  const std::lock_guard lock{published_lock_};
+  return published_;
+}
+
+std::vector<ProxyClientStatus> Proxy::client_reports() const {
+  std::vector<ProxyClientStatus> reports = left_;
+  for (std::uint32_t i = 0; i < ProxyClients::kMax; ++i) {
+    if (clients_[i].present) reports.push_back(picture_of(i));
+  }
+  return reports;
+}
+
+std::vector<ProxyClientQuality> Proxy::qualities() const {
+  std::vector<ProxyClientQuality> qualities;
+  for (const Watched& watched : watched_) qualities.push_back({watched.number, watched.watch->summary()});
+  return qualities;
+}
+
+}  // namespace tandem::netsim

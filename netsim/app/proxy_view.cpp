@@ -1,0 +1,105 @@
+#include "netsim/app/proxy_view.h"
+
+#include <algorithm>
+
+#include "common/base/format.h"
+#include "netsim/app/proxy_report.h"
+
+namespace tandem::netsim {
+namespace {
+
+double count(std::uint64_t n) { return static_cast<double>(n); }
+double ms(Duration d) { return seconds(d) * 1e3; }
+
+double per_second(std::uint64_t now, std::uint64_t before, double s) { return s > 0 ? count(now - before) / s : 0; }
+
+/// Datagrams that the network dropped, of all that went in meanwhile [%].
+double lost_percent(const PathCounters& now, const PathCounters& before) {
+  const std::uint64_t in = now.in - before.in;
+  return in > 0 ? 100 * count(now.dropped() - before.dropped()) / count(in) : 0;
+}
+
+/// Wide numbers lose their decimals, never the column.
+std::string fixed(double value, int width, int decimals) {
+  std::string text = format("%*.*f", width, decimals, value);
+  if (text.size() > static_cast<std::size_t>(width)) text = format("%*.0f", width, value);
+  if (text.size() > static_cast<std::size_t>(width)) text = std::string(static_cast<std::size_t>(width), '#');
+  return text;
+}
+
+}  // namespace
+
+void ProxyView::look() {
+  if (pictures_.size() == kPictures) pictures_.erase(pictures_.begin());
+  Picture& picture = pictures_.emplace_back();
+  picture.status = proxy_.status();
+  proxy_.late_now().read(picture.late);
+  for (std::size_t i = 0; i < picture.status.clients; ++i) {
+    const ProxyClientStatus& client = picture.status.client[i];
+    Lanes& lanes = picture.delays[client.number];
+    for (const Direction d : {Direction::kUp, Direction::kDown}) {
+      proxy_.delays(client.place, d).read(lanes[static_cast<std::size_t>(d)]);
+    }
+  }
+}
+
+std::string ProxyView::line() const {
+  if (pictures_.empty()) return {};
+  const ProxyStatus& now = pictures_.back().status;
+  const ProxyStatus& before = pictures_.front().status;
+  const double s = seconds(now.since_start - before.since_start);
+  std::string text = format("%.0f s, %llu client%s", seconds(now.since_start),
+                            static_cast<unsigned long long>(now.clients), now.clients == 1 ? "" : "s");
+  for (std::size_t d = 0; d < kDirections; ++d) {
+    text += format("; %s %.0f/s lost %.1f %%", name(static_cast<Direction>(d)),
+                   per_second(now.total[d].in, before.total[d].in, s), lost_percent(now.total[d], before.total[d]));
+  }
+  const auto& late = pictures_.back().late;
+  text += format("; late p99 %.2f ms", ms(late.quantile_since(pictures_.front().late, 0.99)));
+  return text.substr(0, 79);
+}
+
+std::vector<std::string> ProxyView::table(std::size_t rows) const {
+  std::vector<std::string> lines;
+  if (pictures_.empty() || rows < 2) return lines;
+  lines.push_back("  n address               dir    in/s  out/s  mean ms   p99 ms  lost %   flight");
+  const ProxyStatus& now = pictures_.back().status;
+  const bool all = 1 + kDirections * now.clients <= rows;
+  const std::uint64_t shown = all ? now.clients : (rows - 2) / kDirections;
+  for (std::uint64_t i = 0; i < shown; ++i) {
+    lines.push_back(row(now.client[i], Direction::kUp));
+    lines.push_back(row(now.client[i], Direction::kDown));
+  }
+  if (!all) lines.push_back(format("  and %llu more", static_cast<unsigned long long>(now.clients - shown)));
+  return lines;
+}
+
+std::string ProxyView::row(const ProxyClientStatus& now, Direction direction) const {
+  const auto d = static_cast<std::size_t>(direction);
+  // The oldest picture that has this client.
+  const Picture* before = &pictures_.back();
+  const ProxyClientStatus* then = &now;
+  for (const Picture& picture : pictures_) {
+    const auto end = picture.status.client.begin() + static_cast<std::ptrdiff_t>(picture.status.clients);
+    const auto found = std::ranges::find(picture.status.client.begin(), end, now.number, &ProxyClientStatus::number);
+    if (found == end) continue;
+    before = &picture;
+    then = &*found;
+    break;
+  }
+  const double s = seconds(pictures_.back().status.since_start - before->status.since_start);
+  const LiveDelays::Picture& delays = pictures_.back().delays.at(now.number)[d];
+  const LiveDelays::Picture& delays_then = before->delays.at(now.number)[d];
+  const PathCounters& c = now.counters[d];
+  const std::string who = direction == Direction::kUp ? io::to_text(now.address).substr(0, 21) : "";
+  return format("%3s %-21s %-4s", direction == Direction::kUp ? std::to_string(now.number).c_str() : "", who.c_str(),
+                name(direction)) +
+         " " + fixed(per_second(c.in, then->counters[d].in, s), 6, 0) + " " +
+         fixed(per_second(c.out, then->counters[d].out, s), 6, 0) + " " +
+         fixed(ms(delays.mean_since(delays_then)), 8, 2) + " " +
+         fixed(ms(delays.quantile_since(delays_then, 0.99)), 8, 2) + " " +
+         fixed(lost_percent(c, then->counters[d]), 7, 2) + " " +
+         fixed(count(c.in_flight()), 8, 0);
+}
+
+}  // namespace tandem::netsim
