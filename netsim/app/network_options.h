@@ -61,7 +61,7 @@ class NetworkOptions {
   double delay_ms_ = 0, jitter_ms_ = 0, loss_percent_ = 0, duplicate_percent_ = 0, reorder_percent_ = 0;
   double trace_interval_ms_ = 0;
   std::vector<std::string> outages_;
-  std::string profile_, capacity_, network_, script_;
+  std::string profile_, network_, capacity_, script_;
   std::uint64_t seed_ = 1;
 };
 
