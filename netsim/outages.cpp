@@ -48,9 +48,8 @@ std::optional<Time> OutageGate::end_of(const OutageSpec& spec, Time t) noexcept 
   return t + (spec.length - into);
 }
 
-OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
+OutageGate::Passage OutageGate::enter_any(Time now, std::size_t size) noexcept {
   Passage passage{State::kUp, now};
-  if (outages_.empty()) return passage;
 
   std::optional<std::uint64_t> room;  // of the holds that cover now; the smallest counts
   bool newest = false;                // one that keeps the newest only is enough

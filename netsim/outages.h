@@ -34,7 +34,9 @@ class OutageGate {
 
   /// @param now   never decreasing [Time{} or later]
   /// @param size  payload [bytes]
-  Passage enter(Time now, std::size_t size) noexcept;
+  Passage enter(Time now, std::size_t size) noexcept {
+    return outages_.empty() ? Passage{State::kUp, now} : enter_any(now, size);
+  }
 
   /// Goes on where `before` was: what it holds stays held.
   void take_over(const OutageGate& before) noexcept {
@@ -51,6 +53,7 @@ class OutageGate {
     std::optional<std::size_t> random;  ///< its place in random_; else scheduled
     RandomKey length_key{0};            ///< of drawn lengths of what is scheduled again and again
   };
+  Passage enter_any(Time now, std::size_t size) noexcept;
   [[nodiscard]] std::optional<Time> end_of(const Outage& outage, Time t) noexcept;
   [[nodiscard]] bool just_begun(const Outage& outage, Time t) noexcept;
 
