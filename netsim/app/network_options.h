@@ -24,8 +24,7 @@ struct NetworkChoice {
 };
 
 /// The options that say what the network is like, shared by `proxy` and `run`:
-/// --delay --jitter --loss --duplicate --reorder --outage --profile --capacity --network --trace-interval --script
-/// --seed.
+/// --delay --jitter --loss --duplicate --reorder --outage --profile --capacity --network --trace-interval --script --seed.
 /// Lives as long as the command it was added to.
 class NetworkOptions {
  public:
