@@ -144,7 +144,8 @@ OutageSpec outage_from(const ProfileOutage& in) {
                                  : OutageSpec::Mode::kDrop,
           .hold_bytes = in.hold_bytes,
           .mean_gap = milliseconds(in.mean_gap_s * 1e3),
-          .length_max = in.mean_gap_s > 0 ? milliseconds(in.length_max_ms) : Duration::zero(),
+          .length_max = in.mean_gap_s > 0 || in.length_max_ms > in.length_ms ? milliseconds(in.length_max_ms)
+                                                                             : Duration::zero(),
           .scope = in.all_links ? OutageSpec::Scope::kAll : OutageSpec::Scope::kLink,
           .loss_at_start = milliseconds(in.loss_at_start_ms)};
 }
@@ -219,6 +220,18 @@ std::expected<Profile, InputErrors> parse_profile(std::string_view text, std::st
 
 std::span<const ShippedProfile> shipped_profiles() noexcept {
   static const std::vector<ShippedProfile> all = sorted();
+  return all;
+}
+
+std::span<const ShippedProfile> complete_profiles() {
+  static const std::vector<ShippedProfile> all = [] {
+    std::vector<ShippedProfile> some;
+    for (const ShippedProfile& profile : shipped_profiles()) {
+      const auto read = shipped_profile(profile.name);
+      if (read && !read->capacity_file) some.push_back(profile);
+    }
+    return some;
+  }();
   return all;
 }
 

@@ -57,6 +57,9 @@ struct ShippedProfile {
 /// All of them, by name.
 [[nodiscard]] std::span<const ShippedProfile> shipped_profiles() noexcept;
 
+/// Those that need no recording of the user's.
+[[nodiscard]] std::span<const ShippedProfile> complete_profiles();
+
 /// The shipped profile of that name, or a mistake that names the nearest and lists all.
 [[nodiscard]] std::expected<Profile, InputErrors> shipped_profile(std::string_view name);
 

@@ -130,7 +130,7 @@ TEST(HeadDrop, WithoutDropsIsTheQueueWithTheTail) {
   tail.rate = {.bits_per_s = 1'333'337, .queue_datagrams = 60'000};
   PathSpec head = tail;
   head.rate.drop = RateSpec::Drop::kHead;
-  for (const Duration period : {1ms, 700us}) {
+  for (const Duration period : {Duration{1ms}, Duration{700us}}) {
     std::map<std::uint64_t, Verdict> late;
     Path path = path_of(head);
     const auto settle = [&](Time now) {
