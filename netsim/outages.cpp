@@ -75,8 +75,10 @@ OutageGate::Passage OutageGate::enter_any(Time now, std::size_t size) noexcept {
       }
     }
   }
-  if (newest) {
-    held_until_ = std::max(held_until_, passage.at);
+  // Once only the newest is kept, that goes on until the link is back: what a plain hold took after it would else be
+  // decided before it and overtake it.
+  if (newest || now < newest_until_) {
+    held_until_ = newest_until_ = std::max(held_until_, passage.at);
     return {State::kNewest, held_until_};
   }
   if (now >= held_until_) held_bytes_ = 0;

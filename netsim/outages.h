@@ -41,6 +41,7 @@ class OutageGate {
   /// Goes on where `before` was: what it holds stays held.
   void take_over(const OutageGate& before) noexcept {
     held_until_ = before.held_until_;
+    newest_until_ = before.newest_until_;
     held_bytes_ = before.held_bytes_;
   }
 
@@ -60,6 +61,7 @@ class OutageGate {
   std::vector<Outage> outages_;
   std::vector<PoissonIntervals> random_;
   Time held_until_{};
+  Time newest_until_{};  ///< the link stays down until then, and something waits that a newer one may replace
   std::uint64_t held_bytes_ = 0;
 };
 
