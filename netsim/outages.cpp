@@ -48,9 +48,8 @@ std::optional<Time> OutageGate::end_of(const OutageSpec& spec, Time t) noexcept 
   return t + (spec.length - into);
 }
 
-OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
+OutageGate::Passage OutageGate::enter_any(Time now, std::size_t size) noexcept {
   Passage passage{State::kUp, now};
-  if (outages_.empty()) return passage;
 
   std::optional<std::uint64_t> room;  // of the holds that cover now; the smallest counts
   bool newest = false;                // one that keeps the newest only is enough
@@ -76,8 +75,10 @@ OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
       }
     }
   }
-  if (newest) {
-    held_until_ = std::max(held_until_, passage.at);
+  // Once only the newest is kept, that goes on until the link is back: what a plain hold took after it would else be
+  // decided before it and overtake it.
+  if (newest || now < newest_until_) {
+    held_until_ = newest_until_ = std::max(held_until_, passage.at);
     return {State::kNewest, held_until_};
   }
   if (now >= held_until_) held_bytes_ = 0;

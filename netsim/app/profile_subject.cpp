@@ -71,6 +71,9 @@ std::string complete(ProfileSubject& subject, const std::string& capacity) {
   if (subject.recording) return capacity.empty() ? "" : "--capacity: belongs to a profile that plays it";
   const auto words = complete_capacity(subject.profile, subject.file, capacity);
   if (!words) return words.error();
+  if (words->empty() && !capacity.empty()) {
+    return "--capacity: profile " + subject.profile.name + " plays no recorded capacity; 4g-trace does";
+  }
   if (!words->empty()) subject.notes.push_back(*words);
   return "";
 }

@@ -94,6 +94,7 @@ int proxy_command(const ProxyArguments& arguments) {
   if (!network) return wrong(network.error());
   auto events = arguments.network.events();
   if (!events) return wrong(events.error());
+  if (const std::string problem = sharing_problem(network->link, *events); !problem.empty()) return wrong(problem);
   // Judged now, opened when there is something to write: a run that never starts leaves an older file alone.
   if (const std::string problem = output_problem("--json", arguments.json); !problem.empty()) return wrong(problem);
   if (arguments.log == "-") return wrong("--log needs a file");

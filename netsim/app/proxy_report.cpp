@@ -36,6 +36,8 @@ Json path_json(const PathCounters& c) {
     for (char& letter : key) letter = letter == ' ' ? '_' : letter;
     json[key] = c.of(outcome);
   }
+  json["bits_flipped"] = c.flipped;
+  json["truncated"] = c.truncated;
   json["reordered"] = c.of(Outcome::kHeldBack);
   json["bytes_in"] = c.bytes_in;
   json["bytes_out"] = c.bytes_out;
@@ -56,6 +58,10 @@ std::string direction_text(const char* title, const PathCounters& c, double dura
     if (outcome == Outcome::kDeliver || c.of(outcome) == 0) continue;
     causes += format("%s%llu %s", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(c.of(outcome)),
                      name(outcome));
+  }
+  for (const auto& [number, what] : {std::pair{c.flipped, "with wrong bits"}, std::pair{c.truncated, "truncated"}}) {
+    if (number == 0) continue;
+    causes += format("%s%llu %s", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(number), what);
   }
   if (c.copies > 0) {
     causes += format("%s%llu duplicated", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(c.copies));
