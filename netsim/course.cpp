@@ -48,7 +48,9 @@ void Course::hand_out(Time now) noexcept {
 void Course::hand(const Path::Settled& settled) noexcept {
   if (settled.flow == Path::kNobody || settled.ticket == InTransit::kNoTicket) return;
   const Member& member = members_[settled.flow];
-  if (member.lane != nullptr) member.lane->settled(settled.verdict, *member.queue, settled.ticket);
+  if (member.lane != nullptr) {
+    netsim::settle(settled.verdict, settled.ticket, *member.queue, member.lane->counters, member.lane->tap);
+  }
 }
 
 std::unique_ptr<Path> make_path(const LinkSpec& link, Direction direction, std::uint64_t seed, std::uint64_t name) {

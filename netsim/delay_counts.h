@@ -29,6 +29,12 @@ struct DelayScale {
                                                    {1'000'000'000, 10'000'000, 7'300}}};
   static constexpr std::size_t kBins = 8'201;
 
+  /// The bin in a decade that is known. Before its use: clang does not look further down for a constant.
+  template <std::size_t D>
+  [[nodiscard]] static constexpr std::size_t in(std::int64_t us) noexcept {
+    return kDecades[D].first + static_cast<std::size_t>((us - kDecades[D].from_us) / kDecades[D].width_us);
+  }
+
   /// @param delay  negative counts as 0
   [[nodiscard]] static constexpr std::size_t bin_of(Duration delay) noexcept {
     const std::int64_t us = std::max<std::int64_t>(delay.count(), 0) / 1000;
@@ -47,12 +53,6 @@ struct DelayScale {
     while (bin < kDecades[d].first) --d;
     const auto steps = static_cast<std::int64_t>(bin - kDecades[d].first);
     return Duration{1000 * (kDecades[d].from_us + steps * kDecades[d].width_us)};
-  }
-
- private:
-  template <std::size_t D>
-  [[nodiscard]] static constexpr std::size_t in(std::int64_t us) noexcept {
-    return kDecades[D].first + static_cast<std::size_t>((us - kDecades[D].from_us) / kDecades[D].width_us);
   }
 };
 

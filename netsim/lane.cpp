@@ -12,14 +12,6 @@ Outcome Lane::enter(const Verdict& verdict, DelayQueue& queue, const Entrance& e
   return outcome;
 }
 
-void Lane::settled(const Verdict& verdict, DelayQueue& queue, std::uint32_t slot) noexcept {
-  netsim::settle(verdict, slot, queue, counters, tap);
-}
-
-void Lane::leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome) noexcept {
-  netsim::leave(item, size, outcome, counters, tap);
-}
-
 /// Room for 10 s of 1 kHz traffic besides everything that is under way for the longest delay of the models, doubled
 /// when everything may come twice. Never more than two minutes' worth: what comes on top is counted as overflow.
 std::size_t slots_for(Duration delay_max, double copies) noexcept {

@@ -52,9 +52,6 @@ class Lane {
   [[nodiscard]] std::optional<Time> next_settle() const noexcept {
     return course_ ? course_->next_settle() : std::nullopt;
   }
-  /// One that waited is decided.
-  void settled(const Verdict& verdict, DelayQueue& queue, std::uint32_t slot) noexcept TANDEM_REALTIME;
-
   /// `next` is in force from `now` on; afterwards it holds the path that was. Changes of the schedule still come. A
   /// recording is not changed.
   void change(Time now, std::unique_ptr<Path>& next) noexcept TANDEM_REALTIME {
@@ -71,8 +68,6 @@ class Lane {
   /// The same with a verdict of the caller's.
   Outcome enter(const Verdict& verdict, DelayQueue& queue, const Entrance& entrance,
                 std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
-  /// One that `enter` kept is at the other end: handed over, or dropped on arrival.
-  void leave(const DelayQueue::Item& item, std::size_t size, Outcome outcome) noexcept TANDEM_REALTIME;
 
   PathCounters counters = {};
   DecisionTap tap = {};

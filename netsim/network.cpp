@@ -213,7 +213,7 @@ std::optional<Delivery> Network::take(Stored& from, Time now, std::span<std::byt
       if (fits > 0) std::memcpy(buffer.data(), bytes.data(), fits);
       if (direction == Direction::kUp) addresses_[link].hear(item->tag);
     }
-    from.lane.leave(*item, size, dead ? Outcome::kOldAddress : Outcome::kDeliver);
+    leave(*item, size, dead ? Outcome::kOldAddress : Outcome::kDeliver, from.lane.counters, from.lane.tap);
     from.queue.recycle(item->slot);
     if (!dead) return Delivery{link, direction, item->sent, item->at, item->index, size, item->tag};
   }

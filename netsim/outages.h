@@ -49,6 +49,7 @@ class OutageGate {
   struct Outage {
     OutageSpec spec;
     std::optional<std::size_t> random;  ///< its place in random_; else scheduled
+    RandomKey length_key{0};            ///< of drawn lengths of what is scheduled again and again
   };
   [[nodiscard]] std::optional<Time> end_of(const Outage& outage, Time t) noexcept;
   [[nodiscard]] bool just_begun(const Outage& outage, Time t) noexcept;

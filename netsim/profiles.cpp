@@ -90,6 +90,8 @@ PathSpec path_from(const ProfilePath& in) {
     if (rate->codel) {
       path.rate.codel = CoDelSpec{milliseconds(rate->codel_target_ms), milliseconds(rate->codel_interval_ms)};
     }
+    path.rate.drop = rate->drop_head ? RateSpec::Drop::kHead : RateSpec::Drop::kTail;
+    path.rate.recorded = rate->capacity_file.has_value();
     path.rate.competing_peak = milliseconds(rate->competing_peak_ms);
     path.rate.competing_period = milliseconds(rate->competing_period_ms);
   }
@@ -115,7 +117,9 @@ PathSpec path_from(const ProfilePath& in) {
                   .cap = milliseconds(stall->cap_ms)};
   }
   path.corruption.probability = probability(in.corrupted_percent);
-  path.mtu.bytes = in.mtu_bytes;
+  path.corruption.mode = static_cast<CorruptionSpec::Mode>(in.corruption);
+  path.corruption.bits = in.corrupted_bits;
+  path.mtu = {in.mtu_bytes, in.fragments ? MtuSpec::Above::kFragment : MtuSpec::Above::kDrop};
   path.order = in.free_order ? Order::kFree : Order::kFifo;
   if (const auto& reorder = in.reorder) {
     path.reorder = {.probability = probability(reorder->probability_percent),
@@ -135,10 +139,20 @@ OutageSpec outage_from(const ProfileOutage& in) {
   return {.start = milliseconds(in.start_s * 1e3),
           .length = milliseconds(in.length_ms),
           .period = milliseconds(in.period_s * 1e3),
-          .mode = in.hold ? OutageSpec::Mode::kHold : OutageSpec::Mode::kDrop,
+          .mode = in.hold        ? OutageSpec::Mode::kHold
+                  : in.hold_last ? OutageSpec::Mode::kHoldLast
+                                 : OutageSpec::Mode::kDrop,
           .hold_bytes = in.hold_bytes,
           .mean_gap = milliseconds(in.mean_gap_s * 1e3),
-          .length_max = in.mean_gap_s > 0 ? milliseconds(in.length_max_ms) : Duration::zero()};
+          .length_max = in.mean_gap_s > 0 || in.length_max_ms > in.length_ms ? milliseconds(in.length_max_ms)
+                                                                             : Duration::zero(),
+          .scope = in.all_links ? OutageSpec::Scope::kAll : OutageSpec::Scope::kLink,
+          .loss_at_start = milliseconds(in.loss_at_start_ms)};
+}
+
+/// A recording as short as there is, for checking the numbers beside one that is not there yet.
+std::shared_ptr<const CapacityTrace> stand_in() {
+  return std::make_shared<CapacityTrace>(CapacityTrace{{{0, 1}}, std::chrono::milliseconds(1)});
 }
 
 namespace {
@@ -159,6 +173,17 @@ std::vector<ShippedProfile> sorted() {
 
 }  // namespace
 
+bool supply_capacity(LinkSpec& link, const LinkSpec& recorded) {
+  bool used = false;
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    RateSpec& rate = link[direction].rate;
+    if (!rate.recorded) continue;
+    rate.trace = recorded[direction].rate.trace;
+    used = true;
+  }
+  return used;
+}
+
 std::expected<Profile, InputErrors> parse_profile(std::string_view text, std::string_view file_name) {
   auto in = parse_profile_text(text, file_name);
   if (!in) return std::unexpected(std::move(in.error()));
@@ -167,7 +192,10 @@ std::expected<Profile, InputErrors> parse_profile(std::string_view text, std::st
   profile.version = in->version;
   profile.summary = std::move(in->summary);
   profile.sources = std::move(in->sources);
-  profile.link = {path_from(in->up), path_from(in->down)};
+  profile.link = {path_from(in->up), path_from(in->down), in->shared};
+  for (const ProfilePath* path : {&in->up, &in->down}) {
+    if (path->rate && path->rate->capacity_file) profile.capacity_file = *path->rate->capacity_file;
+  }
   for (const ProfileOutage& outage : in->outages) {
     if (outage.up) profile.link.up.outages.push_back(outage_from(outage));
     if (outage.down) profile.link.down.outages.push_back(outage_from(outage));
@@ -179,7 +207,9 @@ std::expected<Profile, InputErrors> parse_profile(std::string_view text, std::st
   // The engine has the last word: what its rules find and the schema's did not (a value rounded to 0 ns) has no line.
   InputErrors errors;
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    for (const SpecProblem& problem : problems(profile.link[direction])) {
+    PathSpec spec = profile.link[direction];
+    if (spec.rate.recorded) spec.rate.trace = stand_in();
+    for (const SpecProblem& problem : problems(spec)) {
       errors.push_back(
           {std::string(file_name), 0, 0, std::string(name(direction)) + "." + problem.key, "", problem.message});
     }
@@ -190,6 +220,18 @@ std::expected<Profile, InputErrors> parse_profile(std::string_view text, std::st
 
 std::span<const ShippedProfile> shipped_profiles() noexcept {
   static const std::vector<ShippedProfile> all = sorted();
+  return all;
+}
+
+std::span<const ShippedProfile> complete_profiles() {
+  static const std::vector<ShippedProfile> all = [] {
+    std::vector<ShippedProfile> some;
+    for (const ShippedProfile& profile : shipped_profiles()) {
+      const auto read = shipped_profile(profile.name);
+      if (read && !read->capacity_file) some.push_back(profile);
+    }
+    return some;
+  }();
   return all;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <expected>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,10 +32,17 @@ struct Profile {
   std::vector<std::string> sources;
   LinkSpec link;
   std::vector<ProfileCheck> checks;
+  /// Set: the rates marked `recorded` need a recorded capacity before the link can be simulated (`supply_capacity`).
+  /// The file the profile names, or empty: the user must name one.
+  std::optional<std::string> capacity_file = {};
 };
 
 /// An outage as people write it, in the engine's numbers.
 [[nodiscard]] OutageSpec outage_from(const ProfileOutage& in);
+
+/// Puts a recorded capacity (netsim/capacity_csv.h) where the link asks for one.
+/// @return whether it did
+bool supply_capacity(LinkSpec& link, const LinkSpec& recorded);
 
 /// Turns the text of a profile into numbers that cannot be wrong.
 /// @param file_name  used in messages and for the name
@@ -48,6 +56,9 @@ struct ShippedProfile {
 };
 /// All of them, by name.
 [[nodiscard]] std::span<const ShippedProfile> shipped_profiles() noexcept;
+
+/// Those that need no recording of the user's.
+[[nodiscard]] std::span<const ShippedProfile> complete_profiles();
 
 /// The shipped profile of that name, or a mistake that names the nearest and lists all.
 [[nodiscard]] std::expected<Profile, InputErrors> shipped_profile(std::string_view name);

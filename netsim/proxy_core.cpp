@@ -237,7 +237,7 @@ std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
     }
     const auto bytes = queue_.bytes(*item);
     const bool dead = direction == Direction::kDown && places_[client].addresses.dead(item->tag, item->at);
-    lane->leave(*item, bytes.size(), dead ? Outcome::kOldAddress : Outcome::kDeliver);
+    leave(*item, bytes.size(), dead ? Outcome::kOldAddress : Outcome::kDeliver, lane->counters, lane->tap);
     if (dead) {
       queue_.recycle(item->slot);
       continue;

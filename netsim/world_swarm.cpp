@@ -64,9 +64,10 @@ PathSpec draw_path(Draw& d) {
 
 LinkSpec draw_link(Draw& d, std::string& words) {
   if (d.chance(0.4)) {
-    const auto shipped = shipped_profiles();
+    const auto shipped = complete_profiles();
     const ShippedProfile& chosen = shipped[d.below(shipped.size())];
-    if (const auto profile = shipped_profile(chosen.name)) {
+    const auto profile = shipped_profile(chosen.name);
+    if (profile && !profile->capacity_file) {  // which needs a recording
       words = chosen.name;
       return profile->link;
     }

@@ -23,6 +23,8 @@ struct ProfileRate {
   std::uint32_t queue_datagrams = 0;  ///< 0: no limit
   bool codel = false;
   double codel_target_ms = 5, codel_interval_ms = 100;
+  bool drop_head = false;                    ///< else the tail
+  std::optional<std::string> capacity_file;  ///< instead of rate_bit_s; empty: somebody else names it
 };
 struct ProfileBody {
   enum class Kind : std::uint8_t {
@@ -122,15 +124,20 @@ struct ProfilePath {
   std::optional<ProfileBoundary> boundary;
   std::optional<ProfileSlots> slots;
   double corrupted_percent = 0;
+  enum class Corruption : std::uint8_t { kChecksum, kBitFlips, kTruncate } corruption = Corruption::kChecksum;
+  std::uint32_t corrupted_bits = 1;
   std::uint32_t mtu_bytes = 0;  ///< 0: no limit
+  bool fragments = false;       ///< above the MTU; else dropped
 };
 
 struct ProfileOutage {
   double start_s = 0, length_ms = 0, period_s = 0;  ///< period 0: once
-  bool hold = false;
+  bool hold = false, hold_last = false;  ///< at most one; neither: drop
   bool up = true, down = true;
   std::uint64_t hold_bytes = 0;              ///< 0: no limit
   double mean_gap_s = 0, length_max_ms = 0;  ///< above 0: at random moments
+  bool all_links = false;                    ///< the random moments of all clients are the same
+  double loss_at_start_ms = 0;
 };
 
 struct ProfileQuantiles {
@@ -146,6 +153,7 @@ struct ProfileSpec {
   ProfilePath up, down;
   std::vector<ProfileOutage> outages;
   std::vector<ProfileQuantiles> checks;
+  bool shared = false;  ///< all clients are on one link
 };
 
 }  // namespace tandem

@@ -1,5 +1,6 @@
 #include "proto/profile_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "proto/profile.pb.h"
@@ -27,6 +28,14 @@ ProfileStall stall_from(const pb::Stall& in, Checker& checker, const std::string
 ProfileRate rate_from(const pb::LinkRateProfile& in, Checker& checker, const std::string& key) {
   ProfileRate rate;
   rate.rate_bit_s = whole(in.rate_bit_s());
+  if (in.has_rate_bit_s() == in.has_capacity()) checker.error(key, "needs exactly one of rate_bit_s, capacity");
+  if (in.has_capacity()) rate.capacity_file = in.capacity().file();
+  if (in.capacity().has_file() && in.capacity().file().empty()) {
+    checker.error(child_path(key, "capacity.file"), "is empty: leave it out and give the file when you start");
+  }
+  if (in.has_capacity() && in.has_competing_peak_ms()) {
+    checker.error(child_path(key, "competing_peak_ms"), "not with a recorded capacity");
+  }
   if (in.rate_bit_s() != std::floor(in.rate_bit_s())) {
     checker.error(child_path(key, "rate_bit_s"), "must be a whole number");
   }
@@ -40,6 +49,14 @@ ProfileRate rate_from(const pb::LinkRateProfile& in, Checker& checker, const std
   if (rate.codel_target_ms >= rate.codel_interval_ms) {
     checker.error(child_path(key, "codel"), "target_ms must be below interval_ms");
   }
+  rate.drop_head = in.drop() == pb::LinkRateProfile::HEAD;
+  if (rate.drop_head) {
+    if (!in.has_queue_bytes() && !in.has_queue_ms() && !in.has_queue_datagrams()) {
+      checker.error(child_path(key, "drop"), "needs a limit: queue_bytes, queue_ms or queue_datagrams");
+    }
+    if (in.has_codel()) checker.error(child_path(key, "codel"), "drops by a law of its own: not with drop: HEAD");
+    if (in.has_competing_peak_ms()) checker.error(child_path(key, "competing_peak_ms"), "not with drop: HEAD");
+  }
   rate.competing_peak_ms = in.competing_peak_ms();
   rate.competing_period_ms = in.competing_period_ms();
   if (in.has_competing_peak_ms() != in.has_competing_period_ms()) {
@@ -49,6 +66,29 @@ ProfileRate rate_from(const pb::LinkRateProfile& in, Checker& checker, const std
                   "must be above competing_peak_ms: a queue drains in real time");
   }
   return rate;
+}
+
+void damage_from(const pb::NetworkPath& in, ProfilePath& path, Checker& checker, const std::string& key) {
+  path.corrupted_percent = in.corrupted_percent();
+  path.corruption = in.corruption() == pb::NetworkPath::BIT_FLIPS  ? ProfilePath::Corruption::kBitFlips
+                    : in.corruption() == pb::NetworkPath::TRUNCATE ? ProfilePath::Corruption::kTruncate
+                                                                   : ProfilePath::Corruption::kChecksum;
+  if (in.has_corrupted_bits()) path.corrupted_bits = in.corrupted_bits();
+  if (in.has_corruption() && !in.has_corrupted_percent()) {
+    checker.error(child_path(key, "corruption"), "needs corrupted_percent");
+  }
+  if (in.has_corrupted_bits() && path.corruption != ProfilePath::Corruption::kBitFlips) {
+    checker.error(child_path(key, "corrupted_bits"), "needs corruption: BIT_FLIPS");
+  }
+  path.mtu_bytes = in.mtu_bytes();
+  path.fragments = in.above_mtu() == pb::NetworkPath::FRAGMENT;
+  if (in.has_above_mtu() && !in.has_mtu_bytes()) checker.error(child_path(key, "above_mtu"), "needs mtu_bytes");
+  const std::uint32_t overhead = path.rate ? path.rate->overhead_bytes : ProfileRate{}.overhead_bytes;
+  const std::uint32_t least = overhead + (path.fragments ? 8 : 1);
+  if (in.has_mtu_bytes() && path.mtu_bytes < least) {
+    checker.error(child_path(key, "mtu_bytes"), "leaves no room beside the overhead of " + std::to_string(overhead) +
+                                                    " bytes; at least " + std::to_string(least));
+  }
 }
 
 ProfilePath path_from(const pb::NetworkPath& in, Checker& checker, const std::string& key) {
@@ -61,8 +101,7 @@ ProfilePath path_from(const pb::NetworkPath& in, Checker& checker, const std::st
   if (in.has_rate()) path.rate = rate_from(in.rate(), checker, child_path(key, "rate"));
   path.floor_ms = in.floor_ms();
   delay_from(in, path, checker, key);
-  path.corrupted_percent = in.corrupted_percent();
-  path.mtu_bytes = in.mtu_bytes();
+  damage_from(in, path, checker, key);
   if (in.has_stall()) path.stall = stall_from(in.stall(), checker, child_path(key, "stall"));
   path.free_order = in.order() == pb::NetworkPath::FREE;
   if (in.has_reorder()) {
@@ -94,14 +133,24 @@ ProfileOutage outage_from(const pb::ProfileOutage& in, Checker& checker, const s
   outage.length_max_ms = in.has_length_max_ms() ? in.length_max_ms() : outage.length_ms;
   if (in.has_mean_gap_s() == in.has_start_s()) checker.error(key, "needs exactly one of start_s, mean_gap_s");
   if (in.has_mean_gap_s() && in.has_period_s()) checker.error(child_path(key, "period_s"), "not with mean_gap_s");
-  if (in.has_length_max_ms() && !in.has_mean_gap_s())
-    checker.error(child_path(key, "length_max_ms"), "needs mean_gap_s");
+  if (in.has_length_max_ms() && !in.has_mean_gap_s() && !in.has_period_s()) {
+    checker.error(child_path(key, "length_max_ms"), "needs mean_gap_s or period_s");
+  }
   if (outage.length_max_ms < outage.length_ms) checker.error(child_path(key, "length_max_ms"), "is below length_ms");
   if (outage.mean_gap_s > 0 && outage.length_max_ms > 32e3 * outage.mean_gap_s) {
     checker.error(child_path(key, "length_max_ms"), "is above 32 times mean_gap_s");
   }
-  if (in.has_period_s() && outage.period_s * 1e3 <= outage.length_ms) {
+  if (in.has_period_s() && outage.period_s * 1e3 <= std::max(outage.length_ms, outage.length_max_ms)) {
     checker.error(child_path(key, "period_s"), "must be longer than the outage, or the link is never up");
+  }
+  outage.hold_last = in.mode() == pb::ProfileOutage::HOLD_LAST;
+  outage.all_links = in.scope() == pb::ProfileOutage::ALL_LINKS;
+  if (in.has_scope() && !in.has_mean_gap_s() && !in.has_length_max_ms()) {
+    checker.error(child_path(key, "scope"), "needs mean_gap_s or length_max_ms: what is not drawn hits all clients anyway");
+  }
+  outage.loss_at_start_ms = in.loss_at_start_ms();
+  if (outage.loss_at_start_ms > outage.length_ms) {
+    checker.error(child_path(key, "loss_at_start_ms"), "is longer than the outage");
   }
   if (in.has_hold_bytes() && !outage.hold) checker.error(child_path(key, "hold_bytes"), "needs mode: HOLD");
   return outage;
@@ -123,6 +172,10 @@ void directions(const pb::Profile& in, ProfileSpec& profile, Checker& checker) {
   }
   profile.up = path_from(in.up(), checker, "up");
   profile.down = path_from(in.down(), checker, "down");
+  const auto file = [](const ProfilePath& path) { return path.rate ? path.rate->capacity_file : std::nullopt; };
+  if (file(profile.up) && file(profile.down) && *file(profile.up) != *file(profile.down)) {
+    checker.error("down.rate.capacity", "names another file than up.rate.capacity: one file holds both directions");
+  }
 }
 
 std::string stem(std::string_view file) {
@@ -144,6 +197,7 @@ std::expected<ProfileSpec, InputErrors> parse_profile_text(std::string_view text
   profile.version = in.version();
   profile.summary = in.summary();
   profile.sources.assign(in.source().begin(), in.source().end());
+  profile.shared = in.shared();
   directions(in, profile, checker);
   for (int i = 0; i < in.outage_size(); ++i) {
     profile.outages.push_back(outage_from(in.outage(i), checker, child_path("", "outage", i)));

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "common/io/number_option.h"
+#include "netsim/app/capacity_file.h"
 #include "netsim/network_csv.h"
 #include "netsim/profile_script.h"
 #include "netsim/profiles.h"
@@ -106,9 +107,16 @@ void NetworkOptions::add_to(CLI::App& command) {
       ->option_text("NAME|FILE")
       ->group(group);
   command
+      .add_option("--capacity", capacity_,
+                  "the recorded capacity that the profile plays (4g-trace): mahimahi's file, one millisecond per line and "
+                  "opportunity to send 1500 bytes, or a table direction,t_ms,opportunities")
+      ->option_text("FILE")
+      ->group(group);
+  command
       .add_option("--network", network_,
                   "the same, or a recording: .csv with a column rtt_ms or delay_ms (empty: lost) and t_s or t_send_s; "
-                  "excludes the numbers")
+                  "or a recorded capacity: mahimahi's file, or .csv with direction,t_ms,opportunities; excludes the "
+                  "numbers")
       ->option_text("NAME|FILE")
       ->group(group);
   command
@@ -135,16 +143,26 @@ std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
     for (const char* option : kNumbers) {
       if (given(option)) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes " + option;
     }
-    if (given("--profile")) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes --profile";
+    for (const char* option : {"--profile", "--capacity"}) {
+      if (given(option)) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes " + option;
+    }
     if (!mistakes.empty()) return std::unexpected(mistakes);
     return from_file(network_);
   }
 
+  if (given("--capacity") && !given("--profile")) {
+    return std::unexpected("--capacity: belongs to --profile 4g-trace or another that plays it; --network FILE plays it "
+                           "alone");
+  }
   NetworkChoice choice;
   choice.name = "custom";
   if (given("--profile")) {
     auto profile = from_file(profile_);
     if (!profile) return profile;
+    if (given("--capacity") && !profile->plays_capacity) {
+      return std::unexpected("--capacity: profile " + profile->name + " plays no recorded capacity; 4g-trace does, or a " +
+                             "profile with rate { capacity {} }");
+    }
     choice = std::move(*profile);
   }
   std::vector<OutageSpec> outages;
@@ -219,34 +237,49 @@ std::string NetworkOptions::first_given() const {
 
 std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::string& name_or_file) const {
   NetworkChoice choice;
-  if (!is_file(name_or_file)) {
-    const auto profile = shipped_profile(name_or_file);
-    if (!profile) return std::unexpected(lines_of(profile.error()));
-    choice.link = profile->link;
-    choice.name = profile->name;
-    choice.description = "profile " + profile->name + " (version " + std::to_string(profile->version) + ")";
-    return choice;
-  }
+  if (!is_file(name_or_file)) return from_profile(shipped_profile(name_or_file), "");
   const auto text = read_network_file(name_or_file);
   if (!text) return std::unexpected(text.error());
   choice.name = std::filesystem::path(name_or_file).stem().string();
-  if (name_or_file.ends_with(".csv")) {
-    const auto recorded = parse_network_csv(*text, name_or_file, milliseconds(trace_interval_ms_));
-    if (!recorded) return std::unexpected(lines_of(recorded.error()));
-    choice.link = recorded->link;
-    std::ostringstream words;
-    words << "recording " << name_or_file << ": " << recorded->rows << " rows, " << recorded->lost << " lost, "
-          << seconds(recorded->length) << " s, then from the start again";
-    choice.description = words.str();
-    if (recorded->rtt_split) {
-      choice.notes.emplace_back("the recording holds round trips; each direction gets half of them");
-    }
+  if (looks_like_capacity(*text)) {
+    auto recorded = parse_capacity_file(*text, name_or_file);
+    if (!recorded) return std::unexpected(recorded.error());
+    choice.link = std::move(recorded->link);
+    choice.description = std::move(recorded->description);
     return choice;
   }
-  const auto profile = parse_profile(*text, name_or_file);
+  if (!name_or_file.ends_with(".csv")) return from_profile(parse_profile(*text, name_or_file), name_or_file);
+  const auto recorded = parse_network_csv(*text, name_or_file, milliseconds(trace_interval_ms_));
+  if (!recorded) return std::unexpected(lines_of(recorded.error()));
+  choice.link = recorded->link;
+  std::ostringstream words;
+  words << "recording " << name_or_file << ": " << recorded->rows << " rows, " << recorded->lost << " lost, "
+        << seconds(recorded->length) << " s, then from the start again";
+  choice.description = words.str();
+  if (recorded->rtt_split) {
+    choice.notes.emplace_back("the recording holds round trips; each direction gets half of them");
+  }
+  if (recorded->gaps > 0) {
+    std::ostringstream note;
+    note << name_or_file << ":" << recorded->gap_line << ": the recording has " << recorded->gaps
+         << (recorded->gaps == 1 ? " gap" : " gaps") << ", the longest of " << seconds(recorded->gap_longest)
+         << " s after this line; through a gap the last delay stays in force";
+    choice.notes.push_back(note.str());
+  }
+  return choice;
+}
+
+std::expected<NetworkChoice, std::string> NetworkOptions::from_profile(std::expected<Profile, InputErrors> profile,
+                                                                       const std::string& file) const {
   if (!profile) return std::unexpected(lines_of(profile.error()));
-  choice.link = profile->link;
-  choice.description = "profile " + name_or_file + " (version " + std::to_string(profile->version) + ")";
+  const auto capacity = complete_capacity(*profile, file, capacity_);
+  if (!capacity) return std::unexpected(capacity.error());
+  NetworkChoice choice;
+  choice.name = profile->name;
+  choice.description = "profile " + (file.empty() ? profile->name : file) + " (version " +
+                       std::to_string(profile->version) + ")" + (capacity->empty() ? "" : ", " + *capacity);
+  choice.link = std::move(profile->link);
+  choice.plays_capacity = !capacity->empty();
   return choice;
 }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "netsim/path_spec.h"
+#include "netsim/profiles.h"
 #include "netsim/script.h"
+#include "proto/input_error.h"
 
 namespace tandem::netsim {
 
@@ -18,10 +20,11 @@ struct NetworkChoice {
   std::string name;                ///< `custom`, the profile's name, or the file's
   std::string description;         ///< one line for people
   std::vector<std::string> notes;  ///< what a report must say about it
+  bool plays_capacity = false;     ///< a profile that asked for a recorded capacity, and has it
 };
 
 /// The options that say what the network is like, shared by `proxy` and `run`:
-/// --delay --jitter --loss --duplicate --reorder --outage --profile --network --trace-interval --script --seed.
+/// --delay --jitter --loss --duplicate --reorder --outage --profile --capacity --network --trace-interval --script --seed.
 /// Lives as long as the command it was added to.
 class NetworkOptions {
  public:
@@ -50,13 +53,16 @@ class NetworkOptions {
 
  private:
   [[nodiscard]] std::expected<NetworkChoice, std::string> from_file(const std::string& name_or_file) const;
+  /// @param file  it was read from; empty: a shipped one
+  [[nodiscard]] std::expected<NetworkChoice, std::string> from_profile(std::expected<Profile, InputErrors> profile,
+                                                                       const std::string& file) const;
   [[nodiscard]] bool given(const char* option) const { return command_->get_option(option)->count() > 0; }
 
   CLI::App* command_ = nullptr;
   double delay_ms_ = 0, jitter_ms_ = 0, loss_percent_ = 0, duplicate_percent_ = 0, reorder_percent_ = 0;
   double trace_interval_ms_ = 0;
   std::vector<std::string> outages_;
-  std::string profile_, network_, script_;
+  std::string profile_, network_, capacity_, script_;
   std::uint64_t seed_ = 1;
 };
 

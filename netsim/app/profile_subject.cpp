@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "common/base/format.h"
+#include "netsim/app/capacity_file.h"
 #include "netsim/app/network_options.h"
 #include "netsim/network_csv.h"
 
@@ -37,10 +38,20 @@ std::expected<ProfileSubject, std::string> load_profile_subject(const std::strin
   }
   auto text = read_network_file(name_or_file);
   if (!text) return std::unexpected(text.error());
+  if (looks_like_capacity(*text)) {
+    auto recorded = parse_capacity_file(*text, name_or_file);
+    if (!recorded) return std::unexpected(recorded.error());
+    subject.recording = true;
+    subject.profile.name = std::filesystem::path(name_or_file).stem().string();
+    subject.profile.summary = std::move(recorded->description);
+    subject.profile.link = std::move(recorded->link);
+    return subject;
+  }
   if (!name_or_file.ends_with(".csv")) {
     auto profile = parse_profile(*text, name_or_file);
     if (!profile) return std::unexpected(lines_of(profile.error()));
     subject.profile = std::move(*profile);
+    subject.file = name_or_file;
     subject.text = std::move(*text);
     return subject;
   }
@@ -54,6 +65,14 @@ std::expected<ProfileSubject, std::string> load_profile_subject(const std::strin
   subject.profile.link = std::move(recorded->link);
   if (recorded->rtt_split) subject.notes.emplace_back("the recording holds round trips; each direction gets half of them");
   return subject;
+}
+
+std::string complete(ProfileSubject& subject, const std::string& capacity) {
+  if (subject.recording) return capacity.empty() ? "" : "--capacity: belongs to a profile that plays it";
+  const auto words = complete_capacity(subject.profile, subject.file, capacity);
+  if (!words) return words.error();
+  if (!words->empty()) subject.notes.push_back(*words);
+  return "";
 }
 
 }  // namespace tandem::netsim

@@ -9,6 +9,7 @@
 
 #include "common/base/nearest.h"
 #include "hal/io/motion_file.h"
+#include "netsim/app/capacity_file.h"
 #include "netsim/app/network_options.h"
 #include "netsim/profiles.h"
 #include "netsim/scenario_shipped.h"
@@ -111,8 +112,10 @@ class Folder {
   [[nodiscard]] std::expected<ScenarioLink, InputErrors> profile(const ScenarioNetworkSpec& spec) const {
     const std::string& word = spec.profile->text;
     if (!is_file(word)) {
-      const auto shipped = shipped_profile(word);
+      auto shipped = shipped_profile(word);
       if (!shipped) return std::unexpected(blame(shipped.error().front().message));
+      const auto capacity = complete_capacity(*shipped, "", "");
+      if (!capacity) return std::unexpected(blame(capacity.error()));
       return ScenarioLink{shipped->link, "profile " + shipped->name + " (version " + std::to_string(shipped->version) + ")"};
     }
     const auto path = file(word);

@@ -26,6 +26,7 @@ std::expected<WorldSetup, std::string> world_setup(const SceneRun& run) {
   }
   if (auto profile = shipped_profile(run.profile)) {
     setup.network = profile->link;
+    if (profile->capacity_file) mistakes += "profile " + run.profile + " needs a recorded capacity, which a program must supply\n";
   } else {
     mistakes += to_text(profile.error());
   }

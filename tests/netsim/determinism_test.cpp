@@ -59,15 +59,22 @@ TEST(Determinism, WithoutOptimisationAndWithChecksTheDecisionsAreTheSame) {
   EXPECT_EQ(built_hashes("debug", TANDEM_COMPILER, "-O0 -DTANDEM_DEBUG=1 -D_GLIBCXX_ASSERTIONS"), own_hashes());
 }
 
+/// Whether it knows enough of C++23 with this machine's library: clang before 16 has no std::expected here.
+bool understands(const std::string& compiler) {
+  return shell("command -v " + compiler + " && printf '#include <expected>\nstd::expected<int, int> f() { return 1; }\n' | " + compiler +
+               " -std=c++2b -fsyntax-only -x c++ -")
+             .code == 0;
+}
+
 TEST(Determinism, AnotherCompilerDecidesTheSame) {
-  for (const std::string compiler : {"clang++-22", "clang++-19", "clang++-16", "clang++-15", "clang++", "clang++-14"}) {
-    if (shell("command -v " + compiler).code != 0) continue;
+  for (const std::string compiler : {"clang++-22", "clang++-19", "clang++-16", "clang++"}) {
+    if (!understands(compiler)) continue;
     const Done version = shell(compiler + " --version");
     std::printf("[          ] %s\n", version.out.substr(0, version.out.find('\n')).c_str());
     EXPECT_EQ(built_hashes("clang", compiler, "-O2 -DNDEBUG"), own_hashes());
     return;
   }
-  std::printf("[ NOT RUN  ] the engine built by clang++: none is installed (Debian: clang)\n");
+  std::printf("[ NOT RUN  ] the engine built by clang++: none that knows C++23 is installed (Debian 12: clang-19)\n");
 }
 
 }  // namespace

@@ -107,6 +107,19 @@ TEST(LinkQuality, CountsOrderAndCopiesOfADatagramOnce) {
   EXPECT_NEAR(s.reordered_share(), 1.0 / 12, 1e-12);
 }
 
+TEST(SeenNumbers, ForgetsWhatHadTheSamePlaceARoundEarlier) {
+  constexpr std::uint64_t kRound = 65'536;
+  SeenNumbers seen;
+  for (std::uint64_t n = 0; n < kRound; ++n) ASSERT_EQ(seen.see(n), SeenNumbers::Kind::kNewest);
+  EXPECT_EQ(seen.see(kRound + 9), SeenNumbers::Kind::kNewest);
+  EXPECT_EQ(seen.see(kRound + 3), SeenNumbers::Kind::kReordered);
+  EXPECT_EQ(seen.see(kRound + 3), SeenNumbers::Kind::kAgain);
+  EXPECT_EQ(seen.see(10), SeenNumbers::Kind::kAgain) << "the oldest remembered";
+  EXPECT_EQ(seen.see(9), SeenNumbers::Kind::kReordered) << "older than that: nobody knows";
+  EXPECT_EQ(seen.see(10 * kRound), SeenNumbers::Kind::kNewest);
+  for (std::uint64_t n = 9 * kRound + 1; n < 10 * kRound; n += 997) ASSERT_EQ(seen.see(n), SeenNumbers::Kind::kReordered);
+}
+
 TEST(LinkQuality, JitterIsWhatTheWindowSaw) {
   // One second of 10 and 13 ms in turns among twenty of 10 ms.
   auto all = regular(20'001, 10ms);
@@ -148,6 +161,17 @@ TEST(LinkQuality, SilenceAroundAPauseIsCountedUpToIt) {
   EXPECT_EQ(s.longest_gap_at, Time{1709ms});
   EXPECT_EQ(s.windows[0].of(Measure::kGap).worst, 0.290);
   EXPECT_EQ(s.age.max, 1999ms - 1699ms);
+}
+
+TEST(LinkQuality, TheFirstAfterAPauseIsDueAsEarlyAsAnyWas) {
+  auto all = regular(2000, 10ms);
+  for (std::size_t i = 1500; i < 2000; ++i) all[i].delays = {25ms};
+  auto more = regular(2000, 25ms, Time{10s});
+  all.insert(all.end(), more.begin(), more.end());
+  EXPECT_EQ(judged(all).summary().longest_gap, 16ms) << "where the delay rises";
+  all[2000].delays = {40ms};
+  for (std::size_t i = 2001; i < 2015; ++i) all[i].delays = {Time{10'040ms} - all[i].at};
+  EXPECT_EQ(judged(all).summary().longest_gap, 30ms) << "10 ms would have been possible, it took 40";
 }
 
 TEST(LinkQuality, SlowSendersAreNotJudgedByTheirOwnPace) {

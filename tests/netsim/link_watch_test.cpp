@@ -98,6 +98,26 @@ TEST(LinkWatch, ChangesNothingAndTakesNoMemory) {
   EXPECT_GT(s.up.reordered, 100U);
 }
 
+TEST(LinkWatch, ACopyThatIsDroppedIsNoLoss) {
+  LinkWatch watch;
+  DelayQueue queue{8};
+  PathCounters counters;
+  DecisionTap tap;
+  tap.watch = &watch;
+  const auto bytes = datagram(1);
+  const Verdict copy_lost{.index = 0, .at = Time{1ms}, .copied = true, .copy_delay = 1ms, .copy_outcome = Outcome::kLost, .released = {}};
+  submit(copy_lost, queue, counters, tap, {.now = Time{}}, bytes);
+  const Verdict lost{.outcome = Outcome::kLost, .index = 1, .at = Time{}, .released = {}};
+  submit(lost, queue, counters, tap, {.now = Time{}}, bytes);
+  const auto item = queue.take(Time{1ms});
+  ASSERT_TRUE(item);
+  leave(*item, bytes.size(), Outcome::kDeliver, counters, tap);
+  const DirectionSummary s = watch.summary().up;
+  EXPECT_EQ(s.sent, 2U);
+  EXPECT_EQ(s.arrived, 1U);
+  EXPECT_EQ(s.lost, 1U);
+}
+
 TEST(LinkWatch, ProxyAndVirtualNetworkAreJudgedAlike) {
   const LinkSpec spec = link_from({.delay = 3ms, .jitter = 5ms, .loss = 0.1});
   Network network{5};

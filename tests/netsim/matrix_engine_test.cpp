@@ -81,7 +81,7 @@ std::map<std::string, std::vector<double>> coins(std::uint64_t seed, std::size_t
         for (std::size_t i = 0; i < n; ++i) bits.push_back(outcome(path.send(Time{}, kSize)) ? 1 : -1);
       };
       PathSpec loss, copy, damage, reorder, body;
-      loss.loss.probability = copy.duplicate.probability = damage.corrupted = 0.5;
+      loss.loss.probability = copy.duplicate.probability = damage.corruption.probability = 0.5;
       reorder.reorder = {.probability = 0.5, .displacement = 1};
       body.body = {.kind = BodySpec::Kind::kUniform, .high = 1ms};
       body.order = Order::kFree;

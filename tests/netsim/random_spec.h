@@ -66,8 +66,15 @@ namespace tandem::netsim::test {
   if (order == Order::kFifo && on()) spec.slots = {.period = ms(0.5, 8), .datagrams = static_cast<std::uint32_t>(random.below(20))};
   if (on()) spec.reorder = {.probability = random.uniform(0, 0.1), .displacement = static_cast<std::uint32_t>(1 + random.below(6)), .hold_limit = ms(5, 80)};
   if (on()) spec.duplicate = {.probability = random.uniform(0, 0.2), .delay_max = ms(0, 9)};
-  if (on()) spec.corrupted = random.uniform(0, 0.1);
-  if (on()) spec.mtu = static_cast<std::uint32_t>(100 + random.below(1400));
+  if (on()) {
+    spec.corruption = {.probability = random.uniform(0, 0.1),
+                       .mode = static_cast<CorruptionSpec::Mode>(random.below(3)),
+                       .bits = static_cast<std::uint32_t>(1 + random.below(8))};
+  }
+  if (on()) {
+    spec.mtu = {.bytes = static_cast<std::uint32_t>(100 + random.below(1400)),
+                .above = on() ? MtuSpec::Above::kFragment : MtuSpec::Above::kDrop};
+  }
   return spec;
 }
 

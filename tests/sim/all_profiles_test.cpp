@@ -61,7 +61,7 @@ TEST(AllProfiles, KeepEverySessionPassiveAndTellWhatTheyAre) {
   std::size_t ran = 0;
   for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
     if (seed > test::count_factor()) break;
-    for (const netsim::ShippedProfile& shipped : netsim::shipped_profiles()) {
+    for (const netsim::ShippedProfile& shipped : netsim::complete_profiles()) {
       for (const bool recorded : {false, true}) {
         const netsim::SceneRun run{
             .scene = recorded ? "free_motion" : "contact", .profile = std::string(shipped.name), .seed = seed, .duration_s = recorded ? 6.0 : 12.0};
@@ -84,7 +84,7 @@ TEST(AllProfiles, KeepEverySessionPassiveAndTellWhatTheyAre) {
     }
   }
   std::printf("[          ] %zu sessions\n", ran);
-  EXPECT_GE(ran, 2 * netsim::shipped_profiles().size());
+  EXPECT_GE(ran, 2 * netsim::complete_profiles().size());
 }
 
 }  // namespace
