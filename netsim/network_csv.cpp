@@ -87,6 +87,23 @@ class Reader {
     }
   }
 
+  void find_gaps(RecordedNetwork& network) const {
+    std::vector<Duration> distances;
+    for (std::size_t i = 1; i < steps_.size(); ++i) distances.push_back(steps_[i].at - steps_[i - 1].at);
+    if (distances.empty()) return;
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    const Duration usual = std::max(20 * *middle, Duration{1'000'000'000});
+    for (std::size_t i = 1; i < steps_.size(); ++i) {
+      const Duration distance = steps_[i].at - steps_[i - 1].at;
+      if (distance <= usual) continue;
+      ++network.gaps;
+      if (distance <= network.gap_longest) continue;
+      network.gap_longest = distance;
+      network.gap_line = table_.line(i - 1);
+    }
+  }
+
   RecordedNetwork finish() {
     RecordedNetwork network;
     auto trace = std::make_shared<DelayTrace>();
@@ -98,6 +115,7 @@ class Reader {
     network.rows = steps_.size();
     network.rtt_split = rtt_.has_value();
     network.length = trace->period;
+    find_gaps(network);
     trace->steps = std::move(steps_);
     network.link.up.trace = trace;
     network.link.down.trace = std::move(trace);

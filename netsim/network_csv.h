@@ -17,6 +17,11 @@ struct RecordedNetwork {
   std::size_t rows = 0;
   std::size_t lost = 0;
   Duration length{};  ///< after which the recording starts again
+  /// Where it has gaps: rows more than a second and twenty times their median distance apart. The row before a gap stays
+  /// in force through it, which a report must say.
+  std::size_t gaps = 0;
+  Duration gap_longest{};
+  std::size_t gap_line = 0;  ///< after which the longest begins
 };
 
 /// Reads a CSV recording (common/base/csv.h) with a header of `name[unit]` columns:

@@ -7,18 +7,27 @@ namespace tandem::netsim {
 OutageGate::OutageGate(const std::vector<OutageSpec>& outages, RandomKey key, RandomKey all_key) {
   for (std::size_t i = 0; i < outages.size(); ++i) {
     Outage& outage = outages_.emplace_back(Outage{outages[i], std::nullopt});
+    const RandomKey own = (outages[i].scope == OutageSpec::Scope::kAll ? all_key : key).derive(i);
+    outage.length_key = own;
     if (outages[i].mean_gap == Duration::zero()) continue;
     const LengthLaw law{.low = static_cast<double>(outages[i].length.count()),
                         .high = static_cast<double>(outages[i].length_max.count()),
                         .cap = static_cast<double>(outages[i].length_max.count())};
     outage.random = random_.size();
-    random_.emplace_back(1 / seconds(outages[i].mean_gap), law,
-                         (outages[i].scope == OutageSpec::Scope::kAll ? all_key : key).derive(i));
+    random_.emplace_back(1 / seconds(outages[i].mean_gap), law, own);
   }
 }
 
 std::optional<Time> OutageGate::end_of(const Outage& outage, Time t) noexcept {
-  if (!outage.random) return end_of(outage.spec, t);
+  if (!outage.random) {
+    const OutageSpec& spec = outage.spec;
+    if (spec.length_max == Duration::zero() || t.time_since_epoch() < spec.start) return end_of(spec, t);
+    OutageSpec drawn = spec;
+    const auto number = static_cast<std::uint64_t>((t.time_since_epoch() - spec.start) / spec.period);
+    const double more = static_cast<double>((spec.length_max - spec.length).count()) + 1;
+    drawn.length += Duration{static_cast<std::int64_t>(outage.length_key.uniform(number) * more)};
+    return end_of(drawn, t);
+  }
   const Time end = random_[*outage.random].end_of_chain(t);
   return end > t ? std::optional{end} : std::nullopt;
 }
@@ -39,9 +48,8 @@ std::optional<Time> OutageGate::end_of(const OutageSpec& spec, Time t) noexcept 
   return t + (spec.length - into);
 }
 
-OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
+OutageGate::Passage OutageGate::enter_any(Time now, std::size_t size) noexcept {
   Passage passage{State::kUp, now};
-  if (outages_.empty()) return passage;
 
   std::optional<std::uint64_t> room;  // of the holds that cover now; the smallest counts
   bool newest = false;                // one that keeps the newest only is enough
@@ -67,8 +75,10 @@ OutageGate::Passage OutageGate::enter(Time now, std::size_t size) noexcept {
       }
     }
   }
-  if (newest) {
-    held_until_ = std::max(held_until_, passage.at);
+  // Once only the newest is kept, that goes on until the link is back: what a plain hold took after it would else be
+  // decided before it and overtake it.
+  if (newest || now < newest_until_) {
+    held_until_ = newest_until_ = std::max(held_until_, passage.at);
     return {State::kNewest, held_until_};
   }
   if (now >= held_until_) held_bytes_ = 0;

@@ -34,11 +34,14 @@ class OutageGate {
 
   /// @param now   never decreasing [Time{} or later]
   /// @param size  payload [bytes]
-  Passage enter(Time now, std::size_t size) noexcept;
+  Passage enter(Time now, std::size_t size) noexcept {
+    return outages_.empty() ? Passage{State::kUp, now} : enter_any(now, size);
+  }
 
   /// Goes on where `before` was: what it holds stays held.
   void take_over(const OutageGate& before) noexcept {
     held_until_ = before.held_until_;
+    newest_until_ = before.newest_until_;
     held_bytes_ = before.held_bytes_;
   }
 
@@ -49,13 +52,16 @@ class OutageGate {
   struct Outage {
     OutageSpec spec;
     std::optional<std::size_t> random;  ///< its place in random_; else scheduled
+    RandomKey length_key{0};            ///< of drawn lengths of what is scheduled again and again
   };
+  Passage enter_any(Time now, std::size_t size) noexcept;
   [[nodiscard]] std::optional<Time> end_of(const Outage& outage, Time t) noexcept;
   [[nodiscard]] bool just_begun(const Outage& outage, Time t) noexcept;
 
   std::vector<Outage> outages_;
   std::vector<PoissonIntervals> random_;
   Time held_until_{};
+  Time newest_until_{};  ///< the link stays down until then, and something waits that a newer one may replace
   std::uint64_t held_bytes_ = 0;
 };
 

@@ -64,6 +64,8 @@ Path::Path(const PathSpec& spec, const Keys& keys)
     if (outage.mode == OutageSpec::Mode::kHoldLast) keeps_newest_ = true;
   }
   set_flow(0, 0);
+  plain_queue_ = !head_ && !flows_.front().loss.minds_queue();
+  plain_end_ = spec.corruption.probability <= 0 && spec.duplicate.probability <= 0 && spec.reorder.probability <= 0;
 }
 
 void Path::set_flow(std::uint32_t flow, std::uint64_t name) {
@@ -111,17 +113,23 @@ Verdict Path::send(Time now, std::uint32_t flow, std::size_t size) noexcept {
   Flow& from = flows_[flow];
   now = std::clamp(now, last_in_, kTimeMax);
   last_in_ = now;
-  InTransit datagram{.flow = flow, .index = from.count++, .packet = from.packets, .size = size, .sent = now};
   Verdict verdict;
-  verdict.index = datagram.index;
+  const std::uint64_t index = from.count++, packet = from.packets;
+  verdict.index = index;
   verdict.at = now;
+  std::uint32_t pieces = 1;
   if (size > payload_max_ && spec_.mtu.above == MtuSpec::Above::kFragment) {
-    datagram.pieces = static_cast<std::uint32_t>((size + payload_max_ - 1) / payload_max_);
+    pieces = static_cast<std::uint32_t>((size + payload_max_ - 1) / payload_max_);
   }
-  from.packets += datagram.pieces;
+  from.packets += pieces;
 
   // Loss is asked even while the link is down: its models count every datagram, and outages must not move them.
-  const bool lost = lost_at_entrance(from, datagram);
+  bool lost = from.loss.lost(now, packet);
+  if (boundary_.lost(now, packet | from.salt)) lost = true;
+  for (std::uint64_t each = packet + 1; each < packet + pieces; ++each) {
+    if (from.loss.lost(now, each)) lost = true;
+    if (boundary_.lost(now, each | from.salt)) lost = true;
+  }
   const OutageGate::Passage passage = outages_.enter(now, size);
   if (passage.state == OutageGate::State::kDropped || passage.state == OutageGate::State::kHoldFull) {
     verdict.outcome = passage.state == OutageGate::State::kDropped ? Outcome::kOutage : Outcome::kHoldFull;
@@ -130,26 +138,25 @@ Verdict Path::send(Time now, std::uint32_t flow, std::size_t size) noexcept {
   // Loss belongs to the moment of sending, also for what an outage holds: else a whole burst would meet one state.
   DelayTrace::Step recorded;
   if (trace_.present()) recorded = trace_.at(now);
-  datagram.recorded = recorded.delay;
   if (recorded.lost || lost) {
     verdict.outcome = Outcome::kLost;
     return verdict;
   }
   if (passage.state == OutageGate::State::kNewest) {
-    keep_newest(datagram, passage.at);
+    keep_newest({flow, pieces, index, packet, size, now, recorded.delay}, passage.at);
     verdict.outcome = Outcome::kWaiting;
     return verdict;
   }
-  return reach_queue(datagram, passage.at);
-}
-
-bool Path::lost_at_entrance(Flow& from, const InTransit& datagram) noexcept {
-  bool lost = false;
-  for (std::uint64_t packet = datagram.packet; packet < datagram.packet + datagram.pieces; ++packet) {
-    if (from.loss.lost(datagram.sent, packet)) lost = true;
-    if (boundary_.lost(datagram.sent, packet | from.salt)) lost = true;
+  if (plain_queue_ && pieces == 1 && size <= payload_max_) {  // what nearly all traffic is
+    if (const auto sent = rate_.serve(passage.at, size)) {
+      leave_queue(from, packet, size, recorded.delay, *sent, damaged(from, packet, 1), verdict);
+    } else {
+      verdict.outcome = Outcome::kQueueFull;
+    }
+    return verdict;
   }
-  return lost;
+  reach_queue({flow, pieces, index, packet, size, now, recorded.delay}, passage.at, verdict);
+  return verdict;
 }
 
 void Path::keep_newest(const InTransit& datagram, Time until) noexcept {
@@ -167,44 +174,38 @@ void Path::keep_newest(const InTransit& datagram, Time until) noexcept {
   newest_.push_back({datagram, until});
 }
 
-Verdict Path::reach_queue(const InTransit& datagram, Time at) noexcept {
-  const Flow& from = flows_[datagram.flow];
-  Verdict verdict;
-  verdict.index = datagram.index;
-  verdict.at = datagram.sent;
+void Path::reach_queue(const InTransit& datagram, Time at, Verdict& verdict) noexcept {
+  Flow& from = flows_[datagram.flow];
   if (from.loss.minds_queue()) {
     const Duration wait = head_ ? head_->waiting(rate_, at) : rate_.waiting(at);
     if (from.loss.lost_in_queue(wait, datagram.packet)) {
       verdict.outcome = Outcome::kLost;
-      return verdict;
+      return;
     }
   }
   if (datagram.size > payload_max_ && datagram.pieces == 1) {
     verdict.outcome = Outcome::kAboveMtu;
-    return verdict;
+    return;
   }
   if (head_) {
     verdict.outcome = head_->enter(rate_, at, datagram) ? Outcome::kWaiting : Outcome::kQueueFull;
-    return verdict;
+    return;
   }
-  if (datagram.pieces > 1) return reach_queue_in_pieces(datagram, at);
-  const auto sent = rate_.serve(at, datagram.size);
-  if (!sent) {
+  if (datagram.pieces > 1) return reach_queue_in_pieces(datagram, at, verdict);
+  if (const auto sent = rate_.serve(at, datagram.size)) {
+    leave_queue(from, datagram.packet, datagram.size, datagram.recorded, *sent, damaged(from, datagram.packet, 1), verdict);
+  } else {
     verdict.outcome = Outcome::kQueueFull;
-    return verdict;
   }
-  return leave_queue(datagram, *sent);
 }
 
-Verdict Path::reach_queue_in_pieces(const InTransit& datagram, Time at) noexcept {
+void Path::reach_queue_in_pieces(const InTransit& datagram, Time at, Verdict& verdict) noexcept {
   Flow& from = flows_[datagram.flow];
-  Verdict verdict;
-  verdict.index = datagram.index;
-  verdict.at = datagram.sent;
   // What is left of a datagram of which a fragment was dropped still uses the link: nobody there knows.
   std::size_t left = datagram.size;
   Time last{};
-  for (std::uint32_t piece = 0; piece < datagram.pieces; ++piece) {
+  const bool hit = damaged(from, datagram.packet, datagram.pieces);
+  for (std::uint64_t packet = datagram.packet; packet < datagram.packet + datagram.pieces; ++packet) {
     const std::size_t size = std::min<std::size_t>(left, payload_max_);
     left -= size;
     const auto sent = rate_.serve(at, size);
@@ -212,53 +213,46 @@ Verdict Path::reach_queue_in_pieces(const InTransit& datagram, Time at) noexcept
       verdict.outcome = Outcome::kQueueFull;
       continue;
     }
-    const auto arrived = travel(from, datagram.packet + piece, datagram.recorded, *sent, size);
-    if (!arrived) {
-      if (verdict.outcome == Outcome::kDeliver) verdict.outcome = Outcome::kLost;
-      continue;
-    }
-    last = std::max(last, *arrived);
+    const auto arrived = travel(from, packet, size, datagram.recorded, *sent);
+    if (!arrived && verdict.outcome == Outcome::kDeliver) verdict.outcome = Outcome::kLost;
+    last = std::max(last, arrived.value_or(Time{}));
   }
-  const bool hit = damaged(from, datagram);
-  if (dropped(verdict.outcome)) return verdict;
+  if (dropped(verdict.outcome)) return;
   if (hit && spec_.corruption.mode == CorruptionSpec::Mode::kChecksum) {
     verdict.outcome = Outcome::kCorrupted;
-    return verdict;
+    return;
   }
-  arrive(from, datagram, hit, last, verdict);
-  return verdict;
+  verdict.at = last;
+  if (!plain_end_ || from.held_count > 0) arrive(from, datagram.size, hit, verdict);
 }
 
-Verdict Path::leave_queue(const InTransit& datagram, Time sent) noexcept {
-  Flow& from = flows_[datagram.flow];
-  Verdict verdict;
-  verdict.index = datagram.index;
-  verdict.at = datagram.sent;
-  const bool hit = spec_.corruption.probability > 0 && damaged(from, datagram);
+inline void Path::leave_queue(Flow& from, std::uint64_t packet, std::size_t size, Duration recorded, Time sent,
+                              bool hit, Verdict& verdict) noexcept {
   if (hit && spec_.corruption.mode == CorruptionSpec::Mode::kChecksum) {
     verdict.outcome = Outcome::kCorrupted;
-    return verdict;
+    return;
   }
-  const auto at = travel(from, datagram.packet, datagram.recorded, sent, datagram.size);
+  const auto at = travel(from, packet, size, recorded, sent);
   if (!at) {
     verdict.outcome = Outcome::kLost;
-    return verdict;
+    return;
   }
-  arrive(from, datagram, hit, *at, verdict);
-  return verdict;
+  verdict.at = *at;
+  if (!plain_end_ || from.held_count > 0) arrive(from, size, hit, verdict);
 }
 
-bool Path::damaged(const Flow& from, const InTransit& datagram) const noexcept {
+inline bool Path::damaged(const Flow& from, std::uint64_t packet, std::uint32_t pieces) const noexcept {
+  if (spec_.corruption.probability <= 0) return false;
   bool hit = false;
-  for (std::uint64_t packet = datagram.packet; packet < datagram.packet + datagram.pieces; ++packet) {
-    if (damage_key_.uniform(packet | from.salt) < spec_.corruption.probability) hit = true;
+  for (std::uint64_t each = packet; each < packet + pieces; ++each) {
+    if (damage_key_.uniform(each | from.salt) < spec_.corruption.probability) hit = true;
   }
   return hit;
 }
 
 /// Floor, body, stalls, order and slots for one packet. Empty: lost in a stall.
-std::optional<Time> Path::travel(Flow& from, std::uint64_t packet, Duration recorded, Time sent,
-                                 std::size_t size) noexcept {
+inline std::optional<Time> Path::travel(Flow& from, std::uint64_t packet, std::size_t size, Duration recorded,
+                                        Time sent) noexcept {
   const std::uint64_t draw = packet | from.salt;
   const Time due =
       sent + spec_.floor + recorded + body_.at(sent, draw) + regimes_.at(sent, draw) + boundary_.floor(sent);
@@ -269,14 +263,14 @@ std::optional<Time> Path::travel(Flow& from, std::uint64_t packet, Duration reco
   return at;
 }
 
-void Path::arrive(Flow& from, const InTransit& datagram, bool hit, Time at, Verdict& verdict) noexcept {
-  verdict.at = at;
-  const std::uint64_t draw = datagram.index | from.salt;
-  if (hit && datagram.size > 0) {
+void Path::arrive(Flow& from, std::size_t size, bool hit, Verdict& verdict) noexcept {
+  const Time at = verdict.at;
+  const std::uint64_t draw = verdict.index | from.salt;
+  if (hit && size > 0) {
     if (spec_.corruption.mode == CorruptionSpec::Mode::kBitFlips) {
       verdict.damage = {.kind = Damage::Kind::kBitFlips, .bits = spec_.corruption.bits, .seed = place_key_.bits(draw)};
     } else {
-      const double length = place_key_.uniform(draw) * static_cast<double>(datagram.size);
+      const double length = place_key_.uniform(draw) * static_cast<double>(size);
       verdict.damage = {.kind = Damage::Kind::kTruncated, .length = static_cast<std::uint32_t>(length)};
     }
   }
@@ -317,7 +311,11 @@ Path::Settled Path::decided(const HeadDropQueue::Left& left) noexcept {
     settled.verdict.index = datagram.index;
     settled.verdict.at = left.at;
   } else if (datagram.flow != kNobody) {
-    settled.verdict = leave_queue(datagram, left.at);
+    settled.verdict.index = datagram.index;
+    settled.verdict.at = datagram.sent;
+    Flow& from = flows_[datagram.flow];
+    const bool hit = damaged(from, datagram.packet, datagram.pieces);
+    leave_queue(from, datagram.packet, datagram.size, datagram.recorded, left.at, hit, settled.verdict);
   }
   return settled;
 }
@@ -335,7 +333,9 @@ std::optional<Path::Settled> Path::settle(Time now) noexcept {
     newest_.erase(newest_.begin());
     Settled settled{first.datagram.flow, first.datagram.ticket, {}};
     if (settled.flow == kNobody) return settled;
-    settled.verdict = reach_queue(first.datagram, first.until);
+    settled.verdict.index = first.datagram.index;
+    settled.verdict.at = first.datagram.sent;
+    reach_queue(first.datagram, first.until, settled.verdict);
     if (settled.verdict.outcome != Outcome::kWaiting) return settled;
     head_->set_ticket(first.datagram.ticket);
   }

@@ -130,15 +130,15 @@ class Path {
     Time until;
   };
 
-  bool lost_at_entrance(Flow& from, const InTransit& datagram) noexcept;
   void keep_newest(const InTransit& datagram, Time until) noexcept;
   Settled decided(const HeadDropQueue::Left& left) noexcept;
-  Verdict reach_queue(const InTransit& datagram, Time at) noexcept;
-  Verdict reach_queue_in_pieces(const InTransit& datagram, Time at) noexcept;
-  Verdict leave_queue(const InTransit& datagram, Time sent) noexcept;
-  bool damaged(const Flow& from, const InTransit& datagram) const noexcept;
-  std::optional<Time> travel(Flow& from, std::uint64_t packet, Duration recorded, Time sent, std::size_t size) noexcept;
-  void arrive(Flow& from, const InTransit& datagram, bool hit, Time at, Verdict& verdict) noexcept;
+  void reach_queue(const InTransit& datagram, Time at, Verdict& verdict) noexcept;
+  void reach_queue_in_pieces(const InTransit& datagram, Time at, Verdict& verdict) noexcept;
+  void leave_queue(Flow& from, std::uint64_t packet, std::size_t size, Duration recorded, Time sent,
+                   bool hit, Verdict& verdict) noexcept;
+  [[nodiscard]] bool damaged(const Flow& from, std::uint64_t packet, std::uint32_t pieces) const noexcept;
+  std::optional<Time> travel(Flow& from, std::uint64_t packet, std::size_t size, Duration recorded, Time sent) noexcept;
+  void arrive(Flow& from, std::size_t size, bool hit, Verdict& verdict) noexcept;
 
   static void forget_late(Flow& flow, Time now) noexcept;
   std::span<const Release> pass(Flow& flow, Time at) noexcept;
@@ -161,6 +161,8 @@ class Path {
   std::vector<Flow> flows_;
   std::optional<HeadDropQueue> head_;
   bool keeps_newest_ = false;
+  bool plain_queue_ = true;  ///< nothing between the gate and the rate
+  bool plain_end_ = true;    ///< neither damage nor copies nor reordering
   std::vector<Newest> newest_;     ///< one per flow at most, in the order of sending
   std::optional<Settled> replaced_;  ///< by the newest datagram sent
   std::array<Release, kHeldMax> released_{};

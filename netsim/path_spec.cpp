@@ -37,9 +37,17 @@ void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
       }
       continue;
     }
-    if (outage.length_max != Duration::zero()) found.add(key + ".length_max", "needs mean_gap");
-    if (outage.scope == OutageSpec::Scope::kAll) found.add(key + ".scope", "needs mean_gap");
-    if (outage.period == Duration::zero()) continue;
+    if (outage.scope == OutageSpec::Scope::kAll && outage.length_max == Duration::zero()) {
+      found.add(key + ".scope", "nothing is drawn: needs mean_gap, or length_max");
+    }
+    if (outage.period == Duration::zero()) {
+      if (outage.length_max != Duration::zero()) found.add(key + ".length_max", "needs mean_gap or period");
+      continue;
+    }
+    if (outage.length_max != Duration::zero()) {
+      found.range<Duration>(key + ".length_max", outage.length_max, outage.length, hours(1));
+      if (outage.length_max >= outage.period) found.add(key + ".length_max", "is not below the period");
+    }
     found.range<Duration>(key + ".period", outage.period, Duration::zero(), hours(24 * 30));
     if (outage.period > Duration::zero() && outage.period <= outage.length) {
       found.add(key + ".period", Findings::text(outage.period) + " is not longer than the outage (" +

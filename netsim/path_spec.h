@@ -27,7 +27,7 @@ struct OutageSpec {
     kHold,  ///< what is sent meanwhile leaves, in order and at once, when the link is back
     kHoldLast,  ///< of what is sent meanwhile only the newest of every flow leaves when the link is back
   };
-  /// Whose random moments they are. Scheduled outages are those of all links that have them in their spec anyway.
+  /// Whose random moments and lengths they are. What is not drawn is common to all links that have it in their spec.
   enum class Scope : std::uint8_t {
     kLink,  ///< every link has its own
     kAll,   ///< all links of the network are down together
@@ -41,7 +41,8 @@ struct OutageSpec {
   /// uniform in [`length`, `length_max`] long; the same moments in both directions of a link. length_max <= 32
   /// mean_gap.
   Duration mean_gap{};
-  Duration length_max{};  ///< [length, 1 h]
+  /// The longest, if the lengths are drawn: of random outages, and of those with a `period` (below it), if not 0.
+  Duration length_max{};  ///< 0 or [length, 1 h]
   Scope scope = Scope::kLink;
   Duration loss_at_start{};  ///< what is sent so soon after the start is lost, whatever the mode [0, length]
 

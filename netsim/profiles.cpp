@@ -144,7 +144,8 @@ OutageSpec outage_from(const ProfileOutage& in) {
                                  : OutageSpec::Mode::kDrop,
           .hold_bytes = in.hold_bytes,
           .mean_gap = milliseconds(in.mean_gap_s * 1e3),
-          .length_max = in.mean_gap_s > 0 ? milliseconds(in.length_max_ms) : Duration::zero(),
+          .length_max = in.mean_gap_s > 0 || in.length_max_ms > in.length_ms ? milliseconds(in.length_max_ms)
+                                                                             : Duration::zero(),
           .scope = in.all_links ? OutageSpec::Scope::kAll : OutageSpec::Scope::kLink,
           .loss_at_start = milliseconds(in.loss_at_start_ms)};
 }

@@ -37,14 +37,15 @@ std::string shares_text(const WindowSummary& windows) {
 
 bool seen_beyond_green(const MeasureSummary& m) noexcept { return m.windows[1] + m.windows[2] > 0; }
 
-std::string way_words(const char* name, const DirectionSummary& way) {
+/// @param next  what the second line begins with
+std::string way_words(const char* name, const DirectionSummary& way, const std::string& next) {
   if (way.sent == 0) return format("%s: nothing was sent", name);
   const auto called = verdict(way.windows);
   if (!called) return format("%s: too short to judge", name);
   const WindowSummary& windows = judged(way.windows);
   std::string text = format("%s: %s; ", name, verdict_name(called)) + shares_text(windows);
   std::string worst;
-  const auto add = [&worst](const std::string& what) { worst += (worst.empty() ? ". Worst: " : "; ") + what; };
+  const auto add = [&worst, &next](const std::string& what) { worst += (worst.empty() ? "\n" + next + "worst: " : "; ") + what; };
   const MeasureSummary& loss = windows.of(Measure::kLoss);
   if (seen_beyond_green(loss)) {
     std::string what = share_text(loss.worst) + " lost in the " + unit_of(windows) + format(" to %.2f s", at_s(loss.worst_at));
@@ -64,7 +65,7 @@ std::string way_words(const char* name, const DirectionSummary& way) {
   return text + worst;
 }
 
-std::string round_trip_words(const RoundTripSummary& trip) {
+std::string round_trip_words(const RoundTripSummary& trip, const std::string& next) {
   const auto called = verdict(trip.windows);
   if (!called) return "round trip: too short to judge";
   const WindowSummary& windows = judged(trip.windows);
@@ -72,7 +73,7 @@ std::string round_trip_words(const RoundTripSummary& trip) {
                      delay_text(seconds(trip.delay.p99)) + "; " + shares_text(windows);
   const MeasureSummary& p99 = windows.of(Measure::kRoundTrip);
   if (p99.windows[2] > 0) {
-    text += ". Worst: p99 " + delay_text(p99.worst) + format(" in the %s to %.2f s", unit_of(windows).c_str(), at_s(p99.worst_at));
+    text += "\n" + next + "worst: p99 " + delay_text(p99.worst) + format(" in the %s to %.2f s", unit_of(windows).c_str(), at_s(p99.worst_at));
   }
   return text;
 }
@@ -152,13 +153,14 @@ const char* meaning(const std::optional<Band>& verdict) noexcept {
 }
 
 std::string quality_words(const LinkSummary& link, const std::string& indent) {
-  return indent + way_words("up", link.up) + "\n" + indent + way_words("down", link.down) + "\n" + indent +
-         round_trip_words(link.round_trip) + "\n";
+  const std::string next = indent + "  ";
+  return indent + way_words("up", link.up, next) + "\n" + indent + way_words("down", link.down, next) + "\n" + indent +
+         round_trip_words(link.round_trip, next) + "\n";
 }
 
 std::string quality_table(const LinkSummary& link, const std::string& indent) {
   std::string text;
-  text += indent + format("%-10s %9s %9s %6s %6s | %31s | %31s | %s\n", "", "sent", "lost", "twice", "after",
+  text += indent + format("%-10s %9s %9s %6s %6s | %31s | %31s | %s\n", "", "sent", "lost", "copies", "reord.",
                           "delay [ms] mean/p50/p99/max", "age [ms] mean/p50/p99/max", "longest gap");
   text += indent + way_row("up", link.up) + indent + way_row("down", link.down);
   const DelaySummary& trip = link.round_trip.delay;

@@ -23,7 +23,7 @@ inline constexpr double kShareNeeded = 0.99;
 /// What people can do over a network of this verdict.
 [[nodiscard]] const char* meaning(const std::optional<Band>& verdict) noexcept;
 
-/// One sentence or two for each of up, down and round trip, each a line that begins with `indent`.
+/// For each of up, down and round trip a line, and one more for its worst moments; lines begin with `indent`.
 [[nodiscard]] std::string quality_words(const LinkSummary& link, const std::string& indent);
 
 /// All numbers: totals of each direction, then every length of window.

@@ -1,6 +1,7 @@
 #include "netsim/script.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace tandem::netsim {
 namespace {
@@ -85,6 +86,19 @@ std::vector<SpecProblem> problems(const NetworkEvent& event) {
     }
   }
   return all;
+}
+
+std::string sharing_problem(const LinkSpec& base, std::span<const NetworkEvent> events) {
+  if (!base.shared) return {};
+  for (const NetworkEvent& event : events) {
+    if (event.clients.empty() || event.rebind) continue;
+    std::ostringstream text;
+    text << "the event at " << seconds(event.at) << " s is for " << event.clients.front()
+         << (event.clients.size() > 1 ? " and others" : "")
+         << ", but all clients share one link: it changes for all of them, so name none";
+    return text.str();
+  }
+  return {};
 }
 
 std::vector<SpecProblem> problems(const LinkSchedule& schedule) {

@@ -58,6 +58,9 @@ struct LinkSchedule {
 /// simulated. Empty: it can be used.
 [[nodiscard]] std::vector<SpecProblem> problems(const NetworkEvent& event);
 
+/// What is wrong about changing a link that clients share for some of them only; empty: nothing.
+[[nodiscard]] std::string sharing_problem(const LinkSpec& base, std::span<const NetworkEvent> events);
+
 /// All mistakes of a schedule, keys such as `changes[1].up.floor`.
 [[nodiscard]] std::vector<SpecProblem> problems(const LinkSchedule& schedule);
 

@@ -95,6 +95,8 @@ std::string World::add_station(std::size_t i) {
   const LinkSpec& link = own == setup_.seat_networks.end() ? setup_.network : own->second;
   if (setup_.replay) {
     network_.add_replay(setup_.replay, static_cast<std::uint32_t>(i));
+  } else if (std::string problem = sharing_problem(link, setup_.events); !problem.empty()) {
+    return problem;
   } else {
     network_.add_link(schedule_for(link, setup_.events, spec.name), i);
   }

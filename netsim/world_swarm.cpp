@@ -66,7 +66,8 @@ LinkSpec draw_link(Draw& d, std::string& words) {
   if (d.chance(0.4)) {
     const auto shipped = complete_profiles();
     const ShippedProfile& chosen = shipped[d.below(shipped.size())];
-    if (const auto profile = shipped_profile(chosen.name)) {
+    const auto profile = shipped_profile(chosen.name);
+    if (profile && !profile->capacity_file) {  // which needs a recording
       words = chosen.name;
       return profile->link;
     }

@@ -1,5 +1,6 @@
 #include "proto/profile_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "proto/profile.pb.h"
@@ -132,19 +133,20 @@ ProfileOutage outage_from(const pb::ProfileOutage& in, Checker& checker, const s
   outage.length_max_ms = in.has_length_max_ms() ? in.length_max_ms() : outage.length_ms;
   if (in.has_mean_gap_s() == in.has_start_s()) checker.error(key, "needs exactly one of start_s, mean_gap_s");
   if (in.has_mean_gap_s() && in.has_period_s()) checker.error(child_path(key, "period_s"), "not with mean_gap_s");
-  if (in.has_length_max_ms() && !in.has_mean_gap_s())
-    checker.error(child_path(key, "length_max_ms"), "needs mean_gap_s");
+  if (in.has_length_max_ms() && !in.has_mean_gap_s() && !in.has_period_s()) {
+    checker.error(child_path(key, "length_max_ms"), "needs mean_gap_s or period_s");
+  }
   if (outage.length_max_ms < outage.length_ms) checker.error(child_path(key, "length_max_ms"), "is below length_ms");
   if (outage.mean_gap_s > 0 && outage.length_max_ms > 32e3 * outage.mean_gap_s) {
     checker.error(child_path(key, "length_max_ms"), "is above 32 times mean_gap_s");
   }
-  if (in.has_period_s() && outage.period_s * 1e3 <= outage.length_ms) {
+  if (in.has_period_s() && outage.period_s * 1e3 <= std::max(outage.length_ms, outage.length_max_ms)) {
     checker.error(child_path(key, "period_s"), "must be longer than the outage, or the link is never up");
   }
   outage.hold_last = in.mode() == pb::ProfileOutage::HOLD_LAST;
   outage.all_links = in.scope() == pb::ProfileOutage::ALL_LINKS;
-  if (in.has_scope() && !in.has_mean_gap_s()) {
-    checker.error(child_path(key, "scope"), "needs mean_gap_s: what has a start_s hits all clients anyway");
+  if (in.has_scope() && !in.has_mean_gap_s() && !in.has_length_max_ms()) {
+    checker.error(child_path(key, "scope"), "needs mean_gap_s or length_max_ms: what is not drawn hits all clients anyway");
   }
   outage.loss_at_start_ms = in.loss_at_start_ms();
   if (outage.loss_at_start_ms > outage.length_ms) {

@@ -56,11 +56,7 @@ std::expected<CapacityFile, std::string> read_capacity_file(const std::string& p
 
 std::expected<std::string, std::string> complete_capacity(Profile& profile, const std::string& profile_file,
                                                           const std::string& given) {
-  if (!profile.capacity_file) {
-    if (given.empty()) return std::string{};
-    return std::unexpected("--capacity: profile " + profile.name + " plays no recorded capacity; 4g-trace does, or a " +
-                           "profile with rate { capacity {} }");
-  }
+  if (!profile.capacity_file) return std::string{};
   std::filesystem::path path = given;
   if (given.empty()) {
     if (profile.capacity_file->empty()) {

@@ -27,8 +27,8 @@ struct CapacityFile {
 /// Gives a profile the recorded capacity it asks for, if it does.
 /// @param profile_file  where it was read from; a file it names itself is looked for beside it. Empty: a shipped one
 /// @param given         the file of `--capacity`, which wins; or empty
-/// @return words for the description, empty if the profile asks for none; or what is wrong: there is no file, it cannot
-///         be read, or one was given and the profile asks for none
+/// @return words for the description, empty if the profile asks for none; or what is wrong: there is no file, or it
+///         cannot be read
 [[nodiscard]] std::expected<std::string, std::string> complete_capacity(Profile& profile,
                                                                         const std::string& profile_file,
                                                                         const std::string& given);

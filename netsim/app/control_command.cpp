@@ -39,7 +39,9 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<ControlArguments>();
   CLI::App* const command =
       root.add_subcommand("control", "Changes the network of a running proxy, or asks how it is.");
-  command->add_option("path", arguments->path, "the socket given to `proxy --control`")->option_text("PATH")->required();
+  command->add_option("path", arguments->path, "the socket given to `proxy --control`")
+      ->option_text("PATH")
+      ->required();
   command->add_option("command", arguments->words, "what to do; quotes around it are not needed")
       ->option_text("COMMAND...")
       ->required();

@@ -68,7 +68,7 @@ ControlSocket::~ControlSocket() {
 std::string ControlSocket::open(const std::string& path) {
   const auto address = address_of(path);
   if (!address) return address.error();
-  struct stat there{};
+  struct stat there {};
   if (::lstat(path.c_str(), &there) == 0) {
     if (!S_ISSOCK(there.st_mode)) return path + ": exists and is not a control socket; choose another name";
     if (connect_to(stream(), *address)) return path + ": another proxy is controlled by it; choose another name";

@@ -88,7 +88,8 @@ class Reader {
     }
     if (request_.what != What::kChange) return unknown(word);
     if (word == "profile" || word == "network") {
-      if (at_ == words_.size()) return std::string(word) + " needs a name or a file; `tandem-netsim profiles` lists them";
+      if (at_ == words_.size())
+        return std::string(word) + " needs a name or a file; `tandem-netsim profiles` lists them";
       request_.network = std::string(words_[at_++]);
       return {};
     }
@@ -152,7 +153,8 @@ class Reader {
   }
 
   std::string unknown(std::string_view word) const {
-    if (at_ > 1) return quoted(word) + " is not understood after " + quoted(words_[at_ - 2]) + "; `help` lists the commands";
+    if (at_ > 1)
+      return quoted(word) + " is not understood after " + quoted(words_[at_ - 2]) + "; `help` lists the commands";
     return quoted(word) + " is not a command; `help` lists them";
   }
 
@@ -169,8 +171,8 @@ std::expected<ControlRequest, std::string> parse_control(std::string_view line) 
 }
 
 std::optional<Duration> parse_length(std::string_view text) noexcept {
-  constexpr std::array<std::pair<std::string_view, double>, 4> kUnits{
-      {{"ms", 1e6}, {"us", 1e3}, {"min", 60e9}, {"s", 1e9}}};
+  constexpr std::array<std::pair<std::string_view, double>, 5> kUnits{
+      {{"ms", 1e6}, {"us", 1e3}, {"min", 60e9}, {"s", 1e9}, {"h", 3600e9}}};
   for (const auto& [unit, ns] : kUnits) {
     if (!text.ends_with(unit)) continue;
     const auto value = number<double>(text.substr(0, text.size() - unit.size()));
@@ -184,7 +186,8 @@ const char* control_help() noexcept {
   return "profile NAME|FILE      another network (`tandem-netsim profiles` lists them)\n"
          "delay MS  jitter MS  loss PERCENT  duplicate PERCENT  reorder PERCENT\n"
          "                       these numbers of the network; several in one line change at one moment\n"
-         "outage LENGTH [hold|last]  the link is down from now on; what is sent is lost, held, or held but for the newest\n"
+         "outage LENGTH [hold|last]  the link is down from now on; what is sent is lost, held, or held but for the "
+         "newest\n"
          "reset                  the network of the start\n"
          "rebind [LENGTH]        a new address towards the server; the old one is heard for LENGTH more\n"
          "  after each: client N [N...]  for these only, in order of arrival;  up | down  for one direction\n"

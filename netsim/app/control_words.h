@@ -22,10 +22,10 @@ struct ControlRequest {
   std::optional<double> loss_percent = {}, duplicate_percent = {}, reorder_percent = {};
   std::optional<Duration> outage = {};  ///< from now on, so long
   OutageSpec::Mode outage_mode = OutageSpec::Mode::kDrop;
-  Duration dead_after{};                     ///< kRebind: so long the old address is still heard
-  std::vector<std::uint64_t> clients = {};   ///< by order of arrival from 1; empty: all, also those to come
-  std::optional<Direction> direction = {};   ///< empty: both
-  bool json = false;                         ///< kStatus
+  Duration dead_after{};                    ///< kRebind: so long the old address is still heard
+  std::vector<std::uint64_t> clients = {};  ///< by order of arrival from 1; empty: all, also those to come
+  std::optional<Direction> direction = {};  ///< empty: both
+  bool json = false;                        ///< kStatus
 };
 
 /// Reads a command such as `profile wifi-busy`, `delay 20 loss 2 client 2 up`, `outage 400ms`, `status --json`.
@@ -35,7 +35,7 @@ struct ControlRequest {
 /// The commands, for people.
 [[nodiscard]] const char* control_help() noexcept;
 
-/// Reads `400ms`, `0.4s`, `2min`. @return empty: it is not a length of time
+/// Reads `400ms`, `0.4s`, `2min`, `1h`. @return empty: it is not a length of time
 [[nodiscard]] std::optional<Duration> parse_length(std::string_view text) noexcept;
 
 }  // namespace tandem::netsim

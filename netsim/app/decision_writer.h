@@ -11,8 +11,8 @@
 
 namespace tandem::netsim {
 
-/// Option --log of `proxy`: decisions go from the packet thread through a bounded queue to a thread that writes them, in
-/// the order in which they became final. A disk that is slow costs rows, which are counted, never packets.
+/// Option --log of `proxy`: decisions go from the packet thread through a bounded queue to a thread that writes them,
+/// in the order in which they became final. A disk that is slow costs rows, which are counted, never packets.
 class DecisionWriter final : public DecisionSink {
  public:
   DecisionWriter() : queue_(kRoom) {}

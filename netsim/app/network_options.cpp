@@ -159,6 +159,10 @@ std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
   if (given("--profile")) {
     auto profile = from_file(profile_);
     if (!profile) return profile;
+    if (given("--capacity") && !profile->plays_capacity) {
+      return std::unexpected("--capacity: profile " + profile->name + " plays no recorded capacity; 4g-trace does, or a " +
+                             "profile with rate { capacity {} }");
+    }
     choice = std::move(*profile);
   }
   std::vector<OutageSpec> outages;
@@ -255,6 +259,13 @@ std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::s
   if (recorded->rtt_split) {
     choice.notes.emplace_back("the recording holds round trips; each direction gets half of them");
   }
+  if (recorded->gaps > 0) {
+    std::ostringstream note;
+    note << name_or_file << ":" << recorded->gap_line << ": the recording has " << recorded->gaps
+         << (recorded->gaps == 1 ? " gap" : " gaps") << ", the longest of " << seconds(recorded->gap_longest)
+         << " s after this line; through a gap the last delay stays in force";
+    choice.notes.push_back(note.str());
+  }
   return choice;
 }
 
@@ -268,6 +279,7 @@ std::expected<NetworkChoice, std::string> NetworkOptions::from_profile(std::expe
   choice.description = "profile " + (file.empty() ? profile->name : file) + " (version " +
                        std::to_string(profile->version) + ")" + (capacity->empty() ? "" : ", " + *capacity);
   choice.link = std::move(profile->link);
+  choice.plays_capacity = !capacity->empty();
   return choice;
 }
 

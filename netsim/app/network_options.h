@@ -20,6 +20,7 @@ struct NetworkChoice {
   std::string name;                ///< `custom`, the profile's name, or the file's
   std::string description;         ///< one line for people
   std::vector<std::string> notes;  ///< what a report must say about it
+  bool plays_capacity = false;     ///< a profile that asked for a recorded capacity, and has it
 };
 
 /// The options that say what the network is like, shared by `proxy` and `run`:

@@ -30,7 +30,6 @@ std::expected<ProfileSubject, std::string> load_profile_subject(const std::strin
   if (!is_file(name_or_file)) {
     auto profile = shipped_profile(name_or_file);
     if (!profile) return std::unexpected(lines_of(profile.error()));
-    if (const auto capacity = complete_capacity(*profile, "", ""); !capacity) return std::unexpected(capacity.error());
     subject.profile = std::move(*profile);
     for (const ShippedProfile& shipped : shipped_profiles()) {
       if (shipped.name == name_or_file) subject.text = std::string(shipped.text);
@@ -51,9 +50,8 @@ std::expected<ProfileSubject, std::string> load_profile_subject(const std::strin
   if (!name_or_file.ends_with(".csv")) {
     auto profile = parse_profile(*text, name_or_file);
     if (!profile) return std::unexpected(lines_of(profile.error()));
-    const auto capacity = complete_capacity(*profile, name_or_file, "");
-    if (!capacity) return std::unexpected(capacity.error());
     subject.profile = std::move(*profile);
+    subject.file = name_or_file;
     subject.text = std::move(*text);
     return subject;
   }
@@ -67,6 +65,17 @@ std::expected<ProfileSubject, std::string> load_profile_subject(const std::strin
   subject.profile.link = std::move(recorded->link);
   if (recorded->rtt_split) subject.notes.emplace_back("the recording holds round trips; each direction gets half of them");
   return subject;
+}
+
+std::string complete(ProfileSubject& subject, const std::string& capacity) {
+  if (subject.recording) return capacity.empty() ? "" : "--capacity: belongs to a profile that plays it";
+  const auto words = complete_capacity(subject.profile, subject.file, capacity);
+  if (!words) return words.error();
+  if (words->empty() && !capacity.empty()) {
+    return "--capacity: profile " + subject.profile.name + " plays no recorded capacity; 4g-trace does";
+  }
+  if (!words->empty()) subject.notes.push_back(*words);
+  return "";
 }
 
 }  // namespace tandem::netsim

@@ -12,6 +12,7 @@ namespace tandem::netsim {
 /// A network somebody wants to look at: a shipped profile, a profile of one's own, or a recording.
 struct ProfileSubject {
   Profile profile;                 ///< of a recording: its name, summary and link
+  std::string file;                ///< it was read from; empty: shipped
   std::string text;                ///< of a profile, as it stands in its file
   bool recording = false;
   std::vector<std::string> notes;  ///< what a report must say about it
@@ -21,5 +22,10 @@ struct ProfileSubject {
 /// @return the network, or what is wrong: one mistake per line
 [[nodiscard]] std::expected<ProfileSubject, std::string> load_profile_subject(const std::string& name_or_file,
                                                                               Duration interval);
+
+/// Gives it the recorded capacity that it asks for, if it does: before it is played.
+/// @param capacity  the file of --capacity; or empty
+/// @return what is wrong; empty: nothing
+[[nodiscard]] std::string complete(ProfileSubject& subject, const std::string& capacity);
 
 }  // namespace tandem::netsim

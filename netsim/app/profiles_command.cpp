@@ -22,7 +22,7 @@ constexpr int kTrouble = 1, kWrong = 2;
 constexpr std::size_t kPipeWidth = 100;  ///< when nobody says how wide the paper is
 
 struct ProfilesArguments {
-  std::string name, svg;
+  std::string name, svg, capacity;
   double minutes = 30, shown_s = 60, interval_ms = 0;
   std::uint64_t seed = 1;
   bool json = false, text = false, ascii = false;
@@ -67,13 +67,14 @@ int list(bool json) {
 }
 
 int show(const ProfilesArguments& arguments) {
-  const auto subject = load_profile_subject(arguments.name, from_seconds(arguments.interval_ms * 1e-3));
+  auto subject = load_profile_subject(arguments.name, from_seconds(arguments.interval_ms * 1e-3));
   if (!subject) return wrong(subject.error());
   if (arguments.text) {
     if (subject->recording) return wrong("--text: " + arguments.name + " is a recording and has no text of a profile");
     std::fputs(subject->text.c_str(), stdout);
     return 0;
   }
+  if (const std::string problem = complete(*subject, arguments.capacity); !problem.empty()) return wrong(problem);
   if (!arguments.svg.empty()) {
     if (const std::string problem = io::OutputFile::problem(arguments.svg); !problem.empty()) return wrong("--svg: " + problem);
   }
@@ -107,7 +108,7 @@ int show(const ProfilesArguments& arguments) {
 
 int profiles_command(const ProfilesArguments& arguments, bool measured) {
   if (!arguments.name.empty()) return show(arguments);
-  if (measured) return wrong("--text, --svg, --minutes, --seconds, --seed and --trace-interval need NAME");
+  if (measured) return wrong("--text, --svg, --capacity, --minutes, --seconds, --seed and --trace-interval need NAME");
   return list(arguments.json);
 }
 
@@ -121,6 +122,7 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--json", arguments->json, "for machines: name, version, summary, sources, checks; with NAME also what was measured");
   command->add_flag("--text", arguments->text, "only prints the profile as text: a start for a file of your own");
   command->add_option("--svg", arguments->svg, "also draws it into this file")->option_text("FILE.svg");
+  command->add_option("--capacity", arguments->capacity, "the recorded capacity that the profile plays (4g-trace)")->option_text("FILE");
   command->add_option("--minutes", arguments->minutes, "virtual time to measure; default 30")
       ->check(io::number_in(0.05, 1440, "min"))
       ->option_text("M");
@@ -143,10 +145,11 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim profiles wifi-busy --svg wifi-busy.svg\n"
       "  tandem-netsim profiles 5g --text > mine.textproto\n"
       "  tandem-netsim profiles mine.textproto --minutes 5\n"
+      "  tandem-netsim profiles 4g-trace --capacity lte.csv\n"
       "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files.");
   command->callback([arguments, command, &action] {
     bool measured = false;
-    for (const char* option : {"--text", "--svg", "--minutes", "--seconds", "--seed", "--trace-interval"}) {
+    for (const char* option : {"--text", "--svg", "--capacity", "--minutes", "--seconds", "--seed", "--trace-interval"}) {
       measured = measured || command->get_option(option)->count() > 0;
     }
     action = [arguments, measured] { return profiles_command(*arguments, measured); };

@@ -38,7 +38,9 @@ Duration wall_ahead() noexcept {
 
 }  // namespace
 
-Duration Proxy::since_start() const noexcept { return io::read_clock(CLOCK_MONOTONIC) - started_.load(std::memory_order_relaxed); }
+Duration Proxy::since_start() const noexcept {
+  return io::read_clock(CLOCK_MONOTONIC) - started_.load(std::memory_order_relaxed);
+}
 
 void Proxy::run() {
   prctl(PR_SET_TIMERSLACK, 1UL);  // else the kernel may wake us 50 us late to save power
@@ -87,8 +89,7 @@ void Proxy::sleep_until(Duration moment) const noexcept {
 std::size_t Proxy::read_ready(Duration wait) noexcept {
   std::array<epoll_event, ProxyClients::kMax * 3 + 2> events;
   const timespec timeout = io::to_timespec(wait);
-  const int ready =
-      epoll_pwait2(clients_.poll_fd(), events.data(), static_cast<int>(events.size()), &timeout, nullptr);
+  const int ready = epoll_pwait2(clients_.poll_fd(), events.data(), static_cast<int>(events.size()), &timeout, nullptr);
   const Duration ahead = ready > 0 ? wall_ahead() : Duration{};
   now_ = since_start();
   last_read_ = now_;

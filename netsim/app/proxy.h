@@ -26,8 +26,8 @@
 namespace tandem::netsim {
 
 /// The live proxy: one thread, two sockets per client (ProxyClients). Moments of arrival are the kernel's, so neither a
-/// late wake-up nor late reading moves the schedule: a network that delays by L is read only every L / 2, many datagrams
-/// at a time. Deadlines are absolute; how late each datagram left is counted.
+/// late wake-up nor late reading moves the schedule: a network that delays by L is read only every L / 2, many
+/// datagrams at a time. Deadlines are absolute; how late each datagram left is counted.
 class Proxy {
  public:
   /// Binds the listening socket. @return the proxy, or what went wrong and what to do about it
@@ -116,10 +116,10 @@ class Proxy {
   ProxyTroubles troubles_;
   std::uint64_t released_ = 0, late_ = 0;
   std::atomic<Duration> started_{};  ///< CLOCK_MONOTONIC
-  Duration now_{};               ///< since start, read once per round
-  bool shared_ = false;          ///< the clients share a link
-  Duration least_delay_{};       ///< of all links there are and will be
-  Duration reading_interval_{};  ///< 0: as soon as something comes
+  Duration now_{};                   ///< since start, read once per round
+  bool shared_ = false;              ///< the clients share a link
+  Duration least_delay_{};           ///< of all links there are and will be
+  Duration reading_interval_{};      ///< 0: as soon as something comes
   Duration last_read_{}, last_sent_{}, next_housekeeping_{}, newcomers_since_{};
   bool busy_ = false;  ///< something came lately or is under way
   std::vector<ProxyClientStatus> left_;

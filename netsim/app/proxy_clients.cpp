@@ -155,8 +155,8 @@ io::Fd ProxyClients::connect_downside(const io::SocketAddress& address, const io
   } else if (local.family == AF_INET6) {
     std::memcpy(reinterpret_cast<char*>(&ours.storage) + offsetof(sockaddr_in6, sin6_addr), &local.v6, sizeof local.v6);
     if (IN6_IS_ADDR_LINKLOCAL(&local.v6)) {
-      std::memcpy(reinterpret_cast<char*>(&ours.storage) + offsetof(sockaddr_in6, sin6_scope_id), &local.interface_index,
-                  sizeof local.interface_index);
+      std::memcpy(reinterpret_cast<char*>(&ours.storage) + offsetof(sockaddr_in6, sin6_scope_id),
+                  &local.interface_index, sizeof local.interface_index);
     }
   }
   io::Fd fd = udp(ours.family());
@@ -164,7 +164,8 @@ io::Fd ProxyClients::connect_downside(const io::SocketAddress& address, const io
   // The port may be shared for this moment only: a second proxy on the same port shall be told that it is in use.
   share_port(true);
   reuse(fd.get(), true);
-  const bool bound = ::bind(fd.get(), ours.get(), ours.size) == 0 && ::connect(fd.get(), address.get(), address.size) == 0;
+  const bool bound =
+      ::bind(fd.get(), ours.get(), ours.size) == 0 && ::connect(fd.get(), address.get(), address.size) == 0;
   reuse(fd.get(), false);
   share_port(false);
   if (!bound) return {};

@@ -27,16 +27,18 @@ struct ProxySource {
   Kind kind = Kind::kListen;
   std::uint32_t place = 0;
 
-  [[nodiscard]] std::uint64_t as_number() const noexcept { return (std::uint64_t{place} << 3) | static_cast<unsigned>(kind); }
+  [[nodiscard]] std::uint64_t as_number() const noexcept {
+    return (std::uint64_t{place} << 3) | static_cast<unsigned>(kind);
+  }
   [[nodiscard]] static ProxySource of(std::uint64_t number) noexcept {
     return {static_cast<Kind>(number & 7), static_cast<std::uint32_t>(number >> 3)};
   }
 };
 
-/// The clients of a proxy and their sockets. Each has two of its own: one bound to the listening address and connected to
-/// the client, one connected to the server. So a client that floods fills its own buffer in the kernel, not that of the
-/// others, the server tells clients apart, and "nobody listens there" is told by the system.
-/// Reading and sending take no memory; welcoming and forgetting make and close sockets.
+/// The clients of a proxy and their sockets. Each has two of its own: one bound to the listening address and connected
+/// to the client, one connected to the server. So a client that floods fills its own buffer in the kernel, not that of
+/// the others, the server tells clients apart, and "nobody listens there" is told by the system. Reading and sending
+/// take no memory; welcoming and forgetting make and close sockets.
 class ProxyClients {
  public:
   static constexpr std::uint32_t kMax = ProxyCore::kClientsMax;
@@ -44,7 +46,7 @@ class ProxyClients {
 
   struct Client {
     io::Fd downside, upside;
-    io::Fd former;                 ///< `upside` before the client's address changed
+    io::Fd former;                     ///< `upside` before the client's address changed
     std::uint32_t address_number = 0;  ///< of `upside`; ProxyCore counts a client's addresses
     std::uint32_t former_number = 0;
     io::SocketAddress address;

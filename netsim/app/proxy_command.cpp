@@ -28,7 +28,7 @@ namespace {
 
 constexpr int kTrouble = 1;  // while running
 constexpr int kPriority = 50;
-constexpr int kWrong = 2;    // in arguments or files, found before anything starts
+constexpr int kWrong = 2;  // in arguments or files, found before anything starts
 
 struct ProxyArguments {
   std::string listen = "127.0.0.1:0";
@@ -86,13 +86,15 @@ int proxy_command(const ProxyArguments& arguments) {
     return wrong("--to is the proxy itself (--listen)");
   for (const auto& [option, address] : {std::pair{"--listen", *listen}, std::pair{"--to", *to}})
     if (!address.loopback())
-      return wrong(std::string(option) + ": " + io::to_text(address) +
-                   " is not a loopback address and is refused: until sealed sessions exist the keys of Tandem are public, and a "
-                   "proxy that others can reach would let them take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT");
+      return wrong(
+          std::string(option) + ": " + io::to_text(address) +
+          " is not a loopback address and is refused: until sealed sessions exist the keys of Tandem are public, and a "
+          "proxy that others can reach would let them take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT");
   const auto network = arguments.network.resolve();
   if (!network) return wrong(network.error());
   auto events = arguments.network.events();
   if (!events) return wrong(events.error());
+  if (const std::string problem = sharing_problem(network->link, *events); !problem.empty()) return wrong(problem);
   // Judged now, opened when there is something to write: a run that never starts leaves an older file alone.
   if (const std::string problem = output_problem("--json", arguments.json); !problem.empty()) return wrong(problem);
   if (arguments.log == "-") return wrong("--log needs a file");
@@ -116,7 +118,8 @@ int proxy_command(const ProxyArguments& arguments) {
   if (!proxy) return trouble(proxy.error());
   ControlSocket socket;
   if (!arguments.control.empty()) {
-    if (const std::string problem = socket.open(arguments.control); !problem.empty()) return wrong("--control: " + problem);
+    if (const std::string problem = socket.open(arguments.control); !problem.empty())
+      return wrong("--control: " + problem);
   }
   if (const std::string problem = log.open(arguments.log); !problem.empty()) return trouble("--log: " + problem);
 
@@ -143,7 +146,9 @@ int proxy_command(const ProxyArguments& arguments) {
   (*proxy)->log_waiting();
   const std::string log_problem = log.close();
 
-  ProxyReportNotes notes{.changes = control.notes(), .log_rows = log.written(), .log_missed = log.missed()};
+  const std::vector<ProxyClientQuality> qualities = (*proxy)->qualities();
+  ProxyReportNotes notes{
+      .qualities = qualities, .changes = control.notes(), .log_rows = log.written(), .log_missed = log.missed()};
   if (arguments.lateness_max_us > 0) notes.lateness_max = microseconds(arguments.lateness_max_us);
   std::fputs(summary_text(**proxy, notes).c_str(), people);
   std::fflush(people);
@@ -175,9 +180,10 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
                    "writes the summary as JSON; `-`: to standard output, and everything else to standard error")
       ->option_text("FILE|-");
   command
-      ->add_option("--control", arguments->control,
-                   "a socket for `tandem-netsim control PATH ...`, which changes the network while it runs; only you may "
-                   "use it")
+      ->add_option(
+          "--control", arguments->control,
+          "a socket for `tandem-netsim control PATH ...`, which changes the network while it runs; only you may "
+          "use it")
       ->option_text("PATH");
   command
       ->add_option("--log", arguments->log,
@@ -192,9 +198,10 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("US")
       ->group(timing);
   command
-      ->add_option("--coalesce", arguments->coalesce_us,
-                   "datagrams due less than so many microseconds after others left may leave together, so late at most: "
-                   "saves wake-ups when there are many clients; default 80, 0: each at its own moment")
+      ->add_option(
+          "--coalesce", arguments->coalesce_us,
+          "datagrams due less than so many microseconds after others left may leave together, so late at most: "
+          "saves wake-ups when there are many clients; default 80, 0: each at its own moment")
       ->check(io::number_in(0, 1000, "us"))
       ->option_text("US")
       ->group(timing);
@@ -206,14 +213,17 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("US")
       ->group(timing);
   command
-      ->add_flag("--realtime", arguments->realtime,
-                 "asks for real-time priority, locked memory and a processor that stays awake; says what was not granted")
+      ->add_flag(
+          "--realtime", arguments->realtime,
+          "asks for real-time priority, locked memory and a processor that stays awake; says what was not granted")
       ->group(timing);
   command->footer(
       "Clients send to --listen instead of the server. Each client (address and port) gets its own link and its own\n"
       "socket towards the server; up is client to server. At most 64 clients; a client silent for 60 s is forgotten.\n"
-      "Datagrams above 1500 bytes are dropped and counted. Prints `listening on HOST:PORT` first. On a terminal it shows\n"
-      "each client's rate, delay and loss, and takes commands (`tandem-netsim control --help` lists them); elsewhere it\n"
+      "Datagrams above 1500 bytes are dropped and counted. Prints `listening on HOST:PORT` first. On a terminal it "
+      "shows\n"
+      "each client's rate, delay and loss, and takes commands (`tandem-netsim control --help` lists them); elsewhere "
+      "it\n"
       "prints a line every 5 s. In a --script clients are \"1\", \"2\", ... in order of arrival.\n\n"
       "Examples\n"
       "  tandem-netsim proxy --listen 127.0.0.1:7001 --to 127.0.0.1:7000 --delay 20 --jitter 5 --loss 5\n"

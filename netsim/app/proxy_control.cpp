@@ -16,7 +16,9 @@ namespace {
 constexpr int kPatienceMs = 2'000;
 constexpr std::size_t kNotesMax = 1'000;
 
-ProxyControl::Answer wrong(std::string text) { return {.understood = false, .done = false, .text = std::move(text) + "\n"}; }
+ProxyControl::Answer wrong(std::string text) {
+  return {.understood = false, .done = false, .text = std::move(text) + "\n"};
+}
 ProxyControl::Answer trouble(std::string text) { return {.done = false, .text = std::move(text) + "\n"}; }
 
 std::set<std::uint64_t> present_of(const ProxyStatus& status) {
@@ -100,7 +102,8 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
   const Duration now = proxy_.now();
   std::erase_if(outages, [&](const Outage& o) { return o.spec.start + o.spec.length + Duration{1'000'000'000} < now; });
   if (request.outage) {
-    outages.push_back({{.start = now, .length = *request.outage, .mode = request.outage_mode}, request.direction, request.clients});
+    outages.push_back(
+        {{.start = now, .length = *request.outage, .mode = request.outage_mode}, request.direction, request.clients});
   }
   const bool numbers = network || request.delay_ms || request.jitter_ms || request.loss_percent ||
                        request.duplicate_percent || request.reorder_percent;
@@ -109,7 +112,8 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
     for (auto& [number, link] : own) apply(request, network, link);
     if (reset && !request.direction) own.clear();
   } else if (numbers) {
-    for (const std::uint64_t number : request.clients) apply(request, network, own.try_emplace(number, all).first->second);
+    for (const std::uint64_t number : request.clients)
+      apply(request, network, own.try_emplace(number, all).first->second);
   }
   std::swap(all_, all);
   std::swap(own_, own);
@@ -168,7 +172,8 @@ ProxyControl::Answer ProxyControl::rebind(const ControlRequest& request, const s
 
 std::string ProxyControl::post(ProxyOrder& order) {
   // Orders done long ago can go; the newest is looked at by the caller.
-  std::erase_if(orders_, [&](const ProxyOrder& old) { return &old != &order && old.done.load(std::memory_order_acquire); });
+  std::erase_if(orders_,
+                [&](const ProxyOrder& old) { return &old != &order && old.done.load(std::memory_order_acquire); });
   if (!proxy_.post(order)) return "the proxy has too much to do";
   for (int waited = 0; waited < kPatienceMs; ++waited) {
     if (order.done.load(std::memory_order_acquire)) return {};
@@ -178,7 +183,9 @@ std::string ProxyControl::post(ProxyOrder& order) {
 }
 
 bool ProxyControl::has_own(std::uint64_t number) const {
-  const auto names = [&](const Outage& outage) { return std::ranges::find(outage.clients, number) != outage.clients.end(); };
+  const auto names = [&](const Outage& outage) {
+    return std::ranges::find(outage.clients, number) != outage.clients.end();
+  };
   return own_.contains(number) || std::ranges::any_of(outages_, names);
 }
 

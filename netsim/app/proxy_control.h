@@ -60,10 +60,10 @@ class ProxyControl {
   Proxy& proxy_;
   const LinkSpec start_;
   Find find_;
-  LinkSpec all_;                             ///< of those that have none of their own
-  std::map<std::uint64_t, LinkSpec> own_;    ///< by number from 1
-  std::vector<Outage> outages_;              ///< asked for live and not over
-  std::list<ProxyOrder> orders_;             ///< those not carried out yet must stay
+  LinkSpec all_;                           ///< of those that have none of their own
+  std::map<std::uint64_t, LinkSpec> own_;  ///< by number from 1
+  std::vector<Outage> outages_;            ///< asked for live and not over
+  std::list<ProxyOrder> orders_;           ///< those not carried out yet must stay
   std::vector<Note> notes_;
 };
 

@@ -9,8 +9,8 @@
 
 namespace tandem::netsim {
 
-/// Sorts what is due at one moment by the socket it leaves through, so that each socket needs one system call; the order
-/// within one socket stays. Fixed memory.
+/// Sorts what is due at one moment by the socket it leaves through, so that each socket needs one system call; the
+/// order within one socket stays. Fixed memory.
 class ProxyOutbox {
  public:
   static constexpr std::size_t kMax = 64;

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "common/base/format.h"
+#include "netsim/app/quality_json.h"
+#include "netsim/quality_text.h"
 
 namespace tandem::netsim {
 namespace {
@@ -34,6 +36,8 @@ Json path_json(const PathCounters& c) {
     for (char& letter : key) letter = letter == ' ' ? '_' : letter;
     json[key] = c.of(outcome);
   }
+  json["bits_flipped"] = c.flipped;
+  json["truncated"] = c.truncated;
   json["reordered"] = c.of(Outcome::kHeldBack);
   json["bytes_in"] = c.bytes_in;
   json["bytes_out"] = c.bytes_out;
@@ -46,14 +50,18 @@ Json path_json(const PathCounters& c) {
 std::string direction_text(const char* title, const PathCounters& c, double duration_s) {
   const std::string rate = duration_s > 0 ? format(" (%.0f/s)", count(c.in) / duration_s) : "";
   std::string text = format("%s: %llu in%s, %llu out, %.2f %% lost, mean delay %.3f ms\n", title,
-                            static_cast<unsigned long long>(c.in), rate.c_str(),
-                            static_cast<unsigned long long>(c.out), lost_percent(c), delay_mean_ms(c));
+                            static_cast<unsigned long long>(c.in), rate.c_str(), static_cast<unsigned long long>(c.out),
+                            lost_percent(c), delay_mean_ms(c));
   std::string causes;
   for (std::size_t i = 0; i < kOutcomes; ++i) {
     const auto outcome = static_cast<Outcome>(i);
     if (outcome == Outcome::kDeliver || c.of(outcome) == 0) continue;
     causes += format("%s%llu %s", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(c.of(outcome)),
                      name(outcome));
+  }
+  for (const auto& [number, what] : {std::pair{c.flipped, "with wrong bits"}, std::pair{c.truncated, "truncated"}}) {
+    if (number == 0) continue;
+    causes += format("%s%llu %s", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(number), what);
   }
   if (c.copies > 0) {
     causes += format("%s%llu duplicated", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(c.copies));
@@ -69,7 +77,8 @@ std::string troubles_text(const ProxyTroubles& t) {
   const std::pair<std::uint64_t, const char*> troubles[] = {
       {t.too_many_clients, "datagrams of clients beyond the 64th were dropped"},
       {t.too_long, "datagrams above 1500 bytes were dropped"},
-      {t.kernel_drops, "datagrams were dropped by the kernel before the proxy saw them: more came than this computer carries"},
+      {t.kernel_drops,
+       "datagrams were dropped by the kernel before the proxy saw them: more came than this computer carries"},
       {t.no_room, "datagrams found no room in the kernel's send buffer"},
       {t.refused, "times nobody listened at the other end"},
       {t.other, "other socket errors"},
@@ -82,8 +91,12 @@ std::string troubles_text(const ProxyTroubles& t) {
 }
 
 Json troubles_json(const ProxyTroubles& t) {
-  return {{"too_many_clients", t.too_many_clients}, {"too_long", t.too_long}, {"kernel_drops", t.kernel_drops},
-          {"no_room", t.no_room},                   {"refused", t.refused},   {"other", t.other}};
+  return {{"too_many_clients", t.too_many_clients},
+          {"too_long", t.too_long},
+          {"kernel_drops", t.kernel_drops},
+          {"no_room", t.no_room},
+          {"refused", t.refused},
+          {"other", t.other}};
 }
 
 Json client_json(const ProxyClientStatus& client) {
@@ -93,6 +106,13 @@ Json client_json(const ProxyClientStatus& client) {
           {"kernel_drops", client.kernel_drops},
           {"up", path_json(client.counters[0])},
           {"down", path_json(client.counters[1])}};
+}
+
+std::vector<NamedLink> named(std::span<const ProxyClientQuality> qualities) {
+  std::vector<NamedLink> links;
+  for (const ProxyClientQuality& client : qualities)
+    links.push_back({"client " + std::to_string(client.number), client.link});
+  return links;
 }
 
 Json changes_json(std::span<const ProxyControl::Note> changes) {
@@ -145,6 +165,7 @@ std::string summary_text(const Proxy& proxy, const ProxyReportNotes& notes) {
                             status.clients_seen == 1 ? "" : "s");
   text += direction_text("  up  ", status.total[0], duration_s);
   text += direction_text("  down", status.total[1], duration_s);
+  if (!notes.qualities.empty()) text += quality_report(named(notes.qualities), false);
   for (const ProxyControl::Note& change : notes.changes) {
     text += format("  at %.3f s: %s\n", seconds(change.at), change.words.c_str());
   }
@@ -155,12 +176,14 @@ std::string summary_text(const Proxy& proxy, const ProxyReportNotes& notes) {
                    us(0.99), static_cast<double>(late.max()) / 1e3);
     text += format("    %llu of %llu datagrams more than %.0f us late (%.2f %%)\n",
                    static_cast<unsigned long long>(status.late), static_cast<unsigned long long>(status.released),
-                   static_cast<double>(proxy.late_limit().count()) / 1e3, 100 * count(status.late) / count(status.released));
+                   static_cast<double>(proxy.late_limit().count()) / 1e3,
+                   100 * count(status.late) / count(status.released));
   }
   if (!in_time(proxy, notes)) {
-    text += format("  TOO LATE: p99 %.1f us is above --max-lateness %.0f us. This computer was too busy for that: what\n"
-                   "    was measured over this network says little. Remedy: --realtime, fewer programs, --coalesce 0\n",
-                   us(0.99), static_cast<double>(notes.lateness_max->count()) / 1e3);
+    text += format(
+        "  TOO LATE: p99 %.1f us is above --max-lateness %.0f us. This computer was too busy for that: what\n"
+        "    was measured over this network says little. Remedy: --realtime, fewer programs, --coalesce 0\n",
+        us(0.99), static_cast<double>(notes.lateness_max->count()) / 1e3);
   }
   if (notes.log_missed > 0) {
     text += format("  %llu decisions are missing in the log: the disk was too slow; packets did not wait for it\n",
@@ -186,6 +209,8 @@ std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const 
   json["down"] = path_json(status.total[1]);
   json["clients"] = Json::array();
   for (const ProxyClientStatus& client : proxy.client_reports()) json["clients"].push_back(client_json(client));
+  json["quality"] = Json::object();
+  for (const NamedLink& one : named(notes.qualities)) json["quality"][one.name] = quality_json(one.link);
   json["changes"] = changes_json(notes.changes);
   const Histogram& late = proxy.lateness();
   json["lateness"] = {{"count", late.count()},

@@ -14,6 +14,7 @@ namespace tandem::netsim {
 
 /// What a report tells besides what the proxy counted.
 struct ProxyReportNotes {
+  std::span<const ProxyClientQuality> qualities = {};
   std::span<const ProxyControl::Note> changes = {};  ///< made while it ran
   std::optional<Duration> lateness_max = {};         ///< --max-lateness
   std::uint64_t log_rows = 0, log_missed = 0;        ///< --log

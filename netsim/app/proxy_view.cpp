@@ -98,8 +98,7 @@ std::string ProxyView::row(const ProxyClientStatus& now, Direction direction) co
          fixed(per_second(c.out, then->counters[d].out, s), 6, 0) + " " +
          fixed(ms(delays.mean_since(delays_then)), 8, 2) + " " +
          fixed(ms(delays.quantile_since(delays_then, 0.99)), 8, 2) + " " +
-         fixed(lost_percent(c, then->counters[d]), 7, 2) + " " +
-         fixed(count(c.in_flight()), 8, 0);
+         fixed(lost_percent(c, then->counters[d]), 7, 2) + " " + fixed(count(c.in_flight()), 8, 0);
 }
 
 }  // namespace tandem::netsim

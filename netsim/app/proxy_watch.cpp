@@ -108,14 +108,17 @@ void watch_proxy(Proxy& proxy, ProxyControl& control, ControlSocket& socket, int
   bool stop = false;
   const auto show = [&] {
     if (!screen.terminal()) return;
-    std::vector<std::string> rows = view.table(screen.height() > 6 + last_answer.size() ? screen.height() - 4 - last_answer.size() : 3);
+    std::vector<std::string> rows =
+        view.table(screen.height() > 6 + last_answer.size() ? screen.height() - 4 - last_answer.size() : 3);
     rows.insert(rows.begin(), view.line());
     rows.insert(rows.end(), last_answer.begin(), last_answer.end());
-    if (keys.interactive()) rows.push_back("> " + command.text() + "_" + (command.text().empty() ? "  (a command; `help`)" : ""));
+    if (keys.interactive())
+      rows.push_back("> " + command.text() + "_" + (command.text().empty() ? "  (a command; `help`)" : ""));
     screen.show(rows);
   };
   while (!stop) {
-    std::array<pollfd, 4> fds{{{signals, POLLIN, 0}, {finished, POLLIN, 0}, {socket.fd(), POLLIN, 0}, {keys.fd(), POLLIN, 0}}};
+    std::array<pollfd, 4> fds{
+        {{signals, POLLIN, 0}, {finished, POLLIN, 0}, {socket.fd(), POLLIN, 0}, {keys.fd(), POLLIN, 0}}};
     const Duration left = std::max(next - io::read_clock(CLOCK_MONOTONIC), Duration{});
     ::poll(fds.data(), fds.size(), static_cast<int>(left.count() / 1'000'000) + 1);
     if (fds[0].revents != 0 || fds[1].revents != 0) break;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "netsim/capacity_csv.h"
+#include "netsim/network.h"
 #include "netsim/profiles.h"
 #include "tests/netsim/support.h"
 #include "tests/support/alloc_guard.h"
@@ -120,6 +121,122 @@ TEST(Capacity, GivesTheReferenceAnswersOfTheRecordedLteLink) {
     }
     EXPECT_NEAR(quantile(ms, 1), answer.longest, 1);
   }
+}
+
+/// The profile with a recording, its floor and overhead taken off so that the numbers of a sidecar can be compared.
+LinkSpec trace_profile(const LinkSpec& recorded, std::optional<Duration> queue) {
+  auto profile = shipped_profile("4g-trace");
+  if (!profile) {
+    ADD_FAILURE() << to_text(profile.error());
+    return {};
+  }
+  EXPECT_EQ(profile->capacity_file, std::string());
+  EXPECT_TRUE(supply_capacity(profile->link, recorded));
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    EXPECT_EQ(profile->link[direction].floor, 20ms);
+    EXPECT_EQ(profile->link[direction].rate.queue_wait, Duration{1s});
+    profile->link[direction].rate.overhead_bytes = 0;
+    profile->link[direction].rate.queue_wait = queue;
+  }
+  return profile->link;
+}
+
+/// Queueing delays in ms of one datagram a millisecond through a Network, of what is out when the recording ends.
+std::vector<double> queueing(const LinkSpec& link, Direction direction, std::size_t size, std::uint64_t* full = nullptr) {
+  Network network{1};
+  network.add_link(link);
+  const auto bytes = datagram(1, size);
+  std::array<std::byte, kSlotBytes> buffer;
+  std::vector<double> ms;
+  const Duration length = link[direction].rate.trace->period;
+  const auto drain = [&](Time now) {
+    while (const auto d = network.poll(now, 0, direction, buffer)) ms.push_back(seconds(d->at - d->sent - 20ms) * 1e3);
+  };
+  for (Time now{}; now < Time{length}; now += 1ms) {
+    network.send(now, 0, direction, bytes);
+    drain(now);
+  }
+  drain(Time{length} + 20ms - 1ns);
+  if (full != nullptr) *full = network.counters(0, direction).of(Outcome::kQueueFull);
+  return ms;
+}
+
+TEST(FourGTrace, GivesTheReferenceAnswersThroughTheWholePath) {
+  const char* folder = std::getenv("TANDEM_TRACES");
+  if (folder == nullptr) {
+    std::printf("[ NOT RUN  ] 4g-trace with the recorded LTE capacity: TANDEM_TRACES is not set\n");
+    return;
+  }
+  std::ifstream file(std::string(folder) + "/net_lte_verizon_capacity_updown.csv", std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  const auto recorded = parse_capacity(text.str(), "net_lte_verizon_capacity_updown.csv");
+  ASSERT_TRUE(recorded) << to_text(recorded.error());
+  struct Answer {
+    Direction direction;
+    std::size_t size;
+    double p50, p90, p99, longest;  ///< 0: not stated
+  };
+  for (const Answer& answer :
+       {Answer{Direction::kUp, 92, 2, 21, 944, 1743}, Answer{Direction::kDown, 92, 2, 30, 573, 1446},
+        Answer{Direction::kUp, 256, 3, 1065, 0, 3264}, Answer{Direction::kDown, 256, 5, 1147, 0, 2720}}) {
+    SCOPED_TRACE(std::string(name(answer.direction)) + " " + std::to_string(answer.size));
+    const auto ms = queueing(trace_profile(*recorded, std::nullopt), answer.direction, answer.size);
+    EXPECT_NEAR(quantile(ms, 0.5), answer.p50, 1);
+    EXPECT_NEAR(quantile(ms, 0.9), answer.p90, 1);
+    if (answer.p99 > 0) {
+      EXPECT_NEAR(quantile(ms, 0.99), answer.p99, 1);
+    }
+    EXPECT_NEAR(quantile(ms, 1), answer.longest, 1);
+    // With the queue of the profile nothing waits longer than a second, and what would have is dropped.
+    std::uint64_t full = 0;
+    const auto limited = queueing(trace_profile(*recorded, Duration{1s}), answer.direction, answer.size, &full);
+    EXPECT_LE(quantile(limited, 1), 1000);
+    EXPECT_EQ(full > 0, answer.longest > 1000);
+  }
+}
+
+TEST(FourGTrace, PlaysALookAlikeToTheMillisecond) {
+  // One opportunity every 2 ms, but none in [500, 900): 92 bytes a millisecond are 184 of 1500, so outside the hole a
+  // datagram waits for the next even millisecond; in the hole until 900, where 16 fit an opportunity.
+  std::string text;
+  for (int ms = 0; ms < 2000; ms += 2) {
+    if (ms < 500 || ms >= 900) text += std::to_string(ms) + "\n";
+  }
+  const auto recorded = parse_capacity(text, "look-alike");
+  ASSERT_TRUE(recorded);
+  std::uint64_t full = 0;
+  const auto ms = queueing(trace_profile(*recorded, Duration{1s}), Direction::kUp, 92, &full);
+  EXPECT_EQ(full, 0U);
+  ASSERT_GT(ms.size(), 1990U);
+  EXPECT_EQ(ms[0], 0);
+  EXPECT_EQ(ms[1], 1);
+  EXPECT_EQ(quantile(ms, 1), 401);  // of the one sent at 499
+  // With a queue of 100 ms only: what would wait longer is dropped, 300 of the hole and a few behind it.
+  const auto shorter = queueing(trace_profile(*recorded, Duration{100ms}), Direction::kUp, 92, &full);
+  EXPECT_EQ(quantile(shorter, 1), 100);
+  EXPECT_NEAR(static_cast<double>(full), 301, 2);
+}
+
+TEST(FourGTrace, CannotBePlayedWithoutARecording) {
+  const auto profile = shipped_profile("4g-trace");
+  ASSERT_TRUE(profile);
+  EXPECT_THROW(Path(profile->link.up, RandomKey{1}), std::invalid_argument);
+  const auto found = problems(profile->link.up);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].key, "rate.trace");
+  for (const ShippedProfile& complete : complete_profiles()) EXPECT_NE(complete.name, "4g-trace");
+  EXPECT_EQ(complete_profiles().size() + 1, shipped_profiles().size());
+}
+
+TEST(FourGTrace, TheFileIsNamedInAProfileOfOnesOwn) {
+  const auto profile = parse_profile(R"(version: 1
+    both { rate { capacity { file: "lte.trace" } queue_bytes: 3000 drop: HEAD } })",
+                                     "dir/p.textproto");
+  ASSERT_TRUE(profile) << to_text(profile.error());
+  EXPECT_EQ(profile->capacity_file, "lte.trace");
+  EXPECT_TRUE(profile->link.up.rate.recorded);
+  EXPECT_EQ(profile->link.up.rate.queue_bytes, 3000U);
 }
 
 TEST(LinkRate, CountsDatagramsInItsQueue) {

@@ -54,8 +54,8 @@ Exchanges recorded(const std::string& name) {
 Exchanges generated(const std::string& profile_name, Duration interval, std::uint64_t seed) {
   const auto profile = shipped_profile(profile_name);
   if (!profile) throw std::runtime_error(to_text(profile.error()));
-  Path up{profile->link.up, Path::key_for(seed, 0, Direction::kUp), Path::key_for(seed, 0)};
-  Path down{profile->link.down, Path::key_for(seed, 0, Direction::kDown), Path::key_for(seed, 0)};
+  Path up{profile->link.up, Path::keys_for(seed, 0, Direction::kUp)};
+  Path down{profile->link.down, Path::keys_for(seed, 0, Direction::kDown)};
   Exchanges all;
   for (Time now{}; now < Time{30min}; now += interval) {
     const Verdict request = up.send(now, kSize);

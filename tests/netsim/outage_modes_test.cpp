@@ -107,6 +107,33 @@ TEST(OutageScope, AllLinksAreDownTogetherOrEachAtItsOwnMoments) {
   EXPECT_NE(all, of(2, 0, Direction::kUp));
 }
 
+TEST(OutageScope, WhatBeginsOnScheduleMayBeOfDrawnLength) {
+  // Every 500 ms, U(100, 300) ms long: the numbers of a run differ, their mean is 200, the start is exact.
+  PathSpec spec;
+  spec.outages = {{.start = 1s, .length = 100ms, .period = 500ms, .length_max = 300ms}};
+  const auto of = [&](std::uint64_t link) {
+    return down(Path{spec, Path::keys_for(1, link, Direction::kUp)}, 1'000'000);
+  };
+  const auto own = of(0);
+  double sum = 0, longest = 0, shortest = 1e9;
+  for (std::size_t i = 1000; i + 500 <= own.size(); i += 500) {
+    std::size_t length = 0;
+    while (length < 500 && own[i + length]) ++length;
+    for (std::size_t k = length; k < 500; ++k) ASSERT_FALSE(own[i + k]) << i + k;
+    const auto ms = static_cast<double>(length);
+    sum += ms;
+    longest = std::max(longest, ms);
+    shortest = std::min(shortest, ms);
+  }
+  const double outages = 999'000 / 500.0;
+  EXPECT_NEAR(sum / outages, 200.5, 5 * 57.7 / std::sqrt(outages));
+  EXPECT_NEAR(shortest, 100, 3);
+  EXPECT_NEAR(longest, 300, 3);
+  EXPECT_NE(own, of(1));
+  spec.outages[0].scope = OutageSpec::Scope::kAll;
+  EXPECT_EQ(of(0), of(1));
+}
+
 TEST(OutageLossAtStart, LosesWhatIsSentRightAfterTheStartAndHoldsTheRest) {
   PathSpec spec = holding(OutageSpec::Mode::kHold);
   spec.outages[0].loss_at_start = 20ms;
@@ -158,7 +185,7 @@ TEST(OutageModes, AreReadFromAProfileAndContradictionsAreNamed) {
     ASSERT_FALSE(bad) << keys;
     EXPECT_NE(to_text(bad.error()).find(message), std::string::npos) << to_text(bad.error());
   };
-  expect("start_s: 1 length_ms: 5 scope: ALL_LINKS", "p.textproto:2:41: outage[0].scope = ALL_LINKS: needs mean_gap_s");
+  expect("start_s: 1 length_ms: 5 scope: ALL_LINKS", "p.textproto:2:41: outage[0].scope = ALL_LINKS: needs mean_gap_s or length_max_ms");
   expect("start_s: 1 length_ms: 5 loss_at_start_ms: 6", "outage[0].loss_at_start_ms = 6: is longer than the outage");
   expect("start_s: 1 length_ms: 5 mode: HOLD_LAST hold_bytes: 9", "hold_bytes = 9: needs mode: HOLD");
   expect("start_s: 1 length_ms: 5 mode: HOLDLAST", "p.textproto:2:");

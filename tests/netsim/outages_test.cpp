@@ -60,6 +60,23 @@ TEST(Outage, WhatIsHeldStaysHeldWhileAnotherBegins) {
   EXPECT_EQ(gate.enter(Time{155ms}, 1).state, State::kDropped);
 }
 
+TEST(Outage, OnceOnlyTheNewestIsKeptThatGoesOnUntilTheLinkIsBack) {
+  // Else what the plain hold takes after 50 ms would be decided before the newest one, and overtake it.
+  OutageGate gate{{{.start = Duration{}, .length = 50ms, .mode = OutageSpec::Mode::kHoldLast},
+                   {.start = 30ms, .length = 70ms, .mode = OutageSpec::Mode::kHold}}};
+  for (const int ms : {10, 40, 60, 99}) {
+    const auto passage = gate.enter(Time{ms * 1ms}, 1);
+    EXPECT_EQ(passage.state, State::kNewest) << ms;
+    EXPECT_EQ(passage.at, Time{100ms}) << ms;
+  }
+  EXPECT_EQ(gate.enter(Time{100ms}, 1).state, State::kUp);
+  // The other way round the hold came first and keeps what it took.
+  OutageGate hold{{{.start = Duration{}, .length = 50ms, .mode = OutageSpec::Mode::kHold},
+                   {.start = 30ms, .length = 70ms, .mode = OutageSpec::Mode::kHoldLast}}};
+  EXPECT_EQ(hold.enter(Time{10ms}, 1).state, State::kUp);
+  EXPECT_EQ(hold.enter(Time{40ms}, 1).state, State::kNewest);
+}
+
 TEST(Outage, DropWinsOverHold) {
   OutageGate gate{
       {{.start = Duration{}, .length = 10ms, .mode = OutageSpec::Mode::kHold}, {.start = Duration{}, .length = 5ms}}};

@@ -157,6 +157,8 @@ TEST(Program, WrongArgumentsAreNamedWithValueAndRangeBeforeAnythingStarts) {
       {{"profiles", "5g", "--minutes", "0"}, "[0.05, 1440] min"},
       {{"profiles", "5g", "--svg", "/no/such/folder/x.svg"}, "cannot be written"},
       {{"profiles", "--svg", "x.svg"}, "need NAME"},
+      {{"profiles", "4g-trace"}, "--capacity"},
+      {{"profiles", "5g", "--capacity", "x.csv"}, "capacity"},
   };
   for (const Case& one : cases) {
     Program program(one.arguments);
@@ -231,6 +233,11 @@ TEST(Program, ShowsWhatAProfileDoesBesideWhatItPromises) {
     EXPECT_EQ(json["measured"]["up"]["p50_ms"], 10);
     EXPECT_EQ(json["quality"]["verdict"], "red");
     EXPECT_EQ(json["quality"]["up"]["windows"].size(), 3U);
+  }
+  {
+    Program program({"profiles", "4g-trace", "--text"});  // the text needs no recording, playing it does
+    EXPECT_NE(program.rest_of_out().find("capacity {}"), std::string::npos);
+    EXPECT_EQ(program.exit_code(), 0);
   }
   {
     const std::string file = testing::TempDir() + "recorded.csv";

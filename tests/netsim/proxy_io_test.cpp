@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <functional>
+#include <map>
 #include <memory>
 #include <set>
-#include <thread>
+#include <string>
+#include <vector>
 
 #include "netsim/app/proxy.h"
+#include "tests/netsim/running_proxy.h"
 #include "tests/netsim/support.h"
 #include "tests/netsim/udp_peer.h"
 
@@ -15,43 +17,6 @@ namespace tandem::netsim {
 namespace {
 
 using namespace test;
-
-/// A proxy at work in its own thread.
-class Running {
- public:
-  Running(const io::SocketAddress& to, const LinkSpec& link, const std::string& listen = "127.0.0.1:0",
-          Duration idle_limit = 60s) {
-    ProxyOptions options;
-    options.listen = *io::parse_address(listen, 0);
-    options.to = to;
-    options.link = link;
-    options.idle_limit = idle_limit;
-    auto opened = Proxy::open(options);
-    if (!opened) throw std::runtime_error(opened.error());
-    proxy_ = std::move(*opened);
-    thread_ = std::thread([this] { proxy_->run(); });
-  }
-  ~Running() { end(); }
-  void end() {
-    if (!thread_.joinable()) return;
-    proxy_->stop();
-    thread_.join();
-  }
-  Proxy& operator*() { return *proxy_; }
-  Proxy* operator->() { return proxy_.get(); }
-  /// Until the published picture fulfils `condition`. @return whether it did
-  bool wait_until(const std::function<bool(const ProxyStatus&)>& condition) {
-    for (int i = 0; i < UdpPeer::kPatienceMs / 10; ++i) {
-      if (condition(proxy_->status())) return true;
-      ::poll(nullptr, 0, 10);
-    }
-    return false;
-  }
-
- private:
-  std::unique_ptr<Proxy> proxy_;
-  std::thread thread_;
-};
 
 TEST(Proxy, CarriesBothDirectionsForEachClientApart) {
   UdpPeer server, a, b;
@@ -254,6 +219,91 @@ TEST(Proxy, SaysWhatToDoWhenThePortIsTaken) {
   ASSERT_FALSE(proxy);
   EXPECT_NE(proxy.error().find("in use"), std::string::npos);
   EXPECT_NE(proxy.error().find("choose another port"), std::string::npos);
+}
+
+// Clients have sockets on the listening port, which is shared while they are made and at no other time.
+TEST(Proxy, LetsNoSecondProxyOnItsPort) {
+  UdpPeer server, client;
+  Running proxy{server.address(), {}};
+  client.connect(proxy->listening());
+  ASSERT_TRUE(client.send("hello"));
+  ASSERT_TRUE(server.receive());
+  ProxyOptions options;
+  options.listen = proxy->listening();
+  options.to = server.address();
+  const auto second = Proxy::open(options);
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().find("in use"), std::string::npos);
+}
+
+// The house is asked for sockets while others wait in the listening socket: nobody's datagram may get lost or
+// overtaken.
+TEST(Proxy, ManyWhoComeAtOnceKeepTheirDatagramsAndOrder) {
+  UdpPeer server;
+  Running proxy{server.address(), {}};
+  std::vector<std::unique_ptr<UdpPeer>> clients;
+  for (int i = 0; i < 40; ++i) {
+    clients.push_back(std::make_unique<UdpPeer>());
+    clients.back()->connect(proxy->listening());
+  }
+  constexpr int kEach = 5;
+  for (int k = 0; k < kEach; ++k) {
+    for (std::size_t i = 0; i < clients.size(); ++i)
+      ASSERT_TRUE(clients[i]->send(std::to_string(i) + ":" + std::to_string(k)));
+  }
+  std::map<std::string, int> next;
+  for (std::size_t n = 0; n < clients.size() * kEach; ++n) {
+    const auto got = server.receive();
+    ASSERT_TRUE(got) << n;
+    const auto colon = got->bytes.find(':');
+    EXPECT_EQ(std::stoi(got->bytes.substr(colon + 1)), next[got->bytes.substr(0, colon)]++) << got->bytes;
+  }
+  EXPECT_EQ(next.size(), clients.size());
+}
+
+TEST(Proxy, AClientThatChangesItsAddressIsHeardAtBothUntilTheOldOneIsDead) {
+  UdpPeer server, client;
+  Running proxy{server.address(), {}};
+  client.connect(proxy->listening());
+  ASSERT_TRUE(client.send("1"));
+  const auto before = server.receive();
+  ASSERT_TRUE(before);
+  ProxyOrder order;
+  order.rebinds = {0};
+  order.rebind.dead_after = 1h;
+  ASSERT_TRUE(proxy.carry_out(order));
+  ASSERT_TRUE(order.carried_out);
+  ASSERT_TRUE(client.send("2"));
+  const auto after = server.receive();
+  ASSERT_TRUE(after);
+  EXPECT_NE(after->from.port(), before->from.port());
+  ASSERT_TRUE(server.send_to(before->from, "to the old one"));
+  EXPECT_EQ(client.receive()->bytes, "to the old one");
+  ASSERT_TRUE(server.send_to(after->from, "to the new one"));
+  EXPECT_EQ(client.receive()->bytes, "to the new one");
+
+  ProxyOrder again;
+  again.rebinds = {0};
+  ASSERT_TRUE(proxy.carry_out(again));  // dead at once
+  ASSERT_TRUE(server.send_to(after->from, "nobody there"));
+  ASSERT_TRUE(client.send("3"));
+  const auto third = server.receive();
+  ASSERT_TRUE(third);
+  EXPECT_NE(third->from.port(), after->from.port());
+  ASSERT_TRUE(server.send_to(third->from, "to the third"));
+  EXPECT_EQ(client.receive()->bytes, "to the third");
+  proxy.end();
+  EXPECT_EQ(proxy->final_status().total[1].of(Outcome::kOldAddress), 1U);
+  EXPECT_EQ(proxy->final_status().clients_seen, 1U);
+}
+
+TEST(Proxy, AnOrderForAClientThatIsNotThereSaysSo) {
+  UdpPeer server;
+  Running proxy{server.address(), {}};
+  ProxyOrder order;
+  order.rebinds = {7};
+  ASSERT_TRUE(proxy.carry_out(order));
+  EXPECT_FALSE(order.carried_out);
 }
 
 TEST(SocketAddress, ReadsAndWritesWhatPeopleType) {

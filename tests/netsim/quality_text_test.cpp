@@ -43,7 +43,7 @@ TEST(QualityText, WordsNameWhatHurtsAndWhen) {
   link.down = judged(regular(60'001, 2ms)).summary();
   const std::string text = quality_words(link, "");
   EXPECT_NE(text.find("up: red; "), std::string::npos) << text;
-  EXPECT_NE(text.find(". Worst: 12 % lost in the second to 30.12 s (100 % in 100 ms), 0.20 % in all; "
+  EXPECT_NE(text.find("\n  worst: 12 % lost in the second to 30.12 s (100 % in 100 ms), 0.20 % in all; "
                       "nothing came for 121 ms from 30.00 s\n"),
             std::string::npos)
       << text;

@@ -31,7 +31,14 @@ namespace tandem::netsim::test {
                             .period = ms(700, 3000),
                             .mode = OutageSpec::Mode::kHold,
                             .hold_bytes = random.below(20'000)});
-  if (on()) spec.outages.push_back({.length = ms(10, 50), .mean_gap = ms(500, 2000), .length_max = ms(50, 200)});
+  if (on())
+    spec.outages.push_back({.length = ms(10, 50), .mean_gap = ms(500, 2000), .length_max = ms(50, 200), .scope = OutageSpec::Scope::kAll});
+  if (on())
+    spec.outages.push_back({.start = ms(0, 900),
+                            .length = ms(30, 300),
+                            .period = ms(700, 3000),
+                            .mode = OutageSpec::Mode::kHoldLast,
+                            .loss_at_start = ms(0, 30)});
   LossSpec& loss = spec.loss;
   if (on()) loss.probability = random.uniform(0, 0.2);
   if (on()) loss.periods = BadPeriodsSpec{.good_mean = ms(100, 1000), .bad_mean = ms(5, 100), .loss_bad = random.uniform()};
@@ -45,8 +52,13 @@ namespace tandem::netsim::test {
     if (on()) spec.rate.queue_bytes = 2'000 + random.below(30'000);
     if (on()) spec.rate.queue_wait = ms(20, 300);
     if (on()) spec.rate.queue_datagrams = static_cast<std::uint32_t>(1 + random.below(200));
-    if (on()) spec.rate.codel = CoDelSpec{};
-    if (on()) spec.rate.competing_peak = ms(10, 100), spec.rate.competing_period = ms(200, 2000);
+    if (on()) {
+      spec.rate.drop = RateSpec::Drop::kHead;
+      if (spec.rate.queue_bytes == 0 && !spec.rate.queue_wait) spec.rate.queue_datagrams = 40;  // it needs a limit
+    } else {
+      if (on()) spec.rate.codel = CoDelSpec{};
+      if (on()) spec.rate.competing_peak = ms(10, 100), spec.rate.competing_period = ms(200, 2000);
+    }
     if (on()) loss.congestion = CongestionLossSpec{.wait_low = ms(1, 10), .wait_high = ms(20, 90), .probability = 0.3};
   } else if (on()) {
     spec.rate.trace = std::make_shared<CapacityTrace>(CapacityTrace{{{0, 1}, {3, 2}, {4, 1}, {40, 5}}, 60ms});
@@ -67,14 +79,11 @@ namespace tandem::netsim::test {
   if (on()) spec.reorder = {.probability = random.uniform(0, 0.1), .displacement = static_cast<std::uint32_t>(1 + random.below(6)), .hold_limit = ms(5, 80)};
   if (on()) spec.duplicate = {.probability = random.uniform(0, 0.2), .delay_max = ms(0, 9)};
   if (on()) {
-    spec.corruption = {.probability = random.uniform(0, 0.1),
-                       .mode = static_cast<CorruptionSpec::Mode>(random.below(3)),
-                       .bits = static_cast<std::uint32_t>(1 + random.below(8))};
+    spec.corruption.probability = random.uniform(0, 0.1);
+    spec.corruption.mode = static_cast<CorruptionSpec::Mode>(random.below(3));
+    spec.corruption.bits = static_cast<std::uint32_t>(1 + random.below(8));
   }
-  if (on()) {
-    spec.mtu = {.bytes = static_cast<std::uint32_t>(100 + random.below(1400)),
-                .above = on() ? MtuSpec::Above::kFragment : MtuSpec::Above::kDrop};
-  }
+  if (on()) spec.mtu = {.bytes = static_cast<std::uint32_t>(100 + random.below(1400)), .above = static_cast<MtuSpec::Above>(random.below(2))};
   return spec;
 }
 

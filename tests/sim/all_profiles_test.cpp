@@ -68,6 +68,13 @@ TEST(AllProfiles, KeepEverySessionPassiveAndTellWhatTheyAre) {
         SCOPED_TRACE(netsim::replay_command(run) + (recorded ? " --hand trainer=..." : ""));
         auto setup = netsim::world_setup(run);
         ASSERT_TRUE(setup) << setup.error();
+        for (const netsim::Direction direction : {netsim::Direction::kUp, netsim::Direction::kDown}) {
+          netsim::RateSpec& rate = setup->network[direction].rate;
+          if (!rate.recorded) continue;  // a capacity that the user supplies: 12 Mbit/s with a hole of 50 ms every second
+          netsim::CapacityTrace capacity{{}, std::chrono::seconds(1)};
+          for (std::int64_t ms = 0; ms < 950; ++ms) capacity.entries.push_back({ms, 1});
+          rate.trace = std::make_shared<const netsim::CapacityTrace>(std::move(capacity));
+        }
         if (recorded) setup->motions = {{"trainer", hand}};
         const auto report = netsim::run_world(*setup);
         ASSERT_TRUE(report) << report.error();

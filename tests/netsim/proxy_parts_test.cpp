@@ -1,0 +1,98 @@
+// The parts of the live proxy that need neither socket nor clock.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "common/base/rng.h"
+#include "netsim/app/live_delays.h"
+#include "netsim/app/proxy_outbox.h"
+#include "netsim/app/proxy_view.h"
+
+namespace tandem::netsim {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(LiveDelays, MeanAndQuantilesAreOfWhatCameInBetween) {
+  const auto delays = std::make_unique<LiveDelays>();
+  auto before = std::make_unique<LiveDelays::Picture>(), now = std::make_unique<LiveDelays::Picture>();
+  for (int i = 0; i < 1000; ++i) delays->add(500ms);
+  delays->read(*before);
+  for (int i = 1; i <= 100; ++i) delays->add(i * 1ms);
+  delays->read(*now);
+  EXPECT_EQ(now->mean_since(*before), 50'500us);
+  EXPECT_NEAR(seconds(now->quantile_since(*before, 0.5)), 0.050, 0.050 / 32);
+  EXPECT_NEAR(seconds(now->quantile_since(*before, 0.99)), 0.099, 0.099 / 32);
+  EXPECT_EQ(now->mean_since(*now), 0ns);
+  EXPECT_EQ(now->quantile_since(*now, 0.99), 0ns);
+}
+
+TEST(LiveDelays, AnyDelayIsWithinOneThirtySecond) {
+  RandomStream random{5};
+  for (int i = 0; i < 2'000; ++i) {
+    const auto delays = std::make_unique<LiveDelays>();
+    LiveDelays::Picture before{}, now{};
+    const Duration delay{static_cast<std::int64_t>(std::exp2(10 + random.uniform() * 31))};
+    delays->add(delay);
+    delays->read(now);
+    const Duration got = now.quantile_since(before, 0.99);
+    EXPECT_GE(got, delay);
+    EXPECT_LE(seconds(got), seconds(delay) * (1 + 1.0 / 32) + 1.1e-6) << delay.count();
+  }
+  LiveDelays delays;
+  delays.add(-1s);
+  delays.add(Duration::max());  // in the last bin
+  LiveDelays::Picture now{};
+  delays.read(now);
+  EXPECT_EQ(now.count, 2U);
+}
+
+TEST(ProxyOutbox, GroupsBySocketAndKeepsTheOrderOfEach) {
+  using Kind = ProxySource::Kind;
+  RandomStream random{9};
+  ProxyOutbox box;
+  for (int round = 0; round < 200; ++round) {
+    const std::uint64_t count = random.below(ProxyOutbox::kMax + 1);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      ProxyCore::Egress egress;
+      egress.client = static_cast<std::uint32_t>(random.below(random.below(2) == 0 ? 2 : ProxyClients::kMax));
+      egress.item.index = i;
+      const Kind kind = std::array{Kind::kDownside, Kind::kUpside, Kind::kFormer}[random.below(3)];
+      box.add(egress, {kind, egress.client});
+    }
+    EXPECT_EQ(box.full(), count == ProxyOutbox::kMax);
+    std::uint64_t seen = 0;
+    std::vector<std::uint64_t> sockets;
+    box.empty([&](const ProxyOutbox::Group& group) {
+      const std::uint64_t socket = group.through.as_number();
+      EXPECT_EQ(std::ranges::count(sockets, socket), 0) << "one call per socket";
+      sockets.push_back(socket);
+      std::optional<std::uint64_t> last;
+      group.for_each([&](const ProxyCore::Egress& egress) {
+        EXPECT_EQ(egress.client, group.through.place);
+        EXPECT_TRUE(!last || egress.item.index > *last);
+        last = egress.item.index;
+        ++seen;
+      });
+    });
+    EXPECT_EQ(seen, count);
+    EXPECT_EQ(box.size(), 0U);
+  }
+}
+
+TEST(ProxySource, ANumberIsASourceAgain) {
+  for (std::uint32_t place = 0; place < ProxyClients::kMax; ++place) {
+    for (std::size_t kind = 0; kind < ProxySource::kKinds; ++kind) {
+      const ProxySource source{static_cast<ProxySource::Kind>(kind), place};
+      const ProxySource again = ProxySource::of(source.as_number());
+      EXPECT_EQ(again.kind, source.kind);
+      EXPECT_EQ(again.place, source.place);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tandem::netsim

@@ -1,0 +1,246 @@
+// The live proxy as people meet it while it runs: the control socket, what is refused, what is noted, the log, the
+// verdict about its own lateness; and its view.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "netsim/app/proxy_control.h"
+#include "netsim/app/proxy_view.h"
+#include "netsim/decision_csv.h"
+#include "netsim/profiles.h"
+#include "tests/netsim/running_proxy.h"
+#include "tests/support/process.h"
+
+namespace tandem::netsim {
+namespace {
+
+using namespace test;
+using namespace std::chrono_literals;
+using tandem::test::Process;
+using Json = nlohmann::json;
+
+Process netsim(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), TANDEM_NETSIM_PROGRAM);
+  return Process(std::move(arguments));
+}
+
+struct Asked {
+  int code;
+  std::string out, err;
+};
+Asked ask(const std::string& socket, std::vector<std::string> words) {
+  words.insert(words.begin(), {"control", socket});
+  Process process = netsim(std::move(words));
+  const int code = process.wait().value_or(-99);
+  return {code, process.out(), process.err()};
+}
+
+std::string read(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+TEST(Control, ChangesTheNetworkOfARunningProxyAndIsNoted) {
+  UdpPeer server, client;
+  const std::string socket = testing::TempDir() + "control.sock", json = testing::TempDir() + "control.json";
+  Process proxy = netsim({"proxy", "--to", io::to_text(server.address()), "--control", socket, "--json", json});
+  ASSERT_TRUE(proxy.wait_for("Ctrl-C ends"));
+  struct stat file {};
+  ASSERT_EQ(::stat(socket.c_str(), &file), 0);
+  EXPECT_EQ(file.st_mode & 0777, 0600U);
+  client.connect(*io::parse_address(proxy.after("listening on "), 1));
+  ASSERT_TRUE(client.send("1"));
+  EXPECT_EQ(server.receive()->bytes, "1");
+
+  Asked asked{.code = 2, .out = {}, .err = {}};  // the picture that names the client may be a moment old
+  for (int i = 0; i < 1000 && asked.code == 2; ++i) asked = ask(socket, {"loss", "100", "client", "1"});
+  ASSERT_EQ(asked.code, 0) << asked.err;
+  EXPECT_NE(asked.out.find("done at "), std::string::npos);
+  ASSERT_TRUE(client.send("2"));
+  EXPECT_FALSE(server.receive(100));
+  EXPECT_EQ(ask(socket, {"reset"}).code, 0);
+  ASSERT_TRUE(client.send("3"));
+  EXPECT_EQ(server.receive()->bytes, "3");
+  EXPECT_EQ(ask(socket, {"outage 1h hold"}).code, 0);
+  ASSERT_TRUE(client.send("4"));
+  EXPECT_FALSE(server.receive(100));
+  const Asked status = ask(socket, {"status", "--json"});
+  EXPECT_EQ(status.code, 0);
+  EXPECT_EQ(Json::parse(status.out)["changes"].size(), 3U);
+
+  const std::vector<std::pair<std::string, std::string>> wrong{{"delay 20 client 9", "no client 9; present: 1"},
+                                                               {"profile wifi-bussy", "did you mean wifi-busy?"},
+                                                               {"profile ./none.textproto", "No such file"},
+                                                               {"fly", "not a command"}};
+  for (const auto& [line, says] : wrong) {
+    const Asked refused = ask(socket, {line});
+    EXPECT_EQ(refused.code, 2) << line;
+    EXPECT_NE(refused.err.find(says), std::string::npos) << refused.err;
+    EXPECT_EQ(refused.out, "");
+  }
+  EXPECT_EQ(ask(socket, {"stop"}).code, 0);
+  EXPECT_EQ(proxy.wait(), 0);
+  EXPECT_FALSE(std::filesystem::exists(socket));
+  EXPECT_NE(proxy.out().find("loss 100 client 1"), std::string::npos) << proxy.out();
+  const Json report = Json::parse(read(json));
+  ASSERT_EQ(report["changes"].size(), 3U);
+  EXPECT_EQ(report["changes"][1]["command"], "reset");
+  EXPECT_LE(report["changes"][0]["at_s"], report["changes"][1]["at_s"]);
+  EXPECT_EQ(report["up"]["dropped_lost"], 1);
+  EXPECT_EQ(ask(socket, {"status"}).code, 1);  // nobody there any more
+}
+
+TEST(Control, ASocketInUseIsRefusedOneLeftBehindIsReplaced) {
+  const std::string socket = testing::TempDir() + "left.sock", file = testing::TempDir() + "no.sock";
+  std::ofstream(file) << "not a socket";
+  Process first = netsim({"proxy", "--to", "127.0.0.1:9", "--control", socket});
+  ASSERT_TRUE(first.wait_for("Ctrl-C ends"));
+  Process second = netsim({"proxy", "--to", "127.0.0.1:9", "--control", socket});
+  EXPECT_EQ(second.wait(), 2);
+  EXPECT_NE(second.err().find("another proxy"), std::string::npos) << second.err();
+  Process third = netsim({"proxy", "--to", "127.0.0.1:9", "--control", file});
+  EXPECT_EQ(third.wait(), 2);
+  EXPECT_EQ(read(file), "not a socket");
+  first.signal(SIGKILL);
+  first.wait();
+  ASSERT_TRUE(std::filesystem::exists(socket));
+  Process fourth = netsim({"proxy", "--to", "127.0.0.1:9", "--control", socket});
+  ASSERT_TRUE(fourth.wait_for("Ctrl-C ends"));
+  EXPECT_EQ(ask(socket, {"status"}).code, 0);
+  fourth.signal(SIGINT);
+  EXPECT_EQ(fourth.wait(), 0);
+}
+
+TEST(Program, LaterThanMaxLatenessIsExitCodeOneInWords) {
+  UdpPeer server, client;
+  for (const bool strict : {true, false}) {
+    // Nobody is within a microsecond, everybody within ten seconds.
+    Process proxy = netsim(
+        {"proxy", "--to", io::to_text(server.address()), "--delay", "1", "--max-lateness", strict ? "1" : "10000000"});
+    ASSERT_TRUE(proxy.wait_for("Ctrl-C ends"));
+    client.connect(*io::parse_address(proxy.after("listening on "), 1));
+    for (int i = 0; i < 50; ++i) {
+      ASSERT_TRUE(client.send("x"));
+      ASSERT_TRUE(server.receive());
+    }
+    proxy.signal(SIGTERM);
+    EXPECT_EQ(proxy.wait(), strict ? 1 : 0);
+    EXPECT_EQ(proxy.out().find("TOO LATE: p99 ") != std::string::npos, strict) << proxy.out();
+    EXPECT_NE(proxy.out().find("own error: sent later than scheduled by p50"), std::string::npos) << proxy.out();
+  }
+}
+
+TEST(Program, ProxyLogsEveryDecisionAndFollowsAScript) {
+  UdpPeer server, client;
+  const std::string log = testing::TempDir() + "proxy.csv", script = testing::TempDir() + "script.textproto";
+  std::ofstream(script) << "event { at_s: 0 client: \"1\" outage_ms: 3600000 }\n";
+  Process proxy = netsim({"proxy", "--to", io::to_text(server.address()), "--script", script, "--log", log});
+  ASSERT_TRUE(proxy.wait_for("Ctrl-C ends"));
+  const auto address = *io::parse_address(proxy.after("listening on "), 1);
+  client.connect(address);
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(client.send("down for an hour"));
+  UdpPeer other;
+  other.connect(address);
+  ASSERT_TRUE(other.send("up"));
+  EXPECT_EQ(server.receive()->bytes, "up");
+  proxy.signal(SIGINT);
+  EXPECT_EQ(proxy.wait(), 0);
+  const auto rows = parse_decision_csv(read(log), log);
+  ASSERT_TRUE(rows);
+  ASSERT_EQ(rows->size(), 21U);
+  EXPECT_EQ(std::ranges::count(*rows, Outcome::kOutage, &Decision::outcome), 20);
+  EXPECT_EQ(std::ranges::count(*rows, Outcome::kDeliver, &Decision::outcome), 1);
+
+  std::ofstream(script) << "event { at_s: 1 client: \"trainee\" outage_ms: 1 }\n";
+  Process wrong = netsim({"proxy", "--to", "127.0.0.1:9", "--script", script});
+  EXPECT_EQ(wrong.wait(), 2);
+  EXPECT_NE(wrong.err().find(script + ":1:"), std::string::npos) << wrong.err();
+}
+
+// Carried out in the same process: what a change does to everybody, to one, to one direction, and to whoever comes
+// later.
+TEST(ProxyControl, ChangesAllOneOrOneDirectionAndThoseToCome) {
+  UdpPeer server, a, b, late;
+  Running proxy{server.address(), {}};
+  ProxyControl control{*proxy, {}, [](const std::string& name) -> std::expected<LinkSpec, std::string> {
+                         if (name == "deaf") return link_from({.loss = 1});
+                         return std::unexpected("no network " + name);
+                       }};
+  a.connect(proxy->listening());
+  b.connect(proxy->listening());
+  ASSERT_TRUE(a.send("a"));
+  const auto address_a = server.receive()->from;
+  ASSERT_TRUE(b.send("b"));
+  const auto address_b = server.receive()->from;
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.clients == 2; }));
+  const auto passes = [&](UdpPeer& client) {
+    EXPECT_TRUE(client.send("x"));
+    return server.receive(100).has_value();
+  };
+
+  EXPECT_TRUE(control.carry_out("profile deaf client 2 up").done);
+  EXPECT_TRUE(passes(a));
+  EXPECT_FALSE(passes(b));
+  ASSERT_TRUE(server.send_to(address_b, "down is open"));
+  EXPECT_EQ(b.receive()->bytes, "down is open");
+
+  EXPECT_TRUE(control.carry_out("loss 100").done);  // everybody, also those to come
+  EXPECT_FALSE(passes(a));
+  late.connect(proxy->listening());
+  EXPECT_FALSE(passes(late));
+  ASSERT_TRUE(server.send_to(address_a, "lost"));
+  EXPECT_FALSE(a.receive(100));
+
+  EXPECT_TRUE(control.carry_out("loss 0 client 1").done);
+  EXPECT_TRUE(passes(a));
+  EXPECT_FALSE(passes(late));
+  EXPECT_TRUE(control.carry_out("reset").done);
+  EXPECT_TRUE(passes(a));
+  EXPECT_TRUE(passes(b));
+  EXPECT_TRUE(passes(late));
+
+  const auto refused = control.carry_out("profile nowhere");
+  EXPECT_FALSE(refused.understood);
+  EXPECT_NE(refused.text.find("no network nowhere"), std::string::npos);
+  EXPECT_EQ(control.notes().size(), 4U);
+  proxy.end();
+  EXPECT_FALSE(control.carry_out("delay 1").done);  // after the end: said, not hung
+}
+
+TEST(ProxyView, FitsEightyColumnsAndTheRowsItWasGiven) {
+  UdpPeer server;
+  Running proxy{server.address(), {}};
+  std::vector<std::unique_ptr<UdpPeer>> clients;
+  for (int i = 0; i < 9; ++i) {
+    clients.push_back(std::make_unique<UdpPeer>());
+    clients.back()->connect(proxy->listening());
+    ASSERT_TRUE(clients.back()->send("x"));
+    ASSERT_TRUE(server.receive());
+  }
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.total[0].out == 9; }));
+  ProxyView view{*proxy};
+  EXPECT_EQ(view.line(), "");
+  EXPECT_TRUE(view.table(10).empty());
+  for (int i = 0; i < 5; ++i) view.look();
+  EXPECT_LE(view.line().size(), 79U);
+  EXPECT_NE(view.line().find("9 clients"), std::string::npos) << view.line();
+  for (std::size_t rows = 0; rows < 30; ++rows) {
+    const auto table = view.table(rows);
+    EXPECT_LE(table.size(), rows);
+    for (const std::string& row : table) EXPECT_LE(row.size(), 79U) << row;
+  }
+  EXPECT_EQ(view.table(30).size(), 1U + 2U * 9U);
+  EXPECT_NE(view.table(10).back().find("and 5 more"), std::string::npos) << view.table(10).back();
+  EXPECT_NE(view.table(30)[1].find("127.0.0.1:"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tandem::netsim
