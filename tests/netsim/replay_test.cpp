@@ -83,6 +83,10 @@ TEST(Replay, LateDecisionsAndDamageComeAgain) {
     EXPECT_GT(count([](const Decision& d) { return d.outcome == Outcome::kWaiting; }), 0);
     EXPECT_GT(count([](const Decision& d) { return d.damage.kind == Damage::Kind::kBitFlips; }), 50);
     EXPECT_GT(count([](const Decision& d) { return d.damage.kind == Damage::Kind::kTruncated; }), 50);
+    for (const Decision& d : rows) {
+      if (d.damage.kind != Damage::Kind::kTruncated) continue;
+      ASSERT_LT(d.damage.length, d.size) << "the size is that of sending";
+    }
     const auto read = parse_decision_csv(decision_csv(rows), "log.csv");
     ASSERT_TRUE(read) << to_text(read.error());
     const auto made = Replay::make(*read);
