@@ -29,7 +29,7 @@ void expect_profile(const std::vector<Case>& cases, bool inside_both = true) {
 
 TEST(BadInput, StatesThatAreNeverLeft) {
   expect_profile({
-      {"gilbert_elliott { p_percent: 5 r_percent: 0 }", "p.textproto:3:40: both.gilbert_elliott.r_percent = 0"},
+      {"gilbert_elliott { p_percent: 5 r_percent: 0 }", "p.textproto:3:43: both.gilbert_elliott.r_percent = 0"},
       {"gilbert_elliott { p_percent: 5 }", "both.gilbert_elliott.r_percent: is missing"},
       {"gilbert_elliott { p_percent: 5 r_percent: -1 }", "both.gilbert_elliott.r_percent = -1"},
       {"gilbert_elliott { p_percent: 5 r_percent: 1 h_percent: 60 k_percent: 50 }", "is above k_percent"},
