@@ -44,10 +44,10 @@ class Reader {
       if (const auto found = table_.find(kNames[c])) {
         column_[c] = *found;
       } else {
-        mistake({std::string(file_), 1, 0, kNames[c], "", "this column of a decision log is missing"});
+        mistake({std::string(file_), 1, 1, kNames[c], "", "this column of a decision log is missing"});
       }
     }
-    if (errors_.empty() && table_.rows() == 0) mistake({std::string(file_), 1, 0, "", "", "holds no decision"});
+    if (errors_.empty() && table_.rows() == 0) mistake({std::string(file_), 1, 1, "", "", "holds no decision"});
     if (errors_.empty()) rows();
     if (!errors_.empty()) return std::unexpected(std::move(errors_));
     return std::move(rows_);

@@ -194,7 +194,8 @@ Outcome ProxyCore::ingress(Time now, std::uint32_t client, Direction direction, 
                            std::uint32_t address) noexcept {
   if (!present(client)) return Outcome::kOverflow;
   auto& lane = places_[client].lanes[static_cast<std::size_t>(direction)];
-  if (lane->counters.in_flight() >= kPerLaneMax) {    // one client that floods must not take the room of the others
+  const std::uint64_t free = queue_.slots() - std::min(queue_.slots(), queue_.size());
+  if (lane->counters.in_flight() >= std::min(kPerLaneMax, free)) {    // one client that floods must not take the room of the others
     Verdict verdict = lane->send(now, bytes.size());  // it has its number, and used the link
     verdict.outcome = Outcome::kOverflow;
     verdict.at = now;

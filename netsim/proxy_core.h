@@ -40,7 +40,8 @@ struct LinkChange {
 class ProxyCore {
  public:
   static constexpr std::size_t kClientsMax = 64;
-  /// Datagrams under way, all clients together; of one direction of one client at most kPerLaneMax.
+  /// Datagrams under way, all clients together; of one direction of one client at most kPerLaneMax, and never more than
+  /// are free besides: whoever floods, others find room.
   static constexpr std::size_t kSlots = 131'072;
   static constexpr std::uint64_t kPerLaneMax = 65'536;
 

@@ -1,9 +1,11 @@
 #include "netsim/scenario.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/base/nearest.h"
+#include "netsim/profile_script.h"
 
 namespace tandem::netsim {
 namespace {
@@ -37,6 +39,7 @@ class Maker {
     for (const ToolSpec& t : out_.setup.scene.tools) tools_.push_back(t.name);
     for (const PhaseSpec& p : out_.setup.scene.phases) phases_.push_back(p.name);
     networks();
+    events();
     if (scene) {  // without a scene every name would be called unknown
       hands();
       faults();
@@ -92,6 +95,27 @@ class Maker {
           add(seat.place, "has a network already: one seat, one network");
         out_.seat_networks.emplace_back(seat.text, network->description);
       }
+    }
+  }
+  void events() {
+    std::vector<ScriptEventSpec> in;
+    for (const ScenarioEventSpec& event : spec_.events) {
+      in.push_back(event.event);
+      if (!seats_.empty())
+        for (const ScenarioName& seat : event.seats) static_cast<void>(find(seats_, seat, "seat"));
+    }
+    // A profile of an event is looked up as a network's is.
+    auto events = network_events(in, [&](const std::string& name) -> std::expected<LinkSpec, InputErrors> {
+      ScenarioNetworkSpec network;
+      network.profile = ScenarioName{name, {}};
+      auto found = sources_.network(network);
+      if (!found) return std::unexpected(found.error());
+      return std::move(found->link);
+    });
+    if (events) {
+      out_.setup.events = std::move(*events);
+    } else {
+      errors_.insert(errors_.end(), events.error().begin(), events.error().end());
     }
   }
   void hands() {
@@ -211,6 +235,19 @@ std::string effective_scenario_text(const Scenario& s) {
   rows.push_back({"seeds", std::to_string(s.seed) + (s.seeds > 1 ? " to " + std::to_string(s.seed + s.seeds - 1) : ""), ""});
   rows.push_back({"network", s.network, ""});
   for (const auto& [seat, network] : s.seat_networks) rows.push_back({"network of " + seat, network, ""});
+  for (std::size_t i = 0; i < s.setup.events.size(); ++i) {
+    constexpr std::array kModes{"DROP", "HOLD", "HOLD_LAST"};
+    const NetworkEvent& e = s.setup.events[i];
+    std::string who;
+    for (const std::string& seat : e.clients) who += (who.empty() ? "" : ", ") + seat;
+    std::string what = e.rebind ? "new address" : e.outage ? "outage" : "another network";
+    if (e.direction) what += std::string(" ") + std::string(netsim::name(*e.direction));
+    rows.push_back({list("event", i), what + " of " + (who.empty() ? "every seat" : who), ""});
+    number(list("event", i) + ".at_s", seconds(e.at), "s");
+    if (e.outage) number(list("event", i) + ".outage_ms", seconds(e.outage->length) * 1e3, "ms");
+    if (e.outage) rows.push_back({list("event", i) + ".mode", kModes[static_cast<std::size_t>(e.outage->mode)], ""});
+    if (e.rebind) number(list("event", i) + ".dead_after_ms", seconds(e.rebind->dead_after) * 1e3, "ms");
+  }
   for (std::size_t i = 0; i < s.hands.size(); ++i) rows.push_back({list("hand", i), s.hands[i], ""});
   for (std::size_t i = 0; i < s.setup.faults.size(); ++i) {
     const Fault& f = s.setup.faults[i];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "proto/scene_spec.h"
+#include "proto/script_spec.h"
 
 /// A scenario as its file says it: every number finite and in range. Names of seats, tools, phases and files are still
 /// words; netsim/scenario.h holds them against the scene. Made by proto/scenario_text.h only.
@@ -30,6 +31,10 @@ struct ScenarioNetworkSpec {
 struct SeatNetworkSpec {
   std::vector<ScenarioName> seats;
   ScenarioNetworkSpec network;
+};
+struct ScenarioEventSpec {
+  ScriptEventSpec event;              ///< its clients are words still, those of `seats`
+  std::vector<ScenarioName> seats;    ///< none: every one
 };
 struct ScenarioHandSpec {
   ScenarioName seat, motion;
@@ -74,6 +79,7 @@ struct ScenarioSpec {
   std::optional<MfsMode> mfs;
   ScenarioNetworkSpec network;
   std::vector<SeatNetworkSpec> seat_networks;
+  std::vector<ScenarioEventSpec> events;
   std::vector<ScenarioHandSpec> hands;
   std::vector<ScenarioFaultSpec> faults;
   std::vector<ScenarioEndpointSpec> endpoints;

@@ -3,10 +3,10 @@
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
-#include <array>
-
 #include "proto/limits.pb.h"
 #include "proto/scenario.pb.h"
+#include "proto/script.pb.h"
+#include "proto/script_events.h"
 #include "proto/text_format_reader.h"
 
 namespace tandem {
@@ -157,6 +157,13 @@ std::expected<ScenarioSpec, InputErrors> parse_scenario_text(std::string_view te
     if (in.seat_network(i).seat_size() == 0) checker.error(key, "needs seat: whose network is it?");
     out.seat_networks.push_back({names_of(in.seat_network(i).seat(), checker, key, "seat"),
                                  network_from(in.seat_network(i).network(), checker, child_path(key, "network"))});
+  }
+  for (int i = 0; i < in.event_size(); ++i) {
+    const std::string key = child_path("", "event", i);
+    const std::vector<std::string> any(in.event(i).client().begin(), in.event(i).client().end());  // seats: the scene knows
+    ScriptEventSpec event = script_event_from(in.event(i), checker, key, any);
+    event.profile_place.file = file_name;
+    out.events.push_back({std::move(event), names_of(in.event(i).client(), checker, key, "client")});
   }
   for (int i = 0; i < in.hand_size(); ++i) {
     const std::string key = child_path("", "hand", i);

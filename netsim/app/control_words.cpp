@@ -171,8 +171,8 @@ std::expected<ControlRequest, std::string> parse_control(std::string_view line) 
 }
 
 std::optional<Duration> parse_length(std::string_view text) noexcept {
-  constexpr std::array<std::pair<std::string_view, double>, 4> kUnits{
-      {{"ms", 1e6}, {"us", 1e3}, {"min", 60e9}, {"s", 1e9}}};
+  constexpr std::array<std::pair<std::string_view, double>, 5> kUnits{
+      {{"ms", 1e6}, {"us", 1e3}, {"min", 60e9}, {"s", 1e9}, {"h", 3600e9}}};
   for (const auto& [unit, ns] : kUnits) {
     if (!text.ends_with(unit)) continue;
     const auto value = number<double>(text.substr(0, text.size() - unit.size()));

@@ -35,7 +35,7 @@ struct ControlRequest {
 /// The commands, for people.
 [[nodiscard]] const char* control_help() noexcept;
 
-/// Reads `400ms`, `0.4s`, `2min`. @return empty: it is not a length of time
+/// Reads `400ms`, `0.4s`, `2min`, `1h`. @return empty: it is not a length of time
 [[nodiscard]] std::optional<Duration> parse_length(std::string_view text) noexcept;
 
 }  // namespace tandem::netsim

@@ -5,6 +5,7 @@
 #include "netsim/app/proxy_command.h"
 #include "netsim/app/run_command.h"
 #include "netsim/app/swarm_command.h"
+#include "netsim/app/sweep_command.h"
 #include "netsim/app/test_command.h"
 
 #ifndef TANDEM_VERSION
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
   std::function<int()> action;
   tandem::netsim::add_run_command(app, action);
   tandem::netsim::add_test_command(app, action);
+  tandem::netsim::add_sweep_command(app, action);
   tandem::netsim::add_proxy_command(app, action);
   tandem::netsim::add_control_command(app, action);
   tandem::netsim::add_profiles_command(app, action);

@@ -139,6 +139,7 @@ void watch_proxy(Proxy& proxy, ProxyControl& control, ControlSocket& socket, int
       const ProxyControl::Answer answer = control.carry_out(*whole);
       stop = stop || answer.stop;
       last_answer = lines_of(answer.text);
+      if (!screen.terminal()) std::fputs(answer.text.c_str(), stderr);
     }
     if (io::read_clock(CLOCK_MONOTONIC) >= next) {
       next += every;

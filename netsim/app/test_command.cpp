@@ -1,9 +1,6 @@
 #include "netsim/app/test_command.h"
 
-#include <unistd.h>
-
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -11,8 +8,8 @@
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/signals.h"
-#include "common/io/terminal.h"
 #include "netsim/app/scenario_load.h"
+#include "netsim/app/test_progress.h"
 #include "netsim/app/test_report.h"
 #include "netsim/scenario_shipped.h"
 
@@ -44,30 +41,6 @@ void list(const std::vector<Scenario>& scenarios) {
     std::printf("%-*s  %3u seed%s  %5.0f s  %s\n", static_cast<int>(width), s.name.c_str(), s.seeds, s.seeds == 1 ? " " : "s",
                 s.setup.scene.duration, s.summary.c_str());
 }
-
-std::string length_text(double s) {
-  std::array<char, 40> text;
-  std::snprintf(text.data(), text.size(), s < 100 ? "%.0f s" : "%.1f min", s < 100 ? s : s / 60);
-  return text.data();
-}
-
-/// How far all seeds are, on one line of the terminal.
-class Progress {
- public:
-  explicit Progress(bool quiet) : line_(quiet || isatty(STDERR_FILENO) == 0) {}
-  void show(const io::JobsProgress& p, std::size_t failed) {
-    std::array<char, 120> text;
-    std::snprintf(text.data(), text.size(), "%3.0f %%  %zu of %zu seeds done, %zu running, %zu failed", 100 * p.share, p.done, p.count,
-                  p.running, failed);
-    std::string words = text.data();
-    if (std::isfinite(p.left_s) && p.done < p.count) words += ", about " + length_text(p.left_s) + " left";
-    if (line_.wanted()) line_.show(words);
-  }
-  void end() { line_.clear(); }
-
- private:
-  io::StatusLine line_;
-};
 
 /// What only shows once the scenarios are known.
 void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, std::vector<std::string>& mistakes) {
@@ -131,7 +104,7 @@ int test_command(const TestArguments& a) {
   if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong({"--json: " + problem});
   if (const auto problem = junit_file.open(a.junit, false); !problem.empty()) return wrong({"--junit: " + problem});
 
-  Progress progress(a.quiet);
+  TestProgress progress(a.quiet);
   TestOptions options{.jobs = static_cast<std::size_t>(a.jobs), .fail_fast = a.fail_fast, .reports = a.reports, .trace = a.trace, .stop_fd = stop.get()};
   if (a.seed_given) options.seed = a.seed;
   if (a.seeds_given) options.seeds = static_cast<std::uint64_t>(a.seeds);

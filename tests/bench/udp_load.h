@@ -37,7 +37,7 @@ class UdpLoad {
     std::size_t met = 0;
     for (int attempt = 0; attempt < 2000 && met < clients_; ++attempt) {
       for (std::uint32_t i = 0; i < clients_; ++i) {
-        if (upstreams_[i].size == 0) ::send(sockets_[i].get(), &i, sizeof i, 0);
+        if (upstreams_[i].size == 0) met_.sent += ::send(sockets_[i].get(), &i, sizeof i, 0) >= 0 ? 1 : 0;
       }
       pause_until(io::read_clock(CLOCK_MONOTONIC) + Duration{10'000'000});
       std::uint32_t who = 0;
@@ -45,12 +45,16 @@ class UdpLoad {
       from.size = sizeof from.storage;
       while (::recvfrom(server_.get(), &who, sizeof who, MSG_DONTWAIT, reinterpret_cast<sockaddr*>(&from.storage),
                         &from.size) == sizeof who) {
+        ++met_.up;
         if (who < clients_ && upstreams_[who].size == 0) ++met, upstreams_[who] = from;
         from.size = sizeof from.storage;
       }
     }
     return met == clients_;
   }
+
+  /// What `meet` sent, and read.
+  [[nodiscard]] const Counts& met() const { return met_; }
 
   /// @param spread  clients one after another within the millisecond; else all at its beginning
   Counts run(Duration length, bool spread) {
@@ -102,6 +106,7 @@ class UdpLoad {
   }
 
   std::size_t clients_;
+  Counts met_;
   io::Fd server_;
   io::SocketAddress address_;
   std::vector<io::Fd> sockets_;

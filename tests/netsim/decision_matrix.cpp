@@ -141,6 +141,15 @@ std::vector<Decision> of_flow(const std::vector<Decision>& rows, std::uint32_t f
   return own;
 }
 
+PathSpec late_decisions() {
+  PathSpec spec = everything();
+  spec.rate = {.bits_per_s = 1'500'000, .queue_wait = 30ms, .drop = RateSpec::Drop::kHead};
+  spec.outages = {{.start = 1s, .length = 150ms, .period = 2s, .mode = OutageSpec::Mode::kHoldLast}};
+  spec.corruption = {.probability = 0.05, .mode = CorruptionSpec::Mode::kBitFlips, .bits = 3};
+  spec.mtu = {.bytes = 600, .above = MtuSpec::Above::kFragment};
+  return spec;
+}
+
 std::vector<MatrixEntry> decision_matrix() {
   std::vector<MatrixEntry> all;
   for (const ShippedProfile& shipped : shipped_profiles()) {
@@ -154,6 +163,13 @@ std::vector<MatrixEntry> decision_matrix() {
   PathSpec free = everything();
   free.order = Order::kFree;
   all.push_back({"everything, free order", [free] { return log_with(both(free)); }});
+  all.push_back({"late decisions", [] { return log_with(both(late_decisions())); }});
+  PathSpec cut = late_decisions();
+  cut.corruption.mode = CorruptionSpec::Mode::kTruncate;
+  cut.rate.drop = RateSpec::Drop::kTail;
+  all.push_back({"cut short", [cut] { return log_with(both(cut)); }});
+  all.push_back({"a link that two share",
+                 [] { return log_with({.up = everything(), .down = late_decisions(), .shared = true}); }});
   all.push_back({"script", log_of_bad_day});
   all.push_back({"replay of other traffic", log_of_replay});
   all.push_back({"proxy", [] {

@@ -34,6 +34,10 @@ struct Traffic {
 /// The rows of one flow.
 [[nodiscard]] std::vector<Decision> of_flow(const std::vector<Decision>& rows, std::uint32_t flow);
 
+/// What is decided late or changes bytes: a queue that drops at its head, outages that keep the newest, flipped bits,
+/// fragments; beside copies, order and loss.
+[[nodiscard]] PathSpec late_decisions();
+
 /// One network of the fixed matrix.
 struct MatrixEntry {
   std::string name;

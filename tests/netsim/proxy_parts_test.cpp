@@ -83,6 +83,23 @@ TEST(ProxyOutbox, GroupsBySocketAndKeepsTheOrderOfEach) {
   }
 }
 
+// A flood that is answered fills two directions; whoever else is there must still find room.
+TEST(ProxyCore, AFloodInBothDirectionsLeavesRoomForOthers) {
+  ProxyCore core{link_from({.delay = 60s}), 1};
+  core.add_client();
+  core.add_client();
+  const std::array<std::byte, 8> bytes{};
+  for (std::uint64_t i = 0; i < 2 * ProxyCore::kPerLaneMax; ++i) {
+    core.ingress(Time{}, 0, Direction::kUp, bytes);
+    core.ingress(Time{}, 0, Direction::kDown, bytes);
+  }
+  EXPECT_GT(core.counters(0, Direction::kUp).of(Outcome::kOverflow), 0U);
+  for (std::uint64_t i = 0; i < 10'000; ++i) {
+    ASSERT_EQ(core.ingress(Time{}, 1, Direction::kUp, bytes), Outcome::kDeliver) << i;
+    ASSERT_EQ(core.ingress(Time{}, 1, Direction::kDown, bytes), Outcome::kDeliver) << i;
+  }
+}
+
 TEST(ProxySource, ANumberIsASourceAgain) {
   for (std::uint32_t place = 0; place < ProxyClients::kMax; ++place) {
     for (std::size_t kind = 0; kind < ProxySource::kKinds; ++kind) {

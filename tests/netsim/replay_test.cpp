@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "netsim/decision_csv.h"
 #include "tests/netsim/decision_matrix.h"
 #include "tests/netsim/support.h"
@@ -61,6 +63,39 @@ TEST(Replay, TheSameTrafficGivesTheSameLogByteForByte) {
         EXPECT_EQ(again.replayed(link, direction), again.counters(link, direction).in);
       }
     }
+  }
+}
+
+// Shared links, late decisions and damaged bytes come again, also what was undecided when the log ended.
+TEST(Replay, LateDecisionsAndDamageComeAgain) {
+  for (const bool shared : {false, true}) {
+    PathSpec cut = late_decisions();
+    cut.corruption.mode = CorruptionSpec::Mode::kTruncate;
+    const LinkSpec link{.up = late_decisions(), .down = cut, .shared = shared};
+    Network original{31};
+    original.add_link(link);
+    original.add_link(link);
+    const std::vector<Traffic> traffic{{.size_max = 900, .seed = 1}, {.period = 1500us, .seed = 2}};
+    const auto rows = log_of(original, traffic);
+    const auto count = [&](const auto& is) { return std::ranges::count_if(rows, is); };
+    EXPECT_GT(count([](const Decision& d) { return d.outcome == Outcome::kPushedOut; }), 50);
+    EXPECT_GT(count([](const Decision& d) { return d.outcome == Outcome::kReplaced; }), 50);
+    EXPECT_GT(count([](const Decision& d) { return d.outcome == Outcome::kWaiting; }), 0);
+    EXPECT_GT(count([](const Decision& d) { return d.damage.kind == Damage::Kind::kBitFlips; }), 50);
+    EXPECT_GT(count([](const Decision& d) { return d.damage.kind == Damage::Kind::kTruncated; }), 50);
+    for (const Decision& d : rows) {
+      if (d.damage.kind != Damage::Kind::kTruncated) continue;
+      ASSERT_LT(d.damage.length, d.size) << "the size is that of sending";
+    }
+    const auto read = parse_decision_csv(decision_csv(rows), "log.csv");
+    ASSERT_TRUE(read) << to_text(read.error());
+    const auto made = Replay::make(*read);
+    ASSERT_TRUE(made) << made.error();
+    const auto replay = std::make_shared<const Replay>(*made);
+    Network again{1};
+    again.add_replay(replay, 0);
+    again.add_replay(replay, 1);
+    EXPECT_EQ(difference(log_of(again, traffic), rows), "");
   }
 }
 

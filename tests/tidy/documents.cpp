@@ -123,6 +123,16 @@ void add_tests(const SourceFile& file, std::set<std::string, std::less<>>& tests
   }
 }
 
+/// Tests that are programs: add_test(NAME Suite.Name ...).
+void add_program_tests(const SourceFile& file, std::set<std::string, std::less<>>& tests) {
+  constexpr std::string_view kDeclaration = "add_test(NAME ";
+  const std::string_view text = file.text;
+  for (std::size_t at = text.find(kDeclaration); at != std::string_view::npos; at = text.find(kDeclaration, at + 1)) {
+    const auto words = words_of(text.substr(at + kDeclaration.size(), 100));
+    if (!words.empty()) tests.emplace(words.front());
+  }
+}
+
 void add_programs(const SourceFile& file, std::set<std::string, std::less<>>& programs) {
   constexpr std::string_view kDeclaration = "tandem_program(";
   const std::string_view text = file.text;
@@ -151,9 +161,12 @@ Known known_things(std::span<const SourceFile> files) {
   Known known;
   for (const SourceFile& file : files) {
     if (is_cpp(file.path) && is_within(file.path, "tests")) add_tests(file, known.tests);
-    if (file.path.ends_with("CMakeLists.txt")) add_programs(file, known.programs);
+    if (file.path.ends_with("CMakeLists.txt")) {
+      add_programs(file, known.programs);
+      add_program_tests(file, known.tests);
+    }
     if (file.path == "demo" || file.path == "test") known.programs.insert("./" + file.path);
-    const bool script = file.path == "demo" || file.path == "test" || file.path.ends_with(".sh");
+    const bool script = file.path == "demo" || file.path == "test" || file.path.ends_with(".sh") || file.path == "tests/sim/mutations";
     if (script || (is_cpp(file.path) && !is_within(file.path, "tests/tidy"))) known.option_texts += file.text;
   }
   return known;

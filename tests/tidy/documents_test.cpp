@@ -54,6 +54,16 @@ TEST(Readme, EveryCommandFileAndTestItNamesExists) {
   }
 }
 
+TEST(NetsimManual, EveryCommandFileAndTestItNamesExists) {
+  const auto files = read_repository(kRoot);
+  if (const SourceFile* document = find_document(files, "netsim/README.md")) {
+    const Known known = known_things(files);
+    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
+    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+        << to_string(check_references(*document, known, kRoot));
+  }
+}
+
 TEST(ValidationMatrix, EveryRowNamesTestsThatExist) {
   const auto files = read_repository(kRoot);
   if (const SourceFile* document = find_document(files, "tests/netsim/MATRIX.md")) {

@@ -1,0 +1,151 @@
+#include "netsim/app/sweep_command.h"
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include "common/base/format.h"
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "common/io/signals.h"
+#include "netsim/app/sweep.h"
+#include "netsim/app/test_progress.h"
+#include "proto/io/scene_file.h"
+#include "server/session_monitor.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr int kGood = 0, kFailed = 1, kWrong = 2;
+
+struct SweepArguments {
+  std::string scene, delay, jitter, loss, metric = "tracking_rms_m", channel, mfs, json, csv;
+  std::uint64_t seed = 1;
+  double seeds = 1, jobs = 0, duration_s = 0;
+  bool quiet = false;
+};
+
+int wrong(const std::vector<std::string>& mistakes) {
+  for (const std::string& m : mistakes) std::fprintf(stderr, "tandem-netsim sweep: %s\n", m.c_str());
+  std::fprintf(stderr, "%zu mistake%s; nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+/// Everything a person typed, and all that is wrong with it.
+SweepSpec understand(const SweepArguments& a, std::vector<std::string>& mistakes) {
+  SweepSpec spec;
+  spec.scene_name = a.scene;
+  spec.metric = a.metric;
+  if (auto scene = load_scene(a.scene)) {
+    spec.scene = std::move(*scene);
+  } else {
+    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
+  }
+  const auto axis = [&](const char* option, const std::string& text, double hi, const char* unit, std::vector<double>& into) {
+    if (text.empty()) return;
+    if (auto values = parse_axis(text, 0, hi, unit)) {
+      into = std::move(*values);
+    } else {
+      mistakes.push_back(std::string(option) + ": " + values.error());
+    }
+  };
+  axis("--delay", a.delay, 60'000, "ms", spec.delays_ms);
+  axis("--jitter", a.jitter, 60'000, "ms", spec.jitters_ms);
+  axis("--loss", a.loss, 100, "%", spec.losses_percent);
+  if (a.delay.empty() && a.jitter.empty() && a.loss.empty())
+    mistakes.emplace_back("nothing to sweep: give at least one of --delay, --jitter, --loss, such as --delay 0,20,50");
+  const std::size_t points = spec.delays_ms.size() * spec.jitters_ms.size() * spec.losses_percent.size();
+  if (points > kSweepPointsMax)
+    mistakes.push_back("the grid has " + std::to_string(points) + " points; at most " + std::to_string(kSweepPointsMax) + " are allowed");
+  if (const auto known = sweep_metric(a.metric); !known) mistakes.push_back("--metric: " + known.error());
+  if (a.duration_s > 0) {
+    spec.scene.duration = a.duration_s;
+    spec.options += format("--duration %.9g", a.duration_s);
+  }
+  const auto add = [&](const std::string& option) { spec.options += (spec.options.empty() ? "" : " ") + option; };
+  if (!a.channel.empty()) {
+    spec.scene.channel.law = a.channel == "raw" ? LawKind::kRaw : LawKind::kSetPosition;
+    add("--channel " + a.channel);
+  }
+  if (!a.mfs.empty()) {
+    for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
+      if (a.mfs == server::mfs_name(mode)) spec.scene.channel.mfs = mode;
+    add("--mfs " + a.mfs);
+  }
+  return spec;
+}
+
+int sweep_command(const SweepArguments& a) {
+  std::vector<std::string> mistakes;
+  SweepSpec spec = understand(a, mistakes);
+  for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
+    if (!file->empty() && *file != "-")
+      if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) mistakes.push_back(std::string(option) + ": " + problem);
+  if (!a.json.empty() && a.json == a.csv) mistakes.emplace_back("--csv: is the same file as --json");
+  if (!mistakes.empty()) return wrong(mistakes);
+
+  const io::Fd stop = io::signals_as_file();
+  io::OutputFile json_file, csv_file;
+  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong({"--json: " + problem});
+  if (const auto problem = csv_file.open(a.csv, true); !problem.empty()) return wrong({"--csv: " + problem});
+  TestProgress progress(a.quiet);
+  TestOptions options{.seed = a.seed, .seeds = static_cast<std::uint64_t>(a.seeds), .jobs = static_cast<std::size_t>(a.jobs), .stop_fd = stop.get()};
+  options.watch = [&](const io::JobsProgress& p, std::size_t failed) { progress.show(p, failed); };
+  const Sweep sweep = run_sweep(std::move(spec), options);
+  progress.end();
+
+  const bool on_stdout = a.json == "-" || a.csv == "-";
+  if (!a.quiet || !on_stdout) std::fputs(sweep_map(sweep).c_str(), on_stdout ? stderr : stdout);
+  if (sweep.runs.not_run() > 0) std::fprintf(stderr, "interrupted: %zu runs are missing\n", sweep.runs.not_run());
+  json_file.write(sweep_json(sweep));
+  csv_file.write(sweep_csv(sweep));
+  int code = sweep.good() ? kGood : kFailed;
+  for (const auto& problem : {json_file.close(), csv_file.close()})
+    if (!problem.empty()) {
+      std::fprintf(stderr, "tandem-netsim sweep: %s\n", problem.c_str());
+      code = kFailed;
+    }
+  return code;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& root, std::function<int()>& action) {
+  const auto a = std::make_shared<SweepArguments>();
+  CLI::App* const command = root.add_subcommand("sweep", "Runs a scene over a grid of networks and prints a map of one number.");
+  command->add_option("scene", a->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")->option_text(" ")->required();
+  command->add_option("--delay", a->delay, "constant delays, each direction [ms], 0 to 60000")->option_text("MS,MS,...");
+  command->add_option("--jitter", a->jitter, "delays uniform in [0, MS] added to every datagram [ms], 0 to 60000; order is kept")
+      ->option_text("MS,MS,...");
+  command->add_option("--loss", a->loss, "datagrams lost, each alone [%], 0 to 100")->option_text("PERCENT,...");
+  command->add_option("--metric", a->metric,
+                      "the number of the map, as in `run --json`: tracking_rms_m (default), force_error_rms_n, effort_peak_n, gate_trips, "
+                      "held_s, ...; the worst seat or tool over all seeds counts")
+      ->option_text("NAME");
+  command->add_option("--seeds", a->seeds, "how many seeds of each point; default 1")
+      ->check(io::number_in(1, 10'000, ""))
+      ->check(io::whole_number())
+      ->option_text("N");
+  command->add_option("--seed", a->seed, "the first seed; default 1")->check(io::whole_number())->option_text("FIRST");
+  command->add_option("--jobs", a->jobs, "runs at a time; default: one per core. No result depends on it")
+      ->check(io::number_in(1, 256, ""))
+      ->check(io::whole_number())
+      ->option_text("N");
+  command->add_option("--duration", a->duration_s, "session time instead of the scene's")->check(io::number_in(0.1, 3e6, "s"))->option_text("S");
+  command->add_option("--channel", a->channel, "channel law instead of the scene's: set_position, raw")
+      ->transform(CLI::IsMember({"set_position", "raw"}, CLI::ignore_case));
+  command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
+      ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
+  command->add_option("--json", a->json, "writes all points and seeds; `-`: to standard output")->option_text("FILE|-");
+  command->add_option("--csv", a->csv, "writes one row per point; `-`: to standard output")->option_text("FILE|-");
+  command->add_flag("--quiet", a->quiet, "no progress, and no map beside --json - or --csv -");
+  command->footer(
+      "Exit: 0 no promised invariant was broken anywhere, 1 one was, or a run could not begin, 2 wrong arguments or files.\n\n"
+      "Examples\n"
+      "  tandem-netsim sweep free_motion --delay 0,20,50,100 --loss 0,5,20\n"
+      "  tandem-netsim sweep contact --delay 0,10,20,40 --jitter 0,5 --metric force_error_rms_n --seeds 5 --csv map.csv\n"
+      "  tandem-netsim sweep contact --delay 0,50,100,200 --channel raw");
+  command->callback([a, &action] { action = [a] { return sweep_command(*a); }; });
+}
+
+}  // namespace tandem::netsim
