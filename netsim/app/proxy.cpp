@@ -127,9 +127,11 @@ std::size_t Proxy::read(ProxySource source, Duration wall_at_start) noexcept {
       ++troubles_.too_long;
       continue;
     }
+    // What came between the socket's opening and the first round came at the start: there is no time before it.
+    const Duration oldest = std::max(now_ - kAgeMax, Duration::zero());
     const Duration at = details.stamp == Duration{}
                             ? now_
-                            : std::clamp(details.stamp - wall_at_start, now_ - kAgeMax, now_ + Duration{1'000'000});
+                            : std::clamp(details.stamp - wall_at_start, oldest, now_ + Duration{1'000'000});
     if (down) {
       ProxyClients::Client& client = clients_[source.place];
       client.last_seen = now_;

@@ -154,7 +154,7 @@ TEST(Program, ProxyLogsEveryDecisionAndFollowsAScript) {
   proxy.signal(SIGINT);
   EXPECT_EQ(proxy.wait(), 0);
   const auto rows = parse_decision_csv(read(log), log);
-  ASSERT_TRUE(rows);
+  ASSERT_TRUE(rows) << to_text(rows.error());
   ASSERT_EQ(rows->size(), 21U);
   EXPECT_EQ(std::ranges::count(*rows, Outcome::kOutage, &Decision::outcome), 20);
   EXPECT_EQ(std::ranges::count(*rows, Outcome::kDeliver, &Decision::outcome), 1);
