@@ -19,6 +19,13 @@ TANDEM_PACKAGES=(
   "libgtest-dev: unit and simulation tests"
 )
 
+# What only the longer kinds of ./test need; without them it says what it did not run.
+# shellcheck disable=SC2034
+TANDEM_PACKAGES_FULL=(
+  "clang-19: second compiler that must decide as g++ does"
+  "valgrind: counts instructions in benchmarks"
+)
+
 packages_say() { printf '%s\n' "$@" >&2; }
 
 # packages_missing "name: reason" ...: prints those entries whose package is not installed.
