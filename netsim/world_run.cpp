@@ -4,6 +4,7 @@
 
 #include "common/link/digest.h"
 #include "netsim/world.h"
+#include "netsim/world_quality.h"
 #include "netsim/world_report.h"
 #include "server/trace_csv.h"
 
@@ -53,6 +54,7 @@ WorldRun run_world(const WorldSetup& setup, const WorldRunWatch& watch) {
   }
   flush();
   run.trouble = world.trouble();
+  run.links = link_qualities(world);
   run.report = world_report(world, builder, setup.seed);
   run.report.trace_hash = digest.hex();
   if (run.trouble.empty() && run.report.duration_s <= 0 && !run.interrupted)

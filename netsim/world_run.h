@@ -3,7 +3,9 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "netsim/quality_text.h"
 #include "netsim/world_setup.h"
 #include "server/report.h"
 
@@ -19,6 +21,7 @@ struct WorldRunWatch {
 
 struct WorldRun {
   server::RunReport report;  ///< `cpu_s` is the caller's: cores read no clock
+  std::vector<NamedLink> links;  ///< every seat's, if the setup asked for it (`watch_quality`)
   std::string trouble;       ///< why there is nothing to judge; empty: the session ran
   bool interrupted = false;  ///< `go_on` said no; the report is of what ran until then
 };

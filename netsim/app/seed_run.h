@@ -25,6 +25,8 @@ struct SeedOutcome {
   std::string trouble;                        ///< of kTrouble and kCrash, for people
   std::vector<server::Violation> violations;  ///< expected ones too
   std::vector<double> values;                 ///< one per limit of the scenario; NaN: the run has no such number
+  /// Seat and band of its link for force feedback (netsim/quality_text.h): `green`, `amber`, `red`, `too short`.
+  std::vector<std::pair<std::string, std::string>> bands;
   std::string trace_hash;
   double duration_s = 0;                      ///< of the session
   double cpu_s = 0;

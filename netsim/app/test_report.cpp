@@ -84,6 +84,30 @@ void put_limits(const ScenarioResult& r, std::string& out) {
            padded(row.margin, width[3]) + "  " + row.where + "\n";
 }
 
+/// What the network was like for force feedback, each seat at its worst seed: `red: trainee; green: trainer`.
+std::string bands_text(const ScenarioResult& r) {
+  constexpr std::array<std::string_view, 4> kWorstFirst{"red", "amber", "green", "too short"};
+  const auto rank = [&](std::string_view band) { return std::ranges::find(kWorstFirst, band) - kWorstFirst.begin(); };
+  std::vector<std::pair<std::string, std::string>> worst;
+  for (const SeedOutcome& s : r.seeds)
+    for (const auto& [seat, band] : s.bands) {
+      const auto known = std::ranges::find(worst, seat, &std::pair<std::string, std::string>::first);
+      if (known == worst.end()) {
+        worst.emplace_back(seat, band);
+      } else if (rank(band) < rank(known->second)) {
+        known->second = band;
+      }
+    }
+  std::string text;
+  for (const std::string_view band : kWorstFirst) {
+    std::string seats;
+    for (const auto& [seat, its] : worst)
+      if (its == band) seats += (seats.empty() ? "" : ", ") + seat;
+    if (!seats.empty()) text += (text.empty() ? "" : "; ") + std::string(band) + ": " + seats;
+  }
+  return text;
+}
+
 std::string verdict(const ScenarioResult& r) {
   if (r.failed() > 0) return "FAIL " + std::to_string(r.failed()) + " of " + std::to_string(r.seeds.size());
   return r.passed() ? "pass" : "not finished";
@@ -136,6 +160,7 @@ std::string test_summary(const TestResult& result) {
     out += "\n" + r.scenario.name + ": " + r.scenario.scene + " over " + r.scenario.network;
     for (const auto& [seat, network] : r.scenario.seat_networks) out += ", " + seat + " over " + network;
     out += "\n";
+    if (const std::string bands = bands_text(r); !bands.empty()) out += "  network for force feedback, at the worst seed: " + bands + "\n";
     put_limits(r, out);
   }
   put_failures(result, out);
@@ -195,6 +220,8 @@ std::string test_json(const TestResult& result) {
       for (const server::Violation& v : o.violations)
         seed["violations"].push_back(
             {{"invariant", v.invariant}, {"seat", v.seat}, {"at_s", v.at_s}, {"expected", v.expected}, {"count", v.count}});
+      seed["network"] = Json::array();
+      for (const auto& [seat, band] : o.bands) seed["network"].push_back({{"seat", seat}, {"band", band}});
       seed["duration_s"] = number(o.duration_s);
       seed["trace_hash"] = o.trace_hash;
       seed["cpu_s"] = number(o.cpu_s);

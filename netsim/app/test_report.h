@@ -16,7 +16,8 @@ namespace tandem::netsim {
 ///    "limits": [{"subject", "metric", "unit", "min"|null, "max"|null, "worst": value|null, "worst_seed"|null,
 ///                "margin_percent"|null}],
 ///    "seeds": [{"seed", "verdict": "pass"|"fail"|"trouble"|"crash"|"not run", "causes": [text], "values": [number|null, one
-///               per limit], "violations": [{"invariant", "seat", "at_s", "expected", "count"}], "duration_s", "trace_hash",
+///               per limit], "violations": [{"invariant", "seat", "at_s", "expected", "count"}], "network": [{"seat", "band":
+///               "green"|"amber"|"red"|"too short"}], "duration_s", "trace_hash",
 ///               "cpu_s", "replay": command, "report": {...} if asked for}]}]}
 /// A number that a run does not have is null.
 [[nodiscard]] std::string test_json(const TestResult& result);

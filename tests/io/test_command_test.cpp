@@ -134,6 +134,35 @@ TEST(NetsimTest, ListsAndChecksWithoutRunning) {
     EXPECT_NE(check.out().find(part), std::string::npos) << part << " not in\n" << check.out();
 }
 
+TEST(NetsimSweep, PrintsAMapWhosePointsRunRepeats) {
+  Process sweep({TANDEM_NETSIM, "sweep", "one_axis", "--duration", "2", "--delay", "0,30", "--loss", "0,5", "--json", "-"});
+  ASSERT_EQ(sweep.wait(), 0) << sweep.err();
+  EXPECT_NE(sweep.err().find("delay [ms]  loss"), std::string::npos) << sweep.err();
+  const Json point = Json::parse(sweep.out())["points"][3];
+  EXPECT_EQ(point["loss_percent"], 5);
+  Process run({TANDEM_NETSIM, "run", "one_axis", "--duration", "2", "--delay", "30", "--loss", "5", "--json", "-", "--quiet"});
+  ASSERT_EQ(run.wait(), 0) << run.err();
+  const Json report = Json::parse(run.out());
+  EXPECT_EQ(point["seeds"][0]["trace_hash"], report["trace_hash"]);
+  EXPECT_EQ(point["worst"], report["seats"][0]["tracking_rms_m"]);
+}
+
+TEST(NetsimSweep, SaysWhatIsWrongAndStartsNothing) {
+  for (const auto& [arguments, part] : std::vector<std::pair<test::Words, std::string>>{
+           {{"one_axis"}, "nothing to sweep"},
+           {{"one_axs", "--delay", "0"}, "did you mean one_axis?"},
+           {{"one_axis", "--delay", "0,60001"}, "--delay: \"60001\" is out of range"},
+           {{"one_axis", "--loss", "0,x"}, "--loss: \"x\" is not a number"},
+           {{"one_axis", "--delay", "0", "--metric", "trackin"}, "--metric: \"trackin\" is no number of a report"},
+           {{"one_axis", "--delay", "0", "--csv", "/no/such/x.csv"}, "cannot be written"}}) {
+    test::Words command{TANDEM_NETSIM, "sweep"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    Process sweep(command);
+    EXPECT_EQ(sweep.wait(), 2) << part;
+    EXPECT_NE(sweep.err().find(part), std::string::npos) << part << " not in: " << sweep.err();
+  }
+}
+
 TEST(NetsimTest, AnInterruptEndsItAtOnceAndNamesWhatWasNotRun) {
   const Folder folder;
   // The second is hours of work; result files are opened once signals are waited for.

@@ -84,6 +84,33 @@ TEST(Scenario, SaysWhatTheFileSays) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " not in\n" << text;
 }
 
+TEST(Scenario, NetworksChangeAtTheirTimes) {
+  using namespace std::chrono_literals;
+  const auto s = make(
+      "version: 1 scene: \"contact\"\n"
+      "event { at_s: 2 client: \"trainee\" outage_ms: 400 mode: HOLD direction: UP } event { at_s: 3 profile: \"any\" }\n"
+      "event { at_s: 4 client: \"trainer\" rebind { dead_after_ms: 20 } }\n");
+  ASSERT_TRUE(s) << to_text(s.error());
+  ASSERT_EQ(s->setup.events.size(), 3u);
+  EXPECT_EQ(s->setup.events[0].at, 2s);
+  EXPECT_EQ(s->setup.events[0].clients, std::vector<std::string>{"trainee"});
+  EXPECT_EQ(s->setup.events[0].outage->length, 400ms);
+  EXPECT_EQ(s->setup.events[0].outage->mode, OutageSpec::Mode::kHold);
+  EXPECT_EQ(s->setup.events[0].direction, Direction::kUp);
+  EXPECT_TRUE(s->setup.events[1].link);
+  EXPECT_EQ(s->setup.events[2].rebind->dead_after, 20ms);
+  const std::string text = effective_scenario_text(*s);
+  for (const char* part : {"outage up of trainee", "HOLD", "another network of every seat", "new address of trainer", "event[2].dead_after_ms"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " not in\n" << text;
+  EXPECT_NE(mistakes("version: 1 scene: \"contact\"\nevent { at_s: 1 }").find("2:1: event[0]: needs exactly one of outage_ms, profile, rebind"),
+            std::string::npos);
+  const std::string all = mistakes(
+      "version: 1 scene: \"contact\"\nevent { at_s: 1 client: \"traine\" outage_ms: 5 }\nevent { at_s: 2 profile: \"unknown\" }\n");
+  for (const char* part : {"some.textproto:2:25: event[0].client[0] = \"traine\": no seat of scene contact is called so; did you mean trainer?",
+                           "some.textproto:3:26: event[1].profile = \"unknown\": no such network"})
+    EXPECT_NE(all.find(part), std::string::npos) << part << " not in\n" << all;
+}
+
 TEST(Scenario, ListsEveryMistakeWithItsPlace) {
   const std::string text =
       "version: 1\n"

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "netsim/app/scenario_load.h"
+#include "netsim/app/sweep.h"
 #include "netsim/app/test_report.h"
 #include "netsim/world_run.h"
 
@@ -175,6 +176,71 @@ TEST(Verdict, JUnitSurvivesEveryTextThatAFileCanHold) {
   EXPECT_NE(xml_trouble("<a x=\"&\"/>"), "");
 }
 
+TEST(Verdict, AnOutageOfAScenarioHappensAndTheNetworkIsCalledRed) {
+  const TestResult result = run_tests(
+      {scenario("version: 1 scene: \"one_axis\" duration_s: 4 event { at_s: 2 client: \"trainer\" outage_ms: 300 }\n"
+                "seat_limits { longest_gap_ms { min: 300 max: 302 } gate_trips { min: 1 } }")}, {});
+  EXPECT_TRUE(result.passed()) << test_summary(result);
+  ASSERT_EQ(result.scenarios[0].seeds[0].bands.size(), 1u);
+  EXPECT_EQ(result.scenarios[0].seeds[0].bands[0], (std::pair<std::string, std::string>{"trainer", "red"}));
+  EXPECT_NE(test_summary(result).find("network for force feedback, at the worst seed: red: trainer"), std::string::npos) << test_summary(result);
+}
+
+SweepSpec small_sweep() {
+  SweepSpec spec;
+  spec.scene = small().setup.scene;
+  spec.scene_name = "one_axis";
+  spec.options = "--duration 2";
+  return spec;
+}
+
+TEST(Sweep, MapsAGridAndDoesNotDependOnHowManyRunAtOnce) {
+  std::vector<std::string> all;
+  for (const std::size_t jobs : {1u, 3u}) {
+    SweepSpec spec = small_sweep();
+    spec.delays_ms = {0, 40};
+    spec.losses_percent = {0, 10};
+    const Sweep sweep = run_sweep(spec, {.seed = 3, .seeds = 2, .jobs = jobs});
+    EXPECT_TRUE(sweep.good());
+    ASSERT_EQ(sweep.points.size(), 4u);
+    EXPECT_EQ(sweep.points[1].loss_percent, 10) << "loss is innermost";
+    EXPECT_EQ(sweep.points[2].delay_ms, 40);
+    EXPECT_GT(sweep.points[2].worst, 2 * sweep.points[0].worst) << "delay costs tracking";
+    EXPECT_GE(sweep.points[3].worst, sweep.points[3].median);
+    EXPECT_EQ(sweep.runs.scenarios[0].seeds[0].seed, 3u);
+    all.push_back(sweep_map(sweep) + sweep_csv(sweep) + sweep_json(sweep));
+  }
+  EXPECT_EQ(all[0], all[1]);
+  EXPECT_NE(all[0].find("delay[ms],jitter[ms],loss[%],worst[m],median[m],worst_seed[1],broken[1],trouble[1]\n0,0,0,"), std::string::npos);
+  EXPECT_NE(all[0].find("tandem-netsim run one_axis --delay 40 --jitter 0 --loss 10 --seed 4 --duration 2 --trace out.csv"), std::string::npos) << all[0];
+}
+
+TEST(Sweep, MarksWhatCouldNotRun) {
+  SweepSpec spec = small_sweep();
+  spec.delays_ms = {0, 5000};
+  spec.metric = "rtt_p50_ms";
+  const Sweep sweep = run_sweep(spec, {.seeds = 1});
+  EXPECT_FALSE(sweep.good());
+  EXPECT_FALSE(sweep.points[0].trouble);
+  EXPECT_TRUE(sweep.points[1].trouble);
+  EXPECT_NE(sweep_map(sweep).find(" T"), std::string::npos);
+  EXPECT_NE(sweep_map(sweep).find("loop_age_max_ms"), std::string::npos) << sweep_map(sweep);
+}
+
+TEST(Sweep, AxesAreListsOfNumbersInRange) {
+  EXPECT_EQ(*parse_axis("0,20,50.5", 0, 100, "ms"), (std::vector<double>{0, 20, 50.5}));
+  for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
+           {"", "is not a number"}, {"1,,2", "\"\" is not a number"}, {"1,2x", "\"2x\" is not a number"}, {"nan", "is not a number"},
+           {"1,-1", "\"-1\" is out of range"}, {"101", "[0, 100] ms"}, {"1,2,1", "\"1\" is there twice"}}) {
+    const auto axis = parse_axis(text, 0, 100, "ms");
+    ASSERT_FALSE(axis) << text;
+    EXPECT_NE(axis.error().find(says), std::string::npos) << axis.error();
+  }
+  EXPECT_EQ(sweep_metric("held_s"), Limit::Of::kTool);
+  EXPECT_EQ(sweep_metric("tracking_rms_m"), Limit::Of::kSeat);
+  EXPECT_NE(sweep_metric("traking_rms_m").error().find("did you mean tracking_rms_m?"), std::string::npos);
+}
+
 TEST(Verdict, ReplayCommandsAreWordsOfAShell) {
   Scenario s = small();
   s.file = "my folder/it's; rm.textproto";
@@ -185,7 +251,7 @@ TEST(Verdict, ReplayCommandsAreWordsOfAShell) {
 
 TEST(Verdict, OutcomesCrossBetweenProcessesWhole) {
   SeedOutcome o{.seed = ~0ULL, .state = State::kFail, .trouble = "a\n\"b\"", .violations = {{"finite", "x", 0.1, false, 1ULL << 60}},
-                .values = {0.1, std::nan(""), 1e300}, .trace_hash = "abc", .duration_s = 1.0 / 3, .cpu_s = 0.2, .report = "{\"a\":1}"};
+                .values = {0.1, std::nan(""), 1e300}, .bands = {{"x", "red"}}, .trace_hash = "abc", .duration_s = 1.0 / 3, .cpu_s = 0.2, .report = "{\"a\":1}"};
   const SeedOutcome back = outcome_from_bytes(to_bytes(o));
   EXPECT_EQ(back.seed, o.seed);
   EXPECT_EQ(back.state, o.state);
@@ -195,6 +261,7 @@ TEST(Verdict, OutcomesCrossBetweenProcessesWhole) {
   EXPECT_TRUE(std::isnan(back.values[1]));
   EXPECT_EQ(back.duration_s, 1.0 / 3);
   EXPECT_EQ(back.report, o.report);
+  EXPECT_EQ(back.bands, o.bands);
 }
 
 TEST(Verdict, FilesAreNamedRelativeToTheScenario) {
