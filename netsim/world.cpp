@@ -194,7 +194,7 @@ void World::take_record() {
     const client::Seat* seat = stations_[i].seat();
     if (seat == nullptr) continue;
     server::put_seat(seat->sample(), record_.seats[i]);
-    record_.seats[i].sample_tick = record_.tick;
+    if (stations_[i].served_now()) record_.seats[i].sample_tick = record_.tick;  // else as old as its program left it
   }
   for (std::size_t j = 0; j < setup_.scene.tools.size(); ++j) {
     const ToolSpec& tool = setup_.scene.tools[j];

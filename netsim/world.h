@@ -33,6 +33,7 @@ class World {
   [[nodiscard]] client::Seat* seat(std::size_t i) noexcept { return stations_[i].seat(); }
   [[nodiscard]] const hal::sim::SimDevice& device(std::size_t i) const noexcept { return stations_[i].device(); }
   [[nodiscard]] hal::sim::SimDevice& device(std::size_t i) noexcept { return stations_[i].device(); }
+  [[nodiscard]] std::uint32_t gate_trips(std::size_t i) const noexcept { return stations_[i].gate_trips(); }
   /// Now, on the clock of this seat's program.
   [[nodiscard]] Time own_time(std::size_t i) const noexcept { return stations_[i].own_time(now_); }
   /// The session's record with every seat's values of this very tick, not as old as the network made them.

@@ -33,7 +33,7 @@ server::RunReport world_report(const World& world, const server::ReportBuilder& 
   report.violations = world.violations().list();
   report.passed = world.violations().passed();
   for (std::size_t i = 0; i < report.seats.size(); ++i)
-    if (world.seat(i) != nullptr) report.seats[i].gate_trips = world.seat(i)->gate().trips();
+    report.seats[i].gate_trips = world.gate_trips(i);
   return report;
 }
 

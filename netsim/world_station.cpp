@@ -67,6 +67,7 @@ std::string WorldStation::step(Time now, Network& network, std::span<std::byte> 
   if (suffers(Fault::Kind::kRestart, now)) {
     if (!down_) {
       down_ = true;
+      trips_before_ = gate_trips();
       seat_.reset();
       joining_.reset();
       device_->set_session_time(std::nullopt);

@@ -47,6 +47,8 @@ class WorldStation {
   [[nodiscard]] const hal::sim::SimDevice& device() const noexcept { return *device_; }
   [[nodiscard]] hal::sim::SimDevice& device() noexcept { return *device_; }
 
+  /// Losses of the hand so far, also of programs that died.
+  [[nodiscard]] std::uint32_t gate_trips() const noexcept { return trips_before_ + (seat_ ? seat_->gate().trips() : 0); }
   /// The program's own clock at `now`.
   [[nodiscard]] Time own_time(Time now) const noexcept;
   /// The server was given this datagram: an attacker may use it again.
@@ -87,7 +89,7 @@ class WorldStation {
   hal::Command command_{};
   hal::State reading_{};  ///< in place of the device's, where a fault says so
   bool frozen_ = false, down_ = false, served_now_ = false, misread_now_ = false;
-  std::uint32_t starts_ = 0;
+  std::uint32_t starts_ = 0, trips_before_ = 0;
   std::uint64_t heard_now_ = 0;
   std::optional<std::uint64_t> newest_index_;
   Time ask_again_{};

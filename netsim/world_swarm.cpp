@@ -237,7 +237,7 @@ SwarmResult live_swarm_case(const SwarmCase& which, const std::function<void(Wor
   for (const server::Violation& violation : world.violations().list())
     if (!violation.expected) result.broken.push_back(violation);
   for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
-    if (world.seat(i) != nullptr) result.gate_trips += world.seat(i)->gate().trips();
+    result.gate_trips += world.gate_trips(i);
   return result;
 }
 

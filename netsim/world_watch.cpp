@@ -110,7 +110,7 @@ void WorldWatch::check_silence(Time now, Time own, std::size_t i, const WorldSta
   if (fresh.heard() && fresh.arrived() != s.arrived) {
     s.arrived = fresh.arrived();
     s.fresh = now;
-    if (seat.gate().active()) s.given = 0;
+    if (seat.gate().active() || s.was_active) s.given = 0;  // also the word that tells the gate to let go
   }
   const double half_tick = 0.5 / scene_->tick_hz;
   if (s.fresh != Time{}) {
