@@ -20,7 +20,7 @@ std::vector<server::LinkReport> link_reports(const World& world) {
     const link::Link* server_end = world.session().seat(i).link();
     if (seat == nullptr || server_end == nullptr) continue;
     reports[i].rtt_p50_ms = seconds(seat->link().freshness().rtt_p50()) * kMs;
-    reports[i].rtt_p99_ms = seconds(seat->link().freshness().rtt_p99()) * kMs;
+    reports[i].rtt_p99_ms = seconds(Duration{seat->link().freshness().rtts().quantile(0.99)}) * kMs;
     reports[i].up = direction(*server_end, world.now());
     reports[i].down = direction(seat->link(), world.own_time(i));
   }

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <memory>
 
+#include "common/base/format.h"
 #include "common/link/digest.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/network_options.h"
@@ -69,6 +70,27 @@ void understand_network(const RunArguments& arguments, WorldSetup& setup, Mistak
 }
 
 /// How much of a replay met its own record, for people.
+/// What the script asked for and the session did not live through: times are the network's, which begins before the session.
+std::string missed_events(const World& world, const WorldSetup& setup) {
+  const Duration end = world.now() - Time{};
+  const Duration begin = end - from_seconds(world.session().time());
+  std::string text;
+  const auto judge = [&](Duration at, Duration until, const char* what) {
+    if (at >= end) {
+      text += format("note: %s at %g s came after the end of the run, %.3f s\n", what, seconds(at), seconds(end));
+    } else if (until <= begin) {
+      text += format("note: %s at %g s was over before the session began, at %.3f s of network time\n", what, seconds(at), seconds(begin));
+    }
+  };
+  for (const NetworkEvent& e : setup.events)
+    judge(e.at, e.outage ? e.at + e.outage->length : Duration::max(), e.outage ? "the outage" : e.link ? "the change of network" : "the rebind");
+  for (const Direction direction : {Direction::kUp, Direction::kDown})
+    for (const OutageSpec& o : setup.network[direction].outages)
+      if (o.period == Duration{} && o.mean_gap == Duration{} && (direction == Direction::kUp || setup.network.up.outages != setup.network.down.outages))
+        judge(o.start, o.start + o.length, "the outage");
+  return text;
+}
+
 std::string replay_summary(const World& world) {
   std::uint64_t sent = 0, own = 0;
   for (std::uint32_t link = 0; link < world.network().links(); ++link)
@@ -212,12 +234,16 @@ int run_command(const RunArguments& arguments) {
                  static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
                  server::report_summary(report, world.scene()).c_str(), quality_report(links, arguments.verbose).c_str(),
                  setup.replay ? replay_summary(world).c_str() : "");
+  if (network && !setup.replay)
+    for (const std::string& note : network->notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  std::fputs(missed_events(world, setup).c_str(), stderr);
   if (json_file.wanted()) json_file.write(report_json(report, links));
   for (const auto& problem : {trace_file.close(), log.close(), json_file.close()})
     if (!problem.empty()) {
       std::fprintf(stderr, "tandem-netsim run: %s\n", problem.c_str());
       return kTrouble;
     }
+  if (interrupted) return kTrouble;  // what was not run is no pass
   return report.passed ? 0 : kFailed;
 }
 

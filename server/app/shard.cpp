@@ -139,7 +139,7 @@ void Shard::look_at_seat(std::size_t i, Time now) noexcept {
                     heard.telemetry.down_age_p99_ms};
   if (const link::Link* link = port.link()) {  // of a seat that left, the last numbers stay
     seat.link.rtt_p50_ms = ms(link->freshness().rtt_p50());
-    seat.link.rtt_p99_ms = ms(link->freshness().rtt_p99());
+    seat.link.rtt_p99_ms = ms(Duration{link->freshness().rtts().quantile(0.99)});
     seat.link.up = direction(*link, now);
   }
 }
