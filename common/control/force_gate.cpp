@@ -17,6 +17,7 @@ constexpr double kSlewActive = 1000;        // [N/s] = 1 N/ms
 constexpr double kSlewRampIn = 10;          // [N/s]
 constexpr double kDamping = 5;              // [N s/m] while ramping out and DAMPED
 constexpr Duration kLatchWindow = 10s;
+constexpr Duration kStandstill = 5ms;       // a command lives no longer
 
 double tank_for(double mass) noexcept { return 1e-3 * std::min(100.0, std::max(20.0, 180.0 * mass)); }
 
@@ -41,6 +42,9 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
   if (all_finite(in.q, p_.dof)) {
     double given = 0;
     for (std::size_t a = 0; a < p_.dof; ++a) given += effort_[a] * (in.q[a] - q_[a]);
+    // After a standstill of this program the device had forgotten the effort long ago: what it gave may be less than this,
+    // and what the hand seemed to give back was never taken.
+    if (in.now - last_step_ > kStandstill) given = std::max(0.0, given);
     if (std::isfinite(given)) given_ += given;
     q_ = in.q;
   }

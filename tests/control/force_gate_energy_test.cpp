@@ -129,5 +129,25 @@ TEST(ForceGate, TakesEnergyFromAHandForFree) {  // braking is never refused by t
   EXPECT_LT(d.gate.given_since_fresh(), 0);
 }
 
+TEST(ForceGate, CreditsNothingForTimeInWhichTheDeviceHadForgottenItsCommand) {
+  // The program stood still for 250 ms while the hand moved 6 mm against the force: the device had let go after 5 ms, so
+  // those 18 mJ were never taken from the hand and must not enlarge the tank (found by the swarm, seed 368).
+  GateDrive d;
+  d.hold(-3);
+  d.in.now += 250ms;
+  d.in.q[0] += 0.006;
+  d.in.fresh = false;
+  d.tick();
+  EXPECT_GE(d.gate.given_since_fresh(), 0);
+  // The other way round the account stays on the safe side.
+  GateDrive other;
+  other.hold(-3);
+  other.in.now += 250ms;
+  other.in.q[0] -= 0.006;
+  other.in.fresh = false;
+  other.tick();
+  EXPECT_NEAR(other.gate.given_since_fresh(), 0.018, 1e-9);
+}
+
 }  // namespace
 }  // namespace tandem::control
