@@ -237,8 +237,8 @@ void add_swarm_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--trace", arguments->trace, "with --seeds 1: writes one row per tick")->option_text("FILE.csv");
   command->footer(
       "A session first lives through everything that was drawn for it; then the network is good and nothing fails any more,\n"
-      "people press the button of a device that latched, and everybody must be active again within 10 s. The same seed gives\n"
-      "the same session on every machine with the same build.\n\n"
+      "people press the button of a device that latched, and everybody must be active again within 10 s. The same seed and\n"
+      "--safety give the same session with the same build.\n\n"
       "Examples\n"
       "  tandem-netsim swarm --seeds 500\n"
       "  tandem-netsim swarm --first 17 --seeds 1 --trace trace.csv\n"

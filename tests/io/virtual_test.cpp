@@ -1,5 +1,8 @@
 // Programs that work in virtual time, as a person or a CI job starts them.
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
 
 #include "tests/io/programs.h"
 
@@ -68,6 +71,37 @@ TEST(NetsimRun, ChecksASceneWithoutRunningIt) {
   auto run = netsim({"run", "free_motion", "--check"});
   EXPECT_EQ(run.wait(), 0);
   EXPECT_NE(run.out().find("channel.k_n_m"), std::string::npos);
+}
+
+TEST(NetsimRun, ToldRoundTripsAreOfTheWholeSession) {
+  // 8.5 of 12 s over 100 ms, the rest over nearly nothing: the p99 of the session is 100 ms, whatever the last second was.
+  const Folder folder;
+  const std::string script = folder.write("s.textproto", "event { at_s: 9 profile: \"lan\" }\n");
+  auto run = netsim({"run", "free_motion", "--delay", "50", "--script", script, "--duration", "12", "--quiet", "--json", "-"});
+  ASSERT_EQ(run.wait(), 0) << run.err();
+  const Json report = Json::parse(run.out(), nullptr, false);
+  const Json& link = report["seats"][0]["link"];
+  EXPECT_NEAR(link["rtt_p99_ms"].get<double>(), 100, 3);
+  EXPECT_GE(link["rtt_p99_ms"].get<double>(), link["rtt_p50_ms"].get<double>());
+}
+
+TEST(NetsimRun, SaysWhichEventsTheSessionNeverMet) {
+  const Folder folder;
+  const std::string script = folder.write("s.textproto", "event { at_s: 0 outage_ms: 1 }\nevent { at_s: 90 outage_ms: 5 }\nevent { at_s: 1 outage_ms: 5 }\n");
+  auto run = netsim({"run", "free_motion", "--script", script, "--duration", "2"});
+  ASSERT_EQ(run.wait(), 0) << run.err();
+  EXPECT_NE(run.err().find("the outage at 0 s was over before the session began"), std::string::npos) << run.err();
+  EXPECT_NE(run.err().find("the outage at 90 s came after the end"), std::string::npos) << run.err();
+  EXPECT_EQ(run.err().find("the outage at 1 s"), std::string::npos) << run.err();
+}
+
+TEST(NetsimRun, InterruptedIsNoPass) {
+  const Folder folder;
+  auto run = netsim({"run", "one_axis", "--duration", "300000", "--trace", folder.file("t.csv")});
+  for (int tries = 0; tries < 3000 && folder.read("t.csv").empty(); ++tries) usleep(10'000);
+  run.signal(SIGINT);
+  EXPECT_EQ(run.wait(), 1) << run.err();
+  EXPECT_NE(run.err().find("interrupted"), std::string::npos);
 }
 
 TEST(Demo, ComparesAndWritesAReportInVirtualTime) {
