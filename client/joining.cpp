@@ -10,8 +10,8 @@ constexpr Duration kRepeat = std::chrono::milliseconds(100);
 
 Joining::Joining(const Params& p)
     : params_(p),
-      sealing_(link::loopback_key(0, link::Direction::kToServer), link::Seal::Use::kSealing),
-      opening_(link::loopback_key(0, link::Direction::kToClient), link::Seal::Use::kOpening) {}
+      sealing_(link::loopback_key(0, link::Direction::kToServer)),
+      opening_(link::loopback_key(0, link::Direction::kToClient)) {}
 
 std::optional<std::size_t> Joining::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
   if (answered_ || buffer.size() < link::kDatagramMax) return std::nullopt;

@@ -96,8 +96,8 @@ void DelayQueue::release(const Verdict& verdict, std::uint32_t lane) noexcept {
   }
 }
 
-std::optional<DelayQueue::Item> DelayQueue::take(Time now) noexcept {
-  if (!held_.empty()) expire(now);
+std::optional<DelayQueue::Item> DelayQueue::take(Time now, Time known) noexcept {
+  if (!held_.empty()) expire(known);
   if (heap_.empty() || heap_.front().at > now) return std::nullopt;
   const Entry first = heap_.front();
   std::pop_heap(heap_.begin(), heap_.end(), later);

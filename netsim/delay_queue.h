@@ -62,7 +62,10 @@ class DelayQueue {
   void forget_waiting(std::uint32_t lane) noexcept;
 
   /// Removes the first item due at `now`. Its bytes stay until `recycle(item.slot)`.
-  std::optional<Item> take(Time now) noexcept TANDEM_REALTIME;
+  /// @param known  everything that came by then has entered [<= now]: what is held back for others to pass does not give
+  ///               them up before
+  std::optional<Item> take(Time now, Time known) noexcept TANDEM_REALTIME;
+  std::optional<Item> take(Time now) noexcept TANDEM_REALTIME { return take(now, now); }
   [[nodiscard]] std::span<const std::byte> bytes(const Item& item) const noexcept;
   void recycle(std::uint32_t slot) noexcept TANDEM_REALTIME;
 

@@ -185,6 +185,8 @@ bool defers(const PathSpec& spec) noexcept {
          });
 }
 
+bool waits_for_others(const PathSpec& spec) noexcept { return defers(spec) || spec.reorder.probability > 0; }
+
 Duration delay_max(const PathSpec& spec) noexcept {
   Duration sum = spec.floor;
   if (spec.trace) {

@@ -199,6 +199,8 @@ struct LinkSpec {
 
 /// Whether the fate of a datagram may be known only later than when it is sent: see Path.
 [[nodiscard]] bool defers(const PathSpec& spec) noexcept;
+/// Whether later datagrams can change when one comes out, or whether it does.
+[[nodiscard]] bool waits_for_others(const PathSpec& spec) noexcept;
 
 /// The longest delay the spec can add, without the queue of its rate and without the order policy. For sizing stores.
 [[nodiscard]] Duration delay_max(const PathSpec& spec) noexcept;

@@ -226,9 +226,9 @@ std::optional<Time> ProxyCore::next_due() const noexcept {
   return next;
 }
 
-std::optional<ProxyCore::Egress> ProxyCore::take(Time now) noexcept {
-  if (may_defer_) settle(now);
-  while (const auto item = queue_.take(now)) {
+std::optional<ProxyCore::Egress> ProxyCore::take(Time now, Time known) noexcept {
+  if (may_defer_) settle(known);
+  while (const auto item = queue_.take(now, known)) {
     const auto direction = static_cast<Direction>(item->lane & 1U);
     const std::uint32_t client = (item->lane >> kDirectionBits) & (kClientsMax - 1);
     auto& lane = places_[client].lanes[static_cast<std::size_t>(direction)];

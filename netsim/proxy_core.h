@@ -100,7 +100,10 @@ class ProxyCore {
     std::uint32_t address = 0;  ///< the client's: up, whom it comes from; down, whom it was sent to
   };
   /// The next datagram due at `now`, in the order (time, arrival).
-  std::optional<Egress> take(Time now) noexcept TANDEM_REALTIME;
+  /// @param known  everything that came by then went through `ingress` [<= now]: what a later arrival can still change is
+  ///               decided up to then
+  std::optional<Egress> take(Time now, Time known) noexcept TANDEM_REALTIME;
+  std::optional<Egress> take(Time now) noexcept TANDEM_REALTIME { return take(now, now); }
   /// Gives the bytes back after sending.
   void done(const Egress& egress) noexcept TANDEM_REALTIME { queue_.recycle(egress.item.slot); }
 

@@ -38,18 +38,17 @@ void WorldTamper::lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept
   if (!header || header->type != wire::Type::kState || header->cid != cid) return;
   if (!keys_ || keys_->cid != cid) {
     const link::Key key = link::loopback_key(cid, link::Direction::kToServer);
-    keys_ = std::make_unique<Keys>(
-        Keys{cid, link::Seal(key, link::Seal::Use::kOpening), link::Seal(key, link::Seal::Use::kSealing)});
+    keys_ = std::make_unique<Keys>(Keys{cid, link::Seal(key)});
   }
   std::array<std::byte, link::kDatagramMax> plain;
   const std::span<std::byte> plaintext{plain.data(), datagram.size() - link::kHeaderSize - link::kTagSize};
-  if (!keys_->opening.open(header->counter, datagram, plaintext)) return;
+  if (!keys_->seal.open(header->counter, datagram, plaintext)) return;
   auto decoded = codec_.decode_state(plaintext);
   if (!decoded) return;
   for (std::uint64_t& e : decoded->message.port.e_in) e = static_cast<std::uint64_t>(static_cast<double>(e) * key_.uniform(draws_));
   ++draws_;
   static_cast<void>(codec_.encode(decoded->preamble, decoded->message, datagram.subspan(link::kHeaderSize)));
-  static_cast<void>(keys_->sealing.seal(header->counter, datagram));
+  static_cast<void>(keys_->seal.seal(header->counter, datagram));
 }
 
 }  // namespace tandem::netsim

@@ -38,7 +38,7 @@ class WorldTamper {
   };
   struct Keys {
     std::uint32_t cid;
-    link::Seal opening, sealing;
+    link::Seal seal;
   };
   RandomKey key_;
   std::uint64_t draws_ = 0;

@@ -43,8 +43,8 @@ std::string unfit(const SceneSpec& scene, const SeatSpec& seat, const wire::Bind
 
 Lobby::Lobby(const SceneSpec& scene, const AxisArray& scale, std::uint64_t secret)
     : scene_(&scene),
-      opening_(link::loopback_key(0, link::Direction::kToServer), link::Seal::Use::kOpening),
-      sealing_(link::loopback_key(0, link::Direction::kToClient), link::Seal::Use::kSealing),
+      opening_(link::loopback_key(0, link::Direction::kToServer)),
+      sealing_(link::loopback_key(0, link::Direction::kToClient)),
       secret_(secret) {
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     SeatSetup setup = seat_setup(scene, i);

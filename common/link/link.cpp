@@ -10,8 +10,8 @@ constexpr Direction opposite(Direction d) noexcept { return d == Direction::kToS
 
 Link::Link(const Params& p)
     : params_(p),
-      sealing_(loopback_key(p.peer_cid, p.outgoing), Seal::Use::kSealing),
-      opening_(loopback_key(p.own_cid, opposite(p.outgoing)), Seal::Use::kOpening),
+      sealing_(loopback_key(p.peer_cid, p.outgoing)),
+      opening_(loopback_key(p.own_cid, opposite(p.outgoing))),
       freshness_(p.tick) {}
 
 std::expected<Link::Opened, Refusal> Link::open(std::span<const std::byte> datagram) noexcept {

@@ -2,6 +2,7 @@
 
 #include <openssl/evp.h>
 #include <openssl/kdf.h>
+#include <sodium.h>
 
 #include <stdexcept>
 #include <string_view>
@@ -10,12 +11,11 @@ namespace tandem::link {
 
 namespace {
 
-/// OpenSSL speaks unsigned char; these are the only casts.
+/// The crypto libraries speak unsigned char; these are the only casts.
 unsigned char* raw(std::byte* p) noexcept { return reinterpret_cast<unsigned char*>(p); }
 const unsigned char* raw(const std::byte* p) noexcept { return reinterpret_cast<const unsigned char*>(p); }
 
 struct ContextDeleter {
-  void operator()(EVP_CIPHER_CTX* c) const noexcept { EVP_CIPHER_CTX_free(c); }
   void operator()(EVP_PKEY_CTX* c) const noexcept { EVP_PKEY_CTX_free(c); }
 };
 
@@ -36,61 +36,71 @@ Key loopback_key(std::uint32_t cid, Direction direction) {
       EVP_PKEY_derive(kdf.get(), bytes.data(), &length) != 1)
     throw std::runtime_error("HKDF-SHA-256 is not available in this OpenSSL");
   Key key;
+  key.cipher = fastest_cipher();
   std::memcpy(key.key.data(), bytes.data(), key.key.size());
   std::memcpy(key.iv.data(), bytes.data() + key.key.size(), key.iv.size());
   return key;
 }
 
+Cipher fastest_cipher() {
+  if (sodium_init() < 0) throw std::runtime_error("libsodium does not start: it found no source of randomness");
+  return crypto_aead_aes256gcm_is_available() == 1 ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305;
+}
+
 struct Seal::Context {
-  std::unique_ptr<EVP_CIPHER_CTX, ContextDeleter> evp;
-  std::array<std::byte, 12> iv{};
+  crypto_aead_aes256gcm_state aes{};  ///< the expanded key; unused with the other cipher
+  Key key;
 
   [[nodiscard]] std::array<std::byte, 12> nonce(std::uint64_t counter) const noexcept {
-    std::array<std::byte, 12> n = iv;
+    std::array<std::byte, 12> n = key.iv;
     for (std::size_t i = 0; i < 8; ++i) n[4 + i] ^= static_cast<std::byte>((counter >> (8 * i)) & 0xff);
     return n;
   }
 };
 
-Seal::Seal(const Key& key, Use use) : context_(std::make_unique<Context>()) {
-  context_->evp.reset(EVP_CIPHER_CTX_new());
-  context_->iv = key.iv;
-  if (!context_->evp || EVP_CipherInit_ex(context_->evp.get(), EVP_aes_256_gcm(), nullptr, raw(key.key.data()), nullptr,
-                                          use == Use::kSealing ? 1 : 0) != 1)
-    throw std::runtime_error("AES-256-GCM is not available in this OpenSSL");
+Seal::Seal(const Key& key) : context_(std::make_unique<Context>()) {
+  context_->key = key;
+  if (key.cipher != Cipher::kAes256Gcm) return;
+  if (fastest_cipher() != Cipher::kAes256Gcm) throw std::runtime_error("this processor has no instructions for AES-256-GCM");
+  crypto_aead_aes256gcm_beforenm(&context_->aes, raw(key.key.data()));
 }
 
-Seal::~Seal() = default;
+Seal::~Seal() {
+  if (context_) sodium_memzero(context_.get(), sizeof *context_);
+}
 Seal::Seal(Seal&&) noexcept = default;
 Seal& Seal::operator=(Seal&&) noexcept = default;
 
 bool Seal::seal(std::uint64_t counter, std::span<std::byte> datagram) noexcept {
   if (datagram.size() < kHeaderSize + kTagSize) return false;
-  EVP_CIPHER_CTX* c = context_->evp.get();
-  const auto nonce = context_->nonce(counter);
+  const Context& c = *context_;
+  const auto nonce = c.nonce(counter);
   std::byte* body = datagram.data() + kHeaderSize;
-  const int size = static_cast<int>(datagram.size() - kHeaderSize - kTagSize);
-  int n = 0;
-  return EVP_EncryptInit_ex(c, nullptr, nullptr, nullptr, raw(nonce.data())) == 1 &&
-         EVP_EncryptUpdate(c, nullptr, &n, raw(datagram.data()), static_cast<int>(kHeaderSize)) == 1 &&
-         EVP_EncryptUpdate(c, raw(body), &n, raw(body), size) == 1 && EVP_EncryptFinal_ex(c, raw(body + size), &n) == 1 &&
-         EVP_CIPHER_CTX_ctrl(c, EVP_CTRL_GCM_GET_TAG, static_cast<int>(kTagSize), raw(body + size)) == 1;
+  const std::size_t size = datagram.size() - kHeaderSize - kTagSize;
+  if (c.key.cipher == Cipher::kAes256Gcm) {
+    return crypto_aead_aes256gcm_encrypt_detached_afternm(raw(body), raw(body + size), nullptr, raw(body), size,
+                                                          raw(datagram.data()), kHeaderSize, nullptr, raw(nonce.data()),
+                                                          &c.aes) == 0;
+  }
+  return crypto_aead_chacha20poly1305_ietf_encrypt_detached(raw(body), raw(body + size), nullptr, raw(body), size,
+                                                            raw(datagram.data()), kHeaderSize, nullptr,
+                                                            raw(nonce.data()), raw(c.key.key.data())) == 0;
 }
 
 bool Seal::open(std::uint64_t counter, std::span<const std::byte> datagram, std::span<std::byte> plaintext) noexcept {
   if (datagram.size() < kHeaderSize + kTagSize || plaintext.size() != datagram.size() - kHeaderSize - kTagSize) return false;
-  EVP_CIPHER_CTX* c = context_->evp.get();
-  const auto nonce = context_->nonce(counter);
+  const Context& c = *context_;
+  const auto nonce = c.nonce(counter);
   const std::byte* body = datagram.data() + kHeaderSize;
-  const int size = static_cast<int>(plaintext.size());
-  std::array<std::byte, kTagSize> tag{};
-  std::memcpy(tag.data(), body + size, kTagSize);
-  int n = 0;
-  return EVP_DecryptInit_ex(c, nullptr, nullptr, nullptr, raw(nonce.data())) == 1 &&
-         EVP_DecryptUpdate(c, nullptr, &n, raw(datagram.data()), static_cast<int>(kHeaderSize)) == 1 &&
-         EVP_DecryptUpdate(c, raw(plaintext.data()), &n, raw(body), size) == 1 &&
-         EVP_CIPHER_CTX_ctrl(c, EVP_CTRL_GCM_SET_TAG, static_cast<int>(kTagSize), raw(tag.data())) == 1 &&
-         EVP_DecryptFinal_ex(c, raw(plaintext.data()) + size, &n) == 1;
+  const std::size_t size = plaintext.size();
+  if (c.key.cipher == Cipher::kAes256Gcm) {
+    return crypto_aead_aes256gcm_decrypt_detached_afternm(raw(plaintext.data()), nullptr, raw(body), size,
+                                                          raw(body + size), raw(datagram.data()), kHeaderSize,
+                                                          raw(nonce.data()), &c.aes) == 0;
+  }
+  return crypto_aead_chacha20poly1305_ietf_decrypt_detached(raw(plaintext.data()), nullptr, raw(body), size,
+                                                            raw(body + size), raw(datagram.data()), kHeaderSize,
+                                                            raw(nonce.data()), raw(c.key.key.data())) == 0;
 }
 
 }  // namespace tandem::link

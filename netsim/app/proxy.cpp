@@ -14,12 +14,7 @@ namespace {
 
 /// What is due so soon is waited for: going to sleep takes longer.
 constexpr Duration kShorterThanSleep{3'000};
-/// Clients that just came wait so long at most until the listening socket was empty once.
-constexpr Duration kNewcomersMax{10'000'000};
-/// A datagram cannot have waited longer in the kernel, whatever the wall clock says.
-constexpr Duration kAgeMax{1'000'000'000};
 constexpr int kRoundsOfSending = 8;
-static_assert(io::ReceiveBatch::kSlotBytes == kSlotBytes, "what can be received can be kept");
 static_assert(ProxyOutbox::kMax == io::SendBatch::kMax);
 
 /// CLOCK_REALTIME less CLOCK_MONOTONIC: turns the kernel's stamps into the proxy's time. Read anew each round, as the
@@ -89,10 +84,12 @@ void Proxy::sleep_until(Duration moment) const noexcept {
 std::size_t Proxy::read_ready(Duration wait) noexcept {
   std::array<epoll_event, ProxyClients::kMax * 3 + 2> events;
   const timespec timeout = io::to_timespec(wait);
+  const Duration asked = since_start();
   const int ready = epoll_pwait2(clients_.poll_fd(), events.data(), static_cast<int>(events.size()), &timeout, nullptr);
-  const Duration ahead = ready > 0 ? wall_ahead() : Duration{};
+  if (ready > 0) wall_at_start_ = wall_ahead() + started_.load(std::memory_order_relaxed);
   now_ = since_start();
   last_read_ = now_;
+  bool all = true;
   std::size_t count = 0, unsent = 0;
   for (int i = 0; i < ready; ++i) {
     const ProxySource source = ProxySource::of(events[static_cast<std::size_t>(i)].data.u64);
@@ -102,7 +99,8 @@ std::size_t Proxy::read_ready(Duration wait) noexcept {
       continue;
     }
     // One batch of each: whoever sends much waits for the others.
-    const std::size_t got = read(source, ahead + started_.load(std::memory_order_relaxed));
+    const std::size_t got = read(source);
+    all = all && got < io::ReceiveBatch::kMax;
     count += got;
     unsent += got;
     if (unsent >= io::ReceiveBatch::kMax / 2) {
@@ -110,40 +108,7 @@ std::size_t Proxy::read_ready(Duration wait) noexcept {
       unsent = 0;
     }
   }
-  if (clients_.newcomers() && now_ - newcomers_since_ >= kNewcomersMax) clients_.listen_to_newcomers();
-  return count;
-}
-
-std::size_t Proxy::read(ProxySource source, Duration wall_at_start) noexcept {
-  const int fd = clients_.fd_of(source);
-  if (fd < 0) return 0;  // closed by an earlier event of this round
-  const int received = in_.receive(fd);
-  if (received < 0) ++(errno == ECONNREFUSED ? troubles_.refused : troubles_.other);  // it may come back
-  const std::size_t count = received > 0 ? static_cast<std::size_t>(received) : 0;
-  const bool down = source.kind == ProxySource::Kind::kUpside || source.kind == ProxySource::Kind::kFormer;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto details = in_.details(i, Duration{});
-    if (in_.too_long(i)) {
-      ++troubles_.too_long;
-      continue;
-    }
-    // What came between the socket's opening and the first round came at the start: there is no time before it.
-    const Duration oldest = std::max(now_ - kAgeMax, Duration::zero());
-    const Duration at = details.stamp == Duration{}
-                            ? now_
-                            : std::clamp(details.stamp - wall_at_start, oldest, now_ + Duration{1'000'000});
-    if (down) {
-      ProxyClients::Client& client = clients_[source.place];
-      client.last_seen = now_;
-      const bool former = source.kind == ProxySource::Kind::kFormer;
-      core_.ingress(Time{at}, source.place, Direction::kDown, in_.bytes(i),
-                    former ? client.former_number : client.address_number);
-    } else if (const auto place = client_of(i, details.local)) {
-      core_.ingress(Time{at}, *place, Direction::kUp, in_.bytes(i));
-    }
-  }
-  const bool emptied = source.kind == ProxySource::Kind::kListen && count < io::ReceiveBatch::kMax;
-  if (emptied && clients_.newcomers()) clients_.listen_to_newcomers();
+  if (all) read_until_ = asked;
   return count;
 }
 
@@ -152,7 +117,7 @@ void Proxy::send_due() noexcept {
     now_ = since_start();
     bool any = false;
     while (!outbox_.full()) {
-      const auto egress = core_.take(Time{now_});
+      const auto egress = core_.take(Time{now_}, Time{std::min(read_until_, now_)});
       if (!egress) break;
       const ProxySource through = way_out(*egress);
       outbox_.add(*egress, through);

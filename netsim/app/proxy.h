@@ -20,6 +20,7 @@
 #include "netsim/app/proxy_order.h"
 #include "netsim/app/proxy_outbox.h"
 #include "netsim/app/proxy_status.h"
+#include "netsim/app/proxy_waiting_room.h"
 #include "netsim/link_watch.h"
 #include "netsim/proxy_core.h"
 
@@ -83,15 +84,20 @@ class Proxy {
   void work(Duration now) noexcept;
   void sleep_until(Duration moment) const noexcept;
   [[nodiscard]] std::size_t read_ready(Duration wait) noexcept;
-  std::size_t read(ProxySource source, Duration wall_at_start) noexcept;
   void send_due() noexcept;
   void send_outbox() noexcept;
   [[nodiscard]] ProxySource way_out(const ProxyCore::Egress& egress) noexcept;
-  // Who is there, and what others are told: proxy_house.cpp
-  void housekeeping(Duration now) noexcept;
+  // What comes in, from whom: proxy_arrivals.cpp
+  std::size_t read(ProxySource source) noexcept;
+  std::size_t read_strangers() noexcept;
+  std::size_t receive_strangers(int fd) noexcept;
+  std::size_t receive(int fd) noexcept;
+  [[nodiscard]] Time moment_of(Duration stamp) const noexcept;
   [[nodiscard]] std::optional<std::uint32_t> client_of(std::size_t message, const io::LocalAddress& local) noexcept;
   [[nodiscard]] std::optional<std::uint32_t> welcome(const io::PeerKey& key, std::size_t message,
                                                      const io::LocalAddress& local) noexcept;
+  // Who is there, and what others are told: proxy_house.cpp
+  void housekeeping(Duration now) noexcept;
   void forget_idle() noexcept;
   void forget(std::uint32_t place) noexcept;
   void carry_out_orders() noexcept;
@@ -107,6 +113,7 @@ class Proxy {
   io::SpscQueue<ProxyOrder*> orders_;
   ProxyCore core_;
   io::ReceiveBatch in_;
+  ProxyWaitingRoom waiting_;
   io::SendBatch out_;
   ProxyOutbox outbox_;
   Histogram lateness_;
@@ -117,10 +124,12 @@ class Proxy {
   std::uint64_t released_ = 0, late_ = 0;
   std::atomic<Duration> started_{};  ///< CLOCK_MONOTONIC
   Duration now_{};                   ///< since start, read once per round
-  bool shared_ = false;              ///< the clients share a link
+  bool at_once_ = false;             ///< datagrams meet on the way: they must be read as they come
   Duration least_delay_{};           ///< of all links there are and will be
   Duration reading_interval_{};      ///< 0: as soon as something comes
-  Duration last_read_{}, last_sent_{}, next_housekeeping_{}, newcomers_since_{};
+  Duration read_until_{};            ///< all that came by then has been read
+  Duration last_read_{}, last_sent_{}, next_housekeeping_{};
+  Duration wall_at_start_{};  ///< CLOCK_REALTIME at the start, by the clocks of this round
   bool busy_ = false;  ///< something came lately or is under way
   std::vector<ProxyClientStatus> left_;
   std::uint64_t drops_of_left_ = 0;  ///< by the kernel, of clients that left

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/base/time.h"
@@ -84,9 +85,10 @@ class ProxyClients {
   [[nodiscard]] std::uint64_t kernel_drops(std::uint32_t place) const noexcept;
   [[nodiscard]] std::uint64_t kernel_drops() const noexcept;
 
-  /// What strangers sent before they had sockets of their own was read: listen to these from now on.
+  /// Clients whose sockets towards them are not listened to yet.
+  [[nodiscard]] std::span<const std::uint32_t> newcomers() const noexcept { return {newcomer_.data(), newcomers_}; }
+  /// What came before they had sockets of their own was read: listen to these from now on.
   void listen_to_newcomers() noexcept;
-  [[nodiscard]] bool newcomers() const noexcept { return newcomers_ > 0; }
 
   bool watch(int fd, ProxySource source) noexcept;
 

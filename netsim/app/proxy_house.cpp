@@ -85,9 +85,9 @@ void Proxy::carry_out_orders() noexcept {
 void Proxy::plan_reading(const LinkSpec& link) noexcept {
   least_delay_ = std::min({least_delay_, link.up.floor, link.down.floor});
   const Duration interval = std::min(least_delay_ / 2, kReadingMax);
-  // Clients on one link must be read in the order of their datagrams, so soon.
-  shared_ = shared_ || link.shared;
-  reading_interval_ = interval < kReadingMin || shared_ ? Duration{} : interval;
+  // Clients on one link must be read in the order of their datagrams, so soon; and so must those that others wait for.
+  at_once_ = at_once_ || link.shared || waits_for_others(link.up) || waits_for_others(link.down);
+  reading_interval_ = interval < kReadingMin || at_once_ ? Duration{} : interval;
 }
 
 void Proxy::housekeeping(Duration now) noexcept {
@@ -98,38 +98,6 @@ void Proxy::housekeeping(Duration now) noexcept {
   }
   publish();
   next_housekeeping_ = now + kHousekeeping;
-}
-
-std::optional<std::uint32_t> Proxy::client_of(std::size_t message, const io::LocalAddress& local) noexcept {
-  // Asked for datagrams of a client's own socket too: while it was being connected, others could get into it.
-  const io::PeerKey key = io::PeerKey::of(in_.from(message));
-  auto found = clients_.find(key);
-  if (!found) found = welcome(key, message, local);
-  if (found) clients_[*found].last_seen = now_;
-  return found;
-}
-
-std::optional<std::uint32_t> Proxy::welcome(const io::PeerKey& key, std::size_t message,
-                                            const io::LocalAddress& local) noexcept {
-  const auto place = core_.add_client();
-  if (!place) {
-    ++troubles_.too_many_clients;
-    return std::nullopt;
-  }
-  if (!clients_.welcome(*place, core_.clients_seen(), key, in_.from(message), local)) {
-    core_.remove_client(*place);
-    ++troubles_.other;
-    return std::nullopt;
-  }
-  newcomers_since_ = now_;
-  if (options_.watch_quality && watched_.size() < watched_.capacity()) {
-    watched_.push_back({core_.clients_seen(), std::make_unique<LinkWatch>()});
-    core_.watch(*place, watched_.back().watch.get());
-  }
-  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    delays_[*place * kDirections + static_cast<std::size_t>(direction)].clear();
-  }
-  return place;
 }
 
 void Proxy::forget_idle() noexcept {

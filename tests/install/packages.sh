@@ -15,7 +15,8 @@ TANDEM_PACKAGES=(
   "libspdlog-dev: log lines for people"
   "libcli11-dev: command lines and --help"
   "nlohmann-json3-dev: writes the JSON reports"
-  "libssl-dev: seals datagrams, SHA-256 of traces"
+  "libssl-dev: derives keys, SHA-256 of traces"
+  "libsodium-dev: seals datagrams"
   "libgtest-dev: unit and simulation tests"
 )
 

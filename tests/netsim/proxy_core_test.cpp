@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "netsim/decision_log.h"
 #include "netsim/network.h"
 #include "tests/netsim/support.h"
 #include "tests/support/alloc_guard.h"
@@ -59,6 +60,40 @@ TEST(ProxyCore, DecidesLikeTheVirtualNetwork) {
   for (std::size_t i = 0; i < live.size(); ++i) {
     EXPECT_GT(live[i].size(), 5'000U);
     EXPECT_EQ(live[i], simulated[i]) << i;
+  }
+}
+
+// A busy machine reads datagrams long after they came. What is decided by later ones must wait for those that came in time
+// and were not read yet.
+TEST(ProxyCore, DecidesTheSameHoweverLateItReads) {
+  LinkSpec head{everything(), everything()};
+  for (PathSpec* path : {&head.up, &head.down}) path->rate = {.bits_per_s = 1'200'000, .queue_datagrams = 4, .drop = RateSpec::Drop::kHead};
+  for (const LinkSpec& link : {LinkSpec{everything(), everything()}, head}) {
+    std::array<std::vector<Decision>, 2> logs;
+    for (const bool late : {false, true}) {
+      DecisionLog log{100'000};
+      const auto core = std::make_unique<ProxyCore>(link, 77);
+      core->log_to(&log);
+      ASSERT_EQ(core->add_client(), 0U);
+      RandomStream arrivals{6}, pauses{7};
+      const auto bytes = datagram(1);
+      Time came{}, woken{};
+      for (int i = 0; i < 20'000; ++i) {
+        const Time before = came;
+        came += Duration{static_cast<std::int64_t>(arrivals.below(1'200'000))};
+        if (late && came > woken) {  // everything until `before` was read just now, and so late it is
+          while (const auto e = core->take(before + 80ms, before)) core->done(*e);
+          woken = came + Duration{static_cast<std::int64_t>(pauses.below(30'000'000))};
+        } else if (!late) {
+          while (const auto e = core->take(came)) core->done(*e);
+        }
+        core->ingress(came, 0, Direction::kUp, bytes);
+      }
+      while (const auto e = core->take(came + 10s)) core->done(*e);
+      logs[late ? 1 : 0] = log.sorted();
+    }
+    ASSERT_GT(logs[0].size(), 20'000U);
+    EXPECT_EQ(logs[1], logs[0]);
   }
 }
 
