@@ -70,9 +70,11 @@ struct DeviceCaps {
   std::optional<double> mass;       ///< apparent mass at the tip [kg]
   std::optional<double> damping;    ///< physical damping at the tip b_device [N s/m], bounds the coupling stiffness
   std::optional<double> stiffness;  ///< largest stiffness the maker allows [N/m]
-  std::optional<std::chrono::milliseconds> watchdog;
-  bool force_calibrated = true;
-  unsigned buttons = 0;
+  std::optional<std::chrono::milliseconds> watchdog;  ///< after which the device itself lets go of its motors
+  bool needs_firmware = false;
+  bool force_calibrated = true;  ///< false: its force scale is a guess, and its guard keeps to a small ceiling
+  std::array<double, 3> workspace_min{}, workspace_max{};  ///< box of the tip [m]; both 0: not known
+  unsigned buttons = 0, leds = 0;
 };
 
 /// One reading. Joint arrays are used up to `DeviceCaps::joints`.
@@ -89,7 +91,10 @@ struct State {
   Vec3 f_out = Vec3::Zero();       ///< the same at the tip [N]
   Vec3 f_env = Vec3::Zero();       ///< force of the environment on the tip, where known (simulated slaves) [N]
   double penetration = 0;          ///< depth of the tip in the environment, where known [m]
+  std::array<std::int32_t, kAxesMax> raw{};  ///< encoder counts as the device sent them, unwrapped
   unsigned buttons = 0;            ///< bit mask, 1 = pressed
+  bool stale = false;              ///< nothing new came lately: values are held or decay
+  bool resynced = false;           ///< positions may have jumped since the reading before
   bool homed = true;
   bool saturated = false;          ///< the last command was beyond the motors
 };
@@ -115,6 +120,10 @@ struct DeviceStats {
   std::uint64_t missed = 0;        ///< periods skipped altogether
   std::uint64_t expired = 0;       ///< commands that died of age
   std::uint64_t rejected = 0;      ///< commands with a non-finite effort
+  std::uint64_t resyncs = 0;       ///< exchanges that had to find the beginning of a frame again
+  std::uint64_t unanswered = 0;    ///< exchanges without a whole answer in time
+  std::uint64_t clamped = 0;       ///< commands that the guard made smaller
+  double round_trip_p50_s = 0, round_trip_p99_s = 0, round_trip_max_s = 0;
   double period_p50_s = 0, period_p99_s = 0, period_max_s = 0;
 };
 
