@@ -4,6 +4,7 @@
 
 #include "common/link/digest.h"
 #include "netsim/world.h"
+#include "netsim/world_notes.h"
 #include "netsim/world_quality.h"
 #include "netsim/world_report.h"
 #include "server/trace_csv.h"
@@ -59,6 +60,7 @@ WorldRun run_world(const WorldSetup& setup, const WorldRunWatch& watch) {
   run.report.trace_hash = digest.hex();
   if (run.trouble.empty() && run.report.duration_s <= 0 && !run.interrupted)
     run.trouble = "the session never ran: there is nothing to judge";
+  if (run.trouble.empty()) run.notes = session_notes(setup, session_span(world));
   return run;
 }
 

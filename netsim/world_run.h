@@ -22,6 +22,7 @@ struct WorldRunWatch {
 struct WorldRun {
   server::RunReport report;  ///< `cpu_s` is the caller's: cores read no clock
   std::vector<NamedLink> links;  ///< every seat's, if the setup asked for it (`watch_quality`)
+  std::vector<std::string> notes;  ///< what a reader must know: netsim/world_notes.h
   std::string trouble;       ///< why there is nothing to judge; empty: the session ran
   bool interrupted = false;  ///< `go_on` said no; the report is of what ran until then
 };

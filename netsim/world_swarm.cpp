@@ -8,6 +8,7 @@
 
 #include "common/base/format.h"
 #include "netsim/profiles.h"
+#include "netsim/world_quality.h"
 #include "netsim/world_swarm_scene.h"
 #include "proto/scene_text.h"
 
@@ -238,6 +239,7 @@ SwarmResult live_swarm_case(const SwarmCase& which, const std::function<void(Wor
     if (!violation.expected) result.broken.push_back(violation);
   for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
     result.gate_trips += world.gate_trips(i);
+  result.links = link_qualities(world);
   return result;
 }
 

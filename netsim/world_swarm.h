@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "netsim/quality_text.h"
 #include "netsim/world.h"
 
 namespace tandem::netsim {
@@ -33,6 +34,7 @@ struct SwarmResult {
   double recovered_s = 0;                 ///< from the calm until everybody was active
   std::uint64_t fingerprint = 0;          ///< of every hand's place and force at every tick
   std::uint32_t gate_trips = 0;
+  std::vector<NamedLink> links;           ///< every seat's, if the setup asked for it (`watch_quality`)
   [[nodiscard]] bool passed() const noexcept { return broken.empty() && trouble.empty(); }
 };
 

@@ -121,6 +121,7 @@ std::optional<std::uint32_t> Proxy::welcome(const io::PeerKey& key, std::size_t 
     ++troubles_.other;
     return std::nullopt;
   }
+  clients_[*place].came = now_;
   newcomers_since_ = now_;
   if (options_.watch_quality && watched_.size() < watched_.capacity()) {
     watched_.push_back({core_.clients_seen(), std::make_unique<LinkWatch>()});
@@ -157,6 +158,7 @@ ProxyClientStatus Proxy::picture_of(std::uint32_t place) const noexcept {
           place,
           client.address.storage,
           client.present,
+          client.came,
           clients_.kernel_drops(place),
           {core_.counters(place, Direction::kUp), core_.counters(place, Direction::kDown)}};
 }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "netsim/app/test_notes.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -162,6 +164,7 @@ std::string test_summary(const TestResult& result) {
     out += "\n";
     if (const std::string bands = bands_text(r); !bands.empty()) out += "  network for force feedback, at the worst seed: " + bands + "\n";
     put_limits(r, out);
+    out += notes_text(r);
   }
   put_failures(result, out);
   if (result.not_run() > 0) {
@@ -222,6 +225,7 @@ std::string test_json(const TestResult& result) {
             {{"invariant", v.invariant}, {"seat", v.seat}, {"at_s", v.at_s}, {"expected", v.expected}, {"count", v.count}});
       seed["network"] = Json::array();
       for (const auto& [seat, band] : o.bands) seed["network"].push_back({{"seat", seat}, {"band", band}});
+      seed["notes"] = o.notes;
       seed["duration_s"] = number(o.duration_s);
       seed["trace_hash"] = o.trace_hash;
       seed["cpu_s"] = number(o.cpu_s);

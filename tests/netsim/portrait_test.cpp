@@ -62,7 +62,7 @@ TEST(Portrait, MeasuresQuantilesAsTheChecksOfProfilesDo) {
 
 TEST(Portrait, TellsHowFarItIsAndShowsNoMoreThanItHas) {
   std::vector<double> told;
-  const Portrait p = portrait_of({.link = {}, .length = 45s, .shown = 60s}, [&](double s) { told.push_back(s); });
+  const Portrait p = portrait_of({.link = {}, .length = 45s, .shown = 60s}, [&](double s) { told.push_back(s); return true; });
   EXPECT_EQ(p.shown, 45s);
   EXPECT_EQ(told, (std::vector<double>{0, 20.0 / 45, 40.0 / 45}));
 }
