@@ -24,7 +24,8 @@ bool has_one_moment(const OutageSpec& outage) noexcept {
 std::string event_words(const NetworkEvent& event) {
   std::string text = event.outage   ? outage_words(*event.outage)
                      : event.rebind ? "new address, the old one dead after " + ms_text(event.rebind->dead_after)
-                                    : std::string("another network");
+                                    : event.network.empty() ? std::string("another network")
+                                                            : "network " + event.network;
   if (event.direction) text += std::string(", ") + name(*event.direction);
   for (std::size_t i = 0; i < event.clients.size(); ++i) {
     const bool number = std::ranges::all_of(event.clients[i], [](char c) { return c >= '0' && c <= '9'; });

@@ -38,6 +38,7 @@ std::expected<std::vector<NetworkEvent>, InputErrors> network_events(std::span<c
     if (!in.profile) continue;
     if (auto link = find(*in.profile)) {
       event.link = std::move(*link);
+      event.network = *in.profile;
     } else {
       add_profile_errors(in.profile_place, std::move(link.error()), errors);
     }

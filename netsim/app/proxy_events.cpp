@@ -49,7 +49,7 @@ std::vector<ProxyEvent> proxy_events(const ProxyOptions& options, std::span<cons
       one.why = format("the proxy ended before, at %.3f s", seconds(end));
     } else if (there == Duration::max()) {
       one.fate = ProxyEvent::Fate::kMetNobody;
-      one.why = who(one.event) + " never came";
+      one.why = one.event.clients.empty() ? "no client ever came" : who(one.event) + " never came";
     } else if (in_vain) {
       one.fate = ProxyEvent::Fate::kMetNobody;
       one.why = who(one.event) + format(" came later, at %.3f s", seconds(there));
@@ -64,7 +64,7 @@ std::vector<ProxyEvent> proxy_events(const ProxyOptions& options, std::span<cons
 std::string events_text(std::span<const ProxyEvent> events) {
   std::string text;
   for (const ProxyEvent& one : events) {
-    text += format("  script at %.3f s: ", seconds(one.event.at)) + one.event.words;
+    text += format("  event at %.3f s: ", seconds(one.event.at)) + one.event.words;
     if (one.fate == ProxyEvent::Fate::kNeverCame || one.fate == ProxyEvent::Fate::kMetNobody) text += std::string(": ") + name(one.fate);
     text += one.why.empty() ? "\n" : "; " + one.why + "\n";
   }

@@ -31,7 +31,7 @@ struct ProxyEvent {
 [[nodiscard]] std::vector<ProxyEvent> proxy_events(const ProxyOptions& options, std::span<const ProxyClientStatus> clients,
                                                    std::uint64_t seen, Duration end);
 
-/// One line each: `  script at 12.000 s: outage of 400 ms, for 1`, and why when it did not come.
+/// One line each: `  event at 12.000 s: outage of 400 ms, for client 1`, and why when it did not come.
 [[nodiscard]] std::string events_text(std::span<const ProxyEvent> events);
 
 }  // namespace tandem::netsim
