@@ -149,12 +149,13 @@ std::vector<std::string> files_of_folder(const std::string& folder) {
 }  // namespace
 
 std::expected<Scenario, InputErrors> load_scenario_text(const std::string& text, const std::string& file_name, bool shipped) {
-  const auto spec = parse_scenario_text(text, file_name);
-  if (!spec) return std::unexpected(spec.error());
+  ScenarioReading reading = read_scenario_text(text, file_name);
+  if (!reading.spec) return std::unexpected(std::move(reading.errors));
   const Folder folder(file_name, shipped);
-  return make_scenario(*spec, {.scene = [&](const std::string& word) { return folder.scene(word); },
+  return make_scenario(*reading.spec, {.scene = [&](const std::string& word) { return folder.scene(word); },
                                .network = [&](const ScenarioNetworkSpec& network) { return folder.network(network); },
-                               .motion = [&](const std::string& option) { return folder.motion(option); }});
+                               .motion = [&](const std::string& option) { return folder.motion(option); }},
+                       std::move(reading.errors));
 }
 
 std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vector<std::string>& arguments) {
