@@ -76,6 +76,20 @@ std::string replay_summary(const World& world) {
          (own == sent ? "\n" : ", the others that of the last one recorded before them\n");
 }
 
+void check_outputs(const RunArguments& arguments, Mistakes& mistakes) {
+  for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
+    if (!file.empty() && !(file == "-" && file == arguments.json))
+      if (const auto problem = io::OutputFile::problem(file); !problem.empty()) mistakes.add(std::string(option) + ": " + problem);
+  if (arguments.trace == "-") mistakes.add("--trace: standard output is for --json; name a file");
+  if (!arguments.trace.empty() && arguments.trace == arguments.json) mistakes.add("--trace: is the same file as --json");
+  if (!arguments.log.empty()) {
+    if (const auto problem = io::OutputFile::problem(arguments.log); !problem.empty()) mistakes.add("--log: " + problem);
+    if (arguments.log == "-") mistakes.add("--log: standard output is for --json; name a file");
+    if (arguments.log == arguments.json || arguments.log == arguments.trace) mistakes.add("--log: is the same file as another result");
+    if (arguments.log == arguments.replay) mistakes.add("--log: would overwrite what --replay reads");
+  }
+}
+
 /// Everything a person typed, turned into a setup; and all that is wrong with it.
 WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
   WorldSetup setup;
@@ -83,7 +97,8 @@ WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
     setup.scene = std::move(*scene);
   } else {
     for (const InputError& error : scene.error()) mistakes.add(to_text(error));
-    return setup;
+    check_outputs(arguments, mistakes);
+    return setup;  // without a scene nobody knows which seats a script or a hand may name
   }
   if (arguments.duration_s > 0) setup.scene.duration = arguments.duration_s;
   if (arguments.channel == "raw") setup.scene.channel.law = LawKind::kRaw;
@@ -114,17 +129,7 @@ WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
       mistakes.add(motion.error());
     }
   }
-  for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
-    if (!file.empty() && !(file == "-" && file == arguments.json))
-      if (const auto problem = io::OutputFile::problem(file); !problem.empty()) mistakes.add(std::string(option) + ": " + problem);
-  if (arguments.trace == "-") mistakes.add("--trace: standard output is for --json; name a file");
-  if (!arguments.trace.empty() && arguments.trace == arguments.json) mistakes.add("--trace: is the same file as --json");
-  if (!arguments.log.empty()) {
-    if (const auto problem = io::OutputFile::problem(arguments.log); !problem.empty()) mistakes.add("--log: " + problem);
-    if (arguments.log == "-") mistakes.add("--log: standard output is for --json; name a file");
-    if (arguments.log == arguments.json || arguments.log == arguments.trace) mistakes.add("--log: is the same file as another result");
-    if (arguments.log == arguments.replay) mistakes.add("--log: would overwrite what --replay reads");
-  }
+  check_outputs(arguments, mistakes);
   setup.seed = arguments.network.seed();
   understand_network(arguments, setup, mistakes);
   return setup;

@@ -79,13 +79,15 @@ int test_command(const TestArguments& a) {
     mistakes.add("SCENARIO is required: a file, a folder, `shipped` for all shipped ones, or one of:" + all);
   }
   if (a.keep_going && a.fail_fast) mistakes.add("--keep-going excludes --fail-fast");
-  auto scenarios = load_scenarios(names);
+  std::vector<std::string> left_out;
+  auto scenarios = load_scenarios(names, &left_out);
   if (scenarios) {
     check_together(a, *scenarios, mistakes);
   } else {
     for (const InputError& error : scenarios.error()) mistakes.add(to_text(error));
   }
   if (!mistakes.none()) return mistakes.refuse("test");
+  for (const std::string& note : left_out) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (a.list) {
     list(*scenarios);
     return kPass;

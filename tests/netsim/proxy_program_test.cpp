@@ -2,7 +2,9 @@
 // verdict about its own lateness; and its view.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 
 #include <filesystem>
 #include <fstream>
@@ -75,6 +77,10 @@ TEST(Control, ChangesTheNetworkOfARunningProxyAndIsNoted) {
   const Asked status = ask(socket, {"status", "--json"});
   EXPECT_EQ(status.code, 0);
   EXPECT_EQ(Json::parse(status.out)["changes"].size(), 3U);
+  Asked words = ask(socket, {"status"});  // the picture may be a moment old
+  for (int i = 0; i < 1000 && words.out.find("1 under way") == std::string::npos; ++i) words = ask(socket, {"status"});
+  EXPECT_NE(words.out.find("1 under way"), std::string::npos) << words.out;
+  EXPECT_EQ(words.out.find("at the end"), std::string::npos) << "it has not ended: " << words.out;
 
   const std::vector<std::pair<std::string, std::string>> wrong{{"delay 20 client 9", "no client 9; present: 1"},
                                                                {"profile wifi-bussy", "did you mean wifi-busy?"},
@@ -136,6 +142,74 @@ TEST(Program, LaterThanMaxLatenessIsExitCodeOneInWords) {
     EXPECT_EQ(proxy.out().find("TOO LATE: p99 ") != std::string::npos, strict) << proxy.out();
     EXPECT_NE(proxy.out().find("own error: sent later than scheduled by p50"), std::string::npos) << proxy.out();
   }
+}
+
+TEST(Program, MaxLatenessThatNothingWasHeldAgainstIsNotKept) {
+  const std::string json = testing::TempDir() + "nothing.json";
+  Process proxy = netsim({"proxy", "--to", "127.0.0.1:9", "--duration", "0.05", "--max-lateness", "10000000", "--json", json});
+  EXPECT_EQ(proxy.wait(), 1);
+  EXPECT_NE(proxy.out().find("NOTHING WAS JUDGED"), std::string::npos) << proxy.out();
+  const Json lateness = Json::parse(read(json))["lateness"];
+  EXPECT_EQ(lateness["judged"], false);
+  EXPECT_EQ(lateness["in_time"], false);
+}
+
+TEST(Program, ProxyReportsWhatBecameOfItsScript) {
+  UdpPeer server, client;
+  const std::string json = testing::TempDir() + "events.json", script = testing::TempDir() + "events.textproto";
+  std::ofstream(script) << "event { at_s: 0 client: \"1\" outage_ms: 3600000 }\nevent { at_s: 0 profile: \"lan\" }\n"
+                           "event { at_s: 3600 client: \"1\" rebind { dead_after_ms: 1 } }\n";
+  Process proxy = netsim({"proxy", "--to", io::to_text(server.address()), "--script", script, "--json", json});
+  ASSERT_TRUE(proxy.wait_for("Ctrl-C ends"));
+  client.connect(*io::parse_address(proxy.after("listening on "), 1));
+  // An outage takes all from one; from the other we know that the first was read.
+  ASSERT_TRUE(client.send("x"));
+  UdpPeer other;
+  other.connect(*io::parse_address(proxy.after("listening on "), 1));
+  ASSERT_TRUE(other.send("y"));
+  ASSERT_TRUE(server.receive());
+  proxy.signal(SIGINT);
+  EXPECT_EQ(proxy.wait(), 0);
+  for (const char* part : {"event at 0.000 s: outage of 3.6e+06 ms, for client 1; it was not over when the proxy ended", "event at 0.000 s: network lan\n",
+                           "event at 3600.000 s: new address, the old one dead after 1 ms, for client 1: never came; the proxy ended before"})
+    EXPECT_NE(proxy.out().find(part), std::string::npos) << part << " not in\n" << proxy.out();
+  const Json events = Json::parse(read(json))["events"];
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_EQ(events[0]["fate"], "goes on");
+  EXPECT_EQ(events[1]["fate"], "came");
+  EXPECT_TRUE(events[1]["until_s"].is_null());
+  EXPECT_EQ(events[2]["fate"], "never came");
+  EXPECT_EQ(events[2]["at_s"], 3600);
+}
+
+TEST(Program, AProxyCutShortOfItsDurationIsInterrupted) {
+  const std::string json = testing::TempDir() + "short.json";
+  Process proxy = netsim({"proxy", "--to", "127.0.0.1:9", "--duration", "3600", "--json", json});
+  ASSERT_TRUE(proxy.wait_for("Ctrl-C ends"));
+  proxy.signal(SIGINT);
+  EXPECT_EQ(proxy.wait(), 1);
+  EXPECT_NE(proxy.err().find("tandem-netsim proxy: interrupted after "), std::string::npos) << proxy.err();
+  EXPECT_NE(proxy.out().find("0 clients"), std::string::npos) << proxy.out();
+  EXPECT_EQ(Json::parse(read(json))["interrupted"], true);
+}
+
+/// A control socket whose proxy never answers.
+TEST(Control, InterruptedWhileItWaitsSaysSo) {
+  const std::string socket = testing::TempDir() + "mute.sock";
+  std::filesystem::remove(socket);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  socket.copy(address.sun_path, sizeof address.sun_path - 1);
+  const io::Fd listening{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+  ASSERT_EQ(::bind(listening.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(::listen(listening.get(), 1), 0);
+  Process control = netsim({"control", socket, "delay", "20"});
+  pollfd comes{listening.get(), POLLIN, 0};
+  ASSERT_EQ(::poll(&comes, 1, UdpPeer::kPatienceMs), 1);  // it has blocked its signals before it connects
+  const io::Fd asker{::accept(listening.get(), nullptr, nullptr)};
+  control.signal(SIGINT);
+  EXPECT_EQ(control.wait(), 1);
+  EXPECT_NE(control.err().find("tandem-netsim control: interrupted after the command was sent"), std::string::npos) << control.err();
 }
 
 TEST(Program, ProxyLogsEveryDecisionAndFollowsAScript) {
