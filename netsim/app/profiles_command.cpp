@@ -153,7 +153,7 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim profiles 5g --text > mine.textproto\n"
       "  tandem-netsim profiles mine.textproto --minutes 5\n"
       "  tandem-netsim profiles 4g-trace --capacity lte.csv\n"
-      "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files.");
+      "Exit: 0 done, 1 trouble while running or interrupted, 2 wrong arguments or files.");
   command->callback([arguments, command, &action] {
     bool measured = false;
     for (const char* option : {"--text", "--svg", "--capacity", "--minutes", "--seconds", "--seed", "--trace-interval"}) {

@@ -216,7 +216,7 @@ TEST(Program, ProxyLogsEveryDecisionAndFollowsAScript) {
   UdpPeer server, client;
   const std::string log = testing::TempDir() + "proxy.csv", script = testing::TempDir() + "script.textproto";
   std::ofstream(script) << "event { at_s: 0 client: \"1\" outage_ms: 3600000 }\n";
-  Process proxy = netsim({"proxy", "--to", io::to_text(server.address()), "--script", script, "--log", log});
+  Process proxy = netsim({"proxy", "--to", io::to_text(server.address()), "--script", script, "--log", log, "--delay", "5"});
   ASSERT_TRUE(proxy.wait_for("Ctrl-C ends"));
   const auto address = *io::parse_address(proxy.after("listening on "), 1);
   client.connect(address);
@@ -232,6 +232,9 @@ TEST(Program, ProxyLogsEveryDecisionAndFollowsAScript) {
   ASSERT_EQ(rows->size(), 21U);
   EXPECT_EQ(std::ranges::count(*rows, Outcome::kOutage, &Decision::outcome), 20);
   EXPECT_EQ(std::ranges::count(*rows, Outcome::kDeliver, &Decision::outcome), 1);
+  // What the network decided, to the nanosecond, not when this computer came to send it.
+  const auto passed = std::ranges::find(*rows, Outcome::kDeliver, &Decision::outcome);
+  EXPECT_EQ(passed->out - passed->in, 5ms);
 
   std::ofstream(script) << "event { at_s: 1 client: \"trainee\" outage_ms: 1 }\n";
   Process wrong = netsim({"proxy", "--to", "127.0.0.1:9", "--script", script});
