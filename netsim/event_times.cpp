@@ -8,7 +8,9 @@
 namespace tandem::netsim {
 namespace {
 
-std::string ms_text(Duration length) { return format("%g ms", seconds(length) * 1e3); }
+std::string ms_text(Duration length) {
+  return length < std::chrono::seconds(10) ? format("%g ms", seconds(length) * 1e3) : format("%g s", seconds(length));
+}
 
 std::string outage_words(const OutageSpec& outage) {
   constexpr std::array kModes{"", ", held", ", held but for the newest"};
