@@ -51,6 +51,7 @@ struct ProxyClientStatus {
   bool present = false;
   std::uint64_t kernel_drops = 0;  ///< its socket's buffer was full: it sends more than this computer can carry
   std::array<PathCounters, kDirections> counters;
+  std::array<Duration, kDirections> queue{};  ///< how long what comes now would wait in the rate's queue
 };
 
 struct ProxyStatus {
