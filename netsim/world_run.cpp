@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "common/link/digest.h"
+#include "netsim/world.h"
 #include "netsim/world_quality.h"
 #include "netsim/world_report.h"
 #include "server/trace_csv.h"

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "netsim/quality_text.h"
-#include "netsim/world.h"
 #include "netsim/world_setup.h"
 #include "server/report.h"
 
 namespace tandem::netsim {
+
+class World;
 
 /// Who looks on while a world runs. All may be empty.
 struct WorldRunWatch {

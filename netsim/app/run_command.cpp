@@ -15,6 +15,7 @@
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "netsim/app/quality_json.h"
+#include "netsim/world.h"
 #include "netsim/world_run.h"
 #include "proto/io/scene_file.h"
 #include "proto/scene_text.h"
