@@ -213,7 +213,7 @@ SwarmResult live_swarm_case(const SwarmCase& which, const std::function<void(Wor
   }
   World& world = **made;
   const Time calm = Time{} + which.calm;
-  const Time end = calm + from_seconds(kLivenessLimit);
+  Time end = calm + from_seconds(kLivenessLimit);
   Time buttons = calm;
   while (world.now() < end) {
     if (world.now() >= buttons) {
@@ -227,9 +227,10 @@ SwarmResult live_swarm_case(const SwarmCase& which, const std::function<void(Wor
     }
     if (each_tick) each_tick(world);
     if (!goes_on) break;
-    if (world.now() > calm && everybody_active(world)) {
+    if (result.recovered_s == 0 && world.now() > calm && everybody_active(world)) {
       result.recovered_s = seconds(world.now() - calm);
-      break;
+      end = world.now() + from_seconds(kOrdinary);
+      world.is_calm();
     }
   }
   result.lived_s = seconds(world.now() - Time{});

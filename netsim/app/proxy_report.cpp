@@ -101,13 +101,16 @@ Json troubles_json(const ProxyTroubles& t) {
 }
 
 Json client_json(const ProxyClientStatus& client) {
-  return {{"number", client.number},
+  Json json{{"number", client.number},
           {"address", io::to_text(client.address)},
           {"present", client.present},
           {"came_s", seconds(client.came)},
           {"kernel_drops", client.kernel_drops},
           {"up", path_json(client.counters[0])},
           {"down", path_json(client.counters[1])}};
+  json["up"]["queue_ms"] = 1e3 * seconds(client.queue[0]);
+  json["down"]["queue_ms"] = 1e3 * seconds(client.queue[1]);
+  return json;
 }
 
 std::vector<NamedLink> named(std::span<const ProxyClientQuality> qualities) {
@@ -156,6 +159,8 @@ std::string status_text(const ProxyStatus& status) {
                    io::to_text(client.address).c_str());
     text += direction_text("  up  ", client.counters[0], 0, false);
     text += direction_text("  down", client.counters[1], 0, false);
+    if (client.queue[0] + client.queue[1] > Duration{})
+      text += format("    waiting in the queue now: up %.3f ms, down %.3f ms\n", 1e3 * seconds(client.queue[0]), 1e3 * seconds(client.queue[1]));
   }
   return text + troubles_text(status.troubles);
 }

@@ -9,27 +9,24 @@
 #include "common/base/format.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
-#include "common/link/digest.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/interruption.h"
 #include "netsim/app/mistakes.h"
 #include "netsim/app/network_options.h"
 #include "netsim/app/quality_json.h"
 #include "netsim/app/run_log.h"
+#include "netsim/world.h"
 #include "netsim/world_notes.h"
-#include "netsim/world_quality.h"
-#include "netsim/world_report.h"
+#include "netsim/world_run.h"
 #include "proto/io/scene_file.h"
 #include "proto/scene_text.h"
 #include "server/report_summary.h"
 #include "server/session_monitor.h"
-#include "server/trace_csv.h"
 
 namespace tandem::netsim {
 namespace {
 
 constexpr int kFailed = 1, kTrouble = 1;
-constexpr std::uint64_t kTicksPerLook = 100;  ///< for signals
 
 struct RunArguments {
   std::string scene, channel, mfs, json, trace, log, replay;
@@ -135,7 +132,7 @@ WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
   return setup;
 }
 
-/// Progress on a terminal, once per virtual second.
+/// Progress on a terminal, some times per virtual second.
 void show_progress(const World& world) {
   std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", world.session().time(), world.scene().duration);
   std::fflush(stderr);
@@ -186,40 +183,27 @@ int run_command(const RunArguments& arguments) {
   log.attach(world.network());
 
   const Interruption interruption;
-  bool interrupted = false;
   const bool progress = !arguments.quiet && isatty(STDERR_FILENO) != 0;
   const std::clock_t begin = std::clock();
-  server::ReportBuilder builder{world.scene()};
-  const server::TraceCsv csv{world.scene()};
-  link::Digest digest;
-  std::string rows = csv.header();
-  const auto flush = [&] {
-    digest.add(rows);
-    trace_file.write(rows);
-    rows.clear();
-  };
-  for (std::uint64_t n = 0; !interrupted && world.step(); ++n) {
-    interrupted = n % kTicksPerLook == 0 && interruption.came();
-    log.on_tick(world.now());
-    const server::TickRecord& record = world.record();
-    builder.add(record);
-    if (record.running) csv.append(record, rows);
-    if (rows.size() > 60'000) flush();
-    if (progress && n % 1000 == 0) show_progress(world);
-  }
-  flush();
+  WorldRun run = run_world(world, setup.seed,
+                           {.go_on =
+                                [&](double) {
+                                  if (progress) show_progress(world);
+                                  return !interruption.came();
+                                },
+                            .trace = [&](std::string_view rows) { trace_file.write(rows); },
+                            .tick = [&](World&) { log.on_tick(world.now()); }});
   if (progress) std::fprintf(stderr, "\r\x1b[K");
-  if (!world.trouble().empty()) {
-    std::fprintf(stderr, "tandem-netsim run: %s\n", world.trouble().c_str());
+  if (!run.trouble.empty()) {
+    std::fprintf(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
     return kTrouble;
   }
 
-  server::RunReport report = world_report(world, builder, setup.seed);
-  report.trace_hash = digest.hex();
+  server::RunReport& report = run.report;
   report.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  const bool broken = !report.passed;
+  const bool interrupted = run.interrupted, broken = !report.passed;
   report.passed = report.passed && !interrupted;
-  const std::vector<NamedLink> links = link_qualities(world);
+  const std::vector<NamedLink>& links = run.links;
   std::vector<std::string> notes;
   if (!setup.replay) notes = network->notes;
   for (std::string& note : session_notes(setup, session_span(world))) notes.push_back(std::move(note));

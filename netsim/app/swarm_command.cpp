@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/format.h"
+#include "common/base/heap_count.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/parallel_jobs.h"
@@ -73,6 +74,7 @@ std::string live_seed(const SwarmArguments& arguments, std::uint64_t seed, io::J
   SwarmCase which = draw_swarm_case(seed, arguments.safety_max_s);
   which.setup.keep_record = !arguments.trace.empty();
   which.setup.watch_quality = arguments.seeds == 1;
+  which.setup.heap_count = heap_allocations;
   const double whole = seconds(which.calm) + 1;
   io::OutputFile trace;
   if (const auto problem = trace.open(arguments.trace, false); !problem.empty()) throw std::runtime_error("--trace: " + problem);

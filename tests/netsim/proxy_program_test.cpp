@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "netsim/app/proxy_control.h"
+#include "netsim/app/proxy_report.h"
 #include "netsim/app/proxy_view.h"
 #include "netsim/decision_csv.h"
 #include "netsim/profiles.h"
@@ -290,6 +291,40 @@ TEST(ProxyControl, ChangesAllOneOrOneDirectionAndThoseToCome) {
   EXPECT_EQ(control.notes().size(), 4U);
   proxy.end();
   EXPECT_FALSE(control.carry_out("delay 1").done);  // after the end: said, not hung
+}
+
+// 29 bytes with their headers take 232 ms at 1 kbit/s: a hundred of them stand in the queue for longer than any test lasts.
+TEST(ProxyView, ShowsTheQueueOfEachClientBesideWhatIsUnderWay) {
+  UdpPeer server, busy, quiet;
+  LinkSpec link;
+  link.up.rate.bits_per_s = 1000;
+  Running proxy{server.address(), link};
+  busy.connect(proxy->listening());
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(busy.send("x"));
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.total[0].in == 100; }));
+  quiet.connect(proxy->listening());
+  ASSERT_TRUE(quiet.send("x"));
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.clients == 2; }));
+  const ProxyStatus status = proxy->status();
+  EXPECT_GT(status.client[0].queue[0], Duration{}) << "100 datagrams wait for the rate";
+  EXPECT_LE(status.client[0].queue[0], std::chrono::milliseconds(100 * 232));
+  EXPECT_LT(status.client[1].queue[0], status.client[0].queue[0]) << "a queue of his own";
+  EXPECT_EQ(status.client[0].queue[1], Duration{}) << "no rate down";
+  EXPECT_NE(status_text(status).find("waiting in the queue now: up "), std::string::npos) << status_text(status);
+  const auto json = nlohmann::json::parse(status_json(status, {}));
+  EXPECT_EQ(json["clients"][0]["up"]["queue_ms"].get<double>(), 1e3 * seconds(status.client[0].queue[0]));
+  EXPECT_EQ(json["clients"][0]["down"]["queue_ms"], 0.0);
+
+  ProxyView view{*proxy};
+  view.look();
+  const auto table = view.table(5);
+  ASSERT_EQ(table.size(), 5U);
+  const std::size_t end = table[0].find(" queue") + 6;  // numbers stand under the end of their word
+  ASSERT_NE(table[0].find(" queue"), std::string::npos) << table[0];
+  const double shown = std::stod(table[1].substr(end - 6, 6));
+  EXPECT_GT(shown, 1000) << table[1];
+  EXPECT_LE(shown, 100 * 232) << table[1];
+  EXPECT_EQ(std::stod(table[2].substr(end - 6, 6)), 0) << table[2];
 }
 
 TEST(ProxyView, FitsEightyColumnsAndTheRowsItWasGiven) {

@@ -200,6 +200,26 @@ TEST(Verdict, EventsAndFaultsOutsideOfTheSessionAreTold) {
   EXPECT_EQ(json["scenarios"][0]["seeds"][1]["notes"].size(), 3u);
 }
 
+TEST(Verdict, SaysInWordsPerDirectionWhatTheWorstSeedsNetworkWasLike) {
+  TestResult result = run_tests(
+      {scenario("version: 1 scene: \"one_axis\" duration_s: 4 seeds: 2 event { at_s: 2 client: \"trainer\" direction: UP outage_ms: 300 }")}, {});
+  // The very words of `run`, of the seed they are about.
+  auto& seeds = result.scenarios[0].seeds;
+  WorldSetup setup = result.scenarios[0].scenario.setup;
+  setup.seed = 1;
+  setup.watch_quality = true;
+  const std::string words = quality_report(run_world(setup).links, false);
+  EXPECT_EQ(seeds[0].words, words);
+  EXPECT_NE(words.find("    up: red; "), std::string::npos) << words;
+  EXPECT_NE(words.find("    down: green; "), std::string::npos) << words;
+  EXPECT_NE(test_summary(result).find("\n  seed 1, network of trainer: red, "), std::string::npos) << test_summary(result);
+  EXPECT_NE(test_summary(result).find(words.substr(words.find("    up: red; "))), std::string::npos) << test_summary(result);
+  seeds[1].badness = 3.5;  // above every share of red in the other
+  EXPECT_NE(test_summary(result).find("\n  seed 2, network of trainer: red, "), std::string::npos) << test_summary(result);
+  for (SeedOutcome& s : seeds) s.words.clear();  // crashed, or never began
+  EXPECT_EQ(test_summary(result).find("    up: "), std::string::npos);
+}
+
 SweepSpec small_sweep() {
   SweepSpec spec;
   spec.scene = small().setup.scene;
@@ -265,7 +285,7 @@ TEST(Verdict, ReplayCommandsAreWordsOfAShell) {
 
 TEST(Verdict, OutcomesCrossBetweenProcessesWhole) {
   SeedOutcome o{.seed = ~0ULL, .state = State::kFail, .trouble = "a\n\"b\"", .violations = {{"finite", "x", 0.1, false, 1ULL << 60}},
-                .values = {0.1, std::nan(""), 1e300}, .bands = {{"x", "red"}}, .notes = {"a note"}, .trace_hash = "abc", .duration_s = 1.0 / 3, .cpu_s = 0.2, .report = "{\"a\":1}"};
+                .values = {0.1, std::nan(""), 1e300}, .bands = {{"x", "red"}}, .notes = {"a note"}, .words = "  network: \n", .badness = 2.25, .trace_hash = "abc", .duration_s = 1.0 / 3, .cpu_s = 0.2, .report = "{\"a\":1}"};
   const SeedOutcome back = outcome_from_bytes(to_bytes(o));
   EXPECT_EQ(back.seed, o.seed);
   EXPECT_EQ(back.state, o.state);
@@ -277,6 +297,8 @@ TEST(Verdict, OutcomesCrossBetweenProcessesWhole) {
   EXPECT_EQ(back.report, o.report);
   EXPECT_EQ(back.bands, o.bands);
   EXPECT_EQ(back.notes, o.notes);
+  EXPECT_EQ(back.words, o.words);
+  EXPECT_EQ(back.badness, o.badness);
 }
 
 TEST(Verdict, FilesAreNamedRelativeToTheScenario) {
