@@ -60,6 +60,9 @@ class Course {
     return path_->defers() ? path_->next_settle() : std::nullopt;
   }
 
+  /// How long what comes at `now` would wait in the queue of the rate, as the link is at present.
+  [[nodiscard]] Duration queue_wait(Time now) const noexcept { return path_->queue_wait(now); }
+
   /// `next` is in force from `now` on; afterwards it holds the path that was. Changes of the schedule still come.
   void change(Time now, std::unique_ptr<Path>& next) noexcept TANDEM_REALTIME;
 

@@ -19,7 +19,7 @@ namespace tandem::netsim {
 /// The final fate of one datagram, or of one copy of it.
 struct Decision {
   Time in;                  ///< of entering the network; a copy: of its original
-  Time out;                 ///< due at the other end; dropped: when that was decided
+  Time out;                 ///< due at the other end, as decided (a live proxy sends later, by its own lateness); dropped: when that was decided
   std::uint64_t index = 0;  ///< of the datagram on its path, from 0; a copy has that of its original
   std::uint32_t link = 0;   ///< the link it went over; flows with a link of their own: the flow's number
   std::uint32_t flow = 0;   ///< the client, in order of adding or arrival

@@ -71,11 +71,12 @@ WakeUps::WakeUps(const WakeSpec& spec, Duration tick, Time start, RandomKey key)
   next_ = spec_.kind == WakeSpec::Kind::kMeasured ? start_ : deadline(0);
 }
 
-bool WakeUps::due(Time now) noexcept {
-  if (now < next_) return false;
+std::optional<Time> WakeUps::within(Time since, Time now) noexcept {
+  if (now < next_) return std::nullopt;
+  const Time woke = std::max(next_, since);
   ++count_;
-  schedule_next(now);
-  return true;
+  schedule_next(woke);
+  return woke;
 }
 
 double WakeUps::measured_step(double u) noexcept {
@@ -95,7 +96,7 @@ Time WakeUps::deadline(std::uint64_t n) const noexcept {
   return start_ + tick_ * static_cast<std::int64_t>(n) + Duration{static_cast<std::int64_t>(late)};
 }
 
-void WakeUps::schedule_next(Time now) noexcept {
+void WakeUps::schedule_next(Time woke) noexcept {
   if (spec_.kind == WakeSpec::Kind::kMeasured) {
     // From the wake-up that was meant, not from the call that served it: the steps keep their measured shape on
     // whatever grid the caller asks.
@@ -104,7 +105,7 @@ void WakeUps::schedule_next(Time now) noexcept {
     return;
   }
   // Deadlines that have passed meanwhile are missed; the loop sleeps until the first one that has not.
-  const auto following = static_cast<std::uint64_t>((now - start_) / tick_) + 1;
+  const auto following = static_cast<std::uint64_t>((woke - start_) / tick_) + 1;
   skipped_ += following - number_ - 1;
   number_ = following;
   next_ = deadline(number_);

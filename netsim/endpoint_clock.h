@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/base/rng.h"
@@ -71,7 +72,10 @@ class WakeUps {
   /// Whether the loop runs at `now`; call once per tick of the world. At most one wake-up per call: a loop that woke
   /// up late does not run twice to catch up, it skips what it missed.
   /// @param now  never decreasing
-  [[nodiscard]] bool due(Time now) noexcept;
+  [[nodiscard]] bool due(Time now) noexcept { return within(now, now).has_value(); }
+  /// The same for a world that moves in ticks: the moment in [since, now] at which the loop runs, to the nanosecond.
+  /// @param since  the `now` of the call before; a wake-up that was due earlier still comes at `since`
+  [[nodiscard]] std::optional<Time> within(Time since, Time now) noexcept;
 
   [[nodiscard]] Time next() const noexcept { return next_; }                 ///< the wake-up to come
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }      ///< wake-ups so far
@@ -82,7 +86,7 @@ class WakeUps {
   [[nodiscard]] static double measured_step(double u) noexcept;
 
  private:
-  void schedule_next(Time now) noexcept;
+  void schedule_next(Time woke) noexcept;
   [[nodiscard]] Time deadline(std::uint64_t n) const noexcept;
 
   WakeSpec spec_;

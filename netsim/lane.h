@@ -58,6 +58,9 @@ class Lane {
     if (course_) course_->change(now, next);
   }
 
+  /// See Path::queue_wait; of a recording 0: it does not tell.
+  [[nodiscard]] Duration queue_wait(Time now) const noexcept { return course_ ? course_->queue_wait(now) : Duration{}; }
+
   [[nodiscard]] const ReplayPath* replay() const noexcept { return replay_ ? &*replay_ : nullptr; }
 
   /// One datagram goes in: decided, counted, kept in `queue`, told to whoever listens.

@@ -159,6 +159,11 @@ Verdict Path::send(Time now, std::uint32_t flow, std::size_t size) noexcept {
   return verdict;
 }
 
+Duration Path::queue_wait(Time now) noexcept {
+  now = std::max(now, last_in_);
+  return std::max(head_ ? head_->waiting(rate_, now) : rate_.waiting(now), Duration::zero());
+}
+
 void Path::keep_newest(const InTransit& datagram, Time until) noexcept {
   const auto before = std::find_if(newest_.begin(), newest_.end(), [&](const Newest& newest) {
     return newest.datagram.flow == datagram.flow;

@@ -103,6 +103,10 @@ class Path {
   /// @param at      the moment of the change
   void take_over(Path& before, Time at) noexcept TANDEM_REALTIME;
 
+  /// How long a datagram that comes now would wait in the queue of the rate before its first bit is sent; 0 without a rate.
+  /// Moves no decision.
+  [[nodiscard]] Duration queue_wait(Time now) noexcept;
+
   /// Datagrams decided about or waiting.
   [[nodiscard]] std::uint64_t count(std::uint32_t flow = 0) const noexcept { return flows_[flow].count; }
 

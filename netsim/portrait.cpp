@@ -20,7 +20,7 @@ Duration PortraitWay::quantile(double q) const noexcept {
   return delays[static_cast<std::size_t>(std::clamp(q, 0.0, 1.0) * static_cast<double>(delays.size() - 1))];
 }
 
-Portrait portrait_of(const PortraitSetup& setup, const std::function<void(double)>& progress) {
+Portrait portrait_of(const PortraitSetup& setup, const std::function<bool(double)>& progress) {
   Portrait portrait;
   portrait.length = setup.length;
   portrait.shown = std::min(setup.shown, setup.length);
@@ -56,7 +56,11 @@ Portrait portrait_of(const PortraitSetup& setup, const std::function<void(double
       network.send(now, 0, direction, datagram);
       empty(now, direction);
     }
-    if (progress && i % kTellEvery == 0) progress(static_cast<double>(i) / static_cast<double>(count));
+    if (!progress || i % kTellEvery != 0 || progress(static_cast<double>(i) / static_cast<double>(count))) continue;
+    portrait.length = kPeriod * static_cast<std::int64_t>(i + 1);
+    portrait.shown = std::min(portrait.shown, portrait.length);
+    for (PortraitWay& way : portrait.ways) way.shown.resize(std::min<std::size_t>(shown, i + 1));
+    break;
   }
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     empty(Time{setup.length + std::chrono::hours(24)}, direction);  // what is still under way

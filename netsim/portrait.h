@@ -39,8 +39,9 @@ struct Portrait {
   LinkSummary quality;
 };
 
-/// @param progress  told now and then which share is done, [0, 1]; may be empty
+/// @param progress  told now and then which share is done, [0, 1]; false: enough, what was played so far is the portrait,
+///                  with its own `length`; may be empty
 /// @throws std::invalid_argument listing all problems of the link.
-[[nodiscard]] Portrait portrait_of(const PortraitSetup& setup, const std::function<void(double)>& progress = {});
+[[nodiscard]] Portrait portrait_of(const PortraitSetup& setup, const std::function<bool(double)>& progress = {});
 
 }  // namespace tandem::netsim

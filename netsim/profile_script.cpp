@@ -38,6 +38,7 @@ std::expected<std::vector<NetworkEvent>, InputErrors> network_events(std::span<c
     if (!in.profile) continue;
     if (auto link = find(*in.profile)) {
       event.link = std::move(*link);
+      event.network = *in.profile;
     } else {
       add_profile_errors(in.profile_place, std::move(link.error()), errors);
     }
@@ -56,9 +57,16 @@ std::expected<std::vector<NetworkEvent>, InputErrors> network_events(std::span<c
 std::expected<std::vector<NetworkEvent>, InputErrors> parse_script(std::string_view text, std::string_view file_name,
                                                                    std::span<const std::string> clients,
                                                                    const FindNetwork& find) {
-  const auto script = parse_script_text(text, file_name, clients);
-  if (!script) return std::unexpected(script.error());
-  return network_events(script->events, find);
+  ScriptReading reading = read_script_text(text, file_name, clients);
+  if (!reading.spec) return std::unexpected(std::move(reading.errors));
+  auto events = network_events(reading.spec->events, find);
+  if (reading.errors.empty()) return events;
+  if (!events) {
+    // What the engine says of numbers has no line: the mistakes known already may be its reason.
+    std::erase_if(events.error(), [](const InputError& error) { return error.line == 0; });
+    add_unexplained(reading.errors, std::move(events.error()));
+  }
+  return std::unexpected(std::move(reading.errors));
 }
 
 std::expected<LinkSpec, InputErrors> find_shipped(const std::string& name) {

@@ -59,13 +59,24 @@ LinkSchedule ProxyCore::schedule(const LinkSpec& link, std::uint64_t number) con
   return schedule_for(link, events_, std::to_string(number + 1));
 }
 
-std::optional<std::uint32_t> ProxyCore::add_client() {
+ProxyCore::Newcomer ProxyCore::prepare_newcomer(const LinkSpec& link, std::uint64_t version, std::uint64_t number) const {
+  const LinkSchedule over_time = schedule(link, number);
+  Newcomer made{version, number, Addresses{over_time.rebinds}};
+  if (sharing_) return made;
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    made.lanes[static_cast<std::size_t>(direction)].emplace(over_time, direction, seed_, number);
+  }
+  return made;
+}
+
+std::optional<std::uint32_t> ProxyCore::add_client(Newcomer* made) {
   for (std::uint32_t number = 0; number < kClientsMax; ++number) {
     Client& place = places_[number];
     if (place.lanes[0]) continue;
-    const LinkSchedule over_time = schedule(spec_, clients_seen_);
+    std::optional<Newcomer> late;
+    if (made == nullptr || !fits(*made)) made = &late.emplace(prepare_newcomer(spec_, version_, clients_seen_));
     place.number = clients_seen_;
-    place.addresses = Addresses{over_time.rebinds};
+    std::swap(place.addresses, made->addresses);
     for (const Direction direction : {Direction::kUp, Direction::kDown}) {
       auto& lane = place.lanes[static_cast<std::size_t>(direction)];
       if (sharing_) {
@@ -73,7 +84,7 @@ std::optional<std::uint32_t> ProxyCore::add_client() {
         course->join(number, clients_seen_);
         lane.emplace(course, number);
       } else {
-        lane.emplace(over_time, direction, seed_, clients_seen_);
+        lane = std::move(made->lanes[static_cast<std::size_t>(direction)]);
       }
       lane->settle_in(queue_);
       const auto name = static_cast<std::uint32_t>(clients_seen_);
@@ -158,7 +169,10 @@ LinkChange ProxyCore::prepare(const LinkSpec& link, std::span<const std::uint64_
 
 void ProxyCore::change(Time now, LinkChange& change) {
   note(change.link);
-  if (change.for_new) std::swap(spec_, *change.for_new);
+  if (change.for_new) {
+    std::swap(spec_, *change.for_new);
+    ++version_;
+  }
   if (sharing_) {
     for (std::size_t d = 0; d < kDirections; ++d) shared_[d]->change(now, change.shared[d]);
     return;
@@ -258,6 +272,10 @@ const PathCounters& ProxyCore::counters(std::uint32_t client, Direction directio
   if (client >= kClientsMax) return kNothing;
   const auto& lane = places_[client].lanes[static_cast<std::size_t>(direction)];
   return lane ? lane->counters : kNothing;
+}
+
+Duration ProxyCore::queue_wait(Time now, std::uint32_t client, Direction direction) const noexcept {
+  return present(client) ? places_[client].lanes[static_cast<std::size_t>(direction)]->queue_wait(now) : Duration{};
 }
 
 PathCounters ProxyCore::total(Direction direction) const noexcept {

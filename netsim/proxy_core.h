@@ -54,11 +54,30 @@ class ProxyCore {
   /// Tells the sink what is still under way: the end of a complete log.
   void log_waiting() const noexcept;
 
+  /// A client that has not come yet, with all the memory it needs: made by `prepare_newcomer` on any thread, used once.
+  struct Newcomer {
+    std::uint64_t version = 0;  ///< of the link for those who come
+    std::uint64_t number = 0;   ///< by arrival, from 0
+    Addresses addresses;
+    std::array<std::optional<Lane>, kDirections> lanes = {};  ///< empty where clients share their link
+  };
+  /// Reads only what never changes.
+  /// @param link     what those who come find in that version: of the start, or of the newest LinkChange::for_new
+  /// @throws std::invalid_argument listing all problems of the spec.
+  [[nodiscard]] Newcomer prepare_newcomer(const LinkSpec& link, std::uint64_t version, std::uint64_t number) const;
+  /// Counts the changes of the link for those who come.
+  [[nodiscard]] std::uint64_t version() const noexcept { return version_; }
+  /// Whether it was made for the client that comes next, under the network in force.
+  [[nodiscard]] bool fits(const Newcomer& newcomer) const noexcept {
+    return newcomer.version == version_ && newcomer.number == clients_seen_;
+  }
+
   /// Takes a free place for a new client.
+  /// @param made  what it needs, if it `fits`: then no memory is taken; it keeps what is to be freed
   /// @return its number in [0, kClientsMax); empty: the house is full
   /// Randomness is keyed by how many clients came before, so the n-th client meets the n-th link of the virtual
   /// network.
-  std::optional<std::uint32_t> add_client();
+  std::optional<std::uint32_t> add_client(Newcomer* made = nullptr);
   /// Frees the place. What is still under way for the client is dropped when due.
   void remove_client(std::uint32_t client) noexcept;
   [[nodiscard]] std::size_t clients() const noexcept { return clients_; }
@@ -112,6 +131,8 @@ class ProxyCore {
 
   /// Of one present client; of all clients together, also those that left.
   [[nodiscard]] const PathCounters& counters(std::uint32_t client, Direction direction) const noexcept;
+  /// How long what this client sends, or is sent, at `now` would wait in the rate's queue; on a shared link behind what all sent.
+  [[nodiscard]] Duration queue_wait(Time now, std::uint32_t client, Direction direction) const noexcept;
   [[nodiscard]] PathCounters total(Direction direction) const noexcept;
 
   /// From now on `watch` is told what happens on the link of this present client; it must live until the client is
@@ -145,7 +166,7 @@ class ProxyCore {
   DelayQueue queue_;
   std::vector<Client> places_;
   std::size_t clients_ = 0;
-  std::uint64_t clients_seen_ = 0;
+  std::uint64_t clients_seen_ = 0, version_ = 0;
   std::array<PathCounters, kDirections> left_;  ///< of clients that left
 };
 

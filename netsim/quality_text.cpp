@@ -137,6 +137,11 @@ std::optional<Band> verdict(const LinkSummary& link) noexcept {
   return worst;
 }
 
+double badness(const LinkSummary& link) noexcept {
+  const auto called = verdict(link);
+  return called ? 1 + static_cast<double>(*called) + std::min(red_share(link), 1.0) * (1 - 1e-9) : 0;
+}
+
 const char* verdict_name(const std::optional<Band>& verdict) noexcept { return verdict ? name(*verdict) : "too short"; }
 
 const char* meaning(const std::optional<Band>& verdict) noexcept {
@@ -175,10 +180,7 @@ std::string quality_table(const LinkSummary& link, const std::string& indent) {
 }
 
 void sort_worst_first(std::vector<NamedLink>& links) {
-  std::stable_sort(links.begin(), links.end(), [](const NamedLink& a, const NamedLink& b) {
-    const auto va = verdict(a.link), vb = verdict(b.link);
-    return va != vb ? va > vb : red_share(a.link) > red_share(b.link);
-  });
+  std::stable_sort(links.begin(), links.end(), [](const NamedLink& a, const NamedLink& b) { return badness(a.link) > badness(b.link); });
 }
 
 std::string quality_report(std::vector<NamedLink> links, bool all) {

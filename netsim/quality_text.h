@@ -20,6 +20,10 @@ inline constexpr double kShareNeeded = 0.99;
 /// `green`, `amber`, `red` or `too short`.
 [[nodiscard]] const char* verdict_name(const std::optional<Band>& verdict) noexcept;
 
+/// Orders links and whole networks, the worst highest: by verdict, then by the share of red and amber windows [0, 4).
+/// 0: nothing was judged.
+[[nodiscard]] double badness(const LinkSummary& link) noexcept;
+
 /// What people can do over a network of this verdict.
 [[nodiscard]] const char* meaning(const std::optional<Band>& verdict) noexcept;
 
@@ -38,7 +42,7 @@ struct NamedLink {
 /// @param all  every link in words and numbers
 [[nodiscard]] std::string quality_report(std::vector<NamedLink> links, bool all);
 
-/// The worst first: by verdict, then by the share of red and amber windows.
+/// The worst first, by `badness`.
 void sort_worst_first(std::vector<NamedLink>& links);
 
 /// `0.07 ms`, `8.25 ms`, `61.5 ms`, `410 ms`, `12.3 s`.

@@ -14,7 +14,8 @@ Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
 
 class Maker {
  public:
-  Maker(const ScenarioSpec& spec, const ScenarioSources& sources) : spec_(spec), sources_(sources) {}
+  Maker(const ScenarioSpec& spec, const ScenarioSources& sources, InputErrors known)
+      : spec_(spec), sources_(sources), known_(std::move(known)) {}
 
   std::expected<Scenario, InputErrors> make() {
     out_.name = spec_.name;
@@ -23,13 +24,14 @@ class Maker {
     out_.scene = spec_.scene.text;
     out_.seed = spec_.seed;
     out_.seeds = spec_.seeds;
-    auto scene = sources_.scene(spec_.scene.text);
+    std::expected<SceneSpec, InputErrors> scene = std::unexpected(InputErrors{});
+    if (!spec_.scene.text.empty()) scene = sources_.scene(spec_.scene.text);
     if (scene) {
       out_.setup.scene = std::move(*scene);
     } else {
       add(spec_.scene.place, scene.error());
     }
-    if (spec_.duration_s) out_.setup.scene.duration = *spec_.duration_s;
+    if (spec_.duration_s && !blamed("duration_s")) out_.setup.scene.duration = *spec_.duration_s;
     if (spec_.channel) out_.setup.scene.channel.law = *spec_.channel;
     if (spec_.mfs) out_.setup.scene.channel.mfs = *spec_.mfs;
     for (const SeatSpec& s : out_.setup.scene.seats) {
@@ -46,7 +48,8 @@ class Maker {
       endpoints();
       for (const ScenarioLimitSpec& limit : spec_.limits) add_limit(limit);
     }
-    if (!errors_.empty()) return std::unexpected(sorted());
+    add_unexplained(known_, std::move(errors_));
+    if (!known_.empty()) return std::unexpected(sorted());
     return std::move(out_);
   }
 
@@ -64,9 +67,11 @@ class Maker {
     }
   }
   InputErrors sorted() {
-    std::ranges::stable_sort(errors_, {}, [&](const InputError& e) { return std::pair(e.file != spec_.file, std::pair(e.line, e.column)); });
-    return std::move(errors_);
+    std::ranges::stable_sort(known_, {}, [&](const InputError& e) { return std::pair(e.file != spec_.file, std::pair(e.line, e.column)); });
+    return std::move(known_);
   }
+  /// Whether a mistake is known of this very key.
+  bool blamed(const std::string& key) const { return std::ranges::find(known_, key, &InputError::key) != known_.end(); }
   /// Index of a name, or nothing and a mistake.
   std::optional<std::size_t> find(const std::vector<std::string>& known, const ScenarioName& name, const std::string& what) {
     const auto it = std::ranges::find(known, name.text);
@@ -75,7 +80,9 @@ class Maker {
     return {};
   }
 
-  std::optional<ScenarioLink> link(const ScenarioNetworkSpec& spec) {
+  std::optional<ScenarioLink> link(ScenarioNetworkSpec spec) {
+    if (blamed(spec.place.key + ".trace_interval_ms")) return {};  // its recording cannot be read without
+    if (!known_.empty()) spec.delay_ms = spec.jitter_ms = spec.loss_percent = spec.duplicate_percent = spec.reorder_percent = {};  // judged already
     auto found = sources_.network(spec);
     if (found) return std::move(*found);
     add(spec.profile ? spec.profile->place : spec.place, found.error());
@@ -115,7 +122,9 @@ class Maker {
     if (events) {
       out_.setup.events = std::move(*events);
     } else {
-      errors_.insert(errors_.end(), events.error().begin(), events.error().end());
+      // What the engine says of numbers has no line: a mistake known already may be its reason.
+      for (const InputError& error : events.error())
+        if (error.line > 0 || known_.empty()) errors_.push_back(error);
     }
   }
   void hands() {
@@ -211,14 +220,14 @@ class Maker {
   const ScenarioSpec& spec_;
   const ScenarioSources& sources_;
   Scenario out_;
-  InputErrors errors_;
+  InputErrors known_, errors_;
   std::vector<std::string> seats_, masters_, tools_, phases_;
 };
 
 }  // namespace
 
-std::expected<Scenario, InputErrors> make_scenario(const ScenarioSpec& spec, const ScenarioSources& sources) {
-  return Maker(spec, sources).make();
+std::expected<Scenario, InputErrors> make_scenario(const ScenarioSpec& spec, const ScenarioSources& sources, InputErrors known) {
+  return Maker(spec, sources, std::move(known)).make();
 }
 
 std::string effective_scenario_text(const Scenario& s) {
@@ -240,7 +249,7 @@ std::string effective_scenario_text(const Scenario& s) {
     const NetworkEvent& e = s.setup.events[i];
     std::string who;
     for (const std::string& seat : e.clients) who += (who.empty() ? "" : ", ") + seat;
-    std::string what = e.rebind ? "new address" : e.outage ? "outage" : "another network";
+    std::string what = e.rebind ? "new address" : e.outage ? "outage" : e.network.empty() ? "another network" : "network " + e.network;
     if (e.direction) what += std::string(" ") + std::string(netsim::name(*e.direction));
     rows.push_back({list("event", i), what + " of " + (who.empty() ? "every seat" : who), ""});
     number(list("event", i) + ".at_s", seconds(e.at), "s");

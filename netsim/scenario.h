@@ -42,8 +42,10 @@ struct ScenarioSources {
 };
 
 /// Holds a scenario against its scene: every seat, tool and phase exists, every limit is of a number that this run has.
-/// @return the scenario, or every mistake found, in file order
-[[nodiscard]] std::expected<Scenario, InputErrors> make_scenario(const ScenarioSpec& spec, const ScenarioSources& sources);
+/// @param known  mistakes found when it was read (ScenarioReading): what they explain is not told again
+/// @return the scenario, or every mistake found, the known ones too, in file order
+[[nodiscard]] std::expected<Scenario, InputErrors> make_scenario(const ScenarioSpec& spec, const ScenarioSources& sources,
+                                                                 InputErrors known = {});
 
 /// Every value in force, one per line: key, value and unit in three aligned columns. For `--check`.
 [[nodiscard]] std::string effective_scenario_text(const Scenario& scenario);

@@ -29,6 +29,7 @@ struct NetworkEvent {
   std::optional<OutageSpec> outage = {};    ///< its start is `at`
   std::optional<LinkSpec> link = {};        ///< from now on; of `direction` only that half is used
   std::optional<Rebind> rebind = {};
+  std::string network = {};  ///< what `link` is called, for people; may be empty
 };
 
 /// One client's link over time.

@@ -1,6 +1,8 @@
 #include "netsim/world.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "hal/port_map.h"
 #include "server/session_record.h"
@@ -24,6 +26,12 @@ constexpr std::size_t kStranger = 254;
 
 /// Longest wait for a session to begin; covers joining over the longest delay there is, 60 s one way.
 constexpr Duration kPatience = std::chrono::seconds(300);
+
+/// Who asks for a seat gets a connection made for him: joining may take memory, a tick may not.
+bool asks_for_a_seat(std::span<const std::byte> bytes) noexcept {
+  const auto header = link::read_header(bytes);
+  return header && header->type == wire::Type::kBind;
+}
 
 std::size_t seat_of(const server::Endpoint& e) { return std::to_integer<std::size_t>(e.bytes[0]) - 1; }
 std::uint32_t address_of(const server::Endpoint& e) {
@@ -51,6 +59,10 @@ std::expected<std::unique_ptr<World>, std::string> World::make(const WorldSetup&
   world->stations_.reserve(scene.seats.size());
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     if (std::string trouble = world->add_station(i); !trouble.empty()) return std::unexpected(trouble);
+  if (std::ranges::any_of(setup.endpoints, [](const auto& e) { return e.second.wake.kind != WakeSpec::Kind::kExact; })) {
+    world->order_.resize(scene.seats.size());
+    std::iota(world->order_.begin(), world->order_.end(), std::size_t{0});
+  }
   std::ranges::copy_if(setup.faults, std::back_inserter(world->server_faults_),
                        [](const Fault& f) { return f.kind == Fault::Kind::kServerLate; });
 
@@ -114,7 +126,7 @@ bool World::step() {
     serve_server();
   }
   if (setup_.keep_record) take_record();
-  watch_.check(now_, lived, *session_, stations_);
+  watch_.check(lived, *session_, stations_);
   give_up_waiting();
   if (setup_.watch_quality && qualities_.empty() && session_->state() == wire::SessionState::kRunning) watch_links();
   now_ += tick_;
@@ -144,8 +156,22 @@ void World::give_up_waiting() {
 }
 
 void World::serve_clients() {
-  for (WorldStation& station : stations_)
+  // Who wakes up first sends first: on a link that is shared nobody's datagram may enter before an older one.
+  for (std::size_t i = 1; i < order_.size(); ++i)
+    for (std::size_t j = i; j > 0 && works_before(order_[j], order_[j - 1]); --j) std::swap(order_[j], order_[j - 1]);
+  for (std::size_t n = 0; n < stations_.size(); ++n) {
+    const std::size_t i = order_.empty() ? n : order_[n];
+    WorldStation& station = stations_[i];
+    const client::Seat* const before = station.seat();
+    const std::uint64_t taken = heap_taken();
     if (std::string trouble = station.step(now_, network_, buffer_); !trouble.empty()) trouble_ = std::move(trouble);
+    // A program that starts, joins or dies is no tick yet, or no more.
+    if (before != nullptr && before == station.seat() && heap_taken() != taken) watch_.took_heap(i);
+  }
+}
+
+bool World::works_before(std::size_t a, std::size_t b) const noexcept {
+  return std::pair{stations_[a].wakes_at(now_), a} < std::pair{stations_[b].wakes_at(now_), b};
 }
 
 bool World::server_stands_still() const noexcept {
@@ -153,15 +179,18 @@ bool World::server_stands_still() const noexcept {
 }
 
 void World::serve_server() {
+  const std::uint64_t taken = heap_taken();
+  bool joins = false;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     while (const auto d = network_.poll(now_, static_cast<std::uint32_t>(i), Direction::kUp, buffer_)) {
       const auto bytes = std::span{buffer_}.first(std::min(d->size, buffer_.size()));
       watch_.server_heard(i, d->index);
       stations_[i].overheard(bytes);
+      joins |= asks_for_a_seat(bytes);
       session_->on_datagram(now_, endpoint_of(i, d->address), bytes);
     }
   }
-  attack_server();
+  joins |= attack_server();
   session_->on_tick(now_, server_missed_);
   server_missed_ = 0;
   while (const auto out = session_->poll_transmit(now_, buffer_)) {
@@ -172,20 +201,23 @@ void World::serve_server() {
     }
     network_.send_to(now_, static_cast<std::uint32_t>(to), address_of(out->to), std::span{buffer_}.first(out->size));
   }
+  if (!joins && heap_taken() != taken) watch_.took_heap();
 }
 
-void World::attack_server() {
-  if (setup_.faults.empty()) return;
+bool World::attack_server() {
+  bool asked = false;
+  if (setup_.faults.empty()) return asked;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     const auto forged = stations_[i].forged(now_);
     for (const std::size_t from : {i, kStranger}) {
       // Who asks for a seat with an old BIND is answered, whoever he is, until joining has tickets (design notes, security 1.4).
-      const auto header = link::read_header(forged.replayed);
-      const bool asks = header && header->type == wire::Type::kBind;
+      const bool asks = asks_for_a_seat(forged.replayed);
+      asked |= asks;
       if (!forged.replayed.empty() && !(asks && from == kStranger)) session_->on_datagram(now_, endpoint_of(from), forged.replayed);
       if (!forged.junk.empty()) session_->on_datagram(now_, endpoint_of(from), forged.junk);
     }
   }
+  return asked;
 }
 
 void World::take_record() {

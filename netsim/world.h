@@ -45,6 +45,8 @@ class World {
   [[nodiscard]] const LinkWatch* quality(std::size_t i) const noexcept {
     return i < qualities_.size() ? qualities_[i].get() : nullptr;
   }
+  /// Whoever drew the faults knows that they are over: from now on also what only ordinary motion is promised is judged.
+  void is_calm() noexcept { watch_.calm(); }
   /// Why a seat could not join, if so.
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
   [[nodiscard]] const SceneSpec& scene() const noexcept { return setup_.scene; }
@@ -53,8 +55,11 @@ class World {
   explicit World(const WorldSetup& setup) : setup_(setup), network_(setup.seed), watch_(setup_.scene) {}
   [[nodiscard]] std::string add_station(std::size_t seat);
   void serve_clients();
+  [[nodiscard]] bool works_before(std::size_t a, std::size_t b) const noexcept;
   void serve_server();
-  void attack_server();
+  /// @return whether a seat was asked for with what was heard before
+  bool attack_server();
+  [[nodiscard]] std::uint64_t heap_taken() const noexcept { return setup_.heap_count != nullptr ? setup_.heap_count() : 0; }
   [[nodiscard]] bool server_stands_still() const noexcept;
   void give_up_waiting();
   void take_record();
@@ -66,6 +71,7 @@ class World {
   Time now_{};
   std::unique_ptr<server::Session> session_;
   std::vector<WorldStation> stations_;
+  std::vector<std::size_t> order_;  ///< in which stations work within a tick; empty: all at its end, by number
   std::vector<Fault> server_faults_;
   std::uint32_t server_missed_ = 0;  ///< ticks the server's thread stood still
   std::array<std::byte, link::kDatagramMax> buffer_{};

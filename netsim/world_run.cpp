@@ -4,6 +4,7 @@
 
 #include "common/link/digest.h"
 #include "netsim/world.h"
+#include "netsim/world_notes.h"
 #include "netsim/world_quality.h"
 #include "netsim/world_report.h"
 #include "server/trace_csv.h"
@@ -26,13 +27,19 @@ std::expected<std::unique_ptr<World>, std::string> make(const WorldSetup& setup)
 }  // namespace
 
 WorldRun run_world(const WorldSetup& setup, const WorldRunWatch& watch) {
+  const auto made = make(setup);
   WorldRun run;
-  auto made = make(setup);
   if (!made) {
     run.trouble = made.error();
     return run;
   }
-  World& world = **made;
+  run = run_world(**made, setup.seed, watch);
+  if (run.trouble.empty()) run.notes = session_notes(setup, session_span(**made));
+  return run;
+}
+
+WorldRun run_world(World& world, std::uint64_t seed, const WorldRunWatch& watch) {
+  WorldRun run;
   server::ReportBuilder builder{world.scene()};
   const server::TraceCsv csv{world.scene()};
   link::Digest digest;
@@ -43,6 +50,7 @@ WorldRun run_world(const WorldSetup& setup, const WorldRunWatch& watch) {
     rows.clear();
   };
   for (std::uint64_t n = 0; world.step(); ++n) {
+    if (watch.tick) watch.tick(world);
     const server::TickRecord& record = world.record();
     builder.add(record);
     if (record.running) csv.append(record, rows);
@@ -55,7 +63,7 @@ WorldRun run_world(const WorldSetup& setup, const WorldRunWatch& watch) {
   flush();
   run.trouble = world.trouble();
   run.links = link_qualities(world);
-  run.report = world_report(world, builder, setup.seed);
+  run.report = world_report(world, builder, seed);
   run.report.trace_hash = digest.hex();
   if (run.trouble.empty() && run.report.duration_s <= 0 && !run.interrupted)
     run.trouble = "the session never ran: there is nothing to judge";

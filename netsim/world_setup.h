@@ -28,6 +28,9 @@ struct WorldSetup {
   std::vector<Fault> faults = {};                                                       ///< in any order
   std::map<std::string, EndpointSpec> endpoints = {};  ///< by seat: its clock, and when its program wakes up
   bool watch_quality = false;  ///< judges every seat's link from the session's begin on: World::quality
+  /// How much the calling thread has taken from the heap so far (common/base/heap_count.h); null: "no heap below a tick" is
+  /// not judged, as whoever runs the world did not replace operator new.
+  std::uint64_t (*heap_count)() noexcept = nullptr;
   bool keep_record = true;  ///< false: World::record() stays empty; for runs that only judge invariants
 };
 

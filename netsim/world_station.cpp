@@ -60,10 +60,27 @@ void WorldStation::start_program() {
 
 Time WorldStation::own_time(Time now) const noexcept { return clock_ ? clock_->at(now) + kOwnEpoch : now; }
 
+Time WorldStation::wakes_at(Time now) const noexcept { return wake_ ? std::clamp(wake_->next(), now - tick_, now) : now; }
+
+void WorldStation::live(Duration length) noexcept {
+  const hal::Vec3 before = device_->truth().x;
+  device_->advance(command_, length);
+  worked_now_ += device_->state().f_out.dot(device_->truth().x - before);
+}
+
 std::string WorldStation::step(Time now, Network& network, std::span<std::byte> buffer) {
-  device_->advance(command_, tick_);
   heard_now_ = 0;
   served_now_ = false;
+  worked_now_ = 0;
+  const std::optional<Time> wakes = wake_ ? wake_->within(now - tick_, now) : now;
+  const Time woke = wakes.value_or(now);
+  if (woke > now - tick_) live(woke - (now - tick_));
+  std::string trouble = work(woke, wakes.has_value(), network, buffer);
+  if (woke < now) live(now - woke);
+  return trouble;
+}
+
+std::string WorldStation::work(Time now, bool awake, Network& network, std::span<std::byte> buffer) {
   if (suffers(Fault::Kind::kRestart, now)) {
     if (!down_) {
       down_ = true;
@@ -76,7 +93,6 @@ std::string WorldStation::step(Time now, Network& network, std::span<std::byte> 
     return {};
   }
   if (std::exchange(down_, false)) start_program();
-  const bool awake = !wake_ || wake_->due(now);
   if (awake && !suffers(Fault::Kind::kPause, now)) {
     listen(now, network, buffer);
     if (!seat_) {
@@ -118,6 +134,7 @@ std::string WorldStation::join(Time now, Network& network, std::span<std::byte> 
     case client::Joining::Outcome::kAccepted:
       seat_ = std::make_unique<client::Seat>(joining_->setup(), device_->caps(), joining_->link());
       server_cid_ = joining_->link().peer_cid;
+      if (tamper_) tamper_->joined(server_cid_);
       joining_.reset();
       return {};
     case client::Joining::Outcome::kRefused:
@@ -164,6 +181,7 @@ const hal::State& WorldStation::reading(Time now) noexcept {
 
 void WorldStation::serve(Time now, Network& network, std::span<std::byte> buffer) {
   served_now_ = true;
+  served_at_ = now;
   const Time own = own_time(now);
   device_->set_session_time(seat_->session_time(own));
   command_ = seat_->on_servo(own, reading(now));

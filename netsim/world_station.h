@@ -32,8 +32,9 @@ class WorldStation {
   };
   explicit WorldStation(Setup setup);
 
-  /// One tick: the device lives, datagrams are heard, the client's core works and sends. The station's number on the network
-  /// is its seat's. @return why the seat cannot be had, else empty.
+  /// One tick, (now - tick, now]: the device lives, datagrams are heard, the client's core works and sends, all at the moment
+  /// in it at which the program wakes up; without noise that is `now`. The station's number on the network is its seat's.
+  /// @return why the seat cannot be had, else empty.
   [[nodiscard]] std::string step(Time now, Network& network, std::span<std::byte> buffer);
 
   /// What an attacker sends to the server in this tick in the seat's name; empty: nothing.
@@ -56,10 +57,16 @@ class WorldStation {
     if (tamper_) tamper_->remember(Direction::kUp, bytes);
   }
 
+  /// When in the tick that ends at `now` its program will wake up; `now` if not at all. Before `step`, for the order of stations.
+  [[nodiscard]] Time wakes_at(Time now) const noexcept;
+
   /// For oracles, of the last step: datagrams newer than any before that the core was given; whether the core worked, and
   /// was given a reading that cannot be. And how often its program was started.
   [[nodiscard]] std::uint64_t heard_now() const noexcept { return heard_now_; }
   [[nodiscard]] bool served_now() const noexcept { return served_now_; }
+  /// When the core worked last, and the energy the motor really gave the hand during the last step [J].
+  [[nodiscard]] Time served_at() const noexcept { return served_at_; }
+  [[nodiscard]] double worked_now() const noexcept { return worked_now_; }
   [[nodiscard]] bool misread_now() const noexcept { return misread_now_; }
   [[nodiscard]] std::uint32_t starts() const noexcept { return starts_; }
   [[nodiscard]] bool suffers(Fault::Kind kind, Time now) const noexcept;
@@ -67,6 +74,8 @@ class WorldStation {
 
  private:
   void start_program();
+  void live(Duration length) noexcept;
+  [[nodiscard]] std::string work(Time now, bool awake, Network& network, std::span<std::byte> buffer);
   void listen(Time now, Network& network, std::span<std::byte> buffer);
   [[nodiscard]] std::string join(Time now, Network& network, std::span<std::byte> buffer);
   void serve(Time now, Network& network, std::span<std::byte> buffer);
@@ -91,6 +100,8 @@ class WorldStation {
   bool frozen_ = false, down_ = false, served_now_ = false, misread_now_ = false;
   std::uint32_t starts_ = 0, trips_before_ = 0;
   std::uint64_t heard_now_ = 0;
+  Time served_at_{};
+  double worked_now_ = 0;
   std::optional<std::uint64_t> newest_index_;
   Time ask_again_{};
 };

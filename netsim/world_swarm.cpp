@@ -8,6 +8,7 @@
 
 #include "common/base/format.h"
 #include "netsim/profiles.h"
+#include "netsim/world_quality.h"
 #include "netsim/world_swarm_scene.h"
 #include "proto/scene_text.h"
 
@@ -212,7 +213,7 @@ SwarmResult live_swarm_case(const SwarmCase& which, const std::function<void(Wor
   }
   World& world = **made;
   const Time calm = Time{} + which.calm;
-  const Time end = calm + from_seconds(kLivenessLimit);
+  Time end = calm + from_seconds(kLivenessLimit);
   Time buttons = calm;
   while (world.now() < end) {
     if (world.now() >= buttons) {
@@ -226,9 +227,10 @@ SwarmResult live_swarm_case(const SwarmCase& which, const std::function<void(Wor
     }
     if (each_tick) each_tick(world);
     if (!goes_on) break;
-    if (world.now() > calm && everybody_active(world)) {
+    if (result.recovered_s == 0 && world.now() > calm && everybody_active(world)) {
       result.recovered_s = seconds(world.now() - calm);
-      break;
+      end = world.now() + from_seconds(kOrdinary);
+      world.is_calm();
     }
   }
   result.lived_s = seconds(world.now() - Time{});
@@ -238,6 +240,7 @@ SwarmResult live_swarm_case(const SwarmCase& which, const std::function<void(Wor
     if (!violation.expected) result.broken.push_back(violation);
   for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
     result.gate_trips += world.gate_trips(i);
+  result.links = link_qualities(world);
   return result;
 }
 

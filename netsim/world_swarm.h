@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "netsim/quality_text.h"
 #include "netsim/world.h"
 
 namespace tandem::netsim {
@@ -21,6 +22,8 @@ struct SwarmCase {
 
 /// How long after the calm all hands may take to be active again [s].
 inline constexpr double kLivenessLimit = 10;
+/// How long it is then watched at ordinary motion [s].
+inline constexpr double kOrdinary = 3;
 
 /// @param safety_max  longest safety phase [s], at least 2
 /// @throws std::logic_error if a drawn scene is not valid: a mistake of the generator, with the reason.
@@ -33,6 +36,7 @@ struct SwarmResult {
   double recovered_s = 0;                 ///< from the calm until everybody was active
   std::uint64_t fingerprint = 0;          ///< of every hand's place and force at every tick
   std::uint32_t gate_trips = 0;
+  std::vector<NamedLink> links;           ///< every seat's, if the setup asked for it (`watch_quality`)
   [[nodiscard]] bool passed() const noexcept { return broken.empty() && trouble.empty(); }
 };
 

@@ -26,6 +26,8 @@ class WorldTamper {
   [[nodiscard]] std::span<const std::byte> again(Direction direction) noexcept;
   /// Random bytes of random length, every other one with a header that names `cid`.
   [[nodiscard]] std::span<const std::byte> junk(std::uint32_t cid) noexcept;
+  /// The seat has a connection: takes the memory that lying about it needs.
+  void joined(std::uint32_t cid);
   /// Turns the energy account of a STATE back, in place: well-formed, sealed, wrong. Other datagrams stay as they are.
   /// @param cid  connection at the server
   void lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "server/session_monitor.h"
 
@@ -17,6 +18,10 @@ constexpr double kRampOut = 0.1;                        // [s]
 constexpr double kLossSlew = 5;                         // [1/s] when a holder is lost
 constexpr unsigned kMisreadMax = 3;                     // samples the last good reading stands in for
 constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls along overdraws within one tick
+constexpr double kFeltMax = 0.2;                        // [N/ms] a step of authority
+constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: faster, and the strongest springs' shares are felt
+constexpr double kStarvedMax = 0.3;                     // [s]
+constexpr double kAside = 0.002, kLeash = 0.98;         // [m] of a target that is reached; share of the motor's pull
 constexpr double kFarTouch = 1, kFarLinear = 50;        // [m] no hand of such a device is there; a rail has no end
 
 double tip_norm(const AxisArray& effort, const AxisArray& scale, std::size_t dof) noexcept {
@@ -34,6 +39,18 @@ bool all_finite(const AxisArray& v, std::size_t dof) noexcept {
 WorldWatch::WorldWatch(const SceneSpec& scene)
     : scene_(&scene), seats_(scene.seats.size()), alpha_(scene.tools.size()), held_(scene.tools.size(), true) {}
 
+/// Hands that pull against each other, or that somebody pushes, empty the accounts they live on, and rightly so; so does a scene
+/// that lets less heat be spent, gates its flow sources, or hangs a seat on several tools.
+void WorldWatch::calm() noexcept {
+  const auto passive = [](const SeatSpec& s) {
+    return s.kind == SeatKind::kSlave || s.hand.model == HandModel::kRelaxed || s.hand.model == HandModel::kNone;
+  };
+  const auto pushed = [](const SeatSpec& s) { return !s.hand.deviations.empty(); };
+  ordinary_ = scene_->channel.law == LawKind::kSetPosition && scene_->channel.mfs == MfsMode::kOpen &&
+              scene_->channel.eta >= ChannelSpec{}.eta && scene_->tools.size() == 1 && std::ranges::none_of(scene_->seats, pushed) &&
+              std::ranges::count_if(scene_->seats, std::not_fn(passive)) <= 1;
+}
+
 void WorldWatch::server_heard(std::size_t seat, std::uint64_t index) noexcept {
   Seat& s = seats_[seat];
   if (s.newest && index <= *s.newest) return;
@@ -45,7 +62,7 @@ void WorldWatch::note(std::string_view invariant, std::size_t seat, bool expecte
   violations_.note(invariant, scene_->seats[seat].name, t_, expected);
 }
 
-void WorldWatch::check(Time now, std::uint32_t lived, const server::Session& session,
+void WorldWatch::check(std::uint32_t lived, const server::Session& session,
                        const std::vector<WorldStation>& stations) {
   t_ = session.time();
   server::SessionMonitor{}.check(session, violations_);
@@ -55,6 +72,7 @@ void WorldWatch::check(Time now, std::uint32_t lived, const server::Session& ses
     Seat& s = seats_[i];
     const server::SeatPort& port = session.seat(i);
     const client::Seat* seat = station.seat();
+    if (seat != nullptr) scale_ = seat->setup().axis_scale;
     const hal::sim::Truth& truth = station.device().truth();
     const double far = scene_->seats[i].device.model == DeviceModel::kTouch ? kFarTouch : kFarLinear;
     if (!truth.x.allFinite() || truth.x.norm() > far) note("diverged", i);
@@ -64,7 +82,9 @@ void WorldWatch::check(Time now, std::uint32_t lived, const server::Session& ses
     const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
     if (lived == 1 && (slave || scene_->tools.size() == 1)) {
       const std::size_t tool = slave ? scene_->seats[i].tool : 0;
-      check_end(i, port.end(), s.server, seat ? seat->setup().axis_scale : AxisArray{1, 1, 1, 1, 1, 1, 1}, port.heard().port,
+      PortSample rx = port.heard().port;  // as the tool sees it: without the offset the seat is told to follow with
+      for (std::size_t a = 0; a < scene_->dof; ++a) rx.x[a] -= port.tx.port.x[a] - session.tool(tool).x(a);
+      check_end(i, port.end(), s.server, seat ? seat->setup().axis_scale : AxisArray{1, 1, 1, 1, 1, 1, 1}, rx,
                 session.tool(tool).position(), seat != nullptr);
     } else {
       s.server.known = false;
@@ -75,9 +95,9 @@ void WorldWatch::check(Time now, std::uint32_t lived, const server::Session& ses
       s.client.known = false;
       continue;
     }
-    const Time own = station.own_time(now);
+    const Time own = station.own_time(station.served_at());
     check_effort(own, i, station);
-    check_silence(now, own, i, station);
+    check_silence(own, i, station);
     check_reading(i, station);
     check_end(i, seat->channel(), s.client, seat->setup().axis_scale, seat->force().port, seat->sample().port.x,
               s.was_active && seat->gate().active());
@@ -103,7 +123,8 @@ void WorldWatch::check_effort(Time own, std::size_t i, const WorldStation& stati
   if (tip_norm(change, scale, scene_->dof) > rate * dt * (1 + 1e-6) + 1e-9) note("effort_slew", i);
 }
 
-void WorldWatch::check_silence(Time now, Time own, std::size_t i, const WorldStation& station) {
+void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& station) {
+  const Time now = station.served_at();
   const client::Seat& seat = *station.seat();
   Seat& s = seats_[i];
   const link::Freshness& fresh = seat.link().freshness();
@@ -129,13 +150,10 @@ void WorldWatch::check_silence(Time now, Time own, std::size_t i, const WorldSta
 /// gate's own account.
 void WorldWatch::check_energy(std::size_t i, const WorldStation& station) {
   Seat& s = seats_[i];
-  const hal::sim::SimDevice& device = station.device();
-  const hal::Vec3 moved = device.truth().x - s.place;
-  s.place = device.truth().x;
   const client::Seat* seat = station.seat();
   if (seat == nullptr || s.fresh == Time{}) return;
   if (seat->gate().active() && !s.was_active) s.given = 0;
-  s.given += device.state().f_out.dot(moved);
+  s.given += station.worked_now();
   if (s.given > seat->gate().tank_size() + kTankSlack) note("loss_energy", i);
 }
 
@@ -187,7 +205,25 @@ void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& b
     if (is > was && !rested && std::abs(now.ref[a] - before.ref[a]) > step * (1 + 1e-9) + 1e-12)
       note("approach", i, !promises.bounded_step);
   }
+  if (ordinary_ && steady && before.known) check_starvation(i, now, before, scale, rx);
   before = now;
+}
+
+/// A reference that news, hand and motor would let move, and that stays where it is: nothing but an empty account holds it. Told by
+/// where it is, not by what the ledger says it refused.
+void WorldWatch::check_starvation(std::size_t i, End& now, const End& before, const AxisArray& scale, const PortSample& rx) {
+  const double dt = 1 / scene_->tick_hz;
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    const double root = std::sqrt(scale[a]);
+    // The target lies between the received position, led by its age, and where the received force would hold.
+    const double forced = now.x[a] + rx.f[a] / now.k[a];
+    const double missing = std::max({std::min(rx.x[a], forced) - now.ref[a], now.ref[a] - std::max(rx.x[a], forced), 0.0});
+    const bool there = missing <= kAside / root + scene_->channel.lead_max * std::abs(rx.v[a]);
+    const bool leashed = std::abs(now.ref[a] - now.x[a]) > kLeash * scene_->gate.force_max * root / now.k[a];
+    const bool walks = std::abs(now.ref[a] - before.ref[a]) > 0.5 * scene_->channel.v_app / root * dt;
+    now.starved[a] = there || leashed || walks ? 0 : before.starved[a] + 1;
+    if (now.starved[a] * dt > kStarvedMax) note("starved", i);
+  }
 }
 
 void WorldWatch::check_authority(std::uint32_t lived, const server::Session& session) {
@@ -199,10 +235,35 @@ void WorldWatch::check_authority(std::uint32_t lived, const server::Session& ses
       const Role role = scene_->seats[i].role;
       if (alpha > 0 && (role == Role::kEvaluator || role == Role::kObserver)) note("authority_role", i);
       if (!row.held() && !held_[j] && std::abs(alpha - alpha_[j][i]) > step) note("authority_slew", i);
-      alpha_[j][i] = alpha;
     }
+    if (lived == 1 && !row.held()) check_felt(j, session);
+    for (std::size_t i = 0; i < scene_->masters(); ++i) alpha_[j][i] = row.alpha(i);
     held_[j] = row.held();
   }
+}
+
+/// Whether this seat's spring pulls at no other tool: only then its elongation is bounded by what its motor can pull.
+bool WorldWatch::serves_only(std::size_t tool, std::size_t i, const server::Session& session) const noexcept {
+  for (std::size_t j = 0; j < scene_->tools.size(); ++j)
+    if (j != tool && (session.tool(j).authority.alpha(i) > 0 || scene_->follow[i][j] > 0)) return false;
+  return true;
+}
+
+/// What a change of authority does at once: every spring that pulls at the tool pulls with another share of its force. No motor
+/// can give a hand more of it in this tick, as tool and hand are a mass and a spring apart.
+void WorldWatch::check_felt(std::size_t j, const server::Session& session) {
+  if (scene_->alpha_slew > kFeltSlewMax) return;  // the scene wants it so fast
+  const server::Tool& tool = session.tool(j);
+  AxisArray change{};
+  for (std::size_t i = 0; i < scene_->masters(); ++i) {
+    const double by = tool.authority.alpha(i) - alpha_[j][i];
+    if (by == 0) continue;
+    if (!serves_only(j, i, session)) return;
+    const control::EndState& spring = session.seat(i).end().state();
+    for (std::size_t a = 0; a < scene_->dof; ++a) change[a] += by * spring.k[a] * (spring.ref[a] - (tool.x(a) - tool.moved()[a]));
+  }
+  const double ms = 1e3 / scene_->tick_hz;
+  if (tip_norm(change, scale_, scene_->dof) > kFeltMax * ms) violations_.note("authority_felt", scene_->tools[j].name, t_, false);
 }
 
 }  // namespace tandem::netsim

@@ -20,11 +20,16 @@ class WorldWatch {
 
   /// After a tick of everybody.
   /// @param lived  ticks the server lived through in it
-  void check(Time now, std::uint32_t lived, const server::Session& session, const std::vector<WorldStation>& stations);
+  void check(std::uint32_t lived, const server::Session& session, const std::vector<WorldStation>& stations);
   /// The server was given datagram number `index` of this seat.
   void server_heard(std::size_t seat, std::uint64_t index) noexcept;
   /// The server wrote to an address that never showed who it is.
   void server_answered_a_stranger(double t) { violations_.note("mute", "", t, false); }
+  /// From now on nothing is wrong any more, and everybody is active: what is only promised for ordinary motion holds too.
+  void calm() noexcept;
+  /// A core took memory within a tick: of a seat, or the server's.
+  void took_heap(std::size_t seat) { note("heap", seat); }
+  void took_heap() { violations_.note("heap", "", t_, false); }
   /// A seat that is made to lie about its energy: that its account is seen to run backwards is no breach of ours.
   void excuse(std::string_view invariant, std::string_view seat) { violations_.excuse(invariant, seat); }
 
@@ -35,6 +40,7 @@ class WorldWatch {
     bool known = false;
     AxisArray ref{}, x{}, k{};
     EnergyArray in{}, received{};
+    std::array<unsigned, kAxesMax> starved{};  ///< ticks on end
   };
   struct Seat {
     std::uint32_t starts = 0;
@@ -43,7 +49,6 @@ class WorldWatch {
     Time served{};
     Time arrived{}, fresh{};  ///< when something newer last acted: on the seat's clock, on the world's
     double given = 0;         ///< energy the motor really gave the hand since then, and since the gate let go [J]
-    hal::Vec3 place = hal::Vec3::Zero();
     unsigned misread = 0;
     std::uint64_t accepted = 0, generation = 0, server_heard = 0;
     std::uint32_t session_tick = 0, seat_tick = 0;
@@ -64,20 +69,25 @@ class WorldWatch {
   };
   /// @param own  on the seat's own clock
   void check_effort(Time own, std::size_t i, const WorldStation& station);
-  void check_silence(Time now, Time own, std::size_t i, const WorldStation& station);
+  void check_silence(Time own, std::size_t i, const WorldStation& station);
   void check_energy(std::size_t i, const WorldStation& station);
   void check_reading(std::size_t i, const WorldStation& station);
   void check_once(std::size_t i, const WorldStation& station, const server::SeatPort& port);
   void check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const PortSample& rx,
                  const AxisArray& x, bool steady);
+  void check_starvation(std::size_t i, End& now, const End& before, const AxisArray& scale, const PortSample& rx);
   void check_authority(std::uint32_t lived, const server::Session& session);
+  void check_felt(std::size_t tool, const server::Session& session);
+  [[nodiscard]] bool serves_only(std::size_t tool, std::size_t seat, const server::Session& session) const noexcept;
   void note(std::string_view invariant, std::size_t seat, bool expected = false);
 
   const SceneSpec* scene_;
   double t_ = 0;
+  bool ordinary_ = false;  ///< one hand moves the tool and nothing hinders it
   std::vector<Seat> seats_;
   std::vector<std::array<double, kMastersMax>> alpha_;
   std::vector<bool> held_;
+  AxisArray scale_{1, 1, 1, 1, 1, 1, 1};  ///< tip gain to port gain, as the seats were told
   server::Violations violations_;
 };
 

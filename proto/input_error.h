@@ -20,6 +20,10 @@ struct InputError {
 
 using InputErrors = std::vector<InputError>;
 
+/// Adds what a later look at a file found, but for what an earlier mistake explains: one of the same key or of a key within
+/// it. So that people learn all their mistakes at once and none twice.
+void add_unexplained(InputErrors& earlier, InputErrors later);
+
 /// `FILE:LINE:COLUMN: KEY = VALUE: MESSAGE`; parts that are unknown are left out.
 [[nodiscard]] std::string to_text(const InputError& error);
 

@@ -60,7 +60,8 @@ ScenarioEndpointSpec endpoint_from(const pb::ScenarioEndpoint& in, Checker& chec
   out.wake = static_cast<ScenarioEndpointSpec::Wake>(in.wake());
   out.late_max_ms = in.late_max_ms();
   const bool uniform = in.wake() == pb::ScenarioEndpoint::UNIFORM;
-  if (in.has_late_max_ms() != uniform) {
+  // Written and not readable is not missing.
+  if ((in.has_late_max_ms() || checker.written(child_path(key, "late_max_ms"))) != uniform) {
     checker.error(child_path(key, uniform ? "wake" : "late_max_ms"),
                   uniform ? "UNIFORM needs late_max_ms" : "is for wake: UNIFORM");
   }
@@ -134,13 +135,14 @@ std::string stem(std::string_view file) {
 
 }  // namespace
 
-std::expected<ScenarioSpec, InputErrors> parse_scenario_text(std::string_view text, std::string_view file_name) {
+ScenarioReading read_scenario_text(std::string_view text, std::string_view file_name) {
   Checker checker{file_name};
   pb::Scenario in;
-  text::read_document(text, file_name, in, checker);
-  if (!checker.ok()) return std::unexpected(checker.take());
+  const bool enough = text::read_document(text, file_name, in, checker);
+  ScenarioReading reading{.spec = {}, .errors = checker.take()};
+  if (!enough) return reading;
 
-  ScenarioSpec out;
+  ScenarioSpec& out = reading.spec.emplace();
   out.name = stem(file_name);
   out.file = file_name;
   out.summary = in.summary();
@@ -181,8 +183,14 @@ std::expected<ScenarioSpec, InputErrors> parse_scenario_text(std::string_view te
   for (int i = 0; i < in.endpoint_size(); ++i)
     out.endpoints.push_back(endpoint_from(in.endpoint(i), checker, child_path("", "endpoint", i)));
   all_limits_from(in, checker, out.limits);
-  if (!checker.ok()) return std::unexpected(checker.take());
-  return out;
+  add_unexplained(reading.errors, checker.take());
+  return reading;
+}
+
+std::expected<ScenarioSpec, InputErrors> parse_scenario_text(std::string_view text, std::string_view file_name) {
+  ScenarioReading reading = read_scenario_text(text, file_name);
+  if (!reading.errors.empty() || !reading.spec) return std::unexpected(std::move(reading.errors));
+  return std::move(*reading.spec);
 }
 
 }  // namespace tandem

@@ -85,21 +85,28 @@ ScriptEventSpec script_event_from(const pb::ScriptEvent& in, Checker& checker, c
   return event;
 }
 
-std::expected<ScriptSpec, InputErrors> parse_script_text(std::string_view text, std::string_view file_name,
-                                                         std::span<const std::string> clients) {
+ScriptReading read_script_text(std::string_view text, std::string_view file_name, std::span<const std::string> clients) {
   Checker checker{file_name};
   pb::NetworkScript in;
-  text::read_document(text, file_name, in, checker);
-  // Rules between values make sense only for values that are in range.
-  if (!checker.ok()) return std::unexpected(checker.take());
-  ScriptSpec script;
+  const bool enough = text::read_document(text, file_name, in, checker);
+  ScriptReading reading{.spec = {}, .errors = checker.take()};
+  if (!enough) return reading;
+  ScriptSpec& script = reading.spec.emplace();
   for (int i = 0; i < in.event_size(); ++i) {
     ScriptEventSpec& event =
         script.events.emplace_back(script_event_from(in.event(i), checker, child_path("", "event", i), clients));
     event.profile_place.file = file_name;
   }
-  if (!checker.ok()) return std::unexpected(checker.take());
-  return script;
+  // Rules between values make sense only for values that are in range.
+  add_unexplained(reading.errors, checker.take());
+  return reading;
+}
+
+std::expected<ScriptSpec, InputErrors> parse_script_text(std::string_view text, std::string_view file_name,
+                                                         std::span<const std::string> clients) {
+  ScriptReading reading = read_script_text(text, file_name, clients);
+  if (!reading.errors.empty() || !reading.spec) return std::unexpected(std::move(reading.errors));
+  return std::move(*reading.spec);
 }
 
 }  // namespace tandem

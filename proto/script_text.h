@@ -1,6 +1,7 @@
 #pragma once
 
 #include <expected>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,15 @@
 #include "proto/script_spec.h"
 
 namespace tandem {
+
+/// A script as far as it could be read in spite of its mistakes.
+struct ScriptReading {
+  std::optional<ScriptSpec> spec;  ///< empty: too little was read
+  InputErrors errors;
+};
+/// @param text, file_name, clients  as below
+[[nodiscard]] ScriptReading read_script_text(std::string_view text, std::string_view file_name,
+                                             std::span<const std::string> clients);
 
 /// Reads a network script (proto/script.proto in text format, or JSON if the name ends in `.json`).
 /// @param text       whole file, at most 1 MiB

@@ -9,6 +9,62 @@
 #include "common/base/nearest.h"
 
 namespace tandem::io {
+namespace {
+
+/// The option that a message of CLI11 is about, such as `--delay: "-5" is out of range`; empty: none is named.
+std::string option_of(const std::string& message) {
+  const std::size_t begin = message.find("--");
+  if (begin == std::string::npos) return {};
+  const std::size_t end = message.find_first_of(": ,=", begin);
+  return message.substr(begin, end == std::string::npos ? end : end - begin);
+}
+
+/// Takes an option and its values out of the words of a command line. @return whether it was there
+bool take_out(std::vector<std::string>& words, const CLI::Option& option, const std::string& name) {
+  const std::size_t before = words.size();
+  for (std::size_t i = 0; i < words.size();) {
+    const bool whole = words[i] == name, with_value = words[i].starts_with(name + "=");
+    if (!whole && !with_value) {
+      ++i;
+      continue;
+    }
+    const bool value_follows = whole && option.get_items_expected_min() > 0 && i + 1 < words.size() && !words[i + 1].starts_with("--");
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(i), words.begin() + static_cast<std::ptrdiff_t>(i + (value_follows ? 2 : 1)));
+  }
+  return words.size() < before;
+}
+
+CLI::Option* find_option(CLI::App& app, const std::string& name) {
+  for (CLI::App* command : app.get_subcommands())
+    if (CLI::Option* const option = command->get_option_no_throw(name)) return option;
+  return app.get_option_no_throw(name);
+}
+
+/// CLI11 stops at the first mistake. People want all of them: what the mistake is about is put aside, and the rest is
+/// parsed again, as long as something can be put aside.
+std::vector<std::string> all_mistakes(CLI::App& app, const CLI::ParseError& first, std::vector<std::string> words) {
+  std::vector<std::string> mistakes{first.what()};
+  for (;;) {
+    const std::string& last = mistakes.back();
+    const std::string missing = last.substr(0, last.find(" is required"));
+    if (CLI::Option* const needed = missing.size() < last.size() ? find_option(app, missing) : nullptr; needed != nullptr && needed->get_required()) {
+      needed->required(false);
+    } else {
+      const std::string name = option_of(last);
+      const CLI::Option* const option = name.empty() ? nullptr : find_option(app, name);
+      if (option == nullptr || !take_out(words, *option, name)) return mistakes;
+    }
+    try {
+      app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the back
+      return mistakes;
+    } catch (const CLI::ParseError& error) {
+      if (error.get_exit_code() == 0) return mistakes;  // help and version are no mistakes
+      mistakes.emplace_back(error.what());
+    }
+  }
+}
+
+}  // namespace
 
 int run_program(CLI::App& app, const std::function<int()>& action, int argc, char** argv) {
   try {
@@ -23,7 +79,12 @@ int run_program(CLI::App& app, const std::function<int()>& action, int argc, cha
       return 2;
     }
     // Help and version are ends, not mistakes; every mistake in arguments is 2, whatever CLI11 calls it.
-    return app.exit(error) == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    const std::vector<std::string> all = all_mistakes(app, error, {argv + 1, argv + argc});
+    if (all.size() == 1) return app.exit(error), 2;
+    for (const std::string& mistake : all) std::fprintf(stderr, "%s\n", mistake.c_str());
+    std::fprintf(stderr, "%zu mistakes; nothing was started\nRun with --help for more information.\n", all.size());
+    return 2;
   }
   try {
     return action();

@@ -5,6 +5,7 @@
 
 #include "netsim/app/control_socket.h"
 #include "netsim/app/control_words.h"
+#include "netsim/app/interruption.h"
 #include "netsim/app/proxy_command.h"
 
 namespace tandem::netsim {
@@ -23,10 +24,15 @@ int control_command(const ControlArguments& arguments) {
     std::fprintf(stderr, "tandem-netsim control: %s\n", request.error().c_str());
     return 2;
   }
-  const auto answer = ask_control(arguments.path, line);
+  const Interruption interruption;
+  const auto answer = ask_control(arguments.path, line, interruption.fd());
   if (!answer) {
     std::fprintf(stderr, "tandem-netsim control: %s\n", answer.error().c_str());
     return 1;
+  }
+  if (answer->empty()) {
+    Interruption::say("control", "the command was sent; whether the proxy carried it out, `status --json` shows");
+    return Interruption::kInterrupted;
   }
   const int code = answer->front() == '0' ? 0 : answer->front() == '1' ? 1 : 2;
   std::fprintf(code == 0 ? stdout : stderr, "%s%s", code == 0 ? "" : "tandem-netsim control: ", answer->c_str() + 1);
@@ -52,7 +58,7 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
                   "  tandem-netsim control /tmp/proxy.sock delay 20 loss 2 client 2 up\n"
                   "  tandem-netsim control /tmp/proxy.sock outage 400ms\n"
                   "  tandem-netsim control /tmp/proxy.sock status --json\n"
-                  "Exit: 0 done, 1 no proxy there or it could not do it, 2 a wrong command or file.");
+                  "Exit: 0 done, 1 no proxy there, it could not do it, or interrupted, 2 a wrong command or file.");
   command->callback([arguments, &action, command] {
     for (const std::string& word : command->remaining()) arguments->words.push_back(word);
     action = [arguments] { return control_command(*arguments); };

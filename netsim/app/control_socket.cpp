@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <optional>
@@ -34,12 +35,13 @@ bool connect_to(const io::Fd& fd, const sockaddr_un& address) noexcept {
 
 io::Fd stream() noexcept { return io::Fd{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)}; }
 
-/// Reads until `end`, the other side's end, or `most` bytes. @return empty: nothing came for `patience_ms`
-std::optional<std::string> read_until(int fd, char end, std::size_t most, int patience_ms) {
+/// Reads until `end`, the other side's end, or `most` bytes. @return empty: nothing came for `patience_ms`, or `stop_fd`
+/// became readable
+std::optional<std::string> read_until(int fd, char end, std::size_t most, int patience_ms, int stop_fd = -1) {
   std::string text;
   while (text.size() < most) {
-    pollfd ready{fd, POLLIN, 0};
-    if (::poll(&ready, 1, patience_ms) <= 0) return std::nullopt;
+    std::array<pollfd, 2> ready{{{fd, POLLIN, 0}, {stop_fd, POLLIN, 0}}};
+    if (::poll(ready.data(), ready.size(), patience_ms) <= 0 || ready[1].revents != 0) return std::nullopt;
     char buffer[4096];
     const auto n = ::read(fd, buffer, sizeof buffer);
     if (n <= 0) break;
@@ -94,7 +96,7 @@ void ControlSocket::serve(const std::function<std::string(const std::string& lin
   }
 }
 
-std::expected<std::string, std::string> ask_control(const std::string& path, const std::string& line) {
+std::expected<std::string, std::string> ask_control(const std::string& path, const std::string& line, int stop_fd) {
   const auto address = address_of(path);
   if (!address) return std::unexpected(address.error());
   const io::Fd fd = stream();
@@ -102,7 +104,9 @@ std::expected<std::string, std::string> ask_control(const std::string& path, con
     return std::unexpected(path + ": " + std::strerror(errno) + "; start the proxy with --control " + path);
   }
   write_all(fd.get(), line + "\n");
-  auto answer = read_until(fd.get(), '\0', kAnswerMax, kAnswerMs);
+  auto answer = read_until(fd.get(), '\0', kAnswerMax, kAnswerMs, stop_fd);
+  pollfd stop{stop_fd, POLLIN, 0};
+  if (!answer && ::poll(&stop, 1, 0) > 0) return std::string{};
   if (!answer || answer->empty()) return std::unexpected(path + ": the proxy gave no answer");
   return std::move(*answer);
 }

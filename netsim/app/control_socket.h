@@ -31,7 +31,9 @@ class ControlSocket {
   io::Fd fd_;
 };
 
-/// Sends a line to the proxy that listens at `path`. @return its answer, or why there is none
-[[nodiscard]] std::expected<std::string, std::string> ask_control(const std::string& path, const std::string& line);
+/// Sends a line to the proxy that listens at `path`.
+/// @param stop_fd  readable: whoever asks does not want to wait any more; -1: waits
+/// @return its answer, empty if `stop_fd` was first, or why there is none
+[[nodiscard]] std::expected<std::string, std::string> ask_control(const std::string& path, const std::string& line, int stop_fd = -1);
 
 }  // namespace tandem::netsim

@@ -225,14 +225,14 @@ std::expected<std::vector<NetworkEvent>, std::string> NetworkOptions::events(
   return std::move(*events);
 }
 
-std::string NetworkOptions::first_given() const {
-  for (const char* option : kNumbers) {
-    if (given(option)) return option;
-  }
-  for (const char* option : {"--profile", "--network", "--script"}) {
-    if (given(option)) return option;
-  }
-  return {};
+std::vector<std::string> NetworkOptions::all_given() const {
+  std::vector<std::string> all;
+  const auto look = [&](const char* option) {
+    if (given(option)) all.emplace_back(option);
+  };
+  for (const char* option : kNumbers) look(option);
+  for (const char* option : {"--profile", "--capacity", "--network", "--trace-interval", "--script", "--seed"}) look(option);
+  return all;
 }
 
 std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::string& name_or_file) const {

@@ -46,8 +46,8 @@ class NetworkOptions {
   [[nodiscard]] std::expected<std::vector<NetworkEvent>, std::string> events(
       std::span<const std::string> clients = {}) const;
 
-  /// The first option given that says what the network is like, empty if none: for what replaces them all.
-  [[nodiscard]] std::string first_given() const;
+  /// The options given that say what the network is like or what its seed is: for what replaces them all.
+  [[nodiscard]] std::vector<std::string> all_given() const;
 
   [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
 

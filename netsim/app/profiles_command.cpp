@@ -10,6 +10,8 @@
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/terminal.h"
+#include "netsim/app/interruption.h"
+#include "netsim/app/mistakes.h"
 #include "netsim/app/profile_report.h"
 #include "netsim/app/profile_subject.h"
 #include "netsim/app/proxy_command.h"
@@ -18,7 +20,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kTrouble = 1, kWrong = 2;
+constexpr int kTrouble = 1;
 constexpr std::size_t kPipeWidth = 100;  ///< when nobody says how wide the paper is
 
 struct ProfilesArguments {
@@ -28,10 +30,7 @@ struct ProfilesArguments {
   bool json = false, text = false, ascii = false;
 };
 
-int wrong(const std::string& message) {
-  std::fprintf(stderr, "tandem-netsim profiles: %s\n", message.c_str());
-  return kWrong;
-}
+int wrong(const std::string& message) { return refuse("profiles", message); }
 
 std::size_t paper_width() {
   winsize size{};
@@ -74,10 +73,13 @@ int show(const ProfilesArguments& arguments) {
     std::fputs(subject->text.c_str(), stdout);
     return 0;
   }
-  if (const std::string problem = complete(*subject, arguments.capacity); !problem.empty()) return wrong(problem);
-  if (!arguments.svg.empty()) {
-    if (const std::string problem = io::OutputFile::problem(arguments.svg); !problem.empty()) return wrong("--svg: " + problem);
-  }
+  Mistakes mistakes;
+  mistakes.add(complete(*subject, arguments.capacity));
+  if (!arguments.svg.empty())
+    if (const std::string problem = io::OutputFile::problem(arguments.svg); !problem.empty()) mistakes.add("--svg: " + problem);
+  if (!mistakes.none()) return mistakes.refuse("profiles");
+  const Interruption interruption;
+  bool interrupted = false;
   if (!arguments.json) {
     std::fputs(profile_heading(*subject).c_str(), stdout);
     std::fflush(stdout);
@@ -89,10 +91,14 @@ int show(const ProfilesArguments& arguments) {
                             .shown = from_seconds(arguments.shown_s)};
   const Portrait portrait = portrait_of(setup, [&](double share) {
     if (line.wanted()) line.show(format("measuring: %.1f of %.1f virtual minutes", share * arguments.minutes, arguments.minutes));
+    interrupted = interruption.came();
+    return !interrupted;
   });
   line.clear();
   if (arguments.json) {
-    std::printf("%s\n", profile_json(*subject, portrait).dump(2).c_str());
+    auto json = profile_json(*subject, portrait);
+    json["interrupted"] = interrupted;
+    std::printf("%s\n", json.dump(2).c_str());
   } else {
     const PictureStyle style{paper_width(), !arguments.ascii && speaks_utf8()};
     std::fputs(profile_report(*subject, portrait, style).c_str(), stdout);
@@ -101,7 +107,8 @@ int show(const ProfilesArguments& arguments) {
   std::string problem = svg.open(arguments.svg, false);
   if (svg.wanted()) svg.write(plot::to_svg_file(profile_figure(*subject, portrait)));
   if (problem.empty()) problem = svg.close();
-  if (problem.empty()) return 0;
+  if (interrupted) Interruption::say("profiles", format("%.2f of %g virtual minutes", seconds(portrait.length) / 60, arguments.minutes));
+  if (problem.empty()) return interrupted ? Interruption::kInterrupted : 0;
   std::fprintf(stderr, "tandem-netsim profiles: --svg: %s\n", problem.c_str());
   return kTrouble;
 }
@@ -146,7 +153,7 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim profiles 5g --text > mine.textproto\n"
       "  tandem-netsim profiles mine.textproto --minutes 5\n"
       "  tandem-netsim profiles 4g-trace --capacity lte.csv\n"
-      "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files.");
+      "Exit: 0 done, 1 trouble while running or interrupted, 2 wrong arguments or files.");
   command->callback([arguments, command, &action] {
     bool measured = false;
     for (const char* option : {"--text", "--svg", "--capacity", "--minutes", "--seconds", "--seed", "--trace-interval"}) {

@@ -16,6 +16,7 @@
 #include "common/io/socket_address.h"
 #include "common/io/spsc_queue.h"
 #include "netsim/app/live_delays.h"
+#include "netsim/app/newcomer_pool.h"
 #include "netsim/app/proxy_clients.h"
 #include "netsim/app/proxy_order.h"
 #include "netsim/app/proxy_outbox.h"
@@ -46,6 +47,12 @@ class Proxy {
   /// Hands an order to the packet thread; from one thread only. It must live until `done`, or until `run` returned.
   /// @return false: too many wait
   bool post(ProxyOrder& order) noexcept;
+  /// From the thread that posts orders, now and then and when `wanted_fd` is readable: makes what clients to come need, so that
+  /// the packet thread takes no memory when they do (NewcomerPool).
+  void refill() { newcomers_.refill(); }
+  [[nodiscard]] int wanted_fd() const noexcept { return newcomers_.wanted_fd(); }
+  /// Clients for whom nothing was ready: more came at once than NewcomerPool::kReady. From any thread.
+  [[nodiscard]] std::uint64_t unprepared() const noexcept { return newcomers_.missed(); }
   /// Time since `run` began, from any thread once it has.
   [[nodiscard]] Duration now() const noexcept { return since_start(); }
   /// To prepare changes; only what ProxyCore allows to any thread.
@@ -112,6 +119,7 @@ class Proxy {
   std::atomic<bool> stopping_{false};
   io::SpscQueue<ProxyOrder*> orders_;
   ProxyCore core_;
+  NewcomerPool newcomers_;
   io::ReceiveBatch in_;
   ProxyWaitingRoom waiting_;
   io::SendBatch out_;

@@ -106,18 +106,23 @@ std::optional<std::uint32_t> Proxy::client_of(std::size_t message, const io::Loc
 
 std::optional<std::uint32_t> Proxy::welcome(const io::PeerKey& key, std::size_t message,
                                             const io::LocalAddress& local) noexcept {
-  const auto place = core_.add_client();
-  if (!place) {
+  if (core_.clients() == ProxyCore::kClientsMax) {
     ++troubles_.too_many_clients;
     return std::nullopt;
   }
+  // Made beforehand by an ordinary thread; its memory goes back there.
+  NewcomerPool::Newcomer* const made = newcomers_.next();
+  const auto place = core_.add_client(made != nullptr ? &made->place : nullptr);
+  std::unique_ptr<LinkWatch> watch = made != nullptr ? std::move(made->watch) : nullptr;
+  if (made != nullptr) newcomers_.done(made);
   if (!clients_.welcome(*place, core_.clients_seen(), key, in_.from(message), local)) {
     core_.remove_client(*place);
     ++troubles_.other;
     return std::nullopt;
   }
+  clients_[*place].came = now_;
   if (options_.watch_quality && watched_.size() < watched_.capacity()) {
-    watched_.push_back({core_.clients_seen(), std::make_unique<LinkWatch>()});
+    watched_.push_back({core_.clients_seen(), watch ? std::move(watch) : std::make_unique<LinkWatch>()});
     core_.watch(*place, watched_.back().watch.get());
   }
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {

@@ -46,6 +46,7 @@ class ProxyClients {
   static constexpr int kBufferBytes = 1 << 20;  ///< of each socket: about 2500 small datagrams
 
   struct Client {
+    Duration came{};  ///< since the proxy's start
     io::Fd downside, upside;
     io::Fd former;                     ///< `upside` before the client's address changed
     std::uint32_t address_number = 0;  ///< of `upside`; ProxyCore counts a client's addresses

@@ -9,14 +9,16 @@
 #include <string>
 #include <thread>
 
+#include "common/base/format.h"
 #include "common/io/fd.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/realtime.h"
-#include "common/io/signals.h"
 #include "common/io/socket_address.h"
 #include "netsim/app/control_socket.h"
 #include "netsim/app/decision_writer.h"
+#include "netsim/app/interruption.h"
+#include "netsim/app/mistakes.h"
 #include "netsim/app/network_options.h"
 #include "netsim/app/proxy.h"
 #include "netsim/app/proxy_control.h"
@@ -28,7 +30,6 @@ namespace {
 
 constexpr int kTrouble = 1;  // while running
 constexpr int kPriority = 50;
-constexpr int kWrong = 2;  // in arguments or files, found before anything starts
 
 struct ProxyArguments {
   std::string listen = "127.0.0.1:0";
@@ -47,10 +48,7 @@ int trouble(const std::string& message) {
   return kTrouble;
 }
 
-int wrong(const std::string& message) {
-  std::fprintf(stderr, "tandem-netsim proxy: %s\n", message.c_str());
-  return kWrong;
-}
+int wrong(const std::string& message) { return refuse("proxy", message); }
 
 /// Why a file named for results cannot be written, found before anything starts.
 std::string output_problem(const char* option, const std::string& name) {
@@ -77,28 +75,35 @@ void ask_for_machine(bool realtime, std::string& notice) {
   notice = io::realtime_notice(fifo, memory, awake.granted());
 }
 
+/// An address of this computer.
+std::expected<io::SocketAddress, std::string> own_address(const std::string& option, const std::string& text, std::uint16_t port_min) {
+  const auto address = io::parse_address(text, port_min);
+  if (!address) return std::unexpected(option + ": " + address.error());
+  if (address->loopback()) return *address;
+  return std::unexpected(
+      option + ": " + io::to_text(*address) +
+      " is not a loopback address and is refused: until sealed sessions exist the keys of Tandem are public, and a "
+      "proxy that others can reach would let them take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT");
+}
+
 int proxy_command(const ProxyArguments& arguments) {
-  const auto listen = io::parse_address(arguments.listen, 0);
-  if (!listen) return wrong("--listen: " + listen.error());
-  const auto to = io::parse_address(arguments.to, 1);
-  if (!to) return wrong("--to: " + to.error());
-  if (io::PeerKey::of(listen->storage) == io::PeerKey::of(to->storage))
-    return wrong("--to is the proxy itself (--listen)");
-  for (const auto& [option, address] : {std::pair{"--listen", *listen}, std::pair{"--to", *to}})
-    if (!address.loopback())
-      return wrong(
-          std::string(option) + ": " + io::to_text(address) +
-          " is not a loopback address and is refused: until sealed sessions exist the keys of Tandem are public, and a "
-          "proxy that others can reach would let them take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT");
+  Mistakes mistakes;
+  const auto listen = own_address("--listen", arguments.listen, 0);
+  const auto to = own_address("--to", arguments.to, 1);
+  for (const auto* address : {&listen, &to})
+    if (!*address) mistakes.add(address->error());
+  if (listen && to && io::PeerKey::of(listen->storage) == io::PeerKey::of(to->storage))
+    mistakes.add("--to is the proxy itself (--listen)");
   const auto network = arguments.network.resolve();
-  if (!network) return wrong(network.error());
+  if (!network) mistakes.add(network.error());
   auto events = arguments.network.events();
-  if (!events) return wrong(events.error());
-  if (const std::string problem = sharing_problem(network->link, *events); !problem.empty()) return wrong(problem);
+  if (!events) mistakes.add(events.error());
+  if (network && events) mistakes.add(sharing_problem(network->link, *events));
   // Judged now, opened when there is something to write: a run that never starts leaves an older file alone.
-  if (const std::string problem = output_problem("--json", arguments.json); !problem.empty()) return wrong(problem);
-  if (arguments.log == "-") return wrong("--log needs a file");
-  if (const std::string problem = output_problem("--log", arguments.log); !problem.empty()) return wrong(problem);
+  mistakes.add(output_problem("--json", arguments.json));
+  if (arguments.log == "-") mistakes.add("--log needs a file");
+  mistakes.add(output_problem("--log", arguments.log));
+  if (!mistakes.none()) return mistakes.refuse("proxy");
 
   DecisionWriter log;
   ProxyOptions options;
@@ -112,7 +117,7 @@ int proxy_command(const ProxyArguments& arguments) {
   options.coalesce = microseconds(arguments.coalesce_us);
   if (arguments.lateness_max_us > 0) options.late_limit = microseconds(arguments.lateness_max_us);
   options.sink = arguments.log.empty() ? nullptr : &log;
-  const io::Fd signals = io::signals_as_file();
+  const Interruption interruption;
   const io::Fd finished{eventfd(0, EFD_CLOEXEC)};
   auto proxy = Proxy::open(options);
   if (!proxy) return trouble(proxy.error());
@@ -140,7 +145,7 @@ int proxy_command(const ProxyArguments& arguments) {
     [[maybe_unused]] const auto written = ::write(finished.get(), &one, sizeof one);
   });
   ProxyControl control{**proxy, options.link, find_network(arguments.network)};
-  watch_proxy(**proxy, control, socket, signals.get(), finished.get());
+  watch_proxy(**proxy, control, socket, interruption.fd(), finished.get());
   packets.join();
   log.stop();
   (*proxy)->log_waiting();
@@ -149,15 +154,21 @@ int proxy_command(const ProxyArguments& arguments) {
   const std::vector<ProxyClientQuality> qualities = (*proxy)->qualities();
   ProxyReportNotes notes{
       .qualities = qualities, .changes = control.notes(), .log_rows = log.written(), .log_missed = log.missed()};
+  const ProxyStatus status = (*proxy)->final_status();
+  const std::vector<ProxyEvent> played = proxy_events(options, (*proxy)->client_reports(), status.clients_seen, status.since_start);
+  notes.events = played;
+  notes.interrupted = interruption.came() && options.duration > Duration::zero() && status.since_start < options.duration;
   if (arguments.lateness_max_us > 0) notes.lateness_max = microseconds(arguments.lateness_max_us);
   std::fputs(summary_text(**proxy, notes).c_str(), people);
   std::fflush(people);
+  if (notes.interrupted) Interruption::say("proxy", format("%.3f of %g s", seconds(status.since_start), arguments.duration_s));
   io::OutputFile json;
   std::string problem = json.open(arguments.json, true);
   if (json.wanted()) json.write(summary_json(**proxy, options, *network, notes));
   if (problem.empty()) problem = json.close();
   if (!problem.empty()) return trouble("--json: " + problem);
   if (!log_problem.empty()) return trouble("--log: " + log_problem);
+  if (notes.interrupted) return Interruption::kInterrupted;
   return in_time(**proxy, notes) ? 0 : kTrouble;
 }
 
@@ -187,7 +198,8 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("PATH");
   command
       ->add_option("--log", arguments->log,
-                   "writes every decision as CSV: when it came in, what became of it, when it left")
+                   "writes every decision as CSV: when it came in, what became of it, when it was due to leave; the proxy left it later by "
+                   "its own lateness, which the report tells")
       ->option_text("FILE");
   const std::string timing = "How exact";
   command
@@ -230,7 +242,8 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim proxy --to [::1]:7000 --profile wifi-busy --seed 7 --duration 60 --json proxy.json\n"
       "  tandem-netsim proxy --to 127.0.0.1:7000 --delay 10 --outage 5,0.5,3\n"
       "  tandem-netsim proxy --to 127.0.0.1:7000 --profile 5g --control /tmp/proxy.sock --max-lateness 500\n"
-      "Exit: 0 done, 1 trouble (port in use) or later than --max-lateness, 2 wrong arguments or files.");
+      "Exit: 0 done, 1 trouble (port in use), later than --max-lateness, nothing sent that it could judge, or interrupted\n"
+      "before --duration was over (without --duration Ctrl-C is its end), 2 wrong arguments or files.");
   command->callback([arguments, &action] { action = [arguments] { return proxy_command(*arguments); }; });
 }
 

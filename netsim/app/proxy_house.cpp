@@ -35,6 +35,7 @@ Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake)
       wake_(std::move(wake)),
       orders_(kOrdersMax),
       core_(options.link, options.seed, options.events),
+      newcomers_(core_, options.link, options.watch_quality),
       delays_(std::make_unique<LiveDelays[]>(ProxyCore::kClientsMax * kDirections)),
       least_delay_(std::min(options.link.up.floor, options.link.down.floor)) {
   left_.reserve(kReportsMax);
@@ -53,7 +54,12 @@ void Proxy::stop() noexcept {
 }
 
 bool Proxy::post(ProxyOrder& order) noexcept {
+  std::vector<LinkSpec> for_new;  // read now: once it is posted, the order is the packet thread's
+  for (const LinkChange& links : order.links) {
+    if (links.for_new) for_new.push_back(*links.for_new);
+  }
   if (!orders_.push(&order)) return false;
+  for (const LinkSpec& link : for_new) newcomers_.link_will_be(link);
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
   return true;
@@ -71,6 +77,7 @@ void Proxy::carry_out_orders() noexcept {
       core_.change(Time{now_}, links);
       plan_reading(links.link);
     }
+    newcomers_.drop_outdated();
     for (const std::uint64_t number : order.rebinds) {
       bool found = false;
       for (std::uint32_t place = 0; place < ProxyClients::kMax; ++place) {
@@ -125,8 +132,10 @@ ProxyClientStatus Proxy::picture_of(std::uint32_t place) const noexcept {
           place,
           client.address.storage,
           client.present,
+          client.came,
           clients_.kernel_drops(place),
-          {core_.counters(place, Direction::kUp), core_.counters(place, Direction::kDown)}};
+          {core_.counters(place, Direction::kUp), core_.counters(place, Direction::kDown)},
+          {core_.queue_wait(Time{now_}, place, Direction::kUp), core_.queue_wait(Time{now_}, place, Direction::kDown)}};
 }
 
 void Proxy::fill(ProxyStatus& status) const noexcept {

@@ -47,7 +47,8 @@ Json path_json(const PathCounters& c) {
 }
 
 /// @param duration_s  0: no rate
-std::string direction_text(const char* title, const PathCounters& c, double duration_s) {
+/// @param ended       whether nothing comes any more
+std::string direction_text(const char* title, const PathCounters& c, double duration_s, bool ended) {
   const std::string rate = duration_s > 0 ? format(" (%.0f/s)", count(c.in) / duration_s) : "";
   std::string text = format("%s: %llu in%s, %llu out, %.2f %% lost, mean delay %.3f ms\n", title,
                             static_cast<unsigned long long>(c.in), rate.c_str(), static_cast<unsigned long long>(c.out),
@@ -67,8 +68,8 @@ std::string direction_text(const char* title, const PathCounters& c, double dura
     causes += format("%s%llu duplicated", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(c.copies));
   }
   if (c.in_flight() > 0) {
-    causes += format("%s%llu under way at the end", causes.empty() ? "    " : ", ",
-                     static_cast<unsigned long long>(c.in_flight()));
+    causes += format("%s%llu under way%s", causes.empty() ? "    " : ", ",
+                     static_cast<unsigned long long>(c.in_flight()), ended ? " at the end" : "");
   }
   return causes.empty() ? text : text + causes + "\n";
 }
@@ -100,12 +101,16 @@ Json troubles_json(const ProxyTroubles& t) {
 }
 
 Json client_json(const ProxyClientStatus& client) {
-  return {{"number", client.number},
+  Json json{{"number", client.number},
           {"address", io::to_text(client.address)},
           {"present", client.present},
+          {"came_s", seconds(client.came)},
           {"kernel_drops", client.kernel_drops},
           {"up", path_json(client.counters[0])},
           {"down", path_json(client.counters[1])}};
+  json["up"]["queue_ms"] = 1e3 * seconds(client.queue[0]);
+  json["down"]["queue_ms"] = 1e3 * seconds(client.queue[1]);
+  return json;
 }
 
 std::vector<NamedLink> named(std::span<const ProxyClientQuality> qualities) {
@@ -123,10 +128,25 @@ Json changes_json(std::span<const ProxyControl::Note> changes) {
   return json;
 }
 
+Json events_json(std::span<const ProxyEvent> events) {
+  Json json = Json::array();
+  for (const ProxyEvent& one : events) {
+    const bool stays = one.event.until == Duration::max();
+    json.push_back({{"at_s", seconds(one.event.at)},
+                    {"until_s", stays ? Json(nullptr) : Json(seconds(one.event.until))},
+                    {"event", one.event.words},
+                    {"fate", name(one.fate)},
+                    {"why", one.why}});
+  }
+  return json;
+}
+
 }  // namespace
 
+bool judged(const Proxy& proxy, const ProxyReportNotes& notes) { return notes.lateness_max && proxy.lateness().count() > 0; }
+
 bool in_time(const Proxy& proxy, const ProxyReportNotes& notes) {
-  return !notes.lateness_max || proxy.lateness().quantile(0.99) <= notes.lateness_max->count();
+  return !notes.lateness_max || (judged(proxy, notes) && proxy.lateness().quantile(0.99) <= notes.lateness_max->count());
 }
 
 std::string status_text(const ProxyStatus& status) {
@@ -137,8 +157,10 @@ std::string status_text(const ProxyStatus& status) {
     const ProxyClientStatus& client = status.client[i];
     text += format("client %llu at %s\n", static_cast<unsigned long long>(client.number),
                    io::to_text(client.address).c_str());
-    text += direction_text("  up  ", client.counters[0], 0);
-    text += direction_text("  down", client.counters[1], 0);
+    text += direction_text("  up  ", client.counters[0], 0, false);
+    text += direction_text("  down", client.counters[1], 0, false);
+    if (client.queue[0] + client.queue[1] > Duration{})
+      text += format("    waiting in the queue now: up %.3f ms, down %.3f ms\n", 1e3 * seconds(client.queue[0]), 1e3 * seconds(client.queue[1]));
   }
   return text + troubles_text(status.troubles);
 }
@@ -163,9 +185,10 @@ std::string summary_text(const Proxy& proxy, const ProxyReportNotes& notes) {
   const double duration_s = seconds(status.since_start);
   std::string text = format("%.1f s, %llu client%s\n", duration_s, static_cast<unsigned long long>(status.clients_seen),
                             status.clients_seen == 1 ? "" : "s");
-  text += direction_text("  up  ", status.total[0], duration_s);
-  text += direction_text("  down", status.total[1], duration_s);
+  text += direction_text("  up  ", status.total[0], duration_s, true);
+  text += direction_text("  down", status.total[1], duration_s, true);
   if (!notes.qualities.empty()) text += quality_report(named(notes.qualities), false);
+  text += events_text(notes.events);
   for (const ProxyControl::Note& change : notes.changes) {
     text += format("  at %.3f s: %s\n", seconds(change.at), change.words.c_str());
   }
@@ -179,7 +202,9 @@ std::string summary_text(const Proxy& proxy, const ProxyReportNotes& notes) {
                    static_cast<double>(proxy.late_limit().count()) / 1e3,
                    100 * count(status.late) / count(status.released));
   }
-  if (!in_time(proxy, notes)) {
+  if (notes.lateness_max && !judged(proxy, notes)) {
+    text += "  NOTHING WAS JUDGED: nobody sent anything that the proxy could have passed on late; --max-lateness is not kept\n";
+  } else if (!in_time(proxy, notes)) {
     text += format(
         "  TOO LATE: p99 %.1f us is above --max-lateness %.0f us. This computer was too busy for that: what\n"
         "    was measured over this network says little. Remedy: --realtime, fewer programs, --coalesce 0\n",
@@ -211,6 +236,8 @@ std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const 
   for (const ProxyClientStatus& client : proxy.client_reports()) json["clients"].push_back(client_json(client));
   json["quality"] = Json::object();
   for (const NamedLink& one : named(notes.qualities)) json["quality"][one.name] = quality_json(one.link);
+  json["interrupted"] = notes.interrupted;
+  json["events"] = events_json(notes.events);
   json["changes"] = changes_json(notes.changes);
   const Histogram& late = proxy.lateness();
   json["lateness"] = {{"count", late.count()},
@@ -219,6 +246,7 @@ std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const 
                       {"max_us", static_cast<double>(late.max()) / 1e3},
                       {"late_limit_us", static_cast<double>(proxy.late_limit().count()) / 1e3},
                       {"late", status.late},
+                      {"judged", judged(proxy, notes)},
                       {"in_time", in_time(proxy, notes)}};
   json["log"] = {{"rows", notes.log_rows}, {"missed", notes.log_missed}};
   json["troubles"] = troubles_json(status.troubles);

@@ -49,8 +49,10 @@ struct ProxyClientStatus {
   std::uint32_t place = 0;   ///< in the house, [0, ProxyCore::kClientsMax)
   sockaddr_storage address{};
   bool present = false;
+  Duration came{};                 ///< when its first datagram was read, since the proxy's start
   std::uint64_t kernel_drops = 0;  ///< its socket's buffer was full: it sends more than this computer can carry
   std::array<PathCounters, kDirections> counters;
+  std::array<Duration, kDirections> queue{};  ///< how long what comes now would wait in the rate's queue
 };
 
 struct ProxyStatus {

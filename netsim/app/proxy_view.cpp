@@ -62,7 +62,7 @@ std::string ProxyView::line() const {
 std::vector<std::string> ProxyView::table(std::size_t rows) const {
   std::vector<std::string> lines;
   if (pictures_.empty() || rows < 2) return lines;
-  lines.push_back("  n address               dir    in/s  out/s  mean ms   p99 ms  lost %   flight");
+  lines.push_back("  n address               dir    in/s  out/s mean ms    p99  queue lost% flight");
   const ProxyStatus& now = pictures_.back().status;
   const bool all = 1 + kDirections * now.clients <= rows;
   const std::uint64_t shown = all ? now.clients : (rows - 2) / kDirections;
@@ -96,9 +96,9 @@ std::string ProxyView::row(const ProxyClientStatus& now, Direction direction) co
                 name(direction)) +
          " " + fixed(per_second(c.in, then->counters[d].in, s), 6, 0) + " " +
          fixed(per_second(c.out, then->counters[d].out, s), 6, 0) + " " +
-         fixed(ms(delays.mean_since(delays_then)), 8, 2) + " " +
-         fixed(ms(delays.quantile_since(delays_then, 0.99)), 8, 2) + " " +
-         fixed(lost_percent(c, then->counters[d]), 7, 2) + " " + fixed(count(c.in_flight()), 8, 0);
+         fixed(ms(delays.mean_since(delays_then)), 7, 2) + " " +
+         fixed(ms(delays.quantile_since(delays_then, 0.99)), 6, 2) + " " + fixed(ms(now.queue[d]), 6, 2) + " " +
+         fixed(lost_percent(c, then->counters[d]), 5, 2) + " " + fixed(count(c.in_flight()), 6, 0);
 }
 
 }  // namespace tandem::netsim

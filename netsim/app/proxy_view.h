@@ -12,8 +12,8 @@
 
 namespace tandem::netsim {
 
-/// What a running proxy does now, for people: rate, delay, loss and what is under way, per client and direction, over
-/// about the last second. Reads what the packet thread publishes; never makes it wait.
+/// What a running proxy does now, for people: rate, delay and loss over about the last second, and the queue of the
+/// rate and what is under way now, per client and direction. Reads what the packet thread publishes; never makes it wait.
 class ProxyView {
  public:
   explicit ProxyView(const Proxy& proxy) : proxy_(proxy) {}

@@ -117,8 +117,11 @@ void watch_proxy(Proxy& proxy, ProxyControl& control, ControlSocket& socket, int
     screen.show(rows);
   };
   while (!stop) {
-    std::array<pollfd, 4> fds{
-        {{signals, POLLIN, 0}, {finished, POLLIN, 0}, {socket.fd(), POLLIN, 0}, {keys.fd(), POLLIN, 0}}};
+    std::array<pollfd, 5> fds{{{signals, POLLIN, 0},
+                               {finished, POLLIN, 0},
+                               {socket.fd(), POLLIN, 0},
+                               {keys.fd(), POLLIN, 0},
+                               {proxy.wanted_fd(), POLLIN, 0}}};
     const Duration left = std::max(next - io::read_clock(CLOCK_MONOTONIC), Duration{});
     ::poll(fds.data(), fds.size(), static_cast<int>(left.count() / 1'000'000) + 1);
     if (fds[0].revents != 0 || fds[1].revents != 0) break;
@@ -129,6 +132,7 @@ void watch_proxy(Proxy& proxy, ProxyControl& control, ControlSocket& socket, int
         return wire_text(answer);
       });
     }
+    if (fds[4].revents != 0) proxy.refill();
     bool typed = false;
     for (std::string key = keys.next(); !key.empty(); key = keys.next()) {
       typed = true;

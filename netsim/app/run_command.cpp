@@ -2,32 +2,31 @@
 
 #include <unistd.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <memory>
 
 #include "common/base/format.h"
-#include "common/link/digest.h"
-#include "hal/io/motion_file.h"
-#include "netsim/app/network_options.h"
-#include "netsim/app/run_log.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "hal/io/motion_file.h"
+#include "netsim/app/interruption.h"
+#include "netsim/app/mistakes.h"
+#include "netsim/app/network_options.h"
 #include "netsim/app/quality_json.h"
-#include "netsim/world_quality.h"
-#include "netsim/world_report.h"
+#include "netsim/app/run_log.h"
+#include "netsim/world.h"
+#include "netsim/world_notes.h"
+#include "netsim/world_run.h"
 #include "proto/io/scene_file.h"
 #include "proto/scene_text.h"
 #include "server/report_summary.h"
 #include "server/session_monitor.h"
-#include "server/trace_csv.h"
 
 namespace tandem::netsim {
 namespace {
 
-constexpr int kFailed = 1, kTrouble = 1, kWrong = 2;
+constexpr int kFailed = 1, kTrouble = 1;
 
 struct RunArguments {
   std::string scene, channel, mfs, json, trace, log, replay;
@@ -37,15 +36,7 @@ struct RunArguments {
   NetworkOptions network;
 };
 
-std::atomic<bool> interrupted{false};
-
-using Mistakes = std::vector<std::string>;
-
-int wrong(const Mistakes& mistakes) {
-  for (const std::string& m : mistakes) std::fprintf(stderr, "tandem-netsim run: %s\n", m.c_str());
-  std::fprintf(stderr, "%zu mistake%s; nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
-  return kWrong;
-}
+int wrong(const std::string& mistake) { return refuse("run", mistake); }
 
 /// What depends on the seats: a script names them, a recording must have them.
 void understand_network(const RunArguments& arguments, WorldSetup& setup, Mistakes& mistakes) {
@@ -54,43 +45,23 @@ void understand_network(const RunArguments& arguments, WorldSetup& setup, Mistak
   if (auto events = arguments.network.events(seats)) {
     setup.events = std::move(*events);
   } else {
-    mistakes.push_back(events.error());
+    mistakes.add(events.error());
   }
   if (arguments.replay.empty()) return;
-  if (const std::string other = arguments.network.first_given(); !other.empty()) mistakes.push_back("--replay excludes " + other);
+  for (const std::string& other : arguments.network.all_given())
+    mistakes.add("--replay excludes " + other + ": the log decides what becomes of every datagram");
   const auto replay = load_replay(arguments.replay);
   if (!replay) {
-    mistakes.push_back("--replay: " + replay.error());
+    mistakes.add("--replay: " + replay.error());
     return;
   }
   setup.replay = *replay;
   for (std::size_t i = 0; i < seats.size(); ++i)
     if (!setup.replay->has(static_cast<std::uint32_t>(i)))
-      mistakes.push_back("--replay: " + arguments.replay + " holds no flow " + std::to_string(i) + ", which is seat " + seats[i]);
+      mistakes.add("--replay: " + arguments.replay + " holds no flow " + std::to_string(i) + ", which is seat " + seats[i]);
 }
 
 /// How much of a replay met its own record, for people.
-/// What the script asked for and the session did not live through: times are the network's, which begins before the session.
-std::string missed_events(const World& world, const WorldSetup& setup) {
-  const Duration end = world.now() - Time{};
-  const Duration begin = end - from_seconds(world.session().time());
-  std::string text;
-  const auto judge = [&](Duration at, Duration until, const char* what) {
-    if (at >= end) {
-      text += format("note: %s at %g s came after the end of the run, %.3f s\n", what, seconds(at), seconds(end));
-    } else if (until <= begin) {
-      text += format("note: %s at %g s was over before the session began, at %.3f s of network time\n", what, seconds(at), seconds(begin));
-    }
-  };
-  for (const NetworkEvent& e : setup.events)
-    judge(e.at, e.outage ? e.at + e.outage->length : Duration::max(), e.outage ? "the outage" : e.link ? "the change of network" : "the rebind");
-  for (const Direction direction : {Direction::kUp, Direction::kDown})
-    for (const OutageSpec& o : setup.network[direction].outages)
-      if (o.period == Duration{} && o.mean_gap == Duration{} && (direction == Direction::kUp || setup.network.up.outages != setup.network.down.outages))
-        judge(o.start, o.start + o.length, "the outage");
-  return text;
-}
-
 std::string replay_summary(const World& world) {
   std::uint64_t sent = 0, own = 0;
   for (std::uint32_t link = 0; link < world.network().links(); ++link)
@@ -102,14 +73,29 @@ std::string replay_summary(const World& world) {
          (own == sent ? "\n" : ", the others that of the last one recorded before them\n");
 }
 
+void check_outputs(const RunArguments& arguments, Mistakes& mistakes) {
+  for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
+    if (!file.empty() && !(file == "-" && file == arguments.json))
+      if (const auto problem = io::OutputFile::problem(file); !problem.empty()) mistakes.add(std::string(option) + ": " + problem);
+  if (arguments.trace == "-") mistakes.add("--trace: standard output is for --json; name a file");
+  if (!arguments.trace.empty() && arguments.trace == arguments.json) mistakes.add("--trace: is the same file as --json");
+  if (!arguments.log.empty()) {
+    if (const auto problem = io::OutputFile::problem(arguments.log); !problem.empty()) mistakes.add("--log: " + problem);
+    if (arguments.log == "-") mistakes.add("--log: standard output is for --json; name a file");
+    if (arguments.log == arguments.json || arguments.log == arguments.trace) mistakes.add("--log: is the same file as another result");
+    if (arguments.log == arguments.replay) mistakes.add("--log: would overwrite what --replay reads");
+  }
+}
+
 /// Everything a person typed, turned into a setup; and all that is wrong with it.
 WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
   WorldSetup setup;
   if (auto scene = load_scene(arguments.scene)) {
     setup.scene = std::move(*scene);
   } else {
-    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
-    return setup;
+    for (const InputError& error : scene.error()) mistakes.add(to_text(error));
+    check_outputs(arguments, mistakes);
+    return setup;  // without a scene nobody knows which seats a script or a hand may name
   }
   if (arguments.duration_s > 0) setup.scene.duration = arguments.duration_s;
   if (arguments.channel == "raw") setup.scene.channel.law = LawKind::kRaw;
@@ -125,125 +111,119 @@ WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
       std::string problem = "--hand " + text + ": must be SEAT=FILE.csv[,...] with SEAT one of:";
       for (const SeatSpec& s : setup.scene.seats)
         if (s.kind == SeatKind::kMaster) problem += " " + s.name;
-      mistakes.push_back(problem);
+      mistakes.add(problem);
       continue;
     }
     const auto options = hal::sim::parse_motion_options(text.substr(cut + 1));
     if (!options) {
-      mistakes.push_back("--hand " + seat + ": " + options.error());
+      mistakes.add("--hand " + seat + ": " + options.error());
       continue;
     }
     if (auto motion = hal::load_motion(*options)) {
       if (!arguments.quiet) std::fprintf(stderr, "%s: %s\n", seat.c_str(), (*motion)->describe().c_str());
       setup.motions[seat] = std::move(*motion);
     } else {
-      mistakes.push_back(motion.error());
+      mistakes.add(motion.error());
     }
   }
-  for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
-    if (!file.empty() && !(file == "-" && file == arguments.json))
-      if (const auto problem = io::OutputFile::problem(file); !problem.empty()) mistakes.push_back(std::string(option) + ": " + problem);
-  if (arguments.trace == "-") mistakes.push_back("--trace: standard output is for --json; name a file");
-  if (!arguments.trace.empty() && arguments.trace == arguments.json) mistakes.push_back("--trace: is the same file as --json");
-  if (!arguments.log.empty()) {
-    if (const auto problem = io::OutputFile::problem(arguments.log); !problem.empty()) mistakes.push_back("--log: " + problem);
-    if (arguments.log == "-") mistakes.push_back("--log: standard output is for --json; name a file");
-    if (arguments.log == arguments.json || arguments.log == arguments.trace) mistakes.push_back("--log: is the same file as another result");
-    if (arguments.log == arguments.replay) mistakes.push_back("--log: would overwrite what --replay reads");
-  }
+  check_outputs(arguments, mistakes);
   setup.seed = arguments.network.seed();
   understand_network(arguments, setup, mistakes);
   return setup;
 }
 
-/// Progress on a terminal, once per virtual second.
+/// Progress on a terminal, some times per virtual second.
 void show_progress(const World& world) {
   std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", world.session().time(), world.scene().duration);
   std::fflush(stderr);
 }
 
-/// The report, with every seat's network beside its link.
-std::string report_json(const server::RunReport& report, const std::vector<NamedLink>& links) {
+/// The report, with every seat's network beside its link, and what its reader must know.
+std::string report_json(const server::RunReport& report, const std::vector<NamedLink>& links, const std::vector<std::string>& notes, bool interrupted) {
   auto json = nlohmann::ordered_json::parse(server::to_json(report));
   for (auto& seat : json["seats"])
     for (const NamedLink& one : links)
       if (seat["name"] == one.name) seat["quality"] = quality_json(one.link);
+  json["interrupted"] = interrupted;
+  json["notes"] = notes;
   return json.dump(2) + "\n";
+}
+
+/// Every value in force: the scene's, then the network's.
+int check(const RunArguments& arguments, const WorldSetup& setup, const NetworkChoice& network) {
+  std::string text = effective_scene_text(setup.scene);
+  if (setup.replay) {
+    text += "network of every seat: replay of " + arguments.replay + "\n";
+  } else {
+    text += "network: " + network.description + format(", seed %llu\n", static_cast<unsigned long long>(setup.seed)) + network_listing(setup, "  ");
+    for (const std::string& note : network.notes) text += "note: " + note + "\n";
+  }
+  std::fputs(text.c_str(), stdout);
+  return 0;
 }
 
 int run_command(const RunArguments& arguments) {
   Mistakes mistakes;
   const auto network = arguments.network.resolve();
-  if (!network) mistakes.push_back(network.error());
+  if (!network) mistakes.add(network.error());
   WorldSetup setup = understand(arguments, mistakes);
-  if (!mistakes.empty()) return wrong(mistakes);
+  if (!mistakes.none()) return mistakes.refuse("run");
   setup.network = network->link;
   setup.watch_quality = !arguments.no_quality;
-  if (arguments.check) {
-    std::fputs(effective_scene_text(setup.scene).c_str(), stdout);
-    return 0;
-  }
+  if (arguments.check) return check(arguments, setup, *network);
   auto made = World::make(setup);
-  if (!made) return wrong({made.error()});
+  if (!made) return wrong(made.error());
   const bool json_on_stdout = arguments.json == "-";
   io::OutputFile json_file, trace_file;
-  if (const auto problem = json_file.open(arguments.json, true); !problem.empty()) return wrong({"--json: " + problem});
-  if (const auto problem = trace_file.open(arguments.trace, false); !problem.empty()) return wrong({"--trace: " + problem});
+  if (const auto problem = json_file.open(arguments.json, true); !problem.empty()) return wrong("--json: " + problem);
+  if (const auto problem = trace_file.open(arguments.trace, false); !problem.empty()) return wrong("--trace: " + problem);
   World& world = **made;
   RunLog log;
-  if (const auto problem = log.open(arguments.log); !problem.empty()) return wrong({"--log: " + problem});
+  if (const auto problem = log.open(arguments.log); !problem.empty()) return wrong("--log: " + problem);
   log.attach(world.network());
 
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+  const Interruption interruption;
   const bool progress = !arguments.quiet && isatty(STDERR_FILENO) != 0;
   const std::clock_t begin = std::clock();
-  server::ReportBuilder builder{world.scene()};
-  const server::TraceCsv csv{world.scene()};
-  link::Digest digest;
-  std::string rows = csv.header();
-  const auto flush = [&] {
-    digest.add(rows);
-    trace_file.write(rows);
-    rows.clear();
-  };
-  for (std::uint64_t n = 0; world.step() && !interrupted; ++n) {
-    log.on_tick(world.now());
-    const server::TickRecord& record = world.record();
-    builder.add(record);
-    if (record.running) csv.append(record, rows);
-    if (rows.size() > 60'000) flush();
-    if (progress && n % 1000 == 0) show_progress(world);
-  }
-  flush();
+  WorldRun run = run_world(world, setup.seed,
+                           {.go_on =
+                                [&](double) {
+                                  if (progress) show_progress(world);
+                                  return !interruption.came();
+                                },
+                            .trace = [&](std::string_view rows) { trace_file.write(rows); },
+                            .tick = [&](World&) { log.on_tick(world.now()); }});
   if (progress) std::fprintf(stderr, "\r\x1b[K");
-  if (!world.trouble().empty()) {
-    std::fprintf(stderr, "tandem-netsim run: %s\n", world.trouble().c_str());
+  if (!run.trouble.empty()) {
+    std::fprintf(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
     return kTrouble;
   }
 
-  server::RunReport report = world_report(world, builder, setup.seed);
-  report.trace_hash = digest.hex();
+  server::RunReport& report = run.report;
   report.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  if (interrupted) std::fprintf(stderr, "interrupted at %.3f s; what follows judges that much\n", world.session().time());
-  const std::vector<NamedLink> links = link_qualities(world);
+  const bool interrupted = run.interrupted, broken = !report.passed;
+  report.passed = report.passed && !interrupted;
+  const std::vector<NamedLink>& links = run.links;
+  std::vector<std::string> notes;
+  if (!setup.replay) notes = network->notes;
+  for (std::string& note : session_notes(setup, session_span(world))) notes.push_back(std::move(note));
+  std::string words;
+  for (const std::string& note : notes) words += "note: " + note + "\n";
   if (!arguments.quiet || !json_on_stdout)
-    std::fprintf(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s%s",
-                 report.scenario.c_str(), report.passed ? "pass" : "FAIL", report.duration_s,
+    std::fprintf(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s%s%s",
+                 report.scenario.c_str(), report.passed ? "pass" : broken ? "FAIL" : "interrupted", report.duration_s,
                  setup.replay ? ("replay of " + arguments.replay).c_str() : network->description.c_str(),
                  static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
                  server::report_summary(report, world.scene()).c_str(), quality_report(links, arguments.verbose).c_str(),
-                 setup.replay ? replay_summary(world).c_str() : "");
-  if (network && !setup.replay)
-    for (const std::string& note : network->notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-  std::fputs(missed_events(world, setup).c_str(), stderr);
-  if (json_file.wanted()) json_file.write(report_json(report, links));
+                 setup.replay ? replay_summary(world).c_str() : "", words.c_str());
+  if (interrupted) Interruption::say("run", format("%.3f of %g s of the session", report.duration_s, setup.scene.duration));
+  if (json_file.wanted()) json_file.write(report_json(report, links, notes, interrupted));
   for (const auto& problem : {trace_file.close(), log.close(), json_file.close()})
     if (!problem.empty()) {
       std::fprintf(stderr, "tandem-netsim run: %s\n", problem.c_str());
       return kTrouble;
     }
-  if (interrupted) return kTrouble;  // what was not run is no pass
+  if (interrupted) return Interruption::kInterrupted;
   return report.passed ? 0 : kFailed;
 }
 
@@ -279,7 +259,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--replay", arguments->replay, "a --log file is the network: the same run meets the same fates, another one those of the last datagram recorded "
                    "before, from the start again after the end; excludes what says what the network is like")
       ->option_text("LOG.csv");
-  command->add_flag("--check", arguments->check, "only checks the scene and prints every value in force, with units");
+  command->add_flag("--check", arguments->check, "only checks scene and network and prints every value in force, with units");
   command->add_flag("--verbose", arguments->verbose, "the network of every seat in words and numbers, not only of the worst");
   command->add_flag("--no-quality", arguments->no_quality, "does not judge the network");
   command->add_flag("--quiet", arguments->quiet, "no progress, and no summary beside --json -");
@@ -287,7 +267,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then.\n"
       "The network is judged apart, by what force feedback needs (green, amber, red; loss, gaps and jitter in every\n"
       "100 ms, 1 s and 10 s of the session, round trips): it never changes the verdict.\n"
-      "Exit: 0 pass, 1 fail, 2 wrong arguments or files.\n\n"
+      "Exit: 0 pass, 1 fail or interrupted, 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim run free_motion\n"
       "  tandem-netsim run contact --delay 20 --jitter 5 --loss 5 --json -\n"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -16,6 +17,7 @@
 #include "proto/io/scene_file.h"
 #include "proto/scenario_text.h"
 #include "proto/scene_text.h"
+#include "proto/script_text.h"
 #include "proto/scenes_embedded.h"
 
 namespace tandem::netsim {
@@ -146,18 +148,30 @@ std::vector<std::string> files_of_folder(const std::string& folder) {
   return files;
 }
 
+/// What a file is that is no scenario; empty: nothing that it could be without mistakes.
+std::string other_kind(const std::string& text, const std::string& file) {
+  if (parse_scene(text, file)) return "a scene";
+  if (parse_profile(text, file)) return "a profile";
+  // Whether its clients are seats or numbers, only its user knows.
+  const ScriptReading script = read_script_text(text, file, {});
+  const auto of_client = [](const InputError& error) { return error.key.find(".client[") != std::string::npos; };
+  return script.spec && std::ranges::all_of(script.errors, of_client) ? "a script" : "";
+}
+
 }  // namespace
 
 std::expected<Scenario, InputErrors> load_scenario_text(const std::string& text, const std::string& file_name, bool shipped) {
-  const auto spec = parse_scenario_text(text, file_name);
-  if (!spec) return std::unexpected(spec.error());
+  ScenarioReading reading = read_scenario_text(text, file_name);
+  if (!reading.spec) return std::unexpected(std::move(reading.errors));
   const Folder folder(file_name, shipped);
-  return make_scenario(*spec, {.scene = [&](const std::string& word) { return folder.scene(word); },
+  return make_scenario(*reading.spec, {.scene = [&](const std::string& word) { return folder.scene(word); },
                                .network = [&](const ScenarioNetworkSpec& network) { return folder.network(network); },
-                               .motion = [&](const std::string& option) { return folder.motion(option); }});
+                               .motion = [&](const std::string& option) { return folder.motion(option); }},
+                       std::move(reading.errors));
 }
 
-std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vector<std::string>& arguments) {
+std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vector<std::string>& arguments,
+                                                                 std::vector<std::string>* left_out) {
   std::vector<Scenario> scenarios;
   InputErrors errors;
   std::set<std::string> seen;
@@ -170,13 +184,41 @@ std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vect
     if (seen.insert(std::string(s.name)).second)
       take(load_scenario_text(std::string(s.text), std::string(s.name) + ".textproto", true), std::string(s.name));
   };
-  const auto from_file = [&](const std::string& path) {
+  const auto read = [&](const std::string& path) -> std::optional<std::string> {
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(path, error);
-    if (!seen.insert(whole.string()).second) return;
-    const auto text = read_text_file(path);
-    if (!text) return append(errors, text.error());
-    take(load_scenario_text(*text, path, false), path);
+    if (!seen.insert(whole.string()).second) return {};
+    auto text = read_text_file(path);
+    if (text) return std::move(*text);
+    append(errors, text.error());
+    return {};
+  };
+  const auto from_file = [&](const std::string& path) {
+    if (const auto text = read(path)) take(load_scenario_text(*text, path, false), path);
+  };
+  const auto from_folder = [&](const std::string& folder) {
+    const auto files = files_of_folder(folder);
+    std::string others;
+    bool any = false;
+    for (const std::string& file : files) {
+      const std::size_t before = scenarios.size() + errors.size();
+      const auto text = read(file);
+      if (text) {
+        auto scenario = load_scenario_text(*text, file, false);
+        const std::string kind = scenario ? "" : other_kind(*text, file);
+        if (!kind.empty()) {
+          others += (others.empty() ? "" : ", ") + fs::path(file).filename().string() + " (" + kind + ")";
+          continue;
+        }
+        const bool without_scene = !scenario && std::ranges::find(scenario.error(), "scene", &InputError::key) != scenario.error().end();
+        if (without_scene) errors.push_back({file, 0, 0, "", "", "is no scene, profile or script without mistakes; as a scenario:"});
+        take(std::move(scenario), file);
+      }
+      any = any || !text || scenarios.size() + errors.size() > before;
+    }
+    if (!any)
+      errors.push_back({folder, 0, 0, "", "", files.empty() ? "this folder holds no *.textproto" : "this folder holds no scenario, only " + others});
+    if (left_out != nullptr && !others.empty()) left_out->push_back(folder + ": left out, as they are no scenarios: " + others);
   };
   for (const std::string& argument : arguments) {
     std::error_code error;
@@ -184,9 +226,7 @@ std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vect
     if (argument == kAllShipped) {
       for (const ShippedScenario& s : shipped_scenarios()) shipped(s);
     } else if (fs::is_directory(argument, error)) {
-      const auto files = files_of_folder(argument);
-      for (const std::string& file : files) from_file(file);
-      if (files.empty()) errors.push_back({argument, 0, 0, "", "", "this folder holds no *.textproto"});
+      from_folder(argument);
     } else if (named != nullptr && !fs::exists(argument, error)) {
       shipped(*named);
     } else if (fs::exists(argument, error)) {

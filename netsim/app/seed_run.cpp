@@ -1,5 +1,6 @@
 #include "netsim/app/seed_run.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ctime>
@@ -44,7 +45,10 @@ SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRun
   out.trace_hash = run.report.trace_hash;
   out.duration_s = run.report.duration_s;
   out.trouble = run.trouble;
+  out.notes = run.notes;
   for (const NamedLink& one : run.links) out.bands.emplace_back(one.name, verdict_name(verdict(one.link)));
+  for (const NamedLink& one : run.links) out.badness = std::max(out.badness, badness(one.link));
+  out.words = quality_report(run.links, false);
   bool good = run.report.passed;
   for (const Limit& limit : scenario.limits) {
     out.values.push_back(value_of(limit, run.report));
@@ -62,7 +66,8 @@ SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRun
 std::string to_bytes(const SeedOutcome& o) {
   Json j{{"seed", o.seed},         {"state", static_cast<int>(o.state)}, {"trouble", o.trouble},
          {"hash", o.trace_hash},   {"duration", o.duration_s},           {"cpu", o.cpu_s},
-         {"report", o.report},     {"values", Json::array()},            {"violations", Json::array()}, {"bands", Json::array()}};
+         {"report", o.report},     {"values", Json::array()},            {"violations", Json::array()}, {"bands", Json::array()},
+         {"words", o.words},       {"badness", o.badness},           {"notes", o.notes}};
   for (const double value : o.values) j["values"].push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
   for (const server::Violation& v : o.violations) j["violations"].push_back({v.invariant, v.seat, v.at_s, v.expected, v.count});
   for (const auto& [seat, band] : o.bands) j["bands"].push_back(Json{{"seat", seat}, {"band", band}});
@@ -84,7 +89,10 @@ SeedOutcome outcome_from_bytes(const std::string& bytes) {
   for (const Json& v : j.at("violations"))
     o.violations.push_back({v.at(0).get<std::string>(), v.at(1).get<std::string>(), v.at(2).get<double>(), v.at(3).get<bool>(),
                             v.at(4).get<std::uint64_t>()});
+  o.notes = j.at("notes").get<std::vector<std::string>>();
   for (const Json& b : j.at("bands")) o.bands.emplace_back(b.at("seat").get<std::string>(), b.at("band").get<std::string>());
+  o.words = j.at("words").get<std::string>();
+  o.badness = j.at("badness").get<double>();
   return o;
 }
 

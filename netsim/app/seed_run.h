@@ -27,6 +27,9 @@ struct SeedOutcome {
   std::vector<double> values;                 ///< one per limit of the scenario; NaN: the run has no such number
   /// Seat and band of its link for force feedback (netsim/quality_text.h): `green`, `amber`, `red`, `too short`.
   std::vector<std::pair<std::string, std::string>> bands;
+  std::vector<std::string> notes;  ///< events outside of the session, changed addresses: netsim/world_notes.h
+  std::string words;   ///< what its network was like, as `run` says it (quality_report)
+  double badness = 0;  ///< of its worst link (netsim/quality_text.h)
   std::string trace_hash;
   double duration_s = 0;                      ///< of the session
   double cpu_s = 0;

@@ -9,11 +9,15 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/format.h"
+#include "common/base/heap_count.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/parallel_jobs.h"
-#include "common/io/signals.h"
 #include "common/io/terminal.h"
+#include "netsim/app/interruption.h"
+#include "netsim/app/mistakes.h"
+#include "netsim/app/quality_json.h"
+#include "netsim/world_notes.h"
 #include "netsim/world_swarm.h"
 #include "server/trace_csv.h"
 
@@ -22,7 +26,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFailed = 1, kTrouble = 1, kWrong = 2;
+constexpr int kFailed = 1, kTrouble = 1;
 /// Failures named one by one; the rest is counted.
 constexpr std::size_t kShown = 20;
 
@@ -56,6 +60,10 @@ Json to_json(const SwarmCase& which, const SwarmResult& result, double cpu_s) {
   json["violations"] = Json::array();
   for (const server::Violation& v : result.broken)
     json["violations"].push_back({{"invariant", v.invariant}, {"seat", v.seat}, {"at_s", v.at_s}, {"count", v.count}});
+  if (which.setup.watch_quality) {
+    json["network_words"] = quality_report(result.links, false);
+    for (const NamedLink& one : result.links) json["quality"][one.name] = quality_json(one.link);
+  }
   json["cpu_s"] = cpu_s;
   return json;
 }
@@ -65,6 +73,8 @@ std::string live_seed(const SwarmArguments& arguments, std::uint64_t seed, io::J
   const std::clock_t begin = std::clock();
   SwarmCase which = draw_swarm_case(seed, arguments.safety_max_s);
   which.setup.keep_record = !arguments.trace.empty();
+  which.setup.watch_quality = arguments.seeds == 1;
+  which.setup.heap_count = heap_allocations;
   const double whole = seconds(which.calm) + 1;
   io::OutputFile trace;
   if (const auto problem = trace.open(arguments.trace, false); !problem.empty()) throw std::runtime_error("--trace: " + problem);
@@ -91,6 +101,7 @@ struct SwarmSum {
   std::map<std::string, std::size_t> by_reason;
   Json seeds = Json::array();
   std::vector<std::string> failures;
+  std::string network;  ///< of the only session, in words
 
   void add(const SwarmArguments& arguments, std::uint64_t seed, const io::JobResult& result) {
     if (result.state == io::JobResult::State::kNotRun) {
@@ -107,6 +118,8 @@ struct SwarmSum {
       cpu_s += json["cpu_s"].get<double>();
       recovered_max_s = std::max(recovered_max_s, json["recovered_s"].get<double>());
       gate_trips += json["gate_trips"].get<std::uint64_t>();
+      if (json.contains("network_words")) network = json["network_words"].get<std::string>();
+      json.erase("network_words");
       if (json["masters"] == 2 && json["seats"] == 2 && json["tools"] == 1) {
         small_lived_s += json["lived_s"].get<double>();
         small_cpu_s += json["cpu_s"].get<double>();
@@ -137,11 +150,6 @@ struct SwarmSum {
   }
 };
 
-int wrong(const std::string& message) {
-  std::fprintf(stderr, "tandem-netsim swarm: %s\n", message.c_str());
-  return kWrong;
-}
-
 std::string summary(const SwarmArguments& arguments, const SwarmSum& sum, double wall_s) {
   std::string text;
   for (std::size_t i = 0; i < sum.failures.size() && i < kShown; ++i) text += sum.failures[i];
@@ -152,8 +160,9 @@ std::string summary(const SwarmArguments& arguments, const SwarmSum& sum, double
   text += format("%.0f session-seconds in %.1f s, %.0f CPU-seconds: %.0f x real time per core over all sizes", sum.lived_s, wall_s, sum.cpu_s,
                  sum.cpu_s > 0 ? sum.lived_s / sum.cpu_s : 0.0);
   if (sum.small_cpu_s > 0) text += format(", %.0f x with two masters and a slave", sum.small_lived_s / sum.small_cpu_s);
-  return text + format("\nhands let go %llu times; everybody was active again at most %.1f s after the calm (limit %g s)\n",
+  text += format("\nhands let go %llu times; everybody was active again at most %.1f s after the calm (limit %g s)\n",
                        static_cast<unsigned long long>(sum.gate_trips), sum.recovered_max_s, kLivenessLimit);
+  return text + sum.network;
 }
 
 int print_scene(const SwarmArguments& arguments) {
@@ -162,26 +171,26 @@ int print_scene(const SwarmArguments& arguments) {
   for (const Fault& f : which.setup.faults)
     std::printf("# fault at %.3f s for %.3f s: %s%s%s\n", seconds(f.at), seconds(f.length), std::string(name(f.kind)).c_str(),
                 f.seat.empty() ? "" : " at ", f.seat.c_str());
-  for (const NetworkEvent& e : which.setup.events)
-    std::printf("# network at %.3f s: %s%s%s\n", seconds(e.at), e.outage ? format("outage of %.3f s", seconds(e.outage->length)).c_str() : "another link",
-                e.clients.empty() ? "" : " for ", e.clients.empty() ? "" : e.clients.front().c_str());
+  std::fputs(network_listing(which.setup, "# ").c_str(), stdout);
   return 0;
 }
 
 int swarm_command(const SwarmArguments& arguments) {
-  if (arguments.scene) return print_scene(arguments);
-  if (!arguments.trace.empty() && arguments.seeds != 1) return wrong("--trace is of one session; add --seeds 1");
+  Mistakes mistakes;
+  if (!arguments.trace.empty() && arguments.seeds != 1) mistakes.add("--trace is of one session; add --seeds 1");
   for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
     if (!file.empty() && file != "-")
-      if (const auto problem = io::OutputFile::problem(file); !problem.empty()) return wrong(std::string(option) + ": " + problem);
-  if (arguments.trace == "-") return wrong("--trace: standard output is for --json; name a file");
+      if (const auto problem = io::OutputFile::problem(file); !problem.empty()) mistakes.add(std::string(option) + ": " + problem);
+  if (arguments.trace == "-") mistakes.add("--trace: standard output is for --json; name a file");
+  if (!mistakes.none()) return mistakes.refuse("swarm");
+  if (arguments.scene) return print_scene(arguments);
 
-  const io::Fd signals = io::signals_as_file();
+  const Interruption interruption;
   io::StatusLine line{false};
   double wall_s = 0, shown_s = -1e9;
   io::JobsOptions options;
   options.jobs = arguments.jobs;
-  options.stop_fd = signals.get();
+  options.stop_fd = interruption.fd();
   options.watch = [&](const io::JobsProgress& p) {
     wall_s = p.elapsed_s;
     if (wall_s - shown_s < 1e-3 * line.interval_ms()) return;
@@ -199,12 +208,16 @@ int swarm_command(const SwarmArguments& arguments) {
   for (std::size_t i = 0; i < results.size(); ++i) sum.add(arguments, arguments.first + i, results[i]);
   const bool json_on_stdout = arguments.json == "-";
   std::fputs(summary(arguments, sum, wall_s).c_str(), json_on_stdout ? stderr : stdout);
+  const bool interrupted = sum.not_run > 0 && interruption.came();
+  if (interrupted)
+    Interruption::say("swarm", format("%zu of %llu sessions", sum.done, static_cast<unsigned long long>(arguments.seeds)));
   io::OutputFile json;
   std::string problem = json.open(arguments.json, true);
   if (json.wanted()) {
     Json out;
     out["program"] = "tandem-netsim swarm";
     out["passed"] = sum.failed == 0 && sum.not_run == 0;
+    out["interrupted"] = interrupted;
     out["lived_s"] = sum.lived_s;
     out["failed"] = sum.failed;
     out["not_run"] = sum.not_run;
@@ -216,6 +229,7 @@ int swarm_command(const SwarmArguments& arguments) {
     std::fprintf(stderr, "tandem-netsim swarm: --json: %s\n", problem.c_str());
     return kTrouble;
   }
+  if (interrupted) return Interruption::kInterrupted;
   return sum.failed == 0 && sum.not_run == 0 ? 0 : kFailed;
 }
 
@@ -232,7 +246,7 @@ void add_swarm_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("S");
   command->add_option("--jobs", arguments->jobs, "sessions at a time; default one per core")->check(CLI::Range(1, 1024))->option_text("N");
   command->add_flag("--fail-fast", arguments->fail_fast, "stops at the first session that fails");
-  command->add_flag("--scene", arguments->scene, "only prints the scene, faults and network of the first seed");
+  command->add_flag("--scene", arguments->scene, "only prints the scene, faults, clocks and network of the first seed");
   command->add_option("--json", arguments->json, "writes every session's result; `-`: to standard output")->option_text("FILE|-");
   command->add_option("--trace", arguments->trace, "with --seeds 1: writes one row per tick")->option_text("FILE.csv");
   command->footer(

@@ -7,7 +7,8 @@
 #include "common/base/format.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
-#include "common/io/signals.h"
+#include "netsim/app/interruption.h"
+#include "netsim/app/mistakes.h"
 #include "netsim/app/sweep.h"
 #include "netsim/app/test_progress.h"
 #include "proto/io/scene_file.h"
@@ -16,7 +17,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kGood = 0, kFailed = 1, kWrong = 2;
+constexpr int kGood = 0, kFailed = 1;
 
 struct SweepArguments {
   std::string scene, delay, jitter, loss, metric = "tracking_rms_m", channel, mfs, json, csv;
@@ -25,39 +26,35 @@ struct SweepArguments {
   bool quiet = false;
 };
 
-int wrong(const std::vector<std::string>& mistakes) {
-  for (const std::string& m : mistakes) std::fprintf(stderr, "tandem-netsim sweep: %s\n", m.c_str());
-  std::fprintf(stderr, "%zu mistake%s; nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
-  return kWrong;
-}
+int wrong(const std::string& mistake) { return refuse("sweep", mistake); }
 
 /// Everything a person typed, and all that is wrong with it.
-SweepSpec understand(const SweepArguments& a, std::vector<std::string>& mistakes) {
+SweepSpec understand(const SweepArguments& a, Mistakes& mistakes) {
   SweepSpec spec;
   spec.scene_name = a.scene;
   spec.metric = a.metric;
   if (auto scene = load_scene(a.scene)) {
     spec.scene = std::move(*scene);
   } else {
-    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
+    for (const InputError& error : scene.error()) mistakes.add(to_text(error));
   }
   const auto axis = [&](const char* option, const std::string& text, double hi, const char* unit, std::vector<double>& into) {
     if (text.empty()) return;
     if (auto values = parse_axis(text, 0, hi, unit)) {
       into = std::move(*values);
     } else {
-      mistakes.push_back(std::string(option) + ": " + values.error());
+      mistakes.add(std::string(option) + ": " + values.error());
     }
   };
   axis("--delay", a.delay, 60'000, "ms", spec.delays_ms);
   axis("--jitter", a.jitter, 60'000, "ms", spec.jitters_ms);
   axis("--loss", a.loss, 100, "%", spec.losses_percent);
   if (a.delay.empty() && a.jitter.empty() && a.loss.empty())
-    mistakes.emplace_back("nothing to sweep: give at least one of --delay, --jitter, --loss, such as --delay 0,20,50");
+    mistakes.add("nothing to sweep: give at least one of --delay, --jitter, --loss, such as --delay 0,20,50");
   const std::size_t points = spec.delays_ms.size() * spec.jitters_ms.size() * spec.losses_percent.size();
   if (points > kSweepPointsMax)
-    mistakes.push_back("the grid has " + std::to_string(points) + " points; at most " + std::to_string(kSweepPointsMax) + " are allowed");
-  if (const auto known = sweep_metric(a.metric); !known) mistakes.push_back("--metric: " + known.error());
+    mistakes.add("the grid has " + std::to_string(points) + " points; at most " + std::to_string(kSweepPointsMax) + " are allowed");
+  if (const auto known = sweep_metric(a.metric); !known) mistakes.add("--metric: " + known.error());
   if (a.duration_s > 0) {
     spec.scene.duration = a.duration_s;
     spec.options += format("--duration %.9g", a.duration_s);
@@ -76,30 +73,32 @@ SweepSpec understand(const SweepArguments& a, std::vector<std::string>& mistakes
 }
 
 int sweep_command(const SweepArguments& a) {
-  std::vector<std::string> mistakes;
+  Mistakes mistakes;
   SweepSpec spec = understand(a, mistakes);
   for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
     if (!file->empty() && *file != "-")
-      if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) mistakes.push_back(std::string(option) + ": " + problem);
-  if (!a.json.empty() && a.json == a.csv) mistakes.emplace_back("--csv: is the same file as --json");
-  if (!mistakes.empty()) return wrong(mistakes);
+      if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) mistakes.add(std::string(option) + ": " + problem);
+  if (!a.json.empty() && a.json == a.csv) mistakes.add("--csv: is the same file as --json");
+  if (!mistakes.none()) return mistakes.refuse("sweep");
 
-  const io::Fd stop = io::signals_as_file();
+  const Interruption interruption;
   io::OutputFile json_file, csv_file;
-  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong({"--json: " + problem});
-  if (const auto problem = csv_file.open(a.csv, true); !problem.empty()) return wrong({"--csv: " + problem});
+  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong("--json: " + problem);
+  if (const auto problem = csv_file.open(a.csv, true); !problem.empty()) return wrong("--csv: " + problem);
   TestProgress progress(a.quiet);
-  TestOptions options{.seed = a.seed, .seeds = static_cast<std::uint64_t>(a.seeds), .jobs = static_cast<std::size_t>(a.jobs), .stop_fd = stop.get()};
+  TestOptions options{.seed = a.seed, .seeds = static_cast<std::uint64_t>(a.seeds), .jobs = static_cast<std::size_t>(a.jobs), .stop_fd = interruption.fd()};
   options.watch = [&](const io::JobsProgress& p, std::size_t failed) { progress.show(p, failed); };
   const Sweep sweep = run_sweep(std::move(spec), options);
   progress.end();
 
   const bool on_stdout = a.json == "-" || a.csv == "-";
   if (!a.quiet || !on_stdout) std::fputs(sweep_map(sweep).c_str(), on_stdout ? stderr : stdout);
-  if (sweep.runs.not_run() > 0) std::fprintf(stderr, "interrupted: %zu runs are missing\n", sweep.runs.not_run());
+  const bool interrupted = sweep.runs.not_run() > 0 && interruption.came();
+  if (interrupted)
+    Interruption::say("sweep", std::to_string(sweep.runs.all() - sweep.runs.not_run()) + " of " + std::to_string(sweep.runs.all()) + " runs");
   json_file.write(sweep_json(sweep));
   csv_file.write(sweep_csv(sweep));
-  int code = sweep.good() ? kGood : kFailed;
+  int code = interrupted ? Interruption::kInterrupted : sweep.good() ? kGood : kFailed;
   for (const auto& problem : {json_file.close(), csv_file.close()})
     if (!problem.empty()) {
       std::fprintf(stderr, "tandem-netsim sweep: %s\n", problem.c_str());
@@ -140,7 +139,7 @@ void add_sweep_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--csv", a->csv, "writes one row per point; `-`: to standard output")->option_text("FILE|-");
   command->add_flag("--quiet", a->quiet, "no progress, and no map beside --json - or --csv -");
   command->footer(
-      "Exit: 0 no promised invariant was broken anywhere, 1 one was, or a run could not begin, 2 wrong arguments or files.\n\n"
+      "Exit: 0 no promised invariant was broken anywhere, 1 one was, a run could not begin, or it was interrupted, 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim sweep free_motion --delay 0,20,50,100 --loss 0,5,20\n"
       "  tandem-netsim sweep contact --delay 0,10,20,40 --jitter 0,5 --metric force_error_rms_n --seeds 5 --csv map.csv\n"

@@ -7,7 +7,8 @@
 
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
-#include "common/io/signals.h"
+#include "netsim/app/interruption.h"
+#include "netsim/app/mistakes.h"
 #include "netsim/app/scenario_load.h"
 #include "netsim/app/test_progress.h"
 #include "netsim/app/test_report.h"
@@ -16,7 +17,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kPass = 0, kFailed = 1, kWrong = 2;
+constexpr int kPass = 0, kFailed = 1;
 constexpr double kJobsMax = 256, kSeedsMax = 100'000;
 
 struct TestArguments {
@@ -28,11 +29,7 @@ struct TestArguments {
   bool keep_going = false, fail_fast = false, list = false, check = false, reports = false, quiet = false;
 };
 
-int wrong(const std::vector<std::string>& mistakes) {
-  for (const std::string& m : mistakes) std::fprintf(stderr, "tandem-netsim test: %s\n", m.c_str());
-  std::fprintf(stderr, "%zu mistake%s; nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
-  return kWrong;
-}
+int wrong(const std::string& mistake) { return refuse("test", mistake); }
 
 void list(const std::vector<Scenario>& scenarios) {
   std::size_t width = 0;
@@ -43,53 +40,54 @@ void list(const std::vector<Scenario>& scenarios) {
 }
 
 /// What only shows once the scenarios are known.
-void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, std::vector<std::string>& mistakes) {
+void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, Mistakes& mistakes) {
   std::uint64_t runs = 0;
   for (const Scenario& s : scenarios) {
     const std::uint64_t seeds = a.seeds_given ? static_cast<std::uint64_t>(a.seeds) : s.seeds;
     const std::uint64_t first = a.seed_given ? a.seed : s.seed;
     runs += seeds;
     if (first > std::numeric_limits<std::uint64_t>::max() - (seeds - 1))
-      mistakes.push_back(s.name + ": seed " + std::to_string(first) + " and " + std::to_string(seeds - 1) + " more are beyond 64 bits");
+      mistakes.add(s.name + ": seed " + std::to_string(first) + " and " + std::to_string(seeds - 1) + " more are beyond 64 bits");
   }
   if (!a.trace.empty() && runs != 1)
-    mistakes.push_back("--trace: is of one seed of one scenario, these are " + std::to_string(runs) + "; add --seeds 1 and name one");
+    mistakes.add("--trace: is of one seed of one scenario, these are " + std::to_string(runs) + "; add --seeds 1 and name one");
 }
 
-std::vector<std::string> output_mistakes(const TestArguments& a) {
-  std::vector<std::string> mistakes;
+void check_outputs(const TestArguments& a, Mistakes& mistakes) {
   const std::array<std::pair<const char*, const std::string*>, 3> files{{{"--json", &a.json}, {"--junit", &a.junit}, {"--trace", &a.trace}}};
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto& [option, file] = files[i];
     if (file->empty() || (*file == "-" && i == 0)) continue;
     if (*file == "-") {
-      mistakes.push_back(std::string(option) + ": standard output is for --json; name a file");
+      mistakes.add(std::string(option) + ": standard output is for --json; name a file");
     } else if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) {
-      mistakes.push_back(std::string(option) + ": " + problem);
+      mistakes.add(std::string(option) + ": " + problem);
     }
     for (std::size_t k = 0; k < i; ++k)
-      if (*files[k].second == *file) mistakes.push_back(std::string(option) + ": is the same file as " + files[k].first);
+      if (*files[k].second == *file) mistakes.add(std::string(option) + ": is the same file as " + files[k].first);
   }
-  return mistakes;
 }
 
 int test_command(const TestArguments& a) {
-  std::vector<std::string> mistakes = output_mistakes(a);
+  Mistakes mistakes;
+  check_outputs(a, mistakes);
   std::vector<std::string> names = a.scenarios;
   if (names.empty() && a.list) names.emplace_back(kAllShipped);
   if (names.empty()) {
     std::string all;
     for (const ShippedScenario& s : shipped_scenarios()) all += " " + std::string(s.name);
-    mistakes.push_back("SCENARIO is required: a file, a folder, `shipped` for all shipped ones, or one of:" + all);
+    mistakes.add("SCENARIO is required: a file, a folder, `shipped` for all shipped ones, or one of:" + all);
   }
-  if (a.keep_going && a.fail_fast) mistakes.emplace_back("--keep-going excludes --fail-fast");
-  auto scenarios = load_scenarios(names);
+  if (a.keep_going && a.fail_fast) mistakes.add("--keep-going excludes --fail-fast");
+  std::vector<std::string> left_out;
+  auto scenarios = load_scenarios(names, &left_out);
   if (scenarios) {
     check_together(a, *scenarios, mistakes);
   } else {
-    for (const InputError& error : scenarios.error()) mistakes.push_back(to_text(error));
+    for (const InputError& error : scenarios.error()) mistakes.add(to_text(error));
   }
-  if (!mistakes.empty()) return wrong(mistakes);
+  if (!mistakes.none()) return mistakes.refuse("test");
+  for (const std::string& note : left_out) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (a.list) {
     list(*scenarios);
     return kPass;
@@ -99,13 +97,13 @@ int test_command(const TestArguments& a) {
       std::printf("%s%s\n%s", &s == &scenarios->front() ? "" : "\n", s.name.c_str(), effective_scenario_text(s).c_str());
     return kPass;
   }
-  const io::Fd stop = io::signals_as_file();
+  const Interruption interruption;
   io::OutputFile json_file, junit_file;
-  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong({"--json: " + problem});
-  if (const auto problem = junit_file.open(a.junit, false); !problem.empty()) return wrong({"--junit: " + problem});
+  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong("--json: " + problem);
+  if (const auto problem = junit_file.open(a.junit, false); !problem.empty()) return wrong("--junit: " + problem);
 
   TestProgress progress(a.quiet);
-  TestOptions options{.jobs = static_cast<std::size_t>(a.jobs), .fail_fast = a.fail_fast, .reports = a.reports, .trace = a.trace, .stop_fd = stop.get()};
+  TestOptions options{.jobs = static_cast<std::size_t>(a.jobs), .fail_fast = a.fail_fast, .reports = a.reports, .trace = a.trace, .stop_fd = interruption.fd()};
   if (a.seed_given) options.seed = a.seed;
   if (a.seeds_given) options.seeds = static_cast<std::uint64_t>(a.seeds);
   options.watch = [&](const io::JobsProgress& p, std::size_t failed) { progress.show(p, failed); };
@@ -114,10 +112,11 @@ int test_command(const TestArguments& a) {
 
   const bool json_on_stdout = a.json == "-";
   if (!a.quiet || !json_on_stdout) std::fputs(test_summary(result).c_str(), json_on_stdout ? stderr : stdout);
-  if (result.not_run() > 0 && !a.fail_fast) std::fputs("interrupted: the verdict is of what was run\n", stderr);
+  const bool interrupted = result.not_run() > 0 && interruption.came();
+  if (interrupted) Interruption::say("test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
   json_file.write(test_json(result));
   junit_file.write(junit_xml(result));
-  int code = result.passed() ? kPass : kFailed;
+  int code = interrupted ? Interruption::kInterrupted : result.passed() ? kPass : kFailed;
   for (const auto& problem : {json_file.close(), junit_file.close()})
     if (!problem.empty()) {
       std::fprintf(stderr, "tandem-netsim test: %s\n", problem.c_str());
@@ -158,7 +157,7 @@ void add_test_command(CLI::App& root, std::function<int()>& action) {
   command->footer(
       "A seed passes when no promised invariant is broken (as `run` judges) and every limit of its scenario holds.\n"
       "For each failure the one command is printed that runs that seed again, to the same trace_hash, with its trace.\n"
-      "Exit: 0 all passed, 1 something failed or was not run, 2 wrong arguments or files.\n\n"
+      "Exit: 0 all passed, 1 something failed or was not run (Ctrl-C too), 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim test --list\n"
       "  tandem-netsim test shipped --junit verdict.xml\n"

@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "netsim/app/test_notes.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -108,6 +110,13 @@ std::string bands_text(const ScenarioResult& r) {
   return text;
 }
 
+/// The network of the worst seed per direction, as `run` tells it.
+std::string network_words(const ScenarioResult& r) {
+  const auto worst = std::ranges::max_element(r.seeds, {}, [](const SeedOutcome& s) { return s.words.empty() ? -1 : s.badness; });
+  if (worst == r.seeds.end() || worst->words.empty()) return {};
+  return "  seed " + std::to_string(worst->seed) + "," + worst->words.substr(worst->words.find_first_not_of(' ') - 1);
+}
+
 std::string verdict(const ScenarioResult& r) {
   if (r.failed() > 0) return "FAIL " + std::to_string(r.failed()) + " of " + std::to_string(r.seeds.size());
   return r.passed() ? "pass" : "not finished";
@@ -161,7 +170,9 @@ std::string test_summary(const TestResult& result) {
     for (const auto& [seat, network] : r.scenario.seat_networks) out += ", " + seat + " over " + network;
     out += "\n";
     if (const std::string bands = bands_text(r); !bands.empty()) out += "  network for force feedback, at the worst seed: " + bands + "\n";
+    out += network_words(r);
     put_limits(r, out);
+    out += notes_text(r);
   }
   put_failures(result, out);
   if (result.not_run() > 0) {
@@ -222,6 +233,7 @@ std::string test_json(const TestResult& result) {
             {{"invariant", v.invariant}, {"seat", v.seat}, {"at_s", v.at_s}, {"expected", v.expected}, {"count", v.count}});
       seed["network"] = Json::array();
       for (const auto& [seat, band] : o.bands) seed["network"].push_back({{"seat", seat}, {"band", band}});
+      seed["notes"] = o.notes;
       seed["duration_s"] = number(o.duration_s);
       seed["trace_hash"] = o.trace_hash;
       seed["cpu_s"] = number(o.cpu_s);

@@ -17,7 +17,7 @@ namespace tandem::netsim {
 ///                "margin_percent"|null}],
 ///    "seeds": [{"seed", "verdict": "pass"|"fail"|"trouble"|"crash"|"not run", "causes": [text], "values": [number|null, one
 ///               per limit], "violations": [{"invariant", "seat", "at_s", "expected", "count"}], "network": [{"seat", "band":
-///               "green"|"amber"|"red"|"too short"}], "duration_s", "trace_hash",
+///               "green"|"amber"|"red"|"too short"}], "notes": [text], "duration_s", "trace_hash",
 ///               "cpu_s", "replay": command, "report": {...} if asked for}]}]}
 /// A number that a run does not have is null.
 [[nodiscard]] std::string test_json(const TestResult& result);

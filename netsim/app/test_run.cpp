@@ -65,6 +65,12 @@ std::size_t TestResult::not_run() const noexcept {
   return n;
 }
 
+std::size_t TestResult::all() const noexcept {
+  std::size_t n = 0;
+  for (const ScenarioResult& s : scenarios) n += s.seeds.size();
+  return n;
+}
+
 TestResult run_tests(std::vector<Scenario> scenarios, const TestOptions& options) {
   TestResult result;
   struct Place {

@@ -38,6 +38,7 @@ struct TestResult {
 
   [[nodiscard]] bool passed() const noexcept;
   [[nodiscard]] std::size_t not_run() const noexcept;
+  [[nodiscard]] std::size_t all() const noexcept;  ///< seeds of all scenarios
 };
 
 /// Runs all seeds of all scenarios side by side. The result does not depend on `jobs`, but for cpu_s and wall_s.

@@ -71,6 +71,12 @@ TEST(NetsimRun, ChecksASceneWithoutRunningIt) {
   auto run = netsim({"run", "free_motion", "--check"});
   EXPECT_EQ(run.wait(), 0);
   EXPECT_NE(run.out().find("channel.k_n_m"), std::string::npos);
+  const Folder folder;
+  const std::string script = folder.write("s.textproto", "event { at_s: 2 client: \"trainee\" outage_ms: 400 }\n");
+  auto with = netsim({"run", "free_motion", "--delay", "20", "--loss", "3", "--seed", "9", "--script", script, "--check"});
+  EXPECT_EQ(with.wait(), 0);
+  for (const char* part : {"network: delay 20 ms, loss 3 %, seed 9", "each direction: loss 3 %; delay 20 ms", "network at 2.000 s: outage of 400 ms, for trainee"})
+    EXPECT_NE(with.out().find(part), std::string::npos) << part << " not in\n" << with.out();
 }
 
 TEST(NetsimRun, ToldRoundTripsAreOfTheWholeSession) {
@@ -90,18 +96,103 @@ TEST(NetsimRun, SaysWhichEventsTheSessionNeverMet) {
   const std::string script = folder.write("s.textproto", "event { at_s: 0 outage_ms: 1 }\nevent { at_s: 90 outage_ms: 5 }\nevent { at_s: 1 outage_ms: 5 }\n");
   auto run = netsim({"run", "free_motion", "--script", script, "--duration", "2"});
   ASSERT_EQ(run.wait(), 0) << run.err();
-  EXPECT_NE(run.err().find("the outage at 0 s was over before the session began"), std::string::npos) << run.err();
-  EXPECT_NE(run.err().find("the outage at 90 s came after the end"), std::string::npos) << run.err();
-  EXPECT_EQ(run.err().find("the outage at 1 s"), std::string::npos) << run.err();
+  EXPECT_NE(run.out().find("note: the outage at 0 s was over before the session began"), std::string::npos) << run.out();
+  EXPECT_NE(run.out().find("note: the outage at 90 s came after the end"), std::string::npos) << run.out();
+  EXPECT_EQ(run.out().find("the outage at 1 s"), std::string::npos) << run.out();
+}
+
+TEST(NetsimRun, ItsJsonHasTheNotesThatItsTextHas) {
+  const Folder folder;
+  const std::string script = folder.write("s.textproto", "event { at_s: 90 outage_ms: 5 }\n");
+  const std::string recording = folder.write("r.csv", "t_s[s],rtt_ms[ms]\n0,10\n0.5,12\n1,10\n");
+  auto run = netsim({"run", "one_axis", "--network", recording, "--script", script, "--duration", "2", "--json", folder.file("r.json")});
+  ASSERT_EQ(run.wait(), 0) << run.err();
+  const Json notes = folder.json("r.json")["notes"];
+  ASSERT_EQ(notes.size(), 2u) << notes;
+  for (const Json& note : notes) EXPECT_NE(run.out().find("note: " + note.get<std::string>()), std::string::npos) << note << run.out();
+  EXPECT_EQ(folder.json("r.json")["interrupted"], false);
+}
+
+TEST(NetsimRun, SaysWhySeatAndNetworkDifferAfterANewAddress) {
+  const Folder folder;
+  const std::string script = folder.write("s.textproto", "event { at_s: 3 client: \"trainee\" rebind { dead_after_ms: 100 } }\n");
+  auto run = netsim({"run", "free_motion", "--script", script, "--duration", "5"});
+  ASSERT_EQ(run.wait(), 0) << run.err();
+  EXPECT_NE(run.out().find("up: green"), std::string::npos) << "the network carried on: " << run.out();
+  EXPECT_NE(run.out().find("note: trainee has a new address from 3 s on, and the server takes nothing from an address that is not proven"), std::string::npos)
+      << run.out();
+  EXPECT_NE(run.out().find("went to the old address from 3.1 s on"), std::string::npos) << run.out();
+}
+
+TEST(NetsimRun, CountsEveryMistakeAndRefusesASeedBesideAReplay) {
+  const Folder folder;
+  const std::string script = folder.write("s.textproto", "event { at_s: 1 client: \"traine\" outage_ms: 0 }\nevent { at_s: -1 profile: \"nix\" }\n");
+  auto run = netsim({"run", "free_motion", "--script", script, "--hand", "nobody=x.csv"});
+  EXPECT_EQ(run.wait(), 2);
+  EXPECT_NE(run.err().find("5 mistakes; nothing was started"), std::string::npos) << run.err();
+  auto logged = netsim({"run", "one_axis", "--duration", "1", "--seed", "4", "--log", folder.file("l.csv")});
+  ASSERT_EQ(logged.wait(), 0) << logged.err();
+  auto again = netsim({"run", "one_axis", "--duration", "1", "--seed", "4", "--loss", "1", "--replay", folder.file("l.csv")});
+  EXPECT_EQ(again.wait(), 2);
+  for (const char* part : {"--replay excludes --seed", "--replay excludes --loss", "2 mistakes"})
+    EXPECT_NE(again.err().find(part), std::string::npos) << part << " not in\n" << again.err();
 }
 
 TEST(NetsimRun, InterruptedIsNoPass) {
   const Folder folder;
-  auto run = netsim({"run", "one_axis", "--duration", "300000", "--trace", folder.file("t.csv")});
-  for (int tries = 0; tries < 3000 && folder.read("t.csv").empty(); ++tries) usleep(10'000);
-  run.signal(SIGINT);
-  EXPECT_EQ(run.wait(), 1) << run.err();
-  EXPECT_NE(run.err().find("interrupted"), std::string::npos);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    auto run = netsim({"run", "one_axis", "--duration", "300000", "--trace", folder.file("t.csv"), "--json", folder.file("r.json")});
+    for (int tries = 0; tries < 3000 && folder.read("t.csv").empty(); ++tries) usleep(10'000);
+    run.signal(signal);
+    EXPECT_EQ(run.wait(), 1) << run.err();
+    EXPECT_NE(run.err().find("tandem-netsim run: interrupted after "), std::string::npos) << run.err();
+    EXPECT_NE(run.err().find("What was done so far is told and is no pass"), std::string::npos) << run.err();
+    EXPECT_NE(run.out().find("one_axis: interrupted, "), std::string::npos) << run.out();
+    EXPECT_EQ(folder.json("r.json")["verdict"], "fail");
+    EXPECT_EQ(folder.json("r.json")["interrupted"], true);
+    std::filesystem::remove(folder.file("t.csv"));
+  }
+}
+
+TEST(NetsimInterrupt, HasOneWordingAndOneExitCodeForAllCommands) {
+  const Folder folder;
+  struct Case {
+    test::Words arguments;
+    std::string ready, reports;  ///< what it says once it works; what it must tell of what was done
+  };
+  const std::vector<Case> cases{{{"swarm", "--seeds", "100000"}, " sessions, ", "sessions passed"},
+                                {{"profiles", "5g", "--minutes", "1440", "--ascii"}, "source:", "one-way delay over"},
+                                {{"sweep", "one_axis", "--duration", "300000", "--delay", "0,10", "--json", folder.file("sweep.json")}, "", "delay [ms]  loss"},
+                                {{"test", "free-motion-lan", "--seeds", "100000", "--json", folder.file("test.json")}, "", "not run:"}};
+  for (const Case& one : cases) {
+    auto process = netsim(one.arguments);
+    const std::string file = folder.file(one.arguments[0] + ".json");
+    ASSERT_TRUE(one.ready.empty() || process.wait_for(one.ready)) << process.err();
+    for (int tries = 0; one.ready.empty() && tries < 3000 && !std::filesystem::exists(file); ++tries) usleep(10'000);
+    process.signal(SIGINT);
+    EXPECT_EQ(process.wait(), 1) << one.arguments[0] << process.err();
+    EXPECT_NE(process.err().find("tandem-netsim " + one.arguments[0] + ": interrupted after "), std::string::npos) << process.err();
+    EXPECT_NE(process.err().find("What was done so far is told and is no pass"), std::string::npos) << process.err();
+    EXPECT_NE(process.out().find(one.reports), std::string::npos) << one.reports << " not in\n" << process.out();
+  }
+}
+
+TEST(NetsimSwarm, OfOneSessionItTellsTheNetworkAndClocks) {
+  const Folder folder;
+  auto one = netsim({"swarm", "--first", "17", "--seeds", "1", "--json", folder.file("s.json")});
+  ASSERT_EQ(one.wait(), 0) << one.err();
+  EXPECT_NE(one.out().find("  network of seat"), std::string::npos) << one.out();
+  EXPECT_NE(one.out().find("round trip: "), std::string::npos) << one.out();
+  EXPECT_EQ(folder.json("s.json")["seeds"][0]["quality"].size(), 2u);
+  bool clocks = false;
+  for (int seed = 1; seed <= 20; ++seed) {
+    auto scene = netsim({"swarm", "--first", std::to_string(seed), "--scene"});
+    ASSERT_EQ(scene.wait(), 0);
+    EXPECT_NE(scene.out().find("# network of every seat\n#   "), std::string::npos) << scene.out();
+    EXPECT_NE(scene.out().find("delay "), std::string::npos);
+    clocks = clocks || scene.out().find(" ppm, wakes ") != std::string::npos;
+  }
+  EXPECT_TRUE(clocks) << "none of 20 sessions told its clocks";
 }
 
 TEST(Demo, ComparesAndWritesAReportInVirtualTime) {

@@ -85,25 +85,45 @@ TEST(Capacity, MistakesHaveTheirLine) {
 }
 
 // The reference answers of the trace's description: one datagram every millisecond, queueing delay in milliseconds.
-TEST(Capacity, GivesTheReferenceAnswersOfTheRecordedLteLink) {
+struct Answer {
+  Direction direction;
+  std::size_t size;
+  double p50, p90, p99, longest;  ///< 0: not stated
+};
+constexpr Answer kAnswers[] = {{Direction::kUp, 92, 2, 21, 944, 1743},
+                               {Direction::kDown, 92, 2, 30, 573, 1446},
+                               {Direction::kUp, 256, 3, 1065, 0, 3264},
+                               {Direction::kDown, 256, 5, 1147, 0, 2720}};
+
+void expect_answer(const std::vector<double>& ms, const Answer& answer) {
+  EXPECT_NEAR(quantile(ms, 0.5), answer.p50, 1);
+  EXPECT_NEAR(quantile(ms, 0.9), answer.p90, 1);
+  if (answer.p99 > 0) {
+    EXPECT_NEAR(quantile(ms, 0.99), answer.p99, 1);
+  }
+  EXPECT_NEAR(quantile(ms, 1), answer.longest, 1);
+}
+
+/// The recorded capacity of an LTE link; empty where there are no recordings, which is said, or they cannot be read.
+std::optional<LinkSpec> recorded_lte() {
   const char* folder = std::getenv("TANDEM_TRACES");
   if (folder == nullptr) {
     std::printf("[ NOT RUN  ] the recorded LTE capacity: TANDEM_TRACES is not set\n");
-    return;
+    return std::nullopt;
   }
   std::ifstream file(std::string(folder) + "/net_lte_verizon_capacity_updown.csv", std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
-  const auto link = parse_capacity(text.str(), "net_lte_verizon_capacity_updown.csv");
-  ASSERT_TRUE(link) << to_text(link.error());
-  struct Answer {
-    Direction direction;
-    std::size_t size;
-    double p50, p90, p99, longest;  ///< 0: not stated
-  };
-  for (const Answer& answer :
-       {Answer{Direction::kUp, 92, 2, 21, 944, 1743}, Answer{Direction::kDown, 92, 2, 30, 573, 1446},
-        Answer{Direction::kUp, 256, 3, 1065, 0, 3264}, Answer{Direction::kDown, 256, 5, 1147, 0, 2720}}) {
+  auto link = parse_capacity(text.str(), "net_lte_verizon_capacity_updown.csv");
+  if (link) return std::move(*link);
+  ADD_FAILURE() << to_text(link.error());
+  return std::nullopt;
+}
+
+TEST(Capacity, GivesTheReferenceAnswersOfTheRecordedLteLink) {
+  const auto link = recorded_lte();
+  if (!link) return;
+  for (const Answer& answer : kAnswers) {
     SCOPED_TRACE(std::string(name(answer.direction)) + " " + std::to_string(answer.size));
     PathSpec spec = (*link)[answer.direction];
     spec.rate.overhead_bytes = 0;
@@ -114,12 +134,7 @@ TEST(Capacity, GivesTheReferenceAnswersOfTheRecordedLteLink) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (all[i].at < Time{spec.rate.trace->period}) ms.push_back(seconds(all[i].at - Time{i * 1ms}) * 1e3);
     }
-    EXPECT_NEAR(quantile(ms, 0.5), answer.p50, 1);
-    EXPECT_NEAR(quantile(ms, 0.9), answer.p90, 1);
-    if (answer.p99 > 0) {
-      EXPECT_NEAR(quantile(ms, 0.99), answer.p99, 1);
-    }
-    EXPECT_NEAR(quantile(ms, 1), answer.longest, 1);
+    expect_answer(ms, answer);
   }
 }
 
@@ -162,32 +177,11 @@ std::vector<double> queueing(const LinkSpec& link, Direction direction, std::siz
 }
 
 TEST(FourGTrace, GivesTheReferenceAnswersThroughTheWholePath) {
-  const char* folder = std::getenv("TANDEM_TRACES");
-  if (folder == nullptr) {
-    std::printf("[ NOT RUN  ] 4g-trace with the recorded LTE capacity: TANDEM_TRACES is not set\n");
-    return;
-  }
-  std::ifstream file(std::string(folder) + "/net_lte_verizon_capacity_updown.csv", std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  const auto recorded = parse_capacity(text.str(), "net_lte_verizon_capacity_updown.csv");
-  ASSERT_TRUE(recorded) << to_text(recorded.error());
-  struct Answer {
-    Direction direction;
-    std::size_t size;
-    double p50, p90, p99, longest;  ///< 0: not stated
-  };
-  for (const Answer& answer :
-       {Answer{Direction::kUp, 92, 2, 21, 944, 1743}, Answer{Direction::kDown, 92, 2, 30, 573, 1446},
-        Answer{Direction::kUp, 256, 3, 1065, 0, 3264}, Answer{Direction::kDown, 256, 5, 1147, 0, 2720}}) {
+  const auto recorded = recorded_lte();
+  if (!recorded) return;
+  for (const Answer& answer : kAnswers) {
     SCOPED_TRACE(std::string(name(answer.direction)) + " " + std::to_string(answer.size));
-    const auto ms = queueing(trace_profile(*recorded, std::nullopt), answer.direction, answer.size);
-    EXPECT_NEAR(quantile(ms, 0.5), answer.p50, 1);
-    EXPECT_NEAR(quantile(ms, 0.9), answer.p90, 1);
-    if (answer.p99 > 0) {
-      EXPECT_NEAR(quantile(ms, 0.99), answer.p99, 1);
-    }
-    EXPECT_NEAR(quantile(ms, 1), answer.longest, 1);
+    expect_answer(queueing(trace_profile(*recorded, std::nullopt), answer.direction, answer.size), answer);
     // With the queue of the profile nothing waits longer than a second, and what would have is dropped.
     std::uint64_t full = 0;
     const auto limited = queueing(trace_profile(*recorded, Duration{1s}), answer.direction, answer.size, &full);

@@ -82,6 +82,23 @@ TEST(WakeUps, ALoopThatStoodStillSkipsWhatItMissed) {
   EXPECT_EQ(wakes.next(), Time{5ms});
 }
 
+TEST(WakeUps, AWorldOfTicksIsToldTheNanosecond) {
+  const RandomKey key{9};
+  const WakeSpec spec{.kind = WakeSpec::Kind::kUniform, .late_max = 900us};
+  WakeUps wakes{spec, 1ms, Time{}, key};
+  for (std::int64_t n = 0; n < 10'000; ++n) {
+    const Time meant = Time{n * 1ms} + Duration{static_cast<std::int64_t>(key.uniform(static_cast<std::uint64_t>(n)) * 900'001)};
+    const auto woke = wakes.within(Time{n * 1ms}, Time{(n + 1) * 1ms});
+    ASSERT_TRUE(woke) << n;
+    ASSERT_EQ(*woke, meant) << n;
+  }
+  EXPECT_EQ(wakes.skipped(), 0U);
+  // Nobody asked for a while: what was due then comes at once, and what lies between is missed.
+  EXPECT_EQ(wakes.within(Time{10'003ms}, Time{10'004ms}), Time{10'003ms});
+  EXPECT_EQ(wakes.skipped(), 3U);
+  EXPECT_FALSE(wakes.within(Time{10'003ms}, Time{10'004ms - 1ns}));
+}
+
 TEST(WakeUps, UniformOnesAreLateByAKeyedShareAndNeverEarly) {
   const RandomKey key{9};
   WakeUps wakes{{.kind = WakeSpec::Kind::kUniform, .late_max = 400us}, 1ms, Time{}, key};

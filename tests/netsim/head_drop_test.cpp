@@ -9,6 +9,7 @@
 
 #include "netsim/capacity_csv.h"
 #include "netsim/network.h"
+#include "tests/netsim/network_loops.h"
 #include "tests/netsim/support.h"
 #include "tests/support/alloc_guard.h"
 
@@ -232,29 +233,7 @@ PathSpec fickle() {
 TEST(HeadDrop, ConservesDatagramsAtEveryInstant) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
-    Network network{seed};
-    network.add_link({fickle(), fickle()});
-    RandomStream random{seed};
-    std::array<std::byte, kSlotBytes> buffer;
-    std::uint64_t in = 0, out = 0;
-    Time now{};
-    for (int i = 0; i < 20'000; ++i) {
-      now += Duration{static_cast<std::int64_t>(random.below(1'500'000))};
-      network.send(now, 0, Direction::kUp, datagram(0, 16 + random.below(300)));
-      ++in;
-      if (random.below(3) == 0) {
-        while (network.poll(now, 0, Direction::kUp, buffer)) ++out;
-      }
-      const auto& c = network.counters(0, Direction::kUp);
-      ASSERT_EQ(c.in, in);
-      ASSERT_EQ(c.out, out);
-      ASSERT_GE(c.in + c.copies, c.out + c.dropped());
-    }
-    while (network.poll(now + 20s, 0, Direction::kUp, buffer)) ++out;
-    const auto& c = network.counters(0, Direction::kUp);
-    EXPECT_EQ(c.in_flight(), 0U);
-    EXPECT_EQ(c.in + c.copies, out + c.dropped());
-    EXPECT_EQ(network.next_due(), std::nullopt);
+    const PathCounters c = conserved(fickle(), seed);
     for (const Outcome outcome : {Outcome::kPushedOut, Outcome::kReplaced, Outcome::kLost, Outcome::kHeldBack}) {
       EXPECT_GT(c.of(outcome), 0U) << name(outcome);
     }
@@ -263,23 +242,9 @@ TEST(HeadDrop, ConservesDatagramsAtEveryInstant) {
 }
 
 TEST(HeadDrop, WhenItIsPolledDoesNotMatter) {
-  const auto run = [](int poll_every) {
-    Network network{3};
-    network.add_link({fickle(), fickle()});
-    std::array<std::byte, kSlotBytes> buffer;
-    std::vector<std::pair<std::uint64_t, Time>> log;
-    Time now{};
-    for (int i = 0; i < 10'000; ++i, now += 1ms) {
-      network.send(now, 0, Direction::kUp, datagram(1));
-      if (i % poll_every != 0) continue;
-      while (const auto d = network.poll(now, 0, Direction::kUp, buffer)) log.emplace_back(d->index, d->at);
-    }
-    while (const auto d = network.poll(now + 10s, 0, Direction::kUp, buffer)) log.emplace_back(d->index, d->at);
-    return log;
-  };
-  const auto often = run(1);
-  EXPECT_EQ(often, run(7));
-  EXPECT_EQ(often, run(500));
+  const auto often = arrivals(fickle(), 1);
+  EXPECT_EQ(often, arrivals(fickle(), 7));
+  EXPECT_EQ(often, arrivals(fickle(), 500));
 }
 
 TEST(HeadDrop, ADriverThatSleepsUntilTheNextDueTimeMissesNothing) {

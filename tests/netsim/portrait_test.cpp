@@ -62,9 +62,23 @@ TEST(Portrait, MeasuresQuantilesAsTheChecksOfProfilesDo) {
 
 TEST(Portrait, TellsHowFarItIsAndShowsNoMoreThanItHas) {
   std::vector<double> told;
-  const Portrait p = portrait_of({.link = {}, .length = 45s, .shown = 60s}, [&](double s) { told.push_back(s); });
+  const Portrait p = portrait_of({.link = {}, .length = 45s, .shown = 60s}, [&](double s) { told.push_back(s); return true; });
   EXPECT_EQ(p.shown, 45s);
   EXPECT_EQ(told, (std::vector<double>{0, 20.0 / 45, 40.0 / 45}));
+}
+
+TEST(Portrait, EndsEarlyWhenToldAndIsOfWhatItPlayed) {
+  for (const std::size_t looks : {1u, 3u}) {
+    std::size_t told = 0;
+    const Portrait p = portrait_of({.link = {}, .length = 100s, .shown = 60s}, [&](double) { return ++told < looks; });
+    EXPECT_EQ(told, looks);
+    EXPECT_EQ(p.length, looks == 1 ? 1ms : 40'001ms);
+    EXPECT_EQ(p.shown, p.length);
+    for (const PortraitWay& way : p.ways) {
+      EXPECT_EQ(way.delays.size(), static_cast<std::size_t>(p.length / 1ms));
+      EXPECT_EQ(way.shown.size(), way.delays.size());
+    }
+  }
 }
 
 /// 60 columns of 100 datagrams: 10 ms; a second of 100 ms in the middle, then half lost, then all, then one of 100.

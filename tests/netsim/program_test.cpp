@@ -169,6 +169,27 @@ TEST(Program, WrongArgumentsAreNamedWithValueAndRangeBeforeAnythingStarts) {
   }
 }
 
+TEST(Program, AllWrongOptionsAreToldAtOnce) {
+  struct Case {
+    std::vector<std::string> arguments, says;
+  };
+  const std::vector<Case> cases{
+      {{"proxy", "--delay", "-1", "--loss=101", "--seed", "x", "--wrong"},
+       {"--delay: \"-1\"", "--loss: \"101\"", "--seed: \"x\"", "--to is required", "--wrong", "5 mistakes"}},
+      {{"run", "--channel", "magic", "--json"}, {"--json: 1 required", "--channel: magic", "scene is required", "3 mistakes"}},
+      {{"swarm", "--seeds", "0", "--jobs", "x"}, {"--seeds", "--jobs", "2 mistakes"}},
+      {{"proxy", "--to", "127.0.0.1", "--listen", "0.0.0.0:1", "--profile", "wifi-bussy", "--outage", "5", "--log", "-"},
+       {"--to: ", "not a loopback", "did you mean wifi-busy?", "--log needs a file", "4 mistakes"}},
+      {{"swarm", "--trace", "-", "--json", "/no/such/x.json"}, {"--seeds 1", "name a file", "--json: ", "3 mistakes"}}};
+  for (const Case& one : cases) {
+    Program program(one.arguments);
+    const std::string err = program.rest_of_err();
+    EXPECT_EQ(program.exit_code(), 2) << err;
+    for (const std::string& part : one.says) EXPECT_NE(err.find(part), std::string::npos) << part << " not in\n" << err;
+    EXPECT_EQ(program.rest_of_out(), "");
+  }
+}
+
 TEST(Program, AFileWithMistakesListsThemAll) {
   const std::string file = testing::TempDir() + "bad.textproto";
   std::ofstream(file) << "version: 1\nboth {\n  flor_ms: 1\n  loss_percent: -1\n}\n";

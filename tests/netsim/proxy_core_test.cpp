@@ -128,6 +128,53 @@ TEST(ProxyCore, HasPlaceForSixtyFourAndGivesPlacesAgain) {
   EXPECT_EQ(core.clients_seen(), 65U);
 }
 
+// Two clients that come, the second after a change: with what was made beforehand no memory is taken, and everything is decided as
+// if it had been made on the spot.
+TEST(ProxyCore, AClientMadeBeforehandTakesNoMemoryAndMeetsTheSameLink) {
+  for (const bool shared : {false, true}) {
+    SCOPED_TRACE(shared ? "shared" : "own");
+    LinkSpec link{everything(), everything()}, other = link_from({.delay = 3ms, .loss = 0.2});
+    link.shared = other.shared = shared;
+    const auto bytes = datagram(1);
+    const auto run = [&](bool beforehand) {
+      ProxyCore core{link, 9};
+      std::optional<ProxyCore::Newcomer> first = core.prepare_newcomer(link, 0, 0), outdated = core.prepare_newcomer(link, 0, 1),
+                                         second = core.prepare_newcomer(other, 1, 1);
+      LinkChange change = core.prepare(other, {}, true);
+      std::vector<std::pair<Time, std::uint64_t>> out;
+      std::size_t taken = 0;
+      const auto join = [&](std::optional<ProxyCore::Newcomer>& made) {
+        EXPECT_TRUE(core.fits(*made));
+        const tandem::test::AllocGuard guard;
+        EXPECT_TRUE(core.add_client(beforehand ? &*made : nullptr));
+        taken += guard.count();
+      };
+      join(first);
+      for (int i = 0; i < 4000; ++i) {
+        const Time now{i * 1ms};
+        if (i == 1000) {
+          EXPECT_TRUE(core.fits(*outdated));
+          core.change(now, change);
+          EXPECT_FALSE(core.fits(*outdated)) << "made for the network that was";
+          join(second);
+        }
+        for (std::uint32_t c = 0; c < core.clients(); ++c) core.ingress(now, c, Direction::kUp, bytes);
+        while (const auto e = core.take(now)) {
+          out.emplace_back(e->item.at, e->item.index);
+          core.done(*e);
+        }
+      }
+      if (beforehand) {
+        EXPECT_EQ(taken, 0U);
+      } else {
+        EXPECT_GT(taken, 0U) << "or this test proves nothing";
+      }
+      return out;
+    };
+    EXPECT_EQ(run(true), run(false));
+  }
+}
+
 TEST(ProxyCore, ANewClientNeverGetsWhatWasMeantForTheOneBefore) {
   ProxyCore core{link_from({.delay = 50ms}), 1};
   core.add_client();
@@ -162,6 +209,59 @@ TEST(ProxyCore, UnknownClientsAreIgnored) {
   EXPECT_EQ(core.ingress(Time{}, 1000, Direction::kUp, datagram(1)), Outcome::kOverflow);
   core.remove_client(1000);
   EXPECT_FALSE(core.take(Time{1h}));
+}
+
+// 97 bytes and 28 of overhead are 1000 bits: 1 ms each at 1 Mbit/s.
+TEST(ProxyCore, TellsHowLongWhatComesNowWouldWaitInTheQueueOfTheRate) {
+  const std::vector<std::byte> bytes(97);
+  for (const auto drop : {RateSpec::Drop::kTail, RateSpec::Drop::kHead}) {
+    for (const bool shared : {false, true}) {
+      SCOPED_TRACE(shared ? "shared" : "own");
+      LinkSpec link;
+      link.up.rate.bits_per_s = 1'000'000;
+      link.up.rate.queue_datagrams = 100;
+      link.up.rate.drop = drop;
+      link.up.floor = 50ms;  // what is under way is not in the queue
+      link.shared = shared;
+      ProxyCore core{link, 1};
+      ASSERT_EQ(core.add_client(), 0u);
+      ASSERT_EQ(core.add_client(), 1u);
+      for (int i = 0; i < 10; ++i) core.ingress(Time{1s}, 0, Direction::kUp, bytes);
+      EXPECT_EQ(core.queue_wait(Time{1s}, 0, Direction::kUp), 10ms);
+      EXPECT_EQ(core.queue_wait(Time{1s}, 1, Direction::kUp), shared ? 10ms : 0ms);
+      EXPECT_FALSE(core.take(Time{1s + 4ms})) << "what left the queue has 50 ms to go";
+      EXPECT_EQ(core.queue_wait(Time{1s + 4ms}, 0, Direction::kUp), 6ms);
+      EXPECT_FALSE(core.take(Time{1s + 10ms}));
+      EXPECT_EQ(core.queue_wait(Time{1s + 10ms}, 0, Direction::kUp), 0ms);
+      EXPECT_EQ(core.counters(0, Direction::kUp).in_flight(), 10u) << "all of them are still under way";
+      EXPECT_EQ(core.queue_wait(Time{1s}, 0, Direction::kDown), 0ms) << "no rate, no queue";
+      EXPECT_EQ(core.queue_wait(Time{1s}, 7, Direction::kUp), 0ms) << "nobody there";
+    }
+  }
+}
+
+TEST(ProxyCore, WhoeverAsksForTheQueueMovesNoDecision) {
+  for (const auto drop : {RateSpec::Drop::kTail, RateSpec::Drop::kHead}) {
+    const auto decided = [&](bool ask) {
+      LinkSpec link{everything(), everything()};
+      link.up.rate = {.bits_per_s = 500'000, .queue_bytes = 5000, .drop = drop};
+      ProxyCore core{link, 5};
+      core.add_client();
+      std::vector<std::pair<Time, std::uint64_t>> out;
+      RandomStream random{3};
+      for (Time now{}; now < Time{2s}; now += Duration{static_cast<std::int64_t>(random.below(2'000'000))}) {
+        if (ask) static_cast<void>(core.queue_wait(now + 3ms, 0, Direction::kUp));
+        core.ingress(now, 0, Direction::kUp, datagram(1));
+        while (const auto e = core.take(now)) {
+          out.emplace_back(e->item.at, e->item.index);
+          core.done(*e);
+        }
+      }
+      return out;
+    };
+    EXPECT_EQ(decided(true), decided(false));
+    EXPECT_GT(decided(false).size(), 100u);
+  }
 }
 
 TEST(ProxyCore, TakesNoHeapOnThePacketPath) {

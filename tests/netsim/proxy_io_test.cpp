@@ -4,10 +4,13 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "common/base/heap_count.h"
 #include "netsim/app/proxy.h"
 #include "tests/netsim/running_proxy.h"
 #include "tests/netsim/support.h"
@@ -297,6 +300,61 @@ TEST(Proxy, AClientThatChangesItsAddressIsHeardAtBothUntilTheOldOneIsDead) {
   proxy.end();
   EXPECT_EQ(proxy->final_status().total[1].of(Outcome::kOldAddress), 1U);
   EXPECT_EQ(proxy->final_status().clients_seen, 1U);
+}
+
+// The packet thread takes nothing from the heap while clients come, speak, and come after a change of the network.
+TEST(Proxy, WelcomesClientsWithoutHeap) {
+  UdpPeer server;
+  ProxyOptions options = Running::options(server.address(), {everything(), everything()});
+  options.coalesce = Duration{};
+  auto proxy = std::move(*Proxy::open(options));
+  std::uint64_t taken = 0;
+  std::thread packets([&] {
+    const std::uint64_t before = heap_allocations();
+    proxy->run();
+    taken = heap_allocations() - before;
+  });
+  const auto seen = [&](std::uint64_t clients) {
+    for (int i = 0; i < UdpPeer::kPatienceMs / 10 && proxy->status().clients_seen < clients; ++i) ::poll(nullptr, 0, 10);
+    return proxy->status().clients_seen == clients;
+  };
+  std::vector<std::unique_ptr<UdpPeer>> clients;
+  const auto join = [&](std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      clients.push_back(std::make_unique<UdpPeer>());
+      clients.back()->connect(proxy->listening());
+      EXPECT_TRUE(clients.back()->send("x"));
+    }
+    EXPECT_TRUE(seen(clients.size()));
+    proxy->refill();
+  };
+  join(NewcomerPool::kReady);  // all at once
+  join(10);                    // those were made anew
+  std::vector<std::uint64_t> present(clients.size());
+  std::iota(present.begin(), present.end(), std::uint64_t{0});
+  ProxyOrder order;
+  order.links.push_back(proxy->core().prepare(link_from({.delay = 2ms}), present, true));
+  EXPECT_TRUE(proxy->post(order));
+  for (int i = 0; i < UdpPeer::kPatienceMs / 10 && !order.done.load(); ++i) ::poll(nullptr, 0, 10);
+  proxy->refill();
+  join(10);  // over the network that is in force now
+  proxy->stop();
+  packets.join();
+  EXPECT_EQ(proxy->unprepared(), 0U);
+  EXPECT_EQ(taken, 0U);
+}
+
+TEST(Proxy, MoreAtOnceThanWereMadeAreWelcomedAllTheSameAndCounted) {
+  UdpPeer server;
+  Running proxy{server.address(), {}};
+  std::vector<std::unique_ptr<UdpPeer>> clients;
+  for (std::size_t i = 0; i < NewcomerPool::kReady + 3; ++i) {  // nobody refills
+    clients.push_back(std::make_unique<UdpPeer>());
+    clients.back()->connect(proxy->listening());
+    ASSERT_TRUE(clients.back()->send("x"));
+  }
+  EXPECT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.total[0].out == NewcomerPool::kReady + 3; }));
+  EXPECT_EQ(proxy->unprepared(), 3U);
 }
 
 TEST(Proxy, AnOrderForAClientThatIsNotThereSaysSo) {

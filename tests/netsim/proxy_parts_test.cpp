@@ -8,6 +8,7 @@
 
 #include "common/base/rng.h"
 #include "netsim/app/live_delays.h"
+#include "netsim/app/proxy_events.h"
 #include "netsim/app/proxy_outbox.h"
 #include "netsim/app/proxy_view.h"
 
@@ -15,6 +16,36 @@ namespace tandem::netsim {
 namespace {
 
 using namespace std::chrono_literals;
+
+TEST(ProxyEvents, SayWhichCameWhichMetNobodyAndWhichNeverCame) {
+  const auto outage = [](Duration at, std::vector<std::string> clients, Duration length = 100ms) {
+    return NetworkEvent{.at = at, .clients = std::move(clients), .outage = OutageSpec{.length = length}};
+  };
+  ProxyOptions options;
+  options.events = {outage(9s, {}), outage(1s, {}), outage(1s, {"2"}), outage(2s, {"3"}), outage(3s, {"1"}, 10s),
+                    {.at = 1500ms, .clients = {"2"}, .link = LinkSpec{}, .network = "lan"},
+                    {.at = 1500ms, .clients = {"2"}, .rebind = Rebind{}}};
+  std::vector<ProxyClientStatus> clients(2);
+  clients[0].number = 1;
+  clients[0].came = 500ms;
+  clients[1].number = 2;
+  clients[1].came = 1800ms;
+  const auto all = proxy_events(options, clients, 2, 5s);
+  ASSERT_EQ(all.size(), 7u);
+  using Fate = ProxyEvent::Fate;
+  EXPECT_EQ(all[0].fate, Fate::kCame);
+  EXPECT_EQ(all[1].fate, Fate::kMetNobody);
+  EXPECT_EQ(all[1].why, "client 2 came later, at 1.800 s");
+  EXPECT_EQ(all[2].fate, Fate::kCame) << "a network stays for whoever comes later";
+  EXPECT_EQ(all[3].fate, Fate::kMetNobody) << "a new address does not";
+  EXPECT_EQ(all[4].why, "client 3 never came");
+  EXPECT_EQ(all[5].fate, Fate::kGoesOn);
+  EXPECT_EQ(all[6].fate, Fate::kNeverCame);
+  EXPECT_EQ(events_text(std::span(all).first(2)),
+            "  event at 1.000 s: outage of 100 ms\n"
+            "  event at 1.000 s: outage of 100 ms, for client 2: met nobody; client 2 came later, at 1.800 s\n");
+  EXPECT_EQ(events_text(std::span(all).last(1)), "  event at 9.000 s: outage of 100 ms: never came; the proxy ended before, at 5.000 s\n");
+}
 
 TEST(LiveDelays, MeanAndQuantilesAreOfWhatCameInBetween) {
   const auto delays = std::make_unique<LiveDelays>();

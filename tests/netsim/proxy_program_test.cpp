@@ -2,7 +2,9 @@
 // verdict about its own lateness; and its view.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "netsim/app/proxy_control.h"
+#include "netsim/app/proxy_report.h"
 #include "netsim/app/proxy_view.h"
 #include "netsim/decision_csv.h"
 #include "netsim/profiles.h"
@@ -75,6 +78,10 @@ TEST(Control, ChangesTheNetworkOfARunningProxyAndIsNoted) {
   const Asked status = ask(socket, {"status", "--json"});
   EXPECT_EQ(status.code, 0);
   EXPECT_EQ(Json::parse(status.out)["changes"].size(), 3U);
+  Asked words = ask(socket, {"status"});  // the picture may be a moment old
+  for (int i = 0; i < 1000 && words.out.find("1 under way") == std::string::npos; ++i) words = ask(socket, {"status"});
+  EXPECT_NE(words.out.find("1 under way"), std::string::npos) << words.out;
+  EXPECT_EQ(words.out.find("at the end"), std::string::npos) << "it has not ended: " << words.out;
 
   const std::vector<std::pair<std::string, std::string>> wrong{{"delay 20 client 9", "no client 9; present: 1"},
                                                                {"profile wifi-bussy", "did you mean wifi-busy?"},
@@ -138,11 +145,79 @@ TEST(Program, LaterThanMaxLatenessIsExitCodeOneInWords) {
   }
 }
 
+TEST(Program, MaxLatenessThatNothingWasHeldAgainstIsNotKept) {
+  const std::string json = testing::TempDir() + "nothing.json";
+  Process proxy = netsim({"proxy", "--to", "127.0.0.1:9", "--duration", "0.05", "--max-lateness", "10000000", "--json", json});
+  EXPECT_EQ(proxy.wait(), 1);
+  EXPECT_NE(proxy.out().find("NOTHING WAS JUDGED"), std::string::npos) << proxy.out();
+  const Json lateness = Json::parse(read(json))["lateness"];
+  EXPECT_EQ(lateness["judged"], false);
+  EXPECT_EQ(lateness["in_time"], false);
+}
+
+TEST(Program, ProxyReportsWhatBecameOfItsScript) {
+  UdpPeer server, client;
+  const std::string json = testing::TempDir() + "events.json", script = testing::TempDir() + "events.textproto";
+  std::ofstream(script) << "event { at_s: 0 client: \"1\" outage_ms: 3600000 }\nevent { at_s: 0 profile: \"lan\" }\n"
+                           "event { at_s: 3600 client: \"1\" rebind { dead_after_ms: 1 } }\n";
+  Process proxy = netsim({"proxy", "--to", io::to_text(server.address()), "--script", script, "--json", json});
+  ASSERT_TRUE(proxy.wait_for("Ctrl-C ends"));
+  client.connect(*io::parse_address(proxy.after("listening on "), 1));
+  // An outage takes all from one; from the other we know that the first was read.
+  ASSERT_TRUE(client.send("x"));
+  UdpPeer other;
+  other.connect(*io::parse_address(proxy.after("listening on "), 1));
+  ASSERT_TRUE(other.send("y"));
+  ASSERT_TRUE(server.receive());
+  proxy.signal(SIGINT);
+  EXPECT_EQ(proxy.wait(), 0);
+  for (const char* part : {"event at 0.000 s: outage of 3600 s, for client 1; it was not over when the proxy ended", "event at 0.000 s: network lan\n",
+                           "event at 3600.000 s: new address, the old one dead after 1 ms, for client 1: never came; the proxy ended before"})
+    EXPECT_NE(proxy.out().find(part), std::string::npos) << part << " not in\n" << proxy.out();
+  const Json events = Json::parse(read(json))["events"];
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_EQ(events[0]["fate"], "goes on");
+  EXPECT_EQ(events[1]["fate"], "came");
+  EXPECT_TRUE(events[1]["until_s"].is_null());
+  EXPECT_EQ(events[2]["fate"], "never came");
+  EXPECT_EQ(events[2]["at_s"], 3600);
+}
+
+TEST(Program, AProxyCutShortOfItsDurationIsInterrupted) {
+  const std::string json = testing::TempDir() + "short.json";
+  Process proxy = netsim({"proxy", "--to", "127.0.0.1:9", "--duration", "3600", "--json", json});
+  ASSERT_TRUE(proxy.wait_for("Ctrl-C ends"));
+  proxy.signal(SIGINT);
+  EXPECT_EQ(proxy.wait(), 1);
+  EXPECT_NE(proxy.err().find("tandem-netsim proxy: interrupted after "), std::string::npos) << proxy.err();
+  EXPECT_NE(proxy.out().find("0 clients"), std::string::npos) << proxy.out();
+  EXPECT_EQ(Json::parse(read(json))["interrupted"], true);
+}
+
+/// A control socket whose proxy never answers.
+TEST(Control, InterruptedWhileItWaitsSaysSo) {
+  const std::string socket = testing::TempDir() + "mute.sock";
+  std::filesystem::remove(socket);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  socket.copy(address.sun_path, sizeof address.sun_path - 1);
+  const io::Fd listening{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+  ASSERT_EQ(::bind(listening.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(::listen(listening.get(), 1), 0);
+  Process control = netsim({"control", socket, "delay", "20"});
+  pollfd comes{listening.get(), POLLIN, 0};
+  ASSERT_EQ(::poll(&comes, 1, UdpPeer::kPatienceMs), 1);  // it has blocked its signals before it connects
+  const io::Fd asker{::accept(listening.get(), nullptr, nullptr)};
+  control.signal(SIGINT);
+  EXPECT_EQ(control.wait(), 1);
+  EXPECT_NE(control.err().find("tandem-netsim control: interrupted after the command was sent"), std::string::npos) << control.err();
+}
+
 TEST(Program, ProxyLogsEveryDecisionAndFollowsAScript) {
   UdpPeer server, client;
   const std::string log = testing::TempDir() + "proxy.csv", script = testing::TempDir() + "script.textproto";
   std::ofstream(script) << "event { at_s: 0 client: \"1\" outage_ms: 3600000 }\n";
-  Process proxy = netsim({"proxy", "--to", io::to_text(server.address()), "--script", script, "--log", log});
+  Process proxy = netsim({"proxy", "--to", io::to_text(server.address()), "--script", script, "--log", log, "--delay", "5"});
   ASSERT_TRUE(proxy.wait_for("Ctrl-C ends"));
   const auto address = *io::parse_address(proxy.after("listening on "), 1);
   client.connect(address);
@@ -158,6 +233,9 @@ TEST(Program, ProxyLogsEveryDecisionAndFollowsAScript) {
   ASSERT_EQ(rows->size(), 21U);
   EXPECT_EQ(std::ranges::count(*rows, Outcome::kOutage, &Decision::outcome), 20);
   EXPECT_EQ(std::ranges::count(*rows, Outcome::kDeliver, &Decision::outcome), 1);
+  // What the network decided, to the nanosecond, not when this computer came to send it.
+  const auto passed = std::ranges::find(*rows, Outcome::kDeliver, &Decision::outcome);
+  EXPECT_EQ(passed->out - passed->in, 5ms);
 
   std::ofstream(script) << "event { at_s: 1 client: \"trainee\" outage_ms: 1 }\n";
   Process wrong = netsim({"proxy", "--to", "127.0.0.1:9", "--script", script});
@@ -213,6 +291,40 @@ TEST(ProxyControl, ChangesAllOneOrOneDirectionAndThoseToCome) {
   EXPECT_EQ(control.notes().size(), 4U);
   proxy.end();
   EXPECT_FALSE(control.carry_out("delay 1").done);  // after the end: said, not hung
+}
+
+// 29 bytes with their headers take 232 ms at 1 kbit/s: a hundred of them stand in the queue for longer than any test lasts.
+TEST(ProxyView, ShowsTheQueueOfEachClientBesideWhatIsUnderWay) {
+  UdpPeer server, busy, quiet;
+  LinkSpec link;
+  link.up.rate.bits_per_s = 1000;
+  Running proxy{server.address(), link};
+  busy.connect(proxy->listening());
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(busy.send("x"));
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.total[0].in == 100; }));
+  quiet.connect(proxy->listening());
+  ASSERT_TRUE(quiet.send("x"));
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.clients == 2; }));
+  const ProxyStatus status = proxy->status();
+  EXPECT_GT(status.client[0].queue[0], Duration{}) << "100 datagrams wait for the rate";
+  EXPECT_LE(status.client[0].queue[0], std::chrono::milliseconds(100 * 232));
+  EXPECT_LT(status.client[1].queue[0], status.client[0].queue[0]) << "a queue of his own";
+  EXPECT_EQ(status.client[0].queue[1], Duration{}) << "no rate down";
+  EXPECT_NE(status_text(status).find("waiting in the queue now: up "), std::string::npos) << status_text(status);
+  const auto json = nlohmann::json::parse(status_json(status, {}));
+  EXPECT_EQ(json["clients"][0]["up"]["queue_ms"].get<double>(), 1e3 * seconds(status.client[0].queue[0]));
+  EXPECT_EQ(json["clients"][0]["down"]["queue_ms"], 0.0);
+
+  ProxyView view{*proxy};
+  view.look();
+  const auto table = view.table(5);
+  ASSERT_EQ(table.size(), 5U);
+  const std::size_t end = table[0].find(" queue") + 6;  // numbers stand under the end of their word
+  ASSERT_NE(table[0].find(" queue"), std::string::npos) << table[0];
+  const double shown = std::stod(table[1].substr(end - 6, 6));
+  EXPECT_GT(shown, 1000) << table[1];
+  EXPECT_LE(shown, 100 * 232) << table[1];
+  EXPECT_EQ(std::stod(table[2].substr(end - 6, 6)), 0) << table[2];
 }
 
 TEST(ProxyView, FitsEightyColumnsAndTheRowsItWasGiven) {

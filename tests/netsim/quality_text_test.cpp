@@ -35,6 +35,17 @@ TEST(QualityText, VerdictNeedsNinetyNineOfAHundredSeconds) {
   EXPECT_EQ(verdict(link), Band::kRed);
 }
 
+TEST(QualityText, BadnessOrdersByVerdictThenByShare) {
+  const auto with = [](std::uint64_t green, std::uint64_t amber, std::uint64_t red) {
+    LinkSummary link;
+    link.up.windows = seconds_in(green, amber, red);
+    return badness(link);
+  };
+  EXPECT_EQ(with(0, 0, 0), 0) << "nothing was judged";
+  const double order[] = {0, with(100, 0, 0), with(99, 0, 1), with(98, 2, 0), with(50, 50, 0), with(98, 1, 1), with(98, 0, 2), with(0, 0, 100)};
+  for (std::size_t i = 1; i < std::size(order); ++i) EXPECT_LT(order[i - 1], order[i]) << i;
+}
+
 TEST(QualityText, WordsNameWhatHurtsAndWhen) {
   auto all = regular(60'001, 2ms);
   for (std::size_t i = 30'000; i < 30'120; ++i) all[i].delays = {};

@@ -36,9 +36,9 @@ ScenarioSources sources() {
 }
 
 std::expected<Scenario, InputErrors> make(const std::string& text) {
-  const auto spec = parse_scenario_text(text, "folder/some.textproto");
-  if (!spec) return std::unexpected(spec.error());
-  return make_scenario(*spec, sources());
+  ScenarioReading reading = read_scenario_text(text, "folder/some.textproto");
+  if (!reading.spec) return std::unexpected(std::move(reading.errors));
+  return make_scenario(*reading.spec, sources(), std::move(reading.errors));
 }
 
 std::string mistakes(const std::string& text) {
@@ -100,7 +100,7 @@ TEST(Scenario, NetworksChangeAtTheirTimes) {
   EXPECT_TRUE(s->setup.events[1].link);
   EXPECT_EQ(s->setup.events[2].rebind->dead_after, 20ms);
   const std::string text = effective_scenario_text(*s);
-  for (const char* part : {"outage up of trainee", "HOLD", "another network of every seat", "new address of trainer", "event[2].dead_after_ms"})
+  for (const char* part : {"outage up of trainee", "HOLD", "network any of every seat", "new address of trainer", "event[2].dead_after_ms"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " not in\n" << text;
   EXPECT_NE(mistakes("version: 1 scene: \"contact\"\nevent { at_s: 1 }").find("2:1: event[0]: needs exactly one of outage_ms, profile, rebind"),
             std::string::npos);
@@ -145,6 +145,36 @@ TEST(Scenario, RulesBetweenKeysAreToldOnceTheKeysAreRight) {
         "9:25: endpoint[1].late_max_ms = 1: is for wake: UNIFORM", "9:66: endpoint[1].step[1].at_s = 2: steps must ascend",
         "10:1: seat_network[0]: needs seat", "network.trace_interval_ms = 1: is for a profile that is a recording"})
     EXPECT_NE(all.find(part), std::string::npos) << part << " not in\n" << all;
+}
+
+TEST(Scenario, MistakesOfAllKindsAreToldInOneGoAndNoneTwice) {
+  const std::string all = mistakes(
+      "version: 1\n"
+      "scene: \"free_motion\"\n"
+      "duration_s: 0\n"
+      "network { profile: \"unknown\" loss_percent: 101 }\n"
+      "event { at_s: 1 client: \"traine\" outage_ms: 5 directoin: UP }\n"
+      "event { at_s: 2 outage_ms: 0 }\n"
+      "fault { kind: PAUSE seat: \"nobody\" at_s: 1 for_ms: 0 }\n"
+      "endpoint { wake: UNIFORM late_max_ms: x }\n"
+      "endpoint { drift_ppm: 1e9 }\n"
+      "seat_limits { trackin_rms_m { max: 1 } }\n"
+      "seat_limits { phase: \"evaluation\" effort_peak_n { max: 1 } }\n");
+  const std::vector<std::string> each{
+      "3:13: duration_s = 0: must be",
+      "4:20: network.profile = \"unknown\": no such network",
+      "3:1: x: is wrong",  // in the file of that network
+      "4:44: network.loss_percent = 101: must be in [0, 100] %",
+      "5:25: event[0].client[0] = \"traine\": no seat",
+      "5:47: event[0].directoin: unknown key",
+      "6:28: event[1].outage_ms = 0: must be",
+      "7:27: fault[0].seat[0] = \"nobody\": no seat",
+      "7:52: fault[0].for_ms = 0: must be",
+      "8:39: endpoint[0].late_max_ms = x: must be a number",
+      "9:23: endpoint[1].drift_ppm = 1e9: must be",
+      "10:15: seat_limits[0].trackin_rms_m: unknown key"};
+  for (const std::string& part : each) EXPECT_NE(all.find(part), std::string::npos) << part << " not in\n" << all;
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(all, '\n')), each.size()) << all;
 }
 
 TEST(Scenario, NamesAreHeldAgainstTheScene) {

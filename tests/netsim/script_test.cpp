@@ -146,6 +146,18 @@ TEST(ScriptText, EveryMistakeHasItsPlaceAndTheNearestName) {
   EXPECT_NE(unknown.find("did you mean wifi-busy?"), std::string::npos) << unknown;
 }
 
+TEST(ScriptText, MistakesOfAllKindsAreToldInOneGo) {
+  const std::string all = mistakes(
+      "event { at_s: 1 client: \"trainees\" outage_ms: 0 }\n"
+      "event { at_s: -1 profile: \"wifi-bussy\" }\n"
+      "event { at_s: 3 outagems: 1 }\n");
+  for (const char* part : {"1:25: event[0].client[0] = \"trainees\": no such client", "1:47: event[0].outage_ms = 0: must be",
+                           "2:15: event[1].at_s = -1: must be", "2:27: event[1].profile = \"wifi-bussy\": no profile",
+                           "3:17: event[2].outagems: unknown key"})
+    EXPECT_NE(all.find(part), std::string::npos) << part << " not in\n" << all;
+  EXPECT_EQ(std::ranges::count(all, '\n'), 5) << all;
+}
+
 TEST(ScriptText, ClientsOfAProxyAreNumbers) {
   EXPECT_EQ(mistakes("event { at_s: 1 client: \"12\" outage_ms: 1 }", {}), "none");
   for (const char* name : {"0", "-1", "+1", "01", "1x", "", "trainee", "99999999999"}) {

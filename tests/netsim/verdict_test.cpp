@@ -11,6 +11,7 @@
 #include "netsim/app/sweep.h"
 #include "netsim/app/test_report.h"
 #include "netsim/world_run.h"
+#include "proto/scenes_embedded.h"
 
 namespace tandem::netsim {
 namespace {
@@ -186,6 +187,39 @@ TEST(Verdict, AnOutageOfAScenarioHappensAndTheNetworkIsCalledRed) {
   EXPECT_NE(test_summary(result).find("network for force feedback, at the worst seed: red: trainer"), std::string::npos) << test_summary(result);
 }
 
+TEST(Verdict, EventsAndFaultsOutsideOfTheSessionAreTold) {
+  const TestResult result = run_tests({scenario("version: 1 scene: \"one_axis\" duration_s: 1 seeds: 2\n"
+                                                "event { at_s: 0 outage_ms: 1 } event { at_s: 0.5 outage_ms: 5 } event { at_s: 90 outage_ms: 5 }\n"
+                                                "fault { kind: PAUSE at_s: 70 for_ms: 5 }")}, {});
+  const std::string text = test_summary(result);
+  for (const char* part : {"  note: the outage at 0 s was over before the session began, at ", "  note: the outage at 90 s came after the end of the run, ",
+                           "  note: the fault PAUSE at 70 s came after the end of the run, ", "(seed 1, the others alike)"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " not in\n" << text;
+  EXPECT_EQ(text.find("the outage at 0.5 s"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(test_json(result));
+  EXPECT_EQ(json["scenarios"][0]["seeds"][1]["notes"].size(), 3u);
+}
+
+TEST(Verdict, SaysInWordsPerDirectionWhatTheWorstSeedsNetworkWasLike) {
+  TestResult result = run_tests(
+      {scenario("version: 1 scene: \"one_axis\" duration_s: 4 seeds: 2 event { at_s: 2 client: \"trainer\" direction: UP outage_ms: 300 }")}, {});
+  // The very words of `run`, of the seed they are about.
+  auto& seeds = result.scenarios[0].seeds;
+  WorldSetup setup = result.scenarios[0].scenario.setup;
+  setup.seed = 1;
+  setup.watch_quality = true;
+  const std::string words = quality_report(run_world(setup).links, false);
+  EXPECT_EQ(seeds[0].words, words);
+  EXPECT_NE(words.find("    up: red; "), std::string::npos) << words;
+  EXPECT_NE(words.find("    down: green; "), std::string::npos) << words;
+  EXPECT_NE(test_summary(result).find("\n  seed 1, network of trainer: red, "), std::string::npos) << test_summary(result);
+  EXPECT_NE(test_summary(result).find(words.substr(words.find("    up: red; "))), std::string::npos) << test_summary(result);
+  seeds[1].badness = 3.5;  // above every share of red in the other
+  EXPECT_NE(test_summary(result).find("\n  seed 2, network of trainer: red, "), std::string::npos) << test_summary(result);
+  for (SeedOutcome& s : seeds) s.words.clear();  // crashed, or never began
+  EXPECT_EQ(test_summary(result).find("    up: "), std::string::npos);
+}
+
 SweepSpec small_sweep() {
   SweepSpec spec;
   spec.scene = small().setup.scene;
@@ -251,7 +285,7 @@ TEST(Verdict, ReplayCommandsAreWordsOfAShell) {
 
 TEST(Verdict, OutcomesCrossBetweenProcessesWhole) {
   SeedOutcome o{.seed = ~0ULL, .state = State::kFail, .trouble = "a\n\"b\"", .violations = {{"finite", "x", 0.1, false, 1ULL << 60}},
-                .values = {0.1, std::nan(""), 1e300}, .bands = {{"x", "red"}}, .trace_hash = "abc", .duration_s = 1.0 / 3, .cpu_s = 0.2, .report = "{\"a\":1}"};
+                .values = {0.1, std::nan(""), 1e300}, .bands = {{"x", "red"}}, .notes = {"a note"}, .words = "  network: \n", .badness = 2.25, .trace_hash = "abc", .duration_s = 1.0 / 3, .cpu_s = 0.2, .report = "{\"a\":1}"};
   const SeedOutcome back = outcome_from_bytes(to_bytes(o));
   EXPECT_EQ(back.seed, o.seed);
   EXPECT_EQ(back.state, o.state);
@@ -262,6 +296,9 @@ TEST(Verdict, OutcomesCrossBetweenProcessesWhole) {
   EXPECT_EQ(back.duration_s, 1.0 / 3);
   EXPECT_EQ(back.report, o.report);
   EXPECT_EQ(back.bands, o.bands);
+  EXPECT_EQ(back.notes, o.notes);
+  EXPECT_EQ(back.words, o.words);
+  EXPECT_EQ(back.badness, o.badness);
 }
 
 TEST(Verdict, FilesAreNamedRelativeToTheScenario) {
@@ -296,6 +333,27 @@ TEST(Verdict, FilesAreNamedRelativeToTheScenario) {
   ASSERT_FALSE(both);
   fs::remove(folder / "bad.textproto");
   EXPECT_EQ(load_scenarios({folder.string(), (folder / "good.textproto").string()})->size(), 1u);
+  EXPECT_TRUE(load_scenarios({folder.string()})->front().name == "good");
+  // What else lies there is left out by name when it is good for something else, and else is a scenario with mistakes.
+  write("lan.textproto", "version: 1\nboth { floor_ms: 3 }\n");
+  write("day.textproto", "event { at_s: 1 client: \"trainer\" outage_ms: 400 }\n");
+  write("scene.textproto", std::string(find_shipped_scene("one_axis")->text));
+  write("README.md", "# not a scenario\n");
+  std::vector<std::string> left_out;
+  EXPECT_EQ(load_scenarios({folder.string()}, &left_out)->size(), 1u);
+  ASSERT_EQ(left_out.size(), 1u);
+  EXPECT_NE(left_out[0].find(": left out, as they are no scenarios: day.textproto (a script), lan.textproto (a profile), scene.textproto (a scene)"), std::string::npos)
+      << left_out[0];
+  write("zz.textproto", "version: 1 both { flor_ms: 3 }\n");
+  const auto lost = load_scenarios({folder.string()});
+  ASSERT_FALSE(lost);
+  EXPECT_NE(to_text(lost.error()).find("zz.textproto: is no scene, profile or script without mistakes; as a scenario:"), std::string::npos)
+      << to_text(lost.error());
+  for (const char* name : {"zz", "good"}) fs::remove(folder / (std::string(name) + ".textproto"));
+  const auto none = load_scenarios({folder.string()});
+  ASSERT_FALSE(none);
+  EXPECT_NE(to_text(none.error()).find("this folder holds no scenario, only day.textproto"), std::string::npos) << to_text(none.error());
+  fs::remove_all(folder);
   EXPECT_EQ(load_scenarios({"shipped", "free-motion-lan"})->size(), load_scenarios({"shipped"})->size());
   const auto shipped = load_scenario_text("version: 1 scene: \"../x.textproto\"", "x", true);
   ASSERT_FALSE(shipped);

@@ -1,8 +1,11 @@
 // What goes wrong at the ends of the network: programs that stand still or die, readings that lie, bytes from strangers, clocks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "tests/support/world_run.h"
 
@@ -149,6 +152,96 @@ TEST(Clocks, DriftAndLateWakeUpsOfALoggerCostNobodyHisHand) {
   expect_nothing_broken(*run.world);
   EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 0u);
   EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 0u);
+}
+
+/// When each seat sent, by seat, and how long what it sent took.
+struct SentUp : netsim::DecisionSink {
+  std::map<std::uint32_t, std::set<Time>> in;
+  std::set<Duration> took;
+  void decided(const netsim::Decision& d) noexcept override {
+    if (d.direction != netsim::Direction::kUp) return;
+    in[d.flow].insert(d.in);
+    took.insert(d.out - d.in);
+  }
+};
+
+constexpr netsim::WakeSpec kLate{.kind = netsim::WakeSpec::Kind::kUniform, .late_max = 900us};
+
+/// When a seat's program is meant to wake up until `end`, as the World draws it.
+std::set<Time> wakes_of(std::size_t seat, Duration tick, Time end) {
+  netsim::WakeUps wakes{kLate, tick, Time{}, RandomKey{1}.derive(1000 + seat).derive(3)};
+  std::set<Time> all;
+  while (wakes.next() <= end) {
+    all.insert(wakes.next());
+    static_cast<void>(wakes.due(wakes.next()));
+  }
+  return all;
+}
+
+// Late by 0.3 ms, and that datagram leaves 0.3 ms later: not at the next tick.
+TEST(Clocks, ALateWakeUpShiftsItsDatagramToTheNanosecond) {
+  netsim::WorldSetup setup{.scene = calm_scene()};
+  setup.scene.duration = 3;
+  setup.endpoints["trainee"].wake = kLate;
+  const Duration tick = 1ms;
+  SentUp sent;
+  auto made = netsim::World::make(setup);
+  ASSERT_TRUE(made);
+  (*made)->network().log_to(&sent);
+  while ((*made)->step()) {}
+  expect_nothing_broken(**made);
+  const std::set<Time> meant = wakes_of(kTrainee, tick, (*made)->now());
+  const auto& late = sent.in[kTrainee];
+  EXPECT_TRUE(std::ranges::includes(meant, late)) << "a datagram left when its program slept";
+  const auto missing = static_cast<std::ptrdiff_t>(meant.size()) - static_cast<std::ptrdiff_t>(late.size());
+  EXPECT_LT(missing, 300) << "only until the seat is taken, and after the session's end, a wake-up may send nothing";
+  EXPECT_GT(late.size(), 2900u);
+  EXPECT_TRUE(std::ranges::none_of(late, [&](Time t) { return t.time_since_epoch() % tick == Duration{}; }));
+  EXPECT_TRUE(std::ranges::all_of(sent.in[kTrainer], [&](Time t) { return t.time_since_epoch() % tick == Duration{}; }))
+      << "who is not late works at the ticks";
+}
+
+// On a link that both share a datagram would wait for a younger one if the World let seats work out of turn.
+TEST(Clocks, SeatsThatWakeUpLateEnterASharedLinkInTheOrderOfTheirTimes) {
+  netsim::WorldSetup setup{.scene = calm_scene()};
+  setup.scene.duration = 3;
+  setup.network.up.floor = setup.network.down.floor = 5ms;
+  setup.network.shared = true;
+  setup.endpoints["trainee"].wake = setup.endpoints["trainer"].wake = kLate;
+  SentUp sent;
+  auto made = netsim::World::make(setup);
+  ASSERT_TRUE(made);
+  (*made)->network().log_to(&sent);
+  while ((*made)->step()) {}
+  expect_nothing_broken(**made);
+  EXPECT_GT(sent.in[kTrainer].size() + sent.in[kTrainee].size(), 5800u);
+  EXPECT_EQ(sent.took, std::set<Duration>{5ms});
+}
+
+// What a program reads is where its device is when it wakes up. Within a millisecond a hand moves straight on.
+TEST(Clocks, ALateWakeUpReadsTheDeviceAtItsOwnMoment) {
+  netsim::WorldSetup setup{.scene = calm_scene()};
+  setup.scene.duration = 6;
+  for (auto& s : setup.scene.seats) s.device.encoder = 0;
+  setup.endpoints["trainer"].wake = kLate;
+  const std::set<Time> meant = wakes_of(kTrainer, 1ms, Time{30s});
+  hal::Vec3 before = hal::Vec3::Zero();
+  double off = 0, off_if_at_tick = 0;
+  const Lived run = live(setup, [&](netsim::World& w) {
+    const hal::Vec3 now = w.device(kTrainer).truth().x;
+    const Time end = w.now() - 1ms;  // of the tick that was
+    const auto woke = meant.upper_bound(end - 1ms);
+    if (w.session().time() > 1 && woke != meant.end() && *woke < end) {
+      const auto& read = w.seat(kTrainer)->sample().telemetry.x;
+      const hal::Vec3 x{read[0], read[1], read[2]};
+      off += (x - (before + seconds(*woke - (end - 1ms)) / 1e-3 * (now - before))).norm();
+      off_if_at_tick += (x - now).norm();
+    }
+    before = now;
+  });
+  expect_nothing_broken(*run.world);
+  EXPECT_GT(off_if_at_tick, 0.05) << "[m] in all: nobody moved";
+  EXPECT_LT(off, 0.1 * off_if_at_tick);
 }
 
 TEST(Clocks, AStepOfASecondMakesTheHandLetGoOnce) {

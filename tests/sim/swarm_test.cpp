@@ -1,8 +1,10 @@
 // The generator of random sessions, and that a seed is one session and no other. The swarm itself runs as a program (Swarm.*).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
+#include "common/base/heap_count.h"
 #include "netsim/world_swarm.h"
 
 namespace tandem {
@@ -49,6 +51,26 @@ TEST(SwarmCases, AreTheSameSessionEveryTime) {
   }
   EXPECT_NE(netsim::live_swarm_case(netsim::draw_swarm_case(3, 6)).fingerprint,
             netsim::live_swarm_case(netsim::draw_swarm_case(4, 6)).fingerprint);
+}
+
+std::uint64_t always_more() noexcept {
+  static std::uint64_t taken = 0;
+  return ++taken;
+}
+
+TEST(SwarmCases, TakeNoHeapBelowATick) {
+  for (const std::uint64_t seed : {3, 8, 25, 44}) {  // the last two with clients that lie: their tamperer takes none either
+    netsim::SwarmCase which = netsim::draw_swarm_case(seed, 6);
+    which.setup.heap_count = heap_allocations;
+    EXPECT_TRUE(netsim::live_swarm_case(which).passed()) << seed;
+    which.setup.heap_count = always_more;  // as if every tick took some
+    const auto result = netsim::live_swarm_case(which);
+    const auto of = [&](const std::string& whom) {
+      return std::ranges::any_of(result.broken, [&](const auto& v) { return v.invariant == "heap" && v.seat == whom; });
+    };
+    EXPECT_TRUE(of("")) << seed << ": the server's";
+    EXPECT_TRUE(of(which.setup.scene.seats[0].name)) << seed;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+#include "netsim/app/interruption.h"
+
+#include <poll.h>
+
+#include <cstdio>
+
+#include "common/io/signals.h"
+
+namespace tandem::netsim {
+
+Interruption::Interruption() : signals_(io::signals_as_file()) {}
+
+bool Interruption::came() const noexcept {
+  pollfd waiting{signals_.get(), POLLIN, 0};
+  return ::poll(&waiting, 1, 0) > 0;
+}
+
+void Interruption::say(std::string_view command, const std::string& done) {
+  std::fprintf(stderr, "tandem-netsim %.*s: interrupted after %s. What was done so far is told and is no pass\n",
+               static_cast<int>(command.size()), command.data(), done.c_str());
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,47 @@
+#include "netsim/app/test_notes.h"
+
+#include <algorithm>
+
+namespace tandem::netsim {
+namespace {
+
+constexpr std::size_t kSeedsShown = 5;
+
+/// A note of one kind: seeds differ in when their sessions began, and so in the numbers after the event's own.
+struct Kind {
+  std::string head;  ///< up to the time of the event
+  std::string note;  ///< of the first seed that has it
+  std::vector<std::uint64_t> seeds;
+};
+
+/// "the outage at 90 s came after the end of the run, 18.1 s": what follows the last comma is each seed's own.
+std::string head_of(const std::string& note) { return note.substr(0, note.rfind(',')); }
+
+std::string seeds_text(const Kind& kind, std::size_t all) {
+  if (kind.seeds.size() == all) return all == 1 ? "" : kind.note == kind.head ? " (every seed)" : " (seed " + std::to_string(kind.seeds.front()) + ", the others alike)";
+  std::string text;
+  for (std::size_t i = 0; i < kind.seeds.size() && i < kSeedsShown; ++i) text += (i == 0 ? "" : ", ") + std::to_string(kind.seeds[i]);
+  if (kind.seeds.size() > kSeedsShown) text += " and " + std::to_string(kind.seeds.size() - kSeedsShown) + " more";
+  return (kind.seeds.size() == 1 ? " (seed " : " (seeds ") + text + ")";
+}
+
+}  // namespace
+
+std::string notes_text(const ScenarioResult& result) {
+  std::vector<Kind> kinds;
+  std::size_t judged = 0;
+  for (const SeedOutcome& seed : result.seeds) {
+    judged += seed.state == SeedOutcome::State::kPass || seed.state == SeedOutcome::State::kFail ? 1 : 0;
+    for (const std::string& note : seed.notes) {
+      const std::string head = head_of(note);
+      auto known = std::ranges::find(kinds, head, &Kind::head);
+      if (known == kinds.end()) known = kinds.insert(kinds.end(), {head, note, {}});
+      if (known->seeds.empty() || known->seeds.back() != seed.seed) known->seeds.push_back(seed.seed);
+    }
+  }
+  std::string text;
+  for (const Kind& kind : kinds) text += "  note: " + kind.note + seeds_text(kind, judged) + "\n";
+  return text;
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,99 @@
+#include "netsim/world_notes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/base/format.h"
+#include "netsim/event_times.h"
+#include "netsim/link_text.h"
+#include "netsim/world.h"
+
+namespace tandem::netsim {
+namespace {
+
+/// Everything that has a moment: of all seats' networks, the script, and the faults.
+std::vector<EventTime> asked_for(const WorldSetup& setup) {
+  std::vector<EventTime> all;
+  if (!setup.replay) {  // else the recording decides and these are not used
+    all = event_times(setup.network, setup.events);
+    for (const auto& [seat, link] : setup.seat_networks)
+      for (EventTime& own : event_times(link, {})) {
+        own.words += ", for " + seat;
+        all.push_back(std::move(own));
+      }
+  }
+  for (const Fault& f : setup.faults) {
+    const std::string kind = "the fault " + std::string(name(f.kind));
+    all.push_back({f.at, f.at + f.length, {}, false, kind, kind + (f.seat.empty() ? "" : " of " + f.seat)});
+  }
+  std::ranges::stable_sort(all, {}, &EventTime::at);
+  return all;
+}
+
+std::string missed(const EventTime& event, const SessionSpan& span) {
+  switch (fate_of(event, span.begin, span.end)) {
+    case EventFate::kAfter:
+      return format("%s at %g s came after the end of the run, %.3f s", event.kind.c_str(), seconds(event.at), seconds(span.end));
+    case EventFate::kBefore:
+      return format("%s at %g s was over before the session began, at %.3f s of network time", event.kind.c_str(), seconds(event.at),
+                    seconds(span.begin));
+    case EventFate::kCame:
+    case EventFate::kGoesOn:
+      break;
+  }
+  return {};
+}
+
+/// The seat's line counts what the server took, the network's block what the network carried: after a change of address
+/// they differ, and both are right.
+std::string rebind_note(const NetworkEvent& event, const std::string& seat) {
+  return format("%s has a new address from %g s on, and the server takes nothing from an address that is not proven: its line of the session counts what "
+                "the server took, so the seat is silent there and its hand let go; the block of the network counts what was carried, so up goes on, and of down "
+                "is lost what went to the old address from %g s on",
+                seat.c_str(), seconds(event.at), seconds(event.at + event.rebind->dead_after));
+}
+
+}  // namespace
+
+SessionSpan session_span(const World& world) {
+  const Duration end = world.now() - Time{};
+  return {end - from_seconds(world.session().time()), end};
+}
+
+std::vector<std::string> session_notes(const WorldSetup& setup, const SessionSpan& span) {
+  std::vector<std::string> notes;
+  for (const EventTime& event : asked_for(setup))
+    if (std::string note = missed(event, span); !note.empty()) notes.push_back(std::move(note));
+  if (setup.replay) return notes;
+  for (const SeatSpec& seat : setup.scene.seats) {
+    const auto its = [&](const NetworkEvent& e) {
+      return e.rebind && e.at < span.end && (e.clients.empty() || std::ranges::find(e.clients, seat.name) != e.clients.end());
+    };
+    const auto first = std::ranges::find_if(setup.events, its);  // the later ones change nothing any more
+    if (first != setup.events.end()) notes.push_back(rebind_note(*first, seat.name));
+  }
+  return notes;
+}
+
+std::string network_listing(const WorldSetup& setup, const std::string& indent) {
+  const std::string deeper = indent + "  ";
+  const bool own_only = !setup.scene.seats.empty() && setup.seat_networks.size() == setup.scene.seats.size();
+  std::string text;
+  if (!own_only) text += indent + (setup.seat_networks.empty() ? "network of every seat\n" : "network of every other seat\n") + link_words(setup.network, deeper);
+  for (const auto& [seat, link] : setup.seat_networks) text += indent + "network of " + seat + "\n" + link_words(link, deeper);
+  for (const NetworkEvent& e : setup.events) {
+    text += indent + format("network at %.3f s: ", seconds(e.at)) + event_words(e) + "\n";
+    if (e.link) text += link_words(*e.link, deeper);
+  }
+  for (const auto& [seat, e] : setup.endpoints) {
+    constexpr std::array kWake{"on every tick", "late by up to", "as a recorded logger"};
+    text += indent + format("clock of %s: %+.3f ms, %+.1f ppm, ", seat.c_str(), seconds(e.offset) * 1e3, e.drift_ppm) + "wakes " +
+            kWake[static_cast<std::size_t>(e.wake.kind)];
+    if (e.wake.kind == WakeSpec::Kind::kUniform) text += format(" %.3f ms", seconds(e.wake.late_max) * 1e3);
+    for (const auto& step : e.steps) text += format(", jumps by %+.3f ms at %.3f s", seconds(step.by) * 1e3, seconds(step.at));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace tandem::netsim
