@@ -46,7 +46,8 @@ class World {
     return i < qualities_.size() ? qualities_[i].get() : nullptr;
   }
   /// Whoever drew the faults knows that they are over: from now on also what only ordinary motion is promised is judged.
-  void is_calm() noexcept { watch_.calm(); }
+  /// @return whether the hands of this scene move so
+  bool is_calm() noexcept { return watch_.calm(); }
   /// Why a seat could not join, if so.
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
   [[nodiscard]] const SceneSpec& scene() const noexcept { return setup_.scene; }

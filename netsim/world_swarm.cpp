@@ -229,8 +229,8 @@ SwarmResult live_swarm_case(const SwarmCase& which, const std::function<void(Wor
     if (!goes_on) break;
     if (result.recovered_s == 0 && world.now() > calm && everybody_active(world)) {
       result.recovered_s = seconds(world.now() - calm);
+      if (!world.is_calm()) break;
       end = world.now() + from_seconds(kOrdinary);
-      world.is_calm();
     }
   }
   result.lived_s = seconds(world.now() - Time{});

@@ -22,8 +22,8 @@ struct SwarmCase {
 
 /// How long after the calm all hands may take to be active again [s].
 inline constexpr double kLivenessLimit = 10;
-/// How long it is then watched at ordinary motion [s].
-inline constexpr double kOrdinary = 3;
+/// How long a session of ordinary motion is then watched [s].
+inline constexpr double kOrdinary = 10;
 
 /// @param safety_max  longest safety phase [s], at least 2
 /// @throws std::logic_error if a drawn scene is not valid: a mistake of the generator, with the reason.

@@ -41,14 +41,15 @@ WorldWatch::WorldWatch(const SceneSpec& scene)
 
 /// Hands that pull against each other, or that somebody pushes, empty the accounts they live on, and rightly so; so does a scene
 /// that lets less heat be spent, gates its flow sources, or hangs a seat on several tools.
-void WorldWatch::calm() noexcept {
+bool WorldWatch::calm() noexcept {
   const auto passive = [](const SeatSpec& s) {
     return s.kind == SeatKind::kSlave || s.hand.model == HandModel::kRelaxed || s.hand.model == HandModel::kNone;
   };
   const auto pushed = [](const SeatSpec& s) { return !s.hand.deviations.empty(); };
   ordinary_ = scene_->channel.law == LawKind::kSetPosition && scene_->channel.mfs == MfsMode::kOpen &&
               scene_->channel.eta >= ChannelSpec{}.eta && scene_->tools.size() == 1 && std::ranges::none_of(scene_->seats, pushed) &&
-              std::ranges::count_if(scene_->seats, std::not_fn(passive)) <= 1;
+              std::ranges::count_if(scene_->seats, std::not_fn(passive)) == 1;
+  return ordinary_;
 }
 
 void WorldWatch::server_heard(std::size_t seat, std::uint64_t index) noexcept {

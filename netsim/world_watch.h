@@ -25,8 +25,9 @@ class WorldWatch {
   void server_heard(std::size_t seat, std::uint64_t index) noexcept;
   /// The server wrote to an address that never showed who it is.
   void server_answered_a_stranger(double t) { violations_.note("mute", "", t, false); }
-  /// From now on nothing is wrong any more, and everybody is active: what is only promised for ordinary motion holds too.
-  void calm() noexcept;
+  /// From now on nothing is wrong any more, and everybody is active: what is only promised for ordinary motion is judged too.
+  /// @return whether the motion of this scene is ordinary at all
+  bool calm() noexcept;
   /// A core took memory within a tick: of a seat, or the server's.
   void took_heap(std::size_t seat) { note("heap", seat); }
   void took_heap() { violations_.note("heap", "", t_, false); }
