@@ -45,7 +45,7 @@ void DriverGuard::start(Time now) noexcept {
 }
 
 void DriverGuard::see(Time now, const State& state, bool continuous) noexcept {
-  const bool finite_reading = state.x.allFinite() && state.dx.allFinite();
+  const bool finite_reading = state.x.allFinite() && state.dx.allFinite() && state.J.allFinite();
   const bool jumped = !finite_reading || (seen_ && continuous && (state.x - x_).norm() > limits_.jump_max_m);
   const bool fast = finite_reading && state.dx.norm() > limits_.speed_max_m_s;
   if (jumped || fast) ++implausible_;
