@@ -1,9 +1,14 @@
 #include "common/base/nearest.h"
 #include "hal/io/backend.h"
+#include "hal/io/openhaptics_backend.h"
 
 namespace tandem::hal {
 
-std::span<Backend* const> backends() { return {}; }
+std::span<Backend* const> backends() {
+  static OpenHapticsBackend openhaptics;
+  static Backend* const all[] = {&openhaptics};
+  return all;
+}
 
 Result<Backend*> find_backend(std::string_view name) {
   std::vector<std::string> known{"sim"};
