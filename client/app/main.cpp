@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "client/app/doctor_command.h"
 #include "client/app/join_command.h"
 #include "common/io/log.h"
 #include "common/io/program.h"
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
 
   std::function<int()> action;
   tandem::client::add_join_command(app, action);
+  tandem::client::add_doctor_command(app, action);
   tandem::io::log_to_stderr("tandem-client");
   return tandem::io::run_program(app, action, argc, argv);
 }
