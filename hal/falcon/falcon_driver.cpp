@@ -94,7 +94,7 @@ Result<> FalconDriver::bring_up(BringUp& watcher) {
       return std::unexpected(DeviceError{running.error(), "the Falcon's USB interface cannot be used"});
     }
     if (watcher.cancelled()) return std::unexpected(DeviceError{Errc::kBadState, "cancelled"});
-    if (running && *running) return {};
+    if (running && *running) return first_reading(**running), Result<>{};
   }
   if (!options_.firmware) {
     return std::unexpected(DeviceError{
@@ -109,7 +109,14 @@ Result<> FalconDriver::bring_up(BringUp& watcher) {
   boot_attempts_ = boot.attempts();
   if (!loaded) return std::unexpected(loaded.error());
   reload_ = false;
+  first_reading(*loaded);
   return {};
+}
+
+void FalconDriver::first_reading(const FalconReply& reply) noexcept {
+  reply_ = reply;
+  State state;
+  (void)take(state, clock_->now());  // counts without a pose are the first exchange's to tell
 }
 
 FalconOrder FalconDriver::frame_for(const Orders& orders, Order& order) noexcept {

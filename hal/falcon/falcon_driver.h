@@ -49,6 +49,7 @@ class FalconDriver final : public Driver {
   };
 
   FalconDriver(DeviceId id, UsbPipe& pipe, Clock& clock, FalconOptions options, const FalconForce& force);
+  void first_reading(const FalconReply& reply) noexcept;
   [[nodiscard]] FalconOrder frame_for(const Orders& orders, Order& order) noexcept;
   [[nodiscard]] std::expected<void, Errc> send(const FalconOrder& frame) noexcept;
   /// Into `reply_`: waits for one, or takes all that is there if `wait` is 0.
