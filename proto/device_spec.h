@@ -33,4 +33,9 @@ struct FalconSpec {
   FalconFlags flags;
 };
 
+/// One file: what it says of each kind of device.
+struct DeviceFileSpec {
+  std::optional<FalconSpec> falcon;
+};
+
 }  // namespace tandem
