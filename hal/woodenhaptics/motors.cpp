@@ -23,7 +23,8 @@ Motors::Motors(const WoodenHapticsSpec& spec) noexcept
 
 MotorOrder Motors::order(const Vec3& effort, const Vec3& holding) const noexcept {
   const double limit = limit_ma_;
-  const Vec3 wanted = finite_or_zero(wire_per_ampere_ * current_per_effort_.cwiseProduct(finite_or_zero(effort)));
+  const Vec3 exact_wish = wire_per_ampere_ * current_per_effort_.cwiseProduct(effort);
+  const Vec3 wanted = finite_or_zero(exact_wish);
   const Vec3 hold = finite_or_zero(wire_per_ampere_ * current_per_effort_.cwiseProduct(finite_or_zero(holding)))
                         .cwiseMax(-limit)
                         .cwiseMin(limit);
@@ -38,7 +39,7 @@ MotorOrder Motors::order(const Vec3& effort, const Vec3& holding) const noexcept
     const double exact = std::clamp(hold[i] + share * wanted[i], -limit, limit);
     out.current_ma[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(std::lround(exact));
   }
-  out.saturated = share < 1.0 || !effort.allFinite();
+  out.saturated = share < 1.0 || !exact_wish.allFinite();
   out.effort = effort_of(out.current_ma) - hold.cwiseQuotient(wire_per_ampere_ * current_per_effort_);
   return out;
 }
