@@ -51,6 +51,7 @@ bool ServoCore::step(Time now, ServoClient& client) noexcept {
     stats_.rejected += out.verdict == Verdict::kNotFinite ? 1 : 0;
     stats_.clamped += out.verdict == Verdict::kClamped || out.verdict == Verdict::kHeldBack ? 1 : 0;
   }
+  state_.stale = false;  // a driver whose device falls silent by nature says so itself
   const auto exchanged = driver_->exchange(orders, state_);
   ++stats_.ticks;
   if (!exchanged && exchanged.error() == Errc::kUnplugged) {
@@ -75,7 +76,6 @@ void ServoCore::judge(Time now, Exchange how) noexcept {
     return;
   }
   answered_ = now;
-  state_.stale = false;
   state_.resynced = how == Exchange::kResynced;
   stats_.resyncs += state_.resynced ? 1 : 0;
   guard_.see(now, state_, !state_.resynced);
