@@ -17,6 +17,10 @@ TANDEM_PACKAGES=(
   "nlohmann-json3-dev: writes the JSON reports"
   "libssl-dev: derives keys, SHA-256 of traces"
   "libsodium-dev: seals datagrams"
+  "libusb-1.0-0-dev: talks to USB devices"
+  "libhidapi-dev: talks to HID devices"
+  "libudev-dev: finds devices and notices plugging"
+  "umockdev: emulated USB and HID devices for tests"
   "libgtest-dev: unit and simulation tests"
 )
 
