@@ -69,10 +69,16 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
   if (!choice) return failed(choice.error(), true);
   const auto backend = hal::find_backend(choice->backend);
   if (!backend) return failed(backend.error(), true);
-  auto driver = (*backend)->open(*choice);
-  if (!driver) return failed(driver.error(), driver.error().code == hal::Errc::kUnsupported);
+  auto opened = (*backend)->open(*choice);
+  if (!opened) return failed(opened.error(), opened.error().code == hal::Errc::kUnsupported);
 
-  auto core = std::make_unique<hal::ServoCore>(std::move(*driver));
+  std::unique_ptr<HeldDevice> held{new HeldDevice};
+  if (opened->last_words) {
+    auto deadman = hal::Deadman::watch({&*opened->last_words, 1});
+    if (!deadman) return failed(deadman.error(), false);
+    held->deadman_ = std::move(*deadman);
+  }
+  auto core = std::make_unique<hal::ServoCore>(std::move(opened->driver));
   Progress progress{signals, line};
   if (auto up = core->bring_up(progress); !up) {
     core->silence();
@@ -80,7 +86,6 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
     return std::unexpected(Failure{.interrupted = progress.cancelled(), .reason = up.error().message});
   }
   line.clear();
-  std::unique_ptr<HeldDevice> held{new HeldDevice};
   held->note_ = core->id().backend + " " + core->id().key;
   if (!core->caps().force_calibrated) held->note_ += ", force scale not calibrated: kept to a tenth";
   held->device_ = std::make_unique<hal::DeviceThread>(std::move(core), kPeriod);

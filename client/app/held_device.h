@@ -8,6 +8,7 @@
 #include "client/rate_hand.h"
 #include "common/io/terminal.h"
 #include "hal/device.h"
+#include "hal/io/deadman.h"
 
 namespace tandem::client {
 
@@ -54,6 +55,7 @@ class HeldDevice {
   HeldDevice() = default;
   [[nodiscard]] std::expected<void, Failure> wait_until_homed(int signals, io::StatusLine& line);
 
+  std::unique_ptr<hal::Deadman> deadman_;  ///< says goodbye after the device was closed
   Relay relay_;
   std::unique_ptr<hal::Device> device_;
   std::unique_ptr<RateHand> rate_;
