@@ -23,7 +23,7 @@ DeviceCaps puck_caps() {
 
 }  // namespace
 
-SpaceMouseDriver::SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, const PuckScaling& scaling)
+SpaceMouseDriver::SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, const SpaceMouseSpec& scaling)
     : id_(std::move(id)), caps_(puck_caps()), pipe_(pipe), clock_(clock), motion_(scaling) {}
 
 Result<> SpaceMouseDriver::bring_up(BringUp& watcher) {

@@ -18,7 +18,7 @@ namespace tandem::hal::spacemouse {
 class SpaceMouseDriver final : public Driver {
  public:
   /// @param pipe, clock  outlive the driver
-  SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, const PuckScaling& scaling = {});
+  SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, const SpaceMouseSpec& scaling = {});
 
   [[nodiscard]] const DeviceId& id() const noexcept override { return id_; }
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }

@@ -91,7 +91,7 @@ TEST(PuckMotion, ScalesClampsAndTurnsTheMakersFrameIntoOurs) {
   motion.take_turn(Time{}, {350, 350, 350});
   EXPECT_EQ(motion.turning(Time{}), Vec3(0.5, -0.5, -0.5));
   // Half a circle about x keeps right-handedness: the signs of either triple multiply to 1.
-  const PuckScaling s;
+  const SpaceMouseSpec s;
   EXPECT_EQ(s.sign[0] * s.sign[1] * s.sign[2], 1);
   EXPECT_EQ(s.sign[3] * s.sign[4] * s.sign[5], 1);
 }
