@@ -18,15 +18,20 @@ DeviceError all_of(const InputErrors& errors) {
   return {Errc::kUnsupported, std::move(lines)};
 }
 
+Result<DeviceFileSpec> understand(std::string_view text, std::string_view name) {
+  auto spec = parse_device_text(text, name);
+  if (!spec) return std::unexpected(all_of(spec.error()));
+  return std::move(*spec);
+}
+
 }  // namespace
 
 Result<DeviceFileSpec> load_device_file(const std::string& file) {
   const auto text = read_text_file(file);
-  if (!text) return std::unexpected(all_of(text.error()));
-  auto spec = parse_device_text(*text, file);
-  if (!spec) return std::unexpected(all_of(spec.error()));
-  return std::move(*spec);
+  return text ? understand(*text, file) : std::unexpected(all_of(text.error()));
 }
+
+Result<DeviceFileSpec> read_shipped(const ShippedPreset& preset) { return understand(preset.text, preset.name); }
 
 Result<FalconFirmware> load_firmware(const std::string& file) {
   errno = 0;

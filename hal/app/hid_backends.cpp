@@ -15,7 +15,7 @@
 #include "hal/spacemouse/spacemouse_driver.h"
 #include "hal/woodenhaptics/board_report.h"
 #include "hal/woodenhaptics/woodenhaptics_driver.h"
-#include "proto/device_presets.h"
+#include "proto/presets_embedded.h"
 
 namespace tandem::hal {
 namespace {
@@ -63,6 +63,26 @@ Result<std::pair<Attached, std::unique_ptr<HidrawPipe>>> open_pipe(const DeviceC
   auto pipe = HidrawPipe::open(*device);
   if (!pipe) return std::unexpected(std::move(pipe.error()));
   return std::pair{std::move(*device), std::move(*pipe)};
+}
+
+std::string preset_names() {
+  std::string names;
+  for (const ShippedPreset& preset : shipped_presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
+  return names;
+}
+
+/// A shipped preset by its name, or a person's own file.
+Result<WoodenHapticsSpec> load_preset(const std::string& name) {
+  const ShippedPreset* shipped = find_shipped_preset(name);
+  auto file = shipped != nullptr ? read_shipped(*shipped) : load_device_file(name);
+  if (!file) {
+    if (shipped == nullptr && name.find_first_of("./") == std::string::npos)
+      return std::unexpected(DeviceError{Errc::kUnsupported, "device: no shipped preset '" + name.substr(0, 60) + "' and no such file; shipped: " + preset_names()});
+    return std::unexpected(std::move(file.error()));
+  }
+  if (!file->woodenhaptics)
+    return std::unexpected(DeviceError{Errc::kUnsupported, name + ": says nothing of a woodenhaptics: write woodenhaptics { ... }"});
+  return *file->woodenhaptics;
 }
 
 }  // namespace
