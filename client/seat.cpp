@@ -90,11 +90,12 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
 }
 
 bool Seat::take_reading(const hal::State& device) noexcept {
-  if (plausible(device, joints_)) {
+  if (plausible(device, joints_) && !device.stale) {
     reading_ = device;
     bad_readings_ = 0;
   } else {
     ++bad_readings_;  // never enters the session: the last good one stands in, then the gate faults
+    if (device.stale) reading_.tau_out = device.tau_out;
   }
   q_ = map_.position(reading_);
   v_ = map_.velocity(reading_);

@@ -141,6 +141,8 @@ struct Device {
   virtual void disable() noexcept = 0;
   virtual Result<> reset() = 0;
   [[nodiscard]] virtual DeviceStats stats() const = 0;
+  /// Whether the kernel granted its thread real-time priority.
+  [[nodiscard]] virtual bool realtime() const noexcept { return false; }
   virtual void close() noexcept = 0;
 };
 

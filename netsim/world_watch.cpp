@@ -21,6 +21,7 @@ constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls
 constexpr double kFeltMax = 0.2;                        // [N/ms] a step of authority
 constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: faster, and the strongest springs' shares are felt
 constexpr double kStarvedMax = 0.3;                     // [s]
+constexpr double kLeads = 0.5;                          // share of authority of who moves the tool and is not moved by it
 constexpr double kAside = 0.002, kLeash = 0.98;         // [m] of a target that is reached; share of the motor's pull
 constexpr double kFarTouch = 1, kFarLinear = 50;        // [m] no hand of such a device is there; a rail has no end
 
@@ -49,6 +50,7 @@ bool WorldWatch::calm() noexcept {
   ordinary_ = scene_->channel.law == LawKind::kSetPosition && scene_->channel.mfs == MfsMode::kOpen &&
               scene_->channel.eta >= ChannelSpec{}.eta && scene_->tools.size() == 1 && std::ranges::none_of(scene_->seats, pushed) &&
               std::ranges::count_if(scene_->seats, std::not_fn(passive)) == 1;
+  if (ordinary_) mover_ = static_cast<std::size_t>(std::ranges::find_if_not(scene_->seats, passive) - scene_->seats.begin());
   return ordinary_;
 }
 
@@ -206,7 +208,7 @@ void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& b
     if (is > was && !rested && std::abs(now.ref[a] - before.ref[a]) > step * (1 + 1e-9) + 1e-12)
       note("approach", i, !promises.bounded_step);
   }
-  if (ordinary_ && steady && before.known) check_starvation(i, now, before, scale, rx);
+  if (ordinary_ && alpha_[0][mover_] >= kLeads && steady && before.known) check_starvation(i, now, before, scale, rx);
   before = now;
 }
 

@@ -85,6 +85,7 @@ class WorldWatch {
   const SceneSpec* scene_;
   double t_ = 0;
   bool ordinary_ = false;  ///< one hand moves the tool and nothing hinders it
+  std::size_t mover_ = 0;  ///< whose
   std::vector<Seat> seats_;
   std::vector<std::array<double, kMastersMax>> alpha_;
   std::vector<bool> held_;

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "client/app/ask.h"
+#include "client/app/held_device.h"
 #include "client/app/person.h"
 #include "client/app/sample_trace.h"
 #include "client/app/seat_pump.h"
@@ -17,7 +18,6 @@
 #include "common/io/signals.h"
 #include "common/io/terminal.h"
 #include "hal/io/open_device.h"
-#include "hal/io/sim_servo.h"
 
 namespace tandem::client {
 namespace {
@@ -113,12 +113,22 @@ int attend(const AttendPlan& plan) {
   auto socket = io::connect_udp(plan.server);
   if (!socket) return trouble("--server: " + socket.error());
   const std::string server = io::to_text(plan.server);
-  auto given = ask_for_seat(*socket, server, plan.seat, plan.caps, from_seconds(plan.patience_s), signals.get());
+  io::StatusLine line{plan.quiet};
+  // Hardware comes first: to home it takes a person's time, and a seat does not wait for that.
+  std::unique_ptr<HeldDevice> held;
+  if (HeldDevice::is_meant(plan.device)) {
+    auto taken = HeldDevice::take(plan.device, signals.get(), line);
+    if (!taken)
+      return taken.error().interrupted ? 0 : trouble("--device: " + taken.error().reason, taken.error().wrong_words ? kWrong : kTrouble);
+    held = std::move(*taken);
+  }
+  const hal::DeviceCaps asking = held ? held->caps() : plan.caps;
+  auto given = ask_for_seat(*socket, server, plan.seat, asking, from_seconds(plan.patience_s), signals.get());
   if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
   const SeatSetup& setup = given->setup;
 
   const auto refuse = [&](const std::string& why, int code) {
-    give_back(*socket, *given, plan.caps);
+    give_back(*socket, *given, asking);
     return trouble(why, code);
   };
   std::vector<AlphaScript::Change> script;
@@ -131,10 +141,16 @@ int attend(const AttendPlan& plan) {
     if (!changes) return refuse("--alpha-script: " + changes.error(), kWrong);
     script = std::move(*changes);
   }
-  auto opened =
-      hal::open_stepped(plan.device, setup.seat.device, setup.seat.hand, setup.seat.environment, io::monotonic_now());
-  if (!opened) return refuse("--device: " + opened.error().message, kWrong);
-  const hal::DeviceCaps caps = opened->device->caps();
+  hal::LiveSim live;
+  if (!held) {
+    auto opened =
+        hal::open_stepped(plan.device, setup.seat.device, setup.seat.hand, setup.seat.environment, io::monotonic_now());
+    if (!opened) return refuse("--device: " + opened.error().message, kWrong);
+    live = hal::make_live(std::move(*opened), from_seconds(1.0 / setup.tick_hz));
+  }
+  hal::Device& device = held ? held->device() : *live.device;
+  const std::string note = held ? held->note() : live.note;
+  const hal::DeviceCaps caps = held ? held->caps() : device.caps();
   if (const std::string why = unfit(setup, caps); !why.empty())
     return refuse("the device does not fit this scene: " + why, kTrouble);
 
@@ -145,34 +161,40 @@ int attend(const AttendPlan& plan) {
   std::optional<SampleTrace> writer;
   if (trace.wanted()) writer.emplace(trace, caps.joints, caps.prismatic);
 
-  io::StatusLine line{plan.quiet};
-  line.note("seat " + setup.seat.name + " at " + server + ", " + opened->note);
+  if (held) {
+    if (auto ok = device.enable(); !ok) return refuse("--device: " + ok.error().message, kTrouble);
+  }
+  line.note("seat " + setup.seat.name + " at " + server + ", " + note);
   Seat seat{setup, caps, given->link};
-  hal::LiveSim live = hal::make_live(std::move(*opened), from_seconds(1.0 / setup.tick_hz));
   const auto pump = std::make_unique<SeatPump>(std::move(*socket), seat, live.sim, std::move(script),
                                                writer ? &writer->queue() : nullptr);
-  Person person{*pump, setup, live.sim->hand().model() == HandModel::kKeyboard ? live.sim->hand().keyboard() : nullptr};
+  const bool by_keys = live.sim != nullptr && live.sim->hand().model() == HandModel::kKeyboard;
+  Person person{*pump, setup, by_keys ? live.sim->hand().keyboard() : nullptr};
   const io::AwakeProcessor awake;
   const bool memory = io::lock_memory();
-  if (auto ok = live.device->start(*pump); !ok) return trouble(ok.error().message);
-  if (auto ok = live.device->enable(); !ok) return trouble(ok.error().message);
+  if (held) {
+    held->serve(*pump);  // until `device.close()`
+  } else {
+    if (auto ok = device.start(*pump); !ok) return trouble(ok.error().message);
+    if (auto ok = device.enable(); !ok) return trouble(ok.error().message);
+  }
 
   const Time begin = io::monotonic_now();
   const SeatEnd end = watch(*pump, person, setup, plan, signals.get(), line);
   ClientReport report;
   report.seconds = seconds(io::monotonic_now() - begin);
-  live.device->disable();
-  live.device->close();
+  device.disable();
+  device.close();
   line.clear();
   if (writer) writer->finish();
 
   report.server = server;
-  report.device_note = live.note;
+  report.device_note = note;
   report.end = end;
   report.last = pump->final_status();
-  report.device = live.device->stats();
+  report.device = device.stats();
   report.trace_dropped = writer ? writer->queue().dropped() : 0;
-  if (const auto* servo = dynamic_cast<const hal::SimServo*>(live.device.get())) report.realtime = servo->realtime();
+  report.realtime = device.realtime();
   if (const std::string notice = io::realtime_notice(report.realtime, memory, awake.granted());
       !notice.empty() && report.last.late_ticks > 0)
     line.note(std::to_string(report.last.late_ticks) + " late ticks; " + notice);

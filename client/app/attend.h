@@ -13,7 +13,7 @@ namespace tandem::client {
 struct AttendPlan {
   io::SocketAddress server;
   std::string seat, device;
-  hal::DeviceCaps caps;  ///< what is certain of the device before the scene is known
+  hal::DeviceCaps caps;  ///< what is certain of a simulated device before the scene is known
   std::optional<AlphaScript> script;
   std::string trace, json;  ///< file names; `-` (JSON only) is standard output; empty: not wanted
   double duration_s = 0;    ///< at the seat; 0: until the session ends

@@ -6,8 +6,11 @@
 #include <memory>
 
 #include "client/app/attend.h"
+#include "client/app/held_device.h"
+#include "client/app/server_option.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "hal/io/backend.h"
 #include "hal/io/open_device.h"
 #include "proto/wire.h"
 
@@ -44,6 +47,14 @@ hal::DeviceCaps certain_caps(const hal::DeviceCaps& opened) {
   return caps;
 }
 
+/// What cannot be meant, whatever is attached; the device itself is opened later, when nothing else is wrong.
+std::optional<std::string> wrong_words(const std::string& device) {
+  const auto choice = hal::parse_choice(device);
+  if (!choice) return choice.error().message;
+  const auto backend = hal::find_backend(choice->backend);
+  return backend ? std::nullopt : std::optional{backend.error().message};
+}
+
 void understand_files(const JoinArguments& arguments, Mistakes& mistakes) {
   if (!arguments.json.empty() && arguments.json != "-")
     if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty())
@@ -58,25 +69,17 @@ void understand_files(const JoinArguments& arguments, Mistakes& mistakes) {
 /// A plan, or everything that is wrong with what was typed.
 AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   AttendPlan plan;
-  if (const auto server = io::parse_address(arguments.server, 1)) {
-    plan.server = *server;
-    if (!server->loopback())
-      mistakes.push_back(
-          "--server: " + io::to_text(*server) +
-          " is not on this computer and is refused: sealed sessions do not exist yet, nobody could tell the server "
-          "from somebody else who moves your hand. Use the 127.0.0.1:PORT that tandem-server prints");
-  } else {
-    mistakes.push_back("--server: " + server.error());
-  }
+  if (const auto server = server_option(arguments.server, mistakes)) plan.server = *server;
   if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
     mistakes.push_back("--seat: a name has 1 to 32 characters");
-  const auto device = hal::open_stepped(arguments.device, SimDeviceSpec{}, HandSpec{});
-  if (device) {
+  if (HeldDevice::is_meant(arguments.device)) {
+    if (const auto wrong = wrong_words(arguments.device)) mistakes.push_back("--device: " + *wrong);
+  } else if (const auto device = hal::open_stepped(arguments.device, SimDeviceSpec{}, HandSpec{})) {
     plan.caps = certain_caps(device->device->caps());
   } else {
     mistakes.push_back("--device: " + device.error().message);
   }
-  if (device && arguments.device.find("keyboard") != std::string::npos && isatty(STDIN_FILENO) == 0)
+  if (arguments.device.find("keyboard") != std::string::npos && isatty(STDIN_FILENO) == 0)
     mistakes.push_back("--device " + arguments.device + ": the keys are read from a terminal, and standard input is none");
   if (!arguments.script.empty()) {
     auto script = AlphaScript::load(arguments.script);

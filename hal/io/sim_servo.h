@@ -5,8 +5,8 @@
 #include <mutex>
 #include <thread>
 
-#include "common/base/histogram.h"
 #include "hal/device.h"
+#include "hal/io/servo_pace.h"
 
 namespace tandem::hal {
 
@@ -36,12 +36,12 @@ class SimServo final : public Device {
   /// Pulls the plug, as a test or a person would: the client hears lost(kUnplugged) on the device's thread, no more
   /// ticks come.
   void unplug() noexcept { unplugged_.store(true, std::memory_order_relaxed); }
-  /// Whether the kernel granted real-time priority (SCHED_FIFO).
-  [[nodiscard]] bool realtime() const noexcept { return realtime_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool realtime() const noexcept override { return realtime_.load(std::memory_order_relaxed); }
 
  private:
   void run(ServoClient& client) noexcept;
-  void count(Duration since_last, Duration late, std::uint64_t missed, bool expired, bool rejected) noexcept;
+  void count(bool expired, bool rejected) noexcept;
+  void publish() noexcept;
 
   std::unique_ptr<SteppedDevice> device_;
   DeviceCaps caps_;
@@ -54,9 +54,8 @@ class SimServo final : public Device {
   // The servo thread only tries this lock and keeps its numbers for the next tick if a reader holds it: it never waits.
   mutable std::mutex stats_lock_;
   DeviceStats published_;
-  Histogram published_periods_;
   DeviceStats stats_;
-  Histogram periods_;
+  ServoPace pace_;
 };
 
 }  // namespace tandem::hal

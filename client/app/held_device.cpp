@@ -1,0 +1,129 @@
+#include "client/app/held_device.h"
+
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <utility>
+
+#include "common/io/clock.h"
+#include "hal/io/backend.h"
+#include "hal/io/device_thread.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kPeriod = 1ms;
+constexpr int kLookEveryMs = 100;
+
+/// Taken: the person wants to stop.
+bool interrupted(int signals, int wait_ms) {
+  pollfd file{signals, POLLIN, 0};
+  if (poll(&file, 1, wait_ms) <= 0) return false;
+  signalfd_siginfo taken;
+  return ::read(signals, &taken, sizeof taken) > 0;
+}
+
+class Progress final : public hal::BringUp {
+ public:
+  Progress(int signals, io::StatusLine& line) : signals_(signals), line_(line) {}
+  void progress(std::string_view step, double fraction) override {
+    line_.show(std::string(step) + " " + std::to_string(std::lround(100 * fraction)) + " %");
+  }
+  bool cancelled() const noexcept override { return cancelled_ = cancelled_ || interrupted(signals_, 0); }
+
+ private:
+  int signals_;
+  io::StatusLine& line_;
+  mutable bool cancelled_ = false;
+};
+
+const char* how_to_home(hal::Homing homing) {
+  switch (homing) {
+    case hal::Homing::kManual:
+      return "home the device: pull the grip out as far as it goes, then push it in as far as it goes, slowly";
+    case hal::Homing::kPresetPose:
+      return "home the device: hold it in its calibration pose and press its calibration button";
+    case hal::Homing::kInkwell:
+      return "home the device: put the stylus into the inkwell";
+    case hal::Homing::kAuto:
+    case hal::Homing::kNone:
+      break;
+  }
+  return "the device finds its origin by itself; keep your hand off";
+}
+
+}  // namespace
+
+bool HeldDevice::is_meant(std::string_view spec) { return spec.substr(0, spec.find(':')) != "sim"; }
+
+std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take(std::string_view spec, int signals,
+                                                                                 io::StatusLine& line) {
+  const auto failed = [](const hal::DeviceError& error, bool wrong_words) {
+    return std::unexpected(Failure{.wrong_words = wrong_words, .reason = error.message});
+  };
+  const auto choice = hal::parse_choice(spec);
+  if (!choice) return failed(choice.error(), true);
+  const auto backend = hal::find_backend(choice->backend);
+  if (!backend) return failed(backend.error(), true);
+  auto opened = (*backend)->open(*choice);
+  if (!opened) return failed(opened.error(), opened.error().code == hal::Errc::kUnsupported);
+
+  std::unique_ptr<HeldDevice> held{new HeldDevice};
+  held->bus_ = opened->bus;
+  if (opened->last_words) {
+    auto deadman = hal::Deadman::watch({&*opened->last_words, 1});
+    if (!deadman) return failed(deadman.error(), false);
+    held->deadman_ = std::move(*deadman);
+  } else {
+    line.note("nobody can speak for this device if this program is killed: then only the device's own watchdog takes its "
+              "force away");
+  }
+  auto core = std::make_unique<hal::ServoCore>(std::move(opened->driver));
+  Progress progress{signals, line};
+  if (auto up = core->bring_up(progress); !up) {
+    core->silence();
+    line.clear();
+    return std::unexpected(Failure{.interrupted = progress.cancelled(), .reason = up.error().message});
+  }
+  line.clear();
+  held->note_ = core->id().backend + " " + core->id().key;
+  if (!core->caps().force_calibrated) held->note_ += ", force scale not calibrated: kept to a tenth";
+  held->device_ = std::make_unique<hal::DeviceThread>(std::move(core), kPeriod);
+  if (auto started = held->device_->start(held->relay_); !started) return failed(started.error(), false);
+  if (auto homed = held->wait_until_homed(signals, line); !homed) return std::unexpected(homed.error());
+  return held;
+}
+
+HeldDevice::~HeldDevice() {
+  if (device_) device_->close();
+}
+
+std::expected<void, HeldDevice::Failure> HeldDevice::wait_until_homed(int signals, io::StatusLine& line) {
+  const Time begin = io::monotonic_now();
+  bool asked = false;
+  while (device_->phase() != hal::Phase::kReady) {
+    if (relay_.was_lost) return std::unexpected(Failure{.reason = note_ + ": unplugged while it was being homed"});
+    if (device_->phase() == hal::Phase::kFault)
+      return std::unexpected(Failure{.reason = note_ + ": stopped answering while it was being homed; unplug it, plug it in, try again"});
+    const bool waited = io::monotonic_now() - begin > std::chrono::milliseconds(kLookEveryMs);
+    if (waited && !std::exchange(asked, true)) line.note(how_to_home(device_->caps().homing));
+    if (interrupted(signals, kLookEveryMs / 10)) return std::unexpected(Failure{.interrupted = true, .reason = {}});
+  }
+  if (asked) line.note("homed");
+  return {};
+}
+
+hal::DeviceCaps HeldDevice::caps() const {
+  return device_->caps().input == hal::InputKind::kRate ? RateHand::seen_caps(device_->caps()) : device_->caps();
+}
+
+void HeldDevice::serve(hal::ServoClient& client) {
+  if (device_->caps().input == hal::InputKind::kRate) rate_ = std::make_unique<RateHand>(client, device_->caps());
+  relay_.to.store(rate_ ? static_cast<hal::ServoClient*>(rate_.get()) : &client, std::memory_order_release);
+}
+
+}  // namespace tandem::client

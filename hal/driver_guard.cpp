@@ -1,0 +1,109 @@
+#include "hal/driver_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hal/port_map.h"
+
+namespace tandem::hal {
+namespace {
+
+/// Of the peak, while nobody has measured what the motors' counts are worth.
+constexpr double kUncalibratedShare = 0.1;
+/// Of the heat that the motors stand for ever: above it the limit comes down from the peak.
+constexpr double kWarm = 0.8;
+
+bool finite(const AxisArray& effort) noexcept {
+  return std::all_of(effort.begin(), effort.end(), [](double e) { return std::isfinite(e); });
+}
+
+}  // namespace
+
+GuardLimits limits_of(const DeviceCaps& caps) noexcept {
+  GuardLimits limits;
+  std::optional<double> peak, continuous;
+  for (std::size_t i = 0; i < std::min<std::size_t>(caps.tip_axes, 3); ++i) {
+    const AxisLimit& axis = caps.axis[i];
+    if (axis.peak) peak = std::min(peak.value_or(*axis.peak), *axis.peak);
+    if (axis.continuous) continuous = std::min(continuous.value_or(*axis.continuous), *axis.continuous);
+  }
+  const double share = caps.force_calibrated ? 1.0 : kUncalibratedShare;
+  limits.peak_n = share * peak.value_or(0.0);
+  if (continuous) limits.continuous_n = share * *continuous;
+  return limits;
+}
+
+DriverGuard::DriverGuard(const GuardLimits& limits, std::size_t joints) noexcept
+    : limits_(limits), joints_(std::min(joints, kAxesMax)) {}
+
+void DriverGuard::start(Time now) noexcept {
+  started_ = now;
+  died_ = now;
+  last_ = {};
+  given_n_ = 0;
+  implausible_ = 0;
+}
+
+void DriverGuard::see(Time now, const State& state, bool continuous) noexcept {
+  const bool finite_reading = state.x.allFinite() && state.dx.allFinite() && state.J.allFinite();
+  const bool jumped = !finite_reading || (seen_ && continuous && (state.x - x_).norm() > limits_.jump_max_m);
+  const bool fast = finite_reading && state.dx.norm() > limits_.speed_max_m_s;
+  if (jumped || fast) ++implausible_;
+  if (jumped || fast || !continuous) {
+    started_ = now;  // the effort before was for another place
+    last_ = {};
+  }
+  seen_ = finite_reading;
+  if (finite_reading) x_ = state.x;
+  seen_at_ = now;
+}
+
+double DriverGuard::limit(Time now) const noexcept {
+  const double continuous = std::min(limits_.continuous_n.value_or(limits_.peak_n), limits_.peak_n);
+  const double stands = continuous * continuous;
+  const double cool =
+      stands > 0 ? std::clamp((1 - heat_ / stands) / (1 - kWarm), 0.0, 1.0) : 0.0;  // 1 while cold, 0 when hot
+  const double by_heat = continuous + cool * (limits_.peak_n - continuous);
+  const double begun = limits_.soft_start > Duration::zero()
+                           ? std::clamp(seconds(now - started_) / seconds(limits_.soft_start), 0.0, 1.0)
+                           : 1.0;
+  return begun * by_heat;
+}
+
+DriverGuard::Output DriverGuard::pass(Time now, const Command& command, const State& state) noexcept {
+  const double dt = passed_ ? std::clamp(seconds(now - passed_at_), 0.0, 1.0) : 0.0;
+  passed_ = true;
+  passed_at_ = now;
+  heat_ += (given_n_ * given_n_ - heat_) * -std::expm1(-dt / seconds(limits_.heat_time));
+
+  Output out;
+  const bool wanted = command.kind == CommandKind::kJointEffort;
+  if (wanted && !finite(command.effort)) {
+    out.verdict = Verdict::kNotFinite;
+    last_ = {};
+  } else if (wanted && now < command.expires) {
+    last_ = command.effort;
+    std::fill(last_.begin() + static_cast<std::ptrdiff_t>(joints_), last_.end(), 0.0);
+    died_ = command.expires;
+    out.effort = last_;
+  } else {
+    out.verdict = wanted ? Verdict::kExpired : Verdict::kPassed;
+    const double left = wanted ? std::clamp(1 - seconds(now - died_) / seconds(limits_.let_go), 0.0, 1.0) : 0.0;
+    for (std::size_t i = 0; i < joints_; ++i) out.effort[i] = left * last_[i];
+  }
+  const double force = solve_tip_force(state.J, out.effort, joints_).norm();
+  const double most = limit(now);
+  given_n_ = force;
+  if (!std::isfinite(force) || most <= 0 || !seen_) {
+    if (force != 0 && out.verdict == Verdict::kPassed) out.verdict = Verdict::kHeldBack;
+    out.effort = {};
+    given_n_ = 0;
+  } else if (force > most) {
+    for (double& e : out.effort) e *= most / force;
+    given_n_ = most;
+    if (out.verdict == Verdict::kPassed) out.verdict = Verdict::kClamped;
+  }
+  return out;
+}
+
+}  // namespace tandem::hal

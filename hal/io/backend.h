@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/driver.h"
+#include "hal/io/deadman.h"
+#include "hal/io/device_choice.h"
+
+namespace tandem::hal {
+
+/// A device that is attached, seen without opening it.
+struct FoundDevice {
+  std::string words;    ///< what a person writes after --device to mean this one
+  std::string about;    ///< as it calls itself, and where it is
+  std::string trouble;  ///< why it could not be opened now, with the remedy; empty: nothing known
+};
+
+/// A driver for one device, opened and claimed, not brought up.
+struct OpenedDriver {
+  std::shared_ptr<void> bus;  ///< what the driver works with: pipe, clock; must outlive it
+  std::unique_ptr<Driver> driver;
+  std::optional<LastWords> last_words;  ///< for a Deadman; empty: nobody can speak for this device
+};
+
+/// One kind of hardware: how it is found, how a driver for it is made. Never opens "the default" one: of several, a
+/// person names theirs.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  [[nodiscard]] virtual std::string_view name() const noexcept = 0;
+  /// Lines for --help: the words after --device, and what they do.
+  [[nodiscard]] virtual std::string_view help() const noexcept = 0;
+  /// Error: why nothing can be listed at all, for example a missing library.
+  [[nodiscard]] virtual Result<std::vector<FoundDevice>> list() = 0;
+  /// Lines for the system that let whoever sits at the machine use such devices.
+  [[nodiscard]] virtual std::vector<std::string> udev_rules() const { return {}; }
+  /// Error: cause and remedy; kUnsupported: the words themselves are wrong, whatever is attached.
+  [[nodiscard]] virtual Result<OpenedDriver> open(const DeviceChoice& choice) = 0;
+};
+
+/// All that this build has; simulated devices are not among them.
+[[nodiscard]] std::span<Backend* const> backends();
+/// Error: names the nearest and all.
+[[nodiscard]] Result<Backend*> find_backend(std::string_view name);
+
+}  // namespace tandem::hal

@@ -1,0 +1,75 @@
+#include "hal/io/device_thread.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+namespace tandem::hal {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t kPublishEvery = 64;  // exchanges between copies for readers: quantiles cost some microseconds
+
+}  // namespace
+
+DeviceThread::DeviceThread(std::unique_ptr<ServoCore> core, Duration period)
+    : core_(std::move(core)), caps_(core_->caps()), period_(std::clamp<Duration>(period, 100us, 100ms)) {}
+
+Result<> DeviceThread::start(ServoClient& client) {
+  if (thread_.joinable() || closed_) {
+    return std::unexpected(DeviceError{Errc::kBadState, id().backend + ": already started, or closed"});
+  }
+  try {
+    thread_ = std::thread([this, &client] { run(client); });
+  } catch (const std::system_error& e) {
+    return std::unexpected(DeviceError{Errc::kInternal, "no thread for the device: " + std::string(e.what())});
+  }
+  return {};
+}
+
+void DeviceThread::run(ServoClient& client) noexcept {
+  realtime_.store(ask_for_realtime(), std::memory_order_relaxed);
+  ServoPace pace{period_};
+  MonotonicClock clock;
+  const auto publish = [&] {
+    DeviceStats stats = core_->counts();
+    pace.report(stats);
+    stats.round_trip_p50_s = 1e-9 * static_cast<double>(core_->round_trips().quantile(0.50));
+    stats.round_trip_p99_s = 1e-9 * static_cast<double>(core_->round_trips().quantile(0.99));
+    stats.round_trip_max_s = 1e-9 * static_cast<double>(core_->round_trips().max());
+    published_ = stats;
+  };
+  pace.begin();
+  while (!stop_.load(std::memory_order_relaxed)) {
+    pace.next();
+    const Time now = clock.now();  // a command that died while this thread slept is dead
+    if (!core_->step(now, client)) break;
+    core_->took(clock.now() - now);
+    if (core_->counts().ticks % kPublishEvery == 1 && stats_lock_.try_lock()) {
+      publish();
+      stats_lock_.unlock();
+    }
+  }
+  core_->silence();
+  const std::lock_guard lock(stats_lock_);
+  publish();
+}
+
+DeviceStats DeviceThread::stats() const {
+  const std::lock_guard lock(stats_lock_);
+  return published_;
+}
+
+void DeviceThread::close() noexcept {
+  stop_.store(true, std::memory_order_relaxed);
+  if (thread_.joinable()) {
+    if (thread_.get_id() == std::this_thread::get_id()) return;  // the owner's close() or destructor joins
+    thread_.join();
+  } else if (!closed_.load()) {
+    core_->silence();  // brought up and never started
+  }
+  closed_.store(true, std::memory_order_release);
+}
+
+}  // namespace tandem::hal

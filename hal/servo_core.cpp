@@ -1,0 +1,128 @@
+#include "hal/servo_core.h"
+
+#include <utility>
+
+namespace tandem::hal {
+namespace {
+
+/// Readings that cannot be, since the forces were enabled: more is no accident.
+constexpr std::uint64_t kImplausibleMax = 3;
+
+Result<> bad_state(const DeviceId& id, const char* what) {
+  return std::unexpected(DeviceError{Errc::kBadState, id.backend + " " + id.key + ": " + what});
+}
+
+}  // namespace
+
+ServoCore::ServoCore(std::unique_ptr<Driver> driver, std::optional<GuardLimits> limits)
+    : driver_(std::move(driver)), asked_(limits) {}
+
+Result<> ServoCore::bring_up(BringUp& watcher) {
+  phase_.store(Phase::kOpening);
+  phase_.store(Phase::kBooting);
+  if (auto up = driver_->bring_up(watcher); !up) {
+    phase_.store(up.error().code == Errc::kUnplugged ? Phase::kLost : Phase::kFault);
+    return up;
+  }
+  phase_.store(Phase::kIdentified);
+  limits_ = asked_.value_or(limits_of(caps()));
+  guard_ = DriverGuard{limits_, caps().joints};
+  stepped_ = false;
+  phase_.store(caps().homing == Homing::kNone ? Phase::kReady : Phase::kUnhomed);
+  return {};
+}
+
+bool ServoCore::step(Time now, ServoClient& client) noexcept {
+  const Phase phase = this->phase();
+  if (phase == Phase::kLost || phase == Phase::kAbsent) return false;
+  if (!stepped_) answered_ = now;
+  stepped_ = true;
+  if (phase == Phase::kEnabled && acted_ != Phase::kEnabled) guard_.start(now);
+  acted_ = phase;
+
+  Orders orders;
+  orders.homing = phase == Phase::kUnhomed;
+  if (phase == Phase::kEnabled) {
+    const DriverGuard::Output out = guard_.pass(now, command_, state_);
+    orders.effort = out.effort;
+    orders.seq = command_.seq;
+    using Verdict = DriverGuard::Verdict;
+    stats_.expired += out.verdict == Verdict::kExpired ? 1 : 0;
+    stats_.rejected += out.verdict == Verdict::kNotFinite ? 1 : 0;
+    stats_.clamped += out.verdict == Verdict::kClamped || out.verdict == Verdict::kHeldBack ? 1 : 0;
+  }
+  state_.stale = false;  // a driver whose device falls silent by nature says so itself
+  const auto exchanged = driver_->exchange(orders, state_);
+  ++stats_.ticks;
+  if (!exchanged && exchanged.error() == Errc::kUnplugged) {
+    phase_.store(Phase::kLost, std::memory_order_release);
+    client.lost(Errc::kUnplugged);
+    return false;
+  }
+  judge(now, exchanged.value_or(Exchange::kNothing));
+  follow_homing(this->phase(), now);
+  command_ = client.tick(state_);
+  return true;
+}
+
+void ServoCore::judge(Time now, Exchange how) noexcept {
+  if (how == Exchange::kNothing) {
+    ++stats_.unanswered;
+    state_.stale = true;
+    state_.sampled_at = now;
+    if (now - answered_ < limits_.miss_limit) return;
+    // Zeros from now on; what it does may be anything, so only a person lets it go on.
+    for (const Phase from : {Phase::kEnabled, Phase::kReady, Phase::kUnhomed}) change(from, Phase::kFault);
+    return;
+  }
+  answered_ = now;
+  state_.resynced = how == Exchange::kResynced;
+  stats_.resyncs += state_.resynced ? 1 : 0;
+  guard_.see(now, state_, !state_.resynced);
+  if (guard_.implausible() > kImplausibleMax) change(Phase::kEnabled, Phase::kFault);
+}
+
+void ServoCore::follow_homing(Phase phase, Time now) noexcept {
+  if (phase == Phase::kUnhomed && state_.homed && !state_.stale) {
+    guard_.see(now, state_, false);  // the origin moved
+    change(Phase::kUnhomed, Phase::kReady);
+  } else if (!state_.homed) {
+    for (const Phase from : {Phase::kEnabled, Phase::kReady}) change(from, Phase::kUnhomed);
+  }
+}
+
+Result<> ServoCore::enable() {
+  if (change(Phase::kReady, Phase::kEnabled)) return {};
+  switch (phase()) {
+    case Phase::kEnabled:
+      return {};
+    case Phase::kUnhomed:
+      return std::unexpected(DeviceError{Errc::kNotHomed, id().backend + " " + id().key +
+                                                              ": does not know where it is; home it first"});
+    case Phase::kFault:
+      return bad_state(id(), "had a fault; reset it first");
+    case Phase::kLost:
+      return bad_state(id(), "is lost; plug it in and open it again");
+    default:
+      return bad_state(id(), "is not ready yet");
+  }
+}
+
+void ServoCore::disable() noexcept { change(Phase::kEnabled, Phase::kReady); }
+
+Result<> ServoCore::reset() {
+  switch (phase()) {
+    case Phase::kReady:
+    case Phase::kEnabled:
+    case Phase::kUnhomed:
+      return {};
+    case Phase::kFault:
+      // Through Unhomed: whether it still knows where it is, the next reading tells.
+      change(Phase::kFault, Phase::kUnhomed);
+      return {};
+    default:
+      return bad_state(id(), "is lost or not open; open it again");
+  }
+}
+
+}  // namespace tandem::hal
