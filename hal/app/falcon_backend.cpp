@@ -17,7 +17,7 @@ namespace {
 
 constexpr UsbIds kFalcon{0x0403, 0xcb48};
 
-struct Bus {
+struct FalconBus {
   std::unique_ptr<LibusbPipe> pipe;
   MonotonicClock clock;
 };
@@ -54,7 +54,7 @@ Result<std::vector<FoundDevice>> FalconBackend::list() {
   return found;
 }
 
-std::vector<std::string> FalconBackend::udev_rules() const { return {udev_rule(hal::Bus::kUsb, kFalcon)}; }
+std::vector<std::string> FalconBackend::udev_rules() const { return {udev_rule(Bus::kUsb, kFalcon)}; }
 
 Result<OpenedDriver> FalconBackend::open(const DeviceChoice& choice) {
   if (auto known = only_these(choice, {"port", "serial", "firmware", "calibration"}); !known) return std::unexpected(known.error());
@@ -79,7 +79,7 @@ Result<OpenedDriver> FalconBackend::open(const DeviceChoice& choice) {
   if (!pipe) return std::unexpected(std::move(pipe.error()));
 
   OpenedDriver opened;
-  auto bus = std::make_shared<Bus>();
+  auto bus = std::make_shared<FalconBus>();
   bus->pipe = std::move(*pipe);
   auto driver = FalconDriver::make({"falcon", device->port}, *bus->pipe, bus->clock, std::move(options));
   if (!driver) return std::unexpected(DeviceError{Errc::kUnsupported, std::move(driver.error())});
