@@ -7,6 +7,7 @@
 
 #include "client/app/attend.h"
 #include "client/app/held_device.h"
+#include "client/app/server_option.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "hal/io/backend.h"
@@ -68,16 +69,7 @@ void understand_files(const JoinArguments& arguments, Mistakes& mistakes) {
 /// A plan, or everything that is wrong with what was typed.
 AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   AttendPlan plan;
-  if (const auto server = io::parse_address(arguments.server, 1)) {
-    plan.server = *server;
-    if (!server->loopback())
-      mistakes.push_back(
-          "--server: " + io::to_text(*server) +
-          " is not on this computer and is refused: sealed sessions do not exist yet, nobody could tell the server "
-          "from somebody else who moves your hand. Use the 127.0.0.1:PORT that tandem-server prints");
-  } else {
-    mistakes.push_back("--server: " + server.error());
-  }
+  if (const auto server = server_option(arguments.server, mistakes)) plan.server = *server;
   if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
     mistakes.push_back("--seat: a name has 1 to 32 characters");
   if (HeldDevice::is_meant(arguments.device)) {

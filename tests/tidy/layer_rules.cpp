@@ -60,7 +60,7 @@ const std::array<Room, 16> kRooms{{
      {"protobuf"},
      "proto turns bytes and text into owned structs: base and protobuf"},
     {"hal",
-     {"common/base", "hal", "proto/scene_spec.h", "proto/device_spec.h"},
+     {"common/base", "hal", "proto/scene_spec.h", "proto/device_spec.h", "proto/woodenhaptics_spec.h"},
      {"Eigen"},
      "hal is base, Eigen and the plain structs of a scene and of a device's file; it knows no network and no session"},
     {"netsim",
