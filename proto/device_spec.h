@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "proto/spacemouse_spec.h"
+#include "proto/woodenhaptics_spec.h"
+
 /// What people's files say about their own devices, after validation: every number is finite and in range. Made by
 /// proto/device_text.h only. Absent numbers are not known.
 namespace tandem {
@@ -36,6 +39,8 @@ struct FalconSpec {
 /// One file: what it says of each kind of device.
 struct DeviceFileSpec {
   std::optional<FalconSpec> falcon;
+  std::optional<WoodenHapticsSpec> woodenhaptics;
+  std::optional<SpaceMouseSpec> spacemouse;
 };
 
 }  // namespace tandem

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "proto/device.pb.h"
+#include "proto/spacemouse_convert.h"
 #include "proto/text_format_reader.h"
+#include "proto/woodenhaptics_convert.h"
 
 namespace tandem {
 namespace {
@@ -104,6 +106,8 @@ std::expected<DeviceFileSpec, InputErrors> parse_device_text(std::string_view te
   if (!checker.ok()) return std::unexpected(checker.take());
   DeviceFileSpec spec;
   if (in.has_falcon()) spec.falcon = falcon_from(in.falcon(), checker, "falcon");
+  if (in.has_woodenhaptics()) spec.woodenhaptics = woodenhaptics_from(in.woodenhaptics(), checker, "woodenhaptics");
+  if (in.has_spacemouse()) spec.spacemouse = spacemouse_from(in.spacemouse());
   if (!checker.ok()) return std::unexpected(checker.take());
   return spec;
 }

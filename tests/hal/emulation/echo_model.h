@@ -27,16 +27,16 @@ std::optional<hal::Errc> error_of(const std::expected<T, hal::Errc>& outcome) {
   return outcome ? std::nullopt : std::optional(outcome.error());
 }
 
-/// A serial bridge as FTDI's: every IN packet begins with two status bytes, and one with nothing else comes each time the
-/// latency timer runs out.
+/// A serial bridge as FTDI's: every IN packet begins with two status bytes, and one with nothing else comes each time
+/// the latency timer runs out.
 class UsbEcho final : public hal::wire::UsbWireModel {
  public:
   static constexpr std::size_t kPacket = 64, kStatus = 2;
 
   // Faults, and what the tests look at.
   bool stall_in = false, stall_out = false, refuse_control = false;
-  bool takes_nothing = false;  ///< OUT endpoint answers NAK
-  bool silent = false;         ///< echoes nothing; no empty packets either
+  bool takes_nothing = false;                   ///< OUT endpoint answers NAK
+  bool silent = false;                          ///< echoes nothing; no empty packets either
   std::size_t packet_data = kPacket - kStatus;  ///< at most so much data in a packet: small values cut frames
   Duration latency = std::chrono::milliseconds(1);
   std::vector<hal::wire::SetupPacket> requests;
@@ -46,8 +46,8 @@ class UsbEcho final : public hal::wire::UsbWireModel {
     requests.reserve(100000);
     const auto d = bytes({18, 1, 0x00, 0x02, 0, 0, 0, 64, 0x03, 0x04, 0x48, 0xCB, 0x00, 0x04, 1, 2, 3, 1});
     std::ranges::copy(d, device_.begin());
-    const auto c = bytes({9, 2, 32, 0, 1, 1, 0, 0x80, 45, 9, 4, 0, 0, 2, 0xFF, 0xFF, 0xFF, 2,
-                          7, 5, 0x81, 2, 64, 0, 0, 7, 5, 0x02, 2, 64, 0, 0});
+    const auto c = bytes({9,    2, 32, 0, 1,    1, 0,  0x80, 45, 9, 4, 0,    0, 2,  0xFF, 0xFF,
+                          0xFF, 2, 7,  5, 0x81, 2, 64, 0,    0,  7, 5, 0x02, 2, 64, 0,    0});
     std::ranges::copy(c, config_.begin());
   }
   /// No bulk endpoints: something else with the same id.
@@ -116,7 +116,8 @@ class HidEcho final : public hal::wire::HidWireModel {
   explicit HidEcho(bool numbered = false) {
     descriptor_ = bytes({0x06, 0xAB, 0xFF, 0x0A, 0x00, 0x02, 0xA1, 0x01, 0x75, 0x08, 0x15, 0x00, 0x26, 0xFF, 0x00});
     if (numbered) std::ranges::copy(bytes({0x85, 0x07}), std::back_inserter(descriptor_));
-    std::ranges::copy(bytes({0x95, 14, 0x09, 0x01, 0x81, 0x02, 0x95, 14, 0x09, 0x02, 0x91, 0x02, 0xC0}), std::back_inserter(descriptor_));
+    std::ranges::copy(bytes({0x95, 14, 0x09, 0x01, 0x81, 0x02, 0x95, 14, 0x09, 0x02, 0x91, 0x02, 0xC0}),
+                      std::back_inserter(descriptor_));
   }
   std::uint16_t vendor_id() const noexcept override { return 0x1234; }
   std::uint16_t product_id() const noexcept override { return 0x0006; }
@@ -145,8 +146,12 @@ class HidEcho final : public hal::wire::HidWireModel {
     waiting_.pop_front();
     return n;
   }
-  hal::wire::WireMoved feature_set(std::span<const std::byte>) noexcept override { return std::unexpected(hal::wire::WireStatus::kStall); }
-  hal::wire::WireMoved feature_get(std::span<std::byte>) noexcept override { return std::unexpected(hal::wire::WireStatus::kStall); }
+  hal::wire::WireMoved feature_set(std::span<const std::byte>) noexcept override {
+    return std::unexpected(hal::wire::WireStatus::kStall);
+  }
+  hal::wire::WireMoved feature_get(std::span<std::byte>) noexcept override {
+    return std::unexpected(hal::wire::WireStatus::kStall);
+  }
   void advance(Duration dt) noexcept override { waited_ += dt; }
   void unplug() noexcept override { gone_ = true; }
   void plug_in() noexcept override { gone_ = false; }

@@ -107,7 +107,8 @@ TEST_F(HidPipe, PermissionDeniedNamesTheUdevRule) {
   ASSERT_FALSE(pipe);
   EXPECT_EQ(pipe.error().code, Errc::kPermission);
   EXPECT_NE(pipe.error().message.find(R"(SUBSYSTEM=="hidraw", KERNELS=="*:1234:0006.*", MODE="0660", TAG+="uaccess")"),
-            std::string::npos) << pipe.error().message;
+            std::string::npos)
+      << pipe.error().message;
   EXPECT_NE(pipe.error().message.find("/dev/hidraw0"), std::string::npos);
 }
 

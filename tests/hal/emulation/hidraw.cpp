@@ -39,7 +39,8 @@ void HidrawNode::serve() {
   served_at_ = now;
   std::array<std::byte, kReportMax> report{};
   while (const auto got = model_.report_in(report)) {
-    if (queue_.size() < kQueueMax) queue_.emplace_back(report.begin(), report.begin() + static_cast<std::ptrdiff_t>(*got));
+    if (queue_.size() < kQueueMax)
+      queue_.emplace_back(report.begin(), report.begin() + static_cast<std::ptrdiff_t>(*got));
   }
   if (!queue_.empty()) gate().readable(true);
 }

@@ -11,8 +11,8 @@
 
 namespace tandem::test {
 
-/// /dev/hidrawN in front of a wire model. The queue of reports holds 64 and then forgets the newest, as the kernel's. The
-/// model's time is the machine's.
+/// /dev/hidrawN in front of a wire model. The queue of reports holds 64 and then forgets the newest, as the kernel's.
+/// The model's time is the machine's.
 class HidrawNode final : public Node {
  public:
   static constexpr std::size_t kQueueMax = 64;

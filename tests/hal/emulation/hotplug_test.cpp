@@ -49,7 +49,8 @@ TEST(PlugWatch, SeesAHidDeviceOnBothBuses) {
     all.insert(all.end(), some.begin(), some.end());
   }
   EXPECT_EQ((*opened)->present().size(), 2u);
-  EXPECT_TRUE(std::ranges::any_of(all, [](const auto& c) { return c.device.bus == hal::Bus::kHidraw && c.device.port == "1-4"; }));
+  EXPECT_TRUE(std::ranges::any_of(
+      all, [](const auto& c) { return c.device.bus == hal::Bus::kHidraw && c.device.port == "1-4"; }));
 }
 
 TEST(PlugWatch, OutAndInAgainBetweenTwoLooksIsBoth) {
@@ -108,9 +109,10 @@ TEST_F(Choosing, AmongSeveralThereIsNoDefault) {
   const auto chosen = hal::choose(list, falcon);
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, hal::Errc::kBadState);
-  EXPECT_EQ(chosen.error().message,
-            "2 devices could be meant by Novint Falcon; say which one: path=1-1 (0403:cb48 FALCON HAPTIC, serial A, at port "
-            "1-1), or path=1-2 (0403:cb48 FALCON HAPTIC, serial B, at port 1-2)");
+  EXPECT_EQ(
+      chosen.error().message,
+      "2 devices could be meant by Novint Falcon; say which one: path=1-1 (0403:cb48 FALCON HAPTIC, serial A, at port "
+      "1-1), or path=1-2 (0403:cb48 FALCON HAPTIC, serial B, at port 1-2)");
   EXPECT_EQ(hal::choose(std::span(list).subspan(1), falcon)->port, "1-2") << "the only one needs no words";
 }
 
@@ -120,10 +122,12 @@ TEST_F(Choosing, WhenThereIsNoneItSaysWhatIsThere) {
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, hal::Errc::kNotFound);
   EXPECT_EQ(chosen.error().message,
-            "no Novint Falcon at port 2-9 is attached (USB id 0403:cb48); there are 0403:6001 FALCON HAPTIC, serial C, at port "
+            "no Novint Falcon at port 2-9 is attached (USB id 0403:cb48); there are 0403:6001 FALCON HAPTIC, serial C, "
+            "at port "
             "1-3. Is it plugged in, and has it power?");
-  EXPECT_EQ(hal::choose({}, falcon).error().message,
-            "no Novint Falcon at port 2-9 is attached (USB id 0403:cb48); nothing is. Is it plugged in, and has it power?");
+  EXPECT_EQ(
+      hal::choose({}, falcon).error().message,
+      "no Novint Falcon at port 2-9 is attached (USB id 0403:cb48); nothing is. Is it plugged in, and has it power?");
 }
 
 TEST_F(Choosing, ByUsageWhereIdsAreNotUnique) {

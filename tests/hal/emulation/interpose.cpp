@@ -43,7 +43,8 @@ extern "C" {
   va_end(arguments);
   const auto type = _IOC_TYPE(request);
   if (type == 'U' || type == 'H') {
-    if (auto* node = tandem::test::Node::of(fd)) return static_cast<int>(as_libc(inside([&] { return node->on_ioctl(fd, request, argument); })));
+    if (auto* node = tandem::test::Node::of(fd))
+      return static_cast<int>(as_libc(inside([&] { return node->on_ioctl(fd, request, argument); })));
   }
   static const auto other = next<int (*)(int, unsigned long, ...)>("ioctl");
   return other(fd, request, argument);

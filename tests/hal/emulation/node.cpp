@@ -130,8 +130,8 @@ Node* Node::of(int fd) {
   if (g_count.load(std::memory_order_relaxed) == 0) return nullptr;
   struct stat status {};
   const int before = errno;
-  const bool known = syscall(SYS_fstat, fd, &status) == 0 && S_ISCHR(status.st_mode) && major(status.st_rdev) == kPtyMajor &&
-                     minor(status.st_rdev) < kMinors;
+  const bool known = syscall(SYS_fstat, fd, &status) == 0 && S_ISCHR(status.st_mode) &&
+                     major(status.st_rdev) == kPtyMajor && minor(status.st_rdev) < kMinors;
   errno = before;
   return known ? g_nodes[minor(status.st_rdev)].load() : nullptr;
 }

@@ -11,9 +11,10 @@
 #include <string>
 #include <thread>
 
-/// The kernel's side of a device node, inside the test program: it defines `ioctl`, `read` and `write` itself (interpose.cpp),
-/// and those on an emulated node end here, so that real libusb and hidapi run at the speed of a function call. The node is
-/// a pseudo terminal, because libraries poll() it; umockdev gives it its name, its sysfs and its uevents.
+/// The kernel's side of a device node, inside the test program: it defines `ioctl`, `read` and `write` itself
+/// (interpose.cpp), and those on an emulated node end here, so that real libusb and hidapi run at the speed of a
+/// function call. The node is a pseudo terminal, because libraries poll() it; umockdev gives it its name, its sysfs and
+/// its uevents.
 namespace tandem::test {
 
 /// A pseudo terminal whose poll() answers as told.
@@ -23,10 +24,10 @@ class PollGate {
   PollGate(const PollGate&) = delete;
   ~PollGate();
   [[nodiscard]] const std::string& path() const { return path_; }  ///< of the slave: what a node's name leads to
-  [[nodiscard]] unsigned number() const { return minor_; }  ///< minor number
-  void writable(bool yes);  ///< POLLOUT
-  void readable(bool yes);  ///< POLLIN
-  void hang_up();           ///< POLLERR | POLLHUP for ever
+  [[nodiscard]] unsigned number() const { return minor_; }         ///< minor number
+  void writable(bool yes);                                         ///< POLLOUT
+  void readable(bool yes);                                         ///< POLLIN
+  void hang_up();                                                  ///< POLLERR | POLLHUP for ever
 
  private:
   int master_ = -1, slave_ = -1;

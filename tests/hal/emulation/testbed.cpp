@@ -45,7 +45,8 @@ struct Library {
     find(remove_device, "umockdev_testbed_remove_device");
     find(unref, "g_object_unref");
     find(free, "g_free");
-    if (dlopen("libumockdev-preload.so.0", RTLD_NOW | RTLD_NOLOAD) == nullptr) trouble = "umockdev's preload library is not loaded";
+    if (dlopen("libumockdev-preload.so.0", RTLD_NOW | RTLD_NOLOAD) == nullptr)
+      trouble = "umockdev's preload library is not loaded";
   }
 };
 
@@ -66,13 +67,18 @@ unsigned u16(std::span<const std::byte> bytes, std::size_t at) {
 
 constexpr const char* kController = "/devices/pci0000:00/usb1/";
 
-std::string usb_device(const std::string& port, unsigned address, unsigned vendor, unsigned product, std::string_view maker,
-                       std::string_view name, std::string_view serial, const std::string& descriptors) {
+std::string usb_device(const std::string& port, unsigned address, unsigned vendor, unsigned product,
+                       std::string_view maker, std::string_view name, std::string_view serial,
+                       const std::string& descriptors) {
   std::string text = "P: " + (kController + port) + "\n" + format("N: bus/usb/001/%03u\n", address);
-  text += format("E: DEVNAME=/dev/bus/usb/001/%03u\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\nE: BUSNUM=001\nE: DEVNUM=%03u\n"
-                 "E: MAJOR=189\nE: MINOR=%u\n", address, address, address - 1);
-  text += format("A: busnum=1\nA: devnum=%u\nA: bConfigurationValue=1\nA: speed=12\nA: dev=189:%u\nA: idVendor=%04x\nA: idProduct=%04x\n",
-                 address, address - 1, vendor, product);
+  text += format(
+      "E: DEVNAME=/dev/bus/usb/001/%03u\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\nE: BUSNUM=001\nE: DEVNUM=%03u\n"
+      "E: MAJOR=189\nE: MINOR=%u\n",
+      address, address, address - 1);
+  text += format(
+      "A: busnum=1\nA: devnum=%u\nA: bConfigurationValue=1\nA: speed=12\nA: dev=189:%u\nA: idVendor=%04x\nA: "
+      "idProduct=%04x\n",
+      address, address - 1, vendor, product);
   if (!maker.empty()) text += "A: manufacturer=" + std::string(maker) + "\n";
   if (!name.empty()) text += "A: product=" + std::string(name) + "\n";
   if (!serial.empty()) text += "A: serial=" + std::string(serial) + "\n";
@@ -107,7 +113,9 @@ void Testbed::lead_node(const std::string& name, const PollGate& gate) const {
   std::filesystem::create_symlink(gate.path(), node);
 }
 
-void Testbed::tell(const std::string& sysfs, const char* action) { library().uevent(bed_, ("/sys" + sysfs).c_str(), action); }
+void Testbed::tell(const std::string& sysfs, const char* action) {
+  library().uevent(bed_, ("/sys" + sysfs).c_str(), action);
+}
 
 void Testbed::plug(UsbfsNode& node, const hal::wire::UsbWireModel& model, const std::string& port) {
   const unsigned address = next_address_++;
@@ -126,13 +134,18 @@ void Testbed::plug(HidrawNode& node, const hal::wire::HidWireModel& model, const
   const std::string usb = kController + port, interface = usb + "/" + port + ":1.0",
                     hid = interface + format("/0003:%04X:%04X.%04X", model.vendor_id(), model.product_id(), address),
                     raw = hid + format("/hidraw/hidraw%u", number);
-  std::string text = usb_device(port, address, model.vendor_id(), model.product_id(), model.manufacturer(), model.product(),
-                                model.serial(), "12010002000000403412060000010102030109022200010100A032");
+  std::string text =
+      usb_device(port, address, model.vendor_id(), model.product_id(), model.manufacturer(), model.product(),
+                 model.serial(), "12010002000000403412060000010102030109022200010100A032");
   text += "P: " + interface + "\nE: DEVTYPE=usb_interface\nE: SUBSYSTEM=usb\nA: bInterfaceNumber=00\n\n";
-  text += "P: " + hid + "\nE: SUBSYSTEM=hid\n" + format("E: HID_ID=0003:%08X:%08X\n", model.vendor_id(), model.product_id());
+  text += "P: " + hid + "\nE: SUBSYSTEM=hid\n" +
+          format("E: HID_ID=0003:%08X:%08X\n", model.vendor_id(), model.product_id());
   text += "E: HID_NAME=" + std::string(model.manufacturer()) + " " + std::string(model.product()) +
-          "\nE: HID_UNIQ=" + std::string(model.serial()) + "\nH: report_descriptor=" + hex(model.report_descriptor()) + "\n\n";
-  text += "P: " + raw + format("\nN: hidraw%u\nE: DEVNAME=/dev/hidraw%u\nE: SUBSYSTEM=hidraw\nE: MAJOR=240\nE: MINOR=%u\n", number, number, number);
+          "\nE: HID_UNIQ=" + std::string(model.serial()) + "\nH: report_descriptor=" + hex(model.report_descriptor()) +
+          "\n\n";
+  text += "P: " + raw +
+          format("\nN: hidraw%u\nE: DEVNAME=/dev/hidraw%u\nE: SUBSYSTEM=hidraw\nE: MAJOR=240\nE: MINOR=%u\n", number,
+                 number, number);
   text += "L: device=../../../" + hid.substr(hid.rfind('/') + 1) + "\n\n";
   add(text);
   lead_node(format("hidraw%u", number), node.gate());

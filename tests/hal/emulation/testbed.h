@@ -9,8 +9,8 @@
 
 namespace tandem::test {
 
-/// A machine with nothing plugged in, until a test plugs something in: sysfs, udev's data, uevents and names of nodes are
-/// umockdev's, what is behind a node is a UsbfsNode or HidrawNode. One at a time; needs umockdev's preload library
+/// A machine with nothing plugged in, until a test plugs something in: sysfs, udev's data, uevents and names of nodes
+/// are umockdev's, what is behind a node is a UsbfsNode or HidrawNode. One at a time; needs umockdev's preload library
 /// (main.cpp sees to it). The library is looked up at run time, so that nothing here needs it to be built.
 class Testbed {
  public:

@@ -102,8 +102,10 @@ TEST_F(UsbPipe, PermissionDeniedNamesTheUdevRule) {
   const auto pipe = LibusbPipe::open(attached());
   ASSERT_FALSE(pipe);
   EXPECT_EQ(pipe.error().code, Errc::kPermission);
-  EXPECT_NE(pipe.error().message.find(R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", MODE="0660", TAG+="uaccess")"),
-            std::string::npos) << pipe.error().message;
+  EXPECT_NE(pipe.error().message.find(
+                R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", MODE="0660", TAG+="uaccess")"),
+            std::string::npos)
+      << pipe.error().message;
   EXPECT_NE(pipe.error().message.find("/etc/udev/rules.d/70-tandem.rules"), std::string::npos);
   EXPECT_NE(pipe.error().message.find("/dev/bus/usb/001/004"), std::string::npos);
 }

@@ -73,7 +73,8 @@ bool UsbfsNode::carry_out(Urb& urb) {
   WireMoved moved = std::unexpected(WireStatus::kStall);
   if (u.type == USBDEVFS_URB_TYPE_CONTROL) {
     const SetupPacket setup = hal::wire::setup_from(buffer.first<kSetupSize>());
-    moved = model_.control(setup, buffer.subspan(kSetupSize).first(std::min<std::size_t>(setup.length, buffer.size() - kSetupSize)));
+    moved = model_.control(
+        setup, buffer.subspan(kSetupSize).first(std::min<std::size_t>(setup.length, buffer.size() - kSetupSize)));
   } else if ((u.endpoint & 0x80) != 0) {
     std::array<std::byte, kPacketMax> packet{};
     moved = model_.bulk_in(u.endpoint, packet);

@@ -33,8 +33,8 @@ class UsbfsNode final : public Node {
   void unplug();
   /// Unplugs when the `count`-th transfer from now on is handed in: 1 is the next one. It is not carried out.
   void unplug_at_transfer(unsigned count);
-  [[nodiscard]] unsigned transfers() const;           ///< handed in so far
-  [[nodiscard]] std::string kernel_driver() const;    ///< bound to the interface now
+  [[nodiscard]] unsigned transfers() const;         ///< handed in so far
+  [[nodiscard]] std::string kernel_driver() const;  ///< bound to the interface now
 
  private:
   struct Urb;

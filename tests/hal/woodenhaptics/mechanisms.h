@@ -20,7 +20,6 @@ inline WoodenHapticsSpec wooden_2015() {
   s.arm_mass = {0.170, 0.110};
   s.arm_mass_at = {0.051, 0.091};
   s.stiffness_max = 1000;
-  s.damping = 8;
   return s;
 }
 
