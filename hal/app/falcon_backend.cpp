@@ -65,6 +65,9 @@ Result<OpenedDriver> FalconBackend::open(const DeviceChoice& choice) {
     if (!spec->falcon)
       return std::unexpected(DeviceError{Errc::kUnsupported, *file + ": says nothing of a falcon: write falcon { ... }"});
     options.spec = std::move(*spec->falcon);
+    // Readings that contradict each other are told whatever is attached.
+    if (const auto force = FalconForce::from(options.spec); !force)
+      return std::unexpected(DeviceError{Errc::kUnsupported, *file + ": falcon: " + force.error()});
   }
   if (const auto file = choice.find("firmware")) {
     auto firmware = load_firmware(*file);
