@@ -145,13 +145,18 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
                    "how long to wait for a server that does not answer [s]; default 5")
       ->option_text("S");
   command->add_flag("--quiet", arguments->quiet, "no status");
+  std::string hardware;
+  for (const hal::Backend* backend : hal::backends()) hardware += backend->help();
   command->footer(
       "Devices\n"
       "  sim                         simulated, as the scene describes the seat's device and hand\n"
       "  sim:hand=NAME               another hand: none leader relaxed resting letting_go tremor keyboard\n"
       "  sim:keyboard                you move the hand: arrow keys and PgUp/PgDn\n"
       "  sim:motion=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop]\n"
-      "                              a recorded motion moves the hand\n"
+      "                              a recorded motion moves the hand\n" +
+      hardware +
+      "                              (`tandem-client doctor` lists what is attached; several of a kind need port= or "
+      "serial=)\n"
       "Keys: the instructor moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
       "gate;\n"
       "q or Ctrl-C lets go gently and leaves.\n"

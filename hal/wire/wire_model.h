@@ -39,7 +39,7 @@ struct WireModel {
   virtual ~WireModel() = default;
   /// Moves the device's own time on: its firmware, timers and physics. Never negative. No heap.
   virtual void advance(Duration dt) noexcept = 0;
-  /// Pulls the cable: everything answers kGone from now on. Motors are off.
+  /// Pulls the cable: everything answers kGone from now on. What the motors do then is the model's to say.
   virtual void unplug() noexcept = 0;
   /// Puts it back: a new device on the bus, halts cleared. Whether the device lost its power is the model's to say.
   virtual void plug_in() noexcept = 0;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "hal/io/openhaptics_backend.h"
+#include "hal/app/openhaptics_backend.h"
 #include "hal/io/openhaptics_library.h"
 #include "hal/openhaptics/openhaptics_driver.h"
 #include "hal/servo_core.h"

@@ -1,4 +1,4 @@
-#include "hal/io/openhaptics_backend.h"
+#include "hal/app/openhaptics_backend.h"
 
 #include "hal/openhaptics/openhaptics_driver.h"
 
@@ -30,7 +30,7 @@ Result<OpenedDriver> OpenHapticsBackend::open(const DeviceChoice& choice) {
   }
   const std::string name = choice.name.empty() ? kDefaultName : choice.name;
   // The vendor's threads talk to the device, not a file of ours: a Deadman could not speak for it.
-  return OpenedDriver{std::make_unique<openhaptics::OpenHapticsDriver>(name, group_, clock_), std::nullopt};
+  return OpenedDriver{library_, std::make_unique<openhaptics::OpenHapticsDriver>(name, group_, clock_), std::nullopt};
 }
 
 }  // namespace tandem::hal

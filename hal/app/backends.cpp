@@ -1,12 +1,22 @@
+#include <array>
+
 #include "common/base/nearest.h"
+#include "hal/app/falcon_backend.h"
+#include "hal/app/hid_backends.h"
+#include "hal/app/input_backends.h"
+#include "hal/app/openhaptics_backend.h"
 #include "hal/io/backend.h"
-#include "hal/io/openhaptics_backend.h"
 
 namespace tandem::hal {
 
 std::span<Backend* const> backends() {
+  static FalconBackend falcon;
+  static WoodenHapticsBackend woodenhaptics;
+  static SpaceMouseBackend spacemouse;
   static OpenHapticsBackend openhaptics;
-  static Backend* const all[] = {&openhaptics};
+  static MouseBackend mouse;
+  static ReplayBackend replay;
+  static const std::array<Backend*, 6> all{&falcon, &woodenhaptics, &spacemouse, &openhaptics, &mouse, &replay};
   return all;
 }
 

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "common/base/axes.h"
+#include "common/base/time.h"
+
+namespace tandem::hal {
+
+/// Velocity of a quantised position: the slope over the longest window whose straight line explains every reading within
+/// one quantum, so that it is quick in fast motion and quiet in slow motion.
+/// Source [Janabi-Sharifi, Hayward, Chen 2000]: "Discrete-time adaptive windowing for velocity estimation", IEEE Trans.
+/// Control Systems Technology 8(6), the end-fit form. No heap, total: a reading that is no number starts anew.
+class AdaptiveRate {
+ public:
+  static constexpr std::size_t kWindow = 16;
+
+  /// @param quantum  step of the position, > 0
+  explicit AdaptiveRate(double quantum = 1.0) noexcept : quantum_(std::abs(quantum)) {}
+
+  void restart() noexcept { size_ = 0, rate_ = 0.0; }
+
+  /// @return velocity, 0 until there are two readings; a reading that is not newer than the last one is ignored
+  double take(Time at, double position) noexcept TANDEM_REALTIME {
+    if (!std::isfinite(position)) restart();
+    if (!std::isfinite(position) || (size_ > 0 && at <= sample(0).at)) return rate_;
+    newest_ = (newest_ + 1) % kWindow;
+    samples_[newest_] = {at, position};
+    if (size_ < kWindow) ++size_;
+    rate_ = 0.0;
+    for (std::size_t n = 1; n < size_; ++n) {
+      const double slope = (position - sample(n).position) / seconds(at - sample(n).at);
+      if (n > 1 && !explains(slope, n)) break;
+      rate_ = slope;
+    }
+    return rate_;
+  }
+  [[nodiscard]] double rate() const noexcept { return rate_; }
+
+ private:
+  struct Sample {
+    Time at{};
+    double position = 0;
+  };
+  /// `back` readings before the newest.
+  [[nodiscard]] const Sample& sample(std::size_t back) const noexcept {
+    return samples_[(newest_ + kWindow - back) % kWindow];
+  }
+  [[nodiscard]] bool explains(double slope, std::size_t n) const noexcept {
+    for (std::size_t i = 1; i < n; ++i) {
+      const double line = sample(0).position - slope * seconds(sample(0).at - sample(i).at);
+      if (std::abs(line - sample(i).position) > quantum_ * (1.0 + 1e-9)) return false;
+    }
+    return true;
+  }
+
+  double quantum_;
+  double rate_ = 0;
+  std::array<Sample, kWindow> samples_{};
+  std::size_t newest_ = 0, size_ = 0;
+};
+
+}  // namespace tandem::hal

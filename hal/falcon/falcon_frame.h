@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <span>
+
+/// What travels between a host and a Falcon whose firmware runs: 16 bytes each way, one answer for each frame.
+///   '<'  3 x 4 nibbles, least significant first  flags  spare  '>'
+/// Every byte between the brackets is a value + 0x41, so brackets never occur inside and the beginning of a frame is always
+/// found again. Source: public drivers' source; the meaning of single flag bits is not confirmed on hardware.
+namespace tandem::hal {
+
+inline constexpr std::size_t kFalconFrame = 16;
+using FalconBytes = std::array<std::byte, kFalconFrame>;
+/// Largest motor value seen in the vendor's own traffic; the field would hold more.
+inline constexpr std::int16_t kFalconMotorMax = 4095;
+
+/// Bits of the flag byte, host to device. Public sources contradict each other (homing 0x10 and red, green, blue 2, 4, 8 in
+/// a comment; as here in code that runs): a table, so that hardware may correct it.
+struct FalconFlagBits {
+  std::uint8_t homing = 0x01;
+  std::array<std::uint8_t, 3> light{0x02, 0x04, 0x08};  ///< green, blue, red
+};
+
+/// Host to device.
+struct FalconOrder {
+  std::array<std::int16_t, 3> motor{};  ///< counts; positive values pull the thighs in, see falcon_force.h
+  bool homing = false;                  ///< look for the origin; to be set in every frame
+  std::uint8_t lights = 0;              ///< bit 0 green, 1 blue, 2 red
+  friend bool operator==(const FalconOrder&, const FalconOrder&) = default;
+};
+
+/// Device to host.
+struct FalconReply {
+  std::array<std::int16_t, 3> encoder{};  ///< counts
+  std::uint8_t buttons = 0;               ///< 1 plus (right), 2 forward, 4 centre, 8 minus (left)
+  std::uint8_t homed = 0;                 ///< bit per leg
+  friend bool operator==(const FalconReply&, const FalconReply&) = default;
+};
+inline constexpr std::uint8_t kFalconAllHomed = 0x07;
+
+enum class FrameError : std::uint8_t { kBrackets, kNibble, kFlags };
+
+[[nodiscard]] FalconBytes encode(const FalconOrder& order, const FalconFlagBits& bits = {}) noexcept;
+[[nodiscard]] FalconBytes encode(const FalconReply& reply) noexcept;
+[[nodiscard]] std::expected<FalconOrder, FrameError> decode_order(std::span<const std::byte, kFalconFrame> bytes,
+                                                                  const FalconFlagBits& bits = {}) noexcept;
+[[nodiscard]] std::expected<FalconReply, FrameError> decode_reply(std::span<const std::byte, kFalconFrame> bytes) noexcept;
+
+/// Cuts a stream of bytes, in pieces of any size, into frames. A frame is handed out only when all of its 16 bytes came
+/// after one another since its '<': no byte of an older frame is ever part of a newer one.
+class FalconFramer {
+ public:
+  /// Takes one byte. Returns the frame that it completes; its contents are valid until the next call.
+  [[nodiscard]] std::optional<std::span<const std::byte, kFalconFrame>> push(std::byte byte) noexcept;
+  /// Forgets a frame that has begun: after a purge, a reset, a stall.
+  void clear() noexcept { filled_ = 0; }
+  /// Bytes thrown away because they belonged to no whole frame, since construction.
+  [[nodiscard]] std::uint64_t thrown_away() const noexcept { return thrown_away_; }
+  [[nodiscard]] bool inside_frame() const noexcept { return filled_ > 0; }
+
+ private:
+  FalconBytes frame_{};
+  std::size_t filled_ = 0;
+  std::uint64_t thrown_away_ = 0;
+};
+
+}  // namespace tandem::hal

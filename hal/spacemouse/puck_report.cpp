@@ -1,0 +1,41 @@
+#include "hal/spacemouse/puck_report.h"
+
+namespace tandem::hal::spacemouse {
+namespace {
+
+constexpr std::byte kShift{1}, kTurn{2}, kButtons{3}, kBattery{0x17};
+
+std::array<std::int16_t, 3> three(std::span<const std::byte> bytes, std::size_t from) noexcept {
+  std::array<std::int16_t, 3> out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto low = std::to_integer<unsigned>(bytes[from + 2 * i]);
+    const auto high = std::to_integer<unsigned>(bytes[from + 2 * i + 1]);
+    out[i] = static_cast<std::int16_t>(static_cast<std::uint16_t>(low | (high << 8)));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::expected<PuckReport, Errc> parse_puck_report(std::span<const std::byte> bytes) noexcept {
+  const std::size_t n = bytes.size();
+  if (n == 0) return std::unexpected(Errc::kFraming);
+  PuckReport report;
+  if (bytes[0] == kShift && (n == 7 || n == 13)) {
+    report.shift = three(bytes, 1);
+    if (n == 13) report.turn = three(bytes, 7);
+  } else if (bytes[0] == kTurn && n == 7) {
+    report.turn = three(bytes, 1);
+  } else if (bytes[0] == kButtons && n >= 3 && n <= 5) {
+    std::uint32_t mask = 0;
+    for (std::size_t i = 1; i < n; ++i) mask |= std::to_integer<std::uint32_t>(bytes[i]) << (8 * (i - 1));
+    report.buttons = mask;
+  } else if (bytes[0] == kBattery && n >= 3) {
+    report.battery_percent = std::to_integer<std::uint8_t>(bytes[1]);
+  } else if (bytes[0] == kShift || bytes[0] == kTurn || bytes[0] == kButtons || bytes[0] == kBattery) {
+    return std::unexpected(Errc::kFraming);
+  }
+  return report;
+}
+
+}  // namespace tandem::hal::spacemouse

@@ -1,0 +1,115 @@
+#include "proto/device_text.h"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "proto/device.pb.h"
+#include "proto/spacemouse_convert.h"
+#include "proto/text_format_reader.h"
+#include "proto/woodenhaptics_convert.h"
+
+namespace tandem {
+namespace {
+
+using text::Checker;
+using text::child_path;
+
+std::array<double, 3> counts_from(const pb::FalconCounts& in) { return {in.leg_1(), in.leg_2(), in.leg_3()}; }
+
+std::optional<double> number(bool given, double value) { return given ? std::optional(value) : std::nullopt; }
+
+FalconMassReading reading_from(const pb::FalconReading& in, Checker& checker, const std::string& key) {
+  if (!in.has_encoder()) checker.error(key, "needs encoder { leg_1: ... leg_2: ... leg_3: ... }");
+  if (!in.has_motor_without()) checker.error(key, "needs motor_without { ... }: what the motors gave without the mass");
+  if (!in.has_motor_with()) checker.error(key, "needs motor_with { ... }: what the motors gave with the mass");
+  const double length = std::hypot(in.up_x(), in.up_y(), in.up_z());
+  if (length < 0.1) checker.error(key, "needs up_x, up_y, up_z: the direction against gravity, such as up_z: 1");
+  return {.mass = in.mass_kg(),
+          .up = {in.up_x() / length, in.up_y() / length, in.up_z() / length},
+          .encoder = counts_from(in.encoder()),
+          .motor_without = counts_from(in.motor_without()),
+          .motor_with = counts_from(in.motor_with())};
+}
+
+FalconFlags flags_from(const pb::FalconFlagFile& in, Checker& checker, const std::string& key) {
+  FalconFlags flags;
+  const std::array<std::pair<const char*, std::uint8_t*>, 4> all{
+      {{"homing", &flags.homing}, {"green", &flags.green}, {"blue", &flags.blue}, {"red", &flags.red}}};
+  if (in.has_homing()) flags.homing = static_cast<std::uint8_t>(in.homing());
+  if (in.has_green()) flags.green = static_cast<std::uint8_t>(in.green());
+  if (in.has_blue()) flags.blue = static_cast<std::uint8_t>(in.blue());
+  if (in.has_red()) flags.red = static_cast<std::uint8_t>(in.red());
+  unsigned used = 0;
+  for (const auto& [name, bit] : all) {
+    if (!std::has_single_bit(*bit)) {
+      checker.error(child_path(key, name), "must be one bit: 1, 2, 4, 8, 16, 32 or 64");
+    } else if ((used & *bit) != 0) {
+      checker.error(child_path(key, name), "is a bit that another flag has already, written or by default (homing 1, green 2, blue 4, red 8)");
+    }
+    used |= *bit;
+  }
+  return flags;
+}
+
+FalconSpec falcon_from(const pb::FalconFile& in, Checker& checker, const std::string& key) {
+  FalconSpec spec;
+  if (in.has_force()) {
+    spec.counts_per_nm = {in.force().motor_1_counts_per_nm(), in.force().motor_2_counts_per_nm(),
+                          in.force().motor_3_counts_per_nm()};
+    if (in.mass_reading_size() > 0) {
+      checker.error(child_path(key, "force"), "not with mass_reading: give the scale, or what it shall be fitted to");
+    }
+  }
+  if (in.mass_reading_size() == 1) {
+    checker.error(child_path(key, "mass_reading", 0), "one reading is no calibration: give at least two, better six");
+  }
+  for (int i = 0; i < in.mass_reading_size(); ++i) {
+    spec.readings.push_back(reading_from(in.mass_reading(i), checker, child_path(key, "mass_reading", i)));
+  }
+  const bool numbers = in.has_force() || in.mass_reading_size() > 0;
+  spec.measured = in.measured();
+  if (numbers && in.measured().empty()) {
+    checker.error(key, "needs measured: \"who measured this device, when and how\" beside a force scale");
+  }
+  spec.peak = number(in.has_peak_n(), in.peak_n());
+  spec.continuous = number(in.has_continuous_n(), in.continuous_n());
+  if (spec.peak && spec.continuous && *spec.continuous > *spec.peak) {
+    checker.error(child_path(key, "continuous_n"), "is above peak_n");
+  }
+  spec.mass = number(in.has_mass_kg(), in.mass_kg());
+  spec.damping = number(in.has_damping_n_s_m(), in.damping_n_s_m());
+  spec.stiffness = number(in.has_stiffness_n_m(), in.stiffness_n_m());
+  if (in.firmware().has_sha256()) {
+    std::string hash = in.firmware().sha256();
+    std::ranges::transform(hash, hash.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool hex = std::ranges::all_of(hash, [](unsigned char c) { return std::isxdigit(c) != 0; });
+    if (hash.size() != 64 || !hex) {
+      checker.error(child_path(key, "firmware.sha256"), "must be 64 hexadecimal digits, as `sha256sum FILE` prints them");
+    }
+    spec.firmware_sha256 = std::move(hash);
+  }
+  spec.flags = flags_from(in.flags(), checker, child_path(key, "flags"));
+  return spec;
+}
+
+}  // namespace
+
+std::expected<DeviceFileSpec, InputErrors> parse_device_text(std::string_view text, std::string_view file_name) {
+  Checker checker{file_name};
+  pb::DeviceFile in;
+  text::read_document(text, file_name, in, checker);
+  // Rules between numbers make sense only for numbers that are in range.
+  if (!checker.ok()) return std::unexpected(checker.take());
+  DeviceFileSpec spec;
+  if (in.has_falcon()) spec.falcon = falcon_from(in.falcon(), checker, "falcon");
+  if (in.has_woodenhaptics()) spec.woodenhaptics = woodenhaptics_from(in.woodenhaptics(), checker, "woodenhaptics");
+  if (in.has_spacemouse()) spec.spacemouse = spacemouse_from(in.spacemouse());
+  if (!checker.ok()) return std::unexpected(checker.take());
+  return spec;
+}
+
+}  // namespace tandem

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "common/base/rng.h"
+#include "hal/spacemouse/products.h"
+#include "hal/spacemouse/puck_motion.h"
+#include "hal/spacemouse/puck_report.h"
+#include "tests/base/counts.h"
+
+namespace tandem::hal::spacemouse {
+namespace {
+
+using namespace std::chrono_literals;
+using Three = std::array<std::int16_t, 3>;
+
+PuckReport parsed(std::initializer_list<int> values) {
+  std::vector<std::byte> bytes;
+  for (const int v : values) bytes.push_back(static_cast<std::byte>(v));
+  const auto report = parse_puck_report(bytes);
+  EXPECT_TRUE(report.has_value());
+  return report.value_or(PuckReport{});
+}
+
+TEST(PuckReport, IsReadAsByHand) {
+  const PuckReport shift = parsed({1, 0x5E, 0x01, 0xA2, 0xFE, 0, 0x80});
+  EXPECT_EQ(shift.shift, (Three{350, -350, -32768}));
+  EXPECT_FALSE(shift.turn || shift.buttons || shift.battery_percent);
+  EXPECT_EQ(parsed({2, 1, 0, 2, 0, 3, 0}).turn, (Three{1, 2, 3}));
+  const PuckReport both = parsed({1, 1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 0xFF, 0xFF});
+  EXPECT_EQ(both.shift, (Three{1, 2, 3}));
+  EXPECT_EQ(both.turn, (Three{4, 5, -1}));
+  EXPECT_EQ(parsed({3, 0x03, 0x80}).buttons, 0x8003u);
+  EXPECT_EQ(parsed({3, 1, 0, 0, 0x80}).buttons, 0x80000001u);
+  EXPECT_EQ(parsed({0x17, 93, 1}).battery_percent, 93);
+  EXPECT_EQ(parsed({0x42, 1, 2, 3}), PuckReport{}) << "an id nobody knows tells nothing";
+}
+
+TEST(PuckReport, KnownIdsOfOtherLengthsAreRefused) {
+  for (const int id : {1, 2, 3, 0x17}) {
+    for (std::size_t n = 1; n <= 64; ++n) {
+      std::vector<std::byte> bytes(n);
+      bytes[0] = static_cast<std::byte>(id);
+      const bool right = id == 1   ? n == 7 || n == 13
+                         : id == 2 ? n == 7
+                         : id == 3 ? n >= 3 && n <= 5
+                                   : n >= 3;
+      EXPECT_EQ(parse_puck_report(bytes).has_value(), right) << id << " " << n;
+    }
+  }
+  EXPECT_FALSE(parse_puck_report({}).has_value());
+}
+
+TEST(PuckReport, AnyBytesAreRefusedOrGiveABoundedVelocity) {
+  const std::size_t n = test::draws(300'000, 10'000'000, 30'000'000);
+  std::printf("[ reports  ] %zu\n", n);
+  RandomStream r(2);
+  PuckMotion motion;
+  std::array<std::byte, 16> bytes;
+  std::size_t read = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < bytes.size(); k += 8) {
+      const std::uint64_t word = r.bits();
+      for (std::size_t b = 0; b < 8; ++b) bytes[k + b] = static_cast<std::byte>(word >> (8 * b));
+    }
+    constexpr std::array<int, 5> kIds{1, 2, 3, 0x17, 0x99};
+    if (r.below(8) != 0) bytes[0] = static_cast<std::byte>(kIds[r.below(5)]);
+    const std::size_t size = r.below(4) == 0 ? r.below(17) : std::array<std::size_t, 4>{3, 5, 7, 13}[r.below(4)];
+    const auto report = parse_puck_report(std::span(bytes).first(size));
+    if (!report) continue;
+    const Time at = Time{} + static_cast<std::int64_t>(i) * 1ms;
+    if (report->shift) motion.take_shift(at, *report->shift);
+    if (report->turn) motion.take_turn(at, *report->turn);
+    ++read;
+    ASSERT_LE(motion.velocity(at + 20ms).cwiseAbs().maxCoeff(), 0.1);
+    ASSERT_LE(motion.turning(at + 20ms).cwiseAbs().maxCoeff(), 0.5);
+  }
+  EXPECT_GT(read, n / 4);
+}
+
+TEST(PuckMotion, ScalesClampsAndTurnsTheMakersFrameIntoOurs) {
+  PuckMotion motion;
+  motion.take_shift(Time{}, {350, 175, -35});  // right, to the user, up
+  const Vec3 v = motion.velocity(Time{});
+  EXPECT_NEAR(v[0], 0.1, 1e-15);
+  EXPECT_NEAR(v[1], -0.05, 1e-15) << "ours is away from the user";
+  EXPECT_NEAR(v[2], 0.01, 1e-15) << "the maker's z is down";
+  motion.take_shift(Time{}, {500, -500, 32767});  // real units reach beyond their descriptor
+  EXPECT_EQ(motion.velocity(Time{}), Vec3(0.1, 0.1, -0.1));
+  motion.take_turn(Time{}, {350, 350, 350});
+  EXPECT_EQ(motion.turning(Time{}), Vec3(0.5, -0.5, -0.5));
+  // Half a circle about x keeps right-handedness: the signs of either triple multiply to 1.
+  const SpaceMouseSpec s;
+  EXPECT_EQ(s.sign[0] * s.sign[1] * s.sign[2], 1);
+  EXPECT_EQ(s.sign[3] * s.sign[4] * s.sign[5], 1);
+}
+
+TEST(PuckMotion, SilenceHoldsThenFadesToZero) {
+  PuckMotion motion;
+  EXPECT_TRUE(motion.stale(Time{})) << "nothing was ever said";
+  EXPECT_EQ(motion.velocity(Time{}), Vec3::Zero());
+  motion.take_shift(Time{}, {350, 0, 0});
+  EXPECT_TRUE(motion.stale(Time{})) << "nothing of its turning yet";
+  motion.take_turn(Time{} + 8ms, {0, 0, 350});
+  const auto vx = [&](Duration t) { return motion.velocity(Time{} + t)[0]; };
+  EXPECT_EQ(vx(50ms), 0.1);
+  EXPECT_FALSE(motion.stale(Time{} + 50ms));
+  EXPECT_TRUE(motion.stale(Time{} + 51ms));
+  EXPECT_NEAR(vx(75ms), 0.05, 1e-12);
+  EXPECT_EQ(vx(100ms), 0.0);
+  EXPECT_EQ(vx(1h), 0.0);
+  EXPECT_EQ(motion.turning(Time{} + 58ms)[2], -0.5) << "each triple by its own last word";
+  EXPECT_NEAR(motion.turning(Time{} + 83ms)[2], -0.25, 1e-12);
+  double before = 0.1;
+  for (Duration t{}; t < 200ms; t += 1ms) {
+    EXPECT_LE(vx(t), before) << "never grows by itself";
+    EXPECT_LT(before - vx(t), 0.0021);
+    before = vx(t);
+  }
+}
+
+TEST(PuckProducts, OrdinaryMiceOfTheMakerAreNone) {
+  EXPECT_EQ(product_name(0x046D, 0xC626), "SpaceNavigator");
+  EXPECT_TRUE(is_puck(0x046D, 0xC626, 1, 8));
+  EXPECT_TRUE(is_puck(0x256F, 0xC635, 1, 8));
+  EXPECT_TRUE(is_puck(0x256F, 0xCFFF, 1, 8)) << "newer than the list, and says so";
+  EXPECT_FALSE(is_puck(0x046D, 0xC52B, 1, 8)) << "Logitech makes other things";
+  EXPECT_FALSE(is_puck(0x046D, 0xC626, 1, 2)) << "its mouse or keyboard interface";
+  for (const auto pid : kExcluded) {
+    EXPECT_FALSE(is_puck(0x256F, pid, 1, 8)) << std::hex << pid;
+    EXPECT_TRUE(product_name(0x256F, pid).empty());
+  }
+}
+
+}  // namespace
+}  // namespace tandem::hal::spacemouse

@@ -1,0 +1,320 @@
+#include "hal/woodenhaptics/woodenhaptics_driver.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/base/rng.h"
+#include "tests/hal/woodenhaptics/bench.h"
+#include "tests/support/alloc_guard.h"
+
+namespace tandem::hal::woodenhaptics {
+namespace {
+
+using namespace std::chrono_literals;
+using test::WoodenBench;
+using Currents = std::array<std::int16_t, 3>;
+
+const Vec3 kSomeEffort(0.2, -0.1, 0.15);
+
+WoodenHapticsOptions options_of(WoodenProtocol protocol, bool energise = true) {
+  WoodenHapticsOptions options{.spec = test::wooden_2015(), .energise = energise};
+  options.spec.protocol = protocol;
+  return options;
+}
+
+bool only_zeros(const wire::WoodenHapticsModel& model) {
+  for (std::size_t i = 0; i < model.host_reports() && i < wire::WoodenHapticsModel::kRemembered; ++i) {
+    if (model.host_report(i).current_ma != Currents{} && !model.host_report(i).preset) return false;
+  }
+  return true;
+}
+
+class EveryProtocol : public testing::TestWithParam<WoodenProtocol> {};
+INSTANTIATE_TEST_SUITE_P(Boards, EveryProtocol,
+                         testing::Values(WoodenProtocol::kV1, WoodenProtocol::kV2, WoodenProtocol::kRaw64));
+
+TEST_P(EveryProtocol, StartsUnhomedWithZeros) {
+  WoodenBench b(options_of(GetParam()));
+  ASSERT_TRUE(b.bring_up());
+  for (int i = 0; i < 50; ++i) ASSERT_EQ(b.step(kSomeEffort, true), Exchange::kFresh);
+  EXPECT_FALSE(b.state.homed);
+  EXPECT_TRUE(b.state.saturated) << "effort was asked for and not given";
+  EXPECT_GT(b.model.host_reports(), 50u);
+  EXPECT_TRUE(only_zeros(b.model));
+}
+
+TEST_P(EveryProtocol, WithoutTheWordNoCurrentFlows) {
+  WoodenBench b(options_of(GetParam(), false));
+  ASSERT_TRUE(b.bring_up());
+  b.driver.home_here();
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(b.step());
+  ASSERT_TRUE(b.state.homed);
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(b.step(kSomeEffort));
+  EXPECT_TRUE(only_zeros(b.model));
+  EXPECT_EQ(b.state.f_out, Vec3::Zero());
+}
+
+TEST_P(EveryProtocol, FollowsTheArmOnceHomedByTheHost) {
+  WoodenBench b(options_of(GetParam()));
+  ASSERT_TRUE(b.bring_up());
+  b.driver.home_here();
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(b.step());
+  ASSERT_TRUE(b.state.homed);
+  EXPECT_LT((b.state.x - b.model.tip()).norm(), 1e-4);
+  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(0.05, -0.03, 0.04), Vec3(-0.06, 0.05, -0.02)}) {
+    ASSERT_TRUE(b.walk_to(x));
+    ASSERT_TRUE(b.step());
+    EXPECT_LT((b.state.x - x).norm(), 1e-4) << "one count is 72 um at most";
+    EXPECT_TRUE(b.state.homed);
+    EXPECT_FALSE(b.state.resynced);
+  }
+}
+
+TEST_P(EveryProtocol, GivesTheForceThatWasAskedFor) {
+  WoodenBench b(options_of(GetParam()));
+  ASSERT_TRUE(b.bring_up());
+  b.driver.home_here();
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(b.step());
+  ASSERT_TRUE(b.walk_to(Vec3::Zero()));
+  const Vec3 wanted(0.5, -1.0, 0.8);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(b.step(b.state.J.leftCols<3>().transpose() * wanted));
+  EXPECT_LT((b.model.motor_force() - wanted).norm(), 0.01);
+  EXPECT_LT((b.state.f_out - wanted).norm(), 0.01);
+  EXPECT_FALSE(b.state.saturated);
+  EXPECT_EQ(b.state.echo_command, b.seq - 1);
+}
+
+TEST_P(EveryProtocol, TakesNoHeapInAnExchange) {
+  WoodenBench b(options_of(GetParam()));
+  ASSERT_TRUE(b.bring_up());
+  b.driver.home_here();
+  const test::AllocGuard guard;
+  for (int i = 0; i < 100; ++i) (void)b.step(kSomeEffort);
+  b.driver.silence();
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+TEST_P(EveryProtocol, SilenceIsThreeZeros) {
+  WoodenBench b(options_of(GetParam()));
+  ASSERT_TRUE(b.bring_up());
+  b.driver.home_here();
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(b.step(i < 5 ? Vec3(Vec3::Zero()) : kSomeEffort));
+  ASSERT_NE(b.model.motor_effort(), Vec3::Zero());
+  const std::uint64_t before = b.model.host_reports();
+  b.driver.silence();
+  EXPECT_EQ(b.model.host_reports(), before + 3);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(b.model.host_report(i).current_ma, Currents{});
+  EXPECT_EQ(b.model.motor_effort(), Vec3::Zero());
+}
+
+TEST_P(EveryProtocol, UnpluggedAtAnyCallIsSaidAtOnce) {
+  for (int calls = 0; calls < 120; ++calls) {
+    SCOPED_TRACE(calls);
+    WoodenBench b(options_of(GetParam()));
+    b.pipe.unplug_after(calls);
+    const auto up = b.bring_up();
+    if (!up) {
+      EXPECT_EQ(up.error().code, Errc::kUnplugged);
+      EXPECT_FALSE(b.model.plugged_in());
+      continue;
+    }
+    b.driver.home_here();
+    std::expected<Exchange, Errc> how = Exchange::kFresh;
+    for (int i = 0; i < 100 && how; ++i) {
+      how = b.step(i < 10 ? Vec3(Vec3::Zero()) : kSomeEffort);
+      EXPECT_EQ(how.has_value(), b.model.plugged_in()) << "exchange " << i;
+    }
+    ASSERT_FALSE(how);
+    EXPECT_EQ(how.error(), Errc::kUnplugged);
+    b.driver.silence();
+    EXPECT_EQ(b.model.motor_effort(), Vec3::Zero());
+    b.model.plug_in();
+    EXPECT_FALSE(b.model.amplifiers_on());
+  }
+}
+
+TEST_P(EveryProtocol, WhatActedIsWhatTheMotorsGaveBetweenReadings) {
+  WoodenBench b(options_of(GetParam()));
+  ASSERT_TRUE(b.bring_up());
+  b.driver.home_here();
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(b.step());
+  ASSERT_TRUE(b.walk_to(Vec3::Zero()));
+  RandomStream r(4);
+  Vec3 given = Vec3::Zero();
+  for (int i = 0; i < 200; ++i) {
+    given = b.model.motor_effort();  // of the order before, until the next one arrives
+    ASSERT_TRUE(b.step(Vec3(r.uniform(-0.9, 0.9), r.uniform(-0.7, 0.7), r.uniform(-0.7, 0.7))));
+    const Vec3 told(b.state.tau_out[0], b.state.tau_out[1], b.state.tau_out[2]);
+    ASSERT_LT((told - given).norm(), 1e-12) << i;
+    const Vec3 dq(b.state.dq[0], b.state.dq[1], b.state.dq[2]);
+    ASSERT_NEAR(b.state.f_out.dot(b.state.dx), told.dot(dq), 1e-12);
+  }
+}
+
+TEST(WoodenDriver, CurrentsOnTheWireNeverPassTheClampWhateverIsAsked) {
+  WoodenBench b(options_of(WoodenProtocol::kV2));
+  ASSERT_TRUE(b.bring_up());
+  ASSERT_TRUE(b.home());
+  for (const double e : {1.0, 100.0, 1e6, 1e308}) {
+    ASSERT_TRUE(b.step(Vec3(e, -e, e)));
+    for (const auto ma : b.model.host_report(0).current_ma) EXPECT_LE(std::abs(ma), 2000) << e;
+    ASSERT_TRUE(b.step());
+    EXPECT_TRUE(b.state.saturated || e == 1.0 || b.model.host_report(0).current_ma == Currents{});
+  }
+}
+
+TEST(WoodenDriver, LateAnswersLeaveNoLagBehind) {
+  WoodenBench b(options_of(WoodenProtocol::kV2));
+  ASSERT_TRUE(b.bring_up());
+  ASSERT_TRUE(b.home());
+  b.model.faults.late = 2500us;  // beyond the patience of an exchange
+  EXPECT_EQ(b.step(), Exchange::kNothing);
+  b.model.faults.late = Duration{0};
+  int late = 0;
+  for (int i = 0; i < 10; ++i) {
+    const auto how = b.step();
+    ASSERT_TRUE(how);
+    late += *how == Exchange::kNothing ? 1 : 0;
+  }
+  EXPECT_LE(late, 2);
+  b.model.place(b.model.tip() + Vec3(0.004, 0, 0));
+  ASSERT_EQ(b.step(), Exchange::kFresh);
+  EXPECT_LT((b.state.x - b.model.tip()).norm(), 1e-4) << "the reading is of now, not of the exchange before";
+}
+
+TEST(WoodenDriver, OfABoardThatSendsByItselfTheNewestCounts) {
+  WoodenBench b(options_of(WoodenProtocol::kV1));
+  b.time.wait_until(b.time.now() + 200ms);  // more than its queue holds
+  ASSERT_TRUE(b.bring_up());
+  b.driver.home_here();
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(b.step());
+  ASSERT_TRUE(b.state.homed);
+  for (int i = 1; i <= 40; ++i) {
+    b.model.place(b.model.tip() + Vec3(0.0005, 0, 0));
+    b.time.wait_until(b.time.now() + 1ms);
+  }
+  ASSERT_TRUE(b.step());
+  EXPECT_LT((b.state.x - b.model.tip()).norm(), 1e-4);
+}
+
+TEST(WoodenDriver, WaitsFor20AttemptsThenSaysThatTheBoardIsSilent) {
+  WoodenBench b(options_of(WoodenProtocol::kV2));
+  b.model.faults.silent = true;
+  const auto up = b.bring_up();
+  ASSERT_FALSE(up);
+  EXPECT_EQ(up.error().code, Errc::kTimeout);
+  EXPECT_NE(up.error().message.find("silent"), std::string::npos);
+  EXPECT_GE(b.model.host_reports(), 20u);
+  EXPECT_TRUE(only_zeros(b.model));
+  b.model.faults.silent = false;
+  EXPECT_TRUE(b.bring_up()) << "a second try is a whole one";
+}
+
+TEST(WoodenDriver, ReportsOfAnotherProtocolNameTheOneToWrite) {
+  for (const auto& [there, said, word] : {std::tuple{WoodenProtocol::kV1, WoodenProtocol::kV2, "protocol: V1"},
+                                          std::tuple{WoodenProtocol::kRaw64, WoodenProtocol::kV2, "protocol: RAW64"},
+                                          std::tuple{WoodenProtocol::kV1, WoodenProtocol::kRaw64, "protocol: V1"}}) {
+    wire::WoodenHapticsModel model({.spec = options_of(there).spec});
+    test::WireTime time(model);
+    test::HidWirePipe pipe(model, time);
+    WoodenHapticsDriver driver({"woodenhaptics", "1"}, pipe, time, options_of(said));
+    test::QuietBringUp watcher;
+    const auto up = driver.bring_up(watcher);
+    ASSERT_FALSE(up);
+    EXPECT_EQ(up.error().code, Errc::kProtocol);
+    EXPECT_NE(up.error().message.find(word), std::string::npos) << up.error().message;
+    EXPECT_EQ(model.motor_effort(), Vec3::Zero());
+  }
+}
+
+TEST(WoodenDriver, OddReportsAreNoReadings) {
+  WoodenBench b(options_of(WoodenProtocol::kV2));
+  ASSERT_TRUE(b.bring_up());
+  ASSERT_TRUE(b.home());
+  const Vec3 x = b.state.x;
+  b.model.faults.odd_reports = 1;
+  const auto how = b.step();
+  ASSERT_FALSE(how);
+  EXPECT_EQ(how.error(), Errc::kFraming);
+  EXPECT_EQ(b.state.x, x);
+  EXPECT_EQ(b.step(), Exchange::kFresh);
+  b.model.faults.lost_reports = 3;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(b.step(), Exchange::kNothing);
+  EXPECT_EQ(b.step(), Exchange::kFresh);
+  EXPECT_TRUE(b.state.homed);
+}
+
+TEST(WoodenDriver, AStalledEndpointIsAProtocolError) {
+  WoodenBench b(options_of(WoodenProtocol::kV2));
+  ASSERT_TRUE(b.bring_up());
+  b.model.faults.stalled_out = true;
+  const auto how = b.step();
+  ASSERT_FALSE(how);
+  EXPECT_EQ(how.error(), Errc::kProtocol);
+  b.model.faults.stalled_out = false;
+  EXPECT_TRUE(b.step());
+}
+
+TEST(WoodenDriver, GivenUpMeansGivenUp) {
+  WoodenBench b(options_of(WoodenProtocol::kV2));
+  test::QuietBringUp watcher(true);
+  const auto up = b.driver.bring_up(watcher);
+  ASSERT_FALSE(up);
+  EXPECT_EQ(up.error().code, Errc::kBadState);
+}
+
+TEST(WoodenDriver, CountersRunOnPastTheirWrap) {
+  WoodenHapticsOptions options = options_of(WoodenProtocol::kV2);
+  options.spec.counts_per_turn = 40000;
+  options.spec.calibration_counts = {32000, 30000, 27140};
+  const Kinematics k(options.spec);
+  WoodenBench b(options);
+  ASSERT_TRUE(b.bring_up());
+  ASSERT_TRUE(b.home());
+  EXPECT_NEAR(b.state.raw[0], 32000, 1);
+  const Vec3 q0 = b.model.q();
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 q = q0 + 0.001 * i * Vec3(1, 1, 1);
+    ASSERT_TRUE(b.model.place(k.tip(q)));
+    ASSERT_EQ(b.step(), Exchange::kFresh);
+    for (std::size_t m = 0; m < 3; ++m) ASSERT_NEAR(b.state.q[m], b.model.q()[static_cast<int>(m)], 2e-5) << i;
+  }
+  EXPECT_GT(b.state.raw[0], 40000);
+}
+
+TEST(WoodenDriver, ButtonsAreTold) {
+  WoodenHapticsOptions options = options_of(WoodenProtocol::kRaw64);
+  options.spec.stylus_on_encoder_d = true;
+  WoodenBench b(options);
+  ASSERT_TRUE(b.bring_up());
+  ASSERT_TRUE(b.step());
+  EXPECT_EQ(b.state.buttons, 0u);
+  b.model.hold_stylus(true);
+  ASSERT_TRUE(b.step());
+  ASSERT_TRUE(b.step());
+  EXPECT_EQ(b.state.buttons, 1u);
+  EXPECT_EQ(b.state.raw[3], 0);
+}
+
+TEST(WoodenDriver, TheBoardsOwnWatchdogLetsGoAfterHalfASecondAndAnyReportWakesIt) {
+  WoodenBench b(options_of(WoodenProtocol::kV2));
+  ASSERT_TRUE(b.bring_up());
+  ASSERT_TRUE(b.home());
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(b.step(kSomeEffort));
+  const Vec3 held = b.model.motor_effort();
+  ASSERT_NE(held, Vec3::Zero());
+  b.time.wait_until(b.time.now() + 490ms);  // the program hangs
+  EXPECT_EQ(b.model.motor_effort(), held) << "that long it pushes on: the host has to be faster";
+  b.time.wait_until(b.time.now() + 20ms);
+  EXPECT_FALSE(b.model.amplifiers_on());
+  EXPECT_EQ(b.model.motor_effort(), Vec3::Zero());
+  // A program that starts anew wakes the amplifiers with its first report, which therefore is a zero.
+  ASSERT_TRUE(b.bring_up());
+  EXPECT_TRUE(b.model.amplifiers_on());
+  EXPECT_EQ(b.model.motor_effort(), Vec3::Zero());
+  EXPECT_FALSE(b.driver.homed());
+}
+
+}  // namespace
+}  // namespace tandem::hal::woodenhaptics
