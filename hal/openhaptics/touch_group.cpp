@@ -173,6 +173,7 @@ void TouchGroup::stop() noexcept {
   api_->unschedule(*scheduled_);
   scheduled_.reset();
   forget_errors();
+  for (Slot& slot : slots_) slot.order_age = kOrderCycles;  // however long it stands: what was ordered before is old
 }
 
 Result<> TouchGroup::start() {
@@ -241,7 +242,7 @@ void TouchGroup::serve(Slot& slot) noexcept {
 
 std::array<double, 3> TouchGroup::force_for(Slot& slot, const Order& order) noexcept {
   Sample& s = slot.last;
-  slot.order_age = order.number == slot.order_number ? slot.order_age + 1 : 0;
+  slot.order_age = order.number == slot.order_number ? std::min(slot.order_age + 1, kOrderCycles) : 0;
   slot.order_number = order.number;
   s.order = 0;
   // Whoever ordered may be gone, while this cycle is the vendor's and goes on.

@@ -180,6 +180,11 @@ TEST_F(OpenHaptics, ClampsToWhatTheDeviceSaysAndToNothingWhereItSaysNothing) {
     ASSERT_TRUE(driver.bring_up(patient));
     Orders orders;
     State state;
+    orders.effort = {1, 0, 0};
+    for (int i = 0; i < 60; ++i) ASSERT_TRUE(driver.exchange(orders, state));
+    ASSERT_FALSE(state.homed) << "nobody asked";
+    EXPECT_EQ(state.f_out.norm(), 0) << "no origin, no force";
+    orders.effort = {};
     orders.homing = true;
     for (int i = 0; i < 60; ++i) ASSERT_TRUE(driver.exchange(orders, state));
     ASSERT_TRUE(state.homed);

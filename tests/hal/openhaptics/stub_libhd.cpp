@@ -68,6 +68,7 @@ void hdDisableDevice(std::uint32_t h) {
 }
 void hdMakeCurrentDevice(std::uint32_t h) {
   if (h >= state.devices.size() || !state.devices[h].initialised) return raise(0x0104, h);
+  ++state.devices[h].touched;
   state.current = h;
 }
 void hdBeginFrame(std::uint32_t h) {
