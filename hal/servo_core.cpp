@@ -35,6 +35,7 @@ Result<> ServoCore::bring_up(BringUp& watcher) {
 bool ServoCore::step(Time now, ServoClient& client) noexcept {
   const Phase phase = this->phase();
   if (phase == Phase::kLost || phase == Phase::kAbsent) return false;
+  if (phase == Phase::kBooting) return true;
   if (!stepped_) answered_ = now;
   stepped_ = true;
   if (phase == Phase::kEnabled && acted_ != Phase::kEnabled) guard_.start(now);
@@ -59,6 +60,7 @@ bool ServoCore::step(Time now, ServoClient& client) noexcept {
     client.lost(Errc::kUnplugged);
     return false;
   }
+  if (!exchanged && exchanged.error() == Errc::kFirmware) phase_.store(Phase::kBooting);
   judge(now, exchanged.value_or(Exchange::kNothing));
   follow_homing(this->phase(), now);
   command_ = client.tick(state_);

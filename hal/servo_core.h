@@ -15,7 +15,7 @@ namespace tandem::hal {
 /// Absent -> Opening -> Booting -> Identified -> Unhomed -> Ready (zero force) -> Enabled -> Fault | Lost. Fault (no answer
 /// within the miss limit, or readings that cannot be, again and again) keeps exchanging zeros and needs `reset`; Lost is
 /// for ever: a device that comes back is another one, and nobody enables it but a person. A homed device that loses its
-/// origin is Unhomed again.
+/// origin is Unhomed again. A driver that finds its firmware dead (Errc::kFirmware) is Booting: `bring_up` anew.
 ///
 /// Threads: `bring_up` and `step` on the device's thread; `enable`, `disable`, `reset`, `phase` from any.
 class ServoCore {
@@ -29,7 +29,8 @@ class ServoCore {
 
   /// From Absent, Fault or Lost... to Unhomed or Ready. Error: the driver's, phase Fault or Lost.
   Result<> bring_up(BringUp& watcher);
-  /// One exchange, then one call of the client. @return false: the device is Lost, and the client was told
+  /// One exchange, then one call of the client; nothing while Booting.
+  /// @return false: the device is Lost, and the client was told
   bool step(Time now, ServoClient& client) noexcept TANDEM_REALTIME;
   /// Zeros, while the link lives.
   void silence() noexcept { driver_->silence(); }

@@ -69,7 +69,21 @@ std::optional<std::size_t> Lobby::seat_of_cid(std::uint32_t cid) const noexcept 
   return seat;
 }
 
-bool Lobby::on_bind(Time now, const Endpoint& from, std::span<const std::byte> bytes, std::span<SeatPort> seats,
+wire::BindAckMessage Lobby::receive_visitor(Time now, const Endpoint& from, const wire::BindMessage& m, Visitors& visitors) noexcept {
+  const std::uint32_t cid =
+      visitors.bind(now, from, m.nonce, m.client_cid, draw_cid(kSeatsMax), from_seconds(1.0 / scene_->tick_hz));
+  wire::BindAckMessage ack;
+  if (cid == 0) {
+    ack.result = wire::BindResult::kSeatTaken;
+    put_reason(ack, "as many link tests as there may be are under way");
+  } else {
+    ack = accepted_.front();  // a seat's rate and sizes
+    ack.server_cid = cid;
+  }
+  return ack;
+}
+
+bool Lobby::on_bind(Time now, const Endpoint& from, std::span<const std::byte> bytes, std::span<SeatPort> seats, Visitors& visitors,
                     bool closed) noexcept {
   const auto header = link::read_header(bytes);
   if (!header || header->type != wire::Type::kBind) return false;
@@ -87,6 +101,9 @@ bool Lobby::on_bind(Time now, const Endpoint& from, std::span<const std::byte> b
   if (closed) {
     ack.result = wire::BindResult::kSessionOver;
     put_reason(ack, "the session is ending");
+  } else if (spec == scene_->seats.end() && name == wire::kVisitorName) {
+    ack = receive_visitor(now, from, m, visitors);
+    ack.nonce = m.nonce;
   } else if (spec == scene_->seats.end()) {
     std::string text = "no seat of this name; seats:";
     for (const SeatSpec& s : scene_->seats) text += " " + s.name;

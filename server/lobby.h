@@ -10,6 +10,7 @@
 #include "proto/scene_spec.h"
 #include "proto/wire_codec.h"
 #include "server/seat_port.h"
+#include "server/visitors.h"
 
 namespace tandem::server {
 
@@ -20,7 +21,8 @@ class Lobby {
   Lobby(const SceneSpec& scene, const AxisArray& scale, std::uint64_t secret);
 
   /// @return false for bytes that are no BIND: no reply, no state.
-  bool on_bind(Time now, const Endpoint& from, std::span<const std::byte> bytes, std::span<SeatPort> seats, bool closed) noexcept;
+  bool on_bind(Time now, const Endpoint& from, std::span<const std::byte> bytes, std::span<SeatPort> seats, Visitors& visitors,
+               bool closed) noexcept;
   [[nodiscard]] std::optional<std::size_t> seat_of_cid(std::uint32_t cid) const noexcept;
 
   struct Answer {
@@ -31,6 +33,8 @@ class Lobby {
 
  private:
   void answer(const Endpoint& to, const wire::BindAckMessage& ack) noexcept;
+  [[nodiscard]] wire::BindAckMessage receive_visitor(Time now, const Endpoint& from, const wire::BindMessage& m,
+                                                     Visitors& visitors) noexcept;
   [[nodiscard]] std::uint32_t draw_cid(std::size_t seat) noexcept;
 
   struct Waiting {

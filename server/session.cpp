@@ -21,7 +21,8 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       secret_(secret),
       scale_(scale),
       masters_(scene.masters()),
-      lobby_(scene, scale, secret) {
+      lobby_(scene, scale, secret),
+      visitors_(scene.dof, scene.port) {
   seats_.reserve(scene.seats.size());
   for (std::size_t i = 0; i < scene.seats.size(); ++i) seats_.emplace_back(scene, i, scale);
   tools_.reserve(scene.tools.size());
@@ -36,12 +37,12 @@ void Session::on_datagram(Time now, const Endpoint& from, std::span<const std::b
     return;
   }
   if (header->cid == 0) {
-    if (!lobby_.on_bind(now, from, bytes, seats_, state_ == wire::SessionState::kEnding || over_)) ++stray_;
+    if (!lobby_.on_bind(now, from, bytes, seats_, visitors_, state_ == wire::SessionState::kEnding || over_)) ++stray_;
     return;
   }
   const auto i = lobby_.seat_of_cid(header->cid);
   if (!i || !seats_[*i].bound() || seats_[*i].endpoint() != from) {  // unproven addresses get no reply and no state
-    ++stray_;
+    if (!visitors_.on_datagram(now, from, header->cid, bytes)) ++stray_;
     return;
   }
   const auto heard = seats_[*i].on_datagram(now, bytes);
@@ -77,6 +78,7 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
     if (auto* l = seats_[i].link()) l->tick(now);
     send_due_[i] = seats_[i].bound() && seats_[i].generation() > 0;
   }
+  visitors_.on_tick(now);
 }
 
 void Session::live_one_tick(Time now) noexcept {
@@ -356,6 +358,8 @@ std::optional<Session::Transmit> Session::poll_transmit(Time now, std::span<std:
         closing ? seats_[i].transmit_close(now, tick_, close_reason_, buffer) : seats_[i].transmit(now, tick_, buffer);
     if (size > 0) return Transmit{seats_[i].endpoint(), size};
   }
+  if (const auto due = visitors_.poll_transmit(now, tick_, closing ? std::optional{close_reason_} : std::nullopt, buffer))
+    return Transmit{due->to, due->size};
   return std::nullopt;
 }
 

@@ -13,6 +13,7 @@
 #include "server/seat_port.h"
 #include "server/tick_record.h"
 #include "server/tool.h"
+#include "server/visitors.h"
 
 namespace tandem::server {
 
@@ -78,6 +79,7 @@ class Session {
   std::vector<Tool> tools_;
   std::size_t masters_;
   Lobby lobby_;
+  Visitors visitors_;
 
   wire::SessionState state_ = wire::SessionState::kWaiting;
   bool engage_ = false;                  ///< all required seats were ready: springs may be loaded

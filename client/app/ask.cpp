@@ -8,6 +8,7 @@
 #include "client/seat.h"
 #include "common/io/clock.h"
 #include "common/io/datagram_batch.h"
+#include "proto/visit.h"
 
 namespace tandem::client {
 namespace {
@@ -23,6 +24,9 @@ std::uint64_t unpredictable() {
 
 std::string refusal(const Joining& joining, const std::string& seat) {
   const std::string said = joining.reason();
+  if (seat == wire::kVisitorName)
+    return joining.result() == wire::BindResult::kNoSuchSeat ? "this server is of a version without link tests: " + said
+                                                             : "refused: " + said + "; try again later";
   switch (joining.result()) {
     case wire::BindResult::kNoSuchSeat:
       return "--seat " + seat + ": " + said;

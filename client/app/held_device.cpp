@@ -73,10 +73,14 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
   if (!opened) return failed(opened.error(), opened.error().code == hal::Errc::kUnsupported);
 
   std::unique_ptr<HeldDevice> held{new HeldDevice};
+  held->bus_ = opened->bus;
   if (opened->last_words) {
     auto deadman = hal::Deadman::watch({&*opened->last_words, 1});
     if (!deadman) return failed(deadman.error(), false);
     held->deadman_ = std::move(*deadman);
+  } else {
+    line.note("nobody can speak for this device if this program is killed: then only the device's own watchdog takes its "
+              "force away");
   }
   auto core = std::make_unique<hal::ServoCore>(std::move(opened->driver));
   Progress progress{signals, line};

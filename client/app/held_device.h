@@ -34,7 +34,9 @@ class HeldDevice {
   [[nodiscard]] hal::Device& device() noexcept { return *device_; }
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
 
-  /// From now on `client` is called, on the device's thread; it must live until `device().close()`.
+  /// From now on `client` is called with what the device itself says.
+  void observe(hal::ServoClient& client) { relay_.to.store(&client, std::memory_order_release); }
+  /// The same for a seat: of a device that says how fast, it sees where. It must live until `device().close()`.
   void serve(hal::ServoClient& client);
 
  private:
@@ -55,6 +57,7 @@ class HeldDevice {
   HeldDevice() = default;
   [[nodiscard]] std::expected<void, Failure> wait_until_homed(int signals, io::StatusLine& line);
 
+  std::shared_ptr<void> bus_;
   std::unique_ptr<hal::Deadman> deadman_;  ///< says goodbye after the device was closed
   Relay relay_;
   std::unique_ptr<hal::Device> device_;

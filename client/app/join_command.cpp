@@ -7,6 +7,7 @@
 
 #include "client/app/attend.h"
 #include "client/app/held_device.h"
+#include "client/app/server_option.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "hal/io/backend.h"
@@ -68,16 +69,7 @@ void understand_files(const JoinArguments& arguments, Mistakes& mistakes) {
 /// A plan, or everything that is wrong with what was typed.
 AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   AttendPlan plan;
-  if (const auto server = io::parse_address(arguments.server, 1)) {
-    plan.server = *server;
-    if (!server->loopback())
-      mistakes.push_back(
-          "--server: " + io::to_text(*server) +
-          " is not on this computer and is refused: sealed sessions do not exist yet, nobody could tell the server "
-          "from somebody else who moves your hand. Use the 127.0.0.1:PORT that tandem-server prints");
-  } else {
-    mistakes.push_back("--server: " + server.error());
-  }
+  if (const auto server = server_option(arguments.server, mistakes)) plan.server = *server;
   if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
     mistakes.push_back("--seat: a name has 1 to 32 characters");
   if (HeldDevice::is_meant(arguments.device)) {
@@ -153,13 +145,18 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
                    "how long to wait for a server that does not answer [s]; default 5")
       ->option_text("S");
   command->add_flag("--quiet", arguments->quiet, "no status");
+  std::string hardware;
+  for (const hal::Backend* backend : hal::backends()) hardware += backend->help();
   command->footer(
       "Devices\n"
       "  sim                         simulated, as the scene describes the seat's device and hand\n"
       "  sim:hand=NAME               another hand: none leader relaxed resting letting_go tremor keyboard\n"
       "  sim:keyboard                you move the hand: arrow keys and PgUp/PgDn\n"
       "  sim:motion=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop]\n"
-      "                              a recorded motion moves the hand\n"
+      "                              a recorded motion moves the hand\n" +
+      hardware +
+      "                              (`tandem-client doctor` lists what is attached; several of a kind need port= or "
+      "serial=)\n"
       "Keys: the instructor moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
       "gate;\n"
       "q or Ctrl-C lets go gently and leaves.\n"

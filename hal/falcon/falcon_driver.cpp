@@ -46,7 +46,9 @@ DeviceCaps caps_of(const FalconSpec& spec, const FalconForce& force) {
     limit.resolution = pose->J.row(axis).norm() * kFalconRadPerCount;
     double peak = std::numeric_limits<double>::infinity();
     for (int leg = 0; leg < 3; ++leg) {
-      peak = std::min(peak, force.torque_max(static_cast<std::size_t>(leg)) / std::abs(pose->J(axis, leg)));
+      // Of the motors, whatever the ceiling of a device that is not calibrated: guards take a share of this one.
+      const double torque = kFalconMotorMax / force.counts_per_nm()[static_cast<std::size_t>(leg)];
+      peak = std::min(peak, torque / std::abs(pose->J(axis, leg)));
     }
     limit.peak = std::min(peak, spec.peak.value_or(peak));
     limit.continuous = spec.continuous;
@@ -109,6 +111,7 @@ Result<> FalconDriver::bring_up(BringUp& watcher) {
   boot_attempts_ = boot.attempts();
   if (!loaded) return std::unexpected(loaded.error());
   reload_ = false;
+  framer_.clear();
   first_reading(*loaded);
   return {};
 }
@@ -122,7 +125,7 @@ void FalconDriver::first_reading(const FalconReply& reply) noexcept {
 FalconOrder FalconDriver::frame_for(const Orders& orders, Order& order) noexcept {
   order = {.seq = orders.seq};
   FalconOrder frame{.lights = static_cast<std::uint8_t>(orders.leds & 7u)};
-  const bool may_push = homing_.homed() && pose_ && !orders.homing;
+  const bool may_push = homing_.homed() && pose_ && !orders.homing && !reload_;
   frame.homing = homing_.bit(orders.homing);
   if (!may_push) return frame;
   const double share = falcon_effort_share(pose_->condition);
@@ -210,9 +213,9 @@ std::expected<Exchange, Errc> FalconDriver::exchange(const Orders& orders, State
 std::expected<Exchange, Errc> FalconDriver::take(State& state, Time now) noexcept {
   const FalconReply& reply = *reply_;
   const FalconHoming::Verdict verdict = homing_.read(reply, now);
-  if (verdict == FalconHoming::Verdict::kFrozen) {
+  reload_ = reload_ || verdict == FalconHoming::Verdict::kFrozen;
+  if (reload_) {
     pose_.reset();
-    reload_ = true;
     state.homed = false;
     return std::unexpected(Errc::kFirmware);
   }

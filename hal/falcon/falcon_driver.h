@@ -22,8 +22,8 @@ struct FalconOptions {
 /// - Force only while all legs are homed, the pose is known, and no frame of homing is asked for; it fades out near
 ///   singular poses (falcon_effort_share) and is cut in its direction to what the motors or the ceiling give.
 /// - An unhomed Falcon has no origin: `q` counts from an arbitrary one, `x` stays where it was last known.
-/// - exchange() returns Errc::kFirmware once when the encoders are found frozen: bring it up again, which loads the firmware
-///   anew. Errc::kProtocol also for encoder counts that no pose has.
+/// - exchange() sends zeros and returns Errc::kFirmware once the encoders were found frozen: bring it up again, which loads the
+///   firmware anew. Errc::kProtocol also for encoder counts that no pose has.
 /// Lock-step: each frame sent is answered by one. An answer that comes late is taken by the next exchange.
 class FalconDriver final : public Driver {
  public:

@@ -22,6 +22,7 @@ struct FoundDevice {
 
 /// A driver for one device, opened and claimed, not brought up.
 struct OpenedDriver {
+  std::shared_ptr<void> bus;  ///< what the driver works with: pipe, clock; must outlive it
   std::unique_ptr<Driver> driver;
   std::optional<LastWords> last_words;  ///< for a Deadman; empty: nobody can speak for this device
 };
@@ -36,6 +37,8 @@ class Backend {
   [[nodiscard]] virtual std::string_view help() const noexcept = 0;
   /// Error: why nothing can be listed at all, for example a missing library.
   [[nodiscard]] virtual Result<std::vector<FoundDevice>> list() = 0;
+  /// Lines for the system that let whoever sits at the machine use such devices.
+  [[nodiscard]] virtual std::vector<std::string> udev_rules() const { return {}; }
   /// Error: cause and remedy; kUnsupported: the words themselves are wrong, whatever is attached.
   [[nodiscard]] virtual Result<OpenedDriver> open(const DeviceChoice& choice) = 0;
 };

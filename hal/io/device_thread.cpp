@@ -11,6 +11,17 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t kPublishEvery = 64;  // exchanges between copies for readers: quantiles cost some microseconds
 
+/// Nobody sees the progress of a second start; closing ends it.
+class Unwatched final : public BringUp {
+ public:
+  explicit Unwatched(const std::atomic<bool>& stop) : stop_(stop) {}
+  void progress(std::string_view, double) override {}
+  bool cancelled() const noexcept override { return stop_.load(std::memory_order_relaxed); }
+
+ private:
+  const std::atomic<bool>& stop_;
+};
+
 }  // namespace
 
 DeviceThread::DeviceThread(std::unique_ptr<ServoCore> core, Duration period)
@@ -40,10 +51,12 @@ void DeviceThread::run(ServoClient& client) noexcept {
     stats.round_trip_max_s = 1e-9 * static_cast<double>(core_->round_trips().max());
     published_ = stats;
   };
+  Unwatched watcher{stop_};
   pace.begin();
   while (!stop_.load(std::memory_order_relaxed)) {
     pace.next();
     const Time now = clock.now();  // a command that died while this thread slept is dead
+    if (core_->phase() == Phase::kBooting) static_cast<void>(core_->bring_up(watcher));  // the phase tells how it went
     if (!core_->step(now, client)) break;
     core_->took(clock.now() - now);
     if (core_->counts().ticks % kPublishEvery == 1 && stats_lock_.try_lock()) {

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "hal/io/udev_rule.h"
 
@@ -72,7 +73,9 @@ struct Slot {
 
   Slot() : transfer(libusb_alloc_transfer(0)) {}
   Slot(const Slot&) = delete;
-  ~Slot() { libusb_free_transfer(transfer); }
+  ~Slot() { release(); }
+  /// Before the context it was used with is gone.
+  void release() noexcept { libusb_free_transfer(std::exchange(transfer, nullptr)); }
 };
 
 void LIBUSB_CALL on_done(libusb_transfer* transfer) noexcept { static_cast<Slot*>(transfer->user_data)->done = 1; }
@@ -139,6 +142,7 @@ struct LibusbPipe::Impl {
     }
     if (claimed) libusb_release_interface(handle, interface.number);
     if (handle != nullptr) libusb_close(handle);
+    for (Slot* slot : {&in, &out, &request}) slot->release();
     if (context != nullptr) libusb_exit(context);
   }
 
@@ -178,7 +182,8 @@ struct LibusbPipe::Impl {
   /// @return whether the transfer ended before the time was over
   bool wait(Slot& slot, Duration timeout) noexcept {
     const Time until = now() + timeout;
-    for (Duration left = timeout;; left = until - now()) {
+    Duration left = timeout;
+    while (slot.done == 0) {  // may have ended while another one was waited for
       const auto whole = std::chrono::duration_cast<std::chrono::seconds>(std::max(left, Duration::zero()));
       timespec rest{};
       rest.tv_sec = whole.count();
@@ -187,12 +192,11 @@ struct LibusbPipe::Impl {
         timeval no_wait{};
         libusb_handle_events_timeout_completed(context, &no_wait, &slot.done);
       }
-      if (slot.done != 0) {
-        slot.under_way = false;
-        return true;
-      }
-      if (left <= Duration::zero()) return false;
+      if (slot.done == 0 && left <= Duration::zero()) return false;
+      left = until - now();
     }
+    slot.under_way = false;
+    return true;
   }
 
   std::expected<void, Errc> submit(Slot& slot) noexcept {

@@ -308,6 +308,24 @@ TEST_F(ServoCoreTest, ATroubledStartSaysWhyAndIsNotReady) {
   EXPECT_FALSE(core->enable());
 }
 
+TEST_F(ServoCoreTest, ADeadFirmwareIsLoadedAnewAndNothingIsEnabledByThat) {
+  driver->what.homing = Homing::kManual;
+  driver->next.homed = false;
+  bring_up();
+  steps(5);
+  driver->how = std::unexpected(Errc::kFirmware);
+  EXPECT_TRUE(step());
+  EXPECT_EQ(core->phase(), Phase::kBooting);
+  const auto sent = driver->sent.size();
+  EXPECT_TRUE(step());
+  EXPECT_EQ(driver->sent.size(), sent);  // nothing is exchanged with it
+  EXPECT_FALSE(core->enable());
+  driver->how = Exchange::kFresh;
+  bring_up();
+  steps(2);
+  EXPECT_EQ(core->phase(), Phase::kUnhomed);
+}
+
 TEST_F(ServoCoreTest, StepsWithoutHeap) {
   bring_up();
   ASSERT_TRUE(core->enable());

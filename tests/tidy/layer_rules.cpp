@@ -41,7 +41,7 @@ constexpr std::array<std::string_view, 7> kTopFolders{"client/", "common/", "hal
                                                       "proto/",  "server/", "tests/"};
 
 /// Mirrors "Rooms and who may know whom". The room with the longest `folder` that the path begins with decides.
-const std::array<Room, 16> kRooms{{
+const std::array<Room, 17> kRooms{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -64,6 +64,10 @@ const std::array<Room, 16> kRooms{{
       "proto/spacemouse_spec.h"},
      {"Eigen"},
      "hal is base, Eigen and the plain structs of a scene and of a device's file; it knows no network and no session"},
+    {"hal/app",
+     {"common/base", "common/link/digest.h", "hal", "proto"},
+     {},
+     "hal/app makes drivers of what a person names: buses, files, presets; no network and no session"},
     {"netsim",
      {"common/base", "proto/input_error.h", "netsim"},
      {},

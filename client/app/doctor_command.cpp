@@ -1,0 +1,242 @@
+#include "client/app/doctor_command.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "client/app/held_device.h"
+#include "client/examination.h"
+#include "common/io/clock.h"
+#include "common/io/number_option.h"
+#include "common/io/signals.h"
+#include "hal/io/backend.h"
+#include "hal/io/hotplug.h"
+#include "hal/io/udev_rule.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+using Kind = Examination::Finding::Kind;
+
+constexpr int kTrouble = 1, kWrong = 2;
+
+struct DoctorArguments {
+  std::string device, seconds = "5";
+  bool force_test = false, install = false, watch = false;
+};
+
+void print(const Examination::Finding& finding) {
+  static constexpr const char* kMarks[] = {"  ok      ", "  notice  ", "  TROUBLE "};
+  std::printf("%s%s\n", kMarks[static_cast<std::size_t>(finding.kind)], finding.words.c_str());
+}
+
+bool trouble_in(const std::vector<Examination::Finding>& findings) {
+  return std::ranges::any_of(findings, [](const auto& f) { return f.kind == Kind::kTrouble; });
+}
+
+/// Looks on from the device's thread; the results are read after the device is closed.
+class Onlooker final : public hal::ServoClient {
+ public:
+  explicit Onlooker(const hal::DeviceCaps& caps)
+      : joints_(std::min(caps.joints, kAxesMax)), examination_(caps), caps_(caps) {}
+
+  hal::Command tick(const hal::State& state) noexcept override {
+    examination_.see(state);
+    if (!push_.load(std::memory_order_acquire)) return {};
+    const Time now = io::monotonic_now();
+    if (!test_) test_.emplace(caps_, now);
+    if (test_->over(now)) done_.store(true, std::memory_order_release);
+    const hal::Vec3 force = test_->step(now, state);
+    hal::Command command{++seq_, now + 5ms, hal::CommandKind::kJointEffort, {}};
+    for (std::size_t j = 0; j < joints_; ++j) command.effort[j] = state.J.col(static_cast<Eigen::Index>(j)).dot(force);
+    return command;
+  }
+  void lost(hal::Errc) noexcept override { lost_.store(true); }
+
+  void push() noexcept { push_.store(true, std::memory_order_release); }
+  [[nodiscard]] bool pushed() const noexcept { return done_.load(std::memory_order_acquire); }
+  [[nodiscard]] bool was_lost() const noexcept { return lost_.load(); }
+  [[nodiscard]] const Examination& examination() const noexcept { return examination_; }
+  [[nodiscard]] const std::optional<ForceTest>& force_test() const noexcept { return test_; }
+
+ private:
+  std::size_t joints_;
+  Examination examination_;
+  hal::DeviceCaps caps_;
+  std::optional<ForceTest> test_;
+  std::atomic<bool> push_{false}, done_{false}, lost_{false};
+  std::uint64_t seq_ = 0;
+};
+
+/// @return false: interrupted
+bool wait(Duration time, int signals, const std::function<bool()>& enough) {
+  const Time end = io::monotonic_now() + time;
+  while (io::monotonic_now() < end && !enough()) {
+    pollfd file{signals, POLLIN, 0};
+    if (poll(&file, 1, 20) > 0) return false;
+  }
+  return true;
+}
+
+int examine(const DoctorArguments& arguments, double seconds) {
+  const io::Fd signals = io::signals_as_file();
+  io::StatusLine line{false};
+  auto held = HeldDevice::take(arguments.device, signals.get(), line);
+  if (!held) {
+    if (held.error().interrupted) return kTrouble;
+    std::fprintf(stderr, "tandem-client doctor: %s\n", held.error().reason.c_str());
+    return held.error().wrong_words ? kWrong : kTrouble;
+  }
+  hal::Device& device = (*held)->device();
+  Onlooker onlooker{device.caps()};
+  std::printf("%s: move the grip in all directions and press its buttons, for %.0f s. No force comes.\n",
+              (*held)->note().c_str(), seconds);
+  std::fflush(stdout);
+  const Time begin = io::monotonic_now();
+  (*held)->observe(onlooker);
+  bool whole = wait(from_seconds(seconds), signals.get(), [&] { return onlooker.was_lost(); });
+  const double watched = tandem::seconds(io::monotonic_now() - begin);
+  const hal::DeviceStats stats = device.stats();
+  auto findings = onlooker.examination().findings(stats, watched);
+
+  if (whole && arguments.force_test && !onlooker.was_lost()) {
+    std::printf("force test: hold the grip loosely in the middle of its workspace; six soft pushes of %.1f N follow\n",
+                ForceTest::kForce);
+    std::fflush(stdout);
+    if (auto ok = device.enable(); !ok) {
+      findings.push_back({Kind::kTrouble, "force test: " + ok.error().message});
+    } else {
+      whole = wait(1s, signals.get(), [&] { return onlooker.was_lost(); });
+      onlooker.push();
+      whole = whole && wait(10s, signals.get(), [&] { return onlooker.pushed() || onlooker.was_lost(); });
+      device.disable();
+    }
+  }
+  device.close();
+  if (onlooker.force_test() && whole) {
+    for (auto& finding : onlooker.force_test()->findings()) findings.push_back(std::move(finding));
+  }
+  if (onlooker.was_lost()) findings.push_back({Kind::kTrouble, "it was unplugged, or stopped existing, while it was examined"});
+  for (const auto& finding : findings) print(finding);
+  if (!whole) std::printf("interrupted: what was seen so far is told and is no clean bill\n");
+  return whole && !trouble_in(findings) ? 0 : kTrouble;
+}
+
+int list_all() {
+  bool trouble = false;
+  std::size_t found = 0;
+  for (hal::Backend* backend : hal::backends()) {
+    const auto listed = backend->list();
+    if (!listed) {
+      print({Kind::kNotice, std::string(backend->name()) + ": " + listed.error().message});
+      continue;
+    }
+    for (const hal::FoundDevice& device : *listed) {
+      ++found;
+      print({device.trouble.empty() ? Kind::kGood : Kind::kTrouble,
+             device.about + "\n            --device " + device.words + (device.trouble.empty() ? "" : "\n            " + device.trouble)});
+      trouble = trouble || !device.trouble.empty();
+    }
+  }
+  if (found == 0) {
+    std::printf("No device that Tandem knows is attached. Is it plugged in and powered? `lsusb` tells what the system sees.\n"
+                "Without a device, `--device sim` holds a simulated one.\n");
+    return kTrouble;
+  }
+  std::printf("`tandem-client doctor --device WORDS` examines one of them.\n");
+  return trouble ? kTrouble : 0;
+}
+
+/// What comes and goes, until the person has seen enough.
+int watch_plugs() {
+  const io::Fd signals = io::signals_as_file();
+  auto watch = hal::PlugWatch::open();
+  if (!watch) {
+    std::fprintf(stderr, "tandem-client doctor: %s\n", watch.error().message.c_str());
+    return kTrouble;
+  }
+  std::printf("plug devices in and out; Ctrl-C ends\n");
+  for (const hal::Attached& device : (*watch)->present()) std::printf("  is there  %s\n", describe(device).c_str());
+  std::fflush(stdout);
+  do {
+    for (const hal::PlugChange& change : (*watch)->wait(200ms)) {
+      std::printf("  %s  %s\n", change.arrived ? "came    " : "left    ", describe(change.device).c_str());
+      std::fflush(stdout);
+    }
+  } while (wait(1ms, signals.get(), [] { return false; }));
+  return 0;
+}
+
+std::string all_rules() {
+  std::string rules = "# Whoever sits at this machine may use the haptic devices that Tandem knows. Written by `tandem-client doctor`.\n";
+  for (hal::Backend* backend : hal::backends()) {
+    for (const std::string& rule : backend->udev_rules()) rules += rule + "\n";
+  }
+  return rules;
+}
+
+int install_rules() {
+  const std::string rules = all_rules();
+  std::ofstream file(hal::kUdevRulesFile, std::ios::trunc);
+  if (!(file << rules) || !file.flush()) {
+    std::fprintf(stderr,
+                 "tandem-client doctor: %s cannot be written; run it as root: sudo tandem-client doctor --install-udev\n"
+                 "It would contain:\n%s",
+                 hal::kUdevRulesFile, rules.c_str());
+    return kTrouble;
+  }
+  std::printf("%s is written. Now: udevadm control --reload && udevadm trigger, or unplug the device and plug it in.\n",
+              hal::kUdevRulesFile);
+  return 0;
+}
+
+int doctor_command(const DoctorArguments& arguments) {
+  std::vector<std::string> mistakes;
+  if (const std::string problem = io::number_in(0.5, 600, "s")(std::string(arguments.seconds)); !problem.empty())
+    mistakes.push_back("--seconds: " + problem);
+  if (arguments.force_test && arguments.device.empty())
+    mistakes.push_back("--force-test: needs --device; forces are sent to a device that a person named, to no other");
+  if (arguments.install && (!arguments.device.empty() || arguments.force_test || arguments.watch))
+    mistakes.push_back("--install-udev: stands alone");
+  if (arguments.watch && (!arguments.device.empty() || arguments.force_test)) mistakes.push_back("--watch: stands alone");
+  if (!arguments.device.empty() && !HeldDevice::is_meant(arguments.device))
+    mistakes.push_back("--device: a simulated device needs no doctor");
+  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
+  if (!mistakes.empty()) {
+    std::fprintf(stderr, "tandem-client doctor: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+    return kWrong;
+  }
+  if (arguments.install) return install_rules();
+  if (arguments.watch) return watch_plugs();
+  return arguments.device.empty() ? list_all() : examine(arguments, std::stod(arguments.seconds));
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<DoctorArguments>();
+  CLI::App* const command = root.add_subcommand("doctor", "Lists haptic devices and says what ails them.");
+  command->add_option("--device", arguments->device, "examines this one; the words are those of `join --device`")->option_text("WORDS");
+  command->add_option("--seconds", arguments->seconds, "how long to watch while you move it; default 5")->option_text("S");
+  command->add_flag("--force-test", arguments->force_test, "then pushes your hand softly (0.5 N) along each axis, both ways");
+  command->add_flag("--watch", arguments->watch, "says what is plugged in and out, on USB and among HID devices");
+  command->add_flag("--install-udev", arguments->install,
+                    "writes the udev rules that let whoever sits here use the devices; needs root");
+  command->footer(
+      "Exit: 0 all is well; 1 trouble was found, or no device; 2 wrong arguments.\n\n"
+      "Examples\n"
+      "  tandem-client doctor\n"
+      "  tandem-client doctor --device woodenhaptics:preset=aluhaptics-v2 --seconds 10\n"
+      "  sudo tandem-client doctor --install-udev");
+  command->callback([arguments, &action] { action = [arguments] { return doctor_command(*arguments); }; });
+}
+
+}  // namespace tandem::client

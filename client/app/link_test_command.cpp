@@ -1,0 +1,265 @@
+#include "client/app/link_test_command.h"
+
+#include <poll.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "client/app/ask.h"
+#include "client/app/server_option.h"
+#include "client/link_verdict.h"
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "common/io/datagram_batch.h"
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "common/io/realtime.h"
+#include "common/io/signals.h"
+#include "common/io/terminal.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kTrouble = 1, kWrong = 2;
+constexpr int kPriority = 60;          // that of a device's thread, so that its punctuality is judged
+constexpr Duration kSilentMax = 10s;   // then there is nothing more to learn
+constexpr int kRounds = 4;
+
+struct Arguments {
+  std::string server, json, duration = "10", patience = "5";
+  bool quiet = false;
+};
+
+enum class Ended { kDone, kInterrupted, kServerEnded, kServerSilent };
+
+/// Sends, listens and is punctual, until the time is over or somebody ends it.
+class Prober {
+ public:
+  Prober(const io::UdpSocket& socket, LinkTest& test, double tick_hz, int signals)
+      : socket_(socket), test_(test), period_(from_seconds(1.0 / tick_hz)), signals_(signals) {}
+
+  Ended run(Duration duration, io::StatusLine& line) {
+    const Time begin = io::monotonic_now();
+    due_ = begin + period_;
+    Time shown = begin;
+    while (true) {
+      if (!tick()) return Ended::kInterrupted;
+      const Time now = io::monotonic_now();
+      if (test_.closed()) return Ended::kServerEnded;
+      if (test_.silence(now) > kSilentMax) return Ended::kServerSilent;
+      if (now - begin >= duration) return Ended::kDone;
+      if (now - shown >= std::chrono::milliseconds(line.interval_ms())) {
+        shown = now;
+        line.show(format("link test: %.0f of %.0f s", seconds(now - begin), seconds(duration)));
+      }
+    }
+  }
+  /// For what is still under way. @return false: the person is impatient
+  bool listen(Duration time) {
+    for (const Time end = io::monotonic_now() + time; io::monotonic_now() < end;)
+      if (!tick()) return false;
+    return true;
+  }
+
+ private:
+  bool tick() {
+    while (io::monotonic_now() < due_) {
+      pollfd files[] = {{socket_.fd.get(), POLLIN, 0}, {signals_, POLLIN, 0}};
+      const timespec rest = io::to_timespec(due_ - io::monotonic_now());
+      ppoll(files, 2, &rest, nullptr);
+      if (files[1].revents != 0) return false;
+      receive();
+      // News of an error keeps the socket readable without datagrams: it is taken off, and the tick's time waited for.
+      if ((files[0].revents & POLLERR) != 0) take_error();
+    }
+    const Time now = io::monotonic_now();
+    const Duration late = now - due_;
+    const auto missed = static_cast<std::uint32_t>(late / period_);
+    test_.on_tick(now, late, missed, io::read_clock(CLOCK_REALTIME) - io::monotonic_now().time_since_epoch());
+    std::array<std::byte, link::kDatagramMax> buffer;
+    while (const auto size = test_.poll_transmit(io::monotonic_now(), buffer))
+      ::send(socket_.fd.get(), buffer.data(), *size, MSG_NOSIGNAL | MSG_DONTWAIT);  // what cannot be sent is lost
+    due_ += (missed + 1) * period_;
+    return true;
+  }
+
+  void receive() {
+    for (int round = 0; round < kRounds; ++round) {
+      const int count = in_.receive(socket_.fd.get());
+      const Time now = io::monotonic_now();
+      const Duration wall = io::read_clock(CLOCK_REALTIME);
+      for (int k = 0; k < count; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        // The kernel's stamp: what this program did not see at once is no fault of the network.
+        if (!in_.too_long(i)) test_.on_datagram(now - in_.details(i, wall).age, in_.bytes(i));
+      }
+      if (count < static_cast<int>(io::ReceiveBatch::kMax)) return;
+    }
+  }
+
+  void take_error() {
+    int error = 0;
+    socklen_t size = sizeof error;
+    getsockopt(socket_.fd.get(), SOL_SOCKET, SO_ERROR, &error, &size);
+  }
+
+  const io::UdpSocket& socket_;
+  LinkTest& test_;
+  Duration period_;
+  int signals_;
+  Time due_{};
+  io::ReceiveBatch in_;
+};
+
+using Json = nlohmann::ordered_json;
+
+Json milliseconds(const std::optional<double>& s) { return s ? Json(1e3 * *s) : Json(nullptr); }
+
+Json way(const std::optional<LinkFindings::Way>& w) {
+  if (!w) return nullptr;
+  return {{"sent", w->sent},
+          {"lost", w->lost},
+          {"loss_percent", w->loss_percent()},
+          {"reordered", w->reordered},
+          {"longest_gap_ms", 1e3 * w->longest_gap}};
+}
+
+std::string to_json(const LinkFindings& f, const LinkVerdict& verdict, const std::string& server, bool complete) {
+  Json j;
+  j["server"] = server;
+  j["verdict"] = to_text(verdict.grade);
+  j["words"] = verdict.words;
+  j["advice"] = verdict.advice;
+  j["complete"] = complete;
+  j["duration_s"] = f.seconds;
+  j["rate_hz"] = f.tick_hz;
+  j["rtt_min_ms"] = milliseconds(f.rtt_min);
+  j["rtt_p50_ms"] = milliseconds(f.rtt_p50);
+  j["rtt_p99_ms"] = milliseconds(f.rtt_p99);
+  j["rtt_max_ms"] = milliseconds(f.rtt_max);
+  j["jitter_p99_ms"] = milliseconds(f.jitter);
+  j["up"] = way(f.up);
+  j["down"] = way(f.down);
+  j["duplicates"] = f.duplicates;
+  j["refused"] = f.refused;
+  j["pauses"] = f.pauses;
+  j["clock_step_ms"] = milliseconds(f.clock_step);
+  j["transit_step_ms"] = milliseconds(f.transit_step);
+  j["machine"] = {{"ticks", f.ticks},
+                  {"late_ticks", f.late_ticks},
+                  {"missed_ticks", f.missed_ticks},
+                  {"wake_p99_ms", 1e3 * f.wake_p99},
+                  {"wake_max_ms", 1e3 * f.wake_max}};
+  return j.dump(2) + "\n";
+}
+
+const char* why(Ended ended) {
+  switch (ended) {
+    case Ended::kDone:
+      return "";
+    case Ended::kInterrupted:
+      return "ended by Ctrl-C: what follows is of a shorter test";
+    case Ended::kServerEnded:
+      return "the server ended: what follows is of a shorter test";
+    case Ended::kServerSilent:
+      return "the server has been silent for 10 s: the test ends here";
+  }
+  return "";
+}
+
+int trouble(const std::string& what, int code = kTrouble) {
+  spdlog::error("link-test: {}", what);
+  return code;
+}
+
+int test_link(const Arguments& arguments, const io::SocketAddress& address, double duration_s, double patience_s) {
+  const io::Fd signals = io::signals_as_file();
+  io::OutputFile json;
+  if (const auto problem = json.open(arguments.json, true); !problem.empty()) return trouble("--json: " + problem, kWrong);
+  auto socket = io::connect_udp(address);
+  if (!socket) return trouble("--server: " + socket.error());
+  const std::string server = io::to_text(address);
+  hal::DeviceCaps nobody;  // a visitor holds nothing; what is told must be a possible device
+  nobody.joints = nobody.tip_axes = 1;
+  nobody.simulated = true;
+  const auto given = ask_for_seat(*socket, server, std::string(wire::kVisitorName), nobody, from_seconds(patience_s), signals.get());
+  if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
+
+  const auto test = std::make_unique<LinkTest>(given->setup, given->link);
+  const auto prober = std::make_unique<Prober>(*socket, *test, given->setup.tick_hz, signals.get());
+  io::StatusLine line{arguments.quiet};
+  const io::AwakeProcessor awake;
+  const bool memory = io::lock_memory();
+  const bool fifo = io::ask_for_realtime(kPriority);
+  const Ended ended = prober->run(from_seconds(duration_s), line);
+  const Time stopped = io::monotonic_now();
+  test->stop_sending(stopped);
+  const Duration under_way = from_seconds(std::min(1.0, 0.2 + 2 * test->findings(stopped).rtt_max.value_or(0)));
+  bool patient = ended == Ended::kDone && prober->listen(under_way);
+  test->leave();
+  patient = prober->listen(patient ? under_way : from_seconds(4.0 / given->setup.tick_hz)) && patient;
+  line.clear();
+
+  if (ended != Ended::kDone) line.warn(why(ended));
+  const LinkFindings findings = test->findings(io::monotonic_now());
+  const LinkVerdict verdict = judge(findings);
+  if (!json.on_stdout()) {
+    std::string text = summary(findings) + "\n" + to_text(verdict.grade) + ": " + verdict.words + "\n";
+    for (const std::string& advice : verdict.advice) text += "- " + advice + "\n";
+    if (const std::string notice = io::realtime_notice(fifo, memory, awake.granted());
+        !notice.empty() && findings.late_ticks + findings.missed_ticks > 0)
+      text += "- " + notice + "\n";
+    std::fputs(text.c_str(), stdout);
+  }
+  json.write(to_json(findings, verdict, server, ended == Ended::kDone));
+  if (const auto problem = json.close(); !problem.empty()) return trouble(problem);
+  if (ended == Ended::kInterrupted) return 0;
+  return verdict.grade == LinkGrade::kBad || ended != Ended::kDone ? kTrouble : 0;
+}
+
+int link_test_command(const Arguments& arguments) {
+  std::vector<std::string> mistakes;
+  const auto server = server_option(arguments.server, mistakes);
+  const auto number = [&](const char* option, std::string text, double lo, double hi) {
+    const std::string problem = io::number_in(lo, hi, "s")(text);
+    if (!problem.empty()) mistakes.push_back(std::string(option) + ": " + problem);
+    return problem.empty() ? std::stod(text) : 0.0;
+  };
+  const double duration = number("--duration", arguments.duration, 1, 3600);
+  const double patience = number("--patience", arguments.patience, 0.1, 3600);
+  if (!arguments.json.empty() && arguments.json != "-")
+    if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty()) mistakes.push_back("--json: " + problem);
+  if (mistakes.empty()) return test_link(arguments, *server, duration, patience);
+  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
+  std::fprintf(stderr, "tandem-client link-test: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+}  // namespace
+
+void add_link_test_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = root.add_subcommand(
+      "link-test", "judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks");
+  command->add_option("--server", arguments->server, "required: address the server printed")->option_text("HOST:PORT")->required();
+  command->add_option("--duration", arguments->duration, "how long [s], 1 to 3600; default 10")->option_text("S");
+  command->add_option("--json", arguments->json, "writes all findings; `-`: to standard output, instead of the text")
+      ->option_text("FILE|-");
+  command->add_option("--patience", arguments->patience, "how long to wait for a server that does not answer [s]; default 5")
+      ->option_text("S");
+  command->add_flag("--quiet", arguments->quiet, "no status");
+  command->footer(
+      "Sends and receives what a hand would, at the scene's rate, beside a session that runs or waits; nobody there feels it.\n"
+      "Ctrl-C ends it early, with what was found so far.\n"
+      "Exit: 0 good or usable, or ended by Ctrl-C; 1 not fit for hands, refused, server not there or lost; 2 wrong arguments.\n\n"
+      "Example\n"
+      "  tandem-client link-test --server 127.0.0.1:7000");
+  command->callback([arguments, &action] { action = [arguments] { return link_test_command(*arguments); }; });
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,59 @@
+#include "hal/app/device_files.h"
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "common/link/digest.h"
+#include "proto/device_text.h"
+#include "proto/io/scene_file.h"
+
+namespace tandem::hal {
+namespace {
+
+DeviceError all_of(const InputErrors& errors) {
+  std::string lines = to_text(errors);
+  if (!lines.empty()) lines.pop_back();  // the last line feed
+  return {Errc::kUnsupported, std::move(lines)};
+}
+
+Result<DeviceFileSpec> understand(std::string_view text, std::string_view name) {
+  auto spec = parse_device_text(text, name);
+  if (!spec) return std::unexpected(all_of(spec.error()));
+  return std::move(*spec);
+}
+
+}  // namespace
+
+Result<DeviceFileSpec> load_device_file(const std::string& file) {
+  const auto text = read_text_file(file);
+  return text ? understand(*text, file) : std::unexpected(all_of(text.error()));
+}
+
+Result<DeviceFileSpec> read_shipped(const ShippedPreset& preset) { return understand(preset.text, preset.name); }
+
+Result<FalconFirmware> load_firmware(const std::string& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes;
+  if (in) {
+    // One more than any image has: check_firmware says that it is too long.
+    bytes.resize(kFirmwareMax + 1);
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(in.gcount()));
+  }
+  if (!in.is_open() || in.bad()) {
+    const int code = errno != 0 ? errno : EIO;
+    return std::unexpected(DeviceError{Errc::kUnsupported, "firmware: " + file + ": cannot be read: " + std::generic_category().message(code)});
+  }
+  FalconFirmware firmware;
+  firmware.file = file;
+  for (const char c : bytes) firmware.image.push_back(static_cast<std::byte>(c));
+  link::Digest digest;
+  digest.add(bytes);
+  firmware.sha256 = digest.hex();
+  return firmware;
+}
+
+}  // namespace tandem::hal

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hal/device.h"
+#include "hal/falcon/falcon_boot.h"
+#include "proto/device_spec.h"
+#include "proto/presets_embedded.h"
+
+namespace tandem::hal {
+
+/// What a person knows of their devices: a text file (proto/device.proto). Error: every mistake, with file and line.
+[[nodiscard]] Result<DeviceFileSpec> load_device_file(const std::string& file);
+/// The same of a preset built into the program.
+[[nodiscard]] Result<DeviceFileSpec> read_shipped(const ShippedPreset& preset);
+/// A firmware image of the user's own. Error: why it cannot be read; whether it is one, check_firmware tells.
+[[nodiscard]] Result<FalconFirmware> load_firmware(const std::string& file);
+
+}  // namespace tandem::hal

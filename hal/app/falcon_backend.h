@@ -1,0 +1,17 @@
+#pragma once
+
+#include "hal/io/backend.h"
+
+namespace tandem::hal {
+
+/// Novint Falcon through libusb.
+class FalconBackend final : public Backend {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "falcon"; }
+  [[nodiscard]] std::string_view help() const noexcept override;
+  [[nodiscard]] Result<std::vector<FoundDevice>> list() override;
+  [[nodiscard]] std::vector<std::string> udev_rules() const override;
+  [[nodiscard]] Result<OpenedDriver> open(const DeviceChoice& choice) override;
+};
+
+}  // namespace tandem::hal

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "hal/io/backend.h"
+
+namespace tandem::hal {
+
+/// WoodenHaptics, AluHaptics and Polhem v1 boards through hidapi. Their USB id is anybody's, so nothing is energised
+/// unless a person says so.
+class WoodenHapticsBackend final : public Backend {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "woodenhaptics"; }
+  [[nodiscard]] std::string_view help() const noexcept override;
+  [[nodiscard]] Result<std::vector<FoundDevice>> list() override;
+  [[nodiscard]] std::vector<std::string> udev_rules() const override;
+  [[nodiscard]] Result<OpenedDriver> open(const DeviceChoice& choice) override;
+};
+
+/// 3Dconnexion pucks through hidapi.
+class SpaceMouseBackend final : public Backend {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "spacemouse"; }
+  [[nodiscard]] std::string_view help() const noexcept override;
+  [[nodiscard]] Result<std::vector<FoundDevice>> list() override;
+  [[nodiscard]] std::vector<std::string> udev_rules() const override;
+  [[nodiscard]] Result<OpenedDriver> open(const DeviceChoice& choice) override;
+};
+
+}  // namespace tandem::hal

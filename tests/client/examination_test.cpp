@@ -1,0 +1,142 @@
+#include "client/examination.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/alloc_guard.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+using Finding = Examination::Finding;
+using Kind = Finding::Kind;
+
+hal::DeviceCaps three_joints(hal::Homing homing = hal::Homing::kNone) {
+  hal::DeviceCaps caps;
+  caps.joints = caps.tip_axes = 3;
+  caps.homing = homing;
+  return caps;
+}
+
+const Finding* find(const std::vector<Finding>& all, std::string_view words) {
+  const auto found = std::ranges::find_if(all, [&](const Finding& f) { return f.words.find(words) != std::string::npos; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+Kind kind_of(const std::vector<Finding>& all, std::string_view words) {
+  const Finding* found = find(all, words);
+  EXPECT_NE(found, nullptr) << words;
+  return found != nullptr ? found->kind : Kind::kTrouble;
+}
+
+/// One second of a hand that moves `joints` of the device.
+Examination after_a_second(const hal::DeviceCaps& caps, const std::array<bool, 3>& joints, bool homed = true) {
+  Examination examination{caps};
+  for (int i = 0; i < 1000; ++i) {
+    hal::State state;
+    state.homed = homed;
+    const double s = std::sin(0.02 * i);
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (!joints[j]) continue;
+      state.raw[j] = static_cast<std::int32_t>(1000 * s);
+      state.x[static_cast<Eigen::Index>(j)] = 0.05 * s;
+    }
+    examination.see(state);
+  }
+  return examination;
+}
+
+TEST(Examination, AHealthyDeviceHasNoTrouble) {
+  const auto found = after_a_second(three_joints(), {true, true, true}).findings({}, 1.0);
+  EXPECT_TRUE(std::ranges::none_of(found, [](const Finding& f) { return f.kind == Kind::kTrouble; }));
+  EXPECT_EQ(kind_of(found, "1000 readings a second"), Kind::kGood);
+  EXPECT_EQ(kind_of(found, "the tip went 100 x 100 x 100 mm"), Kind::kGood);
+}
+
+TEST(Examination, ADeviceThatNeverAnswersIsVisibleButSilent) {
+  Examination examination{three_joints()};
+  hal::State stale;
+  stale.stale = true;
+  for (int i = 0; i < 100; ++i) examination.see(stale);
+  const auto found = examination.findings({}, 1.0);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(kind_of(found, "visible but silent"), Kind::kTrouble);
+}
+
+TEST(Examination, NamesTheEncoderThatStandsStill) {
+  const auto found = after_a_second(three_joints(), {true, false, true}).findings({}, 1.0);
+  EXPECT_EQ(kind_of(found, "encoder of joint 2 did not move"), Kind::kTrouble);
+}
+
+TEST(Examination, KnowsThePoseOfAnUncalibratedDevice) {
+  const auto unhomed = after_a_second(three_joints(hal::Homing::kManual), {}, false).findings({}, 1.0);
+  EXPECT_EQ(kind_of(unhomed, "pose of an uncalibrated device"), Kind::kTrouble);
+  EXPECT_EQ(kind_of(unhomed, "not homed"), Kind::kNotice);
+  const auto homed = after_a_second(three_joints(hal::Homing::kManual), {}, true).findings({}, 1.0);
+  EXPECT_EQ(kind_of(homed, "no encoder moved"), Kind::kTrouble);
+}
+
+TEST(Examination, SeesLateAndTornAnswersAndALostOrigin) {
+  Examination examination = after_a_second(three_joints(hal::Homing::kManual), {true, true, true});
+  hal::State lost;
+  lost.homed = false;
+  examination.see(lost);
+  hal::DeviceStats stats;
+  stats.ticks = 1000;
+  stats.unanswered = 50;
+  const auto found = examination.findings(stats, 2.0);
+  EXPECT_EQ(kind_of(found, "only 500 readings"), Kind::kTrouble);
+  EXPECT_EQ(kind_of(found, "50 exchanges without"), Kind::kTrouble);
+  EXPECT_EQ(kind_of(found, "the origin was lost 1 times"), Kind::kTrouble);
+}
+
+/// A free mass of 0.2 kg behind motors whose force comes out as `motors * wanted`.
+std::vector<Finding> pushed(const Eigen::Matrix3d& motors, double scale = 1) {
+  ForceTest test{three_joints(), Time{1s}};
+  hal::State state;
+  hal::Vec3 v = hal::Vec3::Zero();
+  Time now{1s};
+  for (; !test.over(now); now += 1ms) {
+    const hal::Vec3 wanted = test.step(now, state);
+    state.f_out = scale * wanted;
+    v += (motors * wanted - 2.0 * v) / 0.2 * 1e-3;
+    state.x += v * 1e-3;
+  }
+  EXPECT_EQ(test.step(now, state).norm(), 0.0);
+  EXPECT_EQ(now - Time{1s}, 6 * (ForceTest::kPush + ForceTest::kRest));
+  return test.findings();
+}
+
+TEST(ForceTest, PushesEachAxisBothWaysAndFindsHealthyMotorsGood) {
+  const auto found = pushed(Eigen::Matrix3d::Identity());
+  ASSERT_EQ(found.size(), 6U);
+  for (const Finding& f : found) EXPECT_EQ(f.kind, Kind::kGood) << f.words;
+}
+
+TEST(ForceTest, FindsAMotorThatPushesTheWrongWay) {
+  const auto found = pushed(Eigen::Vector3d{1, -1, 1}.asDiagonal());
+  EXPECT_EQ(kind_of(found, "force along +y"), Kind::kTrouble);
+  EXPECT_NE(find(found, "WRONG WAY"), nullptr);
+  EXPECT_EQ(kind_of(found, "force along +x"), Kind::kGood);
+}
+
+TEST(ForceTest, FindsSwappedAndDeadMotors) {
+  Eigen::Matrix3d swapped;
+  swapped << 0, 1, 0, 1, 0, 0, 0, 0, 0;
+  const auto found = pushed(swapped);
+  EXPECT_EQ(kind_of(found, "force along +x"), Kind::kNotice);
+  EXPECT_EQ(kind_of(found, "force along +z"), Kind::kNotice);
+  EXPECT_EQ(kind_of(pushed(Eigen::Matrix3d::Zero(), 0), "hardly any force left"), Kind::kTrouble);
+}
+
+TEST(Examination, WatchesWithoutHeap) {
+  const test::AllocGuard guard;
+  static_cast<void>(after_a_second(three_joints(), {true, true, true}));
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+}  // namespace
+}  // namespace tandem::client

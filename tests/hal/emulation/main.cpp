@@ -1,0 +1,65 @@
+// Starts itself again with umockdev's library before all others: sysfs, /dev and udev's netlink are then the
+// test-bed's.
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <link.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <string>
+
+#include "tests/hal/emulation/testbed.h"
+
+namespace {
+
+constexpr const char* kPreload = "libumockdev-preload.so.0";
+
+/// A sanitizer's library insists on being the first.
+std::string sanitizers() {
+  std::string names;
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, std::size_t, void* out) {
+        const std::string name = info->dlpi_name;
+        for (const char* one : {"/libasan.so", "/libtsan.so", "/libubsan.so"}) {
+          if (name.find(one) != std::string::npos) *static_cast<std::string*>(out) += name + ":";
+        }
+        return 0;
+      },
+      &names);
+  return names;
+}
+
+}  // namespace
+
+/// umockdev, GLib and libudev are built without the sanitizer, which therefore cannot see how their threads agree
+/// (libudev keeps one random seed for all its contexts). libusb, hidapi and everything of ours is judged.
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() {
+  return "race:libumockdev\nrace:libglib-2.0\nrace:libgobject-2.0\nrace:libgio-2.0\nrace:libudev.so\n"
+         "called_from_lib:libumockdev.so\ndeadlock:libglib-2.0\ndeadlock:libgobject-2.0\nmutex:libglib-2.0\n";
+}
+
+int main(int argc, char** argv) {
+  // A pseudo terminal that hangs up may be this process's controlling one.
+  std::signal(SIGHUP, SIG_IGN);
+  const bool listing =
+      std::any_of(argv, argv + argc, [](const char* a) { return std::string(a) == "--gtest_list_tests"; });
+  const bool loaded = dlopen(kPreload, RTLD_NOW | RTLD_NOLOAD) != nullptr;
+  if (!listing && !loaded) {
+    std::string libraries = sanitizers() + kPreload;
+    if (const char* others = std::getenv("LD_PRELOAD"); others != nullptr && libraries != others)
+      libraries += std::string(":") + others;
+    if (dlopen("libumockdev.so.0", RTLD_NOW) != nullptr && std::getenv("TANDEM_EMULATION") == nullptr) {
+      setenv("LD_PRELOAD", libraries.c_str(), 1);
+      setenv("TANDEM_EMULATION", "once", 1);  // never twice, whatever the loader makes of it
+      execv("/proc/self/exe", argv);
+    }
+    std::printf(
+        "[ NOT RUN ] libusb, hidapi and libudev with emulated devices: umockdev is not installed or does not load\n");
+    return 0;
+  }
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
