@@ -17,6 +17,7 @@
 #include "common/io/number_option.h"
 #include "common/io/signals.h"
 #include "hal/io/backend.h"
+#include "hal/io/hotplug.h"
 #include "hal/io/udev_rule.h"
 
 namespace tandem::client {
@@ -29,7 +30,7 @@ constexpr int kTrouble = 1, kWrong = 2;
 
 struct DoctorArguments {
   std::string device, seconds = "5";
-  bool force_test = false, install = false;
+  bool force_test = false, install = false, watch = false;
 };
 
 void print(const Examination::Finding& finding) {
@@ -154,6 +155,26 @@ int list_all() {
   return trouble ? kTrouble : 0;
 }
 
+/// What comes and goes, until the person has seen enough.
+int watch_plugs() {
+  const io::Fd signals = io::signals_as_file();
+  auto watch = hal::PlugWatch::open();
+  if (!watch) {
+    std::fprintf(stderr, "tandem-client doctor: %s\n", watch.error().message.c_str());
+    return kTrouble;
+  }
+  std::printf("plug devices in and out; Ctrl-C ends\n");
+  for (const hal::Attached& device : (*watch)->present()) std::printf("  is there  %s\n", describe(device).c_str());
+  std::fflush(stdout);
+  do {
+    for (const hal::PlugChange& change : (*watch)->wait(200ms)) {
+      std::printf("  %s  %s\n", change.arrived ? "came    " : "left    ", describe(change.device).c_str());
+      std::fflush(stdout);
+    }
+  } while (wait(1ms, signals.get(), [] { return false; }));
+  return 0;
+}
+
 std::string all_rules() {
   std::string rules = "# Whoever sits at this machine may use the haptic devices that Tandem knows. Written by `tandem-client doctor`.\n";
   for (hal::Backend* backend : hal::backends()) {
@@ -183,8 +204,9 @@ int doctor_command(const DoctorArguments& arguments) {
     mistakes.push_back("--seconds: " + problem);
   if (arguments.force_test && arguments.device.empty())
     mistakes.push_back("--force-test: needs --device; forces are sent to a device that a person named, to no other");
-  if (arguments.install && (!arguments.device.empty() || arguments.force_test))
+  if (arguments.install && (!arguments.device.empty() || arguments.force_test || arguments.watch))
     mistakes.push_back("--install-udev: stands alone");
+  if (arguments.watch && (!arguments.device.empty() || arguments.force_test)) mistakes.push_back("--watch: stands alone");
   if (!arguments.device.empty() && !HeldDevice::is_meant(arguments.device))
     mistakes.push_back("--device: a simulated device needs no doctor");
   for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
@@ -193,6 +215,7 @@ int doctor_command(const DoctorArguments& arguments) {
     return kWrong;
   }
   if (arguments.install) return install_rules();
+  if (arguments.watch) return watch_plugs();
   return arguments.device.empty() ? list_all() : examine(arguments, std::stod(arguments.seconds));
 }
 
@@ -204,6 +227,7 @@ void add_doctor_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--device", arguments->device, "examines this one; the words are those of `join --device`")->option_text("WORDS");
   command->add_option("--seconds", arguments->seconds, "how long to watch while you move it; default 5")->option_text("S");
   command->add_flag("--force-test", arguments->force_test, "then pushes your hand softly (0.5 N) along each axis, both ways");
+  command->add_flag("--watch", arguments->watch, "says what is plugged in and out, on USB and among HID devices");
   command->add_flag("--install-udev", arguments->install,
                     "writes the udev rules that let whoever sits here use the devices; needs root");
   command->footer(

@@ -3,6 +3,8 @@
 #include "common/base/nearest.h"
 #include "hal/app/falcon_backend.h"
 #include "hal/app/hid_backends.h"
+#include "hal/app/input_backends.h"
+#include "hal/app/openhaptics_backend.h"
 #include "hal/io/backend.h"
 
 namespace tandem::hal {
@@ -11,7 +13,10 @@ std::span<Backend* const> backends() {
   static FalconBackend falcon;
   static WoodenHapticsBackend woodenhaptics;
   static SpaceMouseBackend spacemouse;
-  static const std::array<Backend*, 3> all{&falcon, &woodenhaptics, &spacemouse};
+  static OpenHapticsBackend openhaptics;
+  static MouseBackend mouse;
+  static ReplayBackend replay;
+  static const std::array<Backend*, 6> all{&falcon, &woodenhaptics, &spacemouse, &openhaptics, &mouse, &replay};
   return all;
 }
 

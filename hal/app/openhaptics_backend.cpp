@@ -1,0 +1,36 @@
+#include "hal/app/openhaptics_backend.h"
+
+#include "hal/openhaptics/openhaptics_driver.h"
+
+namespace tandem::hal {
+namespace {
+
+constexpr const char* kDefaultName = "Default Device";
+
+}  // namespace
+
+Result<std::vector<FoundDevice>> OpenHapticsBackend::list() {
+  if (auto library = OpenHapticsLibrary::load(); !library) return std::unexpected(std::move(library.error()));
+  return std::vector{FoundDevice{std::string("openhaptics:") + kDefaultName,
+                                 "a device of that name in the vendor's set-up tool; the library does not tell which are attached", ""}};
+}
+
+Result<OpenedDriver> OpenHapticsBackend::open(const DeviceChoice& choice) {
+  if (auto ok = only_these(choice, {"library"}); !ok) return std::unexpected(std::move(ok.error()));
+  const std::string file = choice.find("library").value_or(OpenHapticsLibrary::kFile);
+  if (library_ && file_ != file)
+    return std::unexpected(DeviceError{Errc::kUnsupported, "device: library=" + file + ": " + file_ +
+                                                               " is loaded already, and there is one for all devices of a program"});
+  if (!library_) {
+    auto library = OpenHapticsLibrary::load(file);
+    if (!library) return std::unexpected(std::move(library.error()));
+    library_ = std::move(*library);
+    file_ = file;
+    group_ = std::make_shared<openhaptics::TouchGroup>(library_->api(), clock_);
+  }
+  const std::string name = choice.name.empty() ? kDefaultName : choice.name;
+  // The vendor's threads talk to the device, not a file of ours: a Deadman could not speak for it.
+  return OpenedDriver{library_, std::make_unique<openhaptics::OpenHapticsDriver>(name, group_, clock_), std::nullopt};
+}
+
+}  // namespace tandem::hal
