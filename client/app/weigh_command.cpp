@@ -16,10 +16,11 @@
 #include "common/io/clock.h"
 #include "common/io/number_option.h"
 #include "common/io/signals.h"
-#include "hal/app/device_files.h"
 #include "hal/falcon/falcon_force.h"
 #include "hal/falcon/falcon_weighing.h"
 #include "hal/io/device_choice.h"
+#include "proto/device_text.h"
+#include "proto/io/scene_file.h"
 
 namespace tandem::client {
 namespace {
@@ -42,10 +43,16 @@ hal::Result<hal::FalconForce> present_scale(const std::string& device) {
   }
   const auto file = choice->find("calibration");
   if (!file) return hal::FalconForce{};
-  const auto spec = hal::load_device_file(*file);
-  if (!spec) return std::unexpected(spec.error());
+  const auto wrong = [](std::string why) {
+    if (why.ends_with('\n')) why.pop_back();
+    return std::unexpected(hal::DeviceError{hal::Errc::kUnsupported, std::move(why)});
+  };
+  const auto text = read_text_file(*file);
+  if (!text) return wrong(to_text(text.error()));
+  const auto spec = parse_device_text(*text, *file);
+  if (!spec) return wrong(to_text(spec.error()));
   const auto force = hal::FalconForce::from(spec->falcon.value_or(FalconSpec{}));
-  if (!force) return std::unexpected(hal::DeviceError{hal::Errc::kUnsupported, *file + ": falcon: " + force.error()});
+  if (!force) return wrong(*file + ": falcon: " + force.error());
   return *force;
 }
 
