@@ -186,7 +186,8 @@ SeatMetrics ReportBuilder::judge(const Pair& pair, const std::vector<Window>& wi
     const double time = static_cast<double>(k) / scene_->tick_hz;
     if (time < peaks.from || time >= peaks.to || !s[k].known) continue;
     effort = std::max(effort, norm(s[k].f));
-    if (k >= span) speed = std::max(speed, std::sqrt(distance2(s[k].x, s[k - span].x)) * scene_->tick_hz / static_cast<double>(span));
+    // Held values beside a gap in the samples are no motion.
+    if (k >= span && s[k - span].known) speed = std::max(speed, std::sqrt(distance2(s[k].x, s[k - span].x)) * scene_->tick_hz / static_cast<double>(span));
   }
   if (!contact.empty()) {
     const std::vector<char> touching = counted(pair, contact);
