@@ -54,6 +54,7 @@ class FalconDriver final : public Driver {
   [[nodiscard]] std::expected<void, Errc> send(const FalconOrder& frame) noexcept;
   /// Into `reply_`: waits for one, or takes all that is there if `wait` is 0.
   [[nodiscard]] std::expected<void, Errc> receive(Duration wait) noexcept;
+  [[nodiscard]] Duration reply_wait(Time began) noexcept;
   [[nodiscard]] std::expected<Exchange, Errc> take(State& state, Time now) noexcept;
   [[nodiscard]] Errc after(Errc trouble) noexcept;
 
@@ -76,6 +77,7 @@ class FalconDriver final : public Driver {
   Vec3 x_last_ = Vec3::Zero();
   Vec3 theta_last_ = Vec3::Zero(), dtheta_ = Vec3::Zero();
   Time read_at_{};
+  Time due_{};                        ///< when the next exchange is expected to begin
   Order acting_, sent_;
 };
 

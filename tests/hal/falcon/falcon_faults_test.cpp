@@ -106,7 +106,7 @@ TEST_F(FalconFaultsTest, LateAnswersAreTakenByTheNextExchange) {
     ASSERT_TRUE(result);
     fresh += *result != Exchange::kNothing ? 1 : 0;
   }
-  EXPECT_GE(fresh, 20);
+  EXPECT_GE(fresh, 10) << "one per 3 ms or so, in 50 ms: exchanges do not outlast their period";
   bench.model.faults.late = Duration{0};
   EXPECT_LE(until_fresh(), 3);
   // Nothing stays behind: the newest reading is the present one.
