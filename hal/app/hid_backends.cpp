@@ -129,6 +129,7 @@ Result<OpenedDriver> WoodenHapticsBackend::open(const DeviceChoice& choice) {
   bus->pipe = std::move(pipe);
   opened.driver = std::make_unique<woodenhaptics::WoodenHapticsDriver>(DeviceId{"woodenhaptics", device.port}, *bus->pipe, bus->clock, options);
   opened.bus = std::move(bus);
+  if (!options.energise) opened.note = "no current flows without energise=yes: this arm only says where it is";
   if (const auto fd = open_file_of(device.node)) {
     LastWords words;  // report number 0, then a report of zeros: no current
     words.fd = *fd;

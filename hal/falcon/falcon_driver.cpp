@@ -15,6 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kWriteWait = 2ms;
+constexpr Duration kPeriod = 1ms;
 constexpr Duration kReplyWait = 2ms;   // 0.3 ms on the line, up to 1 ms until the bridge flushes
 constexpr int kPacketsMax = 16;        // of one exchange; an idle bridge sends an empty one per millisecond
 constexpr int kSilenceFrames = 4;
@@ -182,8 +183,17 @@ std::expected<void, Errc> FalconDriver::receive(Duration wait) noexcept {
   return {};
 }
 
+/// Until the next exchange is due, by the pace of those before: the bridge's flushing and the host's clock drift against
+/// each other, and an answer that missed this exchange costs nothing in the next one, while waiting for it costs a period.
+Duration FalconDriver::reply_wait(Time began) noexcept {
+  const bool in_pace = began >= due_ - kPeriod && began <= due_ + kPeriod;
+  due_ = (in_pace ? due_ : began) + kPeriod;
+  return std::clamp(due_ - clock_->now(), Duration{0}, Duration{kReplyWait});
+}
+
 std::expected<Exchange, Errc> FalconDriver::exchange(const Orders& orders, State& state) noexcept {
   const std::uint64_t thrown_before = framer_.thrown_away();
+  const Time began = clock_->now();
   reply_.reset();
   line_error_ = false;
   // What came too late for the exchange before.
@@ -201,7 +211,7 @@ std::expected<Exchange, Errc> FalconDriver::exchange(const Orders& orders, State
   acting_ = std::exchange(sent_, order);
 
   reply_.reset();
-  const auto read = receive(kReplyWait);
+  const auto read = receive(reply_wait(began));
   if (!read) return std::unexpected(read.error());
   const bool resynced = framer_.thrown_away() != thrown_before || line_error_;
   if (!reply_) return had_late ? std::expected<Exchange, Errc>(Exchange::kFresh) : Exchange::kNothing;
@@ -285,6 +295,8 @@ void FalconDriver::silence() noexcept {
     const auto read = receive(kReplyWait);
     if (!read && read.error() == Errc::kUnplugged) break;
   }
+  // Whoever opens it next, another program perhaps, is to find a boot loader, not firmware that answers without seeing.
+  if (reload_) (void)line_for_boot(*pipe_);
   acting_ = sent_ = {};
   pose_.reset();
   jumped_ = true;

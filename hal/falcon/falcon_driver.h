@@ -23,7 +23,7 @@ struct FalconOptions {
 ///   singular poses (falcon_effort_share) and is cut in its direction to what the motors or the ceiling give.
 /// - An unhomed Falcon has no origin: `q` counts from an arbitrary one, `x` stays where it was last known.
 /// - exchange() sends zeros and returns Errc::kFirmware once the encoders were found frozen: bring it up again, which loads the
-///   firmware anew. Errc::kProtocol also for encoder counts that no pose has.
+///   firmware anew; silence() then leaves it in its boot loader, so that another program loads it too. Errc::kProtocol also for encoder counts that no pose has.
 /// Lock-step: each frame sent is answered by one. An answer that comes late is taken by the next exchange.
 class FalconDriver final : public Driver {
  public:
@@ -54,6 +54,7 @@ class FalconDriver final : public Driver {
   [[nodiscard]] std::expected<void, Errc> send(const FalconOrder& frame) noexcept;
   /// Into `reply_`: waits for one, or takes all that is there if `wait` is 0.
   [[nodiscard]] std::expected<void, Errc> receive(Duration wait) noexcept;
+  [[nodiscard]] Duration reply_wait(Time began) noexcept;
   [[nodiscard]] std::expected<Exchange, Errc> take(State& state, Time now) noexcept;
   [[nodiscard]] Errc after(Errc trouble) noexcept;
 
@@ -76,6 +77,7 @@ class FalconDriver final : public Driver {
   Vec3 x_last_ = Vec3::Zero();
   Vec3 theta_last_ = Vec3::Zero(), dtheta_ = Vec3::Zero();
   Time read_at_{};
+  Time due_{};                        ///< when the next exchange is expected to begin
   Order acting_, sent_;
 };
 

@@ -284,6 +284,7 @@ Moved LibusbPipe::read(std::span<std::byte> into, Duration timeout) noexcept {
   if (i.in.transfer->status != LIBUSB_TRANSFER_COMPLETED) return i.fail(from_transfer(i.in.transfer->status));
   const auto moved = static_cast<std::size_t>(i.in.transfer->actual_length);
   std::ranges::copy(std::span(i.in_bytes).first(moved), into.begin());
+  (void)i.submit(i.in);  // the next packet may come while nobody reads; if this fails, the next call says so
   return moved;
 }
 

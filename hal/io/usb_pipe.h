@@ -15,8 +15,8 @@ struct UsbInterface {
 };
 
 /// A USB interface through libusb. Every pipe has a libusb context of its own and handles its events on the thread that
-/// waits, so no event thread can race with closing or unplugging. A reading that ran out of time stays under way, so
-/// that no packet is ever lost to a cancellation. After opening, nothing of ours is taken from the heap (libusb's own
+/// waits, so no event thread can race with closing or unplugging. From the first reading on one is always under way: a
+/// packet may come while nobody waits, and none is lost to a cancellation. After opening, nothing of ours is taken from the heap (libusb's own
 /// bookkeeping of a transfer is). Once unplugged, every call says so at once.
 class LibusbPipe final : public UsbPipe {
  public:

@@ -31,6 +31,14 @@ TANDEM_PACKAGES_FULL=(
   "valgrind: counts instructions in benchmarks"
 )
 
+# What ./test --vm needs: a virtual machine and what its small system is made of.
+# shellcheck disable=SC2034
+TANDEM_PACKAGES_VM=(
+  "qemu-system-x86: runs the virtual machine"
+  "busybox-static: the commands inside it"
+  "udev: names the devices inside it"
+)
+
 packages_say() { printf '%s\n' "$@" >&2; }
 
 # packages_missing "name: reason" ...: prints those entries whose package is not installed.

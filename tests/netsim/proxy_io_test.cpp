@@ -357,6 +357,33 @@ TEST(Proxy, MoreAtOnceThanWereMadeAreWelcomedAllTheSameAndCounted) {
   EXPECT_EQ(proxy->unprepared(), 3U);
 }
 
+// What waits for its verdict is due before it was read that nothing newer came: the pump must read then, not sleep until
+// the next moment of reading and find itself overdue again, for ever.
+TEST(Proxy, GoesOnAfterAnOutageThatHoldsTheNewest) {
+  UdpPeer server, client;
+  ProxyOptions options = Running::options(server.address(), {});
+  options.link.up.floor = options.link.down.floor = 3ms;
+  for (const Duration at : {50ms, 150ms, 250ms, 350ms, 450ms, 550ms}) {
+    NetworkEvent outage;
+    outage.at = at;
+    outage.outage = OutageSpec{.start = at, .length = 50ms, .mode = OutageSpec::Mode::kHoldLast};
+    options.events.push_back(outage);
+  }
+  Running proxy{options};
+  client.connect(proxy->listening());
+  int arrived = 0;
+  for (int i = 0; i < 500; ++i) {
+    ASSERT_TRUE(client.send(std::to_string(i)));
+    if (server.receive(1)) ++arrived;
+  }
+  while (server.receive(500)) ++arrived;
+  proxy.end();
+  const PathCounters up = proxy->final_status().total[0];
+  EXPECT_EQ(up.in, 500U);
+  EXPECT_EQ(up.in_flight(), 0U);
+  EXPECT_EQ(static_cast<std::uint64_t>(arrived), up.out);
+}
+
 TEST(Proxy, AnOrderForAClientThatIsNotThereSaysSo) {
   UdpPeer server;
   Running proxy{server.address(), {}};

@@ -36,7 +36,8 @@ class UsbEcho final : public hal::wire::UsbWireModel {
   // Faults, and what the tests look at.
   bool stall_in = false, stall_out = false, refuse_control = false;
   bool takes_nothing = false;                   ///< OUT endpoint answers NAK
-  bool silent = false;                          ///< echoes nothing; no empty packets either
+  bool silent = false;        ///< echoes nothing; no empty packets either
+  bool holds_back = false;    ///< echoes later
   std::size_t packet_data = kPacket - kStatus;  ///< at most so much data in a packet: small values cut frames
   Duration latency = std::chrono::milliseconds(1);
   std::vector<hal::wire::SetupPacket> requests;
@@ -80,6 +81,7 @@ class UsbEcho final : public hal::wire::UsbWireModel {
   hal::wire::WireMoved bulk_in(std::uint8_t, std::span<std::byte> into) noexcept override {
     if (gone_) return std::unexpected(hal::wire::WireStatus::kGone);
     if (stall_in) return std::unexpected(hal::wire::WireStatus::kStall);
+    if (holds_back) return std::unexpected(hal::wire::WireStatus::kNak);
     const bool timer = waited_ >= latency && !silent;
     if (echo_.empty() && !timer) return std::unexpected(hal::wire::WireStatus::kNak);
     waited_ = {};

@@ -201,11 +201,15 @@ TEST_F(UsbPipe, PartialAndGluedFramesComeByteForByte) {
     ASSERT_TRUE(pipe->write(frame(static_cast<int>(piece)), kPatient));
     EXPECT_EQ(gather(*pipe, 16), frame(static_cast<int>(piece)));
   }
-  node.with_model([&] { model.packet_data = 62; });
+  node.with_model([&] {
+    model.packet_data = 62;
+    model.holds_back = true;
+  });
   std::vector<std::byte> both = frame(1);
   std::ranges::copy(frame(77), std::back_inserter(both));
   ASSERT_TRUE(pipe->write(frame(1), kPatient));
   ASSERT_TRUE(pipe->write(frame(77), kPatient));
+  node.with_model([&] { model.holds_back = false; });
   std::size_t packets = 0;
   EXPECT_EQ(gather(*pipe, 32, &packets), both);
   EXPECT_EQ(packets, 1u) << "two frames in one packet";
@@ -250,7 +254,7 @@ std::optional<Errc> converse(hal::UsbPipe& pipe) {
 TEST(UsbUnplug, AtEveryTransferOfAConversationIsSeenAtOnceAndForGood) {
   Testbed bed;
   unsigned transfers = 0;
-  for (unsigned at = 1; at <= 12; ++at) {
+  for (unsigned at = 1; at <= 13; ++at) {
     SCOPED_TRACE(at);
     UsbEcho model;
     UsbfsNode node(model);
@@ -262,11 +266,9 @@ TEST(UsbUnplug, AtEveryTransferOfAConversationIsSeenAtOnceAndForGood) {
       node.unplug_at_transfer(at);
       const auto error = converse(**pipe);
       transfers = node.transfers() - before;
-      if (transfers < at) {
-        EXPECT_FALSE(error);
-        EXPECT_EQ(at, 12u) << "the conversation has 11 transfers";
-      } else {
-        EXPECT_EQ(error, Errc::kUnplugged);
+      constexpr unsigned kAll = 12;  // the last one is a reading ahead, whose failure the next call tells
+      EXPECT_EQ(error, at < kAll ? std::optional(Errc::kUnplugged) : std::nullopt);
+      if (at <= kAll) {
         std::array<std::byte, UsbEcho::kPacket> packet{};
         EXPECT_EQ(error_of((*pipe)->read(packet, kPatient)), Errc::kUnplugged);
         EXPECT_EQ(error_of((*pipe)->write(frame(1), kPatient)), Errc::kUnplugged);

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <mutex>
+#include <thread>
+
+#include "common/io/fd.h"
+#include "hal/wire/wire_model.h"
+
+namespace tandem::test {
+
+/// A wire model as a HID device of the real kernel, through /dev/uhid. Needs root and the module. The model's time is
+/// the machine's.
+class UhidDevice {
+ public:
+  explicit UhidDevice(hal::wire::HidWireModel& model);
+  ~UhidDevice();
+  UhidDevice(const UhidDevice&) = delete;
+
+  [[nodiscard]] bool attached() const { return fd_.open(); }
+  void unplug();
+
+  template <class Do>
+  auto with_model(Do&& act) {
+    const std::lock_guard hold(mutex_);
+    return act();
+  }
+
+ private:
+  void serve(std::stop_token stop);
+  void take_event();
+  void send_reports();
+
+  hal::wire::HidWireModel& model_;
+  io::Fd fd_;
+  bool numbered_;
+  std::mutex mutex_;
+  Time served_at_{};
+  std::jthread thread_;
+};
+
+}  // namespace tandem::test
