@@ -11,6 +11,8 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSettle = 1.0;     // [s] not judged after engage or an outage
 constexpr double kLagMax = 2.0;     // [s] longest lag that is looked for
+constexpr double kSlipReach = 0.15;  // [s] catching up and the age of samples: how far from its tick a slip shows
+constexpr std::size_t kSlipsMax = 1000;
 constexpr double kSpeedSpan = 0.005;  // [s] over which speed is taken: encoder steps vanish, motion does not
 
 std::array<float, 3> single(const Triple& v) {
@@ -73,6 +75,8 @@ void ReportBuilder::add(const TickRecord& record) {
   ++ticks_;
   if (record.tick >= kTicksMax) return;
   ++judged_;
+  if (record.slipped != slipped_ && slips_.size() < kSlipsMax) slips_.push_back(record.tick);
+  slipped_ = record.slipped;
   const auto settled = [&](std::uint32_t& since, bool on) {
     if (!on) since = ~0u;
     if (on && since == ~0u) since = record.tick;
@@ -173,6 +177,10 @@ SeatMetrics ReportBuilder::judge(const Pair& pair, const std::vector<Window>& wi
   std::array<Rms, 3> joints;
   double effort = 0, speed = 0, environment = 0;
   const auto span = std::max<std::size_t>(1, static_cast<std::size_t>(kSpeedSpan * scene_->tick_hz));
+  const auto slip_reach = static_cast<std::size_t>(kSlipReach * scene_->tick_hz);
+  const auto slipped_near = [&](std::size_t k) {
+    return std::ranges::any_of(slips_, [&](std::size_t slip) { return k + slip_reach >= slip && k <= slip + slip_reach; });
+  };
   for (std::size_t k = 0; k < n; ++k) {
     if (!use[k]) continue;
     if (k >= delay) transport.add(distance2(s[k].x, s[k - delay].x));
@@ -186,7 +194,8 @@ SeatMetrics ReportBuilder::judge(const Pair& pair, const std::vector<Window>& wi
     const double time = static_cast<double>(k) / scene_->tick_hz;
     if (time < peaks.from || time >= peaks.to || !s[k].known) continue;
     effort = std::max(effort, norm(s[k].f));
-    if (k >= span) speed = std::max(speed, std::sqrt(distance2(s[k].x, s[k - span].x)) * scene_->tick_hz / static_cast<double>(span));
+    // Beside a gap in the samples, or where session time stood still, a difference is no speed.
+    if (k >= span && s[k - span].known && !slipped_near(k)) speed = std::max(speed, std::sqrt(distance2(s[k].x, s[k - span].x)) * scene_->tick_hz / static_cast<double>(span));
   }
   if (!contact.empty()) {
     const std::vector<char> touching = counted(pair, contact);

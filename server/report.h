@@ -103,7 +103,8 @@ class ReportBuilder {
   std::vector<std::uint32_t> engaged_since_, held_since_;
   std::vector<SeatRecord> last_;
   std::vector<double> mfs_;
-  std::uint64_t ticks_ = 0, judged_ = 0;
+  std::uint64_t ticks_ = 0, judged_ = 0, slipped_ = 0;
+  std::vector<std::size_t> slips_;  ///< ticks at which session time stood still
 };
 
 /// The report as JSON text; keys as README documents them. NaN becomes null.

@@ -33,6 +33,7 @@ void take_record(const Session& session, TickRecord& record) noexcept {
   const std::size_t masters = scene.masters();
   record.tick = session.session_tick();
   record.running = session.state() == wire::SessionState::kRunning || session.state() == wire::SessionState::kHeld;
+  record.slipped = session.slipped();
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const wire::StateMessage& m = session.seat(i).heard();
     SeatRecord& r = record.seats[i];

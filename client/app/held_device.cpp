@@ -74,13 +74,11 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
 
   std::unique_ptr<HeldDevice> held{new HeldDevice};
   held->bus_ = opened->bus;
+  if (!opened->note.empty()) line.note(opened->note);
   if (opened->last_words) {
     auto deadman = hal::Deadman::watch({&*opened->last_words, 1});
     if (!deadman) return failed(deadman.error(), false);
     held->deadman_ = std::move(*deadman);
-  } else {
-    line.note("nobody can speak for this device if this program is killed: then only the device's own watchdog takes its "
-              "force away");
   }
   auto core = std::make_unique<hal::ServoCore>(std::move(opened->driver));
   Progress progress{signals, line};
@@ -90,6 +88,9 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
     return std::unexpected(Failure{.interrupted = progress.cancelled(), .reason = up.error().message});
   }
   line.clear();
+  if (!held->deadman_ && hal::limits_of(core->caps()).peak_n > 0)
+    line.note("nobody can speak for this device if this program is killed: then only the device's own watchdog takes its "
+              "force away");
   held->note_ = core->id().backend + " " + core->id().key;
   if (!core->caps().force_calibrated) held->note_ += ", force scale not calibrated: kept to a tenth";
   held->device_ = std::make_unique<hal::DeviceThread>(std::move(core), kPeriod);

@@ -23,7 +23,7 @@ struct FalconBus {
 };
 
 Wanted wanted(const DeviceChoice& choice) {
-  return {.what = "a Novint Falcon", .ids = {kFalcon}, .usage = {}, .serial = choice.find("serial"), .port = choice.find("port")};
+  return {.what = "Novint Falcon", .ids = {kFalcon}, .usage = {}, .serial = choice.find("serial"), .port = choice.find("port")};
 }
 
 LastWords last_words(int fd) {

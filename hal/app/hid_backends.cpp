@@ -120,7 +120,7 @@ Result<OpenedDriver> WoodenHapticsBackend::open(const DeviceChoice& choice) {
     if (*home != "here") return std::unexpected(DeviceError{Errc::kUnsupported, "device: home is 'here', not '" + home->substr(0, 60) + "'"});
     options.home_at_start = true;
   }
-  auto opened_pipe = open_pipe(choice, "a WoodenHaptics board", is_board);
+  auto opened_pipe = open_pipe(choice, "WoodenHaptics board", is_board);
   if (!opened_pipe) return std::unexpected(std::move(opened_pipe.error()));
   auto& [device, pipe] = *opened_pipe;
 
@@ -129,6 +129,7 @@ Result<OpenedDriver> WoodenHapticsBackend::open(const DeviceChoice& choice) {
   bus->pipe = std::move(pipe);
   opened.driver = std::make_unique<woodenhaptics::WoodenHapticsDriver>(DeviceId{"woodenhaptics", device.port}, *bus->pipe, bus->clock, options);
   opened.bus = std::move(bus);
+  if (!options.energise) opened.note = "no current flows without energise=yes: this arm only says where it is";
   if (const auto fd = open_file_of(device.node)) {
     LastWords words;  // report number 0, then a report of zeros: no current
     words.fd = *fd;
@@ -163,7 +164,7 @@ Result<OpenedDriver> SpaceMouseBackend::open(const DeviceChoice& choice) {
       return std::unexpected(DeviceError{Errc::kUnsupported, *file + ": says nothing of a spacemouse: write spacemouse { ... }"});
     spec = *described->spacemouse;
   }
-  auto opened_pipe = open_pipe(choice, "a 3Dconnexion puck", is_puck);
+  auto opened_pipe = open_pipe(choice, "3Dconnexion puck", is_puck);
   if (!opened_pipe) return std::unexpected(std::move(opened_pipe.error()));
   auto& [device, pipe] = *opened_pipe;
   OpenedDriver opened;

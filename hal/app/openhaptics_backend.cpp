@@ -10,7 +10,11 @@ constexpr const char* kDefaultName = "Default Device";
 }  // namespace
 
 Result<std::vector<FoundDevice>> OpenHapticsBackend::list() {
-  if (auto library = OpenHapticsLibrary::load(); !library) return std::unexpected(std::move(library.error()));
+  if (auto library = OpenHapticsLibrary::load(); !library) {
+    DeviceError error = std::move(library.error());
+    if (error.message.starts_with("openhaptics: ")) error.message.erase(0, std::string_view("openhaptics: ").size());  // the list says it
+    return std::unexpected(std::move(error));
+  }
   return std::vector{FoundDevice{std::string("openhaptics:") + kDefaultName,
                                  "a device of that name in the vendor's set-up tool; the library does not tell which are attached", ""}};
 }

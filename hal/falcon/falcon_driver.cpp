@@ -295,6 +295,8 @@ void FalconDriver::silence() noexcept {
     const auto read = receive(kReplyWait);
     if (!read && read.error() == Errc::kUnplugged) break;
   }
+  // Whoever opens it next, another program perhaps, is to find a boot loader, not firmware that answers without seeing.
+  if (reload_) (void)line_for_boot(*pipe_);
   acting_ = sent_ = {};
   pose_.reset();
   jumped_ = true;

@@ -23,7 +23,7 @@ struct FalconOptions {
 ///   singular poses (falcon_effort_share) and is cut in its direction to what the motors or the ceiling give.
 /// - An unhomed Falcon has no origin: `q` counts from an arbitrary one, `x` stays where it was last known.
 /// - exchange() sends zeros and returns Errc::kFirmware once the encoders were found frozen: bring it up again, which loads the
-///   firmware anew. Errc::kProtocol also for encoder counts that no pose has.
+///   firmware anew; silence() then leaves it in its boot loader, so that another program loads it too. Errc::kProtocol also for encoder counts that no pose has.
 /// Lock-step: each frame sent is answered by one. An answer that comes late is taken by the next exchange.
 class FalconDriver final : public Driver {
  public:

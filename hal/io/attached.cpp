@@ -162,7 +162,7 @@ Result<Attached> choose(std::span<const Attached> attached, const Wanted& wanted
   for (const Attached* device : fitting) {
     const bool by_port = !device->port.empty();
     message += std::string(device == fitting.front() ? " " : ", or ") +
-               (by_port ? "path=" + device->port : "serial=" + device->serial) + " (" + describe(*device) + ")";
+               (by_port ? "port=" + device->port : "serial=" + device->serial) + " (" + describe(*device) + ")";
   }
   return std::unexpected(DeviceError{Errc::kBadState, std::move(message)});
 }

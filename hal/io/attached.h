@@ -42,7 +42,7 @@ struct Attached {
 
 /// Which device a person means. What is not given does not narrow.
 struct Wanted {
-  std::string what;         ///< for messages: "a Novint Falcon"
+  std::string what;         ///< for messages: "Novint Falcon"
   std::vector<UsbIds> ids;  ///< any of these
   std::optional<HidUsage> usage;
   std::optional<std::string> serial, port;

@@ -25,6 +25,7 @@ struct OpenedDriver {
   std::shared_ptr<void> bus;  ///< what the driver works with: pipe, clock; must outlive it
   std::unique_ptr<Driver> driver;
   std::optional<LastWords> last_words;  ///< for a Deadman; empty: nobody can speak for this device
+  std::string note = {};                ///< for the person: what this device will not do, and why
 };
 
 /// One kind of hardware: how it is found, how a driver for it is made. Never opens "the default" one: of several, a

@@ -5,6 +5,8 @@
 namespace tandem::hal::wire {
 namespace {
 
+constexpr double kGravity = 9.80665;    // [m/s^2]
+constexpr double kFrictionSpeed = 1e-3;  // [m/s]
 constexpr double kConditionStop = 40;  // nearer to a singular pose the stops hold the tip
 
 bool within_stops(const Vec3& theta) {
@@ -30,8 +32,10 @@ void FalconMechanics::advance(const std::array<std::int16_t, 3>& motor, double d
   motor_force_ = pose_.J_inv.transpose() * tau;
   const double mass = spec_.mass + spec_.load + pull_.m;
   Vec3 force = motor_force_ + pull_.force + pull_.k * (pull_.x + dt * pull_.v - pose_.x) + pull_.b * pull_.v;
-  force[2] -= spec_.gravity * (spec_.mass + spec_.load);
-  const double held = mass + dt * (spec_.damping + pull_.b) + dt * dt * pull_.k;
+  force -= kGravity * spec_.load * spec_.up;
+  // Coulomb friction as the damper that gives it at the present speed: never turns the motion round.
+  const double rub = spec_.friction / std::sqrt(v_.squaredNorm() + kFrictionSpeed * kFrictionSpeed);
+  const double held = mass + dt * (spec_.damping + pull_.b + rub) + dt * dt * pull_.k;
   v_ = (mass * v_ + dt * force) / held;
   pull_.x += dt * pull_.v;
 

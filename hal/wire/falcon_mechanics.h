@@ -13,8 +13,9 @@ namespace tandem::hal::wire {
 struct FalconMechanicsSpec {
   double mass = 0.15;     ///< at the tip [kg]; assumed
   double damping = 1.0;   ///< at the tip [N s/m]; assumed
-  double gravity = 0;     ///< along -z of the HAL frame [m/s^2]; Falcons carry their own weight by friction
-  double load = 0;        ///< mass hung on the grip [kg]
+  double friction = 0;    ///< Coulomb, of the tip [N], smoothed over 1 mm/s
+  double load = 0;        ///< mass hung on the grip [kg]; it alone has weight
+  Vec3 up = Vec3::UnitZ();  ///< against gravity, length 1: a Falcon may lie on its back
   std::array<double, 3> counts_per_nm{10000, 10000, 10000};  ///< of the motors, in truth
   Vec3 start = Vec3::Zero();                                 ///< tip [m]
 };

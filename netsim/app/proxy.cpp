@@ -57,7 +57,9 @@ void Proxy::work(Duration now) noexcept {
   const auto due = core_.next_due();
   if (due) until = std::min(until, std::max(due->time_since_epoch(), last_sent_ + options_.coalesce));
 
-  if (!busy_ || reading_interval_ == Duration::zero()) {
+  // Due at the last sending and still here: it waits to know what came until then, and only reading tells.
+  const bool waits_for_news = due && due->time_since_epoch() <= tried_until_;
+  if (!busy_ || reading_interval_ == Duration::zero() || waits_for_news) {
     const Duration left = until - now;
     const bool awake = left <= std::max(options_.spin, kShorterThanSleep);
     busy_ = read_ready(awake ? Duration{} : left - options_.spin) > 0 || due.has_value();
@@ -123,7 +125,10 @@ void Proxy::send_due() noexcept {
       outbox_.add(*egress, through);
       any = true;
     }
-    if (!any) return;
+    if (!any) {
+      tried_until_ = now_;
+      return;
+    }
     send_outbox();
   }
 }

@@ -136,6 +136,7 @@ class Proxy {
   Duration least_delay_{};           ///< of all links there are and will be
   Duration reading_interval_{};      ///< 0: as soon as something comes
   Duration read_until_{};            ///< all that came by then has been read
+  Duration tried_until_{};           ///< what was due by then and could leave has left
   Duration last_read_{}, last_sent_{}, next_housekeeping_{};
   Duration wall_at_start_{};  ///< CLOCK_REALTIME at the start, by the clocks of this round
   bool busy_ = false;  ///< something came lately or is under way

@@ -239,33 +239,6 @@ TEST(Proxy, LetsNoSecondProxyOnItsPort) {
   EXPECT_NE(second.error().find("in use"), std::string::npos);
 }
 
-// The house is asked for sockets while others wait in the listening socket: nobody's datagram may get lost or
-// overtaken.
-TEST(Proxy, ManyWhoComeAtOnceKeepTheirDatagramsAndOrder) {
-  constexpr int kHouses = 5, kClients = 40, kEach = 5;  // no more than the server's buffer holds
-  for (int house = 0; house < kHouses; ++house) {
-    UdpPeer server;
-    Running proxy{server.address(), {}};
-    std::vector<std::unique_ptr<UdpPeer>> clients;
-    for (int i = 0; i < kClients; ++i) {
-      clients.push_back(std::make_unique<UdpPeer>());
-      clients.back()->connect(proxy->listening());
-    }
-    for (int k = 0; k < kEach; ++k) {
-      for (std::size_t i = 0; i < clients.size(); ++i)
-        ASSERT_TRUE(clients[i]->send(std::to_string(i) + ":" + std::to_string(k)));
-    }
-    std::map<std::string, int> next;
-    for (int n = 0; n < kClients * kEach; ++n) {
-      const auto got = server.receive();
-      ASSERT_TRUE(got) << n;
-      const auto colon = got->bytes.find(':');
-      ASSERT_EQ(std::stoi(got->bytes.substr(colon + 1)), next[got->bytes.substr(0, colon)]++) << got->bytes;
-    }
-    EXPECT_EQ(next.size(), clients.size());
-  }
-}
-
 TEST(Proxy, AClientThatChangesItsAddressIsHeardAtBothUntilTheOldOneIsDead) {
   UdpPeer server, client;
   Running proxy{server.address(), {}};

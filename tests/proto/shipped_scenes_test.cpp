@@ -18,7 +18,7 @@ SceneSpec shipped(std::string_view name) {
   return spec.value_or(SceneSpec{});
 }
 
-TEST(ShippedScenes, AreTheEightAndEachIsValidAndSummarised) {
+TEST(ShippedScenes, AreTheTenAndEachIsValidAndSummarised) {
   std::set<std::string_view> names;
   for (const auto& scene : shipped_scenes()) {
     names.insert(scene.name);
@@ -26,7 +26,7 @@ TEST(ShippedScenes, AreTheEightAndEachIsValidAndSummarised) {
     EXPECT_FALSE(scene.summary.empty()) << scene.name;
     EXPECT_EQ(scene.summary.find('\n'), std::string_view::npos);
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"contact", "contact_remote", "eight_seats", "free_motion", "one_axis",
+  EXPECT_EQ(names, (std::set<std::string_view>{"contact", "contact_remote", "devices", "devices_remote", "eight_seats", "free_motion", "one_axis",
                                                "seed_contact", "seed_free_motion", "two_by_two"}));
   EXPECT_EQ(find_shipped_scene("contac"), nullptr);
 }

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "tests/support/world_run.h"
@@ -132,6 +133,20 @@ TEST(Faults, AServerThatStandsStillMakesUpForItAndHandsLetGoMeanwhile) {
   EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 1u);
   EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
   EXPECT_EQ(run.world->session().slipped(), 250u) << "it lives through 50 missed ticks, gives up the rest";
+}
+
+// 46 mm that a hand went while session time stood still look like 9 m/s.
+TEST(Faults, TicksGivenUpAreNoSpeedOfAHand) {
+  const auto setup = with_fault(Fault::Kind::kServerLate, 300ms, "");
+  std::optional<server::ReportBuilder> judge;
+  const Lived run = live(setup, [&](netsim::World& w) {
+    if (!judge) judge.emplace(w.session().scene());
+    judge->add(w.record());
+  });
+  const auto report = judge->build(std::vector<server::LinkReport>(run.world->session().scene().seats.size()));
+  EXPECT_GT(report.seats[kTrainer].metrics.speed_peak_m_s, 0.05);
+  EXPECT_LT(report.seats[kTrainer].metrics.speed_peak_m_s, 0.6);
+  EXPECT_LT(report.seats[kTrainee].metrics.speed_peak_m_s, 0.6);
 }
 
 TEST(Clocks, AnOffsetOfADayChangesNothingAtAll) {

@@ -111,8 +111,8 @@ TEST_F(Choosing, AmongSeveralThereIsNoDefault) {
   EXPECT_EQ(chosen.error().code, hal::Errc::kBadState);
   EXPECT_EQ(
       chosen.error().message,
-      "2 devices could be meant by Novint Falcon; say which one: path=1-1 (0403:cb48 FALCON HAPTIC, serial A, at port "
-      "1-1), or path=1-2 (0403:cb48 FALCON HAPTIC, serial B, at port 1-2)");
+      "2 devices could be meant by Novint Falcon; say which one: port=1-1 (0403:cb48 FALCON HAPTIC, serial A, at port "
+      "1-1), or port=1-2 (0403:cb48 FALCON HAPTIC, serial B, at port 1-2)");
   EXPECT_EQ(hal::choose(std::span(list).subspan(1), falcon)->port, "1-2") << "the only one needs no words";
 }
 

@@ -172,7 +172,7 @@ TEST(FalconBoot, EndsAtOnceWhenUnpluggedInAnyPhase) {
     driver.silence();
   };
   run(-1);
-  const long step = std::max<long>(1, total / static_cast<long>(test::draws(150, 1500, 15000)));
+  const long step = std::max<long>(1, total / static_cast<long>(test::draws(80, 1500, 15000)));
   for (long at = 0; at < total; at += step) run(at);
 }
 

@@ -122,6 +122,29 @@ TEST_F(FalconServoTest, UnpluggingIsLostAtOnceAndToldToTheClient) {
   EXPECT_TRUE(client.gone);
 }
 
+TEST_F(FalconServoTest, FrozenFirmwareIsLoadedAnewHereOrByTheNextProgram) {
+  for (const bool here : {true, false}) {
+    make({});
+    model->faults.frozen_loads = 1;
+    ASSERT_TRUE(core->bring_up(watcher));
+    run(31s);
+    ASSERT_EQ(core->phase(), Phase::kBooting);
+    EXPECT_EQ(model->loads(), 1u);
+    EXPECT_EQ(model->order().motor, (std::array<std::int16_t, 3>{}));
+    if (!here) {
+      core->silence();
+      EXPECT_FALSE(model->running());
+      core.emplace(std::make_unique<FalconDriver>(
+          *FalconDriver::make({"falcon", "1-2"}, *pipe, *clock, {falcon::calibrated(), falcon::some_firmware()})));
+    }
+    ASSERT_TRUE(core->bring_up(watcher));
+    EXPECT_EQ(model->loads(), 2u);
+    run(100ms);
+    pull_out_and_in();
+    EXPECT_EQ(core->phase(), Phase::kReady);
+  }
+}
+
 TEST_F(FalconServoTest, UncalibratedForcesStaySmall) {
   make(falcon::ready_model(), FalconSpec{});
   ASSERT_TRUE(core->bring_up(watcher));

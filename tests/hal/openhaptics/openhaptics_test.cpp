@@ -222,6 +222,22 @@ TEST_F(OpenHaptics, IsSilentBeforeItCloses) {
   EXPECT_FALSE(stub().devices[0].initialised);
 }
 
+TEST_F(OpenHaptics, StandsWithZerosWhileAnotherDeviceIsOpened) {
+  stub().devices.resize(2);
+  stub().devices[1].name = "late";
+  auto c = core();
+  Pusher p;
+  p.effort = {1, 0, 0};
+  ASSERT_TRUE(c->bring_up(patient));
+  run({{c.get(), &p}}, 100ms);
+  ASSERT_TRUE(c->enable());
+  run({{c.get(), &p}}, 1s);
+  ASSERT_NEAR(stub().devices[0].force[0], 1, 1e-9);
+  OpenHapticsDriver late{"late", group, clock};
+  ASSERT_TRUE(late.bring_up(patient));  // the stub tells if the scheduler was stopped with a force on
+  EXPECT_EQ(stub().devices[0].force[0], 0) << "nobody ordered anything meanwhile";
+}
+
 TEST_F(OpenHaptics, ServesThreeDevicesInOneCallbackAndLosesOnlyTheUnplugged) {
   stub().devices.resize(3);
   for (int i = 0; i < 3; ++i) {

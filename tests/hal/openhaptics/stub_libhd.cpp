@@ -134,7 +134,11 @@ void hdStartScheduler() {
   if (state.running) broke("two schedulers");
   state.running = true;
 }
-void hdStopScheduler() { state.running = false; }
+void hdStopScheduler() {
+  for (const StubDevice& d : state.devices)
+    if (d.initialised && !d.unplugged && d.force != std::array<double, 3>{}) broke("stopped with a force on");
+  state.running = false;
+}
 void hdSetSchedulerRate(unsigned long) {}
 unsigned long hdScheduleAsynchronous(std::uint32_t (*callback)(void*), void* data, std::uint16_t) {
   if (state.callback != nullptr) broke("two callbacks");

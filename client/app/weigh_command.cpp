@@ -1,0 +1,177 @@
+#include "client/app/weigh_command.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/app/held_device.h"
+#include "common/io/clock.h"
+#include "common/io/number_option.h"
+#include "common/io/signals.h"
+#include "hal/falcon/falcon_force.h"
+#include "hal/falcon/falcon_weighing.h"
+#include "hal/io/device_choice.h"
+#include "proto/device_text.h"
+#include "proto/io/scene_file.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kTrouble = 1, kWrong = 2;
+
+struct WeighArguments {
+  std::string device, mass;
+  bool lying = false;
+};
+
+/// The scale in which the driver will speak: of the calibration it is given, or the guess.
+hal::Result<hal::FalconForce> present_scale(const std::string& device) {
+  const auto choice = hal::parse_choice(device);
+  if (!choice) return std::unexpected(choice.error());
+  if (choice->backend != "falcon") {
+    return std::unexpected(hal::DeviceError{hal::Errc::kUnsupported, "only a falcon is weighed: other devices say what their motors give"});
+  }
+  const auto file = choice->find("calibration");
+  if (!file) return hal::FalconForce{};
+  const auto wrong = [](std::string why) {
+    if (why.ends_with('\n')) why.pop_back();
+    return std::unexpected(hal::DeviceError{hal::Errc::kUnsupported, std::move(why)});
+  };
+  const auto text = read_text_file(*file);
+  if (!text) return wrong(to_text(text.error()));
+  const auto spec = parse_device_text(*text, *file);
+  if (!spec) return wrong(to_text(spec.error()));
+  const auto force = hal::FalconForce::from(spec->falcon.value_or(FalconSpec{}));
+  if (!force) return wrong(*file + ": falcon: " + force.error());
+  return *force;
+}
+
+/// @return false: Ctrl-C, or nobody is there to press it
+bool wait_for_enter(const char* words, int signals) {
+  std::fprintf(stderr, "%s; then press Enter\n", words);
+  for (;;) {
+    std::array<pollfd, 2> files{{{signals, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
+    if (poll(files.data(), files.size(), -1) < 0) continue;
+    if (files[0].revents != 0) return false;
+    char c = 0;
+    if (::read(STDIN_FILENO, &c, 1) != 1) return false;
+    if (c == '\n') return true;
+  }
+}
+
+struct Trouble {
+  std::string reason;  ///< empty: interrupted
+};
+
+std::expected<hal::FalconWeighing::Held, Trouble> weigh_once(HeldDevice& held, hal::FalconWeighing& weighing, int signals) {
+  held.observe(weighing);
+  if (auto enabled = held.device().enable(); !enabled) return std::unexpected(Trouble{enabled.error().message});
+  const Time end = io::monotonic_now() + hal::FalconWeighing::length() + 5s;
+  while (!weighing.finished() && !weighing.was_lost() && io::monotonic_now() < end) {
+    pollfd file{signals, POLLIN, 0};
+    if (poll(&file, 1, 50) > 0) {
+      held.device().disable();
+      return std::unexpected(Trouble{});
+    }
+  }
+  held.device().disable();
+  if (weighing.was_lost()) return std::unexpected(Trouble{"the device was unplugged"});
+  auto result = weighing.held();
+  if (!result) return std::unexpected(Trouble{result.error()});
+  return *result;
+}
+
+void print_counts(const char* key, const std::array<double, 3>& counts) {
+  std::printf("    %s { leg_1: %.1f leg_2: %.1f leg_3: %.1f }\n", key, counts[0], counts[1], counts[2]);
+}
+
+/// As the motors were told: the sign and scale of FalconForce.
+std::array<double, 3> motor_counts(const hal::FalconWeighing::Held& held, const hal::FalconForce& scale) {
+  std::array<double, 3> counts{};
+  for (std::size_t i = 0; i < 3; ++i) counts[i] = -held.torque[i] * scale.counts_per_nm()[i];
+  return counts;
+}
+
+int weigh(const WeighArguments& arguments, double mass, const hal::FalconForce& scale) {
+  const io::Fd signals = io::signals_as_file();
+  io::StatusLine line{false};
+  auto held = HeldDevice::take(arguments.device, signals.get(), line);
+  const auto fail = [](const std::string& reason) {
+    if (!reason.empty()) std::fprintf(stderr, "tandem-client weigh: %s\n", reason.c_str());
+    return kTrouble;
+  };
+  if (!held) {
+    if (held.error().interrupted) return kTrouble;
+    (void)fail(held.error().reason);
+    return held.error().wrong_words ? kWrong : kTrouble;
+  }
+  const hal::Vec3 up = arguments.lying ? hal::Vec3(0, -1, 0) : hal::Vec3(0, 0, 1);
+  hal::FalconWeighing without(hal::Vec3::Zero(), up), with(hal::Vec3::Zero(), up);
+  const auto close = [&](int code) {
+    (*held)->device().close();  // before those it calls
+    return code;
+  };
+  if (!wait_for_enter("Leave the empty grip in the middle of its reach and let go; it will hold itself there for 14 s", signals.get())) {
+    return close(kTrouble);
+  }
+  const auto empty = weigh_once(**held, without, signals.get());
+  if (!empty) return close(fail(empty.error().reason));
+  if (!wait_for_enter("Hang the mass on the grip, put it in the middle again, let go and let nothing swing", signals.get())) {
+    return close(kTrouble);
+  }
+  const auto loaded = weigh_once(**held, with, signals.get());
+  (*held)->device().close();
+  if (!loaded) return fail(loaded.error().reason);
+
+  std::printf("  mass_reading {\n    mass_kg: %.6g %s\n", mass, arguments.lying ? "up_y: -1" : "up_z: 1");
+  print_counts("encoder", loaded->encoder);
+  print_counts("motor_without", motor_counts(*empty, scale));
+  print_counts("motor_with", motor_counts(*loaded, scale));
+  std::printf("  }\n");
+  std::fprintf(stderr, "Friction took up to %.1f %% of what the mass takes; add the reading to your calibration file.\n",
+               100 * loaded->friction / std::max(1e-6, std::abs(loaded->torque[0] - empty->torque[0])));
+  return 0;
+}
+
+int weigh_command(const WeighArguments& arguments) {
+  std::vector<std::string> mistakes;
+  if (const std::string problem = io::number_in(0.005, 1, "kg")(std::string(arguments.mass)); !problem.empty())
+    mistakes.push_back("--mass: " + problem);
+  const auto scale = present_scale(arguments.device);
+  if (!scale) mistakes.push_back("--device: " + scale.error().message);
+  if (mistakes.empty()) return weigh(arguments, std::stod(arguments.mass), *scale);
+  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
+  std::fprintf(stderr, "tandem-client weigh: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+}  // namespace
+
+void add_weigh_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<WeighArguments>();
+  CLI::App* const command = root.add_subcommand("weigh", "Finds what a Falcon's motors are worth, with a known mass.");
+  command->add_option("--device", arguments->device, "required: the falcon; the words are those of `join --device`")
+      ->option_text("WORDS")
+      ->required();
+  command->add_option("--mass", arguments->mass, "required: what you will hang on its grip [kg]")->option_text("KG")->required();
+  command->add_flag("--lying", arguments->lying, "the device lies on its back, its grip upwards; else it stands");
+  command->footer(
+      "Prints one `mass_reading { ... }` for the file of `calibration=`; two at least, six are better. Begin lying on its\n"
+      "back with 20 to 30 g: without a calibration the motors give little. With that file given, repeat with 100 and 200 g.\n"
+      "Exit: 0 a reading was printed; 1 no reading; 2 wrong arguments or files.\n\n"
+      "Example\n"
+      "  tandem-client weigh --device falcon:firmware=falcon.bin --mass 0.02 --lying");
+  command->callback([arguments, &action] { action = [arguments] { return weigh_command(*arguments); }; });
+}
+
+}  // namespace tandem::client
