@@ -18,7 +18,7 @@ using hal::woodenhaptics::WoodenHapticsDriver;
 struct BoardSeat {
   explicit BoardSeat(Testbed& bed_, bool energise = true)
       : bed(bed_), model(WoodenBench::at_calibration(wooden_2015(), {})) {
-    model.place(model.tip());
+    node.with_model([&] { model.place(model.tip()); });
     bed.plug(node, model, "1-2");
     const hal::Wanted wanted{"WoodenHaptics board", {}, {}, std::string(model.serial()), "1-2"};
     auto opened = hal::HidrawPipe::open(*hal::choose(hal::list_hidraw(), wanted));

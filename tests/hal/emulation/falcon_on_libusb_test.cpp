@@ -66,8 +66,10 @@ struct FalconSeat {
 TEST(FalconOnLibusb, BootsFromItsFileThroughTroubleAndThenServes) {
   Testbed bed;
   FalconSeat seat(bed, {});
-  seat.model.faults.deaf_greetings = 1;
-  seat.model.faults.wrong_echoes = 1;  // a mismatch between image and echo: from the beginning
+  seat.with_model([](auto& m) {
+    m.faults.deaf_greetings = 1;
+    m.faults.wrong_echoes = 1;  // a mismatch between image and echo: from the beginning
+  });
   const auto up = seat.bring_up();
   ASSERT_TRUE(up) << up.error().message;
   EXPECT_GE(seat.driver->boot_attempts(), 2);

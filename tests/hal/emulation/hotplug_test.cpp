@@ -73,6 +73,30 @@ TEST(PlugWatch, OutAndInAgainBetweenTwoLooksIsBoth) {
   EXPECT_EQ(changes[0].device.port, changes[1].device.port);
 }
 
+TEST(PlugWatch, ANodeWhoseNameCameAgainIsAnotherDevice) {
+  Testbed bed;
+  HidEcho model;
+  auto first = std::make_unique<HidrawNode>(model);
+  bed.plug(*first, model, "1-2");
+  auto opened = hal::PlugWatch::open();
+  ASSERT_TRUE(opened);
+  first->unplug();
+  bed.remove("1-2");
+  model.plug_in();
+  HidrawNode second(model);
+  bed.plug(second, model, "1-2");
+  std::vector<hal::PlugChange> all;
+  while (all.size() < 4) {  // out and in, on both buses
+    const auto some = (*opened)->wait(kPatient);
+    ASSERT_FALSE(some.empty());
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  const auto raw = [](const hal::PlugChange& c) { return c.device.bus == hal::Bus::kHidraw; };
+  EXPECT_EQ(std::ranges::count_if(all, raw), 2);
+  EXPECT_EQ(std::ranges::find_if(all, raw)->device.node, "/dev/hidraw0");
+  EXPECT_EQ(hal::list_hidraw().at(0).node, "/dev/hidraw0");
+}
+
 TEST(PlugWatch, NothingChangedIsNothing) {
   Testbed bed;
   auto opened = hal::PlugWatch::open();

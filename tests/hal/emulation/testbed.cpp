@@ -130,7 +130,9 @@ void Testbed::plug(UsbfsNode& node, const hal::wire::UsbWireModel& model, const 
 }
 
 void Testbed::plug(HidrawNode& node, const hal::wire::HidWireModel& model, const std::string& port) {
-  const unsigned address = next_address_++, number = next_hidraw_++;
+  const unsigned address = next_address_++;
+  unsigned number = 0;  // the lowest free one, as in the kernel: names come again
+  while (std::filesystem::is_symlink(root_ + format("/dev/hidraw%u", number))) ++number;
   const std::string usb = kController + port, interface = usb + "/" + port + ":1.0",
                     hid = interface + format("/0003:%04X:%04X.%04X", model.vendor_id(), model.product_id(), address),
                     raw = hid + format("/hidraw/hidraw%u", number);
@@ -144,8 +146,7 @@ void Testbed::plug(HidrawNode& node, const hal::wire::HidWireModel& model, const
           "\nE: HID_UNIQ=" + std::string(model.serial()) + "\nH: report_descriptor=" + hex(model.report_descriptor()) +
           "\n\n";
   text += "P: " + raw +
-          format("\nN: hidraw%u\nE: DEVNAME=/dev/hidraw%u\nE: SUBSYSTEM=hidraw\nE: MAJOR=240\nE: MINOR=%u\n", number,
-                 number, number);
+          format("\nE: DEVNAME=/dev/hidraw%u\nE: SUBSYSTEM=hidraw\nE: MAJOR=240\nE: MINOR=%u\n", number, number);
   text += "L: device=../../../" + hid.substr(hid.rfind('/') + 1) + "\n\n";
   add(text);
   lead_node(format("hidraw%u", number), node.gate());
@@ -158,6 +159,9 @@ void Testbed::remove(const std::string& port) {
   for (const std::string& one : found->sysfs) {
     tell(one, "remove");
     library().remove_device(bed_, ("/sys" + one).c_str());
+    if (const auto raw = one.find("/hidraw/"); raw != std::string::npos) {
+      std::filesystem::remove(root_ + "/dev" + one.substr(raw + std::string("/hidraw").size()));
+    }
   }
   plugged_.erase(found);
 }

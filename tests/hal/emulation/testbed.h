@@ -43,7 +43,7 @@ class Testbed {
   void* bed_ = nullptr;
   std::string root_;
   std::vector<Plugged> plugged_;
-  unsigned next_address_ = 4, next_hidraw_ = 0;
+  unsigned next_address_ = 4;
 };
 
 /// While it lives, this thread may not open what its rights forbid, even as root.

@@ -51,12 +51,17 @@ void UsbfsNode::advance() {
 void UsbfsNode::serve() {
   if (gone_) return;
   advance();
-  for (auto urb = pending_.begin(); urb != pending_.end();) {
-    if (carry_out(*urb)) {
-      finish(*urb);
-      urb = pending_.erase(urb);
-    } else {
-      ++urb;
+  // What goes out may be answered at once, by a reading that was handed in before.
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (auto urb = pending_.begin(); urb != pending_.end();) {
+      if (carry_out(*urb)) {
+        finish(*urb);
+        urb = pending_.erase(urb);
+        moved = true;
+      } else {
+        ++urb;
+      }
     }
   }
 }
