@@ -9,6 +9,8 @@ namespace tandem::client {
 
 namespace {
 
+constexpr double kGone = 1.0;          // [s] no Wi-Fi scans so long
+constexpr double kLeastSeconds = 2.0;  // [s]
 constexpr double kCrisp = 0.010;       // [s] round trip: up to here nobody tells it from no network
 constexpr double kComfortable = 0.050; // [s] one way 20 ms and a little: the table's middle column
 constexpr double kLossGood = 1, kLossUsable = 10;   // [%]
@@ -128,6 +130,8 @@ LinkVerdict judge(const LinkFindings& f) {
   judge_loss(*f.down, "on the way down", judge);
   // A gap on the way up is felt by the hand as well: what comes down then is old.
   const double gap = std::max(f.up->longest_gap, f.down->longest_gap);
+  if (gap > kGone)
+    judge.note(LinkGrade::kBad, format("nothing at all for %.1f s: the server, or everything between here and there, was gone", gap));
   if (gap > f.silence_limit)
     judge.note(f.pauses <= std::max(1.0, kPauseShare * f.seconds) ? LinkGrade::kUsable : LinkGrade::kBad,
                format("silent for up to %.0f ms up and %.0f ms down, %u time%s beyond the %.0f ms after which a hand is let go%s",
@@ -140,6 +144,10 @@ LinkVerdict judge(const LinkFindings& f) {
                                           "else's",
                                           n(f.refused)));
   verdict.words = words(f, verdict.grade);
+  if (f.seconds < kLeastSeconds) {
+    verdict.grade = std::max(verdict.grade, LinkGrade::kUsable);
+    verdict.words = format("too short to judge: %.1f s say little of a network, take ten", f.seconds);
+  }
   return verdict;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "client/app/ask.h"
 #include "client/app/held_device.h"
@@ -43,7 +44,7 @@ std::string unfit(const SeatSetup& setup, const hal::DeviceCaps& caps) {
 }
 
 /// Waits for the end, shows the status, hands keys to the person.
-SeatEnd watch(SeatPump& pump, Person& person, const SeatSetup& setup, const AttendPlan& plan, int signals,
+SeatEnd watch(SeatPump& pump, Person& person, hal::Device& device, const SeatSetup& setup, const AttendPlan& plan, int signals,
               io::StatusLine& line) {
   io::KeyReader keys;
   if (keys.interactive()) line.note(person.help());
@@ -51,6 +52,7 @@ SeatEnd watch(SeatPump& pump, Person& person, const SeatSetup& setup, const Atte
   Time shown = begin;
   std::optional<Time> left;
   wire::SessionState before = wire::SessionState::kWaiting;
+  bool fault_told = false, wants_force_again = false;
   const auto leave = [&](const char* why) {
     if (left) return;
     line.note(why);
@@ -66,8 +68,17 @@ SeatEnd watch(SeatPump& pump, Person& person, const SeatSetup& setup, const Atte
       [[maybe_unused]] const auto got = ::read(signals, &taken, sizeof taken);
       leave("letting go");
     }
-    for (std::string key = keys.next(); !key.empty(); key = keys.next())
+    for (std::string key = keys.next(); !key.empty(); key = keys.next()) {
+      if (key == "b" && device.phase() == hal::Phase::kFault) wants_force_again = device.reset().has_value();
       if (person.press(key)) leave("letting go");
+    }
+    if (device.phase() == hal::Phase::kFault && !std::exchange(fault_told, true))
+      line.warn("the device has a fault: it gave no whole answer for 10 ms, or its readings jumped as no hand does. No force comes; "
+                "look at it, then press b");
+    if (wants_force_again && device.phase() == hal::Phase::kReady) {  // a person asked for it, just now
+      wants_force_again = fault_told = false;
+      static_cast<void>(device.enable());
+    }
     const Time now = io::monotonic_now();
     const ClientStatus status = pump.status();
     if (left && now - *left > kLeaveMax) break;  // nobody is there to be told
@@ -180,7 +191,7 @@ int attend(const AttendPlan& plan) {
   }
 
   const Time begin = io::monotonic_now();
-  const SeatEnd end = watch(*pump, person, setup, plan, signals.get(), line);
+  const SeatEnd end = watch(*pump, person, device, setup, plan, signals.get(), line);
   ClientReport report;
   report.seconds = seconds(io::monotonic_now() - begin);
   device.disable();

@@ -209,6 +209,7 @@ int doctor_command(const DoctorArguments& arguments) {
   if (arguments.watch && (!arguments.device.empty() || arguments.force_test)) mistakes.push_back("--watch: stands alone");
   if (!arguments.device.empty() && !HeldDevice::is_meant(arguments.device))
     mistakes.push_back("--device: a simulated device needs no doctor");
+  if (arguments.device.starts_with("replay")) mistakes.push_back("--device: a recording needs no doctor");
   for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
   if (!mistakes.empty()) {
     std::fprintf(stderr, "tandem-client doctor: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");

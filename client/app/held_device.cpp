@@ -70,7 +70,11 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
   const auto backend = hal::find_backend(choice->backend);
   if (!backend) return failed(backend.error(), true);
   auto opened = (*backend)->open(*choice);
-  if (!opened) return failed(opened.error(), opened.error().code == hal::Errc::kUnsupported);
+  if (!opened) {
+    // A file that is no firmware is as wrong as a word that is none.
+    const hal::Errc code = opened.error().code;
+    return failed(opened.error(), code == hal::Errc::kUnsupported || code == hal::Errc::kFirmware);
+  }
 
   std::unique_ptr<HeldDevice> held{new HeldDevice};
   held->bus_ = opened->bus;

@@ -12,6 +12,7 @@
 #include "common/io/output_file.h"
 #include "hal/io/backend.h"
 #include "hal/io/open_device.h"
+#include "proto/visit.h"
 #include "proto/wire.h"
 
 namespace tandem::client {
@@ -72,6 +73,8 @@ AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   if (const auto server = server_option(arguments.server, mistakes)) plan.server = *server;
   if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
     mistakes.push_back("--seat: a name has 1 to 32 characters");
+  if (arguments.seat == wire::kVisitorName)
+    mistakes.push_back("--seat: " + arguments.seat + " is no seat but what `tandem-client link-test` calls itself; the server prints the seats");
   if (HeldDevice::is_meant(arguments.device)) {
     if (const auto wrong = wrong_words(arguments.device)) mistakes.push_back("--device: " + *wrong);
   } else if (const auto device = hal::open_stepped(arguments.device, SimDeviceSpec{}, HandSpec{})) {
