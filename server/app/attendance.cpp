@@ -1,5 +1,7 @@
 #include "server/app/attendance.h"
 
+#include "server/app/status.h"
+
 namespace tandem::server {
 
 Attendance::News Attendance::look(Time now, const SessionStatus& status, const SceneSpec& scene) {
@@ -31,7 +33,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
   if (state_ != status.state) {
     if (status.state == State::kRunning)
       news.notes.push_back(state_ == State::kHeld ? "the session runs again" : "the session runs");
-    if (status.state == State::kHeld) news.notes.push_back("HELD: nobody entitled is present, the tools are braked");
+    if (status.state == State::kHeld) news.notes.push_back("HELD: " + why_held(status, scene) + ", the tools are braked");
     state_ = status.state;
   }
   news.all_lost = runs && came > 0 && lost == came;

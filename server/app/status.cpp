@@ -36,6 +36,16 @@ std::string waiting_for(const SessionStatus& status, const SceneSpec& scene) {
   return text;
 }
 
+std::string why_held(const SessionStatus& status, const SceneSpec& scene) {
+  std::string silent;
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) {
+    const SeatStatus& seat = status.seats[i];
+    if (!seat.ever_bound || (seat.bound && seat.alive)) continue;
+    silent += (silent.empty() ? "" : ", ") + scene.seats[i].name + (seat.bound ? " is silent" : " has left");
+  }
+  return silent.empty() ? "nobody entitled is present" : silent;
+}
+
 std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
   std::string line = format("%.1f/%g s ", status.time, scene.duration);
   switch (status.state) {
@@ -48,7 +58,7 @@ std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
       line += "running";
       break;
     case wire::SessionState::kHeld:
-      line += "HELD (nobody entitled is present)";
+      line += "HELD (" + why_held(status, scene) + ")";
       break;
     case wire::SessionState::kEnding:
       line += "ending";

@@ -39,6 +39,9 @@ struct SessionStatus {
 };
 
 
+/// Whose absence brakes the tools, for people.
+[[nodiscard]] std::string why_held(const SessionStatus& status, const SceneSpec& scene);
+
 /// One line for a terminal.
 [[nodiscard]] std::string status_line(const SessionStatus& status, const SceneSpec& scene);
 
