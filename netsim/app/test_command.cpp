@@ -107,16 +107,16 @@ int test_command(const TestArguments& a) {
   if (a.seed_given) options.seed = a.seed;
   if (a.seeds_given) options.seeds = static_cast<std::uint64_t>(a.seeds);
   options.watch = [&](const io::JobsProgress& p, std::size_t failed) { progress.show(p, failed); };
-  const TestResult result = run_tests(std::move(*scenarios), options);
+  TestResult result = run_tests(std::move(*scenarios), options);
   progress.end();
+  result.interrupted = result.not_run() > 0 && interruption.came();
 
   const bool json_on_stdout = a.json == "-";
   if (!a.quiet || !json_on_stdout) std::fputs(test_summary(result).c_str(), json_on_stdout ? stderr : stdout);
-  const bool interrupted = result.not_run() > 0 && interruption.came();
-  if (interrupted) Interruption::say("test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
+  if (result.interrupted) Interruption::say("test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
   json_file.write(test_json(result));
   junit_file.write(junit_xml(result));
-  int code = interrupted ? Interruption::kInterrupted : result.passed() ? kPass : kFailed;
+  int code = result.interrupted ? Interruption::kInterrupted : result.passed() ? kPass : kFailed;
   for (const auto& problem : {json_file.close(), junit_file.close()})
     if (!problem.empty()) {
       std::fprintf(stderr, "tandem-netsim test: %s\n", problem.c_str());

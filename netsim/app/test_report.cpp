@@ -245,6 +245,7 @@ std::string test_json(const TestResult& result) {
   }
   j["version"] = 1;
   j["verdict"] = result.passed() ? "pass" : "fail";
+  j["interrupted"] = result.interrupted;
   j["seeds_run"] = seeds - result.not_run();
   j["seeds_failed"] = failed;
   j["seeds_not_run"] = result.not_run();

@@ -168,15 +168,22 @@ TEST(NetsimTest, AnInterruptEndsItAtOnceAndNamesWhatWasNotRun) {
   // The second is hours of work; result files are opened once signals are waited for.
   const std::string soon = folder.write("a-soon.textproto", "version: 1 scene: \"one_axis\" duration_s: 0.5");
   const std::string later = folder.write("b-later.textproto", "version: 1 scene: \"one_axis\" duration_s: 3e5");
-  auto run = netsim_test({soon, later, "--jobs", "1", "--json", folder.file("v.json")});
-  for (int i = 0; i < 1000 && !std::filesystem::exists(folder.file("v.json")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  auto run = netsim_test({soon, later, "--jobs", "1", "--seeds", "2", "--json", folder.file("v.json"), "--junit", folder.file("v.xml")});
+  for (int i = 0; i < 1000 && !std::filesystem::exists(folder.file("v.xml")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   run.signal(SIGINT);
   EXPECT_EQ(run.wait(), 1) << run.err();
   EXPECT_NE(run.out().find("not run:"), std::string::npos) << run.out();
-  EXPECT_NE(run.out().find("b-later (1)"), std::string::npos) << run.out();
+  EXPECT_NE(run.out().find("b-later (1 2)"), std::string::npos) << run.out();
   EXPECT_NE(run.err().find("interrupted"), std::string::npos) << run.err();
   const Json json = folder.json("v.json");
   EXPECT_EQ(json["verdict"], "fail");
+  EXPECT_EQ(json["interrupted"], true);
+  // A reader of the XML that counts failures and errors only must not take it for a pass.
+  const std::string xml = folder.read("v.xml");
+  const std::string later_suite = xml.substr(xml.find("<testsuite name=\"b-later\""));
+  EXPECT_NE(later_suite.find("tests=\"2\" failures=\"0\" errors=\"1\" skipped=\"1\""), std::string::npos) << xml;
+  EXPECT_NE(later_suite.find("type=\"interrupted\""), std::string::npos) << xml;
+  EXPECT_EQ(xml.find("errors=\"0\" skipped=\"2\""), std::string::npos) << xml;
   EXPECT_EQ(json["scenarios"][1]["seeds"][0]["verdict"], "not run");
 }
 
