@@ -125,12 +125,14 @@ class Folder {
     CLI::App command;
     NetworkOptions options;
     options.add_to(command);
-    std::vector<std::string> arguments{"--profile=" + (path->find('/') == std::string::npos ? "./" + *path : *path)};
+    std::vector<std::string> arguments;
     if (spec.trace_interval_ms) arguments.push_back("--trace-interval=" + std::to_string(*spec.trace_interval_ms));
     command.parse(arguments);
-    const auto choice = options.resolve();
+    const auto choice = options.named(path->find('/') == std::string::npos ? "./" + *path : *path);
     if (!choice) return std::unexpected(blame(choice.error()));
-    return ScenarioLink{choice->link, choice->description};
+    if (spec.trace_interval_ms && !choice->plays_interval)
+      return std::unexpected(blame("trace_interval_ms is for a recording without a column of times, and this one has its own; leave it out"));
+    return ScenarioLink{choice->link, choice->description, choice->notes};
   }
 
   bool shipped_;

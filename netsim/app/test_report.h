@@ -13,7 +13,7 @@ namespace tandem::netsim {
 /// For machines. Equal seeds and build give equal bytes but for the keys called `cpu_s`:
 /// {"version": 1, "verdict": "pass"|"fail", "interrupted": bool, "seeds_run": n, "seeds_failed": n, "seeds_not_run": n, "cpu_s": s, "scenarios":
 ///  [{"name", "file", "summary", "scene", "network", "seat_networks": [{"seat", "network"}], "duration_s", "verdict", "cpu_s",
-///    "limits": [{"subject", "metric", "unit", "min"|null, "max"|null, "worst": value|null, "worst_seed"|null,
+///    "notes": [text, about the networks], "limits": [{"subject", "metric", "unit", "min"|null, "max"|null, "worst": value|null, "worst_seed"|null,
 ///                "margin_percent"|null}],
 ///    "seeds": [{"seed", "verdict": "pass"|"fail"|"trouble"|"crash"|"not run", "causes": [text], "values": [number|null, one
 ///               per limit], "violations": [{"invariant", "seat", "at_s", "expected", "count"}], "network": [{"seat", "band":
