@@ -159,6 +159,7 @@ int check(const RunArguments& arguments, const WorldSetup& setup, const NetworkC
   } else {
     text += "network: " + network.description + format(", seed %llu\n", static_cast<unsigned long long>(setup.seed)) + network_listing(setup, "  ");
     for (const std::string& note : network.notes) text += "note: " + note + "\n";
+    for (const std::string& note : late_notes(setup)) text += "note: " + note + "\n";
   }
   std::fputs(text.c_str(), stdout);
   return 0;

@@ -109,6 +109,12 @@ TEST(BadInput, EngineSpecsRefuseTheSameWithoutAText) {
             "outages[0].loss_at_start outages[1].scope outages[2].length_max outages[3].length_max outages[4].hold_bytes ");
 }
 
+TEST(BadInput, AWrongLengthIsNotToldAgainByItsNeighbour) {
+  PathSpec spec;
+  spec.outages = {{.length = -5ms}};
+  EXPECT_EQ(keys(spec), "outages[0].length ");
+}
+
 std::string recording(std::string_view csv, Duration interval = 1ms) {
   const auto read = parse_network_csv(csv, "r.csv", interval);
   return read ? "none" : to_text(read.error());

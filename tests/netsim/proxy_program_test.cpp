@@ -171,7 +171,7 @@ TEST(Program, ProxyReportsWhatBecameOfItsScript) {
   ASSERT_TRUE(server.receive());
   proxy.signal(SIGINT);
   EXPECT_EQ(proxy.wait(), 0);
-  for (const char* part : {"event at 0.000 s: outage of 3600 s, for client 1; it was not over when the proxy ended", "event at 0.000 s: network lan\n",
+  for (const char* part : {"event at 0.000 s: outage of 3600 s, for client 1: goes on; it was not over when the proxy ended", "event at 0.000 s: network lan: came\n",
                            "event at 3600.000 s: new address, the old one dead after 1 ms, for client 1: never came; the proxy ended before"})
     EXPECT_NE(proxy.out().find(part), std::string::npos) << part << " not in\n" << proxy.out();
   const Json events = Json::parse(read(json))["events"];

@@ -382,7 +382,7 @@ TEST(Verdict, FilesAreNamedRelativeToTheScenario) {
   write("zz.textproto", "version: 1 both { flor_ms: 3 }\n");
   const auto lost = load_scenarios({folder.string()});
   ASSERT_FALSE(lost);
-  EXPECT_NE(to_text(lost.error()).find("zz.textproto: is no scene, profile or script without mistakes; as a scenario:"), std::string::npos)
+  EXPECT_NE(to_text(lost.error()).find("zz.textproto: is no scene, profile or script without mistakes; as a profile:"), std::string::npos)
       << to_text(lost.error());
   for (const char* name : {"zz", "good"}) fs::remove(folder / (std::string(name) + ".textproto"));
   const auto none = load_scenarios({folder.string()});
