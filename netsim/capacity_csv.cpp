@@ -37,6 +37,8 @@ void read_table(const CsvTable& table, Traces& traces, Mistakes& mistakes) {
   if (!direction || !time || !count) {
     return mistakes.add(1, 1, "", "", "needs the columns direction[...], t_ms[...] and opportunities[...]");
   }
+  if (const std::string& unit = table.columns()[*time].unit; unit != "ms" && !unit.starts_with("ms "))
+    return mistakes.add(1, *time + 1, "t_ms", "[" + unit + "]", "its unit must be [ms]; convert the column");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto wrong = [&](std::size_t column, std::string message) {
       mistakes.add(table.line(row), column + 1, table.columns()[column].name, table.cell(row, column),

@@ -55,6 +55,18 @@ std::vector<EventTime> event_times(const LinkSpec& base, std::span<const Network
   return all;
 }
 
+std::vector<EventTime> first_of_repeated(const LinkSpec& base) {
+  std::vector<EventTime> all;
+  const bool both = base.up.outages == base.down.outages;
+  for (const Direction direction : {Direction::kUp, Direction::kDown})
+    for (const OutageSpec& outage : base[direction].outages) {
+      if (outage.period == Duration::zero() || (both && direction == Direction::kDown)) continue;
+      const std::string way = both ? "" : std::string(", ") + name(direction);
+      all.push_back({outage.start, Duration::max(), {}, false, "the first periodic outage", outage_words(outage) + " every " + ms_text(outage.period) + way});
+    }
+  return all;
+}
+
 EventFate fate_of(const EventTime& event, Duration begin, Duration end) noexcept {
   if (event.at >= end) return EventFate::kAfter;
   // A new address, once taken, is a fact of the session whenever it was taken; so is a network that stays.

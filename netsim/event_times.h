@@ -25,6 +25,9 @@ struct EventTime {
 /// The events and the outages of `base` that have one moment (repeated and drawn ones do not), by time.
 [[nodiscard]] std::vector<EventTime> event_times(const LinkSpec& base, std::span<const NetworkEvent> events);
 
+/// The first of each periodic outage of `base`: who never met that one met none.
+[[nodiscard]] std::vector<EventTime> first_of_repeated(const LinkSpec& base);
+
 enum class EventFate : std::uint8_t {
   kCame,     ///< and was over, or stays for good
   kGoesOn,   ///< was not over at the end

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 #include "common/base/csv.h"
@@ -49,9 +50,21 @@ class Reader {
     if (rtt_ && delay_) mistake(1, 1, "", "", "rtt_ms and delay_ms exclude each other");
     if (!rtt_ && !delay_) mistake(1, 1, "", "", "needs a column rtt_ms[ms] or delay_ms[ms]");
     if (!time_ && interval_ <= Duration::zero()) {
-      mistake(1, 1, "", "", "has no column t_s[s] or t_send_s[s]: give the time between rows, --trace-interval MS");
+      mistake(1, 1, "", "", "has no column t_s[s] or t_send_s[s]: give the time between rows, --trace-interval MS (in a scenario trace_interval_ms)");
     }
+    for (const auto& column : {rtt_, delay_}) unit(column, "ms");
+    unit(time_, "s");
+    unit(lost_, "1");
     if (table_.rows() == 0) mistake(1, 1, "", "", "holds no row");
+  }
+
+  /// Numbers are read as the column's name says; a header that says otherwise is a mistake of a factor nobody would see.
+  /// Words after the unit are the recorder's own: `s since first row`.
+  void unit(const std::optional<std::size_t>& column, std::string_view must) {
+    if (!column) return;
+    const CsvColumn& head = table_.columns()[*column];
+    if (head.unit == must || head.unit.starts_with(std::string(must) + " ") || head.unit.starts_with(std::string(must) + ";")) return;
+    mistake(1, *column + 1, head.name, "[" + head.unit + "]", "its unit must be [" + std::string(must) + "]; convert the column");
   }
 
   void rows() {
@@ -114,6 +127,7 @@ class Reader {
     for (const DelayTrace::Step& step : steps_) network.lost += step.lost ? 1 : 0;
     network.rows = steps_.size();
     network.rtt_split = rtt_.has_value();
+    network.timed = time_.has_value();
     network.length = trace->period;
     find_gaps(network);
     trace->steps = std::move(steps_);
@@ -131,6 +145,18 @@ class Reader {
 };
 
 }  // namespace
+
+std::vector<std::string> notes_of(const RecordedNetwork& network, std::string_view file_name) {
+  std::vector<std::string> notes;
+  if (network.rtt_split) notes.push_back(std::string(file_name) + ": the recording holds round trips; each direction gets half of them");
+  if (network.gaps > 0) {
+    std::ostringstream note;
+    note << file_name << ":" << network.gap_line << ": the recording has " << network.gaps << (network.gaps == 1 ? " gap" : " gaps")
+         << ", the longest of " << seconds(network.gap_longest) << " s after this line; through a gap the last delay stays in force";
+    notes.push_back(note.str());
+  }
+  return notes;
+}
 
 std::expected<RecordedNetwork, InputErrors> parse_network_csv(std::string_view text, std::string_view file_name,
                                                               Duration interval) {

@@ -24,7 +24,8 @@ void check_outages(const std::vector<OutageSpec>& outages, Findings& found) {
     const std::string key = "outages[" + std::to_string(i) + "]";
     found.range<Duration>(key + ".start", outage.start, Duration::zero(), hours(24 * 30));
     found.above<Duration>(key + ".length", outage.length, Duration::zero(), hours(1));
-    found.range<Duration>(key + ".loss_at_start", outage.loss_at_start, Duration::zero(), outage.length);
+    if (outage.length > Duration::zero())  // else the length is the mistake
+      found.range<Duration>(key + ".loss_at_start", outage.loss_at_start, Duration::zero(), outage.length);
     if (outage.hold_bytes > 0 && outage.mode != OutageSpec::Mode::kHold) {
       found.add(key + ".hold_bytes", "nothing is held: belongs to the mode hold");
     }

@@ -80,11 +80,19 @@ class Maker {
     return {};
   }
 
+  /// One recording may be several networks.
+  void note(const std::vector<std::string>& notes) {
+    for (const std::string& text : notes)
+      if (std::ranges::find(out_.notes, text) == out_.notes.end()) out_.notes.push_back(text);
+  }
   std::optional<ScenarioLink> link(ScenarioNetworkSpec spec) {
     if (blamed(spec.place.key + ".trace_interval_ms")) return {};  // its recording cannot be read without
     if (!known_.empty()) spec.delay_ms = spec.jitter_ms = spec.loss_percent = spec.duplicate_percent = spec.reorder_percent = {};  // judged already
     auto found = sources_.network(spec);
-    if (found) return std::move(*found);
+    if (found) {
+      note(found->notes);
+      return std::move(*found);
+    }
     add(spec.profile ? spec.profile->place : spec.place, found.error());
     return {};
   }
@@ -117,6 +125,7 @@ class Maker {
       network.profile = ScenarioName{name, {}};
       auto found = sources_.network(network);
       if (!found) return std::unexpected(found.error());
+      note(found->notes);
       return std::move(found->link);
     });
     if (events) {
@@ -291,6 +300,7 @@ std::string effective_scenario_text(const Scenario& s) {
     if (!row.unit.empty()) text += std::string(value_width + 2 - row.value.size(), ' ') + row.unit;
     text += "\n";
   }
+  for (const std::string& note : s.notes) text += "note: " + note + "\n";
   return text;
 }
 

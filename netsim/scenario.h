@@ -18,6 +18,7 @@ namespace tandem::netsim {
 struct ScenarioLink {
   LinkSpec link;
   std::string description;  ///< one line for people
+  std::vector<std::string> notes = {};  ///< what a report must say about it
 };
 
 /// A scenario whose names and files were found: ready to run with any seed.
@@ -29,6 +30,7 @@ struct Scenario {
   std::string network;            ///< for people
   std::vector<std::pair<std::string, std::string>> seat_networks;  ///< seat, for people
   std::vector<std::string> hands;  ///< for people
+  std::vector<std::string> notes;  ///< what a report must say about its networks, one line each
   WorldSetup setup;                ///< its seed is the caller's
   std::vector<Limit> limits;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "common/base/format.h"
 #include "netsim/event_times.h"
@@ -16,11 +17,15 @@ std::vector<EventTime> asked_for(const WorldSetup& setup) {
   std::vector<EventTime> all;
   if (!setup.replay) {  // else the recording decides and these are not used
     all = event_times(setup.network, setup.events);
-    for (const auto& [seat, link] : setup.seat_networks)
-      for (EventTime& own : event_times(link, {})) {
+    std::ranges::move(first_of_repeated(setup.network), std::back_inserter(all));
+    for (const auto& [seat, link] : setup.seat_networks) {
+      std::vector<EventTime> its = event_times(link, {});
+      std::ranges::move(first_of_repeated(link), std::back_inserter(its));
+      for (EventTime& own : its) {
         own.words += ", for " + seat;
         all.push_back(std::move(own));
       }
+    }
   }
   for (const Fault& f : setup.faults) {
     const std::string kind = "the fault " + std::string(name(f.kind));
@@ -72,6 +77,16 @@ std::vector<std::string> session_notes(const WorldSetup& setup, const SessionSpa
     const auto first = std::ranges::find_if(setup.events, its);  // the later ones change nothing any more
     if (first != setup.events.end()) notes.push_back(rebind_note(*first, seat.name));
   }
+  return notes;
+}
+
+std::vector<std::string> late_notes(const WorldSetup& setup) {
+  std::vector<std::string> notes;
+  const double length = setup.scene.duration;
+  for (const EventTime& event : asked_for(setup))
+    if (seconds(event.at) >= length)
+      notes.push_back(format("%s at %g s will not come, unless the session of %g s begins later than at %g s of network time", event.kind.c_str(),
+                             seconds(event.at), length, seconds(event.at) - length));
   return notes;
 }
 

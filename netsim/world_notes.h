@@ -20,6 +20,9 @@ struct SessionSpan {
 /// did not live through, and what a change of address did to a seat.
 [[nodiscard]] std::vector<std::string> session_notes(const WorldSetup& setup, const SessionSpan& span);
 
+/// For `--check`, when nobody knows yet when the session will begin: what it can only live through if that is late.
+[[nodiscard]] std::vector<std::string> late_notes(const WorldSetup& setup);
+
 /// For `--check`: the network of every seat with its numbers, what happens to it when, clocks. Whole lines, each beginning
 /// with `indent`.
 [[nodiscard]] std::string network_listing(const WorldSetup& setup, const std::string& indent);

@@ -149,7 +149,7 @@ ProfileOutage outage_from(const pb::ProfileOutage& in, Checker& checker, const s
     checker.error(child_path(key, "scope"), "needs mean_gap_s or length_max_ms: what is not drawn hits all clients anyway");
   }
   outage.loss_at_start_ms = in.loss_at_start_ms();
-  if (outage.loss_at_start_ms > outage.length_ms) {
+  if (outage.length_ms > 0 && outage.loss_at_start_ms > outage.length_ms) {  // else the length is the mistake
     checker.error(child_path(key, "loss_at_start_ms"), "is longer than the outage");
   }
   if (in.has_hold_bytes() && !outage.hold) checker.error(child_path(key, "hold_bytes"), "needs mode: HOLD");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <limits>
 
 namespace tandem::server {
 namespace {
@@ -24,11 +25,13 @@ std::string cell(double value, double factor, int decimals) {
   return text;
 }
 
-void put_row(std::string& out, const std::string& what, const std::string& seat, const SeatMetrics& m) {
+/// @param reached  false: the phase began after the end, and the peaks of nothing are no zeros
+void put_row(std::string& out, const std::string& what, const std::string& seat, const SeatMetrics& m, bool reached) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
   put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", what.c_str(), seat.c_str(),
       cell(m.tracking_rms_m, 1e3, 2).c_str(), cell(m.tracking_rms_lag_removed_m, 1e3, 2).c_str(),
       cell(m.transport_lag_rms_m, 1e3, 2).c_str(), cell(m.force_error_rms_n, 1, 3).c_str(),
-      cell(m.effort_peak_n, 1, 2).c_str(), cell(m.speed_peak_m_s, 1, 2).c_str());
+      cell(reached ? m.effort_peak_n : nothing, 1, 2).c_str(), cell(reached ? m.speed_peak_m_s : nothing, 1, 2).c_str());
 }
 
 }  // namespace
@@ -39,10 +42,10 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
       "peak", "speed");
   put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", "", "", "RMS [mm]", "[mm]", "[mm]", "RMS [N]", "[N]", "[m/s]");
   for (const auto& s : r.seats)
-    if (s.kind == SeatKind::kMaster) put_row(out, "all phases", s.name, s.metrics);
+    if (s.kind == SeatKind::kMaster) put_row(out, "all phases", s.name, s.metrics, r.duration_s > 0);
   for (const auto& p : r.phases)
     for (std::size_t i = 0; i < p.seats.size(); ++i)
-      if (r.seats[i].kind == SeatKind::kMaster) put_row(out, p.name, r.seats[i].name, p.seats[i]);
+      if (r.seats[i].kind == SeatKind::kMaster) put_row(out, p.name, r.seats[i].name, p.seats[i], p.from_s < r.duration_s);
   for (const auto& s : r.seats)
     put(out,
         "  %s: round trip %.1f ms (p99 %.1f), loss up %.1f %% down %.1f %%, longest gap %.0f / %.0f ms, gate trips "

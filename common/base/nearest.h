@@ -26,21 +26,34 @@ namespace tandem {
   return d[a.size()][b.size()];
 }
 
-/// For messages about a word nobody knows: `did you mean "x"?` if something is near, then all that is known.
-[[nodiscard]] inline std::string suggest(std::string_view word, std::span<const std::string> known) {
-  std::string all;
-  const std::string* nearest = nullptr;
+/// What somebody may have meant: near in letters, whatever their case; nullptr: nothing is near.
+[[nodiscard]] inline const std::string* nearest_of(std::string_view word, std::span<const std::string> known) {
+  const auto lower = [](std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return out;
+  };
   // Words are cut: a hostile file must not buy quadratic time.
-  const std::string_view head = word.substr(0, 64);
+  const std::string head = lower(word.substr(0, 64));
+  const std::string* nearest = nullptr;
   std::size_t best = std::max<std::size_t>(2, head.size() / 3) + 1;
   for (const auto& candidate : known) {
     if (candidate.empty()) continue;
-    if (const auto distance = edit_distance(head, candidate); distance < best) {
+    if (const auto distance = edit_distance(head, lower(candidate)); distance < best) {
       best = distance;
       nearest = &candidate;
     }
-    all += (all.empty() ? "" : ", ") + candidate;
   }
+  return nearest;
+}
+
+/// For messages about a word nobody knows: `did you mean "x"?` if something is near, then all that is known.
+[[nodiscard]] inline std::string suggest(std::string_view word, std::span<const std::string> known) {
+  std::string all;
+  for (const auto& candidate : known)
+    if (!candidate.empty()) all += (all.empty() ? "" : ", ") + candidate;
+  const std::string* const nearest = nearest_of(word, known);
   std::string text;
   if (nearest != nullptr) text = "did you mean " + *nearest + "? ";
   return text + (all.empty() ? "nothing is known here" : "known here: " + all);

@@ -40,6 +40,21 @@ CLI::Option* find_option(CLI::App& app, const std::string& name) {
   return app.get_option_no_throw(name);
 }
 
+/// CLI11 says which option it did not know, not which one may be meant.
+std::string with_nearest(CLI::App& app, std::string message) {
+  const std::string name = option_of(message);
+  if (name.empty() || message.find("not expected") == std::string::npos) return message;
+  std::vector<std::string> known;
+  const auto collect = [&](const CLI::App& of) {
+    for (const CLI::Option* const option : of.get_options())
+      for (const std::string& known_name : option->get_lnames()) known.push_back("--" + known_name);
+  };
+  collect(app);
+  for (const CLI::App* const command : app.get_subcommands()) collect(*command);
+  const std::string* const nearest = nearest_of(name, known);
+  return nearest == nullptr ? message : message + "; did you mean " + *nearest + "?";
+}
+
 /// CLI11 stops at the first mistake. People want all of them: what the mistake is about is put aside, and the rest is
 /// parsed again, as long as something can be put aside.
 std::vector<std::string> all_mistakes(CLI::App& app, const CLI::ParseError& first, std::vector<std::string> words) {
@@ -80,10 +95,14 @@ int run_program(CLI::App& app, const std::function<int()>& action, int argc, cha
     }
     // Help and version are ends, not mistakes; every mistake in arguments is 2, whatever CLI11 calls it.
     if (error.get_exit_code() == 0) return app.exit(error);
-    const std::vector<std::string> all = all_mistakes(app, error, {argv + 1, argv + argc});
-    if (all.size() == 1) return app.exit(error), 2;
-    for (const std::string& mistake : all) std::fprintf(stderr, "%s\n", mistake.c_str());
-    std::fprintf(stderr, "%zu mistakes; nothing was started\nRun with --help for more information.\n", all.size());
+    // Looked up before the words are parsed again, which changes which command was named.
+    const std::string meant = with_nearest(app, error.what());
+    std::vector<std::string> all = all_mistakes(app, error, {argv + 1, argv + argc});
+    all.front() = meant;
+    for (const std::string& mistake : all)
+      std::fprintf(stderr, "%s\n", &mistake == &all.front() ? mistake.c_str() : with_nearest(app, mistake).c_str());
+    if (all.size() > 1) std::fprintf(stderr, "%zu mistakes; nothing was started\n", all.size());
+    std::fputs("Run with --help for more information.\n", stderr);
     return 2;
   }
   try {

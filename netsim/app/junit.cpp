@@ -65,11 +65,13 @@ std::string time_attribute(double cpu_s) {
 struct Counts {
   std::size_t tests = 0, failures = 0, errors = 0, skipped = 0;
   double cpu_s = 0;
-  void add(const ScenarioResult& r) {
+  /// Readers take `skipped` alone for a pass: where an interruption left seeds out, the first of them is an error.
+  void add(const ScenarioResult& r, bool interrupted) {
+    const std::size_t not_run = r.count(State::kNotRun), cut = interrupted && not_run > 0 ? 1 : 0;
     tests += r.seeds.size();
     failures += r.count(State::kFail);
-    errors += r.count(State::kTrouble) + r.count(State::kCrash);
-    skipped += r.count(State::kNotRun);
+    errors += r.count(State::kTrouble) + r.count(State::kCrash) + cut;
+    skipped += not_run - cut;
     for (const SeedOutcome& s : r.seeds) cpu_s += s.cpu_s;
   }
   [[nodiscard]] std::string text() const {
@@ -78,7 +80,8 @@ struct Counts {
   }
 };
 
-void put_case(const Scenario& scenario, const SeedOutcome& s, std::string& out) {
+/// @param cut  this is the seed that tells of the interruption (Counts::add)
+void put_case(const Scenario& scenario, const SeedOutcome& s, bool cut, std::string& out) {
   out += "    <testcase" + attribute("name", "seed " + std::to_string(s.seed)) + attribute("classname", "tandem." + scenario.name) +
          time_attribute(s.cpu_s);
   if (s.state == State::kPass) {
@@ -86,7 +89,10 @@ void put_case(const Scenario& scenario, const SeedOutcome& s, std::string& out) 
     return;
   }
   out += ">\n";
-  if (s.state == State::kNotRun) {
+  if (cut) {
+    out += "      <error" + attribute("message", "interrupted: this seed and those skipped after it were not run, nothing is known of them") +
+           attribute("type", "interrupted") + "/>\n";
+  } else if (s.state == State::kNotRun) {
     out += "      <skipped" + attribute("message", "not run") + "/>\n";
   } else {
     const auto all = causes(scenario, s);
@@ -104,11 +110,11 @@ void put_case(const Scenario& scenario, const SeedOutcome& s, std::string& out) 
 
 std::string junit_xml(const TestResult& result) {
   Counts all;
-  for (const ScenarioResult& r : result.scenarios) all.add(r);
+  for (const ScenarioResult& r : result.scenarios) all.add(r, result.interrupted);
   std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", "tandem-netsim test") + all.text() + ">\n";
   for (const ScenarioResult& r : result.scenarios) {
     Counts own;
-    own.add(r);
+    own.add(r, result.interrupted);
     out += "  <testsuite" + attribute("name", r.scenario.name) + own.text() + ">\n    <properties>\n";
     const auto property = [&](std::string_view key, std::string_view value) {
       out += "      <property" + attribute("name", key) + attribute("value", value) + "/>\n";
@@ -119,7 +125,12 @@ std::string junit_xml(const TestResult& result) {
     property("network", r.scenario.network);
     for (const auto& [seat, network] : r.scenario.seat_networks) property("network of " + seat, network);
     out += "    </properties>\n";
-    for (const SeedOutcome& s : r.seeds) put_case(r.scenario, s, out);
+    bool told = !result.interrupted;
+    for (const SeedOutcome& s : r.seeds) {
+      const bool cut = !told && s.state == State::kNotRun;
+      told = told || cut;
+      put_case(r.scenario, s, cut, out);
+    }
     out += "  </testsuite>\n";
   }
   return out + "</testsuites>\n";

@@ -35,6 +35,11 @@ std::string lines_of(const InputErrors& errors) {
 
 }  // namespace
 
+void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more) {
+  for (const std::string& note : more)
+    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+}
+
 std::expected<std::string, std::string> read_whole_file(const std::string& path, std::uintmax_t bytes_max) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
@@ -138,6 +143,22 @@ void NetworkOptions::add_to(CLI::App& command) {
 }
 
 std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
+  auto choice = network();
+  // A script may name the recording that it is for: events() looks there.
+  if (choice && !given("--script"))
+    if (std::string wrong = interval_problem(*choice); !wrong.empty()) return std::unexpected(std::move(wrong));
+  return choice;
+}
+
+std::string NetworkOptions::interval_problem(const NetworkChoice& choice) const {
+  if (!given("--trace-interval") || choice.plays_interval) return {};
+  // Whoever can change the network while it runs may name a recording then.
+  const CLI::Option* const control = command_->get_option_no_throw("--control");
+  if (control != nullptr && control->count() > 0) return {};
+  return "--trace-interval: is for a recording without a column of times, and " + choice.description + " is none; leave it out";
+}
+
+std::expected<NetworkChoice, std::string> NetworkOptions::network() const {
   if (given("--network")) {
     std::string mistakes;
     for (const char* option : kNumbers) {
@@ -206,23 +227,32 @@ std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
   return choice;
 }
 
-std::expected<std::vector<NetworkEvent>, std::string> NetworkOptions::events(
-    std::span<const std::string> clients) const {
-  if (!given("--script")) return std::vector<NetworkEvent>{};
+std::expected<ScriptChoice, std::string> NetworkOptions::events(std::span<const std::string> clients) const {
+  ScriptChoice script;
+  if (!given("--script")) return script;
   const auto text = read_network_file(script_);
   if (!text) return std::unexpected("--script: " + text.error());
-  const auto find = [this](const std::string& name) -> std::expected<LinkSpec, InputErrors> {
+  bool plays_interval = false;
+  const auto find = [&](const std::string& name) -> std::expected<LinkSpec, InputErrors> {
     const bool file = name.find_first_of("/.") != std::string::npos;
     const bool beside = file && !std::filesystem::path(name).is_absolute();
     auto choice = from_file(beside ? (std::filesystem::path(script_).parent_path() / name).string() : name);
-    if (choice) return std::move(choice->link);
+    if (choice) {
+      plays_interval = plays_interval || choice->plays_interval;
+      add_notes(script.notes, choice->notes);
+      return std::move(choice->link);
+    }
     InputError error;
     error.message = choice.error();
     return std::unexpected(InputErrors{error});
   };
   auto events = parse_script(*text, script_, clients, find);
   if (!events) return std::unexpected(lines_of(events.error()));
-  return std::move(*events);
+  if (!plays_interval)
+    if (const auto base = network())
+      if (std::string wrong = interval_problem(*base); !wrong.empty()) return std::unexpected(wrong + ", and the script names none");
+  script.events = std::move(*events);
+  return script;
 }
 
 std::vector<std::string> NetworkOptions::all_given() const {
@@ -256,16 +286,8 @@ std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::s
   words << "recording " << name_or_file << ": " << recorded->rows << " rows, " << recorded->lost << " lost, "
         << seconds(recorded->length) << " s, then from the start again";
   choice.description = words.str();
-  if (recorded->rtt_split) {
-    choice.notes.emplace_back("the recording holds round trips; each direction gets half of them");
-  }
-  if (recorded->gaps > 0) {
-    std::ostringstream note;
-    note << name_or_file << ":" << recorded->gap_line << ": the recording has " << recorded->gaps
-         << (recorded->gaps == 1 ? " gap" : " gaps") << ", the longest of " << seconds(recorded->gap_longest)
-         << " s after this line; through a gap the last delay stays in force";
-    choice.notes.push_back(note.str());
-  }
+  choice.notes = notes_of(*recorded, name_or_file);
+  choice.plays_interval = !recorded->timed;
   return choice;
 }
 

@@ -21,6 +21,13 @@ struct NetworkChoice {
   std::string description;         ///< one line for people
   std::vector<std::string> notes;  ///< what a report must say about it
   bool plays_capacity = false;     ///< a profile that asked for a recorded capacity, and has it
+  bool plays_interval = false;     ///< a recording without times, to which --trace-interval gave them
+};
+
+/// What a script asked for.
+struct ScriptChoice {
+  std::vector<NetworkEvent> events;
+  std::vector<std::string> notes;  ///< what a report must say about the networks it names
 };
 
 /// The options that say what the network is like, shared by `proxy` and `run`:
@@ -43,8 +50,7 @@ class NetworkOptions {
   /// Reads --script: what changes while it runs. Networks it names are shipped profiles, or files beside the script.
   /// @param clients  names that the script may use; none: "1", "2", ... in order of arrival
   /// @return the events (none without a script), or what is wrong: one mistake per line
-  [[nodiscard]] std::expected<std::vector<NetworkEvent>, std::string> events(
-      std::span<const std::string> clients = {}) const;
+  [[nodiscard]] std::expected<ScriptChoice, std::string> events(std::span<const std::string> clients = {}) const;
 
   /// The options given that say what the network is like or what its seed is: for what replaces them all.
   [[nodiscard]] std::vector<std::string> all_given() const;
@@ -52,6 +58,10 @@ class NetworkOptions {
   [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
 
  private:
+  /// The network without what only --script can justify.
+  [[nodiscard]] std::expected<NetworkChoice, std::string> network() const;
+  /// Why --trace-interval is not for this network; empty: it is, or was not given.
+  [[nodiscard]] std::string interval_problem(const NetworkChoice& choice) const;
   [[nodiscard]] std::expected<NetworkChoice, std::string> from_file(const std::string& name_or_file) const;
   /// @param file  it was read from; empty: a shipped one
   [[nodiscard]] std::expected<NetworkChoice, std::string> from_profile(std::expected<Profile, InputErrors> profile,
@@ -65,6 +75,9 @@ class NetworkOptions {
   std::string profile_, network_, capacity_, script_;
   std::uint64_t seed_ = 1;
 };
+
+/// Adds what is not there already: several networks may come from one recording.
+void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more);
 
 /// A whole file of at most `bytes_max` bytes, or why not: `FILE: reason`.
 [[nodiscard]] std::expected<std::string, std::string> read_whole_file(const std::string& path,

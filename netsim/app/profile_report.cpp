@@ -74,6 +74,7 @@ std::string measured_text(const ProfileSubject& subject, const Portrait& portrai
     }
     if (const std::string causes = causes_of(way); !causes.empty()) text += "    dropped: " + causes + "\n";
   }
+  if (subject.profile.checks.empty() && !subject.recording) text += "  no quantiles promised: nothing to hold these against\n";
   return text;
 }
 

@@ -62,8 +62,9 @@ std::expected<ProfileSubject, std::string> load_profile_subject(const std::strin
   subject.profile.summary =
       format("recording of %.1f s in %zu rows, %zu lost; then from the start again", seconds(recorded->length),
              recorded->rows, recorded->lost);
+  for (std::string& note : notes_of(*recorded, name_or_file)) subject.notes.push_back(std::move(note));
+  subject.plays_interval = !recorded->timed;
   subject.profile.link = std::move(recorded->link);
-  if (recorded->rtt_split) subject.notes.emplace_back("the recording holds round trips; each direction gets half of them");
   return subject;
 }
 

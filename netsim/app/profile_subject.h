@@ -15,6 +15,7 @@ struct ProfileSubject {
   std::string file;                ///< it was read from; empty: shipped
   std::string text;                ///< of a profile, as it stands in its file
   bool recording = false;
+  bool plays_interval = false;     ///< a recording without times, to which `interval` gave them
   std::vector<std::string> notes;  ///< what a report must say about it
 };
 

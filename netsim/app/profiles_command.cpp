@@ -68,6 +68,8 @@ int list(bool json) {
 int show(const ProfilesArguments& arguments) {
   auto subject = load_profile_subject(arguments.name, from_seconds(arguments.interval_ms * 1e-3));
   if (!subject) return wrong(subject.error());
+  if (arguments.interval_ms > 0 && !subject->plays_interval)
+    return wrong("--trace-interval: is for a recording without a column of times, and " + arguments.name + " is none; leave it out");
   if (arguments.text) {
     if (subject->recording) return wrong("--text: " + arguments.name + " is a recording and has no text of a profile");
     std::fputs(subject->text.c_str(), stdout);

@@ -59,10 +59,10 @@ std::string output_problem(const char* option, const std::string& name) {
 
 /// A network named while the proxy runs.
 ProxyControl::Find find_network(const NetworkOptions& networks) {
-  return [&networks](const std::string& name) -> std::expected<LinkSpec, std::string> {
+  return [&networks](const std::string& name) -> std::expected<ProxyControl::Network, std::string> {
     auto choice = networks.named(name);
     if (!choice) return std::unexpected(choice.error());
-    return std::move(choice->link);
+    return ProxyControl::Network{std::move(choice->link), std::move(choice->notes)};
   };
 }
 
@@ -94,11 +94,14 @@ int proxy_command(const ProxyArguments& arguments) {
     if (!*address) mistakes.add(address->error());
   if (listen && to && io::PeerKey::of(listen->storage) == io::PeerKey::of(to->storage))
     mistakes.add("--to is the proxy itself (--listen)");
-  const auto network = arguments.network.resolve();
+  auto network = arguments.network.resolve();
   if (!network) mistakes.add(network.error());
-  auto events = arguments.network.events();
-  if (!events) mistakes.add(events.error());
-  if (network && events) mistakes.add(sharing_problem(network->link, *events));
+  auto script = arguments.network.events();
+  if (!script) mistakes.add(script.error());
+  if (network && script) {
+    mistakes.add(sharing_problem(network->link, script->events));
+    add_notes(network->notes, script->notes);
+  }
   // Judged now, opened when there is something to write: a run that never starts leaves an older file alone.
   mistakes.add(output_problem("--json", arguments.json));
   if (arguments.log == "-") mistakes.add("--log needs a file");
@@ -110,7 +113,7 @@ int proxy_command(const ProxyArguments& arguments) {
   options.listen = *listen;
   options.to = *to;
   options.link = network->link;
-  options.events = std::move(*events);
+  options.events = std::move(script->events);
   options.seed = arguments.network.seed();
   options.duration = from_seconds(arguments.duration_s);
   options.spin = microseconds(arguments.spin_us);

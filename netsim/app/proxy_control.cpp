@@ -86,10 +86,12 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
   const bool reset = request.what == ControlRequest::What::kReset;
   std::optional<LinkSpec> network;
   if (reset) network = start_;
+  std::vector<std::string> notes;
   if (request.network) {
     auto found = find_(*request.network);
     if (!found) return wrong(found.error());
-    network = std::move(*found);
+    network = std::move(found->link);
+    notes = std::move(found->notes);
   }
   const std::set<std::uint64_t> present = present_of(proxy_.status());
   if (std::string who = missing(request.clients, present); !who.empty()) return wrong(std::move(who));
@@ -147,10 +149,11 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
     undo();
     return trouble(std::move(why));
   }
-  note(order.at, line);
-  const std::string at = format("done at %.3f s\n", seconds(order.at));
+  std::string text = format("done at %.3f s\n", seconds(order.at));
+  for (const std::string& one : notes) text += "note: " + one + "\n";
+  note(order.at, line, std::move(notes));
   order.links.clear();
-  return {.text = at};
+  return {.text = std::move(text)};
 }
 
 ProxyControl::Answer ProxyControl::rebind(const ControlRequest& request, const std::string& line) {
@@ -205,11 +208,11 @@ LinkSpec ProxyControl::with_outages(LinkSpec link, std::uint64_t number) const {
   return link;
 }
 
-void ProxyControl::note(Duration at, const std::string& line) {
+void ProxyControl::note(Duration at, const std::string& line, std::vector<std::string> notes) {
   if (notes_.size() == kNotesMax) return;
   const std::size_t begin = line.find_first_not_of(" \t\r\n");
   const std::size_t end = line.find_last_not_of(" \t\r\n");
-  notes_.push_back({at, line.substr(begin, end - begin + 1)});
+  notes_.push_back({at, line.substr(begin, end - begin + 1), std::move(notes)});
 }
 
 }  // namespace tandem::netsim

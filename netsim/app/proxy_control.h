@@ -21,8 +21,12 @@ namespace tandem::netsim {
 /// thread swaps them between two datagrams, for all clients meant at one moment.
 class ProxyControl {
  public:
-  /// Finds the network that a command names.
-  using Find = std::function<std::expected<LinkSpec, std::string>(const std::string& name)>;
+  /// A network that a command names.
+  struct Network {
+    LinkSpec link;
+    std::vector<std::string> notes = {};  ///< what answer and report must say about it
+  };
+  using Find = std::function<std::expected<Network, std::string>(const std::string& name)>;
 
   /// `proxy` must live longer; one thread uses this.
   ProxyControl(Proxy& proxy, const LinkSpec& start, Find find);
@@ -39,6 +43,7 @@ class ProxyControl {
   struct Note {
     Duration at{};
     std::string words;
+    std::vector<std::string> notes;  ///< of the network named
   };
   [[nodiscard]] std::span<const Note> notes() const noexcept { return notes_; }
 
@@ -55,7 +60,7 @@ class ProxyControl {
   [[nodiscard]] bool has_own(std::uint64_t number) const;
   [[nodiscard]] LinkSpec link_of(std::uint64_t number) const;
   [[nodiscard]] LinkSpec with_outages(LinkSpec link, std::uint64_t number) const;
-  void note(Duration at, const std::string& line);
+  void note(Duration at, const std::string& line, std::vector<std::string> notes = {});
 
   Proxy& proxy_;
   const LinkSpec start_;

@@ -64,8 +64,7 @@ std::vector<ProxyEvent> proxy_events(const ProxyOptions& options, std::span<cons
 std::string events_text(std::span<const ProxyEvent> events) {
   std::string text;
   for (const ProxyEvent& one : events) {
-    text += format("  event at %.3f s: ", seconds(one.event.at)) + one.event.words;
-    if (one.fate == ProxyEvent::Fate::kNeverCame || one.fate == ProxyEvent::Fate::kMetNobody) text += std::string(": ") + name(one.fate);
+    text += format("  event at %.3f s: ", seconds(one.event.at)) + one.event.words + ": " + name(one.fate);
     text += one.why.empty() ? "\n" : "; " + one.why + "\n";
   }
   return text;

@@ -123,7 +123,7 @@ std::vector<NamedLink> named(std::span<const ProxyClientQuality> qualities) {
 Json changes_json(std::span<const ProxyControl::Note> changes) {
   Json json = Json::array();
   for (const ProxyControl::Note& change : changes) {
-    json.push_back({{"at_s", seconds(change.at)}, {"command", change.words}});
+    json.push_back({{"at_s", seconds(change.at)}, {"command", change.words}, {"notes", change.notes}});
   }
   return json;
 }
@@ -191,6 +191,7 @@ std::string summary_text(const Proxy& proxy, const ProxyReportNotes& notes) {
   text += events_text(notes.events);
   for (const ProxyControl::Note& change : notes.changes) {
     text += format("  at %.3f s: %s\n", seconds(change.at), change.words.c_str());
+    for (const std::string& note : change.notes) text += "    note: " + note + "\n";
   }
   const Histogram& late = proxy.lateness();
   const auto us = [&late](double q) { return static_cast<double>(late.quantile(q)) / 1e3; };

@@ -29,6 +29,13 @@ std::string fixed(double value, int width, int decimals) {
 
 }  // namespace
 
+std::string in_one_line(const std::string& state, double late_p99_ms) {
+  constexpr std::size_t kColumns = 79;
+  for (const std::string& late : {format("; late p99 %.2f ms", late_p99_ms), format("; late p99 %.0f ms", late_p99_ms), format("; late %.0f ms", late_p99_ms)})
+    if (state.size() + late.size() <= kColumns) return state + late;
+  return state.substr(0, kColumns);
+}
+
 void ProxyView::look() {
   if (pictures_.size() == kPictures) pictures_.erase(pictures_.begin());
   Picture& picture = pictures_.emplace_back();
@@ -55,8 +62,7 @@ std::string ProxyView::line() const {
                    per_second(now.total[d].in, before.total[d].in, s), lost_percent(now.total[d], before.total[d]));
   }
   const auto& late = pictures_.back().late;
-  text += format("; late p99 %.2f ms", ms(late.quantile_since(pictures_.front().late, 0.99)));
-  return text.substr(0, 79);
+  return in_one_line(text, ms(late.quantile_since(pictures_.front().late, 0.99)));
 }
 
 std::vector<std::string> ProxyView::table(std::size_t rows) const {

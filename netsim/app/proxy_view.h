@@ -12,6 +12,10 @@
 
 namespace tandem::netsim {
 
+/// The proxy's state and its own lateness in at most 79 columns: a long line loses decimals, then the lateness, never a
+/// unit of what it says.
+[[nodiscard]] std::string in_one_line(const std::string& state, double late_p99_ms);
+
 /// What a running proxy does now, for people: rate, delay and loss over about the last second, and the queue of the
 /// rate and what is under way now, per client and direction. Reads what the packet thread publishes; never makes it wait.
 class ProxyView {

@@ -39,13 +39,15 @@ struct RunArguments {
 int wrong(const std::string& mistake) { return refuse("run", mistake); }
 
 /// What depends on the seats: a script names them, a recording must have them.
-void understand_network(const RunArguments& arguments, WorldSetup& setup, Mistakes& mistakes) {
+/// @param notes  what the report must say of the script's networks
+void understand_network(const RunArguments& arguments, WorldSetup& setup, std::vector<std::string>& notes, Mistakes& mistakes) {
   std::vector<std::string> seats;
   for (const SeatSpec& seat : setup.scene.seats) seats.push_back(seat.name);
-  if (auto events = arguments.network.events(seats)) {
-    setup.events = std::move(*events);
+  if (auto script = arguments.network.events(seats)) {
+    setup.events = std::move(script->events);
+    add_notes(notes, script->notes);
   } else {
-    mistakes.add(events.error());
+    mistakes.add(script.error());
   }
   if (arguments.replay.empty()) return;
   for (const std::string& other : arguments.network.all_given())
@@ -88,7 +90,7 @@ void check_outputs(const RunArguments& arguments, Mistakes& mistakes) {
 }
 
 /// Everything a person typed, turned into a setup; and all that is wrong with it.
-WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
+WorldSetup understand(const RunArguments& arguments, std::vector<std::string>& notes, Mistakes& mistakes) {
   WorldSetup setup;
   if (auto scene = load_scene(arguments.scene)) {
     setup.scene = std::move(*scene);
@@ -128,7 +130,7 @@ WorldSetup understand(const RunArguments& arguments, Mistakes& mistakes) {
   }
   check_outputs(arguments, mistakes);
   setup.seed = arguments.network.seed();
-  understand_network(arguments, setup, mistakes);
+  understand_network(arguments, setup, notes, mistakes);
   return setup;
 }
 
@@ -157,6 +159,7 @@ int check(const RunArguments& arguments, const WorldSetup& setup, const NetworkC
   } else {
     text += "network: " + network.description + format(", seed %llu\n", static_cast<unsigned long long>(setup.seed)) + network_listing(setup, "  ");
     for (const std::string& note : network.notes) text += "note: " + note + "\n";
+    for (const std::string& note : late_notes(setup)) text += "note: " + note + "\n";
   }
   std::fputs(text.c_str(), stdout);
   return 0;
@@ -164,10 +167,12 @@ int check(const RunArguments& arguments, const WorldSetup& setup, const NetworkC
 
 int run_command(const RunArguments& arguments) {
   Mistakes mistakes;
-  const auto network = arguments.network.resolve();
+  auto network = arguments.network.resolve();
   if (!network) mistakes.add(network.error());
-  WorldSetup setup = understand(arguments, mistakes);
+  std::vector<std::string> script_notes;
+  WorldSetup setup = understand(arguments, script_notes, mistakes);
   if (!mistakes.none()) return mistakes.refuse("run");
+  add_notes(network->notes, script_notes);
   setup.network = network->link;
   setup.watch_quality = !arguments.no_quality;
   if (arguments.check) return check(arguments, setup, *network);

@@ -125,12 +125,14 @@ class Folder {
     CLI::App command;
     NetworkOptions options;
     options.add_to(command);
-    std::vector<std::string> arguments{"--profile=" + (path->find('/') == std::string::npos ? "./" + *path : *path)};
+    std::vector<std::string> arguments;
     if (spec.trace_interval_ms) arguments.push_back("--trace-interval=" + std::to_string(*spec.trace_interval_ms));
     command.parse(arguments);
-    const auto choice = options.resolve();
+    const auto choice = options.named(path->find('/') == std::string::npos ? "./" + *path : *path);
     if (!choice) return std::unexpected(blame(choice.error()));
-    return ScenarioLink{choice->link, choice->description};
+    if (spec.trace_interval_ms && !choice->plays_interval)
+      return std::unexpected(blame("trace_interval_ms is for a recording without a column of times, and this one has its own; leave it out"));
+    return ScenarioLink{choice->link, choice->description, choice->notes};
   }
 
   bool shipped_;
@@ -156,6 +158,18 @@ std::string other_kind(const std::string& text, const std::string& file) {
   const ScriptReading script = read_script_text(text, file, {});
   const auto of_client = [](const InputError& error) { return error.key.find(".client[") != std::string::npos; };
   return script.spec && std::ranges::all_of(script.errors, of_client) ? "a script" : "";
+}
+
+/// A file without `scene` that is nothing without mistakes: as what it has the fewest, a scenario being the last guess.
+std::pair<std::string, InputErrors> nearest_kind(const std::string& text, const std::string& file, InputErrors as_scenario) {
+  std::pair<std::string, InputErrors> best{"scenario", std::move(as_scenario)};
+  const auto look = [&](const char* kind, InputErrors errors) {
+    if (!errors.empty() && errors.size() < best.second.size()) best = {kind, std::move(errors)};
+  };
+  if (auto profile = parse_profile(text, file); !profile) look("profile", std::move(profile.error()));
+  if (auto scene = parse_scene(text, file); !scene) look("scene", std::move(scene.error()));
+  look("script", read_script_text(text, file, {}).errors);
+  return best;
 }
 
 }  // namespace
@@ -211,7 +225,11 @@ std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vect
           continue;
         }
         const bool without_scene = !scenario && std::ranges::find(scenario.error(), "scene", &InputError::key) != scenario.error().end();
-        if (without_scene) errors.push_back({file, 0, 0, "", "", "is no scene, profile or script without mistakes; as a scenario:"});
+        if (without_scene) {
+          auto [as, mistakes] = nearest_kind(*text, file, std::move(scenario.error()));
+          errors.push_back({file, 0, 0, "", "", "is no scene, profile or script without mistakes; as a " + as + ":"});
+          scenario = std::unexpected(std::move(mistakes));
+        }
         take(std::move(scenario), file);
       }
       any = any || !text || scenarios.size() + errors.size() > before;

@@ -166,6 +166,11 @@ std::string sweep_map(const Sweep& sweep) {
       out += "\n";
     }
   }
+  const auto alike = [](const ScenarioResult& r) {
+    return !r.seeds.front().trace_hash.empty() && std::ranges::all_of(r.seeds, [&](const SeedOutcome& s) { return s.trace_hash == r.seeds.front().trace_hash; });
+  };
+  if (seeds > 1 && std::ranges::all_of(sweep.runs.scenarios, alike))
+    out += "\nnote: the seeds are identical: nothing here is random, so all " + std::to_string(seeds) + " of each point gave the same run\n";
   std::size_t shown = 0;
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     const ScenarioResult& r = sweep.runs.scenarios[i];

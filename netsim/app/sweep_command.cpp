@@ -59,6 +59,11 @@ SweepSpec understand(const SweepArguments& a, Mistakes& mistakes) {
     spec.scene.duration = a.duration_s;
     spec.options += format("--duration %.9g", a.duration_s);
   }
+  if (const auto of = sweep_metric(a.metric)) {
+    const auto touches = [&](const PhaseSpec& p) { return p.contact && p.from < spec.scene.duration; };
+    if (!spec.scene.seats.empty() && known_metric(*of, a.metric)->needs_contact && !std::ranges::any_of(spec.scene.phases, touches))
+      mistakes.add("--metric: " + a.metric + " is measured in phases that the scene marks `contact: true`; the run of " + a.scene + " has none");
+  }
   const auto add = [&](const std::string& option) { spec.options += (spec.options.empty() ? "" : " ") + option; };
   if (!a.channel.empty()) {
     spec.scene.channel.law = a.channel == "raw" ? LawKind::kRaw : LawKind::kSetPosition;

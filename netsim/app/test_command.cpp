@@ -13,6 +13,7 @@
 #include "netsim/app/test_progress.h"
 #include "netsim/app/test_report.h"
 #include "netsim/scenario_shipped.h"
+#include "netsim/world_notes.h"
 
 namespace tandem::netsim {
 namespace {
@@ -78,6 +79,9 @@ int test_command(const TestArguments& a) {
     for (const ShippedScenario& s : shipped_scenarios()) all += " " + std::string(s.name);
     mistakes.add("SCENARIO is required: a file, a folder, `shipped` for all shipped ones, or one of:" + all);
   }
+  for (const auto& [only, wanted] : {std::pair{"--check", a.check}, std::pair{"--list", a.list}})
+    for (const auto& [option, file] : {std::pair{"--json", &a.json}, std::pair{"--junit", &a.junit}, std::pair{"--trace", &a.trace}})
+      if (wanted && !file->empty()) mistakes.add(std::string(only) + " runs nothing, so there is nothing for " + option + "; leave one of them out");
   if (a.keep_going && a.fail_fast) mistakes.add("--keep-going excludes --fail-fast");
   std::vector<std::string> left_out;
   auto scenarios = load_scenarios(names, &left_out);
@@ -88,13 +92,19 @@ int test_command(const TestArguments& a) {
   }
   if (!mistakes.none()) return mistakes.refuse("test");
   for (const std::string& note : left_out) std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (Scenario& s : *scenarios) {  // from here on what is in force
+    if (a.seed_given) s.seed = a.seed;
+    if (a.seeds_given) s.seeds = static_cast<std::uint32_t>(a.seeds);
+  }
   if (a.list) {
     list(*scenarios);
     return kPass;
   }
   if (a.check) {
-    for (const Scenario& s : *scenarios)
+    for (const Scenario& s : *scenarios) {
       std::printf("%s%s\n%s", &s == &scenarios->front() ? "" : "\n", s.name.c_str(), effective_scenario_text(s).c_str());
+      for (const std::string& note : late_notes(s.setup)) std::printf("note: %s\n", note.c_str());
+    }
     return kPass;
   }
   const Interruption interruption;
@@ -107,16 +117,16 @@ int test_command(const TestArguments& a) {
   if (a.seed_given) options.seed = a.seed;
   if (a.seeds_given) options.seeds = static_cast<std::uint64_t>(a.seeds);
   options.watch = [&](const io::JobsProgress& p, std::size_t failed) { progress.show(p, failed); };
-  const TestResult result = run_tests(std::move(*scenarios), options);
+  TestResult result = run_tests(std::move(*scenarios), options);
   progress.end();
+  result.interrupted = result.not_run() > 0 && interruption.came();
 
   const bool json_on_stdout = a.json == "-";
   if (!a.quiet || !json_on_stdout) std::fputs(test_summary(result).c_str(), json_on_stdout ? stderr : stdout);
-  const bool interrupted = result.not_run() > 0 && interruption.came();
-  if (interrupted) Interruption::say("test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
+  if (result.interrupted) Interruption::say("test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
   json_file.write(test_json(result));
   junit_file.write(junit_xml(result));
-  int code = interrupted ? Interruption::kInterrupted : result.passed() ? kPass : kFailed;
+  int code = result.interrupted ? Interruption::kInterrupted : result.passed() ? kPass : kFailed;
   for (const auto& problem : {json_file.close(), junit_file.close()})
     if (!problem.empty()) {
       std::fprintf(stderr, "tandem-netsim test: %s\n", problem.c_str());

@@ -172,6 +172,7 @@ std::string test_summary(const TestResult& result) {
     if (const std::string bands = bands_text(r); !bands.empty()) out += "  network for force feedback, at the worst seed: " + bands + "\n";
     out += network_words(r);
     put_limits(r, out);
+    for (const std::string& note : r.scenario.notes) out += "  note: " + note + "\n";
     out += notes_text(r);
   }
   put_failures(result, out);
@@ -209,6 +210,7 @@ std::string test_json(const TestResult& result) {
              {"seat_networks", Json::array()}, {"duration_s", number(s.setup.scene.duration)},
              {"verdict", r.passed() ? "pass" : "fail"}, {"cpu_s", number(scenario_cpu)}};
     for (const auto& [seat, network] : s.seat_networks) one["seat_networks"].push_back({{"seat", seat}, {"network", network}});
+    one["notes"] = s.notes;
     one["limits"] = Json::array();
     for (std::size_t i = 0; i < s.limits.size(); ++i) {
       const Limit& limit = s.limits[i];
@@ -245,6 +247,7 @@ std::string test_json(const TestResult& result) {
   }
   j["version"] = 1;
   j["verdict"] = result.passed() ? "pass" : "fail";
+  j["interrupted"] = result.interrupted;
   j["seeds_run"] = seeds - result.not_run();
   j["seeds_failed"] = failed;
   j["seeds_not_run"] = result.not_run();

@@ -11,9 +11,9 @@ namespace tandem::netsim {
 [[nodiscard]] std::string test_summary(const TestResult& result);
 
 /// For machines. Equal seeds and build give equal bytes but for the keys called `cpu_s`:
-/// {"version": 1, "verdict": "pass"|"fail", "seeds_run": n, "seeds_failed": n, "seeds_not_run": n, "cpu_s": s, "scenarios":
+/// {"version": 1, "verdict": "pass"|"fail", "interrupted": bool, "seeds_run": n, "seeds_failed": n, "seeds_not_run": n, "cpu_s": s, "scenarios":
 ///  [{"name", "file", "summary", "scene", "network", "seat_networks": [{"seat", "network"}], "duration_s", "verdict", "cpu_s",
-///    "limits": [{"subject", "metric", "unit", "min"|null, "max"|null, "worst": value|null, "worst_seed"|null,
+///    "notes": [text, about the networks], "limits": [{"subject", "metric", "unit", "min"|null, "max"|null, "worst": value|null, "worst_seed"|null,
 ///                "margin_percent"|null}],
 ///    "seeds": [{"seed", "verdict": "pass"|"fail"|"trouble"|"crash"|"not run", "causes": [text], "values": [number|null, one
 ///               per limit], "violations": [{"invariant", "seat", "at_s", "expected", "count"}], "network": [{"seat", "band":
@@ -23,7 +23,8 @@ namespace tandem::netsim {
 [[nodiscard]] std::string test_json(const TestResult& result);
 
 /// JUnit XML as CI servers read it: one testsuite per scenario, one testcase per seed; broken limits and invariants are
-/// failures, troubles and crashes errors, seeds that were not run skipped. Times are CPU seconds.
+/// failures, troubles and crashes errors, seeds that were not run skipped; after an interruption the first
+/// of these in each testsuite is an error, for readers take skipped ones for a pass. Times are CPU seconds.
 [[nodiscard]] std::string junit_xml(const TestResult& result);
 
 }  // namespace tandem::netsim

@@ -35,6 +35,7 @@ struct ScenarioResult {
 struct TestResult {
   std::vector<ScenarioResult> scenarios;
   double wall_s = 0;
+  bool interrupted = false;  ///< a signal ended it before every seed was run
 
   [[nodiscard]] bool passed() const noexcept;
   [[nodiscard]] std::size_t not_run() const noexcept;

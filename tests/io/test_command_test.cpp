@@ -112,6 +112,8 @@ TEST(NetsimTest, SaysWhatIsWrongAndStartsNothing) {
            {{good, "--seed", "18446744073709551615", "--seeds", "2"}, "beyond 64 bits"},
            {{good, "--jobs", "257"}, "[1, 256]"},
            {{good, "--seeds", "2", "--trace", folder.file("t.csv")}, "of one seed of one scenario, these are 2"},
+           {{good, "--check", "--json", "-"}, "--check runs nothing, so there is nothing for --json"},
+           {{good, "--list", "--junit", folder.file("x")}, "--list runs nothing, so there is nothing for --junit"},
            {{good, "--trace", "-"}, "standard output is for --json"},
            {{good, "--junit", folder.file("x"), "--json", folder.file("x")}, "is the same file as --json"},
            {{good, "--json", "/no/such/folder/x.json"}, "cannot be written"},
@@ -134,6 +136,17 @@ TEST(NetsimTest, ListsAndChecksWithoutRunning) {
     EXPECT_NE(check.out().find(part), std::string::npos) << part << " not in\n" << check.out();
 }
 
+TEST(NetsimTest, ChecksWhatTheCommandLinePutsInForceAndWhatWillNotCome) {
+  const Folder folder;
+  const std::string file = folder.write("late.textproto", "version: 1 scene: \"one_axis\" duration_s: 3 seeds: 3 event { at_s: 2 outage_ms: 5 }\n"
+                                                          "event { at_s: 90 outage_ms: 5 } fault { kind: PAUSE seat: \"trainer\" at_s: 4 for_ms: 5 }\n");
+  auto check = netsim_test({file, "--check", "--seed", "7", "--seeds", "2"});
+  EXPECT_EQ(check.wait(), 0) << check.err();
+  for (const char* part : {"7 to 8", "note: the outage at 90 s will not come, unless the session of 3 s begins later than at 87 s", "note: the fault PAUSE at 4 s will not come"})
+    EXPECT_NE(check.out().find(part), std::string::npos) << part << " not in\n" << check.out();
+  EXPECT_EQ(check.out().find("outage at 2 s"), std::string::npos) << check.out();
+}
+
 TEST(NetsimSweep, PrintsAMapWhosePointsRunRepeats) {
   Process sweep({TANDEM_NETSIM, "sweep", "one_axis", "--duration", "2", "--delay", "0,30", "--loss", "0,5", "--json", "-"});
   ASSERT_EQ(sweep.wait(), 0) << sweep.err();
@@ -147,9 +160,18 @@ TEST(NetsimSweep, PrintsAMapWhosePointsRunRepeats) {
   EXPECT_EQ(point["worst"], report["seats"][0]["tracking_rms_m"]);
 }
 
+TEST(NetsimSweep, SaysWhenItsSeedsAreIdentical) {
+  for (const auto& [loss, says] : std::vector<std::pair<const char*, bool>>{{"0", true}, {"0,5", false}}) {
+    Process sweep({TANDEM_NETSIM, "sweep", "one_axis", "--duration", "1", "--delay", "0,10", "--loss", loss, "--seeds", "2"});
+    ASSERT_EQ(sweep.wait(), 0) << sweep.err();
+    EXPECT_EQ(sweep.out().find("the seeds are identical") != std::string::npos, says) << sweep.out();
+  }
+}
+
 TEST(NetsimSweep, SaysWhatIsWrongAndStartsNothing) {
   for (const auto& [arguments, part] : std::vector<std::pair<test::Words, std::string>>{
            {{"one_axis"}, "nothing to sweep"},
+           {{"one_axis", "--delay", "0", "--metric", "force_error_rms_n"}, "measured in phases that the scene marks `contact: true`"},
            {{"one_axs", "--delay", "0"}, "did you mean one_axis?"},
            {{"one_axis", "--delay", "0,60001"}, "--delay: \"60001\" is out of range"},
            {{"one_axis", "--loss", "0,x"}, "--loss: \"x\" is not a number"},
@@ -168,15 +190,22 @@ TEST(NetsimTest, AnInterruptEndsItAtOnceAndNamesWhatWasNotRun) {
   // The second is hours of work; result files are opened once signals are waited for.
   const std::string soon = folder.write("a-soon.textproto", "version: 1 scene: \"one_axis\" duration_s: 0.5");
   const std::string later = folder.write("b-later.textproto", "version: 1 scene: \"one_axis\" duration_s: 3e5");
-  auto run = netsim_test({soon, later, "--jobs", "1", "--json", folder.file("v.json")});
-  for (int i = 0; i < 1000 && !std::filesystem::exists(folder.file("v.json")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  auto run = netsim_test({soon, later, "--jobs", "1", "--seeds", "2", "--json", folder.file("v.json"), "--junit", folder.file("v.xml")});
+  for (int i = 0; i < 1000 && !std::filesystem::exists(folder.file("v.xml")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   run.signal(SIGINT);
   EXPECT_EQ(run.wait(), 1) << run.err();
   EXPECT_NE(run.out().find("not run:"), std::string::npos) << run.out();
-  EXPECT_NE(run.out().find("b-later (1)"), std::string::npos) << run.out();
+  EXPECT_NE(run.out().find("b-later (1 2)"), std::string::npos) << run.out();
   EXPECT_NE(run.err().find("interrupted"), std::string::npos) << run.err();
   const Json json = folder.json("v.json");
   EXPECT_EQ(json["verdict"], "fail");
+  EXPECT_EQ(json["interrupted"], true);
+  // A reader of the XML that counts failures and errors only must not take it for a pass.
+  const std::string xml = folder.read("v.xml");
+  const std::string later_suite = xml.substr(xml.find("<testsuite name=\"b-later\""));
+  EXPECT_NE(later_suite.find("tests=\"2\" failures=\"0\" errors=\"1\" skipped=\"1\""), std::string::npos) << xml;
+  EXPECT_NE(later_suite.find("type=\"interrupted\""), std::string::npos) << xml;
+  EXPECT_EQ(xml.find("errors=\"0\" skipped=\"2\""), std::string::npos) << xml;
   EXPECT_EQ(json["scenarios"][1]["seeds"][0]["verdict"], "not run");
 }
 

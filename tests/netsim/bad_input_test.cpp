@@ -109,6 +109,12 @@ TEST(BadInput, EngineSpecsRefuseTheSameWithoutAText) {
             "outages[0].loss_at_start outages[1].scope outages[2].length_max outages[3].length_max outages[4].hold_bytes ");
 }
 
+TEST(BadInput, AWrongLengthIsNotToldAgainByItsNeighbour) {
+  PathSpec spec;
+  spec.outages = {{.length = -5ms}};
+  EXPECT_EQ(keys(spec), "outages[0].length ");
+}
+
 std::string recording(std::string_view csv, Duration interval = 1ms) {
   const auto read = parse_network_csv(csv, "r.csv", interval);
   return read ? "none" : to_text(read.error());
@@ -134,6 +140,17 @@ TEST(BadInput, BrokenRecordingsOfDelay) {
   }
 }
 
+TEST(BadInput, UnitsOfARecordingAreHeldAgainstItsColumns) {
+  EXPECT_EQ(recording("t_s[ms],rtt_ms[s]\n0,1\n1,2\n"),
+            "r.csv:1:2: rtt_ms = [s]: its unit must be [ms]; convert the column\n"
+            "r.csv:1:1: t_s = [ms]: its unit must be [s]; convert the column\n");
+  EXPECT_NE(recording("t_send_s[us],delay_ms[ms],lost[%]\n0,1,0\n").find("r.csv:1:1: t_send_s = [us]: its unit must be [s]"), std::string::npos);
+  EXPECT_NE(recording("t_s[s],delay_ms[ms],lost[%]\n0,1,0\n").find("r.csv:1:3: lost = [%]: its unit must be [1]"), std::string::npos);
+  EXPECT_NE(recording("delay_ms[msec]\n1\n").find("r.csv:1:1: delay_ms = [msec]"), std::string::npos);
+  // What a recorder adds to its unit is its own, and so are columns that nobody reads.
+  EXPECT_EQ(recording("t_send_s[s since first row],rtt_ms[ms],v[furlong],lost[1; 0 or 1]\n0,1,7,0\n1,2,7,1\n"), "none");
+}
+
 TEST(BadInput, GapsOfARecordingAreFoundWithTheirLine) {
   // Rows every 10 ms, 5 s missing after line 4 and 2 s after line 6.
   const auto read = parse_network_csv("t_s[s],delay_ms[ms]\n0,1\n0.01,2\n0.02,3\n5.02,4\n5.03,5\n7.03,6\n7.04,7\n",
@@ -155,6 +172,7 @@ TEST(BadInput, BrokenRecordingsOfCapacity) {
   };
   const std::string head = "direction[up|down],t_ms[ms],opportunities[count]\n";
   for (const auto& [trace, message] : std::vector<std::pair<std::string, std::string>>{
+           {"direction[up|down],t_ms[s],opportunities[count]\nup,5,1\ndown,1,1\n", "c.trace:1:2: t_ms = [s]: its unit must be [ms]"},
            {"1\n3\n2\n", "c.trace:3:1: t_ms = 2: time goes back"},
            {"1\ntwo\n", "c.trace:2:1: t_ms = two: must be a whole number"},
            {"1\n2.5\n", "c.trace:2:1: t_ms = 2.5: must be a whole number"},

@@ -40,6 +40,14 @@ class CapacityOptions : public ::testing::Test {
     app.parse(arguments);
     return options.resolve();
   }
+  static std::expected<ScriptChoice, std::string> events(std::vector<std::string> arguments) {
+    CLI::App app;
+    NetworkOptions options;
+    options.add_to(app);
+    std::ranges::reverse(arguments);
+    app.parse(arguments);
+    return options.events();
+  }
   static std::string mistake(std::vector<std::string> arguments) {
     const auto choice = resolve(std::move(arguments));
     return choice ? "none" : choice.error();
@@ -110,6 +118,39 @@ TEST_F(CapacityOptions, GapsOfARecordingAreNoted) {
   ASSERT_EQ(choice->notes.size(), 1U);
   EXPECT_EQ(choice->notes[0], gap + ":3: the recording has 1 gap, the longest of 5 s after this line; through a gap the last "
                                     "delay stays in force");
+}
+
+TEST_F(CapacityOptions, WhatARecordingOfAScriptHidesIsNotedToo) {
+  write("rtt.csv", "t_s[s],rtt_ms[ms]\n0,1\n0.01,2\n5.01,3\n5.02,4\n");
+  const std::string script = write("day.textproto", "event { at_s: 1 profile: \"rtt.csv\" }\nevent { at_s: 2 profile: \"rtt.csv\" direction: UP }\n");
+  const auto read = events({"--delay", "5", "--script", script});
+  ASSERT_TRUE(read) << read.error();
+  EXPECT_EQ(read->events.size(), 2U);
+  ASSERT_EQ(read->notes.size(), 2U) << "once each, though it is played twice";
+  EXPECT_EQ(read->notes[0], path("rtt.csv") + ": the recording holds round trips; each direction gets half of them");
+  EXPECT_TRUE(read->notes[1].starts_with(path("rtt.csv") + ":3: the recording has 1 gap")) << read->notes[1];
+}
+
+TEST_F(CapacityOptions, AnIntervalBesideWhatNeedsNoneIsRefused) {
+  const std::string timed = write("timed.csv", "t_s[s],rtt_ms[ms]\n0,1\n1,2\n"), bare = write("bare.csv", "rtt_ms[ms]\n1\n2\n");
+  const std::string wrong = "--trace-interval: is for a recording without a column of times";
+  for (const std::vector<std::string>& network : std::vector<std::vector<std::string>>{
+           {}, {"--delay", "5"}, {"--profile", "lan"}, {"--network", "lan"}, {"--network", timed}, {"--profile", timed}, {"--network", path("m.trace")}}) {
+    std::vector<std::string> all = network;
+    all.insert(all.end(), {"--trace-interval", "5"});
+    EXPECT_TRUE(mistake(all).starts_with(wrong)) << mistake(all);
+  }
+  const auto good = resolve({"--network", bare, "--trace-interval", "5"});
+  ASSERT_TRUE(good) << good.error();
+  EXPECT_EQ(good->link.up.trace->period, 10ms);
+  // A script may name the recording that it is for, or not.
+  const std::string names = write("names.textproto", "event { at_s: 1 profile: \"bare.csv\" }\n"), outage = write("outage.textproto", "event { at_s: 1 outage_ms: 5 }\n");
+  const std::vector<std::string> with_names{"--delay", "5", "--trace-interval", "5", "--script", names}, with_outage{"--delay", "5", "--trace-interval", "5", "--script", outage};
+  EXPECT_TRUE(resolve(with_names)) << mistake(with_names);
+  EXPECT_TRUE(events(with_names)) << events(with_names).error();
+  ASSERT_FALSE(events(with_outage));
+  EXPECT_TRUE(events(with_outage).error().starts_with(wrong)) << events(with_outage).error();
+  EXPECT_TRUE(events({"--network", bare, "--trace-interval", "5", "--script", outage}));
 }
 
 TEST(CapacityFile, OnlyCapacitiesLookLikeOnes) {

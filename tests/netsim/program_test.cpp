@@ -7,6 +7,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -270,6 +271,53 @@ TEST(Program, ShowsWhatAProfileDoesBesideWhatItPromises) {
     EXPECT_NE(text.find("each direction gets half"), std::string::npos) << text;
     EXPECT_NE(text.find("lost in the second"), std::string::npos) << text;
   }
+}
+
+TEST(Program, AsksWhatWasMeant) {
+  for (const auto& [arguments, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"run", "one_axis", "--dealy", "5"}, "did you mean --delay?"}, {{"run", "one_axis", "--profile", "WIFI-busy"}, "did you mean wifi-busy?"}}) {
+    Program program(arguments);
+    const std::string err = program.rest_of_err();
+    EXPECT_EQ(program.exit_code(), 2);
+    EXPECT_NE(err.find(says), std::string::npos) << err;
+  }
+}
+
+TEST(Program, RunSaysThatTheProfilesFirstOutageCameTooLate) {
+  const std::string said = "note: the first periodic outage at 10 s ";
+  for (const auto& [more, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{}, "came after the end of the run, 3."}, {{"--check"}, "will not come, unless the session of 3 s begins later than at 7 s of network time"}}) {
+    std::vector<std::string> arguments{"run", "one_axis", "--duration", "3", "--profile", "outage"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Program program(arguments);
+    const std::string out = program.rest_of_out();
+    EXPECT_EQ(program.exit_code(), 0);
+    EXPECT_NE(out.find(said + says), std::string::npos) << out;
+    EXPECT_EQ(out.find(said), out.rfind(said)) << "it is one outage for both directions\n" << out;
+  }
+  Program lived({"run", "one_axis", "--duration", "11", "--profile", "outage"});
+  const std::string out = lived.rest_of_out();
+  EXPECT_EQ(out.find("periodic outage"), std::string::npos) << out;
+}
+
+TEST(Program, APhaseThatNeverCameHasNoNumbers) {
+  Program program({"run", "contact", "--duration", "1"});
+  std::istringstream lines(program.rest_of_out());
+  std::size_t dashes = 0, zeros = 0;
+  for (std::string line; std::getline(lines, line);) {
+    dashes += line.ends_with("        -        -") ? 1 : 0;
+    zeros += !line.contains("all phases") && line.ends_with("     0.00     0.00") ? 1 : 0;
+  }
+  EXPECT_GT(dashes, 0u);
+  EXPECT_EQ(zeros, 0u);
+}
+
+TEST(Program, ProfilesSayWhenNothingIsPromised) {
+  Program without({"profiles", "lan", "--minutes", "0.1"}), with({"profiles", "geo-satellite", "--minutes", "0.1"});
+  const std::string none = without.rest_of_out(), some = with.rest_of_out();
+  EXPECT_NE(none.find("no quantiles promised"), std::string::npos) << none;
+  EXPECT_EQ(some.find("no quantiles promised"), std::string::npos) << some;
+  EXPECT_NE(some.find("  promised"), std::string::npos) << some;
 }
 
 TEST(Program, RunJudgesTheNetworkApartFromTheSession) {

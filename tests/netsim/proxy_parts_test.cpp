@@ -42,9 +42,16 @@ TEST(ProxyEvents, SayWhichCameWhichMetNobodyAndWhichNeverCame) {
   EXPECT_EQ(all[5].fate, Fate::kGoesOn);
   EXPECT_EQ(all[6].fate, Fate::kNeverCame);
   EXPECT_EQ(events_text(std::span(all).first(2)),
-            "  event at 1.000 s: outage of 100 ms\n"
+            "  event at 1.000 s: outage of 100 ms: came\n"
             "  event at 1.000 s: outage of 100 ms, for client 2: met nobody; client 2 came later, at 1.800 s\n");
   EXPECT_EQ(events_text(std::span(all).last(1)), "  event at 9.000 s: outage of 100 ms: never came; the proxy ended before, at 5.000 s\n");
+}
+
+TEST(ProxyView, ALongLineKeepsItsUnits) {
+  EXPECT_EQ(in_one_line(std::string(61, 'x'), 0.25), std::string(61, 'x') + "; late p99 0.25 ms");  // 79
+  EXPECT_EQ(in_one_line(std::string(61, 'x'), 213.91), std::string(61, 'x') + "; late p99 214 ms");
+  EXPECT_EQ(in_one_line(std::string(65, 'x'), 213.91), std::string(65, 'x') + "; late 214 ms");
+  EXPECT_EQ(in_one_line(std::string(67, 'x'), 213.91), std::string(67, 'x'));
 }
 
 TEST(LiveDelays, MeanAndQuantilesAreOfWhatCameInBetween) {

@@ -171,7 +171,7 @@ TEST(Program, ProxyReportsWhatBecameOfItsScript) {
   ASSERT_TRUE(server.receive());
   proxy.signal(SIGINT);
   EXPECT_EQ(proxy.wait(), 0);
-  for (const char* part : {"event at 0.000 s: outage of 3600 s, for client 1; it was not over when the proxy ended", "event at 0.000 s: network lan\n",
+  for (const char* part : {"event at 0.000 s: outage of 3600 s, for client 1: goes on; it was not over when the proxy ended", "event at 0.000 s: network lan: came\n",
                            "event at 3600.000 s: new address, the old one dead after 1 ms, for client 1: never came; the proxy ended before"})
     EXPECT_NE(proxy.out().find(part), std::string::npos) << part << " not in\n" << proxy.out();
   const Json events = Json::parse(read(json))["events"];
@@ -248,8 +248,8 @@ TEST(Program, ProxyLogsEveryDecisionAndFollowsAScript) {
 TEST(ProxyControl, ChangesAllOneOrOneDirectionAndThoseToCome) {
   UdpPeer server, a, b, late;
   Running proxy{server.address(), {}};
-  ProxyControl control{*proxy, {}, [](const std::string& name) -> std::expected<LinkSpec, std::string> {
-                         if (name == "deaf") return link_from({.loss = 1});
+  ProxyControl control{*proxy, {}, [](const std::string& name) -> std::expected<ProxyControl::Network, std::string> {
+                         if (name == "deaf") return ProxyControl::Network{link_from({.loss = 1}), {"half of a round trip"}};
                          return std::unexpected("no network " + name);
                        }};
   a.connect(proxy->listening());
@@ -264,7 +264,10 @@ TEST(ProxyControl, ChangesAllOneOrOneDirectionAndThoseToCome) {
     return server.receive(100).has_value();
   };
 
-  EXPECT_TRUE(control.carry_out("profile deaf client 2 up").done);
+  const auto deaf = control.carry_out("profile deaf client 2 up");
+  EXPECT_TRUE(deaf.done);
+  EXPECT_NE(deaf.text.find("\nnote: half of a round trip\n"), std::string::npos) << deaf.text;
+  EXPECT_EQ(control.notes()[0].notes, std::vector<std::string>{"half of a round trip"});
   EXPECT_TRUE(passes(a));
   EXPECT_FALSE(passes(b));
   ASSERT_TRUE(server.send_to(address_b, "down is open"));

@@ -301,6 +301,41 @@ TEST(Verdict, OutcomesCrossBetweenProcessesWhole) {
   EXPECT_EQ(back.badness, o.badness);
 }
 
+TEST(Verdict, WhatARecordedNetworkHidesIsToldOnceForItsScenario) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / "scenario_recordings";
+  fs::create_directories(folder);
+  const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+  write("rtt.csv", "t_s[s],rtt_ms[ms]\n0,10\n0.1,20\n5.1,10\n5.2,10\n");
+  write("bare.csv", "rtt_ms[ms]\n10\n20\n");
+  write("of_seat.textproto", "version: 1 scene: \"one_axis\" duration_s: 1 seeds: 2 seat_network { seat: \"trainer\" network { profile: \"rtt.csv\" } }\n"
+                             "event { at_s: 0.5 profile: \"rtt.csv\" }\nevent { at_s: 0.7 profile: \"lan\" }\n");
+  write("of_event.textproto", "version: 1 scene: \"one_axis\" duration_s: 1 event { at_s: 0.5 profile: \"rtt.csv\" }\n");
+  for (const char* name : {"of_seat.textproto", "of_event.textproto"}) {
+    auto loaded = load_scenarios({(folder / name).string()});
+    ASSERT_TRUE(loaded) << to_text(loaded.error());
+    const std::string check = effective_scenario_text(loaded->front());
+    const TestResult result = run_tests(std::move(*loaded), {});
+    const std::string table = test_summary(result), split = (folder / "rtt.csv").string() + ": the recording holds round trips; each direction gets half of them";
+    const std::string gap = (folder / "rtt.csv").string() + ":3: the recording has 1 gap";
+    for (const std::string& part : {split, gap}) {
+      EXPECT_NE(table.find("  note: " + part), std::string::npos) << name << "\n" << table;
+      EXPECT_EQ(table.find(part), table.rfind(part)) << table;
+      EXPECT_NE(check.find("note: " + part), std::string::npos) << check;
+    }
+    EXPECT_EQ(verdicts(result)["scenarios"][0]["notes"].size(), 2u);
+    EXPECT_EQ(verdicts(result)["scenarios"][0]["notes"][0], split);
+  }
+  write("of_seat.textproto", "version: 1 scene: \"one_axis\" network { profile: \"rtt.csv\" trace_interval_ms: 5 }\n");
+  write("of_event.textproto", "version: 1 scene: \"one_axis\" network { profile: \"bare.csv\" trace_interval_ms: 5 }\n");
+  const auto twice = load_scenarios({(folder / "of_seat.textproto").string()});
+  ASSERT_FALSE(twice);
+  EXPECT_NE(to_text(twice.error()).find(":1:49: network.profile = \"rtt.csv\": trace_interval_ms is for a recording without a column of times"), std::string::npos)
+      << to_text(twice.error());
+  EXPECT_TRUE(load_scenarios({(folder / "of_event.textproto").string()}));
+  fs::remove_all(folder);
+}
+
 TEST(Verdict, FilesAreNamedRelativeToTheScenario) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(testing::TempDir()) / "scenario_files";
@@ -347,7 +382,7 @@ TEST(Verdict, FilesAreNamedRelativeToTheScenario) {
   write("zz.textproto", "version: 1 both { flor_ms: 3 }\n");
   const auto lost = load_scenarios({folder.string()});
   ASSERT_FALSE(lost);
-  EXPECT_NE(to_text(lost.error()).find("zz.textproto: is no scene, profile or script without mistakes; as a scenario:"), std::string::npos)
+  EXPECT_NE(to_text(lost.error()).find("zz.textproto: is no scene, profile or script without mistakes; as a profile:"), std::string::npos)
       << to_text(lost.error());
   for (const char* name : {"zz", "good"}) fs::remove(folder / (std::string(name) + ".textproto"));
   const auto none = load_scenarios({folder.string()});
