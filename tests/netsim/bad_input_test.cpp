@@ -107,10 +107,7 @@ TEST(BadInput, EngineSpecsRefuseTheSameWithoutAText) {
                   {.length = 5ms, .mode = OutageSpec::Mode::kHoldLast, .hold_bytes = 5}};
   EXPECT_EQ(keys(spec),
             "outages[0].loss_at_start outages[1].scope outages[2].length_max outages[3].length_max outages[4].hold_bytes ");
-}
-
-TEST(BadInput, AWrongLengthIsNotToldAgainByItsNeighbour) {
-  PathSpec spec;
+  // A wrong length is not told again by its neighbour.
   spec.outages = {{.length = -5ms}};
   EXPECT_EQ(keys(spec), "outages[0].length ");
 }
