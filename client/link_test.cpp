@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace tandem::client {
 
@@ -25,10 +26,7 @@ LinkTest::LinkTest(const SeatSetup& setup, const link::Link::Params& link)
 }
 
 void LinkTest::on_datagram(Time arrived, std::span<const std::byte> bytes) noexcept {
-  // The server's other answers, when the asking was repeated: under the key of joining, not of this link.
-  const auto header = link::read_header(bytes);
-  if (header && header->type == wire::Type::kBindAck) return;
-  const auto opened = link_.open(bytes);
+  const auto opened = link_.open(arrived, bytes);
   if (!opened) return;
   if (opened->type == wire::Type::kClose) {
     if (codec_.decode_close(opened->plaintext)) {
@@ -37,6 +35,13 @@ void LinkTest::on_datagram(Time arrived, std::span<const std::byte> bytes) noexc
     } else {
       link_.refuse_body();
     }
+    return;
+  }
+  if (opened->type == wire::Type::kPathChallenge) {
+    const auto asked = codec_.decode_path(opened->plaintext);
+    if (!asked) return link_.refuse_body();
+    link_.accept_other();
+    path_answer_ = asked->message;
     return;
   }
   const auto decoded = opened->type == wire::Type::kForce ? codec_.decode_force(opened->plaintext)
@@ -93,8 +98,14 @@ void LinkTest::on_tick(Time now, Duration late, std::uint32_t missed, Duration w
 }
 
 std::optional<std::size_t> LinkTest::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
-  if (buffer.size() < link::kHeaderSize || !(state_due_ || close_due_ > 0)) return std::nullopt;
+  if (buffer.size() < link::kHeaderSize || !(path_answer_ || state_due_ || close_due_ > 0)) return std::nullopt;
   const auto body = buffer.subspan(link::kHeaderSize);
+  if (path_answer_) {
+    const std::size_t plain = codec_.encode(link_.preamble(now, tick_), *std::exchange(path_answer_, std::nullopt), body);
+    const std::size_t size = plain == 0 ? 0 : link_.seal(now, wire::Type::kPathResponse, buffer, plain);
+    ++path_answers_;
+    return size == 0 ? std::nullopt : std::optional{size};
+  }
   const bool closing = !state_due_;
   if (closing) {
     --close_due_;
@@ -148,7 +159,7 @@ LinkFindings LinkTest::findings(Time now) const {
                                seconds(stopped_ ? gap_until_stop_ : link_.longest_gap(now))};
     if (report_ && report_->acted > 0) {
       LinkFindings::Way& up = f.up.emplace();
-      up.sent = echo_newest_ + 1;
+      up.sent = echo_newest_ + 1 - std::min(path_answers_, echo_newest_);  // counters also number what is no STATE
       up.reordered = report_->late;
       const std::uint64_t came = std::uint64_t{report_->acted} + report_->late;
       up.lost = up.sent > came ? up.sent - came : 0;

@@ -84,6 +84,8 @@ class LinkTest {
   std::optional<Time> stopped_;
   Duration gap_until_stop_{};
   unsigned close_due_ = 0;
+  std::optional<wire::PathMessage> path_answer_;  ///< the server asks whether this end is where it heard it from
+  std::uint64_t path_answers_ = 0;
 
   // What came down.
   std::optional<wire::VisitReport> report_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/setup/channel_setup.h"
 
@@ -65,7 +66,7 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link
 }
 
 void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
-  const auto opened = link_.open(bytes);
+  const auto opened = link_.open(now, bytes);
   if (!opened) return;
   if (opened->type == wire::Type::kForce) {
     const auto decoded = codec_.decode_force(opened->plaintext);
@@ -84,6 +85,11 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
     if (!decoded) return link_.refuse_body();
     closed_ = true;
     close_reason_ = decoded->message.reason;
+  } else if (opened->type == wire::Type::kPathChallenge) {
+    const auto decoded = codec_.decode_path(opened->plaintext);
+    if (!decoded) return link_.refuse_body();
+    link_.accept_other();
+    path_answer_ = decoded->message;
   } else {
     link_.refuse_body();
   }
@@ -226,6 +232,7 @@ std::optional<std::size_t> Seat::poll_transmit(Time now, std::span<std::byte> bu
     const std::size_t size = plain == 0 ? 0 : link_.seal(now, type, buffer, plain);
     return size == 0 ? std::nullopt : std::optional{size};
   };
+  if (path_answer_) return seal(wire::Type::kPathResponse, *std::exchange(path_answer_, std::nullopt));
   if (state_due_ && !closed_) {
     state_due_ = false;
     return seal(wire::Type::kState, tx_);

@@ -94,6 +94,7 @@ class Seat {
   bool state_due_ = false, reset_ = false, leaving_ = false, closed_ = false;
   unsigned close_due_ = 0;
   wire::CloseReason close_reason_ = wire::CloseReason::kDone;
+  std::optional<wire::PathMessage> path_answer_;  ///< the server asks whether this end really is where it heard it from
   std::optional<wire::AuthorityMessage> authority_;
   Time authority_sent_{};
   std::uint64_t command_seq_ = 0;

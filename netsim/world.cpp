@@ -27,12 +27,6 @@ constexpr std::size_t kStranger = 254;
 /// Longest wait for a session to begin; covers joining over the longest delay there is, 60 s one way.
 constexpr Duration kPatience = std::chrono::seconds(300);
 
-/// Who asks for a seat gets a connection made for him: joining may take memory, a tick may not.
-bool asks_for_a_seat(std::span<const std::byte> bytes) noexcept {
-  const auto header = link::read_header(bytes);
-  return header && header->type == wire::Type::kBind;
-}
-
 std::size_t seat_of(const server::Endpoint& e) { return std::to_integer<std::size_t>(e.bytes[0]) - 1; }
 std::uint32_t address_of(const server::Endpoint& e) {
   return std::to_integer<std::uint32_t>(e.bytes[1]) | std::to_integer<std::uint32_t>(e.bytes[2]) << 8;
@@ -79,7 +73,7 @@ std::expected<std::unique_ptr<World>, std::string> World::make(const WorldSetup&
 
   const hal::SteppedDevice& first = world->stations_[0].device();
   const AxisArray scale = hal::PortMap(scene.port, scene.dof, first.caps().joints).scale(first.state());
-  world->session_ = std::make_unique<server::Session>(scene, std::move(slaves), scale, setup.seed);
+  world->session_ = std::make_unique<server::Session>(scene, std::move(slaves), scale);
   return world;
 }
 
@@ -94,7 +88,7 @@ std::string World::add_station(std::size_t i) {
   if (!device) return "seat " + spec.name + ": " + device.error().message;
 
   WorldStation::Setup station{.scene = &setup_.scene, .seat = i, .seed = setup_.seed, .device = std::move(*device),
-                              .faults = {}, .endpoint = {}, .patience = kPatience};
+                              .faults = {}, .endpoint = {}};
   for (const Fault& fault : setup_.faults)
     if (fault.kind != Fault::Kind::kServerLate && (fault.seat.empty() || fault.seat == spec.name)) station.faults.push_back(fault);
   if (const auto e = setup_.endpoints.find(spec.name); e != setup_.endpoints.end()) station.endpoint = e->second;
@@ -164,7 +158,7 @@ void World::serve_clients() {
     WorldStation& station = stations_[i];
     const client::Seat* const before = station.seat();
     const std::uint64_t taken = heap_taken();
-    if (std::string trouble = station.step(now_, network_, buffer_); !trouble.empty()) trouble_ = std::move(trouble);
+    if (std::string trouble = station.step(now_, *session_, network_, buffer_); !trouble.empty()) trouble_ = std::move(trouble);
     // A program that starts, joins or dies is no tick yet, or no more.
     if (before != nullptr && before == station.seat() && heap_taken() != taken) watch_.took_heap(i);
   }
@@ -180,17 +174,15 @@ bool World::server_stands_still() const noexcept {
 
 void World::serve_server() {
   const std::uint64_t taken = heap_taken();
-  bool joins = false;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     while (const auto d = network_.poll(now_, static_cast<std::uint32_t>(i), Direction::kUp, buffer_)) {
       const auto bytes = std::span{buffer_}.first(std::min(d->size, buffer_.size()));
       watch_.server_heard(i, d->index);
       stations_[i].overheard(bytes);
-      joins |= asks_for_a_seat(bytes);
       session_->on_datagram(now_, endpoint_of(i, d->address), bytes);
     }
   }
-  joins |= attack_server();
+  attack_server();
   session_->on_tick(now_, server_missed_);
   server_missed_ = 0;
   while (const auto out = session_->poll_transmit(now_, buffer_)) {
@@ -201,23 +193,18 @@ void World::serve_server() {
     }
     network_.send_to(now_, static_cast<std::uint32_t>(to), address_of(out->to), std::span{buffer_}.first(out->size));
   }
-  if (!joins && heap_taken() != taken) watch_.took_heap();
+  if (heap_taken() != taken) watch_.took_heap();
 }
 
-bool World::attack_server() {
-  bool asked = false;
-  if (setup_.faults.empty()) return asked;
+void World::attack_server() {
+  if (setup_.faults.empty()) return;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     const auto forged = stations_[i].forged(now_);
     for (const std::size_t from : {i, kStranger}) {
-      // Who asks for a seat with an old BIND is answered, whoever he is, until joining has tickets (design notes, security 1.4).
-      const bool asks = asks_for_a_seat(forged.replayed);
-      asked |= asks;
-      if (!forged.replayed.empty() && !(asks && from == kStranger)) session_->on_datagram(now_, endpoint_of(from), forged.replayed);
+      if (!forged.replayed.empty()) session_->on_datagram(now_, endpoint_of(from), forged.replayed);
       if (!forged.junk.empty()) session_->on_datagram(now_, endpoint_of(from), forged.junk);
     }
   }
-  return asked;
 }
 
 void World::take_record() {

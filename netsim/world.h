@@ -58,8 +58,7 @@ class World {
   void serve_clients();
   [[nodiscard]] bool works_before(std::size_t a, std::size_t b) const noexcept;
   void serve_server();
-  /// @return whether a seat was asked for with what was heard before
-  bool attack_server();
+  void attack_server();
   [[nodiscard]] std::uint64_t heap_taken() const noexcept { return setup_.heap_count != nullptr ? setup_.heap_count() : 0; }
   [[nodiscard]] bool server_stands_still() const noexcept;
   void give_up_waiting();

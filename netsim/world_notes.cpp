@@ -52,9 +52,8 @@ std::string missed(const EventTime& event, const SessionSpan& span) {
 /// The seat's line counts what the server took, the network's block what the network carried: after a change of address
 /// they differ, and both are right.
 std::string rebind_note(const NetworkEvent& event, const std::string& seat) {
-  return format("%s has a new address from %g s on, and the server takes nothing from an address that is not proven: its line of the session counts what "
-                "the server took, so the seat is silent there and its hand let go; the block of the network counts what was carried, so up goes on, and of down "
-                "is lost what went to the old address from %g s on",
+  return format("%s has a new address from %g s on: the server asks there before it sends forces there, so what it sends meanwhile goes to the old "
+                "address and is lost from %g s on; the hand is let go for that time",
                 seat.c_str(), seconds(event.at), seconds(event.at + event.rebind->dead_after));
 }
 

@@ -27,7 +27,6 @@ WorldStation::WorldStation(Setup setup)
     : scene_(setup.scene),
       number_(setup.seat),
       tick_(from_seconds(1.0 / setup.scene->tick_hz)),
-      patience_(setup.patience),
       key_(RandomKey{setup.seed}.derive(1000 + setup.seat)),
       faults_(std::move(setup.faults)),
       device_(std::move(setup.device)) {
@@ -37,7 +36,6 @@ WorldStation::WorldStation(Setup setup)
   }
   if (std::ranges::any_of(faults_, [](const Fault& f) { return tampers(f.kind); }))
     tamper_ = std::make_unique<WorldTamper>(key_.derive(1), scene_->dof, scene_->port);
-  start_program();
 }
 
 bool WorldStation::suffers(Fault::Kind kind, Time now) const noexcept {
@@ -50,14 +48,6 @@ bool WorldStation::ever_suffers(Fault::Kind kind) const noexcept {
   return std::ranges::any_of(faults_, [&](const Fault& f) { return f.kind == kind; });
 }
 
-void WorldStation::start_program() {
-  const std::uint64_t draw = 2 * starts_++;
-  seat_.reset();
-  joining_ = std::make_unique<client::Joining>(
-      client::Joining::Params{scene_->seats[number_].name, device_->caps(), key_.bits(draw) >> 16,
-                              static_cast<std::uint32_t>(key_.bits(draw + 1) | 1), patience_});
-}
-
 Time WorldStation::own_time(Time now) const noexcept { return clock_ ? clock_->at(now) + kOwnEpoch : now; }
 
 Time WorldStation::wakes_at(Time now) const noexcept { return wake_ ? std::clamp(wake_->next(), now - tick_, now) : now; }
@@ -68,35 +58,34 @@ void WorldStation::live(Duration length) noexcept {
   worked_now_ += device_->state().f_out.dot(device_->truth().x - before);
 }
 
-std::string WorldStation::step(Time now, Network& network, std::span<std::byte> buffer) {
+std::string WorldStation::step(Time now, server::Session& session, Network& network, std::span<std::byte> buffer) {
   heard_now_ = 0;
   served_now_ = false;
   worked_now_ = 0;
   const std::optional<Time> wakes = wake_ ? wake_->within(now - tick_, now) : now;
   const Time woke = wakes.value_or(now);
   if (woke > now - tick_) live(woke - (now - tick_));
-  std::string trouble = work(woke, wakes.has_value(), network, buffer);
+  std::string trouble = work(woke, wakes.has_value(), session, network, buffer);
   if (woke < now) live(now - woke);
   return trouble;
 }
 
-std::string WorldStation::work(Time now, bool awake, Network& network, std::span<std::byte> buffer) {
+std::string WorldStation::work(Time now, bool awake, server::Session& session, Network& network, std::span<std::byte> buffer) {
   if (suffers(Fault::Kind::kRestart, now)) {
     if (!down_) {
       down_ = true;
       trips_before_ = gate_trips();
       seat_.reset();
-      joining_.reset();
       device_->set_session_time(std::nullopt);
     }
     while (network.poll(now, static_cast<std::uint32_t>(number_), Direction::kDown, buffer)) {}  // to a closed port
     return {};
   }
-  if (std::exchange(down_, false)) start_program();
+  if (std::exchange(down_, false)) ++starts_;
   if (awake && !suffers(Fault::Kind::kPause, now)) {
     listen(now, network, buffer);
     if (!seat_) {
-      if (std::string trouble = join(now, network, buffer); !trouble.empty()) return trouble;
+      if (std::string trouble = join(now, session); !trouble.empty()) return trouble;
     }
     if (seat_) serve(now, network, buffer);
   } else if (seat_) {
@@ -117,43 +106,36 @@ void WorldStation::listen(Time now, Network& network, std::span<std::byte> buffe
   }
   if (tamper_ == nullptr) return;
   if (suffers(Fault::Kind::kReplay, now)) hear(now, tamper_->again(Direction::kDown));
-  if (suffers(Fault::Kind::kJunk, now)) hear(now, tamper_->junk(seat_ ? seat_->link().params().own_cid : 0));
+  if (suffers(Fault::Kind::kJunk, now)) hear(now, tamper_->junk(seat_ ? seat_->link().own_cid() : 0));
 }
 
 void WorldStation::hear(Time now, std::span<const std::byte> bytes) noexcept {
-  if (seat_) {
-    seat_->on_datagram(own_time(now), bytes);
-  } else if (joining_) {
-    joining_->on_datagram(own_time(now), bytes);
-  }
+  if (seat_) seat_->on_datagram(own_time(now), bytes);
 }
 
-std::string WorldStation::join(Time now, Network& network, std::span<std::byte> buffer) {
+std::string WorldStation::join(Time now, server::Session& session) {
+  if (now < ask_again_) return {};
+  const auto joined = join_virtually(session, now, number_, device_->caps(), key_.derive(4), asked_++);
+  if (joined) {
+    seat_ = std::make_unique<client::Seat>(joined->setup, device_->caps(), joined->link);
+    server_cid_ = joined->link.peer_cid;
+    if (tamper_) tamper_->joined(server_cid_, joined->link.secrets);
+    return {};
+  }
   const std::string& name = scene_->seats[number_].name;
-  switch (joining_->outcome(own_time(now))) {
-    case client::Joining::Outcome::kAccepted:
-      seat_ = std::make_unique<client::Seat>(joining_->setup(), device_->caps(), joining_->link());
-      server_cid_ = joining_->link().peer_cid;
-      if (tamper_) tamper_->joined(server_cid_);
-      joining_.reset();
+  switch (joined.error()) {
+    case wire::JoinResult::kSeatTaken:
+      if (starts_ == 1) return "seat " + name + ": somebody sits there already";
+      ask_again_ = now + kAskAgain;
       return {};
-    case client::Joining::Outcome::kRefused:
-      if (joining_->result() == wire::BindResult::kSeatTaken && starts_ > 1) {
-        if (ask_again_ == Time{}) ask_again_ = now + kAskAgain;
-        if (now < ask_again_) return {};
-        ask_again_ = Time{};
-        start_program();
-        return {};
-      }
-      return "seat " + name + ": " + joining_->reason();
-    case client::Joining::Outcome::kNoAnswer:
-      return "seat " + name + ": the server did not answer";
-    case client::Joining::Outcome::kAsking:
+    case wire::JoinResult::kSessionOver:
+      return {};  // nobody waits for it any more
+    case wire::JoinResult::kNoSuchSeat:
+    case wire::JoinResult::kDeviceUnfit:
+    case wire::JoinResult::kAccepted:
       break;
   }
-  if (const auto size = joining_->poll_transmit(own_time(now), buffer))
-    network.send(now, static_cast<std::uint32_t>(number_), Direction::kUp, buffer.first(*size));
-  return {};
+  return "seat " + name + ": " + session.reception().unfit(number_, device_facts(device_->caps()));
 }
 
 const hal::State& WorldStation::reading(Time now) noexcept {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "client/joining.h"
 #include "client/seat.h"
 #include "hal/sim/sim_device.h"
 #include "netsim/endpoint_clock.h"
 #include "netsim/fault.h"
 #include "netsim/network.h"
+#include "netsim/virtual_joining.h"
 #include "netsim/world_tamper.h"
 #include "proto/scene_spec.h"
 
@@ -28,14 +28,13 @@ class WorldStation {
     std::unique_ptr<hal::sim::SimDevice> device;
     std::vector<Fault> faults;             ///< of this seat
     std::optional<EndpointSpec> endpoint;  ///< absent: the world's clock, and awake at every tick
-    Duration patience{};                   ///< how long it asks for its seat
   };
   explicit WorldStation(Setup setup);
 
   /// One tick, (now - tick, now]: the device lives, datagrams are heard, the client's core works and sends, all at the moment
   /// in it at which the program wakes up; without noise that is `now`. The station's number on the network is its seat's.
   /// @return why the seat cannot be had, else empty.
-  [[nodiscard]] std::string step(Time now, Network& network, std::span<std::byte> buffer);
+  [[nodiscard]] std::string step(Time now, server::Session& session, Network& network, std::span<std::byte> buffer);
 
   /// What an attacker sends to the server in this tick in the seat's name; empty: nothing.
   struct Forged {
@@ -73,11 +72,10 @@ class WorldStation {
   [[nodiscard]] bool ever_suffers(Fault::Kind kind) const noexcept;
 
  private:
-  void start_program();
   void live(Duration length) noexcept;
-  [[nodiscard]] std::string work(Time now, bool awake, Network& network, std::span<std::byte> buffer);
+  [[nodiscard]] std::string work(Time now, bool awake, server::Session& session, Network& network, std::span<std::byte> buffer);
   void listen(Time now, Network& network, std::span<std::byte> buffer);
-  [[nodiscard]] std::string join(Time now, Network& network, std::span<std::byte> buffer);
+  [[nodiscard]] std::string join(Time now, server::Session& session);
   void serve(Time now, Network& network, std::span<std::byte> buffer);
   void hear(Time now, std::span<const std::byte> bytes) noexcept;
   [[nodiscard]] const hal::State& reading(Time now) noexcept;
@@ -85,25 +83,24 @@ class WorldStation {
   const SceneSpec* scene_;
   std::size_t number_;
   Duration tick_;
-  Duration patience_;
   RandomKey key_;
   std::optional<EndpointClock> clock_;
   std::optional<WakeUps> wake_;
   std::vector<Fault> faults_;
   std::unique_ptr<hal::sim::SimDevice> device_;
-  std::unique_ptr<client::Joining> joining_;
   std::unique_ptr<client::Seat> seat_;
   std::unique_ptr<WorldTamper> tamper_;  ///< only where a fault needs it
   std::uint32_t server_cid_ = 0;
   hal::Command command_{};
   hal::State reading_{};  ///< in place of the device's, where a fault says so
-  bool frozen_ = false, down_ = false, served_now_ = false, misread_now_ = false;
+  bool frozen_ = false, down_ = true, served_now_ = false, misread_now_ = false;
   std::uint32_t starts_ = 0, trips_before_ = 0;
   std::uint64_t heard_now_ = 0;
   Time served_at_{};
   double worked_now_ = 0;
   std::optional<std::uint64_t> newest_index_;
   Time ask_again_{};
+  std::uint64_t asked_ = 0;
 };
 
 }  // namespace tandem::netsim

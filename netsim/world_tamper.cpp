@@ -33,15 +33,19 @@ std::span<const std::byte> WorldTamper::junk(std::uint32_t cid) noexcept {
   return std::span{junk_}.first(size);
 }
 
-void WorldTamper::joined(std::uint32_t cid) {
-  const link::Key key = link::loopback_key(cid, link::Direction::kToServer);
-  keys_ = std::make_unique<Keys>(Keys{cid, link::Seal(key)});
+void WorldTamper::joined(std::uint32_t cid, const link::ConnectionSecrets& secrets) {
+  keys_.emplace(Keys{cid, secrets.cipher, secrets.to_server, 0, link::Seal(link::key_of(secrets.to_server, secrets.cipher))});
 }
 
 void WorldTamper::lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept {
   const auto header = link::read_header(datagram);
   if (!header || header->type != wire::Type::kState || header->cid != cid) return;
   if (!keys_ || keys_->cid != cid) return;
+  while (keys_->phase != header->key_phase) {
+    keys_->secret = link::next_secret(keys_->secret);
+    keys_->seal.rekey(link::key_of(keys_->secret, keys_->cipher));
+    ++keys_->phase;
+  }
   std::array<std::byte, link::kDatagramMax> plain;
   const std::span<std::byte> plaintext{plain.data(), datagram.size() - link::kHeaderSize - link::kTagSize};
   if (!keys_->seal.open(header->counter, datagram, plaintext)) return;

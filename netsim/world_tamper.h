@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 
 #include "common/base/rng.h"
@@ -15,7 +15,7 @@
 namespace tandem::netsim {
 
 /// What an attacker, a broken switch or a lying client makes of one seat's datagrams: old ones once more, random bytes,
-/// accounts that run backwards. Knows the public keys of the loopback profile, as anybody does.
+/// accounts that run backwards. The liar is the client himself, so he has its keys.
 class WorldTamper {
  public:
   WorldTamper(RandomKey key, std::size_t dof, PortSpace port) : key_(key), codec_(dof, port) {}
@@ -26,8 +26,8 @@ class WorldTamper {
   [[nodiscard]] std::span<const std::byte> again(Direction direction) noexcept;
   /// Random bytes of random length, every other one with a header that names `cid`.
   [[nodiscard]] std::span<const std::byte> junk(std::uint32_t cid) noexcept;
-  /// The seat has a connection: takes the memory that lying about it needs.
-  void joined(std::uint32_t cid);
+  /// The seat has a connection.
+  void joined(std::uint32_t cid, const link::ConnectionSecrets& secrets);
   /// Turns the energy account of a STATE back, in place: well-formed, sealed, wrong. Other datagrams stay as they are.
   /// @param cid  connection at the server
   void lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept;
@@ -40,6 +40,9 @@ class WorldTamper {
   };
   struct Keys {
     std::uint32_t cid;
+    link::Cipher cipher;
+    link::Secret secret;  ///< of the phase `seal` has
+    std::uint8_t phase;
     link::Seal seal;
   };
   RandomKey key_;
@@ -48,7 +51,7 @@ class WorldTamper {
   std::array<std::array<Kept, kRemembered>, kDirections> kept_{};
   std::array<std::uint64_t, kDirections> count_{};
   std::array<std::byte, link::kDatagramMax> junk_{};
-  std::unique_ptr<Keys> keys_;
+  std::optional<Keys> keys_;
 };
 
 }  // namespace tandem::netsim

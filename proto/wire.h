@@ -11,9 +11,9 @@
 /// Owned, fixed-size forms of what travels in a datagram. Bytes are made and read by proto/wire_codec.h.
 namespace tandem::wire {
 
-/// Wire type of a datagram, low four bits of its first byte (design notes, security 1.4).
+/// Wire type of a datagram, low four bits of its first byte (common/link/FORMAT.md). 1 and 2 joined people before joining went over TLS.
 enum class Type : std::uint8_t {
-  kBind = 1, kBindAck = 2, kState = 3, kForce = 4, kPathChallenge = 5, kPathResponse = 6, kPing = 7, kClose = 8,
+  kState = 3, kForce = 4, kPathChallenge = 5, kPathResponse = 6, kPing = 7, kClose = 8,
   kAuthority = 9
 };
 
@@ -71,16 +71,12 @@ struct ForceMessage {
 };
 
 inline constexpr std::size_t kSeatNameMax = 32;
-inline constexpr std::size_t kReasonMax = 160;
-inline constexpr std::size_t kSetupMax = 1024;
+inline constexpr std::size_t kSetupMax = 1024;  ///< bytes of a serialized seat setup, see proto/seat_setup.h
 
-/// Client to server, every 100 ms until answered; at most 1200 bytes; reply: BIND_ACK.
-struct BindMessage {
-  std::array<char, kSeatNameMax> seat{};  ///< zero-terminated unless full
-  std::uint64_t nonce = 0;                ///< names this attempt, so that a repeated BIND is no second join
-  std::uint32_t client_cid = 0;           ///< what the server shall put on its datagrams
-  std::uint32_t joints = 0;
-  std::uint32_t tip_axes = 0;
+/// What a server must know of a device before it gives it a seat.
+struct DeviceFacts {
+  std::uint32_t joints = 0;               ///< 1 ... kAxesMax
+  std::uint32_t tip_axes = 0;             ///< 1 ... kAxesMax
   bool simulated = false;
   bool prismatic = false;
   double force_peak_n = 0;                ///< 0: unknown
@@ -88,16 +84,12 @@ struct BindMessage {
   double mass_kg = 0;                     ///< 0: unknown
 };
 
-enum class BindResult : std::uint8_t { kAccepted, kNoSuchSeat, kSeatTaken, kDeviceUnfit, kSessionOver };
+enum class JoinResult : std::uint8_t { kAccepted, kNoSuchSeat, kSeatTaken, kDeviceUnfit, kSessionOver };
 
-/// Server to client, once per BIND received.
-struct BindAckMessage {
-  std::uint64_t nonce = 0;
-  BindResult result = BindResult::kNoSuchSeat;
-  std::uint32_t server_cid = 0;               ///< what the client shall put on its datagrams
-  std::array<char, kReasonMax> reason{};      ///< for a person, when refused
-  std::array<char, kSetupMax> setup{};        ///< serialized seat setup, see proto/seat_setup.h
-  std::uint32_t setup_size = 0;
+/// Server to a client that was heard from a new address, up to five times in 250 ms; reply: PATH_RESPONSE with the same token, from
+/// that address. Smaller than the STATE that caused it.
+struct PathMessage {
+  std::uint64_t token = 0;
 };
 
 /// Instructor to server, every 20 ms until FORCE shows the version. Weights of all masters over one tool; sum 1.

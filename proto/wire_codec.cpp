@@ -1,7 +1,5 @@
 #include "proto/wire_codec.h"
 
-#include <google/protobuf/unknown_field_set.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -73,19 +71,6 @@ class Judge {
 constexpr double kJouleMax = 1e9;
 /// Gaps and ages of a link: eleven days.
 constexpr double kMillisecondsMax = 1e9;
-
-bool is_seat_name(const std::array<char, kSeatNameMax>& name) noexcept {
-  const auto end = std::find(name.begin(), name.end(), '\0');
-  const auto legal = [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  return end != name.begin() && std::all_of(name.begin(), end, legal) &&
-         std::all_of(end, name.end(), [](char c) { return c == '\0'; });
-}
-
-std::size_t text_length(std::span<const char> text) noexcept {
-  return static_cast<std::size_t>(std::find(text.begin(), text.end(), '\0') - text.begin());
-}
 
 /// Writes preamble and body.
 template <class Body>
@@ -173,34 +158,9 @@ std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std:
   return write(preamble, f, out);
 }
 
-std::size_t Codec::encode(const Preamble& preamble, const BindMessage& in, std::span<std::byte> out) noexcept {
-  auto& b = messages_->bind;
-  b.mutable_seat()->assign(in.seat.data(), in.seat.size());
-  b.set_nonce(in.nonce);
-  b.set_client_cid(in.client_cid);
-  b.set_joints(in.joints);
-  b.set_tip_axes(in.tip_axes);
-  b.set_flags((in.simulated ? 1U : 0U) | (in.prismatic ? 2U : 0U));
-  b.set_force_peak_n(in.force_peak_n);
-  b.set_damping_n_s_m(in.damping_n_s_m);
-  b.set_mass_kg(in.mass_kg);
-  return write(preamble, b, out);
-}
-
-std::size_t Codec::encode(const Preamble& preamble, const BindAckMessage& in, std::span<std::byte> out) noexcept {
-  if (in.setup_size > in.setup.size()) return 0;
-  auto& b = messages_->bind_ack;
-  b.set_nonce(in.nonce);
-  b.set_result(static_cast<std::uint32_t>(in.result));
-  b.set_server_cid(in.server_cid);
-  if (in.result == BindResult::kAccepted) {
-    b.clear_reason();
-    b.mutable_setup()->assign(in.setup.data(), in.setup_size);
-  } else {
-    b.clear_setup();
-    b.mutable_reason()->assign(in.reason.data(), text_length(in.reason));
-  }
-  return write(preamble, b, out);
+std::size_t Codec::encode(const Preamble& preamble, const PathMessage& in, std::span<std::byte> out) noexcept {
+  messages_->path.set_token(in.token);
+  return write(preamble, messages_->path, out);
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const AuthorityMessage& in, std::span<std::byte> out) noexcept {
@@ -282,56 +242,10 @@ Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) noexcep
   return judge.verdict(result);
 }
 
-Decoded<BindMessage> Codec::decode_bind(std::span<const std::byte> in) noexcept {
-  auto& b = messages_->bind;
-  if (auto ok = read(in, messages_->bind_skeleton, b); !ok) return std::unexpected(ok.error());
-  Decoded<BindMessage> result{std::in_place};
-  result->preamble = read_preamble(in);
-  auto& out = result->message;
-  Judge judge;
-  std::copy_n(b.seat().data(), std::min(b.seat().size(), kSeatNameMax), out.seat.data());
-  judge.require(is_seat_name(out.seat));
-  out.nonce = b.nonce();
-  out.client_cid = b.client_cid();
-  out.joints = judge.at_most(b.joints(), kAxesMax);
-  out.tip_axes = judge.at_most(b.tip_axes(), kAxesMax);
-  judge.require(out.joints > 0 && out.tip_axes > 0);
-  const auto flags = judge.at_most(b.flags(), 3);
-  out.simulated = (flags & 1U) != 0;
-  out.prismatic = (flags & 2U) != 0;
-  out.force_peak_n = judge.within(b.force_peak_n(), 0, kEffortMax);
-  out.damping_n_s_m = judge.within(b.damping_n_s_m(), 0, kEffortMax);
-  out.mass_kg = judge.within(b.mass_kg(), 0, kEffortMax);
-  return judge.verdict(result);
-}
-
-Decoded<BindAckMessage> Codec::decode_bind_ack(std::span<const std::byte> in) noexcept {
-  auto& b = messages_->bind_ack;
-  if (in.size() < kPreambleSize || in.size() > kBindAckMax) return std::unexpected(DecodeError::kSize);
-  const auto body = in.subspan(kPreambleSize);
-  // Variable in length, hence no skeleton: what was read must be the whole and only encoding.
-  if (!b.ParseFromArray(body.data(), static_cast<int>(body.size())) ||
-      !b.GetReflection()->GetUnknownFields(b).empty() || b.ByteSizeLong() != body.size() || !b.has_nonce() ||
-      !b.has_result() || !b.has_server_cid()) {
-    return std::unexpected(DecodeError::kMalformed);
-  }
-  const bool accepted = b.result() == static_cast<std::uint32_t>(BindResult::kAccepted);
-  if (b.has_setup() != accepted || b.has_reason() == accepted) return std::unexpected(DecodeError::kMalformed);
-  Decoded<BindAckMessage> result{std::in_place};
-  result->preamble = read_preamble(in);
-  auto& out = result->message;
-  Judge judge;
-  out.nonce = b.nonce();
-  out.result = static_cast<BindResult>(judge.at_most(b.result(), static_cast<std::uint32_t>(BindResult::kSessionOver)));
-  out.server_cid = b.server_cid();
-  judge.require(b.setup().size() <= kSetupMax && b.reason().size() <= kReasonMax);
-  // The reason goes to a terminal: no control characters.
-  judge.require(std::none_of(b.reason().begin(), b.reason().end(),
-                             [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }));
-  std::copy_n(b.reason().data(), std::min(b.reason().size(), kReasonMax), out.reason.data());
-  std::copy_n(b.setup().data(), std::min(b.setup().size(), kSetupMax), out.setup.data());
-  out.setup_size = static_cast<std::uint32_t>(std::min(b.setup().size(), kSetupMax));
-  return judge.verdict(result);
+Decoded<PathMessage> Codec::decode_path(std::span<const std::byte> in) noexcept {
+  auto& p = messages_->path;
+  if (auto ok = read(in, messages_->path_skeleton, p); !ok) return std::unexpected(ok.error());
+  return Received<PathMessage>{read_preamble(in), {p.token()}};
 }
 
 Decoded<AuthorityMessage> Codec::decode_authority(std::span<const std::byte> in) noexcept {

@@ -39,17 +39,13 @@ constexpr std::size_t state_size(std::size_t axes) {
 constexpr std::size_t force_size(std::size_t axes) {
   return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8);
 }
-inline constexpr std::size_t kBindSize = kPreambleSize + detail::packed(kSeatNameMax, 1) + detail::scalar(1, 1, 8) +
-                                         detail::scalar(4, 1, 4) + detail::scalar(3, 1, 8);
-inline constexpr std::size_t kBindAckMax =  // a reason or a setup, never both; lengths above 127 take two bytes
-    kPreambleSize + detail::scalar(1, 1, 8) + detail::scalar(2, 1, 4) + 3 + kSetupMax;
+inline constexpr std::size_t kPathSize = kPreambleSize + detail::scalar(1, 1, 8);
 inline constexpr std::size_t kAuthoritySize = kPreambleSize + detail::scalar(3, 1, 4) + 3 + kMastersMax * 8;
 inline constexpr std::size_t kCloseSize = kPreambleSize + detail::scalar(1, 1, 4);
 inline constexpr std::size_t kPingSize = kPreambleSize;
 
 static_assert(state_size(3) <= 400 && state_size(kAxesMax) + kDatagramOverhead <= kDatagramMax);
 static_assert(force_size(kAxesMax) + kDatagramOverhead <= kDatagramMax);
-static_assert(kBindAckMax <= kPlaintextMax);
 
 /// Why bytes were refused. One counter each at the receiver; never an exception, never a log line.
 enum class DecodeError : std::uint8_t {
@@ -75,8 +71,8 @@ using Decoded = std::expected<Received<Message>, DecodeError>;
 struct PingMessage {};
 
 /// Encodes and decodes everything in proto/wire.h. One codec per link and thread: it reuses its message objects, so
-/// that nothing allocates after construction, whatever bytes arrive (BIND_ACK excepted: it is not decoded below a
-/// tick). Decoding is total: any bytes give a message with finite numbers in range, or an error.
+/// that nothing allocates after construction, whatever bytes arrive. Decoding is total: any bytes give a message with
+/// finite numbers in range, or an error.
 class Codec {
  public:
   /// @param axes  axes of the port, 1 ... kAxesMax; used by STATE and FORCE only
@@ -86,7 +82,7 @@ class Codec {
   Codec(Codec&&) noexcept;
   Codec& operator=(Codec&&) noexcept;
 
-  /// Changes axes and port, as a client does when BIND_ACK tells it the scene's. No heap. @pre 1 <= axes <= kAxesMax
+  /// Changes axes and port, as a client does when joining tells it the scene's. No heap. @pre 1 <= axes <= kAxesMax
   void configure(std::size_t axes, PortSpace port) noexcept;
   [[nodiscard]] std::size_t axes() const noexcept;
 
@@ -97,9 +93,7 @@ class Codec {
                                    std::span<std::byte> out) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t encode(const Preamble&, const ForceMessage&,
                                    std::span<std::byte> out) noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t encode(const Preamble&, const BindMessage&, std::span<std::byte> out) noexcept;
-  /// `reason` travels only when refused, `setup` only when accepted.
-  [[nodiscard]] std::size_t encode(const Preamble&, const BindAckMessage&, std::span<std::byte> out) noexcept;
+  [[nodiscard]] std::size_t encode(const Preamble&, const PathMessage&, std::span<std::byte> out) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t encode(const Preamble&, const AuthorityMessage&,
                                    std::span<std::byte> out) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t encode(const Preamble&, const CloseMessage&,
@@ -109,8 +103,7 @@ class Codec {
 
   [[nodiscard]] Decoded<StateMessage> decode_state(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
   [[nodiscard]] Decoded<ForceMessage> decode_force(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
-  [[nodiscard]] Decoded<BindMessage> decode_bind(std::span<const std::byte> plaintext) noexcept;
-  [[nodiscard]] Decoded<BindAckMessage> decode_bind_ack(std::span<const std::byte> plaintext) noexcept;
+  [[nodiscard]] Decoded<PathMessage> decode_path(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
   /// Weights are in [0, 1] and sum to 1 within 1e-9.
   [[nodiscard]] Decoded<AuthorityMessage> decode_authority(std::span<const std::byte> plaintext) noexcept
       TANDEM_REALTIME;

@@ -1,7 +1,5 @@
 #include "proto/wire_messages.h"
 
-#include <google/protobuf/unknown_field_set.h>
-
 #include <array>
 #include <span>
 
@@ -42,17 +40,7 @@ void shape(pb::Force& f, std::size_t axes, Bits bits) noexcept {
   f.set_missing(of<std::uint32_t>(bits));
   f.set_alpha(of<double>(bits));
 }
-void shape(pb::Bind& b, std::size_t, Bits bits) noexcept {
-  b.mutable_seat()->assign(kSeatNameMax, static_cast<char>(of<std::uint8_t>(bits)));
-  b.set_nonce(of<std::uint64_t>(bits));
-  b.set_client_cid(of<std::uint32_t>(bits));
-  b.set_joints(of<std::uint32_t>(bits));
-  b.set_tip_axes(of<std::uint32_t>(bits));
-  b.set_flags(of<std::uint32_t>(bits));
-  b.set_force_peak_n(of<double>(bits));
-  b.set_damping_n_s_m(of<double>(bits));
-  b.set_mass_kg(of<double>(bits));
-}
+void shape(pb::Path& p, std::size_t, Bits bits) noexcept { p.set_token(of<std::uint64_t>(bits)); }
 void shape(pb::AuthorityChange& a, std::size_t, Bits bits) noexcept {
   a.set_version(of<std::uint32_t>(bits));
   a.set_tool(of<std::uint32_t>(bits));
@@ -86,12 +74,9 @@ Codec::Messages::Messages() {
   for (auto* array : {state.mutable_q(), state.mutable_tip_x(), state.mutable_f_cmd(), state.mutable_f_out()}) {
     array->Reserve(kReserve);
   }
-  learn(bind, 0, bind_skeleton);
+  learn(path, 0, path_skeleton);
   learn(authority, 0, authority_skeleton);
   learn(close, 0, close_skeleton);
-  bind_ack.mutable_reason()->reserve(kPlaintextMax);
-  bind_ack.mutable_setup()->reserve(kPlaintextMax);
-  (void)bind_ack.GetReflection()->GetUnknownFields(bind_ack);  // made at its first use, on the heap
 }
 
 void Codec::Messages::configure(std::size_t axes_now, double position_max_now) noexcept {

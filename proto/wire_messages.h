@@ -15,13 +15,12 @@ struct Codec::Messages {
   double position_max = 0;  ///< of a port sample [m] or [rad]
   pb::State state;
   pb::Force force;
-  pb::Bind bind;
-  pb::BindAck bind_ack;
+  pb::Path path;
   pb::AuthorityChange authority;
   pb::Close close;
   Skeleton<state_size(kAxesMax) - kPreambleSize> state_skeleton;
   Skeleton<force_size(kAxesMax) - kPreambleSize> force_skeleton;
-  Skeleton<kBindSize - kPreambleSize> bind_skeleton;
+  Skeleton<kPathSize - kPreambleSize> path_skeleton;
   Skeleton<kAuthoritySize - kPreambleSize> authority_skeleton;
   Skeleton<kCloseSize - kPreambleSize> close_skeleton;
 

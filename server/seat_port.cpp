@@ -1,8 +1,6 @@
 #include "server/seat_port.h"
 
-#include <algorithm>
-
-#include "common/setup/channel_setup.h"
+#include <utility>
 
 namespace tandem::server {
 
@@ -12,38 +10,32 @@ constexpr Duration kHoldLimit = std::chrono::milliseconds(200);
 }  // namespace
 
 SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& scale)
-    : scene_(&scene), seat_(seat), scale_(scale), codec_(scene.dof, scene.port) {
-  const SeatSpec& s = scene.seats[seat];
-  const std::optional<double> k_s = s.kind == SeatKind::kSlave ? std::optional{scene.tools[s.tool].k_s} : std::nullopt;
-  end_ = setup::make_channel(scene.channel, control::Side::kServer, scene.dof, scale_, scene.gate.force_max, !scene.unsafe_gains, k_s);
-}
+    : scene_(&scene), end_(make_channel_end(scene, seat, scale)), codec_(scene.dof, scene.port) {}
 
-void SeatPort::bind(Time now, Endpoint at, std::uint64_t nonce, const link::Link::Params& link) {
-  at_ = at;
-  bound_at_ = now;
+void SeatPort::take(Time now, Entry& entry) noexcept {
+  std::unique_ptr<link::Link> before = connection_ ? connection_->give_up() : nullptr;
+  connection_.emplace(now, std::exchange(entry.link, std::move(before)));
+  std::swap(end_, entry.end);
+  taken_ = true;
   generation_ = 0;
-  nonce_ = nonce;
-  link_.emplace(link);
   rx_ = wire::StateMessage{};
   was_present_ = false;
-  const SeatSpec& s = scene_->seats[seat_];
-  const std::optional<double> k_s = s.kind == SeatKind::kSlave ? std::optional{scene_->tools[s.tool].k_s} : std::nullopt;
-  end_ = setup::make_channel(scene_->channel, control::Side::kServer, scene_->dof, scale_, scene_->gate.force_max, !scene_->unsafe_gains, k_s);
 }
 
-SeatPort::Heard SeatPort::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
+SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept {
   Heard heard;
-  const auto opened = link_->open(bytes);
+  const auto opened = connection_->open(now, from, bytes, codec_);
   if (!opened) return heard;
+  link::Link& link = connection_->link();
   switch (opened->type) {
     case wire::Type::kState: {
       const auto decoded = codec_.decode_state(opened->plaintext);
       if (!decoded) {
-        link_->refuse_body();
+        link.refuse_body();
         break;
       }
       if (!opened->newer) break;  // latest wins: nothing acts backwards
-      link_->accept(now, *opened, decoded->preamble);
+      connection_->acts(now, from, *opened, decoded->preamble);
       for (std::size_t a = 0; a < scene_->dof; ++a) energy_fell_ |= decoded->message.port.e_in[a] < rx_.port.e_in[a];
       rx_ = decoded->message;
       ++generation_;
@@ -51,34 +43,30 @@ SeatPort::Heard SeatPort::on_datagram(Time now, std::span<const std::byte> bytes
     }
     case wire::Type::kAuthority:
       if (const auto decoded = codec_.decode_authority(opened->plaintext)) {
-        link_->accept_other();
+        link.accept_other();
         heard.authority = decoded->message;
       } else {
-        link_->refuse_body();
+        link.refuse_body();
       }
       break;
     case wire::Type::kClose:
       if (codec_.decode_close(opened->plaintext)) {
         heard.close = true;
       } else {
-        link_->refuse_body();
+        link.refuse_body();
       }
       break;
-    default: link_->refuse_body(); break;
+    default: link.refuse_body(); break;
   }
   return heard;
 }
 
-Duration SeatPort::silence(Time now) const noexcept {
-  return link_ && generation_ > 0 ? link_->freshness().silence(now) : now - bound_at_;
-}
-
 bool SeatPort::alive(Time now) const noexcept {
-  return link_ && generation_ > 0 && link_->freshness().silence(now) < kHoldLimit;
+  return taken_ && generation_ > 0 && connection_->silence(now) < kHoldLimit;
 }
 
 void SeatPort::move(Time now, double dt, bool present, const Near& near) noexcept {
-  const double age = link_ ? seconds(link_->freshness().age(now)) : 0;
+  const double age = taken_ ? seconds(connection_->link().freshness().age(now)) : 0;
   if (!present || !was_present_) {
     if (was_present_) ++outages_;
     end_->engage(near.x, age);
@@ -97,19 +85,16 @@ void SeatPort::move(Time now, double dt, bool present, const Near& near) noexcep
   end_->move(in);
 }
 
-template <class Message>
-std::size_t SeatPort::seal(Time now, std::uint32_t tick, wire::Type type, const Message& m, std::span<std::byte> buffer) noexcept {
-  if (!link_ || buffer.size() < link::kHeaderSize) return 0;
-  const std::size_t plain = codec_.encode(link_->preamble(now, tick), m, buffer.subspan(link::kHeaderSize));
-  return plain == 0 ? 0 : link_->seal(now, type, buffer, plain);
+Transmit SeatPort::transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept {
+  return taken_ ? connection_->seal(now, tick, wire::Type::kForce, tx, codec_, buffer) : Transmit{};
 }
 
-std::size_t SeatPort::transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept {
-  return seal(now, tick, wire::Type::kForce, tx, buffer);
+Transmit SeatPort::transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept {
+  return taken_ ? connection_->seal(now, tick, wire::Type::kClose, wire::CloseMessage{why}, codec_, buffer) : Transmit{};
 }
 
-std::size_t SeatPort::transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept {
-  return seal(now, tick, wire::Type::kClose, wire::CloseMessage{why}, buffer);
+std::optional<Transmit> SeatPort::transmit_challenge(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept {
+  return taken_ ? connection_->poll_challenge(now, tick, codec_, buffer) : std::nullopt;
 }
 
 }  // namespace tandem::server

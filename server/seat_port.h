@@ -4,18 +4,12 @@
 #include <optional>
 
 #include "common/control/channel.h"
-#include "common/link/link.h"
 #include "proto/scene_spec.h"
 #include "proto/wire_codec.h"
+#include "server/connection.h"
+#include "server/reception.h"
 
 namespace tandem::server {
-
-/// Where somebody is: the bytes of a socket address, opaque to cores.
-struct Endpoint {
-  std::array<std::byte, 28> bytes{};
-  std::uint8_t size = 0;
-  friend bool operator==(const Endpoint&, const Endpoint&) = default;
-};
 
 /// The server's end of one seat: its link, what it last said, and its end of the spring.
 class SeatPort {
@@ -23,20 +17,19 @@ class SeatPort {
   SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& scale);
 
   /// A client took the seat. Energies, statistics and freshness start anew.
-  void bind(Time now, Endpoint at, std::uint64_t nonce, const link::Link::Params& link);
-  /// Since it was last heard; since it was bound when it never spoke.
-  [[nodiscard]] Duration silence(Time now) const noexcept;
-  void release() noexcept { link_.reset(); }
-  [[nodiscard]] bool bound() const noexcept { return link_.has_value(); }
-  [[nodiscard]] std::uint64_t nonce() const noexcept { return nonce_; }
-  [[nodiscard]] const Endpoint& endpoint() const noexcept { return at_; }
+  /// @param entry  holds what was there before afterwards: memory is given back on the caller's thread
+  void take(Time now, Entry& entry) noexcept;
+  /// Since it was last heard; since it was taken when its client never spoke. @pre taken()
+  [[nodiscard]] Duration silence(Time now) const noexcept { return connection_->silence(now); }
+  void release() noexcept { taken_ = false; }
+  [[nodiscard]] bool taken() const noexcept { return taken_; }
 
   /// Opens and decodes; STATE acts here. @return the other messages, for the session.
   struct Heard {
     std::optional<wire::AuthorityMessage> authority;
     bool close = false;
   };
-  Heard on_datagram(Time now, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+  Heard on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
 
   /// Heard from within the hold limit, its device streams, nothing latched.
   [[nodiscard]] bool alive(Time now) const noexcept;
@@ -58,8 +51,8 @@ class SeatPort {
 
   [[nodiscard]] control::ChannelEnd& end() noexcept { return *end_; }
   [[nodiscard]] const control::ChannelEnd& end() const noexcept { return *end_; }
-  [[nodiscard]] link::Link* link() noexcept { return link_ ? &*link_ : nullptr; }
-  [[nodiscard]] const link::Link* link() const noexcept { return link_ ? &*link_ : nullptr; }
+  [[nodiscard]] link::Link* link() noexcept { return taken_ ? &connection_->link() : nullptr; }
+  [[nodiscard]] const link::Link* link() const noexcept { return taken_ ? &connection_->link() : nullptr; }
   [[nodiscard]] const wire::StateMessage& heard() const noexcept { return rx_; }
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }  ///< counts STATEs that acted
   [[nodiscard]] bool energy_fell() const noexcept { return energy_fell_; }
@@ -67,23 +60,20 @@ class SeatPort {
 
   wire::ForceMessage tx{};  ///< the next FORCE, filled by the session
 
-  /// Seals `tx` (or CLOSE). @return size, 0 if nothing could be written.
-  [[nodiscard]] std::size_t transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept;
+  /// Somebody is there to be told: he spoke, and his address is proven.
+  [[nodiscard]] bool reachable() const noexcept { return taken_ && connection_->at() && generation_ > 0; }
+  /// Seals `tx`, CLOSE, or a challenge that is due; size 0 if nothing is.
+  [[nodiscard]] Transmit transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
+  [[nodiscard]] Transmit transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept;
+  [[nodiscard]] std::optional<Transmit> transmit_challenge(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept
+      TANDEM_REALTIME;
 
  private:
-  template <class Message>
-  std::size_t seal(Time now, std::uint32_t tick, wire::Type type, const Message& m, std::span<std::byte> buffer) noexcept;
-
   const SceneSpec* scene_;
-  std::size_t seat_;
-  AxisArray scale_;
   std::unique_ptr<control::ChannelEnd> end_;
-  std::optional<link::Link> link_;
+  std::optional<Connection> connection_;  ///< kept when its client has left, until another comes
+  bool taken_ = false;
   wire::Codec codec_;
-  Endpoint at_{};
-  Time bound_at_{};
-  std::uint64_t nonce_ = 0;
   wire::StateMessage rx_{};
   std::uint64_t generation_ = 0;
   bool was_present_ = false, energy_fell_ = false;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "server/connection_id.h"
 #include "server/session_record.h"
 
 namespace tandem::server {
@@ -10,18 +12,17 @@ namespace tandem::server {
 namespace {
 constexpr std::uint32_t kCatchUpMax = 50;      // ticks lived through after a stall; more are given up
 constexpr double kFarewell = 0.15;             // [s] gates ramp out before CLOSE
+constexpr Duration kSilentOwner = std::chrono::seconds(2);  // then his seat is free
 constexpr std::uint32_t kCloseRepeats = 20;    // CLOSE goes out this many ticks long: one may be lost
 }  // namespace
 
-Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale,
-                 std::uint64_t secret)
+Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale)
     : scene_(&scene),
       dt_(1.0 / scene.tick_hz),
       tick_length_(from_seconds(dt_)),
-      secret_(secret),
       scale_(scale),
       masters_(scene.masters()),
-      lobby_(scene, scale, secret),
+      reception_(scene, scale),
       visitors_(scene.dof, scene.port) {
   seats_.reserve(scene.seats.size());
   for (std::size_t i = 0; i < scene.seats.size(); ++i) seats_.emplace_back(scene, i, scale);
@@ -36,25 +37,34 @@ void Session::on_datagram(Time now, const Endpoint& from, std::span<const std::b
     ++stray_;
     return;
   }
-  if (header->cid == 0) {
-    if (!lobby_.on_bind(now, from, bytes, seats_, visitors_, state_ == wire::SessionState::kEnding || over_)) ++stray_;
-    return;
-  }
-  const auto i = lobby_.seat_of_cid(header->cid);
-  if (!i || !seats_[*i].bound() || seats_[*i].endpoint() != from) {  // unproven addresses get no reply and no state
+  const std::size_t i = static_cast<std::size_t>(place_of(header->cid)) - 1;
+  if (i >= seats_.size() || !seats_[i].taken() || seats_[i].link()->own_cid() != header->cid) {
     if (!visitors_.on_datagram(now, from, header->cid, bytes)) ++stray_;
     return;
   }
-  const auto heard = seats_[*i].on_datagram(now, bytes);
-  if (heard.close) seats_[*i].release();
+  const auto heard = seats_[i].on_datagram(now, from, bytes);
+  if (heard.close) seats_[i].release();
   if (!heard.authority) return;
   const wire::AuthorityMessage& m = *heard.authority;
-  if (scene_->seats[*i].role != Role::kInstructor || m.version != authority_version_ || m.tool >= tools_.size() ||
+  if (scene_->seats[i].role != Role::kInstructor || m.version != authority_version_ || m.tool >= tools_.size() ||
       m.masters != masters_)
     return;
   for (std::size_t k = 0; k < masters_; ++k)  // the server, not the client, says who may never drive
     if (m.alpha[k] > 0 && (scene_->seats[k].role == Role::kEvaluator || scene_->seats[k].role == Role::kObserver)) return;
   if (tools_[m.tool].authority.request(m.alpha)) ++authority_version_;
+}
+
+wire::JoinResult Session::admit(Time now, std::size_t i, Entry& entry, bool same_owner) noexcept {
+  if (over_ || state_ == wire::SessionState::kEnding) return wire::JoinResult::kSessionOver;
+  if (i >= seats_.size()) return wire::JoinResult::kNoSuchSeat;
+  if (seats_[i].taken() && !same_owner && seats_[i].silence(now) <= kSilentOwner) return wire::JoinResult::kSeatTaken;
+  seats_[i].take(now, entry);
+  return wire::JoinResult::kAccepted;
+}
+
+wire::JoinResult Session::admit_visitor(Time now, std::unique_ptr<link::Link>& link) noexcept {
+  if (over_ || state_ == wire::SessionState::kEnding) return wire::JoinResult::kSessionOver;
+  return visitors_.admit(now, link) ? wire::JoinResult::kAccepted : wire::JoinResult::kSeatTaken;
 }
 
 void Session::request_authority(const AuthorityRow& row) noexcept {
@@ -76,7 +86,7 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   fill_force_messages(now);
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     if (auto* l = seats_[i].link()) l->tick(now);
-    send_due_[i] = seats_[i].bound() && seats_[i].generation() > 0;
+    send_due_[i] = seats_[i].reachable();
   }
   visitors_.on_tick(now);
 }
@@ -348,19 +358,17 @@ void Session::fill_force_messages(Time now) noexcept {
   }
 }
 
-std::optional<Session::Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
-  if (auto answer = lobby_.poll(buffer)) return Transmit{answer->to, answer->size};
+std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
   const bool closing = over_ || (state_ == wire::SessionState::kEnding && farewell_ < kCloseRepeats);
   for (std::size_t i = 0; i < seats_.size(); ++i) {
+    if (const auto challenge = seats_[i].transmit_challenge(now, tick_, buffer)) return challenge;
     if (!send_due_[i]) continue;
     send_due_[i] = false;
-    const std::size_t size =
+    const Transmit out =
         closing ? seats_[i].transmit_close(now, tick_, close_reason_, buffer) : seats_[i].transmit(now, tick_, buffer);
-    if (size > 0) return Transmit{seats_[i].endpoint(), size};
+    if (out.size > 0) return out;
   }
-  if (const auto due = visitors_.poll_transmit(now, tick_, closing ? std::optional{close_reason_} : std::nullopt, buffer))
-    return Transmit{due->to, due->size};
-  return std::nullopt;
+  return visitors_.poll_transmit(now, tick_, closing ? std::optional{close_reason_} : std::nullopt, buffer);
 }
 
 std::vector<std::size_t> Session::missing(Time now) const {

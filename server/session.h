@@ -9,7 +9,7 @@
 #include "proto/scene_spec.h"
 #include "proto/wire_codec.h"
 #include "common/control/hub.h"
-#include "server/lobby.h"
+#include "server/reception.h"
 #include "server/seat_port.h"
 #include "server/tick_record.h"
 #include "server/tool.h"
@@ -17,24 +17,26 @@
 
 namespace tandem::server {
 
-/// People sharing tools: lobby, authority, tools and springs, once per tick. Sans-I/O: it sees time and bytes; the same core runs
+/// People sharing tools: seats, authority, tools and springs, once per tick. Sans-I/O: it sees time and bytes; the same core runs
 /// over UDP and in virtual time. Order within a tick: authority, references of all seats, tools, send (design notes, control 4).
 class Session {
  public:
   /// @param slaves  one per tool, null for tools whose slave is a seat of its own.
   /// @param scale   tip gain to port gain at the working pose, per axis.
-  /// @param secret  seeds the connection ids; unpredictable when live, the seed in virtual time.
-  Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale,
-          std::uint64_t secret);
+  Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale);
+
+  /// What never changes: for whoever answers those who ask for a seat, on any thread.
+  [[nodiscard]] const Reception& reception() const noexcept { return reception_; }
+  /// Puts a client into a seat that is free, or whose owner fell silent 2 s ago, or (`same_owner`) is himself.
+  /// @param entry  holds afterwards what was in the seat before, to be given back elsewhere  @return kAccepted, kSeatTaken or kSessionOver
+  [[nodiscard]] wire::JoinResult admit(Time now, std::size_t seat, Entry& entry, bool same_owner) noexcept;
+  /// One who only judges his link (proto/visit.h). @return as above
+  [[nodiscard]] wire::JoinResult admit_visitor(Time now, std::unique_ptr<link::Link>& link) noexcept;
 
   void on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept;
   /// @param missed  ticks whose time passed without a call; they are lived through now, silently, up to a bound.
   void on_tick(Time now, std::uint32_t missed) noexcept TANDEM_REALTIME;
 
-  struct Transmit {
-    Endpoint to;
-    std::size_t size = 0;
-  };
   /// Writes the next datagram into `buffer`; nullopt when nothing is due.
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::span<std::byte> buffer) noexcept;
 
@@ -73,12 +75,11 @@ class Session {
   const SceneSpec* scene_;
   double dt_;
   Duration tick_length_;
-  std::uint64_t secret_;
   AxisArray scale_;
   std::vector<SeatPort> seats_;
   std::vector<Tool> tools_;
   std::size_t masters_;
-  Lobby lobby_;
+  Reception reception_;
   Visitors visitors_;
 
   wire::SessionState state_ = wire::SessionState::kWaiting;

@@ -1,6 +1,7 @@
 #include "server/visitors.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tandem::server {
 
@@ -8,68 +9,60 @@ namespace {
 constexpr Duration kSilenceMax = std::chrono::seconds(2);  // then the place is free, and nothing more is sent there
 }
 
-std::uint32_t Visitors::bind(Time now, const Endpoint& from, std::uint64_t nonce, std::uint32_t client_cid, std::uint32_t drawn,
-                             Duration tick) noexcept {
-  for (const Visitor& v : visitors_)
-    if (v.link && v.nonce == nonce && v.at == from) return v.link->params().own_cid;
+bool Visitors::admit(Time now, std::unique_ptr<link::Link>& link) noexcept {
   for (Visitor& v : visitors_) {
-    if (v.link && now - v.heard <= kSilenceMax) continue;
-    v = {};
-    v.link.emplace(link::Link::Params{link::Direction::kToClient, drawn, client_cid, tick});
-    v.at = from;
-    v.nonce = nonce;
-    v.heard = now;
-    return drawn;
+    if (v.here && v.connection->silence(now) <= kSilenceMax) continue;
+    std::unique_ptr<link::Link> before = v.connection ? v.connection->give_up() : nullptr;
+    v.connection.emplace(now, std::exchange(link, std::move(before)));
+    v.here = true;
+    v.due = false;
+    return true;
   }
-  return 0;
+  return false;
 }
 
 bool Visitors::on_datagram(Time now, const Endpoint& from, std::uint32_t cid, std::span<const std::byte> bytes) noexcept {
   const auto found =
-      std::ranges::find_if(visitors_, [&](const Visitor& v) { return v.link && v.link->params().own_cid == cid && v.at == from; });
+      std::ranges::find_if(visitors_, [&](const Visitor& v) { return v.here && v.connection->link().own_cid() == cid; });
   if (found == visitors_.end()) return false;
-  link::Link& link = *found->link;
-  const auto opened = link.open(bytes);
+  Connection& connection = *found->connection;
+  const auto opened = connection.open(now, from, bytes, codec_);
   if (!opened) return true;
   if (opened->type == wire::Type::kState) {
     const auto decoded = codec_.decode_state(opened->plaintext);
     if (!decoded) {
-      link.refuse_body();
+      connection.link().refuse_body();
     } else if (opened->newer) {
-      link.accept(now, *opened, decoded->preamble);
-      found->heard = now;
-      found->spoke = true;
+      connection.acts(now, from, *opened, decoded->preamble);
     }
   } else if (opened->type == wire::Type::kClose && codec_.decode_close(opened->plaintext)) {
-    found->link.reset();
+    found->here = false;
   } else {
-    link.refuse_body();
+    connection.link().refuse_body();
   }
   return true;
 }
 
 void Visitors::on_tick(Time now) noexcept {
   for (Visitor& v : visitors_) {
-    if (v.link && now - v.heard > kSilenceMax) v.link.reset();
-    v.due = v.link && v.spoke;
+    v.here = v.here && v.connection->silence(now) <= kSilenceMax;
+    v.due = v.here && v.connection->at();
   }
 }
 
-std::optional<Visitors::Transmit> Visitors::poll_transmit(Time now, std::uint32_t tick, std::optional<wire::CloseReason> closing,
-                                                          std::span<std::byte> buffer) noexcept {
-  if (buffer.size() < link::kHeaderSize) return std::nullopt;
-  const auto body = buffer.subspan(link::kHeaderSize);
+std::optional<Transmit> Visitors::poll_transmit(Time now, std::uint32_t tick, std::optional<wire::CloseReason> closing,
+                                                std::span<std::byte> buffer) noexcept {
   for (Visitor& v : visitors_) {
-    if (!v.link || !v.due) continue;
+    if (!v.here) continue;
+    if (const auto challenge = v.connection->poll_challenge(now, tick, codec_, buffer)) return challenge;
+    if (!v.due) continue;
     v.due = false;
-    const link::LinkStats& s = v.link->stats();
+    const link::LinkStats& s = v.connection->link().stats();
     const wire::VisitReport report{static_cast<std::uint32_t>(s.accepted), static_cast<std::uint32_t>(s.late)};
-    const wire::Preamble preamble = v.link->preamble(now, tick);
-    const std::size_t plain = closing ? codec_.encode(preamble, wire::CloseMessage{*closing}, body)
-                                      : codec_.encode(preamble, wire::force_of(report), body);
-    const std::size_t size =
-        plain == 0 ? 0 : v.link->seal(now, closing ? wire::Type::kClose : wire::Type::kForce, buffer, plain);
-    if (size > 0) return Transmit{v.at, size};
+    const Transmit out =
+        closing ? v.connection->seal(now, tick, wire::Type::kClose, wire::CloseMessage{*closing}, codec_, buffer)
+                : v.connection->seal(now, tick, wire::Type::kForce, wire::force_of(report), codec_, buffer);
+    if (out.size > 0) return out;
   }
   return std::nullopt;
 }

@@ -8,12 +8,12 @@
 
 #include "proto/wire.h"
 
-/// The clear header of a datagram (design notes, security 1.4), little-endian:
+/// The clear header of a datagram (FORMAT.md), little-endian:
 ///
 ///      0  u8   version (4 bits) = 1 | type (4 bits)
-///      1  u8   key phase
+///      1  u8   key phase: number of the key, modulo 256
 ///      2  u16  zero
-///      4  u32  connection id, chosen by the receiver of this datagram; 0 only on BIND
+///      4  u32  connection id, chosen by the receiver of this datagram
 ///      8  u64  counter, starts at 0, never repeats under a key
 ///     16  ...  sealed plaintext, then a 128-bit tag; bytes 0..15 are authenticated with it
 namespace tandem::link {
@@ -56,7 +56,7 @@ inline void write_header(const Header& h, std::span<std::byte, kHeaderSize> out)
   if (datagram.size() < kHeaderSize + kTagSize || datagram.size() > kDatagramMax) return std::nullopt;
   const auto first = std::to_integer<std::uint8_t>(datagram[0]);
   const auto type = static_cast<std::uint8_t>(first & 0x0f);
-  if (first >> 4 != kVersion || type < 1 || type > 9) return std::nullopt;
+  if (first >> 4 != kVersion || type < 3 || type > 9) return std::nullopt;
   if (datagram[2] != std::byte{0} || datagram[3] != std::byte{0}) return std::nullopt;
   return Header{static_cast<wire::Type>(type), std::to_integer<std::uint8_t>(datagram[1]),
                 detail::get<std::uint32_t>(&datagram[4]), detail::get<std::uint64_t>(&datagram[8])};

@@ -10,8 +10,8 @@
 #include "common/base/time.h"
 #include "common/link/datagram.h"
 #include "common/link/freshness.h"
+#include "common/link/ratchet.h"
 #include "common/link/replay_window.h"
-#include "common/link/seal.h"
 #include "proto/wire.h"
 
 namespace tandem::link {
@@ -45,7 +45,10 @@ class Link {
     std::uint32_t own_cid = 0;   ///< on datagrams to us
     std::uint32_t peer_cid = 0;  ///< on datagrams from us
     Duration tick = std::chrono::milliseconds(1);
+    ConnectionSecrets secrets = {};
+    RekeyRule rekey = {};
   };
+  /// @throws std::runtime_error if this processor cannot do the cipher
   explicit Link(const Params& p);
 
   struct Opened {
@@ -55,10 +58,10 @@ class Link {
     std::span<const std::byte> plaintext;
   };
   /// Header, connection, window and tag; a datagram is marked as seen only when its tag is right. The plaintext lives until the next call.
-  [[nodiscard]] std::expected<Opened, Refusal> open(std::span<const std::byte> datagram) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::expected<Opened, Refusal> open(Time now, std::span<const std::byte> datagram) noexcept TANDEM_REALTIME;
   /// The plaintext was decoded and is in range and `newer`: it acts now.
   void accept(Time now, const Opened& opened, const wire::Preamble& preamble) noexcept TANDEM_REALTIME;
-  /// Decoded and in range, but no sample (AUTHORITY).
+  /// Decoded and in range, but no sample (AUTHORITY, PATH).
   void accept_other() noexcept { ++stats_.others; }
   void refuse_body() noexcept { ++stats_.refused[static_cast<std::size_t>(Refusal::kBody)]; }
 
@@ -83,15 +86,19 @@ class Link {
 
   [[nodiscard]] const Freshness& freshness() const noexcept { return freshness_; }
   [[nodiscard]] const LinkStats& stats() const noexcept { return stats_; }
-  [[nodiscard]] const Params& params() const noexcept { return params_; }
+  [[nodiscard]] std::uint32_t own_cid() const noexcept { return own_cid_; }
+  [[nodiscard]] std::uint32_t peer_cid() const noexcept { return peer_cid_; }
+  /// Keys used so far, from 0: to the peer, from the peer.
+  [[nodiscard]] std::uint64_t sending_phase() const noexcept { return sending_.phase(); }
+  [[nodiscard]] std::uint64_t receiving_phase() const noexcept { return opening_.phase(); }
 
  private:
-  Params params_;
-  Seal sealing_, opening_;
+  std::uint32_t own_cid_, peer_cid_;
+  SendKeys sending_;
+  ReceiveKeys opening_;
   ReplayWindow window_;
   Freshness freshness_;
   LinkStats stats_;
-  std::uint64_t counter_ = 0;
   std::uint64_t acted_ = 0;
   bool any_acted_ = false;
   Time last_acted_{};

@@ -8,6 +8,7 @@
 
 #include "common/base/rng.h"
 #include "tests/base/counts.h"
+#include "tests/link/link_pair.h"
 #include "tests/support/alloc_guard.h"
 
 namespace tandem::link {
@@ -19,11 +20,7 @@ using Bytes = std::vector<std::byte>;
 
 constexpr Time at(Duration d) { return Time{1h + d}; }
 
-/// Client and server of one connection.
-struct Pair {
-  Link client{{.outgoing = Direction::kToServer, .own_cid = 11, .peer_cid = 22}};
-  Link server{{.outgoing = Direction::kToClient, .own_cid = 22, .peer_cid = 11}};
-};
+using test::Pair;
 
 Bytes sealed(Link& from, Time now = at(0s), std::size_t plain = 40, std::byte fill = std::byte{7}) {
   Bytes d(kHeaderSize + plain + kTagSize, fill);
@@ -35,7 +32,7 @@ std::uint64_t refused(const Link& l, Refusal why) { return l.stats().refused[sta
 
 /// Opened and, as far as it is newer, acted upon.
 bool acts(Link& to, const Bytes& d, Time now = at(0s)) {
-  const auto opened = to.open(d);
+  const auto opened = to.open(now, d);
   if (!opened || !opened->newer) return false;
   to.accept(now, *opened, {});
   return true;
@@ -45,7 +42,7 @@ TEST(Link, CarriesBytesFromOneEndToTheOther) {
   Pair p;
   for (std::size_t size = 1; size <= kDatagramMax - 32; size += 37) {
     const Bytes d = sealed(p.client, at(0s), size, static_cast<std::byte>(size));
-    const auto opened = p.server.open(d);
+    const auto opened = p.server.open(at(0s), d);
     ASSERT_TRUE(opened) << size;
     EXPECT_EQ(opened->type, wire::Type::kState);
     EXPECT_EQ(opened->counter, size / 37);
@@ -63,7 +60,7 @@ TEST(Link, RefusesEveryFlippedBit) {
     for (std::size_t bit = 0; bit < 8 * d.size(); ++bit) {
       Bytes bad = d;
       bad[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
-      ASSERT_FALSE(p.server.open(bad)) << "bit " << bit;
+      ASSERT_FALSE(p.server.open(at(0s), bad)) << "bit " << bit;
     }
     ASSERT_TRUE(acts(p.server, d));  // and none of them spoils the real one
   }
@@ -73,13 +70,13 @@ TEST(Link, RefusesEveryFlippedBit) {
 TEST(Link, RefusesEveryPrefixAndEverythingLonger) {
   Pair p;
   const Bytes d = sealed(p.client);
-  for (std::size_t size = 0; size < d.size(); ++size) ASSERT_FALSE(p.server.open(std::span(d).first(size))) << size;
+  for (std::size_t size = 0; size < d.size(); ++size) ASSERT_FALSE(p.server.open(at(0s), std::span(d).first(size))) << size;
   Bytes longer = d;
   while (longer.size() < 1300) {
     longer.push_back(std::byte{0});
-    ASSERT_FALSE(p.server.open(longer)) << longer.size();
+    ASSERT_FALSE(p.server.open(at(0s), longer)) << longer.size();
   }
-  EXPECT_TRUE(p.server.open(d));
+  EXPECT_TRUE(p.server.open(at(0s), d));
 }
 
 TEST(Link, IsUnmovedByRandomBytes) {
@@ -90,7 +87,7 @@ TEST(Link, IsUnmovedByRandomBytes) {
     for (std::byte& b : d) b = static_cast<std::byte>(random.bits());
     if (d.size() > 16 && random.below(2) == 0)  // let some past the cheap checks
       write_header({wire::Type::kForce, 0, 22, random.bits()}, std::span(d).first<kHeaderSize>());
-    ASSERT_FALSE(p.server.open(d));
+    ASSERT_FALSE(p.server.open(at(0s), d));
   }
   EXPECT_GT(refused(p.server, Refusal::kTag), 1000U);
   EXPECT_GT(refused(p.server, Refusal::kHeader), 1000U);
@@ -99,31 +96,31 @@ TEST(Link, IsUnmovedByRandomBytes) {
 
 TEST(Link, RefusesItsOwnDatagramSentBack) {
   Pair p;
-  EXPECT_EQ(p.client.open(sealed(p.client)).error(), Refusal::kCid);
-  Link mirror{{.outgoing = Direction::kToServer, .own_cid = 5, .peer_cid = 5}};  // even where both ids are the same
-  EXPECT_EQ(mirror.open(sealed(mirror)).error(), Refusal::kTag);
+  EXPECT_EQ(p.client.open(at(0s), sealed(p.client)).error(), Refusal::kCid);
+  Link mirror{{.outgoing = Direction::kToServer, .own_cid = 5, .peer_cid = 5, .secrets = test::secrets(1)}};  // even where both ids are the same
+  EXPECT_EQ(mirror.open(at(0s), sealed(mirror)).error(), Refusal::kTag);
 }
 
 TEST(Link, RefusesDatagramsOfAnotherConnection) {
   Pair p;
-  Link other{{.outgoing = Direction::kToServer, .own_cid = 11, .peer_cid = 23}};
+  Link other{{.outgoing = Direction::kToServer, .own_cid = 11, .peer_cid = 23, .secrets = test::secrets(2)}};
   Bytes d = sealed(other);
-  EXPECT_EQ(p.server.open(d).error(), Refusal::kCid);
+  EXPECT_EQ(p.server.open(at(0s), d).error(), Refusal::kCid);
   d[4] = std::byte{22};  // relabelled
-  EXPECT_EQ(p.server.open(d).error(), Refusal::kTag);
+  EXPECT_EQ(p.server.open(at(0s), d).error(), Refusal::kTag);
 }
 
 TEST(Link, LetsADuplicateActOnce) {
   Pair p;
   const Bytes d = sealed(p.client);
   EXPECT_TRUE(acts(p.server, d));
-  EXPECT_EQ(p.server.open(d).error(), Refusal::kDuplicate);
+  EXPECT_EQ(p.server.open(at(0s), d).error(), Refusal::kDuplicate);
   EXPECT_EQ(p.server.stats().accepted, 1U);
   EXPECT_EQ(refused(p.server, Refusal::kDuplicate), 1U);
 }
 
 TEST(Link, NeverLetsTheOlderAct) {
-  const std::uint64_t last = test::seeds(20);
+  const std::uint64_t last = tandem::test::seeds(20);
   for (std::uint64_t seed = 1; seed <= last; ++seed) {
     SCOPED_TRACE(seed);
     RandomStream random{seed};
@@ -149,7 +146,7 @@ TEST(Link, RefusesWhatIsOlderThanItsMemory) {
   for (int i = 0; i < 1023; ++i) sealed(p.client);
   const Bytes edge = sealed(p.client);  // counter 1024
   ASSERT_TRUE(acts(p.server, edge));
-  EXPECT_EQ(p.server.open(old).error(), Refusal::kTooOld);
+  EXPECT_EQ(p.server.open(at(0s), old).error(), Refusal::kTooOld);
 }
 
 TEST(Link, CountsLossButNotLateness) {
@@ -198,7 +195,7 @@ TEST(Link, EchoesTheNewestThatActed) {
   EXPECT_EQ(echo.echo_counter, 1U);
   EXPECT_EQ(echo.echo_age_us, 3000U);
   EXPECT_EQ(echo.tick, 9U);
-  const auto opened = p.client.open(sealed(p.server, at(8ms)));
+  const auto opened = p.client.open(at(0s), sealed(p.server, at(8ms)));
   ASSERT_TRUE(opened);
   p.client.accept(at(12ms), *opened, echo);
   EXPECT_EQ(p.client.freshness().rtt(), 8ms);  // 11 ms less the 3 it lay there
@@ -219,15 +216,15 @@ TEST(Link, SealsNothingThatDoesNotFit) {
 TEST(Link, SealsAndOpensWithoutHeap) {
   Pair p;
   std::array<std::byte, 200> d{};
-  const test::AllocGuard guard;
+  const tandem::test::AllocGuard guard;
   for (int i = 0; i < 1000; ++i) {
     const std::size_t size = p.client.seal(at(i * 1ms), wire::Type::kState, d, 150);
-    const auto opened = p.server.open(std::span(d).first(size));
+    const auto opened = p.server.open(at(0s), std::span(d).first(size));
     ASSERT_TRUE(opened);
     p.server.accept(at(i * 1ms), *opened, p.server.preamble(at(i * 1ms), 1));
     p.server.tick(at(i * 1ms));
     d[20] ^= std::byte{1};
-    ASSERT_FALSE(p.server.open(std::span(d).first(size)));
+    ASSERT_FALSE(p.server.open(at(0s), std::span(d).first(size)));
   }
   EXPECT_EQ(guard.count(), 0U);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/base/rng.h"
+#include "tests/link/link_pair.h"
 #include "tests/support/alloc_guard.h"
 
 namespace tandem::link {
@@ -24,13 +25,15 @@ std::vector<std::byte> from_hex(std::string_view hex) {
   return out;
 }
 
-Key key_of(std::string_view key, std::string_view iv) {
+Key known_key(std::string_view key, std::string_view iv) {
   Key k;
   k.cipher = Cipher::kAes256Gcm;
   std::ranges::copy(from_hex(key), k.key.begin());
   std::ranges::copy(from_hex(iv), k.iv.begin());
   return k;
 }
+
+Key some_key() { return key_of(test::secrets(1).to_server, fastest_cipher()); }
 
 /// AES-256-GCM from elsewhere; AAD = 16 bytes, as our header.
 struct Known {
@@ -85,7 +88,7 @@ TEST(Seal, IsAes256GcmWithTheHeaderAuthenticated) {
   if (!can_do_aes()) return;
   for (const Known& k : kKnown) {
     auto d = datagram_of(k);
-    Seal seal(key_of(k.key, k.nonce));
+    Seal seal(known_key(k.key, k.nonce));
     ASSERT_TRUE(seal.seal(0, d));
     EXPECT_EQ(std::vector(d.begin() + 16, d.end()), from_hex(k.sealed));
     EXPECT_EQ(std::vector(d.begin(), d.begin() + 16), from_hex(k.header));
@@ -98,7 +101,7 @@ TEST(Seal, MixesTheCounterIntoTheLastEightBytesOfTheNonce) {  // little-endian
   auto iv = from_hex(k.nonce);
   constexpr std::uint64_t kCounter = 0x0102030405060708;
   for (std::size_t i = 0; i < 8; ++i) iv[4 + i] ^= static_cast<std::byte>(8 - i);
-  Key key = key_of(k.key, k.nonce);
+  Key key = known_key(k.key, k.nonce);
   std::ranges::copy(iv, key.iv.begin());
   auto d = datagram_of(k);
   Seal seal(key);
@@ -151,25 +154,24 @@ TEST(Seal, GivesTheBytesThatAnotherLibraryGives) {
   }
 }
 
-TEST(Seal, OpensOnlyUnderTheSameKeyConnectionAndDirection) {
+TEST(Seal, OpensOnlyUnderTheSameSecretAndCounter) {
   std::vector<std::byte> d(100, std::byte{42}), plain(100 - 32);
-  Seal sealing(loopback_key(7, Direction::kToServer));
+  const ConnectionSecrets a = test::secrets(7), b = test::secrets(8);
+  Seal sealing(key_of(a.to_server, a.cipher));
   ASSERT_TRUE(sealing.seal(3, d));
-  const auto opens = [&](std::uint32_t cid, Direction dir, std::uint64_t counter) {
-    return Seal(loopback_key(cid, dir)).open(counter, d, plain);
-  };
-  EXPECT_TRUE(opens(7, Direction::kToServer, 3));
+  const auto opens = [&](const Secret& secret, std::uint64_t counter) { return Seal(key_of(secret, a.cipher)).open(counter, d, plain); };
+  EXPECT_TRUE(opens(a.to_server, 3));
   EXPECT_EQ(plain, std::vector(68, std::byte{42}));
-  EXPECT_FALSE(opens(8, Direction::kToServer, 3));
-  EXPECT_FALSE(opens(7 + (1U << 24), Direction::kToServer, 3));
-  EXPECT_FALSE(opens(7, Direction::kToClient, 3));
-  EXPECT_FALSE(opens(7, Direction::kToServer, 4));
-  EXPECT_FALSE(opens(7, Direction::kToServer, 3 + (std::uint64_t{1} << 56)));
+  EXPECT_FALSE(opens(b.to_server, 3));
+  EXPECT_FALSE(opens(a.to_client, 3));
+  EXPECT_FALSE(opens(next_secret(a.to_server), 3));
+  EXPECT_FALSE(opens(a.to_server, 4));
+  EXPECT_FALSE(opens(a.to_server, 3 + (std::uint64_t{1} << 56)));
 }
 
 TEST(Seal, GoesOnAfterAForgery) {
-  Seal sealing(loopback_key(1, Direction::kToServer));
-  Seal opening(loopback_key(1, Direction::kToServer));
+  Seal sealing(some_key());
+  Seal opening(some_key());
   std::vector<std::byte> d(64), plain(32);
   ASSERT_TRUE(sealing.seal(0, d));
   auto forged = d;
@@ -179,8 +181,8 @@ TEST(Seal, GoesOnAfterAForgery) {
 }
 
 TEST(Seal, RefusesSizesThatCannotBe) {
-  Seal sealing(loopback_key(1, Direction::kToServer));
-  Seal opening(loopback_key(1, Direction::kToServer));
+  Seal sealing(some_key());
+  Seal opening(some_key());
   std::vector<std::byte> d(64), plain(32);
   EXPECT_FALSE(sealing.seal(0, std::span(d).first(31)));
   EXPECT_FALSE(opening.open(0, std::span(d).first(31), plain));
@@ -188,10 +190,10 @@ TEST(Seal, RefusesSizesThatCannotBe) {
 }
 
 TEST(Seal, WorksWithoutHeap) {
-  Seal sealing(loopback_key(1, Direction::kToServer));
-  Seal opening(loopback_key(1, Direction::kToServer));
+  Seal sealing(some_key());
+  Seal opening(some_key());
   std::vector<std::byte> d(200), plain(168);
-  const test::AllocGuard guard;
+  const tandem::test::AllocGuard guard;
   for (std::uint64_t c = 0; c < 1000; ++c) {
     ASSERT_TRUE(sealing.seal(c, d));
     ASSERT_TRUE(opening.open(c, d, plain));

@@ -87,40 +87,17 @@ TEST(WireCodec, ForceComesBackAsItWas) {
   }
 }
 
-TEST(WireCodec, BindAndItsAnswerComeBackAsTheyWere) {
+TEST(WireCodec, PathMessagesComeBackAsTheyWere) {
   Codec codec;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    SCOPED_TRACE(seed);
     RandomStream random(seed);
-    const auto sent = samples::bind(random);
+    const auto sent = samples::path(random);
     Buffer buffer;
-    auto size = codec.encode(samples::preamble(random), sent, buffer);
-    ASSERT_EQ(size, kBindSize);
-    const auto got = codec.decode_bind(view(buffer, size));
+    const auto size = codec.encode(samples::preamble(random), sent, buffer);
+    ASSERT_EQ(size, kPathSize);
+    const auto got = codec.decode_path(view(buffer, size));
     ASSERT_TRUE(got.has_value());
-    EXPECT_EQ(got->message.seat, sent.seat);
-    EXPECT_EQ(got->message.nonce, sent.nonce);
-    EXPECT_EQ(got->message.client_cid, sent.client_cid);
-    EXPECT_EQ(got->message.joints, sent.joints);
-    EXPECT_EQ(got->message.tip_axes, sent.tip_axes);
-    EXPECT_EQ(got->message.simulated, sent.simulated);
-    EXPECT_EQ(got->message.prismatic, sent.prismatic);
-    EXPECT_EQ(got->message.force_peak_n, sent.force_peak_n);
-    EXPECT_EQ(got->message.damping_n_s_m, sent.damping_n_s_m);
-    EXPECT_EQ(got->message.mass_kg, sent.mass_kg);
-
-    const auto answer = samples::bind_ack(random);
-    size = codec.encode(samples::preamble(random), answer, buffer);
-    ASSERT_GT(size, 0u);
-    ASSERT_LE(size, kBindAckMax);
-    const auto answered = codec.decode_bind_ack(view(buffer, size));
-    ASSERT_TRUE(answered.has_value());
-    EXPECT_EQ(answered->message.nonce, answer.nonce);
-    EXPECT_EQ(answered->message.result, answer.result);
-    EXPECT_EQ(answered->message.server_cid, answer.server_cid);
-    EXPECT_EQ(answered->message.reason, answer.reason);
-    EXPECT_EQ(answered->message.setup_size, answer.setup_size);
-    EXPECT_EQ(answered->message.setup, answer.setup);
+    EXPECT_EQ(got->message.token, sent.token);
   }
 }
 
@@ -226,29 +203,6 @@ TEST(WireCodec, RefusesNumbersThatCannotBeMeant) {
   EXPECT_FALSE(authority([](auto& m) { m.masters = 0; }));
 }
 
-TEST(WireCodec, RefusesNamesAndReasonsThatHurtATerminal) {
-  Codec codec;
-  Buffer buffer;
-  const auto bind = [&](std::string_view name) {
-    RandomStream random(3);
-    BindMessage m = samples::bind(random);
-    m.seat.fill('\0');
-    std::memcpy(m.seat.data(), name.data(), name.size());
-    return codec.decode_bind(view(buffer, codec.encode({}, m, buffer))).has_value();
-  };
-  EXPECT_TRUE(bind("trainer"));
-  EXPECT_TRUE(bind(std::string(kSeatNameMax, 'x')));
-  EXPECT_FALSE(bind(""));
-  EXPECT_FALSE(bind("a b"));
-  EXPECT_FALSE(bind(std::string_view("a\0b", 3))) << "something after the end";
-  EXPECT_FALSE(bind("\x1b[2J"));
-
-  BindAckMessage ack;
-  ack.result = BindResult::kNoSuchSeat;
-  std::memcpy(ack.reason.data(), "no \x1b[2J", 7);
-  EXPECT_EQ(codec.decode_bind_ack(view(buffer, codec.encode({}, ack, buffer))).error(), DecodeError::kOutOfRange);
-}
-
 TEST(WireCodec, WritesNothingIntoABufferThatIsTooSmall) {
   Codec codec(3, PortSpace::kTip);
   Buffer buffer;
@@ -258,10 +212,6 @@ TEST(WireCodec, WritesNothingIntoABufferThatIsTooSmall) {
     EXPECT_EQ(codec.encode({}, samples::state(random, 3), std::span(buffer).first(size)), 0u);
   }
   EXPECT_EQ(buffer[0], std::byte{0x5a});
-  BindAckMessage ack;
-  ack.result = BindResult::kAccepted;
-  ack.setup_size = kSetupMax + 1;
-  EXPECT_EQ(codec.encode({}, ack, buffer), 0u);
   AuthorityMessage authority;
   authority.masters = kMastersMax + 1;
   EXPECT_EQ(codec.encode({}, authority, buffer), 0u);
@@ -276,8 +226,7 @@ TEST(WireCodec, NeverAllocatesAfterConstruction) {
     codec.configure(1 + static_cast<std::size_t>(random.below(kAxesMax)), PortSpace::kTip);
     EXPECT_TRUE(codec.decode_state(view(buffer, codec.encode({}, samples::state(random, codec.axes()), buffer))));
     EXPECT_TRUE(codec.decode_force(view(buffer, codec.encode({}, samples::force(random, codec.axes()), buffer))));
-    EXPECT_TRUE(codec.decode_bind(view(buffer, codec.encode({}, samples::bind(random), buffer))));
-    EXPECT_TRUE(codec.decode_bind_ack(view(buffer, codec.encode({}, samples::bind_ack(random), buffer))));
+    EXPECT_TRUE(codec.decode_path(view(buffer, codec.encode({}, samples::path(random), buffer))));
     EXPECT_TRUE(codec.decode_authority(view(buffer, codec.encode({}, samples::authority(random), buffer))));
     EXPECT_TRUE(codec.decode_close(view(buffer, codec.encode({}, CloseMessage{}, buffer))));
   }

@@ -64,35 +64,7 @@ inline ForceMessage force(RandomStream& random, std::size_t axes) {
   m.alpha = random.uniform();
   return m;
 }
-inline BindMessage bind(RandomStream& random) {
-  BindMessage m;
-  const auto length = 1 + random.below(kSeatNameMax);
-  for (std::size_t i = 0; i < length; ++i) m.seat[i] = "abcdefghijklmnopqrstuvwxyzABC0189_-"[random.below(35)];
-  m.nonce = random.bits();
-  m.client_cid = static_cast<std::uint32_t>(random.bits());
-  m.joints = static_cast<std::uint32_t>(1 + random.below(kAxesMax));
-  m.tip_axes = static_cast<std::uint32_t>(1 + random.below(3));
-  m.simulated = random.below(2) == 1;
-  m.prismatic = random.below(2) == 1;
-  m.force_peak_n = random.uniform(0, 10);
-  m.damping_n_s_m = random.uniform(0, 10);
-  m.mass_kg = random.uniform(0, 10);
-  return m;
-}
-inline BindAckMessage bind_ack(RandomStream& random) {
-  BindAckMessage m;
-  m.nonce = random.bits();
-  m.result = static_cast<BindResult>(random.below(5));
-  m.server_cid = static_cast<std::uint32_t>(random.bits());
-  if (m.result == BindResult::kAccepted) {
-    m.setup_size = static_cast<std::uint32_t>(random.below(kSetupMax + 1));
-    for (std::size_t i = 0; i < m.setup_size; ++i) m.setup[i] = static_cast<char>(random.below(256));
-  } else {
-    const auto length = random.below(kReasonMax + 1);
-    for (std::size_t i = 0; i < length; ++i) m.reason[i] = static_cast<char>(' ' + random.below(95));
-  }
-  return m;
-}
+inline PathMessage path(RandomStream& random) { return {random.bits()}; }
 inline AuthorityMessage authority(RandomStream& random) {
   AuthorityMessage m;
   m.version = static_cast<std::uint32_t>(random.bits());

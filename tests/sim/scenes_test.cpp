@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "netsim/virtual_joining.h"
 #include "proto/scenes_embedded.h"
 #include "server/trace_csv.h"
 #include "tests/support/alloc_guard.h"
@@ -15,6 +16,8 @@ namespace {
 using test::delayed;
 using test::run;
 using test::shipped;
+
+using namespace std::chrono_literals;
 
 class ShippedScene : public ::testing::TestWithParam<std::string> {};
 
@@ -103,30 +106,28 @@ TEST(World, SeatsAreRefusedWhenTakenOrUnknown) {
   scale.fill(1);
   std::vector<std::unique_ptr<hal::SteppedDevice>> slaves;
   slaves.push_back(std::move(*hal::sim::SimDevice::make({scene.tools[0].slave, {}, {}, nullptr, Time{}})));
-  server::Session session{scene, std::move(slaves), scale, 1};
-  const auto ask = [&](const std::string& seat, std::uint64_t nonce, std::uint8_t from) {
-    hal::DeviceCaps caps;
-    caps.joints = caps.tip_axes = 1;
-    caps.simulated = true;
-    client::Joining joining{{seat, caps, nonce, 5, std::chrono::seconds(1)}};
-    std::array<std::byte, link::kDatagramMax> buffer{};
-    const Time now{std::chrono::milliseconds(5)};
-    server::Endpoint at;
-    at.bytes[0] = std::byte{from};
-    at.size = 1;
-    const auto size = joining.poll_transmit(now, buffer);
-    session.on_datagram(now, at, std::span{buffer}.first(*size));
-    const auto answer = session.poll_transmit(now, buffer);
-    EXPECT_TRUE(answer.has_value());
-    if (answer) joining.on_datagram(now, std::span{buffer}.first(answer->size));
-    return std::pair{joining.result(), joining.reason()};
+  server::Session session{scene, std::move(slaves), scale};
+  hal::DeviceCaps caps;
+  caps.joints = caps.tip_axes = 1;
+  caps.simulated = true;
+  const auto ask = [&](const std::string& seat, Duration at, bool same_owner = false) {
+    static std::uint64_t attempts = 0;
+    const auto number = session.reception().seat_named(seat);
+    const auto joined = netsim::join_virtually(session, Time{} + at, number.value_or(99), caps, RandomKey{1}, ++attempts, same_owner);
+    return joined ? wire::JoinResult::kAccepted : joined.error();
   };
-  EXPECT_EQ(ask("trainer", 1, 1).first, wire::BindResult::kAccepted);
-  EXPECT_EQ(ask("trainer", 1, 1).first, wire::BindResult::kAccepted) << "asking again is no second join";
-  EXPECT_EQ(ask("trainer", 2, 2).first, wire::BindResult::kSeatTaken);
-  const auto [result, reason] = ask("nobody", 3, 3);
-  EXPECT_EQ(result, wire::BindResult::kNoSuchSeat);
-  EXPECT_NE(reason.find("trainer"), std::string::npos) << "the refusal names the seats";
+  EXPECT_EQ(ask("trainer", 5ms), wire::JoinResult::kAccepted);
+  EXPECT_EQ(ask("trainer", 6ms), wire::JoinResult::kSeatTaken);
+  EXPECT_EQ(ask("trainer", 7ms, true), wire::JoinResult::kAccepted) << "he himself, again";
+  EXPECT_EQ(ask("trainer", 2007ms), wire::JoinResult::kSeatTaken);
+  EXPECT_EQ(ask("trainer", 2008ms), wire::JoinResult::kAccepted) << "its owner was silent for two seconds";
+  EXPECT_EQ(ask("nobody", 5ms), wire::JoinResult::kNoSuchSeat);
+  EXPECT_EQ(session.reception().seat_names(), "trainer");
+  caps.joints = caps.tip_axes = 0;
+  EXPECT_EQ(ask("trainer", 3000ms), wire::JoinResult::kDeviceUnfit);
+  session.stop(wire::CloseReason::kDone);
+  caps.joints = caps.tip_axes = 1;
+  EXPECT_EQ(ask("trainer", 3000ms), wire::JoinResult::kSessionOver);
 }
 
 TEST(World, NobodyGivesAuthorityToAnEvaluator) {

@@ -1,0 +1,71 @@
+#include "netsim/virtual_joining.h"
+
+#include "server/connection_id.h"
+
+namespace tandem::netsim {
+
+namespace {
+
+link::Secret drawn_secret(RandomKey key) noexcept {
+  link::Secret secret;
+  for (std::size_t i = 0; i < secret.bytes.size(); ++i)
+    secret.bytes[i] = static_cast<std::byte>(key.bits(i / 8) >> (8 * (i % 8)) & 0xff);
+  return secret;
+}
+
+/// The client's end of a connection; the server's has the ids the other way round.
+link::Link::Params client_end(RandomKey key, std::size_t place, Duration tick) {
+  link::Link::Params p;
+  p.outgoing = link::Direction::kToServer;
+  p.own_cid = static_cast<std::uint32_t>(key.bits(0) | 1);
+  p.peer_cid = server::connection_id(static_cast<std::uint16_t>(key.bits(1)), 0, static_cast<std::uint8_t>(place));
+  p.tick = tick;
+  p.secrets.cipher = link::fastest_cipher();
+  p.secrets.to_server = drawn_secret(key.derive(1));
+  p.secrets.to_client = drawn_secret(key.derive(2));
+  return p;
+}
+
+link::Link::Params server_end(link::Link::Params p) {
+  std::swap(p.own_cid, p.peer_cid);
+  p.outgoing = link::Direction::kToClient;
+  return p;
+}
+
+}  // namespace
+
+wire::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept {
+  wire::DeviceFacts f;
+  f.joints = static_cast<std::uint32_t>(caps.joints);
+  f.tip_axes = static_cast<std::uint32_t>(caps.tip_axes);
+  f.simulated = caps.simulated;
+  f.prismatic = caps.prismatic;
+  f.force_peak_n = caps.axis[0].peak.value_or(0);
+  f.damping_n_s_m = caps.damping.value_or(0);
+  f.mass_kg = caps.mass.value_or(0);
+  return f;
+}
+
+std::expected<VirtualSeat, wire::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
+                                                            const hal::DeviceCaps& caps, RandomKey key, std::uint64_t number,
+                                                            bool same_owner) {
+  const server::Reception& reception = session.reception();
+  if (seat >= reception.scene().seats.size()) return std::unexpected(wire::JoinResult::kNoSuchSeat);
+  if (!reception.unfit(seat, device_facts(caps)).empty()) return std::unexpected(wire::JoinResult::kDeviceUnfit);
+  const link::Link::Params client = client_end(key.derive(number), seat + 1, reception.tick());
+  server::Entry entry = reception.prepare(seat, server_end(client));
+  const wire::JoinResult result = session.admit(now, seat, entry, same_owner);
+  if (result != wire::JoinResult::kAccepted) return std::unexpected(result);
+  return VirtualSeat{reception.setup(seat), client};
+}
+
+std::expected<VirtualSeat, wire::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key, std::uint64_t number) {
+  const server::Reception& reception = session.reception();
+  const link::Link::Params client = client_end(key.derive(number), kSeatsMax + 1, reception.tick());
+  auto link = std::make_unique<link::Link>(server_end(client));
+  const wire::JoinResult result = session.admit_visitor(now, link);
+  if (result != wire::JoinResult::kAccepted) return std::unexpected(result);
+  return VirtualSeat{reception.setup(0), client};
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <expected>
+
+#include "common/base/rng.h"
+#include "hal/device.h"
+#include "proto/seat_setup.h"
+#include "server/session.h"
+
+namespace tandem::netsim {
+
+/// What a client has after joining: the seat's setup, and its end of the connection.
+struct VirtualSeat {
+  SeatSetup setup;
+  link::Link::Params link;
+};
+
+/// Joining without TLS: what the two ends of a handshake would know afterwards is drawn from `key`. The control connection is taken
+/// to be there, at once; from the first datagram on everything is as it is live.
+/// @param number      of this attempt: other ids and secrets each time
+/// @param same_owner  he who sat there comes again
+[[nodiscard]] std::expected<VirtualSeat, wire::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
+                                                                          const hal::DeviceCaps& caps, RandomKey key, std::uint64_t number,
+                                                                          bool same_owner = false);
+/// The same for one who only judges his link; his setup is that of the first seat.
+[[nodiscard]] std::expected<VirtualSeat, wire::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key,
+                                                                           std::uint64_t number);
+
+/// What a device tells of itself when it asks for a seat.
+[[nodiscard]] wire::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept;
+
+}  // namespace tandem::netsim

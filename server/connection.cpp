@@ -1,0 +1,33 @@
+#include "server/connection.h"
+
+namespace tandem::server {
+
+std::optional<link::Link::Opened> Connection::open(Time now, const Endpoint& from, std::span<const std::byte> bytes,
+                                                   wire::Codec& codec) noexcept {
+  const auto opened = link_->open(now, bytes);
+  if (!opened) return std::nullopt;
+  if (opened->type != wire::Type::kPathResponse) return *opened;
+  if (const auto answer = codec.decode_path(opened->plaintext)) {
+    link_->accept_other();
+    if (proof_.answered(from, answer->message.token)) at_ = from;
+  } else {
+    link_->refuse_body();
+  }
+  return std::nullopt;
+}
+
+void Connection::acts(Time now, const Endpoint& from, const link::Link::Opened& opened, const wire::Preamble& preamble) noexcept {
+  link_->accept(now, opened, preamble);
+  // Sealed on its way, so a token must only be new; the connection makes it one of its own.
+  if (at_ != from) proof_.seen(now, from, RandomKey{link_->own_cid()}.bits(++tokens_));
+}
+
+std::optional<Transmit> Connection::poll_challenge(Time now, std::uint32_t tick, wire::Codec& codec,
+                                                   std::span<std::byte> buffer) noexcept {
+  const auto challenge = proof_.due(now);
+  if (!challenge) return std::nullopt;
+  const std::size_t size = write(now, tick, wire::Type::kPathChallenge, wire::PathMessage{challenge->token}, codec, buffer);
+  return size == 0 ? std::nullopt : std::optional{Transmit{challenge->to, size}};
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "common/base/rng.h"
+#include "common/link/link.h"
+#include "proto/wire_codec.h"
+#include "server/endpoint.h"
+#include "server/path_proof.h"
+
+namespace tandem::server {
+
+/// The server's end of one client's datagrams: keys, what acted, and where he is. Whoever writes to him asks `at` first: there is no
+/// address before one was proven.
+class Connection {
+ public:
+  /// @param link  made where memory may be taken
+  Connection(Time now, std::unique_ptr<link::Link> link) noexcept : link_(std::move(link)), admitted_(now) {}
+
+  /// Opens a datagram; what is about the path is dealt with here. @return a message for the owner, else nothing
+  [[nodiscard]] std::optional<link::Link::Opened> open(Time now, const Endpoint& from, std::span<const std::byte> bytes,
+                                                       wire::Codec& codec) noexcept TANDEM_REALTIME;
+  /// The message was decoded, in range and newer than all before: it acts.
+  void acts(Time now, const Endpoint& from, const link::Link::Opened& opened, const wire::Preamble& preamble) noexcept TANDEM_REALTIME;
+
+  /// A challenge that is due, sealed into `buffer`.
+  [[nodiscard]] std::optional<Transmit> poll_challenge(Time now, std::uint32_t tick, wire::Codec& codec,
+                                                       std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
+  /// Seals `message` for the proven address; size 0 when there is none or nothing could be written.
+  template <class Message>
+  [[nodiscard]] Transmit seal(Time now, std::uint32_t tick, wire::Type type, const Message& message, wire::Codec& codec,
+                              std::span<std::byte> buffer) noexcept {
+    if (!at_) return {};
+    return {*at_, write(now, tick, type, message, codec, buffer)};
+  }
+
+  [[nodiscard]] const std::optional<Endpoint>& at() const noexcept { return at_; }
+  /// Since a STATE acted; since admission while none did.
+  [[nodiscard]] Duration silence(Time now) const noexcept {
+    return link_->freshness().heard() ? link_->freshness().silence(now) : now - admitted_;
+  }
+  /// For whoever may give memory back; nothing else may be called afterwards.
+  [[nodiscard]] std::unique_ptr<link::Link> give_up() noexcept { return std::move(link_); }
+  [[nodiscard]] link::Link& link() noexcept { return *link_; }
+  [[nodiscard]] const link::Link& link() const noexcept { return *link_; }
+
+ private:
+  template <class Message>
+  std::size_t write(Time now, std::uint32_t tick, wire::Type type, const Message& message, wire::Codec& codec,
+                    std::span<std::byte> buffer) noexcept {
+    if (buffer.size() < link::kHeaderSize) return 0;
+    const std::size_t plain = codec.encode(link_->preamble(now, tick), message, buffer.subspan(link::kHeaderSize));
+    return plain == 0 ? 0 : link_->seal(now, type, buffer, plain);
+  }
+
+  std::unique_ptr<link::Link> link_;
+  Time admitted_;
+  std::optional<Endpoint> at_;
+  PathProof proof_;
+  std::uint64_t tokens_ = 0;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace tandem::server {
+
+/// Where somebody is: the bytes of a socket address, opaque to cores.
+struct Endpoint {
+  std::array<std::byte, 28> bytes{};
+  std::uint8_t size = 0;
+  friend bool operator==(const Endpoint&, const Endpoint&) = default;
+};
+
+/// A datagram that is due, and where it goes.
+struct Transmit {
+  Endpoint to;
+  std::size_t size = 0;
+};
+
+}  // namespace tandem::server

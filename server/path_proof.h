@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "common/base/time.h"
+#include "server/endpoint.h"
+
+namespace tandem::server {
+
+/// Whether a client really is where his newest datagram came from. A datagram proves who wrote it, not who sent it on: until the
+/// address has answered a challenge, nothing but the challenge goes there. Two addresses are asked at a time, so that whoever sends
+/// copies from elsewhere does not keep the client from being asked; and the answer may take as long as the network does.
+class PathProof {
+ public:
+  static constexpr Duration kBetween = std::chrono::milliseconds(50);
+  static constexpr unsigned kTries = 5;  ///< in a row; again when the client is still heard from there afterwards
+
+  /// A newer authentic datagram came from an address that is not the proven one.
+  /// @param token  of the challenge, if a new one begins; never used before
+  void seen(Time now, const Endpoint& from, std::uint64_t token) noexcept {
+    const auto known = std::ranges::find_if(asked_, [&](const Asked& a) { return a.active && a.at == from; });
+    if (known != asked_.end()) {
+      if (now < known->begun + kTries * kBetween) return;
+      known->begun = known->next = now;  // the same token: an answer may still be under way
+      known->tries = 0;
+      return;
+    }
+    Asked& place = *std::ranges::min_element(asked_, {}, [](const Asked& a) { return a.active ? a.begun : Time::min(); });
+    if (place.active && now < place.begun + kBetween) return;
+    place = {from, token, now, now, 0, true};
+  }
+  /// @return whether this proves the address the answer came from
+  [[nodiscard]] bool answered(const Endpoint& from, std::uint64_t token) noexcept {
+    if (std::ranges::none_of(asked_, [&](const Asked& a) { return a.active && a.at == from && a.token == token; })) return false;
+    for (Asked& a : asked_) a.active = false;
+    return true;
+  }
+  struct Challenge {
+    Endpoint to;
+    std::uint64_t token = 0;
+  };
+  /// The next try, when one is due.
+  [[nodiscard]] std::optional<Challenge> due(Time now) noexcept {
+    for (Asked& a : asked_) {
+      if (!a.active || a.tries >= kTries || now < a.next) continue;
+      ++a.tries;
+      a.next = now + kBetween;
+      return Challenge{a.at, a.token};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Asked {
+    Endpoint at;
+    std::uint64_t token = 0;
+    Time begun{}, next{};
+    unsigned tries = 0;
+    bool active = false;
+  };
+  std::array<Asked, 2> asked_{};
+};
+
+}  // namespace tandem::server

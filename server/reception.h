@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/control/channel.h"
+#include "common/link/link.h"
+#include "proto/scene_spec.h"
+#include "proto/seat_setup.h"
+#include "proto/wire.h"
+
+namespace tandem::server {
+
+/// A seat's place in the session for one client, made where memory may be taken; the session's own thread only puts it in.
+struct Entry {
+  std::unique_ptr<link::Link> link;
+  std::unique_ptr<control::ChannelEnd> end;
+};
+
+/// The server's end of a seat's spring.
+[[nodiscard]] std::unique_ptr<control::ChannelEnd> make_channel_end(const SceneSpec& scene, std::size_t seat, const AxisArray& scale);
+
+/// Who asks for a seat is answered from what never changes in a session, on any thread: which seats there are, who fits, what a client
+/// must know, and the entry itself. Whether the seat is free only the session knows.
+class Reception {
+ public:
+  /// @param scene  must outlive this  @param scale  tip gain to port gain at the working pose, per axis
+  Reception(const SceneSpec& scene, const AxisArray& scale);
+
+  [[nodiscard]] std::optional<std::size_t> seat_named(std::string_view name) const noexcept;
+  /// The names of all seats, for a person.
+  [[nodiscard]] std::string seat_names() const;
+  /// Why this device may not sit there; empty when it may.
+  [[nodiscard]] std::string unfit(std::size_t seat, const wire::DeviceFacts& device) const;
+  [[nodiscard]] const SeatSetup& setup(std::size_t seat) const noexcept { return setups_[seat]; }
+  /// @param link  with the ids and the secrets of this joining
+  [[nodiscard]] Entry prepare(std::size_t seat, link::Link::Params link) const;
+  [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
+  /// Between two datagrams of a seat.
+  [[nodiscard]] Duration tick() const noexcept { return from_seconds(1.0 / scene_->tick_hz); }
+
+ private:
+  const SceneSpec* scene_;
+  AxisArray scale_;
+  std::vector<SeatSetup> setups_;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,168 @@
+// A second decoder of the datagrams of Tandem, written from common/link/FORMAT.md alone, without sight of the first one: where the two
+// agree, it is the text that makes them agree. Run: node second_decoder.mjs vectors.json
+// It covers the layout, the derivation of keys, and the checks of a receiver that one datagram decides by itself. The window of counters
+// needs a history and the plaintext needs proto/wire.proto; the vectors carry neither.
+
+import { createDecipheriv, createHmac } from 'node:crypto';
+import { readFileSync } from 'node:fs';
+
+const VERSION = 1;
+const LOWEST_TYPE = 3;
+const HIGHEST_TYPE = 9;
+const HEADER_BYTES = 16;
+const TAG_BYTES = 16;
+const SMALLEST_DATAGRAM = HEADER_BYTES + 1 + TAG_BYTES;
+const LARGEST_DATAGRAM = 1200;
+const COUNTER_OFFSET = 8;
+const COUNTER_BYTES = 8;
+const PHASES = 256;  // the header carries the number of the key modulo this
+const CIPHERS = { 'AES-256-GCM': 'aes-256-gcm', 'ChaCha20-Poly1305': 'chacha20-poly1305' };
+
+// What a receiver drops. A class of its own, so that a mistake in this file (a TypeError, say) never counts as a forgery refused.
+class Refused extends Error {}
+function demand(condition, reason) {
+  if (!condition) throw new Refused(`refused: ${reason}`);
+}
+
+function expand(secret, label, length) {
+  const prefix = Buffer.from([length >> 8, length & 0xff, label.length]);
+  const info = Buffer.concat([prefix, Buffer.from(label, 'ascii'), Buffer.from([0x00, 0x01])]);
+  return createHmac('sha256', secret).update(info).digest().subarray(0, length);
+}
+
+function deriveKey(secret0, number) {
+  let secret = secret0;
+  for (let n = 0; n < number; n++) secret = expand(secret, 'tandem ku', 32);
+  return { number, key: expand(secret, 'tandem key', 32), iv: expand(secret, 'tandem iv', 12) };
+}
+
+function readHeader(datagram) {
+  demand(datagram.length >= SMALLEST_DATAGRAM && datagram.length <= LARGEST_DATAGRAM, 'size');
+  const type = datagram[0] & 0x0f;
+  demand(datagram[0] >> 4 === VERSION, 'version');
+  demand(type >= LOWEST_TYPE && type <= HIGHEST_TYPE, 'type');
+  demand(datagram.readUInt16LE(2) === 0, 'zeros');
+  return { type, phase: datagram[1], connectionId: datagram.readUInt32LE(4), counter: datagram.readBigUInt64LE(COUNTER_OFFSET) };
+}
+
+// The cryptography and nothing else: no field of the header is judged. Some forgeries come here directly, to show that the tag alone
+// refuses what the checks of the header happen to refuse earlier.
+function unseal(datagram, cipherName, { key, iv }) {
+  const nonce = Buffer.from(iv);
+  const firstXored = nonce.length - COUNTER_BYTES;
+  for (let i = 0; i < COUNTER_BYTES; i++) nonce[firstXored + i] ^= datagram[COUNTER_OFFSET + i];
+
+  // authTagLength is not decoration: without it Node takes GCM tags of as few as four bytes.
+  const decipher = createDecipheriv(CIPHERS[cipherName], key, nonce, { authTagLength: TAG_BYTES });
+  const tagOffset = datagram.length - TAG_BYTES;
+  decipher.setAAD(datagram.subarray(0, HEADER_BYTES));
+  decipher.setAuthTag(datagram.subarray(tagOffset));
+  const plaintext = decipher.update(datagram.subarray(HEADER_BYTES, tagOffset));
+  try {
+    decipher.final();  // compares the tag; of all these calls only this one may refuse
+  } catch {
+    throw new Refused('refused: tag');
+  }
+  return plaintext;
+}
+
+// A receiver that holds a single key; the text's holds up to three, and the phase tells it which one to try.
+function receive(datagram, { cipherName, connectionId, heldKey }) {
+  const header = readHeader(datagram);
+  demand(header.connectionId === connectionId, 'connection id');
+  demand(header.phase === heldKey.number % PHASES, 'key phase');
+  return { ...header, plaintext: unseal(datagram, cipherName, heldKey) };
+}
+
+function check(condition, message) {
+  if (!condition) throw new Error(message);
+}
+
+function bytesOf(hex) {
+  const bytes = Buffer.from(hex, 'hex');
+  check(bytes.toString('hex') === hex, `not hexadecimal: ${hex}`);  // Buffer.from() stops silently at the first bad digit
+  return bytes;
+}
+
+function mustOpen(entry, datagram, receiver) {
+  const opened = receive(datagram, receiver);
+  check(opened.type === entry.type, `type ${opened.type}, expected ${entry.type}`);
+  check(opened.connectionId === entry.connection_id, `connection id ${opened.connectionId}, expected ${entry.connection_id}`);
+  check(opened.counter === BigInt(entry.counter), `counter ${opened.counter}, expected ${entry.counter}`);
+  check(opened.plaintext.equals(bytesOf(entry.plaintext)), 'the plaintext differs');
+}
+
+let forgeriesRefused = 0;
+function mustRefuse(what, open) {
+  try {
+    open();
+  } catch (error) {
+    if (!(error instanceof Refused)) throw error;
+    forgeriesRefused++;
+    return;
+  }
+  throw new Error(`opened, but had to be refused: ${what}`);
+}
+
+function changed(datagram, change) {
+  const copy = Buffer.from(datagram);
+  change(copy);
+  return copy;
+}
+
+function mustRefuseForgeries(datagram, receiver, secret0) {
+  const { cipherName, heldKey } = receiver;
+
+  for (let bit = 0; bit < datagram.length * 8; bit++) {
+    const what = `bit ${bit % 8} of byte ${bit >> 3} flipped`;
+    const flipped = changed(datagram, (copy) => { copy[bit >> 3] ^= 1 << (bit % 8); });
+    mustRefuse(what, () => receive(flipped, receiver));
+    if (bit < HEADER_BYTES * 8) mustRefuse(`${what}, by the tag alone`, () => unseal(flipped, cipherName, heldKey));
+  }
+
+  for (let length = 0; length < datagram.length; length++) {
+    mustRefuse(`truncated to ${length} bytes`, () => receive(datagram.subarray(0, length), receiver));
+  }
+
+  // At a distance of 256 the phase is the same and only the tag tells the keys apart. At a distance of 1 the phase would refuse first, so
+  // the cipher is asked directly, and then with the phase rewritten to match.
+  for (const number of [-PHASES, -1, 1, PHASES].map((distance) => heldKey.number + distance).filter((n) => n >= 0)) {
+    const neighbour = deriveKey(secret0, number);
+    const relabelled = changed(datagram, (copy) => { copy[1] = number % PHASES; });
+    mustRefuse(`as sent, under key ${number}`, () => unseal(datagram, cipherName, neighbour));
+    mustRefuse(`relabelled, under key ${number}`, () => receive(relabelled, { ...receiver, heldKey: neighbour }));
+  }
+
+  const counter = datagram.readBigUInt64LE(COUNTER_OFFSET);
+  for (const difference of [-1n, 1n, 1n << 32n, 1n << 63n]) {
+    const other = BigInt.asUintN(64, counter + difference);
+    const renumbered = changed(datagram, (copy) => copy.writeBigUInt64LE(other, COUNTER_OFFSET));
+    mustRefuse(`counter ${other} in the header`, () => receive(renumbered, receiver));
+  }
+}
+
+function main(path) {
+  check(path !== undefined, 'usage: node second_decoder.mjs vectors.json');
+  const { datagrams } = JSON.parse(readFileSync(path, 'utf8'));
+  check(datagrams.length > 0, 'no datagrams in the file');
+  for (const entry of datagrams) {
+    try {
+      check(Object.hasOwn(CIPHERS, entry.cipher), `unknown cipher ${entry.cipher}`);
+      const secret0 = bytesOf(entry.secret_0);
+      const datagram = bytesOf(entry.datagram);
+      const receiver = { cipherName: entry.cipher, connectionId: entry.connection_id, heldKey: deriveKey(secret0, entry.key_number) };
+      mustOpen(entry, datagram, receiver);
+      mustRefuseForgeries(datagram, receiver, secret0);
+    } catch (error) {
+      throw new Error(`${entry.name}: ${error.message}`);
+    }
+  }
+  console.log(`${datagrams.length} datagrams opened, ${forgeriesRefused} forgeries refused`);
+}
+
+try {
+  main(process.argv[2]);
+} catch (error) {
+  console.error(error.message);
+  process.exitCode = 1;
+}

@@ -1,0 +1,74 @@
+#include "server/path_proof.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace tandem::server {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Time at(Duration d) { return Time{1h + d}; }
+
+Endpoint address(std::uint8_t n) {
+  Endpoint e;
+  e.bytes[0] = std::byte{n};
+  e.size = 1;
+  return e;
+}
+
+TEST(PathProof, AsksFiveTimesIn250MillisecondsAndNoMore) {
+  PathProof proof;
+  EXPECT_FALSE(proof.due(at(0ms)));
+  proof.seen(at(0ms), address(1), 7);
+  std::vector<Duration> asked;
+  for (Duration t = 0ms; t < 240ms; t += 1ms) {
+    if (const auto c = proof.due(at(t))) {
+      EXPECT_EQ(c->to, address(1));
+      EXPECT_EQ(c->token, 7U);
+      asked.push_back(t);
+    }
+    proof.seen(at(t), address(1), 8);  // more datagrams from there are no more challenges
+  }
+  EXPECT_EQ(asked, (std::vector<Duration>{0ms, 50ms, 100ms, 150ms, 200ms}));
+}
+
+TEST(PathProof, TakesTheAnswerOnlyFromThereAndOnlyOnce) {
+  PathProof proof;
+  proof.seen(at(0ms), address(1), 7);
+  EXPECT_FALSE(proof.answered(address(2), 7));
+  EXPECT_FALSE(proof.answered(address(1), 8));
+  EXPECT_TRUE(proof.answered(address(1), 7));
+  EXPECT_FALSE(proof.answered(address(1), 7));
+  EXPECT_FALSE(proof.due(at(50ms)));
+}
+
+TEST(PathProof, TakesAnAnswerThatWasLongUnderWay) {
+  PathProof proof;
+  std::uint64_t token = 7;
+  int asked = 0;
+  for (Duration t = 0ms; t < 1000ms; t += 1ms) {
+    proof.seen(at(t), address(1), token++);
+    asked += proof.due(at(t)) ? 1 : 0;
+  }
+  EXPECT_EQ(asked, 20) << "five in 250 ms, again and again while he is heard there";
+  EXPECT_TRUE(proof.answered(address(1), 7)) << "a second later: the first challenge is still good";
+}
+
+TEST(PathProof, AsksTheClientThoughAStrangerSendsCopies) {
+  PathProof proof;
+  proof.seen(at(0ms), address(9), 7);  // a copy, sent on by a stranger
+  proof.seen(at(1ms), address(1), 8);
+  EXPECT_EQ(proof.due(at(1ms))->to, address(9));
+  EXPECT_EQ(proof.due(at(1ms))->to, address(1));
+  proof.seen(at(2ms), address(8), 9);  // a third is not asked at once
+  EXPECT_FALSE(proof.due(at(2ms)));
+  proof.seen(at(50ms), address(8), 10);
+  EXPECT_FALSE(proof.answered(address(9), 7)) << "the longest asked made room";
+  EXPECT_TRUE(proof.answered(address(1), 8));
+  EXPECT_FALSE(proof.answered(address(8), 10)) << "who answered first is it";
+}
+
+}  // namespace
+}  // namespace tandem::server
