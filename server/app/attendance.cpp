@@ -13,11 +13,11 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     const SeatStatus& now_there = status.seats[i];
     Seat& seat = seats_[i];
     const std::string& name = scene.seats[i].name;
-    if (now_there.bound && !seat.bound) news.notes.push_back(name + " joined");
-    if (!now_there.bound && seat.bound) news.notes.push_back(name + " left");
-    seat.bound = now_there.bound;
-    came += now_there.ever_bound ? 1 : 0;
-    if (!runs || !now_there.ever_bound || now_there.alive) {
+    if (now_there.taken && !seat.taken) news.notes.push_back(name + " joined");
+    if (!now_there.taken && seat.taken) news.notes.push_back(name + " left");
+    seat.taken = now_there.taken;
+    came += now_there.ever_taken ? 1 : 0;
+    if (!runs || !now_there.ever_taken || now_there.alive) {
       if (seat.warned && now_there.alive) news.notes.push_back(name + " is back");
       seat.away_since.reset();
       seat.warned = false;

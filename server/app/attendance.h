@@ -24,7 +24,7 @@ class Attendance {
 
  private:
   struct Seat {
-    bool bound = false, warned = false;
+    bool taken = false, warned = false;
     std::optional<Time> away_since;
   };
   std::array<Seat, kSeatsMax> seats_{};

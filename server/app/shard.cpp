@@ -8,7 +8,7 @@
 #include "common/io/clock.h"
 #include "common/io/realtime.h"
 #include "server/app/endpoints.h"
-#include "server/session_monitor.h"
+#include "server/connection_id.h"
 
 namespace tandem::server {
 namespace {
@@ -18,144 +18,179 @@ using namespace std::chrono_literals;
 constexpr int kPriority = 70;  // above the devices' threads: one late server is late for everybody
 constexpr Duration kLate = 1ms;
 constexpr int kRounds = 4;  // batches read before the clock is looked at again: a flood cannot stop the tick
-constexpr std::uint64_t kLookEvery = 64;  // ticks between two looks at one seat, and between two pictures
-
-double ms(Duration d) { return seconds(d) * 1e3; }
-
-DirectionReport direction(const link::Link& receiver, Time now) {
-  const link::LinkStats& s = receiver.stats();
-  return {s.loss_percent(), ms(receiver.longest_gap(now)), ms(Duration{s.age.quantile(0.99)})};
-}
+constexpr std::size_t kOrdersMax = 256;
+constexpr std::uint64_t kLoadTicks = 1000;
 
 void raise(const io::Fd& event) noexcept {
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
 }
+void lower(const io::Fd& event) noexcept {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const auto read = ::read(event.get(), &count, sizeof count);
+}
 
 }  // namespace
 
-Shard::Shard(io::UdpSocket socket, const SceneSpec& scene, Slaves slaves, std::uint64_t secret, TickQueue& records)
+Shard::Shard(io::UdpSocket socket, double tick_hz)
     : socket_(std::move(socket)),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      finished_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      scene_(&scene),
-      period_(from_seconds(1.0 / scene.tick_hz)),
-      session_(scene, std::move(slaves.devices), slaves.scale, secret),
-      records_(&records) {}
+      news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      period_(from_seconds(1.0 / tick_hz)),
+      orders_(kOrdersMax),
+      answers_(2 * kOrdersMax) {}
 
 void Shard::stop() noexcept {
   stop_.store(true, std::memory_order_relaxed);
   raise(wake_);
 }
 
-SessionStatus Shard::status() const {
-  const std::lock_guard lock{published_lock_};
-  return published_;
+bool Shard::post(Order& order) noexcept {
+  if (!orders_.push(&order)) return false;
+  raise(wake_);
+  return true;
 }
 
+Order* Shard::answered() noexcept {
+  Order* const* const next = answers_.front();
+  if (next == nullptr) return nullptr;
+  Order* const order = *next;
+  answers_.pop();
+  return order;
+}
+
+void Shard::news_read() noexcept { lower(news_); }
+
 void Shard::run() noexcept {
-  picture_.machine.realtime = io::ask_for_realtime(kPriority);
+  machine_.realtime = io::ask_for_realtime(kPriority);
   Time due = io::monotonic_now() + period_;
-  while (!session_.over()) {
+  const auto hosting = [&] { return std::ranges::any_of(sessions_, [](const HostedSession* s) { return s != nullptr; }); };
+  while (true) {
     wait_until(due);
     Time now = io::monotonic_now();
     receive(now);
+    carry_out(now);
     now = io::monotonic_now();
-    if (stop_.load(std::memory_order_relaxed)) session_.stop(wire::CloseReason::kServerStops);
+    if (stop_.load(std::memory_order_relaxed)) {
+      if (!hosting()) break;
+      for (HostedSession* s : sessions_)
+        if (s != nullptr) s->session().stop(wire::CloseReason::kServerStops);
+    }
     if (now < due) continue;
     const Duration late = now - due;
     const auto missed = static_cast<std::uint32_t>(late / period_);
-    picture_.machine.late_ticks += late > kLate ? 1 : 0;
-    picture_.machine.missed_ticks += missed;
+    if (hosting()) {
+      machine_.late_ticks += late > kLate ? 1 : 0;
+      machine_.missed_ticks += missed;
+    }
     tick(now, missed);
+    measure(io::monotonic_now() - now);
     due += (missed + 1) * period_;
   }
-  const Time now = io::monotonic_now();
-  for (std::size_t i = 0; i < scene_->seats.size(); ++i) look_at_seat(i, now);
-  publish(now);
-  raise(finished_);
+  carry_out(io::monotonic_now());  // who still waits is told that it is over
+  raise(news_);
 }
 
-/// Returns early when datagrams wait or somebody called `stop`.
+/// Returns early when datagrams wait or somebody wants something.
 void Shard::wait_until(Time due) noexcept {
   pollfd files[] = {{socket_.fd.get(), POLLIN, 0}, {wake_.get(), POLLIN, 0}};
-  // Once told to stop there is nothing more to hear there, and the event stays readable.
-  const nfds_t count = stop_.load(std::memory_order_relaxed) ? 1 : 2;
   const timespec rest = io::to_timespec(due - io::monotonic_now());
-  ppoll(files, count, &rest, nullptr);
+  ppoll(files, 2, &rest, nullptr);
+  if (files[1].revents != 0) lower(wake_);
 }
 
 void Shard::receive(Time now) noexcept {
+  std::uint64_t strays = 0;
   for (int round = 0; round < kRounds; ++round) {
     const int count = in_.receive(socket_.fd.get());
     for (int k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      if (!in_.too_long(i)) session_.on_datagram(now, endpoint_of(in_.from(i)), in_.bytes(i));
+      const auto header = in_.too_long(i) ? std::nullopt : link::read_header(in_.bytes(i));
+      const std::size_t slot = header ? slot_of(header->cid) : kSessionsMax;
+      if (slot < kSessionsMax && sessions_[slot] != nullptr) {
+        sessions_[slot]->session().on_datagram(now, endpoint_of(in_.from(i)), in_.bytes(i));
+      } else {
+        ++strays;
+      }
     }
-    if (count < static_cast<int>(io::ReceiveBatch::kMax)) return;
+    if (count < static_cast<int>(io::ReceiveBatch::kMax)) break;
+  }
+  if (strays > 0) stray_.fetch_add(strays, std::memory_order_relaxed);
+}
+
+void Shard::carry_out(Time now) noexcept {
+  bool any = false;
+  for (Order* const* next = orders_.front(); next != nullptr; next = orders_.front()) {
+    Order* const order = *next;
+    orders_.pop();
+    carry_out(now, *order);
+    any = answers_.push(order) || any;
+  }
+  if (any) raise(news_);
+}
+
+void Shard::carry_out(Time now, Order& order) noexcept {
+  HostedSession* const hosted = order.session;
+  HostedSession*& place = sessions_[hosted->slot()];
+  const bool stopping = stop_.load(std::memory_order_relaxed);
+  if (order.what == Order::What::kHost) {
+    order.result = stopping || place != nullptr ? wire::JoinResult::kSessionOver : wire::JoinResult::kAccepted;
+    if (order.result == wire::JoinResult::kAccepted) place = hosted;
+    return;
+  }
+  order.result = wire::JoinResult::kSessionOver;
+  if (place != hosted) return;
+  switch (order.what) {
+    case Order::What::kAdmit:
+      order.result = hosted->session().admit(now, order.seat, order.entry, order.same_owner);
+      break;
+    case Order::What::kVisit:
+      order.result = hosted->session().admit_visitor(now, order.entry.link);
+      break;
+    case Order::What::kEnd:
+      hosted->session().stop(wire::CloseReason::kServerStops);
+      order.result = wire::JoinResult::kAccepted;
+      break;
+    case Order::What::kHost:
+      break;
   }
 }
 
 void Shard::tick(Time now, std::uint32_t missed) noexcept {
-  session_.on_tick(now, missed);
-  send(now);
-  SessionMonitor{}.check(session_, violations_);
-  if (session_.record().running) records_->push(session_.record());
-  // One seat at a time: quantiles of its histograms take microseconds, of all seats together they would be felt.
-  const std::size_t seat = ticks_ % kLookEvery;
-  if (seat < scene_->seats.size()) look_at_seat(seat, now);
-  if (++ticks_ % kLookEvery == 0) publish(now);
+  bool ended = false;
+  for (HostedSession*& hosted : sessions_) {
+    if (hosted == nullptr) continue;
+    hosted->tick(now, missed, machine_);
+    send(now, hosted->session());
+    if (!hosted->session().over()) continue;
+    hosted->finish(now, machine_);
+    hosted = nullptr;
+    ended = true;
+  }
+  flush();
+  if (ended) raise(news_);
 }
 
-void Shard::send(Time now) noexcept {
+void Shard::send(Time now, Session& session) noexcept {
   while (true) {
-    while (out_.size() < kSendMax) {
-      const std::size_t slot = out_.size();
-      const auto due = session_.poll_transmit(now, buffers_[slot]);
-      if (!due) break;
-      addresses_[slot] = address_of(due->to);
-      out_.add(std::span{buffers_[slot]}.first(due->size), &addresses_[slot], nullptr);
-    }
-    const bool full = out_.size() == kSendMax;
-    if (out_.size() > 0) out_.send(socket_.fd.get());  // what cannot be sent is lost, as on any network
-    if (!full) return;
+    const std::size_t slot = out_.size();
+    const auto due = session.poll_transmit(now, buffers_[slot]);
+    if (!due) return;
+    addresses_[slot] = address_of(due->to);
+    out_.add(std::span{buffers_[slot]}.first(due->size), &addresses_[slot], nullptr);
+    if (out_.size() == kSendMax) flush();
   }
 }
 
-void Shard::look_at_seat(std::size_t i, Time now) noexcept {
-  const SeatPort& port = session_.seat(i);
-  const wire::StateMessage& heard = port.heard();
-  SeatStatus& seat = picture_.seats[i];
-  seat.bound = port.bound();
-  seat.ever_bound = seat.ever_bound || seat.bound;
-  seat.alive = port.alive(now);
-  seat.ready = port.ready(now);
-  seat.gate = heard.gate;
-  seat.alpha = session_.record().seats[i].alpha;
-  seat.margin_j = heard.telemetry.margin_min_j;
-  seat.gate_trips = heard.gate_trips;
-  seat.late_ticks = heard.late_ticks;
-  seat.link.down = {heard.telemetry.down_loss_percent, heard.telemetry.down_longest_gap_ms,
-                    heard.telemetry.down_age_p99_ms};
-  if (const link::Link* link = port.link()) {  // of a seat that left, the last numbers stay
-    seat.link.rtt_p50_ms = ms(link->freshness().rtt_p50());
-    seat.link.rtt_p99_ms = ms(Duration{link->freshness().rtts().quantile(0.99)});
-    seat.link.up = direction(*link, now);
-  }
+void Shard::flush() noexcept {
+  if (out_.size() > 0) out_.send(socket_.fd.get());  // what cannot be sent is lost, as on any network
 }
 
-void Shard::publish(Time now) noexcept {
-  picture_.state = session_.state();
-  picture_.time = session_.time();
-  // Quick truths are looked up for all seats at once, so that a line never mixes old and new.
-  for (std::size_t i = 0; i < scene_->seats.size(); ++i) {
-    SeatStatus& seat = picture_.seats[i];
-    seat.bound = session_.seat(i).bound();
-    seat.alive = session_.seat(i).alive(now);
-    seat.ready = session_.seat(i).ready(now);
-  }
-  const std::unique_lock lock{published_lock_, std::try_to_lock};
-  if (lock) published_ = picture_;
+void Shard::measure(Duration spent) noexcept {
+  spent_.add(spent.count());
+  if (spent_.count() < kLoadTicks) return;
+  load_.store(static_cast<double>(spent_.quantile(0.99)) / static_cast<double>(period_.count()), std::memory_order_relaxed);
+  spent_ = Histogram{};
 }
 
 }  // namespace tandem::server

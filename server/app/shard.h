@@ -1,63 +1,63 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
-#include <mutex>
-#include <vector>
 
 #include "common/io/datagram_batch.h"
 #include "common/io/spsc_queue.h"
 #include "common/io/udp_socket.h"
-#include "server/app/slaves.h"
-#include "server/app/status.h"
-#include "server/session.h"
-#include "server/violations.h"
+#include "server/app/hosted_session.h"
+#include "server/app/order.h"
 
 namespace tandem::server {
 
-using TickQueue = io::SpscQueue<TickRecord>;
-
-/// One thread, one socket, one session: receives a batch, steps the session once per tick on an absolute schedule,
-/// sends a batch, and hands each tick's record to a queue. Nothing else ever delays it; no heap and no lock it could
-/// wait for.
+/// One thread, one socket, many sessions of one tick rate: receives a batch, carries out what the control plane ordered, steps every
+/// session once per tick on an absolute schedule, sends a batch. Nothing else ever delays it; no heap and no lock it could wait for.
 class Shard {
  public:
-  /// @param socket   bound
-  /// @param scene    must outlive the shard
-  /// @param secret   unpredictable
-  /// @param records  every tick of the running session
-  Shard(io::UdpSocket socket, const SceneSpec& scene, Slaves slaves, std::uint64_t secret, TickQueue& records);
+  static constexpr std::size_t kSessionsMax = 64;  ///< far more than a core can tick
 
-  /// Body of the thread: until the session is over.
+  /// @param socket  bound
+  Shard(io::UdpSocket socket, double tick_hz);
+
+  /// Body of the thread: until `stop` was called and the last session is over.
   void run() noexcept;
-  /// From any thread: lets all gates ramp out, tells the clients, ends.
+  /// From any thread: ends all sessions gently, then itself.
   void stop() noexcept;
 
-  /// A recent picture, from any thread.
-  [[nodiscard]] SessionStatus status() const;
-  /// Readable once `run` is over.
-  [[nodiscard]] int finished_fd() const noexcept { return finished_.get(); }
-  /// After `run`.
-  [[nodiscard]] const SessionStatus& final_status() const noexcept { return picture_; }
-  [[nodiscard]] const Violations& violations() const noexcept { return violations_; }
-  [[nodiscard]] std::uint64_t stray() const noexcept { return session_.stray(); }
+  // ---- The control plane's thread ----
+  /// @return false: too many orders wait; nothing was taken
+  [[nodiscard]] bool post(Order& order) noexcept;
+  /// The next order that was carried out, null if there is none.
+  [[nodiscard]] Order* answered() noexcept;
+  /// Readable when an order was carried out or a session is over.
+  [[nodiscard]] int news_fd() const noexcept { return news_.get(); }
+  void news_read() noexcept;
+
+  [[nodiscard]] const io::SocketAddress& address() const noexcept { return socket_.local; }
+  /// Share of a tick's time spent in it: the 99th percentile of the last second [1]. From any thread.
+  [[nodiscard]] double load() const noexcept { return load_.load(std::memory_order_relaxed); }
+  /// Datagrams that belong to no session, so far. From any thread.
+  [[nodiscard]] std::uint64_t stray() const noexcept { return stray_.load(std::memory_order_relaxed); }
 
  private:
   void wait_until(Time due) noexcept;
   void receive(Time now) noexcept;
+  void carry_out(Time now) noexcept;
+  void carry_out(Time now, Order& order) noexcept;
   void tick(Time now, std::uint32_t missed) noexcept;
-  void send(Time now) noexcept;
-  void look_at_seat(std::size_t seat, Time now) noexcept;
-  void publish(Time now) noexcept;
+  void send(Time now, Session& session) noexcept;
+  void flush() noexcept;
+  void measure(Duration spent) noexcept;
 
   io::UdpSocket socket_;
-  io::Fd wake_, finished_;
-  const SceneSpec* scene_;
+  io::Fd wake_, news_;
   Duration period_;
-  Session session_;
-  TickQueue* records_;
-  Violations violations_;
+  std::array<HostedSession*, kSessionsMax> sessions_{};
   std::atomic<bool> stop_{false};
+  io::SpscQueue<Order*> orders_, answers_;
+  MachineStatus machine_;
 
   static constexpr std::size_t kSendMax = io::SendBatch::kMax;
   io::ReceiveBatch in_;
@@ -65,10 +65,9 @@ class Shard {
   std::array<std::array<std::byte, link::kDatagramMax>, kSendMax> buffers_;
   std::array<io::SocketAddress, kSendMax> addresses_;
 
-  std::uint64_t ticks_ = 0;
-  SessionStatus picture_;
-  mutable std::mutex published_lock_;  ///< the shard only tries it
-  SessionStatus published_;
+  Histogram spent_;
+  std::atomic<double> load_{0};
+  std::atomic<std::uint64_t> stray_{0};
 };
 
 }  // namespace tandem::server

@@ -8,7 +8,7 @@ namespace tandem::server {
 namespace {
 
 std::string seat_text(const SeatStatus& seat, const std::string& name) {
-  if (!seat.bound) return name + " gone";
+  if (!seat.taken) return name + " gone";
   if (!seat.alive) return name + " silent";
   if (seat.gate == wire::GateState::kOff) return name + " joining";
   std::string text =
@@ -29,7 +29,7 @@ std::string waiting_for(const SessionStatus& status, const SceneSpec& scene) {
     const SeatStatus& seat = status.seats[i];
     if (!scene.seats[i].required || seat.ready) continue;
     text += (text.empty() ? "" : ", ") + scene.seats[i].name;
-    text += !seat.bound  ? (seat.ever_bound ? " (left)" : " (nobody joined)")
+    text += !seat.taken  ? (seat.ever_taken ? " (left)" : " (nobody joined)")
             : seat.alive ? " (not ready)"
                          : " (silent)";
   }
@@ -40,8 +40,8 @@ std::string why_held(const SessionStatus& status, const SceneSpec& scene) {
   std::string silent;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const SeatStatus& seat = status.seats[i];
-    if (!seat.ever_bound || (seat.bound && seat.alive)) continue;
-    silent += (silent.empty() ? "" : ", ") + scene.seats[i].name + (seat.bound ? " is silent" : " has left");
+    if (!seat.ever_taken || (seat.taken && seat.alive)) continue;
+    silent += (silent.empty() ? "" : ", ") + scene.seats[i].name + (seat.taken ? " is silent" : " has left");
   }
   return silent.empty() ? "nobody entitled is present" : silent;
 }

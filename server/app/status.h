@@ -12,8 +12,8 @@ namespace tandem::server {
 
 /// What people want to see of a seat while it runs: plain data, copied out of the shard now and then.
 struct SeatStatus {
-  bool bound = false;  ///< somebody sits here
-  bool ever_bound = false;
+  bool taken = false;  ///< somebody sits here
+  bool ever_taken = false;
   bool ready = false;  ///< its device waits to be engaged, or is
   bool alive = false;  ///< heard from just now
   wire::GateState gate = wire::GateState::kOff;

@@ -22,6 +22,7 @@ TANDEM_PACKAGES=(
   "libudev-dev: finds devices and notices plugging"
   "umockdev: emulated USB and HID devices for tests"
   "libgtest-dev: unit and simulation tests"
+  "nodejs: runs the second decoder of datagrams"
 )
 
 # What only the longer kinds of ./test need; without them it says what it did not run.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -54,6 +55,15 @@ TEST(Vectors, AreWhatThisCodeMakesAndOpens) {
     EXPECT_TRUE(seal.open(header.counter, datagram, opened));
     EXPECT_EQ(opened, plaintext);
   }
+}
+
+TEST(Vectors, OpenInADecoderWrittenFromTheTextAlone) {
+  if (std::system("node --version > /dev/null 2>&1") != 0) {
+    std::printf("[ NOT RUN ] the second decoder: there is no node (package nodejs)\n");
+    return;
+  }
+  const std::string folder = TANDEM_SOURCE_DIR "/tests/link/";
+  EXPECT_EQ(std::system(("node " + folder + "second_decoder.mjs " + folder + "vectors.json").c_str()), 0);
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+
+#include "common/io/spsc_queue.h"
+#include "server/app/slaves.h"
+#include "server/app/status.h"
+#include "server/session.h"
+#include "server/violations.h"
+
+namespace tandem::server {
+
+using TickQueue = io::SpscQueue<TickRecord>;
+
+/// A session as a shard serves it: the core, its monitor, the queue of its records, and a picture of it that other threads may look at.
+class HostedSession {
+ public:
+  /// @param scene    must outlive it
+  /// @param records  every tick while it runs; full: dropped and counted
+  HostedSession(const SceneSpec& scene, Slaves slaves, std::uint8_t slot, TickQueue& records);
+
+  // ---- Any thread ----
+  [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
+  [[nodiscard]] const Reception& reception() const noexcept { return session_.reception(); }
+  [[nodiscard]] std::uint8_t slot() const noexcept { return slot_; }
+  /// A recent picture.
+  [[nodiscard]] SessionStatus status() const;
+  /// No shard serves it any more: everything may be looked at, and it may go.
+  [[nodiscard]] bool over() const noexcept { return over_.load(std::memory_order_acquire); }
+
+  // ---- The shard's thread ----
+  [[nodiscard]] Session& session() noexcept { return session_; }
+  void tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept;
+  /// Its last act.
+  void finish(Time now, const MachineStatus& machine) noexcept;
+
+  // ---- After it is over ----
+  [[nodiscard]] const SessionStatus& final_status() const noexcept { return picture_; }
+  [[nodiscard]] const Violations& violations() const noexcept { return violations_; }
+
+ private:
+  void look_at_seat(std::size_t seat, Time now) noexcept;
+  void publish(Time now, const MachineStatus& machine) noexcept;
+
+  const SceneSpec* scene_;
+  std::uint8_t slot_;
+  Session session_;
+  TickQueue* records_;
+  Violations violations_;
+  std::atomic<bool> over_{false};
+  std::uint64_t ticks_ = 0;
+  SessionStatus picture_;
+  mutable std::mutex published_lock_;  ///< the shard only tries it
+  SessionStatus published_;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "proto/wire.h"
+#include "server/reception.h"
+
+namespace tandem::server {
+
+class HostedSession;
+
+/// What the control plane asks of a shard's thread: made, filled and given back to memory by the control plane; the shard only
+/// carries it out between two ticks.
+struct Order {
+  enum class What : std::uint8_t {
+    kHost,   ///< tick `session` from now on, in its slot
+    kAdmit,  ///< put `entry` into `seat`
+    kVisit,  ///< take `entry.link` as a visitor's
+    kEnd,    ///< let all hands of the session go, then tell the clients
+  };
+  What what = What::kAdmit;
+  HostedSession* session = nullptr;  ///< which; lives until it is over
+  std::size_t seat = 0;
+  bool same_owner = false;           ///< he who sits there comes again
+  Entry entry;                       ///< afterwards: what is to be given back
+  wire::JoinResult result = wire::JoinResult::kSessionOver;
+  std::function<void(Order&)> done;  ///< on the control plane's thread
+};
+
+}  // namespace tandem::server
