@@ -4,9 +4,13 @@
 #include <cstring>
 
 #include "common/io/datagram_batch.h"
+#include "common/io/tcp_listener.h"
 
 namespace tandem::io {
 namespace {
+
+constexpr int kBacklog = 1024;  // a whole school joins at once
+constexpr int kAttempts = 20;
 
 std::string bind_problem(const SocketAddress& address, int error) {
   const std::string where = to_text(address);
@@ -49,6 +53,29 @@ std::expected<UdpSocket, std::string> connect_udp(const SocketAddress& to) {
   ReceiveBatch::prepare(socket.fd.get(), to.family(), false);
   socket.local = local_address(socket.fd.get());
   return socket;
+}
+
+std::expected<TcpListener, std::string> listen_tcp(const SocketAddress& at) {
+  TcpListener listener{Fd{::socket(at.family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)}, {}};
+  const int yes = 1;
+  if (!listener.fd.open() || ::setsockopt(listener.fd.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
+      ::bind(listener.fd.get(), at.get(), at.size) != 0 || ::listen(listener.fd.get(), kBacklog) != 0)
+    return std::unexpected("TCP " + bind_problem(at, errno));
+  listener.local = local_address(listener.fd.get());
+  return listener;
+}
+
+std::expected<SocketPair, std::string> bind_pair(const SocketAddress& at, bool local_wanted) {
+  std::string problem;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    auto udp = bind_udp(at, local_wanted);
+    if (!udp) return std::unexpected(udp.error());
+    auto tcp = listen_tcp(udp->local);
+    if (tcp) return SocketPair{std::move(*udp), std::move(*tcp)};
+    problem = tcp.error();
+    if (at.port() != 0) break;  // a port that was chosen for us may be taken for TCP: the next one
+  }
+  return std::unexpected(problem);
 }
 
 }  // namespace tandem::io

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -15,6 +16,7 @@
 #include "common/io/output_file.h"
 #include "common/io/realtime.h"
 #include "common/io/socket_address.h"
+#include "common/io/tcp_listener.h"
 #include "netsim/app/control_socket.h"
 #include "netsim/app/decision_writer.h"
 #include "netsim/app/interruption.h"
@@ -24,12 +26,14 @@
 #include "netsim/app/proxy_control.h"
 #include "netsim/app/proxy_report.h"
 #include "netsim/app/proxy_watch.h"
+#include "netsim/app/tcp_relay.h"
 
 namespace tandem::netsim {
 namespace {
 
 constexpr int kTrouble = 1;  // while running
 constexpr int kPriority = 50;
+constexpr int kPortsTried = 20;  // until one is free for UDP and TCP
 
 struct ProxyArguments {
   std::string listen = "127.0.0.1:0";
@@ -124,6 +128,12 @@ int proxy_command(const ProxyArguments& arguments) {
   const io::Fd finished{eventfd(0, EFD_CLOEXEC)};
   auto proxy = Proxy::open(options);
   if (!proxy) return trouble(proxy.error());
+  auto joining = io::listen_tcp((*proxy)->listening());
+  for (int attempt = 0; !joining && options.listen.port() == 0 && attempt < kPortsTried; ++attempt) {
+    proxy = Proxy::open(options);
+    if (!proxy) return trouble(proxy.error());
+    joining = io::listen_tcp((*proxy)->listening());
+  }
   ControlSocket socket;
   if (!arguments.control.empty()) {
     if (const std::string problem = socket.open(arguments.control); !problem.empty())
@@ -137,8 +147,12 @@ int proxy_command(const ProxyArguments& arguments) {
   std::fprintf(people, "to %s, %s, seed %llu; Ctrl-C ends\n", io::to_text(options.to).c_str(),
                network->description.c_str(), static_cast<unsigned long long>(options.seed));
   for (const std::string& note : network->notes) std::fprintf(people, "note: %s\n", note.c_str());
+  if (!joining)
+    std::fprintf(people, "note: nobody can join a Tandem session through here, only datagrams pass: %s\n", joining.error().c_str());
   std::fflush(people);
 
+  std::optional<TcpRelay> relay;
+  if (joining) relay.emplace(std::move(*joining), options.to);
   std::thread packets([&] {
     std::string notice;
     ask_for_machine(arguments.realtime, notice);

@@ -17,6 +17,7 @@ TANDEM_PACKAGES=(
   "nlohmann-json3-dev: writes the JSON reports"
   "libssl-dev: derives keys, SHA-256 of traces"
   "libsodium-dev: seals datagrams"
+  "libasio-dev: TCP connections"
   "libusb-1.0-0-dev: talks to USB devices"
   "libhidapi-dev: talks to HID devices"
   "libudev-dev: finds devices and notices plugging"
