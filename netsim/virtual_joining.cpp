@@ -14,11 +14,11 @@ link::Secret drawn_secret(RandomKey key) noexcept {
 }
 
 /// The client's end of a connection; the server's has the ids the other way round.
-link::Link::Params client_end(RandomKey key, std::size_t place, Duration tick) {
+link::Link::Params client_end(RandomKey key, std::uint8_t slot, std::size_t place, Duration tick) {
   link::Link::Params p;
   p.outgoing = link::Direction::kToServer;
   p.own_cid = static_cast<std::uint32_t>(key.bits(0) | 1);
-  p.peer_cid = server::connection_id(static_cast<std::uint16_t>(key.bits(1)), 0, static_cast<std::uint8_t>(place));
+  p.peer_cid = server::connection_id(static_cast<std::uint16_t>(key.bits(1)), slot, static_cast<std::uint8_t>(place));
   p.tick = tick;
   p.secrets.cipher = link::fastest_cipher();
   p.secrets.to_server = drawn_secret(key.derive(1));
@@ -48,11 +48,11 @@ wire::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept {
 
 std::expected<VirtualSeat, wire::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
                                                             const hal::DeviceCaps& caps, RandomKey key, std::uint64_t number,
-                                                            bool same_owner) {
+                                                            bool same_owner, std::uint8_t slot) {
   const server::Reception& reception = session.reception();
   if (seat >= reception.scene().seats.size()) return std::unexpected(wire::JoinResult::kNoSuchSeat);
   if (!reception.unfit(seat, device_facts(caps)).empty()) return std::unexpected(wire::JoinResult::kDeviceUnfit);
-  const link::Link::Params client = client_end(key.derive(number), seat + 1, reception.tick());
+  const link::Link::Params client = client_end(key.derive(number), slot, seat + 1, reception.tick());
   server::Entry entry = reception.prepare(seat, server_end(client));
   const wire::JoinResult result = session.admit(now, seat, entry, same_owner);
   if (result != wire::JoinResult::kAccepted) return std::unexpected(result);
@@ -61,7 +61,7 @@ std::expected<VirtualSeat, wire::JoinResult> join_virtually(server::Session& ses
 
 std::expected<VirtualSeat, wire::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key, std::uint64_t number) {
   const server::Reception& reception = session.reception();
-  const link::Link::Params client = client_end(key.derive(number), kSeatsMax + 1, reception.tick());
+  const link::Link::Params client = client_end(key.derive(number), 0, kSeatsMax + 1, reception.tick());
   auto link = std::make_unique<link::Link>(server_end(client));
   const wire::JoinResult result = session.admit_visitor(now, link);
   if (result != wire::JoinResult::kAccepted) return std::unexpected(result);

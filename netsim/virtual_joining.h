@@ -19,10 +19,10 @@ struct VirtualSeat {
 /// Joining without TLS: what the two ends of a handshake would know afterwards is drawn from `key`. The control connection is taken
 /// to be there, at once; from the first datagram on everything is as it is live.
 /// @param number      of this attempt: other ids and secrets each time
-/// @param same_owner  he who sat there comes again
+/// @param same_owner  he who sat there comes again  @param slot  of the session, where a server has several
 [[nodiscard]] std::expected<VirtualSeat, wire::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
                                                                           const hal::DeviceCaps& caps, RandomKey key, std::uint64_t number,
-                                                                          bool same_owner = false);
+                                                                          bool same_owner = false, std::uint8_t slot = 0);
 /// The same for one who only judges his link; his setup is that of the first seat.
 [[nodiscard]] std::expected<VirtualSeat, wire::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key,
                                                                            std::uint64_t number);

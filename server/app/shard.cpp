@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr int kPriority = 70;  // above the devices' threads: one late server is late for everybody
 constexpr Duration kLate = 1ms;
-constexpr int kRounds = 4;  // batches read before the clock is looked at again: a flood cannot stop the tick
+constexpr Duration kReadingMax = 200us;  // then the tick goes on: a flood cannot stop it
 constexpr std::size_t kOrdersMax = 256;
 constexpr std::uint64_t kLoadTicks = 1000;
 
@@ -67,16 +67,16 @@ void Shard::run() noexcept {
   const auto hosting = [&] { return std::ranges::any_of(sessions_, [](const HostedSession* s) { return s != nullptr; }); };
   while (true) {
     wait_until(due);
-    Time now = io::monotonic_now();
-    receive(now);
-    carry_out(now);
-    now = io::monotonic_now();
+    carry_out(io::monotonic_now());
     if (stop_.load(std::memory_order_relaxed)) {
       if (!hosting()) break;
       for (HostedSession* s : sessions_)
         if (s != nullptr) s->session().stop(wire::CloseReason::kServerStops);
     }
+    Time now = io::monotonic_now();
     if (now < due) continue;
+    receive();
+    now = io::monotonic_now();
     const Duration late = now - due;
     const auto missed = static_cast<std::uint32_t>(late / period_);
     if (hosting()) {
@@ -91,29 +91,37 @@ void Shard::run() noexcept {
   raise(news_);
 }
 
-/// Returns early when datagrams wait or somebody wants something.
+/// Returns early when somebody wants something. Datagrams wait for the tick: nobody needs them before, and to wake up for each would
+/// cost twice the processor's time. When they came the kernel has noted.
 void Shard::wait_until(Time due) noexcept {
-  pollfd files[] = {{socket_.fd.get(), POLLIN, 0}, {wake_.get(), POLLIN, 0}};
+  pollfd wake{wake_.get(), POLLIN, 0};
   const timespec rest = io::to_timespec(due - io::monotonic_now());
-  ppoll(files, 2, &rest, nullptr);
-  if (files[1].revents != 0) lower(wake_);
+  ppoll(&wake, 1, &rest, nullptr);
+  if (wake.revents != 0) lower(wake_);
 }
 
-void Shard::receive(Time now) noexcept {
+void Shard::receive() noexcept {
   std::uint64_t strays = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  const Time began = io::monotonic_now();
+  for (Time now = began; now - began < kReadingMax; now = io::monotonic_now()) {
     const int count = in_.receive(socket_.fd.get());
+    const Duration wall = io::read_clock(CLOCK_REALTIME);
     for (int k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const auto header = in_.too_long(i) ? std::nullopt : link::read_header(in_.bytes(i));
       const std::size_t slot = header ? slot_of(header->cid) : kSessionsMax;
       if (slot < kSessionsMax && sessions_[slot] != nullptr) {
-        sessions_[slot]->session().on_datagram(now, endpoint_of(in_.from(i)), in_.bytes(i));
+        // What was not there at the last reading came later, whatever somebody does to the wall clock.
+        const Time came = std::max(now - in_.details(i, wall).age, read_until_);
+        sessions_[slot]->session().on_datagram(came, endpoint_of(in_.from(i)), in_.bytes(i));
       } else {
         ++strays;
       }
     }
-    if (count < static_cast<int>(io::ReceiveBatch::kMax)) break;
+    if (count < static_cast<int>(io::ReceiveBatch::kMax)) {
+      read_until_ = now;
+      break;
+    }
   }
   if (strays > 0) stray_.fetch_add(strays, std::memory_order_relaxed);
 }

@@ -43,7 +43,7 @@ class Shard {
 
  private:
   void wait_until(Time due) noexcept;
-  void receive(Time now) noexcept;
+  void receive() noexcept;
   void carry_out(Time now) noexcept;
   void carry_out(Time now, Order& order) noexcept;
   void tick(Time now, std::uint32_t missed) noexcept;
@@ -61,6 +61,7 @@ class Shard {
 
   static constexpr std::size_t kSendMax = io::SendBatch::kMax;
   io::ReceiveBatch in_;
+  Time read_until_{};  ///< the socket was empty then
   io::SendBatch out_;
   std::array<std::array<std::byte, link::kDatagramMax>, kSendMax> buffers_;
   std::array<io::SocketAddress, kSendMax> addresses_;

@@ -1,0 +1,294 @@
+// What a sealed client-tick costs the server (open, decode, step, encode, seal; 3 axes): user-space instructions by callgrind, and CPU
+// of the shard's thread beside a bare recvmmsg/sendmmsg echo of the same datagrams in the same run.
+#include <pthread.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/io/clock.h"
+#include "common/io/realtime.h"
+#include "server/app/shard.h"
+#include "tests/bench/bench_clients.h"
+#include "tests/support/world_run.h"
+
+namespace tandem::bench {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// One datagram in a test's hands.
+struct Carried {
+  std::array<std::byte, link::kDatagramMax> bytes;
+  std::size_t size = 0;
+  std::size_t client = 0;
+};
+
+server::Endpoint address_of(std::size_t client) {
+  server::Endpoint e;
+  e.bytes[0] = static_cast<std::byte>(client);
+  e.bytes[1] = static_cast<std::byte>(client >> 8);
+  e.size = 2;
+  return e;
+}
+
+/// The whole of a server's work in a tick: callgrind counts in here. Not inlined, so that it finds it.
+[[gnu::noinline]] std::size_t serve_one_tick(std::vector<std::unique_ptr<server::Session>>& sessions, std::size_t seats, Time now,
+                                             std::span<const Carried> in, std::span<Carried> out) {
+  for (const Carried& d : in) sessions[d.client / seats]->on_datagram(now, address_of(d.client), std::span{d.bytes}.first(d.size));
+  std::size_t sent = 0;
+  for (auto& session : sessions) {
+    session->on_tick(now, 0);
+    while (sent < out.size()) {
+      const auto due = session->poll_transmit(now, out[sent].bytes);
+      if (!due) break;
+      out[sent].size = due->size;
+      out[sent].client = std::to_integer<std::size_t>(due->to.bytes[0]) | std::to_integer<std::size_t>(due->to.bytes[1]) << 8;
+      ++sent;
+    }
+  }
+  return sent;
+}
+
+std::unique_ptr<server::Session> session_of(const SceneSpec& scene) {
+  auto slaves = *server::make_slaves(scene, Time{});
+  return std::make_unique<server::Session>(scene, std::move(slaves.devices), slaves.scale);
+}
+
+/// In memory, for callgrind. @return exit code
+int serve(const std::string& name, int ticks) {
+  const SceneSpec scene = test::shipped(name);
+  constexpr std::size_t kSessions = 8;
+  const std::size_t seats = scene.seats.size();
+  std::vector<std::unique_ptr<server::Session>> sessions;
+  std::vector<std::unique_ptr<BareClient>> clients;
+  Time now{1h};
+  for (std::size_t s = 0; s < kSessions; ++s) {
+    sessions.push_back(session_of(scene));
+    for (std::size_t i = 0; i < seats; ++i)
+      clients.push_back(std::make_unique<BareClient>(*netsim::join_virtually(*sessions.back(), now, i, caps_of(scene, i), RandomKey{s}, i)));
+  }
+  std::vector<Carried> in(2 * clients.size()), out(2 * clients.size());
+  for (int tick = 0; tick < ticks; ++tick, now += 1ms) {
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < clients.size(); ++c)
+      for (bool more = true; more;) {
+        more = clients[c]->answers();
+        in[count].client = c;
+        in[count].size = clients[c]->send(now, static_cast<std::uint32_t>(tick), in[count].bytes);
+        ++count;
+      }
+    const std::size_t sent = serve_one_tick(sessions, seats, now, std::span{in}.first(count), out);
+    for (const Carried& d : std::span{out}.first(sent)) clients[d.client]->hear(now, std::span{d.bytes}.first(d.size));
+  }
+  for (const auto& session : sessions)
+    if (session->state() != wire::SessionState::kRunning) return 1;  // else it measured people who wait
+  std::printf("%zu client-ticks\n", clients.size() * static_cast<std::size_t>(ticks));
+  return 0;
+}
+
+/// @return instructions inside serve_one_tick, -1 if callgrind did not run
+double collected(const std::string& self, const std::string& scene, int ticks) {
+  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '--toggle-collect=*serve_one_tick*' " + self + " --serve " +
+                              scene + " " + std::to_string(ticks) + " 2>&1";
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return -1;
+  double instructions = -1;
+  char line[512];
+  while (std::fgets(line, sizeof line, pipe) != nullptr)
+    if (const char* found = std::strstr(line, "Collected :")) instructions = std::atof(found + 11);
+  return pclose(pipe) == 0 ? instructions : -1;
+}
+
+void count_instructions(const std::string& self) {
+  std::printf("user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s  %s\n", "scene", "seats", "instructions",
+              "what the server does besides");
+  const struct {
+    const char *scene, *besides;
+  } cases[] = {{"contact_remote", "one tool, its slave is a client"}, {"free_motion", "one tool and a simulated arm"},
+               {"two_by_two", "two tools and two simulated arms"}, {"eight_seats", "one tool, eight hands, a simulated arm"}};
+  for (const auto& c : cases) {
+    constexpr int kFew = 300, kMany = 1300;
+    const double few = collected(self, c.scene, kFew), many = collected(self, c.scene, kMany);
+    const std::size_t seats = test::shipped(c.scene).seats.size();
+    if (few < 0 || many < 0) {
+      std::printf("%-18s [ NOT RUN ] valgrind is missing or failed\n", c.scene);
+      continue;
+    }
+    std::printf("%-18s %8zu %14.0f  %s\n", c.scene, seats, (many - few) / (8.0 * static_cast<double>(seats) * (kMany - kFew)), c.besides);
+  }
+}
+
+Duration cpu_of(pthread_t thread) {
+  clockid_t clock{};
+  pthread_getcpuclockid(thread, &clock);
+  return io::read_clock(clock);
+}
+
+/// Answers each datagram with `size` bytes, in batches, once a millisecond: what no server can do cheaper.
+class Echo {
+ public:
+  Echo(io::UdpSocket socket, std::size_t size) : socket_(std::move(socket)), size_(size) {}
+  void run() {
+    io::ask_for_realtime(70);
+    Time due = io::monotonic_now() + 1ms;
+    while (!stop_.load()) {
+      const timespec rest = io::to_timespec(due - io::monotonic_now());
+      nanosleep(&rest, nullptr);
+      due += 1ms;
+      int count = 0;
+      while ((count = in_.receive(socket_.fd.get())) > 0) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+          to_[i].size = in_.from(i).ss_family == AF_INET6 ? sizeof(sockaddr_in6) : sizeof(sockaddr_in);
+          std::memcpy(&to_[i].storage, &in_.from(i), to_[i].size);
+          out_.add(std::span{bytes_}.first(size_), &to_[i], nullptr);
+        }
+        out_.send(socket_.fd.get());
+        answered_ += static_cast<std::uint64_t>(count);
+      }
+    }
+  }
+  void stop() { stop_.store(true); }
+  [[nodiscard]] std::uint64_t answered() const { return answered_.load(); }
+
+ private:
+  io::UdpSocket socket_;
+  std::size_t size_;
+  std::atomic<bool> stop_{false};
+  std::atomic<std::uint64_t> answered_{0};
+  io::ReceiveBatch in_;
+  io::SendBatch out_;
+  std::array<std::byte, link::kDatagramMax> bytes_{};
+  std::array<io::SocketAddress, io::ReceiveBatch::kMax> to_{};
+};
+
+/// Sockets of many clients, driven by one thread: all send at the millisecond.
+class Crowd {
+ public:
+  Crowd(std::size_t clients, const io::SocketAddress& to) {
+    for (std::size_t i = 0; i < clients; ++i) sockets_.push_back(std::move(io::connect_udp(to)->fd));
+  }
+  template <class Fill, class Hear>
+  void run(Duration length, Fill fill, Hear hear) {
+    std::array<std::byte, 1500> buffer;
+    const Time begin = io::monotonic_now();
+    for (int ms = 1; ms <= length / 1ms; ++ms) {
+      const timespec rest = io::to_timespec(begin + ms * 1ms - io::monotonic_now());
+      nanosleep(&rest, nullptr);
+      for (std::size_t c = 0; c < sockets_.size(); ++c) {
+        for (ssize_t size; (size = ::recv(sockets_[c].get(), buffer.data(), buffer.size(), MSG_DONTWAIT)) > 0;)
+          hear(c, std::span{buffer}.first(static_cast<std::size_t>(size)));
+        for (std::size_t size; (size = fill(c, buffer)) > 0;) [[maybe_unused]] const auto sent = ::send(sockets_[c].get(), buffer.data(), size, 0);
+      }
+    }
+  }
+
+ private:
+  std::vector<io::Fd> sockets_;
+};
+
+constexpr std::size_t kStateBytes = wire::state_size(3) + 32, kForceBytes = wire::force_size(3) + 32;
+
+/// CPU of the echo's thread per datagram pair [ns].
+double echo_cost(std::size_t clients, Duration length) {
+  auto socket = io::bind_udp(*io::parse_address("127.0.0.1:0", 0));
+  Crowd crowd{clients, socket->local};
+  Echo echo{std::move(*socket), kForceBytes};
+  std::thread thread{[&] { echo.run(); }};
+  std::vector<bool> sent(clients, false);
+  const auto fill = [&](std::size_t c, std::span<std::byte>) -> std::size_t {
+    sent[c] = !sent[c];
+    return sent[c] ? kStateBytes : 0;
+  };
+  crowd.run(200ms, fill, [](std::size_t, auto) {});
+  const Duration cpu = cpu_of(thread.native_handle());
+  const std::uint64_t before = echo.answered();
+  crowd.run(length, fill, [](std::size_t, auto) {});
+  const Duration spent = cpu_of(thread.native_handle()) - cpu;
+  const auto pairs = static_cast<double>(echo.answered() - before);
+  echo.stop();
+  thread.join();
+  return static_cast<double>(spent.count()) / pairs;
+}
+
+/// CPU of the shard's thread per client-tick [ns]; negative if not every hand was held.
+double shard_cost(const SceneSpec& scene, std::size_t sessions, Duration length) {
+  auto socket = io::bind_udp(*io::parse_address("127.0.0.1:0", 0));
+  const io::SocketAddress at = socket->local;
+  auto shard = std::make_unique<server::Shard>(std::move(*socket), scene.tick_hz);
+  std::vector<std::unique_ptr<server::TickQueue>> queues;
+  std::vector<std::unique_ptr<server::HostedSession>> hosted;
+  std::vector<std::unique_ptr<BareClient>> clients;
+  std::vector<server::Order> orders(sessions);
+  for (std::size_t s = 0; s < sessions; ++s) {
+    queues.push_back(std::make_unique<server::TickQueue>(64));  // full soon: its rows are dropped and counted, as when a recorder is late
+    hosted.push_back(std::make_unique<server::HostedSession>(scene, *server::make_slaves(scene, Time{}), static_cast<std::uint8_t>(s), *queues.back()));
+    for (std::size_t i = 0; i < scene.seats.size(); ++i)
+      clients.push_back(std::make_unique<BareClient>(
+          *netsim::join_virtually(hosted.back()->session(), io::monotonic_now(), i, caps_of(scene, i), RandomKey{s}, i, false, static_cast<std::uint8_t>(s))));
+    orders[s].what = server::Order::What::kHost;
+    orders[s].session = hosted.back().get();
+    if (!shard->post(orders[s])) return -1;
+  }
+  Crowd crowd{clients.size(), at};
+  std::thread thread{[&] { shard->run(); }};
+  std::vector<bool> sent(clients.size(), false);
+  std::uint32_t tick = 0;
+  const auto fill = [&](std::size_t c, std::span<std::byte> buffer) -> std::size_t {
+    const bool answers = clients[c]->answers();
+    if (!answers) sent[c] = !sent[c];
+    return answers || sent[c] ? clients[c]->send(io::monotonic_now(), ++tick, buffer) : 0;
+  };
+  const auto hear = [&](std::size_t c, std::span<const std::byte> bytes) { clients[c]->hear(io::monotonic_now(), bytes); };
+  const auto forces = [&] {
+    std::uint64_t sum = 0;
+    for (const auto& c : clients) sum += c->forces();
+    return sum;
+  };
+  crowd.run(500ms, fill, hear);
+  const Duration cpu = cpu_of(thread.native_handle());
+  const std::uint64_t before = forces();
+  crowd.run(length, fill, hear);
+  const Duration spent = cpu_of(thread.native_handle()) - cpu;
+  const auto ticks = static_cast<double>(forces() - before);
+  const bool all = std::ranges::all_of(clients, [](const auto& c) { return c->settled(); });
+  shard->stop();
+  thread.join();
+  return all ? static_cast<double>(spent.count()) / ticks : -1;
+}
+
+void compare_with_echo() {
+  constexpr int kPairs = 5;
+  const SceneSpec scene = test::shipped("contact_remote");
+  const std::size_t sessions = 100 / scene.seats.size(), clients = sessions * scene.seats.size();
+  std::vector<double> echo, shard, ratio;
+  for (int i = 0; i < kPairs; ++i) {  // interleaved: a noisy moment hits both
+    echo.push_back(echo_cost(clients, 1s));
+    shard.push_back(shard_cost(scene, sessions, 1s));
+    ratio.push_back(shard.back() / echo.back());
+  }
+  const auto median = [](std::vector<double> v) {
+    std::ranges::sort(v);
+    return v[v.size() / 2];
+  };
+  std::printf("\nCPU of the server's thread, %zu clients of %zu sessions, all at the millisecond (asked: ratio at most 1.4)\n", clients, sessions);
+  std::printf("cpu_ns_per_client_tick=%.0f ref_echo_cpu_ns_per_pair=%.0f ratio=%.2f [%.2f..%.2f] median of %d interleaved pairs of 1 s\n",
+              median(shard), median(echo), median(ratio), *std::ranges::min_element(ratio), *std::ranges::max_element(ratio), kPairs);
+}
+
+}  // namespace
+}  // namespace tandem::bench
+
+int main(int argc, char** argv) {
+  if (argc == 4 && std::string(argv[1]) == "--serve") return tandem::bench::serve(argv[2], std::atoi(argv[3]));
+  tandem::bench::count_instructions(argv[0]);
+  tandem::bench::compare_with_echo();
+  return 0;
+}
