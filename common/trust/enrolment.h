@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "common/trust/pin.h"
-#include "common/trust/secret.h"
+#include "common/base/secret.h"
 
 namespace tandem::trust {
 

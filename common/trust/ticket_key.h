@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "common/trust/secret.h"
+#include "common/base/secret.h"
 
 namespace tandem::trust {
 

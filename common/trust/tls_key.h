@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "common/trust/pin.h"
-#include "common/trust/secret.h"
+#include "common/base/secret.h"
 
 struct evp_pkey_st;  // OpenSSL's EVP_PKEY and X509
 struct x509_st;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/base/rng.h"
-#include "common/trust/secret.h"
+#include "common/base/secret.h"
 #include "common/trust/ticket.h"
 #include "tests/base/counts.h"
 

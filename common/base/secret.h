@@ -9,14 +9,29 @@
 #include <vector>
 
 /// Bytes that nobody else may learn: wiped when they go, compared in a time that tells nothing.
-namespace tandem::trust {
+namespace tandem {
 
-/// Overwrites with zeros; not removed by the optimiser.
-void wipe(std::span<std::byte> bytes) noexcept;
-void wipe(std::string& text) noexcept;
+/// Overwrites with zeros; not removed by the optimiser: it must believe that somebody reads them.
+inline void wipe(std::span<std::byte> bytes) noexcept {
+  for (std::byte& b : bytes) b = std::byte{0};
+  asm volatile("" : : "r"(bytes.data()) : "memory");
+}
+inline void wipe(std::string& text) noexcept {
+  for (char& c : text) c = '\0';
+  asm volatile("" : : "r"(text.data()) : "memory");
+  text.clear();
+}
 
 /// Equal lengths and equal bytes, in a time that depends on the lengths only.
-[[nodiscard]] bool equal_secret(std::span<const std::byte> a, std::span<const std::byte> b) noexcept;
+[[nodiscard]] inline bool equal_secret(std::span<const std::byte> a, std::span<const std::byte> b) noexcept {
+  if (a.size() != b.size()) return false;
+  std::byte differs{0};
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    differs |= a[i] ^ b[i];
+    asm volatile("" : "+r"(differs));  // keeps the compiler from leaving early
+  }
+  return differs == std::byte{0};
+}
 
 /// A secret of fixed size. Every copy wipes itself.
 template <std::size_t N>
@@ -57,4 +72,4 @@ class SecretBuffer {
   std::vector<std::byte> bytes_;
 };
 
-}  // namespace tandem::trust
+}  // namespace tandem
