@@ -18,16 +18,23 @@ class TokenBucket {
   constexpr TokenBucket(double rate, double burst) noexcept : rate_(rate), burst_(burst), tokens_(burst) {}
 
   [[nodiscard]] constexpr bool take(Time now) noexcept {
-    if (now > last_) {
-      tokens_ = std::min(burst_, tokens_ + rate_ * seconds(now - last_));
-      last_ = now;
-    }
+    fill(now);
     if (tokens_ < 1.0) return false;
     tokens_ -= 1.0;
     return true;
   }
+  /// Until one may be taken; zero: at once.
+  [[nodiscard]] constexpr Duration wait(Time now) noexcept {
+    fill(now);
+    return tokens_ >= 1.0 ? Duration::zero() : from_seconds((1.0 - tokens_) / rate_) + Duration{1};
+  }
 
  private:
+  constexpr void fill(Time now) noexcept {
+    if (now <= last_) return;
+    tokens_ = std::min(burst_, tokens_ + rate_ * seconds(now - last_));
+    last_ = now;
+  }
   double rate_, burst_, tokens_;
   Time last_{};
 };
@@ -85,10 +92,14 @@ struct AcceptLimits {
 class AcceptLimiter {
  public:
   explicit AcceptLimiter(const AcceptLimits& limits = {}) noexcept : limits_(limits), all_(limits.all_rate, limits.all_burst) {}
-  /// A refused source costs the others nothing.
+  /// How long to leave newcomers in the kernel's queue, so that all together stay below their rate: a crowd waits, it is not sent away.
+  [[nodiscard]] Duration pause(Time now) noexcept { return all_.wait(now); }
+  /// One came. @return false: its source is in too much of a hurry, and pays nothing from what others share
   [[nodiscard]] bool accept(const Source& source, Time now) {
     const TokenBucket fresh{limits_.source_rate, limits_.source_burst};
-    return sources_.at(source, now, fresh).take(now) && all_.take(now);
+    if (!sources_.at(source, now, fresh).take(now)) return false;
+    (void)all_.take(now);
+    return true;
   }
 
  private:

@@ -46,12 +46,27 @@ TEST(AcceptLimiter, OneSourceInAHurryDoesNotShutOthersOut) {
   EXPECT_TRUE(limiter.accept(kB, now));
 }
 
-TEST(AcceptLimiter, AllTogetherHaveALimitToo) {
+TEST(AcceptLimiter, ACrowdWaitsForItsTurn) {
+  AcceptLimiter limiter;
+  Time now{1h};
+  const Time begin = now;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    now += limiter.pause(now);
+    EXPECT_TRUE(limiter.accept(Source::v4(0x0a000000 + i), now));
+  }
+  // 300 at once, 700 at 300/s.
+  EXPECT_NEAR(seconds(now - begin), 700.0 / 300.0, 1e-3);
+}
+
+TEST(AcceptLimiter, WhoIsInAHurryTakesNothingFromWhatOthersShare) {
   AcceptLimiter limiter;
   const Time now{1h};
-  int all = 0;
-  for (std::uint32_t i = 0; i < 1000; ++i) all += limiter.accept(Source::v4(0x0a000000 + i), now) ? 1 : 0;
-  EXPECT_EQ(all, 300);
+  for (int i = 0; i < 1000; ++i) (void)limiter.accept(kA, now);  // 100 of them get in
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    EXPECT_EQ(limiter.pause(now), 0s) << i;
+    EXPECT_TRUE(limiter.accept(Source::v4(0x0b000000 + i), now));
+  }
+  EXPECT_GT(limiter.pause(now), 0s);
 }
 
 TEST(FailureLimiter, TenInTwoMinutesBlockForFive) {
