@@ -41,7 +41,7 @@ constexpr std::array<std::string_view, 7> kTopFolders{"client/", "common/", "hal
                                                       "proto/",  "server/", "tests/"};
 
 /// Mirrors "Rooms and who may know whom". The room with the longest `folder` that the path begins with decides.
-const std::array<Room, 17> kRooms{{
+const std::array<Room, 18> kRooms{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -51,6 +51,10 @@ const std::array<Room, 17> kRooms{{
      {"common/base", "common/link", "proto"},
      {"openssl", "sodium"},
      "common/link sees time and bytes: base, proto, OpenSSL and libsodium, no sockets, threads, clocks"},
+    {"common/trust",
+     {"common/base", "common/trust", "proto/trust_spec.h", "proto/access_role.h"},
+     {"openssl", "sodium"},
+     "common/trust decides over values it is given: base, the plain rows of its books, OpenSSL and libsodium"},
     {"common/setup",
      {"common/base", "common/control", "common/setup", "proto/scene_spec.h", "proto/seat_setup.h"},
      {"Eigen"},
@@ -123,7 +127,7 @@ const std::array<Ban, 8> kBans{{
      {"reinterpret_cast"},
      {},
      kPumps,
-     {"common/link/seal.cpp"},  // OpenSSL takes unsigned char*, we speak std::byte
+     {"common/link/seal.cpp", "common/trust/raw_bytes.h"},  // OpenSSL takes unsigned char*, we speak std::byte
      "buffers are decoded by a parser that checks lengths, not by a cast"},
     {Ban::In::kInclude,
      {"random"},

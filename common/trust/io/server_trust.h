@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/trust/books.h"
+#include "common/trust/io/state_folder.h"
+#include "common/trust/ticket.h"
+#include "common/trust/tls_key.h"
+#include "common/trust/used_tickets.h"
+
+namespace tandem::trust {
+
+/// What a server must have to know anybody: its key, its ticket key, its books. In a state folder, or thrown away at the end (loopback
+/// demo). Books in a folder are shared with the commands beside a running server: each change is made under a lock over what the file
+/// says now, and each look-up sees the file as it is now, so an enrolment or a revocation works at once.
+/// One thread at a time.
+class ServerTrust {
+ public:
+  /// Files of the folder.
+  static constexpr const char* kKeyFile = "server_key.pem";
+  static constexpr const char* kCertificateFile = "server_cert.pem";
+  static constexpr const char* kTicketKeyFile = "ticket_key";
+  static constexpr const char* kWorkstationsFile = "workstations.textproto";
+  static constexpr const char* kCodesFile = "codes.textproto";
+  static constexpr const char* kUsedFile = "used_tickets";
+  static constexpr const char* kServingFile = "serving.textproto";
+  static constexpr const char* kAuditFile = "audit.log";
+
+  /// Makes keys and empty books in a folder that has none yet. @return the server's pin
+  [[nodiscard]] static std::expected<Pin, std::string> init(const std::string& path, std::int64_t now);
+  /// Reads a folder that `init` made.
+  [[nodiscard]] static std::expected<ServerTrust, std::string> open(const std::string& path);
+  /// Keys made on the spot, nothing on disk, nobody enrolled.
+  [[nodiscard]] static ServerTrust throw_away(std::int64_t now);
+
+  /// Marks this process as the one that serves from the folder, reads the used tickets and forgets expired ones. Needed before
+  /// `redeem`. @return what is wrong, such as another server running
+  [[nodiscard]] std::string begin_serving(std::int64_t now);
+
+  [[nodiscard]] const Identity& identity() const noexcept { return identity_; }
+  [[nodiscard]] const TicketKey& ticket_key() const noexcept { return ticket_key_; }
+  [[nodiscard]] bool on_disk() const noexcept { return folder_.has_value(); }
+  [[nodiscard]] const StateFolder* folder() const noexcept { return folder_ ? &*folder_ : nullptr; }
+
+  /// As the book stands now.
+  [[nodiscard]] std::expected<std::vector<WorkstationRow>, std::string> workstations();
+  /// @return the row, nothing if the key is not enrolled (any more), or what is wrong with the book: then nobody may be let in
+  [[nodiscard]] std::expected<std::optional<WorkstationRow>, std::string> find(const Pin& workstation);
+
+  /// Both faults of a code (a person's) and of the books (ours).
+  struct EnrolTrouble {
+    std::optional<EnrolFault> fault;
+    std::string text;
+  };
+  [[nodiscard]] std::expected<WorkstationRow, EnrolTrouble> enrol(const EnrolmentCode& code, const Pin& pin, std::int64_t now);
+  [[nodiscard]] std::string give_out(const EnrolmentCode& code, std::string_view workstation, std::int64_t now, std::int64_t not_after);
+  [[nodiscard]] std::expected<Revoked, std::string> revoke(std::string_view name);
+  /// Without a code, for the workstation of the demo that the server makes itself.
+  [[nodiscard]] std::string enrol_directly(const WorkstationRow& row);
+
+  struct TicketTrouble {
+    std::optional<TicketFault> fault;  ///< nothing: the book could not be written, `text` says why
+    std::string text;
+  };
+  /// Checks a ticket and uses it up: it is on disk before this returns, so that no crash makes it good again.
+  [[nodiscard]] std::expected<Ticket, TicketTrouble> redeem(std::span<const std::byte> bytes, const TicketUse& use);
+
+  /// For the commands beside a running server. @return what is wrong
+  [[nodiscard]] std::string write_serving(const ServingSpec& serving) const;
+  /// Nothing: no server is running.
+  [[nodiscard]] std::expected<std::optional<ServingSpec>, std::string> read_serving() const;
+  /// One JSON object per line: seconds, event, and pairs of words. Never a secret. No folder: nothing is written.
+  void audit(std::int64_t now, std::string_view event, std::string_view name, std::string_view detail = {}) const;
+
+  ~ServerTrust();
+  ServerTrust(ServerTrust&&) noexcept = default;
+  ServerTrust& operator=(ServerTrust&&) noexcept = default;
+
+ private:
+  ServerTrust(Identity identity, TicketKey ticket_key) : identity_(std::move(identity)), ticket_key_(std::move(ticket_key)) {}
+
+  struct Books {
+    std::vector<WorkstationRow> workstations;
+    std::vector<CodeRow> codes;
+  };
+  [[nodiscard]] std::expected<Books, std::string> read_books() const;
+  /// Under the lock: reads both books, lets `change` work on them, writes what changed.
+  template <class Change>
+  [[nodiscard]] std::string change_books(Change change);
+  [[nodiscard]] std::string rewrite_used(std::int64_t now);
+
+  Identity identity_;
+  TicketKey ticket_key_;
+  std::optional<StateFolder> folder_;
+  StateFolder::Lock serving_;
+  Books books_;               ///< without a folder: the books; with one: workstations as last read
+  StateFolder::Stamp seen_;   ///< of the workstations' file as last read
+  UsedTickets used_;
+  std::size_t appended_ = 0;  ///< lines since the file of used tickets was written anew
+};
+
+}  // namespace tandem::trust

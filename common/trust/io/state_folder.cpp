@@ -1,0 +1,211 @@
+#include "common/trust/io/state_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "common/trust/raw_bytes.h"
+
+namespace tandem::trust {
+namespace {
+
+constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600, kOthers = 0077;
+
+std::string owner_remedy(const std::string& path, uid_t owner) {
+  return path + " belongs to user " + std::to_string(owner) + ", but this program runs as user " + std::to_string(geteuid()) +
+         "; run it as that user (sudo -u \\#" + std::to_string(owner) + " ...), or name another folder with --state";
+}
+
+/// Everything, whatever signals come. @return whether all was written
+bool write_all(int fd, std::span<const std::byte> bytes) noexcept {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+  return true;
+}
+
+/// Makes what is missing of a path, for its owner only.
+std::string make_folders(const std::string& path) {
+  std::filesystem::path made;
+  for (const auto& part : std::filesystem::path(path)) {
+    made /= part;
+    if (made.empty() || ::mkdir(made.c_str(), kOwnFolder) == 0 || errno == EEXIST || errno == EISDIR || errno == EROFS) continue;
+    if (std::error_code error; std::filesystem::is_directory(made, error)) continue;
+    return made.string() + " cannot be made: " + std::strerror(errno);
+  }
+  return {};
+}
+
+std::expected<std::string, std::string> below_home(const char* rest, const char* option) {
+  const char* const home = std::getenv("HOME");
+  if (home == nullptr || *home != '/')
+    return std::unexpected(std::string("nobody says where state is kept: name a folder with --state or $") + option + " ($HOME is not set)");
+  return std::string(home) + rest;
+}
+
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+}  // namespace
+
+std::expected<StateFolder, std::string> StateFolder::open(const std::string& path, Missing missing, std::string_view hint) {
+  if (missing == Missing::kIsMade)
+    if (std::string problem = make_folders(path); !problem.empty()) return std::unexpected(std::move(problem));
+  io::Fd folder{::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)};
+  if (!folder.open()) {
+    const int error = errno;
+    std::string text = path + " cannot be opened: " + std::strerror(error);
+    if (error == ENOENT && !hint.empty()) text += "; " + std::string(hint);
+    if (error == ELOOP || error == ENOTDIR) text = path + " must be a folder, not a link or a file";
+    return std::unexpected(std::move(text));
+  }
+  struct stat s {};
+  if (fstat(folder.get(), &s) != 0) return std::unexpected(path + ": " + std::strerror(errno));
+  if (s.st_uid != geteuid()) return std::unexpected(owner_remedy(path, s.st_uid));
+  if ((s.st_mode & kOthers) != 0)
+    return std::unexpected(format("%s can be entered by others (mode %04o); if no stranger has been there: chmod 0700 %s", path.c_str(),
+                                  static_cast<unsigned>(s.st_mode & 07777), path.c_str()));
+  return StateFolder(path, std::move(folder));
+}
+
+std::string StateFolder::trouble(const std::string& name, std::string_view doing) const {
+  return path_of(name) + " cannot be " + std::string(doing) + ": " + std::strerror(errno);
+}
+
+std::string StateFolder::wrong_with(int fd, const std::string& name) const {
+  struct stat s {};
+  if (fstat(fd, &s) != 0) return trouble(name, "looked at");
+  if (!S_ISREG(s.st_mode)) return path_of(name) + " must be a file";
+  if (s.st_uid != geteuid()) return owner_remedy(path_of(name), s.st_uid);
+  if ((s.st_mode & kOthers) != 0)
+    return format("%s can be read by others (mode %04o); if no stranger has read it: chmod 0600 %s", path_of(name).c_str(),
+                  static_cast<unsigned>(s.st_mode & 07777), path_of(name).c_str());
+  if (static_cast<std::uint64_t>(s.st_size) > kFileMax) return path_of(name) + " is longer than 8 MiB";
+  return {};
+}
+
+bool StateFolder::has(const std::string& name) const noexcept { return faccessat(folder_.get(), name.c_str(), F_OK, AT_SYMLINK_NOFOLLOW) == 0; }
+
+std::expected<std::optional<SecretBuffer>, std::string> StateFolder::read(const std::string& name) const {
+  const io::Fd file{openat(folder_.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+  if (!file.open()) {
+    if (errno == ENOENT) return std::nullopt;
+    if (errno == ELOOP) return std::unexpected(path_of(name) + " must be a file, not a link");
+    return std::unexpected(trouble(name, "opened"));
+  }
+  if (std::string wrong = wrong_with(file.get(), name); !wrong.empty()) return std::unexpected(std::move(wrong));
+  struct stat s {};
+  if (fstat(file.get(), &s) != 0) return std::unexpected(trouble(name, "looked at"));
+  SecretBuffer bytes(static_cast<std::size_t>(s.st_size));
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n = ::read(file.get(), bytes.bytes().data() + done, bytes.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return std::unexpected(trouble(name, "read"));
+    if (n == 0) return std::unexpected(path_of(name) + " became shorter while it was read");
+    done += static_cast<std::size_t>(n);
+  }
+  return bytes;
+}
+
+std::string StateFolder::replace(const std::string& name, std::span<const std::byte> bytes) const {
+  const std::string beside = "." + name + "." + std::to_string(getpid()) + ".new";
+  unlinkat(folder_.get(), beside.c_str(), 0);  // of a process that died here
+  {
+    const io::Fd file{openat(folder_.get(), beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
+    if (!file.open()) return trouble(beside, "made");
+    if (!write_all(file.get(), bytes) || fsync(file.get()) != 0) {
+      std::string text = trouble(beside, "written");
+      unlinkat(folder_.get(), beside.c_str(), 0);
+      return text;
+    }
+  }
+  if (renameat(folder_.get(), beside.c_str(), folder_.get(), name.c_str()) != 0) {
+    std::string text = trouble(name, "replaced");
+    unlinkat(folder_.get(), beside.c_str(), 0);
+    return text;
+  }
+  return fsync(folder_.get()) == 0 ? std::string{} : trouble(name, "synced");
+}
+
+std::string StateFolder::replace(const std::string& name, std::string_view text) const { return replace(name, bytes_of(text)); }
+
+std::string StateFolder::append(const std::string& name, std::string_view line) const {
+  const io::Fd file{openat(folder_.get(), name.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kOwnFile)};
+  if (!file.open()) return trouble(name, "opened");
+  if (std::string wrong = wrong_with(file.get(), name); !wrong.empty()) return wrong;
+  if (!write_all(file.get(), bytes_of(line)) || fdatasync(file.get()) != 0) return trouble(name, "written");
+  return {};
+}
+
+std::string StateFolder::remove(const std::string& name) const {
+  return unlinkat(folder_.get(), name.c_str(), 0) == 0 || errno == ENOENT ? std::string{} : trouble(name, "removed");
+}
+
+StateFolder::Stamp StateFolder::stamp(const std::string& name) const noexcept {
+  struct stat s {};
+  if (fstatat(folder_.get(), name.c_str(), &s, AT_SYMLINK_NOFOLLOW) != 0) return {};
+  return {s.st_ino, static_cast<std::uint64_t>(s.st_size), static_cast<std::int64_t>(s.st_ctim.tv_sec) * 1'000'000'000 + s.st_ctim.tv_nsec};
+}
+
+std::expected<StateFolder::Lock, std::string> StateFolder::lock(const std::string& name) const {
+  Lock file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
+  if (!file.open()) return std::unexpected(trouble(name, "opened"));
+  while (flock(file.get(), LOCK_EX) != 0)
+    if (errno != EINTR) return std::unexpected(trouble(name, "locked"));
+  return file;
+}
+
+std::expected<std::optional<StateFolder::Lock>, std::string> StateFolder::try_lock(const std::string& name) const {
+  Lock file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
+  if (!file.open()) return std::unexpected(trouble(name, "opened"));
+  if (flock(file.get(), LOCK_EX | LOCK_NB) == 0) return file;
+  if (errno == EWOULDBLOCK) return std::nullopt;
+  return std::unexpected(trouble(name, "locked"));
+}
+
+std::expected<std::string, std::string> server_state_path(const std::string& option) {
+  if (!option.empty()) return option;
+  if (std::string named = environment("TANDEM_STATE"); !named.empty()) return named;
+  const char* const system = "/var/lib/tandem";
+  if (access(system, W_OK | X_OK) == 0) return system;
+  return below_home("/.local/state/tandem", "TANDEM_STATE");
+}
+
+std::expected<std::string, std::string> client_state_path(const std::string& option) {
+  if (!option.empty()) return option;
+  if (std::string named = environment("TANDEM_CLIENT_STATE"); !named.empty()) return named;
+  return below_home("/.config/tandem", "TANDEM_CLIENT_STATE");
+}
+
+std::string runtime_path() {
+  if (std::string named = environment("TANDEM_RUNTIME"); !named.empty()) return named;
+  if (const std::string user = environment("XDG_RUNTIME_DIR"); !user.empty()) return user + "/tandem";
+  return "/tmp/tandem-" + std::to_string(geteuid());
+}
+
+void fill_random(std::span<std::byte> out) noexcept {
+  while (!out.empty()) {
+    const ssize_t n = getrandom(out.data(), out.size(), 0);
+    if (n > 0) out = out.subspan(static_cast<std::size_t>(n));
+  }
+}
+
+std::int64_t wall_seconds() noexcept {
+  return std::chrono::duration_cast<std::chrono::seconds>(io::read_clock(CLOCK_REALTIME)).count();
+}
+
+}  // namespace tandem::trust

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "common/base/secret.h"
+#include "common/io/fd.h"
+
+namespace tandem::trust {
+
+/// A folder that only its owner may look into (0700), with files only he may read (0600). Whatever is readable by others, belongs to
+/// somebody else or is a link is refused with the remedy, never mended silently: somebody may have read it already.
+/// Files are replaced whole: written beside, synced, renamed, so that a crash leaves the old or the new one.
+class StateFolder {
+ public:
+  static constexpr std::size_t kFileMax = 8U << 20;
+
+  enum class Missing { kIsAnError, kIsMade };
+  /// @param hint  for a person, after "there is no such folder": what to run
+  [[nodiscard]] static std::expected<StateFolder, std::string> open(const std::string& path, Missing missing, std::string_view hint = {});
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  [[nodiscard]] std::string path_of(std::string_view name) const { return path_ + "/" + std::string(name); }
+
+  [[nodiscard]] bool has(const std::string& name) const noexcept;
+  /// @return the file's bytes, nothing if there is no such file, or what is wrong with it
+  [[nodiscard]] std::expected<std::optional<SecretBuffer>, std::string> read(const std::string& name) const;
+  /// @return what is wrong, empty if it is on disk
+  [[nodiscard]] std::string replace(const std::string& name, std::span<const std::byte> bytes) const;
+  [[nodiscard]] std::string replace(const std::string& name, std::string_view text) const;
+  /// One write at the end, synced. @return what is wrong, empty if it is on disk
+  [[nodiscard]] std::string append(const std::string& name, std::string_view line) const;
+  [[nodiscard]] std::string remove(const std::string& name) const;
+
+  /// Changes when a file was replaced or written to; 0 if there is none. Costs one system call.
+  struct Stamp {
+    std::uint64_t inode = 0, size = 0;
+    std::int64_t changed_ns = 0;
+    friend bool operator==(const Stamp&, const Stamp&) = default;
+  };
+  [[nodiscard]] Stamp stamp(const std::string& name) const noexcept;
+
+  /// Holds `name` against other processes until it goes.
+  using Lock = io::Fd;
+  /// Waits for whoever has it.
+  [[nodiscard]] std::expected<Lock, std::string> lock(const std::string& name) const;
+  /// @return nothing if somebody else has it
+  [[nodiscard]] std::expected<std::optional<Lock>, std::string> try_lock(const std::string& name) const;
+
+ private:
+  StateFolder(std::string path, io::Fd folder) : path_(std::move(path)), folder_(std::move(folder)) {}
+  [[nodiscard]] std::string trouble(const std::string& name, std::string_view doing) const;
+  [[nodiscard]] std::string wrong_with(int fd, const std::string& name) const;
+
+  std::string path_;
+  io::Fd folder_;
+};
+
+/// Where a server keeps its state: `option`, else $TANDEM_STATE, else /var/lib/tandem if this user may write there, else
+/// ~/.local/state/tandem.
+[[nodiscard]] std::expected<std::string, std::string> server_state_path(const std::string& option);
+/// Where a workstation does: `option`, else $TANDEM_CLIENT_STATE, else ~/.config/tandem.
+[[nodiscard]] std::expected<std::string, std::string> client_state_path(const std::string& option);
+/// Where servers and clients of one user on one machine meet: $TANDEM_RUNTIME, else $XDG_RUNTIME_DIR/tandem, else /tmp/tandem-UID.
+[[nodiscard]] std::string runtime_path();
+
+/// Random bytes of the operating system.
+void fill_random(std::span<std::byte> out) noexcept;
+template <class T>
+[[nodiscard]] T random_bytes() {
+  T out{};
+  fill_random(out);
+  return out;
+}
+/// Seconds since 1970, UTC.
+[[nodiscard]] std::int64_t wall_seconds() noexcept;
+
+}  // namespace tandem::trust

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+
+#include "common/base/time.h"
+
+/// Who may try how often: functions of the time they are told.
+namespace tandem::trust {
+
+/// Lets through `rate` per second, and `burst` at once after a rest. Starts full.
+class TokenBucket {
+ public:
+  constexpr TokenBucket(double rate, double burst) noexcept : rate_(rate), burst_(burst), tokens_(burst) {}
+
+  [[nodiscard]] constexpr bool take(Time now) noexcept {
+    fill(now);
+    if (tokens_ < 1.0) return false;
+    tokens_ -= 1.0;
+    return true;
+  }
+  /// Until one may be taken; zero: at once.
+  [[nodiscard]] constexpr Duration wait(Time now) noexcept {
+    fill(now);
+    return tokens_ >= 1.0 ? Duration::zero() : from_seconds((1.0 - tokens_) / rate_) + Duration{1};
+  }
+
+ private:
+  constexpr void fill(Time now) noexcept {
+    if (now <= last_) return;
+    tokens_ = std::min(burst_, tokens_ + rate_ * seconds(now - last_));
+    last_ = now;
+  }
+  double rate_, burst_, tokens_;
+  Time last_{};
+};
+
+/// Where somebody comes from, as limits see it: an IPv4 address, or the first 64 bits of an IPv6 one, since a site has that many at will.
+/// An IPv4 address inside IPv6 (::ffff:a.b.c.d) is the IPv4 one.
+struct Source {
+  std::uint64_t prefix = 0;
+  bool v6 = false;
+  bool loopback = false;
+
+  [[nodiscard]] static Source v4(std::uint32_t address) noexcept { return {address, false, (address >> 24) == 127}; }
+  [[nodiscard]] static Source of_v6(const std::array<std::uint8_t, 16>& address) noexcept;
+  friend auto operator<=>(const Source&, const Source&) = default;
+};
+
+/// One `Entry` per source, at most `kMax`. A new source beyond that takes the place of the one that was heard of longest ago: memory
+/// stays bounded, and who stays active stays known.
+template <class Entry>
+class SourceTable {
+ public:
+  static constexpr std::size_t kMax = 4096;
+
+  [[nodiscard]] Entry& at(const Source& source, Time now, const Entry& fresh) {
+    const auto [found, is_new] = entries_.try_emplace(source, Slot{fresh, now});
+    found->second.heard = now;
+    if (is_new && entries_.size() > kMax) forget_oldest(source);
+    return found->second.entry;
+  }
+  [[nodiscard]] const Entry* find(const Source& source) const {
+    const auto found = entries_.find(source);
+    return found == entries_.end() ? nullptr : &found->second.entry;
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
+
+ private:
+  struct Slot {
+    Entry entry;
+    Time heard;
+  };
+  void forget_oldest(const Source& but) {
+    auto oldest = entries_.end();
+    for (auto i = entries_.begin(); i != entries_.end(); ++i)
+      if (i->first != but && (oldest == entries_.end() || i->second.heard < oldest->second.heard)) oldest = i;
+    entries_.erase(oldest);
+  }
+  std::map<Source, Slot> entries_;
+};
+
+/// Accepting connections: each source and all together.
+struct AcceptLimits {
+  double source_rate = 10, source_burst = 100;  ///< [1/s], [1]: a lab behind one address may join at once
+  double all_rate = 300, all_burst = 300;
+};
+class AcceptLimiter {
+ public:
+  explicit AcceptLimiter(const AcceptLimits& limits = {}) noexcept : limits_(limits), all_(limits.all_rate, limits.all_burst) {}
+  /// How long to leave newcomers in the kernel's queue, so that all together stay below their rate: a crowd waits, it is not sent away.
+  [[nodiscard]] Duration pause(Time now) noexcept { return all_.wait(now); }
+  /// One came. @return false: its source is in too much of a hurry, and pays nothing from what others share
+  [[nodiscard]] bool accept(const Source& source, Time now) {
+    const TokenBucket fresh{limits_.source_rate, limits_.source_burst};
+    if (!sources_.at(source, now, fresh).take(now)) return false;
+    (void)all_.take(now);
+    return true;
+  }
+
+ private:
+  AcceptLimits limits_;
+  TokenBucket all_;
+  SourceTable<TokenBucket> sources_;
+};
+
+/// Wrong tickets and codes: ten in two minutes block a source for five. Loopback is exempt: who is there could stop the server anyway.
+class FailureLimiter {
+ public:
+  static constexpr std::size_t kFailures = 10;
+  static constexpr Duration kWithin = std::chrono::seconds(120), kBlocked = std::chrono::seconds(300);
+
+  void failed(const Source& source, Time now);
+  /// How long the source stays blocked; zero or less: it is not.
+  [[nodiscard]] Duration blocked_for(const Source& source, Time now) const;
+
+ private:
+  struct Record {
+    std::array<Time, kFailures> at{};  ///< the last failures, a ring
+    std::size_t count = 0;
+    Time blocked_until{};
+  };
+  SourceTable<Record> sources_;
+};
+
+}  // namespace tandem::trust

@@ -1,0 +1,112 @@
+#include "proto/control_codec.h"
+
+#include <google/protobuf/io/coded_stream.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "proto/control_convert.h"
+
+namespace tandem::control {
+namespace {
+
+constexpr int kRecursionMax = 16;
+
+/// Reads a varint of at most 32 bits in its shortest form, and moves on.
+std::optional<std::uint32_t> take_varint(std::span<const std::byte>& in) noexcept {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < 5 && i < in.size(); ++i) {
+    const auto b = std::to_integer<std::uint64_t>(in[i]);
+    value |= (b & 0x7f) << (7 * i);
+    if ((b & 0x80) != 0) continue;
+    if (value > 0xffffffffU || (b == 0 && i > 0)) return std::nullopt;
+    in = in.subspan(i + 1);
+    return static_cast<std::uint32_t>(value);
+  }
+  return std::nullopt;
+}
+
+/// Field number and wire type as protobuf packs them.
+constexpr std::uint32_t tag(std::uint32_t field, std::uint32_t type) noexcept { return field << 3 | type; }
+constexpr std::uint32_t kVarint = 0, kLengthDelimited = 2;
+
+/// Wipes what protobuf read of secrets when it goes.
+struct WipedFrame {
+  pb::control::ControlFrame frame;
+  ~WipedFrame() { wipe_secrets(frame); }
+};
+
+}  // namespace
+
+std::string_view to_text(FrameError error) noexcept {
+  switch (error) {
+    case FrameError::kLength:
+      return "the frame is too long, or empty";
+    case FrameError::kVersion:
+      return "the frame is of another version of Tandem";
+    case FrameError::kMalformed:
+      return "the bytes are no control frame";
+    case FrameError::kOutOfRange:
+      return "a value in the frame cannot be meant";
+  }
+  return "?";
+}
+
+std::expected<std::size_t, FrameError> frame_length(std::span<const std::byte, kLengthSize> head, std::size_t limit) noexcept {
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < kLengthSize; ++i) length |= std::to_integer<std::size_t>(head[i]) << (8 * i);
+  if (length == 0 || length > std::min(limit, kFrameMax)) return std::unexpected(FrameError::kLength);
+  return length;
+}
+
+std::expected<Kind, FrameError> peek_kind(std::span<const std::byte> in) noexcept {
+  if (in.empty() || in.size() > kFrameMax) return std::unexpected(FrameError::kLength);
+  if (take_varint(in) != tag(1, kVarint) || take_varint(in) != kFrameVersion) return std::unexpected(FrameError::kVersion);
+  auto field = take_varint(in);
+  if (field == tag(2, kVarint)) {
+    if (!take_varint(in)) return std::unexpected(FrameError::kMalformed);
+    field = take_varint(in);
+  }
+  if (!field || (*field & 7U) != kLengthDelimited) return std::unexpected(FrameError::kMalformed);
+  const std::uint32_t number = *field >> 3;
+  if (number < static_cast<std::uint32_t>(Kind::kHello) || number > static_cast<std::uint32_t>(Kind::kDone))
+    return std::unexpected(FrameError::kMalformed);
+  return static_cast<Kind>(number);
+}
+
+std::expected<Frame, FrameError> decode(std::span<const std::byte> in) {
+  if (const auto kind = peek_kind(in); !kind) return std::unexpected(kind.error());
+  WipedFrame read;
+  google::protobuf::io::CodedInputStream stream(static_cast<const std::uint8_t*>(static_cast<const void*>(in.data())), static_cast<int>(in.size()));
+  stream.SetRecursionLimit(kRecursionMax);
+  if (!read.frame.ParseFromCodedStream(&stream) || !stream.ConsumedEntireMessage()) return std::unexpected(FrameError::kMalformed);
+  // What was read must be written by the very same bytes: no unknown field, none twice, no second form of a number.
+  read.frame.DiscardUnknownFields();
+  if (read.frame.ByteSizeLong() != in.size()) return std::unexpected(FrameError::kMalformed);
+  SecretBuffer again(in.size());
+  if (!read.frame.SerializeToArray(again.bytes().data(), static_cast<int>(again.size())) || std::memcmp(again.bytes().data(), in.data(), in.size()) != 0)
+    return std::unexpected(FrameError::kMalformed);
+  Frame out;
+  out.request = read.frame.request();
+  if (!from_pb(read.frame, out.body)) return std::unexpected(FrameError::kOutOfRange);
+  return out;
+}
+
+std::expected<SecretBuffer, FrameError> encode(const Frame& frame) {
+  WipedFrame made;
+  made.frame.set_version(kFrameVersion);
+  made.frame.set_request(frame.request);
+  to_pb(frame.body, made.frame);
+  const std::size_t size = made.frame.ByteSizeLong();
+  if (size > kFrameMax) return std::unexpected(FrameError::kLength);
+  SecretBuffer out(kLengthSize + size);
+  const auto bytes = out.bytes();
+  for (std::size_t i = 0; i < kLengthSize; ++i) bytes[i] = static_cast<std::byte>(size >> (8 * i) & 0xffU);
+  if (!made.frame.SerializeToArray(bytes.data() + kLengthSize, static_cast<int>(size))) return std::unexpected(FrameError::kMalformed);
+  // One judge for both directions.
+  Body judged;
+  if (!from_pb(made.frame, judged)) return std::unexpected(FrameError::kOutOfRange);
+  return out;
+}
+
+}  // namespace tandem::control

@@ -1,0 +1,346 @@
+#include "proto/control_convert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace tandem::control {
+namespace {
+
+namespace wire_pb = pb::control;
+
+constexpr double kFactMax = 1e4;
+
+bool is_name(std::string_view text) noexcept {
+  return !text.empty() && text.size() <= kNameMax && std::ranges::all_of(text, [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+bool is_code(std::string_view text) noexcept {
+  return text.size() == kSessionCodeSize && std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z'); });
+}
+
+/// UTF-8 [RFC 3629] without control characters: what a terminal can be shown without being steered by it.
+bool is_text(std::string_view text) noexcept {
+  if (text.size() > kTextMax) return false;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    if (lead < 0x20 || lead == 0x7f) return false;
+    const std::size_t more = lead < 0x80 ? 0 : lead < 0xc2 ? 4 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : lead < 0xf5 ? 3 : 4;
+    if (more > 3 || i + more >= text.size()) return false;
+    std::uint32_t point = more == 0 ? lead : lead & (0x3fU >> more);
+    for (std::size_t k = 1; k <= more; ++k) {
+      const auto next = static_cast<unsigned char>(text[i + k]);
+      if ((next & 0xc0U) != 0x80) return false;
+      point = point << 6 | (next & 0x3fU);
+    }
+    const bool shortest = more < 2 || point >= (more == 2 ? 0x800U : 0x10000U);
+    if (!shortest || point > 0x10ffff || (point >= 0xd800 && point <= 0xdfff) || (point >= 0x80 && point < 0xa0)) return false;
+    i += more + 1;
+  }
+  return true;
+}
+
+template <std::size_t N>
+bool take(const std::string& in, std::array<std::byte, N>& out) noexcept {
+  if (in.size() != N) return false;
+  std::ranges::transform(in, out.begin(), [](char c) { return static_cast<std::byte>(c); });
+  return true;
+}
+std::vector<std::byte> to_bytes(const std::string& in) {
+  std::vector<std::byte> out(in.size());
+  std::ranges::transform(in, out.begin(), [](char c) { return static_cast<std::byte>(c); });
+  return out;
+}
+std::string text_of(std::span<const std::byte> in) {
+  std::string out(in.size(), '\0');
+  std::ranges::transform(in, out.begin(), [](std::byte b) { return static_cast<char>(b); });
+  return out;
+}
+
+bool within(std::uint32_t value, std::uint32_t least, std::uint32_t most) noexcept { return value >= least && value <= most; }
+bool within(double value) noexcept { return value >= 0 && value <= kFactMax; }  // false for NaN
+
+bool take_name(const std::string& in, std::string& out, bool may_be_empty = false) {
+  out = in;
+  return is_name(in) || (may_be_empty && in.empty());
+}
+bool take_role(std::uint32_t in, AccessRole& out) noexcept {
+  out = static_cast<AccessRole>(in < kAccessRoles ? in : 0);
+  return in < kAccessRoles;
+}
+
+bool take_weights(const google::protobuf::RepeatedField<double>& in, std::vector<double>& out) {
+  double sum = 0;
+  for (const double a : in) {
+    if (!(a >= 0 && a <= 1)) return false;
+    sum += a;
+  }
+  out.assign(in.begin(), in.end());
+  return !out.empty() && out.size() <= kMastersMax && std::abs(sum - 1) <= 1e-9;
+}
+
+bool read(const wire_pb::Device& in, DeviceFacts& out) {
+  out = {in.joints(), in.tip_axes(), in.simulated(), in.prismatic(), in.force_peak_n(), in.damping_n_s_m(), in.mass_kg()};
+  return within(in.joints(), 1, kAxesMax) && within(in.tip_axes(), 1, kAxesMax) && within(in.force_peak_n()) && within(in.damping_n_s_m()) &&
+         within(in.mass_kg());
+}
+
+bool read(const wire_pb::Hello& in, Hello& out) {
+  out.versions.assign(in.versions().begin(), in.versions().end());
+  bool good = !out.versions.empty() && out.versions.size() <= kVersionsMax && out.versions.front() >= 1 && out.versions.back() <= 65535 &&
+              std::ranges::adjacent_find(out.versions, std::greater_equal{}) == out.versions.end();
+  if (in.has_session_id()) good = take(in.session_id(), out.session.emplace<Id>()) && good;
+  if (in.has_session_code()) {
+    out.session = in.session_code();
+    good = good && is_code(in.session_code());
+  }
+  good = take_name(in.seat(), out.seat, true) && good;
+  if (in.has_ticket()) {
+    out.credential = TicketCredential{to_bytes(in.ticket())};
+    good = good && !in.ticket().empty() && in.ticket().size() <= kTicketMax;
+  } else if (in.has_resume_secret()) {
+    good = take(in.resume_secret(), out.credential.emplace<ResumeCredential>().secret.bytes) && good;
+  } else if (in.has_code()) {
+    out.credential = CodeCredential{in.code()};
+    good = good && is_code(in.code());
+  }
+  out.client_cid = in.client_cid();
+  out.has_aes = in.has_aes();
+  out.visit = in.visit();
+  return in.has_device() && read(in.device(), out.device) && good;
+}
+void write(const Hello& in, wire_pb::Hello& out) {
+  for (const std::uint32_t v : in.versions) out.add_versions(v);
+  if (const auto* id = std::get_if<Id>(&in.session)) out.set_session_id(text_of(*id));
+  if (const auto* code = std::get_if<std::string>(&in.session)) out.set_session_code(*code);
+  out.set_seat(in.seat);
+  if (const auto* t = std::get_if<TicketCredential>(&in.credential)) out.set_ticket(text_of(t->bytes));
+  if (const auto* r = std::get_if<ResumeCredential>(&in.credential)) out.set_resume_secret(text_of(r->secret.bytes));
+  if (const auto* c = std::get_if<CodeCredential>(&in.credential)) out.set_code(c->code);
+  out.set_client_cid(in.client_cid);
+  auto& d = *out.mutable_device();
+  d.set_joints(in.device.joints);
+  d.set_tip_axes(in.device.tip_axes);
+  d.set_simulated(in.device.simulated);
+  d.set_prismatic(in.device.prismatic);
+  d.set_force_peak_n(in.device.force_peak_n);
+  d.set_damping_n_s_m(in.device.damping_n_s_m);
+  d.set_mass_kg(in.device.mass_kg);
+  out.set_has_aes(in.has_aes);
+  out.set_visit(in.visit);
+}
+
+bool read(const wire_pb::RateLimits& in, RateLimits& out) {
+  out = {in.datagrams_per_s(), in.datagrams_burst(), in.authority_per_s(), in.authority_burst(), in.commands_per_s(), in.commands_burst()};
+  const std::array all{out.datagrams_per_s, out.datagrams_burst, out.authority_per_s, out.authority_burst, out.commands_per_s, out.commands_burst};
+  return std::ranges::all_of(all, [](std::uint32_t v) { return within(v, 1, 1000000); });
+}
+
+bool read(const wire_pb::Welcome& in, Welcome& out) {
+  out.version = in.version();
+  bool good = within(in.version(), 1, 65535) && take(in.session_id(), out.session_id);
+  good = take_name(in.session_name(), out.session_name) && good;
+  out.epoch = in.epoch();
+  out.server_cid = in.server_cid();
+  out.cipher = static_cast<Cipher>(in.cipher() & 1U);
+  good = in.cipher() <= 1 && take_name(in.seat(), out.seat, true) && take_role(in.role(), out.role) && good;
+  out.setup = to_bytes(in.setup());
+  good = out.setup.size() <= wire::kSetupMax && within(in.udp_port(), 1, 65535) && good;
+  out.udp_port = static_cast<std::uint16_t>(in.udp_port());
+  good = take(in.resume_secret(), out.resume_secret.bytes) && good;
+  out.authority_version = in.authority_version();
+  return in.has_limits() && read(in.limits(), out.limits) && good;
+}
+void write(const Welcome& in, wire_pb::Welcome& out) {
+  out.set_version(in.version);
+  out.set_session_id(text_of(in.session_id));
+  out.set_session_name(in.session_name);
+  out.set_epoch(in.epoch);
+  out.set_server_cid(in.server_cid);
+  out.set_cipher(static_cast<std::uint32_t>(in.cipher));
+  out.set_seat(in.seat);
+  out.set_role(static_cast<std::uint32_t>(in.role));
+  out.set_setup(text_of(in.setup));
+  out.set_udp_port(in.udp_port);
+  out.set_resume_secret(text_of(in.resume_secret.bytes));
+  out.set_authority_version(in.authority_version);
+  auto& l = *out.mutable_limits();
+  l.set_datagrams_per_s(in.limits.datagrams_per_s);
+  l.set_datagrams_burst(in.limits.datagrams_burst);
+  l.set_authority_per_s(in.limits.authority_per_s);
+  l.set_authority_burst(in.limits.authority_burst);
+  l.set_commands_per_s(in.limits.commands_per_s);
+  l.set_commands_burst(in.limits.commands_burst);
+}
+
+bool read(const wire_pb::Refused& in, Refused& out) {
+  out = {static_cast<Reason>(in.reason() & 0xffU), in.text(), in.retry_after_s()};
+  return within(in.reason(), 1, kReasons) && is_text(in.text()) && in.retry_after_s() <= 86400;
+}
+void write(const Refused& in, wire_pb::Refused& out) {
+  out.set_reason(static_cast<std::uint32_t>(in.reason));
+  out.set_text(in.text);
+  out.set_retry_after_s(in.retry_after_s);
+}
+
+bool read(const wire_pb::Enrol& in, Enrol& out) { return take(in.code(), out.code.bytes); }
+void write(const Enrol& in, wire_pb::Enrol& out) { out.set_code(text_of(in.code.bytes)); }
+bool read(const wire_pb::EnrolAck& in, EnrolAck& out) { return take_name(in.workstation(), out.workstation); }
+void write(const EnrolAck& in, wire_pb::EnrolAck& out) { out.set_workstation(in.workstation); }
+
+bool read(const wire_pb::SessionListRequest&, SessionListRequest&) { return true; }
+void write(const SessionListRequest&, wire_pb::SessionListRequest&) {}
+
+bool read(const wire_pb::SessionList& in, SessionList& out) {
+  if (in.session_size() > static_cast<int>(kSessionsMax)) return false;
+  out.more = in.more();
+  for (const wire_pb::Session& s : in.session()) {
+    ListedSession& session = out.sessions.emplace_back();
+    if (s.seat_size() > static_cast<int>(kListedSeatsMax) || s.state() > static_cast<std::uint32_t>(SessionPhase::kEnding)) return false;
+    session.phase = static_cast<SessionPhase>(s.state());
+    if (!take(s.id(), session.id) || !take_name(s.name(), session.name)) return false;
+    for (const wire_pb::Seat& seat : s.seat()) {
+      ListedSeat& listed = session.seats.emplace_back();
+      listed.taken = seat.taken();
+      listed.required = seat.required();
+      if (!take_name(seat.name(), listed.name) || !take_role(seat.role(), listed.role)) return false;
+    }
+  }
+  return true;
+}
+void write(const SessionList& in, wire_pb::SessionList& out) {
+  out.set_more(in.more);
+  for (const ListedSession& s : in.sessions) {
+    auto& session = *out.add_session();
+    session.set_id(text_of(s.id));
+    session.set_name(s.name);
+    session.set_state(static_cast<std::uint32_t>(s.phase));
+    for (const ListedSeat& listed : s.seats) {
+      auto& seat = *session.add_seat();
+      seat.set_name(listed.name);
+      seat.set_role(static_cast<std::uint32_t>(listed.role));
+      seat.set_taken(listed.taken);
+      seat.set_required(listed.required);
+    }
+  }
+}
+
+bool read(const wire_pb::StopSession& in, StopSession& out) {
+  out.why = in.why();
+  return take(in.session_id(), out.session_id) && is_text(in.why());
+}
+void write(const StopSession& in, wire_pb::StopSession& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_why(in.why);
+}
+bool read(const wire_pb::ResumeSession& in, ResumeSession& out) { return take(in.session_id(), out.session_id); }
+void write(const ResumeSession& in, wire_pb::ResumeSession& out) { out.set_session_id(text_of(in.session_id)); }
+bool read(const wire_pb::PauseSession& in, PauseSession& out) { return take(in.session_id(), out.session_id); }
+void write(const PauseSession& in, wire_pb::PauseSession& out) { out.set_session_id(text_of(in.session_id)); }
+
+bool read(const wire_pb::SetAuthority& in, SetAuthority& out) {
+  out.tool = in.tool();
+  out.version = in.version();
+  return take(in.session_id(), out.session_id) && in.tool() < kToolsMax && take_weights(in.alpha(), out.alpha);
+}
+void write(const SetAuthority& in, wire_pb::SetAuthority& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_tool(in.tool);
+  out.set_version(in.version);
+  for (const double a : in.alpha) out.add_alpha(a);
+}
+bool read(const wire_pb::AuthorityAnswer& in, AuthorityAnswer& out) {
+  out.applied = in.applied();
+  out.tool = in.tool();
+  out.version = in.version();
+  return in.tool() < kToolsMax && take_weights(in.alpha(), out.alpha);
+}
+void write(const AuthorityAnswer& in, wire_pb::AuthorityAnswer& out) {
+  out.set_applied(in.applied);
+  out.set_tool(in.tool);
+  out.set_version(in.version);
+  for (const double a : in.alpha) out.add_alpha(a);
+}
+
+bool read(const wire_pb::Drain& in, Drain& out) {
+  out.grace_s = in.grace_s();
+  return in.grace_s() <= 3600;
+}
+void write(const Drain& in, wire_pb::Drain& out) { out.set_grace_s(in.grace_s); }
+bool read(const wire_pb::Ping& in, Ping& out) {
+  out.nonce = in.nonce();
+  return true;
+}
+void write(const Ping& in, wire_pb::Ping& out) { out.set_nonce(in.nonce); }
+bool read(const wire_pb::Pong& in, Pong& out) {
+  out.nonce = in.nonce();
+  return true;
+}
+void write(const Pong& in, wire_pb::Pong& out) { out.set_nonce(in.nonce); }
+bool read(const wire_pb::Done&, Done&) { return true; }
+void write(const Done&, wire_pb::Done&) {}
+
+void wipe_text(std::string& text) noexcept { wipe(text); }
+
+}  // namespace
+
+bool from_pb(const wire_pb::ControlFrame& in, Body& out) {
+  using Case = wire_pb::ControlFrame;
+  switch (in.body_case()) {
+    case Case::kHello: return read(in.hello(), out.emplace<Hello>());
+    case Case::kWelcome: return read(in.welcome(), out.emplace<Welcome>());
+    case Case::kRefused: return read(in.refused(), out.emplace<Refused>());
+    case Case::kEnrol: return read(in.enrol(), out.emplace<Enrol>());
+    case Case::kEnrolAck: return read(in.enrol_ack(), out.emplace<EnrolAck>());
+    case Case::kSessionListRequest: return read(in.session_list_request(), out.emplace<SessionListRequest>());
+    case Case::kSessionList: return read(in.session_list(), out.emplace<SessionList>());
+    case Case::kStopSession: return read(in.stop_session(), out.emplace<StopSession>());
+    case Case::kResumeSession: return read(in.resume_session(), out.emplace<ResumeSession>());
+    case Case::kPauseSession: return read(in.pause_session(), out.emplace<PauseSession>());
+    case Case::kSetAuthority: return read(in.set_authority(), out.emplace<SetAuthority>());
+    case Case::kAuthorityAnswer: return read(in.authority_answer(), out.emplace<AuthorityAnswer>());
+    case Case::kDrain: return read(in.drain(), out.emplace<Drain>());
+    case Case::kPing: return read(in.ping(), out.emplace<Ping>());
+    case Case::kPong: return read(in.pong(), out.emplace<Pong>());
+    case Case::kDone: return read(in.done(), out.emplace<Done>());
+    case Case::BODY_NOT_SET: return false;
+  }
+  return false;
+}
+
+void to_pb(const Body& in, wire_pb::ControlFrame& out) {
+  struct Writer {
+    wire_pb::ControlFrame& out;
+    void operator()(const Hello& m) const { write(m, *out.mutable_hello()); }
+    void operator()(const Welcome& m) const { write(m, *out.mutable_welcome()); }
+    void operator()(const Refused& m) const { write(m, *out.mutable_refused()); }
+    void operator()(const Enrol& m) const { write(m, *out.mutable_enrol()); }
+    void operator()(const EnrolAck& m) const { write(m, *out.mutable_enrol_ack()); }
+    void operator()(const SessionListRequest& m) const { write(m, *out.mutable_session_list_request()); }
+    void operator()(const SessionList& m) const { write(m, *out.mutable_session_list()); }
+    void operator()(const StopSession& m) const { write(m, *out.mutable_stop_session()); }
+    void operator()(const ResumeSession& m) const { write(m, *out.mutable_resume_session()); }
+    void operator()(const PauseSession& m) const { write(m, *out.mutable_pause_session()); }
+    void operator()(const SetAuthority& m) const { write(m, *out.mutable_set_authority()); }
+    void operator()(const AuthorityAnswer& m) const { write(m, *out.mutable_authority_answer()); }
+    void operator()(const Drain& m) const { write(m, *out.mutable_drain()); }
+    void operator()(const Ping& m) const { write(m, *out.mutable_ping()); }
+    void operator()(const Pong& m) const { write(m, *out.mutable_pong()); }
+    void operator()(const Done& m) const { write(m, *out.mutable_done()); }
+  };
+  std::visit(Writer{out}, in);
+}
+
+void wipe_secrets(wire_pb::ControlFrame& frame) noexcept {
+  if (frame.has_hello() && frame.hello().has_ticket()) wipe_text(*frame.mutable_hello()->mutable_ticket());
+  if (frame.has_hello() && frame.hello().has_resume_secret()) wipe_text(*frame.mutable_hello()->mutable_resume_secret());
+  if (frame.has_welcome()) wipe_text(*frame.mutable_welcome()->mutable_resume_secret());
+  if (frame.has_enrol()) wipe_text(*frame.mutable_enrol()->mutable_code());
+}
+
+}  // namespace tandem::control

@@ -1,0 +1,220 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/base/axes.h"
+#include "common/base/secret.h"
+#include "proto/access_role.h"
+#include "proto/wire.h"
+
+/// Owned forms of what travels over the control connection (proto/control.proto). Bytes are made and read by proto/control_codec.h,
+/// which holds every bound that is written here, in both directions.
+namespace tandem::control {
+
+inline constexpr std::uint32_t kFrameVersion = 1;     ///< of the frames
+inline constexpr std::uint32_t kProtocolVersion = 1;  ///< of everything: handshake, frames, datagrams
+inline constexpr std::size_t kFrameMax = 65536;       ///< one frame without its length [bytes]
+inline constexpr std::size_t kTextMax = 480;          ///< texts for people [bytes of UTF-8 without control characters]
+inline constexpr std::size_t kNameMax = 32;           ///< names: A-Z a-z 0-9 _ -
+inline constexpr std::size_t kVersionsMax = 8;
+inline constexpr std::size_t kTicketMax = 512;        ///< more than a ticket has: another length is the ticket's own mistake
+inline constexpr std::size_t kSessionCodeSize = 10;
+inline constexpr std::size_t kSessionsMax = 48, kListedSeatsMax = kSeatsMax;
+
+using Id = std::array<std::byte, 16>;
+
+/// What the server must know of a device before it gives a seat.
+struct DeviceFacts {
+  std::uint32_t joints = 1;    ///< 1 ... kAxesMax
+  std::uint32_t tip_axes = 1;  ///< 1 ... kAxesMax
+  bool simulated = false, prismatic = false;
+  double force_peak_n = 0, damping_n_s_m = 0, mass_kg = 0;  ///< 0 ... 1e4; 0: unknown
+  friend bool operator==(const DeviceFacts&, const DeviceFacts&) = default;
+};
+
+/// Why somebody may join: at most one of these; none: who is on this very machine (a loopback server decides).
+struct TicketCredential {
+  std::vector<std::byte> bytes;  ///< 1 ... kTicketMax
+  friend bool operator==(const TicketCredential&, const TicketCredential&) = default;
+};
+struct ResumeCredential {
+  Secret<32> secret;
+  friend bool operator==(const ResumeCredential&, const ResumeCredential&) = default;
+};
+struct CodeCredential {
+  std::string code;  ///< 10 characters of 0-9 A-Z
+  friend bool operator==(const CodeCredential&, const CodeCredential&) = default;
+};
+using Credential = std::variant<std::monostate, TicketCredential, ResumeCredential, CodeCredential>;
+
+/// Which session: an id, a code of 10 characters, or the only one.
+using SessionChoice = std::variant<std::monostate, Id, std::string>;
+
+struct Hello {
+  std::vector<std::uint32_t> versions{kProtocolVersion};  ///< 1 ... 8 of them, ascending, 1 ... 65535
+  SessionChoice session;
+  std::string seat;  ///< a name, or empty
+  Credential credential;
+  std::uint32_t client_cid = 0;
+  DeviceFacts device;
+  bool has_aes = false, visit = false;
+  friend bool operator==(const Hello&, const Hello&) = default;
+};
+
+/// [1/s] and [1], each 1 ... 1e6.
+struct RateLimits {
+  std::uint32_t datagrams_per_s = 1250, datagrams_burst = 64, authority_per_s = 60, authority_burst = 120, commands_per_s = 10, commands_burst = 20;
+  friend bool operator==(const RateLimits&, const RateLimits&) = default;
+};
+
+enum class Cipher : std::uint8_t { kAes256Gcm, kChaCha20Poly1305 };
+
+struct Welcome {
+  std::uint32_t version = kProtocolVersion;  ///< 1 ... 65535
+  Id session_id{};
+  std::string session_name;  ///< a name
+  std::uint64_t epoch = 0;
+  std::uint32_t server_cid = 0;
+  Cipher cipher = Cipher::kAes256Gcm;
+  std::string seat;  ///< a name, or empty
+  AccessRole role = AccessRole::kObserver;
+  std::vector<std::byte> setup;  ///< at most wire::kSetupMax
+  std::uint16_t udp_port = 1;    ///< 1 ... 65535
+  Secret<32> resume_secret;
+  std::uint32_t authority_version = 0;
+  RateLimits limits;
+  friend bool operator==(const Welcome&, const Welcome&) = default;
+};
+
+/// Append-only: numbers travel.
+enum class Reason : std::uint8_t {
+  kVersion = 1,       ///< no version in common
+  kNotEnrolled = 2,   ///< this workstation's key is unknown, or was revoked
+  kTicket = 3,        ///< the text says which rule it breaks
+  kCode = 4,          ///< a wrong, used or expired code
+  kResume = 5,        ///< nothing to resume under this secret
+  kNoSession = 6,
+  kSessionOver = 7,
+  kNoSeat = 8,
+  kSeatTaken = 9,
+  kDeviceUnfit = 10,
+  kFull = 11,         ///< this server has no room for more
+  kDraining = 12,     ///< this server is about to end
+  kBlocked = 13,      ///< too many failures from this address
+  kNotAllowed = 14,   ///< this role may not
+  kTooFast = 15,      ///< too many of these per second
+  kBadFrame = 16,     ///< not a frame, or one out of turn
+  kTrouble = 17,      ///< the server could not, for reasons of its own; its log says which
+};
+inline constexpr std::uint8_t kReasons = 17;
+
+struct Refused {
+  Reason reason = Reason::kTrouble;
+  std::string text;                 ///< at most kTextMax
+  std::uint32_t retry_after_s = 0;  ///< at most 86400
+  friend bool operator==(const Refused&, const Refused&) = default;
+};
+
+struct Enrol {
+  Secret<16> code;
+  friend bool operator==(const Enrol&, const Enrol&) = default;
+};
+struct EnrolAck {
+  std::string workstation;  ///< a name
+  friend bool operator==(const EnrolAck&, const EnrolAck&) = default;
+};
+
+enum class SessionPhase : std::uint8_t { kWaiting, kRunning, kPaused, kStopped, kEnding };
+struct ListedSeat {
+  std::string name;
+  AccessRole role = AccessRole::kTrainee;
+  bool taken = false, required = false;
+  friend bool operator==(const ListedSeat&, const ListedSeat&) = default;
+};
+struct ListedSession {
+  Id id{};
+  std::string name;
+  SessionPhase phase = SessionPhase::kWaiting;
+  std::vector<ListedSeat> seats;  ///< at most kListedSeatsMax
+  friend bool operator==(const ListedSession&, const ListedSession&) = default;
+};
+struct SessionListRequest {
+  friend bool operator==(const SessionListRequest&, const SessionListRequest&) = default;
+};
+struct SessionList {
+  std::vector<ListedSession> sessions;  ///< at most kSessionsMax
+  bool more = false;
+  friend bool operator==(const SessionList&, const SessionList&) = default;
+};
+
+struct StopSession {
+  Id session_id{};
+  std::string why;  ///< at most kTextMax
+  friend bool operator==(const StopSession&, const StopSession&) = default;
+};
+struct ResumeSession {
+  Id session_id{};
+  friend bool operator==(const ResumeSession&, const ResumeSession&) = default;
+};
+struct PauseSession {
+  Id session_id{};
+  friend bool operator==(const PauseSession&, const PauseSession&) = default;
+};
+struct SetAuthority {
+  Id session_id{};
+  std::uint32_t tool = 0;     ///< below kToolsMax
+  std::uint32_t version = 0;  ///< that it replaces
+  std::vector<double> alpha;  ///< 1 ... kMastersMax weights in [0, 1], together 1 within 1e-9
+  friend bool operator==(const SetAuthority&, const SetAuthority&) = default;
+};
+struct AuthorityAnswer {
+  bool applied = false;
+  std::uint32_t tool = 0;
+  std::uint32_t version = 0;  ///< in force now
+  std::vector<double> alpha;  ///< in force now, as above
+  friend bool operator==(const AuthorityAnswer&, const AuthorityAnswer&) = default;
+};
+struct Drain {
+  std::uint32_t grace_s = 0;  ///< at most 3600
+  friend bool operator==(const Drain&, const Drain&) = default;
+};
+struct Ping {
+  std::uint64_t nonce = 0;
+  friend bool operator==(const Ping&, const Ping&) = default;
+};
+struct Pong {
+  std::uint64_t nonce = 0;
+  friend bool operator==(const Pong&, const Pong&) = default;
+};
+struct Done {
+  friend bool operator==(const Done&, const Done&) = default;
+};
+
+/// In the order of Kind.
+using Body = std::variant<Hello, Welcome, Refused, Enrol, EnrolAck, SessionListRequest, SessionList, StopSession, ResumeSession, PauseSession,
+                          SetAuthority, AuthorityAnswer, Drain, Ping, Pong, Done>;
+
+/// Which message a frame carries: readable before its payload is (roles are checked there). The number is the field's in ControlFrame.
+enum class Kind : std::uint8_t {
+  kHello = 3, kWelcome, kRefused, kEnrol, kEnrolAck, kSessionListRequest, kSessionList, kStopSession, kResumeSession, kPauseSession,
+  kSetAuthority, kAuthorityAnswer, kDrain, kPing, kPong, kDone
+};
+inline constexpr std::size_t kKinds = std::variant_size_v<Body>;
+static_assert(static_cast<std::size_t>(Kind::kDone) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
+
+struct Frame {
+  std::uint32_t request = 0;
+  Body body;
+  friend bool operator==(const Frame&, const Frame&) = default;
+};
+[[nodiscard]] inline Kind kind_of(const Frame& frame) noexcept {
+  return static_cast<Kind>(frame.body.index() + static_cast<std::size_t>(Kind::kHello));
+}
+
+}  // namespace tandem::control

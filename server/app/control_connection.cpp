@@ -1,0 +1,241 @@
+#include "server/app/control_connection.h"
+
+#include <algorithm>
+#include <asio/dispatch.hpp>
+#include <utility>
+
+#include "proto/control_codec.h"
+
+namespace tandem::server {
+namespace {
+
+using control::Kind;
+using control::Reason;
+using trust::StreamEnd;
+
+constexpr std::string_view kUnknown = "this workstation is not enrolled here, or was revoked; ask for `tandem-server enroll NAME` and type what it prints";
+
+/// What a client may say at all.
+constexpr bool is_question(Kind kind) noexcept {
+  return kind == Kind::kHello || kind == Kind::kEnrol || kind == Kind::kSessionListRequest || kind == Kind::kPing ||
+         (kind >= Kind::kStopSession && kind <= Kind::kSetAuthority) || kind == Kind::kDrain;
+}
+
+std::uint32_t whole_seconds(Duration d) noexcept { return static_cast<std::uint32_t>(std::clamp(seconds(d) + 1.0, 1.0, 86400.0)); }
+
+}  // namespace
+
+ControlConnection::ControlConnection(ControlPlane& plane, asio::ip::tcp::socket socket, const trust::Source& source, std::string address)
+    : plane_(plane),
+      stream_(trust::ControlStream::make(std::move(socket), plane.tls_, trust::ControlStream::Side::kServer)),
+      source_(source),
+      address_(std::move(address)),
+      commands_(control::RateLimits{}.commands_per_s, control::RateLimits{}.commands_burst),
+      authority_(control::RateLimits{}.authority_per_s, control::RateLimits{}.authority_burst) {}
+
+void ControlConnection::start() {
+  stream_->set_deadline(plane_.limits_.deadline);
+  stream_->allow_input(plane_.limits_.input_before_auth);
+  stream_->handshake([self = shared_from_this()](trust::ControlStream::Peer peer) {
+    if (!peer) return self->over(peer.error());
+    self->pin_ = *peer;
+    self->read_next();
+  });
+}
+
+void ControlConnection::stop() { finish(); }
+
+void ControlConnection::read_next() {
+  if (finished_) return;
+  const std::size_t frame_max = pending_ ? std::min(plane_.limits_.input_before_auth, control::kFrameMax) : control::kFrameMax;
+  const auto frame_deadline = pending_ ? trust::ControlStream::Duration::zero() : trust::ControlStream::Duration(plane_.limits_.frame_deadline);
+  stream_->read(frame_max, frame_deadline, [self = shared_from_this()](trust::ControlStream::Bytes bytes) {
+    if (!bytes) return self->over(bytes.error());
+    self->took(std::move(*bytes));
+  });
+}
+
+void ControlConnection::took(SecretBuffer bytes) {
+  if (finished_) return;
+  const auto raw = std::as_const(bytes).bytes();
+  request_ = 0;
+  // Who may say what is decided before a payload is parsed.
+  const auto kind = control::peek_kind(raw);
+  if (!kind || !is_question(*kind)) {
+    plane_.note(ControlEvent::kBadFrame, address_);
+    const bool version = !kind && kind.error() == control::FrameError::kVersion;
+    return refuse(version ? Reason::kVersion : Reason::kBadFrame,
+                  version ? "this server speaks version 1 of Tandem's control frames; use a client of the same release" : "the server does not understand this", true);
+  }
+  auto row = plane_.trust_.find(pin_);
+  if (!row) {
+    plane_.note(ControlEvent::kTrouble, address_, "", row.error());
+    return refuse(Reason::kTrouble, "the server cannot read its book of workstations, so it lets nobody in; its log says more", true);
+  }
+  workstation_ = std::move(*row);
+  if (!workstation_ && *kind != Kind::kEnrol) {
+    plane_.note(ControlEvent::kNotEnrolled, address_, "", pin_.hex());
+    return refuse(Reason::kNotEnrolled, std::string(kUnknown), true);
+  }
+  auto frame = control::decode(raw);
+  if (!frame) {
+    plane_.note(ControlEvent::kBadFrame, address_, workstation_ ? workstation_->name : "");
+    return refuse(Reason::kBadFrame, std::string(control::to_text(frame.error())), true);
+  }
+  request_ = frame->request;
+  trust::TokenBucket& bucket = *kind == Kind::kSetAuthority ? authority_ : commands_;
+  if (!bucket.take(plane_.clocks_.monotonic())) {
+    plane_.note(ControlEvent::kCommandTooFast, address_, workstation_ ? workstation_->name : "");
+    return refuse(Reason::kTooFast, "too many requests; ask more slowly", pending_, 1);
+  }
+  if (const auto* enrol = std::get_if<control::Enrol>(&frame->body)) return on_enrol(*enrol);
+  if (auto* hello = std::get_if<control::Hello>(&frame->body)) return on_hello(std::move(*hello));
+  if (const auto* ping = std::get_if<control::Ping>(&frame->body)) return answer(control::Pong{ping->nonce});
+  if (std::holds_alternative<control::SessionListRequest>(frame->body)) {
+    control::SessionList list = plane_.admissions_.list(*workstation_);
+    accepted();
+    return answer(std::move(list));
+  }
+  on_command(frame->body);
+}
+
+bool ControlConnection::blocked() {
+  const Duration left = plane_.failures_.blocked_for(source_, plane_.clocks_.monotonic());
+  if (left <= Duration::zero()) return false;
+  plane_.note(ControlEvent::kBlocked, address_);
+  const std::uint32_t wait = whole_seconds(left);
+  refuse(Reason::kBlocked, "too many wrong codes or tickets came from this address; wait " + std::to_string(wait) + " s", true, wait);
+  return true;
+}
+
+void ControlConnection::on_enrol(const control::Enrol& enrol) {
+  if (blocked()) return;
+  const auto row = plane_.trust_.enrol(enrol.code, pin_, plane_.clocks_.wall());
+  if (row) {
+    plane_.note(ControlEvent::kEnrolled, address_, row->name, pin_.hex());
+    accepted();
+    return answer(control::EnrolAck{row->name});
+  }
+  if (!row.error().fault) {
+    plane_.note(ControlEvent::kTrouble, address_, "", row.error().text);
+    return refuse(Reason::kTrouble, "the server cannot write its book of workstations; its log says more", true);
+  }
+  plane_.note(ControlEvent::kCodeRefused, address_, "", row.error().text);
+  const auto fault = *row.error().fault;
+  if (fault == trust::EnrolFault::kUnknownCode || fault == trust::EnrolFault::kExpired) plane_.failures_.failed(source_, plane_.clocks_.monotonic());
+  refuse(fault == trust::EnrolFault::kBookFull ? Reason::kFull : Reason::kCode, row.error().text, true);
+}
+
+void ControlConnection::on_hello(control::Hello hello) {
+  if (standing_) return refuse(Reason::kBadFrame, "this connection has joined already; open another one for another seat", true);
+  const auto common = std::ranges::find_if(hello.versions, [](std::uint32_t v) { return v == control::kProtocolVersion; });
+  if (common == hello.versions.end())
+    return refuse(Reason::kVersion, "this server speaks version " + std::to_string(control::kProtocolVersion) + " of the protocol, this client none of it; install the same release on both",
+                  true);
+  if (blocked()) return;
+  const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *common, *workstation_, source_, address_});
+  // The answer may come from another thread, and after this connection has ended.
+  plane_.admissions_.admit(*request, [weak = weak_from_this(), request, &context = plane_.context_, &admissions = plane_.admissions_](Admission admission) {
+    asio::dispatch(context, [weak, request, &admissions, admission = std::move(admission)]() mutable {
+      if (const auto self = weak.lock(); self && !self->finished_) return self->admitted(request, std::move(admission));
+      if (const auto* welcome = std::get_if<control::Welcome>(&admission)) admissions.abandoned(*welcome);
+    });
+  });
+}
+
+void ControlConnection::admitted(const std::shared_ptr<JoinRequest>& request, Admission admission) {
+  if (auto* refused = std::get_if<control::Refused>(&admission)) {
+    const bool guess = refused->reason == Reason::kTicket || refused->reason == Reason::kCode || refused->reason == Reason::kResume;
+    if (guess) plane_.failures_.failed(source_, plane_.clocks_.monotonic());
+    plane_.note(ControlEvent::kRefused, address_, request->workstation.name, refused->text);
+    return answer(std::move(*refused), true);
+  }
+  control::Welcome& welcome = std::get<control::Welcome>(admission);
+  const auto secrets = stream_->export_secrets({welcome.session_id, welcome.epoch, welcome.server_cid, welcome.role, welcome.seat});
+  if (!secrets) {
+    plane_.note(ControlEvent::kTrouble, address_, request->workstation.name, secrets.error());
+    plane_.admissions_.abandoned(welcome);
+    return refuse(Reason::kTrouble, "the server could not make this connection's keys; its log says more", true);
+  }
+  plane_.admissions_.seated(*request, welcome, *secrets);
+  plane_.note(ControlEvent::kWelcomed, address_, request->workstation.name, welcome.seat);
+  standing_ = welcome;
+  accepted();
+  answer(std::move(welcome));
+}
+
+void ControlConnection::on_command(const control::Body& command) {
+  if (!standing_) return refuse(Reason::kNotAllowed, "join first: what somebody may order depends on his role", pending_);
+  plane_.note(ControlEvent::kCommand, address_, workstation_->name);
+  plane_.admissions_.command(*standing_, *workstation_, command, [weak = weak_from_this(), &context = plane_.context_](control::Body body) {
+    asio::dispatch(context, [weak, body = std::move(body)]() mutable {
+      if (const auto self = weak.lock(); self && !self->finished_) self->answer(std::move(body));
+    });
+  });
+}
+
+void ControlConnection::accepted() {
+  if (!pending_) return;
+  pending_ = false;
+  stream_->clear_deadline();
+  stream_->allow_input(trust::MeteredSocket::kUnlimited);
+  plane_.no_longer_pending();
+}
+
+void ControlConnection::refuse(Reason reason, std::string text, bool last, std::uint32_t retry_after_s) {
+  answer(control::Refused{reason, std::move(text), retry_after_s}, last);
+}
+
+void ControlConnection::answer(control::Body body, bool last) {
+  auto frame = control::encode({request_, std::move(body)});
+  if (!frame) {  // ours, and beyond its bounds
+    plane_.note(ControlEvent::kTrouble, address_, workstation_ ? workstation_->name : "", "an answer could not be written");
+    return finish();
+  }
+  // Who does not take his answer is let go of.
+  if (!pending_) stream_->set_deadline(plane_.limits_.frame_deadline);
+  stream_->write(std::move(*frame), [self = shared_from_this(), last](std::expected<void, trust::StreamFault> written) {
+    if (!written) return self->over(written.error());
+    if (!self->pending_) self->stream_->clear_deadline();
+    if (last) return self->finish();
+    self->read_next();
+  });
+}
+
+void ControlConnection::over(const trust::StreamFault& fault) {
+  if (finished_) return;
+  switch (fault.end) {
+    case StreamEnd::kDeadline:
+      plane_.note(ControlEvent::kDeadline, address_, workstation_ ? workstation_->name : "");
+      break;
+    case StreamEnd::kTooMuch:
+      plane_.note(ControlEvent::kTooMuchInput, address_);
+      break;
+    case StreamEnd::kLength:
+      plane_.note(ControlEvent::kBadFrame, address_, workstation_ ? workstation_->name : "", fault.text);
+      return refuse(Reason::kBadFrame, fault.text, true);
+    case StreamEnd::kHandshake:
+      plane_.note(ControlEvent::kHandshakeFailed, address_, "", fault.text);
+      break;
+    case StreamEnd::kClosed:
+    case StreamEnd::kStopped:
+    case StreamEnd::kTrouble:
+      break;
+  }
+  finish();
+}
+
+void ControlConnection::finish() {
+  if (finished_) return;
+  finished_ = true;
+  const auto self = shared_from_this();
+  stream_->close();
+  if (standing_) plane_.admissions_.left(*standing_);
+  if (pending_) {
+    pending_ = false;
+    plane_.no_longer_pending();
+  }
+  plane_.ended(self);
+}
+
+}  // namespace tandem::server

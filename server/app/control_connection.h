@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/trust/io/control_stream.h"
+#include "server/app/control_plane.h"
+
+namespace tandem::server {
+
+/// One connection at the door: handshake, then frame by frame, each answered before the next is read. Until its first yes it lives under
+/// a deadline and an allowance of bytes. Every frame looks the workstation up anew, so who is revoked is refused at his next word.
+class ControlConnection : public std::enable_shared_from_this<ControlConnection> {
+ public:
+  ControlConnection(ControlPlane& plane, asio::ip::tcp::socket socket, const trust::Source& source, std::string address);
+  void start();
+  void stop();
+
+ private:
+  void read_next();
+  void took(SecretBuffer bytes);
+  void on_enrol(const control::Enrol& enrol);
+  void on_hello(control::Hello hello);
+  void on_command(const control::Body& command);
+  void admitted(const std::shared_ptr<JoinRequest>& request, Admission admission);
+  /// Sends an answer; afterwards reads on, or ends if `last`.
+  void answer(control::Body body, bool last = false);
+  void refuse(control::Reason reason, std::string text, bool last, std::uint32_t retry_after_s = 0);
+  /// The first yes: from now on this connection may stay.
+  void accepted();
+  void over(const trust::StreamFault& fault);
+  void finish();
+  /// Whether too many wrong codes and tickets came from there; then it has been told so.
+  bool blocked();
+
+  ControlPlane& plane_;
+  std::shared_ptr<trust::ControlStream> stream_;
+  trust::Source source_;
+  std::string address_;
+  trust::Pin pin_;
+  std::optional<WorkstationRow> workstation_;
+  std::optional<control::Welcome> standing_;
+  trust::TokenBucket commands_, authority_;
+  std::uint32_t request_ = 0;
+  bool pending_ = true, finished_ = false;
+};
+
+}  // namespace tandem::server

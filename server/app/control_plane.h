@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <asio/executor_work_guard.hpp>
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/ssl/context.hpp>
+#include <asio/steady_timer.hpp>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <expected>
+#include <functional>
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <unordered_set>
+
+#include "common/io/clock.h"
+#include "common/io/socket_address.h"
+#include "common/trust/io/server_trust.h"
+#include "common/trust/limiter.h"
+#include "server/app/admissions.h"
+
+namespace tandem::server {
+
+class ControlConnection;
+
+/// What happened at the door. Each is counted; the interesting ones are told too.
+enum class ControlEvent : std::uint8_t {
+  kAccepted, kTooFast, kHandshakeFailed, kDeadline, kTooMuchInput, kBadFrame, kNotEnrolled, kBlocked, kEnrolled, kCodeRefused, kWelcomed, kRefused,
+  kCommand, kCommandTooFast, kTrouble
+};
+inline constexpr std::size_t kControlEvents = 15;
+[[nodiscard]] std::string_view to_text(ControlEvent event) noexcept;
+
+/// For logs and audit; never holds a secret.
+struct ControlNews {
+  ControlEvent event = ControlEvent::kAccepted;
+  std::string address, workstation, detail;
+};
+
+struct ControlLimits {
+  std::chrono::milliseconds deadline{5000};        ///< from accept to the first frame that is answered with yes
+  std::chrono::milliseconds frame_deadline{5000};  ///< later: from the first byte of a frame to its last, and for an answer to be taken
+  std::size_t input_before_auth = 8192;            ///< [bytes], TLS included
+  std::size_t pending = 256;                       ///< connections before their first yes; more wait in the kernel
+  std::size_t connections = 2048;                  ///< in all; more wait in the kernel
+  trust::AcceptLimits accept;
+};
+
+/// Times as the control plane sees them; tests bring their own.
+struct ControlClocks {
+  std::function<std::int64_t()> wall = trust::wall_seconds;  ///< [s] since 1970, UTC
+  std::function<Time()> monotonic = io::monotonic_now;
+};
+
+/// The door of a server: takes TLS connections, enrols workstations, hands who wants to join to `Admissions`, passes on commands.
+/// Everything runs on the thread of `context`; nothing blocks but the books' files.
+class ControlPlane {
+ public:
+  /// @param trust  after begin_serving; belongs to the context's thread from now on
+  /// Before this goes: `stop`, and the context has run until nothing was left (ControlThread does both).
+  ControlPlane(asio::io_context& context, trust::ServerTrust& trust, Admissions& admissions, const ControlLimits& limits = {}, ControlClocks clocks = {},
+               std::function<void(const ControlNews&)> tell = {});
+  ~ControlPlane();
+  ControlPlane(const ControlPlane&) = delete;
+  ControlPlane& operator=(const ControlPlane&) = delete;
+
+  /// May be called several times, before the context runs. @return the address with the port that was taken, or what is wrong
+  [[nodiscard]] std::expected<io::SocketAddress, std::string> listen(const io::SocketAddress& at);
+  /// No newcomers, every connection closed. From the context's thread.
+  void stop();
+
+  /// From any thread.
+  [[nodiscard]] std::uint64_t count(ControlEvent event) const noexcept { return counts_[static_cast<std::size_t>(event)].load(std::memory_order_relaxed); }
+
+ private:
+  friend class ControlConnection;
+  struct Door {
+    asio::ip::tcp::acceptor acceptor;
+    asio::steady_timer pause;
+    bool accepting = false;
+  };
+
+  void accept_next(Door& door);
+  void took(Door& door, asio::ip::tcp::socket socket);
+  void note(ControlEvent event, std::string address, std::string workstation = {}, std::string detail = {});
+  /// A connection got its first yes, or ended without one.
+  void no_longer_pending();
+  void ended(const std::shared_ptr<ControlConnection>& connection);
+  void open_doors();
+
+  asio::io_context& context_;
+  trust::ServerTrust& trust_;
+  Admissions& admissions_;
+  ControlLimits limits_;
+  ControlClocks clocks_;
+  std::function<void(const ControlNews&)> tell_;
+  asio::ssl::context tls_;
+  trust::AcceptLimiter accepts_;
+  trust::FailureLimiter failures_;
+  std::list<Door> doors_;
+  std::unordered_set<std::shared_ptr<ControlConnection>> connections_;
+  std::size_t pending_ = 0;
+  bool stopped_ = false;
+  std::array<std::atomic<std::uint64_t>, kControlEvents> counts_{};
+};
+
+/// A thread that runs one io_context for a control plane, with all signals left to others.
+class ControlThread {
+ public:
+  [[nodiscard]] asio::io_context& context() noexcept { return context_; }
+  void start();
+  /// Runs `last` on the thread, then lets it end.
+  void stop(std::function<void()> last);
+  ~ControlThread();
+
+ private:
+  asio::io_context context_{1};
+  std::optional<asio::executor_work_guard<asio::io_context::executor_type>> work_;
+  std::thread thread_;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,74 @@
+#include "common/trust/used_tickets.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/trust/support.h"
+
+namespace tandem::trust {
+namespace {
+
+using test::kNow;
+
+Ticket ticket(std::uint32_t number, std::int64_t not_after = kNow + 100) {
+  Ticket t = test::sample_ticket();
+  for (std::size_t i = 0; i < 4; ++i) t.ticket_id[i] = static_cast<std::byte>(number >> (8 * i) & 0xff);
+  t.not_after = not_after;
+  return t;
+}
+
+TEST(UsedTickets, LetEachInOnce) {
+  UsedTickets book;
+  EXPECT_TRUE(book.use(ticket(1), kNow));
+  EXPECT_TRUE(book.use(ticket(2), kNow));
+  const auto again = book.use(ticket(1), kNow);
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().rule, TicketRule::kUsed);
+  EXPECT_EQ(book.size(), 2u);
+}
+
+TEST(UsedTickets, AreForgottenOnlyOnceTheyHaveExpired) {
+  UsedTickets book;
+  ASSERT_TRUE(book.use(ticket(1, kNow + 10), kNow));
+  EXPECT_EQ(book.prune(kNow + 10), 0u);  // still good in this very second
+  EXPECT_EQ(book.prune(kNow + 11), 1u);
+}
+
+TEST(UsedTickets, FullMeansNobodyNewRatherThanForgetting) {
+  UsedTickets book;
+  for (std::uint32_t i = 0; i < UsedTickets::kMax; ++i) ASSERT_TRUE(book.use(ticket(i, kNow + (i == 7 ? 5 : 100)), kNow));
+  const auto more = book.use(ticket(1u << 20), kNow);
+  ASSERT_FALSE(more);
+  EXPECT_EQ(more.error().rule, TicketRule::kBookFull);
+  EXPECT_TRUE(book.use(ticket(1u << 20), kNow + 6)) << "number 7 has expired and makes room";
+  EXPECT_EQ(book.size(), UsedTickets::kMax);
+}
+
+TEST(UsedTickets, SurviveTheirFile) {
+  UsedTickets book;
+  ASSERT_TRUE(book.use(ticket(1), kNow));
+  ASSERT_TRUE(book.use(ticket(2), kNow));
+  const std::string text = book.to_text();
+  const auto read = UsedTickets::parse(text);
+  ASSERT_TRUE(read) << read.error();
+  EXPECT_TRUE(read->used(ticket(1).ticket_id));
+  EXPECT_TRUE(read->used(ticket(2).ticket_id));
+  EXPECT_EQ(read->to_text(), text);
+  EXPECT_EQ(text, UsedTickets::line(ticket(1).ticket_id, kNow + 100) + UsedTickets::line(ticket(2).ticket_id, kNow + 100));
+}
+
+TEST(UsedTickets, ALineCutByACrashIsLeftOutAndAnythingElseIsAnError) {
+  const std::string one = UsedTickets::line(ticket(1).ticket_id, kNow);
+  for (std::size_t cut = 0; cut < one.size(); ++cut) {
+    const auto read = UsedTickets::parse(one + UsedTickets::line(ticket(2).ticket_id, kNow).substr(0, cut));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->size(), 1u);
+  }
+  for (const std::string& bad : {std::string("\n"), std::string("00\n"), "zz" + one.substr(2), one.substr(0, 40) + " \n", one.substr(0, 33) + "-1\n"}) {
+    const auto read = UsedTickets::parse(one + bad + one);
+    ASSERT_FALSE(read) << bad;
+    EXPECT_EQ(read.error().substr(0, 7), "line 2:");
+  }
+}
+
+}  // namespace
+}  // namespace tandem::trust
