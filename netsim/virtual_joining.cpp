@@ -34,8 +34,8 @@ link::Link::Params server_end(link::Link::Params p) {
 
 }  // namespace
 
-wire::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept {
-  wire::DeviceFacts f;
+tandem::control::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept {
+  tandem::control::DeviceFacts f;
   f.joints = static_cast<std::uint32_t>(caps.joints);
   f.tip_axes = static_cast<std::uint32_t>(caps.tip_axes);
   f.simulated = caps.simulated;
@@ -46,25 +46,25 @@ wire::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept {
   return f;
 }
 
-std::expected<VirtualSeat, wire::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
+std::expected<VirtualSeat, server::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
                                                             const hal::DeviceCaps& caps, RandomKey key, std::uint64_t number,
                                                             bool same_owner, std::uint8_t slot) {
   const server::Reception& reception = session.reception();
-  if (seat >= reception.scene().seats.size()) return std::unexpected(wire::JoinResult::kNoSuchSeat);
-  if (!reception.unfit(seat, device_facts(caps)).empty()) return std::unexpected(wire::JoinResult::kDeviceUnfit);
+  if (seat >= reception.scene().seats.size()) return std::unexpected(server::JoinResult::kNoSuchSeat);
+  if (!reception.unfit(seat, device_facts(caps)).empty()) return std::unexpected(server::JoinResult::kDeviceUnfit);
   const link::Link::Params client = client_end(key.derive(number), slot, seat + 1, reception.tick());
   server::Entry entry = reception.prepare(seat, server_end(client));
-  const wire::JoinResult result = session.admit(now, seat, entry, same_owner);
-  if (result != wire::JoinResult::kAccepted) return std::unexpected(result);
+  const server::JoinResult result = session.admit(now, seat, entry, same_owner);
+  if (result != server::JoinResult::kAccepted) return std::unexpected(result);
   return VirtualSeat{reception.setup(seat), client};
 }
 
-std::expected<VirtualSeat, wire::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key, std::uint64_t number) {
+std::expected<VirtualSeat, server::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key, std::uint64_t number) {
   const server::Reception& reception = session.reception();
   const link::Link::Params client = client_end(key.derive(number), 0, kSeatsMax + 1, reception.tick());
   auto link = std::make_unique<link::Link>(server_end(client));
-  const wire::JoinResult result = session.admit_visitor(now, link);
-  if (result != wire::JoinResult::kAccepted) return std::unexpected(result);
+  const server::JoinResult result = session.admit_visitor(now, link);
+  if (result != server::JoinResult::kAccepted) return std::unexpected(result);
   return VirtualSeat{reception.setup(0), client};
 }
 

@@ -20,14 +20,14 @@ struct VirtualSeat {
 /// to be there, at once; from the first datagram on everything is as it is live.
 /// @param number      of this attempt: other ids and secrets each time
 /// @param same_owner  he who sat there comes again  @param slot  of the session, where a server has several
-[[nodiscard]] std::expected<VirtualSeat, wire::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
+[[nodiscard]] std::expected<VirtualSeat, server::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
                                                                           const hal::DeviceCaps& caps, RandomKey key, std::uint64_t number,
                                                                           bool same_owner = false, std::uint8_t slot = 0);
 /// The same for one who only judges his link; his setup is that of the first seat.
-[[nodiscard]] std::expected<VirtualSeat, wire::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key,
+[[nodiscard]] std::expected<VirtualSeat, server::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key,
                                                                            std::uint64_t number);
 
 /// What a device tells of itself when it asks for a seat.
-[[nodiscard]] wire::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept;
+[[nodiscard]] tandem::control::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept;
 
 }  // namespace tandem::netsim

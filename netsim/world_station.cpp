@@ -124,15 +124,15 @@ std::string WorldStation::join(Time now, server::Session& session) {
   }
   const std::string& name = scene_->seats[number_].name;
   switch (joined.error()) {
-    case wire::JoinResult::kSeatTaken:
+    case server::JoinResult::kSeatTaken:
       if (starts_ == 1) return "seat " + name + ": somebody sits there already";
       ask_again_ = now + kAskAgain;
       return {};
-    case wire::JoinResult::kSessionOver:
+    case server::JoinResult::kSessionOver:
       return {};  // nobody waits for it any more
-    case wire::JoinResult::kNoSuchSeat:
-    case wire::JoinResult::kDeviceUnfit:
-    case wire::JoinResult::kAccepted:
+    case server::JoinResult::kNoSuchSeat:
+    case server::JoinResult::kDeviceUnfit:
+    case server::JoinResult::kAccepted:
       break;
   }
   return "seat " + name + ": " + session.reception().unfit(number_, device_facts(device_->caps()));

@@ -1,16 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 
 #include "proto/wire.h"
 
-/// A visit: whoever binds under this name, where no seat of the scene has it, sits nowhere. He exchanges STATE and FORCE of the
+/// A visit: who joins only to judge his link sits nowhere. He exchanges STATE and FORCE of the
 /// scene's sizes at its rate, so that his link is judged by what a seat would send, and touches no session: what his STATE says is
 /// not read, and his FORCE tells what came of it. Joining, sealing and closing are those of a seat.
 namespace tandem::wire {
-
-inline constexpr std::string_view kVisitorName = "link-test";
 
 /// What came of a visitor's STATEs. With Preamble::echo_counter, the newest that acted, it gives the loss on the way up.
 struct VisitReport {

@@ -73,19 +73,6 @@ struct ForceMessage {
 inline constexpr std::size_t kSeatNameMax = 32;
 inline constexpr std::size_t kSetupMax = 1024;  ///< bytes of a serialized seat setup, see proto/seat_setup.h
 
-/// What a server must know of a device before it gives it a seat.
-struct DeviceFacts {
-  std::uint32_t joints = 0;               ///< 1 ... kAxesMax
-  std::uint32_t tip_axes = 0;             ///< 1 ... kAxesMax
-  bool simulated = false;
-  bool prismatic = false;
-  double force_peak_n = 0;                ///< 0: unknown
-  double damping_n_s_m = 0;               ///< 0: unknown
-  double mass_kg = 0;                     ///< 0: unknown
-};
-
-enum class JoinResult : std::uint8_t { kAccepted, kNoSuchSeat, kSeatTaken, kDeviceUnfit, kSessionOver };
-
 /// Server to a client that was heard from a new address, up to five times in 250 ms; reply: PATH_RESPONSE with the same token, from
 /// that address. Smaller than the STATE that caused it.
 struct PathMessage {

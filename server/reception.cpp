@@ -31,7 +31,7 @@ std::string Reception::seat_names() const {
   return text;
 }
 
-std::string Reception::unfit(std::size_t seat, const wire::DeviceFacts& device) const {
+std::string Reception::unfit(std::size_t seat, const tandem::control::DeviceFacts& device) const {
   const std::size_t needed = scene_->dof;
   if (scene_->port == PortSpace::kTip ? device.tip_axes < needed : device.joints < needed)
     return "the scene needs " + std::to_string(needed) + " axes, the device has " +

@@ -11,9 +11,11 @@
 #include "common/link/link.h"
 #include "proto/scene_spec.h"
 #include "proto/seat_setup.h"
-#include "proto/wire.h"
+#include "proto/control_messages.h"
 
 namespace tandem::server {
+
+enum class JoinResult : std::uint8_t { kAccepted, kNoSuchSeat, kSeatTaken, kDeviceUnfit, kSessionOver };
 
 /// A seat's place in the session for one client, made where memory may be taken; the session's own thread only puts it in.
 struct Entry {
@@ -35,7 +37,7 @@ class Reception {
   /// The names of all seats, for a person.
   [[nodiscard]] std::string seat_names() const;
   /// Why this device may not sit there; empty when it may.
-  [[nodiscard]] std::string unfit(std::size_t seat, const wire::DeviceFacts& device) const;
+  [[nodiscard]] std::string unfit(std::size_t seat, const tandem::control::DeviceFacts& device) const;
   [[nodiscard]] const SeatSetup& setup(std::size_t seat) const noexcept { return setups_[seat]; }
   /// @param link  with the ids and the secrets of this joining
   [[nodiscard]] Entry prepare(std::size_t seat, link::Link::Params link) const;

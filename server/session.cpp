@@ -54,17 +54,22 @@ void Session::on_datagram(Time now, const Endpoint& from, std::span<const std::b
   if (tools_[m.tool].authority.request(m.alpha)) ++authority_version_;
 }
 
-wire::JoinResult Session::admit(Time now, std::size_t i, Entry& entry, bool same_owner) noexcept {
-  if (over_ || state_ == wire::SessionState::kEnding) return wire::JoinResult::kSessionOver;
-  if (i >= seats_.size()) return wire::JoinResult::kNoSuchSeat;
-  if (seats_[i].taken() && !same_owner && seats_[i].silence(now) <= kSilentOwner) return wire::JoinResult::kSeatTaken;
-  seats_[i].take(now, entry);
-  return wire::JoinResult::kAccepted;
+JoinResult Session::may_admit(Time now, std::size_t i, bool same_owner) const noexcept {
+  if (over_ || state_ == wire::SessionState::kEnding) return JoinResult::kSessionOver;
+  if (i >= seats_.size()) return JoinResult::kNoSuchSeat;
+  if (seats_[i].taken() && !same_owner && seats_[i].silence(now) <= kSilentOwner) return JoinResult::kSeatTaken;
+  return JoinResult::kAccepted;
 }
 
-wire::JoinResult Session::admit_visitor(Time now, std::unique_ptr<link::Link>& link) noexcept {
-  if (over_ || state_ == wire::SessionState::kEnding) return wire::JoinResult::kSessionOver;
-  return visitors_.admit(now, link) ? wire::JoinResult::kAccepted : wire::JoinResult::kSeatTaken;
+JoinResult Session::admit(Time now, std::size_t i, Entry& entry, bool same_owner) noexcept {
+  const JoinResult may = may_admit(now, i, same_owner);
+  if (may == JoinResult::kAccepted) seats_[i].take(now, entry);
+  return may;
+}
+
+JoinResult Session::admit_visitor(Time now, std::unique_ptr<link::Link>& link) noexcept {
+  if (over_ || state_ == wire::SessionState::kEnding) return JoinResult::kSessionOver;
+  return visitors_.admit(now, link) ? JoinResult::kAccepted : JoinResult::kSeatTaken;
 }
 
 void Session::request_authority(const AuthorityRow& row) noexcept {

@@ -27,11 +27,14 @@ class Session {
 
   /// What never changes: for whoever answers those who ask for a seat, on any thread.
   [[nodiscard]] const Reception& reception() const noexcept { return reception_; }
-  /// Puts a client into a seat that is free, or whose owner fell silent 2 s ago, or (`same_owner`) is himself.
-  /// @param entry  holds afterwards what was in the seat before, to be given back elsewhere  @return kAccepted, kSeatTaken or kSessionOver
-  [[nodiscard]] wire::JoinResult admit(Time now, std::size_t seat, Entry& entry, bool same_owner) noexcept;
+  /// Whether a client could be put into a seat: it is free, or its owner fell silent 2 s ago, or (`same_owner`) is himself.
+  /// @return kAccepted, kSeatTaken, kNoSuchSeat or kSessionOver
+  [[nodiscard]] JoinResult may_admit(Time now, std::size_t seat, bool same_owner) const noexcept;
+  /// Puts a client into a seat if he may be.
+  /// @param entry  holds afterwards what was in the seat before, to be given back elsewhere  @return as `may_admit`
+  [[nodiscard]] JoinResult admit(Time now, std::size_t seat, Entry& entry, bool same_owner) noexcept;
   /// One who only judges his link (proto/visit.h). @return as above
-  [[nodiscard]] wire::JoinResult admit_visitor(Time now, std::unique_ptr<link::Link>& link) noexcept;
+  [[nodiscard]] JoinResult admit_visitor(Time now, std::unique_ptr<link::Link>& link) noexcept;
 
   void on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept;
   /// @param missed  ticks whose time passed without a call; they are lived through now, silently, up to a bound.

@@ -1,101 +1,220 @@
 #include "client/app/ask.h"
 
 #include <poll.h>
-#include <sys/random.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
+#include "client/app/server_trust.h"
 #include "client/seat.h"
 #include "common/io/clock.h"
-#include "common/io/datagram_batch.h"
-#include "proto/visit.h"
+#include "common/trust/enrolment.h"
+#include "common/trust/io/control_client.h"
+#include "common/trust/ticket.h"
 
 namespace tandem::client {
 namespace {
 
-constexpr int kWaitMs = 20;
+using control::Reason;
+using Fault = trust::ClientFault;
 
-std::uint64_t unpredictable() {
-  std::uint64_t drawn = 0;
-  while (getrandom(&drawn, sizeof drawn, 0) != sizeof drawn) {
+constexpr int kAgainMs = 100;  // a server that is about to start
+
+control::DeviceFacts facts_of(const hal::DeviceCaps& caps) {
+  control::DeviceFacts f;
+  f.joints = static_cast<std::uint32_t>(caps.joints);
+  f.tip_axes = static_cast<std::uint32_t>(caps.tip_axes);
+  f.simulated = caps.simulated;
+  f.prismatic = caps.prismatic;
+  f.force_peak_n = caps.axis[0].peak.value_or(0);
+  f.damping_n_s_m = caps.damping.value_or(0);
+  f.mass_kg = caps.mass.value_or(0);
+  return f;
+}
+
+std::string waited(Duration patience) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g s", seconds(patience));
+  return text;
+}
+
+std::string refusal(const control::Refused& refused, const Asking& asking) {
+  switch (refused.reason) {
+    case Reason::kNoSeat:
+      return "--seat " + asking.seat + ": " + refused.text;
+    case Reason::kSeatTaken:
+      return "--seat " + asking.seat + ": " + refused.text + "; take another seat, or wait until it is free (2 s after its owner fell silent)";
+    case Reason::kDeviceUnfit:
+      return "the device does not fit this scene: " + refused.text;
+    case Reason::kSessionOver:
+      return refused.text + "; start the server again";
+    default:
+      return "refused: " + refused.text;
   }
-  return drawn;
 }
 
-std::string refusal(const Joining& joining, const std::string& seat) {
-  const std::string said = joining.reason();
-  if (seat == wire::kVisitorName)
-    return joining.result() == wire::BindResult::kNoSuchSeat ? "this server is of a version without link tests: " + said
-                                                             : "refused: " + said + "; try again later";
-  switch (joining.result()) {
-    case wire::BindResult::kNoSuchSeat:
-      return "--seat " + seat + ": " + said;
-    case wire::BindResult::kSeatTaken:
-      return "--seat " + seat + ": " + said +
-             "; take another seat, or wait until it is free (2 s after its owner fell silent)";
-    case wire::BindResult::kDeviceUnfit:
-      return "the device does not fit this scene: " + said;
-    case wire::BindResult::kSessionOver:
-      return said + "; start the server again";
-    case wire::BindResult::kAccepted:
-      break;
+/// One attempt to get a seat, over one connection.
+class Joining {
+ public:
+  explicit Joining(const Asking& asking) : asking_(asking), trust_(asking.state, asking.server) {}
+
+  std::expected<GivenSeat, NotSeated> join() {
+    if (auto connected = connect(); !connected) return std::unexpected(connected.error());
+    auto hello = make_hello();
+    if (!hello) return std::unexpected(hello.error());
+    const auto answer = ask(*hello);
+    if (!answer) return std::unexpected(answer.error());
+    if (const auto* refused = std::get_if<control::Refused>(&*answer)) return fail(refusal(*refused, asking_));
+    const auto* welcome = std::get_if<control::Welcome>(&*answer);
+    if (welcome == nullptr) return fail("the server answered something else; is it of the same release?");
+    return take(*welcome, *hello);
   }
-  return said;
-}
 
-std::string no_answer(const std::string& server, bool nobody_listens, Duration patience) {
-  char waited[32];
-  std::snprintf(waited, sizeof waited, "%g s", seconds(patience));
-  if (nobody_listens)
-    return "no server at " + server + ": nothing listens there (asked for " + waited +
-           "). Start `tandem-server run SCENE` first, and use the address it prints as `listening on`";
-  return "no answer from " + server + " within " + waited +
-         ": is a tandem-server listening there, of this version, and is the network (or tandem-netsim proxy) between "
-         "up?";
-}
+ private:
+  static std::unexpected<NotSeated> fail(std::string reason) { return std::unexpected(NotSeated{false, std::move(reason)}); }
+
+  NotSeated not_seated(const Fault& fault) const {
+    if (fault.kind == Fault::Kind::kInterrupted) return {true, {}};
+    const std::string server = io::to_text(asking_.server);
+    if (fault.kind == Fault::Kind::kUnreachable)
+      return {false, "no server at " + server + ": nothing listens there (asked for " + waited(asking_.patience) +
+                         "). Start `tandem-server run SCENE` first, and use the address it prints as `listening on`"};
+    if (fault.kind == Fault::Kind::kStream && fault.end == trust::StreamEnd::kDeadline)
+      return {false, "no answer from " + server + " within " + waited(asking_.patience) +
+                         ": is a tandem-server listening there, of this version, and is the network (or tandem-netsim proxy) between up?"};
+    return {false, fault.text};
+  }
+
+  std::expected<void, NotSeated> connect() {
+    const Time until = io::monotonic_now() + asking_.patience;
+    while (true) {
+      const auto left = std::max(Duration{std::chrono::milliseconds(1)}, Duration{until - io::monotonic_now()});
+      auto client = trust::ControlClient::connect(
+          asking_.server, [this](const trust::Pin& pin) { return trust_.judge(pin); }, std::chrono::duration_cast<std::chrono::milliseconds>(left), asking_.signals);
+      if (client) {
+        client_.emplace(std::move(*client));
+        return {};
+      }
+      const bool later = client.error().kind == Fault::Kind::kUnreachable && io::monotonic_now() + std::chrono::milliseconds(kAgainMs) < until;
+      if (!later) return std::unexpected(not_seated(client.error()));
+      pollfd signals{asking_.signals, POLLIN, 0};
+      if (poll(&signals, 1, kAgainMs) > 0) return std::unexpected(NotSeated{true, {}});
+    }
+  }
+
+  std::expected<control::Body, NotSeated> ask(const control::Body& question) {
+    auto answer = client_->ask(question, std::chrono::duration_cast<std::chrono::milliseconds>(asking_.patience));
+    if (!answer) return std::unexpected(not_seated(answer.error()));
+    return std::move(*answer);
+  }
+
+  std::expected<control::Hello, NotSeated> make_hello() {
+    control::Hello hello;
+    hello.seat = asking_.seat;
+    hello.visit = asking_.seat.empty();
+    hello.device = facts_of(asking_.caps);
+    hello.has_aes = link::fastest_cipher() == link::Cipher::kAes256Gcm;
+    const auto cid = trust::random_bytes<std::array<std::byte, 4>>();
+    for (std::size_t i = 0; i < 4; ++i) hello.client_cid |= std::to_integer<std::uint32_t>(cid[i]) << (8 * i);
+    hello.client_cid |= 1;
+
+    const auto code = trust::canonical_session_code(asking_.session);
+    trust::Id16 id;
+    const bool is_id = trust::from_hex(asking_.session, id);
+    if (is_id) hello.session = id;
+    if (!is_id && code) hello.session = *code;
+    if (!asking_.ticket.empty()) {
+      const auto ticket = trust::ticket_from_text(asking_.ticket);
+      if (!ticket) return fail("--ticket: " + ticket.error());
+      hello.credential = control::TicketCredential{{ticket->begin(), ticket->end()}};
+      if (asking_.session.empty()) hello.session = trust::session_named_in(*ticket);
+      return hello;
+    }
+    const bool by_name = !asking_.session.empty() && !is_id && !code;
+    if (by_name || (trust_.local() && !hello.visit)) {
+      const auto found = find_session(id, is_id, code);
+      if (!found) return std::unexpected(found.error());
+      hello.session = found->id;
+      if (trust_.local() && !hello.visit) {
+        auto own = write_ticket(*found);
+        if (!own) return std::unexpected(own.error());
+        hello.credential = std::move(*own);
+        return hello;
+      }
+    }
+    if (code && !hello.visit) hello.credential = control::CodeCredential{*code};
+    return hello;
+  }
+
+  std::expected<control::ListedSession, NotSeated> find_session(const trust::Id16& id, bool is_id, const std::optional<std::string>& code) {
+    const auto answer = ask(control::SessionListRequest{});
+    if (!answer) return std::unexpected(answer.error());
+    if (const auto* refused = std::get_if<control::Refused>(&*answer)) return fail(refusal(*refused, asking_));
+    const auto* list = std::get_if<control::SessionList>(&*answer);
+    if (list == nullptr) return fail("the server answered something else; is it of the same release?");
+    std::string names;
+    const control::ListedSession* found = nullptr;
+    for (const control::ListedSession& s : list->sessions) {
+      names += (names.empty() ? "" : ", ") + s.name;
+      if (is_id ? s.id == id : (code || asking_.session.empty()) ? list->sessions.size() == 1 : s.name == asking_.session) found = &s;
+    }
+    if (found != nullptr) return *found;
+    if (list->sessions.empty()) return fail("no session is open at " + io::to_text(asking_.server) + "; start one with `tandem-server run SCENE`");
+    return fail(asking_.session.empty() ? "several sessions are open there: " + names + "; say which with --session"
+                                        : "--session " + asking_.session + ": no such session there; open: " + names);
+  }
+
+  /// On the server's own computer, as its own user: the right it would write out anyway.
+  std::expected<control::Credential, NotSeated> write_ticket(const control::ListedSession& session) {
+    const auto seat = std::ranges::find(session.seats, asking_.seat, &control::ListedSeat::name);
+    if (seat == session.seats.end()) {
+      std::string names;
+      for (const control::ListedSeat& s : session.seats) names += " " + s.name;
+      return fail("--seat " + asking_.seat + ": no seat of this name; seats:" + names);
+    }
+    trust::Ticket ticket;
+    trust::fill_random(ticket.ticket_id);
+    ticket.session_id = session.id;
+    ticket.seat = seat->name;
+    ticket.role = seat->role;
+    ticket.workstation = trust_.local()->workstation.pin();
+    ticket.not_before = trust::wall_seconds() - 1;
+    ticket.not_after = ticket.not_before + 60;
+    const auto bytes = trust::sign_ticket(ticket, trust_.local()->ticket_key);
+    if (!bytes) return fail("a ticket cannot be made: " + bytes.error());
+    return control::TicketCredential{{bytes->begin(), bytes->end()}};
+  }
+
+  std::expected<GivenSeat, NotSeated> take(const control::Welcome& welcome, const control::Hello& hello) {
+    GivenSeat given;
+    const auto text = std::span{reinterpret_cast<const char*>(welcome.setup.data()), welcome.setup.size()};
+    auto setup = decode_seat_setup(text);
+    if (!setup)
+      return fail("the server sent a setup this client cannot accept: " + (setup.error().empty() ? std::string() : setup.error().front().message));
+    const auto secrets = client_->export_secrets({welcome.session_id, welcome.epoch, welcome.server_cid, welcome.role, welcome.seat});
+    if (!secrets) return fail(secrets.error());
+    given.setup = std::move(*setup);
+    given.welcome = welcome;
+    given.udp = asking_.server;
+    given.link.outgoing = link::Direction::kToServer;
+    given.link.own_cid = hello.client_cid;
+    given.link.peer_cid = welcome.server_cid;
+    given.link.tick = from_seconds(1.0 / given.setup.tick_hz);
+    const bool aes = welcome.cipher == control::Cipher::kAes256Gcm;
+    given.link.secrets = link::secrets_from_exporter(secrets->bytes, aes ? link::Cipher::kAes256Gcm : link::Cipher::kChaCha20Poly1305);
+    return given;
+  }
+
+  const Asking& asking_;
+  KnownServers trust_;
+  std::optional<trust::ControlClient> client_;
+};
 
 }  // namespace
 
-std::expected<GivenSeat, NotSeated> ask_for_seat(const io::UdpSocket& socket, const std::string& server,
-                                                 const std::string& seat, const hal::DeviceCaps& caps,
-                                                 Duration patience, int signals) {
-  Joining::Params params;
-  params.seat = seat;
-  params.caps = caps;
-  params.nonce = unpredictable() >> 16;  // the rest of the 64 bits counts attempts
-  params.own_cid = static_cast<std::uint32_t>(unpredictable() | 1);
-  params.patience = patience;
-  Joining joining{params};
-  const auto in = std::make_unique<io::ReceiveBatch>();
-  std::array<std::byte, link::kDatagramMax> buffer;
-  bool nobody_listens = false;
-  while (joining.outcome(io::monotonic_now()) == Joining::Outcome::kAsking) {
-    const Time now = io::monotonic_now();
-    if (const auto size = joining.poll_transmit(now, buffer))
-      nobody_listens = ::send(socket.fd.get(), buffer.data(), *size, MSG_NOSIGNAL) < 0 && errno == ECONNREFUSED;
-    pollfd files[] = {{socket.fd.get(), POLLIN, 0}, {signals, POLLIN, 0}};
-    poll(files, 2, kWaitMs);
-    if (files[1].revents != 0) return std::unexpected(NotSeated{true, {}});
-    if ((files[0].revents & POLLERR) != 0) {  // takes the news off the socket
-      int error = 0;
-      socklen_t size = sizeof error;
-      if (getsockopt(socket.fd.get(), SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == ECONNREFUSED)
-        nobody_listens = true;
-    }
-    const int count = in->receive(socket.fd.get());
-    for (int k = 0; k < count; ++k) joining.on_datagram(io::monotonic_now(), in->bytes(static_cast<std::size_t>(k)));
-    // An error keeps the socket readable: it must not turn waiting into spinning.
-    if (count <= 0 && files[0].revents != 0) poll(nullptr, 0, kWaitMs);
-  }
-  switch (joining.outcome(io::monotonic_now())) {
-    case Joining::Outcome::kAccepted:
-      return GivenSeat{joining.setup(), joining.link()};
-    case Joining::Outcome::kRefused:
-      return std::unexpected(NotSeated{false, refusal(joining, seat)});
-    default:
-      return std::unexpected(NotSeated{false, no_answer(server, nobody_listens, patience)});
-  }
-}
+std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking) { return Joining{asking}.join(); }
 
 void give_back(const io::UdpSocket& socket, const GivenSeat& given, const hal::DeviceCaps& caps) {
   const Time now = io::monotonic_now();

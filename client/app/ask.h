@@ -3,28 +3,45 @@
 #include <expected>
 #include <string>
 
-#include "client/joining.h"
+#include "common/base/time.h"
+#include "common/io/socket_address.h"
 #include "common/io/udp_socket.h"
+#include "common/link/link.h"
+#include "hal/device.h"
+#include "proto/control_messages.h"
+#include "proto/seat_setup.h"
 
 namespace tandem::client {
+
+/// What somebody wants of a server.
+struct Asking {
+  io::SocketAddress server;
+  std::string seat;            ///< empty: only to judge the link (proto/visit.h)
+  std::string session;         ///< name, code or id; empty: the only one
+  std::string ticket;          ///< as `tandem-server ticket` printed it; empty: none
+  std::string state;           ///< folder of this workstation's key as typed; empty: the usual place
+  hal::DeviceCaps caps;
+  Duration patience{};         ///< for a server that does not answer
+  int signals = -1;            ///< file of signals.h
+};
 
 /// A seat that was given.
 struct GivenSeat {
   SeatSetup setup;
   link::Link::Params link;
+  io::SocketAddress udp;       ///< where its datagrams go
+  control::Welcome welcome;
 };
 
 /// Why there is none.
 struct NotSeated {
-  bool interrupted = false;  ///< the person pressed Ctrl-C
-  std::string reason;        ///< cause and remedy
+  bool interrupted = false;    ///< the person pressed Ctrl-C
+  std::string reason;          ///< cause and remedy
 };
 
-/// Asks the server for a seat and waits for its answer.
-/// @param signals  file of signals.h
-[[nodiscard]] std::expected<GivenSeat, NotSeated> ask_for_seat(const io::UdpSocket& socket, const std::string& server,
-                                                               const std::string& seat, const hal::DeviceCaps& caps,
-                                                               Duration patience, int signals);
+/// Joins over a TLS connection: proves both keys, shows a ticket, a code, or on this very computer what the server laid down for its
+/// user, and takes the datagrams' secrets. Waits for the answer.
+[[nodiscard]] std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking);
 
 /// Tells the server that a seat just given will not be used, so that it is free for others at once.
 void give_back(const io::UdpSocket& socket, const GivenSeat& given, const hal::DeviceCaps& caps);

@@ -121,8 +121,6 @@ const char* farewell(SeatEnd end) {
 
 int attend(const AttendPlan& plan) {
   const io::Fd signals = io::signals_as_file();
-  auto socket = io::connect_udp(plan.server);
-  if (!socket) return trouble("--server: " + socket.error());
   const std::string server = io::to_text(plan.server);
   io::StatusLine line{plan.quiet};
   // Hardware comes first: to home it takes a person's time, and a seat does not wait for that.
@@ -134,8 +132,10 @@ int attend(const AttendPlan& plan) {
     held = std::move(*taken);
   }
   const hal::DeviceCaps asking = held ? held->caps() : plan.caps;
-  auto given = ask_for_seat(*socket, server, plan.seat, asking, from_seconds(plan.patience_s), signals.get());
+  auto given = ask_for_seat({plan.server, plan.seat, plan.session, plan.ticket, plan.state, asking, from_seconds(plan.patience_s), signals.get()});
   if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
+  auto socket = io::connect_udp(given->udp);
+  if (!socket) return trouble("--server: " + socket.error());
   const SeatSetup& setup = given->setup;
 
   const auto refuse = [&](const std::string& why, int code) {

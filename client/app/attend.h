@@ -12,6 +12,7 @@ namespace tandem::client {
 /// A seat as a person asked for it, everything checked that can be checked alone.
 struct AttendPlan {
   io::SocketAddress server;
+  std::string session, ticket, state;  ///< as typed; see Asking
   std::string seat, device;
   hal::DeviceCaps caps;  ///< what is certain of a simulated device before the scene is known
   std::optional<AlphaScript> script;

@@ -12,7 +12,6 @@
 #include "common/io/output_file.h"
 #include "hal/io/backend.h"
 #include "hal/io/open_device.h"
-#include "proto/visit.h"
 #include "proto/wire.h"
 
 namespace tandem::client {
@@ -22,7 +21,7 @@ constexpr int kWrong = 2;
 
 /// As typed. Numbers stay text until `understand`, so that all mistakes are told together.
 struct JoinArguments {
-  std::string server, seat, device, script, trace, json, duration, patience = "5";
+  std::string server, session, ticket, state, seat, device, script, trace, json, duration, patience = "5";
   bool quiet = false;
 };
 
@@ -73,8 +72,6 @@ AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   if (const auto server = server_option(arguments.server, mistakes)) plan.server = *server;
   if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
     mistakes.push_back("--seat: a name has 1 to 32 characters");
-  if (arguments.seat == wire::kVisitorName)
-    mistakes.push_back("--seat: " + arguments.seat + " is no seat but what `tandem-client link-test` calls itself; the server prints the seats");
   if (HeldDevice::is_meant(arguments.device)) {
     if (const auto wrong = wrong_words(arguments.device)) mistakes.push_back("--device: " + *wrong);
   } else if (const auto device = hal::open_stepped(arguments.device, SimDeviceSpec{}, HandSpec{})) {
@@ -96,6 +93,9 @@ AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   plan.duration_s = number("--duration", arguments.duration, 0.1, 3e6, mistakes);
   plan.patience_s = number("--patience", arguments.patience, 0.1, 3600, mistakes);
   plan.seat = arguments.seat;
+  plan.session = arguments.session;
+  plan.ticket = arguments.ticket;
+  plan.state = arguments.state;
   plan.device = arguments.device;
   plan.trace = arguments.trace;
   plan.json = arguments.json;
@@ -123,6 +123,7 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
       ->option_text("HOST:PORT")
       ->required();
+  add_joining_options(*command, arguments->session, &arguments->ticket, arguments->state);
   command->add_option("--seat", arguments->seat, "required: which seat of the scene; the server prints their names")
       ->option_text("NAME")
       ->required();

@@ -31,7 +31,7 @@ constexpr Duration kSilentMax = 10s;   // then there is nothing more to learn
 constexpr int kRounds = 4;
 
 struct Arguments {
-  std::string server, json, duration = "10", patience = "5";
+  std::string server, session, state, json, duration = "10", patience = "5";
   bool quiet = false;
 };
 
@@ -181,14 +181,14 @@ int test_link(const Arguments& arguments, const io::SocketAddress& address, doub
   const io::Fd signals = io::signals_as_file();
   io::OutputFile json;
   if (const auto problem = json.open(arguments.json, true); !problem.empty()) return trouble("--json: " + problem, kWrong);
-  auto socket = io::connect_udp(address);
-  if (!socket) return trouble("--server: " + socket.error());
   const std::string server = io::to_text(address);
   hal::DeviceCaps nobody;  // a visitor holds nothing; what is told must be a possible device
   nobody.joints = nobody.tip_axes = 1;
   nobody.simulated = true;
-  const auto given = ask_for_seat(*socket, server, std::string(wire::kVisitorName), nobody, from_seconds(patience_s), signals.get());
+  const auto given = ask_for_seat({address, {}, arguments.session, {}, arguments.state, nobody, from_seconds(patience_s), signals.get()});
   if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
+  auto socket = io::connect_udp(given->udp);
+  if (!socket) return trouble("--server: " + socket.error());
 
   const auto test = std::make_unique<LinkTest>(given->setup, given->link);
   const auto prober = std::make_unique<Prober>(*socket, *test, given->setup.tick_hz, signals.get());
@@ -247,6 +247,7 @@ void add_link_test_command(CLI::App& root, std::function<int()>& action) {
   CLI::App* command = root.add_subcommand(
       "link-test", "judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks");
   command->add_option("--server", arguments->server, "required: address the server printed")->option_text("HOST:PORT")->required();
+  add_joining_options(*command, arguments->session, nullptr, arguments->state);
   command->add_option("--duration", arguments->duration, "how long [s], 1 to 3600; default 10")->option_text("S");
   command->add_option("--json", arguments->json, "writes all findings; `-`: to standard output, instead of the text")
       ->option_text("FILE|-");

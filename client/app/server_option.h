@@ -1,27 +1,30 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/io/socket_address.h"
 
+/// What the commands that join a server share.
 namespace tandem::client {
 
 /// What a person gave as `--server`; nullopt and one more mistake if it cannot be used.
 [[nodiscard]] inline std::optional<io::SocketAddress> server_option(const std::string& text, std::vector<std::string>& mistakes) {
   const auto server = io::parse_address(text, 1);
-  if (!server) {
-    mistakes.push_back("--server: " + server.error());
-    return std::nullopt;
-  }
-  if (!server->loopback()) {
-    mistakes.push_back("--server: " + io::to_text(*server) +
-                       " is not on this computer and is refused: sealed sessions do not exist yet, nobody could tell the server "
-                       "from somebody else who moves your hand. Use the 127.0.0.1:PORT that tandem-server prints");
-    return std::nullopt;
-  }
-  return *server;
+  if (server) return *server;
+  mistakes.push_back("--server: " + server.error());
+  return std::nullopt;
+}
+
+/// @param ticket  null: the command needs none
+inline void add_joining_options(CLI::App& command, std::string& session, std::string* ticket, std::string& state) {
+  command.add_option("--session", session, "name, code or id of the session; default: the only one there")->option_text("NAME|CODE|ID");
+  if (ticket != nullptr)
+    command.add_option("--ticket", *ticket, "what `tandem-server ticket` printed for this workstation; not needed with a session's code, or on the server's own computer")
+        ->option_text("TICKET");
+  command.add_option("--state", state, "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")->option_text("DIR");
 }
 
 }  // namespace tandem::client

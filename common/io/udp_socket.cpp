@@ -10,7 +10,6 @@ namespace tandem::io {
 namespace {
 
 constexpr int kBacklog = 1024;  // a whole school joins at once
-constexpr int kAttempts = 20;
 
 std::string bind_problem(const SocketAddress& address, int error) {
   const std::string where = to_text(address);
@@ -63,19 +62,6 @@ std::expected<TcpListener, std::string> listen_tcp(const SocketAddress& at) {
     return std::unexpected("TCP " + bind_problem(at, errno));
   listener.local = local_address(listener.fd.get());
   return listener;
-}
-
-std::expected<SocketPair, std::string> bind_pair(const SocketAddress& at, bool local_wanted) {
-  std::string problem;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    auto udp = bind_udp(at, local_wanted);
-    if (!udp) return std::unexpected(udp.error());
-    auto tcp = listen_tcp(udp->local);
-    if (tcp) return SocketPair{std::move(*udp), std::move(*tcp)};
-    problem = tcp.error();
-    if (at.port() != 0) break;  // a port that was chosen for us may be taken for TCP: the next one
-  }
-  return std::unexpected(problem);
 }
 
 }  // namespace tandem::io

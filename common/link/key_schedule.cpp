@@ -18,13 +18,6 @@ Cipher fastest_cipher() {
   return crypto_aead_aes256gcm_is_available() == 1 ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305;
 }
 
-Secret::~Secret() { sodium_memzero(bytes.data(), bytes.size()); }
-
-Key::~Key() {
-  sodium_memzero(key.data(), key.size());
-  sodium_memzero(iv.data(), iv.size());
-}
-
 ConnectionSecrets secrets_from_exporter(std::span<const std::byte, kExportedSize> exported, Cipher cipher) noexcept {
   ConnectionSecrets s;
   s.cipher = cipher;
@@ -57,8 +50,8 @@ void expand_label(const Secret& secret, std::string_view label, std::span<std::b
 Key key_of(const Secret& secret, Cipher cipher) noexcept {
   Key key;
   key.cipher = cipher;
-  expand_label(secret, "tandem key", key.key);
-  expand_label(secret, "tandem iv", key.iv);
+  expand_label(secret, "tandem key", key.key.bytes);
+  expand_label(secret, "tandem iv", key.iv.bytes);
   return key;
 }
 

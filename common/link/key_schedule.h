@@ -6,6 +6,8 @@
 #include <span>
 #include <string_view>
 
+#include "common/base/secret.h"
+
 /// From a joining handshake's exported bytes to the keys of datagrams, and from one key to the next (FORMAT.md, "Keys").
 namespace tandem::link {
 
@@ -18,14 +20,8 @@ enum class Cipher : std::uint8_t {
 /// @throws std::runtime_error if the machine has no source of randomness
 [[nodiscard]] Cipher fastest_cipher();
 
-/// 32 bytes from which the keys of one direction come. Wiped when it goes.
-struct Secret {
-  std::array<std::byte, 32> bytes{};
-  Secret() = default;
-  Secret(const Secret&) = default;
-  Secret& operator=(const Secret&) = default;
-  ~Secret();
-};
+/// 32 bytes from which the keys of one direction come.
+using Secret = tandem::Secret<32>;
 
 /// What both ends of a connection know and nobody else: one secret per direction.
 struct ConnectionSecrets {
@@ -39,12 +35,8 @@ inline constexpr std::size_t kExportedSize = 64;
 
 struct Key {
   Cipher cipher = Cipher::kChaCha20Poly1305;
-  std::array<std::byte, 32> key{};
-  std::array<std::byte, 12> iv{};
-  Key() = default;
-  Key(const Key&) = default;
-  Key& operator=(const Key&) = default;
-  ~Key();
+  tandem::Secret<32> key;
+  tandem::Secret<12> iv;
 };
 
 /// HKDF-Expand-Label [RFC 8446 7.1, but the label has no "tls13 " in front] with an empty context, HMAC-SHA-256. No heap.

@@ -28,11 +28,11 @@ Seal::~Seal() { sodium_memzero(expanded_.data(), expanded_.size()); }
 
 void Seal::rekey(const Key& key) noexcept {
   key_ = key;
-  if (key.cipher == Cipher::kAes256Gcm) crypto_aead_aes256gcm_beforenm(expanded(expanded_.data()), raw(key.key.data()));
+  if (key.cipher == Cipher::kAes256Gcm) crypto_aead_aes256gcm_beforenm(expanded(expanded_.data()), raw(key.key.bytes.data()));
 }
 
 std::array<std::byte, 12> Seal::nonce(std::uint64_t counter) const noexcept {
-  std::array<std::byte, 12> n = key_.iv;
+  std::array<std::byte, 12> n = key_.iv.bytes;
   for (std::size_t i = 0; i < 8; ++i) n[4 + i] ^= static_cast<std::byte>((counter >> (8 * i)) & 0xff);
   return n;
 }
@@ -49,7 +49,7 @@ bool Seal::seal(std::uint64_t counter, std::span<std::byte> datagram) noexcept {
   }
   return crypto_aead_chacha20poly1305_ietf_encrypt_detached(raw(body), raw(body + size), nullptr, raw(body), size,
                                                             raw(datagram.data()), kHeaderSize, nullptr,
-                                                            raw(once.data()), raw(key_.key.data())) == 0;
+                                                            raw(once.data()), raw(key_.key.bytes.data())) == 0;
 }
 
 bool Seal::open(std::uint64_t counter, std::span<const std::byte> datagram, std::span<std::byte> plaintext) noexcept {
@@ -64,7 +64,7 @@ bool Seal::open(std::uint64_t counter, std::span<const std::byte> datagram, std:
   }
   return crypto_aead_chacha20poly1305_ietf_decrypt_detached(raw(plaintext.data()), nullptr, raw(body), size,
                                                             raw(body + size), raw(datagram.data()), kHeaderSize,
-                                                            raw(once.data()), raw(key_.key.data())) == 0;
+                                                            raw(once.data()), raw(key_.key.bytes.data())) == 0;
 }
 
 }  // namespace tandem::link

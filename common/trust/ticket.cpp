@@ -133,6 +133,12 @@ std::string_view name_of(TicketRule rule) noexcept {
   return i < kTicketRules ? kWords[i].name : "?";
 }
 
+Id16 session_named_in(const TicketBytes& ticket) noexcept {
+  Id16 id;
+  std::copy_n(ticket.begin() + 24, id.size(), id.begin());
+  return id;
+}
+
 std::string to_text(const TicketFault& fault) {
   const auto i = static_cast<std::size_t>(fault.rule);
   if (i >= kTicketRules) return "?";

@@ -52,6 +52,9 @@ using TicketBytes = std::array<std::byte, kTicketSize>;
 [[nodiscard]] std::string ticket_text(const TicketBytes& ticket);
 [[nodiscard]] std::expected<TicketBytes, std::string> ticket_from_text(std::string_view text);
 
+/// The session a ticket says it is for; nothing is proven.
+[[nodiscard]] Id16 session_named_in(const TicketBytes& ticket) noexcept;
+
 /// The rule that a ticket breaks.
 enum class TicketRule : std::uint8_t {
   kLength,       ///< not 192 bytes

@@ -2,7 +2,6 @@
 
 #include <poll.h>
 #include <spdlog/spdlog.h>
-#include <sys/random.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
 
@@ -18,8 +17,10 @@
 #include "common/io/signals.h"
 #include "common/io/terminal.h"
 #include "server/app/attendance.h"
+#include "server/app/front_door.h"
 #include "server/app/recorder.h"
 #include "server/app/shard.h"
+#include "server/app/slaves.h"
 #include "server/report_summary.h"
 
 namespace tandem::server {
@@ -49,13 +50,6 @@ const char* to_text(End end) {
   return "";
 }
 
-std::uint64_t unpredictable() {
-  std::uint64_t secret = 0;
-  while (getrandom(&secret, sizeof secret, 0) != sizeof secret) {
-  }
-  return secret;
-}
-
 /// Clients are usually started from where the server is: with a path if this program needed one.
 std::string client_command() {
   const std::string own = program_invocation_name;
@@ -63,26 +57,47 @@ std::string client_command() {
   return (slash == std::string::npos ? "" : own.substr(0, slash + 1)) + "tandem-client";
 }
 
-void announce(std::FILE* people, const SceneSpec& scene, const io::SocketAddress& at) {
+void announce(std::FILE* people, const SceneSpec& scene, const io::SocketAddress& at, const std::string& code) {
   const std::string address = io::to_text(at);
   std::fprintf(people, "listening on %s\n", address.c_str());  // scripts wait for this line
-  std::fprintf(people, "scene %s, %g s; in other terminals type\n", scene.name.c_str(), scene.duration);
+  std::fprintf(people, "scene %s, %g s; %s\n", scene.name.c_str(), scene.duration,
+               code.empty() ? "in other terminals type" : ("session code " + code_text(code) + "; on enrolled workstations type").c_str());
   for (const SeatSpec& seat : scene.seats)
-    std::fprintf(people, "  %s join --server %s --seat %s --device sim%s\n", client_command().c_str(), address.c_str(),
-                 seat.name.c_str(), seat.required ? "" : "    # optional");
+    std::fprintf(people, "  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), address.c_str(), seat.name.c_str(),
+                 code.empty() ? "" : seat.role == Role::kInstructor ? " --ticket TICKET" : (" --session " + code_text(code)).c_str(),
+                 seat.required ? "" : "    # optional");
+  if (!code.empty())
+    std::fprintf(people, "a TICKET is written by `tandem-server ticket --session %s --seat SEAT --workstation NAME`\n", scene.name.c_str());
   std::fprintf(people, "Ctrl-C ends the session gently\n");
   std::fflush(people);
 }
 
+/// On the door's thread: what somebody who runs a server wants to know of those who could not come in.
+void tell_log(const ControlNews& news) {
+  switch (news.event) {
+    case ControlEvent::kNotEnrolled:
+    case ControlEvent::kBlocked:
+    case ControlEvent::kCodeRefused:
+    case ControlEvent::kRefused:
+      spdlog::warn("{} {}: {} {}", news.address, news.workstation, to_text(news.event), news.detail);
+      break;
+    case ControlEvent::kTrouble:
+      spdlog::error("{} {}: {}", news.address, news.workstation, news.detail);
+      break;
+    default:
+      break;
+  }
+}
+
 /// Waits for the end and tells people meanwhile.
-End watch(Shard& shard, const HostPlan& plan, int signals, bool memory, bool awake) {
+End watch(Shard& shard, const HostedSession& session, const HostPlan& plan, int signals, bool memory, bool awake) {
   io::StatusLine line{plan.quiet};
   Attendance attendance;
   const Time begin = io::monotonic_now();
   Time shown = begin;
   bool told = false;
   std::optional<End> end;
-  pollfd files[] = {{shard.finished_fd(), POLLIN, 0}, {signals, POLLIN, 0}};
+  pollfd files[] = {{session.over_fd(), POLLIN, 0}, {signals, POLLIN, 0}};
   const auto finish = [&](End why) {
     if (!end) end = why;
     shard.stop();
@@ -98,7 +113,7 @@ End watch(Shard& shard, const HostPlan& plan, int signals, bool memory, bool awa
       continue;
     }
     const Time now = io::monotonic_now();
-    const SessionStatus status = shard.status();
+    const SessionStatus status = session.status();
     if (!told) {
       told = true;
       const std::string notice = io::realtime_notice(status.machine.realtime, memory, awake);
@@ -131,14 +146,14 @@ double cpu_seconds() {
   return s(used.ru_utime) + s(used.ru_stime);
 }
 
-RunReport judge(const HostPlan& plan, const Shard& shard, const Recorder& recorder) {
-  const SessionStatus& last = shard.final_status();
+RunReport judge(const HostPlan& plan, const HostedSession& session, const Recorder& recorder) {
+  const SessionStatus& last = session.final_status();
   std::vector<LinkReport> links;
   for (std::size_t i = 0; i < plan.scene.seats.size(); ++i) links.push_back(last.seats[i].link);
   RunReport report = recorder.builder().build(links);
   report.seed = plan.seed;
-  report.violations = shard.violations().list();
-  report.passed = shard.violations().passed();
+  report.violations = session.violations().list();
+  report.passed = session.violations().passed();
   report.trace_hash = recorder.trace_hash();
   report.cpu_s = cpu_seconds();
   for (std::size_t i = 0; i < report.seats.size(); ++i) report.seats[i].gate_trips = last.seats[i].gate_trips;
@@ -177,8 +192,8 @@ int host(const HostPlan& plan) {
     for (const std::string& mistake : slaves.error()) spdlog::error("run: {}", mistake);
     return kWrong;
   }
-  auto socket = io::bind_udp(plan.listen);
-  if (!socket) return trouble("--listen: " + socket.error(), kTrouble);
+  auto door = FrontDoor::open({plan.listen, plan.state, tell_log});
+  if (!door) return trouble(door.error(), kTrouble);
   io::OutputFile json, trace;
   if (const auto problem = json.open(plan.json, true); !problem.empty()) return trouble("--json: " + problem, kWrong);
   if (const auto problem = trace.open(plan.trace, false); !problem.empty())
@@ -188,21 +203,27 @@ int host(const HostPlan& plan) {
   const bool memory = io::lock_memory();
   TickQueue queue{kQueueTicks};
   Recorder recorder{plan.scene, queue, trace};
-  const io::SocketAddress at = socket->local;
-  const auto shard =
-      std::make_unique<Shard>(std::move(*socket), plan.scene, std::move(*slaves), unpredictable(), queue);
+  const auto session = std::make_unique<HostedSession>(plan.scene, std::move(*slaves), std::uint8_t{0}, queue);
+  const auto shard = std::make_unique<Shard>((*door)->take_socket(), plan.scene.tick_hz);
+  shard->host(*session);
+  const std::string code = (*door)->throw_away() ? std::string() : draw_session_code();
+  (*door)->add({plan.scene.name, trust::random_bytes<trust::Id16>(), code, 1, session.get(), shard.get()});
+  (*door)->watch(*shard);
+  if (const auto problem = (*door)->start(); !problem.empty()) return trouble(problem, kTrouble);
   std::thread ticks{[&] { shard->run(); }};
 
   // With JSON on standard output people's lines move out of the way.
   std::FILE* const people = json.on_stdout() ? stderr : stdout;
-  announce(people, plan.scene, at);
-  const End end = watch(*shard, plan, signals.get(), memory, awake.granted());
+  announce(people, plan.scene, (*door)->address(), code);
+  const End end = watch(*shard, *session, plan, signals.get(), memory, awake.granted());
+  shard->stop();
   ticks.join();
+  (*door)->stop();
   recorder.finish();
 
-  const RunReport report = judge(plan, *shard, recorder);
-  if (!plan.quiet) summarize(people, report, plan.scene, shard->final_status());
-  json.write(live_json(report, end, shard->final_status().machine, queue));
+  const RunReport report = judge(plan, *session, recorder);
+  if (!plan.quiet) summarize(people, report, plan.scene, session->final_status());
+  json.write(live_json(report, end, session->final_status().machine, queue));
   for (io::OutputFile* file : {&json, &trace})
     if (const auto problem = file->close(); !problem.empty()) return trouble(problem, kTrouble);
   switch (end) {

@@ -1,5 +1,7 @@
 #include "server/app/hosted_session.h"
 
+#include <sys/eventfd.h>
+
 #include "server/session_monitor.h"
 
 namespace tandem::server {
@@ -17,7 +19,7 @@ DirectionReport direction(const link::Link& receiver, Time now) {
 }  // namespace
 
 HostedSession::HostedSession(const SceneSpec& scene, Slaves slaves, std::uint8_t slot, TickQueue& records)
-    : scene_(&scene), slot_(slot), session_(scene, std::move(slaves.devices), slaves.scale), records_(&records) {}
+    : scene_(&scene), slot_(slot), session_(scene, std::move(slaves.devices), slaves.scale), records_(&records), over_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
 SessionStatus HostedSession::status() const {
   const std::lock_guard lock{published_lock_};
@@ -38,6 +40,8 @@ void HostedSession::finish(Time now, const MachineStatus& machine) noexcept {
   for (std::size_t i = 0; i < scene_->seats.size(); ++i) look_at_seat(i, now);
   publish(now, machine);
   over_.store(true, std::memory_order_release);
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(over_event_.get(), &one, sizeof one);
 }
 
 void HostedSession::look_at_seat(std::size_t i, Time now) noexcept {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "common/io/fd.h"
 #include "common/io/spsc_queue.h"
 #include "server/app/slaves.h"
 #include "server/app/status.h"
@@ -29,6 +30,8 @@ class HostedSession {
   [[nodiscard]] std::uint8_t slot() const noexcept { return slot_; }
   /// A recent picture.
   [[nodiscard]] SessionStatus status() const;
+  /// Readable once it is over.
+  [[nodiscard]] int over_fd() const noexcept { return over_event_.get(); }
   /// No shard serves it any more: everything may be looked at, and it may go.
   [[nodiscard]] bool over() const noexcept { return over_.load(std::memory_order_acquire); }
 
@@ -52,6 +55,7 @@ class HostedSession {
   TickQueue* records_;
   Violations violations_;
   std::atomic<bool> over_{false};
+  io::Fd over_event_;
   std::uint64_t ticks_ = 0;
   SessionStatus picture_;
   mutable std::mutex published_lock_;  ///< the shard only tries it

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 
-#include "proto/wire.h"
 #include "server/reception.h"
 
 namespace tandem::server {
@@ -15,6 +14,7 @@ class HostedSession;
 struct Order {
   enum class What : std::uint8_t {
     kHost,   ///< tick `session` from now on, in its slot
+    kAsk,    ///< whether `seat` can be had
     kAdmit,  ///< put `entry` into `seat`
     kVisit,  ///< take `entry.link` as a visitor's
     kEnd,    ///< let all hands of the session go, then tell the clients
@@ -24,7 +24,7 @@ struct Order {
   std::size_t seat = 0;
   bool same_owner = false;           ///< he who sits there comes again
   Entry entry;                       ///< afterwards: what is to be given back
-  wire::JoinResult result = wire::JoinResult::kSessionOver;
+  JoinResult result = JoinResult::kSessionOver;
   std::function<void(Order&)> done;  ///< on the control plane's thread
 };
 

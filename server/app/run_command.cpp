@@ -16,20 +16,11 @@ constexpr int kWrong = 2;
 
 /// As typed. Numbers stay text until `understand`, so that all mistakes are told together.
 struct RunArguments {
-  std::string scene, listen = "127.0.0.1:0", duration, wait, seed = "1", json, trace;
+  std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace;
   bool check = false, quiet = false;
 };
 
 using Mistakes = std::vector<std::string>;
-
-void check_loopback(const io::SocketAddress& listen, Mistakes& mistakes) {
-  if (listen.loopback()) return;
-  mistakes.push_back(
-      "--listen: " + io::to_text(listen) +
-      " is not a loopback address and is refused: sealed sessions do not exist yet, the keys are public, and "
-      "whoever reaches the port could take a seat and move a device. Use 127.0.0.1:PORT or [::1]:PORT and join "
-      "from this computer; `tandem-netsim proxy` plays any network in between");
-}
 
 double number(const char* option, std::string text, double lo, double hi, const char* unit, Mistakes& mistakes) {
   if (text.empty()) return 0;
@@ -50,7 +41,6 @@ HostPlan understand(const RunArguments& arguments, Mistakes& mistakes) {
   }
   if (const auto listen = io::parse_address(arguments.listen, 0)) {
     plan.listen = *listen;
-    check_loopback(*listen, mistakes);
   } else {
     mistakes.push_back("--listen: " + listen.error());
   }
@@ -63,6 +53,7 @@ HostPlan understand(const RunArguments& arguments, Mistakes& mistakes) {
   } else {
     mistakes.push_back("--seed: " + problem);
   }
+  plan.state = arguments.state;
   plan.json = arguments.json;
   plan.trace = arguments.trace;
   plan.quiet = arguments.quiet;
@@ -102,9 +93,14 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       ->required();
   command
       ->add_option("--listen", arguments->listen,
-                   "where clients join; port 0 takes a free one; loopback only until sealed sessions exist; "
-                   "default 127.0.0.1:0")
+                   "where clients join, UDP and TCP; port 0 takes one that is free; default 127.0.0.1:0. Any other address than "
+                   "loopback needs `tandem-server init` and an enrolled workstation")
       ->option_text("HOST:PORT");
+  command
+      ->add_option("--state", arguments->state,
+                   "folder of keys and enrolled workstations; default on loopback: keys made on the spot, for this user on this computer; "
+                   "else $TANDEM_STATE, /var/lib/tandem where this user may write, ~/.local/state/tandem")
+      ->option_text("DIR");
   command->add_option("--duration", arguments->duration, "session time instead of the scene's [s]")->option_text("S");
   command
       ->add_option("--wait", arguments->wait,

@@ -40,6 +40,13 @@ Shard::Shard(io::UdpSocket socket, double tick_hz)
       orders_(kOrdersMax),
       answers_(2 * kOrdersMax) {}
 
+bool Shard::host(HostedSession& session) noexcept {
+  HostedSession*& place = sessions_[session.slot()];
+  if (place != nullptr) return false;
+  place = &session;
+  return true;
+}
+
 void Shard::stop() noexcept {
   stop_.store(true, std::memory_order_relaxed);
   raise(wake_);
@@ -142,13 +149,16 @@ void Shard::carry_out(Time now, Order& order) noexcept {
   HostedSession*& place = sessions_[hosted->slot()];
   const bool stopping = stop_.load(std::memory_order_relaxed);
   if (order.what == Order::What::kHost) {
-    order.result = stopping || place != nullptr ? wire::JoinResult::kSessionOver : wire::JoinResult::kAccepted;
-    if (order.result == wire::JoinResult::kAccepted) place = hosted;
+    order.result = stopping || place != nullptr ? JoinResult::kSessionOver : JoinResult::kAccepted;
+    if (order.result == JoinResult::kAccepted) place = hosted;
     return;
   }
-  order.result = wire::JoinResult::kSessionOver;
+  order.result = JoinResult::kSessionOver;
   if (place != hosted) return;
   switch (order.what) {
+    case Order::What::kAsk:
+      order.result = hosted->session().may_admit(now, order.seat, order.same_owner);
+      break;
     case Order::What::kAdmit:
       order.result = hosted->session().admit(now, order.seat, order.entry, order.same_owner);
       break;
@@ -157,7 +167,7 @@ void Shard::carry_out(Time now, Order& order) noexcept {
       break;
     case Order::What::kEnd:
       hosted->session().stop(wire::CloseReason::kServerStops);
-      order.result = wire::JoinResult::kAccepted;
+      order.result = JoinResult::kAccepted;
       break;
     case Order::What::kHost:
       break;

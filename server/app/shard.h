@@ -21,6 +21,8 @@ class Shard {
   /// @param socket  bound
   Shard(io::UdpSocket socket, double tick_hz);
 
+  /// Before `run`: serves this session from its start. @return false: its slot is taken
+  bool host(HostedSession& session) noexcept;
   /// Body of the thread: until `stop` was called and the last session is over.
   void run() noexcept;
   /// From any thread: ends all sessions gently, then itself.

@@ -65,7 +65,7 @@ std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
       break;
   }
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
-    if (status.seats[i].ever_bound) line += " | " + seat_text(status.seats[i], scene.seats[i].name);
+    if (status.seats[i].ever_taken) line += " | " + seat_text(status.seats[i], scene.seats[i].name);
   return line + format(" | late ticks %llu", static_cast<unsigned long long>(status.machine.late_ticks));
 }
 

@@ -274,7 +274,7 @@ TEST(Visitors, HearNothingButChallengesBeforeTheirAddressIsProven) {
 TEST(Visitors, AreBoundedAndTouchNoSeat) {
   Rig rig;
   for (std::uint64_t i = 0; i < server::Visitors::kMax; ++i) EXPECT_TRUE(rig.visit(i));
-  EXPECT_EQ(rig.visit(77).error(), wire::JoinResult::kSeatTaken);
+  EXPECT_EQ(rig.visit(77).error(), server::JoinResult::kSeatTaken);
   for (std::size_t i = 0; i < rig.scene.seats.size(); ++i) EXPECT_FALSE(rig.session->seat(i).taken());
   hal::DeviceCaps caps;
   caps.joints = caps.tip_axes = 1;

@@ -28,8 +28,8 @@ std::vector<std::byte> from_hex(std::string_view hex) {
 Key known_key(std::string_view key, std::string_view iv) {
   Key k;
   k.cipher = Cipher::kAes256Gcm;
-  std::ranges::copy(from_hex(key), k.key.begin());
-  std::ranges::copy(from_hex(iv), k.iv.begin());
+  std::ranges::copy(from_hex(key), k.key.bytes.begin());
+  std::ranges::copy(from_hex(iv), k.iv.bytes.begin());
   return k;
 }
 
@@ -102,7 +102,7 @@ TEST(Seal, MixesTheCounterIntoTheLastEightBytesOfTheNonce) {  // little-endian
   constexpr std::uint64_t kCounter = 0x0102030405060708;
   for (std::size_t i = 0; i < 8; ++i) iv[4 + i] ^= static_cast<std::byte>(8 - i);
   Key key = known_key(k.key, k.nonce);
-  std::ranges::copy(iv, key.iv.begin());
+  std::ranges::copy(iv, key.iv.bytes.begin());
   auto d = datagram_of(k);
   Seal seal(key);
   ASSERT_TRUE(seal.seal(kCounter, d));
@@ -118,7 +118,7 @@ std::vector<std::byte> by_openssl(const Key& key, std::span<const std::byte, 12>
   std::byte* body = d.data() + kHeaderSize;
   const int size = static_cast<int>(d.size() - kHeaderSize - kTagSize);
   int n = 0;
-  EXPECT_EQ(EVP_EncryptInit_ex(c.get(), cipher, nullptr, raw(key.key.data()), raw(nonce.data())), 1);
+  EXPECT_EQ(EVP_EncryptInit_ex(c.get(), cipher, nullptr, raw(key.key.bytes.data()), raw(nonce.data())), 1);
   EXPECT_EQ(EVP_EncryptUpdate(c.get(), nullptr, &n, raw(d.data()), static_cast<int>(kHeaderSize)), 1);
   EXPECT_EQ(EVP_EncryptUpdate(c.get(), out(body), &n, raw(body), size), 1);
   EXPECT_EQ(EVP_EncryptFinal_ex(c.get(), out(body + size), &n), 1);
@@ -137,14 +137,14 @@ TEST(Seal, GivesTheBytesThatAnotherLibraryGives) {
       };
       Key key;
       key.cipher = cipher;
-      fill(key.key);
-      fill(key.iv);
+      fill(key.key.bytes);
+      fill(key.iv.bytes);
       std::vector<std::byte> plain(random.below(1400)), d(kHeaderSize + plain.size() + kTagSize);
       fill(d);
       std::copy_n(d.begin() + kHeaderSize, plain.size(), plain.begin());
       const auto clear = d;
       ASSERT_TRUE(Seal(key).seal(0, d));
-      ASSERT_EQ(d, by_openssl(key, key.iv, clear));
+      ASSERT_EQ(d, by_openssl(key, key.iv.bytes, clear));
       std::vector<std::byte> opened(plain.size());
       ASSERT_TRUE(Seal(key).open(0, d, opened));
       EXPECT_EQ(opened, plain);

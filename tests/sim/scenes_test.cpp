@@ -114,20 +114,20 @@ TEST(World, SeatsAreRefusedWhenTakenOrUnknown) {
     static std::uint64_t attempts = 0;
     const auto number = session.reception().seat_named(seat);
     const auto joined = netsim::join_virtually(session, Time{} + at, number.value_or(99), caps, RandomKey{1}, ++attempts, same_owner);
-    return joined ? wire::JoinResult::kAccepted : joined.error();
+    return joined ? server::JoinResult::kAccepted : joined.error();
   };
-  EXPECT_EQ(ask("trainer", 5ms), wire::JoinResult::kAccepted);
-  EXPECT_EQ(ask("trainer", 6ms), wire::JoinResult::kSeatTaken);
-  EXPECT_EQ(ask("trainer", 7ms, true), wire::JoinResult::kAccepted) << "he himself, again";
-  EXPECT_EQ(ask("trainer", 2007ms), wire::JoinResult::kSeatTaken);
-  EXPECT_EQ(ask("trainer", 2008ms), wire::JoinResult::kAccepted) << "its owner was silent for two seconds";
-  EXPECT_EQ(ask("nobody", 5ms), wire::JoinResult::kNoSuchSeat);
+  EXPECT_EQ(ask("trainer", 5ms), server::JoinResult::kAccepted);
+  EXPECT_EQ(ask("trainer", 6ms), server::JoinResult::kSeatTaken);
+  EXPECT_EQ(ask("trainer", 7ms, true), server::JoinResult::kAccepted) << "he himself, again";
+  EXPECT_EQ(ask("trainer", 2007ms), server::JoinResult::kSeatTaken);
+  EXPECT_EQ(ask("trainer", 2008ms), server::JoinResult::kAccepted) << "its owner was silent for two seconds";
+  EXPECT_EQ(ask("nobody", 5ms), server::JoinResult::kNoSuchSeat);
   EXPECT_EQ(session.reception().seat_names(), "trainer");
   caps.joints = caps.tip_axes = 0;
-  EXPECT_EQ(ask("trainer", 3000ms), wire::JoinResult::kDeviceUnfit);
+  EXPECT_EQ(ask("trainer", 3000ms), server::JoinResult::kDeviceUnfit);
   session.stop(wire::CloseReason::kDone);
   caps.joints = caps.tip_axes = 1;
-  EXPECT_EQ(ask("trainer", 3000ms), wire::JoinResult::kSessionOver);
+  EXPECT_EQ(ask("trainer", 3000ms), server::JoinResult::kSessionOver);
 }
 
 TEST(World, NobodyGivesAuthorityToAnEvaluator) {

@@ -161,6 +161,13 @@ std::expected<std::vector<WorkstationRow>, std::string> ServerTrust::workstation
   return rows;
 }
 
+std::expected<std::size_t, std::string> ServerTrust::open_codes(std::int64_t now) const {
+  if (!folder_) return static_cast<std::size_t>(std::ranges::count_if(books_.codes, [&](const CodeRow& c) { return now <= c.not_after; }));
+  const auto books = read_books();
+  if (!books) return std::unexpected(books.error());
+  return static_cast<std::size_t>(std::ranges::count_if(books->codes, [&](const CodeRow& c) { return now <= c.not_after; }));
+}
+
 std::expected<std::optional<WorkstationRow>, std::string> ServerTrust::find(const Pin& workstation) {
   const auto rows = workstations();
   if (!rows) return std::unexpected(rows.error());

@@ -50,6 +50,8 @@ class ServerTrust {
 
   /// As the book stands now.
   [[nodiscard]] std::expected<std::vector<WorkstationRow>, std::string> workstations();
+  /// How many codes were given out and are still good: workstations that are about to be enrolled.
+  [[nodiscard]] std::expected<std::size_t, std::string> open_codes(std::int64_t now) const;
   /// @return the row, nothing if the key is not enrolled (any more), or what is wrong with the book: then nobody may be let in
   [[nodiscard]] std::expected<std::optional<WorkstationRow>, std::string> find(const Pin& workstation);
 

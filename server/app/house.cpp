@@ -1,0 +1,258 @@
+#include "server/app/house.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/io/clock.h"
+#include "common/trust/base32.h"
+#include "proto/seat_setup.h"
+#include "server/connection_id.h"
+
+namespace tandem::server {
+namespace {
+
+using control::Reason;
+using control::Refused;
+
+constexpr double kGuessesPerS = 5.0 / 60, kGuessesAtOnce = 5;  // [design notes, security 1.4]
+constexpr std::size_t kVisitorPlaces = 64;                      // ids behind the seats', in turn
+
+std::array<std::byte, 32> hash_of(const Secret<32>& secret) noexcept { return trust::sha256(secret.bytes); }
+
+control::SessionPhase phase_of(wire::SessionState state) noexcept {
+  switch (state) {
+    case wire::SessionState::kWaiting:
+      return control::SessionPhase::kWaiting;
+    case wire::SessionState::kRunning:
+    case wire::SessionState::kHeld:
+      return control::SessionPhase::kRunning;
+    case wire::SessionState::kEnding:
+      break;
+  }
+  return control::SessionPhase::kEnding;
+}
+
+std::string names_of(const std::list<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+std::string draw_session_code() {
+  return trust::to_base32(trust::random_bytes<std::array<std::byte, 7>>()).substr(0, control::kSessionCodeSize);
+}
+
+std::string code_text(const std::string& code) { return trust::grouped(code, 5); }
+
+House::House(asio::io_context& context, trust::ServerTrust& trust) : context_(context), trust_(trust) {}
+House::~House() = default;
+
+void House::open(Opening opening) {
+  const std::size_t seats = opening.session->scene().seats.size();
+  rooms_.push_back({std::move(opening), std::vector<Claim>(seats), trust::TokenBucket{kGuessesPerS, kGuessesAtOnce}});
+}
+
+void House::watch(Shard& shard) {
+  watched_.push_back({&shard, asio::posix::stream_descriptor{context_, ::dup(shard.news_fd())}});
+  hear(watched_.back());
+}
+
+void House::stop_watching() { watched_.clear(); }
+
+void House::hear(Watched& watched) {
+  watched.news.async_wait(asio::posix::stream_descriptor::wait_read, [this, &watched](asio::error_code error) {
+    if (error) return;
+    watched.shard->news_read();
+    while (Order* const order = watched.shard->answered()) {
+      order->done(*order);
+      orders_.remove_if([&](const Order& o) { return &o == order; });
+    }
+    hear(watched);
+  });
+}
+
+void House::post(Shard& shard, Order order) {
+  Order& kept = orders_.emplace_back(std::move(order));
+  if (shard.post(kept)) return;
+  kept.result = JoinResult::kSessionOver;
+  kept.done(kept);
+  orders_.pop_back();
+}
+
+House::Room* House::room(const control::Id& id) {
+  const auto found = std::ranges::find_if(rooms_, [&](const Room& r) { return r.opening.id == id; });
+  return found == rooms_.end() ? nullptr : &*found;
+}
+
+std::variant<House::Room*, Refused> House::room_for(const JoinRequest& request) {
+  std::list<std::string> open;
+  for (const Room& r : rooms_)
+    if (!r.opening.session->over()) open.push_back(r.opening.name);
+  Room* found = nullptr;
+  if (const auto* id = std::get_if<control::Id>(&request.hello.session)) {
+    found = room(*id);
+  } else if (const auto* code = std::get_if<std::string>(&request.hello.session)) {
+    for (Room& r : rooms_)
+      if (!r.opening.code.empty() && r.opening.code == *code) found = &r;
+  } else if (open.size() == 1) {
+    for (Room& r : rooms_)
+      if (!r.opening.session->over()) found = &r;
+  } else if (!open.empty()) {
+    return Refused{Reason::kNoSession, "this server has several sessions: " + names_of(open) + "; say which with --session", 0};
+  }
+  if (found == nullptr) return Refused{Reason::kNoSession, open.empty() ? "no session is open on this server" : "there is no such session here; open: " + names_of(open), 0};
+  if (found->opening.session->over()) return Refused{Reason::kSessionOver, "this session is over", 0};
+  return found;
+}
+
+void House::admit(const JoinRequest& request, std::function<void(Admission)> answer) {
+  const auto found = room_for(request);
+  if (const auto* refused = std::get_if<Refused>(&found)) return answer(*refused);
+  Room& room = *std::get<Room*>(found);
+  if (request.hello.visit) return visit(room, request, answer);
+  sit(room, request, std::move(answer));
+}
+
+void House::visit(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer) {
+  // Any enrolled workstation may judge its link: it touches no seat.
+  const auto place = static_cast<std::uint8_t>(kSeatsMax + 1 + visitors_++ % kVisitorPlaces);
+  answer(welcome(room, 0, true, place, request.hello.has_aes));
+}
+
+void House::sit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer) {
+  const Reception& reception = room.opening.session->reception();
+  const auto seat = reception.seat_named(request.hello.seat);
+  if (!seat) return answer(Refused{Reason::kNoSeat, "no seat of this name; seats: " + reception.seat_names(), 0});
+  if (const std::string why = reception.unfit(*seat, request.hello.device); !why.empty()) return answer(Refused{Reason::kDeviceUnfit, why, 0});
+  Claim& claim = room.claims[*seat];
+  const auto* resume = std::get_if<control::ResumeCredential>(&request.hello.credential);
+  const bool same_owner = resume != nullptr && claim.resumable && equal_secret(hash_of(resume->secret), claim.resume_hash);
+  if (resume != nullptr && !same_owner) return answer(Refused{Reason::kResume, "nothing to resume: the seat was given to somebody else, or too long ago", 0});
+  const Refused taken{Reason::kSeatTaken, "somebody sits there already", 2};
+  if (claim.being_given) return answer(taken);
+
+  claim.being_given = true;
+  Order order;
+  order.what = Order::What::kAsk;
+  order.session = room.opening.session;
+  order.seat = *seat;
+  order.same_owner = same_owner;
+  order.done = [this, &room, &claim, request, seat = *seat, taken, answer = std::move(answer)](Order& asked) {
+    std::optional<Refused> refused;
+    if (asked.result == JoinResult::kSeatTaken) refused = taken;
+    if (asked.result == JoinResult::kSessionOver) refused = Refused{Reason::kSessionOver, "the session is ending", 0};
+    if (!refused) refused = judge(room, request, seat);  // last: a ticket that was redeemed is used
+    if (refused) {
+      claim.being_given = false;
+      return answer(*refused);
+    }
+    answer(welcome(room, seat, false, static_cast<std::uint8_t>(seat + 1), request.hello.has_aes));
+  };
+  post(*room.opening.shard, std::move(order));
+}
+
+std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std::size_t seat) {
+  const AccessRole role = access_role(room.opening.session->scene().seats[seat].role);
+  if (const auto* ticket = std::get_if<control::TicketCredential>(&request.hello.credential)) {
+    const trust::TicketUse use{room.opening.id,  room.opening.epoch, request.hello.seat, role, trust::Pin{request.workstation.spki}, trust::wall_seconds()};
+    const auto redeemed = trust_.redeem(ticket->bytes, use);
+    return redeemed ? std::nullopt : std::optional{refusal_of(redeemed.error())};
+  }
+  if (const auto* code = std::get_if<control::CodeCredential>(&request.hello.credential)) {
+    if (!room.guesses.take(io::monotonic_now())) return Refused{Reason::kBlocked, "too many codes were tried for this session; wait a minute", 60};
+    if (room.opening.code.empty() || code->code != room.opening.code) return Refused{Reason::kCode, "this is not the session's code", 0};
+    if (role == AccessRole::kInstructor)
+      return Refused{Reason::kNotAllowed, "the instructor's seat needs a ticket: on the server, `tandem-server ticket --session " + room.opening.name + " --seat " +
+                                              request.hello.seat + " --workstation " + request.workstation.name + "`", 0};
+    return std::nullopt;
+  }
+  if (std::holds_alternative<control::ResumeCredential>(request.hello.credential)) return std::nullopt;  // judged before
+  return Refused{Reason::kTicket, "a ticket or the session's code is needed; ask for `tandem-server ticket --session " + room.opening.name + " --seat " +
+                                      request.hello.seat + " --workstation " + request.workstation.name + "`", 0};
+}
+
+control::Welcome House::welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes) {
+  const HostedSession& session = *room.opening.session;
+  control::Welcome w;
+  w.session_id = room.opening.id;
+  w.session_name = room.opening.name;
+  w.epoch = room.opening.epoch;
+  const auto drawn = trust::random_bytes<std::array<std::byte, 2>>();
+  w.server_cid = connection_id(static_cast<std::uint16_t>(std::to_integer<unsigned>(drawn[0]) << 8 | std::to_integer<unsigned>(drawn[1])), session.slot(), place);
+  const bool aes = has_aes && link::fastest_cipher() == link::Cipher::kAes256Gcm;
+  w.cipher = aes ? control::Cipher::kAes256Gcm : control::Cipher::kChaCha20Poly1305;
+  if (!visit) w.seat = session.scene().seats[seat].name;
+  w.role = visit ? AccessRole::kObserver : access_role(session.scene().seats[seat].role);
+  std::array<char, wire::kSetupMax> setup;
+  const std::size_t size = encode_seat_setup(session.reception().setup(seat), setup);
+  for (std::size_t i = 0; i < size; ++i) w.setup.push_back(static_cast<std::byte>(setup[i]));
+  w.udp_port = room.opening.shard->address().port();
+  w.resume_secret = Secret<32>{trust::random_bytes<std::array<std::byte, 32>>()};
+  return w;
+}
+
+void House::seated(const JoinRequest& request, const control::Welcome& welcome, const Secret<trust::kExportSize>& secrets) {
+  Room* const found = room(welcome.session_id);
+  if (found == nullptr) return;
+  link::Link::Params params;
+  params.outgoing = link::Direction::kToClient;
+  params.own_cid = welcome.server_cid;
+  params.peer_cid = request.hello.client_cid;
+  const auto cipher = welcome.cipher == control::Cipher::kAes256Gcm ? link::Cipher::kAes256Gcm : link::Cipher::kChaCha20Poly1305;
+  params.secrets = link::secrets_from_exporter(secrets.bytes, cipher);
+  const Reception& reception = found->opening.session->reception();
+  Order order;
+  order.session = found->opening.session;
+  order.done = [](Order&) {};
+  if (request.hello.visit) {
+    order.what = Order::What::kVisit;
+    params.tick = reception.tick();
+    order.entry.link = std::make_unique<link::Link>(params);
+  } else {
+    const std::size_t seat = place_of(welcome.server_cid) - std::size_t{1};
+    Claim& claim = found->claims[seat];
+    claim.resume_hash = hash_of(welcome.resume_secret);
+    claim.resumable = true;
+    order.what = Order::What::kAdmit;
+    order.seat = seat;
+    order.same_owner = true;  // it was asked for, and held since
+    order.entry = reception.prepare(seat, params);
+    order.done = [&claim](Order&) { claim.being_given = false; };
+  }
+  post(*found->opening.shard, std::move(order));
+}
+
+void House::abandoned(const control::Welcome& welcome) {
+  Room* const found = room(welcome.session_id);
+  if (found != nullptr && !welcome.seat.empty()) found->claims[place_of(welcome.server_cid) - std::size_t{1}].being_given = false;
+}
+
+control::SessionList House::list(const WorkstationRow&) {
+  control::SessionList list;
+  for (const Room& r : rooms_) {
+    if (r.opening.session->over()) continue;
+    if (list.sessions.size() == control::kSessionsMax) {
+      list.more = true;
+      break;
+    }
+    const SessionStatus status = r.opening.session->status();
+    control::ListedSession& s = list.sessions.emplace_back();
+    s.id = r.opening.id;
+    s.name = r.opening.name;
+    s.phase = phase_of(status.state);
+    const SceneSpec& scene = r.opening.session->scene();
+    for (std::size_t i = 0; i < scene.seats.size(); ++i)
+      s.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), status.seats[i].taken || r.claims[i].being_given, scene.seats[i].required});
+  }
+  return list;
+}
+
+void House::command(const control::Welcome&, const WorkstationRow&, const control::Body&, std::function<void(control::Body)> answer) {
+  answer(Refused{Reason::kNotAllowed, "this server takes no commands over the control connection yet; keys of the client's terminal go with its datagrams", 0});
+}
+
+void House::left(const control::Welcome&) {}
+
+}  // namespace tandem::server

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/posix/stream_descriptor.hpp>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/trust/io/server_trust.h"
+#include "common/trust/limiter.h"
+#include "server/app/admissions.h"
+#include "server/app/hosted_session.h"
+#include "server/app/shard.h"
+
+namespace tandem::server {
+
+/// The sessions of a server as its door sees them: who may sit where. Everything on the control plane's thread; what a session must do
+/// itself is ordered from its shard and answered later.
+class House final : public Admissions {
+ public:
+  /// @param trust  tickets; of the same thread
+  House(asio::io_context& context, trust::ServerTrust& trust);
+  ~House() override;
+
+  /// A session that people may join from now on. Before the context runs, or on its thread.
+  struct Opening {
+    std::string name;          ///< for people: 1 to 32 characters of A-Z a-z 0-9 _ -
+    trust::Id16 id{};
+    std::string code;          ///< 10 characters of 0-9 A-Z: who is enrolled may join by it; empty: tickets only
+    std::uint64_t epoch = 1;
+    HostedSession* session = nullptr;  ///< lives until it is over
+    Shard* shard = nullptr;            ///< serves it already, or is about to
+  };
+  void open(Opening opening);
+  /// Hears when the shard has carried out orders.
+  void watch(Shard& shard);
+  /// Hears nobody any more, so that the context can end.
+  void stop_watching();
+
+  void admit(const JoinRequest& request, std::function<void(Admission)> answer) override;
+  void seated(const JoinRequest& request, const control::Welcome& welcome, const Secret<trust::kExportSize>& secrets) override;
+  void abandoned(const control::Welcome& welcome) override;
+  [[nodiscard]] control::SessionList list(const WorkstationRow& workstation) override;
+  void command(const control::Welcome& standing, const WorkstationRow& workstation, const control::Body& command,
+               std::function<void(control::Body)> answer) override;
+  void left(const control::Welcome& standing) override;
+
+ private:
+  /// What is known of a seat beside the session: who may come back to it, and whether somebody is just being let in.
+  struct Claim {
+    bool being_given = false;
+    std::array<std::byte, 32> resume_hash{};
+    bool resumable = false;
+  };
+  struct Room {
+    Opening opening;
+    std::vector<Claim> claims;  ///< one per seat
+    trust::TokenBucket guesses; ///< of the session's code
+  };
+  struct Watched {
+    Shard* shard;
+    asio::posix::stream_descriptor news;
+  };
+
+  [[nodiscard]] std::variant<Room*, control::Refused> room_for(const JoinRequest& request);
+  [[nodiscard]] Room* room(const control::Id& id);
+  void visit(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer);
+  void sit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
+  [[nodiscard]] std::optional<control::Refused> judge(Room& room, const JoinRequest& request, std::size_t seat);
+  [[nodiscard]] control::Welcome welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes);
+  void post(Shard& shard, Order order);
+  void hear(Watched& watched);
+
+  asio::io_context& context_;
+  trust::ServerTrust& trust_;
+  std::list<Room> rooms_;
+  std::list<Watched> watched_;
+  std::list<Order> orders_;  ///< under way
+  std::uint8_t visitors_ = 0;
+};
+
+/// A session's code as people read it: 5 characters, a dash, 5 characters. And back: dashes, spaces and lower case do not matter.
+[[nodiscard]] std::string draw_session_code();
+[[nodiscard]] std::string code_text(const std::string& code);
+
+}  // namespace tandem::server
