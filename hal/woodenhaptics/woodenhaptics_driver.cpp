@@ -116,17 +116,22 @@ std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const Orders& orders
   acting_ = motors.effort;
   saturated_ = motors.saturated;
   sent_at_ = now;
-  // Also from a board that sends by itself the next report is awaited: what waited here is up to a period old, and its force
-  // would leave another period later. So old a spring does work on an arm that nobody holds.
   const Time left = clock_.now();
   book(acted, left);
-  if (trouble = take_reports(reply_timeout_, taken); !trouble) return std::unexpected(trouble.error());
+  // Also from a board that sends by itself the next report is awaited: what waited here is up to a period old, and its force
+  // would leave another period later. So old a spring does work on an arm that nobody holds. Without it the old one has to do.
+  const Duration until_due = std::clamp(pace_.next(now) - left, Duration{0}, reply_timeout_);
+  const bool by_itself = !has_presets(options_.spec.protocol);
+  const auto old = std::exchange(taken.newest, std::nullopt);
+  if (trouble = take_reports(old && by_itself ? until_due : reply_timeout_, taken); !trouble) return std::unexpected(trouble.error());
+  // Boards that answer took their reading when the order came; one that sends by itself, after it acted for a while.
+  const Time at = taken.newest ? clock_.now() : left;
+  if (taken.newest && by_itself) book(acting_, at);
+  if (!taken.newest) taken.newest = old;
   if (!taken.newest) {
     if (taken.torn) return std::unexpected(Errc::kFraming);
     return Exchange::kNothing;
   }
-  const Time at = clock_.now();
-  if (!has_presets(options_.spec.protocol)) book(acting_, at);  // else the reading was taken when the order came
   const bool jumped = follow(*taken.newest, at);
   state.echo_command = acted_seq;
   fill(*taken.newest, at, jumped, state);

@@ -9,6 +9,7 @@
 #include "hal/clock.h"
 #include "hal/driver.h"
 #include "hal/pipes.h"
+#include "hal/reply_pace.h"
 #include "hal/woodenhaptics/board_report.h"
 #include "hal/woodenhaptics/counter.h"
 #include "hal/woodenhaptics/kinematics.h"
@@ -100,6 +101,7 @@ class WoodenHapticsDriver final : public Driver {
   Vec3 acted_sum_ = Vec3::Zero();   ///< effort times time [N m s] since the last reading
   double acted_for_ = 0;            ///< that time [s]
   Time booked_until_{};
+  ReplyPace pace_;
   std::uint64_t acting_seq_ = 0;
   bool saturated_ = false;
 };
