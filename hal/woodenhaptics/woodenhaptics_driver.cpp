@@ -119,8 +119,9 @@ std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const Orders& orders
   const Time left = clock_.now();
   book(acted, left);
   // Also from a board that sends by itself the next report is awaited: what waited here is up to a period old, and its force
-  // would leave another period later. So old a spring does work on an arm that nobody holds. Without it the old one has to do.
-  const Duration until_due = std::clamp(pace_.next(now) - left, Duration{0}, reply_timeout_);
+  // would leave another period later. So old a spring does work on an arm that nobody holds. A host that is late already, whose
+  // waits in hidapi are whole milliseconds, makes do with the old one.
+  const Duration until_due = pace_.next(now) - left > ReplyPace::kPeriod / 2 ? ReplyPace::kPeriod : Duration{0};
   const bool by_itself = !has_presets(options_.spec.protocol);
   const auto old = std::exchange(taken.newest, std::nullopt);
   if (trouble = take_reports(old && by_itself ? until_due : reply_timeout_, taken); !trouble) return std::unexpected(trouble.error());

@@ -187,7 +187,7 @@ TEST(HidUnplug, AtEveryReportOfAConversationIsSeenAtOnceAndForGood) {
     {
       const auto pipe = HidrawPipe::open(hal::list_hidraw().at(0));
       ASSERT_TRUE(pipe) << pipe.error().message;
-      node.unplug_at_write(at);
+      node.unplug_at(at);
       std::optional<Errc> error;
       unsigned written = 0;
       while (!error && written < 5) {

@@ -165,7 +165,7 @@ TEST_P(EveryPuck, UnpluggedWhileTheLightIsSetEndsTheStart) {
   Testbed bed;
   SpaceMouseModel model(GetParam());
   Puck puck(bed, model);
-  puck.node.unplug_at_write(1);
+  puck.node.unplug_at(1);
   const auto up = puck.begin();
   ASSERT_FALSE(up);
   EXPECT_EQ(up.error().code, Errc::kUnplugged);

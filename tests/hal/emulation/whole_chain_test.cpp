@@ -15,6 +15,7 @@
 #include "hal/port_map.h"
 #include "hal/woodenhaptics/motors.h"
 #include "proto/presets_embedded.h"
+#include "proto/wire.h"
 #include "tests/hal/emulation/seat_trace.h"
 #include "tests/hal/emulation/testbed.h"
 #include "tests/hal/emulation/wire_tap.h"
@@ -171,13 +172,13 @@ double booking_bound(const Seated& seat) {
 
 void expect_right_orders(const Seated& seat) {
   SCOPED_TRACE(seat.name);
-  const WireAccount& wire = *seat.account;
+  const WireAccount& plug = *seat.account;
   ASSERT_GT(seat.trace.rows.size(), 1000U);
   const auto& machine = seat.report["machine"];
   ASSERT_EQ(machine["trace_dropped"].get<int>(), 0) << "the machine was too slow to write down what it did";
   const Orders orders = compare(seat);
   std::printf("[   wire   ] %-8s %zu orders as the gate let them through, to one count; %zu others, %d of them expired; %.2f N at most\n",
-              seat.name.c_str(), orders.same, orders.other, machine["expired_commands"].get<int>(), wire.force_max);
+              seat.name.c_str(), orders.same, orders.other, machine["expired_commands"].get<int>(), plug.force_max);
   EXPECT_GT(orders.same, 1000U);
   // Not the gate's word: one that came too late fades out within 20 ms, and the last one is replaced by zeros.
   EXPECT_LE(orders.other, 1U + 20U * machine["expired_commands"].get<unsigned>());
@@ -186,14 +187,14 @@ void expect_right_orders(const Seated& seat) {
 
 void expect_power_balance(const Seated& seat) {
   SCOPED_TRACE(seat.name);
-  const WireAccount& wire = *seat.account;
+  const WireAccount& plug = *seat.account;
   const double booked = seat.report["energy"]["delivered_j"].get<double>(), bound = booking_bound(seat);
   std::printf("[  power   ] %-8s F.v - tau.qdot %.1e of |F||v| at most; work at the joints %.5f J, at the tip %.5f J, booked %.5f J "
               "(%.5f J apart, %.5f J are left open by counts and clocks)\n",
-              seat.name.c_str(), wire.power_error_max, wire.at_joints, wire.at_tip, booked, std::abs(booked - wire.at_joints), bound);
-  EXPECT_LE(wire.power_error_max, 1e-12);
-  EXPECT_NEAR(wire.at_tip, wire.at_joints, 1e-4 * std::abs(wire.at_joints) + 1e-6);
-  EXPECT_NEAR(booked, wire.at_joints, bound + 1e-6);
+              seat.name.c_str(), plug.power_error_max, plug.at_joints, plug.at_tip, booked, std::abs(booked - plug.at_joints), bound);
+  EXPECT_LE(plug.power_error_max, 1e-12);
+  EXPECT_NEAR(plug.at_tip, plug.at_joints, 1e-4 * std::abs(plug.at_joints) + 1e-6);
+  EXPECT_NEAR(booked, plug.at_joints, bound + 1e-6);
 }
 
 TEST(WholeChain, AFalconLeadsABoardFollowsAndABoardIsTheSlave) {
@@ -261,7 +262,10 @@ TEST(WholeChain, AFalconLeadsABoardFollowsAndABoardIsTheSlave) {
     ASSERT_FALSE(seat.report.is_discarded()) << seat.name;
     seat.trace = SeatTrace::parse(folder.read(seat.name + ".csv"));
     ASSERT_FALSE(seat.trace.rows.empty()) << seat.name;
-    std::printf("[   gate   ] %-8s lost its link %d times, %d ticks missed\n", seat.name.c_str(), seat.report["gate"]["trips"].get<int>(),
+    int worst = 0;  // FAULT before DAMPED before PASSIVE
+    for (const auto& row : seat.trace.rows) worst = std::max(worst, row.gate);
+    std::printf("[   gate   ] %-8s lost its link %d times, at worst %s, %d ticks missed\n", seat.name.c_str(),
+                seat.report["gate"]["trips"].get<int>(), tandem::wire::to_text(static_cast<tandem::wire::GateState>(worst)),
                 seat.report["machine"]["missed_ticks"].get<int>());
   }
   for (const Seated& seat : seats) expect_right_orders(seat);
