@@ -2,6 +2,7 @@
 
 #include <linux/hidraw.h>
 #include <linux/input.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <array>
@@ -39,7 +40,7 @@ void HidrawNode::serve() {
     if (queue_.size() < kQueueMax)
       queue_.emplace_back(report.begin(), report.begin() + static_cast<std::ptrdiff_t>(*got));
   }
-  if (!queue_.empty()) gate().readable(true);
+  if (!queue_.empty()) changed_.notify_all();
 }
 
 void HidrawNode::service() {
@@ -50,16 +51,29 @@ void HidrawNode::service() {
 ssize_t HidrawNode::on_read(void* into, std::size_t size) {
   const std::lock_guard hold(mutex_);
   serve();
-  if (queue_.empty()) {
-    gate().readable(false);
-    return gone() ? -EIO : -EAGAIN;
-  }
+  if (queue_.empty()) return gone() ? -EIO : -EAGAIN;
   const auto& report = queue_.front();
   const std::size_t moved = std::min(size, report.size());
   std::memcpy(into, report.data(), moved);
   queue_.pop_front();
-  if (queue_.empty()) gate().readable(false);
   return static_cast<ssize_t>(moved);
+}
+
+std::optional<short> HidrawNode::on_poll(int timeout_ms) {
+  std::unique_lock hold(mutex_);
+  serve();
+  const auto ready = [&] { return gone() || !queue_.empty(); };
+  if (timeout_ms < 0) {
+    changed_.wait(hold, ready);
+  } else {
+    changed_.wait_for(hold, std::chrono::milliseconds(timeout_ms), ready);
+  }
+  return static_cast<short>(gone() ? POLLERR | POLLHUP : queue_.empty() ? 0 : POLLIN);
+}
+
+void HidrawNode::end_transfers() {
+  queue_.clear();
+  changed_.notify_all();
 }
 
 ssize_t HidrawNode::on_write(const void* from, std::size_t size) {

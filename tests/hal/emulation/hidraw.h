@@ -19,14 +19,16 @@ class HidrawNode final : public ModelNode<hal::wire::HidWireModel> {
   long on_ioctl(int fd, unsigned long request, void* argument) override;
   ssize_t on_read(void* into, std::size_t size) override;
   ssize_t on_write(const void* from, std::size_t size) override;
+  std::optional<short> on_poll(int timeout_ms) override;
   void service() override;
 
  private:
   void serve();
-  void end_transfers() override { queue_.clear(); }
+  void end_transfers() override;
 
   bool numbered_;
   std::deque<std::vector<std::byte>> queue_;
+  std::condition_variable_any changed_;  ///< something to read, or gone
 };
 
 }  // namespace tandem::test

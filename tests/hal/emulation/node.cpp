@@ -92,18 +92,6 @@ PollGate::~PollGate() {
 
 void PollGate::writable(bool yes) { syscall(SYS_ioctl, slave_, TCXONC, yes ? TCOON : TCOOFF); }
 
-void PollGate::readable(bool yes) {
-  char byte = 0;
-  if (yes && !readable_ && master_ >= 0) {
-    (void)!syscall(SYS_write, master_, &byte, 1);
-  } else if (!yes) {
-    // A byte that is still on its way makes one poll() too many later, whose read then comes here again.
-    while (syscall(SYS_read, slave_, &byte, 1) == 1) {
-    }
-  }
-  readable_ = yes;
-}
-
 void PollGate::hang_up() {
   if (master_ >= 0) close(master_);
   master_ = -1;
@@ -117,6 +105,7 @@ std::uint64_t& Node::heap_inside() {
 Node::Node() = default;
 Node::~Node() = default;
 ssize_t Node::on_read(void*, std::size_t) { return -EINVAL; }
+std::optional<short> Node::on_poll(int) { return std::nullopt; }
 ssize_t Node::on_write(const void*, std::size_t) { return -EINVAL; }
 
 void Node::appear() {
