@@ -73,7 +73,6 @@ TEST_F(HidPipe, IsListedWithItsNamesUsageAndSocketBeforeAnybodyOpensIt) {
 TEST_F(HidPipe, CarriesReportsInLockStepWithoutHeap) {
   auto pipe = open();
   ASSERT_TRUE(pipe);
-  EXPECT_TRUE(std::ranges::equal(pipe->report_descriptor(), model.report_descriptor()));
   std::array<std::byte, 64> into{};
   const auto sent = report(3);
   int wrong = 0;
