@@ -19,6 +19,11 @@ TEST(ReplayLive, LeadsASession) {
   EXPECT_EQ(host.wait(), 0) << host.err();
   EXPECT_EQ(folder.json("c.json")["ended_by"], "done");
   EXPECT_NE(trainer.err().find("m.csv"), std::string::npos) << trainer.err();
+  const Json device = folder.json("c.json")["device_statistics"];
+  std::uint64_t held = 0;
+  for (const Json& bucket : device["round_trip_ms"]["buckets"]) held += bucket["count"].get<std::uint64_t>();
+  EXPECT_EQ(held, device["exchanges"].get<std::uint64_t>()) << device.dump(1);
+  EXPECT_NE(trainer.err().find("round trip: p50 "), std::string::npos) << trainer.err();
   EXPECT_GT(folder.json("s.json")["seats"][0]["speed_peak_m_s"].get<double>(), 0.01) << "it moved";
 }
 

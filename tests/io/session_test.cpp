@@ -149,6 +149,7 @@ TEST(LiveSession, IsHeldWhenWhoeverHasAuthorityIsKilled) {
   EXPECT_TRUE(host.wait_for("HELD")) << host.err();
   host.signal(SIGTERM);
   EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_NE(host.err().find("ended by SIGTERM: all hands are let go gently"), std::string::npos) << host.err();
   EXPECT_EQ(evaluator.wait(), 0) << evaluator.err();
   const Json report = folder.json("s.json");
   EXPECT_EQ(report["ended_by"], "signal");
@@ -192,12 +193,13 @@ TEST(LiveSession, WhatNeverRanIsNotJudged) {
   EXPECT_EQ(folder.json("n.json")["verdict"], "not_judged");
   EXPECT_EQ(folder.json("n.json")["ended_by"], "never_attached");
   EXPECT_NE(folder.json("n.json")["reason"].get<std::string>().find("no server at"), std::string::npos);
-  Process ended = client("127.0.0.1:9", "trainer", {"--patience", "60", "--json", "-"});
-  Process other = client(address_of(host), "trainee");
-  ASSERT_TRUE(other.wait_for("seat trainee at")) << other.err();
+  const std::string motion = folder.write("m.csv", "t_s[s],px[m],py[m],pz[m]\n0,0,0,0\n1,0.01,0,0\n");
+  Process ended = client("127.0.0.1:9", "trainer", {"--patience", "60", "--json", folder.file("e.json")}, "replay:" + motion);
+  ASSERT_TRUE(ended.wait_for("ready")) << ended.err();  // the device; now it asks for a seat
   ended.signal(SIGTERM);
   EXPECT_EQ(ended.wait(), 1);
   EXPECT_NE(ended.err().find("ended by SIGTERM"), std::string::npos) << ended.err();
+  EXPECT_EQ(folder.json("e.json")["verdict"], "not_judged");
 }
 
 TEST(LiveSession, EndsGentlyOnCtrlCOfTheClient) {

@@ -82,7 +82,9 @@ TEST(Histogram, BucketsHoldEveryValueOnceAndFollowEachOther) {
   h.each_bucket([&](std::int64_t first, std::int64_t last, std::uint64_t count) {
     EXPECT_GT(first, before);
     EXPECT_GE(last, first);
-    if (first >= 64) EXPECT_LE(static_cast<double>(last - first), 0.25 * static_cast<double>(first)) << first;
+    if (first >= 64) {
+      EXPECT_LE(static_cast<double>(last - first), 0.25 * static_cast<double>(first)) << first;
+    }
     held += count;
     before = last;
   });
