@@ -8,6 +8,7 @@
 #include "client/seat.h"
 #include "common/io/clock.h"
 #include "common/io/datagram_batch.h"
+#include "common/io/signals.h"
 #include "proto/visit.h"
 
 namespace tandem::client {
@@ -75,7 +76,7 @@ std::expected<GivenSeat, NotSeated> ask_for_seat(const io::UdpSocket& socket, co
       nobody_listens = ::send(socket.fd.get(), buffer.data(), *size, MSG_NOSIGNAL) < 0 && errno == ECONNREFUSED;
     pollfd files[] = {{socket.fd.get(), POLLIN, 0}, {signals, POLLIN, 0}};
     poll(files, 2, kWaitMs);
-    if (files[1].revents != 0) return std::unexpected(NotSeated{true, {}});
+    if (files[1].revents != 0) return std::unexpected(NotSeated{true, "ended by " + std::string(io::signal_that_came()) + " before it had a seat"});
     if ((files[0].revents & POLLERR) != 0) {  // takes the news off the socket
       int error = 0;
       socklen_t size = sizeof error;

@@ -16,8 +16,8 @@ struct GivenSeat {
 
 /// Why there is none.
 struct NotSeated {
-  bool interrupted = false;  ///< the person pressed Ctrl-C
-  std::string reason;        ///< cause and remedy
+  bool interrupted = false;  ///< a signal ended it
+  std::string reason;        ///< cause and remedy; or which signal
 };
 
 /// Asks the server for a seat and waits for its answer.

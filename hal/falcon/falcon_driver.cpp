@@ -62,7 +62,7 @@ DeviceCaps caps_of(const FalconSpec& spec, const FalconForce& force) {
 std::expected<FalconDriver, std::string> FalconDriver::make(DeviceId id, UsbPipe& pipe, Clock& clock,
                                                             FalconOptions options) {
   const auto force = FalconForce::from(options.spec);
-  if (!force) return std::unexpected(force.error());
+  if (!force) return std::unexpected(force.error().words);
   return FalconDriver(std::move(id), pipe, clock, std::move(options), *force);
 }
 
