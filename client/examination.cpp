@@ -12,6 +12,7 @@ using Kind = Finding::Kind;
 
 constexpr double kMoved = 0.01;        ///< [m] a person who was asked to move it moves it at least so far
 constexpr std::int32_t kCountsMoved = 20;
+constexpr unsigned kBatteryLow = 20;   ///< [%]
 constexpr double kRateGood = 0.97;     ///< of the nominal rate
 constexpr double kGivesWay = 0.0005;   ///< [m]
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
@@ -25,6 +26,7 @@ std::string text(const char* format, auto... values) {
 }  // namespace
 
 void Examination::see(const hal::State& state) noexcept {
+  if (state.battery_percent) battery_ = state.battery_percent;  // told at rest, too
   if (state.stale) {
     ++stale_;
     return;
@@ -59,6 +61,10 @@ std::vector<Finding> Examination::findings(const hal::DeviceStats& stats, double
         "program may hold it; on a hub with little power, plug it into the machine");
     return all;
   }
+  if (caps_.needs_firmware) say(Kind::kGood, "its firmware runs");
+  if (battery_)
+    say(*battery_ < kBatteryLow ? Kind::kNotice : Kind::kGood,
+        text(*battery_ < kBatteryLow ? "battery %u %%: charge it" : "battery %u %%", unsigned{*battery_}));
   const double rate = seconds > 0 ? static_cast<double>(readings_) / seconds : 0;
   const bool own_pace = caps_.input == hal::InputKind::kRate;
   if (own_pace || rate >= kRateGood * caps_.nominal_hz) {
@@ -118,9 +124,15 @@ std::vector<Finding> Examination::findings(const hal::DeviceStats& stats, double
   } else {
     say(homed_ ? Kind::kGood : Kind::kNotice, homed_ ? "homed" : "not homed: no force will come before it is");
   }
-  if (!caps_.force_calibrated)
+  if (std::ranges::none_of(caps_.axis, [](const hal::AxisLimit& axis) { return axis.peak.has_value(); })) {
+    say(Kind::kGood, "no force comes of it: no motors, or it says nothing of what they give");
+  } else if (caps_.force_calibrated) {
+    static constexpr const char* kFrom[] = {"nobody knows where from", "the datasheet", "the device itself", "its calibration file", "its model"};
+    say(Kind::kGood, text("force scale calibrated; limits from %s", kFrom[static_cast<std::size_t>(caps_.axis[0].from)]));
+  } else {
     say(Kind::kNotice, "its force scale was never measured: forces are kept to a tenth of the peak; hal/README.md tells how "
                        "to measure it with a known mass");
+  }
   static constexpr const char* kGravity[] = {"no gravity compensation", "gravity is compensated by this program",
                                              "the device compensates gravity itself"};
   say(Kind::kGood, kGravity[static_cast<std::size_t>(caps_.gravity)]);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ class Examination {
   hal::Vec3 low_ = hal::Vec3::Zero(), high_ = hal::Vec3::Zero();
   double fastest_ = 0;  ///< of the tip [m/s]
   unsigned pressed_ = 0;
+  std::optional<std::uint8_t> battery_;
 };
 
 /// Pushes the hand softly along each axis in turn, both ways, and looks whether the tip gives way in that direction: what

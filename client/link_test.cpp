@@ -137,7 +137,7 @@ void LinkTest::leave() noexcept {
 }
 
 Duration LinkTest::silence(Time now) const noexcept {
-  if (news_) return now - *news_;
+  if (news_) return std::max(now - *news_, Duration{0});
   return began_ ? now - *began_ : Duration{0};
 }
 
@@ -154,6 +154,7 @@ LinkFindings LinkTest::findings(Time now) const {
   for (const auto refused : l.refused) f.refused += refused;
   f.refused -= f.duplicates;
   f.pauses = pauses_;
+  f.silent_at_end = seconds(silence(stopped_.value_or(now)));
   if (news_) {
     f.down = LinkFindings::Way{l.newest - l.first + 1, l.lost(), l.late,
                                seconds(stopped_ ? gap_until_stop_ : link_.longest_gap(now))};

@@ -36,6 +36,7 @@ struct LinkFindings {
   std::optional<double> rtt_min, rtt_p50, rtt_p99, rtt_max;  ///< the two machines' waiting for their ticks taken off [s]
   std::optional<double> jitter;    ///< 99th percentile of how much later than the fastest a FORCE came [s]
   std::uint32_t pauses = 0;        ///< silences longer than the gate's limit: in each a hand would have been let go
+  double silent_at_end = 0;        ///< since the last news, when the test stopped [s]
   double silence_limit = 0, loop_age_max = 0;                ///< of the scene's gate [s]
 
   std::optional<double> clock_step;    ///< largest change between this machine's wall clock and its monotonic clock [s]

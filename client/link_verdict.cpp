@@ -10,13 +10,15 @@ namespace tandem::client {
 namespace {
 
 constexpr double kGone = 1.0;          // [s] no Wi-Fi scans so long
+constexpr double kLostAtEnd = 0.5;     // [s] nor does one fall silent so long just when the test ends
 constexpr double kLeastSeconds = 2.0;  // [s]
 constexpr double kCrisp = 0.010;       // [s] round trip: up to here nobody tells it from no network
-constexpr double kComfortable = 0.050; // [s] one way 20 ms and a little: the table's middle column
-constexpr double kLossGood = 1, kLossUsable = 10;   // [%]
+constexpr double kRttGood = 0.020;     // [s]
+constexpr double kLossGood = 0.1, kLossUsable = 10;  // [%]
+constexpr double kGapUsable = 0.050;   // [s] longer, and every hand is let go and led back
 constexpr double kPauseShare = 0.01;   // pauses per second of test that are still usable: one in 100 s is an accident
 constexpr double kLateGood = 0.001, kLateUsable = 0.02;  // share of ticks
-constexpr double kJitterGood = 0.005;  // [s]
+constexpr double kJitterGood = 0.002, kJitterUsable = 0.010;  // [s]
 constexpr double kClockStep = 0.001, kTransitStep = 0.005;  // [s]
 
 double ms(double s) { return 1e3 * s; }
@@ -48,13 +50,14 @@ void judge_delay(const LinkFindings& f, Judge& judge) {
     judge.note(LinkGrade::kBad, format("round trips of %.0f ms are older than this scene trusts (loop_age_max %.0f ms): hands would be "
                                        "let go. Use a nearer server, or a scene made for delay",
                                        ms(rtt), ms(f.loop_age_max)));
-  } else if (*f.rtt_p50 > kComfortable) {
-    judge.note(LinkGrade::kUsable, format("round trips of %.0f ms: the tool follows late and feels softer; move slowly. A nearer server or a "
-                                          "cable instead of radio helps",
-                                          ms(*f.rtt_p50)));
+  } else if (rtt > kRttGood) {
+    judge.note(LinkGrade::kUsable, format("round trips of %.0f ms (99 %%): the tool follows late and feels softer; move slowly. A nearer server or "
+                                          "a cable instead of radio helps",
+                                          ms(rtt)));
   }
   if (f.jitter && *f.jitter > kJitterGood)
-    judge.note(LinkGrade::kUsable, format("datagrams come up to %.0f ms later than the fastest (99 %%): use a cable instead of Wi-Fi, end "
+    judge.note(*f.jitter <= kJitterUsable ? LinkGrade::kUsable : LinkGrade::kBad,
+               format("datagrams come up to %.0f ms later than the fastest (99 %%): use a cable instead of Wi-Fi, end "
                                           "downloads and video on this line",
                                           ms(*f.jitter)));
 }
@@ -63,7 +66,7 @@ void judge_loss(const LinkFindings::Way& way, const char* direction, Judge& judg
   const double percent = way.loss_percent();
   if (percent <= kLossGood) return;
   judge.note(percent <= kLossUsable ? LinkGrade::kUsable : LinkGrade::kBad,
-             format("%.1f %% lost %s: a bad cable, weak radio or a full line; try a cable, and end what else uses the line", percent,
+             format("%.2g %% lost %s: a bad cable, weak radio or a full line; try a cable, and end what else uses the line", percent,
                     direction));
 }
 
@@ -88,6 +91,7 @@ void judge_machine(const LinkFindings& f, Judge& judge) {
 }
 
 std::string words(const LinkFindings& f, LinkGrade grade) {
+  if (server_lost(f)) return "the server was lost before the test was over: what stands here is of the time until then";
   switch (grade) {
     case LinkGrade::kGood:
       return *f.rtt_p50 <= kCrisp ? "hands can work together over this link as if it were one room"
@@ -114,6 +118,8 @@ const char* to_text(LinkGrade grade) noexcept {
   return "";
 }
 
+bool server_lost(const LinkFindings& f) noexcept { return f.down && f.silent_at_end > std::max(kLostAtEnd, f.silence_limit); }
+
 LinkVerdict judge(const LinkFindings& f) {
   LinkVerdict verdict;
   Judge judge{verdict};
@@ -130,14 +136,19 @@ LinkVerdict judge(const LinkFindings& f) {
   judge_loss(*f.down, "on the way down", judge);
   // A gap on the way up is felt by the hand as well: what comes down then is old.
   const double gap = std::max(f.up->longest_gap, f.down->longest_gap);
-  if (gap > kGone)
+  if (server_lost(f)) {
+    judge.note(LinkGrade::kBad, format("nothing came in the last %.1f s of the test: the server, or everything between here and there, is gone. Look "
+                                       "whether it still runs, then test again",
+                                       f.silent_at_end));
+  } else if (gap > kGone) {
     judge.note(LinkGrade::kBad, format("nothing at all for %.1f s: the server, or everything between here and there, was gone", gap));
-  if (gap > f.silence_limit)
-    judge.note(f.pauses <= std::max(1.0, kPauseShare * f.seconds) ? LinkGrade::kUsable : LinkGrade::kBad,
+  } else if (gap > f.silence_limit) {
+    judge.note(gap <= kGapUsable && f.pauses <= std::max(1.0, kPauseShare * f.seconds) ? LinkGrade::kUsable : LinkGrade::kBad,
                format("silent for up to %.0f ms up and %.0f ms down, %u time%s beyond the %.0f ms after which a hand is let go%s",
                       ms(f.up->longest_gap), ms(f.down->longest_gap), f.pauses, f.pauses == 1 ? "" : "s", ms(f.silence_limit),
                       f.late_ticks + f.missed_ticks > 0 ? " (this machine itself was late, too)"
                                                         : ": Wi-Fi that scans or roams, a line that is full"));
+  }
   judge_machine(f, judge);
   if (f.refused > 0)
     judge.note(LinkGrade::kUsable, format("%llu datagrams from the server's address were not authentic: damaged on the way, or somebody "

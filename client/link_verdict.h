@@ -16,7 +16,11 @@ struct LinkVerdict {
   std::vector<std::string> advice;  ///< each finding that is worth acting on, with its remedy
 };
 
-/// Limits are the scene's own (silence, age of the loop) where it has some, else those of ARCHITECTURE's table of delays.
+/// The server, or all between here and there, was gone when the test stopped: it is not whole, however long it took.
+[[nodiscard]] bool server_lost(const LinkFindings& findings) noexcept;
+
+/// Limits are the scene's own (silence, age of the loop) where it has some, else the bands of the design notes (network, 2.4):
+/// good up to 20 ms round trip, 2 ms jitter, 0.1 % loss; usable up to 10 ms jitter, 10 % loss, gaps of 50 ms; else bad.
 [[nodiscard]] LinkVerdict judge(const LinkFindings& findings);
 
 [[nodiscard]] const char* to_text(LinkGrade grade) noexcept;

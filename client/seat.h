@@ -58,6 +58,7 @@ class Seat {
   [[nodiscard]] const SeatSetup& setup() const noexcept { return setup_; }
   [[nodiscard]] const control::MasterIpc& ipc(std::size_t axis) const noexcept { return ipc_[axis]; }
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes
+  [[nodiscard]] hal::Vec3 tip_force() const noexcept { return map_.tip_force(reading_, effort_); }  ///< the same at the tip [N]
 
  private:
   [[nodiscard]] bool take_reading(const hal::State& device) noexcept;

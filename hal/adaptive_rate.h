@@ -18,7 +18,8 @@ class AdaptiveRate {
   static constexpr std::size_t kWindow = 16;
 
   /// @param quantum  step of the position, > 0
-  explicit AdaptiveRate(double quantum = 1.0) noexcept : quantum_(std::abs(quantum)) {}
+  /// @param apart    no slope is taken over less: times of readings are uncertain by about as much
+  explicit AdaptiveRate(double quantum = 1.0, Duration apart = {}) noexcept : quantum_(std::abs(quantum)), apart_(apart) {}
 
   void restart() noexcept { size_ = 0, rate_ = 0.0; }
 
@@ -29,12 +30,15 @@ class AdaptiveRate {
     newest_ = (newest_ + 1) % kWindow;
     samples_[newest_] = {at, position};
     if (size_ < kWindow) ++size_;
-    rate_ = 0.0;
+    bool known = false;  // the shortest window counts whatever lies in it
     for (std::size_t n = 1; n < size_; ++n) {
+      if (at - sample(n).at < apart_) continue;
       const double slope = (position - sample(n).position) / seconds(at - sample(n).at);
-      if (n > 1 && !explains(slope, n)) break;
+      if (known && !explains(slope, n)) break;
       rate_ = slope;
+      known = true;
     }
+    if (size_ < 2) rate_ = 0.0;
     return rate_;
   }
   [[nodiscard]] double rate() const noexcept { return rate_; }
@@ -57,6 +61,7 @@ class AdaptiveRate {
   }
 
   double quantum_;
+  Duration apart_;
   double rate_ = 0;
   std::array<Sample, kWindow> samples_{};
   std::size_t newest_ = 0, size_ = 0;

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/base/axes.h"
+#include "common/base/histogram.h"
 #include "common/base/time.h"
 
 /// What Tandem knows of a haptic device, whatever its maker. SI units; frame of every device: right-handed, x right,
@@ -93,6 +94,7 @@ struct State {
   double penetration = 0;          ///< depth of the tip in the environment, where known [m]
   std::array<std::int32_t, kAxesMax> raw{};  ///< encoder counts as the device sent them, unwrapped
   unsigned buttons = 0;            ///< bit mask, 1 = pressed
+  std::optional<std::uint8_t> battery_percent;  ///< 0..100; only devices that have one and told it
   bool stale = false;              ///< nothing new came lately: values are held or decay
   bool resynced = false;           ///< positions may have jumped since the reading before
   bool homed = true;
@@ -127,6 +129,12 @@ struct DeviceStats {
   double period_p50_s = 0, period_p99_s = 0, period_max_s = 0;
 };
 
+/// How often each duration came [ns]. Empty where nothing of the kind happens: a simulated device exchanges nothing.
+struct DeviceHistograms {
+  Histogram period;      ///< from one exchange to the next
+  Histogram round_trip;  ///< of one exchange
+};
+
 /// A device with a thread of its own.
 /// Absent -> Opening -> ... -> Ready (zero force) -> Enabled -> {Fault, Lost}; Lost never enables itself again.
 struct Device {
@@ -141,6 +149,8 @@ struct Device {
   virtual void disable() noexcept = 0;
   virtual Result<> reset() = 0;
   [[nodiscard]] virtual DeviceStats stats() const = 0;
+  /// Of its whole life; empty before `close()` has returned.
+  [[nodiscard]] virtual DeviceHistograms histograms() const { return {}; }
   /// Whether the kernel granted its thread real-time priority.
   [[nodiscard]] virtual bool realtime() const noexcept { return false; }
   virtual void close() noexcept = 0;

@@ -18,7 +18,7 @@ struct GuardLimits {
   double jump_max_m = 0.02;            ///< a hand does not move so far between two exchanges: the reading is wrong
   Duration soft_start = std::chrono::milliseconds(500);
   Duration let_go = std::chrono::milliseconds(20);      ///< from the last effort to zero when a command died of age
-  Duration miss_limit = std::chrono::milliseconds(10);  ///< without a whole answer
+  Duration miss_limit = std::chrono::milliseconds(10);  ///< of asking without a whole answer
 };
 
 /// Limits from what a device says of itself: the least peak of its axes, a tenth of it while its force scale is a guess.

@@ -1,5 +1,6 @@
 #include "hal/servo_core.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tandem::hal {
@@ -7,6 +8,8 @@ namespace {
 
 /// Readings that cannot be, since the forces were enabled: more is no accident.
 constexpr std::uint64_t kImplausibleMax = 3;
+/// Of the miss limit that one exchange without an answer can use up: two periods of an ordinary servo.
+constexpr Duration kAskedMost = std::chrono::milliseconds(2);
 
 Result<> bad_state(const DeviceId& id, const char* what) {
   return std::unexpected(DeviceError{Errc::kBadState, id.backend + " " + id.key + ": " + what});
@@ -36,7 +39,7 @@ bool ServoCore::step(Time now, ServoClient& client) noexcept {
   const Phase phase = this->phase();
   if (phase == Phase::kLost || phase == Phase::kAbsent) return false;
   if (phase == Phase::kBooting) return true;
-  if (!stepped_) answered_ = now;
+  if (!stepped_) asked_at_ = now, silent_for_ = {};
   stepped_ = true;
   if (phase == Phase::kEnabled && acted_ != Phase::kEnabled) guard_.start(now);
   acted_ = phase;
@@ -72,12 +75,16 @@ void ServoCore::judge(Time now, Exchange how) noexcept {
     ++stats_.unanswered;
     state_.stale = true;
     state_.sampled_at = now;
-    if (now - answered_ < limits_.miss_limit) return;
+    // A host that stood still asked nothing meanwhile: its own time is not the device's silence.
+    silent_for_ += std::min(now - asked_at_, kAskedMost);
+    asked_at_ = now;
+    if (silent_for_ < limits_.miss_limit) return;
     // Zeros from now on; what it does may be anything, so only a person lets it go on.
     for (const Phase from : {Phase::kEnabled, Phase::kReady, Phase::kUnhomed}) change(from, Phase::kFault);
     return;
   }
-  answered_ = now;
+  silent_for_ = {};
+  asked_at_ = now;
   state_.resynced = how == Exchange::kResynced;
   stats_.resyncs += state_.resynced ? 1 : 0;
   guard_.see(now, state_, !state_.resynced);

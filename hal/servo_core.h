@@ -58,7 +58,8 @@ class ServoCore {
   Phase acted_ = Phase::kAbsent;  ///< the phase of the last step
   State state_;
   Command command_;
-  Time answered_{};  ///< the last whole answer
+  Time asked_at_{};        ///< the last exchange
+  Duration silent_for_{};  ///< time of exchanges without a whole answer since the last one with
   bool stepped_ = false;
   DeviceStats stats_;
   Histogram round_trips_;

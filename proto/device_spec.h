@@ -20,6 +20,7 @@ struct FalconMassReading {
   std::array<double, 3> encoder{};              ///< counts, homed
   std::array<double, 3> motor_without{};        ///< counts, mean
   std::array<double, 3> motor_with{};           ///< counts, mean
+  int line = 0;                                 ///< of its file, from 1; 0: of no file
 };
 
 struct FalconFlags {
@@ -34,6 +35,7 @@ struct FalconSpec {
   std::optional<double> mass, damping, stiffness;      ///< [kg, N s/m, N/m] at the tip
   std::optional<std::string> firmware_sha256;          ///< lower-case hex
   FalconFlags flags;
+  int line = 0;                                        ///< of its file, from 1; 0: of no file
 };
 
 /// One file: what it says of each kind of device.

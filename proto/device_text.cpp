@@ -32,7 +32,8 @@ FalconMassReading reading_from(const pb::FalconReading& in, Checker& checker, co
           .up = {in.up_x() / length, in.up_y() / length, in.up_z() / length},
           .encoder = counts_from(in.encoder()),
           .motor_without = counts_from(in.motor_without()),
-          .motor_with = counts_from(in.motor_with())};
+          .motor_with = counts_from(in.motor_with()),
+          .line = checker.place(key).line};
 }
 
 FalconFlags flags_from(const pb::FalconFlagFile& in, Checker& checker, const std::string& key) {
@@ -92,6 +93,7 @@ FalconSpec falcon_from(const pb::FalconFile& in, Checker& checker, const std::st
     }
     spec.firmware_sha256 = std::move(hash);
   }
+  spec.line = checker.place(key).line;
   spec.flags = flags_from(in.flags(), checker, child_path(key, "flags"));
   return spec;
 }

@@ -6,6 +6,7 @@
 #include <google/protobuf/message.h>
 #include <google/protobuf/util/json_util.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -337,6 +338,22 @@ void read_json(std::string_view text, Message& message, Checker& checker) {
 bool read_document(std::string_view text, std::string_view file_name, Message& message, Checker& checker) {
   if (text.size() > kTextMax) {
     checker.error_at({}, "", "is longer than " + std::to_string(kTextMax) + " bytes");
+    return false;
+  }
+  // A program's own bytes would be one mistake per byte.
+  const auto strange = std::ranges::find_if(text, [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7f;
+  });
+  if (strange != text.end()) {
+    const auto line = 1 + std::count(text.begin(), strange, '\n');
+    constexpr std::string_view kHex = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(*strange);
+    const auto before = static_cast<std::size_t>(strange - text.begin());
+    const auto newline = text.substr(0, before).rfind('\n');  // npos + 1 is 0: the first line
+    checker.error_at({static_cast<int>(line), static_cast<int>(before - (newline + 1) + 1), ""}, "",
+                     std::string("is not text: it has the byte 0x") + kHex[byte >> 4] + kHex[byte & 15] +
+                         "; was another file meant? Files of this kind are written in an editor");
     return false;
   }
   if (file_name.ends_with(".json")) {

@@ -17,7 +17,10 @@ void check_parts(const pb::WoodenHapticsFile& in, Checker& checker, const std::s
   for (const auto& [given, what] : {std::pair{in.has_base(), "base { ... }: its motor"},
                                     {in.has_shoulder(), "shoulder { ... }: its motor"},
                                     {in.has_elbow(), "elbow { ... }: its motor"},
-                                    {in.has_arm(), "arm { ... }: its lengths"}}) {
+                                    {in.has_arm(), "arm { ... }: its lengths"},
+                                    {in.has_current(), "current { max_a: ... continuous_a: ... firmware_full_scale_a: ... "
+                                                       "amplifier_full_scale_a: ... }: what flows is never guessed; 2, 1, 3, 3 A are cautious"},
+                                    {in.has_limits(), "limits { force_n: ... radius_mm: ... }: the published 5 N and 100 mm, or your own"}}) {
     if (!given) checker.error(key, std::string("needs ") + what);
   }
   if (in.protocol() == pb::WoodenHapticsFile::UNKNOWN) {
@@ -72,10 +75,12 @@ WoodenHapticsSpec woodenhaptics_from(const pb::WoodenHapticsFile& in, Checker& c
 
   const pb::WoodenCurrent& current = in.current();
   const std::string current_key = child_path(key, "current");
-  if (current.has_max_a()) spec.current_max = current.max_a();
-  if (current.has_continuous_a()) spec.current_continuous = current.continuous_a();
-  if (current.has_firmware_full_scale_a()) spec.firmware_full_scale = current.firmware_full_scale_a();
-  if (current.has_amplifier_full_scale_a()) spec.amplifier_full_scale = current.amplifier_full_scale_a();
+  if (in.has_current()) {
+    spec.current_max = current.max_a();
+    spec.current_continuous = current.continuous_a();
+    spec.firmware_full_scale = current.firmware_full_scale_a();
+    spec.amplifier_full_scale = current.amplifier_full_scale_a();
+  }
   if (spec.current_continuous > spec.current_max) {
     checker.error(child_path(current_key, "continuous_a"), "is above max_a, " + text::number_text(spec.current_max),
                   text::number_text(spec.current_continuous));
@@ -86,14 +91,12 @@ WoodenHapticsSpec woodenhaptics_from(const pb::WoodenHapticsFile& in, Checker& c
                       text::number_text(spec.amplifier_full_scale),
                   text::number_text(spec.current_max));
   }
-  if (current.has_firmware_full_scale_a() != current.has_amplifier_full_scale_a()) {
-    checker.error(current_key, "needs both firmware_full_scale_a and amplifier_full_scale_a, or neither: one without "
-                               "the other scales every force");
-  }
 
   const pb::WoodenLimits& limits = in.limits();
-  if (limits.has_force_n()) spec.force_max = limits.force_n();
-  if (limits.has_radius_mm()) spec.radius = limits.radius_mm() * kMilli;
+  if (in.has_limits()) {
+    spec.force_max = limits.force_n();
+    spec.radius = limits.radius_mm() * kMilli;
+  }
   if (limits.has_stiffness_n_m()) spec.stiffness_max = limits.stiffness_n_m();
   if (limits.has_damping_n_s_m()) spec.damping = limits.damping_n_s_m();
   if (limits.has_mass_kg()) spec.tip_mass = limits.mass_kg();

@@ -10,6 +10,7 @@
 #include "client/app/server_trust.h"
 #include "client/seat.h"
 #include "common/io/clock.h"
+#include "common/io/signals.h"
 #include "common/trust/enrolment.h"
 #include "common/trust/io/control_client.h"
 #include "common/trust/ticket.h"
@@ -75,8 +76,9 @@ class Joining {
  private:
   static std::unexpected<NotSeated> fail(std::string reason) { return std::unexpected(NotSeated{false, std::move(reason)}); }
 
+  static NotSeated interrupted() { return {true, "ended by " + std::string(io::signal_that_came()) + " before it had a seat"}; }
   NotSeated not_seated(const Fault& fault) const {
-    if (fault.kind == Fault::Kind::kInterrupted) return {true, {}};
+    if (fault.kind == Fault::Kind::kInterrupted) return interrupted();
     const std::string server = io::to_text(asking_.server);
     if (fault.kind == Fault::Kind::kUnreachable)
       return {false, "no server at " + server + ": nothing listens there (asked for " + waited(asking_.patience) +
@@ -100,7 +102,7 @@ class Joining {
       const bool later = client.error().kind == Fault::Kind::kUnreachable && io::monotonic_now() + std::chrono::milliseconds(kAgainMs) < until;
       if (!later) return std::unexpected(not_seated(client.error()));
       pollfd signals{asking_.signals, POLLIN, 0};
-      if (poll(&signals, 1, kAgainMs) > 0) return std::unexpected(NotSeated{true, {}});
+      if (poll(&signals, 1, kAgainMs) > 0) return std::unexpected(interrupted());
     }
   }
 

@@ -35,8 +35,8 @@ struct GivenSeat {
 
 /// Why there is none.
 struct NotSeated {
-  bool interrupted = false;    ///< the person pressed Ctrl-C
-  std::string reason;          ///< cause and remedy
+  bool interrupted = false;    ///< a signal ended it
+  std::string reason;          ///< cause and remedy; or which signal
 };
 
 /// Joins over a TLS connection: proves both keys, shows a ticket, a code, or on this very computer what the server laid down for its

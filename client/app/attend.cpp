@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "client/app/ask.h"
+#include "client/app/device_statistics.h"
 #include "client/app/held_device.h"
 #include "client/app/person.h"
 #include "client/app/sample_trace.h"
@@ -33,6 +34,16 @@ constexpr int kLookEveryMs = 100;
 
 int trouble(const std::string& what, int code = kTrouble) {
   spdlog::error("join: {}", what);
+  return code;
+}
+
+/// Nobody was attached: said, to machines too.
+int not_attached(const AttendPlan& plan, const std::string& why, int code = kTrouble) {
+  spdlog::error("join: {}", why);
+  io::OutputFile json;
+  if (const auto problem = json.open(plan.json, true); !problem.empty()) return trouble("--json: " + problem, kWrong);
+  json.write(unattended_json(plan.seat, io::to_text(plan.server), plan.device, why));
+  if (const auto problem = json.close(); !problem.empty()) return trouble(problem);
   return code;
 }
 
@@ -64,9 +75,10 @@ SeatEnd watch(SeatPump& pump, Person& person, hal::Device& device, const SeatSet
     poll(files, keys.interactive() ? 3 : 2, kLookEveryMs);
     if (files[0].revents != 0) break;
     if (files[1].revents != 0) {
+      const std::string by{io::signal_that_came()};
       signalfd_siginfo taken;
       [[maybe_unused]] const auto got = ::read(signals, &taken, sizeof taken);
-      leave("letting go");
+      leave(("ended by " + by + ": letting go").c_str());
     }
     for (std::string key = keys.next(); !key.empty(); key = keys.next()) {
       if (key == "b" && device.phase() == hal::Phase::kFault) wants_force_again = device.reset().has_value();
@@ -128,19 +140,20 @@ int attend(const AttendPlan& plan) {
   if (HeldDevice::is_meant(plan.device)) {
     auto taken = HeldDevice::take(plan.device, signals.get(), line);
     if (!taken)
-      return taken.error().interrupted ? 0 : trouble("--device: " + taken.error().reason, taken.error().wrong_words ? kWrong : kTrouble);
+      return not_attached(plan, (taken.error().interrupted ? "" : "--device: ") + taken.error().reason,
+                          taken.error().wrong_words ? kWrong : kTrouble);
     held = std::move(*taken);
   }
   const hal::DeviceCaps asking = held ? held->caps() : plan.caps;
   auto given = ask_for_seat({plan.server, plan.seat, plan.session, plan.ticket, plan.state, asking, from_seconds(plan.patience_s), signals.get()});
-  if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
+  if (!given) return not_attached(plan, given.error().reason);
   auto socket = io::connect_udp(given->udp);
   if (!socket) return trouble("--server: " + socket.error());
   const SeatSetup& setup = given->setup;
 
   const auto refuse = [&](const std::string& why, int code) {
     give_back(*socket, *given, asking);
-    return trouble(why, code);
+    return not_attached(plan, why, code);
   };
   std::vector<AlphaScript::Change> script;
   if (plan.script) {
@@ -204,6 +217,7 @@ int attend(const AttendPlan& plan) {
   report.end = end;
   report.last = pump->final_status();
   report.device = device.stats();
+  report.histograms = device.histograms();
   report.trace_dropped = writer ? writer->queue().dropped() : 0;
   report.realtime = device.realtime();
   if (const std::string notice = io::realtime_notice(report.realtime, memory, awake.granted());
@@ -215,10 +229,13 @@ int attend(const AttendPlan& plan) {
   } else {
     line.note(farewell(end));
   }
+  for (const std::string& words : summary(report.device, report.histograms)) line.note(words);
+  const SeatVerdict verdict = verdict_of(report);
+  if (verdict == SeatVerdict::kNotJudged) line.note("not judged: the session never ran while this seat was taken");
   json.write(to_json(report, setup));
   for (io::OutputFile* file : {&json, &trace})
     if (const auto problem = file->close(); !problem.empty()) return trouble(problem);
-  return lost ? kTrouble : 0;
+  return verdict == SeatVerdict::kPass ? 0 : kTrouble;
 }
 
 }  // namespace tandem::client

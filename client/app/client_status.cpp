@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "client/app/device_statistics.h"
 #include "common/base/format.h"
 
 namespace tandem::client {
@@ -48,6 +49,23 @@ const char* to_text(SeatEnd end) noexcept {
   return "";
 }
 
+const char* to_text(SeatVerdict verdict) noexcept {
+  switch (verdict) {
+    case SeatVerdict::kPass:
+      return "pass";
+    case SeatVerdict::kFail:
+      return "fail";
+    case SeatVerdict::kNotJudged:
+      return "not_judged";
+  }
+  return "";
+}
+
+SeatVerdict verdict_of(const ClientReport& report) noexcept {
+  if (report.end == SeatEnd::kServerLost || report.end == SeatEnd::kDeviceLost) return SeatVerdict::kFail;
+  return report.last.session_time >= 0 ? SeatVerdict::kPass : SeatVerdict::kNotJudged;
+}
+
 const char* to_text(Role role) noexcept {
   switch (role) {
     case Role::kInstructor:
@@ -82,6 +100,7 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   j["role"] = to_text(setup.seat.role);
   j["server"] = r.server;
   j["device"] = r.device_note;
+  j["verdict"] = to_text(verdict_of(r));
   j["ended_by"] = to_text(r.end);
   j["seconds"] = number(r.seconds);
   j["session_s"] = number(std::max(0.0, s.session_time));
@@ -110,7 +129,19 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
                   {"period_max_ms", number(r.device.period_max_s * 1e3)},
                   {"trace_dropped", r.trace_dropped},
                   {"realtime", r.realtime}};
+  j["device_statistics"] = to_json(r.device, r.histograms);
   return j.dump(2) + "\n";
+}
+
+std::string unattended_json(const std::string& seat, const std::string& server, const std::string& device, const std::string& why) {
+  nlohmann::ordered_json j;
+  j["seat"] = seat;
+  j["server"] = server;
+  j["device"] = device;
+  j["verdict"] = to_text(SeatVerdict::kNotJudged);
+  j["ended_by"] = "never_attached";
+  j["reason"] = why;
+  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace tandem::client

@@ -36,6 +36,10 @@ struct ClientStatus {
 enum class SeatEnd : std::uint8_t { kDone, kServerStopped, kLeft, kServerLost, kDeviceLost };
 
 [[nodiscard]] const char* to_text(SeatEnd end) noexcept;
+
+/// Whether a seat's life was what it should be. Without a session there is nothing to judge, and that is no pass.
+enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
+[[nodiscard]] const char* to_text(SeatVerdict verdict) noexcept;
 [[nodiscard]] const char* to_text(Role role) noexcept;
 
 /// One line for a terminal.
@@ -48,9 +52,14 @@ struct ClientReport {
   SeatEnd end = SeatEnd::kDone;
   ClientStatus last;
   hal::DeviceStats device;
+  hal::DeviceHistograms histograms;
   std::uint64_t trace_dropped = 0;
   bool realtime = false;
 };
+[[nodiscard]] SeatVerdict verdict_of(const ClientReport& report) noexcept;
 [[nodiscard]] std::string to_json(const ClientReport& report, const SeatSetup& setup);
+
+/// The same of somebody who never had a seat. @param why  as it was told
+[[nodiscard]] std::string unattended_json(const std::string& seat, const std::string& server, const std::string& device, const std::string& why);
 
 }  // namespace tandem::client

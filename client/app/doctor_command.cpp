@@ -7,10 +7,12 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
 
+#include "client/app/device_list.h"
 #include "client/app/held_device.h"
 #include "client/examination.h"
 #include "common/io/clock.h"
@@ -29,13 +31,21 @@ using Kind = Examination::Finding::Kind;
 constexpr int kTrouble = 1, kWrong = 2;
 
 struct DoctorArguments {
-  std::string device, seconds = "5";
+  std::string device, seconds = "5", root;
   bool force_test = false, install = false, watch = false;
 };
 
 void print(const Examination::Finding& finding) {
   static constexpr const char* kMarks[] = {"  ok      ", "  notice  ", "  TROUBLE "};
   std::printf("%s%s\n", kMarks[static_cast<std::size_t>(finding.kind)], finding.words.c_str());
+}
+
+void print(const hal::DeviceFact& fact) { std::fputs(fact_line(fact).c_str(), stdout); }
+
+/// "ended by SIGTERM: ..." or nothing, as long as no signal came.
+void print_interruption() {
+  const std::string by{io::signal_that_came()};
+  std::printf("ended by %s: what was seen so far is told and is no clean bill\n", by.c_str());
 }
 
 bool trouble_in(const std::vector<Examination::Finding>& findings) {
@@ -91,7 +101,6 @@ int examine(const DoctorArguments& arguments, double seconds) {
   io::StatusLine line{false};
   auto held = HeldDevice::take(arguments.device, signals.get(), line);
   if (!held) {
-    if (held.error().interrupted) return kTrouble;
     std::fprintf(stderr, "tandem-client doctor: %s\n", held.error().reason.c_str());
     return held.error().wrong_words ? kWrong : kTrouble;
   }
@@ -99,6 +108,8 @@ int examine(const DoctorArguments& arguments, double seconds) {
   Onlooker onlooker{device.caps()};
   std::printf("%s: move the grip in all directions and press its buttons, for %.0f s. No force comes.\n",
               (*held)->note().c_str(), seconds);
+  print(hal::DeviceFact{"library", (*held)->library()});
+  print(hal::DeviceFact{"permission", "it could be opened"});
   std::fflush(stdout);
   const Time begin = io::monotonic_now();
   (*held)->observe(onlooker);
@@ -126,13 +137,16 @@ int examine(const DoctorArguments& arguments, double seconds) {
   }
   if (onlooker.was_lost()) findings.push_back({Kind::kTrouble, "it was unplugged, or stopped existing, while it was examined"});
   for (const auto& finding : findings) print(finding);
-  if (!whole) std::printf("interrupted: what was seen so far is told and is no clean bill\n");
+  if (!whole) print_interruption();
   return whole && !trouble_in(findings) ? 0 : kTrouble;
 }
 
 int list_all() {
   bool trouble = false;
   std::size_t found = 0;
+  std::printf("looked with:\n");
+  for (const hal::Backend* backend : hal::backends())
+    if (backend->name() != "replay") print(hal::DeviceFact{std::string(backend->name()), backend->library()});
   for (hal::Backend* backend : hal::backends()) {
     const auto listed = backend->list();
     if (!listed) {
@@ -141,8 +155,9 @@ int list_all() {
     }
     for (const hal::FoundDevice& device : *listed) {
       ++found;
-      print({device.trouble.empty() ? Kind::kGood : Kind::kTrouble,
-             device.about + "\n            --device " + device.words + (device.trouble.empty() ? "" : "\n            " + device.trouble)});
+      std::string lines = describe(*backend, device);
+      lines.pop_back();  // printed with one
+      print({device.trouble.empty() ? Kind::kGood : Kind::kTrouble, std::move(lines)});
       trouble = trouble || !device.trouble.empty();
     }
   }
@@ -183,18 +198,21 @@ std::string all_rules() {
   return rules;
 }
 
-int install_rules() {
-  const std::string rules = all_rules();
-  std::ofstream file(hal::kUdevRulesFile, std::ios::trunc);
+/// @param root  of the system they are for; empty: this one
+int install_rules(const std::string& root) {
+  const std::string rules = all_rules(), name = root + hal::kUdevRulesFile;
+  std::error_code none;  // what cannot be made cannot be written either
+  if (!root.empty()) std::filesystem::create_directories(std::filesystem::path(name).parent_path(), none);
+  std::ofstream file(name, std::ios::trunc);
   if (!(file << rules) || !file.flush()) {
     std::fprintf(stderr,
-                 "tandem-client doctor: %s cannot be written; run it as root: sudo tandem-client doctor --install-udev\n"
+                 "tandem-client doctor: %s cannot be written; %s\n"
                  "It would contain:\n%s",
-                 hal::kUdevRulesFile, rules.c_str());
+                 name.c_str(), root.empty() ? "run it as root: sudo tandem-client doctor --install-udev" : "is --root a folder of yours?", rules.c_str());
     return kTrouble;
   }
-  std::printf("%s is written. Now: udevadm control --reload && udevadm trigger, or unplug the device and plug it in.\n",
-              hal::kUdevRulesFile);
+  std::printf("%s is written. %s\n", name.c_str(),
+              root.empty() ? "Now: udevadm control --reload && udevadm trigger, or unplug the device and plug it in." : "It acts when that system runs.");
   return 0;
 }
 
@@ -206,16 +224,21 @@ int doctor_command(const DoctorArguments& arguments) {
     mistakes.push_back("--force-test: needs --device; forces are sent to a device that a person named, to no other");
   if (arguments.install && (!arguments.device.empty() || arguments.force_test || arguments.watch))
     mistakes.push_back("--install-udev: stands alone");
+  if (!arguments.root.empty() && !arguments.install) mistakes.push_back("--root: needs --install-udev");
   if (arguments.watch && (!arguments.device.empty() || arguments.force_test)) mistakes.push_back("--watch: stands alone");
   if (!arguments.device.empty() && !HeldDevice::is_meant(arguments.device))
     mistakes.push_back("--device: a simulated device needs no doctor");
-  if (arguments.device.starts_with("replay")) mistakes.push_back("--device: a recording needs no doctor");
+  if (arguments.device.starts_with("replay")) {
+    mistakes.push_back("--device: a recording needs no doctor");
+  } else if (HeldDevice::is_meant(arguments.device) && !arguments.device.empty()) {
+    for (std::string& wrong : HeldDevice::mistakes(arguments.device)) mistakes.push_back(std::move(wrong));
+  }
   for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
   if (!mistakes.empty()) {
     std::fprintf(stderr, "tandem-client doctor: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
     return kWrong;
   }
-  if (arguments.install) return install_rules();
+  if (arguments.install) return install_rules(arguments.root);
   if (arguments.watch) return watch_plugs();
   return arguments.device.empty() ? list_all() : examine(arguments, std::stod(arguments.seconds));
 }
@@ -231,6 +254,8 @@ void add_doctor_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--watch", arguments->watch, "says what is plugged in and out, on USB and among HID devices");
   command->add_flag("--install-udev", arguments->install,
                     "writes the udev rules that let whoever sits here use the devices; needs root");
+  command->add_option("--root", arguments->root, "with --install-udev: of another system, such as an image; the file goes to DIR/etc/udev/rules.d")
+      ->option_text("DIR");
   command->footer(
       "Exit: 0 all is well; 1 trouble was found, or no device; 2 wrong arguments.\n\n"
       "Examples\n"

@@ -1,13 +1,13 @@
 #include "client/app/held_device.h"
 
 #include <poll.h>
-#include <sys/signalfd.h>
-#include <unistd.h>
 
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "common/io/clock.h"
+#include "common/io/signals.h"
 #include "hal/io/backend.h"
 #include "hal/io/device_thread.h"
 
@@ -19,13 +19,13 @@ using namespace std::chrono_literals;
 constexpr Duration kPeriod = 1ms;
 constexpr int kLookEveryMs = 100;
 
-/// Taken: the person wants to stop.
+/// The person wants to stop. It stays to be read: whoever tells of it asks which signal it was.
 bool interrupted(int signals, int wait_ms) {
   pollfd file{signals, POLLIN, 0};
-  if (poll(&file, 1, wait_ms) <= 0) return false;
-  signalfd_siginfo taken;
-  return ::read(signals, &taken, sizeof taken) > 0;
+  return poll(&file, 1, wait_ms) > 0;
 }
+
+std::string ended_by_signal() { return "ended by " + std::string(io::signal_that_came()) + " before the device was ready"; }
 
 class Progress final : public hal::BringUp {
  public:
@@ -60,6 +60,23 @@ const char* how_to_home(hal::Homing homing) {
 
 bool HeldDevice::is_meant(std::string_view spec) { return spec.substr(0, spec.find(':')) != "sim"; }
 
+std::vector<std::string> HeldDevice::mistakes(std::string_view spec) {
+  const auto choice = hal::parse_choice(spec);
+  constexpr std::string_view kAbout = "device: ";  // said by the option
+  std::string lines;
+  if (!choice) {
+    lines = choice.error().message;
+  } else if (const auto backend = hal::find_backend(choice->backend); !backend) {
+    lines = backend.error().message;
+  } else if (const auto checked = (*backend)->check(*choice); !checked) {
+    lines = checked.error().message;
+  }
+  std::vector<std::string> all;
+  std::istringstream text(lines);
+  for (std::string line; std::getline(text, line);) all.push_back("--device: " + line.substr(line.starts_with(kAbout) ? kAbout.size() : 0));
+  return all;
+}
+
 std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take(std::string_view spec, int signals,
                                                                                  io::StatusLine& line) {
   const auto failed = [](const hal::DeviceError& error, bool wrong_words) {
@@ -78,6 +95,7 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
 
   std::unique_ptr<HeldDevice> held{new HeldDevice};
   held->bus_ = opened->bus;
+  held->library_ = (*backend)->library();
   if (!opened->note.empty()) line.note(opened->note);
   if (opened->last_words) {
     auto deadman = hal::Deadman::watch({&*opened->last_words, 1});
@@ -89,7 +107,8 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
   if (auto up = core->bring_up(progress); !up) {
     core->silence();
     line.clear();
-    return std::unexpected(Failure{.interrupted = progress.cancelled(), .reason = up.error().message});
+    const bool ended = progress.cancelled();
+    return std::unexpected(Failure{.interrupted = ended, .reason = ended ? ended_by_signal() : up.error().message});
   }
   line.clear();
   if (!held->deadman_ && hal::limits_of(core->caps()).peak_n > 0)
@@ -116,7 +135,7 @@ std::expected<void, HeldDevice::Failure> HeldDevice::wait_until_homed(int signal
       return std::unexpected(Failure{.reason = note_ + ": stopped answering while it was being homed; unplug it, plug it in, try again"});
     const bool waited = io::monotonic_now() - begin > std::chrono::milliseconds(kLookEveryMs);
     if (waited && !std::exchange(asked, true)) line.note(how_to_home(device_->caps().homing));
-    if (interrupted(signals, kLookEveryMs / 10)) return std::unexpected(Failure{.interrupted = true, .reason = {}});
+    if (interrupted(signals, kLookEveryMs / 10)) return std::unexpected(Failure{.interrupted = true, .reason = ended_by_signal()});
   }
   if (asked) line.note("homed");
   return {};

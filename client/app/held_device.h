@@ -4,6 +4,8 @@
 #include <expected>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "client/rate_hand.h"
 #include "common/io/terminal.h"
@@ -19,10 +21,13 @@ class HeldDevice {
   /// Whether these words of --device mean hardware at all, not a simulated device.
   [[nodiscard]] static bool is_meant(std::string_view spec);
 
+  /// All that is wrong with the words and with the files they name, whatever is attached: a line each, for a person.
+  [[nodiscard]] static std::vector<std::string> mistakes(std::string_view spec);
+
   struct Failure {
     bool interrupted = false;
     bool wrong_words = false;  ///< what was typed cannot be meant, whatever is attached
-    std::string reason;
+    std::string reason;  ///< cause and remedy; or which signal
   };
   /// @param signals  file of signals.h: Ctrl-C ends the waiting
   [[nodiscard]] static std::expected<std::unique_ptr<HeldDevice>, Failure> take(std::string_view spec, int signals,
@@ -33,6 +38,8 @@ class HeldDevice {
   [[nodiscard]] hal::DeviceCaps caps() const;
   [[nodiscard]] hal::Device& device() noexcept { return *device_; }
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
+  /// What speaks to it, with its version.
+  [[nodiscard]] const std::string& library() const noexcept { return library_; }
 
   /// From now on `client` is called with what the device itself says.
   void observe(hal::ServoClient& client) { relay_.to.store(&client, std::memory_order_release); }
@@ -62,7 +69,7 @@ class HeldDevice {
   Relay relay_;
   std::unique_ptr<hal::Device> device_;
   std::unique_ptr<RateHand> rate_;
-  std::string note_;
+  std::string note_, library_;
 };
 
 }  // namespace tandem::client

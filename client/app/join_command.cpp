@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <sstream>
 
 #include "client/app/attend.h"
 #include "client/app/held_device.h"
@@ -47,14 +48,6 @@ hal::DeviceCaps certain_caps(const hal::DeviceCaps& opened) {
   return caps;
 }
 
-/// What cannot be meant, whatever is attached; the device itself is opened later, when nothing else is wrong.
-std::optional<std::string> wrong_words(const std::string& device) {
-  const auto choice = hal::parse_choice(device);
-  if (!choice) return choice.error().message;
-  const auto backend = hal::find_backend(choice->backend);
-  return backend ? std::nullopt : std::optional{backend.error().message};
-}
-
 void understand_files(const JoinArguments& arguments, Mistakes& mistakes) {
   if (!arguments.json.empty() && arguments.json != "-")
     if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty())
@@ -73,11 +66,12 @@ AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
     mistakes.push_back("--seat: a name has 1 to 32 characters");
   if (HeldDevice::is_meant(arguments.device)) {
-    if (const auto wrong = wrong_words(arguments.device)) mistakes.push_back("--device: " + *wrong);
+    for (std::string& wrong : HeldDevice::mistakes(arguments.device)) mistakes.push_back(std::move(wrong));
   } else if (const auto device = hal::open_stepped(arguments.device, SimDeviceSpec{}, HandSpec{})) {
     plan.caps = certain_caps(device->device->caps());
   } else {
-    mistakes.push_back("--device: " + device.error().message);
+    std::istringstream lines(device.error().message);
+    for (std::string line; std::getline(lines, line);) mistakes.push_back("--device: " + line.substr(line.starts_with("device: ") ? 8 : 0));
   }
   if (arguments.device.find("keyboard") != std::string::npos && isatty(STDIN_FILENO) == 0)
     mistakes.push_back("--device " + arguments.device + ": the keys are read from a terminal, and standard input is none");
@@ -138,7 +132,8 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("FILE.csv");
   command
       ->add_option("--json", arguments->json,
-                   "writes link statistics, gate trips, late ticks, energies; `-`: to standard output")
+                   "writes verdict, link statistics, gate trips, energies, and the device's periods and round trips as histograms; `-`: "
+                   "to standard output")
       ->option_text("FILE|-");
   command
       ->add_option("--duration", arguments->duration,
@@ -164,7 +159,8 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       "Keys: the instructor moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
       "gate;\n"
       "q or Ctrl-C lets go gently and leaves.\n"
-      "Exit: 0 session over or left; 1 refused, server not there or lost; 2 wrong arguments or files.\n\n"
+      "Exit: 0 session over or left (verdict pass); 1 refused, server not there, server or device lost (fail), or the session\n"
+      "never ran, so that there is nothing to judge (not_judged); 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim\n"
       "  tandem-client join --server 127.0.0.1:7000 --seat trainee --device sim:keyboard\n"

@@ -21,7 +21,7 @@ void put(std::string& out, const std::array<double, 3>& v) {
 SampleTrace::SampleTrace(io::OutputFile& file, std::size_t joints, bool prismatic) : file_(&file), joints_(joints) {
   rows_ = "t_s[s],";
   for (std::size_t j = 0; j < joints; ++j) rows_ += "q" + std::to_string(j) + (prismatic ? "[m]," : "[rad],");
-  for (const char* name : {"x", "f_cmd", "f_out"})
+  for (const char* name : {"x", "f_cmd", "f_gate", "f_out"})
     for (const char* axis : {"_x", "_y", "_z"})
       rows_ += (name[0] == 'x' ? std::string(1, axis[1]) + "[m]" : name + std::string(axis) + "[N]") + ",";
   rows_ += "gate[1],alpha[1]\n";
@@ -47,6 +47,7 @@ void SampleTrace::drain() {
     for (std::size_t j = 0; j < joints_; ++j) put(rows_, s->q[j]);
     put(rows_, s->x);
     put(rows_, s->f_cmd);
+    put(rows_, s->f_gate);
     put(rows_, s->f_out);
     rows_ += static_cast<char>('0' + static_cast<int>(s->gate));
     rows_ += ',';

@@ -9,8 +9,8 @@
 
 namespace tandem::client {
 
-/// An ordinary thread that writes a seat's own samples: `t_s[s]`, joints, tip, forces, gate, alpha, one row per servo
-/// tick. Before the session began, t_s is minus the time at the seat.
+/// An ordinary thread that writes a seat's own samples: `t_s[s]`, joints, tip, forces (wanted, let through by the gate,
+/// delivered), gate, alpha, one row per servo tick. Before the session began, t_s is minus the time at the seat.
 class SampleTrace {
  public:
   /// @param file  opened

@@ -23,6 +23,8 @@ double sum_j(const EnergyArray& nj) {
   return sum;
 }
 
+std::array<double, 3> triple(const hal::Vec3& v) { return {v[0], v[1], v[2]}; }
+
 double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 }  // namespace
@@ -53,8 +55,8 @@ hal::Command SeatPump::tick(const hal::State& state) noexcept {
   const wire::Telemetry& t = seat_->sample().telemetry;
   picture_.force_peak_n = std::max(picture_.force_peak_n, norm(t.f_out));
   if (samples_ != nullptr)
-    samples_->push({session.value_or(-seconds(now - began_)), t.q, t.x, t.f_cmd, t.f_out, seat_->sample().gate,
-                    seat_->force().alpha});
+    samples_->push({session.value_or(-seconds(now - began_)), t.q, t.x, t.f_cmd, triple(seat_->tip_force()), t.f_out,
+                    seat_->sample().gate, seat_->force().alpha});
   if (ticks_ % kLookEvery == 1 || seat_->closed()) look(now);
   if (seat_->closed() && !std::exchange(told_, true)) {
     const std::uint64_t one = 1;

@@ -19,7 +19,7 @@ namespace tandem::client {
 struct Sample {
   double t_s = 0;  ///< session time, or time before it as a negative number [s]
   AxisArray q{};
-  std::array<double, 3> x{}, f_cmd{}, f_out{};
+  std::array<double, 3> x{}, f_cmd{}, f_gate{}, f_out{};  ///< tip [m]; wanted, let through by the gate, delivered [N]
   wire::GateState gate = wire::GateState::kOff;
   double alpha = 0;
 };

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "client/app/held_device.h"
+#include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/number_option.h"
 #include "common/io/signals.h"
@@ -34,26 +35,37 @@ struct WeighArguments {
   bool lying = false;
 };
 
-/// The scale in which the driver will speak: of the calibration it is given, or the guess.
-hal::Result<hal::FalconForce> present_scale(const std::string& device) {
-  const auto choice = hal::parse_choice(device);
-  if (!choice) return std::unexpected(choice.error());
-  if (choice->backend != "falcon") {
-    return std::unexpected(hal::DeviceError{hal::Errc::kUnsupported, "only a falcon is weighed: other devices say what their motors give"});
+/// The scale in which the driver will speak: of the calibration it is given, or the guess. Nothing: told already.
+std::optional<hal::FalconForce> present_scale(const std::string& device, std::vector<std::string>& mistakes) {
+  const std::string kind = device.substr(0, device.find(':'));
+  if (kind != "falcon") {
+    mistakes.push_back("--device: only a falcon is weighed, not '" + kind.substr(0, 60) + "': other devices say what their motors give");
+    return std::nullopt;
   }
-  const auto file = choice->find("calibration");
+  auto wrong = HeldDevice::mistakes(device);
+  mistakes.insert(mistakes.end(), wrong.begin(), wrong.end());
+  if (!wrong.empty()) return std::nullopt;
+  const auto file = hal::parse_choice(device)->find("calibration");
   if (!file) return hal::FalconForce{};
-  const auto wrong = [](std::string why) {
-    if (why.ends_with('\n')) why.pop_back();
-    return std::unexpected(hal::DeviceError{hal::Errc::kUnsupported, std::move(why)});
-  };
+  // The same file was found good just now: what can be wrong is that it changed meanwhile.
   const auto text = read_text_file(*file);
-  if (!text) return wrong(to_text(text.error()));
-  const auto spec = parse_device_text(*text, *file);
-  if (!spec) return wrong(to_text(spec.error()));
-  const auto force = hal::FalconForce::from(spec->falcon.value_or(FalconSpec{}));
-  if (!force) return wrong(*file + ": falcon: " + force.error());
-  return *force;
+  const auto spec = parse_device_text(text.value_or(""), *file);
+  const auto force = hal::FalconForce::from(spec && spec->falcon ? *spec->falcon : FalconSpec{});
+  if (text && spec && force) return *force;
+  mistakes.push_back("--device: " + *file + ": changed while it was read");
+  return std::nullopt;
+}
+
+hal::Vec3 up_of(bool lying) { return lying ? hal::Vec3(0, -1, 0) : hal::Vec3(0, 0, 1); }
+
+/// Why these motors will not hold this mass; empty: they may.
+std::string too_heavy(double mass, const hal::FalconForce& scale, bool lying) {
+  constexpr double kGravity = 9.80665;  // [m/s^2]
+  const double most = hal::FalconWeighing::holds(scale, hal::Vec3::Zero(), up_of(lying));
+  if (mass * kGravity <= most) return {};
+  return format("--mass: %g kg takes %.1f N, and %s holds at most %.2f N %s: must be in [0.005, %.3f] kg%s", mass, mass * kGravity,
+                scale.calibrated() ? "this device by its calibration" : "a device without a calibration", most, lying ? "lying" : "standing",
+                most / kGravity, scale.calibrated() ? "" : ". Begin with 0.02 and 0.03, then give what came out as calibration=FILE");
 }
 
 /// @return false: Ctrl-C, or nobody is there to press it
@@ -73,7 +85,8 @@ struct Trouble {
   std::string reason;  ///< empty: interrupted
 };
 
-std::expected<hal::FalconWeighing::Held, Trouble> weigh_once(HeldDevice& held, hal::FalconWeighing& weighing, int signals) {
+std::expected<hal::FalconWeighing::Held, Trouble> weigh_once(HeldDevice& held, hal::FalconWeighing& weighing,
+                                                               hal::FalconWeighing::Load load, int signals) {
   held.observe(weighing);
   if (auto enabled = held.device().enable(); !enabled) return std::unexpected(Trouble{enabled.error().message});
   const Time end = io::monotonic_now() + hal::FalconWeighing::length() + 5s;
@@ -86,7 +99,7 @@ std::expected<hal::FalconWeighing::Held, Trouble> weigh_once(HeldDevice& held, h
   }
   held.device().disable();
   if (weighing.was_lost()) return std::unexpected(Trouble{"the device was unplugged"});
-  auto result = weighing.held();
+  auto result = weighing.held(load);
   if (!result) return std::unexpected(Trouble{result.error()});
   return *result;
 }
@@ -106,30 +119,33 @@ int weigh(const WeighArguments& arguments, double mass, const hal::FalconForce& 
   const io::Fd signals = io::signals_as_file();
   io::StatusLine line{false};
   auto held = HeldDevice::take(arguments.device, signals.get(), line);
-  const auto fail = [](const std::string& reason) {
-    if (!reason.empty()) std::fprintf(stderr, "tandem-client weigh: %s\n", reason.c_str());
+  const auto fail = [](std::string reason) {
+    if (reason.empty()) {
+      const std::string by{io::signal_that_came()};
+      reason = by.empty() ? "nobody is there to press Enter: no reading" : "ended by " + by + ": no reading";
+    }
+    std::fprintf(stderr, "tandem-client weigh: %s\n", reason.c_str());
     return kTrouble;
   };
   if (!held) {
-    if (held.error().interrupted) return kTrouble;
     (void)fail(held.error().reason);
     return held.error().wrong_words ? kWrong : kTrouble;
   }
-  const hal::Vec3 up = arguments.lying ? hal::Vec3(0, -1, 0) : hal::Vec3(0, 0, 1);
+  const hal::Vec3 up = up_of(arguments.lying);
   hal::FalconWeighing without(hal::Vec3::Zero(), up), with(hal::Vec3::Zero(), up);
   const auto close = [&](int code) {
     (*held)->device().close();  // before those it calls
     return code;
   };
   if (!wait_for_enter("Leave the empty grip in the middle of its reach and let go; it will hold itself there for 14 s", signals.get())) {
-    return close(kTrouble);
+    return close(fail({}));
   }
-  const auto empty = weigh_once(**held, without, signals.get());
+  const auto empty = weigh_once(**held, without, hal::FalconWeighing::Load::kEmptyGrip, signals.get());
   if (!empty) return close(fail(empty.error().reason));
   if (!wait_for_enter("Hang the mass on the grip, put it in the middle again, let go and let nothing swing", signals.get())) {
-    return close(kTrouble);
+    return close(fail({}));
   }
-  const auto loaded = weigh_once(**held, with, signals.get());
+  const auto loaded = weigh_once(**held, with, hal::FalconWeighing::Load::kMass, signals.get());
   (*held)->device().close();
   if (!loaded) return fail(loaded.error().reason);
 
@@ -147,8 +163,11 @@ int weigh_command(const WeighArguments& arguments) {
   std::vector<std::string> mistakes;
   if (const std::string problem = io::number_in(0.005, 1, "kg")(std::string(arguments.mass)); !problem.empty())
     mistakes.push_back("--mass: " + problem);
-  const auto scale = present_scale(arguments.device);
-  if (!scale) mistakes.push_back("--device: " + scale.error().message);
+  const bool weight_known = mistakes.empty();
+  const auto scale = present_scale(arguments.device, mistakes);
+  if (weight_known && scale) {
+    if (std::string heavy = too_heavy(std::stod(arguments.mass), *scale, arguments.lying); !heavy.empty()) mistakes.push_back(std::move(heavy));
+  }
   if (mistakes.empty()) return weigh(arguments, std::stod(arguments.mass), *scale);
   for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
   std::fprintf(stderr, "tandem-client weigh: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");

@@ -44,6 +44,17 @@ class Histogram {
     return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0;
   }
 
+  /// Calls `bucket(first, last, count)` for every bucket that holds anything, ascending; a value v [ns] is in it if
+  /// first <= v <= last. Four buckets to an octave, so each is at most a quarter as wide as its values are large.
+  template <class Bucket>
+  constexpr void each_bucket(Bucket&& bucket) const {
+    for (std::size_t bin = 0; bin < kBins; bin += kBinsPerBucket) {
+      std::uint64_t held = 0;
+      for (std::size_t i = bin; i < bin + kBinsPerBucket; ++i) held += bins_[i];
+      if (held > 0) bucket(bin == 0 ? std::int64_t{0} : last_of(bin - 1) + 1, last_of(bin + kBinsPerBucket - 1), held);
+    }
+  }
+
   constexpr void reset() noexcept { *this = Histogram{}; }
 
   /// As if all values of `other` had been added here.
@@ -58,6 +69,8 @@ class Histogram {
   static constexpr int kSubBits = 5;  ///< 2^5 bins per octave
   static constexpr std::uint64_t kExact = std::uint64_t{2} << kSubBits;
   static constexpr std::size_t kBins = static_cast<std::size_t>(64 - kSubBits) << kSubBits;
+  static constexpr std::size_t kBinsPerBucket = std::size_t{1} << (kSubBits - 2);
+  static_assert(kBins % kBinsPerBucket == 0 && kExact % kBinsPerBucket == 0);
 
   /// The top kSubBits + 1 bits of the value, after its octave.
   static constexpr std::size_t bin_of(std::uint64_t value) noexcept {

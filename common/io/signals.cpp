@@ -16,4 +16,12 @@ Fd signals_as_file() {
   return Fd{signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK)};
 }
 
+std::string_view signal_that_came() noexcept {
+  sigset_t pending;
+  if (sigpending(&pending) != 0) return {};
+  if (sigismember(&pending, SIGTERM) == 1) return "SIGTERM";
+  if (sigismember(&pending, SIGHUP) == 1) return "SIGHUP (its terminal is gone)";
+  return sigismember(&pending, SIGINT) == 1 ? "Ctrl-C" : std::string_view{};
+}
+
 }  // namespace tandem::io

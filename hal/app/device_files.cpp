@@ -31,6 +31,19 @@ Result<DeviceFileSpec> load_device_file(const std::string& file) {
   return text ? understand(*text, file) : std::unexpected(all_of(text.error()));
 }
 
+Result<FalconSpec> load_falcon_file(const std::string& file) {
+  auto spec = load_device_file(file);
+  if (!spec) return std::unexpected(std::move(spec.error()));
+  if (!spec->falcon) return std::unexpected(says_nothing_of(file, "falcon"));
+  if (const auto force = FalconForce::from(*spec->falcon); !force)
+    return std::unexpected(DeviceError{Errc::kUnsupported, file + ":" + std::to_string(force.error().line) + ": falcon: " + force.error().words});
+  return std::move(*spec->falcon);
+}
+
+DeviceError says_nothing_of(const std::string& file, const std::string& kind) {
+  return {Errc::kUnsupported, file + ":1: says nothing of a " + kind + ": write " + kind + " { ... }"};
+}
+
 Result<DeviceFileSpec> read_shipped(const ShippedPreset& preset) { return understand(preset.text, preset.name); }
 
 Result<FalconFirmware> load_firmware(const std::string& file) {

@@ -8,6 +8,7 @@
 #include "hal/falcon/falcon_driver.h"
 #include "hal/falcon/falcon_frame.h"
 #include "hal/io/attached.h"
+#include "hal/io/library_versions.h"
 #include "hal/io/servo_pace.h"
 #include "hal/io/udev_rule.h"
 #include "hal/io/usb_pipe.h"
@@ -24,6 +25,33 @@ struct FalconBus {
 
 Wanted wanted(const DeviceChoice& choice) {
   return {.what = "Novint Falcon", .ids = {kFalcon}, .usage = {}, .serial = choice.find("serial"), .port = choice.find("port")};
+}
+
+/// What the words and their files say, or all that is wrong with them.
+Result<FalconOptions> understand(const DeviceChoice& choice) {
+  ChoiceJudge judge{choice, {"port", "serial", "firmware", "calibration"}};
+  if (!choice.name.empty()) judge.mistake("'" + choice.name.substr(0, 60) + "': several are told apart by port=; `tandem-client doctor` lists them");
+  FalconOptions options;
+  if (const auto file = choice.find("calibration")) {
+    auto spec = load_falcon_file(*file);
+    if (spec) {
+      options.spec = std::move(*spec);
+    } else {
+      judge.told(std::move(spec.error().message));
+    }
+  }
+  if (const auto file = choice.find("firmware")) {
+    auto firmware = load_firmware(*file);
+    if (!firmware) {
+      judge.told(std::move(firmware.error().message));
+    } else if (auto good = check_firmware(*firmware, options.spec.firmware_sha256); !good) {
+      judge.told(std::move(good.error().message));
+    } else {
+      options.firmware = std::move(*firmware);
+    }
+  }
+  if (auto fine = judge.verdict(); !fine) return std::unexpected(std::move(fine.error()));
+  return options;
 }
 
 LastWords last_words(int fd) {
@@ -44,12 +72,27 @@ std::string_view FalconBackend::help() const noexcept {
          "                              Novint Falcon; FILE of firmware: your own, needed once after power came\n";
 }
 
+std::string FalconBackend::library() const { return library_of(Bus::kUsb); }
+
+std::vector<DeviceFact> FalconBackend::facts() const {
+  return {{"firmware", "lost without power; loaded from firmware=FILE unless it runs already, which is asked when it is opened"},
+          {"rate", "1000 Hz, in lock-step"},
+          {"calibration", "force scale from calibration=FILE, else a guess kept to a tenth"},
+          {"homing", "by hand, after power came: out, then in"},
+          {"gravity", "nobody carries the grip's own weight"}};
+}
+
+Result<> FalconBackend::check(const DeviceChoice& choice) const {
+  auto understood = understand(choice);
+  return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
+}
+
 Result<std::vector<FoundDevice>> FalconBackend::list() {
   std::vector<FoundDevice> found;
   for (const Attached& device : list_usb()) {
     if (device.ids != kFalcon) continue;
     const bool may = ::access(device.node.c_str(), R_OK | W_OK) == 0;
-    found.push_back({"falcon:port=" + device.port, "Novint Falcon, " + describe(device), may ? "" : permission_advice(device)});
+    found.push_back({"falcon:port=" + device.port, "Novint Falcon, " + describe(device), may ? "" : permission_advice(device), device.node});
   }
   return found;
 }
@@ -57,24 +100,9 @@ Result<std::vector<FoundDevice>> FalconBackend::list() {
 std::vector<std::string> FalconBackend::udev_rules() const { return {udev_rule(Bus::kUsb, kFalcon)}; }
 
 Result<OpenedDriver> FalconBackend::open(const DeviceChoice& choice) {
-  if (auto known = only_these(choice, {"port", "serial", "firmware", "calibration"}); !known) return std::unexpected(known.error());
-  FalconOptions options;
-  if (const auto file = choice.find("calibration")) {
-    auto spec = load_device_file(*file);
-    if (!spec) return std::unexpected(std::move(spec.error()));
-    if (!spec->falcon)
-      return std::unexpected(DeviceError{Errc::kUnsupported, *file + ": says nothing of a falcon: write falcon { ... }"});
-    options.spec = std::move(*spec->falcon);
-    // Readings that contradict each other are told whatever is attached.
-    if (const auto force = FalconForce::from(options.spec); !force)
-      return std::unexpected(DeviceError{Errc::kUnsupported, *file + ": falcon: " + force.error()});
-  }
-  if (const auto file = choice.find("firmware")) {
-    auto firmware = load_firmware(*file);
-    if (!firmware) return std::unexpected(std::move(firmware.error()));
-    if (auto good = check_firmware(*firmware, options.spec.firmware_sha256); !good) return std::unexpected(std::move(good.error()));
-    options.firmware = std::move(*firmware);
-  }
+  auto understood = understand(choice);
+  if (!understood) return std::unexpected(std::move(understood.error()));
+  FalconOptions& options = *understood;
   const auto attached = list_usb();
   auto device = hal::choose(attached, wanted(choice));
   if (!device) return std::unexpected(std::move(device.error()));

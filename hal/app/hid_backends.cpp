@@ -6,9 +6,11 @@
 #include <array>
 #include <utility>
 
+#include "common/base/format.h"
 #include "hal/app/device_files.h"
 #include "hal/io/attached.h"
 #include "hal/io/hid_pipe.h"
+#include "hal/io/library_versions.h"
 #include "hal/io/servo_pace.h"
 #include "hal/io/udev_rule.h"
 #include "hal/spacemouse/products.h"
@@ -35,7 +37,7 @@ std::vector<FoundDevice> found_among(const std::vector<Attached>& attached, cons
     if (!fits(device)) continue;
     const bool may = ::access(device.node.c_str(), R_OK | W_OK) == 0;
     const std::string which = !device.port.empty() ? ":port=" + device.port : !device.serial.empty() ? ":serial=" + device.serial : "";
-    found.push_back({backend + which, what + ", " + describe(device), may ? "" : permission_advice(device)});
+    found.push_back({backend + which, what + ", " + describe(device), may ? "" : permission_advice(device), device.node});
   }
   return found;
 }
@@ -77,12 +79,51 @@ Result<WoodenHapticsSpec> load_preset(const std::string& name) {
   auto file = shipped != nullptr ? read_shipped(*shipped) : load_device_file(name);
   if (!file) {
     if (shipped == nullptr && name.find_first_of("./") == std::string::npos)
-      return std::unexpected(DeviceError{Errc::kUnsupported, "device: no shipped preset '" + name.substr(0, 60) + "' and no such file; shipped: " + preset_names()});
+      return std::unexpected(DeviceError{Errc::kUnsupported, "device: woodenhaptics: preset = '" + name.substr(0, 60) +
+                                                                 "': no shipped preset and no such file; shipped: " + preset_names()});
     return std::unexpected(std::move(file.error()));
   }
-  if (!file->woodenhaptics)
-    return std::unexpected(DeviceError{Errc::kUnsupported, name + ": says nothing of a woodenhaptics: write woodenhaptics { ... }"});
+  if (!file->woodenhaptics) return std::unexpected(says_nothing_of(name, "woodenhaptics"));
   return *file->woodenhaptics;
+}
+
+/// What the words and their files say, or all that is wrong with them.
+Result<woodenhaptics::WoodenHapticsOptions> understand_board(const DeviceChoice& choice) {
+  ChoiceJudge judge{choice, {"preset", "energise", "home", "port", "serial"}};
+  if (!choice.name.empty()) judge.mistake("'" + choice.name.substr(0, 60) + "': several are told apart by port= or serial=; a mechanism is named by preset=");
+  woodenhaptics::WoodenHapticsOptions options;
+  if (const auto preset = choice.find("preset")) {
+    auto spec = load_preset(*preset);
+    if (spec) {
+      options.spec = *spec;
+    } else {
+      judge.told(std::move(spec.error().message));
+    }
+  } else {
+    judge.mistake("needs preset=NAME or preset=FILE: which mechanism hangs on the board nobody can see from here; known: " + preset_names());
+  }
+  options.energise = judge.yes_or_no("energise", false);
+  options.home_at_start = choice.find("home").has_value() && judge.one_of("home", {"here"}) == "here";
+  if (auto fine = judge.verdict(); !fine) return std::unexpected(std::move(fine.error()));
+  return options;
+}
+
+Result<SpaceMouseSpec> understand_puck(const DeviceChoice& choice) {
+  ChoiceJudge judge{choice, {"port", "serial", "calibration"}};
+  if (!choice.name.empty()) judge.mistake("'" + choice.name.substr(0, 60) + "': several are told apart by port= or serial=");
+  SpaceMouseSpec spec;
+  if (const auto file = choice.find("calibration")) {
+    auto described = load_device_file(*file);
+    if (!described) {
+      judge.told(std::move(described.error().message));
+    } else if (!described->spacemouse) {
+      judge.told(says_nothing_of(*file, "spacemouse").message);
+    } else {
+      spec = *described->spacemouse;
+    }
+  }
+  if (auto fine = judge.verdict(); !fine) return std::unexpected(std::move(fine.error()));
+  return spec;
 }
 
 }  // namespace
@@ -91,6 +132,21 @@ std::string_view WoodenHapticsBackend::help() const noexcept {
   return "  woodenhaptics:preset=NAME|FILE,energise=yes[,home=here][,port=P][,serial=S]\n"
          "                              WoodenHaptics, AluHaptics, Polhem v1; without energise=yes no current flows.\n"
          "                              home=here: the arm rests in its calibration pose now\n";
+}
+
+std::string WoodenHapticsBackend::library() const { return library_of(Bus::kHidraw); }
+
+std::vector<DeviceFact> WoodenHapticsBackend::facts() const {
+  return {{"firmware", "the board keeps its own"},
+          {"rate", "1000 Hz; V2 and RAW64 in lock-step, V1 free-running"},
+          {"calibration", "by the preset; without `measured` in it forces are kept to a tenth"},
+          {"homing", "at every start: calibration pose, then the board's button or home=here"},
+          {"gravity", "the motors carry the arms if the preset says weight { carried: true }"}};
+}
+
+Result<> WoodenHapticsBackend::check(const DeviceChoice& choice) const {
+  auto understood = understand_board(choice);
+  return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
 }
 
 Result<std::vector<FoundDevice>> WoodenHapticsBackend::list() {
@@ -104,22 +160,9 @@ std::vector<std::string> WoodenHapticsBackend::udev_rules() const {
 }
 
 Result<OpenedDriver> WoodenHapticsBackend::open(const DeviceChoice& choice) {
-  if (auto known = only_these(choice, {"preset", "energise", "home", "port", "serial"}); !known) return std::unexpected(known.error());
-  woodenhaptics::WoodenHapticsOptions options;
-  const auto preset = choice.find("preset");
-  if (!preset)
-    return std::unexpected(DeviceError{Errc::kUnsupported, "device: woodenhaptics needs preset=NAME or preset=FILE: which mechanism "
-                                                           "hangs on the board nobody can see from here; known: " + preset_names()});
-  auto spec = load_preset(*preset);
-  if (!spec) return std::unexpected(std::move(spec.error()));
-  options.spec = *spec;
-  const auto energise = yes_or_no(choice, "energise", false);
-  if (!energise) return std::unexpected(energise.error());
-  options.energise = *energise;
-  if (const auto home = choice.find("home")) {
-    if (*home != "here") return std::unexpected(DeviceError{Errc::kUnsupported, "device: home is 'here', not '" + home->substr(0, 60) + "'"});
-    options.home_at_start = true;
-  }
+  const auto understood = understand_board(choice);
+  if (!understood) return std::unexpected(understood.error());
+  const woodenhaptics::WoodenHapticsOptions& options = *understood;
   auto opened_pipe = open_pipe(choice, "WoodenHaptics board", is_board);
   if (!opened_pipe) return std::unexpected(std::move(opened_pipe.error()));
   auto& [device, pipe] = *opened_pipe;
@@ -144,34 +187,50 @@ std::string_view SpaceMouseBackend::help() const noexcept {
          "                              3Dconnexion puck: moves the hand's point, feels nothing\n";
 }
 
+std::string SpaceMouseBackend::library() const { return library_of(Bus::kHidraw); }
+
+std::vector<DeviceFact> SpaceMouseBackend::facts() const {
+  return {{"firmware", "the puck keeps its own"},
+          {"rate", "62 to 125 reports a second while it is moved, none at rest"},
+          {"calibration", "0.1 m/s and 0.5 rad/s at full deflection; calibration=FILE changes that"},
+          {"homing", "needs none: it says how fast, not where"},
+          {"gravity", "no motors"},
+          {"battery", "wireless ones report it now and then; `doctor --device` shows it"}};
+}
+
+Result<> SpaceMouseBackend::check(const DeviceChoice& choice) const {
+  auto understood = understand_puck(choice);
+  return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
+}
+
 Result<std::vector<FoundDevice>> SpaceMouseBackend::list() {
   return found_among(list_hidraw(), "spacemouse", "3Dconnexion puck", is_puck);
 }
 
 std::vector<std::string> SpaceMouseBackend::udev_rules() const {
   std::vector<std::string> rules;
-  for (const auto& product : spacemouse::kProducts) rules.push_back(udev_rule(Bus::kHidraw, {product.vendor, product.product}));
+  for (const auto& product : spacemouse::kProducts) {
+    if (product.vendor != spacemouse::k3Dconnexion) rules.push_back(udev_rule(Bus::kHidraw, {product.vendor, product.product}));
+  }
+  // 3Dconnexion's own id: also pucks that are newer than our list. Its mice and keyboards are nobody's business.
+  rules.push_back(udev_vendor_rule(spacemouse::k3Dconnexion));
+  for (const std::uint16_t product : spacemouse::kExcluded) rules.push_back(udev_no_rule({spacemouse::k3Dconnexion, product}));
   return rules;
 }
 
 Result<OpenedDriver> SpaceMouseBackend::open(const DeviceChoice& choice) {
-  if (auto known = only_these(choice, {"port", "serial", "calibration"}); !known) return std::unexpected(known.error());
-  SpaceMouseSpec spec;
-  if (const auto file = choice.find("calibration")) {
-    auto described = load_device_file(*file);
-    if (!described) return std::unexpected(std::move(described.error()));
-    if (!described->spacemouse)
-      return std::unexpected(DeviceError{Errc::kUnsupported, *file + ": says nothing of a spacemouse: write spacemouse { ... }"});
-    spec = *described->spacemouse;
-  }
+  const auto spec = understand_puck(choice);
+  if (!spec) return std::unexpected(spec.error());
   auto opened_pipe = open_pipe(choice, "3Dconnexion puck", is_puck);
   if (!opened_pipe) return std::unexpected(std::move(opened_pipe.error()));
   auto& [device, pipe] = *opened_pipe;
   OpenedDriver opened;
   auto bus = std::make_shared<HidBus>();
   bus->pipe = std::move(pipe);
-  opened.driver = std::make_unique<spacemouse::SpaceMouseDriver>(DeviceId{"spacemouse", device.port}, *bus->pipe, bus->clock, spec);
+  opened.driver = std::make_unique<spacemouse::SpaceMouseDriver>(DeviceId{"spacemouse", device.port}, *bus->pipe, bus->clock, *spec);
   opened.bus = std::move(bus);
+  opened.note = format("full deflection is %g m/s and %g rad/s%s", spec->speed, spec->turn,
+                       choice.find("calibration") ? "" : "; calibration=FILE changes that");
   return opened;
 }
 

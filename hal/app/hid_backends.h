@@ -12,6 +12,9 @@ class WoodenHapticsBackend final : public Backend {
   [[nodiscard]] std::string_view help() const noexcept override;
   [[nodiscard]] Result<std::vector<FoundDevice>> list() override;
   [[nodiscard]] std::vector<std::string> udev_rules() const override;
+  [[nodiscard]] std::string library() const override;
+  [[nodiscard]] std::vector<DeviceFact> facts() const override;
+  [[nodiscard]] Result<> check(const DeviceChoice& choice) const override;
   [[nodiscard]] Result<OpenedDriver> open(const DeviceChoice& choice) override;
 };
 
@@ -22,6 +25,9 @@ class SpaceMouseBackend final : public Backend {
   [[nodiscard]] std::string_view help() const noexcept override;
   [[nodiscard]] Result<std::vector<FoundDevice>> list() override;
   [[nodiscard]] std::vector<std::string> udev_rules() const override;
+  [[nodiscard]] std::string library() const override;
+  [[nodiscard]] std::vector<DeviceFact> facts() const override;
+  [[nodiscard]] Result<> check(const DeviceChoice& choice) const override;
   [[nodiscard]] Result<OpenedDriver> open(const DeviceChoice& choice) override;
 };
 

@@ -16,6 +16,9 @@ class ReplayBackend final : public Backend {
   }
   /// Nothing is attached: files are not looked for.
   [[nodiscard]] Result<std::vector<FoundDevice>> list() override { return std::vector<FoundDevice>{}; }
+  [[nodiscard]] std::string library() const override;
+  [[nodiscard]] std::vector<DeviceFact> facts() const override;
+  [[nodiscard]] Result<> check(const DeviceChoice& choice) const override;
   [[nodiscard]] Result<OpenedDriver> open(const DeviceChoice& choice) override;
 
  private:
@@ -32,6 +35,9 @@ class MouseBackend final : public Backend {
            "                              pointer on the screen stands still meanwhile\n";
   }
   [[nodiscard]] Result<std::vector<FoundDevice>> list() override;
+  [[nodiscard]] std::string library() const override;
+  [[nodiscard]] std::vector<DeviceFact> facts() const override;
+  [[nodiscard]] Result<> check(const DeviceChoice& choice) const override;
   [[nodiscard]] Result<OpenedDriver> open(const DeviceChoice& choice) override;
 
  private:

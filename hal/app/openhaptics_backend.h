@@ -20,6 +20,9 @@ class OpenHapticsBackend final : public Backend {
   }
   /// The library lists no devices, and asking one begins its calibration: there is one entry, for the default name.
   [[nodiscard]] Result<std::vector<FoundDevice>> list() override;
+  [[nodiscard]] std::string library() const override;
+  [[nodiscard]] std::vector<DeviceFact> facts() const override;
+  [[nodiscard]] Result<> check(const DeviceChoice& choice) const override;
   /// All drivers share one library, one scheduler. Error: as of load and TouchGroup::add.
   [[nodiscard]] Result<OpenedDriver> open(const DeviceChoice& choice) override;
 

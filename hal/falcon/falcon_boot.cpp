@@ -34,7 +34,8 @@ Result<> check_firmware(const FalconFirmware& firmware, const std::optional<std:
     return std::unexpected(DeviceError{Errc::kFirmware, firmware.file + ": " + why});
   };
   if (size < kFirmwareMin || size > kFirmwareMax) {
-    return refuse("has " + std::to_string(size) + " bytes; a Falcon's firmware image has " +
+    const std::string has = size > kFirmwareMax ? "more than " + std::to_string(kFirmwareMax) : std::to_string(size);  // no more is read
+    return refuse("has " + has + " bytes; a Falcon's firmware image has " +
                   std::to_string(kFirmwareMin) + " to " + std::to_string(kFirmwareMax) +
                   ". Give the raw image of the vendor's driver, not an installer or a text");
   }

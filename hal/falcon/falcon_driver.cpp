@@ -15,7 +15,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kWriteWait = 2ms;
-constexpr Duration kPeriod = 1ms;
 constexpr Duration kReplyWait = 2ms;   // 0.3 ms on the line, up to 1 ms until the bridge flushes
 constexpr int kPacketsMax = 16;        // of one exchange; an idle bridge sends an empty one per millisecond
 constexpr int kSilenceFrames = 4;
@@ -63,7 +62,7 @@ DeviceCaps caps_of(const FalconSpec& spec, const FalconForce& force) {
 std::expected<FalconDriver, std::string> FalconDriver::make(DeviceId id, UsbPipe& pipe, Clock& clock,
                                                             FalconOptions options) {
   const auto force = FalconForce::from(options.spec);
-  if (!force) return std::unexpected(force.error());
+  if (!force) return std::unexpected(force.error().words);
   return FalconDriver(std::move(id), pipe, clock, std::move(options), *force);
 }
 
@@ -183,14 +182,6 @@ std::expected<void, Errc> FalconDriver::receive(Duration wait) noexcept {
   return {};
 }
 
-/// Until the next exchange is due, by the pace of those before: the bridge's flushing and the host's clock drift against
-/// each other, and an answer that missed this exchange costs nothing in the next one, while waiting for it costs a period.
-Duration FalconDriver::reply_wait(Time began) noexcept {
-  const bool in_pace = began >= due_ - kPeriod && began <= due_ + kPeriod;
-  due_ = (in_pace ? due_ : began) + kPeriod;
-  return std::clamp(due_ - clock_->now(), Duration{0}, Duration{kReplyWait});
-}
-
 std::expected<Exchange, Errc> FalconDriver::exchange(const Orders& orders, State& state) noexcept {
   const std::uint64_t thrown_before = framer_.thrown_away();
   const Time began = clock_->now();
@@ -211,7 +202,7 @@ std::expected<Exchange, Errc> FalconDriver::exchange(const Orders& orders, State
   acting_ = std::exchange(sent_, order);
 
   reply_.reset();
-  const auto read = receive(reply_wait(began));
+  const auto read = receive(std::clamp(pace_.next(began) - clock_->now(), Duration{0}, Duration{kReplyWait}));
   if (!read) return std::unexpected(read.error());
   const bool resynced = framer_.thrown_away() != thrown_before || line_error_;
   if (!reply_) return had_late ? std::expected<Exchange, Errc>(Exchange::kFresh) : Exchange::kNothing;

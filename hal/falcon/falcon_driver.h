@@ -10,6 +10,7 @@
 #include "hal/falcon/falcon_homing.h"
 #include "hal/falcon/falcon_kinematics.h"
 #include "hal/pipes.h"
+#include "hal/reply_pace.h"
 
 namespace tandem::hal {
 
@@ -54,7 +55,6 @@ class FalconDriver final : public Driver {
   [[nodiscard]] std::expected<void, Errc> send(const FalconOrder& frame) noexcept;
   /// Into `reply_`: waits for one, or takes all that is there if `wait` is 0.
   [[nodiscard]] std::expected<void, Errc> receive(Duration wait) noexcept;
-  [[nodiscard]] Duration reply_wait(Time began) noexcept;
   [[nodiscard]] std::expected<Exchange, Errc> take(State& state, Time now) noexcept;
   [[nodiscard]] Errc after(Errc trouble) noexcept;
 
@@ -77,7 +77,7 @@ class FalconDriver final : public Driver {
   Vec3 x_last_ = Vec3::Zero();
   Vec3 theta_last_ = Vec3::Zero(), dtheta_ = Vec3::Zero();
   Time read_at_{};
-  Time due_{};                        ///< when the next exchange is expected to begin
+  ReplyPace pace_;
   Order acting_, sent_;
 };
 

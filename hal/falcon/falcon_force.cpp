@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hal/falcon/falcon_frame.h"
 #include "hal/falcon/falcon_kinematics.h"
@@ -17,21 +18,25 @@ constexpr std::size_t kReadingsMin = 2;
 std::string motor_name(std::size_t i) { return "motor " + std::to_string(i + 1); }
 std::string reading_name(std::size_t i) { return "mass_reading " + std::to_string(i + 1); }
 
+std::unexpected<FalconScaleTrouble> wrong(std::string words, int line = 0) {
+  return std::unexpected(FalconScaleTrouble{.words = std::move(words), .line = line});
+}
+
 struct Load {
   Vec3 torque;
   Vec3 counts;
 };
 
-std::expected<Load, std::string> load_of(const FalconMassReading& r, std::size_t index) {
+std::expected<Load, FalconScaleTrouble> load_of(const FalconMassReading& r, std::size_t index) {
   Vec3 theta, counts;
   for (std::size_t i = 0; i < 3; ++i) {
     theta[static_cast<int>(i)] = kFalconZeroAngle + r.encoder[i] * kFalconRadPerCount;
     counts[static_cast<int>(i)] = r.motor_with[i] - r.motor_without[i];
   }
   const auto pose = falcon_forward(theta, Vec3::Zero());
-  if (!pose) return std::unexpected(reading_name(index) + ": a Falcon has no pose with these encoder counts");
+  if (!pose) return wrong(reading_name(index) + ": a Falcon has no pose with these encoder counts", r.line);
   if (pose->condition > kConditionFull) {
-    return std::unexpected(reading_name(index) + ": too near the edge of the workspace; hold the grip in the middle");
+    return wrong(reading_name(index) + ": too near the edge of the workspace; hold the grip in the middle", r.line);
   }
   const Vec3 up(r.up[0], r.up[1], r.up[2]);
   return Load{pose->J.transpose() * (r.mass * kGravity * up), counts};
@@ -39,8 +44,8 @@ std::expected<Load, std::string> load_of(const FalconMassReading& r, std::size_t
 
 }  // namespace
 
-std::expected<std::array<double, 3>, std::string> fit_falcon_scale(const std::vector<FalconMassReading>& readings) {
-  if (readings.size() < kReadingsMin) return std::unexpected("needs at least two mass readings");
+std::expected<std::array<double, 3>, FalconScaleTrouble> fit_falcon_scale(const std::vector<FalconMassReading>& readings) {
+  if (readings.size() < kReadingsMin) return wrong("needs at least two mass readings");
   std::vector<Load> loads;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     auto load = load_of(readings[i], i);
@@ -59,40 +64,41 @@ std::expected<std::array<double, 3>, std::string> fit_falcon_scale(const std::ve
       product -= load.torque[k] * load.counts[k];  // positive counts pull the thigh in
     }
     if (used < kReadingsMin) {
-      return std::unexpected(motor_name(m) + " carries less than 3 mN m in all but " + std::to_string(used) +
+      return wrong(motor_name(m) + " carries less than 3 mN m in all but " + std::to_string(used) +
                              " readings; use a larger mass or another direction of gravity");
     }
     scale[m] = product / torque2;
     if (!(scale[m] >= kFalconScaleMin && scale[m] <= kFalconScaleMax)) {
-      return std::unexpected(motor_name(m) + " comes out at " + std::to_string(scale[m]) +
+      return wrong(motor_name(m) + " comes out at " + std::to_string(scale[m]) +
                              " counts per N m; allowed is 500 to 100000. Is `up` the direction against gravity?");
     }
     for (std::size_t i = 0; i < loads.size(); ++i) {
       const double expected = -scale[m] * loads[i].torque[k];
       if (std::abs(loads[i].torque[k]) < kTorqueMin) continue;
       if (std::abs(loads[i].counts[k] - expected) > kMisfitMax * std::abs(expected)) {
-        return std::unexpected(reading_name(i) + ": " + motor_name(m) + " gave " + std::to_string(loads[i].counts[k]) +
+        return wrong(reading_name(i) + ": " + motor_name(m) + " gave " + std::to_string(loads[i].counts[k]) +
                                " counts, the other readings expect " + std::to_string(expected) +
-                               "; more than 25 % apart. Repeat it, approaching from both sides");
+                               "; more than 25 % apart. Repeat it, approaching from both sides",
+                     readings[i].line);
       }
     }
   }
   return scale;
 }
 
-std::expected<FalconForce, std::string> FalconForce::from(const FalconSpec& spec) {
+std::expected<FalconForce, FalconScaleTrouble> FalconForce::from(const FalconSpec& spec) {
   FalconForce force;
   if (!spec.counts_per_nm && spec.readings.empty()) return force;
   if (spec.counts_per_nm) {
     force.scale_ = *spec.counts_per_nm;
   } else {
     const auto fitted = fit_falcon_scale(spec.readings);
-    if (!fitted) return std::unexpected(fitted.error());
+    if (!fitted) return wrong(fitted.error().words, fitted.error().line != 0 ? fitted.error().line : spec.line);
     force.scale_ = *fitted;
   }
   for (const double scale : force.scale_) {
     if (!(scale >= kFalconScaleMin && scale <= kFalconScaleMax)) {
-      return std::unexpected("a motor has " + std::to_string(scale) + " counts per N m; allowed is 500 to 100000");
+      return wrong("a motor has " + std::to_string(scale) + " counts per N m; allowed is 500 to 100000", spec.line);
     }
   }
   force.ceiling_ = kFalconMotorMax;

@@ -20,12 +20,18 @@ inline constexpr std::int16_t kFalconCeilingGuess = 120;
 /// Legal scales of a calibrated motor [counts per N m].
 inline constexpr double kFalconScaleMin = 500, kFalconScaleMax = 100000;
 
+/// What is wrong with a scale or with the readings it is fitted to.
+struct FalconScaleTrouble {
+  std::string words;  ///< for a person
+  int line = 0;       ///< of the file it came from; 0: of no file
+};
+
 class FalconForce {
  public:
   /// Not calibrated: the guess above under the ceiling above.
   FalconForce() noexcept = default;
   /// Of `spec.counts_per_nm` or fitted to `spec.readings`. Error: what is wrong with the readings, for a person.
-  [[nodiscard]] static std::expected<FalconForce, std::string> from(const FalconSpec& spec);
+  [[nodiscard]] static std::expected<FalconForce, FalconScaleTrouble> from(const FalconSpec& spec);
 
   struct Sent {
     std::array<std::int16_t, 3> motor{};
@@ -50,7 +56,7 @@ class FalconForce {
 /// Force scale from known masses, least squares per motor: the torque that carries the mass is J^T m g up, and the motors
 /// gave `motor_with - motor_without` counts for it.
 /// @return counts per N m, or for a person: too few readings, a motor hardly loaded, readings that contradict each other
-[[nodiscard]] std::expected<std::array<double, 3>, std::string> fit_falcon_scale(
+[[nodiscard]] std::expected<std::array<double, 3>, FalconScaleTrouble> fit_falcon_scale(
     const std::vector<FalconMassReading>& readings);
 
 }  // namespace tandem::hal

@@ -9,6 +9,11 @@ namespace {
 
 constexpr Duration kCommandLife = std::chrono::milliseconds(5);
 constexpr double kSaturatedShare = 0.01;
+constexpr const char* kLighter = "use a lighter mass, or calibrate roughly with a light one first";
+constexpr const char* kCounterweight =
+    "the empty grip is more than they hold under the small ceiling of a device without a calibration. Weigh it standing (without --lying), "
+    "where its weight is across its axis; if that is too much as well, let a counterweight on a thread over a rod carry the grip through "
+    "both rounds: it is there without and with the mass, so the reading does not feel it";
 
 }  // namespace
 
@@ -51,19 +56,31 @@ Command FalconWeighing::tick(const State& state) noexcept {
   return command;
 }
 
-std::expected<FalconWeighing::Held, std::string> FalconWeighing::held() const {
+double FalconWeighing::holds(const FalconForce& scale, const Vec3& at, const Vec3& up) noexcept {
+  const auto pose = falcon_pose_at(at);
+  if (!pose) return 0;
+  const Vec3 per_newton = pose->J.transpose() * up;
+  double most = kForceMax;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double lever = std::abs(per_newton[static_cast<int>(i)]);
+    if (lever * most > scale.torque_max(i)) most = scale.torque_max(i) / lever;
+  }
+  return most;
+}
+
+std::expected<FalconWeighing::Held, std::string> FalconWeighing::held(Load load) const {
   if (!finished()) return std::unexpected("the grip was not held long enough");
   Held held;
   for (const Mean& mean : side_) {
     const auto count = static_cast<double>(mean.count);
     if (mean.count == 0) return std::unexpected("no readings came while the grip was held");
     if (static_cast<double>(mean.saturated) > kSaturatedShare * count) {
-      return std::unexpected("the motors were at their limit: use a lighter mass, or calibrate roughly with a light one first");
+      return std::unexpected(std::string("the motors were at their limit: ") + (load == Load::kMass ? kLighter : kCounterweight));
     }
     if ((mean.x / count - at_).norm() > kStill) {
-      return std::unexpected(
-          "the grip did not come to rest at its point: somebody touches it, something swings, or the mass is too heavy for "
-          "the motors: use a lighter one, or calibrate roughly with a light one first");
+      return std::unexpected(std::string("the grip did not come to rest at its point: somebody touches it, something swings, or ") +
+                             (load == Load::kMass ? "the mass is too heavy for the motors: " : "the grip itself is too heavy for the motors: ") +
+                             (load == Load::kMass ? kLighter : kCounterweight));
     }
     for (std::size_t i = 0; i < 3; ++i) {
       held.encoder[i] += mean.encoder[i] / count / 2;

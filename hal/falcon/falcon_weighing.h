@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "hal/device.h"
+#include "hal/falcon/falcon_force.h"
 #include "hal/falcon/falcon_kinematics.h"
 
 namespace tandem::hal {
@@ -36,13 +37,19 @@ class FalconWeighing final : public ServoClient {
   /// How long it takes.
   [[nodiscard]] static constexpr Duration length() noexcept { return 2 * (kComing + kSettling + kAveraging); }
 
+  /// Largest weight [N] that motors of this scale hold at `at`, and that is asked of them. Not calibrated: by the guess, which is
+  /// the most of all readings, so what is heavier is too heavy for certain.
+  [[nodiscard]] static double holds(const FalconForce& scale, const Vec3& at, const Vec3& up) noexcept;
+
   struct Held {
     std::array<double, 3> encoder{};  ///< mean counts
     std::array<double, 3> torque{};   ///< mean, as the driver's present scale means them [N m]
     double friction = 0;              ///< half of the difference between both sides, the largest of a leg [N m]
   };
-  /// After `finished`. Error: for a person: the motors were at their limit, or the grip did not come to rest.
-  [[nodiscard]] std::expected<Held, std::string> held() const;
+  enum class Load : std::uint8_t { kEmptyGrip, kMass };
+  /// After `finished`. Error: for a person: the motors were at their limit, or the grip did not come to rest, and what to do.
+  /// @param load  what hung there: an empty grip that is too heavy needs another cure than a mass
+  [[nodiscard]] std::expected<Held, std::string> held(Load load = Load::kMass) const;
 
  private:
   struct Mean {

@@ -13,11 +13,17 @@
 
 namespace tandem::hal {
 
+/// One thing a person wants to know of a device, such as {"firmware", "lost without power; ..."}.
+struct DeviceFact {
+  std::string about, words;
+};
+
 /// A device that is attached, seen without opening it.
 struct FoundDevice {
   std::string words;    ///< what a person writes after --device to mean this one
   std::string about;    ///< as it calls itself, and where it is
   std::string trouble;  ///< why it could not be opened now, with the remedy; empty: nothing known
+  std::string node;     ///< its file; empty: none
 };
 
 /// A driver for one device, opened and claimed, not brought up.
@@ -36,11 +42,18 @@ class Backend {
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
   /// Lines for --help: the words after --device, and what they do.
   [[nodiscard]] virtual std::string_view help() const noexcept = 0;
+  /// What speaks to such devices, with its version as it says itself: "libusb 1.0.26".
+  [[nodiscard]] virtual std::string library() const = 0;
+  /// What is so for every device of this kind, before one is opened: firmware, rate, calibration, homing, gravity.
+  [[nodiscard]] virtual std::vector<DeviceFact> facts() const = 0;
   /// Error: why nothing can be listed at all, for example a missing library.
   [[nodiscard]] virtual Result<std::vector<FoundDevice>> list() = 0;
   /// Lines for the system that let whoever sits at the machine use such devices.
   [[nodiscard]] virtual std::vector<std::string> udev_rules() const { return {}; }
-  /// Error: cause and remedy; kUnsupported: the words themselves are wrong, whatever is attached.
+  /// Everything that is wrong with the words and with the files they name, whatever is attached; touches no device.
+  /// Error kUnsupported: a line each.
+  [[nodiscard]] virtual Result<> check(const DeviceChoice& choice) const = 0;
+  /// Error: cause and remedy; kUnsupported: as of `check`.
   [[nodiscard]] virtual Result<OpenedDriver> open(const DeviceChoice& choice) = 0;
 };
 

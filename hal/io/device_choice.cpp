@@ -1,13 +1,18 @@
 #include "hal/io/device_choice.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
+#include "common/base/format.h"
 #include "common/base/nearest.h"
 
 namespace tandem::hal {
 namespace {
 
-DeviceError wrong(std::string message) { return {Errc::kUnsupported, "device: " + std::move(message)}; }
+constexpr std::size_t kShown = 60;  // characters of what was typed
+
+std::string shown(std::string_view text) { return std::string(text.substr(0, kShown)); }
 
 }  // namespace
 
@@ -20,45 +25,88 @@ Result<DeviceChoice> parse_choice(std::string_view spec) {
   DeviceChoice choice;
   const auto colon = spec.find(':');
   choice.backend = spec.substr(0, colon);
-  if (choice.backend.empty()) return std::unexpected(wrong("the kind is missing in '" + std::string(spec) + "'"));
+  if (choice.backend.empty())
+    return std::unexpected(DeviceError{Errc::kUnsupported, "device: the kind is missing in '" + std::string(spec) + "'"});
   if (colon == std::string_view::npos) return choice;
   std::string_view rest = spec.substr(colon + 1);
-  for (bool first = true; first || !rest.empty(); first = false) {
-    const auto comma = std::min(rest.find(','), rest.size());
+  for (bool first = true, more = true; more; first = false) {
+    const auto comma = rest.find(',');
+    more = comma != std::string_view::npos;
     const std::string_view part = rest.substr(0, comma);
+    rest.remove_prefix(more ? comma + 1 : rest.size());
     const auto equals = part.find('=');
-    if (part.empty() || equals == 0)
-      return std::unexpected(wrong("a name or KEY=VALUE is missing in '" + std::string(spec) + "'"));
-    if (equals == std::string_view::npos) {
-      if (!first)
-        return std::unexpected(wrong("'" + std::string(part) + "' has no value; the name of a device stands first, then KEY=VALUE"));
-      choice.name = part;
+    if (part.empty() || equals == 0) {
+      choice.mistakes.push_back("a name or KEY=VALUE is missing in '" + std::string(spec) + "'" +
+                                (part.empty() ? "" : " before '" + shown(part) + "'"));
+    } else if (equals == std::string_view::npos) {
+      if (first) {
+        choice.name = part;
+      } else {
+        choice.mistakes.push_back("'" + shown(part) + "' has no value; the name of a device stands first, then KEY=VALUE");
+      }
     } else {
       DeviceChoice::Option option{std::string(part.substr(0, equals)), std::string(part.substr(equals + 1))};
-      if (option.value.empty()) return std::unexpected(wrong("option " + option.key + " needs a value: " + option.key + "=..."));
-      if (choice.find(option.key)) return std::unexpected(wrong(option.key + " is given twice"));
-      choice.options.push_back(std::move(option));
+      if (option.value.empty()) {
+        choice.mistakes.push_back("option " + shown(option.key) + " needs a value: " + shown(option.key) + "=...");
+      } else if (choice.find(option.key)) {
+        choice.mistakes.push_back(shown(option.key) + " = '" + shown(option.value) + "': " + shown(option.key) + " is given twice");
+      } else {
+        choice.options.push_back(std::move(option));
+      }
     }
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
   return choice;
 }
 
-Result<> only_these(const DeviceChoice& choice, const std::vector<std::string>& known) {
+ChoiceJudge::ChoiceJudge(const DeviceChoice& choice, const std::vector<std::string>& known) : choice_(&choice) {
+  for (const std::string& words : choice.mistakes) mistake(words);
   for (const DeviceChoice::Option& option : choice.options) {
     if (std::ranges::find(known, option.key) != known.end()) continue;
-    return std::unexpected(wrong(choice.backend + " has no option '" + option.key.substr(0, 60) + "'; " +
-                                 suggest(option.key, known)));
+    mistake("has no option '" + shown(option.key) + "' (= '" + shown(option.value) + "'); " + suggest(option.key, known));
   }
-  return {};
 }
 
-Result<bool> yes_or_no(const DeviceChoice& choice, std::string_view key, bool otherwise) {
-  const auto value = choice.find(key);
-  if (!value) return otherwise;
-  if (*value == "yes") return true;
-  if (*value == "no") return false;
-  return std::unexpected(wrong(std::string(key) + " is 'yes' or 'no', not '" + value->substr(0, 60) + "'"));
+std::string ChoiceJudge::one_of(std::string_view key, std::initializer_list<std::string_view> allowed) {
+  const auto value = choice_->find(key);
+  if (!value) return std::string(*allowed.begin());
+  if (std::ranges::find(allowed, *value) != allowed.end()) return *value;
+  std::string words;
+  for (const std::string_view word : allowed)
+    words += (words.empty() ? "'" : word == *std::prev(allowed.end()) ? " or '" : ", '") + std::string(word) + "'";
+  mistake(std::string(key) + " = '" + shown(*value) + "': must be " + words);
+  return std::string(*allowed.begin());
+}
+
+bool ChoiceJudge::yes_or_no(std::string_view key, bool otherwise) {
+  const auto value = choice_->find(key);
+  if (value == "yes") return true;
+  if (value && *value != "no") mistake(std::string(key) + " = '" + shown(*value) + "': must be 'yes' or 'no'");
+  return value ? false : otherwise;
+}
+
+std::optional<double> ChoiceJudge::number(std::string_view key, double lo, double hi, std::string_view unit) {
+  const auto text = choice_->find(key);
+  if (!text) return std::nullopt;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  const bool read = error == std::errc{} && end == text->data() + text->size() && std::isfinite(value);
+  if (read && value >= lo && value <= hi) return value;
+  mistake(std::string(key) + " = '" + shown(*text) + "': must be a number in " + format("[%g, %g] ", lo, hi) + std::string(unit));
+  return std::nullopt;
+}
+
+void ChoiceJudge::mistake(std::string what) { mistakes_.push_back("device: " + choice_->backend + ": " + std::move(what)); }
+
+void ChoiceJudge::told(std::string lines) {
+  while (lines.ends_with('\n')) lines.pop_back();
+  mistakes_.push_back(std::move(lines));
+}
+
+Result<> ChoiceJudge::verdict() const {
+  if (mistakes_.empty()) return {};
+  std::string all;
+  for (const std::string& words : mistakes_) all += (all.empty() ? "" : "\n") + words;
+  return std::unexpected(DeviceError{Errc::kUnsupported, std::move(all)});
 }
 
 }  // namespace tandem::hal

@@ -25,7 +25,7 @@ class Unwatched final : public BringUp {
 }  // namespace
 
 DeviceThread::DeviceThread(std::unique_ptr<ServoCore> core, Duration period)
-    : core_(std::move(core)), caps_(core_->caps()), period_(std::clamp<Duration>(period, 100us, 100ms)) {}
+    : core_(std::move(core)), caps_(core_->caps()), period_(std::clamp<Duration>(period, 100us, 100ms)), pace_(period_) {}
 
 Result<> DeviceThread::start(ServoClient& client) {
   if (thread_.joinable() || closed_) {
@@ -41,20 +41,19 @@ Result<> DeviceThread::start(ServoClient& client) {
 
 void DeviceThread::run(ServoClient& client) noexcept {
   realtime_.store(ask_for_realtime(), std::memory_order_relaxed);
-  ServoPace pace{period_};
   MonotonicClock clock;
   const auto publish = [&] {
     DeviceStats stats = core_->counts();
-    pace.report(stats);
+    pace_.report(stats);
     stats.round_trip_p50_s = 1e-9 * static_cast<double>(core_->round_trips().quantile(0.50));
     stats.round_trip_p99_s = 1e-9 * static_cast<double>(core_->round_trips().quantile(0.99));
     stats.round_trip_max_s = 1e-9 * static_cast<double>(core_->round_trips().max());
     published_ = stats;
   };
   Unwatched watcher{stop_};
-  pace.begin();
+  pace_.begin();
   while (!stop_.load(std::memory_order_relaxed)) {
-    pace.next();
+    pace_.next();
     const Time now = clock.now();  // a command that died while this thread slept is dead
     if (core_->phase() == Phase::kBooting) static_cast<void>(core_->bring_up(watcher));  // the phase tells how it went
     if (!core_->step(now, client)) break;
@@ -72,6 +71,11 @@ void DeviceThread::run(ServoClient& client) noexcept {
 DeviceStats DeviceThread::stats() const {
   const std::lock_guard lock(stats_lock_);
   return published_;
+}
+
+DeviceHistograms DeviceThread::histograms() const {
+  if (!closed_.load(std::memory_order_acquire)) return {};
+  return {.period = pace_.periods(), .round_trip = core_->round_trips()};
 }
 
 void DeviceThread::close() noexcept {

@@ -29,6 +29,7 @@ class DeviceThread final : public Device {
   void disable() noexcept override { core_->disable(); }
   Result<> reset() override { return core_->reset(); }
   [[nodiscard]] DeviceStats stats() const override;
+  [[nodiscard]] DeviceHistograms histograms() const override;
   void close() noexcept override;
 
   [[nodiscard]] bool realtime() const noexcept override { return realtime_.load(std::memory_order_relaxed); }
@@ -39,6 +40,7 @@ class DeviceThread final : public Device {
   std::unique_ptr<ServoCore> core_;
   DeviceCaps caps_;
   Duration period_;
+  ServoPace pace_;  ///< of the servo thread
   std::atomic<bool> stop_{false}, realtime_{false}, closed_{false};
   std::thread thread_;
   // The servo thread only tries this lock: it never waits for a reader.

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <linux/input.h>
 #include <sys/ioctl.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+
+#include "common/base/format.h"
 
 namespace tandem::hal {
 namespace {
@@ -45,12 +48,34 @@ bool looks_like_a_mouse(const std::string& node) {
   return (file >> std::hex >> axes) && (axes & 3U) == 3;
 }
 
-std::string not_permitted() {
-  return "you may not read it: join the group 'input' (`sudo usermod -aG input $USER`, then log in again). Whoever is in it can read "
-         "every keyboard, too; a udev rule for this mouse alone is narrower";
+/// sysfs shows them to everybody.
+std::optional<EvdevMouse::Ids> ids_of(const std::string& node) {
+  const std::string folder = "/sys/class/input/" + node + "/device/id/";
+  std::ifstream vendor(folder + "vendor"), product(folder + "product");
+  EvdevMouse::Ids ids;
+  if (!(vendor >> std::hex >> ids.vendor) || !(product >> std::hex >> ids.product)) return std::nullopt;
+  return ids;
 }
 
 }  // namespace
+
+std::string EvdevMouse::library() {
+  utsname system{};
+  return uname(&system) == 0 ? std::string("evdev of ") + system.sysname + " " + system.release : "evdev";
+}
+
+std::string EvdevMouse::permission_advice(const std::string& path, std::optional<Ids> ids) {
+  std::string advice = "mouse: " + path + ": you may not read it. ";
+  if (ids) {
+    advice += "For this mouse alone, put this udev rule into /etc/udev/rules.d/70-tandem-mouse.rules:\n  " +
+              format("SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{id/vendor}==\"%04x\", ATTRS{id/product}==\"%04x\", TAG+=\"uaccess\"",
+                     ids->vendor, ids->product) +
+              "\nthen `sudo udevadm control --reload` and plug the mouse in again. Or join";
+  } else {
+    advice += "Join";
+  }
+  return advice + " the group 'input' (`sudo usermod -aG input $USER`, then log in again): whoever is in it can read every keyboard, too. " + kWithout;
+}
 
 std::vector<EvdevMouse::Found> EvdevMouse::list() {
   std::vector<Found> found;
@@ -60,7 +85,7 @@ std::vector<EvdevMouse::Found> EvdevMouse::list() {
     if (!node.starts_with("event")) continue;
     const int fd = ::open(entry.path().c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0) {
-      if ((errno == EACCES || errno == EPERM) && looks_like_a_mouse(node)) found.push_back({node, "", not_permitted()});
+      if ((errno == EACCES || errno == EPERM) && looks_like_a_mouse(node)) found.push_back({node, "", permission_advice(kFolder + node, ids_of(node))});
       continue;
     }
     if (is_mouse(fd)) found.push_back({node, name_of(fd), ""});
@@ -75,8 +100,8 @@ Result<std::unique_ptr<EvdevMouse>> EvdevMouse::open(const std::string& node, bo
   const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) {
     const int why = errno;
-    if (why == EACCES || why == EPERM) return std::unexpected(DeviceError{Errc::kPermission, "mouse: " + path + ": " + not_permitted()});
-    return std::unexpected(DeviceError{Errc::kNotFound, "mouse: " + path + ": " + std::strerror(why) + "; is it plugged in?"});
+    if (why == EACCES || why == EPERM) return std::unexpected(DeviceError{Errc::kPermission, permission_advice(path, ids_of(path.substr(path.rfind('/') + 1)))});
+    return std::unexpected(DeviceError{Errc::kNotFound, "mouse: " + path + ": " + std::strerror(why) + "; is it plugged in? " + kWithout});
   }
   auto mouse = std::make_unique<EvdevMouse>(fd);
   if (!is_mouse(fd))

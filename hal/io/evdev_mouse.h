@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,18 @@ class EvdevMouse final : public MousePipe {
     std::string about;    ///< its own name; empty when it may not be opened
     std::string trouble;  ///< why it may not, with the remedy
   };
+  /// What a person does who has no mouse, or may not use it.
+  static constexpr const char* kWithout = "Without one, `--device sim:keyboard` moves a simulated hand by the arrow keys of the terminal";
+
+  /// What gives the mouse its events: "evdev of Linux 6.1.0".
+  [[nodiscard]] static std::string library();
+  struct Ids {
+    unsigned vendor = 0, product = 0;
+  };
+  /// What to do about "permission denied" on "/dev/input/eventN".
+  /// @param ids  as sysfs has them, for a udev rule of this mouse alone; empty: not known
+  [[nodiscard]] static std::string permission_advice(const std::string& path, std::optional<Ids> ids);
+
   /// Everything that has the axes and the button of a mouse; what may not be opened is listed with its trouble where the
   /// kernel calls it a mouse.
   [[nodiscard]] static std::vector<Found> list();

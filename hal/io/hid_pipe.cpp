@@ -76,7 +76,6 @@ DeviceError opening_error(int error, const Attached& device) {
 struct HidrawPipe::Impl {
   hid_device* device = nullptr;
   int lock = -1;  ///< the node once more, only to hold it: hidapi does not show its own descriptor
-  std::vector<std::byte> descriptor;
   bool numbered = false;
   bool lost = false;
   std::array<unsigned char, kReportMax + 1> out{};
@@ -118,8 +117,7 @@ Result<std::unique_ptr<HidrawPipe>> HidrawPipe::open(const Attached& device) {
                                                         "('sudo fuser -v " +
                                                         device.node + "' names it)."});
   }
-  impl->descriptor = read_descriptor(device.node);
-  impl->numbered = has_report_ids(impl->descriptor);
+  impl->numbered = has_report_ids(read_descriptor(device.node));
   {
     const HidapiLock alone;
     errno = 0;
@@ -128,8 +126,6 @@ Result<std::unique_ptr<HidrawPipe>> HidrawPipe::open(const Attached& device) {
   }
   return std::unique_ptr<HidrawPipe>(new HidrawPipe(std::move(impl)));
 }
-
-std::span<const std::byte> HidrawPipe::report_descriptor() const noexcept { return impl_->descriptor; }
 
 Moved HidrawPipe::write(std::span<const std::byte> report) noexcept {
   Impl& i = *impl_;

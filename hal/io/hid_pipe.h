@@ -25,9 +25,6 @@ class HidrawPipe final : public HidPipe {
   Moved write(std::span<const std::byte> report) noexcept override;
   Moved read(std::span<std::byte> into, Duration timeout) noexcept override;
 
-  /// As the device gave it to the kernel.
-  [[nodiscard]] std::span<const std::byte> report_descriptor() const noexcept;
-
  private:
   struct Impl;
   explicit HidrawPipe(std::unique_ptr<Impl> impl);

@@ -89,21 +89,32 @@ Result<Choice> parse(Text spec) {
   if (colon == Text::npos) return choice;
   Text rest = spec.substr(colon + 1);
   std::vector<Text> seen;
+  std::optional<DeviceError> mistakes;  // a person learns all of them at once
+  const auto told = [&](DeviceError error) {
+    if (mistakes) {
+      mistakes->message += "\n" + error.message;
+    } else {
+      mistakes = std::move(error);
+    }
+  };
   while (true) {
     const auto comma = std::min(rest.find(','), rest.size());
     const Text part = rest.substr(0, comma);
     const auto equals = part.find('=');
     const Text name = part.substr(0, equals);
-    if (part.empty()) return std::unexpected(bad("an option is missing in '" + std::string(spec) + "'"));
-    if (std::find(seen.begin(), seen.end(), name) != seen.end())
-      return std::unexpected(bad(std::string(name) + " is given twice"));
+    if (part.empty()) {
+      told(bad("an option is missing in '" + std::string(spec) + "'"));
+    } else if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
+      told(bad(std::string(name) + " is given twice"));
+    } else if (auto ok = choose(choice, name, equals == Text::npos ? std::optional<Text>{} : part.substr(equals + 1)); !ok) {
+      told(std::move(ok.error()));
+    }
     seen.push_back(name);
-    auto ok = choose(choice, name, equals == Text::npos ? std::optional<Text>{} : part.substr(equals + 1));
-    if (!ok) return std::unexpected(std::move(ok.error()));
     if (comma == rest.size()) break;
     rest.remove_prefix(comma + 1);
   }
-  if (choice.motion && choice.hand) return std::unexpected(bad("motion and hand exclude each other"));
+  if (choice.motion && choice.hand) told(bad("motion and hand exclude each other"));
+  if (mistakes) return std::unexpected(std::move(*mistakes));
   return choice;
 }
 

@@ -31,6 +31,7 @@ class ServoPace {
   WakeUp next() noexcept;
   /// Adds what was seen to `stats`: ticks are the caller's.
   void report(DeviceStats& stats) const noexcept;
+  [[nodiscard]] const Histogram& periods() const noexcept { return periods_; }
 
  private:
   Duration period_;

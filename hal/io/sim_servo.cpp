@@ -75,6 +75,10 @@ DeviceStats SimServo::stats() const {
   return published_;
 }
 
+DeviceHistograms SimServo::histograms() const {
+  return phase() == Phase::kAbsent ? DeviceHistograms{.period = pace_.periods(), .round_trip = {}} : DeviceHistograms{};
+}
+
 void SimServo::close() noexcept {
   stop_.store(true, std::memory_order_relaxed);
   if (thread_.joinable()) {

@@ -30,6 +30,7 @@ class SimServo final : public Device {
   /// A simulated device has no faults to leave; kBadState when Lost (open it again) or not started.
   Result<> reset() override;
   [[nodiscard]] DeviceStats stats() const override;
+  [[nodiscard]] DeviceHistograms histograms() const override;
   /// Ends the thread after a last step with zero effort. May be called again.
   void close() noexcept override;
 

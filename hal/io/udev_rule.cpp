@@ -3,6 +3,7 @@
 #include "common/base/format.h"
 
 namespace tandem::hal {
+
 std::string udev_rule(Bus bus, UsbIds ids) {
   constexpr const char* kRights = "MODE=\"0660\", TAG+=\"uaccess\"";
   if (bus == Bus::kUsb) {
@@ -12,6 +13,14 @@ std::string udev_rule(Bus bus, UsbIds ids) {
   }
   // The kernel's name of a HID device, "0003:1234:0006.0001", is there on every bus; the attributes of USB are not.
   return format("SUBSYSTEM==\"hidraw\", KERNELS==\"*:%04X:%04X.*\", ", ids.vendor, ids.product) + kRights;
+}
+
+std::string udev_vendor_rule(std::uint16_t vendor) {
+  return format("SUBSYSTEM==\"hidraw\", KERNELS==\"*:%04X:*\", MODE=\"0660\", TAG+=\"uaccess\"", vendor);
+}
+
+std::string udev_no_rule(UsbIds ids) {
+  return format("SUBSYSTEM==\"hidraw\", KERNELS==\"*:%04X:%04X.*\", MODE=\"0600\", TAG-=\"uaccess\"", ids.vendor, ids.product);
 }
 
 std::string permission_advice(const Attached& device) {

@@ -9,6 +9,8 @@ ReplayDriver::ReplayDriver(std::string name, std::shared_ptr<const sim::Recorded
   caps_.joints = caps_.tip_axes = 3;
   caps_.prismatic = true;
   caps_.simulated = true;
+  caps_.workspace_min.fill(-kReach);
+  caps_.workspace_max.fill(kReach);
 }
 
 Result<> ReplayDriver::bring_up(BringUp& watcher) {

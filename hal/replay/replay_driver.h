@@ -13,6 +13,9 @@ namespace tandem::hal {
 /// forces are enabled (a seat was given), then plays in real time. Three prismatic joints, no motors.
 class ReplayDriver final : public Driver {
  public:
+  /// No device that Tandem knows reaches further from its middle [m]; hands and tools are made for this.
+  static constexpr double kReach = 0.1;
+
   /// @param name  of the recording, for people
   ReplayDriver(std::string name, std::shared_ptr<const sim::RecordedMotion> motion, Clock& clock);
 

@@ -229,6 +229,7 @@ std::expected<RecordedMotion, std::string> RecordedMotion::parse(Text csv, const
       t_first = t_last = t;
       motion.t_.push_back(0.0);
       motion.x_.push_back(x);
+      motion.line_.push_back(table->line(row));
       continue;
     }
     const auto at_row =
@@ -238,6 +239,7 @@ std::expected<RecordedMotion, std::string> RecordedMotion::parse(Text csv, const
     t_last = t;
     motion.t_.push_back(t - t_first);
     motion.x_.push_back(x);
+    motion.line_.push_back(table->line(row));
   }
   if (motion.t_.size() < 2) {
     return std::unexpected(std::string(file) +
@@ -257,21 +259,25 @@ void RecordedMotion::drop_repeats() {
   // jump, so only the first row of a short repetition counts. A longer one is a person who pauses: its two ends stay.
   std::vector<double> t;
   std::vector<Vec3> x;
+  std::vector<std::size_t> line;
   for (std::size_t i = 0; i < t_.size();) {
     std::size_t end = i + 1;
     while (end < t_.size() && x_[end] == x_[i]) ++end;
     t.push_back(t_[i]);
     x.push_back(x_[i]);
+    line.push_back(line_[i]);
     const bool pause = t_[end - 1] - t_[i] > kRepeatMax || (end == t_.size() && t_[end - 1] > t_[i]);
     if (pause) {
       t.push_back(t_[end - 1]);
       x.push_back(x_[i]);
+      line.push_back(line_[end - 1]);
     }
     i = end;
   }
   repeated_ = t_.size() - t.size();
   t_ = std::move(t);
   x_ = std::move(x);
+  line_ = std::move(line);
 }
 
 void RecordedMotion::fit(const MotionOptions& options) {
@@ -331,6 +337,17 @@ MotionPoint RecordedMotion::at(double t, Cursor& cursor) const noexcept {
   const double d01 = 6.0 * u * (1.0 - u), d10 = (1.0 - u) * (1.0 - 3.0 * u), d11 = u * (3.0 * u - 2.0);
   const Vec3 way = x_[i + 1] - x_[i];
   return {x_[i] + h01 * way + step * (h10 * v_[i] + h11 * v_[i + 1]), d01 / step * way + d10 * v_[i] + d11 * v_[i + 1]};
+}
+
+std::optional<RecordedMotion::Beyond> RecordedMotion::first_beyond(double reach, double speed_max) const noexcept {
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(x_[i][axis]) <= reach)) return Beyond{line_[i], axis, x_[i][axis]};
+    if (i == 0) continue;
+    const double speed = (x_[i] - x_[i - 1]).norm() / (t_[i] - t_[i - 1]);
+    if (!(speed <= speed_max)) return Beyond{line_[i], -1, speed};
+  }
+  return std::nullopt;
 }
 
 std::string RecordedMotion::describe() const {

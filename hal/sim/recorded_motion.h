@@ -58,6 +58,16 @@ class RecordedMotion {
   /// held at rest or, with `end=loop`, moved back to the start with minimum jerk and played again.
   [[nodiscard]] MotionPoint at(double t, Cursor& cursor) const noexcept TANDEM_REALTIME;
 
+  /// Where a played motion asks for more than a device gives: line of the file [from 1], the device axis (0 x, 1 y, 2 z; -1: its
+  /// speed) and the value [m] or [m/s], after `scale` and `axes`.
+  struct Beyond {
+    std::size_t line = 0;
+    int axis = 0;
+    double value = 0;
+  };
+  /// The first row outside [-reach, reach] [m] along an axis, or further from the row before than `speed_max` [m/s] goes.
+  [[nodiscard]] std::optional<Beyond> first_beyond(double reach, double speed_max) const noexcept;
+
   [[nodiscard]] double duration() const noexcept { return t_.back(); }   ///< [s]
   [[nodiscard]] double scale() const noexcept { return scale_; }         ///< factor applied to the recorded motion
   [[nodiscard]] const Vec3& middle() const noexcept { return middle_; }  ///< subtracted [m], recorded axes
@@ -78,6 +88,7 @@ class RecordedMotion {
   std::vector<double> t_;
   std::vector<Vec3> x_;
   std::vector<Vec3> v_;
+  std::vector<std::size_t> line_;  ///< of the file, per row kept
   double scale_ = 1;
   Vec3 middle_ = Vec3::Zero();
   std::size_t repeated_ = 0;

@@ -68,6 +68,7 @@ std::expected<Exchange, Errc> SpaceMouseDriver::exchange(const Orders& orders, S
   }
   std::ranges::copy(counts_, state.raw.begin());
   state.buttons = buttons_;
+  state.battery_percent = battery_;
   state.stale = motion_.stale(now);
   state.resynced = false;
   state.homed = true;

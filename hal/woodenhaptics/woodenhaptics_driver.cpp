@@ -19,6 +19,8 @@ constexpr int kReportsMax = 80;  ///< drained at once; a hidraw queue holds 64
 constexpr int kAttempts = 20;
 constexpr int kPresetFrames = 20;
 constexpr int kPresetTolerance = 100;  ///< an arm in a hand moves while its counters are preset [counts]
+/// Two readings taken nearer to each other than this were not made so near to each other: the host stood still in between.
+constexpr Duration kApart = std::chrono::microseconds{750};
 /// Faster than any hand moves such a drum [rad/s], and what one reading may be off [rad].
 constexpr double kSpeedMax = 60.0, kJump = 0.05;
 constexpr double kHoldingIn = 2.0, kHoldingOut = 10.0;     ///< [1/s]
@@ -39,7 +41,7 @@ WoodenHapticsDriver::WoodenHapticsDriver(DeviceId id, HidPipe& pipe, Clock& cloc
       kinematics_(options.spec),
       motors_(options.spec),
       reply_timeout_(has_presets(options.spec.protocol) ? kReplyLockStep : kReplyFreeRunning) {
-  for (int i = 0; i < 3; ++i) rates_[static_cast<std::size_t>(i)] = AdaptiveRate(kinematics_.angle_per_count()[i]);
+  for (int i = 0; i < 3; ++i) rates_[static_cast<std::size_t>(i)] = AdaptiveRate(kinematics_.angle_per_count()[i], kApart);
 }
 
 Result<> WoodenHapticsDriver::bring_up(BringUp& watcher) {
@@ -48,7 +50,8 @@ Result<> WoodenHapticsDriver::bring_up(BringUp& watcher) {
   holding_ = 0.0;
   ever_asked_ = false;
   acting_ = acted_sum_ = Vec3::Zero();
-  acted_count_ = 0;
+  acted_for_ = 0;
+  booked_until_ = clock_.now();
   if (!kinematics_.inverse(Vec3::Zero())) {
     return std::unexpected(DeviceError{Errc::kLimit, "the preset puts the workspace's origin out of the arm's reach: "
                                                      "check link_mm and origin_mm"});
@@ -105,7 +108,6 @@ std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const Orders& orders
   Taken taken;  // what came late, or by itself
   auto trouble = take_reports(Duration{0}, taken);
   if (!trouble) return std::unexpected(trouble.error());
-  const bool wait = has_presets(options_.spec.protocol) || !taken.newest;
   if (trouble = send(presetting ? preset_order() : BoardOrder{.current_ma = motors.current_ma}); !trouble) {
     return std::unexpected(trouble.error());
   }
@@ -114,20 +116,35 @@ std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const Orders& orders
   acting_ = motors.effort;
   saturated_ = motors.saturated;
   sent_at_ = now;
-  acted_sum_ += acted;
-  acted_count_ += 1.0;
-  if (wait) {
-    if (trouble = take_reports(reply_timeout_, taken); !trouble) return std::unexpected(trouble.error());
-  }
+  const Time left = clock_.now();
+  book(acted, left);
+  // Also from a board that sends by itself the next report is awaited: what waited here is up to a period old, and its force
+  // would leave another period later. So old a spring does work on an arm that nobody holds. A host that is late already, whose
+  // waits in hidapi are whole milliseconds, makes do with the old one.
+  const Duration until_due = pace_.next(now) - left > ReplyPace::kPeriod / 2 ? ReplyPace::kPeriod : Duration{0};
+  const bool by_itself = !has_presets(options_.spec.protocol);
+  const auto old = std::exchange(taken.newest, std::nullopt);
+  if (trouble = take_reports(old && by_itself ? until_due : reply_timeout_, taken); !trouble) return std::unexpected(trouble.error());
+  // Boards that answer took their reading when the order came; one that sends by itself, after it acted for a while.
+  const Time at = taken.newest ? clock_.now() : left;
+  if (taken.newest && by_itself) book(acting_, at);
+  if (!taken.newest) taken.newest = old;
   if (!taken.newest) {
     if (taken.torn) return std::unexpected(Errc::kFraming);
     return Exchange::kNothing;
   }
-  const Time at = clock_.now();
   const bool jumped = follow(*taken.newest, at);
   state.echo_command = acted_seq;
   fill(*taken.newest, at, jumped, state);
   return jumped || taken.torn ? Exchange::kResynced : Exchange::kFresh;
+}
+
+/// `effort` acted until now.
+void WoodenHapticsDriver::book(const Vec3& effort, Time until) noexcept {
+  const double dt = std::max(0.0, seconds(until - booked_until_));
+  acted_sum_ += dt * effort;
+  acted_for_ += dt;
+  booked_until_ = until;
 }
 
 MotorOrder WoodenHapticsDriver::motors_for(const Orders& orders, Time now) noexcept {
@@ -215,9 +232,9 @@ bool WoodenHapticsDriver::follow(const BoardReport& report, Time at) noexcept {
 void WoodenHapticsDriver::fill(const BoardReport& report, Time at, bool jumped, State& state) noexcept {
   q_ = kinematics_.angles({counters_[0].total(), counters_[1].total(), counters_[2].total()});
   const Eigen::Matrix3d j = kinematics_.jacobian(q_);
-  const Vec3 tau = acted_sum_ / std::max(acted_count_, 1.0);
+  const Vec3 tau = acted_for_ > 0 ? Vec3(acted_sum_ / acted_for_) : acting_;
   acted_sum_ = Vec3::Zero();
-  acted_count_ = 0;
+  acted_for_ = 0;
   Vec3 dq;
   state.seq = ++readings_;
   state.sampled_at = at;

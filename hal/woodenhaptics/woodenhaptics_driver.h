@@ -9,6 +9,7 @@
 #include "hal/clock.h"
 #include "hal/driver.h"
 #include "hal/pipes.h"
+#include "hal/reply_pace.h"
 #include "hal/woodenhaptics/board_report.h"
 #include "hal/woodenhaptics/counter.h"
 #include "hal/woodenhaptics/kinematics.h"
@@ -59,6 +60,7 @@ class WoodenHapticsDriver final : public Driver {
   std::expected<void, Errc> take_reports(Duration timeout, Taken& taken) noexcept;
   std::expected<void, Errc> send(const BoardOrder& order) noexcept;
   [[nodiscard]] BoardOrder preset_order() const noexcept;
+  void book(const Vec3& effort, Time until) noexcept;
   [[nodiscard]] MotorOrder motors_for(const Orders& orders, Time now) noexcept;
   [[nodiscard]] double holding_share(bool asked, Time now) noexcept;
   /// @return whether positions may have jumped
@@ -96,8 +98,10 @@ class WoodenHapticsDriver final : public Driver {
   Time asked_at_{};     ///< last order with an effort
   bool ever_asked_ = false;
   Vec3 acting_ = Vec3::Zero();      ///< joint effort of the order the board has
-  Vec3 acted_sum_ = Vec3::Zero();   ///< of the exchanges since the last reading
-  double acted_count_ = 0;
+  Vec3 acted_sum_ = Vec3::Zero();   ///< effort times time [N m s] since the last reading
+  double acted_for_ = 0;            ///< that time [s]
+  Time booked_until_{};
+  ReplyPace pace_;
   std::uint64_t acting_seq_ = 0;
   bool saturated_ = false;
 };

@@ -106,9 +106,10 @@ End watch(Shard& shard, const HostedSession& session, const HostPlan& plan, int 
     const int ready = poll(files, 2, kLookEveryMs);
     if (ready > 0 && files[0].revents != 0) break;
     if (ready > 0 && files[1].revents != 0) {
+      const std::string_view by = io::signal_that_came();
       signalfd_siginfo taken;
       [[maybe_unused]] const auto got = ::read(signals, &taken, sizeof taken);
-      line.note("ending: all hands are let go gently");
+      line.note("ended by " + std::string(by.empty() ? "Ctrl-C" : by) + ": all hands are let go gently");
       finish(End::kSignal);
       continue;
     }

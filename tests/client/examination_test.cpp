@@ -138,5 +138,34 @@ TEST(Examination, WatchesWithoutHeap) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
+TEST(Examination, TellsTheBatteryOfAPuckAlsoAtRest) {
+  hal::DeviceCaps caps = three_joints();
+  caps.input = hal::InputKind::kRate;
+  for (const auto& [percent, kind] : {std::pair{std::uint8_t{83}, Kind::kGood}, {std::uint8_t{7}, Kind::kNotice}}) {
+    Examination examination{caps};
+    hal::State state;
+    examination.see(state);
+    state.stale = true;  // a puck at rest is silent
+    state.battery_percent = percent;
+    examination.see(state);
+    EXPECT_EQ(kind_of(examination.findings({}, 1.0), "battery " + std::to_string(percent) + " %"), kind);
+  }
+  Examination unknown{caps};
+  unknown.see({});
+  EXPECT_EQ(find(unknown.findings({}, 1.0), "battery"), nullptr) << "unknown is never told as a number";
+}
+
+TEST(Examination, TellsCalibrationFirmwareAndMotors) {
+  hal::DeviceCaps caps = three_joints();
+  EXPECT_EQ(kind_of(after_a_second(caps, {true, true, true}).findings({}, 1.0), "no force comes of it"), Kind::kGood);
+  for (hal::AxisLimit& axis : caps.axis) axis = {.peak = 4.0, .continuous = {}, .resolution = {}, .from = hal::Provenance::kConfig};
+  caps.needs_firmware = true;
+  const auto calibrated = after_a_second(caps, {true, true, true}).findings({}, 1.0);
+  EXPECT_EQ(kind_of(calibrated, "limits from its calibration file"), Kind::kGood);
+  EXPECT_EQ(kind_of(calibrated, "its firmware runs"), Kind::kGood);
+  caps.force_calibrated = false;
+  EXPECT_EQ(kind_of(after_a_second(caps, {true, true, true}).findings({}, 1.0), "never measured"), Kind::kNotice);
+}
+
 }  // namespace
 }  // namespace tandem::client

@@ -42,11 +42,18 @@ TEST(LinkVerdict, NamesEachTroubleAndItsRemedy) {
   const Case cases[] = {
       {"slow", [](auto& f) { f.rtt_p50 = f.rtt_p99 = 0.080; }, LinkGrade::kUsable, "nearer server"},
       {"too old", [](auto& f) { f.rtt_p50 = f.rtt_p99 = 0.099; }, LinkGrade::kBad, "loop_age_max 100 ms"},
-      {"jitter", [](auto& f) { f.jitter = 0.012; }, LinkGrade::kUsable, "Wi-Fi"},
-      {"some loss up", [](auto& f) { f.up->lost = 500; }, LinkGrade::kUsable, "5.0 % lost on the way up"},
-      {"much loss down", [](auto& f) { f.down->lost = 2000; }, LinkGrade::kBad, "20.0 % lost on the way down"},
-      {"one gap", [](auto& f) { f.down->longest_gap = 0.3, f.pauses = 1; }, LinkGrade::kUsable, "300 ms down, 1 time beyond"},
-      {"gaps", [](auto& f) { f.down->longest_gap = 0.3, f.pauses = 9; }, LinkGrade::kBad, "9 times beyond"},
+      {"a bit slow", [](auto& f) { f.rtt_p50 = 0.01, f.rtt_p99 = 0.021; }, LinkGrade::kUsable, "round trips of 21 ms"},
+      {"jitter", [](auto& f) { f.jitter = 0.008; }, LinkGrade::kUsable, "Wi-Fi"},
+      {"much jitter", [](auto& f) { f.jitter = 0.012; }, LinkGrade::kBad, "Wi-Fi"},
+      {"a little loss", [](auto& f) { f.up->lost = 20; }, LinkGrade::kUsable, "0.2 % lost on the way up"},
+      {"some loss up", [](auto& f) { f.up->lost = 500; }, LinkGrade::kUsable, "5 % lost on the way up"},
+      {"much loss down", [](auto& f) { f.down->lost = 2000; }, LinkGrade::kBad, "20 % lost on the way down"},
+      {"one gap", [](auto& f) { f.down->longest_gap = 0.03, f.pauses = 1; }, LinkGrade::kUsable, "30 ms down, 1 time beyond"},
+      {"gaps", [](auto& f) { f.down->longest_gap = 0.03, f.pauses = 9; }, LinkGrade::kBad, "9 times beyond"},
+      {"outage", [](auto& f) { f.down->longest_gap = 0.4, f.pauses = 1; }, LinkGrade::kBad, "400 ms down, 1 time beyond"},
+      {"outage up", [](auto& f) { f.up->longest_gap = 0.4; }, LinkGrade::kBad, "up to 400 ms up"},
+      {"gone for a while", [](auto& f) { f.down->longest_gap = 2, f.pauses = 1; }, LinkGrade::kBad, "nothing at all for 2.0 s"},
+      {"lost", [](auto& f) { f.down->longest_gap = f.silent_at_end = 3, f.pauses = 1; }, LinkGrade::kBad, "in the last 3.0 s"},
       {"late", [](auto& f) { f.late_ticks = 100; }, LinkGrade::kUsable, "not the network"},
       {"very late", [](auto& f) { f.missed_ticks = 1000; }, LinkGrade::kBad, "not the network"},
       {"clock", [](auto& f) { f.clock_step = -0.25; }, LinkGrade::kUsable, "set by -250.0 ms"},
@@ -64,6 +71,18 @@ TEST(LinkVerdict, NamesEachTroubleAndItsRemedy) {
     EXPECT_TRUE(advises(v, c.advice)) << (v.advice.empty() ? "" : v.advice.front());
     EXPECT_FALSE(v.words.empty());
   }
+}
+
+TEST(LinkVerdict, ATestWhoseServerWasLostIsNotWhole) {
+  LinkFindings f = perfect();
+  EXPECT_FALSE(server_lost(f));
+  f.silent_at_end = 0.4;
+  EXPECT_FALSE(server_lost(f)) << "an outage may end";
+  f.silent_at_end = 0.6;
+  EXPECT_TRUE(server_lost(f));
+  EXPECT_NE(judge(f).words.find("the server was lost"), std::string::npos);
+  f.silence_limit = 0.7;
+  EXPECT_FALSE(server_lost(f)) << "this scene waits so long";
 }
 
 TEST(LinkVerdict, SaysNotKnownInsteadOfZero) {

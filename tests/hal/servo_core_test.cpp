@@ -224,6 +224,25 @@ TEST_F(ServoCoreTest, WithoutAnswersForTenMillisecondsItIsAFaultWithZeros) {
   EXPECT_EQ(core->counts().unanswered, 10U);
 }
 
+// A host that stood still asked nothing in that time; an answer that then comes late is one missing answer, not 30 ms of silence.
+TEST_F(ServoCoreTest, AStandstillOfTheHostIsNoSilenceOfTheDevice) {
+  bring_up();
+  ASSERT_TRUE(core->enable());
+  steps(600);
+  for (int i = 0; i < 20; ++i) {
+    now += 30ms;
+    driver->how = Exchange::kNothing;
+    step();
+    ASSERT_EQ(core->phase(), Phase::kEnabled);
+    driver->how = Exchange::kFresh;
+    step();
+  }
+  // But a device that never answers is found out, however slow the host asks.
+  driver->how = Exchange::kNothing;
+  for (int i = 0; i < 5; ++i) now += 30ms, step();
+  EXPECT_EQ(core->phase(), Phase::kFault);
+}
+
 TEST_F(ServoCoreTest, UnpluggedIsLostWithinThisStepAndForEver) {
   bring_up();
   ASSERT_TRUE(core->enable());

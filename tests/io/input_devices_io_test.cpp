@@ -1,6 +1,8 @@
 // Devices without motors at a real session: a recorded motion as a device leads a follower.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "tests/io/programs.h"
 
 namespace tandem::test {
@@ -17,6 +19,11 @@ TEST(ReplayLive, LeadsASession) {
   EXPECT_EQ(host.wait(), 0) << host.err();
   EXPECT_EQ(folder.json("c.json")["ended_by"], "done");
   EXPECT_NE(trainer.err().find("m.csv"), std::string::npos) << trainer.err();
+  const Json device = folder.json("c.json")["device_statistics"];
+  std::uint64_t held = 0;
+  for (const Json& bucket : device["round_trip_ms"]["buckets"]) held += bucket["count"].get<std::uint64_t>();
+  EXPECT_EQ(held, device["exchanges"].get<std::uint64_t>()) << device.dump(1);
+  EXPECT_NE(trainer.err().find("round trip: p50 "), std::string::npos) << trainer.err();
   EXPECT_GT(folder.json("s.json")["seats"][0]["speed_peak_m_s"].get<double>(), 0.01) << "it moved";
 }
 
@@ -30,6 +37,60 @@ TEST(OpenHapticsLive, SaysThatTheVendorsLibraryIsMissing) {
   Process trainer = client("127.0.0.1:9", "trainer", {"--patience", "0.2"}, "openhaptics:left,library=/no/such/libHD.so");
   EXPECT_EQ(trainer.wait(), 1);
   EXPECT_NE(trainer.err().find("Install the vendor's OpenHaptics"), std::string::npos) << trainer.err();
+}
+
+TEST(ReplayLive, ThatLeavesTheWorkspaceIsRefusedBeforeAnybodyIsAsked) {
+  const Folder folder;
+  const std::string motion = folder.write("wide.csv", "t_s[s],px[m],py[m],pz[m]\n0,0,0,0\n1,0,0.3,0\n2,0,0,0\n");
+  Process trainer = client("127.0.0.1:9", "trainer", {}, "replay:" + motion + ",scale=1");
+  EXPECT_EQ(trainer.wait(), 2);
+  EXPECT_NE(trainer.err().find("wide.csv:2: y of the device = -0.15 m"), std::string::npos) << trainer.err();
+  EXPECT_NE(trainer.err().find("[-0.1, 0.1] m"), std::string::npos) << trainer.err();
+}
+
+TEST(DeviceWords, AllMistakesAreToldTogether) {
+  const Folder folder;
+  const std::string file = folder.write("mine.textproto", "falcon {\n  peak_n: 99\n}\n");
+  const std::string words = "falcon:prot=1,calibration=" + file + ",firmware=/no/such.bin";
+  for (Words command : {Words{TANDEM_CLIENT, "join", "--server", "127.0.0.1:9", "--seat", "trainer", "--duration", "-1", "--device", words},
+                        Words{TANDEM_CLIENT, "doctor", "--seconds", "nan", "--device", words},
+                        Words{TANDEM_CLIENT, "weigh", "--mass", "-1", "--device", words}}) {
+    Process process{command};
+    EXPECT_EQ(process.wait(), 2) << command[1];
+    for (const char* part : {"has no option 'prot'", "mine.textproto:2:", "/no/such.bin", "4 mistakes"})
+      EXPECT_NE(process.err().find(part), std::string::npos) << command[1] << ": " << part << "\n" << process.err();
+  }
+}
+
+TEST(Weigh, RefusesAMassThatNoMotorHolds) {
+  Process process{Words{TANDEM_CLIENT, "weigh", "--device", "falcon", "--mass", "0.5", "--lying"}};
+  EXPECT_EQ(process.wait(), 2);
+  EXPECT_NE(process.err().find("--mass: 0.5 kg takes 4.9 N"), std::string::npos) << process.err();
+  EXPECT_NE(process.err().find("Begin with 0.02 and 0.03"), std::string::npos) << process.err();
+}
+
+TEST(Doctor, InstallsItsRulesIntoAnotherRoot) {
+  const Folder folder;
+  Process process{Words{TANDEM_CLIENT, "doctor", "--install-udev", "--root", folder.file("root")}};
+  EXPECT_EQ(process.wait(), 0) << process.err();
+  const std::string rules = folder.read("root/etc/udev/rules.d/70-tandem.rules");
+  for (const char* part : {"\"0403\", ATTR{idProduct}==\"cb48\"", "*:1234:0006.*", "*:046D:C626.*", "*:256F:*"})
+    EXPECT_NE(rules.find(part), std::string::npos) << part << "\n" << rules;
+  std::istringstream lines(rules);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_TRUE(line.starts_with('#') || line.starts_with("SUBSYSTEM==")) << line;
+  folder.write("file", "");
+  Process cannot{Words{TANDEM_CLIENT, "doctor", "--install-udev", "--root", folder.file("file")}};
+  EXPECT_EQ(cannot.wait(), 1);
+  EXPECT_NE(cannot.err().find("cannot be written"), std::string::npos) << cannot.err();
+  Process alone{Words{TANDEM_CLIENT, "doctor", "--root", folder.file("root")}};
+  EXPECT_EQ(alone.wait(), 2);
+}
+
+TEST(Doctor, NamesTheLibrariesItLooksWith) {
+  Process process{Words{TANDEM_CLIENT, "doctor"}};
+  EXPECT_TRUE(process.wait().has_value());
+  for (const char* part : {"libusb 1.", "hidapi 0.", "evdev of Linux"}) EXPECT_NE(process.out().find(part), std::string::npos) << process.out();
 }
 
 }  // namespace

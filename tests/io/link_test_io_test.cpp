@@ -89,6 +89,41 @@ TEST(LinkTestLive, EndsByCtrlCWithWhatItHas) {
   EXPECT_NE(test.out().find("round trip"), std::string::npos) << test.out();
 }
 
+TEST(LinkTestLive, SaysThatItWasSigtermThatEndedIt) {
+  const Process host = hosting("one_axis");
+  Process test = link_test(address_of(host), {"--duration", "60", "--json", "-"});
+  ASSERT_TRUE(test.wait_for("link test: ")) << test.err();
+  test.signal(SIGTERM);
+  const Json j = findings(test);
+  EXPECT_NE(test.err().find("ended by SIGTERM"), std::string::npos) << test.err();
+  EXPECT_EQ(test.err().find("Ctrl-C"), std::string::npos) << test.err();
+  EXPECT_EQ(j["complete"], false);
+  EXPECT_EQ(j["ended_by"], "interrupted");
+}
+
+TEST(LinkTestLive, IsNotCompleteWhenTheServerIsKilledInTheMiddle) {
+  Process host = hosting("one_axis");
+  Process test = link_test(address_of(host), {"--duration", "60", "--json", "-"});
+  ASSERT_TRUE(test.wait_for("link test: ")) << test.err();
+  host.signal(SIGKILL);
+  const Json j = findings(test);
+  EXPECT_EQ(j["complete"], false);
+  EXPECT_EQ(j["ended_by"], "server_lost");
+  EXPECT_EQ(j["verdict"], "BAD");
+  EXPECT_LT(j["duration_s"].get<double>(), 55) << "there was nothing more to learn";
+  EXPECT_NE(test.err().find("the server was lost"), std::string::npos) << test.err();
+}
+
+TEST(LinkTestLive, AnOutageOf400MillisecondsIsNotUsable) {
+  const Process host = hosting("one_axis");
+  const Process proxy = proxy_to(address_of(host), {"--delay", "2", "--outage", "1.5,0.4"});
+  Process test = link_test(address_of(proxy), {"--duration", "4", "--json", "-"});
+  const Json j = findings(test);
+  EXPECT_EQ(j["verdict"], "BAD") << j.dump(1);
+  EXPECT_EQ(j["complete"], true);
+  EXPECT_GE(j["down"]["longest_gap_ms"].get<double>(), 380);
+}
+
 TEST(LinkTestLive, SaysWhenTheServerEnds) {
   Process host = hosting("one_axis");
   Process test = link_test(address_of(host), {"--duration", "60"});

@@ -149,10 +149,57 @@ TEST(LiveSession, IsHeldWhenWhoeverHasAuthorityIsKilled) {
   EXPECT_TRUE(host.wait_for("HELD")) << host.err();
   host.signal(SIGTERM);
   EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_NE(host.err().find("ended by SIGTERM: all hands are let go gently"), std::string::npos) << host.err();
   EXPECT_EQ(evaluator.wait(), 0) << evaluator.err();
   const Json report = folder.json("s.json");
   EXPECT_EQ(report["ended_by"], "signal");
   EXPECT_EQ(report["verdict"], "pass") << report["violations"];
+}
+
+TEST(LiveSession, TellsTheDevicesPeriodsAsAHistogram) {
+  const Folder folder;
+  Process host = hosting("one_axis", {"--duration", "2"});
+  Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json")});
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  const Json j = folder.json("c.json");
+  EXPECT_EQ(j["verdict"], "pass");
+  const Json& device = j["device_statistics"];
+  for (const char* count : {"exchanges", "late", "missed_periods", "unanswered", "resyncs"}) EXPECT_TRUE(device[count].is_number_unsigned()) << count;
+  std::uint64_t held = 0;
+  double before = 0;
+  for (const Json& bucket : device["period_ms"]["buckets"]) {
+    EXPECT_GE(bucket["from"].get<double>(), before - 1e-9);
+    before = bucket["to"].get<double>();
+    EXPECT_GT(before, bucket["from"].get<double>());
+    held += bucket["count"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(held, device["period_ms"]["count"].get<std::uint64_t>());
+  EXPECT_EQ(held, device["exchanges"].get<std::uint64_t>());
+  EXPECT_TRUE(device["round_trip_ms"].is_null()) << "a simulated device exchanges nothing";
+  EXPECT_NE(trainer.err().find("device: "), std::string::npos) << trainer.err();
+  EXPECT_NE(trainer.err().find("period: p50 "), std::string::npos) << trainer.err();
+}
+
+TEST(LiveSession, WhatNeverRanIsNotJudged) {
+  const Folder folder;
+  Process host = hosting("free_motion");
+  Process trainer = client(address_of(host), "trainer", {"--duration", "0.5", "--json", folder.file("c.json")});
+  EXPECT_EQ(trainer.wait(), 1) << trainer.err();
+  EXPECT_EQ(folder.json("c.json")["verdict"], "not_judged");
+  EXPECT_EQ(folder.json("c.json")["ended_by"], "left");
+  EXPECT_NE(trainer.err().find("the session never ran"), std::string::npos) << trainer.err();
+  Process nobody = client("127.0.0.1:9", "trainer", {"--patience", "0.2", "--json", folder.file("n.json")});
+  EXPECT_EQ(nobody.wait(), 1);
+  EXPECT_EQ(folder.json("n.json")["verdict"], "not_judged");
+  EXPECT_EQ(folder.json("n.json")["ended_by"], "never_attached");
+  EXPECT_NE(folder.json("n.json")["reason"].get<std::string>().find("no server at"), std::string::npos);
+  const std::string motion = folder.write("m.csv", "t_s[s],px[m],py[m],pz[m]\n0,0,0,0\n1,0.01,0,0\n");
+  Process ended = client("127.0.0.1:9", "trainer", {"--patience", "60", "--json", folder.file("e.json")}, "replay:" + motion);
+  ASSERT_TRUE(ended.wait_for("ready")) << ended.err();  // the device; now it asks for a seat
+  ended.signal(SIGTERM);
+  EXPECT_EQ(ended.wait(), 1);
+  EXPECT_NE(ended.err().find("ended by SIGTERM"), std::string::npos) << ended.err();
+  EXPECT_EQ(folder.json("e.json")["verdict"], "not_judged");
 }
 
 TEST(LiveSession, EndsGentlyOnCtrlCOfTheClient) {
@@ -173,7 +220,7 @@ TEST(LiveSession, WaitsForRequiredSeatsAsLongAsItWasTold) {
   Process trainer = client(address_of(host), "trainer");
   EXPECT_EQ(host.wait(), 1);
   EXPECT_NE(host.err().find("trainee (nobody joined)"), std::string::npos) << host.err();
-  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(trainer.wait(), 1) << "nothing ran, nothing is judged";
 }
 
 }  // namespace

@@ -73,6 +73,32 @@ TEST(Histogram, BinsFollowEachOtherWithoutGap) {
   }
 }
 
+TEST(Histogram, BucketsHoldEveryValueOnceAndFollowEachOther) {
+  Histogram h;
+  for (std::int64_t v = 0; v < 3'000'000; v += 997) h.add(v);
+  h.add(std::numeric_limits<std::int64_t>::max());
+  std::uint64_t held = 0;
+  std::int64_t before = -1;
+  h.each_bucket([&](std::int64_t first, std::int64_t last, std::uint64_t count) {
+    EXPECT_GT(first, before);
+    EXPECT_GE(last, first);
+    if (first >= 64) {
+      EXPECT_LE(static_cast<double>(last - first), 0.25 * static_cast<double>(first)) << first;
+    }
+    held += count;
+    before = last;
+  });
+  EXPECT_EQ(held, h.count());
+  EXPECT_EQ(before, std::numeric_limits<std::int64_t>::max());
+  Histogram one;
+  one.add(1'000'000);  // 2^19 * 1.907: the last quarter of its octave, 7/8 of 2^20 to 2^20 - 1
+  one.each_bucket([](std::int64_t first, std::int64_t last, std::uint64_t count) {
+    EXPECT_EQ(first, 917'504);
+    EXPECT_EQ(last, 1'048'575);
+    EXPECT_EQ(count, 1u);
+  });
+}
+
 TEST(Histogram, MergesAsIfAddedHere) {
   Histogram a, b, both;
   for (int i = 0; i < 1000; ++i) {

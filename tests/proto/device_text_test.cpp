@@ -85,5 +85,28 @@ TEST(DeviceText, RefusesWhatContradictsItself) {
   EXPECT_FALSE(mistakes("").empty()) << "an empty file";
 }
 
+TEST(DeviceText, WhatIsNoTextIsOneMistakeNotOnePerByte) {
+  std::string program = "falcon {\n\x7f" "ELF";
+  for (int i = 0; i < 4000; ++i) program += static_cast<char>(i * 37);
+  for (const char* name : {"mine.textproto", "mine.json"}) {
+    const auto spec = parse_device_text(program, name);
+    ASSERT_FALSE(spec);
+    ASSERT_EQ(spec.error().size(), 1u) << to_text(spec.error());
+    EXPECT_EQ(spec.error()[0].line, 2);
+    EXPECT_EQ(spec.error()[0].column, 1);
+    EXPECT_NE(spec.error()[0].message.find("is not text: it has the byte 0x7f"), std::string::npos) << spec.error()[0].message;
+  }
+  EXPECT_EQ(parse_device_text(std::string(10'000'000, '\0'), "zero").error().size(), 1u);
+  EXPECT_TRUE(parse_device_text("falcon {\r\n\tflags { homing: 1 } # \xc3\xa9\r\n}", "mine.textproto"));
+}
+
+TEST(DeviceText, RemembersWhereReadingsStand) {
+  const auto spec = parse_device_text(std::string("falcon {\n  measured: \"me\"\n  ") + kReading + "\n" + kReading + "\n}", "mine.textproto");
+  ASSERT_TRUE(spec) << to_text(spec.error());
+  EXPECT_EQ(spec->falcon->line, 1);
+  EXPECT_EQ(spec->falcon->readings[0].line, 3);
+  EXPECT_EQ(spec->falcon->readings[1].line, 4);
+}
+
 }  // namespace
 }  // namespace tandem

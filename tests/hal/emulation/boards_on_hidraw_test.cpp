@@ -108,7 +108,7 @@ TEST(BoardOnHidraw, UnpluggedAtAnyReportEndsBootOrServo) {
   for (unsigned at = 1; at <= 12; ++at) {
     SCOPED_TRACE(at);
     BoardSeat seat(bed);
-    seat.node.unplug_at_write(at);
+    seat.node.unplug_at(at);
     std::optional<Errc> error;
     if (const auto up = seat.bring_up(); !up) error = up.error().code;
     for (int i = 0; i < 40 && !error; ++i) error = error_of(seat.tick());

@@ -147,7 +147,7 @@ TEST(FalconOnLibusb, UnpluggedAtAnyTransferOfItsBootItIsSaid) {
   for (const unsigned at : {1u, 2u, 3u, 5u, 8u, 13u, 21u, 34u, 55u, 89u, 144u, 233u}) {
     SCOPED_TRACE(at);
     FalconSeat seat(bed, {});
-    seat.node.unplug_at_transfer(at);
+    seat.node.unplug_at(at);
     const auto up = seat.bring_up();
     ASSERT_FALSE(up);
     EXPECT_EQ(up.error().code, Errc::kUnplugged) << up.error().message;
@@ -161,7 +161,7 @@ TEST(FalconOnLibusb, UnpluggedAtAnyTransferOfTheServoEndsTheExchange) {
     SCOPED_TRACE(at);
     FalconSeat seat(bed, hal::falcon::ready_model());
     ASSERT_TRUE(seat.bring_up());
-    seat.node.unplug_at_transfer(at);
+    seat.node.unplug_at(at);
     std::optional<Errc> error;
     for (int i = 0; i < 20 && !error; ++i) error = error_of(seat.tick(seat.push));
     EXPECT_EQ(error, Errc::kUnplugged);

@@ -73,7 +73,6 @@ TEST_F(HidPipe, IsListedWithItsNamesUsageAndSocketBeforeAnybodyOpensIt) {
 TEST_F(HidPipe, CarriesReportsInLockStepWithoutHeap) {
   auto pipe = open();
   ASSERT_TRUE(pipe);
-  EXPECT_TRUE(std::ranges::equal(pipe->report_descriptor(), model.report_descriptor()));
   std::array<std::byte, 64> into{};
   const auto sent = report(3);
   int wrong = 0;
@@ -187,7 +186,7 @@ TEST(HidUnplug, AtEveryReportOfAConversationIsSeenAtOnceAndForGood) {
     {
       const auto pipe = HidrawPipe::open(hal::list_hidraw().at(0));
       ASSERT_TRUE(pipe) << pipe.error().message;
-      node.unplug_at_write(at);
+      node.unplug_at(at);
       std::optional<Errc> error;
       unsigned written = 0;
       while (!error && written < 5) {

@@ -2,6 +2,7 @@
 
 #include <linux/hidraw.h>
 #include <linux/input.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,6 @@
 #include <cstring>
 #include <span>
 
-#include "common/io/clock.h"
 #include "hal/report_descriptor.h"
 
 namespace tandem::test {
@@ -27,22 +27,20 @@ int error_of(WireStatus status) {
 }  // namespace
 
 HidrawNode::HidrawNode(hal::wire::HidWireModel& model)
-    : model_(model), numbered_(hal::has_report_ids(model.report_descriptor())), served_at_(io::monotonic_now()) {
+    : ModelNode(model), numbered_(hal::has_report_ids(model.report_descriptor())) {
   appear();
 }
 HidrawNode::~HidrawNode() { vanish(); }
 
 void HidrawNode::serve() {
-  if (gone_) return;
-  const Time now = io::monotonic_now();
-  model_.advance(now - served_at_);
-  served_at_ = now;
+  if (gone()) return;
+  advance();
   std::array<std::byte, kReportMax> report{};
-  while (const auto got = model_.report_in(report)) {
+  while (const auto got = model().report_in(report)) {
     if (queue_.size() < kQueueMax)
       queue_.emplace_back(report.begin(), report.begin() + static_cast<std::ptrdiff_t>(*got));
   }
-  if (!queue_.empty()) gate().readable(true);
+  if (!queue_.empty()) changed_.notify_all();
 }
 
 void HidrawNode::service() {
@@ -53,35 +51,46 @@ void HidrawNode::service() {
 ssize_t HidrawNode::on_read(void* into, std::size_t size) {
   const std::lock_guard hold(mutex_);
   serve();
-  if (queue_.empty()) {
-    gate().readable(false);
-    return gone_ ? -EIO : -EAGAIN;
-  }
+  if (queue_.empty()) return gone() ? -EIO : -EAGAIN;
   const auto& report = queue_.front();
   const std::size_t moved = std::min(size, report.size());
   std::memcpy(into, report.data(), moved);
   queue_.pop_front();
-  if (queue_.empty()) gate().readable(false);
   return static_cast<ssize_t>(moved);
+}
+
+std::optional<short> HidrawNode::on_poll(int timeout_ms) {
+  std::unique_lock hold(mutex_);
+  serve();
+  const auto ready = [&] { return gone() || !queue_.empty(); };
+  if (timeout_ms < 0) {
+    changed_.wait(hold, ready);
+  } else {
+    changed_.wait_for(hold, std::chrono::milliseconds(timeout_ms), ready);
+  }
+  return static_cast<short>(gone() ? POLLERR | POLLHUP : queue_.empty() ? 0 : POLLIN);
+}
+
+void HidrawNode::end_transfers() {
+  queue_.clear();
+  changed_.notify_all();
 }
 
 ssize_t HidrawNode::on_write(const void* from, std::size_t size) {
   const std::lock_guard hold(mutex_);
-  ++writes_;
-  if (unplug_at_ != 0 && writes_ == unplug_at_) pull();
-  if (gone_) return -ENODEV;
+  if (!hand_in()) return -ENODEV;
   if (size < 1) return -EINVAL;
   serve();
   const std::span bytes(static_cast<const std::byte*>(from), size);
-  const auto moved = model_.report_out(numbered_ ? bytes : bytes.subspan(1));
+  const auto moved = model().report_out(numbered_ ? bytes : bytes.subspan(1));
   serve();
   return moved ? static_cast<ssize_t>(size) : -error_of(moved.error());
 }
 
 long HidrawNode::on_ioctl(int, unsigned long request, void* argument) {
   const std::lock_guard hold(mutex_);
-  if (gone_) return -ENODEV;
-  const auto descriptor = model_.report_descriptor();
+  if (gone()) return -ENODEV;
+  const auto descriptor = model().report_descriptor();
   const std::size_t room = _IOC_SIZE(request);
   if (request == HIDIOCGRDESCSIZE) {
     *static_cast<int*>(argument) = static_cast<int>(descriptor.size());
@@ -94,33 +103,16 @@ long HidrawNode::on_ioctl(int, unsigned long request, void* argument) {
   }
   if (request == HIDIOCGRAWINFO) {
     auto& answer = *static_cast<hidraw_devinfo*>(argument);
-    answer = {BUS_USB, static_cast<short>(model_.vendor_id()), static_cast<short>(model_.product_id())};
+    answer = {BUS_USB, static_cast<short>(model().vendor_id()), static_cast<short>(model().product_id())};
     return 0;
   }
   constexpr unsigned kSetFeature = 6, kGetFeature = 7;  // HIDIOCSFEATURE and HIDIOCGFEATURE carry a length
   const std::span buffer(static_cast<std::byte*>(argument), room);
   if (_IOC_NR(request) == kSetFeature || _IOC_NR(request) == kGetFeature) {
-    const auto moved = _IOC_NR(request) == kSetFeature ? model_.feature_set(buffer) : model_.feature_get(buffer);
+    const auto moved = _IOC_NR(request) == kSetFeature ? model().feature_set(buffer) : model().feature_get(buffer);
     return moved ? static_cast<long>(*moved) : -error_of(moved.error());
   }
   return -EINVAL;
-}
-
-void HidrawNode::pull() {
-  gone_ = true;
-  model_.unplug();
-  queue_.clear();
-  gate().hang_up();
-}
-
-void HidrawNode::unplug() {
-  const std::lock_guard hold(mutex_);
-  pull();
-}
-
-void HidrawNode::unplug_at_write(unsigned count) {
-  const std::lock_guard hold(mutex_);
-  unplug_at_ = writes_ + count;
 }
 
 }  // namespace tandem::test

@@ -1,6 +1,7 @@
-// The test program's own ioctl, read and write: exported (-rdynamic), they come before those of umockdev and of libc.
+// The test program's own ioctl, read, write and poll: exported (-rdynamic), they come before those of umockdev and of libc.
 #include <asm/ioctl.h>
 #include <dlfcn.h>
+#include <linux/poll.h>
 #include <sys/types.h>
 
 #include <cerrno>
@@ -60,5 +61,17 @@ extern "C" {
   if (auto* node = tandem::test::Node::of(fd)) return as_libc(inside([&] { return node->on_write(from, size); }));
   static const auto other = next<ssize_t (*)(int, const void*, size_t)>("write");
   return other(fd, from, size);
+}
+
+[[gnu::visibility("default")]] int poll(pollfd* files, unsigned long count, int timeout_ms) {
+  if (count == 1) {
+    auto* node = tandem::test::Node::of(files->fd);
+    if (const auto ready = node == nullptr ? std::nullopt : inside([&] { return node->on_poll(timeout_ms); })) {
+      files->revents = static_cast<short>(*ready & (files->events | POLLERR | POLLHUP));
+      return files->revents == 0 ? 0 : 1;
+    }
+  }
+  static const auto other = next<int (*)(pollfd*, unsigned long, int)>("poll");
+  return other(files, count, timeout_ms);
 }
 }

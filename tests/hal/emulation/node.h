@@ -8,12 +8,13 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
-/// The kernel's side of a device node, inside the test program: it defines `ioctl`, `read` and `write` itself
+/// The kernel's side of a device node, inside the test program: it defines `ioctl`, `read`, `write`, `poll` itself
 /// (interpose.cpp), and those on an emulated node end here, so that real libusb and hidapi run at the speed of a
-/// function call. The node is a pseudo terminal, because libraries poll() it; umockdev gives it its name, its sysfs and
+/// function call. The node is a pseudo terminal, because libusb poll()s it among others; umockdev gives it its name, its sysfs and
 /// its uevents.
 namespace tandem::test {
 
@@ -26,14 +27,12 @@ class PollGate {
   [[nodiscard]] const std::string& path() const { return path_; }  ///< of the slave: what a node's name leads to
   [[nodiscard]] unsigned number() const { return minor_; }         ///< minor number
   void writable(bool yes);                                         ///< POLLOUT
-  void readable(bool yes);                                         ///< POLLIN
   void hang_up();                                                  ///< POLLERR | POLLHUP for ever
 
  private:
   int master_ = -1, slave_ = -1;
   unsigned minor_ = 0;
   std::string path_;
-  bool readable_ = false;
 };
 
 /// One emulated node. Handlers run on the caller's thread and return -errno as in the kernel. A thread of the bus calls
@@ -47,6 +46,9 @@ class Node {
   virtual long on_ioctl(int fd, unsigned long request, void* argument) = 0;
   virtual ssize_t on_read(void* into, std::size_t size);
   virtual ssize_t on_write(const void* from, std::size_t size);
+  /// Waits for one of POLLIN, POLLERR, POLLHUP; nothing: the pseudo terminal knows. A terminal's own POLLIN comes through a
+  /// thread of the kernel that a busy machine keeps waiting for milliseconds.
+  virtual std::optional<short> on_poll(int timeout_ms);
   virtual void service() = 0;
 
   [[nodiscard]] PollGate& gate() { return gate_; }

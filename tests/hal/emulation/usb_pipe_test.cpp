@@ -262,10 +262,10 @@ TEST(UsbUnplug, AtEveryTransferOfAConversationIsSeenAtOnceAndForGood) {
     {
       const auto pipe = LibusbPipe::open(hal::list_usb().at(0));
       ASSERT_TRUE(pipe) << pipe.error().message;
-      const unsigned before = node.transfers();
-      node.unplug_at_transfer(at);
+      const unsigned before = node.handed_in();
+      node.unplug_at(at);
       const auto error = converse(**pipe);
-      transfers = node.transfers() - before;
+      transfers = node.handed_in() - before;
       constexpr unsigned kAll = 12;  // the last one is a reading ahead, whose failure the next call tells
       EXPECT_EQ(error, at < kAll ? std::optional(Errc::kUnplugged) : std::nullopt);
       if (at <= kAll) {
@@ -274,7 +274,7 @@ TEST(UsbUnplug, AtEveryTransferOfAConversationIsSeenAtOnceAndForGood) {
         EXPECT_EQ(error_of((*pipe)->write(frame(1), kPatient)), Errc::kUnplugged);
         EXPECT_EQ(error_of((*pipe)->control(1, 1, 1)), Errc::kUnplugged);
         EXPECT_EQ(error_of((*pipe)->clear_halt()), Errc::kUnplugged);
-        EXPECT_EQ(node.transfers() - before, transfers) << "nothing more goes to a lost device";
+        EXPECT_EQ(node.handed_in() - before, transfers) << "nothing more goes to a lost device";
       }
     }
     bed.remove("1-2");

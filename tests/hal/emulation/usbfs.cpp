@@ -10,8 +10,6 @@
 #include <span>
 #include <utility>
 
-#include "common/io/clock.h"
-
 namespace tandem::test {
 
 using hal::wire::SetupPacket;
@@ -37,19 +35,13 @@ std::span<std::byte> bytes_of(void* buffer, int size) {
 }  // namespace
 
 UsbfsNode::UsbfsNode(hal::wire::UsbWireModel& model, std::string kernel_driver)
-    : model_(model), driver_(std::move(kernel_driver)), served_at_(io::monotonic_now()) {
+    : ModelNode(model), driver_(std::move(kernel_driver)) {
   appear();
 }
 UsbfsNode::~UsbfsNode() { vanish(); }
 
-void UsbfsNode::advance() {
-  const Time now = io::monotonic_now();
-  model_.advance(now - served_at_);
-  served_at_ = now;
-}
-
 void UsbfsNode::serve() {
-  if (gone_) return;
+  if (gone()) return;
   advance();
   // What goes out may be answered at once, by a reading that was handed in before.
   for (bool moved = true; moved;) {
@@ -78,11 +70,11 @@ bool UsbfsNode::carry_out(Urb& urb) {
   WireMoved moved = std::unexpected(WireStatus::kStall);
   if (u.type == USBDEVFS_URB_TYPE_CONTROL) {
     const SetupPacket setup = hal::wire::setup_from(buffer.first<kSetupSize>());
-    moved = model_.control(
+    moved = model().control(
         setup, buffer.subspan(kSetupSize).first(std::min<std::size_t>(setup.length, buffer.size() - kSetupSize)));
   } else if ((u.endpoint & 0x80) != 0) {
     std::array<std::byte, kPacketMax> packet{};
-    moved = model_.bulk_in(u.endpoint, packet);
+    moved = model().bulk_in(u.endpoint, packet);
     if (moved) {
       const std::size_t kept = std::min(*moved, buffer.size());
       std::copy_n(packet.begin(), kept, buffer.begin());
@@ -90,7 +82,7 @@ bool UsbfsNode::carry_out(Urb& urb) {
       *moved = kept;
     }
   } else {
-    moved = model_.bulk_out(u.endpoint, buffer);
+    moved = model().bulk_out(u.endpoint, buffer);
   }
   if (moved) {
     urb.moved = static_cast<int>(*moved);
@@ -107,9 +99,7 @@ void UsbfsNode::finish(Urb urb) {
 }
 
 long UsbfsNode::submit(void* argument) {
-  ++transfers_;
-  if (unplug_at_ != 0 && transfers_ == unplug_at_) pull();
-  if (gone_) return -ENODEV;
+  if (!hand_in()) return -ENODEV;
   auto* owner = static_cast<usbdevfs_urb*>(argument);
   if (owner->type == USBDEVFS_URB_TYPE_CONTROL && owner->buffer_length < static_cast<int>(kSetupSize)) return -EINVAL;
   if (owner->type != USBDEVFS_URB_TYPE_CONTROL && owner->type != USBDEVFS_URB_TYPE_BULK) return -EINVAL;
@@ -119,10 +109,10 @@ long UsbfsNode::submit(void* argument) {
 }
 
 long UsbfsNode::reap(void* argument) {
-  if (done_.empty()) return gone_ ? -ENODEV : -EAGAIN;
+  if (done_.empty()) return gone() ? -ENODEV : -EAGAIN;
   const Urb urb = done_.front();
   done_.pop_front();
-  if (done_.empty() && !gone_) gate().writable(false);
+  if (done_.empty() && !gone()) gate().writable(false);
   urb.owner->status = urb.status;
   urb.owner->actual_length = urb.moved;
   *static_cast<void**>(argument) = urb.owner;
@@ -131,7 +121,7 @@ long UsbfsNode::reap(void* argument) {
 
 long UsbfsNode::discard(void* argument) {
   const auto urb = std::ranges::find(pending_, static_cast<usbdevfs_urb*>(argument), &Urb::owner);
-  if (urb == pending_.end()) return gone_ ? -ENODEV : -EINVAL;
+  if (urb == pending_.end()) return gone() ? -ENODEV : -EINVAL;
   finish({urb->owner, -ENOENT, 0});
   pending_.erase(urb);
   return 0;
@@ -159,27 +149,9 @@ long UsbfsNode::driver_request(void* argument) {
   return -ENOTTY;
 }
 
-void UsbfsNode::pull() {
-  gone_ = true;
-  model_.unplug();
+void UsbfsNode::end_transfers() {
   for (Urb& urb : pending_) finish({urb.owner, -ESHUTDOWN, 0});
   pending_.clear();
-  gate().hang_up();
-}
-
-void UsbfsNode::unplug() {
-  const std::lock_guard hold(mutex_);
-  pull();
-}
-
-void UsbfsNode::unplug_at_transfer(unsigned count) {
-  const std::lock_guard hold(mutex_);
-  unplug_at_ = transfers_ + count;
-}
-
-unsigned UsbfsNode::transfers() const {
-  const std::lock_guard hold(mutex_);
-  return transfers_;
 }
 
 std::string UsbfsNode::kernel_driver() const {
@@ -200,7 +172,7 @@ long UsbfsNode::on_ioctl(int fd, unsigned long request, void* argument) {
     default:
       break;
   }
-  if (gone_) return -ENODEV;
+  if (gone()) return -ENODEV;
   switch (request) {
     case USBDEVFS_GET_CAPABILITIES:
       *static_cast<std::uint32_t*>(argument) =
@@ -224,7 +196,7 @@ long UsbfsNode::on_ioctl(int fd, unsigned long request, void* argument) {
       constexpr std::uint8_t kToEndpoint = 0x02, kClearFeature = 1;
       const auto endpoint = static_cast<std::uint16_t>(*static_cast<unsigned*>(argument));
       advance();
-      return model_.control({kToEndpoint, kClearFeature, 0, endpoint, 0}, {}) ? 0 : -EPIPE;
+      return model().control({kToEndpoint, kClearFeature, 0, endpoint, 0}, {}) ? 0 : -EPIPE;
     }
     default:
       return -ENOTTY;  // also USBDEVFS_DISCONNECT_CLAIM: libusb then does both steps by themselves

@@ -3,16 +3,22 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 
-#include <cmath>
 #include <cstdio>
+#include <functional>
+#include <optional>
 #include <thread>
-#include <vector>
 
 #include "client/app/attend.h"
 #include "common/io/clock.h"
 #include "hal/app/device_files.h"
+#include "hal/io/motion_file.h"
+#include "hal/port_map.h"
+#include "hal/woodenhaptics/motors.h"
 #include "proto/presets_embedded.h"
+#include "proto/wire.h"
+#include "tests/hal/emulation/seat_trace.h"
 #include "tests/hal/emulation/testbed.h"
+#include "tests/hal/emulation/wire_tap.h"
 #include "tests/hal/falcon/bench.h"
 #include "tests/hal/woodenhaptics/bench.h"
 #include "tests/io/programs.h"
@@ -22,8 +28,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kSeconds = 9;
-constexpr double kReach = 0.02;  // [m] of the trainer's motion
+constexpr double kSeconds = 9.5;       // the leader is at his seat
+constexpr double kReach = 0.025;       // [m] of his motion, to each side
+constexpr double kForceMax = 3;        // of the scene's gate [N]
+constexpr double kCountsPerNm = 10000;  // of the Falcon's motors
 
 /// The shipped preset, as somebody would keep it who checked its force scale.
 std::string checked_preset() {
@@ -36,21 +44,36 @@ constexpr const char* kFalconFile =
     "falcon {\n  force { motor_1_counts_per_nm: 10000 motor_2_counts_per_nm: 10000 motor_3_counts_per_nm: 10000 }\n"
     "  measured: \"the model's own\"\n  peak_n: 6\n}\n";
 
-/// A person at a workstation: `tandem-client join` in a thread of its own.
-struct Person {
-  Person(const std::string& server, const std::string& seat, const std::string& device, const std::string& json) {
-    client::AttendPlan plan;
-    plan.server = *io::parse_address(server, 1);
-    plan.seat = seat;
-    plan.device = device;
-    plan.json = json;
-    plan.duration_s = kSeconds;
-    plan.quiet = true;
-    thread = std::thread([this, plan] { code = client::attend(plan); });
+/// Where a hand means the Falcon's tip to be at a time: somebody's recorded hand, made smaller to fit, else a drawing.
+struct Intention {
+  std::shared_ptr<const hal::sim::RecordedMotion> recorded;
+  hal::sim::RecordedMotion::Cursor cursor;
+
+  static Intention choose() {
+    Intention out;
+    const char* folder = std::getenv("TANDEM_TRACES");
+    const std::string file = std::string(folder == nullptr ? "" : folder) + "/motion_human_handover_120hz.csv";
+    if (folder == nullptr || !std::filesystem::exists(file)) {
+      std::printf("[ NOT RUN ] a recorded human hand leads: no --traces folder with motion_human_handover_120hz.csv; a drawn motion leads\n");
+      return out;
+    }
+    auto options = *hal::sim::parse_motion_options(file + ",columns=giver_hand,end=loop,scale=1");
+    options.scale = kReach / farthest(**hal::load_motion(options));
+    out.recorded = *hal::load_motion(options);
+    std::printf("[  chain   ] a recorded human hand leads, about its middle: %s\n", out.recorded->describe().c_str());
+    return out;
   }
-  ~Person() { thread.join(); }
-  int code = -1;
-  std::thread thread;
+  static double farthest(const hal::sim::RecordedMotion& motion) {
+    hal::sim::RecordedMotion::Cursor at;
+    double most = 0;
+    for (double t = 0; t <= motion.duration(); t += 0.01) most = std::max(most, motion.at(t, at).x.cwiseAbs().maxCoeff());
+    return most;
+  }
+  hal::sim::MotionPoint at(double t) {
+    if (recorded) return recorded->at(t, cursor);
+    return {kReach * hal::Vec3(std::sin(1.3 * t), 0.5 - 0.5 * std::cos(0.9 * t), 0.5 * std::sin(2.1 * t)),
+            kReach * hal::Vec3(1.3 * std::cos(1.3 * t), 0.45 * std::sin(0.9 * t), 1.05 * std::cos(2.1 * t))};
+  }
 };
 
 /// Somebody carries an arm from its calibration pose into the workspace, once its host listens, and lets go there.
@@ -73,36 +96,115 @@ struct Carry {
   bool moving = false, there = false;
 };
 
-struct Seen {
-  hal::Vec3 low = hal::Vec3::Constant(1), high = hal::Vec3::Constant(-1);
-  double force_max = 0, work = 0;
-  hal::Vec3 before = hal::Vec3::Zero();
-  bool begun = false;
-  void see(const hal::Vec3& tip, const hal::Vec3& force) {
-    low = low.cwiseMin(tip);
-    high = high.cwiseMax(tip);
-    force_max = std::max(force_max, force.norm());
-    if (begun) work += force.dot(tip - before);
-    begun = true;
-    before = tip;
-  }
-  [[nodiscard]] double way() const { return (high - low).maxCoeff(); }
+/// A seat with its device, from both ends: what its client wrote, what came out at its plug.
+struct Seated {
+  std::string name;
+  const WireAccount* account = nullptr;
+  hal::Vec3 step, quantum;  ///< joint effort of one count of the motors [N m], angle of one of the encoders [rad]
+  std::function<Eigen::Matrix3d(const hal::Vec3&)> jacobian;
+  Json report;
+  SeatTrace trace;
 };
 
-/// How far `path` is from moving as `lead` does, wherever each began: RMS of the difference over RMS of the motion.
-double unlike(const std::vector<hal::Vec3>& path, const std::vector<hal::Vec3>& lead) {
-  const auto mean = [](const std::vector<hal::Vec3>& all) {
-    hal::Vec3 sum = hal::Vec3::Zero();
-    for (const hal::Vec3& x : all) sum += x;
-    return hal::Vec3{sum / static_cast<double>(all.size())};
-  };
-  const hal::Vec3 of_path = mean(path), of_lead = mean(lead);
-  double difference = 0, motion = 0;
-  for (std::size_t i = 0; i < lead.size(); ++i) {
-    difference += ((path[i] - of_path) - (lead[i] - of_lead)).squaredNorm();
-    motion += (lead[i] - of_lead).squaredNorm();
+/// A person at a workstation: `tandem-client join` in a thread of its own.
+struct Person {
+  Person(const Folder& folder, const std::string& server, const std::string& seat, const std::string& device, double stays_s) {
+    client::AttendPlan plan;
+    plan.server = *io::parse_address(server, 1);
+    plan.seat = seat;
+    plan.device = device;
+    plan.json = folder.file(seat + ".json");
+    plan.trace = folder.file(seat + ".csv");
+    plan.duration_s = stays_s;
+    plan.quiet = true;
+    thread = std::thread([this, plan] { code = client::attend(plan), gone = true; });
   }
-  return std::sqrt(difference / motion);
+  ~Person() { thread.join(); }
+  int code = -1;
+  std::atomic<bool> gone = false;
+  std::thread thread;
+};
+
+/// What arrived at the plug, order for order, against what the gate let through: `told[first + k]` answers row k.
+struct Orders {
+  static constexpr std::size_t kFades = 25;  ///< ticks within which an order that came too late fades out
+  std::size_t first = 0, same = 0, other = 0;
+  std::size_t stronger = 0;  ///< of the others: more force than the gate let through in the ticks before
+  double over_max = 0;  ///< [N] beyond the gate's limit, in the force of half a count in each motor
+};
+
+Orders compare(const Seated& seat) {
+  const auto& rows = seat.trace.rows;
+  const auto& told = seat.account->told;
+  std::vector<hal::Vec3> ordered;
+  for (const auto& row : rows) ordered.push_back(seat.jacobian(row.q).transpose() * row.passed);
+  const auto fits = [&](std::size_t first, std::size_t k) {
+    return first + k < told.size() && ((told[first + k] - ordered[k]).array().abs() <= seat.step.array()).all();
+  };
+  // Which order the first row made: the one place where the rest fits best.
+  Orders best;
+  std::size_t most = 0;
+  for (std::size_t first = 0; first < told.size(); ++first) {
+    std::size_t fit = 0;
+    for (std::size_t k = rows.size() / 4; k < rows.size() * 3 / 4; k += 37) fit += fits(first, k) ? 1 : 0;
+    if (fit > most) most = fit, best.first = first;
+  }
+  for (std::size_t k = 0; k < rows.size() && best.first + k < told.size(); ++k) {
+    const Eigen::Matrix3d to_tip = seat.jacobian(rows[k].q).transpose().inverse();
+    const double force = (to_tip * told[best.first + k]).norm(), rounding = (to_tip.cwiseAbs() * seat.step).norm();
+    best.over_max = std::max(best.over_max, (force - kForceMax) / (0.5 * rounding));
+    if (fits(best.first, k)) {
+      ++best.same;
+      continue;
+    }
+    ++best.other;
+    double most_passed = 0;
+    for (std::size_t back = 0; back <= std::min(k, Orders::kFades); ++back) most_passed = std::max(most_passed, rows[k - back].passed.norm());
+    if (force > most_passed + rounding) ++best.stronger;
+  }
+  return best;
+}
+
+/// Work that the client may have booked beside what was done: positions are known to half a count, and within the period in
+/// which a new order arrived nobody knows when. Sum of |change of tau| (h/2 + |change of q|), by partial summation.
+double booking_bound(const Seated& seat) {
+  double bound = 0;
+  const auto& rows = seat.trace.rows;
+  hal::Vec3 tau_prev = hal::Vec3::Zero();
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const hal::Vec3 tau = seat.jacobian(rows[k].q).transpose() * rows[k].given;
+    bound += (tau - tau_prev).cwiseAbs().dot(0.5 * seat.quantum + (rows[k].q - rows[k - 1].q).cwiseAbs());
+    tau_prev = tau;
+  }
+  return bound;
+}
+
+void expect_right_orders(const Seated& seat) {
+  SCOPED_TRACE(seat.name);
+  const WireAccount& plug = *seat.account;
+  ASSERT_GT(seat.trace.rows.size(), 1000U);
+  const auto& machine = seat.report["machine"];
+  ASSERT_EQ(machine["trace_dropped"].get<int>(), 0) << "the machine was too slow to write down what it did";
+  const Orders orders = compare(seat);
+  std::printf("[   wire   ] %-8s %zu orders as the gate let them through, to one count; %zu others, %d of them expired; %.2f N at most\n",
+              seat.name.c_str(), orders.same, orders.other, machine["expired_commands"].get<int>(), plug.force_max);
+  EXPECT_GT(orders.same, 1000U);
+  // Below the gate there is the device's guard: an order that came too late fades out, forces begin softly after a gap in the
+  // readings, a device with a fault gets zeros. It only ever takes away.
+  EXPECT_EQ(orders.stronger, 0U);
+  EXPECT_LE(orders.over_max, 1.0 + 1e-6) << "beyond the gate's limit by more than the motors' rounding";
+}
+
+void expect_power_balance(const Seated& seat) {
+  SCOPED_TRACE(seat.name);
+  const WireAccount& plug = *seat.account;
+  const double booked = seat.report["energy"]["delivered_j"].get<double>(), bound = booking_bound(seat);
+  std::printf("[  power   ] %-8s F.v - tau.qdot %.1e of |F||v| at most; work at the joints %.5f J, at the tip %.5f J, booked %.5f J "
+              "(%.5f J apart, %.5f J are left open by counts and clocks)\n",
+              seat.name.c_str(), plug.power_error_max, plug.at_joints, plug.at_tip, booked, std::abs(booked - plug.at_joints), bound);
+  EXPECT_LE(plug.power_error_max, 1e-12);
+  EXPECT_NEAR(plug.at_tip, plug.at_joints, 1e-4 * std::abs(plug.at_joints) + 1e-6);
+  EXPECT_NEAR(booked, plug.at_joints, bound + 1e-6);
 }
 
 TEST(WholeChain, AFalconLeadsABoardFollowsAndABoardIsTheSlave) {
@@ -115,74 +217,84 @@ TEST(WholeChain, AFalconLeadsABoardFollowsAndABoardIsTheSlave) {
   const std::string preset = folder.write("arm.textproto", checked_preset());
   const auto described = hal::load_device_file(preset);
   ASSERT_TRUE(described) << described.error().message;
+  const WoodenHapticsSpec& arm = *described->woodenhaptics;
   Testbed bed;
   hal::wire::FalconModel falcon{hal::falcon::ready_model()};
-  UsbfsNode falcon_node{falcon};
-  hal::wire::WoodenHapticsModel held{WoodenBench::at_calibration(*described->woodenhaptics, {})};
-  hal::wire::WoodenHapticsModel slave{WoodenBench::at_calibration(*described->woodenhaptics, {})};
-  HidrawNode held_node{held}, slave_node{slave};
-  bed.plug(falcon_node, falcon, "1-2");
-  bed.plug(held_node, held, "1-3");
-  bed.plug(slave_node, slave, "1-4");
+  // The trainee's hand goes along without a will of its own; at the slave there is nobody.
+  HandSpec relaxed;
+  relaxed.model = HandModel::kRelaxed;
+  hal::wire::WoodenHapticsModel held{WoodenBench::at_calibration(arm, {}), relaxed};
+  hal::wire::WoodenHapticsModel slave{WoodenBench::at_calibration(arm, {})};
+  held.set_hand_time(0.0);
+  FalconTap falcon_tap{falcon, kCountsPerNm};
+  BoardTap held_tap{held, arm}, slave_tap{slave, arm};
+  UsbfsNode falcon_node{falcon_tap};
+  HidrawNode held_node{held_tap}, slave_node{slave_tap};
+  bed.plug(falcon_node, falcon_tap, "1-2");
+  bed.plug(held_node, held_tap, "1-3");
+  bed.plug(slave_node, slave_tap, "1-4");
 
-  Seen leader, follower, tool;
-  std::vector<hal::Vec3> lead, follow, tip;  // once all have gone home to a common place
+  Intention intention = Intention::choose();
   {
     const std::string boards = "woodenhaptics:preset=" + preset + ",energise=yes,home=here,port=";
-    Person trainer{address, "trainer", "falcon:calibration=" + folder.write("falcon.textproto", kFalconFile), folder.file("trainer.json")};
-    Person trainee{address, "trainee", boards + "1-3", folder.file("trainee.json")};
-    Person patient{address, "slave", boards + "1-4", folder.file("slave.json")};
-    // A hand leads the Falcon's grip along what a person might draw; nobody holds the boards.
+    Person trainee{folder, address, "trainee", boards + "1-3", kSeconds + 3};
+    Person patient{folder, address, "slave", boards + "1-4", kSeconds + 3};
     Carry held_arm{held}, slave_arm{slave};
-    const Time begin = io::monotonic_now();
-    Time ready{};
-    bool carried = false;
-    for (Time now = begin; seconds(now - begin) < kSeconds + 1; now = io::monotonic_now()) {
-      held_node.with_model([&] { held_arm.go_on(now); });
-      slave_node.with_model([&] { slave_arm.go_on(now); });
-      if (!carried) ready = now;
-      carried = held_arm.there && slave_arm.there;
-      const double t = std::max(0.0, seconds(now - ready) - 1);  // first the forces ramp in
-      const hal::Vec3 goal{kReach * std::sin(1.3 * t), 0.5 * kReach * (1 - std::cos(0.9 * t)), 0.5 * kReach * std::sin(2.1 * t)};
+    for (const Time until = io::monotonic_now() + 20s; io::monotonic_now() < until && !(held_arm.there && slave_arm.there);) {
+      held_node.with_model([&] { held_arm.go_on(io::monotonic_now()); });
+      slave_node.with_model([&] { slave_arm.go_on(io::monotonic_now()); });
+      ::poll(nullptr, 0, 1);
+    }
+    // The session waits for its instructor: he comes when both arms are where the tool is.
+    Person trainer{folder, address, "trainer", "falcon:calibration=" + folder.write("falcon.textproto", kFalconFile), kSeconds};
+    ASSERT_TRUE(held_arm.there && slave_arm.there) << "no client listened to a board";
+    constexpr double kBegins = 1.5, kGoes = 0.8;  // [s] forces ramp in first; then the hand goes to where its motion begins
+    for (const Time begin = io::monotonic_now(); !trainer.gone && !trainee.gone && !patient.gone;) {
+      const double t = seconds(io::monotonic_now() - begin) - kBegins;
+      const hal::sim::MotionPoint meant = intention.at(std::max(0.0, t - kGoes));
+      const auto share = hal::sim::min_jerk(t / kGoes);
       falcon_node.with_model([&] {
-        falcon.mechanics().set_pull({.k = 800, .b = 10, .m = 0.2, .x = goal});
-        leader.see(falcon.mechanics().tip(), falcon.mechanics().motor_force());
+        falcon.mechanics().set_pull({.k = 800, .b = 10, .m = 0.2, .x = share.value * meant.x, .v = t > kGoes ? meant.v : hal::Vec3::Zero()});
       });
-      if (!carried) {
-        ::poll(nullptr, 0, 1);
-        continue;
-      }
-      held_node.with_model([&] { follower.see(held.tip(), held.motor_force()); });
-      slave_node.with_model([&] { tool.see(slave.tip(), slave.motor_force()); });
-      if (t > 1.5) {
-        lead.push_back(falcon_node.with_model([&] { return falcon.mechanics().tip(); }));
-        follow.push_back(held_node.with_model([&] { return held.tip(); }));
-        tip.push_back(slave_node.with_model([&] { return slave.tip(); }));
-      }
       ::poll(nullptr, 0, 1);
     }
   }
-  std::printf("[  chain   ] way and largest force at the wire: Falcon %.1f mm %.2f N, trainee's board %.1f mm %.2f N, slave %.1f mm %.2f N\n",
-              1e3 * leader.way(), leader.force_max, 1e3 * follower.way(), follower.force_max, 1e3 * tool.way(), tool.force_max);
-  ASSERT_GT(lead.size(), 500U) << "the session was over before anybody could lead";
-  std::printf("[  chain   ] RMS of the difference to the Falcon's motion, over the RMS of that: slave %.2f, trainee's board %.2f, %zu readings\n",
-              unlike(tip, lead), unlike(follow, lead), lead.size());
-  for (const char* seat : {"trainer", "trainee", "slave"}) {
-    ASSERT_FALSE(folder.json(std::string(seat) + ".json").is_discarded()) << seat;
+  const hal::woodenhaptics::Kinematics kinematics(arm);
+  const hal::Vec3 board_step = hal::woodenhaptics::Motors(arm).effort_of({1, 1, 1}).cwiseAbs();
+  const auto of_board = [&](const hal::Vec3& q) { return kinematics.jacobian(q); };
+  const auto of_falcon = [](const hal::Vec3& theta) { return hal::falcon_forward(theta, hal::Vec3::Zero())->J; };
+  std::vector<Seated> seats{
+      {"trainer", &falcon_tap.account(), hal::Vec3::Constant(1 / kCountsPerNm), hal::Vec3::Constant(hal::kFalconRadPerCount), of_falcon, {}, {}},
+      {"trainee", &held_tap.account(), board_step, kinematics.angle_per_count().cwiseAbs(), of_board, {}, {}},
+      {"slave", &slave_tap.account(), board_step, kinematics.angle_per_count().cwiseAbs(), of_board, {}, {}}};
+  for (Seated& seat : seats) {
+    seat.report = folder.json(seat.name + ".json");
+    ASSERT_FALSE(seat.report.is_discarded()) << seat.name;
+    seat.trace = SeatTrace::parse(folder.read(seat.name + ".csv"));
+    ASSERT_FALSE(seat.trace.rows.empty()) << seat.name;
+    int worst = 0;  // FAULT before DAMPED before PASSIVE
+    for (const auto& row : seat.trace.rows) worst = std::max(worst, row.gate);
+    std::printf("[   gate   ] %-8s lost its link %d times, at worst %s, %d ticks missed\n", seat.name.c_str(),
+                seat.report["gate"]["trips"].get<int>(), tandem::wire::to_text(static_cast<tandem::wire::GateState>(worst)),
+                seat.report["machine"]["missed_ticks"].get<int>());
   }
-  // The two kinematics share one tool: its slave goes where the Falcon's tip goes, and so does the board in the other hand.
-  EXPECT_GT(leader.way(), kReach);
-  // 1: stands still; about 0.3 on a quiet machine. On a busy one a gate may let go for a while, and the way home counts.
-  EXPECT_LT(unlike(tip, lead), 0.95);
-  EXPECT_LT(unlike(follow, lead), 0.95);
-  EXPECT_GT(leader.force_max, 0.02);
-  EXPECT_LE(leader.force_max, 3.0 + 0.1);  // the scene's gate, in whole motor counts
-  EXPECT_LE(follower.force_max, 3.1);
-  EXPECT_LE(tool.force_max, 3.1);
+  for (const Seated& seat : seats) expect_right_orders(seat);
+  for (const Seated& seat : seats) expect_power_balance(seat);
   EXPECT_EQ(falcon.unsafe_frames(), 0U);
-  // Power: what the wire models say the motors gave is what the clients booked, but for what their clocks sample apart.
-  const auto booked = [&](const char* seat) { return folder.json(std::string(seat) + ".json")["energy"]["delivered_j"].get<double>(); };
-  EXPECT_NEAR(leader.work, booked("trainer"), 0.01 + 0.3 * std::abs(leader.work));
+
+  // The two kinematics share one tool: its slave goes where the Falcon's tip goes, and so does the board in the other hand. That is
+  // promised while the gates let forces through; a machine that stands still for 20 ms has them let go, which is promised too.
+  const Together all = Together::of(seats[0].trace, seats[1].trace, seats[2].trace, 1.0);
+  std::printf("[  chain   ] %.1f s of session, %zu ms of it judged: all gates ACTIVE for a second and more\n", all.seconds, all.lead.size());
+  if (all.lead.size() < 2000) {
+    std::printf("[ NOT RUN ] how the boards follow: this machine stood still too often, the gates let go\n");
+  } else {
+    const double of_tool = unlike(all.tool, all.lead), of_board_held = unlike(all.follow, all.lead);
+    std::printf("[  chain   ] RMS of the difference to the Falcon's motion, over the RMS of that: slave %.3f, trainee's board %.3f\n", of_tool,
+                of_board_held);
+    EXPECT_LT(of_tool, 0.15);  // 1: stands still
+    EXPECT_LT(of_board_held, 0.15);
+  }
   // They left: zeros on every wire.
   EXPECT_EQ(falcon.order().motor, (std::array<std::int16_t, 3>{}));
   EXPECT_EQ(held.motor_effort().norm(), 0.0);

@@ -75,7 +75,7 @@ TEST_F(FalconFilesTest, TheShippedExampleReads) {
   ASSERT_TRUE(spec) << spec.error().message;
   ASSERT_TRUE(spec->falcon);
   const auto force = FalconForce::from(*spec->falcon);
-  ASSERT_TRUE(force) << force.error();
+  ASSERT_TRUE(force) << force.error().words;
   EXPECT_TRUE(force->calibrated());
 }
 

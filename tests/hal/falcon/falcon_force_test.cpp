@@ -97,10 +97,10 @@ std::vector<FalconMassReading> readings_of(const std::array<double, 3>& scale, d
 TEST(FalconCalibration, FindsEachMotorsScaleFromKnownMasses) {
   const std::array<double, 3> truth{9000, 10000, 12000};
   const auto exact = fit_falcon_scale(readings_of(truth));
-  ASSERT_TRUE(exact) << exact.error();
+  ASSERT_TRUE(exact) << exact.error().words;
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR((*exact)[i], truth[i], 1e-6 * truth[i]);
   const auto noisy = fit_falcon_scale(readings_of(truth, 0.05));
-  ASSERT_TRUE(noisy) << noisy.error();
+  ASSERT_TRUE(noisy) << noisy.error().words;
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR((*noisy)[i], truth[i], 0.03 * truth[i]);
   FalconSpec spec;
   spec.readings = readings_of(truth);
@@ -112,20 +112,20 @@ TEST(FalconCalibration, FindsEachMotorsScaleFromKnownMasses) {
 TEST(FalconCalibration, RefusesReadingsThatContradictThemselves) {
   const std::array<double, 3> truth{10000, 10000, 10000};
   auto readings = readings_of(truth);
-  EXPECT_NE(fit_falcon_scale({readings[0]}).error().find("two"), std::string::npos);
+  EXPECT_NE(fit_falcon_scale({readings[0]}).error().words.find("two"), std::string::npos);
   readings[3].motor_with[1] = readings[3].motor_without[1] + 5000;
   const auto contradiction = fit_falcon_scale(readings);
   ASSERT_FALSE(contradiction);
-  EXPECT_NE(contradiction.error().find("apart"), std::string::npos) << contradiction.error();
+  EXPECT_NE(contradiction.error().words.find("apart"), std::string::npos) << contradiction.error().words;
   readings = readings_of(truth);
   for (auto& r : readings) r.up = {-r.up[0], -r.up[1], -r.up[2]};
-  EXPECT_NE(fit_falcon_scale(readings).error().find("against gravity"), std::string::npos);
+  EXPECT_NE(fit_falcon_scale(readings).error().words.find("against gravity"), std::string::npos);
   readings = readings_of(truth);
   for (auto& r : readings) r.mass = 0.001;
-  EXPECT_NE(fit_falcon_scale(readings).error().find("larger mass"), std::string::npos);
+  EXPECT_NE(fit_falcon_scale(readings).error().words.find("larger mass"), std::string::npos);
   readings = readings_of(truth);
   readings[1].encoder = {8000, -8000, 8000};
-  EXPECT_NE(fit_falcon_scale(readings).error().find("no pose"), std::string::npos);
+  EXPECT_NE(fit_falcon_scale(readings).error().words.find("no pose"), std::string::npos);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(FalconWeighing, FindsTheMotorsScaleFromNothingInTwoRounds) {
     first.readings = {scale.reading(0.02), scale.reading(0.03)};
   }
   const auto rough = fit_falcon_scale(first.readings);
-  ASSERT_TRUE(rough) << rough.error();
+  ASSERT_TRUE(rough) << rough.error().words;
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR((*rough)[i], kTruth[i], 0.08 * kTruth[i]);
   FalconSpec second;
   {
@@ -82,7 +82,7 @@ TEST(FalconWeighing, FindsTheMotorsScaleFromNothingInTwoRounds) {
     second.readings = {scale.reading(0.1), scale.reading(0.2)};
   }
   const auto fine = fit_falcon_scale(second.readings);
-  ASSERT_TRUE(fine) << fine.error();
+  ASSERT_TRUE(fine) << fine.error().words;
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR((*fine)[i], kTruth[i], 0.02 * kTruth[i]);
   std::printf("[ measured ] scale found: %.0f %.0f %.0f of %.0f %.0f %.0f, rough %.0f %.0f %.0f\n", (*fine)[0], (*fine)[1],
               (*fine)[2], kTruth[0], kTruth[1], kTruth[2], (*rough)[0], (*rough)[1], (*rough)[2]);
@@ -93,6 +93,27 @@ TEST(FalconWeighing, SaysThatTheMassIsTooHeavyForTheMotors) {
   const auto held = scale.weigh(0.3);
   ASSERT_FALSE(held);
   EXPECT_NE(held.error().find("lighter"), std::string::npos) << held.error();
+}
+
+TEST(FalconWeighing, SaysWhatToDoWithAGripThatIsTooHeavyByItself) {
+  Scale scale(Vec3(0, -1, 0), FalconSpec{}, 0);
+  scale.model->mechanics().set_load(0.3);
+  FalconWeighing weighing(Vec3::Zero(), scale.up);
+  for (int i = 0; i < 20'000 && !weighing.finished(); ++i) scale.step(weighing);
+  const auto held = weighing.held(FalconWeighing::Load::kEmptyGrip);
+  ASSERT_FALSE(held);
+  for (const char* cure : {"standing", "counterweight"}) EXPECT_NE(held.error().find(cure), std::string::npos) << held.error();
+  EXPECT_EQ(held.error().find("lighter mass"), std::string::npos) << held.error();
+}
+
+TEST(FalconWeighing, KnowsBeforehandWhatNoMotorHolds) {
+  const Vec3 lying(0, -1, 0), standing(0, 0, 1);
+  // At the middle 1 N along the axis is 0.0249 N m per leg (hal.md): 120 counts of the guess, 0.06 N m, hold 2.41 N.
+  EXPECT_NEAR(FalconWeighing::holds(FalconForce{}, Vec3::Zero(), lying), 0.06 / 0.0249, 0.05);
+  // 4095 counts at 10000 per N m hold 16 N; no more than kForceMax is asked.
+  EXPECT_EQ(FalconWeighing::holds(*FalconForce::from(falcon::calibrated()), Vec3::Zero(), lying), FalconWeighing::kForceMax);
+  EXPECT_EQ(FalconWeighing::holds(FalconForce{}, Vec3(1, 0, 0), lying), 0) << "beyond the reach";
+  EXPECT_GT(FalconWeighing::holds(FalconForce{}, Vec3::Zero(), standing), 0.5);
 }
 
 TEST(FalconWeighing, SaysThatSomebodyHoldsTheGrip) {

@@ -141,11 +141,14 @@ TEST_P(EveryProtocol, WhatActedIsWhatTheMotorsGaveBetweenReadings) {
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(b.step());
   ASSERT_TRUE(b.walk_to(Vec3::Zero()));
   RandomStream r(4);
-  Vec3 given = Vec3::Zero();
   for (int i = 0; i < 200; ++i) {
-    given = b.model.motor_effort();  // of the order before, until the next one arrives
+    const Vec3 before = b.model.motor_effort();  // of the order before, until the next one arrives
+    const Time read = b.state.sampled_at;
     ASSERT_TRUE(b.step(Vec3(r.uniform(-0.9, 0.9), r.uniform(-0.7, 0.7), r.uniform(-0.7, 0.7))));
     const Vec3 told(b.state.tau_out[0], b.state.tau_out[1], b.state.tau_out[2]);
+    // Boards that answer take their reading when the order comes; one that sends by itself, after the order acted a while.
+    const double share = GetParam() == WoodenProtocol::kV1 ? seconds(b.model.host_report(0).at - read) / seconds(b.state.sampled_at - read) : 1.0;
+    const Vec3 given = share * before + (1 - share) * b.model.motor_effort();
     ASSERT_LT((told - given).norm(), 1e-12) << i;
     const Vec3 dq(b.state.dq[0], b.state.dq[1], b.state.dq[2]);
     ASSERT_NEAR(b.state.f_out.dot(b.state.dx), told.dot(dq), 1e-12);
@@ -198,6 +201,70 @@ TEST(WoodenDriver, OfABoardThatSendsByItselfTheNewestCounts) {
   }
   ASSERT_TRUE(b.step());
   EXPECT_LT((b.state.x - b.model.tip()).norm(), 1e-4);
+}
+
+/// When the report was taken that was read last: 0.2 ms after power-up, then every millisecond.
+struct DatingPipe final : HidPipe {
+  DatingPipe(HidPipe& to, test::WireTime& at) : pipe(to), time(at) {}
+  Moved write(std::span<const std::byte> report) noexcept override { return pipe.write(report); }
+  Moved read(std::span<std::byte> into, Duration timeout) noexcept override {
+    const Moved moved = pipe.read(into, timeout);
+    if (moved && *moved > 0) sampled = Time{} + 200us + (time.now() - Time{} - 200us) / 1ms * 1ms;
+    return moved;
+  }
+  HidPipe& pipe;
+  test::WireTime& time;
+  Time sampled{};
+};
+
+// Whatever the phase between the two clocks. A spring rendered on older readings pushes an arm that nobody holds.
+TEST(WoodenDriver, OfABoardThatSendsByItselfNoReadingIsOlderThanAPeriodWhenItsForceLeaves) {
+  Duration oldest{0};
+  for (int phase = 0; phase < 20; ++phase) {
+    WoodenBench b(options_of(WoodenProtocol::kV1));
+    DatingPipe pipe(b.pipe, b.time);
+    WoodenHapticsDriver driver({"woodenhaptics", "1"}, pipe, b.time, options_of(WoodenProtocol::kV1));
+    test::QuietBringUp watcher;
+    ASSERT_TRUE(driver.bring_up(watcher));
+    Time due = b.time.now() + phase * 50us;
+    for (int i = 0; i < 50; ++i) {
+      b.time.wait_until(due += 1ms);
+      const Time sampled = pipe.sampled;  // what a client knew when it chose the force
+      ASSERT_EQ(driver.exchange({}, b.state), Exchange::kFresh);
+      if (i > 2) oldest = std::max(oldest, b.model.host_report(0).at - sampled);
+    }
+  }
+  EXPECT_LE(oldest, 1ms + 200us) << "and 0.1 ms for the write, 0.05 ms for the look";
+}
+
+// A program that stood still for some milliseconds takes the next two readings at nearly one time.
+TEST_P(EveryProtocol, AStandstillOfTheHostIsNoSpeedOfTheHand) {
+  for (int stall = 1; stall <= 9; ++stall) {
+    for (int soon = 0; soon < 10; ++soon) {
+      WoodenBench b(options_of(GetParam()));
+      ASSERT_TRUE(b.bring_up());
+      b.driver.home_here();
+      for (int i = 0; i < 5; ++i) ASSERT_TRUE(b.step());
+      ASSERT_TRUE(b.walk_to(Vec3(-0.02, 0, 0)));
+      constexpr double kSpeed = 1.0;  // [m/s]
+      const Time begin = b.time.now();
+      const auto go_on = [&](Duration d) {  // the arm moves while the host sleeps
+        for (const Time until = b.time.now() + d; b.time.now() < until; b.time.wait_until(b.time.now() + 10us)) {
+          ASSERT_TRUE(b.model.place(Vec3(-0.02 + kSpeed * seconds(b.time.now() - begin), 0, 0)));
+        }
+      };
+      const auto look = [&] {
+        ASSERT_TRUE(b.driver.exchange({}, b.state));
+        ASSERT_LT(b.state.dx.norm(), 3.0) << "beyond this the guard takes a reading for impossible: stall " << stall << " ms, then "
+                                          << soon << " x 0.1 ms";
+      };
+      for (int i = 0; i < 8; ++i) go_on(1ms), look();
+      go_on(stall * 1ms), look();
+      go_on(soon * 100us), look();
+      for (int i = 0; i < 3; ++i) go_on(1ms), look();
+      EXPECT_NEAR(b.state.dx[0], kSpeed, 0.8);
+    }
+  }
 }
 
 TEST(WoodenDriver, WaitsFor20AttemptsThenSaysThatTheBoardIsSilent) {

@@ -172,6 +172,14 @@ TEST(AdaptiveRate, IsQuickAfterASuddenStart) {
   EXPECT_NEAR(rate.rate(), 1.0, 0.15);
 }
 
+TEST(AdaptiveRate, TakesNoSlopeOverLessThanItWasTold) {
+  AdaptiveRate rate(1e-4, 750us);
+  for (int i = 0; i < 20; ++i) rate.take(Time{} + i * 1ms, 1e-3 * i);
+  EXPECT_NEAR(rate.rate(), 1.0, 1e-9);
+  EXPECT_NEAR(rate.take(Time{} + 19ms + 10us, 20e-3), 2e-3 / 1010e-6, 1e-9) << "over two readings, not 100 /s over one";
+  EXPECT_NEAR(rate.take(Time{} + 21ms, 21e-3), 1e-3 / 1990e-6, 1e-9);
+}
+
 TEST(AdaptiveRate, IgnoresTimeThatStandsAndNumbersThatAreNone) {
   AdaptiveRate rate(1.0);
   EXPECT_EQ(rate.take(Time{}, 5.0), 0.0);

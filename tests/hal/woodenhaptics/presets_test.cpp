@@ -81,8 +81,10 @@ TEST(WoodenPresets, MistakesAreToldWithTheirPlace) {
            BadLine{"max_a: 2", "max_a: 7", "must be in (0, 6] A"},
            BadLine{"continuous_a: 1 ", "continuous_a: 3 ", "is above max_a, 2"},
            BadLine{"max_a: 2 continuous_a: 1 firmware_full_scale_a: 3 amplifier_full_scale_a: 3",
-                   "max_a: 4 firmware_full_scale_a: 3 amplifier_full_scale_a: 3", "above what the amplifier makes"},
-           BadLine{"firmware_full_scale_a: 3 ", "", "or neither"},
+                   "max_a: 4 continuous_a: 1 firmware_full_scale_a: 3 amplifier_full_scale_a: 3", "above what the amplifier makes"},
+           BadLine{"firmware_full_scale_a: 3 ", "", "firmware_full_scale_a: "},
+           BadLine{"max_a: 2 ", "", "current.max_a: "},
+           BadLine{"force_n: 5 ", "", "limits.force_n: "},
            BadLine{"upper_mm: 205", "upper_mm: 20", "mm from the shoulder"},
            BadLine{"counts_per_turn: 2000", "counts_per_turn: 2000 gear: 3", "gear"},
            BadLine{"counts_per_turn: 2000", "counts_per_turn: 2000 measured: \"\"", "who measured"},
@@ -103,8 +105,23 @@ TEST(WoodenPresets, PartsThatAreMissingAreAllNamed) {
   const auto file = parse_device_text("woodenhaptics { protocol: V1 counts_per_turn: 2000 stylus_on_encoder_d: true }", "f");
   ASSERT_FALSE(file.has_value());
   const std::string told = to_text(file.error());
-  for (const char* part : {"base {", "shoulder {", "elbow {", "arm {", "no encoder d"}) {
+  for (const char* part : {"base {", "shoulder {", "elbow {", "arm {", "current {", "limits {", "no encoder d"}) {
     EXPECT_NE(told.find(part), std::string::npos) << told;
+  }
+}
+
+TEST(WoodenPresets, WithoutCurrentOrLimitsIsRefusedAndNeverGuessed) {
+  for (const char* part : {"  current {", "  limits {"}) {
+    SCOPED_TRACE(part);
+    std::string text(find_shipped_preset("woodenhaptics-2015")->text);
+    const auto at = text.find(part);
+    ASSERT_NE(at, std::string::npos);
+    text.erase(at, text.find('\n', at) - at);
+    const auto file = parse_device_text(text, "mine.textproto");
+    ASSERT_FALSE(file.has_value());
+    ASSERT_EQ(file.error().size(), 1u) << to_text(file.error());
+    EXPECT_NE(file.error()[0].message.find(std::string("needs ") + (part + 2)), std::string::npos) << to_text(file.error());
+    EXPECT_GT(file.error()[0].line, 0);
   }
 }
 

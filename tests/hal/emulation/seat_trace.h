@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "hal/device.h"
+
+/// What `tandem-client join --trace` wrote of a seat with three joints, and how one seat's motion follows another's.
+namespace tandem::test {
+
+struct SeatTrace {
+  struct Row {
+    double t = 0;  ///< session time [s], negative before it began
+    hal::Vec3 q, x, wanted, passed, given;  ///< joints [rad], tip [m]; force wanted, let through by the gate, delivered [N]
+    int gate = 0;                           ///< wire::GateState
+  };
+  std::vector<Row> rows;
+
+  /// Empty unless every line has the columns that a trace of three joints has.
+  static SeatTrace parse(const std::string& csv) {
+    constexpr const char* kHeader =
+        "t_s[s],q0[rad],q1[rad],q2[rad],x[m],y[m],z[m],f_cmd_x[N],f_cmd_y[N],f_cmd_z[N],f_gate_x[N],f_gate_y[N],f_gate_z[N],"
+        "f_out_x[N],f_out_y[N],f_out_z[N],gate[1],alpha[1]";
+    SeatTrace trace;
+    std::istringstream in(csv);
+    std::string line;
+    if (!std::getline(in, line) || line != kHeader) return {};
+    while (std::getline(in, line)) {
+      std::array<double, 18> v{};
+      char* at = line.data();
+      for (double& one : v) {
+        char* end = nullptr;
+        one = std::strtod(at, &end);
+        if (end == at) return {};
+        at = *end == ',' ? end + 1 : end;
+      }
+      const auto three = [&](std::size_t i) { return hal::Vec3(v[i], v[i + 1], v[i + 2]); };
+      trace.rows.push_back({v[0], three(1), three(4), three(7), three(10), three(13), static_cast<int>(v[16])});
+    }
+    return trace;
+  }
+};
+
+/// Three seats at the same session times, while all their gates were ACTIVE, and had been for `settle`.
+struct Together {
+  std::vector<hal::Vec3> lead, follow, tool;
+  double seconds = 0;  ///< of the session while the leader was at his seat
+
+  static Together of(const SeatTrace& lead, const SeatTrace& follow, const SeatTrace& tool, double settle) {
+    constexpr int kActive = 3;
+    constexpr double kApart = 0.005;  // readings further apart in time are not compared [s]
+    Together out;
+    double disturbed = 0;
+    const auto at = [](const SeatTrace& trace, double t, std::size_t& i) -> const SeatTrace::Row& {
+      while (i + 1 < trace.rows.size() && std::abs(trace.rows[i + 1].t - t) <= std::abs(trace.rows[i].t - t)) ++i;
+      return trace.rows[i];
+    };
+    // Before the session began, times count down: not to be compared.
+    const auto begin = [](const SeatTrace& trace) {
+      std::size_t i = trace.rows.size();
+      while (i > 0 && trace.rows[i - 1].t > 0) --i;
+      return i;
+    };
+    std::size_t f = begin(follow), s = begin(tool);
+    if (f == follow.rows.size() || s == tool.rows.size()) return out;
+    for (const SeatTrace::Row& row : lead.rows) {
+      if (row.t <= 0) continue;
+      out.seconds = row.t;
+      const auto& other = at(follow, row.t, f);
+      const auto& third = at(tool, row.t, s);
+      const bool active = row.gate == kActive && other.gate == kActive && third.gate == kActive;
+      if (!active) disturbed = row.t;
+      if (!active || row.t - disturbed < settle || std::abs(other.t - row.t) > kApart || std::abs(third.t - row.t) > kApart)
+        continue;
+      out.lead.push_back(row.x);
+      out.follow.push_back(other.x);
+      out.tool.push_back(third.x);
+    }
+    return out;
+  }
+};
+
+inline hal::Vec3 mean(const std::vector<hal::Vec3>& all) {
+  hal::Vec3 sum = hal::Vec3::Zero();
+  for (const hal::Vec3& x : all) sum += x;
+  return sum / static_cast<double>(std::max<std::size_t>(1, all.size()));
+}
+
+/// How far `path` is from moving as `lead` does, wherever each began: RMS of the difference over RMS of the motion; 1 for
+/// one that stands still.
+inline double unlike(const std::vector<hal::Vec3>& path, const std::vector<hal::Vec3>& lead) {
+  const hal::Vec3 of_path = mean(path), of_lead = mean(lead);
+  double difference = 0, motion = 0;
+  for (std::size_t i = 0; i < lead.size(); ++i) {
+    difference += ((path[i] - of_path) - (lead[i] - of_lead)).squaredNorm();
+    motion += (lead[i] - of_lead).squaredNorm();
+  }
+  return std::sqrt(difference / motion);
+}
+
+}  // namespace tandem::test
