@@ -32,6 +32,8 @@ class ServoCore {
   /// One exchange, then one call of the client; nothing while Booting.
   /// @return false: the device is Lost, and the client was told
   bool step(Time now, ServoClient& client) noexcept TANDEM_REALTIME;
+  /// Whether the last step may have sent a force.
+  [[nodiscard]] bool energised() const noexcept { return acted_ == Phase::kEnabled; }
   /// Zeros, while the link lives.
   void silence() noexcept { driver_->silence(); }
   /// How long the last exchange took, for the statistics: the core reads no clock.
