@@ -8,6 +8,9 @@
 
 namespace tandem::test {
 
+/// Above every servo.
+inline constexpr int kDevicePriority = 90;
+
 /// A wire model as a HID device of the real kernel, through /dev/uhid. Needs root and the module. The model's time is
 /// the machine's.
 class UhidDevice {
@@ -27,7 +30,7 @@ class UhidDevice {
 
  private:
   void serve(std::stop_token stop);
-  void take_event();
+  bool take_event();
   void send_reports();
 
   hal::wire::HidWireModel& model_;

@@ -12,6 +12,8 @@
 #include <string>
 
 #include "common/io/clock.h"
+#include "common/io/realtime.h"
+#include "tests/vm/uhid_device.h"
 
 namespace tandem::test {
 
@@ -87,6 +89,7 @@ void UsbipServer::unplug() {
 }
 
 void UsbipServer::serve(std::stop_token stop) {
+  (void)io::ask_for_realtime(kDevicePriority);  // a device does not wait for its host's processor
   while (!stop.stop_requested()) {
     pollfd one{ours_.get(), POLLIN, 0};
     // While somebody waits, the device is looked after at every instant of its raster.
