@@ -7,6 +7,8 @@ namespace {
 
 /// Readings that cannot be, since the forces were enabled: more is no accident.
 constexpr std::uint64_t kImplausibleMax = 3;
+/// Nobody stepped for so long: the program was stopped or starved, and a Deadman took the force away meanwhile.
+constexpr Duration kStoodStill = std::chrono::milliseconds(20);
 
 Result<> bad_state(const DeviceId& id, const char* what) {
   return std::unexpected(DeviceError{Errc::kBadState, id.backend + " " + id.key + ": " + what});
@@ -37,8 +39,9 @@ bool ServoCore::step(Time now, ServoClient& client) noexcept {
   if (phase == Phase::kLost || phase == Phase::kAbsent) return false;
   if (phase == Phase::kBooting) return true;
   if (!stepped_) answered_ = now;
+  if (phase == Phase::kEnabled && (acted_ != Phase::kEnabled || (stepped_ && now - stepped_at_ >= kStoodStill))) guard_.start(now);
   stepped_ = true;
-  if (phase == Phase::kEnabled && acted_ != Phase::kEnabled) guard_.start(now);
+  stepped_at_ = now;
   acted_ = phase;
 
   Orders orders;

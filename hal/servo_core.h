@@ -15,7 +15,7 @@ namespace tandem::hal {
 /// Absent -> Opening -> Booting -> Identified -> Unhomed -> Ready (zero force) -> Enabled -> Fault | Lost. Fault (no answer
 /// within the miss limit, or readings that cannot be, again and again) keeps exchanging zeros and needs `reset`; Lost is
 /// for ever: a device that comes back is another one, and nobody enables it but a person. A homed device that loses its
-/// origin is Unhomed again. A driver that finds its firmware dead (Errc::kFirmware) is Booting: `bring_up` anew.
+/// origin is Unhomed again. Forces begin anew at zero, softly, after nobody stepped it for 20 ms. A driver that finds its firmware dead (Errc::kFirmware) is Booting: `bring_up` anew.
 ///
 /// Threads: `bring_up` and `step` on the device's thread; `enable`, `disable`, `reset`, `phase` from any.
 class ServoCore {
@@ -62,6 +62,7 @@ class ServoCore {
   Command command_;
   Time answered_{};  ///< the last whole answer
   bool stepped_ = false;
+  Time stepped_at_{};
   DeviceStats stats_;
   Histogram round_trips_;
 };

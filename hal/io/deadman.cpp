@@ -1,7 +1,6 @@
 #include "hal/io/deadman.h"
 
 #include <dirent.h>
-#include <fcntl.h>
 #include <linux/usbdevice_fs.h>
 #include <poll.h>
 #include <sched.h>
@@ -9,6 +8,7 @@
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -108,8 +108,8 @@ Result<std::unique_ptr<Deadman>> Deadman::watch(std::span<const LastWords> devic
     if (will.count < kDevicesMax) will.devices[will.count++] = words;
   }
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    return std::unexpected(DeviceError{Errc::kInternal, std::string("no pipe for the deadman: ") + std::strerror(errno)});
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    return std::unexpected(DeviceError{Errc::kInternal, std::string("no line to the deadman: ") + std::strerror(errno)});
   }
   void* const shared = ::mmap(nullptr, sizeof(Pulse), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) {
@@ -134,7 +134,7 @@ Result<std::unique_ptr<Deadman>> Deadman::watch(std::span<const LastWords> devic
 }
 
 Deadman::~Deadman() {
-  [[maybe_unused]] const auto written = ::write(line_, "b", 1);
+  [[maybe_unused]] const auto sent = ::send(line_, "b", 1, MSG_NOSIGNAL);  // somebody may have ended it
   ::close(line_);
   int status = 0;
   while (child_ > 0 && ::waitpid(child_, &status, 0) < 0 && errno == EINTR) {

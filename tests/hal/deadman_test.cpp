@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -71,9 +72,51 @@ TEST(Deadman, SendsZerosWhenTheProgramCrashes) {
 TEST(Deadman, IsNotTakenAlongByTheTerminalsSignals) {
   const auto frames = frames_sent_by([](std::unique_ptr<Deadman>) {
     ::signal(SIGINT, SIG_DFL);
-    ::kill(0, SIGINT);  // Ctrl-C goes to the whole group, the deadman's too
+    ::kill(0, SIGINT);  // Ctrl-C goes to the whole group
   });
   EXPECT_GE(frames.size(), 4U);
+}
+
+TEST(Deadman, SurvivesWhatKillsTheProgramsWholeGroup) {
+  const auto frames = frames_sent_by([](std::unique_ptr<Deadman>) {
+    ::usleep(100'000);  // it has left the group long since
+    ::kill(0, SIGKILL);
+  });
+  EXPECT_GE(frames.size(), 4U);
+}
+
+TEST(Deadman, SpeaksWhileAServoStandsStillAndFallsSilentWhenItRests) {
+  const auto frames = frames_sent_by([](std::unique_ptr<Deadman> deadman) {
+    deadman->pulse().beat();
+    ::usleep(400'000);  // patience and a hundred rounds
+    deadman->pulse().rest();
+    ::usleep(100'000);
+    deadman.reset();
+  });
+  ASSERT_GE(frames.size(), 4U);
+  EXPECT_LE(frames.size(), 101U) << "it does not go on for ever";
+}
+
+TEST(Deadman, LeavesAServoAloneThatNeverGaveForce) {
+  const auto frames = frames_sent_by([](std::unique_ptr<Deadman> deadman) {
+    ::usleep(100'000);
+    deadman.reset();
+  });
+  EXPECT_EQ(frames, std::vector<std::string>{"force"});
+}
+
+TEST(Deadman, KnowsWhetherItIsThere) {
+  LastWords none;
+  none.fd = -1;
+  auto deadman = Deadman::watch({&none, 0});
+  ASSERT_TRUE(deadman);
+  EXPECT_TRUE((*deadman)->alive());
+  std::ifstream file("/proc/thread-self/children");  // it is the only one
+  pid_t child = 0;
+  ASSERT_TRUE(file >> child);
+  ::kill(child, SIGKILL);
+  for (int i = 0; i < 5000 && (*deadman)->alive(); ++i) ::usleep(1000);
+  EXPECT_FALSE((*deadman)->alive());
 }
 
 TEST(Deadman, SaysNothingAfterAGoodbye) {

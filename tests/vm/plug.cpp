@@ -16,6 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr Duration kRaster = 250us;  // leaves the processor to the programs
+
 constexpr const char* kFalconFile =
     "falcon {\n  force { motor_1_counts_per_nm: 10000 motor_2_counts_per_nm: 10000 motor_3_counts_per_nm: 10000 }\n"
     "  measured: \"the model's own\"\n  peak_n: 6\n}\n";
@@ -24,13 +26,16 @@ bool pushes(const std::array<std::int16_t, 3>& motors) { return motors != std::a
 
 class FalconPlug final : public Plug {
  public:
-  FalconPlug(const Folder& folder, bool homed)
-      : file_(folder.write("falcon.textproto", kFalconFile)), model_(described(homed)), server_(model_, 0) {
+  FalconPlug(const Folder& folder, Found found)
+      : words_("falcon:calibration=" + folder.write("falcon.textproto", kFalconFile)), model_(described(found)), server_(model_, next_port(), kRaster) {
+    if (found == Found::kNoFirmware) {
+      const auto image = hal::falcon::some_firmware().image;
+      words_ += ",firmware=" + folder.write("firmware.bin", {reinterpret_cast<const char*>(image.data()), image.size()});
+    }
     hold(0);
   }
   [[nodiscard]] bool attached() const override { return server_.attached(); }
-  [[nodiscard]] std::string words() const override { return "falcon:calibration=" + file_; }
-  [[nodiscard]] std::string unhomed_words() const override { return words(); }
+  [[nodiscard]] std::string words() const override { return words_; }
   void carry() override {}
   void hold(double x) override {
     server_.with_model([&] { model_.mechanics().set_pull({.k = 800, .b = 10, .m = 0.2, .x = hal::Vec3(x, 0, 0)}); });
@@ -44,9 +49,16 @@ class FalconPlug final : public Plug {
   [[nodiscard]] Duration watchdog() const override { return {}; }
 
  private:
-  static hal::wire::FalconModelSpec described(bool homed) {
+  /// A port is busy for a moment after somebody left it.
+  static unsigned next_port() {
+    static unsigned used = 0;
+    constexpr unsigned kPorts = 8;
+    return used++ % kPorts;
+  }
+  static hal::wire::FalconModelSpec described(Found found) {
     auto spec = hal::falcon::ready_model();
-    spec.homed = homed;
+    spec.running = found != Found::kNoFirmware;
+    spec.homed = found == Found::kReady;
     return spec;
   }
   std::uint64_t remembered(std::vector<Order>& newest) override {
@@ -59,7 +71,7 @@ class FalconPlug final : public Plug {
     });
   }
 
-  std::string file_;
+  std::string words_;
   hal::wire::FalconModel model_;
   UsbipServer server_;
 };
@@ -73,17 +85,19 @@ std::string checked(const char* name) {
 
 class BoardPlug final : public Plug {
  public:
-  BoardPlug(const Folder& folder, const char* preset)
+  BoardPlug(const Folder& folder, const char* preset, Found found)
       : file_(folder.write("arm.textproto", checked(preset))),
+        found_(found),
         model_(WoodenBench::at_calibration(*hal::load_device_file(file_)->woodenhaptics, {})),
         from_(model_.tip()) {
     model_.place(from_);
-    plug_ = std::make_unique<UhidDevice>(model_);
+    plug_ = std::make_unique<UhidDevice>(model_, kRaster);
   }
   ~BoardPlug() override { plug_.reset(); }
   [[nodiscard]] bool attached() const override { return plug_->attached(); }
-  [[nodiscard]] std::string words() const override { return unhomed_words() + ",home=here"; }
-  [[nodiscard]] std::string unhomed_words() const override { return "woodenhaptics:preset=" + file_ + ",energise=yes"; }
+  [[nodiscard]] std::string words() const override {
+    return "woodenhaptics:preset=" + file_ + ",energise=yes" + (found_ == Found::kReady ? ",home=here" : "");
+  }
   void carry() override {
     constexpr double kStep = 0.0005;  // [m] per millisecond
     const int steps = static_cast<int>(from_.norm() / kStep) + 1;
@@ -115,6 +129,7 @@ class BoardPlug final : public Plug {
   }
 
   std::string file_;
+  Found found_;
   hal::wire::WoodenHapticsModel model_;
   hal::Vec3 from_;
   std::unique_ptr<UhidDevice> plug_;
@@ -131,9 +146,9 @@ std::vector<Order> Plug::take() {
   return newest;
 }
 
-std::unique_ptr<Plug> plug_in(Kind kind, const Folder& folder, bool homed) {
-  if (kind == Kind::kFalcon) return std::make_unique<FalconPlug>(folder, homed);
-  return std::make_unique<BoardPlug>(folder, kind == Kind::kBoardV1 ? "woodenhaptics-2015" : "woodenhaptics-2019");
+std::unique_ptr<Plug> plug_in(Kind kind, const Folder& folder, Found found) {
+  if (kind == Kind::kFalcon) return std::make_unique<FalconPlug>(folder, found);
+  return std::make_unique<BoardPlug>(folder, kind == Kind::kBoardV1 ? "woodenhaptics-2015" : "woodenhaptics-2019", found);
 }
 
 }  // namespace tandem::test

@@ -25,8 +25,6 @@ class Plug {
   [[nodiscard]] virtual bool attached() const = 0;
   /// What a person writes after --device.
   [[nodiscard]] virtual std::string words() const = 0;
-  /// The same for one that must be homed first.
-  [[nodiscard]] virtual std::string unhomed_words() const = 0;
   /// Carries the tip to where sessions are, the host listening.
   virtual void carry() = 0;
   /// The hand's place on the axis to the right [m].
@@ -50,7 +48,12 @@ class Plug {
 };
 
 enum class Kind { kFalcon, kBoardV1, kBoardV2 };
-/// @param homed  the device is so already (a board never is)
-[[nodiscard]] std::unique_ptr<Plug> plug_in(Kind kind, const Folder& folder, bool homed = true);
+/// How far a device is when its client starts.
+enum class Found {
+  kReady,       ///< homed, or resting where the words tell it to be homed
+  kUnhomed,     ///< a person must home it
+  kNoFirmware,  ///< Falcons only: just got its power
+};
+[[nodiscard]] std::unique_ptr<Plug> plug_in(Kind kind, const Folder& folder, Found found = Found::kReady);
 
 }  // namespace tandem::test

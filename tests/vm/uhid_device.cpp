@@ -34,8 +34,9 @@ bool post(int fd, const uhid_event& event) {
 
 }  // namespace
 
-UhidDevice::UhidDevice(hal::wire::HidWireModel& model)
+UhidDevice::UhidDevice(hal::wire::HidWireModel& model, Duration raster)
     : model_(model),
+      raster_(raster),
       fd_(open("/dev/uhid", O_RDWR | O_NONBLOCK | O_CLOEXEC)),
       numbered_(hal::has_report_ids(model.report_descriptor())),
       served_at_(io::monotonic_now()) {
@@ -71,7 +72,7 @@ void UhidDevice::serve(std::stop_token stop) {
   (void)io::ask_for_realtime(kDevicePriority);  // a device does not wait for its host's processor
   while (!stop.stop_requested()) {
     pollfd one{fd_.get(), POLLIN, 0};
-    const timespec raster = io::to_timespec(std::chrono::microseconds(50));
+    const timespec raster = io::to_timespec(raster_);
     const int ready = ppoll(&one, 1, &raster, nullptr);
     const std::lock_guard hold(mutex_);
     const Time now = io::monotonic_now();

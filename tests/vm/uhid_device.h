@@ -15,7 +15,8 @@ inline constexpr int kDevicePriority = 90;
 /// the machine's.
 class UhidDevice {
  public:
-  explicit UhidDevice(hal::wire::HidWireModel& model);
+  /// @param raster  how often the device is looked after
+  explicit UhidDevice(hal::wire::HidWireModel& model, Duration raster = std::chrono::microseconds(50));
   ~UhidDevice();
   UhidDevice(const UhidDevice&) = delete;
 
@@ -34,6 +35,7 @@ class UhidDevice {
   void send_reports();
 
   hal::wire::HidWireModel& model_;
+  Duration raster_;
   io::Fd fd_;
   bool numbered_;
   std::mutex mutex_;
