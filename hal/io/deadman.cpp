@@ -28,6 +28,7 @@ constexpr int kRounds = 100;           // a millisecond apart
 constexpr unsigned kUsbPatience = 20;  // [ms]
 constexpr std::size_t kDevicesMax = 8;
 constexpr int kPriority = 61;
+constexpr int kFarewell = 500;         // [ms]
 
 struct Will {
   std::array<LastWords, kDevicesMax> devices{};
@@ -137,7 +138,10 @@ Deadman::~Deadman() {
   [[maybe_unused]] const auto sent = ::send(line_, "b", 1, MSG_NOSIGNAL);  // somebody may have ended it
   ::close(line_);
   int status = 0;
-  while (child_ > 0 && ::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+  for (int looks = 0; child_ > 0 && ::waitpid(child_, &status, WNOHANG) == 0; ++looks) {
+    if (looks == kFarewell) ::kill(child_, SIGKILL);  // stuck in a transfer; the devices were silenced without it
+    const timespec pause{0, 1'000'000};
+    ::nanosleep(&pause, nullptr);
   }
   ::munmap(pulse_, sizeof(Pulse));
 }
