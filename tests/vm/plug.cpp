@@ -36,6 +36,7 @@ class FalconPlug final : public Plug {
   }
   [[nodiscard]] bool attached() const override { return server_.attached(); }
   [[nodiscard]] std::string words() const override { return words_; }
+  void rest() override {}
   void carry() override {}
   void hold(double x) override {
     server_.with_model([&] { model_.mechanics().set_pull({.k = 800, .b = 10, .m = 0.2, .x = hal::Vec3(x, 0, 0)}); });
@@ -97,6 +98,9 @@ class BoardPlug final : public Plug {
   [[nodiscard]] bool attached() const override { return plug_->attached(); }
   [[nodiscard]] std::string words() const override {
     return "woodenhaptics:preset=" + file_ + ",energise=yes" + (found_ == Found::kReady ? ",home=here" : "");
+  }
+  void rest() override {
+    plug_->with_model([&] { EXPECT_TRUE(model_.place(from_)); });
   }
   void carry() override {
     constexpr double kStep = 0.0005;  // [m] per millisecond

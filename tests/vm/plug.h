@@ -25,6 +25,8 @@ class Plug {
   [[nodiscard]] virtual bool attached() const = 0;
   /// What a person writes after --device.
   [[nodiscard]] virtual std::string words() const = 0;
+  /// Puts the tip where a start expects it, nobody listening.
+  virtual void rest() = 0;
   /// Carries the tip to where sessions are, the host listening.
   virtual void carry() = 0;
   /// The hand's place on the axis to the right [m].
