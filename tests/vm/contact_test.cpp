@@ -236,6 +236,11 @@ TEST_P(ContactOfTwo, StoppedForHalfASecondGetsZerosAndNoStaleForceWhenItGoesOn) 
   trainer.signal(SIGCONT);
   expect_gentle_force(1s, "SIGCONT");
   std::size_t stale = 0;
+  if (HasFailure()) {
+    for (const Order& order : desk.seen()) {
+      if (order.at < on + kStale) std::printf("order after %.2f ms: %d\n", ms(order.at - on), order.strength);
+    }
+  }
   for (const Order& order : desk.seen()) stale += order.force && order.at < on + kStale ? 1 : 0;
   EXPECT_LE(stale, 1U) << "but for a frame that was being sent when it was stopped";
   EXPECT_FALSE(desk.seen().empty()) << "it goes on";

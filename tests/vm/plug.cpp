@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <thread>
 
 #include "hal/app/device_files.h"
@@ -22,7 +23,10 @@ constexpr const char* kFalconFile =
     "falcon {\n  force { motor_1_counts_per_nm: 10000 motor_2_counts_per_nm: 10000 motor_3_counts_per_nm: 10000 }\n"
     "  measured: \"the model's own\"\n  peak_n: 6\n}\n";
 
-bool pushes(const std::array<std::int16_t, 3>& motors) { return motors != std::array<std::int16_t, 3>{}; }
+Order order_of(Time at, const std::array<std::int16_t, 3>& motors) {
+  const int strength = std::max({std::abs(motors[0]), std::abs(motors[1]), std::abs(motors[2])});
+  return {at, strength > 0, strength};
+}
 
 class FalconPlug final : public Plug {
  public:
@@ -66,7 +70,7 @@ class FalconPlug final : public Plug {
     return server_.with_model([&] {
       for (std::size_t back = std::min<std::uint64_t>(model_.frames(), kRemembered); back > 0; --back) {
         const auto& frame = model_.host_frame(back - 1);
-        newest.push_back({frame.at, pushes(frame.motor)});
+        newest.push_back(order_of(frame.at, frame.motor));
       }
       return model_.frames();
     });
@@ -126,7 +130,7 @@ class BoardPlug final : public Plug {
     return plug_->with_model([&] {
       for (std::size_t back = std::min<std::uint64_t>(model_.host_reports(), kRemembered); back > 0; --back) {
         const auto& report = model_.host_report(back - 1);
-        newest.push_back({report.at, !report.preset && pushes(report.current_ma)});
+        newest.push_back(order_of(report.at, report.preset ? std::array<std::int16_t, 3>{} : report.current_ma));
       }
       return model_.host_reports();
     });

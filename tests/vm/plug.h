@@ -16,6 +16,7 @@ namespace tandem::test {
 struct Order {
   Time at{};
   bool force = false;
+  int strength = 0;  ///< of the motor that is told most, as it was told [counts or mA]
 };
 
 /// A device in a socket of this machine, and the hand that holds it: what was ordered at the wire, what its motors give.
