@@ -38,8 +38,9 @@ bool ServoCore::step(Time now, ServoClient& client) noexcept {
   const Phase phase = this->phase();
   if (phase == Phase::kLost || phase == Phase::kAbsent) return false;
   if (phase == Phase::kBooting) return true;
-  if (!stepped_) answered_ = now;
-  if (phase == Phase::kEnabled && (acted_ != Phase::kEnabled || (stepped_ && now - stepped_at_ >= kStoodStill))) guard_.start(now);
+  const bool stood_still = stepped_ && now - stepped_at_ >= kStoodStill;
+  if (!stepped_ || stood_still) answered_ = now;  // nobody asked meanwhile: no answer was missed
+  if (phase == Phase::kEnabled && (acted_ != Phase::kEnabled || stood_still)) guard_.start(now);
   stepped_ = true;
   stepped_at_ = now;
   acted_ = phase;

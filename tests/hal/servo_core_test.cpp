@@ -179,6 +179,19 @@ TEST_F(ServoCoreTest, AfterStandingStillForcesBeginAnewAtZero) {
   EXPECT_DOUBLE_EQ(driver->force(), 2);
 }
 
+TEST_F(ServoCoreTest, AnswersThatNobodyAskedForAreNotMissed) {
+  bring_up();
+  ASSERT_TRUE(core->enable());
+  steps(10);
+  driver->how = Exchange::kNothing;
+  step(500ms);
+  EXPECT_EQ(core->phase(), Phase::kEnabled);
+  steps(9);
+  EXPECT_EQ(core->phase(), Phase::kEnabled);
+  step();
+  EXPECT_EQ(core->phase(), Phase::kFault);
+}
+
 TEST_F(ServoCoreTest, NeverSendsWhatIsNoNumber) {
   bring_up();
   ASSERT_TRUE(core->enable());
