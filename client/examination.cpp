@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hal/driver_guard.h"
-
 namespace tandem::client {
 namespace {
 
@@ -126,7 +124,7 @@ std::vector<Finding> Examination::findings(const hal::DeviceStats& stats, double
   static constexpr const char* kGravity[] = {"no gravity compensation", "gravity is compensated by this program",
                                              "the device compensates gravity itself"};
   say(Kind::kGood, kGravity[static_cast<std::size_t>(caps_.gravity)]);
-  if (hal::limits_of(caps_).peak_n > 0) {
+  if (std::ranges::any_of(caps_.axis, [](const hal::AxisLimit& axis) { return axis.peak.value_or(0) > 0; })) {
     if (caps_.watchdog)
       say(Kind::kNotice, text("if this program and its deadman are both killed, the device itself lets go after %lld ms: too late for a hand; "
                               "keep its power switch within reach",

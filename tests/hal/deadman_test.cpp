@@ -79,7 +79,7 @@ TEST(Deadman, IsNotTakenAlongByTheTerminalsSignals) {
 
 TEST(Deadman, SurvivesWhatKillsTheProgramsWholeGroup) {
   const auto frames = frames_sent_by([](std::unique_ptr<Deadman>) {
-    ::usleep(100'000);  // it has left the group long since
+    ::poll(nullptr, 0, 100);  // it has left the group long since
     ::kill(0, SIGKILL);
   });
   EXPECT_GE(frames.size(), 4U);
@@ -88,9 +88,9 @@ TEST(Deadman, SurvivesWhatKillsTheProgramsWholeGroup) {
 TEST(Deadman, SpeaksWhileAServoStandsStillAndFallsSilentWhenItRests) {
   const auto frames = frames_sent_by([](std::unique_ptr<Deadman> deadman) {
     deadman->pulse().beat();
-    ::usleep(400'000);  // patience and a hundred rounds
+    ::poll(nullptr, 0, 400);  // patience and a hundred rounds
     deadman->pulse().rest();
-    ::usleep(100'000);
+    ::poll(nullptr, 0, 100);
     deadman.reset();
   });
   ASSERT_GE(frames.size(), 4U);
@@ -99,7 +99,7 @@ TEST(Deadman, SpeaksWhileAServoStandsStillAndFallsSilentWhenItRests) {
 
 TEST(Deadman, LeavesAServoAloneThatNeverGaveForce) {
   const auto frames = frames_sent_by([](std::unique_ptr<Deadman> deadman) {
-    ::usleep(100'000);
+    ::poll(nullptr, 0, 100);
     deadman.reset();
   });
   EXPECT_EQ(frames, std::vector<std::string>{"force"});
@@ -115,7 +115,7 @@ TEST(Deadman, KnowsWhetherItIsThere) {
   pid_t child = 0;
   ASSERT_TRUE(file >> child);
   ::kill(child, SIGKILL);
-  for (int i = 0; i < 5000 && (*deadman)->alive(); ++i) ::usleep(1000);
+  for (int i = 0; i < 5000 && (*deadman)->alive(); ++i) ::poll(nullptr, 0, 1);
   EXPECT_FALSE((*deadman)->alive());
 }
 
