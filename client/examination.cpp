@@ -136,6 +136,15 @@ std::vector<Finding> Examination::findings(const hal::DeviceStats& stats, double
   static constexpr const char* kGravity[] = {"no gravity compensation", "gravity is compensated by this program",
                                              "the device compensates gravity itself"};
   say(Kind::kGood, kGravity[static_cast<std::size_t>(caps_.gravity)]);
+  if (std::ranges::any_of(caps_.axis, [](const hal::AxisLimit& axis) { return axis.peak.value_or(0) > 0; })) {
+    if (caps_.watchdog)
+      say(Kind::kNotice, text("if this program and its deadman are both killed, the device itself lets go after %lld ms: too late for a hand; "
+                              "keep its power switch within reach",
+                              static_cast<long long>(caps_.watchdog->count())));
+    else
+      say(Kind::kNotice, "nothing is known of a watchdog in the device: if this program and its deadman are both killed, or the cable is "
+                         "pulled, assume that its motors keep their last force; keep its power switch within reach");
+  }
   if (caps_.buttons > 0)
     say(pressed_ != 0 ? Kind::kGood : Kind::kNotice,
         pressed_ != 0 ? text("buttons seen: mask 0x%x", pressed_) : std::string("no button was pressed while it was examined"));

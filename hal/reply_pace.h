@@ -19,6 +19,8 @@ class ReplyPace {
     const bool in_pace = began >= due_ - kPeriod && began <= due_ + kPeriod;
     return due_ = (in_pace ? due_ : began) + kPeriod;
   }
+  /// Nobody asked for an answer since more than `limit` after one was due: the program was stopped or starved.
+  [[nodiscard]] bool stood_still(Time began, Duration limit) const noexcept { return due_ != Time{} && began - due_ > limit; }
 
  private:
   Time due_{};

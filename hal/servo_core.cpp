@@ -10,6 +10,8 @@ namespace {
 constexpr std::uint64_t kImplausibleMax = 3;
 /// Of the miss limit that one exchange without an answer can use up: two periods of an ordinary servo.
 constexpr Duration kAskedMost = std::chrono::milliseconds(2);
+/// Nobody stepped for so long: the program was stopped or starved, and a Deadman took the force away meanwhile.
+constexpr Duration kStoodStill = std::chrono::milliseconds(20);
 
 Result<> bad_state(const DeviceId& id, const char* what) {
   return std::unexpected(DeviceError{Errc::kBadState, id.backend + " " + id.key + ": " + what});
@@ -39,9 +41,11 @@ bool ServoCore::step(Time now, ServoClient& client) noexcept {
   const Phase phase = this->phase();
   if (phase == Phase::kLost || phase == Phase::kAbsent) return false;
   if (phase == Phase::kBooting) return true;
-  if (!stepped_) asked_at_ = now, silent_for_ = {};
+  const bool stood_still = stepped_ && now - stepped_at_ >= kStoodStill;
+  if (!stepped_ || stood_still) asked_at_ = now, silent_for_ = {};  // nobody asked meanwhile: no answer was missed
+  if (phase == Phase::kEnabled && (acted_ != Phase::kEnabled || stood_still)) guard_.start(now);
   stepped_ = true;
-  if (phase == Phase::kEnabled && acted_ != Phase::kEnabled) guard_.start(now);
+  stepped_at_ = now;
   acted_ = phase;
 
   Orders orders;

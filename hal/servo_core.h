@@ -15,7 +15,7 @@ namespace tandem::hal {
 /// Absent -> Opening -> Booting -> Identified -> Unhomed -> Ready (zero force) -> Enabled -> Fault | Lost. Fault (no answer
 /// within the miss limit, or readings that cannot be, again and again) keeps exchanging zeros and needs `reset`; Lost is
 /// for ever: a device that comes back is another one, and nobody enables it but a person. A homed device that loses its
-/// origin is Unhomed again. A driver that finds its firmware dead (Errc::kFirmware) is Booting: `bring_up` anew.
+/// origin is Unhomed again. Forces begin anew at zero, softly, after nobody stepped it for 20 ms. A driver that finds its firmware dead (Errc::kFirmware) is Booting: `bring_up` anew.
 ///
 /// Threads: `bring_up` and `step` on the device's thread; `enable`, `disable`, `reset`, `phase` from any.
 class ServoCore {
@@ -32,6 +32,8 @@ class ServoCore {
   /// One exchange, then one call of the client; nothing while Booting.
   /// @return false: the device is Lost, and the client was told
   bool step(Time now, ServoClient& client) noexcept TANDEM_REALTIME;
+  /// Whether the last step may have sent a force.
+  [[nodiscard]] bool energised() const noexcept { return acted_ == Phase::kEnabled; }
   /// Zeros, while the link lives.
   void silence() noexcept { driver_->silence(); }
   /// How long the last exchange took, for the statistics: the core reads no clock.
@@ -61,6 +63,7 @@ class ServoCore {
   Time asked_at_{};        ///< the last exchange
   Duration silent_for_{};  ///< time of exchanges without a whole answer since the last one with
   bool stepped_ = false;
+  Time stepped_at_{};
   DeviceStats stats_;
   Histogram round_trips_;
 };

@@ -55,7 +55,7 @@ std::string unfit(const SeatSetup& setup, const hal::DeviceCaps& caps) {
 }
 
 /// Waits for the end, shows the status, hands keys to the person.
-SeatEnd watch(SeatPump& pump, Person& person, hal::Device& device, const SeatSetup& setup, const AttendPlan& plan, int signals,
+SeatEnd watch(SeatPump& pump, Person& person, hal::Device& device, HeldDevice* held, const SeatSetup& setup, const AttendPlan& plan, int signals,
               io::StatusLine& line) {
   io::KeyReader keys;
   if (keys.interactive()) line.note(person.help());
@@ -91,6 +91,8 @@ SeatEnd watch(SeatPump& pump, Person& person, hal::Device& device, const SeatSet
       wants_force_again = fault_told = false;
       static_cast<void>(device.enable());
     }
+    if (!left && held != nullptr && held->unguarded())
+      leave("somebody ended the process that would send zeros if this program died: letting go; join again");
     const Time now = io::monotonic_now();
     const ClientStatus status = pump.status();
     if (left && now - *left > kLeaveMax) break;  // nobody is there to be told
@@ -204,7 +206,7 @@ int attend(const AttendPlan& plan) {
   }
 
   const Time begin = io::monotonic_now();
-  const SeatEnd end = watch(*pump, person, device, setup, plan, signals.get(), line);
+  const SeatEnd end = watch(*pump, person, device, held.get(), setup, plan, signals.get(), line);
   ClientReport report;
   report.seconds = seconds(io::monotonic_now() - begin);
   device.disable();

@@ -116,7 +116,7 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
               "force away");
   held->note_ = core->id().backend + " " + core->id().key;
   if (!core->caps().force_calibrated) held->note_ += ", force scale not calibrated: kept to a tenth";
-  held->device_ = std::make_unique<hal::DeviceThread>(std::move(core), kPeriod);
+  held->device_ = std::make_unique<hal::DeviceThread>(std::move(core), kPeriod, held->deadman_ ? &held->deadman_->pulse() : nullptr);
   if (auto started = held->device_->start(held->relay_); !started) return failed(started.error(), false);
   if (auto homed = held->wait_until_homed(signals, line); !homed) return std::unexpected(homed.error());
   return held;
@@ -144,6 +144,8 @@ std::expected<void, HeldDevice::Failure> HeldDevice::wait_until_homed(int signal
 hal::DeviceCaps HeldDevice::caps() const {
   return device_->caps().input == hal::InputKind::kRate ? RateHand::seen_caps(device_->caps()) : device_->caps();
 }
+
+bool HeldDevice::unguarded() { return deadman_ && !deadman_->alive(); }
 
 void HeldDevice::serve(hal::ServoClient& client) {
   if (device_->caps().input == hal::InputKind::kRate) rate_ = std::make_unique<RateHand>(client, device_->caps());

@@ -41,6 +41,9 @@ class HeldDevice {
   /// What speaks to it, with its version.
   [[nodiscard]] const std::string& library() const noexcept { return library_; }
 
+  /// Whether the process that would send zeros after a crash was there and is gone.
+  [[nodiscard]] bool unguarded();
+
   /// From now on `client` is called with what the device itself says.
   void observe(hal::ServoClient& client) { relay_.to.store(&client, std::memory_order_release); }
   /// The same for a seat: of a device that says how fast, it sees where. It must live until `device().close()`.

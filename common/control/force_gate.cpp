@@ -18,6 +18,7 @@ constexpr double kSlewRampIn = 10;          // [N/s]
 constexpr double kDamping = 5;              // [N s/m] while ramping out and DAMPED
 constexpr Duration kLatchWindow = 10s;
 constexpr Duration kStandstill = 5ms;       // a command lives no longer
+constexpr Duration kForgotten = 25ms;       // and 20 ms later its driver has let go of it
 
 double tank_for(double mass) noexcept { return 1e-3 * std::min(100.0, std::max(20.0, 180.0 * mass)); }
 
@@ -48,6 +49,7 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
     if (std::isfinite(given)) given_ += given;
     q_ = in.q;
   }
+  if (in.now - last_step_ > kForgotten) effort_.fill(0);  // nothing is held any more: no ramp begins from it
   change_phase(in, out);
   if (phase_ == GatePhase::kPassive || phase_ == GatePhase::kDamped || active()) given_max_ = std::max(given_max_, given_);
   limit(in, out);

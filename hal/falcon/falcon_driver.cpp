@@ -18,6 +18,7 @@ constexpr Duration kWriteWait = 2ms;
 constexpr Duration kReplyWait = 2ms;   // 0.3 ms on the line, up to 1 ms until the bridge flushes
 constexpr int kPacketsMax = 16;        // of one exchange; an idle bridge sends an empty one per millisecond
 constexpr int kSilenceFrames = 4;
+constexpr Duration kStoodStill = 20ms;  // the program was stopped or starved: a deadman spoke meanwhile, and answers wait
 constexpr double kRateTime = 0.004;    // of the speed estimate [s]: one count per reading is 0.6 rad/s
 constexpr double kRateMin = 1e-6;      // [rad/s]
 constexpr double kJump = 300 * kFalconRadPerCount;  // no hand moves a leg by 11 degrees in a millisecond [rad]
@@ -182,9 +183,21 @@ std::expected<void, Errc> FalconDriver::receive(Duration wait) noexcept {
   return {};
 }
 
+/// What waits in the bridge is of the time before: played back it would look like a motion of now.
+std::expected<void, Errc> FalconDriver::forget_old_answers() noexcept {
+  if (auto purged = pipe_->control(ftdi::kReset, ftdi::kPurgeIn, 0); !purged) return std::unexpected(after(purged.error()));
+  if (auto waited = receive(Duration{0}); !waited) return waited;
+  framer_.clear();
+  jumped_ = anew_ = true;
+  return {};
+}
+
 std::expected<Exchange, Errc> FalconDriver::exchange(const Orders& orders, State& state) noexcept {
-  const std::uint64_t thrown_before = framer_.thrown_away();
   const Time began = clock_->now();
+  if (pace_.stood_still(began, kStoodStill)) {
+    if (auto forgotten = forget_old_answers(); !forgotten) return std::unexpected(forgotten.error());
+  }
+  const std::uint64_t thrown_before = framer_.thrown_away();
   reply_.reset();
   line_error_ = false;
   // What came too late for the exchange before.
@@ -195,6 +208,7 @@ std::expected<Exchange, Errc> FalconDriver::exchange(const Orders& orders, State
     if (!taken) return taken;
   }
   const bool had_late = reply_.has_value();
+  const bool late_resynced = had_late && state.resynced;
 
   Order order;
   const FalconOrder frame = frame_for(orders, order);
@@ -204,8 +218,8 @@ std::expected<Exchange, Errc> FalconDriver::exchange(const Orders& orders, State
   reply_.reset();
   const auto read = receive(std::clamp(pace_.next(began) - clock_->now(), Duration{0}, Duration{kReplyWait}));
   if (!read) return std::unexpected(read.error());
-  const bool resynced = framer_.thrown_away() != thrown_before || line_error_;
-  if (!reply_) return had_late ? std::expected<Exchange, Errc>(Exchange::kFresh) : Exchange::kNothing;
+  const bool resynced = framer_.thrown_away() != thrown_before || line_error_ || late_resynced;
+  if (!reply_) return !had_late ? Exchange::kNothing : late_resynced ? Exchange::kResynced : Exchange::kFresh;
   const auto taken = take(state, clock_->now());
   if (taken && resynced) state.resynced = true;
   return taken && resynced ? std::expected<Exchange, Errc>(Exchange::kResynced) : taken;
@@ -226,6 +240,7 @@ std::expected<Exchange, Errc> FalconDriver::take(State& state, Time now) noexcep
     state.raw[i] = reply.encoder[i];
   }
   const bool new_origin = verdict == FalconHoming::Verdict::kJustHomed || verdict == FalconHoming::Verdict::kDropped;
+  const bool anew = std::exchange(anew_, false);
   const bool jump = !jumped_ && (theta - theta_last_).cwiseAbs().maxCoeff() > kJump;
   const double dt = seconds(now - read_at_);
   if (jumped_ || jump || new_origin) {
@@ -256,7 +271,7 @@ std::expected<Exchange, Errc> FalconDriver::take(State& state, Time now) noexcep
   state.homed = homing_.homed();
   state.saturated = acting_.saturated;
   state.buttons = reply.buttons;
-  state.resynced = jump || new_origin;
+  state.resynced = jump || new_origin || anew;
   state.stale = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const int k = static_cast<int>(i);
@@ -273,7 +288,7 @@ std::expected<Exchange, Errc> FalconDriver::take(State& state, Time now) noexcep
     state.dx = pose_->J * dtheta_;
     state.f_out = pose_->J_inv.transpose() * acting_.tau;
   }
-  return jump || new_origin ? Exchange::kResynced : Exchange::kFresh;
+  return state.resynced ? Exchange::kResynced : Exchange::kFresh;
 }
 
 void FalconDriver::silence() noexcept {

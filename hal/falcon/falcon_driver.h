@@ -55,6 +55,7 @@ class FalconDriver final : public Driver {
   [[nodiscard]] std::expected<void, Errc> send(const FalconOrder& frame) noexcept;
   /// Into `reply_`: waits for one, or takes all that is there if `wait` is 0.
   [[nodiscard]] std::expected<void, Errc> receive(Duration wait) noexcept;
+  [[nodiscard]] std::expected<void, Errc> forget_old_answers() noexcept;
   [[nodiscard]] std::expected<Exchange, Errc> take(State& state, Time now) noexcept;
   [[nodiscard]] Errc after(Errc trouble) noexcept;
 
@@ -73,6 +74,7 @@ class FalconDriver final : public Driver {
   std::optional<FalconReply> reply_;  ///< newest of this exchange
   bool line_error_ = false;
   bool jumped_ = true;                ///< readings before say nothing about speed
+  bool anew_ = false;                 ///< the next reading is the first after a standstill
   std::optional<FalconPose> pose_;    ///< of the last reading, homed
   Vec3 x_last_ = Vec3::Zero();
   Vec3 theta_last_ = Vec3::Zero(), dtheta_ = Vec3::Zero();

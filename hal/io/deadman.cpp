@@ -1,11 +1,14 @@
 #include "hal/io/deadman.h"
 
 #include <dirent.h>
-#include <fcntl.h>
 #include <linux/usbdevice_fs.h>
+#include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +17,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <new>
+
+#include "hal/io/servo_pace.h"
 
 namespace tandem::hal {
 namespace {
@@ -21,6 +27,8 @@ namespace {
 constexpr int kRounds = 100;           // a millisecond apart
 constexpr unsigned kUsbPatience = 20;  // [ms]
 constexpr std::size_t kDevicesMax = 8;
+constexpr int kPriority = 61;
+constexpr int kFarewell = 500;         // [ms]
 
 struct Will {
   std::array<LastWords, kDevicesMax> devices{};
@@ -46,18 +54,46 @@ void close_all_but(const Will& will, int line) noexcept {
   }
 }
 
-[[noreturn]] void keep_watch(Will& will, int line) noexcept {
+void say_all(Will& will) noexcept {
+  for (std::size_t i = 0; i < will.count; ++i) say(will.devices[i]);
+}
+
+/// Ends with the program. @return whether it said goodbye
+bool watch_over(Will& will, int line, const Pulse& pulse) noexcept {
+  std::uint32_t seen = Pulse::kAtRest;
+  int rounds_left = kRounds;
+  Time moved_at = MonotonicClock{}.now();
+  while (true) {
+    pollfd file{line, POLLIN, 0};
+    const bool late = MonotonicClock{}.now() - moved_at >= Deadman::kPatience;
+    const int ready = ::poll(&file, 1, late && rounds_left > 0 ? 1 : static_cast<int>(Deadman::kLook.count()));
+    if (ready > 0) {
+      char goodbye = 0;
+      const ssize_t got = ::read(line, &goodbye, 1);
+      if (got >= 0 || errno != EINTR) return got == 1;
+    }
+    const std::uint32_t beats = pulse.beats();
+    if (beats == Pulse::kAtRest || beats != seen) {
+      seen = beats;
+      rounds_left = kRounds;
+      moved_at = MonotonicClock{}.now();
+    } else if (rounds_left > 0 && MonotonicClock{}.now() - moved_at >= Deadman::kPatience) {
+      --rounds_left;
+      say_all(will);
+    }
+  }
+}
+
+[[noreturn]] void keep_watch(Will& will, int line, const Pulse& pulse) noexcept {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP}) ::signal(signal, SIG_IGN);
+  ::setsid();  // what is done to the program's group or terminal is not done to this process
   ::prctl(PR_SET_NAME, "tandem-deadman");
+  const sched_param priority{kPriority};
+  ::sched_setscheduler(0, SCHED_FIFO, &priority);  // above the servo; where the system refuses, as everybody
   close_all_but(will, line);
-  char goodbye = 0;
-  ssize_t got = 0;
-  do {
-    got = ::read(line, &goodbye, 1);
-  } while (got < 0 && errno == EINTR);
-  if (got != 1) {
+  if (!watch_over(will, line, pulse)) {
     for (int round = 0; round < kRounds; ++round) {
-      for (std::size_t i = 0; i < will.count; ++i) say(will.devices[i]);
+      say_all(will);
       const timespec pause{0, 1'000'000};
       ::nanosleep(&pause, nullptr);
     }
@@ -73,30 +109,47 @@ Result<std::unique_ptr<Deadman>> Deadman::watch(std::span<const LastWords> devic
     if (will.count < kDevicesMax) will.devices[will.count++] = words;
   }
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    return std::unexpected(DeviceError{Errc::kInternal, std::string("no pipe for the deadman: ") + std::strerror(errno)});
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    return std::unexpected(DeviceError{Errc::kInternal, std::string("no line to the deadman: ") + std::strerror(errno)});
   }
+  void* const shared = ::mmap(nullptr, sizeof(Pulse), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared == MAP_FAILED) {
+    for (const int end : ends) ::close(end);
+    return std::unexpected(DeviceError{Errc::kInternal, std::string("no memory to share with the deadman: ") + std::strerror(errno)});
+  }
+  Pulse* const pulse = new (shared) Pulse;
   // A Ctrl-C just now must not meet a child that does not ignore it yet.
   sigset_t all, before;
   sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
   const pid_t child = ::fork();
-  if (child == 0) keep_watch(will, ends[0]);
+  if (child == 0) keep_watch(will, ends[0], *pulse);
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   ::close(ends[0]);
   if (child < 0) {
     ::close(ends[1]);
+    ::munmap(shared, sizeof(Pulse));
     return std::unexpected(DeviceError{Errc::kInternal, std::string("no process for the deadman: ") + std::strerror(errno)});
   }
-  return std::unique_ptr<Deadman>(new Deadman(ends[1], child));
+  return std::unique_ptr<Deadman>(new Deadman(ends[1], child, pulse));
 }
 
 Deadman::~Deadman() {
-  [[maybe_unused]] const auto written = ::write(line_, "b", 1);
+  [[maybe_unused]] const auto sent = ::send(line_, "b", 1, MSG_NOSIGNAL);  // somebody may have ended it
   ::close(line_);
   int status = 0;
-  while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+  for (int looks = 0; child_ > 0 && ::waitpid(child_, &status, WNOHANG) == 0; ++looks) {
+    if (looks == kFarewell) ::kill(child_, SIGKILL);  // stuck in a transfer; the devices were silenced without it
+    const timespec pause{0, 1'000'000};
+    ::nanosleep(&pause, nullptr);
   }
+  ::munmap(pulse_, sizeof(Pulse));
+}
+
+bool Deadman::alive() noexcept {
+  int status = 0;
+  if (child_ > 0 && ::waitpid(child_, &status, WNOHANG) == child_) child_ = 0;
+  return child_ > 0;
 }
 
 std::optional<int> open_file_of(const std::string& node) {

@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include "hal/device.h"
+#include "hal/io/pulse.h"
 
 namespace tandem::hal {
 
@@ -23,11 +25,17 @@ struct LastWords {
   std::size_t size = 0;
 };
 
-/// A process that lives as long as this object and does nothing. If the program dies before saying goodbye - killed,
-/// crashed, aborted - it sends the last words, again and again for 100 ms, through the file it inherited. No handler of
-/// signals could do that for SIGKILL, and none is safe after a crash.
+/// A process that lives as long as this object and sends the last words through the file it inherited, again and again
+/// for 100 ms, whenever nobody else can:
+/// - the program died before saying goodbye: killed, crashed, aborted. No handler of signals could do that for SIGKILL,
+///   and none is safe after a crash.
+/// - its servo stands still for `kPatience` with forces on: stopped by a signal or a debugger, writing its core, starved
+///   of the processor. When it moves on, so does the watch.
 class Deadman {
  public:
+  /// As long as a command that died needs to let go: its age of 5 ms and the guard's 20 ms.
+  static constexpr std::chrono::milliseconds kPatience{20}, kLook{5};
+
   /// Copies this process; to be called before realtime threads hold locks that matter. Error: no process to be had.
   [[nodiscard]] static Result<std::unique_ptr<Deadman>> watch(std::span<const LastWords> devices);
   /// Says goodbye: the devices were silenced, nothing is to be done.
@@ -35,10 +43,16 @@ class Deadman {
   Deadman(const Deadman&) = delete;
   Deadman& operator=(const Deadman&) = delete;
 
+  /// For the servo; lives as long as this object.
+  [[nodiscard]] Pulse& pulse() noexcept { return *pulse_; }
+  /// False: somebody ended the process, and nobody would speak for the devices.
+  [[nodiscard]] bool alive() noexcept;
+
  private:
-  Deadman(int line, pid_t child) noexcept : line_(line), child_(child) {}
+  Deadman(int line, pid_t child, Pulse* pulse) noexcept : line_(line), child_(child), pulse_(pulse) {}
   int line_;  ///< closed by the system whatever this process dies of
   pid_t child_;
+  Pulse* pulse_;  ///< in memory shared with the child
 };
 
 /// The file this process has open on a node such as "/dev/hidraw0"; libraries hide theirs.

@@ -24,8 +24,8 @@ class Unwatched final : public BringUp {
 
 }  // namespace
 
-DeviceThread::DeviceThread(std::unique_ptr<ServoCore> core, Duration period)
-    : core_(std::move(core)), caps_(core_->caps()), period_(std::clamp<Duration>(period, 100us, 100ms)), pace_(period_) {}
+DeviceThread::DeviceThread(std::unique_ptr<ServoCore> core, Duration period, Pulse* pulse)
+    : core_(std::move(core)), caps_(core_->caps()), period_(std::clamp<Duration>(period, 100us, 100ms)), pace_(period_), pulse_(pulse) {}
 
 Result<> DeviceThread::start(ServoClient& client) {
   if (thread_.joinable() || closed_) {
@@ -50,13 +50,20 @@ void DeviceThread::run(ServoClient& client) noexcept {
     stats.round_trip_max_s = 1e-9 * static_cast<double>(core_->round_trips().max());
     published_ = stats;
   };
+  const auto show_life = [&](bool forces) {
+    if (pulse_ != nullptr) forces ? pulse_->beat() : pulse_->rest();
+  };
   Unwatched watcher{stop_};
   pace_.begin();
   while (!stop_.load(std::memory_order_relaxed)) {
     pace_.next();
     const Time now = clock.now();  // a command that died while this thread slept is dead
-    if (core_->phase() == Phase::kBooting) static_cast<void>(core_->bring_up(watcher));  // the phase tells how it went
+    if (core_->phase() == Phase::kBooting) {
+      show_life(false);  // zeros of somebody else's would get into a firmware
+      static_cast<void>(core_->bring_up(watcher));  // the phase tells how it went
+    }
     if (!core_->step(now, client)) break;
+    show_life(core_->energised());
     core_->took(clock.now() - now);
     if (core_->counts().ticks % kPublishEvery == 1 && stats_lock_.try_lock()) {
       publish();
@@ -64,6 +71,7 @@ void DeviceThread::run(ServoClient& client) noexcept {
     }
   }
   core_->silence();
+  show_life(false);
   const std::lock_guard lock(stats_lock_);
   publish();
 }

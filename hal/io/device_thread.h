@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "hal/io/pulse.h"
 #include "hal/io/servo_pace.h"
 #include "hal/servo_core.h"
 
@@ -15,8 +16,9 @@ namespace tandem::hal {
 /// everything from any thread but the client's tick, where close() only asks the thread to end.
 class DeviceThread final : public Device {
  public:
-  /// @param core  brought up
-  DeviceThread(std::unique_ptr<ServoCore> core, Duration period);
+  /// @param core   brought up
+  /// @param pulse  beats while forces may be on, for a Deadman; lives as long as this; nullptr: nobody watches
+  DeviceThread(std::unique_ptr<ServoCore> core, Duration period, Pulse* pulse = nullptr);
   ~DeviceThread() override { close(); }
 
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
@@ -41,6 +43,7 @@ class DeviceThread final : public Device {
   DeviceCaps caps_;
   Duration period_;
   ServoPace pace_;  ///< of the servo thread
+  Pulse* pulse_;
   std::atomic<bool> stop_{false}, realtime_{false}, closed_{false};
   std::thread thread_;
   // The servo thread only tries this lock: it never waits for a reader.

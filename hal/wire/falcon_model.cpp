@@ -128,6 +128,7 @@ void FalconModel::advance(Duration dt) noexcept {
 }
 
 void FalconModel::step(Duration h) noexcept {
+  now_ += h;
   line_.advance(h);
   while (const auto b = line_.next_for_device()) take(*b);
   if (cts_in_ > Duration{0} && (cts_in_ -= h) <= Duration{0}) {
@@ -219,7 +220,7 @@ void FalconModel::take_image(std::byte b) noexcept {
 }
 
 void FalconModel::take_frame(const FalconOrder& order) noexcept {
-  ++frames_;
+  remembered_[frames_++ % kRemembered] = {now_, order.motor};
   const bool pushes = order.motor != std::array<std::int16_t, 3>{};
   unsafe_frames_ += pushes && homed_ != kFalconAllHomed ? 1 : 0;
   order_ = order;

@@ -51,6 +51,13 @@ struct FalconModelSpec {
 /// pulled: nothing is known of a watchdog in the device, so tests must assume the worst.
 class FalconModel final : public UsbWireModel {
  public:
+  /// What the host ordered, and when in the model's time.
+  struct HostFrame {
+    Time at{};
+    std::array<std::int16_t, 3> motor{};
+  };
+  static constexpr std::size_t kRemembered = 256;
+
   explicit FalconModel(const FalconModelSpec& spec = {});
 
   void advance(Duration dt) noexcept override;
@@ -81,6 +88,11 @@ class FalconModel final : public UsbWireModel {
   [[nodiscard]] std::uint8_t homed() const noexcept { return homed_; }
   [[nodiscard]] const FalconOrder& order() const noexcept { return order_; }  ///< newest frame taken
   [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }     ///< whole frames taken
+  /// `back` frames before the newest; back < min(frames(), kRemembered).
+  [[nodiscard]] const HostFrame& host_frame(std::size_t back) const noexcept {
+    return remembered_[(frames_ + kRemembered - 1 - back) % kRemembered];
+  }
+  [[nodiscard]] Time now() const noexcept { return now_; }
   [[nodiscard]] std::uint64_t bad_frames() const noexcept { return bad_frames_; }
   /// Frames with force while not all legs were homed: there must never be one.
   [[nodiscard]] std::uint64_t unsafe_frames() const noexcept { return unsafe_frames_; }
@@ -100,6 +112,7 @@ class FalconModel final : public UsbWireModel {
   void find_origins() noexcept;
   void send(std::span<const std::byte> bytes) noexcept;
 
+  Time now_{};
   FalconModelSpec spec_;
   FtdiModel line_;
   FalconMechanics mechanics_;
@@ -129,6 +142,7 @@ class FalconModel final : public UsbWireModel {
   Duration delayed_for_{};
 
   std::uint64_t frames_ = 0, bad_frames_ = 0, unsafe_frames_ = 0, loads_ = 0;
+  std::array<HostFrame, kRemembered> remembered_{};
 };
 
 }  // namespace tandem::hal::wire

@@ -56,6 +56,18 @@ TEST(Examination, AHealthyDeviceHasNoTrouble) {
   EXPECT_EQ(kind_of(found, "the tip went 100 x 100 x 100 mm"), Kind::kGood);
 }
 
+TEST(Examination, TellsWhatADeviceDoesWhenNobodySpeaksForIt) {
+  hal::DeviceCaps caps = three_joints();
+  const auto without_motors = after_a_second(caps, {true, true, true}).findings({}, 1.0);
+  EXPECT_EQ(find(without_motors, "deadman"), nullptr);
+  for (hal::AxisLimit& axis : caps.axis) axis.peak = 8;
+  const auto unknown = after_a_second(caps, {true, true, true}).findings({}, 1.0);
+  EXPECT_EQ(kind_of(unknown, "nothing is known of a watchdog in the device"), Kind::kNotice);
+  caps.watchdog = 500ms;
+  const auto known = after_a_second(caps, {true, true, true}).findings({}, 1.0);
+  EXPECT_EQ(kind_of(known, "the device itself lets go after 500 ms"), Kind::kNotice);
+}
+
 TEST(Examination, ADeviceThatNeverAnswersIsVisibleButSilent) {
   Examination examination{three_joints()};
   hal::State stale;

@@ -170,6 +170,17 @@ TEST(ForceGate, LetsGoOnRequestThroughTheRampAndCountsNoLoss) {
   EXPECT_TRUE(d.tick().engaged_now);
 }
 
+TEST(ForceGate, HoldsNoStaleForceAfterAStandstillOfItsProgram) {
+  for (const Duration standstill : {30ms, 500ms}) {
+    GateDrive d;
+    d.hold(2);
+    d.in.now += standstill;  // the order of before has died meanwhile: its age and the driver's letting go
+    d.in.loop_age = standstill;
+    EXPECT_TRUE(d.tick().tripped);
+    for (int i = 0; i < 200; ++i) EXPECT_EQ(d.tick().effort, AxisArray{}) << "no ramp of a force that is no more, tick " << i;
+  }
+}
+
 TEST(ForceGate, KeepsTheAccountOfALossOpenUntilItEngagesAgain) {
   // A link that flaps: one datagram during the ramp renews the link, but the force that ramps out is still the stale one.
   GateDrive d;

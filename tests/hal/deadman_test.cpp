@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -71,9 +72,51 @@ TEST(Deadman, SendsZerosWhenTheProgramCrashes) {
 TEST(Deadman, IsNotTakenAlongByTheTerminalsSignals) {
   const auto frames = frames_sent_by([](std::unique_ptr<Deadman>) {
     ::signal(SIGINT, SIG_DFL);
-    ::kill(0, SIGINT);  // Ctrl-C goes to the whole group, the deadman's too
+    ::kill(0, SIGINT);  // Ctrl-C goes to the whole group
   });
   EXPECT_GE(frames.size(), 4U);
+}
+
+TEST(Deadman, SurvivesWhatKillsTheProgramsWholeGroup) {
+  const auto frames = frames_sent_by([](std::unique_ptr<Deadman>) {
+    ::poll(nullptr, 0, 100);  // it has left the group long since
+    ::kill(0, SIGKILL);
+  });
+  EXPECT_GE(frames.size(), 4U);
+}
+
+TEST(Deadman, SpeaksWhileAServoStandsStillAndFallsSilentWhenItRests) {
+  const auto frames = frames_sent_by([](std::unique_ptr<Deadman> deadman) {
+    deadman->pulse().beat();
+    ::poll(nullptr, 0, 400);  // patience and a hundred rounds
+    deadman->pulse().rest();
+    ::poll(nullptr, 0, 100);
+    deadman.reset();
+  });
+  ASSERT_GE(frames.size(), 4U);
+  EXPECT_LE(frames.size(), 101U) << "it does not go on for ever";
+}
+
+TEST(Deadman, LeavesAServoAloneThatNeverGaveForce) {
+  const auto frames = frames_sent_by([](std::unique_ptr<Deadman> deadman) {
+    ::poll(nullptr, 0, 100);
+    deadman.reset();
+  });
+  EXPECT_EQ(frames, std::vector<std::string>{"force"});
+}
+
+TEST(Deadman, KnowsWhetherItIsThere) {
+  LastWords none;
+  none.fd = -1;
+  auto deadman = Deadman::watch({&none, 0});
+  ASSERT_TRUE(deadman);
+  EXPECT_TRUE((*deadman)->alive());
+  std::ifstream file("/proc/thread-self/children");  // it is the only one
+  pid_t child = 0;
+  ASSERT_TRUE(file >> child);
+  ::kill(child, SIGKILL);
+  for (int i = 0; i < 5000 && (*deadman)->alive(); ++i) ::poll(nullptr, 0, 1);
+  EXPECT_FALSE((*deadman)->alive());
 }
 
 TEST(Deadman, SaysNothingAfterAGoodbye) {

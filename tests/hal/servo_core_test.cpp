@@ -161,6 +161,37 @@ TEST_F(ServoCoreTest, LetsGoWithin20MillisecondsOfACommandsDeath) {
   EXPECT_EQ(driver->force(), 0.0);
 }
 
+TEST_F(ServoCoreTest, AfterStandingStillForcesBeginAnewAtZero) {
+  bring_up();
+  ASSERT_TRUE(core->enable());
+  client.effort = {2, 0, 0};
+  steps(600);
+  EXPECT_DOUBLE_EQ(driver->force(), 2);
+  step(19ms);  // late, and its command dead since 14 ms: let go of by the rule of dead commands
+  EXPECT_NEAR(driver->force(), 2 * 0.3, 0.11);
+  steps(600);
+  EXPECT_DOUBLE_EQ(driver->force(), 2);
+  step(500ms);
+  EXPECT_EQ(driver->force(), 0);
+  step();
+  EXPECT_LT(driver->force(), 0.05);  // a five-hundredth of the peak, though 2 N are wanted
+  steps(600);
+  EXPECT_DOUBLE_EQ(driver->force(), 2);
+}
+
+TEST_F(ServoCoreTest, AnswersThatNobodyAskedForAreNotMissed) {
+  bring_up();
+  ASSERT_TRUE(core->enable());
+  steps(10);
+  driver->how = Exchange::kNothing;
+  step(500ms);
+  EXPECT_EQ(core->phase(), Phase::kEnabled);
+  steps(9);
+  EXPECT_EQ(core->phase(), Phase::kEnabled);
+  step();
+  EXPECT_EQ(core->phase(), Phase::kFault);
+}
+
 TEST_F(ServoCoreTest, NeverSendsWhatIsNoNumber) {
   bring_up();
   ASSERT_TRUE(core->enable());

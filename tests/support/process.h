@@ -29,6 +29,7 @@ class Process {
   /// Waits for the end. @return the exit code, minus the signal that killed it, or nothing if it still runs
   std::optional<int> wait();
   void signal(int number) const;
+  [[nodiscard]] pid_t id() const { return pid_; }
 
   [[nodiscard]] const std::string& out() const { return out_; }
   [[nodiscard]] const std::string& err() const { return err_; }

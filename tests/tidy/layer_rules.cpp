@@ -144,9 +144,9 @@ const std::array<Ban, 8> kBans{{
     {Ban::In::kCode,
      {"sleep_for", "sleep_until", "usleep", "nanosleep"},
      {"tests"},
-     {"tests/io"},
+     {"tests/io", "tests/vm"},
      {},
-     "a test moves virtual time; only tests/io waits for real things"},
+     "a test moves virtual time; only tests/io waits for real things, and tests/vm for those of its own machine"},
     {Ban::In::kText,
      {"TO"
       "DO",

@@ -15,10 +15,13 @@
 #include <string_view>
 
 #include "common/io/clock.h"
+#include "common/io/realtime.h"
 #include "hal/report_descriptor.h"
 
 namespace tandem::test {
 namespace {
+
+constexpr int kEventsMax = 32;  // the kernel keeps as many
 
 template <std::size_t N>
 void copy(std::string_view text, __u8 (&into)[N]) {
@@ -31,9 +34,10 @@ bool post(int fd, const uhid_event& event) {
 
 }  // namespace
 
-UhidDevice::UhidDevice(hal::wire::HidWireModel& model)
+UhidDevice::UhidDevice(hal::wire::HidWireModel& model, Duration raster)
     : model_(model),
-      fd_(open("/dev/uhid", O_RDWR | O_CLOEXEC)),
+      raster_(raster),
+      fd_(open("/dev/uhid", O_RDWR | O_NONBLOCK | O_CLOEXEC)),
       numbered_(hal::has_report_ids(model.report_descriptor())),
       served_at_(io::monotonic_now()) {
   auto event = std::make_unique<uhid_event>();
@@ -65,28 +69,30 @@ void UhidDevice::unplug() {
 }
 
 void UhidDevice::serve(std::stop_token stop) {
+  (void)io::ask_for_realtime(kDevicePriority);  // a device does not wait for its host's processor
   while (!stop.stop_requested()) {
     pollfd one{fd_.get(), POLLIN, 0};
-    const timespec raster = io::to_timespec(std::chrono::microseconds(50));
+    const timespec raster = io::to_timespec(raster_);
     const int ready = ppoll(&one, 1, &raster, nullptr);
     const std::lock_guard hold(mutex_);
     const Time now = io::monotonic_now();
     model_.advance(now - served_at_);
     served_at_ = now;
-    if (ready > 0) take_event();
+    for (int events = 0; ready > 0 && events < kEventsMax && take_event(); ++events) {
+    }
     send_reports();
   }
 }
 
-void UhidDevice::take_event() {
+bool UhidDevice::take_event() {
   uhid_event event{};
-  if (read(fd_.get(), &event, sizeof event) <= 0) return;
+  if (read(fd_.get(), &event, sizeof event) <= 0) return false;
   uhid_event reply{};
   switch (event.type) {
     case UHID_OUTPUT: {
       const auto bytes = std::as_bytes(std::span(&event.u.output.data[0], event.u.output.size));
       if (!bytes.empty()) (void)model_.report_out(numbered_ ? bytes : bytes.subspan(1));
-      return;
+      return true;
     }
     case UHID_GET_REPORT:
       reply.type = UHID_GET_REPORT_REPLY;
@@ -99,9 +105,10 @@ void UhidDevice::take_event() {
       reply.u.set_report_reply.err = EIO;
       break;
     default:
-      return;
+      return true;
   }
   (void)post(fd_.get(), reply);
+  return true;
 }
 
 void UhidDevice::send_reports() {

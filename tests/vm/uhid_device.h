@@ -8,11 +8,15 @@
 
 namespace tandem::test {
 
+/// Above every servo.
+inline constexpr int kDevicePriority = 90;
+
 /// A wire model as a HID device of the real kernel, through /dev/uhid. Needs root and the module. The model's time is
 /// the machine's.
 class UhidDevice {
  public:
-  explicit UhidDevice(hal::wire::HidWireModel& model);
+  /// @param raster  how often the device is looked after
+  explicit UhidDevice(hal::wire::HidWireModel& model, Duration raster = std::chrono::microseconds(50));
   ~UhidDevice();
   UhidDevice(const UhidDevice&) = delete;
 
@@ -27,10 +31,11 @@ class UhidDevice {
 
  private:
   void serve(std::stop_token stop);
-  void take_event();
+  bool take_event();
   void send_reports();
 
   hal::wire::HidWireModel& model_;
+  Duration raster_;
   io::Fd fd_;
   bool numbered_;
   std::mutex mutex_;

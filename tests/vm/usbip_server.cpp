@@ -12,6 +12,8 @@
 #include <string>
 
 #include "common/io/clock.h"
+#include "common/io/realtime.h"
+#include "tests/vm/uhid_device.h"
 
 namespace tandem::test {
 
@@ -29,11 +31,6 @@ constexpr std::size_t kStatus = 5, kMoved = 6;
 constexpr unsigned kFullSpeed = 2;
 constexpr std::uint32_t kDevice = 0x00010002;
 using Header = std::array<std::uint32_t, kHeaderWords>;
-
-/// The device's time moves in these steps, so that its timers do not run late by what waking up costs here: a bus has
-/// frames of its own too.
-constexpr Duration kRaster = std::chrono::microseconds(50);
-Time on_raster(Time t) { return t - t.time_since_epoch() % kRaster; }
 
 bool receive(int fd, void* into, std::size_t size) {
   for (std::size_t have = 0; have < size;) {
@@ -65,8 +62,8 @@ std::size_t give(std::span<const std::byte> from, std::vector<std::byte>& into, 
 
 }  // namespace
 
-UsbipServer::UsbipServer(hal::wire::UsbWireModel& model, unsigned port)
-    : model_(model), served_at_(on_raster(io::monotonic_now())) {
+UsbipServer::UsbipServer(hal::wire::UsbWireModel& model, unsigned port, Duration raster)
+    : model_(model), raster_(raster), served_at_(on_raster(io::monotonic_now())) {
   int pair[2] = {-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair) != 0) return;
   ours_ = io::Fd(pair[0]);
@@ -87,10 +84,11 @@ void UsbipServer::unplug() {
 }
 
 void UsbipServer::serve(std::stop_token stop) {
+  (void)io::ask_for_realtime(kDevicePriority);  // a device does not wait for its host's processor
   while (!stop.stop_requested()) {
     pollfd one{ours_.get(), POLLIN, 0};
     // While somebody waits, the device is looked after at every instant of its raster.
-    const Duration until_next = on_raster(io::monotonic_now()) + kRaster - io::monotonic_now();
+    const Duration until_next = on_raster(io::monotonic_now()) + raster_ - io::monotonic_now();
     const timespec patience = io::to_timespec(pending_.empty() ? Duration(std::chrono::milliseconds(5)) : until_next);
     const int ready = ppoll(&one, 1, &patience, nullptr);
     const std::lock_guard hold(mutex_);

@@ -16,8 +16,10 @@ namespace tandem::test {
 /// a socket pair, and this end answers. Needs root and the module. The model's time is the machine's.
 class UsbipServer {
  public:
-  /// @param port  of the virtual controller, 0..7
-  UsbipServer(hal::wire::UsbWireModel& model, unsigned port);
+  /// @param port    of the virtual controller, 0..7
+  /// @param raster  the device's time moves in these steps, so that its timers do not run late by what waking up costs
+  ///                here: a bus has frames of its own too
+  UsbipServer(hal::wire::UsbWireModel& model, unsigned port, Duration raster = std::chrono::microseconds(50));
   ~UsbipServer();
   UsbipServer(const UsbipServer&) = delete;
 
@@ -46,7 +48,10 @@ class UsbipServer {
   hal::wire::WireMoved control(Transfer& transfer);
   void answer(const Transfer& transfer, int status, std::size_t moved);
 
+  [[nodiscard]] Time on_raster(Time t) const { return t - t.time_since_epoch() % raster_; }
+
   hal::wire::UsbWireModel& model_;
+  Duration raster_;
   io::Fd ours_;
   std::mutex mutex_;
   std::deque<Transfer> pending_;

@@ -239,6 +239,32 @@ TEST_F(FalconDriverTest, SpeedFollowsAMovingHand) {
   EXPECT_NEAR(sum / 300, 0.1, 0.003);
 }
 
+TEST_F(FalconDriverTest, AfterAStandstillOldAnswersAreNoMotion) {
+  Bench bench = ready();
+  up(bench);
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(bench.tick());
+  // The program is stopped; a deadman sends zeros, and nobody takes what they are answered while the grip moves by 20 mm.
+  bench.model.mechanics().set_pull({.k = 1e4, .b = 100, .m = 0.1, .x = Vec3::Zero(), .v = Vec3(0.4, 0, 0)});
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_TRUE(bench.pipe.write(encode(FalconOrder{}), std::chrono::milliseconds(2)));
+    bench.clock.advance(std::chrono::milliseconds(1));
+  }
+  bench.model.mechanics().set_pull({.k = 1e4, .b = 100, .m = 0.1, .x = Vec3(0.02, 0, 0)});
+  bench.clock.advance(std::chrono::milliseconds(400));
+  bench.begin();
+  bool resynced = false;
+  for (int i = 0; i < 20; ++i) {
+    const auto how = bench.tick();
+    ASSERT_TRUE(how);
+    resynced = resynced || how == Exchange::kResynced;
+    ASSERT_TRUE(resynced || how == Exchange::kNothing) << "the first answer that counts begins anew";
+    if (!resynced) continue;
+    EXPECT_LT(bench.state.dx.norm(), 0.02) << "the first readings are of now, tick " << i;
+    EXPECT_NEAR(bench.state.x[0], bench.model.mechanics().tip()[0], 1e-4);
+  }
+  EXPECT_TRUE(resynced);
+}
+
 TEST_F(FalconDriverTest, ButtonsAndLightsGoThrough) {
   Bench bench = ready();
   up(bench);
