@@ -58,12 +58,12 @@ void ControlConnection::read_next() {
 void ControlConnection::took(SecretBuffer bytes) {
   if (finished_) return;
   const auto raw = std::as_const(bytes).bytes();
-  request_ = 0;
   // Who may say what is decided before a payload is parsed.
-  const auto kind = control::peek_kind(raw);
-  if (!kind || !is_question(*kind)) {
+  const auto head = control::peek(raw);
+  request_ = head ? head->request : 0;
+  if (!head || !is_question(head->kind)) {
     plane_.note(ControlEvent::kBadFrame, address_);
-    const bool version = !kind && kind.error() == control::FrameError::kVersion;
+    const bool version = !head && head.error() == control::FrameError::kVersion;
     return refuse(version ? Reason::kVersion : Reason::kBadFrame,
                   version ? "this server speaks version 1 of Tandem's control frames; use a client of the same release" : "the server does not understand this", true);
   }
@@ -73,7 +73,7 @@ void ControlConnection::took(SecretBuffer bytes) {
     return refuse(Reason::kTrouble, "the server cannot read its book of workstations, so it lets nobody in; its log says more", true);
   }
   workstation_ = std::move(*row);
-  if (!workstation_ && *kind != Kind::kEnrol) {
+  if (!workstation_ && head->kind != Kind::kEnrol) {
     plane_.note(ControlEvent::kNotEnrolled, address_, "", pin_.hex());
     return refuse(Reason::kNotEnrolled, std::string(kUnknown), true);
   }
@@ -82,8 +82,7 @@ void ControlConnection::took(SecretBuffer bytes) {
     plane_.note(ControlEvent::kBadFrame, address_, workstation_ ? workstation_->name : "");
     return refuse(Reason::kBadFrame, std::string(control::to_text(frame.error())), true);
   }
-  request_ = frame->request;
-  trust::TokenBucket& bucket = *kind == Kind::kSetAuthority ? authority_ : commands_;
+  trust::TokenBucket& bucket = head->kind == Kind::kSetAuthority ? authority_ : commands_;
   if (!bucket.take(plane_.clocks_.monotonic())) {
     plane_.note(ControlEvent::kCommandTooFast, address_, workstation_ ? workstation_->name : "");
     return refuse(Reason::kTooFast, "too many requests; ask more slowly", pending_, 1);

@@ -15,11 +15,10 @@ using Bytes = std::vector<std::byte>;
 
 /// Also the harness of a fuzzer. @return whether it was a message
 bool survives(const Bytes& in) {
-  const auto kind = peek_kind(in);
+  const auto head = peek(in);
   const auto got = decode(in);
   if (!got) return false;
-  EXPECT_TRUE(kind);
-  EXPECT_EQ(kind, kind_of(*got));
+  EXPECT_EQ(head, (Head{kind_of(*got), got->request}));
   const auto again = encode(*got);
   EXPECT_TRUE(again) << "what was taken can be sent";
   if (again) {
