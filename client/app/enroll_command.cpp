@@ -31,7 +31,8 @@ int enrol(const trust::EnrolmentString& given, const io::SocketAddress& server, 
   if (!own) return trouble(own.error());
   const auto judge = [&](const trust::Pin& seen) -> std::expected<const trust::Identity*, std::string> {
     if (seen == given.server) return &own->identity();
-    return std::unexpected("the server at " + given.address + " has another key than the string says, so nothing was told to it. Either another machine answers there, or the server was set up "
+    return std::unexpected("the server at " + given.address +
+                           " has another key than the string says, so nothing was told to it. Either another machine answers there, or the server was set up "
                            "anew: ask for a new string");
   };
   auto client = trust::ControlClient::connect(server, judge, patience, signals.get());
@@ -82,7 +83,8 @@ void add_enroll_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("STRING", arguments->text, "`tandem:` and what follows, whole; `-`: read from standard input, so that it stands in no list of processes")
       ->option_text(" ")
       ->required();
-  command->add_option("--state", arguments->state, "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")->option_text("DIR");
+  command->add_option("--state", arguments->state, "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      ->option_text("DIR");
   command->add_option("--patience", arguments->patience, "how long to wait for the server [s]; default 5")->option_text("S");
   command->footer(
       "Makes the workstation's key where there is none yet; it never leaves the folder. The server must run, and must have the key that the\n"

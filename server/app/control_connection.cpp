@@ -65,7 +65,8 @@ void ControlConnection::took(SecretBuffer bytes) {
     plane_.note(ControlEvent::kBadFrame, address_);
     const bool version = !head && head.error() == control::FrameError::kVersion;
     return refuse(version ? Reason::kVersion : Reason::kBadFrame,
-                  version ? "this server speaks version 1 of Tandem's control frames; use a client of the same release" : "the server does not understand this", true);
+                  version ? "this server speaks version 1 of Tandem's control frames; use a client of the same release" : "the server does not understand this",
+                  true);
   }
   auto row = plane_.trust_.find(pin_);
   if (!row) {
@@ -129,7 +130,9 @@ void ControlConnection::on_hello(control::Hello hello) {
   if (standing_) return refuse(Reason::kBadFrame, "this connection has joined already; open another one for another seat", true);
   const auto common = std::ranges::find_if(hello.versions, [](std::uint32_t v) { return v == control::kProtocolVersion; });
   if (common == hello.versions.end())
-    return refuse(Reason::kVersion, "this server speaks version " + std::to_string(control::kProtocolVersion) + " of the protocol, this client none of it; install the same release on both",
+    return refuse(Reason::kVersion,
+                  "this server speaks version " + std::to_string(control::kProtocolVersion) +
+                      " of the protocol, this client none of it; install the same release on both",
                   true);
   if (blocked()) return;
   const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *common, *workstation_, source_, address_});
@@ -204,22 +207,15 @@ void ControlConnection::answer(control::Body body, bool last) {
 void ControlConnection::over(const trust::StreamFault& fault) {
   if (finished_) return;
   switch (fault.end) {
-    case StreamEnd::kDeadline:
-      plane_.note(ControlEvent::kDeadline, address_, workstation_ ? workstation_->name : "");
-      break;
-    case StreamEnd::kTooMuch:
-      plane_.note(ControlEvent::kTooMuchInput, address_);
-      break;
+    case StreamEnd::kDeadline: plane_.note(ControlEvent::kDeadline, address_, workstation_ ? workstation_->name : ""); break;
+    case StreamEnd::kTooMuch: plane_.note(ControlEvent::kTooMuchInput, address_); break;
     case StreamEnd::kLength:
       plane_.note(ControlEvent::kBadFrame, address_, workstation_ ? workstation_->name : "", fault.text);
       return refuse(Reason::kBadFrame, fault.text, true);
-    case StreamEnd::kHandshake:
-      plane_.note(ControlEvent::kHandshakeFailed, address_, "", fault.text);
-      break;
+    case StreamEnd::kHandshake: plane_.note(ControlEvent::kHandshakeFailed, address_, "", fault.text); break;
     case StreamEnd::kClosed:
     case StreamEnd::kStopped:
-    case StreamEnd::kTrouble:
-      break;
+    case StreamEnd::kTrouble: break;
   }
   finish();
 }

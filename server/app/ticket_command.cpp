@@ -24,16 +24,19 @@ std::expected<OpenSession, std::string> find_session(const std::string& typed, c
   std::vector<std::string> names;
   const OpenSession* found = nullptr;
   std::size_t same_name = 0;
-  for (const OpenSession& s : serving ? serving->sessions : std::vector<OpenSession>{}) {
+  const std::vector<OpenSession> none;
+  for (const OpenSession& s : serving ? serving->sessions : none) {
     names.push_back(s.name);
     if ((is_id && s.id == id) || (code && s.code == *code)) return s;
     if (s.name == typed && ++same_name == 1) found = &s;
   }
-  if (same_name > 1) return std::unexpected("--session: \"" + typed + "\" is the name of " + std::to_string(same_name) + " sessions; give the id or the code of one");
+  if (same_name > 1)
+    return std::unexpected("--session: \"" + typed + "\" is the name of " + std::to_string(same_name) + " sessions; give the id or the code of one");
   if (found != nullptr) return *found;
   if (is_id) return OpenSession{id, "", "", 0, {}};  // of a session that will run: nothing is known of its seats
   if (!serving) return std::unexpected("--session: no server runs from this state folder, so only an id of 32 hex digits can be understood");
-  return std::unexpected("--session: \"" + typed + "\" is neither id, code nor name of a session; " + (names.empty() ? "the server has none" : suggest(typed, names)));
+  return std::unexpected("--session: \"" + typed + "\" is neither id, code nor name of a session; " +
+                         (names.empty() ? "the server has none" : suggest(typed, names)));
 }
 
 std::optional<AccessRole> find_role(const TicketArguments& arguments, const OpenSession& session, std::vector<std::string>& mistakes) {
@@ -44,7 +47,8 @@ std::optional<AccessRole> find_role(const TicketArguments& arguments, const Open
   }
   if (arguments.seat.empty() || session.seats.empty()) {
     if (arguments.role.empty())
-      mistakes.push_back(arguments.seat.empty() ? "--seat is required, or a --role that sits on none: operator, recorder" : "--role is required: the session's seats are not known here");
+      mistakes.push_back(arguments.seat.empty() ? "--seat is required, or a --role that sits on none: operator, recorder"
+                                                : "--role is required: the session's seats are not known here");
     return role;
   }
   const auto seat = std::ranges::find(session.seats, arguments.seat, &OpenSeat::name);
@@ -104,7 +108,9 @@ int ticket_command(const TicketArguments& arguments) {
 void add_ticket_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<TicketArguments>();
   CLI::App* const command = root.add_subcommand("ticket", "Writes a join ticket: the right of one workstation to take one seat of one session, once.");
-  command->add_option("--session", arguments->session, "required: id (32 hex digits), code (10 characters) or name of the session")->option_text("ID|CODE|NAME")->required();
+  command->add_option("--session", arguments->session, "required: id (32 hex digits), code (10 characters) or name of the session")
+      ->option_text("ID|CODE|NAME")
+      ->required();
   command->add_option("--seat", arguments->seat, "the seat's name; none for an operator or a recorder")->option_text("SEAT");
   command->add_option("--workstation", arguments->workstation, "required: the only workstation that may use it")->option_text("NAME")->required();
   command->add_option("--role", arguments->role, "instructor, trainee, evaluator, observer, operator, recorder; default: the seat's")->option_text("ROLE");

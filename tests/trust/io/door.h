@@ -57,7 +57,9 @@ class OneSession : public Admissions {
     changed.notify_all();
   }
   control::SessionList list(const WorkstationRow&) override { return {{{session_id, "contact", control::SessionPhase::kWaiting, {{"trainee"}}}}, false}; }
-  void command(const control::Welcome&, const WorkstationRow&, const control::Body&, std::function<void(control::Body)> answer) override { answer(control::Done{}); }
+  void command(const control::Welcome&, const WorkstationRow&, const control::Body&, std::function<void(control::Body)> answer) override {
+    answer(control::Done{});
+  }
   void left(const control::Welcome&) override {}
 
   [[nodiscard]] control::Welcome welcome(const std::string& seat) const {
@@ -133,9 +135,7 @@ class Door {
   /// Waits until `event` was told `times` times.
   bool told(ControlEvent event, std::size_t times = 1) {
     std::unique_lock lock(mutex_);
-    return told_.wait_for(lock, kPatience, [&] {
-      return static_cast<std::size_t>(std::ranges::count(news_, event, &ControlNews::event)) >= times;
-    });
+    return told_.wait_for(lock, kPatience, [&] { return static_cast<std::size_t>(std::ranges::count(news_, event, &ControlNews::event)) >= times; });
   }
   std::vector<ControlNews> news() {
     const std::lock_guard lock(mutex_);
@@ -151,7 +151,8 @@ class Door {
   }
   std::expected<trust::ControlClient, trust::ClientFault> connect(const trust::Identity& as, int signals = -1) const {
     return trust::ControlClient::connect(
-        address, [&as, this](const trust::Pin& pin) -> std::expected<const trust::Identity*, std::string> {
+        address,
+        [&as, this](const trust::Pin& pin) -> std::expected<const trust::Identity*, std::string> {
           if (pin == server_pin) return &as;
           return std::unexpected("another key");
         },

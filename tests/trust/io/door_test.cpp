@@ -56,7 +56,8 @@ TEST(ControlPlane, RefusesCodesOneBitOffAndOneSecondTooOld) {
 TEST(ControlPlane, WhoIsNotEnrolledMayOnlyEnrol) {
   Door door;
   const auto stranger = trust::Identity::make("me", trust::test::counting<16>(), kNow);
-  const std::vector<control::Body> all{control::SessionListRequest{}, control::Ping{1}, hello_with(door.ticket(stranger)), control::StopSession{}, control::Drain{}};
+  const std::vector<control::Body> all{control::SessionListRequest{}, control::Ping{1}, hello_with(door.ticket(stranger)), control::StopSession{},
+                                       control::Drain{}};
   for (const control::Body& body : all) {
     auto client = door.connect(stranger);
     ASSERT_TRUE(client);
@@ -193,8 +194,8 @@ TEST(ControlPlane, TellsNoSecrets) {
   }();
   const auto resume = door.sessions->welcome("trainee").resume_secret;
   const auto signature = std::span(ticket).last(64);
-  for (const std::span<const std::byte> secret : {std::span<const std::byte>(code.bytes), std::span<const std::byte>(resume.bytes), std::span<const std::byte>(secrets),
-                                                  std::span<const std::byte>(signature)}) {
+  for (const std::span<const std::byte> secret : {std::span<const std::byte>(code.bytes), std::span<const std::byte>(resume.bytes),
+                                                  std::span<const std::byte>(secrets), std::span<const std::byte>(signature)}) {
     EXPECT_EQ(all.find(trust::to_hex(secret.first(8))), std::string::npos);
     EXPECT_EQ(all.find(trust::to_base32(secret).substr(0, 8)), std::string::npos);
     EXPECT_EQ(all.find(std::string(trust::text_of(secret.first(8)))), std::string::npos);
@@ -208,10 +209,11 @@ TEST(ControlPlane, AClientFindsTheLocalServersKeysInTheVeryHandshake) {
   const auto key = trust::TlsKey::from_pem(std::as_const(*std::make_unique<SecretBuffer>(local.key.to_pem())).bytes());
   ASSERT_TRUE(key);
   auto beside = door.beside();
-  const auto published = trust::LocalRuntime::publish(
-      door.folder.path("run"), door.server_pin,
-      {std::move(*trust::Identity::from_pem(std::as_const(*std::make_unique<SecretBuffer>(local.key.to_pem())).bytes(), trust::bytes_of(local.certificate.to_pem()))),
-       beside.ticket_key()});
+  const auto published =
+      trust::LocalRuntime::publish(door.folder.path("run"), door.server_pin,
+                                   {std::move(*trust::Identity::from_pem(std::as_const(*std::make_unique<SecretBuffer>(local.key.to_pem())).bytes(),
+                                                                         trust::bytes_of(local.certificate.to_pem()))),
+                                    beside.ticket_key()});
   ASSERT_TRUE(published) << published.error();
   std::optional<trust::LocalKeys> found;
   auto client = trust::ControlClient::connect(

@@ -34,7 +34,8 @@ void expect_alive(Door& door) {
 TEST(HostileDoor, AFrameTooLongIsRefusedByItsLengthAlone) {
   Door door;
   const auto me = door.enrolled("me");
-  for (const std::string& length : {std::string("\x01\x20\x00\x00", 4), std::string("\x01\x00\x01\x00", 4), std::string("\xff\xff\xff\xff"), std::string(4, '\0')}) {
+  for (const std::string& length :
+       {std::string("\x01\x20\x00\x00", 4), std::string("\x01\x00\x01\x00", 4), std::string("\xff\xff\xff\xff"), std::string(4, '\0')}) {
     const RawTls client(door.address, {.identity = &me});
     ASSERT_TRUE(client.handshake);
     ASSERT_TRUE(client.write(length));
@@ -63,7 +64,8 @@ TEST(HostileDoor, AHandshakeLongerThanAllowedIsCutOff) {
   const RawTcp stranger(door.address);
   // A ClientHello that says it has 60000 bytes, in records of 4096.
   std::string bytes;
-  for (int i = 0; i < 4; ++i) bytes += std::string("\x16\x03\x01\x10\x00", 5) + (i == 0 ? std::string("\x01\x00\xea\x60\x03\x03", 6) + std::string(4090, 'r') : std::string(4096, 'r'));
+  for (int i = 0; i < 4; ++i)
+    bytes += std::string("\x16\x03\x01\x10\x00", 5) + (i == 0 ? std::string("\x01\x00\xea\x60\x03\x03", 6) + std::string(4090, 'r') : std::string(4096, 'r'));
   stranger.send(bytes);
   EXPECT_TRUE(stranger.read_to_end());
   // OpenSSL may find the greeting wrong before it is too long.
@@ -177,8 +179,8 @@ TEST(HostileDoor, AnswersOfAServerAreNoQuestions) {
   Door door;
   const auto me = door.enrolled("me");
   RandomStream random(6);
-  for (const control::Kind kind : {control::Kind::kWelcome, control::Kind::kRefused, control::Kind::kEnrolAck, control::Kind::kSessionList, control::Kind::kAuthorityAnswer,
-                                   control::Kind::kPong, control::Kind::kDone}) {
+  for (const control::Kind kind : {control::Kind::kWelcome, control::Kind::kRefused, control::Kind::kEnrolAck, control::Kind::kSessionList,
+                                   control::Kind::kAuthorityAnswer, control::Kind::kPong, control::Kind::kDone}) {
     control::Body body = control::samples::frame(random, kind).body;
     if (auto* list = std::get_if<control::SessionList>(&body)) list->sessions.resize(std::min<std::size_t>(list->sessions.size(), 1));
     auto client = door.connect(me);
@@ -211,7 +213,8 @@ TEST(ControlClient, SaysWhenNobodyListens) {
     Door door;
     at = door.address;
   }
-  const auto client = trust::ControlClient::connect(at, [](const trust::Pin&) -> std::expected<const trust::Identity*, std::string> { return nullptr; }, kPatience, -1);
+  const auto client = trust::ControlClient::connect(
+      at, [](const trust::Pin&) -> std::expected<const trust::Identity*, std::string> { return nullptr; }, kPatience, -1);
   ASSERT_FALSE(client);
   EXPECT_EQ(client.error().kind, trust::ClientFault::Kind::kUnreachable);
   EXPECT_NE(client.error().text.find("does tandem-server run there?"), std::string::npos);

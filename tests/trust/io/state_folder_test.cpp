@@ -152,7 +152,8 @@ TEST(ServerTrust, IsInitialisedOnceAndOpenedAgain) {
   const auto trust = ServerTrust::open(folder.path("s"));
   ASSERT_TRUE(trust) << trust.error();
   EXPECT_EQ(trust->identity().pin(), *pin);
-  for (const char* name : {ServerTrust::kKeyFile, ServerTrust::kCertificateFile, ServerTrust::kTicketKeyFile, ServerTrust::kWorkstationsFile, ServerTrust::kCodesFile})
+  for (const char* name :
+       {ServerTrust::kKeyFile, ServerTrust::kCertificateFile, ServerTrust::kTicketKeyFile, ServerTrust::kWorkstationsFile, ServerTrust::kCodesFile})
     EXPECT_EQ(mode_of(folder.path(std::string("s/") + name)), 0600u) << name;
 }
 

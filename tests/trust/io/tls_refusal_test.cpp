@@ -31,7 +31,8 @@ TEST(ControlTls, TakesVersion13WithAlpnAndACertificate) {
 TEST(ControlTls, OlderVersionsAreRefused) {
   Door door;
   const auto me = door.enrolled("me");
-  for (const int version : {TLS1_VERSION, TLS1_1_VERSION, TLS1_2_VERSION}) expect_refused(door, {.version_min = version, .version_max = version, .identity = &me}, "an old version");
+  for (const int version : {TLS1_VERSION, TLS1_1_VERSION, TLS1_2_VERSION})
+    expect_refused(door, {.version_min = version, .version_max = version, .identity = &me}, "an old version");
 }
 
 TEST(ControlTls, NoOrAnotherAlpnIsRefused) {
@@ -54,7 +55,8 @@ TEST(ControlTls, NoCertificateIsRefusedBeforeAnyAnswer) {
 
 TEST(ControlTls, PlaintextIsRefused) {
   Door door;
-  for (const std::string& bytes : {std::string("GET / HTTP/1.1\r\n\r\n"), std::string(4, '\0') + std::string(64, 'x'), std::string("\x12\x00\x00\x00\x08\x01", 6)}) {
+  for (const std::string& bytes :
+       {std::string("GET / HTTP/1.1\r\n\r\n"), std::string(4, '\0') + std::string(64, 'x'), std::string("\x12\x00\x00\x00\x08\x01", 6)}) {
     const std::uint64_t before = door.plane->count(ControlEvent::kHandshakeFailed);
     const RawTcp stranger(door.address);
     ASSERT_TRUE(stranger.connected);
@@ -104,7 +106,8 @@ TEST(ControlTls, TheClientRefusesAServerThatSpeaksAnotherProtocol) {
     stream.read_some(asio::buffer(&any, 1), error);
   });
   const auto at = io::parse_address("127.0.0.1:" + std::to_string(acceptor.local_endpoint().port()), 1);
-  const auto client = trust::ControlClient::connect(*at, [&](const trust::Pin&) -> std::expected<const trust::Identity*, std::string> { return &key; }, kPatience, -1);
+  const auto client = trust::ControlClient::connect(
+      *at, [&](const trust::Pin&) -> std::expected<const trust::Identity*, std::string> { return &key; }, kPatience, -1);
   ASSERT_FALSE(client);
   EXPECT_NE(client.error().text.find("tandem/1"), std::string::npos) << client.error().text;
   other.join();
