@@ -59,23 +59,26 @@ std::expected<std::size_t, FrameError> frame_length(std::span<const std::byte, k
   return length;
 }
 
-std::expected<Kind, FrameError> peek_kind(std::span<const std::byte> in) noexcept {
+std::expected<Head, FrameError> peek(std::span<const std::byte> in) noexcept {
   if (in.empty() || in.size() > kFrameMax) return std::unexpected(FrameError::kLength);
   if (take_varint(in) != tag(1, kVarint) || take_varint(in) != kFrameVersion) return std::unexpected(FrameError::kVersion);
+  std::uint32_t request = 0;
   auto field = take_varint(in);
   if (field == tag(2, kVarint)) {
-    if (!take_varint(in)) return std::unexpected(FrameError::kMalformed);
+    const auto number = take_varint(in);
+    if (!number) return std::unexpected(FrameError::kMalformed);
+    request = *number;
     field = take_varint(in);
   }
   if (!field || (*field & 7U) != kLengthDelimited) return std::unexpected(FrameError::kMalformed);
   const std::uint32_t number = *field >> 3;
   if (number < static_cast<std::uint32_t>(Kind::kHello) || number > static_cast<std::uint32_t>(Kind::kDone))
     return std::unexpected(FrameError::kMalformed);
-  return static_cast<Kind>(number);
+  return Head{static_cast<Kind>(number), request};
 }
 
 std::expected<Frame, FrameError> decode(std::span<const std::byte> in) {
-  if (const auto kind = peek_kind(in); !kind) return std::unexpected(kind.error());
+  if (const auto head = peek(in); !head) return std::unexpected(head.error());
   WipedFrame read;
   google::protobuf::io::CodedInputStream stream(static_cast<const std::uint8_t*>(static_cast<const void*>(in.data())), static_cast<int>(in.size()));
   stream.SetRecursionLimit(kRecursionMax);

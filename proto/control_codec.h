@@ -31,8 +31,14 @@ enum class FrameError : std::uint8_t {
 /// @return nothing if a value is out of its bounds: what would be refused is not sent
 [[nodiscard]] std::expected<SecretBuffer, FrameError> encode(const Frame& frame);
 
+/// What stands before a frame's payload.
+struct Head {
+  Kind kind = Kind::kDone;
+  std::uint32_t request = 0;
+  friend bool operator==(const Head&, const Head&) = default;
+};
 /// What a frame carries, without reading its payload.
-[[nodiscard]] std::expected<Kind, FrameError> peek_kind(std::span<const std::byte> frame) noexcept;
+[[nodiscard]] std::expected<Head, FrameError> peek(std::span<const std::byte> frame) noexcept;
 
 /// @param frame  without its length
 [[nodiscard]] std::expected<Frame, FrameError> decode(std::span<const std::byte> frame);

@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "client/app/server_trust.h"
 #include "client/seat.h"
 #include "common/io/clock.h"
 #include "common/io/signals.h"
 #include "common/trust/enrolment.h"
 #include "common/trust/io/control_client.h"
+#include "common/trust/io/key_choice.h"
 #include "common/trust/ticket.h"
 
 namespace tandem::client {
@@ -59,9 +59,10 @@ std::string refusal(const control::Refused& refused, const Asking& asking) {
 /// One attempt to get a seat, over one connection.
 class Joining {
  public:
-  explicit Joining(const Asking& asking) : asking_(asking), trust_(asking.state, asking.server) {}
+  explicit Joining(const Asking& asking) : asking_(asking) {}
 
   std::expected<GivenSeat, NotSeated> join() {
+    if (auto keys = choose_keys(); !keys) return std::unexpected(keys.error());
     if (auto connected = connect(); !connected) return std::unexpected(connected.error());
     auto hello = make_hello();
     if (!hello) return std::unexpected(hello.error());
@@ -89,12 +90,21 @@ class Joining {
     return {false, fault.text};
   }
 
+  std::expected<void, NotSeated> choose_keys() {
+    const auto path = trust::client_state_path(asking_.state);
+    if (!path) return fail("--state: " + path.error());
+    auto own = trust::ClientTrust::open(*path);
+    if (!own) return fail(own.error());
+    keys_.emplace(io::to_text(asking_.server), std::move(*own), trust::runtime_path());
+    return {};
+  }
+
   std::expected<void, NotSeated> connect() {
     const Time until = io::monotonic_now() + asking_.patience;
     while (true) {
       const auto left = std::max(Duration{std::chrono::milliseconds(1)}, Duration{until - io::monotonic_now()});
       auto client = trust::ControlClient::connect(
-          asking_.server, [this](const trust::Pin& pin) { return trust_.judge(pin); }, std::chrono::duration_cast<std::chrono::milliseconds>(left), asking_.signals);
+          asking_.server, [this](const trust::Pin& pin) { return (*keys_)(pin); }, std::chrono::duration_cast<std::chrono::milliseconds>(left), asking_.signals);
       if (client) {
         client_.emplace(std::move(*client));
         return {};
@@ -135,11 +145,11 @@ class Joining {
       return hello;
     }
     const bool by_name = !asking_.session.empty() && !is_id && !code;
-    if (by_name || (trust_.local() && !hello.visit)) {
+    if (by_name || (keys_->local() && !hello.visit)) {
       const auto found = find_session(id, is_id, code);
       if (!found) return std::unexpected(found.error());
       hello.session = found->id;
-      if (trust_.local() && !hello.visit) {
+      if (keys_->local() && !hello.visit) {
         auto own = write_ticket(*found);
         if (!own) return std::unexpected(own.error());
         hello.credential = std::move(*own);
@@ -181,10 +191,10 @@ class Joining {
     ticket.session_id = session.id;
     ticket.seat = seat->name;
     ticket.role = seat->role;
-    ticket.workstation = trust_.local()->workstation.pin();
+    ticket.workstation = keys_->local()->workstation.pin();
     ticket.not_before = trust::wall_seconds() - 1;
     ticket.not_after = ticket.not_before + 60;
-    const auto bytes = trust::sign_ticket(ticket, trust_.local()->ticket_key);
+    const auto bytes = trust::sign_ticket(ticket, keys_->local()->ticket_key);
     if (!bytes) return fail("a ticket cannot be made: " + bytes.error());
     return control::TicketCredential{{bytes->begin(), bytes->end()}};
   }
@@ -210,7 +220,7 @@ class Joining {
   }
 
   const Asking& asking_;
-  KnownServers trust_;
+  std::optional<trust::KeyChoice> keys_;
   std::optional<trust::ControlClient> client_;
 };
 

@@ -58,14 +58,15 @@ void ControlConnection::read_next() {
 void ControlConnection::took(SecretBuffer bytes) {
   if (finished_) return;
   const auto raw = std::as_const(bytes).bytes();
-  request_ = 0;
   // Who may say what is decided before a payload is parsed.
-  const auto kind = control::peek_kind(raw);
-  if (!kind || !is_question(*kind)) {
+  const auto head = control::peek(raw);
+  request_ = head ? head->request : 0;
+  if (!head || !is_question(head->kind)) {
     plane_.note(ControlEvent::kBadFrame, address_);
-    const bool version = !kind && kind.error() == control::FrameError::kVersion;
+    const bool version = !head && head.error() == control::FrameError::kVersion;
     return refuse(version ? Reason::kVersion : Reason::kBadFrame,
-                  version ? "this server speaks version 1 of Tandem's control frames; use a client of the same release" : "the server does not understand this", true);
+                  version ? "this server speaks version 1 of Tandem's control frames; use a client of the same release" : "the server does not understand this",
+                  true);
   }
   auto row = plane_.trust_.find(pin_);
   if (!row) {
@@ -73,7 +74,7 @@ void ControlConnection::took(SecretBuffer bytes) {
     return refuse(Reason::kTrouble, "the server cannot read its book of workstations, so it lets nobody in; its log says more", true);
   }
   workstation_ = std::move(*row);
-  if (!workstation_ && *kind != Kind::kEnrol) {
+  if (!workstation_ && head->kind != Kind::kEnrol) {
     plane_.note(ControlEvent::kNotEnrolled, address_, "", pin_.hex());
     return refuse(Reason::kNotEnrolled, std::string(kUnknown), true);
   }
@@ -82,8 +83,7 @@ void ControlConnection::took(SecretBuffer bytes) {
     plane_.note(ControlEvent::kBadFrame, address_, workstation_ ? workstation_->name : "");
     return refuse(Reason::kBadFrame, std::string(control::to_text(frame.error())), true);
   }
-  request_ = frame->request;
-  trust::TokenBucket& bucket = *kind == Kind::kSetAuthority ? authority_ : commands_;
+  trust::TokenBucket& bucket = head->kind == Kind::kSetAuthority ? authority_ : commands_;
   if (!bucket.take(plane_.clocks_.monotonic())) {
     plane_.note(ControlEvent::kCommandTooFast, address_, workstation_ ? workstation_->name : "");
     return refuse(Reason::kTooFast, "too many requests; ask more slowly", pending_, 1);
@@ -130,7 +130,9 @@ void ControlConnection::on_hello(control::Hello hello) {
   if (standing_) return refuse(Reason::kBadFrame, "this connection has joined already; open another one for another seat", true);
   const auto common = std::ranges::find_if(hello.versions, [](std::uint32_t v) { return v == control::kProtocolVersion; });
   if (common == hello.versions.end())
-    return refuse(Reason::kVersion, "this server speaks version " + std::to_string(control::kProtocolVersion) + " of the protocol, this client none of it; install the same release on both",
+    return refuse(Reason::kVersion,
+                  "this server speaks version " + std::to_string(control::kProtocolVersion) +
+                      " of the protocol, this client none of it; install the same release on both",
                   true);
   if (blocked()) return;
   const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *common, *workstation_, source_, address_});
@@ -205,22 +207,15 @@ void ControlConnection::answer(control::Body body, bool last) {
 void ControlConnection::over(const trust::StreamFault& fault) {
   if (finished_) return;
   switch (fault.end) {
-    case StreamEnd::kDeadline:
-      plane_.note(ControlEvent::kDeadline, address_, workstation_ ? workstation_->name : "");
-      break;
-    case StreamEnd::kTooMuch:
-      plane_.note(ControlEvent::kTooMuchInput, address_);
-      break;
+    case StreamEnd::kDeadline: plane_.note(ControlEvent::kDeadline, address_, workstation_ ? workstation_->name : ""); break;
+    case StreamEnd::kTooMuch: plane_.note(ControlEvent::kTooMuchInput, address_); break;
     case StreamEnd::kLength:
       plane_.note(ControlEvent::kBadFrame, address_, workstation_ ? workstation_->name : "", fault.text);
       return refuse(Reason::kBadFrame, fault.text, true);
-    case StreamEnd::kHandshake:
-      plane_.note(ControlEvent::kHandshakeFailed, address_, "", fault.text);
-      break;
+    case StreamEnd::kHandshake: plane_.note(ControlEvent::kHandshakeFailed, address_, "", fault.text); break;
     case StreamEnd::kClosed:
     case StreamEnd::kStopped:
-    case StreamEnd::kTrouble:
-      break;
+    case StreamEnd::kTrouble: break;
   }
   finish();
 }

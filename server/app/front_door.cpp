@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "common/trust/io/key_choice.h"
+
 namespace tandem::server {
 namespace {
 
@@ -23,15 +25,6 @@ std::expected<trust::ServerTrust, std::string> keys_of(const FrontDoor::Plan& pl
   if (!plan.listen.loopback() && book->empty() && *codes == 0)
     return std::unexpected("nobody could join: no workstation is enrolled in " + *path + ". Run `tandem-server enroll NAME` for each, then start again");
   return trust;
-}
-
-/// On loopback: a workstation that this server enrols itself, laid down for clients of this user.
-std::expected<trust::LocalRuntime, std::string> lay_down(trust::ServerTrust& trust) {
-  const std::int64_t now = trust::wall_seconds();
-  const auto serial = trust::random_bytes<std::array<std::byte, 16>>();
-  trust::LocalKeys keys{trust::Identity::make("local", serial, now), trust.ticket_key()};
-  if (const std::string problem = trust.enrol_directly({"local", keys.workstation.pin().sha256, now}); !problem.empty()) return std::unexpected(problem);
-  return trust::LocalRuntime::publish(trust::runtime_path(), trust.identity().pin(), keys);
 }
 
 }  // namespace
@@ -65,7 +58,7 @@ std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Pla
   }
   if (!door->socket_) return std::unexpected(problem);
   if (door->throw_away()) {
-    auto local = lay_down(door->trust_);
+    auto local = trust::let_local_in(door->trust_, trust::runtime_path(), trust::wall_seconds());
     if (!local) return std::unexpected("clients on this machine could not be told how to join: " + local.error());
     door->local_.emplace(std::move(*local));
   }

@@ -4,6 +4,7 @@
 #include "common/io/log.h"
 #include "common/io/program.h"
 #include "server/app/run_command.h"
+#include "server/app/trust_commands.h"
 
 #ifndef TANDEM_VERSION
 #define TANDEM_VERSION "unknown"
@@ -24,6 +25,10 @@ int main(int argc, char** argv) {
   std::function<int()> action;
   tandem::server::add_run_command(app, action);
   tandem::server::add_scenes_command(app, action);
+  tandem::server::add_init_command(app, action);
+  tandem::server::add_enroll_command(app, action);
+  tandem::server::add_ticket_command(app, action);
+  tandem::server::add_revoke_command(app, action);
   tandem::io::log_to_stderr("tandem-server");
   return tandem::io::run_program(app, action, argc, argv);
 }

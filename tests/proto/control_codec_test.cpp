@@ -38,7 +38,7 @@ TEST(ControlCodec, EveryMessageIsReadBackAsItWasWritten) {
     ASSERT_TRUE(length);
     ASSERT_EQ(*length + kLengthSize, all.size());
     const auto body = all.subspan(kLengthSize);
-    EXPECT_EQ(peek_kind(body), kind_of(frame));
+    EXPECT_EQ(peek(body), (Head{kind_of(frame), frame.request}));
     const auto got = decode(body);
     ASSERT_TRUE(got) << i << ": " << to_text(got.error());
     EXPECT_EQ(*got, frame);

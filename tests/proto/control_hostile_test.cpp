@@ -15,11 +15,10 @@ using Bytes = std::vector<std::byte>;
 
 /// Also the harness of a fuzzer. @return whether it was a message
 bool survives(const Bytes& in) {
-  const auto kind = peek_kind(in);
+  const auto head = peek(in);
   const auto got = decode(in);
   if (!got) return false;
-  EXPECT_TRUE(kind);
-  EXPECT_EQ(kind, kind_of(*got));
+  EXPECT_EQ(head, (Head{kind_of(*got), got->request}));
   const auto again = encode(*got);
   EXPECT_TRUE(again) << "what was taken can be sent";
   if (again) {
@@ -50,7 +49,7 @@ TEST(ControlHostile, EveryFlippedBitGivesAnErrorOrAnotherWholeMessage) {
   std::size_t taken = 0, tried = 0;
   for (std::size_t k = 0; k < kKinds; ++k) {
     const Bytes body = body_of(samples::frame(random, samples::kind(k)));
-    for (std::size_t bit = 0; bit < 8 * std::min<std::size_t>(body.size(), 600); ++bit) {
+    for (std::size_t bit = 0; bit < 8 * std::min<std::size_t>(body.size(), 200); ++bit) {
       Bytes changed = body;
       changed[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
       taken += survives(changed) ? 1 : 0;

@@ -41,7 +41,7 @@ constexpr std::array<std::string_view, 7> kTopFolders{"client/", "common/", "hal
                                                       "proto/",  "server/", "tests/"};
 
 /// Mirrors "Rooms and who may know whom". The room with the longest `folder` that the path begins with decides.
-const std::array<Room, 18> kRooms{{
+const std::array<Room, 19> kRooms{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -55,6 +55,10 @@ const std::array<Room, 18> kRooms{{
      {"common/base", "common/trust", "proto/trust_spec.h", "proto/access_role.h"},
      {"openssl", "sodium"},
      "common/trust decides over values it is given: base, the plain rows of its books, OpenSSL and libsodium"},
+    {"common/trust/io",
+     {"common/base", "common/io", "common/trust", "proto/control_codec.h", "proto/control_messages.h", "proto/trust_text.h", "proto/trust_spec.h"},
+     {"openssl", "asio"},
+     "common/trust/io keeps keys and books in files and speaks frames over TLS: trust, proto's frames and books, OpenSSL and asio"},
     {"common/setup",
      {"common/base", "common/control", "common/setup", "proto/scene_spec.h", "proto/seat_setup.h"},
      {"Eigen"},

@@ -145,7 +145,9 @@ std::expected<control::Body, ClientFault> ControlClient::ask(const control::Body
   if (!s.run(exchange->done)) return std::unexpected(s.fault_of({}));
   s.stream->clear_deadline();
   if (!exchange->answer) return std::unexpected(exchange->answer.error());
-  if (exchange->answer->request != s.request)
+  // Refused under number 0: the server did not get as far as reading ours.
+  const bool ours = exchange->answer->request == s.request || (exchange->answer->request == 0 && std::holds_alternative<control::Refused>(exchange->answer->body));
+  if (!ours)
     return std::unexpected(ClientFault{ClientFault::Kind::kBadFrame, {}, "the server answered another question than was asked"});
   return std::move(exchange->answer->body);
 }

@@ -65,15 +65,16 @@ std::string environment(const char* name) {
 std::expected<StateFolder, std::string> StateFolder::open(const std::string& path, Missing missing, std::string_view hint) {
   if (missing == Missing::kIsMade)
     if (std::string problem = make_folders(path); !problem.empty()) return std::unexpected(std::move(problem));
-  io::Fd folder{::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)};
+  struct stat s {};
+  // A link is followed if root or this user laid it (systemd does for its services), and not if a stranger did.
+  if (lstat(path.c_str(), &s) == 0 && S_ISLNK(s.st_mode) && s.st_uid != 0 && s.st_uid != geteuid())
+    return std::unexpected(path + " is a link that user " + std::to_string(s.st_uid) + " made; remove it, or name another folder");
+  io::Fd folder{::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
   if (!folder.open()) {
-    const int error = errno;
-    std::string text = path + " cannot be opened: " + std::strerror(error);
-    if (error == ENOENT && !hint.empty()) text += "; " + std::string(hint);
-    if (error == ELOOP || error == ENOTDIR) text = path + " must be a folder, not a link or a file";
+    std::string text = path + " cannot be opened: " + std::strerror(errno);
+    if (errno == ENOENT && !hint.empty()) text += "; " + std::string(hint);
     return std::unexpected(std::move(text));
   }
-  struct stat s {};
   if (fstat(folder.get(), &s) != 0) return std::unexpected(path + ": " + std::strerror(errno));
   if (s.st_uid != geteuid()) return std::unexpected(owner_remedy(path, s.st_uid));
   if ((s.st_mode & kOthers) != 0)

@@ -14,7 +14,7 @@
 namespace tandem::trust {
 
 /// A folder that only its owner may look into (0700), with files only he may read (0600). Whatever is readable by others, belongs to
-/// somebody else or is a link is refused with the remedy, never mended silently: somebody may have read it already.
+/// somebody else, or is a stranger's link is refused with the remedy, never mended silently: somebody may have read it already.
 /// Files are replaced whole: written beside, synced, renamed, so that a crash leaves the old or the new one.
 class StateFolder {
  public:

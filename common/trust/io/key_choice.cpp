@@ -1,0 +1,34 @@
+#include "common/trust/io/key_choice.h"
+
+#include <algorithm>
+
+namespace tandem::trust {
+
+std::expected<const Identity*, std::string> KeyChoice::operator()(const Pin& server) {
+  std::vector<ServerRow> known;
+  if (own_) {
+    auto rows = own_->servers();
+    if (!rows) return std::unexpected(rows.error());
+    known = std::move(*rows);
+    if (std::ranges::find(known, server.sha256, &ServerRow::spki) != known.end()) return &own_->identity();
+  }
+  auto local = find_local(runtime_, server);
+  if (!local) return std::unexpected(local.error());
+  if (*local) {
+    local_ = std::move(*local);
+    return &local_->workstation;
+  }
+  if (find_server(known, address_) != nullptr)
+    return std::unexpected(address_ + " shows another key than when this workstation was enrolled there. Either another machine answers, or the server was set up anew: ask its "
+                                      "admin; if it is true, `tandem-server enroll NAME` there and `tandem-client enroll STRING` here");
+  return std::unexpected("this workstation does not know the server at " + address_ + "; run `tandem-server enroll NAME` there and `tandem-client enroll STRING` here");
+}
+
+std::expected<LocalRuntime, std::string> let_local_in(ServerTrust& server, const std::string& runtime, std::int64_t now) {
+  const auto serial = random_bytes<std::array<std::byte, 16>>();
+  LocalKeys keys{Identity::make("tandem workstation, local", serial, now), server.ticket_key()};
+  if (std::string problem = server.enrol_directly({"local", keys.workstation.pin().sha256, now}); !problem.empty()) return std::unexpected(std::move(problem));
+  return LocalRuntime::publish(runtime, server.identity().pin(), keys);
+}
+
+}  // namespace tandem::trust

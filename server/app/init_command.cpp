@@ -1,0 +1,37 @@
+#include <cstdio>
+#include <memory>
+
+#include "server/app/trust_commands.h"
+#include "server/app/trust_option.h"
+
+namespace tandem::server {
+namespace {
+
+int init_command(const std::string& state) {
+  const auto path = trust::server_state_path(state);
+  if (!path) return wrong("init", {path.error()});
+  const std::int64_t now = trust::wall_seconds();
+  const auto pin = trust::ServerTrust::init(*path, now);
+  if (!pin) return trouble("init", pin.error());
+  if (const auto made = trust::ServerTrust::open(*path)) made->audit(now, "init", "", pin->hex());
+  std::printf("state folder %s\nserver key   %s\n", path->c_str(), pin->hex().c_str());
+  std::fputs("next: tandem-server enroll NAME --address HOST:PORT, once for each workstation\n", stderr);
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_init_command(CLI::App& root, std::function<int()>& action) {
+  const auto state = std::make_shared<std::string>();
+  CLI::App* const command = root.add_subcommand("init", "Makes a server's keys and empty books, once; needed before it may listen on a network.");
+  add_state_option(*command, *state);
+  command->footer(
+      "The folder gets mode 0700, its files 0600; whoever can read them can be this server. Run it as the user the server runs as.\n"
+      "Prints the SHA-256 of the server's key, by which workstations know it.\n"
+      "Exit: 0 done; 1 it exists already or cannot be written; 2 wrong arguments.\n\n"
+      "Example\n"
+      "  tandem-server init");
+  command->callback([state, &action] { action = [state] { return init_command(*state); }; });
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+
+#include "common/trust/base32.h"
+#include "common/trust/raw_bytes.h"
+#include "tests/trust/io/door.h"
+
+/// Enrolling, joining, being refused: what the door does for people.
+namespace tandem::server::test {
+namespace {
+
+using control::Reason;
+
+TEST(ControlPlane, EnrolsWhoShowsTheCodeAndKnowsHimFromThenOn) {
+  Door door;
+  const auto code = trust::test::secret_from<16>(1);
+  ASSERT_EQ(door.beside().give_out(code, "touch-07", kNow, kNow + 10), "");
+  const auto me = trust::Identity::make("me", trust::test::counting<16>(), kNow);
+  auto client = door.connect(me);
+  ASSERT_TRUE(client) << client.error().text;
+  EXPECT_EQ(client->server(), door.server_pin);
+  const auto answer = client->ask(control::Enrol{code}, kPatience);
+  ASSERT_TRUE(answer) << answer.error().text;
+  const auto* ack = std::get_if<control::EnrolAck>(&*answer);
+  ASSERT_NE(ack, nullptr);
+  EXPECT_EQ(ack->workstation, "touch-07");
+  EXPECT_EQ(door.beside().find(me.pin())->value().name, "touch-07");
+  const auto list = client->ask(control::SessionListRequest{}, kPatience);
+  ASSERT_TRUE(list);
+  EXPECT_EQ(std::get<control::SessionList>(*list).sessions.at(0).name, "contact");
+  auto other = door.connect(trust::Identity::make("x", trust::test::counting<16>(), kNow));
+  ASSERT_TRUE(other);
+  EXPECT_EQ(reason_of(other->ask(control::Enrol{code}, kPatience)), Reason::kCode) << "a code is good once";
+}
+
+TEST(ControlPlane, RefusesCodesOneBitOffAndOneSecondTooOld) {
+  Door door;
+  const auto code = trust::test::secret_from<16>(1);
+  ASSERT_EQ(door.beside().give_out(code, "touch-07", kNow, kNow + 10), "");
+  const auto me = trust::Identity::make("me", trust::test::counting<16>(), kNow);
+  const auto try_code = [&](const trust::EnrolmentCode& c) {
+    auto client = door.connect(me);
+    return client ? client->ask(control::Enrol{c}, kPatience) : std::unexpected(client.error());
+  };
+  for (const std::size_t bit : {0u, 64u, 127u}) {
+    auto wrong = code;
+    wrong.bytes[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    EXPECT_EQ(reason_of(try_code(wrong)), Reason::kCode);
+  }
+  door.wall = kNow + 11;
+  const auto late = try_code(code);
+  ASSERT_EQ(reason_of(late), Reason::kCode);
+  EXPECT_NE(std::get<control::Refused>(*late).text.find("expired"), std::string::npos);
+  EXPECT_FALSE(door.beside().find(me.pin())->has_value());
+}
+
+TEST(ControlPlane, WhoIsNotEnrolledMayOnlyEnrol) {
+  Door door;
+  const auto stranger = trust::Identity::make("me", trust::test::counting<16>(), kNow);
+  const std::vector<control::Body> all{control::SessionListRequest{}, control::Ping{1}, hello_with(door.ticket(stranger)), control::StopSession{},
+                                       control::Drain{}};
+  for (const control::Body& body : all) {
+    auto client = door.connect(stranger);
+    ASSERT_TRUE(client);
+    EXPECT_EQ(reason_of(client->ask(body, kPatience)), Reason::kNotEnrolled) << body.index();
+    EXPECT_FALSE(client->ask(control::Ping{1}, kPatience)) << "and the connection is over";
+  }
+}
+
+TEST(ControlPlane, WhoIsRevokedIsRefusedAtHisNextWord) {
+  Door door;
+  const auto me = door.enrolled("me");
+  auto open = door.connect(me);
+  ASSERT_TRUE(open);
+  ASSERT_FALSE(reason_of(open->ask(control::SessionListRequest{}, kPatience)));
+  ASSERT_TRUE(door.beside().revoke("me"));
+  EXPECT_EQ(reason_of(open->ask(control::SessionListRequest{}, kPatience)), Reason::kNotEnrolled);
+  auto again = door.connect(me);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(reason_of(again->ask(hello_with(door.ticket(me)), kPatience)), Reason::kNotEnrolled);
+}
+
+TEST(ControlPlane, ATicketOpensTheDoorOnceAndForItsWorkstationOnly) {
+  Door door;
+  const auto me = door.enrolled("me"), thief = door.enrolled("thief");
+  const auto ticket = door.ticket(me);
+  const auto join = [&](const trust::Identity& who, const control::Hello& hello) {
+    auto client = door.connect(who);
+    return client ? client->ask(hello, kPatience) : std::unexpected(client.error());
+  };
+  const auto text_of = [](const auto& answer) { return answer ? std::get<control::Refused>(*answer).text : std::string(); };
+  const auto stolen = join(thief, hello_with(ticket));
+  EXPECT_EQ(reason_of(stolen), Reason::kTicket);
+  EXPECT_NE(text_of(stolen).find("another workstation"), std::string::npos);
+  EXPECT_EQ(reason_of(join(me, hello_with(ticket, "trainer"))), Reason::kTicket);
+  auto raised = ticket;
+  raised[1] = std::byte{0};
+  EXPECT_NE(text_of(join(me, hello_with(raised))).find("changed"), std::string::npos);
+  const auto first = join(me, hello_with(ticket));
+  ASSERT_TRUE(first) << first.error().text;
+  ASSERT_TRUE(std::holds_alternative<control::Welcome>(*first)) << text_of(first);
+  EXPECT_EQ(std::get<control::Welcome>(*first), door.sessions->welcome("trainee"));
+  EXPECT_NE(text_of(join(me, hello_with(ticket))).find("used already"), std::string::npos);
+  door.wall = kNow + 3601;
+  const auto late = join(me, hello_with(door.ticket(me, 2)));
+  EXPECT_NE(text_of(late).find("expired 1 s ago"), std::string::npos) << text_of(late);
+}
+
+TEST(ControlPlane, RefusesVersionsItDoesNotSpeak) {
+  Door door;
+  const auto me = door.enrolled("me");
+  auto client = door.connect(me);
+  ASSERT_TRUE(client);
+  control::Hello hello = hello_with(door.ticket(me));
+  hello.versions = {2, 3};
+  EXPECT_EQ(reason_of(client->ask(hello, kPatience)), Reason::kVersion);
+  auto again = door.connect(me);
+  hello.versions = {1, 2};
+  EXPECT_TRUE(std::holds_alternative<control::Welcome>(*again->ask(hello, kPatience)));
+}
+
+TEST(ControlPlane, AnswersMayComeFromAnotherThread) {
+  Door door;
+  door.sessions->from_another_thread = true;
+  const auto me = door.enrolled("me");
+  for (unsigned i = 1; i < 6; ++i) {
+    auto client = door.connect(me);
+    ASSERT_TRUE(client);
+    const auto answer = client->ask(hello_with(door.ticket(me, i)), kPatience);
+    ASSERT_TRUE(answer) << answer.error().text;
+    EXPECT_TRUE(std::holds_alternative<control::Welcome>(*answer));
+  }
+}
+
+TEST(ControlPlane, ASeatWhoseClientLeftBeforeTheAnswerIsFreeAgain) {
+  Door door;
+  door.sessions->hold = true;
+  const auto me = door.enrolled("me");
+  {
+    auto client = door.connect(me);
+    ASSERT_TRUE(client);
+    EXPECT_FALSE(client->ask(hello_with(door.ticket(me)), 100ms)) << "no answer yet";
+  }
+  // Another question is answered while the first one waits: the door is not blocked.
+  door.sessions->hold = false;
+  auto other = door.connect(me);
+  ASSERT_TRUE(other);
+  EXPECT_FALSE(reason_of(other->ask(control::SessionListRequest{}, kPatience)));
+  auto answer = std::exchange(door.sessions->held, nullptr);
+  ASSERT_TRUE(answer);
+  std::thread([&] { answer(door.sessions->welcome("trainee")); }).join();
+  // The server learns that the client is gone when it writes, or has learnt it before: either way nothing is left over.
+  EXPECT_FALSE(reason_of(other->ask(control::SessionListRequest{}, kPatience)));
+}
+
+TEST(ControlPlane, OrdersNeedAJoiningFirstAndAreLimited) {
+  Door door;
+  door.frozen = true;
+  const auto me = door.enrolled("me");
+  auto client = door.connect(me);
+  ASSERT_TRUE(client);
+  ASSERT_FALSE(reason_of(client->ask(control::SessionListRequest{}, kPatience)));
+  EXPECT_EQ(reason_of(client->ask(control::StopSession{}, kPatience)), Reason::kNotAllowed);
+  ASSERT_TRUE(std::holds_alternative<control::Welcome>(*client->ask(hello_with(door.ticket(me)), kPatience)));
+  int done = 0, fast = 0;
+  for (int i = 0; i < 25; ++i) {
+    const auto answer = client->ask(control::StopSession{}, kPatience);
+    ASSERT_TRUE(answer) << answer.error().text;
+    done += std::holds_alternative<control::Done>(*answer) ? 1 : 0;
+    fast += reason_of(answer) == Reason::kTooFast ? 1 : 0;
+  }
+  EXPECT_EQ(done, 17) << "20 at once, of which three were spent above";
+  EXPECT_EQ(fast, 8);
+  EXPECT_TRUE(std::holds_alternative<control::Done>(*client->ask(control::SetAuthority{{}, 0, 0, {1.0}}, kPatience))) << "has its own allowance";
+}
+
+TEST(ControlPlane, TellsNoSecrets) {
+  Door door;
+  const auto code = trust::test::secret_from<16>(1);
+  ASSERT_EQ(door.beside().give_out(code, "touch-07", kNow, kNow + 10), "");
+  const auto me = trust::Identity::make("me", trust::test::counting<16>(), kNow);
+  auto client = door.connect(me);
+  ASSERT_TRUE(client && client->ask(control::Enrol{code}, kPatience));
+  const auto ticket = door.ticket(me);
+  const auto joined = client->ask(hello_with(ticket), kPatience);
+  ASSERT_TRUE(joined && std::holds_alternative<control::Welcome>(*joined));
+  auto again = door.connect(me);
+  ASSERT_TRUE(again && again->ask(hello_with(ticket), kPatience));  // refused, with words
+  std::string all = door.folder.read("server/audit.log");
+  for (const ControlNews& news : door.news()) all += news.address + " " + news.workstation + " " + news.detail + "\n";
+  EXPECT_NE(all.find("touch-07"), std::string::npos);
+  const auto secrets = [&] {
+    const std::lock_guard lock(door.sessions->mutex);
+    return door.sessions->seats_secrets.at("trainee");
+  }();
+  const auto resume = door.sessions->welcome("trainee").resume_secret;
+  const auto signature = std::span(ticket).last(64);
+  for (const std::span<const std::byte> secret : {std::span<const std::byte>(code.bytes), std::span<const std::byte>(resume.bytes),
+                                                  std::span<const std::byte>(secrets), std::span<const std::byte>(signature)}) {
+    EXPECT_EQ(all.find(trust::to_hex(secret.first(8))), std::string::npos);
+    EXPECT_EQ(all.find(trust::to_base32(secret).substr(0, 8)), std::string::npos);
+    EXPECT_EQ(all.find(std::string(trust::text_of(secret.first(8)))), std::string::npos);
+  }
+  EXPECT_EQ(all.find("PRIVATE KEY"), std::string::npos);
+}
+
+TEST(ControlPlane, AClientFindsTheLocalServersKeysInTheVeryHandshake) {
+  Door door;
+  const auto local = door.enrolled("local");
+  const auto key = trust::TlsKey::from_pem(std::as_const(*std::make_unique<SecretBuffer>(local.key.to_pem())).bytes());
+  ASSERT_TRUE(key);
+  auto beside = door.beside();
+  const auto published =
+      trust::LocalRuntime::publish(door.folder.path("run"), door.server_pin,
+                                   {std::move(*trust::Identity::from_pem(std::as_const(*std::make_unique<SecretBuffer>(local.key.to_pem())).bytes(),
+                                                                         trust::bytes_of(local.certificate.to_pem()))),
+                                    beside.ticket_key()});
+  ASSERT_TRUE(published) << published.error();
+  std::optional<trust::LocalKeys> found;
+  auto client = trust::ControlClient::connect(
+      door.address,
+      [&](const trust::Pin& pin) -> std::expected<const trust::Identity*, std::string> {
+        auto keys = trust::find_local(door.folder.path("run"), pin);
+        if (!keys) return std::unexpected(keys.error());
+        if (!*keys) return std::unexpected("no local server has this key");
+        found = std::move(*keys);
+        return &found->workstation;
+      },
+      kPatience, -1);
+  ASSERT_TRUE(client) << client.error().text;
+  trust::Ticket ticket = trust::test::sample_ticket();
+  ticket.workstation = found->workstation.pin();
+  const auto own = trust::sign_ticket(ticket, found->ticket_key);
+  ASSERT_TRUE(own);
+  const auto answer = client->ask(hello_with(*own), kPatience);
+  ASSERT_TRUE(answer) << answer.error().text;
+  EXPECT_TRUE(std::holds_alternative<control::Welcome>(*answer));
+}
+
+TEST(ControlPlane, ListensOnIpv6Too) {
+  Door door(Door::patient(), "[::1]:0");
+  const auto me = door.enrolled("me");
+  auto client = door.connect(me);
+  ASSERT_TRUE(client) << client.error().text;
+  EXPECT_FALSE(reason_of(client->ask(control::SessionListRequest{}, kPatience)));
+}
+
+}  // namespace
+}  // namespace tandem::server::test

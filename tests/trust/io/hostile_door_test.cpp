@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+#include <sys/eventfd.h>
+
+#include "proto/control_codec.h"
+#include "tests/proto/control_samples.h"
+#include "tests/trust/io/door.h"
+#include "tests/trust/io/raw_tls.h"
+
+/// Too much, too slow, too many, nonsense. Deadlines are told by the order of what happens, never by a clock.
+namespace tandem::server::test {
+namespace {
+
+std::string text(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+std::string framed(const control::Body& body) { return text(control::encode({1, body})->bytes()); }
+
+/// The refusal in what a server sent, if it is one.
+std::optional<control::Reason> refusal_in(const std::string& bytes) {
+  if (bytes.size() <= control::kLengthSize) return std::nullopt;
+  std::vector<std::byte> frame;
+  for (const char c : bytes.substr(control::kLengthSize)) frame.push_back(static_cast<std::byte>(c));
+  const auto got = control::decode(frame);
+  const auto* refused = got ? std::get_if<control::Refused>(&got->body) : nullptr;
+  return refused == nullptr ? std::nullopt : std::optional(refused->reason);
+}
+
+/// The door still works for others.
+void expect_alive(Door& door) {
+  const auto me = door.enrolled("alive");
+  auto client = door.connect(me);
+  ASSERT_TRUE(client) << client.error().text;
+  EXPECT_FALSE(reason_of(client->ask(control::SessionListRequest{}, kPatience)));
+}
+
+TEST(HostileDoor, AFrameTooLongIsRefusedByItsLengthAlone) {
+  Door door;
+  const auto me = door.enrolled("me");
+  for (const std::string& length :
+       {std::string("\x01\x20\x00\x00", 4), std::string("\x01\x00\x01\x00", 4), std::string("\xff\xff\xff\xff"), std::string(4, '\0')}) {
+    const RawTls client(door.address, {.identity = &me});
+    ASSERT_TRUE(client.handshake);
+    ASSERT_TRUE(client.write(length));
+    EXPECT_EQ(refusal_in(client.read_to_end()), control::Reason::kBadFrame);
+  }
+  expect_alive(door);
+}
+
+TEST(HostileDoor, AfterTheFirstYesFramesMayBeLongerButNotTooLong) {
+  Door door;
+  const auto me = door.enrolled("me");
+  const RawTls client(door.address, {.identity = &me});
+  ASSERT_TRUE(client.write(framed(control::SessionListRequest{})));
+  const std::string head = client.read(4);
+  ASSERT_EQ(head.size(), 4u);
+  (void)client.read(static_cast<unsigned char>(head[0]) + 256u * static_cast<unsigned char>(head[1]));
+  ASSERT_TRUE(client.write(std::string("\x00\x00\x01\x00", 4) + std::string(65536, 'x')));
+  EXPECT_EQ(refusal_in(client.read_to_end()), control::Reason::kVersion) << "taken whole, and no frame";
+  const RawTls other(door.address, {.identity = &me});
+  ASSERT_TRUE(other.write(std::string("\x01\x00\x01\x00", 4)));
+  EXPECT_EQ(refusal_in(other.read_to_end()), control::Reason::kBadFrame);
+}
+
+TEST(HostileDoor, AHandshakeLongerThanAllowedIsCutOff) {
+  Door door;
+  const RawTcp stranger(door.address);
+  // A ClientHello that says it has 60000 bytes, in records of 4096.
+  std::string bytes;
+  for (int i = 0; i < 4; ++i)
+    bytes += std::string("\x16\x03\x01\x10\x00", 5) + (i == 0 ? std::string("\x01\x00\xea\x60\x03\x03", 6) + std::string(4090, 'r') : std::string(4096, 'r'));
+  stranger.send(bytes);
+  EXPECT_TRUE(stranger.read_to_end());
+  // OpenSSL may find the greeting wrong before it is too long.
+  EXPECT_TRUE(door.told(ControlEvent::kTooMuchInput) || door.told(ControlEvent::kHandshakeFailed));
+  EXPECT_EQ(door.plane->count(ControlEvent::kTooMuchInput), 1u);
+  expect_alive(door);
+}
+
+TEST(HostileDoor, SilenceEndsAtTheDeadlineWhereverItBegins) {
+  ControlLimits limits = Door::patient();
+  limits.deadline = 300ms;
+  Door door(limits);
+  const auto me = door.enrolled("me");
+  const RawTcp nothing(door.address);
+  EXPECT_EQ(nothing.read_to_end(), "");
+  ASSERT_TRUE(door.told(ControlEvent::kDeadline, 1));
+  const RawTcp half_hello(door.address);
+  ASSERT_TRUE(half_hello.send(std::string("\x16\x03\x01\x02\x00\x01\x00\x01\xfc", 9)));
+  EXPECT_EQ(half_hello.read_to_end(), "");
+  ASSERT_TRUE(door.told(ControlEvent::kDeadline, 2));
+}
+
+TEST(HostileDoor, HalfAFrameThenSilenceEndsAtTheDeadline) {
+  ControlLimits limits = Door::patient();
+  limits.deadline = 2000ms;  // a handshake fits, on slow machines too
+  limits.frame_deadline = 300ms;
+  Door door(limits);
+  const auto me = door.enrolled("me");
+  {
+    const RawTls client(door.address, {.identity = &me});
+    ASSERT_TRUE(client.handshake);
+    ASSERT_TRUE(client.write(framed(control::SessionListRequest{}).substr(0, 5)));
+    EXPECT_EQ(client.read_to_end(), "");
+    ASSERT_TRUE(door.told(ControlEvent::kDeadline, 1));
+  }
+  const RawTls client(door.address, {.identity = &me});
+  ASSERT_TRUE(client.write(framed(control::SessionListRequest{})));
+  const std::string head = client.read(4);
+  ASSERT_EQ(head.size(), 4u);
+  (void)client.read(static_cast<unsigned char>(head[0]) + 256u * static_cast<unsigned char>(head[1]));
+  ASSERT_TRUE(client.write(framed(control::Ping{1}).substr(0, 2)));
+  EXPECT_EQ(client.read_to_end(), "");
+  EXPECT_TRUE(door.told(ControlEvent::kDeadline, 2));
+}
+
+TEST(HostileDoor, PendingConnectionsAreBoundedAndTheNextWaitsItsTurn) {
+  ControlLimits limits = Door::patient();
+  limits.pending = 4;
+  Door door(limits);
+  std::vector<std::unique_ptr<RawTcp>> silent;
+  for (int i = 0; i < 6; ++i) {
+    silent.push_back(std::make_unique<RawTcp>(door.address));
+    EXPECT_TRUE(silent.back()->connected) << "the kernel takes it";
+  }
+  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 4));
+  silent[0]->close();
+  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 5));
+  std::string order;
+  for (const ControlNews& news : door.news()) order += news.event == ControlEvent::kAccepted ? 'A' : news.event == ControlEvent::kHandshakeFailed ? 'E' : '?';
+  EXPECT_EQ(order, "AAAAEA") << "the fifth came in when the first was over";
+}
+
+TEST(HostileDoor, ThePendingBoundIs256) {
+  EXPECT_EQ(ControlLimits{}.pending, 256u);
+  ControlLimits limits = Door::patient();
+  limits.accept = {1e6, 1e6, 1e6, 1e6};
+  Door door(limits);
+  std::vector<std::unique_ptr<RawTcp>> silent;
+  for (int i = 0; i < 260; ++i) silent.push_back(std::make_unique<RawTcp>(door.address));
+  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 256));
+  silent.front()->close();
+  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 257));
+  const auto news = door.news();
+  EXPECT_EQ(std::ranges::count(news.begin(), news.begin() + 256, ControlEvent::kAccepted, &ControlNews::event), 256);
+  EXPECT_EQ(news[256].event, ControlEvent::kHandshakeFailed);
+  silent.clear();
+  expect_alive(door);
+}
+
+TEST(HostileDoor, OneAddressInAHurryIsSlowedDown) {
+  Door door;
+  door.frozen = true;
+  std::vector<std::unique_ptr<RawTcp>> many;
+  for (int i = 0; i < 110; ++i) many.push_back(std::make_unique<RawTcp>(door.address));
+  ASSERT_TRUE(door.told(ControlEvent::kTooFast, 10));
+  EXPECT_EQ(door.plane->count(ControlEvent::kAccepted), 100u);
+  for (std::size_t i = 100; i < many.size(); ++i) EXPECT_TRUE(many[i]->read_to_end());
+}
+
+TEST(HostileDoor, GarbageInFramesIsAnsweredOnceAndEndsTheConnection) {
+  Door door;
+  const auto me = door.enrolled("me");
+  RandomStream random(5);
+  for (int i = 0; i < 40; ++i) {
+    std::string body(1 + random.below(300), '\0');
+    for (char& c : body) c = static_cast<char>(random.bits() & 0xff);
+    if (i % 2 == 0) body.replace(0, 2, std::string("\x08\x01", 2));
+    const RawTls client(door.address, {.identity = &me});
+    ASSERT_TRUE(client.handshake);
+    std::string length(4, '\0');
+    length[0] = static_cast<char>(body.size() & 0xff);
+    length[1] = static_cast<char>(body.size() >> 8);
+    ASSERT_TRUE(client.write(length + body));
+    const auto reason = refusal_in(client.read_to_end());
+    EXPECT_TRUE(reason == control::Reason::kBadFrame || reason == control::Reason::kVersion) << i;
+  }
+  expect_alive(door);
+}
+
+TEST(HostileDoor, AnswersOfAServerAreNoQuestions) {
+  Door door;
+  const auto me = door.enrolled("me");
+  RandomStream random(6);
+  for (const control::Kind kind : {control::Kind::kWelcome, control::Kind::kRefused, control::Kind::kEnrolAck, control::Kind::kSessionList,
+                                   control::Kind::kAuthorityAnswer, control::Kind::kPong, control::Kind::kDone}) {
+    control::Body body = control::samples::frame(random, kind).body;
+    if (auto* list = std::get_if<control::SessionList>(&body)) list->sessions.resize(std::min<std::size_t>(list->sessions.size(), 1));
+    auto client = door.connect(me);
+    ASSERT_TRUE(client);
+    EXPECT_EQ(reason_of(client->ask(body, kPatience)), control::Reason::kBadFrame) << static_cast<int>(kind);
+  }
+}
+
+TEST(ControlClient, IsInterruptedByASignalAtOnceAndTellsWhoDoesNotAnswer) {
+  const io::Fd listener{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};  // takes connections and says nothing
+  auto at = *io::parse_address("127.0.0.1:0", 0);
+  ASSERT_EQ(::bind(listener.get(), at.get(), at.size), 0);
+  ASSERT_EQ(::listen(listener.get(), 8), 0);
+  ASSERT_EQ(::getsockname(listener.get(), reinterpret_cast<sockaddr*>(&at.storage), &at.size), 0);
+  const auto me = trust::Identity::make("me", trust::test::counting<16>(), kNow);
+  const auto judge = [&](const trust::Pin&) -> std::expected<const trust::Identity*, std::string> { return &me; };
+  const io::Fd signals{::eventfd(1, EFD_CLOEXEC)};  // readable from the beginning
+  const auto interrupted = trust::ControlClient::connect(at, judge, std::chrono::hours(1), signals.get());
+  ASSERT_FALSE(interrupted);
+  EXPECT_EQ(interrupted.error().kind, trust::ClientFault::Kind::kInterrupted);
+  const auto silent = trust::ControlClient::connect(at, judge, 100ms, -1);
+  ASSERT_FALSE(silent);
+  EXPECT_EQ(silent.error().end, trust::StreamEnd::kDeadline);
+  EXPECT_NE(silent.error().text.find("no answer in time"), std::string::npos) << silent.error().text;
+}
+
+TEST(ControlClient, SaysWhenNobodyListens) {
+  io::SocketAddress at;
+  {
+    Door door;
+    at = door.address;
+  }
+  const auto client = trust::ControlClient::connect(
+      at, [](const trust::Pin&) -> std::expected<const trust::Identity*, std::string> { return nullptr; }, kPatience, -1);
+  ASSERT_FALSE(client);
+  EXPECT_EQ(client.error().kind, trust::ClientFault::Kind::kUnreachable);
+  EXPECT_NE(client.error().text.find("does tandem-server run there?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tandem::server::test

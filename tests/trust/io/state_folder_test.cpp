@@ -1,0 +1,283 @@
+#include "common/trust/io/state_folder.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "common/trust/io/client_trust.h"
+#include "common/trust/io/server_trust.h"
+#include "common/trust/raw_bytes.h"
+#include "proto/trust_text.h"
+#include "tests/trust/io/folder.h"
+#include "tests/trust/support.h"
+
+namespace tandem::trust {
+namespace {
+
+using test::Folder;
+using test::kNow;
+
+unsigned mode_of(const std::string& path) {
+  struct stat s {};
+  EXPECT_EQ(stat(path.c_str(), &s), 0) << path;
+  return s.st_mode & 07777;
+}
+
+StateFolder opened(const Folder& folder) {
+  auto state = StateFolder::open(folder.path(), StateFolder::Missing::kIsAnError);
+  EXPECT_TRUE(state) << state.error();
+  return std::move(*state);
+}
+
+TEST(StateFolder, KeepsFilesForItsOwnerOnlyAndReplacesThemWhole) {
+  const Folder folder;
+  const auto state = StateFolder::open(folder.path("a/b"), StateFolder::Missing::kIsMade);
+  ASSERT_TRUE(state) << state.error();
+  EXPECT_EQ(mode_of(folder.path("a/b")), 0700u);
+  const mode_t before = umask(0);
+  EXPECT_EQ(state->replace("x", std::string_view("one")), "");
+  EXPECT_EQ(state->append("log", "first\n"), "");
+  umask(before);
+  EXPECT_EQ(mode_of(folder.path("a/b/x")), 0600u);
+  EXPECT_EQ(mode_of(folder.path("a/b/log")), 0600u);
+  const auto stamp = state->stamp("x");
+  EXPECT_EQ(state->replace("x", std::string_view("two")), "");
+  EXPECT_NE(state->stamp("x"), stamp);
+  EXPECT_EQ(state->append("log", "second\n"), "");
+  EXPECT_EQ(folder.read("a/b/x"), "two");
+  EXPECT_EQ(folder.read("a/b/log"), "first\nsecond\n");
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path("a/b"))) EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
+  const auto read = state->read("x");
+  ASSERT_TRUE(read && *read);
+  EXPECT_EQ(text_of(std::as_const(**read).bytes()), "two");
+  const auto none = state->read("y");
+  ASSERT_TRUE(none);
+  EXPECT_FALSE(*none);
+}
+
+TEST(StateFolder, RefusesWhatOthersCouldHaveReadAndSaysWhatToDo) {
+  const Folder folder;
+  folder.write("x", "secret", 0640);
+  const auto read = opened(folder).read("x");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().find("chmod 0600"), std::string::npos) << read.error();
+  EXPECT_NE(read.error().find("0640"), std::string::npos) << read.error();
+  EXPECT_NE(opened(folder).append("x", "more"), "");
+  ASSERT_EQ(chmod(folder.path().c_str(), 0750), 0);
+  const auto state = StateFolder::open(folder.path(), StateFolder::Missing::kIsAnError);
+  ASSERT_FALSE(state);
+  EXPECT_NE(state.error().find("chmod 0700"), std::string::npos) << state.error();
+  ASSERT_EQ(chmod(folder.path().c_str(), 0700), 0);
+}
+
+TEST(StateFolder, RefusesLinksFoldersAndPipesInPlaceOfFiles) {
+  const Folder folder;
+  folder.write("real", "x");
+  ASSERT_EQ(symlink("real", folder.path("link").c_str()), 0);
+  ASSERT_EQ(mkdir(folder.path("folder").c_str(), 0700), 0);
+  ASSERT_EQ(mkfifo(folder.path("pipe").c_str(), 0600), 0);
+  const StateFolder state = opened(folder);
+  for (const char* name : {"link", "folder", "pipe"}) EXPECT_FALSE(state.read(name)) << name;
+  EXPECT_NE(state.append("link", "x"), "");
+  EXPECT_EQ(state.replace("link", std::string_view("new")), "") << "replaced is the link, not what it names";
+  EXPECT_EQ(folder.read("real"), "x");
+}
+
+TEST(StateFolder, RefusesAnotherOwner) {
+  if (geteuid() != 0) {
+    std::puts("[ NOT RUN ] another owner: needs root to give a file away");
+    return;
+  }
+  const Folder folder;
+  folder.write("x", "secret");
+  ASSERT_EQ(chown(folder.path("x").c_str(), 12345, 12345), 0);
+  const auto read = opened(folder).read("x");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().find("12345"), std::string::npos) << read.error();
+  ASSERT_EQ(chown(folder.path().c_str(), 12345, 12345), 0);
+  const auto state = StateFolder::open(folder.path(), StateFolder::Missing::kIsAnError);
+  ASSERT_FALSE(state);
+  EXPECT_NE(state.error().find("sudo -u"), std::string::npos) << state.error();
+  const Folder links;
+  ASSERT_EQ(symlink(links.path().c_str(), links.path("own").c_str()), 0);
+  EXPECT_TRUE(StateFolder::open(links.path("own"), StateFolder::Missing::kIsAnError)) << "root's own link";
+  ASSERT_EQ(lchown(links.path("own").c_str(), 12345, 12345), 0);
+  EXPECT_FALSE(StateFolder::open(links.path("own"), StateFolder::Missing::kIsAnError)) << "a stranger's";
+}
+
+TEST(StateFolder, ALockIsHeldByOne) {
+  const Folder folder;
+  const StateFolder a = opened(folder), b = opened(folder);
+  auto held = a.try_lock("l");
+  ASSERT_TRUE(held && *held);
+  const auto second = b.try_lock("l");
+  ASSERT_TRUE(second);
+  EXPECT_FALSE(*second);
+  held->reset();
+  const auto third = b.try_lock("l");
+  ASSERT_TRUE(third);
+  EXPECT_TRUE(*third);
+}
+
+TEST(StatePath, IsTheOptionThenTheEnvironmentThenTheHome) {
+  EXPECT_EQ(client_state_path("/x"), "/x");
+  setenv("TANDEM_CLIENT_STATE", "/y", 1);
+  EXPECT_EQ(client_state_path(""), "/y");
+  unsetenv("TANDEM_CLIENT_STATE");
+  const std::string home = getenv("HOME") == nullptr ? "" : getenv("HOME");
+  setenv("HOME", "/home/somebody", 1);
+  EXPECT_EQ(client_state_path(""), "/home/somebody/.config/tandem");
+  setenv("TANDEM_STATE", "/z", 1);
+  EXPECT_EQ(server_state_path(""), "/z");
+  EXPECT_EQ(server_state_path("/a"), "/a");
+  unsetenv("TANDEM_STATE");
+  unsetenv("HOME");
+  EXPECT_FALSE(client_state_path(""));
+  if (!home.empty()) setenv("HOME", home.c_str(), 1);
+  setenv("TANDEM_RUNTIME", "/run/x", 1);
+  EXPECT_EQ(runtime_path(), "/run/x");
+  unsetenv("TANDEM_RUNTIME");
+}
+
+TEST(ServerTrust, IsInitialisedOnceAndOpenedAgain) {
+  const Folder folder;
+  EXPECT_FALSE(ServerTrust::open(folder.path("s"))) << "not initialised";
+  EXPECT_NE(ServerTrust::open(folder.path("s")).error().find("tandem-server init"), std::string::npos);
+  const auto pin = ServerTrust::init(folder.path("s"), kNow);
+  ASSERT_TRUE(pin) << pin.error();
+  EXPECT_FALSE(ServerTrust::init(folder.path("s"), kNow));
+  const auto trust = ServerTrust::open(folder.path("s"));
+  ASSERT_TRUE(trust) << trust.error();
+  EXPECT_EQ(trust->identity().pin(), *pin);
+  for (const char* name :
+       {ServerTrust::kKeyFile, ServerTrust::kCertificateFile, ServerTrust::kTicketKeyFile, ServerTrust::kWorkstationsFile, ServerTrust::kCodesFile})
+    EXPECT_EQ(mode_of(folder.path(std::string("s/") + name)), 0600u) << name;
+}
+
+TEST(ServerTrust, KeepsCodesAsHashesOnly) {
+  const Folder folder;
+  ASSERT_TRUE(ServerTrust::init(folder.path(), kNow));
+  auto trust = ServerTrust::open(folder.path());
+  ASSERT_TRUE(trust);
+  const auto code = test::secret_from<16>(77);
+  ASSERT_EQ(trust->give_out(code, "touch-07", kNow, kNow + 10), "");
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    const std::string text = folder.read(entry.path().filename().string());
+    EXPECT_EQ(text.find(to_hex(code.bytes)), std::string::npos) << entry.path();
+    EXPECT_EQ(text.find(std::string(as_text(code.bytes.data()), 16)), std::string::npos) << entry.path();
+  }
+  EXPECT_NE(folder.read("codes.textproto").find(to_hex(hash_of(code))), std::string::npos);
+}
+
+TEST(ServerTrust, ChangesByAnotherProcessAreSeenAtTheNextLookUp) {
+  const Folder folder;
+  ASSERT_TRUE(ServerTrust::init(folder.path(), kNow));
+  auto running = ServerTrust::open(folder.path()), command = ServerTrust::open(folder.path());
+  ASSERT_TRUE(running && command);
+  const Pin pin{test::counting<32>(5)};
+  EXPECT_FALSE(*running->find(pin));
+  for (int i = 0; i < 50; ++i) {  // also within one tick of the file system's clock
+    ASSERT_EQ(command->enrol_directly({"w", pin.sha256, kNow}), "");
+    ASSERT_TRUE(*running->find(pin)) << i;
+    ASSERT_TRUE(command->revoke("w"));
+    ASSERT_FALSE(*running->find(pin)) << i;
+  }
+}
+
+TEST(ServerTrust, ABookThatCannotBeReadLetsNobodyIn) {
+  const Folder folder;
+  ASSERT_TRUE(ServerTrust::init(folder.path(), kNow));
+  auto trust = ServerTrust::open(folder.path());
+  ASSERT_TRUE(trust);
+  const Pin pin{test::counting<32>(5)};
+  ASSERT_EQ(trust->enrol_directly({"w", pin.sha256, kNow}), "");
+  ASSERT_TRUE(*trust->find(pin));
+  folder.write("workstations.textproto", "workstation { nam: \"w\" }");
+  const auto row = trust->find(pin);
+  ASSERT_FALSE(row);
+  EXPECT_NE(row.error().find("workstations.textproto:1:"), std::string::npos) << row.error();
+  EXPECT_FALSE(trust->find(pin)) << "not the last good one either";
+}
+
+TEST(ServerTrust, ATicketIsUsedOnceAcrossRestarts) {
+  const Folder folder;
+  ASSERT_TRUE(ServerTrust::init(folder.path(), kNow));
+  const Ticket ticket = test::sample_ticket();
+  TicketBytes bytes;
+  {
+    auto trust = ServerTrust::open(folder.path());
+    ASSERT_TRUE(trust);
+    bytes = *sign_ticket(ticket, trust->ticket_key());
+    EXPECT_FALSE(trust->redeem(bytes, test::sample_use(ticket))) << "not serving yet";
+    ASSERT_EQ(trust->begin_serving(kNow), "");
+    ASSERT_TRUE(trust->redeem(bytes, test::sample_use(ticket)));
+    EXPECT_EQ(trust->redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketRule::kUsed);
+  }
+  auto trust = ServerTrust::open(folder.path());
+  ASSERT_TRUE(trust);
+  ASSERT_EQ(trust->begin_serving(kNow), "");
+  EXPECT_EQ(trust->redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketRule::kUsed);
+}
+
+TEST(ServerTrust, OneServerPerFolderAndOthersSeeWhetherOneRuns) {
+  const Folder folder;
+  ASSERT_TRUE(ServerTrust::init(folder.path(), kNow));
+  auto command = ServerTrust::open(folder.path());
+  ASSERT_TRUE(command);
+  const ServingSpec serving{"127.0.0.1:7000", {}};
+  {
+    auto first = ServerTrust::open(folder.path()), second = ServerTrust::open(folder.path());
+    ASSERT_EQ(first->begin_serving(kNow), "");
+    EXPECT_NE(second->begin_serving(kNow).find("another server runs"), std::string::npos);
+    ASSERT_EQ(first->write_serving(serving), "");
+    EXPECT_EQ(*command->read_serving(), serving);
+  }
+  EXPECT_EQ(*command->read_serving(), std::nullopt);
+  folder.write("serving.textproto", print_serving(serving));  // as a killed server leaves it
+  EXPECT_EQ(*command->read_serving(), std::nullopt);
+}
+
+TEST(ClientTrust, MakesItsKeyOnceAndRemembersServers) {
+  const Folder folder;
+  EXPECT_EQ(ClientTrust::open(folder.path("c"))->has_value(), false);
+  Pin pin;
+  {
+    const auto made = ClientTrust::open_or_make(folder.path("c"), kNow);
+    ASSERT_TRUE(made) << made.error();
+    pin = made->identity().pin();
+    EXPECT_EQ(made->remember({"h:1", test::counting<32>(1), "touch-07"}), "");
+  }
+  const auto again = ClientTrust::open(folder.path("c"));
+  ASSERT_TRUE(again && *again);
+  EXPECT_EQ((*again)->identity().pin(), pin);
+  EXPECT_EQ((*again)->servers()->at(0).name, "touch-07");
+  EXPECT_EQ(ClientTrust::open_or_make(folder.path("c"), kNow)->identity().pin(), pin);
+  EXPECT_EQ(mode_of(folder.path("c/workstation_key.pem")), 0600u);
+}
+
+TEST(LocalRuntime, IsFoundByTheServersPinAndGoesWithTheServer) {
+  const Folder folder;
+  const Pin server{test::counting<32>(1)};
+  const auto serial = test::counting<16>();
+  const LocalKeys keys{Identity::make("local", serial, kNow), test::ticket_key(3)};
+  {
+    const auto published = LocalRuntime::publish(folder.path("run"), server, keys);
+    ASSERT_TRUE(published) << published.error();
+    EXPECT_EQ(mode_of(folder.path("run/" + server.hex() + ".local")), 0600u);
+    const auto found = find_local(folder.path("run"), server);
+    ASSERT_TRUE(found && *found) << (found ? "" : found.error());
+    EXPECT_EQ((*found)->workstation.pin(), keys.workstation.pin());
+    EXPECT_EQ((*found)->ticket_key.verifier().key, keys.ticket_key.verifier().key);
+    EXPECT_FALSE(*find_local(folder.path("run"), Pin{}));
+    ASSERT_EQ(chmod(folder.path("run/" + server.hex() + ".local").c_str(), 0644), 0);
+    EXPECT_FALSE(find_local(folder.path("run"), server)) << "others could have read it";
+  }
+  EXPECT_FALSE(*find_local(folder.path("run"), server));
+  EXPECT_FALSE(*find_local(folder.path("nowhere"), server));
+}
+
+}  // namespace
+}  // namespace tandem::trust
