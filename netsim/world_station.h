@@ -12,7 +12,7 @@
 #include "netsim/endpoint_clock.h"
 #include "netsim/fault.h"
 #include "netsim/network.h"
-#include "netsim/virtual_joining.h"
+#include "netsim/world_joining.h"
 #include "netsim/world_tamper.h"
 #include "proto/scene_spec.h"
 

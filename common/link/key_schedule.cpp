@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/base/raw_bytes.h"
+
 namespace tandem::link {
 
 namespace {
-/// The library speaks unsigned char.
-const unsigned char* raw(const std::byte* p) noexcept { return reinterpret_cast<const unsigned char*>(p); }
 constexpr std::size_t kLabelMax = 32;
 }  // namespace
 

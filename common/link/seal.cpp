@@ -4,13 +4,11 @@
 
 #include <stdexcept>
 
+#include "common/base/raw_bytes.h"
+
 namespace tandem::link {
 
 namespace {
-
-/// The crypto library speaks unsigned char; these are the only casts.
-unsigned char* raw(std::byte* p) noexcept { return reinterpret_cast<unsigned char*>(p); }
-const unsigned char* raw(const std::byte* p) noexcept { return reinterpret_cast<const unsigned char*>(p); }
 
 using Expanded = crypto_aead_aes256gcm_state;
 static_assert(sizeof(Expanded) == 512 && alignof(Expanded) <= 16);

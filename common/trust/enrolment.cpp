@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/trust/base32.h"
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 
 namespace tandem::trust {
 namespace {

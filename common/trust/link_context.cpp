@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/trust/pin.h"
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 
 namespace tandem::trust {
 

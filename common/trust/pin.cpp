@@ -2,7 +2,7 @@
 
 #include <sodium.h>
 
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 
 namespace tandem::trust {
 

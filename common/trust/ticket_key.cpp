@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "common/trust/pin.h"
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 
 namespace tandem::trust {
 namespace {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 
 namespace tandem::trust {
 namespace {

@@ -10,19 +10,18 @@ namespace {
 constexpr int kPortsTried = 20;  // until one is free for UDP and TCP
 
 /// Keys of a folder that `init` made; on a network somebody must be able to come.
-std::expected<trust::ServerTrust, std::string> keys_of(const FrontDoor::Plan& plan) {
+std::expected<trust::ServerTrust, std::string> keys_of(const io::SocketAddress& listen, const std::string& state) {
   const std::int64_t now = trust::wall_seconds();
-  if (plan.state.empty() && plan.listen.loopback()) return trust::ServerTrust::throw_away(now);
-  const auto path = trust::server_state_path(plan.state);
+  if (state.empty() && listen.loopback()) return trust::ServerTrust::throw_away(now);
+  const auto path = trust::server_state_path(state);
   if (!path) return std::unexpected("--state: " + path.error());
   auto trust = trust::ServerTrust::open(*path);
   if (!trust) return std::unexpected(trust.error());
-  if (const std::string problem = trust->begin_serving(now); !problem.empty()) return std::unexpected(problem);
   const auto book = trust->workstations();
   if (!book) return std::unexpected(book.error());
   const auto codes = trust->open_codes(now);
   if (!codes) return std::unexpected(codes.error());
-  if (!plan.listen.loopback() && book->empty() && *codes == 0)
+  if (!listen.loopback() && book->empty() && *codes == 0)
     return std::unexpected("nobody could join: no workstation is enrolled in " + *path + ". Run `tandem-server enroll NAME` for each, then start again");
   return trust;
 }
@@ -34,14 +33,22 @@ FrontDoor::FrontDoor(trust::ServerTrust trust, const Plan& plan)
       tell_(plan.tell),
       house_(thread_.context(), trust_),
       plane_(thread_.context(), trust_, house_, {}, {}, [this](const ControlNews& news) {
+        note(news);
         if (tell_) tell_(news);
       }) {}
 
 FrontDoor::~FrontDoor() { stop(); }
 
+std::string FrontDoor::problem_with_keys(const io::SocketAddress& listen, const std::string& state) {
+  const auto trust = keys_of(listen, state);
+  return trust ? std::string() : trust.error();
+}
+
 std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Plan& plan) {
-  auto trust = keys_of(plan);
+  auto trust = keys_of(plan.listen, plan.state);
   if (!trust) return std::unexpected(trust.error());
+  if (trust->on_disk())
+    if (std::string problem = trust->begin_serving(trust::wall_seconds()); !problem.empty()) return std::unexpected(std::move(problem));
   std::unique_ptr<FrontDoor> door{new FrontDoor(std::move(*trust), plan)};
   std::string problem;
   for (int attempt = 0; attempt < kPortsTried; ++attempt) {
@@ -70,6 +77,20 @@ void FrontDoor::add(House::Opening opening) {
   for (const SeatSpec& seat : opening.session->scene().seats) session.seats.push_back({seat.name, access_role(seat.role)});
   serving_.sessions.push_back(std::move(session));
   house_.open(std::move(opening));
+}
+
+void FrontDoor::note(const ControlNews& news) const {
+  switch (news.event) {
+    case ControlEvent::kWelcomed:
+    case ControlEvent::kRefused:
+    case ControlEvent::kNotEnrolled:
+    case ControlEvent::kCodeRefused:
+    case ControlEvent::kBlocked:
+      trust_.audit(trust::wall_seconds(), to_text(news.event), news.workstation, news.address + " " + news.detail);
+      break;
+    default:  // what is no decision about a person is only counted; enrolments note themselves
+      break;
+  }
 }
 
 std::string FrontDoor::start() {

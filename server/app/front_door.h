@@ -23,6 +23,8 @@ class FrontDoor {
     std::string state;         ///< as typed; empty: the usual place, or on loopback keys made on the spot
     std::function<void(const ControlNews&)> tell;  ///< on the door's thread
   };
+  /// What is wrong with the keys and books for an address, before anything starts; empty: nothing.
+  [[nodiscard]] static std::string problem_with_keys(const io::SocketAddress& listen, const std::string& state);
   /// @return the door, listening but not yet answering, or what is wrong and what to do about it
   [[nodiscard]] static std::expected<std::unique_ptr<FrontDoor>, std::string> open(const Plan& plan);
   ~FrontDoor();
@@ -43,6 +45,8 @@ class FrontDoor {
 
  private:
   FrontDoor(trust::ServerTrust trust, const Plan& plan);
+  /// Who came in, and who was not let in and why: in the audit log.
+  void note(const ControlNews& news) const;
 
   trust::ServerTrust trust_;
   std::function<void(const ControlNews&)> tell_;

@@ -59,11 +59,12 @@ std::string client_command() {
 
 void announce(std::FILE* people, const SceneSpec& scene, const io::SocketAddress& at, const std::string& code) {
   const std::string address = io::to_text(at);
+  const std::string dialled = at.any() ? "SERVER:" + std::to_string(at.port()) : address;
   std::fprintf(people, "listening on %s\n", address.c_str());  // scripts wait for this line
   std::fprintf(people, "scene %s, %g s; %s\n", scene.name.c_str(), scene.duration,
                code.empty() ? "in other terminals type" : ("session code " + code_text(code) + "; on enrolled workstations type").c_str());
   for (const SeatSpec& seat : scene.seats)
-    std::fprintf(people, "  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), address.c_str(), seat.name.c_str(),
+    std::fprintf(people, "  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), dialled.c_str(), seat.name.c_str(),
                  code.empty() ? "" : seat.role == Role::kInstructor ? " --ticket TICKET" : (" --session " + code_text(code)).c_str(),
                  seat.required ? "" : "    # optional");
   if (!code.empty())

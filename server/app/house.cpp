@@ -118,7 +118,7 @@ void House::admit(const JoinRequest& request, std::function<void(Admission)> ans
 void House::visit(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer) {
   // Any enrolled workstation may judge its link: it touches no seat.
   const auto place = static_cast<std::uint8_t>(kSeatsMax + 1 + visitors_++ % kVisitorPlaces);
-  answer(welcome(room, 0, true, place, request.hello.has_aes));
+  answer(welcome(room, 0, true, place, request.hello.has_aes, 1));
 }
 
 void House::sit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer) {
@@ -141,24 +141,27 @@ void House::sit(Room& room, const JoinRequest& request, std::function<void(Admis
   order.same_owner = same_owner;
   order.done = [this, &room, &claim, request, seat = *seat, taken, answer = std::move(answer)](Order& asked) {
     std::optional<Refused> refused;
+    double force_scale = 1;
     if (asked.result == JoinResult::kSeatTaken) refused = taken;
     if (asked.result == JoinResult::kSessionOver) refused = Refused{Reason::kSessionOver, "the session is ending", 0};
-    if (!refused) refused = judge(room, request, seat);  // last: a ticket that was redeemed is used
+    if (!refused) refused = judge(room, request, seat, force_scale);  // last: a ticket that was redeemed is used
     if (refused) {
       claim.being_given = false;
       return answer(*refused);
     }
-    answer(welcome(room, seat, false, static_cast<std::uint8_t>(seat + 1), request.hello.has_aes));
+    answer(welcome(room, seat, false, static_cast<std::uint8_t>(seat + 1), request.hello.has_aes, force_scale));
   };
   post(*room.opening.shard, std::move(order));
 }
 
-std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std::size_t seat) {
+std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std::size_t seat, double& force_scale) {
   const AccessRole role = access_role(room.opening.session->scene().seats[seat].role);
   if (const auto* ticket = std::get_if<control::TicketCredential>(&request.hello.credential)) {
     const trust::TicketUse use{room.opening.id,  room.opening.epoch, request.hello.seat, role, trust::Pin{request.workstation.spki}, trust::wall_seconds()};
     const auto redeemed = trust_.redeem(ticket->bytes, use);
-    return redeemed ? std::nullopt : std::optional{refusal_of(redeemed.error())};
+    if (!redeemed) return refusal_of(redeemed.error());
+    force_scale = static_cast<double>(redeemed->force_scale) / trust::Ticket::kFullForce;
+    return std::nullopt;
   }
   if (const auto* code = std::get_if<control::CodeCredential>(&request.hello.credential)) {
     if (!room.guesses.take(io::monotonic_now())) return Refused{Reason::kBlocked, "too many codes were tried for this session; wait a minute", 60};
@@ -173,7 +176,7 @@ std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std:
                                       request.hello.seat + " --workstation " + request.workstation.name + "`", 0};
 }
 
-control::Welcome House::welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes) {
+control::Welcome House::welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes, double force_scale) {
   const HostedSession& session = *room.opening.session;
   control::Welcome w;
   w.session_id = room.opening.id;
@@ -185,8 +188,10 @@ control::Welcome House::welcome(const Room& room, std::size_t seat, bool visit, 
   w.cipher = aes ? control::Cipher::kAes256Gcm : control::Cipher::kChaCha20Poly1305;
   if (!visit) w.seat = session.scene().seats[seat].name;
   w.role = visit ? AccessRole::kObserver : access_role(session.scene().seats[seat].role);
+  SeatSetup own = session.reception().setup(seat);
+  own.gate.force_max *= force_scale;  // a ticket may only take away
   std::array<char, wire::kSetupMax> setup;
-  const std::size_t size = encode_seat_setup(session.reception().setup(seat), setup);
+  const std::size_t size = encode_seat_setup(own, setup);
   for (std::size_t i = 0; i < size; ++i) w.setup.push_back(static_cast<std::byte>(setup[i]));
   w.udp_port = room.opening.shard->address().port();
   w.resume_secret = Secret<32>{trust::random_bytes<std::array<std::byte, 32>>()};

@@ -69,8 +69,8 @@ class House final : public Admissions {
   [[nodiscard]] Room* room(const control::Id& id);
   void visit(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer);
   void sit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
-  [[nodiscard]] std::optional<control::Refused> judge(Room& room, const JoinRequest& request, std::size_t seat);
-  [[nodiscard]] control::Welcome welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes);
+  [[nodiscard]] std::optional<control::Refused> judge(Room& room, const JoinRequest& request, std::size_t seat, double& force_scale);
+  [[nodiscard]] control::Welcome welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes, double force_scale);
   void post(Shard& shard, Order order);
   void hear(Watched& watched);
 

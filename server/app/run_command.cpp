@@ -7,6 +7,7 @@
 #include "common/io/output_file.h"
 #include "proto/io/scene_file.h"
 #include "proto/scene_text.h"
+#include "server/app/front_door.h"
 #include "server/app/host.h"
 
 namespace tandem::server {
@@ -41,6 +42,8 @@ HostPlan understand(const RunArguments& arguments, Mistakes& mistakes) {
   }
   if (const auto listen = io::parse_address(arguments.listen, 0)) {
     plan.listen = *listen;
+    if (const std::string problem = FrontDoor::problem_with_keys(*listen, arguments.state); !problem.empty())
+      mistakes.push_back("--listen " + arguments.listen + ": " + problem);
   } else {
     mistakes.push_back("--listen: " + listen.error());
   }

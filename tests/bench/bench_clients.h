@@ -9,7 +9,7 @@
 #include "client/seat.h"
 #include "common/link/link.h"
 #include "hal/sim/sim_device.h"
-#include "netsim/virtual_joining.h"
+#include "netsim/world_joining.h"
 #include "proto/wire_codec.h"
 #include "server/session.h"
 

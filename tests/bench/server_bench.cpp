@@ -17,6 +17,7 @@
 #include "common/io/realtime.h"
 #include "server/app/shard.h"
 #include "tests/bench/bench_clients.h"
+#include "tests/bench/udp_load.h"
 #include "tests/support/world_run.h"
 
 namespace tandem::bench {
@@ -140,8 +141,7 @@ class Echo {
     io::ask_for_realtime(70);
     Time due = io::monotonic_now() + 1ms;
     while (!stop_.load()) {
-      const timespec rest = io::to_timespec(due - io::monotonic_now());
-      nanosleep(&rest, nullptr);
+      UdpLoad::pause_until(due.time_since_epoch());
       due += 1ms;
       int count = 0;
       while ((count = in_.receive(socket_.fd.get())) > 0) {
@@ -180,8 +180,7 @@ class Crowd {
     std::array<std::byte, 1500> buffer;
     const Time begin = io::monotonic_now();
     for (int ms = 1; ms <= length / 1ms; ++ms) {
-      const timespec rest = io::to_timespec(begin + ms * 1ms - io::monotonic_now());
-      nanosleep(&rest, nullptr);
+      UdpLoad::pause_until((begin + ms * 1ms).time_since_epoch());
       for (std::size_t c = 0; c < sockets_.size(); ++c) {
         for (ssize_t size; (size = ::recv(sockets_[c].get(), buffer.data(), buffer.size(), MSG_DONTWAIT)) > 0;)
           hear(c, std::span{buffer}.first(static_cast<std::size_t>(size)));

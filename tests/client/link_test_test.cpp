@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "hal/sim/sim_device.h"
-#include "netsim/virtual_joining.h"
+#include "netsim/world_joining.h"
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
 #include "server/session.h"

@@ -140,9 +140,9 @@ TEST(LinkTestLive, SaysThatNobodyIsThere) {
 }
 
 TEST(LinkTestLive, TellsAllMistakesAtOnce) {
-  Process test = link_test("192.0.2.1:7000", {"--duration", "nan", "--patience", "-1", "--json", "/no/such/folder/x.json"});
+  Process test = link_test("192.0.2.1", {"--duration", "nan", "--patience", "-1", "--json", "/no/such/folder/x.json"});
   EXPECT_EQ(test.wait(), 2);
-  for (const char* word : {"--server: 192.0.2.1:7000", "--duration", "--patience", "--json", "4 mistakes"})
+  for (const char* word : {"--server: ", "--duration", "--patience", "--json", "4 mistakes"})
     EXPECT_NE(test.err().find(word), std::string::npos) << word << "\n" << test.err();
 }
 

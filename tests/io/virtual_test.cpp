@@ -118,7 +118,7 @@ TEST(NetsimRun, SaysWhySeatAndNetworkDifferAfterANewAddress) {
   const std::string script = folder.write("s.textproto", "event { at_s: 3 client: \"trainee\" rebind { dead_after_ms: 100 } }\n");
   auto run = netsim({"run", "free_motion", "--script", script, "--duration", "5"});
   ASSERT_EQ(run.wait(), 0) << run.err();
-  EXPECT_NE(run.out().find("up: green"), std::string::npos) << "the network carried on: " << run.out();
+  EXPECT_NE(run.out().find("network: green"), std::string::npos) << "the network carried on: " << run.out();
   EXPECT_NE(run.out().find("note: trainee has a new address from 3 s on: the server asks there before it sends forces there"), std::string::npos)
       << run.out();
   EXPECT_NE(run.out().find("lost from 3.1 s on"), std::string::npos) << run.out();

@@ -8,7 +8,7 @@
 
 #include "client/seat.h"
 #include "hal/sim/sim_device.h"
-#include "netsim/virtual_joining.h"
+#include "netsim/world_joining.h"
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
 

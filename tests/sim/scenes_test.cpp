@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "netsim/virtual_joining.h"
+#include "netsim/world_joining.h"
 #include "proto/scenes_embedded.h"
 #include "server/trace_csv.h"
 #include "tests/support/alloc_guard.h"

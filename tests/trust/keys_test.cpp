@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <openssl/x509.h>
 
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 #include "common/trust/tls_key.h"
 #include "tests/trust/support.h"
 

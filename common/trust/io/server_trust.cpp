@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 #include "proto/trust_text.h"
 
 namespace tandem::trust {

@@ -13,7 +13,7 @@
 
 #include "common/base/format.h"
 #include "common/io/clock.h"
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 
 namespace tandem::trust {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 
 namespace tandem::trust {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/trust/base32.h"
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 #include "tests/trust/io/door.h"
 
 /// Enrolling, joining, being refused: what the door does for people.
@@ -198,7 +198,7 @@ TEST(ControlPlane, TellsNoSecrets) {
                                                   std::span<const std::byte>(secrets), std::span<const std::byte>(signature)}) {
     EXPECT_EQ(all.find(trust::to_hex(secret.first(8))), std::string::npos);
     EXPECT_EQ(all.find(trust::to_base32(secret).substr(0, 8)), std::string::npos);
-    EXPECT_EQ(all.find(std::string(trust::text_of(secret.first(8)))), std::string::npos);
+    EXPECT_EQ(all.find(std::string(text_of(secret.first(8)))), std::string::npos);
   }
   EXPECT_EQ(all.find("PRIVATE KEY"), std::string::npos);
 }
@@ -212,7 +212,7 @@ TEST(ControlPlane, AClientFindsTheLocalServersKeysInTheVeryHandshake) {
   const auto published =
       trust::LocalRuntime::publish(door.folder.path("run"), door.server_pin,
                                    {std::move(*trust::Identity::from_pem(std::as_const(*std::make_unique<SecretBuffer>(local.key.to_pem())).bytes(),
-                                                                         trust::bytes_of(local.certificate.to_pem()))),
+                                                                         bytes_of(local.certificate.to_pem()))),
                                     beside.ticket_key()});
   ASSERT_TRUE(published) << published.error();
   std::optional<trust::LocalKeys> found;

@@ -9,7 +9,7 @@
 
 #include "common/trust/io/client_trust.h"
 #include "common/trust/io/server_trust.h"
-#include "common/trust/raw_bytes.h"
+#include "common/base/raw_bytes.h"
 #include "proto/trust_text.h"
 #include "tests/trust/io/folder.h"
 #include "tests/trust/support.h"

@@ -1,4 +1,4 @@
-#include "netsim/virtual_joining.h"
+#include "netsim/world_joining.h"
 
 #include "server/connection_id.h"
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
-/// OpenSSL and libsodium speak unsigned char, we speak std::byte and text: the only casts of this room.
-namespace tandem::trust {
+/// OpenSSL and libsodium speak unsigned char, we speak std::byte and text: the casts between them.
+namespace tandem {
 
 [[nodiscard]] inline unsigned char* raw(std::byte* p) noexcept { return reinterpret_cast<unsigned char*>(p); }
 [[nodiscard]] inline const unsigned char* raw(const std::byte* p) noexcept { return reinterpret_cast<const unsigned char*>(p); }
@@ -16,4 +16,4 @@ namespace tandem::trust {
 [[nodiscard]] inline std::span<const std::byte> bytes_of(std::string_view text) noexcept { return {as_bytes(text.data()), text.size()}; }
 [[nodiscard]] inline std::string_view text_of(std::span<const std::byte> bytes) noexcept { return {as_text(bytes.data()), bytes.size()}; }
 
-}  // namespace tandem::trust
+}  // namespace tandem
