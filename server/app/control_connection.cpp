@@ -34,7 +34,7 @@ ControlConnection::ControlConnection(ControlPlane& plane, asio::ip::tcp::socket 
       authority_(control::RateLimits{}.authority_per_s, control::RateLimits{}.authority_burst) {}
 
 void ControlConnection::start() {
-  stream_->set_deadline(plane_.limits_.deadline);
+  must_be_over_in(plane_.limits_.deadline);
   stream_->allow_input(plane_.limits_.input_before_auth);
   stream_->handshake([self = shared_from_this()](trust::ControlStream::Peer peer) {
     if (!peer) return self->over(peer.error());
@@ -136,6 +136,7 @@ void ControlConnection::on_hello(control::Hello hello) {
                   true);
   if (blocked()) return;
   const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *common, *workstation_, source_, address_});
+  if (!pending_) must_be_over_in(plane_.limits_.frame_deadline);
   // The answer may come from another thread, and after this connection has ended.
   plane_.admissions_.admit(*request, [weak = weak_from_this(), request, &context = plane_.context_, &admissions = plane_.admissions_](Admission admission) {
     asio::dispatch(context, [weak, request, &admissions, admission = std::move(admission)]() mutable {
@@ -169,10 +170,17 @@ void ControlConnection::admitted(const std::shared_ptr<JoinRequest>& request, Ad
 void ControlConnection::on_command(const control::Body& command) {
   if (!standing_) return refuse(Reason::kNotAllowed, "join first: what somebody may order depends on his role", pending_);
   plane_.note(ControlEvent::kCommand, address_, workstation_->name);
+  must_be_over_in(plane_.limits_.frame_deadline);
   plane_.admissions_.command(*standing_, *workstation_, command, [weak = weak_from_this(), &context = plane_.context_](control::Body body) {
     asio::dispatch(context, [weak, body = std::move(body)]() mutable {
       if (const auto self = weak.lock(); self && !self->finished_) self->answer(std::move(body));
     });
+  });
+}
+
+void ControlConnection::must_be_over_in(std::chrono::milliseconds time) {
+  stream_->set_deadline(time, [weak = weak_from_this()] {
+    if (const auto self = weak.lock()) self->over({StreamEnd::kDeadline, "no answer in time"});
   });
 }
 
@@ -195,7 +203,7 @@ void ControlConnection::answer(control::Body body, bool last) {
     return finish();
   }
   // Who does not take his answer is let go of.
-  if (!pending_) stream_->set_deadline(plane_.limits_.frame_deadline);
+  if (!pending_) must_be_over_in(plane_.limits_.frame_deadline);
   stream_->write(std::move(*frame), [self = shared_from_this(), last](std::expected<void, trust::StreamFault> written) {
     if (!written) return self->over(written.error());
     if (!self->pending_) self->stream_->clear_deadline();

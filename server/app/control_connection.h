@@ -28,6 +28,8 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   /// Sends an answer; afterwards reads on, or ends if `last`.
   void answer(control::Body body, bool last = false);
   void refuse(control::Reason reason, std::string text, bool last, std::uint32_t retry_after_s = 0);
+  /// Ends the connection then, whatever it is waiting for: its client, or an answer from inside.
+  void must_be_over_in(std::chrono::milliseconds time);
   /// The first yes: from now on this connection may stay.
   void accepted();
   void over(const trust::StreamFault& fault);

@@ -17,13 +17,14 @@ std::shared_ptr<ControlStream> ControlStream::make(asio::ip::tcp::socket socket,
   return std::shared_ptr<ControlStream>(new ControlStream(std::move(socket), context, side));
 }
 
-void ControlStream::set_deadline(Duration from_now) {
+void ControlStream::set_deadline(Duration from_now, std::function<void()> late) {
   deadline_.expires_after(from_now);
-  deadline_.async_wait([self = weak_from_this()](const asio::error_code& error) {
+  deadline_.async_wait([self = weak_from_this(), late = std::move(late)](const asio::error_code& error) {
     const auto stream = self.lock();
     if (error || !stream) return;
     stream->late_ = true;
     stream->drop();
+    if (late) late();
   });
 }
 

@@ -44,7 +44,8 @@ class ControlStream : public std::enable_shared_from_this<ControlStream> {
   [[nodiscard]] static std::shared_ptr<ControlStream> make(asio::ip::tcp::socket socket, asio::ssl::context& context, Side side);
 
   /// Everything under way must be over by then, else it ends with kDeadline and the connection with it. Replaces an earlier deadline.
-  void set_deadline(Duration from_now);
+  /// @param late  told then, also when nothing is under way
+  void set_deadline(Duration from_now, std::function<void()> late = {});
   void clear_deadline();
   /// How many bytes may still come in, TLS's own included.
   void allow_input(std::size_t bytes) noexcept { stream_.next_layer().allow(bytes); }
