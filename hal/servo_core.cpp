@@ -42,7 +42,7 @@ bool ServoCore::step(Time now, ServoClient& client) noexcept {
   if (phase == Phase::kLost || phase == Phase::kAbsent) return false;
   if (phase == Phase::kBooting) return true;
   const bool stood_still = stepped_ && now - stepped_at_ >= kStoodStill;
-  if (!stepped_ || stood_still) asked_at_ = now, silent_for_ = {};  // nobody asked meanwhile: no answer was missed
+  if (!stepped_) asked_at_ = now, silent_for_ = {};
   if (phase == Phase::kEnabled && (acted_ != Phase::kEnabled || stood_still)) guard_.start(now);
   stepped_ = true;
   stepped_at_ = now;
