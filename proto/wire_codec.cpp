@@ -130,7 +130,7 @@ std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std:
   s.set_delivered_j(static_cast<float>(in.telemetry.delivered_j));
   s.set_margin_min_j(static_cast<float>(in.telemetry.margin_min_j));
   s.set_gate(static_cast<std::uint32_t>(in.gate));
-  s.set_flags((in.ready ? 1U : 0U) | (in.engaged ? 2U : 0U) | (in.stop ? 4U : 0U));
+  s.set_flags((in.ready ? 1U : 0U) | (in.engaged ? 2U : 0U) | (in.stop ? 4U : 0U) | (in.stop_all ? 8U : 0U));
   s.set_gate_trips(in.gate_trips);
   s.set_late_ticks(in.late_ticks);
   s.set_seat_tick(in.seat_tick);
@@ -139,6 +139,7 @@ std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std:
   s.set_down_loss_percent(static_cast<float>(in.telemetry.down_loss_percent));
   s.set_down_longest_gap_ms(static_cast<float>(in.telemetry.down_longest_gap_ms));
   s.set_down_age_p99_ms(static_cast<float>(in.telemetry.down_age_p99_ms));
+  s.set_resume_stop(in.resume_stop);
   return write(preamble, s, out);
 }
 
@@ -155,6 +156,7 @@ std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std:
   f.set_authority_version(in.authority_version);
   f.set_missing(in.missing);
   f.set_alpha(in.alpha);
+  f.set_stops(in.stops);
   return write(preamble, f, out);
 }
 
@@ -206,10 +208,12 @@ Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) noexcep
   out.telemetry.delivered_j = judge.magnitude(static_cast<double>(s.delivered_j()), kJouleMax);
   out.telemetry.margin_min_j = judge.magnitude(static_cast<double>(s.margin_min_j()), kJouleMax);
   out.gate = static_cast<GateState>(judge.at_most(s.gate(), static_cast<std::uint32_t>(GateState::kFault)));
-  const auto flags = judge.at_most(s.flags(), 7);
+  const auto flags = judge.at_most(s.flags(), 15);
   out.ready = (flags & 1U) != 0;
   out.engaged = (flags & 2U) != 0;
   out.stop = (flags & 4U) != 0;
+  out.stop_all = (flags & 8U) != 0;
+  out.resume_stop = s.resume_stop();
   out.gate_trips = s.gate_trips();
   out.late_ticks = s.late_ticks();
   out.seat_tick = s.seat_tick();
@@ -239,6 +243,7 @@ Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) noexcep
   out.authority_version = f.authority_version();
   out.missing = judge.at_most(f.missing(), kSeatsMax);
   out.alpha = judge.within(f.alpha(), 0, 1);
+  out.stops = f.stops();
   return judge.verdict(result);
 }
 

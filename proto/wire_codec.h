@@ -34,10 +34,11 @@ constexpr std::size_t state_size(std::size_t axes) {
          + detail::packed(axes, 8)                             // e_out
          + detail::scalar(4, 1, 4)                             // energies
          + detail::scalar(2, 1, 4) + detail::scalar(3, 2, 4)  // gate, flags; counts
-         + 1 + detail::packed(3, 4) + detail::scalar(4, 2, 4);  // f_env; penetration, link down
+         + 1 + detail::packed(3, 4) + detail::scalar(4, 2, 4)  // f_env; penetration, link down
+         + detail::scalar(1, 2, 4);                           // resume_stop
 }
 constexpr std::size_t force_size(std::size_t axes) {
-  return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8);
+  return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8) + detail::scalar(1, 1, 4);
 }
 inline constexpr std::size_t kPathSize = kPreambleSize + detail::scalar(1, 1, 8);
 inline constexpr std::size_t kAuthoritySize = kPreambleSize + detail::scalar(3, 1, 4) + 3 + kMastersMax * 8;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,6 +21,7 @@ namespace tandem::server {
 struct Entry {
   std::unique_ptr<link::Link> link;
   std::unique_ptr<control::ChannelEnd> end;
+  std::array<std::byte, 32> resume{};  ///< resume_hash of the secret this client may come back with; zero: none
 };
 
 /// The server's end of a seat's spring.
