@@ -152,7 +152,7 @@ void Session::live_one_tick(Time now) noexcept {
 }
 
 void Session::change_state(Time now) noexcept {
-  for (std::size_t i = 0; i < seats_.size(); ++i) present_[i] = seats_[i].present(now);
+  for (std::size_t i = 0; i < seats_.size(); ++i) present_[i] = felt_by(i) && seats_[i].present(now);
   look_after_people(now);
   if (state_ == wire::SessionState::kEnding) {
     ++session_tick_;
