@@ -32,6 +32,11 @@ control::GateParams gate_params(const SeatSetup& s, const hal::DeviceCaps& caps)
   return g;
 }
 
+std::unique_ptr<control::ChannelEnd> make_end(const SeatSetup& s) {
+  return setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max, !s.unsafe_gains,
+                             s.seat.kind == SeatKind::kSlave ? std::optional{s.k_s} : std::nullopt);
+}
+
 wire::GateState wire_state(control::GatePhase p) noexcept { return static_cast<wire::GateState>(p); }
 static_assert(static_cast<int>(control::GatePhase::kFault) == static_cast<int>(wire::GateState::kFault));
 
@@ -53,11 +58,9 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link
       map_(setup.port, setup.dof, caps.joints),
       joints_(caps.joints),
       dt_(1.0 / setup.tick_hz),
-      link_(link),
+      link_(std::make_unique<link::Link>(link)),
       codec_(setup.dof, setup.port),
-      end_(setup::make_channel(setup.channel, control::Side::kClient, setup.dof, setup.axis_scale, setup.gate.force_max,
-                        !setup.unsafe_gains,
-                        setup.seat.kind == SeatKind::kSlave ? std::optional{setup.k_s} : std::nullopt)),
+      end_(make_end(setup)),
       gate_(gate_params(setup, caps)) {
   for (std::size_t a = 0; a < setup.dof; ++a) {
     const double s = setup.axis_scale[a];
@@ -65,33 +68,47 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link
   }
 }
 
+void Seat::rejoin(const link::Link::Params& link) {
+  link_ = std::make_unique<link::Link>(link);
+  end_ = make_end(setup_);
+  rx_ = {};
+  fresh_ = heard_force_ = false;
+  session_begin_.reset();
+  path_answer_.reset();
+  authority_.reset();
+  stops_at_press_.reset();
+  resume_stop_ = 0;
+}
+
 void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
-  const auto opened = link_.open(now, bytes);
+  const auto opened = link_->open(now, bytes);
   if (!opened) return;
   if (opened->type == wire::Type::kForce) {
     const auto decoded = codec_.decode_force(opened->plaintext);
-    if (!decoded) return link_.refuse_body();
+    if (!decoded) return link_->refuse_body();
     if (!opened->newer) return;  // latest wins: nothing acts backwards
-    link_.accept(now, *opened, decoded->preamble);
+    link_->accept(now, *opened, decoded->preamble);
     if (rx_.session == wire::SessionState::kWaiting && decoded->message.session == wire::SessionState::kRunning)
-      link_.restart_statistics(now);
+      link_->restart_statistics(now);
     rx_ = decoded->message;
     fresh_ = heard_force_ = true;
     if (!session_begin_ && rx_.session == wire::SessionState::kRunning)
-      session_begin_ = now - link_.freshness().age(now) - from_seconds(rx_.session_tick * dt_);
+      session_begin_ = now - link_->freshness().age(now) - from_seconds(rx_.session_tick * dt_);
+    if (!person_begin_) person_begin_ = session_begin_;
     if (authority_ && rx_.authority_version != authority_->version) authority_.reset();
+    settle_wishes();
   } else if (opened->type == wire::Type::kClose) {
     const auto decoded = codec_.decode_close(opened->plaintext);
-    if (!decoded) return link_.refuse_body();
+    if (!decoded) return link_->refuse_body();
     closed_ = true;
     close_reason_ = decoded->message.reason;
   } else if (opened->type == wire::Type::kPathChallenge) {
     const auto decoded = codec_.decode_path(opened->plaintext);
-    if (!decoded) return link_.refuse_body();
-    link_.accept_other();
+    if (!decoded) return link_->refuse_body();
+    link_->accept_other();
     path_answer_ = decoded->message;
   } else {
-    link_.refuse_body();
+    link_->refuse_body();
   }
 }
 
@@ -114,8 +131,8 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
     started_ = now;
   }
   tick_ = static_cast<std::uint32_t>(std::llround(seconds(now - started_) / dt_));
-  link_.tick(now);
-  if (tick_ % 256 == 0) age_p99_ms_ = 1e3 * seconds(Duration{link_.stats().age.quantile(0.99)});  // a walk over bins: not every tick
+  link_->tick(now);
+  if (tick_ % 256 == 0) age_p99_ms_ = 1e3 * seconds(Duration{link_->stats().age.quantile(0.99)});  // a walk over bins: not every tick
   const bool valid = take_reading(device);
   meter_.advance(joints_, reading_.q, reading_.tau_out);
 
@@ -130,9 +147,11 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   control::ForceGate::Input in;
   in.now = now;
   in.fresh = fresh_;
-  in.loop_age = link_.freshness().loop_age(now);
-  in.rtt_p99 = link_.freshness().rtt_p99();
-  in.engage = rx_.engage && heard_force_ && !leaving_ && !closed_ && rx_.session != wire::SessionState::kEnding;
+  in.loop_age = link_->freshness().loop_age(now);
+  in.rtt_p99 = link_->freshness().rtt_p99();
+  if (setup_.seat.kind == SeatKind::kMaster)  // a slave may be pressed against something harder than any grip
+    sensor_.look(now, reading_.q, joints_, end_->state().ref, effort_, setup_.axis_scale, setup_.dof, was_active);
+  in.engage = may_engage();
   in.reset = reset_;
   in.reading_valid = valid;
   in.wanted = wanted;
@@ -155,11 +174,19 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   return command;
 }
 
+bool Seat::may_engage() const noexcept {
+  const bool session = rx_.session == wire::SessionState::kWaiting || rx_.session == wire::SessionState::kRunning ||
+                       rx_.session == wire::SessionState::kHeld;
+  // The server never wants an observer engaged; that he feels nothing does not depend on it.
+  return rx_.engage && session && heard_force_ && !leaving_ && !closed_ && !own_stop_ && !sensor_.frozen() &&
+         setup_.seat.role != Role::kObserver;
+}
+
 AxisArray Seat::control(Time now) noexcept {
   const bool master = setup_.seat.kind == SeatKind::kMaster;
   control::EndInput in;
   in.dt = dt_;
-  in.age = seconds(link_.freshness().age(now));
+  in.age = seconds(link_->freshness().age(now));
   in.rx = rx_.port;
   for (std::size_t a = 0; a < setup_.dof; ++a) {
     in.x[a] = master ? ipc_[a].x : q_[a];
@@ -183,7 +210,7 @@ AxisArray Seat::control(Time now) noexcept {
 
 void Seat::rest() noexcept {
   for (std::size_t a = 0; a < setup_.dof; ++a) ipc_[a].rest_at(q_[a]);
-  const auto& f = link_.freshness();
+  const auto& f = link_->freshness();
   end_->engage(q_, f.heard() ? std::max(0.0, 0.5 * seconds(f.rtt_p50()) - 0.5 * dt_) : 0);
 }
 
@@ -208,7 +235,7 @@ void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& want
   put(t.f_env, reading_.f_env);
   t.penetration_m = reading_.penetration;
   t.e_out = end_->e_out();
-  const link::LinkStats& down = link_.stats();
+  const link::LinkStats& down = link_->stats();
   t.down_loss_percent = down.loss_percent();
   t.down_longest_gap_ms = 1e3 * seconds(down.longest_gap);
   t.down_age_p99_ms = age_p99_ms_;
@@ -219,17 +246,20 @@ void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& want
   tx_.gate = wire_state(gate_.phase());
   tx_.engaged = engaged;
   const bool latched = gate_.phase() == control::GatePhase::kDamped || gate_.phase() == control::GatePhase::kFault;
-  tx_.ready = device.homed && !latched && !leaving_ && link_.freshness().rtt_samples() >= kLearnSamples;
+  tx_.ready = device.homed && !latched && !leaving_ && !own_stop_ && !sensor_.frozen() && link_->freshness().rtt_samples() >= kLearnSamples;
+  tx_.stop = own_stop_;
+  tx_.stop_all = stop_all_;
+  tx_.resume_stop = resume_stop_;
   tx_.gate_trips = gate_.trips();
-  tx_.seat_tick = static_cast<std::uint32_t>(std::max(0.0, session_time(now).value_or(0)) / dt_ + 0.5);
+  tx_.seat_tick = session_begin_ ? static_cast<std::uint32_t>(std::max(0.0, seconds(now - *session_begin_)) / dt_ + 0.5) : 0;
 }
 
 std::optional<std::size_t> Seat::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
   if (buffer.size() < link::kHeaderSize) return std::nullopt;
   const auto body = buffer.subspan(link::kHeaderSize);
   const auto seal = [&](wire::Type type, const auto& message) -> std::optional<std::size_t> {
-    const std::size_t plain = codec_.encode(link_.preamble(now, tick_), message, body);
-    const std::size_t size = plain == 0 ? 0 : link_.seal(now, type, buffer, plain);
+    const std::size_t plain = codec_.encode(link_->preamble(now, tick_), message, body);
+    const std::size_t size = plain == 0 ? 0 : link_->seal(now, type, buffer, plain);
     return size == 0 ? std::nullopt : std::optional{size};
   };
   if (path_answer_) return seal(wire::Type::kPathResponse, *std::exchange(path_answer_, std::nullopt));
@@ -252,7 +282,8 @@ std::optional<std::size_t> Seat::poll_transmit(Time now, std::span<std::byte> bu
 }
 
 bool Seat::request_authority(std::uint32_t tool, std::span<const double> alpha) noexcept {
-  if (setup_.seat.role != Role::kInstructor || alpha.size() > kMastersMax) return false;
+  const bool may = setup_.seat.role == Role::kInstructor || setup_.seat.role == Role::kTrainee;  // who may only offer back what is his
+  if (!may || alpha.size() > kMastersMax) return false;
   wire::AuthorityMessage m;
   m.version = rx_.authority_version;
   m.tool = tool;
@@ -263,9 +294,33 @@ bool Seat::request_authority(std::uint32_t tool, std::span<const double> alpha) 
   return true;
 }
 
+bool Seat::press_stop_all() noexcept {
+  if (setup_.seat.role == Role::kObserver || setup_.seat.kind == SeatKind::kSlave) return false;
+  if (!stop_all_) stops_at_press_ = heard_force_ ? std::optional{rx_.stops} : std::nullopt;
+  stop_all_ = true;
+  return true;
+}
+
+void Seat::press_resume() noexcept {
+  own_stop_ = false;
+  if (setup_.seat.role == Role::kInstructor && setup_.seat.kind == SeatKind::kMaster) resume_stop_ = rx_.stops;
+  settle_wishes();
+}
+
+/// A wish is repeated until the server's FORCE shows what came of it.
+void Seat::settle_wishes() noexcept {
+  if (stop_all_ && !stops_at_press_) {  // pressed before this server said anything
+    stop_all_ = rx_.session != wire::SessionState::kStopped;
+    stops_at_press_ = rx_.stops;
+  }
+  if (stop_all_ && rx_.stops != stops_at_press_) stop_all_ = false;
+  const bool goes_on = rx_.session == wire::SessionState::kRunning || rx_.session == wire::SessionState::kHeld;
+  if (resume_stop_ != rx_.stops || goes_on) resume_stop_ = 0;
+}
+
 std::optional<double> Seat::session_time(Time now) const noexcept {
-  if (!session_begin_) return std::nullopt;
-  return seconds(now - *session_begin_);
+  if (!person_begin_) return std::nullopt;
+  return seconds(now - *person_begin_);
 }
 
 }  // namespace tandem::client

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "client/frozen_sensor.h"
 #include "common/base/time.h"
 #include "common/control/channel.h"
 #include "common/control/energy_meter.h"
@@ -30,6 +31,10 @@ class Seat {
   /// @throws SetupError-like std::runtime_error if the law is unknown or the crypto library lacks a cipher.
   Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link::Params& link);
 
+  /// The server gave this hand a new connection, as it was started anew or the old one was lost: what was received is void and
+  /// energies start at 0. The gate, and what a person has stopped, stay as they are. Not below a tick: takes memory.
+  void rejoin(const link::Link::Params& link);
+
   void on_datagram(Time now, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
   /// Once per device exchange. Total: a reading that is not finite, or that no device can have, never leaves this seat and never
   /// moves the hand.
@@ -37,8 +42,18 @@ class Seat {
   /// Writes the next datagram into `buffer`; nullopt when nothing is due.
   [[nodiscard]] std::optional<std::size_t> poll_transmit(Time now, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
 
-  /// INSTRUCTOR seats: asks for new weights until the server shows a newer version. @return false for other roles.
+  /// Asks for new weights until the server shows a newer version. INSTRUCTOR seats; a TRAINEE only gets to give back to instructors
+  /// what is his. @return false for other roles.
   bool request_authority(std::uint32_t tool, std::span<const double> alpha) noexcept;
+  /// The person stops his own hand: it is let go with the next servo tick and stays so until the same person resumes.
+  void press_stop() noexcept { own_stop_ = true; }
+  /// The person wants everybody's hands stopped, or paused where his role may no more: asked until the server counts a new stop.
+  /// @return false for roles that may not
+  bool press_stop_all() noexcept;
+  /// Ends the own stop; and the session's, where the role may: the stop that this person sees, not a newer one.
+  void press_resume() noexcept;
+  [[nodiscard]] bool stopped() const noexcept { return own_stop_; }
+
   /// The person pressed the button that clears a latched gate.
   void press_reset() noexcept { reset_ = true; }
   /// Ticks of this machine that began late, so far: told to the server for its status.
@@ -46,7 +61,8 @@ class Seat {
   /// Lets go: the gate ramps out, then the server is told.
   void leave() noexcept { leaving_ = true; }
 
-  /// Seconds since the session began, on the own clock; nullopt before. What simulated hands follow.
+  /// Seconds since the session began, on the own clock; nullopt before. What simulated hands follow; a server that comes back from a
+  /// checkpoint does not turn it back.
   [[nodiscard]] std::optional<double> session_time(Time now) const noexcept;
   [[nodiscard]] bool closed() const noexcept { return closed_; }
   [[nodiscard]] wire::CloseReason close_reason() const noexcept { return close_reason_; }
@@ -54,15 +70,19 @@ class Seat {
   [[nodiscard]] const wire::StateMessage& sample() const noexcept { return tx_; }
   [[nodiscard]] const control::ForceGate& gate() const noexcept { return gate_; }
   [[nodiscard]] const control::ChannelEnd& channel() const noexcept { return *end_; }
-  [[nodiscard]] const link::Link& link() const noexcept { return link_; }
+  [[nodiscard]] const link::Link& link() const noexcept { return *link_; }
   [[nodiscard]] const SeatSetup& setup() const noexcept { return setup_; }
   [[nodiscard]] const control::MasterIpc& ipc(std::size_t axis) const noexcept { return ipc_[axis]; }
+  [[nodiscard]] bool sensor_frozen() const noexcept { return sensor_.frozen(); }
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes
   [[nodiscard]] hal::Vec3 tip_force() const noexcept { return map_.tip_force(reading_, effort_); }  ///< the same at the tip [N]
 
  private:
   [[nodiscard]] bool take_reading(const hal::State& device) noexcept;
   [[nodiscard]] AxisArray control(Time now) noexcept TANDEM_REALTIME;
+  /// Whether the person, the session and the sensor let this hand be engaged.
+  [[nodiscard]] bool may_engage() const noexcept;
+  void settle_wishes() noexcept;
   void rest() noexcept TANDEM_REALTIME;
   void fill_sample(Time now, const hal::State& device, const AxisArray& wanted) noexcept TANDEM_REALTIME;
 
@@ -70,7 +90,7 @@ class Seat {
   hal::PortMap map_;
   std::size_t joints_;
   double dt_;
-  link::Link link_;
+  std::unique_ptr<link::Link> link_;
   wire::Codec codec_;
   std::unique_ptr<control::ChannelEnd> end_;
   std::array<control::MasterIpc, kAxesMax> ipc_{};
@@ -81,6 +101,7 @@ class Seat {
   hal::State reading_{};       ///< last valid one
   AxisArray q_{}, v_{};        ///< of the port
   unsigned bad_readings_ = 0;
+  FrozenSensor sensor_;
   wire::ForceMessage rx_{};
   wire::StateMessage tx_{};
   AxisArray effort_{};
@@ -89,9 +110,13 @@ class Seat {
   Time started_{};
   std::uint32_t tick_ = 0;
   bool ticked_ = false;
-  std::optional<Time> session_begin_;
+  std::optional<Time> session_begin_;  ///< as this server counts
+  std::optional<Time> person_begin_;   ///< as the first server did: people go on while servers come and go
   double dissipated_ = 0, age_p99_ms_ = 0;
 
+  bool own_stop_ = false, stop_all_ = false;
+  std::optional<std::uint32_t> stops_at_press_;  ///< of the wish; nothing: this server has not spoken since
+  std::uint32_t resume_stop_ = 0;
   bool state_due_ = false, reset_ = false, leaving_ = false, closed_ = false;
   unsigned close_due_ = 0;
   wire::CloseReason close_reason_ = wire::CloseReason::kDone;

@@ -22,6 +22,10 @@ struct Fault {
     kJunk,        ///< random bytes reach both ends, one datagram each tick
     kLiar,        ///< the client's STATE tells an energy account that runs backwards: sealed, well-formed, wrong
     kServerLate,  ///< the server's thread stands still and then makes up for it; concerns no seat
+    kServerRestart,  ///< the server dies and goes on after `length` from its last checkpoint; everybody joins anew; concerns no seat
+    kStopHand,    ///< the person stops his own hand, and resumes after `length`
+    kStopAll,     ///< the person stops the session, or pauses it; instructors resume after `length`
+    kHostile,     ///< the client's STATE becomes, under its own keys, what nobody may send or no hand can be
   };
   Kind kind = Kind::kPause;
   std::string seat;   ///< empty: every seat
@@ -36,7 +40,7 @@ struct FaultName {
   std::string_view name;  ///< as scenarios spell it
   std::string_view what;  ///< for people
 };
-inline constexpr std::array<FaultName, 9> kFaultNames{{
+inline constexpr std::array<FaultName, 13> kFaultNames{{
     {Fault::Kind::kPause, "PAUSE", "the client's program stands still"},
     {Fault::Kind::kRestart, "RESTART", "the client's program dies and is started again"},
     {Fault::Kind::kNotANumber, "NOT_A_NUMBER", "the device's readings are NaN"},
@@ -46,7 +50,14 @@ inline constexpr std::array<FaultName, 9> kFaultNames{{
     {Fault::Kind::kJunk, "JUNK", "random bytes arrive"},
     {Fault::Kind::kLiar, "LIAR", "the client's energy account runs backwards"},
     {Fault::Kind::kServerLate, "SERVER_LATE", "the server's thread stands still"},
+    {Fault::Kind::kServerRestart, "SERVER_RESTART", "the server dies and goes on from its checkpoint"},
+    {Fault::Kind::kStopHand, "STOP_HAND", "the person stops his own hand"},
+    {Fault::Kind::kStopAll, "STOP_ALL", "the person stops the session"},
+    {Fault::Kind::kHostile, "HOSTILE", "the client sends what nobody may"},
 }};
+[[nodiscard]] constexpr bool of_server(Fault::Kind kind) noexcept {
+  return kind == Fault::Kind::kServerLate || kind == Fault::Kind::kServerRestart;
+}
 [[nodiscard]] constexpr std::string_view name(Fault::Kind kind) noexcept {
   return kFaultNames[static_cast<std::size_t>(kind)].name;
 }

@@ -58,23 +58,71 @@ std::expected<std::unique_ptr<World>, std::string> World::make(const WorldSetup&
     std::iota(world->order_.begin(), world->order_.end(), std::size_t{0});
   }
   std::ranges::copy_if(setup.faults, std::back_inserter(world->server_faults_),
-                       [](const Fault& f) { return f.kind == Fault::Kind::kServerLate; });
+                       [](const Fault& f) { return of_server(f.kind); });
+  std::ranges::copy_if(setup.faults, std::back_inserter(world->stops_), [](const Fault& f) { return f.kind == Fault::Kind::kStopAll; });
 
+  auto slaves = world->make_slaves(nullptr);
+  if (!slaves) return std::unexpected(slaves.error());
+  const hal::SteppedDevice& first = world->stations_[0].device();
+  world->scale_ = hal::PortMap(scene.port, scene.dof, first.caps().joints).scale(first.state());
+  world->session_ = std::make_unique<server::Session>(scene, std::move(*slaves), world->scale_);
+  world->checkpoint_ = world->session_->checkpoint();
+  return world;
+}
+
+/// @param from  where they stand; null: where the scene says
+std::expected<std::vector<std::unique_ptr<hal::SteppedDevice>>, std::string> World::make_slaves(const server::Checkpoint* from) const {
   std::vector<std::unique_ptr<hal::SteppedDevice>> slaves;
-  for (const ToolSpec& tool : scene.tools) {
+  for (std::size_t j = 0; j < setup_.scene.tools.size(); ++j) {
+    const ToolSpec& tool = setup_.scene.tools[j];
     if (tool.remote) {
       slaves.push_back(nullptr);
       continue;
     }
-    auto slave = hal::sim::SimDevice::make({tool.slave, HandSpec{}, tool.environment, nullptr, world->now_});
+    SimDeviceSpec spec = tool.slave;
+    if (from != nullptr) spec.start = {from->tools[j].slave[0], from->tools[j].slave[1], from->tools[j].slave[2]};
+    auto slave = hal::sim::SimDevice::make({spec, HandSpec{}, tool.environment, nullptr, now_});
     if (!slave) return std::unexpected("tool " + tool.name + ": " + slave.error().message);
     slaves.push_back(std::move(*slave));
   }
+  return slaves;
+}
 
-  const hal::SteppedDevice& first = world->stations_[0].device();
-  const AxisArray scale = hal::PortMap(scene.port, scene.dof, first.caps().joints).scale(first.state());
-  world->session_ = std::make_unique<server::Session>(scene, std::move(slaves), scale);
-  return world;
+void World::keep_server() {
+  const bool dead = std::ranges::any_of(server_faults_, [&](const Fault& f) {
+    return f.kind == Fault::Kind::kServerRestart && now_ >= Time{} + f.at && now_ < Time{} + f.at + f.length;
+  });
+  if (up_ && dead) up_ = false;
+  if (!up_ && !dead) restart_server();
+}
+
+/// Everything but the checkpoint is gone; that went through bytes, as it does through a file.
+void World::restart_server() {
+  std::array<std::byte, server::kCheckpointMax> bytes;
+  const std::size_t size = server::encode_checkpoint(checkpoint_, bytes);
+  const auto read = server::decode_checkpoint(std::span{bytes}.first(size));
+  if (!read || !server::unfit(*read, setup_.scene).empty()) {
+    trouble_ = "the checkpoint cannot be read back";
+    return;
+  }
+  auto slaves = make_slaves(&*read);
+  if (!slaves) {
+    trouble_ = "after a restart: " + slaves.error();
+    return;
+  }
+  session_ = std::make_unique<server::Session>(setup_.scene, std::move(*slaves), scale_, *read);
+  server_missed_ = 0;
+  up_ = true;
+}
+
+/// Twice a second, and whenever somebody came, went, or changed who leads or who may move at all.
+void World::keep_checkpoint(bool people_changed) {
+  constexpr Duration kEvery = std::chrono::milliseconds(500);
+  if (!people_changed && now_ - checkpoint_at_ < kEvery && session_->authority_version() == checkpoint_.authority_version &&
+      session_->stops() == checkpoint_.stops && session_->epoch() == checkpoint_.epoch)
+    return;
+  checkpoint_ = session_->checkpoint();
+  checkpoint_at_ = now_;
 }
 
 std::string World::add_station(std::size_t i) {
@@ -90,7 +138,7 @@ std::string World::add_station(std::size_t i) {
   WorldStation::Setup station{.scene = &setup_.scene, .seat = i, .seed = setup_.seed, .device = std::move(*device),
                               .faults = {}, .endpoint = {}};
   for (const Fault& fault : setup_.faults)
-    if (fault.kind != Fault::Kind::kServerLate && (fault.seat.empty() || fault.seat == spec.name)) station.faults.push_back(fault);
+    if (!of_server(fault.kind) && (fault.seat.empty() || fault.seat == spec.name)) station.faults.push_back(fault);
   if (const auto e = setup_.endpoints.find(spec.name); e != setup_.endpoints.end()) station.endpoint = e->second;
   stations_.emplace_back(std::move(station));
   if (stations_.back().ever_suffers(Fault::Kind::kLiar)) watch_.excuse("energy_monotone", spec.name);
@@ -111,9 +159,14 @@ std::string World::add_station(std::size_t i) {
 
 bool World::step() {
   if (session_->over() || !trouble_.empty()) return false;
+  if (!server_faults_.empty()) keep_server();
+  if (!stops_.empty()) people_resume();
   serve_clients();
   std::uint32_t lived = 0;
-  if (server_stands_still()) {
+  if (!up_) {
+    for (std::size_t i = 0; i < stations_.size(); ++i)  // to a closed port
+      while (network_.poll(now_, static_cast<std::uint32_t>(i), Direction::kUp, buffer_)) {}
+  } else if (server_stands_still()) {
     ++server_missed_;
   } else {
     lived = server_missed_ + 1;
@@ -157,10 +210,11 @@ void World::serve_clients() {
     const std::size_t i = order_.empty() ? n : order_[n];
     WorldStation& station = stations_[i];
     const client::Seat* const before = station.seat();
+    const std::uint32_t joins = station.joins();
     const std::uint64_t taken = heap_taken();
-    if (std::string trouble = station.step(now_, *session_, network_, buffer_); !trouble.empty()) trouble_ = std::move(trouble);
+    if (std::string trouble = station.step(now_, up_ ? session_.get() : nullptr, network_, buffer_); !trouble.empty()) trouble_ = std::move(trouble);
     // A program that starts, joins or dies is no tick yet, or no more.
-    if (before != nullptr && before == station.seat() && heap_taken() != taken) watch_.took_heap(i);
+    if (before != nullptr && before == station.seat() && joins == station.joins() && heap_taken() != taken) watch_.took_heap(i);
   }
 }
 
@@ -169,7 +223,7 @@ bool World::works_before(std::size_t a, std::size_t b) const noexcept {
 }
 
 bool World::server_stands_still() const noexcept {
-  return std::ranges::any_of(server_faults_, [&](const Fault& f) { return now_ >= Time{} + f.at && now_ < Time{} + f.at + f.length; });
+  return std::ranges::any_of(server_faults_, [&](const Fault& f) { return f.kind == Fault::Kind::kServerLate && now_ >= Time{} + f.at && now_ < Time{} + f.at + f.length; });
 }
 
 void World::serve_server() {
@@ -194,6 +248,21 @@ void World::serve_server() {
     network_.send_to(now_, static_cast<std::uint32_t>(to), address_of(out->to), std::span{buffer_}.first(out->size));
   }
   if (heap_taken() != taken) watch_.took_heap();
+  bool people_changed = false;
+  while (const auto event = session_->poll_audit()) {
+    people_changed |= event->what == server::AuditEvent::What::kJoin || event->what == server::AuditEvent::What::kLeave;
+    watch_.noted(*event);
+    if (on_audit) on_audit(*event);
+  }
+  keep_checkpoint(people_changed);
+}
+
+/// The session's stop of one person is ended by all instructors.
+void World::people_resume() {
+  for (const Fault& f : stops_)
+    if (now_ >= Time{} + f.at + f.length && now_ - tick_ < Time{} + f.at + f.length)
+      for (std::size_t i = 0; i < stations_.size(); ++i)
+        if (stations_[i].seat() != nullptr && setup_.scene.seats[i].role == Role::kInstructor) stations_[i].seat()->press_resume();
 }
 
 void World::attack_server() {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <expected>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,11 @@ class World {
   bool step();
 
   [[nodiscard]] Time now() const noexcept { return now_; }
+  /// The server lives. While it does not, `session` is what it was when it died.
+  [[nodiscard]] bool server_up() const noexcept { return up_; }
+  /// What a restart would find now.
+  [[nodiscard]] const server::Checkpoint& checkpoint() const noexcept { return checkpoint_; }
+  /// Of another one than before after each restart of the server.
   [[nodiscard]] const server::Session& session() const noexcept { return *session_; }
   [[nodiscard]] const client::Seat* seat(std::size_t i) const noexcept { return stations_[i].seat(); }
   [[nodiscard]] client::Seat* seat(std::size_t i) noexcept { return stations_[i].seat(); }
@@ -48,6 +54,8 @@ class World {
   /// Whoever drew the faults knows that they are over: from now on also what only ordinary motion is promised is judged.
   /// @return whether the hands of this scene move so
   bool is_calm() noexcept { return watch_.calm(); }
+  /// Told what the session noted about its people, in order; may be empty.
+  std::function<void(const server::AuditEvent&)> on_audit = {};
   /// Why a seat could not join, if so.
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
   [[nodiscard]] const SceneSpec& scene() const noexcept { return setup_.scene; }
@@ -58,7 +66,13 @@ class World {
   void serve_clients();
   [[nodiscard]] bool works_before(std::size_t a, std::size_t b) const noexcept;
   void serve_server();
+  [[nodiscard]] std::expected<std::vector<std::unique_ptr<hal::SteppedDevice>>, std::string> make_slaves(const server::Checkpoint* from) const;
+  /// Dies, or comes back, as the faults say.
+  void keep_server();
+  void restart_server();
+  void keep_checkpoint(bool people_changed);
   void attack_server();
+  void people_resume();
   [[nodiscard]] std::uint64_t heap_taken() const noexcept { return setup_.heap_count != nullptr ? setup_.heap_count() : 0; }
   [[nodiscard]] bool server_stands_still() const noexcept;
   void give_up_waiting();
@@ -70,9 +84,13 @@ class World {
   Duration tick_{};
   Time now_{};
   std::unique_ptr<server::Session> session_;
+  bool up_ = true;
+  server::Checkpoint checkpoint_{};  ///< what a restart finds
+  Time checkpoint_at_{};
+  AxisArray scale_{};
   std::vector<WorldStation> stations_;
   std::vector<std::size_t> order_;  ///< in which stations work within a tick; empty: all at its end, by number
-  std::vector<Fault> server_faults_;
+  std::vector<Fault> server_faults_, stops_;
   std::uint32_t server_missed_ = 0;  ///< ticks the server's thread stood still
   std::array<std::byte, link::kDatagramMax> buffer_{};
   server::TickRecord record_{};

@@ -12,7 +12,7 @@ namespace {
 constexpr Duration kAskAgain = std::chrono::milliseconds(200);
 
 bool tampers(Fault::Kind kind) noexcept {
-  return kind == Fault::Kind::kReplay || kind == Fault::Kind::kJunk || kind == Fault::Kind::kLiar;
+  return kind == Fault::Kind::kReplay || kind == Fault::Kind::kJunk || kind == Fault::Kind::kLiar || kind == Fault::Kind::kHostile;
 }
 
 /// Where an own clock begins, so that it never shows less than zero.
@@ -35,7 +35,7 @@ WorldStation::WorldStation(Setup setup)
     if (setup.endpoint->wake.kind != WakeSpec::Kind::kExact) wake_.emplace(setup.endpoint->wake, tick_, Time{}, key_.derive(3));
   }
   if (std::ranges::any_of(faults_, [](const Fault& f) { return tampers(f.kind); }))
-    tamper_ = std::make_unique<WorldTamper>(key_.derive(1), scene_->dof, scene_->port);
+    tamper_ = std::make_unique<WorldTamper>(key_.derive(1), *scene_, number_);
 }
 
 bool WorldStation::suffers(Fault::Kind kind, Time now) const noexcept {
@@ -58,7 +58,7 @@ void WorldStation::live(Duration length) noexcept {
   worked_now_ += device_->state().f_out.dot(device_->truth().x - before);
 }
 
-std::string WorldStation::step(Time now, server::Session& session, Network& network, std::span<std::byte> buffer) {
+std::string WorldStation::step(Time now, server::Session* session, Network& network, std::span<std::byte> buffer) {
   heard_now_ = 0;
   served_now_ = false;
   worked_now_ = 0;
@@ -70,7 +70,7 @@ std::string WorldStation::step(Time now, server::Session& session, Network& netw
   return trouble;
 }
 
-std::string WorldStation::work(Time now, bool awake, server::Session& session, Network& network, std::span<std::byte> buffer) {
+std::string WorldStation::work(Time now, bool awake, server::Session* session, Network& network, std::span<std::byte> buffer) {
   if (suffers(Fault::Kind::kRestart, now)) {
     if (!down_) {
       down_ = true;
@@ -84,9 +84,10 @@ std::string WorldStation::work(Time now, bool awake, server::Session& session, N
   if (std::exchange(down_, false)) ++starts_;
   if (awake && !suffers(Fault::Kind::kPause, now)) {
     listen(now, network, buffer);
-    if (!seat_) {
-      if (std::string trouble = join(now, session); !trouble.empty()) return trouble;
+    if (!seat_ && session != nullptr) {
+      if (std::string trouble = join(now, *session); !trouble.empty()) return trouble;
     }
+    if (seat_ && session != nullptr && session->epoch() != epoch_) rejoin(now, *session);
     if (seat_) serve(now, network, buffer);
   } else if (seat_) {
     device_->set_session_time(seat_->session_time(own_time(now)));  // the person goes on, the program does not
@@ -120,6 +121,9 @@ std::string WorldStation::join(Time now, server::Session& session) {
     seat_ = std::make_unique<client::Seat>(joined->setup, device_->caps(), joined->link);
     server_cid_ = joined->link.peer_cid;
     if (tamper_) tamper_->joined(server_cid_, joined->link.secrets);
+    epoch_ = session.epoch();
+    ++joins_;
+    stopped_ = wished_ = false;
     return {};
   }
   const std::string& name = scene_->seats[number_].name;
@@ -136,6 +140,33 @@ std::string WorldStation::join(Time now, server::Session& session) {
       break;
   }
   return "seat " + name + ": " + session.reception().unfit(number_, device_facts(device_->caps()));
+}
+
+/// The control connection broke and there is a server again: the same program and the same hand, new keys.
+void WorldStation::rejoin(Time now, server::Session& session) {
+  if (now < ask_again_) return;
+  const auto joined = join_virtually(session, now, number_, device_->caps(), key_.derive(4), asked_++);
+  if (!joined) {
+    ask_again_ = now + kAskAgain;
+    return;
+  }
+  seat_->rejoin(joined->link);
+  server_cid_ = joined->link.peer_cid;
+  if (tamper_) tamper_->joined(server_cid_, joined->link.secrets);
+  epoch_ = session.epoch();
+  ++joins_;
+}
+
+/// What the person presses, as the faults say.
+void WorldStation::act(Time now) noexcept {
+  if (faults_.empty()) return;
+  const bool stop = suffers(Fault::Kind::kStopHand, now);
+  if (stop && !stopped_) seat_->press_stop();
+  if (!stop && stopped_) seat_->press_resume();
+  stopped_ = stop;
+  const bool wish = suffers(Fault::Kind::kStopAll, now);
+  if (wish && !wished_) static_cast<void>(seat_->press_stop_all());
+  wished_ = wish;
 }
 
 const hal::State& WorldStation::reading(Time now) noexcept {
@@ -165,12 +196,17 @@ void WorldStation::serve(Time now, Network& network, std::span<std::byte> buffer
   served_now_ = true;
   served_at_ = now;
   const Time own = own_time(now);
+  act(now);
   device_->set_session_time(seat_->session_time(own));
   command_ = seat_->on_servo(own, reading(now));
   command_.expires = now + (command_.expires - own);  // the device has a clock of its own
   while (const auto size = seat_->poll_transmit(own, buffer)) {
     const auto bytes = buffer.first(*size);
     if (tamper_ && suffers(Fault::Kind::kLiar, now)) tamper_->lie(server_cid_, bytes);
+    if (tamper_ && suffers(Fault::Kind::kHostile, now)) {
+      network.send(now, static_cast<std::uint32_t>(number_), Direction::kUp, tamper_->attack(server_cid_, bytes));
+      continue;
+    }
     network.send(now, static_cast<std::uint32_t>(number_), Direction::kUp, bytes);
   }
 }

@@ -33,8 +33,9 @@ class WorldStation {
 
   /// One tick, (now - tick, now]: the device lives, datagrams are heard, the client's core works and sends, all at the moment
   /// in it at which the program wakes up; without noise that is `now`. The station's number on the network is its seat's.
+  /// @param session  null while there is no server
   /// @return why the seat cannot be had, else empty.
-  [[nodiscard]] std::string step(Time now, server::Session& session, Network& network, std::span<std::byte> buffer);
+  [[nodiscard]] std::string step(Time now, server::Session* session, Network& network, std::span<std::byte> buffer);
 
   /// What an attacker sends to the server in this tick in the seat's name; empty: nothing.
   struct Forged {
@@ -68,12 +69,16 @@ class WorldStation {
   [[nodiscard]] double worked_now() const noexcept { return worked_now_; }
   [[nodiscard]] bool misread_now() const noexcept { return misread_now_; }
   [[nodiscard]] std::uint32_t starts() const noexcept { return starts_; }
+  /// Connections it had so far.
+  [[nodiscard]] std::uint32_t joins() const noexcept { return joins_; }
   [[nodiscard]] bool suffers(Fault::Kind kind, Time now) const noexcept;
   [[nodiscard]] bool ever_suffers(Fault::Kind kind) const noexcept;
 
  private:
   void live(Duration length) noexcept;
-  [[nodiscard]] std::string work(Time now, bool awake, server::Session& session, Network& network, std::span<std::byte> buffer);
+  [[nodiscard]] std::string work(Time now, bool awake, server::Session* session, Network& network, std::span<std::byte> buffer);
+  void rejoin(Time now, server::Session& session);
+  void act(Time now) noexcept;
   void listen(Time now, Network& network, std::span<std::byte> buffer);
   [[nodiscard]] std::string join(Time now, server::Session& session);
   void serve(Time now, Network& network, std::span<std::byte> buffer);
@@ -94,7 +99,9 @@ class WorldStation {
   hal::Command command_{};
   hal::State reading_{};  ///< in place of the device's, where a fault says so
   bool frozen_ = false, down_ = true, served_now_ = false, misread_now_ = false;
-  std::uint32_t starts_ = 0, trips_before_ = 0;
+  bool stopped_ = false, wished_ = false;  ///< by a fault: his own hand, the session
+  std::uint64_t epoch_ = 0;                ///< of the session it joined
+  std::uint32_t joins_ = 0, starts_ = 0, trips_before_ = 0;
   std::uint64_t heard_now_ = 0;
   Time served_at_{};
   double worked_now_ = 0;

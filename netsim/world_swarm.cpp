@@ -126,11 +126,13 @@ void draw_faults(SwarmCase& out) {
   constexpr std::array kChoices{
       Choice{Fault::Kind::kPause, 2, 1500},    Choice{Fault::Kind::kRestart, 50, 4000},  Choice{Fault::Kind::kNotANumber, 1, 30},
       Choice{Fault::Kind::kOutOfRange, 1, 30}, Choice{Fault::Kind::kFrozen, 5, 1000},    Choice{Fault::Kind::kReplay, 100, 5000},
-      Choice{Fault::Kind::kJunk, 100, 3000},   Choice{Fault::Kind::kLiar, 100, 10000},   Choice{Fault::Kind::kServerLate, 2, 800}};
+      Choice{Fault::Kind::kJunk, 100, 3000},   Choice{Fault::Kind::kLiar, 100, 10000},   Choice{Fault::Kind::kServerLate, 2, 800},
+      Choice{Fault::Kind::kServerRestart, 20, 4000}, Choice{Fault::Kind::kStopHand, 20, 5000}, Choice{Fault::Kind::kStopAll, 20, 5000},
+      Choice{Fault::Kind::kHostile, 5, 3000}};
   for (std::size_t n = d.below(5); n > 0; --n) {
     const Choice& c = kChoices[d.below(kChoices.size())];
     Fault fault{c.kind, {}, ms(d.between(0, 1e3 * seconds(out.calm))), ms(d.log_between(c.shortest_ms, c.longest_ms))};
-    if (fault.kind != Fault::Kind::kServerLate && !d.chance(0.1))
+    if (!of_server(fault.kind) && !d.chance(0.1))
       fault.seat = out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name;
     fault.length = std::min(fault.length, out.calm - fault.at);
     if (fault.length <= Duration{}) continue;
@@ -162,13 +164,20 @@ void press_buttons(World& world) {
     if (seat == nullptr) continue;
     const auto phase = seat->gate().phase();
     if (phase == control::GatePhase::kDamped || phase == control::GatePhase::kFault) seat->press_reset();
+    const wire::SessionState session = seat->force().session;
+    if (seat->stopped() || session == wire::SessionState::kPaused || session == wire::SessionState::kStopped) seat->press_resume();
   }
+}
+
+/// An observer's hand is never engaged: he is there when he has his seat.
+bool watches(const World& world, std::size_t i) {
+  return world.scene().seats[i].kind == SeatKind::kMaster && world.scene().seats[i].role == Role::kObserver && world.seat(i) != nullptr;
 }
 
 bool everybody_active(const World& world) {
   if (world.session().state() != wire::SessionState::kRunning) return false;
   for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
-    if (world.seat(i) == nullptr || world.seat(i)->gate().phase() != control::GatePhase::kActive) return false;
+    if (!watches(world, i) && (world.seat(i) == nullptr || world.seat(i)->gate().phase() != control::GatePhase::kActive)) return false;
   return true;
 }
 
@@ -176,7 +185,7 @@ std::string who_is_not_active(const World& world) {
   std::string text = format("not everybody was active again %g s after the calm:", kLivenessLimit);
   for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
     const client::Seat* const seat = world.seat(i);
-    if (seat != nullptr && seat->gate().phase() == control::GatePhase::kActive) continue;
+    if (watches(world, i) || (seat != nullptr && seat->gate().phase() == control::GatePhase::kActive)) continue;
     text += " " + world.scene().seats[i].name + " " +
             (seat == nullptr ? "has no seat" : wire::to_text(static_cast<wire::GateState>(seat->gate().phase()))) + ";";
   }

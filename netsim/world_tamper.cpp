@@ -1,6 +1,7 @@
 #include "netsim/world_tamper.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tandem::netsim {
 
@@ -37,10 +38,10 @@ void WorldTamper::joined(std::uint32_t cid, const link::ConnectionSecrets& secre
   keys_.emplace(Keys{cid, secrets.cipher, secrets.to_server, 0, link::Seal(link::key_of(secrets.to_server, secrets.cipher))});
 }
 
-void WorldTamper::lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept {
+std::optional<wire::Received<wire::StateMessage>> WorldTamper::opened(std::uint32_t cid, std::span<const std::byte> datagram) noexcept {
   const auto header = link::read_header(datagram);
-  if (!header || header->type != wire::Type::kState || header->cid != cid) return;
-  if (!keys_ || keys_->cid != cid) return;
+  if (!header || header->type != wire::Type::kState || header->cid != cid) return std::nullopt;
+  if (!keys_ || keys_->cid != cid) return std::nullopt;
   while (keys_->phase != header->key_phase) {
     keys_->secret = link::next_secret(keys_->secret);
     keys_->seal.rekey(link::key_of(keys_->secret, keys_->cipher));
@@ -48,13 +49,46 @@ void WorldTamper::lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept
   }
   std::array<std::byte, link::kDatagramMax> plain;
   const std::span<std::byte> plaintext{plain.data(), datagram.size() - link::kHeaderSize - link::kTagSize};
-  if (!keys_->seal.open(header->counter, datagram, plaintext)) return;
-  auto decoded = codec_.decode_state(plaintext);
-  if (!decoded) return;
-  for (std::uint64_t& e : decoded->message.port.e_in) e = static_cast<std::uint64_t>(static_cast<double>(e) * key_.uniform(draws_));
+  if (!keys_->seal.open(header->counter, datagram, plaintext)) return std::nullopt;
+  const auto decoded = codec_.decode_state(plaintext);
+  return decoded ? std::optional{*decoded} : std::nullopt;
+}
+
+void WorldTamper::lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept {
+  auto state = opened(cid, datagram);
+  if (!state) return;
+  for (std::uint64_t& e : state->message.port.e_in) e = static_cast<std::uint64_t>(static_cast<double>(e) * key_.uniform(draws_));
   ++draws_;
-  static_cast<void>(codec_.encode(decoded->preamble, decoded->message, datagram.subspan(link::kHeaderSize)));
-  static_cast<void>(keys_->seal.seal(header->counter, datagram));
+  static_cast<void>(codec_.encode(state->preamble, state->message, datagram.subspan(link::kHeaderSize)));
+  static_cast<void>(keys_->seal.seal(link::read_header(datagram)->counter, datagram));
+}
+
+std::span<const std::byte> WorldTamper::attack(std::uint32_t cid, std::span<std::byte> datagram) noexcept {
+  auto state = opened(cid, datagram);
+  if (!state) return datagram;
+  auto header = *link::read_header(datagram);
+  const auto body = datagram.subspan(link::kHeaderSize);
+  const std::uint64_t drawn = key_.bits(draws_++);
+  std::size_t plain = datagram.size() - link::kHeaderSize - link::kTagSize;
+  constexpr double kWrong[] = {1e308, 100, std::numeric_limits<double>::quiet_NaN(), 5};
+  switch (drawn % 6) {
+    case 4: {
+      header.type = wire::Type::kAuthority;
+      wire::AuthorityMessage grab{.version = static_cast<std::uint32_t>(drawn >> 8) % 8 + 1, .tool = 0, .masters = masters_, .alpha = {}};
+      grab.alpha[own_] = 1;
+      plain = codec_.encode(state->preamble, grab, body);
+      break;
+    }
+    case 5: plain -= 1 + (drawn >> 8) % 16; break;
+    default:
+      state->message.port.x[0] = kWrong[drawn % 6];
+      static_cast<void>(codec_.encode(state->preamble, state->message, body));
+      break;
+  }
+  link::write_header(header, datagram.first<link::kHeaderSize>());
+  const auto out = datagram.first(link::kHeaderSize + plain + link::kTagSize);
+  static_cast<void>(keys_->seal.seal(header.counter, out));
+  return out;
 }
 
 }  // namespace tandem::netsim

@@ -18,7 +18,9 @@ namespace tandem::netsim {
 /// accounts that run backwards. The liar is the client himself, so he has its keys.
 class WorldTamper {
  public:
-  WorldTamper(RandomKey key, std::size_t dof, PortSpace port) : key_(key), codec_(dof, port) {}
+  /// @param seat, masters  whose datagrams, and how many share authority
+  WorldTamper(RandomKey key, const SceneSpec& scene, std::size_t seat)
+      : key_(key), codec_(scene.dof, scene.port), own_(seat % kMastersMax), masters_(static_cast<std::uint32_t>(scene.masters())) {}
 
   /// Remembers a datagram that passed; the last kRemembered of each direction.
   void remember(Direction direction, std::span<const std::byte> datagram) noexcept;
@@ -31,6 +33,9 @@ class WorldTamper {
   /// Turns the energy account of a STATE back, in place: well-formed, sealed, wrong. Other datagrams stay as they are.
   /// @param cid  connection at the server
   void lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept;
+  /// Makes of a STATE something nobody may send or no hand can be, sealed as the client's own: positions that are absurd or no
+  /// numbers, a cut, another type, a wish for all authority. @return what goes out instead of `datagram`, in its place
+  [[nodiscard]] std::span<const std::byte> attack(std::uint32_t cid, std::span<std::byte> datagram) noexcept;
 
  private:
   static constexpr std::size_t kRemembered = 64;
@@ -38,6 +43,8 @@ class WorldTamper {
     std::size_t size = 0;
     std::array<std::byte, link::kDatagramMax> bytes{};
   };
+  /// The plaintext of a STATE to the server, or nothing. @param plain  for it
+  [[nodiscard]] std::optional<wire::Received<wire::StateMessage>> opened(std::uint32_t cid, std::span<const std::byte> datagram) noexcept;
   struct Keys {
     std::uint32_t cid;
     link::Cipher cipher;
@@ -48,6 +55,8 @@ class WorldTamper {
   RandomKey key_;
   std::uint64_t draws_ = 0;
   wire::Codec codec_;
+  std::size_t own_;
+  std::uint32_t masters_;
   std::array<std::array<Kept, kRemembered>, kDirections> kept_{};
   std::array<std::uint64_t, kDirections> count_{};
   std::array<std::byte, link::kDatagramMax> junk_{};

@@ -15,7 +15,7 @@ namespace {
 constexpr double kSlewActive = 1000, kSlewRampIn = 10;  // [N/s]
 constexpr double kGateStepMax = 0.01;                   // [s] of lateness the slew makes up for
 constexpr double kRampOut = 0.1;                        // [s]
-constexpr double kLossSlew = 5;                         // [1/s] when a holder is lost
+constexpr double kLossSlew = 10;                        // [1/s] when a holder is lost
 constexpr unsigned kMisreadMax = 3;                     // samples the last good reading stands in for
 constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls along overdraws within one tick
 constexpr double kFeltMax = 0.2;                        // [N/ms] a step of authority
@@ -69,6 +69,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
                        const std::vector<WorldStation>& stations) {
   t_ = session.time();
   server::SessionMonitor{}.check(session, violations_);
+  check_gathering(session);
   check_authority(lived, session);
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const WorldStation& station = stations[i];
@@ -81,6 +82,12 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     if (!truth.x.allFinite() || truth.x.norm() > far) note("diverged", i);
     check_energy(i, station);
     if (s.starts != station.starts()) s.begin_anew(station.starts());
+    if (s.joins != station.joins()) {  // another connection: its counters begin anew, the hand goes on
+      s.joins = station.joins();
+      s.accepted = s.session_tick = 0;
+      s.client.known = false;
+    }
+    check_role(i, station, port);
 
     const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
     if (lived == 1 && (slave || scene_->tools.size() == 1)) {
@@ -102,11 +109,79 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     check_effort(own, i, station);
     check_silence(own, i, station);
     check_reading(i, station);
+    check_sensor(i, station);
     check_end(i, seat->channel(), s.client, seat->setup().axis_scale, seat->force().port, seat->sample().port.x,
               s.was_active && seat->gate().active());
     s.was_active = seat->gate().active();
     s.effort = seat->effort();
     s.served = own;
+  }
+}
+
+/// Who may do what, said here once more: no force to observers, a stopped hand is let go and acts on nothing, a stopped session
+/// engages nobody, and who sends what nobody may is not wanted.
+void WorldWatch::check_role(std::size_t i, const WorldStation& station, const server::SeatPort& port) {
+  const Role role = scene_->seats[i].role;
+  const bool watches = role == Role::kObserver && scene_->seats[i].kind == SeatKind::kMaster;
+  if (watches && port.tx.engage) note("observer_force", i);
+  const bool stopped = port.tx.session == wire::SessionState::kStopped || port.tx.session == wire::SessionState::kPaused;
+  if (stopped && port.tx.engage) note("stop_engages_nobody", i);
+  const client::Seat* seat = station.seat();
+  if (seat == nullptr || !station.served_now()) return;
+  if (watches && tip_norm(seat->effort(), seat->setup().axis_scale, scene_->dof) > 0) note("observer_force", i);
+  if (seat->stopped() && seat->gate().active()) note("own_stop", i);
+}
+
+/// After a restart of the server nobody is engaged before everybody with weight is back, unless an instructor goes on without.
+void WorldWatch::check_gathering(const server::Session& session) {
+  if (session.epoch() != epoch_) {
+    epoch_ = session.epoch();
+    gathering_ = true;
+    for (Seat& s : seats_) s.needed = s.led;
+  }
+  bool away = false, engages = false;
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    Seat& s = seats_[i];
+    away |= s.needed && !session.seat(i).taken();
+    engages |= session.seat(i).tx.engage;
+    s.led = false;
+    for (std::size_t j = 0; i < scene_->masters() && j < scene_->tools.size(); ++j)
+      s.led |= session.tool(j).authority.requested()[i] > 0 && session.seat(i).taken() && !gathering_ && session.session_tick() > 0;
+    s.led |= gathering_ && s.needed;
+  }
+  if (gathering_ && away && engages) violations_.note("gathering", "", t_, false);
+}
+
+/// A reading that stands still for long while the hand is led far away and pulled otherwise must have let the hand go.
+void WorldWatch::check_sensor(std::size_t i, const WorldStation& station) {
+  constexpr double kLong = 0.2, kFar = 0.01, kPull = 1;  // [s], [m], [N]: twice what the guard goes by
+  const client::Seat& seat = *station.seat();
+  Seat::Frozen& was = seats_[i].frozen;
+  const Time now = station.served_at();
+  const AxisArray& ref = seat.channel().state().ref;
+  const bool frozen = scene_->seats[i].kind == SeatKind::kMaster && seat.gate().active() && station.suffers(Fault::Kind::kFrozen, now) &&
+                      !station.misread_now();
+  if (!frozen || !was.on) was = {now, ref, seat.effort(), frozen};
+  if (!frozen || seconds(now - was.since) < kLong) return;
+  double way = 0, pull = 0;
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    way += (ref[a] - was.ref[a]) * (ref[a] - was.ref[a]) * scale_[a];
+    pull += (seat.effort()[a] - was.effort[a]) * (seat.effort()[a] - was.effort[a]) / scale_[a];
+  }
+  if (way > kFar * kFar && pull > kPull * kPull) note("frozen_sensor", i);
+}
+
+void WorldWatch::noted(const server::AuditEvent& e) {
+  using What = server::AuditEvent::What;
+  if (e.what == What::kGathered) gathering_ = false;
+  if (e.seat >= scene_->seats.size()) return;
+  const Role role = scene_->seats[e.seat].role;
+  if ((e.what == What::kStop || e.what == What::kResume || e.what == What::kGathered) && role != Role::kInstructor) note("role", e.seat);
+  if (e.what == What::kPause && role != Role::kTrainee && role != Role::kEvaluator) note("role", e.seat);
+  if (e.what == What::kAuthority && role != Role::kInstructor) {
+    if (role != Role::kTrainee || e.after[e.seat] > e.before[e.seat] + 1e-9) note("role", e.seat);
+    for (std::size_t k = 0; k < scene_->masters(); ++k)
+      if (k != e.seat && scene_->seats[k].role != Role::kInstructor && std::abs(e.after[k] - e.before[k]) > 1e-9) note("role", e.seat);
   }
 }
 
@@ -233,8 +308,12 @@ void WorldWatch::check_authority(std::uint32_t lived, const server::Session& ses
   const double step = std::max(scene_->alpha_slew, kLossSlew) * lived / scene_->tick_hz + 1e-9;
   for (std::size_t j = 0; j < scene_->tools.size(); ++j) {
     const control::AuthorityRow& row = session.tool(j).authority;
+    const bool stopped = session.state() == wire::SessionState::kStopped || session.state() == wire::SessionState::kPaused;
+    if (stopped && lived > 0 && !row.held()) violations_.note("stop_holds_tools", scene_->tools[j].name, t_, false);
     for (std::size_t i = 0; i < scene_->masters(); ++i) {
       const double alpha = row.alpha(i);
+      const bool refused = session.seat(i).heard().stop || session.seat(i).conduct().isolated(session.last_tick());
+      if (refused && lived == 1 && !held_[j] && alpha > alpha_[j][i] + 1e-9) note("refused_gains_weight", i);
       const Role role = scene_->seats[i].role;
       if (alpha > 0 && (role == Role::kEvaluator || role == Role::kObserver)) note("authority_role", i);
       if (!row.held() && !held_[j] && std::abs(alpha - alpha_[j][i]) > step) note("authority_slew", i);

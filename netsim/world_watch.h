@@ -23,6 +23,8 @@ class WorldWatch {
   void check(std::uint32_t lived, const server::Session& session, const std::vector<WorldStation>& stations);
   /// The server was given datagram number `index` of this seat.
   void server_heard(std::size_t seat, std::uint64_t index) noexcept;
+  /// What the session noted about its people.
+  void noted(const server::AuditEvent& event);
   /// The server wrote to an address that never showed who it is.
   void server_answered_a_stranger(double t) { violations_.note("mute", "", t, false); }
   /// From now on nothing is wrong any more, and everybody is active: what is only promised for ordinary motion is judged too.
@@ -44,13 +46,19 @@ class WorldWatch {
     std::array<unsigned, kAxesMax> starved{};  ///< ticks on end
   };
   struct Seat {
-    std::uint32_t starts = 0;
+    std::uint32_t starts = 0, joins = 0;
     bool was_active = false;
     AxisArray effort{};
     Time served{};
     Time arrived{}, fresh{};  ///< when something newer last acted: on the seat's clock, on the world's
     double given = 0;         ///< energy the motor really gave the hand since then, and since the gate let go [J]
     unsigned misread = 0;
+    struct Frozen {  ///< when the reading stopped to move
+      Time since{};
+      AxisArray ref{}, effort{};
+      bool on = false;
+    } frozen;
+    bool led = false, needed = false;  ///< had weight; has to be back before anybody is engaged again
     std::uint64_t accepted = 0, generation = 0, server_heard = 0;
     std::uint32_t session_tick = 0, seat_tick = 0;
     std::optional<std::uint64_t> newest;  ///< of the datagrams the server was given
@@ -71,6 +79,9 @@ class WorldWatch {
   /// @param own  on the seat's own clock
   void check_effort(Time own, std::size_t i, const WorldStation& station);
   void check_silence(Time own, std::size_t i, const WorldStation& station);
+  void check_gathering(const server::Session& session);
+  void check_sensor(std::size_t i, const WorldStation& station);
+  void check_role(std::size_t i, const WorldStation& station, const server::SeatPort& port);
   void check_energy(std::size_t i, const WorldStation& station);
   void check_reading(std::size_t i, const WorldStation& station);
   void check_once(std::size_t i, const WorldStation& station, const server::SeatPort& port);
@@ -89,6 +100,8 @@ class WorldWatch {
   std::vector<Seat> seats_;
   std::vector<std::array<double, kMastersMax>> alpha_;
   std::vector<bool> held_;
+  std::uint64_t epoch_ = 1;
+  bool gathering_ = false;
   AxisArray scale_{1, 1, 1, 1, 1, 1, 1};  ///< tip gain to port gain, as the seats were told
   server::Violations violations_;
 };

@@ -177,8 +177,9 @@ ScenarioReading read_scenario_text(std::string_view text, std::string_view file_
     const pb::ScenarioFault& fault = in.fault(i);
     out.faults.push_back({pb::ScenarioFault::Kind_Name(fault.kind()), names_of(fault.seat(), checker, key, "seat"),
                           fault.at_s(), fault.for_ms(), place_of(checker, key)});
-    if (fault.kind() == pb::ScenarioFault::SERVER_LATE && fault.seat_size() > 0)
-      checker.error(child_path(key, "seat", 0), "SERVER_LATE concerns the server, no seat");
+    const bool of_server = fault.kind() == pb::ScenarioFault::SERVER_LATE || fault.kind() == pb::ScenarioFault::SERVER_RESTART;
+    if (of_server && fault.seat_size() > 0)
+      checker.error(child_path(key, "seat", 0), pb::ScenarioFault::Kind_Name(fault.kind()) + " concerns the server, no seat");
   }
   for (int i = 0; i < in.endpoint_size(); ++i)
     out.endpoints.push_back(endpoint_from(in.endpoint(i), checker, child_path("", "endpoint", i)));

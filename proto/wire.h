@@ -51,13 +51,16 @@ struct StateMessage {
   GateState gate = GateState::kOff;
   bool ready = false;   ///< the device streams valid readings and waits to be engaged
   bool engaged = false; ///< port sample may act on tools
-  bool stop = false;    ///< the person asks to stop
+  bool stop = false;      ///< his own hand is stopped by the person: never engaged while this lasts
+  bool stop_all = false;  ///< the person wants the session stopped, or paused, as his role may: held until FORCE counts a new stop
+  std::uint32_t resume_stop = 0;  ///< number of the stop the person wants to end; 0: none
   std::uint32_t gate_trips = 0;
   std::uint32_t late_ticks = 0;
   std::uint32_t seat_tick = 0;  ///< session tick at which the sample was taken, 0 before engage
 };
 
-enum class SessionState : std::uint8_t { kWaiting, kRunning, kHeld, kEnding };
+/// In kPaused and kStopped nobody is engaged; a person resumes.
+enum class SessionState : std::uint8_t { kWaiting, kRunning, kHeld, kPaused, kStopped, kEnding };
 
 /// Server to client, every tick, 1 kHz. No reply.
 struct ForceMessage {
@@ -68,6 +71,7 @@ struct ForceMessage {
   std::uint32_t authority_version = 0;
   std::uint32_t missing = 0;     ///< required seats that are not ready
   double alpha = 0;              ///< of this seat over the tool it follows
+  std::uint32_t stops = 0;       ///< how many stops so far: the number of the newest, which a resume must name
 };
 
 inline constexpr std::size_t kSeatNameMax = 32;

@@ -1,87 +1,94 @@
 #include "proto/wire_codec.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "proto/wire_messages.h"
+#include "proto/wire_walk.h"
 
 namespace tandem::wire {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the preamble is copied as it lies in memory");
-
-template <class Repeated, std::size_t N>
-void put(const std::array<double, N>& in, std::size_t count, Repeated& out) {
-  using Element = std::remove_reference_t<decltype(*out.mutable_data())>;
-  out.Resize(static_cast<int>(count), 0);
-  for (std::size_t i = 0; i < count; ++i) out.mutable_data()[i] = static_cast<Element>(in[i]);
-}
-void put(const EnergyArray& in, std::size_t count, google::protobuf::RepeatedField<std::uint64_t>& out) {
-  out.Resize(static_cast<int>(count), 0);
-  std::copy_n(in.begin(), count, out.mutable_data());
-}
-
-/// Reads numbers and remembers the worst thing seen.
-class Judge {
- public:
-  template <class Repeated, std::size_t N>
-  void magnitudes(const Repeated& in, double limit, std::array<double, N>& out) noexcept {
-    for (int i = 0; i < in.size(); ++i)
-      out[static_cast<std::size_t>(i)] = magnitude(static_cast<double>(in.Get(i)), limit);
-  }
-  void energies(const google::protobuf::RepeatedField<std::uint64_t>& in, EnergyArray& out) noexcept {
-    for (int i = 0; i < in.size(); ++i) {
-      out[static_cast<std::size_t>(i)] = in.Get(i);
-      in_range_ &= in.Get(i) <= kEnergyMax;
-    }
-  }
-  double magnitude(double value, double limit) noexcept { return within(value, -limit, limit); }
-  double within(double value, double low, double high) noexcept {
-    if (!(value >= low && value <= high)) [[unlikely]] {  // also true for NaN
-      in_range_ = false;
-      finite_ = finite_ && std::isfinite(value);
-    }
-    return value;
-  }
-  std::uint32_t at_most(std::uint32_t value, std::uint32_t limit) noexcept {
-    in_range_ &= value <= limit;
-    return value;
-  }
-  void require(bool condition) noexcept { in_range_ &= condition; }
-
-  template <class Message>
-  Decoded<Message>& verdict(Decoded<Message>& result) const noexcept {
-    if (!finite_) {
-      result = std::unexpected(DecodeError::kNotFinite);
-    } else if (!in_range_) {
-      result = std::unexpected(DecodeError::kOutOfRange);
-    }
-    return result;
-  }
-
- private:
-  bool finite_ = true;
-  bool in_range_ = true;
-};
+static_assert(std::endian::native == std::endian::little, "preamble and values are copied as they lie in memory");
 
 /// Energies of telemetry are cumulative joules of a hand; beyond this they cannot be meant.
 constexpr double kJouleMax = 1e9;
 /// Gaps and ages of a link: eleven days.
 constexpr double kMillisecondsMax = 1e9;
 
-/// Writes preamble and body.
-template <class Body>
-std::size_t write(const Preamble& preamble, const Body& body, std::span<std::byte> out) noexcept {
-  const std::size_t size = kPreambleSize + body.ByteSizeLong();
-  if (out.size() < size) return 0;
-  std::memcpy(out.data(), &preamble, kPreambleSize);
-  const auto rest = out.subspan(kPreambleSize, size - kPreambleSize);
-  return body.SerializePartialToArray(rest.data(), static_cast<int>(rest.size())) ? size : 0;
+/// What is no number of its own: enumerators and flags, as they travel.
+struct StateWords {
+  std::uint32_t gate = 0, flags = 0;
+};
+struct ForceWords {
+  std::uint32_t session = 0, engage = 0;
+};
+
+// The fields of each message in the order of their numbers (wire.proto), with the range a receiver takes.
+
+template <class Values, class Message, class Words>
+void walk(Values& v, Message& s, Words& words, std::size_t axes, double position_max) noexcept {
+  v.doubles(1, s.port.x, axes, -position_max, position_max);
+  v.doubles(2, s.port.v, axes, -kVelocityMax, kVelocityMax);
+  v.doubles(3, s.port.f, axes, -kEffortMax, kEffortMax);
+  v.energies(4, s.port.e_in, axes, kEnergyMax);
+  v.floats(5, s.telemetry.q, axes, kPositionMaxRad);
+  v.floats(6, s.telemetry.x, 3, kPositionMaxM);
+  v.floats(7, s.telemetry.f_cmd, 3, kEffortMax);
+  v.floats(8, s.telemetry.f_out, 3, kEffortMax);
+  v.energies(9, s.telemetry.e_out, axes, kEnergyMax);
+  v.number32(10, s.telemetry.dissipated_j, -kJouleMax, kJouleMax);
+  v.number32(11, s.telemetry.refused_j, -kJouleMax, kJouleMax);
+  v.number32(12, s.telemetry.delivered_j, -kJouleMax, kJouleMax);
+  v.number32(13, s.telemetry.margin_min_j, -kJouleMax, kJouleMax);
+  v.word(14, words.gate, static_cast<std::uint32_t>(GateState::kFault));
+  v.word(15, words.flags, 15);
+  v.word(16, s.gate_trips);
+  v.word(17, s.late_ticks);
+  v.word(18, s.seat_tick);
+  v.floats(19, s.telemetry.f_env, 3, kEffortMax);
+  v.number32(20, s.telemetry.penetration_m, -kPositionMaxM, kPositionMaxM);
+  v.number32(21, s.telemetry.down_loss_percent, 0, 100);
+  v.number32(22, s.telemetry.down_longest_gap_ms, 0, kMillisecondsMax);
+  v.number32(23, s.telemetry.down_age_p99_ms, 0, kMillisecondsMax);
+  v.word(24, s.resume_stop);
 }
+
+template <class Values, class Message, class Words>
+void walk_force(Values& v, Message& f, Words& words, std::size_t axes, double position_max) noexcept {
+  v.doubles(1, f.port.x, axes, -position_max, position_max);
+  v.doubles(2, f.port.v, axes, -kVelocityMax, kVelocityMax);
+  v.doubles(3, f.port.f, axes, -kEffortMax, kEffortMax);
+  v.energies(4, f.port.e_in, axes, kEnergyMax);
+  v.word(5, words.session, static_cast<std::uint32_t>(SessionState::kEnding));
+  v.word(6, words.engage, 1);
+  v.word(7, f.session_tick);
+  v.word(8, f.authority_version);
+  v.word(9, f.missing, kSeatsMax);
+  v.number64(10, f.alpha, 0, 1);
+  v.word(11, f.stops);
+}
+
+template <class Values, class Message>
+void walk_authority(Values& v, Message& a) noexcept {
+  v.word(1, a.version);
+  v.word(2, a.tool, kToolsMax - 1);
+  v.word(3, a.masters, kMastersMax);
+  v.doubles(4, a.alpha, kMastersMax, 0, 1);
+}
+
 static_assert(sizeof(Preamble) == kPreambleSize && std::is_trivially_copyable_v<Preamble>);
+
+/// Preamble and skeleton. @return the body, for its values; empty if `out` is too small
+template <std::size_t N>
+std::span<std::byte> frame(const Preamble& preamble, const Skeleton<N>& skeleton, std::span<std::byte> out) noexcept {
+  if (skeleton.size() == 0 || out.size() < kPreambleSize + skeleton.size()) return {};
+  std::memcpy(out.data(), &preamble, kPreambleSize);
+  std::memcpy(out.data() + kPreambleSize, skeleton.bytes().data(), skeleton.size());
+  return out.subspan(kPreambleSize, skeleton.size());
+}
 
 Preamble read_preamble(std::span<const std::byte> in) noexcept {
   Preamble preamble;
@@ -89,15 +96,19 @@ Preamble read_preamble(std::span<const std::byte> in) noexcept {
   return preamble;
 }
 
-/// Size and skeleton first: what is left for the parser is what the encoder could have made.
-template <class Body, std::size_t N>
-std::expected<void, DecodeError> read(std::span<const std::byte> in, const Skeleton<N>& skeleton, Body& body) noexcept {
-  if (in.size() != kPreambleSize + skeleton.size()) return std::unexpected(DecodeError::kSize);
-  const auto bytes = in.subspan(kPreambleSize);
-  if (!skeleton.matches(bytes) || !body.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
-    return std::unexpected(DecodeError::kMalformed);
-  }
-  return {};
+/// Size and skeleton first: what is left are values at their places.
+template <class Message, std::size_t N, class Read>
+Decoded<Message> read(std::span<const std::byte> in, const Skeleton<N>& skeleton, Read&& values) noexcept {
+  if (skeleton.size() == 0 || in.size() != kPreambleSize + skeleton.size()) return std::unexpected(DecodeError::kSize);
+  const auto body = in.subspan(kPreambleSize);
+  if (!skeleton.matches(body)) return std::unexpected(DecodeError::kMalformed);
+  Decoded<Message> result{std::in_place};
+  result->preamble = read_preamble(in);
+  ValueReader reader{body};
+  values(reader, result->message);
+  if (!reader.finite()) return std::unexpected(DecodeError::kNotFinite);
+  if (!reader.in_range()) return std::unexpected(DecodeError::kOutOfRange);
+  return result;
 }
 
 }  // namespace
@@ -114,69 +125,47 @@ void Codec::configure(std::size_t axes, PortSpace port) noexcept {
 std::size_t Codec::axes() const noexcept { return messages_->axes; }
 
 std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std::span<std::byte> out) noexcept {
-  auto& s = messages_->state;
-  const std::size_t axes = messages_->axes;
-  put(in.port.x, axes, *s.mutable_x());
-  put(in.port.v, axes, *s.mutable_v());
-  put(in.port.f, axes, *s.mutable_f());
-  put(in.port.e_in, axes, *s.mutable_e_in());
-  put(in.telemetry.q, axes, *s.mutable_q());
-  put(in.telemetry.x, 3, *s.mutable_tip_x());
-  put(in.telemetry.f_cmd, 3, *s.mutable_f_cmd());
-  put(in.telemetry.f_out, 3, *s.mutable_f_out());
-  put(in.telemetry.e_out, axes, *s.mutable_e_out());
-  s.set_dissipated_j(static_cast<float>(in.telemetry.dissipated_j));
-  s.set_refused_j(static_cast<float>(in.telemetry.refused_j));
-  s.set_delivered_j(static_cast<float>(in.telemetry.delivered_j));
-  s.set_margin_min_j(static_cast<float>(in.telemetry.margin_min_j));
-  s.set_gate(static_cast<std::uint32_t>(in.gate));
-  s.set_flags((in.ready ? 1U : 0U) | (in.engaged ? 2U : 0U) | (in.stop ? 4U : 0U));
-  s.set_gate_trips(in.gate_trips);
-  s.set_late_ticks(in.late_ticks);
-  s.set_seat_tick(in.seat_tick);
-  put(in.telemetry.f_env, 3, *s.mutable_f_env());
-  s.set_penetration_m(static_cast<float>(in.telemetry.penetration_m));
-  s.set_down_loss_percent(static_cast<float>(in.telemetry.down_loss_percent));
-  s.set_down_longest_gap_ms(static_cast<float>(in.telemetry.down_longest_gap_ms));
-  s.set_down_age_p99_ms(static_cast<float>(in.telemetry.down_age_p99_ms));
-  return write(preamble, s, out);
+  const auto body = frame(preamble, messages_->state_skeleton, out);
+  if (body.empty()) return 0;
+  const StateWords words{static_cast<std::uint32_t>(in.gate),
+                         (in.ready ? 1U : 0U) | (in.engaged ? 2U : 0U) | (in.stop ? 4U : 0U) | (in.stop_all ? 8U : 0U)};
+  ValueWriter writer{body};
+  walk(writer, in, words, messages_->axes, 0);
+  return kPreambleSize + body.size();
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std::span<std::byte> out) noexcept {
-  auto& f = messages_->force;
-  const std::size_t axes = messages_->axes;
-  put(in.port.x, axes, *f.mutable_x());
-  put(in.port.v, axes, *f.mutable_v());
-  put(in.port.f, axes, *f.mutable_f());
-  put(in.port.e_in, axes, *f.mutable_e_in());
-  f.set_session(static_cast<std::uint32_t>(in.session));
-  f.set_engage(in.engage ? 1 : 0);
-  f.set_session_tick(in.session_tick);
-  f.set_authority_version(in.authority_version);
-  f.set_missing(in.missing);
-  f.set_alpha(in.alpha);
-  return write(preamble, f, out);
+  const auto body = frame(preamble, messages_->force_skeleton, out);
+  if (body.empty()) return 0;
+  const ForceWords words{static_cast<std::uint32_t>(in.session), in.engage ? 1U : 0U};
+  ValueWriter writer{body};
+  walk_force(writer, in, words, messages_->axes, 0);
+  return kPreambleSize + body.size();
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const PathMessage& in, std::span<std::byte> out) noexcept {
-  messages_->path.set_token(in.token);
-  return write(preamble, messages_->path, out);
+  const auto body = frame(preamble, messages_->path_skeleton, out);
+  if (body.empty()) return 0;
+  ValueWriter{body}.long_word(1, in.token);
+  return kPreambleSize + body.size();
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const AuthorityMessage& in, std::span<std::byte> out) noexcept {
   if (in.masters > kMastersMax) return 0;
-  auto& a = messages_->authority;
-  a.set_version(in.version);
-  a.set_tool(in.tool);
-  a.set_masters(in.masters);
-  put(in.alpha, kMastersMax, *a.mutable_alpha());
-  for (std::size_t i = in.masters; i < kMastersMax; ++i) a.set_alpha(static_cast<int>(i), 0);
-  return write(preamble, a, out);
+  const auto body = frame(preamble, messages_->authority_skeleton, out);
+  if (body.empty()) return 0;
+  AuthorityMessage all = in;
+  std::fill(all.alpha.begin() + in.masters, all.alpha.end(), 0.0);
+  ValueWriter writer{body};
+  walk_authority(writer, all);
+  return kPreambleSize + body.size();
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const CloseMessage& in, std::span<std::byte> out) noexcept {
-  messages_->close.set_reason(static_cast<std::uint32_t>(in.reason));
-  return write(preamble, messages_->close, out);
+  const auto body = frame(preamble, messages_->close_skeleton, out);
+  if (body.empty()) return 0;
+  ValueWriter{body}.word(1, static_cast<std::uint32_t>(in.reason));
+  return kPreambleSize + body.size();
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const PingMessage&, std::span<std::byte> out) noexcept {
@@ -186,97 +175,48 @@ std::size_t Codec::encode(const Preamble& preamble, const PingMessage&, std::spa
 }
 
 Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) noexcept {
-  auto& s = messages_->state;
-  if (auto ok = read(in, messages_->state_skeleton, s); !ok) return std::unexpected(ok.error());
-  Decoded<StateMessage> result{std::in_place};
-  result->preamble = read_preamble(in);
-  auto& out = result->message;
-  Judge judge;
-  judge.magnitudes(s.x(), messages_->position_max, out.port.x);
-  judge.magnitudes(s.v(), kVelocityMax, out.port.v);
-  judge.magnitudes(s.f(), kEffortMax, out.port.f);
-  judge.energies(s.e_in(), out.port.e_in);
-  judge.magnitudes(s.q(), kPositionMaxRad, out.telemetry.q);
-  judge.magnitudes(s.tip_x(), kPositionMaxM, out.telemetry.x);
-  judge.magnitudes(s.f_cmd(), kEffortMax, out.telemetry.f_cmd);
-  judge.magnitudes(s.f_out(), kEffortMax, out.telemetry.f_out);
-  judge.energies(s.e_out(), out.telemetry.e_out);
-  out.telemetry.dissipated_j = judge.magnitude(static_cast<double>(s.dissipated_j()), kJouleMax);
-  out.telemetry.refused_j = judge.magnitude(static_cast<double>(s.refused_j()), kJouleMax);
-  out.telemetry.delivered_j = judge.magnitude(static_cast<double>(s.delivered_j()), kJouleMax);
-  out.telemetry.margin_min_j = judge.magnitude(static_cast<double>(s.margin_min_j()), kJouleMax);
-  out.gate = static_cast<GateState>(judge.at_most(s.gate(), static_cast<std::uint32_t>(GateState::kFault)));
-  const auto flags = judge.at_most(s.flags(), 7);
-  out.ready = (flags & 1U) != 0;
-  out.engaged = (flags & 2U) != 0;
-  out.stop = (flags & 4U) != 0;
-  out.gate_trips = s.gate_trips();
-  out.late_ticks = s.late_ticks();
-  out.seat_tick = s.seat_tick();
-  judge.magnitudes(s.f_env(), kEffortMax, out.telemetry.f_env);
-  out.telemetry.penetration_m = judge.magnitude(static_cast<double>(s.penetration_m()), kPositionMaxM);
-  out.telemetry.down_loss_percent = judge.within(static_cast<double>(s.down_loss_percent()), 0, 100);
-  out.telemetry.down_longest_gap_ms = judge.within(static_cast<double>(s.down_longest_gap_ms()), 0, kMillisecondsMax);
-  out.telemetry.down_age_p99_ms = judge.within(static_cast<double>(s.down_age_p99_ms()), 0, kMillisecondsMax);
-  return judge.verdict(result);
+  return read<StateMessage>(in, messages_->state_skeleton, [this](ValueReader& values, StateMessage& out) {
+    StateWords words;
+    walk(values, out, words, messages_->axes, messages_->position_max);
+    out.gate = static_cast<GateState>(words.gate);
+    out.ready = (words.flags & 1U) != 0;
+    out.engaged = (words.flags & 2U) != 0;
+    out.stop = (words.flags & 4U) != 0;
+    out.stop_all = (words.flags & 8U) != 0;
+  });
 }
 
 Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) noexcept {
-  auto& f = messages_->force;
-  if (auto ok = read(in, messages_->force_skeleton, f); !ok) return std::unexpected(ok.error());
-  Decoded<ForceMessage> result{std::in_place};
-  result->preamble = read_preamble(in);
-  auto& out = result->message;
-  Judge judge;
-  judge.magnitudes(f.x(), messages_->position_max, out.port.x);
-  judge.magnitudes(f.v(), kVelocityMax, out.port.v);
-  judge.magnitudes(f.f(), kEffortMax, out.port.f);
-  judge.energies(f.e_in(), out.port.e_in);
-  out.session =
-      static_cast<SessionState>(judge.at_most(f.session(), static_cast<std::uint32_t>(SessionState::kEnding)));
-  out.engage = judge.at_most(f.engage(), 1) != 0;
-  out.session_tick = f.session_tick();
-  out.authority_version = f.authority_version();
-  out.missing = judge.at_most(f.missing(), kSeatsMax);
-  out.alpha = judge.within(f.alpha(), 0, 1);
-  return judge.verdict(result);
+  return read<ForceMessage>(in, messages_->force_skeleton, [this](ValueReader& values, ForceMessage& out) {
+    ForceWords words;
+    walk_force(values, out, words, messages_->axes, messages_->position_max);
+    out.session = static_cast<SessionState>(words.session);
+    out.engage = words.engage != 0;
+  });
 }
 
 Decoded<PathMessage> Codec::decode_path(std::span<const std::byte> in) noexcept {
-  auto& p = messages_->path;
-  if (auto ok = read(in, messages_->path_skeleton, p); !ok) return std::unexpected(ok.error());
-  return Received<PathMessage>{read_preamble(in), {p.token()}};
+  return read<PathMessage>(in, messages_->path_skeleton, [](ValueReader& values, PathMessage& out) { values.long_word(1, out.token); });
 }
 
 Decoded<AuthorityMessage> Codec::decode_authority(std::span<const std::byte> in) noexcept {
-  auto& a = messages_->authority;
-  if (auto ok = read(in, messages_->authority_skeleton, a); !ok) return std::unexpected(ok.error());
-  Decoded<AuthorityMessage> result{std::in_place};
-  result->preamble = read_preamble(in);
-  auto& out = result->message;
-  Judge judge;
-  out.version = a.version();
-  out.tool = judge.at_most(a.tool(), kToolsMax - 1);
-  out.masters = judge.at_most(a.masters(), kMastersMax);
-  double sum = 0;
-  for (std::size_t i = 0; i < kMastersMax; ++i) {
-    const double most = i < out.masters ? 1 : 0;
-    out.alpha[i] = judge.within(a.alpha(static_cast<int>(i)), 0, most);
-    sum += out.alpha[i];
-  }
-  judge.require(std::abs(sum - 1) <= 1e-9);
-  return judge.verdict(result);
+  return read<AuthorityMessage>(in, messages_->authority_skeleton, [](ValueReader& values, AuthorityMessage& out) {
+    walk_authority(values, out);
+    double sum = 0;
+    for (std::size_t i = 0; i < kMastersMax; ++i) {
+      values.require(i < out.masters || out.alpha[i] == 0);
+      sum += out.alpha[i];
+    }
+    values.require(std::abs(sum - 1) <= 1e-9);
+  });
 }
 
 Decoded<CloseMessage> Codec::decode_close(std::span<const std::byte> in) noexcept {
-  auto& c = messages_->close;
-  if (auto ok = read(in, messages_->close_skeleton, c); !ok) return std::unexpected(ok.error());
-  Decoded<CloseMessage> result{std::in_place};
-  result->preamble = read_preamble(in);
-  Judge judge;
-  result->message.reason =
-      static_cast<CloseReason>(judge.at_most(c.reason(), static_cast<std::uint32_t>(CloseReason::kRefused)));
-  return judge.verdict(result);
+  return read<CloseMessage>(in, messages_->close_skeleton, [](ValueReader& values, CloseMessage& out) {
+    std::uint32_t reason = 0;
+    values.word(1, reason, static_cast<std::uint32_t>(CloseReason::kRefused));
+    out.reason = static_cast<CloseReason>(reason);
+  });
 }
 
 Decoded<PingMessage> Codec::decode_ping(std::span<const std::byte> in) noexcept {

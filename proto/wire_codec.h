@@ -34,10 +34,11 @@ constexpr std::size_t state_size(std::size_t axes) {
          + detail::packed(axes, 8)                             // e_out
          + detail::scalar(4, 1, 4)                             // energies
          + detail::scalar(2, 1, 4) + detail::scalar(3, 2, 4)  // gate, flags; counts
-         + 1 + detail::packed(3, 4) + detail::scalar(4, 2, 4);  // f_env; penetration, link down
+         + 1 + detail::packed(3, 4) + detail::scalar(4, 2, 4)  // f_env; penetration, link down
+         + detail::scalar(1, 2, 4);                           // resume_stop
 }
 constexpr std::size_t force_size(std::size_t axes) {
-  return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8);
+  return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8) + detail::scalar(1, 1, 4);
 }
 inline constexpr std::size_t kPathSize = kPreambleSize + detail::scalar(1, 1, 8);
 inline constexpr std::size_t kAuthoritySize = kPreambleSize + detail::scalar(3, 1, 4) + 3 + kMastersMax * 8;
@@ -70,9 +71,9 @@ using Decoded = std::expected<Received<Message>, DecodeError>;
 
 struct PingMessage {};
 
-/// Encodes and decodes everything in proto/wire.h. One codec per link and thread: it reuses its message objects, so
-/// that nothing allocates after construction, whatever bytes arrive. Decoding is total: any bytes give a message with
-/// finite numbers in range, or an error.
+/// Encodes and decodes everything in proto/wire.h. Every body has a fixed layout, which the codec learns from the
+/// protobuf library at construction: what differs from it is refused, the values are copied. Nothing allocates
+/// afterwards. Decoding is total: any bytes give a message with finite numbers in range, or an error.
 class Codec {
  public:
   /// @param axes  axes of the port, 1 ... kAxesMax; used by STATE and FORCE only

@@ -29,6 +29,7 @@ void shape(pb::State& s, std::size_t axes, Bits bits) noexcept {
   s.set_down_loss_percent(of<float>(bits));
   s.set_down_longest_gap_ms(of<float>(bits));
   s.set_down_age_p99_ms(of<float>(bits));
+  s.set_resume_stop(of<std::uint32_t>(bits));
 }
 void shape(pb::Force& f, std::size_t axes, Bits bits) noexcept {
   for (auto* array : {f.mutable_x(), f.mutable_v(), f.mutable_f()}) fill(*array, axes, bits);
@@ -39,6 +40,7 @@ void shape(pb::Force& f, std::size_t axes, Bits bits) noexcept {
   f.set_authority_version(of<std::uint32_t>(bits));
   f.set_missing(of<std::uint32_t>(bits));
   f.set_alpha(of<double>(bits));
+  f.set_stops(of<std::uint32_t>(bits));
 }
 void shape(pb::Path& p, std::size_t, Bits bits) noexcept { p.set_token(of<std::uint64_t>(bits)); }
 void shape(pb::AuthorityChange& a, std::size_t, Bits bits) noexcept {

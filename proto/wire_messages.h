@@ -8,8 +8,7 @@
 
 namespace tandem::wire {
 
-/// Private to proto/wire_codec.cpp: the protobuf objects a codec reuses, with room for anything a datagram can hold,
-/// and the skeletons of those with a fixed layout.
+/// Private to proto/wire_codec.cpp: the skeletons of all messages, learned from the protobuf library itself.
 struct Codec::Messages {
   std::size_t axes = 0;
   double position_max = 0;  ///< of a port sample [m] or [rad]

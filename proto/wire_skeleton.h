@@ -29,8 +29,7 @@ void fill(Repeated& array, std::size_t count, Bits bits) noexcept {
 
 /// The bytes of a message that are not values: tags and lengths. Where every field has a fixed width, they stand at
 /// fixed places with fixed values, so bytes that differ there are no such message. Comparing costs some ten nanoseconds
-/// and leaves the parser nothing to reject: no unknown, missing, repeated or reordered fields, no lengths that lie,
-/// hence no allocation for whatever a stranger sends.
+/// and leaves nothing else to reject: no unknown, missing, repeated or reordered fields, no lengths that lie.
 template <std::size_t N>
 class Skeleton {
  public:
@@ -45,6 +44,8 @@ class Skeleton {
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// The message with all values zero.
+  [[nodiscard]] std::span<const std::uint8_t> bytes() const noexcept { return std::span{bytes_}.first(size_); }
   /// @pre bytes.size() == size()
   [[nodiscard]] bool matches(std::span<const std::byte> bytes) const noexcept {
     // Eight bytes at a time: this is half of what decoding costs otherwise.

@@ -6,6 +6,10 @@ std::optional<link::Link::Opened> Connection::open(Time now, const Endpoint& fro
                                                    wire::Codec& codec) noexcept {
   const auto opened = link_->open(now, bytes);
   if (!opened) return std::nullopt;
+  if (!rate_.allow(now)) {
+    link_->refuse(link::Refusal::kRate);
+    return std::nullopt;
+  }
   if (opened->type != wire::Type::kPathResponse) return *opened;
   if (const auto answer = codec.decode_path(opened->plaintext)) {
     link_->accept_other();

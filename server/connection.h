@@ -11,6 +11,7 @@
 #include "proto/wire_codec.h"
 #include "server/endpoint.h"
 #include "server/path_proof.h"
+#include "server/rate_limit.h"
 
 namespace tandem::server {
 
@@ -18,8 +19,9 @@ namespace tandem::server {
 /// address before one was proven.
 class Connection {
  public:
-  /// @param link  made where memory may be taken
-  Connection(Time now, std::unique_ptr<link::Link> link) noexcept : link_(std::move(link)), admitted_(now) {}
+  /// @param link  made where memory may be taken  @param tick  between two datagrams of this client
+  Connection(Time now, std::unique_ptr<link::Link> link, Duration tick) noexcept
+      : link_(std::move(link)), admitted_(now), rate_(tick) {}
 
   /// Opens a datagram; what is about the path is dealt with here. @return a message for the owner, else nothing
   [[nodiscard]] std::optional<link::Link::Opened> open(Time now, const Endpoint& from, std::span<const std::byte> bytes,
@@ -37,6 +39,9 @@ class Connection {
     if (!at_) return {};
     return {*at_, write(now, tick, type, message, codec, buffer)};
   }
+
+  /// Once for each flood of this client's own datagrams that goes on for too long.
+  [[nodiscard]] bool poll_flood() noexcept { return rate_.poll_warning(); }
 
   [[nodiscard]] const std::optional<Endpoint>& at() const noexcept { return at_; }
   /// Since a STATE acted; since admission while none did.
@@ -61,6 +66,7 @@ class Connection {
   Time admitted_;
   std::optional<Endpoint> at_;
   PathProof proof_;
+  RateLimit rate_;
   std::uint64_t tokens_ = 0;
 };
 

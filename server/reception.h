@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +23,7 @@ enum class JoinResult : std::uint8_t { kAccepted, kNoSuchSeat, kSeatTaken, kDevi
 struct Entry {
   std::unique_ptr<link::Link> link;
   std::unique_ptr<control::ChannelEnd> end;
+  std::array<std::byte, 32> resume{};  ///< resume_hash of the secret this client may come back with; zero: none
 };
 
 /// The server's end of a seat's spring.

@@ -1,24 +1,38 @@
 #include "server/seat_port.h"
 
+#include <cmath>
 #include <utility>
 
 namespace tandem::server {
 
 namespace {
 /// How long a seat that fell silent still holds its end of the spring: then its weight goes to others or the tool is braked.
-constexpr Duration kHoldLimit = std::chrono::milliseconds(200);
+/// With the ramp of a lost holder's weight (`common/control/authority.cpp`, 100 ms) within 220 ms (design notes, security 2.4).
+constexpr Duration kHoldLimit = std::chrono::milliseconds(100);
+/// A client whose gate must have let go for silence is believed to be deaf so much later.
+constexpr Duration kDeafMargin = std::chrono::milliseconds(10);
+/// Its own word aside: echoes that stand still for so long while datagrams come.
+constexpr Duration kEchoStallMax = std::chrono::milliseconds(200);
+/// Between two samples of an engaged hand that are less than the hold limit apart.
+constexpr double kJumpMaxM = 1, kJumpMaxRad = 5;
 }  // namespace
 
 SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& scale)
-    : scene_(&scene), end_(make_channel_end(scene, seat, scale)), codec_(scene.dof, scene.port) {}
+    : scene_(&scene),
+      tick_(from_seconds(1.0 / scene.tick_hz)),
+      role_(access_role(scene.seats[seat].role)),
+      end_(make_channel_end(scene, seat, scale)),
+      codec_(scene.dof, scene.port) {}
 
 void SeatPort::take(Time now, Entry& entry) noexcept {
   std::unique_ptr<link::Link> before = connection_ ? connection_->give_up() : nullptr;
-  connection_.emplace(now, std::exchange(entry.link, std::move(before)));
+  connection_.emplace(now, std::exchange(entry.link, std::move(before)), tick_);
   std::swap(end_, entry.end);
   taken_ = true;
   generation_ = 0;
   rx_ = wire::StateMessage{};
+  conduct_ = {};
+  resume_ = entry.resume;
   was_present_ = false;
 }
 
@@ -27,14 +41,27 @@ SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<
   const auto opened = connection_->open(now, from, bytes, codec_);
   if (!opened) return heard;
   link::Link& link = connection_->link();
+  if (!allowed(role_, opened->type)) {
+    link.refuse(link::Refusal::kRole);
+    heard.forbidden = true;
+    return heard;
+  }
+  // It opened under the client's own keys: what cannot be meant is his, and nobody else could have sent it.
+  const auto offence = [&] {
+    link.refuse_body();
+    conduct_.offend(now);
+  };
   switch (opened->type) {
     case wire::Type::kState: {
       const auto decoded = codec_.decode_state(opened->plaintext);
       if (!decoded) {
-        link.refuse_body();
+        offence();
         break;
       }
       if (!opened->newer) break;  // latest wins: nothing acts backwards
+      const PortSample& next = decoded->message.port;
+      if (alive(now) && rx_.engaged && decoded->message.engaged && jumps(next)) conduct_.offend(now);
+      heard.acted = true;
       connection_->acts(now, from, *opened, decoded->preamble);
       for (std::size_t a = 0; a < scene_->dof; ++a) energy_fell_ |= decoded->message.port.e_in[a] < rx_.port.e_in[a];
       rx_ = decoded->message;
@@ -46,23 +73,41 @@ SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<
         link.accept_other();
         heard.authority = decoded->message;
       } else {
-        link.refuse_body();
+        offence();
       }
       break;
     case wire::Type::kClose:
       if (codec_.decode_close(opened->plaintext)) {
         heard.close = true;
       } else {
-        link.refuse_body();
+        offence();
       }
       break;
-    default: link.refuse_body(); break;
+    default: offence(); break;
   }
   return heard;
 }
 
 bool SeatPort::alive(Time now) const noexcept {
   return taken_ && generation_ > 0 && connection_->silence(now) < kHoldLimit;
+}
+
+bool SeatPort::deaf() const noexcept {
+  const link::Freshness& fresh = connection_->link().freshness();
+  const bool engages = allowed(role_, Right::kForce) != Grant::kNo;  // who feels nothing is not told often
+  return (engages && fresh.peer_silence() > from_seconds(scene_->gate.silence_limit) + kDeafMargin) || fresh.echo_stall() > kEchoStallMax;
+}
+
+bool SeatPort::jumps(const PortSample& next) const noexcept {
+  const double most = scene_->port == PortSpace::kTip ? kJumpMaxM : kJumpMaxRad;
+  for (std::size_t a = 0; a < scene_->dof; ++a)
+    if (!(std::abs(next.x[a] - rx_.port.x[a]) <= most)) return true;
+  return false;
+}
+
+void SeatPort::hold() noexcept {
+  if (was_present_) ++outages_;
+  was_present_ = false;
 }
 
 void SeatPort::move(Time now, double dt, bool present, const Near& near) noexcept {

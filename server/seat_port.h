@@ -1,13 +1,17 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 
 #include "common/control/channel.h"
 #include "proto/scene_spec.h"
 #include "proto/wire_codec.h"
+#include "server/conduct.h"
 #include "server/connection.h"
 #include "server/reception.h"
+#include "server/roles.h"
 
 namespace tandem::server {
 
@@ -24,19 +28,26 @@ class SeatPort {
   void release() noexcept { taken_ = false; }
   [[nodiscard]] bool taken() const noexcept { return taken_; }
 
-  /// Opens and decodes; STATE acts here. @return the other messages, for the session.
+  /// Opens, asks whether the role may send such a thing, decodes; STATE acts here. @return the rest, for the session.
   struct Heard {
     std::optional<wire::AuthorityMessage> authority;
     bool close = false;
+    bool acted = false;      ///< a newer STATE
+    bool forbidden = false;  ///< its role may not send this
   };
   Heard on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
 
-  /// Heard from within the hold limit, its device streams, nothing latched.
+  /// Heard from within the hold limit.
   [[nodiscard]] bool alive(Time now) const noexcept;
-  [[nodiscard]] bool ready(Time now) const noexcept { return alive(now) && (rx_.ready || rx_.engaged); }
+  /// Its last word says that it hears nothing of us, or it echoes nothing newer: one direction is lost. @pre taken()
+  [[nodiscard]] bool deaf() const noexcept;
+  /// Alive, its device streams, nothing latched, nobody stopped it.
+  [[nodiscard]] bool ready(Time now) const noexcept {
+    return alive(now) && (rx_.ready || rx_.engaged) && !rx_.stop && !conduct_.isolated(now);
+  }
   [[nodiscard]] bool alive_once() const noexcept { return generation_ > 0; }
   /// Its spring may act on tools.
-  [[nodiscard]] bool present(Time now) const noexcept { return alive(now) && rx_.engaged; }
+  [[nodiscard]] bool present(Time now) const noexcept { return alive(now) && rx_.engaged && !rx_.stop && !conduct_.isolated(now) && !deaf(); }
 
   /// What the near end of the spring hangs on.
   struct Near {
@@ -48,12 +59,21 @@ class SeatPort {
   };
   /// Moves this end's reference; rests it (no elongation) while the seat is not present.
   void move(Time now, double dt, bool present, const Near& near) noexcept TANDEM_REALTIME;
+  /// The seat is lost and its weight on the way to others: its end stays as it is, so that nothing at the tool jumps.
+  void hold() noexcept TANDEM_REALTIME;
 
   [[nodiscard]] control::ChannelEnd& end() noexcept { return *end_; }
   [[nodiscard]] const control::ChannelEnd& end() const noexcept { return *end_; }
   [[nodiscard]] link::Link* link() noexcept { return taken_ ? &connection_->link() : nullptr; }
   [[nodiscard]] const link::Link* link() const noexcept { return taken_ ? &connection_->link() : nullptr; }
   [[nodiscard]] const wire::StateMessage& heard() const noexcept { return rx_; }
+  [[nodiscard]] Conduct& conduct() noexcept { return conduct_; }
+  [[nodiscard]] const Conduct& conduct() const noexcept { return conduct_; }
+  [[nodiscard]] bool poll_flood() noexcept { return taken_ && connection_->poll_flood(); }
+  [[nodiscard]] const std::array<std::byte, 32>& resume() const noexcept { return resume_; }  ///< hash of its secret
+  /// Who sat here before the server died.
+  void remember(const std::array<std::byte, 32>& resume) noexcept { resume_ = resume; }
+  [[nodiscard]] AccessRole role() const noexcept { return role_; }
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }  ///< counts STATEs that acted
   [[nodiscard]] bool energy_fell() const noexcept { return energy_fell_; }
   [[nodiscard]] std::uint32_t outages() const noexcept { return outages_; }
@@ -69,7 +89,14 @@ class SeatPort {
       TANDEM_REALTIME;
 
  private:
+  /// Farther from the sample before than any hand comes in the time between.
+  [[nodiscard]] bool jumps(const PortSample& next) const noexcept;
+
   const SceneSpec* scene_;
+  Duration tick_;
+  AccessRole role_;
+  Conduct conduct_;
+  std::array<std::byte, 32> resume_{};
   std::unique_ptr<control::ChannelEnd> end_;
   std::optional<Connection> connection_;  ///< kept when its client has left, until another comes
   bool taken_ = false;

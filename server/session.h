@@ -10,7 +10,10 @@
 #include "proto/wire_codec.h"
 #include "common/control/hub.h"
 #include "server/reception.h"
+#include "server/audit.h"
+#include "server/checkpoint.h"
 #include "server/seat_port.h"
+#include "server/stop_lane.h"
 #include "server/tick_record.h"
 #include "server/tool.h"
 #include "server/visitors.h"
@@ -24,6 +27,17 @@ class Session {
   /// @param slaves  one per tool, null for tools whose slave is a seat of its own.
   /// @param scale   tip gain to port gain at the working pose, per axis.
   Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale);
+
+  /// The session a server that died had left behind, one epoch later: everybody has to come back. Nobody is engaged until the
+  /// instructors and all seats with weight that were there are, or an instructor goes on without (`press_resume` at his seat).
+  /// @param slaves  standing where `from` says (Checkpoint::Tool::slave)  @pre unfit(from, scene) is empty
+  Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale, const Checkpoint& from);
+
+  /// What a new session could go on from; twice a second and whenever `authority_version` or `stops` changed is often enough.
+  [[nodiscard]] Checkpoint checkpoint() const noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::uint64_t epoch() const noexcept { return epoch_; }
+  /// Back from a checkpoint and not everybody needed is there.
+  [[nodiscard]] bool gathering() const noexcept { return gathering_; }
 
   /// What never changes: for whoever answers those who ask for a seat, on any thread.
   [[nodiscard]] const Reception& reception() const noexcept { return reception_; }
@@ -43,12 +57,23 @@ class Session {
   /// Writes the next datagram into `buffer`; nullopt when nothing is due.
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::span<std::byte> buffer) noexcept;
 
+  /// Stops or pauses all hands, as the role may (roles.h), or resumes them; for who sits on no seat. Seats do it by their STATE.
+  /// @return whether the role may  @param number  of the stop to be ended, see `stops`
+  bool stop_hands(Time now, AccessRole who) noexcept;
+  bool resume_hands(Time now, AccessRole who, std::uint32_t number) noexcept;
+  [[nodiscard]] std::uint32_t stops() const noexcept { return stop_lane_.stops(); }
+
+  /// What happened since the last call; whoever hosts the session asks after every tick. At most AuditQueue::kCapacity wait.
+  [[nodiscard]] std::optional<AuditEvent> poll_audit() noexcept { return audit_.poll(); }
+  [[nodiscard]] std::uint64_t audit_dropped() const noexcept { return audit_.dropped(); }
+
   /// Ends the session: all gates ramp out for `kFarewell`, then every client is told.
   void stop(wire::CloseReason why) noexcept;
   [[nodiscard]] bool over() const noexcept { return over_; }
 
   [[nodiscard]] wire::SessionState state() const noexcept { return state_; }
   [[nodiscard]] double time() const noexcept { return session_tick_ * dt_; }      ///< since all required seats engaged [s]
+  [[nodiscard]] Time last_tick() const noexcept { return last_tick_; }
   [[nodiscard]] std::uint32_t session_tick() const noexcept { return session_tick_; }
   [[nodiscard]] const TickRecord& record() const noexcept { return record_; }
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
@@ -60,11 +85,27 @@ class Session {
   [[nodiscard]] std::uint32_t authority_version() const noexcept { return authority_version_; }
 
  private:
-  void request_authority(const AuthorityRow& row) noexcept;
+  // People (session_people.cpp).
+  void hear(Time now, std::size_t seat, const SeatPort::Heard& heard) noexcept TANDEM_REALTIME;
+  void hear_wishes(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
+  void hear_authority(Time now, std::size_t seat, const wire::AuthorityMessage& wish) noexcept TANDEM_REALTIME;
+  bool request_authority(Time now, std::uint8_t who, std::size_t tool, const control::Weights& wanted) noexcept;
+  [[nodiscard]] control::Weights weights_of(const AuthorityRow& row) const noexcept;
+  void wait_for_people(Time now) noexcept TANDEM_REALTIME;
+  void look_after_people(Time now) noexcept TANDEM_REALTIME;
+  void look_after(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
+  void forbid(Time now, std::size_t seat) noexcept;
+  /// The session waits for it before it begins, or goes on after a restart.
+  [[nodiscard]] bool needed(std::size_t seat) const noexcept;
+  void go_on(Time now) noexcept;
+  /// A hand that may be given force: not an observer's.
+  [[nodiscard]] bool felt_by(std::size_t seat) const noexcept;
+  void note(Time now, AuditEvent::What what, std::size_t seat, std::uint32_t version = 0) noexcept;
+
   [[nodiscard]] bool slave_present(std::size_t tool) const noexcept;
   void live_one_tick(Time now) noexcept TANDEM_REALTIME;
   void change_state(Time now) noexcept;
-  void follow_timeline() noexcept;
+  void follow_timeline(Time now) noexcept;
   void share_authority() noexcept TANDEM_REALTIME;
   void move_references(Time now) noexcept TANDEM_REALTIME;
   void step_offset(std::size_t seat, bool engaged) noexcept TANDEM_REALTIME;
@@ -82,13 +123,29 @@ class Session {
   std::vector<SeatPort> seats_;
   std::vector<Tool> tools_;
   std::size_t masters_;
+  std::uint32_t watcher_every_;  ///< ticks between two FORCEs for who feels nothing
   Reception reception_;
   Visitors visitors_;
 
   wire::SessionState state_ = wire::SessionState::kWaiting;
   bool engage_ = false;                  ///< all required seats were ready: springs may be loaded
+  bool begun_ = false;                   ///< all of them were engaged: session time goes on
+  StopLane stop_lane_;
+  Checkpoint::Hash scene_hash_;
+  std::uint64_t epoch_ = 1;
+  bool gathering_ = false;
+  std::array<bool, kSeatsMax> awaited_{};  ///< while gathering
+  StopLane::Level stop_before_ = StopLane::Level::kNone;  ///< that was on when the server died
+  AuditQueue audit_;
+  struct Watch {  ///< what was last said of a seat's person
+    bool lost = false, isolated = false, own_stop = false, away = false;
+    Time lost_at{};
+  };
+  std::array<Watch, kSeatsMax> watch_{};
+  std::uint64_t not_finite_ = 0;         ///< steps that gave what is no number, as far as judged
+  std::optional<Time> last_fault_;
   std::uint32_t session_tick_ = 0, tick_ = 0;
-  Time started_{};
+  Time started_{}, last_tick_{};
   bool ticked_ = false, elapsed_any_ = false, over_ = false;
   wire::CloseReason close_reason_ = wire::CloseReason::kDone;
   std::uint32_t farewell_ = 0;           ///< ticks left in ENDING
@@ -96,6 +153,7 @@ class Session {
   std::uint32_t authority_version_ = 1;
   std::array<AxisArray, kSeatsMax> absolute_{};     ///< y_i: where each seat's tool is
   std::array<AxisArray, kSeatsMax> offset_{};       ///< hand minus tool, on its way to 0
+  std::array<std::uint32_t, kSeatsMax> engaged_for_{};  ///< ticks
   std::array<AxisArray, kSeatsMax> offset_step_{};  ///< during this tick
   std::array<AxisArray, kSeatsMax> following_{};    ///< y_i plus offset: what each seat follows
   std::array<AxisArray, kSeatsMax> following_v_{};

@@ -32,7 +32,9 @@ void take_record(const Session& session, TickRecord& record) noexcept {
   const SceneSpec& scene = session.scene();
   const std::size_t masters = scene.masters();
   record.tick = session.session_tick();
-  record.running = session.state() == wire::SessionState::kRunning || session.state() == wire::SessionState::kHeld;
+  const wire::SessionState state = session.state();
+  const bool stopped = state == wire::SessionState::kPaused || state == wire::SessionState::kStopped;
+  record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld || (stopped && session.session_tick() > 0);
   record.slipped = session.slipped();
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const wire::StateMessage& m = session.seat(i).heard();

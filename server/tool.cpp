@@ -45,7 +45,10 @@ void Tool::step(double dt, const std::array<control::ToolIpc::Pull, kAxesMax>& s
   }
   if (!slave_) return;
   const hal::State& s = slave_->state();
-  for (std::size_t a = 0; a < dof_; ++a) slave_effort_[a] = spec_->k_s * scale_[a] * (ipc_[a].x - q[a]);
+  for (std::size_t a = 0; a < dof_; ++a) {
+    const double pull = spec_->k_s * scale_[a] * (ipc_[a].x - q[a]);
+    slave_effort_[a] = std::isfinite(pull) ? pull : 0;  // a slave that does not know where it is gets no force
+  }
   command_.seq += 1;
   command_.expires = s.sampled_at + std::chrono::milliseconds(20);
   command_.kind = hal::CommandKind::kJointEffort;

@@ -13,7 +13,7 @@ bool Visitors::admit(Time now, std::unique_ptr<link::Link>& link) noexcept {
   for (Visitor& v : visitors_) {
     if (v.here && v.connection->silence(now) <= kSilenceMax) continue;
     std::unique_ptr<link::Link> before = v.connection ? v.connection->give_up() : nullptr;
-    v.connection.emplace(now, std::exchange(link, std::move(before)));
+    v.connection.emplace(now, std::exchange(link, std::move(before)), tick_);
     v.here = true;
     v.due = false;
     return true;

@@ -17,7 +17,7 @@ class Visitors {
  public:
   static constexpr std::size_t kMax = 4;
 
-  Visitors(std::size_t dof, PortSpace port) : codec_(dof, port) {}
+  Visitors(std::size_t dof, PortSpace port, Duration tick) : codec_(dof, port), tick_(tick) {}
 
   /// Puts the visitor in. @param link  holds what was there before afterwards  @return false: all places are taken
   [[nodiscard]] bool admit(Time now, std::unique_ptr<link::Link>& link) noexcept;
@@ -37,6 +37,7 @@ class Visitors {
   };
   std::array<Visitor, kMax> visitors_;
   wire::Codec codec_;
+  Duration tick_;
 };
 
 }  // namespace tandem::server

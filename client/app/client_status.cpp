@@ -21,6 +21,10 @@ std::string session_text(const ClientStatus& s) {
       return format("%.1f s", s.session_time);
     case wire::SessionState::kHeld:
       return format("%.1f s HELD", s.session_time);
+    case wire::SessionState::kPaused:
+      return format("%.1f s PAUSED", s.session_time);
+    case wire::SessionState::kStopped:
+      return format("%.1f s STOPPED", s.session_time);
     case wire::SessionState::kEnding:
       return "ending";
   }

@@ -1,8 +1,10 @@
 #include "common/link/digest.h"
 
 #include <openssl/evp.h>
+#include <openssl/sha.h>
 
 #include <array>
+#include <bit>
 #include <stdexcept>
 
 namespace tandem::link {
@@ -24,6 +26,12 @@ Digest::Digest(Digest&&) noexcept = default;
 Digest& Digest::operator=(Digest&&) noexcept = default;
 
 void Digest::add(std::string_view bytes) noexcept { EVP_DigestUpdate(context_->evp, bytes.data(), bytes.size()); }
+
+std::array<std::byte, 32> sha256(std::span<const std::byte> bytes) noexcept {
+  std::array<unsigned char, 32> hash{};
+  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), hash.data());
+  return std::bit_cast<std::array<std::byte, 32>>(hash);
+}
 
 std::string Digest::hex() {
   std::array<unsigned char, 32> hash{};

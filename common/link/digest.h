@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -21,5 +24,8 @@ class Digest {
   struct Context;
   std::unique_ptr<Context> context_;
 };
+
+/// SHA-256 of bytes that are all there.
+[[nodiscard]] std::array<std::byte, 32> sha256(std::span<const std::byte> bytes) noexcept;
 
 }  // namespace tandem::link

@@ -4,9 +4,12 @@ namespace tandem::link {
 
 void Freshness::accepted(Time now, std::uint64_t echo_counter, Duration echo_age, std::uint32_t peer_tick) noexcept {
   arrived_ = now;
+  if (!heard_) echo_moved_ = now;
   heard_ = true;
   const Sent& s = sent_[echo_counter % kRemembered];
   const bool known = s.counter == echo_counter && next_ > echo_counter;
+  if (known && (!echoed_ || echo_counter > echo_counter_)) echo_moved_ = now;
+  peer_silence_ = known ? echo_age : Duration{};
   if (known && (!echoed_ || echo_counter >= echo_counter_)) {
     echoed_ = true;
     echo_counter_ = echo_counter;

@@ -58,6 +58,11 @@ class Freshness {
   [[nodiscard]] Duration rtt_p99() const noexcept { return Duration{recent_p99_}; }
   [[nodiscard]] std::uint64_t rtt_samples() const noexcept { return rtts_.count(); }
   [[nodiscard]] const Histogram& rtts() const noexcept { return rtts_; }
+  /// How long the peer had heard nothing of us when it sent its newest datagram, by its own clock; and how long, by ours, its
+  /// datagrams have come without an echo that is newer. The second counts from the first
+  /// datagram on also while nothing was ever echoed.
+  [[nodiscard]] Duration peer_silence() const noexcept { return peer_silence_; }
+  [[nodiscard]] Duration echo_stall() const noexcept { return arrived_ - echo_moved_; }
   [[nodiscard]] bool heard() const noexcept { return heard_; }
   [[nodiscard]] Time arrived() const noexcept { return arrived_; }
 
@@ -72,7 +77,8 @@ class Freshness {
   std::array<Sent, kRemembered> sent_{};
   std::uint64_t next_ = 0;
   bool heard_ = false, echoed_ = false;
-  Time arrived_{}, echo_sent_{};
+  Time arrived_{}, echo_sent_{}, echo_moved_{};
+  Duration peer_silence_{};
   std::uint64_t echo_counter_ = 0;
   Duration rtt_{}, one_way_{};
   WindowedMinimum rtt_floor_, transit_floor_;

@@ -17,7 +17,7 @@
 namespace tandem::link {
 
 /// Why a datagram was dropped; one counter each, no reply, no log line.
-enum class Refusal : std::uint8_t { kHeader, kCid, kTooOld, kTag, kDuplicate, kBody, kCount };
+enum class Refusal : std::uint8_t { kHeader, kCid, kTooOld, kTag, kDuplicate, kBody, kRate, kRole, kCount };
 
 struct LinkStats {
   std::uint64_t sent = 0;
@@ -30,7 +30,8 @@ struct LinkStats {
   Histogram age;                 ///< of the newest datagram, sampled once per tick [ns]
   [[nodiscard]] std::uint64_t lost() const noexcept {
     const std::uint64_t span = accepted == 0 ? 0 : newest - first + 1;
-    return span > accepted + late + others ? span - accepted - late - others : 0;
+    const std::uint64_t came = accepted + late + others + refused[static_cast<std::size_t>(Refusal::kRate)];
+    return span > came ? span - came : 0;
   }
   [[nodiscard]] double loss_percent() const noexcept {
     return accepted == 0 ? 0 : 100.0 * static_cast<double>(lost()) / static_cast<double>(newest - first + 1);
@@ -63,7 +64,9 @@ class Link {
   void accept(Time now, const Opened& opened, const wire::Preamble& preamble) noexcept TANDEM_REALTIME;
   /// Decoded and in range, but no sample (AUTHORITY, PATH).
   void accept_other() noexcept { ++stats_.others; }
-  void refuse_body() noexcept { ++stats_.refused[static_cast<std::size_t>(Refusal::kBody)]; }
+  void refuse_body() noexcept { refuse(Refusal::kBody); }
+  /// Authentic, and dropped for a reason of the owner's.
+  void refuse(Refusal why) noexcept { ++stats_.refused[static_cast<std::size_t>(why)]; }
 
   /// First bytes of the next plaintext.
   [[nodiscard]] wire::Preamble preamble(Time now, std::uint32_t tick) const noexcept;

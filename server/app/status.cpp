@@ -60,6 +60,12 @@ std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
     case wire::SessionState::kHeld:
       line += "HELD (" + why_held(status, scene) + ")";
       break;
+    case wire::SessionState::kPaused:
+      line += "PAUSED (the instructor resumes)";
+      break;
+    case wire::SessionState::kStopped:
+      line += "STOPPED (the instructor resumes)";
+      break;
     case wire::SessionState::kEnding:
       line += "ending";
       break;

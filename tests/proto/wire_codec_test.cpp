@@ -55,6 +55,8 @@ TEST(WireCodec, StateComesBackAsItWas) {
       EXPECT_EQ(got->message.ready, sent.ready);
       EXPECT_EQ(got->message.engaged, sent.engaged);
       EXPECT_EQ(got->message.stop, sent.stop);
+      EXPECT_EQ(got->message.stop_all, sent.stop_all);
+      EXPECT_EQ(got->message.resume_stop, sent.resume_stop);
       EXPECT_EQ(got->message.gate_trips, sent.gate_trips);
       EXPECT_EQ(got->message.late_ticks, sent.late_ticks);
       EXPECT_EQ(got->message.seat_tick, sent.seat_tick);
@@ -83,6 +85,7 @@ TEST(WireCodec, ForceComesBackAsItWas) {
       EXPECT_EQ(got->message.authority_version, sent.authority_version);
       EXPECT_EQ(got->message.missing, sent.missing);
       EXPECT_EQ(got->message.alpha, sent.alpha);
+      EXPECT_EQ(got->message.stops, sent.stops);
     }
   }
 }

@@ -48,6 +48,8 @@ inline StateMessage state(RandomStream& random, std::size_t axes) {
   m.ready = random.below(2) == 1;
   m.engaged = random.below(2) == 1;
   m.stop = random.below(2) == 1;
+  m.stop_all = random.below(2) == 1;
+  m.resume_stop = static_cast<std::uint32_t>(random.bits());
   m.gate_trips = static_cast<std::uint32_t>(random.bits());
   m.late_ticks = static_cast<std::uint32_t>(random.bits());
   m.seat_tick = static_cast<std::uint32_t>(random.bits());
@@ -56,12 +58,13 @@ inline StateMessage state(RandomStream& random, std::size_t axes) {
 inline ForceMessage force(RandomStream& random, std::size_t axes) {
   ForceMessage m;
   port(random, axes, m.port);
-  m.session = static_cast<SessionState>(random.below(4));
+  m.session = static_cast<SessionState>(random.below(6));
   m.engage = random.below(2) == 1;
   m.session_tick = static_cast<std::uint32_t>(random.bits());
   m.authority_version = static_cast<std::uint32_t>(random.bits());
   m.missing = static_cast<std::uint32_t>(random.below(kSeatsMax + 1));
   m.alpha = random.uniform();
+  m.stops = static_cast<std::uint32_t>(random.bits());
   return m;
 }
 inline PathMessage path(RandomStream& random) { return {random.bits()}; }

@@ -1,0 +1,134 @@
+// The codec copies values to and from fixed places. Here the protobuf library itself reads what it wrote, and writes what it reads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "proto/wire.pb.h"
+#include "proto/wire_codec.h"
+#include "tests/proto/wire_samples.h"
+
+namespace tandem::wire {
+namespace {
+
+using Buffer = std::array<std::byte, kPlaintextMax>;
+
+template <class Repeated, std::size_t N>
+void expect_same(const Repeated& theirs, const std::array<double, N>& ours, std::size_t count) {
+  ASSERT_EQ(static_cast<std::size_t>(theirs.size()), count);
+  for (std::size_t i = 0; i < count; ++i)
+    EXPECT_EQ(theirs.Get(static_cast<int>(i)), static_cast<std::remove_cvref_t<decltype(theirs.Get(0))>>(ours[i]));
+}
+void expect_same(const google::protobuf::RepeatedField<std::uint64_t>& theirs, const EnergyArray& ours, std::size_t count) {
+  ASSERT_EQ(static_cast<std::size_t>(theirs.size()), count);
+  for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(theirs.Get(static_cast<int>(i)), ours[i]);
+}
+
+/// The library's own encoding of what it read, behind our preamble: must be our bytes again.
+template <class Body>
+void expect_written_back(const Body& body, std::span<const std::byte> ours) {
+  std::string again;
+  ASSERT_TRUE(body.SerializeToString(&again));
+  ASSERT_EQ(again.size() + kPreambleSize, ours.size());
+  EXPECT_TRUE(std::ranges::equal(again, ours.subspan(kPreambleSize), [](char a, std::byte b) { return static_cast<std::byte>(a) == b; }));
+}
+
+template <class Body>
+Body parsed(std::span<const std::byte> ours) {
+  Body body;
+  const auto rest = ours.subspan(kPreambleSize);
+  EXPECT_TRUE(body.ParseFromArray(rest.data(), static_cast<int>(rest.size())));
+  return body;
+}
+
+TEST(WireTwin, StateIsWhatTheLibraryReadsAndWrites) {
+  for (std::size_t axes = 1; axes <= kAxesMax; ++axes) {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+      SCOPED_TRACE(std::to_string(axes) + " axes, seed " + std::to_string(seed));
+      RandomStream random{seed};
+      Codec codec(axes, PortSpace::kTip);
+      const StateMessage m = samples::state(random, axes);
+      Buffer buffer;
+      const auto bytes = std::span<const std::byte>(buffer).first(codec.encode(samples::preamble(random), m, buffer));
+      const auto s = parsed<pb::State>(bytes);
+      expect_written_back(s, bytes);
+      expect_same(s.x(), m.port.x, axes);
+      expect_same(s.v(), m.port.v, axes);
+      expect_same(s.f(), m.port.f, axes);
+      expect_same(s.e_in(), m.port.e_in, axes);
+      expect_same(s.q(), m.telemetry.q, axes);
+      expect_same(s.tip_x(), m.telemetry.x, 3);
+      expect_same(s.f_cmd(), m.telemetry.f_cmd, 3);
+      expect_same(s.f_out(), m.telemetry.f_out, 3);
+      expect_same(s.f_env(), m.telemetry.f_env, 3);
+      expect_same(s.e_out(), m.telemetry.e_out, axes);
+      EXPECT_EQ(s.dissipated_j(), static_cast<float>(m.telemetry.dissipated_j));
+      EXPECT_EQ(s.refused_j(), static_cast<float>(m.telemetry.refused_j));
+      EXPECT_EQ(s.delivered_j(), static_cast<float>(m.telemetry.delivered_j));
+      EXPECT_EQ(s.margin_min_j(), static_cast<float>(m.telemetry.margin_min_j));
+      EXPECT_EQ(s.penetration_m(), static_cast<float>(m.telemetry.penetration_m));
+      EXPECT_EQ(s.down_loss_percent(), static_cast<float>(m.telemetry.down_loss_percent));
+      EXPECT_EQ(s.down_longest_gap_ms(), static_cast<float>(m.telemetry.down_longest_gap_ms));
+      EXPECT_EQ(s.down_age_p99_ms(), static_cast<float>(m.telemetry.down_age_p99_ms));
+      EXPECT_EQ(s.gate(), static_cast<std::uint32_t>(m.gate));
+      EXPECT_EQ(s.flags(), (m.ready ? 1U : 0U) + (m.engaged ? 2U : 0U) + (m.stop ? 4U : 0U) + (m.stop_all ? 8U : 0U));
+      EXPECT_EQ(s.gate_trips(), m.gate_trips);
+      EXPECT_EQ(s.late_ticks(), m.late_ticks);
+      EXPECT_EQ(s.seat_tick(), m.seat_tick);
+      EXPECT_EQ(s.resume_stop(), m.resume_stop);
+    }
+  }
+}
+
+TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
+  for (std::size_t axes = 1; axes <= kAxesMax; ++axes) {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+      SCOPED_TRACE(std::to_string(axes) + " axes, seed " + std::to_string(seed));
+      RandomStream random{seed};
+      Codec codec(axes, PortSpace::kTip);
+      const ForceMessage m = samples::force(random, axes);
+      Buffer buffer;
+      const auto bytes = std::span<const std::byte>(buffer).first(codec.encode(samples::preamble(random), m, buffer));
+      const auto f = parsed<pb::Force>(bytes);
+      expect_written_back(f, bytes);
+      expect_same(f.x(), m.port.x, axes);
+      expect_same(f.v(), m.port.v, axes);
+      expect_same(f.f(), m.port.f, axes);
+      expect_same(f.e_in(), m.port.e_in, axes);
+      EXPECT_EQ(f.session(), static_cast<std::uint32_t>(m.session));
+      EXPECT_EQ(f.engage(), m.engage ? 1U : 0U);
+      EXPECT_EQ(f.session_tick(), m.session_tick);
+      EXPECT_EQ(f.authority_version(), m.authority_version);
+      EXPECT_EQ(f.missing(), m.missing);
+      EXPECT_EQ(f.alpha(), m.alpha);
+      EXPECT_EQ(f.stops(), m.stops);
+    }
+  }
+}
+
+TEST(WireTwin, TheSmallOnesAreWhatTheLibraryReadsAndWrites) {
+  Codec codec;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    RandomStream random{seed};
+    Buffer buffer;
+    const AuthorityMessage a = samples::authority(random);
+    auto bytes = std::span<const std::byte>(buffer).first(codec.encode({}, a, buffer));
+    const auto theirs = parsed<pb::AuthorityChange>(bytes);
+    expect_written_back(theirs, bytes);
+    EXPECT_EQ(theirs.version(), a.version);
+    EXPECT_EQ(theirs.tool(), a.tool);
+    EXPECT_EQ(theirs.masters(), a.masters);
+    for (std::size_t i = 0; i < kMastersMax; ++i) EXPECT_EQ(theirs.alpha(static_cast<int>(i)), i < a.masters ? a.alpha[i] : 0);
+
+    const PathMessage p = samples::path(random);
+    bytes = std::span<const std::byte>(buffer).first(codec.encode({}, p, buffer));
+    expect_written_back(parsed<pb::Path>(bytes), bytes);
+    EXPECT_EQ(parsed<pb::Path>(bytes).token(), p.token);
+
+    bytes = std::span<const std::byte>(buffer).first(codec.encode({}, CloseMessage{CloseReason::kServerStops}, buffer));
+    expect_written_back(parsed<pb::Close>(bytes), bytes);
+    EXPECT_EQ(parsed<pb::Close>(bytes).reason(), static_cast<std::uint32_t>(CloseReason::kServerStops));
+  }
+}
+
+}  // namespace
+}  // namespace tandem::wire
