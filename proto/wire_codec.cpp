@@ -30,9 +30,9 @@ struct ForceWords {
 
 template <class Values, class Message, class Words>
 void walk(Values& v, Message& s, Words& words, std::size_t axes, double position_max) noexcept {
-  v.doubles(1, s.port.x, axes, -position_max, position_max);
-  v.doubles(2, s.port.v, axes, -kVelocityMax, kVelocityMax);
-  v.doubles(3, s.port.f, axes, -kEffortMax, kEffortMax);
+  v.doubles(1, s.port.x, axes, position_max);
+  v.doubles(2, s.port.v, axes, kVelocityMax);
+  v.doubles(3, s.port.f, axes, kEffortMax);
   v.energies(4, s.port.e_in, axes, kEnergyMax);
   v.floats(5, s.telemetry.q, axes, kPositionMaxRad);
   v.floats(6, s.telemetry.x, 3, kPositionMaxM);
@@ -58,9 +58,9 @@ void walk(Values& v, Message& s, Words& words, std::size_t axes, double position
 
 template <class Values, class Message, class Words>
 void walk_force(Values& v, Message& f, Words& words, std::size_t axes, double position_max) noexcept {
-  v.doubles(1, f.port.x, axes, -position_max, position_max);
-  v.doubles(2, f.port.v, axes, -kVelocityMax, kVelocityMax);
-  v.doubles(3, f.port.f, axes, -kEffortMax, kEffortMax);
+  v.doubles(1, f.port.x, axes, position_max);
+  v.doubles(2, f.port.v, axes, kVelocityMax);
+  v.doubles(3, f.port.f, axes, kEffortMax);
   v.energies(4, f.port.e_in, axes, kEnergyMax);
   v.word(5, words.session, static_cast<std::uint32_t>(SessionState::kEnding));
   v.word(6, words.engage, 1);
@@ -76,7 +76,7 @@ void walk_authority(Values& v, Message& a) noexcept {
   v.word(1, a.version);
   v.word(2, a.tool, kToolsMax - 1);
   v.word(3, a.masters, kMastersMax);
-  v.doubles(4, a.alpha, kMastersMax, 0, 1);
+  v.doubles(4, a.alpha, kMastersMax, 1);
 }
 
 static_assert(sizeof(Preamble) == kPreambleSize && std::is_trivially_copyable_v<Preamble>);
@@ -204,7 +204,7 @@ Decoded<AuthorityMessage> Codec::decode_authority(std::span<const std::byte> in)
     walk_authority(values, out);
     double sum = 0;
     for (std::size_t i = 0; i < kMastersMax; ++i) {
-      values.require(i < out.masters || out.alpha[i] == 0);
+      values.require(i < out.masters ? out.alpha[i] >= 0 : out.alpha[i] == 0);
       sum += out.alpha[i];
     }
     values.require(std::abs(sum - 1) <= 1e-9);

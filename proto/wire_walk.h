@@ -41,7 +41,7 @@ class ValueWriter : public Places<std::byte> {
   using Places::Places;
 
   template <std::size_t N>
-  void doubles(unsigned number, const std::array<double, N>& in, std::size_t count, double, double) noexcept {
+  void doubles(unsigned number, const std::array<double, N>& in, std::size_t count, double) noexcept {
     std::memcpy(array(number, 8 * count), in.data(), 8 * count);
   }
   template <std::size_t N>
@@ -70,17 +70,15 @@ class ValueReader : public Places<const std::byte> {
   using Places::Places;
 
   template <std::size_t N>
-  void doubles(unsigned number, std::array<double, N>& out, std::size_t count, double low, double high) noexcept {
+  void doubles(unsigned number, std::array<double, N>& out, std::size_t count, double limit) noexcept {
     std::memcpy(out.data(), array(number, 8 * count), 8 * count);
-    for (std::size_t i = 0; i < count; ++i) judge(out[i], low, high);
+    judge(out, count, limit);
   }
   template <std::size_t N>
   void floats(unsigned number, std::array<double, N>& out, std::size_t count, double limit) noexcept {
     const std::byte* from = array(number, 4 * count);
-    for (std::size_t i = 0; i < count; ++i, from += 4) {
-      out[i] = static_cast<double>(get<float>(from));
-      judge(out[i], -limit, limit);
-    }
+    for (std::size_t i = 0; i < count; ++i, from += 4) out[i] = static_cast<double>(get<float>(from));
+    judge(out, count, limit);
   }
   void energies(unsigned number, EnergyArray& out, std::size_t count, std::uint64_t limit) noexcept {
     std::memcpy(out.data(), array(number, 8 * count), 8 * count);
@@ -110,6 +108,15 @@ class ValueReader : public Places<const std::byte> {
     T value;
     std::memcpy(&value, from, sizeof value);
     return value;
+  }
+  template <std::size_t N>
+  void judge(const std::array<double, N>& values, std::size_t count, double limit) noexcept {
+    bool good = true;  // judged together: a branch for each costs more than the numbers
+    for (std::size_t i = 0; i < count; ++i) good &= std::abs(values[i]) <= limit;  // false for NaN
+    if (good) [[likely]]
+      return;
+    in_range_ = false;
+    for (std::size_t i = 0; i < count; ++i) finite_ = finite_ && std::isfinite(values[i]);
   }
   void judge(double value, double low, double high) noexcept {
     if (!(value >= low && value <= high)) [[unlikely]] {  // also true for NaN

@@ -170,7 +170,7 @@ void Session::step_following() noexcept {
         const double part = control::following_share(slave ? 1.0 : tools_[j].authority.alpha(i), c, g);
         absolute += c * tools_[j].x(a);
         moved += part * tools_[j].moved()[a];
-        velocity += part * tools_[j].velocity()[a];
+        velocity += part * tools_[j].v(a);
         gated |= !slave && tools_[j].sources.gates_velocity();
       }
       // Velocity gates act on a position target as increments; ungated, the target is absolute and cannot drift.
@@ -178,7 +178,7 @@ void Session::step_following() noexcept {
       following_[i][a] = absolute_[i][a] + offset_[i][a];
       following_v_[i][a] = gated || slave ? velocity : 0;
       if (!gated && !slave)
-        for (std::size_t j = 0; j < tools_.size(); ++j) following_v_[i][a] += scene_->follow[i][j] * tools_[j].velocity()[a];
+        for (std::size_t j = 0; j < tools_.size(); ++j) following_v_[i][a] += scene_->follow[i][j] * tools_[j].v(a);
       following_v_[i][a] += offset_step_[i][a] / dt_;
       if (!present_[i]) following_v_[i][a] = seats_[i].heard().port.v[a];  // its own motion: nothing pulls before it is engaged
     }

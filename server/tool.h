@@ -31,6 +31,7 @@ class Tool {
   [[nodiscard]] AxisArray position() const noexcept;
   [[nodiscard]] AxisArray velocity() const noexcept;
   [[nodiscard]] double x(std::size_t axis) const noexcept { return ipc_[axis].x; }
+  [[nodiscard]] double v(std::size_t axis) const noexcept { return ipc_[axis].v; }
   [[nodiscard]] const AxisArray& moved() const noexcept { return moved_; }          ///< during the last step
   [[nodiscard]] const AxisArray& dissipated() const noexcept { return dissipated_; }  ///< during the last step [J]
   [[nodiscard]] const hal::SteppedDevice* slave() const noexcept { return slave_.get(); }
