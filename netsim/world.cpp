@@ -231,7 +231,7 @@ void World::serve_server() {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     while (const auto d = network_.poll(now_, static_cast<std::uint32_t>(i), Direction::kUp, buffer_)) {
       const auto bytes = std::span{buffer_}.first(std::min(d->size, buffer_.size()));
-      watch_.server_heard(i, d->index);
+      if (is_of(wire::Type::kState, bytes)) watch_.server_heard(i, d->index);
       stations_[i].overheard(bytes);
       session_->on_datagram(now_, endpoint_of(i, d->address), bytes);
     }

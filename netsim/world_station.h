@@ -18,6 +18,12 @@
 
 namespace tandem::netsim {
 
+/// For oracles: only samples act in the order of their numbers, other messages whenever they come.
+[[nodiscard]] inline bool is_of(wire::Type type, std::span<const std::byte> datagram) noexcept {
+  const auto header = link::read_header(datagram);
+  return header && header->type == type;
+}
+
 /// A workstation of the virtual world: device, hand, the client's own core, and what goes wrong with them.
 class WorldStation {
  public:
