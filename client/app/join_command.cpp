@@ -156,7 +156,8 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       hardware +
       "                              (`tandem-client doctor` lists what is attached; several of a kind need port= or "
       "serial=)\n"
-      "Keys: the instructor moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
+      "Keys: s (or space) stops your hand, S everybody's (a pause, unless you are the instructor), r resumes; the instructor\n"
+      "moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
       "gate;\n"
       "q or Ctrl-C lets go gently and leaves.\n"
       "Exit: 0 session over or left (verdict pass); 1 refused, server not there, server or device lost (fail), or the session\n"

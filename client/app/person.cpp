@@ -30,12 +30,16 @@ std::string Person::help() const {
     text += keyboard_ ? " a/d less/more authority for you, 0/1 none/all;"
                       : " left/right less/more authority for you, 0/1 none/all;";
   if (keyboard_) text += " arrows move right/left and away/towards you, PgUp/PgDn up/down;";
-  return text + " b button that clears DAMPED; q leaves";
+  return text + " s stops your hand, S everybody's" + (setup_->seat.role == Role::kInstructor ? "" : " (pause)") +
+         ", r resumes; b button that clears DAMPED; q leaves";
 }
 
 bool Person::press(const std::string& key) {
   if (key == "q" || key == "Q" || key == "\x04") return true;
   if (key == "b") pump_->press_reset();
+  if (key == "s" || key == " ") pump_->stop();
+  if (key == "S") pump_->stop_all();
+  if (key == "r") pump_->resume();
   if (keyboard_) {
     if (key == "right") move_hand(0, kHandStep);
     if (key == "left") move_hand(0, -kHandStep);

@@ -8,7 +8,7 @@
 
 namespace tandem::client {
 
-/// Turns keys into wishes: authority (INSTRUCTOR), the button that clears a latched gate, a hand moved by arrow keys,
+/// Turns keys into wishes: stop and resume, authority (INSTRUCTOR), the button that clears a latched gate, a hand moved by arrow keys,
 /// leaving.
 class Person {
  public:

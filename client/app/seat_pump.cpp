@@ -84,6 +84,9 @@ void SeatPump::receive(Time now) noexcept {
 
 void SeatPump::obey_person() noexcept {
   if (reset_.exchange(false, std::memory_order_relaxed)) seat_->press_reset();
+  if (resume_.exchange(false, std::memory_order_relaxed)) seat_->press_resume();
+  if (stop_.exchange(false, std::memory_order_relaxed)) seat_->press_stop();  // after a resume: a stop wins
+  if (stop_all_.exchange(false, std::memory_order_relaxed)) static_cast<void>(seat_->press_stop_all());
   if (leave_.load(std::memory_order_relaxed)) seat_->leave();
   while (const control::Weights* wish = wishes_.front()) {
     seat_->request_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool), std::span{*wish}.first(masters_));

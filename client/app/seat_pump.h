@@ -42,6 +42,11 @@ class SeatPump final : public hal::ServoClient {
   // Of the person's thread.
   void press_reset() noexcept { reset_.store(true, std::memory_order_relaxed); }
   void leave() noexcept { leave_.store(true, std::memory_order_relaxed); }
+  /// The own hand is let go with the next servo tick, until `resume`.
+  void stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
+  /// Everybody's, as far as the role of this seat may.
+  void stop_all() noexcept { stop_all_.store(true, std::memory_order_relaxed); }
+  void resume() noexcept { resume_.store(true, std::memory_order_relaxed); }
   void request_authority(const control::Weights& alpha) noexcept { wishes_.push(alpha); }
   [[nodiscard]] ClientStatus status() const;
   /// Readable once the session is closed or the device is lost.
@@ -66,7 +71,7 @@ class SeatPump final : public hal::ServoClient {
   std::size_t next_change_ = 0;
   SampleQueue* samples_;
   io::SpscQueue<control::Weights> wishes_{64};
-  std::atomic<bool> reset_{false}, leave_{false}, lost_{false};
+  std::atomic<bool> reset_{false}, leave_{false}, lost_{false}, stop_{false}, stop_all_{false}, resume_{false};
   std::size_t masters_;
 
   static constexpr std::size_t kSendMax = 4;

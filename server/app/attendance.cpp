@@ -7,7 +7,7 @@ namespace tandem::server {
 Attendance::News Attendance::look(Time now, const SessionStatus& status, const SceneSpec& scene) {
   using State = wire::SessionState;
   News news;
-  const bool runs = status.state == State::kRunning || status.state == State::kHeld;
+  const bool runs = status.state != State::kWaiting && status.state != State::kEnding;
   std::size_t came = 0, lost = 0;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const SeatStatus& now_there = status.seats[i];
@@ -32,7 +32,9 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
   }
   if (state_ != status.state) {
     if (status.state == State::kRunning)
-      news.notes.push_back(state_ == State::kHeld ? "the session runs again" : "the session runs");
+      news.notes.push_back(state_ && state_ != State::kWaiting ? "the session runs again" : "the session runs");
+    if (status.state == State::kPaused) news.notes.push_back("PAUSED by somebody at a seat: all hands are let go; the instructor resumes (key r)");
+    if (status.state == State::kStopped) news.notes.push_back("STOPPED: all hands are let go; the instructor resumes (key r)");
     if (status.state == State::kHeld) news.notes.push_back("HELD: " + why_held(status, scene) + ", the tools are braked");
     state_ = status.state;
   }

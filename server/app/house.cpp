@@ -26,6 +26,10 @@ control::SessionPhase phase_of(wire::SessionState state) noexcept {
     case wire::SessionState::kRunning:
     case wire::SessionState::kHeld:
       return control::SessionPhase::kRunning;
+    case wire::SessionState::kPaused:
+      return control::SessionPhase::kPaused;
+    case wire::SessionState::kStopped:
+      return control::SessionPhase::kStopped;
     case wire::SessionState::kEnding:
       break;
   }
