@@ -79,9 +79,9 @@ std::expected<std::vector<std::unique_ptr<hal::SteppedDevice>>, std::string> Wor
       slaves.push_back(nullptr);
       continue;
     }
-    SimDeviceSpec spec = tool.slave;
-    if (from != nullptr) spec.start = {from->tools[j].slave[0], from->tools[j].slave[1], from->tools[j].slave[2]};
-    auto slave = hal::sim::SimDevice::make({spec, HandSpec{}, tool.environment, nullptr, now_});
+    hal::sim::SimSetup sim{tool.slave, HandSpec{}, tool.environment, nullptr, now_};
+    if (from != nullptr) sim.joints = from->tools[j].slave;
+    auto slave = hal::sim::SimDevice::make(sim);
     if (!slave) return std::unexpected("tool " + tool.name + ": " + slave.error().message);
     slaves.push_back(std::move(*slave));
   }
