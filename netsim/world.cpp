@@ -79,9 +79,9 @@ std::expected<std::vector<std::unique_ptr<hal::SteppedDevice>>, std::string> Wor
       slaves.push_back(nullptr);
       continue;
     }
-    SimDeviceSpec spec = tool.slave;
-    if (from != nullptr) spec.start = {from->tools[j].slave[0], from->tools[j].slave[1], from->tools[j].slave[2]};
-    auto slave = hal::sim::SimDevice::make({spec, HandSpec{}, tool.environment, nullptr, now_});
+    hal::sim::SimSetup sim{tool.slave, HandSpec{}, tool.environment, nullptr, now_};
+    if (from != nullptr) sim.joints = from->tools[j].slave;
+    auto slave = hal::sim::SimDevice::make(sim);
     if (!slave) return std::unexpected("tool " + tool.name + ": " + slave.error().message);
     slaves.push_back(std::move(*slave));
   }
@@ -231,7 +231,7 @@ void World::serve_server() {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     while (const auto d = network_.poll(now_, static_cast<std::uint32_t>(i), Direction::kUp, buffer_)) {
       const auto bytes = std::span{buffer_}.first(std::min(d->size, buffer_.size()));
-      if (is_of(wire::Type::kState, bytes)) watch_.server_heard(i, d->index);
+      watch_.server_heard(i, d->index);
       stations_[i].overheard(bytes);
       session_->on_datagram(now_, endpoint_of(i, d->address), bytes);
     }

@@ -98,10 +98,7 @@ std::string WorldStation::work(Time now, bool awake, server::Session* session, N
 void WorldStation::listen(Time now, Network& network, std::span<std::byte> buffer) {
   while (const auto d = network.poll(now, static_cast<std::uint32_t>(number_), Direction::kDown, buffer)) {
     const auto bytes = buffer.first(std::min(d->size, buffer.size()));
-    if (is_of(wire::Type::kForce, bytes) && (!newest_index_ || d->index > *newest_index_)) {  // what comes late acts no more, so it need not be told from a copy
-      newest_index_ = d->index;
-      ++heard_now_;
-    }
+    if (given_.first(d->index)) ++heard_now_;
     if (tamper_) tamper_->remember(Direction::kDown, bytes);
     hear(now, bytes);
   }

@@ -9,6 +9,7 @@
 
 #include "client/seat.h"
 #include "hal/sim/sim_device.h"
+#include "netsim/distinct.h"
 #include "netsim/endpoint_clock.h"
 #include "netsim/fault.h"
 #include "netsim/network.h"
@@ -17,12 +18,6 @@
 #include "proto/scene_spec.h"
 
 namespace tandem::netsim {
-
-/// For oracles: only samples act in the order of their numbers, other messages whenever they come.
-[[nodiscard]] inline bool is_of(wire::Type type, std::span<const std::byte> datagram) noexcept {
-  const auto header = link::read_header(datagram);
-  return header && header->type == type;
-}
 
 /// A workstation of the virtual world: device, hand, the client's own core, and what goes wrong with them.
 class WorldStation {
@@ -66,7 +61,7 @@ class WorldStation {
   /// When in the tick that ends at `now` its program will wake up; `now` if not at all. Before `step`, for the order of stations.
   [[nodiscard]] Time wakes_at(Time now) const noexcept;
 
-  /// For oracles, of the last step: datagrams newer than any before that the core was given; whether the core worked, and
+  /// For oracles, of the last step: datagrams that the core was given for the first time; whether the core worked, and
   /// was given a reading that cannot be. And how often its program was started.
   [[nodiscard]] std::uint64_t heard_now() const noexcept { return heard_now_; }
   [[nodiscard]] bool served_now() const noexcept { return served_now_; }
@@ -111,7 +106,7 @@ class WorldStation {
   std::uint64_t heard_now_ = 0;
   Time served_at_{};
   double worked_now_ = 0;
-  std::optional<std::uint64_t> newest_index_;
+  Distinct given_;
   Time ask_again_{};
   std::uint64_t asked_ = 0;
 };

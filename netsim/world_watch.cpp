@@ -56,9 +56,8 @@ bool WorldWatch::calm() noexcept {
 
 void WorldWatch::server_heard(std::size_t seat, std::uint64_t index) noexcept {
   Seat& s = seats_[seat];
-  if (s.newest && index <= *s.newest) return;
-  s.newest = index;
-  ++s.server_heard;
+  // Not "newer": what came first may act later than an answer to a challenge, or one too many, that was sent after it.
+  if (s.given_to_server.first(index)) ++s.server_heard;
 }
 
 void WorldWatch::note(std::string_view invariant, std::size_t seat, bool expected) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "netsim/distinct.h"
 #include "netsim/world_station.h"
 #include "server/session.h"
 #include "server/violations.h"
@@ -61,7 +62,7 @@ class WorldWatch {
     bool led = false, needed = false;  ///< had weight; has to be back before anybody is engaged again
     std::uint64_t accepted = 0, generation = 0, server_heard = 0;
     std::uint32_t session_tick = 0, seat_tick = 0;
-    std::optional<std::uint64_t> newest;  ///< of the datagrams the server was given
+    Distinct given_to_server;
     End client, server;
 
     /// The client's program was started once more: what was known of the one before is void.

@@ -25,7 +25,7 @@ struct Checkpoint {
   struct Tool {
     std::array<double, kMastersMax> alpha{};  ///< requested weights, by master; sum 1
     AxisArray x{};                            ///< port axes of the virtual mass [m] or [rad]
-    std::array<double, 3> slave{};            ///< tip of the slave the server steps [m]; zero for others
+    AxisArray slave{};                        ///< joints of the slave the server steps [rad] or [m]; zero for others
   };
   Hash scene{};                    ///< scene_hash of the scene it belongs to
   std::uint64_t epoch = 1;         ///< rises with each restart

@@ -84,7 +84,7 @@ Checkpoint Session::checkpoint() const noexcept {
     c.tools[j].alpha = tools_[j].authority.requested();
     c.tools[j].x = tools_[j].position();
     if (const hal::SteppedDevice* slave = tools_[j].slave())
-      for (std::size_t k = 0; k < 3; ++k) c.tools[j].slave[k] = slave->state().x[static_cast<Eigen::Index>(k)];
+      c.tools[j].slave = slave->state().q;
   }
   return c;
 }

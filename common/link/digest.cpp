@@ -1,7 +1,6 @@
 #include "common/link/digest.h"
 
 #include <openssl/evp.h>
-#include <openssl/sha.h>
 
 #include <array>
 #include <bit>
@@ -29,7 +28,8 @@ void Digest::add(std::string_view bytes) noexcept { EVP_DigestUpdate(context_->e
 
 std::array<std::byte, 32> sha256(std::span<const std::byte> bytes) noexcept {
   std::array<unsigned char, 32> hash{};
-  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), hash.data());
+  unsigned size = 0;
+  EVP_Digest(bytes.data(), bytes.size(), hash.data(), &size, EVP_sha256(), nullptr);
   return std::bit_cast<std::array<std::byte, 32>>(hash);
 }
 

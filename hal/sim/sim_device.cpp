@@ -11,6 +11,8 @@
 namespace tandem::hal::sim {
 namespace {
 
+/// Farther no joint of such a device goes [rad] or [m].
+constexpr double kJointMax = 100;
 /// Cut-off of the velocity estimate: one encoder count per tick (0.4 rad/s) must not shake what is computed from it.
 constexpr double kVelocityCutoff = 40.0;  // [Hz]
 /// Below this the estimate is zero: an endless decay would end in denormal numbers, which are slow for everybody.
@@ -64,7 +66,18 @@ Result<> check(const SimSetup& s) {
 
 Result<std::unique_ptr<SimDevice>> SimDevice::make(const SimSetup& setup) {
   if (auto ok = check(setup); !ok) return std::unexpected(ok.error());
-  const Vec3 start = to_vec3(setup.device.start);
+  Vec3 start = to_vec3(setup.device.start);
+  if (setup.joints) {  // a reading of such a device, perhaps a count beyond a stop: that gives way
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(std::abs((*setup.joints)[i]) <= kJointMax)) return std::unexpected(limit("simulated device: no device of this kind has such joints"));
+    const Vec3 q{(*setup.joints)[0], (*setup.joints)[1], (*setup.joints)[2]};
+    if (setup.device.model == DeviceModel::kLinear) {
+      start[0] = q[0];
+    } else {
+      return std::unique_ptr<SimDevice>(
+          new SimDevice(setup, Plant(std::in_place_type<TouchPlant>, setup.device, setup.environment, q), start));
+    }
+  }
   if (setup.device.model == DeviceModel::kLinear) {
     return std::unique_ptr<SimDevice>(
         new SimDevice(setup, Plant(std::in_place_type<LinearPlant>, setup.device, setup.environment, start), start));

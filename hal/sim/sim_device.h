@@ -38,6 +38,8 @@ struct SimSetup {
   EnvironmentSpec environment;                   ///< slaves touch something
   std::shared_ptr<const RecordedMotion> motion;  ///< HandModel::kRecorded
   Time start{};                                  ///< `State::sampled_at` of the first reading
+  /// Begins where a reading once was (State::q), instead of at the tip position of `device.start`.
+  std::optional<AxisArray> joints = {};
 };
 
 /// A simulated device, Touch or one axis (design notes, control 8), with a hand or an environment at its tip. State is what a host

@@ -71,7 +71,7 @@ TEST(Checkpoint, TheLargestFitsFourKibibytes) {
   c.seats_n = kSeatsMax;
   c.dof = kAxesMax;
   const auto bytes = bytes_of(c);
-  EXPECT_EQ(bytes.size(), 4 + 32 + 8 + 3 * 4 + 6 + kSeatsMax * 33 + kToolsMax * 8 * (kMastersMax + kAxesMax + 3) + 32);
+  EXPECT_EQ(bytes.size(), 4 + 32 + 8 + 3 * 4 + 6 + kSeatsMax * 33 + kToolsMax * 8 * (kMastersMax + kAxesMax + kAxesMax) + 32);
   EXPECT_LE(bytes.size(), kCheckpointMax);
   std::vector<std::byte> less(bytes.size() - 1);
   EXPECT_EQ(encode_checkpoint(c, less), 0u);

@@ -119,6 +119,7 @@ TEST(FailureTable, ALostHolderLeavesNothingToAWatcher) {
   life.until(4s);
   const Duration held = life.time_to([&] { return life.world->session().tool(0).authority.held(); }, 500ms);
   EXPECT_LE(held, 222ms);
+  life.step();
   EXPECT_EQ(life.state(), wire::SessionState::kHeld);
   while (life.at() < 4900ms) {
     life.step();
