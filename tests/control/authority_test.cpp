@@ -64,7 +64,7 @@ TEST(Authority, SumsToOneOrNobodyHoldsIt) {
         ASSERT_GE(row.alpha(i), 0);
         ASSERT_LE(row.alpha(i), 1 + 1e-12);
         if (!held && !row.held() && std::isfinite(slew)) {
-          ASSERT_LE(std::abs(row.alpha(i) - before[i]), std::max(slew, 5.0) * in.dt + 1e-12) << tick;
+          ASSERT_LE(std::abs(row.alpha(i) - before[i]), std::max(slew, 10.0) * in.dt + 1e-12) << tick;
         }
       }
       ASSERT_EQ(row.held(), !anybody);
