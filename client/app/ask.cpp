@@ -87,6 +87,8 @@ class Joining {
     if (fault.kind == Fault::Kind::kStream && fault.end == trust::StreamEnd::kDeadline)
       return {false, "no answer from " + server + " within " + waited(asking_.patience) +
                          ": is a tandem-server listening there, of this version, and is the network (or tandem-netsim proxy) between up?"};
+    if (fault.kind == Fault::Kind::kStream && fault.end == trust::StreamEnd::kClosed)
+      return {false, fault.text + ", again and again for " + waited(asking_.patience) + ": too many try to join from this address, or what listens at " + server + " is no tandem-server"};
     return {false, fault.text};
   }
 
@@ -109,7 +111,10 @@ class Joining {
         client_.emplace(std::move(*client));
         return {};
       }
-      const bool later = client.error().kind == Fault::Kind::kUnreachable && io::monotonic_now() + std::chrono::milliseconds(kAgainMs) < until;
+      // Not there yet, or too busy to let more people in: it closed the door on a stranger without a word.
+      const Fault& fault = client.error();
+      const bool busy = fault.kind == Fault::Kind::kStream && (fault.end == trust::StreamEnd::kClosed || fault.end == trust::StreamEnd::kHandshake);
+      const bool later = (busy || fault.kind == Fault::Kind::kUnreachable) && io::monotonic_now() + std::chrono::milliseconds(kAgainMs) < until;
       if (!later) return std::unexpected(not_seated(client.error()));
       pollfd signals{asking_.signals, POLLIN, 0};
       if (poll(&signals, 1, kAgainMs) > 0) return std::unexpected(interrupted());

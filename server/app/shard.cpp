@@ -113,13 +113,14 @@ void Shard::receive() noexcept {
   for (Time now = began; now - began < kReadingMax; now = io::monotonic_now()) {
     const int count = in_.receive(socket_.fd.get());
     const Duration wall = io::read_clock(CLOCK_REALTIME);
+    const Time read = io::monotonic_now();  // the same moment on our clock
     for (int k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const auto header = in_.too_long(i) ? std::nullopt : link::read_header(in_.bytes(i));
       const std::size_t slot = header ? slot_of(header->cid) : kSessionsMax;
       if (slot < kSessionsMax && sessions_[slot] != nullptr) {
         // What was not there at the last reading came later, whatever somebody does to the wall clock.
-        const Time came = std::max(now - in_.details(i, wall).age, read_until_);
+        const Time came = std::max(read - in_.details(i, wall).age, read_until_);
         sessions_[slot]->session().on_datagram(came, endpoint_of(in_.from(i)), in_.bytes(i));
       } else {
         ++strays;
