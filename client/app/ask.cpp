@@ -94,10 +94,15 @@ class Joining {
 
   std::expected<void, NotSeated> choose_keys() {
     const auto path = trust::client_state_path(asking_.state);
-    if (!path) return fail("--state: " + path.error());
-    auto own = trust::ClientTrust::open(*path);
-    if (!own) return fail(own.error());
-    keys_.emplace(io::to_text(asking_.server), std::move(*own), trust::runtime_path());
+    std::optional<trust::ClientTrust> enrolled;  // without a home there is no folder: then only what this computer's server laid down
+    if (path) {
+      auto own = trust::ClientTrust::open(*path);
+      if (!own) return fail(own.error());
+      enrolled = std::move(*own);
+    } else if (!asking_.state.empty()) {
+      return fail("--state: " + path.error());
+    }
+    keys_.emplace(io::to_text(asking_.server), std::move(enrolled), trust::runtime_path());
     return {};
   }
 
