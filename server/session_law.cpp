@@ -6,6 +6,10 @@
 /// What a tick does to springs and tools (design notes, control 4), in the order of the functions.
 namespace tandem::server {
 
+namespace {
+constexpr double kUpToSpeed = 0.3;  // [s] from rest to the approach speed
+}
+
 bool Session::slave_present(std::size_t j) const noexcept {
   return !scene_->tools[j].remote || present_[scene_->tools[j].seat];
 }
@@ -73,10 +77,10 @@ void Session::move_references(Time now) noexcept {
 
 /// Hand and tool need not be at one place when a seat engages, or engages again after an outage: both springs begin without
 /// elongation about this offset, which stays until the gate has ramped in: a hand that holds still is pulled nowhere by a spring that
-/// only grows. Then it goes home at the approach speed.
+/// only grows. Then it goes home, getting up to the approach speed by and by: at once at that speed the force would begin with 40 N/s.
 void Session::step_offset(std::size_t i, bool engaged) noexcept {
   engaged_for_[i] = engaged ? engaged_for_[i] + 1 : 0;
-  const bool rests = engaged_for_[i] * dt_ < scene_->gate.ramp_in;
+  const double pace = std::clamp((engaged_for_[i] * dt_ - scene_->gate.ramp_in) / kUpToSpeed, 0.0, 1.0);
   for (std::size_t a = 0; a < scene_->dof; ++a) {
     double& o = offset_[i][a];
     offset_step_[i][a] = 0;
@@ -84,7 +88,7 @@ void Session::step_offset(std::size_t i, bool engaged) noexcept {
       o = seats_[i].alive_once() ? seats_[i].heard().port.x[a] - absolute_[i][a] : 0;
       continue;
     }
-    const double step = rests ? 0 : scene_->channel.v_app / std::sqrt(scale_[a]) * dt_;
+    const double step = pace * scene_->channel.v_app / std::sqrt(scale_[a]) * dt_;
     offset_step_[i][a] = -std::clamp(o, -step, step);
     o += offset_step_[i][a];
   }
