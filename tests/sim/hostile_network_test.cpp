@@ -25,10 +25,17 @@ struct Held {
   double pressed_n = 0;           ///< when the attack began
 };
 
+/// The trainer presses the tool against the block. When the attack begins he stops pressing and goes along with the device: the
+/// worst moment, since nothing but the gate keeps the spring from pushing his hand away.
 SceneSpec in_contact() {
   SceneSpec scene = test::shipped("contact");
   scene.duration = 20;
   scene.phases.clear();
+  auto made = netsim::World::make({.scene = scene});
+  netsim::World& rehearsal = **made;
+  while (rehearsal.now() < Time{} + kAttack && rehearsal.step()) {
+  }
+  scene.seats[kTrainer].hand.until = rehearsal.session().time();
   return scene;
 }
 
