@@ -48,6 +48,7 @@ using Lie = std::function<std::vector<Bytes>(Liar&, const Bytes& honest, int ms)
 
 struct Felt {
   double worst_n = 0;       ///< largest difference between the trainer's force here and in the twin [N]
+  double strongest_n = 0;   ///< trainer's force: without any there would be nothing to compare [N]
   std::uint32_t trips = 0;  ///< of the trainer's gate
   std::uint64_t refused = 0;
   double alpha = 0;         ///< the liar's, in the end
@@ -71,16 +72,18 @@ Felt felt(const Lie& lie, int milliseconds = 500) {
     }
     const hal::Vec3 difference = rig.seats[kTrainer].device->state().f_out - twin.seats[kTrainer].device->state().f_out;
     out.worst_n = std::max(out.worst_n, difference.norm());
+    out.strongest_n = std::max(out.strongest_n, twin.seats[kTrainer].device->state().f_out.norm());
   }
   out.trips = rig.seats[kTrainer].core->gate().trips();
   out.refused = rig.refused(link::Refusal::kBody, kTrainee);
   out.alpha = rig.session->tool(0).authority.alpha(kTrainee);
-  std::printf("[ hostile  ] the other hand's force differs by at most %.4f N; %llu refused\n", out.worst_n, static_cast<unsigned long long>(out.refused));
+  std::printf("[ hostile  ] the other hand's force of up to %.2f N differs by at most %.4f N; %llu refused\n", out.strongest_n, out.worst_n, static_cast<unsigned long long>(out.refused));
   return out;
 }
 
 void expect_only_he_is_isolated(const Felt& f) {
   EXPECT_LE(f.worst_n, 0.2);
+  EXPECT_GT(f.strongest_n, 0.01);
   EXPECT_EQ(f.trips, 0U);
   EXPECT_EQ(f.alpha, 0);
 }
@@ -95,7 +98,7 @@ TEST(Insider, NumbersThatCannotBeMeantAreSilence) {
       const Felt f = felt([&](Liar& liar, const Bytes& honest, int ms) {
         auto [preamble, m] = liar.read(honest);
         (field == 0 ? m.port.x : field == 1 ? m.port.v : m.port.f)[static_cast<std::size_t>(ms) % 3] = value;
-        return std::vector{liar.say(link::read_header(honest)->counter, wire::Type::kState, preamble, m)};
+        return std::vector<Bytes>{liar.say(link::read_header(honest)->counter, wire::Type::kState, preamble, m)};
       });
       expect_only_he_is_isolated(f);
       EXPECT_LE(f.worst_n, 1e-9) << "exactly as if he were silent";
@@ -107,7 +110,7 @@ TEST(Insider, NumbersThatCannotBeMeantAreSilence) {
 TEST(Insider, WrongLengthsAreSilence) {
   const Felt f = felt([](Liar& liar, const Bytes& honest, int ms) {
     const auto [preamble, m] = liar.read(honest);
-    return std::vector{liar.say(link::read_header(honest)->counter, wire::Type::kState, preamble, m, 1 + static_cast<std::size_t>(ms) % 40)};
+    return std::vector<Bytes>{liar.say(link::read_header(honest)->counter, wire::Type::kState, preamble, m, 1 + static_cast<std::size_t>(ms) % 40)};
   });
   expect_only_he_is_isolated(f);
   EXPECT_LE(f.worst_n, 1e-9);
@@ -122,7 +125,7 @@ TEST(Insider, WordsThatAreNotHisAreNotHeard) {
     all_to_me.masters = 2;
     all_to_me.alpha = {0, 1};
     const std::uint64_t counter = 1'000'000 + 4 * static_cast<std::uint64_t>(ms);
-    return std::vector{liar.say(counter, wire::Type::kAuthority, preamble, all_to_me), liar.say(counter + 1, wire::Type::kForce, preamble, wire::ForceMessage{}),
+    return std::vector<Bytes>{liar.say(counter, wire::Type::kAuthority, preamble, all_to_me), liar.say(counter + 1, wire::Type::kForce, preamble, wire::ForceMessage{}),
                        liar.say(counter + 2, wire::Type::kPathChallenge, preamble, wire::PathMessage{1}),
                        liar.say(counter + 3, wire::Type::kPathResponse, preamble, wire::PathMessage{1})};
   });
