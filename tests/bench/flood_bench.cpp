@@ -84,7 +84,7 @@ Outcome echo(Duration length, bool flooded) {
       return now - newest;
     });
   });
-  std::this_thread::sleep_for(50ms);
+  UdpLoad::pause_until((io::monotonic_now() + 50ms).time_since_epoch());
   for (std::array<std::byte, 64> bytes; ::recv(client->fd.get(), bytes.data(), bytes.size(), MSG_DONTWAIT) > 0;) ++back;
   stop.store(true);
   server.join();
