@@ -7,6 +7,7 @@
 #include "client/app/link_test_command.h"
 #include "client/app/weigh_command.h"
 #include "common/io/log.h"
+#include "common/io/private_memory.h"
 #include "common/io/program.h"
 
 #ifndef TANDEM_VERSION
@@ -14,6 +15,7 @@
 #endif
 
 int main(int argc, char** argv) {
+  tandem::io::keep_memory_private();
   CLI::App app{
       "tandem-client attaches a haptic device to a session of tandem-server: your hand and the hands of others hold "
       "the same\n"

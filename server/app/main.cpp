@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "common/io/log.h"
+#include "common/io/private_memory.h"
 #include "common/io/program.h"
 #include "server/app/run_command.h"
 #include "server/app/trust_commands.h"
@@ -11,6 +12,7 @@
 #endif
 
 int main(int argc, char** argv) {
+  tandem::io::keep_memory_private();
   CLI::App app{
       "tandem-server hosts sessions in which several people hold the same tool over a network. It couples all hands to "
       "the\n"

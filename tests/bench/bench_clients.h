@@ -49,6 +49,7 @@ class BareClient {
     }
     return link_.seal(now, wire::Type::kState, buffer, codec_.encode(link_.preamble(now, tick), state_, body));
   }
+  [[nodiscard]] const link::Link& link() const { return link_; }
   [[nodiscard]] bool settled() const { return settled_; }
   [[nodiscard]] bool answers() const { return answer_.has_value(); }
   [[nodiscard]] std::uint64_t forces() const { return forces_; }

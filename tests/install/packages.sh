@@ -34,6 +34,13 @@ TANDEM_PACKAGES_FULL=(
   "valgrind: counts instructions in benchmarks"
 )
 
+# What ./test --fuzz needs.
+# shellcheck disable=SC2034
+TANDEM_PACKAGES_FUZZ=(
+  "clang-19: compiles the fuzz targets"
+  "libclang-rt-19-dev: libFuzzer and sanitizers of that compiler"
+)
+
 # What ./test --vm needs: a virtual machine and what its small system is made of.
 # shellcheck disable=SC2034
 TANDEM_PACKAGES_VM=(

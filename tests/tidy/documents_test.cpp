@@ -54,6 +54,15 @@ TEST(Readme, EveryCommandFileAndTestItNamesExists) {
   }
 }
 
+TEST(Security, EveryClaimNamesATestThatExists) {
+  const auto files = read_repository(kRoot);
+  const SourceFile* document = find_document(files, "SECURITY.md");
+  ASSERT_NE(document, nullptr);
+  const Known known = known_things(files);
+  EXPECT_TRUE(check_rows(*document, known).empty()) << to_string(check_rows(*document, known));
+  EXPECT_TRUE(check_references(*document, known, kRoot).empty()) << to_string(check_references(*document, known, kRoot));
+}
+
 TEST(NetsimManual, EveryCommandFileAndTestItNamesExists) {
   const auto files = read_repository(kRoot);
   if (const SourceFile* document = find_document(files, "netsim/README.md")) {

@@ -328,6 +328,7 @@ std::vector<Finding> check_top_level(const std::filesystem::path& root) {
                               "README.md",
                               "ARCHITECTURE.md",
                               "LICENSE",
+                              "SECURITY.md",
                               "demo",
                               "test",
                               "server",

@@ -1,0 +1,22 @@
+#include "common/io/private_memory.h"
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+namespace tandem::io {
+
+bool forbid_dumps() noexcept {
+  const rlimit none{0, 0};
+  const bool no_core = setrlimit(RLIMIT_CORE, &none) == 0;
+  return prctl(PR_SET_DUMPABLE, 0UL, 0UL, 0UL, 0UL) == 0 && no_core;
+}
+
+bool keep_memory_private() noexcept {
+#ifdef TANDEM_DEBUG
+  return false;
+#else
+  return forbid_dumps();
+#endif
+}
+
+}  // namespace tandem::io

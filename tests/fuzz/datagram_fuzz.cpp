@@ -1,0 +1,77 @@
+// Datagrams at both ends of a connection: first as a stranger sends them, then as if the tag had been right, since whoever holds a key may
+// say anything. Whatever is taken is finite and in range, and is written by the very bytes it was read from.
+#include <cmath>
+
+#include "common/link/link.h"
+#include "proto/wire_codec.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace tandem;
+
+link::Link::Params end_of(link::Direction outgoing) {
+  link::Link::Params p;
+  p.outgoing = outgoing;
+  p.own_cid = outgoing == link::Direction::kToServer ? 11 : 22;
+  p.peer_cid = 33 - p.own_cid;
+  p.secrets.cipher = link::Cipher::kChaCha20Poly1305;
+  return p;
+}
+
+void expect_sound(const PortSample& p, std::size_t axes, double position_max) {
+  for (std::size_t a = 0; a < axes; ++a) {
+    FUZZ_EXPECT(std::abs(p.x[a]) <= position_max);
+    FUZZ_EXPECT(std::abs(p.v[a]) <= wire::kVelocityMax);
+    FUZZ_EXPECT(std::abs(p.f[a]) <= wire::kEffortMax);
+    FUZZ_EXPECT(p.e_in[a] <= wire::kEnergyMax);
+  }
+}
+
+template <class Message>
+void expect_same(wire::Codec& codec, const wire::Decoded<Message>& decoded, std::span<const std::byte> in) {
+  std::array<std::byte, wire::kPlaintextMax> out;
+  const std::size_t size = codec.encode(decoded->preamble, decoded->message, out);
+  FUZZ_EXPECT(size == in.size());
+}
+
+void as_insider(std::span<const std::byte> plain) {
+  for (const std::size_t axes : {1, 3, 7})
+    for (const PortSpace port : {PortSpace::kTip, PortSpace::kJoint}) {
+      wire::Codec codec{axes, port};
+      const double position_max = port == PortSpace::kTip ? wire::kPositionMaxM : wire::kPositionMaxRad;
+      if (const auto m = codec.decode_state(plain)) {
+        expect_sound(m->message.port, axes, position_max);
+        expect_same(codec, m, plain);
+      }
+      if (const auto m = codec.decode_force(plain)) {
+        expect_sound(m->message.port, axes, position_max);
+        expect_same(codec, m, plain);
+      }
+      if (const auto m = codec.decode_authority(plain)) expect_same(codec, m, plain);
+      if (const auto m = codec.decode_path(plain)) expect_same(codec, m, plain);
+      if (const auto m = codec.decode_close(plain)) expect_same(codec, m, plain);
+      if (const auto m = codec.decode_ping(plain)) expect_same(codec, m, plain);
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto in = fuzz::bytes(data, size);
+  static link::Link client{end_of(link::Direction::kToServer)}, server{end_of(link::Direction::kToClient)};
+  const Time now{std::chrono::hours(1)};
+  FUZZ_EXPECT(!client.open(now, in));
+  FUZZ_EXPECT(!server.open(now, in));
+  as_insider(in);
+
+  if (size == 0 || size > wire::kPlaintextMax) return 0;
+  link::Link sender{end_of(link::Direction::kToServer)}, receiver{end_of(link::Direction::kToClient)};
+  std::array<std::byte, link::kDatagramMax> datagram{};
+  std::ranges::copy(in, datagram.begin() + link::kHeaderSize);
+  const std::size_t sealed = sender.seal(now, wire::Type::kState, datagram, size);
+  FUZZ_EXPECT(sealed == size + link::kHeaderSize + link::kTagSize);
+  const auto opened = receiver.open(now, std::span{datagram}.first(sealed));
+  FUZZ_EXPECT(opened && std::ranges::equal(opened->plaintext, in));
+  return 0;
+}

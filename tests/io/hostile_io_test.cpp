@@ -1,0 +1,313 @@
+// Strangers and insiders against real programs on loopback (design notes, security 1.8). What happened is asserted, times are printed.
+#include <gtest/gtest.h>
+#include <netinet/tcp.h>
+#include <openssl/ssl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <limits>
+#include <thread>
+
+#include "client/app/ask.h"
+#include "client/seat.h"
+#include "common/io/private_memory.h"
+#include "common/trust/io/client_trust.h"
+#include "common/trust/io/state_folder.h"
+#include "hal/sim/sim_device.h"
+#include "proto/control_codec.h"
+#include "proto/scene_text.h"
+#include "proto/scenes_embedded.h"
+#include "proto/wire_codec.h"
+#include "tests/base/counts.h"
+#include "tests/io/junk.h"
+#include "tests/io/programs.h"
+
+namespace tandem::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+io::SocketAddress udp_of(const Process& host) { return *io::parse_address(address_of(host), 1); }
+
+// "Flood 50 kpps junk for 10 s on loopback: valid loss 0 %, 0 bytes sent back." How late a tick may be is printed by flood_bench.
+TEST(HostileLive, AFloodOfJunkCostsTheSessionNothingAndGetsNothingBack) {
+  const Folder folder;
+  const std::size_t duration = draws(2, 10, 10);
+  Process host = hosting("one_axis", {"--duration", std::to_string(duration + 2), "--json", folder.file("s.json")});
+  Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json")});
+  ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
+  const JunkOutcome junk = send_junk(udp_of(host), std::chrono::seconds(duration), 50);
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_EQ(junk.sent, 50'000 * duration);
+  EXPECT_EQ(junk.replies, 0U);
+  const Json report = folder.json("s.json");
+  ASSERT_FALSE(report.is_discarded());
+  const Json& seat = report["seats"][0];
+  std::printf("[ hostile  ] %zu s of 50 kpps: loss up %s %%, down %s %%, rtt p99 %s ms, late ticks %s\n", duration, seat["link"]["up"]["loss_percent"].dump().c_str(),
+              seat["link"]["down"]["loss_percent"].dump().c_str(), seat["link"]["rtt_p99_ms"].dump().c_str(), report["machine"]["late_ticks"].dump().c_str());
+  EXPECT_EQ(seat["link"]["up"]["loss_percent"].get<double>(), 0);
+  EXPECT_EQ(seat["link"]["down"]["loss_percent"].get<double>(), 0);
+  EXPECT_EQ(report["violations"], Json::array());
+}
+
+/// A workstation that joins from an address of its choice on this machine, blocking, one connection at a time.
+class Joiner {
+ public:
+  Joiner(const io::SocketAddress& to, const trust::LocalKeys& keys) : to_(to), keys_(keys), context_(SSL_CTX_new(TLS_client_method())) {
+    SSL_CTX_set_min_proto_version(context_, TLS1_3_VERSION);
+    SSL_CTX_use_certificate(context_, keys_.workstation.certificate.handle());
+    SSL_CTX_use_PrivateKey(context_, keys_.workstation.key.handle());
+  }
+  ~Joiner() { SSL_CTX_free(context_); }
+  Joiner(const Joiner&) = delete;
+  Joiner& operator=(const Joiner&) = delete;
+
+  /// @return whether it was welcomed; else `why` says what happened
+  bool join(unsigned last_byte, std::uint32_t number) {
+    io::Fd fd{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    const timeval patience{30, 0};
+    setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    const int at_once = 1;  // else the Hello waits for an acknowledgement of the handshake's end, 40 ms
+    setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
+    const auto from = *io::parse_address("127.0.0." + std::to_string(last_byte) + ":0", 0);
+    if (::bind(fd.get(), from.get(), from.size) != 0 || ::connect(fd.get(), to_.get(), to_.size) != 0) return failed("no connection");
+    const std::unique_ptr<SSL, void (*)(SSL*)> tls{SSL_new(context_), SSL_free};
+    const unsigned char alpn[] = "\x08tandem/1";
+    SSL_set_alpn_protos(tls.get(), alpn, sizeof alpn - 1);
+    SSL_set_fd(tls.get(), fd.get());
+    if (SSL_connect(tls.get()) != 1) return failed("no handshake");
+    control::Hello hello;
+    hello.visit = true;
+    hello.client_cid = number | 1;
+    const auto frame = control::encode({1, hello});
+    if (!frame || SSL_write(tls.get(), frame->bytes().data(), static_cast<int>(frame->bytes().size())) <= 0) return failed("not sent");
+    std::array<std::byte, control::kLengthSize> head;
+    if (!read(tls.get(), head)) return failed("no answer");
+    const auto length = control::frame_length(head);
+    if (!length) return failed("no frame");
+    std::vector<std::byte> body(*length);
+    if (!read(tls.get(), body)) return failed("half an answer");
+    const auto answer = control::decode(body);
+    if (!answer || !std::holds_alternative<control::Welcome>(answer->body)) return failed("not welcomed");
+    SSL_shutdown(tls.get());
+    return true;
+  }
+  std::string why;
+
+ private:
+  bool failed(const char* what) {
+    why = what;
+    return false;
+  }
+  static bool read(SSL* tls, std::span<std::byte> into) {
+    for (std::size_t got = 0; got < into.size();) {
+      const int n = SSL_read(tls, into.data() + got, static_cast<int>(into.size() - got));
+      if (n <= 0) return false;
+      got += static_cast<std::size_t>(n);
+    }
+    return true;
+  }
+  io::SocketAddress to_;
+  const trust::LocalKeys& keys_;
+  SSL_CTX* context_;
+};
+
+/// Of the only server of this user that laid its keys down: the certificate that the handshake shows names its file.
+std::optional<trust::LocalKeys> keys_of(const io::SocketAddress& server) {
+  std::optional<trust::LocalKeys> keys;
+  SSL_CTX* const context = SSL_CTX_new(TLS_client_method());
+  io::Fd fd{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+  if (::connect(fd.get(), server.get(), server.size) == 0) {
+    SSL* const tls = SSL_new(context);
+    const unsigned char alpn[] = "\x08tandem/1";
+    SSL_set_alpn_protos(tls, alpn, sizeof alpn - 1);
+    SSL_set_fd(tls, fd.get());
+    SSL_connect(tls);
+    X509* const certificate = SSL_get1_peer_certificate(tls);
+    if (certificate != nullptr)
+      if (const auto pin = trust::pin_of(certificate))
+        if (auto found = trust::find_local(trust::runtime_path(), *pin); found && *found) keys.emplace(std::move(**found));
+    X509_free(certificate);
+    SSL_free(tls);
+  }
+  SSL_CTX_free(context);
+  return keys;
+}
+
+// "1000 joins from 127.0.0.2-127.0.0.101: all in; running sessions' ledgers and gates undisturbed." Each is a whole TLS handshake with
+// both keys, a Hello and a Welcome; who comes only visits, as no session has a thousand seats.
+TEST(HostileLive, AStormOfJoinsLetsEverybodyInAndDisturbsNoHand) {
+  const Folder folder;
+  const unsigned joins = static_cast<unsigned>(draws(100, 1000, 1000));
+  Process host = hosting("one_axis", {"--duration", "600", "--json", folder.file("s.json")});
+  Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json")});
+  ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
+  const auto keys = keys_of(udp_of(host));
+  ASSERT_TRUE(keys);
+  Joiner joiner{udp_of(host), *keys};
+  const Time begin = io::monotonic_now();
+  unsigned in = 0;
+  for (unsigned i = 0; i < joins; ++i) {
+    in += joiner.join(2 + i % 100, i * 2) ? 1U : 0U;
+    ASSERT_EQ(in, i + 1) << joiner.why;
+  }
+  std::printf("[ hostile  ] %u joins from 100 addresses in %.2f s\n", in, seconds(io::monotonic_now() - begin));
+  host.signal(SIGINT);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  const Json report = folder.json("s.json");
+  ASSERT_FALSE(report.is_discarded());
+  EXPECT_EQ(report["violations"], Json::array());
+  EXPECT_EQ(report["seats"][0]["gate_trips"], 0);
+  std::printf("[ hostile  ] the running session meanwhile: rtt p99 %s ms, late ticks %s, loss up %s %%\n", report["seats"][0]["link"]["rtt_p99_ms"].dump().c_str(),
+              report["machine"]["late_ticks"].dump().c_str(), report["seats"][0]["link"]["up"]["loss_percent"].dump().c_str());
+}
+
+/// Somebody who joined as everybody does, and then says what he likes under his own keys.
+class Insider {
+ public:
+  Insider(const io::SocketAddress& server, const std::string& scene, const std::string& seat) {
+    const SceneSpec spec = *parse_scene(find_shipped_scene(scene)->text, scene);
+    const auto& own = *std::ranges::find(spec.seats, seat, &SeatSpec::name);
+    device_ = std::move(*hal::sim::SimDevice::make({own.device, own.hand, {}, nullptr, io::monotonic_now()}));
+    client::Asking asking;
+    asking.server = server;
+    asking.seat = seat;
+    asking.caps = device_->caps();
+    asking.patience = 20s;
+    auto given = client::ask_for_seat(asking);
+    if (!given) {
+      ADD_FAILURE() << given.error().reason;
+      return;
+    }
+    core_.emplace(given->setup, device_->caps(), given->link);
+    link_ = given->link;
+    codec_.configure(given->setup.dof, given->setup.port);
+    socket_ = std::move(*io::connect_udp(given->udp));
+  }
+  /// As an honest client: a millisecond.
+  void tick(bool speaks = true) {
+    const Time now = io::monotonic_now();
+    std::array<std::byte, 1500> buffer;
+    for (ssize_t n; (n = ::recv(socket_.fd.get(), buffer.data(), buffer.size(), MSG_DONTWAIT)) > 0;)
+      core_->on_datagram(now, std::span{buffer}.first(static_cast<std::size_t>(n)));
+    static_cast<void>(core_->on_servo(now, device_->state()));
+    while (const auto size = core_->poll_transmit(now, buffer))
+      if (speaks) ::send(socket_.fd.get(), buffer.data(), *size, 0);
+  }
+  [[nodiscard]] bool runs() const { return core_->force().session == wire::SessionState::kRunning; }
+
+  /// Sends a message of his own making, sealed as the server wants it; `cut` bytes short.
+  template <class Message>
+  void say(wire::Type type, const Message& message, std::size_t cut = 0) {
+    std::array<std::byte, link::kDatagramMax> datagram;
+    const std::size_t plain = codec_.encode({0, 0, 0}, message, std::span{datagram}.subspan(link::kHeaderSize)) - cut;
+    const auto all = std::span{datagram}.first(link::kHeaderSize + plain + link::kTagSize);
+    link::write_header({type, 0, link_.peer_cid, counter_}, all.first<link::kHeaderSize>());
+    link::Seal seal{link::key_of(link_.secrets.to_server, link_.secrets.cipher)};
+    if (seal.seal(counter_++, all)) ::send(socket_.fd.get(), all.data(), all.size(), 0);
+  }
+  [[nodiscard]] wire::StateMessage honest() const { return core_->sample(); }
+
+ private:
+  std::unique_ptr<hal::sim::SimDevice> device_;
+  std::optional<client::Seat> core_;
+  link::Link::Params link_;
+  wire::Codec codec_;
+  io::UdpSocket socket_;
+  std::uint64_t counter_ = 1'000'000;  // newer than all that the honest core sends
+};
+
+// "Hostile authenticated client: NaN, 1e308, 100 m jumps, 10 kHz, wrong lengths, instructor messages from a trainee: only he is isolated."
+// What the other hand feels is measured in virtual time (Insider.*).
+TEST(HostileLive, AnInsiderWhoLiesIsIsolatedAndNobodyElse) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--duration", "8", "--json", folder.file("s.json")});
+  Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json")});
+  Insider insider{udp_of(host), "free_motion", "trainee"};
+  if (HasFailure()) return;
+  const Time patience = io::monotonic_now() + 20s;
+  while (!insider.runs() && io::monotonic_now() < patience) {
+    insider.tick();
+    std::this_thread::sleep_for(1ms);
+  }
+  ASSERT_TRUE(insider.runs()) << host.err();
+  const double wrong[] = {std::numeric_limits<double>::quiet_NaN(), 1e308, std::numeric_limits<double>::infinity(), 100, -100};
+  const int milliseconds = static_cast<int>(draws(1500, 4000, 4000));
+  for (int ms = 0; ms < milliseconds; ++ms) {
+    insider.tick(false);
+    for (int k = 0; k < 10; ++k) {  // 10 kHz
+      wire::StateMessage m = insider.honest();
+      switch ((ms + k) % 4) {
+        case 0: m.port.x[static_cast<std::size_t>(k) % 3] = wrong[static_cast<std::size_t>(ms) % 5]; break;
+        case 1: m.port.f[static_cast<std::size_t>(k) % 3] = wrong[static_cast<std::size_t>(ms) % 3]; break;
+        case 2: m.port.v[static_cast<std::size_t>(k) % 3] = wrong[static_cast<std::size_t>(ms) % 3]; break;
+        default: break;
+      }
+      insider.say(wire::Type::kState, m, (ms + k) % 4 == 3 ? 1 + static_cast<std::size_t>(k) : 0);
+      wire::AuthorityMessage authority;
+      authority.version = static_cast<std::uint32_t>(ms % 8);
+      authority.masters = 2;
+      authority.alpha = {0, 1};
+      insider.say(wire::Type::kAuthority, authority);
+      insider.say(wire::Type::kForce, wire::ForceMessage{});
+    }
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  const Json report = folder.json("s.json");
+  ASSERT_FALSE(report.is_discarded());
+  EXPECT_EQ(report["violations"], Json::array());
+  EXPECT_EQ(report["seats"][0]["gate_trips"], 0) << "the trainer's hand";
+  EXPECT_EQ(report["ended_by"], "scene");
+}
+
+// "Keys in memory: core dumps off": a program that crashes leaves nothing to search. The twin shows that without it one would be written.
+TEST(PrivateMemory, OfAProgramThatCrashesIsNotDumped) {
+  const Folder folder;
+  const auto dumped = [&](bool hide) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const rlimit all{RLIM_INFINITY, RLIM_INFINITY};
+      if (chdir(folder.file("").c_str()) != 0 || setrlimit(RLIMIT_CORE, &all) != 0) _exit(3);
+      if (hide) io::forbid_dumps();
+      signal(SIGABRT, SIG_DFL);
+      abort();
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status) && WCOREDUMP(status);
+  };
+  EXPECT_FALSE(dumped(true));
+  if (!dumped(false)) std::puts("[ NOT RUN ] PrivateMemory, the twin that may be dumped: this system writes no core dumps, whoever crashes");
+}
+
+// The programs themselves do it first of all.
+TEST(PrivateMemory, IsWhatServerAndClientHave) {
+  const Process host = hosting("one_axis");
+  Process trainer = client(address_of(host), "trainer");
+  ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
+  for (const pid_t id : {host.id(), trainer.id()}) {
+    std::ostringstream limits;
+    limits << std::ifstream("/proc/" + std::to_string(id) + "/limits").rdbuf();
+    const std::string text = limits.str();
+    const auto line = text.find("Max core file size");
+    ASSERT_NE(line, std::string::npos);
+#ifdef TANDEM_DEBUG
+    std::puts("[ NOT RUN ] PrivateMemory of server and client: builds for debuggers and sanitizers may be dumped");
+#else
+    std::istringstream words(text.substr(line + 18));
+    std::string soft, hard;
+    words >> soft >> hard;
+    EXPECT_EQ(soft, "0");
+    EXPECT_EQ(hard, "0");
+#endif
+  }
+}
+
+}  // namespace
+}  // namespace tandem::test

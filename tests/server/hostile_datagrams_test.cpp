@@ -1,0 +1,239 @@
+// Strangers on the port of a real session: what design notes, security 1.8 ask of datagrams. Each test carries its row's words.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "tests/base/counts.h"
+#include "tests/server/rig.h"
+#include "tests/support/alloc_guard.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace test;
+
+/// As many as TANDEM_HOSTILE_COUNTS asks for, else TANDEM_COUNTS: `./test --full` wants the whole of some in a sanitizer's build, where
+/// everything else is reduced. Said, so that a short run is never mistaken for a long one.
+std::size_t many(const char* what, std::size_t reduced, std::size_t full) {
+  const char* own = std::getenv("TANDEM_HOSTILE_COUNTS");
+  const std::size_t count = own != nullptr && std::string_view(own) == "full" ? full : tandem::test::draws(reduced, full, full);
+  std::printf("[ hostile  ] %zu %s\n", count, what);
+  return count;
+}
+
+/// No state, no reply.
+void expect_untouched(Rig& rig, std::uint64_t hash, const char* what) {
+  EXPECT_TRUE(rig.server_sends().empty()) << what << ": a reply";
+  EXPECT_EQ(rig.state_hash(), hash) << what;
+}
+
+// "Bit-flip every bit of 1000 valid datagrams: 0 accepted, 0 replies, 0 allocations on the receive thread."
+TEST(HostileDatagrams, NoFlippedBitIsAcceptedAnsweredOrCostsHeap) {
+  Rig rig("free_motion");
+  rig.run(300ms);
+  const std::size_t count = many("valid datagrams, every bit of each", 40, 1000);
+  std::uint64_t flips = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t seat = n % 2;
+    for (Bytes& d : rig.client_tick(seat)) {
+      // Before the real one comes: nothing about its counter has been seen yet.
+      const std::uint64_t hash = rig.state_hash(), accepted = rig.heard(0).accepted + rig.heard(1).accepted;
+      const tandem::test::AllocGuard guard;
+      for (std::size_t bit = 0; bit < 8 * d.size(); ++bit) {
+        d[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+        rig.session->on_datagram(rig.now, address(n % 3 == 0 ? 9 : rig.seats[seat].at), d);
+        d[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+      }
+      ASSERT_EQ(guard.count(), 0U);
+      flips += 8 * d.size();
+      ASSERT_EQ(rig.heard(0).accepted + rig.heard(1).accepted, accepted);
+      expect_untouched(rig, hash, "bit flip");
+      rig.session->on_datagram(rig.now, address(rig.seats[seat].at), d);
+      ASSERT_EQ(rig.heard(0).accepted + rig.heard(1).accepted, accepted + 1) << "the real one must act: else nothing was tried";
+    }
+    for (const Bytes& d : rig.client_tick(1 - seat)) rig.session->on_datagram(rig.now, address(rig.seats[1 - seat].at), d);
+    rig.to_clients(rig.server_tick());
+    rig.now += 1ms;
+  }
+  std::printf("[ hostile  ] %llu flipped datagrams\n", static_cast<unsigned long long>(flips));
+  EXPECT_EQ(rig.challenges[9] + rig.forces[9], 0);
+}
+
+// The same towards the client, who trusts nobody either.
+TEST(HostileDatagrams, NoFlippedBitOfAForceMovesAClient) {
+  Rig rig("free_motion");
+  rig.run(300ms);
+  const std::size_t count = many("FORCEs, every bit of each", 20, 1000);
+  for (std::size_t n = 0; n < count; ++n) {
+    for (std::size_t i = 0; i < 2; ++i)
+      for (const Bytes& d : rig.client_tick(i)) rig.session->on_datagram(rig.now, address(rig.seats[i].at), d);
+    const auto sent = rig.server_tick();
+    for (const auto& [to, bytes] : sent) {
+      client::Seat& core = *rig.seats[to - 1U].core;
+      const std::uint64_t accepted = core.link().stats().accepted;
+      Bytes d = bytes;
+      const tandem::test::AllocGuard guard;
+      for (std::size_t bit = 0; bit < 8 * d.size(); ++bit) {
+        d[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+        core.on_datagram(rig.now, d);
+        d[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+      }
+      ASSERT_EQ(guard.count(), 0U);
+      ASSERT_EQ(core.link().stats().accepted, accepted);
+      std::array<std::byte, link::kDatagramMax> buffer;
+      ASSERT_FALSE(core.poll_transmit(rig.now, buffer)) << "a reply";
+    }
+    rig.to_clients(sent);
+    rig.now += 1ms;
+  }
+  EXPECT_EQ(rig.seats[0].core->gate().trips() + rig.seats[1].core->gate().trips(), 0U);
+}
+
+// "Random datagrams, sizes 0..2048, 10 M, ASan+UBSan: 0 accepted, 0 crashes." `./test --full` runs all ten million in the asan build.
+TEST(HostileDatagrams, RandomBytesOfAnySizeAreNeitherAcceptedNorAnswered) {
+  Rig rig("free_motion"), twin("free_motion");
+  rig.run(300ms);
+  twin.run(300ms);
+  const std::size_t count = many("random datagrams of 0 to 2048 bytes", 200'000, 10'000'000);
+  constexpr std::size_t kEachTick = 2000;
+  RandomStream random{5};
+  std::array<std::byte, 2048> bytes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t size = random.below(bytes.size() + 1);
+    for (std::size_t k = 0; k < size; k += 8) {
+      const std::uint64_t drawn = random.bits();
+      std::memcpy(&bytes[k], &drawn, std::min<std::size_t>(8, bytes.size() - k));
+    }
+    // A third are noise from the first byte, a third name a seat, a third look whole up to the tag: a plausible counter too.
+    const std::size_t seat = random.below(2);
+    const link::Header header{static_cast<wire::Type>(3 + random.below(7)), 0, rig.seats[seat].params.peer_cid,
+                              i % 3 == 2 ? rig.heard(seat).newest + random.below(3) : random.bits()};
+    if (i % 3 > 0 && size >= link::kHeaderSize) link::write_header(header, std::span(bytes).first<link::kHeaderSize>());
+    rig.session->on_datagram(rig.now, address(i % 2 == 0 ? 9 : 1), std::span(bytes).first(size));
+    if (i % kEachTick == 0) {
+      rig.tick([] {});
+      twin.tick([] {});
+    }
+  }
+  EXPECT_GT(rig.refused(link::Refusal::kTag), count / 20) << "they must get as far as the tag";
+  EXPECT_GT(rig.session->stray(), count / 4);
+  rig.run(100ms);
+  twin.run(100ms);
+  EXPECT_EQ(rig.told.value, twin.told.value) << "the server said something else than it would have";
+  EXPECT_EQ(rig.state_hash(), twin.state_hash());
+}
+
+// "Replay 100 000 captured packets, shuffled, doubled, from same and other address: 0 applied; state hash unchanged."
+TEST(HostileDatagrams, CapturedOnesPlayedAgainChangeNothing) {
+  Rig rig("one_axis"), twin("one_axis");
+  rig.run(300ms);
+  twin.run(300ms);
+  const std::size_t count = many("captured datagrams, each played twice", 5'000, 100'000);
+  std::vector<Bytes> captured;
+  captured.reserve(count);
+  while (captured.size() < count) {
+    for (Rig* r : {&rig, &twin}) {
+      for (const Bytes& d : r->client_tick()) {
+        r->session->on_datagram(r->now, address(1), d);
+        if (r == &rig) captured.push_back(d);
+      }
+      r->to_clients(r->server_tick());
+      r->now += 1ms;
+    }
+  }
+  std::vector<std::size_t> order(2 * captured.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i / 2;
+  RandomStream random{6};
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+  const std::uint64_t hash = rig.state_hash(), accepted = rig.heard().accepted;
+  for (std::size_t i = 0; i < order.size(); ++i) rig.session->on_datagram(rig.now, address(i % 2 == 0 ? 1 : 9), captured[order[i]]);
+  EXPECT_EQ(rig.heard().accepted, accepted) << "0 applied";
+  expect_untouched(rig, hash, "replay");
+  EXPECT_EQ(rig.refused(link::Refusal::kDuplicate) + rig.refused(link::Refusal::kTooOld), order.size());
+  rig.run(200ms);
+  twin.run(200ms);
+  EXPECT_EQ(rig.told.value, twin.told.value);
+  EXPECT_EQ(rig.challenges[9] + rig.forces[9], 0);
+}
+
+// "Reflection (client's own packet sent back): 0 accepted."
+TEST(HostileDatagrams, ReflectedOnesAreNotAccepted) {
+  Rig rig("free_motion");
+  rig.run(300ms);
+  for (int n = 0; n < 200; ++n) {
+    for (std::size_t i = 0; i < 2; ++i)
+      for (const Bytes& d : rig.client_tick(i)) {
+        rig.session->on_datagram(rig.now, address(rig.seats[i].at), d);
+        for (RigSeat& s : rig.seats) {
+          Bytes back = d;
+          for (const std::uint32_t cid : {rig.seats[i].params.peer_cid, s.params.own_cid}) {  // as it is, and relabelled
+            link::detail::put(&back[4], cid);
+            const std::uint64_t accepted = s.core->link().stats().accepted;
+            s.core->on_datagram(rig.now, back);
+            ASSERT_EQ(s.core->link().stats().accepted, accepted);
+          }
+        }
+      }
+    const auto sent = rig.server_tick();
+    const std::uint64_t hash = rig.state_hash();
+    for (const auto& [to, bytes] : sent) {
+      Bytes back = bytes;
+      for (const std::uint32_t cid : {rig.seats[to - 1U].params.own_cid, rig.seats[0].params.peer_cid, rig.seats[1].params.peer_cid}) {
+        link::detail::put(&back[4], cid);
+        rig.session->on_datagram(rig.now, address(to), back);
+      }
+    }
+    expect_untouched(rig, hash, "reflection");
+    rig.to_clients(sent);
+    rig.now += 1ms;
+  }
+}
+
+// "Cross-session and cross-role swap of cid, old epoch after failover: 0 accepted." Keys are drawn per joining as the exporter does it,
+// which binds session, epoch, connection, seat and role (link_context_test, FrontDoor's exporter in door_test).
+TEST(HostileDatagrams, OfAnotherSessionSeatOrEpochAreNotAccepted) {
+  Rig rig("free_motion", 3), other("free_motion", 4), before("free_motion", 5);
+  for (Rig* r : {&rig, &other, &before}) r->run(300ms);
+  for (int n = 0; n < 200; ++n) {
+    std::vector<Bytes> foreign;
+    for (Rig* r : {&other, &before})
+      for (std::size_t i = 0; i < 2; ++i)
+        for (const Bytes& d : r->client_tick(i)) foreign.push_back(d);
+    const std::size_t from_outside = foreign.size();
+    const auto own = rig.client_tick(0);  // of the instructor's seat: for the trainee's it is another role's
+    foreign.insert(foreign.end(), own.begin(), own.end());
+    const std::uint64_t hash = rig.state_hash();
+    for (std::size_t k = 0; k < foreign.size(); ++k)
+      for (std::size_t seat = k < from_outside ? 0 : 1; seat < 2; ++seat) {
+        Bytes d = foreign[k];
+        link::detail::put(&d[4], rig.seats[seat].params.peer_cid);
+        for (int newer = 0; newer < 2; ++newer) {
+          if (newer == 1) link::detail::put<std::uint64_t>(&d[8], 1'000'000);
+          rig.session->on_datagram(rig.now, address(rig.seats[seat].at), d);
+        }
+      }
+    expect_untouched(rig, hash, "cid swap");
+    // What the server of another epoch tells the clients that have moved on.
+    for (const auto& [to, bytes] : before.server_tick()) {
+      client::Seat& core = *rig.seats[to - 1U].core;
+      const std::uint64_t accepted = core.link().stats().accepted;
+      Bytes d = bytes;
+      core.on_datagram(rig.now, d);
+      link::detail::put(&d[4], rig.seats[to - 1U].params.own_cid);
+      core.on_datagram(rig.now, d);
+      ASSERT_EQ(core.link().stats().accepted, accepted);
+    }
+    for (const Bytes& d : own) rig.session->on_datagram(rig.now, address(1), d);
+    for (const Bytes& d : rig.client_tick(1)) rig.session->on_datagram(rig.now, address(2), d);
+    rig.to_clients(rig.server_tick());
+    for (Rig* r : {&rig, &other, &before}) r->now += 1ms;
+  }
+  EXPECT_GT(rig.refused(link::Refusal::kTag, 0), 1000U);
+  EXPECT_GT(rig.refused(link::Refusal::kTag, 1), 1000U);
+}
+
+}  // namespace
+}  // namespace tandem::server

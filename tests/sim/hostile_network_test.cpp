@@ -1,0 +1,127 @@
+// A switch that holds what it should pass on, in a whole session in contact (design notes, security 1.8: hold-and-release).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tests/support/world_run.h"
+
+namespace tandem {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kTrainer = 0;
+constexpr Duration kAttack = 6s;
+constexpr double kPressed = 0.5;  ///< the hand presses the tool against the block at least so when the attack begins [N]
+
+struct Held {
+  Duration seen{};             ///< from the attack to the loss state
+  double given_j = 0;          ///< most that the motor gave the hand since the attack, until the force was gone
+  double tank_j = 0;
+  bool active_meanwhile = false;  ///< once more while what arrives is too old for any link
+  bool active_after = false;      ///< in the end, when the network was honest again
+  std::uint32_t trips = 0;
+  double pressed_n = 0;           ///< when the attack began
+};
+
+/// The trainer presses the tool against the block. When the attack begins he stops pressing and goes along with the device: the
+/// worst moment, since nothing but the gate keeps the spring from pushing his hand away.
+SceneSpec in_contact() {
+  SceneSpec scene = test::shipped("contact");
+  scene.duration = 20;
+  scene.phases.clear();
+  auto made = netsim::World::make({.scene = scene});
+  netsim::World& rehearsal = **made;
+  while (rehearsal.now() < Time{} + kAttack && rehearsal.step()) {
+  }
+  scene.seats[kTrainer].hand.until = rehearsal.session().time();
+  return scene;
+}
+
+Held attacked(const netsim::WorldSetup& setup, Duration ends) {
+  auto made = netsim::World::make(setup);
+  EXPECT_TRUE(made);
+  netsim::World& world = **made;
+  Held out;
+  double given = 0;
+  hal::Vec3 before = hal::Vec3::Zero();
+  while (world.step()) {
+    const Duration into = world.now() - (Time{} + kAttack);
+    const client::Seat* seat = world.seat(kTrainer);
+    const hal::Vec3 x = world.device(kTrainer).truth().x;
+    if (into >= 0ms && out.seen == Duration{} && !seat->gate().active()) out.seen = into;
+    if (into >= 0ms && into < 400ms) {
+      given += world.device(kTrainer).state().f_out.dot(x - before);
+      out.given_j = std::max(out.given_j, given);
+    }
+    if (into == 0ms) {
+      EXPECT_TRUE(seat->gate().active());
+      out.pressed_n = world.device(kTrainer).state().f_out.norm();
+      EXPECT_GE(out.pressed_n, kPressed) << "nobody was in contact";
+    }
+    if (into > 400ms && into < ends) out.active_meanwhile |= seat->gate().active();
+    if (into > 0ms && world.session().state() == wire::SessionState::kRunning) out.active_after = seat->gate().active();
+    out.tank_j = seat != nullptr ? seat->gate().tank_size() : 0;
+    before = x;
+    if (into > ends + 3s) break;
+  }
+  out.trips = world.gate_trips(kTrainer);
+  for (const auto& v : world.violations().list()) EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
+  return out;
+}
+
+// "Hold-and-release: delay all FORCE by 25/100/1000/5000 ms in order: loss state within 20 ms of the limit; <= 20 mJ."
+TEST(HostileNetwork, ForcesThatAreAllDelayedInOrderAreALossAndNoPush) {
+  const SceneSpec scene = in_contact();
+  for (const Duration delay : {Duration{25ms}, Duration{100ms}, Duration{1000ms}, Duration{5000ms}}) {
+    SCOPED_TRACE(seconds(delay));
+    netsim::WorldSetup setup{.scene = scene};
+    netsim::LinkSpec slow = setup.network;
+    slow.down.floor = delay;
+    netsim::NetworkEvent begins, ends;
+    begins.at = kAttack;
+    begins.direction = ends.direction = netsim::Direction::kDown;
+    begins.link = slow;
+    ends.at = kAttack + 8s;
+    ends.link = setup.network;
+    setup.events = {begins, ends};
+    const Held held = attacked(setup, 8s);
+    std::printf("[ hostile  ] held by %4.0f ms: %.2f N, loss state after %2.0f ms, %.2f mJ of %.0f\n", 1e3 * seconds(delay), held.pressed_n, 1e3 * seconds(held.seen),
+                1e3 * held.given_j, 1e3 * held.tank_j);
+    EXPECT_GT(held.seen, 0ms);
+    EXPECT_LE(held.seen, from_seconds(scene.gate.silence_limit) + 20ms);
+    EXPECT_LE(held.given_j, std::min(0.02, held.tank_j + 1e-6));
+    // Above the loop age that any link may have, what is played back never moves the hand, however regular it comes.
+    if (delay > from_seconds(scene.gate.loop_age_max)) {
+      EXPECT_FALSE(held.active_meanwhile);
+    }
+    EXPECT_EQ(held.trips, 1U);
+  }
+}
+
+// The same switch lets go at once of everything it held: a burst of old forces, in order, all authentic.
+TEST(HostileNetwork, ForcesThatAreReleasedAtOnceMoveNothing) {
+  const SceneSpec scene = in_contact();
+  for (const Duration held_for : {Duration{25ms}, Duration{100ms}, Duration{1000ms}, Duration{5000ms}}) {
+    SCOPED_TRACE(seconds(held_for));
+    netsim::WorldSetup setup{.scene = scene};
+    netsim::OutageSpec outage;
+    outage.start = kAttack;
+    outage.length = held_for;
+    outage.mode = netsim::OutageSpec::Mode::kHold;
+    setup.network.down.outages = {outage};
+    const Held held = attacked(setup, held_for);
+    std::printf("[ hostile  ] released after %4.0f ms: %.2f N, loss state after %2.0f ms, %.2f mJ of %.0f\n", 1e3 * seconds(held_for), held.pressed_n, 1e3 * seconds(held.seen),
+                1e3 * held.given_j, 1e3 * held.tank_j);
+    EXPECT_GT(held.seen, 0ms);
+    EXPECT_LE(held.seen, from_seconds(scene.gate.silence_limit) + 20ms);
+    EXPECT_LE(held.given_j, std::min(0.02, held.tank_j + 1e-6));
+    EXPECT_FALSE(held.active_meanwhile);
+    EXPECT_TRUE(held.active_after) << "an honest network is trusted again";
+    EXPECT_EQ(held.trips, 1U);
+  }
+}
+
+}  // namespace
+}  // namespace tandem
