@@ -13,7 +13,7 @@ namespace tandem::server {
 class TickCounts {
  public:
   /// Upper bounds [s]; behind them one more count for all that is longer.
-  static constexpr std::array<double, 10> kBounds{20e-6, 50e-6, 100e-6, 200e-6, 400e-6, 600e-6, 1e-3, 2e-3, 5e-3, 20e-3};
+  static constexpr std::array<double, 10> kBounds{20e-6, 50e-6, 100e-6, 200e-6, 400e-6, 500e-6, 1e-3, 2e-3, 5e-3, 20e-3};
 
   void add(Duration d) noexcept {
     std::size_t i = 0;

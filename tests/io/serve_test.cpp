@@ -61,7 +61,7 @@ TEST(ManySessions, DoNotFeelEachOther) {
                                  "device_coupling { k_c_n_m: 100 }\n"
                                  "seat { name: \"trainer\" kind: MASTER role: INSTRUCTOR required: true device { model: LINEAR } hand { model: LEADER } }\n"
                                  "seat { name: \"trainee\" kind: MASTER role: TRAINEE required: false device { model: LINEAR } hand { model: RELAXED } }\n"
-                                 "tool { name: \"tool\" slave { model: LINEAR } }\nauthority { tool: \"tool\" seat: \"trainer\" alpha: 1 }\n");
+                                 "tool { name: \"tool\" k_s_n_m: 100 slave { model: LINEAR } }\nauthority { tool: \"tool\" seat: \"trainer\" alpha: 1 }\n");
   fs::create_directory(folder.file("reports"));
   const std::string config = folder.write("server.textproto",
                                           "version: 1\nlisten: \"127.0.0.1:0\"\nreports: \"reports\"\n"
