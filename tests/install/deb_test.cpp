@@ -101,7 +101,7 @@ TEST(DebianPackages, TheUnitIsHardened) {
     std::printf("[ NOT RUN  ] systemd-analyze security: it is not installed\n");
     return;
   }
-  const Done judged = shell("systemd-analyze security --offline=true --threshold=30 " + quoted(fs::path{TANDEM_SOURCE_DIR} / "packaging/tandem-server.service"));
+  const Done judged = shell("systemd-analyze security --offline=true --threshold=30 " + quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package/tandem-server.service"));
   const auto at = judged.text.find("Overall exposure level");
   if (at == std::string::npos) {
     std::printf("[ NOT RUN  ] systemd-analyze security: it does not judge files offline here: %s\n", judged.text.c_str());

@@ -281,6 +281,28 @@ TEST(Monitoring, ShowsMetricsHealthAndNothingElse) {
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
 }
 
+TEST(Monitoring, ABusyServerRefusesNewcomersAndSaysWhy) {
+  const Folder folder;
+  std::string config = "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" limits { load_percent: 1 }";
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"}) config += std::string(" session { name: \"") + name + "\" scene: \"eight_seats\" }";
+  Process host = serving(folder.write("s.textproto", config));
+  std::string metrics = host.after("metrics on http://");
+  metrics = metrics.substr(0, metrics.find('/'));
+  // Known after the first thousand ticks.
+  double load = 0;
+  for (int tries = 0; tries < 100'000 && load == 0; ++tries) {
+    const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\n\r\n"), name = "\ntandem_tick_load{tick_hz=\"1000\"} ";
+    const auto at = page.find(name);
+    if (at != std::string::npos) load = std::atof(page.c_str() + at + name.size());
+  }
+  ASSERT_GT(load, 0.01) << "eight sessions of eight seats take more than 10 us on any machine";
+  Process trainee = client(address_of(host), "trainee", {"--session", "d"});
+  EXPECT_EQ(trainee.wait(), 1);
+  EXPECT_NE(trainee.err().find("no room for more"), std::string::npos) << trainee.err();
+  host.signal(SIGTERM);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
 TEST(Monitoring, LogsOneJsonObjectPerLine) {
   Process host = hosting("one_axis", {"--log", "json", "--duration", "0.5"});
   Process trainer = client(address_of(host), "trainer");
