@@ -131,6 +131,10 @@ struct EnrolAck {
 };
 
 enum class SessionPhase : std::uint8_t { kWaiting, kRunning, kPaused, kStopped, kEnding };
+[[nodiscard]] constexpr const char* to_text(SessionPhase phase) noexcept {
+  constexpr const char* kNames[] = {"waiting", "running", "paused", "stopped", "ending"};
+  return phase <= SessionPhase::kEnding ? kNames[static_cast<std::size_t>(phase)] : "?";
+}
 struct ListedSeat {
   std::string name;
   AccessRole role = AccessRole::kTrainee;

@@ -40,14 +40,16 @@ struct ServerRow {
 struct OpenSeat {
   std::string name;
   AccessRole role = AccessRole::kTrainee;
+  bool taken = false, required = false;
   friend bool operator==(const OpenSeat&, const OpenSeat&) = default;
 };
 struct OpenSession {
   std::array<std::byte, 16> id{};
-  std::string code;  ///< 10 base32 characters
+  std::string code;  ///< 10 base32 characters; empty: tickets only
   std::string name;
   std::uint64_t epoch = 0;
   std::vector<OpenSeat> seats;
+  std::string phase{};  ///< waiting, running, paused, stopped, ending; empty: not known
   friend bool operator==(const OpenSession&, const OpenSession&) = default;
 };
 /// What a running server writes down about itself.

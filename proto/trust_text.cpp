@@ -132,7 +132,7 @@ std::expected<ServingSpec, InputErrors> parse_serving(std::string_view text, std
   for (int i = 0; i < in.session_size(); ++i) {
     const pb::ServedSession& s = in.session(i);
     const std::string at = child_path("", "session", i);
-    OpenSession session{bytes_from<16>(s.id(), checker, child_path(at, "id")), s.code(), s.name(), s.epoch(), {}};
+    OpenSession session{bytes_from<16>(s.id(), checker, child_path(at, "id")), s.code(), s.name(), s.epoch(), {}, s.phase()};
     once(ids, session.id, checker, child_path(at, "id"));
     const bool code = s.code().size() == 10 && std::ranges::all_of(s.code(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z'); });
     if (!code && s.has_code()) checker.error(child_path(at, "code"), "must be 10 characters of 0-9 A-Z");
@@ -140,7 +140,7 @@ std::expected<ServingSpec, InputErrors> parse_serving(std::string_view text, std
       const auto role = access_role_named(s.seat(k).role());
       if (!role && s.seat(k).has_role())
         checker.error(child_path(child_path(at, "seat", k), "role"), "must be instructor, trainee, evaluator, observer, operator or recorder");
-      session.seats.push_back({s.seat(k).name(), role.value_or(AccessRole::kObserver)});
+      session.seats.push_back({s.seat(k).name(), role.value_or(AccessRole::kObserver), s.seat(k).taken(), s.seat(k).required()});
     }
     out.sessions.push_back(std::move(session));
   }
@@ -171,8 +171,9 @@ std::string print_servers(const std::vector<ServerRow>& rows) {
 std::string print_serving(const ServingSpec& serving) {
   std::string out = header("What the running server offers.") + "address: \"" + serving.address + "\"\n";
   for (const OpenSession& s : serving.sessions) {
-    out += "session {\n" + row("id", hex_of(s.id)) + row("code", s.code) + row("name", s.name) + row("epoch", s.epoch);
-    for (const OpenSeat& seat : s.seats) out += "  seat { name: \"" + seat.name + "\" role: \"" + std::string(to_text(seat.role)) + "\" }\n";
+    out += "session {\n" + row("id", hex_of(s.id)) + (s.code.empty() ? std::string() : row("code", s.code)) + row("name", s.name) + row("epoch", s.epoch);
+    if (!s.phase.empty()) out += row("phase", s.phase);
+    for (const OpenSeat& seat : s.seats) out += "  seat { name: \"" + seat.name + "\" role: \"" + std::string(to_text(seat.role)) + "\"" + (seat.taken ? " taken: true" : "") + (seat.required ? " required: true" : "") + " }\n";
     out += "}\n";
   }
   return out;

@@ -74,6 +74,12 @@ class Joining {
     return take(*welcome, *hello);
   }
 
+  std::expected<control::SessionList, NotSeated> list() {
+    if (auto keys = choose_keys(); !keys) return std::unexpected(keys.error());
+    if (auto connected = connect(); !connected) return std::unexpected(connected.error());
+    return ask_list();
+  }
+
  private:
   static std::unexpected<NotSeated> fail(std::string reason) { return std::unexpected(NotSeated{false, std::move(reason)}); }
 
@@ -170,17 +176,24 @@ class Joining {
     return hello;
   }
 
-  std::expected<control::ListedSession, NotSeated> find_session(const trust::Id16& id, bool is_id, const std::optional<std::string>& code) {
-    const auto answer = ask(control::SessionListRequest{});
+  std::expected<control::SessionList, NotSeated> ask_list() {
+    auto answer = ask(control::SessionListRequest{});
     if (!answer) return std::unexpected(answer.error());
     if (const auto* refused = std::get_if<control::Refused>(&*answer)) return fail(refusal(*refused, asking_));
-    const auto* list = std::get_if<control::SessionList>(&*answer);
+    auto* list = std::get_if<control::SessionList>(&*answer);
     if (list == nullptr) return fail("the server answered something else; is it of the same release?");
+    return std::move(*list);
+  }
+
+  std::expected<control::ListedSession, NotSeated> find_session(const trust::Id16& id, bool is_id, const std::optional<std::string>& code) {
+    const auto list = ask_list();
+    if (!list) return std::unexpected(list.error());
     std::string names;
     const control::ListedSession* found = nullptr;
     for (const control::ListedSession& s : list->sessions) {
       names += (names.empty() ? "" : ", ") + s.name;
-      if (is_id ? s.id == id : (code || asking_.session.empty()) ? list->sessions.size() == 1 : s.name == asking_.session) found = &s;
+      const bool only = (code || asking_.session.empty()) && list->sessions.size() == 1;
+      if (s.name == asking_.session || (is_id ? s.id == id : only)) found = &s;
     }
     if (found != nullptr) return *found;
     if (list->sessions.empty()) return fail("no session is open at " + io::to_text(asking_.server) + "; start one with `tandem-server run SCENE`");
@@ -237,6 +250,8 @@ class Joining {
 }  // namespace
 
 std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking) { return Joining{asking}.join(); }
+
+std::expected<control::SessionList, NotSeated> ask_for_sessions(const Asking& asking) { return Joining{asking}.list(); }
 
 void give_back(const io::UdpSocket& socket, const GivenSeat& given, const hal::DeviceCaps& caps) {
   const Time now = io::monotonic_now();

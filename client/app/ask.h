@@ -43,6 +43,9 @@ struct NotSeated {
 /// user, and takes the datagrams' secrets. Waits for the answer.
 [[nodiscard]] std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking);
 
+/// The sessions that are open there.
+[[nodiscard]] std::expected<control::SessionList, NotSeated> ask_for_sessions(const Asking& asking);
+
 /// Tells the server that a seat just given will not be used, so that it is free for others at once.
 void give_back(const io::UdpSocket& socket, const GivenSeat& given, const hal::DeviceCaps& caps);
 

@@ -5,6 +5,7 @@
 #include "client/app/enroll_command.h"
 #include "client/app/join_command.h"
 #include "client/app/link_test_command.h"
+#include "client/app/sessions_command.h"
 #include "client/app/weigh_command.h"
 #include "common/io/log.h"
 #include "common/io/private_memory.h"
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
   tandem::client::add_link_test_command(app, action);
   tandem::client::add_weigh_command(app, action);
   tandem::client::add_enroll_command(app, action);
+  tandem::client::add_sessions_command(app, action);
   tandem::io::log_to_stderr("tandem-client");
   return tandem::io::run_program(app, action, argc, argv);
 }

@@ -1,16 +1,147 @@
 #include "common/io/log.h"
 
+#include <spdlog/async.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
+#include <cstdio>
+#include <ctime>
 #include <memory>
 
+#include "common/io/clock.h"
+
 namespace tandem::io {
+namespace {
+
+constexpr std::size_t kLinesMax = 8192;  // that may wait to be written
+constexpr char kMembers = '\x1f';        // first character of what is JSON already
+
+std::atomic<bool> as_json{false};
+std::shared_ptr<spdlog::logger>& logger_before() {
+  static std::shared_ptr<spdlog::logger> before;
+  return before;
+}
+
+spdlog::level::level_enum level_of(Level level) {
+  switch (level) {
+    case Level::kInfo:
+      return spdlog::level::info;
+    case Level::kWarn:
+      return spdlog::level::warn;
+    case Level::kError:
+      break;
+  }
+  return spdlog::level::err;
+}
+
+/// As a JSON string. Texts are ours, or UTF-8 that the codec has judged.
+void append_quoted(std::string& out, std::string_view text) {
+  out += '"';
+  for (const char c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (u < 0x20 || u == 0x7f) {
+      char escaped[8];
+      std::snprintf(escaped, sizeof escaped, "\\u%04x", u);
+      out += escaped;
+    } else {
+      out += c;
+    }
+  }
+  out += '"';
+}
+
+void append_member(std::string& out, const char* key, std::string_view value) {
+  if (value.empty()) return;
+  out += ",\"";
+  out += key;
+  out += "\":";
+  append_quoted(out, value);
+}
+
+class JsonLines final : public spdlog::formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
+    const auto since_epoch = message.time.time_since_epoch();
+    const auto us = std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count();
+    const std::time_t whole = us / 1'000'000;
+    std::tm utc{};
+    gmtime_r(&whole, &utc);
+    // Both clocks now, and how long ago it was.
+    const double ago = 1e-6 * static_cast<double>(std::chrono::duration_cast<std::chrono::microseconds>(read_clock(CLOCK_REALTIME) - since_epoch).count());
+    const double mono = seconds(monotonic_now().time_since_epoch()) - ago;
+    char head[128];
+    std::snprintf(head, sizeof head, "{\"ts\":\"%04d-%02d-%02dT%02d:%02d:%02d.%06ldZ\",\"mono\":%.6f,\"level\":\"%s\",", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
+                  utc.tm_hour, utc.tm_min, utc.tm_sec, static_cast<long>(us % 1'000'000), mono, name_of(message.level));
+    std::string line = head;
+    const std::string_view payload{message.payload.data(), message.payload.size()};
+    if (!payload.empty() && payload.front() == kMembers) {
+      line += payload.substr(1);
+    } else {
+      line += "\"event\":\"message\"";
+      append_member(line, "text", payload);
+    }
+    line += "}\n";
+    out.append(line.data(), line.data() + line.size());
+  }
+  [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override { return std::make_unique<JsonLines>(); }
+
+ private:
+  static const char* name_of(spdlog::level::level_enum level) {
+    return level >= spdlog::level::err ? "error" : level == spdlog::level::warn ? "warn" : "info";
+  }
+};
+
+}  // namespace
 
 void log_to_stderr(const char* program) {
   auto logger = std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
   logger->set_pattern("%n: %^%l%$: %v");
   spdlog::set_default_logger(std::move(logger));
+}
+
+void log_as_json(Level least) {
+  // The thread that writes must leave signals to the one who waits for them: call after signals_as_file().
+  spdlog::init_thread_pool(kLinesMax, 1);
+  auto logger = std::make_shared<spdlog::async_logger>("json", std::make_shared<spdlog::sinks::stderr_sink_mt>(), spdlog::thread_pool(),
+                                                       spdlog::async_overflow_policy::overrun_oldest);
+  logger->set_formatter(std::make_unique<JsonLines>());
+  logger->set_level(level_of(least));
+  logger_before() = spdlog::default_logger();
+  spdlog::set_default_logger(std::move(logger));
+  as_json = true;
+}
+
+bool logs_json() noexcept { return as_json; }
+
+std::uint64_t log_dropped() {
+  const auto pool = spdlog::thread_pool();
+  return pool ? pool->overrun_counter() : 0;
+}
+
+void end_log() {
+  if (!as_json) return;
+  if (const std::uint64_t dropped = log_dropped(); dropped > 0) tell(Level::kWarn, {.event = "log_dropped", .text = std::to_string(dropped) + " lines were dropped"});
+  as_json = false;
+  spdlog::shutdown();
+  spdlog::set_default_logger(std::move(logger_before()));
+}
+
+void tell(Level level, const Happening& h) {
+  if (!as_json) return;
+  std::string line{kMembers};
+  line += "\"event\":";
+  append_quoted(line, h.event);
+  append_member(line, "session", h.session);
+  append_member(line, "seat", h.seat);
+  if (h.cid) line += ",\"cid\":" + std::to_string(*h.cid);
+  if (h.tick) line += ",\"tick\":" + std::to_string(*h.tick);
+  append_member(line, "text", h.text);
+  spdlog::log(level_of(level), "{}", line);
 }
 
 }  // namespace tandem::io

@@ -1,5 +1,7 @@
 #include "common/io/udp_socket.h"
 
+#include <linux/filter.h>
+
 #include <cerrno>
 #include <cstring>
 
@@ -43,6 +45,45 @@ std::expected<UdpSocket, std::string> bind_udp(const SocketAddress& at, bool loc
   ReceiveBatch::prepare(socket.fd.get(), at.family(), local_wanted);
   socket.local = local_address(socket.fd.get());
   return socket;
+}
+
+namespace {
+
+/// Tells the kernel which socket of a port gets which datagram.
+int steer(int fd, const Steering& steering) {
+  std::vector<sock_filter> program{{BPF_LD | BPF_B | BPF_ABS, 0, 0, static_cast<std::uint32_t>(steering.byte)}};
+  for (std::size_t value = 0; value < steering.socket_of.size(); ++value) {
+    if (steering.socket_of[value] == 0) continue;
+    program.push_back({BPF_JMP | BPF_JEQ | BPF_K, 0, 1, static_cast<std::uint32_t>(value)});
+    program.push_back({BPF_RET | BPF_K, 0, 0, steering.socket_of[value]});
+  }
+  program.push_back({BPF_RET | BPF_K, 0, 0, 0});
+  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
+  return ::setsockopt(fd, SOL_SOCKET, SO_ATTACH_REUSEPORT_CBPF, &filter, sizeof filter);
+}
+
+}  // namespace
+
+std::expected<std::vector<UdpSocket>, std::string> bind_udp_steered(const SocketAddress& at, const Steering& steering) {
+  std::vector<UdpSocket> sockets;
+  if (steering.sockets == 1) {
+    auto one = bind_udp(at);
+    if (!one) return std::unexpected(one.error());
+    sockets.push_back(std::move(*one));
+    return sockets;
+  }
+  SocketAddress where = at;
+  for (std::size_t i = 0; i < steering.sockets; ++i) {
+    UdpSocket socket{open_udp(at.family()), {}};
+    const int yes = 1;
+    if (!socket.fd.open() || ::setsockopt(socket.fd.get(), SOL_SOCKET, SO_REUSEPORT, &yes, sizeof yes) != 0 ||
+        ::bind(socket.fd.get(), where.get(), where.size) != 0 || (i == 0 && steer(socket.fd.get(), steering) != 0))
+      return std::unexpected(bind_problem(where, errno));
+    ReceiveBatch::prepare(socket.fd.get(), at.family(), false);
+    socket.local = where = local_address(socket.fd.get());
+    sockets.push_back(std::move(socket));
+  }
+  return sockets;
 }
 
 std::expected<UdpSocket, std::string> connect_udp(const SocketAddress& to) {

@@ -13,12 +13,12 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     const SeatStatus& now_there = status.seats[i];
     Seat& seat = seats_[i];
     const std::string& name = scene.seats[i].name;
-    if (now_there.taken && !seat.taken) news.notes.push_back(name + " joined");
-    if (!now_there.taken && seat.taken) news.notes.push_back(name + " left");
+    if (now_there.taken && !seat.taken) news.notes.push_back({"joined", name, name + " joined"});
+    if (!now_there.taken && seat.taken) news.notes.push_back({"left", name, name + " left"});
     seat.taken = now_there.taken;
     came += now_there.ever_taken ? 1 : 0;
     if (!runs || !now_there.ever_taken || now_there.alive) {
-      if (seat.warned && now_there.alive) news.notes.push_back(name + " is back");
+      if (seat.warned && now_there.alive) news.notes.push_back({"back", name, name + " is back"});
       seat.away_since.reset();
       seat.warned = false;
       continue;
@@ -27,15 +27,16 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (now - *seat.away_since < kLost) continue;
     ++lost;
     if (!seat.warned)
-      news.warnings.push_back(name + " has been gone for 10 s; its weight went to the others, or the tool is held");
+      news.notes.push_back({"gone", name, name + " has been gone for 10 s; its weight went to the others, or the tool is held", true});
     seat.warned = true;
   }
   if (state_ != status.state) {
     if (status.state == State::kRunning)
-      news.notes.push_back(state_ && state_ != State::kWaiting ? "the session runs again" : "the session runs");
-    if (status.state == State::kPaused) news.notes.push_back("PAUSED by somebody at a seat: all hands are let go; the instructor resumes (key r)");
-    if (status.state == State::kStopped) news.notes.push_back("STOPPED: all hands are let go; the instructor resumes (key r)");
-    if (status.state == State::kHeld) news.notes.push_back("HELD: " + why_held(status, scene) + ", the tools are braked");
+      news.notes.push_back({"running", "", state_ && state_ != State::kWaiting ? "the session runs again" : "the session runs"});
+    if (status.state == State::kPaused)
+      news.notes.push_back({"paused", "", "PAUSED by somebody at a seat: all hands are let go; the instructor resumes (key r)"});
+    if (status.state == State::kStopped) news.notes.push_back({"stopped", "", "STOPPED: all hands are let go; the instructor resumes (key r)"});
+    if (status.state == State::kHeld) news.notes.push_back({"held", "", "HELD: " + why_held(status, scene) + ", the tools are braked"});
     state_ = status.state;
   }
   news.all_lost = runs && came > 0 && lost == came;

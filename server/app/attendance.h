@@ -15,10 +15,15 @@ class Attendance {
  public:
   static constexpr Duration kLost = std::chrono::seconds(10);
 
+  struct Note {
+    const char* event;        ///< joined, left, back, gone, running, held
+    std::string seat;         ///< empty: the whole session
+    std::string text;         ///< for people
+    bool warning = false;     ///< somebody stays away
+  };
   struct News {
-    std::vector<std::string> notes;     ///< somebody came or went
-    std::vector<std::string> warnings;  ///< somebody stays away
-    bool all_lost = false;              ///< everybody who was there has been away for `kLost`
+    std::vector<Note> notes;
+    bool all_lost = false;    ///< everybody who was there has been away for `kLost`
   };
   [[nodiscard]] News look(Time now, const SessionStatus& status, const SceneSpec& scene);
 

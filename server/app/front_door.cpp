@@ -1,12 +1,16 @@
 #include "server/app/front_door.h"
 
+#include <asio/post.hpp>
+#include <future>
 #include <utility>
 
 #include "common/trust/io/key_choice.h"
+#include "server/app/metrics.h"
 
 namespace tandem::server {
 namespace {
 
+constexpr auto kRefresh = std::chrono::seconds(1);  // of what is written down for the commands beside
 constexpr int kPortsTried = 20;  // until one is free for UDP and TCP
 
 /// Keys of a folder that `init` made; on a network somebody must be able to come.
@@ -31,11 +35,12 @@ std::expected<trust::ServerTrust, std::string> keys_of(const io::SocketAddress& 
 FrontDoor::FrontDoor(trust::ServerTrust trust, const Plan& plan)
     : trust_(std::move(trust)),
       tell_(plan.tell),
-      house_(thread_.context(), trust_),
-      plane_(thread_.context(), trust_, house_, {}, {}, [this](const ControlNews& news) {
+      house_(thread_.context(), trust_, plan.load_max),
+      plane_(thread_.context(), trust_, house_, plan.limits, {}, [this](const ControlNews& news) {
         note(news);
         if (tell_) tell_(news);
-      }) {}
+      }),
+      refresh_(thread_.context()) {}
 
 FrontDoor::~FrontDoor() { stop(); }
 
@@ -52,18 +57,22 @@ std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Pla
   std::unique_ptr<FrontDoor> door{new FrontDoor(std::move(*trust), plan)};
   std::string problem;
   for (int attempt = 0; attempt < kPortsTried; ++attempt) {
-    auto socket = io::bind_udp(plan.listen);
-    if (!socket) return std::unexpected("--listen: " + socket.error());
-    auto listening = door->plane_.listen(socket->local);
+    auto sockets = io::bind_udp_steered(plan.listen, plan.steering);
+    if (!sockets) return std::unexpected("--listen: " + sockets.error());
+    auto listening = door->plane_.listen(sockets->front().local);
     if (listening) {
       door->address_ = *listening;
-      door->socket_ = std::move(*socket);
+      door->sockets_ = std::move(*sockets);
       break;
     }
     problem = "--listen: " + listening.error();
     if (plan.listen.port() != 0) break;  // a port that was chosen for us may be taken for TCP: the next one
   }
-  if (!door->socket_) return std::unexpected(problem);
+  if (door->sockets_.empty()) return std::unexpected(problem);
+  if (plan.metrics) {
+    door->metrics_.emplace(door->thread_.context(), [d = door.get()](std::string_view path) { return monitoring_page(path, d->house_, d->plane_); });
+    if (std::string trouble = door->metrics_->listen(*plan.metrics); !trouble.empty()) return std::unexpected("--metrics: " + trouble);
+  }
   if (door->throw_away()) {
     auto local = trust::let_local_in(door->trust_, trust::runtime_path(), trust::wall_seconds());
     if (!local) return std::unexpected("clients on this machine could not be told how to join: " + local.error());
@@ -72,11 +81,50 @@ std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Pla
   return door;
 }
 
-void FrontDoor::add(House::Opening opening) {
-  OpenSession session{opening.id, opening.code, opening.name, opening.epoch, {}};
-  for (const SeatSpec& seat : opening.session->scene().seats) session.seats.push_back({seat.name, access_role(seat.role)});
-  serving_.sessions.push_back(std::move(session));
-  house_.open(std::move(opening));
+void FrontDoor::add(House::Opening opening) { house_.open(std::move(opening)); }
+
+void FrontDoor::on_thread(const std::function<void()>& what) {
+  std::promise<void> done;
+  asio::post(thread_.context(), [&] {
+    what();
+    done.set_value();
+  });
+  done.get_future().wait();
+}
+
+void FrontDoor::close(const trust::Id16& id) {
+  std::promise<void> gone;
+  asio::post(thread_.context(), [&] { house_.close(id, [&] { gone.set_value(); }); });
+  gone.get_future().wait();
+}
+
+void FrontDoor::open_late(House::Opening opening) {
+  on_thread([&] { house_.open_late(std::move(opening)); });
+}
+
+void FrontDoor::end(const trust::Id16& id) {
+  on_thread([&] { house_.end(id); });
+}
+
+void FrontDoor::drain() {
+  on_thread([&] { house_.drain(); });
+}
+
+std::string FrontDoor::write_down() {
+  ServingSpec now = house_.serving();
+  now.address = io::to_text(address_);
+  if (now == serving_) return {};
+  serving_ = std::move(now);
+  return trust_.write_serving(serving_);
+}
+
+void FrontDoor::write_down_now_and_then() {
+  refresh_.expires_after(kRefresh);
+  refresh_.async_wait([this](const asio::error_code& cancelled) {
+    if (cancelled) return;
+    if (const std::string problem = write_down(); !problem.empty() && tell_) tell_({ControlEvent::kTrouble, "", "", problem});
+    write_down_now_and_then();
+  });
 }
 
 void FrontDoor::note(const ControlNews& news) const {
@@ -94,9 +142,10 @@ void FrontDoor::note(const ControlNews& news) const {
 }
 
 std::string FrontDoor::start() {
-  serving_.address = io::to_text(address_);
-  if (trust_.on_disk())
-    if (std::string problem = trust_.write_serving(serving_); !problem.empty()) return problem;
+  if (trust_.on_disk()) {
+    if (std::string problem = write_down(); !problem.empty()) return problem;
+    write_down_now_and_then();
+  }
   started_ = true;
   thread_.start();
   return {};
@@ -105,6 +154,8 @@ std::string FrontDoor::start() {
 void FrontDoor::stop() {
   if (!std::exchange(started_, false)) return;
   thread_.stop([this] {
+    refresh_.cancel();
+    if (metrics_) metrics_->stop();
     plane_.stop();
     house_.stop_watching();
   });

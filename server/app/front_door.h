@@ -4,12 +4,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/io/udp_socket.h"
 #include "common/trust/io/client_trust.h"
 #include "common/trust/io/server_trust.h"
 #include "server/app/control_plane.h"
 #include "server/app/house.h"
+#include "server/app/metrics_server.h"
 
 namespace tandem::server {
 
@@ -22,6 +24,10 @@ class FrontDoor {
     io::SocketAddress listen;  ///< port 0: one that is free for UDP and TCP
     std::string state;         ///< as typed; empty: the usual place, or on loopback keys made on the spot
     std::function<void(const ControlNews&)> tell;  ///< on the door's thread
+    ControlLimits limits{};
+    double load_max = House::kLoadMax;             ///< of a shard, above which nobody new gets a seat
+    io::Steering steering{};                       ///< of datagrams to shards
+    std::optional<io::SocketAddress> metrics{};    ///< where /metrics, /healthz and /readyz are answered; nothing: nowhere
   };
   /// What is wrong with the keys and books for an address, before anything starts; empty: nothing.
   [[nodiscard]] static std::string problem_with_keys(const io::SocketAddress& listen, const std::string& state);
@@ -29,8 +35,8 @@ class FrontDoor {
   [[nodiscard]] static std::expected<std::unique_ptr<FrontDoor>, std::string> open(const Plan& plan);
   ~FrontDoor();
 
-  /// For the shard: the datagrams' socket, on the port of the control connections. Once.
-  [[nodiscard]] io::UdpSocket take_socket() { return std::move(*socket_); }
+  /// For the shards: the datagrams' sockets, all on the port of the control connections. Once.
+  [[nodiscard]] std::vector<io::UdpSocket> take_sockets() { return std::move(sockets_); }
   [[nodiscard]] const io::SocketAddress& address() const noexcept { return address_; }
   /// Whether keys were made on the spot.
   [[nodiscard]] bool throw_away() const noexcept { return !trust_.on_disk(); }
@@ -40,6 +46,19 @@ class FrontDoor {
   void watch(Shard& shard) { house_.watch(shard); }
   /// Answers from now on. @return what is wrong
   [[nodiscard]] std::string start();
+
+  // ---- While it answers, from another thread than its own; these wait until it is done. ----
+  /// A session that is over goes; nobody looks at it afterwards.
+  void close(const trust::Id16& id);
+  /// A session in the place of one that went, in a slot of its shard that is free.
+  void open_late(House::Opening opening);
+  /// Ends a session gently.
+  void end(const trust::Id16& id);
+  /// Whoever wants in from now on is told that this server is about to end.
+  void drain();
+  /// The address in force.
+  [[nodiscard]] std::optional<io::SocketAddress> metrics_address() const { return metrics_ ? std::optional(metrics_->address()) : std::nullopt; }
+
   /// No newcomers, all control connections closed. Before the shards and sessions go.
   void stop();
 
@@ -47,13 +66,19 @@ class FrontDoor {
   FrontDoor(trust::ServerTrust trust, const Plan& plan);
   /// Who came in, and who was not let in and why: in the audit log.
   void note(const ControlNews& news) const;
+  /// What the commands beside this server may know of the sessions, written down when it changed.
+  [[nodiscard]] std::string write_down();
+  void write_down_now_and_then();
+  void on_thread(const std::function<void()>& what);
 
   trust::ServerTrust trust_;
   std::function<void(const ControlNews&)> tell_;
   ControlThread thread_;
   House house_;
   ControlPlane plane_;
-  std::optional<io::UdpSocket> socket_;
+  std::optional<MetricsServer> metrics_;
+  asio::steady_timer refresh_;
+  std::vector<io::UdpSocket> sockets_;
   io::SocketAddress address_;
   std::optional<trust::LocalRuntime> local_;
   ServingSpec serving_;

@@ -2,53 +2,30 @@
 
 #include <poll.h>
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
 #include <sys/signalfd.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <thread>
+#include <utility>
 
+#include "common/base/format.h"
 #include "common/io/clock.h"
-#include "common/io/output_file.h"
 #include "common/io/realtime.h"
+#include "common/io/service_notice.h"
 #include "common/io/signals.h"
 #include "common/io/terminal.h"
-#include "server/app/attendance.h"
 #include "server/app/front_door.h"
-#include "server/app/recorder.h"
-#include "server/app/shard.h"
-#include "server/app/slaves.h"
+#include "server/app/shards.h"
 #include "server/report_summary.h"
 
 namespace tandem::server {
 namespace {
 
-constexpr int kFailed = 1;
 constexpr int kTrouble = 1;  // while running
-constexpr int kWrong = 2;    // in arguments or files
-/// Two seconds of ticks at 1 kHz: how long the recorder may be kept from running before ticks are dropped and counted.
-constexpr std::size_t kQueueTicks = 2048;
 constexpr int kLookEveryMs = 250;
-
-/// Why a session ended.
-enum class End { kScene, kSignal, kNobodyCame, kPeersLost };
-
-const char* to_text(End end) {
-  switch (end) {
-    case End::kScene:
-      return "scene";
-    case End::kSignal:
-      return "signal";
-    case End::kNobodyCame:
-      return "nobody_came";
-    case End::kPeersLost:
-      return "peers_lost";
-  }
-  return "";
-}
+constexpr Duration kDrainMax = std::chrono::seconds(3);
 
 /// Clients are usually started from where the server is: with a path if this program needed one.
 std::string client_command() {
@@ -57,187 +34,263 @@ std::string client_command() {
   return (slash == std::string::npos ? "" : own.substr(0, slash + 1)) + "tandem-client";
 }
 
-void announce(std::FILE* people, const SceneSpec& scene, const io::SocketAddress& at, const std::string& code) {
-  const std::string address = io::to_text(at);
-  const std::string dialled = at.any() ? "SERVER:" + std::to_string(at.port()) : address;
-  std::fprintf(people, "listening on %s\n", address.c_str());  // scripts wait for this line
-  std::fprintf(people, "scene %s, %g s; %s\n", scene.name.c_str(), scene.duration,
-               code.empty() ? "in other terminals type" : ("session code " + code_text(code) + "; on enrolled workstations type").c_str());
-  for (const SeatSpec& seat : scene.seats)
-    std::fprintf(people, "  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), dialled.c_str(), seat.name.c_str(),
-                 code.empty() ? "" : seat.role == Role::kInstructor ? " --ticket TICKET" : (" --session " + code_text(code)).c_str(),
-                 seat.required ? "" : "    # optional");
-  if (!code.empty())
-    std::fprintf(people, "a TICKET is written by `tandem-server ticket --session %s --seat SEAT --workstation NAME`\n", scene.name.c_str());
-  std::fprintf(people, "Ctrl-C ends the session gently\n");
-  std::fflush(people);
-}
-
 /// On the door's thread: what somebody who runs a server wants to know of those who could not come in.
 void tell_log(const ControlNews& news) {
+  const bool trouble = news.event == ControlEvent::kTrouble;
   switch (news.event) {
     case ControlEvent::kNotEnrolled:
     case ControlEvent::kBlocked:
     case ControlEvent::kCodeRefused:
     case ControlEvent::kRefused:
-      spdlog::warn("{} {}: {} {}", news.address, news.workstation, to_text(news.event), news.detail);
-      break;
     case ControlEvent::kTrouble:
-      spdlog::error("{} {}: {}", news.address, news.workstation, news.detail);
       break;
     default:
-      break;
+      return;
   }
+  if (io::logs_json()) return io::tell(trouble ? io::Level::kError : io::Level::kWarn, {.event = std::string(to_text(news.event)), .text = news.address + " " + news.workstation + ": " + news.detail});
+  if (trouble) return spdlog::error("{} {}: {}", news.address, news.workstation, news.detail);
+  spdlog::warn("{} {}: {} {}", news.address, news.workstation, to_text(news.event), news.detail);
 }
 
-/// Waits for the end and tells people meanwhile.
-End watch(Shard& shard, const HostedSession& session, const HostPlan& plan, int signals, bool memory, bool awake) {
-  io::StatusLine line{plan.quiet};
-  Attendance attendance;
-  const Time begin = io::monotonic_now();
-  Time shown = begin;
-  bool told = false;
-  std::optional<End> end;
-  pollfd files[] = {{session.over_fd(), POLLIN, 0}, {signals, POLLIN, 0}};
-  const auto finish = [&](End why) {
-    if (!end) end = why;
-    shard.stop();
-  };
-  while (true) {
-    const int ready = poll(files, 2, kLookEveryMs);
-    if (ready > 0 && files[0].revents != 0) break;
-    if (ready > 0 && files[1].revents != 0) {
-      const std::string_view by = io::signal_that_came();
-      signalfd_siginfo taken;
-      [[maybe_unused]] const auto got = ::read(signals, &taken, sizeof taken);
-      line.note("ended by " + std::string(by.empty() ? "Ctrl-C" : by) + ": all hands are let go gently");
-      finish(End::kSignal);
-      continue;
+std::vector<double> tick_rates(const HostPlan& plan) {
+  std::vector<double> rates;
+  for (const SessionPlan& session : plan.sessions) rates.push_back(session.scene.tick_hz);
+  return rates;
+}
+
+/// One server process at work.
+class Host {
+ public:
+  explicit Host(const HostPlan& plan) : plan_(plan), signals_(io::signals_as_file()), shards_(tick_rates(plan)), line_(plan.quiet || plan.json_log.has_value()) {
+    if (plan.json_log) io::log_as_json(*plan.json_log);
+  }
+  ~Host() {
+    shards_.join();
+    if (door_) door_->stop();
+    io::end_log();
+  }
+
+  int run() {
+    if (const int code = open(); code != 0) return code;
+    for (const auto& r : runs_) announce(*r);
+    std::fprintf(people(), "Ctrl-C ends the session%s gently\n", runs_.size() == 1 ? "" : "s");
+    std::fflush(people());
+    io::notify_service("READY=1");
+    while (!runs_.empty()) look();
+    line_.clear();
+    io::tell(io::Level::kInfo, {.event = "stopped"});
+    return code_;
+  }
+
+ private:
+  int trouble(const std::string& what) {
+    spdlog::error("{}: {}", plan_.command, what);
+    return kTrouble;
+  }
+
+  /// With JSON on standard output people's lines move out of the way.
+  [[nodiscard]] std::FILE* people() const {
+    return std::ranges::any_of(runs_, [](const auto& r) { return r->writes_to_stdout(); }) ? stderr : stdout;
+  }
+
+  int open() {
+    FrontDoor::Plan door{plan_.listen, plan_.state, tell_log};
+    door.limits = plan_.limits;
+    door.load_max = plan_.load_max;
+    door.steering = shards_.steering();
+    door.metrics = plan_.metrics;
+    auto opened = FrontDoor::open(door);
+    if (!opened) return trouble(opened.error());
+    door_ = std::move(*opened);
+    for (std::size_t slot = 0; slot < plan_.sessions.size(); ++slot) {
+      auto made = make(plan_.sessions[slot], slot, 1);
+      if (!made) return made.error();
+      runs_.push_back(std::move(*made));
     }
+    memory_ = io::lock_memory();
+    shards_.take(door_->take_sockets());
+    for (const auto& r : runs_) {
+      shards_.of_slot(r->hosted().slot()).host(r->hosted());
+      door_->add(opening_of(*r));
+    }
+    for (const auto& shard : shards_.all()) door_->watch(*shard);
+    if (const auto problem = door_->start(); !problem.empty()) return trouble(problem);
+    shards_.run();
+    began_ = io::monotonic_now();
+    std::fprintf(people(), "listening on %s\n", io::to_text(door_->address()).c_str());  // scripts wait for this line
+    if (const auto at = door_->metrics_address()) std::fprintf(people(), "metrics on http://%s/metrics\n", io::to_text(*at).c_str());
+    return 0;
+  }
+
+  std::expected<std::unique_ptr<SessionRun>, int> make(const SessionPlan& plan, std::size_t slot, std::uint64_t epoch) {
+    auto made = SessionRun::open(plan, static_cast<std::uint8_t>(slot), epoch, !door_->throw_away() && !plan.tickets_only);
+    if (made) return std::move(*made);
+    for (const std::string& text : made.error().texts) trouble(text);
+    return std::unexpected(made.error().code);
+  }
+
+  House::Opening opening_of(SessionRun& r) {
+    return {r.plan().name, r.id(), r.code(), r.epoch(), &r.hosted(), &shards_.of_slot(r.hosted().slot())};
+  }
+
+  void announce(const SessionRun& r) {
+    const SceneSpec& scene = r.plan().scene;
+    const io::SocketAddress& at = door_->address();
+    const bool several = plan_.sessions.size() > 1, local = door_->throw_away();
+    const std::string dialled = at.any() ? "SERVER:" + std::to_string(at.port()) : io::to_text(at), &name = r.plan().name;
+    const std::string which = !r.code().empty() ? " --session " + code_text(r.code()) : several ? " --session " + name : "";
+    std::fprintf(people(), "%sscene %s, %g s; %s\n", several ? ("session " + name + ": ").c_str() : "", scene.name.c_str(), scene.duration,
+                 !r.code().empty() ? ("session code " + code_text(r.code()) + "; on enrolled workstations type").c_str()
+                 : local           ? "in other terminals type"
+                                   : "on enrolled workstations type");
+    for (const SeatSpec& seat : scene.seats) {
+      const bool ticket = !local && (r.code().empty() || seat.role == Role::kInstructor);
+      std::fprintf(people(), "  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), dialled.c_str(), seat.name.c_str(),
+                   ticket ? " --ticket TICKET" : which.c_str(), seat.required ? "" : "    # optional");
+    }
+    if (!local) std::fprintf(people(), "a TICKET is written by `tandem-server ticket --session %s --seat SEAT --workstation NAME`\n", name.c_str());
+    std::fflush(people());
+    io::tell(io::Level::kInfo, {.event = "session_opened", .session = name, .text = scene.name});
+  }
+
+  /// Waits a little, then sees to everything.
+  void look() {
+    std::vector<pollfd> files{{signals_.get(), POLLIN, 0}};
+    for (const auto& r : runs_) files.push_back({r->hosted().over_fd(), POLLIN, 0});
+    if (poll(files.data(), files.size(), kLookEveryMs) > 0 && files[0].revents != 0) take_signal();
     const Time now = io::monotonic_now();
-    const SessionStatus status = session.status();
-    if (!told) {
-      told = true;
-      const std::string notice = io::realtime_notice(status.machine.realtime, memory, awake);
-      if (!notice.empty()) line.note(notice);
+    if (drain_began_ && now - *drain_began_ > kDrainMax) leave_at_once("the sessions did not end within 3 s");
+    feed_watchdog();
+    for (std::size_t i = 0; i < runs_.size();) {
+      if (!runs_[i]->hosted().over()) {
+        attend(*runs_[i++], now);
+      } else if (!follow_up(runs_[i])) {
+        runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(i));
+      }
     }
-    const Attendance::News news = attendance.look(now, status, plan.scene);
-    for (const std::string& note : news.notes) line.note(note);
-    for (const std::string& warning : news.warnings) line.warn(warning);
-    if (end) continue;
+    if (now - shown_ < std::chrono::milliseconds(line_.interval_ms()) || drain_began_) return;
+    shown_ = now;
+    std::string text;
+    for (const auto& r : runs_) text += (text.empty() ? "" : " || ") + prefix(*r) + status_line(r->hosted().status(), r->plan().scene);
+    line_.show(text);
+  }
+
+  void take_signal() {
+    const std::string_view by = io::signal_that_came();
+    signalfd_siginfo taken;
+    [[maybe_unused]] const auto got = ::read(signals_.get(), &taken, sizeof taken);
+    if (drain_began_) leave_at_once("a second signal came");
+    drain_began_ = io::monotonic_now();
+    io::notify_service("STOPPING=1");
+    const std::string text = "ended by " + std::string(by.empty() ? "Ctrl-C" : by) + ": all hands are let go gently";
+    if (!io::logs_json()) line_.note(text);
+    io::tell(io::Level::kInfo, {.event = "draining", .text = text});
+    door_->drain();
+    for (const auto& r : runs_)
+      if (!r->end) r->end = End::kSignal;
+    shards_.stop();
+  }
+
+  /// Hands are safe without us: their own gates see to that.
+  [[noreturn]] void leave_at_once(const char* why) {
+    line_.clear();
+    std::fprintf(stderr, "tandem-server: %s; ends at once\n", why);
+    ::_exit(kTrouble);
+  }
+
+  /// systemd's watchdog lives on ticks that met their deadline, in every shard.
+  void feed_watchdog() {
+    const std::uint64_t punctual = shards_.punctual();
+    if (punctual != std::exchange(punctual_, punctual)) io::notify_service("WATCHDOG=1");
+  }
+
+  [[nodiscard]] std::string prefix(const SessionRun& r) const { return plan_.sessions.size() == 1 ? "" : r.plan().name + ": "; }
+
+  void tell(const SessionRun& r, const SessionStatus& status, const Attendance::Note& note) {
+    const auto tick = static_cast<std::uint64_t>(status.time * r.plan().scene.tick_hz + 0.5);
+    io::tell(note.warning ? io::Level::kWarn : io::Level::kInfo, {.event = note.event, .session = r.plan().name, .seat = note.seat, .tick = tick, .text = note.text});
+    const std::string text = prefix(r) + note.text;
+    if (io::logs_json()) return;
+    if (note.warning) return line_.warn(text);
+    line_.note(text);
+  }
+
+  void attend(SessionRun& r, Time now) {
+    const SessionStatus status = r.hosted().status();
+    if (!told_) {
+      told_ = true;
+      const std::string notice = io::realtime_notice(status.machine.realtime, memory_, awake_.granted());
+      if (!notice.empty()) line_.note(notice);
+    }
+    const Attendance::News news = r.attendance.look(now, status, r.plan().scene);
+    for (const Attendance::Note& note : news.notes) tell(r, status, note);
+    if (r.end) return;
     if (news.all_lost) {
-      line.warn("peers lost: everybody has been gone for 10 s; the session ends");
-      finish(End::kPeersLost);
-    } else if (plan.wait_s > 0 && status.state == wire::SessionState::kWaiting && seconds(now - begin) > plan.wait_s) {
-      line.warn("nobody came for " + waiting_for(status, plan.scene) + " within " + std::to_string(plan.wait_s) +
-                " s (--wait); the session ends");
-      finish(End::kNobodyCame);
-    } else if (now - shown >= std::chrono::milliseconds(line.interval_ms())) {
-      shown = now;
-      line.show(status_line(status, plan.scene));
+      tell(r, status, {"peers_lost", "", "peers lost: everybody has been gone for 10 s; the session ends", true});
+      end(r, End::kPeersLost);
+    } else if (plan_.wait_s > 0 && status.state == wire::SessionState::kWaiting && seconds(now - began_) > plan_.wait_s) {
+      tell(r, status, {"nobody_came", "", "nobody came for " + waiting_for(status, r.plan().scene) + " within " + std::to_string(plan_.wait_s) + " s (--wait); the session ends", true});
+      end(r, End::kNobodyCame);
     }
   }
-  line.clear();
-  return end.value_or(End::kScene);
-}
 
-double cpu_seconds() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
-  return s(used.ru_utime) + s(used.ru_stime);
-}
+  void end(SessionRun& r, End why) {
+    r.end = why;
+    door_->end(r.id());
+  }
 
-RunReport judge(const HostPlan& plan, const HostedSession& session, const Recorder& recorder) {
-  const SessionStatus& last = session.final_status();
-  std::vector<LinkReport> links;
-  for (std::size_t i = 0; i < plan.scene.seats.size(); ++i) links.push_back(last.seats[i].link);
-  RunReport report = recorder.builder().build(links);
-  report.seed = plan.seed;
-  report.violations = session.violations().list();
-  report.passed = session.violations().passed();
-  report.trace_hash = recorder.trace_hash();
-  report.cpu_s = cpu_seconds();
-  for (std::size_t i = 0; i < report.seats.size(); ++i) report.seats[i].gate_trips = last.seats[i].gate_trips;
-  return report;
-}
+  /// A session is over. @return whether another one took its place
+  bool follow_up(std::unique_ptr<SessionRun>& place) {
+    SessionRun& r = *place;
+    // While it drains, the shards end too and answer no more: then the door keeps what it knows of until it stops.
+    if (!drain_began_) door_->close(r.id());
+    const auto slot = r.hosted().slot();
+    const SessionRun::Verdict verdict = r.finish();
+    if (!plan_.quiet && !io::logs_json()) summarize(r.writes_to_stdout() ? stderr : stdout, verdict.report, r);
+    io::tell(verdict.report.passed ? io::Level::kInfo : io::Level::kError,
+             {.event = "session_over", .session = r.plan().name, .text = format("%s, %.1f s", verdict.report.passed ? "pass" : "FAIL", verdict.report.duration_s)});
+    if (!verdict.problem.empty()) trouble(verdict.problem);
+    if (!r.plan().restart || drain_began_) {
+      code_ = std::max(code_, verdict.code);
+      if (drain_began_) finished_.push_back(std::move(place));
+      return false;
+    }
+    auto next = make(r.plan(), slot, r.epoch() + 1);
+    if (!next) {
+      code_ = std::max(code_, next.error());
+      return false;
+    }
+    place = std::move(*next);
+    door_->open_late(opening_of(*place));
+    announce(*place);
+    return true;
+  }
 
-/// The report of every run, and what only a live one knows.
-std::string live_json(const RunReport& report, End end, const MachineStatus& machine, const TickQueue& queue) {
-  auto json = nlohmann::ordered_json::parse(to_json(report));
-  json["ended_by"] = to_text(end);
-  json["machine"] = {{"late_ticks", machine.late_ticks},
-                     {"missed_ticks", machine.missed_ticks},
-                     {"recorder_dropped", queue.dropped()},
-                     {"realtime", machine.realtime}};
-  return json.dump(2) + "\n";
-}
+  void summarize(std::FILE* out, const RunReport& report, SessionRun& r) {
+    line_.clear();
+    std::fprintf(out, "%s%s: %s, %.1f s, ticks more than 1 ms late on this machine: %llu\n", prefix(r).c_str(), report.scenario.c_str(), report.passed ? "pass" : "FAIL", report.duration_s,
+                 static_cast<unsigned long long>(r.hosted().final_status().machine.late_ticks));
+    std::fputs(report_summary(report, r.plan().scene).c_str(), out);
+    std::fflush(out);
+  }
 
-void summarize(std::FILE* people, const RunReport& report, const SceneSpec& scene, const SessionStatus& last) {
-  std::fprintf(people, "%s: %s, %.1f s, ticks more than 1 ms late on this machine: %llu\n", report.scenario.c_str(),
-               report.passed ? "pass" : "FAIL", report.duration_s,
-               static_cast<unsigned long long>(last.machine.late_ticks));
-  std::fputs(report_summary(report, scene).c_str(), people);
-  std::fflush(people);
-}
+  const HostPlan& plan_;
+  io::Fd signals_;
+  io::AwakeProcessor awake_;
+  Shards shards_;
+  std::unique_ptr<FrontDoor> door_;
+  std::vector<std::unique_ptr<SessionRun>> runs_;  ///< those that are not over, or being followed up
+  std::vector<std::unique_ptr<SessionRun>> finished_;  ///< that the door still knows of
+  io::StatusLine line_;
+  Time began_{}, shown_{};
+  std::optional<Time> drain_began_;
+  std::uint64_t punctual_ = 0;
+  bool memory_ = false, told_ = false;
+  int code_ = 0;
+};
 
 }  // namespace
 
-int host(const HostPlan& plan) {
-  const auto trouble = [](const std::string& what, int code) {
-    spdlog::error("run: {}", what);
-    return code;
-  };
-  const io::Fd signals = io::signals_as_file();
-  auto slaves = make_slaves(plan.scene, io::monotonic_now());
-  if (!slaves) {
-    for (const std::string& mistake : slaves.error()) spdlog::error("run: {}", mistake);
-    return kWrong;
-  }
-  auto door = FrontDoor::open({plan.listen, plan.state, tell_log});
-  if (!door) return trouble(door.error(), kTrouble);
-  io::OutputFile json, trace;
-  if (const auto problem = json.open(plan.json, true); !problem.empty()) return trouble("--json: " + problem, kWrong);
-  if (const auto problem = trace.open(plan.trace, false); !problem.empty())
-    return trouble("--trace: " + problem, kWrong);
-
-  const io::AwakeProcessor awake;
-  const bool memory = io::lock_memory();
-  TickQueue queue{kQueueTicks};
-  Recorder recorder{plan.scene, queue, trace};
-  const auto session = std::make_unique<HostedSession>(plan.scene, std::move(*slaves), std::uint8_t{0}, queue);
-  const auto shard = std::make_unique<Shard>((*door)->take_socket(), plan.scene.tick_hz);
-  shard->host(*session);
-  const std::string code = (*door)->throw_away() ? std::string() : draw_session_code();
-  (*door)->add({plan.scene.name, trust::random_bytes<trust::Id16>(), code, 1, session.get(), shard.get()});
-  (*door)->watch(*shard);
-  if (const auto problem = (*door)->start(); !problem.empty()) return trouble(problem, kTrouble);
-  std::thread ticks{[&] { shard->run(); }};
-
-  // With JSON on standard output people's lines move out of the way.
-  std::FILE* const people = json.on_stdout() ? stderr : stdout;
-  announce(people, plan.scene, (*door)->address(), code);
-  const End end = watch(*shard, *session, plan, signals.get(), memory, awake.granted());
-  shard->stop();
-  ticks.join();
-  (*door)->stop();
-  recorder.finish();
-
-  const RunReport report = judge(plan, *session, recorder);
-  if (!plan.quiet) summarize(people, report, plan.scene, session->final_status());
-  json.write(live_json(report, end, session->final_status().machine, queue));
-  for (io::OutputFile* file : {&json, &trace})
-    if (const auto problem = file->close(); !problem.empty()) return trouble(problem, kTrouble);
-  switch (end) {
-    case End::kSignal:
-      return 0;
-    case End::kScene:
-      return report.passed ? 0 : kFailed;
-    case End::kNobodyCame:
-    case End::kPeersLost:
-      return kTrouble;
-  }
-  return kTrouble;
-}
+int host(const HostPlan& plan) { return Host{plan}.run(); }
 
 }  // namespace tandem::server

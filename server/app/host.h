@@ -1,24 +1,33 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "common/io/log.h"
 #include "common/io/socket_address.h"
-#include "proto/scene_spec.h"
+#include "server/app/control_plane.h"
+#include "server/app/house.h"
+#include "server/app/session_run.h"
 
 namespace tandem::server {
 
-/// A run as a person asked for it, everything checked.
+/// What a server hosts, everything checked: one session (`run`) or many (`serve`).
 struct HostPlan {
-  SceneSpec scene;
+  const char* command = "run";    ///< for messages
+  std::vector<SessionPlan> sessions;
   io::SocketAddress listen;
-  std::string state;        ///< folder of keys and books as typed; empty: the usual place, or keys made on the spot on loopback
-  std::uint64_t seed = 1;   ///< for the report: nothing in a live session is drawn from it
-  std::string json, trace;  ///< file names; `-` (JSON only) is standard output; empty: not wanted
-  double wait_s = 0;        ///< for required seats; 0: until Ctrl-C
+  std::string state;              ///< folder of keys and books as typed; empty: the usual place, or keys made on the spot on loopback
+  ControlLimits limits{};
+  double load_max = House::kLoadMax;
+  std::optional<io::SocketAddress> metrics{};
+  std::optional<io::Level> json_log{};  ///< set: log lines are JSON, of this level and graver
+  double wait_s = 0;              ///< for required seats; 0: until Ctrl-C
   bool quiet = false;
 };
 
-/// Hosts one session: shard, recorder, status, reports. @return exit code
+/// Hosts sessions until they are over and none restarts, or until a signal: then nobody new comes in, all hands are let go gently, reports
+/// are written. A second signal, or 3 s, ends it at once. @return exit code
 [[nodiscard]] int host(const HostPlan& plan);
 
 }  // namespace tandem::server

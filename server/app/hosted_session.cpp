@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::uint64_t kLookEvery = 64;  // ticks between two looks at one seat, and between two pictures
 
+constexpr Duration kNeverEchoed = std::chrono::hours(1);  // what freshness says before the first echo is longer
+
 double ms(Duration d) { return seconds(d) * 1e3; }
 
 DirectionReport direction(const link::Link& receiver, Time now) {
@@ -63,6 +65,12 @@ void HostedSession::look_at_seat(std::size_t i, Time now) noexcept {
     seat.link.rtt_p50_ms = ms(link->freshness().rtt_p50());
     seat.link.rtt_p99_ms = ms(Duration{link->freshness().rtts().quantile(0.99)});
     seat.link.up = direction(*link, now);
+    const Duration age = link->freshness().loop_age(now);
+    seat.loop_age_s = age < kNeverEchoed ? seconds(age) : 0;
+    seat.accepted = link->stats().accepted;
+    seat.late = link->stats().late;
+    seat.lost = link->stats().lost();
+    seat.refused = link->stats().refused;
   }
 }
 
@@ -70,6 +78,8 @@ void HostedSession::publish(Time now, const MachineStatus& machine) noexcept {
   picture_.state = session_.state();
   picture_.time = session_.time();
   picture_.machine = machine;
+  picture_.stray = session_.stray();
+  picture_.violations = violations_.passed() ? 0 : 1;
   // Quick truths are looked up for all seats at once, so that a line never mixes old and new.
   for (std::size_t i = 0; i < scene_->seats.size(); ++i) {
     SeatStatus& seat = picture_.seats[i];

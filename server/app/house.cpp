@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/log.h"
 #include "common/trust/base32.h"
 #include "proto/seat_setup.h"
 #include "server/connection_id.h"
@@ -19,7 +21,15 @@ constexpr std::size_t kVisitorPlaces = 64;                      // ids behind th
 
 std::array<std::byte, 32> hash_of(const Secret<32>& secret) noexcept { return trust::sha256(secret.bytes); }
 
-control::SessionPhase phase_of(wire::SessionState state) noexcept {
+std::string names_of(const std::list<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+control::SessionPhase House::phase_of(wire::SessionState state) noexcept {
   switch (state) {
     case wire::SessionState::kWaiting:
       return control::SessionPhase::kWaiting;
@@ -36,26 +46,51 @@ control::SessionPhase phase_of(wire::SessionState state) noexcept {
   return control::SessionPhase::kEnding;
 }
 
-std::string names_of(const std::list<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-}  // namespace
-
 std::string draw_session_code() {
   return trust::to_base32(trust::random_bytes<std::array<std::byte, 7>>()).substr(0, control::kSessionCodeSize);
 }
 
 std::string code_text(const std::string& code) { return trust::grouped(code, 5); }
 
-House::House(asio::io_context& context, trust::ServerTrust& trust) : context_(context), trust_(trust) {}
+House::House(asio::io_context& context, trust::ServerTrust& trust, double load_max) : context_(context), trust_(trust), load_max_(load_max) {}
 House::~House() = default;
 
 void House::open(Opening opening) {
   const std::size_t seats = opening.session->scene().seats.size();
-  rooms_.push_back({std::move(opening), std::vector<Claim>(seats), trust::TokenBucket{kGuessesPerS, kGuessesAtOnce}});
+  rooms_.push_back({std::move(opening), std::vector<Claim>(seats), trust::TokenBucket{kGuessesPerS, kGuessesAtOnce}, 0, {}});
+}
+
+void House::open_late(Opening opening) {
+  open(std::move(opening));
+  Order order;
+  order.what = Order::What::kHost;
+  order.session = rooms_.back().opening.session;
+  order.done = [](Order&) {};
+  post(rooms_.back(), std::move(order));
+}
+
+void House::close(const trust::Id16& id, std::function<void()> gone) {
+  Room* const found = room(id);
+  if (found == nullptr) return gone();
+  found->gone = std::move(gone);
+  sweep(*found);
+}
+
+void House::sweep(Room& room) {
+  if (!room.gone || room.orders > 0) return;
+  const auto gone = std::move(room.gone);
+  rooms_.remove_if([&](const Room& r) { return &r == &room; });
+  gone();
+}
+
+void House::end(const trust::Id16& id) {
+  Room* const found = room(id);
+  if (found == nullptr) return;
+  Order order;
+  order.what = Order::What::kEnd;
+  order.session = found->opening.session;
+  order.done = [](Order&) {};
+  post(*found, std::move(order));
 }
 
 void House::watch(Shard& shard) {
@@ -77,32 +112,38 @@ void House::hear(Watched& watched) {
   });
 }
 
-void House::post(Shard& shard, Order order) {
+void House::post(Room& room, Order order) {
+  ++room.orders;
+  order.done = [this, &room, done = std::move(order.done)](Order& answered) {
+    done(answered);
+    --room.orders;
+    sweep(room);
+  };
   Order& kept = orders_.emplace_back(std::move(order));
-  if (shard.post(kept)) return;
+  if (room.opening.shard->post(kept)) return;
   kept.result = JoinResult::kSessionOver;
   kept.done(kept);
   orders_.pop_back();
 }
 
 House::Room* House::room(const control::Id& id) {
-  const auto found = std::ranges::find_if(rooms_, [&](const Room& r) { return r.opening.id == id; });
+  const auto found = std::ranges::find_if(rooms_, [&](const Room& r) { return r.opening.id == id && !r.gone; });
   return found == rooms_.end() ? nullptr : &*found;
 }
 
 std::variant<House::Room*, Refused> House::room_for(const JoinRequest& request) {
   std::list<std::string> open;
   for (const Room& r : rooms_)
-    if (!r.opening.session->over()) open.push_back(r.opening.name);
+    if (!r.gone && !r.opening.session->over()) open.push_back(r.opening.name);
   Room* found = nullptr;
   if (const auto* id = std::get_if<control::Id>(&request.hello.session)) {
     found = room(*id);
   } else if (const auto* code = std::get_if<std::string>(&request.hello.session)) {
     for (Room& r : rooms_)
-      if (!r.opening.code.empty() && r.opening.code == *code) found = &r;
+      if (!r.gone && !r.opening.code.empty() && r.opening.code == *code) found = &r;
   } else if (open.size() == 1) {
     for (Room& r : rooms_)
-      if (!r.opening.session->over()) found = &r;
+      if (!r.gone && !r.opening.session->over()) found = &r;
   } else if (!open.empty()) {
     return Refused{Reason::kNoSession, "this server has several sessions: " + names_of(open) + "; say which with --session", 0};
   }
@@ -112,11 +153,23 @@ std::variant<House::Room*, Refused> House::room_for(const JoinRequest& request) 
 }
 
 void House::admit(const JoinRequest& request, std::function<void(Admission)> answer) {
+  if (draining_) return answer(Refused{Reason::kDraining, "this server is about to end and lets nobody in; wait until it is back, or ask its operator", 10});
   const auto found = room_for(request);
   if (const auto* refused = std::get_if<Refused>(&found)) return answer(*refused);
   Room& room = *std::get<Room*>(found);
+  if (const auto busy = too_busy(room); busy && !std::holds_alternative<control::ResumeCredential>(request.hello.credential)) return answer(*busy);
   if (request.hello.visit) return visit(room, request, answer);
   sit(room, request, std::move(answer));
+}
+
+std::optional<Refused> House::too_busy(const Room& room) const {
+  const double load = room.opening.shard->load();
+  if (load <= load_max_) return std::nullopt;
+  return Refused{Reason::kFull,
+                 format("this server has no room for more: its ticks take %.0f %% of their time (p99), and newcomers are let in below %.0f %%; "
+                        "try again when others have left, or on another server",
+                        100 * load, 100 * load_max_),
+                 5};
 }
 
 void House::visit(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer) {
@@ -155,7 +208,7 @@ void House::sit(Room& room, const JoinRequest& request, std::function<void(Admis
     }
     answer(welcome(room, seat, false, static_cast<std::uint8_t>(seat + 1), request.hello.has_aes, force_scale));
   };
-  post(*room.opening.shard, std::move(order));
+  post(room, std::move(order));
 }
 
 std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std::size_t seat, double& force_scale) {
@@ -230,7 +283,9 @@ void House::seated(const JoinRequest& request, const control::Welcome& welcome, 
     order.entry = reception.prepare(seat, params);
     order.done = [&claim](Order&) { claim.being_given = false; };
   }
-  post(*found->opening.shard, std::move(order));
+  io::tell(io::Level::kInfo, {.event = request.hello.visit ? "visit" : "seated", .session = welcome.session_name, .seat = welcome.seat, .cid = welcome.server_cid,
+                              .text = request.address});
+  post(*found, std::move(order));
 }
 
 void House::abandoned(const control::Welcome& welcome) {
@@ -241,7 +296,7 @@ void House::abandoned(const control::Welcome& welcome) {
 control::SessionList House::list(const WorkstationRow&) {
   control::SessionList list;
   for (const Room& r : rooms_) {
-    if (r.opening.session->over()) continue;
+    if (r.gone || r.opening.session->over()) continue;
     if (list.sessions.size() == control::kSessionsMax) {
       list.more = true;
       break;
@@ -256,6 +311,33 @@ control::SessionList House::list(const WorkstationRow&) {
       s.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), status.seats[i].taken || r.claims[i].being_given, scene.seats[i].required});
   }
   return list;
+}
+
+ServingSpec House::serving() const {
+  ServingSpec out;
+  for (const Room& r : rooms_) {
+    if (r.gone) continue;
+    const SessionStatus status = r.opening.session->status();
+    OpenSession session{r.opening.id, r.opening.code, r.opening.name, r.opening.epoch, {},
+                        to_text(r.opening.session->over() ? control::SessionPhase::kEnding : phase_of(status.state))};
+    const auto& seats = r.opening.session->scene().seats;
+    for (std::size_t i = 0; i < seats.size(); ++i) session.seats.push_back({seats[i].name, access_role(seats[i].role), status.seats[i].taken, seats[i].required});
+    out.sessions.push_back(std::move(session));
+  }
+  return out;
+}
+
+std::vector<const House::Opening*> House::openings() const {
+  std::vector<const Opening*> all;
+  for (const Room& r : rooms_)
+    if (!r.gone) all.push_back(&r.opening);
+  return all;
+}
+
+std::vector<const Shard*> House::shards() const {
+  std::vector<const Shard*> all;
+  for (const Watched& w : watched_) all.push_back(w.shard);
+  return all;
 }
 
 void House::command(const control::Welcome&, const WorkstationRow&, const control::Body&, std::function<void(control::Body)> answer) {

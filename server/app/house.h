@@ -21,8 +21,11 @@ namespace tandem::server {
 /// itself is ordered from its shard and answered later.
 class House final : public Admissions {
  public:
+  static constexpr double kLoadMax = 0.6;  ///< [design notes, reliability 2.4]
+
   /// @param trust  tickets; of the same thread
-  House(asio::io_context& context, trust::ServerTrust& trust);
+  /// @param load_max  of a shard, above which nobody new gets a seat in it [1]
+  House(asio::io_context& context, trust::ServerTrust& trust, double load_max = kLoadMax);
   ~House() override;
 
   /// A session that people may join from now on. Before the context runs, or on its thread.
@@ -35,6 +38,21 @@ class House final : public Admissions {
     Shard* shard = nullptr;            ///< serves it already, or is about to
   };
   void open(Opening opening);
+  /// The same for a shard that runs already: it is told.
+  void open_late(Opening opening);
+  /// A session that is over: nobody hears of it any more. `gone` is called once nothing refers to it.
+  void close(const trust::Id16& id, std::function<void()> gone);
+  /// Lets all hands of a session go and ends it.
+  void end(const trust::Id16& id);
+  /// No newcomers from now on.
+  void drain() noexcept { draining_ = true; }
+
+  // ---- For those who look on, on the control plane's thread ----
+  [[nodiscard]] ServingSpec serving() const;
+  [[nodiscard]] bool draining() const noexcept { return draining_; }
+  [[nodiscard]] std::vector<const Opening*> openings() const;
+  [[nodiscard]] std::vector<const Shard*> shards() const;
+  [[nodiscard]] static control::SessionPhase phase_of(wire::SessionState state) noexcept;
   /// Hears when the shard has carried out orders.
   void watch(Shard& shard);
   /// Hears nobody any more, so that the context can end.
@@ -58,7 +76,9 @@ class House final : public Admissions {
   struct Room {
     Opening opening;
     std::vector<Claim> claims;  ///< one per seat
-    trust::TokenBucket guesses; ///< of the session's code
+    trust::TokenBucket guesses;    ///< of the session's code
+    std::size_t orders = 0;        ///< under way
+    std::function<void()> gone{};  ///< set: it is over, and waits for its last order
   };
   struct Watched {
     Shard* shard;
@@ -71,11 +91,16 @@ class House final : public Admissions {
   void sit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
   [[nodiscard]] std::optional<control::Refused> judge(Room& room, const JoinRequest& request, std::size_t seat, double& force_scale);
   [[nodiscard]] control::Welcome welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes, double force_scale);
-  void post(Shard& shard, Order order);
+  /// Whether anybody new may come in at all.
+  [[nodiscard]] std::optional<control::Refused> too_busy(const Room& room) const;
+  void post(Room& room, Order order);
+  void sweep(Room& room);
   void hear(Watched& watched);
 
   asio::io_context& context_;
   trust::ServerTrust& trust_;
+  double load_max_;
+  bool draining_ = false;
   std::list<Room> rooms_;
   std::list<Watched> watched_;
   std::list<Order> orders_;  ///< under way

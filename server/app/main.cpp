@@ -26,6 +26,8 @@ int main(int argc, char** argv) {
 
   std::function<int()> action;
   tandem::server::add_run_command(app, action);
+  tandem::server::add_serve_command(app, action);
+  tandem::server::add_sessions_command(app, action);
   tandem::server::add_scenes_command(app, action);
   tandem::server::add_init_command(app, action);
   tandem::server::add_enroll_command(app, action);

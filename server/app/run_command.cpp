@@ -17,7 +17,7 @@ constexpr int kWrong = 2;
 
 /// As typed. Numbers stay text until `understand`, so that all mistakes are told together.
 struct RunArguments {
-  std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace;
+  std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace, metrics, log = "text";
   bool check = false, quiet = false;
 };
 
@@ -35,8 +35,10 @@ double number(const char* option, std::string text, double lo, double hi, const 
 /// A plan, or everything that is wrong with what was typed.
 HostPlan understand(const RunArguments& arguments, Mistakes& mistakes) {
   HostPlan plan;
+  SessionPlan& session = plan.sessions.emplace_back();
   if (auto scene = load_scene(arguments.scene)) {
-    plan.scene = std::move(*scene);
+    session.scene = std::move(*scene);
+    session.name = session.scene.name;
   } else {
     for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
   }
@@ -47,26 +49,38 @@ HostPlan understand(const RunArguments& arguments, Mistakes& mistakes) {
   } else {
     mistakes.push_back("--listen: " + listen.error());
   }
+  if (!arguments.metrics.empty()) {
+    if (const auto metrics = io::parse_address(arguments.metrics, 0)) {
+      plan.metrics = *metrics;
+    } else {
+      mistakes.push_back("--metrics: " + metrics.error());
+    }
+  }
+  if (arguments.log == "json") {
+    plan.json_log = io::Level::kInfo;
+  } else if (arguments.log != "text") {
+    mistakes.push_back("--log: \"" + arguments.log + "\" must be text or json");
+  }
   if (const double s = number("--duration", arguments.duration, 0.1, 3e6, "s", mistakes); s > 0)
-    plan.scene.duration = s;
+    session.scene.duration = s;
   plan.wait_s = number("--wait", arguments.wait, 0.1, 3e6, "s", mistakes);
   std::string seed = arguments.seed;
   if (const std::string problem = io::whole_number()(seed); problem.empty()) {
-    plan.seed = std::stoull(seed);
+    session.seed = std::stoull(seed);
   } else {
     mistakes.push_back("--seed: " + problem);
   }
   plan.state = arguments.state;
-  plan.json = arguments.json;
-  plan.trace = arguments.trace;
+  session.json = arguments.json;
+  session.trace = arguments.trace;
   plan.quiet = arguments.quiet;
-  if (!plan.json.empty() && plan.json != "-")
-    if (const auto problem = io::OutputFile::problem(plan.json); !problem.empty())
+  if (!session.json.empty() && session.json != "-")
+    if (const auto problem = io::OutputFile::problem(session.json); !problem.empty())
       mistakes.push_back("--json: " + problem);
-  if (!plan.trace.empty())
-    if (const auto problem = io::OutputFile::problem(plan.trace); !problem.empty())
+  if (!session.trace.empty())
+    if (const auto problem = io::OutputFile::problem(session.trace); !problem.empty())
       mistakes.push_back("--trace: " + problem);
-  if (!plan.trace.empty() && plan.trace == plan.json) mistakes.push_back("--trace: is the same file as --json");
+  if (!session.trace.empty() && session.trace == session.json) mistakes.push_back("--trace: is the same file as --json");
   return plan;
 }
 
@@ -80,7 +94,7 @@ int run_command(const RunArguments& arguments) {
     return kWrong;
   }
   if (!arguments.check) return host(plan);
-  std::puts(effective_scene_text(plan.scene).c_str());
+  std::puts(effective_scene_text(plan.sessions.front().scene).c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
@@ -114,6 +128,8 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
                    "writes the report; `-`: to standard output, and everything else to standard error")
       ->option_text("FILE|-");
   command->add_option("--trace", arguments->trace, "writes one row per tick of the session")->option_text("FILE.csv");
+  command->add_option("--metrics", arguments->metrics, "answers /metrics (Prometheus), /healthz and /readyz there, over HTTP; default: nowhere")->option_text("HOST:PORT");
+  command->add_option("--log", arguments->log, "text, or json: one object per line on standard error; default text")->option_text("FORMAT");
   command->add_flag("--check", arguments->check, "only checks everything and prints every value in force, with units");
   command
       ->add_option("--seed", arguments->seed,

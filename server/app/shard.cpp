@@ -86,12 +86,16 @@ void Shard::run() noexcept {
     now = io::monotonic_now();
     const Duration late = now - due;
     const auto missed = static_cast<std::uint32_t>(late / period_);
+    lateness_.add(std::max(late, Duration::zero()));
     if (hosting()) {
+      if (late > kLate) late_.fetch_add(1, std::memory_order_relaxed);
       machine_.late_ticks += late > kLate ? 1 : 0;
       machine_.missed_ticks += missed;
     }
+    const Duration before = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
     tick(now, missed);
-    measure(io::monotonic_now() - now);
+    measure(io::read_clock(CLOCK_THREAD_CPUTIME_ID) - before);
+    turned_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
     due += (missed + 1) * period_;
   }
   carry_out(io::monotonic_now());  // who still waits is told that it is over
@@ -207,6 +211,7 @@ void Shard::flush() noexcept {
 
 void Shard::measure(Duration spent) noexcept {
   spent_.add(spent.count());
+  lengths_.add(spent);
   if (spent_.count() < kLoadTicks) return;
   load_.store(static_cast<double>(spent_.quantile(0.99)) / static_cast<double>(period_.count()), std::memory_order_relaxed);
   spent_ = Histogram{};

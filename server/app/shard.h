@@ -9,6 +9,7 @@
 #include "common/io/udp_socket.h"
 #include "server/app/hosted_session.h"
 #include "server/app/order.h"
+#include "server/app/tick_counts.h"
 
 namespace tandem::server {
 
@@ -38,8 +39,16 @@ class Shard {
   void news_read() noexcept;
 
   [[nodiscard]] const io::SocketAddress& address() const noexcept { return socket_.local; }
-  /// Share of a tick's time spent in it: the 99th percentile of the last second [1]. From any thread.
+  /// Share of a tick's time that it takes of a processor: the 99th percentile of the last 1000 ticks [1]. Others' work on this machine does
+  /// not count; it shows in the late ticks. From any thread.
   [[nodiscard]] double load() const noexcept { return load_.load(std::memory_order_relaxed); }
+  /// How punctual and how long ticks are. From any thread.
+  [[nodiscard]] const TickCounts& lateness() const noexcept { return lateness_; }
+  [[nodiscard]] const TickCounts& lengths() const noexcept { return lengths_; }
+  [[nodiscard]] Duration period() const noexcept { return period_; }
+  /// Ticks that began more than 1 ms after their time, so far, and the last moment at which one was through. From any thread.
+  [[nodiscard]] std::uint64_t late() const noexcept { return late_.load(std::memory_order_relaxed); }
+  [[nodiscard]] Time turned() const noexcept { return Time{Duration{turned_.load(std::memory_order_relaxed)}}; }
   /// Datagrams that belong to no session, so far. From any thread.
   [[nodiscard]] std::uint64_t stray() const noexcept { return stray_.load(std::memory_order_relaxed); }
 
@@ -69,6 +78,9 @@ class Shard {
   std::array<io::SocketAddress, kSendMax> addresses_;
 
   Histogram spent_;
+  TickCounts lateness_, lengths_;
+  std::atomic<std::uint64_t> late_{0};
+  std::atomic<std::int64_t> turned_{0};
   std::atomic<double> load_{0};
   std::atomic<std::uint64_t> stray_{0};
 };

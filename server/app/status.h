@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "common/link/link.h"
 #include "proto/scene_spec.h"
 #include "proto/wire.h"
 #include "server/report.h"
@@ -21,6 +22,9 @@ struct SeatStatus {
   double margin_j = 0;  ///< smallest energy margin of its ledger so far [J]
   std::uint32_t gate_trips = 0;
   std::uint32_t late_ticks = 0;  ///< of the client's machine
+  double loop_age_s = 0;         ///< how old the newest echo is [s]; 0: none yet
+  std::uint64_t accepted = 0, late = 0, lost = 0;  ///< datagrams of this connection
+  std::array<std::uint64_t, static_cast<std::size_t>(link::Refusal::kCount)> refused{};  ///< by reason
   LinkReport link;
 };
 
@@ -34,6 +38,8 @@ struct MachineStatus {
 struct SessionStatus {
   wire::SessionState state = wire::SessionState::kWaiting;
   double time = 0;  ///< session time [s]
+  std::uint64_t stray = 0;      ///< datagrams to this session for no connection
+  std::uint64_t violations = 0; ///< broken invariants that the law promises
   std::array<SeatStatus, kSeatsMax> seats{};
   MachineStatus machine;
 };

@@ -19,6 +19,7 @@ TANDEM_PACKAGES=(
   "libssl-dev: TLS of the control connection, keys, SHA-256 of traces"
   "libsodium-dev: seals datagrams"
   "libasio-dev: TCP connections"
+  "prometheus-cpp-dev: writes the server's metrics"
   "libusb-1.0-0-dev: talks to USB devices"
   "libhidapi-dev: talks to HID devices"
   "libudev-dev: finds devices and notices plugging"

@@ -15,7 +15,7 @@ struct Library {
   std::string_view prefix;
   std::string_view name;
 };
-constexpr std::array<Library, 20> kLibraries{{{"Eigen/", "Eigen"},
+constexpr std::array<Library, 21> kLibraries{{{"Eigen/", "Eigen"},
                                               {"unsupported/Eigen/", "Eigen"},
                                               {"asio/", "asio"},
                                               {"asio.hpp", "asio"},
@@ -34,6 +34,7 @@ constexpr std::array<Library, 20> kLibraries{{{"Eigen/", "Eigen"},
                                               {"sodium.h", "sodium"},
                                               {"zstd.h", "zstd"},
                                               {"sqlite3.h", "sqlite"},
+                                              {"prometheus/", "prometheus"},
                                               {"boost/", "boost"}}};
 constexpr std::string_view kSystem = "system";
 

@@ -1,0 +1,104 @@
+#include "proto/server_config_text.h"
+
+#include "proto/server_config.pb.h"
+#include "proto/text_format_reader.h"
+
+namespace tandem {
+namespace {
+
+using text::Checker;
+using text::child_path;
+
+PlacedText placed(const std::string& value, const Checker& checker, const std::string& key) {
+  const text::Place place = checker.place(key);
+  return {value, key, place.line, place.column};
+}
+
+/// A text that was written must say something.
+PlacedText not_empty(bool written, const std::string& value, Checker& checker, const std::string& key, const char* remedy) {
+  if (written && value.empty()) checker.error(key, std::string("is empty; ") + remedy);
+  return placed(value, checker, key);
+}
+
+ConfiguredSessionSpec session_from(const pb::ConfiguredSession& in, Checker& checker, const std::string& key) {
+  ConfiguredSessionSpec out;
+  out.name = in.name();
+  out.placed_name = placed(in.name(), checker, child_path(key, "name"));
+  out.scene = not_empty(in.has_scene(), in.scene(), checker, child_path(key, "scene"), "name a shipped scene or a file");
+  out.tickets_only = in.entry() == pb::ConfiguredSession::TICKETS;
+  if (in.has_restart()) out.restart = in.restart();
+  out.duration_s = in.duration_s();
+  return out;
+}
+
+DoorLimitsSpec limits_from(const pb::DoorLimits& in) {
+  DoorLimitsSpec out;
+  if (in.has_accepts_per_s()) out.accepts_per_s = in.accepts_per_s();
+  if (in.has_accepts_burst()) out.accepts_burst = in.accepts_burst();
+  if (in.has_accepts_per_s_all()) out.accepts_per_s_all = in.accepts_per_s_all();
+  if (in.has_pending()) out.pending = in.pending();
+  if (in.has_connections()) out.connections = in.connections();
+  if (in.has_deadline_s()) out.deadline_s = in.deadline_s();
+  if (in.has_load_percent()) out.load_percent = in.load_percent();
+  return out;
+}
+
+}  // namespace
+
+std::expected<ServerConfigSpec, InputErrors> parse_server_config(std::string_view text, std::string_view file_name) {
+  Checker checker{file_name};
+  pb::ServerConfig in;
+  if (!text::read_document(text, file_name, in, checker)) return std::unexpected(checker.take());
+  InputErrors errors = checker.take();
+
+  ServerConfigSpec out;
+  out.file = file_name;
+  out.listen = not_empty(in.has_listen(), in.listen(), checker, "listen", "write HOST:PORT");
+  out.state = not_empty(in.has_state(), in.state(), checker, "state", "name a folder, or leave the key out");
+  out.metrics = not_empty(in.has_metrics(), in.metrics(), checker, "metrics", "write HOST:PORT, or leave the key out");
+  out.reports = not_empty(in.has_reports(), in.reports(), checker, "reports", "name a folder, or leave the key out");
+  if (in.session_size() == 0 && !checker.written("session[0]")) checker.error("session", "is missing: a server without a session serves nobody");
+  for (int i = 0; i < in.session_size(); ++i) {
+    const std::string key = child_path("", "session", i);
+    for (const ConfiguredSessionSpec& other : out.sessions)
+      if (!in.session(i).name().empty() && other.name == in.session(i).name())
+        checker.error(child_path(key, "name"), "is the name of another session already; people must be able to tell them apart");
+    out.sessions.push_back(session_from(in.session(i), checker, key));
+  }
+  out.limits = limits_from(in.limits());
+  out.log.json = in.log().format() == pb::LogConfig::JSON;
+  out.log.level = static_cast<LogSpec::Level>(in.log().level());
+  add_unexplained(errors, checker.take());
+  if (!errors.empty()) return std::unexpected(std::move(errors));
+  return out;
+}
+
+std::string effective_server_config_text(const ServerConfigSpec& config) {
+  pb::ServerConfig out;
+  out.set_version(1);
+  out.set_listen(config.listen.text);
+  if (!config.state.text.empty()) out.set_state(config.state.text);
+  for (const ConfiguredSessionSpec& s : config.sessions) {
+    auto& session = *out.add_session();
+    session.set_name(s.name);
+    session.set_scene(s.scene.text);
+    session.set_entry(s.tickets_only ? pb::ConfiguredSession::TICKETS : pb::ConfiguredSession::CODE);
+    session.set_restart(s.restart);
+    if (s.duration_s > 0) session.set_duration_s(s.duration_s);
+  }
+  auto& limits = *out.mutable_limits();
+  limits.set_accepts_per_s(config.limits.accepts_per_s);
+  limits.set_accepts_burst(config.limits.accepts_burst);
+  limits.set_accepts_per_s_all(config.limits.accepts_per_s_all);
+  limits.set_pending(config.limits.pending);
+  limits.set_connections(config.limits.connections);
+  limits.set_deadline_s(config.limits.deadline_s);
+  limits.set_load_percent(config.limits.load_percent);
+  out.mutable_log()->set_format(config.log.json ? pb::LogConfig::JSON : pb::LogConfig::TEXT);
+  out.mutable_log()->set_level(static_cast<pb::LogConfig::Level>(config.log.level));
+  if (!config.metrics.text.empty()) out.set_metrics(config.metrics.text);
+  if (!config.reports.text.empty()) out.set_reports(config.reports.text);
+  return text::listing(out);
+}
+
+}  // namespace tandem

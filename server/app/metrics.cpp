@@ -1,0 +1,139 @@
+#include "server/app/metrics.h"
+
+#include <prometheus/text_serializer.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/io/clock.h"
+#include "common/io/log.h"
+
+namespace tandem::server {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+using Labels = std::vector<ClientMetric::Label>;
+
+constexpr Duration kTurned = std::chrono::seconds(1);
+
+/// A page under construction: families in the order of their first value.
+class Families {
+ public:
+  void count(const char* name, const char* help, Labels labels, double value) { metric(name, help, MetricType::Counter, std::move(labels)).counter.value = value; }
+  void gauge(const char* name, const char* help, Labels labels, double value) { metric(name, help, MetricType::Gauge, std::move(labels)).gauge.value = value; }
+  void ticks(const char* name, const char* help, Labels labels, const TickCounts& counts) {
+    ClientMetric::Histogram& h = metric(name, help, MetricType::Histogram, std::move(labels)).histogram;
+    std::uint64_t so_far = 0;
+    for (std::size_t i = 0; i < TickCounts::kBounds.size(); ++i) h.bucket.push_back({so_far += counts.count(i), TickCounts::kBounds[i]});
+    h.sample_count = so_far + counts.count(TickCounts::kBounds.size());
+    h.sample_sum = counts.sum();
+  }
+  [[nodiscard]] std::string text() const { return prometheus::TextSerializer{}.Serialize(families_); }
+
+ private:
+  ClientMetric& metric(const char* name, const char* help, MetricType type, Labels labels) {
+    for (MetricFamily& family : families_)
+      if (family.name == name) return add(family, std::move(labels));
+    MetricFamily& family = families_.emplace_back();
+    family.name = name;
+    family.help = help;
+    family.type = type;
+    return add(family, std::move(labels));
+  }
+  static ClientMetric& add(MetricFamily& family, Labels labels) {
+    ClientMetric& made = family.metric.emplace_back();
+    made.label = std::move(labels);
+    return made;
+  }
+  std::vector<MetricFamily> families_;
+};
+
+const char* to_text(link::Refusal reason) {
+  constexpr const char* kNames[] = {"header", "connection", "too_old", "tag", "duplicate", "body"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(link::Refusal::kCount));
+  return kNames[static_cast<std::size_t>(reason)];
+}
+
+void describe_seat(Families& page, const Labels& who, const SeatStatus& seat) {
+  const auto with = [&](const char* name, std::string value) {
+    Labels labels = who;
+    labels.push_back({name, std::move(value)});
+    return labels;
+  };
+  page.gauge("tandem_seat_taken", "Whether somebody sits there", who, seat.taken ? 1 : 0);
+  page.gauge("tandem_alpha", "Authority of the seat over the tool it follows", who, seat.alpha);
+  page.gauge("tandem_gate_state", "Force gate: 0 off, 1 zero, 2 ramp-in, 3 active, 4 passive, 5 damped, 6 fault", who, static_cast<double>(seat.gate));
+  page.count("tandem_gate_trip_total", "Times the gate let go by itself", who, seat.gate_trips);
+  page.gauge("tandem_energy_joules", "Least unspent energy of the seat's ledger so far", with("port", "margin"), seat.margin_j);
+  if (!seat.taken) return;  // what follows is of a connection
+  page.gauge("tandem_loop_age_seconds", "How old the newest echo of the seat is", who, seat.loop_age_s);
+  page.gauge("tandem_rtt_seconds", "Round trip including the wait for the next tick", with("quantile", "0.5"), 1e-3 * seat.link.rtt_p50_ms);
+  page.gauge("tandem_rtt_seconds", "", with("quantile", "0.99"), 1e-3 * seat.link.rtt_p99_ms);
+  page.count("tandem_udp_accepted_total", "Datagrams that acted", who, static_cast<double>(seat.accepted));
+  page.count("tandem_udp_late_total", "Authentic datagrams older than one that had acted", who, static_cast<double>(seat.late));
+  page.count("tandem_udp_lost_total", "Datagrams that never came", who, static_cast<double>(seat.lost));
+  page.count("tandem_client_tick_late_total", "Late servo ticks of the client's machine", who, seat.late_ticks);
+}
+
+std::string metrics(const House& house, const ControlPlane& plane) {
+  Families page;
+  std::array<std::uint64_t, static_cast<std::size_t>(link::Refusal::kCount)> refused{};
+  std::array<std::size_t, static_cast<std::size_t>(control::SessionPhase::kEnding) + 1> sessions{};
+  std::uint64_t stray = 0;
+  for (const House::Opening* opening : house.openings()) {
+    const SessionStatus status = opening->session->status();
+    ++sessions[static_cast<std::size_t>(House::phase_of(status.state))];
+    stray += status.stray;
+    const auto& seats = opening->session->scene().seats;
+    for (std::size_t i = 0; i < seats.size(); ++i) {
+      describe_seat(page, {{"session", opening->name}, {"seat", seats[i].name}}, status.seats[i]);
+      for (std::size_t r = 0; r < refused.size(); ++r) refused[r] += status.seats[i].refused[r];
+    }
+    page.gauge("tandem_session_time_seconds", "Session time", {{"session", opening->name}}, status.time);
+    page.gauge("tandem_session_broken", "1: an invariant that the session's law promises was broken", {{"session", opening->name}}, static_cast<double>(status.violations));
+  }
+  for (std::size_t i = 0; i < sessions.size(); ++i)
+    page.gauge("tandem_sessions", "Sessions by phase", {{"phase", control::to_text(static_cast<control::SessionPhase>(i))}}, static_cast<double>(sessions[i]));
+  for (const Shard* shard : house.shards()) {
+    const Labels who{{"tick_hz", std::to_string(std::lround(1.0 / seconds(shard->period())))}};
+    page.ticks("tandem_tick_seconds", "Processor time of a tick, all sessions of a shard", who, shard->lengths());
+    page.ticks("tandem_tick_lateness_seconds", "How late ticks began", who, shard->lateness());
+    page.count("tandem_tick_late_total", "Ticks that began more than 1 ms late", who, static_cast<double>(shard->late()));
+    page.gauge("tandem_tick_load", "Processor time of a tick, 99th percentile of the last 1000, share of the tick", who, shard->load());
+    stray += shard->stray();
+  }
+  for (std::size_t r = 0; r < refused.size(); ++r)
+    page.count("tandem_udp_drop_total", "Datagrams refused, by reason, of the connections there are now", {{"reason", to_text(static_cast<link::Refusal>(r))}}, static_cast<double>(refused[r]));
+  page.count("tandem_udp_drop_total", "", {{"reason", "stray"}}, static_cast<double>(stray));
+  page.count("tandem_aead_fail_total", "Datagrams whose tag was wrong, of the connections there are now", {}, static_cast<double>(refused[static_cast<std::size_t>(link::Refusal::kTag)]));
+  for (std::size_t i = 0; i < kControlEvents; ++i)
+    page.count("tandem_joins_total", "What happened at the door", {{"result", std::string(to_text(static_cast<ControlEvent>(i)))}}, static_cast<double>(plane.count(static_cast<ControlEvent>(i))));
+  page.gauge("tandem_draining", "1: nobody new is let in", {}, house.draining() ? 1 : 0);
+  page.count("tandem_log_drop_total", "Log lines that could not be written in time", {}, static_cast<double>(io::log_dropped()));
+  return page.text();
+}
+
+/// Empty: all shards turn.
+std::string stuck(const House& house) {
+  const Time now = io::monotonic_now();
+  for (const Shard* shard : house.shards())
+    if (now - shard->turned() > kTurned) return "a shard has not turned for " + std::to_string(seconds(now - shard->turned())) + " s\n";
+  return {};
+}
+
+}  // namespace
+
+Page monitoring_page(std::string_view path, const House& house, const ControlPlane& plane) {
+  if (path == "/metrics") return {200, "text/plain; version=0.0.4; charset=utf-8", metrics(house, plane)};
+  if (path != "/healthz" && path != "/readyz") return {404, "text/plain", "/metrics, /healthz or /readyz\n"};
+  const std::string why = stuck(house);
+  if (!why.empty()) return {503, "text/plain", why};
+  if (path == "/readyz" && house.draining()) return {503, "text/plain", "draining\n"};
+  return {200, "text/plain", "ok\n"};
+}
+
+}  // namespace tandem::server

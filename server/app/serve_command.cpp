@@ -1,0 +1,137 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "common/trust/enrolment.h"
+#include "proto/io/scene_file.h"
+#include "proto/server_config_text.h"
+#include "server/app/front_door.h"
+#include "server/app/host.h"
+#include "server/app/run_command.h"
+
+namespace tandem::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWrong = 2;
+
+struct ServeArguments {
+  std::string config;
+  bool check = false, quiet = false;
+};
+
+/// A file that the configuration names, seen from the configuration's own folder.
+std::string beside(const ServerConfigSpec& config, const std::string& named) {
+  if (named.empty() || fs::path(named).is_absolute()) return named;
+  const fs::path folder = fs::path(config.file).parent_path();
+  return folder.empty() ? named : (folder / named).string();
+}
+
+/// A bare name is a shipped scene's unless a file of this name lies beside the configuration.
+std::string scene_file(const ServerConfigSpec& config, const std::string& named) {
+  const bool bare = named.find_first_of("/.") == std::string::npos;
+  const std::string file = beside(config, named);
+  std::error_code error;
+  return bare && !fs::is_regular_file(file, error) ? named : file;
+}
+
+std::string problem_with_folder(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return "is not a folder; make it first";
+  return ::access(path.c_str(), W_OK | X_OK) == 0 ? "" : "is not writable for this user";
+}
+
+SessionPlan plan_from(const ServerConfigSpec& config, const ConfiguredSessionSpec& in, InputErrors& errors) {
+  SessionPlan out;
+  out.name = in.name;
+  out.tickets_only = in.tickets_only;
+  out.restart = in.restart;
+  out.reports = beside(config, config.reports.text);
+  if (auto scene = load_scene(scene_file(config, in.scene.text))) {
+    out.scene = std::move(*scene);
+  } else {
+    // What is wrong with it, and where it was asked for.
+    for (const InputError& error : scene.error()) errors.push_back(in.scene.error(config.file, to_text(error)));
+  }
+  if (trust::canonical_session_code(in.name))
+    errors.push_back(in.placed_name.error(config.file, "reads as a session's code (10 letters and digits), so nobody could join by this name; choose a shorter one"));
+  if (in.duration_s > 0) out.scene.duration = in.duration_s;
+  return out;
+}
+
+HostPlan understand(const ServerConfigSpec& config, InputErrors& errors) {
+  HostPlan plan;
+  plan.command = "serve";
+  plan.state = beside(config, config.state.text);
+  if (const auto listen = io::parse_address(config.listen.text, 0)) {
+    plan.listen = *listen;
+    if (const std::string problem = FrontDoor::problem_with_keys(*listen, plan.state); !problem.empty()) errors.push_back(config.listen.error(config.file, problem));
+  } else {
+    errors.push_back(config.listen.error(config.file, listen.error()));
+  }
+  if (!config.metrics.text.empty()) {
+    if (const auto metrics = io::parse_address(config.metrics.text, 0)) {
+      plan.metrics = *metrics;
+    } else {
+      errors.push_back(config.metrics.error(config.file, metrics.error()));
+    }
+  }
+  if (!config.reports.text.empty())
+    if (const std::string problem = problem_with_folder(beside(config, config.reports.text)); !problem.empty()) errors.push_back(config.reports.error(config.file, problem));
+  for (const ConfiguredSessionSpec& session : config.sessions) plan.sessions.push_back(plan_from(config, session, errors));
+  const DoorLimitsSpec& limits = config.limits;
+  plan.limits.accept = {limits.accepts_per_s, limits.accepts_burst, limits.accepts_per_s_all, limits.accepts_per_s_all};
+  plan.limits.pending = limits.pending;
+  plan.limits.connections = limits.connections;
+  plan.limits.deadline = std::chrono::milliseconds(static_cast<std::int64_t>(limits.deadline_s * 1000));
+  plan.load_max = limits.load_percent / 100;
+  if (config.log.json) plan.json_log = static_cast<io::Level>(config.log.level);
+  return plan;
+}
+
+int refuse(const InputErrors& errors) {
+  std::fputs(to_text(errors).c_str(), stderr);
+  std::fprintf(stderr, "tandem-server serve: %zu mistake%s, nothing was started\n", errors.size(), errors.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+int serve_command(const ServeArguments& arguments) {
+  const auto text = read_text_file(arguments.config);
+  if (!text) return refuse(text.error());
+  const auto config = parse_server_config(*text, arguments.config);
+  if (!config) return refuse(config.error());
+  InputErrors errors;
+  HostPlan plan = understand(*config, errors);
+  if (!errors.empty()) return refuse(errors);
+  plan.quiet = arguments.quiet;
+  if (!arguments.check) return host(plan);
+  std::fputs(effective_server_config_text(*config).c_str(), stdout);
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_serve_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<ServeArguments>();
+  CLI::App* const command = root.add_subcommand("serve", "Hosts all sessions of a configuration, until it is told to end.");
+  command->add_option("CONFIG", arguments->config, "a file of proto/server_config.proto; server/README.md has the table of its keys")->option_text(" ")->required();
+  command->add_flag("--check", arguments->check, "only checks everything and prints every value in force, with units");
+  command->add_flag("--quiet", arguments->quiet, "no status and no summaries");
+  command->footer(
+      "Prints `listening on HOST:PORT` first, then each session's code. A session that is over opens anew, with another code, unless\n"
+      "`restart: false`. SIGTERM or Ctrl-C: nobody new comes in, all hands are let go, reports are written, the end within 3 s; a second\n"
+      "one ends at once. Sessions of different tick rates have threads of their own, behind one port.\n"
+      "Exit: 0 ended by a signal, or all sessions over and passed; 1 trouble while running or verdict fail; 2 wrong arguments or files.\n\n"
+      "Example\n"
+      "  tandem-server serve /etc/tandem/server.textproto --check\n"
+      "with, at least\n"
+      "  version: 1\n"
+      "  listen: \"0.0.0.0:7000\"\n"
+      "  session { name: \"lab\" scene: \"free_motion\" }");
+  command->callback([arguments, &action] { action = [arguments] { return serve_command(*arguments); }; });
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,59 @@
+#include "server/app/shards.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "common/link/datagram.h"
+#include "server/connection_id.h"
+
+namespace tandem::server {
+namespace {
+
+/// Where a connection id's slot stands in a datagram: the second lowest byte of the little-endian u32 behind version, phase and two zeros.
+constexpr std::size_t kCidAt = 4;
+constexpr std::size_t kSlotAt = kCidAt + 1;
+static_assert(slot_of(std::uint32_t{7} << 8 * (kSlotAt - kCidAt)) == 7);
+
+constexpr double kPunctual = 1e-3;  // [s]
+
+}  // namespace
+
+Shards::Shards(std::span<const double> tick_hz) {
+  steering_.byte = kSlotAt;
+  for (std::size_t slot = 0; slot < tick_hz.size(); ++slot) {
+    auto found = std::ranges::find(rates_, tick_hz[slot]);
+    if (found == rates_.end()) found = rates_.insert(rates_.end(), tick_hz[slot]);
+    steering_.socket_of[slot] = static_cast<std::uint8_t>(found - rates_.begin());
+  }
+  steering_.sockets = rates_.size();
+}
+
+void Shards::take(std::vector<io::UdpSocket> sockets) {
+  for (std::size_t i = 0; i < rates_.size(); ++i) shards_.push_back(std::make_unique<Shard>(std::move(sockets[i]), rates_[i]));
+}
+
+void Shards::run() {
+  for (const auto& shard : shards_) threads_.emplace_back([&shard] { shard->run(); });
+}
+
+void Shards::stop() noexcept {
+  for (const auto& shard : shards_) shard->stop();
+}
+
+void Shards::join() {
+  stop();
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+std::uint64_t Shards::punctual() const noexcept {
+  std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max();
+  for (const auto& shard : shards_) {
+    std::uint64_t in_time = 0;
+    for (std::size_t i = 0; i < TickCounts::kBounds.size() && TickCounts::kBounds[i] <= kPunctual; ++i) in_time += shard->lateness().count(i);
+    fewest = std::min(fewest, in_time);
+  }
+  return fewest;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,143 @@
+// The Debian packages: built, looked into, unpacked into a root of their own and run there; with TANDEM_COUNTS=full and debootstrap,
+// installed into a fresh Debian 12.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/support/process.h"
+
+namespace tandem::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPatienceTimes = 20;  // of Process::kPatience: packages are compressed, a system may be installed
+
+struct Done {
+  int code = -1;
+  std::string text;  ///< both streams
+};
+
+Done shell(const std::string& command) {
+  Process process{{"/bin/sh", "-c", command + " 2>&1"}};
+  std::optional<int> code;
+  for (int i = 0; i < kPatienceTimes && !code; ++i) code = process.wait();
+  return {code.value_or(-1), process.out()};
+}
+
+bool there(const std::string& program) { return shell("command -v " + program).code == 0; }
+std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+const fs::path kPlace = fs::path{TANDEM_BINARY_DIR} / "debs";
+
+/// Builds all packages once. @return why not; empty: they are there
+const std::string& packages() {
+  static const std::string problem = []() -> std::string {
+    if (std::string_view{TANDEM_SANITIZE} != "") return "a build with sanitizers is not for installing";
+    for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps"})
+      if (!there(tool)) return std::string(tool) + " is not installed (apt install dpkg-dev)";
+    fs::remove_all(kPlace);
+    const Done made = shell(quoted(TANDEM_CMAKE) + " --build " + quoted(TANDEM_BINARY_DIR) + " --target manuals && " + quoted(TANDEM_CPACK) + " --config " +
+                            quoted(fs::path{TANDEM_BINARY_DIR} / "CPackConfig.cmake") + " -B " + quoted(kPlace));
+    EXPECT_EQ(made.code, 0) << made.text;
+    return "";
+  }();
+  return problem;
+}
+
+fs::path package(const std::string& name) {
+  for (const auto& entry : fs::directory_iterator(kPlace))
+    if (entry.path().extension() == ".deb" && entry.path().filename().string().starts_with(name + "_")) return entry.path();
+  ADD_FAILURE() << "no package " << name;
+  return {};
+}
+
+TEST(DebianPackages, HoldWhatTheyShallAndRunFromAnUnpackedRoot) {
+  if (const std::string& why = packages(); !why.empty()) {
+    std::printf("[ NOT RUN  ] Debian packages: %s\n", why.c_str());
+    return;
+  }
+  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
+    SCOPED_TRACE(name);
+    const fs::path deb = package(name), root = kPlace / ("root-" + name);
+    const std::string contents = shell("dpkg-deb -c " + quoted(deb)).text;
+    for (const std::string& file : {"./usr/bin/" + name, "./usr/share/man/man1/" + name + ".1", "./usr/share/doc/" + name + "/copyright"})
+      EXPECT_NE(contents.find(file), std::string::npos) << file << "\n" << contents;
+    const std::string info = shell("dpkg-deb -f " + quoted(deb)).text;
+    for (const char* field : {"Architecture: ", "libc6", "libprotobuf", "Version: " TANDEM_VERSION}) EXPECT_NE(info.find(field), std::string::npos) << field << "\n" << info;
+    ASSERT_EQ(shell("dpkg-deb -x " + quoted(deb) + " " + quoted(root)).code, 0);
+    const Done version = shell(quoted(root / "usr/bin" / name) + " --version");
+    EXPECT_EQ(version.code, 0) << version.text;
+    EXPECT_NE(version.text.find(TANDEM_VERSION), std::string::npos) << version.text;
+    if (there("man")) {
+      const Done page = shell("man --warnings -l " + quoted(root / ("usr/share/man/man1/" + name + ".1")) + " >/dev/null");
+      EXPECT_EQ(page.text, "") << "the manual page has mistakes";
+    }
+  }
+  const fs::path deb = package("tandem-server"), root = kPlace / "root-tandem-server", control = kPlace / "control";
+  ASSERT_EQ(shell("dpkg-deb -e " + quoted(deb) + " " + quoted(control)).code, 0);
+  EXPECT_EQ(shell("cat " + quoted(control / "conffiles")).text, "/etc/tandem/server.textproto\n");
+  for (const char* script : {"postinst", "prerm", "postrm"}) EXPECT_EQ(shell("sh -n " + quoted(control / script)).code, 0) << script;
+  EXPECT_TRUE(fs::exists(root / "lib/systemd/system/tandem-server.service"));
+
+  // The configuration that is installed, with its state folder where this test may write.
+  const fs::path state = kPlace / "state", config = kPlace / "server.textproto";
+  const std::string server = quoted(root / "usr/bin/tandem-server");
+  ASSERT_EQ(shell("sed 's|/var/lib/tandem|" + state.string() + "|' " + quoted(root / "etc/tandem/server.textproto") + " > " + quoted(config)).code, 0);
+  const Done before = shell(server + " serve " + quoted(config) + " --check");
+  EXPECT_EQ(before.code, 2) << before.text;
+  EXPECT_NE(before.text.find("tandem-server init"), std::string::npos) << "says what to run first\n" << before.text;
+  EXPECT_EQ(shell(server + " init --state " + quoted(state)).code, 0);
+  const Done after = shell(server + " serve " + quoted(config) + " --check");
+  EXPECT_EQ(after.code, 0) << after.text;
+}
+
+TEST(DebianPackages, TheUnitIsHardened) {
+  if (!there("systemd-analyze")) {
+    std::printf("[ NOT RUN  ] systemd-analyze security: it is not installed\n");
+    return;
+  }
+  const Done judged = shell("systemd-analyze security --offline=true --threshold=30 " + quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package/tandem-server.service"));
+  const auto at = judged.text.find("Overall exposure level");
+  if (at == std::string::npos) {
+    std::printf("[ NOT RUN  ] systemd-analyze security: it does not judge files offline here: %s\n", judged.text.c_str());
+    return;
+  }
+  std::printf("[ EXPOSURE ] %s", judged.text.substr(at).c_str());
+  EXPECT_EQ(judged.code, 0) << "above 3.0\n" << judged.text;
+}
+
+TEST(DebianPackages, InstallOnAFreshDebian) {
+  const char* counts = std::getenv("TANDEM_COUNTS");
+  const auto not_run = [](const std::string& why) { std::printf("[ NOT RUN  ] packages on a fresh Debian 12: %s\n", why.c_str()); };
+  if (counts == nullptr || std::string_view{counts} == "reduced") return not_run("minutes of installing belong to ./test --full (TANDEM_COUNTS=full)");
+  if (::getuid() != 0) return not_run("needs root");
+  if (!there("debootstrap")) return not_run("debootstrap is not installed");
+  if (const std::string& why = packages(); !why.empty()) return not_run(why);
+  const fs::path root = kPlace / "debian";
+  // The mirror this machine itself uses.
+  const std::string mirror = shell("apt-get indextargets --format '$(SITE)' 2>/dev/null | grep -v security | head -n 1 | tr -d '\\n'").text;
+  if (mirror.empty()) return not_run("apt knows no mirror");
+  const Done made = shell("debootstrap --variant=minbase bookworm " + quoted(root) + " " + mirror);
+  if (made.code != 0) return not_run("debootstrap failed: " + made.text.substr(made.text.size() > 300 ? made.text.size() - 300 : 0));
+  ASSERT_EQ(shell("cp " + quoted(kPlace) + "/*.deb " + quoted(root) + "/tmp/ && cp /etc/apt/sources.list.d/* " + quoted(root) + "/etc/apt/sources.list.d/ 2>/dev/null; cp /etc/apt/apt.conf.d/* " + quoted(root) + "/etc/apt/apt.conf.d/ 2>/dev/null; true").code, 0);
+  const std::string in = "chroot " + quoted(root) + " ";
+  const Done installed = shell(in + "sh -c 'export DEBIAN_FRONTEND=noninteractive; apt-get -qq update; apt-get install -y -qq --no-install-recommends /tmp/*.deb'");
+  ASSERT_EQ(installed.code, 0) << installed.text;
+  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) EXPECT_EQ(shell(in + name + " --version").code, 0) << name;
+  EXPECT_EQ(shell(in + "stat -c '%U %a' /var/lib/tandem").text, "tandem 700\n");
+  const Done init = shell(in + "su -s /bin/sh tandem -c 'tandem-server init && tandem-server serve /etc/tandem/server.textproto --check'");
+  EXPECT_EQ(init.code, 0) << init.text;
+  const Done session = shell(in + "tandem-netsim run one_axis --duration 1");
+  EXPECT_EQ(session.code, 0) << session.text;
+  const Done purged = shell(in + "sh -c 'apt-get purge -y -qq tandem-server && test ! -e /var/lib/tandem && test ! -e /etc/tandem/server.textproto'");
+  EXPECT_EQ(purged.code, 0) << purged.text;
+  fs::remove_all(root);
+}
+
+}  // namespace
+}  // namespace tandem::test

@@ -1,0 +1,358 @@
+// Many sessions on one server: real programs, real sockets on loopback. Outcomes are asserted, never how long anything took.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "common/io/tcp_listener.h"
+#include "common/io/udp_socket.h"
+#include "common/trust/io/client_trust.h"
+#include "common/trust/io/control_client.h"
+#include "tests/io/programs.h"
+
+namespace tandem::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+Process serving(const std::string& config, Words arguments = {}) {
+  arguments.insert(arguments.begin(), {"serve", config});
+  Process process = server(std::move(arguments));
+  process.wait_for("Ctrl-C ends");
+  return process;
+}
+
+/// Seats of a session that are taken, as `tandem-client sessions --json` says.
+Words taken(const std::string& address, const std::string& session) {
+  Process asked({TANDEM_CLIENT, "sessions", "--server", address, "--json"});
+  EXPECT_EQ(asked.wait(), 0) << asked.err();
+  Words seats;
+  const Json lobby = Json::parse(asked.out(), nullptr, false);
+  EXPECT_FALSE(lobby.is_discarded()) << asked.out();
+  for (const Json& s : lobby["sessions"]) {
+    if (s["name"] != session) continue;
+    EXPECT_EQ(s["seats_free"].get<std::size_t>() + s["seats_taken"].get<std::size_t>(), s["seats"].size());
+    for (const Json& seat : s["seats"])
+      if (seat["taken"]) seats.push_back(seat["name"]);
+  }
+  return seats;
+}
+
+/// The only report of a session in a folder.
+Json report_of(const std::string& folder, const std::string& session) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename().string().starts_with(session + "-")) {
+      std::ostringstream text;
+      text << std::ifstream(entry.path()).rdbuf();
+      return Json::parse(text.str(), nullptr, false);
+    }
+  return {};
+}
+
+/// One session comes and goes while the other works; both tick rates behind one port.
+TEST(ManySessions, DoNotFeelEachOther) {
+  const Folder folder;
+  folder.write("slow.textproto", "version: 1 dof: 1 tick_hz: 500 duration_s: 600 gate { loop_age_max_ms: 2500 latch: false }\n"
+                                 "device_coupling { k_c_n_m: 100 }\n"
+                                 "seat { name: \"trainer\" kind: MASTER role: INSTRUCTOR required: true device { model: LINEAR } hand { model: LEADER } }\n"
+                                 "seat { name: \"trainee\" kind: MASTER role: TRAINEE required: false device { model: LINEAR } hand { model: RELAXED } }\n"
+                                 "tool { name: \"tool\" k_s_n_m: 100 slave { model: LINEAR } }\nauthority { tool: \"tool\" seat: \"trainer\" alpha: 1 }\n");
+  fs::create_directory(folder.file("reports"));
+  const std::string config = folder.write("server.textproto",
+                                          "version: 1\nlisten: \"127.0.0.1:0\"\nreports: \"reports\"\n"
+                                          "session { name: \"busy\" scene: \"slow.textproto\" restart: false }\n"
+                                          "session { name: \"quiet\" scene: \"free_motion\" duration_s: 4 restart: false }\n");
+  Process host = serving(config);
+  const std::string address = address_of(host);
+  ASSERT_FALSE(address.empty()) << host.err();
+  Process trainer = client(address, "trainer", {"--session", "busy"});
+  Process quiet_trainer = client(address, "trainer", {"--session", "quiet"}), quiet_trainee = client(address, "trainee", {"--session", "quiet"});
+  ASSERT_TRUE(host.wait_for("quiet: the session runs")) << host.err();
+
+  // Late, while both work: somebody sits down, is in nobody's way, and nobody can sit on his lap.
+  Process late = client(address, "trainee", {"--session", "busy"});
+  ASSERT_TRUE(host.wait_for("busy: trainee joined")) << host.err();
+  EXPECT_EQ(taken(address, "busy"), (Words{"trainer", "trainee"}));
+  Process second = client(address, "trainee", {"--session", "busy"});
+  EXPECT_EQ(second.wait(), 1);
+  EXPECT_NE(second.err().find("somebody sits there already"), std::string::npos) << second.err();
+  late.signal(SIGINT);
+  EXPECT_EQ(late.wait(), 0) << late.err();
+  ASSERT_TRUE(host.wait_for("busy: trainee left")) << host.err();
+  EXPECT_EQ(taken(address, "busy"), (Words{"trainer"}));
+  Process again = client(address, "trainee", {"--session", "busy", "--duration", "0.5"});
+  EXPECT_EQ(again.wait(), 0) << again.err();
+
+  EXPECT_EQ(quiet_trainer.wait(), 0) << quiet_trainer.err();
+  EXPECT_EQ(quiet_trainee.wait(), 0) << quiet_trainee.err();
+  ASSERT_TRUE(host.wait_for("quiet: free_motion: ")) << host.err();
+  const Json quiet = report_of(folder.file("reports"), "quiet");
+  ASSERT_TRUE(quiet.is_object()) << "no report";
+  EXPECT_EQ(quiet["violations"], Json::array()) << quiet["violations"];
+  EXPECT_EQ(quiet["ended_by"], "scene");
+  Process nowhere = client(address, "trainer", {"--session", "quiet"});
+  EXPECT_EQ(nowhere.wait(), 1) << "it is over and does not restart";
+
+  host.signal(SIGTERM);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_NE(trainer.err().find("the server ended the session"), std::string::npos) << trainer.err();
+  const Json busy = report_of(folder.file("reports"), "busy");
+  ASSERT_TRUE(busy.is_object()) << "no report";
+  EXPECT_EQ(busy["ended_by"], "signal");
+  EXPECT_EQ(busy["violations"], Json::array()) << busy["violations"];
+}
+
+TEST(ManySessions, OpenAnewWhenTheyAreOver) {
+  const Folder folder;
+  const std::string config = folder.write("s.textproto", "version: 1 listen: \"127.0.0.1:0\" session { name: \"again\" scene: \"one_axis\" duration_s: 0.5 }");
+  Process host = serving(config);
+  for (int i = 0; i < 3; ++i) {
+    Process trainer = client(address_of(host), "trainer", {"--patience", "20"});
+    while (trainer.wait() == 1) trainer = client(address_of(host), "trainer", {"--patience", "20"});  // between two sessions
+    EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  }
+  host.signal(SIGINT);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
+TEST(ManySessions, MistakesOfAConfigurationAreToldTogether) {
+  const Folder folder;
+  const std::string config = folder.write("s.textproto", "version: 1\nlisten: \"127.0.0.1\"\nmetrics: \"nowhere\"\nreports: \"none\"\nsession { name: \"a\" scene: \"contakt\" }\n"
+                                                         "session { name: \"abcdefghjk\" scene: \"contact\" }\n");
+  Process host = server({"serve", config});
+  EXPECT_EQ(host.wait(), 2);
+  for (const char* mistake : {"s.textproto:2:9: listen", "s.textproto:3:10: metrics", "s.textproto:4:10: reports", "s.textproto:5:28: session[0].scene = ", "contact", "session[1].name", "5 mistakes"})
+    EXPECT_NE(host.err().find(mistake), std::string::npos) << mistake << "\n" << host.err();
+  const std::string good = folder.write("g.textproto", "version: 1 listen: \"127.0.0.1:0\" session { name: \"a\" scene: \"contact\" }");
+  Process checked = server({"serve", good, "--check"});
+  EXPECT_EQ(checked.wait(), 0) << checked.err();
+  EXPECT_NE(checked.out().find("limits.load_percent"), std::string::npos) << checked.out();
+}
+
+TEST(ManySessions, ASecondSignalEndsAtOnce) {
+  const Folder folder;
+  Process host = serving(folder.write("s.textproto", "version: 1 listen: \"127.0.0.1:0\" session { name: \"a\" scene: \"free_motion\" }"));
+  Process trainer = client(address_of(host), "trainer"), trainee = client(address_of(host), "trainee");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  host.signal(SIGTERM);
+  host.signal(SIGINT);
+  const auto code = host.wait();
+  EXPECT_TRUE(code == 1 || code == 0) << "0 if it was over before the second one came";
+  if (code == 1) {
+    EXPECT_NE(host.err().find("a second signal came"), std::string::npos) << host.err();
+  }
+}
+
+// ---- Who may come in -------------------------------------------------------------------------------------------------------
+
+/// A server with a state folder and one enrolled workstation.
+struct School {
+  Folder folder;
+  Process host;
+  std::string address, state, own;
+
+  explicit School(const std::string& sessions) : host(started(sessions)), address(address_of(host)), state(folder.file("state")), own(folder.file("own")) {
+    Process given = server({"enroll", "desk", "--state", state});
+    EXPECT_EQ(given.wait(), 0) << given.err();
+    Process taken({TANDEM_CLIENT, "enroll", first_line(given.out()), "--state", own});
+    EXPECT_EQ(taken.wait(), 0) << taken.err();
+  }
+  Process started(const std::string& sessions) const {
+    Process made = server({"init", "--state", folder.file("state")});
+    EXPECT_EQ(made.wait(), 0) << made.err();
+    return serving(folder.write("s.textproto", "version: 1 listen: \"127.0.0.1:0\" state: \"state\" " + sessions));
+  }
+  Process join(const std::string& seat, Words more) const {
+    more.insert(more.end(), {"--state", own});
+    return client(address, seat, more);
+  }
+  std::string ticket(const std::string& session, const std::string& seat) const {
+    Process made = server({"ticket", "--session", session, "--seat", seat, "--workstation", "desk", "--state", state});
+    EXPECT_EQ(made.wait(), 0) << made.err();
+    return first_line(made.out());
+  }
+  std::string code() const {
+    Process asked = server({"sessions", "--json", "--state", state});
+    EXPECT_EQ(asked.wait(), 0) << asked.err();
+    const Json lobby = Json::parse(asked.out(), nullptr, false);
+    return lobby.is_discarded() ? "" : lobby["sessions"][0]["code"].is_string() ? lobby["sessions"][0]["code"].get<std::string>() : "";
+  }
+};
+
+TEST(School, TicketsAreUsedOnceAndARevokedWorkstationIsRefusedAtOnce) {
+  const School school{"session { name: \"a\" scene: \"free_motion\" entry: TICKETS } session { name: \"b\" scene: \"one_axis\" }"};
+  EXPECT_EQ(school.code(), "") << "tickets only";
+  const std::string ticket = school.ticket("a", "trainer");
+  Process trainer = school.join("trainer", {"--ticket", ticket, "--duration", "0.3"});
+  Process second = school.join("trainee", {"--ticket", ticket});
+  EXPECT_EQ(second.wait(), 1) << "a ticket is for one seat";
+  EXPECT_EQ(trainer.wait(), 1) << "left before the session ran: nothing to judge\n" << trainer.err();
+  Process used = school.join("trainer", {"--ticket", ticket});
+  EXPECT_EQ(used.wait(), 1);
+  EXPECT_NE(used.err().find("used"), std::string::npos) << used.err();
+
+  Process listed({TANDEM_CLIENT, "sessions", "--server", school.address, "--state", school.own});
+  EXPECT_EQ(listed.wait(), 0) << listed.err();
+  EXPECT_NE(listed.out().find("a: waiting"), std::string::npos) << listed.out();
+  const std::string good = school.ticket("b", "trainer");
+  Process revoked = server({"revoke", "desk", "--state", school.state});
+  EXPECT_EQ(revoked.wait(), 0) << revoked.err();
+  Process refused = school.join("trainer", {"--ticket", good});
+  EXPECT_EQ(refused.wait(), 1);
+  EXPECT_NE(refused.err().find("not enrolled"), std::string::npos) << refused.err();
+  const std::string audit = school.folder.read("state/audit.log");
+  for (const char* word : {"welcomed", "refused", "not_enrolled", "revoked"}) EXPECT_NE(audit.find(word), std::string::npos) << word << "\n" << audit;
+}
+
+/// What a client says that lost its connection: with the secret it was given its own seat comes back, and no other one does.
+TEST(School, ASeatComesBackToWhoHasItsSecret) {
+  const School school{"session { name: \"a\" scene: \"free_motion\" }"};
+  const auto own = trust::ClientTrust::open(school.own);
+  ASSERT_TRUE(own && *own);
+  const auto ask = [&](const control::Credential& credential) -> control::Body {
+    const auto judge = [&](const trust::Pin&) -> std::expected<const trust::Identity*, std::string> { return &(*own)->identity(); };
+    auto connected = trust::ControlClient::connect(*io::parse_address(school.address, 1), judge, std::chrono::seconds(30), -1);
+    if (!connected) return control::Done{};
+    control::Hello hello;
+    hello.seat = "trainee";
+    hello.credential = credential;
+    hello.client_cid = 7;
+    hello.device = {3, 3, true, false, 0, 0, 0};
+    auto answer = connected->ask(hello, std::chrono::seconds(30));
+    return answer ? std::move(*answer) : control::Body{control::Done{}};
+  };
+  std::string code = school.code();
+  std::erase(code, '-');
+  const auto first = ask(control::CodeCredential{code});
+  ASSERT_TRUE(std::holds_alternative<control::Welcome>(first)) << (std::holds_alternative<control::Refused>(first) ? std::get<control::Refused>(first).text : "no answer");
+  Secret<32> wrong = std::get<control::Welcome>(first).resume_secret;
+  wrong.bytes[0] ^= std::byte{1};
+  const auto refused = ask(control::ResumeCredential{wrong});
+  ASSERT_TRUE(std::holds_alternative<control::Refused>(refused));
+  EXPECT_EQ(std::get<control::Refused>(refused).reason, control::Reason::kResume);
+  const auto back = ask(control::ResumeCredential{std::get<control::Welcome>(first).resume_secret});
+  ASSERT_TRUE(std::holds_alternative<control::Welcome>(back)) << std::get<control::Refused>(back).text;
+  EXPECT_EQ(std::get<control::Welcome>(back).seat, "trainee");
+  EXPECT_NE(std::get<control::Welcome>(back).resume_secret, std::get<control::Welcome>(first).resume_secret);
+  const auto old = ask(control::ResumeCredential{std::get<control::Welcome>(first).resume_secret});
+  EXPECT_TRUE(std::holds_alternative<control::Refused>(old)) << "a secret is replaced by the next one";
+}
+
+// ---- Those who look on -----------------------------------------------------------------------------------------------------
+
+std::string http(const std::string& address, const std::string& request) {
+  const auto to = io::parse_address(address, 1);
+  const io::Fd socket{::socket(to->family(), SOCK_STREAM | SOCK_CLOEXEC, 0)};
+  if (::connect(socket.get(), to->get(), to->size) != 0) return "";
+  ::send(socket.get(), request.data(), request.size(), MSG_NOSIGNAL);
+  std::string answer;
+  std::array<char, 4096> part;
+  for (ssize_t n = 0; (n = ::recv(socket.get(), part.data(), part.size(), 0)) > 0;) answer.append(part.data(), static_cast<std::size_t>(n));
+  return answer;
+}
+
+TEST(Monitoring, ShowsMetricsHealthAndNothingElse) {
+  Process host = hosting("one_axis", {"--metrics", "127.0.0.1:0"});
+  std::string metrics = host.after("metrics on http://");
+  metrics = metrics.substr(0, metrics.find('/'));
+  ASSERT_FALSE(metrics.empty()) << host.out();
+  Process trainer = client(address_of(host), "trainer");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\nHost: x\r\n\r\n");
+  EXPECT_TRUE(page.starts_with("HTTP/1.1 200 OK\r\n")) << page;
+  for (const char* line : {"tandem_tick_seconds_bucket{tick_hz=\"1000\",le=\"0.0001\"}", "tandem_tick_late_total{", "tandem_loop_age_seconds{session=\"one_axis\",seat=\"trainer\"}",
+                           "tandem_gate_state{", "tandem_alpha{session=\"one_axis\",seat=\"trainer\"} ", "tandem_joins_total{result=\"welcomed\"} 1",
+                           "tandem_udp_drop_total{reason=\"tag\"} 0", "tandem_sessions{phase=\"running\"} 1", "# TYPE tandem_tick_seconds histogram"})
+    EXPECT_NE(page.find(line), std::string::npos) << line << "\n" << page;
+  EXPECT_NE(http(metrics, "GET /healthz HTTP/1.1\r\n\r\n").find("200 OK"), std::string::npos);
+  EXPECT_NE(http(metrics, "GET /readyz HTTP/1.1\r\n\r\n").find("200 OK"), std::string::npos);
+  EXPECT_NE(http(metrics, "GET /etc/passwd HTTP/1.1\r\n\r\n").find("404"), std::string::npos);
+  EXPECT_NE(http(metrics, "POST /metrics HTTP/1.1\r\nContent-Length: 0\r\n\r\n").find("405"), std::string::npos);
+  EXPECT_NE(http(metrics, "\r\n\r\n").find("400"), std::string::npos);
+  EXPECT_EQ(http(metrics, std::string(5000, 'x')), "") << "longer than any request";
+  host.signal(SIGTERM);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+}
+
+TEST(Monitoring, ABusyServerRefusesNewcomersAndSaysWhy) {
+  const Folder folder;
+  std::string config = "version: 1 listen: \"127.0.0.1:0\" metrics: \"127.0.0.1:0\" limits { load_percent: 1 }";
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"}) config += std::string(" session { name: \"") + name + "\" scene: \"eight_seats\" }";
+  Process host = serving(folder.write("s.textproto", config));
+  std::string metrics = host.after("metrics on http://");
+  metrics = metrics.substr(0, metrics.find('/'));
+  // Known after the first thousand ticks.
+  double load = 0;
+  for (int tries = 0; tries < 100'000 && load == 0; ++tries) {
+    const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\n\r\n"), name = "\ntandem_tick_load{tick_hz=\"1000\"} ";
+    const auto at = page.find(name);
+    if (at != std::string::npos) load = std::atof(page.c_str() + at + name.size());
+  }
+  ASSERT_GT(load, 0.01) << "eight sessions of eight seats take more than 10 us on any machine";
+  Process trainee = client(address_of(host), "trainee", {"--session", "d"});
+  EXPECT_EQ(trainee.wait(), 1);
+  EXPECT_NE(trainee.err().find("no room for more"), std::string::npos) << trainee.err();
+  host.signal(SIGTERM);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
+TEST(Monitoring, LogsOneJsonObjectPerLine) {
+  Process host = hosting("one_axis", {"--log", "json", "--duration", "0.5"});
+  Process trainer = client(address_of(host), "trainer");
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(host.wait(), 0);
+  std::istringstream lines(host.err());
+  std::string events;
+  for (std::string line; std::getline(lines, line);) {
+    const Json json = Json::parse(line, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << line;
+    for (const char* key : {"ts", "mono", "level", "event"}) EXPECT_TRUE(json.contains(key)) << line;
+    events += json["event"].get<std::string>() + " ";
+    if (json["event"] == "seated") {
+      EXPECT_EQ(json["session"], "one_axis");
+      EXPECT_EQ(json["seat"], "trainer");
+      EXPECT_GT(json["cid"].get<std::uint32_t>(), 0u);
+    }
+    if (json["event"] == "running") {
+      EXPECT_TRUE(json["tick"].is_number()) << line;
+    }
+  }
+  for (const char* event : {"session_opened", "seated", "joined", "running", "session_over", "stopped"}) EXPECT_NE(events.find(event), std::string::npos) << event << ": " << events;
+}
+
+TEST(Monitoring, TellsASupervisorThatItIsReadyAliveAndEnding) {
+  const Folder folder;
+  const std::string path = folder.file("notify");
+  const io::Fd socket{::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)};
+  sockaddr_un at{};
+  at.sun_family = AF_UNIX;
+  path.copy(at.sun_path, sizeof at.sun_path - 1);
+  ASSERT_EQ(::bind(socket.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
+  setenv("NOTIFY_SOCKET", path.c_str(), 1);
+  Process host = hosting("one_axis");
+  unsetenv("NOTIFY_SOCKET");
+  const timeval patience{30, 0};
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const auto next = [&] {
+    std::array<char, 64> text;
+    const ssize_t size = ::recv(socket.get(), text.data(), text.size(), 0);
+    return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : std::string("nothing came");
+  };
+  EXPECT_EQ(next(), "READY=1");
+  EXPECT_EQ(next(), "WATCHDOG=1");
+  host.signal(SIGTERM);
+  std::string last = next();
+  while (last == "WATCHDOG=1") last = next();
+  EXPECT_EQ(last, "STOPPING=1");
+  EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
+}  // namespace
+}  // namespace tandem::test
