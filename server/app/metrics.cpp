@@ -53,7 +53,7 @@ class Families {
 };
 
 const char* to_text(link::Refusal reason) {
-  constexpr const char* kNames[] = {"header", "connection", "too_old", "tag", "duplicate", "body"};
+  constexpr const char* kNames[] = {"header", "connection", "too_old", "tag", "duplicate", "body", "rate", "role"};
   static_assert(std::size(kNames) == static_cast<std::size_t>(link::Refusal::kCount));
   return kNames[static_cast<std::size_t>(reason)];
 }
