@@ -245,8 +245,9 @@ class Host {
     // While it drains, the shards end too and answer no more: then the door keeps what it knows of until it stops.
     if (!drain_began_) door_->close(r.id());
     const auto slot = r.hosted().slot();
+    std::FILE* const out = r.writes_to_stdout() ? stderr : stdout;  // asked before the run closes its files
     const SessionRun::Verdict verdict = r.finish();
-    if (!plan_.quiet && !io::logs_json()) summarize(r.writes_to_stdout() ? stderr : stdout, verdict.report, r);
+    if (!plan_.quiet && !io::logs_json()) summarize(out, verdict.report, r);
     io::tell(verdict.report.passed ? io::Level::kInfo : io::Level::kError,
              {.event = "session_over", .session = r.plan().name, .text = format("%s, %.1f s", verdict.report.passed ? "pass" : "FAIL", verdict.report.duration_s)});
     if (!verdict.problem.empty()) trouble(verdict.problem);
