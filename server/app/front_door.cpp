@@ -141,6 +141,13 @@ void FrontDoor::note(const ControlNews& news) const {
   }
 }
 
+void FrontDoor::audit(std::string_view event, std::string session, std::string detail) {
+  if (!trust_.on_disk()) return;
+  asio::post(thread_.context(), [this, event, session = std::move(session), detail = std::move(detail)] {
+    trust_.audit(trust::wall_seconds(), event, session, detail);
+  });
+}
+
 std::string FrontDoor::start() {
   if (trust_.on_disk()) {
     if (std::string problem = write_down(); !problem.empty()) return problem;

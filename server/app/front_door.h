@@ -59,6 +59,8 @@ class FrontDoor {
   /// The address in force.
   [[nodiscard]] std::optional<io::SocketAddress> metrics_address() const { return metrics_ ? std::optional(metrics_->address()) : std::nullopt; }
 
+  /// Writes down what happened in a session, on the door's thread; from any.
+  void audit(std::string_view event, std::string session, std::string detail);
   /// No newcomers, all control connections closed. Before the shards and sessions go.
   void stop();
 

@@ -215,7 +215,22 @@ class Host {
     line_.note(text);
   }
 
+  /// Who came, went, moved authority, stopped and resumed: into the audit log.
+  void write_down(SessionRun& r) {
+    AuditEvents& events = r.hosted().audit();
+    for (const AuditEvent* e = events.front(); e != nullptr; e = events.front()) {
+      const auto& seats = r.plan().scene.seats;
+      const std::string who = e->seat < seats.size() ? seats[e->seat].name : e->seat == AuditEvent::kTimeline ? "timeline" : "session";
+      std::string detail = format("%s tick %u", who.c_str(), e->tick);
+      if (e->version > 0) detail += format(" version %u", e->version);
+      for (std::size_t i = 0; i < e->masters; ++i) detail += format("%s %.3f to %.3f", i == 0 ? ": " : ",", e->before[i], e->after[i]);
+      door_->audit(to_text(e->what), r.plan().name, std::move(detail));
+      events.pop();
+    }
+  }
+
   void attend(SessionRun& r, Time now) {
+    write_down(r);
     const SessionStatus status = r.hosted().status();
     if (!told_) {
       told_ = true;
@@ -244,6 +259,7 @@ class Host {
     SessionRun& r = *place;
     // While it drains, the shards end too and answer no more: then the door keeps what it knows of until it stops.
     if (!drain_began_) door_->close(r.id());
+    write_down(r);
     const auto slot = r.hosted().slot();
     std::FILE* const out = r.writes_to_stdout() ? stderr : stdout;  // asked before the run closes its files
     const SessionRun::Verdict verdict = r.finish();

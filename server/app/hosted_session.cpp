@@ -30,6 +30,7 @@ SessionStatus HostedSession::status() const {
 
 void HostedSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
   session_.on_tick(now, missed);
+  while (const auto event = session_.poll_audit()) audit_.push(*event);
   SessionMonitor{}.check(session_, violations_);
   if (session_.record().running) records_->push(session_.record());
   // One seat at a time: quantiles of its histograms take microseconds, of all seats together they would be felt.

@@ -16,6 +16,7 @@
 namespace tandem::server {
 
 using TickQueue = io::SpscQueue<TickRecord>;
+using AuditEvents = io::SpscQueue<AuditEvent>;
 
 /// A session as a shard serves it: the core, its monitor, the queue of its records, and a picture of it that other threads may look at.
 class HostedSession {
@@ -35,6 +36,9 @@ class HostedSession {
   /// No shard serves it any more: everything may be looked at, and it may go.
   [[nodiscard]] bool over() const noexcept { return over_.load(std::memory_order_acquire); }
 
+  /// What happened, for whoever writes it down: one thread reads. Full: dropped and counted.
+  [[nodiscard]] AuditEvents& audit() noexcept { return audit_; }
+
   // ---- The shard's thread ----
   [[nodiscard]] Session& session() noexcept { return session_; }
   void tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept;
@@ -53,6 +57,7 @@ class HostedSession {
   std::uint8_t slot_;
   Session session_;
   TickQueue* records_;
+  AuditEvents audit_{1024};
   Violations violations_;
   std::atomic<bool> over_{false};
   io::Fd over_event_;
