@@ -32,7 +32,7 @@ class Admissions {
 
   /// Finds session and seat and judges the credential. For a Welcome the seat is held from now on.
   virtual void admit(const JoinRequest& request, std::function<void(Admission)> answer) = 0;
-  /// Just before a Welcome is sent: the secrets of the seat's datagrams. Whoever hears BIND from now on must know them.
+  /// Just before a Welcome is sent: the secrets of the seat's datagrams. From now on datagrams under them may come.
   virtual void seated(const JoinRequest& request, const control::Welcome& welcome, const Secret<trust::kExportSize>& secrets) = 0;
   /// A Welcome that could not be sent any more: the seat is free again.
   virtual void abandoned(const control::Welcome& welcome) = 0;

@@ -229,6 +229,9 @@ TEST(StopLane, TakesARisingEdgeOncePerSeatAndAResumeOfTheNewestStopOnly) {
   rig.state.resume_stop = 1;
   rig.live(50ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "an old wish never undoes a newer stop";
+  EXPECT_TRUE(rig.session->resume_hands(rig.now, AccessRole::kOperator, 1)) << "he may, but the stop he names is not the newest";
+  rig.live(5ms);
+  EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "nor does one of somebody without a seat";
   rig.state.resume_stop = 2;
   rig.live(5ms);
   EXPECT_NE(rig.force.session, wire::SessionState::kStopped);
