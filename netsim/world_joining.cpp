@@ -1,5 +1,6 @@
 #include "netsim/world_joining.h"
 
+#include "client/device_facts.h"
 #include "server/connection_id.h"
 
 namespace tandem::netsim {
@@ -34,24 +35,12 @@ link::Link::Params server_end(link::Link::Params p) {
 
 }  // namespace
 
-tandem::control::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept {
-  tandem::control::DeviceFacts f;
-  f.joints = static_cast<std::uint32_t>(caps.joints);
-  f.tip_axes = static_cast<std::uint32_t>(caps.tip_axes);
-  f.simulated = caps.simulated;
-  f.prismatic = caps.prismatic;
-  f.force_peak_n = caps.axis[0].peak.value_or(0);
-  f.damping_n_s_m = caps.damping.value_or(0);
-  f.mass_kg = caps.mass.value_or(0);
-  return f;
-}
-
 std::expected<VirtualSeat, server::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
                                                             const hal::DeviceCaps& caps, RandomKey key, std::uint64_t number,
                                                             bool same_owner, std::uint8_t slot) {
   const server::Reception& reception = session.reception();
   if (seat >= reception.scene().seats.size()) return std::unexpected(server::JoinResult::kNoSuchSeat);
-  if (!reception.unfit(seat, device_facts(caps)).empty()) return std::unexpected(server::JoinResult::kDeviceUnfit);
+  if (!reception.unfit(seat, client::device_facts(caps)).empty()) return std::unexpected(server::JoinResult::kDeviceUnfit);
   const link::Link::Params client = client_end(key.derive(number), slot, seat + 1, reception.tick());
   server::Entry entry = reception.prepare(seat, server_end(client));
   const server::JoinResult result = session.admit(now, seat, entry, same_owner);

@@ -27,7 +27,4 @@ struct VirtualSeat {
 [[nodiscard]] std::expected<VirtualSeat, server::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key,
                                                                            std::uint64_t number);
 
-/// What a device tells of itself when it asks for a seat.
-[[nodiscard]] tandem::control::DeviceFacts device_facts(const hal::DeviceCaps& caps) noexcept;
-
 }  // namespace tandem::netsim

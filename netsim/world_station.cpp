@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "client/device_facts.h"
+
 namespace tandem::netsim {
 
 namespace {
@@ -136,7 +138,7 @@ std::string WorldStation::join(Time now, server::Session& session) {
     case server::JoinResult::kAccepted:
       break;
   }
-  return "seat " + name + ": " + session.reception().unfit(number_, device_facts(device_->caps()));
+  return "seat " + name + ": " + session.reception().unfit(number_, client::device_facts(device_->caps()));
 }
 
 /// The control connection broke and there is a server again: the same program and the same hand, new keys.

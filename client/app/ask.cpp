@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "client/device_facts.h"
 #include "client/seat.h"
 #include "common/io/clock.h"
 #include "common/io/signals.h"
@@ -22,18 +23,6 @@ using control::Reason;
 using Fault = trust::ClientFault;
 
 constexpr int kAgainMs = 100;  // a server that is about to start
-
-control::DeviceFacts facts_of(const hal::DeviceCaps& caps) {
-  control::DeviceFacts f;
-  f.joints = static_cast<std::uint32_t>(caps.joints);
-  f.tip_axes = static_cast<std::uint32_t>(caps.tip_axes);
-  f.simulated = caps.simulated;
-  f.prismatic = caps.prismatic;
-  f.force_peak_n = caps.axis[0].peak.value_or(0);
-  f.damping_n_s_m = caps.damping.value_or(0);
-  f.mass_kg = caps.mass.value_or(0);
-  return f;
-}
 
 std::string waited(Duration patience) {
   char text[32];
@@ -142,7 +131,7 @@ class Joining {
     control::Hello hello;
     hello.seat = asking_.seat;
     hello.visit = asking_.seat.empty();
-    hello.device = facts_of(asking_.caps);
+    hello.device = device_facts(asking_.caps);
     hello.has_aes = link::fastest_cipher() == link::Cipher::kAes256Gcm;
     const auto cid = trust::random_bytes<std::array<std::byte, 4>>();
     for (std::size_t i = 0; i < 4; ++i) hello.client_cid |= std::to_integer<std::uint32_t>(cid[i]) << (8 * i);
