@@ -102,17 +102,24 @@ Preamble read_preamble(std::span<const std::byte> in) noexcept {
   return preamble;
 }
 
-/// The size first: then everything has its place.
+/// The size first: then everything has its place. One result and one way out, so that a message is never copied.
 template <class Message, class Read>
 Decoded<Message> read(std::span<const std::byte> in, std::size_t size, Read&& values) noexcept {
-  if (in.size() != size) return std::unexpected(DecodeError::kSize);
   Decoded<Message> result{std::in_place};
+  if (in.size() != size) {
+    result = std::unexpected(DecodeError::kSize);
+    return result;
+  }
   result->preamble = read_preamble(in);
   ValueReader reader{in.subspan(kPreambleSize)};
   values(reader, result->message);
-  if (!reader.well_formed()) return std::unexpected(DecodeError::kMalformed);
-  if (!reader.finite()) return std::unexpected(DecodeError::kNotFinite);
-  if (!reader.in_range()) return std::unexpected(DecodeError::kOutOfRange);
+  if (!reader.well_formed()) [[unlikely]] {
+    result = std::unexpected(DecodeError::kMalformed);
+  } else if (!reader.finite()) [[unlikely]] {
+    result = std::unexpected(DecodeError::kNotFinite);
+  } else if (!reader.in_range()) [[unlikely]] {
+    result = std::unexpected(DecodeError::kOutOfRange);
+  }
   return result;
 }
 

@@ -15,7 +15,7 @@ struct Library {
   std::string_view prefix;
   std::string_view name;
 };
-constexpr std::array<Library, 21> kLibraries{{{"Eigen/", "Eigen"},
+constexpr std::array<Library, 22> kLibraries{{{"Eigen/", "Eigen"},
                                               {"unsupported/Eigen/", "Eigen"},
                                               {"asio/", "asio"},
                                               {"asio.hpp", "asio"},
