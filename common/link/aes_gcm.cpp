@@ -28,12 +28,14 @@ const IMB_MGR* code() {
   return chosen;
 }
 
+using TagBytes = std::array<std::byte, kTagSize>;
 /// In a time that tells nothing.
-bool equal(std::span<const std::byte, kTagSize> a, const std::array<std::uint64_t, 2>& b) noexcept {
-  std::array<std::uint64_t, 2> words;
-  static_assert(sizeof words == kTagSize);
-  std::memcpy(words.data(), a.data(), sizeof words);
-  return ((words[0] ^ b[0]) | (words[1] ^ b[1])) == 0;
+bool equal(std::span<const std::byte, kTagSize> a, const TagBytes& b) noexcept {
+  std::array<std::uint64_t, 2> x, y;
+  static_assert(sizeof x == kTagSize);
+  std::memcpy(x.data(), a.data(), sizeof x);
+  std::memcpy(y.data(), b.data(), sizeof y);
+  return ((x[0] ^ y[0]) | (x[1] ^ y[1])) == 0;
 }
 
 }  // namespace
@@ -53,9 +55,9 @@ void AesGcm::seal(const Nonce& nonce, Header header, std::span<std::byte> body, 
 bool AesGcm::open(const Nonce& nonce, Header header, std::span<const std::byte> body, std::span<const std::byte, kTagSize> tag,
                   std::span<std::byte> plaintext) const noexcept {
   gcm_context_data context;
-  std::array<std::uint64_t, 2> found;
+  TagBytes found;
   IMB_AES256_GCM_DEC(code(), key_data(expanded_.data()), &context, raw(plaintext.data()), raw(body.data()), body.size(),
-                     raw(nonce.data()), raw(header.data()), header.size(), reinterpret_cast<std::uint8_t*>(found.data()), sizeof found);
+                     raw(nonce.data()), raw(header.data()), header.size(), raw(found.data()), found.size());
   if (equal(tag, found)) [[likely]]
     return true;
   wipe(plaintext);  // one pass does both: what was decrypted before the tag was known to be wrong is nobody's

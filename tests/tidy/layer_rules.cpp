@@ -133,7 +133,7 @@ const std::array<Ban, 8> kBans{{
      {"reinterpret_cast"},
      {},
      kPumps,
-     {"common/link/seal.cpp", "common/base/raw_bytes.h"},  // OpenSSL takes unsigned char*, we speak std::byte
+     {"common/link/aes_gcm.cpp", "common/base/raw_bytes.h"},  // the cipher's expanded key in our bytes; unsigned char*, where we speak std::byte
      "buffers are decoded by a parser that checks lengths, not by a cast"},
     {Ban::In::kInclude,
      {"random"},
