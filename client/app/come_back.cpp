@@ -25,19 +25,23 @@ Duration draw(Duration least, Duration spread) {
   return least + spread * (std::to_integer<int>(random[0]) << 8 | std::to_integer<int>(random[1])) / 65536;
 }
 
+void raise(const io::Fd& event) {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
+}
+
 }  // namespace
 
 Duration draw_wait_before_return() { return draw(kBefore, kBeforeSpread); }
 
 ComeBack::ComeBack(Asking asking, OwnSeat own, const Seat& seat, const SeatPump& pump)
-    : asking_(std::move(asking)), own_(std::move(own)), seat_(&seat), pump_(&pump), cancel_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    : asking_(std::move(asking)), own_(std::move(own)), seat_(&seat), pump_(&pump), cancel_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), done_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   asking_.signals = cancel_.get();
   thread_ = std::thread([this] { work(); });
 }
 
 ComeBack::~ComeBack() {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(cancel_.get(), &one, sizeof one);
+  raise(cancel_);
   thread_.join();
   if (result_ && *result_ && (*result_)->handover) give_back((*result_)->handover->socket, (*result_)->given, asking_.caps);
 }
@@ -60,6 +64,7 @@ void ComeBack::work() {
     }
   }
   done_.store(true, std::memory_order_release);
+  raise(done_event_);
 }
 
 std::expected<ComeBack::Back, NotBack> ComeBack::attempt(Duration patience) {

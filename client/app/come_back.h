@@ -25,6 +25,8 @@ class ComeBack {
   ComeBack& operator=(const ComeBack&) = delete;
 
   [[nodiscard]] bool done() const noexcept { return done_.load(std::memory_order_acquire); }
+  /// Readable once it is.
+  [[nodiscard]] int done_fd() const noexcept { return done_event_.get(); }
   struct Back {
     GivenSeat given;
     std::unique_ptr<SeatPump::Handover> handover;
@@ -40,7 +42,7 @@ class ComeBack {
   OwnSeat own_;
   const Seat* seat_;
   const SeatPump* pump_;
-  io::Fd cancel_;
+  io::Fd cancel_, done_event_;
   std::optional<std::expected<Back, NotBack>> result_;
   std::atomic<bool> done_{false};
   std::thread thread_;

@@ -4,6 +4,7 @@
 #include <sys/signalfd.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "common/base/format.h"
@@ -41,8 +42,9 @@ void Vigil::leave(const std::string& why) {
 SeatEnd Vigil::keep() {
   if (keys_.interactive()) o_.line.note(o_.person.help());
   while (true) {
-    pollfd files[] = {{o_.pump.finished_fd(), POLLIN, 0}, {o_.signals, POLLIN, 0}, {keys_.fd(), POLLIN, 0}};
-    poll(files, keys_.interactive() ? 3 : 2, kLookEveryMs);
+    // What is not there has a negative number, which is passed over.
+    pollfd files[] = {{o_.pump.finished_fd(), POLLIN, 0}, {o_.signals, POLLIN, 0}, {keys_.fd(), POLLIN, 0}, {coming_ ? coming_->done_fd() : -1, POLLIN, 0}};
+    poll(files, std::size(files), kLookEveryMs);
     const ClientStatus status = o_.pump.status();
     if (files[0].revents != 0) {
       if (o_.pump.device_lost() || !returns(status) || !may_come_back()) break;

@@ -229,7 +229,7 @@ class Host {
     door_->drain();
     for (const auto& r : runs_)
       if (!r->end) r->end = End::kSignal;
-    shards_.stop(comes_back() ? wire::CloseReason::kServerReturns : wire::CloseReason::kServerStops);
+    shards_.stop(comes_back() && plan_.listen.port() != 0 ? wire::CloseReason::kServerReturns : wire::CloseReason::kServerStops);
   }
 
   /// Whether the sessions are there again when this server is started again.
