@@ -68,9 +68,18 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link
   }
 }
 
+Seat::Connection Seat::prepare(const link::Link::Params& link) const { return {std::make_unique<link::Link>(link), make_end(setup_)}; }
+
 void Seat::rejoin(const link::Link::Params& link) {
-  link_ = std::make_unique<link::Link>(link);
-  end_ = make_end(setup_);
+  Connection next = prepare(link);
+  rejoin(next);
+}
+
+void Seat::rejoin(Connection& next) noexcept {
+  std::swap(link_, next.link);
+  std::swap(end_, next.end);
+  rest();
+  closed_ = closed_ && leaving_;
   rx_ = {};
   fresh_ = heard_force_ = false;
   session_begin_.reset();

@@ -31,8 +31,18 @@ class Seat {
   /// @throws SetupError-like std::runtime_error if the law is unknown or the crypto library lacks a cipher.
   Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link::Params& link);
 
+  /// A new connection for this hand, made where memory may be taken.
+  struct Connection {
+    std::unique_ptr<link::Link> link;
+    std::unique_ptr<control::ChannelEnd> end;
+  };
+  /// On any thread, also while others serve this seat.
+  [[nodiscard]] Connection prepare(const link::Link::Params& link) const;
   /// The server gave this hand a new connection, as it was started anew or the old one was lost: what was received is void and
-  /// energies start at 0. The gate, and what a person has stopped, stay as they are. Not below a tick: takes memory.
+  /// energies start at 0. The gate, and what a person has stopped, stay as they are; who is leaving does not come back.
+  /// @param next  holds the old one afterwards, to be given back elsewhere
+  void rejoin(Connection& next) noexcept TANDEM_REALTIME;
+  /// Both at once. Not below a tick: takes memory.
   void rejoin(const link::Link::Params& link);
 
   void on_datagram(Time now, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;

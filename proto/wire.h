@@ -91,7 +91,8 @@ struct AuthorityMessage {
   std::array<double, kMastersMax> alpha{};
 };
 
-enum class CloseReason : std::uint8_t { kDone, kLeaving, kServerStops, kRefused };
+/// kServerReturns: this server ends and means to go on from its checkpoint; who has a resume secret may come back.
+enum class CloseReason : std::uint8_t { kDone, kLeaving, kServerStops, kRefused, kServerReturns };
 struct CloseMessage {
   CloseReason reason = CloseReason::kDone;
 };

@@ -50,7 +50,7 @@ std::string Reception::unfit(std::size_t seat, const tandem::control::DeviceFact
 Entry Reception::prepare(std::size_t seat, link::Link::Params link) const {
   link.outgoing = link::Direction::kToClient;
   link.tick = tick();
-  return {std::make_unique<link::Link>(link), make_channel_end(*scene_, seat, scale_), {}};
+  return {std::make_unique<link::Link>(link), make_channel_end(*scene_, seat, scale_), {}, 1};
 }
 
 }  // namespace tandem::server

@@ -35,6 +35,7 @@ void SeatPort::take(Time now, Entry& entry) noexcept {
   rx_ = wire::StateMessage{};
   conduct_ = {};
   resume_ = entry.resume;
+  force_scale_ = entry.force_scale;
   was_present_ = false;
 }
 

@@ -73,8 +73,12 @@ class SeatPort {
   [[nodiscard]] const Conduct& conduct() const noexcept { return conduct_; }
   [[nodiscard]] bool poll_flood() noexcept { return taken_ && connection_->poll_flood(); }
   [[nodiscard]] const std::array<std::byte, 32>& resume() const noexcept { return resume_; }  ///< hash of its secret
+  [[nodiscard]] double force_scale() const noexcept { return force_scale_; }                  ///< what its ticket allowed
   /// Who sat here before the server died.
-  void remember(const std::array<std::byte, 32>& resume) noexcept { resume_ = resume; }
+  void remember(const std::array<std::byte, 32>& resume, double force_scale) noexcept {
+    resume_ = resume;
+    force_scale_ = force_scale;
+  }
   [[nodiscard]] AccessRole role() const noexcept { return role_; }
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }  ///< counts STATEs that acted
   [[nodiscard]] bool energy_fell() const noexcept { return energy_fell_; }
@@ -103,6 +107,7 @@ class SeatPort {
   Duration deaf_after_;  ///< its own word that it hears nothing
   Conduct conduct_;
   std::array<std::byte, 32> resume_{};
+  double force_scale_ = 1;
   std::unique_ptr<control::ChannelEnd> end_;
   std::optional<Connection> connection_;  ///< kept when its client has left, until another comes
   bool taken_ = false;

@@ -49,6 +49,7 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
   authority_version_ = from.authority_version + 1;
   stop_before_ = from.stop;
   gathering_ = from.begun;
+  for (std::size_t i = 0; i < seats_.size(); ++i) seats_[i].remember(from.seats[i].resume, from.seats[i].force_scale);
   if (!gathering_) {
     stop_lane_.restore(from.stop, from.stops);
     return;
@@ -61,7 +62,6 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       const auto& alpha = from.tools[j].alpha;
       has_weight = has_weight || (i < masters_ ? alpha[i] > 0 : scene.seats[i].tool == j);  // a slave seat carries its tool
     }
-    seats_[i].remember(from.seats[i].resume);
     awaited_[i] = from.seats[i].taken && (has_weight || seats_[i].role() == AccessRole::kInstructor);
   }
   note(Time{}, AuditEvent::What::kRestored, AuditEvent::kNoSeat, static_cast<std::uint32_t>(epoch_));
@@ -80,7 +80,7 @@ Checkpoint Session::checkpoint() const noexcept {
   c.masters_n = static_cast<std::uint8_t>(masters_);
   c.tools_n = static_cast<std::uint8_t>(tools_.size());
   c.dof = static_cast<std::uint8_t>(scene_->dof);
-  for (std::size_t i = 0; i < seats_.size(); ++i) c.seats[i] = {seats_[i].taken() || awaited_[i], seats_[i].resume()};
+  for (std::size_t i = 0; i < seats_.size(); ++i) c.seats[i] = {seats_[i].taken() || awaited_[i], seats_[i].resume(), seats_[i].force_scale()};
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     c.tools[j].alpha = tools_[j].authority.requested();
     c.tools[j].x = tools_[j].position();
