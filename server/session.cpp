@@ -114,15 +114,18 @@ JoinResult Session::admit(Time now, std::size_t i, Entry& entry, bool same_owner
   const JoinResult may = may_admit(now, i, same_owner);
   if (may != JoinResult::kAccepted) return may;
   seats_[i].take(now, entry);
+  farewells_[i] = {};
   stop_lane_.forget(i);
   watch_[i] = {};
   note(now, AuditEvent::What::kJoin, i);
   return may;
 }
 
-JoinResult Session::admit_visitor(Time now, std::unique_ptr<link::Link>& link) noexcept {
+JoinResult Session::admit_visitor(Time now, std::unique_ptr<link::Link>& link, std::size_t* place) noexcept {
   if (over_ || state_ == wire::SessionState::kEnding) return JoinResult::kSessionOver;
-  return visitors_.admit(now, link) ? JoinResult::kAccepted : JoinResult::kSeatTaken;
+  const auto taken = visitors_.admit(now, link);
+  if (taken && place != nullptr) *place = *taken;
+  return taken ? JoinResult::kAccepted : JoinResult::kSeatTaken;
 }
 
 void Session::on_tick(Time now, std::uint32_t missed) noexcept {
@@ -136,6 +139,7 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   const std::uint32_t live = std::min(missed, kCatchUpMax);
   slipped_ += missed - live;
   for (std::uint32_t i = 0; i <= live && !over_; ++i) live_one_tick(now);
+  say_farewell(now);
   fill_force_messages(now);
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     if (auto* l = seats_[i].link()) l->tick(now);
@@ -158,7 +162,7 @@ void Session::live_one_tick(Time now) noexcept {
 }
 
 void Session::change_state(Time now) noexcept {
-  for (std::size_t i = 0; i < seats_.size(); ++i) present_[i] = felt_by(i) && seats_[i].present(now);
+  for (std::size_t i = 0; i < seats_.size(); ++i) present_[i] = felt_by(i) && seats_[i].present(now) && !leaving(i);
   look_after_people(now);
   if (state_ == wire::SessionState::kEnding) {
     ++session_tick_;
@@ -188,6 +192,23 @@ void Session::stop(wire::CloseReason why) noexcept {
   farewell_ = static_cast<std::uint32_t>(std::lround(kFarewell / dt_)) + kCloseRepeats;
 }
 
+bool Session::dismiss(Time, std::size_t i, wire::CloseReason why) noexcept {
+  if (i >= seats_.size() || !seats_[i].taken() || leaving(i)) return false;
+  farewells_[i] = {static_cast<std::uint32_t>(std::lround(kFarewell / dt_)) + kCloseRepeats + 1, why};
+  return true;
+}
+
+/// After the last repeat of its CLOSE the seat is free, and nobody comes back to it by the old secret.
+void Session::say_farewell(Time now) noexcept {
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    if (!leaving(i) || --farewells_[i].ticks > 0) continue;
+    if (!seats_[i].taken()) continue;  // left by himself
+    seats_[i].release();
+    seats_[i].remember({});
+    note(now, AuditEvent::What::kRemoved, i);
+  }
+}
+
 void Session::follow_timeline(Time now) noexcept {
   if (!begun_ || state_ == wire::SessionState::kEnding) return;
   while (next_event_ < scene_->timeline.size() && scene_->timeline[next_event_].at <= time() + 0.5 * dt_) {
@@ -214,7 +235,7 @@ void Session::fill_force_messages(Time now) noexcept {
     for (std::size_t a = 0; a < scene_->dof; ++a) m.port.f[a] = end.k[a] * (end.ref[a] - following_[i][a]);
     m.port.e_in = seats_[i].end().e_in();
     m.session = state_;
-    bool wanted = engage_ && state_ != wire::SessionState::kEnding && !stop_lane_.on() && !seats_[i].conduct().isolated(now) && felt_by(i);
+    bool wanted = engage_ && state_ != wire::SessionState::kEnding && !stop_lane_.on() && !seats_[i].conduct().isolated(now) && felt_by(i) && !leaving(i);
     m.alpha = 0;
     for (std::size_t j = 0; j < tools_.size(); ++j) {
       const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
@@ -236,8 +257,9 @@ std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> bu
     if (const auto challenge = seats_[i].transmit_challenge(now, tick_, buffer)) return challenge;
     if (!send_due_[i]) continue;
     send_due_[i] = false;
-    const Transmit out =
-        closing ? seats_[i].transmit_close(now, tick_, close_reason_, buffer) : seats_[i].transmit(now, tick_, buffer);
+    const bool last = leaving(i) && farewells_[i].ticks <= kCloseRepeats;
+    const Transmit out = closing || last ? seats_[i].transmit_close(now, tick_, closing ? close_reason_ : farewells_[i].why, buffer)
+                                         : seats_[i].transmit(now, tick_, buffer);
     if (out.size > 0) return out;
   }
   return visitors_.poll_transmit(now, tick_, closing ? std::optional{close_reason_} : std::nullopt, buffer);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "server/command.h"
 #include "server/reception.h"
 
 namespace tandem::server {
@@ -18,6 +19,9 @@ struct Order {
     kAdmit,  ///< put `entry` into `seat`
     kVisit,  ///< take `entry.link` as a visitor's
     kEnd,    ///< let all hands of the session go, then tell the clients
+    kCommand,        ///< `command`, of somebody at a control connection; answered by `outcome`
+    kMayVisit,       ///< how many visitors there is room for: `place`
+    kDismissVisitor, ///< send the visitor `cid` in `place` away
   };
   What what = What::kAdmit;
   HostedSession* session = nullptr;  ///< which; lives until it is over
@@ -25,6 +29,10 @@ struct Order {
   bool same_owner = false;           ///< he who sits there comes again
   Entry entry;                       ///< afterwards: what is to be given back
   JoinResult result = JoinResult::kSessionOver;
+  Command command{};
+  Outcome outcome{};                 ///< kGone: the session is over
+  std::size_t place = 0;             ///< of a visitor: afterwards the one he got
+  std::uint32_t cid = 0;
   std::function<void(Order&)> done;  ///< on the control plane's thread
 };
 
