@@ -208,7 +208,7 @@ Decoded<AuthorityMessage> Codec::decode_authority(std::span<const std::byte> in)
 Decoded<CloseMessage> Codec::decode_close(std::span<const std::byte> in) const noexcept {
   return read<CloseMessage>(in, kCloseSize, [](ValueReader& values, CloseMessage& out) {
     std::uint32_t reason = 0;
-    values.word(1, reason, static_cast<std::uint32_t>(CloseReason::kServerReturns));
+    values.word(1, reason, kCloseReasonMax);
     out.reason = static_cast<CloseReason>(reason);
   });
 }

@@ -115,15 +115,18 @@ JoinResult Session::admit(Time now, std::size_t i, Entry& entry, bool same_owner
   const JoinResult may = may_admit(now, i, same_owner);
   if (may != JoinResult::kAccepted) return may;
   seats_[i].take(now, entry);
+  farewells_[i] = {};
   stop_lane_.forget(i);
   watch_[i] = {};
   note(now, AuditEvent::What::kJoin, i);
   return may;
 }
 
-JoinResult Session::admit_visitor(Time now, std::unique_ptr<link::Link>& link) noexcept {
+JoinResult Session::admit_visitor(Time now, std::unique_ptr<link::Link>& link, std::size_t* place) noexcept {
   if (over_ || state_ == wire::SessionState::kEnding) return JoinResult::kSessionOver;
-  return visitors_.admit(now, link) ? JoinResult::kAccepted : JoinResult::kSeatTaken;
+  const auto taken = visitors_.admit(now, link);
+  if (taken && place != nullptr) *place = *taken;
+  return taken ? JoinResult::kAccepted : JoinResult::kSeatTaken;
 }
 
 void Session::on_tick(Time now, std::uint32_t missed) noexcept {
@@ -137,6 +140,7 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   const std::uint32_t live = std::min(missed, kCatchUpMax);
   slipped_ += missed - live;
   for (std::uint32_t i = 0; i <= live && !over_; ++i) live_one_tick(now);
+  say_farewell(now);
   fill_force_messages(now);
   next_to_tell_ = 0;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
@@ -161,7 +165,7 @@ void Session::live_one_tick(Time now) noexcept {
 }
 
 void Session::change_state(Time now) noexcept {
-  for (std::size_t i = 0; i < seats_.size(); ++i) present_[i] = seats_[i].feels() && seats_[i].present(now);
+  for (std::size_t i = 0; i < seats_.size(); ++i) present_[i] = seats_[i].feels() && seats_[i].present(now) && !leaving(i);
   look_after_people(now);
   if (state_ == wire::SessionState::kEnding) {
     ++session_tick_;
@@ -189,6 +193,23 @@ void Session::stop(wire::CloseReason why) noexcept {
   state_ = wire::SessionState::kEnding;
   close_reason_ = why;
   farewell_ = static_cast<std::uint32_t>(std::lround(kFarewell / dt_)) + kCloseRepeats;
+}
+
+bool Session::dismiss(Time, std::size_t i, wire::CloseReason why) noexcept {
+  if (i >= seats_.size() || !seats_[i].taken() || leaving(i)) return false;
+  farewells_[i] = {static_cast<std::uint32_t>(std::lround(kFarewell / dt_)) + kCloseRepeats + 1, why};
+  return true;
+}
+
+/// After the last repeat of its CLOSE the seat is free, and nobody comes back to it by the old secret.
+void Session::say_farewell(Time now) noexcept {
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    if (!leaving(i) || --farewells_[i].ticks > 0) continue;
+    if (!seats_[i].taken()) continue;  // left by himself
+    seats_[i].release();
+    seats_[i].remember({});
+    note(now, AuditEvent::What::kRemoved, i);
+  }
 }
 
 void Session::follow_timeline(Time now) noexcept {
@@ -221,7 +242,7 @@ void Session::fill_force_messages(Time now) noexcept {
     for (std::size_t a = 0; a < scene_->dof; ++a) m.port.f[a] = end.k[a] * (end.ref[a] - following_[i][a]);
     m.port.e_in = seats_[i].end().e_in();
     m.session = state_;
-    m.engage = engage && seats_[i].feels() && !seats_[i].conduct().isolated(now);
+    m.engage = engage && seats_[i].feels() && !seats_[i].conduct().isolated(now) && !leaving(i);
     m.alpha = 0;
     for (std::size_t j = 0; j < tools_.size(); ++j) {
       const Tie& tie = ties_[i][j];
@@ -238,11 +259,12 @@ void Session::fill_force_messages(Time now) noexcept {
 std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
   const bool closing = over_ || (state_ == wire::SessionState::kEnding && farewell_ < kCloseRepeats);
   for (; next_to_tell_ < seats_.size(); ++next_to_tell_) {
-    SeatPort& seat = seats_[next_to_tell_];
-    if (const auto challenge = seat.transmit_challenge(now, tick_, buffer)) return challenge;
-    if (!std::exchange(send_due_[next_to_tell_], false)) continue;
-    const Transmit out =
-        closing ? seat.transmit_close(now, tick_, close_reason_, buffer) : seat.transmit(now, tick_, buffer);
+    const std::size_t i = next_to_tell_;
+    if (const auto challenge = seats_[i].transmit_challenge(now, tick_, buffer)) return challenge;
+    if (!std::exchange(send_due_[i], false)) continue;
+    const bool last = leaving(i) && farewells_[i].ticks <= kCloseRepeats;
+    const Transmit out = closing || last ? seats_[i].transmit_close(now, tick_, closing ? close_reason_ : farewells_[i].why, buffer)
+                                         : seats_[i].transmit(now, tick_, buffer);
     if (out.size > 0) return out;
   }
   const auto out = visitors_.poll_transmit(now, tick_, closing ? std::optional{close_reason_} : std::nullopt, buffer);

@@ -32,9 +32,9 @@ class ControlConnection;
 /// What happened at the door. Each is counted; the interesting ones are told too.
 enum class ControlEvent : std::uint8_t {
   kAccepted, kTooFast, kHandshakeFailed, kDeadline, kTooMuchInput, kBadFrame, kNotEnrolled, kBlocked, kEnrolled, kCodeRefused, kWelcomed, kRefused,
-  kCommand, kCommandTooFast, kTrouble
+  kCommand, kCommandTooFast, kTrouble, kForbidden
 };
-inline constexpr std::size_t kControlEvents = 15;
+inline constexpr std::size_t kControlEvents = 16;
 [[nodiscard]] std::string_view to_text(ControlEvent event) noexcept;
 
 /// For logs and audit; never holds a secret.
@@ -74,6 +74,9 @@ class ControlPlane {
   [[nodiscard]] std::expected<io::SocketAddress, std::string> listen(const io::SocketAddress& at);
   /// No newcomers, every connection closed. From the context's thread.
   void stop();
+
+  /// Ends the connections of workstations that are not in the book any more: they need not speak first. From the context's thread.
+  void look_for_revoked();
 
   /// From any thread.
   [[nodiscard]] std::uint64_t count(ControlEvent event) const noexcept { return counts_[static_cast<std::size_t>(event)].load(std::memory_order_relaxed); }
