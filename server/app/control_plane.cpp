@@ -102,6 +102,7 @@ void ControlPlane::took(Door&, tcp::socket socket) {
   if (!accepts_.accept(source, clocks_.monotonic())) return note(ControlEvent::kTooFast, std::move(text));
   note(ControlEvent::kAccepted, text);
   socket.set_option(tcp::no_delay(true), error);
+  socket.set_option(asio::socket_base::send_buffer_size(limits_.unread_max / 2), error);  // Linux doubles it, for its own book-keeping
   ++pending_;
   const auto connection = std::make_shared<ControlConnection>(*this, std::move(socket), source, std::move(text));
   connections_.insert(connection);
