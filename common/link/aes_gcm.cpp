@@ -1,6 +1,7 @@
 #include "common/link/aes_gcm.h"
 
 #include <intel-ipsec-mb.h>
+#include <sodium.h>
 
 #include <cstring>
 
@@ -9,6 +10,8 @@
 namespace tandem::link {
 
 namespace {
+
+constexpr std::size_t kLeftBehind = 4096;  ///< [bytes] of stack that are wiped: more than any of the library's functions takes
 
 static_assert(sizeof(gcm_key_data) <= 1024 && alignof(gcm_key_data) <= 64);
 gcm_key_data* key_data(std::byte* p) noexcept { return reinterpret_cast<gcm_key_data*>(p); }
@@ -44,6 +47,7 @@ bool AesGcm::available() { return code() != nullptr; }
 
 void AesGcm::expand(const tandem::Secret<32>& key) noexcept {
   IMB_AES256_GCM_PRE(code(), raw(key.bytes.data()), key_data(expanded_.data()));
+  sodium_stackzero(kLeftBehind);  // the library leaves pieces of the key there
 }
 
 void AesGcm::seal(const Nonce& nonce, Header header, std::span<std::byte> body, Tag tag) const noexcept {
