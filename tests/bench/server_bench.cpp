@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -95,10 +96,10 @@ int serve(const std::string& name, int ticks) {
   return 0;
 }
 
-/// @return instructions inside serve_one_tick, -1 if callgrind did not run
-double collected(const std::string& self, const std::string& scene, int ticks) {
-  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '--toggle-collect=*serve_one_tick*' " + self + " --serve " +
-                              scene + " " + std::to_string(ticks) + " 2>&1";
+/// @return instructions inside `function`, -1 if callgrind did not run
+double collected(const std::string& self, const std::string& scene, int ticks, const std::string& function) {
+  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '--toggle-collect=" + function + "' " + self +
+                              " --serve " + scene + " " + std::to_string(ticks) + " 2>&1";
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return -1;
   double instructions = -1;
@@ -108,22 +109,30 @@ double collected(const std::string& self, const std::string& scene, int ticks) {
   return pclose(pipe) == 0 ? instructions : -1;
 }
 
+/// @return instructions inside `function` per client-tick once everybody is engaged, nothing if callgrind did not run
+std::optional<double> per_client_tick(const std::string& self, const std::string& scene, const std::string& function) {
+  constexpr int kFew = 300, kMany = 1300;
+  const double few = collected(self, scene, kFew, function), many = collected(self, scene, kMany, function);
+  if (few < 0 || many < 0) return std::nullopt;
+  return (many - few) / (8.0 * static_cast<double>(test::shipped(scene).seats.size()) * (kMany - kFew));
+}
+
 void count_instructions(const std::string& self) {
-  std::printf("user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s  %s\n", "scene", "seats", "instructions",
-              "what the server does besides");
+  std::printf("user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s %10s  %s\n", "scene", "seats",
+              "instructions", "its arms'", "what the server does besides");
   const struct {
     const char *scene, *besides;
-  } cases[] = {{"contact_remote", "one tool, its slave is a client"}, {"free_motion", "one tool and a simulated arm"},
-               {"two_by_two", "two tools and two simulated arms"}, {"eight_seats", "one tool, eight hands, a simulated arm"}};
+    bool arms;
+  } cases[] = {{"contact_remote", "one tool, its slave is a client", false}, {"free_motion", "one tool and a simulated arm", true},
+               {"two_by_two", "two tools and two simulated arms", true}, {"eight_seats", "one tool, eight hands, a simulated arm", true}};
   for (const auto& c : cases) {
-    constexpr int kFew = 300, kMany = 1300;
-    const double few = collected(self, c.scene, kFew), many = collected(self, c.scene, kMany);
-    const std::size_t seats = test::shipped(c.scene).seats.size();
-    if (few < 0 || many < 0) {
+    const auto all = per_client_tick(self, c.scene, "*serve_one_tick*");
+    const auto arms = c.arms ? per_client_tick(self, c.scene, "*SimDevice::advance*") : 0.0;
+    if (!all || !arms) {
       std::printf("%-18s [ NOT RUN ] valgrind is missing or failed\n", c.scene);
       continue;
     }
-    std::printf("%-18s %8zu %14.0f  %s\n", c.scene, seats, (many - few) / (8.0 * static_cast<double>(seats) * (kMany - kFew)), c.besides);
+    std::printf("%-18s %8zu %14.0f %10.0f  %s\n", c.scene, test::shipped(c.scene).seats.size(), *all, *arms, c.besides);
   }
 }
 
