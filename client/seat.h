@@ -8,6 +8,7 @@
 #include <span>
 
 #include "client/frozen_sensor.h"
+#include "client/over_speed.h"
 #include "common/base/time.h"
 #include "common/control/channel.h"
 #include "common/control/energy_meter.h"
@@ -84,6 +85,7 @@ class Seat {
   [[nodiscard]] const SeatSetup& setup() const noexcept { return setup_; }
   [[nodiscard]] const control::MasterIpc& ipc(std::size_t axis) const noexcept { return ipc_[axis]; }
   [[nodiscard]] bool sensor_frozen() const noexcept { return sensor_.frozen(); }
+  [[nodiscard]] const OverSpeed& over_speed() const noexcept { return over_speed_; }
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes
   [[nodiscard]] hal::Vec3 tip_force() const noexcept { return map_.tip_force(reading_, effort_); }  ///< the same at the tip [N]
 
@@ -112,6 +114,7 @@ class Seat {
   AxisArray q_{}, v_{};        ///< of the port
   unsigned bad_readings_ = 0;
   FrozenSensor sensor_;
+  OverSpeed over_speed_;
   wire::ForceMessage rx_{};
   wire::StateMessage tx_{};
   AxisArray effort_{};

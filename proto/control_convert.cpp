@@ -1,88 +1,14 @@
 #include "proto/control_convert.h"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 #include <string>
-#include <string_view>
-#include <type_traits>
+
+#include "proto/control_bounds.h"
 
 namespace tandem::control {
 namespace {
 
 namespace wire_pb = pb::control;
-
-constexpr double kFactMax = 1e4;
-
-bool is_name(std::string_view text) noexcept {
-  return !text.empty() && text.size() <= kNameMax && std::ranges::all_of(text, [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-}
-
-bool is_code(std::string_view text) noexcept {
-  return text.size() == kSessionCodeSize && std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z'); });
-}
-
-/// UTF-8 [RFC 3629] without control characters: what a terminal can be shown without being steered by it.
-bool is_text(std::string_view text) noexcept {
-  if (text.size() > kTextMax) return false;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    if (lead < 0x20 || lead == 0x7f) return false;
-    const std::size_t more = lead < 0x80 ? 0 : lead < 0xc2 ? 4 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : lead < 0xf5 ? 3 : 4;
-    if (more > 3 || i + more >= text.size()) return false;
-    std::uint32_t point = more == 0 ? lead : lead & (0x3fU >> more);
-    for (std::size_t k = 1; k <= more; ++k) {
-      const auto next = static_cast<unsigned char>(text[i + k]);
-      if ((next & 0xc0U) != 0x80) return false;
-      point = point << 6 | (next & 0x3fU);
-    }
-    const bool shortest = more < 2 || point >= (more == 2 ? 0x800U : 0x10000U);
-    if (!shortest || point > 0x10ffff || (point >= 0xd800 && point <= 0xdfff) || (point >= 0x80 && point < 0xa0)) return false;
-    i += more + 1;
-  }
-  return true;
-}
-
-template <std::size_t N>
-bool take(const std::string& in, std::array<std::byte, N>& out) noexcept {
-  if (in.size() != N) return false;
-  std::ranges::transform(in, out.begin(), [](char c) { return static_cast<std::byte>(c); });
-  return true;
-}
-std::vector<std::byte> to_bytes(const std::string& in) {
-  std::vector<std::byte> out(in.size());
-  std::ranges::transform(in, out.begin(), [](char c) { return static_cast<std::byte>(c); });
-  return out;
-}
-std::string text_of(std::span<const std::byte> in) {
-  std::string out(in.size(), '\0');
-  std::ranges::transform(in, out.begin(), [](std::byte b) { return static_cast<char>(b); });
-  return out;
-}
-
-bool within(std::uint32_t value, std::uint32_t least, std::uint32_t most) noexcept { return value >= least && value <= most; }
-bool within(double value) noexcept { return value >= 0 && value <= kFactMax; }  // false for NaN
-
-bool take_name(const std::string& in, std::string& out, bool may_be_empty = false) {
-  out = in;
-  return is_name(in) || (may_be_empty && in.empty());
-}
-bool take_role(std::uint32_t in, AccessRole& out) noexcept {
-  out = static_cast<AccessRole>(in < kAccessRoles ? in : 0);
-  return in < kAccessRoles;
-}
-
-bool take_weights(const google::protobuf::RepeatedField<double>& in, std::vector<double>& out) {
-  double sum = 0;
-  for (const double a : in) {
-    if (!(a >= 0 && a <= 1)) return false;
-    sum += a;
-  }
-  out.assign(in.begin(), in.end());
-  return !out.empty() && out.size() <= kMastersMax && std::abs(sum - 1) <= 1e-9;
-}
 
 bool read(const wire_pb::Device& in, DeviceFacts& out) {
   out = {in.joints(), in.tip_axes(), in.simulated(), in.prismatic(), in.force_peak_n(), in.damping_n_s_m(), in.mass_kg()};
@@ -238,8 +164,14 @@ void write(const StopSession& in, wire_pb::StopSession& out) {
   out.set_session_id(text_of(in.session_id));
   out.set_why(in.why);
 }
-bool read(const wire_pb::ResumeSession& in, ResumeSession& out) { return take(in.session_id(), out.session_id); }
-void write(const ResumeSession& in, wire_pb::ResumeSession& out) { out.set_session_id(text_of(in.session_id)); }
+bool read(const wire_pb::ResumeSession& in, ResumeSession& out) {
+  out.stop = in.stop();
+  return take(in.session_id(), out.session_id);
+}
+void write(const ResumeSession& in, wire_pb::ResumeSession& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_stop(in.stop);
+}
 bool read(const wire_pb::PauseSession& in, PauseSession& out) { return take(in.session_id(), out.session_id); }
 void write(const PauseSession& in, wire_pb::PauseSession& out) { out.set_session_id(text_of(in.session_id)); }
 
@@ -285,6 +217,65 @@ void write(const Pong& in, wire_pb::Pong& out) { out.set_nonce(in.nonce); }
 bool read(const wire_pb::Done&, Done&) { return true; }
 void write(const Done&, wire_pb::Done&) {}
 
+bool read(const wire_pb::RemovePerson& in, RemovePerson& out) {
+  out.why = in.why();
+  return take(in.session_id(), out.session_id) && take_name(in.seat(), out.seat) && is_text(in.why());
+}
+void write(const RemovePerson& in, wire_pb::RemovePerson& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_seat(in.seat);
+  out.set_why(in.why);
+}
+bool read(const wire_pb::StatusRequest& in, StatusRequest& out) { return take(in.session_id(), out.session_id); }
+void write(const StatusRequest& in, wire_pb::StatusRequest& out) { out.set_session_id(text_of(in.session_id)); }
+
+bool read(const wire_pb::Status& in, Status& out) {
+  if (in.seat_size() > static_cast<int>(kListedSeatsMax) || in.tool_size() > static_cast<int>(kToolsMax)) return false;
+  if (in.state() > static_cast<std::uint32_t>(SessionPhase::kEnding) || !(in.time_s() >= 0 && in.time_s() <= kTimeMax)) return false;
+  out.phase = static_cast<SessionPhase>(in.state());
+  out.stops = in.stops();
+  out.authority_version = in.authority_version();
+  out.time_s = in.time_s();
+  out.draining = in.draining();
+  if (!take(in.session_id(), out.session_id) || !take_name(in.name(), out.name)) return false;
+  for (const wire_pb::StatusSeat& s : in.seat()) {
+    StatusSeat& seat = out.seats.emplace_back();
+    seat.taken = s.taken();
+    seat.heard = s.heard();
+    seat.master = s.master();
+    if (!take_name(s.name(), seat.name) || !take_role(s.role(), seat.role)) return false;
+  }
+  for (const wire_pb::StatusTool& t : in.tool()) {
+    StatusTool& tool = out.tools.emplace_back();
+    tool.alpha.assign(t.alpha().begin(), t.alpha().end());
+    if (!take_name(t.name(), tool.name) || tool.alpha.size() > kMastersMax) return false;
+    if (!std::ranges::all_of(tool.alpha, [](double a) { return a >= 0 && a <= 1; })) return false;
+  }
+  return true;
+}
+void write(const Status& in, wire_pb::Status& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_name(in.name);
+  out.set_state(static_cast<std::uint32_t>(in.phase));
+  out.set_stops(in.stops);
+  out.set_authority_version(in.authority_version);
+  out.set_time_s(in.time_s);
+  out.set_draining(in.draining);
+  for (const StatusSeat& s : in.seats) {
+    auto& seat = *out.add_seat();
+    seat.set_name(s.name);
+    seat.set_role(static_cast<std::uint32_t>(s.role));
+    seat.set_taken(s.taken);
+    seat.set_heard(s.heard);
+    seat.set_master(s.master);
+  }
+  for (const StatusTool& t : in.tools) {
+    auto& tool = *out.add_tool();
+    tool.set_name(t.name);
+    for (const double a : t.alpha) tool.add_alpha(a);
+  }
+}
+
 void wipe_text(std::string& text) noexcept { wipe(text); }
 
 }  // namespace
@@ -308,6 +299,9 @@ bool from_pb(const wire_pb::ControlFrame& in, Body& out) {
     case Case::kPing: return read(in.ping(), out.emplace<Ping>());
     case Case::kPong: return read(in.pong(), out.emplace<Pong>());
     case Case::kDone: return read(in.done(), out.emplace<Done>());
+    case Case::kRemovePerson: return read(in.remove_person(), out.emplace<RemovePerson>());
+    case Case::kStatusRequest: return read(in.status_request(), out.emplace<StatusRequest>());
+    case Case::kStatus: return read(in.status(), out.emplace<Status>());
     case Case::BODY_NOT_SET: return false;
   }
   return false;
@@ -332,6 +326,9 @@ void to_pb(const Body& in, wire_pb::ControlFrame& out) {
     void operator()(const Ping& m) const { write(m, *out.mutable_ping()); }
     void operator()(const Pong& m) const { write(m, *out.mutable_pong()); }
     void operator()(const Done& m) const { write(m, *out.mutable_done()); }
+    void operator()(const RemovePerson& m) const { write(m, *out.mutable_remove_person()); }
+    void operator()(const StatusRequest& m) const { write(m, *out.mutable_status_request()); }
+    void operator()(const Status& m) const { write(m, *out.mutable_status()); }
   };
   std::visit(Writer{out}, in);
 }

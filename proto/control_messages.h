@@ -111,8 +111,9 @@ enum class Reason : std::uint8_t {
   kTooFast = 15,      ///< too many of these per second
   kBadFrame = 16,     ///< not a frame, or one out of turn
   kTrouble = 17,      ///< the server could not, for reasons of its own; its log says which
+  kOutdated = 18,     ///< what it names is not the newest any more
 };
-inline constexpr std::uint8_t kReasons = 17;
+inline constexpr std::uint8_t kReasons = 18;
 
 struct Refused {
   Reason reason = Reason::kTrouble;
@@ -164,6 +165,7 @@ struct StopSession {
 };
 struct ResumeSession {
   Id session_id{};
+  std::uint32_t stop = 0;  ///< number of the stop it ends
   friend bool operator==(const ResumeSession&, const ResumeSession&) = default;
 };
 struct PauseSession {
@@ -200,17 +202,52 @@ struct Done {
   friend bool operator==(const Done&, const Done&) = default;
 };
 
+struct RemovePerson {
+  Id session_id{};
+  std::string seat;  ///< a name
+  std::string why;   ///< at most kTextMax
+  friend bool operator==(const RemovePerson&, const RemovePerson&) = default;
+};
+struct StatusRequest {
+  Id session_id{};
+  friend bool operator==(const StatusRequest&, const StatusRequest&) = default;
+};
+struct StatusSeat {
+  std::string name;
+  AccessRole role = AccessRole::kTrainee;
+  bool taken = false, heard = false;
+  bool master = false;  ///< has a weight: the k-th of these is the k-th of StatusTool::alpha
+  friend bool operator==(const StatusSeat&, const StatusSeat&) = default;
+};
+struct StatusTool {
+  std::string name;
+  std::vector<double> alpha;  ///< asked for; at most kMastersMax in [0, 1]
+  friend bool operator==(const StatusTool&, const StatusTool&) = default;
+};
+/// A session as somebody at a control connection may see it.
+struct Status {
+  Id session_id{};
+  std::string name;
+  SessionPhase phase = SessionPhase::kWaiting;
+  std::uint32_t stops = 0, authority_version = 0;
+  double time_s = 0;  ///< of the session [s], 0 ... 1e9
+  bool draining = false;
+  std::vector<StatusSeat> seats;  ///< at most kListedSeatsMax
+  std::vector<StatusTool> tools;  ///< at most kToolsMax
+  friend bool operator==(const Status&, const Status&) = default;
+};
+
 /// In the order of Kind.
 using Body = std::variant<Hello, Welcome, Refused, Enrol, EnrolAck, SessionListRequest, SessionList, StopSession, ResumeSession, PauseSession,
-                          SetAuthority, AuthorityAnswer, Drain, Ping, Pong, Done>;
+                          SetAuthority, AuthorityAnswer, Drain, Ping, Pong, Done, RemovePerson, StatusRequest, Status>;
 
 /// Which message a frame carries: readable before its payload is (roles are checked there). The number is the field's in ControlFrame.
 enum class Kind : std::uint8_t {
   kHello = 3, kWelcome, kRefused, kEnrol, kEnrolAck, kSessionListRequest, kSessionList, kStopSession, kResumeSession, kPauseSession,
-  kSetAuthority, kAuthorityAnswer, kDrain, kPing, kPong, kDone
+  kSetAuthority, kAuthorityAnswer, kDrain, kPing, kPong, kDone, kRemovePerson, kStatusRequest, kStatus
 };
 inline constexpr std::size_t kKinds = std::variant_size_v<Body>;
-static_assert(static_cast<std::size_t>(Kind::kDone) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
+static_assert(static_cast<std::size_t>(Kind::kStatus) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
 
 struct Frame {
   std::uint32_t request = 0;

@@ -31,6 +31,7 @@ struct DoorLimitsSpec {
   std::uint32_t pending = 256, connections = 2048;
   double deadline_s = 5;
   double load_percent = 60;
+  double core_percent = 80;
 };
 
 struct LogSpec {

@@ -40,6 +40,7 @@ DoorLimitsSpec limits_from(const pb::DoorLimits& in) {
   if (in.has_connections()) out.connections = in.connections();
   if (in.has_deadline_s()) out.deadline_s = in.deadline_s();
   if (in.has_load_percent()) out.load_percent = in.load_percent();
+  if (in.has_core_percent()) out.core_percent = in.core_percent();
   return out;
 }
 
@@ -94,6 +95,7 @@ std::string effective_server_config_text(const ServerConfigSpec& config) {
   limits.set_connections(config.limits.connections);
   limits.set_deadline_s(config.limits.deadline_s);
   limits.set_load_percent(config.limits.load_percent);
+  limits.set_core_percent(config.limits.core_percent);
   out.mutable_log()->set_format(config.log.json ? pb::LogConfig::JSON : pb::LogConfig::TEXT);
   out.mutable_log()->set_level(static_cast<pb::LogConfig::Level>(config.log.level));
   if (!config.metrics.text.empty()) out.set_metrics(config.metrics.text);

@@ -92,7 +92,9 @@ struct AuthorityMessage {
 };
 
 /// kServerReturns: this server ends and means to go on from its checkpoint; who has a resume secret may come back.
-enum class CloseReason : std::uint8_t { kDone, kLeaving, kServerStops, kRefused, kServerReturns };
+/// kRemoved: somebody who may took the seat away; kRevoked: the workstation is no longer known to the server.
+enum class CloseReason : std::uint8_t { kDone, kLeaving, kServerStops, kRefused, kServerReturns, kRemoved, kRevoked };
+inline constexpr std::uint32_t kCloseReasonMax = static_cast<std::uint32_t>(CloseReason::kRevoked);
 struct CloseMessage {
   CloseReason reason = CloseReason::kDone;
 };

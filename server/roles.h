@@ -2,8 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "proto/access_role.h"
+#include "proto/control_messages.h"
 #include "proto/wire.h"
 
 namespace tandem::server {
@@ -31,5 +34,16 @@ enum class Grant : std::uint8_t { kNo, kPart, kYes };
 
 /// Whether a client of this role may send such a datagram at all: asked before its payload is parsed.
 [[nodiscard]] bool allowed(AccessRole role, wire::Type from_client) noexcept;
+
+/// Whether a client says such a thing at all; the rest goes the other way.
+[[nodiscard]] bool said_by_clients(control::Kind kind) noexcept;
+/// Whether somebody may send such a frame over his control connection: asked before its payload is parsed.
+/// @param standing  the role he was welcomed in; nothing: he has not joined yet
+[[nodiscard]] bool allowed(std::optional<AccessRole> standing, control::Kind kind) noexcept;
+/// For somebody who may not: what it is, and who may. Cause and remedy.
+[[nodiscard]] std::string why_not(std::optional<AccessRole> standing, control::Kind kind);
+
+/// Whether somebody of this role may join without a seat of the scene: who looks after sessions, not who works in them.
+[[nodiscard]] bool may_stand(AccessRole role) noexcept;
 
 }  // namespace tandem::server

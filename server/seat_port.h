@@ -39,6 +39,8 @@ class SeatPort {
 
   /// Heard from within the hold limit.
   [[nodiscard]] bool alive(Time now) const noexcept;
+  /// A hand that may be given force: not an observer's.
+  [[nodiscard]] bool feels() const noexcept { return feels_; }
   /// Its last word says that it hears nothing of us, or it echoes nothing newer: one direction is lost. @pre taken()
   [[nodiscard]] bool deaf() const noexcept;
   /// Alive, its device streams, nothing latched, nobody stopped it.
@@ -90,7 +92,9 @@ class SeatPort {
   [[nodiscard]] Transmit transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
   [[nodiscard]] Transmit transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept;
   [[nodiscard]] std::optional<Transmit> transmit_challenge(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept
-      TANDEM_REALTIME;
+      TANDEM_REALTIME {
+    return taken_ && connection_->challenges() ? connection_->poll_challenge(now, tick, codec_, buffer) : std::nullopt;
+  }
 
  private:
   /// Farther from the sample before than any hand comes in the time between.
@@ -99,6 +103,8 @@ class SeatPort {
   const SceneSpec* scene_;
   Duration tick_;
   AccessRole role_;
+  bool feels_;
+  Duration deaf_after_;  ///< its own word that it hears nothing
   Conduct conduct_;
   std::array<std::byte, 32> resume_{};
   double force_scale_ = 1;

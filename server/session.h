@@ -48,7 +48,8 @@ class Session {
   /// @param entry  holds afterwards what was in the seat before, to be given back elsewhere  @return as `may_admit`
   [[nodiscard]] JoinResult admit(Time now, std::size_t seat, Entry& entry, bool same_owner) noexcept;
   /// One who only judges his link (proto/visit.h). @return as above
-  [[nodiscard]] JoinResult admit_visitor(Time now, std::unique_ptr<link::Link>& link) noexcept;
+  /// @param place  afterwards: which of Visitors::kMax he has
+  [[nodiscard]] JoinResult admit_visitor(Time now, std::unique_ptr<link::Link>& link, std::size_t* place = nullptr) noexcept;
 
   void on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept;
   /// @param missed  ticks whose time passed without a call; they are lived through now, silently, up to a bound.
@@ -60,8 +61,23 @@ class Session {
   /// Stops or pauses all hands, as the role may (roles.h), or resumes them; for who sits on no seat. Seats do it by their STATE.
   /// @return whether the role may  @param number  of the stop to be ended, see `stops`
   bool stop_hands(Time now, AccessRole who) noexcept;
+  bool pause_hands(Time now, AccessRole who) noexcept;
   bool resume_hands(Time now, AccessRole who, std::uint32_t number) noexcept;
   [[nodiscard]] std::uint32_t stops() const noexcept { return stop_lane_.stops(); }
+  [[nodiscard]] StopLane::Level stop_level() const noexcept { return stop_lane_.level(); }
+
+  /// Weights over a tool, compared and set: only if `wish.version` is the session's.
+  /// @param seat   he sits on, AuditEvent::kNoSeat: none  @param noted  who is written down
+  enum class AuthorityResult : std::uint8_t { kApplied, kOutdated, kForbidden, kWrong };
+  AuthorityResult set_authority(Time now, AccessRole who, std::size_t seat, std::uint8_t noted, const wire::AuthorityMessage& wish) noexcept;
+
+  /// Takes a seat away: its gate ramps out, then its client is told and the seat is free. @return false: nobody sits there
+  bool dismiss(Time now, std::size_t seat, wire::CloseReason why) noexcept;
+  /// Somebody was told to leave and is being let go.
+  [[nodiscard]] bool leaving(std::size_t seat) const noexcept { return farewells_[seat].ticks > 0; }
+  /// The same for one who judges his link, in this place.
+  bool dismiss_visitor(std::size_t place, std::uint32_t cid, wire::CloseReason why) noexcept { return visitors_.dismiss(place, cid, why); }
+  [[nodiscard]] std::size_t visitors_free(Time now) const noexcept { return visitors_.free(now); }
 
   /// What happened since the last call; whoever hosts the session asks after every tick. At most AuditQueue::kCapacity wait.
   [[nodiscard]] std::optional<AuditEvent> poll_audit() noexcept { return audit_.poll(); }
@@ -90,6 +106,7 @@ class Session {
   void hear_wishes(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
   void hear_authority(Time now, std::size_t seat, const wire::AuthorityMessage& wish) noexcept TANDEM_REALTIME;
   bool request_authority(Time now, std::uint8_t who, std::size_t tool, const control::Weights& wanted) noexcept;
+  bool press_stop(Time now, AccessRole who, StopLane::Level wanted) noexcept;
   [[nodiscard]] control::Weights weights_of(const AuthorityRow& row) const noexcept;
   void wait_for_people(Time now) noexcept TANDEM_REALTIME;
   void look_after_people(Time now) noexcept TANDEM_REALTIME;
@@ -98,28 +115,29 @@ class Session {
   /// The session waits for it before it begins, or goes on after a restart.
   [[nodiscard]] bool needed(std::size_t seat) const noexcept;
   void go_on(Time now) noexcept;
-  /// A hand that may be given force: not an observer's.
-  [[nodiscard]] bool felt_by(std::size_t seat) const noexcept;
   void note(Time now, AuditEvent::What what, std::size_t seat, std::uint32_t version = 0) noexcept;
+  void say_farewell(Time now) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] bool slave_present(std::size_t tool) const noexcept;
   void live_one_tick(Time now) noexcept TANDEM_REALTIME;
   void change_state(Time now) noexcept;
   void follow_timeline(Time now) noexcept;
   void share_authority() noexcept TANDEM_REALTIME;
+  void tie_seats() noexcept TANDEM_REALTIME;
   void move_references(Time now) noexcept TANDEM_REALTIME;
   void step_offset(std::size_t seat, bool engaged) noexcept TANDEM_REALTIME;
-  void credit_seat(std::size_t seat, std::size_t axis) noexcept TANDEM_REALTIME;
+  void credit_seat(std::size_t seat) noexcept TANDEM_REALTIME;
   void step_tools() noexcept TANDEM_REALTIME;
   void step_following() noexcept TANDEM_REALTIME;
+  void follow_tools(std::size_t seat) noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
-  [[nodiscard]] double share(std::size_t tool, std::size_t seat) const noexcept;
 
   const SceneSpec* scene_;
   double dt_;
   Duration tick_length_;
   AxisArray scale_;
+  AxisArray root_scale_{};
   std::vector<SeatPort> seats_;
   std::vector<Tool> tools_;
   std::size_t masters_;
@@ -149,8 +167,20 @@ class Session {
   bool ticked_ = false, elapsed_any_ = false, over_ = false;
   wire::CloseReason close_reason_ = wire::CloseReason::kDone;
   std::uint32_t farewell_ = 0;           ///< ticks left in ENDING
+  struct Farewell {  ///< of one seat whose person was removed
+    std::uint32_t ticks = 0;  ///< left until it is free
+    wire::CloseReason why = wire::CloseReason::kRemoved;
+  };
+  std::array<Farewell, kSeatsMax> farewells_{};
   std::size_t next_event_ = 0;           ///< of the timeline
   std::uint32_t authority_version_ = 1;
+  /// What binds a seat to a tool during this tick. A slave is bound to its own, wholly.
+  struct Tie {
+    double alpha = 0;   ///< authority
+    double follow = 0;  ///< C_ij: how far its target follows the tool
+    double share = 0;   ///< the greater of both: of its spring
+  };
+  std::array<std::array<Tie, kToolsMax>, kSeatsMax> ties_{};
   std::array<AxisArray, kSeatsMax> absolute_{};     ///< y_i: where each seat's tool is
   std::array<AxisArray, kSeatsMax> offset_{};       ///< hand minus tool, on its way to 0
   std::array<std::uint32_t, kSeatsMax> engaged_for_{};  ///< ticks
@@ -162,6 +192,7 @@ class Session {
   TickRecord record_{};
 
   std::array<bool, kSeatsMax> send_due_{};
+  std::size_t next_to_tell_ = 0;  ///< seat that `poll_transmit` asks next
   std::uint64_t stray_ = 0, slipped_ = 0;
 };
 

@@ -12,8 +12,6 @@ constexpr Duration kFaultMemory = std::chrono::seconds(1);
 constexpr double kSame = 1e-9;  // of two weights
 }  // namespace
 
-bool Session::felt_by(std::size_t i) const noexcept { return allowed(seats_[i].role(), Right::kForce) != Grant::kNo; }
-
 void Session::note(Time now, AuditEvent::What what, std::size_t seat, std::uint32_t version) noexcept {
   AuditEvent e;
   e.what = what;
@@ -27,7 +25,7 @@ void Session::note(Time now, AuditEvent::What what, std::size_t seat, std::uint3
 void Session::hear(Time now, std::size_t i, const SeatPort::Heard& heard) noexcept {
   if (heard.forbidden) forbid(now, i);
   if (heard.acted) hear_wishes(now, i);
-  if (heard.authority) hear_authority(now, i, *heard.authority);
+  if (heard.authority && !leaving(i)) hear_authority(now, i, *heard.authority);
   if (heard.close) {
     seats_[i].release();
     note(now, AuditEvent::What::kLeave, i);
@@ -47,6 +45,7 @@ void Session::hear_wishes(Time now, std::size_t i) noexcept {
       forbid(now, i);
     }
   }
+  if (leaving(i)) return;  // who is being let go may still stop, nothing else
   if (said.resume_stop == 0 || said.resume_stop != stop_lane_.stops()) return;
   if (gathering_ && !stop_lane_.on()) {
     if (!stop_lane_.may_resume(seats_[i].role())) return forbid(now, i);
@@ -61,8 +60,11 @@ void Session::hear_wishes(Time now, std::size_t i) noexcept {
   }
 }
 
-bool Session::stop_hands(Time now, AccessRole who) noexcept {
-  const auto level = stop_lane_.press(who);
+bool Session::stop_hands(Time now, AccessRole who) noexcept { return press_stop(now, who, StopLane::Level::kStopped); }
+bool Session::pause_hands(Time now, AccessRole who) noexcept { return press_stop(now, who, StopLane::Level::kPaused); }
+
+bool Session::press_stop(Time now, AccessRole who, StopLane::Level wanted) noexcept {
+  const auto level = stop_lane_.press(who, wanted);
   if (!level) return false;
   note(now, *level == StopLane::Level::kStopped ? AuditEvent::What::kStop : AuditEvent::What::kPause, AuditEvent::kControlPlane,
        stop_lane_.stops());
@@ -70,6 +72,12 @@ bool Session::stop_hands(Time now, AccessRole who) noexcept {
 }
 
 bool Session::resume_hands(Time now, AccessRole who, std::uint32_t number) noexcept {
+  if (gathering_ && !stop_lane_.on() && number == stop_lane_.stops()) {
+    if (!stop_lane_.may_resume(who)) return false;
+    note(now, AuditEvent::What::kGathered, AuditEvent::kControlPlane, number);
+    go_on(now);
+    return true;
+  }
   if (!stop_lane_.resume(who, number)) return stop_lane_.may_resume(who);
   note(now, AuditEvent::What::kResume, AuditEvent::kControlPlane, number);
   return true;
@@ -83,20 +91,27 @@ control::Weights Session::weights_of(const AuthorityRow& row) const noexcept {
 
 /// An instructor sets all weights; who may only offer back gives of his own to instructors and touches nobody else's.
 void Session::hear_authority(Time now, std::size_t i, const wire::AuthorityMessage& wish) noexcept {
-  if (wish.tool >= tools_.size() || wish.masters != masters_) return;
+  const AuthorityResult result = set_authority(now, seats_[i].role(), i, static_cast<std::uint8_t>(i), wish);
+  if (result == AuthorityResult::kForbidden) forbid(now, i);
+}
+
+Session::AuthorityResult Session::set_authority(Time now, AccessRole who, std::size_t seat, std::uint8_t noted,
+                                                const wire::AuthorityMessage& wish) noexcept {
+  if (wish.tool >= tools_.size() || wish.masters != masters_) return AuthorityResult::kWrong;
+  const Grant grant = allowed(who, Right::kAuthority);
   const control::Weights& before = tools_[wish.tool].authority.requested();
-  bool may = true;
+  bool may = grant != Grant::kNo;
   for (std::size_t k = 0; k < masters_; ++k) {  // the server, not the client, says who may never drive
     const AccessRole whose = seats_[k].role();
     may = may && (wish.alpha[k] == 0 || allowed(whose, Right::kDrive) != Grant::kNo);
-    if (allowed(seats_[i].role(), Right::kAuthority) == Grant::kYes) continue;
+    if (grant == Grant::kYes) continue;
     const double gain = wish.alpha[k] - before[k];
     const bool instructor = allowed(whose, Right::kAuthority) == Grant::kYes;
-    may = may && (k == i ? gain <= kSame : instructor ? gain >= -kSame : std::abs(gain) <= kSame);
+    may = may && (k == seat ? gain <= kSame : instructor ? gain >= -kSame : std::abs(gain) <= kSame);
   }
-  if (wish.version != authority_version_) return;  // somebody was faster: the newer weights are in FORCE
-  if (!may) return forbid(now, i);
-  static_cast<void>(request_authority(now, static_cast<std::uint8_t>(i), wish.tool, wish.alpha));
+  if (wish.version != authority_version_) return AuthorityResult::kOutdated;  // somebody was faster: the newer weights are in FORCE
+  if (!may) return AuthorityResult::kForbidden;
+  return request_authority(now, noted, wish.tool, wish.alpha) ? AuthorityResult::kApplied : AuthorityResult::kWrong;
 }
 
 bool Session::request_authority(Time now, std::uint8_t who, std::size_t tool, const control::Weights& wanted) noexcept {
@@ -137,7 +152,7 @@ void Session::wait_for_people(Time now) noexcept {
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     if (!needed(i)) continue;
     all_ready = all_ready && seats_[i].ready(now);
-    all_there = all_there && (felt_by(i) ? present_[i] : seats_[i].ready(now));
+    all_there = all_there && (seats_[i].feels() ? present_[i] : seats_[i].ready(now));
   }
   state_ = wire::SessionState::kWaiting;
   const bool to_a_stop = gathering_ && stop_before_ != StopLane::Level::kNone;  // nobody is engaged only to be let go

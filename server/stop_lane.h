@@ -21,10 +21,11 @@ class StopLane {
   [[nodiscard]] std::uint32_t stops() const noexcept { return stops_; }
 
   /// Whoever wants a stop gets what his role may: @return the level asked for, nothing if he may not
-  std::optional<Level> press(AccessRole who) noexcept {
+  /// @param wanted  at most
+  std::optional<Level> press(AccessRole who, Level wanted = Level::kStopped) noexcept {
     const Grant grant = allowed(who, Right::kStopSession);
     if (grant == Grant::kNo) return std::nullopt;
-    const Level level = grant == Grant::kYes ? Level::kStopped : Level::kPaused;
+    const Level level = grant == Grant::kYes ? wanted : Level::kPaused;
     raise(level);
     return level;
   }

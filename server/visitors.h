@@ -19,8 +19,12 @@ class Visitors {
 
   Visitors(std::size_t dof, PortSpace port, Duration tick) : codec_(dof, port), tick_(tick) {}
 
-  /// Puts the visitor in. @param link  holds what was there before afterwards  @return false: all places are taken
-  [[nodiscard]] bool admit(Time now, std::unique_ptr<link::Link>& link) noexcept;
+  /// Puts the visitor in. @param link  holds what was there before afterwards  @return his place; nothing: all are taken
+  [[nodiscard]] std::optional<std::size_t> admit(Time now, std::unique_ptr<link::Link>& link) noexcept;
+  /// How many more could come now.
+  [[nodiscard]] std::size_t free(Time now) const noexcept;
+  /// Sends one away: he is told, then the place is free. @return false: he is not there any more
+  bool dismiss(std::size_t place, std::uint32_t cid, wire::CloseReason why) noexcept;
   /// @return false: not of a visitor
   bool on_datagram(Time now, const Endpoint& from, std::uint32_t cid, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
   /// Forgets who fell silent; the others are due for a FORCE.
@@ -34,6 +38,8 @@ class Visitors {
   struct Visitor {
     std::optional<Connection> connection;  ///< kept when he has left, until another comes
     bool here = false, due = false;
+    unsigned farewells = 0;  ///< CLOSEs that are still to be sent to one who was sent away
+    wire::CloseReason why = wire::CloseReason::kRemoved;
   };
   std::array<Visitor, kMax> visitors_;
   wire::Codec codec_;

@@ -139,6 +139,11 @@ Id16 session_named_in(const TicketBytes& ticket) noexcept {
   return id;
 }
 
+std::optional<AccessRole> role_named_in(std::span<const std::byte> bytes) noexcept {
+  const auto role = bytes.size() == kTicketSize ? std::to_integer<std::uint8_t>(bytes[1]) : kAccessRoles;
+  return role < kAccessRoles ? std::optional(static_cast<AccessRole>(role)) : std::nullopt;
+}
+
 std::string to_text(const TicketFault& fault) {
   const auto i = static_cast<std::size_t>(fault.rule);
   if (i >= kTicketRules) return "?";

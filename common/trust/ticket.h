@@ -55,6 +55,9 @@ using TicketBytes = std::array<std::byte, kTicketSize>;
 /// The session a ticket says it is for; nothing is proven.
 [[nodiscard]] Id16 session_named_in(const TicketBytes& ticket) noexcept;
 
+/// The role a ticket says it is for; nothing is proven. Nothing: not the length of a ticket, or no role.
+[[nodiscard]] std::optional<AccessRole> role_named_in(std::span<const std::byte> bytes) noexcept;
+
 /// The rule that a ticket breaks.
 enum class TicketRule : std::uint8_t {
   kLength,       ///< not 192 bytes

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "proto/control_codec.h"
+#include "server/roles.h"
 
 namespace tandem::server {
 namespace {
@@ -14,12 +15,6 @@ using control::Reason;
 using trust::StreamEnd;
 
 constexpr std::string_view kUnknown = "this workstation is not enrolled here, or was revoked; ask for `tandem-server enroll NAME` and type what it prints";
-
-/// What a client may say at all.
-constexpr bool is_question(Kind kind) noexcept {
-  return kind == Kind::kHello || kind == Kind::kEnrol || kind == Kind::kSessionListRequest || kind == Kind::kPing ||
-         (kind >= Kind::kStopSession && kind <= Kind::kSetAuthority) || kind == Kind::kDrain;
-}
 
 std::uint32_t whole_seconds(Duration d) noexcept { return static_cast<std::uint32_t>(std::clamp(seconds(d) + 1.0, 1.0, 86400.0)); }
 
@@ -31,6 +26,7 @@ ControlConnection::ControlConnection(ControlPlane& plane, asio::ip::tcp::socket 
       source_(source),
       address_(std::move(address)),
       commands_(control::RateLimits{}.commands_per_s, control::RateLimits{}.commands_burst),
+      stops_(commands_),
       authority_(control::RateLimits{}.authority_per_s, control::RateLimits{}.authority_burst) {}
 
 void ControlConnection::start() {
@@ -61,7 +57,7 @@ void ControlConnection::took(SecretBuffer bytes) {
   // Who may say what is decided before a payload is parsed.
   const auto head = control::peek(raw);
   request_ = head ? head->request : 0;
-  if (!head || !is_question(head->kind)) {
+  if (!head || !said_by_clients(head->kind)) {
     plane_.note(ControlEvent::kBadFrame, address_);
     const bool version = !head && head.error() == control::FrameError::kVersion;
     return refuse(version ? Reason::kVersion : Reason::kBadFrame,
@@ -78,15 +74,21 @@ void ControlConnection::took(SecretBuffer bytes) {
     plane_.note(ControlEvent::kNotEnrolled, address_, "", pin_.hex());
     return refuse(Reason::kNotEnrolled, std::string(kUnknown), true);
   }
+  const Time now = plane_.clocks_.monotonic();
+  if (!bucket_of(head->kind).take(now)) {
+    plane_.note(ControlEvent::kCommandTooFast, address_, workstation_ ? workstation_->name : "");
+    return refuse(Reason::kTooFast, "too many requests; ask more slowly", pending_, 1);
+  }
+  const auto role = standing_ ? std::optional(standing_->role) : std::nullopt;
+  if (!allowed(role, head->kind)) {
+    std::string why = why_not(role, head->kind);
+    plane_.note(ControlEvent::kForbidden, address_, workstation_ ? workstation_->name : "", complaints_.take(now) ? why : "");
+    return refuse(Reason::kNotAllowed, std::move(why), pending_);
+  }
   auto frame = control::decode(raw);
   if (!frame) {
     plane_.note(ControlEvent::kBadFrame, address_, workstation_ ? workstation_->name : "");
     return refuse(Reason::kBadFrame, std::string(control::to_text(frame.error())), true);
-  }
-  trust::TokenBucket& bucket = head->kind == Kind::kSetAuthority ? authority_ : commands_;
-  if (!bucket.take(plane_.clocks_.monotonic())) {
-    plane_.note(ControlEvent::kCommandTooFast, address_, workstation_ ? workstation_->name : "");
-    return refuse(Reason::kTooFast, "too many requests; ask more slowly", pending_, 1);
   }
   if (const auto* enrol = std::get_if<control::Enrol>(&frame->body)) return on_enrol(*enrol);
   if (auto* hello = std::get_if<control::Hello>(&frame->body)) return on_hello(std::move(*hello));
@@ -97,6 +99,22 @@ void ControlConnection::took(SecretBuffer bytes) {
     return answer(std::move(list));
   }
   on_command(frame->body);
+}
+
+trust::TokenBucket& ControlConnection::bucket_of(Kind kind) noexcept {
+  if (kind == Kind::kSetAuthority) return authority_;
+  return kind == Kind::kStopSession || kind == Kind::kPauseSession ? stops_ : commands_;
+}
+
+/// Who waits for our next word gets it as an answer to nothing; who is being answered just now hears no more.
+void ControlConnection::look_for_revocation() {
+  if (finished_ || !workstation_) return;
+  const auto row = plane_.trust_.find(pin_);
+  if (!row || *row) return;  // a book that cannot be read ends nobody's connection
+  plane_.note(ControlEvent::kNotEnrolled, address_, workstation_->name, "revoked: its connection is closed");
+  if (writing_) return finish();
+  request_ = 0;
+  refuse(Reason::kNotEnrolled, std::string(kUnknown), true);
 }
 
 bool ControlConnection::blocked() {
@@ -127,7 +145,6 @@ void ControlConnection::on_enrol(const control::Enrol& enrol) {
 }
 
 void ControlConnection::on_hello(control::Hello hello) {
-  if (standing_) return refuse(Reason::kBadFrame, "this connection has joined already; open another one for another seat", true);
   const auto common = std::ranges::find_if(hello.versions, [](std::uint32_t v) { return v == control::kProtocolVersion; });
   if (common == hello.versions.end())
     return refuse(Reason::kVersion,
@@ -168,7 +185,6 @@ void ControlConnection::admitted(const std::shared_ptr<JoinRequest>& request, Ad
 }
 
 void ControlConnection::on_command(const control::Body& command) {
-  if (!standing_) return refuse(Reason::kNotAllowed, "join first: what somebody may order depends on his role", pending_);
   plane_.note(ControlEvent::kCommand, address_, workstation_->name);
   must_be_over_in(plane_.limits_.frame_deadline);
   plane_.admissions_.command(*standing_, *workstation_, command, [weak = weak_from_this(), &context = plane_.context_](control::Body body) {
@@ -197,14 +213,17 @@ void ControlConnection::refuse(Reason reason, std::string text, bool last, std::
 }
 
 void ControlConnection::answer(control::Body body, bool last) {
+  if (finished_ || writing_) return;  // the last word is on its way already
   auto frame = control::encode({request_, std::move(body)});
   if (!frame) {  // ours, and beyond its bounds
     plane_.note(ControlEvent::kTrouble, address_, workstation_ ? workstation_->name : "", "an answer could not be written");
     return finish();
   }
   // Who does not take his answer is let go of.
-  if (!pending_) must_be_over_in(plane_.limits_.frame_deadline);
+  if (!pending_) must_be_over_in(plane_.limits_.answer_deadline);
+  writing_ = true;
   stream_->write(std::move(*frame), [self = shared_from_this(), last](std::expected<void, trust::StreamFault> written) {
+    self->writing_ = false;
     if (!written) return self->over(written.error());
     if (!self->pending_) self->stream_->clear_deadline();
     if (last) return self->finish();

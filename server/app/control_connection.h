@@ -17,6 +17,8 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   ControlConnection(ControlPlane& plane, asio::ip::tcp::socket socket, const trust::Source& source, std::string address);
   void start();
   void stop();
+  /// Ends it, with a word, if its workstation was revoked.
+  void look_for_revocation();
 
  private:
   void read_next();
@@ -44,9 +46,12 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   trust::Pin pin_;
   std::optional<WorkstationRow> workstation_;
   std::optional<control::Welcome> standing_;
-  trust::TokenBucket commands_, authority_;
+  [[nodiscard]] trust::TokenBucket& bucket_of(control::Kind kind) noexcept;
+
+  trust::TokenBucket commands_, stops_, authority_;  ///< a stop waits for nothing else
+  trust::TokenBucket complaints_{1, 1};              ///< about what his role may not, in the audit log
   std::uint32_t request_ = 0;
-  bool pending_ = true, finished_ = false;
+  bool pending_ = true, finished_ = false, writing_ = false;
 };
 
 }  // namespace tandem::server

@@ -4,6 +4,7 @@
 #include <asio/post.hpp>
 #include <csignal>
 #include <cstring>
+#include <netinet/tcp.h>
 
 #include "server/app/control_connection.h"
 
@@ -11,6 +12,17 @@ namespace tandem::server {
 namespace {
 
 using asio::ip::tcp;
+
+/// A connection stands as long as it is open, so who vanished without a word must be noticed by the kernel: after half a minute of
+/// silence it asks, three times.
+void notice_the_dead(tcp::socket& socket) {
+  asio::error_code ignored;
+  socket.set_option(tcp::socket::keep_alive(true), ignored);
+  const auto set = [&](int option, int value) { ::setsockopt(socket.native_handle(), IPPROTO_TCP, option, &value, sizeof value); };
+  set(TCP_KEEPIDLE, 30);
+  set(TCP_KEEPINTVL, 10);
+  set(TCP_KEEPCNT, 3);
+}
 
 /// After an error of accepting that is ours, such as no file descriptors left.
 constexpr auto kRest = std::chrono::milliseconds(100);
@@ -20,7 +32,7 @@ constexpr auto kRest = std::chrono::milliseconds(100);
 std::string_view to_text(ControlEvent event) noexcept {
   constexpr std::array<std::string_view, kControlEvents> kNames{"accepted", "too_fast",     "handshake_failed", "deadline", "too_much_input",
                                                                 "bad_frame", "not_enrolled", "blocked",          "enrolled", "code_refused",
-                                                                "welcomed",  "refused",      "command",          "command_too_fast", "trouble"};
+                                                                "welcomed",  "refused",      "command",          "command_too_fast", "trouble", "forbidden"};
   const auto i = static_cast<std::size_t>(event);
   return i < kNames.size() ? kNames[i] : "?";
 }
@@ -102,6 +114,8 @@ void ControlPlane::took(Door&, tcp::socket socket) {
   if (!accepts_.accept(source, clocks_.monotonic())) return note(ControlEvent::kTooFast, std::move(text));
   note(ControlEvent::kAccepted, text);
   socket.set_option(tcp::no_delay(true), error);
+  notice_the_dead(socket);
+  socket.set_option(asio::socket_base::send_buffer_size(limits_.unread_max / 2), error);  // Linux doubles it, for its own book-keeping
   ++pending_;
   const auto connection = std::make_shared<ControlConnection>(*this, std::move(socket), source, std::move(text));
   connections_.insert(connection);
@@ -125,6 +139,11 @@ void ControlPlane::ended(const std::shared_ptr<ControlConnection>& connection) {
 
 void ControlPlane::open_doors() {
   for (Door& door : doors_) accept_next(door);
+}
+
+void ControlPlane::look_for_revoked() {
+  const auto all = connections_;
+  for (const auto& connection : all) connection->look_for_revocation();
 }
 
 void ControlPlane::stop() {

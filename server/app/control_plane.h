@@ -32,9 +32,9 @@ class ControlConnection;
 /// What happened at the door. Each is counted; the interesting ones are told too.
 enum class ControlEvent : std::uint8_t {
   kAccepted, kTooFast, kHandshakeFailed, kDeadline, kTooMuchInput, kBadFrame, kNotEnrolled, kBlocked, kEnrolled, kCodeRefused, kWelcomed, kRefused,
-  kCommand, kCommandTooFast, kTrouble
+  kCommand, kCommandTooFast, kTrouble, kForbidden
 };
-inline constexpr std::size_t kControlEvents = 15;
+inline constexpr std::size_t kControlEvents = 16;
 [[nodiscard]] std::string_view to_text(ControlEvent event) noexcept;
 
 /// For logs and audit; never holds a secret.
@@ -45,7 +45,9 @@ struct ControlNews {
 
 struct ControlLimits {
   std::chrono::milliseconds deadline{5000};        ///< from accept to the first frame that is answered with yes
-  std::chrono::milliseconds frame_deadline{5000};  ///< later: from the first byte of a frame to its last, and for an answer to be taken
+  std::chrono::milliseconds frame_deadline{5000};  ///< later: from the first byte of a frame to its last, and for an order to be carried out
+  std::chrono::milliseconds answer_deadline{2000};  ///< for an answer to be taken: who does not read is let go of
+  int unread_max = 256 * 1024;                      ///< [bytes] of answers that the kernel keeps for who does not read
   std::size_t input_before_auth = 8192;            ///< [bytes], TLS included
   std::size_t pending = 256;                       ///< connections before their first yes; more wait in the kernel
   std::size_t connections = 2048;                  ///< in all; more wait in the kernel
@@ -74,6 +76,9 @@ class ControlPlane {
   [[nodiscard]] std::expected<io::SocketAddress, std::string> listen(const io::SocketAddress& at);
   /// No newcomers, every connection closed. From the context's thread.
   void stop();
+
+  /// Ends the connections of workstations that are not in the book any more: they need not speak first. From the context's thread.
+  void look_for_revoked();
 
   /// From any thread.
   [[nodiscard]] std::uint64_t count(ControlEvent event) const noexcept { return counts_[static_cast<std::size_t>(event)].load(std::memory_order_relaxed); }

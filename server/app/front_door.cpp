@@ -11,6 +11,7 @@ namespace tandem::server {
 namespace {
 
 constexpr auto kRefresh = std::chrono::seconds(1);  // of what is written down for the commands beside
+constexpr auto kLookForRevoked = std::chrono::milliseconds(250);  // with a seat's farewell of 0.2 s: within a second
 constexpr int kPortsTried = 20;  // until one is free for UDP and TCP
 
 /// Keys of a folder that `init` made; on a network somebody must be able to come.
@@ -35,12 +36,13 @@ std::expected<trust::ServerTrust, std::string> keys_of(const io::SocketAddress& 
 FrontDoor::FrontDoor(trust::ServerTrust trust, const Plan& plan)
     : trust_(std::move(trust)),
       tell_(plan.tell),
-      house_(thread_.context(), trust_, plan.load_max),
+      house_(thread_.context(), trust_, plan.load),
       plane_(thread_.context(), trust_, house_, plan.limits, {}, [this](const ControlNews& news) {
         note(news);
         if (tell_) tell_(news);
       }),
-      refresh_(thread_.context()) {}
+      refresh_(thread_.context()),
+      revoked_(thread_.context()) {}
 
 FrontDoor::~FrontDoor() { stop(); }
 
@@ -129,6 +131,16 @@ void FrontDoor::write_down_now_and_then() {
   });
 }
 
+void FrontDoor::look_for_revoked_now_and_then() {
+  revoked_.expires_after(kLookForRevoked);
+  revoked_.async_wait([this](const asio::error_code& cancelled) {
+    if (cancelled) return;
+    house_.look_for_revoked();
+    plane_.look_for_revoked();
+    look_for_revoked_now_and_then();
+  });
+}
+
 void FrontDoor::note(const ControlNews& news) const {
   switch (news.event) {
     case ControlEvent::kWelcomed:
@@ -137,6 +149,9 @@ void FrontDoor::note(const ControlNews& news) const {
     case ControlEvent::kCodeRefused:
     case ControlEvent::kBlocked:
       trust_.audit(trust::wall_seconds(), to_text(news.event), news.workstation, news.address + " " + news.detail);
+      break;
+    case ControlEvent::kForbidden:
+      if (!news.detail.empty()) trust_.audit(trust::wall_seconds(), to_text(news.event), news.workstation, news.address + " " + news.detail);
       break;
     default:  // what is no decision about a person is only counted; enrolments note themselves
       break;
@@ -154,6 +169,7 @@ std::string FrontDoor::start() {
   if (trust_.on_disk()) {
     if (std::string problem = write_down(); !problem.empty()) return problem;
     write_down_now_and_then();
+    look_for_revoked_now_and_then();
   }
   started_ = true;
   thread_.start();
@@ -164,6 +180,7 @@ void FrontDoor::stop() {
   if (!std::exchange(started_, false)) return;
   thread_.stop([this] {
     refresh_.cancel();
+    revoked_.cancel();
     if (metrics_) metrics_->stop();
     plane_.stop();
     house_.stop_watching();

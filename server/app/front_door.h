@@ -25,7 +25,7 @@ class FrontDoor {
     std::string state;         ///< as typed; empty: the usual place, or on loopback keys made on the spot
     std::function<void(const ControlNews&)> tell;  ///< on the door's thread
     ControlLimits limits{};
-    double load_max = House::kLoadMax;             ///< of a shard, above which nobody new gets a seat
+    LoadLimits load{};                             ///< of a shard, above which nobody new gets a seat
     io::Steering steering{};                       ///< of datagrams to shards
     std::optional<io::SocketAddress> metrics{};    ///< where /metrics, /healthz and /readyz are answered; nothing: nowhere
   };
@@ -59,6 +59,8 @@ class FrontDoor {
   void end(const trust::Id16& id);
   /// Whoever wants in from now on is told that this server is about to end.
   void drain();
+  /// Whether an operator ordered that no new session opens, and when all hands are to be let go. Without waiting.
+  [[nodiscard]] std::optional<Time> drain_due() const noexcept { return house_.drain_due(); }
   /// The address in force.
   [[nodiscard]] std::optional<io::SocketAddress> metrics_address() const { return metrics_ ? std::optional(metrics_->address()) : std::nullopt; }
 
@@ -74,6 +76,8 @@ class FrontDoor {
   /// What the commands beside this server may know of the sessions, written down when it changed.
   [[nodiscard]] std::string write_down();
   void write_down_now_and_then();
+  /// Whoever was revoked loses seat, visit and connection.
+  void look_for_revoked_now_and_then();
   void on_thread(const std::function<void()>& what);
 
   trust::ServerTrust trust_;
@@ -82,7 +86,7 @@ class FrontDoor {
   House house_;
   ControlPlane plane_;
   std::optional<MetricsServer> metrics_;
-  asio::steady_timer refresh_;
+  asio::steady_timer refresh_, revoked_;
   std::vector<io::UdpSocket> sockets_;
   io::SocketAddress address_;
   std::optional<trust::LocalRuntime> local_;

@@ -104,7 +104,7 @@ class Host {
   int open() {
     FrontDoor::Plan door{plan_.listen, plan_.state, tell_log};
     door.limits = plan_.limits;
-    door.load_max = plan_.load_max;
+    door.load = plan_.load;
     door.steering = shards_.steering();
     door.metrics = plan_.metrics;
     auto opened = FrontDoor::open(door);
@@ -200,6 +200,7 @@ class Host {
     for (const auto& r : runs_) files.push_back({r->hosted().over_fd(), POLLIN, 0});
     if (poll(files.data(), files.size(), kLookEveryMs) > 0 && files[0].revents != 0) take_signal();
     const Time now = io::monotonic_now();
+    if (const auto due = door_->drain_due(); due && !drain_began_ && now >= *due) drain("drained by an operator");
     if (drain_began_ && now - *drain_began_ > kDrainMax) leave_at_once("the sessions did not end within 3 s");
     feed_watchdog();
     for (std::size_t i = 0; i < runs_.size();) {
@@ -221,9 +222,13 @@ class Host {
     signalfd_siginfo taken;
     [[maybe_unused]] const auto got = ::read(signals_.get(), &taken, sizeof taken);
     if (drain_began_) leave_at_once("a second signal came");
+    drain("ended by " + std::string(by.empty() ? "Ctrl-C" : by));
+  }
+
+  void drain(const std::string& why) {
     drain_began_ = io::monotonic_now();
     io::notify_service("STOPPING=1");
-    const std::string text = "ended by " + std::string(by.empty() ? "Ctrl-C" : by) + ": all hands are let go gently";
+    const std::string text = why + ": all hands are let go gently";
     if (!io::logs_json()) line_.note(text);
     io::tell(io::Level::kInfo, {.event = "draining", .text = text});
     door_->drain();
@@ -264,6 +269,10 @@ class Host {
   void write_down(SessionRun& r) {
     AuditEvents& events = r.hosted().audit();
     for (const AuditEvent* e = events.front(); e != nullptr; e = events.front()) {
+      if (e->seat == AuditEvent::kControlPlane) {  // the house wrote it down, with the name
+        events.pop();
+        continue;
+      }
       const auto& seats = r.plan().scene.seats;
       const std::string who = e->seat < seats.size() ? seats[e->seat].name : e->seat == AuditEvent::kTimeline ? "timeline" : "session";
       std::string detail = format("%s tick %u", who.c_str(), e->tick);
@@ -322,7 +331,7 @@ class Host {
     io::tell(verdict.report.passed ? io::Level::kInfo : io::Level::kError,
              {.event = "session_over", .session = r.plan().name, .text = format("%s, %.1f s", verdict.report.passed ? "pass" : "FAIL", verdict.report.duration_s)});
     if (!verdict.problem.empty()) trouble(verdict.problem);
-    if (!r.plan().restart || drain_began_) {
+    if (!r.plan().restart || drain_began_ || door_->drain_due()) {
       code_ = std::max(code_, verdict.code);
       if (drain_began_) finished_.push_back(std::move(place));
       return false;

@@ -19,7 +19,7 @@ struct HostPlan {
   io::SocketAddress listen;
   std::string state;              ///< folder of keys and books as typed; empty: the usual place, or keys made on the spot on loopback
   ControlLimits limits{};
-  double load_max = House::kLoadMax;
+  LoadLimits load{};
   std::optional<io::SocketAddress> metrics{};
   std::optional<io::Level> json_log{};  ///< set: log lines are JSON, of this level and graver
   double wait_s = 0;              ///< for required seats; 0: until Ctrl-C

@@ -1,6 +1,7 @@
 #include "server/app/house.h"
 
 #include <algorithm>
+#include <thread>
 #include <utility>
 
 #include "common/base/format.h"
@@ -17,7 +18,6 @@ using control::Reason;
 using control::Refused;
 
 constexpr double kGuessesPerS = 5.0 / 60, kGuessesAtOnce = 5;  // [design notes, security 1.4]
-constexpr std::size_t kVisitorPlaces = 64;                      // ids behind the seats', in turn
 
 std::string names_of(const std::list<std::string>& names) {
   std::string text;
@@ -50,7 +50,7 @@ std::string draw_session_code() {
 
 std::string code_text(const std::string& code) { return trust::grouped(code, 5); }
 
-House::House(asio::io_context& context, trust::ServerTrust& trust, double load_max) : context_(context), trust_(trust), load_max_(load_max) {}
+House::House(asio::io_context& context, trust::ServerTrust& trust, const LoadLimits& limits) : context_(context), trust_(trust), limits_(limits) {}
 House::~House() = default;
 
 void House::open(Opening opening) {
@@ -152,29 +152,23 @@ std::variant<House::Room*, Refused> House::room_for(const JoinRequest& request) 
 }
 
 void House::admit(const JoinRequest& request, std::function<void(Admission)> answer) {
-  if (draining_) return answer(Refused{Reason::kDraining, "this server is about to end and lets nobody in; wait until it is back, or ask its operator", 10});
+  const bool stands = request.hello.seat.empty() && !request.hello.visit;  // looks after sessions: also while the server drains
+  if (draining_ && !stands) return answer(Refused{Reason::kDraining, "this server is about to end and lets nobody in; wait until it is back, or ask its operator", 10});
   const auto found = room_for(request);
   if (const auto* refused = std::get_if<Refused>(&found)) return answer(*refused);
   Room& room = *std::get<Room*>(found);
+  if (stands) return stand(room, request, answer);
   if (const auto busy = too_busy(room); busy && !std::holds_alternative<control::ResumeCredential>(request.hello.credential)) return answer(*busy);
-  if (request.hello.visit) return visit(room, request, answer);
+  if (request.hello.visit) return visit(room, request, std::move(answer));
   sit(room, request, std::move(answer));
 }
 
 std::optional<Refused> House::too_busy(const Room& room) const {
-  const double load = room.opening.shard->load();
-  if (load <= load_max_) return std::nullopt;
-  return Refused{Reason::kFull,
-                 format("this server has no room for more: its ticks take %.0f %% of their time (p99), and newcomers are let in below %.0f %%; "
-                        "try again when others have left, or on another server",
-                        100 * load, 100 * load_max_),
-                 5};
-}
-
-void House::visit(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer) {
-  // Any enrolled workstation may judge its link: it touches no seat.
-  const auto place = static_cast<std::uint8_t>(kSeatsMax + 1 + visitors_++ % kVisitorPlaces);
-  answer(welcome(room, 0, true, place, request.hello.has_aes, 1));
+  double all = 0;
+  for (const Watched& w : watched_) all += w.shard->core();
+  std::string why = no_room({room.opening.shard->load(), room.opening.shard->core()}, all, std::thread::hardware_concurrency(), limits_);
+  if (why.empty()) return std::nullopt;
+  return Refused{Reason::kFull, std::move(why), 5};
 }
 
 void House::sit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer) {
@@ -226,6 +220,8 @@ std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std:
     return std::nullopt;
   }
   if (const auto* code = std::get_if<control::CodeCredential>(&request.hello.credential)) {
+    if (was_sent_away(room, request.workstation))
+      return Refused{Reason::kNotAllowed, "whoever sat at this workstation was removed from the session; a ticket lets it in again", 0};
     if (!room.guesses.take(io::monotonic_now())) return Refused{Reason::kBlocked, "too many codes were tried for this session; wait a minute", 60};
     if (room.opening.code.empty() || code->code != room.opening.code) return Refused{Reason::kCode, "this is not the session's code", 0};
     if (role == AccessRole::kInstructor)
@@ -263,6 +259,10 @@ control::Welcome House::welcome(const Room& room, std::size_t seat, bool visit, 
 void House::seated(const JoinRequest& request, const control::Welcome& welcome, const Secret<trust::kExportSize>& secrets) {
   Room* const found = room(welcome.session_id);
   if (found == nullptr) return;
+  if (request.hello.seat.empty() && !request.hello.visit) {  // no datagrams are expected
+    io::tell(io::Level::kInfo, {.event = "stands", .session = welcome.session_name, .text = request.address + " " + std::string(to_text(welcome.role))});
+    return;
+  }
   link::Link::Params params;
   params.outgoing = link::Direction::kToClient;
   params.own_cid = welcome.server_cid;
@@ -277,9 +277,12 @@ void House::seated(const JoinRequest& request, const control::Welcome& welcome, 
     order.what = Order::What::kVisit;
     params.tick = reception.tick();
     order.entry.link = std::make_unique<link::Link>(params);
+    order.done = [found, by = request.workstation, cid = welcome.server_cid](Order& o) { visited(*found, o, by, cid); };
   } else {
     const std::size_t seat = place_of(welcome.server_cid) - std::size_t{1};
     Claim& claim = found->claims[seat];
+    claim.by = request.workstation;
+    claim.cid = welcome.server_cid;
     order.what = Order::What::kAdmit;
     order.seat = seat;
     order.same_owner = true;  // it was asked for, and held since
@@ -294,7 +297,9 @@ void House::seated(const JoinRequest& request, const control::Welcome& welcome, 
 
 void House::abandoned(const control::Welcome& welcome) {
   Room* const found = room(welcome.session_id);
-  if (found != nullptr && !welcome.seat.empty()) found->claims[place_of(welcome.server_cid) - std::size_t{1}].being_given = false;
+  if (found == nullptr) return;
+  if (!welcome.seat.empty()) found->claims[place_of(welcome.server_cid) - std::size_t{1}].being_given = false;
+  if (place_of(welcome.server_cid) > kSeatsMax) --found->visits_being_given;
 }
 
 control::SessionList House::list(const WorkstationRow&) {
@@ -342,10 +347,6 @@ std::vector<const Shard*> House::shards() const {
   std::vector<const Shard*> all;
   for (const Watched& w : watched_) all.push_back(w.shard);
   return all;
-}
-
-void House::command(const control::Welcome&, const WorkstationRow&, const control::Body&, std::function<void(control::Body)> answer) {
-  answer(Refused{Reason::kNotAllowed, "this server takes no commands over the control connection yet; keys of the client's terminal go with its datagrams", 0});
 }
 
 void House::left(const control::Welcome&) {}

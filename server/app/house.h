@@ -2,6 +2,7 @@
 
 #include <asio/io_context.hpp>
 #include <asio/posix/stream_descriptor.hpp>
+#include <atomic>
 #include <cstdint>
 #include <list>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "common/trust/io/server_trust.h"
 #include "common/trust/limiter.h"
+#include "server/admission.h"
 #include "server/app/admissions.h"
 #include "server/app/hosted_session.h"
 #include "server/app/shard.h"
@@ -22,11 +24,9 @@ namespace tandem::server {
 /// itself is ordered from its shard and answered later.
 class House final : public Admissions {
  public:
-  static constexpr double kLoadMax = 0.6;  ///< [design notes, reliability 2.4]
-
   /// @param trust  tickets; of the same thread
-  /// @param load_max  of a shard, above which nobody new gets a seat in it [1]
-  House(asio::io_context& context, trust::ServerTrust& trust, double load_max = kLoadMax);
+  /// @param limits  of a shard, above which nobody new gets a seat in it
+  House(asio::io_context& context, trust::ServerTrust& trust, const LoadLimits& limits = {});
   ~House() override;
 
   /// A session that people may join from now on. Before the context runs, or on its thread.
@@ -49,6 +49,10 @@ class House final : public Admissions {
   void end(const trust::Id16& id);
   /// No newcomers from now on.
   void drain() noexcept { draining_ = true; }
+  /// When all hands are to be let go, as an operator ordered; nothing: nobody did. From any thread.
+  [[nodiscard]] std::optional<Time> drain_due() const noexcept;
+  /// Lets go, gently, of the seats and visits of workstations that are not in the book any more.
+  void look_for_revoked();
 
   // ---- For those who look on, on the control plane's thread ----
   [[nodiscard]] ServingSpec serving() const;
@@ -73,6 +77,8 @@ class House final : public Admissions {
   /// What is known of a seat beside the session: who may come back to it, and whether somebody is just being let in.
   struct Claim {
     bool being_given = false;
+    std::optional<WorkstationRow> by{};  ///< who sits there, or sat there last
+    std::uint32_t cid = 0;               ///< of his datagrams
     std::array<std::byte, 32> resume_hash{};
     std::array<std::byte, 32> before_hash{};  ///< the same owner's last one under which he was heard: a Welcome may be lost on its way
     std::array<std::byte, 32> before_next{};  ///< the same, once who is just being let in sits there
@@ -82,12 +88,20 @@ class House final : public Admissions {
     std::optional<Time> back_until{}; ///< after a restart, until its owner is back; else the session knows how long he is silent
     Time held_until{};                ///< after a restart: nobody else gets it before
   };
+  struct Visit {
+    std::optional<WorkstationRow> by{};
+    std::uint32_t cid = 0;
+  };
   struct Room {
     Opening opening;
     std::vector<Claim> claims;  ///< one per seat
     trust::TokenBucket guesses;    ///< of the session's code
     std::size_t orders = 0;        ///< under way
     std::function<void()> gone{};  ///< set: it is over, and waits for its last order
+    std::size_t visits_being_given = 0;
+    std::array<Visit, Visitors::kMax> visits{};              ///< who was let in last, by place
+    std::vector<std::array<std::byte, 32>> sent_away{};      ///< keys of workstations whose person was removed
+    trust::TokenBucket complaints{1, 5};                     ///< of what roles may not, in the audit log
   };
   struct Watched {
     Shard* shard;
@@ -96,7 +110,15 @@ class House final : public Admissions {
 
   [[nodiscard]] std::variant<Room*, control::Refused> room_for(const JoinRequest& request);
   [[nodiscard]] Room* room(const control::Id& id);
-  void visit(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer);
+  // People at control connections (house_command.cpp).
+  void stand(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer);
+  void visit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
+  static void visited(Room& room, const Order& order, const WorkstationRow& by, std::uint32_t cid);
+  void wish_drain(const control::Drain& drain, const std::string& who);
+  void write_down(Room& room, const std::string& who, const std::string& why, const Command& command, const Outcome& outcome);
+  static void send_away(Room& room, std::size_t seat);
+  [[nodiscard]] static bool was_sent_away(const Room& room, const WorkstationRow& workstation);
+  void let_go(Room& room, std::size_t seat);
   void sit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
   [[nodiscard]] std::optional<control::Refused> judge(Room& room, const JoinRequest& request, std::size_t seat, double& force_scale);
   [[nodiscard]] control::Welcome welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes, double force_scale);
@@ -118,12 +140,13 @@ class House final : public Admissions {
 
   asio::io_context& context_;
   trust::ServerTrust& trust_;
-  double load_max_;
+  LoadLimits limits_;
   bool draining_ = false;
   std::list<Room> rooms_;
   std::list<Watched> watched_;
   std::list<Order> orders_;  ///< under way
   std::uint8_t visitors_ = 0;
+  std::atomic<std::int64_t> drain_due_{0};  ///< [ns] of the monotonic clock; 0: not ordered
 };
 
 /// A session's code as people read it: 5 characters, a dash, 5 characters. And back: dashes, spaces and lower case do not matter.

@@ -104,6 +104,7 @@ std::string metrics(const House& house, const ControlPlane& plane) {
     page.ticks("tandem_tick_lateness_seconds", "How late ticks began", who, shard->lateness());
     page.count("tandem_tick_late_total", "Ticks that began more than 1 ms late", who, static_cast<double>(shard->late()));
     page.gauge("tandem_tick_load", "Processor time of a tick, 99th percentile of the last 1000, share of the tick", who, shard->load());
+    page.gauge("tandem_core_load", "Processor time of the thread, over the last second, share of one processor", who, shard->core());
     stray += shard->stray();
   }
   for (std::size_t r = 0; r < refused.size(); ++r)

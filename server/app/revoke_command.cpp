@@ -33,8 +33,8 @@ void add_revoke_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("NAME", arguments->name, "the workstation, as it was enrolled")->option_text(" ")->required();
   add_state_option(*command, arguments->state);
   command->footer(
-      "A running server refuses the workstation at its next word, tickets made for it included. It does not take a seat away from somebody\n"
-      "who sits on it.\n"
+      "A running server refuses the workstation at its next word, tickets made for it included, and within a second lets go, gently, of the\n"
+      "hand at a seat it has, and ends its other connections.\n"
       "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments, or nobody of this name.\n\n"
       "Example\n"
       "  tandem-server revoke touch-07");

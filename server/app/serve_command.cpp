@@ -88,7 +88,7 @@ HostPlan understand(const ServerConfigSpec& config, InputErrors& errors) {
   plan.limits.pending = limits.pending;
   plan.limits.connections = limits.connections;
   plan.limits.deadline = std::chrono::milliseconds(static_cast<std::int64_t>(limits.deadline_s * 1000));
-  plan.load_max = limits.load_percent / 100;
+  plan.load = {limits.load_percent / 100, limits.core_percent / 100};
   if (config.log.json) plan.json_log = static_cast<io::Level>(config.log.level);
   return plan;
 }

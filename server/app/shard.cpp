@@ -95,7 +95,9 @@ void Shard::run() noexcept {
     }
     const Duration before = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
     tick(now, missed);
-    measure(io::read_clock(CLOCK_THREAD_CPUTIME_ID) - before);
+    const Duration used = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
+    measure(used - before);
+    measure_core(now, used);
     turned_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
     due += (missed + 1) * period_;
   }
@@ -174,7 +176,18 @@ void Shard::carry_out(Time now, Order& order) noexcept {
       order.result = hosted->session().admit(now, order.seat, order.entry, order.same_owner);
       break;
     case Order::What::kVisit:
-      order.result = hosted->session().admit_visitor(now, order.entry.link);
+      order.result = hosted->session().admit_visitor(now, order.entry.link, &order.place);
+      break;
+    case Order::What::kCommand:
+      order.outcome = tandem::server::carry_out(hosted->session(), now, order.command);
+      order.result = JoinResult::kAccepted;
+      break;
+    case Order::What::kMayVisit:
+      order.place = hosted->session().visitors_free(now);
+      order.result = JoinResult::kAccepted;
+      break;
+    case Order::What::kDismissVisitor:
+      static_cast<void>(hosted->session().dismiss_visitor(order.place, order.cid, wire::CloseReason::kRevoked));
       break;
     case Order::What::kEnd:
       hosted->session().stop(wire::CloseReason::kServerStops);
@@ -221,6 +234,13 @@ void Shard::measure(Duration spent) noexcept {
   if (spent_.count() < kLoadTicks) return;
   load_.store(static_cast<double>(spent_.quantile(0.99)) / static_cast<double>(period_.count()), std::memory_order_relaxed);
   spent_ = Histogram{};
+}
+
+void Shard::measure_core(Time now, Duration used) noexcept {
+  if (core_since_ != Time{} && now - core_since_ < 1s) return;
+  if (core_since_ != Time{}) core_.store(seconds(used - core_used_) / seconds(now - core_since_), std::memory_order_relaxed);
+  core_since_ = now;
+  core_used_ = used;
 }
 
 }  // namespace tandem::server

@@ -42,6 +42,8 @@ class Shard {
   /// Share of a tick's time that it takes of a processor: the 99th percentile of the last 1000 ticks [1]. Others' work on this machine does
   /// not count; it shows in the late ticks. From any thread.
   [[nodiscard]] double load() const noexcept { return load_.load(std::memory_order_relaxed); }
+  /// Processor time of this thread, all it does, over the last second: share of one processor [1]. From any thread.
+  [[nodiscard]] double core() const noexcept { return core_.load(std::memory_order_relaxed); }
   /// How punctual and how long ticks are. From any thread.
   [[nodiscard]] const TickCounts& lateness() const noexcept { return lateness_; }
   [[nodiscard]] const TickCounts& lengths() const noexcept { return lengths_; }
@@ -61,6 +63,7 @@ class Shard {
   void send(Time now, Session& session) noexcept;
   void flush() noexcept;
   void measure(Duration spent) noexcept;
+  void measure_core(Time now, Duration used) noexcept;
 
   io::UdpSocket socket_;
   io::Fd wake_, news_;
@@ -82,7 +85,9 @@ class Shard {
   TickCounts lateness_, lengths_;
   std::atomic<std::uint64_t> late_{0};
   std::atomic<std::int64_t> turned_{0};
-  std::atomic<double> load_{0};
+  std::atomic<double> load_{0}, core_{0};
+  Time core_since_{};
+  Duration core_used_{};
   std::atomic<std::uint64_t> stray_{0};
 };
 

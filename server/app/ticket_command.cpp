@@ -8,6 +8,7 @@
 #include "common/trust/ticket.h"
 #include "server/app/trust_commands.h"
 #include "server/app/trust_option.h"
+#include "server/roles.h"
 
 namespace tandem::server {
 namespace {
@@ -45,9 +46,15 @@ std::optional<AccessRole> find_role(const TicketArguments& arguments, const Open
     role = access_role_named(arguments.role);
     if (!role) mistakes.push_back("--role: \"" + arguments.role + "\" must be instructor, trainee, evaluator, observer, operator or recorder");
   }
+  const bool sits = !arguments.seat.empty();
+  if (role && (sits ? *role == AccessRole::kOperator || *role == AccessRole::kRecorder : !may_stand(*role))) {
+    mistakes.push_back(!sits ? "--seat is required: the role " + std::string(to_text(*role)) + " sits on one; without a seat: instructor, operator, recorder"
+                                              : "--seat: the role " + std::string(to_text(*role)) + " sits on none");
+    return role;
+  }
   if (arguments.seat.empty() || session.seats.empty()) {
     if (arguments.role.empty())
-      mistakes.push_back(arguments.seat.empty() ? "--seat is required, or a --role that sits on none: operator, recorder"
+      mistakes.push_back(arguments.seat.empty() ? "--seat is required, or a --role that needs none: operator, recorder, instructor"
                                                 : "--role is required: the session's seats are not known here");
     return role;
   }
@@ -99,7 +106,8 @@ int ticket_command(const TicketArguments& arguments) {
   if (!bytes) return wrong("ticket", {"the ticket cannot be made: " + bytes.error()});
   state->audit(ticket.not_before, "ticket", workstation->name, trust::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
   std::printf("%s\n", trust::ticket_text(*bytes).c_str());
-  std::fprintf(stderr, "good once, for %s h, on %s only: tandem-client join --ticket TICKET ...\n", hours.c_str(), workstation->name.c_str());
+  std::fprintf(stderr, "good once, for %s h, on %s only: tandem-client %s --ticket TICKET ...\n", hours.c_str(), workstation->name.c_str(),
+               arguments.seat.empty() ? "control" : "join");
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
@@ -107,11 +115,11 @@ int ticket_command(const TicketArguments& arguments) {
 
 void add_ticket_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<TicketArguments>();
-  CLI::App* const command = root.add_subcommand("ticket", "Writes a join ticket: the right of one workstation to take one seat of one session, once.");
+  CLI::App* const command = root.add_subcommand("ticket", "Writes a join ticket: the right of one workstation to take one seat of one session, or to look after it without one, once.");
   command->add_option("--session", arguments->session, "required: id (32 hex digits), code (10 characters) or name of the session")
       ->option_text("ID|CODE|NAME")
       ->required();
-  command->add_option("--seat", arguments->seat, "the seat's name; none for an operator or a recorder")->option_text("SEAT");
+  command->add_option("--seat", arguments->seat, "the seat's name; none for an operator, a recorder, or an instructor at a console")->option_text("SEAT");
   command->add_option("--workstation", arguments->workstation, "required: the only workstation that may use it")->option_text("NAME")->required();
   command->add_option("--role", arguments->role, "instructor, trainee, evaluator, observer, operator, recorder; default: the seat's")->option_text("ROLE");
   command->add_option("--hours", arguments->hours, "how long it is good [h], 0.01 to 12; default 4")->option_text("H");
@@ -122,7 +130,8 @@ void add_ticket_command(CLI::App& root, std::function<int()>& action) {
       "role of a seat, are known while the server runs.\n"
       "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments.\n\n"
       "Example\n"
-      "  tandem-server ticket --session contact --seat trainee --workstation touch-07");
+      "  tandem-server ticket --session contact --seat trainee --workstation touch-07\n"
+      "  tandem-server ticket --session contact --role operator --workstation office     # for `tandem-client control`");
   command->callback([arguments, &action] { action = [arguments] { return ticket_command(*arguments); }; });
 }
 

@@ -113,7 +113,7 @@ TEST(ControlCodec, OneMessageHasOneEncoding) {
   EXPECT_EQ(decode(long_varint).error(), FrameError::kMalformed) << "a number in a second form";
   EXPECT_EQ(decode(bytes({0x08, 1})).error(), FrameError::kMalformed) << "no message";
   EXPECT_EQ(decode(bytes({0x08, 1, 0x10, 7})).error(), FrameError::kMalformed);
-  EXPECT_EQ(decode(bytes({0x08, 1, 0x9a, 1, 0})).error(), FrameError::kMalformed) << "field 19 does not exist";
+  EXPECT_EQ(decode(bytes({0x08, 1, 0xb2, 1, 0})).error(), FrameError::kMalformed) << "field 22 does not exist";
   EXPECT_EQ(decode(bytes({0x08, 1, 0x1b, 0x1c})).error(), FrameError::kMalformed) << "groups";
 }
 
@@ -166,6 +166,23 @@ TEST(ControlCodec, WhatIsBeyondItsBoundIsNeitherSentNorTaken) {
   for (const std::vector<double>& bad : {std::vector<double>{}, {0.5}, {0.5, 0.6}, {-0.5, 1.5}, {std::nan(""), 1}, std::vector<double>(17, 1.0 / 17)})
     EXPECT_TRUE(refuses(SetAuthority{{}, 0, 0, bad}));
   EXPECT_TRUE(refuses(SetAuthority{{}, kToolsMax, 0, {1.0}}));
+  EXPECT_TRUE(refuses(RemovePerson{{}, "", ""}));
+  EXPECT_TRUE(refuses(RemovePerson{{}, "trainee", "a\nb"}));
+  EXPECT_FALSE(refuses(RemovePerson{{}, "trainee", "pushes the others"}));
+  const auto status = [&](auto change) {
+    Status m;
+    m.name = "a";
+    change(m);
+    return refuses(m);
+  };
+  EXPECT_FALSE(status([](Status&) {}));
+  EXPECT_TRUE(status([](Status& m) { m.name = ""; }));
+  for (const double bad : {-1.0, 1.1e9, std::nan("")}) EXPECT_TRUE(status([bad](Status& m) { m.time_s = bad; }));
+  for (const double bad : {-0.1, 1.1, std::nan("")}) EXPECT_TRUE(status([bad](Status& m) { m.tools = {{"t", {bad}}}; }));
+  EXPECT_TRUE(status([](Status& m) { m.tools = {{"t", std::vector<double>(kMastersMax + 1, 0.0)}}; }));
+  EXPECT_TRUE(status([](Status& m) { m.tools.assign(kToolsMax + 1, {"t", {1.0}}); }));
+  EXPECT_TRUE(status([](Status& m) { m.seats.assign(kListedSeatsMax + 1, {"s", AccessRole::kTrainee, false, false, false}); }));
+  EXPECT_TRUE(status([](Status& m) { m.seats = {{"s", static_cast<AccessRole>(kAccessRoles), false, false, false}}; }));
 }
 
 TEST(ControlCodec, TextsAreUtf8ThatSteersNoTerminal) {

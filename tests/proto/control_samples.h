@@ -104,6 +104,20 @@ inline SessionList session_list(RandomStream& r) {
   return m;
 }
 
+inline Status status(RandomStream& r) {
+  Status m;
+  fill(r, m.session_id);
+  m.name = name(r);
+  m.phase = static_cast<SessionPhase>(r.below(5));
+  m.stops = static_cast<std::uint32_t>(r.below(9));
+  m.authority_version = static_cast<std::uint32_t>(r.bits());
+  m.time_s = r.below(2) == 0 ? 0 : r.uniform(0, 1e9);
+  m.draining = r.below(2) == 0;
+  for (std::uint64_t k = r.below(kListedSeatsMax + 1); k > 0; --k) m.seats.push_back({name(r), role(r), r.below(2) == 0, r.below(2) == 0, r.below(2) == 0});
+  for (std::uint64_t k = r.below(kToolsMax + 1); k > 0; --k) m.tools.push_back({name(r), weights(r)});
+  return m;
+}
+
 inline Frame frame(RandomStream& r, Kind kind) {
   Frame f;
   f.request = r.below(3) == 0 ? 0 : static_cast<std::uint32_t>(r.bits());
@@ -121,7 +135,12 @@ inline Frame frame(RandomStream& r, Kind kind) {
       m.why = text(r);
       break;
     }
-    case Kind::kResumeSession: fill(r, f.body.emplace<ResumeSession>().session_id); break;
+    case Kind::kResumeSession: {
+      auto& m = f.body.emplace<ResumeSession>();
+      fill(r, m.session_id);
+      m.stop = static_cast<std::uint32_t>(r.below(5));
+      break;
+    }
     case Kind::kPauseSession: fill(r, f.body.emplace<PauseSession>().session_id); break;
     case Kind::kSetAuthority: {
       auto& m = f.body.emplace<SetAuthority>();
@@ -136,6 +155,15 @@ inline Frame frame(RandomStream& r, Kind kind) {
     case Kind::kPing: f.body = Ping{r.bits()}; break;
     case Kind::kPong: f.body = Pong{r.bits()}; break;
     case Kind::kDone: f.body = Done{}; break;
+    case Kind::kRemovePerson: {
+      auto& m = f.body.emplace<RemovePerson>();
+      fill(r, m.session_id);
+      m.seat = name(r);
+      m.why = text(r);
+      break;
+    }
+    case Kind::kStatusRequest: fill(r, f.body.emplace<StatusRequest>().session_id); break;
+    case Kind::kStatus: f.body = status(r); break;
   }
   return f;
 }

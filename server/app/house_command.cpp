@@ -1,0 +1,291 @@
+#include <algorithm>
+#include <utility>
+
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "common/io/log.h"
+#include "server/app/house.h"
+#include "server/connection_id.h"
+#include "server/roles.h"
+
+/// People at control connections: those without a seat, what they order, and what is taken from those who are sent away.
+namespace tandem::server {
+namespace {
+
+using control::Reason;
+using control::Refused;
+using Result = Outcome::Result;
+
+constexpr std::size_t kVisitorPlaces = 64;  // ids behind the seats', in turn
+constexpr std::uint32_t kVisitAgainS = 3;   // who fell silent has left his place by then
+
+template <class... Messages>
+const control::Id* id_in(const control::Body& body) {
+  const control::Id* id = nullptr;
+  ((id = std::holds_alternative<Messages>(body) ? &std::get<Messages>(body).session_id : id), ...);
+  return id;
+}
+/// The session a command is for.
+const control::Id* session_of(const control::Body& body) {
+  return id_in<control::StopSession, control::PauseSession, control::ResumeSession, control::SetAuthority, control::RemovePerson, control::StatusRequest>(body);
+}
+
+const char* event_of(Command::What what) noexcept {
+  switch (what) {
+    case Command::What::kLook: break;
+    case Command::What::kStop: return "stop";
+    case Command::What::kPause: return "pause";
+    case Command::What::kResume: return "resume";
+    case Command::What::kSetAuthority: return "authority";
+    case Command::What::kRemove: return "remove";
+  }
+  return "look";
+}
+
+Refused refusal_of(const Command& command, const Outcome& outcome, const SceneSpec& scene) {
+  switch (outcome.result) {
+    case Result::kForbidden:
+      if (command.what == Command::What::kSetAuthority)
+        return {Reason::kNotAllowed, allowed(command.who, Right::kAuthority) == Grant::kYes ? "who may never drive (evaluators, observers) gets no weight"
+                                                                                             : "you may give weight of your own back to an instructor, nothing else", 0};
+      return {Reason::kNotAllowed, "your role may not do this", 0};
+    case Result::kGone:
+      return {Reason::kNotAllowed, "the seat that this connection joined for is not yours any more; join again", 0};
+    case Result::kOutdated:
+      return {Reason::kOutdated, format("stop %u is not the newest: stop %u came since. Look why, then resume that one", command.number, outcome.stops), 0};
+    case Result::kNothing:
+      if (command.what == Command::What::kRemove) return {Reason::kNoSeat, "nobody sits on " + scene.seats[command.whom].name, 0};
+      return {Reason::kOutdated, "nothing is stopped: there is nothing to resume", 0};
+    case Result::kWrong:
+      return {Reason::kBadFrame, format("this session has %u tools and %u masters; each master needs a weight, together 1", outcome.tools, outcome.masters), 0};
+    case Result::kDone:
+      break;
+  }
+  return {Reason::kTrouble, "the server does not know what became of this", 0};
+}
+
+std::vector<double> weights_of(const Outcome& outcome, std::size_t tool) { return {outcome.alpha[tool].begin(), outcome.alpha[tool].begin() + outcome.masters}; }
+
+control::Status status_of(const control::Welcome& standing, const Outcome& outcome, const SceneSpec& scene, bool draining) {
+  control::Status status;
+  status.session_id = standing.session_id;
+  status.name = standing.session_name;
+  status.phase = House::phase_of(outcome.state);
+  status.stops = outcome.stops;
+  status.authority_version = outcome.authority_version;
+  status.time_s = outcome.time;
+  status.draining = draining;
+  for (std::size_t i = 0; i < scene.seats.size(); ++i)
+    status.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), outcome.seats[i].taken, outcome.seats[i].heard, i < outcome.masters});
+  for (std::size_t j = 0; j < outcome.tools; ++j) status.tools.push_back({scene.tools[j].name, weights_of(outcome, j)});
+  return status;
+}
+
+control::Body answer_to(const Command& command, const Outcome& outcome, const control::Welcome& standing, const SceneSpec& scene, bool draining) {
+  const bool done = outcome.result == Result::kDone;
+  if (command.what == Command::What::kSetAuthority && (done || outcome.result == Result::kOutdated))
+    return control::AuthorityAnswer{done, command.wish.tool, outcome.authority_version, weights_of(outcome, command.wish.tool)};
+  if (!done) return refusal_of(command, outcome, scene);
+  if (command.what == Command::What::kLook) return status_of(standing, outcome, scene, draining);
+  return control::Done{};
+}
+
+}  // namespace
+
+// ---- Without a seat -----------------------------------------------------------------------------------------------------------
+
+void House::stand(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer) {
+  const auto* ticket = std::get_if<control::TicketCredential>(&request.hello.credential);
+  const std::string how = "`tandem-server ticket --session " + room.opening.name + " --role operator --workstation " + request.workstation.name + "`";
+  if (ticket == nullptr)
+    return answer(Refused{Reason::kNoSeat, "who joins without a seat needs a ticket, such as of " + how + "; seats: " + room.opening.session->reception().seat_names(), 0});
+  const auto role = trust::role_named_in(ticket->bytes);
+  if (role && !may_stand(*role))
+    return answer(Refused{Reason::kNotAllowed, "somebody in the role " + std::string(to_text(*role)) + " sits on a seat; without one: instructor, operator, recorder", 0});
+  const trust::TicketUse use{room.opening.id, room.opening.epoch, "", std::nullopt, trust::Pin{request.workstation.spki}, trust::wall_seconds()};
+  const auto redeemed = trust_.redeem(ticket->bytes, use);
+  if (!redeemed) return answer(server::refusal_of(redeemed.error()));
+  control::Welcome w = welcome(room, 0, true, 0, request.hello.has_aes, 1);  // place 0 is nobody's: no datagram opens under these keys
+  w.role = redeemed->role;
+  w.setup.clear();
+  answer(std::move(w));
+}
+
+// ---- Those who judge their link -----------------------------------------------------------------------------------------------
+
+void House::visit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer) {
+  // Any enrolled workstation may judge its link: it touches no seat. But only so many are served.
+  const Refused full{Reason::kFull, format("all %zu places for those who judge their link to this session are taken; try again in %u s", Visitors::kMax, kVisitAgainS),
+                     kVisitAgainS};
+  if (room.visits_being_given >= Visitors::kMax) return answer(full);
+  ++room.visits_being_given;
+  Order order;
+  order.what = Order::What::kMayVisit;
+  order.session = room.opening.session;
+  order.done = [this, &room, full, has_aes = request.hello.has_aes, answer = std::move(answer)](Order& asked) {
+    if (asked.result == JoinResult::kAccepted && asked.place >= room.visits_being_given)
+      return answer(welcome(room, 0, true, static_cast<std::uint8_t>(kSeatsMax + 1 + visitors_++ % kVisitorPlaces), has_aes, 1));
+    --room.visits_being_given;
+    answer(asked.result == JoinResult::kAccepted ? full : Refused{Reason::kSessionOver, "the session is ending", 0});
+  };
+  post(room, std::move(order));
+}
+
+/// He got his place, or nobody has it.
+void House::visited(Room& room, const Order& order, const WorkstationRow& by, std::uint32_t cid) {
+  --room.visits_being_given;
+  if (order.result == JoinResult::kAccepted) room.visits[order.place] = {by, cid};
+}
+
+// ---- What people order --------------------------------------------------------------------------------------------------------
+
+void House::command(const control::Welcome& standing, const WorkstationRow& workstation, const control::Body& body,
+                    std::function<void(control::Body)> answer) {
+  const std::string who = workstation.name + " (" + std::string(to_text(standing.role)) + (standing.seat.empty() ? "" : ", seat " + standing.seat) + ")";
+  if (const auto* drain = std::get_if<control::Drain>(&body)) {
+    wish_drain(*drain, who);
+    return answer(control::Done{});
+  }
+  const control::Id* const id = session_of(body);
+  if (id == nullptr || *id != standing.session_id)
+    return answer(Refused{Reason::kNotAllowed, "this connection joined the session " + standing.session_name + " and speaks for no other", 0});
+  Room* const found = room(*id);
+  if (found == nullptr) return answer(Refused{Reason::kSessionOver, "this session is over", 0});
+  Room& room = *found;
+  const SceneSpec& scene = room.opening.session->scene();
+
+  Order order;
+  order.what = Order::What::kCommand;
+  order.session = room.opening.session;
+  Command& c = order.command;
+  c.who = standing.role;
+  if (!standing.seat.empty()) {
+    c.seat = static_cast<std::uint8_t>(place_of(standing.server_cid) - 1);
+    c.cid = standing.server_cid;
+  }
+  std::string why;
+  if (const auto* stop = std::get_if<control::StopSession>(&body)) {
+    c.what = Command::What::kStop;
+    why = stop->why;
+  } else if (std::holds_alternative<control::PauseSession>(body)) {
+    c.what = Command::What::kPause;
+  } else if (const auto* resume = std::get_if<control::ResumeSession>(&body)) {
+    c.what = Command::What::kResume;
+    c.number = resume->stop;
+  } else if (const auto* wish = std::get_if<control::SetAuthority>(&body)) {
+    c.what = Command::What::kSetAuthority;
+    c.wish.tool = wish->tool;
+    c.wish.version = wish->version;
+    c.wish.masters = static_cast<std::uint32_t>(wish->alpha.size());
+    std::ranges::copy(wish->alpha, c.wish.alpha.begin());
+  } else if (const auto* remove = std::get_if<control::RemovePerson>(&body)) {
+    const auto seat = room.opening.session->reception().seat_named(remove->seat);
+    if (!seat) return answer(Refused{Reason::kNoSeat, "no seat of this name; seats: " + room.opening.session->reception().seat_names(), 0});
+    c.what = Command::What::kRemove;
+    c.whom = static_cast<std::uint8_t>(*seat);
+    why = remove->why;
+  }
+  order.done = [this, &room, &scene, standing, who, why, answer = std::move(answer)](Order& carried) {
+    if (carried.result == JoinResult::kSessionOver) return answer(Refused{Reason::kSessionOver, "this session is over", 0});
+    const Command& asked = carried.command;
+    if (asked.what == Command::What::kRemove && carried.outcome.result == Result::kDone) send_away(room, asked.whom);
+    write_down(room, who, why, asked, carried.outcome);
+    answer(answer_to(asked, carried.outcome, standing, scene, draining_));
+  };
+  post(room, std::move(order));
+}
+
+void House::write_down(Room& room, const std::string& who, const std::string& why, const Command& c, const Outcome& outcome) {
+  if (c.what == Command::What::kLook) return;
+  const bool forbidden = outcome.result == Result::kForbidden || outcome.result == Result::kGone;
+  if (outcome.result != Result::kDone && !(forbidden && room.complaints.take(io::monotonic_now()))) return;
+  const SceneSpec& scene = room.opening.session->scene();
+  std::string detail = who;
+  if (c.what == Command::What::kRemove) detail += " " + scene.seats[c.whom].name;
+  if (c.what == Command::What::kStop || c.what == Command::What::kPause || c.what == Command::What::kResume) detail += format(" stop %u", outcome.stops);
+  if (c.what == Command::What::kSetAuthority) detail += format(" %s version %u", c.wish.tool < scene.tools.size() ? scene.tools[c.wish.tool].name.c_str() : "?", outcome.authority_version);
+  detail += format(" tick %u", outcome.tick);
+  if (c.what == Command::What::kSetAuthority && !forbidden)
+    for (std::size_t i = 0; i < outcome.masters; ++i)
+      detail += format("%s %s %.3f to %.3f", i == 0 ? ":" : ",", scene.seats[i].name.c_str(), outcome.before[i], outcome.alpha[c.wish.tool][i]);
+  if (forbidden) detail += std::string(": may not ") + event_of(c.what);
+  if (!why.empty()) detail += ": " + why;
+  const char* const event = forbidden ? "forbidden" : event_of(c.what);
+  io::tell(forbidden ? io::Level::kWarn : io::Level::kInfo, {.event = event, .session = room.opening.name, .tick = outcome.tick, .text = detail});
+  trust_.audit(trust::wall_seconds(), event, room.opening.name, detail);
+}
+
+void House::wish_drain(const control::Drain& drain, const std::string& who) {
+  draining_ = true;
+  const std::int64_t due = (io::monotonic_now() + std::chrono::seconds(drain.grace_s)).time_since_epoch().count();
+  const std::int64_t before = drain_due_.load(std::memory_order_relaxed);
+  if (before == 0 || due < before) drain_due_.store(due, std::memory_order_relaxed);
+  const std::string detail = who + format(" in %u s", drain.grace_s);
+  io::tell(io::Level::kInfo, {.event = "drain", .text = detail});
+  trust_.audit(trust::wall_seconds(), "drain", "", detail);
+}
+
+std::optional<Time> House::drain_due() const noexcept {
+  const std::int64_t due = drain_due_.load(std::memory_order_relaxed);
+  return due == 0 ? std::nullopt : std::optional(Time{Duration{due}});
+}
+
+// ---- Who is sent away ---------------------------------------------------------------------------------------------------------
+
+/// His secret is good for nothing any more, and the session's code does not let this workstation in again.
+void House::send_away(Room& room, std::size_t seat) {
+  Claim& claim = room.claims[seat];
+  claim.resumable = false;
+  if (claim.by) room.sent_away.push_back(claim.by->spki);
+  claim.by.reset();
+}
+
+bool House::was_sent_away(const Room& room, const WorkstationRow& workstation) { return std::ranges::find(room.sent_away, workstation.spki) != room.sent_away.end(); }
+
+void House::look_for_revoked() {
+  const auto book = trust_.workstations();
+  if (!book) return;  // a book that cannot be read takes nobody's seat
+  const auto revoked = [&](const std::optional<WorkstationRow>& by) { return by && trust::find_workstation(*book, trust::Pin{by->spki}) == nullptr; };
+  for (Room& room : rooms_) {
+    if (room.gone || room.opening.session->over()) continue;
+    for (std::size_t i = 0; i < room.claims.size(); ++i)
+      if (!room.claims[i].being_given && revoked(room.claims[i].by)) let_go(room, i);
+    for (std::size_t place = 0; place < room.visits.size(); ++place) {
+      Visit& visit = room.visits[place];
+      if (!revoked(visit.by)) continue;
+      Order order;
+      order.what = Order::What::kDismissVisitor;
+      order.session = room.opening.session;
+      order.place = place;
+      order.cid = visit.cid;
+      order.done = [](Order&) {};
+      visit.by.reset();
+      post(room, std::move(order));
+    }
+  }
+}
+
+void House::let_go(Room& room, std::size_t seat) {
+  Claim& claim = room.claims[seat];
+  claim.resumable = false;
+  Order order;
+  order.what = Order::What::kCommand;
+  order.session = room.opening.session;
+  order.command.what = Command::What::kRemove;
+  order.command.who = AccessRole::kOperator;
+  order.command.whom = static_cast<std::uint8_t>(seat);
+  order.command.whom_cid = claim.cid;
+  order.command.why = wire::CloseReason::kRevoked;
+  order.done = [this, &room, &claim, seat](Order& carried) {
+    if (carried.result == JoinResult::kSessionOver || claim.cid != carried.command.whom_cid || !claim.by) return;  // over, or looked at again
+    const std::string detail = room.opening.session->scene().seats[seat].name + format(" tick %u", carried.outcome.tick);
+    if (carried.outcome.result == Result::kDone) {
+      io::tell(io::Level::kWarn, {.event = "revoked_seat", .session = room.opening.name, .seat = room.opening.session->scene().seats[seat].name, .tick = carried.outcome.tick});
+      trust_.audit(trust::wall_seconds(), "revoked_seat", claim.by->name, room.opening.name + " " + detail);
+    }
+    claim.by.reset();
+  };
+  post(room, std::move(order));
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "common/control/authority.h"
+#include "proto/access_role.h"
+#include "proto/wire.h"
+#include "server/audit.h"
+#include "server/stop_lane.h"
+
+namespace tandem::server {
+
+class Session;
+
+/// What somebody asks of a session over a control connection: plain data, made by the control plane, carried out by the session's own
+/// thread between two ticks. Whether his role may ask for such a thing at all was decided before (roles.h); what the session alone knows
+/// is judged here: versions, numbers, whose weights.
+struct Command {
+  enum class What : std::uint8_t { kLook, kStop, kPause, kResume, kSetAuthority, kRemove };
+  What what = What::kLook;
+  AccessRole who = AccessRole::kObserver;
+  std::uint8_t seat = AuditEvent::kNoSeat;  ///< of the scene that he sits on; then
+  std::uint32_t cid = 0;                    ///< of his datagrams: the seat must still be his
+  std::uint32_t number = 0;                 ///< kResume: of the stop that is to be ended
+  wire::AuthorityMessage wish{};            ///< kSetAuthority
+  std::uint8_t whom = 0;                    ///< kRemove: the seat
+  std::uint32_t whom_cid = 0;               ///< kRemove: only if the seat is still this connection's; 0: whoever sits there
+  wire::CloseReason why = wire::CloseReason::kRemoved;
+};
+
+/// What became of it, and how the session stands now.
+struct Outcome {
+  enum class Result : std::uint8_t {
+    kDone,
+    kForbidden,  ///< his role may not do this to those
+    kGone,       ///< the seat he speaks for is not his any more
+    kOutdated,   ///< the number or version that he named is not the newest
+    kNothing,    ///< there is nothing to resume, or nobody to remove
+    kWrong,      ///< no such tool or seat, or another number of masters
+  };
+  struct Seat {
+    bool taken = false, heard = false;
+  };
+  Result result = Result::kGone;
+  wire::SessionState state = wire::SessionState::kEnding;
+  StopLane::Level stop = StopLane::Level::kNone;
+  bool gathering = false;               ///< back from a checkpoint: an instructor who resumes goes on without those who are missing
+  std::uint32_t stops = 0, authority_version = 0, tick = 0;
+  double time = 0;                      ///< of the session [s]
+  std::uint8_t masters = 0, tools = 0;
+  control::Weights before{};            ///< kSetAuthority: asked for of the tool until now
+  std::array<control::Weights, kToolsMax> alpha{};  ///< asked for
+  std::array<Seat, kSeatsMax> seats{};
+};
+static_assert(std::is_trivially_copyable_v<Command> && std::is_trivially_copyable_v<Outcome>);
+
+[[nodiscard]] Outcome carry_out(Session& session, Time now, const Command& command) noexcept;
+
+}  // namespace tandem::server
