@@ -207,7 +207,7 @@ void Session::say_farewell(Time now) noexcept {
     if (!leaving(i) || --farewells_[i].ticks > 0) continue;
     if (!seats_[i].taken()) continue;  // left by himself
     seats_[i].release();
-    seats_[i].remember({});
+    seats_[i].remember({}, 1);
     note(now, AuditEvent::What::kRemoved, i);
   }
 }
