@@ -75,7 +75,7 @@ class SeatPort {
   [[nodiscard]] const std::array<std::byte, 32>& resume() const noexcept { return resume_; }  ///< hash of its secret
   [[nodiscard]] double force_scale() const noexcept { return force_scale_; }                  ///< what its ticket allowed
   /// Who sat here before the server died.
-  void remember(const std::array<std::byte, 32>& resume, double force_scale) noexcept {
+  void remember(const std::array<std::byte, 32>& resume, double force_scale = 1) noexcept {
     resume_ = resume;
     force_scale_ = force_scale;
   }

@@ -28,6 +28,7 @@ void Session::hear(Time now, std::size_t i, const SeatPort::Heard& heard) noexce
   if (heard.authority && !leaving(i)) hear_authority(now, i, *heard.authority);
   if (heard.close) {
     seats_[i].release();
+    seats_[i].remember({});  // who left does not come back by the old secret
     note(now, AuditEvent::What::kLeave, i);
   }
 }

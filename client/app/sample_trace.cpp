@@ -24,7 +24,7 @@ SampleTrace::SampleTrace(io::OutputFile& file, std::size_t joints, bool prismati
   for (const char* name : {"x", "f_cmd", "f_gate", "f_out"})
     for (const char* axis : {"_x", "_y", "_z"})
       rows_ += (name[0] == 'x' ? std::string(1, axis[1]) + "[m]" : name + std::string(axis) + "[N]") + ",";
-  rows_ += "gate[1],alpha[1]\n";
+  rows_ += "gate[1],alpha[1],silence[s]\n";
   thread_ = std::thread([this] { work(); });
 }
 
@@ -52,6 +52,7 @@ void SampleTrace::drain() {
     rows_ += static_cast<char>('0' + static_cast<int>(s->gate));
     rows_ += ',';
     put(rows_, s->alpha);
+    put(rows_, s->silence_s);
     rows_.back() = '\n';
     queue_.pop();
   }

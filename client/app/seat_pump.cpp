@@ -62,7 +62,7 @@ hal::Command SeatPump::tick(const hal::State& state) noexcept {
   picture_.force_peak_n = std::max(picture_.force_peak_n, norm(t.f_out));
   if (samples_ != nullptr)
     samples_->push({session.value_or(-seconds(now - began_)), t.q, t.x, t.f_cmd, triple(seat_->tip_force()), t.f_out,
-                    seat_->sample().gate, seat_->force().alpha});
+                    seat_->sample().gate, seat_->force().alpha, seat_->link().freshness().heard() ? seconds(seat_->link().freshness().silence(now)) : -1});
   if (ticks_ % kLookEvery == 1 || seat_->closed()) look(now);
   if (seat_->closed() && !std::exchange(told_, true)) {
     const std::uint64_t one = 1;

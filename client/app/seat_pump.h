@@ -23,6 +23,7 @@ struct Sample {
   std::array<double, 3> x{}, f_cmd{}, f_gate{}, f_out{};  ///< tip [m]; wanted, let through by the gate, delivered [N]
   wire::GateState gate = wire::GateState::kOff;
   double alpha = 0;
+  double silence_s = -1;  ///< since the newest datagram that acted, on the own clock [s]; -1: none yet on this connection
 };
 using SampleQueue = io::SpscQueue<Sample>;
 

@@ -20,6 +20,7 @@ constexpr double kServerLost = 10;  // [s] without news, where nobody comes back
 constexpr double kNews = 0.5;       // [s] silence up to which the server is there
 constexpr Duration kLeaveMax = 2s;  // for the gate to ramp out and the server to be told
 constexpr int kLookEveryMs = 100;
+constexpr Duration kStandstill = 400ms;  // between two looks
 constexpr std::size_t kSecretsKept = 2;
 
 OwnSeat own_seat(const GivenSeat& given) {
@@ -29,7 +30,7 @@ OwnSeat own_seat(const GivenSeat& given) {
 }  // namespace
 
 Vigil::Vigil(const Over& over)
-    : o_(over), own_(own_seat(over.given)), begin_(io::monotonic_now()), shown_(begin_), news_(begin_), patience_(draw_wait_before_return()) {}
+    : o_(over), own_(own_seat(over.given)), begin_(io::monotonic_now()), shown_(begin_), news_(begin_), looked_(begin_), patience_(draw_wait_before_return()) {}
 
 void Vigil::leave(const std::string& why) {
   if (left_) return;
@@ -68,6 +69,11 @@ SeatEnd Vigil::keep() {
   if (o_.pump.device_lost()) return SeatEnd::kDeviceLost;
   const ClientStatus last = o_.pump.status();
   if (left_ || last.close_reason == wire::CloseReason::kLeaving) return SeatEnd::kLeft;
+  if (last.close_reason == wire::CloseReason::kRemoved || last.close_reason == wire::CloseReason::kRevoked) {
+    trouble_ = last.close_reason == wire::CloseReason::kRemoved ? "the seat was taken away by somebody who may; ask him for a ticket"
+                                                                : "this workstation was revoked on the server; ask its admin to enrol it anew";
+    return SeatEnd::kSeatGone;
+  }
   return last.close_reason == wire::CloseReason::kDone ? SeatEnd::kDone : SeatEnd::kServerStopped;
 }
 
@@ -92,6 +98,9 @@ void Vigil::see_device() {
 
 std::optional<SeatEnd> Vigil::see_server(const ClientStatus& status) {
   const Time now = io::monotonic_now();
+  // A program that stood still itself heard nothing; that says nothing of the server.
+  if (now - looked_ > kStandstill) news_ += now - looked_;
+  looked_ = now;
   static_cast<void>(o_.pump.take_old());
   const bool there = status.heard && !status.closed && status.silence_s < kNews;
   if (there) {
@@ -120,7 +129,7 @@ std::optional<SeatEnd> Vigil::take_back() {
     coming_.reset();
     const ClientStatus status = o_.pump.status();
     if (back.error().kind != NotBack::Kind::kGone || (!status.closed && status.silence_s < kNews)) return std::nullopt;
-    trouble_ = back.error().reason;
+    trouble_ = back.error().reason + "; join again";
     return SeatEnd::kSeatGone;
   }
   const control::Welcome& welcome = back->given.welcome;
@@ -154,7 +163,7 @@ std::string Vigil::farewell(SeatEnd end) const {
       return format("server lost: no news for %.0f s; the force was let go after the first losses. Look at the network and the server, then join again",
                     o_.plan.rejoin_s > 0 ? o_.plan.rejoin_s : kServerLost);
     case SeatEnd::kDeviceLost: return "device lost: it is unplugged or stopped answering; plug it in and join again";
-    case SeatEnd::kSeatGone: return "cannot come back to the seat: " + trouble_ + "; join again";
+    case SeatEnd::kSeatGone: return "the seat is gone: " + trouble_;
   }
   return "";
 }

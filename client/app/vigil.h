@@ -58,7 +58,7 @@ class Vigil {
   OwnSeat own_;
   std::unique_ptr<ComeBack> coming_;
   std::string trouble_;            ///< why the seat is gone
-  Time begin_, shown_, news_;      ///< news_: of the server, the last
+  Time begin_, shown_, news_, looked_;  ///< news_: of the server, the last
   Time handed_over_{};             ///< the last new connection
   Duration patience_;              ///< without news, before it is asked for the seat again
   std::optional<Time> left_;

@@ -246,7 +246,7 @@ TEST_F(Restart, WhoseSeatWasGivenToSomebodyElseIsToldSo) {
   }
   trainee.signal(SIGCONT);
   EXPECT_EQ(trainee.wait(), 1);
-  EXPECT_NE(trainee.err().find("cannot come back to the seat: nothing to resume"), std::string::npos) << trainee.err();
+  EXPECT_NE(trainee.err().find("the seat is gone: nothing to resume"), std::string::npos) << trainee.err();
   EXPECT_EQ(folder.json("b.json")["ended_by"], "seat_gone");
   EXPECT_EQ(trainer.err().find("silent"), std::string::npos) << trainer.err();
 }

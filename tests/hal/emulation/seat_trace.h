@@ -24,7 +24,7 @@ struct SeatTrace {
   static SeatTrace parse(const std::string& csv) {
     constexpr const char* kHeader =
         "t_s[s],q0[rad],q1[rad],q2[rad],x[m],y[m],z[m],f_cmd_x[N],f_cmd_y[N],f_cmd_z[N],f_gate_x[N],f_gate_y[N],f_gate_z[N],"
-        "f_out_x[N],f_out_y[N],f_out_z[N],gate[1],alpha[1]";
+        "f_out_x[N],f_out_y[N],f_out_z[N],gate[1],alpha[1],silence[s]";
     SeatTrace trace;
     std::istringstream in(csv);
     std::string line;
