@@ -33,7 +33,7 @@ std::string waited(Duration patience) {
 std::string refusal(const control::Refused& refused, const Asking& asking) {
   switch (refused.reason) {
     case Reason::kNoSeat:
-      return "--seat " + asking.seat + ": " + refused.text;
+      return asking.console ? "refused: " + refused.text : "--seat " + asking.seat + ": " + refused.text;
     case Reason::kSeatTaken:
       return "--seat " + asking.seat + ": " + refused.text + "; take another seat, or wait until it is free (2 s after its owner fell silent)";
     case Reason::kDeviceUnfit:
@@ -61,6 +61,19 @@ class Joining {
     const auto* welcome = std::get_if<control::Welcome>(&*answer);
     if (welcome == nullptr) return fail("the server answered something else; is it of the same release?");
     return take(*welcome, *hello);
+  }
+
+  std::expected<Console, NotSeated> stand() {
+    if (auto keys = choose_keys(); !keys) return std::unexpected(keys.error());
+    if (auto connected = connect(); !connected) return std::unexpected(connected.error());
+    const auto hello = make_hello();
+    if (!hello) return std::unexpected(hello.error());
+    const auto answer = ask(*hello);
+    if (!answer) return std::unexpected(answer.error());
+    if (const auto* refused = std::get_if<control::Refused>(&*answer)) return fail(refusal(*refused, asking_));
+    const auto* welcome = std::get_if<control::Welcome>(&*answer);
+    if (welcome == nullptr) return fail("the server answered something else; is it of the same release?");
+    return Console{*welcome, std::make_shared<trust::ControlClient>(std::move(*client_))};
   }
 
   std::expected<control::SessionList, NotSeated> list() {
@@ -130,8 +143,8 @@ class Joining {
   std::expected<control::Hello, NotSeated> make_hello() {
     control::Hello hello;
     hello.seat = asking_.seat;
-    hello.visit = asking_.seat.empty();
-    hello.device = device_facts(asking_.caps);
+    hello.visit = asking_.seat.empty() && !asking_.console;
+    if (!asking_.console) hello.device = device_facts(asking_.caps);
     hello.has_aes = link::fastest_cipher() == link::Cipher::kAes256Gcm;
     const auto cid = trust::random_bytes<std::array<std::byte, 4>>();
     for (std::size_t i = 0; i < 4; ++i) hello.client_cid |= std::to_integer<std::uint32_t>(cid[i]) << (8 * i);
@@ -193,7 +206,7 @@ class Joining {
   /// On the server's own computer, as its own user: the right it would write out anyway.
   std::expected<control::Credential, NotSeated> write_ticket(const control::ListedSession& session) {
     const auto seat = std::ranges::find(session.seats, asking_.seat, &control::ListedSeat::name);
-    if (seat == session.seats.end()) {
+    if (seat == session.seats.end() && !asking_.console) {
       std::string names;
       for (const control::ListedSeat& s : session.seats) names += " " + s.name;
       return fail("--seat " + asking_.seat + ": no seat of this name; seats:" + names);
@@ -201,8 +214,8 @@ class Joining {
     trust::Ticket ticket;
     trust::fill_random(ticket.ticket_id);
     ticket.session_id = session.id;
-    ticket.seat = seat->name;
-    ticket.role = seat->role;
+    ticket.seat = asking_.seat;
+    ticket.role = asking_.console ? *asking_.console : seat->role;
     ticket.workstation = keys_->local()->workstation.pin();
     ticket.not_before = trust::wall_seconds() - 1;
     ticket.not_after = ticket.not_before + 60;
@@ -239,6 +252,8 @@ class Joining {
 }  // namespace
 
 std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking) { return Joining{asking}.join(); }
+
+std::expected<Console, NotSeated> ask_for_console(const Asking& asking) { return Joining{asking}.stand(); }
 
 std::expected<control::SessionList, NotSeated> ask_for_sessions(const Asking& asking) { return Joining{asking}.list(); }
 

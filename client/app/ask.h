@@ -1,6 +1,8 @@
 #pragma once
 
 #include <expected>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "common/base/time.h"
@@ -10,6 +12,10 @@
 #include "hal/device.h"
 #include "proto/control_messages.h"
 #include "proto/seat_setup.h"
+
+namespace tandem::trust {
+class ControlClient;
+}
 
 namespace tandem::client {
 
@@ -23,6 +29,7 @@ struct Asking {
   hal::DeviceCaps caps;
   Duration patience{};         ///< for a server that does not answer
   int signals = -1;            ///< file of signals.h
+  std::optional<AccessRole> console{};  ///< no seat and no visit: who looks after a session. On the server's own computer: in this role
 };
 
 /// A seat that was given.
@@ -31,6 +38,12 @@ struct GivenSeat {
   link::Link::Params link;
   io::SocketAddress udp;       ///< where its datagrams go
   control::Welcome welcome;
+};
+
+/// A control connection of somebody who sits on no seat.
+struct Console {
+  control::Welcome welcome;
+  std::shared_ptr<trust::ControlClient> connection;
 };
 
 /// Why there is none.
@@ -42,6 +55,9 @@ struct NotSeated {
 /// Joins over a TLS connection: proves both keys, shows a ticket, a code, or on this very computer what the server laid down for its
 /// user, and takes the datagrams' secrets. Waits for the answer.
 [[nodiscard]] std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking);
+
+/// Joins without a seat, by a ticket. @pre asking.console, no asking.seat
+[[nodiscard]] std::expected<Console, NotSeated> ask_for_console(const Asking& asking);
 
 /// The sessions that are open there.
 [[nodiscard]] std::expected<control::SessionList, NotSeated> ask_for_sessions(const Asking& asking);

@@ -110,6 +110,8 @@ SeatEnd watch(SeatPump& pump, Person& person, hal::Device& device, HeldDevice* h
   if (pump.device_lost()) return SeatEnd::kDeviceLost;
   const ClientStatus last = pump.status();
   if (left || last.close_reason == wire::CloseReason::kLeaving) return SeatEnd::kLeft;
+  if (last.close_reason == wire::CloseReason::kRemoved) return SeatEnd::kRemoved;
+  if (last.close_reason == wire::CloseReason::kRevoked) return SeatEnd::kRevoked;
   return last.close_reason == wire::CloseReason::kDone ? SeatEnd::kDone : SeatEnd::kServerStopped;
 }
 
@@ -127,6 +129,10 @@ const char* farewell(SeatEnd end) {
              "join again";
     case SeatEnd::kDeviceLost:
       return "device lost: it is unplugged or stopped answering; plug it in and join again";
+    case SeatEnd::kRemoved:
+      return "removed: an instructor or operator took this seat away; ask them. The force was let go gently";
+    case SeatEnd::kRevoked:
+      return "revoked: this workstation is no longer enrolled there; ask the server's operator. The force was let go gently";
   }
   return "";
 }
@@ -225,7 +231,7 @@ int attend(const AttendPlan& plan) {
   if (const std::string notice = io::realtime_notice(report.realtime, memory, awake.granted());
       !notice.empty() && report.last.late_ticks > 0)
     line.note(std::to_string(report.last.late_ticks) + " late ticks; " + notice);
-  const bool lost = end == SeatEnd::kServerLost || end == SeatEnd::kDeviceLost;
+  const bool lost = end == SeatEnd::kServerLost || end == SeatEnd::kDeviceLost || end == SeatEnd::kRemoved || end == SeatEnd::kRevoked;
   if (lost) {
     spdlog::error("join: {}", farewell(end));
   } else {

@@ -49,6 +49,10 @@ const char* to_text(SeatEnd end) noexcept {
       return "server_lost";
     case SeatEnd::kDeviceLost:
       return "device_lost";
+    case SeatEnd::kRemoved:
+      return "removed";
+    case SeatEnd::kRevoked:
+      return "revoked";
   }
   return "";
 }
@@ -67,6 +71,7 @@ const char* to_text(SeatVerdict verdict) noexcept {
 
 SeatVerdict verdict_of(const ClientReport& report) noexcept {
   if (report.end == SeatEnd::kServerLost || report.end == SeatEnd::kDeviceLost) return SeatVerdict::kFail;
+  if (report.end == SeatEnd::kRemoved || report.end == SeatEnd::kRevoked) return SeatVerdict::kFail;
   return report.last.session_time >= 0 ? SeatVerdict::kPass : SeatVerdict::kNotJudged;
 }
 

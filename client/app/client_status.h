@@ -33,7 +33,7 @@ struct ClientStatus {
 };
 
 /// How a seat's life ended.
-enum class SeatEnd : std::uint8_t { kDone, kServerStopped, kLeft, kServerLost, kDeviceLost };
+enum class SeatEnd : std::uint8_t { kDone, kServerStopped, kLeft, kServerLost, kDeviceLost, kRemoved, kRevoked };
 
 [[nodiscard]] const char* to_text(SeatEnd end) noexcept;
 
