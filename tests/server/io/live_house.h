@@ -32,7 +32,7 @@ inline constexpr auto kPatience = 30s;
 class LiveHouse {
  public:
   explicit LiveHouse(const std::string& scene_name = "free_motion", const LoadLimits& load = {})
-      : scene_(*parse_scene(find_shipped_scene(scene_name)->text, scene_name + ".textproto")), queue_(1 << 16) {
+      : scene_(*parse_scene(find_shipped_scene(scene_name)->text, scene_name + ".textproto")), queue_(1024) {
     EXPECT_TRUE(trust::ServerTrust::init(folder.path("server"), trust::wall_seconds()));
     trust_.emplace(std::move(*trust::ServerTrust::open(folder.path("server"))));
     EXPECT_EQ(trust_->begin_serving(trust::wall_seconds()), "");
