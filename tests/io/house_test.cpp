@@ -3,7 +3,7 @@
 #include <atomic>
 
 #include "server/visitors.h"
-#include "tests/server/io/live_house.h"
+#include "tests/io/live_house.h"
 
 namespace tandem::server::test {
 namespace {
