@@ -24,6 +24,8 @@ control::GateParams gate_params(const SeatSetup& s, const hal::DeviceCaps& caps)
   g.force_max = s.gate.force_max;
   for (std::size_t a = 0; a < caps.tip_axes; ++a)
     if (caps.axis[a].peak) g.force_max = std::min(g.force_max, *caps.axis[a].peak);
+  g.force_max *= share_of_force(s.seat.role);  // whatever the server says
+  g.tank_share = share_of_force(s.seat.role);
   g.mass = caps.mass.value_or(g.mass);
   g.silence_limit = from_seconds(s.gate.silence_limit);
   g.loop_age_max = from_seconds(s.gate.loop_age_max);
@@ -33,7 +35,7 @@ control::GateParams gate_params(const SeatSetup& s, const hal::DeviceCaps& caps)
 }
 
 std::unique_ptr<control::ChannelEnd> make_end(const SeatSetup& s) {
-  return setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max, !s.unsafe_gains,
+  return setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max * share_of_force(s.seat.role), !s.unsafe_gains,
                              s.seat.kind == SeatKind::kSlave ? std::optional{s.k_s} : std::nullopt);
 }
 
@@ -68,9 +70,18 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link
   }
 }
 
+Seat::Connection Seat::prepare(const link::Link::Params& link) const { return {std::make_unique<link::Link>(link), make_end(setup_)}; }
+
 void Seat::rejoin(const link::Link::Params& link) {
-  link_ = std::make_unique<link::Link>(link);
-  end_ = make_end(setup_);
+  Connection next = prepare(link);
+  rejoin(next);
+}
+
+void Seat::rejoin(Connection& next) noexcept {
+  std::swap(link_, next.link);
+  std::swap(end_, next.end);
+  rest();
+  closed_ = closed_ && leaving_;
   rx_ = {};
   fresh_ = heard_force_ = false;
   session_begin_.reset();
@@ -151,6 +162,8 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   in.rtt_p99 = link_->freshness().rtt_p99();
   if (setup_.seat.kind == SeatKind::kMaster)  // a slave may be pressed against something harder than any grip
     sensor_.look(now, reading_.q, joints_, end_->state().ref, effort_, setup_.axis_scale, setup_.dof, was_active);
+  if (reset_) over_speed_.reset();
+  over_speed_.look(now, reading_.dx.norm(), was_active);
   in.engage = may_engage();
   in.reset = reset_;
   in.reading_valid = valid;
@@ -178,7 +191,7 @@ bool Seat::may_engage() const noexcept {
   const bool session = rx_.session == wire::SessionState::kWaiting || rx_.session == wire::SessionState::kRunning ||
                        rx_.session == wire::SessionState::kHeld;
   // The server never wants an observer engaged; that he feels nothing does not depend on it.
-  return rx_.engage && session && heard_force_ && !leaving_ && !closed_ && !own_stop_ && !sensor_.frozen() &&
+  return rx_.engage && session && heard_force_ && !leaving_ && !closed_ && !own_stop_ && !sensor_.frozen() && !over_speed_.holds_off() &&
          setup_.seat.role != Role::kObserver;
 }
 
@@ -243,9 +256,10 @@ void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& want
   t.refused_j = end_->refused();
   t.delivered_j = meter_.total();
   t.margin_min_j = end_->margin_min();
-  tx_.gate = wire_state(gate_.phase());
+  const bool latched_by_speed = over_speed_.latched() && gate_.phase() == control::GatePhase::kZero;
+  tx_.gate = wire_state(latched_by_speed ? control::GatePhase::kDamped : gate_.phase());  // both wait for the person's button
   tx_.engaged = engaged;
-  const bool latched = gate_.phase() == control::GatePhase::kDamped || gate_.phase() == control::GatePhase::kFault;
+  const bool latched = gate_.phase() == control::GatePhase::kDamped || gate_.phase() == control::GatePhase::kFault || over_speed_.holds_off();
   tx_.ready = device.homed && !latched && !leaving_ && !own_stop_ && !sensor_.frozen() && link_->freshness().rtt_samples() >= kLearnSamples;
   tx_.stop = own_stop_;
   tx_.stop_all = stop_all_;

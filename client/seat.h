@@ -8,6 +8,7 @@
 #include <span>
 
 #include "client/frozen_sensor.h"
+#include "client/over_speed.h"
 #include "common/base/time.h"
 #include "common/control/channel.h"
 #include "common/control/energy_meter.h"
@@ -31,8 +32,18 @@ class Seat {
   /// @throws SetupError-like std::runtime_error if the law is unknown or the crypto library lacks a cipher.
   Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link::Params& link);
 
+  /// A new connection for this hand, made where memory may be taken.
+  struct Connection {
+    std::unique_ptr<link::Link> link;
+    std::unique_ptr<control::ChannelEnd> end;
+  };
+  /// On any thread, also while others serve this seat.
+  [[nodiscard]] Connection prepare(const link::Link::Params& link) const;
   /// The server gave this hand a new connection, as it was started anew or the old one was lost: what was received is void and
-  /// energies start at 0. The gate, and what a person has stopped, stay as they are. Not below a tick: takes memory.
+  /// energies start at 0. The gate, and what a person has stopped, stay as they are; who is leaving does not come back.
+  /// @param next  holds the old one afterwards, to be given back elsewhere
+  void rejoin(Connection& next) noexcept TANDEM_REALTIME;
+  /// Both at once. Not below a tick: takes memory.
   void rejoin(const link::Link::Params& link);
 
   void on_datagram(Time now, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
@@ -74,6 +85,7 @@ class Seat {
   [[nodiscard]] const SeatSetup& setup() const noexcept { return setup_; }
   [[nodiscard]] const control::MasterIpc& ipc(std::size_t axis) const noexcept { return ipc_[axis]; }
   [[nodiscard]] bool sensor_frozen() const noexcept { return sensor_.frozen(); }
+  [[nodiscard]] const OverSpeed& over_speed() const noexcept { return over_speed_; }
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes
   [[nodiscard]] hal::Vec3 tip_force() const noexcept { return map_.tip_force(reading_, effort_); }  ///< the same at the tip [N]
 
@@ -102,6 +114,7 @@ class Seat {
   AxisArray q_{}, v_{};        ///< of the port
   unsigned bad_readings_ = 0;
   FrozenSensor sensor_;
+  OverSpeed over_speed_;
   wire::ForceMessage rx_{};
   wire::StateMessage tx_{};
   AxisArray effort_{};

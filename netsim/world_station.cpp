@@ -203,7 +203,7 @@ void WorldStation::serve(Time now, Network& network, std::span<std::byte> buffer
     const auto bytes = buffer.first(*size);
     if (tamper_ && suffers(Fault::Kind::kLiar, now)) tamper_->lie(server_cid_, bytes);
     if (tamper_ && suffers(Fault::Kind::kHostile, now)) {
-      network.send(now, static_cast<std::uint32_t>(number_), Direction::kUp, tamper_->attack(server_cid_, bytes));
+      network.send(now, static_cast<std::uint32_t>(number_), Direction::kUp, tamper_->attack(server_cid_, bytes, seat_->force().stops));
       continue;
     }
     network.send(now, static_cast<std::uint32_t>(number_), Direction::kUp, bytes);

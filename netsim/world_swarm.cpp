@@ -138,6 +138,11 @@ void draw_faults(SwarmCase& out) {
     if (fault.length <= Duration{}) continue;
     out.words += format(", %s", std::string(name(fault.kind)).c_str());
     out.setup.faults.push_back(fault);
+    // Who attacks meets a stop of the instructor's that is not his to end.
+    if (c.kind == Fault::Kind::kHostile && d.chance(0.5)) {
+      out.setup.faults.push_back({Fault::Kind::kStopAll, out.setup.scene.seats[0].name, fault.at, fault.length});
+      out.words += format(", %s", std::string(name(Fault::Kind::kStopAll)).c_str());
+    }
   }
 }
 
@@ -163,7 +168,7 @@ void press_buttons(World& world) {
     client::Seat* const seat = world.seat(i);
     if (seat == nullptr) continue;
     const auto phase = seat->gate().phase();
-    if (phase == control::GatePhase::kDamped || phase == control::GatePhase::kFault) seat->press_reset();
+    if (phase == control::GatePhase::kDamped || phase == control::GatePhase::kFault || seat->over_speed().latched()) seat->press_reset();
     const wire::SessionState session = seat->force().session;
     if (seat->stopped() || session == wire::SessionState::kPaused || session == wire::SessionState::kStopped) seat->press_resume();
   }

@@ -5,6 +5,11 @@
 
 namespace tandem::netsim {
 
+namespace {
+/// For so many lies on end a liar says that its hand is stopped, then as many that it is not.
+constexpr std::uint64_t kStopLies = 700;
+}  // namespace
+
 void WorldTamper::remember(Direction direction, std::span<const std::byte> datagram) noexcept {
   const auto d = static_cast<std::size_t>(direction);
   Kept& place = kept_[d][count_[d]++ % kRemembered];
@@ -59,11 +64,12 @@ void WorldTamper::lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept
   if (!state) return;
   for (std::uint64_t& e : state->message.port.e_in) e = static_cast<std::uint64_t>(static_cast<double>(e) * key_.uniform(draws_));
   ++draws_;
+  state->message.stop = lies_++ / kStopLies % 2 == 0;
   static_cast<void>(codec_.encode(state->preamble, state->message, datagram.subspan(link::kHeaderSize)));
   static_cast<void>(keys_->seal.seal(link::read_header(datagram)->counter, datagram));
 }
 
-std::span<const std::byte> WorldTamper::attack(std::uint32_t cid, std::span<std::byte> datagram) noexcept {
+std::span<const std::byte> WorldTamper::attack(std::uint32_t cid, std::span<std::byte> datagram, std::uint32_t stops) noexcept {
   auto state = opened(cid, datagram);
   if (!state) return datagram;
   auto header = *link::read_header(datagram);
@@ -71,7 +77,7 @@ std::span<const std::byte> WorldTamper::attack(std::uint32_t cid, std::span<std:
   const std::uint64_t drawn = key_.bits(draws_++);
   std::size_t plain = datagram.size() - link::kHeaderSize - link::kTagSize;
   constexpr double kWrong[] = {1e308, 100, std::numeric_limits<double>::quiet_NaN(), 5};
-  switch (drawn % 6) {
+  switch (drawn % 7) {
     case 4: {
       header.type = wire::Type::kAuthority;
       wire::AuthorityMessage grab{.version = static_cast<std::uint32_t>(drawn >> 8) % 8 + 1, .tool = 0, .masters = masters_, .alpha = {}};
@@ -80,8 +86,12 @@ std::span<const std::byte> WorldTamper::attack(std::uint32_t cid, std::span<std:
       break;
     }
     case 5: plain -= 1 + (drawn >> 8) % 16; break;
+    case 6:
+      state->message.resume_stop = stops;
+      static_cast<void>(codec_.encode(state->preamble, state->message, body));
+      break;
     default:
-      state->message.port.x[0] = kWrong[drawn % 6];
+      state->message.port.x[0] = kWrong[drawn % 7];
       static_cast<void>(codec_.encode(state->preamble, state->message, body));
       break;
   }

@@ -30,12 +30,14 @@ class WorldTamper {
   [[nodiscard]] std::span<const std::byte> junk(std::uint32_t cid) noexcept;
   /// The seat has a connection.
   void joined(std::uint32_t cid, const link::ConnectionSecrets& secrets);
-  /// Turns the energy account of a STATE back, in place: well-formed, sealed, wrong. Other datagrams stay as they are.
+  /// Turns the energy account of a STATE back, in place: well-formed, sealed, wrong. Other datagrams stay as they are. Now and then it
+  /// also says that its person stopped his hand, and that this is engaged all the same.
   /// @param cid  connection at the server
   void lie(std::uint32_t cid, std::span<std::byte> datagram) noexcept;
   /// Makes of a STATE something nobody may send or no hand can be, sealed as the client's own: positions that are absurd or no
-  /// numbers, a cut, another type, a wish for all authority. @return what goes out instead of `datagram`, in its place
-  [[nodiscard]] std::span<const std::byte> attack(std::uint32_t cid, std::span<std::byte> datagram) noexcept;
+  /// numbers, a cut, another type, a wish for all authority or to end a stop. @param stops  the newest stop that the client was told of
+  /// @return what goes out instead of `datagram`, in its place
+  [[nodiscard]] std::span<const std::byte> attack(std::uint32_t cid, std::span<std::byte> datagram, std::uint32_t stops) noexcept;
 
  private:
   static constexpr std::size_t kRemembered = 64;
@@ -53,7 +55,7 @@ class WorldTamper {
     link::Seal seal;
   };
   RandomKey key_;
-  std::uint64_t draws_ = 0;
+  std::uint64_t draws_ = 0, lies_ = 0;
   wire::Codec codec_;
   std::size_t own_;
   std::uint32_t masters_;

@@ -16,7 +16,12 @@ constexpr double kSlewActive = 1000, kSlewRampIn = 10;  // [N/s]
 constexpr double kGateStepMax = 0.01;                   // [s] of lateness the slew makes up for
 constexpr double kRampOut = 0.1;                        // [s]
 constexpr double kLossSlew = 10;                        // [1/s] when a holder is lost
+constexpr double kEvaluatorShare = 0.5;                 // of force and tank, for who only feels
+constexpr double kStoppedMax = 0.22;                    // [s] a stopped hand may still have weight
 constexpr unsigned kMisreadMax = 3;                     // samples the last good reading stands in for
+constexpr double kTankPerKg = 0.18, kTankMin = 0.02, kTankMax = 0.1;  // [J/kg], [J]
+constexpr double kSpeedMax = 1.6;                       // [m/s], and how many samples on end
+constexpr unsigned kFastMax = 5;
 constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls along overdraws within one tick
 constexpr double kFeltMax = 0.2;                        // [N/ms] a step of authority
 constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: faster, and the strongest springs' shares are felt
@@ -109,6 +114,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     check_silence(own, i, station);
     check_reading(i, station);
     check_sensor(i, station);
+    check_speed(i, station);
     check_end(i, seat->channel(), s.client, seat->setup().axis_scale, seat->force().port, seat->sample().port.x,
               s.was_active && seat->gate().active());
     s.was_active = seat->gate().active();
@@ -191,7 +197,7 @@ void WorldWatch::check_effort(Time own, std::size_t i, const WorldStation& stati
   if (!all_finite(seat.effort(), scene_->dof)) return note("effort_finite", i);
   if (!all_finite(seat.sample().port.x, scene_->dof) || !all_finite(seat.sample().port.v, scene_->dof)) note("sample_finite", i);
   const double norm = tip_norm(seat.effort(), scale, scene_->dof);
-  if (norm > scene_->gate.force_max * (1 + 1e-9)) note("effort_limited", i);
+  if (norm > share(i) * scene_->gate.force_max * (1 + 1e-9)) note("effort_limited", i);
   if (!seat.gate().active() || norm == 0) return;  // letting go at once is always allowed
   AxisArray change{};
   for (std::size_t a = 0; a < scene_->dof; ++a) change[a] = seat.effort()[a] - s.effort[a];
@@ -223,6 +229,17 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
   if (seat.gate().active() && seconds(fresh.loop_age(own)) > scene_->gate.loop_age_max + 1e-9) note("loop_age", i);
 }
 
+/// Of force and tank that this hand may be given.
+double WorldWatch::share(std::size_t i) const noexcept { return scene_->seats[i].role == Role::kEvaluator ? kEvaluatorShare : 1; }
+
+/// A hand that is faster than anybody means to be is let go.
+void WorldWatch::check_speed(std::size_t i, const WorldStation& station) {
+  const bool fast = station.seat()->gate().active() && !station.misread_now() && !station.suffers(Fault::Kind::kFrozen, station.served_at()) &&
+                    station.device().state().dx.norm() > kSpeedMax;
+  seats_[i].fast = fast ? seats_[i].fast + 1 : 0;
+  if (seats_[i].fast > kFastMax) note("over_speed", i);
+}
+
 /// After the last fresh datagram a motor gives its hand at most the tank of its gate; judged by what the motor did, not by the
 /// gate's own account.
 void WorldWatch::check_energy(std::size_t i, const WorldStation& station) {
@@ -231,7 +248,8 @@ void WorldWatch::check_energy(std::size_t i, const WorldStation& station) {
   if (seat == nullptr || s.fresh == Time{}) return;
   if (seat->gate().active() && !s.was_active) s.given = 0;
   s.given += station.worked_now();
-  if (s.given > seat->gate().tank_size() + kTankSlack) note("loss_energy", i);
+  const double tank = share(i) * std::clamp(kTankPerKg * station.device().caps().mass.value_or(0), kTankMin, kTankMax);
+  if (s.given > tank + kTankSlack) note("loss_energy", i);
 }
 
 void WorldWatch::check_reading(std::size_t i, const WorldStation& station) {
@@ -304,6 +322,8 @@ void WorldWatch::check_starvation(std::size_t i, End& now, const End& before, co
 }
 
 void WorldWatch::check_authority(std::uint32_t lived, const server::Session& session) {
+  for (std::size_t i = 0; i < scene_->masters(); ++i)
+    seats_[i].stopped_s = session.seat(i).taken() && session.seat(i).heard().stop ? seats_[i].stopped_s + lived / scene_->tick_hz : 0;
   const double step = std::max(scene_->alpha_slew, kLossSlew) * lived / scene_->tick_hz + 1e-9;
   for (std::size_t j = 0; j < scene_->tools.size(); ++j) {
     const control::AuthorityRow& row = session.tool(j).authority;
@@ -313,6 +333,7 @@ void WorldWatch::check_authority(std::uint32_t lived, const server::Session& ses
       const double alpha = row.alpha(i);
       const bool refused = session.seat(i).heard().stop || session.seat(i).conduct().isolated(session.last_tick());
       if (refused && lived == 1 && !held_[j] && alpha > alpha_[j][i] + 1e-9) note("refused_gains_weight", i);
+      if (alpha > 0 && seats_[i].stopped_s > kStoppedMax) note("stop_takes_weight", i);
       const Role role = scene_->seats[i].role;
       if (alpha > 0 && (role == Role::kEvaluator || role == Role::kObserver)) note("authority_role", i);
       if (!row.held() && !held_[j] && std::abs(alpha - alpha_[j][i]) > step) note("authority_slew", i);

@@ -53,12 +53,13 @@ class WorldWatch {
     Time served{};
     Time arrived{}, fresh{};  ///< when something newer last acted: on the seat's clock, on the world's
     double given = 0;         ///< energy the motor really gave the hand since then, and since the gate let go [J]
-    unsigned misread = 0;
+    unsigned misread = 0, fast = 0;
     struct Frozen {  ///< when the reading stopped to move
       Time since{};
       AxisArray ref{}, effort{};
       bool on = false;
     } frozen;
+    double stopped_s = 0;  ///< since its client began to say that the person stopped his hand
     bool led = false, needed = false;  ///< had weight; has to be back before anybody is engaged again
     std::uint64_t accepted = 0, generation = 0, server_heard = 0;
     std::uint32_t session_tick = 0, seat_tick = 0;
@@ -72,7 +73,7 @@ class WorldWatch {
       effort = {};
       served = arrived = fresh = Time{};
       given = 0;
-      misread = session_tick = 0;
+      misread = fast = session_tick = 0;
       accepted = 0;
       client = {};
     }
@@ -83,6 +84,8 @@ class WorldWatch {
   void check_gathering(const server::Session& session);
   void check_sensor(std::size_t i, const WorldStation& station);
   void check_role(std::size_t i, const WorldStation& station, const server::SeatPort& port);
+  void check_speed(std::size_t i, const WorldStation& station);
+  [[nodiscard]] double share(std::size_t i) const noexcept;
   void check_energy(std::size_t i, const WorldStation& station);
   void check_reading(std::size_t i, const WorldStation& station);
   void check_once(std::size_t i, const WorldStation& station, const server::SeatPort& port);

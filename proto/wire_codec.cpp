@@ -1,22 +1,27 @@
 #include "proto/wire_codec.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
-#include "proto/wire_messages.h"
 #include "proto/wire_walk.h"
 
 namespace tandem::wire {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "preamble and values are copied as they lie in memory");
-
 /// Energies of telemetry are cumulative joules of a hand; beyond this they cannot be meant.
 constexpr double kJouleMax = 1e9;
 /// Gaps and ages of a link: eleven days.
 constexpr double kMillisecondsMax = 1e9;
+
+constexpr std::integral_constant<std::size_t, 3> kThree;
+
+/// Does `work` with the number of axes: as a constant where it is the usual one.
+template <class Work>
+decltype(auto) with_axes(std::size_t axes, Work&& work) noexcept {
+  return axes == kThree ? work(kThree) : work(axes);
+}
 
 /// What is no number of its own: enumerators and flags, as they travel.
 struct StateWords {
@@ -28,16 +33,16 @@ struct ForceWords {
 
 // The fields of each message in the order of their numbers (wire.proto), with the range a receiver takes.
 
-template <class Values, class Message, class Words>
-void walk(Values& v, Message& s, Words& words, std::size_t axes, double position_max) noexcept {
+template <class Values, class Message, class Words, class Axes>
+void walk(Values& v, Message& s, Words& words, Axes axes, double position_max) noexcept {
   v.doubles(1, s.port.x, axes, position_max);
   v.doubles(2, s.port.v, axes, kVelocityMax);
   v.doubles(3, s.port.f, axes, kEffortMax);
   v.energies(4, s.port.e_in, axes, kEnergyMax);
   v.floats(5, s.telemetry.q, axes, kPositionMaxRad);
-  v.floats(6, s.telemetry.x, 3, kPositionMaxM);
-  v.floats(7, s.telemetry.f_cmd, 3, kEffortMax);
-  v.floats(8, s.telemetry.f_out, 3, kEffortMax);
+  v.floats(6, s.telemetry.x, kThree, kPositionMaxM);
+  v.floats(7, s.telemetry.f_cmd, kThree, kEffortMax);
+  v.floats(8, s.telemetry.f_out, kThree, kEffortMax);
   v.energies(9, s.telemetry.e_out, axes, kEnergyMax);
   v.number32(10, s.telemetry.dissipated_j, -kJouleMax, kJouleMax);
   v.number32(11, s.telemetry.refused_j, -kJouleMax, kJouleMax);
@@ -48,7 +53,7 @@ void walk(Values& v, Message& s, Words& words, std::size_t axes, double position
   v.word(16, s.gate_trips);
   v.word(17, s.late_ticks);
   v.word(18, s.seat_tick);
-  v.floats(19, s.telemetry.f_env, 3, kEffortMax);
+  v.floats(19, s.telemetry.f_env, kThree, kEffortMax);
   v.number32(20, s.telemetry.penetration_m, -kPositionMaxM, kPositionMaxM);
   v.number32(21, s.telemetry.down_loss_percent, 0, 100);
   v.number32(22, s.telemetry.down_longest_gap_ms, 0, kMillisecondsMax);
@@ -56,8 +61,8 @@ void walk(Values& v, Message& s, Words& words, std::size_t axes, double position
   v.word(24, s.resume_stop);
 }
 
-template <class Values, class Message, class Words>
-void walk_force(Values& v, Message& f, Words& words, std::size_t axes, double position_max) noexcept {
+template <class Values, class Message, class Words, class Axes>
+void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_max) noexcept {
   v.doubles(1, f.port.x, axes, position_max);
   v.doubles(2, f.port.v, axes, kVelocityMax);
   v.doubles(3, f.port.f, axes, kEffortMax);
@@ -76,18 +81,19 @@ void walk_authority(Values& v, Message& a) noexcept {
   v.word(1, a.version);
   v.word(2, a.tool, kToolsMax - 1);
   v.word(3, a.masters, kMastersMax);
-  v.doubles(4, a.alpha, kMastersMax, 1);
+  v.doubles(4, a.alpha, std::integral_constant<std::size_t, kMastersMax>{}, 1);
 }
 
 static_assert(sizeof(Preamble) == kPreambleSize && std::is_trivially_copyable_v<Preamble>);
 
-/// Preamble and skeleton. @return the body, for its values; empty if `out` is too small
-template <std::size_t N>
-std::span<std::byte> frame(const Preamble& preamble, const Skeleton<N>& skeleton, std::span<std::byte> out) noexcept {
-  if (skeleton.size() == 0 || out.size() < kPreambleSize + skeleton.size()) return {};
+/// Writes the preamble, then the body by `values`. @param size  of both  @return it; 0 if `out` is too small
+template <class Write>
+std::size_t write(const Preamble& preamble, std::size_t size, std::span<std::byte> out, Write&& values) noexcept {
+  if (out.size() < size) return 0;
   std::memcpy(out.data(), &preamble, kPreambleSize);
-  std::memcpy(out.data() + kPreambleSize, skeleton.bytes().data(), skeleton.size());
-  return out.subspan(kPreambleSize, skeleton.size());
+  ValueWriter writer{out.subspan(kPreambleSize, size - kPreambleSize)};
+  values(writer);
+  return size;
 }
 
 Preamble read_preamble(std::span<const std::byte> in) noexcept {
@@ -96,111 +102,99 @@ Preamble read_preamble(std::span<const std::byte> in) noexcept {
   return preamble;
 }
 
-/// Size and skeleton first: what is left are values at their places.
-template <class Message, std::size_t N, class Read>
-Decoded<Message> read(std::span<const std::byte> in, const Skeleton<N>& skeleton, Read&& values) noexcept {
-  if (skeleton.size() == 0 || in.size() != kPreambleSize + skeleton.size()) return std::unexpected(DecodeError::kSize);
-  const auto body = in.subspan(kPreambleSize);
-  if (!skeleton.matches(body)) return std::unexpected(DecodeError::kMalformed);
+/// The size first: then everything has its place. One result and one way out, so that a message is never copied.
+template <class Message, class Read>
+Decoded<Message> read(std::span<const std::byte> in, std::size_t size, Read&& values) noexcept {
   Decoded<Message> result{std::in_place};
+  if (in.size() != size) {
+    result = std::unexpected(DecodeError::kSize);
+    return result;
+  }
   result->preamble = read_preamble(in);
-  ValueReader reader{body};
+  ValueReader reader{in.subspan(kPreambleSize)};
   values(reader, result->message);
-  if (!reader.finite()) return std::unexpected(DecodeError::kNotFinite);
-  if (!reader.in_range()) return std::unexpected(DecodeError::kOutOfRange);
+  if (!reader.well_formed()) [[unlikely]] {
+    result = std::unexpected(DecodeError::kMalformed);
+  } else if (!reader.finite()) [[unlikely]] {
+    result = std::unexpected(DecodeError::kNotFinite);
+  } else if (!reader.in_range()) [[unlikely]] {
+    result = std::unexpected(DecodeError::kOutOfRange);
+  }
   return result;
 }
 
 }  // namespace
 
-Codec::Codec(std::size_t axes, PortSpace port) : messages_(std::make_unique<Messages>()) { configure(axes, port); }
-Codec::~Codec() = default;
-Codec::Codec(Codec&&) noexcept = default;
-Codec& Codec::operator=(Codec&&) noexcept = default;
-
 void Codec::configure(std::size_t axes, PortSpace port) noexcept {
-  messages_->configure(std::clamp<std::size_t>(axes, 1, kAxesMax),
-                       port == PortSpace::kTip ? kPositionMaxM : kPositionMaxRad);
+  axes_ = std::clamp<std::size_t>(axes, 1, kAxesMax);
+  position_max_ = port == PortSpace::kTip ? kPositionMaxM : kPositionMaxRad;
 }
-std::size_t Codec::axes() const noexcept { return messages_->axes; }
 
-std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std::span<std::byte> out) noexcept {
-  const auto body = frame(preamble, messages_->state_skeleton, out);
-  if (body.empty()) return 0;
+std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std::span<std::byte> out) const noexcept {
   const StateWords words{static_cast<std::uint32_t>(in.gate),
                          (in.ready ? 1U : 0U) | (in.engaged ? 2U : 0U) | (in.stop ? 4U : 0U) | (in.stop_all ? 8U : 0U)};
-  ValueWriter writer{body};
-  walk(writer, in, words, messages_->axes, 0);
-  return kPreambleSize + body.size();
+  return with_axes(axes_, [&](auto axes) {
+    return write(preamble, state_size(axes), out, [&](ValueWriter& values) { walk(values, in, words, axes, 0); });
+  });
 }
 
-std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std::span<std::byte> out) noexcept {
-  const auto body = frame(preamble, messages_->force_skeleton, out);
-  if (body.empty()) return 0;
+std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std::span<std::byte> out) const noexcept {
   const ForceWords words{static_cast<std::uint32_t>(in.session), in.engage ? 1U : 0U};
-  ValueWriter writer{body};
-  walk_force(writer, in, words, messages_->axes, 0);
-  return kPreambleSize + body.size();
+  return with_axes(axes_, [&](auto axes) {
+    return write(preamble, force_size(axes), out, [&](ValueWriter& values) { walk_force(values, in, words, axes, 0); });
+  });
 }
 
-std::size_t Codec::encode(const Preamble& preamble, const PathMessage& in, std::span<std::byte> out) noexcept {
-  const auto body = frame(preamble, messages_->path_skeleton, out);
-  if (body.empty()) return 0;
-  ValueWriter{body}.long_word(1, in.token);
-  return kPreambleSize + body.size();
+std::size_t Codec::encode(const Preamble& preamble, const PathMessage& in, std::span<std::byte> out) const noexcept {
+  return write(preamble, kPathSize, out, [&](ValueWriter& values) { values.long_word(1, in.token); });
 }
 
-std::size_t Codec::encode(const Preamble& preamble, const AuthorityMessage& in, std::span<std::byte> out) noexcept {
+std::size_t Codec::encode(const Preamble& preamble, const AuthorityMessage& in, std::span<std::byte> out) const noexcept {
   if (in.masters > kMastersMax) return 0;
-  const auto body = frame(preamble, messages_->authority_skeleton, out);
-  if (body.empty()) return 0;
   AuthorityMessage all = in;
   std::fill(all.alpha.begin() + in.masters, all.alpha.end(), 0.0);
-  ValueWriter writer{body};
-  walk_authority(writer, all);
-  return kPreambleSize + body.size();
+  return write(preamble, kAuthoritySize, out, [&](ValueWriter& values) { walk_authority(values, all); });
 }
 
-std::size_t Codec::encode(const Preamble& preamble, const CloseMessage& in, std::span<std::byte> out) noexcept {
-  const auto body = frame(preamble, messages_->close_skeleton, out);
-  if (body.empty()) return 0;
-  ValueWriter{body}.word(1, static_cast<std::uint32_t>(in.reason));
-  return kPreambleSize + body.size();
+std::size_t Codec::encode(const Preamble& preamble, const CloseMessage& in, std::span<std::byte> out) const noexcept {
+  return write(preamble, kCloseSize, out, [&](ValueWriter& values) { values.word(1, static_cast<std::uint32_t>(in.reason)); });
 }
 
-std::size_t Codec::encode(const Preamble& preamble, const PingMessage&, std::span<std::byte> out) noexcept {
-  if (out.size() < kPingSize) return 0;
-  std::memcpy(out.data(), &preamble, kPreambleSize);
-  return kPingSize;
+std::size_t Codec::encode(const Preamble& preamble, const PingMessage&, std::span<std::byte> out) const noexcept {
+  return write(preamble, kPingSize, out, [](ValueWriter&) {});
 }
 
-Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) noexcept {
-  return read<StateMessage>(in, messages_->state_skeleton, [this](ValueReader& values, StateMessage& out) {
-    StateWords words;
-    walk(values, out, words, messages_->axes, messages_->position_max);
-    out.gate = static_cast<GateState>(words.gate);
-    out.ready = (words.flags & 1U) != 0;
-    out.engaged = (words.flags & 2U) != 0;
-    out.stop = (words.flags & 4U) != 0;
-    out.stop_all = (words.flags & 8U) != 0;
+Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) const noexcept {
+  return with_axes(axes_, [&](auto axes) {
+    return read<StateMessage>(in, state_size(axes), [&](ValueReader& values, StateMessage& out) {
+      StateWords words;
+      walk(values, out, words, axes, position_max_);
+      out.gate = static_cast<GateState>(words.gate);
+      out.ready = (words.flags & 1U) != 0;
+      out.engaged = (words.flags & 2U) != 0;
+      out.stop = (words.flags & 4U) != 0;
+      out.stop_all = (words.flags & 8U) != 0;
+    });
   });
 }
 
-Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) noexcept {
-  return read<ForceMessage>(in, messages_->force_skeleton, [this](ValueReader& values, ForceMessage& out) {
-    ForceWords words;
-    walk_force(values, out, words, messages_->axes, messages_->position_max);
-    out.session = static_cast<SessionState>(words.session);
-    out.engage = words.engage != 0;
+Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) const noexcept {
+  return with_axes(axes_, [&](auto axes) {
+    return read<ForceMessage>(in, force_size(axes), [&](ValueReader& values, ForceMessage& out) {
+      ForceWords words;
+      walk_force(values, out, words, axes, position_max_);
+      out.session = static_cast<SessionState>(words.session);
+      out.engage = words.engage != 0;
+    });
   });
 }
 
-Decoded<PathMessage> Codec::decode_path(std::span<const std::byte> in) noexcept {
-  return read<PathMessage>(in, messages_->path_skeleton, [](ValueReader& values, PathMessage& out) { values.long_word(1, out.token); });
+Decoded<PathMessage> Codec::decode_path(std::span<const std::byte> in) const noexcept {
+  return read<PathMessage>(in, kPathSize, [](ValueReader& values, PathMessage& out) { values.long_word(1, out.token); });
 }
 
-Decoded<AuthorityMessage> Codec::decode_authority(std::span<const std::byte> in) noexcept {
-  return read<AuthorityMessage>(in, messages_->authority_skeleton, [](ValueReader& values, AuthorityMessage& out) {
+Decoded<AuthorityMessage> Codec::decode_authority(std::span<const std::byte> in) const noexcept {
+  return read<AuthorityMessage>(in, kAuthoritySize, [](ValueReader& values, AuthorityMessage& out) {
     walk_authority(values, out);
     double sum = 0;
     for (std::size_t i = 0; i < kMastersMax; ++i) {
@@ -211,15 +205,15 @@ Decoded<AuthorityMessage> Codec::decode_authority(std::span<const std::byte> in)
   });
 }
 
-Decoded<CloseMessage> Codec::decode_close(std::span<const std::byte> in) noexcept {
-  return read<CloseMessage>(in, messages_->close_skeleton, [](ValueReader& values, CloseMessage& out) {
+Decoded<CloseMessage> Codec::decode_close(std::span<const std::byte> in) const noexcept {
+  return read<CloseMessage>(in, kCloseSize, [](ValueReader& values, CloseMessage& out) {
     std::uint32_t reason = 0;
     values.word(1, reason, kCloseReasonMax);
     out.reason = static_cast<CloseReason>(reason);
   });
 }
 
-Decoded<PingMessage> Codec::decode_ping(std::span<const std::byte> in) noexcept {
+Decoded<PingMessage> Codec::decode_ping(std::span<const std::byte> in) const noexcept {
   if (in.size() != kPingSize) return std::unexpected(DecodeError::kSize);
   return Received<PingMessage>{read_preamble(in), {}};
 }

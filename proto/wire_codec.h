@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
-#include <memory>
 #include <span>
 
 #include "common/base/axes.h"
@@ -71,49 +70,39 @@ using Decoded = std::expected<Received<Message>, DecodeError>;
 
 struct PingMessage {};
 
-/// Encodes and decodes everything in proto/wire.h. Every body has a fixed layout, which the codec learns from the
-/// protobuf library at construction: what differs from it is refused, the values are copied. Nothing allocates
-/// afterwards. Decoding is total: any bytes give a message with finite numbers in range, or an error.
+/// Encodes and decodes everything in proto/wire.h. Every body has a fixed layout: tags and lengths that differ from it are refused, the
+/// values are copied. Nothing allocates. Decoding is total: any bytes give a message with finite numbers in range, or an error.
 class Codec {
  public:
   /// @param axes  axes of the port, 1 ... kAxesMax; used by STATE and FORCE only
   /// @param port  decides the range of positions: metres or radians
-  explicit Codec(std::size_t axes = kAxesMax, PortSpace port = PortSpace::kJoint);
-  ~Codec();
-  Codec(Codec&&) noexcept;
-  Codec& operator=(Codec&&) noexcept;
+  explicit Codec(std::size_t axes = kAxesMax, PortSpace port = PortSpace::kJoint) noexcept { configure(axes, port); }
 
   /// Changes axes and port, as a client does when joining tells it the scene's. No heap. @pre 1 <= axes <= kAxesMax
   void configure(std::size_t axes, PortSpace port) noexcept;
-  [[nodiscard]] std::size_t axes() const noexcept;
+  [[nodiscard]] std::size_t axes() const noexcept { return axes_; }
 
   /// Each writes preamble and body to the front of `out`. @return bytes written; 0 if `out` is too small or the message
   /// has a length beyond its array. Numbers are written as they are: judging them is the receiver's duty.
   /// Unused axes are not sent. AUTHORITY carries kMastersMax weights, those from `masters` on as 0.
-  [[nodiscard]] std::size_t encode(const Preamble&, const StateMessage&,
-                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t encode(const Preamble&, const ForceMessage&,
-                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t encode(const Preamble&, const PathMessage&, std::span<std::byte> out) noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t encode(const Preamble&, const AuthorityMessage&,
-                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t encode(const Preamble&, const CloseMessage&,
-                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t encode(const Preamble&, const PingMessage&,
-                                   std::span<std::byte> out) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const StateMessage&, std::span<std::byte> out) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const ForceMessage&, std::span<std::byte> out) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const PathMessage&, std::span<std::byte> out) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const AuthorityMessage&, std::span<std::byte> out) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const CloseMessage&, std::span<std::byte> out) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t encode(const Preamble&, const PingMessage&, std::span<std::byte> out) const noexcept TANDEM_REALTIME;
 
-  [[nodiscard]] Decoded<StateMessage> decode_state(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
-  [[nodiscard]] Decoded<ForceMessage> decode_force(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
-  [[nodiscard]] Decoded<PathMessage> decode_path(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
+  [[nodiscard]] Decoded<StateMessage> decode_state(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] Decoded<ForceMessage> decode_force(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] Decoded<PathMessage> decode_path(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
   /// Weights are in [0, 1] and sum to 1 within 1e-9.
-  [[nodiscard]] Decoded<AuthorityMessage> decode_authority(std::span<const std::byte> plaintext) noexcept
-      TANDEM_REALTIME;
-  [[nodiscard]] Decoded<CloseMessage> decode_close(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
-  [[nodiscard]] Decoded<PingMessage> decode_ping(std::span<const std::byte> plaintext) noexcept TANDEM_REALTIME;
+  [[nodiscard]] Decoded<AuthorityMessage> decode_authority(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] Decoded<CloseMessage> decode_close(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] Decoded<PingMessage> decode_ping(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
 
  private:
-  struct Messages;  // the reused protobuf objects; generated headers never leave proto
-  std::unique_ptr<Messages> messages_;
+  std::size_t axes_ = kAxesMax;
+  double position_max_ = 0;  ///< of a port sample [m] or [rad]
 };
 
 }  // namespace tandem::wire

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,109 +10,164 @@
 
 #include "common/base/axes.h"
 
-/// Private to proto/wire_codec.cpp. A body whose fields all have fixed widths has each value at a fixed place (Skeleton holds the bytes
-/// between them), so values are copied in and out where they stand: a fifth of the instructions that a general parser and serializer
-/// take, and the wire stays Protocol Buffers (WireTwin proves it against the library). One list of fields per message serves both ways.
+/// Private to proto/wire_codec.cpp. A body whose fields all have fixed widths has each tag, length and value at a fixed place, so they are
+/// written and read where they stand: a tenth of the instructions that a general parser and serializer take, and the wire stays
+/// Protocol Buffers (WireTwin proves it against the library). One list of fields per message serves both ways. Counts of axes come as
+/// numbers or as constants (`std::integral_constant`), for which loops unroll.
 namespace tandem::wire {
 
-/// Where the values of a body stand, one after the other.
-template <class Byte>
-class Places {
- public:
-  explicit Places(std::span<Byte> body) noexcept : at_(body.data()) {}
+static_assert(std::endian::native == std::endian::little, "values are copied as they lie in memory");
 
- protected:
-  static constexpr std::size_t tag(unsigned number) noexcept { return number < 16 ? 1 : 2; }
-  Byte* scalar(unsigned number, std::size_t width) noexcept { return pass(tag(number), width); }
-  /// Elements of a packed array, behind tag and length.
-  Byte* array(unsigned number, std::size_t bytes) noexcept { return pass(tag(number) + (bytes < 128 ? 1 : 2), bytes); }
+/// How a field's value is encoded, low three bits of its tag.
+enum class Encoding : std::uint32_t { kFixed64 = 1, kPacked = 2, kFixed32 = 5 };
+constexpr std::uint32_t tag(std::uint32_t number, Encoding encoding) noexcept { return number << 3 | static_cast<std::uint32_t>(encoding); }
+
+/// The varint of a tag or a length, at most 2^14 - 1, as it lies in memory.
+constexpr bool one_byte(std::uint32_t value) noexcept { return value < 0x80; }
+constexpr std::uint16_t two_bytes(std::uint32_t value) noexcept {
+  return static_cast<std::uint16_t>((value & 0x7f) | 0x80 | (value >> 7) << 8);
+}
+
+/// Writes a whole body. Limits are the receiver's business. @pre the span has room for it
+class ValueWriter {
+ public:
+  explicit ValueWriter(std::span<std::byte> body) noexcept : at_(body.data()) {}
+
+  template <std::size_t N, class Count>
+  void doubles(std::uint32_t number, const std::array<double, N>& in, Count count, double) noexcept {
+    array(number, 8 * count);
+    copy(in.data(), count);
+  }
+  template <std::size_t N, class Count>
+  void floats(std::uint32_t number, const std::array<double, N>& in, Count count, double) noexcept {
+    array(number, 4 * count);
+    for (std::size_t i = 0; i < count; ++i) put(static_cast<float>(in[i]));
+  }
+  template <class Count>
+  void energies(std::uint32_t number, const EnergyArray& in, Count count, std::uint64_t) noexcept {
+    array(number, 8 * count);
+    copy(in.data(), count);
+  }
+  void number64(std::uint32_t number, double value, double, double) noexcept {
+    structure(tag(number, Encoding::kFixed64));
+    put(value);
+  }
+  void number32(std::uint32_t number, double value, double, double) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    put(static_cast<float>(value));
+  }
+  void word(std::uint32_t number, std::uint32_t value, std::uint32_t = 0) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    put(value);
+  }
+  void long_word(std::uint32_t number, std::uint64_t value) noexcept {
+    structure(tag(number, Encoding::kFixed64));
+    put(value);
+  }
 
  private:
-  Byte* pass(std::size_t before, std::size_t width) noexcept {
-    Byte* const here = at_ + before;
-    at_ = here + width;
-    return here;
+  void structure(std::uint32_t value) noexcept {
+    if (one_byte(value)) {
+      put(static_cast<std::uint8_t>(value));
+    } else {
+      put(two_bytes(value));
+    }
   }
-  Byte* at_;
-};
-
-/// Puts values into a body that has the skeleton already. Limits are the receiver's business.
-class ValueWriter : public Places<std::byte> {
- public:
-  using Places::Places;
-
-  template <std::size_t N>
-  void doubles(unsigned number, const std::array<double, N>& in, std::size_t count, double) noexcept {
-    std::memcpy(array(number, 8 * count), in.data(), 8 * count);
+  void array(std::uint32_t number, std::size_t bytes) noexcept {
+    structure(tag(number, Encoding::kPacked));
+    structure(static_cast<std::uint32_t>(bytes));
   }
-  template <std::size_t N>
-  void floats(unsigned number, const std::array<double, N>& in, std::size_t count, double) noexcept {
-    std::byte* to = array(number, 4 * count);
-    for (std::size_t i = 0; i < count; ++i, to += 4) put(to, static_cast<float>(in[i]));
-  }
-  void energies(unsigned number, const EnergyArray& in, std::size_t count, std::uint64_t) noexcept {
-    std::memcpy(array(number, 8 * count), in.data(), 8 * count);
-  }
-  void number64(unsigned number, double value, double, double) noexcept { put(scalar(number, 8), value); }
-  void number32(unsigned number, double value, double, double) noexcept { put(scalar(number, 4), static_cast<float>(value)); }
-  void word(unsigned number, std::uint32_t value, std::uint32_t = 0) noexcept { put(scalar(number, 4), value); }
-  void long_word(unsigned number, std::uint64_t value) noexcept { put(scalar(number, 8), value); }
-
- private:
   template <class T>
-  static void put(std::byte* to, T value) noexcept {
-    std::memcpy(to, &value, sizeof value);
+  void put(T value) noexcept {
+    std::memcpy(at_, &value, sizeof value);
+    at_ += sizeof value;
   }
+  template <class T, class Count>
+  void copy(const T* from, Count count) noexcept {
+    std::memcpy(at_, from, sizeof(T) * count);
+    at_ += sizeof(T) * count;
+  }
+
+  std::byte* at_;
 };
 
-/// Takes values out of a body that has the skeleton, and remembers the worst thing seen.
-class ValueReader : public Places<const std::byte> {
+/// Takes the values out of a body, and remembers the worst thing seen. @pre the span has the size of this message
+class ValueReader {
  public:
-  using Places::Places;
+  explicit ValueReader(std::span<const std::byte> body) noexcept : at_(body.data()) {}
 
-  template <std::size_t N>
-  void doubles(unsigned number, std::array<double, N>& out, std::size_t count, double limit) noexcept {
-    std::memcpy(out.data(), array(number, 8 * count), 8 * count);
+  template <std::size_t N, class Count>
+  void doubles(std::uint32_t number, std::array<double, N>& out, Count count, double limit) noexcept {
+    array(number, 8 * count);
+    copy(out.data(), count);
     judge(out, count, limit);
   }
-  template <std::size_t N>
-  void floats(unsigned number, std::array<double, N>& out, std::size_t count, double limit) noexcept {
-    const std::byte* from = array(number, 4 * count);
-    for (std::size_t i = 0; i < count; ++i, from += 4) out[i] = static_cast<double>(get<float>(from));
+  template <std::size_t N, class Count>
+  void floats(std::uint32_t number, std::array<double, N>& out, Count count, double limit) noexcept {
+    array(number, 4 * count);
+    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<double>(get<float>());
     judge(out, count, limit);
   }
-  void energies(unsigned number, EnergyArray& out, std::size_t count, std::uint64_t limit) noexcept {
-    std::memcpy(out.data(), array(number, 8 * count), 8 * count);
+  template <class Count>
+  void energies(std::uint32_t number, EnergyArray& out, Count count, std::uint64_t limit) noexcept {
+    array(number, 8 * count);
+    copy(out.data(), count);
     for (std::size_t i = 0; i < count; ++i) in_range_ &= out[i] <= limit;
   }
-  void number64(unsigned number, double& out, double low, double high) noexcept {
-    out = get<double>(scalar(number, 8));
+  void number64(std::uint32_t number, double& out, double low, double high) noexcept {
+    structure(tag(number, Encoding::kFixed64));
+    out = get<double>();
     judge(out, low, high);
   }
-  void number32(unsigned number, double& out, double low, double high) noexcept {
-    out = static_cast<double>(get<float>(scalar(number, 4)));
+  void number32(std::uint32_t number, double& out, double low, double high) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    out = static_cast<double>(get<float>());
     judge(out, low, high);
   }
-  void word(unsigned number, std::uint32_t& out, std::uint32_t limit = ~std::uint32_t{0}) noexcept {
-    out = get<std::uint32_t>(scalar(number, 4));
+  void word(std::uint32_t number, std::uint32_t& out, std::uint32_t limit = ~std::uint32_t{0}) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    out = get<std::uint32_t>();
     in_range_ &= out <= limit;
   }
-  void long_word(unsigned number, std::uint64_t& out) noexcept { out = get<std::uint64_t>(scalar(number, 8)); }
+  void long_word(std::uint32_t number, std::uint64_t& out) noexcept {
+    structure(tag(number, Encoding::kFixed64));
+    out = get<std::uint64_t>();
+  }
 
   void require(bool condition) noexcept { in_range_ &= condition; }
+  /// Tags and lengths are this message's: no unknown, missing, repeated or reordered fields, no lengths that lie.
+  [[nodiscard]] bool well_formed() const noexcept { return differs_ == 0; }
   [[nodiscard]] bool in_range() const noexcept { return in_range_; }
   [[nodiscard]] bool finite() const noexcept { return finite_; }
 
  private:
+  /// Compared at once and judged at the end: a branch for each costs more than all of them.
+  void structure(std::uint32_t value) noexcept {
+    if (one_byte(value)) {
+      differs_ |= get<std::uint8_t>() ^ value;
+    } else {
+      differs_ |= static_cast<std::uint32_t>(get<std::uint16_t>() ^ two_bytes(value));
+    }
+  }
+  void array(std::uint32_t number, std::size_t bytes) noexcept {
+    structure(tag(number, Encoding::kPacked));
+    structure(static_cast<std::uint32_t>(bytes));
+  }
   template <class T>
-  static T get(const std::byte* from) noexcept {
+  T get() noexcept {
     T value;
-    std::memcpy(&value, from, sizeof value);
+    std::memcpy(&value, at_, sizeof value);
+    at_ += sizeof value;
     return value;
   }
-  template <std::size_t N>
-  void judge(const std::array<double, N>& values, std::size_t count, double limit) noexcept {
-    bool good = true;  // judged together: a branch for each costs more than the numbers
+  template <class T, class Count>
+  void copy(T* to, Count count) noexcept {
+    std::memcpy(to, at_, sizeof(T) * count);
+    at_ += sizeof(T) * count;
+  }
+  template <std::size_t N, class Count>
+  void judge(const std::array<double, N>& values, Count count, double limit) noexcept {
+    bool good = true;
     for (std::size_t i = 0; i < count; ++i) good &= std::abs(values[i]) <= limit;  // false for NaN
     if (good) [[likely]]
       return;
@@ -125,6 +181,8 @@ class ValueReader : public Places<const std::byte> {
     }
   }
 
+  const std::byte* at_;
+  std::uint32_t differs_ = 0;
   bool in_range_ = true, finite_ = true;
 };
 

@@ -12,7 +12,7 @@ namespace tandem::server {
 
 namespace {
 
-constexpr std::uint32_t kLayout = 0x31504b43;  // "CKP1"
+constexpr std::uint32_t kLayout = 0x32504b43;  // "CKP2"
 constexpr double kPoseMax = 1000;              // [m] or [rad]; no tool is there
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
@@ -85,6 +85,7 @@ std::size_t encode_checkpoint(const Checkpoint& c, std::span<std::byte> out) noe
   for (std::size_t i = 0; i < c.seats_n; ++i) {
     w.put(static_cast<std::uint8_t>(c.seats[i].taken));
     w.put(c.seats[i].resume);
+    w.put(c.seats[i].force_scale);
   }
   for (std::size_t j = 0; j < c.tools_n; ++j) {
     for (std::size_t i = 0; i < c.masters_n; ++i) w.put(c.tools[j].alpha[i]);
@@ -122,6 +123,7 @@ std::expected<Checkpoint, CheckpointError> decode_checkpoint(std::span<const std
   for (std::size_t i = 0; i < c.seats_n; ++i) {
     c.seats[i].taken = r.at_most(std::uint8_t{1}) != 0;
     c.seats[i].resume = r.take<Checkpoint::Hash>();
+    c.seats[i].force_scale = r.within(0, 1);
   }
   bool whole = true;
   for (std::size_t j = 0; j < c.tools_n; ++j) {

@@ -21,6 +21,7 @@ struct Checkpoint {
   struct Seat {
     bool taken = false;
     Hash resume{};  ///< SHA-256 of the secret its client may come back with; zero: none
+    double force_scale = 1;  ///< of the scene's force limit, as its ticket allowed: 0 ... 1
   };
   struct Tool {
     std::array<double, kMastersMax> alpha{};  ///< requested weights, by master; sum 1

@@ -29,6 +29,8 @@ class Connection {
   /// The message was decoded, in range and newer than all before: it acts.
   void acts(Time now, const Endpoint& from, const link::Link::Opened& opened, const wire::Preamble& preamble) noexcept TANDEM_REALTIME;
 
+  /// Somebody is being asked whether he is there: a challenge may be due.
+  [[nodiscard]] bool challenges() const noexcept { return proof_.asking(); }
   /// A challenge that is due, sealed into `buffer`.
   [[nodiscard]] std::optional<Transmit> poll_challenge(Time now, std::uint32_t tick, wire::Codec& codec,
                                                        std::span<std::byte> buffer) noexcept TANDEM_REALTIME;

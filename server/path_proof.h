@@ -42,6 +42,8 @@ class PathProof {
     Endpoint to;
     std::uint64_t token = 0;
   };
+  /// Somebody is being asked. While nobody is, nothing is due.
+  [[nodiscard]] bool asking() const noexcept { return asked_[0].active || asked_[1].active; }
   /// The next try, when one is due.
   [[nodiscard]] std::optional<Challenge> due(Time now) noexcept {
     for (Asked& a : asked_) {

@@ -24,6 +24,7 @@ struct Entry {
   std::unique_ptr<link::Link> link;
   std::unique_ptr<control::ChannelEnd> end;
   std::array<std::byte, 32> resume{};  ///< resume_hash of the secret this client may come back with; zero: none
+  double force_scale = 1;              ///< its ticket's, told to the client; kept for when it comes back
 };
 
 /// The server's end of a seat's spring.

@@ -21,6 +21,8 @@ SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& sc
     : scene_(&scene),
       tick_(from_seconds(1.0 / scene.tick_hz)),
       role_(access_role(scene.seats[seat].role)),
+      feels_(allowed(role_, Right::kForce) != Grant::kNo),
+      deaf_after_(from_seconds(scene.gate.silence_limit) + kDeafMargin),
       end_(make_channel_end(scene, seat, scale)),
       codec_(scene.dof, scene.port) {}
 
@@ -33,6 +35,7 @@ void SeatPort::take(Time now, Entry& entry) noexcept {
   rx_ = wire::StateMessage{};
   conduct_ = {};
   resume_ = entry.resume;
+  force_scale_ = entry.force_scale;
   was_present_ = false;
 }
 
@@ -94,8 +97,7 @@ bool SeatPort::alive(Time now) const noexcept {
 
 bool SeatPort::deaf() const noexcept {
   const link::Freshness& fresh = connection_->link().freshness();
-  const bool engages = allowed(role_, Right::kForce) != Grant::kNo;  // who feels nothing is not told often
-  return (engages && fresh.peer_silence() > from_seconds(scene_->gate.silence_limit) + kDeafMargin) || fresh.echo_stall() > kEchoStallMax;
+  return (feels_ && fresh.peer_silence() > deaf_after_) || fresh.echo_stall() > kEchoStallMax;  // who feels nothing is not told often
 }
 
 bool SeatPort::jumps(const PortSample& next) const noexcept {
@@ -136,10 +138,6 @@ Transmit SeatPort::transmit(Time now, std::uint32_t tick, std::span<std::byte> b
 
 Transmit SeatPort::transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept {
   return taken_ ? connection_->seal(now, tick, wire::Type::kClose, wire::CloseMessage{why}, codec_, buffer) : Transmit{};
-}
-
-std::optional<Transmit> SeatPort::transmit_challenge(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept {
-  return taken_ ? connection_->poll_challenge(now, tick, codec_, buffer) : std::nullopt;
 }
 
 }  // namespace tandem::server

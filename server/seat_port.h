@@ -39,6 +39,8 @@ class SeatPort {
 
   /// Heard from within the hold limit.
   [[nodiscard]] bool alive(Time now) const noexcept;
+  /// A hand that may be given force: not an observer's.
+  [[nodiscard]] bool feels() const noexcept { return feels_; }
   /// Its last word says that it hears nothing of us, or it echoes nothing newer: one direction is lost. @pre taken()
   [[nodiscard]] bool deaf() const noexcept;
   /// Alive, its device streams, nothing latched, nobody stopped it.
@@ -71,8 +73,12 @@ class SeatPort {
   [[nodiscard]] const Conduct& conduct() const noexcept { return conduct_; }
   [[nodiscard]] bool poll_flood() noexcept { return taken_ && connection_->poll_flood(); }
   [[nodiscard]] const std::array<std::byte, 32>& resume() const noexcept { return resume_; }  ///< hash of its secret
+  [[nodiscard]] double force_scale() const noexcept { return force_scale_; }                  ///< what its ticket allowed
   /// Who sat here before the server died.
-  void remember(const std::array<std::byte, 32>& resume) noexcept { resume_ = resume; }
+  void remember(const std::array<std::byte, 32>& resume, double force_scale) noexcept {
+    resume_ = resume;
+    force_scale_ = force_scale;
+  }
   [[nodiscard]] AccessRole role() const noexcept { return role_; }
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }  ///< counts STATEs that acted
   [[nodiscard]] bool energy_fell() const noexcept { return energy_fell_; }
@@ -86,7 +92,9 @@ class SeatPort {
   [[nodiscard]] Transmit transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
   [[nodiscard]] Transmit transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept;
   [[nodiscard]] std::optional<Transmit> transmit_challenge(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept
-      TANDEM_REALTIME;
+      TANDEM_REALTIME {
+    return taken_ && connection_->challenges() ? connection_->poll_challenge(now, tick, codec_, buffer) : std::nullopt;
+  }
 
  private:
   /// Farther from the sample before than any hand comes in the time between.
@@ -95,8 +103,11 @@ class SeatPort {
   const SceneSpec* scene_;
   Duration tick_;
   AccessRole role_;
+  bool feels_;
+  Duration deaf_after_;  ///< its own word that it hears nothing
   Conduct conduct_;
   std::array<std::byte, 32> resume_{};
+  double force_scale_ = 1;
   std::unique_ptr<control::ChannelEnd> end_;
   std::optional<Connection> connection_;  ///< kept when its client has left, until another comes
   bool taken_ = false;

@@ -26,6 +26,7 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       watcher_every_(static_cast<std::uint32_t>(std::ceil(scene.tick_hz / kWatcherHz))),
       reception_(scene, scale),
       visitors_(scene.dof, scene.port, tick_length_) {
+  for (std::size_t a = 0; a < kAxesMax; ++a) root_scale_[a] = std::sqrt(scale_[a]);
   seats_.reserve(scene.seats.size());
   for (std::size_t i = 0; i < scene.seats.size(); ++i) seats_.emplace_back(scene, i, scale);
   tools_.reserve(scene.tools.size());
@@ -48,6 +49,7 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
   authority_version_ = from.authority_version + 1;
   stop_before_ = from.stop;
   gathering_ = from.begun;
+  for (std::size_t i = 0; i < seats_.size(); ++i) seats_[i].remember(from.seats[i].resume, from.seats[i].force_scale);
   if (!gathering_) {
     stop_lane_.restore(from.stop, from.stops);
     return;
@@ -60,7 +62,6 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       const auto& alpha = from.tools[j].alpha;
       has_weight = has_weight || (i < masters_ ? alpha[i] > 0 : scene.seats[i].tool == j);  // a slave seat carries its tool
     }
-    seats_[i].remember(from.seats[i].resume);
     awaited_[i] = from.seats[i].taken && (has_weight || seats_[i].role() == AccessRole::kInstructor);
   }
   note(Time{}, AuditEvent::What::kRestored, AuditEvent::kNoSeat, static_cast<std::uint32_t>(epoch_));
@@ -79,7 +80,7 @@ Checkpoint Session::checkpoint() const noexcept {
   c.masters_n = static_cast<std::uint8_t>(masters_);
   c.tools_n = static_cast<std::uint8_t>(tools_.size());
   c.dof = static_cast<std::uint8_t>(scene_->dof);
-  for (std::size_t i = 0; i < seats_.size(); ++i) c.seats[i] = {seats_[i].taken() || awaited_[i], seats_[i].resume()};
+  for (std::size_t i = 0; i < seats_.size(); ++i) c.seats[i] = {seats_[i].taken() || awaited_[i], seats_[i].resume(), seats_[i].force_scale()};
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     c.tools[j].alpha = tools_[j].authority.requested();
     c.tools[j].x = tools_[j].position();
@@ -141,9 +142,10 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   for (std::uint32_t i = 0; i <= live && !over_; ++i) live_one_tick(now);
   say_farewell(now);
   fill_force_messages(now);
+  next_to_tell_ = 0;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     if (auto* l = seats_[i].link()) l->tick(now);
-    send_due_[i] = seats_[i].reachable() && (felt_by(i) || tick_ % watcher_every_ == 0);
+    send_due_[i] = seats_[i].reachable() && (seats_[i].feels() || tick_ % watcher_every_ == 0);
   }
   visitors_.on_tick(now);
 }
@@ -155,6 +157,7 @@ void Session::live_one_tick(Time now) noexcept {
   if (over_) return;
   follow_timeline(now);
   share_authority();
+  tie_seats();
   move_references(now);
   step_tools();
   step_following();
@@ -162,7 +165,7 @@ void Session::live_one_tick(Time now) noexcept {
 }
 
 void Session::change_state(Time now) noexcept {
-  for (std::size_t i = 0; i < seats_.size(); ++i) present_[i] = felt_by(i) && seats_[i].present(now) && !leaving(i);
+  for (std::size_t i = 0; i < seats_.size(); ++i) present_[i] = seats_[i].feels() && seats_[i].present(now) && !leaving(i);
   look_after_people(now);
   if (state_ == wire::SessionState::kEnding) {
     ++session_tick_;
@@ -204,7 +207,7 @@ void Session::say_farewell(Time now) noexcept {
     if (!leaving(i) || --farewells_[i].ticks > 0) continue;
     if (!seats_[i].taken()) continue;  // left by himself
     seats_[i].release();
-    seats_[i].remember({});
+    seats_[i].remember({}, 1);
     note(now, AuditEvent::What::kRemoved, i);
   }
 }
@@ -218,14 +221,18 @@ void Session::follow_timeline(Time now) noexcept {
 }
 
 void Session::fill_force_messages(Time now) noexcept {
+  std::array<bool, kSeatsMax> ready{};
+  std::uint32_t missing_now = 0;
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    ready[i] = seats_[i].ready(now);
+    missing_now += needed(i) && !ready[i] ? 1 : 0;
+  }
   std::array<bool, kToolsMax> entitled{};
   for (std::size_t j = 0; j < tools_.size(); ++j) {
-    const bool slave_ready = !scene_->tools[j].remote || seats_[scene_->tools[j].seat].ready(now);
-    for (std::size_t i = 0; i < masters_; ++i)
-      entitled[j] |= slave_ready && tools_[j].authority.requested()[i] > 0 && seats_[i].ready(now);
+    const bool slave_ready = !scene_->tools[j].remote || ready[scene_->tools[j].seat];
+    for (std::size_t i = 0; i < masters_; ++i) entitled[j] |= slave_ready && tools_[j].authority.requested()[i] > 0 && ready[i];
   }
-  std::uint32_t missing_now = 0;
-  for (std::size_t i = 0; i < seats_.size(); ++i) missing_now += needed(i) && !seats_[i].ready(now) ? 1 : 0;
+  const bool engage = engage_ && state_ != wire::SessionState::kEnding && !stop_lane_.on();
 
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     wire::ForceMessage& m = seats_[i].tx;
@@ -235,15 +242,13 @@ void Session::fill_force_messages(Time now) noexcept {
     for (std::size_t a = 0; a < scene_->dof; ++a) m.port.f[a] = end.k[a] * (end.ref[a] - following_[i][a]);
     m.port.e_in = seats_[i].end().e_in();
     m.session = state_;
-    bool wanted = engage_ && state_ != wire::SessionState::kEnding && !stop_lane_.on() && !seats_[i].conduct().isolated(now) && felt_by(i) && !leaving(i);
+    m.engage = engage && seats_[i].feels() && !seats_[i].conduct().isolated(now) && !leaving(i);
     m.alpha = 0;
     for (std::size_t j = 0; j < tools_.size(); ++j) {
-      const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
-      const bool serves = slave ? scene_->seats[i].tool == j : share(j, i) > 0;
-      wanted = wanted && (!serves || entitled[j]);
-      if (!slave && scene_->follow[i][j] > 0 && m.alpha == 0) m.alpha = tools_[j].authority.alpha(i);
+      const Tie& tie = ties_[i][j];
+      m.engage = m.engage && (tie.share == 0 || entitled[j]);
+      if (i < masters_ && tie.follow > 0 && m.alpha == 0) m.alpha = tie.alpha;
     }
-    m.engage = wanted;
     m.session_tick = session_tick_;
     m.authority_version = authority_version_;
     m.missing = missing_now;
@@ -253,16 +258,18 @@ void Session::fill_force_messages(Time now) noexcept {
 
 std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
   const bool closing = over_ || (state_ == wire::SessionState::kEnding && farewell_ < kCloseRepeats);
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
+  for (; next_to_tell_ < seats_.size(); ++next_to_tell_) {
+    const std::size_t i = next_to_tell_;
     if (const auto challenge = seats_[i].transmit_challenge(now, tick_, buffer)) return challenge;
-    if (!send_due_[i]) continue;
-    send_due_[i] = false;
+    if (!std::exchange(send_due_[i], false)) continue;
     const bool last = leaving(i) && farewells_[i].ticks <= kCloseRepeats;
     const Transmit out = closing || last ? seats_[i].transmit_close(now, tick_, closing ? close_reason_ : farewells_[i].why, buffer)
                                          : seats_[i].transmit(now, tick_, buffer);
     if (out.size > 0) return out;
   }
-  return visitors_.poll_transmit(now, tick_, closing ? std::optional{close_reason_} : std::nullopt, buffer);
+  const auto out = visitors_.poll_transmit(now, tick_, closing ? std::optional{close_reason_} : std::nullopt, buffer);
+  if (!out) next_to_tell_ = 0;
+  return out;
 }
 
 std::vector<std::size_t> Session::missing(Time now) const {

@@ -115,8 +115,6 @@ class Session {
   /// The session waits for it before it begins, or goes on after a restart.
   [[nodiscard]] bool needed(std::size_t seat) const noexcept;
   void go_on(Time now) noexcept;
-  /// A hand that may be given force: not an observer's.
-  [[nodiscard]] bool felt_by(std::size_t seat) const noexcept;
   void note(Time now, AuditEvent::What what, std::size_t seat, std::uint32_t version = 0) noexcept;
   void say_farewell(Time now) noexcept TANDEM_REALTIME;
 
@@ -125,19 +123,21 @@ class Session {
   void change_state(Time now) noexcept;
   void follow_timeline(Time now) noexcept;
   void share_authority() noexcept TANDEM_REALTIME;
+  void tie_seats() noexcept TANDEM_REALTIME;
   void move_references(Time now) noexcept TANDEM_REALTIME;
   void step_offset(std::size_t seat, bool engaged) noexcept TANDEM_REALTIME;
-  void credit_seat(std::size_t seat, std::size_t axis) noexcept TANDEM_REALTIME;
+  void credit_seat(std::size_t seat) noexcept TANDEM_REALTIME;
   void step_tools() noexcept TANDEM_REALTIME;
   void step_following() noexcept TANDEM_REALTIME;
+  void follow_tools(std::size_t seat) noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
-  [[nodiscard]] double share(std::size_t tool, std::size_t seat) const noexcept;
 
   const SceneSpec* scene_;
   double dt_;
   Duration tick_length_;
   AxisArray scale_;
+  AxisArray root_scale_{};
   std::vector<SeatPort> seats_;
   std::vector<Tool> tools_;
   std::size_t masters_;
@@ -174,6 +174,13 @@ class Session {
   std::array<Farewell, kSeatsMax> farewells_{};
   std::size_t next_event_ = 0;           ///< of the timeline
   std::uint32_t authority_version_ = 1;
+  /// What binds a seat to a tool during this tick. A slave is bound to its own, wholly.
+  struct Tie {
+    double alpha = 0;   ///< authority
+    double follow = 0;  ///< C_ij: how far its target follows the tool
+    double share = 0;   ///< the greater of both: of its spring
+  };
+  std::array<std::array<Tie, kToolsMax>, kSeatsMax> ties_{};
   std::array<AxisArray, kSeatsMax> absolute_{};     ///< y_i: where each seat's tool is
   std::array<AxisArray, kSeatsMax> offset_{};       ///< hand minus tool, on its way to 0
   std::array<std::uint32_t, kSeatsMax> engaged_for_{};  ///< ticks
@@ -185,6 +192,7 @@ class Session {
   TickRecord record_{};
 
   std::array<bool, kSeatsMax> send_due_{};
+  std::size_t next_to_tell_ = 0;  ///< seat that `poll_transmit` asks next
   std::uint64_t stray_ = 0, slipped_ = 0;
 };
 

@@ -32,8 +32,15 @@ void Session::share_authority() noexcept {
   }
 }
 
-double Session::share(std::size_t j, std::size_t i) const noexcept {
-  return std::max(tools_[j].authority.alpha(i), scene_->follow[i][j]);
+void Session::tie_seats() noexcept {
+  for (std::size_t i = 0; i < seats_.size(); ++i)
+    for (std::size_t j = 0; j < tools_.size(); ++j) {
+      const bool own = scene_->seats[i].kind == SeatKind::kSlave && scene_->seats[i].tool == j;
+      Tie& tie = ties_[i][j];
+      tie.alpha = i < masters_ ? tools_[j].authority.alpha(i) : own ? 1 : 0;
+      tie.follow = i < masters_ ? scene_->follow[i][j] : tie.alpha;
+      tie.share = std::max(tie.alpha, tie.follow);
+    }
 }
 
 void Session::move_references(Time now) noexcept {
@@ -48,16 +55,17 @@ void Session::move_references(Time now) noexcept {
       near.weight = 1;
     } else {
       for (std::size_t j = 0; j < tools_.size(); ++j) {
-        const double w = share(j, i);
+        const Tie& tie = ties_[i][j];
+        const double w = tie.share;
         near.weight += w;
         held |= w > 0 && tools_[j].authority.held();
-        leaving |= tools_[j].authority.alpha(i) > 0;
+        leaving |= tie.alpha > 0;
         // Each seat may count all of a tool's heat: it delivers alpha_i of what it spends, and the alphas sum to 1. With a tank
         // for the flow sources the heat is split and only alpha_i of it travels, so that nothing is spent twice.
-        if (tank && scene_->follow[i][j] > 0) near.pass_on = tools_[j].authority.alpha(i);
+        if (tank && tie.follow > 0) near.pass_on = tie.alpha;
         for (std::size_t a = 0; a < scene_->dof; ++a) {
           near.x[a] += w * tools_[j].x(a);
-          near.dissipated[a] += (tank ? 0.5 : 1.0) * scene_->follow[i][j] * tools_[j].dissipated()[a];
+          near.dissipated[a] += (tank ? 0.5 : 1.0) * tie.follow * tools_[j].dissipated()[a];
         }
       }
       for (std::size_t a = 0; a < scene_->dof; ++a) near.x[a] /= near.weight > 0 ? near.weight : 1;
@@ -71,7 +79,7 @@ void Session::move_references(Time now) noexcept {
       continue;
     }
     seats_[i].move(now, dt_, engaged, near);
-    for (std::size_t a = 0; a < scene_->dof; ++a) credit_seat(i, a);
+    credit_seat(i);
   }
 }
 
@@ -88,38 +96,46 @@ void Session::step_offset(std::size_t i, bool engaged) noexcept {
       o = seats_[i].alive_once() ? seats_[i].heard().port.x[a] - absolute_[i][a] : 0;
       continue;
     }
-    const double step = pace * scene_->channel.v_app / std::sqrt(scale_[a]) * dt_;
+    const double step = pace * scene_->channel.v_app / root_scale_[a] * dt_;
     offset_step_[i][a] = -std::clamp(o, -step, step);
     o += offset_step_[i][a];
   }
 }
 
 /// What the tool really paid becomes credit; what its authority does not pay for is asked from the flow sources (design notes, control 4).
-void Session::credit_seat(std::size_t i, std::size_t a) noexcept {
+void Session::credit_seat(std::size_t i) noexcept {
   control::ChannelEnd& end = seats_[i].end();
   const control::EndState& s = end.state();
-  if (scene_->seats[i].kind == SeatKind::kSlave) return end.credit(a, s.absorbed[a]);
-  double left = s.absorbed[a], paid = s.paid[a];
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
-    const double before = reference_before_[i][a] - tools_[j].x(a), after = s.ref[a] - tools_[j].x(a);
-    const double alpha = tools_[j].authority.alpha(i);
-    const double given = 0.5 * s.k[a] * alpha * (before * before - after * after);
-    const double real = std::clamp(given, 0.0, left);
-    end.credit(a, real);
-    left -= real;
-    const double wanted = std::min(left, 0.5 * s.k[a] * (share(j, i) - alpha) * std::max(0.0, before * before - after * after));
-    end.credit(a, tools_[j].sources.grant(wanted));
-    left -= wanted;
-    tools_[j].sources.fill((1 - alpha) * paid * (share(j, i) > 0 ? 1 : 0));
-    paid = 0;
+  const std::size_t dof = scene_->dof, tools = tools_.size();
+  if (scene_->seats[i].kind == SeatKind::kSlave) {
+    for (std::size_t a = 0; a < dof; ++a) end.credit(a, s.absorbed[a]);
+    return;
   }
-  // The offset's way home moves the follower like a tool that moves: the share nobody has authority for is the sources'.
-  const std::size_t first = first_tool(i);
-  const double work = -s.k[a] * (s.ref[a] - tools_[first].x(a)) * offset_step_[i][a];
-  const double unpaid = 1 - tools_[first].authority.alpha(i);
-  end.credit(a, tools_[first].sources.grant(std::max(0.0, unpaid * work)));
-  if (scene_->channel.mfs != MfsMode::kTank) static_cast<void>(tools_[first].sources.grant(unpaid * s.passed[a]));  // already credited: booked
-  end.credit(a, tools_.size() == 1 ? tools_[0].sources.grant(left) : 0);  // a falling stiffness gives back as well
+  const Tool& first = tools_[first_tool(i)];
+  control::FlowSources& sources = tools_[first_tool(i)].sources;
+  const double unpaid = 1 - first.authority.alpha(i);
+  const bool passes_on = scene_->channel.mfs != MfsMode::kTank;
+  for (std::size_t a = 0; a < dof; ++a) {
+    double left = s.absorbed[a], paid = s.paid[a];
+    for (std::size_t j = 0; j < tools; ++j) {
+      const Tie& tie = ties_[i][j];
+      const double before = reference_before_[i][a] - tools_[j].x(a), after = s.ref[a] - tools_[j].x(a);
+      const double given = 0.5 * s.k[a] * tie.alpha * (before * before - after * after);
+      const double real = std::clamp(given, 0.0, left);
+      end.credit(a, real);
+      left -= real;
+      const double wanted = std::min(left, 0.5 * s.k[a] * (tie.share - tie.alpha) * std::max(0.0, before * before - after * after));
+      end.credit(a, tools_[j].sources.grant(wanted));
+      left -= wanted;
+      tools_[j].sources.fill((1 - tie.alpha) * paid * (tie.share > 0 ? 1 : 0));
+      paid = 0;
+    }
+    // The offset's way home moves the follower like a tool that moves: the share nobody has authority for is the sources'.
+    const double work = -s.k[a] * (s.ref[a] - first.x(a)) * offset_step_[i][a];
+    end.credit(a, sources.grant(std::max(0.0, unpaid * work)));
+    if (passes_on) static_cast<void>(sources.grant(unpaid * s.passed[a]));  // already credited: booked
+    end.credit(a, tools == 1 ? sources.grant(left) : 0);  // a falling stiffness gives back as well
+  }
 }
 
 std::size_t Session::first_tool(std::size_t i) const noexcept {
@@ -159,33 +175,29 @@ void Session::step_following() noexcept {
     for (std::size_t a = 0; a < scene_->dof; ++a) {
       double injected = 0;  // F_ri is the effort on the IPC, the client sends its opposite
       for (std::size_t i = 0; i < masters_; ++i)
-        if (present_[i])
-          injected -= (scene_->follow[i][j] - tools_[j].authority.alpha(i)) * seats_[i].heard().port.f[a] * tools_[j].moved()[a];
+        if (present_[i]) injected -= (ties_[i][j].follow - ties_[i][j].alpha) * seats_[i].heard().port.f[a] * tools_[j].moved()[a];
       tools_[j].sources.observe(a, injected / dt_, dt_);
     }
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
-    for (std::size_t a = 0; a < scene_->dof; ++a) {
-      double absolute = 0, moved = 0, velocity = 0;
-      bool gated = false;
-      for (std::size_t j = 0; j < tools_.size(); ++j) {
-        const double c = slave ? (scene_->seats[i].tool == j ? 1.0 : 0.0) : scene_->follow[i][j];
-        const double g = slave ? 1.0 : tools_[j].sources.gate(a);
-        const double part = control::following_share(slave ? 1.0 : tools_[j].authority.alpha(i), c, g);
-        absolute += c * tools_[j].x(a);
-        moved += part * tools_[j].moved()[a];
-        velocity += part * tools_[j].v(a);
-        gated |= !slave && tools_[j].sources.gates_velocity();
-      }
-      // Velocity gates act on a position target as increments; ungated, the target is absolute and cannot drift.
-      absolute_[i][a] = gated && present_[i] ? absolute_[i][a] + moved : absolute;
-      following_[i][a] = absolute_[i][a] + offset_[i][a];
-      following_v_[i][a] = gated || slave ? velocity : 0;
-      if (!gated && !slave)
-        for (std::size_t j = 0; j < tools_.size(); ++j) following_v_[i][a] += scene_->follow[i][j] * tools_[j].v(a);
-      following_v_[i][a] += offset_step_[i][a] / dt_;
-      if (!present_[i]) following_v_[i][a] = seats_[i].heard().port.v[a];  // its own motion: nothing pulls before it is engaged
+  for (std::size_t i = 0; i < seats_.size(); ++i) follow_tools(i);
+}
+
+/// Where the seat's target goes. Velocity gates act on it as increments; ungated, it is absolute and cannot drift.
+void Session::follow_tools(std::size_t i) noexcept {
+  bool gated = false;
+  for (const Tool& tool : tools_) gated |= i < masters_ && tool.sources.gates_velocity();
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    double absolute = 0, moved = 0, velocity = 0;
+    for (std::size_t j = 0; j < tools_.size(); ++j) {
+      const Tie& tie = ties_[i][j];
+      const double part = gated ? control::following_share(tie.alpha, tie.follow, tools_[j].sources.gate(a)) : tie.follow;
+      absolute += tie.follow * tools_[j].x(a);
+      moved += part * tools_[j].moved()[a];
+      velocity += part * tools_[j].v(a);
     }
+    absolute_[i][a] = gated && present_[i] ? absolute_[i][a] + moved : absolute;
+    following_[i][a] = absolute_[i][a] + offset_[i][a];
+    // Until it is engaged its own motion: nothing pulls before.
+    following_v_[i][a] = present_[i] ? velocity + offset_step_[i][a] / dt_ : seats_[i].heard().port.v[a];
   }
 }
 

@@ -12,8 +12,6 @@ constexpr Duration kFaultMemory = std::chrono::seconds(1);
 constexpr double kSame = 1e-9;  // of two weights
 }  // namespace
 
-bool Session::felt_by(std::size_t i) const noexcept { return allowed(seats_[i].role(), Right::kForce) != Grant::kNo; }
-
 void Session::note(Time now, AuditEvent::What what, std::size_t seat, std::uint32_t version) noexcept {
   AuditEvent e;
   e.what = what;
@@ -154,7 +152,7 @@ void Session::wait_for_people(Time now) noexcept {
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     if (!needed(i)) continue;
     all_ready = all_ready && seats_[i].ready(now);
-    all_there = all_there && (felt_by(i) ? present_[i] : seats_[i].ready(now));
+    all_there = all_there && (seats_[i].feels() ? present_[i] : seats_[i].ready(now));
   }
   state_ = wire::SessionState::kWaiting;
   const bool to_a_stop = gathering_ && stop_before_ != StopLane::Level::kNone;  // nobody is engaged only to be let go

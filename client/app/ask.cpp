@@ -3,6 +3,7 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -76,6 +77,25 @@ class Joining {
     return Console{*welcome, std::make_shared<trust::ControlClient>(std::move(*client_))};
   }
 
+  std::expected<GivenSeat, NotBack> come_back(const OwnSeat& own, const std::function<bool()>& wanted) {
+    if (auto keys = choose_keys(own.local); !keys) return std::unexpected(again(keys.error().reason));
+    NotBack last;
+    for (const Secret<32>& secret : own.secrets) {
+      if (auto connected = connect_to(own); !connected) return std::unexpected(connected.error());
+      if (!wanted()) return std::unexpected(NotBack{NotBack::Kind::kNotNeeded, {}, {}});
+      control::Hello hello = who_asks();
+      hello.session = own.session;
+      hello.credential = control::ResumeCredential{secret};
+      const auto answer = ask(hello);
+      if (!answer) return std::unexpected(NotBack{answer.error().interrupted ? NotBack::Kind::kInterrupted : NotBack::Kind::kAgain, answer.error().reason, {}});
+      const auto* refused = std::get_if<control::Refused>(&*answer);
+      if (refused == nullptr) return take_back(*answer, hello, own);
+      last = judged(*refused);
+      if (refused->reason != Reason::kResume) break;
+    }
+    return std::unexpected(std::move(last));
+  }
+
   std::expected<control::SessionList, NotSeated> list() {
     if (auto keys = choose_keys(); !keys) return std::unexpected(keys.error());
     if (auto connected = connect(); !connected) return std::unexpected(connected.error());
@@ -100,7 +120,60 @@ class Joining {
     return {false, fault.text};
   }
 
-  std::expected<void, NotSeated> choose_keys() {
+  static NotBack again(std::string reason) { return {NotBack::Kind::kAgain, std::move(reason), {}}; }
+
+  static NotBack judged(const control::Refused& refused) {
+    switch (refused.reason) {
+      case Reason::kSeatTaken:
+      case Reason::kDraining:
+      case Reason::kTrouble:
+        return again(refused.text);
+      case Reason::kFull:
+      case Reason::kBlocked:
+      case Reason::kTooFast:
+        return {NotBack::Kind::kAgain, refused.text, std::chrono::seconds(refused.retry_after_s)};
+      default:
+        return {NotBack::Kind::kGone, refused.text, {}};
+    }
+  }
+
+  /// Only what this seat was had from: a server of the same key; where that was made on the spot, one whose key the same user laid down.
+  std::expected<void, NotBack> connect_to(const OwnSeat& own) {
+    const auto judge = [&](const trust::Pin& pin) -> std::expected<const trust::Identity*, std::string> {
+      if (!own.local && pin != own.server) return std::unexpected(io::to_text(asking_.server) + " shows another key than the server that gave this seat");
+      auto identity = (*keys_)(pin);
+      if (identity && own.local && keys_->local() == nullptr) return std::unexpected(std::string("this server is not the one that gave this seat"));
+      return identity;
+    };
+    auto client = trust::ControlClient::connect(asking_.server, judge, std::chrono::duration_cast<std::chrono::milliseconds>(asking_.patience), asking_.signals);
+    if (!client) return std::unexpected(NotBack{client.error().kind == Fault::Kind::kInterrupted ? NotBack::Kind::kInterrupted : NotBack::Kind::kAgain, client.error().text, {}});
+    client_.emplace(std::move(*client));
+    return {};
+  }
+
+  std::expected<GivenSeat, NotBack> take_back(const control::Body& answer, const control::Hello& hello, const OwnSeat& own) {
+    const auto* welcome = std::get_if<control::Welcome>(&answer);
+    if (welcome == nullptr) return std::unexpected(again("the server answered something else; is it of the same release?"));
+    if (welcome->epoch < own.epoch)
+      return std::unexpected(again("an older server answers (epoch " + std::to_string(welcome->epoch) + ", this seat's was " + std::to_string(own.epoch) + ")"));
+    auto given = take(*welcome, hello);
+    if (!given) return std::unexpected(again(given.error().reason));
+    if (!same(given->setup, own.setup)) return std::unexpected(NotBack{NotBack::Kind::kGone, "the server came back with another scene or other limits", {}});
+    return std::move(*given);
+  }
+
+  static bool same(const SeatSetup& a, const SeatSetup& b) {
+    std::array<char, wire::kSetupMax> first{}, second{};
+    const std::size_t size = encode_seat_setup(a, first);
+    return size == encode_seat_setup(b, second) && first == second;
+  }
+
+  /// @param local  only what servers of this user on this computer laid down
+  std::expected<void, NotSeated> choose_keys(bool local = false) {
+    if (local) {
+      keys_.emplace(io::to_text(asking_.server), std::nullopt, trust::runtime_path());
+      return {};
+    }
     const auto path = trust::client_state_path(asking_.state);
     std::optional<trust::ClientTrust> enrolled;  // without a home there is no folder: then only what this computer's server laid down
     if (path) {
@@ -140,7 +213,7 @@ class Joining {
     return std::move(*answer);
   }
 
-  std::expected<control::Hello, NotSeated> make_hello() {
+  [[nodiscard]] control::Hello who_asks() const {
     control::Hello hello;
     hello.seat = asking_.seat;
     hello.visit = asking_.seat.empty() && !asking_.console;
@@ -149,7 +222,11 @@ class Joining {
     const auto cid = trust::random_bytes<std::array<std::byte, 4>>();
     for (std::size_t i = 0; i < 4; ++i) hello.client_cid |= std::to_integer<std::uint32_t>(cid[i]) << (8 * i);
     hello.client_cid |= 1;
+    return hello;
+  }
 
+  std::expected<control::Hello, NotSeated> make_hello() {
+    control::Hello hello = who_asks();
     const auto code = trust::canonical_session_code(asking_.session);
     trust::Id16 id;
     const bool is_id = trust::from_hex(asking_.session, id);
@@ -235,6 +312,8 @@ class Joining {
     given.setup = std::move(*setup);
     given.welcome = welcome;
     given.udp = asking_.server;
+    given.server = client_->server();
+    given.local = keys_->local() != nullptr;
     given.link.outgoing = link::Direction::kToServer;
     given.link.own_cid = hello.client_cid;
     given.link.peer_cid = welcome.server_cid;
@@ -254,6 +333,10 @@ class Joining {
 std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking) { return Joining{asking}.join(); }
 
 std::expected<Console, NotSeated> ask_for_console(const Asking& asking) { return Joining{asking}.stand(); }
+
+std::expected<GivenSeat, NotBack> ask_for_own_seat(const Asking& asking, const OwnSeat& own, const std::function<bool()>& wanted) {
+  return Joining{asking}.come_back(own, wanted);
+}
 
 std::expected<control::SessionList, NotSeated> ask_for_sessions(const Asking& asking) { return Joining{asking}.list(); }
 

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <cstdint>
 #include <expected>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/base/time.h"
 #include "common/io/socket_address.h"
 #include "common/io/udp_socket.h"
 #include "common/link/link.h"
+#include "common/trust/pin.h"
 #include "hal/device.h"
 #include "proto/control_messages.h"
 #include "proto/seat_setup.h"
@@ -38,6 +42,8 @@ struct GivenSeat {
   link::Link::Params link;
   io::SocketAddress udp;       ///< where its datagrams go
   control::Welcome welcome;
+  trust::Pin server;           ///< its key
+  bool local = false;          ///< known by what it laid down for this user on this computer, not by an enrolment
 };
 
 /// A control connection of somebody who sits on no seat.
@@ -58,6 +64,31 @@ struct NotSeated {
 
 /// Joins without a seat, by a ticket. @pre asking.console, no asking.seat
 [[nodiscard]] std::expected<Console, NotSeated> ask_for_console(const Asking& asking);
+
+/// A seat that this client had, and what it may come back with.
+struct OwnSeat {
+  control::Id session{};
+  std::uint64_t epoch = 0;             ///< a server of a lower one is an old one
+  std::vector<Secret<32>> secrets;     ///< newest first: a server that died may know only the one before
+  SeatSetup setup;
+  trust::Pin server;
+  bool local = false;                  ///< then a server of another key is the same one if this user's runtime folder knows that key
+};
+/// Why nobody came back.
+struct NotBack {
+  enum class Kind : std::uint8_t {
+    kAgain,        ///< nobody there, or not now
+    kGone,         ///< the seat is not his any more, or the session is over: asking again is no use
+    kNotNeeded,    ///< meanwhile the server is heard again
+    kInterrupted,
+  } kind = Kind::kAgain;
+  std::string reason;      ///< for a person
+  Duration wait{};         ///< kAgain: not before
+};
+/// One attempt to come back, over a new TLS connection: to the same server only, and never to one of a lower epoch. Blocks for at most
+/// twice `asking.patience`; `asking.signals` readable: it gives up.
+/// @param wanted  asked just before it is said who comes back: from then on the old connection is void
+[[nodiscard]] std::expected<GivenSeat, NotBack> ask_for_own_seat(const Asking& asking, const OwnSeat& own, const std::function<bool()>& wanted);
 
 /// The sessions that are open there.
 [[nodiscard]] std::expected<control::SessionList, NotSeated> ask_for_sessions(const Asking& asking);

@@ -1,10 +1,7 @@
 #include "client/app/attend.h"
 
-#include <poll.h>
 #include <spdlog/spdlog.h>
-#include <sys/signalfd.h>
 
-#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -14,6 +11,7 @@
 #include "client/app/person.h"
 #include "client/app/sample_trace.h"
 #include "client/app/seat_pump.h"
+#include "client/app/vigil.h"
 #include "common/io/clock.h"
 #include "common/io/output_file.h"
 #include "common/io/realtime.h"
@@ -24,13 +22,8 @@
 namespace tandem::client {
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr int kTrouble = 1;         // while running
 constexpr int kWrong = 2;           // in arguments or files
-constexpr double kServerLost = 10;  // [s] without news
-constexpr Duration kLeaveMax = 2s;  // for the gate to ramp out and the server to be told
-constexpr int kLookEveryMs = 100;
 
 int trouble(const std::string& what, int code = kTrouble) {
   spdlog::error("join: {}", what);
@@ -54,89 +47,6 @@ std::string unfit(const SeatSetup& setup, const hal::DeviceCaps& caps) {
   return "the scene needs " + std::to_string(setup.dof) + " axes, the device has " + std::to_string(has);
 }
 
-/// Waits for the end, shows the status, hands keys to the person.
-SeatEnd watch(SeatPump& pump, Person& person, hal::Device& device, HeldDevice* held, const SeatSetup& setup, const AttendPlan& plan, int signals,
-              io::StatusLine& line) {
-  io::KeyReader keys;
-  if (keys.interactive()) line.note(person.help());
-  const Time begin = io::monotonic_now();
-  Time shown = begin;
-  std::optional<Time> left;
-  wire::SessionState before = wire::SessionState::kWaiting;
-  bool fault_told = false, wants_force_again = false;
-  const auto leave = [&](const char* why) {
-    if (left) return;
-    line.note(why);
-    left = io::monotonic_now();
-    pump.leave();
-  };
-  while (true) {
-    pollfd files[] = {{pump.finished_fd(), POLLIN, 0}, {signals, POLLIN, 0}, {keys.fd(), POLLIN, 0}};
-    poll(files, keys.interactive() ? 3 : 2, kLookEveryMs);
-    if (files[0].revents != 0) break;
-    if (files[1].revents != 0) {
-      const std::string by{io::signal_that_came()};
-      signalfd_siginfo taken;
-      [[maybe_unused]] const auto got = ::read(signals, &taken, sizeof taken);
-      leave(("ended by " + by + ": letting go").c_str());
-    }
-    for (std::string key = keys.next(); !key.empty(); key = keys.next()) {
-      if (key == "b" && device.phase() == hal::Phase::kFault) wants_force_again = device.reset().has_value();
-      if (person.press(key)) leave("letting go");
-    }
-    if (device.phase() == hal::Phase::kFault && !std::exchange(fault_told, true))
-      line.warn("the device has a fault: it gave no whole answer for 10 ms, or its readings jumped as no hand does. No force comes; "
-                "look at it, then press b");
-    if (wants_force_again && device.phase() == hal::Phase::kReady) {  // a person asked for it, just now
-      wants_force_again = fault_told = false;
-      static_cast<void>(device.enable());
-    }
-    if (!left && held != nullptr && held->unguarded())
-      leave("somebody ended the process that would send zeros if this program died: letting go; join again");
-    const Time now = io::monotonic_now();
-    const ClientStatus status = pump.status();
-    if (left && now - *left > kLeaveMax) break;  // nobody is there to be told
-    if (plan.duration_s > 0 && seconds(now - begin) > plan.duration_s)
-      leave("the time given by --duration is over: letting go");
-    // Silence alone made the gate ramp out long before.
-    if (!left && status.silence_s > kServerLost) return SeatEnd::kServerLost;
-    if (status.session != before && status.session == wire::SessionState::kRunning) line.note("the session runs");
-    before = status.session;
-    if (now - shown >= std::chrono::milliseconds(line.interval_ms())) {
-      shown = now;
-      line.show(status_line(status, setup));
-    }
-  }
-  if (pump.device_lost()) return SeatEnd::kDeviceLost;
-  const ClientStatus last = pump.status();
-  if (left || last.close_reason == wire::CloseReason::kLeaving) return SeatEnd::kLeft;
-  if (last.close_reason == wire::CloseReason::kRemoved) return SeatEnd::kRemoved;
-  if (last.close_reason == wire::CloseReason::kRevoked) return SeatEnd::kRevoked;
-  return last.close_reason == wire::CloseReason::kDone ? SeatEnd::kDone : SeatEnd::kServerStopped;
-}
-
-const char* farewell(SeatEnd end) {
-  switch (end) {
-    case SeatEnd::kDone:
-      return "the session is over";
-    case SeatEnd::kServerStopped:
-      return "the server ended the session";
-    case SeatEnd::kLeft:
-      return "left the seat";
-    case SeatEnd::kServerLost:
-      return "server lost: no news for 10 s; the force was let go after the first losses. Look at the network and the "
-             "server, then "
-             "join again";
-    case SeatEnd::kDeviceLost:
-      return "device lost: it is unplugged or stopped answering; plug it in and join again";
-    case SeatEnd::kRemoved:
-      return "removed: an instructor or operator took this seat away; ask them. The force was let go gently";
-    case SeatEnd::kRevoked:
-      return "revoked: this workstation is no longer enrolled there; ask the server's operator. The force was let go gently";
-  }
-  return "";
-}
-
 }  // namespace
 
 int attend(const AttendPlan& plan) {
@@ -153,7 +63,8 @@ int attend(const AttendPlan& plan) {
     held = std::move(*taken);
   }
   const hal::DeviceCaps asking = held ? held->caps() : plan.caps;
-  auto given = ask_for_seat({plan.server, plan.seat, plan.session, plan.ticket, plan.state, asking, from_seconds(plan.patience_s), signals.get()});
+  const Asking wish{plan.server, plan.seat, plan.session, plan.ticket, plan.state, asking, from_seconds(plan.patience_s), signals.get()};
+  auto given = ask_for_seat(wish);
   if (!given) return not_attached(plan, given.error().reason);
   auto socket = io::connect_udp(given->udp);
   if (!socket) return trouble("--server: " + socket.error());
@@ -212,7 +123,8 @@ int attend(const AttendPlan& plan) {
   }
 
   const Time begin = io::monotonic_now();
-  const SeatEnd end = watch(*pump, person, device, held.get(), setup, plan, signals.get(), line);
+  Vigil vigil{{plan, wish, *given, seat, *pump, person, device, held.get(), signals.get(), line}};
+  const SeatEnd end = vigil.keep();
   ClientReport report;
   report.seconds = seconds(io::monotonic_now() - begin);
   device.disable();
@@ -231,11 +143,11 @@ int attend(const AttendPlan& plan) {
   if (const std::string notice = io::realtime_notice(report.realtime, memory, awake.granted());
       !notice.empty() && report.last.late_ticks > 0)
     line.note(std::to_string(report.last.late_ticks) + " late ticks; " + notice);
-  const bool lost = end == SeatEnd::kServerLost || end == SeatEnd::kDeviceLost || end == SeatEnd::kRemoved || end == SeatEnd::kRevoked;
-  if (lost) {
-    spdlog::error("join: {}", farewell(end));
+  report.away_longest_s = vigil.away_longest_s();
+  if (verdict_of(report) == SeatVerdict::kFail) {
+    spdlog::error("join: {}", vigil.farewell(end));
   } else {
-    line.note(farewell(end));
+    line.note(vigil.farewell(end));
   }
   for (const std::string& words : summary(report.device, report.histograms)) line.note(words);
   const SeatVerdict verdict = verdict_of(report);

@@ -19,6 +19,7 @@ struct AttendPlan {
   std::string trace, json;  ///< file names; `-` (JSON only) is standard output; empty: not wanted
   double duration_s = 0;    ///< at the seat; 0: until the session ends
   double patience_s = 5;    ///< for a server that does not answer
+  double rejoin_s = 60;     ///< how long to try to come back when the server fell silent; 0: not at all
   bool quiet = false;
 };
 

@@ -11,6 +11,7 @@ namespace tandem::client {
 namespace {
 
 std::string session_text(const ClientStatus& s) {
+  if (s.coming_back) return s.closed ? "the server is being started anew: coming back" : format("SERVER SILENT for %.0f s: coming back", s.silence_s);
   if (s.closed) return "closed";
   if (!s.heard) return "waiting for the server";
   if (s.silence_s > 0.5) return format("SERVER SILENT for %.0f s", s.silence_s);
@@ -49,10 +50,8 @@ const char* to_text(SeatEnd end) noexcept {
       return "server_lost";
     case SeatEnd::kDeviceLost:
       return "device_lost";
-    case SeatEnd::kRemoved:
-      return "removed";
-    case SeatEnd::kRevoked:
-      return "revoked";
+    case SeatEnd::kSeatGone:
+      return "seat_gone";
   }
   return "";
 }
@@ -70,8 +69,7 @@ const char* to_text(SeatVerdict verdict) noexcept {
 }
 
 SeatVerdict verdict_of(const ClientReport& report) noexcept {
-  if (report.end == SeatEnd::kServerLost || report.end == SeatEnd::kDeviceLost) return SeatVerdict::kFail;
-  if (report.end == SeatEnd::kRemoved || report.end == SeatEnd::kRevoked) return SeatVerdict::kFail;
+  if (report.end == SeatEnd::kServerLost || report.end == SeatEnd::kDeviceLost || report.end == SeatEnd::kSeatGone) return SeatVerdict::kFail;
   return report.last.session_time >= 0 ? SeatVerdict::kPass : SeatVerdict::kNotJudged;
 }
 
@@ -98,6 +96,7 @@ std::string status_line(const ClientStatus& s, const SeatSetup& setup) {
   line += format(" | tip %.0f %.0f %.0f mm", s.x[0] * 1e3, s.x[1] * 1e3, s.x[2] * 1e3);
   line += format(" | margin %.0f mJ | late ticks %u", s.margin_min_j * 1e3, s.late_ticks);
   if (s.gate_trips > 0) line += format(" | trips %u", s.gate_trips);
+  if (s.rejoins > 0) line += format(" | rejoined %u", s.rejoins);
   return line;
 }
 
@@ -112,6 +111,8 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   j["verdict"] = to_text(verdict_of(r));
   j["ended_by"] = to_text(r.end);
   j["seconds"] = number(r.seconds);
+  j["rejoins"] = s.rejoins;
+  j["away_longest_s"] = number(r.away_longest_s);
   j["session_s"] = number(std::max(0.0, s.session_time));
   j["alpha"] = number(s.alpha);
   j["effort_peak_n"] = number(s.force_peak_n);

@@ -29,11 +29,13 @@ struct ClientStatus {
   double given_after_loss_max_j = 0;
   double force_peak_n = 0;  ///< so far [N]
   std::uint32_t gate_trips = 0, late_ticks = 0;
+  std::uint32_t rejoins = 0;  ///< connections after the first
+  bool coming_back = false;   ///< somebody asks for the seat again
   std::uint64_t sent = 0, accepted = 0, late_datagrams = 0, refused_datagrams = 0;
 };
 
 /// How a seat's life ended.
-enum class SeatEnd : std::uint8_t { kDone, kServerStopped, kLeft, kServerLost, kDeviceLost, kRemoved, kRevoked };
+enum class SeatEnd : std::uint8_t { kDone, kServerStopped, kLeft, kServerLost, kDeviceLost, kSeatGone };
 
 [[nodiscard]] const char* to_text(SeatEnd end) noexcept;
 
@@ -49,6 +51,7 @@ enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
 struct ClientReport {
   std::string server, device_note;
   double seconds = 0;  ///< at the seat
+  double away_longest_s = 0;  ///< without news of the server, of those times after which it came back
   SeatEnd end = SeatEnd::kDone;
   ClientStatus last;
   hal::DeviceStats device;

@@ -22,7 +22,7 @@ constexpr int kWrong = 2;
 
 /// As typed. Numbers stay text until `understand`, so that all mistakes are told together.
 struct JoinArguments {
-  std::string server, session, ticket, state, seat, device, script, trace, json, duration, patience = "5";
+  std::string server, session, ticket, state, seat, device, script, trace, json, duration, patience = "5", rejoin = "60";
   bool quiet = false;
 };
 
@@ -86,6 +86,7 @@ AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   understand_files(arguments, mistakes);
   plan.duration_s = number("--duration", arguments.duration, 0.1, 3e6, mistakes);
   plan.patience_s = number("--patience", arguments.patience, 0.1, 3600, mistakes);
+  plan.rejoin_s = number("--rejoin", arguments.rejoin, 0, 600, mistakes);
   plan.seat = arguments.seat;
   plan.session = arguments.session;
   plan.ticket = arguments.ticket;
@@ -143,6 +144,11 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--patience", arguments->patience,
                    "how long to wait for a server that does not answer [s]; default 5")
       ->option_text("S");
+  command
+      ->add_option("--rejoin", arguments->rejoin,
+                   "how long to try to come back to the seat when the server fell silent, died or moved the network away under it [s]; "
+                   "default 60, at most 600; 0: not at all, it counts as lost after 10 s. Your hand is free meanwhile")
+      ->option_text("S");
   command->add_flag("--quiet", arguments->quiet, "no status");
   std::string hardware;
   for (const hal::Backend* backend : hal::backends()) hardware += backend->help();
@@ -160,7 +166,9 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       "moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
       "gate;\n"
       "q or Ctrl-C lets go gently and leaves.\n"
-      "Exit: 0 session over or left (verdict pass); 1 refused, server not there, server or device lost (fail), or the session\n"
+      "When the server falls silent the hand is let go within 120 ms. After 1 s the client asks for its seat again by itself, until\n"
+      "--rejoin is over; the force comes up slowly from zero where the hand is.\n"
+      "Exit: 0 session over or left (verdict pass); 1 refused, server not there, server, seat or device lost (fail), or the session\n"
       "never ran, so that there is nothing to judge (not_judged); 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim\n"

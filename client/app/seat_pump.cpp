@@ -39,10 +39,16 @@ SeatPump::SeatPump(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* sim, s
       samples_(samples),
       masters_(seat.setup().masters.size()) {}
 
+SeatPump::~SeatPump() {
+  delete next_.load();
+  delete old_.load();
+}
+
 hal::Command SeatPump::tick(const hal::State& state) noexcept {
   const Time now = io::monotonic_now();
-  if (ticks_++ == 0) began_ = now;
+  if (ticks_++ == 0) began_ = connected_ = now;
   if (now - state.sampled_at > kLate) ++picture_.late_ticks;
+  change_connection(now);
   receive(now);
   obey_person();
   obey_script(now);
@@ -69,6 +75,33 @@ void SeatPump::lost(hal::Errc) noexcept {
   lost_.store(true, std::memory_order_release);
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto written = ::write(finished_.get(), &one, sizeof one);
+}
+
+void SeatPump::finished_read() noexcept {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const auto read = ::read(finished_.get(), &count, sizeof count);
+}
+
+void SeatPump::change_connection(Time now) noexcept {
+  if (next_.load(std::memory_order_relaxed) == nullptr) return;
+  Handover* const handover = next_.exchange(nullptr, std::memory_order_acquire);
+  before_ = counts();
+  std::swap(socket_, handover->socket);
+  seat_->rejoin(handover->connection);
+  old_.store(handover, std::memory_order_release);
+  connected_ = now;
+  told_ = seat_->closed();
+  ++picture_.rejoins;
+}
+
+SeatPump::Counts SeatPump::counts() const noexcept {
+  const link::LinkStats& l = seat_->link().stats();
+  Counts all = before_;
+  all.sent += l.sent;
+  all.accepted += l.accepted;
+  all.late += l.late;
+  for (const auto r : l.refused) all.refused += r;
+  return all;
 }
 
 void SeatPump::receive(Time now) noexcept {
@@ -116,7 +149,6 @@ void SeatPump::look(Time now) noexcept {
   const wire::StateMessage& sample = seat_->sample();
   const wire::Telemetry& t = sample.telemetry;
   const link::Freshness& f = seat_->link().freshness();
-  const link::LinkStats& l = seat_->link().stats();
   ClientStatus& p = picture_;
   p.session = seat_->force().session;
   p.gate = sample.gate;
@@ -125,7 +157,7 @@ void SeatPump::look(Time now) noexcept {
   p.close_reason = seat_->close_reason();
   p.missing = seat_->force().missing;
   p.session_time = seat_->session_time(now).value_or(-1);
-  p.silence_s = seconds(f.heard() ? f.silence(now) : now - began_);
+  p.silence_s = seconds(f.heard() ? f.silence(now) : now - connected_);
   p.alpha = seat_->force().alpha;
   p.force_n = norm(t.f_out);
   p.x = t.x;
@@ -143,11 +175,11 @@ void SeatPump::look(Time now) noexcept {
   p.margin_min_j = t.margin_min_j;
   p.given_after_loss_max_j = seat_->gate().given_after_loss_max();
   p.gate_trips = sample.gate_trips;
-  p.sent = l.sent;
-  p.accepted = l.accepted;
-  p.late_datagrams = l.late;
-  p.refused_datagrams = 0;
-  for (const auto r : l.refused) p.refused_datagrams += r;
+  const Counts all = counts();
+  p.sent = all.sent;
+  p.accepted = all.accepted;
+  p.late_datagrams = all.late;
+  p.refused_datagrams = all.refused;
   const std::unique_lock lock{published_lock_, std::try_to_lock};
   if (lock) published_ = p;
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -35,6 +36,7 @@ class SeatPump final : public hal::ServoClient {
   /// @param samples  every tick, null: not wanted
   SeatPump(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* sim, std::vector<AlphaScript::Change> script,
            SampleQueue* samples);
+  ~SeatPump() override;
 
   hal::Command tick(const hal::State& state) noexcept override;
   void lost(hal::Errc why) noexcept override;
@@ -48,15 +50,27 @@ class SeatPump final : public hal::ServoClient {
   void stop_all() noexcept { stop_all_.store(true, std::memory_order_relaxed); }
   void resume() noexcept { resume_.store(true, std::memory_order_relaxed); }
   void request_authority(const control::Weights& alpha) noexcept { wishes_.push(alpha); }
+  /// A new connection: the servo thread takes it with its next tick, without waiting for anybody. One at a time: not before `take_old`
+  /// gave the one before back.
+  struct Handover {
+    io::UdpSocket socket;
+    Seat::Connection connection;
+  };
+  void hand_over(std::unique_ptr<Handover> next) noexcept { next_.store(next.release(), std::memory_order_release); }
+  /// What the servo thread put away, null if nothing; goes on the caller's thread.
+  [[nodiscard]] std::unique_ptr<Handover> take_old() noexcept { return std::unique_ptr<Handover>(old_.exchange(nullptr, std::memory_order_acquire)); }
   [[nodiscard]] ClientStatus status() const;
   /// Readable once the session is closed or the device is lost.
   [[nodiscard]] int finished_fd() const noexcept { return finished_.get(); }
+  /// The session was closed, and this seat means to come back.
+  void finished_read() noexcept;
   [[nodiscard]] bool device_lost() const noexcept { return lost_.load(std::memory_order_acquire); }
 
   /// After the device is closed.
   [[nodiscard]] const ClientStatus& final_status() const noexcept { return picture_; }
 
  private:
+  void change_connection(Time now) noexcept;
   void receive(Time now) noexcept;
   void obey_person() noexcept;
   void obey_script(Time now) noexcept;
@@ -79,8 +93,15 @@ class SeatPump final : public hal::ServoClient {
   io::SendBatch out_;
   std::array<std::array<std::byte, link::kDatagramMax>, kSendMax> buffers_;
 
+  std::atomic<Handover*> next_{nullptr}, old_{nullptr};
+  struct Counts {
+    std::uint64_t sent = 0, accepted = 0, late = 0, refused = 0;
+  };
+  Counts before_;  ///< of connections that were given up
+  [[nodiscard]] Counts counts() const noexcept;
+
   std::uint64_t ticks_ = 0;
-  Time began_{};
+  Time began_{}, connected_{};
   bool told_ = false;
   ClientStatus picture_;
   mutable std::mutex published_lock_;  ///< the servo thread only tries it

@@ -1,7 +1,5 @@
 #include "common/control/channel.h"
 
-#include <algorithm>
-
 #include "common/control/channel_raw.h"
 #include "common/control/channel_set_position.h"
 
@@ -17,20 +15,6 @@ void ChannelEnd::engage(const AxisArray& x, double age) noexcept {
   state_ = EndState{};
   state_.ref = x;
   for (std::size_t a = 0; a < params_.dof; ++a) state_.k[a] = schedule_.stiffness() * params_.scale[a];
-}
-
-double ChannelEnd::target(const EndInput& in, std::size_t a, double k) const noexcept {
-  const double ahead = in.rx.x[a] + schedule_.lead(in.age) * in.rx.v[a];
-  const double d = schedule_.delay();
-  // Force feed-forward under the same certificate: the ledger bounds any target, so targets may be mixed freely.
-  const bool mix = params_.side == Side::kServer && params_.effort_half && d >= DelaySchedule::kShort && d <= 0.25;
-  return mix ? 0.5 * ahead + 0.5 * (in.x[a] + in.rx.f[a] / k) : ahead;
-}
-
-EnergyArray ChannelEnd::e_in() const noexcept {
-  EnergyArray e{};
-  for (std::size_t a = 0; a < params_.dof; ++a) e[a] = ledger_[a].in_nj();
-  return e;
 }
 
 EnergyArray ChannelEnd::e_out() const noexcept {

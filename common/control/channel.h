@@ -76,12 +76,22 @@ class ChannelEnd {
   [[nodiscard]] double refused() const noexcept { return refused_; }        ///< [J], cumulative
   [[nodiscard]] double margin_min() const noexcept { return margin_min_; }  ///< smallest unspent energy so far [J]
   [[nodiscard]] std::size_t dof() const noexcept { return params_.dof; }
-  [[nodiscard]] EnergyArray e_in() const noexcept;
+  [[nodiscard]] EnergyArray e_in() const noexcept {
+    EnergyArray e{};
+    for (std::size_t a = 0; a < params_.dof; ++a) e[a] = ledger_[a].in_nj();
+    return e;
+  }
   [[nodiscard]] EnergyArray e_out() const noexcept;
 
  protected:
   /// Where the reference would go if energy were free (design notes, control 4, "lead" and "effort half").
-  [[nodiscard]] double target(const EndInput& in, std::size_t axis, double k) const noexcept;
+  [[nodiscard]] double target(const EndInput& in, std::size_t a, double k) const noexcept {
+    const double ahead = in.rx.x[a] + schedule_.lead(in.age) * in.rx.v[a];
+    const double d = schedule_.delay();
+    // Force feed-forward under the same certificate: the ledger bounds any target, so targets may be mixed freely.
+    const bool mix = params_.side == Side::kServer && params_.effort_half && d >= DelaySchedule::kShort && d <= 0.25;
+    return mix ? 0.5 * ahead + 0.5 * (in.x[a] + in.rx.f[a] / k) : ahead;
+  }
 
   ChannelParams params_;
   DelaySchedule schedule_;

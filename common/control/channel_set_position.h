@@ -15,13 +15,16 @@ namespace tandem::control {
 /// A change of k moves 1/2 (k' - k)(r - x)^2 through the ledger in the same way.
 class SetPositionEnd final : public ChannelEnd {
  public:
-  using ChannelEnd::ChannelEnd;
+  explicit SetPositionEnd(const ChannelParams& params);
   const EndState& move(const EndInput& in) noexcept TANDEM_REALTIME override;
   [[nodiscard]] Promises promises() const noexcept override { return {.ledger = true, .bounded_step = true}; }
 
  private:
   void change_stiffness(std::size_t axis, double k, double x, double weight) noexcept;
   void move_reference(std::size_t axis, double wanted, double x, double weight) noexcept;
+
+  AxisArray approach_{};   ///< v_app in the units of each axis
+  AxisArray strongest_{};  ///< effort_max in the units of each axis
 };
 
 }  // namespace tandem::control

@@ -12,13 +12,16 @@ namespace tandem::control {
 /// Joule to nanojoule, rounded so that an account never gains: credits down.
 [[nodiscard]] inline std::uint64_t credit_nj(double joule) noexcept {
   if (!(joule > 0) || std::isinf(joule)) return 0;  // also NaN: what is no number is no credit
-  return joule >= 1e9 ? 1'000'000'000'000'000'000ULL : static_cast<std::uint64_t>(std::floor(joule * 1e9));
+  if (joule >= 1e9) return 1'000'000'000'000'000'000ULL;
+  return static_cast<std::uint64_t>(static_cast<std::int64_t>(joule * 1e9));  // by way of the signed type: one instruction
 }
 /// Debits up. A debit that is not a number is beyond every budget.
 [[nodiscard]] inline std::uint64_t debit_nj(double joule) noexcept {
   if (joule <= 0) return 0;
   if (!(joule < 1e9)) return std::numeric_limits<std::uint64_t>::max();
-  return static_cast<std::uint64_t>(std::ceil(joule * 1e9));
+  const double exact = joule * 1e9;
+  const auto whole = static_cast<std::int64_t>(exact);
+  return static_cast<std::uint64_t>(whole) + (static_cast<double>(whole) < exact ? 1 : 0);
 }
 [[nodiscard]] inline std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) noexcept {
   const std::uint64_t sum = a + b;
@@ -49,14 +52,16 @@ class EnergyLedger {
     dissipated_ = saturating_add(dissipated_, credited);
     return credited;
   }
-  /// Hands on what is unspent above `limit` [J], at most `most` [nJ], to the other end: here it counts as given up, there as received.
-  /// @return what was passed on [nJ].
-  std::uint64_t pass_on_above(double limit, std::uint64_t most) noexcept {
+  /// Gives up what is unspent above `limit` [J], so that nobody hoards while his authority is 0 and spends it later at once. Of that at
+  /// most `most` [nJ] is handed on to the other end: here it counts as given up, there as received.
+  /// @return what was handed on [nJ].
+  std::uint64_t give_up_above(double limit, std::uint64_t most) noexcept {
     const std::uint64_t kept = credit_nj(limit), margin = margin_nj();
-    const std::uint64_t surplus = margin > kept ? std::min(margin - kept, most) : 0;
+    if (margin <= kept) return 0;
+    const std::uint64_t surplus = margin - kept, passed_on = std::min(surplus, most);
     forfeited_ += surplus;
-    in_ = saturating_add(in_, surplus);
-    return surplus;
+    in_ = saturating_add(in_, passed_on);
+    return passed_on;
   }
   /// Pays `joule` if the margin allows. @return whether it was paid.
   [[nodiscard]] bool spend(double joule) noexcept {
@@ -67,13 +72,6 @@ class EnergyLedger {
   }
   /// Books `joule` whatever the margin is: for laws without passivity, so that their breach can be seen.
   void spend_unchecked(double joule) noexcept { out_ = saturating_add(out_, debit_nj(joule)); }
-  /// Gives up what is unspent above `limit` [J], so that nobody hoards while his authority is 0 and spends it later at once.
-  void forfeit_above(double limit) noexcept {
-    const std::uint64_t kept = credit_nj(limit);
-    const std::uint64_t margin = margin_nj();
-    if (margin > kept) forfeited_ += margin - kept;
-  }
-
   [[nodiscard]] std::uint64_t in_nj() const noexcept { return in_; }
   [[nodiscard]] std::uint64_t out_nj() const noexcept { return out_; }
   [[nodiscard]] std::uint64_t bound_nj() const noexcept {

@@ -30,7 +30,7 @@ bool all_finite(const AxisArray& v, std::size_t dof) noexcept {
 
 }  // namespace
 
-ForceGate::ForceGate(const GateParams& p) noexcept : p_(p), tank_size_(tank_for(p.mass)) {}
+ForceGate::ForceGate(const GateParams& p) noexcept : p_(p), tank_size_(p.tank_share * tank_for(p.mass)) {}
 
 ForceGate::Output ForceGate::step(const Input& in) noexcept {
   Output out;

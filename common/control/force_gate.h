@@ -17,6 +17,7 @@ struct GateParams {
   AxisArray scale{1, 1, 1, 1, 1, 1, 1};  ///< diag(J^T J): a limit F at the tip is F sqrt(scale) on the axis
   double force_max = 3.3;                ///< at the tip [N]
   double mass = 0.1;                     ///< of the device at the tip [kg]; scales the energy tank
+  double tank_share = 1;                 ///< (0, 1], of the tank that this mass would have
   Duration silence_limit = std::chrono::milliseconds(20);
   Duration loop_age_max = std::chrono::milliseconds(100);
   Duration ramp_in = std::chrono::milliseconds(500);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -31,14 +32,15 @@ struct Header {
 };
 
 namespace detail {
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 template <class T>
 void put(std::byte* at, T value) noexcept {
-  for (std::size_t i = 0; i < sizeof(T); ++i) at[i] = static_cast<std::byte>((value >> (8 * i)) & 0xff);
+  std::memcpy(at, &value, sizeof value);
 }
 template <class T>
 T get(const std::byte* at) noexcept {
-  T value = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) value = static_cast<T>(value | (static_cast<T>(at[i]) << (8 * i)));
+  T value;
+  std::memcpy(&value, at, sizeof value);
   return value;
 }
 }  // namespace detail

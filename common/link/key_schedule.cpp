@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/base/raw_bytes.h"
+#include "common/link/aes_gcm.h"
 
 namespace tandem::link {
 
@@ -15,7 +16,7 @@ constexpr std::size_t kLabelMax = 32;
 
 Cipher fastest_cipher() {
   if (sodium_init() < 0) throw std::runtime_error("libsodium does not start: it found no source of randomness");
-  return crypto_aead_aes256gcm_is_available() == 1 ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305;
+  return AesGcm::available() ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305;
 }
 
 ConnectionSecrets secrets_from_exporter(std::span<const std::byte, kExportedSize> exported, Cipher cipher) noexcept {

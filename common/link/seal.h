@@ -6,6 +6,7 @@
 #include <span>
 
 #include "common/base/axes.h"
+#include "common/link/aes_gcm.h"
 #include "common/link/datagram.h"
 #include "common/link/key_schedule.h"
 
@@ -13,15 +14,12 @@ namespace tandem::link {
 
 enum class Direction : std::uint8_t { kToServer = 0, kToClient = 1 };
 
-/// One key in one direction: nonce = iv XOR (0^32 | counter), AAD = header. The key is expanded once (libsodium: half the time of
-/// OpenSSL's EVP for datagrams of our size); no heap at all, so that a connection can change keys between two ticks.
+/// One key in one direction: nonce = iv XOR (0^32 | counter), AAD = header. No heap at all, so that a connection can change keys
+/// between two ticks.
 class Seal {
  public:
   /// @throws std::runtime_error if this processor cannot do the key's cipher
   explicit Seal(const Key& key);
-  ~Seal();
-  Seal(const Seal&) = default;
-  Seal& operator=(const Seal&) = default;
 
   /// Another key of the same cipher.
   void rekey(const Key& key) noexcept TANDEM_REALTIME;
@@ -35,7 +33,7 @@ class Seal {
  private:
   [[nodiscard]] std::array<std::byte, 12> nonce(std::uint64_t counter) const noexcept;
 
-  alignas(16) std::array<std::byte, 512> expanded_{};  ///< AES key, expanded by the library; unused with the other cipher
+  AesGcm aes_;  ///< unused with the other cipher
   Key key_;
 };
 

@@ -220,7 +220,7 @@ void ControlConnection::answer(control::Body body, bool last) {
     return finish();
   }
   // Who does not take his answer is let go of.
-  if (!pending_) must_be_over_in(plane_.limits_.frame_deadline);
+  if (!pending_) must_be_over_in(plane_.limits_.answer_deadline);
   writing_ = true;
   stream_->write(std::move(*frame), [self = shared_from_this(), last](std::expected<void, trust::StreamFault> written) {
     self->writing_ = false;

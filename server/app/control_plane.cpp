@@ -115,6 +115,7 @@ void ControlPlane::took(Door&, tcp::socket socket) {
   note(ControlEvent::kAccepted, text);
   socket.set_option(tcp::no_delay(true), error);
   notice_the_dead(socket);
+  socket.set_option(asio::socket_base::send_buffer_size(limits_.unread_max / 2), error);  // Linux doubles it, for its own book-keeping
   ++pending_;
   const auto connection = std::make_shared<ControlConnection>(*this, std::move(socket), source, std::move(text));
   connections_.insert(connection);

@@ -45,7 +45,9 @@ struct ControlNews {
 
 struct ControlLimits {
   std::chrono::milliseconds deadline{5000};        ///< from accept to the first frame that is answered with yes
-  std::chrono::milliseconds frame_deadline{5000};  ///< later: from the first byte of a frame to its last, and for an answer to be taken
+  std::chrono::milliseconds frame_deadline{5000};  ///< later: from the first byte of a frame to its last, and for an order to be carried out
+  std::chrono::milliseconds answer_deadline{2000};  ///< for an answer to be taken: who does not read is let go of
+  int unread_max = 256 * 1024;                      ///< [bytes] of answers that the kernel keeps for who does not read
   std::size_t input_before_auth = 8192;            ///< [bytes], TLS included
   std::size_t pending = 256;                       ///< connections before their first yes; more wait in the kernel
   std::size_t connections = 2048;                  ///< in all; more wait in the kernel

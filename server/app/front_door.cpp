@@ -83,6 +83,8 @@ std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Pla
   return door;
 }
 
+std::string FrontDoor::folder() const { return trust_.on_disk() ? trust_.folder()->path() : trust::runtime_path(); }
+
 void FrontDoor::add(House::Opening opening) { house_.open(std::move(opening)); }
 
 void FrontDoor::on_thread(const std::function<void()>& what) {

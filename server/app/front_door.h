@@ -38,6 +38,9 @@ class FrontDoor {
   /// For the shards: the datagrams' sockets, all on the port of the control connections. Once.
   [[nodiscard]] std::vector<io::UdpSocket> take_sockets() { return std::move(sockets_); }
   [[nodiscard]] const io::SocketAddress& address() const noexcept { return address_; }
+  /// Where sessions may lay down what a restart needs: the state folder, or on loopback with keys made on the spot the folder where clients
+  /// find them.
+  [[nodiscard]] std::string folder() const;
   /// Whether keys were made on the spot.
   [[nodiscard]] bool throw_away() const noexcept { return !trust_.on_disk(); }
 

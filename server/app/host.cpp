@@ -16,6 +16,7 @@
 #include "common/io/service_notice.h"
 #include "common/io/signals.h"
 #include "common/io/terminal.h"
+#include "server/app/checkpoint_book.h"
 #include "server/app/front_door.h"
 #include "server/app/shards.h"
 #include "server/report_summary.h"
@@ -58,6 +59,12 @@ std::vector<double> tick_rates(const HostPlan& plan) {
   return rates;
 }
 
+/// On the book's thread.
+void tell_trouble(const std::string& what) {
+  if (io::logs_json()) return io::tell(io::Level::kError, {.event = "checkpoint_trouble", .text = what});
+  spdlog::error("checkpoint: {}", what);
+}
+
 /// One server process at work.
 class Host {
  public:
@@ -77,6 +84,7 @@ class Host {
     std::fflush(people());
     io::notify_service("READY=1");
     while (!runs_.empty()) look();
+    if (book_) book_->stop();
     line_.clear();
     io::tell(io::Level::kInfo, {.event = "stopped"});
     return code_;
@@ -102,11 +110,16 @@ class Host {
     auto opened = FrontDoor::open(door);
     if (!opened) return trouble(opened.error());
     door_ = std::move(*opened);
+    if (const std::string problem = open_book(); !problem.empty()) return trouble(problem);
     for (std::size_t slot = 0; slot < plan_.sessions.size(); ++slot) {
-      auto made = make(plan_.sessions[slot], slot, 1);
+      const SessionPlan& session = plan_.sessions[slot];
+      const CheckpointBook::Found left = book_ ? book_->find(session.name, session.scene, trust::wall_seconds(), !plan_.fresh) : CheckpointBook::Found{};
+      auto made = make(session, slot, 1, left.kept ? &*left.kept : nullptr);
       if (!made) return made.error();
       runs_.push_back(std::move(*made));
+      tell_what_was_left(*runs_.back(), left);
     }
+    if (book_) book_->start();
     memory_ = io::lock_memory();
     shards_.take(door_->take_sockets());
     for (const auto& r : runs_) {
@@ -122,15 +135,43 @@ class Host {
     return 0;
   }
 
-  std::expected<std::unique_ptr<SessionRun>, int> make(const SessionPlan& plan, std::size_t slot, std::uint64_t epoch) {
-    auto made = SessionRun::open(plan, static_cast<std::uint8_t>(slot), epoch, !door_->throw_away() && !plan.tickets_only);
+  /// With keys made on the spot a port that was chosen for us will be another one next time: nobody could come back.
+  std::string open_book() {
+    if (door_->throw_away() && plan_.listen.port() == 0) return {};
+    auto opened = CheckpointBook::open(door_->folder(), door_->throw_away() ? io::to_text(plan_.listen) + "-" : "", tell_trouble);
+    if (!opened) return opened.error();
+    book_ = std::move(*opened);
+    return {};
+  }
+
+  void tell_what_was_left(const SessionRun& r, const CheckpointBook::Found& left) {
+    const std::string& name = r.plan().name;
+    if (!left.unfit.empty()) {
+      const std::string text = "session " + name + " begins anew: its checkpoint is not used: " + left.unfit;
+      if (!io::logs_json()) line_.warn(text);
+      io::tell(io::Level::kWarn, {.event = "checkpoint_unfit", .session = name, .text = text});
+    }
+    if (!left.kept) return;
+    const Checkpoint& from = left.kept->checkpoint;
+    std::string text = format("session %s GOES ON where its server ended %lld s ago: at %.1f s, epoch %llu", name.c_str(),
+                              static_cast<long long>(std::max<std::int64_t>(0, trust::wall_seconds() - left.kept->written_s)), from.session_tick / r.plan().scene.tick_hz,
+                              static_cast<unsigned long long>(r.epoch()));
+    if (from.begun) text += "; it waits until the instructors and all who led are back, or an instructor goes on without (key r)";
+    if (from.stop != StopLane::Level::kNone) text += "; somebody had stopped it, and it stays so until the instructor resumes";
+    if (!io::logs_json()) line_.note(text + (plan_.returns ? "" : "; --fresh begins anew"));
+    io::tell(io::Level::kInfo, {.event = "session_restored", .session = name, .tick = from.session_tick, .text = text});
+  }
+
+  std::expected<std::unique_ptr<SessionRun>, int> make(const SessionPlan& plan, std::size_t slot, std::uint64_t epoch, const KeptSession* kept = nullptr) {
+    auto made = SessionRun::open(plan, static_cast<std::uint8_t>(slot), epoch, !door_->throw_away() && !plan.tickets_only, kept);
+    if (made && book_) (*made)->hosted().keep_in(book_->begin({{}, (*made)->id(), plan.name, (*made)->code(), 0}), (*made)->epoch());
     if (made) return std::move(*made);
     for (const std::string& text : made.error().texts) trouble(text);
     return std::unexpected(made.error().code);
   }
 
   House::Opening opening_of(SessionRun& r) {
-    return {r.plan().name, r.id(), r.code(), r.epoch(), &r.hosted(), &shards_.of_slot(r.hosted().slot())};
+    return {r.plan().name, r.id(), r.code(), r.epoch(), &r.hosted(), &shards_.of_slot(r.hosted().slot()), r.kept(), r.kept() != nullptr ? r.back_until() : Time{}};
   }
 
   void announce(const SessionRun& r) {
@@ -193,11 +234,15 @@ class Host {
     door_->drain();
     for (const auto& r : runs_)
       if (!r->end) r->end = End::kSignal;
-    shards_.stop();
+    shards_.stop(comes_back() && plan_.listen.port() != 0 ? wire::CloseReason::kServerReturns : wire::CloseReason::kServerStops);
   }
+
+  /// Whether the sessions are there again when this server is started again.
+  [[nodiscard]] bool comes_back() const noexcept { return plan_.returns && book_; }
 
   /// Hands are safe without us: their own gates see to that.
   [[noreturn]] void leave_at_once(const char* why) {
+    if (book_ && !comes_back()) book_->drop_all();
     line_.clear();
     std::fprintf(stderr, "tandem-server: %s; ends at once\n", why);
     ::_exit(kTrouble);
@@ -255,7 +300,16 @@ class Host {
     } else if (plan_.wait_s > 0 && status.state == wire::SessionState::kWaiting && seconds(now - began_) > plan_.wait_s) {
       tell(r, status, {"nobody_came", "", "nobody came for " + waiting_for(status, r.plan().scene) + " within " + std::to_string(plan_.wait_s) + " s (--wait); the session ends", true});
       end(r, End::kNobodyCame);
+    } else if (r.kept() != nullptr && now > r.back_until() && status.state == wire::SessionState::kWaiting && nobody_sits(status, r.plan().scene)) {
+      tell(r, status, {"nobody_came_back", "", "nobody came back within 10 min after the server had ended; the session is over", true});
+      end(r, End::kNobodyCame);
     }
+  }
+
+  static bool nobody_sits(const SessionStatus& status, const SceneSpec& scene) {
+    for (std::size_t i = 0; i < scene.seats.size(); ++i)
+      if (status.seats[i].taken) return false;
+    return true;
   }
 
   void end(SessionRun& r, End why) {
@@ -268,6 +322,7 @@ class Host {
     SessionRun& r = *place;
     // While it drains, the shards end too and answer no more: then the door keeps what it knows of until it stops.
     if (!drain_began_) door_->close(r.id());
+    if (book_ && !(drain_began_ && comes_back())) book_->end(r.plan().name);
     write_down(r);
     const auto slot = r.hosted().slot();
     std::FILE* const out = r.writes_to_stdout() ? stderr : stdout;  // asked before the run closes its files
@@ -305,6 +360,7 @@ class Host {
   io::AwakeProcessor awake_;
   Shards shards_;
   std::unique_ptr<FrontDoor> door_;
+  std::unique_ptr<CheckpointBook> book_;  ///< null: nobody could come back anyway
   std::vector<std::unique_ptr<SessionRun>> runs_;  ///< those that are not over, or being followed up
   std::vector<std::unique_ptr<SessionRun>> finished_;  ///< that the door still knows of
   io::StatusLine line_;

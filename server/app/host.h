@@ -24,10 +24,13 @@ struct HostPlan {
   std::optional<io::Level> json_log{};  ///< set: log lines are JSON, of this level and graver
   double wait_s = 0;              ///< for required seats; 0: until Ctrl-C
   bool quiet = false;
+  bool fresh = false;             ///< goes on from nothing that was left
+  bool returns = false;           ///< a signal ends the server, not its sessions: the next start goes on with them
 };
 
 /// Hosts sessions until they are over and none restarts, or until a signal: then nobody new comes in, all hands are let go gently, reports
-/// are written. A second signal, or 3 s, ends it at once. @return exit code
+/// are written. A second signal, or 3 s, ends it at once. Sessions go on from what a server left that died, or whose plan `returns`.
+/// @return exit code
 [[nodiscard]] int host(const HostPlan& plan);
 
 }  // namespace tandem::server

@@ -2,6 +2,9 @@
 
 #include <sys/eventfd.h>
 
+#include <cmath>
+#include <utility>
+
 #include "server/session_monitor.h"
 
 namespace tandem::server {
@@ -10,6 +13,16 @@ namespace {
 constexpr std::uint64_t kLookEvery = 64;  // ticks between two looks at one seat, and between two pictures
 
 constexpr Duration kNeverEchoed = std::chrono::hours(1);  // what freshness says before the first echo is longer
+
+constexpr double kKeptEvery = 0.5;  // [s]
+constexpr int kLastTries = 1000;     // to lay down what nothing newer will follow; each fails only while a copy is taken
+
+/// Whether a restart would go on otherwise than before it.
+constexpr bool moves_checkpoint(AuditEvent::What what) noexcept {
+  using What = AuditEvent::What;
+  return what == What::kJoin || what == What::kLeave || what == What::kAuthority || what == What::kStop || what == What::kPause || what == What::kResume ||
+         what == What::kFault || what == What::kRestored || what == What::kGathered;
+}
 
 double ms(Duration d) { return seconds(d) * 1e3; }
 
@@ -20,8 +33,18 @@ DirectionReport direction(const link::Link& receiver, Time now) {
 
 }  // namespace
 
-HostedSession::HostedSession(const SceneSpec& scene, Slaves slaves, std::uint8_t slot, TickQueue& records)
-    : scene_(&scene), slot_(slot), session_(scene, std::move(slaves.devices), slaves.scale), records_(&records), over_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+HostedSession::HostedSession(const SceneSpec& scene, Slaves slaves, std::uint8_t slot, TickQueue& records, const Checkpoint* from)
+    : scene_(&scene),
+      slot_(slot),
+      session_(from == nullptr ? Session(scene, std::move(slaves.devices), slaves.scale) : Session(scene, std::move(slaves.devices), slaves.scale, *from)),
+      records_(&records),
+      over_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+
+void HostedSession::keep_in(std::shared_ptr<CheckpointMail> mail, std::uint64_t epoch) {
+  mail_ = std::move(mail);
+  epoch_ = epoch;
+  kept_every_ = static_cast<std::uint64_t>(std::lround(kKeptEvery * scene_->tick_hz));
+}
 
 SessionStatus HostedSession::status() const {
   const std::lock_guard lock{published_lock_};
@@ -30,7 +53,11 @@ SessionStatus HostedSession::status() const {
 
 void HostedSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
   session_.on_tick(now, missed);
-  while (const auto event = session_.poll_audit()) audit_.push(*event);
+  while (const auto event = session_.poll_audit()) {
+    audit_.push(*event);
+    keep_now_ = keep_now_ || moves_checkpoint(event->what);
+  }
+  if (mail_ && (keep_now_ || ++since_kept_ >= kept_every_)) lay_down_checkpoint();
   SessionMonitor{}.check(session_, violations_);
   if (session_.record().running) records_->push(session_.record());
   // One seat at a time: quantiles of its histograms take microseconds, of all seats together they would be felt.
@@ -42,9 +69,18 @@ void HostedSession::tick(Time now, std::uint32_t missed, const MachineStatus& ma
 void HostedSession::finish(Time now, const MachineStatus& machine) noexcept {
   for (std::size_t i = 0; i < scene_->seats.size(); ++i) look_at_seat(i, now);
   publish(now, machine);
+  keep_now_ = true;
+  for (int tries = 0; mail_ && keep_now_ && tries < kLastTries; ++tries) lay_down_checkpoint();
   over_.store(true, std::memory_order_release);
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto written = ::write(over_event_.get(), &one, sizeof one);
+}
+
+void HostedSession::lay_down_checkpoint() noexcept {
+  Checkpoint now = session_.checkpoint();
+  now.epoch = epoch_;  // a session that took the place of another one counts on, whatever its core says
+  keep_now_ = !mail_->lay_down(now);
+  if (!keep_now_) since_kept_ = 0;
 }
 
 void HostedSession::look_at_seat(std::size_t i, Time now) noexcept {

@@ -2,12 +2,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 
 #include "common/io/fd.h"
 #include "common/io/spsc_queue.h"
+#include "server/app/checkpoint_mail.h"
 #include "server/app/slaves.h"
 #include "server/app/status.h"
 #include "server/session.h"
@@ -23,7 +25,11 @@ class HostedSession {
  public:
   /// @param scene    must outlive it
   /// @param records  every tick while it runs; full: dropped and counted
-  HostedSession(const SceneSpec& scene, Slaves slaves, std::uint8_t slot, TickQueue& records);
+  /// @param from     where it goes on; null: it is new  @pre unfit(*from, scene) is empty, and `slaves` stand where it says
+  HostedSession(const SceneSpec& scene, Slaves slaves, std::uint8_t slot, TickQueue& records, const Checkpoint* from = nullptr);
+  /// Before it is hosted: lays its checkpoint down there, twice a second and at once when somebody comes, goes, moves authority or stops.
+  /// @param epoch  as its clients know it
+  void keep_in(std::shared_ptr<CheckpointMail> mail, std::uint64_t epoch);
 
   // ---- Any thread ----
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
@@ -52,6 +58,7 @@ class HostedSession {
  private:
   void look_at_seat(std::size_t seat, Time now) noexcept;
   void publish(Time now, const MachineStatus& machine) noexcept;
+  void lay_down_checkpoint() noexcept;
 
   const SceneSpec* scene_;
   std::uint8_t slot_;
@@ -65,6 +72,9 @@ class HostedSession {
   SessionStatus picture_;
   mutable std::mutex published_lock_;  ///< the shard only tries it
   SessionStatus published_;
+  std::shared_ptr<CheckpointMail> mail_;  ///< null: nobody keeps it
+  std::uint64_t epoch_ = 1, kept_every_ = 0, since_kept_ = 0;
+  bool keep_now_ = true;
 };
 
 }  // namespace tandem::server

@@ -19,8 +19,6 @@ using control::Refused;
 
 constexpr double kGuessesPerS = 5.0 / 60, kGuessesAtOnce = 5;  // [design notes, security 1.4]
 
-std::array<std::byte, 32> hash_of(const Secret<32>& secret) noexcept { return trust::sha256(secret.bytes); }
-
 std::string names_of(const std::list<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -58,6 +56,7 @@ House::~House() = default;
 void House::open(Opening opening) {
   const std::size_t seats = opening.session->scene().seats.size();
   rooms_.push_back({std::move(opening), std::vector<Claim>(seats), trust::TokenBucket{kGuessesPerS, kGuessesAtOnce}, 0, {}});
+  remember(rooms_.back());
 }
 
 void House::open_late(Opening opening) {
@@ -179,10 +178,13 @@ void House::sit(Room& room, const JoinRequest& request, std::function<void(Admis
   if (const std::string why = reception.unfit(*seat, request.hello.device); !why.empty()) return answer(Refused{Reason::kDeviceUnfit, why, 0});
   Claim& claim = room.claims[*seat];
   const auto* resume = std::get_if<control::ResumeCredential>(&request.hello.credential);
-  const bool same_owner = resume != nullptr && claim.resumable && equal_secret(hash_of(resume->secret), claim.resume_hash);
-  if (resume != nullptr && !same_owner) return answer(Refused{Reason::kResume, "nothing to resume: the seat was given to somebody else, or too long ago", 0});
+  const Back back = resume != nullptr ? comes_back(claim, resume->secret) : Back::kNo;
+  const bool same_owner = back != Back::kNo;
+  const Refused nothing{Reason::kResume, "nothing to resume: the seat was given to somebody else, or too long ago", 0};
+  if (resume != nullptr && !same_owner) return answer(nothing);
   const Refused taken{Reason::kSeatTaken, "somebody sits there already", 2};
   if (claim.being_given) return answer(taken);
+  if (!same_owner && held_for_another(claim)) return answer(Refused{Reason::kSeatTaken, "it is kept for who sat there when the server died, for 2 s", 2});
 
   claim.being_given = true;
   Order order;
@@ -190,9 +192,11 @@ void House::sit(Room& room, const JoinRequest& request, std::function<void(Admis
   order.session = room.opening.session;
   order.seat = *seat;
   order.same_owner = same_owner;
-  order.done = [this, &room, &claim, request, seat = *seat, taken, answer = std::move(answer)](Order& asked) {
+  order.done = [this, &room, &claim, request, seat = *seat, taken, nothing, same_owner, back, answer = std::move(answer)](Order& asked) {
     std::optional<Refused> refused;
-    double force_scale = 1;
+    double force_scale = same_owner ? claim.force_scale : 1;  // a ticket may only take away, and who comes back shows none
+    if (same_owner && (too_late(claim, asked.silence) || (back == Back::kByOneBefore && asked.spoken))) refused = nothing;
+    claim.before_next = !same_owner ? Checkpoint::Hash{} : asked.spoken || claim.back_until ? claim.resume_hash : claim.before_hash;
     if (asked.result == JoinResult::kSeatTaken) refused = taken;
     if (asked.result == JoinResult::kSessionOver) refused = Refused{Reason::kSessionOver, "the session is ending", 0};
     if (!refused) refused = judge(room, request, seat, force_scale);  // last: a ticket that was redeemed is used
@@ -200,6 +204,7 @@ void House::sit(Room& room, const JoinRequest& request, std::function<void(Admis
       claim.being_given = false;
       return answer(*refused);
     }
+    claim.offered_scale = force_scale;
     answer(welcome(room, seat, false, static_cast<std::uint8_t>(seat + 1), request.hello.has_aes, force_scale));
   };
   post(room, std::move(order));
@@ -276,14 +281,13 @@ void House::seated(const JoinRequest& request, const control::Welcome& welcome, 
   } else {
     const std::size_t seat = place_of(welcome.server_cid) - std::size_t{1};
     Claim& claim = found->claims[seat];
-    claim.resume_hash = hash_of(welcome.resume_secret);
-    claim.resumable = true;
     claim.by = request.workstation;
     claim.cid = welcome.server_cid;
     order.what = Order::What::kAdmit;
     order.seat = seat;
     order.same_owner = true;  // it was asked for, and held since
     order.entry = reception.prepare(seat, params);
+    give(claim, welcome.resume_secret, order.entry);
     order.done = [&claim](Order&) { claim.being_given = false; };
   }
   io::tell(io::Level::kInfo, {.event = request.hello.visit ? "visit" : "seated", .session = welcome.session_name, .seat = welcome.seat, .cid = welcome.server_cid,
@@ -313,7 +317,7 @@ control::SessionList House::list(const WorkstationRow&) {
     s.phase = phase_of(status.state);
     const SceneSpec& scene = r.opening.session->scene();
     for (std::size_t i = 0; i < scene.seats.size(); ++i)
-      s.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), status.seats[i].taken || r.claims[i].being_given, scene.seats[i].required});
+      s.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), status.seats[i].taken || r.claims[i].being_given || held_for_another(r.claims[i]), scene.seats[i].required});
   }
   return list;
 }

@@ -16,6 +16,7 @@
 #include "server/app/admissions.h"
 #include "server/app/hosted_session.h"
 #include "server/app/shard.h"
+#include "server/kept_session.h"
 
 namespace tandem::server {
 
@@ -36,6 +37,8 @@ class House final : public Admissions {
     std::uint64_t epoch = 1;
     HostedSession* session = nullptr;  ///< lives until it is over
     Shard* shard = nullptr;            ///< serves it already, or is about to
+    const KeptSession* kept = nullptr; ///< what it went on from, read by `open`; null: it is new
+    Time back_until{};                 ///< who sat there may come back so long  @pre kept
   };
   void open(Opening opening);
   /// The same for a shard that runs already: it is told.
@@ -77,7 +80,13 @@ class House final : public Admissions {
     std::optional<WorkstationRow> by{};  ///< who sits there, or sat there last
     std::uint32_t cid = 0;               ///< of his datagrams
     std::array<std::byte, 32> resume_hash{};
+    std::array<std::byte, 32> before_hash{};  ///< the same owner's last one under which he was heard: a Welcome may be lost on its way
+    std::array<std::byte, 32> before_next{};  ///< the same, once who is just being let in sits there
     bool resumable = false;
+    double force_scale = 1;           ///< of whom the hash belongs to, as his ticket allowed
+    double offered_scale = 1;         ///< of who is just being let in
+    std::optional<Time> back_until{}; ///< after a restart, until its owner is back; else the session knows how long he is silent
+    Time held_until{};                ///< after a restart: nobody else gets it before
   };
   struct Visit {
     std::optional<WorkstationRow> by{};
@@ -115,6 +124,16 @@ class House final : public Admissions {
   [[nodiscard]] control::Welcome welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes, double force_scale);
   /// Whether anybody new may come in at all.
   [[nodiscard]] std::optional<control::Refused> too_busy(const Room& room) const;
+  // Coming back (house_resume.cpp).
+  static void remember(Room& room);
+  enum class Back : std::uint8_t { kNo, kByNewest, kByOneBefore };
+  [[nodiscard]] static Back comes_back(const Claim& claim, const Secret<32>& secret);
+  /// Whether the seat is kept for somebody else, who sat there when the server died.
+  [[nodiscard]] static bool held_for_another(const Claim& claim);
+  /// A secret is good for 10 min after its owner was lost. @param silence  of who sits there
+  [[nodiscard]] static bool too_late(const Claim& claim, Duration silence);
+  /// From now on its owner is who was just let in. The secret before stays good until he is heard.
+  static void give(Claim& claim, const Secret<32>& secret, Entry& entry);
   void post(Room& room, Order order);
   void sweep(Room& room);
   void hear(Watched& watched);

@@ -28,6 +28,8 @@ struct Order {
   std::size_t seat = 0;
   bool same_owner = false;           ///< he who sits there comes again
   Entry entry;                       ///< afterwards: what is to be given back
+  Duration silence{};                ///< kAsk, afterwards: of who sits there; 0 if nobody does
+  bool spoken = false;               ///< kAsk, afterwards: he was heard since he was given the seat
   JoinResult result = JoinResult::kSessionOver;
   Command command{};
   Outcome outcome{};                 ///< kGone: the session is over

@@ -18,7 +18,7 @@ constexpr int kWrong = 2;
 /// As typed. Numbers stay text until `understand`, so that all mistakes are told together.
 struct RunArguments {
   std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace, metrics, log = "text";
-  bool check = false, quiet = false;
+  bool check = false, quiet = false, fresh = false;
 };
 
 using Mistakes = std::vector<std::string>;
@@ -74,6 +74,7 @@ HostPlan understand(const RunArguments& arguments, Mistakes& mistakes) {
   session.json = arguments.json;
   session.trace = arguments.trace;
   plan.quiet = arguments.quiet;
+  plan.fresh = arguments.fresh;
   if (!session.json.empty() && session.json != "-")
     if (const auto problem = io::OutputFile::problem(session.json); !problem.empty())
       mistakes.push_back("--json: " + problem);
@@ -135,6 +136,9 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--seed", arguments->seed,
                    "a number for the report, to name the run; default 1 (a live session draws nothing)")
       ->option_text("N");
+  command->add_flag("--fresh", arguments->fresh,
+                    "begins anew although the last server of this scene died here less than 10 min ago; default: the session goes on where it was, "
+                    "and its clients come back by themselves (not with port 0 on loopback, where nobody would find it)");
   command->add_flag("--quiet", arguments->quiet, "no status and no summary");
   command->footer(
       "Prints `listening on HOST:PORT` first, then the command of each seat to type. The session begins when all "

@@ -65,6 +65,7 @@ SessionPlan plan_from(const ServerConfigSpec& config, const ConfiguredSessionSpe
 HostPlan understand(const ServerConfigSpec& config, InputErrors& errors) {
   HostPlan plan;
   plan.command = "serve";
+  plan.returns = true;
   plan.state = beside(config, config.state.text);
   if (const auto listen = io::parse_address(config.listen.text, 0)) {
     plan.listen = *listen;
@@ -123,7 +124,8 @@ void add_serve_command(CLI::App& root, std::function<int()>& action) {
   command->footer(
       "Prints `listening on HOST:PORT` first, then each session's code. A session that is over opens anew, with another code, unless\n"
       "`restart: false`. SIGTERM or Ctrl-C: nobody new comes in, all hands are let go, reports are written, the end within 3 s; a second\n"
-      "one ends at once. Sessions of different tick rates have threads of their own, behind one port.\n"
+      "one ends at once. Started again within 10 min, however it ended, every session goes on where it was, with the same code, and its\n"
+      "clients come back to their seats by themselves. Sessions of different tick rates have threads of their own, behind one port.\n"
       "Exit: 0 ended by a signal, or all sessions over and passed; 1 trouble while running or verdict fail; 2 wrong arguments or files.\n\n"
       "Example\n"
       "  tandem-server serve /etc/tandem/server.textproto --check\n"

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
@@ -29,9 +30,11 @@ double cpu_seconds() {
 }
 
 /// The report of every run, and what only a live one knows.
-std::string live_json(const RunReport& report, End end, const MachineStatus& machine, const TickQueue& queue) {
+std::string live_json(const RunReport& report, End end, std::uint64_t epoch, const KeptSession* kept, const MachineStatus& machine, const TickQueue& queue) {
   auto json = nlohmann::ordered_json::parse(to_json(report));
   json["ended_by"] = to_text(end);
+  json["epoch"] = epoch;
+  json["resumed_at_tick"] = kept != nullptr ? nlohmann::ordered_json(kept->checkpoint.session_tick) : nlohmann::ordered_json(nullptr);
   json["machine"] = {{"late_ticks", machine.late_ticks},
                      {"missed_ticks", machine.missed_ticks},
                      {"recorder_dropped", queue.dropped()},
@@ -51,19 +54,26 @@ std::string report_name(const std::string& session, const trust::Id16& id) {
 
 }  // namespace
 
-SessionRun::SessionRun(const SessionPlan& plan, Slaves slaves, std::uint8_t slot)
+SessionRun::SessionRun(const SessionPlan& plan, Slaves slaves, std::uint8_t slot, const KeptSession* kept)
     : plan_(&plan),
-      id_(trust::random_bytes<trust::Id16>()),
+      id_(kept != nullptr ? kept->id : trust::random_bytes<trust::Id16>()),
       queue_(kQueueTicks),
       recorder_(plan.scene, queue_, trace_),
-      hosted_(std::make_unique<HostedSession>(plan.scene, std::move(slaves), slot, queue_)) {}
+      hosted_(std::make_unique<HostedSession>(plan.scene, std::move(slaves), slot, queue_, kept != nullptr ? &kept->checkpoint : nullptr)) {}
 
-std::expected<std::unique_ptr<SessionRun>, SessionRun::Trouble> SessionRun::open(const SessionPlan& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code) {
-  auto slaves = make_slaves(plan.scene, io::monotonic_now());
+std::expected<std::unique_ptr<SessionRun>, SessionRun::Trouble> SessionRun::open(const SessionPlan& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code,
+                                                                               const KeptSession* kept) {
+  const Time now = io::monotonic_now();
+  auto slaves = make_slaves(plan.scene, now, kept != nullptr ? &kept->checkpoint : nullptr);
   if (!slaves) return std::unexpected(Trouble{kWrong, slaves.error()});
-  std::unique_ptr<SessionRun> run{new SessionRun(plan, std::move(*slaves), slot)};
-  run->epoch_ = epoch;
-  if (with_code) run->code_ = draw_session_code();
+  std::unique_ptr<SessionRun> run{new SessionRun(plan, std::move(*slaves), slot, kept)};
+  run->epoch_ = kept != nullptr ? kept->checkpoint.epoch + 1 : epoch;
+  if (kept != nullptr) {
+    run->kept_ = *kept;
+    const std::int64_t age_s = std::clamp<std::int64_t>(trust::wall_seconds() - kept->written_s, 0, kResumeLifeS);
+    run->back_until_ = now + kResumeLife - std::chrono::seconds(age_s);
+  }
+  if (with_code) run->code_ = kept != nullptr && !kept->code.empty() ? kept->code : draw_session_code();  // people have it on paper
   if (const auto problem = run->json_.open(plan.json, true); !problem.empty()) return std::unexpected(Trouble{kWrong, {"--json: " + problem}});
   if (const auto problem = run->trace_.open(plan.trace, false); !problem.empty()) return std::unexpected(Trouble{kWrong, {"--trace: " + problem}});
   return run;
@@ -84,7 +94,7 @@ SessionRun::Verdict SessionRun::finish() {
   for (std::size_t i = 0; i < report.seats.size(); ++i) report.seats[i].gate_trips = last.seats[i].gate_trips;
 
   const End why = end.value_or(End::kScene);
-  const std::string text = live_json(report, why, last.machine, queue_);
+  const std::string text = live_json(report, why, epoch_, kept(), last.machine, queue_);
   json_.write(text);
   io::OutputFile kept;
   if (!plan_->reports.empty()) {

@@ -10,6 +10,7 @@
 #include "server/app/attendance.h"
 #include "server/app/hosted_session.h"
 #include "server/app/recorder.h"
+#include "server/kept_session.h"
 
 namespace tandem::server {
 
@@ -34,8 +35,10 @@ class SessionRun {
     int code = 1;  ///< exit code
     std::vector<std::string> texts;
   };
-  /// @param plan  must outlive it  @return the session, ready to be hosted in `slot`, or what is wrong
-  [[nodiscard]] static std::expected<std::unique_ptr<SessionRun>, Trouble> open(const SessionPlan& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code);
+  /// @param plan  must outlive it  @param kept  what it goes on from, one epoch later; null: it is new
+  /// @return the session, ready to be hosted in `slot`, or what is wrong
+  [[nodiscard]] static std::expected<std::unique_ptr<SessionRun>, Trouble> open(const SessionPlan& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code,
+                                                                                const KeptSession* kept = nullptr);
 
   [[nodiscard]] const SessionPlan& plan() const noexcept { return *plan_; }
   [[nodiscard]] HostedSession& hosted() noexcept { return *hosted_; }
@@ -43,6 +46,11 @@ class SessionRun {
   [[nodiscard]] const std::string& code() const noexcept { return code_; }
   [[nodiscard]] std::uint64_t epoch() const noexcept { return epoch_; }
   [[nodiscard]] bool writes_to_stdout() const noexcept { return json_.on_stdout(); }
+
+  /// What it went on from; null: it is new.
+  [[nodiscard]] const KeptSession* kept() const noexcept { return kept_ ? &*kept_ : nullptr; }
+  /// Until when who sat there may come back. @pre kept()
+  [[nodiscard]] Time back_until() const noexcept { return back_until_; }
 
   Attendance attendance;
   std::optional<End> end;  ///< set: it was made to end
@@ -56,12 +64,14 @@ class SessionRun {
   [[nodiscard]] Verdict finish();
 
  private:
-  SessionRun(const SessionPlan& plan, Slaves slaves, std::uint8_t slot);
+  SessionRun(const SessionPlan& plan, Slaves slaves, std::uint8_t slot, const KeptSession* kept);
 
   const SessionPlan* plan_;
   trust::Id16 id_;
   std::string code_;
   std::uint64_t epoch_ = 1;
+  std::optional<KeptSession> kept_;
+  Time back_until_{};
   io::OutputFile json_, trace_;
   TickQueue queue_;
   Recorder recorder_;

@@ -47,8 +47,9 @@ bool Shard::host(HostedSession& session) noexcept {
   return true;
 }
 
-void Shard::stop() noexcept {
-  stop_.store(true, std::memory_order_relaxed);
+void Shard::stop(wire::CloseReason why) noexcept {
+  stop_reason_.store(why, std::memory_order_relaxed);
+  stop_.store(true, std::memory_order_release);
   raise(wake_);
 }
 
@@ -75,10 +76,10 @@ void Shard::run() noexcept {
   while (true) {
     wait_until(due);
     carry_out(io::monotonic_now());
-    if (stop_.load(std::memory_order_relaxed)) {
+    if (stop_.load(std::memory_order_acquire)) {
       if (!hosting()) break;
       for (HostedSession* s : sessions_)
-        if (s != nullptr) s->session().stop(wire::CloseReason::kServerStops);
+        if (s != nullptr) s->session().stop(stop_reason_.load(std::memory_order_relaxed));
     }
     Time now = io::monotonic_now();
     if (now < due) continue;
@@ -165,6 +166,11 @@ void Shard::carry_out(Time now, Order& order) noexcept {
   switch (order.what) {
     case Order::What::kAsk:
       order.result = hosted->session().may_admit(now, order.seat, order.same_owner);
+      if (order.result == JoinResult::kAccepted) {
+        const SeatPort& seat = hosted->session().seat(order.seat);
+        order.silence = seat.taken() ? seat.silence(now) : Duration::zero();
+        order.spoken = seat.alive_once();
+      }
       break;
     case Order::What::kAdmit:
       order.result = hosted->session().admit(now, order.seat, order.entry, order.same_owner);

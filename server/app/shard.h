@@ -26,8 +26,8 @@ class Shard {
   bool host(HostedSession& session) noexcept;
   /// Body of the thread: until `stop` was called and the last session is over.
   void run() noexcept;
-  /// From any thread: ends all sessions gently, then itself.
-  void stop() noexcept;
+  /// From any thread: ends all sessions gently, then itself. @param why  as their clients are told
+  void stop(wire::CloseReason why = wire::CloseReason::kServerStops) noexcept;
 
   // ---- The control plane's thread ----
   /// @return false: too many orders wait; nothing was taken
@@ -70,6 +70,7 @@ class Shard {
   Duration period_;
   std::array<HostedSession*, kSessionsMax> sessions_{};
   std::atomic<bool> stop_{false};
+  std::atomic<wire::CloseReason> stop_reason_{wire::CloseReason::kServerStops};
   io::SpscQueue<Order*> orders_, answers_;
   MachineStatus machine_;
 

@@ -36,8 +36,8 @@ void Shards::run() {
   for (const auto& shard : shards_) threads_.emplace_back([&shard] { shard->run(); });
 }
 
-void Shards::stop() noexcept {
-  for (const auto& shard : shards_) shard->stop();
+void Shards::stop(wire::CloseReason why) noexcept {
+  for (const auto& shard : shards_) shard->stop(why);
 }
 
 void Shards::join() {

@@ -26,8 +26,8 @@ class Shards {
   [[nodiscard]] const std::vector<std::unique_ptr<Shard>>& all() const noexcept { return shards_; }
 
   void run();
-  /// Ends all sessions gently.
-  void stop() noexcept;
+  /// Ends all sessions gently. @param why  as their clients are told
+  void stop(wire::CloseReason why = wire::CloseReason::kServerStops) noexcept;
   void join();
   /// Ticks that began within 1 ms of their time, so far, of the shard that had fewest.
   [[nodiscard]] std::uint64_t punctual() const noexcept;

@@ -5,7 +5,7 @@
 
 namespace tandem::server {
 
-std::expected<Slaves, std::vector<std::string>> make_slaves(const SceneSpec& scene, Time start) {
+std::expected<Slaves, std::vector<std::string>> make_slaves(const SceneSpec& scene, Time start, const Checkpoint* from) {
   Slaves slaves;
   std::vector<std::string> mistakes;
   for (const ToolSpec& tool : scene.tools) {
@@ -13,7 +13,9 @@ std::expected<Slaves, std::vector<std::string>> make_slaves(const SceneSpec& sce
       slaves.devices.push_back(nullptr);
       continue;
     }
-    auto device = hal::sim::SimDevice::make({tool.slave, HandSpec{}, tool.environment, nullptr, start});
+    hal::sim::SimSetup setup{tool.slave, HandSpec{}, tool.environment, nullptr, start};
+    if (from != nullptr) setup.joints = from->tools[slaves.devices.size()].slave;
+    auto device = hal::sim::SimDevice::make(setup);
     if (!device) mistakes.push_back("tool " + tool.name + ": " + device.error().message);
     slaves.devices.push_back(device ? std::move(*device) : nullptr);
   }

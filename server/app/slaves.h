@@ -8,6 +8,7 @@
 #include "common/base/axes.h"
 #include "hal/device.h"
 #include "proto/scene_spec.h"
+#include "server/checkpoint.h"
 
 namespace tandem::server {
 
@@ -18,6 +19,7 @@ struct Slaves {
 };
 
 /// Builds simulated slaves as the scene describes them. @return them, or every mistake (a pose out of reach)
-[[nodiscard]] std::expected<Slaves, std::vector<std::string>> make_slaves(const SceneSpec& scene, Time start);
+/// @param from  they stand where it says; null: where the scene says  @pre unfit(*from, scene) is empty
+[[nodiscard]] std::expected<Slaves, std::vector<std::string>> make_slaves(const SceneSpec& scene, Time start, const Checkpoint* from = nullptr);
 
 }  // namespace tandem::server

@@ -286,8 +286,9 @@ void compare_with_echo() {
 }  // namespace tandem::bench
 
 int main(int argc, char** argv) {
-  if (argc == 4 && std::string(argv[1]) == "--serve") return tandem::bench::serve(argv[2], std::atoi(argv[3]));
-  tandem::bench::count_instructions(argv[0]);
-  tandem::bench::compare_with_echo();
+  const std::string only = argc > 1 ? argv[1] : "";
+  if (argc == 4 && only == "--serve") return tandem::bench::serve(argv[2], std::atoi(argv[3]));
+  if (only != "--cpu") tandem::bench::count_instructions(argv[0]);
+  if (only != "--instructions") tandem::bench::compare_with_echo();
   return 0;
 }

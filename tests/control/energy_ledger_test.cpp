@@ -91,10 +91,10 @@ TEST(EnergyLedger, KeepsWhatItAbsorbsForTheOtherEnd) {
 TEST(EnergyLedger, GivesUpWhatItHoards) {
   EnergyLedger ledger(0.05, 0.9);
   ledger.receive(1'000'000'000);
-  ledger.forfeit_above(0.1);
+  static_cast<void>(ledger.give_up_above(0.1, 0));
   EXPECT_EQ(ledger.margin_nj(), 100'000'000U);
   EXPECT_TRUE(ledger.spend(0.1));
-  ledger.forfeit_above(0.1);
+  static_cast<void>(ledger.give_up_above(0.1, 0));
   EXPECT_EQ(ledger.margin_nj(), 0U);
   ledger.receive(1'000'000'010);  // what was given up stays given up
   EXPECT_EQ(ledger.margin_nj(), 10U);
@@ -104,17 +104,17 @@ TEST(EnergyLedger, HandsOnWhatItDoesNotNeedOnceAndOnlyOnce) {
   EnergyLedger here(0.05, 1), there(0, 1);
   const std::uint64_t heat = here.dissipate(0.2);
   EXPECT_EQ(heat, 200'000'000U);
-  EXPECT_EQ(here.pass_on_above(0.1, heat), 150'000'000U);
+  EXPECT_EQ(here.give_up_above(0.1, heat), 150'000'000U);
   EXPECT_EQ(here.margin_nj(), 100'000'000U);  // gone here
   EXPECT_EQ(here.in_nj(), 150'000'000U);      // to be received there
-  EXPECT_EQ(here.pass_on_above(0.1, heat), 0U);
+  EXPECT_EQ(here.give_up_above(0.1, heat), 0U);
   there.receive(here.in_nj());
   EXPECT_TRUE(there.spend(0.15));
   EXPECT_TRUE(here.spend(0.1));
   EXPECT_FALSE(there.spend(1e-9));
   EXPECT_FALSE(here.spend(1e-9));
   here.receive(1'000'000'000);
-  EXPECT_EQ(here.pass_on_above(0, 7), 7U);  // never more than allowed: what came from there does not go back
+  EXPECT_EQ(here.give_up_above(0, 7), 7U);  // never more than allowed: what came from there does not go back
 }
 
 TEST(EnergyLedger, RefusesADebitThatIsNoNumber) {
@@ -180,7 +180,7 @@ TEST(EnergyLedger, IsNeverOverdrawnAndNeverRunsBackwards) {
           heat += joule;
           break;
         case 3:
-          ledger.forfeit_above(random.uniform(0, 0.2));
+          static_cast<void>(ledger.give_up_above(random.uniform(0, 0.2), 0));
           break;
         default:
           if (ledger.spend(joule)) spent += joule;

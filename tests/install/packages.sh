@@ -17,7 +17,7 @@ TANDEM_PACKAGES=(
   "nlohmann-json3-dev: writes the JSON reports"
   "libasio-dev: the control connection's sockets and timers"
   "libssl-dev: TLS of the control connection, keys, SHA-256 of traces"
-  "libsodium-dev: seals datagrams"
+  "libsodium-dev: keys of datagrams, and their cipher for processors without AES"
   "libasio-dev: TCP connections"
   "prometheus-cpp-dev: writes the server's metrics"
   "libusb-1.0-0-dev: talks to USB devices"
@@ -27,6 +27,9 @@ TANDEM_PACKAGES=(
   "libgtest-dev: unit and simulation tests"
   "nodejs: runs the second decoder of datagrams"
 )
+if [[ "$(dpkg --print-architecture 2>/dev/null)" == amd64 ]]; then
+  TANDEM_PACKAGES+=("libipsec-mb-dev: seals datagrams with AES")  # made for these processors only
+fi
 
 # What only the longer kinds of ./test need; without them it says what it did not run.
 # shellcheck disable=SC2034

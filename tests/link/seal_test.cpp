@@ -180,6 +180,20 @@ TEST(Seal, GoesOnAfterAForgery) {
   EXPECT_TRUE(opening.open(0, d, plain));
 }
 
+TEST(Seal, ReleasesNothingOfWhatAForgeryHolds) {  // where the cipher decrypts and authenticates in one pass, it wipes
+  for (const Cipher cipher : {fastest_cipher(), Cipher::kChaCha20Poly1305}) {
+    const Key key = key_of(test::secrets(1).to_server, cipher);
+    for (const std::size_t size : {1U, 15U, 16U, 17U, 128U, 295U, 1168U}) {
+      std::vector<std::byte> d(kHeaderSize + size + kTagSize, std::byte{42}), plain(size);
+      ASSERT_TRUE(Seal(key).seal(7, d));
+      d.back() ^= std::byte{0x80};
+      std::ranges::fill(plain, std::byte{0});
+      EXPECT_FALSE(Seal(key).open(7, d, plain));
+      EXPECT_EQ(plain, std::vector<std::byte>(size));
+    }
+  }
+}
+
 TEST(Seal, RefusesSizesThatCannotBe) {
   Seal sealing(some_key());
   Seal opening(some_key());

@@ -120,7 +120,7 @@ TEST(WireCodec, AuthorityCloseAndPingComeBackAsTheyWere) {
     EXPECT_EQ(got->message.masters, sent.masters);
     EXPECT_EQ(got->message.alpha, sent.alpha);
 
-    const CloseMessage close{static_cast<CloseReason>(random.below(4))};
+    const CloseMessage close{static_cast<CloseReason>(random.below(5))};
     size = codec.encode(samples::preamble(random), close, buffer);
     ASSERT_EQ(size, kCloseSize);
     EXPECT_EQ(codec.decode_close(view(buffer, size))->message.reason, close.reason);

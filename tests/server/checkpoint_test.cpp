@@ -32,6 +32,7 @@ Checkpoint drawn(std::uint64_t seed) {
   for (std::size_t i = 0; i < c.seats_n; ++i) {
     c.seats[i].taken = random.below(2) == 1;
     hash(c.seats[i].resume);
+    c.seats[i].force_scale = random.uniform(0.1, 1);
   }
   for (std::size_t j = 0; j < c.tools_n; ++j) {
     c.tools[j].alpha[random.below(c.masters_n)] = 1;
@@ -71,7 +72,7 @@ TEST(Checkpoint, TheLargestFitsFourKibibytes) {
   c.seats_n = kSeatsMax;
   c.dof = kAxesMax;
   const auto bytes = bytes_of(c);
-  EXPECT_EQ(bytes.size(), 4 + 32 + 8 + 3 * 4 + 6 + kSeatsMax * 33 + kToolsMax * 8 * (kMastersMax + kAxesMax + kAxesMax) + 32);
+  EXPECT_EQ(bytes.size(), 4 + 32 + 8 + 3 * 4 + 6 + kSeatsMax * (33 + 8) + kToolsMax * 8 * (kMastersMax + kAxesMax + kAxesMax) + 32);
   EXPECT_LE(bytes.size(), kCheckpointMax);
   std::vector<std::byte> less(bytes.size() - 1);
   EXPECT_EQ(encode_checkpoint(c, less), 0u);

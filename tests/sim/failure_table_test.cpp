@@ -2,89 +2,25 @@
 // behaviour and its bound. Others: readings and clocks in faults_test.cpp, networks in robustness_test.cpp, bytes in tests/link.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <map>
-#include <memory>
 #include <optional>
 
 #include "tests/base/counts.h"
-#include "tests/support/world_run.h"
+#include "tests/sim/life.h"
 
 namespace tandem {
 namespace {
 
 using namespace std::chrono_literals;
 using netsim::Fault;
-using What = server::AuditEvent::What;
+using test::contact;
+using test::Life;
+using test::What;
+using test::with;
 
 constexpr double kFelt = 0.2;        // [N/ms] others may feel of a fault
 constexpr double kBelowTank = 1e-3;  // [J] a hand that pulls along overdraws within one tick
-
-/// A world, and what is always judged: forces, ledgers, tanks and roles by its own oracles; here steps of force and audit lines.
-struct Life {
-  explicit Life(netsim::WorldSetup setup) {
-    auto made = netsim::World::make(setup);
-    if (!made) throw std::runtime_error(made.error());
-    world = std::move(*made);
-    world->on_audit = [this](const server::AuditEvent& e) { ++audit[e.what]; };
-    steps.resize(world->scene().seats.size());
-    before.resize(steps.size(), hal::Vec3::Zero());
-  }
-  bool step() {
-    const bool goes_on = world->step();
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const hal::Vec3 f = world->device(i).state().f_out;
-      steps[i] = std::max(steps[i], (f - before[i]).norm());
-      before[i] = f;
-    }
-    return goes_on;
-  }
-  /// Up to `end` of network time.
-  void until(Duration end) {
-    while (at() < end && step()) {}
-  }
-  /// How long from now on until `reached`; at most `most`.
-  Duration time_to(const std::function<bool()>& reached, Duration most) {
-    const Duration begin = at();
-    while (!reached() && at() - begin < most) step();
-    return at() - begin;
-  }
-  [[nodiscard]] Duration at() const { return world->now() - Time{}; }
-  [[nodiscard]] bool active(std::size_t i) const { return world->seat(i) != nullptr && world->seat(i)->gate().active(); }
-  [[nodiscard]] double alpha(std::size_t i) const { return world->session().tool(0).authority.alpha(i); }
-  [[nodiscard]] wire::SessionState state() const { return world->session().state(); }
-  void forget_steps() { std::ranges::fill(steps, 0.0); }
-  void expect_nothing_broken() const {
-    EXPECT_EQ(world->trouble(), "");
-    for (const auto& v : world->violations().list()) EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
-  }
-
-  std::unique_ptr<netsim::World> world;
-  std::map<What, int> audit;
-  std::vector<double> steps;  ///< largest change of a delivered force within a tick, by seat [N]
-  std::vector<hal::Vec3> before;
-};
-
-/// Two hands press the tool against a wall from 3 s on; both lead.
-SceneSpec contact(double trainer = 0.5) {
-  SceneSpec scene = test::shipped("contact");
-  scene.seats[0].hand.trajectory.waypoints = {{0.5, {-0.02, 0, 0}}, {1.5, {0, 0, 0}}, {3, {0.012, 0, 0}}};
-  scene.seats[1].hand = scene.seats[0].hand;
-  scene.authority[0].alpha = {trainer, 1 - trainer};
-  scene.timeline.clear();
-  scene.duration = 60;
-  scene.phases = {{"press", 3, 60, false}};
-  return scene;
-}
-
-netsim::WorldSetup with(SceneSpec scene, std::vector<Fault> faults = {}) {
-  netsim::WorldSetup setup{.scene = std::move(scene)};
-  setup.faults = std::move(faults);
-  return setup;
-}
 
 constexpr std::size_t kTrainer = 0, kTrainee = 1;
 

@@ -1,0 +1,218 @@
+// Strangers who connect much and readers who do not read (design notes, security 1.8 and 2.4), against a session that runs.
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <openssl/ssl.h>
+#include <signal.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <deque>
+#include <thread>
+
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "common/trust/io/client_trust.h"
+#include "proto/control_codec.h"
+#include "tests/base/counts.h"
+#include "tests/io/metrics_page.h"
+#include "tests/io/programs.h"
+#include "tests/io/steady_press.h"
+
+namespace tandem::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Of a process, in KiB, as /proc says.
+long resident_kib(pid_t id) {
+  std::ifstream status("/proc/" + std::to_string(id) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmRSS:")) return std::strtol(line.c_str() + 6, nullptr, 10);
+  return -1;
+}
+
+/// A session that runs with two hands, and what became of it.
+struct Running {
+  Running()
+      : host(hosting(folder.write("press.textproto", steady_press()), {"--metrics", "127.0.0.1:0", "--json", folder.file("s.json")})),
+        trainer(client(address_of(host), "trainer", {"--json", folder.file("trainer.json")})),
+        trainee(client(address_of(host), "trainee", {"--json", folder.file("trainee.json")})),
+        to(*io::parse_address(address_of(host), 1)) {
+    EXPECT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
+    metrics = host.after("metrics on http://");
+    metrics = metrics.substr(0, metrics.find('/'));
+  }
+  void expect_undisturbed() {
+    Process still({TANDEM_CLIENT, "sessions", "--server", address_of(host)});
+    EXPECT_EQ(still.wait(), 0) << "the door is still open for others: " << still.err();
+    host.signal(SIGINT);
+    EXPECT_EQ(host.wait(), 0) << host.err();
+    EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+    EXPECT_EQ(trainee.wait(), 0) << trainee.err();
+    EXPECT_EQ(folder.json("s.json")["violations"], Json::array());
+    for (const char* seat : {"trainer.json", "trainee.json"}) EXPECT_EQ(folder.json(seat)["gate"]["trips"], 0) << seat;
+  }
+  /// The greatest bucket of the histogram of lateness that holds less than `share` of all ticks; for people.
+  [[nodiscard]] std::string lateness(double share) const {
+    const std::string all = page(metrics);
+    const auto number = [&](const std::string& name) {
+      const std::size_t at = all.find("\n" + name);
+      return at == std::string::npos ? 0.0 : std::strtod(all.c_str() + all.find("} ", at) + 2, nullptr);
+    };
+    const double count = number("tandem_tick_lateness_seconds_count");
+    std::string least = "?";
+    for (std::size_t at = all.find("\ntandem_tick_lateness_seconds_bucket"); at != std::string::npos; at = all.find("\ntandem_tick_lateness_seconds_bucket", at + 1)) {
+      const std::size_t le = all.find("le=\"", at) + 4, value = all.find("} ", at) + 2;
+      least = all.substr(le, all.find('"', le) - le);
+      if (std::strtod(all.c_str() + value, nullptr) >= share * count) break;
+    }
+    return format("p%g of %.0f ticks late by at most %s s", 100 * share, count, least.c_str());
+  }
+  Folder folder;
+  Process host, trainer, trainee;
+  io::SocketAddress to;
+  std::string metrics;
+};
+
+/// The first words of a TLS client, as they are sent.
+std::string client_hello() {
+  SSL_CTX* const context = SSL_CTX_new(TLS_client_method());
+  SSL* const tls = SSL_new(context);
+  BIO* const out = BIO_new(BIO_s_mem());
+  SSL_set_bio(tls, BIO_new(BIO_s_mem()), out);
+  const unsigned char alpn[] = "\x08tandem/1";
+  SSL_set_alpn_protos(tls, alpn, sizeof alpn - 1);
+  SSL_set_connect_state(tls);
+  SSL_do_handshake(tls);
+  std::string bytes(static_cast<std::size_t>(BIO_pending(out)), '\0');
+  BIO_read(out, bytes.data(), static_cast<int>(bytes.size()));
+  SSL_free(tls);
+  SSL_CTX_free(context);
+  return bytes;
+}
+
+// "TLS connect flood 2000/s for 10 s: running sessions undisturbed; memory + <= 32 MiB." From 1000 addresses, each says a ClientHello and
+// never goes on; at most 600 are open at a time.
+TEST(FloodLive, TwoThousandConnectionsASecondDisturbNoHandAndTakeLittleMemory) {
+  Running session;
+  const std::size_t length = draws(2, 10, 10);
+  const std::string hello = client_hello();
+  const std::string quiet = session.lateness(0.999);
+  const long before = resident_kib(session.host.id());
+  ASSERT_GT(before, 0);
+  long most = before;
+  std::deque<io::Fd> open;
+  std::size_t tried = 0, reached = 0;
+  const Time begin = io::monotonic_now();
+  for (std::size_t ms = 0; ms < 1000 * length; ++ms) {
+    std::this_thread::sleep_until(std::chrono::steady_clock::time_point{(begin + std::chrono::milliseconds(ms)).time_since_epoch()});
+    for (int k = 0; k < 2; ++k, ++tried) {
+      io::Fd fd{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
+      const linger at_once{1, 0};  // no port waits for stragglers
+      setsockopt(fd.get(), SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+      const auto from = *io::parse_address(format("127.0.%zu.%zu:0", 1 + tried / 250 % 4, 1 + tried % 250), 0);
+      if (::bind(fd.get(), from.get(), from.size) != 0) continue;
+      static_cast<void>(::connect(fd.get(), session.to.get(), session.to.size));
+      reached += ::send(fd.get(), hello.data(), hello.size(), MSG_NOSIGNAL) > 0 ? 1 : 0;
+      open.push_back(std::move(fd));
+      if (open.size() > 600) open.pop_front();
+    }
+    if (ms % 100 == 0) most = std::max(most, resident_kib(session.host.id()));
+  }
+  open.clear();
+  most = std::max(most, resident_kib(session.host.id()));
+  std::printf("[ hostile  ] %zu connections in %zu s, %zu said hello; memory of the server %ld KiB, at most %ld KiB more\n", tried, length, reached, before, most - before);
+  std::printf("[ hostile  ] ticks: quiet %s; with the flood %s\n", quiet.c_str(), session.lateness(0.999).c_str());
+  EXPECT_EQ(tried, 2000 * length);
+  EXPECT_GT(reached, tried / 10);
+  EXPECT_LE(most - before, 32 * 1024);
+  session.expect_undisturbed();
+}
+
+/// TLS of a workstation that this server let in by its own files, blocking.
+class Reader {
+ public:
+  explicit Reader(const io::SocketAddress& to) : context_(SSL_CTX_new(TLS_client_method())), tls_(SSL_new(context_)), fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    const int small = 4096;
+    setsockopt(fd_.get(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+    const timeval patience{30, 0};
+    setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    if (::connect(fd_.get(), to.get(), to.size) != 0) return;
+    const unsigned char alpn[] = "\x08tandem/1";
+    SSL_set_alpn_protos(tls_, alpn, sizeof alpn - 1);
+    SSL_set_fd(tls_, fd_.get());
+  }
+  ~Reader() {
+    SSL_free(tls_);
+    SSL_CTX_free(context_);
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  /// @return whether the handshake came to its end
+  bool greet(const trust::LocalKeys& keys) {
+    SSL_use_certificate(tls_, keys.workstation.certificate.handle());
+    SSL_use_PrivateKey(tls_, keys.workstation.key.handle());
+    return SSL_connect(tls_) == 1;
+  }
+  /// Asks on and on, reads nothing. @return how often before the server let go of it
+  std::size_t ask_until_dropped(std::size_t most) {
+    const auto frame = control::encode({1, control::SessionListRequest{}});
+    const auto bytes = frame->bytes();
+    for (std::size_t n = 0; n < most; ++n)
+      if (SSL_write(tls_, bytes.data(), static_cast<int>(bytes.size())) <= 0) return n;
+    return most;
+  }
+  [[nodiscard]] SSL* tls() const { return tls_; }
+
+ private:
+  SSL_CTX* context_;
+  SSL* tls_;
+  io::Fd fd_;
+};
+
+/// The keys that a server of this user laid down, found by the certificate it shows.
+std::optional<trust::LocalKeys> keys_of(const io::SocketAddress& server) {
+  Reader first{server};
+  SSL_connect(first.tls());
+  X509* const certificate = SSL_get1_peer_certificate(first.tls());
+  if (certificate == nullptr) return std::nullopt;
+  const auto pin = trust::pin_of(certificate);
+  X509_free(certificate);
+  if (!pin) return std::nullopt;
+  auto found = trust::find_local(trust::runtime_path(), *pin);
+  if (!found || !*found) return std::nullopt;
+  return std::move(**found);
+}
+
+// Slow consumer: what is meant for somebody who does not read is bounded, he is let go of, and no hand feels it.
+TEST(FloodLive, ReadersWhoDoNotReadAreLetGoAndNoHandFeelsIt) {
+  std::signal(SIGPIPE, SIG_IGN);
+  Running session;
+  const auto keys = keys_of(session.to);
+  ASSERT_TRUE(keys);
+  const long before = resident_kib(session.host.id());
+  constexpr std::size_t kReaders = 4, kMost = 4'000'000;
+  std::vector<std::thread> threads;
+  std::array<std::size_t, kReaders> asked{};
+  for (std::size_t i = 0; i < kReaders; ++i)
+    threads.emplace_back([&, i] {
+      Reader reader{session.to};
+      if (reader.greet(*keys)) asked[i] = reader.ask_until_dropped(kMost);
+    });
+  for (std::thread& t : threads) t.join();
+  const long after = resident_kib(session.host.id());
+  for (const std::size_t n : asked) {
+    EXPECT_GT(n, 0U) << "never let in";
+    EXPECT_LT(n, kMost) << "nobody let go of him";
+  }
+  std::printf("[ hostile  ] readers who do not read asked %zu, %zu, %zu, %zu times before they were let go; memory of the server %ld KiB more; %s\n", asked[0],
+              asked[1], asked[2], asked[3], after - before, session.lateness(0.999).c_str());
+  EXPECT_LE(after - before, 4 * 1024);
+  session.expect_undisturbed();
+}
+
+}  // namespace
+}  // namespace tandem::test

@@ -1,0 +1,255 @@
+// The server dies and is started anew, with real programs on loopback: nobody is kicked, everybody is back. Times are printed, not asserted.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "common/base/rng.h"
+#include "common/io/udp_socket.h"
+#include "tests/base/counts.h"
+#include "tests/io/programs.h"
+#include "tests/io/traces.h"
+
+namespace tandem::test {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+
+/// Gate phases as traces name them (wire::GateState).
+enum Gate { kZero = 1, kRampIn = 2, kActive = 3, kPassive = 4 };
+
+/// An address of loopback whose port is free, for UDP at least: a server that is started again must have the same.
+std::string free_address() {
+  const auto socket = io::bind_udp(*io::parse_address("127.0.0.1:0", 0));
+  return io::to_text(socket->local);
+}
+
+/// Servers and clients of a test meet in a folder of their own.
+class Restart : public ::testing::Test {
+ protected:
+  Restart() { setenv("TANDEM_RUNTIME", folder.file("runtime").c_str(), 1); }
+  ~Restart() override { unsetenv("TANDEM_RUNTIME"); }
+
+  [[nodiscard]] std::string kept() const {
+    for (const auto& entry : fs::directory_iterator(folder.file("runtime")))
+      if (entry.path().extension() == ".checkpoint") return entry.path().string();
+    return "";
+  }
+  /// The same, once it is there.
+  [[nodiscard]] std::string wait_until_kept() const {
+    for (int i = 0; i < 3000 && kept().empty(); ++i) std::this_thread::sleep_for(milliseconds(10));
+    return kept();
+  }
+
+  Folder folder;
+  std::string address = free_address();
+};
+
+/// Two hands press the tool against a wall from 3 s on; both lead.
+std::string pressing(const std::string& more = "") {
+  const auto seat = [](const std::string& name, const std::string& role) {
+    return "seat { name: \"" + name + "\" kind: MASTER role: " + role +
+           " required: true device { model: TOUCH friction_n: 0.1 start_m { x: -0.02 } } hand { model: LEADER trajectory { "
+           "waypoint { at_s: 0.5 x_m: -0.02 } waypoint { at_s: 1.5 x_m: 0 } waypoint { at_s: 3 x_m: 0.012 } } } }\n";
+  };
+  return "version: 1 tick_hz: 1000 dof: 3 port: TIP duration_s: 3000\nchannel { law: SET_POSITION mfs: OPEN k_n_m: 1500 }\n"
+         "device_coupling { k_c_n_m: 400 b_n_s_m: 0.5 m_c_kg: 0.02 }\ngate { silence_limit_ms: 20 loop_age_max_ms: 2500 latch: false }\n" +
+         seat("trainer", "INSTRUCTOR") + seat("trainee", "TRAINEE") +
+         "tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 b_s_n_s_m: 0.2 slave { model: TOUCH friction_n: 0.1 start_m { x: -0.02 } "
+         "environment { wall { axis: X at_m: 0 k_n_m: 20000 } } } }\n"
+         "authority { tool: \"tool\" seat: \"trainer\" alpha: 0.5 }\nauthority { tool: \"tool\" seat: \"trainee\" alpha: 0.5 }\n" + more;
+}
+
+/// What a seat's trace says of the times without a server.
+struct Absence {
+  double back_s = 0;    ///< from the gate's letting go until it was wholly active again
+  double first_n = 0;   ///< what the motor was given in the first tick of its return
+  double jump_mm = 0;   ///< of the tip, between two ticks around the return
+  double beyond_n = 0;  ///< in the first 500 ms, beyond what it had been given before
+  double forward_mm = 0;  ///< the way of the hand in 300 ms after it was let go
+};
+std::vector<Absence> absences(const Trace& t) {
+  std::vector<Absence> out;
+  const auto gate = [&](std::size_t i) { return static_cast<int>(t.at(i, "gate")); };
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    if (gate(i - 1) != kActive || gate(i) != kPassive) continue;
+    Absence a;
+    double before = 0;
+    for (std::size_t k = i > 500 ? i - 500 : 0; k < i; ++k) before = std::max(before, norm(t.triple(k, "f_gate_")));
+    for (std::size_t k = i; k < t.size() && t.at(k, "t_s") < t.at(i, "t_s") + 0.3; ++k)
+      a.forward_mm = std::max(a.forward_mm, 1e3 * distance(t.triple(k, ""), t.triple(i, "")));
+    std::size_t k = i;
+    while (k < t.size() && gate(k) != kRampIn) ++k;
+    if (k == t.size()) break;
+    a.first_n = norm(t.triple(k, "f_gate_"));
+    for (std::size_t m = k; m < t.size() && t.at(m, "t_s") < t.at(k, "t_s") + 0.5; ++m) {
+      const double missed = std::max(1.0, (t.at(m, "t_s") - t.at(m - 1, "t_s")) / 1e-3);  // ticks that this machine left out
+      a.jump_mm = std::max(a.jump_mm, 1e3 * distance(t.triple(m, ""), t.triple(m - 1, "")) / missed);
+      a.beyond_n = std::max(a.beyond_n, norm(t.triple(m, "f_gate_")) - before);
+    }
+    while (k < t.size() && gate(k) == kRampIn) ++k;
+    if (k == t.size() || gate(k) != kActive) break;
+    a.back_s = t.at(k, "t_s") - t.at(i, "t_s");
+    out.push_back(a);
+    i = k;
+  }
+  return out;
+}
+
+void print(const char* what, std::vector<double> v) {
+  std::ranges::sort(v);
+  std::printf("[  figures ] %-46s min %.3f median %.3f max %.3f (%zu)\n", what, v.front(), v[v.size() / 2], v.back(), v.size());
+}
+
+TEST_F(Restart, KilledInContactEverybodyIsBackAndNobodyIsKicked) {
+  const std::size_t restarts = draws(2, 50, 50);
+  std::printf("[  counts  ] %zu restarts\n", restarts);
+  const std::string scene = folder.write("press.textproto", pressing());
+  RandomStream random{7};
+  Process host = hosting(scene, {"--listen", address, "--trace", folder.file("0.csv")});
+  ASSERT_EQ(address_of(host), address) << host.err();
+  Process trainer = client(address, "trainer", {"--trace", folder.file("a.csv"), "--json", folder.file("a.json")});
+  Process trainee = client(address, "trainee", {"--trace", folder.file("b.csv"), "--json", folder.file("b.json")});
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  std::this_thread::sleep_for(milliseconds(4000));  // until they press
+  double tool_jump_mm = 0;
+  for (std::size_t n = 1; n <= restarts; ++n) {
+    std::this_thread::sleep_for(milliseconds(1500 + random.below(700)));
+    host.signal(SIGKILL);
+    ASSERT_EQ(host.wait(), -SIGKILL);
+    std::this_thread::sleep_for(milliseconds(random.below(900)));
+    host = hosting(scene, {"--listen", address, "--trace", folder.file(std::to_string(n) + ".csv"), "--json", folder.file("s.json")});
+    ASSERT_NE(host.err().find("GOES ON where its server ended"), std::string::npos) << host.err();
+    ASSERT_NE(host.err().find("epoch " + std::to_string(n + 1)), std::string::npos) << host.err();
+    ASSERT_TRUE(host.wait_for("the session runs")) << n << host.err() << trainer.err() << trainee.err();
+  }
+  std::this_thread::sleep_for(milliseconds(1500));
+  host.signal(SIGINT);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(trainee.wait(), 0) << trainee.err();
+  EXPECT_EQ(kept(), "") << "a person ended it";
+
+  for (std::size_t n = 1; n <= restarts; ++n) {
+    const Trace before(folder.read(std::to_string(n - 1) + ".csv")), after(folder.read(std::to_string(n) + ".csv"));
+    ASSERT_GT(before.size(), 0u);
+    ASSERT_GT(after.size(), 0u);
+    tool_jump_mm = std::max(tool_jump_mm, 1e3 * distance(before.triple(before.size() - 1, "tool."), after.triple(0, "tool.")));
+    EXPECT_GT(after.at(0, "t_s"), before.at(before.size() - 1, "t_s") - 0.6) << "session time goes on where the checkpoint was";
+  }
+  EXPECT_LE(tool_jump_mm, 1) << "it stands where it was, but for what the wall gives";
+  std::vector<double> back, first, jump, beyond, forward;
+  for (const char* seat : {"a", "b"}) {
+    SCOPED_TRACE(seat);
+    const Json j = folder.json(std::string(seat) + ".json");
+    EXPECT_EQ(j["rejoins"], restarts);
+    EXPECT_EQ(j["verdict"], "pass");
+    EXPECT_EQ(j["ended_by"], "server_stopped");
+    EXPECT_EQ(j["machine"]["trace_dropped"], 0);
+    EXPECT_EQ(j["gate"]["trips"], restarts) << "no other loss";
+    const auto all = absences(Trace(folder.read(std::string(seat) + ".csv")));
+    EXPECT_EQ(all.size(), restarts) << "all seats are back ACTIVE";
+    for (const Absence& a : all) {
+      EXPECT_LE(a.first_n, 0.05);
+      EXPECT_LE(a.jump_mm, 0.5) << "0.5 m/s";
+      EXPECT_LE(a.beyond_n, 0.3);
+      EXPECT_LE(a.forward_mm, 6);
+      back.push_back(a.back_s), first.push_back(a.first_n), jump.push_back(a.jump_mm), beyond.push_back(a.beyond_n), forward.push_back(a.forward_mm);
+    }
+  }
+  const Json report = folder.json("s.json");
+  EXPECT_EQ(report["verdict"], "pass") << report["violations"];
+  EXPECT_EQ(report["epoch"], restarts + 1);
+  ASSERT_FALSE(back.empty());
+  print("let go to wholly active [s], asked <= 3", back);
+  print("force in the first tick [N], asked <= 0.05", first);
+  print("farthest between two ticks of the ramp [mm]", jump);
+  print("first 500 ms beyond the force before [N]", beyond);
+  print("way of the hand when let go [mm], asked <= 6", forward);
+  std::printf("[  figures ] tool, before and after a restart: at most %.3f mm apart\n", tool_jump_mm);
+}
+
+TEST_F(Restart, AServiceThatIsStartedAnewGivesEverybodyHisSeatBack) {
+  folder.write("press.textproto", pressing());
+  const std::string config = folder.write("s.textproto", "version: 1 listen: \"" + address + "\" session { name: \"lab\" scene: \"press.textproto\" }");
+  Process host = server({"serve", config});
+  ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
+  Process trainer = client(address, "trainer", {"--json", folder.file("a.json")}), trainee = client(address, "trainee");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  host.signal(SIGTERM);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_NE(kept(), "");
+  host = server({"serve", config});
+  ASSERT_TRUE(host.wait_for("GOES ON where its server ended")) << host.err();
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err() << trainer.err();
+  EXPECT_TRUE(trainer.wait_for("the server is being started anew")) << trainer.err();
+  // A person ends them: they do not come back.
+  for (Process* p : {&trainer, &trainee}) {
+    p->signal(SIGINT);
+    EXPECT_EQ(p->wait(), 0) << p->err();
+  }
+  EXPECT_EQ(folder.json("a.json")["rejoins"], 1);
+  host.signal(SIGTERM);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
+TEST_F(Restart, WhatDoesNotFitIsToldAndMovedAside) {
+  Process host = hosting("one_axis", {"--listen", address});
+  Process trainer = client(address, "trainer", {"--rejoin", "1.5"});
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  const auto die = [&] {
+    ASSERT_NE(wait_until_kept(), "");
+    host.signal(SIGKILL);
+    ASSERT_EQ(host.wait(), -SIGKILL);
+  };
+  die();
+  EXPECT_EQ(trainer.wait(), 1);
+  EXPECT_NE(trainer.err().find("server lost: no news for 2 s"), std::string::npos) << trainer.err();
+  host = hosting("one_axis", {"--listen", address, "--duration", "5"});  // another scene now
+  EXPECT_NE(host.err().find("begins anew: its checkpoint is not used: the checkpoint belongs to another scene"), std::string::npos) << host.err();
+  EXPECT_TRUE(fs::exists(wait_until_kept() + ".unfit"));
+  die();
+  {
+    std::fstream file(kept(), std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(100);
+    file.put('x');
+  }
+  host = hosting("one_axis", {"--listen", address, "--duration", "5"});
+  EXPECT_NE(host.err().find("it is damaged"), std::string::npos) << host.err();
+  die();
+  host = hosting("one_axis", {"--listen", address, "--duration", "5", "--fresh"});
+  EXPECT_NE(host.err().find("--fresh says so"), std::string::npos) << host.err();
+  EXPECT_EQ(host.err().find("GOES ON"), std::string::npos) << host.err();
+  die();
+  host = hosting("one_axis", {"--listen", address, "--duration", "5"});
+  EXPECT_NE(host.err().find("GOES ON"), std::string::npos) << host.err();
+  host.signal(SIGINT);
+  EXPECT_EQ(host.wait(), 0);
+  host = hosting("one_axis", {"--listen", address, "--duration", "5"});
+  EXPECT_EQ(host.err().find("GOES ON"), std::string::npos) << "a person had ended it\n" << host.err();
+}
+
+/// His program stood still for so long that somebody else got the seat.
+TEST_F(Restart, WhoseSeatWasGivenToSomebodyElseIsToldSo) {
+  Process host = hosting("free_motion", {"--listen", address});
+  Process trainer = client(address, "trainer"), trainee = client(address, "trainee", {"--json", folder.file("b.json")});
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  trainee.signal(SIGSTOP);
+  Process other = client(address, "trainee", {"--duration", "4"});
+  while (other.wait() == 1) {  // until the server knows that its owner is gone
+    ASSERT_NE(other.err().find("somebody sits there already"), std::string::npos) << other.err();
+    other = client(address, "trainee", {"--duration", "4"});
+  }
+  trainee.signal(SIGCONT);
+  EXPECT_EQ(trainee.wait(), 1);
+  EXPECT_NE(trainee.err().find("the seat is gone: nothing to resume"), std::string::npos) << trainee.err();
+  EXPECT_EQ(folder.json("b.json")["ended_by"], "seat_gone");
+  EXPECT_EQ(trainer.err().find("silent"), std::string::npos) << trainer.err();
+}
+
+}  // namespace
+}  // namespace tandem::test

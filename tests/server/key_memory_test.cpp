@@ -1,0 +1,78 @@
+// "Keys in memory: zeroise on close, checked by a grep of a forced dump" (design notes, security 1.8): after a whole session went, all
+// memory of this process that can be written (what a core dump would hold) is searched for the keys of its connections.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+#include <fstream>
+#include <vector>
+
+#include "common/link/ratchet.h"
+#include "tests/server/rig.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace test;
+
+/// Pieces of keys, kept so that the search does not find itself.
+class Wanted {
+ public:
+  void add(std::span<const std::byte> key) {
+    for (std::size_t at = 0; at + 8 <= key.size(); at += 8) {
+      std::uint64_t piece = 0;
+      for (std::size_t i = 0; i < 8; ++i) piece |= (std::to_integer<std::uint64_t>(key[at + i]) ^ kMask) << (8 * i);
+      pieces_.push_back(piece);
+      first_[piece & 0xff] = true;
+    }
+  }
+  /// How often any piece lies anywhere in this process.
+  [[nodiscard]] std::size_t found() const {
+    std::size_t count = 0;
+    std::ifstream maps("/proc/self/maps");
+    for (std::string line; std::getline(maps, line);) {
+      std::uint64_t from = 0, to = 0;
+      char rights[5] = {};
+      if (std::sscanf(line.c_str(), "%" SCNx64 "-%" SCNx64 " %4s", &from, &to, rights) != 3 || rights[0] != 'r' || rights[1] != 'w') continue;
+      const auto* const begin = reinterpret_cast<const volatile unsigned char*>(from);  // as the kernel says: mapped and readable
+      for (std::size_t at = 0; at + 8 <= to - from; ++at) {
+        if (!first_[begin[at] ^ kMask]) continue;
+        std::uint64_t here = 0;
+        for (std::size_t i = 0; i < 8; ++i) here |= (begin[at + i] ^ kMask) << (8 * i);
+        count += std::ranges::find(pieces_, here) != pieces_.end() ? 1 : 0;
+      }
+    }
+    return count;
+  }
+
+ private:
+  static constexpr std::uint64_t kMask = 0xa5;
+  std::vector<std::uint64_t> pieces_;
+  std::array<bool, 256> first_{};
+};
+
+TEST(WipedMemory, OfASessionThatWentNoKeyIsLeftInTheWholeProcess) {
+#ifdef TANDEM_SANITIZED
+  std::puts("[ NOT RUN ] WipedMemory.OfASessionThatWentNoKeyIsLeftInTheWholeProcess: a sanitizer keeps what was freed");
+#else
+  Wanted wanted;
+  {
+    Rig rig("free_motion", 3, {.packets = 400});
+    for (const RigSeat& s : rig.seats)
+      for (link::Secret secret : {s.params.secrets.to_server, s.params.secrets.to_client})
+        for (int phase = 0; phase < 6; ++phase, secret = link::next_secret(secret)) {
+          wanted.add(secret.bytes);
+          wanted.add(link::key_of(secret, s.params.secrets.cipher).key.bytes);
+        }
+    rig.run(1500ms);
+    ASSERT_GE(rig.seats[0].core->link().sending_phase(), 3) << "keys must have changed";
+    ASSERT_GE(wanted.found(), 16U) << "keys that are in use must be found, or the search finds nothing at all";
+  }
+  EXPECT_EQ(wanted.found(), 0U);
+#endif
+}
+
+}  // namespace
+}  // namespace tandem::server
