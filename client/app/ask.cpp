@@ -34,7 +34,7 @@ std::string waited(Duration patience) {
 std::string refusal(const control::Refused& refused, const Asking& asking) {
   switch (refused.reason) {
     case Reason::kNoSeat:
-      return "--seat " + asking.seat + ": " + refused.text;
+      return asking.console ? "refused: " + refused.text : "--seat " + asking.seat + ": " + refused.text;
     case Reason::kSeatTaken:
       return "--seat " + asking.seat + ": " + refused.text + "; take another seat, or wait until it is free (2 s after its owner fell silent)";
     case Reason::kDeviceUnfit:
@@ -62,6 +62,19 @@ class Joining {
     const auto* welcome = std::get_if<control::Welcome>(&*answer);
     if (welcome == nullptr) return fail("the server answered something else; is it of the same release?");
     return take(*welcome, *hello);
+  }
+
+  std::expected<Console, NotSeated> stand() {
+    if (auto keys = choose_keys(); !keys) return std::unexpected(keys.error());
+    if (auto connected = connect(); !connected) return std::unexpected(connected.error());
+    const auto hello = make_hello();
+    if (!hello) return std::unexpected(hello.error());
+    const auto answer = ask(*hello);
+    if (!answer) return std::unexpected(answer.error());
+    if (const auto* refused = std::get_if<control::Refused>(&*answer)) return fail(refusal(*refused, asking_));
+    const auto* welcome = std::get_if<control::Welcome>(&*answer);
+    if (welcome == nullptr) return fail("the server answered something else; is it of the same release?");
+    return Console{*welcome, std::make_shared<trust::ControlClient>(std::move(*client_))};
   }
 
   std::expected<GivenSeat, NotBack> come_back(const OwnSeat& own, const std::function<bool()>& wanted) {
@@ -203,8 +216,8 @@ class Joining {
   [[nodiscard]] control::Hello who_asks() const {
     control::Hello hello;
     hello.seat = asking_.seat;
-    hello.visit = asking_.seat.empty();
-    hello.device = device_facts(asking_.caps);
+    hello.visit = asking_.seat.empty() && !asking_.console;
+    if (!asking_.console) hello.device = device_facts(asking_.caps);
     hello.has_aes = link::fastest_cipher() == link::Cipher::kAes256Gcm;
     const auto cid = trust::random_bytes<std::array<std::byte, 4>>();
     for (std::size_t i = 0; i < 4; ++i) hello.client_cid |= std::to_integer<std::uint32_t>(cid[i]) << (8 * i);
@@ -270,7 +283,7 @@ class Joining {
   /// On the server's own computer, as its own user: the right it would write out anyway.
   std::expected<control::Credential, NotSeated> write_ticket(const control::ListedSession& session) {
     const auto seat = std::ranges::find(session.seats, asking_.seat, &control::ListedSeat::name);
-    if (seat == session.seats.end()) {
+    if (seat == session.seats.end() && !asking_.console) {
       std::string names;
       for (const control::ListedSeat& s : session.seats) names += " " + s.name;
       return fail("--seat " + asking_.seat + ": no seat of this name; seats:" + names);
@@ -278,8 +291,8 @@ class Joining {
     trust::Ticket ticket;
     trust::fill_random(ticket.ticket_id);
     ticket.session_id = session.id;
-    ticket.seat = seat->name;
-    ticket.role = seat->role;
+    ticket.seat = asking_.seat;
+    ticket.role = asking_.console ? *asking_.console : seat->role;
     ticket.workstation = keys_->local()->workstation.pin();
     ticket.not_before = trust::wall_seconds() - 1;
     ticket.not_after = ticket.not_before + 60;
@@ -318,6 +331,8 @@ class Joining {
 }  // namespace
 
 std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking) { return Joining{asking}.join(); }
+
+std::expected<Console, NotSeated> ask_for_console(const Asking& asking) { return Joining{asking}.stand(); }
 
 std::expected<GivenSeat, NotBack> ask_for_own_seat(const Asking& asking, const OwnSeat& own, const std::function<bool()>& wanted) {
   return Joining{asking}.come_back(own, wanted);

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <expected>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,10 @@
 #include "hal/device.h"
 #include "proto/control_messages.h"
 #include "proto/seat_setup.h"
+
+namespace tandem::trust {
+class ControlClient;
+}
 
 namespace tandem::client {
 
@@ -27,6 +33,7 @@ struct Asking {
   hal::DeviceCaps caps;
   Duration patience{};         ///< for a server that does not answer
   int signals = -1;            ///< file of signals.h
+  std::optional<AccessRole> console{};  ///< no seat and no visit: who looks after a session. On the server's own computer: in this role
 };
 
 /// A seat that was given.
@@ -39,6 +46,12 @@ struct GivenSeat {
   bool local = false;          ///< known by what it laid down for this user on this computer, not by an enrolment
 };
 
+/// A control connection of somebody who sits on no seat.
+struct Console {
+  control::Welcome welcome;
+  std::shared_ptr<trust::ControlClient> connection;
+};
+
 /// Why there is none.
 struct NotSeated {
   bool interrupted = false;    ///< a signal ended it
@@ -48,6 +61,9 @@ struct NotSeated {
 /// Joins over a TLS connection: proves both keys, shows a ticket, a code, or on this very computer what the server laid down for its
 /// user, and takes the datagrams' secrets. Waits for the answer.
 [[nodiscard]] std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking);
+
+/// Joins without a seat, by a ticket. @pre asking.console, no asking.seat
+[[nodiscard]] std::expected<Console, NotSeated> ask_for_console(const Asking& asking);
 
 /// A seat that this client had, and what it may come back with.
 struct OwnSeat {

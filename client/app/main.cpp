@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "client/app/control_command.h"
 #include "client/app/doctor_command.h"
 #include "client/app/enroll_command.h"
 #include "client/app/join_command.h"
@@ -25,7 +26,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "tandem-client " TANDEM_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "`tandem-client join --help`, `doctor --help`, `link-test --help` and `weigh --help` tell more.\n"
+      "`tandem-client join --help`, `doctor --help`, `link-test --help`, `control --help` and `weigh --help` tell more.\n"
       "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files. Not a medical device.");
 
   std::function<int()> action;
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   tandem::client::add_weigh_command(app, action);
   tandem::client::add_enroll_command(app, action);
   tandem::client::add_sessions_command(app, action);
+  tandem::client::add_control_command(app, action);
   tandem::io::log_to_stderr("tandem-client");
   return tandem::io::run_program(app, action, argc, argv);
 }

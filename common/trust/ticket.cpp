@@ -34,14 +34,15 @@ bool legal_seat(std::string_view seat) noexcept {
          });
 }
 
-bool sits_nowhere(AccessRole role) noexcept { return role == AccessRole::kOperator || role == AccessRole::kRecorder; }
+/// An instructor may also look on from a console.
+bool needs_no_seat(AccessRole role) noexcept { return role == AccessRole::kInstructor || role == AccessRole::kOperator || role == AccessRole::kRecorder; }
 
 /// Empty: all fields are in range.
 std::string wrong_field(const Ticket& t) {
   if (static_cast<std::uint8_t>(t.role) >= kAccessRoles) return "role is none of the six";
   if (t.force_scale < 1 || t.force_scale > Ticket::kFullForce) return "force_scale must be in [1, 1000] thousandths";
   if (!legal_seat(t.seat)) return "seat must be at most 32 characters of A-Z a-z 0-9 _ -";
-  if (t.seat.empty() && !sits_nowhere(t.role)) return "seat is missing: this role sits on one";
+  if (t.seat.empty() && !needs_no_seat(t.role)) return "seat is missing: this role sits on one";
   if (t.not_before < 0 || t.not_after < t.not_before || t.not_after - t.not_before > Ticket::kLifeMax)
     return "not_after must be at most 12 h after not_before, and not before it";
   return {};

@@ -27,7 +27,7 @@ struct Ticket {
 
   Id16 ticket_id{};          ///< random; makes it single-use
   Id16 session_id{};
-  std::string seat;          ///< 0 to 32 characters of A-Z a-z 0-9 _ -; empty for an operator or a recorder, who sit on none
+  std::string seat;          ///< 0 to 32 characters of A-Z a-z 0-9 _ -; empty for an operator or a recorder, who sit on none, and an instructor at a console
   AccessRole role = AccessRole::kObserver;
   Pin workstation;           ///< only the machine with this key may use it
   std::uint16_t force_scale = kFullForce;  ///< of the scene's force limit [1/1000], 1 to 1000

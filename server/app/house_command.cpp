@@ -52,6 +52,7 @@ Refused refusal_of(const Command& command, const Outcome& outcome, const SceneSp
     case Result::kGone:
       return {Reason::kNotAllowed, "the seat that this connection joined for is not yours any more; join again", 0};
     case Result::kOutdated:
+      if (command.number > outcome.stops) return {Reason::kOutdated, format("there is no stop %u; the newest is stop %u", command.number, outcome.stops), 0};
       return {Reason::kOutdated, format("stop %u is not the newest: stop %u came since. Look why, then resume that one", command.number, outcome.stops), 0};
     case Result::kNothing:
       if (command.what == Command::What::kRemove) return {Reason::kNoSeat, "nobody sits on " + scene.seats[command.whom].name, 0};

@@ -60,5 +60,76 @@ TEST(Roles, OnlyWhoHasARightToAuthorityMaySendIt) {
   }
 }
 
+// Frames over the control connection: every kind there is, for every role and for who has not joined, once more by hand.
+// Columns: not joined yet, instructor, trainee, evaluator, observer, operator, recorder.
+struct KindRow {
+  control::Kind kind;
+  std::string_view may;  // x: yes
+};
+using control::Kind;
+constexpr std::array<KindRow, control::kKinds> kFrames{{
+    {Kind::kHello, "x------"},
+    {Kind::kWelcome, "-------"},
+    {Kind::kRefused, "-------"},
+    {Kind::kEnrol, "x------"},
+    {Kind::kEnrolAck, "-------"},
+    {Kind::kSessionListRequest, "xxxxxxx"},
+    {Kind::kSessionList, "-------"},
+    {Kind::kStopSession, "-x---x-"},
+    {Kind::kResumeSession, "-x---x-"},
+    {Kind::kPauseSession, "-xxx-x-"},
+    {Kind::kSetAuthority, "-xx----"},
+    {Kind::kAuthorityAnswer, "-------"},
+    {Kind::kDrain, "-----x-"},
+    {Kind::kPing, "xxxxxxx"},
+    {Kind::kPong, "-------"},
+    {Kind::kDone, "-------"},
+    {Kind::kRemovePerson, "-x---x-"},
+    {Kind::kStatusRequest, "-xxxxxx"},
+    {Kind::kStatus, "-------"},
+}};
+
+TEST(Roles, EveryFrameOfEveryRoleIsTheDesigns) {
+  std::set<Kind> seen;
+  for (const KindRow& row : kFrames) {
+    seen.insert(row.kind);
+    const int number = static_cast<int>(row.kind);
+    EXPECT_EQ(allowed(std::nullopt, row.kind), row.may[0] == 'x') << number;
+    for (std::uint8_t c = 0; c < kAccessRoles; ++c) {
+      const auto role = static_cast<AccessRole>(c);
+      EXPECT_EQ(allowed(role, row.kind), row.may[c + 1U] == 'x') << to_text(role) << ", kind " << number;
+      if (row.may[c + 1U] != 'x') {
+        EXPECT_FALSE(why_not(role, row.kind).empty());
+      }
+    }
+    EXPECT_EQ(said_by_clients(row.kind), row.may.find('x') != std::string_view::npos) << number;
+  }
+  EXPECT_EQ(seen.size(), control::kKinds);
+}
+
+TEST(Roles, FramesOutsideTheTableAreNobodys) {
+  for (const int number : {0, 1, 2, 22, 255}) {
+    const auto kind = static_cast<Kind>(number);
+    EXPECT_FALSE(said_by_clients(kind));
+    EXPECT_FALSE(allowed(std::nullopt, kind));
+    EXPECT_FALSE(allowed(AccessRole::kOperator, kind));
+  }
+  for (const KindRow& row : kFrames) EXPECT_FALSE(allowed(static_cast<AccessRole>(kAccessRoles), row.kind)) << static_cast<int>(row.kind);
+}
+
+TEST(Roles, ARefusalNamesWhoMay) {
+  EXPECT_EQ(why_not(AccessRole::kTrainee, Kind::kStopSession), "the role trainee may not stop the session; who may: instructor, operator");
+  EXPECT_EQ(why_not(AccessRole::kInstructor, Kind::kDrain), "the role instructor may not drain the server; who may: operator");
+  EXPECT_NE(why_not(std::nullopt, Kind::kDrain).find("join first"), std::string::npos);
+}
+
+TEST(Roles, WhoWorksInASessionSitsOnASeat) {
+  for (std::uint8_t c = 0; c < kAccessRoles; ++c) {
+    const auto role = static_cast<AccessRole>(c);
+    EXPECT_EQ(may_stand(role), role == AccessRole::kInstructor || role == AccessRole::kOperator || role == AccessRole::kRecorder) << to_text(role);
+  }
+  EXPECT_FALSE(may_stand(static_cast<AccessRole>(kAccessRoles)));
+}
+
 }  // namespace
 }  // namespace tandem::server

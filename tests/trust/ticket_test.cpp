@@ -148,6 +148,7 @@ TEST(Ticket, WithAFieldBeyondItsRangeIsNotSigned) {
   EXPECT_TRUE(refused([](Ticket& t) { t.not_after = t.not_before - 1; }));
   EXPECT_FALSE(refused([](Ticket& t) { t.not_after = t.not_before + Ticket::kLifeMax; }));
   EXPECT_FALSE(refused([](Ticket& t) { t.seat = "", t.role = AccessRole::kRecorder; }));
+  EXPECT_FALSE(refused([](Ticket& t) { t.seat = "", t.role = AccessRole::kInstructor; })) << "at a console";
   EXPECT_FALSE(refused([](Ticket& t) { t.seat = std::string(32, 'a'); }));
 }
 

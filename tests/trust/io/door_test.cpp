@@ -162,16 +162,51 @@ TEST(ControlPlane, OrdersNeedAJoiningFirstAndAreLimited) {
   ASSERT_FALSE(reason_of(client->ask(control::SessionListRequest{}, kPatience)));
   EXPECT_EQ(reason_of(client->ask(control::StopSession{}, kPatience)), Reason::kNotAllowed);
   ASSERT_TRUE(std::holds_alternative<control::Welcome>(*client->ask(hello_with(door.ticket(me)), kPatience)));
-  int done = 0, fast = 0;
-  for (int i = 0; i < 25; ++i) {
-    const auto answer = client->ask(control::StopSession{}, kPatience);
-    ASSERT_TRUE(answer) << answer.error().text;
-    done += std::holds_alternative<control::Done>(*answer) ? 1 : 0;
-    fast += reason_of(answer) == Reason::kTooFast ? 1 : 0;
-  }
-  EXPECT_EQ(done, 17) << "20 at once, of which three were spent above";
-  EXPECT_EQ(fast, 8);
-  EXPECT_TRUE(std::holds_alternative<control::Done>(*client->ask(control::SetAuthority{{}, 0, 0, {1.0}}, kPatience))) << "has its own allowance";
+  const auto let_through = [&](const control::Body& command, int times) {
+    int done = 0, fast = 0;
+    for (int i = 0; i < times; ++i) {
+      const auto answer = client->ask(command, kPatience);
+      EXPECT_TRUE(answer) << answer.error().text;
+      done += answer && std::holds_alternative<control::Done>(*answer) ? 1 : 0;
+      fast += reason_of(answer) == Reason::kTooFast ? 1 : 0;
+    }
+    EXPECT_EQ(done + fast, times);
+    return done;
+  };
+  EXPECT_EQ(let_through(control::StatusRequest{}, 25), 18) << "20 at once, of which two were spent above";
+  EXPECT_EQ(let_through(control::PauseSession{}, 25), 19) << "what stops hands waits for nothing else; one was spent above";
+  EXPECT_EQ(let_through(control::SetAuthority{{}, 0, 0, {1.0}}, 130), 120) << "has its own allowance";
+  EXPECT_EQ(door.plane->count(ControlEvent::kCommandTooFast), 7U + 6U + 10U);
+}
+
+TEST(ControlPlane, WhatARoleMayNotIsRefusedAndCountedAndTheConnectionStays) {
+  Door door;
+  const auto me = door.enrolled("me");
+  auto client = door.connect(me);
+  ASSERT_TRUE(client);
+  ASSERT_TRUE(std::holds_alternative<control::Welcome>(*client->ask(hello_with(door.ticket(me)), kPatience)));  // a trainee
+  for (const control::Body& body : {control::Body{control::StopSession{}}, control::Body{control::ResumeSession{}}, control::Body{control::RemovePerson{{}, "a", ""}},
+                                    control::Body{control::Drain{}}, control::Body{hello_with(door.ticket(me, 2))}, control::Body{control::Enrol{}}})
+    EXPECT_EQ(reason_of(client->ask(body, kPatience)), Reason::kNotAllowed) << body.index();
+  EXPECT_EQ(door.plane->count(ControlEvent::kForbidden), 6U);
+  EXPECT_TRUE(std::holds_alternative<control::Pong>(*client->ask(control::Ping{1}, kPatience)));
+  const auto news = door.news();
+  const auto told = std::ranges::count_if(news, [](const ControlNews& n) { return n.event == ControlEvent::kForbidden && !n.detail.empty(); });
+  EXPECT_GE(told, 1) << "a line for the audit log";
+  EXPECT_LE(told, 6);
+}
+
+TEST(ControlPlane, ComplaintsAboutARoleFillNoLog) {
+  Door door;
+  door.frozen = true;
+  const auto me = door.enrolled("me");
+  auto client = door.connect(me);
+  ASSERT_TRUE(client);
+  ASSERT_TRUE(std::holds_alternative<control::Welcome>(*client->ask(hello_with(door.ticket(me)), kPatience)));
+  for (int i = 0; i < 15; ++i) EXPECT_EQ(reason_of(client->ask(control::Drain{}, kPatience)), Reason::kNotAllowed);
+  EXPECT_EQ(door.plane->count(ControlEvent::kForbidden), 15U);
+  const auto news = door.news();
+  EXPECT_EQ(std::ranges::count_if(news, [](const ControlNews& n) { return n.event == ControlEvent::kForbidden && !n.detail.empty(); }), 1) << "one a second";
 }
 
 TEST(ControlPlane, TellsNoSecrets) {

@@ -61,6 +61,33 @@ TEST(HostileDoor, AfterTheFirstYesFramesMayBeLongerButNotTooLong) {
   EXPECT_EQ(refusal_in(other.read_to_end()), control::Reason::kBadFrame);
 }
 
+// A trainee's Drain whose payload is nonsense: had it been read, it would have been a bad frame, and the connection over.
+TEST(HostileDoor, WhatARoleMayNotIsRefusedBeforeItsPayloadIsRead) {
+  Door door;
+  const auto me = door.enrolled("me");
+  const RawTls client(door.address, {.identity = &me});
+  const auto answer = [&] {
+    const std::string head = client.read(4);
+    if (head.size() < 4) return std::string();
+    return head + client.read(static_cast<unsigned char>(head[0]) + 256u * static_cast<unsigned char>(head[1]));
+  };
+  const auto nonsense = [](control::Kind kind) {
+    const std::string body = std::string("\x08\x01\x10\x01", 4) + static_cast<char>(static_cast<unsigned>(kind) << 3 | 2) + std::string("\x7f\xff\xff", 3);
+    return std::string("\x08\x00\x00\x00", 4) + body;
+  };
+  ASSERT_TRUE(client.write(framed(hello_with(door.ticket(me)))));
+  ASSERT_GT(answer().size(), 100u) << "a welcome";
+  for (const auto kind : {control::Kind::kDrain, control::Kind::kStopSession, control::Kind::kResumeSession}) {
+    ASSERT_TRUE(client.write(nonsense(kind)));
+    EXPECT_EQ(refusal_in(answer()), control::Reason::kNotAllowed) << static_cast<int>(kind);
+  }
+  EXPECT_EQ(door.plane->count(ControlEvent::kBadFrame), 0U);
+  EXPECT_EQ(door.plane->count(ControlEvent::kForbidden), 3U);
+  ASSERT_TRUE(client.write(nonsense(control::Kind::kPauseSession)));  // his to say, so it is read
+  EXPECT_EQ(refusal_in(client.read_to_end()), control::Reason::kBadFrame);
+  expect_alive(door);
+}
+
 TEST(HostileDoor, AHandshakeLongerThanAllowedIsCutOff) {
   Door door;
   const RawTcp stranger(door.address);

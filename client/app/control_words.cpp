@@ -1,0 +1,198 @@
+#include "client/app/control_words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "common/base/format.h"
+
+namespace tandem::client {
+namespace {
+
+constexpr double kSumSlack = 1e-9;  // of weights that are together 1
+
+struct Order {
+  std::string_view word;
+  Wish::What what;
+};
+constexpr std::array<Order, 9> kOrders{{{"status", Wish::What::kStatus},
+                                        {"stop", Wish::What::kStop},
+                                        {"pause", Wish::What::kPause},
+                                        {"resume", Wish::What::kResume},
+                                        {"authority", Wish::What::kAuthority},
+                                        {"remove", Wish::What::kRemove},
+                                        {"drain", Wish::What::kDrain},
+                                        {"help", Wish::What::kHelp},
+                                        {"quit", Wish::What::kQuit}}};
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::string joined(std::span<const std::string> words) {
+  std::string text;
+  for (const std::string& w : words) text += (text.empty() ? "" : " ") + w;
+  return text;
+}
+
+/// `trainer=0.5,trainee=0.5`
+std::expected<std::vector<std::pair<std::string, double>>, std::string> weights(std::string_view text) {
+  std::vector<std::pair<std::string, double>> out;
+  double sum = 0;
+  while (!text.empty()) {
+    const std::string_view part = text.substr(0, text.find(','));
+    text.remove_prefix(std::min(text.size(), part.size() + 1));
+    const auto sign = part.find('=');
+    const auto value = sign == std::string_view::npos ? std::nullopt : number<double>(part.substr(sign + 1));
+    if (sign == 0 || !value || !(*value >= 0 && *value <= 1))
+      return std::unexpected("authority: \"" + std::string(part) + "\" must be SEAT=WEIGHT with a weight in [0, 1], such as trainer=0.5,trainee=0.5");
+    const std::string seat{part.substr(0, sign)};
+    if (std::ranges::find(out, seat, &std::pair<std::string, double>::first) != out.end()) return std::unexpected("authority: " + seat + " is named twice");
+    out.emplace_back(seat, *value);
+    sum += *value;
+  }
+  if (std::abs(sum - 1) > kSumSlack) return std::unexpected(format("authority: the weights are together %g; they must be 1", sum));
+  return out;
+}
+
+std::expected<Wish, std::string> understand_authority(Wish wish, std::span<const std::string> words) {
+  if (words.empty()) return std::unexpected("authority: which weights? Such as: authority trainer=0.5,trainee=0.5");
+  auto given = weights(words.front());
+  if (!given) return std::unexpected(given.error());
+  wish.weights = std::move(*given);
+  for (const std::string& word : words.subspan(1)) {
+    if (word.starts_with("tool=") && word.size() > 5) {
+      wish.tool = word.substr(5);
+    } else if (const auto version = word.starts_with("version=") ? number<std::uint32_t>(std::string_view(word).substr(8)) : std::nullopt) {
+      wish.version = version;
+    } else {
+      return std::unexpected("authority: \"" + word + "\" must be tool=NAME or version=N; weights go together without spaces");
+    }
+  }
+  return wish;
+}
+
+}  // namespace
+
+std::expected<Wish, std::string> understand(std::span<const std::string> words) {
+  const auto found = std::ranges::find(kOrders, words.empty() ? std::string_view() : std::string_view(words.front()), &Order::word);
+  if (found == kOrders.end())
+    return std::unexpected("\"" + (words.empty() ? std::string() : words.front()) + "\" is no order; orders: status, stop, pause, resume, authority, remove, drain");
+  Wish wish;
+  wish.what = found->what;
+  const auto rest = words.subspan(1);
+  const std::string name{found->word};
+  switch (wish.what) {
+    case Wish::What::kStop:
+      wish.why = joined(rest);
+      break;
+    case Wish::What::kResume:
+      if (rest.empty()) return wish;
+      wish.stop = number<std::uint32_t>(rest.front());
+      if (!wish.stop || *wish.stop == 0 || rest.size() > 1) return std::unexpected("resume: \"" + joined(rest) + "\" must be the number of a stop, as `status` shows it");
+      return wish;
+    case Wish::What::kAuthority:
+      return understand_authority(std::move(wish), rest);
+    case Wish::What::kRemove:
+      if (rest.empty()) return std::unexpected("remove: who? Such as: remove trainee");
+      wish.seat = rest.front();
+      wish.why = joined(rest.subspan(1));
+      break;
+    case Wish::What::kDrain: {
+      if (rest.empty()) return wish;
+      const auto grace = number<std::uint32_t>(rest.front());
+      if (!grace || *grace > 3600 || rest.size() > 1) return std::unexpected("drain: \"" + joined(rest) + "\" must be seconds in [0, 3600]");
+      wish.grace_s = *grace;
+      return wish;
+    }
+    default:
+      if (!rest.empty()) return std::unexpected(name + ": takes no more words, and there is \"" + joined(rest) + "\"");
+  }
+  if (wish.why.size() > control::kTextMax) return std::unexpected(name + format(": why may have %zu bytes", control::kTextMax));
+  return wish;
+}
+
+const char* control_words_help() noexcept {
+  return "  status                                    how the session stands: phase, stops, seats, authority\n"
+         "  stop [WHY ...]                            lets go of all hands; stays so until somebody resumes (instructor, operator)\n"
+         "  pause                                     the same for those who may not stop: trainees and evaluators may pause, from their seats\n"
+         "  resume [STOP]                             ends that stop; without a number the one there is now (instructor, operator)\n"
+         "  authority SEAT=W,... [tool=T] [version=V] weights of the hands over a tool, together 1 (instructor)\n"
+         "  remove SEAT [WHY ...]                     lets go of that hand gently and frees the seat (instructor, operator)\n"
+         "  drain [SECONDS]                           nobody new comes in; after SECONDS all hands are let go and the server ends (operator)\n"
+         "  help, quit                                in the console\n";
+}
+
+AccessRole role_for(Wish::What what) noexcept { return what == Wish::What::kAuthority ? AccessRole::kInstructor : AccessRole::kOperator; }
+
+std::expected<control::SetAuthority, std::string> authority_frame(const Wish& wish, const control::Status& status) {
+  control::SetAuthority frame;
+  frame.session_id = status.session_id;
+  frame.version = wish.version.value_or(status.authority_version);
+  std::string names;
+  for (const control::StatusTool& t : status.tools) names += (names.empty() ? "" : ", ") + t.name;
+  if (wish.tool.empty() && status.tools.size() != 1) return std::unexpected("authority: over which tool? Say tool=NAME; tools: " + names);
+  const auto tool = wish.tool.empty() ? status.tools.begin() : std::ranges::find(status.tools, wish.tool, &control::StatusTool::name);
+  if (tool == status.tools.end()) return std::unexpected("authority: no tool \"" + wish.tool + "\"; tools: " + names);
+  frame.tool = static_cast<std::uint32_t>(tool - status.tools.begin());
+  std::string masters;
+  std::vector<std::string> unknown;
+  for (const auto& [seat, weight] : wish.weights) unknown.push_back(seat);
+  for (const control::StatusSeat& s : status.seats) {
+    if (!s.master) continue;
+    masters += (masters.empty() ? "" : ", ") + s.name;
+    std::erase(unknown, s.name);
+    const auto given = std::ranges::find(wish.weights, s.name, &std::pair<std::string, double>::first);
+    frame.alpha.push_back(given == wish.weights.end() ? 0.0 : given->second);
+  }
+  if (!unknown.empty()) return std::unexpected("authority: no seat \"" + unknown.front() + "\" that leads; seats: " + masters);
+  return frame;
+}
+
+std::string weights_text(const control::Status& status, std::span<const double> alpha) {
+  std::string text;
+  std::size_t k = 0;
+  for (const control::StatusSeat& s : status.seats)
+    if (s.master && k < alpha.size()) text += (text.empty() ? "" : ", ") + s.name + format(" %.3g", alpha[k++]);
+  return text.empty() ? "nobody" : text;
+}
+
+std::string status_text(const control::Status& s) {
+  std::string text = format("%s: %s, %.1f s", s.name.c_str(), control::to_text(s.phase), s.time_s);
+  const bool on = s.phase == control::SessionPhase::kStopped || s.phase == control::SessionPhase::kPaused;
+  text += on ? format("; `resume %u` ends it", s.stops) : format("; %u stops so far", s.stops);
+  text += format("; authority version %u%s\n", s.authority_version, s.draining ? "; the server is DRAINING" : "");
+  for (const control::StatusSeat& seat : s.seats)
+    text += format("  seat %-16s %-10s %s\n", seat.name.c_str(), std::string(to_text(seat.role)).c_str(), !seat.taken ? "free" : seat.heard ? "here" : "SILENT");
+  for (const control::StatusTool& tool : s.tools) text += format("  tool %-16s %s\n", tool.name.c_str(), weights_text(s, tool.alpha).c_str());
+  return text;
+}
+
+std::string status_json(const control::Status& s) {
+  // Names are of A-Z a-z 0-9 _ -: nothing needs escaping.
+  std::string text = "{\"session\": \"" + s.name + "\", \"id\": \"";
+  for (const std::byte b : s.session_id) text += format("%02x", std::to_integer<unsigned>(b));
+  text += format("\", \"phase\": \"%s\", \"time_s\": %.3f, \"stops\": %u, \"authority_version\": %u, \"draining\": %s, \"seats\": [", control::to_text(s.phase), s.time_s,
+                 s.stops, s.authority_version, s.draining ? "true" : "false");
+  std::vector<std::string> masters;
+  for (std::size_t i = 0; i < s.seats.size(); ++i) {
+    const control::StatusSeat& seat = s.seats[i];
+    if (seat.master) masters.push_back(seat.name);
+    text += format("%s{\"name\": \"%s\", \"role\": \"%s\", \"taken\": %s, \"heard\": %s}", i == 0 ? "" : ", ", seat.name.c_str(), std::string(to_text(seat.role)).c_str(),
+                   seat.taken ? "true" : "false", seat.heard ? "true" : "false");
+  }
+  text += "], \"tools\": [";
+  for (std::size_t j = 0; j < s.tools.size(); ++j) {
+    text += format("%s{\"name\": \"%s\", \"alpha\": {", j == 0 ? "" : ", ", s.tools[j].name.c_str());
+    for (std::size_t k = 0; k < s.tools[j].alpha.size() && k < masters.size(); ++k)
+      text += format("%s\"%s\": %.9g", k == 0 ? "" : ", ", masters[k].c_str(), s.tools[j].alpha[k]);
+    text += "}}";
+  }
+  return text + "]}\n";
+}
+
+}  // namespace tandem::client
