@@ -6,20 +6,21 @@ void Freshness::accepted(Time now, std::uint64_t echo_counter, Duration echo_age
   arrived_ = now;
   if (!heard_) echo_moved_ = now;
   heard_ = true;
-  const Sent& s = sent_[echo_counter % kRemembered];
-  const bool known = s.counter == echo_counter && next_ > echo_counter;
+  const bool known = remembers(echo_counter);
   if (known && (!echoed_ || echo_counter > echo_counter_)) echo_moved_ = now;
   peer_silence_ = known ? echo_age : Duration{};
   if (known && (!echoed_ || echo_counter >= echo_counter_)) {
     echoed_ = true;
     echo_counter_ = echo_counter;
-    echo_sent_ = s.at;
+    echo_sent_ = sent_[echo_counter % kRemembered];
     // One tick of the loop is the peer's and the own waiting for the next tick: there even without a network.
-    rtt_ = std::max(Duration{0}, now - s.at - echo_age);
+    rtt_ = std::max(Duration{0}, now - echo_sent_ - echo_age);
     rtts_.add(rtt_.count());
     recent_.add(rtt_.count());
-    if (recent_.count() >= kLearnEvery || rtts_.count() < kLearnEvery) recent_p99_ = recent_.quantile(0.99);
-    if (recent_.count() >= kLearnEvery) recent_.reset();
+    if (recent_.count() >= kLearnEvery) {
+      recent_p99_ = recent_.quantile(0.99);
+      recent_.reset();
+    }
     rtt_floor_.add(now, rtt_.count());
   }
   const std::int64_t transit = now.time_since_epoch().count() - static_cast<std::int64_t>(peer_tick) * tick_.count();

@@ -39,8 +39,10 @@ class Freshness {
  public:
   explicit Freshness(Duration tick) noexcept : tick_(tick) {}
 
+  /// @param counter  one more than the last time
   void sent(Time now, std::uint64_t counter) noexcept {
-    sent_[counter % kRemembered] = {counter, now};
+    if (next_ == 0) first_ = counter;
+    sent_[counter % kRemembered] = now;
     next_ = counter + 1;
   }
   /// A strictly newer datagram was accepted. @param peer_tick its sender's tick count, for the variation of transit.
@@ -55,7 +57,10 @@ class Freshness {
   [[nodiscard]] Duration silence(Time now) const noexcept { return heard_ ? now - arrived_ : std::chrono::hours(24); }
   [[nodiscard]] Duration rtt() const noexcept { return rtt_; }
   [[nodiscard]] Duration rtt_p50() const noexcept { return Duration{rtts_.quantile(0.50)}; }
-  [[nodiscard]] Duration rtt_p99() const noexcept { return Duration{recent_p99_}; }
+  /// Of the last full thousand; before there was one, of all: whoever asks then has it counted.
+  [[nodiscard]] Duration rtt_p99() const noexcept {
+    return Duration{rtts_.count() < kLearnEvery ? rtts_.quantile(0.99) : recent_p99_};
+  }
   [[nodiscard]] std::uint64_t rtt_samples() const noexcept { return rtts_.count(); }
   [[nodiscard]] const Histogram& rtts() const noexcept { return rtts_; }
   /// How long the peer had heard nothing of us when it sent its newest datagram, by its own clock; and how long, by ours, its
@@ -69,13 +74,13 @@ class Freshness {
  private:
   static constexpr std::uint64_t kRemembered = 4096;  // 4 s at 1 kHz: longer loops count as not echoed
   static constexpr std::uint64_t kLearnEvery = 1000;
-  struct Sent {
-    std::uint64_t counter = ~std::uint64_t{0};
-    Time at{};
-  };
+  [[nodiscard]] bool remembers(std::uint64_t counter) const noexcept {
+    return counter >= first_ && counter < next_ && next_ - counter <= kRemembered;
+  }
+
   Duration tick_;
-  std::array<Sent, kRemembered> sent_{};
-  std::uint64_t next_ = 0;
+  std::array<Time, kRemembered> sent_{};  ///< when a counter was sent, at its remainder: one number each, for caches
+  std::uint64_t first_ = 0, next_ = 0;
   bool heard_ = false, echoed_ = false;
   Time arrived_{}, echo_sent_{}, echo_moved_{};
   Duration peer_silence_{};

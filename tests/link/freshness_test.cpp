@@ -118,6 +118,28 @@ TEST(Freshness, LearnsTheRoundTripItMustExpect) {
   EXPECT_NEAR(seconds(f.rtt_p99()), 0.030, 0.0015);
 }
 
+TEST(Freshness, ExpectsTheWorstHundredthOfWhatCameSoFarAndThenOfTheLastThousand) {
+  Freshness f(1ms);
+  std::uint64_t c = 0;
+  const auto trips = [&](int count, Duration rtt) {
+    for (int i = 0; i < count; ++i, ++c) {
+      f.sent(at(c * 1ms), c);
+      f.accepted(at(c * 1ms + rtt), c, 0ms, static_cast<std::uint32_t>(c));
+    }
+  };
+  EXPECT_EQ(f.rtt_p99(), 0ms);
+  trips(98, 10ms);
+  EXPECT_NEAR(seconds(f.rtt_p99()), 0.010, 0.0004);
+  trips(2, 30ms);  // two of a hundred
+  EXPECT_NEAR(seconds(f.rtt_p99()), 0.030, 0.001);
+  trips(900, 10ms);  // two of a thousand
+  EXPECT_NEAR(seconds(f.rtt_p99()), 0.010, 0.0004);
+  trips(999, 50ms);  // not yet a thousand
+  EXPECT_NEAR(seconds(f.rtt_p99()), 0.010, 0.0004);
+  trips(1, 50ms);
+  EXPECT_NEAR(seconds(f.rtt_p99()), 0.050, 0.0016);
+}
+
 TEST(WindowedMinimum, ForgetsAFloorThatIsGone) {
   WindowedMinimum m;
   EXPECT_FALSE(m.any());
