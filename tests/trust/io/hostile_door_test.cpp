@@ -197,6 +197,8 @@ TEST(HostileDoor, WhoReadsNoAnswersIsLetGoOfWithLittleKeptForHim) {
   ASSERT_TRUE(client.handshake);
   // Each is answered, with a list or with "more slowly". That the server does not read on either is what ends this.
   const std::string question = framed(control::SessionListRequest{});
+  ASSERT_TRUE(client.write(question));
+  ASSERT_EQ(client.read(control::kLengthSize).size(), control::kLengthSize);  // known now: no longer held to the few bytes of a stranger
   constexpr std::size_t kMost = 4'000'000;
   std::size_t asked = 0;
   while (asked < kMost && client.write(question)) ++asked;
