@@ -61,7 +61,7 @@ std::string hand_of(const Case& c, Grip grip) {
 
 std::string scene_of(Grip grip) {
   std::string text =
-      "version: 1 dof: 1 tick_hz: 1000 duration_s: 600 unsafe_gains: true\nchannel { law: SET_POSITION mfs: OPEN k_n_m: 1500 }\n"
+      "version: 1 dof: 1 tick_hz: 1000 duration_s: 600 unsafe_gains: true\nchannel { law: SET_POSITION mfs: OPEN k_n_m: 1500 k_min_n_m: 200 }\n"
       "device_coupling { k_c_n_m: 400 b_n_s_m: 2 m_c_kg: 0.02 }\ngate { silence_limit_ms: 20 loop_age_max_ms: 2500 latch: false force_max_n: 40 }\n";
   for (const Case& c : kCases)
     text += format("seat { name: \"%s\" kind: MASTER role: %s required: true device { model: LINEAR mass_kg: %g friction_n: 0 damping_n_s_m: 0.05 encoder_m: 0 "
