@@ -82,11 +82,9 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
   Process resume = control(address, {"resume", "2"});
   EXPECT_EQ(resume.wait(), 0) << resume.err();
   ASSERT_TRUE(host.wait_for("the session runs again")) << host.err();
-  for (int tries = 0; tries < 600; ++tries) {  // until both hands are active again
-    Process asked = control(address, {"status"});
-    if (asked.wait() == 0 && asked.out().find("running") != std::string::npos && tries > 3) break;
+  const auto back = [&](const char* file) { return phases_of(folder.read(file)).find("A-A") != std::string::npos; };
+  for (int tries = 0; tries < 150 && !(back("trainer.csv") && back("trainee.csv")); ++tries)  // until both hands are active again
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  }
 
   Process drain = control(address, {"drain"});
   EXPECT_EQ(drain.wait(), 0) << drain.err();

@@ -248,41 +248,62 @@ TEST(Revocation, ABookThatCannotBeReadTakesNobodysSeat) {
 
 // ---- Those who judge their link --------------------------------------------------------------------------------------------
 
+// A visitor who never speaks keeps his place for 2 s: a machine that is slower than that between two questions shows nothing, and is
+// asked again.
+constexpr auto kQuick = 1500ms;
+
+control::Hello visiting() {
+  control::Hello hello = LiveHouse::hello({});
+  hello.visit = true;
+  return hello;
+}
+
 TEST(Visits, NoMoreAreWelcomedThanAreServed) {
   LiveHouse house;
   const auto key = house.enrolled("desk-1");
-  const auto visit = [&] {
-    control::Hello hello = LiveHouse::hello({});
-    hello.visit = true;
-    return house.connect(key).ask(hello, kPatience);
-  };
-  for (std::size_t i = 0; i < Visitors::kMax; ++i) EXPECT_TRUE(std::holds_alternative<control::Welcome>(*visit())) << i;
-  const auto refused = visit();
-  ASSERT_EQ(reason_of(refused), Reason::kFull) << "one more";
-  EXPECT_NE(text_of(refused).find("all 4 places"), std::string::npos) << text_of(refused);
-  EXPECT_EQ(std::get<control::Refused>(*refused).retry_after_s, 3U);
-  // Nobody of them ever speaks: after 2 s their places are free.
-  EXPECT_TRUE(comes_true([&] { return std::holds_alternative<control::Welcome>(*visit()); }));
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    std::vector<trust::ControlClient> connections;
+    for (std::size_t i = 0; i <= Visitors::kMax; ++i) connections.push_back(house.connect(key));
+    std::vector<std::expected<control::Body, trust::ClientFault>> answers;
+    const auto began = std::chrono::steady_clock::now();
+    for (trust::ControlClient& c : connections) answers.push_back(c.ask(visiting(), kPatience));
+    const bool quick = std::chrono::steady_clock::now() - began < kQuick;
+    if (quick) {
+      for (std::size_t i = 0; i < Visitors::kMax; ++i) EXPECT_TRUE(std::holds_alternative<control::Welcome>(*answers[i])) << i;
+      ASSERT_EQ(reason_of(answers.back()), Reason::kFull) << "one more";
+      EXPECT_NE(text_of(answers.back()).find("all 4 places"), std::string::npos) << text_of(answers.back());
+      EXPECT_EQ(std::get<control::Refused>(*answers.back()).retry_after_s, 3U);
+    }
+    // Nobody of them ever speaks: by and by their places are free.
+    EXPECT_TRUE(comes_true([&] { return std::holds_alternative<control::Welcome>(*house.connect(key).ask(visiting(), kPatience)); }));
+    if (quick) return;
+    std::this_thread::sleep_for(3s);
+  }
+  std::printf("[ NOT RUN ] the fifth visitor: this machine took longer than %d ms for five questions, ten times\n", static_cast<int>(kQuick.count()));
 }
 
-TEST(Visits, ManyAtOnceGetExactlyThePlacesThereAre) {
+TEST(Visits, ManyAtOnceGetNoMoreThanThePlacesThereAre) {
   LiveHouse house;
   const auto key = house.enrolled("desk-1");
+  std::vector<trust::ControlClient> connections;
+  for (int i = 0; i < 12; ++i) connections.push_back(house.connect(key));
   std::atomic<int> welcomed{0}, full{0};
   std::vector<std::thread> crowd;
-  for (int i = 0; i < 12; ++i)
+  const auto began = std::chrono::steady_clock::now();
+  for (trust::ControlClient& c : connections)
     crowd.emplace_back([&] {
-      control::Hello hello = LiveHouse::hello({});
-      hello.visit = true;
-      auto connection = house.connect(key);
-      const auto answer = connection.ask(hello, kPatience);
+      const auto answer = c.ask(visiting(), kPatience);
       if (answer && std::holds_alternative<control::Welcome>(*answer)) ++welcomed;
       if (reason_of(answer) == Reason::kFull) ++full;
     });
   for (std::thread& t : crowd) t.join();
   EXPECT_EQ(welcomed + full, 12);
   EXPECT_GE(welcomed, 1);
-  EXPECT_LE(welcomed, static_cast<int>(Visitors::kMax)) << "12 within the 2 s for which a silent visitor keeps his place";
+  if (std::chrono::steady_clock::now() - began < kQuick) {
+    EXPECT_LE(welcomed, static_cast<int>(Visitors::kMax));
+  } else {
+    std::printf("[ NOT RUN ] the bound: this machine took longer than %d ms for twelve questions\n", static_cast<int>(kQuick.count()));
+  }
 }
 
 // ---- Room for more ---------------------------------------------------------------------------------------------------------
