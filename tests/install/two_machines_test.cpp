@@ -28,9 +28,15 @@ class Cable {
  public:
   Cable() : server_("tandem-" + std::to_string(getpid()) + "-s"), workstation_("tandem-" + std::to_string(getpid()) + "-w") {
     const std::string number = std::to_string(getpid() % 100000), a = "tds" + number, b = "tdw" + number;
-    problem = ip({"netns", "add", server_}) + ip({"netns", "add", workstation_}) + ip({"link", "add", a, "netns", server_, "type", "veth", "peer", "name", b, "netns", workstation_});
+    problem += ip({"netns", "add", server_});
+    problem += ip({"netns", "add", workstation_});
+    problem += ip({"link", "add", a, "netns", server_, "type", "veth", "peer", "name", b, "netns", workstation_});
     for (const auto& [space, end, address] : {std::tuple{server_, a, "10.213.7.1/24"}, std::tuple{workstation_, b, "10.213.7.2/24"}})
-      problem += ip({"-n", space, "addr", "add", address, "dev", end}) + ip({"-n", space, "link", "set", end, "up"}) + ip({"-n", space, "link", "set", "lo", "up"});
+      for (const Words& words : {Words{"addr", "add", address, "dev", end}, Words{"link", "set", end, "up"}, Words{"link", "set", "lo", "up"}}) {
+        Words all{"-n", space};
+        all.insert(all.end(), words.begin(), words.end());
+        problem += ip(std::move(all));
+      }
   }
   ~Cable() {
     static_cast<void>(ip({"netns", "del", workstation_}));

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 /// A row of a client's trace.
 struct Row {
-  double t = 0, force = 0, gate_force = 0;  ///< session time [s]; delivered, ordered [N] along x
+  double t = 0, x = 0, force = 0, gate_force = 0;  ///< session time [s]; tip [m]; delivered, ordered [N] along x
   int gate = 0;
 };
 
@@ -32,21 +32,21 @@ std::vector<Row> trace_of(const Folder& folder, const std::string& name) {
   std::vector<std::string> columns;
   for (std::istringstream head(line); std::getline(head, line, ',');) columns.push_back(line);
   const auto column = [&](const char* wanted) { return static_cast<std::size_t>(std::ranges::find(columns, wanted) - columns.begin()); };
-  const std::size_t t = column("t_s[s]"), out = column("f_out_x[N]"), ordered = column("f_gate_x[N]"), gate = column("gate[1]");
+  const std::size_t t = column("t_s[s]"), x = column("x[m]"), out = column("f_out_x[N]"), ordered = column("f_gate_x[N]"), gate = column("gate[1]");
   std::vector<Row> rows;
   while (std::getline(text, line)) {
     std::vector<double> v;
     std::string word;
     for (std::istringstream words(line); std::getline(words, word, ',');) v.push_back(std::strtod(word.c_str(), nullptr));
     if (v.size() != columns.size()) continue;
-    rows.push_back({v[t], v[out], v[ordered], static_cast<int>(v[gate])});
+    rows.push_back({v[t], v[x], v[out], v[ordered], static_cast<int>(v[gate])});
   }
   return rows;
 }
 
 /// The words that start `program` with another wall clock: what stands in `file` is added to it; monotonic clocks are left alone.
 Words faked(const std::string& library, const std::string& file, Words program) {
-  Words command{"/usr/bin/env", "LD_PRELOAD=" + library, "FAKETIME_TIMESTAMP_FILE=" + file, "FAKETIME_CACHE_DURATION=1", "FAKETIME_DONT_FAKE_MONOTONIC=1",
+  Words command{"/usr/bin/env", "LD_PRELOAD=" TANDEM_REAL_SLEEP ":" + library, "FAKETIME_TIMESTAMP_FILE=" + file, "FAKETIME_CACHE_DURATION=1", "FAKETIME_DONT_FAKE_MONOTONIC=1",
                 "FAKETIME_DISABLE_SHM=1"};
   command.insert(command.end(), program.begin(), program.end());
   return command;
@@ -72,7 +72,7 @@ TEST(FailureLive, WallClocksThatJumpAreFeltByNobody) {
   };
   Process trainer = join("trainer"), trainee = join("trainee");
   ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
-  std::this_thread::sleep_for(6s);  // both press by now
+  std::this_thread::sleep_for(10s);  // both press by now, and have come to rest
   for (const char* jump : {"+3600", "+0", "-3600", "+0", "+10y", "+0", "-10y"}) {
     folder.write("clock", std::string(jump) + "\n");
     std::this_thread::sleep_for(1500ms);  // looked at once a second
@@ -93,7 +93,7 @@ TEST(FailureLive, WallClocksThatJumpAreFeltByNobody) {
     const std::vector<Row> rows = trace_of(folder, std::string(seat) + ".csv");
     ASSERT_GT(rows.size(), 1000U);
     for (const Row& r : rows) {
-      if (r.t < 5 || r.gate != 3) continue;
+      if (r.t < 9 || r.gate != 3) continue;
       least = std::min(least, r.force);
       most = std::max(most, r.force);
     }
@@ -132,7 +132,10 @@ TEST(FailureLive, AClientThatWasStoppedLetsGoFirstAndPlaysNothingBack) {
     EXPECT_EQ(rows[i].gate, 4) << "PASSIVE before anything else, at " << rows[i].t;
     EXPECT_EQ(rows[i].gate_force, 0) << "the device has forgotten the force: no ramp begins from it";
     std::size_t again = i;
-    while (again < rows.size() && rows[again].gate != 2) EXPECT_LE(std::abs(rows[again++].gate_force), 0.05) << rows[again].t;
+    for (; again < rows.size() && rows[again].gate != 2; ++again) {  // what there is may brake the hand and never push it
+      const double speed = again == i ? 0 : (rows[again].x - rows[again - 1].x) / (rows[again].t - rows[again - 1].t);
+      EXPECT_LE(rows[again].gate_force * speed > 0 ? std::abs(rows[again].gate_force) : 0, 0.05) << rows[again].t;
+    }
     ASSERT_LT(again, rows.size()) << "never engaged again";
     EXPECT_LE(std::abs(rows[again].gate_force), 0.05) << "begins anew at zero";
   }

@@ -175,7 +175,9 @@ TEST(HostileDoor, WhoReadsNoAnswersIsLetGoOfWithLittleKeptForHim) {
   while (asked < kMost && client.write(question)) ++asked;
   EXPECT_GT(asked, 100u);
   EXPECT_LT(asked, kMost) << "the server read on";
-  EXPECT_TRUE(door.told(ControlEvent::kDeadline, 1));
+  const bool told = door.told(ControlEvent::kDeadline, 1);
+  const auto news = door.news();
+  EXPECT_TRUE(told) << asked << " questions; the last that happened: " << to_text(news.back().event) << " " << news.back().detail << " errno " << errno;
   expect_alive(door);
 }
 
