@@ -58,7 +58,7 @@ fs::path package(const std::string& name) {
 
 TEST(DebianPackages, HoldWhatTheyShallAndRunFromAnUnpackedRoot) {
   if (const std::string& why = packages(); !why.empty()) {
-    std::printf("[ NOT RUN  ] Debian packages: %s\n", why.c_str());
+    std::printf("[ NOT RUN ] Debian packages: %s\n", why.c_str());
     return;
   }
   for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
@@ -98,22 +98,86 @@ TEST(DebianPackages, HoldWhatTheyShallAndRunFromAnUnpackedRoot) {
 
 TEST(DebianPackages, TheUnitIsHardened) {
   if (!there("systemd-analyze")) {
-    std::printf("[ NOT RUN  ] systemd-analyze security: it is not installed\n");
+    std::printf("[ NOT RUN ] systemd-analyze security: it is not installed\n");
     return;
   }
   const Done judged = shell("systemd-analyze security --offline=true --threshold=30 " + quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package/tandem-server.service"));
   const auto at = judged.text.find("Overall exposure level");
   if (at == std::string::npos) {
-    std::printf("[ NOT RUN  ] systemd-analyze security: it does not judge files offline here: %s\n", judged.text.c_str());
+    std::printf("[ NOT RUN ] systemd-analyze security: it does not judge files offline here: %s\n", judged.text.c_str());
     return;
   }
   std::printf("[ EXPOSURE ] %s", judged.text.substr(at).c_str());
   EXPECT_EQ(judged.code, 0) << "above 3.0\n" << judged.text;
 }
 
+// The unit as it is installed, but for the place of the program, which is this build's.
+TEST(DebianPackages, TheUnitIsUnderstood) {
+  if (!there("systemd-analyze")) {
+    std::printf("[ NOT RUN ] systemd-analyze verify: it is not installed\n");
+    return;
+  }
+  const fs::path unit = fs::path{TANDEM_BINARY_DIR} / "unit" / "tandem-server.service";
+  fs::create_directories(unit.parent_path());
+  ASSERT_EQ(shell("sed 's|/usr/bin/tandem-server|" + (fs::path{TANDEM_BINARY_DIR} / "bin/tandem-server").string() + "|' " +
+                  quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package/tandem-server.service") + " > " + quoted(unit)).code, 0);
+  const Done judged = shell("systemd-analyze verify --man=no " + quoted(unit));
+  EXPECT_EQ(judged.code, 0) << judged.text;
+  EXPECT_EQ(judged.text.find("tandem-server.service"), std::string::npos) << "unknown words or values\n" << judged.text;
+}
+
+/// The service under a systemd of its own, in a root where the packages are installed and `init` has been run.
+void run_as_a_service(const fs::path& root) {
+  const auto not_run = [](const std::string& why) { std::printf("[ NOT RUN ] the service under systemd: %s\n", why.c_str()); };
+  const std::string in = "chroot " + quoted(root) + " ";
+  if (!there("unshare") || !there("nsenter") || !there("ip")) return not_run("needs unshare, nsenter and ip");
+  const Done installed = shell(in + "sh -c 'export DEBIAN_FRONTEND=noninteractive; apt-get install -y -qq --no-install-recommends systemd dbus'");
+  ASSERT_EQ(installed.code, 0) << installed.text;
+  Process booted({"/bin/sh", (fs::path{TANDEM_SOURCE_DIR} / "tests/install/boot_systemd").string(), root.string()});
+  std::string first, state;
+  for (int i = 0; i < 120 && state != "running" && state != "degraded"; ++i) {
+    shell("sleep 0.5");
+    first = shell("pgrep -P " + std::to_string(booted.id()) + " | tr -d '\\n'").text;
+    if (first.empty()) continue;
+    state = shell("nsenter -a -t " + first + " -r -w systemctl is-system-running | tr -d '\\n'").text;
+  }
+  if (state != "running" && state != "degraded") return not_run("no systemd boots in namespaces here: " + state);
+  const std::string there = "nsenter -a -t " + first + " -r -w ";
+  const auto show = [&](const std::string& property) { return shell(there + "systemctl show --value -p " + property + " tandem-server | tr -d '\\n'").text; };
+  const auto becomes = [&](const std::string& property, const std::string& value) {
+    for (int i = 0; i < 120 && show(property) != value; ++i) shell("sleep 0.25");
+    return show(property) == value;
+  };
+  // Nobody is enrolled and the address is loopback: it runs. Started is only what said that it is ready (Type=notify).
+  const Done started = shell(there + "systemctl start tandem-server");
+  EXPECT_EQ(started.code, 0) << started.text << shell(there + "systemctl status --no-pager tandem-server").text;
+  EXPECT_EQ(show("SubState"), "running");
+  EXPECT_EQ(shell(there + "awk '/^Uid:/ {print $2}' /proc/" + show("MainPID") + "/status").text, shell(in + "id -u tandem").text) << "its own user";
+  EXPECT_EQ(shell(there + "runuser -u tandem -- tandem-server sessions").code, 0);
+  // Fed by ticks: it outlives several watchdog periods of 2 s.
+  const std::string pid = show("MainPID");
+  shell("sleep 6");
+  EXPECT_EQ(show("MainPID"), pid);
+  // Killed, it is back.
+  shell(there + "systemctl kill -s KILL tandem-server");
+  EXPECT_TRUE(becomes("NRestarts", "1"));
+  EXPECT_TRUE(becomes("SubState", "running"));
+  EXPECT_NE(show("MainPID"), pid);
+  EXPECT_EQ(shell(there + "systemctl stop tandem-server").code, 0);
+  EXPECT_EQ(show("Result"), "success");
+  // A wrong configuration is not tried again.
+  shell(in + "sh -c 'cp /etc/tandem/server.textproto /tmp/right; echo nonsense >> /etc/tandem/server.textproto'");
+  EXPECT_NE(shell(there + "systemctl start tandem-server").code, 0);
+  EXPECT_TRUE(becomes("SubState", "failed"));
+  EXPECT_EQ(show("ExecMainStatus"), "2");
+  EXPECT_EQ(show("NRestarts"), "0");
+  shell(in + "cp /tmp/right /etc/tandem/server.textproto");
+  std::printf("[ SERVICE  ] ran under systemd: ready, watched, restarted after a kill, stopped, a wrong configuration not tried again\n");
+}
+
 TEST(DebianPackages, InstallOnAFreshDebian) {
   const char* counts = std::getenv("TANDEM_COUNTS");
-  const auto not_run = [](const std::string& why) { std::printf("[ NOT RUN  ] packages on a fresh Debian 12: %s\n", why.c_str()); };
+  const auto not_run = [](const std::string& why) { std::printf("[ NOT RUN ] packages on a fresh Debian 12: %s\n", why.c_str()); };
   if (counts == nullptr || std::string_view{counts} == "reduced") return not_run("minutes of installing belong to ./test --full (TANDEM_COUNTS=full)");
   if (::getuid() != 0) return not_run("needs root");
   if (!there("debootstrap")) return not_run("debootstrap is not installed");
@@ -134,6 +198,7 @@ TEST(DebianPackages, InstallOnAFreshDebian) {
   EXPECT_EQ(init.code, 0) << init.text;
   const Done session = shell(in + "tandem-netsim run one_axis --duration 1");
   EXPECT_EQ(session.code, 0) << session.text;
+  run_as_a_service(root);
   const Done purged = shell(in + "sh -c 'apt-get purge -y -qq tandem-server && test ! -e /var/lib/tandem && test ! -e /etc/tandem/server.textproto'");
   EXPECT_EQ(purged.code, 0) << purged.text;
   fs::remove_all(root);

@@ -85,7 +85,7 @@ void check_headers(const fs::path& include) {
 
 TEST(Package, ServesAnotherProjectFromWhereverItWasMovedTo) {
   if (std::string_view{TANDEM_SANITIZE} != "") {
-    std::printf("[ NOT RUN  ] the installed package: a build with sanitizers is not for installing\n");
+    std::printf("[ NOT RUN ] the installed package: a build with sanitizers is not for installing\n");
     return;
   }
   const fs::path prefix = installed_and_moved();

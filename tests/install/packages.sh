@@ -36,6 +36,9 @@ fi
 TANDEM_PACKAGES_FULL=(
   "clang-19: second compiler that must decide as g++ does"
   "valgrind: counts instructions in benchmarks"
+  "faketime: makes wall clocks jump"
+  "debootstrap: a fresh Debian to install the packages into"
+  "iproute2: two machines with a cable between them, as network namespaces"
 )
 
 # What ./test --fuzz needs.

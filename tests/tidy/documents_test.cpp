@@ -84,6 +84,16 @@ TEST(ValidationMatrix, EveryRowNamesTestsThatExist) {
   }
 }
 
+TEST(FailureTable, EveryRowNamesTestsThatExist) {
+  const auto files = read_repository(kRoot);
+  const SourceFile* document = find_document(files, "tests/FAILURES.md");
+  ASSERT_NE(document, nullptr);
+  const Known known = known_things(files);
+  EXPECT_GE(lines_with(document->text, "| `").size(), 10u) << "the tables are not there";
+  EXPECT_TRUE(check_rows(*document, known).empty()) << to_string(check_rows(*document, known));
+  EXPECT_TRUE(check_references(*document, known, kRoot).empty()) << to_string(check_references(*document, known, kRoot));
+}
+
 TEST(Documents, KnowsTestsAndPrograms) {
   const Known known = small_world();
   EXPECT_EQ(known.tests, (std::set<std::string, std::less<>>{"Link.Works", "Gate.Ramps"}));

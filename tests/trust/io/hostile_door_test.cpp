@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 #include <sys/eventfd.h>
 
-#include <csignal>
-
 #include "proto/control_codec.h"
 #include "tests/proto/control_samples.h"
 #include "tests/trust/io/door.h"
@@ -182,30 +180,6 @@ TEST(HostileDoor, OneAddressInAHurryIsSlowedDown) {
   ASSERT_TRUE(door.told(ControlEvent::kTooFast, 10));
   EXPECT_EQ(door.plane->count(ControlEvent::kAccepted), 100u);
   for (std::size_t i = 100; i < many.size(); ++i) EXPECT_TRUE(many[i]->read_to_end());
-}
-
-// Slow consumer: "queue <= 256 KiB; drop after 2 s".
-TEST(HostileDoor, WhoReadsNoAnswersIsLetGoOfWithLittleKeptForHim) {
-  std::signal(SIGPIPE, SIG_IGN);
-  EXPECT_EQ(ControlLimits{}.answer_deadline, 2000ms);
-  EXPECT_EQ(ControlLimits{}.unread_max, 256 * 1024);
-  ControlLimits limits = Door::patient();
-  limits.answer_deadline = 300ms;
-  Door door(limits);
-  const auto me = door.enrolled("me");
-  const RawTls client(door.address, {.identity = &me});
-  ASSERT_TRUE(client.handshake);
-  // Each is answered, with a list or with "more slowly". That the server does not read on either is what ends this.
-  const std::string question = framed(control::SessionListRequest{});
-  ASSERT_TRUE(client.write(question));
-  ASSERT_EQ(client.read(control::kLengthSize).size(), control::kLengthSize);  // known now: no longer held to the few bytes of a stranger
-  constexpr std::size_t kMost = 4'000'000;
-  std::size_t asked = 0;
-  while (asked < kMost && client.write(question)) ++asked;
-  EXPECT_GT(asked, 100u);
-  EXPECT_LT(asked, kMost) << "the server read on";
-  EXPECT_TRUE(door.told(ControlEvent::kDeadline, 1));
-  expect_alive(door);
 }
 
 TEST(HostileDoor, GarbageInFramesIsAnsweredOnceAndEndsTheConnection) {
