@@ -280,10 +280,17 @@ double e0_min(const ChannelSpec& channel, const GateSpec& gate) {
   return channel.k_min > 0 ? gate.force_max * gate.force_max / (2 * channel.k_min) : 0;
 }
 
+constexpr double kE0Max = 10;  ///< [J], what the schemas of scene and seat take
+
 void settle_e0(const pb::Channel& in, const std::string& path, Checker& checker, const GateSpec& gate,
                ChannelSpec& out) {
   const double least = e0_min(out, gate);
-  if (!in.has_e0_j()) {
+  if (!in.has_e0_j() && least > kE0Max) {  // else every client would refuse what the server sends it
+    const std::string cause = "force_max_n^2 / (2 k_min_n_m) = " + number_text(least) + " J must be at most " + number_text(kE0Max) +
+                              " J: each end of the channel begins with so much energy; lower gate.force_max_n or raise channel.k_min_n_m";
+    const bool by_stiffness = in.has_k_min_n_m();
+    checker.error(by_stiffness ? child_path(path, "k_min_n_m") : "gate.force_max_n", cause, number_text(by_stiffness ? out.k_min : gate.force_max));
+  } else if (!in.has_e0_j()) {
     out.e0 = std::max(0.05, least);
   } else if (out.law == LawKind::kSetPosition && out.e0 < least * (1 - 1e-9)) {
     checker.error(child_path(path, "e0_j"), "must be at least force_max_n^2 / (2 k_min_n_m) = " + number_text(least) +

@@ -189,6 +189,8 @@ TEST(BadScene, GateAndLedgerBounds) {
   expect_one(good() + "gate { silence_limit_ms: @301 }", "gate.silence_limit_ms", "must be in (0, 300] ms");
   expect_one(good() + "gate { silence_limit_ms: @1 }", "gate.silence_limit_ms", "two ticks = 2 ms");
   expect_one(good() + "channel { e0_j: @0.05 }", "channel.e0_j", "0.09075 J");
+  expect_one(good() + "gate { force_max_n: @40 }", "gate.force_max_n", "13.3333333333 J must be at most 10 J");
+  expect_one(good() + "channel { k_min_n_m: @0.5 }", "channel.k_min_n_m", "10.89 J must be at most 10 J");
   EXPECT_TRUE(errors_of(good() + "gate { loop_age_max_ms: 2500 latch: false }").empty());
 }
 
