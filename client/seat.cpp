@@ -337,4 +337,9 @@ std::optional<double> Seat::session_time(Time now) const noexcept {
   return seconds(now - *person_begin_);
 }
 
+std::optional<double> Seat::server_time(Time now) const noexcept {
+  if (!session_begin_) return std::nullopt;
+  return seconds(now - *session_begin_);
+}
+
 }  // namespace tandem::client

@@ -75,6 +75,9 @@ class Seat {
   /// Seconds since the session began, on the own clock; nullopt before. What simulated hands follow; a server that comes back from a
   /// checkpoint does not turn it back.
   [[nodiscard]] std::optional<double> session_time(Time now) const noexcept;
+  /// The same as the server counts that answers now, which was not there during an outage: for scripts and screens, so that all people
+  /// of a session read one time. nullopt until it runs.
+  [[nodiscard]] std::optional<double> server_time(Time now) const noexcept;
   [[nodiscard]] bool closed() const noexcept { return closed_; }
   [[nodiscard]] wire::CloseReason close_reason() const noexcept { return close_reason_; }
   [[nodiscard]] const wire::ForceMessage& force() const noexcept { return rx_; }

@@ -40,7 +40,7 @@ std::string ticket_of(const std::string& typed) {
 /// Lines of standard input, until it ends or a signal comes.
 class Lines {
  public:
-  explicit Lines(int signals) : signals_(signals) {}
+  Lines(int signals, int server) : signals_(signals), server_(server) {}
   /// @return nothing: no more
   std::optional<std::string> next() {
     while (true) {
@@ -49,8 +49,12 @@ class Lines {
         text_.erase(0, end + 1);
         return line;
       }
-      pollfd files[] = {{STDIN_FILENO, POLLIN, 0}, {signals_, POLLIN, 0}};
-      if (poll(files, 2, -1) < 0 || files[1].revents != 0) return std::nullopt;
+      pollfd files[] = {{STDIN_FILENO, POLLIN, 0}, {signals_, POLLIN, 0}, {server_, POLLIN | POLLRDHUP, 0}};
+      if (poll(files, 3, -1) < 0 || files[1].revents != 0) return std::nullopt;
+      if (files[2].revents != 0) {
+        server_gone_ = true;
+        return std::nullopt;
+      }
       std::array<char, 4096> part;
       const ssize_t size = ::read(STDIN_FILENO, part.data(), part.size());
       if (size <= 0 || text_.size() > part.size()) return text_.empty() ? std::nullopt : std::optional(std::exchange(text_, {}));
@@ -58,8 +62,12 @@ class Lines {
     }
   }
 
+  /// The server ended the connection while nothing was asked of it.
+  [[nodiscard]] bool server_gone() const { return server_gone_; }
+
  private:
-  int signals_;
+  int signals_, server_;
+  bool server_gone_ = false;
   std::string text_;
 };
 
@@ -70,6 +78,7 @@ class Attendant {
       : console_(std::move(console)), patience_(std::chrono::duration_cast<std::chrono::milliseconds>(patience)), json_(json) {}
 
   [[nodiscard]] const control::Welcome& welcome() const { return console_.welcome; }
+  [[nodiscard]] int connection() const { return console_.connection->fd(); }
 
   int obey(const Wish& wish) {
     const control::Id& id = console_.welcome.session_id;
@@ -178,12 +187,19 @@ int converse(Attendant& attendant, int signals) {
   const bool person = isatty(STDIN_FILENO) == 1;
   const std::string prompt = attendant.welcome().session_name + " (" + std::string(to_text(attendant.welcome().role)) + ")> ";
   if (person) std::printf("the connection stands until you quit; `help` lists the orders\n");
-  Lines lines(signals);
+  Lines lines(signals, attendant.connection());
   int worst = kDone;
   while (true) {
     if (person) std::printf("%s", prompt.c_str());
     std::fflush(stdout);
     const auto line = lines.next();
+    if (lines.server_gone()) {
+      std::fprintf(stderr,
+                   "%standem-client control: the server ended this connection: it was stopped, is being started anew, or took the right to it away. Nothing can be\n"
+                   "ordered here any more; start again, with a new ticket if you came with one (`tandem-server ticket` on the server)\n",
+                   person ? "\n" : "");
+      return std::max(worst, kRefused);
+    }
     if (!line) return worst;
     const auto words = words_of(*line);
     if (words.empty()) continue;
@@ -249,7 +265,7 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
   CLI::App* const command = root.add_subcommand("control", "Stops, resumes and looks after a session without sitting in it.");
   command->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")->option_text("HOST:PORT")->required();
   command->add_option("--session", arguments->session, "name, code or id of the session; default: the ticket's, or the only one there")->option_text("NAME|CODE|ID");
-  command->add_option("--ticket", arguments->ticket, "what `tandem-server ticket --role operator` printed, or a file with it; not needed on the server's own computer")
+  command->add_option("--ticket", arguments->ticket, "what `tandem-server ticket --role operator` printed, or a file with it; not needed beside a server on loopback that made its keys itself")
       ->option_text("TICKET|FILE");
   command->add_option("--role", arguments->role, "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")->option_text("ROLE");
   command->add_option("--state", arguments->state, "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")->option_text("DIR");

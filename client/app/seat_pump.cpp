@@ -15,6 +15,7 @@ using namespace std::chrono_literals;
 
 constexpr int kRounds = 4;  // batches read per tick: a flood cannot stop the servo
 constexpr Duration kLate = 1ms;
+constexpr Duration kScriptWaits = 200ms;  // of silence
 constexpr std::uint64_t kLookEvery = 64;  // ticks between two pictures for people
 
 double sum_j(const EnergyArray& nj) {
@@ -128,7 +129,9 @@ void SeatPump::obey_person() noexcept {
 }
 
 void SeatPump::obey_script(Time now) noexcept {
-  const auto t = seat_->session_time(now);
+  const link::Freshness& f = seat_->link().freshness();
+  if (!f.heard() || f.silence(now) > kScriptWaits) return;  // while there is no server, its time stands still
+  const auto t = seat_->server_time(now);
   if (!t || next_change_ >= script_.size() || script_[next_change_].at > *t) return;
   while (next_change_ + 1 < script_.size() && script_[next_change_ + 1].at <= *t) ++next_change_;
   seat_->request_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool),
@@ -156,7 +159,7 @@ void SeatPump::look(Time now) noexcept {
   p.closed = seat_->closed();
   p.close_reason = seat_->close_reason();
   p.missing = seat_->force().missing;
-  p.session_time = seat_->session_time(now).value_or(-1);
+  if (const auto time = seat_->server_time(now)) p.session_time = *time;  // back at a server that waits for others: what was last shown
   p.silence_s = seconds(f.heard() ? f.silence(now) : now - connected_);
   p.alpha = seat_->force().alpha;
   p.force_n = norm(t.f_out);

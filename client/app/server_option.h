@@ -22,7 +22,7 @@ namespace tandem::client {
 inline void add_joining_options(CLI::App& command, std::string& session, std::string* ticket, std::string& state) {
   command.add_option("--session", session, "name, code or id of the session; default: the only one there")->option_text("NAME|CODE|ID");
   if (ticket != nullptr)
-    command.add_option("--ticket", *ticket, "what `tandem-server ticket` printed for this workstation; not needed with a session's code, or on the server's own computer")
+    command.add_option("--ticket", *ticket, "what `tandem-server ticket` printed for this workstation; not needed with a session's code, or beside a server on loopback that made its keys itself")
         ->option_text("TICKET");
   command.add_option("--state", state, "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")->option_text("DIR");
 }

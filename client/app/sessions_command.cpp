@@ -52,7 +52,7 @@ void add_sessions_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--patience", arguments->patience, "how long to wait for a server that does not answer [s]; default 5")->option_text("S");
   command->add_flag("--json", arguments->json, "for machines");
   command->footer(
-      "The workstation must be enrolled there, or be the server's own computer. Exit: 0 done; 1 refused, or server not there; 2 wrong\n"
+      "The workstation must be enrolled there; beside a loopback server that made its keys itself it need not. Exit: 0 done; 1 refused, or server not there; 2 wrong\n"
       "arguments.\n\n"
       "Example\n"
       "  tandem-client sessions --server lab-server:7000");

@@ -34,8 +34,8 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (status.state == State::kRunning)
       news.notes.push_back({"running", "", state_ && state_ != State::kWaiting ? "the session runs again" : "the session runs"});
     if (status.state == State::kPaused)
-      news.notes.push_back({"paused", "", "PAUSED by somebody at a seat: all hands are let go; the instructor resumes (key r)"});
-    if (status.state == State::kStopped) news.notes.push_back({"stopped", "", "STOPPED: all hands are let go; the instructor resumes (key r)"});
+      news.notes.push_back({"paused", "", "PAUSED: all hands are let go; an instructor resumes (key r) or an operator (`tandem-client control`)"});
+    if (status.state == State::kStopped) news.notes.push_back({"stopped", "", "STOPPED: all hands are let go; an instructor resumes (key r) or an operator (`tandem-client control`)"});
     if (status.state == State::kHeld) news.notes.push_back({"held", "", "HELD: " + why_held(status, scene) + ", the tools are braked"});
     state_ = status.state;
   }

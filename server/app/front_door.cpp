@@ -73,7 +73,7 @@ std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Pla
   if (door->sockets_.empty()) return std::unexpected(problem);
   if (plan.metrics) {
     door->metrics_.emplace(door->thread_.context(), [d = door.get()](std::string_view path) { return monitoring_page(path, d->house_, d->plane_); });
-    if (std::string trouble = door->metrics_->listen(*plan.metrics); !trouble.empty()) return std::unexpected("--metrics: " + trouble);
+    if (std::string trouble = door->metrics_->listen(*plan.metrics); !trouble.empty()) return std::unexpected("metrics: " + trouble + "; choose another address or port for them, or end what uses it");
   }
   if (door->throw_away()) {
     auto local = trust::let_local_in(door->trust_, trust::runtime_path(), trust::wall_seconds());

@@ -157,7 +157,7 @@ class Host {
                               static_cast<long long>(std::max<std::int64_t>(0, trust::wall_seconds() - left.kept->written_s)), from.session_tick / r.plan().scene.tick_hz,
                               static_cast<unsigned long long>(r.epoch()));
     if (from.begun) text += "; it waits until the instructors and all who led are back, or an instructor goes on without (key r)";
-    if (from.stop != StopLane::Level::kNone) text += "; somebody had stopped it, and it stays so until the instructor resumes";
+    if (from.stop != StopLane::Level::kNone) text += "; somebody had stopped it, and it stays so until an instructor or operator resumes";
     if (!io::logs_json()) line_.note(text + (plan_.returns ? "" : "; --fresh begins anew"));
     io::tell(io::Level::kInfo, {.event = "session_restored", .session = name, .tick = from.session_tick, .text = text});
   }

@@ -61,10 +61,10 @@ std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
       line += "HELD (" + why_held(status, scene) + ")";
       break;
     case wire::SessionState::kPaused:
-      line += "PAUSED (the instructor resumes)";
+      line += "PAUSED (an instructor or operator resumes)";
       break;
     case wire::SessionState::kStopped:
-      line += "STOPPED (the instructor resumes)";
+      line += "STOPPED (an instructor or operator resumes)";
       break;
     case wire::SessionState::kEnding:
       line += "ending";

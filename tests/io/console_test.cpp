@@ -140,6 +140,19 @@ TEST(Control, OfTwoInstructorsExactlyOneWins) {
   EXPECT_NE(stranger.err().find("no seat \"nobody\" that leads; seats: trainer, trainee"), std::string::npos) << stranger.err();
 }
 
+// Somebody who believes that he could stop a session must not sit in front of a console that no server hears.
+TEST(Control, AConsoleWhoseServerIsGoneSaysSoAtOnceAndEnds) {
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const Folder folder;
+  const std::string pipe = folder.file("pipe");  // held open at both ends by the console itself: its input never ends
+  Process waiting({"/bin/bash", "-c", "mkfifo " + pipe + " && exec 3<>" + pipe + " && echo status >&3 && exec " + TANDEM_CLIENT + " control --server " + address_of(host) + " <&3"});
+  ASSERT_TRUE(waiting.wait_for("free_motion: waiting")) << waiting.err();
+  host.signal(SIGKILL);
+  EXPECT_TRUE(waiting.wait_for("the server ended this connection")) << waiting.err();
+  EXPECT_EQ(waiting.wait(), 1);
+  EXPECT_NE(waiting.err().find("start again"), std::string::npos) << waiting.err();
+}
+
 TEST(Control, APersonIsRemovedAndHisClientSaysSo) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);

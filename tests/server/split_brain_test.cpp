@@ -91,5 +91,22 @@ TEST(SplitBrain, TheOldOwnerIsObeyedByNobodyAndHearsNothing) {
   }
 }
 
+// People of one session read one time, and scripts follow it: the server's, which was not there during an outage. A person's own hand
+// goes on meanwhile.
+TEST(ServerTime, OfASessionThatGoesOnIsTheServersThoughPeopleWentOn) {
+  Rig rig("free_motion");
+  rig.run(2s);
+  for (const RigSeat& s : rig.seats) EXPECT_EQ(s.core->server_time(rig.now), s.core->session_time(rig.now));
+  rig.now += 5s;  // nobody is served
+  const auto old = take_over(rig, 78);
+  for (const RigSeat& s : rig.seats) EXPECT_EQ(s.core->server_time(rig.now), std::nullopt) << "it does not run yet";
+  rig.run(2s);
+  for (const RigSeat& s : rig.seats) {
+    ASSERT_TRUE(s.core->server_time(rig.now));
+    EXPECT_NEAR(*s.core->server_time(rig.now), rig.session->time(), 0.003);
+    EXPECT_GT(*s.core->session_time(rig.now), *s.core->server_time(rig.now) + 4.9);
+  }
+}
+
 }  // namespace
 }  // namespace tandem::server

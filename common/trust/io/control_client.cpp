@@ -55,6 +55,8 @@ ControlClient::~ControlClient() = default;
 ControlClient::ControlClient(ControlClient&&) noexcept = default;
 ControlClient& ControlClient::operator=(ControlClient&&) noexcept = default;
 
+int ControlClient::fd() const noexcept { return state_->stream->socket().native_handle(); }
+
 const Pin& ControlClient::server() const noexcept { return state_->server; }
 
 std::expected<Secret<kExportSize>, std::string> ControlClient::export_secrets(const LinkContext& context) { return state_->stream->export_secrets(context); }

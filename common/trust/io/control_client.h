@@ -35,6 +35,8 @@ class ControlClient {
   /// Sends a frame under the next request number and waits for the answer to it.
   [[nodiscard]] std::expected<control::Body, ClientFault> ask(const control::Body& body, Duration patience);
 
+  /// For poll: readable while nothing was asked means that the server has ended the connection.
+  [[nodiscard]] int fd() const noexcept;
   [[nodiscard]] const Pin& server() const noexcept;
   [[nodiscard]] std::expected<Secret<kExportSize>, std::string> export_secrets(const LinkContext& context);
 

@@ -63,7 +63,7 @@ class ControlStream : public std::enable_shared_from_this<ControlStream> {
   [[nodiscard]] std::expected<Secret<kExportSize>, std::string> export_secrets(const LinkContext& context) {
     return trust::export_secrets(stream_.native_handle(), context);
   }
-  [[nodiscard]] const asio::ip::tcp::socket& socket() noexcept { return stream_.next_layer().socket(); }
+  [[nodiscard]] asio::ip::tcp::socket& socket() noexcept { return stream_.next_layer().socket(); }
 
  private:
   ControlStream(asio::ip::tcp::socket socket, asio::ssl::context& context, Side side);

@@ -98,7 +98,7 @@ std::string ServerTrust::begin_serving(std::int64_t now) {
   if (!books) return books.error();
   auto lock = folder_->try_lock(kServingLock);
   if (!lock) return lock.error();
-  if (!*lock) return folder_->path() + ": another server runs from this folder; stop it first, or give this one its own with --state";
+  if (!*lock) return folder_->path() + ": another server runs from this folder; stop it first, or give this one a folder of its own (`run --state`, `state` in a configuration)";
   serving_ = std::move(**lock);
   const auto bytes = folder_->read(kUsedFile);
   if (!bytes) return bytes.error();
