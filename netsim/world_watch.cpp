@@ -154,6 +154,7 @@ void WorldWatch::check_gathering(const server::Session& session) {
       s.led |= session.tool(j).authority.requested()[i] > 0 && session.seat(i).taken() && !gathering_ && session.session_tick() > 0;
     s.led |= gathering_ && s.needed;
   }
+  away_ = away;
   if (gathering_ && away && engages) violations_.note("gathering", "", t_, false);
 }
 
@@ -178,7 +179,11 @@ void WorldWatch::check_sensor(std::size_t i, const WorldStation& station) {
 
 void WorldWatch::noted(const server::AuditEvent& e) {
   using What = server::AuditEvent::What;
-  if (e.what == What::kGathered) gathering_ = false;
+  if (e.what == What::kGathered) {
+    const bool by_itself = e.seat >= scene_->seats.size();  // else an instructor went on without those who are missing
+    if (gathering_ && by_itself && away_) violations_.note("gathering", "", t_, false);
+    gathering_ = false;
+  }
   if (e.seat >= scene_->seats.size()) return;
   const Role role = scene_->seats[e.seat].role;
   if ((e.what == What::kStop || e.what == What::kResume || e.what == What::kGathered) && role != Role::kInstructor) note("role", e.seat);

@@ -105,7 +105,7 @@ class WorldWatch {
   std::vector<std::array<double, kMastersMax>> alpha_;
   std::vector<bool> held_;
   std::uint64_t epoch_ = 1;
-  bool gathering_ = false;
+  bool gathering_ = false, away_ = false;  ///< since a restart; somebody who led is not back yet
   AxisArray scale_{1, 1, 1, 1, 1, 1, 1};  ///< tip gain to port gain, as the seats were told
   server::Violations violations_;
 };

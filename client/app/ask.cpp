@@ -229,17 +229,22 @@ class Joining {
     control::Hello hello = who_asks();
     const auto code = trust::canonical_session_code(asking_.session);
     trust::Id16 id;
-    const bool is_id = trust::from_hex(asking_.session, id);
+    const bool is_id = trust::from_hex(asking_.session, id), by_name = !asking_.session.empty() && !is_id && !code;
     if (is_id) hello.session = id;
     if (!is_id && code) hello.session = *code;
     if (!asking_.ticket.empty()) {
       const auto ticket = trust::ticket_from_text(asking_.ticket);
       if (!ticket) return fail("--ticket: " + ticket.error());
       hello.credential = control::TicketCredential{{ticket->begin(), ticket->end()}};
-      if (asking_.session.empty()) hello.session = trust::session_named_in(*ticket);
+      if (asking_.session.empty()) {
+        hello.session = trust::session_named_in(*ticket);
+      } else if (by_name) {  // the server says whether the ticket is for it
+        const auto found = find_session(id, is_id, code);
+        if (!found) return std::unexpected(found.error());
+        hello.session = found->id;
+      }
       return hello;
     }
-    const bool by_name = !asking_.session.empty() && !is_id && !code;
     if (by_name || (keys_->local() && !hello.visit)) {
       const auto found = find_session(id, is_id, code);
       if (!found) return std::unexpected(found.error());

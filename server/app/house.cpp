@@ -146,7 +146,11 @@ std::variant<House::Room*, Refused> House::room_for(const JoinRequest& request) 
   } else if (!open.empty()) {
     return Refused{Reason::kNoSession, "this server has several sessions: " + names_of(open) + "; say which with --session", 0};
   }
-  if (found == nullptr) return Refused{Reason::kNoSession, open.empty() ? "no session is open on this server" : "there is no such session here; open: " + names_of(open), 0};
+  if (found == nullptr && open.empty()) return Refused{Reason::kNoSession, "no session is open on this server", 0};
+  if (found == nullptr) {
+    const bool by_code = std::holds_alternative<std::string>(request.hello.session);
+    return Refused{Reason::kNoSession, (by_code ? "no session here has this code (one that begins anew has another: ask for it); open: " : "there is no such session here; open: ") + names_of(open), 0};
+  }
   if (found->opening.session->over()) return Refused{Reason::kSessionOver, "this session is over", 0};
   return found;
 }
