@@ -141,8 +141,14 @@ std::string WorldStation::join(Time now, server::Session& session) {
   return "seat " + name + ": " + session.reception().unfit(number_, client::device_facts(device_->caps()));
 }
 
+/// Up to half a second, as programs do who do not want to ask all at once (design notes, security 4): nobody may be engaged meanwhile.
+Duration WorldStation::wait_before_rejoin(std::uint64_t epoch) const noexcept {
+  return std::chrono::milliseconds(key_.derive(6).bits(epoch) % 501);
+}
+
 /// The control connection broke and there is a server again: the same program and the same hand, new keys.
 void WorldStation::rejoin(Time now, server::Session& session) {
+  if (std::exchange(noticed_, session.epoch()) != session.epoch()) ask_again_ = now + wait_before_rejoin(session.epoch());
   if (now < ask_again_) return;
   const auto joined = join_virtually(session, now, number_, device_->caps(), key_.derive(4), asked_++);
   if (!joined) {

@@ -79,6 +79,7 @@ class WorldStation {
   void live(Duration length) noexcept;
   [[nodiscard]] std::string work(Time now, bool awake, server::Session* session, Network& network, std::span<std::byte> buffer);
   void rejoin(Time now, server::Session& session);
+  [[nodiscard]] Duration wait_before_rejoin(std::uint64_t epoch) const noexcept;
   void act(Time now) noexcept;
   void listen(Time now, Network& network, std::span<std::byte> buffer);
   [[nodiscard]] std::string join(Time now, server::Session& session);
@@ -101,6 +102,7 @@ class WorldStation {
   hal::State reading_{};  ///< in place of the device's, where a fault says so
   bool frozen_ = false, down_ = true, served_now_ = false, misread_now_ = false;
   bool stopped_ = false, wished_ = false;  ///< by a fault: his own hand, the session
+  std::uint64_t noticed_ = 0;              ///< of the newest server it knows of
   std::uint64_t epoch_ = 0;                ///< of the session it joined
   std::uint32_t joins_ = 0, starts_ = 0, trips_before_ = 0;
   std::uint64_t heard_now_ = 0;
