@@ -54,7 +54,7 @@ class Wanted {
   std::array<bool, 256> first_{};
 };
 
-[[gnu::noinline]] void collect(const Rig& rig, Wanted& wanted) {
+[[maybe_unused, gnu::noinline]] void collect(const Rig& rig, Wanted& wanted) {
   for (const RigSeat& s : rig.seats)
     for (link::Secret secret : {s.params.secrets.to_server, s.params.secrets.to_client})
       for (int phase = 0; phase < 6; ++phase, secret = link::next_secret(secret)) {
