@@ -37,11 +37,11 @@ Result set_authority(Session& session, Time now, const Command& command) noexcep
   return Result::kWrong;
 }
 
-Result remove(Session& session, Time now, const Command& command) noexcept {
+Result remove(Session& session, const Command& command) noexcept {
   if (command.whom >= session.scene().seats.size()) return Result::kWrong;
   const link::Link* const link = session.seat(command.whom).link();
   if (link == nullptr || (command.whom_cid != 0 && link->own_cid() != command.whom_cid)) return Result::kNothing;
-  return session.dismiss(now, command.whom, command.why) ? Result::kDone : Result::kNothing;
+  return session.dismiss(command.whom, command.why) ? Result::kDone : Result::kNothing;
 }
 
 Result obey(Session& session, Time now, const Command& command) noexcept {
@@ -57,7 +57,7 @@ Result obey(Session& session, Time now, const Command& command) noexcept {
     case Command::What::kSetAuthority:
       return set_authority(session, now, command);
     case Command::What::kRemove:
-      return remove(session, now, command);
+      return remove(session, command);
   }
   return Result::kWrong;
 }

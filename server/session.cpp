@@ -180,12 +180,18 @@ void Session::change_state(Time now) noexcept {
     wait_for_people(now);
   } else {
     ++session_tick_;
-    const bool all_held = std::ranges::all_of(tools_, [](const Tool& t) { return t.authority.held(); });
-    state_ = all_held ? wire::SessionState::kHeld : wire::SessionState::kRunning;
+    held_ = std::ranges::all_of(tools_, [](const Tool& t) { return t.authority.held(); });
   }
+  settle_state();
+  if (begun_ && time() >= scene_->duration) stop(wire::CloseReason::kDone);
+}
+
+/// After a tick, and after an order: who asks next sees what became of it.
+void Session::settle_state() noexcept {
+  if (state_ == wire::SessionState::kEnding) return;
+  state_ = !begun_ ? wire::SessionState::kWaiting : held_ ? wire::SessionState::kHeld : wire::SessionState::kRunning;
   if (stop_lane_.level() == StopLane::Level::kPaused) state_ = wire::SessionState::kPaused;
   if (stop_lane_.level() == StopLane::Level::kStopped) state_ = wire::SessionState::kStopped;
-  if (begun_ && time() >= scene_->duration) stop(wire::CloseReason::kDone);
 }
 
 void Session::stop(wire::CloseReason why) noexcept {
@@ -195,7 +201,7 @@ void Session::stop(wire::CloseReason why) noexcept {
   farewell_ = static_cast<std::uint32_t>(std::lround(kFarewell / dt_)) + kCloseRepeats;
 }
 
-bool Session::dismiss(Time, std::size_t i, wire::CloseReason why) noexcept {
+bool Session::dismiss(std::size_t i, wire::CloseReason why) noexcept {
   if (i >= seats_.size() || !seats_[i].taken() || leaving(i)) return false;
   farewells_[i] = {static_cast<std::uint32_t>(std::lround(kFarewell / dt_)) + kCloseRepeats + 1, why};
   return true;

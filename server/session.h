@@ -72,7 +72,7 @@ class Session {
   AuthorityResult set_authority(Time now, AccessRole who, std::size_t seat, std::uint8_t noted, const wire::AuthorityMessage& wish) noexcept;
 
   /// Takes a seat away: its gate ramps out, then its client is told and the seat is free. @return false: nobody sits there
-  bool dismiss(Time now, std::size_t seat, wire::CloseReason why) noexcept;
+  bool dismiss(std::size_t seat, wire::CloseReason why) noexcept;
   /// Somebody was told to leave and is being let go.
   [[nodiscard]] bool leaving(std::size_t seat) const noexcept { return farewells_[seat].ticks > 0; }
   /// The same for one who judges his link, in this place.
@@ -121,6 +121,7 @@ class Session {
   [[nodiscard]] bool slave_present(std::size_t tool) const noexcept;
   void live_one_tick(Time now) noexcept TANDEM_REALTIME;
   void change_state(Time now) noexcept;
+  void settle_state() noexcept;
   void follow_timeline(Time now) noexcept;
   void share_authority() noexcept TANDEM_REALTIME;
   void tie_seats() noexcept TANDEM_REALTIME;
@@ -148,6 +149,7 @@ class Session {
   wire::SessionState state_ = wire::SessionState::kWaiting;
   bool engage_ = false;                  ///< all required seats were ready: springs may be loaded
   bool begun_ = false;                   ///< all of them were engaged: session time goes on
+  bool held_ = false;                    ///< since then, nobody has weight over any tool
   StopLane stop_lane_;
   Checkpoint::Hash scene_hash_;
   std::uint64_t epoch_ = 1;

@@ -69,6 +69,7 @@ bool Session::press_stop(Time now, AccessRole who, StopLane::Level wanted) noexc
   if (!level) return false;
   note(now, *level == StopLane::Level::kStopped ? AuditEvent::What::kStop : AuditEvent::What::kPause, AuditEvent::kControlPlane,
        stop_lane_.stops());
+  settle_state();
   return true;
 }
 
@@ -81,6 +82,7 @@ bool Session::resume_hands(Time now, AccessRole who, std::uint32_t number) noexc
   }
   if (!stop_lane_.resume(who, number)) return stop_lane_.may_resume(who);
   note(now, AuditEvent::What::kResume, AuditEvent::kControlPlane, number);
+  settle_state();
   return true;
 }
 
@@ -141,8 +143,8 @@ void Session::go_on(Time now) noexcept {
   gathering_ = false;
   awaited_ = {};
   begun_ = engage_ = true;
-  state_ = wire::SessionState::kRunning;
   if (stop_before_ != StopLane::Level::kNone) stop_lane_.raise(stop_before_);
+  settle_state();
   for (auto& s : seats_)
     if (auto* l = s.link()) l->restart_statistics(now);
 }
@@ -155,7 +157,6 @@ void Session::wait_for_people(Time now) noexcept {
     all_ready = all_ready && seats_[i].ready(now);
     all_there = all_there && (seats_[i].feels() ? present_[i] : seats_[i].ready(now));
   }
-  state_ = wire::SessionState::kWaiting;
   const bool to_a_stop = gathering_ && stop_before_ != StopLane::Level::kNone;  // nobody is engaged only to be let go
   engage_ = all_ready && !to_a_stop;
   if (!all_ready || !(all_there || to_a_stop) || stop_lane_.on()) return;
@@ -164,7 +165,6 @@ void Session::wait_for_people(Time now) noexcept {
     return go_on(now);
   }
   begun_ = true;
-  state_ = wire::SessionState::kRunning;
   session_tick_ = 0;
   for (auto& s : seats_)
     if (auto* l = s.link()) l->restart_statistics(now);

@@ -74,6 +74,20 @@ TEST(Commands, AStopIsLatchedAndOnlyTheNewestIsEnded) {
   EXPECT_TRUE(rig.seats[kTrainer].core->gate().active());
 }
 
+// Two orders between the same two ticks: the second answer already shows what the first one did.
+TEST(Commands, AnswersShowTheStateAfterTheOrderThoughNoTickCameSince) {
+  Rig waiting, running("free_motion");
+  running.run(2s);
+  for (Rig* rig : {&waiting, &running}) {
+    const wire::SessionState before = rig->session->state();
+    EXPECT_EQ(order(*rig, What::kPause, AccessRole::kTrainee).state, wire::SessionState::kPaused);
+    EXPECT_EQ(order(*rig, What::kStop, AccessRole::kOperator).state, wire::SessionState::kStopped);
+    EXPECT_EQ(order(*rig, What::kResume, AccessRole::kOperator, 2).state, before);
+  }
+  running.session->stop(wire::CloseReason::kDone);
+  EXPECT_EQ(order(running, What::kStop, AccessRole::kOperator).state, wire::SessionState::kEnding);
+}
+
 TEST(Commands, APauseIsAPauseWhoeverAsksForItAndAStopStaysOne) {
   Rig rig;
   rig.run(1s);
