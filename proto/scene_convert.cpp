@@ -202,6 +202,10 @@ void read_hand(const pb::Hand& in, const std::string& path, Checker& checker, Ha
   if (in.has_b_n_s_m()) out.b = in.b_n_s_m();
   if (in.has_m_kg()) out.m = in.m_kg();
   if (in.has_release_at_s()) out.release_at = in.release_at_s();
+  if (in.has_drags_n()) {
+    if (out.model != HandModel::kLettingGo) checker.error(child_path(path, "drags_n"), "is for hands that open: LETTING_GO");
+    read_point(in.drags_n(), out.drags);
+  }
   if (in.has_tremor_amplitude_m()) out.tremor_amplitude = in.tremor_amplitude_m();
   if (in.has_tremor_frequency_hz()) out.tremor_frequency = in.tremor_frequency_hz();
   if (in.has_from_s()) out.from = in.from_s();
@@ -231,7 +235,10 @@ void write_hand(const HandSpec& in, pb::Hand& out) {
     deviation.set_for_s(d.length);
     write_point(d.force, *deviation.mutable_force_n());
   }
-  if (in.model == HandModel::kLettingGo) out.set_release_at_s(in.release_at);
+  if (in.model == HandModel::kLettingGo) {
+    out.set_release_at_s(in.release_at);
+    write_point(in.drags, *out.mutable_drags_n());
+  }
   if (in.model == HandModel::kTremor) {
     out.set_tremor_amplitude_m(in.tremor_amplitude);
     out.set_tremor_frequency_hz(in.tremor_frequency);

@@ -88,6 +88,7 @@ struct HandSpec {
   Trajectory trajectory;
   std::vector<Deviation> deviations;
   double release_at = 5;           ///< LETTING_GO: the hand opens [s]
+  Point drags;                     ///< LETTING_GO: what still pulls at the handle from then on [N]
   double tremor_amplitude = 0.002; ///< [m]
   double tremor_frequency = 9;     ///< [Hz]
   double from = 0;                 ///< before this time the hand is RELAXED (contact: the trainee aligns from 12 s) [s]

@@ -191,7 +191,10 @@ HandPull Hand::advance(const Vec3& tip, double dt) noexcept {
   }
   const double t = *time_ + 0.5 * dt;
   *time_ += dt;
-  if (spec_.model == HandModel::kLettingGo && t >= spec_.release_at) return pull;
+  if (spec_.model == HandModel::kLettingGo && t >= spec_.release_at) {
+    pull.force = to_vec3(spec_.drags);
+    return pull;
+  }
 
   MotionPoint p{hold_, Vec3::Zero()};
   if (own_) {

@@ -135,13 +135,16 @@ TEST(Hand, RestingRemembersWhereItEngaged) {
 TEST(Hand, LettingGoLetsGo) {
   HandSpec s = spec(HandModel::kLettingGo);
   s.release_at = 2.0;
+  s.drags = {-3, 0, 0.5};
   Player p(s);
   p.play(1.999);
   EXPECT_EQ(p.pull.k, 1000);
+  EXPECT_EQ(p.pull.force, Vec3::Zero());
   p.play(2.01);
   EXPECT_EQ(p.pull.k, 0);
   EXPECT_EQ(p.pull.b, 0);
   EXPECT_EQ(p.pull.m, 0);
+  EXPECT_EQ(p.pull.force, Vec3(-3, 0, 0.5));
 }
 
 TEST(Hand, TremorShakesAroundTheTrajectory) {

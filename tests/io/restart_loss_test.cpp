@@ -23,10 +23,9 @@ struct Case {
   double force_n, mass_kg;
 };
 constexpr std::array<Case, 5> kCases{{{"trainer", 0.5, 0.05}, {"b", 3.3, 0.05}, {"c", 3.3, 0.1}, {"d", 7.9, 0.15}, {"e", 20, 0.4}}};
-/// Of the three that `tests/control/force_gate_energy_test.cpp` has in virtual time the two that a scene can describe: a hand that opens at the
-/// moment of the loss, and the published fit of one that holds (0.55 kg, 6.45 N s/m, 135 N/m). One that opens and pulls along would have to
-/// press with a force and no place before: it runs away at the first late tick.
-enum class Grip { kReleased, kHolding };
+/// The three that `tests/control/force_gate_energy_test.cpp` has in virtual time: a hand that opens at the moment of the loss, one that opens
+/// while 3 N drag the handle the way the motor pulls, and the published fit of one that holds (0.55 kg, 6.45 N s/m, 135 N/m).
+enum class Grip { kReleased, kDragged, kHolding };
 
 constexpr double kSilence = 0.020, kGone = 0.120;   // [s]
 constexpr double kHandsChange = 5;                  // [s] of the session
@@ -34,6 +33,7 @@ constexpr double kAimBefore = 0.020;                // [s] the server dies so mu
 constexpr double kStart = -0.15;                    // [m] where the wall is
 constexpr double kBelowTank = 1e-3;                 // [J] within one tick, and of a tick that came late
 constexpr double kOvershoot = 0.006, kOvershootKg = 0.1;  // [m], of devices up to this mass as in virtual time; heavier ones are printed
+constexpr double kDrag = 3;                         // [N]
 constexpr double kDamping = 5;                      // [N s/m] what is left when the force is gone
 constexpr std::size_t kAround = 5;                  // ticks about a tick in which its speed is looked for
 
@@ -49,7 +49,8 @@ std::string hand_of(const Case& c, Grip grip) {
   };
   switch (grip) {
     case Grip::kReleased:
-      return format("hand { model: LETTING_GO release_at_s: %.3f ", kHandsChange) + towards(target_of(c, 1000)) + " }";
+    case Grip::kDragged:
+      return format("hand { model: LETTING_GO release_at_s: %.3f drags_n { x: %g } ", kHandsChange, grip == Grip::kDragged ? -kDrag : 0) + towards(target_of(c, 1000)) + " }";
     case Grip::kHolding:
       return "hand { model: LEADER k_n_m: 135 b_n_s_m: 6.45 m_kg: 0.55 " + towards(target_of(c, 135)) + " }";
   }
@@ -151,6 +152,7 @@ void lose(Grip grip, const char* name) {
 }
 
 TEST(LinkLoss, OfAServerThatIsKilledIsSurvivedByReleasedHands) { lose(Grip::kReleased, "released"); }
+TEST(LinkLoss, OfAServerThatIsKilledIsSurvivedByHandlesThatAreDragged) { lose(Grip::kDragged, "dragged"); }
 TEST(LinkLoss, OfAServerThatIsKilledIsSurvivedByHandsThatHold) { lose(Grip::kHolding, "holding"); }
 
 }  // namespace
