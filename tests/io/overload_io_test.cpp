@@ -62,23 +62,5 @@ TEST(OverloadLive, AServerThatIsHeldUpAgainAndAgainLetsHandsGoAndGoesOnByItself)
   EXPECT_TRUE(folder.json("report.json")["violations"].empty()) << folder.read("report.json");
 }
 
-/// 300 ms at once are 300 ticks missed and one that is late: hands let go by themselves, the session goes on.
-TEST(OverloadLive, OneStandstillMakesNoSessionPassive) {
-  Process host = hosting("one_axis", {"--duration", "3600"});
-  Process trainer = client(address_of(host), "trainer");
-  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
-  host.signal(SIGSTOP);
-  std::this_thread::sleep_for(300ms);
-  host.signal(SIGCONT);
-  Process status({TANDEM_CLIENT, "control", "--server", address_of(host), "status", "--json"});
-  EXPECT_EQ(status.wait(), 0) << status.err();
-  const Json stands = Json::parse(status.out(), nullptr, false);
-  ASSERT_TRUE(stands.is_object()) << status.out();
-  std::printf("phase %s, shed level %d\n", stands["phase"].get<std::string>().c_str(), stands["shed"].get<int>());
-  host.signal(SIGTERM);
-  EXPECT_EQ(host.wait(), 0) << host.err();
-  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
-}
-
 }  // namespace
 }  // namespace tandem::test

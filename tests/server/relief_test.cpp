@@ -28,9 +28,9 @@ struct Eight : Rig {
     run(10ms);
     forces.clear();
     run(1s);
-    std::map<std::size_t, int> told;
-    for (std::size_t i = 0; i < seats.size(); ++i) told[i] = forces[seats[i].at];
-    return told;
+    std::map<std::size_t, int> heard;
+    for (std::size_t i = 0; i < seats.size(); ++i) heard[i] = forces[seats[i].at];
+    return heard;
   }
 };
 
