@@ -14,10 +14,11 @@ LoadLadder::LoadLadder(Duration period) noexcept
     : period_(period), window_(static_cast<std::uint32_t>(std::max<std::int64_t>(1, kWindow / period))) {}
 
 Relief LoadLadder::step(Time now, Duration late, Duration used) noexcept {
-  const double strain = std::max(seconds(used) / seconds(period_), seconds(late) / seconds(kLateMost));
+  const double cost = seconds(used) / seconds(period_), strain = std::max(cost, seconds(late) / seconds(kLateMost));
+  const auto on = [&](Rung rung) { return rung == Rung::kNewcomers ? cost : strain; };
   const Rung rung = relief_.rung;
-  above_ += rung < Rung::kNewcomers && strain > threshold(next(rung, 1)) ? 1 : 0;
-  not_calm_ += rung > Rung::kNothing && strain > threshold(rung) - kHysteresis ? 1 : 0;
+  above_ += rung < Rung::kNewcomers && on(next(rung, 1)) > threshold(next(rung, 1)) ? 1 : 0;
+  not_calm_ += rung > Rung::kNothing && on(rung) > threshold(rung) - kHysteresis ? 1 : 0;
   if (++ticks_ >= window_) judge_window(now);
   judge_lateness(now, late);
   return relief_;

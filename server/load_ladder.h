@@ -67,7 +67,8 @@ class Patience {
 /// Strain of a tick = max(processor time / period, lateness / 5 ms). A rung is climbed when more than 10 % of the ticks of a window of
 /// 0.1 s strain above its threshold: 0.40, 0.44, ... 0.56, and 0.60 for the last, which is the limit of admission. It is left when for
 /// 5 s no window had more than 10 % of its ticks above the threshold minus 0.10; after coming back within a minute for 10, 20, 40 s.
-/// One rung per window, so that each shows what it saves.
+/// One rung per window, so that each shows what it saves. For the last rung lateness does not count: it is others' work on the machine that
+/// makes ticks late while they are not full, and they do not go away when people are sent away.
 ///
 /// The third tick in a row that begins more than 5 ms late makes its sessions PASSIVE; they come back when for a second there were no
 /// three in a row (again within a minute: 2, 4 s). Not latched: the hands are whole, and scenes without an instructor have

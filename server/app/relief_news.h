@@ -24,7 +24,8 @@ class ReliefNews {
       const Rung now = shards[i]->relief().rung, before = std::exchange(told_[i], now);
       if (now == before) continue;
       const auto hz = static_cast<long>(1.0 / seconds(shards[i]->period()) + 0.5);
-      const std::string what = now == Rung::kNothing ? "does everything again" : format("goes without: %s", to_text(now));
+      std::string what = now == Rung::kNothing ? "does everything again" : "goes without: ";
+      for (auto rung = Rung::kTelemetry; rung <= now; rung = static_cast<Rung>(static_cast<int>(rung) + 1)) what += std::string(rung == Rung::kTelemetry ? "" : ", ") + to_text(rung);
       news.push_back({now > before, format("the thread of %ld Hz %s %s (level %d)", hz, now > before ? "has too much to do or is late, and" : "has time again, and", what.c_str(), static_cast<int>(now))});
     }
     return news;
