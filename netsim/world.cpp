@@ -37,7 +37,6 @@ std::uint32_t address_of(const server::Endpoint& e) {
 std::expected<std::unique_ptr<World>, std::string> World::make(const WorldSetup& setup) {
   std::unique_ptr<World> world{new World(setup)};
   const SceneSpec& scene = world->setup_.scene;
-  world->tick_ = from_seconds(1.0 / scene.tick_hz);
   // Time{} is the network's zero; the world begins one tick later so that no stamp is the empty one.
   world->now_ = Time{} + world->tick_;
 
@@ -223,7 +222,7 @@ bool World::works_before(std::size_t a, std::size_t b) const noexcept {
 }
 
 bool World::server_stands_still() const noexcept {
-  return std::ranges::any_of(server_faults_, [&](const Fault& f) { return f.kind == Fault::Kind::kServerLate && now_ >= Time{} + f.at && now_ < Time{} + f.at + f.length; });
+  return now_ < busy_until_ || std::ranges::any_of(server_faults_, [&](const Fault& f) { return f.kind == Fault::Kind::kServerLate && now_ >= Time{} + f.at && now_ < Time{} + f.at + f.length; });
 }
 
 void World::serve_server() {
@@ -237,9 +236,12 @@ void World::serve_server() {
     }
   }
   attack_server();
+  session_->relieve(ladder_.step(now_, server_missed_ * tick_, tick_used_));
   session_->on_tick(now_, server_missed_);
   server_missed_ = 0;
+  std::size_t sent = 0;
   while (const auto out = session_->poll_transmit(now_, buffer_)) {
+    ++sent;
     const std::size_t to = seat_of(out->to);
     if (to >= stations_.size()) {
       watch_.server_answered_a_stranger(session_->time());
@@ -248,6 +250,10 @@ void World::serve_server() {
     network_.send_to(now_, static_cast<std::uint32_t>(to), address_of(out->to), std::span{buffer_}.first(out->size));
   }
   if (heap_taken() != taken) watch_.took_heap();
+  if (setup_.tick_cost) {
+    tick_used_ = setup_.tick_cost(now_, sent);
+    busy_until_ = now_ + tick_used_;
+  }
   bool people_changed = false;
   while (const auto event = session_->poll_audit()) {
     people_changed |= event->what == server::AuditEvent::What::kJoin || event->what == server::AuditEvent::What::kLeave;

@@ -61,7 +61,8 @@ class World {
   [[nodiscard]] const SceneSpec& scene() const noexcept { return setup_.scene; }
 
  private:
-  explicit World(const WorldSetup& setup) : setup_(setup), network_(setup.seed), watch_(setup_.scene) {}
+  explicit World(const WorldSetup& setup)
+      : setup_(setup), network_(setup.seed), tick_(from_seconds(1.0 / setup.scene.tick_hz)), ladder_(tick_), watch_(setup_.scene) {}
   [[nodiscard]] std::string add_station(std::size_t seat);
   void serve_clients();
   [[nodiscard]] bool works_before(std::size_t a, std::size_t b) const noexcept;
@@ -81,7 +82,10 @@ class World {
 
   WorldSetup setup_;
   Network network_;
-  Duration tick_{};
+  Duration tick_;
+  server::LoadLadder ladder_;
+  Duration tick_used_{};  ///< of the virtual processor, by the last tick of the server
+  Time busy_until_{};
   Time now_{};
   std::unique_ptr<server::Session> session_;
   bool up_ = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -28,6 +29,9 @@ struct WorldSetup {
   std::vector<Fault> faults = {};                                                       ///< in any order
   std::map<std::string, EndpointSpec> endpoints = {};  ///< by seat: its clock, and when its program wakes up
   bool watch_quality = false;  ///< judges every seat's link from the session's begin on: World::quality
+  /// Processor time that the server's tick of this moment takes, in which it sends so many datagrams; longer than a tick: the next ones are
+  /// missed and made up for. Empty: none.
+  std::function<Duration(Time now, std::size_t sent)> tick_cost = {};
   /// How much the calling thread has taken from the heap so far (common/base/heap_count.h); null: "no heap below a tick" is
   /// not judged, as whoever runs the world did not replace operator new.
   std::uint64_t (*heap_count)() noexcept = nullptr;

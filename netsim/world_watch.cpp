@@ -18,6 +18,10 @@ constexpr double kRampOut = 0.1;                        // [s]
 constexpr double kLossSlew = 10;                        // [1/s] when a holder is lost
 constexpr double kEvaluatorShare = 0.5;                 // of force and tank, for who only feels
 constexpr double kStoppedMax = 0.22;                    // [s] a stopped hand may still have weight
+/// Somebody stopped the session, or its server does not keep its time.
+constexpr bool lets_go(wire::SessionState state) noexcept {
+  return state == wire::SessionState::kStopped || state == wire::SessionState::kPaused || state == wire::SessionState::kPassive;
+}
 constexpr unsigned kMisreadMax = 3;                     // samples the last good reading stands in for
 constexpr double kTankPerKg = 0.18, kTankMin = 0.02, kTankMax = 0.1;  // [J/kg], [J]
 constexpr double kSpeedMax = 1.6;                       // [m/s], and how many samples on end
@@ -129,7 +133,7 @@ void WorldWatch::check_role(std::size_t i, const WorldStation& station, const se
   const Role role = scene_->seats[i].role;
   const bool watches = role == Role::kObserver && scene_->seats[i].kind == SeatKind::kMaster;
   if (watches && port.tx.engage) note("observer_force", i);
-  const bool stopped = port.tx.session == wire::SessionState::kStopped || port.tx.session == wire::SessionState::kPaused;
+  const bool stopped = lets_go(port.tx.session);
   if (stopped && port.tx.engage) note("stop_engages_nobody", i);
   const client::Seat* seat = station.seat();
   if (seat == nullptr || !station.served_now()) return;
@@ -332,7 +336,7 @@ void WorldWatch::check_authority(std::uint32_t lived, const server::Session& ses
   const double step = std::max(scene_->alpha_slew, kLossSlew) * lived / scene_->tick_hz + 1e-9;
   for (std::size_t j = 0; j < scene_->tools.size(); ++j) {
     const control::AuthorityRow& row = session.tool(j).authority;
-    const bool stopped = session.state() == wire::SessionState::kStopped || session.state() == wire::SessionState::kPaused;
+    const bool stopped = lets_go(session.state());
     if (stopped && lived > 0 && !row.held()) violations_.note("stop_holds_tools", scene_->tools[j].name, t_, false);
     for (std::size_t i = 0; i < scene_->masters(); ++i) {
       const double alpha = row.alpha(i);

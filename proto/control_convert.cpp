@@ -127,7 +127,7 @@ bool read(const wire_pb::SessionList& in, SessionList& out) {
   out.more = in.more();
   for (const wire_pb::Session& s : in.session()) {
     ListedSession& session = out.sessions.emplace_back();
-    if (s.seat_size() > static_cast<int>(kListedSeatsMax) || s.state() > static_cast<std::uint32_t>(SessionPhase::kEnding)) return false;
+    if (s.seat_size() > static_cast<int>(kListedSeatsMax) || s.state() > static_cast<std::uint32_t>(SessionPhase::kPassive)) return false;
     session.phase = static_cast<SessionPhase>(s.state());
     if (!take(s.id(), session.id) || !take_name(s.name(), session.name)) return false;
     for (const wire_pb::Seat& seat : s.seat()) {
@@ -231,12 +231,14 @@ void write(const StatusRequest& in, wire_pb::StatusRequest& out) { out.set_sessi
 
 bool read(const wire_pb::Status& in, Status& out) {
   if (in.seat_size() > static_cast<int>(kListedSeatsMax) || in.tool_size() > static_cast<int>(kToolsMax)) return false;
-  if (in.state() > static_cast<std::uint32_t>(SessionPhase::kEnding) || !(in.time_s() >= 0 && in.time_s() <= kTimeMax)) return false;
+  if (in.state() > static_cast<std::uint32_t>(SessionPhase::kPassive) || !(in.time_s() >= 0 && in.time_s() <= kTimeMax)) return false;
   out.phase = static_cast<SessionPhase>(in.state());
   out.stops = in.stops();
   out.authority_version = in.authority_version();
   out.time_s = in.time_s();
   out.draining = in.draining();
+  out.shed = in.shed();
+  if (in.shed() > kShedMax) return false;
   if (!take(in.session_id(), out.session_id) || !take_name(in.name(), out.name)) return false;
   for (const wire_pb::StatusSeat& s : in.seat()) {
     StatusSeat& seat = out.seats.emplace_back();
@@ -261,6 +263,7 @@ void write(const Status& in, wire_pb::Status& out) {
   out.set_authority_version(in.authority_version);
   out.set_time_s(in.time_s);
   out.set_draining(in.draining);
+  out.set_shed(in.shed);
   for (const StatusSeat& s : in.seats) {
     auto& seat = *out.add_seat();
     seat.set_name(s.name);

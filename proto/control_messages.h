@@ -131,10 +131,10 @@ struct EnrolAck {
   friend bool operator==(const EnrolAck&, const EnrolAck&) = default;
 };
 
-enum class SessionPhase : std::uint8_t { kWaiting, kRunning, kPaused, kStopped, kEnding };
+enum class SessionPhase : std::uint8_t { kWaiting, kRunning, kPaused, kStopped, kEnding, kPassive };
 [[nodiscard]] constexpr const char* to_text(SessionPhase phase) noexcept {
-  constexpr const char* kNames[] = {"waiting", "running", "paused", "stopped", "ending"};
-  return phase <= SessionPhase::kEnding ? kNames[static_cast<std::size_t>(phase)] : "?";
+  constexpr const char* kNames[] = {"waiting", "running", "paused", "stopped", "ending", "passive"};
+  return phase <= SessionPhase::kPassive ? kNames[static_cast<std::size_t>(phase)] : "?";
 }
 struct ListedSeat {
   std::string name;
@@ -224,6 +224,8 @@ struct StatusTool {
   std::vector<double> alpha;  ///< asked for; at most kMastersMax in [0, 1]
   friend bool operator==(const StatusTool&, const StatusTool&) = default;
 };
+/// Rungs of the ladder by which a busy server goes without things (server/load_ladder.h).
+inline constexpr std::uint32_t kShedMax = 6;
 /// A session as somebody at a control connection may see it.
 struct Status {
   Id session_id{};
@@ -232,6 +234,7 @@ struct Status {
   std::uint32_t stops = 0, authority_version = 0;
   double time_s = 0;  ///< of the session [s], 0 ... 1e9
   bool draining = false;
+  std::uint32_t shed = 0;  ///< what the server goes without, 0 ... kShedMax
   std::vector<StatusSeat> seats;  ///< at most kListedSeatsMax
   std::vector<StatusTool> tools;  ///< at most kToolsMax
   friend bool operator==(const Status&, const Status&) = default;

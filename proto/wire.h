@@ -59,8 +59,9 @@ struct StateMessage {
   std::uint32_t seat_tick = 0;  ///< session tick at which the sample was taken, 0 before engage
 };
 
-/// In kPaused and kStopped nobody is engaged; a person resumes.
-enum class SessionState : std::uint8_t { kWaiting, kRunning, kHeld, kPaused, kStopped, kEnding };
+/// In kPaused and kStopped nobody is engaged; a person resumes. In kPassive nobody is either: the server does not keep its time, and goes
+/// on by itself once it does.
+enum class SessionState : std::uint8_t { kWaiting, kRunning, kHeld, kPaused, kStopped, kEnding, kPassive };
 
 /// Server to client, every tick, 1 kHz. No reply.
 struct ForceMessage {

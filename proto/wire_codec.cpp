@@ -67,7 +67,7 @@ void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_
   v.doubles(2, f.port.v, axes, kVelocityMax);
   v.doubles(3, f.port.f, axes, kEffortMax);
   v.energies(4, f.port.e_in, axes, kEnergyMax);
-  v.word(5, words.session, static_cast<std::uint32_t>(SessionState::kEnding));
+  v.word(5, words.session, static_cast<std::uint32_t>(SessionState::kPassive));
   v.word(6, words.engage, 1);
   v.word(7, f.session_tick);
   v.word(8, f.authority_version);

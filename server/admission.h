@@ -10,6 +10,7 @@ namespace tandem::server {
 struct Load {
   double tick = 0;  ///< processor time of a tick's law, p99 of the last 1000 ticks: share of the tick [1]
   double core = 0;  ///< processor time of the whole thread, receiving and sending too, over the last second: share of one processor [1]
+  bool relieved = false;  ///< on the last rung (load_ladder.h): full in spite of all that it goes without
 };
 
 /// Above these nobody new gets a seat [design notes, reliability 2.4].
@@ -26,6 +27,7 @@ struct LoadLimits {
   const std::string begin = "this server has no room for more: ";
   if (own.tick > limits.tick)
     return begin + format("its ticks take %.0f %% of their time (p99), and newcomers are let in below %.0f %%", 100 * own.tick, 100 * limits.tick) + kRemedy;
+  if (own.relieved) return begin + "its ticks are full although it goes without all that it can" + kRemedy;
   if (own.core > limits.core)
     return begin + format("the session's thread takes %.0f %% of a processor, and newcomers are let in below %.0f %%", 100 * own.core, 100 * limits.core) + kRemedy;
   if (processors > 0 && all_cores > limits.core * processors)

@@ -33,6 +33,8 @@ struct AuditEvent {
     kGathered,       ///< after that: everybody needed is back, or (`seat`) an instructor goes on without
     kFlood,          ///< more datagrams than its rate allows, for more than 2 s; the excess is dropped
     kRemoved,        ///< its person was sent away, and the seat is free
+    kPassive,        ///< the server does not keep its time: all hands are let go until kInTime
+    kInTime,
   };
   /// Nobody's seat: the scene's timeline, the control plane, or the session itself.
   static constexpr std::uint8_t kNoSeat = 255, kTimeline = 254, kControlPlane = 253;
@@ -50,8 +52,9 @@ static_assert(std::is_trivially_copyable_v<AuditEvent>);
 /// For people and logs: `join`, ...
 [[nodiscard]] constexpr const char* to_text(AuditEvent::What what) noexcept {
   constexpr const char* kNames[] = {"join",  "leave",  "loss",     "back",       "isolated", "readmitted", "forbidden", "authority", "stop",
-                                    "pause", "resume", "own-stop", "own-resume", "fault",    "instructor-away", "restored", "gathered", "flood", "removed"};
-  return what <= AuditEvent::What::kRemoved ? kNames[static_cast<std::size_t>(what)] : "?";
+                                    "pause", "resume", "own-stop", "own-resume", "fault",    "instructor-away", "restored", "gathered", "flood", "removed",
+                                    "passive", "in-time"};
+  return what <= AuditEvent::What::kInTime ? kNames[static_cast<std::size_t>(what)] : "?";
 }
 
 /// Events that wait for whoever writes them. Full: the newest is dropped and counted, as what began a trouble tells more than its end.

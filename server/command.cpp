@@ -70,6 +70,7 @@ Outcome carry_out(Session& session, Time now, const Command& command) noexcept {
   out.before = session.tool(tool).authority.requested();
   out.result = still_his(session, command) ? obey(session, now, command) : Result::kGone;
   out.state = session.state();
+  out.shed = session.relief().rung;
   out.stop = session.stop_level();
   out.gathering = session.gathering();
   out.stops = session.stops();

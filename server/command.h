@@ -8,6 +8,7 @@
 #include "proto/access_role.h"
 #include "proto/wire.h"
 #include "server/audit.h"
+#include "server/load_ladder.h"
 #include "server/stop_lane.h"
 
 namespace tandem::server {
@@ -49,6 +50,7 @@ struct Outcome {
   bool gathering = false;               ///< back from a checkpoint: an instructor who resumes goes on without those who are missing
   std::uint32_t stops = 0, authority_version = 0, tick = 0;
   double time = 0;                      ///< of the session [s]
+  Rung shed = Rung::kNothing;
   std::uint8_t masters = 0, tools = 0;
   control::Weights before{};            ///< kSetAuthority: asked for of the tool until now
   std::array<control::Weights, kToolsMax> alpha{};  ///< asked for

@@ -72,9 +72,12 @@ void ReportBuilder::place(Track& track, std::uint32_t tick, const Sample& sample
 
 void ReportBuilder::add(const TickRecord& record) {
   if (!record.running) return;
-  ++ticks_;
+  // A server that has too much to do leaves records out: each stands for the ticks since the one before.
+  const std::uint32_t stands_for = ticks_ > 0 && record.tick > newest_ ? record.tick - newest_ : 1;
+  newest_ = record.tick;
+  ticks_ += stands_for;
   if (record.tick >= kTicksMax) return;
-  ++judged_;
+  judged_ += stands_for;
   if (record.slipped != slipped_ && slips_.size() < kSlipsMax) slips_.push_back(record.tick);
   slipped_ = record.slipped;
   const auto settled = [&](std::uint32_t& since, bool on) {
@@ -84,7 +87,7 @@ void ReportBuilder::add(const TickRecord& record) {
   };
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     const SeatRecord& s = record.seats[i];
-    alpha_sum_[i] += s.alpha;
+    alpha_sum_[i] += stands_for * s.alpha;
     last_[i] = s;
     const bool usable = settled(engaged_since_[i], s.engaged);
     place(seats_[i], s.sample_tick, {single(s.x), single(s.f_out), single(s.f_cmd), single({s.q[0], s.q[1], s.q[2]}), true, usable});
@@ -92,7 +95,7 @@ void ReportBuilder::add(const TickRecord& record) {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     const ToolRecord& t = record.tools[j];
     mfs_[j] = t.mfs_j;
-    held_ticks_[j] += t.held ? 1 : 0;
+    held_ticks_[j] += t.held ? stands_for : 0;
     const bool usable = settled(held_since_[j], !t.held);
     place(tools_[j], t.sample_tick, {single(t.x), single(t.f_env), single(t.f_cmd), single({t.q[0], t.q[1], t.q[2]}), true, usable});
     const double square = t.f_env[0] * t.f_env[0] + t.f_env[1] * t.f_env[1] + t.f_env[2] * t.f_env[2];

@@ -104,6 +104,7 @@ class ReportBuilder {
   std::vector<SeatRecord> last_;
   std::vector<double> mfs_;
   std::uint64_t ticks_ = 0, judged_ = 0, slipped_ = 0;
+  std::uint32_t newest_ = 0;  ///< tick of the record before
   std::vector<std::size_t> slips_;  ///< ticks at which session time stood still
 };
 

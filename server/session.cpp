@@ -14,6 +14,7 @@ constexpr std::uint32_t kCatchUpMax = 50;      // ticks lived through after a st
 constexpr double kFarewell = 0.15;             // [s] gates ramp out before CLOSE
 constexpr Duration kSilentOwner = std::chrono::seconds(2);  // then his seat is free
 constexpr double kWatcherHz = 60;              // who feels nothing is told no more often
+constexpr double kIntervalsOfSilence = 6;      // isolated losses trip no gate: at 5 % random loss five in a row come every day or two
 constexpr std::uint32_t kCloseRepeats = 20;    // CLOSE goes out this many ticks long: one may be lost
 }  // namespace
 
@@ -24,9 +25,11 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       scale_(scale),
       masters_(scene.masters()),
       watcher_every_(static_cast<std::uint32_t>(std::ceil(scene.tick_hz / kWatcherHz))),
+      feeler_every_max_(static_cast<std::uint32_t>(std::max(1.0, scene.gate.silence_limit * scene.tick_hz / kIntervalsOfSilence))),
       reception_(scene, scale),
       visitors_(scene.dof, scene.port, tick_length_) {
   for (std::size_t a = 0; a < kAxesMax; ++a) root_scale_[a] = std::sqrt(scale_[a]);
+  turns_.fill(~0u);
   seats_.reserve(scene.seats.size());
   for (std::size_t i = 0; i < scene.seats.size(); ++i) seats_.emplace_back(scene, i, scale);
   tools_.reserve(scene.tools.size());
@@ -145,9 +148,24 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   next_to_tell_ = 0;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     if (auto* l = seats_[i].link()) l->tick(now);
-    send_due_[i] = seats_[i].reachable() && (seats_[i].feels() || tick_ % watcher_every_ == 0);
+    send_due_[i] = due_to_be_told(i) && seats_[i].reachable();
   }
   visitors_.on_tick(now);
+}
+
+std::uint32_t Session::told_every(std::size_t i) const noexcept {
+  const SeatPort& seat = seats_[i];
+  const auto spared = [&](Rung rung) { return relief_.rung >= rung; };
+  if (!seat.feels()) return watcher_every_ * (spared(Rung::kObserversMore) ? 6 : spared(Rung::kObservers) ? 3 : 1);
+  if (seat.role() != AccessRole::kEvaluator || i >= masters_ || scene_->seats[i].required) return 1;
+  return std::min(feeler_every_max_, spared(Rung::kEvaluatorsMore) ? 3u : spared(Rung::kEvaluators) ? 2u : 1u);
+}
+
+/// Once in each interval, also when ticks were missed. Who only feels is due in another tick than his neighbours: at one time all of them would
+/// make one tick as long as ever.
+bool Session::due_to_be_told(std::size_t i) noexcept {
+  const std::uint32_t turn = (tick_ + (seats_[i].feels() ? static_cast<std::uint32_t>(i) : 0)) / told_every(i);
+  return turn != std::exchange(turns_[i], turn);
 }
 
 void Session::live_one_tick(Time now) noexcept {
@@ -189,7 +207,7 @@ void Session::change_state(Time now) noexcept {
 /// After a tick, and after an order: who asks next sees what became of it.
 void Session::settle_state() noexcept {
   if (state_ == wire::SessionState::kEnding) return;
-  state_ = !begun_ ? wire::SessionState::kWaiting : held_ ? wire::SessionState::kHeld : wire::SessionState::kRunning;
+  state_ = !begun_ ? wire::SessionState::kWaiting : relief_.passive ? wire::SessionState::kPassive : held_ ? wire::SessionState::kHeld : wire::SessionState::kRunning;
   if (stop_lane_.level() == StopLane::Level::kPaused) state_ = wire::SessionState::kPaused;
   if (stop_lane_.level() == StopLane::Level::kStopped) state_ = wire::SessionState::kStopped;
 }
@@ -238,7 +256,7 @@ void Session::fill_force_messages(Time now) noexcept {
     const bool slave_ready = !scene_->tools[j].remote || ready[scene_->tools[j].seat];
     for (std::size_t i = 0; i < masters_; ++i) entitled[j] |= slave_ready && tools_[j].authority.requested()[i] > 0 && ready[i];
   }
-  const bool engage = engage_ && state_ != wire::SessionState::kEnding && !stop_lane_.on();
+  const bool engage = engage_ && state_ != wire::SessionState::kEnding && !lets_go();
 
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     wire::ForceMessage& m = seats_[i].tx;

@@ -12,6 +12,7 @@
 #include "server/reception.h"
 #include "server/audit.h"
 #include "server/checkpoint.h"
+#include "server/load_ladder.h"
 #include "server/seat_port.h"
 #include "server/stop_lane.h"
 #include "server/tick_record.h"
@@ -52,6 +53,11 @@ class Session {
   [[nodiscard]] JoinResult admit_visitor(Time now, std::unique_ptr<link::Link>& link, std::size_t* place = nullptr) noexcept;
 
   void on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept;
+  /// From the next tick on: what is gone without, and whether hands are let go, because the thread has too much to do.
+  void relieve(const Relief& relief) noexcept { relief_ = relief; }
+  [[nodiscard]] const Relief& relief() const noexcept { return relief_; }
+  /// Ticks between two FORCEs for this seat now: 1 for whoever holds a tool, or is waited for.
+  [[nodiscard]] std::uint32_t told_every(std::size_t seat) const noexcept;
   /// @param missed  ticks whose time passed without a call; they are lived through now, silently, up to a bound.
   void on_tick(Time now, std::uint32_t missed) noexcept TANDEM_REALTIME;
 
@@ -118,6 +124,9 @@ class Session {
   void note(Time now, AuditEvent::What what, std::size_t seat, std::uint32_t version = 0) noexcept;
   void say_farewell(Time now) noexcept TANDEM_REALTIME;
 
+  /// Nobody is engaged now: somebody stopped the session, or it does not keep its time.
+  [[nodiscard]] bool lets_go() const noexcept { return stop_lane_.on() || relief_.passive; }
+  [[nodiscard]] bool due_to_be_told(std::size_t seat) noexcept TANDEM_REALTIME;
   [[nodiscard]] bool slave_present(std::size_t tool) const noexcept;
   void live_one_tick(Time now) noexcept TANDEM_REALTIME;
   void change_state(Time now) noexcept;
@@ -142,7 +151,10 @@ class Session {
   std::vector<SeatPort> seats_;
   std::vector<Tool> tools_;
   std::size_t masters_;
-  std::uint32_t watcher_every_;  ///< ticks between two FORCEs for who feels nothing
+  std::uint32_t watcher_every_;    ///< ticks between two FORCEs for who feels nothing
+  std::uint32_t feeler_every_max_; ///< at most, for who only feels: six intervals fit into the gates' silence limit
+  Relief relief_;
+  bool passive_ = false;           ///< as last written down
   Reception reception_;
   Visitors visitors_;
 
@@ -194,6 +206,7 @@ class Session {
   TickRecord record_{};
 
   std::array<bool, kSeatsMax> send_due_{};
+  std::array<std::uint32_t, kSeatsMax> turns_;  ///< the last interval in which each seat was due
   std::size_t next_to_tell_ = 0;  ///< seat that `poll_transmit` asks next
   std::uint64_t stray_ = 0, slipped_ = 0;
 };

@@ -20,7 +20,7 @@ void Session::share_authority() noexcept {
     control::AuthorityRow::Input in;
     in.dt = dt_;
     for (std::size_t i = 0; i < masters_; ++i) {
-      in.present[i] = present_[i] && slave_present(j) && state_ != wire::SessionState::kEnding && !stop_lane_.on();
+      in.present[i] = present_[i] && slave_present(j) && state_ != wire::SessionState::kEnding && !lets_go();
       const control::EndState& end = seats_[i].end().state();
       for (std::size_t a = 0; a < scene_->dof; ++a) {
         const double e = end.ref[a] - tool.x(a);

@@ -159,7 +159,7 @@ void Session::wait_for_people(Time now) noexcept {
   }
   const bool to_a_stop = gathering_ && stop_before_ != StopLane::Level::kNone;  // nobody is engaged only to be let go
   engage_ = all_ready && !to_a_stop;
-  if (!all_ready || !(all_there || to_a_stop) || stop_lane_.on()) return;
+  if (!all_ready || !(all_there || to_a_stop) || lets_go()) return;
   if (gathering_) {
     note(now, AuditEvent::What::kGathered, AuditEvent::kNoSeat);
     return go_on(now);
@@ -171,6 +171,10 @@ void Session::wait_for_people(Time now) noexcept {
 }
 
 void Session::look_after_people(Time now) noexcept {
+  if (begun_ && relief_.passive != passive_) {
+    passive_ = relief_.passive;
+    note(now, passive_ ? AuditEvent::What::kPassive : AuditEvent::What::kInTime, AuditEvent::kNoSeat);
+  }
   for (std::size_t i = 0; i < seats_.size(); ++i) look_after(now, i);
   std::uint64_t not_finite = 0;
   for (const Tool& tool : tools_) not_finite += tool.not_finite();

@@ -33,7 +33,7 @@ void take_record(const Session& session, TickRecord& record) noexcept {
   const std::size_t masters = scene.masters();
   record.tick = session.session_tick();
   const wire::SessionState state = session.state();
-  const bool stopped = state == wire::SessionState::kPaused || state == wire::SessionState::kStopped;
+  const bool stopped = state == wire::SessionState::kPaused || state == wire::SessionState::kStopped || state == wire::SessionState::kPassive;
   record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld || (stopped && session.session_tick() > 0);
   record.slipped = session.slipped();
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {

@@ -28,6 +28,8 @@ std::string session_text(const ClientStatus& s) {
       return format("%.1f s STOPPED", s.session_time);
     case wire::SessionState::kEnding:
       return "ending";
+    case wire::SessionState::kPassive:
+      return format("%.1f s PASSIVE: the server is too busy, it goes on by itself", s.session_time);
   }
   return "";
 }

@@ -165,7 +165,9 @@ std::string status_text(const control::Status& s) {
   std::string text = format("%s: %s, %.1f s", s.name.c_str(), control::to_text(s.phase), s.time_s);
   const bool on = s.phase == control::SessionPhase::kStopped || s.phase == control::SessionPhase::kPaused;
   text += on ? format("; `resume %u` ends it", s.stops) : format("; %u stops so far", s.stops);
-  text += format("; authority version %u%s\n", s.authority_version, s.draining ? "; the server is DRAINING" : "");
+  text += format("; authority version %u%s", s.authority_version, s.draining ? "; the server is DRAINING" : "");
+  if (s.phase == control::SessionPhase::kPassive) text += "; PASSIVE: the server is too busy to keep time, all hands are let go and come back by themselves";
+  text += s.shed > 0 ? format("; busy, shed level %u of %u\n", s.shed, control::kShedMax) : "\n";
   for (const control::StatusSeat& seat : s.seats)
     text += format("  seat %-16s %-10s %s\n", seat.name.c_str(), std::string(to_text(seat.role)).c_str(), !seat.taken ? "free" : seat.heard ? "here" : "SILENT");
   for (const control::StatusTool& tool : s.tools) text += format("  tool %-16s %s\n", tool.name.c_str(), weights_text(s, tool.alpha).c_str());
@@ -176,8 +178,8 @@ std::string status_json(const control::Status& s) {
   // Names are of A-Z a-z 0-9 _ -: nothing needs escaping.
   std::string text = "{\"session\": \"" + s.name + "\", \"id\": \"";
   for (const std::byte b : s.session_id) text += format("%02x", std::to_integer<unsigned>(b));
-  text += format("\", \"phase\": \"%s\", \"time_s\": %.3f, \"stops\": %u, \"authority_version\": %u, \"draining\": %s, \"seats\": [", control::to_text(s.phase), s.time_s,
-                 s.stops, s.authority_version, s.draining ? "true" : "false");
+  text += format("\", \"phase\": \"%s\", \"time_s\": %.3f, \"stops\": %u, \"authority_version\": %u, \"draining\": %s, \"shed\": %u, \"seats\": [", control::to_text(s.phase), s.time_s,
+                 s.stops, s.authority_version, s.draining ? "true" : "false", s.shed);
   std::vector<std::string> masters;
   for (std::size_t i = 0; i < s.seats.size(); ++i) {
     const control::StatusSeat& seat = s.seats[i];

@@ -146,6 +146,8 @@ std::optional<SeatEnd> Vigil::take_back() {
 
 void Vigil::show(ClientStatus status) {
   if (status.session != before_ && status.session == wire::SessionState::kRunning) o_.line.note("the session runs");
+  if (status.session != before_ && status.session == wire::SessionState::kPassive)
+    o_.line.note("PASSIVE: the server is too busy to keep time; the hand is let go, and engaged again by itself");
   before_ = status.session;
   const Time now = io::monotonic_now();
   if (now - shown_ < std::chrono::milliseconds(o_.line.interval_ms())) return;

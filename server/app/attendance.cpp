@@ -36,6 +36,8 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (status.state == State::kPaused)
       news.notes.push_back({"paused", "", "PAUSED: all hands are let go; an instructor resumes (key r) or an operator (`tandem-client control`)"});
     if (status.state == State::kStopped) news.notes.push_back({"stopped", "", "STOPPED: all hands are let go; an instructor resumes (key r) or an operator (`tandem-client control`)"});
+    if (status.state == State::kPassive)
+      news.notes.push_back({"passive", "", "PASSIVE: this machine is too busy to keep time (three ticks in a row more than 5 ms late); all hands are let go and come back by themselves", true});
     if (status.state == State::kHeld) news.notes.push_back({"held", "", "HELD: " + why_held(status, scene) + ", the tools are braked"});
     state_ = status.state;
   }

@@ -18,6 +18,7 @@
 #include "common/io/terminal.h"
 #include "server/app/checkpoint_book.h"
 #include "server/app/front_door.h"
+#include "server/app/relief_news.h"
 #include "server/app/shards.h"
 #include "server/report_summary.h"
 
@@ -203,6 +204,10 @@ class Host {
     if (const auto due = door_->drain_due(); due && !drain_began_ && now >= *due) drain("drained by an operator");
     if (drain_began_ && now - *drain_began_ > kDrainMax) leave_at_once("the sessions did not end within 3 s");
     feed_watchdog();
+    for (const ReliefNews::Note& note : relief_.look(shards_.all())) {
+      io::tell(note.more ? io::Level::kWarn : io::Level::kInfo, {.event = note.more ? "shed" : "shed_less", .text = note.text});
+      if (!io::logs_json()) line_.note(note.text);
+    }
     for (std::size_t i = 0; i < runs_.size();) {
       if (!runs_[i]->hosted().over()) {
         attend(*runs_[i++], now);
@@ -364,6 +369,7 @@ class Host {
   std::vector<std::unique_ptr<SessionRun>> runs_;  ///< those that are not over, or being followed up
   std::vector<std::unique_ptr<SessionRun>> finished_;  ///< that the door still knows of
   io::StatusLine line_;
+  ReliefNews relief_;
   Time began_{}, shown_{};
   std::optional<Time> drain_began_;
   std::uint64_t punctual_ = 0;

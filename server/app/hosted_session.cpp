@@ -11,6 +11,7 @@ namespace tandem::server {
 namespace {
 
 constexpr std::uint64_t kLookEvery = 64;  // ticks between two looks at one seat, and between two pictures
+constexpr std::uint64_t kLookSeldom = 4 * kLookEvery, kRecordSeldom = 10;  // from Rung::kTelemetry on
 
 constexpr Duration kNeverEchoed = std::chrono::hours(1);  // what freshness says before the first echo is longer
 
@@ -52,6 +53,7 @@ SessionStatus HostedSession::status() const {
 }
 
 void HostedSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
+  session_.relieve(machine.relief);
   session_.on_tick(now, missed);
   while (const auto event = session_.poll_audit()) {
     audit_.push(*event);
@@ -59,11 +61,16 @@ void HostedSession::tick(Time now, std::uint32_t missed, const MachineStatus& ma
   }
   if (mail_ && (keep_now_ || ++since_kept_ >= kept_every_)) lay_down_checkpoint();
   SessionMonitor{}.check(session_, violations_);
-  if (session_.record().running) records_->push(session_.record());
+  const bool seldom = machine.relief.rung >= Rung::kTelemetry;
+  if (session_.record().running && ++unrecorded_ >= (seldom ? kRecordSeldom : 1)) {
+    records_->push(session_.record());
+    unrecorded_ = 0;
+  }
   // One seat at a time: quantiles of its histograms take microseconds, of all seats together they would be felt.
-  const std::size_t seat = ticks_ % kLookEvery;
+  const std::uint64_t every = seldom ? kLookSeldom : kLookEvery;
+  const std::size_t seat = ticks_ % every;
   if (seat < scene_->seats.size()) look_at_seat(seat, now);
-  if (++ticks_ % kLookEvery == 0) publish(now, machine);
+  if (++ticks_ % every == 0) publish(now, machine);
 }
 
 void HostedSession::finish(Time now, const MachineStatus& machine) noexcept {

@@ -68,7 +68,7 @@ class HostedSession {
   Violations violations_;
   std::atomic<bool> over_{false};
   io::Fd over_event_;
-  std::uint64_t ticks_ = 0;
+  std::uint64_t ticks_ = 0, unrecorded_ = 0;
   SessionStatus picture_;
   mutable std::mutex published_lock_;  ///< the shard only tries it
   SessionStatus published_;

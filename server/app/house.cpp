@@ -38,6 +38,8 @@ control::SessionPhase House::phase_of(wire::SessionState state) noexcept {
       return control::SessionPhase::kPaused;
     case wire::SessionState::kStopped:
       return control::SessionPhase::kStopped;
+    case wire::SessionState::kPassive:
+      return control::SessionPhase::kPassive;
     case wire::SessionState::kEnding:
       break;
   }
@@ -170,7 +172,7 @@ void House::admit(const JoinRequest& request, std::function<void(Admission)> ans
 std::optional<Refused> House::too_busy(const Room& room) const {
   double all = 0;
   for (const Watched& w : watched_) all += w.shard->core();
-  std::string why = no_room({room.opening.shard->load(), room.opening.shard->core()}, all, std::thread::hardware_concurrency(), limits_);
+  std::string why = no_room({room.opening.shard->load(), room.opening.shard->core(), room.opening.shard->relief().rung == Rung::kNewcomers}, all, std::thread::hardware_concurrency(), limits_);
   if (why.empty()) return std::nullopt;
   return Refused{Reason::kFull, std::move(why), 5};
 }

@@ -76,6 +76,8 @@ control::Status status_of(const control::Welcome& standing, const Outcome& outco
   status.authority_version = outcome.authority_version;
   status.time_s = outcome.time;
   status.draining = draining;
+  static_assert(static_cast<std::uint32_t>(Rung::kNewcomers) == control::kShedMax);
+  status.shed = static_cast<std::uint32_t>(outcome.shed);
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     status.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), outcome.seats[i].taken, outcome.seats[i].heard, i < outcome.masters});
   for (std::size_t j = 0; j < outcome.tools; ++j) status.tools.push_back({scene.tools[j].name, weights_of(outcome, j)});

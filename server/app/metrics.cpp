@@ -82,7 +82,7 @@ void describe_seat(Families& page, const Labels& who, const SeatStatus& seat) {
 std::string metrics(const House& house, const ControlPlane& plane) {
   Families page;
   std::array<std::uint64_t, static_cast<std::size_t>(link::Refusal::kCount)> refused{};
-  std::array<std::size_t, static_cast<std::size_t>(control::SessionPhase::kEnding) + 1> sessions{};
+  std::array<std::size_t, static_cast<std::size_t>(control::SessionPhase::kPassive) + 1> sessions{};
   std::uint64_t stray = 0;
   for (const House::Opening* opening : house.openings()) {
     const SessionStatus status = opening->session->status();
@@ -105,6 +105,8 @@ std::string metrics(const House& house, const ControlPlane& plane) {
     page.count("tandem_tick_late_total", "Ticks that began more than 1 ms late", who, static_cast<double>(shard->late()));
     page.gauge("tandem_tick_load", "Processor time of a tick, 99th percentile of the last 1000, share of the tick", who, shard->load());
     page.gauge("tandem_core_load", "Processor time of the thread, over the last second, share of one processor", who, shard->core());
+    page.gauge("tandem_shed_level", "What the thread goes without: 0 nothing, 1 telemetry, 2-3 observers, 4-5 evaluators, 6 newcomers", who, static_cast<double>(shard->relief().rung));
+    page.gauge("tandem_passive", "1: the thread does not keep its time, and all hands of its sessions are let go", who, shard->relief().passive ? 1 : 0);
     stray += shard->stray();
   }
   for (std::size_t r = 0; r < refused.size(); ++r)

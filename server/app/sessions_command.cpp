@@ -15,7 +15,7 @@ struct SessionsArguments {
 };
 
 control::SessionPhase phase_named(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(control::SessionPhase::kEnding); ++i)
+  for (int i = 0; i <= static_cast<int>(control::SessionPhase::kPassive); ++i)
     if (name == control::to_text(static_cast<control::SessionPhase>(i))) return static_cast<control::SessionPhase>(i);
   return control::SessionPhase::kWaiting;
 }

@@ -38,7 +38,8 @@ Shard::Shard(io::UdpSocket socket, double tick_hz)
       news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       period_(from_seconds(1.0 / tick_hz)),
       orders_(kOrdersMax),
-      answers_(2 * kOrdersMax) {}
+      answers_(2 * kOrdersMax),
+      ladder_(period_) {}
 
 bool Shard::host(HostedSession& session) noexcept {
   HostedSession*& place = sessions_[session.slot()];
@@ -93,10 +94,12 @@ void Shard::run() noexcept {
       machine_.late_ticks += late > kLate ? 1 : 0;
       machine_.missed_ticks += missed;
     }
+    weigh(now, late);
     const Duration before = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
     tick(now, missed);
     const Duration used = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
-    measure(used - before);
+    used_ = used - before;
+    measure(used_);
     measure_core(now, used);
     turned_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
     due += (missed + 1) * period_;
@@ -226,6 +229,12 @@ void Shard::send(Time now, Session& session) noexcept {
 
 void Shard::flush() noexcept {
   if (out_.size() > 0) out_.send(socket_.fd.get());  // what cannot be sent is lost, as on any network
+}
+
+void Shard::weigh(Time now, Duration late) noexcept {
+  machine_.relief = ladder_.step(now, late, used_);
+  rung_.store(machine_.relief.rung, std::memory_order_relaxed);
+  passive_.store(machine_.relief.passive, std::memory_order_relaxed);
 }
 
 void Shard::measure(Duration spent) noexcept {

@@ -10,6 +10,7 @@
 #include "server/app/hosted_session.h"
 #include "server/app/order.h"
 #include "server/app/tick_counts.h"
+#include "server/load_ladder.h"
 
 namespace tandem::server {
 
@@ -44,6 +45,8 @@ class Shard {
   [[nodiscard]] double load() const noexcept { return load_.load(std::memory_order_relaxed); }
   /// Processor time of this thread, all it does, over the last second: share of one processor [1]. From any thread.
   [[nodiscard]] double core() const noexcept { return core_.load(std::memory_order_relaxed); }
+  /// What it goes without now. From any thread.
+  [[nodiscard]] Relief relief() const noexcept { return {rung_.load(std::memory_order_relaxed), passive_.load(std::memory_order_relaxed)}; }
   /// How punctual and how long ticks are. From any thread.
   [[nodiscard]] const TickCounts& lateness() const noexcept { return lateness_; }
   [[nodiscard]] const TickCounts& lengths() const noexcept { return lengths_; }
@@ -62,6 +65,7 @@ class Shard {
   void tick(Time now, std::uint32_t missed) noexcept;
   void send(Time now, Session& session) noexcept;
   void flush() noexcept;
+  void weigh(Time now, Duration late) noexcept;
   void measure(Duration spent) noexcept;
   void measure_core(Time now, Duration used) noexcept;
 
@@ -81,6 +85,10 @@ class Shard {
   std::array<std::array<std::byte, link::kDatagramMax>, kSendMax> buffers_;
   std::array<io::SocketAddress, kSendMax> addresses_;
 
+  LoadLadder ladder_;
+  Duration used_{};  ///< processor time of the last tick
+  std::atomic<Rung> rung_{Rung::kNothing};
+  std::atomic<bool> passive_{false};
   Histogram spent_;
   TickCounts lateness_, lengths_;
   std::atomic<std::uint64_t> late_{0};

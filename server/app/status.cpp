@@ -69,9 +69,13 @@ std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
     case wire::SessionState::kEnding:
       line += "ending";
       break;
+    case wire::SessionState::kPassive:
+      line += "PASSIVE (this machine is too busy to keep time; goes on by itself)";
+      break;
   }
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     if (status.seats[i].ever_taken) line += " | " + seat_text(status.seats[i], scene.seats[i].name);
+  if (status.machine.relief.rung > Rung::kNothing) line += format(" | goes without: %s", to_text(status.machine.relief.rung));
   return line + format(" | late ticks %llu", static_cast<unsigned long long>(status.machine.late_ticks));
 }
 

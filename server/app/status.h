@@ -7,6 +7,7 @@
 #include "common/link/link.h"
 #include "proto/scene_spec.h"
 #include "proto/wire.h"
+#include "server/load_ladder.h"
 #include "server/report.h"
 
 namespace tandem::server {
@@ -33,6 +34,7 @@ struct MachineStatus {
   std::uint64_t late_ticks = 0;    ///< began more than 1 ms after their time
   std::uint64_t missed_ticks = 0;  ///< whose time passed altogether; lived through afterwards
   bool realtime = false;           ///< the kernel granted real-time priority
+  Relief relief;                   ///< what is gone without
 };
 
 struct SessionStatus {

@@ -83,7 +83,7 @@ TEST(ControlWords, AStatusIsReadByPeopleAndMachines) {
             "  tool drill            trainer 0.25, trainee 0.75\n");
   EXPECT_EQ(status_json(lesson()),
             "{\"session\": \"lesson\", \"id\": \"ab000000000000000000000000000000\", \"phase\": \"stopped\", \"time_s\": 12.340, \"stops\": 3, \"authority_version\": 7, "
-            "\"draining\": false, \"seats\": [{\"name\": \"trainer\", \"role\": \"instructor\", \"taken\": true, \"heard\": true}, {\"name\": \"trainee\", \"role\": \"trainee\", "
+            "\"draining\": false, \"shed\": 0, \"seats\": [{\"name\": \"trainer\", \"role\": \"instructor\", \"taken\": true, \"heard\": true}, {\"name\": \"trainee\", \"role\": \"trainee\", "
             "\"taken\": true, \"heard\": false}, {\"name\": \"arm\", \"role\": \"observer\", \"taken\": false, \"heard\": false}], \"tools\": [{\"name\": \"drill\", "
             "\"alpha\": {\"trainer\": 0.25, \"trainee\": 0.75}}]}\n");
 }

@@ -187,7 +187,7 @@ TEST(WireCodec, RefusesNumbersThatCannotBeMeant) {
   EXPECT_EQ(force([&](auto& m) { m.port.x[0] = nan; }), DecodeError::kNotFinite);
   EXPECT_EQ(force([&](auto& m) { m.alpha = nan; }), DecodeError::kNotFinite);
   EXPECT_EQ(force([&](auto& m) { m.alpha = 1.0000001; }), DecodeError::kOutOfRange);
-  EXPECT_EQ(force([&](auto& m) { m.session = static_cast<SessionState>(6); }), DecodeError::kOutOfRange);
+  EXPECT_EQ(force([&](auto& m) { m.session = static_cast<SessionState>(7); }), DecodeError::kOutOfRange);
   EXPECT_EQ(force([&](auto& m) { m.missing = 25; }), DecodeError::kOutOfRange);
 
   const auto authority = [&](auto change) {

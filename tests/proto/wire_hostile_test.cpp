@@ -54,7 +54,7 @@ std::vector<Case> cases(Codec& codec) {
          if (got) {
            expect_in_range(got->message.port, kPositionMaxM);
            EXPECT_TRUE(got->message.alpha >= 0 && got->message.alpha <= 1);
-           EXPECT_LE(got->message.session, SessionState::kEnding);
+           EXPECT_LE(got->message.session, SessionState::kPassive);
          }
          return got.has_value();
        }},

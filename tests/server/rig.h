@@ -47,9 +47,11 @@ struct RigSeat {
 /// A real session core and the real client cores of all its seats, with no time between them and an attacker wherever a test wants one.
 class Rig {
  public:
-  /// @param key  other keys and connection ids for another number  @param rekey  of both ends
-  explicit Rig(const std::string& scene_name = "one_axis", std::uint64_t key = 3, const link::RekeyRule& rekey = {}, std::uint8_t slot = 0)
+  /// @param key  other keys and connection ids for another number  @param rekey  of both ends  @param change  of the scene, before anybody comes
+  explicit Rig(const std::string& scene_name = "one_axis", std::uint64_t key = 3, const link::RekeyRule& rekey = {}, std::uint8_t slot = 0,
+               void (*change)(SceneSpec&) = nullptr)
       : scene(*parse_scene(find_shipped_scene(scene_name)->text, scene_name + ".textproto")) {
+    if (change != nullptr) change(scene);
     AxisArray scale;
     scale.fill(1);
     std::vector<std::unique_ptr<hal::SteppedDevice>> slaves;

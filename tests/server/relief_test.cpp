@@ -1,0 +1,122 @@
+// What a session does without on each rung of the ladder, and that nobody who holds a tool is told less often for it.
+#include <gtest/gtest.h>
+
+#include "server/load_ladder.h"
+#include "tests/server/rig.h"
+#include "tests/support/alloc_guard.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Rig;
+
+constexpr std::size_t kTrainee = 0, kEvaluator = 1, kObserver = 7, kRequired = 6;  // eight_seats, changed below
+
+/// Eight seats: a trainee who works, evaluators, of whom one is waited for, and an observer.
+struct Eight : Rig {
+  Eight()
+      : Rig("eight_seats", 3, {}, 0, [](SceneSpec& s) {
+          s.seats[kObserver].role = Role::kObserver;
+          s.seats[kRequired].required = true;
+        }) {
+    run(2s);
+  }
+  /// FORCEs to a seat in a second, on a rung.
+  std::map<std::size_t, int> told_on(Rung rung) {
+    session->relieve({rung, false});
+    run(10ms);
+    forces.clear();
+    run(1s);
+    std::map<std::size_t, int> heard;
+    for (std::size_t i = 0; i < seats.size(); ++i) heard[i] = forces[seats[i].at];
+    return heard;
+  }
+};
+
+TEST(Relief, ShedsObserversThenEvaluatorsAndNeverWhoHoldsATool) {
+  Eight eight;
+  EXPECT_EQ(eight.session->state(), wire::SessionState::kRunning);
+  struct Expected {
+    Rung rung;
+    int evaluator, observer;
+  };
+  for (const auto& [rung, evaluator, observer] : {Expected{Rung::kNothing, 1000, 59}, Expected{Rung::kTelemetry, 1000, 59}, Expected{Rung::kObservers, 1000, 20},
+                                                  Expected{Rung::kObserversMore, 1000, 10}, Expected{Rung::kEvaluators, 500, 10}, Expected{Rung::kEvaluatorsMore, 333, 10},
+                                                  Expected{Rung::kNewcomers, 333, 10}, Expected{Rung::kNothing, 1000, 59}}) {
+    SCOPED_TRACE(to_text(rung));
+    auto told = eight.told_on(rung);
+    EXPECT_EQ(told[kTrainee], 1000);
+    EXPECT_EQ(told[kRequired], 1000) << "an evaluator who is waited for";
+    EXPECT_NEAR(told[kEvaluator], evaluator, 1);
+    EXPECT_NEAR(told[kObserver], observer, 1);
+  }
+}
+
+/// At one time they would make one tick as long as ever.
+TEST(Relief, TellsEvaluatorsInTurn) {
+  Eight eight;
+  eight.session->relieve({Rung::kEvaluators, false});
+  eight.run(10ms);
+  for (int n = 0; n < 100; ++n) {
+    eight.forces.clear();
+    eight.run(1ms);
+    int told = 0;
+    for (std::size_t i = kEvaluator; i < kRequired; ++i) told += eight.forces[eight.seats[i].at];
+    ASSERT_GE(told, 2);
+    ASSERT_LE(told, 3) << "of five";
+  }
+}
+
+/// A server that is late by a tick each time counts its ticks in twos: nobody's turn may always fall between.
+TEST(Relief, ForgetsNobodyWhenTicksAreMissed) {
+  Eight eight;
+  eight.session->relieve({Rung::kEvaluatorsMore, false});
+  for (const std::uint32_t stride : {2u, 3u, 4u, 6u}) {
+    eight.forces.clear();
+    for (int n = 0; n < 120; ++n) {
+      for (std::uint32_t k = 1; k < stride; ++k) {
+        for (std::size_t i = 0; i < eight.seats.size(); ++i)
+          for (const auto& d : eight.client_tick(i)) eight.session->on_datagram(eight.now, test::address(eight.seats[i].at), d);
+        eight.now += 1ms;
+      }
+      for (std::size_t i = 0; i < eight.seats.size(); ++i)
+        for (const auto& d : eight.client_tick(i)) eight.session->on_datagram(eight.now, test::address(eight.seats[i].at), d);
+      eight.session->on_tick(eight.now, stride - 1);
+      eight.to_clients(eight.server_sends());
+      eight.now += 1ms;
+    }
+    for (std::size_t i = kEvaluator; i < kRequired; ++i) EXPECT_GE(eight.forces[eight.seats[i].at], stride == 2 ? 79 : 119) << i << " of a tick in " << stride;
+  }
+}
+
+TEST(Relief, LeavesSlowSessionsTheirRate) {
+  SceneSpec scene = *parse_scene(find_shipped_scene("eight_seats")->text, "eight_seats.textproto");
+  for (const auto& [hz, most] : {std::pair{1000.0, 3u}, {500.0, 1u}, {4000.0, 3u}}) {
+    scene.tick_hz = hz;
+    std::vector<std::unique_ptr<hal::SteppedDevice>> slaves;
+    slaves.push_back(std::move(*hal::sim::SimDevice::make({scene.tools[0].slave, {}, scene.tools[0].environment, nullptr, Time{}})));
+    AxisArray scale;
+    scale.fill(1);
+    Session session{scene, std::move(slaves), scale};
+    session.relieve({Rung::kEvaluatorsMore, false});
+    EXPECT_EQ(session.told_every(kEvaluator), most) << "six intervals fit into 20 ms at " << hz;
+  }
+}
+
+TEST(Relief, TakesNoHeap) {
+  Rig rig{"one_axis"};
+  rig.run(1s);
+  for (const bool passive : {true, false}) {
+    std::array<std::byte, link::kDatagramMax> buffer;
+    const tandem::test::AllocGuard guard;
+    rig.session->relieve({Rung::kEvaluators, passive});
+    rig.session->on_tick(rig.now, 0);
+    while (rig.session->poll_transmit(rig.now, buffer)) {}
+    EXPECT_EQ(guard.count(), 0u);
+    rig.now += 1ms;
+  }
+}
+
+}  // namespace
+}  // namespace tandem::server
