@@ -43,7 +43,7 @@ bool all_finite(const AxisArray& v, std::size_t dof) noexcept {
 }  // namespace
 
 WorldWatch::WorldWatch(const SceneSpec& scene)
-    : scene_(&scene), seats_(scene.seats.size()), alpha_(scene.tools.size()), held_(scene.tools.size(), true) {}
+    : scene_(&scene), seats_(scene.seats.size()), alpha_(scene.tools.size()), held_(scene.tools.size(), true), handover_(scene) {}
 
 /// Hands that pull against each other, or that somebody pushes, empty the accounts they live on, and rightly so; so does a scene
 /// that lets less heat be spent, gates its flow sources, or hangs a seat on several tools.
@@ -75,6 +75,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
   server::SessionMonitor{}.check(session, violations_);
   check_gathering(session);
   check_authority(lived, session);
+  if (lived > 0) handover_.check(session, violations_);
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const WorldStation& station = stations[i];
     Seat& s = seats_[i];
@@ -184,6 +185,7 @@ void WorldWatch::noted(const server::AuditEvent& e) {
     if (gathering_ && by_itself && away_) violations_.note("gathering", "", t_, false);
     gathering_ = false;
   }
+  handover_.noted(e);
   if (e.seat >= scene_->seats.size()) return;
   const Role role = scene_->seats[e.seat].role;
   if ((e.what == What::kStop || e.what == What::kResume || e.what == What::kGathered) && role != Role::kInstructor) note("role", e.seat);

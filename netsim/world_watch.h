@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "netsim/distinct.h"
+#include "netsim/world_handover.h"
 #include "netsim/world_station.h"
 #include "server/session.h"
 #include "server/violations.h"
@@ -104,6 +105,7 @@ class WorldWatch {
   std::vector<Seat> seats_;
   std::vector<std::array<double, kMastersMax>> alpha_;
   std::vector<bool> held_;
+  HandoverWatch handover_;
   std::uint64_t epoch_ = 1;
   bool gathering_ = false, away_ = false;  ///< since a restart; somebody who led is not back yet
   AxisArray scale_{1, 1, 1, 1, 1, 1, 1};  ///< tip gain to port gain, as the seats were told

@@ -39,6 +39,7 @@ struct Outcome {
     kOutdated,   ///< the number or version that he named is not the newest
     kNothing,    ///< there is nothing to resume, or nobody to remove
     kWrong,      ///< no such tool or seat, or another number of masters
+    kOutOfTouch, ///< somebody whose weight would change is not heard from
   };
   struct Seat {
     bool taken = false, heard = false;
@@ -50,8 +51,8 @@ struct Outcome {
   std::uint32_t stops = 0, authority_version = 0, tick = 0;
   double time = 0;                      ///< of the session [s]
   std::uint8_t masters = 0, tools = 0;
-  control::Weights before{};            ///< kSetAuthority: asked for of the tool until now
-  std::array<control::Weights, kToolsMax> alpha{};  ///< asked for
+  control::Weights before{};            ///< kSetAuthority: decided of the tool until now
+  std::array<control::Weights, kToolsMax> alpha{};  ///< decided: what `authority_version` stands for, in force 50 ticks later
   std::array<Seat, kSeatsMax> seats{};
 };
 static_assert(std::is_trivially_copyable_v<Command> && std::is_trivially_copyable_v<Outcome>);
