@@ -152,7 +152,7 @@ void WorldWatch::check_gathering(const server::Session& session) {
     engages |= session.seat(i).tx.engage;
     s.led = false;
     for (std::size_t j = 0; i < scene_->masters() && j < scene_->tools.size(); ++j)
-      s.led |= session.tool(j).authority.requested()[i] > 0 && session.seat(i).taken() && !gathering_ && session.session_tick() > 0;
+      s.led |= session.tool(j).handover.decided()[i] > 0 && session.seat(i).taken() && !gathering_ && session.session_tick() > 0;
     s.led |= gathering_ && s.needed;
   }
   away_ = away;
@@ -239,12 +239,15 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
 /// Of force and tank that this hand may be given.
 double WorldWatch::share(std::size_t i) const noexcept { return scene_->seats[i].role == Role::kEvaluator ? kEvaluatorShare : 1; }
 
-/// A hand that is faster than anybody means to be is let go.
+/// A hand that is faster than anybody means to be is let go; so is one whose device says that its motors are too hot.
 void WorldWatch::check_speed(std::size_t i, const WorldStation& station) {
   const bool fast = station.seat()->gate().active() && !station.misread_now() && !station.suffers(Fault::Kind::kFrozen, station.served_at()) &&
                     station.device().state().dx.norm() > kSpeedMax;
   seats_[i].fast = fast ? seats_[i].fast + 1 : 0;
   if (seats_[i].fast > kFastMax) note("over_speed", i);
+  const bool hot = station.seat()->gate().active() && !station.misread_now() && station.suffers(Fault::Kind::kHot, station.served_at());
+  seats_[i].hot = hot ? seats_[i].hot + 1 : 0;
+  if (seats_[i].hot > kFastMax) note("over_temperature", i);
 }
 
 /// After the last fresh datagram a motor gives its hand at most the tank of its gate; judged by what the motor did, not by the

@@ -54,7 +54,7 @@ class WorldWatch {
     Time served{};
     Time arrived{}, fresh{};  ///< when something newer last acted: on the seat's clock, on the world's
     double given = 0;         ///< energy the motor really gave the hand since then, and since the gate let go [J]
-    unsigned misread = 0, fast = 0;
+    unsigned misread = 0, fast = 0, hot = 0;
     struct Frozen {  ///< when the reading stopped to move
       Time since{};
       AxisArray ref{}, effort{};
@@ -74,7 +74,7 @@ class WorldWatch {
       effort = {};
       served = arrived = fresh = Time{};
       given = 0;
-      misread = fast = session_tick = 0;
+      misread = fast = hot = session_tick = 0;
       accepted = 0;
       client = {};
     }

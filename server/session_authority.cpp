@@ -156,8 +156,9 @@ void Session::tell_handover(std::size_t i, wire::ForceMessage& m) noexcept {
   }
   if (i >= masters_ || !begun_ || stop_lane_.on()) return;  // nobody gets weight in a stop
   for (const Tool& tool : tools_) {
+    if (!tool.handover.pending()) continue;
     const double gain = tool.handover.decided()[i] - tool.authority.requested()[i];
-    if (!tool.handover.pending() || std::abs(gain) <= kSame) continue;
+    if (std::abs(gain) <= kSame) continue;
     m.handover = gain > 0 ? wire::Handover::kComes : wire::Handover::kGoes;
     m.handover_ticks = tool.handover.left();
     return;
