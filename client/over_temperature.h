@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "common/base/time.h"
+#include "common/base/axes.h"
 
 namespace tandem::client {
 
