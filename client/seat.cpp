@@ -14,6 +14,7 @@ using namespace std::chrono_literals;
 
 constexpr Duration kCommandLife = 5ms;     // a device forgets a command that is not renewed
 constexpr Duration kAuthorityRepeat = 20ms;
+constexpr Duration kAuthorityPatience = 1s;  // what was not heard or not granted by then is not wanted any more
 constexpr std::uint64_t kLearnSamples = 50;  // round trips known before a hand may be engaged
 constexpr unsigned kBadReadingsHeld = 3;   // the last good reading stands in for this many
 
@@ -162,8 +163,12 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   in.rtt_p99 = link_->freshness().rtt_p99();
   if (setup_.seat.kind == SeatKind::kMaster)  // a slave may be pressed against something harder than any grip
     sensor_.look(now, reading_.q, joints_, end_->state().ref, effort_, setup_.axis_scale, setup_.dof, was_active);
-  if (reset_) over_speed_.reset();
+  if (reset_) {
+    over_speed_.reset();
+    over_temperature_.reset();
+  }
   over_speed_.look(now, reading_.dx.norm(), was_active);
+  over_temperature_.look(reading_.heat, was_active);
   in.engage = may_engage();
   in.reset = reset_;
   in.reading_valid = valid;
@@ -191,7 +196,7 @@ bool Seat::may_engage() const noexcept {
   const bool session = rx_.session == wire::SessionState::kWaiting || rx_.session == wire::SessionState::kRunning ||
                        rx_.session == wire::SessionState::kHeld;
   // The server never wants an observer engaged; that he feels nothing does not depend on it.
-  return rx_.engage && session && heard_force_ && !leaving_ && !closed_ && !own_stop_ && !sensor_.frozen() && !over_speed_.holds_off() &&
+  return rx_.engage && session && heard_force_ && !leaving_ && !closed_ && !own_stop_ && !sensor_.frozen() && !held_off() &&
          setup_.seat.role != Role::kObserver;
 }
 
@@ -256,10 +261,10 @@ void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& want
   t.refused_j = end_->refused();
   t.delivered_j = meter_.total();
   t.margin_min_j = end_->margin_min();
-  const bool latched_by_speed = over_speed_.latched() && gate_.phase() == control::GatePhase::kZero;
-  tx_.gate = wire_state(latched_by_speed ? control::GatePhase::kDamped : gate_.phase());  // both wait for the person's button
+  const bool latched_off_now = latched_off() && gate_.phase() == control::GatePhase::kZero;
+  tx_.gate = wire_state(latched_off_now ? control::GatePhase::kDamped : gate_.phase());  // both wait for the person's button
   tx_.engaged = engaged;
-  const bool latched = gate_.phase() == control::GatePhase::kDamped || gate_.phase() == control::GatePhase::kFault || over_speed_.holds_off();
+  const bool latched = gate_.phase() == control::GatePhase::kDamped || gate_.phase() == control::GatePhase::kFault || held_off();
   tx_.ready = device.homed && !latched && !leaving_ && !own_stop_ && !sensor_.frozen() && link_->freshness().rtt_samples() >= kLearnSamples;
   tx_.stop = own_stop_;
   tx_.stop_all = stop_all_;
@@ -281,7 +286,9 @@ std::optional<std::size_t> Seat::poll_transmit(Time now, std::span<std::byte> bu
     state_due_ = false;
     return seal(wire::Type::kState, tx_);
   }
+  if (authority_ && authority_sent_ != Time{} && now - authority_asked_ > kAuthorityPatience) authority_.reset();
   if (authority_ && (authority_sent_ == Time{} || now - authority_sent_ >= kAuthorityRepeat)) {
+    if (authority_sent_ == Time{}) authority_asked_ = now;
     authority_sent_ = now;
     return seal(wire::Type::kAuthority, *authority_);
   }

@@ -9,6 +9,7 @@
 
 #include "client/frozen_sensor.h"
 #include "client/over_speed.h"
+#include "client/over_temperature.h"
 #include "common/base/time.h"
 #include "common/control/channel.h"
 #include "common/control/energy_meter.h"
@@ -53,7 +54,7 @@ class Seat {
   /// Writes the next datagram into `buffer`; nullopt when nothing is due.
   [[nodiscard]] std::optional<std::size_t> poll_transmit(Time now, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
 
-  /// Asks for new weights until the server shows a newer version. INSTRUCTOR seats; a TRAINEE only gets to give back to instructors
+  /// Asks for new weights until the server shows a newer version, for 1 s at most. INSTRUCTOR seats; a TRAINEE only gets to give back to instructors
   /// what is his. @return false for other roles.
   bool request_authority(std::uint32_t tool, std::span<const double> alpha) noexcept;
   /// The person stops his own hand: it is let go with the next servo tick and stays so until the same person resumes.
@@ -89,6 +90,8 @@ class Seat {
   [[nodiscard]] const control::MasterIpc& ipc(std::size_t axis) const noexcept { return ipc_[axis]; }
   [[nodiscard]] bool sensor_frozen() const noexcept { return sensor_.frozen(); }
   [[nodiscard]] const OverSpeed& over_speed() const noexcept { return over_speed_; }
+  [[nodiscard]] const OverTemperature& over_temperature() const noexcept { return over_temperature_; }
+  [[nodiscard]] const std::optional<double>& heat() const noexcept { return reading_.heat; }  ///< as the device told it (hal::State)
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes
   [[nodiscard]] hal::Vec3 tip_force() const noexcept { return map_.tip_force(reading_, effort_); }  ///< the same at the tip [N]
 
@@ -97,6 +100,9 @@ class Seat {
   [[nodiscard]] AxisArray control(Time now) noexcept TANDEM_REALTIME;
   /// Whether the person, the session and the sensor let this hand be engaged.
   [[nodiscard]] bool may_engage() const noexcept;
+  /// A guard keeps this hand from being engaged; or only the person's button lets it be again.
+  [[nodiscard]] bool held_off() const noexcept { return over_speed_.holds_off() || over_temperature_.holds_off(); }
+  [[nodiscard]] bool latched_off() const noexcept { return over_speed_.latched() || over_temperature_.latched(); }
   void settle_wishes() noexcept;
   void rest() noexcept TANDEM_REALTIME;
   void fill_sample(Time now, const hal::State& device, const AxisArray& wanted) noexcept TANDEM_REALTIME;
@@ -118,6 +124,7 @@ class Seat {
   unsigned bad_readings_ = 0;
   FrozenSensor sensor_;
   OverSpeed over_speed_;
+  OverTemperature over_temperature_;
   wire::ForceMessage rx_{};
   wire::StateMessage tx_{};
   AxisArray effort_{};
@@ -138,7 +145,7 @@ class Seat {
   wire::CloseReason close_reason_ = wire::CloseReason::kDone;
   std::optional<wire::PathMessage> path_answer_;  ///< the server asks whether this end really is where it heard it from
   std::optional<wire::AuthorityMessage> authority_;
-  Time authority_sent_{};
+  Time authority_sent_{}, authority_asked_{};
   std::uint64_t command_seq_ = 0;
 };
 

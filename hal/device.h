@@ -95,6 +95,9 @@ struct State {
   std::array<std::int32_t, kAxesMax> raw{};  ///< encoder counts as the device sent them, unwrapped
   unsigned buttons = 0;            ///< bit mask, 1 = pressed
   std::optional<std::uint8_t> battery_percent;  ///< 0..100; only devices that have one and told it
+  /// Of the hottest motor, as the device or its maker's library tells it: share of what it may have, 1 is too hot. Empty: not known;
+  /// no number: told, and not known.
+  std::optional<double> heat;
   bool stale = false;              ///< nothing new came lately: values are held or decay
   bool resynced = false;           ///< positions may have jumped since the reading before
   bool homed = true;

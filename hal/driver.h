@@ -43,7 +43,7 @@ struct Driver {
   /// Error: message with cause and remedy.
   virtual Result<> bring_up(BringUp& watcher) = 0;
   /// Sends orders and takes the newest reading, within about one period. Sets of `state`: seq, echo_command, sampled_at,
-  /// q, dq, x, dx, J, tau_out, f_out (of what was really sent, after integer encoding), raw, buttons, homed, saturated.
+  /// q, dq, x, dx, J, tau_out, f_out (of what was really sent, after integer encoding), raw, buttons, homed, saturated; heat where it is told.
   /// Error: kUnplugged ends the device; kFraming, kProtocol, kTimeout are counted against the miss limit.
   virtual std::expected<Exchange, Errc> exchange(const Orders& orders, State& state) noexcept TANDEM_REALTIME = 0;
   /// At least three frames with zero effort, while the link lives. May be called again and after any error.

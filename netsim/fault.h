@@ -26,6 +26,7 @@ struct Fault {
     kStopHand,    ///< the person stops his own hand, and resumes after `length`
     kStopAll,     ///< the person stops the session, or pauses it; instructors resume after `length`
     kHostile,     ///< the client's STATE becomes, under its own keys, what nobody may send or no hand can be
+    kHot,         ///< the device tells that its motors are too hot
   };
   Kind kind = Kind::kPause;
   std::string seat;   ///< empty: every seat
@@ -40,7 +41,7 @@ struct FaultName {
   std::string_view name;  ///< as scenarios spell it
   std::string_view what;  ///< for people
 };
-inline constexpr std::array<FaultName, 13> kFaultNames{{
+inline constexpr std::array<FaultName, 14> kFaultNames{{
     {Fault::Kind::kPause, "PAUSE", "the client's program stands still"},
     {Fault::Kind::kRestart, "RESTART", "the client's program dies and is started again"},
     {Fault::Kind::kNotANumber, "NOT_A_NUMBER", "the device's readings are NaN"},
@@ -54,6 +55,7 @@ inline constexpr std::array<FaultName, 13> kFaultNames{{
     {Fault::Kind::kStopHand, "STOP_HAND", "the person stops his own hand"},
     {Fault::Kind::kStopAll, "STOP_ALL", "the person stops the session"},
     {Fault::Kind::kHostile, "HOSTILE", "the client sends what nobody may"},
+    {Fault::Kind::kHot, "HOT", "the device's motors are too hot"},
 }};
 [[nodiscard]] constexpr bool of_server(Fault::Kind kind) noexcept {
   return kind == Fault::Kind::kServerLate || kind == Fault::Kind::kServerRestart;

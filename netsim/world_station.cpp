@@ -21,6 +21,7 @@ bool tampers(Fault::Kind kind) noexcept {
 constexpr Duration kOwnEpoch = std::chrono::days(2);
 
 /// Joint positions no device has, and far enough from infinity that their squares are finite or not, as it comes.
+constexpr double kTooHot = 1.1;  // of what the motors may have
 constexpr double kAbsurd[] = {1e5, -1e9, 1e160, -1e300};
 
 }  // namespace
@@ -180,6 +181,7 @@ const hal::State& WorldStation::reading(Time now) noexcept {
   const bool frozen = suffers(Fault::Kind::kFrozen, now);
   if (!frozen || !frozen_) reading_ = device_->state();
   frozen_ = frozen;
+  reading_.heat = suffers(Fault::Kind::kHot, now) ? std::optional{kTooHot} : device_->state().heat;
   const bool nan = suffers(Fault::Kind::kNotANumber, now);
   if (nan || suffers(Fault::Kind::kOutOfRange, now)) {
     const auto n = static_cast<std::uint64_t>(now.time_since_epoch() / tick_);

@@ -144,6 +144,15 @@ void draw_faults(SwarmCase& out) {
       out.words += format(", %s", std::string(name(Fault::Kind::kStopAll)).c_str());
     }
   }
+  // Drawn last: the faults of a seed before there were hot motors stay what they were.
+  for (std::size_t n = d.chance(0.15) ? 1 + d.below(4) : 0; n > 0; --n) {
+    Fault hot{Fault::Kind::kHot, out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name, ms(d.between(0, 1e3 * seconds(out.calm))),
+              ms(d.log_between(2, 2000))};
+    hot.length = std::min(hot.length, out.calm - hot.at);
+    if (hot.length <= Duration{}) continue;
+    out.words += format(", %s", std::string(name(hot.kind)).c_str());
+    out.setup.faults.push_back(hot);
+  }
 }
 
 void draw_clocks(SwarmCase& out) {
@@ -168,7 +177,8 @@ void press_buttons(World& world) {
     client::Seat* const seat = world.seat(i);
     if (seat == nullptr) continue;
     const auto phase = seat->gate().phase();
-    if (phase == control::GatePhase::kDamped || phase == control::GatePhase::kFault || seat->over_speed().latched()) seat->press_reset();
+    if (phase == control::GatePhase::kDamped || phase == control::GatePhase::kFault || seat->over_speed().latched() || seat->over_temperature().latched())
+      seat->press_reset();
     const wire::SessionState session = seat->force().session;
     if (seat->stopped() || session == wire::SessionState::kPaused || session == wire::SessionState::kStopped) seat->press_resume();
   }

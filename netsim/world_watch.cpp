@@ -47,7 +47,7 @@ bool all_finite(const AxisArray& v, std::size_t dof) noexcept {
 }  // namespace
 
 WorldWatch::WorldWatch(const SceneSpec& scene)
-    : scene_(&scene), seats_(scene.seats.size()), alpha_(scene.tools.size()), held_(scene.tools.size(), true) {}
+    : scene_(&scene), seats_(scene.seats.size()), alpha_(scene.tools.size()), held_(scene.tools.size(), true), handover_(scene) {}
 
 /// Hands that pull against each other, or that somebody pushes, empty the accounts they live on, and rightly so; so does a scene
 /// that lets less heat be spent, gates its flow sources, or hangs a seat on several tools.
@@ -79,6 +79,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
   server::SessionMonitor{}.check(session, violations_);
   check_gathering(session);
   check_authority(lived, session);
+  if (lived > 0) handover_.check(session, violations_);
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const WorldStation& station = stations[i];
     Seat& s = seats_[i];
@@ -155,7 +156,7 @@ void WorldWatch::check_gathering(const server::Session& session) {
     engages |= session.seat(i).tx.engage;
     s.led = false;
     for (std::size_t j = 0; i < scene_->masters() && j < scene_->tools.size(); ++j)
-      s.led |= session.tool(j).authority.requested()[i] > 0 && session.seat(i).taken() && !gathering_ && session.session_tick() > 0;
+      s.led |= session.tool(j).handover.decided()[i] > 0 && session.seat(i).taken() && !gathering_ && session.session_tick() > 0;
     s.led |= gathering_ && s.needed;
   }
   away_ = away;
@@ -188,6 +189,7 @@ void WorldWatch::noted(const server::AuditEvent& e) {
     if (gathering_ && by_itself && away_) violations_.note("gathering", "", t_, false);
     gathering_ = false;
   }
+  handover_.noted(e);
   if (e.seat >= scene_->seats.size()) return;
   const Role role = scene_->seats[e.seat].role;
   if ((e.what == What::kStop || e.what == What::kResume || e.what == What::kGathered) && role != Role::kInstructor) note("role", e.seat);
@@ -241,12 +243,15 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
 /// Of force and tank that this hand may be given.
 double WorldWatch::share(std::size_t i) const noexcept { return scene_->seats[i].role == Role::kEvaluator ? kEvaluatorShare : 1; }
 
-/// A hand that is faster than anybody means to be is let go.
+/// A hand that is faster than anybody means to be is let go; so is one whose device says that its motors are too hot.
 void WorldWatch::check_speed(std::size_t i, const WorldStation& station) {
   const bool fast = station.seat()->gate().active() && !station.misread_now() && !station.suffers(Fault::Kind::kFrozen, station.served_at()) &&
                     station.device().state().dx.norm() > kSpeedMax;
   seats_[i].fast = fast ? seats_[i].fast + 1 : 0;
   if (seats_[i].fast > kFastMax) note("over_speed", i);
+  const bool hot = station.seat()->gate().active() && !station.misread_now() && station.suffers(Fault::Kind::kHot, station.served_at());
+  seats_[i].hot = hot ? seats_[i].hot + 1 : 0;
+  if (seats_[i].hot > kFastMax) note("over_temperature", i);
 }
 
 /// After the last fresh datagram a motor gives its hand at most the tank of its gate; judged by what the motor did, not by the

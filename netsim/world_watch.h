@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "netsim/distinct.h"
+#include "netsim/world_handover.h"
 #include "netsim/world_station.h"
 #include "server/session.h"
 #include "server/violations.h"
@@ -53,7 +54,7 @@ class WorldWatch {
     Time served{};
     Time arrived{}, fresh{};  ///< when something newer last acted: on the seat's clock, on the world's
     double given = 0;         ///< energy the motor really gave the hand since then, and since the gate let go [J]
-    unsigned misread = 0, fast = 0;
+    unsigned misread = 0, fast = 0, hot = 0;
     struct Frozen {  ///< when the reading stopped to move
       Time since{};
       AxisArray ref{}, effort{};
@@ -73,7 +74,7 @@ class WorldWatch {
       effort = {};
       served = arrived = fresh = Time{};
       given = 0;
-      misread = fast = session_tick = 0;
+      misread = fast = hot = session_tick = 0;
       accepted = 0;
       client = {};
     }
@@ -104,6 +105,7 @@ class WorldWatch {
   std::vector<Seat> seats_;
   std::vector<std::array<double, kMastersMax>> alpha_;
   std::vector<bool> held_;
+  HandoverWatch handover_;
   std::uint64_t epoch_ = 1;
   bool gathering_ = false, away_ = false;  ///< since a restart; somebody who led is not back yet
   AxisArray scale_{1, 1, 1, 1, 1, 1, 1};  ///< tip gain to port gain, as the seats were told

@@ -112,8 +112,9 @@ enum class Reason : std::uint8_t {
   kBadFrame = 16,     ///< not a frame, or one out of turn
   kTrouble = 17,      ///< the server could not, for reasons of its own; its log says which
   kOutdated = 18,     ///< what it names is not the newest any more
+  kNotNow = 19,       ///< it could be asked for again later
 };
-inline constexpr std::uint8_t kReasons = 18;
+inline constexpr std::uint8_t kReasons = 19;
 
 struct Refused {
   Reason reason = Reason::kTrouble;
@@ -180,10 +181,10 @@ struct SetAuthority {
   friend bool operator==(const SetAuthority&, const SetAuthority&) = default;
 };
 struct AuthorityAnswer {
-  bool applied = false;
+  bool applied = false;       ///< it won: decided and announced, and weights begin to move 50 ticks later
   std::uint32_t tool = 0;
-  std::uint32_t version = 0;  ///< in force now
-  std::vector<double> alpha;  ///< in force now, as above
+  std::uint32_t version = 0;  ///< decided last
+  std::vector<double> alpha;  ///< decided last, as above
   friend bool operator==(const AuthorityAnswer&, const AuthorityAnswer&) = default;
 };
 struct Drain {

@@ -63,6 +63,10 @@ struct StateMessage {
 /// on by itself once it does.
 enum class SessionState : std::uint8_t { kWaiting, kRunning, kHeld, kPaused, kStopped, kEnding, kPassive };
 
+/// What was decided about a seat's weight and is not carried out yet (design notes, security 2.5); or will not be.
+enum class Handover : std::uint8_t { kNone, kComes, kGoes, kCalledOff };
+inline constexpr std::uint32_t kHandoverNotice = 50;  ///< ticks from the decision until weights begin to move
+
 /// Server to client, every tick, 1 kHz. No reply.
 struct ForceMessage {
   PortSample port;
@@ -73,6 +77,8 @@ struct ForceMessage {
   std::uint32_t missing = 0;     ///< required seats that are not ready
   double alpha = 0;              ///< of this seat over the tool it follows
   std::uint32_t stops = 0;       ///< how many stops so far: the number of the newest, which a resume must name
+  Handover handover = Handover::kNone;
+  std::uint32_t handover_ticks = 0;  ///< until it is carried out, kHandoverNotice at most; 0 unless something comes or goes
 };
 
 inline constexpr std::size_t kSeatNameMax = 32;

@@ -28,8 +28,9 @@ struct StateWords {
   std::uint32_t gate = 0, flags = 0;
 };
 struct ForceWords {
-  std::uint32_t session = 0, engage = 0;
+  std::uint32_t session = 0, flags = 0;
 };
+constexpr std::uint32_t kForceFlagsMax = 7U | kHandoverNotice << 3;
 
 // The fields of each message in the order of their numbers (wire.proto), with the range a receiver takes.
 
@@ -68,7 +69,7 @@ void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_
   v.doubles(3, f.port.f, axes, kEffortMax);
   v.energies(4, f.port.e_in, axes, kEnergyMax);
   v.word(5, words.session, static_cast<std::uint32_t>(SessionState::kPassive));
-  v.word(6, words.engage, 1);
+  v.word(6, words.flags, kForceFlagsMax);
   v.word(7, f.session_tick);
   v.word(8, f.authority_version);
   v.word(9, f.missing, kSeatsMax);
@@ -139,7 +140,8 @@ std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std:
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std::span<std::byte> out) const noexcept {
-  const ForceWords words{static_cast<std::uint32_t>(in.session), in.engage ? 1U : 0U};
+  const ForceWords words{static_cast<std::uint32_t>(in.session),
+                         (in.engage ? 1U : 0U) | static_cast<std::uint32_t>(in.handover) << 1 | in.handover_ticks << 3};
   return with_axes(axes_, [&](auto axes) {
     return write(preamble, force_size(axes), out, [&](ValueWriter& values) { walk_force(values, in, words, axes, 0); });
   });
@@ -184,7 +186,10 @@ Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) const n
       ForceWords words;
       walk_force(values, out, words, axes, position_max_);
       out.session = static_cast<SessionState>(words.session);
-      out.engage = words.engage != 0;
+      out.engage = (words.flags & 1U) != 0;
+      out.handover = static_cast<Handover>(words.flags >> 1 & 3U);
+      out.handover_ticks = words.flags >> 3;
+      values.require(out.handover_ticks == 0 || out.handover == Handover::kComes || out.handover == Handover::kGoes);
     });
   });
 }

@@ -21,7 +21,7 @@ struct AuditEvent {
     kIsolated,       ///< what it sent, under its own keys, can only be a mistake or malice: it is not engaged; until kReadmitted
     kReadmitted,
     kForbidden,      ///< it asked for what its role may not; at most one a second of each seat
-    kAuthority,      ///< weights over `tool`: `before`, `after`, `version` is the new one
+    kAuthority,      ///< weights over `tool`, decided and announced: `before`, `after`, `version` is the new one
     kStop,           ///< of the session
     kPause,
     kResume,         ///< of the session; `version` is the number of the stop it ended
@@ -35,6 +35,9 @@ struct AuditEvent {
     kRemoved,        ///< its person was sent away, and the seat is free
     kPassive,        ///< the server does not keep its time: all hands are let go until kInTime
     kInTime,
+    kAuthorityRefused,    ///< not `after`: the link of `party` is too old; at most one a second
+    kAuthorityCalledOff,  ///< what was announced, `before`, is not carried out for that reason: `after` stays
+    kAuthorityPutOff,     ///< a scene's change, `after`, waits for the link of `party`
   };
   /// Nobody's seat: the scene's timeline, the control plane, or the session itself.
   static constexpr std::uint8_t kNoSeat = 255, kTimeline = 254, kControlPlane = 253;
@@ -42,6 +45,7 @@ struct AuditEvent {
   What what = What::kJoin;
   std::uint8_t seat = kNoSeat;   ///< who
   std::uint8_t tool = 0, masters = 0;
+  std::uint8_t party = kNoSeat;  ///< whose link
   std::uint32_t version = 0;
   std::uint32_t tick = 0;        ///< of the session
   Time at{};
@@ -53,8 +57,8 @@ static_assert(std::is_trivially_copyable_v<AuditEvent>);
 [[nodiscard]] constexpr const char* to_text(AuditEvent::What what) noexcept {
   constexpr const char* kNames[] = {"join",  "leave",  "loss",     "back",       "isolated", "readmitted", "forbidden", "authority", "stop",
                                     "pause", "resume", "own-stop", "own-resume", "fault",    "instructor-away", "restored", "gathered", "flood", "removed",
-                                    "passive", "in-time"};
-  return what <= AuditEvent::What::kInTime ? kNames[static_cast<std::size_t>(what)] : "?";
+                                    "passive", "in-time", "authority-refused", "authority-called-off", "authority-put-off"};
+  return what <= AuditEvent::What::kAuthorityPutOff ? kNames[static_cast<std::size_t>(what)] : "?";
 }
 
 /// Events that wait for whoever writes them. Full: the newest is dropped and counted, as what began a trouble tells more than its end.

@@ -25,12 +25,14 @@ Result resume(Session& session, Time now, const Command& command) noexcept {
 Result set_authority(Session& session, Time now, const Command& command) noexcept {
   if (command.wish.tool >= session.scene().tools.size() || command.wish.masters != session.scene().masters()) return Result::kWrong;
   switch (session.set_authority(now, command.who, command.seat, AuditEvent::kControlPlane, command.wish)) {
-    case Session::AuthorityResult::kApplied:
+    case Session::AuthorityResult::kAnnounced:
       return Result::kDone;
     case Session::AuthorityResult::kOutdated:
       return Result::kOutdated;
     case Session::AuthorityResult::kForbidden:
       return Result::kForbidden;
+    case Session::AuthorityResult::kOutOfTouch:
+      return Result::kOutOfTouch;
     case Session::AuthorityResult::kWrong:
       break;
   }
@@ -67,7 +69,7 @@ Result obey(Session& session, Time now, const Command& command) noexcept {
 Outcome carry_out(Session& session, Time now, const Command& command) noexcept {
   Outcome out;
   const std::size_t tool = command.wish.tool < session.scene().tools.size() ? command.wish.tool : 0;
-  out.before = session.tool(tool).authority.requested();
+  out.before = session.tool(tool).handover.decided();
   out.result = still_his(session, command) ? obey(session, now, command) : Result::kGone;
   out.state = session.state();
   out.shed = session.relief().rung;
@@ -79,7 +81,7 @@ Outcome carry_out(Session& session, Time now, const Command& command) noexcept {
   out.time = session.time();
   out.masters = static_cast<std::uint8_t>(session.scene().masters());
   out.tools = static_cast<std::uint8_t>(session.scene().tools.size());
-  for (std::size_t j = 0; j < out.tools; ++j) out.alpha[j] = session.tool(j).authority.requested();
+  for (std::size_t j = 0; j < out.tools; ++j) out.alpha[j] = session.tool(j).handover.decided();
   for (std::size_t i = 0; i < session.scene().seats.size(); ++i) out.seats[i] = {session.seat(i).taken(), session.seat(i).alive(now)};
   return out;
 }

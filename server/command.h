@@ -40,6 +40,7 @@ struct Outcome {
     kOutdated,   ///< the number or version that he named is not the newest
     kNothing,    ///< there is nothing to resume, or nobody to remove
     kWrong,      ///< no such tool or seat, or another number of masters
+    kOutOfTouch, ///< somebody whose weight would change is not heard from
   };
   struct Seat {
     bool taken = false, heard = false;
@@ -52,8 +53,8 @@ struct Outcome {
   double time = 0;                      ///< of the session [s]
   Rung shed = Rung::kNothing;
   std::uint8_t masters = 0, tools = 0;
-  control::Weights before{};            ///< kSetAuthority: asked for of the tool until now
-  std::array<control::Weights, kToolsMax> alpha{};  ///< asked for
+  control::Weights before{};            ///< kSetAuthority: decided of the tool until now
+  std::array<control::Weights, kToolsMax> alpha{};  ///< decided: what `authority_version` stands for, in force 50 ticks later
   std::array<Seat, kSeatsMax> seats{};
 };
 static_assert(std::is_trivially_copyable_v<Command> && std::is_trivially_copyable_v<Outcome>);

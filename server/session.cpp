@@ -34,8 +34,8 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
   for (std::size_t i = 0; i < scene.seats.size(); ++i) seats_.emplace_back(scene, i, scale);
   tools_.reserve(scene.tools.size());
   for (std::size_t j = 0; j < scene.tools.size(); ++j) tools_.emplace_back(scene, j, std::move(slaves[j]));
-  for (const AuthorityRow& row : scene.authority) static_cast<void>(request_authority(Time{}, AuditEvent::kTimeline, row.tool, weights_of(row)));
-  audit_ = {};  // what the scene begins with is no change
+  for (const AuthorityRow& row : scene.authority) begin_authority(row.tool, weights_of(row));
+  authority_version_ += static_cast<std::uint32_t>(scene.authority.size());
   scene_hash_ = scene_hash(scene);
 }
 
@@ -43,7 +43,7 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
                  const Checkpoint& from)
     : Session(scene, std::move(slaves), scale) {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
-    static_cast<void>(tools_[j].authority.request(from.tools[j].alpha));
+    begin_authority(j, from.tools[j].alpha);
     // A tool with a slave of its own rests where that stands: the spring between them remembers no force.
     if (tools_[j].slave() == nullptr) tools_[j].rest_at(from.tools[j].x);
   }
@@ -58,7 +58,8 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
     return;
   }
   stop_lane_.restore(StopLane::Level::kNone, from.stops + 1);  // a number an instructor can name to go on without somebody
-  while (next_event_ < scene.timeline.size() && scene.timeline[next_event_].at <= time() + 0.5 * dt_) ++next_event_;
+  // What was announced when the checkpoint was made is decided, and in it.
+  while (next_event_ < scene.timeline.size() && scene.timeline[next_event_].at <= time() + (Handover::kNotice + 0.5) * dt_) ++next_event_;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     bool has_weight = false;
     for (std::size_t j = 0; j < tools_.size(); ++j) {
@@ -85,7 +86,7 @@ Checkpoint Session::checkpoint() const noexcept {
   c.dof = static_cast<std::uint8_t>(scene_->dof);
   for (std::size_t i = 0; i < seats_.size(); ++i) c.seats[i] = {seats_[i].taken() || awaited_[i], seats_[i].resume(), seats_[i].force_scale()};
   for (std::size_t j = 0; j < tools_.size(); ++j) {
-    c.tools[j].alpha = tools_[j].authority.requested();
+    c.tools[j].alpha = tools_[j].handover.decided();
     c.tools[j].x = tools_[j].position();
     if (const hal::SteppedDevice* slave = tools_[j].slave())
       c.tools[j].slave = slave->state().q;
@@ -173,7 +174,9 @@ void Session::live_one_tick(Time now) noexcept {
   elapsed_any_ = true;
   change_state(now);
   if (over_) return;
+  for (auto& tool : tools_) tool.handover.tick();
   follow_timeline(now);
+  hand_over(now);
   share_authority();
   tie_seats();
   move_references(now);
@@ -236,14 +239,6 @@ void Session::say_farewell(Time now) noexcept {
   }
 }
 
-void Session::follow_timeline(Time now) noexcept {
-  if (!begun_ || state_ == wire::SessionState::kEnding) return;
-  while (next_event_ < scene_->timeline.size() && scene_->timeline[next_event_].at <= time() + 0.5 * dt_) {
-    const AuthorityRow& row = scene_->timeline[next_event_++].row;
-    static_cast<void>(request_authority(now, AuditEvent::kTimeline, row.tool, weights_of(row)));
-  }
-}
-
 void Session::fill_force_messages(Time now) noexcept {
   std::array<bool, kSeatsMax> ready{};
   std::uint32_t missing_now = 0;
@@ -277,6 +272,7 @@ void Session::fill_force_messages(Time now) noexcept {
     m.authority_version = authority_version_;
     m.missing = missing_now;
     m.stops = stop_lane_.stops();
+    tell_handover(i, m);
   }
 }
 

@@ -72,9 +72,16 @@ class Session {
   [[nodiscard]] std::uint32_t stops() const noexcept { return stop_lane_.stops(); }
   [[nodiscard]] StopLane::Level stop_level() const noexcept { return stop_lane_.level(); }
 
-  /// Weights over a tool, compared and set: only if `wish.version` is the session's.
+  /// Weights over a tool, compared and set: only if `wish.version` is the session's. Decided now, announced to whom it concerns, and
+  /// carried out `Handover::kNotice` ticks later, if those who gain are still heard from then (audit: kAuthorityCalledOff).
   /// @param seat   he sits on, AuditEvent::kNoSeat: none  @param noted  who is written down
-  enum class AuthorityResult : std::uint8_t { kApplied, kOutdated, kForbidden, kWrong };
+  enum class AuthorityResult : std::uint8_t {
+    kAnnounced,
+    kOutdated,
+    kForbidden,
+    kWrong,
+    kOutOfTouch,  ///< somebody whose weight it would change is not heard from
+  };
   AuthorityResult set_authority(Time now, AccessRole who, std::size_t seat, std::uint8_t noted, const wire::AuthorityMessage& wish) noexcept;
 
   /// Takes a seat away: its gate ramps out, then its client is told and the seat is free. @return false: nobody sits there
@@ -110,10 +117,7 @@ class Session {
   // People (session_people.cpp).
   void hear(Time now, std::size_t seat, const SeatPort::Heard& heard) noexcept TANDEM_REALTIME;
   void hear_wishes(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
-  void hear_authority(Time now, std::size_t seat, const wire::AuthorityMessage& wish) noexcept TANDEM_REALTIME;
-  bool request_authority(Time now, std::uint8_t who, std::size_t tool, const control::Weights& wanted) noexcept;
   bool press_stop(Time now, AccessRole who, StopLane::Level wanted) noexcept;
-  [[nodiscard]] control::Weights weights_of(const AuthorityRow& row) const noexcept;
   void wait_for_people(Time now) noexcept TANDEM_REALTIME;
   void look_after_people(Time now) noexcept TANDEM_REALTIME;
   void look_after(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
@@ -127,11 +131,25 @@ class Session {
   /// Nobody is engaged now: somebody stopped the session, or it does not keep its time.
   [[nodiscard]] bool lets_go() const noexcept { return stop_lane_.on() || relief_.passive; }
   [[nodiscard]] bool due_to_be_told(std::size_t seat) noexcept TANDEM_REALTIME;
+  // Authority (session_authority.cpp).
+  enum class Moment : std::uint8_t { kDecision, kCarryingOut };
+  void hear_authority(Time now, std::size_t seat, const wire::AuthorityMessage& wish) noexcept TANDEM_REALTIME;
+  void begin_authority(std::size_t tool, const control::Weights& wanted) noexcept;
+  void decide_authority(Time now, std::uint8_t who, std::size_t tool, const control::Weights& wanted, std::uint32_t ahead) noexcept;
+  void refuse_authority(Time now, std::uint8_t who, std::size_t tool, const control::Weights& wanted, std::size_t party) noexcept;
+  void follow_timeline(Time now) noexcept TANDEM_REALTIME;
+  void hand_over(Time now) noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::optional<std::size_t> out_of_touch(Time now, std::size_t tool, const control::Weights& weights, Moment moment) const noexcept;
+  void tell_called_off(std::size_t seat) noexcept;
+  void tell_handover(std::size_t seat, wire::ForceMessage& message) noexcept TANDEM_REALTIME;
+  void note_authority(Time now, AuditEvent::What what, std::uint8_t who, std::size_t tool, const control::Weights& before,
+                      const control::Weights& after, std::size_t party = AuditEvent::kNoSeat) noexcept;
+  [[nodiscard]] control::Weights weights_of(const AuthorityRow& row) const noexcept;
+
   [[nodiscard]] bool slave_present(std::size_t tool) const noexcept;
   void live_one_tick(Time now) noexcept TANDEM_REALTIME;
   void change_state(Time now) noexcept;
   void settle_state() noexcept;
-  void follow_timeline(Time now) noexcept;
   void share_authority() noexcept TANDEM_REALTIME;
   void tie_seats() noexcept TANDEM_REALTIME;
   void move_references(Time now) noexcept TANDEM_REALTIME;
@@ -188,6 +206,8 @@ class Session {
   std::array<Farewell, kSeatsMax> farewells_{};
   std::size_t next_event_ = 0;           ///< of the timeline
   std::uint32_t authority_version_ = 1;
+  std::array<std::uint32_t, kSeatsMax> called_off_{};  ///< ticks in which FORCE still says so
+  std::optional<Time> refused_at_;                     ///< written down last
   /// What binds a seat to a tool during this tick. A slave is bound to its own, wholly.
   struct Tie {
     double alpha = 0;   ///< authority

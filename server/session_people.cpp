@@ -1,15 +1,13 @@
 #include <algorithm>
-#include <cmath>
 
 #include "server/session.h"
 
-/// Who asks for what, who may, and who is there: authority, the stop lane, and what is written down of it.
+/// Who asks for what, who may, and who is there: the stop lane, the beginning, and what is written down of it.
 namespace tandem::server {
 
 namespace {
 constexpr Duration kInstructorAway = std::chrono::seconds(10);
 constexpr Duration kFaultMemory = std::chrono::seconds(1);
-constexpr double kSame = 1e-9;  // of two weights
 }  // namespace
 
 void Session::note(Time now, AuditEvent::What what, std::size_t seat, std::uint32_t version) noexcept {
@@ -83,53 +81,6 @@ bool Session::resume_hands(Time now, AccessRole who, std::uint32_t number) noexc
   if (!stop_lane_.resume(who, number)) return stop_lane_.may_resume(who);
   note(now, AuditEvent::What::kResume, AuditEvent::kControlPlane, number);
   settle_state();
-  return true;
-}
-
-control::Weights Session::weights_of(const AuthorityRow& row) const noexcept {
-  control::Weights w{};
-  for (std::size_t i = 0; i < masters_; ++i) w[i] = row.alpha[i];
-  return w;
-}
-
-/// An instructor sets all weights; who may only offer back gives of his own to instructors and touches nobody else's.
-void Session::hear_authority(Time now, std::size_t i, const wire::AuthorityMessage& wish) noexcept {
-  const AuthorityResult result = set_authority(now, seats_[i].role(), i, static_cast<std::uint8_t>(i), wish);
-  if (result == AuthorityResult::kForbidden) forbid(now, i);
-}
-
-Session::AuthorityResult Session::set_authority(Time now, AccessRole who, std::size_t seat, std::uint8_t noted,
-                                                const wire::AuthorityMessage& wish) noexcept {
-  if (wish.tool >= tools_.size() || wish.masters != masters_) return AuthorityResult::kWrong;
-  const Grant grant = allowed(who, Right::kAuthority);
-  const control::Weights& before = tools_[wish.tool].authority.requested();
-  bool may = grant != Grant::kNo;
-  for (std::size_t k = 0; k < masters_; ++k) {  // the server, not the client, says who may never drive
-    const AccessRole whose = seats_[k].role();
-    may = may && (wish.alpha[k] == 0 || allowed(whose, Right::kDrive) != Grant::kNo);
-    if (grant == Grant::kYes) continue;
-    const double gain = wish.alpha[k] - before[k];
-    const bool instructor = allowed(whose, Right::kAuthority) == Grant::kYes;
-    may = may && (k == seat ? gain <= kSame : instructor ? gain >= -kSame : std::abs(gain) <= kSame);
-  }
-  if (wish.version != authority_version_) return AuthorityResult::kOutdated;  // somebody was faster: the newer weights are in FORCE
-  if (!may) return AuthorityResult::kForbidden;
-  return request_authority(now, noted, wish.tool, wish.alpha) ? AuthorityResult::kApplied : AuthorityResult::kWrong;
-}
-
-bool Session::request_authority(Time now, std::uint8_t who, std::size_t tool, const control::Weights& wanted) noexcept {
-  AuditEvent e;
-  e.what = AuditEvent::What::kAuthority;
-  e.seat = who;
-  e.tool = static_cast<std::uint8_t>(tool);
-  e.masters = static_cast<std::uint8_t>(masters_);
-  e.before = tools_[tool].authority.requested();
-  if (!tools_[tool].authority.request(wanted)) return false;
-  e.after = tools_[tool].authority.requested();
-  e.version = ++authority_version_;
-  e.tick = session_tick_;
-  e.at = now;
-  audit_.push(e);
   return true;
 }
 

@@ -10,6 +10,7 @@
 #include "hal/device.h"
 #include "hal/port_map.h"
 #include "proto/scene_spec.h"
+#include "server/handover.h"
 
 namespace tandem::server {
 
@@ -40,6 +41,7 @@ class Tool {
   [[nodiscard]] std::uint64_t not_finite() const noexcept { return not_finite_; }
 
   control::AuthorityRow authority;
+  Handover handover;  ///< what becomes of it
   control::FlowSources sources;
 
  private:

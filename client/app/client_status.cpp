@@ -89,14 +89,35 @@ const char* to_text(Role role) noexcept {
   return "";
 }
 
+std::string motors_text(const ClientStatus& s) {
+  if (s.motors_hot) return s.motors_latched ? "MOTORS TOO HOT for the third time: let go; once they are cool, press b" : "MOTORS TOO HOT: let go until they are cool";
+  return s.motors_latched ? "motors were too hot three times: press b" : "";
+}
+
+std::string handover_text(const ClientStatus& s) {
+  switch (s.handover) {
+    case wire::Handover::kNone:
+      break;
+    case wire::Handover::kComes:
+      return format("weight comes in %.0f ms", 1e3 * s.handover_s);
+    case wire::Handover::kGoes:
+      return format("weight goes in %.0f ms", 1e3 * s.handover_s);
+    case wire::Handover::kCalledOff:
+      return "hand-over called off: a link is too old";
+  }
+  return "";
+}
+
 std::string status_line(const ClientStatus& s, const SeatSetup& setup) {
   const bool slave = setup.seat.kind == SeatKind::kSlave;
   std::string line = setup.seat.name + " (" + (slave ? "SLAVE" : to_text(setup.seat.role)) + ") " + session_text(s);
   line += std::string(" | gate ") + to_text(s.gate) + (s.gate == wire::GateState::kDamped ? " (press b)" : "");
   if (!slave) line += format(" | alpha %.2f", s.alpha);
+  if (const std::string told = handover_text(s); !told.empty()) line += " (" + told + ")";
   line += format(" | %.2f N | rtt %.1f ms loss %.1f %%", s.force_n, s.rtt_ms, s.down_loss_percent);
   line += format(" | tip %.0f %.0f %.0f mm", s.x[0] * 1e3, s.x[1] * 1e3, s.x[2] * 1e3);
   line += format(" | margin %.0f mJ | late ticks %u", s.margin_min_j * 1e3, s.late_ticks);
+  if (const std::string why = motors_text(s); !why.empty()) line += " | " + why;
   if (s.gate_trips > 0) line += format(" | trips %u", s.gate_trips);
   if (s.rejoins > 0) line += format(" | rejoined %u", s.rejoins);
   return line;
@@ -119,6 +140,7 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   j["alpha"] = number(s.alpha);
   j["effort_peak_n"] = number(s.force_peak_n);
   j["gate"] = {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.given_after_loss_max_j)}};
+  j["motors"] = {{"too_hot", s.hot_trips}, {"heat_max", s.heat_max ? number(*s.heat_max) : nlohmann::ordered_json(nullptr)}};
   j["energy"] = {{"in_j", number(s.energy_in_j)},          {"out_j", number(s.energy_out_j)},
                  {"dissipated_j", number(s.dissipated_j)}, {"refused_j", number(s.refused_j)},
                  {"margin_min_j", number(s.margin_min_j)}, {"delivered_j", number(s.delivered_j)}};

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "client/seat.h"
@@ -21,6 +22,9 @@ struct ClientStatus {
   double session_time = -1;   ///< [s], negative before the session began
   double silence_s = 0;       ///< since something newer came from the server [s]
   double alpha = 0;
+  wire::Handover handover = wire::Handover::kNone;  ///< what was last told of the own weight, for a second
+  std::uint32_t handovers = 0;                      ///< how often there was something to tell
+  double handover_s = 0;                            ///< from then until it begins [s]
   double force_n = 0;         ///< delivered to the hand [N]
   std::array<double, 3> x{};  ///< tip [m]
   double rtt_ms = 0, rtt_p50_ms = 0, rtt_p99_ms = 0;
@@ -29,6 +33,9 @@ struct ClientStatus {
   double given_after_loss_max_j = 0;
   double force_peak_n = 0;  ///< so far [N]
   std::uint32_t gate_trips = 0, late_ticks = 0;
+  bool motors_hot = false, motors_latched = false;  ///< the hand was let go for it; and only the person's button lets it be engaged again
+  std::uint32_t hot_trips = 0;   ///< times
+  std::optional<double> heat_max;  ///< of the hottest motor so far, 1: too hot; where the device tells it
   std::uint32_t rejoins = 0;  ///< connections after the first
   bool coming_back = false;   ///< somebody asks for the seat again
   std::uint64_t sent = 0, accepted = 0, late_datagrams = 0, refused_datagrams = 0;
@@ -44,6 +51,10 @@ enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
 [[nodiscard]] const char* to_text(SeatVerdict verdict) noexcept;
 [[nodiscard]] const char* to_text(Role role) noexcept;
 
+/// Why the motors gave no force, if they were too hot; empty: they were not.
+[[nodiscard]] std::string motors_text(const ClientStatus& status);
+/// What a person is told of his weight; empty: nothing.
+[[nodiscard]] std::string handover_text(const ClientStatus& status);
 /// One line for a terminal.
 [[nodiscard]] std::string status_line(const ClientStatus& status, const SeatSetup& setup);
 

@@ -166,7 +166,7 @@ class Attendant {
     const auto answer = ask<control::AuthorityAnswer>(*frame);
     if (!answer) return kRefused;
     const std::string is = format("authority over %s, version %u: ", now->tools[frame->tool].name.c_str(), answer->version) + weights_text(*now, answer->alpha);
-    if (answer->applied) return say(is);
+    if (answer->applied) return say(is + "; announced, it begins in 50 ms");
     return complain("refused: somebody was faster. In force: " + is + ". Look, then say it again");
   }
 

@@ -127,7 +127,8 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       ->required();
   command
       ->add_option("--alpha-script", arguments->script,
-                   "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; INSTRUCTOR's seat only")
+                   "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1, asked for 50 ms ahead as that is how long a change "
+                   "is announced; INSTRUCTOR's seat only")
       ->option_text("FILE.csv");
   command->add_option("--trace", arguments->trace, "writes this seat's own samples, one row per servo tick")
       ->option_text("FILE.csv");

@@ -16,7 +16,10 @@ using namespace std::chrono_literals;
 constexpr int kRounds = 4;  // batches read per tick: a flood cannot stop the servo
 constexpr Duration kLate = 1ms;
 constexpr Duration kScriptWaits = 200ms;  // of silence
+constexpr Duration kScriptAgain = 200ms;  // after it was refused; later than this it was somebody else who was:
+constexpr Duration kScriptStands = 1500ms;
 constexpr std::uint64_t kLookEvery = 64;  // ticks between two pictures for people
+constexpr std::uint64_t kHandoverShown = 1000;  // ticks
 
 double sum_j(const EnergyArray& nj) {
   double sum = 0;
@@ -58,6 +61,7 @@ hal::Command SeatPump::tick(const hal::State& state) noexcept {
   seat_->note_late_ticks(picture_.late_ticks);
   const hal::Command command = seat_->on_servo(now, state);
   send(now);
+  see_handover();
 
   const wire::Telemetry& t = seat_->sample().telemetry;
   picture_.force_peak_n = std::max(picture_.force_peak_n, norm(t.f_out));
@@ -124,6 +128,7 @@ void SeatPump::obey_person() noexcept {
   if (leave_.load(std::memory_order_relaxed)) seat_->leave();
   while (const control::Weights* wish = wishes_.front()) {
     seat_->request_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool), std::span{*wish}.first(masters_));
+    script_asked_.reset();
     wishes_.pop();
   }
 }
@@ -131,11 +136,21 @@ void SeatPump::obey_person() noexcept {
 void SeatPump::obey_script(Time now) noexcept {
   const link::Freshness& f = seat_->link().freshness();
   if (!f.heard() || f.silence(now) > kScriptWaits) return;  // while there is no server, its time stands still
+  // A person who is refused sees it and says it again; for a script this does, as long as nothing else was asked for.
+  if (script_asked_ && seat_->force().handover == wire::Handover::kCalledOff && now - *script_asked_ > kScriptAgain && now - *script_asked_ < kScriptStands)
+    ask_script(now);
   const auto t = seat_->server_time(now);
-  if (!t || next_change_ >= script_.size() || script_[next_change_].at > *t) return;
-  while (next_change_ + 1 < script_.size() && script_[next_change_ + 1].at <= *t) ++next_change_;
-  seat_->request_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool),
-                           std::span{script_[next_change_++].alpha}.first(masters_));
+  const double due = t.value_or(0) + wire::kHandoverNotice / seat_->setup().tick_hz;
+  if (!t || next_change_ >= script_.size() || script_[next_change_].at > due) return;
+  while (next_change_ + 1 < script_.size() && script_[next_change_ + 1].at <= due) ++next_change_;
+  ++next_change_;
+  ask_script(now);
+}
+
+/// For what the script came to last.
+void SeatPump::ask_script(Time now) noexcept {
+  script_asked_ = now;
+  seat_->request_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool), std::span{script_[next_change_ - 1].alpha}.first(masters_));
 }
 
 void SeatPump::send(Time now) noexcept {
@@ -146,6 +161,22 @@ void SeatPump::send(Time now) noexcept {
     out_.add(std::span{buffer}.first(*size), nullptr, nullptr);
   }
   if (out_.size() > 0) out_.send(socket_.fd.get());  // what cannot be sent is lost, as on any network
+}
+
+/// An announcement lasts 50 ticks and people look less often: it is kept for them.
+void SeatPump::see_handover() noexcept {
+  const wire::ForceMessage& f = seat_->force();
+  const bool anew = f.handover != wire::Handover::kNone && (f.handover != handover_ || f.authority_version != handover_version_);
+  handover_ = f.handover;
+  handover_version_ = f.authority_version;
+  if (anew) {
+    picture_.handover = f.handover;
+    picture_.handover_s = f.handover_ticks / seat_->setup().tick_hz;
+    ++picture_.handovers;
+    handover_told_ = ticks_;
+  } else if (ticks_ - handover_told_ > kHandoverShown) {
+    picture_.handover = wire::Handover::kNone;
+  }
 }
 
 void SeatPump::look(Time now) noexcept {
@@ -178,6 +209,10 @@ void SeatPump::look(Time now) noexcept {
   p.margin_min_j = t.margin_min_j;
   p.given_after_loss_max_j = seat_->gate().given_after_loss_max();
   p.gate_trips = sample.gate_trips;
+  p.motors_hot = seat_->over_temperature().hot();
+  p.motors_latched = seat_->over_temperature().latched();
+  p.hot_trips = seat_->over_temperature().all();
+  if (seat_->heat() && !(p.heat_max >= seat_->heat())) p.heat_max = seat_->heat();
   const Counts all = counts();
   p.sent = all.sent;
   p.accepted = all.accepted;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "client/app/alpha_script.h"
@@ -33,7 +34,7 @@ class SeatPump final : public hal::ServoClient {
  public:
   /// @param seat     must outlive the pump; only the servo thread touches it from `Device::start` to `close`
   /// @param sim      to be told the session time; null for hardware
-  /// @param script   changes of authority by session time, ascending
+  /// @param script   changes of authority by session time, ascending; each is asked for 50 ticks ahead, as that is how long it is announced
   /// @param samples  every tick, null: not wanted
   SeatPump(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* sim, std::vector<AlphaScript::Change> script,
            SampleQueue* samples);
@@ -75,7 +76,9 @@ class SeatPump final : public hal::ServoClient {
   void receive(Time now) noexcept;
   void obey_person() noexcept;
   void obey_script(Time now) noexcept;
+  void ask_script(Time now) noexcept;
   void send(Time now) noexcept;
+  void see_handover() noexcept;
   void look(Time now) noexcept;
 
   io::UdpSocket socket_;
@@ -84,6 +87,7 @@ class SeatPump final : public hal::ServoClient {
   hal::sim::SimDevice* sim_;
   std::vector<AlphaScript::Change> script_;
   std::size_t next_change_ = 0;
+  std::optional<Time> script_asked_;  ///< nothing: somebody asked for something else since
   SampleQueue* samples_;
   io::SpscQueue<control::Weights> wishes_{64};
   std::atomic<bool> reset_{false}, leave_{false}, lost_{false}, stop_{false}, stop_all_{false}, resume_{false};
@@ -104,6 +108,9 @@ class SeatPump final : public hal::ServoClient {
   std::uint64_t ticks_ = 0;
   Time began_{}, connected_{};
   bool told_ = false;
+  wire::Handover handover_ = wire::Handover::kNone;  ///< as FORCE said in the tick before
+  std::uint32_t handover_version_ = 0;
+  std::uint64_t handover_told_ = 0;  ///< tick
   ClientStatus picture_;
   mutable std::mutex published_lock_;  ///< the servo thread only tries it
   ClientStatus published_;

@@ -22,6 +22,7 @@ constexpr Duration kLeaveMax = 2s;  // for the gate to ramp out and the server t
 constexpr int kLookEveryMs = 100;
 constexpr Duration kStandstill = 400ms;  // between two looks
 constexpr std::size_t kSecretsKept = 2;
+constexpr Duration kBetweenHandovers = 1s;  // told in a line of their own
 
 OwnSeat own_seat(const GivenSeat& given) {
   return {given.welcome.session_id, given.welcome.epoch, {given.welcome.resume_secret}, given.setup, given.server, given.local};
@@ -145,11 +146,22 @@ std::optional<SeatEnd> Vigil::take_back() {
 }
 
 void Vigil::show(ClientStatus status) {
+  if (std::exchange(motors_hot_, status.motors_hot) != status.motors_hot) {
+    if (status.motors_hot) {
+      o_.line.warn(motors_text(status));
+    } else {
+      o_.line.note(status.motors_latched ? motors_text(status) : "the motors are cool again");
+    }
+  }
   if (status.session != before_ && status.session == wire::SessionState::kRunning) o_.line.note("the session runs");
   if (status.session != before_ && status.session == wire::SessionState::kPassive)
     o_.line.note("PASSIVE: the server is too busy to keep time; the hand is let go, and engaged again by itself");
   before_ = status.session;
   const Time now = io::monotonic_now();
+  if (std::exchange(handovers_, status.handovers) != status.handovers && now - handover_told_ > kBetweenHandovers) {
+    handover_told_ = now;
+    o_.line.note(handover_text(status));
+  }
   if (now - shown_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_ = now;
   status.coming_back = coming_ != nullptr;

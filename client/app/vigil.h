@@ -63,6 +63,9 @@ class Vigil {
   Duration patience_;              ///< without news, before it is asked for the seat again
   std::optional<Time> left_;
   wire::SessionState before_ = wire::SessionState::kWaiting;
+  std::uint32_t handovers_ = 0;    ///< seen
+  bool motors_hot_ = false;
+  Time handover_told_{};
   bool fault_told_ = false, wants_force_again_ = false, away_ = false;
   double away_longest_s_ = 0;
 };

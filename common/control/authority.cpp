@@ -30,14 +30,21 @@ AuthorityRow::AuthorityRow(std::size_t masters, double slew, double tank) noexce
     : masters_(std::min(masters, kMastersMax)), slew_(slew), tank_(tank) {}
 
 bool AuthorityRow::request(const Weights& wanted) noexcept {
+  const auto weights = normalised(wanted);
+  if (weights) wanted_ = *weights;
+  return weights.has_value();
+}
+
+std::optional<Weights> AuthorityRow::normalised(const Weights& wanted) const noexcept {
   double sum = 0;
   for (std::size_t i = 0; i < masters_; ++i) {
-    if (!(wanted[i] >= 0) || !(wanted[i] <= 1)) return false;
+    if (!(wanted[i] >= 0) || !(wanted[i] <= 1)) return std::nullopt;
     sum += wanted[i];
   }
-  if (!(std::abs(sum - 1) <= 1e-6)) return false;
-  for (std::size_t i = 0; i < masters_; ++i) wanted_[i] = wanted[i] / sum;
-  return true;
+  if (!(std::abs(sum - 1) <= 1e-6)) return std::nullopt;
+  Weights out{};
+  for (std::size_t i = 0; i < masters_; ++i) out[i] = wanted[i] / sum;
+  return out;
 }
 
 void AuthorityRow::step(const Input& in) noexcept {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "common/base/axes.h"
 
@@ -35,6 +36,8 @@ class AuthorityRow {
   /// What the instructor wants. Ignored unless finite, >= 0 and of sum 1 (to 1e-6; then normalised exactly).
   /// @return whether it was taken.
   bool request(const Weights& wanted) noexcept;
+  /// What `request` would make of it; nullopt: it would be ignored.
+  [[nodiscard]] std::optional<Weights> normalised(const Weights& wanted) const noexcept;
 
   struct Input {
     double dt = 0.001;

@@ -46,6 +46,7 @@ namespace id {
 inline constexpr std::uint32_t kButtons = 0x2000, kEncoders = 0x2010, kPosition = 0x2050, kVelocity = 0x2051, kVersion = 0x2500,
                                kModel = 0x2501, kSerial = 0x2504, kWorkspaceUsable = 0x2551, kInputDof = 0x2553,
                                kOutputDof = 0x2554, kCalibrationStyle = 0x2555, kForceMax = 0x2603, kForceContinuous = 0x2604,
+                               kMotorTemperature = 0x2605,  // [0, 1] of each motor, predicted by the library; up to six
                                kForce = 0x2700;
 inline constexpr std::uint32_t kForceOutput = 0x4000, kForceClamping = 0x4001, kForceRamping = 0x4002, kForceLimit = 0x4003;
 inline constexpr std::uint32_t kCalibrationOk = 0x5000, kCalibrationUpdate = 0x5001, kCalibrationManual = 0x5002;

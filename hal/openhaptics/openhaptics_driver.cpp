@@ -107,6 +107,7 @@ std::expected<Exchange, Errc> OpenHapticsDriver::exchange(const Orders& orders, 
   state.buttons = s.buttons;
   state.homed = s.homed;
   state.saturated = s.limited;
+  state.heat = s.heat;
   return Exchange::kFresh;
 }
 

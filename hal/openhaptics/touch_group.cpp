@@ -15,6 +15,8 @@ constexpr std::uint16_t kPriorityMax = 0xffff;
 constexpr int kErrorsMax = 32;        // drained at a time; the vendor's stack is finite, ours is a bound
 constexpr std::uint64_t kHomeEvery = 50;  // cycles between two looks at the calibration
 constexpr Duration kQuietMax = 50ms;
+constexpr std::size_t kMotorsMax = 6;
+constexpr unsigned kWarmCycles = 1000;  // the library says it once, when it takes a force away
 
 std::uint32_t on_cycle(void* group) {
   static_cast<TouchGroup*>(group)->cycle();
@@ -127,6 +129,10 @@ Result<TouchGroup::About> TouchGroup::add(const std::string& name) {
       box[1] < box[4] && box[2] < box[5])
     about.workspace = {1e-3 * box[0], -1e-3 * box[5], 1e-3 * box[1], 1e-3 * box[3], -1e-3 * box[2], 1e-3 * box[4]};
   forget_errors();
+  double temperatures[16] = {};
+  api_->get_double(id::kMotorTemperature, temperatures);
+  if (api_->get_error().code == 0 && std::isfinite(temperatures[0])) about.motors = std::min<std::size_t>(static_cast<std::size_t>(actuated), kMotorsMax);
+  forget_errors();
   for (const auto what : {id::kForceOutput, id::kForceClamping, id::kForceLimit, id::kForceRamping}) api_->enable(what);
   if (const ErrorInfo e = api_->get_error(); e.code != 0) {
     forget_errors();
@@ -139,6 +145,8 @@ Result<TouchGroup::About> TouchGroup::add(const std::string& name) {
   slot.handle = handle;
   slot.calibration = about.calibration;
   slot.force_max = about.force_max.value_or(0);
+  slot.motors = about.motors;
+  slot.warm = 0;
   slot.last = {};
   slot.order_number = 0;
   slot.order_age = kOrderCycles;
@@ -226,6 +234,7 @@ void TouchGroup::serve(Slot& slot) noexcept {
         s.encoders[i] = encoders[i];
       }
       s.buttons = static_cast<std::uint32_t>(buttons);
+      feel_heat(slot);
       home(slot, order.homing);
       s.force = force_for(slot, order);
       double force[3];
@@ -238,6 +247,24 @@ void TouchGroup::serve(Slot& slot) noexcept {
   }
   if (s.lost) s.force = {};
   slot.samples.write(s);
+}
+
+/// The hottest motor; what is no number stays so, as nobody knows then. An error of warm motors says it in its own way, also where
+/// no temperature is told.
+void TouchGroup::feel_heat(Slot& slot) noexcept {
+  Sample& s = slot.last;
+  s.heat.reset();
+  if (slot.motors > 0) {
+    double temperatures[16] = {};  // an unknown model may write more than its motors
+    api_->get_double(id::kMotorTemperature, temperatures);
+    double hottest = temperatures[0];
+    for (std::size_t i = 1; i < slot.motors && !std::isnan(hottest); ++i)
+      if (!(temperatures[i] <= hottest)) hottest = temperatures[i];
+    s.heat = hottest;
+  }
+  if (slot.warm == 0) return;
+  --slot.warm;
+  if (!s.heat || *s.heat < 1) s.heat = 1;
 }
 
 std::array<double, 3> TouchGroup::force_for(Slot& slot, const Order& order) noexcept {
@@ -291,6 +318,7 @@ void TouchGroup::take_errors(Slot& current) noexcept {
       if (slot.used && slot.handle == e.device) whose = &slot;
     }
     whose->last.error = e.code;
+    if (e.code == error::kWarmMotors) whose->warm = kWarmCycles;
     if (is_gone(e.code) || (whose == &current && e.code == error::kUnknownHandle)) {
       whose->last.lost = true;
       if (whose != &current) {

@@ -25,6 +25,7 @@ struct Sample {
   bool homed = false;
   bool limited = false;         ///< the library or our own clamp made the force smaller, or took it away
   bool lost = false;            ///< it does not answer any more; nothing touches its handle again
+  std::optional<double> heat{};  ///< of the hottest motor, 1: too hot; empty: not known
   std::uint32_t error = 0;      ///< newest error of this device, 0: none in this cycle
 };
 
@@ -55,6 +56,7 @@ class TouchGroup {
     std::size_t slot = 0;
     std::string model, serial, version;
     std::uint32_t calibration = 0;             ///< styles, a bit each
+    std::size_t motors = 0;                    ///< with a temperature
     std::optional<double> force_max, force_continuous;  ///< [N]
     std::optional<std::array<double, 6>> workspace;     ///< HAL frame, min xyz, max xyz [m]
   };
@@ -73,15 +75,18 @@ class TouchGroup {
     Handle handle = kInvalidHandle;
     std::uint32_t calibration = 0;
     double force_max = 0;
+    std::size_t motors = 0;      ///< whose temperature the library tells; 0: it does not
     Latest<Order> orders;
     Latest<Sample> samples;
     // Of the callback.
     Sample last;
     std::uint64_t order_number = 0;
     unsigned order_age = 0;
+    unsigned warm = 0;  ///< cycles in which the library's word that motors are warm still counts
   };
   void serve(Slot& slot) noexcept TANDEM_REALTIME;
   void home(Slot& slot, bool asked) noexcept;
+  void feel_heat(Slot& slot) noexcept TANDEM_REALTIME;
   /// Takes all errors off the stack, each told to the device it names, else to `current`.
   void take_errors(Slot& current) noexcept;
   void forget_errors() noexcept;

@@ -274,15 +274,16 @@ class Host {
   void write_down(SessionRun& r) {
     AuditEvents& events = r.hosted().audit();
     for (const AuditEvent* e = events.front(); e != nullptr; e = events.front()) {
-      if (e->seat == AuditEvent::kControlPlane) {  // the house wrote it down, with the name
+      if (e->seat == AuditEvent::kControlPlane && e->party == AuditEvent::kNoSeat) {  // the house wrote it down, with the name
         events.pop();
         continue;
       }
       const auto& seats = r.plan().scene.seats;
-      const std::string who = e->seat < seats.size() ? seats[e->seat].name : e->seat == AuditEvent::kTimeline ? "timeline" : "session";
+      const std::string who = e->seat < seats.size() ? seats[e->seat].name : e->seat == AuditEvent::kTimeline ? "timeline" : e->seat == AuditEvent::kControlPlane ? "console" : "session";
       std::string detail = format("%s tick %u", who.c_str(), e->tick);
       if (e->version > 0) detail += format(" version %u", e->version);
       for (std::size_t i = 0; i < e->masters; ++i) detail += format("%s %.3f to %.3f", i == 0 ? ": " : ",", e->before[i], e->after[i]);
+      if (e->party < seats.size()) detail += "; the link of " + seats[e->party].name + " is too old";
       door_->audit(to_text(e->what), r.plan().name, std::move(detail));
       events.pop();
     }

@@ -22,7 +22,7 @@ constexpr int kLastTries = 1000;     // to lay down what nothing newer will foll
 constexpr bool moves_checkpoint(AuditEvent::What what) noexcept {
   using What = AuditEvent::What;
   return what == What::kJoin || what == What::kLeave || what == What::kAuthority || what == What::kStop || what == What::kPause || what == What::kResume ||
-         what == What::kFault || what == What::kRestored || what == What::kGathered || what == What::kRemoved;
+         what == What::kFault || what == What::kRestored || what == What::kGathered || what == What::kRemoved || what == What::kAuthorityCalledOff;
 }
 
 double ms(Duration d) { return seconds(d) * 1e3; }

@@ -59,6 +59,9 @@ Refused refusal_of(const Command& command, const Outcome& outcome, const SceneSp
       return {Reason::kOutdated, "nothing is stopped: there is nothing to resume", 0};
     case Result::kWrong:
       return {Reason::kBadFrame, format("this session has %u tools and %u masters; each master needs a weight, together 1", outcome.tools, outcome.masters), 0};
+    case Result::kOutOfTouch:
+      return {Reason::kNotNow, "somebody whose weight this changes is not there, or was not heard from for longer than a hand-over may wait; the audit log "
+                                "names the seat. Look, then say it again", 0};
     case Result::kDone:
       break;
   }

@@ -86,6 +86,8 @@ TEST(WireCodec, ForceComesBackAsItWas) {
       EXPECT_EQ(got->message.missing, sent.missing);
       EXPECT_EQ(got->message.alpha, sent.alpha);
       EXPECT_EQ(got->message.stops, sent.stops);
+      EXPECT_EQ(got->message.handover, sent.handover);
+      EXPECT_EQ(got->message.handover_ticks, sent.handover_ticks);
     }
   }
 }
@@ -189,6 +191,15 @@ TEST(WireCodec, RefusesNumbersThatCannotBeMeant) {
   EXPECT_EQ(force([&](auto& m) { m.alpha = 1.0000001; }), DecodeError::kOutOfRange);
   EXPECT_EQ(force([&](auto& m) { m.session = static_cast<SessionState>(7); }), DecodeError::kOutOfRange);
   EXPECT_EQ(force([&](auto& m) { m.missing = 25; }), DecodeError::kOutOfRange);
+  const auto tells = [&](Handover what, std::uint32_t ticks) {
+    return force([&](auto& m) {
+      m.handover = what;
+      m.handover_ticks = ticks;
+    });
+  };
+  EXPECT_EQ(tells(Handover::kComes, kHandoverNotice + 1), DecodeError::kOutOfRange);
+  EXPECT_EQ(tells(Handover::kNone, 1), DecodeError::kOutOfRange) << "nothing comes, and when?";
+  EXPECT_EQ(tells(Handover::kCalledOff, 1), DecodeError::kOutOfRange);
 
   const auto authority = [&](auto change) {
     AuthorityMessage m;

@@ -65,6 +65,8 @@ inline ForceMessage force(RandomStream& random, std::size_t axes) {
   m.missing = static_cast<std::uint32_t>(random.below(kSeatsMax + 1));
   m.alpha = random.uniform();
   m.stops = static_cast<std::uint32_t>(random.bits());
+  m.handover = static_cast<Handover>(random.below(4));
+  if (m.handover == Handover::kComes || m.handover == Handover::kGoes) m.handover_ticks = static_cast<std::uint32_t>(random.below(kHandoverNotice + 1));
   return m;
 }
 inline PathMessage path(RandomStream& random) { return {random.bits()}; }

@@ -54,6 +54,31 @@ TEST(FailureTable, AHandThatIsTooFastIsLetGoAndTheThirdTimeLatched) {
   life.expect_nothing_broken();
 }
 
+// Motors that are too hot: let go within 3 ms, engaged again once cool, the third time latched until the person's button.
+TEST(FailureTable, AHandWhoseMotorsAreTooHotIsLetGoAndTheThirdTimeLatched) {
+  const auto hot = [](Duration at) { return Fault{Fault::Kind::kHot, "trainee", at, 1s}; };
+  Life life{with(contact(1), {hot(5s), hot(9s), hot(13s)})};
+  for (int n = 1; n <= 3; ++n) {
+    SCOPED_TRACE(n);
+    life.until(std::chrono::seconds(1 + 4 * n));
+    ASSERT_TRUE(life.active(kTrainee));
+    EXPECT_LE(life.time_to([&] { return !life.active(kTrainee); }, 100ms), 3ms);
+    EXPECT_EQ(life.world->seat(kTrainee)->gate().phase(), control::GatePhase::kPassive) << "damped, and no fault";
+    EXPECT_EQ(life.world->seat(kTrainee)->over_temperature().trips(), static_cast<unsigned>(n));
+    life.until(std::chrono::milliseconds(1990 + 4000 * n));
+    EXPECT_FALSE(life.active(kTrainee)) << "still hot";
+    EXPECT_TRUE(life.active(kTrainer));
+    life.until(std::chrono::milliseconds(4900 + 4000 * n));
+    EXPECT_EQ(life.active(kTrainee), n < 3) << "cool again";
+  }
+  EXPECT_EQ(life.world->seat(kTrainee)->sample().gate, wire::GateState::kDamped) << "the person is told to press the button";
+  life.world->seat(kTrainee)->press_reset();
+  life.until(20s);
+  EXPECT_TRUE(life.active(kTrainee));
+  EXPECT_EQ(life.world->gate_trips(kTrainer), 0u);
+  life.expect_nothing_broken();
+}
+
 // Role table: an evaluator feels with a separate, lower clamp and tank. Both hands follow the same wall press.
 TEST(FailureTable, AnEvaluatorGetsHalfTheForceAndHalfTheTank) {
   SceneSpec scene = contact(1);

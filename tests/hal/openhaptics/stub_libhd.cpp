@@ -115,6 +115,10 @@ void hdGetDoublev(std::uint32_t what, double* into) {
     case 0x2551: std::ranges::copy(d->workspace, into); break;
     case 0x2603: *into = d->force_max; break;
     case 0x2604: *into = d->force_continuous; break;
+    case 0x2605:
+      if (!d->tells_heat) return raise(0x0100, state.current);
+      std::ranges::copy(d->heat, into);
+      break;
     default: raise(0x0100, state.current); break;
   }
 }

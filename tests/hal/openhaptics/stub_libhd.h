@@ -16,6 +16,8 @@ struct StubDevice {
   std::int32_t buttons = 0, sensed = 6, actuated = 3, style = 4;
   std::uint32_t calibration = 0x5000;
   double force_max = 3.3, force_continuous = 0.88;
+  std::array<double, 6> heat{0.1, 0.1, 0.1, 0, 0, 0};
+  bool tells_heat = true;
   std::array<double, 6> workspace{-160, -120, -70, 160, 120, 70};
   bool initialised = false, unplugged = false, held = false;  ///< held: as after an unclean exit of somebody
   bool force_enabled = false, force_set = false;
