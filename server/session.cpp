@@ -25,7 +25,8 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       masters_(scene.masters()),
       watcher_every_(static_cast<std::uint32_t>(std::ceil(scene.tick_hz / kWatcherHz))),
       reception_(scene, scale),
-      visitors_(scene.dof, scene.port, tick_length_) {
+      visitors_(scene.dof, scene.port, tick_length_),
+      stop_lane_(scene.led()) {
   for (std::size_t a = 0; a < kAxesMax; ++a) root_scale_[a] = std::sqrt(scale_[a]);
   seats_.reserve(scene.seats.size());
   for (std::size_t i = 0; i < scene.seats.size(); ++i) seats_.emplace_back(scene, i, scale);
