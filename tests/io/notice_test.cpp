@@ -116,7 +116,7 @@ TEST(Stop, EndsTheServerOfAStateFolderGentlyAndFollowsIt) {
 // ---- Tickets in files ---------------------------------------------------------------------------------------------------------
 
 TEST(TicketFile, IsReadByJoinAndControlAndMistakesAreTold) {
-  const School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
+  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
   const std::string first = school.folder.write("trainer.ticket", school.ticket("a", "trainer") + "\n"), second = school.folder.write("trainee.ticket", school.ticket("a", "trainee") + "\r\n");
   Process trainer = school.join("trainer", {"--ticket", "@" + first}), trainee = school.join("trainee", {"--ticket-file", second});
   ASSERT_TRUE(school.host.wait_for("the session runs")) << trainer.err() << trainee.err();
