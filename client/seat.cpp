@@ -324,7 +324,8 @@ bool Seat::press_stop_all() noexcept {
 
 void Seat::press_resume() noexcept {
   own_stop_ = false;
-  if (setup_.seat.role == Role::kInstructor && setup_.seat.kind == SeatKind::kMaster) resume_stop_ = rx_.stops;
+  const bool leads = setup_.seat.role == Role::kInstructor && setup_.seat.kind == SeatKind::kMaster;
+  if (leads || (setup_.ends_pauses && rx_.session == wire::SessionState::kPaused)) resume_stop_ = rx_.stops;
   settle_wishes();
 }
 

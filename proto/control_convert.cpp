@@ -172,8 +172,14 @@ void write(const ResumeSession& in, wire_pb::ResumeSession& out) {
   out.set_session_id(text_of(in.session_id));
   out.set_stop(in.stop);
 }
-bool read(const wire_pb::PauseSession& in, PauseSession& out) { return take(in.session_id(), out.session_id); }
-void write(const PauseSession& in, wire_pb::PauseSession& out) { out.set_session_id(text_of(in.session_id)); }
+bool read(const wire_pb::PauseSession& in, PauseSession& out) {
+  out.why = in.why();
+  return take(in.session_id(), out.session_id) && is_text(out.why);
+}
+void write(const PauseSession& in, wire_pb::PauseSession& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_why(in.why);
+}
 
 bool read(const wire_pb::SetAuthority& in, SetAuthority& out) {
   out.tool = in.tool();
@@ -229,6 +235,24 @@ void write(const RemovePerson& in, wire_pb::RemovePerson& out) {
 bool read(const wire_pb::StatusRequest& in, StatusRequest& out) { return take(in.session_id(), out.session_id); }
 void write(const StatusRequest& in, wire_pb::StatusRequest& out) { out.set_session_id(text_of(in.session_id)); }
 
+bool read(const wire_pb::StatusStop& in, StatusStop& out) {
+  out = {in.number(), static_cast<StopKind>(in.kind()), {}, {}, {}, in.why(), in.ago_s(), in.ends(), in.yours()};
+  return in.number() > 0 && within(in.kind(), 1, static_cast<std::uint32_t>(StopKind::kFault)) && take_name(in.seat(), out.seat, true) &&
+         take_name(in.workstation(), out.workstation, true) && (out.seat.empty() || out.workstation.empty()) && take_role(in.role(), out.role) && is_text(out.why) &&
+         in.ago_s() >= 0 && in.ago_s() <= kTimeMax && is_text(out.ends);
+}
+void write(const StatusStop& in, wire_pb::StatusStop& out) {
+  out.set_number(in.number);
+  out.set_kind(static_cast<std::uint32_t>(in.kind));
+  out.set_seat(in.seat);
+  out.set_workstation(in.workstation);
+  out.set_role(static_cast<std::uint32_t>(in.role));
+  out.set_why(in.why);
+  out.set_ago_s(in.ago_s);
+  out.set_ends(in.ends);
+  out.set_yours(in.yours);
+}
+
 bool read(const wire_pb::Status& in, Status& out) {
   if (in.seat_size() > static_cast<int>(kListedSeatsMax) || in.tool_size() > static_cast<int>(kToolsMax)) return false;
   if (in.state() > static_cast<std::uint32_t>(SessionPhase::kPassive) || !(in.time_s() >= 0 && in.time_s() <= kTimeMax)) return false;
@@ -253,7 +277,8 @@ bool read(const wire_pb::Status& in, Status& out) {
     if (!take_name(t.name(), tool.name) || tool.alpha.size() > kMastersMax) return false;
     if (!std::ranges::all_of(tool.alpha, [](double a) { return a >= 0 && a <= 1; })) return false;
   }
-  return true;
+  if (in.has_drain()) out.drain = {in.drain().left_s(), in.drain().sessions(), in.drain().people()};
+  return !in.has_stop() || read(in.stop(), out.stop.emplace());
 }
 void write(const Status& in, wire_pb::Status& out) {
   out.set_session_id(text_of(in.session_id));
@@ -277,6 +302,11 @@ void write(const Status& in, wire_pb::Status& out) {
     tool.set_name(t.name);
     for (const double a : t.alpha) tool.add_alpha(a);
   }
+  if (in.stop) write(*in.stop, *out.mutable_stop());
+  if (!in.drain) return;
+  out.mutable_drain()->set_left_s(in.drain->left_s);
+  out.mutable_drain()->set_sessions(in.drain->sessions);
+  out.mutable_drain()->set_people(in.drain->people);
 }
 
 void wipe_text(std::string& text) noexcept { wipe(text); }

@@ -171,6 +171,7 @@ struct ResumeSession {
 };
 struct PauseSession {
   Id session_id{};
+  std::string why{};  ///< at most kTextMax
   friend bool operator==(const PauseSession&, const PauseSession&) = default;
 };
 struct SetAuthority {
@@ -227,6 +228,27 @@ struct StatusTool {
 };
 /// Rungs of the ladder by which a busy server goes without things (server/load_ladder.h).
 inline constexpr std::uint32_t kShedMax = 6;
+/// Numbers travel: append-only.
+enum class StopKind : std::uint8_t { kPause = 1, kStop = 2, kFault = 3 };
+/// Who stopped a session, and why, as everybody in it may read.
+struct StatusStop {
+  std::uint32_t number = 0;
+  StopKind kind = StopKind::kStop;
+  std::string seat, workstation;  ///< names; at most one of them. None: the session itself
+  AccessRole role = AccessRole::kObserver;
+  std::string why;                ///< his words, at most kTextMax
+  double ago_s = 0;               ///< [s] 0 ... 1e9
+  std::string ends;               ///< who may end it, for people, at most kTextMax; empty: it is over
+  bool yours = false;             ///< who asked may
+  friend bool operator==(const StatusStop&, const StatusStop&) = default;
+};
+/// How far a server is on its way to its end.
+struct StatusDrain {
+  std::uint32_t left_s = 0;    ///< until all hands are let go
+  std::uint32_t sessions = 0;  ///< not over yet
+  std::uint32_t people = 0;    ///< on their seats
+  friend bool operator==(const StatusDrain&, const StatusDrain&) = default;
+};
 /// A session as somebody at a control connection may see it.
 struct Status {
   Id session_id{};
@@ -238,6 +260,8 @@ struct Status {
   std::uint32_t shed = 0;  ///< what the server goes without, 0 ... kShedMax
   std::vector<StatusSeat> seats;  ///< at most kListedSeatsMax
   std::vector<StatusTool> tools;  ///< at most kToolsMax
+  std::optional<StatusStop> stop{};    ///< the newest, if this server knows who made it
+  std::optional<StatusDrain> drain{};  ///< while the server drains
   friend bool operator==(const Status&, const Status&) = default;
 };
 

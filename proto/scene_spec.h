@@ -152,6 +152,12 @@ struct SceneSpec {
     for (const auto& s : seats) n += s.kind == SeatKind::kMaster ? 1 : 0;
     return n;
   }
+  /// Whether a seat is an instructor's.
+  [[nodiscard]] bool led() const noexcept {
+    for (const auto& s : seats)
+      if (s.kind == SeatKind::kMaster && s.role == Role::kInstructor) return true;
+    return false;
+  }
 };
 
 }  // namespace tandem

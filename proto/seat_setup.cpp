@@ -41,6 +41,7 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
     }
     setup.own_master = seat;
   }
+  setup.ends_pauses = !scene.led() && setup.seat.kind == SeatKind::kMaster && setup.seat.role != Role::kObserver;
   return setup;
 }
 
@@ -62,6 +63,7 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   for (const std::string& name : setup.masters) message.add_master(name);
   message.set_own_master(static_cast<std::uint32_t>(setup.own_master));
   message.set_drivers(setup.drivers);
+  message.set_ends_pauses(setup.ends_pauses);
   const std::size_t size = message.ByteSizeLong();
   if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
   return size;
@@ -97,6 +99,7 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     out.masters.assign(in.master().begin(), in.master().end());
     out.own_master = in.own_master();
     out.drivers = in.drivers();
+    out.ends_pauses = in.ends_pauses();
     if (!out.masters.empty() && out.own_master >= out.masters.size()) checker.error("own_master", "is not one of the masters");
   }
   if (!checker.ok()) return std::unexpected(checker.take());

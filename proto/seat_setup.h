@@ -32,6 +32,7 @@ struct SeatSetup {
   std::vector<std::string> masters;  ///< INSTRUCTOR seats: names in the order of authority weights; empty for others
   std::size_t own_master = 0;        ///< place of this seat among them
   std::uint32_t drivers = 0;         ///< bit i: master i may be given authority
+  bool ends_pauses = false;  ///< no seat is an instructor's: who may pause may take his pause back
 };
 
 /// The part of a scene that belongs to one seat; axis_scale is left at 1. @pre seat < scene.seats.size()

@@ -47,10 +47,18 @@ DoorLimitsSpec limits_from(const pb::DoorLimits& in) {
 }  // namespace
 
 std::expected<ServerConfigSpec, InputErrors> parse_server_config(std::string_view text, std::string_view file_name) {
+  InputErrors errors;
+  auto config = read_server_config(text, file_name, errors);
+  if (!errors.empty()) return std::unexpected(std::move(errors));
+  return std::move(*config);
+}
+
+std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::string_view file_name, InputErrors& errors) {
   Checker checker{file_name};
   pb::ServerConfig in;
-  if (!text::read_document(text, file_name, in, checker)) return std::unexpected(checker.take());
-  InputErrors errors = checker.take();
+  const bool read = text::read_document(text, file_name, in, checker);
+  errors = checker.take();
+  if (!read) return std::nullopt;
 
   ServerConfigSpec out;
   out.file = file_name;
@@ -70,7 +78,6 @@ std::expected<ServerConfigSpec, InputErrors> parse_server_config(std::string_vie
   out.log.json = in.log().format() == pb::LogConfig::JSON;
   out.log.level = static_cast<LogSpec::Level>(in.log().level());
   add_unexplained(errors, checker.take());
-  if (!errors.empty()) return std::unexpected(std::move(errors));
   return out;
 }
 

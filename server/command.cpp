@@ -19,7 +19,8 @@ Result resume(Session& session, Time now, const Command& command) noexcept {
   const bool stopped = session.stop_level() != StopLane::Level::kNone;
   if (!stopped && !session.gathering()) return Result::kNothing;
   if (command.number != session.stops()) return Result::kOutdated;
-  return session.resume_hands(now, command.who, command.number) ? Result::kDone : Result::kForbidden;
+  if (!session.resume_hands(now, command.who, command.number, command.seat)) return Result::kForbidden;
+  return session.stop_lane().on() && command.number == session.stops() ? Result::kOthers : Result::kDone;
 }
 
 Result set_authority(Session& session, Time now, const Command& command) noexcept {
@@ -51,9 +52,9 @@ Result obey(Session& session, Time now, const Command& command) noexcept {
     case Command::What::kLook:
       return Result::kDone;
     case Command::What::kStop:
-      return session.stop_hands(now, command.who) ? Result::kDone : Result::kForbidden;
+      return session.stop_hands(now, command.who, command.seat) ? Result::kDone : Result::kForbidden;
     case Command::What::kPause:
-      return session.pause_hands(now, command.who) ? Result::kDone : Result::kForbidden;
+      return session.pause_hands(now, command.who, command.seat) ? Result::kDone : Result::kForbidden;
     case Command::What::kResume:
       return resume(session, now, command);
     case Command::What::kSetAuthority:
@@ -73,7 +74,9 @@ Outcome carry_out(Session& session, Time now, const Command& command) noexcept {
   out.result = still_his(session, command) ? obey(session, now, command) : Result::kGone;
   out.state = session.state();
   out.shed = session.relief().rung;
-  out.stop = session.stop_level();
+  out.lane = session.stop_lane();
+  out.stopped_ago = out.lane.newest().level == StopLane::Level::kNone ? 0 : seconds(now - out.lane.newest().at);
+  out.there = session.there(now);
   out.gathering = session.gathering();
   out.stops = session.stops();
   out.authority_version = session.authority_version();

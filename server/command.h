@@ -38,6 +38,7 @@ struct Outcome {
     kForbidden,  ///< his role may not do this to those
     kGone,       ///< the seat he speaks for is not his any more
     kOutdated,   ///< the number or version that he named is not the newest
+    kOthers,     ///< kResume: his own pause is taken back, others' last
     kNothing,    ///< there is nothing to resume, or nobody to remove
     kWrong,      ///< no such tool or seat, or another number of masters
     kOutOfTouch, ///< somebody whose weight would change is not heard from
@@ -47,7 +48,9 @@ struct Outcome {
   };
   Result result = Result::kGone;
   wire::SessionState state = wire::SessionState::kEnding;
-  StopLane::Level stop = StopLane::Level::kNone;
+  StopLane lane{};                      ///< who stopped, and who may end it
+  double stopped_ago = 0;               ///< the newest stop [s]
+  std::uint32_t there = 0;              ///< seats that are heard, bit i: seat i
   bool gathering = false;               ///< back from a checkpoint: an instructor who resumes goes on without those who are missing
   std::uint32_t stops = 0, authority_version = 0, tick = 0;
   double time = 0;                      ///< of the session [s]

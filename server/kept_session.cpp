@@ -11,7 +11,7 @@
 namespace tandem::server {
 namespace {
 
-constexpr std::string_view kMagic = "TKS1";
+constexpr std::string_view kMagic = "TKS2";
 constexpr std::size_t kDigest = sizeof(Checkpoint::Hash);
 constexpr std::size_t kTextMaximum = 255;
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
@@ -29,7 +29,7 @@ const char* cause(CheckpointError error) noexcept {
 }  // namespace
 
 std::vector<std::byte> encode_kept(const KeptSession& kept) {
-  if (kept.name.empty() || kept.name.size() > kTextMaximum || kept.code.size() > kTextMaximum) return {};
+  if (kept.name.empty() || kept.name.size() > kTextMaximum || kept.code.size() > kTextMaximum || kept.sent_away.size() > kSentAwayMax) return {};
   std::vector<std::byte> out;
   const auto put = [&](std::span<const std::byte> bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); };
   const auto text = [&](const std::string& s) {
@@ -41,6 +41,8 @@ std::vector<std::byte> encode_kept(const KeptSession& kept) {
   put(kept.id);
   text(kept.name);
   text(kept.code);
+  out.push_back(static_cast<std::byte>(kept.sent_away.size()));
+  for (const auto& key : kept.sent_away) put(key);
   std::array<std::byte, kCheckpointMax> checkpoint;
   put(std::span{checkpoint}.first(encode_checkpoint(kept.checkpoint, checkpoint)));
   const Checkpoint::Hash digest = link::sha256(out);
@@ -71,6 +73,11 @@ std::expected<KeptSession, std::string> decode_kept(std::span<const std::byte> b
   if (const auto id = take(kept.id.size()); whole) std::ranges::copy(id, kept.id.begin());
   kept.name = text();
   kept.code = text();
+  const auto count = take(1);
+  const std::size_t keys = count.empty() ? 0 : std::to_integer<std::size_t>(count[0]);
+  if (keys > kSentAwayMax) return std::unexpected("it sends more workstations away than can be meant");
+  for (std::size_t i = 0; i < keys && whole; ++i)
+    if (const auto key = take(32); whole) std::ranges::copy(key, kept.sent_away.emplace_back().begin());
   if (!whole || kept.name.empty()) return std::unexpected("it is cut off");
   const auto checkpoint = decode_checkpoint(rest);
   if (!checkpoint) return std::unexpected(cause(checkpoint.error()));

@@ -19,6 +19,7 @@ constexpr std::array<std::array<Grant, kAccessRoles>, kRights> kTable{{
     /* raise limits  */ {no, no, no, no, no, no},
     /* stop own hand */ {yes, yes, yes, no, no, no},
     /* stop session  */ {yes, part, part, no, yes, no},
+    /* end a pause   */ {yes, part, part, no, yes, no},
     /* record        */ {yes, no, no, no, no, part},
     /* manage seats  */ {yes, no, no, no, yes, no},
     /* manage server */ {no, no, no, no, yes, no},
@@ -34,7 +35,7 @@ struct Need {
 constexpr std::array<Need, 7> kNeeds{{
     {control::Kind::kStopSession, Right::kStopSession, Grant::kYes, "stop the session"},
     {control::Kind::kPauseSession, Right::kStopSession, Grant::kPart, "pause the session"},
-    {control::Kind::kResumeSession, Right::kStopSession, Grant::kYes, "resume the session"},
+    {control::Kind::kResumeSession, Right::kEndPause, Grant::kPart, "resume the session"},
     {control::Kind::kSetAuthority, Right::kAuthority, Grant::kPart, "move authority"},
     {control::Kind::kRemovePerson, Right::kManageSeats, Grant::kYes, "remove a person"},
     {control::Kind::kDrain, Right::kManageServer, Grant::kYes, "drain the server"},

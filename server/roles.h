@@ -20,12 +20,13 @@ enum class Right : std::uint8_t {
   kLowerLimits,    ///< kPart: his own
   kRaiseLimits,    ///< nobody: the configuration file, read at the start
   kStopOwnHand,
-  kStopSession,    ///< and resume it; kPart: pause it, which who has kYes ends
+  kStopSession,    ///< and resume it, whoever stopped it; kPart: pause it
+  kEndPause,       ///< kPart: in a scene without an instructor's seat, his own, and only a pause: see StopLane
   kRecord,         ///< start, stop, export; kPart: write
   kManageSeats,    ///< create seats and tickets, remove a person
   kManageServer,   ///< enrol and revoke workstations, drain
 };
-inline constexpr std::size_t kRights = 11;
+inline constexpr std::size_t kRights = 12;
 
 enum class Grant : std::uint8_t { kNo, kPart, kYes };
 

@@ -27,7 +27,8 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       watcher_every_(static_cast<std::uint32_t>(std::ceil(scene.tick_hz / kWatcherHz))),
       feeler_every_max_(static_cast<std::uint32_t>(std::max(1.0, scene.gate.silence_limit * scene.tick_hz / kIntervalsOfSilence))),
       reception_(scene, scale),
-      visitors_(scene.dof, scene.port, tick_length_) {
+      visitors_(scene.dof, scene.port, tick_length_),
+      stop_lane_(scene.led()) {
   for (std::size_t a = 0; a < kAxesMax; ++a) root_scale_[a] = std::sqrt(scale_[a]);
   turns_.fill(~0u);
   seats_.reserve(scene.seats.size());

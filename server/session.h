@@ -64,11 +64,15 @@ class Session {
   /// Writes the next datagram into `buffer`; nullopt when nothing is due.
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::span<std::byte> buffer) noexcept;
 
-  /// Stops or pauses all hands, as the role may (roles.h), or resumes them; for who sits on no seat. Seats do it by their STATE.
+  /// Stops or pauses all hands, as the role may (roles.h), or resumes them; by a control connection. Seats do it by their STATE.
   /// @return whether the role may  @param number  of the stop to be ended, see `stops`
-  bool stop_hands(Time now, AccessRole who) noexcept;
-  bool pause_hands(Time now, AccessRole who) noexcept;
-  bool resume_hands(Time now, AccessRole who, std::uint32_t number) noexcept;
+  bool stop_hands(Time now, AccessRole who, std::uint8_t seat = AuditEvent::kNoSeat) noexcept;
+  bool pause_hands(Time now, AccessRole who, std::uint8_t seat = AuditEvent::kNoSeat) noexcept;
+  /// @param seat  he sits on, AuditEvent::kNoSeat: none. His own pause may be taken back while others' last: then the session stays paused
+  bool resume_hands(Time now, AccessRole who, std::uint32_t number, std::uint8_t seat = AuditEvent::kNoSeat) noexcept;
+  [[nodiscard]] const StopLane& stop_lane() const noexcept { return stop_lane_; }
+  /// Seats whose client is heard, bit i: seat i.
+  [[nodiscard]] std::uint32_t there(Time now) const noexcept;
   [[nodiscard]] std::uint32_t stops() const noexcept { return stop_lane_.stops(); }
   [[nodiscard]] StopLane::Level stop_level() const noexcept { return stop_lane_.level(); }
 
@@ -117,7 +121,7 @@ class Session {
   // People (session_people.cpp).
   void hear(Time now, std::size_t seat, const SeatPort::Heard& heard) noexcept TANDEM_REALTIME;
   void hear_wishes(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
-  bool press_stop(Time now, AccessRole who, StopLane::Level wanted) noexcept;
+  bool press_stop(Time now, AccessRole who, std::uint8_t seat, StopLane::Level wanted) noexcept;
   void wait_for_people(Time now) noexcept TANDEM_REALTIME;
   void look_after_people(Time now) noexcept TANDEM_REALTIME;
   void look_after(Time now, std::size_t seat) noexcept TANDEM_REALTIME;

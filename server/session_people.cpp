@@ -38,7 +38,7 @@ void Session::forbid(Time now, std::size_t i) noexcept {
 void Session::hear_wishes(Time now, std::size_t i) noexcept {
   const wire::StateMessage& said = seats_[i].heard();
   if (stop_lane_.rises(i, said.stop_all)) {
-    if (const auto level = stop_lane_.press(seats_[i].role())) {
+    if (const auto level = stop_lane_.press(now, seats_[i].role(), static_cast<std::uint8_t>(i))) {
       note(now, *level == StopLane::Level::kStopped ? AuditEvent::What::kStop : AuditEvent::What::kPause, i, stop_lane_.stops());
     } else {
       forbid(now, i);
@@ -52,18 +52,22 @@ void Session::hear_wishes(Time now, std::size_t i) noexcept {
     return go_on(now);
   }
   if (!stop_lane_.on()) return;
-  if (stop_lane_.resume(seats_[i].role(), said.resume_stop)) {
-    note(now, AuditEvent::What::kResume, i, said.resume_stop);
-  } else {
-    forbid(now, i);
-  }
+  const StopLane::Resume became = stop_lane_.resume(seats_[i].role(), static_cast<std::uint8_t>(i), said.resume_stop, there(now));
+  if (became == StopLane::Resume::kEnded) note(now, AuditEvent::What::kResume, i, said.resume_stop);
+  if (became == StopLane::Resume::kForbidden) forbid(now, i);
 }
 
-bool Session::stop_hands(Time now, AccessRole who) noexcept { return press_stop(now, who, StopLane::Level::kStopped); }
-bool Session::pause_hands(Time now, AccessRole who) noexcept { return press_stop(now, who, StopLane::Level::kPaused); }
+bool Session::stop_hands(Time now, AccessRole who, std::uint8_t seat) noexcept { return press_stop(now, who, seat, StopLane::Level::kStopped); }
+bool Session::pause_hands(Time now, AccessRole who, std::uint8_t seat) noexcept { return press_stop(now, who, seat, StopLane::Level::kPaused); }
 
-bool Session::press_stop(Time now, AccessRole who, StopLane::Level wanted) noexcept {
-  const auto level = stop_lane_.press(who, wanted);
+std::uint32_t Session::there(Time now) const noexcept {
+  std::uint32_t seats = 0;
+  for (std::size_t i = 0; i < seats_.size(); ++i) seats |= seats_[i].taken() && seats_[i].alive(now) && !leaving(i) ? 1U << i : 0U;
+  return seats;
+}
+
+bool Session::press_stop(Time now, AccessRole who, std::uint8_t seat, StopLane::Level wanted) noexcept {
+  const auto level = stop_lane_.press(now, who, seat < seats_.size() ? seat : AuditEvent::kControlPlane, wanted);
   if (!level) return false;
   note(now, *level == StopLane::Level::kStopped ? AuditEvent::What::kStop : AuditEvent::What::kPause, AuditEvent::kControlPlane,
        stop_lane_.stops());
@@ -71,14 +75,15 @@ bool Session::press_stop(Time now, AccessRole who, StopLane::Level wanted) noexc
   return true;
 }
 
-bool Session::resume_hands(Time now, AccessRole who, std::uint32_t number) noexcept {
+bool Session::resume_hands(Time now, AccessRole who, std::uint32_t number, std::uint8_t seat) noexcept {
   if (gathering_ && !stop_lane_.on() && number == stop_lane_.stops()) {
     if (!stop_lane_.may_resume(who)) return false;
     note(now, AuditEvent::What::kGathered, AuditEvent::kControlPlane, number);
     go_on(now);
     return true;
   }
-  if (!stop_lane_.resume(who, number)) return stop_lane_.may_resume(who);
+  const StopLane::Resume became = stop_lane_.resume(who, seat, number, there(now));
+  if (became != StopLane::Resume::kEnded) return became == StopLane::Resume::kOutdated ? stop_lane_.may_resume(who) : became == StopLane::Resume::kOthers;
   note(now, AuditEvent::What::kResume, AuditEvent::kControlPlane, number);
   settle_state();
   return true;
@@ -94,7 +99,7 @@ void Session::go_on(Time now) noexcept {
   gathering_ = false;
   awaited_ = {};
   begun_ = engage_ = true;
-  if (stop_before_ != StopLane::Level::kNone) stop_lane_.raise(stop_before_);
+  if (stop_before_ != StopLane::Level::kNone) stop_lane_.raise(stop_before_, {});
   settle_state();
   for (auto& s : seats_)
     if (auto* l = s.link()) l->restart_statistics(now);
@@ -135,7 +140,7 @@ void Session::look_after_people(Time now) noexcept {
   const bool again = last_fault_ && now - *last_fault_ < kFaultMemory;
   last_fault_ = now;
   if (!again || stop_lane_.level() == StopLane::Level::kStopped) return;
-  stop_lane_.raise(StopLane::Level::kStopped);
+  stop_lane_.raise(StopLane::Level::kStopped, {StopLane::Level::kStopped, StopLane::kNobody, AccessRole::kObserver, now});
   note(now, AuditEvent::What::kFault, AuditEvent::kNoSeat, stop_lane_.stops());
 }
 

@@ -52,29 +52,15 @@ class Joining {
   explicit Joining(const Asking& asking) : asking_(asking) {}
 
   std::expected<GivenSeat, NotSeated> join() {
-    if (auto keys = choose_keys(); !keys) return std::unexpected(keys.error());
-    if (auto connected = connect(); !connected) return std::unexpected(connected.error());
-    auto hello = make_hello();
-    if (!hello) return std::unexpected(hello.error());
-    const auto answer = ask(*hello);
-    if (!answer) return std::unexpected(answer.error());
-    if (const auto* refused = std::get_if<control::Refused>(&*answer)) return fail(refusal(*refused, asking_));
-    const auto* welcome = std::get_if<control::Welcome>(&*answer);
-    if (welcome == nullptr) return fail("the server answered something else; is it of the same release?");
-    return take(*welcome, *hello);
+    const auto in = get_in();
+    if (!in) return std::unexpected(in.error());
+    return take(in->welcome, in->hello);
   }
 
   std::expected<Console, NotSeated> stand() {
-    if (auto keys = choose_keys(); !keys) return std::unexpected(keys.error());
-    if (auto connected = connect(); !connected) return std::unexpected(connected.error());
-    const auto hello = make_hello();
-    if (!hello) return std::unexpected(hello.error());
-    const auto answer = ask(*hello);
-    if (!answer) return std::unexpected(answer.error());
-    if (const auto* refused = std::get_if<control::Refused>(&*answer)) return fail(refusal(*refused, asking_));
-    const auto* welcome = std::get_if<control::Welcome>(&*answer);
-    if (welcome == nullptr) return fail("the server answered something else; is it of the same release?");
-    return Console{*welcome, std::make_shared<trust::ControlClient>(std::move(*client_))};
+    const auto in = get_in();
+    if (!in) return std::unexpected(in.error());
+    return Console{in->welcome, std::make_shared<trust::ControlClient>(std::move(*client_))};
   }
 
   std::expected<GivenSeat, NotBack> come_back(const OwnSeat& own, const std::function<bool()>& wanted) {
@@ -103,6 +89,24 @@ class Joining {
   }
 
  private:
+  struct In {
+    control::Hello hello;
+    control::Welcome welcome;
+  };
+  /// From choosing keys to the server's yes.
+  std::expected<In, NotSeated> get_in() {
+    if (auto keys = choose_keys(); !keys) return std::unexpected(keys.error());
+    if (auto connected = connect(); !connected) return std::unexpected(connected.error());
+    auto hello = make_hello();
+    if (!hello) return std::unexpected(hello.error());
+    const auto answer = ask(*hello);
+    if (!answer) return std::unexpected(answer.error());
+    if (const auto* refused = std::get_if<control::Refused>(&*answer)) return fail(refusal(*refused, asking_));
+    const auto* welcome = std::get_if<control::Welcome>(&*answer);
+    if (welcome == nullptr) return fail("the server answered something else; is it of the same release?");
+    return In{std::move(*hello), *welcome};
+  }
+
   static std::unexpected<NotSeated> fail(std::string reason) { return std::unexpected(NotSeated{false, std::move(reason)}); }
 
   static NotSeated interrupted() { return {true, "ended by " + std::string(io::signal_that_came()) + " before it had a seat"}; }
@@ -325,6 +329,7 @@ class Joining {
     given.link.tick = from_seconds(1.0 / given.setup.tick_hz);
     const bool aes = welcome.cipher == control::Cipher::kAes256Gcm;
     given.link.secrets = link::secrets_from_exporter(secrets->bytes, aes ? link::Cipher::kAes256Gcm : link::Cipher::kChaCha20Poly1305);
+    if (!hello.visit) given.connection = std::make_shared<trust::ControlClient>(std::move(*client_));
     return given;
   }
 

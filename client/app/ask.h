@@ -44,6 +44,7 @@ struct GivenSeat {
   control::Welcome welcome;
   trust::Pin server;           ///< its key
   bool local = false;          ///< known by what it laid down for this user on this computer, not by an enrolment
+  std::shared_ptr<trust::ControlClient> connection{};  ///< by which it was given; the seat does not need it. Null: of who judges his link
 };
 
 /// A control connection of somebody who sits on no seat.

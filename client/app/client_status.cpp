@@ -10,7 +10,14 @@
 namespace tandem::client {
 namespace {
 
-std::string session_text(const ClientStatus& s) {
+/// What he at this seat can do about a stop. Of a pause several may have made the server says more, see Vigil::see_stop.
+const char* way_out(const SeatSetup& setup, bool paused) {
+  if (setup.seat.kind == SeatKind::kMaster && setup.seat.role == Role::kInstructor) return "r resumes";
+  if (setup.ends_pauses) return paused ? "r takes your pause back; an operator resumes" : "an operator resumes";
+  return "an instructor or operator resumes";
+}
+
+std::string session_text(const ClientStatus& s, const SeatSetup& setup) {
   if (s.coming_back) return s.closed ? "the server is being started anew: coming back" : format("SERVER SILENT for %.0f s: coming back", s.silence_s);
   if (s.closed) return "closed";
   if (!s.heard) return "waiting for the server";
@@ -23,9 +30,9 @@ std::string session_text(const ClientStatus& s) {
     case wire::SessionState::kHeld:
       return format("%.1f s HELD", s.session_time);
     case wire::SessionState::kPaused:
-      return format("%.1f s PAUSED", s.session_time);
+      return format("%.1f s PAUSED (%s)", std::max(0.0, s.session_time), way_out(setup, true));
     case wire::SessionState::kStopped:
-      return format("%.1f s STOPPED", s.session_time);
+      return format("%.1f s STOPPED (%s)", std::max(0.0, s.session_time), way_out(setup, false));
     case wire::SessionState::kEnding:
       return "ending";
     case wire::SessionState::kPassive:
@@ -110,7 +117,7 @@ std::string handover_text(const ClientStatus& s) {
 
 std::string status_line(const ClientStatus& s, const SeatSetup& setup) {
   const bool slave = setup.seat.kind == SeatKind::kSlave;
-  std::string line = setup.seat.name + " (" + (slave ? "SLAVE" : to_text(setup.seat.role)) + ") " + session_text(s);
+  std::string line = setup.seat.name + " (" + (slave ? "SLAVE" : to_text(setup.seat.role)) + ") " + session_text(s, setup);
   line += std::string(" | gate ") + to_text(s.gate) + (s.gate == wire::GateState::kDamped ? " (press b)" : "");
   if (!slave) line += format(" | alpha %.2f", s.alpha);
   if (const std::string told = handover_text(s); !told.empty()) line += " (" + told + ")";

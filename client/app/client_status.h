@@ -18,6 +18,7 @@ struct ClientStatus {
   bool heard = false;  ///< anything at all from the server
   bool closed = false;
   wire::CloseReason close_reason = wire::CloseReason::kDone;
+  std::uint32_t stops = 0;    ///< how many so far
   std::uint32_t missing = 0;  ///< required seats that are not ready
   double session_time = -1;   ///< [s], negative before the session began
   double silence_s = 0;       ///< since something newer came from the server [s]

@@ -41,7 +41,7 @@ ComeBack::ComeBack(Asking asking, OwnSeat own, const Seat& seat, const SeatPump&
 }
 
 ComeBack::~ComeBack() {
-  raise(cancel_);
+  if (!done()) raise(cancel_);  // afterwards it would only disturb the connection that was handed on
   thread_.join();
   if (result_ && *result_ && (*result_)->handover) give_back((*result_)->handover->socket, (*result_)->given, asking_.caps);
 }

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -23,26 +22,22 @@ namespace tandem::client {
 namespace {
 
 constexpr int kDone = 0, kRefused = 1, kWrong = 2;
+constexpr int kLookEveryMs = 1000;  // between two looks at how the session stands
 
 struct Arguments {
-  std::string server, session, ticket, state, role, patience = "5";
+  TicketOption ticket;
+  std::string server, session, state, role, patience = "5";
   std::vector<std::string> words;
   bool json = false;
 };
-
-/// As typed, or the first line of a file of this name.
-std::string ticket_of(const std::string& typed) {
-  std::ifstream file(typed);
-  std::string line;
-  return !typed.starts_with("ticket:") && file && std::getline(file, line) ? line : typed;
-}
 
 /// Lines of standard input, until it ends or a signal comes.
 class Lines {
  public:
   Lines(int signals, int server) : signals_(signals), server_(server) {}
-  /// @return nothing: no more
+  /// @return nothing: no more, or nobody typed for a while
   std::optional<std::string> next() {
+    idle_ = false;
     while (true) {
       if (const auto end = text_.find('\n'); end != std::string::npos) {
         std::string line = text_.substr(0, end);
@@ -50,7 +45,12 @@ class Lines {
         return line;
       }
       pollfd files[] = {{STDIN_FILENO, POLLIN, 0}, {signals_, POLLIN, 0}, {server_, POLLIN | POLLRDHUP, 0}};
-      if (poll(files, 3, -1) < 0 || files[1].revents != 0) return std::nullopt;
+      const int events = poll(files, 3, kLookEveryMs);
+      if (events == 0) {
+        idle_ = true;
+        return std::nullopt;
+      }
+      if (events < 0 || files[1].revents != 0) return std::nullopt;
       if (files[2].revents != 0) {
         server_gone_ = true;
         return std::nullopt;
@@ -62,12 +62,13 @@ class Lines {
     }
   }
 
+  [[nodiscard]] bool idle() const { return idle_; }
   /// The server ended the connection while nothing was asked of it.
   [[nodiscard]] bool server_gone() const { return server_gone_; }
 
  private:
   int signals_, server_;
-  bool server_gone_ = false;
+  bool server_gone_ = false, idle_ = false;
   std::string text_;
 };
 
@@ -80,6 +81,31 @@ class Attendant {
   [[nodiscard]] const control::Welcome& welcome() const { return console_.welcome; }
   [[nodiscard]] int connection() const { return console_.connection->fd(); }
 
+  /// What happened since it was last asked: said.
+  enum class Look { kNothing, kTold, kGone };
+  Look look() {
+    const auto answer = console_.connection->ask(control::StatusRequest{console_.welcome.session_id}, patience_);
+    if (!answer) return Look::kGone;
+    const auto* now = std::get_if<control::Status>(&*answer);
+    if (now == nullptr) return Look::kNothing;  // asked too often, or the session is over: an order will say so
+    const std::string news = news_text(seen_.value_or(control::Status{}), *now);
+    seen_ = *now;
+    if (news.empty()) return Look::kNothing;
+    say((isatty(STDIN_FILENO) == 1 ? "\n" : "") + news);  // not behind the prompt
+    return Look::kTold;
+  }
+
+  /// Until a drained server has ended, or the person has seen enough.
+  int follow_drain(int signals) {
+    while (true) {
+      const bool gone = look() == Look::kGone;
+      pollfd files[] = {{signals, POLLIN, 0}, {connection(), POLLIN | POLLRDHUP, 0}};
+      poll(files, 2, gone ? 0 : kLookEveryMs / 2);
+      if (files[0].revents != 0) return say("the drain goes on without this console");
+      if (gone || files[1].revents != 0) return say("the server has ended");
+    }
+  }
+
   int obey(const Wish& wish) {
     const control::Id& id = console_.welcome.session_id;
     switch (wish.what) {
@@ -88,7 +114,7 @@ class Attendant {
       case Wish::What::kStop:
         return order(control::StopSession{id, wish.why}) ? tell_stop("STOPPED") : kRefused;
       case Wish::What::kPause:
-        return order(control::PauseSession{id}) ? tell_stop("PAUSED") : kRefused;
+        return order(control::PauseSession{id, wish.why}) ? tell_stop("PAUSED") : kRefused;
       case Wish::What::kResume:
         return resume(wish);
       case Wish::What::kAuthority:
@@ -134,7 +160,11 @@ class Attendant {
     return std::nullopt;
   }
   bool order(const control::Body& command) { return ask<control::Done>(command).has_value(); }
-  std::optional<control::Status> status() { return ask<control::Status>(control::StatusRequest{console_.welcome.session_id}); }
+  std::optional<control::Status> status() {
+    auto now = ask<control::Status>(control::StatusRequest{console_.welcome.session_id});
+    if (now) seen_ = *now;
+    return now;
+  }
 
   int show_status() {
     const auto now = status();
@@ -171,6 +201,7 @@ class Attendant {
   }
 
   Console console_;
+  std::optional<control::Status> seen_;
   std::chrono::milliseconds patience_;
   bool json_;
 };
@@ -182,6 +213,14 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
+int tell_gone(bool person, int worst) {
+  std::fprintf(stderr,
+               "%standem-client control: the server ended this connection: it was stopped, is being started anew, or took the right to it away. Nothing can be\n"
+               "ordered here any more; start again, with a new ticket if you came with one (`tandem-server ticket` on the server)\n",
+               person ? "\n" : "");
+  return std::max(worst, kRefused);
+}
+
 /// Orders line by line. @return the worst exit code of them
 int converse(Attendant& attendant, int signals) {
   const bool person = isatty(STDIN_FILENO) == 1;
@@ -189,17 +228,18 @@ int converse(Attendant& attendant, int signals) {
   if (person) std::printf("the connection stands until you quit; `help` lists the orders\n");
   Lines lines(signals, attendant.connection());
   int worst = kDone;
+  bool waiting = false;  // the prompt stands there
   while (true) {
-    if (person) std::printf("%s", prompt.c_str());
+    if (person && !waiting) std::printf("%s", prompt.c_str());
     std::fflush(stdout);
     const auto line = lines.next();
-    if (lines.server_gone()) {
-      std::fprintf(stderr,
-                   "%standem-client control: the server ended this connection: it was stopped, is being started anew, or took the right to it away. Nothing can be\n"
-                   "ordered here any more; start again, with a new ticket if you came with one (`tandem-server ticket` on the server)\n",
-                   person ? "\n" : "");
-      return std::max(worst, kRefused);
+    if (!line && lines.idle()) {
+      const auto became = attendant.look();
+      waiting = became == Attendant::Look::kNothing;
+      if (became != Attendant::Look::kGone) continue;
     }
+    waiting = false;
+    if (lines.server_gone() || (!line && lines.idle())) return tell_gone(person, worst);
     if (!line) return worst;
     const auto words = words_of(*line);
     if (words.empty()) continue;
@@ -237,6 +277,7 @@ int control_command(const Arguments& arguments) {
     if (!stands) mistakes.push_back("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
     if (stands) asking.console = *role;
   }
+  asking.ticket = ticket_of(arguments.ticket, mistakes);
   if (!mistakes.empty()) {
     for (const std::string& mistake : mistakes) std::fprintf(stderr, "tandem-client control: %s\n", mistake.c_str());
     return kWrong;
@@ -245,7 +286,6 @@ int control_command(const Arguments& arguments) {
   if (wish && wish->what == Wish::What::kQuit) return kDone;
   const io::Fd signals = io::signals_as_file();
   asking.session = arguments.session;
-  asking.ticket = arguments.ticket.empty() ? "" : ticket_of(arguments.ticket);
   asking.state = arguments.state;
   asking.patience = from_seconds(std::stod(patience));
   asking.signals = signals.get();
@@ -255,7 +295,9 @@ int control_command(const Arguments& arguments) {
     return kRefused;
   }
   Attendant attendant(std::move(*console), asking.patience, arguments.json);
-  return wish ? attendant.obey(*wish) : converse(attendant, signals.get());
+  if (!wish) return converse(attendant, signals.get());
+  const int code = attendant.obey(*wish);
+  return code == kDone && wish->what == Wish::What::kDrain ? attendant.follow_drain(signals.get()) : code;
 }
 
 }  // namespace
@@ -265,20 +307,20 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
   CLI::App* const command = root.add_subcommand("control", "Stops, resumes and looks after a session without sitting in it.");
   command->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")->option_text("HOST:PORT")->required();
   command->add_option("--session", arguments->session, "name, code or id of the session; default: the ticket's, or the only one there")->option_text("NAME|CODE|ID");
-  command->add_option("--ticket", arguments->ticket, "what `tandem-server ticket --role operator` printed, or a file with it; not needed beside a server on loopback that made its keys itself")
-      ->option_text("TICKET|FILE");
+  add_ticket_options(*command, arguments->ticket, "what `tandem-server ticket --role operator` printed; not needed beside a server on loopback that made its keys itself");
   command->add_option("--role", arguments->role, "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")->option_text("ROLE");
   command->add_option("--state", arguments->state, "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")->option_text("DIR");
   command->add_option("--patience", arguments->patience, "how long to wait for a server that does not answer [s]; default 5")->option_text("S");
   command->add_flag("--json", arguments->json, "status for machines");
   command->add_option("ORDER", arguments->words, "one of those below; none: a console that takes one order per line and stays connected")->option_text("...");
   command->footer(std::string("Orders\n") + control_words_help() +
-                  "\nA ticket is good for one connection: for several orders use the console (a pipe will do). A stop is latched and numbered; who\n"
+                  "\nA ticket is good for one connection, and used up by the first order that is carried out, a look too unless the rest is refused: for\n"
+                  "several orders use the console (a pipe will do); what others stop, and how far a drain is, is told there as it happens. A stop is latched and numbered; who\n"
                   "resumes names the newest, so that an old order never undoes a newer stop.\n"
                   "Exit: 0 done; 1 refused, with the reason, or server not there; 2 wrong arguments. In the console: the greatest of its orders.\n\n"
                   "Examples\n"
                   "  tandem-client control --server 127.0.0.1:7000 stop somebody is in the way\n"
-                  "  tandem-client control --server lab-server:7000 --ticket operator.ticket");
+                  "  tandem-client control --server lab-server:7000 --ticket-file operator.ticket");
   command->callback([arguments, &action] { action = [arguments] { return control_command(*arguments); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/base/format.h"
+#include "common/base/printable.h"
 
 namespace tandem::client {
 namespace {
@@ -76,6 +77,24 @@ std::expected<Wish, std::string> understand_authority(Wish wish, std::span<const
   return wish;
 }
 
+/// For JSON: what is not plain is written as `printable` does.
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : printable(text)) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string maker_of(const control::StatusStop& stop) {
+  const std::string& who = stop.seat.empty() ? stop.workstation : stop.seat;
+  if (stop.kind == control::StopKind::kFault) return "the session itself";
+  std::string text = "somebody";
+  if (!who.empty()) text = printable(who) + " (" + std::string(to_text(stop.role)) + (stop.seat.empty() ? " at a console)" : ")");
+  return text + (stop.why.empty() ? "" : ": " + printable(stop.why));
+}
+
 }  // namespace
 
 std::expected<Wish, std::string> understand(std::span<const std::string> words) {
@@ -88,6 +107,7 @@ std::expected<Wish, std::string> understand(std::span<const std::string> words) 
   const std::string name{found->word};
   switch (wish.what) {
     case Wish::What::kStop:
+    case Wish::What::kPause:
       wish.why = joined(rest);
       break;
     case Wish::What::kResume:
@@ -119,8 +139,9 @@ std::expected<Wish, std::string> understand(std::span<const std::string> words) 
 const char* control_words_help() noexcept {
   return "  status                                    how the session stands: phase, stops, seats, authority\n"
          "  stop [WHY ...]                            lets go of all hands; stays so until somebody resumes (instructor, operator)\n"
-         "  pause                                     the same for those who may not stop: trainees and evaluators may pause, from their seats\n"
-         "  resume [STOP]                             ends that stop; without a number the one there is now (instructor, operator)\n"
+         "  pause [WHY ...]                           the same for those who may not stop: trainees and evaluators may pause, from their seats\n"
+         "  resume [STOP]                             ends that stop; without a number the one there is now (instructor, operator; in a\n"
+         "                                            scene without an instructor's seat also who paused). WHY is read by everybody there\n"
          "  authority SEAT=W,... [tool=T] [version=V] weights of the hands over a tool, together 1 (instructor)\n"
          "  remove SEAT [WHY ...]                     lets go of that hand gently and frees the seat (instructor, operator)\n"
          "  drain [SECONDS]                           nobody new comes in; after SECONDS all hands are let go and the server ends (operator)\n"
@@ -161,13 +182,41 @@ std::string weights_text(const control::Status& status, std::span<const double> 
   return text.empty() ? "nobody" : text;
 }
 
+bool is_stopped(const control::Status& s) noexcept { return s.phase == control::SessionPhase::kStopped || s.phase == control::SessionPhase::kPaused; }
+
+std::string stop_text(const control::Status& s) {
+  std::string text = s.phase == control::SessionPhase::kPaused ? "PAUSED" : "STOPPED";
+  if (!s.stop) return text;
+  const control::StatusStop& stop = *s.stop;
+  text += " by " + maker_of(stop);
+  if (stop.kind == control::StopKind::kFault) text += ": its numbers could not be trusted";
+  if (stop.ends.empty()) return text;
+  return text + ". Who may end it: " + printable(stop.ends) + (stop.yours ? ". You may" : "");
+}
+
+std::string drain_text(const control::StatusDrain& d) {
+  return format("DRAINING: %u s left, %u session%s, %u %s on their seats", d.left_s, d.sessions, d.sessions == 1 ? "" : "s", d.people, d.people == 1 ? "person" : "people");
+}
+
+std::string news_text(const control::Status& before, const control::Status& now) {
+  std::string text;
+  if (is_stopped(now) && (now.stops != before.stops || !is_stopped(before))) text += stop_text(now) + "\n";
+  if (is_stopped(before) && !is_stopped(now)) text += format("stop %u is over: the session is %s\n", now.stops, control::to_text(now.phase));
+  if (!now.drain) return text;
+  const bool first = !before.drain, last = now.drain->left_s <= 5, ten = !first && before.drain->left_s / 10 != now.drain->left_s / 10;
+  if (first || ((last || ten) && before.drain != now.drain)) text += drain_text(*now.drain) + "\n";
+  return text;
+}
+
 std::string status_text(const control::Status& s) {
   std::string text = format("%s: %s, %.1f s", s.name.c_str(), control::to_text(s.phase), s.time_s);
-  const bool on = s.phase == control::SessionPhase::kStopped || s.phase == control::SessionPhase::kPaused;
-  text += on ? format("; `resume %u` ends it", s.stops) : format("; %u stops so far", s.stops);
+  text += is_stopped(s) ? format("; `resume %u` ends it", s.stops) : format("; %u stops so far", s.stops);
   text += format("; authority version %u%s", s.authority_version, s.draining ? "; the server is DRAINING" : "");
   if (s.phase == control::SessionPhase::kPassive) text += "; PASSIVE: the server is too busy to keep time, all hands are let go and come back by themselves";
   text += s.shed > 0 ? format("; busy, shed level %u of %u\n", s.shed, control::kShedMax) : "\n";
+  if (is_stopped(s)) text += "  " + stop_text(s) + "\n";
+  if (s.stop && !is_stopped(s)) text += format("  the last stop, %.0f s ago, was of %s\n", s.stop->ago_s, maker_of(*s.stop).c_str());
+  if (s.drain) text += "  " + drain_text(*s.drain) + "\n";
   for (const control::StatusSeat& seat : s.seats)
     text += format("  seat %-16s %-10s %s\n", seat.name.c_str(), std::string(to_text(seat.role)).c_str(), !seat.taken ? "free" : seat.heard ? "here" : "SILENT");
   for (const control::StatusTool& tool : s.tools) text += format("  tool %-16s %s\n", tool.name.c_str(), weights_text(s, tool.alpha).c_str());
@@ -194,7 +243,18 @@ std::string status_json(const control::Status& s) {
       text += format("%s\"%s\": %.9g", k == 0 ? "" : ", ", masters[k].c_str(), s.tools[j].alpha[k]);
     text += "}}";
   }
-  return text + "]}\n";
+  text += "], \"stop\": ";
+  if (s.stop) {
+    constexpr const char* kKinds[] = {"", "pause", "stop", "fault"};
+    text += format("{\"number\": %u, \"kind\": \"%s\", \"seat\": \"%s\", \"workstation\": \"%s\", \"role\": \"%s\", \"why\": ", s.stop->number, kKinds[static_cast<int>(s.stop->kind)],
+                   s.stop->seat.c_str(), s.stop->workstation.c_str(), std::string(to_text(s.stop->role)).c_str());
+    text += quoted(s.stop->why) + format(", \"ago_s\": %.3f, \"ends\": ", s.stop->ago_s) + quoted(s.stop->ends) + (s.stop->yours ? ", \"yours\": true}" : ", \"yours\": false}");
+  } else {
+    text += "null";
+  }
+  text += ", \"drain\": ";
+  text += s.drain ? format("{\"left_s\": %u, \"sessions\": %u, \"people\": %u}", s.drain->left_s, s.drain->sessions, s.drain->people) : "null";
+  return text + "}\n";
 }
 
 }  // namespace tandem::client

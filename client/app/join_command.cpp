@@ -22,7 +22,8 @@ constexpr int kWrong = 2;
 
 /// As typed. Numbers stay text until `understand`, so that all mistakes are told together.
 struct JoinArguments {
-  std::string server, session, ticket, state, seat, device, script, trace, json, duration, patience = "5", rejoin = "60";
+  TicketOption ticket;
+  std::string server, session, state, seat, device, script, trace, json, duration, patience = "5", rejoin = "60";
   bool quiet = false;
 };
 
@@ -89,7 +90,7 @@ AttendPlan understand(const JoinArguments& arguments, Mistakes& mistakes) {
   plan.rejoin_s = number("--rejoin", arguments.rejoin, 0, 600, mistakes);
   plan.seat = arguments.seat;
   plan.session = arguments.session;
-  plan.ticket = arguments.ticket;
+  plan.ticket = ticket_of(arguments.ticket, mistakes);
   plan.state = arguments.state;
   plan.device = arguments.device;
   plan.trace = arguments.trace;
@@ -163,7 +164,8 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       hardware +
       "                              (`tandem-client doctor` lists what is attached; several of a kind need port= or "
       "serial=)\n"
-      "Keys: s (or space) stops your hand, S everybody's (a pause, unless you are the instructor), r resumes; the instructor\n"
+      "Keys: s (or space) stops your hand, S everybody's (a pause, unless you are the instructor), r resumes (in a scene without an\n"
+      "instructor's seat: takes your own pause back); when somebody stops the session you read who, why and who may end it; the instructor\n"
       "moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
       "gate;\n"
       "q or Ctrl-C lets go gently and leaves.\n"

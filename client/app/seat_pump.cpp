@@ -189,6 +189,7 @@ void SeatPump::look(Time now) noexcept {
   p.heard = f.heard();
   p.closed = seat_->closed();
   p.close_reason = seat_->close_reason();
+  p.stops = seat_->force().stops;
   p.missing = seat_->force().missing;
   if (const auto time = seat_->server_time(now)) p.session_time = *time;  // back at a server that waits for others: what was last shown
   p.silence_s = seconds(f.heard() ? f.silence(now) : now - connected_);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "client/app/ticket_option.h"
 #include "common/io/socket_address.h"
 
 /// What the commands that join a server share.
@@ -19,11 +20,10 @@ namespace tandem::client {
 }
 
 /// @param ticket  null: the command needs none
-inline void add_joining_options(CLI::App& command, std::string& session, std::string* ticket, std::string& state) {
+inline void add_joining_options(CLI::App& command, std::string& session, TicketOption* ticket, std::string& state) {
   command.add_option("--session", session, "name, code or id of the session; default: the only one there")->option_text("NAME|CODE|ID");
   if (ticket != nullptr)
-    command.add_option("--ticket", *ticket, "what `tandem-server ticket` printed for this workstation; not needed with a session's code, or beside a server on loopback that made its keys itself")
-        ->option_text("TICKET");
+    add_ticket_options(command, *ticket, "what `tandem-server ticket` printed for this workstation; not needed with a session's code, or beside a server on loopback that made its keys itself");
   command.add_option("--state", state, "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")->option_text("DIR");
 }
 

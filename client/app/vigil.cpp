@@ -31,7 +31,7 @@ OwnSeat own_seat(const GivenSeat& given) {
 }  // namespace
 
 Vigil::Vigil(const Over& over)
-    : o_(over), own_(own_seat(over.given)), begin_(io::monotonic_now()), shown_(begin_), news_(begin_), looked_(begin_), patience_(draw_wait_before_return()) {}
+    : o_(over), own_(own_seat(over.given)), connection_(over.given.connection), begin_(io::monotonic_now()), shown_(begin_), news_(begin_), looked_(begin_), patience_(draw_wait_before_return()) {}
 
 void Vigil::leave(const std::string& why) {
   if (left_) return;
@@ -45,7 +45,7 @@ SeatEnd Vigil::keep() {
   if (keys_.interactive()) o_.line.note(o_.person.help());
   while (true) {
     // What is not there has a negative number, which is passed over.
-    pollfd files[] = {{o_.pump.finished_fd(), POLLIN, 0}, {o_.signals, POLLIN, 0}, {keys_.fd(), POLLIN, 0}, {coming_ ? coming_->done_fd() : -1, POLLIN, 0}};
+    pollfd files[] = {{o_.pump.finished_fd(), POLLIN, 0}, {o_.signals, POLLIN, 0}, {keys_.fd(), POLLIN, 0}, {coming_ ? coming_->done_fd() : -1, POLLIN, 0}, {asking_why_ ? asking_why_->done_fd() : -1, POLLIN, 0}};
     poll(files, std::size(files), kLookEveryMs);
     const ClientStatus status = o_.pump.status();
     if (files[0].revents != 0) {
@@ -65,13 +65,16 @@ SeatEnd Vigil::keep() {
     if (o_.plan.duration_s > 0 && seconds(now - begin_) > o_.plan.duration_s) leave("the time given by --duration is over: letting go");
     if (!left_)
       if (const auto end = see_server(status)) return *end;
+    see_stop(status);
     show(status);
   }
+  asking_why_.reset();
   if (o_.pump.device_lost()) return SeatEnd::kDeviceLost;
   const ClientStatus last = o_.pump.status();
   if (left_ || last.close_reason == wire::CloseReason::kLeaving) return SeatEnd::kLeft;
   if (last.close_reason == wire::CloseReason::kRemoved || last.close_reason == wire::CloseReason::kRevoked) {
-    trouble_ = last.close_reason == wire::CloseReason::kRemoved ? "the seat was taken away by somebody who may; ask him for a ticket"
+    const std::string why = last.close_reason == wire::CloseReason::kRemoved ? ask_why_gone(connection_.get(), own_.session) : "";
+    trouble_ = last.close_reason == wire::CloseReason::kRemoved ? "the seat was taken away by somebody who may; ask him for a ticket" + (why.empty() ? "" : ". The server says: " + why)
                                                                 : "this workstation was revoked on the server; ask its admin to enrol it anew";
     return SeatEnd::kSeatGone;
   }
@@ -136,6 +139,8 @@ std::optional<SeatEnd> Vigil::take_back() {
   const control::Welcome& welcome = back->given.welcome;
   o_.line.note(welcome.epoch > own_.epoch ? "the server was started anew and gave the seat back" : "the server gave the seat back");
   own_.epoch = welcome.epoch;
+  connection_ = back->given.connection;  // who still asks over the old one keeps it until then
+  stop_told_ = 0;
   own_.server = back->given.server;
   own_.secrets.insert(own_.secrets.begin(), welcome.resume_secret);
   if (own_.secrets.size() > kSecretsKept) own_.secrets.resize(kSecretsKept);
@@ -143,6 +148,18 @@ std::optional<SeatEnd> Vigil::take_back() {
   handed_over_ = io::monotonic_now();
   coming_.reset();
   return std::nullopt;
+}
+
+void Vigil::see_stop(const ClientStatus& status) {
+  if (asking_why_ && asking_why_->done()) {
+    const std::string& answer = asking_why_->answer();
+    if (!answer.empty()) o_.line.note(answer);
+    asking_why_.reset();
+  }
+  const bool stopped = status.session == wire::SessionState::kPaused || status.session == wire::SessionState::kStopped;
+  if (!stopped || status.closed || asking_why_ || status.stops == stop_told_) return;
+  stop_told_ = status.stops;
+  asking_why_ = std::make_unique<AskWhy>(connection_, own_.session);
 }
 
 void Vigil::show(ClientStatus status) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "client/app/ask_why.h"
 #include "client/app/attend.h"
 #include "client/app/client_status.h"
 #include "client/app/come_back.h"
@@ -47,6 +48,8 @@ class Vigil {
   [[nodiscard]] std::optional<SeatEnd> see_server(const ClientStatus& status);
   [[nodiscard]] std::optional<SeatEnd> take_back();
   void show(ClientStatus status);
+  /// Says who stopped the session, and why, once per stop.
+  void see_stop(const ClientStatus& status);
   /// The server said that it is about to be started anew.
   [[nodiscard]] static bool returns(const ClientStatus& status) noexcept {
     return status.closed && status.close_reason == wire::CloseReason::kServerReturns;
@@ -57,6 +60,9 @@ class Vigil {
   io::KeyReader keys_;
   OwnSeat own_;
   std::unique_ptr<ComeBack> coming_;
+  std::shared_ptr<trust::ControlClient> connection_;  ///< by which the seat was given last
+  std::unique_ptr<AskWhy> asking_why_;
+  std::uint32_t stop_told_ = 0;    ///< number of the stop that was asked about last
   std::string trouble_;            ///< why the seat is gone
   Time begin_, shown_, news_, looked_;  ///< news_: of the server, the last
   Time handed_over_{};             ///< the last new connection

@@ -24,6 +24,8 @@ class UsedTickets {
   [[nodiscard]] bool used(const Id16& ticket) const { return not_after_.contains(ticket); }
   /// @return nothing: it may be used now and is remembered; else kUsed or kBookFull
   [[nodiscard]] std::expected<void, TicketFault> use(const Ticket& ticket, std::int64_t now);
+  /// It is good again: nothing came of its use. In a file: a line of time 0 behind the other, which the next `prune` takes away.
+  void forget(const Id16& ticket) { not_after_.erase(ticket); }
   /// Forgets those that have expired. @return how many
   std::size_t prune(std::int64_t now);
 

@@ -25,7 +25,8 @@ using Admission = std::variant<control::Welcome, control::Refused>;
 
 /// Who decides about sessions and seats. All calls come from the control plane's thread; none may block. Answers may be given at once or
 /// later, from any thread, once, and not after the control plane's io_context is gone.
-/// Tickets: `ServerTrust::redeem` and `refusal_of`, from the control plane's thread, as late as possible: a ticket that was redeemed is used.
+/// Tickets: `ServerTrust::redeem` and `refusal_of`, from the control plane's thread, as late as possible: a ticket that was redeemed is used, until
+/// `ServerTrust::give_back` says that nothing came of it.
 class Admissions {
  public:
   virtual ~Admissions() = default;
@@ -43,7 +44,8 @@ class Admissions {
   virtual void command(const control::Welcome& standing, const WorkstationRow& workstation, const control::Body& command,
                        std::function<void(control::Body)> answer) = 0;
   /// The control connection of somebody who was welcomed is over. His seat lives on by its datagrams.
-  virtual void left(const control::Welcome& standing) = 0;
+  /// @param in_vain  whatever he ordered was refused, but looks: he may have mistaken a word or his role
+  virtual void left(const control::Welcome& standing, bool in_vain) = 0;
 };
 
 /// What a person is told of a ticket that was refused.

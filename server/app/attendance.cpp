@@ -1,8 +1,18 @@
 #include "server/app/attendance.h"
 
 #include "server/app/status.h"
+#include "server/stop_words.h"
 
 namespace tandem::server {
+
+namespace {
+
+std::string who_may(const SessionStatus& status, const SceneSpec& scene) {
+  const std::string who = who_ends(status.stop, scene, seats_heard(status));
+  return who.empty() ? "" : "; who may end it: " + who;
+}
+
+}  // namespace
 
 Attendance::News Attendance::look(Time now, const SessionStatus& status, const SceneSpec& scene) {
   using State = wire::SessionState;
@@ -34,8 +44,8 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (status.state == State::kRunning)
       news.notes.push_back({"running", "", state_ && state_ != State::kWaiting ? "the session runs again" : "the session runs"});
     if (status.state == State::kPaused)
-      news.notes.push_back({"paused", "", "PAUSED: all hands are let go; an instructor resumes (key r) or an operator (`tandem-client control`)"});
-    if (status.state == State::kStopped) news.notes.push_back({"stopped", "", "STOPPED: all hands are let go; an instructor resumes (key r) or an operator (`tandem-client control`)"});
+      news.notes.push_back({"paused", "", "PAUSED: all hands are let go" + who_may(status, scene)});
+    if (status.state == State::kStopped) news.notes.push_back({"stopped", "", "STOPPED: all hands are let go" + who_may(status, scene)});
     if (status.state == State::kPassive)
       news.notes.push_back({"passive", "", "PASSIVE: this machine is too busy to keep time (three ticks in a row more than 5 ms late); all hands are let go and come back by themselves", true});
     if (status.state == State::kHeld) news.notes.push_back({"held", "", "HELD: " + why_held(status, scene) + ", the tools are braked"});

@@ -78,6 +78,15 @@ std::shared_ptr<CheckpointMail> CheckpointBook::begin(KeptSession kept) {
   return pages_.emplace_back(std::make_shared<Page>(std::move(kept), wake_))->mail;
 }
 
+void CheckpointBook::send_away(const std::string& name, std::vector<std::array<std::byte, 32>> keys) {
+  {
+    const std::lock_guard lock{lock_};
+    for (const auto& page : pages_)
+      if (page->kept.name == name && !page->over) page->sent_away = keys;
+  }
+  wake();
+}
+
 void CheckpointBook::end(const std::string& name) {
   {
     const std::lock_guard lock{lock_};
@@ -132,7 +141,21 @@ void CheckpointBook::see_to(Page& page) {
     static_cast<void>(folder_.remove(file_of(page.kept.name)));
     return;
   }
-  if (Checkpoint newest; page.mail->pick_up(newest)) write(page, newest);
+  bool others = false;
+  {
+    const std::lock_guard lock{lock_};
+    if (auto newer = std::exchange(page.sent_away, std::nullopt)) {
+      page.kept.sent_away = std::move(*newer);
+      others = true;
+    }
+  }
+  const bool before = !page.written.empty();
+  if (others) page.written.clear();  // the same checkpoint is worth writing again
+  if (Checkpoint newest; page.mail->pick_up(newest)) {
+    write(page, newest);
+  } else if (others && before) {
+    write(page, Checkpoint{page.kept.checkpoint});
+  }
 }
 
 void CheckpointBook::write(Page& page, const Checkpoint& checkpoint) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <expected>
 #include <functional>
@@ -10,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "common/trust/io/state_folder.h"
 #include "server/app/checkpoint_mail.h"
@@ -41,6 +44,8 @@ class CheckpointBook {
   // ---- Any time, from one thread ----
   /// A session whose checkpoints shall be kept from now on. @param kept  everything but checkpoint and time
   [[nodiscard]] std::shared_ptr<CheckpointMail> begin(KeptSession kept);
+  /// Who is not let in by the session's code again: into its file with the next round. From any thread.
+  void send_away(const std::string& name, std::vector<std::array<std::byte, 32>> keys);
   /// It is over in an orderly way: its file goes.
   void end(const std::string& name);
   /// Writes what is newest and stops. Files stay.
@@ -54,6 +59,7 @@ class CheckpointBook {
     KeptSession kept;                       ///< as last written
     std::shared_ptr<CheckpointMail> mail;
     std::atomic<bool> over{false};
+    std::optional<std::vector<std::array<std::byte, 32>>> sent_away{};  ///< newer than `kept`'s; under the book's lock
     std::vector<std::byte> written{};       ///< of the checkpoint, as last written
     bool troubled = false, gone = false;
   };

@@ -187,9 +187,14 @@ void ControlConnection::admitted(const std::shared_ptr<JoinRequest>& request, Ad
 void ControlConnection::on_command(const control::Body& command) {
   plane_.note(ControlEvent::kCommand, address_, workstation_->name);
   must_be_over_in(plane_.limits_.frame_deadline);
+  busy_ = true;
   plane_.admissions_.command(*standing_, *workstation_, command, [weak = weak_from_this(), &context = plane_.context_](control::Body body) {
     asio::dispatch(context, [weak, body = std::move(body)]() mutable {
-      if (const auto self = weak.lock(); self && !self->finished_) self->answer(std::move(body));
+      const auto self = weak.lock();
+      if (!self || self->finished_) return;
+      self->busy_ = false;
+      self->acted_ = self->acted_ || !(std::holds_alternative<control::Refused>(body) || std::holds_alternative<control::Status>(body));
+      self->answer(std::move(body));
     });
   });
 }
@@ -214,6 +219,7 @@ void ControlConnection::refuse(Reason reason, std::string text, bool last, std::
 
 void ControlConnection::answer(control::Body body, bool last) {
   if (finished_ || writing_) return;  // the last word is on its way already
+  refused_ = refused_ || (standing_ && std::holds_alternative<control::Refused>(body));
   auto frame = control::encode({request_, std::move(body)});
   if (!frame) {  // ours, and beyond its bounds
     plane_.note(ControlEvent::kTrouble, address_, workstation_ ? workstation_->name : "", "an answer could not be written");
@@ -252,7 +258,7 @@ void ControlConnection::finish() {
   finished_ = true;
   const auto self = shared_from_this();
   stream_->close();
-  if (standing_) plane_.admissions_.left(*standing_);
+  if (standing_) plane_.admissions_.left(*standing_, refused_ && !acted_);
   if (pending_) {
     pending_ = false;
     plane_.no_longer_pending();

@@ -17,6 +17,8 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   ControlConnection(ControlPlane& plane, asio::ip::tcp::socket socket, const trust::Source& source, std::string address);
   void start();
   void stop();
+  /// Nothing is asked over it, and its client sits on a seat that does not need it.
+  [[nodiscard]] bool dispensable() const noexcept { return standing_ && !standing_->seat.empty() && !writing_ && !busy_ && !finished_; }
   /// Ends it, with a word, if its workstation was revoked.
   void look_for_revocation();
 
@@ -51,6 +53,8 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   trust::TokenBucket commands_, stops_, authority_;  ///< a stop waits for nothing else
   trust::TokenBucket complaints_{1, 1};              ///< about what his role may not, in the audit log
   std::uint32_t request_ = 0;
+  bool busy_ = false;                        ///< an order is being carried out
+  bool acted_ = false, refused_ = false;  ///< an order of his was carried out; one was not
   bool pending_ = true, finished_ = false, writing_ = false;
 };
 

@@ -75,7 +75,8 @@ std::expected<io::SocketAddress, std::string> ControlPlane::listen(const io::Soc
 }
 
 void ControlPlane::accept_next(Door& door) {
-  if (stopped_ || door.accepting || pending_ >= limits_.pending || connections_.size() >= limits_.connections) return;
+  if (stopped_ || (connections_.size() >= limits_.connections && !make_room())) return;
+  if (door.accepting || pending_ >= limits_.pending) return;  // to make room may have opened it again
   door.accepting = true;
   if (const Duration pause = accepts_.pause(clocks_.monotonic()); pause > Duration::zero()) {
     door.pause.expires_after(pause);
@@ -100,6 +101,16 @@ void ControlPlane::accept_next(Door& door) {
       if (!cancelled) accept_next(door);
     });
   });
+}
+
+bool ControlPlane::make_room() {
+  for (const auto& connection : connections_) {
+    if (!connection->dispensable()) continue;
+    const auto kept = connection;  // it leaves the set
+    kept->stop();
+    return true;
+  }
+  return false;
 }
 
 void ControlPlane::took(Door&, tcp::socket socket) {

@@ -98,6 +98,8 @@ class ControlPlane {
   void no_longer_pending();
   void ended(const std::shared_ptr<ControlConnection>& connection);
   void open_doors();
+  /// Ends the connection of somebody who sits on a seat: that lives by its datagrams. @return false: there is none
+  bool make_room();
 
   asio::io_context& context_;
   trust::ServerTrust& trust_;

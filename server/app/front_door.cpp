@@ -42,13 +42,34 @@ FrontDoor::FrontDoor(trust::ServerTrust trust, const Plan& plan)
         if (tell_) tell_(news);
       }),
       refresh_(thread_.context()),
-      revoked_(thread_.context()) {}
+      revoked_(thread_.context()) {
+  house_.tell_people(plan.say);
+}
 
 FrontDoor::~FrontDoor() { stop(); }
 
 std::string FrontDoor::problem_with_keys(const io::SocketAddress& listen, const std::string& state) {
   const auto trust = keys_of(listen, state);
   return trust ? std::string() : trust.error();
+}
+
+std::vector<std::string> FrontDoor::problems_with_keys(const io::SocketAddress& listen, const std::string& state) {
+  if (state.empty() && listen.loopback()) return {};
+  const auto path = trust::server_state_path(state);
+  if (!path) return {path.error()};
+  auto wrong = trust::ServerTrust::mistakes(*path);
+  if (!wrong.empty()) return wrong;
+  std::string who = problem_with_keys(listen, state);
+  return who.empty() ? std::vector<std::string>{} : std::vector{std::move(who)};
+}
+
+/// With a free port: a server that runs has the other.
+std::string FrontDoor::problem_with_address(const io::SocketAddress& listen) {
+  const std::string host = io::to_text(listen);
+  const auto free = io::parse_address(host.substr(0, host.rfind(':')) + ":0", 0);
+  if (!free) return free.error();
+  const auto socket = io::bind_udp(*free);
+  return socket ? std::string() : "this computer cannot listen there: " + socket.error() + "; use one of its own addresses (`ip address`), 0.0.0.0 for all, or 127.0.0.1";
 }
 
 std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Plan& plan) {
@@ -137,6 +158,7 @@ void FrontDoor::look_for_revoked_now_and_then() {
     if (cancelled) return;
     house_.look_for_revoked();
     plane_.look_for_revoked();
+    if (const auto grace = trust_.asked_to_end()) house_.drain_in(*grace, "`tandem-server stop` on this computer");
     look_for_revoked_now_and_then();
   });
 }

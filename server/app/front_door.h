@@ -24,6 +24,7 @@ class FrontDoor {
     io::SocketAddress listen;  ///< port 0: one that is free for UDP and TCP
     std::string state;         ///< as typed; empty: the usual place, or on loopback keys made on the spot
     std::function<void(const ControlNews&)> tell;  ///< on the door's thread
+    std::function<void(const std::string&)> say{};  ///< the same: what people ordered, for those who watch the server
     ControlLimits limits{};
     LoadLimits load{};                             ///< of a shard, above which nobody new gets a seat
     io::Steering steering{};                       ///< of datagrams to shards
@@ -31,6 +32,9 @@ class FrontDoor {
   };
   /// What is wrong with the keys and books for an address, before anything starts; empty: nothing.
   [[nodiscard]] static std::string problem_with_keys(const io::SocketAddress& listen, const std::string& state);
+  /// Everything that is wrong with them, for `--check`; and with the address: whether this computer has it. Nothing is opened or changed.
+  [[nodiscard]] static std::vector<std::string> problems_with_keys(const io::SocketAddress& listen, const std::string& state);
+  [[nodiscard]] static std::string problem_with_address(const io::SocketAddress& listen);
   /// @return the door, listening but not yet answering, or what is wrong and what to do about it
   [[nodiscard]] static std::expected<std::unique_ptr<FrontDoor>, std::string> open(const Plan& plan);
   ~FrontDoor();

@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "common/base/format.h"
+#include "common/base/printable.h"
 #include "common/io/clock.h"
 #include "common/io/realtime.h"
 #include "common/io/service_notice.h"
@@ -18,8 +20,10 @@
 #include "common/io/terminal.h"
 #include "server/app/checkpoint_book.h"
 #include "server/app/front_door.h"
+#include "server/app/notices.h"
 #include "server/app/relief_news.h"
 #include "server/app/shards.h"
+#include "server/audit_words.h"
 #include "server/report_summary.h"
 
 namespace tandem::server {
@@ -37,7 +41,7 @@ std::string client_command() {
 }
 
 /// On the door's thread: what somebody who runs a server wants to know of those who could not come in.
-void tell_log(const ControlNews& news) {
+void tell_log(Notices& notices, const ControlNews& news) {
   const bool trouble = news.event == ControlEvent::kTrouble;
   switch (news.event) {
     case ControlEvent::kNotEnrolled:
@@ -50,8 +54,8 @@ void tell_log(const ControlNews& news) {
       return;
   }
   if (io::logs_json()) return io::tell(trouble ? io::Level::kError : io::Level::kWarn, {.event = std::string(to_text(news.event)), .text = news.address + " " + news.workstation + ": " + news.detail});
-  if (trouble) return spdlog::error("{} {}: {}", news.address, news.workstation, news.detail);
-  spdlog::warn("{} {}: {} {}", news.address, news.workstation, to_text(news.event), news.detail);
+  const std::string who = news.address + " " + news.workstation + ": ", what = trouble ? "" : std::string(to_text(news.event)) + " ";
+  notices.add(trouble ? Notices::Weight::kError : Notices::Weight::kWarning, who + what + printable(news.detail));
 }
 
 std::vector<double> tick_rates(const HostPlan& plan) {
@@ -61,9 +65,9 @@ std::vector<double> tick_rates(const HostPlan& plan) {
 }
 
 /// On the book's thread.
-void tell_trouble(const std::string& what) {
+void tell_trouble(Notices& notices, const std::string& what) {
   if (io::logs_json()) return io::tell(io::Level::kError, {.event = "checkpoint_trouble", .text = what});
-  spdlog::error("checkpoint: {}", what);
+  notices.add(Notices::Weight::kError, "checkpoint: " + what);
 }
 
 /// One server process at work.
@@ -85,6 +89,7 @@ class Host {
     std::fflush(people());
     io::notify_service("READY=1");
     while (!runs_.empty()) look();
+    tell_notices();
     if (book_) book_->stop();
     line_.clear();
     io::tell(io::Level::kInfo, {.event = "stopped"});
@@ -103,7 +108,10 @@ class Host {
   }
 
   int open() {
-    FrontDoor::Plan door{plan_.listen, plan_.state, tell_log};
+    FrontDoor::Plan door{plan_.listen, plan_.state, [this](const ControlNews& news) { tell_log(notices_, news); }};
+    door.say = [this](const std::string& line) {
+      if (!io::logs_json()) notices_.add(Notices::Weight::kNote, line);
+    };
     door.limits = plan_.limits;
     door.load = plan_.load;
     door.steering = shards_.steering();
@@ -139,7 +147,7 @@ class Host {
   /// With keys made on the spot a port that was chosen for us will be another one next time: nobody could come back.
   std::string open_book() {
     if (door_->throw_away() && plan_.listen.port() == 0) return {};
-    auto opened = CheckpointBook::open(door_->folder(), door_->throw_away() ? io::to_text(plan_.listen) + "-" : "", tell_trouble);
+    auto opened = CheckpointBook::open(door_->folder(), door_->throw_away() ? io::to_text(plan_.listen) + "-" : "", [this](const std::string& what) { tell_trouble(notices_, what); });
     if (!opened) return opened.error();
     book_ = std::move(*opened);
     return {};
@@ -157,7 +165,7 @@ class Host {
     std::string text = format("session %s GOES ON where its server ended %lld s ago: at %.1f s, epoch %llu", name.c_str(),
                               static_cast<long long>(std::max<std::int64_t>(0, trust::wall_seconds() - left.kept->written_s)), from.session_tick / r.plan().scene.tick_hz,
                               static_cast<unsigned long long>(r.epoch()));
-    if (from.begun) text += "; it waits until the instructors and all who led are back, or an instructor goes on without (key r)";
+    if (from.begun) text += "; it waits until the instructors and all who led are back, or an instructor (key r) or operator (`tandem-client control resume`) goes on without";
     if (from.stop != StopLane::Level::kNone) text += "; somebody had stopped it, and it stays so until an instructor or operator resumes";
     if (!io::logs_json()) line_.note(text + (plan_.returns ? "" : "; --fresh begins anew"));
     io::tell(io::Level::kInfo, {.event = "session_restored", .session = name, .tick = from.session_tick, .text = text});
@@ -165,14 +173,16 @@ class Host {
 
   std::expected<std::unique_ptr<SessionRun>, int> make(const SessionPlan& plan, std::size_t slot, std::uint64_t epoch, const KeptSession* kept = nullptr) {
     auto made = SessionRun::open(plan, static_cast<std::uint8_t>(slot), epoch, !door_->throw_away() && !plan.tickets_only, kept);
-    if (made && book_) (*made)->hosted().keep_in(book_->begin({{}, (*made)->id(), plan.name, (*made)->code(), 0}), (*made)->epoch());
+    if (made && book_) (*made)->hosted().keep_in(book_->begin({{}, (*made)->id(), plan.name, (*made)->code(), 0, kept != nullptr ? kept->sent_away : decltype(kept->sent_away){}}), (*made)->epoch());
     if (made) return std::move(*made);
     for (const std::string& text : made.error().texts) trouble(text);
     return std::unexpected(made.error().code);
   }
 
   House::Opening opening_of(SessionRun& r) {
-    return {r.plan().name, r.id(), r.code(), r.epoch(), &r.hosted(), &shards_.of_slot(r.hosted().slot()), r.kept(), r.kept() != nullptr ? r.back_until() : Time{}};
+    House::Opening o{r.plan().name, r.id(), r.code(), r.epoch(), &r.hosted(), &shards_.of_slot(r.hosted().slot()), r.kept(), {}, r.kept() != nullptr ? r.back_until() : Time{}};
+    if (book_) o.sent_away = [book = book_.get(), name = r.plan().name](const auto& keys) { book->send_away(name, keys); };
+    return o;
   }
 
   void announce(const SessionRun& r) {
@@ -201,7 +211,9 @@ class Host {
     for (const auto& r : runs_) files.push_back({r->hosted().over_fd(), POLLIN, 0});
     if (poll(files.data(), files.size(), kLookEveryMs) > 0 && files[0].revents != 0) take_signal();
     const Time now = io::monotonic_now();
-    if (const auto due = door_->drain_due(); due && !drain_began_ && now >= *due) drain("drained by an operator");
+    tell_notices();
+    const auto due = door_->drain_due();
+    if (due && !drain_began_ && now >= *due) drain("drained by an operator");
     if (drain_began_ && now - *drain_began_ > kDrainMax) leave_at_once("the sessions did not end within 3 s");
     feed_watchdog();
     for (const ReliefNews::Note& note : relief_.look(shards_.all())) {
@@ -217,9 +229,19 @@ class Host {
     }
     if (now - shown_ < std::chrono::milliseconds(line_.interval_ms()) || drain_began_) return;
     shown_ = now;
-    std::string text;
+    std::string text = due ? format("DRAINING, %.0f s left", std::max(0.0, std::ceil(seconds(*due - now)))) : "";
     for (const auto& r : runs_) text += (text.empty() ? "" : " || ") + prefix(*r) + status_line(r->hosted().status(), r->plan().scene);
     line_.show(text);
+  }
+
+  void tell_notices() {
+    for (const Notices::Line& line : notices_.take()) {
+      if (line.weight == Notices::Weight::kNote) line_.note(line.text);
+      if (line.weight == Notices::Weight::kWarning) line_.warn(line.text);
+      if (line.weight != Notices::Weight::kError) continue;
+      line_.clear();
+      spdlog::error(line.text);
+    }
   }
 
   void take_signal() {
@@ -278,13 +300,7 @@ class Host {
         events.pop();
         continue;
       }
-      const auto& seats = r.plan().scene.seats;
-      const std::string who = e->seat < seats.size() ? seats[e->seat].name : e->seat == AuditEvent::kTimeline ? "timeline" : e->seat == AuditEvent::kControlPlane ? "console" : "session";
-      std::string detail = format("%s tick %u", who.c_str(), e->tick);
-      if (e->version > 0) detail += format(" version %u", e->version);
-      for (std::size_t i = 0; i < e->masters; ++i) detail += format("%s %.3f to %.3f", i == 0 ? ": " : ",", e->before[i], e->after[i]);
-      if (e->party < seats.size()) detail += "; the link of " + seats[e->party].name + " is too old";
-      door_->audit(to_text(e->what), r.plan().name, std::move(detail));
+      door_->audit(to_text(e->what), r.plan().name, audit_words(*e, r.plan().scene));
       events.pop();
     }
   }
@@ -299,6 +315,7 @@ class Host {
     }
     const Attendance::News news = r.attendance.look(now, status, r.plan().scene);
     for (const Attendance::Note& note : news.notes) tell(r, status, note);
+    if (status.state == wire::SessionState::kWaiting) r.waited_for = waiting_for(status, r.plan().scene);
     if (r.end) return;
     if (news.all_lost) {
       tell(r, status, {"peers_lost", "", "peers lost: everybody has been gone for 10 s; the session ends", true});
@@ -335,7 +352,7 @@ class Host {
     const SessionRun::Verdict verdict = r.finish();
     if (!plan_.quiet && !io::logs_json()) summarize(out, verdict.report, r);
     io::tell(verdict.report.passed ? io::Level::kInfo : io::Level::kError,
-             {.event = "session_over", .session = r.plan().name, .text = format("%s, %.1f s", verdict.report.passed ? "pass" : "FAIL", verdict.report.duration_s)});
+             {.event = "session_over", .session = r.plan().name, .text = r.how_it_went(verdict.report)});
     if (!verdict.problem.empty()) trouble(verdict.problem);
     if (!r.plan().restart || drain_began_ || door_->drain_due()) {
       code_ = std::max(code_, verdict.code);
@@ -355,9 +372,9 @@ class Host {
 
   void summarize(std::FILE* out, const RunReport& report, SessionRun& r) {
     line_.clear();
-    std::fprintf(out, "%s%s: %s, %.1f s, ticks more than 1 ms late on this machine: %llu\n", prefix(r).c_str(), report.scenario.c_str(), report.passed ? "pass" : "FAIL", report.duration_s,
+    std::fprintf(out, "%s%s: %s, ticks more than 1 ms late on this machine: %llu\n", prefix(r).c_str(), report.scenario.c_str(), r.how_it_went(report).c_str(),
                  static_cast<unsigned long long>(r.hosted().final_status().machine.late_ticks));
-    std::fputs(report_summary(report, r.plan().scene).c_str(), out);
+    if (report.duration_s > 0) std::fputs(report_summary(report, r.plan().scene).c_str(), out);
     std::fflush(out);
   }
 
@@ -365,6 +382,7 @@ class Host {
   io::Fd signals_;
   io::AwakeProcessor awake_;
   Shards shards_;
+  Notices notices_;
   std::unique_ptr<FrontDoor> door_;
   std::unique_ptr<CheckpointBook> book_;  ///< null: nobody could come back anyway
   std::vector<std::unique_ptr<SessionRun>> runs_;  ///< those that are not over, or being followed up

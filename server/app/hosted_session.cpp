@@ -121,6 +121,7 @@ void HostedSession::look_at_seat(std::size_t i, Time now) noexcept {
 void HostedSession::publish(Time now, const MachineStatus& machine) noexcept {
   picture_.state = session_.state();
   picture_.time = session_.time();
+  picture_.stop = session_.stop_lane();
   picture_.machine = machine;
   picture_.stray = session_.stray();
   picture_.violations = violations_.passed() ? 0 : 1;

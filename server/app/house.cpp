@@ -223,6 +223,7 @@ std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std:
     const auto redeemed = trust_.redeem(ticket->bytes, use);
     if (!redeemed) return refusal_of(redeemed.error());
     force_scale = static_cast<double>(redeemed->force_scale) / trust::Ticket::kFullForce;
+    room.claims[seat].ticket = redeemed->ticket_id;
     return std::nullopt;
   }
   if (const auto* code = std::get_if<control::CodeCredential>(&request.hello.credential)) {
@@ -287,6 +288,7 @@ void House::seated(const JoinRequest& request, const control::Welcome& welcome, 
   } else {
     const std::size_t seat = place_of(welcome.server_cid) - std::size_t{1};
     Claim& claim = found->claims[seat];
+    claim.ticket.reset();  // used
     claim.by = request.workstation;
     claim.cid = welcome.server_cid;
     order.what = Order::What::kAdmit;
@@ -304,7 +306,12 @@ void House::seated(const JoinRequest& request, const control::Welcome& welcome, 
 void House::abandoned(const control::Welcome& welcome) {
   Room* const found = room(welcome.session_id);
   if (found == nullptr) return;
-  if (!welcome.seat.empty()) found->claims[place_of(welcome.server_cid) - std::size_t{1}].being_given = false;
+  if (!welcome.seat.empty()) {
+    Claim& claim = found->claims[place_of(welcome.server_cid) - std::size_t{1}];
+    claim.being_given = false;
+    if (const auto ticket = std::exchange(claim.ticket, std::nullopt)) give_back(*ticket, *found);
+  }
+  if (welcome.seat.empty() && place_of(welcome.server_cid) == 0) left(welcome, true);
   if (place_of(welcome.server_cid) > kSeatsMax) --found->visits_being_given;
 }
 
@@ -354,7 +361,5 @@ std::vector<const Shard*> House::shards() const {
   for (const Watched& w : watched_) all.push_back(w.shard);
   return all;
 }
-
-void House::left(const control::Welcome&) {}
 
 }  // namespace tandem::server

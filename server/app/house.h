@@ -4,6 +4,7 @@
 #include <asio/posix/stream_descriptor.hpp>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <list>
 #include <memory>
 #include <optional>
@@ -38,6 +39,7 @@ class House final : public Admissions {
     HostedSession* session = nullptr;  ///< lives until it is over
     Shard* shard = nullptr;            ///< serves it already, or is about to
     const KeptSession* kept = nullptr; ///< what it went on from, read by `open`; null: it is new
+    std::function<void(const std::vector<std::array<std::byte, 32>>&)> sent_away{};  ///< hears of all who were sent away, when one more is; null: nobody keeps it
     Time back_until{};                 ///< who sat there may come back so long  @pre kept
   };
   void open(Opening opening);
@@ -49,8 +51,14 @@ class House final : public Admissions {
   void end(const trust::Id16& id);
   /// No newcomers from now on.
   void drain() noexcept { draining_ = true; }
+  /// No newcomers from now on, and all hands are let go in `grace_s`. @param who  ordered it
+  void drain_in(std::uint32_t grace_s, const std::string& who);
+  /// Hears, on the control plane's thread, what people ordered, one line each. Before the context runs.
+  void tell_people(std::function<void(const std::string&)> say) { say_ = std::move(say); }
   /// When all hands are to be let go, as an operator ordered; nothing: nobody did. From any thread.
   [[nodiscard]] std::optional<Time> drain_due() const noexcept;
+  /// How far that is.
+  [[nodiscard]] control::StatusDrain drain_progress() const;
   /// Lets go, gently, of the seats and visits of workstations that are not in the book any more.
   void look_for_revoked();
 
@@ -71,12 +79,13 @@ class House final : public Admissions {
   [[nodiscard]] control::SessionList list(const WorkstationRow& workstation) override;
   void command(const control::Welcome& standing, const WorkstationRow& workstation, const control::Body& command,
                std::function<void(control::Body)> answer) override;
-  void left(const control::Welcome& standing) override;
+  void left(const control::Welcome& standing, bool in_vain) override;
 
  private:
   /// What is known of a seat beside the session: who may come back to it, and whether somebody is just being let in.
   struct Claim {
     bool being_given = false;
+    std::optional<trust::Id16> ticket{};  ///< of who is just being let in
     std::optional<WorkstationRow> by{};  ///< who sits there, or sat there last
     std::uint32_t cid = 0;               ///< of his datagrams
     std::array<std::byte, 32> resume_hash{};
@@ -86,11 +95,23 @@ class House final : public Admissions {
     double force_scale = 1;           ///< of whom the hash belongs to, as his ticket allowed
     double offered_scale = 1;         ///< of who is just being let in
     std::optional<Time> back_until{}; ///< after a restart, until its owner is back; else the session knows how long he is silent
+    std::uint32_t lost_cid = 0;       ///< of whom the seat was taken from last
+    std::string lost_why{};           ///< by whom, and his words
     Time held_until{};                ///< after a restart: nobody else gets it before
+  };
+  /// What the newest stop's maker at a console said.
+  struct StopWords {
+    std::uint32_t number = 0;
+    std::string workstation{}, why{};
   };
   struct Visit {
     std::optional<WorkstationRow> by{};
     std::uint32_t cid = 0;
+  };
+  /// The ticket of somebody without a seat, until his connection is over. His Welcome's secret tells him from others.
+  struct Standing {
+    Secret<32> who;
+    trust::Id16 ticket{};
   };
   struct Room {
     Opening opening;
@@ -101,6 +122,8 @@ class House final : public Admissions {
     std::size_t visits_being_given = 0;
     std::array<Visit, Visitors::kMax> visits{};              ///< who was let in last, by place
     std::vector<std::array<std::byte, 32>> sent_away{};      ///< keys of workstations whose person was removed
+    StopWords words{};
+    std::vector<Standing> standing{};
     trust::TokenBucket complaints{1, 5};                     ///< of what roles may not, in the audit log
   };
   struct Watched {
@@ -114,9 +137,11 @@ class House final : public Admissions {
   void stand(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer);
   void visit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
   static void visited(Room& room, const Order& order, const WorkstationRow& by, std::uint32_t cid);
-  void wish_drain(const control::Drain& drain, const std::string& who);
+  void give_back(const trust::Id16& ticket, const Room& room);
   void write_down(Room& room, const std::string& who, const std::string& why, const Command& command, const Outcome& outcome);
-  static void send_away(Room& room, std::size_t seat);
+  [[nodiscard]] control::Status status_of(const Room& room, const control::Welcome& standing, const Outcome& outcome) const;
+  [[nodiscard]] static std::string why_gone(const Room& room, const control::Welcome& standing);
+  static void send_away(Room& room, std::size_t seat, std::string how);
   [[nodiscard]] static bool was_sent_away(const Room& room, const WorkstationRow& workstation);
   void let_go(Room& room, std::size_t seat);
   void sit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
@@ -146,6 +171,7 @@ class House final : public Admissions {
   std::list<Watched> watched_;
   std::list<Order> orders_;  ///< under way
   std::uint8_t visitors_ = 0;
+  std::function<void(const std::string&)> say_{};
   std::atomic<std::int64_t> drain_due_{0};  ///< [ns] of the monotonic clock; 0: not ordered
 };
 

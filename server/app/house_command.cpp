@@ -1,12 +1,15 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/base/format.h"
+#include "common/base/printable.h"
 #include "common/io/clock.h"
 #include "common/io/log.h"
 #include "server/app/house.h"
 #include "server/connection_id.h"
 #include "server/roles.h"
+#include "server/stop_words.h"
 
 /// People at control connections: those without a seat, what they order, and what is taken from those who are sent away.
 namespace tandem::server {
@@ -48,12 +51,16 @@ Refused refusal_of(const Command& command, const Outcome& outcome, const SceneSp
       if (command.what == Command::What::kSetAuthority)
         return {Reason::kNotAllowed, allowed(command.who, Right::kAuthority) == Grant::kYes ? "who may never drive (evaluators, observers) gets no weight"
                                                                                              : "you may give weight of your own back to an instructor, nothing else", 0};
+      if (command.what == Command::What::kResume && outcome.lane.on())
+        return {Reason::kNotAllowed, "you may not end this stop; who may: " + who_ends(outcome.lane, scene, outcome.there), 0};
       return {Reason::kNotAllowed, "your role may not do this", 0};
     case Result::kGone:
-      return {Reason::kNotAllowed, "the seat that this connection joined for is not yours any more; join again", 0};
+      break;  // told by who knows why
     case Result::kOutdated:
       if (command.number > outcome.stops) return {Reason::kOutdated, format("there is no stop %u; the newest is stop %u", command.number, outcome.stops), 0};
       return {Reason::kOutdated, format("stop %u is not the newest: stop %u came since. Look why, then resume that one", command.number, outcome.stops), 0};
+    case Result::kOthers:
+      return {Reason::kNotAllowed, "your pause is taken back; still paused: " + who_ends(outcome.lane, scene, outcome.there) + " ends it", 0};
     case Result::kNothing:
       if (command.what == Command::What::kRemove) return {Reason::kNoSeat, "nobody sits on " + scene.seats[command.whom].name, 0};
       return {Reason::kOutdated, "nothing is stopped: there is nothing to resume", 0};
@@ -70,7 +77,10 @@ Refused refusal_of(const Command& command, const Outcome& outcome, const SceneSp
 
 std::vector<double> weights_of(const Outcome& outcome, std::size_t tool) { return {outcome.alpha[tool].begin(), outcome.alpha[tool].begin() + outcome.masters}; }
 
-control::Status status_of(const control::Welcome& standing, const Outcome& outcome, const SceneSpec& scene, bool draining) {
+}  // namespace
+
+control::Status House::status_of(const Room& room, const control::Welcome& standing, const Outcome& outcome) const {
+  const SceneSpec& scene = room.opening.session->scene();
   control::Status status;
   status.session_id = standing.session_id;
   status.name = standing.session_name;
@@ -78,21 +88,30 @@ control::Status status_of(const control::Welcome& standing, const Outcome& outco
   status.stops = outcome.stops;
   status.authority_version = outcome.authority_version;
   status.time_s = outcome.time;
-  status.draining = draining;
+  status.draining = draining_;
+  if (draining_) status.drain = drain_progress();
   static_assert(static_cast<std::uint32_t>(Rung::kNewcomers) == control::kShedMax);
   status.shed = static_cast<std::uint32_t>(outcome.shed);
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     status.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), outcome.seats[i].taken, outcome.seats[i].heard, i < outcome.masters});
   for (std::size_t j = 0; j < outcome.tools; ++j) status.tools.push_back({scene.tools[j].name, weights_of(outcome, j)});
+  status.stop = newest_stop(outcome.lane, scene, outcome.stopped_ago, outcome.there);
+  if (!status.stop) return status;
+  if (status.stop->seat.empty() && room.words.number == status.stop->number && status.stop->kind != control::StopKind::kFault) status.stop->workstation = room.words.workstation;
+  if (room.words.number == status.stop->number) status.stop->why = room.words.why;
+  const std::uint8_t seat = standing.seat.empty() ? AuditEvent::kNoSeat : static_cast<std::uint8_t>(place_of(standing.server_cid) - 1);
+  status.stop->yours = outcome.lane.on() && outcome.lane.may_end(standing.role, seat);
   return status;
 }
 
-control::Body answer_to(const Command& command, const Outcome& outcome, const control::Welcome& standing, const SceneSpec& scene, bool draining) {
+namespace {
+
+
+control::Body answer_to(const Command& command, const Outcome& outcome, const SceneSpec& scene) {
   const bool done = outcome.result == Result::kDone;
   if (command.what == Command::What::kSetAuthority && (done || outcome.result == Result::kOutdated))
     return control::AuthorityAnswer{done, command.wish.tool, outcome.authority_version, weights_of(outcome, command.wish.tool)};
   if (!done) return refusal_of(command, outcome, scene);
-  if (command.what == Command::What::kLook) return status_of(standing, outcome, scene, draining);
   return control::Done{};
 }
 
@@ -114,7 +133,23 @@ void House::stand(Room& room, const JoinRequest& request, const std::function<vo
   control::Welcome w = welcome(room, 0, true, 0, request.hello.has_aes, 1);  // place 0 is nobody's: no datagram opens under these keys
   w.role = redeemed->role;
   w.setup.clear();
+  room.standing.push_back({w.resume_secret, redeemed->ticket_id});
   answer(std::move(w));
+}
+
+void House::give_back(const trust::Id16& ticket, const Room& room) {
+  const std::string problem = trust_.give_back(ticket);
+  trust_.audit(trust::wall_seconds(), "ticket_unused", room.opening.name, trust::to_hex(ticket) + (problem.empty() ? "" : ": " + problem));
+}
+
+/// Who only may look got what his ticket is for.
+void House::left(const control::Welcome& standing, bool in_vain) {
+  Room* const found = room(standing.session_id);
+  if (found == nullptr) return;
+  const auto it = std::ranges::find_if(found->standing, [&](const Standing& s) { return equal_secret(s.who.bytes, standing.resume_secret.bytes); });
+  if (it == found->standing.end()) return;
+  if (in_vain && allowed(standing.role, Right::kStopSession) != Grant::kNo) give_back(it->ticket, *found);
+  found->standing.erase(it);
 }
 
 // ---- Those who judge their link -----------------------------------------------------------------------------------------------
@@ -149,7 +184,7 @@ void House::command(const control::Welcome& standing, const WorkstationRow& work
                     std::function<void(control::Body)> answer) {
   const std::string who = workstation.name + " (" + std::string(to_text(standing.role)) + (standing.seat.empty() ? "" : ", seat " + standing.seat) + ")";
   if (const auto* drain = std::get_if<control::Drain>(&body)) {
-    wish_drain(*drain, who);
+    drain_in(drain->grace_s, who);
     return answer(control::Done{});
   }
   const control::Id* const id = session_of(body);
@@ -173,8 +208,9 @@ void House::command(const control::Welcome& standing, const WorkstationRow& work
   if (const auto* stop = std::get_if<control::StopSession>(&body)) {
     c.what = Command::What::kStop;
     why = stop->why;
-  } else if (std::holds_alternative<control::PauseSession>(body)) {
+  } else if (const auto* pause = std::get_if<control::PauseSession>(&body)) {
     c.what = Command::What::kPause;
+    why = pause->why;
   } else if (const auto* resume = std::get_if<control::ResumeSession>(&body)) {
     c.what = Command::What::kResume;
     c.number = resume->stop;
@@ -191,12 +227,16 @@ void House::command(const control::Welcome& standing, const WorkstationRow& work
     c.whom = static_cast<std::uint8_t>(*seat);
     why = remove->why;
   }
-  order.done = [this, &room, &scene, standing, who, why, answer = std::move(answer)](Order& carried) {
+  order.done = [this, &room, &scene, standing, who, why, name = workstation.name, answer = std::move(answer)](Order& carried) {
     if (carried.result == JoinResult::kSessionOver) return answer(Refused{Reason::kSessionOver, "this session is over", 0});
     const Command& asked = carried.command;
-    if (asked.what == Command::What::kRemove && carried.outcome.result == Result::kDone) send_away(room, asked.whom);
+    const bool done = carried.outcome.result == Result::kDone;
+    if (done && (asked.what == Command::What::kStop || asked.what == Command::What::kPause)) room.words = {carried.outcome.stops, name, why};
+    if (done && asked.what == Command::What::kRemove) send_away(room, asked.whom, "removed by " + who + (why.empty() ? "" : ": " + why));
     write_down(room, who, why, asked, carried.outcome);
-    answer(answer_to(asked, carried.outcome, standing, scene, draining_));
+    if (done && asked.what == Command::What::kLook) return answer(status_of(room, standing, carried.outcome));
+    if (carried.outcome.result == Result::kGone && !standing.seat.empty()) return answer(Refused{Reason::kNotAllowed, why_gone(room, standing), 0});
+    answer(answer_to(asked, carried.outcome, scene));
   };
   post(room, std::move(order));
 }
@@ -219,16 +259,33 @@ void House::write_down(Room& room, const std::string& who, const std::string& wh
   const char* const event = forbidden ? "forbidden" : event_of(c.what);
   io::tell(forbidden ? io::Level::kWarn : io::Level::kInfo, {.event = event, .session = room.opening.name, .tick = outcome.tick, .text = detail});
   trust_.audit(trust::wall_seconds(), event, room.opening.name, detail);
+  if (!say_ || forbidden || c.what == Command::What::kSetAuthority) return;
+  std::string words = c.what == Command::What::kRemove ? scene.seats[c.whom].name + " REMOVED" : c.what == Command::What::kResume ? "RESUMED" : c.what == Command::What::kPause ? "PAUSED" : "STOPPED";
+  words += " by " + who + (why.empty() ? "" : ": " + printable(why));
+  say_(rooms_.size() == 1 ? words : room.opening.name + ": " + words);
 }
 
-void House::wish_drain(const control::Drain& drain, const std::string& who) {
+void House::drain_in(std::uint32_t grace_s, const std::string& who) {
   draining_ = true;
-  const std::int64_t due = (io::monotonic_now() + std::chrono::seconds(drain.grace_s)).time_since_epoch().count();
+  const std::int64_t due = (io::monotonic_now() + std::chrono::seconds(grace_s)).time_since_epoch().count();
   const std::int64_t before = drain_due_.load(std::memory_order_relaxed);
   if (before == 0 || due < before) drain_due_.store(due, std::memory_order_relaxed);
-  const std::string detail = who + format(" in %u s", drain.grace_s);
+  const std::string detail = who + format(" in %u s", grace_s);
+  if (say_) say_(format("DRAINING: nobody new comes in, and all hands are let go in %u s; ordered by ", grace_s) + who);
   io::tell(io::Level::kInfo, {.event = "drain", .text = detail});
   trust_.audit(trust::wall_seconds(), "drain", "", detail);
+}
+
+control::StatusDrain House::drain_progress() const {
+  control::StatusDrain drain;
+  if (const auto due = drain_due()) drain.left_s = static_cast<std::uint32_t>(std::max(0.0, std::ceil(seconds(*due - io::monotonic_now()))));
+  for (const Room& r : rooms_) {
+    if (r.gone || r.opening.session->over()) continue;
+    ++drain.sessions;
+    const SessionStatus status = r.opening.session->status();
+    for (std::size_t i = 0; i < r.opening.session->scene().seats.size(); ++i) drain.people += status.seats[i].taken ? 1 : 0;
+  }
+  return drain;
 }
 
 std::optional<Time> House::drain_due() const noexcept {
@@ -239,14 +296,27 @@ std::optional<Time> House::drain_due() const noexcept {
 // ---- Who is sent away ---------------------------------------------------------------------------------------------------------
 
 /// His secret is good for nothing any more, and the session's code does not let this workstation in again.
-void House::send_away(Room& room, std::size_t seat) {
+void House::send_away(Room& room, std::size_t seat, std::string how) {
   Claim& claim = room.claims[seat];
+  claim.lost_cid = claim.cid;
+  claim.lost_why = std::move(how);
   claim.resumable = false;
-  if (claim.by) room.sent_away.push_back(claim.by->spki);
-  claim.by.reset();
+  const auto by = std::exchange(claim.by, std::nullopt);
+  if (!by || was_sent_away(room, *by)) return;
+  room.sent_away.push_back(by->spki);
+  if (room.opening.sent_away) room.opening.sent_away(room.sent_away);
 }
 
-bool House::was_sent_away(const Room& room, const WorkstationRow& workstation) { return std::ranges::find(room.sent_away, workstation.spki) != room.sent_away.end(); }
+/// Of somebody whose seat is not his any more.
+std::string House::why_gone(const Room& room, const control::Welcome& standing) {
+  const Claim& claim = room.claims[place_of(standing.server_cid) - std::size_t{1}];
+  const std::string how = claim.lost_cid == standing.server_cid && !claim.lost_why.empty() ? " (" + claim.lost_why + ")" : "";
+  return cut_to("the seat that this connection joined for is not yours any more" + how, control::kTextMax);
+}
+
+bool House::was_sent_away(const Room& room, const WorkstationRow& workstation) {
+  return room.sent_away.size() >= kSentAwayMax || std::ranges::find(room.sent_away, workstation.spki) != room.sent_away.end();
+}
 
 void House::look_for_revoked() {
   const auto book = trust_.workstations();

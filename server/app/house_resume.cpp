@@ -13,6 +13,7 @@ constexpr Duration kHeldAfterRestart = std::chrono::seconds(2);
 void House::remember(Room& room) {
   if (room.opening.kept == nullptr) return;
   const Checkpoint& from = room.opening.kept->checkpoint;
+  room.sent_away = room.opening.kept->sent_away;
   for (std::size_t i = 0; i < room.claims.size(); ++i) {
     Claim& claim = room.claims[i];
     claim.resume_hash = from.seats[i].resume;

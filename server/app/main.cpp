@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   tandem::server::add_run_command(app, action);
   tandem::server::add_serve_command(app, action);
   tandem::server::add_sessions_command(app, action);
+  tandem::server::add_stop_command(app, action);
   tandem::server::add_scenes_command(app, action);
   tandem::server::add_init_command(app, action);
   tandem::server::add_enroll_command(app, action);

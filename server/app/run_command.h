@@ -9,6 +9,7 @@ namespace tandem::server {
 void add_run_command(CLI::App& root, std::function<int()>& action);
 void add_serve_command(CLI::App& root, std::function<int()>& action);
 void add_sessions_command(CLI::App& root, std::function<int()>& action);
+void add_stop_command(CLI::App& root, std::function<int()>& action);
 void add_scenes_command(CLI::App& root, std::function<int()>& action);
 
 }  // namespace tandem::server

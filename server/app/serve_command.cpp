@@ -50,6 +50,7 @@ SessionPlan plan_from(const ServerConfigSpec& config, const ConfiguredSessionSpe
   out.tickets_only = in.tickets_only;
   out.restart = in.restart;
   out.reports = beside(config, config.reports.text);
+  if (in.scene.text.empty()) return out;  // told already
   if (auto scene = load_scene(scene_file(config, in.scene.text))) {
     out.scene = std::move(*scene);
   } else {
@@ -69,13 +70,16 @@ HostPlan understand(const ServerConfigSpec& config, InputErrors& errors) {
   plan.state = beside(config, config.state.text);
   if (const auto listen = io::parse_address(config.listen.text, 0)) {
     plan.listen = *listen;
-    if (const std::string problem = FrontDoor::problem_with_keys(*listen, plan.state); !problem.empty()) errors.push_back(config.listen.error(config.file, problem));
-  } else {
+    if (const std::string problem = FrontDoor::problem_with_address(*listen); !problem.empty()) errors.push_back(config.listen.error(config.file, problem));
+    const PlacedText& keys = config.state.text.empty() ? config.listen : config.state;
+    for (const std::string& problem : FrontDoor::problems_with_keys(*listen, plan.state)) errors.push_back(keys.error(config.file, problem));
+  } else if (!config.listen.text.empty()) {
     errors.push_back(config.listen.error(config.file, listen.error()));
   }
   if (!config.metrics.text.empty()) {
     if (const auto metrics = io::parse_address(config.metrics.text, 0)) {
       plan.metrics = *metrics;
+      if (const std::string problem = FrontDoor::problem_with_address(*metrics); !problem.empty()) errors.push_back(config.metrics.error(config.file, problem));
     } else {
       errors.push_back(config.metrics.error(config.file, metrics.error()));
     }
@@ -102,10 +106,11 @@ int refuse(const InputErrors& errors) {
 int serve_command(const ServeArguments& arguments) {
   const auto text = read_text_file(arguments.config);
   if (!text) return refuse(text.error());
-  const auto config = parse_server_config(*text, arguments.config);
-  if (!config) return refuse(config.error());
-  InputErrors errors;
-  HostPlan plan = understand(*config, errors);
+  InputErrors errors, more;
+  const auto config = read_server_config(*text, arguments.config, errors);
+  if (!config) return refuse(errors);
+  HostPlan plan = understand(*config, more);  // whatever is wrong so far: people learn all their mistakes at once
+  errors.insert(errors.end(), more.begin(), more.end());
   if (!errors.empty()) return refuse(errors);
   plan.quiet = arguments.quiet;
   if (!arguments.check) return host(plan);
@@ -119,7 +124,7 @@ void add_serve_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<ServeArguments>();
   CLI::App* const command = root.add_subcommand("serve", "Hosts all sessions of a configuration, until it is told to end.");
   command->add_option("CONFIG", arguments->config, "a file of proto/server_config.proto; server/README.md has the table of its keys")->option_text(" ")->required();
-  command->add_flag("--check", arguments->check, "only checks everything and prints every value in force, with units");
+  command->add_flag("--check", arguments->check, "only checks everything, the state folder too, and prints every value in force, with units");
   command->add_flag("--quiet", arguments->quiet, "no status and no summaries");
   command->footer(
       "Prints `listening on HOST:PORT` first, then each session's code. A session that is over opens anew, with another code, unless\n"

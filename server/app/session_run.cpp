@@ -6,6 +6,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/trust/base32.h"
 #include "server/app/house.h"
@@ -30,9 +31,12 @@ double cpu_seconds() {
 }
 
 /// The report of every run, and what only a live one knows.
-std::string live_json(const RunReport& report, End end, std::uint64_t epoch, const KeptSession* kept, const MachineStatus& machine, const TickQueue& queue) {
+std::string live_json(const RunReport& report, End end, std::uint64_t epoch, const KeptSession* kept, const MachineStatus& machine, const TickQueue& queue,
+                      const std::string& waited_for) {
   auto json = nlohmann::ordered_json::parse(to_json(report));
   json["ended_by"] = to_text(end);
+  json["began"] = report.duration_s > 0;
+  json["waited_for"] = report.duration_s > 0 ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(waited_for);
   json["epoch"] = epoch;
   json["resumed_at_tick"] = kept != nullptr ? nlohmann::ordered_json(kept->checkpoint.session_tick) : nlohmann::ordered_json(nullptr);
   json["machine"] = {{"late_ticks", machine.late_ticks},
@@ -79,6 +83,11 @@ std::expected<std::unique_ptr<SessionRun>, SessionRun::Trouble> SessionRun::open
   return run;
 }
 
+std::string SessionRun::how_it_went(const RunReport& report) const {
+  if (report.duration_s > 0) return format("%s, %.1f s", report.passed ? "pass" : "FAIL", report.duration_s);
+  return std::string(kept_ ? "never went on after the restart" : "never began") + (waited_for.empty() ? "" : ": it waited for " + waited_for);
+}
+
 SessionRun::Verdict SessionRun::finish() {
   recorder_.finish();
   const SessionStatus& last = hosted_->final_status();
@@ -94,7 +103,7 @@ SessionRun::Verdict SessionRun::finish() {
   for (std::size_t i = 0; i < report.seats.size(); ++i) report.seats[i].gate_trips = last.seats[i].gate_trips;
 
   const End why = end.value_or(End::kScene);
-  const std::string text = live_json(report, why, epoch_, kept(), last.machine, queue_);
+  const std::string text = live_json(report, why, epoch_, kept(), last.machine, queue_, waited_for);
   json_.write(text);
   io::OutputFile kept;
   if (!plan_->reports.empty()) {

@@ -53,6 +53,7 @@ class SessionRun {
   [[nodiscard]] Time back_until() const noexcept { return back_until_; }
 
   Attendance attendance;
+  std::string waited_for;  ///< whom it still waited for, as last seen while it waited
   std::optional<End> end;  ///< set: it was made to end
 
   /// Once it is over: judges, writes the reports.
@@ -62,6 +63,8 @@ class SessionRun {
     int code = 0;          ///< exit code of a run of only this
   };
   [[nodiscard]] Verdict finish();
+  /// `pass, 12.3 s`, or that it never began, and who was missing.
+  [[nodiscard]] std::string how_it_went(const RunReport& report) const;
 
  private:
   SessionRun(const SessionPlan& plan, Slaves slaves, std::uint8_t slot, const KeptSession* kept);

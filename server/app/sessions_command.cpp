@@ -48,10 +48,11 @@ int sessions_command(const SessionsArguments& arguments) {
 void add_sessions_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<SessionsArguments>();
   CLI::App* const command = root.add_subcommand("sessions", "Lists the sessions of the running server: codes, phases, seats.");
+  command->alias("status");
   add_state_option(*command, arguments->state);
   command->add_flag("--json", arguments->json, "for machines");
   command->footer(
-      "What it says is at most a second old. Exit: 0 done; 1 no server runs from this folder, or it cannot be read; 2 wrong arguments.\n\n"
+      "`status` is the same. What it says is at most a second old. Exit: 0 done; 1 no server runs from this folder, or it cannot be read; 2 wrong arguments.\n\n"
       "Example\n"
       "  tandem-server sessions --json");
   command->callback([arguments, &action] { action = [arguments] { return sessions_command(*arguments); }; });

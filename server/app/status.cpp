@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "common/base/format.h"
+#include "server/stop_words.h"
 
 namespace tandem::server {
 namespace {
@@ -22,6 +23,12 @@ std::string seat_text(const SeatStatus& seat, const std::string& name) {
 }
 
 }  // namespace
+
+std::uint32_t seats_heard(const SessionStatus& status) noexcept {
+  std::uint32_t seats = 0;
+  for (std::size_t i = 0; i < status.seats.size(); ++i) seats |= status.seats[i].taken && status.seats[i].alive ? 1U << i : 0U;
+  return seats;
+}
 
 std::string waiting_for(const SessionStatus& status, const SceneSpec& scene) {
   std::string text;
@@ -61,10 +68,10 @@ std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
       line += "HELD (" + why_held(status, scene) + ")";
       break;
     case wire::SessionState::kPaused:
-      line += "PAUSED (an instructor or operator resumes)";
+      line += "PAUSED (ends it: " + who_ends(status.stop, scene, seats_heard(status)) + ")";
       break;
     case wire::SessionState::kStopped:
-      line += "STOPPED (an instructor or operator resumes)";
+      line += "STOPPED (ends it: " + who_ends(status.stop, scene, seats_heard(status)) + ")";
       break;
     case wire::SessionState::kEnding:
       line += "ending";

@@ -9,6 +9,7 @@
 #include "proto/wire.h"
 #include "server/load_ladder.h"
 #include "server/report.h"
+#include "server/stop_lane.h"
 
 namespace tandem::server {
 
@@ -44,8 +45,10 @@ struct SessionStatus {
   std::uint64_t violations = 0; ///< broken invariants that the law promises
   std::array<SeatStatus, kSeatsMax> seats{};
   MachineStatus machine;
+  StopLane stop;
 };
-
+/// Bit i: seat i is heard.
+[[nodiscard]] std::uint32_t seats_heard(const SessionStatus& status) noexcept;
 
 /// Whose absence brakes the tools, for people.
 [[nodiscard]] std::string why_held(const SessionStatus& status, const SceneSpec& scene);

@@ -106,7 +106,7 @@ int ticket_command(const TicketArguments& arguments) {
   if (!bytes) return wrong("ticket", {"the ticket cannot be made: " + bytes.error()});
   state->audit(ticket.not_before, "ticket", workstation->name, trust::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
   std::printf("%s\n", trust::ticket_text(*bytes).c_str());
-  std::fprintf(stderr, "good once, for %s h, on %s only: tandem-client %s --ticket TICKET ...\n", hours.c_str(), workstation->name.c_str(),
+  std::fprintf(stderr, "good once, for %s h, on %s only: tandem-client %s --ticket-file FILE ... (--ticket TICKET is seen by everybody on that computer)\n", hours.c_str(), workstation->name.c_str(),
                arguments.seat.empty() ? "control" : "join");
   return std::fflush(stdout) == 0 ? 0 : 1;
 }

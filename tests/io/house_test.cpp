@@ -142,7 +142,9 @@ TEST(Orders, WhoIsRemovedLosesSeatRightsAndSecretAndComesBackByATicketOnly) {
   EXPECT_TRUE(done(trainee.ask(control::PauseSession{kId}))) << "he may pause";
   EXPECT_EQ(reason_of(trainer.ask(control::RemovePerson{kId, "nobody", ""})), Reason::kNoSeat);
   EXPECT_TRUE(done(trainer.ask(control::RemovePerson{kId, "trainee", "pushes the others"})));
-  EXPECT_EQ(reason_of(trainee.ask(control::PauseSession{kId})), Reason::kNotAllowed) << "his connection speaks for a seat that is not his";
+  const auto gone = trainee.ask(control::PauseSession{kId});
+  EXPECT_EQ(reason_of(gone), Reason::kNotAllowed) << "his connection speaks for a seat that is not his";
+  EXPECT_NE(text_of(gone).find("(removed by desk-1 (instructor, seat trainer): pushes the others)"), std::string::npos) << text_of(gone);
   EXPECT_TRUE(comes_true([&] { return !status_of(trainer).seats[1].taken; }));
   const auto again = [&](const control::Credential& by) { return house.connect(key).ask(LiveHouse::hello(by, "trainee"), kPatience); };
   EXPECT_EQ(reason_of(again(control::ResumeCredential{trainee.in().resume_secret})), Reason::kResume);
@@ -161,13 +163,13 @@ TEST(Orders, ATraineeWhoOrdersLikeAnInstructorIsRefusedCountedWrittenDownAndDist
   Guest trainer = joined(house, "desk-1", AccessRole::kInstructor, "trainer"), trainee = joined(house, "desk-2", AccessRole::kTrainee, "trainee");
   ASSERT_TRUE(trainer.welcomed() && trainee.welcomed());
   const control::Status before = status_of(trainer);
-  for (const control::Body& command : {control::Body{control::StopSession{kId, ""}}, control::Body{control::ResumeSession{kId, 0}},
-                                       control::Body{control::RemovePerson{kId, "trainer", ""}}, control::Body{control::Drain{0}}}) {
+  for (const control::Body& command : {control::Body{control::StopSession{kId, ""}}, control::Body{control::RemovePerson{kId, "trainer", ""}}, control::Body{control::Drain{0}}}) {
     const auto answer = trainee.ask(command);
     EXPECT_EQ(reason_of(answer), Reason::kNotAllowed) << command.index();
     EXPECT_NE(text_of(answer).find("the role trainee may not"), std::string::npos) << text_of(answer);
   }
-  EXPECT_EQ(house.count(ControlEvent::kForbidden), 4U);
+  EXPECT_EQ(house.count(ControlEvent::kForbidden), 3U);
+  EXPECT_EQ(reason_of(trainee.ask(control::ResumeSession{kId, 0})), Reason::kOutdated) << "nothing is stopped";
   // What his role may say and the session refuses: weight for himself.
   EXPECT_EQ(reason_of(trainee.ask(control::SetAuthority{kId, 0, before.authority_version, {0, 1}})), Reason::kNotAllowed);
   control::Status after = status_of(trainer);
@@ -177,6 +179,9 @@ TEST(Orders, ATraineeWhoOrdersLikeAnInstructorIsRefusedCountedWrittenDownAndDist
   const std::string audit = house.audit();
   EXPECT_NE(audit.find("\"event\":\"forbidden\",\"name\":\"lesson\",\"detail\":\"desk-2 (trainee, seat trainee)"), std::string::npos) << audit;
   EXPECT_TRUE(done(trainer.ask(control::StopSession{kId, ""}))) << "and nobody else is slowed down";
+  const auto his = trainee.ask(control::ResumeSession{kId, 1});
+  EXPECT_EQ(reason_of(his), Reason::kNotAllowed);
+  EXPECT_NE(text_of(his).find("who may: an instructor (key r) or an operator"), std::string::npos) << text_of(his);
 }
 
 TEST(Orders, AStopWaitsForNothingElseThatWasAsked) {

@@ -115,6 +115,12 @@ inline Status status(RandomStream& r) {
   m.draining = r.below(2) == 0;
   for (std::uint64_t k = r.below(kListedSeatsMax + 1); k > 0; --k) m.seats.push_back({name(r), role(r), r.below(2) == 0, r.below(2) == 0, r.below(2) == 0});
   for (std::uint64_t k = r.below(kToolsMax + 1); k > 0; --k) m.tools.push_back({name(r), weights(r)});
+  if (r.below(2) == 0) {
+    const bool seated = r.below(2) == 0;
+    m.stop = {1 + static_cast<std::uint32_t>(r.below(9)), static_cast<StopKind>(1 + r.below(3)), seated ? name(r, true) : "", seated ? "" : name(r, true), role(r), text(r),
+              r.below(2) == 0 ? 0 : r.uniform(0, 1e9), text(r), r.below(2) == 0};
+  }
+  if (r.below(2) == 0) m.drain = {static_cast<std::uint32_t>(r.below(3601)), static_cast<std::uint32_t>(r.below(33)), static_cast<std::uint32_t>(r.below(300))};
   return m;
 }
 

@@ -64,7 +64,7 @@ TEST(Commands, AStopIsLatchedAndOnlyTheNewestIsEnded) {
   EXPECT_EQ(order(rig, What::kStop, AccessRole::kInstructor).stops, 2U);
   const Outcome old = order(rig, What::kResume, AccessRole::kOperator, 1);
   EXPECT_EQ(old.result, Result::kOutdated);
-  EXPECT_EQ(old.stop, StopLane::Level::kStopped);
+  EXPECT_EQ(old.lane.level(), StopLane::Level::kStopped);
   EXPECT_EQ(order(rig, What::kResume, AccessRole::kRecorder, 2).result, Result::kForbidden) << "the session looks at the role once more";
   rig.run(100ms);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
@@ -91,11 +91,39 @@ TEST(Commands, AnswersShowTheStateAfterTheOrderThoughNoTickCameSince) {
 TEST(Commands, APauseIsAPauseWhoeverAsksForItAndAStopStaysOne) {
   Rig rig;
   rig.run(1s);
-  EXPECT_EQ(order(rig, What::kPause, AccessRole::kInstructor).stop, StopLane::Level::kPaused);
-  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).stop, StopLane::Level::kStopped);
-  EXPECT_EQ(order(rig, What::kPause, AccessRole::kTrainee).stop, StopLane::Level::kStopped);
+  EXPECT_EQ(order(rig, What::kPause, AccessRole::kInstructor).lane.level(), StopLane::Level::kPaused);
+  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).lane.level(), StopLane::Level::kStopped);
+  EXPECT_EQ(order(rig, What::kPause, AccessRole::kTrainee).lane.level(), StopLane::Level::kStopped);
   EXPECT_EQ(order(rig, What::kPause, AccessRole::kObserver).result, Result::kForbidden);
   EXPECT_EQ(rig.session->stops(), 3U);
+}
+
+// With real clients: the trainee pauses from his seat, an evaluator cannot end it, the trainee can.
+TEST(Commands, WhereNobodyLeadsAPauseIsEndedByWhoMadeItFromHisSeat) {
+  Rig rig("eight_seats");
+  rig.run(2s);
+  ASSERT_TRUE(rig.seats[0].core->gate().active());
+  ASSERT_TRUE(rig.seats[0].core->press_stop_all());
+  rig.run(300ms);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused);
+  for (const RigSeat& s : rig.seats) EXPECT_FALSE(s.core->gate().active());
+  rig.seats[1].core->press_resume();
+  rig.run(300ms);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused) << "somebody else's pause";
+  const Outcome look = order(rig, What::kLook, AccessRole::kRecorder);
+  EXPECT_EQ(look.lane.newest().by, 0);
+  EXPECT_TRUE(look.lane.may_end(AccessRole::kTrainee, 0));
+  EXPECT_GT(look.stopped_ago, 0.5);
+  rig.seats[0].core->press_resume();
+  rig.run(1s);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kRunning);
+  EXPECT_TRUE(rig.seats[0].core->gate().active());
+  // A stop of an operator is not theirs.
+  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).result, Result::kDone);
+  rig.run(100ms);
+  rig.seats[0].core->press_resume();
+  rig.run(100ms);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
 }
 
 TEST(Commands, OfTwoWhoSetTheSameVersionExactlyOneWinsAndTheOtherLearnsWhatIsInForce) {

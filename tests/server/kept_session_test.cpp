@@ -29,6 +29,7 @@ KeptSession sample(const SceneSpec& scene) {
   kept.name = "lab";
   kept.code = "ABCDEFGHJK";
   kept.written_s = 1'800'000'000;
+  kept.sent_away = {{std::byte{1}}, {std::byte{2}, std::byte{3}}};
   return kept;
 }
 
@@ -43,6 +44,7 @@ TEST(KeptSession, IsTheSameAfterBytes) {
   EXPECT_EQ(back->id, kept.id);
   EXPECT_EQ(back->name, "lab");
   EXPECT_EQ(back->code, "ABCDEFGHJK");
+  EXPECT_EQ(back->sent_away, kept.sent_away);
   EXPECT_EQ(back->written_s, kept.written_s);
   EXPECT_EQ(back->checkpoint.epoch, 7u);
   EXPECT_EQ(back->checkpoint.seats[1].resume, kept.checkpoint.seats[1].resume);
@@ -88,10 +90,15 @@ TEST(KeptSession, NamesThatAreTooLongAreNotWritten) {
   kept.name = std::string(256, 'x');
   EXPECT_TRUE(encode_kept(kept).empty());
   kept.name = std::string(255, 'x');
+  kept.sent_away.resize(kSentAwayMax + 1);
+  EXPECT_TRUE(encode_kept(kept).empty());
+  kept.sent_away.resize(kSentAwayMax);
   kept.code = std::string(255, 'y');
   const auto back = decode_kept(encode_kept(kept));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->name, kept.name);
+  EXPECT_EQ(back->sent_away.size(), kSentAwayMax);
+  EXPECT_LE(encode_kept(kept).size(), kKeptMax);
 }
 
 }  // namespace

@@ -26,6 +26,22 @@ TEST(UsedTickets, LetEachInOnce) {
   EXPECT_EQ(book.size(), 2u);
 }
 
+TEST(UsedTickets, OneOfWhichNothingCameIsGoodAgainAlsoAfterARestart) {
+  UsedTickets book;
+  ASSERT_TRUE(book.use(ticket(1), kNow));
+  book.forget(ticket(1).ticket_id);
+  EXPECT_TRUE(book.use(ticket(1), kNow));
+  const std::string used = UsedTickets::line(ticket(2).ticket_id, kNow + 100), back = UsedTickets::line(ticket(2).ticket_id, 0);
+  auto read = UsedTickets::parse(used + back);
+  ASSERT_TRUE(read) << read.error();
+  read->prune(kNow);  // as a server does before it serves
+  EXPECT_TRUE(read->use(ticket(2), kNow));
+  auto again = UsedTickets::parse(used + back + used);
+  ASSERT_TRUE(again);
+  again->prune(kNow);
+  EXPECT_FALSE(again->use(ticket(2), kNow)) << "and used after that";
+}
+
 TEST(UsedTickets, AreForgottenOnlyOnceTheyHaveExpired) {
   UsedTickets book;
   ASSERT_TRUE(book.use(ticket(1, kNow + 10), kNow));

@@ -1,6 +1,7 @@
 #include "common/trust/io/server_trust.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "common/base/raw_bytes.h"
 #include "proto/trust_text.h"
@@ -81,6 +82,27 @@ std::expected<ServerTrust, std::string> ServerTrust::open(const std::string& pat
   return trust;
 }
 
+std::vector<std::string> ServerTrust::mistakes(const std::string& path) {
+  const auto folder = StateFolder::open(path, StateFolder::Missing::kIsAnError, kInitHint);
+  if (!folder) return {folder.error()};
+  std::vector<std::string> wrong;
+  for (const char* name : {kKeyFile, kCertificateFile, kTicketKeyFile})
+    if (const auto file = needed(*folder, name); !file) wrong.push_back(file.error());
+  for (const char* name : {kWorkstationsFile, kCodesFile, kUsedFile, kServingFile, kAuditFile})
+    if (name != std::string_view(kAuditFile) || !folder->has(name)) {
+      if (const auto file = folder->read(name); !file) wrong.push_back(file.error());
+    } else if (std::string trouble = folder->unfit_to_append(name); !trouble.empty()) {
+      wrong.push_back(std::move(trouble));
+    }
+  if (std::string trouble = folder->unfit_to_write(); !trouble.empty()) wrong.push_back(std::move(trouble));
+  if (!wrong.empty()) return wrong;
+  if (const auto trust = open(path); !trust) wrong.push_back(trust.error());
+  const auto used = folder->read(kUsedFile);
+  if (used && *used)
+    if (const auto book = UsedTickets::parse(text_of((*used)->bytes())); !book) wrong.push_back(folder->path_of(kUsedFile) + ": " + book.error());
+  return wrong;
+}
+
 ServerTrust ServerTrust::throw_away(std::int64_t now) {
   const auto serial = random_bytes<std::array<std::byte, 16>>();
   Secret<32> seed;
@@ -100,6 +122,8 @@ std::string ServerTrust::begin_serving(std::int64_t now) {
   if (!lock) return lock.error();
   if (!*lock) return folder_->path() + ": another server runs from this folder; stop it first, or give this one a folder of its own (`run --state`, `state` in a configuration)";
   serving_ = std::move(**lock);
+  if (folder_->has(kEndFile))  // meant for the server before
+    if (std::string problem = folder_->remove(kEndFile); !problem.empty()) return problem;
   const auto bytes = folder_->read(kUsedFile);
   if (!bytes) return bytes.error();
   auto used = UsedTickets::parse(*bytes ? text_of((*bytes)->bytes()) : std::string_view{});
@@ -219,6 +243,30 @@ std::expected<Ticket, ServerTrust::TicketTrouble> ServerTrust::redeem(std::span<
     if (!problem.empty()) return std::unexpected(TicketTrouble{std::nullopt, std::move(problem)});
   }
   return std::move(*ticket);
+}
+
+std::string ServerTrust::give_back(const Id16& ticket) {
+  used_.forget(ticket);
+  if (!folder_) return {};
+  ++appended_;
+  return folder_->append(kUsedFile, UsedTickets::line(ticket, 0));
+}
+
+std::string ServerTrust::ask_to_end(std::uint32_t grace_s) const {
+  if (!folder_) return "this server has no folder";
+  return folder_->replace(kEndFile, std::string_view(std::to_string(grace_s) + "\n"));
+}
+
+std::optional<std::uint32_t> ServerTrust::asked_to_end() const {
+  if (!folder_ || !folder_->has(kEndFile)) return std::nullopt;
+  const auto bytes = folder_->read(kEndFile);
+  if (!bytes || !*bytes) return std::nullopt;  // somebody else's file orders nothing
+  const std::string text{text_of((*bytes)->bytes())};
+  if (!folder_->remove(kEndFile).empty()) return std::nullopt;
+  std::uint32_t grace = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), grace);
+  if (error != std::errc{} || std::string_view(end, static_cast<std::size_t>(text.data() + text.size() - end)) != "\n" || grace > 3600) return std::nullopt;
+  return grace;
 }
 
 std::string ServerTrust::write_serving(const ServingSpec& serving) const {

@@ -31,11 +31,15 @@ class ServerTrust {
   static constexpr const char* kUsedFile = "used_tickets";
   static constexpr const char* kServingFile = "serving.textproto";
   static constexpr const char* kAuditFile = "audit.log";
+  static constexpr const char* kEndFile = "end_in_s";
 
   /// Makes keys and empty books in a folder that has none yet. @return the server's pin
   [[nodiscard]] static std::expected<Pin, std::string> init(const std::string& path, std::int64_t now);
   /// Reads a folder that `init` made.
   [[nodiscard]] static std::expected<ServerTrust, std::string> open(const std::string& path);
+  /// Everything that is wrong with such a folder, each with its remedy; empty: `open` and `begin_serving` would succeed, if no other
+  /// server runs from it. Changes nothing.
+  [[nodiscard]] static std::vector<std::string> mistakes(const std::string& path);
   /// Keys made on the spot, nothing on disk, nobody enrolled.
   [[nodiscard]] static ServerTrust throw_away(std::int64_t now);
 
@@ -72,6 +76,15 @@ class ServerTrust {
   };
   /// Checks a ticket and uses it up: it is on disk before this returns, so that no crash makes it good again.
   [[nodiscard]] std::expected<Ticket, TicketTrouble> redeem(std::span<const std::byte> bytes, const TicketUse& use);
+
+  /// Makes a redeemed ticket good again, of which nothing came: whoever had it got no seat, or no order of his was carried out. A server
+  /// that dies in between leaves it used up. @return what is wrong
+  [[nodiscard]] std::string give_back(const Id16& ticket);
+
+  /// Asks the server that runs from this folder to end: no newcomers from now on, all hands let go in `grace_s`. @return what is wrong
+  [[nodiscard]] std::string ask_to_end(std::uint32_t grace_s) const;
+  /// For that server: what was asked since it began, once. Costs one system call.
+  [[nodiscard]] std::optional<std::uint32_t> asked_to_end() const;
 
   /// For the commands beside a running server. @return what is wrong
   [[nodiscard]] std::string write_serving(const ServingSpec& serving) const;

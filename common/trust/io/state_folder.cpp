@@ -152,6 +152,16 @@ std::string StateFolder::append(const std::string& name, std::string_view line) 
   return {};
 }
 
+std::string StateFolder::unfit_to_write() const {
+  if (faccessat(folder_.get(), ".", W_OK | X_OK, AT_EACCESS) == 0) return {};
+  return path_ + " cannot be written to: " + std::strerror(errno) + "; chmod 0700 " + path_ + ", or mount it writable";
+}
+
+std::string StateFolder::unfit_to_append(const std::string& name) const {
+  const io::Fd file{openat(folder_.get(), name.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+  return file.open() ? wrong_with(file.get(), name) : trouble(name, "written to");
+}
+
 std::string StateFolder::remove(const std::string& name) const {
   return unlinkat(folder_.get(), name.c_str(), 0) == 0 || errno == ENOENT ? std::string{} : trouble(name, "removed");
 }

@@ -35,6 +35,9 @@ class StateFolder {
   [[nodiscard]] std::string replace(const std::string& name, std::string_view text) const;
   /// One write at the end, synced. @return what is wrong, empty if it is on disk
   [[nodiscard]] std::string append(const std::string& name, std::string_view line) const;
+  /// Why no file could be made here, or `name` not be appended to; empty: it could. Nothing is written.
+  [[nodiscard]] std::string unfit_to_write() const;
+  [[nodiscard]] std::string unfit_to_append(const std::string& name) const;
   [[nodiscard]] std::string remove(const std::string& name) const;
 
   /// Changes when a file was replaced or written to; 0 if there is none. Costs one system call.

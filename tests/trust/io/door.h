@@ -60,7 +60,7 @@ class OneSession : public Admissions {
   void command(const control::Welcome&, const WorkstationRow&, const control::Body&, std::function<void(control::Body)> answer) override {
     answer(control::Done{});
   }
-  void left(const control::Welcome&) override {}
+  void left(const control::Welcome&, bool) override {}
 
   [[nodiscard]] control::Welcome welcome(const std::string& seat) const {
     control::Welcome w;

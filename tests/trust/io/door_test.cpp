@@ -79,6 +79,24 @@ TEST(ControlPlane, WhoIsRevokedIsRefusedAtHisNextWord) {
   EXPECT_EQ(reason_of(again->ask(hello_with(door.ticket(me)), kPatience)), Reason::kNotEnrolled);
 }
 
+TEST(ControlPlane, WhenAllConnectionsAreTakenOneOfSomebodyOnASeatMakesRoom) {
+  ControlLimits limits = Door::patient();
+  limits.connections = 2;
+  Door door(limits);
+  const auto me = door.enrolled("me");
+  auto seated = door.connect(me);
+  ASSERT_TRUE(seated) << seated.error().text;
+  ASSERT_TRUE(std::holds_alternative<control::Welcome>(*seated->ask(hello_with(door.ticket(me)), kPatience)));
+  auto second = door.connect(me);
+  ASSERT_TRUE(second) << second.error().text;
+  ASSERT_TRUE(std::holds_alternative<control::SessionList>(*second->ask(control::SessionListRequest{}, kPatience)));
+  auto third = door.connect(me);
+  ASSERT_TRUE(third) << "nobody waits for those who sit: " << third.error().text;
+  EXPECT_TRUE(std::holds_alternative<control::SessionList>(*third->ask(control::SessionListRequest{}, kPatience)));
+  EXPECT_FALSE(seated->ask(control::StatusRequest{door.sessions->session_id}, kPatience)) << "its seat does not need it";
+  EXPECT_TRUE(std::holds_alternative<control::SessionList>(*second->ask(control::SessionListRequest{}, kPatience))) << "who stands keeps his";
+}
+
 TEST(ControlPlane, ATicketOpensTheDoorOnceAndForItsWorkstationOnly) {
   Door door;
   const auto me = door.enrolled("me"), thief = door.enrolled("thief");

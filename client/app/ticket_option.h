@@ -1,0 +1,49 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+/// A ticket as a person gives it. On a command line everybody on the computer can read it (ps): a file is better.
+namespace tandem::client {
+
+struct TicketOption {
+  std::string text;  ///< `ticket:...`, `@FILE`, or a file's name
+  std::string file;
+};
+
+inline void add_ticket_options(CLI::App& command, TicketOption& ticket, const char* what) {
+  command.add_option("--ticket", ticket.text, std::string(what) + "; @FILE: the first line of that file, which nobody reads in the list of processes")
+      ->option_text("TICKET|@FILE");
+  command.add_option("--ticket-file", ticket.file, "the same as --ticket @FILE; `-`: the first line of standard input")->option_text("FILE");
+}
+
+/// The ticket's text; empty: none is given, or one more mistake was made.
+[[nodiscard]] inline std::string ticket_of(const TicketOption& given, std::vector<std::string>& mistakes) {
+  if (!given.text.empty() && !given.file.empty()) {
+    mistakes.push_back("--ticket-file: there is a --ticket too; give one of them");
+    return {};
+  }
+  const bool named = !given.file.empty() || given.text.starts_with('@');
+  const std::string name = !given.file.empty() ? given.file : named ? given.text.substr(1) : given.text;
+  const char* const option = given.file.empty() ? "--ticket" : "--ticket-file";
+  if (name.empty() && !named) return {};
+  if (!named && name.starts_with("ticket:")) return name;
+  std::string line;
+  std::ifstream file;
+  if (name != "-" || !named) file.open(name);
+  std::istream& in = name == "-" && named ? std::cin : file;
+  if (!std::getline(in, line)) {
+    if (!named) return name;  // no file: whoever reads it says what a ticket looks like
+    mistakes.push_back(std::string(option) + ": " + (name.empty() ? "@ needs a file's name" : name + " cannot be read, or is empty; write the ticket to it: tandem-server ticket ... > FILE"));
+    return {};
+  }
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  if (line.starts_with("ticket:")) return line;
+  mistakes.push_back(std::string(option) + ": " + name + ": its first line is no ticket, which begins with `ticket:`");
+  return {};
+}
+
+}  // namespace tandem::client

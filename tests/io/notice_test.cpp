@@ -1,0 +1,199 @@
+// What people on a screen read of stops, removals and a server that ends, and what they can do: real programs on loopback. Words and
+// states are asserted, never how long anything took.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "tests/io/school.h"
+
+namespace tandem::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+Process control(const std::string& address, Words words) {
+  words.insert(words.begin(), {TANDEM_CLIENT, "control", "--server", address});
+  return Process(std::move(words));
+}
+/// A console whose input stays open: what it is told, it was not asked for.
+Process waiting_console(const std::string& address, const Folder& folder) {
+  const std::string pipe = folder.file("pipe");
+  return Process({"/bin/bash", "-c", "mkfifo " + pipe + " && exec 3<>" + pipe + " && exec " + TANDEM_CLIENT + " control --server " + address + " <&3"});
+}
+
+TEST(Notice, EverybodyOnAScreenReadsWhoStoppedAndWhy) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const std::string address = address_of(host);
+  Process trainer = client(address, "trainer"), trainee = client(address, "trainee"), console = waiting_console(address, folder);
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  Process stop = control(address, {"stop", "fire", "drill"});
+  EXPECT_EQ(stop.wait(), 0) << stop.err();
+  const std::string words = "STOPPED by local (operator at a console): fire drill. Who may end it: an instructor (key r) or an operator";
+  EXPECT_TRUE(trainer.wait_for(words)) << trainer.err();
+  EXPECT_TRUE(trainee.wait_for(words)) << trainee.err();
+  EXPECT_TRUE(console.wait_for(words)) << console.out() << console.err();
+  EXPECT_TRUE(host.wait_for("STOPPED by local (operator): fire drill")) << host.err();
+  EXPECT_TRUE(trainer.wait_for("(r resumes)")) << trainer.err();
+  EXPECT_TRUE(trainee.wait_for("(an instructor or operator resumes)")) << trainee.err();
+  Process status = control(address, {"status"});
+  EXPECT_EQ(status.wait(), 0) << status.err();
+  EXPECT_NE(status.out().find(words), std::string::npos) << status.out();
+  Process resume = control(address, {"resume"});
+  EXPECT_EQ(resume.wait(), 0) << resume.err();
+  EXPECT_TRUE(console.wait_for("stop 1 is over")) << console.out() << console.err();
+  Process removed = control(address, {"remove", "trainee", "pushes", "the", "others"});
+  EXPECT_EQ(removed.wait(), 0) << removed.err();
+  EXPECT_EQ(trainee.wait(), 1) << trainee.err();
+  EXPECT_NE(trainee.err().find("(removed by local (operator): pushes the others)"), std::string::npos) << trainee.err();
+  console.signal(SIGINT);
+  EXPECT_EQ(console.wait(), 0) << console.err();
+}
+
+TEST(Notice, ADrainShowsHowFarItIsAtTheConsoleAndAtTheServer) {
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const std::string address = address_of(host);
+  Process trainer = client(address, "trainer"), trainee = client(address, "trainee");
+  ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
+  Process drain = control(address, {"drain", "4"});
+  EXPECT_EQ(drain.wait(), 0) << drain.err();
+  EXPECT_NE(drain.out().find("s left, 1 session, 2 people on their seats"), std::string::npos) << drain.out();
+  EXPECT_NE(drain.out().find("the server has ended"), std::string::npos) << drain.out();
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_NE(host.err().find("DRAINING: nobody new comes in, and all hands are let go in 4 s; ordered by local (operator)"), std::string::npos) << host.err();
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  EXPECT_EQ(trainee.wait(), 0) << trainee.err();
+}
+
+TEST(Notice, ASessionThatNeverBeganSaysWhoWasMissing) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--json", folder.file("r.json")});
+  Process trainer = client(address_of(host), "trainer");
+  ASSERT_TRUE(host.wait_for("trainer joined")) << host.err();
+  ASSERT_TRUE(host.wait_for("waiting for trainee (nobody joined)")) << host.err();
+  host.signal(SIGINT);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+  EXPECT_NE(host.out().find("never began: it waited for trainee (nobody joined)"), std::string::npos) << host.out();
+  EXPECT_EQ(host.out().find("pass"), std::string::npos) << host.out();
+  const Json report = folder.json("r.json");
+  EXPECT_EQ(report["began"], false);
+  EXPECT_EQ(report["waited_for"], "trainee (nobody joined)");
+}
+
+// ---- At the server's own computer ---------------------------------------------------------------------------------------------
+
+TEST(Stop, EndsTheServerOfAStateFolderGentlyAndFollowsIt) {
+  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
+  Process trainer = school.join("trainer", {"--ticket", school.ticket("a", "trainer")}), trainee = school.join("trainee", {"--session", school.code(), "--rejoin", "0"});
+  ASSERT_TRUE(school.host.wait_for("the session runs")) << school.host.err();
+  for (int i = 0; i < 300; ++i) {  // what it says is up to a second old
+    Process status = server({"status", "--json", "--state", school.state});
+    EXPECT_EQ(status.wait(), 0) << status.err();
+    const Json now = Json::parse(status.out(), nullptr, false)["sessions"][0];
+    if (now["phase"] == "running" && now["seats"][0]["taken"] && now["seats"][1]["taken"]) break;
+    ASSERT_LT(i, 299) << status.out();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  Process wrong = server({"stop", "--grace", "soon", "--state", school.state});
+  EXPECT_EQ(wrong.wait(), 2) << wrong.err();
+  Process stop = server({"stop", "--grace", "2", "--state", school.state});
+  EXPECT_EQ(stop.wait(), 0) << stop.err();
+  EXPECT_NE(stop.out().find("DRAINING: 2 s left, 1 session, 2 people on their seats"), std::string::npos) << stop.out();
+  EXPECT_NE(stop.out().find("the server has ended"), std::string::npos) << stop.out();
+  EXPECT_EQ(school.host.wait(), 0) << school.host.err();
+  EXPECT_NE(school.host.err().find("ordered by `tandem-server stop` on this computer"), std::string::npos) << school.host.err();
+  EXPECT_EQ(trainee.wait(), 0) << trainee.err();
+  Process again = server({"stop", "--state", school.state});
+  EXPECT_EQ(again.wait(), 1) << again.out();
+  EXPECT_NE(again.err().find("no server runs from"), std::string::npos) << again.err();
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+}
+
+// ---- Tickets in files ---------------------------------------------------------------------------------------------------------
+
+TEST(TicketFile, IsReadByJoinAndControlAndMistakesAreTold) {
+  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
+  const std::string first = school.folder.write("trainer.ticket", school.ticket("a", "trainer") + "\n"), second = school.folder.write("trainee.ticket", school.ticket("a", "trainee") + "\r\n");
+  Process trainer = school.join("trainer", {"--ticket", "@" + first}), trainee = school.join("trainee", {"--ticket-file", second});
+  ASSERT_TRUE(school.host.wait_for("the session runs")) << trainer.err() << trainee.err();
+  Process made = server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", school.state});
+  EXPECT_EQ(made.wait(), 0);
+  const std::string third = school.folder.write("operator.ticket", made.out());
+  Process refused = control(school.address, {"--state", school.own, "--ticket-file", third, "remove", "nobody"});
+  EXPECT_EQ(refused.wait(), 1) << refused.err();
+  for (int i = 0; i < 100; ++i) {  // the ticket is good again a moment after that connection is over
+    Process status = control(school.address, {"--state", school.own, "--ticket-file", third, "remove", "trainee"});
+    if (status.wait() == 0) break;
+    EXPECT_NE(status.err().find("used already"), std::string::npos) << status.err();
+    ASSERT_LT(i, 99) << status.err();
+  }
+  Process used = control(school.address, {"--state", school.own, "--ticket-file", third, "status"});
+  EXPECT_EQ(used.wait(), 1) << used.out();
+  EXPECT_NE(used.err().find("used already"), std::string::npos) << used.err();
+  const auto wrong = [&](Words words, const char* text) {
+    Process p = school.join("trainee", std::move(words));
+    EXPECT_EQ(p.wait(), 2) << p.err();
+    EXPECT_NE(p.err().find(text), std::string::npos) << p.err();
+  };
+  wrong({"--ticket", "@none"}, "none cannot be read");
+  wrong({"--ticket-file", first, "--ticket", "ticket:x"}, "there is a --ticket too");
+  wrong({"--ticket-file", school.folder.write("other", "hello\n")}, "its first line is no ticket");
+}
+
+// ---- What a restart keeps -----------------------------------------------------------------------------------------------------
+
+TEST(Removed, StaysSoAfterARestart) {
+  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
+  const std::string code = school.code();
+  Process trainee = school.join("trainee", {"--session", code});
+  ASSERT_TRUE(school.host.wait_for("trainee joined")) << trainee.err();
+  Process made = server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", school.state});
+  EXPECT_EQ(made.wait(), 0);
+  Process removed = control(school.address, {"--state", school.own, "--ticket", first_line(made.out()), "remove", "trainee"});
+  EXPECT_EQ(removed.wait(), 0) << removed.err();
+  EXPECT_EQ(trainee.wait(), 1) << trainee.err();
+  for (int round = 0; round < 2; ++round) {
+    school.host.signal(SIGTERM);
+    EXPECT_EQ(school.host.wait(), 0) << school.host.err();
+    school.host = serving(school.folder.file("s.textproto"));
+    ASSERT_NE(school.host.err().find("GOES ON"), std::string::npos) << school.host.err();
+    Process again = client(address_of(school.host), "trainee", {"--session", code, "--state", school.own});
+    EXPECT_EQ(again.wait(), 1) << again.err();
+    EXPECT_NE(again.err().find("was removed from the session; a ticket lets it in again"), std::string::npos) << again.err();
+  }
+  Process own = server({"status", "--state", school.state});
+  EXPECT_EQ(own.wait(), 0);
+  EXPECT_EQ(school.code(), code);
+}
+
+// ---- Mistakes of a configuration and its state folder, in one round ------------------------------------------------------------
+
+TEST(Check, TellsSchemaAddressSceneAndStateFolderAtOnce) {
+  const Folder folder;
+  Process made = server({"init", "--state", folder.file("state")});
+  EXPECT_EQ(made.wait(), 0) << made.err();
+  fs::create_directory(folder.file("bare"));
+  ASSERT_EQ(::chmod(folder.file("bare").c_str(), 0700), 0);
+  const auto check = [&](const std::string& text, const std::vector<std::string>& mistakes) {
+    Process p = server({"serve", folder.write("s.textproto", "version: 1 " + text), "--check"});
+    EXPECT_EQ(p.wait(), mistakes.empty() ? 0 : 2) << p.err() << p.out();
+    for (const std::string& mistake : mistakes) EXPECT_NE(p.err().find(mistake), std::string::npos) << mistake << "\n" << p.err();
+  };
+  const std::string session = " session { name: \"a\" scene: \"contact\" }";
+  check("listen: \"127.0.0.1:0\" state: \"state\"" + session, {});
+  check("listen: \"192.0.2.1:7000\" state: \"nowhere\" limitz { } session { name: \"a\" scene: \"contakt\" duration_s: -1 }",
+        {"limitz", "duration_s", "did you mean contact", "this computer cannot listen there", "nowhere cannot be opened", "tandem-server init", "5 mistakes"});
+  check("listen: \"127.0.0.1:0\" state: \"bare\"" + session, {"server_key.pem is missing", "server_cert.pem is missing", "ticket_key is missing", "3 mistakes"});
+  ASSERT_EQ(::chmod(folder.file("state/ticket_key").c_str(), 0644), 0);
+  ASSERT_EQ(::chmod(folder.file("state/workstations.textproto").c_str(), 0640), 0);
+  check("listen: \"127.0.0.1:0\" state: \"state\"" + session, {"ticket_key can be read by others", "workstations.textproto can be read by others", "chmod 0600", "2 mistakes"});
+  ASSERT_EQ(::chmod(folder.file("state").c_str(), 0755), 0);
+  check("listen: \"127.0.0.1:0\" state: \"state\"" + session, {"can be entered by others (mode 0755)", "chmod 0700", "1 mistake"});
+}
+
+}  // namespace
+}  // namespace tandem::test
