@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "server/load_ladder.h"
+#include "server/report.h"
 #include "tests/server/rig.h"
 #include "tests/support/alloc_guard.h"
 
@@ -102,6 +103,29 @@ TEST(Relief, LeavesSlowSessionsTheirRate) {
     session.relieve({Rung::kEvaluatorsMore, false});
     EXPECT_EQ(session.told_every(kEvaluator), most) << "six intervals fit into 20 ms at " << hz;
   }
+}
+
+/// A report of a server that left nine of ten records out: the same times and means.
+TEST(Relief, ATenthOfTheRecordsTellsTheSameTimesAndMeans) {
+  const SceneSpec scene = *parse_scene(find_shipped_scene("one_axis")->text, "one_axis.textproto");
+  ReportBuilder all{scene}, tenth{scene};
+  for (std::uint32_t tick = 1; tick <= 1000; ++tick) {
+    TickRecord record;
+    record.tick = tick;
+    record.running = true;
+    record.seats[0].alpha = tick <= 500 ? 1 : 0;
+    record.tools[0].held = tick > 800;
+    all.add(record);
+    if (tick % 10 == 1) tenth.add(record);
+  }
+  const std::vector<LinkReport> links(scene.seats.size());
+  const RunReport a = all.build(links), b = tenth.build(links);
+  EXPECT_DOUBLE_EQ(a.duration_s, 1.0);
+  EXPECT_DOUBLE_EQ(a.tools[0].held_s, 0.2);
+  EXPECT_NEAR(b.duration_s, a.duration_s, 0.010);
+  EXPECT_NEAR(b.tools[0].held_s, a.tools[0].held_s, 0.010);
+  EXPECT_NEAR(a.seats[0].alpha_mean, 0.5, 1e-9);
+  EXPECT_NEAR(b.seats[0].alpha_mean, 0.5, 0.011);
 }
 
 TEST(Relief, TakesNoHeap) {
