@@ -66,9 +66,11 @@ TEST(OverTemperature, NothingToldTripsNothingAndWhatIsNoNumberIsHot) {
     look(guard, 0.1);
     EXPECT_FALSE(guard.holds_off());
   }
-  look(guard, 1, 3);
-  look(guard, std::nullopt);
-  EXPECT_FALSE(guard.holds_off()) << "a library's word that is not said again";
+  OverTemperature word;
+  look(word, 1, 3);
+  EXPECT_TRUE(word.holds_off());
+  look(word, std::nullopt);
+  EXPECT_FALSE(word.holds_off()) << "a library's word that is not said again";
 }
 
 TEST(OverTemperature, FoundHotNobodyWasLetGo) {
