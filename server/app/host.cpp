@@ -372,7 +372,7 @@ class Host {
 
   void summarize(std::FILE* out, const RunReport& report, SessionRun& r) {
     line_.clear();
-    std::fprintf(out, "%s%s: %s, ticks more than 1 ms late on this machine: %llu\n", prefix(r).c_str(), report.scenario.c_str(), r.how_it_went(report).c_str(),
+    std::fprintf(out, "%s%s: %s%s ticks more than 1 ms late on this machine: %llu\n", prefix(r).c_str(), report.scenario.c_str(), r.how_it_went(report).c_str(), report.duration_s > 0 ? "," : ";",
                  static_cast<unsigned long long>(r.hosted().final_status().machine.late_ticks));
     if (report.duration_s > 0) std::fputs(report_summary(report, r.plan().scene).c_str(), out);
     std::fflush(out);

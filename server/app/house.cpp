@@ -311,7 +311,7 @@ void House::abandoned(const control::Welcome& welcome) {
     claim.being_given = false;
     if (const auto ticket = std::exchange(claim.ticket, std::nullopt)) give_back(*ticket, *found);
   }
-  if (welcome.seat.empty() && place_of(welcome.server_cid) == 0) left(welcome, true);
+  if (welcome.seat.empty()) stands_no_more(*found, welcome, true);
   if (place_of(welcome.server_cid) > kSeatsMax) --found->visits_being_given;
 }
 

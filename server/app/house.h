@@ -138,6 +138,7 @@ class House final : public Admissions {
   void visit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
   static void visited(Room& room, const Order& order, const WorkstationRow& by, std::uint32_t cid);
   void give_back(const trust::Id16& ticket, const Room& room);
+  void stands_no_more(Room& room, const control::Welcome& standing, bool ticket_is_good_again);
   void write_down(Room& room, const std::string& who, const std::string& why, const Command& command, const Outcome& outcome);
   [[nodiscard]] control::Status status_of(const Room& room, const control::Welcome& standing, const Outcome& outcome) const;
   [[nodiscard]] static std::string why_gone(const Room& room, const control::Welcome& standing);

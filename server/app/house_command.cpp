@@ -145,11 +145,14 @@ void House::give_back(const trust::Id16& ticket, const Room& room) {
 /// Who only may look got what his ticket is for.
 void House::left(const control::Welcome& standing, bool in_vain) {
   Room* const found = room(standing.session_id);
-  if (found == nullptr) return;
-  const auto it = std::ranges::find_if(found->standing, [&](const Standing& s) { return equal_secret(s.who.bytes, standing.resume_secret.bytes); });
-  if (it == found->standing.end()) return;
-  if (in_vain && allowed(standing.role, Right::kStopSession) != Grant::kNo) give_back(it->ticket, *found);
-  found->standing.erase(it);
+  if (found != nullptr) stands_no_more(*found, standing, in_vain && allowed(standing.role, Right::kStopSession) != Grant::kNo);
+}
+
+void House::stands_no_more(Room& room, const control::Welcome& standing, bool ticket_is_good_again) {
+  const auto it = std::ranges::find_if(room.standing, [&](const Standing& s) { return equal_secret(s.who.bytes, standing.resume_secret.bytes); });
+  if (it == room.standing.end()) return;
+  if (ticket_is_good_again) give_back(it->ticket, room);
+  room.standing.erase(it);
 }
 
 // ---- Those who judge their link -----------------------------------------------------------------------------------------------

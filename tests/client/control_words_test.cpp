@@ -98,7 +98,7 @@ TEST(ControlWords, WordsOfOthersAreShownAndNothingMore) {
   s.stop->why = "\x1b[2Jgone\r\n\x07 \xe2\x80\xae" "evil \xc2\x9b \xff \xc3\xa4";
   EXPECT_EQ(stop_text(s), "STOPPED by desk (operator at a console): \\x1b[2Jgone\\x0d\\x0a\\x07 \\u202eevil \\u009b \\xff \xc3\xa4. Who may end it: an operator. You may");
   s.stop->why = std::string(600, 'x');
-  EXPECT_NE(stop_text(s).find(std::string(480, 'x') + "... Who"), std::string::npos) << stop_text(s);
+  EXPECT_NE(stop_text(s).find(std::string(480, 'x') + ".... Who"), std::string::npos) << stop_text(s);
   s.stop->why = "a \"b\" \\";
   EXPECT_NE(status_json(s).find("\"why\": \"a \\\"b\\\" \\\\\""), std::string::npos) << status_json(s);
   s.stop->kind = control::StopKind::kFault;

@@ -1,4 +1,5 @@
 // What people read of stops, who may end them, and tickets of which nothing came: over TLS, against a session that ticks on its own thread.
+#include "server/app/notices.h"
 #include "tests/io/live_house.h"
 
 namespace tandem::server::test {
@@ -60,6 +61,19 @@ TEST(Standing, WhereNobodyLeadsWhoPausedMayEndIt) {
   EXPECT_FALSE(stop->ends.empty());
   EXPECT_TRUE(done(trainee.ask(control::ResumeSession{kId, 1})));
   EXPECT_EQ(status_of(guest).stop->ends, "");
+}
+
+// Lines of other threads wait for the one that owns the terminal, in their order, and no flood of them takes memory.
+TEST(Notices, KeepTheirOrderAndAreBounded) {
+  Notices notices;
+  EXPECT_TRUE(notices.take().empty());
+  for (std::size_t i = 0; i < Notices::kMax + 7; ++i) notices.add(Notices::Weight::kWarning, std::to_string(i));
+  const auto lines = notices.take();
+  ASSERT_EQ(lines.size(), Notices::kMax + 1);
+  EXPECT_EQ(lines[0].text, "0");
+  EXPECT_EQ(lines[Notices::kMax - 1].text, std::to_string(Notices::kMax - 1));
+  EXPECT_NE(lines.back().text.find("7 more lines"), std::string::npos);
+  EXPECT_TRUE(notices.take().empty());
 }
 
 // ---- Tickets of which nothing came -----------------------------------------------------------------------------------------
