@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "common/io/service_notice.h"
 #include "common/io/signals.h"
 #include "common/io/terminal.h"
+#include "server/app/announcement.h"
 #include "server/app/checkpoint_book.h"
 #include "server/app/front_door.h"
 #include "server/app/notices.h"
@@ -32,13 +32,6 @@ namespace {
 constexpr int kTrouble = 1;  // while running
 constexpr int kLookEveryMs = 250;
 constexpr Duration kDrainMax = std::chrono::seconds(3);
-
-/// Clients are usually started from where the server is: with a path if this program needed one.
-std::string client_command() {
-  const std::string own = program_invocation_name;
-  const auto slash = own.rfind('/');
-  return (slash == std::string::npos ? "" : own.substr(0, slash + 1)) + "tandem-client";
-}
 
 /// On the door's thread: what somebody who runs a server wants to know of those who could not come in.
 void tell_log(Notices& notices, const ControlNews& news) {
@@ -186,23 +179,9 @@ class Host {
   }
 
   void announce(const SessionRun& r) {
-    const SceneSpec& scene = r.plan().scene;
-    const io::SocketAddress& at = door_->address();
-    const bool several = plan_.sessions.size() > 1, local = door_->throw_away();
-    const std::string dialled = at.any() ? "SERVER:" + std::to_string(at.port()) : io::to_text(at), &name = r.plan().name;
-    const std::string which = !r.code().empty() ? " --session " + code_text(r.code()) : several ? " --session " + name : "";
-    std::fprintf(people(), "%sscene %s, %g s; %s\n", several ? ("session " + name + ": ").c_str() : "", scene.name.c_str(), scene.duration,
-                 !r.code().empty() ? ("session code " + code_text(r.code()) + "; on enrolled workstations type").c_str()
-                 : local           ? "in other terminals type"
-                                   : "on enrolled workstations type");
-    for (const SeatSpec& seat : scene.seats) {
-      const bool ticket = !local && (r.code().empty() || seat.role == Role::kInstructor);
-      std::fprintf(people(), "  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), dialled.c_str(), seat.name.c_str(),
-                   ticket ? " --ticket TICKET" : which.c_str(), seat.required ? "" : "    # optional");
-    }
-    if (!local) std::fprintf(people(), "a TICKET is written by `tandem-server ticket --session %s --seat SEAT --workstation NAME`\n", name.c_str());
+    std::fputs(announcement(r, door_->address(), door_->throw_away(), plan_.sessions.size() > 1).c_str(), people());
     std::fflush(people());
-    io::tell(io::Level::kInfo, {.event = "session_opened", .session = name, .text = scene.name});
+    io::tell(io::Level::kInfo, {.event = "session_opened", .session = r.plan().name, .text = r.plan().scene.name});
   }
 
   /// Waits a little, then sees to everything.

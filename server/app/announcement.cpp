@@ -1,0 +1,36 @@
+#include "server/app/announcement.h"
+
+#include <cerrno>
+
+#include "common/base/format.h"
+#include "server/app/house.h"
+
+namespace tandem::server {
+namespace {
+
+/// Clients are usually started from where the server is: with a path if this program needed one.
+std::string client_command() {
+  const std::string own = program_invocation_name;
+  const auto slash = own.rfind('/');
+  return (slash == std::string::npos ? "" : own.substr(0, slash + 1)) + "tandem-client";
+}
+
+}  // namespace
+
+std::string announcement(const SessionRun& run, const io::SocketAddress& at, bool throw_away, bool several) {
+  const SceneSpec& scene = run.plan().scene;
+  const std::string dialled = at.any() ? "SERVER:" + std::to_string(at.port()) : io::to_text(at), &name = run.plan().name;
+  const bool by_code = !run.code().empty();
+  const std::string which = by_code ? " --session " + code_text(run.code()) : several ? " --session " + name : "";
+  std::string text = several ? "session " + name + ": " : "";
+  text += format("scene %s, %g s; ", scene.name.c_str(), scene.duration);
+  text += by_code ? "session code " + code_text(run.code()) + "; on enrolled workstations type\n" : throw_away ? "in other terminals type\n" : "on enrolled workstations type\n";
+  for (const SeatSpec& seat : scene.seats) {
+    const bool ticket = !throw_away && (!by_code || seat.role == Role::kInstructor);
+    text += format("  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), dialled.c_str(), seat.name.c_str(), ticket ? " --ticket TICKET" : which.c_str(),
+                   seat.required ? "" : "    # optional");
+  }
+  return throw_away ? text : text + format("a TICKET is written by `tandem-server ticket --session %s --seat SEAT --workstation NAME`\n", name.c_str());
+}
+
+}  // namespace tandem::server

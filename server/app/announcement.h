@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "common/io/socket_address.h"
+#include "server/app/session_run.h"
+
+namespace tandem::server {
+
+/// What is said of a session that opens: its scene, and for each seat the command that a person types to sit there.
+/// @param at          where clients dial  @param throw_away  keys made on the spot: no tickets  @param several  sessions are served
+[[nodiscard]] std::string announcement(const SessionRun& run, const io::SocketAddress& at, bool throw_away, bool several);
+
+}  // namespace tandem::server
