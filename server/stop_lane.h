@@ -71,6 +71,10 @@ class StopLane {
   [[nodiscard]] bool may_end(AccessRole who, std::uint8_t seat) const noexcept {
     return may_resume(who) || (own() && seat < kSeatsMax && allowed(who, Right::kEndPause) != Grant::kNo);
   }
+  /// Whether he has something to end: any stop, a pause of his own, or one that nobody who is there holds any more.
+  [[nodiscard]] bool awaits(AccessRole who, std::uint8_t seat, std::uint32_t there) const noexcept {
+    return on() && may_end(who, seat) && (may_resume(who) || holders(there) == 0 || (holders(there) >> seat & 1U) != 0);
+  }
 
   enum class Resume : std::uint8_t {
     kEnded,

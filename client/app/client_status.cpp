@@ -13,7 +13,7 @@ namespace {
 /// What he at this seat can do about a stop. Of a pause several may have made the server says more, see Vigil::see_stop.
 const char* way_out(const SeatSetup& setup, bool paused) {
   if (setup.seat.kind == SeatKind::kMaster && setup.seat.role == Role::kInstructor) return "r resumes";
-  if (setup.ends_pauses) return paused ? "r takes your pause back; an operator resumes" : "an operator resumes";
+  if (setup.ends_pauses) return paused ? "r takes a pause of your own back; an operator resumes" : "an operator resumes";
   return "an instructor or operator resumes";
 }
 
@@ -106,9 +106,9 @@ std::string handover_text(const ClientStatus& s) {
     case wire::Handover::kNone:
       break;
     case wire::Handover::kComes:
-      return format("weight comes in %.0f ms", 1e3 * s.handover_s);
+      return format("more weight in %.0f ms", 1e3 * s.handover_s);
     case wire::Handover::kGoes:
-      return format("weight goes in %.0f ms", 1e3 * s.handover_s);
+      return format("less weight in %.0f ms", 1e3 * s.handover_s);
     case wire::Handover::kCalledOff:
       return "hand-over called off: a link is too old";
   }

@@ -7,9 +7,11 @@ namespace tandem::server {
 
 namespace {
 
-std::string who_may(const SessionStatus& status, const SceneSpec& scene) {
+/// By whom, if from a seat (of consoles the house tells by name), and who may end it.
+std::string stop_text(const char* what, const SessionStatus& status, const SceneSpec& scene) {
+  const std::uint8_t by = status.stop.newest().by;
   const std::string who = who_ends(status.stop, scene, seats_heard(status));
-  return who.empty() ? "" : "; who may end it: " + who;
+  return what + (by < scene.seats.size() ? " by " + scene.seats[by].name : std::string()) + ": all hands are let go" + (who.empty() ? "" : "; who may end it: " + who);
 }
 
 }  // namespace
@@ -44,8 +46,8 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (status.state == State::kRunning)
       news.notes.push_back({"running", "", state_ && state_ != State::kWaiting ? "the session runs again" : "the session runs"});
     if (status.state == State::kPaused)
-      news.notes.push_back({"paused", "", "PAUSED: all hands are let go" + who_may(status, scene)});
-    if (status.state == State::kStopped) news.notes.push_back({"stopped", "", "STOPPED: all hands are let go" + who_may(status, scene)});
+      news.notes.push_back({"paused", "", stop_text("PAUSED", status, scene)});
+    if (status.state == State::kStopped) news.notes.push_back({"stopped", "", stop_text("STOPPED", status, scene)});
     if (status.state == State::kPassive)
       news.notes.push_back({"passive", "", "PASSIVE: this machine is too busy to keep time (three ticks in a row more than 5 ms late); all hands are let go and come back by themselves", true});
     if (status.state == State::kHeld) news.notes.push_back({"held", "", "HELD: " + why_held(status, scene) + ", the tools are braked"});

@@ -100,7 +100,7 @@ control::Status House::status_of(const Room& room, const control::Welcome& stand
   if (status.stop->seat.empty() && room.words.number == status.stop->number && status.stop->kind != control::StopKind::kFault) status.stop->workstation = room.words.workstation;
   if (room.words.number == status.stop->number) status.stop->why = room.words.why;
   const std::uint8_t seat = standing.seat.empty() ? AuditEvent::kNoSeat : static_cast<std::uint8_t>(place_of(standing.server_cid) - 1);
-  status.stop->yours = outcome.lane.on() && outcome.lane.may_end(standing.role, seat);
+  status.stop->yours = outcome.lane.awaits(standing.role, seat, outcome.there);
   return status;
 }
 

@@ -21,9 +21,9 @@ TEST(ClientStatus, TellsWhenWeightComesAndGoes) {
   EXPECT_NE(status_line(s, setup()).find("| alpha 0.25 |"), std::string::npos);
   s.handover = wire::Handover::kComes;
   s.handover_s = 0.05;
-  EXPECT_NE(status_line(s, setup()).find("| alpha 0.25 (weight comes in 50 ms) |"), std::string::npos) << status_line(s, setup());
+  EXPECT_NE(status_line(s, setup()).find("| alpha 0.25 (more weight in 50 ms) |"), std::string::npos) << status_line(s, setup());
   s.handover = wire::Handover::kGoes;
-  EXPECT_EQ(handover_text(s), "weight goes in 50 ms");
+  EXPECT_EQ(handover_text(s), "less weight in 50 ms");
   s.handover = wire::Handover::kCalledOff;
   EXPECT_EQ(handover_text(s), "hand-over called off: a link is too old");
 }

@@ -79,6 +79,10 @@ TEST(StopWords, SayWhoMayEndItAndHow) {
   EXPECT_FALSE(newest_stop(lane, scene, 0, kAll));
   static_cast<void>(lane.press(Time{}, AccessRole::kTrainee, 0));
   EXPECT_EQ(who_ends(lane, scene, kAll), "trainee (key r), who paused, or an operator (`tandem-client control resume`)");
+  EXPECT_TRUE(lane.awaits(AccessRole::kTrainee, 0, kAll));
+  EXPECT_FALSE(lane.awaits(AccessRole::kEvaluator, 2, kAll)) << "who paused nothing is not told that he may";
+  EXPECT_TRUE(lane.awaits(AccessRole::kEvaluator, 2, 1U << 2)) << "nobody else is there any more";
+  EXPECT_TRUE(lane.awaits(AccessRole::kOperator, StopLane::kNobody, kAll));
   EXPECT_NE(who_ends(lane, scene, 0).find("anybody at a seat who may pause (key r)"), std::string::npos);
   static_cast<void>(lane.press(Time{}, AccessRole::kEvaluator, 2));
   EXPECT_EQ(who_ends(lane, scene, kAll), "trainee and evaluator2 (key r each), who paused, or an operator (`tandem-client control resume`)");
