@@ -106,7 +106,6 @@ control::Status House::status_of(const Room& room, const control::Welcome& stand
 
 namespace {
 
-
 control::Body answer_to(const Command& command, const Outcome& outcome, const SceneSpec& scene) {
   const bool done = outcome.result == Result::kDone;
   if (command.what == Command::What::kSetAuthority && (done || outcome.result == Result::kOutdated))
