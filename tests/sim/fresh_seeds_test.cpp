@@ -152,12 +152,14 @@ TEST(FreshSeeds, ASlaveWhoseFrozenSensorMovesAgainBreaksNoApproach) {
 TEST(FreshSeeds, AHandThatStandsStillNeedNotLiftAToolThatFell) {
   const auto scene = scene_of(
       "version: 1 tick_hz: 1000 dof: 3 duration_s: 30 port: TIP channel { law: SET_POSITION }"
-      " device_coupling { k_c_n_m: 400 b_n_s_m: 0.5 m_c_kg: 0.02 } gate { latch: false force_max_n: 3.3 }"
+      " device_coupling { k_c_n_m: 400 b_n_s_m: 0.5 m_c_kg: 0.02 } gate { latch: false force_max_n: 2 loop_age_max_ms: 300 }"
       " seat { name: \"hand\" kind: MASTER role: INSTRUCTOR required: true device { damping_n_s_m: 0.2 } hand { model: LEADER"
       " trajectory { waypoint { at_s: 0.2 x_m: 0 } } } }"
       " tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 slave { damping_n_s_m: 0.2 gravity_compensation: false } }"
       " authority { tool: \"tool\" seat: \"hand\" alpha: 1 }");
-  test::Life life(test::with(scene, {{Fault::Kind::kStopHand, "hand", 1s, 8s}}));
+  netsim::WorldSetup setup = test::with(scene, {{Fault::Kind::kStopHand, "hand", 1s, 8s}});
+  setup.network.up.floor = setup.network.down.floor = 50ms;  // soft springs, far from their leash
+  test::Life life(setup);
   life.until(9100ms);
   const auto apart = [&] {
     double way = 0;
