@@ -114,11 +114,11 @@ void World::restart_server() {
   up_ = true;
 }
 
-/// Twice a second, and whenever somebody came, went, or changed who leads or who may move at all.
+/// Twice a second, and whenever somebody came, went, or changed who leads or who may move at all, or the session began.
 void World::keep_checkpoint(bool people_changed) {
   constexpr Duration kEvery = std::chrono::milliseconds(500);
   if (!people_changed && now_ - checkpoint_at_ < kEvery && session_->authority_version() == checkpoint_.authority_version &&
-      session_->stops() == checkpoint_.stops && session_->epoch() == checkpoint_.epoch)
+      session_->stops() == checkpoint_.stops && session_->epoch() == checkpoint_.epoch && session_->begun() == checkpoint_.begun)
     return;
   checkpoint_ = session_->checkpoint();
   checkpoint_at_ = now_;

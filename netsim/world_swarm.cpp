@@ -171,7 +171,9 @@ void draw_clocks(SwarmCase& out) {
 
 std::uint64_t mixed(std::uint64_t into, double value) noexcept { return mix64(into ^ std::bit_cast<std::uint64_t>(value)); }
 
-/// A person at every device that latched presses the button, now and then.
+/// At every device that latched a person presses the button, now and then. Where the client says that the sensor gives the same
+/// reading although the hand is led elsewhere, the person moves the handle: only a new reading ends that. A hand that rests against
+/// the end of its arm's travel, or at a pose in which the motors have no lever, is taken for a frozen sensor.
 void press_buttons(World& world) {
   for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
     client::Seat* const seat = world.seat(i);
@@ -180,6 +182,11 @@ void press_buttons(World& world) {
     if (phase == control::GatePhase::kDamped || phase == control::GatePhase::kFault || seat->over_speed().latched() || seat->over_temperature().latched())
       seat->press_reset();
     const wire::SessionState session = seat->force().session;
+    if (seat->sensor_frozen()) {
+      constexpr double kPush = 2, kPushLength = 0.05;  // [N], [s]
+      const hal::Vec3 from_home = world.device(i).truth().x;
+      world.device(i).push(kPush * from_home.unaryExpr([](double x) { return x > 0 ? -1.0 : 1.0; }), kPushLength);
+    }
     if (seat->stopped() || session == wire::SessionState::kPaused || session == wire::SessionState::kStopped) seat->press_resume();
   }
 }

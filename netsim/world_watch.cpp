@@ -29,9 +29,7 @@ constexpr unsigned kFastMax = 5;
 constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls along overdraws within one tick
 constexpr double kFeltMax = 0.2;                        // [N/ms] a step of authority
 constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: faster, and the strongest springs' shares are felt
-constexpr double kStarvedMax = 0.3;                     // [s]
-constexpr double kLeads = 0.5;                          // share of authority of who moves the tool and is not moved by it
-constexpr double kAside = 0.002, kLeash = 0.98;         // [m] of a target that is reached; share of the motor's pull
+constexpr double kForgotten = 0.025;                    // [s] after which a device holds no force of a command that was not renewed
 constexpr double kFarTouch = 1, kFarLinear = 50;        // [m] no hand of such a device is there; a rail has no end
 
 double tip_norm(const AxisArray& effort, const AxisArray& scale, std::size_t dof) noexcept {
@@ -101,10 +99,9 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
     if (lived == 1 && (slave || scene_->tools.size() == 1)) {
       const std::size_t tool = slave ? scene_->seats[i].tool : 0;
-      PortSample rx = port.heard().port;  // as the tool sees it: without the offset the seat is told to follow with
-      for (std::size_t a = 0; a < scene_->dof; ++a) rx.x[a] -= port.tx.port.x[a] - session.tool(tool).x(a);
-      check_end(i, port.end(), s.server, seat ? seat->setup().axis_scale : AxisArray{1, 1, 1, 1, 1, 1, 1}, rx,
-                session.tool(tool).position(), seat != nullptr);
+      EndLook look{port.heard().port, session.tool(tool).position(), s.server.x, offset_of(i, session), seat != nullptr};
+      for (std::size_t a = 0; a < scene_->dof; ++a) look.rx.x[a] -= look.offset[a];  // as the tool sees it
+      check_end(i, port.end(), s.server, seat ? seat->setup().axis_scale : AxisArray{1, 1, 1, 1, 1, 1, 1}, look);
     } else {
       s.server.known = false;
     }
@@ -120,8 +117,10 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     check_reading(i, station);
     check_sensor(i, station);
     check_speed(i, station);
-    check_end(i, seat->channel(), s.client, seat->setup().axis_scale, seat->force().port, seat->sample().port.x,
-              s.was_active && seat->gate().active());
+    // A master's reference moves against the virtual mass as the tick before left it, a slave's against this tick's reading.
+    const AxisArray& x = seat->sample().port.x;
+    check_end(i, seat->channel(), s.client, seat->setup().axis_scale,
+              {seat->force().port, x, slave ? x : s.client.x, offset_of(i, session), s.was_active && seat->gate().active()});
     s.was_active = seat->gate().active();
     s.effort = seat->effort();
     s.served = own;
@@ -210,8 +209,11 @@ void WorldWatch::check_effort(Time own, std::size_t i, const WorldStation& stati
   const double norm = tip_norm(seat.effort(), scale, scene_->dof);
   if (norm > share(i) * scene_->gate.force_max * (1 + 1e-9)) note("effort_limited", i);
   if (!seat.gate().active() || norm == 0) return;  // letting go at once is always allowed
+  // A program that stood still for longer than a command and its device's release last finds motors without force: what it gives
+  // then is a step from zero, not from the effort it remembers.
+  const bool stood_still = s.served != Time{} && seconds(own - s.served) > kForgotten;
   AxisArray change{};
-  for (std::size_t a = 0; a < scene_->dof; ++a) change[a] = seat.effort()[a] - s.effort[a];
+  for (std::size_t a = 0; a < scene_->dof; ++a) change[a] = seat.effort()[a] - (stood_still ? 0 : s.effort[a]);
   const double dt = s.served == Time{} ? 0 : std::clamp(seconds(own - s.served), 0.0, kGateStepMax);
   const double rate = seat.gate().phase() == control::GatePhase::kRampIn ? kSlewRampIn : kSlewActive;
   if (tip_norm(change, scale, scene_->dof) > rate * dt * (1 + 1e-6) + 1e-9) note("effort_slew", i);
@@ -292,47 +294,6 @@ void WorldWatch::check_once(std::size_t i, const WorldStation& station, const se
   if (seat->force().session_tick < s.session_tick) note("never_backwards", i);
   s.accepted = accepted;
   s.session_tick = seat->force().session_tick;
-}
-
-void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale,
-                           const PortSample& rx, const AxisArray& x, bool steady) {
-  const control::EndState& state = end.state();
-  const control::Promises promises = end.promises();
-  End now{.known = true, .ref = state.ref, .x = x, .k = state.k, .in = {}, .received = {}};
-  const double dt = 1 / scene_->tick_hz;
-  for (std::size_t a = 0; a < scene_->dof; ++a) {
-    const control::EnergyLedger& ledger = end.ledger(a);
-    now.in[a] = ledger.in_nj();
-    now.received[a] = ledger.received_nj();
-    if (!ledger.holds()) note("ledger", i, !promises.ledger);
-    if (!before.known || !steady) continue;
-    const bool anew = ledger.in_nj() == 0 && ledger.received_nj() == 0;  // a client took the seat: a new account
-    if (!anew && (now.in[a] < before.in[a] || now.received[a] < before.received[a])) note("energy_monotone", i, !promises.ledger);
-    const double was = std::abs(before.ref[a] - before.x[a]), is = std::abs(now.ref[a] - before.x[a]);
-    const double step = (std::abs(rx.v[a]) + scene_->channel.v_app / std::sqrt(scale[a])) * dt;
-    const bool rested = now.ref[a] == x[a] || now.ref[a] == before.x[a];  // engaged anew, without elongation
-    if (is > was && !rested && std::abs(now.ref[a] - before.ref[a]) > step * (1 + 1e-9) + 1e-12)
-      note("approach", i, !promises.bounded_step);
-  }
-  if (ordinary_ && alpha_[0][mover_] >= kLeads && steady && before.known) check_starvation(i, now, before, scale, rx);
-  before = now;
-}
-
-/// A reference that news, hand and motor would let move, and that stays where it is: nothing but an empty account holds it. Told by
-/// where it is, not by what the ledger says it refused.
-void WorldWatch::check_starvation(std::size_t i, End& now, const End& before, const AxisArray& scale, const PortSample& rx) {
-  const double dt = 1 / scene_->tick_hz;
-  for (std::size_t a = 0; a < scene_->dof; ++a) {
-    const double root = std::sqrt(scale[a]);
-    // The target lies between the received position, led by its age, and where the received force would hold.
-    const double forced = now.x[a] + rx.f[a] / now.k[a];
-    const double missing = std::max({std::min(rx.x[a], forced) - now.ref[a], now.ref[a] - std::max(rx.x[a], forced), 0.0});
-    const bool there = missing <= kAside / root + scene_->channel.lead_max * std::abs(rx.v[a]);
-    const bool leashed = std::abs(now.ref[a] - now.x[a]) > kLeash * scene_->gate.force_max * root / now.k[a];
-    const bool walks = std::abs(now.ref[a] - before.ref[a]) > 0.5 * scene_->channel.v_app / root * dt;
-    now.starved[a] = there || leashed || walks ? 0 : before.starved[a] + 1;
-    if (now.starved[a] * dt > kStarvedMax) note("starved", i);
-  }
 }
 
 void WorldWatch::check_authority(std::uint32_t lived, const server::Session& session) {

@@ -46,6 +46,7 @@ class WorldWatch {
     AxisArray ref{}, x{}, k{};
     EnergyArray in{}, received{};
     std::array<unsigned, kAxesMax> starved{};  ///< ticks on end
+    std::array<bool, kAxesMax> home{};         ///< the reference has reached its target since hand and tool were last apart
   };
   struct Seat {
     std::uint32_t starts = 0, joins = 0;
@@ -87,12 +88,19 @@ class WorldWatch {
   void check_role(std::size_t i, const WorldStation& station, const server::SeatPort& port);
   void check_speed(std::size_t i, const WorldStation& station);
   [[nodiscard]] double share(std::size_t i) const noexcept;
+  [[nodiscard]] AxisArray offset_of(std::size_t i, const server::Session& session) const noexcept;
   void check_energy(std::size_t i, const WorldStation& station);
   void check_reading(std::size_t i, const WorldStation& station);
   void check_once(std::size_t i, const WorldStation& station, const server::SeatPort& port);
-  void check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const PortSample& rx,
-                 const AxisArray& x, bool steady);
-  void check_starvation(std::size_t i, End& now, const End& before, const AxisArray& scale, const PortSample& rx);
+  /// @param x   of what hangs on this end, after the tick  @param hung  of the same, when the reference moved
+  /// @param offset  hand minus tool, that the session has yet to close  @param steady  judged at all
+  struct EndLook {
+    PortSample rx;
+    AxisArray x{}, hung{}, offset{};
+    bool steady = false;
+  };
+  void check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const EndLook& look);
+  void check_starvation(std::size_t i, End& now, const End& before, const AxisArray& scale, const EndLook& look);
   void check_authority(std::uint32_t lived, const server::Session& session);
   void check_felt(std::size_t tool, const server::Session& session);
   [[nodiscard]] bool serves_only(std::size_t tool, std::size_t seat, const server::Session& session) const noexcept;

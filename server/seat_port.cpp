@@ -107,9 +107,10 @@ bool SeatPort::jumps(const PortSample& next) const noexcept {
   return false;
 }
 
-void SeatPort::hold() noexcept {
+void SeatPort::hold(const AxisArray& x) noexcept {
   if (was_present_) ++outages_;
   was_present_ = false;
+  end_->give_way(x);
 }
 
 void SeatPort::move(Time now, double dt, bool present, const Near& near) noexcept {

@@ -61,8 +61,10 @@ class SeatPort {
   };
   /// Moves this end's reference; rests it (no elongation) while the seat is not present.
   void move(Time now, double dt, bool present, const Near& near) noexcept TANDEM_REALTIME;
-  /// The seat is lost and its weight on the way to others: its end stays as it is, so that nothing at the tool jumps.
-  void hold() noexcept TANDEM_REALTIME;
+  /// The seat is lost and its weight moves to other seats: its end keeps its reference, so that nothing at the tool jumps. The
+  /// reference gives way to a tool that others take farther than this seat's motor could pull.
+  /// @param x  of the tool; a weighted position where the seat serves several tools
+  void hold(const AxisArray& x) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] control::ChannelEnd& end() noexcept { return *end_; }
   [[nodiscard]] const control::ChannelEnd& end() const noexcept { return *end_; }

@@ -80,7 +80,7 @@ Checkpoint Session::checkpoint() const noexcept {
   c.authority_version = authority_version_;
   c.stops = stop_lane_.stops();
   c.stop = gathering_ ? std::max(stop_before_, stop_lane_.level()) : stop_lane_.level();
-  c.begun = begun_ || gathering_;
+  c.begun = begun();
   c.seats_n = static_cast<std::uint8_t>(seats_.size());
   c.masters_n = static_cast<std::uint8_t>(masters_);
   c.tools_n = static_cast<std::uint8_t>(tools_.size());

@@ -37,6 +37,8 @@ class Session {
   /// What a new session could go on from; twice a second and whenever `authority_version` or `stops` changed is often enough.
   [[nodiscard]] Checkpoint checkpoint() const noexcept TANDEM_REALTIME;
   [[nodiscard]] std::uint64_t epoch() const noexcept { return epoch_; }
+  /// Session time runs, or ran before a restart. A checkpoint from before the session began asks for nobody back.
+  [[nodiscard]] bool begun() const noexcept { return begun_ || gathering_; }
   /// Back from a checkpoint and not everybody needed is there.
   [[nodiscard]] bool gathering() const noexcept { return gathering_; }
 

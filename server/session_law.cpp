@@ -74,8 +74,8 @@ void Session::move_references(Time now) noexcept {
     const bool engaged = present_[i] && !held;
     step_offset(i, engaged);
     near.offset = offset_[i];
-    if (leaving && !present_[i] && !held) {  // no energy moves while it waits for its weight to go
-      seats_[i].hold();
+    if (leaving && !present_[i] && !held) {  // no energy is paid or credited while it waits for its weight to go
+      seats_[i].hold(near.x);
       continue;
     }
     seats_[i].move(now, dt_, engaged, near);

@@ -17,6 +17,8 @@ void ChannelEnd::engage(const AxisArray& x, double age) noexcept {
   for (std::size_t a = 0; a < params_.dof; ++a) state_.k[a] = schedule_.stiffness() * params_.scale[a];
 }
 
+void ChannelEnd::give_way(const AxisArray&) noexcept {}
+
 EnergyArray ChannelEnd::e_out() const noexcept {
   EnergyArray e{};
   for (std::size_t a = 0; a < params_.dof; ++a) e[a] = ledger_[a].out_nj();

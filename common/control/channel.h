@@ -64,6 +64,9 @@ class ChannelEnd {
 
   /// Starts, or starts again, with zero elongation: whatever the spring held is dropped, never credited.
   virtual void engage(const AxisArray& x, double age) noexcept TANDEM_REALTIME;
+  /// In place of `move` while the other end is silent and this end still pulls: the reference stays where it is, but never farther
+  /// from `x` than the strongest motor could pull. What giving way frees is dropped, never credited.
+  virtual void give_way(const AxisArray& x) noexcept TANDEM_REALTIME;
   /// Once per tick: new reference, stiffness and damping. Total and real-time safe.
   virtual const EndState& move(const EndInput& in) noexcept TANDEM_REALTIME = 0;
   [[nodiscard]] virtual Promises promises() const noexcept = 0;

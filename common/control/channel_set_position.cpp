@@ -12,6 +12,15 @@ SetPositionEnd::SetPositionEnd(const ChannelParams& params) : ChannelEnd(params)
   }
 }
 
+void SetPositionEnd::give_way(const AxisArray& x) noexcept {
+  for (std::size_t a = 0; a < params_.dof; ++a) {
+    const double reach = strongest_[a] / state_.k[a];
+    const double leashed = std::clamp(state_.ref[a], x[a] - reach, x[a] + reach);
+    if (std::isfinite(leashed)) state_.ref[a] = leashed;
+    state_.absorbed[a] = state_.paid[a] = state_.passed[a] = 0;
+  }
+}
+
 const EndState& SetPositionEnd::move(const EndInput& in) noexcept {
   schedule_.step(std::max(0.0, in.age - 0.5 * in.dt), in.dt);  // half a tick is sampling, there without a network too
   const double stiffness = schedule_.stiffness(), damping = schedule_.damping();

@@ -16,6 +16,7 @@ namespace tandem::control {
 class SetPositionEnd final : public ChannelEnd {
  public:
   explicit SetPositionEnd(const ChannelParams& params);
+  void give_way(const AxisArray& x) noexcept TANDEM_REALTIME override;
   const EndState& move(const EndInput& in) noexcept TANDEM_REALTIME override;
   [[nodiscard]] Promises promises() const noexcept override { return {.ledger = true, .bounded_step = true}; }
 

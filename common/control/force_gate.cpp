@@ -101,7 +101,7 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
         lose(in, out);
       } else if (!in.engage) {  // asked to let go: the same ramp, but no loss
         phase_ = GatePhase::kPassive;
-        since_ = in.now;
+        since_ = ramp_since_ = in.now;
         at_loss_ = effort_;
       }
       break;
@@ -121,6 +121,8 @@ void ForceGate::lose(const Input& in, Output& out) noexcept {
   ++trips_;
   phase_ = GatePhase::kPassive;
   since_ = in.now;
+  // A client that wakes up late notices the silence late. The ramp begins when the limit passed, so that it ends in time.
+  ramp_since_ = std::min(in.now, std::max(last_step_, last_fresh_ + p_.silence_limit));
   at_loss_ = effort_;
   losses_[trips_ % 3] = in.now;
   // Otherwise a flapping link would give a tankful at every loss.
@@ -143,7 +145,7 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
     for (std::size_t a = 0; a < p_.dof; ++a)
       f[a] = gain * in.wanted[a] - (std::isfinite(in.v[a]) ? (1.0 - gain) * kDamping * p_.scale[a] * in.v[a] : 0.0);
   } else if (phase_ == GatePhase::kPassive || phase_ == GatePhase::kDamped) {
-    const double left = std::max(0.0, 1.0 - seconds(in.now - since_) / seconds(kRampOut));
+    const double left = std::max(0.0, 1.0 - seconds(in.now - ramp_since_) / seconds(kRampOut));
     for (std::size_t a = 0; a < p_.dof; ++a) {
       const double v = std::isfinite(in.v[a]) ? in.v[a] : 0;
       f[a] = left * at_loss_[a] - kDamping * p_.scale[a] * v * (phase_ == GatePhase::kDamped ? 1.0 : 1.0 - left);

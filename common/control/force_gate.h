@@ -68,6 +68,7 @@ class ForceGate {
   double tank_size_;
   GatePhase phase_ = GatePhase::kZero;
   Time since_{};                 ///< begin of the phase
+  Time ramp_since_{};            ///< begin of the ramp that takes the force away; before `since_` if a silence was noticed late
   Time last_fresh_{}, last_step_{};
   bool started_ = false, heard_ = false;
   bool renewed_ = false;         ///< this tick brought a fresh datagram from a loop that is young enough

@@ -251,7 +251,11 @@ void SimDevice::advance(const Command& command, Duration dt) noexcept {
   state_.echo_command = alive > Duration::zero() ? command.seq : 0;
 
   const Vec3 host = compensation();
-  const HandPull pull = hand_.advance(truth_.x, period);
+  HandPull pull = hand_.advance(truth_.x, period);
+  if (push_left_ > 0) {
+    pull.force += push_;
+    push_left_ -= period;
+  }
   const double acting = seconds(alive);
   truth_.f_environment.setZero();
   truth_.f_hand.setZero();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -65,6 +66,12 @@ class SimDevice final : public SteppedDevice {
   [[nodiscard]] const SimCounts& counts() const noexcept { return counts_; }
   /// Buttons a person or a test presses: `State::buttons` from the next reading on. Thread-safe.
   void press(unsigned mask) noexcept { buttons_.store(mask, std::memory_order_relaxed); }
+  /// A person pushes the handle, beside what the hand's model does.
+  /// @param force  at the tip [N]  @param length  from now on [s], at most 1
+  void push(const Vec3& force, double length) noexcept {
+    push_ = force.allFinite() ? force : Vec3(Vec3::Zero());
+    push_left_ = length > 0 ? std::min(length, 1.0) : 0;
+  }
 
  private:
   using Plant = std::variant<TouchPlant, LinearPlant>;
@@ -86,6 +93,8 @@ class SimDevice final : public SteppedDevice {
   Plant plant_;
   Hand hand_;
   std::atomic<unsigned> buttons_{0};
+  Vec3 push_ = Vec3::Zero();
+  double push_left_ = 0;  ///< [s]
   DeviceCaps caps_;
   State state_;
   Truth truth_;

@@ -59,6 +59,7 @@ void HostedSession::tick(Time now, std::uint32_t missed, const MachineStatus& ma
     audit_.push(*event);
     keep_now_ = keep_now_ || moves_checkpoint(event->what);
   }
+  keep_now_ = keep_now_ || session_.begun() != std::exchange(begun_, session_.begun());
   if (mail_ && (keep_now_ || ++since_kept_ >= kept_every_)) lay_down_checkpoint();
   SessionMonitor{}.check(session_, violations_);
   const bool seldom = machine.relief.rung >= Rung::kTelemetry;

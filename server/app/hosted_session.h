@@ -74,7 +74,7 @@ class HostedSession {
   SessionStatus published_;
   std::shared_ptr<CheckpointMail> mail_;  ///< null: nobody keeps it
   std::uint64_t epoch_ = 1, kept_every_ = 0, since_kept_ = 0;
-  bool keep_now_ = true;
+  bool keep_now_ = true, begun_ = false;
 };
 
 }  // namespace tandem::server

@@ -151,6 +151,27 @@ TEST(SetPosition, GivesWayToAHandThatPushesHarderThanTheMotor) {
   EXPECT_NEAR(s.k[0] * (s.ref[0] - 0.02), -3.3, 1e-12);
 }
 
+TEST(SetPosition, GivesWayWhileItsOtherEndIsSilentAndMovesNoEnergy) {
+  ChannelParams p = plain();
+  p.effort_max = 3;  // 3 mm at 1000 N/m
+  SetPositionEnd end(p);
+  end.engage({}, 0);
+  end.move(towards(0.002));
+  const std::uint64_t margin = end.ledger(0).margin_nj();
+  AxisArray x{};
+  for (const auto& [at, ref] : {std::pair{0.001, 0.002}, std::pair{-0.001, 0.002}, std::pair{-0.004, -0.001}, std::pair{0.001, -0.001}, std::pair{0.006, 0.003}}) {
+    x[0] = at;
+    end.give_way(x);
+    EXPECT_NEAR(end.state().ref[0], ref, 1e-12) << at;
+    EXPECT_EQ(end.state().absorbed[0], 0);
+    EXPECT_EQ(end.ledger(0).margin_nj(), margin);
+    EXPECT_EQ(end.ledger(0).in_nj(), 0U);
+  }
+  x[0] = std::numeric_limits<double>::quiet_NaN();
+  end.give_way(x);
+  EXPECT_NEAR(end.state().ref[0], 0.003, 1e-12);
+}
+
 TEST(SetPosition, StartsAgainWithoutElongationAndWithoutCredit) {
   SetPositionEnd end(plain());
   end.engage({}, 0);

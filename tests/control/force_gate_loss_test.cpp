@@ -51,6 +51,22 @@ TEST(ForceGate, TakesItsForceAwayWithin120Milliseconds) {
   for (int i = 0; i < 50; ++i) EXPECT_LE(d.tick().effort[0], 0);
 }
 
+TEST(ForceGate, EndsItsRampInTimeThoughItNoticedTheSilenceLate) {
+  GateDrive on_time, late;
+  for (GateDrive* d : {&on_time, &late}) {
+    d->hold(3);
+    d->in.fresh = false;
+  }
+  on_time.ticks(34);
+  late.ticks(19);
+  late.in.now += 14ms;  // its program was not scheduled
+  EXPECT_TRUE(late.tick().tripped);
+  EXPECT_NEAR(late.out.effort[0], on_time.out.effort[0], 1e-9);
+  EXPECT_NEAR(late.out.effort[0], 3 * 0.86, 1e-9) << "14 ms of 100";
+  late.ticks(86);
+  EXPECT_EQ(late.out.effort[0], 0) << "120 ms after the last fresh datagram";
+}
+
 TEST(ForceGate, GoesOnDampingWithoutALink) {  // a hand that pushed moves fastest when the ramp ends
   GateDrive d;
   d.hold(2);

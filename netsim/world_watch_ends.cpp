@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <cmath>
+
+#include "netsim/world_watch.h"
+
+/// What must hold at each end of a channel: accounts, steps of its reference, and that it does not starve.
+namespace tandem::netsim {
+
+namespace {
+
+constexpr double kStarvedMax = 0.3;                     // [s]
+constexpr double kAside = 0.002, kLeash = 0.98;         // [m] of a target that is reached; share of the motor's pull
+constexpr double kTogether = 1e-5;                      // [m] hand and tool are not apart
+constexpr double kLeads = 0.5;                          // share of authority of who moves the tool and is not moved by it
+
+}  // namespace
+
+/// Hand minus tool, where the tool is what one seat follows; else 0, and nothing is judged that needs it.
+AxisArray WorldWatch::offset_of(std::size_t i, const server::Session& session) const noexcept {
+  AxisArray offset{};
+  if (scene_->seats[i].kind != SeatKind::kSlave && scene_->tools.size() != 1) return offset;
+  const std::size_t tool = scene_->seats[i].kind == SeatKind::kSlave ? scene_->seats[i].tool : 0;
+  for (std::size_t a = 0; a < scene_->dof; ++a) offset[a] = session.seat(i).tx.port.x[a] - session.tool(tool).x(a);
+  return offset;
+}
+
+void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const EndLook& look) {
+  const control::EndState& state = end.state();
+  const control::Promises promises = end.promises();
+  const auto& [rx, x, hung, offset, steady] = look;
+  End now{.known = true, .ref = state.ref, .x = x, .k = state.k, .in = {}, .received = {}, .starved = {}, .home = before.home};
+  const double dt = 1 / scene_->tick_hz;
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    const control::EnergyLedger& ledger = end.ledger(a);
+    now.in[a] = ledger.in_nj();
+    now.received[a] = ledger.received_nj();
+    if (!ledger.holds()) note("ledger", i, !promises.ledger);
+    if (!before.known || !steady) continue;
+    const bool anew = ledger.in_nj() == 0 && ledger.received_nj() == 0;  // a client took the seat: a new account
+    if (!anew && (now.in[a] < before.in[a] || now.received[a] < before.received[a])) note("energy_monotone", i, !promises.ledger);
+    const double was = std::abs(before.ref[a] - hung[a]), is = std::abs(now.ref[a] - hung[a]);
+    const double step = (std::abs(rx.v[a]) + scene_->channel.v_app / std::sqrt(scale[a])) * dt;
+    const bool rested = now.ref[a] == x[a] || now.ref[a] == before.x[a];  // engaged anew, without elongation
+    if (is > was && !rested && std::abs(now.ref[a] - before.ref[a]) > step * (1 + 1e-9) + 1e-12)
+      note("approach", i, !promises.bounded_step);
+  }
+  if (ordinary_ && alpha_[0][mover_] >= kLeads && steady && before.known) check_starvation(i, now, before, scale, look);
+  before = now;
+}
+
+/// A reference that news, hand and motor would let move, and that stays where it is: nothing but an empty account holds it. Told by
+/// where it is, not by what the ledger says it refused.
+///
+/// Judged from the moment on at which hand and tool have come together after the calm. What parted them (an outage, a tool that fell
+/// while nobody held it) and emptied the accounts was no ordinary motion. The energy that brings them together again comes from the
+/// hand: a hand that stands still lifts no tool and pulls none through friction, and a channel that did so would give what it never took.
+void WorldWatch::check_starvation(std::size_t i, End& now, const End& before, const AxisArray& scale, const EndLook& look) {
+  const double dt = 1 / scene_->tick_hz;
+  const PortSample& rx = look.rx;
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    const double root = std::sqrt(scale[a]);
+    // The target lies between the received position, led by its age, and where the received force would hold.
+    const double forced = now.x[a] + rx.f[a] / now.k[a];
+    const double missing = std::max({std::min(rx.x[a], forced) - now.ref[a], now.ref[a] - std::max(rx.x[a], forced), 0.0});
+    const bool there = missing <= kAside / root + scene_->channel.lead_max * std::abs(rx.v[a]);
+    const bool leashed = std::abs(now.ref[a] - now.x[a]) > kLeash * scene_->gate.force_max * root / now.k[a];
+    const bool walks = std::abs(now.ref[a] - before.ref[a]) > 0.5 * scene_->channel.v_app / root * dt;
+    const bool together = std::abs(look.offset[a]) <= kTogether / root;
+    now.home[a] = together && (before.home[a] || there);
+    now.starved[a] = !now.home[a] || there || leashed || walks ? 0 : before.starved[a] + 1;
+    if (now.starved[a] * dt > kStarvedMax) note("starved", i);
+  }
+}
+
+}  // namespace tandem::netsim
