@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/command_life.h"
 #include "common/setup/channel_setup.h"
 
 namespace tandem::client {
@@ -12,7 +13,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kCommandLife = 5ms;     // a device forgets a command that is not renewed
 constexpr Duration kAuthorityRepeat = 20ms;
 constexpr Duration kAuthorityPatience = 1s;  // what was not heard or not granted by then is not wanted any more
 constexpr std::uint64_t kLearnSamples = 50;  // round trips known before a hand may be engaged
@@ -32,6 +32,7 @@ control::GateParams gate_params(const SeatSetup& s, const hal::DeviceCaps& caps)
   g.loop_age_max = from_seconds(s.gate.loop_age_max);
   g.ramp_in = from_seconds(s.gate.ramp_in);
   g.latch = s.gate.latch;
+  g.command_life = command_life(from_seconds(1.0 / s.tick_hz));
   return g;
 }
 
@@ -61,6 +62,7 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link
       map_(setup.port, setup.dof, caps.joints),
       joints_(caps.joints),
       dt_(1.0 / setup.tick_hz),
+      command_life_(command_life(from_seconds(dt_))),
       link_(std::make_unique<link::Link>(link)),
       codec_(setup.dof, setup.port),
       end_(make_end(setup)),
@@ -186,7 +188,7 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
 
   hal::Command command;
   command.seq = ++command_seq_;
-  command.expires = now + kCommandLife;
+  command.expires = now + command_life_;
   command.kind = hal::CommandKind::kJointEffort;
   command.effort = map_.joint_effort(reading_, effort_);
   return command;

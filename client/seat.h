@@ -111,6 +111,7 @@ class Seat {
   hal::PortMap map_;
   std::size_t joints_;
   double dt_;
+  Duration command_life_;
   std::unique_ptr<link::Link> link_;
   wire::Codec codec_;
   std::unique_ptr<control::ChannelEnd> end_;

@@ -104,7 +104,8 @@ struct State {
   bool saturated = false;          ///< the last command was beyond the motors
 };
 
-/// What the device shall do until the next command or until `expires`, whichever is first. There is no "set and forget".
+/// What the device shall do until the next command or until `expires`, whichever is first. There is no "set and forget": a client sets
+/// `expires` to its time plus `command_life` of its ticks, and real motors never obey longer than `kCommandLifeMax` (common/base/command_life.h).
 struct Command {
   std::uint64_t seq = 0;
   Time expires{};

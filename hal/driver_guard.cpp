@@ -72,6 +72,11 @@ double DriverGuard::limit(Time now) const noexcept {
 
 DriverGuard::Output DriverGuard::pass(Time now, const Command& command, const State& state) noexcept {
   const double dt = passed_ ? std::clamp(seconds(now - passed_at_), 0.0, 1.0) : 0.0;
+  if (command.seq != seq_ || command.expires != asked_) {  // it came at the end of the step before
+    seq_ = command.seq;
+    asked_ = command.expires;
+    expires_ = std::min(command.expires, (passed_ ? passed_at_ : now) + kCommandLifeMax);
+  }
   passed_ = true;
   passed_at_ = now;
   heat_ += (given_n_ * given_n_ - heat_) * -std::expm1(-dt / seconds(limits_.heat_time));
@@ -81,10 +86,10 @@ DriverGuard::Output DriverGuard::pass(Time now, const Command& command, const St
   if (wanted && !finite(command.effort)) {
     out.verdict = Verdict::kNotFinite;
     last_ = {};
-  } else if (wanted && now < command.expires) {
+  } else if (wanted && now < expires_) {
     last_ = command.effort;
     std::fill(last_.begin() + static_cast<std::ptrdiff_t>(joints_), last_.end(), 0.0);
-    died_ = command.expires;
+    died_ = expires_;
     out.effort = last_;
   } else {
     out.verdict = wanted ? Verdict::kExpired : Verdict::kPassed;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/base/command_life.h"
 #include "common/base/time.h"
 #include "hal/device.h"
 
@@ -17,7 +18,7 @@ struct GuardLimits {
   double speed_max_m_s = 3;            ///< a tip that moves faster gets no force
   double jump_max_m = 0.02;            ///< a hand does not move so far between two exchanges: the reading is wrong
   Duration soft_start = std::chrono::milliseconds(500);
-  Duration let_go = std::chrono::milliseconds(20);      ///< from the last effort to zero when a command died of age
+  Duration let_go = kCommandFade;  ///< from the last effort to zero when a command died of age
   Duration miss_limit = std::chrono::milliseconds(10);  ///< of asking without a whole answer
 };
 
@@ -27,6 +28,9 @@ struct GuardLimits {
 /// Between whoever commands and the driver that encodes: finite -> not expired -> within the force of the motors, direction
 /// kept -> within their heat -> soft start; no force after readings that cannot be. Pure; total: every input gives finite
 /// efforts within the limits. Real-time safe.
+///
+/// A command acts until it expires, at most `kCommandLifeMax` after it came, however late it wants to expire and however often it is repeated;
+/// then its effort fades within `let_go`.
 class DriverGuard {
  public:
   enum class Verdict : std::uint8_t { kPassed, kClamped, kExpired, kNotFinite, kHeldBack };
@@ -57,6 +61,9 @@ class DriverGuard {
   double heat_ = 0;     ///< mean square of the force, weighted by the motors' time constant [N^2]
   double given_n_ = 0;  ///< force of the effort passed last [N]
   AxisArray last_{};    ///< effort of the last command that lived
+  std::uint64_t seq_ = 0;
+  Time asked_{};        ///< until when the newest command wants to live
+  Time expires_{};      ///< until when it does: at most `kCommandLifeMax` from when it came
   Time died_{};         ///< when it expired
   std::uint64_t implausible_ = 0;
 };

@@ -12,6 +12,7 @@
 #include "client/app/sample_trace.h"
 #include "client/app/seat_pump.h"
 #include "client/app/vigil.h"
+#include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/output_file.h"
 #include "common/io/realtime.h"
@@ -41,7 +42,10 @@ int not_attached(const AttendPlan& plan, const std::string& why, int code = kTro
 }
 
 /// Whether the device, now that the scene chose its model, has the axes the session needs; empty if so.
-std::string unfit(const SeatSetup& setup, const hal::DeviceCaps& caps) {
+/// @param held  hardware: it has a rate of its own
+std::string unfit(const SeatSetup& setup, const hal::DeviceCaps& caps, bool held) {
+  if (constexpr double rate = 1 / seconds(HeldDevice::kPeriod); held && setup.tick_hz > rate * (1 + 1e-9))
+    return format("the scene's tick_hz is %.0f, a real device is asked %.0f times a second; join a scene with tick_hz 100 to %.0f", setup.tick_hz, rate, rate);
   const std::size_t has = setup.port == PortSpace::kTip ? caps.tip_axes : caps.joints;
   if (has >= setup.dof) return {};
   return "the scene needs " + std::to_string(setup.dof) + " axes, the device has " + std::to_string(has);
@@ -94,7 +98,7 @@ int attend(const AttendPlan& plan) {
   hal::Device& device = held ? held->device() : *live.device;
   const std::string note = held ? held->note() : live.note;
   const hal::DeviceCaps caps = held ? held->caps() : device.caps();
-  if (const std::string why = unfit(setup, caps); !why.empty())
+  if (const std::string why = unfit(setup, caps, held != nullptr); !why.empty())
     return refuse("the device does not fit this scene: " + why, kTrouble);
 
   io::OutputFile json, trace;
@@ -110,7 +114,7 @@ int attend(const AttendPlan& plan) {
   line.note("seat " + setup.seat.name + " at " + server + ", " + note);
   Seat seat{setup, caps, given->link};
   const auto pump = std::make_unique<SeatPump>(std::move(*socket), seat, live.sim, std::move(script),
-                                               writer ? &writer->queue() : nullptr);
+                                               writer ? &writer->queue() : nullptr, held ? HeldDevice::kPeriod : Duration::zero());
   const bool by_keys = live.sim != nullptr && live.sim->hand().model() == HandModel::kKeyboard;
   Person person{*pump, setup, by_keys ? live.sim->hand().keyboard() : nullptr};
   const io::AwakeProcessor awake;

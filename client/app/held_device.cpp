@@ -16,7 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kPeriod = 1ms;
 constexpr int kLookEveryMs = 100;
 
 /// The person wants to stop. It stays to be read: whoever tells of it asks which signal it was.

@@ -18,6 +18,9 @@ namespace tandem::client {
 /// homed with his help, and exchanging zeros until somebody is served.
 class HeldDevice {
  public:
+  /// Between two exchanges with the device, whatever the scene's rate is.
+  static constexpr Duration kPeriod = std::chrono::milliseconds(1);
+
   /// Whether these words of --device mean hardware at all, not a simulated device.
   [[nodiscard]] static bool is_meant(std::string_view spec);
 

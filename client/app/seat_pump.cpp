@@ -34,14 +34,15 @@ double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1
 }  // namespace
 
 SeatPump::SeatPump(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* sim, std::vector<AlphaScript::Change> script,
-                   SampleQueue* samples)
+                   SampleQueue* samples, Duration exchange)
     : socket_(std::move(socket)),
       finished_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       seat_(&seat),
       sim_(sim),
       script_(std::move(script)),
       samples_(samples),
-      masters_(seat.setup().masters.size()) {}
+      masters_(seat.setup().masters.size()),
+      pace_(from_seconds(1.0 / seat.setup().tick_hz), exchange) {}
 
 SeatPump::~SeatPump() {
   delete next_.load();
@@ -50,6 +51,7 @@ SeatPump::~SeatPump() {
 
 hal::Command SeatPump::tick(const hal::State& state) noexcept {
   const Time now = io::monotonic_now();
+  if (!pace_.due(now)) return held_;
   if (ticks_++ == 0) began_ = connected_ = now;
   if (now - state.sampled_at > kLate) ++picture_.late_ticks;
   change_connection(now);
@@ -59,7 +61,7 @@ hal::Command SeatPump::tick(const hal::State& state) noexcept {
   const auto session = seat_->session_time(now);
   if (sim_ != nullptr) sim_->set_session_time(session);
   seat_->note_late_ticks(picture_.late_ticks);
-  const hal::Command command = seat_->on_servo(now, state);
+  held_ = seat_->on_servo(now, state);
   send(now);
   see_handover();
 
@@ -73,7 +75,7 @@ hal::Command SeatPump::tick(const hal::State& state) noexcept {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(finished_.get(), &one, sizeof one);
   }
-  return command;
+  return held_;
 }
 
 void SeatPump::lost(hal::Errc) noexcept {

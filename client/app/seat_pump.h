@@ -10,6 +10,7 @@
 #include "client/app/alpha_script.h"
 #include "client/app/client_status.h"
 #include "client/seat.h"
+#include "client/tick_pace.h"
 #include "common/io/datagram_batch.h"
 #include "common/io/spsc_queue.h"
 #include "common/io/udp_socket.h"
@@ -35,9 +36,11 @@ class SeatPump final : public hal::ServoClient {
   /// @param seat     must outlive the pump; only the servo thread touches it from `Device::start` to `close`
   /// @param sim      to be told the session time; null for hardware
   /// @param script   changes of authority by session time, ascending; each is asked for 50 ticks ahead, as that is how long it is announced
-  /// @param samples  every tick, null: not wanted
+  /// @param samples   every tick, null: not wanted
+  /// @param exchange  period of a device that has a rate of its own, at most a tick of the scene: the seat then works in the exchange
+  ///                  nearest to each of its ticks, and its command is held meanwhile. Zero: one tick per exchange
   SeatPump(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* sim, std::vector<AlphaScript::Change> script,
-           SampleQueue* samples);
+           SampleQueue* samples, Duration exchange = Duration::zero());
   ~SeatPump() override;
 
   hal::Command tick(const hal::State& state) noexcept override;
@@ -105,6 +108,8 @@ class SeatPump final : public hal::ServoClient {
   Counts before_;  ///< of connections that were given up
   [[nodiscard]] Counts counts() const noexcept;
 
+  TickPace pace_;
+  hal::Command held_{};  ///< of the last tick
   std::uint64_t ticks_ = 0;
   Time began_{}, connected_{};
   bool told_ = false;

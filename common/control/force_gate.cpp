@@ -17,8 +17,6 @@ constexpr double kSlewActive = 1000;        // [N/s] = 1 N/ms
 constexpr double kSlewRampIn = 10;          // [N/s]
 constexpr double kDamping = 5;              // [N s/m] while ramping out and DAMPED
 constexpr Duration kLatchWindow = 10s;
-constexpr Duration kStandstill = 5ms;       // a command lives no longer
-constexpr Duration kForgotten = 25ms;       // and 20 ms later its driver has let go of it
 
 double tank_for(double mass) noexcept { return 1e-3 * std::min(100.0, std::max(20.0, 180.0 * mass)); }
 
@@ -45,11 +43,12 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
     for (std::size_t a = 0; a < p_.dof; ++a) given += effort_[a] * (in.q[a] - q_[a]);
     // After a standstill of this program the device had forgotten the effort long ago: what it gave may be less than this,
     // and what the hand seemed to give back was never taken.
-    if (in.now - last_step_ > kStandstill) given = std::max(0.0, given);
+    if (in.now - last_step_ > p_.command_life) given = std::max(0.0, given);
     if (std::isfinite(given)) given_ += given;
     q_ = in.q;
   }
-  if (in.now - last_step_ > kForgotten) effort_.fill(0);  // nothing is held any more: no ramp begins from it
+  // The driver has let go of the effort: no ramp begins from it.
+  if (in.now - last_step_ > p_.command_life + kCommandFade) effort_.fill(0);
   change_phase(in, out);
   if (phase_ == GatePhase::kPassive || phase_ == GatePhase::kDamped || active()) given_max_ = std::max(given_max_, given_);
   limit(in, out);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "common/base/axes.h"
+#include "common/base/command_life.h"
 #include "common/base/time.h"
 
 namespace tandem::control {
@@ -22,6 +23,7 @@ struct GateParams {
   Duration loop_age_max = std::chrono::milliseconds(100);
   Duration ramp_in = std::chrono::milliseconds(500);
   bool latch = true;
+  Duration command_life = kCommandLifeMin;  ///< after which the device forgets an effort that is not renewed
 };
 
 class ForceGate {

@@ -6,13 +6,13 @@ void Freshness::accepted(Time now, std::uint64_t echo_counter, Duration echo_age
   arrived_ = now;
   if (!heard_) echo_moved_ = now;
   heard_ = true;
-  const bool known = remembers(echo_counter);
+  const bool known = remembers(now, echo_counter);
   if (known && (!echoed_ || echo_counter > echo_counter_)) echo_moved_ = now;
   peer_silence_ = known ? echo_age : Duration{};
   if (known && (!echoed_ || echo_counter >= echo_counter_)) {
     echoed_ = true;
     echo_counter_ = echo_counter;
-    echo_sent_ = sent_[echo_counter % kRemembered];
+    echo_sent_ = sent_[echo_counter & mask_];
     // One tick of the loop is the peer's and the own waiting for the next tick: there even without a network.
     rtt_ = std::max(Duration{0}, now - echo_sent_ - echo_age);
     rtts_.add(rtt_.count());

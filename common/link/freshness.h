@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "common/base/histogram.h"
 #include "common/base/time.h"
@@ -34,15 +36,24 @@ class WindowedMinimum {
 };
 
 /// How old is what I know? Everything on the own monotonic clock: the peer echoes the newest counter it used, and the own send
-/// times are remembered, so a switch that holds datagrams for seconds and releases them in order is found out.
+/// times are remembered for `kMemory`, so a switch that holds datagrams for seconds and releases them in order is found out.
 class Freshness {
  public:
-  explicit Freshness(Duration tick) noexcept : tick_(tick) {}
+  /// How long ago a datagram may have been sent whose echo still counts; longer loops count as not echoed. The same at every rate, and
+  /// more than every `loop_age_max` (proto/scene.proto: 2.5 s).
+  static constexpr Duration kMemory = std::chrono::seconds(4);
+
+  /// Takes the memory it needs: 8 bytes for each datagram of `kMemory`, 32 KiB at 1 kHz, 512 KiB at 10 kHz.
+  /// @param tick  between two datagrams of this end, 100 us to 100 ms
+  explicit Freshness(Duration tick)
+      : tick_(tick),
+        sent_(std::bit_ceil(static_cast<std::size_t>(kMemory / std::clamp<Duration>(tick, kTickMin, kTickMax)) + kOthers)),
+        mask_(sent_.size() - 1) {}
 
   /// @param counter  one more than the last time
   void sent(Time now, std::uint64_t counter) noexcept {
     if (next_ == 0) first_ = counter;
-    sent_[counter % kRemembered] = now;
+    sent_[counter & mask_] = now;
     next_ = counter + 1;
   }
   /// A strictly newer datagram was accepted. @param peer_tick its sender's tick count, for the variation of transit.
@@ -72,14 +83,16 @@ class Freshness {
   [[nodiscard]] Time arrived() const noexcept { return arrived_; }
 
  private:
-  static constexpr std::uint64_t kRemembered = 4096;  // 4 s at 1 kHz: longer loops count as not echoed
+  static constexpr Duration kTickMin = std::chrono::microseconds(100), kTickMax = std::chrono::milliseconds(100);
+  static constexpr std::size_t kOthers = 64;  ///< datagrams beside the one of each tick: challenges, wishes, farewells
   static constexpr std::uint64_t kLearnEvery = 1000;
-  [[nodiscard]] bool remembers(std::uint64_t counter) const noexcept {
-    return counter >= first_ && counter < next_ && next_ - counter <= kRemembered;
+  [[nodiscard]] bool remembers(Time now, std::uint64_t counter) const noexcept {
+    return counter >= first_ && counter < next_ && next_ - counter <= mask_ + 1 && now - sent_[counter & mask_] <= kMemory;
   }
 
   Duration tick_;
-  std::array<Time, kRemembered> sent_{};  ///< when a counter was sent, at its remainder: one number each, for caches
+  std::vector<Time> sent_;  ///< when a counter was sent, at its remainder: one number each, for caches; a power of two of them
+  std::uint64_t mask_;
   std::uint64_t first_ = 0, next_ = 0;
   bool heard_ = false, echoed_ = false;
   Time arrived_{}, echo_sent_{}, echo_moved_{};

@@ -129,6 +129,27 @@ TEST(ForceGate, TakesEnergyFromAHandForFree) {  // braking is never refused by t
   EXPECT_LT(d.gate.given_since_fresh(), 0);
 }
 
+TEST(ForceGate, KeepsItsAccountBetweenTheTicksOfASlowScene) {
+  // At 100 Hz a command lives 30 ms: a tick of 10 ms is no standstill, and what the hand gives back in it was really taken.
+  GateParams p;
+  p.command_life = command_life(10ms);
+  GateDrive d(p);
+  d.hold(-3);
+  d.in.now += 10ms;
+  d.in.q[0] += 0.001;
+  d.in.fresh = false;
+  d.tick();
+  EXPECT_NEAR(d.gate.given_since_fresh(), -0.003, 1e-9);
+  // Longer than the command lives: the device may have let go, so nothing is credited.
+  GateDrive late(p);
+  late.hold(-3);
+  late.in.now += 31ms;
+  late.in.q[0] += 0.001;
+  late.in.fresh = false;
+  late.tick();
+  EXPECT_GE(late.gate.given_since_fresh(), 0);
+}
+
 TEST(ForceGate, CreditsNothingForTimeInWhichTheDeviceHadForgottenItsCommand) {
   // The program stood still for 250 ms while the hand moved 6 mm against the force: the device had let go after 5 ms, so
   // those 18 mJ were never taken from the hand and must not enlarge the tank (found by the swarm, seed 368).

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/base/rng.h"
+#include "tests/support/alloc_guard.h"
 
 namespace tandem::link {
 namespace {
@@ -58,14 +59,35 @@ TEST(Freshness, DoesNotGrowYoungerThroughAnOlderEcho) {
   EXPECT_EQ(f.rtt(), 10ms);
 }
 
-TEST(Freshness, ForgetsWhatItSentLongAgo) {
-  Freshness f(1ms);
-  for (std::uint64_t c = 0; c < 5000; ++c) f.sent(at(c * 1ms), c);
-  f.accepted(at(5000ms), 903, 0ms, 0);  // 4097 back: its place was taken by 4999
-  EXPECT_EQ(f.rtt_samples(), 0U);
-  f.accepted(at(5000ms), 904, 0ms, 0);
-  EXPECT_EQ(f.rtt_samples(), 1U);
-  EXPECT_EQ(f.loop_age(at(5000ms)), 4096ms);
+// Time, not a number of datagrams: a loop is as old at 10 kHz as it is at 100 Hz.
+TEST(Freshness, RemembersFourSecondsAtEveryRate) {
+  for (const Duration tick : {Duration{10ms}, Duration{4ms}, Duration{2ms}, Duration{1ms}, Duration{250us}, Duration{100us}}) {
+    SCOPED_TRACE(tick.count());
+    Freshness f(tick);
+    std::uint64_t c = 0;
+    for (Duration t = 0ms; t < 6s; t += tick) f.sent(at(t), c++);
+    const auto sent_at = [&](Duration t) { return static_cast<std::uint64_t>(t / tick); };
+    f.accepted(at(6s), sent_at(2s) - 1, 0ms, 0);  // a tick longer ago than that
+    EXPECT_EQ(f.rtt_samples(), 0U);
+    f.accepted(at(6s), sent_at(2s), 0ms, 0);
+    EXPECT_EQ(f.rtt_samples(), 1U);
+    EXPECT_EQ(f.loop_age(at(6s)), 4s);
+  }
+}
+
+TEST(Freshness, TakesABoundedMemoryOnceAndNoneLater) {
+  for (const Duration tick : {Duration{1ns}, Duration{100us}, Duration{1h}}) {
+    const test::AllocGuard made;
+    Freshness f(tick);
+    EXPECT_LE(made.count(), 1U);
+    const test::AllocGuard guard;
+    for (std::uint64_t c = 0; c < 100'000; ++c) {
+      f.sent(at(c * 100us), c);
+      f.accepted(at(c * 100us + 50us), c, 0ms, 0);
+    }
+    EXPECT_EQ(guard.count(), 0U);
+    EXPECT_EQ(f.rtt_samples(), 100'000U);
+  }
 }
 
 TEST(Freshness, SeesThroughASwitchThatHoldsAndReleasesInOrder) {
