@@ -14,22 +14,4 @@ Source Source::of_v6(const std::array<std::uint8_t, 16>& a) noexcept {
   return {number(0, 8), true, loopback};
 }
 
-void FailureLimiter::failed(const Source& source, Time now) {
-  if (source.loopback) return;
-  Record& record = sources_.at(source, now, {});
-  record.at[record.count % kFailures] = now;
-  ++record.count;
-  if (record.count < kFailures) return;
-  // The oldest of the last ten is in the place that the next one will take.
-  if (now - record.at[record.count % kFailures] > kWithin) return;
-  record.blocked_until = now + kBlocked;
-  record.count = 0;
-}
-
-Duration FailureLimiter::blocked_for(const Source& source, Time now) const {
-  const Record* const record = sources_.find(source);
-  if (record == nullptr || record->blocked_until == Time{}) return Duration::zero();
-  return record->blocked_until - now;
-}
-
 }  // namespace tandem::trust

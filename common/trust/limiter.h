@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "common/base/time.h"
 
@@ -60,8 +62,13 @@ class SourceTable {
 
   [[nodiscard]] Entry& at(const Source& source, Time now, const Entry& fresh) {
     const auto [found, is_new] = entries_.try_emplace(source, Slot{fresh, now});
+    if (!is_new) by_time_.erase({found->second.heard, source});
     found->second.heard = now;
-    if (is_new && entries_.size() > kMax) forget_oldest(source);
+    if (entries_.size() > kMax) {
+      entries_.erase(by_time_.begin()->second);
+      by_time_.erase(by_time_.begin());
+    }
+    by_time_.emplace(now, source);
     return found->second.entry;
   }
   [[nodiscard]] const Entry* find(const Source& source) const {
@@ -75,56 +82,26 @@ class SourceTable {
     Entry entry;
     Time heard;
   };
-  void forget_oldest(const Source& but) {
-    auto oldest = entries_.end();
-    for (auto i = entries_.begin(); i != entries_.end(); ++i)
-      if (i->first != but && (oldest == entries_.end() || i->second.heard < oldest->second.heard)) oldest = i;
-    entries_.erase(oldest);
-  }
   std::map<Source, Slot> entries_;
+  std::set<std::pair<Time, Source>> by_time_;  ///< the same
 };
 
-/// Accepting connections: each source and all together.
+/// Accepting connections of one source, and TLS handshakes of everybody (PendingPlaces).
 struct AcceptLimits {
   double source_rate = 10, source_burst = 100;  ///< [1/s], [1]: a lab behind one address may join at once
-  double all_rate = 300, all_burst = 300;
+  double all_rate = 300, all_burst = 300;       ///< handshakes
 };
 class AcceptLimiter {
  public:
-  explicit AcceptLimiter(const AcceptLimits& limits = {}) noexcept : limits_(limits), all_(limits.all_rate, limits.all_burst) {}
-  /// How long to leave newcomers in the kernel's queue, so that all together stay below their rate: a crowd waits, it is not sent away.
-  [[nodiscard]] Duration pause(Time now) noexcept { return all_.wait(now); }
-  /// One came. @return false: its source is in too much of a hurry, and pays nothing from what others share
+  explicit AcceptLimiter(const AcceptLimits& limits = {}) noexcept : limits_(limits) {}
+  /// One came. @return false: its source comes too fast
   [[nodiscard]] bool accept(const Source& source, Time now) {
-    const TokenBucket fresh{limits_.source_rate, limits_.source_burst};
-    if (!sources_.at(source, now, fresh).take(now)) return false;
-    (void)all_.take(now);
-    return true;
+    return sources_.at(source, now, TokenBucket{limits_.source_rate, limits_.source_burst}).take(now);
   }
 
  private:
   AcceptLimits limits_;
-  TokenBucket all_;
   SourceTable<TokenBucket> sources_;
-};
-
-/// Wrong tickets and codes: ten in two minutes block a source for five. Loopback is exempt: who is there could stop the server anyway.
-class FailureLimiter {
- public:
-  static constexpr std::size_t kFailures = 10;
-  static constexpr Duration kWithin = std::chrono::seconds(120), kBlocked = std::chrono::seconds(300);
-
-  void failed(const Source& source, Time now);
-  /// How long the source stays blocked; zero or less: it is not.
-  [[nodiscard]] Duration blocked_for(const Source& source, Time now) const;
-
- private:
-  struct Record {
-    std::array<Time, kFailures> at{};  ///< the last failures, a ring
-    std::size_t count = 0;
-    Time blocked_until{};
-  };
-  SourceTable<Record> sources_;
 };
 
 }  // namespace tandem::trust

@@ -43,6 +43,9 @@ class Admissions {
   /// Stop, pause, resume, authority, drain, by somebody who was welcomed on this connection. Answer: Done, AuthorityAnswer or Refused.
   virtual void command(const control::Welcome& standing, const WorkstationRow& workstation, const control::Body& command,
                        std::function<void(control::Body)> answer) = 0;
+  /// Whether a Welcome is still in force: the seat was not given to another connection or taken away, the session is not over. Afterwards the
+  /// connection is as good as one that never joined.
+  [[nodiscard]] virtual bool holds(const control::Welcome& standing) const = 0;
   /// The control connection of somebody who was welcomed is over. His seat lives on by its datagrams.
   /// @param in_vain  whatever he ordered was refused, but looks: he may have mistaken a word or his role
   virtual void left(const control::Welcome& standing, bool in_vain) = 0;

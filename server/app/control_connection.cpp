@@ -20,26 +20,43 @@ std::uint32_t whole_seconds(Duration d) noexcept { return static_cast<std::uint3
 
 }  // namespace
 
-ControlConnection::ControlConnection(ControlPlane& plane, asio::ip::tcp::socket socket, const trust::Source& source, std::string address)
+ControlConnection::ControlConnection(ControlPlane& plane, trust::PendingPlaces::Id id, asio::ip::tcp::socket socket, const trust::Origin& origin,
+                                     const trust::Source& source, std::string address)
     : plane_(plane),
+      id_(id),
       stream_(trust::ControlStream::make(std::move(socket), plane.tls_, trust::ControlStream::Side::kServer)),
+      origin_(origin),
       source_(source),
       address_(std::move(address)),
       commands_(control::RateLimits{}.commands_per_s, control::RateLimits{}.commands_burst),
       stops_(commands_),
       authority_(control::RateLimits{}.authority_per_s, control::RateLimits{}.authority_burst) {}
 
-void ControlConnection::start() {
-  must_be_over_in(plane_.limits_.deadline);
+void ControlConnection::start(std::chrono::milliseconds deadline) {
+  must_be_over_in(deadline);
   stream_->allow_input(plane_.limits_.input_before_auth);
   stream_->handshake([self = shared_from_this()](trust::ControlStream::Peer peer) {
     if (!peer) return self->over(peer.error());
+    if (self->finished_) return;
     self->pin_ = *peer;
+    // A stranger may enrol, but competes with all others who are not known yet until then.
+    if (const auto row = self->plane_.trust_.find(self->pin_); row && *row) self->proved();
     self->read_next();
   });
 }
 
 void ControlConnection::stop() { finish(); }
+
+void ControlConnection::close(ControlEvent why) {
+  if (finished_) return;
+  plane_.note(why, address_, workstation_ ? workstation_->name : "");
+  finish();
+}
+
+void ControlConnection::proved() {
+  if (std::exchange(proved_, true)) return;
+  plane_.proved(*this);
+}
 
 void ControlConnection::read_next() {
   if (finished_) return;
@@ -53,6 +70,7 @@ void ControlConnection::read_next() {
 
 void ControlConnection::took(SecretBuffer bytes) {
   if (finished_) return;
+  plane_.busy(*this, true);
   const auto raw = std::as_const(bytes).bytes();
   // Who may say what is decided before a payload is parsed.
   const auto head = control::peek(raw);
@@ -117,17 +135,16 @@ void ControlConnection::look_for_revocation() {
   refuse(Reason::kNotEnrolled, std::string(kUnknown), true);
 }
 
-bool ControlConnection::blocked() {
-  const Duration left = plane_.failures_.blocked_for(source_, plane_.clocks_.monotonic());
+bool ControlConnection::blocked(Duration left) {
   if (left <= Duration::zero()) return false;
-  plane_.note(ControlEvent::kBlocked, address_);
+  plane_.note(ControlEvent::kBlocked, address_, workstation_ ? workstation_->name : "");
   const std::uint32_t wait = whole_seconds(left);
-  refuse(Reason::kBlocked, "too many wrong codes or tickets came from this address; wait " + std::to_string(wait) + " s", true, wait);
+  refuse(Reason::kBlocked, "too many wrong codes came from this workstation or address; wait " + std::to_string(wait) + " s, or join by a ticket", true, wait);
   return true;
 }
 
 void ControlConnection::on_enrol(const control::Enrol& enrol) {
-  if (blocked()) return;
+  if (blocked(plane_.attempts_.blocked_for(source_, enrolled_key(), plane_.clocks_.monotonic()))) return;
   const auto row = plane_.trust_.enrol(enrol.code, pin_, plane_.clocks_.wall());
   if (row) {
     plane_.note(ControlEvent::kEnrolled, address_, row->name, pin_.hex());
@@ -140,7 +157,7 @@ void ControlConnection::on_enrol(const control::Enrol& enrol) {
   }
   plane_.note(ControlEvent::kCodeRefused, address_, "", row.error().text);
   const auto fault = *row.error().fault;
-  if (fault == trust::EnrolFault::kUnknownCode || fault == trust::EnrolFault::kExpired) plane_.failures_.failed(source_, plane_.clocks_.monotonic());
+  if (fault == trust::EnrolFault::kUnknownCode) plane_.attempts_.wrong(source_, enrolled_key(), plane_.clocks_.monotonic());
   refuse(fault == trust::EnrolFault::kBookFull ? Reason::kFull : Reason::kCode, row.error().text, true);
 }
 
@@ -151,7 +168,15 @@ void ControlConnection::on_hello(control::Hello hello) {
                   "this server speaks version " + std::to_string(control::kProtocolVersion) +
                       " of the protocol, this client none of it; install the same release on both",
                   true);
-  if (blocked()) return;
+  // Only codes can be guessed, so only they wait for a block to be over: of the source or of the key. A resume secret waits for no source: its
+  // session may be named by the code, which costs the key's own attempts.
+  const bool by_resume = std::holds_alternative<control::ResumeCredential>(hello.credential);
+  const bool by_code = std::holds_alternative<std::string>(hello.session) || std::holds_alternative<control::CodeCredential>(hello.credential);
+  const Time now = plane_.clocks_.monotonic();
+  if (by_code && blocked(by_resume ? plane_.attempts_.blocked_for(pin_, now) : plane_.attempts_.blocked_for(source_, pin_, now))) return;
+  if (!plane_.places_.may_join(by_resume))
+    return refuse(Reason::kFull, "all " + std::to_string(plane_.limits_.connections) + " places of this server's control connections are taken by those who joined; try again later",
+                  true, 5);
   const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *common, *workstation_, source_, address_});
   if (!pending_) must_be_over_in(plane_.limits_.frame_deadline);
   // The answer may come from another thread, and after this connection has ended.
@@ -165,8 +190,7 @@ void ControlConnection::on_hello(control::Hello hello) {
 
 void ControlConnection::admitted(const std::shared_ptr<JoinRequest>& request, Admission admission) {
   if (auto* refused = std::get_if<control::Refused>(&admission)) {
-    const bool guess = refused->reason == Reason::kTicket || refused->reason == Reason::kCode || refused->reason == Reason::kResume;
-    if (guess) plane_.failures_.failed(source_, plane_.clocks_.monotonic());
+    if (refused->reason == Reason::kCode) plane_.attempts_.wrong(source_, pin_, plane_.clocks_.monotonic());
     plane_.note(ControlEvent::kRefused, address_, request->workstation.name, refused->text);
     return answer(std::move(*refused), true);
   }
@@ -181,18 +205,17 @@ void ControlConnection::admitted(const std::shared_ptr<JoinRequest>& request, Ad
   plane_.note(ControlEvent::kWelcomed, address_, request->workstation.name, welcome.seat);
   standing_ = welcome;
   accepted();
+  plane_.joined(*this, welcome);
   answer(std::move(welcome));
 }
 
 void ControlConnection::on_command(const control::Body& command) {
   plane_.note(ControlEvent::kCommand, address_, workstation_->name);
   must_be_over_in(plane_.limits_.frame_deadline);
-  busy_ = true;
   plane_.admissions_.command(*standing_, *workstation_, command, [weak = weak_from_this(), &context = plane_.context_](control::Body body) {
     asio::dispatch(context, [weak, body = std::move(body)]() mutable {
       const auto self = weak.lock();
       if (!self || self->finished_) return;
-      self->busy_ = false;
       self->acted_ = self->acted_ || !(std::holds_alternative<control::Refused>(body) || std::holds_alternative<control::Status>(body));
       self->answer(std::move(body));
     });
@@ -210,7 +233,7 @@ void ControlConnection::accepted() {
   pending_ = false;
   stream_->clear_deadline();
   stream_->allow_input(trust::MeteredSocket::kUnlimited);
-  plane_.no_longer_pending();
+  proved();
 }
 
 void ControlConnection::refuse(Reason reason, std::string text, bool last, std::uint32_t retry_after_s) {
@@ -233,6 +256,7 @@ void ControlConnection::answer(control::Body body, bool last) {
     if (!written) return self->over(written.error());
     if (!self->pending_) self->stream_->clear_deadline();
     if (last) return self->finish();
+    self->plane_.busy(*self, false);
     self->read_next();
   });
 }
@@ -259,11 +283,7 @@ void ControlConnection::finish() {
   const auto self = shared_from_this();
   stream_->close();
   if (standing_) plane_.admissions_.left(*standing_, refused_ && !acted_);
-  if (pending_) {
-    pending_ = false;
-    plane_.no_longer_pending();
-  }
-  plane_.ended(self);
+  plane_.ended(*self);
 }
 
 }  // namespace tandem::server

@@ -12,17 +12,21 @@
 #include <expected>
 #include <functional>
 #include <list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
-#include <unordered_set>
 
 #include "common/io/clock.h"
 #include "common/io/socket_address.h"
+#include "common/trust/attempts.h"
+#include "common/trust/connection_places.h"
 #include "common/trust/io/server_trust.h"
 #include "common/trust/limiter.h"
+#include "common/trust/pending_places.h"
+#include "common/trust/returning.h"
 #include "server/app/admissions.h"
 
 namespace tandem::server {
@@ -32,9 +36,12 @@ class ControlConnection;
 /// What happened at the door. Each is counted; the interesting ones are told too.
 enum class ControlEvent : std::uint8_t {
   kAccepted, kTooFast, kHandshakeFailed, kDeadline, kTooMuchInput, kBadFrame, kNotEnrolled, kBlocked, kEnrolled, kCodeRefused, kWelcomed, kRefused,
-  kCommand, kCommandTooFast, kTrouble, kForbidden
+  kCommand, kCommandTooFast, kTrouble, kForbidden,
+  kEvicted,   ///< had proved no enrolled key, and made room for another
+  kIdle,      ///< had not joined, and asked nothing for too long
+  kTooMany,   ///< had not joined, and was one too many of its key or source, or made room for another
 };
-inline constexpr std::size_t kControlEvents = 16;
+inline constexpr std::size_t kControlEvents = 19;
 [[nodiscard]] std::string_view to_text(ControlEvent event) noexcept;
 
 /// For logs and audit; never holds a secret.
@@ -49,8 +56,12 @@ struct ControlLimits {
   std::chrono::milliseconds answer_deadline{2000};  ///< for an answer to be taken: who does not read is let go of
   int unread_max = 256 * 1024;                      ///< [bytes] of answers that the kernel keeps for who does not read
   std::size_t input_before_auth = 8192;            ///< [bytes], TLS included
-  std::size_t pending = 256;                       ///< connections before their first yes; more wait in the kernel
-  std::size_t connections = 2048;                  ///< in all; more wait in the kernel
+  std::size_t pending = 256;                       ///< TLS handshakes, and connections of keys that are not enrolled; four times as many wait for theirs
+  std::size_t connections = 2048;                  ///< of enrolled keys
+  std::chrono::milliseconds first_byte{5000}, first_byte_pressed{1000};  ///< from accept to the first byte; while half of the waiting places are taken
+  std::chrono::milliseconds bare_idle{10000};      ///< of a connection that has not joined
+  std::size_t bare_per_key = 4, bare_per_source = 16;  ///< connections that have not joined
+  bool loopback_exempt = true;                     ///< sources on this computer, of wrong codes
   trust::AcceptLimits accept;
 };
 
@@ -85,21 +96,42 @@ class ControlPlane {
 
  private:
   friend class ControlConnection;
+  using Id = trust::PendingPlaces::Id;
   struct Door {
     asio::ip::tcp::acceptor acceptor;
     asio::steady_timer pause;
     bool accepting = false;
   };
 
+  /// A connection before its TLS handshake: no more than a socket.
+  struct Waiting {
+    asio::ip::tcp::socket socket;
+    trust::Origin origin;
+    trust::Source source;
+    std::string address;
+    Time arrived;
+  };
+
   void accept_next(Door& door);
-  void took(Door& door, asio::ip::tcp::socket socket);
+  void rest(Door& door, Duration time);
+  void took(asio::ip::tcp::socket socket);
+  void wait_for_first_byte(Id id);
+  void first_byte(Id id);
+  void begin_handshake(Id id);
+  /// Closes what is beyond its time, begins handshakes that may begin, and comes again when the next is due.
+  void tend();
+  void close_unproven(Id id, ControlEvent why);
+  /// Closes connections that have not joined, as far as they are too many or idle.
+  void close_bare();
+  /// Looks who still speaks for a seat or a console, some times a second.
+  void sweep_now_and_then();
   void note(ControlEvent event, std::string address, std::string workstation = {}, std::string detail = {});
-  /// A connection got its first yes, or ended without one.
-  void no_longer_pending();
-  void ended(const std::shared_ptr<ControlConnection>& connection);
-  void open_doors();
-  /// Ends the connection of somebody who sits on a seat: that lives by its datagrams. @return false: there is none
-  bool make_room();
+  // Of connections.
+  /// It proved an enrolled key: strangers compete with it no longer.
+  void proved(const ControlConnection& connection);
+  void joined(const ControlConnection& connection, const control::Welcome& welcome);
+  void busy(const ControlConnection& connection, bool busy);
+  void ended(const ControlConnection& connection);
 
   asio::io_context& context_;
   trust::ServerTrust& trust_;
@@ -108,11 +140,17 @@ class ControlPlane {
   ControlClocks clocks_;
   std::function<void(const ControlNews&)> tell_;
   asio::ssl::context tls_;
+  trust::TokenBucket taken_;        ///< from the kernel: what accepting alone may cost
   trust::AcceptLimiter accepts_;
-  trust::FailureLimiter failures_;
+  trust::Attempts attempts_;
+  trust::PendingPlaces pending_;
+  trust::ConnectionPlaces places_;
+  trust::ReturningAddresses returning_;
   std::list<Door> doors_;
-  std::unordered_set<std::shared_ptr<ControlConnection>> connections_;
-  std::size_t pending_ = 0;
+  std::map<Id, std::shared_ptr<Waiting>> waiting_;
+  std::map<Id, std::shared_ptr<ControlConnection>> connections_;
+  asio::steady_timer tend_, sweep_;
+  std::optional<Time> tend_at_;
   bool stopped_ = false;
   std::array<std::atomic<std::uint64_t>, kControlEvents> counts_{};
 };

@@ -17,8 +17,6 @@ namespace {
 using control::Reason;
 using control::Refused;
 
-constexpr double kGuessesPerS = 5.0 / 60, kGuessesAtOnce = 5;  // [design notes, security 1.4]
-
 std::string names_of(const std::list<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -57,7 +55,7 @@ House::~House() = default;
 
 void House::open(Opening opening) {
   const std::size_t seats = opening.session->scene().seats.size();
-  rooms_.push_back({std::move(opening), std::vector<Claim>(seats), trust::TokenBucket{kGuessesPerS, kGuessesAtOnce}, 0, {}});
+  rooms_.push_back({std::move(opening), std::vector<Claim>(seats), 0, {}});
   remember(rooms_.back());
 }
 
@@ -151,7 +149,8 @@ std::variant<House::Room*, Refused> House::room_for(const JoinRequest& request) 
   if (found == nullptr && open.empty()) return Refused{Reason::kNoSession, "no session is open on this server", 0};
   if (found == nullptr) {
     const bool by_code = std::holds_alternative<std::string>(request.hello.session);
-    return Refused{Reason::kNoSession, (by_code ? "no session here has this code (one that begins anew has another: ask for it); open: " : "there is no such session here; open: ") + names_of(open), 0};
+    // A code that names a session is tried by it, whatever else is shown.
+    return Refused{by_code ? Reason::kCode : Reason::kNoSession, (by_code ? "no session here has this code (one that begins anew has another: ask for it); open: " : "there is no such session here; open: ") + names_of(open), 0};
   }
   if (found->opening.session->over()) return Refused{Reason::kSessionOver, "this session is over", 0};
   return found;
@@ -229,7 +228,6 @@ std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std:
   if (const auto* code = std::get_if<control::CodeCredential>(&request.hello.credential)) {
     if (was_sent_away(room, request.workstation))
       return Refused{Reason::kNotAllowed, "whoever sat at this workstation was removed from the session; a ticket lets it in again", 0};
-    if (!room.guesses.take(io::monotonic_now())) return Refused{Reason::kBlocked, "too many codes were tried for this session; wait a minute", 60};
     if (room.opening.code.empty() || code->code != room.opening.code) return Refused{Reason::kCode, "this is not the session's code", 0};
     if (role == AccessRole::kInstructor)
       return Refused{Reason::kNotAllowed, "the instructor's seat needs a ticket: on the server, `tandem-server ticket --session " + room.opening.name + " --seat " +

@@ -79,6 +79,7 @@ class House final : public Admissions {
   [[nodiscard]] control::SessionList list(const WorkstationRow& workstation) override;
   void command(const control::Welcome& standing, const WorkstationRow& workstation, const control::Body& command,
                std::function<void(control::Body)> answer) override;
+  [[nodiscard]] bool holds(const control::Welcome& standing) const override;
   void left(const control::Welcome& standing, bool in_vain) override;
 
  private:
@@ -116,7 +117,6 @@ class House final : public Admissions {
   struct Room {
     Opening opening;
     std::vector<Claim> claims;  ///< one per seat
-    trust::TokenBucket guesses;    ///< of the session's code
     std::size_t orders = 0;        ///< under way
     std::function<void()> gone{};  ///< set: it is over, and waits for its last order
     std::size_t visits_being_given = 0;

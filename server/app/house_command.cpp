@@ -141,6 +141,17 @@ void House::give_back(const trust::Id16& ticket, const Room& room) {
   trust_.audit(trust::wall_seconds(), "ticket_unused", room.opening.name, trust::to_hex(ticket) + (problem.empty() ? "" : ": " + problem));
 }
 
+bool House::holds(const control::Welcome& standing) const {
+  const auto found = std::ranges::find_if(rooms_, [&](const Room& r) { return r.opening.id == standing.session_id && !r.gone; });
+  if (found == rooms_.end()) return false;
+  if (!standing.seat.empty()) {
+    const Claim& claim = found->claims[place_of(standing.server_cid) - std::size_t{1}];
+    return claim.cid == standing.server_cid && claim.by;
+  }
+  return std::ranges::any_of(found->visits, [&](const Visit& v) { return v.cid == standing.server_cid && v.by; }) ||
+         std::ranges::any_of(found->standing, [&](const Standing& s) { return equal_secret(s.who.bytes, standing.resume_secret.bytes); });
+}
+
 /// Who only may look got what his ticket is for.
 void House::left(const control::Welcome& standing, bool in_vain) {
   Room* const found = room(standing.session_id);

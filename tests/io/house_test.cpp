@@ -265,10 +265,10 @@ control::Hello visiting() {
 
 TEST(Visits, NoMoreAreWelcomedThanAreServed) {
   LiveHouse house;
-  const auto key = house.enrolled("desk-1");
+  const auto key = house.enrolled("desk-1"), other = house.enrolled("desk-2");  // one key has four connections that have not joined
   for (int attempt = 0; attempt < 10; ++attempt) {
     std::vector<trust::ControlClient> connections;
-    for (std::size_t i = 0; i <= Visitors::kMax; ++i) connections.push_back(house.connect(key));
+    for (std::size_t i = 0; i <= Visitors::kMax; ++i) connections.push_back(house.connect(i % 2 == 0 ? key : other));
     std::vector<std::expected<control::Body, trust::ClientFault>> answers;
     const auto began = std::chrono::steady_clock::now();
     for (trust::ControlClient& c : connections) answers.push_back(c.ask(visiting(), kPatience));
@@ -289,9 +289,9 @@ TEST(Visits, NoMoreAreWelcomedThanAreServed) {
 
 TEST(Visits, ManyAtOnceGetNoMoreThanThePlacesThereAre) {
   LiveHouse house;
-  const auto key = house.enrolled("desk-1");
+  const std::array keys{house.enrolled("desk-1"), house.enrolled("desk-2"), house.enrolled("desk-3")};  // one key has four connections that have not joined
   std::vector<trust::ControlClient> connections;
-  for (int i = 0; i < 12; ++i) connections.push_back(house.connect(key));
+  for (std::size_t i = 0; i < 12; ++i) connections.push_back(house.connect(keys[i % 3]));
   std::atomic<int> welcomed{0}, full{0};
   std::vector<std::thread> crowd;
   const auto began = std::chrono::steady_clock::now();

@@ -32,7 +32,7 @@ inline constexpr auto kPatience = 30s;
 /// comes is a workstation of his own.
 class LiveHouse {
  public:
-  explicit LiveHouse(const std::string& scene_name = "free_motion", const LoadLimits& load = {})
+  explicit LiveHouse(const std::string& scene_name = "free_motion", const LoadLimits& load = {}, const ControlLimits& door = limits())
       : scene_(*parse_scene(find_shipped_scene(scene_name)->text, scene_name + ".textproto")), queue_(1024) {
     EXPECT_TRUE(trust::ServerTrust::init(folder.path("server"), trust::wall_seconds()));
     trust_.emplace(std::move(*trust::ServerTrust::open(folder.path("server"))));
@@ -43,7 +43,7 @@ class LiveHouse {
     house_.emplace(thread_.context(), *trust_, load);
     house_->open({kName, kId, kCode, 1, hosted_.get(), shard_.get()});
     house_->watch(*shard_);
-    plane_.emplace(thread_.context(), *trust_, *house_, limits(), ControlClocks{}, [this](const ControlNews& news) {
+    plane_.emplace(thread_.context(), *trust_, *house_, door, ControlClocks{}, [this](const ControlNews& news) {
       const std::lock_guard lock(mutex_);
       news_.push_back(news);
     });
@@ -63,7 +63,7 @@ class LiveHouse {
 
   static ControlLimits limits() {
     ControlLimits limits;
-    limits.deadline = limits.frame_deadline = std::chrono::minutes(5);
+    limits.deadline = limits.frame_deadline = limits.first_byte = limits.first_byte_pressed = limits.bare_idle = std::chrono::minutes(5);
     limits.accept = {1e4, 1e4, 1e4, 1e4};
     return limits;
   }

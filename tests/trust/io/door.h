@@ -60,6 +60,7 @@ class OneSession : public Admissions {
   void command(const control::Welcome&, const WorkstationRow&, const control::Body&, std::function<void(control::Body)> answer) override {
     answer(control::Done{});
   }
+  bool holds(const control::Welcome&) const override { return seat_is_held; }
   void left(const control::Welcome&, bool) override {}
 
   [[nodiscard]] control::Welcome welcome(const std::string& seat) const {
@@ -77,6 +78,7 @@ class OneSession : public Admissions {
 
   const control::Id session_id = trust::test::counting<16>(50);
   bool from_another_thread = false, hold = false;
+  std::atomic<bool> seat_is_held{true};
   std::function<void(Admission)> held;
   std::mutex mutex;
   std::condition_variable changed;
@@ -128,7 +130,7 @@ class Door {
   /// Generous: a slow machine must not meet them.
   static ControlLimits patient() {
     ControlLimits limits;
-    limits.deadline = limits.frame_deadline = std::chrono::minutes(5);
+    limits.deadline = limits.frame_deadline = limits.first_byte = limits.first_byte_pressed = limits.bare_idle = std::chrono::minutes(5);
     return limits;
   }
 

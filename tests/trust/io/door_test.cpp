@@ -79,24 +79,6 @@ TEST(ControlPlane, WhoIsRevokedIsRefusedAtHisNextWord) {
   EXPECT_EQ(reason_of(again->ask(hello_with(door.ticket(me)), kPatience)), Reason::kNotEnrolled);
 }
 
-TEST(ControlPlane, WhenAllConnectionsAreTakenOneOfSomebodyOnASeatMakesRoom) {
-  ControlLimits limits = Door::patient();
-  limits.connections = 2;
-  Door door(limits);
-  const auto me = door.enrolled("me");
-  auto seated = door.connect(me);
-  ASSERT_TRUE(seated) << seated.error().text;
-  ASSERT_TRUE(std::holds_alternative<control::Welcome>(*seated->ask(hello_with(door.ticket(me)), kPatience)));
-  auto second = door.connect(me);
-  ASSERT_TRUE(second) << second.error().text;
-  ASSERT_TRUE(std::holds_alternative<control::SessionList>(*second->ask(control::SessionListRequest{}, kPatience)));
-  auto third = door.connect(me);
-  ASSERT_TRUE(third) << "nobody waits for those who sit: " << third.error().text;
-  EXPECT_TRUE(std::holds_alternative<control::SessionList>(*third->ask(control::SessionListRequest{}, kPatience)));
-  EXPECT_FALSE(seated->ask(control::StatusRequest{door.sessions->session_id}, kPatience)) << "its seat does not need it";
-  EXPECT_TRUE(std::holds_alternative<control::SessionList>(*second->ask(control::SessionListRequest{}, kPatience))) << "who stands keeps his";
-}
-
 TEST(ControlPlane, ATicketOpensTheDoorOnceAndForItsWorkstationOnly) {
   Door door;
   const auto me = door.enrolled("me"), thief = door.enrolled("thief");
@@ -224,6 +206,32 @@ TEST(ControlPlane, ComplaintsAboutARoleFillNoLog) {
   EXPECT_EQ(door.plane->count(ControlEvent::kForbidden), 15U);
   const auto news = door.news();
   EXPECT_EQ(std::ranges::count_if(news, [](const ControlNews& n) { return n.event == ControlEvent::kForbidden && !n.detail.empty(); }), 1) << "one a second";
+}
+
+TEST(ControlPlane, WrongEnrolmentCodesBlockTheirSourceAndSpareTicketsAndRightCodesOfOthers) {
+  ControlLimits limits = Door::patient();
+  limits.loopback_exempt = false;
+  Door door(limits);
+  const auto code = trust::test::secret_from<16>(1);
+  ASSERT_EQ(door.beside().give_out(code, "touch-07", kNow, kNow + 10), "");
+  const auto me = door.enrolled("me");
+  const auto stranger = trust::Identity::make("x", trust::test::counting<16>(), kNow);
+  const auto ask_as = [&](const trust::Identity& who, const control::Body& what) {
+    auto client = door.connect(who);
+    return client ? client->ask(what, kPatience) : std::unexpected(client.error());
+  };
+  for (unsigned i = 0; i < 10; ++i) {
+    // Somebody else's right code, ticket or resume secret in between costs nothing and undoes nothing.
+    control::Hello resume = hello_with(door.ticket(me, 90));
+    resume.credential = control::ResumeCredential{trust::test::secret_from<32>(7)};
+    EXPECT_EQ(reason_of(ask_as(me, resume)), Reason::kTicket) << "this session has nothing to resume";
+    EXPECT_EQ(reason_of(ask_as(stranger, control::Enrol{trust::test::secret_from<16>(100 + i)})), Reason::kCode) << i;
+  }
+  const auto blocked = ask_as(stranger, control::Enrol{code});
+  EXPECT_EQ(reason_of(blocked), Reason::kBlocked) << "the right one too: nobody learns anything";
+  EXPECT_NE(std::get<control::Refused>(*blocked).text.find("wait 300 s"), std::string::npos) << std::get<control::Refused>(*blocked).text;
+  EXPECT_EQ(std::get<control::Refused>(*blocked).retry_after_s, 300u);
+  EXPECT_TRUE(std::holds_alternative<control::Welcome>(*ask_as(me, hello_with(door.ticket(me))))) << "a ticket is no code";
 }
 
 TEST(ControlPlane, TellsNoSecrets) {

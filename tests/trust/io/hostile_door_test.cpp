@@ -4,6 +4,7 @@
 #include "proto/control_codec.h"
 #include "tests/proto/control_samples.h"
 #include "tests/trust/io/door.h"
+#include "tests/trust/io/from_address.h"
 #include "tests/trust/io/raw_tls.h"
 
 /// Too much, too slow, too many, nonsense. Deadlines are told by the order of what happens, never by a clock.
@@ -138,36 +139,69 @@ TEST(HostileDoor, HalfAFrameThenSilenceEndsAtTheDeadline) {
   EXPECT_TRUE(door.told(ControlEvent::kDeadline, 2));
 }
 
-TEST(HostileDoor, PendingConnectionsAreBoundedAndTheNextWaitsItsTurn) {
+TEST(HostileDoor, PendingConnectionsAreBoundedAndTheOldestGoes) {
+  ControlLimits limits = Door::patient();
+  limits.pending = 4;  // 16 wait, of which two places are kept for who comes back
+  Door door(limits);
+  std::vector<std::unique_ptr<RawTcp>> silent;
+  for (int i = 0; i < 17; ++i) {
+    silent.push_back(std::make_unique<RawTcp>(door.address));
+    ASSERT_TRUE(silent.back()->connected);
+    ASSERT_TRUE(door.told(ControlEvent::kAccepted, i + 1));
+  }
+  ASSERT_TRUE(door.told(ControlEvent::kEvicted, 3));
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(silent[i]->read_to_end(), "") << i;
+  EXPECT_EQ(door.plane->count(ControlEvent::kEvicted), 3u);
+  silent[5]->close();
+  ASSERT_TRUE(door.told(ControlEvent::kHandshakeFailed)) << "and its place is free";
+  silent.push_back(std::make_unique<RawTcp>(door.address));
+  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 18));
+  EXPECT_EQ(door.plane->count(ControlEvent::kEvicted), 3u);
+  expect_alive(door);
+}
+
+// Whoever begins a handshake and does not go on holds one of the places for handshakes until another needs it.
+TEST(HostileDoor, HandshakesThatStallAreBoundedAndTheOldestGoes) {
   ControlLimits limits = Door::patient();
   limits.pending = 4;
   Door door(limits);
-  std::vector<std::unique_ptr<RawTcp>> silent;
+  std::vector<std::unique_ptr<RawTcp>> stalled;
   for (int i = 0; i < 6; ++i) {
-    silent.push_back(std::make_unique<RawTcp>(door.address));
-    EXPECT_TRUE(silent.back()->connected) << "the kernel takes it";
+    stalled.push_back(std::make_unique<RawTcp>(door.address));
+    ASSERT_TRUE(stalled.back()->send("\x16"));
+    ASSERT_TRUE(door.told(ControlEvent::kAccepted, i + 1));
   }
-  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 4));
-  silent[0]->close();
-  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 5));
-  std::string order;
-  for (const ControlNews& news : door.news()) order += news.event == ControlEvent::kAccepted ? 'A' : news.event == ControlEvent::kHandshakeFailed ? 'E' : '?';
-  EXPECT_EQ(order, "AAAAEA") << "the fifth came in when the first was over";
+  ASSERT_TRUE(door.told(ControlEvent::kEvicted, 2));
+  expect_alive(door);
 }
 
-TEST(HostileDoor, ThePendingBoundIs256) {
+TEST(HostileDoor, AFirstByteIsDueWithinFiveSecondsAndOneWhenPlacesAreShort) {
+  EXPECT_EQ(ControlLimits{}.first_byte, 5s);
+  EXPECT_EQ(ControlLimits{}.first_byte_pressed, 1s);
+  ControlLimits limits = Door::patient();
+  limits.pending = 4;
+  limits.first_byte_pressed = 200ms;
+  Door door(limits);
+  std::vector<std::unique_ptr<RawTcp>> silent;
+  for (int i = 0; i < 8; ++i) silent.push_back(std::make_unique<RawTcp>(door.address));  // half of the 16 places
+  EXPECT_EQ(silent[0]->read_to_end(), "");
+  ASSERT_TRUE(door.told(ControlEvent::kDeadline));
+  EXPECT_EQ(door.plane->count(ControlEvent::kDeadline), 1u) << "then there is no pressure any more";
+}
+
+TEST(HostileDoor, TheBoundsAre256HandshakesAnd1024ConnectionsThatWait) {
   EXPECT_EQ(ControlLimits{}.pending, 256u);
+  ASSERT_GE(many_descriptors(), 4096u);
   ControlLimits limits = Door::patient();
   limits.accept = {1e6, 1e6, 1e6, 1e6};
   Door door(limits);
   std::vector<std::unique_ptr<RawTcp>> silent;
-  for (int i = 0; i < 260; ++i) silent.push_back(std::make_unique<RawTcp>(door.address));
-  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 256));
-  silent.front()->close();
-  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 257));
-  const auto news = door.news();
-  EXPECT_EQ(std::ranges::count(news.begin(), news.begin() + 256, ControlEvent::kAccepted, &ControlNews::event), 256);
-  EXPECT_EQ(news[256].event, ControlEvent::kHandshakeFailed);
+  for (int i = 0; i < 900; ++i) silent.push_back(std::make_unique<RawTcp>(door.address));
+  ASSERT_TRUE(door.told(ControlEvent::kEvicted, 4)) << "an eighth of the 1024 is kept for who comes back";
+  ASSERT_TRUE(door.told(ControlEvent::kAccepted, 900));
+  EXPECT_EQ(door.plane->count(ControlEvent::kEvicted), 4u);
+  for (auto& connection : silent) connection->send("\x16");
+  ASSERT_TRUE(door.told(ControlEvent::kEvicted, 4 + 896 - 224)) << "and of the 256 handshakes";
   silent.clear();
   expect_alive(door);
 }
