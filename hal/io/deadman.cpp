@@ -8,15 +8,18 @@
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <limits>
 #include <new>
 
 #include "hal/io/servo_pace.h"
@@ -27,6 +30,7 @@ namespace {
 constexpr int kRounds = 100;           // a millisecond apart
 constexpr unsigned kUsbPatience = 20;  // [ms]
 constexpr std::size_t kDevicesMax = 8;
+constexpr rlim_t kFilesMax = 1U << 20;  // the kernel's own limit of descriptors, unless it was raised
 constexpr int kPriority = 61;
 constexpr int kFarewell = 500;         // [ms]
 
@@ -46,12 +50,31 @@ void say(LastWords& words) noexcept {
   ::ioctl(words.fd, USBDEVFS_BULK, &transfer);
 }
 
+/// Closes the descriptors from `first` to `last`, both included.
+void close_between(unsigned first, unsigned last) noexcept {
+  if (first > last || ::close_range(first, last, 0) == 0) return;
+  // Kernels before 5.9, and system call filters older than the call: one by one, up to the limit of descriptors.
+  rlimit files{kFilesMax, kFilesMax};
+  ::getrlimit(RLIMIT_NOFILE, &files);
+  const auto end = static_cast<unsigned>(std::min<rlim_t>(files.rlim_max, kFilesMax));
+  for (unsigned fd = first; fd <= std::min(last, end); ++fd) ::close(static_cast<int>(fd));
+}
+
+/// Closes every descriptor except the line to the program and the devices.
 void close_all_but(const Will& will, int line) noexcept {
-  for (int fd = 0; fd < 1024; ++fd) {
-    bool keep = fd == line;
-    for (std::size_t i = 0; i < will.count; ++i) keep = keep || fd == will.devices[i].fd;
-    if (!keep) ::close(fd);
+  std::array<int, kDevicesMax + 1> kept{};
+  std::size_t count = 0;
+  kept[count++] = line;
+  for (std::size_t i = 0; i < will.count; ++i) kept[count++] = will.devices[i].fd;
+  std::sort(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(count));
+  unsigned next = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (kept[i] < 0) continue;  // a device that has no file
+    const auto fd = static_cast<unsigned>(kept[i]);
+    if (fd > next) close_between(next, fd - 1);
+    next = fd + 1;
   }
+  close_between(next, std::numeric_limits<unsigned>::max());
 }
 
 void say_all(Will& will) noexcept {

@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -103,6 +107,41 @@ TEST(Deadman, LeavesAServoAloneThatNeverGaveForce) {
     deadman.reset();
   });
   EXPECT_EQ(frames, std::vector<std::string>{"force"});
+}
+
+// A descriptor that stayed open in the deadman would keep a socket or a lock alive after its program died.
+TEST(Deadman, ClosesEveryDescriptorOfItsProgramButTheDevice) {
+  std::array<int, 2> device{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, device.data()), 0);
+  rlimit files{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &files), 0);
+  const rlimit raised{std::max<rlim_t>(files.rlim_cur, std::min<rlim_t>(files.rlim_max, 5000)), files.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &raised), 0);
+  // Around the device's, and as far up as this process may.
+  const int high = ::fcntl(device[1], F_DUPFD_CLOEXEC, static_cast<int>(raised.rlim_cur) - 10);
+  ASSERT_GT(high, 1000) << "the limit of descriptors is " << raised.rlim_cur;
+  const int middle = ::fcntl(device[1], F_DUPFD_CLOEXEC, 500);
+  const int last = ::fcntl(device[1], F_DUPFD_CLOEXEC, high + 1);
+  ASSERT_GT(last, high);
+  LastWords words;
+  words.fd = high;
+  auto deadman = Deadman::watch({&words, 1});
+  ASSERT_TRUE(deadman);
+  std::ifstream children("/proc/thread-self/children");
+  pid_t child = 0;
+  ASSERT_TRUE(children >> child);
+  const auto open_in_child = [&] {
+    std::set<int> open;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(child) + "/fd")) open.insert(std::stoi(entry.path().filename()));
+    return open;
+  };
+  std::set<int> open = open_in_child();
+  for (int i = 0; i < 5000 && open.size() > 2; ++i, open = open_in_child()) ::poll(nullptr, 0, 1);
+  EXPECT_EQ(open.size(), 2U) << "the device and the line to the program";
+  EXPECT_TRUE(open.contains(high));
+  deadman->reset();
+  for (const int fd : {device[0], device[1], high, middle, last}) ::close(fd);
+  ::setrlimit(RLIMIT_NOFILE, &files);
 }
 
 TEST(Deadman, KnowsWhetherItIsThere) {

@@ -97,10 +97,7 @@ TEST_F(MotionFile, OpensAsADevice) {
 
 TEST_F(MotionFile, LoadsTheSharedRecordings) {
   const char* traces = std::getenv("TANDEM_TRACES");
-  if (traces == nullptr) {
-    std::printf("[ NOT RUN  ] the shared recordings: TANDEM_TRACES is not set\n");
-    return;
-  }
+  if (traces == nullptr) GTEST_SKIP() << "TANDEM_TRACES, the folder of the shared recordings, is not set (./test --traces DIR)";
   const std::string base = std::string(traces) + "/";
   for (const auto& [text, scaled] : {std::pair{"motion_franka_teleop_follower_1khz_a.csv", true},
                                      {"motion_human_handover_120hz.csv,columns=baton", true},

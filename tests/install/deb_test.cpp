@@ -8,29 +8,12 @@
 #include <fstream>
 #include <string>
 
-#include "tests/support/process.h"
+#include "tests/install/shell.h"
 
 namespace tandem::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kPatienceTimes = 20;  // of Process::kPatience: packages are compressed, a system may be installed
-
-struct Done {
-  int code = -1;
-  std::string text;  ///< both streams
-};
-
-Done shell(const std::string& command) {
-  Process process{{"/bin/sh", "-c", command + " 2>&1"}};
-  std::optional<int> code;
-  for (int i = 0; i < kPatienceTimes && !code; ++i) code = process.wait();
-  return {code.value_or(-1), process.out()};
-}
-
-bool there(const std::string& program) { return shell("command -v " + program).code == 0; }
-std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
 const fs::path kPlace = fs::path{TANDEM_BINARY_DIR} / "debs";
 
@@ -57,15 +40,13 @@ fs::path package(const std::string& name) {
 }
 
 TEST(DebianPackages, HoldWhatTheyShallAndRunFromAnUnpackedRoot) {
-  if (const std::string& why = packages(); !why.empty()) {
-    std::printf("[ NOT RUN ] Debian packages: %s\n", why.c_str());
-    return;
-  }
+  if (const std::string& why = packages(); !why.empty()) GTEST_SKIP() << why;
   for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
     SCOPED_TRACE(name);
     const fs::path deb = package(name), root = kPlace / ("root-" + name);
     const std::string contents = shell("dpkg-deb -c " + quoted(deb)).text;
-    for (const std::string& file : {"./usr/bin/" + name, "./usr/share/man/man1/" + name + ".1", "./usr/share/doc/" + name + "/copyright"})
+    for (const std::string& file : {"./usr/bin/" + name, "./usr/share/man/man1/" + name + ".1", "./usr/share/doc/" + name + "/copyright",
+                                    "./usr/share/doc/" + name + "/" + name + ".spdx.json"})
       EXPECT_NE(contents.find(file), std::string::npos) << file << "\n" << contents;
     const std::string info = shell("dpkg-deb -f " + quoted(deb)).text;
     for (const char* field : {"Architecture: ", "libc6", "libprotobuf", "Version: " TANDEM_VERSION}) EXPECT_NE(info.find(field), std::string::npos) << field << "\n" << info;
@@ -74,7 +55,7 @@ TEST(DebianPackages, HoldWhatTheyShallAndRunFromAnUnpackedRoot) {
     EXPECT_EQ(version.code, 0) << version.text;
     EXPECT_NE(version.text.find(TANDEM_VERSION), std::string::npos) << version.text;
     if (there("man")) {
-      const Done page = shell("man --warnings -l " + quoted(root / ("usr/share/man/man1/" + name + ".1")) + " >/dev/null");
+      const Done page = shell("man --warnings -l " + quoted(root / ("usr/share/man/man1/" + name + ".1.gz")) + " >/dev/null");
       EXPECT_EQ(page.text, "") << "the manual page has mistakes";
     }
   }
@@ -96,27 +77,73 @@ TEST(DebianPackages, HoldWhatTheyShallAndRunFromAnUnpackedRoot) {
   EXPECT_EQ(after.code, 0) << after.text;
 }
 
-TEST(DebianPackages, TheUnitIsHardened) {
-  if (!there("systemd-analyze")) {
-    std::printf("[ NOT RUN ] systemd-analyze security: it is not installed\n");
-    return;
+// Errors and warnings; none is excused. (Hints below that are about packages that Debian itself would hold.)
+TEST(DebianPackages, AreWhatLintianWants) {
+  const char* counts = std::getenv("TANDEM_COUNTS");
+  if (counts == nullptr || std::string_view{counts} == "reduced") GTEST_SKIP() << "belongs to ./test --full (TANDEM_COUNTS=full), which installs lintian";
+  if (!there("lintian")) GTEST_SKIP() << "lintian is not installed (./test --full installs it)";
+  if (const std::string& why = packages(); !why.empty()) GTEST_SKIP() << why;
+  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
+    const Done judged = shell("lintian --allow-root --tag-display-limit 0 --fail-on error,warning " + quoted(package(name)));
+    EXPECT_EQ(judged.code, 0) << judged.text;
+    std::printf("[ lintian  ] %s: %s\n", name.c_str(), judged.text.empty() ? "nothing" : judged.text.c_str());
   }
+}
+
+/// A maintainer script with commands that only write down how they are called, on a system where systemd runs.
+class Scripts {
+ public:
+  Scripts() {
+    fs::remove_all(place_);
+    fs::create_directories(place_ / "bin");
+    fs::create_directories(place_ / "systemd");
+    for (const char* command : {"systemctl", "deb-systemd-invoke", "deb-systemd-helper", "adduser", "install", "getent", "rm"}) {
+      std::ofstream(place_ / "bin" / command) << "#!/bin/sh\necho " << command << " \"$@\" >> " << quoted(place_ / "calls") << "\n";
+      fs::permissions(place_ / "bin" / command, fs::perms::owner_all);
+    }
+  }
+  /// @return the calls, a line each
+  [[nodiscard]] std::string run(const std::string& script, const std::string& arguments) const {
+    fs::remove(place_ / "calls");
+    const Done done = shell("sed 's|/run/systemd/system|" + (place_ / "systemd").string() + "|' " + quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package" / ("tandem-server." + script)) +
+                            " | PATH=" + quoted(place_ / "bin") + ":$PATH sh -s " + arguments);
+    EXPECT_EQ(done.code, 0) << done.text;
+    return shell("cat " + quoted(place_ / "calls")).text;
+  }
+
+ private:
+  fs::path place_ = fs::path{TANDEM_BINARY_DIR} / "scripts";
+};
+
+TEST(MaintainerScripts, AnUpgradeRestartsTheRunningServiceAndAnInstallationStartsNothing) {
+  const Scripts scripts;
+  const std::string upgraded = scripts.run("postinst", "configure 0.0.9");
+  const auto reload = upgraded.find("systemctl --system daemon-reload\n"), restart = upgraded.find("deb-systemd-invoke try-restart tandem-server.service\n");
+  ASSERT_NE(restart, std::string::npos) << upgraded;
+  EXPECT_LT(reload, restart) << "the new unit first\n" << upgraded;
+  const std::string installed = scripts.run("postinst", "configure ''");
+  EXPECT_EQ(installed.find("deb-systemd-invoke"), std::string::npos) << installed;
+  EXPECT_NE(installed.find("install -d -m 0700 -o tandem -g tandem /var/lib/tandem\n"), std::string::npos) << installed;
+  EXPECT_EQ(scripts.run("prerm", "upgrade 0.2.0").find("stop"), std::string::npos) << "until then the old one serves";
+  EXPECT_NE(scripts.run("prerm", "remove").find("deb-systemd-invoke stop tandem-server.service\n"), std::string::npos);
+  EXPECT_EQ(scripts.run("postrm", "remove").find("rm "), std::string::npos) << "the keys stay";
+  EXPECT_NE(scripts.run("postrm", "purge").find("rm -rf /var/lib/tandem\n"), std::string::npos);
+}
+
+constexpr const char* kNoSystemd = "systemd-analyze is not installed (package systemd)";
+
+TEST(DebianPackages, TheUnitIsHardened) {
+  if (!there("systemd-analyze")) GTEST_SKIP() << kNoSystemd;
   const Done judged = shell("systemd-analyze security --offline=true --threshold=30 " + quoted(fs::path{TANDEM_SOURCE_DIR} / "server/package/tandem-server.service"));
   const auto at = judged.text.find("Overall exposure level");
-  if (at == std::string::npos) {
-    std::printf("[ NOT RUN ] systemd-analyze security: it does not judge files offline here: %s\n", judged.text.c_str());
-    return;
-  }
+  if (at == std::string::npos) GTEST_SKIP() << "systemd-analyze security does not judge files offline here: " << judged.text;
   std::printf("[ EXPOSURE ] %s", judged.text.substr(at).c_str());
   EXPECT_EQ(judged.code, 0) << "above 3.0\n" << judged.text;
 }
 
 // The unit as it is installed, but for the place of the program, which is this build's.
 TEST(DebianPackages, TheUnitIsUnderstood) {
-  if (!there("systemd-analyze")) {
-    std::printf("[ NOT RUN ] systemd-analyze verify: it is not installed\n");
-    return;
-  }
+  if (!there("systemd-analyze")) GTEST_SKIP() << kNoSystemd;
   const fs::path unit = fs::path{TANDEM_BINARY_DIR} / "unit" / "tandem-server.service";
   fs::create_directories(unit.parent_path());
   ASSERT_EQ(shell("sed 's|/usr/bin/tandem-server|" + (fs::path{TANDEM_BINARY_DIR} / "bin/tandem-server").string() + "|' " +
@@ -127,8 +154,9 @@ TEST(DebianPackages, TheUnitIsUnderstood) {
 }
 
 /// The service under a systemd of its own, in a root where the packages are installed and `init` has been run.
-void run_as_a_service(const fs::path& root) {
-  const auto not_run = [](const std::string& why) { std::printf("[ NOT RUN ] the service under systemd: %s\n", why.c_str()); };
+/// @param why_not  set when it could not be started here
+void run_as_a_service(const fs::path& root, std::string& why_not) {
+  const auto not_run = [&](const std::string& why) { why_not = why; };
   const std::string in = "chroot " + quoted(root) + " ";
   if (!there("unshare") || !there("nsenter") || !there("ip")) return not_run("needs unshare, nsenter and ip");
   const Done installed = shell(in + "sh -c 'export DEBIAN_FRONTEND=noninteractive; apt-get install -y -qq --no-install-recommends systemd dbus'");
@@ -163,8 +191,15 @@ void run_as_a_service(const fs::path& root) {
   EXPECT_TRUE(becomes("NRestarts", "1"));
   EXPECT_TRUE(becomes("SubState", "running"));
   EXPECT_NE(show("MainPID"), pid);
+  // An upgrade restarts it; one that was stopped stays stopped.
+  const std::string before_upgrade = show("MainPID"), upgrade = there + "sh -c 'DEBIAN_FRONTEND=noninteractive dpkg --install /tmp/tandem-server_*.deb'";
+  EXPECT_EQ(shell(upgrade).code, 0);
+  EXPECT_TRUE(becomes("SubState", "running"));
+  EXPECT_NE(show("MainPID"), before_upgrade);
   EXPECT_EQ(shell(there + "systemctl stop tandem-server").code, 0);
   EXPECT_EQ(show("Result"), "success");
+  EXPECT_EQ(shell(upgrade).code, 0);
+  EXPECT_NE(show("SubState"), "running");
   // A wrong configuration is not tried again.
   shell(in + "sh -c 'cp /etc/tandem/server.textproto /tmp/right; echo nonsense >> /etc/tandem/server.textproto'");
   EXPECT_NE(shell(there + "systemctl start tandem-server").code, 0);
@@ -172,22 +207,21 @@ void run_as_a_service(const fs::path& root) {
   EXPECT_EQ(show("ExecMainStatus"), "2");
   EXPECT_EQ(show("NRestarts"), "0");
   shell(in + "cp /tmp/right /etc/tandem/server.textproto");
-  if (!::testing::Test::HasFailure()) std::printf("[ SERVICE  ] ran under systemd: ready, watched, restarted after a kill, stopped, a wrong configuration not tried again\n");
+  if (!::testing::Test::HasFailure()) std::printf("[ SERVICE  ] ran under systemd: ready, watched, restarted after a kill and by an upgrade, stopped, a wrong configuration not tried again\n");
 }
 
 TEST(DebianPackages, InstallOnAFreshDebian) {
   const char* counts = std::getenv("TANDEM_COUNTS");
-  const auto not_run = [](const std::string& why) { std::printf("[ NOT RUN ] packages on a fresh Debian 12: %s\n", why.c_str()); };
-  if (counts == nullptr || std::string_view{counts} == "reduced") return not_run("minutes of installing belong to ./test --full (TANDEM_COUNTS=full)");
-  if (::getuid() != 0) return not_run("needs root");
-  if (!there("debootstrap")) return not_run("debootstrap is not installed");
-  if (const std::string& why = packages(); !why.empty()) return not_run(why);
+  if (counts == nullptr || std::string_view{counts} == "reduced") GTEST_SKIP() << "minutes of installing belong to ./test --full (TANDEM_COUNTS=full)";
+  if (::getuid() != 0) GTEST_SKIP() << "needs root";
+  if (!there("debootstrap")) GTEST_SKIP() << "debootstrap is not installed (./test --full installs it)";
+  if (const std::string& why = packages(); !why.empty()) GTEST_SKIP() << why;
   const fs::path root = kPlace / "debian";
   // The mirror this machine itself uses.
   const std::string mirror = shell("apt-get indextargets --format '$(SITE)' 2>/dev/null | grep -v security | head -n 1 | tr -d '\\n'").text;
-  if (mirror.empty()) return not_run("apt knows no mirror");
+  if (mirror.empty()) GTEST_SKIP() << "apt knows no mirror";
   const Done made = shell("debootstrap --variant=minbase bookworm " + quoted(root) + " " + mirror);
-  if (made.code != 0) return not_run("debootstrap failed: " + made.text.substr(made.text.size() > 300 ? made.text.size() - 300 : 0));
+  if (made.code != 0) GTEST_SKIP() << "debootstrap failed: " << made.text.substr(made.text.size() > 300 ? made.text.size() - 300 : 0);
   ASSERT_EQ(shell("cp " + quoted(kPlace) + "/*.deb " + quoted(root) + "/tmp/ && cp /etc/apt/sources.list.d/* " + quoted(root) + "/etc/apt/sources.list.d/ 2>/dev/null; cp /etc/apt/apt.conf.d/* " + quoted(root) + "/etc/apt/apt.conf.d/ 2>/dev/null; true").code, 0);
   const std::string in = "chroot " + quoted(root) + " ";
   const Done installed = shell(in + "sh -c 'export DEBIAN_FRONTEND=noninteractive; apt-get -qq update; apt-get install -y -qq --no-install-recommends /tmp/*.deb'");
@@ -198,10 +232,12 @@ TEST(DebianPackages, InstallOnAFreshDebian) {
   EXPECT_EQ(init.code, 0) << init.text;
   const Done session = shell(in + "tandem-netsim run one_axis --duration 1");
   EXPECT_EQ(session.code, 0) << session.text;
-  run_as_a_service(root);
+  std::string why_no_service;
+  run_as_a_service(root, why_no_service);
   const Done purged = shell(in + "sh -c 'apt-get purge -y -qq tandem-server && test ! -e /var/lib/tandem && test ! -e /etc/tandem/server.textproto'");
   EXPECT_EQ(purged.code, 0) << purged.text;
   fs::remove_all(root);
+  if (!why_no_service.empty()) GTEST_SKIP() << "all but the service under systemd: " << why_no_service;
 }
 
 }  // namespace

@@ -39,6 +39,12 @@ TANDEM_PACKAGES_FULL=(
   "faketime: makes wall clocks jump"
   "debootstrap: a fresh Debian to install the packages into"
   "iproute2: two machines with a cable between them, as network namespaces"
+  "lintian: judges the Debian packages"
+  "dpkg-dev: builds the Debian packages"
+  "file: tells programs from texts when packages are built"
+  "man-db: checks the manual pages"
+  "systemd: judges the service's unit"
+  "libxml2-utils: checks the JUnit files"
 )
 
 # What ./test --fuzz needs.

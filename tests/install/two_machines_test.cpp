@@ -61,11 +61,10 @@ std::string said(Process process) {
 }
 
 TEST(TwoMachines, InitEnrolServeAndJoinAcrossACable) {
-  const auto not_run = [](const std::string& why) { std::printf("[ NOT RUN ] TwoMachines.InitEnrolServeAndJoinAcrossACable: %s\n", why.c_str()); };
-  if (::getuid() != 0) return not_run("needs root, for network namespaces");
-  if (!fs::exists(kIp)) return not_run("ip is not installed (apt install iproute2)");
+  if (::getuid() != 0) GTEST_SKIP() << "needs root, for network namespaces";
+  if (!fs::exists(kIp)) GTEST_SKIP() << "ip is not installed (apt install iproute2)";
   const Cable cable;
-  if (!cable.problem.empty()) return not_run("no network namespaces here: " + cable.problem);
+  if (!cable.problem.empty()) GTEST_SKIP() << "no network namespaces here: " << cable.problem;
   const Folder folder;
   const std::string at = "10.213.7.1:7000", state = folder.file("state");
   fs::create_directory(folder.file("reports"));

@@ -308,6 +308,9 @@ TEST(PrivateMemory, OfAProgramThatCrashesIsNotDumped) {
 
 // The programs themselves do it first of all.
 TEST(PrivateMemory, IsWhatServerAndClientHave) {
+#ifdef TANDEM_DEBUG
+  GTEST_SKIP() << "builds for debuggers and sanitizers may be dumped";
+#else
   const Process host = hosting("one_axis");
   Process trainer = client(address_of(host), "trainer");
   ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
@@ -317,16 +320,13 @@ TEST(PrivateMemory, IsWhatServerAndClientHave) {
     const std::string text = limits.str();
     const auto line = text.find("Max core file size");
     ASSERT_NE(line, std::string::npos);
-#ifdef TANDEM_DEBUG
-    std::puts("[ NOT RUN ] PrivateMemory of server and client: builds for debuggers and sanitizers may be dumped");
-#else
     std::istringstream words(text.substr(line + 18));
     std::string soft, hard;
     words >> soft >> hard;
     EXPECT_EQ(soft, "0");
     EXPECT_EQ(hard, "0");
-#endif
   }
+#endif
 }
 
 }  // namespace

@@ -40,12 +40,12 @@ TEST(NetsimTest, ShippedScenariosPassWithinTheirLimits) {
     for (const Json& limit : scenario["limits"]) EXPECT_FALSE(limit["worst"].is_null()) << scenario["name"] << " " << limit;
   }
   std::printf("[  cpu     ] %.1f s for %d seeds of all shipped scenarios\n", json["cpu_s"].get<double>(), json["seeds_run"].get<int>());
-  if (!std::filesystem::exists("/usr/bin/xmllint")) {
-    std::printf("[ NOT RUN ] JUnit XML through xmllint: it is not installed (package libxml2-utils)\n");
-    return;
+  if (std::filesystem::exists("/usr/bin/xmllint")) {
+    Process lint({"/usr/bin/xmllint", "--noout", folder.file("v.xml")});
+    EXPECT_EQ(lint.wait(), 0) << lint.err();
+  } else {
+    std::printf("[ NOT RUN ] JUnit XML through xmllint: it is not installed (package libxml2-utils; ./test --full installs it)\n");
   }
-  Process lint({"/usr/bin/xmllint", "--noout", folder.file("v.xml")});
-  EXPECT_EQ(lint.wait(), 0) << lint.err();
 }
 
 TEST(NetsimTest, AFailureSaysWhyAndItsCommandRepeatsTheTraceToTheByte) {

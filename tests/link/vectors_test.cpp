@@ -58,10 +58,7 @@ TEST(Vectors, AreWhatThisCodeMakesAndOpens) {
 }
 
 TEST(Vectors, OpenInADecoderWrittenFromTheTextAlone) {
-  if (std::system("node --version > /dev/null 2>&1") != 0) {
-    std::printf("[ NOT RUN ] the second decoder: there is no node (package nodejs)\n");
-    return;
-  }
+  if (std::system("node --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "node is not installed (package nodejs)";
   const std::string folder = TANDEM_SOURCE_DIR "/tests/link/";
   EXPECT_EQ(std::system(("node " + folder + "second_decoder.mjs " + folder + "vectors.json").c_str()), 0);
 }

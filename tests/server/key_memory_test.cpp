@@ -65,7 +65,7 @@ class Wanted {
 
 TEST(WipedMemory, OfASessionThatWentNoKeyIsLeftInTheWholeProcess) {
 #ifdef TANDEM_SANITIZED
-  std::puts("[ NOT RUN ] WipedMemory.OfASessionThatWentNoKeyIsLeftInTheWholeProcess: a sanitizer keeps what was freed");
+  GTEST_SKIP() << "a sanitizer keeps freed memory";
 #else
   Wanted wanted;
   {

@@ -105,6 +105,7 @@ TEST(LayerRules, BiteOnEachOfTheseOnce) {
       {"tests/link/a.cpp", "void f() { std::this_thread::sleep_for(t); }\n"},
       {"tests/link/a.cpp", "TEST(Link, DISABLED_Works) {}\n"},
       {"tests/link/a.cpp", "void f() { GTEST_SKIP(); }\n"},
+      {"tests/link/a.cpp", "void f() {\n  puts(\"[ NOT RUN ] f: no g\");\n  return;\n}\n"},
       {"elsewhere/a.cpp", "#include <vector>\n"},
   };
   for (const Fake& fake : fakes) {
@@ -121,6 +122,7 @@ TEST(LayerRules, LetTheseLive) {
        "const char* s = \"steady_clock \\\" sleep_for\";\nchar c = '\"'; int n = 1'000'000; // \"\n"},
       {"common/base/a.h", "const char* s = R\"x(#include <mutex>\n#include <thread>\nsteady_clock )\" )x\";\n"},
       {"common/base/a.h", "int steady_clocks, my_steady_clock;\n"},
+      {"tests/link/a.cpp", "void f() { if (no_g) GTEST_SKIP() << \"no g\"; }\n"},
       {"common/control/a.cpp", "#include <Eigen/Core>\n#include \"common/base/time.h\"\n"},
       {"common/link/a.cpp", "#include <openssl/evp.h>\n#include \"proto/wire.h\"\n"},
       {"proto/a.cpp", "#include <google/protobuf/text_format.h>\n#include \"proto/scene.pb.h\"\n"},

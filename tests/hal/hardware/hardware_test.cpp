@@ -55,10 +55,10 @@ class Onlooker final : public hal::ServoClient {
   std::atomic<bool> lost_{false};
 };
 
-/// Without a device every test says so and looks at nothing.
+/// Without a device every test is skipped.
 struct HardwareTest : testing::Test {
   void SetUp() override {
-    if (devices().empty()) std::printf("[ NOT RUN ] hardware: no device is named; ./test --hardware WORDS, the words of `tandem-client doctor`\n");
+    if (devices().empty()) GTEST_SKIP() << "no device is named; ./test --hardware WORDS, the words of `tandem-client doctor`";
   }
   static const io::Fd& signals() {
     static const io::Fd file = io::signals_as_file();
@@ -143,10 +143,7 @@ TEST_F(HardwareTest, OpensAgainAfterItWasClosed) {
 
 TEST_F(HardwareTest, SeesThatItIsUnplugged) {
   const char* wanted = std::getenv("TANDEM_HARDWARE_UNPLUG");
-  if (wanted == nullptr || std::string_view(wanted) != "yes") {
-    std::printf("[ NOT RUN ] hardware, unplugging: needs a person; TANDEM_HARDWARE_UNPLUG=yes\n");
-    return;
-  }
+  if (wanted == nullptr || std::string_view(wanted) != "yes") GTEST_SKIP() << "needs a person who pulls the plug; TANDEM_HARDWARE_UNPLUG=yes";
   for (const std::string& words : devices()) {
     SCOPED_TRACE(words);
     std::printf("pull the plug of %s within %.0f s\n", words.c_str(), seconds(kUnplugPatience));

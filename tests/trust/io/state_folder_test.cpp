@@ -87,10 +87,7 @@ TEST(StateFolder, RefusesLinksFoldersAndPipesInPlaceOfFiles) {
 }
 
 TEST(StateFolder, RefusesAnotherOwner) {
-  if (geteuid() != 0) {
-    std::puts("[ NOT RUN ] another owner: needs root to give a file away");
-    return;
-  }
+  if (geteuid() != 0) GTEST_SKIP() << "needs root to give a file to another owner";
   const Folder folder;
   folder.write("x", "secret");
   ASSERT_EQ(chown(folder.path("x").c_str(), 12345, 12345), 0);
