@@ -159,16 +159,17 @@ void WoodenHapticsModel::send_report() noexcept {
 
 void WoodenHapticsModel::advance(Duration dt) noexcept {
   const Time end = now_ + std::max(dt, Duration{0});
+  const bool watchdog = params_.spec.protocol != WoodenProtocol::kRaw64;
   if (!faults.frozen_encoders) {
     for (std::size_t i = 0; i < 3; ++i) frozen_[i] = count(i);
   }
   while (now_ < end) {
     Time next = std::min(end, now_ + kSubstep);
     if (report_due_ && *report_due_ > now_) next = std::min(next, *report_due_);
-    if (plugged_in_ && amplifiers_ && heard_at_ + kWatchdog > now_) next = std::min(next, heard_at_ + kWatchdog);
+    if (plugged_in_ && amplifiers_ && watchdog && heard_at_ + kWatchdog > now_) next = std::min(next, heard_at_ + kWatchdog);
     move(seconds(next - now_));
     now_ = next;
-    if (amplifiers_ && now_ - heard_at_ >= kWatchdog) amplifiers_ = false;
+    if (watchdog && amplifiers_ && now_ - heard_at_ >= kWatchdog) amplifiers_ = false;
     if (plugged_in_ && report_due_ && now_ >= *report_due_) {
       send_report();
       const bool v1 = params_.spec.protocol == WoodenProtocol::kV1;

@@ -38,7 +38,8 @@ struct WoodenHapticsFaults {
 
 /// A Haptikfabriken HID board with motors, encoders and an arm: firmware, watchdog, physics. The tip is a mass in a hand
 /// (sim::Hand), or nobody's, or moved along a path by `place`. v2 and raw64: one report, then nothing until the host's;
-/// v1: a report every period. Amplifiers are off from power-up to the first report of the host, and after 0.5 s without.
+/// v1: a report every period. Amplifiers are off from power-up to the first report of the host. v1 and v2 (mbed firmware) switch them
+/// off after 0.5 s without a report; nothing is published of a watchdog in raw64 boards, so their model never does.
 class WoodenHapticsModel final : public HidWireModel {
  public:
   static constexpr Duration kWatchdog = std::chrono::milliseconds{500};

@@ -20,7 +20,7 @@ DeviceCaps caps_of(const WoodenHapticsSpec& spec) {
   caps.mass = spec.tip_mass;
   caps.damping = spec.damping;
   caps.stiffness = spec.stiffness_max;
-  caps.watchdog = kBoardWatchdog;
+  if (spec.protocol != WoodenProtocol::kRaw64) caps.watchdog = kBoardWatchdog;
   caps.force_calibrated = spec.force_checked;
   caps.workspace_min.fill(-spec.radius);
   caps.workspace_max.fill(spec.radius);

@@ -5,7 +5,8 @@
 
 namespace tandem::hal::woodenhaptics {
 
-/// The device's own watchdog: amplifiers off after so long without a report of the host. Far too long to rely on.
+/// The watchdog of the published mbed firmware (V1 and V2): amplifiers off after so long without a report of the host. Far too long
+/// to rely on. No firmware for RAW64 boards is published: whether they have a watchdog is not known.
 inline constexpr std::chrono::milliseconds kBoardWatchdog{500};
 
 /// What such a mechanism can do, at its workspace's origin: force per axis until the weakest motor is at its current

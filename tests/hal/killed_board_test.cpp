@@ -192,7 +192,12 @@ TEST_P(KilledBoard, WithoutADeadmanPushesUntilItsOwnWatchdogLetsGo) {
   model.advance(heard + hal::wire::WoodenHapticsModel::kWatchdog - 1ms - model.now());
   EXPECT_GT(model.motor_effort().norm(), 0);
   model.advance(1ms);
-  EXPECT_EQ(model.motor_effort().norm(), 0);
+  if (GetParam() == WoodenProtocol::kRaw64) {
+    model.advance(10s);
+    EXPECT_GT(model.motor_effort().norm(), 0) << "no watchdog is published for these boards: tests assume the worst";
+  } else {
+    EXPECT_EQ(model.motor_effort().norm(), 0);
+  }
 }
 
 TEST_P(KilledBoard, OfAStoppedProgramGetsZerosAndNoStaleForceLater) {

@@ -168,7 +168,10 @@ TEST(WoodenCaps, AreWhatIsKnown) {
   EXPECT_FALSE(caps.force_calibrated) << "nobody has held this board against a mass";
   EXPECT_FALSE(caps.mass.has_value());
   EXPECT_EQ(caps.gravity, GravityCompensation::kNone);
+  spec.protocol = WoodenProtocol::kRaw64;
+  EXPECT_FALSE(caps_of(spec).watchdog.has_value()) << "published for the mbed firmware only";
   spec.protocol = WoodenProtocol::kV1;
+  EXPECT_EQ(*caps_of(spec).watchdog, std::chrono::milliseconds(500));
   EXPECT_EQ(caps_of(spec).timing, Timing::kFreeRunning);
   spec.current_max = 2;  // 3.2 N at the weakest motor, below the maker's 5 N
   EXPECT_NEAR(*caps_of(spec).axis[1].peak, 3.22, 0.01);

@@ -7,7 +7,8 @@
 
 namespace tandem::test {
 
-/// WoodenHaptics 2015, from the published dimensions; numbers by hand, not from the shipped presets.
+/// The arms and motors of WoodenHaptics 2015 on a V2 board, which counts with the angles; from the published dimensions; numbers by
+/// hand, not from the shipped presets.
 inline WoodenHapticsSpec wooden_2015() {
   WoodenHapticsSpec s;
   s.capstan = {0.010, 0.010, 0.010};
@@ -29,7 +30,7 @@ inline WoodenHapticsSpec aluhaptics_v2() {
   s.body = {0.116, 0.076, 0.076};
   s.link = {0.111, 0.140, 0.111};
   s.origin = {0.140, 0.0, 0.0};
-  s.calibration_counts = {0, 0, 0};
+  s.calibration_counts = {0, 3878, 0};
   return s;
 }
 
@@ -40,6 +41,10 @@ inline WoodenHapticsSpec polhem_v1() {
   s.origin = {0.140, 0.0, 0.100};
   s.torque_constant = {0.0538, 0.0538, 0.0538};
   s.calibration_counts = {0, 0, -5000};
+  s.encoder_direction = s.motor_direction = {-1, -1, -1};
+  s.arm_mass = {0.080, 0.080};
+  s.arm_mass_at = {0.040, 0.070};
+  s.stiffness_max = 800;
   return s;
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <numbers>
 
@@ -31,20 +32,42 @@ void expect_same_mechanism(const WoodenHapticsSpec& a, const WoodenHapticsSpec& 
     EXPECT_NEAR(a.origin[i], b.origin[i], 1e-12);
     EXPECT_NEAR(a.torque_constant[i], b.torque_constant[i], 1e-12);
     EXPECT_EQ(a.calibration_counts[i], b.calibration_counts[i]);
-    EXPECT_EQ(a.encoder_direction[i], 1);
-    EXPECT_EQ(a.motor_direction[i], 1);
+    EXPECT_EQ(a.encoder_direction[i], b.encoder_direction[i]);
+    EXPECT_EQ(a.motor_direction[i], b.motor_direction[i]);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(a.arm_mass[i], b.arm_mass[i], 1e-12);
+    EXPECT_NEAR(a.arm_mass_at[i], b.arm_mass_at[i], 1e-12);
   }
   EXPECT_EQ(a.counts_per_turn, b.counts_per_turn);
+  EXPECT_EQ(a.stiffness_max, b.stiffness_max);
 }
 
 TEST(WoodenPresets, AreThePublishedNumbers) {
-  expect_same_mechanism(shipped("woodenhaptics-2015"), test::wooden_2015());
+  WoodenHapticsSpec y2015 = test::wooden_2015();  // on its V1 board
+  y2015.calibration_counts = {0, 0, -6000};
+  y2015.encoder_direction = {-1, -1, -1};
+  y2015.motor_direction = {1, -1, -1};
+  expect_same_mechanism(shipped("woodenhaptics-2015"), y2015);
   expect_same_mechanism(shipped("aluhaptics-v2"), test::aluhaptics_v2());
   expect_same_mechanism(shipped("polhem-v1"), test::polhem_v1());
   WoodenHapticsSpec y2019 = test::wooden_2015();
-  y2019.torque_constant = {0.321, 0.0603, 0.0603};
+  y2019.torque_constant = {0.0603, 0.0603, 0.0603};
   expect_same_mechanism(shipped("woodenhaptics-2019"), y2019);
   EXPECT_EQ(shipped("woodenhaptics-2015").protocol, WoodenProtocol::kV1);
+}
+
+TEST(WoodenPresets, CalibrationPoseIsInTheArmsReachAndFarFromTheBasesAxis) {
+  for (const ShippedPreset& preset : shipped_presets()) {
+    SCOPED_TRACE(preset.name);
+    const Kinematics k(shipped(preset.name));
+    const auto& c = shipped(preset.name).calibration_counts;
+    const Vec3 q = k.angles({c[0], c[1], c[2]});
+    const Eigen::Matrix3d j = k.jacobian(q);
+    EXPECT_LT(k.tip(q).norm(), 0.21);
+    EXPECT_GT(j.jacobiSvd().singularValues()[2], 0.05) << "a motor without a lever [m]";
+    EXPECT_TRUE(k.inverse(k.tip(q))) << "in front of the base";
+  }
 }
 
 TEST(WoodenPresets, AllAreCautious) {
@@ -62,7 +85,7 @@ TEST(WoodenPresets, AllAreCautious) {
     EXPECT_TRUE(Kinematics(spec).inverse(Vec3::Zero()).has_value());
     for (const AxisLimit& axis : caps_of(spec).axis) EXPECT_TRUE(axis.peak.has_value());
   }
-  EXPECT_EQ(find_shipped_preset("polhem-v3"), nullptr) << "its kinematics is not public";
+  EXPECT_EQ(find_shipped_preset("polhem-v3"), nullptr) << "its mechanism is another one, not built here";
 }
 
 struct BadLine {
@@ -76,7 +99,7 @@ TEST(WoodenPresets, MistakesAreToldWithTheirPlace) {
            BadLine{"protocol: V2", "protocol: UNKNOWN", "must be V1, V2 or RAW64"},
            BadLine{"protocol: V2", "", "is missing"},
            BadLine{"body_mm: 160", "body_mm: 0", "must be in [5, 1000] mm"},
-           BadLine{"torque_constant_nm_a: 0.321", "torque_constant_nm_a: nan", "torque_constant_nm_a"},
+           BadLine{"torque_constant_nm_a: 0.0603", "torque_constant_nm_a: nan", "torque_constant_nm_a"},
            BadLine{"calibration_counts: 6000", "calibration_counts: 40000", "must be in [-32768, 32767] counts"},
            BadLine{"max_a: 2", "max_a: 7", "must be in (0, 6] A"},
            BadLine{"continuous_a: 1 ", "continuous_a: 3 ", "is above max_a, 2"},
