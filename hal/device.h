@@ -38,7 +38,8 @@ using Result = std::expected<T, DeviceError>;
 enum class Provenance : std::uint8_t { kUnknown, kDatasheet, kVendorQuery, kConfig, kModel };
 enum class Phase : std::uint8_t { kAbsent, kOpening, kBooting, kIdentified, kUnhomed, kReady, kEnabled, kFault, kLost };
 enum class Timing : std::uint8_t { kLockStep, kFreeRunning, kVendor };
-enum class Homing : std::uint8_t { kNone, kManual, kPresetPose, kInkwell, kAuto };
+/// kResetPose: a person puts the device into its reset pose and says so before its servo starts.
+enum class Homing : std::uint8_t { kNone, kManual, kPresetPose, kInkwell, kAuto, kResetPose };
 enum class GravityCompensation : std::uint8_t { kNone, kHost, kDevice };
 enum class InputKind : std::uint8_t { kPose, kRate };
 enum class CommandKind : std::uint8_t { kNone, kJointEffort };
@@ -73,6 +74,8 @@ struct DeviceCaps {
   std::optional<double> stiffness;  ///< largest stiffness the maker allows [N/m]
   std::optional<std::chrono::milliseconds> watchdog;  ///< after which the device itself lets go of its motors
   bool needs_firmware = false;
+  /// The directions of its motors come from a file that a person wrote: no force before they were confirmed on this very device.
+  bool signs_from_file = false;
   bool force_calibrated = true;  ///< false: its force scale is a guess, and its guard keeps to a small ceiling
   std::array<double, 3> workspace_min{}, workspace_max{};  ///< box of the tip [m]; both 0: not known
   unsigned buttons = 0, leds = 0;

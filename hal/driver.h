@@ -14,6 +14,9 @@ struct BringUp {
   /// @param fraction  of this step [0, 1]
   virtual void progress(std::string_view step, double fraction) = 0;
   [[nodiscard]] virtual bool cancelled() const noexcept = 0;
+  /// Asks the person to do something, and waits for their word that it is done.
+  /// @return false: nobody is there to answer, or they gave up
+  [[nodiscard]] virtual bool person_did(std::string_view request) { return (void)request, false; }
 };
 
 /// What the motors shall do during one exchange; already guarded, so a driver only maps, clamps to its integers, sends.

@@ -19,16 +19,25 @@ bool finite(const AxisArray& effort) noexcept {
 
 }  // namespace
 
-GuardLimits limits_of(const DeviceCaps& caps) noexcept {
-  GuardLimits limits;
-  std::optional<double> peak, continuous;
+double peak_of(const DeviceCaps& caps) noexcept {
+  std::optional<double> peak;
   for (std::size_t i = 0; i < std::min<std::size_t>(caps.tip_axes, 3); ++i) {
-    const AxisLimit& axis = caps.axis[i];
-    if (axis.peak) peak = std::min(peak.value_or(*axis.peak), *axis.peak);
-    if (axis.continuous) continuous = std::min(continuous.value_or(*axis.continuous), *axis.continuous);
+    if (const auto& axis = caps.axis[i].peak) peak = std::min(peak.value_or(*axis), *axis);
   }
-  const double share = caps.force_calibrated ? 1.0 : kUncalibratedShare;
-  limits.peak_n = share * peak.value_or(0.0);
+  return peak.value_or(0.0);
+}
+
+GuardLimits limits_of(const DeviceCaps& caps, MotorSigns signs) noexcept {
+  GuardLimits limits;
+  std::optional<double> continuous;
+  for (std::size_t i = 0; i < std::min<std::size_t>(caps.tip_axes, 3); ++i) {
+    if (const auto& axis = caps.axis[i].continuous) continuous = std::min(continuous.value_or(*axis), *axis);
+  }
+  double share = caps.force_calibrated ? 1.0 : kUncalibratedShare;
+  if (caps.signs_from_file && signs == MotorSigns::kUnconfirmed) share = 0.0;
+  // Pulses of 30 ms: what they are worth is found out beside their direction, so the whole peak is the measure.
+  if (caps.signs_from_file && signs == MotorSigns::kBeingConfirmed) share = kConfirmingShare;
+  limits.peak_n = share * peak_of(caps);
   if (continuous) limits.continuous_n = share * *continuous;
   return limits;
 }

@@ -22,8 +22,19 @@ struct GuardLimits {
   Duration miss_limit = std::chrono::milliseconds(10);  ///< of asking without a whole answer
 };
 
-/// Limits from what a device says of itself: the least peak of its axes, a tenth of it while its force scale is a guess.
-[[nodiscard]] GuardLimits limits_of(const DeviceCaps& caps) noexcept;
+/// What is known of the directions of a device's motors. Counts only for devices whose signs come from a file.
+enum class MotorSigns : std::uint8_t {
+  kUnconfirmed,     ///< no force
+  kBeingConfirmed,  ///< up to kConfirmingShare of the peak, in pulses that a person agreed to
+  kConfirmed,       ///< each motor was seen to push the way it is told, on this device with this file
+};
+inline constexpr double kConfirmingShare = 0.3;
+
+/// Least peak of the axes [N]; 0: the device says nothing of its force.
+[[nodiscard]] double peak_of(const DeviceCaps& caps) noexcept;
+/// Limits from what a device says of itself: the least peak of its axes, a tenth of it while its force scale is a guess; none if the
+/// signs of its motors come from a file and are not confirmed.
+[[nodiscard]] GuardLimits limits_of(const DeviceCaps& caps, MotorSigns signs = MotorSigns::kUnconfirmed) noexcept;
 
 /// Between whoever commands and the driver that encodes: finite -> not expired -> within the force of the motors, direction
 /// kept -> within their heat -> soft start; no force after readings that cannot be. Pure; total: every input gives finite

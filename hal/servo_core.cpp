@@ -22,6 +22,8 @@ Result<> bad_state(const DeviceId& id, const char* what) {
 ServoCore::ServoCore(std::unique_ptr<Driver> driver, std::optional<GuardLimits> limits)
     : driver_(std::move(driver)), asked_(limits) {}
 
+ServoCore::ServoCore(std::unique_ptr<Driver> driver, MotorSigns signs) : driver_(std::move(driver)), signs_(signs) {}
+
 Result<> ServoCore::bring_up(BringUp& watcher) {
   phase_.store(Phase::kOpening);
   phase_.store(Phase::kBooting);
@@ -30,7 +32,7 @@ Result<> ServoCore::bring_up(BringUp& watcher) {
     return up;
   }
   phase_.store(Phase::kIdentified);
-  limits_ = asked_.value_or(limits_of(caps()));
+  limits_ = asked_.value_or(limits_of(caps(), signs_));
   guard_ = DriverGuard{limits_, caps().joints};
   stepped_ = false;
   phase_.store(caps().homing == Homing::kNone ? Phase::kReady : Phase::kUnhomed);

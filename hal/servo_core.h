@@ -20,7 +20,10 @@ namespace tandem::hal {
 /// Threads: `bring_up` and `step` on the device's thread; `enable`, `disable`, `reset`, `phase` from any.
 class ServoCore {
  public:
+  /// @param limits  instead of those that follow from what the device says of itself
   explicit ServoCore(std::unique_ptr<Driver> driver, std::optional<GuardLimits> limits = {});
+  /// @param signs  what is known of the directions of its motors
+  ServoCore(std::unique_ptr<Driver> driver, MotorSigns signs);
 
   [[nodiscard]] const DeviceId& id() const noexcept { return driver_->id(); }
   [[nodiscard]] const DeviceCaps& caps() const noexcept { return driver_->caps(); }
@@ -54,6 +57,7 @@ class ServoCore {
 
   std::unique_ptr<Driver> driver_;
   std::optional<GuardLimits> asked_;
+  MotorSigns signs_ = MotorSigns::kUnconfirmed;
   GuardLimits limits_;
   DriverGuard guard_{{}, 0};
   std::atomic<Phase> phase_{Phase::kAbsent};

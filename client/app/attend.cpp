@@ -60,7 +60,7 @@ int attend(const AttendPlan& plan) {
   // Hardware comes first: to home it takes a person's time, and a seat does not wait for that.
   std::unique_ptr<HeldDevice> held;
   if (HeldDevice::is_meant(plan.device)) {
-    auto taken = HeldDevice::take(plan.device, signals.get(), line);
+    auto taken = HeldDevice::take(plan.device, signals.get(), line, {.state = plan.state});
     if (!taken)
       return not_attached(plan, (taken.error().interrupted ? "" : "--device: ") + taken.error().reason,
                           taken.error().wrong_words ? kWrong : kTrouble);

@@ -14,6 +14,7 @@
 
 #include "client/app/device_list.h"
 #include "client/app/held_device.h"
+#include "client/app/motor_confirming.h"
 #include "client/examination.h"
 #include "common/io/clock.h"
 #include "common/io/number_option.h"
@@ -31,8 +32,8 @@ using Kind = Examination::Finding::Kind;
 constexpr int kTrouble = 1, kWrong = 2;
 
 struct DoctorArguments {
-  std::string device, seconds = "5", root;
-  bool force_test = false, install = false, watch = false;
+  std::string device, seconds = "5", root, state;
+  bool force_test = false, confirm = false, install = false, watch = false;
 };
 
 void print(const Examination::Finding& finding) {
@@ -99,7 +100,7 @@ bool wait(Duration time, int signals, const std::function<bool()>& enough) {
 int examine(const DoctorArguments& arguments, double seconds) {
   const io::Fd signals = io::signals_as_file();
   io::StatusLine line{false};
-  auto held = HeldDevice::take(arguments.device, signals.get(), line);
+  auto held = HeldDevice::take(arguments.device, signals.get(), line, {.state = arguments.state});
   if (!held) {
     std::fprintf(stderr, "tandem-client doctor: %s\n", held.error().reason.c_str());
     return held.error().wrong_words ? kWrong : kTrouble;
@@ -118,7 +119,9 @@ int examine(const DoctorArguments& arguments, double seconds) {
   const hal::DeviceStats stats = device.stats();
   auto findings = onlooker.examination().findings(stats, watched);
 
-  if (whole && arguments.force_test && !onlooker.was_lost()) {
+  if (const std::string& why = (*held)->no_force(); !why.empty()) {
+    findings.push_back({arguments.force_test ? Kind::kTrouble : Kind::kNotice, why});
+  } else if (whole && arguments.force_test && !onlooker.was_lost()) {
     std::printf("force test: hold the grip loosely in the middle of its workspace; six soft pushes of %.1f N follow\n",
                 ForceTest::kForce);
     std::fflush(stdout);
@@ -222,7 +225,11 @@ int doctor_command(const DoctorArguments& arguments) {
     mistakes.push_back("--seconds: " + problem);
   if (arguments.force_test && arguments.device.empty())
     mistakes.push_back("--force-test: needs --device; forces are sent to a device that a person named, to no other");
-  if (arguments.install && (!arguments.device.empty() || arguments.force_test || arguments.watch))
+  if (arguments.confirm && arguments.device.empty())
+    mistakes.push_back("--confirm-motors: needs --device; forces are sent to a device that a person named, to no other");
+  if (arguments.confirm && (arguments.force_test || arguments.watch))
+    mistakes.push_back("--confirm-motors: stands without --force-test and --watch; run it first");
+  if (arguments.install && (!arguments.device.empty() || arguments.force_test || arguments.confirm || arguments.watch))
     mistakes.push_back("--install-udev: stands alone");
   if (!arguments.root.empty() && !arguments.install) mistakes.push_back("--root: needs --install-udev");
   if (arguments.watch && (!arguments.device.empty() || arguments.force_test)) mistakes.push_back("--watch: stands alone");
@@ -233,6 +240,12 @@ int doctor_command(const DoctorArguments& arguments) {
   } else if (HeldDevice::is_meant(arguments.device) && !arguments.device.empty()) {
     for (std::string& wrong : HeldDevice::mistakes(arguments.device)) mistakes.push_back(std::move(wrong));
   }
+  if (const auto choice = hal::parse_choice(arguments.device); arguments.confirm && mistakes.empty() && choice) {
+    if (choice->backend != "woodenhaptics")
+      mistakes.push_back("--confirm-motors: '" + choice->backend + "': only woodenhaptics devices take the directions of their motors from a file");
+    else if (choice->find("energise") != "yes")
+      mistakes.push_back("--confirm-motors: needs energise=yes in the words of --device: without it no current flows");
+  }
   for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
   if (!mistakes.empty()) {
     std::fprintf(stderr, "tandem-client doctor: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
@@ -240,6 +253,7 @@ int doctor_command(const DoctorArguments& arguments) {
   }
   if (arguments.install) return install_rules(arguments.root);
   if (arguments.watch) return watch_plugs();
+  if (arguments.confirm) return confirm_motors(arguments.device, arguments.state);
   return arguments.device.empty() ? list_all() : examine(arguments, std::stod(arguments.seconds));
 }
 
@@ -251,6 +265,11 @@ void add_doctor_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--device", arguments->device, "examines this one; the words are those of `join --device`")->option_text("WORDS");
   command->add_option("--seconds", arguments->seconds, "how long to watch while you move it; default 5")->option_text("S");
   command->add_flag("--force-test", arguments->force_test, "then pushes your hand softly (0.5 N) along each axis, both ways");
+  command->add_flag("--confirm-motors", arguments->confirm,
+                    "asks you, then gives each motor pulses of at most 30 ms and sees whether it pushes the way the device's file says; a device "
+                    "whose directions come from a file gives no force before");
+  command->add_option("--state", arguments->state, "folder where confirmed motors are kept; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      ->option_text("DIR");
   command->add_flag("--watch", arguments->watch, "says what is plugged in and out, on USB and among HID devices");
   command->add_flag("--install-udev", arguments->install,
                     "writes the udev rules that let whoever sits here use the devices; needs root");
@@ -261,6 +280,7 @@ void add_doctor_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-client doctor\n"
       "  tandem-client doctor --device woodenhaptics:preset=aluhaptics-v2 --seconds 10\n"
+      "  tandem-client doctor --device woodenhaptics:preset=mine.textproto,energise=yes,home=here --confirm-motors\n"
       "  sudo tandem-client doctor --install-udev");
   command->callback([arguments, &action] { action = [arguments] { return doctor_command(*arguments); }; });
 }

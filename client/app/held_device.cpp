@@ -6,6 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "client/app/ask_person.h"
+#include "client/app/motor_state.h"
 #include "common/io/clock.h"
 #include "common/io/signals.h"
 #include "hal/io/backend.h"
@@ -29,6 +31,10 @@ std::string ended_by_signal() { return "ended by " + std::string(io::signal_that
 class Progress final : public hal::BringUp {
  public:
   Progress(int signals, io::StatusLine& line) : signals_(signals), line_(line) {}
+  bool person_did(std::string_view request) override {
+    line_.clear();
+    return wait_for_enter(std::string(request), signals_);
+  }
   void progress(std::string_view step, double fraction) override {
     line_.show(std::string(step) + " " + std::to_string(std::lround(100 * fraction)) + " %");
   }
@@ -48,11 +54,25 @@ const char* how_to_home(hal::Homing homing) {
       return "home the device: hold it in its calibration pose and press its calibration button";
     case hal::Homing::kInkwell:
       return "home the device: put the stylus into the inkwell";
+    case hal::Homing::kResetPose:
+      return "the device does not know where it is, and gets no force: end this, put it into its reset pose (all links at right angles) "
+             "and start again with `,home=here` after its name, or from a terminal, where you are asked";
     case hal::Homing::kAuto:
     case hal::Homing::kNone:
       break;
   }
   return "the device finds its origin by itself; keep your hand off";
+}
+
+/// Empty: all motors of this device were seen to push the way this file says.
+std::string why_no_force(const hal::SignFile& signs, const MotorState& state, std::string_view device) {
+  const auto known = state.find(signs);
+  if (known && *known && (*known)->confirmed) return {};
+  const std::string what = "no force comes of this device: the directions of its motors come from " + signs.name + ", and ";
+  const std::string why = !known   ? "what was confirmed cannot be read: " + known.error()
+                          : !*known ? "nobody confirmed them on this device (" + signs.device + ") with this file"
+                                    : "the last `doctor --confirm-motors` on this device (" + signs.device + ") did not find all of them right";
+  return what + why + ". Type:\n  " + state.command(device);
 }
 
 }  // namespace
@@ -77,7 +97,7 @@ std::vector<std::string> HeldDevice::mistakes(std::string_view spec) {
 }
 
 std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take(std::string_view spec, int signals,
-                                                                                 io::StatusLine& line) {
+                                                                                 io::StatusLine& line, const Motors& motors) {
   const auto failed = [](const hal::DeviceError& error, bool wrong_words) {
     return std::unexpected(Failure{.wrong_words = wrong_words, .reason = error.message});
   };
@@ -101,7 +121,14 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
     if (!deadman) return failed(deadman.error(), false);
     held->deadman_ = std::move(*deadman);
   }
-  auto core = std::make_unique<hal::ServoCore>(std::move(opened->driver));
+  held->signs_ = std::move(opened->signs);
+  auto signs = motors.being_confirmed ? hal::MotorSigns::kBeingConfirmed : hal::MotorSigns::kUnconfirmed;
+  if (held->signs_ && !motors.being_confirmed) {
+    held->no_force_ = why_no_force(*held->signs_, MotorState{motors.state}, spec);
+    if (held->no_force_.empty()) signs = hal::MotorSigns::kConfirmed;
+    if (!held->no_force_.empty()) line.warn(held->no_force_);
+  }
+  auto core = std::make_unique<hal::ServoCore>(std::move(opened->driver), signs);
   Progress progress{signals, line};
   if (auto up = core->bring_up(progress); !up) {
     core->silence();
@@ -110,10 +137,11 @@ std::expected<std::unique_ptr<HeldDevice>, HeldDevice::Failure> HeldDevice::take
     return std::unexpected(Failure{.interrupted = ended, .reason = ended ? ended_by_signal() : up.error().message});
   }
   line.clear();
-  if (!held->deadman_ && hal::limits_of(core->caps()).peak_n > 0)
+  if (!held->deadman_ && core->limits().peak_n > 0)
     line.note("nobody can speak for this device if this program is killed: then only the device's own watchdog takes its "
               "force away");
   held->note_ = core->id().backend + " " + core->id().key;
+  if (!held->no_force_.empty()) held->note_ += ", no force: its motors are not confirmed";
   if (!core->caps().force_calibrated) held->note_ += ", force scale not calibrated: kept to a tenth";
   held->device_ = std::make_unique<hal::DeviceThread>(std::move(core), kPeriod, held->deadman_ ? &held->deadman_->pulse() : nullptr);
   if (auto started = held->device_->start(held->relay_); !started) return failed(started.error(), false);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "client/rate_hand.h"
 #include "common/io/terminal.h"
 #include "hal/device.h"
+#include "hal/io/backend.h"
 #include "hal/io/deadman.h"
 
 namespace tandem::client {
@@ -32,15 +34,25 @@ class HeldDevice {
     bool wrong_words = false;  ///< what was typed cannot be meant, whatever is attached
     std::string reason;  ///< cause and remedy; or which signal
   };
+  /// What is known of the directions of its motors, where they come from a file.
+  struct Motors {
+    std::string state = {};      ///< folder of their book, as given by --state
+    bool being_confirmed = false;  ///< a person is about to: forces up to kConfirmingShare of the peak
+  };
+  /// A device whose motors are not confirmed is taken without force; `no_force` says so, and `line` warned.
   /// @param signals  file of signals.h: Ctrl-C ends the waiting
-  [[nodiscard]] static std::expected<std::unique_ptr<HeldDevice>, Failure> take(std::string_view spec, int signals,
-                                                                                io::StatusLine& line);
+  [[nodiscard]] static std::expected<std::unique_ptr<HeldDevice>, Failure> take(std::string_view spec, int signals, io::StatusLine& line,
+                                                                                const Motors& motors);
   ~HeldDevice();
 
   /// What a seat is told of it.
   [[nodiscard]] hal::DeviceCaps caps() const;
   [[nodiscard]] hal::Device& device() noexcept { return *device_; }
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
+  /// Why no force comes of it, with the command that changes that; empty: one may come.
+  [[nodiscard]] const std::string& no_force() const noexcept { return no_force_; }
+  /// Where the directions of its motors come from; nothing: not from a file, or no current may flow.
+  [[nodiscard]] const std::optional<hal::SignFile>& signs() const noexcept { return signs_; }
   /// What speaks to it, with its version.
   [[nodiscard]] const std::string& library() const noexcept { return library_; }
 
@@ -75,7 +87,8 @@ class HeldDevice {
   Relay relay_;
   std::unique_ptr<hal::Device> device_;
   std::unique_ptr<RateHand> rate_;
-  std::string note_, library_;
+  std::optional<hal::SignFile> signs_;
+  std::string note_, library_, no_force_;
 };
 
 }  // namespace tandem::client

@@ -1,7 +1,6 @@
 #include "client/app/weigh_command.h"
 
 #include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "client/app/ask_person.h"
 #include "client/app/held_device.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
@@ -68,19 +68,6 @@ std::string too_heavy(double mass, const hal::FalconForce& scale, bool lying) {
                 most / kGravity, scale.calibrated() ? "" : ". Begin with 0.02 and 0.03, then give what came out as calibration=FILE");
 }
 
-/// @return false: Ctrl-C, or nobody is there to press it
-bool wait_for_enter(const char* words, int signals) {
-  std::fprintf(stderr, "%s; then press Enter\n", words);
-  for (;;) {
-    std::array<pollfd, 2> files{{{signals, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
-    if (poll(files.data(), files.size(), -1) < 0) continue;
-    if (files[0].revents != 0) return false;
-    char c = 0;
-    if (::read(STDIN_FILENO, &c, 1) != 1) return false;
-    if (c == '\n') return true;
-  }
-}
-
 struct Trouble {
   std::string reason;  ///< empty: interrupted
 };
@@ -118,7 +105,7 @@ std::array<double, 3> motor_counts(const hal::FalconWeighing::Held& held, const 
 int weigh(const WeighArguments& arguments, double mass, const hal::FalconForce& scale) {
   const io::Fd signals = io::signals_as_file();
   io::StatusLine line{false};
-  auto held = HeldDevice::take(arguments.device, signals.get(), line);
+  auto held = HeldDevice::take(arguments.device, signals.get(), line, {});
   const auto fail = [](std::string reason) {
     if (reason.empty()) {
       const std::string by{io::signal_that_came()};

@@ -18,17 +18,17 @@ DeviceError all_of(const InputErrors& errors) {
   return {Errc::kUnsupported, std::move(lines)};
 }
 
-Result<DeviceFileSpec> understand(std::string_view text, std::string_view name) {
+}  // namespace
+
+Result<DeviceFileSpec> understand_device_file(std::string_view text, std::string_view name) {
   auto spec = parse_device_text(text, name);
   if (!spec) return std::unexpected(all_of(spec.error()));
   return std::move(*spec);
 }
 
-}  // namespace
-
 Result<DeviceFileSpec> load_device_file(const std::string& file) {
   const auto text = read_text_file(file);
-  return text ? understand(*text, file) : std::unexpected(all_of(text.error()));
+  return text ? understand_device_file(*text, file) : std::unexpected(all_of(text.error()));
 }
 
 Result<FalconSpec> load_falcon_file(const std::string& file) {
@@ -44,7 +44,7 @@ DeviceError says_nothing_of(const std::string& file, const std::string& kind) {
   return {Errc::kUnsupported, file + ":1: says nothing of a " + kind + ": write " + kind + " { ... }"};
 }
 
-Result<DeviceFileSpec> read_shipped(const ShippedPreset& preset) { return understand(preset.text, preset.name); }
+Result<DeviceFileSpec> read_shipped(const ShippedPreset& preset) { return understand_device_file(preset.text, preset.name); }
 
 Result<FalconFirmware> load_firmware(const std::string& file) {
   errno = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/device.h"
@@ -13,6 +14,8 @@ namespace tandem::hal {
 
 /// What a person knows of their devices: a text file (proto/device.proto). Error: every mistake, with file and line.
 [[nodiscard]] Result<DeviceFileSpec> load_device_file(const std::string& file);
+/// The same of text that was read from `name` already. Error: every mistake, with its line.
+[[nodiscard]] Result<DeviceFileSpec> understand_device_file(std::string_view text, std::string_view name);
 /// What such a file says of a Falcon. Error: also that it says nothing of one, or that its readings contradict each other.
 [[nodiscard]] Result<FalconSpec> load_falcon_file(const std::string& file);
 /// A file that reads well and is of another kind of device.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/format.h"
+#include "common/link/digest.h"
 #include "hal/app/device_files.h"
 #include "hal/io/attached.h"
 #include "hal/io/hid_pipe.h"
@@ -17,6 +18,7 @@
 #include "hal/spacemouse/spacemouse_driver.h"
 #include "hal/woodenhaptics/board_report.h"
 #include "hal/woodenhaptics/woodenhaptics_driver.h"
+#include "proto/io/scene_file.h"
 #include "proto/presets_embedded.h"
 
 namespace tandem::hal {
@@ -73,31 +75,63 @@ std::string preset_names() {
   return names;
 }
 
+struct Preset {
+  WoodenHapticsSpec spec;
+  std::string sha256;  ///< of the very bytes that `spec` was made from
+};
+
 /// A shipped preset by its name, or a person's own file.
-Result<WoodenHapticsSpec> load_preset(const std::string& name) {
+Result<Preset> load_preset(const std::string& name) {
   const ShippedPreset* shipped = find_shipped_preset(name);
-  auto file = shipped != nullptr ? read_shipped(*shipped) : load_device_file(name);
-  if (!file) {
-    if (shipped == nullptr && name.find_first_of("./") == std::string::npos)
-      return std::unexpected(DeviceError{Errc::kUnsupported, "device: woodenhaptics: preset = '" + name.substr(0, 60) +
-                                                                 "': no shipped preset and no such file; shipped: " + preset_names()});
-    return std::unexpected(std::move(file.error()));
+  std::string text;
+  if (shipped != nullptr) {
+    text = shipped->text;
+  } else if (auto read = read_text_file(name)) {
+    text = std::move(*read);
+  } else if (name.find_first_of("./") == std::string::npos) {
+    return std::unexpected(DeviceError{Errc::kUnsupported, "device: woodenhaptics: preset = '" + name.substr(0, 60) +
+                                                               "': no shipped preset and no such file; shipped: " + preset_names()});
+  } else {
+    return std::unexpected(DeviceError{Errc::kUnsupported, to_text(read.error())});
   }
+  auto file = understand_device_file(text, name);
+  if (!file) return std::unexpected(std::move(file.error()));
   if (!file->woodenhaptics) return std::unexpected(says_nothing_of(name, "woodenhaptics"));
-  return *file->woodenhaptics;
+  link::Digest digest;
+  digest.add(text);
+  return Preset{*file->woodenhaptics, digest.hex()};
+}
+
+/// What the words and their files say.
+struct Board {
+  woodenhaptics::WoodenHapticsOptions options;
+  std::string preset, sha256;
+};
+
+/// The name under which the motors of this very device are remembered. mbed boards all tell the serial number of their library's
+/// example, which tells nothing.
+std::string name_of(const Attached& device) {
+  constexpr std::string_view kEverybodys = "0123456789";
+  const bool own = !device.serial.empty() && device.serial != kEverybodys;
+  std::string name = own ? "serial:" + device.serial : "port:" + device.port;
+  std::ranges::replace_if(name, [](char c) { return c <= ' ' || c >= '\x7f'; }, '_');
+  return name;
 }
 
 /// What the words and their files say, or all that is wrong with them.
-Result<woodenhaptics::WoodenHapticsOptions> understand_board(const DeviceChoice& choice) {
+Result<Board> understand_board(const DeviceChoice& choice) {
   ChoiceJudge judge{choice, {"preset", "energise", "home", "port", "serial"}};
   if (!choice.name.empty()) judge.mistake("'" + choice.name.substr(0, 60) + "': several are told apart by port= or serial=; a mechanism is named by preset=");
-  woodenhaptics::WoodenHapticsOptions options;
+  Board board;
+  woodenhaptics::WoodenHapticsOptions& options = board.options;
   if (const auto preset = choice.find("preset")) {
-    auto spec = load_preset(*preset);
-    if (spec) {
-      options.spec = *spec;
+    auto loaded = load_preset(*preset);
+    if (loaded) {
+      options.spec = loaded->spec;
+      board.preset = *preset;
+      board.sha256 = std::move(loaded->sha256);
     } else {
-      judge.told(std::move(spec.error().message));
+      judge.told(std::move(loaded.error().message));
     }
   } else {
     judge.mistake("needs preset=NAME or preset=FILE: which mechanism hangs on the board nobody can see from here; known: " + preset_names());
@@ -105,7 +139,7 @@ Result<woodenhaptics::WoodenHapticsOptions> understand_board(const DeviceChoice&
   options.energise = judge.yes_or_no("energise", false);
   options.home_at_start = choice.find("home").has_value() && judge.one_of("home", {"here"}) == "here";
   if (auto fine = judge.verdict(); !fine) return std::unexpected(std::move(fine.error()));
-  return options;
+  return board;
 }
 
 Result<SpaceMouseSpec> understand_puck(const DeviceChoice& choice) {
@@ -130,7 +164,8 @@ Result<SpaceMouseSpec> understand_puck(const DeviceChoice& choice) {
 
 std::string_view WoodenHapticsBackend::help() const noexcept {
   return "  woodenhaptics:preset=NAME|FILE,energise=yes[,home=here][,port=P][,serial=S]\n"
-         "                              WoodenHaptics, AluHaptics, Polhem v1; without energise=yes no current flows.\n"
+         "                              WoodenHaptics, AluHaptics, Polhem v1; without energise=yes, and before\n"
+         "                              `doctor --confirm-motors`, no current flows.\n"
          "                              home=here: the arm rests in its calibration pose now\n";
 }
 
@@ -140,6 +175,7 @@ std::vector<DeviceFact> WoodenHapticsBackend::facts() const {
   return {{"firmware", "the board keeps its own"},
           {"rate", "1000 Hz; V2 and RAW64 in lock-step, V1 free-running"},
           {"calibration", "by the preset; without `measured` in it forces are kept to a tenth"},
+          {"motors", "no force before `tandem-client doctor --device ... --confirm-motors` saw each push the way it is told"},
           {"homing", "at every start: calibration pose, then the board's button or home=here"},
           {"gravity", "the motors carry the arms if the preset says weight { carried: true }"}};
 }
@@ -162,7 +198,7 @@ std::vector<std::string> WoodenHapticsBackend::udev_rules() const {
 Result<OpenedDriver> WoodenHapticsBackend::open(const DeviceChoice& choice) {
   const auto understood = understand_board(choice);
   if (!understood) return std::unexpected(understood.error());
-  const woodenhaptics::WoodenHapticsOptions& options = *understood;
+  const woodenhaptics::WoodenHapticsOptions& options = understood->options;
   auto opened_pipe = open_pipe(choice, "WoodenHaptics board", is_board);
   if (!opened_pipe) return std::unexpected(std::move(opened_pipe.error()));
   auto& [device, pipe] = *opened_pipe;
@@ -172,7 +208,11 @@ Result<OpenedDriver> WoodenHapticsBackend::open(const DeviceChoice& choice) {
   bus->pipe = std::move(pipe);
   opened.driver = std::make_unique<woodenhaptics::WoodenHapticsDriver>(DeviceId{"woodenhaptics", device.port}, *bus->pipe, bus->clock, options);
   opened.bus = std::move(bus);
-  if (!options.energise) opened.note = "no current flows without energise=yes: this arm only says where it is";
+  if (options.energise) {
+    opened.signs = SignFile{name_of(device), understood->preset, understood->sha256, {"base", "shoulder", "elbow"}};
+  } else {
+    opened.note = "no current flows without energise=yes: this arm only says where it is";
+  }
   if (const auto fd = open_file_of(device.node)) {
     LastWords words;  // report number 0, then a report of zeros: no current
     words.fd = *fd;
@@ -227,7 +267,8 @@ Result<OpenedDriver> SpaceMouseBackend::open(const DeviceChoice& choice) {
   OpenedDriver opened;
   auto bus = std::make_shared<HidBus>();
   bus->pipe = std::move(pipe);
-  opened.driver = std::make_unique<spacemouse::SpaceMouseDriver>(DeviceId{"spacemouse", device.port}, *bus->pipe, bus->clock, *spec);
+  opened.driver = std::make_unique<spacemouse::SpaceMouseDriver>(DeviceId{"spacemouse", device.port}, *bus->pipe, bus->clock, *spec,
+                                                                  spacemouse::axes_of(device.ids.vendor, device.ids.product));
   opened.bus = std::move(bus);
   opened.note = format("full deflection is %g m/s and %g rad/s%s", spec->speed, spec->turn,
                        choice.find("calibration") ? "" : "; calibration=FILE changes that");

@@ -1,13 +1,27 @@
 #include "hal/app/openhaptics_backend.h"
 
+#include "hal/io/udev_rule.h"
 #include "hal/openhaptics/openhaptics_driver.h"
 
 namespace tandem::hal {
 namespace {
 
-constexpr const char* kDefaultName = "Default Device";
+// The first Touch with USB is a serial port; newer ones, and the Touch X, are HID devices of 3D Systems' own id.
+constexpr const char* kSerialTouch =
+    "SUBSYSTEM==\"tty\", ATTRS{idVendor}==\"0301\", ATTRS{idProduct}==\"2988\", ENV{ID_MM_DEVICE_IGNORE}=\"1\", MODE=\"0660\", TAG+=\"uaccess\"";
+constexpr std::uint16_t k3dSystems = 0x2988;
+
+/// Whether a person says that the device rests in its reset pose; or all that is wrong with the words.
+Result<bool> understand(const DeviceChoice& choice) {
+  ChoiceJudge judge{choice, {"library", "home"}};
+  const bool home = choice.find("home").has_value() && judge.one_of("home", {"here"}) == "here";
+  if (auto fine = judge.verdict(); !fine) return std::unexpected(std::move(fine.error()));
+  return home;
+}
 
 }  // namespace
+
+std::vector<std::string> OpenHapticsBackend::udev_rules() const { return {kSerialTouch, udev_vendor_rule(k3dSystems)}; }
 
 std::string OpenHapticsBackend::library() const {
   const auto library = OpenHapticsLibrary::load();
@@ -18,11 +32,14 @@ std::vector<DeviceFact> OpenHapticsBackend::facts() const {
   return {{"firmware", "the device keeps its own"},
           {"rate", "1000 Hz, the vendor's scheduler"},
           {"calibration", "the vendor's; peak and continuous force are asked of the device when it is opened"},
-          {"homing", "as the device has it: by itself, or the stylus into the inkwell"},
+          {"homing", "as the device has it: by itself, the stylus into the inkwell, or its reset pose (asked for, or home=here)"},
           {"gravity", "the maker's compensation is on"}};
 }
 
-Result<> OpenHapticsBackend::check(const DeviceChoice& choice) const { return ChoiceJudge{choice, {"library"}}.verdict(); }
+Result<> OpenHapticsBackend::check(const DeviceChoice& choice) const {
+  auto understood = understand(choice);
+  return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
+}
 
 Result<std::vector<FoundDevice>> OpenHapticsBackend::list() {
   if (auto library = OpenHapticsLibrary::load(); !library) {
@@ -30,12 +47,12 @@ Result<std::vector<FoundDevice>> OpenHapticsBackend::list() {
     if (error.message.starts_with("openhaptics: ")) error.message.erase(0, std::string_view("openhaptics: ").size());  // the list says it
     return std::unexpected(std::move(error));
   }
-  return std::vector{FoundDevice{std::string("openhaptics:") + kDefaultName,
-                                 "a device of that name in the vendor's set-up tool; the library does not tell which are attached", "", ""}};
+  return std::vector{FoundDevice{"openhaptics", "the default device of the vendor's set-up tool; the library does not tell which are attached", "", ""}};
 }
 
 Result<OpenedDriver> OpenHapticsBackend::open(const DeviceChoice& choice) {
-  if (auto ok = check(choice); !ok) return std::unexpected(std::move(ok.error()));
+  const auto home = understand(choice);
+  if (!home) return std::unexpected(home.error());
   const std::string file = choice.find("library").value_or(OpenHapticsLibrary::kFile);
   if (library_ && file_ != file)
     return std::unexpected(DeviceError{Errc::kUnsupported, "device: library=" + file + ": " + file_ +
@@ -47,9 +64,8 @@ Result<OpenedDriver> OpenHapticsBackend::open(const DeviceChoice& choice) {
     file_ = file;
     group_ = std::make_shared<openhaptics::TouchGroup>(library_->api(), clock_);
   }
-  const std::string name = choice.name.empty() ? kDefaultName : choice.name;
   // The vendor's threads talk to the device, not a file of ours: a Deadman could not speak for it.
-  return OpenedDriver{library_, std::make_unique<openhaptics::OpenHapticsDriver>(name, group_, clock_), std::nullopt};
+  return OpenedDriver{library_, std::make_unique<openhaptics::OpenHapticsDriver>(choice.name, group_, clock_, *home), std::nullopt};
 }
 
 }  // namespace tandem::hal

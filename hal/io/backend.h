@@ -26,11 +26,19 @@ struct FoundDevice {
   std::string node;     ///< its file; empty: none
 };
 
+/// The file that the directions of a device's motors come from, and the device it was used with.
+struct SignFile {
+  std::string device;               ///< "serial:..." or, if it has none of its own, "port:..."; no spaces
+  std::string name, sha256;         ///< as the person named it; of its bytes, lower-case hexadecimal
+  std::vector<std::string> motors;  ///< as the file calls them, in the order of the joints
+};
+
 /// A driver for one device, opened and claimed, not brought up.
 struct OpenedDriver {
   std::shared_ptr<void> bus;  ///< what the driver works with: pipe, clock; must outlive it
   std::unique_ptr<Driver> driver;
   std::optional<LastWords> last_words;  ///< for a Deadman; empty: nobody can speak for this device
+  std::optional<SignFile> signs = {};   ///< of devices whose caps say signs_from_file, if current may flow at all
   std::string note = {};                ///< for the person: what this device will not do, and why
 };
 

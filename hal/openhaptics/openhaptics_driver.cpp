@@ -15,13 +15,14 @@ constexpr Duration kLook = 100us;
 Homing homing_of(std::uint32_t styles) noexcept {
   if ((styles & id::kStyleAuto) != 0) return Homing::kAuto;
   if ((styles & id::kStyleInkwell) != 0) return Homing::kInkwell;
-  return Homing::kPresetPose;
+  if ((styles & id::kStyleEncoderReset) != 0) return Homing::kResetPose;
+  return Homing::kAuto;
 }
 
 }  // namespace
 
-OpenHapticsDriver::OpenHapticsDriver(std::string name, std::shared_ptr<TouchGroup> group, Clock& clock)
-    : id_{"openhaptics", std::move(name)}, group_(std::move(group)), clock_(&clock) {}
+OpenHapticsDriver::OpenHapticsDriver(std::string name, std::shared_ptr<TouchGroup> group, Clock& clock, bool home_at_start)
+    : id_{"openhaptics", name.empty() ? "default" : name}, name_(std::move(name)), home_at_start_(home_at_start), group_(std::move(group)), clock_(&clock) {}
 
 OpenHapticsDriver::~OpenHapticsDriver() { release(); }
 
@@ -32,7 +33,11 @@ void OpenHapticsDriver::release() noexcept {
 Result<> OpenHapticsDriver::bring_up(BringUp& watcher) {
   release();
   watcher.progress("opening", 0);
-  auto about = group_->add(id_.key);
+  auto about = group_->add(name_, [&] {
+    return std::exchange(home_at_start_, false) ||
+           watcher.person_did("openhaptics " + id_.key + " learns where it is by a reset only: put it into its reset pose (all links at right "
+                              "angles, as in its manual), hold it there");
+  });
   if (!about) return std::unexpected(std::move(about.error()));
   slot_ = about->slot;
   cycle_ = 0;

@@ -13,9 +13,11 @@ namespace tandem::hal::openhaptics {
 /// between this thread and the vendor's cycle, which adds up to one cycle (1 ms) each way.
 class OpenHapticsDriver final : public Driver {
  public:
-  /// @param name   of the device in the vendor's set-up tool
-  /// @param group  of this process; keeps the library loaded
-  OpenHapticsDriver(std::string name, std::shared_ptr<TouchGroup> group, Clock& clock);
+  /// @param name           of the device in the vendor's set-up tool; empty: the default one
+  /// @param group          of this process; keeps the library loaded
+  /// @param home_at_start  a person says that it rests in its reset pose when it is opened. Believed once. Of interest only for devices
+  ///                       that find their origin by a reset of the encoders; without it the person is asked.
+  OpenHapticsDriver(std::string name, std::shared_ptr<TouchGroup> group, Clock& clock, bool home_at_start = false);
   ~OpenHapticsDriver() override;
 
   [[nodiscard]] const DeviceId& id() const noexcept override { return id_; }
@@ -30,6 +32,8 @@ class OpenHapticsDriver final : public Driver {
   void release() noexcept;
 
   DeviceId id_;
+  std::string name_;
+  bool home_at_start_;
   std::shared_ptr<TouchGroup> group_;
   Clock* clock_;
   DeviceCaps caps_;

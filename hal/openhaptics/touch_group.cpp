@@ -29,6 +29,14 @@ bool finite(const std::array<double, 3>& v) noexcept {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
+/// The device finds its origin by nothing but a reset in a known pose.
+bool only_by_reset(std::uint32_t styles) noexcept {
+  return (styles & id::kStyleEncoderReset) != 0 && (styles & (id::kStyleAuto | id::kStyleInkwell)) == 0;
+}
+
+/// For messages.
+std::string called(const std::string& name) { return name.empty() ? "the default device" : "'" + name + "'"; }
+
 bool is_gone(std::uint32_t code) noexcept {
   return code == error::kDeviceFault || code == error::kCommunication || code == error::kCommunicationConfig;
 }
@@ -44,7 +52,7 @@ TouchGroup::~TouchGroup() {
 
 DeviceError TouchGroup::trouble(const ErrorInfo& e, const std::string& name) const {
   const std::string said = format(" (the library says: 0x%04x %s, internal %d)", e.code, text(api_->error_text(e.code)).c_str(), e.internal);
-  const std::string who = "openhaptics: '" + name + "' ";
+  const std::string who = "openhaptics: " + called(name) + " ";
   switch (e.code) {
     case error::kLicence:
       return {Errc::kPermission, "openhaptics: the library has no valid licence here; install the one you were given by the vendor" + said};
@@ -53,8 +61,9 @@ DeviceError TouchGroup::trouble(const ErrorInfo& e, const std::string& name) con
                                  "plug it in again" + said};
     case error::kCommunication:
     case error::kCommunicationConfig:
-      return {Errc::kNotFound, who + "does not answer: is it plugged in and powered, named so in the vendor's set-up tool, and may you "
-                                     "read and write its node (/dev/ttyACM* or /dev/hidraw*)?" + said};
+      return {Errc::kNotFound, who + "does not answer: is it plugged in and powered, known by that name in the vendor's set-up tool, and may you "
+                                     "read and write its node (/dev/ttyACM* or /dev/hidraw*)? `sudo tandem-client doctor --install-udev` "
+                                     "writes the rule. Older installations call their device 'Default PHANToM'" + said};
     case error::kDeviceFault:
       return {Errc::kUnplugged, who + "has a fault; unplug it, plug it in again" + said};
     default:
@@ -77,20 +86,29 @@ std::optional<double> TouchGroup::ask(std::uint32_t what) noexcept {
   return std::isfinite(value) && value > 0 ? std::optional{value} : std::nullopt;
 }
 
-Result<TouchGroup::About> TouchGroup::add(const std::string& name) {
+Result<> TouchGroup::reset_encoders(const std::string& name) {
+  api_->update_calibration(id::kStyleEncoderReset);
+  if (const ErrorInfo e = api_->get_error(); e.code != 0) {
+    forget_errors();
+    return std::unexpected(trouble(e, name));
+  }
+  return {};
+}
+
+Result<TouchGroup::About> TouchGroup::add(const std::string& name, const std::function<bool()>& rests_there) {
   const auto free = std::ranges::find_if(slots_, [](const Slot& s) { return !s.used; });
   if (free == slots_.end())
     return std::unexpected(DeviceError{Errc::kBusy, format("openhaptics: at most %zu devices in one program", kMax)});
   stop();
   forget_errors();
-  Handle handle = api_->init_device(name.c_str());
+  Handle handle = init(name);
   ErrorInfo failed = api_->get_error();
   if (failed.code == error::kAlreadyInitiated) {  // after an unclean exit: let go and try once more
     forget_errors();
     if (handle != kInvalidHandle) api_->disable_device(handle);
     if (failed.device != kInvalidHandle && failed.device != handle) api_->disable_device(failed.device);
     forget_errors();
-    handle = api_->init_device(name.c_str());
+    handle = init(name);
     failed = api_->get_error();
   }
   const auto restart = [this] {
@@ -117,8 +135,8 @@ Result<TouchGroup::About> TouchGroup::add(const std::string& name) {
   if (sensed < 3 || actuated < 3) {
     api_->disable_device(handle);
     [[maybe_unused]] const auto others = restart();
-    return std::unexpected(DeviceError{Errc::kUnsupported, format("openhaptics: '%s' senses %d and moves %d axes; three of each are needed",
-                                                                  name.c_str(), sensed, actuated)});
+    return std::unexpected(DeviceError{Errc::kUnsupported, format("openhaptics: %s senses %d and moves %d axes; three of each are needed",
+                                                                  called(name).c_str(), sensed, actuated)});
   }
   about.calibration = static_cast<std::uint32_t>(style);
   about.force_max = ask(id::kForceMax);
@@ -140,8 +158,19 @@ Result<TouchGroup::About> TouchGroup::add(const std::string& name) {
     [[maybe_unused]] const auto others = restart();
     return std::unexpected(trouble(e, name));
   }
+  const bool reset = only_by_reset(about.calibration) && rests_there();
+  if (reset) {
+    api_->make_current(handle);
+    if (auto done = reset_encoders(name); !done) {
+      api_->disable_device(handle);
+      forget_errors();
+      [[maybe_unused]] const auto others = restart();
+      return std::unexpected(std::move(done.error()));
+    }
+  }
   Slot& slot = *free;
   slot.used = true;
+  slot.reset = reset;
   slot.handle = handle;
   slot.calibration = about.calibration;
   slot.force_max = about.force_max.value_or(0);
@@ -291,19 +320,20 @@ void TouchGroup::home(Slot& slot, bool asked) noexcept {
   Sample& s = slot.last;
   // A calibration that changes moves the origin: never under a force, so only while somebody asks for it.
   if (!asked || s.homed || s.cycle % kHomeEvery != 1) return;
+  // Where it stood when somebody else reset it, nobody knows: an origin that is wrong makes forces that are.
+  if (only_by_reset(slot.calibration) && !slot.reset) return;
   switch (api_->check_calibration()) {
     case id::kCalibrationOk:
       s.homed = true;
       break;
     case id::kCalibrationUpdate: {
-      // What needs nobody's hand first.
+      // What needs nobody's hand first. Never a reset of the encoders: that is done before the servo starts.
       const auto style = slot.calibration;
-      api_->update_calibration((style & id::kStyleAuto) != 0 ? id::kStyleAuto
-                               : (style & id::kStyleInkwell) != 0 ? id::kStyleInkwell : id::kStyleEncoderReset);
+      if ((style & (id::kStyleAuto | id::kStyleInkwell)) != 0)
+        api_->update_calibration((style & id::kStyleAuto) != 0 ? id::kStyleAuto : id::kStyleInkwell);
       break;
     }
-    default:  // needs the person: inkwell, or the calibration pose
-      if ((slot.calibration & (id::kStyleInkwell | id::kStyleAuto)) == 0) api_->update_calibration(id::kStyleEncoderReset);
+    default:  // needs the person: the inkwell
       break;
   }
   take_errors(slot);

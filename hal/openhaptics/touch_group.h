@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -61,7 +62,10 @@ class TouchGroup {
     std::optional<std::array<double, 6>> workspace;     ///< HAL frame, min xyz, max xyz [m]
   };
   /// Initialises the device of that name in the vendor's set-up tool, and has it served. Error: cause and remedy.
-  Result<About> add(const std::string& name);
+  /// @param name        empty: the default device
+  /// @param rests_there  asked once, before the servo starts, of a device that knows where it is only by a reset of its encoders: whether
+  ///                    a person put it into its reset pose and says so. Only then are they reset; else it stays unhomed, without force.
+  Result<About> add(const std::string& name, const std::function<bool()>& rests_there);
   void remove(std::size_t slot) noexcept;
 
   void order(std::size_t slot, const Order& order) noexcept { slots_[slot].orders.write(order); }
@@ -74,6 +78,7 @@ class TouchGroup {
     bool used = false;  ///< changed only while the scheduler stands
     Handle handle = kInvalidHandle;
     std::uint32_t calibration = 0;
+    bool reset = false;          ///< a person had its encoders reset, in this opening
     double force_max = 0;
     std::size_t motors = 0;      ///< whose temperature the library tells; 0: it does not
     Latest<Order> orders;
@@ -94,6 +99,9 @@ class TouchGroup {
   void stop() noexcept;
   Result<> start();
   [[nodiscard]] std::optional<double> ask(std::uint32_t what) noexcept;
+  /// As the vendor's example Calibration.c: with the servo standing, the device being the current one.
+  Result<> reset_encoders(const std::string& name);
+  [[nodiscard]] Handle init(const std::string& name) noexcept { return api_->init_device(name.empty() ? nullptr : name.c_str()); }
   [[nodiscard]] DeviceError trouble(const ErrorInfo& error, const std::string& name) const;
 
   const Api* api_;

@@ -8,8 +8,8 @@ Vec3 PuckMotion::scaled(const std::array<std::int16_t, 3>& counts, std::size_t f
   Vec3 out;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t axis = first + i;
-    const double deflection = std::clamp(counts[i] / scaling_.full[axis], -1.0, 1.0);
-    out[static_cast<int>(i)] = scaling_.sign[axis] * deflection * (axis < 3 ? scaling_.speed : scaling_.turn);
+    const double deflection = std::clamp(counts[axes_.from[i]] / scaling_.full[axis], -1.0, 1.0);
+    out[static_cast<int>(i)] = axes_.sign[i] * scaling_.sign[axis] * deflection * (axis < 3 ? scaling_.speed : scaling_.turn);
   }
   return out;
 }

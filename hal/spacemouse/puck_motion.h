@@ -6,6 +6,7 @@
 #include "common/base/axes.h"
 #include "common/base/time.h"
 #include "hal/device.h"
+#include "hal/spacemouse/puck_axes.h"
 #include "proto/spacemouse_spec.h"
 
 namespace tandem::hal::spacemouse {
@@ -17,7 +18,7 @@ class PuckMotion {
  public:
   static constexpr Duration kHold = std::chrono::milliseconds{50}, kFade = std::chrono::milliseconds{50};
 
-  explicit PuckMotion(const SpaceMouseSpec& scaling = {}) noexcept : scaling_(scaling) {}
+  explicit PuckMotion(const SpaceMouseSpec& scaling = {}, const PuckAxes& axes = {}) noexcept : scaling_(scaling), axes_(axes) {}
 
   void rest() noexcept { shift_ = turn_ = {}; }
   void take_shift(Time at, const std::array<std::int16_t, 3>& counts) noexcept { shift_ = {at, scaled(counts, 0), true}; }
@@ -40,6 +41,7 @@ class PuckMotion {
   [[nodiscard]] static double share(const Axes& axes, Time now) noexcept;
 
   SpaceMouseSpec scaling_;
+  PuckAxes axes_;
   Axes shift_, turn_;
 };
 

@@ -3,7 +3,8 @@
 namespace tandem::hal::spacemouse {
 namespace {
 
-constexpr std::byte kShift{1}, kTurn{2}, kButtons{3}, kBattery{0x17};
+constexpr std::byte kShift{1}, kTurn{2}, kButtons{3}, kBattery{0x17}, kPressed{0x1C};
+constexpr std::size_t kPressedMost = 6;
 
 std::array<std::int16_t, 3> three(std::span<const std::byte> bytes, std::size_t from) noexcept {
   std::array<std::int16_t, 3> out{};
@@ -16,6 +17,21 @@ std::array<std::int16_t, 3> three(std::span<const std::byte> bytes, std::size_t 
 }
 
 }  // namespace
+
+std::optional<unsigned> enterprise_button(std::uint16_t usage) noexcept {
+  const auto among = [usage](unsigned first, unsigned last) { return usage >= first && usage <= last; };
+  if (among(13, 22)) return usage - 13U;           // 1 to 10
+  if (among(77, 78)) return 10U + (usage - 77U);   // 11, 12
+  if (among(1, 3)) return 12U + (usage - 1U);      // menu, fit, T
+  if (among(5, 6)) return 15U + (usage - 5U);      // R, F
+  if (usage == 9) return 17U;                      // turn
+  if (among(23, 27)) return 18U + (usage - 23U);   // esc, alt, shift, ctrl, lock
+  if (among(36, 37)) return 23U + (usage - 36U);   // enter, delete
+  if (among(175, 176)) return 25U + (usage - 175U);  // tab, space
+  if (among(103, 105)) return 27U + (usage - 103U);  // V1, V2, V3
+  if (usage == 11) return 30U;                     // iso
+  return std::nullopt;
+}
 
 std::expected<PuckReport, Errc> parse_puck_report(std::span<const std::byte> bytes) noexcept {
   const std::size_t n = bytes.size();
@@ -32,7 +48,14 @@ std::expected<PuckReport, Errc> parse_puck_report(std::span<const std::byte> byt
     report.buttons = mask;
   } else if (bytes[0] == kBattery && n >= 3) {
     report.battery_percent = std::to_integer<std::uint8_t>(bytes[1]);
-  } else if (bytes[0] == kShift || bytes[0] == kTurn || bytes[0] == kButtons || bytes[0] == kBattery) {
+  } else if (bytes[0] == kPressed && n == 1 + 2 * kPressedMost) {
+    std::uint32_t mask = 0;
+    for (std::size_t i = 0; i < kPressedMost; ++i) {
+      const unsigned usage = std::to_integer<unsigned>(bytes[1 + 2 * i]) | std::to_integer<unsigned>(bytes[2 + 2 * i]) << 8;
+      if (const auto bit = enterprise_button(static_cast<std::uint16_t>(usage))) mask |= 1U << *bit;
+    }
+    report.buttons = mask;
+  } else if (bytes[0] == kPressed || bytes[0] == kShift || bytes[0] == kTurn || bytes[0] == kButtons || bytes[0] == kBattery) {
     return std::unexpected(Errc::kFraming);
   }
   return report;

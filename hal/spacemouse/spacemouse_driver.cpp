@@ -23,8 +23,8 @@ DeviceCaps puck_caps() {
 
 }  // namespace
 
-SpaceMouseDriver::SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, const SpaceMouseSpec& scaling)
-    : id_(std::move(id)), caps_(puck_caps()), pipe_(pipe), clock_(clock), motion_(scaling) {}
+SpaceMouseDriver::SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, const SpaceMouseSpec& scaling, const PuckAxes& axes)
+    : id_(std::move(id)), caps_(puck_caps()), pipe_(pipe), clock_(clock), motion_(scaling, axes) {}
 
 Result<> SpaceMouseDriver::bring_up(BringUp& watcher) {
   watcher.progress("emptying the queue of the puck", 0.0);

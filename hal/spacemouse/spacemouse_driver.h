@@ -18,7 +18,8 @@ namespace tandem::hal::spacemouse {
 class SpaceMouseDriver final : public Driver {
  public:
   /// @param pipe, clock  outlive the driver
-  SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, const SpaceMouseSpec& scaling = {});
+  /// @param axes         of this product
+  SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, const SpaceMouseSpec& scaling = {}, const PuckAxes& axes = {});
 
   [[nodiscard]] const DeviceId& id() const noexcept override { return id_; }
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }

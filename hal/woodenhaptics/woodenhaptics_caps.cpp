@@ -21,6 +21,7 @@ DeviceCaps caps_of(const WoodenHapticsSpec& spec) {
   caps.damping = spec.damping;
   caps.stiffness = spec.stiffness_max;
   if (spec.protocol != WoodenProtocol::kRaw64) caps.watchdog = kBoardWatchdog;
+  caps.signs_from_file = true;
   caps.force_calibrated = spec.force_checked;
   caps.workspace_min.fill(-spec.radius);
   caps.workspace_max.fill(spec.radius);

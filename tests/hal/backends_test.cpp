@@ -124,6 +124,14 @@ TEST(UdevRules, LetEveryPuckOfTheMakerInAndNoneOfItsKeyboards) {
     for (const std::string& rule : backend->udev_rules()) EXPECT_EQ(rule.find("KERNELS==\"*:046D:*\""), std::string::npos) << "all mice of Logitech";
 }
 
+TEST(UdevRules, LetTheTouchInAsSerialPortAndAsHidDevice) {
+  const auto rules = (*find_backend("openhaptics"))->udev_rules();
+  ASSERT_EQ(rules.size(), 2u);
+  EXPECT_TRUE(rules[0].starts_with("SUBSYSTEM==\"tty\", ATTRS{idVendor}==\"0301\", ATTRS{idProduct}==\"2988\"")) << rules[0];
+  EXPECT_EQ(rules[1], "SUBSYSTEM==\"hidraw\", KERNELS==\"*:2988:*\", MODE=\"0660\", TAG+=\"uaccess\"");
+  for (const std::string& rule : rules) EXPECT_TRUE(rule.ends_with("MODE=\"0660\", TAG+=\"uaccess\"")) << "whoever sits here, nobody else";
+}
+
 TEST(Backends, NameTheirLibraryAndWhatIsSoForAll) {
   for (Backend* backend : backends()) {
     SCOPED_TRACE(backend->name());

@@ -76,7 +76,7 @@ WoodenHapticsSpec arm(WoodenProtocol protocol) {
   words.size = 1 + hal::woodenhaptics::report_size(protocol);
   auto deadman = hal::Deadman::watch({&words, speaker ? 1U : 0U});
   if (!deadman) ::_exit(2);
-  auto core = std::make_unique<hal::ServoCore>(std::move(driver));
+  auto core = std::make_unique<hal::ServoCore>(std::move(driver), hal::MotorSigns::kConfirmed);
   QuietBringUp quiet;
   if (!core->bring_up(quiet)) ::_exit(3);
   hal::DeviceThread device(std::move(core), 1ms, &(*deadman)->pulse());

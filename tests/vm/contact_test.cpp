@@ -83,6 +83,12 @@ struct Desk {
     return plug->now();
   }
 
+  /// Words for `join` that name the state folder of this device's confirmed motors.
+  [[nodiscard]] Words confirmed() const {
+    const std::string state = plug->state();
+    return state.empty() ? Words{} : Words{"--state", state};
+  }
+
   Folder folder;
   std::unique_ptr<Plug> plug;
   std::mutex mutex;
@@ -105,7 +111,7 @@ struct Contact : testing::TestWithParam<Kind> {
   }
   [[nodiscard]] Process join() const {
     desk.plug->rest();
-    return client(address, "trainer", {}, desk.plug->words());
+    return client(address, "trainer", desk.confirmed(), desk.plug->words());
   }
 
   /// Into the block until the motors push back.
@@ -315,7 +321,9 @@ struct Phases : testing::TestWithParam<Kind> {
     Desk desk{GetParam(), found};
     for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGKILL}) {
       SCOPED_TRACE(signal);
-      Process person = client("127.0.0.1:9", "trainer", {"--patience", "30"}, desk.plug->words());
+      Words more = desk.confirmed();
+      more.insert(more.end(), {"--patience", "30"});
+      Process person = client("127.0.0.1:9", "trainer", more, desk.plug->words());
       ASSERT_TRUE(far_enough(desk, person)) << person.err();
       const Time at = desk.begin_anew();
       person.signal(signal);

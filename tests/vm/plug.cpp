@@ -11,6 +11,7 @@
 #include "proto/presets_embedded.h"
 #include "tests/hal/falcon/bench.h"
 #include "tests/hal/woodenhaptics/bench.h"
+#include "tests/hal/woodenhaptics/confirmed.h"
 
 namespace tandem::test {
 namespace {
@@ -92,6 +93,7 @@ class BoardPlug final : public Plug {
  public:
   BoardPlug(const Folder& folder, const char* preset, Found found)
       : file_(folder.write("arm.textproto", checked(preset))),
+        state_(confirmed_motors(folder.file("state"), "serial:0001", file_)),
         found_(found),
         model_(WoodenBench::at_calibration(*hal::load_device_file(file_)->woodenhaptics, {})),
         from_(model_.tip()) {
@@ -103,6 +105,7 @@ class BoardPlug final : public Plug {
   [[nodiscard]] std::string words() const override {
     return "woodenhaptics:preset=" + file_ + ",energise=yes" + (found_ == Found::kReady ? ",home=here" : "");
   }
+  [[nodiscard]] std::string state() const override { return state_; }
   void rest() override {
     plug_->with_model([&] { EXPECT_TRUE(model_.place(from_)); });
   }
@@ -136,7 +139,7 @@ class BoardPlug final : public Plug {
     });
   }
 
-  std::string file_;
+  std::string file_, state_;
   Found found_;
   hal::wire::WoodenHapticsModel model_;
   hal::Vec3 from_;

@@ -26,6 +26,8 @@ class Plug {
   [[nodiscard]] virtual bool attached() const = 0;
   /// What a person writes after --device.
   [[nodiscard]] virtual std::string words() const = 0;
+  /// A state folder in which its motors are confirmed; empty: it needs none.
+  [[nodiscard]] virtual std::string state() const { return {}; }
   /// Puts the tip where a start expects it, nobody listening.
   virtual void rest() = 0;
   /// Carries the tip to where sessions are, the host listening.

@@ -21,6 +21,7 @@
 #include "tests/hal/emulation/wire_tap.h"
 #include "tests/hal/falcon/bench.h"
 #include "tests/hal/woodenhaptics/bench.h"
+#include "tests/hal/woodenhaptics/confirmed.h"
 #include "tests/io/programs.h"
 
 namespace tandem::test {
@@ -108,11 +109,12 @@ struct Seated {
 
 /// A person at a workstation: `tandem-client join` in a thread of its own.
 struct Person {
-  Person(const Folder& folder, const std::string& server, const std::string& seat, const std::string& device, double stays_s) {
+  Person(const Folder& folder, const std::string& server, const std::string& seat, const std::string& device, double stays_s, const std::string& state) {
     client::AttendPlan plan;
     plan.server = *io::parse_address(server, 1);
     plan.seat = seat;
     plan.device = device;
+    plan.state = state;
     plan.json = folder.file(seat + ".json");
     plan.trace = folder.file(seat + ".csv");
     plan.duration_s = stays_s;
@@ -215,6 +217,7 @@ TEST(WholeChain, AFalconLeadsABoardFollowsAndABoardIsTheSlave) {
   const std::string address = proxy.after("listening on ");
 
   const std::string preset = folder.write("arm.textproto", checked_preset());
+  const std::string state = confirmed_motors(folder.file("state"), "serial:0001", preset);  // both boards tell this number
   const auto described = hal::load_device_file(preset);
   ASSERT_TRUE(described) << described.error().message;
   const WoodenHapticsSpec& arm = *described->woodenhaptics;
@@ -237,8 +240,8 @@ TEST(WholeChain, AFalconLeadsABoardFollowsAndABoardIsTheSlave) {
   Intention intention = Intention::choose();
   {
     const std::string boards = "woodenhaptics:preset=" + preset + ",energise=yes,home=here,port=";
-    Person trainee{folder, address, "trainee", boards + "1-3", kSeconds + 3};
-    Person patient{folder, address, "slave", boards + "1-4", kSeconds + 3};
+    Person trainee{folder, address, "trainee", boards + "1-3", kSeconds + 3, state};
+    Person patient{folder, address, "slave", boards + "1-4", kSeconds + 3, state};
     Carry held_arm{held}, slave_arm{slave};
     for (const Time until = io::monotonic_now() + 20s; io::monotonic_now() < until && !(held_arm.there && slave_arm.there);) {
       held_node.with_model([&] { held_arm.go_on(io::monotonic_now()); });
@@ -246,7 +249,7 @@ TEST(WholeChain, AFalconLeadsABoardFollowsAndABoardIsTheSlave) {
       ::poll(nullptr, 0, 1);
     }
     // The session waits for its instructor: he comes when both arms are where the tool is.
-    Person trainer{folder, address, "trainer", "falcon:calibration=" + folder.write("falcon.textproto", kFalconFile), kSeconds};
+    Person trainer{folder, address, "trainer", "falcon:calibration=" + folder.write("falcon.textproto", kFalconFile), kSeconds, state};
     ASSERT_TRUE(held_arm.there && slave_arm.there) << "no client listened to a board";
     constexpr double kBegins = 1.5, kGoes = 0.8;  // [s] forces ramp in first; then the hand goes to where its motion begins
     for (const Time begin = io::monotonic_now(); !trainer.gone && !trainee.gone && !patient.gone;) {

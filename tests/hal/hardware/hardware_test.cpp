@@ -67,7 +67,7 @@ struct HardwareTest : testing::Test {
   /// Brings one up, homes it with a person's help, watches it. @return whether it was lost meanwhile
   static bool watch(const std::string& words, Duration time, bool until_lost) {
     io::StatusLine line{false};
-    auto held = HeldDevice::take(words, signals().get(), line);
+    auto held = HeldDevice::take(words, signals().get(), line, {});
     if (!held) {
       ADD_FAILURE() << held.error().reason;
       return false;

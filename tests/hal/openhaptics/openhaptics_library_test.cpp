@@ -24,9 +24,11 @@ TEST(OpenHapticsBackend, OpensWhatAPersonNames) {
   const auto open = [&](const std::string& spec) { return backend.open(*parse_choice(spec)); };
   const auto unnamed = open("openhaptics:" + library);
   ASSERT_TRUE(unnamed) << unnamed.error().message;
-  EXPECT_EQ(unnamed->driver->id().key, "Default Device");
+  EXPECT_EQ(unnamed->driver->id().key, "default");
   EXPECT_EQ(open("openhaptics:left," + library)->driver->id().key, "left");
   EXPECT_EQ(open("openhaptics:left,library=other.so").error().code, Errc::kUnsupported);
+  EXPECT_TRUE(open("openhaptics:home=here," + library));
+  EXPECT_NE(open("openhaptics:home=there," + library).error().message.find("must be 'here'"), std::string::npos);
   EXPECT_NE(open("openhaptics:left,libary=x").error().message.find("library"), std::string::npos);
 }
 

@@ -73,17 +73,87 @@ TEST_F(OpenHaptics, GivesNoForceBeforeItIsCalibratedAndCalibratesWhenAsked) {
   EXPECT_EQ(d.calibrations, before) << "never moves the origin under a force";
 }
 
-TEST_F(OpenHaptics, ResetsEncodersWhereThatIsItsOnlyStyle) {
+/// A device that learns where it is only by a reset of its encoders in a known pose.
+struct ResetOnly : OpenHaptics {
+  ResetOnly() {
+    stub().devices[0].style = 1;
+    stub().devices[0].calibration = 0x5002;
+  }
   StubDevice& d = stub().devices[0];
-  d.style = 1;
-  d.calibration = 0x5002;
-  auto c = core();
   Pusher p;
+};
+
+TEST_F(ResetOnly, WaitsForThePersonBeforeTheServoStartsAndResetsThenOnce) {
+  patient.answers = true;
+  patient.meanwhile = [&] {
+    EXPECT_EQ(d.calibrations, 0u) << "not in whatever pose it stands";
+    EXPECT_FALSE(stub().running) << "before the servo";
+  };
+  auto c = core();
   ASSERT_TRUE(c->bring_up(patient));
-  EXPECT_EQ(c->caps().homing, Homing::kPresetPose);
+  EXPECT_EQ(c->caps().homing, Homing::kResetPose);
+  ASSERT_EQ(patient.asked.size(), 1u);
+  EXPECT_NE(patient.asked[0].find("reset pose"), std::string::npos);
   run({{c.get(), &p}}, 200ms);
   EXPECT_EQ(c->phase(), Phase::kReady);
   EXPECT_EQ(d.calibrations, 1u);
+}
+
+TEST_F(ResetOnly, WithoutAnAnswerStaysUnhomedAndGetsNoForce) {
+  for (const std::uint32_t says : {0x5002U, 0x5001U, 0x5000U}) {  // even if the library takes an old reset for good
+    d.calibration = says;
+    auto c = core();
+    p.effort = {1, 1, 1};
+    ASSERT_TRUE(c->bring_up(patient));
+    run({{c.get(), &p}}, 1s);
+    EXPECT_EQ(c->phase(), Phase::kUnhomed) << says;
+    EXPECT_FALSE(c->enable());
+    EXPECT_EQ(d.calibrations, 0u);
+    EXPECT_EQ(d.force, (std::array<double, 3>{}));
+  }
+}
+
+TEST_F(ResetOnly, HomeHereIsBelievedOnceAndAsksNobody) {
+  auto c = core("Default Device", true);
+  ASSERT_TRUE(c->bring_up(patient));
+  EXPECT_TRUE(patient.asked.empty());
+  run({{c.get(), &p}}, 200ms);
+  EXPECT_EQ(c->phase(), Phase::kReady);
+  EXPECT_EQ(d.calibrations, 1u);
+  ASSERT_TRUE(c->bring_up(patient)) << "brought up anew, wherever it stands now";
+  EXPECT_EQ(patient.asked.size(), 1u);
+  run({{c.get(), &p}}, 200ms);
+  EXPECT_EQ(c->phase(), Phase::kUnhomed);
+  EXPECT_EQ(d.calibrations, 1u);
+}
+
+TEST_F(ResetOnly, AResetThatFailsIsToldAndLeavesNoDeviceOpen) {
+  patient.answers = true;
+  d.reset_error = 0x0303;
+  auto c = core();
+  const auto up = c->bring_up(patient);
+  ASSERT_FALSE(up);
+  EXPECT_NE(up.error().message.find("0x0303"), std::string::npos) << up.error().message;
+  EXPECT_FALSE(d.initialised);
+  EXPECT_FALSE(stub().running);
+}
+
+TEST_F(OpenHaptics, NobodyIsAskedOfADeviceWithAnInkwell) {
+  auto c = core();
+  ASSERT_TRUE(c->bring_up(patient));
+  EXPECT_TRUE(patient.asked.empty());
+}
+
+TEST_F(OpenHaptics, WithoutANameItIsTheDefaultDeviceOfTheInstallation) {
+  stub().devices[0].name = "Default PHANToM";  // as older installations have it
+  auto c = core("");
+  ASSERT_TRUE(c->bring_up(patient));
+  EXPECT_EQ(c->id().key, "default");
+  stub().devices.clear();
+  auto none = core("");
+  const auto up = none->bring_up(patient);
+  ASSERT_FALSE(up);
+  EXPECT_NE(up.error().message.find("the default device does not answer"), std::string::npos) << up.error().message;
 }
 
 TEST_F(OpenHaptics, ClampsToWhatTheDeviceSaysAndToNothingWhereItSaysNothing) {

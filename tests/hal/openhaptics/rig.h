@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "hal/io/openhaptics_library.h"
 #include "hal/openhaptics/openhaptics_driver.h"
@@ -43,6 +45,14 @@ struct TurningClock final : Clock {
 struct Patient final : BringUp {
   void progress(std::string_view, double) override {}
   bool cancelled() const noexcept override { return false; }
+  bool person_did(std::string_view request) override {
+    asked.emplace_back(request);
+    if (meanwhile) meanwhile();
+    return answers;
+  }
+  std::vector<std::string> asked;  ///< of the person
+  bool answers = false;            ///< somebody is there
+  std::function<void()> meanwhile;
 };
 
 struct Pusher final : ServoClient {
@@ -77,8 +87,8 @@ class OpenHaptics : public testing::Test {
   }
   ~OpenHaptics() override { EXPECT_TRUE(stub().broken.empty()) << stub().broken.front(); }
 
-  std::unique_ptr<ServoCore> core(const std::string& name = "Default Device") {
-    return std::make_unique<ServoCore>(std::make_unique<OpenHapticsDriver>(name, group, clock));
+  std::unique_ptr<ServoCore> core(const std::string& name = "Default Device", bool home_at_start = false) {
+    return std::make_unique<ServoCore>(std::make_unique<OpenHapticsDriver>(name, group, clock, home_at_start));
   }
   void run(std::initializer_list<std::pair<ServoCore*, Pusher*>> devices, Duration time) {
     for (const Time end = clock.now() + time; clock.now() < end;) {

@@ -42,7 +42,7 @@ std::uint32_t hdInitDevice(const char* name) {
   if (state.running) broke("init while the scheduler runs");
   for (std::uint32_t i = 0; i < state.devices.size(); ++i) {
     StubDevice& d = state.devices[i];
-    if (d.name != name) continue;
+    if (name != nullptr && d.name != name) continue;  // null: the default device, here the first
     if (d.init_error != 0 || d.unplugged) {
       raise(d.unplugged ? 0x0302 : d.init_error, kNone);
       return kNone;
@@ -157,12 +157,14 @@ void hdUnschedule(unsigned long which) {
 }
 #ifndef STUB_TOO_OLD
 std::uint32_t hdCheckCalibration() {
-  StubDevice* d = current(true);
+  StubDevice* d = current(state.running);
   return d == nullptr ? 0x5002 : d->calibration;
 }
 void hdUpdateCalibration(std::uint32_t style) {
-  StubDevice* d = current(true);
+  if (style == 1 && state.running) broke("encoders reset under a running servo");
+  StubDevice* d = current(style != 1);
   if (d == nullptr) return;
+  if (d->reset_error != 0) return raise(d->reset_error, state.current);
   if ((static_cast<std::uint32_t>(d->style) & style) == 0) return raise(0x0101, state.current);
   ++d->calibrations;
   if (d->calibration == 0x5001 || style == 1) d->calibration = 0x5000;

@@ -22,6 +22,7 @@ struct StubDevice {
   bool initialised = false, unplugged = false, held = false;  ///< held: as after an unclean exit of somebody
   bool force_enabled = false, force_set = false;
   std::uint32_t init_error = 0;   ///< always, when not 0
+  std::uint32_t reset_error = 0;  ///< of every calibration, when not 0
   std::uint32_t cycle_error = 0;  ///< once, at the end of the next frame
   unsigned touched = 0;           ///< calls with this device as the current one
   unsigned frames = 0, calibrations = 0;

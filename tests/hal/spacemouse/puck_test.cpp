@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "common/base/rng.h"
@@ -37,14 +39,37 @@ TEST(PuckReport, IsReadAsByHand) {
   EXPECT_EQ(parsed({0x42, 1, 2, 3}), PuckReport{}) << "an id nobody knows tells nothing";
 }
 
+TEST(PuckReport, ButtonsOfTheEnterpriseAreNumberedAsSpacenavdDoes) {
+  // spacenavd bac572a, src/dev.c, bnhack_sment: the kernel's code (255 + usage) and its number for it.
+  const std::vector<std::pair<int, unsigned>> theirs{
+      {256, 12}, {257, 13}, {258, 14}, {260, 15}, {261, 16}, {264, 17}, {266, 30}, {268, 0},  {269, 1},  {270, 2},  {271, 3},
+      {272, 4},  {273, 5},  {274, 6},  {275, 7},  {276, 8},  {277, 9},  {278, 18}, {279, 19}, {280, 20}, {281, 21}, {282, 22},
+      {291, 23}, {292, 24}, {332, 10}, {333, 11}, {358, 27}, {359, 28}, {360, 29}, {430, 25}, {431, 26}};
+  std::uint32_t all = 0;
+  for (int usage = 0; usage < 65536; ++usage) {
+    const auto known = std::ranges::find(theirs, usage + 255, &std::pair<int, unsigned>::first);
+    const auto ours = enterprise_button(static_cast<std::uint16_t>(usage));
+    ASSERT_EQ(ours.has_value(), known != theirs.end()) << usage;
+    if (!ours) continue;
+    EXPECT_EQ(*ours, known->second) << usage;
+    all |= 1U << *ours;
+  }
+  EXPECT_EQ(all, 0x7fffffffU) << "31 buttons, each once";
+  EXPECT_EQ(parsed({0x1C, 13, 0, 78, 0, 176, 0, 0, 0, 0, 0, 0, 0}).buttons, 1U << 0 | 1U << 11 | 1U << 26);
+  EXPECT_EQ(parsed({0x1C, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}).buttons, 0u) << "all were let go";
+  EXPECT_EQ(parsed({0x1C, 0xff, 0xff, 13, 1, 0, 0, 0, 0, 0, 0, 0, 0}).buttons, 0u) << "usages nobody knows";
+  EXPECT_EQ(parsed({0x1D, 13, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), PuckReport{}) << "its meaning is not confirmed";
+}
+
 TEST(PuckReport, KnownIdsOfOtherLengthsAreRefused) {
-  for (const int id : {1, 2, 3, 0x17}) {
+  for (const int id : {1, 2, 3, 0x17, 0x1C}) {
     for (std::size_t n = 1; n <= 64; ++n) {
       std::vector<std::byte> bytes(n);
       bytes[0] = static_cast<std::byte>(id);
       const bool right = id == 1   ? n == 7 || n == 13
                          : id == 2 ? n == 7
                          : id == 3 ? n >= 3 && n <= 5
+                         : id == 0x1C ? n == 13
                                    : n >= 3;
       EXPECT_EQ(parse_puck_report(bytes).has_value(), right) << id << " " << n;
     }
@@ -90,10 +115,33 @@ TEST(PuckMotion, ScalesClampsAndTurnsTheMakersFrameIntoOurs) {
   EXPECT_EQ(motion.velocity(Time{}), Vec3(0.1, 0.1, -0.1));
   motion.take_turn(Time{}, {350, 350, 350});
   EXPECT_EQ(motion.turning(Time{}), Vec3(0.5, -0.5, -0.5));
-  // Half a circle about x keeps right-handedness: the signs of either triple multiply to 1.
-  const SpaceMouseSpec s;
-  EXPECT_EQ(s.sign[0] * s.sign[1] * s.sign[2], 1);
-  EXPECT_EQ(s.sign[3] * s.sign[4] * s.sign[5], 1);
+  SpaceMouseSpec reversed;
+  reversed.sign = {-1, 1, 1, 1, 1, -1};
+  PuckMotion other(reversed);
+  other.take_shift(Time{}, {350, 350, 350});
+  other.take_turn(Time{}, {350, 350, 350});
+  EXPECT_EQ(other.velocity(Time{}), Vec3(-0.1, -0.1, -0.1));
+  EXPECT_EQ(other.turning(Time{}), Vec3(0.5, -0.5, 0.5));
+}
+
+// What spacenavd (bac572a, src/dev.c) makes of six counts: of products with DF_SWAPYZ | DF_INVYZ it exchanges 1 with 2 and 4 with 5 and
+// negates these; others it passes on. Its axes then: x right, y up, z away from the user, and the turns about them.
+TEST(PuckMotion, MovesAsSpacenavdDoesWithEveryProductThatItKnows) {
+  const std::array<int, 6> counts{35, 70, 105, 140, 175, 210}, swapped{35, -105, -70, 140, -210, -175};
+  std::size_t upright = 0;
+  for (const Product& product : kProducts) {
+    const bool passes_on = product.vendor == 0x046D && (product.product == 0xC603 || product.product == 0xC606 || product.product == 0xC640);
+    upright += passes_on ? 1 : 0;
+    const std::array<int, 6>& theirs = passes_on ? counts : swapped;
+    SCOPED_TRACE(product.name);
+    PuckMotion motion({}, axes_of(product.vendor, product.product));
+    motion.take_shift(Time{}, {35, 70, 105});
+    motion.take_turn(Time{}, {140, 175, 210});
+    const Vec3 v = 3500 * motion.velocity(Time{}), w = 700 * motion.turning(Time{});
+    EXPECT_LT((v - Vec3(theirs[0], theirs[2], theirs[1])).norm(), 1e-9) << v.transpose();
+    EXPECT_LT((w - Vec3(theirs[3], theirs[5], theirs[4])).norm(), 1e-9) << w.transpose();
+  }
+  EXPECT_EQ(upright, 3u);
 }
 
 TEST(PuckMotion, SilenceHoldsThenFadesToZero) {

@@ -137,7 +137,7 @@ TEST(WoodenHoming, TheWholeLifeUnderAServoCore) {
   model.place(model.tip());
   test::WireTime time(model);
   test::HidWirePipe pipe(model, time);
-  ServoCore core(std::make_unique<WoodenHapticsDriver>(DeviceId{"woodenhaptics", "1"}, pipe, time, options));
+  ServoCore core(std::make_unique<WoodenHapticsDriver>(DeviceId{"woodenhaptics", "1"}, pipe, time, options), MotorSigns::kConfirmed);
   test::QuietBringUp watcher;
   ASSERT_TRUE(core.bring_up(watcher));
   Pusher client;

@@ -172,7 +172,7 @@ TEST(SpaceMouseFile, ScalesAndReverses) {
   EXPECT_EQ(file->spacemouse->speed, 0.05);
   EXPECT_EQ(file->spacemouse->turn, 1.0);
   EXPECT_EQ(file->spacemouse->full, (std::array<double, 6>{420, 350, 350, 350, 350, 500}));
-  EXPECT_EQ(file->spacemouse->sign, (std::array{1, -1, -1, 1, -1, 1}));
+  EXPECT_EQ(file->spacemouse->sign, (std::array{1, 1, 1, 1, 1, -1}));
   EXPECT_FALSE(file->woodenhaptics.has_value());
   const auto bad = parse_device_text("spacemouse { speed_m_s: 3 x { full_counts: 0 } }", "f");
   ASSERT_FALSE(bad.has_value());

@@ -1,0 +1,184 @@
+// `tandem-client doctor --confirm-motors` as a person types it, against an emulated board behind the real hidapi: no force before, force
+// after, none with another file, none of a reversed motor.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <thread>
+
+#include "client/app/doctor_command.h"
+#include "client/app/held_device.h"
+#include "client/app/motor_state.h"
+#include "common/io/clock.h"
+#include "common/io/signals.h"
+#include "hal/app/device_files.h"
+#include "proto/presets_embedded.h"
+#include "tests/hal/emulation/testbed.h"
+#include "tests/hal/woodenhaptics/bench.h"
+#include "tests/hal/woodenhaptics/confirmed.h"
+#include "tests/io/programs.h"
+
+namespace tandem::test {
+namespace {
+
+using namespace std::chrono_literals;
+using client::HeldDevice;
+
+/// What a person types into standard input.
+class Typed {
+ public:
+  explicit Typed(const std::string& text) : before_(::dup(STDIN_FILENO)) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::pipe(ends.data()), 0);
+    EXPECT_EQ(::write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    ::close(ends[1]);
+    ::dup2(ends[0], STDIN_FILENO);
+    ::close(ends[0]);
+  }
+  ~Typed() {
+    ::dup2(before_, STDIN_FILENO);
+    ::close(before_);
+  }
+
+ private:
+  int before_;
+};
+
+/// Pushes with a joint effort that every motor can give.
+struct Pusher final : hal::ServoClient {
+  hal::Command tick(const hal::State& state) noexcept override {
+    given = std::max(given.load(), state.f_out.norm());
+    return {++seq, io::monotonic_now() + 5ms, hal::CommandKind::kJointEffort, {0.05, 0.05, 0.05}};
+  }
+  void lost(hal::Errc) noexcept override {}
+  std::uint64_t seq = 0;
+  std::atomic<double> given{0};
+};
+
+class ConfirmMotors : public testing::Test {
+ protected:
+  ConfirmMotors() : signals_(io::signals_as_file()) {}
+  /// @param reversed  the motor that is connected the wrong way round; 3: none
+  void plug(std::size_t reversed) {
+    std::string text{find_shipped_preset("woodenhaptics-2019")->text};
+    file = folder.write("arm.textproto", text);
+    WoodenHapticsSpec truth = *hal::load_device_file(file)->woodenhaptics;
+    if (reversed < 3) truth.motor_direction[reversed] = -truth.motor_direction[reversed];
+    model = std::make_unique<hal::wire::WoodenHapticsModel>(WoodenBench::at_calibration(truth, {}));
+    start = model->tip();
+    node = std::make_unique<HidrawNode>(*model);
+    bed.plug(*node, *model, "1-2");
+    words = "woodenhaptics:preset=" + file + ",energise=yes,home=here";
+    state = folder.file("my state");
+  }
+  void TearDown() override {
+    if (node) bed.remove("1-2");
+  }
+  /// Somebody puts the arm into its calibration pose and lets go of it there.
+  void rest() {
+    node->with_model([&] {
+      model->place(start);
+      model->let_go();
+    });
+  }
+  int doctor(const std::string& typed, const std::string& more = "--confirm-motors") {
+    rest();
+    const Typed person(typed);
+    CLI::App app;
+    std::function<int()> action;
+    client::add_doctor_command(app, action);
+    app.parse("doctor --device " + words + " " + more + " --state '" + state + "'");
+    return action();
+  }
+  /// Takes the device as `join` does and pushes for a while. @return force that came out [N]; `why`: what was said of none
+  double pushed(std::string& why) {
+    rest();
+    io::StatusLine line{true};
+    Pusher pusher;
+    auto held = HeldDevice::take(words, signals_.get(), line, {.state = state});
+    EXPECT_TRUE(held) << held.error().reason;
+    if (!held) return -1;
+    why = (*held)->no_force();
+    (*held)->observe(pusher);
+    EXPECT_TRUE((*held)->device().enable());
+    double most = 0;
+    for (const Time end = io::monotonic_now() + 400ms; io::monotonic_now() < end; std::this_thread::sleep_for(1ms))
+      most = std::max(most, node->with_model([&] { return model->motor_effort().norm(); }));
+    (*held)->device().close();
+    return std::max(most, pusher.given.load());
+  }
+
+  Folder folder;
+  Testbed bed;
+  std::unique_ptr<hal::wire::WoodenHapticsModel> model;
+  std::unique_ptr<HidrawNode> node;
+  hal::Vec3 start;
+  std::string file, words, state;
+  io::Fd signals_;
+};
+
+TEST_F(ConfirmMotors, NoForceBeforeItAndForceAfterItAndNoneWithAnotherFile) {
+  plug(3);
+  std::string why;
+  EXPECT_EQ(pushed(why), 0.0);
+  EXPECT_NE(why.find("Type:\n  tandem-client doctor --device " + words + " --confirm-motors --state '" + state + "'"), std::string::npos) << why;
+  EXPECT_EQ(doctor("", "--seconds 0.5 --force-test"), 1) << "a force test is a force, too";
+  EXPECT_EQ(doctor("no\n"), 1);
+  EXPECT_EQ(doctor(""), 1) << "nobody is there";
+  EXPECT_EQ(pushed(why), 0.0) << "not agreed, not confirmed";
+
+  ASSERT_EQ(doctor("yes\n"), 0);
+  EXPECT_EQ(node->with_model([&] { return model->motor_effort().norm(); }), 0.0) << "zeros at the end";
+  EXPECT_GT(pushed(why), 0.0);
+  EXPECT_EQ(why, "");
+
+  file = folder.write("arm.textproto", folder.read("arm.textproto") + "# changed\n");
+  EXPECT_EQ(pushed(why), 0.0) << "the signs in it may be others now";
+  EXPECT_NE(why.find("nobody confirmed them"), std::string::npos) << why;
+}
+
+TEST_F(ConfirmMotors, AReversedMotorIsRefusedAlsoIfItWasConfirmedBefore) {
+  plug(1);
+  confirmed_motors(state, "serial:0001", file);
+  EXPECT_EQ(doctor("yes\n"), 1);
+  std::string why;
+  EXPECT_EQ(pushed(why), 0.0);
+  EXPECT_NE(why.find("did not find all of them right"), std::string::npos) << why;
+}
+
+TEST_F(ConfirmMotors, ASignalEndsItWithZerosAndConfirmsNothing) {
+  plug(3);
+  std::jthread impatient([&](const std::stop_token& stop) {
+    // As soon as a motor was given current.
+    while (!stop.stop_requested() && node->with_model([&] { return model->motor_effort().norm(); }) == 0) std::this_thread::sleep_for(1ms);
+    ::kill(::getpid(), SIGINT);
+  });
+  EXPECT_EQ(doctor("yes\n"), 1);
+  impatient.request_stop();
+  impatient.join();
+  signalfd_siginfo came{};
+  EXPECT_EQ(::read(signals_.get(), &came, sizeof came), static_cast<ssize_t>(sizeof came));
+  EXPECT_EQ(node->with_model([&] { return model->motor_effort().norm(); }), 0.0);
+  std::string why;
+  EXPECT_EQ(pushed(why), 0.0);
+}
+
+TEST_F(ConfirmMotors, ABookThatIsTornConfirmsNothingAndIsNotWrittenOver) {
+  plug(3);
+  confirmed_motors(state, "serial:0001", file);
+  std::string why;
+  EXPECT_GT(pushed(why), 0.0);
+  std::string text = folder.read("my state/confirmed_motors");
+  folder.write("my state/confirmed_motors", text.substr(0, text.size() / 2));
+  EXPECT_EQ(pushed(why), 0.0);
+  EXPECT_NE(why.find("confirmed_motors: line 1"), std::string::npos) << why;
+  EXPECT_EQ(doctor("yes\n"), 1) << "refused before any force";
+  EXPECT_EQ(node->with_model([&] { return model->motor_effort().norm(); }), 0.0);
+  EXPECT_EQ(folder.read("my state/confirmed_motors"), text.substr(0, text.size() / 2));
+}
+
+}  // namespace
+}  // namespace tandem::test
