@@ -40,12 +40,19 @@ struct LogSpec {
   Level level = Level::kInfo;
 };
 
+struct AuditSpec {
+  double file_mib = 8;
+  std::uint32_t older_files = 7;
+};
+
 struct ServerConfigSpec {
   std::string file;
   PlacedText listen, state, metrics, reports;
+  std::vector<std::string> metrics_hosts;
   std::vector<ConfiguredSessionSpec> sessions;  ///< at least one
   DoorLimitsSpec limits;
   LogSpec log;
+  AuditSpec audit;
 };
 
 }  // namespace tandem

@@ -75,6 +75,14 @@ std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::s
     out.sessions.push_back(session_from(in.session(i), checker, key));
   }
   out.limits = limits_from(in.limits());
+  for (int i = 0; i < in.metrics_host_size(); ++i) {
+    const std::string& name = in.metrics_host(i);
+    if (name.empty() || name.size() > 253 || name.find_first_of(": /[]\t") != std::string::npos)
+      checker.error(child_path("", "metrics_host", i), "must be a computer's name, 1 to 253 characters, without a port");
+    out.metrics_hosts.push_back(name);
+  }
+  if (in.audit().has_file_mib()) out.audit.file_mib = in.audit().file_mib();
+  if (in.audit().has_older_files()) out.audit.older_files = in.audit().older_files();
   out.log.json = in.log().format() == pb::LogConfig::JSON;
   out.log.level = static_cast<LogSpec::Level>(in.log().level());
   add_unexplained(errors, checker.take());
@@ -106,7 +114,10 @@ std::string effective_server_config_text(const ServerConfigSpec& config) {
   out.mutable_log()->set_format(config.log.json ? pb::LogConfig::JSON : pb::LogConfig::TEXT);
   out.mutable_log()->set_level(static_cast<pb::LogConfig::Level>(config.log.level));
   if (!config.metrics.text.empty()) out.set_metrics(config.metrics.text);
+  for (const std::string& name : config.metrics_hosts) out.add_metrics_host(name);
   if (!config.reports.text.empty()) out.set_reports(config.reports.text);
+  out.mutable_audit()->set_file_mib(config.audit.file_mib);
+  out.mutable_audit()->set_older_files(config.audit.older_files);
   return text::listing(out);
 }
 

@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
+#include "common/base/secret.h"
 #include "common/link/digest.h"
 #include "proto/scene_text.h"
 
@@ -12,7 +14,7 @@ namespace tandem::server {
 
 namespace {
 
-constexpr std::uint32_t kLayout = 0x32504b43;  // "CKP2"
+constexpr std::uint32_t kLayout = 0x33504b43;  // "CKP3": resume secrets are bound to keys
 constexpr double kPoseMax = 1000;              // [m] or [rad]; no tool is there
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
@@ -70,7 +72,16 @@ Checkpoint::Hash scene_hash(const SceneSpec& scene) {
   return link::sha256(std::as_bytes(std::span{text}));
 }
 
-Checkpoint::Hash resume_hash(std::span<const std::byte> secret) noexcept { return link::sha256(secret); }
+Checkpoint::Hash resume_hash(std::span<const std::byte, 32> secret, const Checkpoint::Hash& workstation) noexcept {
+  constexpr std::string_view kLabel = "tandem resume v2";
+  std::array<std::byte, kLabel.size() + sizeof(Checkpoint::Hash) + 32> all{};
+  std::memcpy(all.data(), kLabel.data(), kLabel.size());
+  std::memcpy(all.data() + kLabel.size(), workstation.data(), workstation.size());
+  std::memcpy(all.data() + kLabel.size() + workstation.size(), secret.data(), secret.size());
+  const Checkpoint::Hash hash = link::sha256(all);
+  wipe(all);
+  return hash;
+}
 
 std::size_t encode_checkpoint(const Checkpoint& c, std::span<std::byte> out) noexcept {
   Writer w{out};

@@ -20,7 +20,7 @@ struct Checkpoint {
   using Hash = std::array<std::byte, 32>;
   struct Seat {
     bool taken = false;
-    Hash resume{};  ///< SHA-256 of the secret its client may come back with; zero: none
+    Hash resume{};  ///< resume_hash of the secret its client may come back with; zero: none
     double force_scale = 1;  ///< of the scene's force limit, as its ticket allowed: 0 ... 1
   };
   struct Tool {
@@ -43,8 +43,10 @@ static_assert(std::is_trivially_copyable_v<Checkpoint> && sizeof(Checkpoint) <= 
 
 /// What a checkpoint compares: SHA-256 over everything a scene says.
 [[nodiscard]] Checkpoint::Hash scene_hash(const SceneSpec& scene);
-/// What a seat keeps of its client's resume secret.
-[[nodiscard]] Checkpoint::Hash resume_hash(std::span<const std::byte> secret) noexcept;
+/// What a seat keeps of its client's resume secret: SHA-256 of a label, the key that the client's workstation is known by, and the secret.
+/// So the secret is good only over a connection that proved this key.
+/// @param workstation  SHA-256 of its public key; zeros where all clients share one key that changes at each start (keys made on the spot)
+[[nodiscard]] Checkpoint::Hash resume_hash(std::span<const std::byte, 32> secret, const Checkpoint::Hash& workstation) noexcept;
 
 inline constexpr std::size_t kCheckpointMax = 4096;
 /// Version, fields in their order, little-endian, arrays up to their counts, SHA-256 of all that.

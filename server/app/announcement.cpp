@@ -17,14 +17,15 @@ std::string client_command() {
 
 }  // namespace
 
-std::string announcement(const SessionRun& run, const io::SocketAddress& at, bool throw_away, bool several) {
+std::string announcement(const SessionRun& run, const io::SocketAddress& at, bool throw_away, bool several, const std::string& read_code) {
   const SceneSpec& scene = run.plan().scene;
   const std::string dialled = at.any() ? "SERVER:" + std::to_string(at.port()) : io::to_text(at), &name = run.plan().name;
   const bool by_code = !run.code().empty();
-  const std::string which = by_code ? " --session " + code_text(run.code()) : several ? " --session " + name : "";
+  const std::string which = by_code ? " --session " + (read_code.empty() ? code_text(run.code()) : "CODE") : several ? " --session " + name : "";
   std::string text = several ? "session " + name + ": " : "";
   text += format("scene %s, %g s; ", scene.name.c_str(), scene.duration);
-  text += by_code ? "session code " + code_text(run.code()) + "; on enrolled workstations type\n" : throw_away ? "in other terminals type\n" : "on enrolled workstations type\n";
+  if (by_code) text += read_code.empty() ? "session code " + code_text(run.code()) + "; " : "`" + read_code + "` shows the session's CODE; ";
+  text += throw_away ? "in other terminals type\n" : "on enrolled workstations type\n";
   for (const SeatSpec& seat : scene.seats) {
     const bool ticket = !throw_away && (!by_code || seat.role == Role::kInstructor);
     text += format("  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), dialled.c_str(), seat.name.c_str(), ticket ? " --ticket TICKET" : which.c_str(),

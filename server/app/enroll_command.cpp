@@ -42,6 +42,7 @@ int enroll_command(const EnrollArguments& arguments) {
   const std::int64_t now = trust::wall_seconds();
   const auto life = static_cast<std::int64_t>(std::stod(hours) * 3600.0);
   if (const std::string problem = state->give_out(out.code, arguments.name, now, now + life); !problem.empty()) return trouble("enroll", problem);
+  tell_audit_trouble("enroll", *state);
   std::string text = out.to_text();
   std::printf("%s\n", text.c_str());
   wipe(text);

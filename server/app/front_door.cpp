@@ -36,10 +36,10 @@ std::expected<trust::ServerTrust, std::string> keys_of(const io::SocketAddress& 
 FrontDoor::FrontDoor(trust::ServerTrust trust, const Plan& plan)
     : trust_(std::move(trust)),
       tell_(plan.tell),
+      say_(plan.say),
       house_(thread_.context(), trust_, plan.load),
       plane_(thread_.context(), trust_, house_, plan.limits, {}, [this](const ControlNews& news) {
-        note(news);
-        if (tell_) tell_(news);
+        if (note(news) && tell_) tell_(news);
       }),
       refresh_(thread_.context()),
       revoked_(thread_.context()) {
@@ -77,6 +77,7 @@ std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Pla
   if (!trust) return std::unexpected(trust.error());
   if (trust->on_disk())
     if (std::string problem = trust->begin_serving(trust::wall_seconds()); !problem.empty()) return std::unexpected(std::move(problem));
+  trust->keep_audit(plan.audit);
   std::unique_ptr<FrontDoor> door{new FrontDoor(std::move(*trust), plan)};
   std::string problem;
   for (int attempt = 0; attempt < kPortsTried; ++attempt) {
@@ -93,7 +94,10 @@ std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Pla
   }
   if (door->sockets_.empty()) return std::unexpected(problem);
   if (plan.metrics) {
-    door->metrics_.emplace(door->thread_.context(), [d = door.get()](std::string_view path) { return monitoring_page(path, d->house_, d->plane_); });
+    door->metrics_.emplace(door->thread_.context(), [d = door.get()](std::string_view path) {
+      const trust::AuditLog& log = d->trust_.audit_log();
+      return monitoring_page(path, d->house_, d->plane_, {log.trouble(), log.lost(), d->throttle_.left_out()});
+    }, plan.metrics_hosts);
     if (std::string trouble = door->metrics_->listen(*plan.metrics); !trouble.empty()) return std::unexpected("metrics: " + trouble + "; choose another address or port for them, or end what uses it");
   }
   if (door->throw_away()) {
@@ -139,15 +143,18 @@ std::string FrontDoor::write_down() {
   ServingSpec now = house_.serving();
   now.address = io::to_text(address_);
   if (now == serving_) return {};
-  serving_ = std::move(now);
-  return trust_.write_serving(serving_);
+  std::string problem = trust_.write_serving(now);
+  if (problem.empty()) serving_ = std::move(now);  // else it is tried again
+  return problem;
 }
 
 void FrontDoor::write_down_now_and_then() {
   refresh_.expires_after(kRefresh);
   refresh_.async_wait([this](const asio::error_code& cancelled) {
     if (cancelled) return;
-    if (const std::string problem = write_down(); !problem.empty() && tell_) tell_({ControlEvent::kTrouble, "", "", problem});
+    const std::string problem = write_down();
+    if (!std::exchange(serving_fails_, !problem.empty()) && !problem.empty() && tell_) tell_({ControlEvent::kTrouble, "", "", problem + "; `tandem-server sessions` shows what was so before"});
+    look_after_audit();
     write_down_now_and_then();
   });
 }
@@ -160,30 +167,6 @@ void FrontDoor::look_for_revoked_now_and_then() {
     plane_.look_for_revoked();
     if (const auto grace = trust_.asked_to_end()) house_.drain_in(*grace, "`tandem-server stop` on this computer");
     look_for_revoked_now_and_then();
-  });
-}
-
-void FrontDoor::note(const ControlNews& news) const {
-  switch (news.event) {
-    case ControlEvent::kWelcomed:
-    case ControlEvent::kRefused:
-    case ControlEvent::kNotEnrolled:
-    case ControlEvent::kCodeRefused:
-    case ControlEvent::kBlocked:
-      trust_.audit(trust::wall_seconds(), to_text(news.event), news.workstation, news.address + " " + news.detail);
-      break;
-    case ControlEvent::kForbidden:
-      if (!news.detail.empty()) trust_.audit(trust::wall_seconds(), to_text(news.event), news.workstation, news.address + " " + news.detail);
-      break;
-    default:  // what is no decision about a person is only counted; enrolments note themselves
-      break;
-  }
-}
-
-void FrontDoor::audit(std::string_view event, std::string session, std::string detail) {
-  if (!trust_.on_disk()) return;
-  asio::post(thread_.context(), [this, event, session = std::move(session), detail = std::move(detail)] {
-    trust_.audit(trust::wall_seconds(), event, session, detail);
   });
 }
 
@@ -206,6 +189,7 @@ void FrontDoor::stop() {
     if (metrics_) metrics_->stop();
     plane_.stop();
     house_.stop_watching();
+    end_audit();
   });
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/io/udp_socket.h"
+#include "common/trust/audit_throttle.h"
 #include "common/trust/io/client_trust.h"
 #include "common/trust/io/server_trust.h"
 #include "server/app/control_plane.h"
@@ -29,6 +30,8 @@ class FrontDoor {
     LoadLimits load{};                             ///< of a shard, above which nobody new gets a seat
     io::Steering steering{};                       ///< of datagrams to shards
     std::optional<io::SocketAddress> metrics{};    ///< where /metrics, /healthz and /readyz are answered; nothing: nowhere
+    std::vector<std::string> metrics_hosts{};      ///< names under which they may be asked for, beside the address
+    trust::AuditLimits audit{};
   };
   /// What is wrong with the keys and books for an address, before anything starts; empty: nothing.
   [[nodiscard]] static std::string problem_with_keys(const io::SocketAddress& listen, const std::string& state);
@@ -75,8 +78,12 @@ class FrontDoor {
 
  private:
   FrontDoor(trust::ServerTrust trust, const Plan& plan);
-  /// Who came in, and who was not let in and why: in the audit log.
-  void note(const ControlNews& news) const;
+  // The audit log (front_door_audit.cpp).
+  /// Writes down who came in, and who was not let in and why. @return false: there are too many such lines of its source
+  [[nodiscard]] bool note(const ControlNews& news);
+  /// Writes what the audit log owes, and says when it fails and when it works again.
+  void look_after_audit();
+  void end_audit();
   /// What the commands beside this server may know of the sessions, written down when it changed.
   [[nodiscard]] std::string write_down();
   void write_down_now_and_then();
@@ -86,6 +93,10 @@ class FrontDoor {
 
   trust::ServerTrust trust_;
   std::function<void(const ControlNews&)> tell_;
+  std::function<void(const std::string&)> say_;
+  trust::AuditThrottle throttle_;
+  std::uint64_t lost_told_ = 0;  ///< lines of the audit log whose loss was told
+  bool audit_fails_ = false;     ///< and that was told
   ControlThread thread_;
   House house_;
   ControlPlane plane_;
@@ -95,6 +106,7 @@ class FrontDoor {
   io::SocketAddress address_;
   std::optional<trust::LocalRuntime> local_;
   ServingSpec serving_;
+  bool serving_fails_ = false;  ///< and that was told
   bool started_ = false;
 };
 

@@ -46,8 +46,9 @@ void tell_log(Notices& notices, const ControlNews& news) {
     default:
       return;
   }
-  if (io::logs_json()) return io::tell(trouble ? io::Level::kError : io::Level::kWarn, {.event = std::string(to_text(news.event)), .text = news.address + " " + news.workstation + ": " + news.detail});
-  const std::string who = news.address + " " + news.workstation + ": ", what = trouble ? "" : std::string(to_text(news.event)) + " ";
+  const std::string who = news.address.empty() ? "" : news.address + " " + news.workstation + ": ";  // else it is about the server itself
+  if (io::logs_json()) return io::tell(trouble ? io::Level::kError : io::Level::kWarn, {.event = std::string(to_text(news.event)), .text = who + news.detail});
+  const std::string what = trouble ? "" : std::string(to_text(news.event)) + " ";
   notices.add(trouble ? Notices::Weight::kError : Notices::Weight::kWarning, who + what + printable(news.detail));
 }
 
@@ -109,6 +110,8 @@ class Host {
     door.load = plan_.load;
     door.steering = shards_.steering();
     door.metrics = plan_.metrics;
+    door.metrics_hosts = plan_.metrics_hosts;
+    door.audit = plan_.audit;
     auto opened = FrontDoor::open(door);
     if (!opened) return trouble(opened.error());
     door_ = std::move(*opened);
@@ -179,7 +182,9 @@ class Host {
   }
 
   void announce(const SessionRun& r) {
-    std::fputs(announcement(r, door_->address(), door_->throw_away(), plan_.sessions.size() > 1).c_str(), people());
+    // A journal, a file or a pipe keeps what it is given, and is read by others: codes are shown on terminals only.
+    const std::string read_code = ::isatty(::fileno(people())) == 1 ? "" : "tandem-server sessions --state " + door_->folder();
+    std::fputs(announcement(r, door_->address(), door_->throw_away(), plan_.sessions.size() > 1, read_code).c_str(), people());
     std::fflush(people());
     io::tell(io::Level::kInfo, {.event = "session_opened", .session = r.plan().name, .text = r.plan().scene.name});
   }

@@ -183,7 +183,7 @@ void House::sit(Room& room, const JoinRequest& request, std::function<void(Admis
   if (const std::string why = reception.unfit(*seat, request.hello.device); !why.empty()) return answer(Refused{Reason::kDeviceUnfit, why, 0});
   Claim& claim = room.claims[*seat];
   const auto* resume = std::get_if<control::ResumeCredential>(&request.hello.credential);
-  const Back back = resume != nullptr ? comes_back(claim, resume->secret) : Back::kNo;
+  const Back back = resume != nullptr ? comes_back(claim, resume->secret, request.workstation) : Back::kNo;
   const bool same_owner = back != Back::kNo;
   const Refused nothing{Reason::kResume, "nothing to resume: the seat was given to somebody else, or too long ago", 0};
   if (resume != nullptr && !same_owner) return answer(nothing);
@@ -293,7 +293,7 @@ void House::seated(const JoinRequest& request, const control::Welcome& welcome, 
     order.seat = seat;
     order.same_owner = true;  // it was asked for, and held since
     order.entry = reception.prepare(seat, params);
-    give(claim, welcome.resume_secret, order.entry);
+    give(claim, welcome.resume_secret, request.workstation, order.entry);
     order.done = [&claim](Order&) { claim.being_given = false; };
   }
   io::tell(io::Level::kInfo, {.event = request.hello.visit ? "visit" : "seated", .session = welcome.session_name, .seat = welcome.seat, .cid = welcome.server_cid,

@@ -153,13 +153,15 @@ class House final : public Admissions {
   // Coming back (house_resume.cpp).
   static void remember(Room& room);
   enum class Back : std::uint8_t { kNo, kByNewest, kByOneBefore };
-  [[nodiscard]] static Back comes_back(const Claim& claim, const Secret<32>& secret);
+  /// The key to which resume secrets of this workstation are bound.
+  [[nodiscard]] Checkpoint::Hash bound_to(const WorkstationRow& workstation) const;
+  [[nodiscard]] Back comes_back(const Claim& claim, const Secret<32>& secret, const WorkstationRow& workstation) const;
   /// Whether the seat is kept for somebody else, who sat there when the server died.
   [[nodiscard]] static bool held_for_another(const Claim& claim);
   /// A secret is good for 10 min after its owner was lost. @param silence  of who sits there
   [[nodiscard]] static bool too_late(const Claim& claim, Duration silence);
   /// From now on its owner is who was just let in. The secret before stays good until he is heard.
-  static void give(Claim& claim, const Secret<32>& secret, Entry& entry);
+  void give(Claim& claim, const Secret<32>& secret, const WorkstationRow& workstation, Entry& entry) const;
   void post(Room& room, Order order);
   void sweep(Room& room);
   void hear(Watched& watched);

@@ -25,9 +25,14 @@ void House::remember(Room& room) {
   room.opening.kept = nullptr;  // read; it may go
 }
 
-House::Back House::comes_back(const Claim& claim, const Secret<32>& secret) {
+Checkpoint::Hash House::bound_to(const WorkstationRow& workstation) const {
+  // Where keys are made on the spot all clients share one, and another one after a restart.
+  return trust_.on_disk() ? workstation.spki : Checkpoint::Hash{};
+}
+
+House::Back House::comes_back(const Claim& claim, const Secret<32>& secret, const WorkstationRow& workstation) const {
   if (!claim.resumable) return Back::kNo;
-  const auto hash = resume_hash(secret.bytes);
+  const auto hash = resume_hash(secret.bytes, bound_to(workstation));
   if (equal_secret(hash, claim.resume_hash)) return Back::kByNewest;
   return claim.before_hash != Checkpoint::Hash{} && equal_secret(hash, claim.before_hash) ? Back::kByOneBefore : Back::kNo;
 }
@@ -38,9 +43,9 @@ bool House::too_late(const Claim& claim, Duration silence) {
   return silence > kResumeLife || (claim.back_until && io::monotonic_now() > *claim.back_until);
 }
 
-void House::give(Claim& claim, const Secret<32>& secret, Entry& entry) {
+void House::give(Claim& claim, const Secret<32>& secret, const WorkstationRow& workstation, Entry& entry) const {
   claim.before_hash = claim.before_next;
-  claim.resume_hash = entry.resume = resume_hash(secret.bytes);
+  claim.resume_hash = entry.resume = resume_hash(secret.bytes, bound_to(workstation));
   claim.resumable = true;
   claim.force_scale = entry.force_scale = claim.offered_scale;
   claim.back_until.reset();

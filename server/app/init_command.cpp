@@ -13,7 +13,10 @@ int init_command(const std::string& state) {
   const std::int64_t now = trust::wall_seconds();
   const auto pin = trust::ServerTrust::init(*path, now);
   if (!pin) return trouble("init", pin.error());
-  if (const auto made = trust::ServerTrust::open(*path)) made->audit(now, "init", "", pin->hex());
+  if (auto made = trust::ServerTrust::open(*path)) {
+    made->audit(now, "init", "", pin->hex());
+    tell_audit_trouble("init", *made);
+  }
   std::printf("state folder %s\nserver key   %s\n", path->c_str(), pin->hex().c_str());
   std::fputs("next: tandem-server enroll NAME --address HOST:PORT, once for each workstation\n", stderr);
   return std::fflush(stdout) == 0 ? 0 : 1;

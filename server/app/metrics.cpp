@@ -79,7 +79,7 @@ void describe_seat(Families& page, const Labels& who, const SeatStatus& seat) {
   page.count("tandem_client_tick_late_total", "Late servo ticks of the client's machine", who, seat.late_ticks);
 }
 
-std::string metrics(const House& house, const ControlPlane& plane) {
+std::string metrics(const House& house, const ControlPlane& plane, const AuditState& audit) {
   Families page;
   std::array<std::uint64_t, static_cast<std::size_t>(link::Refusal::kCount)> refused{};
   std::array<std::size_t, static_cast<std::size_t>(control::SessionPhase::kPassive) + 1> sessions{};
@@ -116,6 +116,9 @@ std::string metrics(const House& house, const ControlPlane& plane) {
   for (std::size_t i = 0; i < kControlEvents; ++i)
     page.count("tandem_joins_total", "What happened at the door", {{"result", std::string(to_text(static_cast<ControlEvent>(i)))}}, static_cast<double>(plane.count(static_cast<ControlEvent>(i))));
   page.gauge("tandem_draining", "1: nobody new is let in", {}, house.draining() ? 1 : 0);
+  page.count("tandem_audit_lost_total", "Lines that could not be written to the audit log", {}, static_cast<double>(audit.lost));
+  page.count("tandem_audit_left_out_total", "Lines about refused peers that the audit log left out, as there were too many", {}, static_cast<double>(audit.left_out));
+  page.gauge("tandem_audit_failing", "1: the audit log cannot be written, or not be rotated", {}, audit.trouble.empty() ? 0 : 1);
   page.count("tandem_log_drop_total", "Log lines that could not be written in time", {}, static_cast<double>(io::log_dropped()));
   return page.text();
 }
@@ -130,12 +133,13 @@ std::string stuck(const House& house) {
 
 }  // namespace
 
-Page monitoring_page(std::string_view path, const House& house, const ControlPlane& plane) {
-  if (path == "/metrics") return {200, "text/plain; version=0.0.4; charset=utf-8", metrics(house, plane)};
+Page monitoring_page(std::string_view path, const House& house, const ControlPlane& plane, const AuditState& audit) {
+  if (path == "/metrics") return {200, "text/plain; version=0.0.4; charset=utf-8", metrics(house, plane, audit)};
   if (path != "/healthz" && path != "/readyz") return {404, "text/plain", "/metrics, /healthz or /readyz\n"};
   const std::string why = stuck(house);
   if (!why.empty()) return {503, "text/plain", why};
   if (path == "/readyz" && house.draining()) return {503, "text/plain", "draining\n"};
+  if (path == "/readyz" && !audit.trouble.empty()) return {503, "text/plain", "the audit log fails; the server's own log says why\n"};
   return {200, "text/plain", "ok\n"};
 }
 

@@ -1,10 +1,15 @@
 #include "server/app/metrics_server.h"
 
+#include <arpa/inet.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <asio/buffer.hpp>
 #include <asio/read_until.hpp>
 #include <asio/steady_timer.hpp>
 #include <asio/write.hpp>
-#include <chrono>
+#include <cstddef>
 #include <cstring>
 
 namespace tandem::server {
@@ -13,8 +18,6 @@ namespace {
 using asio::ip::tcp;
 
 constexpr std::size_t kRequestMax = 4096;  // [bytes]
-constexpr std::size_t kConnectionsMax = 16;
-constexpr auto kPatience = std::chrono::seconds(5);
 constexpr auto kRest = std::chrono::milliseconds(100);
 
 const char* reason_of(int status) {
@@ -27,20 +30,62 @@ const char* reason_of(int status) {
       return "Not Found";
     case 405:
       return "Method Not Allowed";
+    case 421:
+      return "Misdirected Request";
     default:
       return "Service Unavailable";
   }
 }
 
+bool same_word(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::ranges::equal(a, b, {}, lower, lower);
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  return first == std::string_view::npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// @return every value of a header
+std::vector<std::string_view> values_of(std::string_view request, std::string_view header) {
+  std::vector<std::string_view> values;
+  for (std::size_t at = request.find("\r\n"); at != std::string_view::npos && at + 2 < request.size();) {
+    const std::size_t end = request.find("\r\n", at + 2);
+    const std::string_view line = request.substr(at + 2, end == std::string_view::npos ? end : end - at - 2);
+    if (const auto colon = line.find(':'); colon != std::string_view::npos && same_word(line.substr(0, colon), header)) values.push_back(trimmed(line.substr(colon + 1)));
+    at = end;
+  }
+  return values;
+}
+
+std::string own_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
 }  // namespace
+
+bool host_is_ours(std::string_view host, const std::vector<std::string>& names) {
+  const bool bracketed = host.starts_with('[');
+  const std::size_t end = bracketed ? host.find(']') : host.rfind(':');
+  if (bracketed && end == std::string_view::npos) return false;
+  const std::string_view port = end == std::string_view::npos ? "" : host.substr(bracketed ? end + 1 : end);
+  if (!port.empty() && (port.front() != ':' || port.find_first_not_of("0123456789", 1) != std::string_view::npos)) return false;
+  const std::string name(bracketed ? host.substr(1, end - 1) : host.substr(0, end));
+  std::array<std::byte, 16> address;
+  if (::inet_pton(bracketed ? AF_INET6 : AF_INET, name.c_str(), address.data()) == 1) return true;
+  if (bracketed || name.empty()) return false;
+  return same_word(name, "localhost") || std::ranges::any_of(names, [&](const std::string& own) { return same_word(name, own); });
+}
 
 /// One connection: a request, an answer, the end.
 class MetricsServer::Visit : public std::enable_shared_from_this<Visit> {
  public:
-  Visit(tcp::socket socket, const Pages& pages) : socket_(std::move(socket)), timer_(socket_.get_executor()), pages_(pages) {}
+  Visit(tcp::socket socket, const MetricsServer& server) : socket_(std::move(socket)), timer_(socket_.get_executor()), server_(server) {}
 
   void start() {
-    timer_.expires_after(kPatience);
+    timer_.expires_after(server_.deadline_);
     timer_.async_wait([weak = weak_from_this()](const asio::error_code& cancelled) {
       if (const auto self = weak.lock(); self && !cancelled) self->end();
     });
@@ -64,9 +109,14 @@ class MetricsServer::Visit : public std::enable_shared_from_this<Visit> {
     if (method_end == std::string::npos || path_end <= method_end || !line.substr(path_end + 1).starts_with("HTTP/1.")) return answer({400, "text/plain", "not HTTP/1.1\n"}, true);
     const std::string method = line.substr(0, method_end);
     if (method != "GET" && method != "HEAD") return answer({405, "text/plain", "only GET\n"}, true);
+    const auto hosts = values_of(request, "Host");
+    const bool may_lack = line.ends_with("/1.0");  // [RFC 9112, 3.2]
+    if (hosts.size() > 1 || (hosts.empty() && !may_lack)) return answer({400, "text/plain", "one Host header is needed\n"}, true);
+    if (!hosts.empty() && !host_is_ours(hosts.front(), server_.names_))
+      return answer({421, "text/plain", "this server is not asked for by that name: use its address, or add the name to metrics_host of its configuration\n"}, true);
     std::string path = line.substr(method_end + 1, path_end - method_end - 1);
     path = path.substr(0, path.find('?'));
-    answer(pages_(path), method == "GET");
+    answer(server_.pages_(path), method == "GET");
   }
 
   void answer(const Page& page, bool with_body) {
@@ -78,11 +128,14 @@ class MetricsServer::Visit : public std::enable_shared_from_this<Visit> {
 
   tcp::socket socket_;
   asio::steady_timer timer_;
-  const Pages& pages_;
+  const MetricsServer& server_;
   std::string request_, response_;
 };
 
-MetricsServer::MetricsServer(asio::io_context& context, Pages pages) : context_(context), pages_(std::move(pages)), acceptor_(context), rest_(context) {}
+MetricsServer::MetricsServer(asio::io_context& context, Pages pages, std::vector<std::string> names, std::chrono::milliseconds deadline)
+    : context_(context), pages_(std::move(pages)), names_(std::move(names)), deadline_(deadline), acceptor_(context), rest_(context) {
+  names_.push_back(own_name());
+}
 
 std::string MetricsServer::listen(const io::SocketAddress& at) {
   tcp::endpoint endpoint;
@@ -112,11 +165,13 @@ void MetricsServer::accept_next() {
       });
       return;
     }
-    if (visits_.size() < kConnectionsMax) {
-      const auto visit = std::make_shared<Visit>(std::move(socket), pages_);
-      visits_.push_back(visit);
-      visit->start();
+    if (visits_.size() >= kConnectionsMax) {
+      if (const auto oldest = visits_.front().lock()) oldest->end();
+      visits_.pop_front();
     }
+    const auto visit = std::make_shared<Visit>(std::move(socket), *this);
+    visits_.push_back(visit);
+    visit->start();
     accept_next();
   });
 }

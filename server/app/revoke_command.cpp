@@ -20,6 +20,7 @@ int revoke_command(const RevokeArguments& arguments) {
   if (!gone) return trouble("revoke", gone.error());
   if (gone->workstations + gone->codes == 0) return wrong("revoke", {"NAME: " + no_workstation(arguments.name, *book)});
   state->audit(trust::wall_seconds(), "revoked", arguments.name);
+  tell_audit_trouble("revoke", *state);
   std::printf("%s: %s%s\n", arguments.name.c_str(), gone->workstations > 0 ? "its key is refused from now on" : "was not enrolled",
               gone->codes > 0 ? "; its enrolment string is void" : "");
   return std::fflush(stdout) == 0 ? 0 : 1;

@@ -94,6 +94,7 @@ int run_command(const RunArguments& arguments) {
                  mistakes.size() == 1 ? "" : "s");
     return kWrong;
   }
+  if (plan.metrics && !plan.metrics->loopback()) std::fprintf(stderr, "--metrics %s: %s\n", arguments.metrics.c_str(), kOpenMetrics);
   if (!arguments.check) return host(plan);
   std::puts(effective_scene_text(plan.sessions.front().scene).c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;

@@ -92,6 +92,8 @@ HostPlan understand(const ServerConfigSpec& config, InputErrors& errors) {
   plan.limits.pending = limits.pending;
   plan.limits.connections = limits.connections;
   plan.limits.deadline = std::chrono::milliseconds(static_cast<std::int64_t>(limits.deadline_s * 1000));
+  plan.metrics_hosts = config.metrics_hosts;
+  plan.audit = {static_cast<std::uint64_t>(config.audit.file_mib * (1 << 20)), config.audit.older_files};
   plan.load = {limits.load_percent / 100, limits.core_percent / 100};
   if (config.log.json) plan.json_log = static_cast<io::Level>(config.log.level);
   return plan;
@@ -113,6 +115,7 @@ int serve_command(const ServeArguments& arguments) {
   errors.insert(errors.end(), more.begin(), more.end());
   if (!errors.empty()) return refuse(errors);
   plan.quiet = arguments.quiet;
+  if (plan.metrics && !plan.metrics->loopback()) std::fprintf(stderr, "%s\n", to_text(config->metrics.error(config->file, kOpenMetrics)).c_str());
   if (!arguments.check) return host(plan);
   std::fputs(effective_server_config_text(*config).c_str(), stdout);
   return std::fflush(stdout) == 0 ? 0 : 1;
@@ -127,7 +130,8 @@ void add_serve_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--check", arguments->check, "only checks everything, the state folder too, and prints every value in force, with units");
   command->add_flag("--quiet", arguments->quiet, "no status and no summaries");
   command->footer(
-      "Prints `listening on HOST:PORT` first, then each session's code. A session that is over opens anew, with another code, unless\n"
+      "Prints `listening on HOST:PORT` first, then the commands that people type; on a terminal with each session's code, elsewhere\n"
+      "`tandem-server sessions` shows the codes. A session that is over opens anew, with another code, unless\n"
       "`restart: false`. SIGTERM or Ctrl-C: nobody new comes in, all hands are let go, reports are written, the end within 3 s; a second\n"
       "one ends at once. Started again within 10 min, however it ended, every session goes on where it was, with the same code, and its\n"
       "clients come back to their seats by themselves. Sessions of different tick rates have threads of their own, behind one port.\n"

@@ -56,7 +56,7 @@ int stop_command(const StopArguments& arguments) {
   std::string grace = arguments.grace;
   if (const auto problem = io::number_in(0, 3600, "s")(grace); !problem.empty()) return wrong("stop", {"--grace: " + problem});
   const auto grace_s = static_cast<std::uint32_t>(std::stod(grace));
-  const auto state = open_state(arguments.state);
+  auto state = open_state(arguments.state);
   if (!state) return trouble("stop", state.error());
   const auto serving = state->read_serving();
   if (!serving) return trouble("stop", serving.error());
@@ -65,6 +65,7 @@ int stop_command(const StopArguments& arguments) {
                                "; one on loopback with keys made on the spot has no folder: Ctrl-C where it runs, or `tandem-client control --server HOST:PORT drain`");
   if (const std::string problem = state->ask_to_end(grace_s); !problem.empty()) return trouble("stop", problem);
   state->audit(trust::wall_seconds(), "stop_ordered", "", format("in %u s", grace_s));
+  tell_audit_trouble("stop", *state);
   std::printf("server at %s: nobody new comes in; all hands are let go in %u s, then it ends\n", (*serving)->address.c_str(), grace_s);
   std::fflush(stdout);
   return arguments.no_wait ? 0 : follow(*state, grace_s);

@@ -105,6 +105,7 @@ int ticket_command(const TicketArguments& arguments) {
   const auto bytes = trust::sign_ticket(ticket, state->ticket_key());
   if (!bytes) return wrong("ticket", {"the ticket cannot be made: " + bytes.error()});
   state->audit(ticket.not_before, "ticket", workstation->name, trust::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
+  tell_audit_trouble("ticket", *state);
   std::printf("%s\n", trust::ticket_text(*bytes).c_str());
   std::fprintf(stderr, "good once, for %s h, on %s only: tandem-client %s --ticket-file FILE ... (--ticket TICKET is seen by everybody on that computer)\n", hours.c_str(), workstation->name.c_str(),
                arguments.seat.empty() ? "control" : "join");

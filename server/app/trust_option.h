@@ -29,6 +29,11 @@ inline void add_state_option(CLI::App& command, std::string& state) {
 }
 
 /// The folder of `--state`, read whole.
+/// After an order that was carried out: whether the audit log says so too.
+inline void tell_audit_trouble(const char* command, const trust::ServerTrust& state) {
+  if (const std::string& what = state.audit_log().trouble(); !what.empty()) std::fprintf(stderr, "tandem-server %s: it is done, but the audit log does not say so: %s\n", command, what.c_str());
+}
+
 [[nodiscard]] inline std::expected<trust::ServerTrust, std::string> open_state(const std::string& option) {
   const auto path = trust::server_state_path(option);
   if (!path) return std::unexpected(path.error());

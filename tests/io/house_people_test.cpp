@@ -129,5 +129,36 @@ TEST(Standing, ARefusedOrderOrJoinLeavesTheTicketGoodAndOneThatIsCarriedOutDoesN
   EXPECT_EQ(reason_of(come(seat, "trainee").welcome), Reason::kSeatTaken);
 }
 
+// ---- Who comes back --------------------------------------------------------------------------------------------------------
+
+/// A secret that was read on one workstation is worth nothing on another, though that one is enrolled too.
+TEST(Resume, ASecretIsGoodOnlyAtTheWorkstationItWasGivenTo) {
+  LiveHouse house;
+  const Guest owner = joined(house, "desk-1", AccessRole::kTrainee, "trainee");
+  ASSERT_TRUE(owner.welcomed()) << text_of(owner.welcome);
+  const control::Credential secret = control::ResumeCredential{owner.in().resume_secret};
+  const trust::Identity other = house.enrolled("desk-2");
+  EXPECT_EQ(reason_of(house.connect(other).ask(LiveHouse::hello(secret, "trainee"), kPatience)), control::Reason::kResume);
+  const auto back = house.connect(owner.key).ask(LiveHouse::hello(secret, "trainee"), kPatience);
+  EXPECT_TRUE(back && std::holds_alternative<control::Welcome>(*back)) << text_of(back);
+}
+
+TEST(Resume, AlsoAfterARestartASecretIsGoodOnlyAtItsWorkstation) {
+  const Secret<32> secret{trust::random_bytes<std::array<std::byte, 32>>()};
+  std::optional<trust::Identity> owner;
+  LiveHouse house("free_motion", {}, LiveHouse::limits(), [&](const LiveHouse& h) {
+    owner.emplace(h.enrolled("desk-1"));
+    KeptSession kept;
+    kept.checkpoint.seats_n = static_cast<std::uint8_t>(h.scene().seats.size());
+    for (std::size_t i = 0; i < kept.checkpoint.seats_n; ++i) kept.checkpoint.seats[i] = {h.scene().seats[i].name == "trainee", resume_hash(secret.bytes, owner->pin().sha256), 1};
+    return kept;
+  });
+  const control::Credential credential = control::ResumeCredential{secret};
+  const trust::Identity other = house.enrolled("desk-2");
+  EXPECT_EQ(reason_of(house.connect(other).ask(LiveHouse::hello(credential, "trainee"), kPatience)), control::Reason::kResume);
+  const auto back = house.connect(*owner).ask(LiveHouse::hello(credential, "trainee"), kPatience);
+  EXPECT_TRUE(back && std::holds_alternative<control::Welcome>(*back)) << text_of(back);
+}
+
 }  // namespace
 }  // namespace tandem::server::test

@@ -32,7 +32,10 @@ inline constexpr auto kPatience = 30s;
 /// comes is a workstation of his own.
 class LiveHouse {
  public:
-  explicit LiveHouse(const std::string& scene_name = "free_motion", const LoadLimits& load = {}, const ControlLimits& door = limits())
+  /// @param door  limits of the control connections
+  /// @param kept  what the session goes on from, made when the state folder and `enrolled` are there; null: it is new
+  explicit LiveHouse(const std::string& scene_name = "free_motion", const LoadLimits& load = {}, const ControlLimits& door = limits(),
+                     const std::function<KeptSession(const LiveHouse&)>& kept = {})
       : scene_(*parse_scene(find_shipped_scene(scene_name)->text, scene_name + ".textproto")), queue_(1024) {
     EXPECT_TRUE(trust::ServerTrust::init(folder.path("server"), trust::wall_seconds()));
     trust_.emplace(std::move(*trust::ServerTrust::open(folder.path("server"))));
@@ -41,7 +44,13 @@ class LiveHouse {
     shard_ = std::make_unique<Shard>(std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0))), scene_.tick_hz);
     EXPECT_TRUE(shard_->host(*hosted_));
     house_.emplace(thread_.context(), *trust_, load);
-    house_->open({kName, kId, kCode, 1, hosted_.get(), shard_.get()});
+    const auto left = kept ? std::optional(kept(*this)) : std::nullopt;
+    House::Opening opening{kName, kId, kCode, 1, hosted_.get(), shard_.get()};
+    if (left) {
+      opening.kept = &*left;
+      opening.back_until = io::monotonic_now() + kResumeLife;
+    }
+    house_->open(std::move(opening));
     house_->watch(*shard_);
     plane_.emplace(thread_.context(), *trust_, *house_, door, ControlClocks{}, [this](const ControlNews& news) {
       const std::lock_guard lock(mutex_);
@@ -131,6 +140,7 @@ class LiveHouse {
     const std::lock_guard lock(mutex_);
     return std::ranges::any_of(news_, [&](const ControlNews& n) { return n.event == event && n.workstation == workstation; });
   }
+  [[nodiscard]] const SceneSpec& scene() const { return scene_; }
   [[nodiscard]] std::string audit() const { return folder.read("server/audit.log"); }
 
   static constexpr const char* kName = "lesson";

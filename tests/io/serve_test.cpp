@@ -227,17 +227,22 @@ TEST(Monitoring, ShowsMetricsHealthAndNothingElse) {
   ASSERT_FALSE(metrics.empty()) << host.out();
   Process trainer = client(address_of(host), "trainer");
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
-  const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\nHost: x\r\n\r\n");
+  const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_TRUE(page.starts_with("HTTP/1.1 200 OK\r\n")) << page;
   for (const char* line : {"tandem_tick_seconds_bucket{tick_hz=\"1000\",le=\"0.0001\"}", "tandem_tick_late_total{", "tandem_loop_age_seconds{session=\"one_axis\",seat=\"trainer\"}",
                            "tandem_gate_state{", "tandem_alpha{session=\"one_axis\",seat=\"trainer\"} ", "tandem_joins_total{result=\"welcomed\"} 1",
                            "tandem_udp_drop_total{reason=\"tag\"} 0", "tandem_sessions{phase=\"running\"} 1", "# TYPE tandem_tick_seconds histogram"})
     EXPECT_NE(page.find(line), std::string::npos) << line << "\n" << page;
-  EXPECT_NE(http(metrics, "GET /healthz HTTP/1.1\r\n\r\n").find("200 OK"), std::string::npos);
-  EXPECT_NE(http(metrics, "GET /readyz HTTP/1.1\r\n\r\n").find("200 OK"), std::string::npos);
-  EXPECT_NE(http(metrics, "GET /etc/passwd HTTP/1.1\r\n\r\n").find("404"), std::string::npos);
+  EXPECT_NE(http(metrics, "GET /healthz HTTP/1.0\r\n\r\n").find("200 OK"), std::string::npos);
+  EXPECT_NE(http(metrics, "GET /readyz HTTP/1.1\r\nHost: " + metrics + "\r\n\r\n").find("200 OK"), std::string::npos);
+  EXPECT_NE(http(metrics, "GET /etc/passwd HTTP/1.1\r\nHost: [::1]\r\n\r\n").find("404"), std::string::npos);
   EXPECT_NE(http(metrics, "POST /metrics HTTP/1.1\r\nContent-Length: 0\r\n\r\n").find("405"), std::string::npos);
   EXPECT_NE(http(metrics, "\r\n\r\n").find("400"), std::string::npos);
+  EXPECT_NE(http(metrics, "GET /metrics HTTP/1.1\r\n\r\n").find("400"), std::string::npos);
+  EXPECT_NE(http(metrics, "GET /metrics HTTP/1.1\r\nHost: localhost\r\nHost: localhost\r\n\r\n").find("400"), std::string::npos);
+  const std::string rebound = http(metrics, "GET /metrics HTTP/1.1\r\nhost: attacker.example:80\r\n\r\n");
+  EXPECT_NE(rebound.find("421"), std::string::npos) << rebound;
+  EXPECT_EQ(rebound.find("tandem_"), std::string::npos) << rebound;
   EXPECT_EQ(http(metrics, std::string(5000, 'x')), "") << "longer than any request";
   host.signal(SIGTERM);
   EXPECT_EQ(host.wait(), 0) << host.err();
@@ -254,7 +259,7 @@ TEST(Monitoring, ABusyServerRefusesNewcomersAndSaysWhy) {
   // Known after the first thousand ticks.
   double load = 0;
   for (int tries = 0; tries < 100'000 && load == 0; ++tries) {
-    const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\n\r\n"), name = "\ntandem_tick_load{tick_hz=\"1000\"} ";
+    const std::string page = http(metrics, "GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n"), name = "\ntandem_tick_load{tick_hz=\"1000\"} ";
     const auto at = page.find(name);
     if (at != std::string::npos) load = std::atof(page.c_str() + at + name.size());
   }

@@ -44,6 +44,20 @@ TEST(ServerConfig, NeverTakesALooserLimitThanTheDesigns) {
     EXPECT_EQ(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
 }
 
+TEST(ServerConfig, TheAuditLogHasASizeAndACount) {
+  const auto config = parse_server_config(kSmall, "s.textproto");
+  ASSERT_TRUE(config);
+  EXPECT_EQ(config->audit.file_mib, 8);
+  EXPECT_EQ(config->audit.older_files, 7u);
+  for (const char* wrong : {"file_mib: 0.06", "file_mib: 1025", "older_files: 0", "older_files: 100"}) EXPECT_NE(mistakes_of(std::string(kSmall) + "audit { " + wrong + " }"), "") << wrong;
+  const auto small = parse_server_config(std::string(kSmall) + "audit { file_mib: 0.0625 older_files: 1 } metrics_host: \"monitor.lab\"", "s.textproto");
+  ASSERT_TRUE(small) << to_text(small.error());
+  EXPECT_EQ(small->audit.file_mib, 0.0625);
+  EXPECT_EQ(small->metrics_hosts, std::vector<std::string>{"monitor.lab"});
+  EXPECT_NE(effective_server_config_text(*small).find("audit.older_files"), std::string::npos);
+  for (const char* name : {"", "a:9464", "http://a"}) EXPECT_NE(mistakes_of(std::string(kSmall) + "metrics_host: \"" + name + "\"").find("metrics_host[0]"), std::string::npos) << name;
+}
+
 TEST(ServerConfig, WithoutASessionIsNone) {
   EXPECT_NE(mistakes_of("version: 1 listen: \"127.0.0.1:7000\"").find("session"), std::string::npos);
   EXPECT_NE(mistakes_of(""), "");

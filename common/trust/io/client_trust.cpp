@@ -33,6 +33,7 @@ std::expected<ClientTrust, std::string> ClientTrust::open_or_make(const std::str
   if (!folder) return std::unexpected(folder.error());
   const auto lock = folder->lock(kLock);
   if (!lock) return std::unexpected(lock.error());
+  folder->remove_leftovers();
   if (!folder->has(kKeyFile)) {
     const auto serial = random_bytes<std::array<std::byte, 16>>();
     const Identity made = Identity::make("tandem workstation", serial, now);

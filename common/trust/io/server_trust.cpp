@@ -1,6 +1,5 @@
 #include "common/trust/io/server_trust.h"
 
-#include <algorithm>
 #include <charconv>
 
 #include "common/base/raw_bytes.h"
@@ -9,9 +8,8 @@
 namespace tandem::trust {
 namespace {
 
-constexpr const char* kLock = "lock";
-constexpr const char* kServingLock = "serving.lock";
 constexpr const char* kInitHint = "run `tandem-server init` first";
+constexpr const char* kUsedHint = "; delete that line (its ticket is then good again), or the file once 12 h have passed";
 
 /// A file that must be there.
 std::expected<SecretBuffer, std::string> needed(const StateFolder& folder, const char* name) {
@@ -21,24 +19,11 @@ std::expected<SecretBuffer, std::string> needed(const StateFolder& folder, const
   return std::move(**bytes);
 }
 
-/// A book that may be missing: then it is empty.
-template <class Parse>
-auto book(const StateFolder& folder, const char* name, Parse parse) -> std::expected<typename decltype(parse("", ""))::value_type, std::string> {
-  const auto bytes = folder.read(name);
-  if (!bytes) return std::unexpected(bytes.error());
-  auto rows = parse(*bytes ? text_of((*bytes)->bytes()) : std::string_view{}, folder.path_of(name));
-  if (!rows) return std::unexpected(to_text(rows.error()) + "mend or delete that file");
-  return std::move(*rows);
-}
-
-/// For names and words that stand in JSON: our own texts, but whoever reads logs should not have to trust that.
-std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out + '"';
+/// Whether `init` was ended before it had made everything: there is no key yet, and nobody is enrolled.
+bool half_made(const StateFolder& folder, const char* key, const char* audit, const char* workstations) {
+  if (folder.has(key) || folder.has(audit)) return false;
+  const auto book = folder.read(workstations);
+  return book && (!*book || parse_workstations(text_of((*book)->bytes()), workstations).value_or(std::vector<WorkstationRow>(1)).empty());
 }
 
 }  // namespace
@@ -48,8 +33,9 @@ std::expected<Pin, std::string> ServerTrust::init(const std::string& path, std::
   if (!folder) return std::unexpected(folder.error());
   const auto lock = folder->lock(kLock);
   if (!lock) return std::unexpected(lock.error());
+  folder->remove_leftovers();
   for (const char* name : {kKeyFile, kCertificateFile, kTicketKeyFile})
-    if (folder->has(name))
+    if (folder->has(name) && !half_made(*folder, kKeyFile, kAuditFile, kWorkstationsFile))
       return std::unexpected(folder->path_of(name) + " exists already: this folder was set up before. New keys would shut out every enrolled workstation; "
                                                      "to begin anew all the same, delete the folder");
   const auto serial = random_bytes<std::array<std::byte, 16>>();
@@ -88,18 +74,16 @@ std::vector<std::string> ServerTrust::mistakes(const std::string& path) {
   std::vector<std::string> wrong;
   for (const char* name : {kKeyFile, kCertificateFile, kTicketKeyFile})
     if (const auto file = needed(*folder, name); !file) wrong.push_back(file.error());
-  for (const char* name : {kWorkstationsFile, kCodesFile, kUsedFile, kServingFile, kAuditFile})
-    if (name != std::string_view(kAuditFile) || !folder->has(name)) {
-      if (const auto file = folder->read(name); !file) wrong.push_back(file.error());
-    } else if (std::string trouble = folder->unfit_to_append(name); !trouble.empty()) {
-      wrong.push_back(std::move(trouble));
-    }
+  for (const char* name : {kWorkstationsFile, kCodesFile, kUsedFile, kServingFile})
+    if (const auto file = folder->read(name); !file) wrong.push_back(file.error());
+  if (folder->has(kAuditFile))
+    if (std::string trouble = folder->unfit_to_append(kAuditFile, StateFolder::TornLine::kEnded); !trouble.empty()) wrong.push_back(std::move(trouble));
   if (std::string trouble = folder->unfit_to_write(); !trouble.empty()) wrong.push_back(std::move(trouble));
   if (!wrong.empty()) return wrong;
   if (const auto trust = open(path); !trust) wrong.push_back(trust.error());
   const auto used = folder->read(kUsedFile);
   if (used && *used)
-    if (const auto book = UsedTickets::parse(text_of((*used)->bytes())); !book) wrong.push_back(folder->path_of(kUsedFile) + ": " + book.error());
+    if (const auto book = UsedTickets::parse(text_of((*used)->bytes())); !book) wrong.push_back(folder->path_of(kUsedFile) + ": " + book.error() + kUsedHint);
   return wrong;
 }
 
@@ -120,14 +104,15 @@ std::string ServerTrust::begin_serving(std::int64_t now) {
   if (!books) return books.error();
   auto lock = folder_->try_lock(kServingLock);
   if (!lock) return lock.error();
-  if (!*lock) return folder_->path() + ": another server runs from this folder; stop it first, or give this one a folder of its own (`run --state`, `state` in a configuration)";
+  if (!*lock) return folder_->path() + ": another server runs from this folder: " + folder_->holder_of(kServingLock) + "; stop it first, or give this one a folder of its own (`run --state`, `state` in a configuration)";
   serving_ = std::move(**lock);
+  folder_->remove_leftovers();
   if (folder_->has(kEndFile))  // meant for the server before
     if (std::string problem = folder_->remove(kEndFile); !problem.empty()) return problem;
   const auto bytes = folder_->read(kUsedFile);
   if (!bytes) return bytes.error();
   auto used = UsedTickets::parse(*bytes ? text_of((*bytes)->bytes()) : std::string_view{});
-  if (!used) return folder_->path_of(kUsedFile) + ": " + used.error();
+  if (!used) return folder_->path_of(kUsedFile) + ": " + used.error() + kUsedHint;
   used_ = std::move(*used);
   return rewrite_used(now);
 }
@@ -135,97 +120,17 @@ std::string ServerTrust::begin_serving(std::int64_t now) {
 std::string ServerTrust::rewrite_used(std::int64_t now) {
   used_.prune(now);
   appended_ = 0;
-  return folder_->replace(kUsedFile, std::string_view(used_.to_text()));
-}
-
-std::expected<ServerTrust::Books, std::string> ServerTrust::read_books() const {
-  if (!folder_) return books_;
-  auto workstations = book(*folder_, kWorkstationsFile, parse_workstations);
-  if (!workstations) return std::unexpected(workstations.error());
-  auto codes = book(*folder_, kCodesFile, parse_codes);
-  if (!codes) return std::unexpected(codes.error());
-  return Books{std::move(*workstations), std::move(*codes)};
-}
-
-template <class Change>
-std::string ServerTrust::change_books(Change change) {
-  StateFolder::Lock held;
-  if (folder_) {
-    auto lock = folder_->lock(kLock);
-    if (!lock) return lock.error();
-    held = std::move(*lock);
-  }
-  auto books = read_books();
-  if (!books) return books.error();
-  const Books before = *books;
-  change(*books);
-  if (!folder_) {
-    books_ = std::move(*books);
-    return {};
-  }
-  // Workstations first: after a crash in between a code may be used twice for the same name, never a workstation be lost that was told yes.
-  std::string problem;
-  if (books->workstations != before.workstations) problem = folder_->replace(kWorkstationsFile, std::string_view(print_workstations(books->workstations)));
-  if (problem.empty() && books->codes != before.codes) problem = folder_->replace(kCodesFile, std::string_view(print_codes(books->codes)));
+  std::string problem = folder_->replace(kUsedFile, std::string_view(used_.to_text()));
+  used_unsure_ = !problem.empty();
   return problem;
 }
 
-std::expected<std::vector<WorkstationRow>, std::string> ServerTrust::workstations() {
-  if (!folder_) return books_.workstations;
-  // The stamp is taken first: a change between the two is seen by the next look-up.
-  const StateFolder::Stamp now = folder_->stamp(kWorkstationsFile);
-  if (now == seen_ && now != StateFolder::Stamp{}) return books_.workstations;
-  auto rows = book(*folder_, kWorkstationsFile, parse_workstations);
-  if (!rows) {
-    seen_ = {};
-    return rows;
-  }
-  books_.workstations = *rows;
-  seen_ = now;
-  return rows;
-}
-
-std::expected<std::size_t, std::string> ServerTrust::open_codes(std::int64_t now) const {
-  if (!folder_) return static_cast<std::size_t>(std::ranges::count_if(books_.codes, [&](const CodeRow& c) { return now <= c.not_after; }));
-  const auto books = read_books();
-  if (!books) return std::unexpected(books.error());
-  return static_cast<std::size_t>(std::ranges::count_if(books->codes, [&](const CodeRow& c) { return now <= c.not_after; }));
-}
-
-std::expected<std::optional<WorkstationRow>, std::string> ServerTrust::find(const Pin& workstation) {
-  const auto rows = workstations();
-  if (!rows) return std::unexpected(rows.error());
-  const WorkstationRow* const row = find_workstation(*rows, workstation);
-  return row == nullptr ? std::nullopt : std::optional(*row);
-}
-
-std::expected<WorkstationRow, ServerTrust::EnrolTrouble> ServerTrust::enrol(const EnrolmentCode& code, const Pin& pin, std::int64_t now) {
-  std::expected<WorkstationRow, EnrolFault> made = std::unexpected(EnrolFault::kUnknownCode);
-  std::string problem = change_books([&](Books& books) { made = trust::enrol(books.workstations, books.codes, code, pin, now); });
-  if (!problem.empty()) return std::unexpected(EnrolTrouble{std::nullopt, std::move(problem)});
-  if (!made) return std::unexpected(EnrolTrouble{made.error(), to_text(made.error())});
-  audit(now, "enrolled", made->name, pin.hex());
-  return *made;
-}
-
-std::string ServerTrust::give_out(const EnrolmentCode& code, std::string_view workstation, std::int64_t now, std::int64_t not_after) {
-  std::string problem = change_books([&](Books& books) { trust::give_out(books.codes, code, workstation, now, not_after); });
-  if (problem.empty()) audit(now, "code_given_out", workstation);
+std::string ServerTrust::write_used(const Id16& ticket, std::int64_t not_after, std::int64_t now) {
+  // Appended to, until so much has expired that the file is worth writing anew, or until nobody knows what it holds.
+  if (used_unsure_ || ++appended_ > UsedTickets::kMax) return rewrite_used(now);
+  std::string problem = folder_->append(kUsedFile, UsedTickets::line(ticket, not_after));
+  used_unsure_ = !problem.empty();
   return problem;
-}
-
-std::expected<Revoked, std::string> ServerTrust::revoke(std::string_view name) {
-  Revoked gone;
-  std::string problem = change_books([&](Books& books) { gone = trust::revoke(books.workstations, books.codes, name); });
-  if (!problem.empty()) return std::unexpected(std::move(problem));
-  return gone;
-}
-
-std::string ServerTrust::enrol_directly(const WorkstationRow& row) {
-  return change_books([&](Books& books) {
-    std::erase_if(books.workstations, [&](const WorkstationRow& old) { return old.name == row.name || old.spki == row.spki; });
-    books.workstations.push_back(row);
-  });
 }
 
 std::expected<Ticket, ServerTrust::TicketTrouble> ServerTrust::redeem(std::span<const std::byte> bytes, const TicketUse& use) {
@@ -237,23 +142,23 @@ std::expected<Ticket, ServerTrust::TicketTrouble> ServerTrust::redeem(std::span<
   auto ticket = check_ticket(bytes, ticket_key_.verifier(), use);
   if (!ticket) return broken(ticket.error());
   if (auto once = used_.use(*ticket, use.now); !once) return broken(once.error());
-  if (folder_) {
-    // Appended to, until so much has expired that the file is worth writing anew.
-    std::string problem = ++appended_ > UsedTickets::kMax ? rewrite_used(use.now) : folder_->append(kUsedFile, UsedTickets::line(ticket->ticket_id, ticket->not_after));
-    if (!problem.empty()) return std::unexpected(TicketTrouble{std::nullopt, std::move(problem)});
-  }
+  if (folder_)
+    if (std::string problem = write_used(ticket->ticket_id, ticket->not_after, use.now); !problem.empty()) {
+      used_.forget(ticket->ticket_id);  // nobody gets in, so nothing is used up
+      return std::unexpected(TicketTrouble{std::nullopt, std::move(problem)});
+    }
   return std::move(*ticket);
 }
 
 std::string ServerTrust::give_back(const Id16& ticket) {
   used_.forget(ticket);
-  if (!folder_) return {};
-  ++appended_;
-  return folder_->append(kUsedFile, UsedTickets::line(ticket, 0));
+  return folder_ ? write_used(ticket, 0, 0) : std::string{};
 }
 
 std::string ServerTrust::ask_to_end(std::uint32_t grace_s) const {
   if (!folder_) return "this server has no folder";
+  const auto lock = folder_->lock(kLock);
+  if (!lock) return lock.error();
   return folder_->replace(kEndFile, std::string_view(std::to_string(grace_s) + "\n"));
 }
 
@@ -273,24 +178,10 @@ std::string ServerTrust::write_serving(const ServingSpec& serving) const {
   return folder_ ? folder_->replace(kServingFile, std::string_view(print_serving(serving))) : std::string{};
 }
 
-std::expected<std::optional<ServingSpec>, std::string> ServerTrust::read_serving() const {
-  if (!folder_ || !folder_->has(kServingFile)) return std::nullopt;
-  const auto books = folder_->lock(kLock);
-  if (!books) return std::unexpected(books.error());
-  // Left behind by a server that was killed: nobody holds its lock.
-  const auto lock = folder_->try_lock(kServingLock);
-  if (!lock) return std::unexpected(lock.error());
-  if (*lock) return std::nullopt;
-  auto serving = book(*folder_, kServingFile, parse_serving);
-  if (!serving) return std::unexpected(serving.error());
-  return std::move(*serving);
+std::string ServerTrust::audit(std::int64_t now, std::string_view event, std::string_view name, std::string_view detail) {
+  return folder_ ? audit_.write(*folder_, now, event, name, detail) : std::string{};
 }
 
-void ServerTrust::audit(std::int64_t now, std::string_view event, std::string_view name, std::string_view detail) const {
-  if (!folder_) return;
-  std::string line = "{\"ts\":" + std::to_string(now) + ",\"event\":" + quoted(event) + ",\"name\":" + quoted(name);
-  if (!detail.empty()) line += ",\"detail\":" + quoted(detail);
-  (void)folder_->append(kAuditFile, line + "}\n");
-}
+std::string ServerTrust::retry_audit(std::int64_t now) { return folder_ ? audit_.retry(*folder_, now) : std::string{}; }
 
 }  // namespace tandem::trust

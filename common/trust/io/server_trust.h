@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/trust/books.h"
+#include "common/trust/io/audit_log.h"
 #include "common/trust/io/state_folder.h"
 #include "common/trust/ticket.h"
 #include "common/trust/tls_key.h"
@@ -30,8 +31,10 @@ class ServerTrust {
   static constexpr const char* kCodesFile = "codes.textproto";
   static constexpr const char* kUsedFile = "used_tickets";
   static constexpr const char* kServingFile = "serving.textproto";
-  static constexpr const char* kAuditFile = "audit.log";
+  static constexpr const char* kAuditFile = AuditLog::kFile;
   static constexpr const char* kEndFile = "end_in_s";
+  static constexpr const char* kLock = "lock";  ///< of the books, for a change
+  static constexpr const char* kServingLock = "serving.lock";
 
   /// Makes keys and empty books in a folder that has none yet. @return the server's pin
   [[nodiscard]] static std::expected<Pin, std::string> init(const std::string& path, std::int64_t now);
@@ -71,7 +74,7 @@ class ServerTrust {
   [[nodiscard]] std::string enrol_directly(const WorkstationRow& row);
 
   struct TicketTrouble {
-    std::optional<TicketFault> fault;  ///< nothing: the book could not be written, `text` says why
+    std::optional<TicketFault> fault;  ///< nothing: the book could not be written, `text` says why, and the ticket is as good as before
     std::string text;
   };
   /// Checks a ticket and uses it up: it is on disk before this returns, so that no crash makes it good again.
@@ -90,8 +93,13 @@ class ServerTrust {
   [[nodiscard]] std::string write_serving(const ServingSpec& serving) const;
   /// Nothing: no server is running.
   [[nodiscard]] std::expected<std::optional<ServingSpec>, std::string> read_serving() const;
-  /// One JSON object per line: seconds, event, and pairs of words. Never a secret. No folder: nothing is written.
-  void audit(std::int64_t now, std::string_view event, std::string_view name, std::string_view detail = {}) const;
+  /// Writes one line to the audit log. Never a secret. No folder: nothing is written. @return what is wrong; the log remembers it too
+  std::string audit(std::int64_t now, std::string_view event, std::string_view name, std::string_view detail = {});
+  /// Tries again to write what the audit log owes. @return what is wrong still
+  std::string retry_audit(std::int64_t now);
+  /// From now on this process rotates the audit log; else it only appends.
+  void keep_audit(const AuditLimits& limits) noexcept { audit_.keep(limits); }
+  [[nodiscard]] const AuditLog& audit_log() const noexcept { return audit_; }
 
   ~ServerTrust();
   ServerTrust(ServerTrust&&) noexcept = default;
@@ -109,6 +117,7 @@ class ServerTrust {
   template <class Change>
   [[nodiscard]] std::string change_books(Change change);
   [[nodiscard]] std::string rewrite_used(std::int64_t now);
+  [[nodiscard]] std::string write_used(const Id16& ticket, std::int64_t not_after, std::int64_t now);
 
   Identity identity_;
   TicketKey ticket_key_;
@@ -118,6 +127,8 @@ class ServerTrust {
   StateFolder::Stamp seen_;   ///< of the workstations' file as last read
   UsedTickets used_;
   std::size_t appended_ = 0;  ///< lines since the file of used tickets was written anew
+  bool used_unsure_ = false;  ///< a change of that file failed: it is written anew with the next one
+  AuditLog audit_;
 };
 
 }  // namespace tandem::trust

@@ -1,7 +1,6 @@
 #include "common/trust/io/state_folder.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,8 +11,9 @@
 #include <filesystem>
 
 #include "common/base/format.h"
-#include "common/io/clock.h"
 #include "common/base/raw_bytes.h"
+#include "common/io/clock.h"
+#include "common/trust/io/write_all.h"
 
 namespace tandem::trust {
 namespace {
@@ -23,17 +23,6 @@ constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600, kOthers = 0077;
 std::string owner_remedy(const std::string& path, uid_t owner) {
   return path + " belongs to user " + std::to_string(owner) + ", but this program runs as user " + std::to_string(geteuid()) +
          "; run it as that user (sudo -u \\#" + std::to_string(owner) + " ...), or name another folder with --state";
-}
-
-/// Everything, whatever signals come. @return whether all was written
-bool write_all(int fd, std::span<const std::byte> bytes) noexcept {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(n));
-  }
-  return true;
 }
 
 /// Makes what is missing of a path, for its owner only.
@@ -87,7 +76,7 @@ std::string StateFolder::trouble(const std::string& name, std::string_view doing
   return path_of(name) + " cannot be " + std::string(doing) + ": " + std::strerror(errno);
 }
 
-std::string StateFolder::wrong_with(int fd, const std::string& name) const {
+std::string StateFolder::wrong_with(int fd, const std::string& name, std::uint64_t size_max) const {
   struct stat s {};
   if (fstat(fd, &s) != 0) return trouble(name, "looked at");
   if (!S_ISREG(s.st_mode)) return path_of(name) + " must be a file";
@@ -95,7 +84,7 @@ std::string StateFolder::wrong_with(int fd, const std::string& name) const {
   if ((s.st_mode & kOthers) != 0)
     return format("%s can be read by others (mode %04o); if no stranger has read it: chmod 0600 %s", path_of(name).c_str(),
                   static_cast<unsigned>(s.st_mode & 07777), path_of(name).c_str());
-  if (static_cast<std::uint64_t>(s.st_size) > kFileMax) return path_of(name) + " is longer than 8 MiB";
+  if (static_cast<std::uint64_t>(s.st_size) > size_max) return path_of(name) + " is longer than 8 MiB";
   return {};
 }
 
@@ -123,7 +112,7 @@ std::expected<std::optional<SecretBuffer>, std::string> StateFolder::read(const 
 }
 
 std::string StateFolder::replace(const std::string& name, std::span<const std::byte> bytes) const {
-  const std::string beside = "." + name + "." + std::to_string(getpid()) + ".new";
+  const std::string beside = "." + name + ".new";
   unlinkat(folder_.get(), beside.c_str(), 0);  // of a process that died here
   {
     const io::Fd file{openat(folder_.get(), beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
@@ -144,22 +133,9 @@ std::string StateFolder::replace(const std::string& name, std::span<const std::b
 
 std::string StateFolder::replace(const std::string& name, std::string_view text) const { return replace(name, bytes_of(text)); }
 
-std::string StateFolder::append(const std::string& name, std::string_view line) const {
-  const io::Fd file{openat(folder_.get(), name.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kOwnFile)};
-  if (!file.open()) return trouble(name, "opened");
-  if (std::string wrong = wrong_with(file.get(), name); !wrong.empty()) return wrong;
-  if (!write_all(file.get(), bytes_of(line)) || fdatasync(file.get()) != 0) return trouble(name, "written");
-  return {};
-}
-
 std::string StateFolder::unfit_to_write() const {
   if (faccessat(folder_.get(), ".", W_OK | X_OK, AT_EACCESS) == 0) return {};
   return path_ + " cannot be written to: " + std::strerror(errno) + "; chmod 0700 " + path_ + ", or mount it writable";
-}
-
-std::string StateFolder::unfit_to_append(const std::string& name) const {
-  const io::Fd file{openat(folder_.get(), name.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
-  return file.open() ? wrong_with(file.get(), name) : trouble(name, "written to");
 }
 
 std::string StateFolder::remove(const std::string& name) const {
@@ -172,20 +148,12 @@ StateFolder::Stamp StateFolder::stamp(const std::string& name) const noexcept {
   return {s.st_ino, static_cast<std::uint64_t>(s.st_size), static_cast<std::int64_t>(s.st_ctim.tv_sec) * 1'000'000'000 + s.st_ctim.tv_nsec};
 }
 
-std::expected<StateFolder::Lock, std::string> StateFolder::lock(const std::string& name) const {
-  Lock file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
-  if (!file.open()) return std::unexpected(trouble(name, "opened"));
-  while (flock(file.get(), LOCK_EX) != 0)
-    if (errno != EINTR) return std::unexpected(trouble(name, "locked"));
-  return file;
-}
-
-std::expected<std::optional<StateFolder::Lock>, std::string> StateFolder::try_lock(const std::string& name) const {
-  Lock file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
-  if (!file.open()) return std::unexpected(trouble(name, "opened"));
-  if (flock(file.get(), LOCK_EX | LOCK_NB) == 0) return file;
-  if (errno == EWOULDBLOCK) return std::nullopt;
-  return std::unexpected(trouble(name, "locked"));
+void StateFolder::remove_leftovers() const noexcept {
+  std::error_code error;
+  for (std::filesystem::directory_iterator i(path_, error), end; !error && i != end; i.increment(error)) {
+    const std::string name = i->path().filename().string();
+    if (name.starts_with('.') && name.ends_with(".new")) unlinkat(folder_.get(), name.c_str(), 0);
+  }
 }
 
 std::expected<std::string, std::string> server_state_path(const std::string& option) {
@@ -202,9 +170,11 @@ std::expected<std::string, std::string> client_state_path(const std::string& opt
   return below_home("/.config/tandem", "TANDEM_CLIENT_STATE");
 }
 
-std::string runtime_path() {
+std::string runtime_path(const std::string& users) {
   if (std::string named = environment("TANDEM_RUNTIME"); !named.empty()) return named;
   if (const std::string user = environment("XDG_RUNTIME_DIR"); !user.empty()) return user + "/tandem";
+  const std::string user = users + "/" + std::to_string(geteuid());
+  if (struct stat s {}; lstat(user.c_str(), &s) == 0 && S_ISDIR(s.st_mode) && s.st_uid == geteuid()) return user + "/tandem";
   return "/tmp/tandem-" + std::to_string(geteuid());
 }
 

@@ -119,6 +119,60 @@ TEST(StateFolder, ALockIsHeldByOne) {
   EXPECT_TRUE(*third);
 }
 
+TEST(StateFolder, ALockThatIsNotFreeInTimeNamesItsHolderAndTheNextStep) {
+  const Folder folder;
+  const StateFolder a = opened(folder), b = opened(folder);
+  auto held = a.lock("l");
+  ASSERT_TRUE(held);
+  const auto second = b.lock("l", std::chrono::milliseconds(30));
+  ASSERT_FALSE(second) << "it waits no longer than it was told to";
+  for (const std::string& word : {folder.path("l"), std::string("0.03 s"), "process " + std::to_string(getpid()), std::string("then try again")})
+    EXPECT_NE(second.error().find(word), std::string::npos) << word << "\n" << second.error();
+  held->reset();
+  EXPECT_TRUE(b.lock("l", std::chrono::milliseconds(30)));
+}
+
+TEST(StateFolder, ALineIsNeverJoinedToOneThatACrashLeft) {
+  const Folder folder;
+  const StateFolder state = opened(folder);
+  for (const std::string& torn : {std::string("to"), std::string(5000, 't')}) {
+    folder.write("x", "one\n" + torn);
+    EXPECT_EQ(state.append("x", "two\n"), "");
+    EXPECT_EQ(folder.read("x"), "one\ntwo\n");
+    folder.write("x", "one\n" + torn);
+    EXPECT_EQ(state.append("x", "two\n", StateFolder::TornLine::kEnded), "");
+    EXPECT_EQ(folder.read("x"), "one\n" + torn + "\ntwo\n");
+  }
+  folder.write("x", "nothing but a piece");
+  EXPECT_EQ(state.append("x", "two\n"), "");
+  EXPECT_EQ(folder.read("x"), "two\n");
+  folder.write("x", std::string(StateFolder::kFileMax - 1, 'x') + "\n");
+  EXPECT_NE(state.append("x", "two\n"), "") << "no longer than what can be read again";
+}
+
+TEST(StatePath, OfClientsAndServersIsTheUsersOwnRuntimeFolderWhereThereIsOne) {
+  const Folder run;
+  const std::string own = run.path(std::to_string(geteuid())), before = getenv("XDG_RUNTIME_DIR") == nullptr ? "" : getenv("XDG_RUNTIME_DIR");
+  unsetenv("TANDEM_RUNTIME");
+  setenv("XDG_RUNTIME_DIR", "/run/session", 1);
+  ASSERT_EQ(mkdir(own.c_str(), 0700), 0);
+  EXPECT_EQ(runtime_path(run.path()), "/run/session/tandem");
+  unsetenv("XDG_RUNTIME_DIR");
+  EXPECT_EQ(runtime_path(run.path()), own + "/tandem");
+  const std::string shared = "/tmp/tandem-" + std::to_string(geteuid());
+  EXPECT_EQ(runtime_path(run.path("nothing")), shared);
+  ASSERT_EQ(rmdir(own.c_str()), 0);
+  ASSERT_EQ(symlink(run.path().c_str(), own.c_str()), 0);
+  EXPECT_EQ(runtime_path(run.path()), shared) << "a link is not the user's folder";
+  if (geteuid() == 0) {
+    ASSERT_EQ(unlink(own.c_str()), 0);
+    ASSERT_EQ(mkdir(own.c_str(), 0700), 0);
+    ASSERT_EQ(chown(own.c_str(), 12345, 12345), 0);
+    EXPECT_EQ(runtime_path(run.path()), shared) << "somebody else's";
+  }
+  if (!before.empty()) setenv("XDG_RUNTIME_DIR", before.c_str(), 1);
+}
+
 TEST(StatePath, IsTheOptionThenTheEnvironmentThenTheHome) {
   EXPECT_EQ(client_state_path("/x"), "/x");
   setenv("TANDEM_CLIENT_STATE", "/y", 1);
@@ -216,6 +270,27 @@ TEST(ServerTrust, ATicketIsUsedOnceAcrossRestarts) {
   auto trust = ServerTrust::open(folder.path());
   ASSERT_TRUE(trust);
   ASSERT_EQ(trust->begin_serving(kNow), "");
+  EXPECT_EQ(trust->redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketRule::kUsed);
+}
+
+/// A book that cannot be written refuses before anything is used up; a write that failed spoils neither the book nor the next one.
+TEST(ServerTrust, ATicketWhoseUseCannotBeWrittenStaysGood) {
+  const Folder folder;
+  ASSERT_TRUE(ServerTrust::init(folder.path(), kNow));
+  auto trust = ServerTrust::open(folder.path());
+  ASSERT_TRUE(trust);
+  ASSERT_EQ(trust->begin_serving(kNow), "");
+  const Ticket ticket = test::sample_ticket();
+  const TicketBytes bytes = *sign_ticket(ticket, trust->ticket_key());
+  std::filesystem::rename(folder.path("used_tickets"), folder.path("aside"));
+  ASSERT_EQ(mkdir(folder.path("used_tickets").c_str(), 0700), 0);
+  for (int i = 0; i < 2; ++i) {
+    const auto refused = trust->redeem(bytes, test::sample_use(ticket));
+    ASSERT_FALSE(refused);
+    EXPECT_FALSE(refused.error().fault) << "the server's trouble, not the ticket's: " << refused.error().text;
+  }
+  ASSERT_EQ(rmdir(folder.path("used_tickets").c_str()), 0);
+  EXPECT_TRUE(trust->redeem(bytes, test::sample_use(ticket)));
   EXPECT_EQ(trust->redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketRule::kUsed);
 }
 

@@ -1,0 +1,49 @@
+#include "common/trust/audit_throttle.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace tandem::trust {
+
+bool AuditThrottle::admit(const std::string& source, Time now) {
+  const auto [found, is_new] = sources_.try_emplace(source, Entry{TokenBucket{limits_.source_per_s, limits_.source_burst}, now});
+  Entry& entry = found->second;
+  entry.heard = now;
+  const bool good = entry.bucket.take(now) && all_.take(now);  // a source that is over its own rate pays nothing from what all share
+  if (!good) {
+    if (untold_ == 0) untold_since_ = now;
+    ++entry.left;
+    ++untold_;
+    ++left_out_;
+  }
+  if (is_new && sources_.size() > kSourcesMax) forget_oldest();
+  return good;
+}
+
+std::optional<std::string> AuditThrottle::summary(Time now) { return untold_ > 0 && now - untold_since_ >= kTellEvery ? last_summary() : std::nullopt; }
+
+std::optional<std::string> AuditThrottle::last_summary() {
+  if (untold_ == 0) return std::nullopt;
+  std::vector<std::pair<std::uint64_t, std::string>> most;
+  for (auto& [source, entry] : sources_)
+    if (const std::uint64_t left = std::exchange(entry.left, 0); left > 0) most.emplace_back(left, source);
+  const std::size_t named = std::min(kNamedMax, most.size());
+  std::ranges::partial_sort(most, most.begin() + static_cast<std::ptrdiff_t>(named), std::greater<>{});
+  std::string text = std::to_string(untold_) + (untold_ == 1 ? " line about a refused peer was" : " lines about refused peers were") + " left out:";
+  std::uint64_t told = 0;
+  for (std::size_t i = 0; i < named; ++i) {
+    text += (i == 0 ? " " : ", ") + std::to_string(most[i].first) + " of " + most[i].second;
+    told += most[i].first;
+  }
+  if (told < untold_) text += (told > 0 ? ", " : " ") + std::to_string(untold_ - told) + " of others";
+  untold_ = 0;
+  return text;
+}
+
+void AuditThrottle::forget_oldest() {
+  const auto oldest = std::ranges::min_element(sources_, {}, [](const auto& row) { return row.second.heard; });
+  sources_.erase(oldest);
+}
+
+}  // namespace tandem::trust
