@@ -21,6 +21,9 @@ server::Endpoint endpoint_of(std::size_t seat, std::uint32_t address = 0) {
   return e;
 }
 
+/// Of the seed, for the tokens of path challenges; seats have 1000 and more (world_station.cpp).
+constexpr std::uint64_t kTokenKey = 999;
+
 /// Where junk comes from besides the seats' own addresses.
 constexpr std::size_t kStranger = 254;
 
@@ -238,6 +241,7 @@ void World::serve_server() {
   attack_server();
   session_->relieve(ladder_.step(now_, server_missed_ * tick_, tick_used_));
   session_->on_tick(now_, server_missed_);
+  if (session_->path_tokens().low()) fill_path_tokens(*session_, RandomKey{setup_.seed}.derive(kTokenKey), token_draws_ += server::PathTokens::kMax);
   server_missed_ = 0;
   std::size_t sent = 0;
   while (const auto out = session_->poll_transmit(now_, buffer_)) {
