@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/port_map.h"
+#include "netsim/world_waiting.h"
 #include "server/session_record.h"
 
 namespace tandem::netsim {
@@ -129,7 +130,8 @@ void World::keep_checkpoint(bool people_changed) {
 
 std::string World::add_station(std::size_t i) {
   const SeatSpec& spec = setup_.scene.seats[i];
-  hal::sim::SimSetup sim{spec.device, spec.hand, spec.environment, nullptr, now_};
+  // A station steps its device through a tick before it reads it: the device begins one tick earlier.
+  hal::sim::SimSetup sim{spec.device, spec.hand, spec.environment, nullptr, now_ - tick_};
   if (const auto m = setup_.motions.find(spec.name); m != setup_.motions.end()) {
     sim.hand.model = HandModel::kRecorded;
     sim.motion = m->second;
@@ -193,15 +195,11 @@ void World::watch_links() {
 /// A session that cannot begin would wait for ever; people get the reason instead.
 void World::give_up_waiting() {
   if (session_->state() != wire::SessionState::kWaiting || now_ - Time{} < kPatience) return;
-  trouble_ = "the session did not begin within " + std::to_string(kPatience / std::chrono::seconds(1)) + " s of virtual time;";
+  trouble_ = "the session did not begin within " + std::to_string(kPatience / std::chrono::seconds(1)) + " s of virtual time";
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     const client::Seat* seat = stations_[i].seat();
-    if (seat != nullptr && seat->gate().active()) continue;
-    trouble_ += " " + setup_.scene.seats[i].name + (seat == nullptr ? " never got its seat;" : " could not be engaged;");
+    if (seat == nullptr || !seat->gate().active()) trouble_ += "; " + why_not_engaged(setup_.scene, i, seat, *session_, stations_[i].own_time(now_), now_);
   }
-  trouble_ += " a hand is engaged only over a loop younger than gate.loop_age_max_ms = " +
-              std::to_string(static_cast<int>(1e3 * setup_.scene.gate.loop_age_max + 0.5)) + " (both ways) that is heard within " +
-              std::to_string(static_cast<int>(1e3 * setup_.scene.gate.silence_limit + 0.5)) + " ms";
 }
 
 void World::serve_clients() {
