@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/port_map.h"
+#include "netsim/world_waiting.h"
 #include "server/session_record.h"
 
 namespace tandem::netsim {
@@ -20,6 +21,9 @@ server::Endpoint endpoint_of(std::size_t seat, std::uint32_t address = 0) {
   e.size = 3;
   return e;
 }
+
+/// Of the seed, for the tokens of path challenges; seats have 1000 and more (world_station.cpp).
+constexpr std::uint64_t kTokenKey = 999;
 
 /// Where junk comes from besides the seats' own addresses.
 constexpr std::size_t kStranger = 254;
@@ -126,7 +130,8 @@ void World::keep_checkpoint(bool people_changed) {
 
 std::string World::add_station(std::size_t i) {
   const SeatSpec& spec = setup_.scene.seats[i];
-  hal::sim::SimSetup sim{spec.device, spec.hand, spec.environment, nullptr, now_};
+  // A station steps its device through a tick before it reads it: the device begins one tick earlier.
+  hal::sim::SimSetup sim{spec.device, spec.hand, spec.environment, nullptr, now_ - tick_};
   if (const auto m = setup_.motions.find(spec.name); m != setup_.motions.end()) {
     sim.hand.model = HandModel::kRecorded;
     sim.motion = m->second;
@@ -190,15 +195,11 @@ void World::watch_links() {
 /// A session that cannot begin would wait for ever; people get the reason instead.
 void World::give_up_waiting() {
   if (session_->state() != wire::SessionState::kWaiting || now_ - Time{} < kPatience) return;
-  trouble_ = "the session did not begin within " + std::to_string(kPatience / std::chrono::seconds(1)) + " s of virtual time;";
+  trouble_ = "the session did not begin within " + std::to_string(kPatience / std::chrono::seconds(1)) + " s of virtual time";
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     const client::Seat* seat = stations_[i].seat();
-    if (seat != nullptr && seat->gate().active()) continue;
-    trouble_ += " " + setup_.scene.seats[i].name + (seat == nullptr ? " never got its seat;" : " could not be engaged;");
+    if (seat == nullptr || !seat->gate().active()) trouble_ += "; " + why_not_engaged(setup_.scene, i, seat, *session_, stations_[i].own_time(now_), now_);
   }
-  trouble_ += " a hand is engaged only over a loop younger than gate.loop_age_max_ms = " +
-              std::to_string(static_cast<int>(1e3 * setup_.scene.gate.loop_age_max + 0.5)) + " (both ways) that is heard within " +
-              std::to_string(static_cast<int>(1e3 * setup_.scene.gate.silence_limit + 0.5)) + " ms";
 }
 
 void World::serve_clients() {
@@ -238,6 +239,7 @@ void World::serve_server() {
   attack_server();
   session_->relieve(ladder_.step(now_, server_missed_ * tick_, tick_used_));
   session_->on_tick(now_, server_missed_);
+  if (session_->path_tokens().low()) fill_path_tokens(*session_, RandomKey{setup_.seed}.derive(kTokenKey), token_draws_ += server::PathTokens::kMax);
   server_missed_ = 0;
   std::size_t sent = 0;
   while (const auto out = session_->poll_transmit(now_, buffer_)) {

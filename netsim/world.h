@@ -95,6 +95,7 @@ class World {
   std::vector<WorldStation> stations_;
   std::vector<std::size_t> order_;  ///< in which stations work within a tick; empty: all at its end, by number
   std::vector<Fault> server_faults_, stops_;
+  std::uint64_t token_draws_ = 0;
   std::uint32_t server_missed_ = 0;  ///< ticks the server's thread stood still
   std::array<std::byte, link::kDatagramMax> buffer_{};
   server::TickRecord record_{};

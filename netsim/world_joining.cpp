@@ -35,9 +35,15 @@ link::Link::Params server_end(link::Link::Params p) {
 
 }  // namespace
 
+void fill_path_tokens(server::Session& session, RandomKey key, std::uint64_t first) noexcept {
+  server::PathTokens& tokens = session.path_tokens();
+  while (tokens.room() > 0) tokens.add(key.bits(first++));
+}
+
 std::expected<VirtualSeat, server::JoinResult> join_virtually(server::Session& session, Time now, std::size_t seat,
                                                             const hal::DeviceCaps& caps, RandomKey key, std::uint64_t number,
                                                             bool same_owner, std::uint8_t slot) {
+  fill_path_tokens(session, key.derive(number).derive(3), 0);
   const server::Reception& reception = session.reception();
   if (seat >= reception.scene().seats.size()) return std::unexpected(server::JoinResult::kNoSuchSeat);
   if (!reception.unfit(seat, client::device_facts(caps)).empty()) return std::unexpected(server::JoinResult::kDeviceUnfit);
@@ -49,6 +55,7 @@ std::expected<VirtualSeat, server::JoinResult> join_virtually(server::Session& s
 }
 
 std::expected<VirtualSeat, server::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key, std::uint64_t number) {
+  fill_path_tokens(session, key.derive(number).derive(3), 0);
   const server::Reception& reception = session.reception();
   const link::Link::Params client = client_end(key.derive(number), 0, kSeatsMax + 1, reception.tick());
   auto link = std::make_unique<link::Link>(server_end(client));

@@ -16,6 +16,10 @@ struct VirtualSeat {
   link::Link::Params link;
 };
 
+/// Draws tokens for the session's path challenges, as the host of a live one does from the kernel.
+/// @param first  of the draws of `key`
+void fill_path_tokens(server::Session& session, RandomKey key, std::uint64_t first) noexcept;
+
 /// Joining without TLS: what the two ends of a handshake would know afterwards is drawn from `key`. The control connection is taken
 /// to be there, at once; from the first datagram on everything is as it is live.
 /// @param number      of this attempt: other ids and secrets each time

@@ -20,10 +20,10 @@ std::optional<link::Link::Opened> Connection::open(Time now, const Endpoint& fro
   return std::nullopt;
 }
 
-void Connection::acts(Time now, const Endpoint& from, const link::Link::Opened& opened, const wire::Preamble& preamble) noexcept {
+void Connection::acts(Time now, const Endpoint& from, const link::Link::Opened& opened, const wire::Preamble& preamble, PathTokens& tokens) noexcept {
   link_->accept(now, opened, preamble);
-  // Sealed on its way, so a token must only be new; the connection makes it one of its own.
-  if (at_ != from) proof_.seen(now, from, RandomKey{link_->own_cid()}.bits(++tokens_));
+  // A challenge must not be larger than what asks for it: else a forged source address would make the server amplify.
+  if (at_ != from && opened.plaintext.size() >= wire::kPathSize) proof_.seen(now, from, tokens);
 }
 
 std::optional<Transmit> Connection::poll_challenge(Time now, std::uint32_t tick, wire::Codec& codec,

@@ -6,7 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "common/base/rng.h"
 #include "common/link/link.h"
 #include "proto/wire_codec.h"
 #include "server/endpoint.h"
@@ -27,7 +26,8 @@ class Connection {
   [[nodiscard]] std::optional<link::Link::Opened> open(Time now, const Endpoint& from, std::span<const std::byte> bytes,
                                                        wire::Codec& codec) noexcept TANDEM_REALTIME;
   /// The message was decoded, in range and newer than all before: it acts.
-  void acts(Time now, const Endpoint& from, const link::Link::Opened& opened, const wire::Preamble& preamble) noexcept TANDEM_REALTIME;
+  /// @param tokens  for a challenge, where it came from an address that is not the proven one
+  void acts(Time now, const Endpoint& from, const link::Link::Opened& opened, const wire::Preamble& preamble, PathTokens& tokens) noexcept TANDEM_REALTIME;
 
   /// Somebody is being asked whether he is there: a challenge may be due.
   [[nodiscard]] bool challenges() const noexcept { return proof_.asking(); }
@@ -50,6 +50,17 @@ class Connection {
   [[nodiscard]] Duration silence(Time now) const noexcept {
     return link_->freshness().heard() ? link_->freshness().silence(now) : now - admitted_;
   }
+  /// Whether the peer may be sent a FORCE that is due: always within `kForceStops` after a STATE acted, then at most once per
+  /// `kKeepAliveEvery` for `kKeepAliveFor`, then never, until a STATE acts again. A true answer counts as sent.
+  [[nodiscard]] bool may_be_told(Time now) noexcept {
+    if (silence(now) > kForceStops && (forgotten(now) || now < told_ + kKeepAliveEvery)) return false;
+    told_ = now;
+    return true;
+  }
+  /// Silent for so long that nothing at all goes there any more.
+  [[nodiscard]] bool forgotten(Time now) const noexcept { return silence(now) > kForceStops + kKeepAliveFor; }
+  static constexpr Duration kForceStops = std::chrono::seconds(2), kKeepAliveEvery = std::chrono::seconds(1), kKeepAliveFor = std::chrono::seconds(60);
+
   /// For whoever may give memory back; nothing else may be called afterwards.
   [[nodiscard]] std::unique_ptr<link::Link> give_up() noexcept { return std::move(link_); }
   [[nodiscard]] link::Link& link() noexcept { return *link_; }
@@ -69,7 +80,7 @@ class Connection {
   std::optional<Endpoint> at_;
   PathProof proof_;
   RateLimit rate_;
-  std::uint64_t tokens_ = 0;
+  Time told_{};  ///< the last FORCE that was due
 };
 
 }  // namespace tandem::server

@@ -39,7 +39,7 @@ void SeatPort::take(Time now, Entry& entry) noexcept {
   was_present_ = false;
 }
 
-SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept {
+SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes, PathTokens& tokens) noexcept {
   Heard heard;
   const auto opened = connection_->open(now, from, bytes, codec_);
   if (!opened) return heard;
@@ -65,7 +65,7 @@ SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<
       const PortSample& next = decoded->message.port;
       if (alive(now) && rx_.engaged && decoded->message.engaged && jumps(next)) conduct_.offend(now);
       heard.acted = true;
-      connection_->acts(now, from, *opened, decoded->preamble);
+      connection_->acts(now, from, *opened, decoded->preamble, tokens);
       for (std::size_t a = 0; a < scene_->dof; ++a) energy_fell_ |= decoded->message.port.e_in[a] < rx_.port.e_in[a];
       rx_ = decoded->message;
       ++generation_;

@@ -35,7 +35,7 @@ class SeatPort {
     bool acted = false;      ///< a newer STATE
     bool forbidden = false;  ///< its role may not send this
   };
-  Heard on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+  Heard on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes, PathTokens& tokens) noexcept TANDEM_REALTIME;
 
   /// Heard from within the hold limit.
   [[nodiscard]] bool alive(Time now) const noexcept;
@@ -90,6 +90,10 @@ class SeatPort {
 
   /// Somebody is there to be told: he spoke, and his address is proven.
   [[nodiscard]] bool reachable() const noexcept { return taken_ && connection_->at() && generation_ > 0; }
+  /// A FORCE that is due may go out: the peer spoke lately, or it is time for a keep-alive. @pre reachable()
+  [[nodiscard]] bool may_be_told(Time now) noexcept { return connection_->may_be_told(now); }
+  /// Silent for so long that nothing goes there any more. @pre reachable()
+  [[nodiscard]] bool forgotten(Time now) const noexcept { return connection_->forgotten(now); }
   /// Seals `tx`, CLOSE, or a challenge that is due; size 0 if nothing is.
   [[nodiscard]] Transmit transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
   [[nodiscard]] Transmit transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept;

@@ -103,10 +103,10 @@ void Session::on_datagram(Time now, const Endpoint& from, std::span<const std::b
   }
   const std::size_t i = static_cast<std::size_t>(place_of(header->cid)) - 1;
   if (i >= seats_.size() || !seats_[i].taken() || seats_[i].link()->own_cid() != header->cid) {
-    if (!visitors_.on_datagram(now, from, header->cid, bytes)) ++stray_;
+    if (!visitors_.on_datagram(now, from, header->cid, bytes, path_tokens_)) ++stray_;
     return;
   }
-  hear(now, i, seats_[i].on_datagram(now, from, bytes));
+  hear(now, i, seats_[i].on_datagram(now, from, bytes, path_tokens_));
 }
 
 JoinResult Session::may_admit(Time now, std::size_t i, bool same_owner) const noexcept {
@@ -150,7 +150,8 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
   next_to_tell_ = 0;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     if (auto* l = seats_[i].link()) l->tick(now);
-    send_due_[i] = due_to_be_told(i) && seats_[i].reachable();
+    const bool due = due_to_be_told(i) && seats_[i].reachable();
+    send_due_[i] = due && (closing(i) ? !seats_[i].forgotten(now) : seats_[i].may_be_told(now));
   }
   visitors_.on_tick(now);
 }
@@ -277,18 +278,20 @@ void Session::fill_force_messages(Time now) noexcept {
   }
 }
 
+bool Session::closing() const noexcept { return over_ || (state_ == wire::SessionState::kEnding && farewell_ < kCloseRepeats); }
+bool Session::closing(std::size_t i) const noexcept { return closing() || (leaving(i) && farewells_[i].ticks <= kCloseRepeats); }
+
 std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
-  const bool closing = over_ || (state_ == wire::SessionState::kEnding && farewell_ < kCloseRepeats);
+  const bool all = closing();
   for (; next_to_tell_ < seats_.size(); ++next_to_tell_) {
     const std::size_t i = next_to_tell_;
     if (const auto challenge = seats_[i].transmit_challenge(now, tick_, buffer)) return challenge;
     if (!std::exchange(send_due_[i], false)) continue;
-    const bool last = leaving(i) && farewells_[i].ticks <= kCloseRepeats;
-    const Transmit out = closing || last ? seats_[i].transmit_close(now, tick_, closing ? close_reason_ : farewells_[i].why, buffer)
-                                         : seats_[i].transmit(now, tick_, buffer);
+    const Transmit out = closing(i) ? seats_[i].transmit_close(now, tick_, all ? close_reason_ : farewells_[i].why, buffer)
+                                    : seats_[i].transmit(now, tick_, buffer);
     if (out.size > 0) return out;
   }
-  const auto out = visitors_.poll_transmit(now, tick_, closing ? std::optional{close_reason_} : std::nullopt, buffer);
+  const auto out = visitors_.poll_transmit(now, tick_, all ? std::optional{close_reason_} : std::nullopt, buffer);
   if (!out) next_to_tell_ = 0;
   return out;
 }

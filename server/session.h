@@ -13,6 +13,7 @@
 #include "server/audit.h"
 #include "server/checkpoint.h"
 #include "server/load_ladder.h"
+#include "server/path_tokens.h"
 #include "server/seat_port.h"
 #include "server/stop_lane.h"
 #include "server/tick_record.h"
@@ -55,6 +56,8 @@ class Session {
   [[nodiscard]] JoinResult admit_visitor(Time now, std::unique_ptr<link::Link>& link, std::size_t* place = nullptr) noexcept;
 
   void on_datagram(Time now, const Endpoint& from, std::span<const std::byte> bytes) noexcept;
+  /// Where path challenges take their tokens. Whoever hosts the session fills it, before the first datagram and between ticks.
+  [[nodiscard]] PathTokens& path_tokens() noexcept { return path_tokens_; }
   /// From the next tick on: what is gone without, and whether hands are let go, because the thread has too much to do.
   void relieve(const Relief& relief) noexcept { relief_ = relief; }
   [[nodiscard]] const Relief& relief() const noexcept { return relief_; }
@@ -137,6 +140,9 @@ class Session {
   /// Nobody is engaged now: somebody stopped the session, or it does not keep its time.
   [[nodiscard]] bool lets_go() const noexcept { return stop_lane_.on() || relief_.passive; }
   [[nodiscard]] bool due_to_be_told(std::size_t seat) noexcept TANDEM_REALTIME;
+  /// Everybody is told CLOSE now; or this seat is.
+  [[nodiscard]] bool closing() const noexcept;
+  [[nodiscard]] bool closing(std::size_t seat) const noexcept;
   // Authority (session_authority.cpp).
   enum class Moment : std::uint8_t { kDecision, kCarryingOut };
   void hear_authority(Time now, std::size_t seat, const wire::AuthorityMessage& wish) noexcept TANDEM_REALTIME;
@@ -181,6 +187,7 @@ class Session {
   bool passive_ = false;           ///< as last written down
   Reception reception_;
   Visitors visitors_;
+  PathTokens path_tokens_;
 
   wire::SessionState state_ = wire::SessionState::kWaiting;
   bool engage_ = false;                  ///< all required seats were ready: springs may be loaded

@@ -35,7 +35,8 @@ bool Visitors::dismiss(std::size_t place, std::uint32_t cid, wire::CloseReason w
   return true;
 }
 
-bool Visitors::on_datagram(Time now, const Endpoint& from, std::uint32_t cid, std::span<const std::byte> bytes) noexcept {
+bool Visitors::on_datagram(Time now, const Endpoint& from, std::uint32_t cid, std::span<const std::byte> bytes,
+                           PathTokens& tokens) noexcept {
   const auto found =
       std::ranges::find_if(visitors_, [&](const Visitor& v) { return v.here && v.connection->link().own_cid() == cid; });
   if (found == visitors_.end()) return false;
@@ -47,7 +48,7 @@ bool Visitors::on_datagram(Time now, const Endpoint& from, std::uint32_t cid, st
     if (!decoded) {
       connection.link().refuse_body();
     } else if (opened->newer) {
-      connection.acts(now, from, *opened, decoded->preamble);
+      connection.acts(now, from, *opened, decoded->preamble, tokens);
     }
   } else if (opened->type == wire::Type::kClose && codec_.decode_close(opened->plaintext)) {
     found->here = false;

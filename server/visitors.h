@@ -26,7 +26,7 @@ class Visitors {
   /// Sends one away: he is told, then the place is free. @return false: he is not there any more
   bool dismiss(std::size_t place, std::uint32_t cid, wire::CloseReason why) noexcept;
   /// @return false: not of a visitor
-  bool on_datagram(Time now, const Endpoint& from, std::uint32_t cid, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
+  bool on_datagram(Time now, const Endpoint& from, std::uint32_t cid, std::span<const std::byte> bytes, PathTokens& tokens) noexcept TANDEM_REALTIME;
   /// Forgets who fell silent; the others are due for a FORCE.
   void on_tick(Time now) noexcept TANDEM_REALTIME;
 

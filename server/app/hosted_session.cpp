@@ -2,9 +2,11 @@
 
 #include <sys/eventfd.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "common/trust/io/state_folder.h"
 #include "server/session_monitor.h"
 
 namespace tandem::server {
@@ -39,7 +41,18 @@ HostedSession::HostedSession(const SceneSpec& scene, Slaves slaves, std::uint8_t
       slot_(slot),
       session_(from == nullptr ? Session(scene, std::move(slaves.devices), slaves.scale) : Session(scene, std::move(slaves.devices), slaves.scale, *from)),
       records_(&records),
-      over_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+      over_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  draw_path_tokens();
+}
+
+/// From the kernel: nobody can know a token but whoever reads the address it is sent to.
+void HostedSession::draw_path_tokens() noexcept {
+  PathTokens& tokens = session_.path_tokens();
+  std::array<std::uint64_t, PathTokens::kMax> drawn;
+  const auto wanted = std::span{drawn}.first(tokens.room());
+  trust::fill_random(std::as_writable_bytes(wanted));
+  for (const std::uint64_t token : wanted) tokens.add(token);
+}
 
 void HostedSession::keep_in(std::shared_ptr<CheckpointMail> mail, std::uint64_t epoch) {
   mail_ = std::move(mail);
@@ -60,6 +73,7 @@ void HostedSession::tick(Time now, std::uint32_t missed, const MachineStatus& ma
     keep_now_ = keep_now_ || moves_checkpoint(event->what);
   }
   keep_now_ = keep_now_ || session_.begun() != std::exchange(begun_, session_.begun());
+  if (session_.path_tokens().low()) draw_path_tokens();
   if (mail_ && (keep_now_ || ++since_kept_ >= kept_every_)) lay_down_checkpoint();
   SessionMonitor{}.check(session_, violations_);
   const bool seldom = machine.relief.rung >= Rung::kTelemetry;

@@ -59,6 +59,7 @@ class HostedSession {
   void look_at_seat(std::size_t seat, Time now) noexcept;
   void publish(Time now, const MachineStatus& machine) noexcept;
   void lay_down_checkpoint() noexcept;
+  void draw_path_tokens() noexcept;
 
   const SceneSpec* scene_;
   std::uint8_t slot_;

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "tests/server/rig.h"
+#include "tests/server/liar.h"
 
 namespace tandem::server {
 namespace {
@@ -14,35 +14,6 @@ namespace {
 using namespace test;
 
 constexpr std::size_t kTrainer = 0, kTrainee = 1;
-
-/// Turns the honest core's STATE into another message under the same counter.
-class Liar {
- public:
-  explicit Liar(const Rig& rig)
-      : cid_(rig.seats[kTrainee].params.peer_cid),
-        seal_(link::key_of(rig.seats[kTrainee].params.secrets.to_server, rig.seats[kTrainee].params.secrets.cipher)),
-        codec_(rig.scene.dof, rig.scene.port) {}
-
-  wire::Received<wire::StateMessage> read(const Bytes& d) {
-    Bytes plain(d.size() - 32);
-    EXPECT_TRUE(seal_.open(link::read_header(d)->counter, d, plain));
-    return *codec_.decode_state(plain);
-  }
-  template <class Message>
-  Bytes say(std::uint64_t counter, wire::Type type, const wire::Preamble& preamble, const Message& message, std::size_t cut = 0) {
-    Bytes out(link::kDatagramMax);
-    const std::size_t plain = codec_.encode(preamble, message, std::span{out}.subspan(link::kHeaderSize)) - cut;
-    out.resize(plain + 32);
-    link::write_header({type, 0, cid_, counter}, std::span{out}.first<link::kHeaderSize>());
-    EXPECT_TRUE(seal_.seal(counter, out));
-    return out;
-  }
-
- private:
-  std::uint32_t cid_;
-  link::Seal seal_;
-  wire::Codec codec_;
-};
 
 using Lie = std::function<std::vector<Bytes>(Liar&, const Bytes& honest, int ms)>;
 
@@ -59,7 +30,7 @@ Felt felt(const Lie& lie, int milliseconds = 500) {
   Rig rig("free_motion"), twin("free_motion");
   for (Rig* r : {&rig, &twin}) r->run(3s);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kRunning);
-  Liar liar{rig};
+  Liar liar{rig, kTrainee};
   Felt out;
   for (int ms = 0; ms < milliseconds; ++ms) {
     for (Rig* r : {&rig, &twin}) {

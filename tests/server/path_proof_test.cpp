@@ -18,10 +18,46 @@ Endpoint address(std::uint8_t n) {
   return e;
 }
 
+/// Counts up from `first`: a test knows which is next.
+PathTokens tokens_from(std::uint64_t first) {
+  PathTokens tokens;
+  for (std::uint64_t n = PathTokens::kMax; n-- > 0;) tokens.add(first + n);
+  return tokens;
+}
+
+TEST(PathTokens, GivesEachTokenOnceAndNoneWhenEmpty) {
+  PathTokens tokens = tokens_from(7);
+  EXPECT_EQ(tokens.room(), 0U);
+  tokens.add(99);  // full: ignored
+  for (std::uint64_t n = 0; n < PathTokens::kMax; ++n) EXPECT_EQ(tokens.take(), 7 + n);
+  EXPECT_TRUE(tokens.low());
+  EXPECT_FALSE(tokens.take());
+  PathProof proof;
+  proof.seen(at(0ms), address(1), tokens);
+  EXPECT_FALSE(proof.due(at(0ms))) << "without a token nobody is asked";
+  tokens.add(5);
+  proof.seen(at(1ms), address(1), tokens);
+  EXPECT_EQ(proof.due(at(1ms))->token, 5U);
+}
+
+TEST(PathProof, SendsNoMoreChallengesThanDatagramsCame) {
+  PathTokens tokens = tokens_from(7);
+  PathProof proof;
+  proof.seen(at(0ms), address(1), tokens);
+  int asked = 0;
+  for (Duration t = 0ms; t < 1000ms; t += 1ms) asked += proof.due(at(t)) ? 1 : 0;
+  EXPECT_EQ(asked, 1) << "one datagram came, whose source may be forged";
+  proof.seen(at(1000ms), address(1), tokens);
+  proof.seen(at(1000ms), address(1), tokens);
+  for (Duration t = 1000ms; t < 2000ms; t += 1ms) asked += proof.due(at(t)) ? 1 : 0;
+  EXPECT_EQ(asked, 3);
+}
+
 TEST(PathProof, AsksFiveTimesIn250MillisecondsAndNoMore) {
+  PathTokens tokens = tokens_from(7);
   PathProof proof;
   EXPECT_FALSE(proof.due(at(0ms)));
-  proof.seen(at(0ms), address(1), 7);
+  proof.seen(at(0ms), address(1), tokens);
   std::vector<Duration> asked;
   for (Duration t = 0ms; t < 240ms; t += 1ms) {
     if (const auto c = proof.due(at(t))) {
@@ -29,14 +65,15 @@ TEST(PathProof, AsksFiveTimesIn250MillisecondsAndNoMore) {
       EXPECT_EQ(c->token, 7U);
       asked.push_back(t);
     }
-    proof.seen(at(t), address(1), 8);  // more datagrams from there are no more challenges
+    proof.seen(at(t), address(1), tokens);  // more datagrams from there are no more challenges
   }
   EXPECT_EQ(asked, (std::vector<Duration>{0ms, 50ms, 100ms, 150ms, 200ms}));
 }
 
 TEST(PathProof, TakesTheAnswerOnlyFromThereAndOnlyOnce) {
+  PathTokens tokens = tokens_from(7);
   PathProof proof;
-  proof.seen(at(0ms), address(1), 7);
+  proof.seen(at(0ms), address(1), tokens);
   EXPECT_FALSE(proof.answered(address(2), 7));
   EXPECT_FALSE(proof.answered(address(1), 8));
   EXPECT_TRUE(proof.answered(address(1), 7));
@@ -46,10 +83,10 @@ TEST(PathProof, TakesTheAnswerOnlyFromThereAndOnlyOnce) {
 
 TEST(PathProof, TakesAnAnswerThatWasLongUnderWay) {
   PathProof proof;
-  std::uint64_t token = 7;
+  PathTokens tokens = tokens_from(7);
   int asked = 0;
   for (Duration t = 0ms; t < 1000ms; t += 1ms) {
-    proof.seen(at(t), address(1), token++);
+    proof.seen(at(t), address(1), tokens);
     asked += proof.due(at(t)) ? 1 : 0;
   }
   EXPECT_EQ(asked, 20) << "five in 250 ms, again and again while he is heard there";
@@ -57,17 +94,18 @@ TEST(PathProof, TakesAnAnswerThatWasLongUnderWay) {
 }
 
 TEST(PathProof, AsksTheClientThoughAStrangerSendsCopies) {
+  PathTokens tokens = tokens_from(7);
   PathProof proof;
-  proof.seen(at(0ms), address(9), 7);  // a copy, sent on by a stranger
-  proof.seen(at(1ms), address(1), 8);
+  proof.seen(at(0ms), address(9), tokens);  // a copy, sent on by a stranger
+  proof.seen(at(1ms), address(1), tokens);
   EXPECT_EQ(proof.due(at(1ms))->to, address(9));
   EXPECT_EQ(proof.due(at(1ms))->to, address(1));
-  proof.seen(at(2ms), address(8), 9);  // a third is not asked at once
+  proof.seen(at(2ms), address(8), tokens);  // a third is not asked at once
   EXPECT_FALSE(proof.due(at(2ms)));
-  proof.seen(at(50ms), address(8), 10);
+  proof.seen(at(50ms), address(8), tokens);
   EXPECT_FALSE(proof.answered(address(9), 7)) << "the longest asked made room";
   EXPECT_TRUE(proof.answered(address(1), 8));
-  EXPECT_FALSE(proof.answered(address(8), 10)) << "who answered first is it";
+  EXPECT_FALSE(proof.answered(address(8), 9)) << "who answered first is it";
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST(SplitBrain, TheOldOwnerIsObeyedByNobodyAndHearsNothing) {
       twin.to_clients(twin.server_tick());
       twin.now += 1ms;
     }
-    EXPECT_GT(from_old, 5000U) << "the old owner said nothing: nothing was tried";
+    EXPECT_GT(from_old, 3900U) << "the old owner said nothing in the two seconds in which it speaks to a silent client: nothing was tried";
     EXPECT_EQ(to_old > 5000U, hears);
     EXPECT_EQ(generations(), acted) << "0 datagrams of the new epoch act at the old owner";
     EXPECT_EQ(rig.told.value, twin.told.value);

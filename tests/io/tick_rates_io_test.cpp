@@ -1,0 +1,117 @@
+// One hand presses on bone at several tick rates: live over loopback, in virtual time, and by the springs in series. Ratios of forces are
+// asserted and that what was missed is counted, never how long anything took.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "tests/io/programs.h"
+#include "tests/io/traces.h"
+#include "tests/support/press_scene.h"
+
+namespace tandem::test {
+namespace {
+
+constexpr double kWithin = 0.05;
+
+/// A live session of one rate: a server and a client.
+struct Live {
+  Live(const Folder& folder, double tick_hz) : folder_(folder), name_(std::to_string(static_cast<int>(tick_hz))) {
+    press.tick_hz = tick_hz;
+    press.silence_ms = 200;  // a busy machine is no loss
+    host_.emplace(hosting(folder.write(name_ + ".textproto", press.text()), {"--json", file(".server.json"), "--trace", file(".server.csv")}));
+    client_.emplace(client(address_of(*host_), "hand", {"--json", file(".json"), "--trace", file(".csv")}));
+  }
+  void end() {
+    ASSERT_EQ(client_->wait(), 0) << client_->err();
+    ASSERT_EQ(host_->wait(), 0) << host_->err();
+  }
+  [[nodiscard]] std::string file(const std::string& ending) const { return folder_.file(name_ + ending); }
+
+  /// Mean that the motor gave the resting hand [N].
+  [[nodiscard]] double force() const {
+    const Trace trace{folder_.read(name_ + ".csv")};
+    double sum = 0;
+    std::size_t n = 0;
+    for (std::size_t row = 0; row < trace.size(); ++row) {
+      if (!press.rests(trace.at(row, "t_s"))) continue;
+      sum -= trace.at(row, "f_out_x");
+      ++n;
+    }
+    EXPECT_GT(n, 10U) << name_ << " Hz: nothing to average";
+    return sum / static_cast<double>(std::max<std::size_t>(n, 1));
+  }
+  /// Whatever did not happen in time is in a count.
+  void expect_missed_ticks_are_counted() const {
+    const Json own = folder_.json(name_ + ".json"), report = folder_.json(name_ + ".server.json");
+    ASSERT_FALSE(own.is_discarded() || report.is_discarded());
+    const double lived = own["machine"]["ticks"].get<double>() + own["machine"]["missed_ticks"].get<double>();
+    EXPECT_NEAR(lived / (press.tick_hz * own["seconds"].get<double>()), 1, 0.1) << name_ << " Hz, client: " << own["machine"];
+    const Trace rows{folder_.read(name_ + ".server.csv")};
+    const double ticks = press.duration_s * press.tick_hz;
+    EXPECT_GE(static_cast<double>(rows.size()) + report["machine"]["missed_ticks"].get<double>() + report["machine"]["recorder_dropped"].get<double>(), ticks) << name_ << " Hz, server: " << report["machine"];
+    EXPECT_LE(static_cast<double>(rows.size()), ticks + 2);
+    std::printf("[   live   ] %s Hz: client %.0f ticks, %.0f missed; server %zu rows, %.0f missed\n", name_.c_str(), own["machine"]["ticks"].get<double>(), own["machine"]["missed_ticks"].get<double>(),
+                rows.size(), report["machine"]["missed_ticks"].get<double>());
+  }
+
+  PressScene press;
+
+ private:
+  const Folder& folder_;
+  std::string name_;
+  std::optional<Process> host_, client_;
+};
+
+/// The same scene in virtual time [N].
+double virtual_force(const Folder& folder, const PressScene& press) {
+  const std::string name = "virtual" + std::to_string(static_cast<int>(press.tick_hz));
+  Process run({TANDEM_NETSIM, "run", folder.write(name + ".textproto", press.text()), "--quiet", "--no-quality", "--trace", folder.file(name + ".csv")});
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  const Trace trace{folder.read(name + ".csv")};
+  double sum = 0;
+  std::size_t n = 0;
+  for (std::size_t row = 0; row < trace.size(); ++row)
+    if (press.rests(trace.at(row, "t_s"))) sum -= trace.at(row, "hand.f_out_x"), ++n;
+  return sum / static_cast<double>(std::max<std::size_t>(n, 1));
+}
+
+void expect_one_force(const Folder& folder, const Live& live) {
+  SCOPED_TRACE(live.press.tick_hz);
+  const double felt = live.force(), simulated = virtual_force(folder, live.press);
+  std::printf("[   live   ] %.0f Hz: %.3f N live, %.3f N in virtual time, %.3f N by the springs\n", live.press.tick_hz, felt, simulated, live.press.force());
+  EXPECT_NEAR(felt / simulated, 1, kWithin);
+  EXPECT_NEAR(felt / live.press.force(), 1, kWithin);
+}
+
+TEST(TickRatesLive, FeelTheSameFrom100To500HzAsInVirtualTime) {
+  const Folder folder;
+  Live a(folder, 100), b(folder, 200), c(folder, 500);
+  for (Live* live : {&a, &b, &c}) {
+    live->end();
+    if (HasFatalFailure()) return;
+    expect_one_force(folder, *live);
+    live->expect_missed_ticks_are_counted();
+  }
+}
+
+TEST(TickRatesLive, FeelTheSameAt4kHz) {
+  const Folder folder;
+  Live live(folder, 4000);
+  live.end();
+  if (HasFatalFailure()) return;
+  expect_one_force(folder, live);
+  live.expect_missed_ticks_are_counted();
+}
+
+TEST(TickRatesLive, FeelTheSameAt10kHz) {
+  const Folder folder;
+  Live live(folder, 10'000);
+  live.end();
+  if (HasFatalFailure()) return;
+  expect_one_force(folder, live);
+  live.expect_missed_ticks_are_counted();
+}
+
+}  // namespace
+}  // namespace tandem::test

@@ -1,0 +1,96 @@
+// A client that fell silent: FORCE stops 2 s after its last STATE, a keep-alive of 1 Hz follows for 60 s, then nothing. It comes back at
+// any time by speaking.
+#include <gtest/gtest.h>
+
+#include "tests/server/rig.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace test;
+
+void endless(SceneSpec& scene) { scene.duration = 3600; }
+
+/// Seat 0 ticks and hears, but nothing of it arrives; the others are as always. @return when it was sent something, since the begin [ms]
+std::vector<int> cut_off(Rig& rig, int milliseconds) {
+  std::vector<int> told;
+  for (int ms = 0; ms < milliseconds; ++ms) {
+    for (std::size_t i = 0; i < rig.seats.size(); ++i)
+      for (const Bytes& d : rig.client_tick(i))
+        if (i > 0) rig.session->on_datagram(rig.now, address(rig.seats[i].at), d);
+    const auto sent = rig.server_tick();
+    for (const auto& [to, bytes] : sent)
+      if (to == rig.seats[0].at) told.push_back(ms);
+    rig.to_clients(sent);
+    rig.now += 1ms;
+  }
+  return told;
+}
+
+TEST(SilentPeer, GetsForceForTwoSecondsThenOneDatagramASecondForAMinuteThenNothing) {
+  Rig rig("one_axis", 3, {}, 0, endless);
+  rig.run(1s);
+  const std::vector<int> told = cut_off(rig, 70'000);
+  const auto between = [&](int from, int to) { return std::ranges::count_if(told, [&](int ms) { return ms >= from && ms < to; }); };
+  EXPECT_GE(between(0, 1999), 1998);
+  EXPECT_LE(between(2001, 62'001), 60);
+  EXPECT_GE(between(2001, 62'001), 59);
+  EXPECT_EQ(between(62'001, 70'000), 0);
+  int last = -1;
+  for (const int ms : told) {
+    if (ms > 2001 && last >= 0) {
+      EXPECT_GE(ms - last, 1000);
+    }
+    last = ms;
+  }
+}
+
+TEST(SilentPeer, IsServedAgainAtOnceWhenItSpeaks) {
+  for (const int silent : {2500, 30'000, 70'000}) {
+    SCOPED_TRACE(silent);
+    Rig rig("one_axis", 3, {}, 0, endless);
+    rig.run(3s);
+    ASSERT_TRUE(rig.seats[0].core->gate().active());
+    static_cast<void>(cut_off(rig, silent));
+    EXPECT_FALSE(rig.seats[0].core->gate().active());
+    const int before = rig.forces[1];
+    rig.run(100ms);
+    EXPECT_GE(rig.forces[1] - before, 99);
+    rig.run(3s);
+    EXPECT_TRUE(rig.seats[0].core->gate().active()) << "engaged again, on the same connection";
+  }
+}
+
+TEST(SilentPeer, IsAnObserverToo) {
+  constexpr std::size_t observer = 1;
+  Rig rig("free_motion", 3, {}, 0, [](SceneSpec& scene) {
+    scene.seats[observer].role = Role::kObserver;
+    scene.seats[observer].required = false;
+    endless(scene);
+  });
+  rig.run(500ms);
+  int told = 0;
+  for (int ms = 0; ms < 10'000; ++ms) {
+    for (std::size_t i = 0; i < rig.seats.size(); ++i)
+      for (const Bytes& d : rig.client_tick(i))
+        if (i != observer) rig.session->on_datagram(rig.now, address(rig.seats[i].at), d);
+    for (const auto& [to, bytes] : rig.server_tick())
+      if (to == rig.seats[observer].at && ms > 2001) ++told;
+    rig.now += 1ms;
+  }
+  EXPECT_LE(told, 8);
+  EXPECT_GE(told, 7);
+}
+
+TEST(SilentPeer, IsToldOfTheEndUnlessItIsForgotten) {
+  for (const auto& [silent, said] : {std::pair{10'000, true}, std::pair{63'000, false}}) {
+    Rig rig("one_axis", 3, {}, 0, endless);
+    rig.run(1s);
+    static_cast<void>(cut_off(rig, silent));
+    rig.session->stop(wire::CloseReason::kServerStops);
+    EXPECT_EQ(!cut_off(rig, 300).empty(), said) << silent;
+  }
+}
+
+}  // namespace
+}  // namespace tandem::server

@@ -1,0 +1,138 @@
+// Forces and links at every tick rate a scene may have, in virtual time.
+#include <gtest/gtest.h>
+
+#include "netsim/world_waiting.h"
+#include "proto/scene_text.h"
+#include "tests/support/press_scene.h"
+#include "tests/support/world_run.h"
+
+namespace tandem {
+namespace {
+
+using namespace std::chrono_literals;
+using test::PressScene;
+
+SceneSpec parsed(const PressScene& press) {
+  auto scene = parse_scene(press.text(), "press.textproto");
+  if (!scene) throw std::runtime_error(to_text(scene.error()));
+  return *scene;
+}
+
+std::unique_ptr<netsim::World> world_of(const PressScene& press, double delay_ms = 0) {
+  auto made = netsim::World::make({parsed(press), netsim::link_from(test::delayed(delay_ms)), 1, {}});
+  if (!made) throw std::runtime_error(made.error());
+  return std::move(*made);
+}
+
+struct Pressed {
+  double force = 0;      ///< mean that the motor gave once the hand rested [N]
+  double commanded = 0;  ///< mean that the seat asked for [N]
+  std::uint64_t expired = 0;
+  std::string trouble;
+};
+
+Pressed pressed(const PressScene& press, double delay_ms = 0) {
+  const auto world = world_of(press, delay_ms);
+  Pressed out;
+  std::size_t n = 0;
+  while (world->step()) {
+    if (!press.rests(world->session().time())) continue;
+    ++n;
+    out.force -= world->device(0).state().f_out[0];
+    out.commanded -= world->seat(0)->sample().telemetry.f_cmd[0];
+  }
+  out.force /= static_cast<double>(std::max<std::size_t>(n, 1));
+  out.commanded /= static_cast<double>(std::max<std::size_t>(n, 1));
+  out.expired = world->device(0).counts().expired;
+  out.trouble = world->trouble();
+  return out;
+}
+
+class TickRates : public testing::TestWithParam<double> {};
+
+// Four springs in series, and that of the hand: the force on a resting hand has nothing to do with the rate.
+TEST_P(TickRates, GiveTheForceOfTheSpringsInSeries) {
+  PressScene press;
+  press.tick_hz = GetParam();
+  const Pressed p = pressed(press);
+  EXPECT_EQ(p.trouble, "");
+  EXPECT_NEAR(p.force / press.force(), 1, 0.02) << p.force << " N delivered, " << p.commanded << " N commanded, " << press.force() << " N by the springs";
+  EXPECT_EQ(p.expired, 0U) << "commands that died of age between two ticks";
+}
+
+// A loop of one second, which a gate with loop_age_max_ms = 2500 trusts.
+TEST_P(TickRates, EngageOverALoopOfOneSecond) {
+  PressScene press;
+  press.tick_hz = GetParam();
+  press.duration_s = 0.5;
+  const auto world = world_of(press, 500);
+  bool engaged = false;
+  while (world->step() && world->now() < Time{} + 20s) engaged = engaged || world->seat(0)->gate().active();
+  EXPECT_EQ(world->trouble(), "");
+  EXPECT_TRUE(engaged);
+  EXPECT_GT(world->session().time(), 0.4);
+  EXPECT_NEAR(seconds(world->seat(0)->link().freshness().rtt_p50()), 1.0, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TickRates, testing::Values(100, 150, 200, 250, 300, 400, 500, 1000, 2000, 4000, 6000, 10000),
+                         [](const auto& rate) { return std::to_string(static_cast<int>(rate.param)) + "Hz"; });
+
+// A device whose clock is ahead takes a part of its life from every command.
+TEST(TickRate, ASimulatedDevicesClockIsTheWorlds) {
+  PressScene press;
+  press.tick_hz = 100;
+  const auto world = world_of(press);
+  for (int i = 0; i < 100; ++i) {
+    const Time tick = world->now();
+    ASSERT_TRUE(world->step());
+    ASSERT_EQ(world->device(0).state().sampled_at, tick) << i;
+  }
+}
+
+TEST(TickRate, EngagesAt10kHzOverTheOldestLoopThatAGateMayTrust) {
+  PressScene press;
+  press.tick_hz = 10000;
+  press.duration_s = 0.2;
+  const auto world = world_of(press, 1200);
+  while (world->step() && world->now() < Time{} + 20s) {}
+  EXPECT_EQ(world->trouble(), "");
+  EXPECT_GT(world->session().time(), 0.1);
+}
+
+/// Why a session did not begin that waits as long as people would.
+std::string refusal(int loop_age_ms, double delay_ms) {
+  PressScene press;
+  press.tick_hz = 100;
+  press.loop_age_ms = loop_age_ms;
+  press.duration_s = 1;
+  const auto world = world_of(press, delay_ms);
+  while (world->step()) {}
+  return world->trouble();
+}
+
+TEST(TickRate, AnErrorNamesTheKeyThatForbidsTheLoopAndWhatWasMeasured) {
+  const std::string old = refusal(100, 150);
+  EXPECT_NE(old.find("hand could not be engaged: its loop is 3"), std::string::npos) << old;
+  EXPECT_NE(old.find("gate.loop_age_max_ms = 100 (20 to 2500)"), std::string::npos) << old;
+  EXPECT_EQ(old.find("silence_limit"), std::string::npos) << old;
+
+  const std::string beyond = refusal(2500, 2100);  // older than what is remembered
+  EXPECT_NE(beyond.find("none of its datagrams was answered within 4000 ms"), std::string::npos) << beyond;
+  EXPECT_NE(beyond.find("gate.loop_age_max_ms = 2500"), std::string::npos) << beyond;
+}
+
+TEST(TickRate, AnErrorNamesTheSilenceLimitWhereDatagramsComeTooSeldom) {
+  PressScene press;
+  auto made = netsim::World::make({parsed(press), netsim::link_from(test::with_outages(test::delayed(5), 0.06, 1.5)), 1, {}});
+  ASSERT_TRUE(made);
+  netsim::World& world = **made;
+  while (world.step() && (world.seat(0) == nullptr || world.seat(0)->gate().trips() == 0)) {}
+  for (int i = 0; i < 200; ++i) world.step();
+  const std::string why = netsim::why_not_engaged(world.scene(), 0, world.seat(0), world.session(), world.now(), world.now());
+  EXPECT_NE(why.find("gate.silence_limit_ms = 20"), std::string::npos) << why;
+  EXPECT_NE(why.find("up to 6"), std::string::npos) << why;
+  EXPECT_EQ(why.find("loop_age"), std::string::npos) << why;
+}
+
+}  // namespace
+}  // namespace tandem
