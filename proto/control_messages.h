@@ -106,7 +106,7 @@ enum class Reason : std::uint8_t {
   kDeviceUnfit = 10,
   kFull = 11,         ///< this server has no room for more
   kDraining = 12,     ///< this server is about to end
-  kBlocked = 13,      ///< too many failures from this address
+  kBlocked = 13,      ///< too many wrong codes from this address or of this key
   kNotAllowed = 14,   ///< this role may not
   kTooFast = 15,      ///< too many of these per second
   kBadFrame = 16,     ///< not a frame, or one out of turn

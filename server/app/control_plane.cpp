@@ -29,10 +29,9 @@ constexpr auto kRest = std::chrono::milliseconds(100);
 constexpr auto kSweep = std::chrono::milliseconds(250);
 /// Connections taken from the kernel per second, and at once. To take one and close it again costs some 20 us.
 constexpr double kTakenPerS = 5000, kTakenAtOnce = 1000;
-constexpr std::size_t kWaitingPerPending = 4;
 
 trust::PendingPlaces::Limits pending_limits(const ControlLimits& limits) {
-  return {.places = kWaitingPerPending * limits.pending,
+  return {.places = kMostPerPending * limits.pending,
           .pending = limits.pending,
           .handshakes_per_s = limits.accept.all_rate,
           .handshakes_at_once = limits.accept.all_burst,
@@ -156,8 +155,8 @@ void ControlPlane::took(tcp::socket socket) {
   note(ControlEvent::kAccepted, text);
   const auto placed = pending_.arrive(origin, returning_.contains(origin, now), now);
   waiting_.emplace(placed.id, std::make_shared<Waiting>(Waiting{std::move(socket), origin, source, std::move(text), now}));
-  if (placed.evicted) close_unproven(*placed.evicted, ControlEvent::kEvicted);
   wait_for_first_byte(placed.id);
+  if (placed.evicted) close_unproven(*placed.evicted, ControlEvent::kEvicted);
   tend();
 }
 
@@ -185,13 +184,15 @@ void ControlPlane::first_byte(Id id) {
 }
 
 void ControlPlane::tend() {
-  if (stopped_) return;
+  if (stopped_ || tending_) return;  // what is closed here comes by again
+  tending_ = true;
   const Time now = clocks_.monotonic();
   while (const auto late = pending_.expire(now)) close_unproven(*late, ControlEvent::kDeadline);
   while (const auto next = pending_.next_handshake(now)) {
     if (next->evicted) close_unproven(*next->evicted, ControlEvent::kEvicted);
     begin_handshake(next->id);
   }
+  tending_ = false;
   const auto next = pending_.next_event(now);
   if (!next || (tend_at_ && *tend_at_ <= *next && *tend_at_ > now)) return;
   tend_at_ = *next;

@@ -65,6 +65,9 @@ struct ControlLimits {
   trust::AcceptLimits accept;
 };
 
+/// Connections without a proved key, for each of `ControlLimits::pending`: they wait for a first byte, then for a handshake.
+inline constexpr std::size_t kMostPerPending = 4;
+
 /// Times as the control plane sees them; tests bring their own.
 struct ControlClocks {
   std::function<std::int64_t()> wall = trust::wall_seconds;  ///< [s] since 1970, UTC
@@ -151,7 +154,7 @@ class ControlPlane {
   std::map<Id, std::shared_ptr<ControlConnection>> connections_;
   asio::steady_timer tend_, sweep_;
   std::optional<Time> tend_at_;
-  bool stopped_ = false;
+  bool stopped_ = false, tending_ = false;
   std::array<std::atomic<std::uint64_t>, kControlEvents> counts_{};
 };
 

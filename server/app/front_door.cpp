@@ -1,9 +1,14 @@
 #include "server/app/front_door.h"
 
+#include <sys/resource.h>
+
+#include <algorithm>
 #include <asio/post.hpp>
 #include <future>
 #include <utility>
 
+#include "common/base/format.h"
+#include "common/io/log.h"
 #include "common/trust/io/key_choice.h"
 #include "server/app/metrics.h"
 
@@ -29,6 +34,20 @@ std::expected<trust::ServerTrust, std::string> keys_of(const io::SocketAddress& 
   if (!listen.loopback() && book->empty() && *codes == 0)
     return std::unexpected("nobody could join: no workstation is enrolled in " + *path + ". Run `tandem-server enroll NAME` for each, then start again");
   return trust;
+}
+
+/// Room for every connection the limits allow, beside the program's own files: a login shell often permits 1024 only.
+void permit_descriptors(const ControlLimits& limits) {
+  constexpr rlim_t kOwn = 512;
+  const rlim_t wanted = kMostPerPending * limits.pending + limits.connections + kOwn;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return;
+  limit.rlim_cur = std::min(limit.rlim_max, wanted);
+  setrlimit(RLIMIT_NOFILE, &limit);
+  if (limit.rlim_cur < wanted)
+    io::tell(io::Level::kWarn, {.event = "descriptors", .text = format("the system permits %llu open files, and all connections that the limits allow need %llu: raise it (`ulimit -n`, LimitNOFILE), or lower "
+                                                                       "`limits { pending, connections }`",
+                                                                       static_cast<unsigned long long>(limit.rlim_cur), static_cast<unsigned long long>(wanted))});
 }
 
 }  // namespace
@@ -78,6 +97,7 @@ std::expected<std::unique_ptr<FrontDoor>, std::string> FrontDoor::open(const Pla
   if (trust->on_disk())
     if (std::string problem = trust->begin_serving(trust::wall_seconds()); !problem.empty()) return std::unexpected(std::move(problem));
   trust->keep_audit(plan.audit);
+  permit_descriptors(plan.limits);
   std::unique_ptr<FrontDoor> door{new FrontDoor(std::move(*trust), plan)};
   std::string problem;
   for (int attempt = 0; attempt < kPortsTried; ++attempt) {
