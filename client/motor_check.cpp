@@ -119,7 +119,13 @@ void MotorCheck::end_pulse(Time now) noexcept {
 }
 
 void MotorCheck::judge_pulse(Time now) noexcept {
-  if (given_ < kGivenLeast * ordered_) return next_motor(now, Verdict::kUnconfirmed, Why::kNoForceLeft);
+  if (given_ < kGivenLeast * ordered_) {
+    // The guard began anew, softly, as after a standstill of this program: the pulse is given again when it is through with that.
+    if (++weak_ > kWeakMax) return next_motor(now, Verdict::kUnconfirmed, Why::kNoForceLeft);
+    phase_ = Phase::kWaiting;
+    since_ = now;
+    return;
+  }
   if (forward_) {
     forward_ = false;
     return rest(now);
@@ -137,6 +143,7 @@ void MotorCheck::next_motor(Time now, Verdict verdict, Why why) noexcept {
   motor_[now_at_].why = why;
   ++now_at_;
   level_ = 0;
+  weak_ = 0;
   forward_ = true;
   went_ = {};
   if (now_at_ >= motors_) {

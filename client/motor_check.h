@@ -22,6 +22,7 @@ class MotorCheck {
   static constexpr Duration kRest = std::chrono::milliseconds(60);   ///< without motion, before a pulse
   static constexpr Duration kRestLimit = std::chrono::seconds(3);    ///< a joint that does not rest within it stays unconfirmed
   static constexpr Duration kSoftStart = std::chrono::milliseconds(600);  ///< the guard's, which would make the first pulses smaller
+  static constexpr int kWeakMax = 5;      ///< pulses of a motor that may come out too small, and are given again
   static constexpr int kCounts = 4;       ///< of the encoder: a motion
   static constexpr int kRestCounts = 2;   ///< less than a motion
 
@@ -67,6 +68,7 @@ class MotorCheck {
   Time since_;                 ///< of this phase
   Time rest_from_{};           ///< the joint has not moved since
   std::size_t now_at_ = 0, level_ = 0;
+  int weak_ = 0;               ///< pulses of this motor that left the program too small
   bool forward_ = true;        ///< this pulse is towards larger angles
   std::array<bool, 2> went_{};  ///< of this pair: moved the way it was pushed
   std::int32_t from_raw_ = 0, rest_low_ = 0, rest_high_ = 0;

@@ -84,14 +84,29 @@ class ConfirmMotors : public testing::Test {
       model->let_go();
     });
   }
+  /// From there into the middle, once a host has listened for a while, and lets go.
+  void carry(const std::stop_token& stop) {
+    constexpr std::uint64_t kListens = 50;
+    constexpr int kSteps = 400;
+    const std::uint64_t before = node->with_model([&] { return model->host_reports(); });
+    while (!stop.stop_requested() && node->with_model([&] { return model->host_reports(); }) < before + kListens) std::this_thread::sleep_for(1ms);
+    for (int i = 1; i <= kSteps && !stop.stop_requested(); ++i, std::this_thread::sleep_for(1ms))
+      node->with_model([&] { model->place(start * (1 - static_cast<double>(i) / kSteps)); });
+    node->with_model([&] { model->let_go(); });
+  }
+  /// What was printed is in `said`.
   int doctor(const std::string& typed, const std::string& more = "--confirm-motors") {
     rest();
     const Typed person(typed);
+    const std::jthread hand([this](const std::stop_token& stop) { carry(stop); });
     CLI::App app;
     std::function<int()> action;
     client::add_doctor_command(app, action);
     app.parse("doctor --device " + words + " " + more + " --state '" + state + "'");
-    return action();
+    testing::internal::CaptureStdout();
+    const int code = action();
+    said = testing::internal::GetCapturedStdout();
+    return code;
   }
   /// Takes the device as `join` does and pushes for a while. @return force that came out [N]; `why`: what was said of none
   double pushed(std::string& why) {
@@ -116,7 +131,7 @@ class ConfirmMotors : public testing::Test {
   std::unique_ptr<hal::wire::WoodenHapticsModel> model;
   std::unique_ptr<HidrawNode> node;
   hal::Vec3 start;
-  std::string file, words, state;
+  std::string file, words, state, said;
   io::Fd signals_;
 };
 
@@ -130,7 +145,7 @@ TEST_F(ConfirmMotors, NoForceBeforeItAndForceAfterItAndNoneWithAnotherFile) {
   EXPECT_EQ(doctor(""), 1) << "nobody is there";
   EXPECT_EQ(pushed(why), 0.0) << "not agreed, not confirmed";
 
-  ASSERT_EQ(doctor("yes\n"), 0);
+  ASSERT_EQ(doctor("yes\n"), 0) << said;
   EXPECT_EQ(node->with_model([&] { return model->motor_effort().norm(); }), 0.0) << "zeros at the end";
   EXPECT_GT(pushed(why), 0.0);
   EXPECT_EQ(why, "");
@@ -144,6 +159,9 @@ TEST_F(ConfirmMotors, AReversedMotorIsRefusedAlsoIfItWasConfirmedBefore) {
   plug(1);
   confirmed_motors(state, "serial:0001", file);
   EXPECT_EQ(doctor("yes\n"), 1);
+  EXPECT_NE(said.find("base: pushes the way it is told"), std::string::npos) << said;
+  EXPECT_NE(said.find("shoulder: moved AGAINST its order"), std::string::npos) << said;
+  EXPECT_NE(said.find("elbow: not tested"), std::string::npos) << said;
   std::string why;
   EXPECT_EQ(pushed(why), 0.0);
   EXPECT_NE(why.find("did not find all of them right"), std::string::npos) << why;
