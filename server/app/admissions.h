@@ -54,7 +54,7 @@ class Admissions {
 /// What a person is told of a ticket that was refused.
 [[nodiscard]] inline control::Refused refusal_of(const trust::ServerTrust::TicketTrouble& trouble) {
   if (trouble.fault) return {control::Reason::kTicket, trouble.text, 0};
-  return {control::Reason::kTrouble, "the server cannot write down that a ticket is used, so it lets nobody in; its log says more", 0};
+  return {control::Reason::kTrouble, "the server cannot write down that a ticket is used, so it lets nobody in by one; the ticket stays good. Ask who looks after the server: its log says more", 0};
 }
 
 }  // namespace tandem::server

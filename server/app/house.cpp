@@ -220,7 +220,7 @@ std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std:
   if (const auto* ticket = std::get_if<control::TicketCredential>(&request.hello.credential)) {
     const trust::TicketUse use{room.opening.id,  room.opening.epoch, request.hello.seat, role, trust::Pin{request.workstation.spki}, trust::wall_seconds()};
     const auto redeemed = trust_.redeem(ticket->bytes, use);
-    if (!redeemed) return refusal_of(redeemed.error());
+    if (!redeemed) return ticket_refused(redeemed.error());
     force_scale = static_cast<double>(redeemed->force_scale) / trust::Ticket::kFullForce;
     room.claims[seat].ticket = redeemed->ticket_id;
     return std::nullopt;

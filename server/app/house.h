@@ -137,6 +137,8 @@ class House final : public Admissions {
   void stand(Room& room, const JoinRequest& request, const std::function<void(Admission)>& answer);
   void visit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
   static void visited(Room& room, const Order& order, const WorkstationRow& by, std::uint32_t cid);
+  /// What is answered; trouble of the server's own is told to those who watch it.
+  [[nodiscard]] control::Refused ticket_refused(const trust::ServerTrust::TicketTrouble& trouble) const;
   void give_back(const trust::Id16& ticket, const Room& room);
   void stands_no_more(Room& room, const control::Welcome& standing, bool ticket_is_good_again);
   void write_down(Room& room, const std::string& who, const std::string& why, const Command& command, const Outcome& outcome);

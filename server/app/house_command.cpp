@@ -128,12 +128,20 @@ void House::stand(Room& room, const JoinRequest& request, const std::function<vo
     return answer(Refused{Reason::kNotAllowed, "somebody in the role " + std::string(to_text(*role)) + " sits on a seat; without one: instructor, operator, recorder", 0});
   const trust::TicketUse use{room.opening.id, room.opening.epoch, "", std::nullopt, trust::Pin{request.workstation.spki}, trust::wall_seconds()};
   const auto redeemed = trust_.redeem(ticket->bytes, use);
-  if (!redeemed) return answer(server::refusal_of(redeemed.error()));
+  if (!redeemed) return answer(ticket_refused(redeemed.error()));
   control::Welcome w = welcome(room, 0, true, 0, request.hello.has_aes, 1);  // place 0 is nobody's: no datagram opens under these keys
   w.role = redeemed->role;
   w.setup.clear();
   room.standing.push_back({w.resume_secret, redeemed->ticket_id});
   answer(std::move(w));
+}
+
+Refused House::ticket_refused(const trust::ServerTrust::TicketTrouble& trouble) const {
+  if (!trouble.fault) {  // the server's own
+    if (say_) say_("no ticket can be used: " + trouble.text);
+    io::tell(io::Level::kError, {.event = "trouble", .text = trouble.text});
+  }
+  return server::refusal_of(trouble);
 }
 
 void House::give_back(const trust::Id16& ticket, const Room& room) {

@@ -87,12 +87,20 @@ class MetricsServer::Visit : public std::enable_shared_from_this<Visit> {
   void start() {
     timer_.expires_after(server_.deadline_);
     timer_.async_wait([weak = weak_from_this()](const asio::error_code& cancelled) {
-      if (const auto self = weak.lock(); self && !cancelled) self->end();
+      if (const auto self = weak.lock(); self && !cancelled) self->drop();
     });
     asio::async_read_until(socket_, asio::dynamic_buffer(request_, kRequestMax), "\r\n\r\n", [self = shared_from_this()](const asio::error_code& error, std::size_t size) {
       if (error) return self->end();  // gone, too slow, or longer than any request of those who look on
       self->took(self->request_.substr(0, size));
     });
+  }
+
+  /// Ends it at once: the kernel must not keep an answer that is not read.
+  void drop() {
+    asio::error_code ignored;
+    socket_.set_option(asio::socket_base::linger(true, 0), ignored);
+    timer_.cancel();
+    socket_.close(ignored);
   }
 
   void end() {
@@ -166,7 +174,7 @@ void MetricsServer::accept_next() {
       return;
     }
     if (visits_.size() >= kConnectionsMax) {
-      if (const auto oldest = visits_.front().lock()) oldest->end();
+      if (const auto oldest = visits_.front().lock()) oldest->drop();
       visits_.pop_front();
     }
     const auto visit = std::make_shared<Visit>(std::move(socket), *this);
