@@ -50,14 +50,12 @@ struct FakeDriver final : Driver {
 struct Wants final : ServoClient {
   AxisArray effort{};
   Duration lives = 5ms;
-  std::optional<Command> repeats;  ///< instead of a new one
   Time now{};
   std::uint64_t seq = 0;
   std::vector<Errc> losses;
   State seen;
   Command tick(const State& state) noexcept override {
     seen = state;
-    if (repeats) return *repeats;
     return {++seq, now + lives, CommandKind::kJointEffort, effort};
   }
   void lost(Errc why) noexcept override { losses.push_back(why); }
@@ -161,41 +159,6 @@ TEST_F(ServoCoreTest, LetsGoWithin20MillisecondsOfACommandsDeath) {
   EXPECT_EQ(driver->force(), 4.0);
   step(200ms);
   EXPECT_EQ(driver->force(), 0.0);
-}
-
-// A client that hangs in its own loop repeats its last words: they are worth 30 ms, whatever they promise.
-TEST_F(ServoCoreTest, NoCommandOutlivesTheCeilingHoweverOftenItIsRepeated) {
-  bring_up();
-  ASSERT_TRUE(core->enable());
-  client.effort = {4, 0, 0};
-  steps(600);
-  client.repeats = Command{client.seq + 1, now + 1h, CommandKind::kJointEffort, client.effort};
-  step();  // it comes at the end of this one
-  steps(29);
-  EXPECT_EQ(driver->force(), 4.0);
-  steps(2);
-  EXPECT_LT(driver->force(), 4.0);
-  steps(20);
-  EXPECT_EQ(driver->force(), 0.0);
-  EXPECT_GE(core->counts().expired, 20U);
-  client.repeats.reset();
-  steps(2);
-  EXPECT_EQ(driver->force(), 4.0);  // a new one counts again
-}
-
-TEST_F(ServoCoreTest, ACommandOfASlowSceneActsBetweenItsTicks) {
-  bring_up();
-  ASSERT_TRUE(core->enable());
-  client.effort = {4, 0, 0};
-  steps(600);
-  for (int tick = 0; tick < 20; ++tick) {  // 100 Hz; the device is asked a thousand times a second
-    client.repeats = Command{++client.seq, now + command_life(10ms), CommandKind::kJointEffort, client.effort};
-    for (int ms = 0; ms < (tick == 10 ? 20 : 10); ++ms) {  // one tick is missed
-      step();
-      ASSERT_EQ(driver->force(), 4.0) << tick << " " << ms;
-    }
-  }
-  EXPECT_EQ(core->counts().expired, 0U);
 }
 
 TEST_F(ServoCoreTest, AfterStandingStillForcesBeginAnewAtZero) {
