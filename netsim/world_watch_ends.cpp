@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kStarvedMax = 0.3;                     // [s]
 constexpr double kAside = 0.002, kLeash = 0.98;         // [m] of a target that is reached; share of the motor's pull
+constexpr double kStuckMax = 2;                         // [s] on the way home, of a hand that moves
+constexpr double kMoves = 0.008;                        // [m] by which such a hand moves in that time
 constexpr double kTogether = 1e-5;                      // [m] hand and tool are not apart
 constexpr double kLeads = 0.5;                          // share of authority of who moves the tool and is not moved by it
 
@@ -28,7 +30,7 @@ void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& b
   const control::EndState& state = end.state();
   const control::Promises promises = end.promises();
   const auto& [rx, x, hung, offset, steady] = look;
-  End now{.known = true, .ref = state.ref, .x = x, .k = state.k, .in = {}, .received = {}, .starved = {}, .home = before.home};
+  End now{.known = true, .ref = state.ref, .x = x, .k = state.k, .in = {}, .received = {}, .starved = {}, .hand_low = hand_, .hand_high = hand_, .home = before.home};
   const double dt = 1 / scene_->tick_hz;
   for (std::size_t a = 0; a < scene_->dof; ++a) {
     const control::EnergyLedger& ledger = end.ledger(a);
@@ -51,9 +53,10 @@ void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& b
 /// A reference that news, hand and motor would let move, and that stays where it is: nothing but an empty account holds it. Told by
 /// where it is, not by what the ledger says it refused.
 ///
-/// Judged from the moment on at which hand and tool have come together after the calm. What parted them (an outage, a tool that fell
-/// while nobody held it) and emptied the accounts was no ordinary motion. The energy that brings them together again comes from the
-/// hand: a hand that stands still lifts no tool and pulls none through friction, and a channel that did so would give what it never took.
+/// Until hand and tool have come together after the calm, only a hand that moves is judged, and less strictly. What parted them (an
+/// outage, a tool that fell while nobody held it) and emptied the accounts was no ordinary motion. The energy that brings them together
+/// again comes from the hand: a hand that stands still lifts no tool and pulls none through friction, and a channel that did so would
+/// give what it never took. A hand that moves pays for some of the way with every stroke.
 void WorldWatch::check_starvation(std::size_t i, End& now, const End& before, const AxisArray& scale, const EndLook& look) {
   const double dt = 1 / scene_->tick_hz;
   const PortSample& rx = look.rx;
@@ -67,8 +70,13 @@ void WorldWatch::check_starvation(std::size_t i, End& now, const End& before, co
     const bool walks = std::abs(now.ref[a] - before.ref[a]) > 0.5 * scene_->channel.v_app / root * dt;
     const bool together = std::abs(look.offset[a]) <= kTogether / root;
     now.home[a] = together && (before.home[a] || there);
-    now.starved[a] = !now.home[a] || there || leashed || walks ? 0 : before.starved[a] + 1;
-    if (now.starved[a] * dt > kStarvedMax) note("starved", i);
+    now.starved[a] = there || leashed || walks ? 0 : before.starved[a] + 1;
+    if (now.starved[a] > 1) {
+      now.hand_low[a] = std::min(before.hand_low[a], hand_[a]);
+      now.hand_high[a] = std::max(before.hand_high[a], hand_[a]);
+    }
+    const bool moves = now.hand_high[a] - now.hand_low[a] > kMoves / root;
+    if (now.home[a] ? now.starved[a] * dt > kStarvedMax : moves && now.starved[a] * dt > kStuckMax) note("starved", i);
   }
 }
 

@@ -17,6 +17,7 @@ constexpr double kSlewActive = 1000;        // [N/s] = 1 N/ms
 constexpr double kSlewRampIn = 10;          // [N/s]
 constexpr double kDamping = 5;              // [N s/m] while ramping out and DAMPED
 constexpr Duration kLatchWindow = 10s;
+constexpr double kPaceMemory = 1;            // [s] in which a long step is forgotten
 
 double tank_for(double mass) noexcept { return 1e-3 * std::min(100.0, std::max(20.0, 180.0 * mass)); }
 
@@ -49,6 +50,8 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
   }
   // The driver has let go of the effort: no ramp begins from it.
   if (in.now - last_step_ > p_.command_life + kCommandFade) effort_.fill(0);
+  const double step = std::clamp(seconds(in.now - last_step_), 0.0, seconds(p_.command_life));
+  pace_ = std::max(step, pace_ - step * pace_ / kPaceMemory);
   change_phase(in, out);
   if (phase_ == GatePhase::kPassive || phase_ == GatePhase::kDamped || active()) given_max_ = std::max(given_max_, given_);
   limit(in, out);
@@ -181,8 +184,9 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
 
 /// Predictive rule |f| (|v| + |f| dt / m) dt <= what is left, else 0: with no fresh datagram the motor gives at most the tank.
 /// Braking is free: effort against the motion takes energy out of the hand.
+/// dt is the longest step of late: a program that wakes up irregularly lets an effort act for longer than its last step took.
 void ForceGate::keep_within_tank(const Input& in, AxisArray& f) noexcept {
-  const double dt = std::max(1e-3, std::clamp(seconds(in.now - last_step_), 0.0, 0.01));
+  const double dt = std::max(1e-3, pace_);
   double force2 = 0, speed2 = 0, power = 0;
   for (std::size_t a = 0; a < p_.dof; ++a) {
     const double v = std::isfinite(in.v[a]) ? in.v[a] : 0;

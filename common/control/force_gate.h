@@ -72,6 +72,7 @@ class ForceGate {
   Time since_{};                 ///< begin of the phase
   Time ramp_since_{};            ///< begin of the ramp that takes the force away; before `since_` if a silence was noticed late
   Time last_fresh_{}, last_step_{};
+  double pace_ = 0;              ///< longest time between two steps of late: for how long an effort may act [s]
   bool started_ = false, heard_ = false;
   bool renewed_ = false;         ///< this tick brought a fresh datagram from a loop that is young enough
   Duration age_limit_{};

@@ -67,6 +67,30 @@ TEST(ForceGate, EndsItsRampInTimeThoughItNoticedTheSilenceLate) {
   EXPECT_EQ(late.out.effort[0], 0) << "120 ms after the last fresh datagram";
 }
 
+TEST(ForceGate, GivesNoMoreThanItsTankThoughItsProgramWakesUpIrregularly) {
+  for (const int silence : {0, 1, 2, 3}) {  // at which of the irregular steps the link is lost
+    GateDrive d;
+    d.hold(3);
+    double given = 0;
+    const auto wake = [&](int n) {
+      constexpr Duration kSteps[] = {1ms, 4ms, 1ms, 2ms};
+      const Duration step = kSteps[n % 4];
+      const double before = d.out.effort[0];
+      d.in.now += step - 1ms;
+      d.in.q[0] += 0.65 * seconds(step);  // along with the motor
+      d.in.v[0] = 0.65;
+      d.tick();
+      given += before * 0.65 * seconds(step);
+    };
+    for (int n = 0; n < 400 + silence; ++n) wake(n);
+    given = 0;
+    d.in.fresh = false;
+    for (int n = 400 + silence; n < 600; ++n) wake(n);
+    EXPECT_EQ(d.out.effort[0], -5 * 0.65) << "damping is left";
+    EXPECT_LE(given, d.gate.tank_size() + 1e-5) << silence;
+  }
+}
+
 TEST(ForceGate, GoesOnDampingWithoutALink) {  // a hand that pushed moves fastest when the ramp ends
   GateDrive d;
   d.hold(2);
