@@ -128,7 +128,7 @@ std::string World::add_station(std::size_t i) {
   const SeatSpec& spec = setup_.scene.seats[i];
   hal::sim::SimSetup sim{spec.device, spec.hand, spec.environment, nullptr, now_};
   if (const auto m = setup_.motions.find(spec.name); m != setup_.motions.end()) {
-    sim.hand.model = HandModel::kRecorded;
+    if (spec.hand.model != HandModel::kRecorded) sim.hand = person_instead_of(spec.hand, HandModel::kRecorded);
     sim.motion = m->second;
   }
   auto device = hal::sim::SimDevice::make(sim);

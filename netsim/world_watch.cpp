@@ -79,7 +79,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
   server::SessionMonitor{}.check(session, violations_);
   check_gathering(session);
   check_authority(lived, session);
-  if (lived > 0) handover_.check(session, violations_);
+  if (lived > 0) handover_.check(lived, session, violations_);
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const WorldStation& station = stations[i];
     Seat& s = seats_[i];

@@ -177,7 +177,7 @@ void Vigil::show(ClientStatus status) {
   const Time now = io::monotonic_now();
   if (std::exchange(handovers_, status.handovers) != status.handovers && now - handover_told_ > kBetweenHandovers) {
     handover_told_ = now;
-    o_.line.note(handover_text(status));
+    o_.line.note(handover_text(status, o_.seat.setup()));
   }
   if (now - shown_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_ = now;

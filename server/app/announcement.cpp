@@ -23,7 +23,7 @@ std::string announcement(const SessionRun& run, const io::SocketAddress& at, boo
   const bool by_code = !run.code().empty();
   const std::string which = by_code ? " --session " + code_text(run.code()) : several ? " --session " + name : "";
   std::string text = several ? "session " + name + ": " : "";
-  text += format("scene %s, %g s; ", scene.name.c_str(), scene.duration);
+  text += "scene " + scene.name + (scene.endless() ? ", no end; " : format(", %g s; ", scene.duration));
   text += by_code ? "session code " + code_text(run.code()) + "; on enrolled workstations type\n" : throw_away ? "in other terminals type\n" : "on enrolled workstations type\n";
   for (const SeatSpec& seat : scene.seats) {
     const bool ticket = !throw_away && (!by_code || seat.role == Role::kInstructor);
