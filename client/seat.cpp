@@ -88,6 +88,7 @@ void Seat::rejoin(Connection& next) noexcept {
   rx_ = {};
   fresh_ = heard_force_ = false;
   session_begin_.reset();
+  tx_.seat_tick = 0;
   path_answer_.reset();
   authority_.reset();
   stops_at_press_.reset();
@@ -106,9 +107,7 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
       link_->restart_statistics(now);
     rx_ = decoded->message;
     fresh_ = heard_force_ = true;
-    if (!session_begin_ && rx_.session == wire::SessionState::kRunning)
-      session_begin_ = now - link_->freshness().age(now) - from_seconds(rx_.session_tick * dt_);
-    if (!person_begin_) person_begin_ = session_begin_;
+    set_session_clock(now);
     if (authority_ && rx_.authority_version != authority_->version) authority_.reset();
     settle_wishes();
   } else if (opened->type == wire::Type::kClose) {
@@ -124,6 +123,23 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
   } else {
     link_->refuse_body();
   }
+}
+
+/// The clock is learned when the session begins, and again after each stop: for how long it stood still only the server knows exactly.
+void Seat::set_session_clock(Time now) noexcept {
+  if (clock_stands()) return;
+  const bool runs = rx_.session == wire::SessionState::kRunning;
+  const bool anew = session_begin_ && rx_.stops != clock_stops_ && !setup_.clock_runs_while_stopped && (runs || rx_.session == wire::SessionState::kHeld || rx_.session == wire::SessionState::kPassive);
+  if (!anew && (session_begin_ || !runs)) return;
+  const Time begin = now - link_->freshness().age(now) - from_seconds(rx_.session_tick * dt_);
+  if (anew) *person_begin_ += begin - *session_begin_;
+  session_begin_ = begin;
+  clock_stops_ = rx_.stops;
+  if (!person_begin_) person_begin_ = session_begin_;
+}
+
+bool Seat::clock_stands() const noexcept {
+  return !setup_.clock_runs_while_stopped && (rx_.session == wire::SessionState::kPaused || rx_.session == wire::SessionState::kStopped);
 }
 
 bool Seat::take_reading(const hal::State& device) noexcept {
@@ -272,7 +288,8 @@ void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& want
   tx_.stop_all = stop_all_;
   tx_.resume_stop = resume_stop_;
   tx_.gate_trips = gate_.trips();
-  tx_.seat_tick = session_begin_ ? static_cast<std::uint32_t>(std::max(0.0, seconds(now - *session_begin_)) / dt_ + 0.5) : 0;
+  // A stop is heard of late: the clock had run ahead of where the server's stands, and waits for it. No sample is older than the one before.
+  tx_.seat_tick = std::max(tx_.seat_tick, static_cast<std::uint32_t>(std::max(0.0, server_time(now).value_or(0)) / dt_ + 0.5));
 }
 
 std::optional<std::size_t> Seat::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
@@ -343,13 +360,14 @@ void Seat::settle_wishes() noexcept {
 }
 
 std::optional<double> Seat::session_time(Time now) const noexcept {
-  if (!person_begin_) return std::nullopt;
+  if (!person_begin_ || (clock_stands() && !session_begin_)) return std::nullopt;
+  if (clock_stands()) return rx_.session_tick * dt_ + seconds(*session_begin_ - *person_begin_);
   return seconds(now - *person_begin_);
 }
 
 std::optional<double> Seat::server_time(Time now) const noexcept {
   if (!session_begin_) return std::nullopt;
-  return seconds(now - *session_begin_);
+  return clock_stands() ? rx_.session_tick * dt_ : seconds(now - *session_begin_);
 }
 
 }  // namespace tandem::client

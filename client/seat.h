@@ -73,12 +73,14 @@ class Seat {
   /// Lets go: the gate ramps out, then the server is told.
   void leave() noexcept { leaving_ = true; }
 
-  /// Seconds since the session began, on the own clock; nullopt before. What simulated hands follow; a server that comes back from a
-  /// checkpoint does not turn it back.
+  /// Seconds since the session began, on the own clock, without the time for which a stop made it stand still; nullopt before. What
+  /// simulated hands follow; a server that comes back from a checkpoint does not turn it back.
   [[nodiscard]] std::optional<double> session_time(Time now) const noexcept;
   /// The same as the server counts that answers now, which was not there during an outage: for scripts and screens, so that all people
   /// of a session read one time. nullopt until it runs.
   [[nodiscard]] std::optional<double> server_time(Time now) const noexcept;
+  /// The session clock stands still: the session is STOPPED or PAUSED, and its scene does not want it to run on.
+  [[nodiscard]] bool clock_stands() const noexcept;
   [[nodiscard]] bool closed() const noexcept { return closed_; }
   [[nodiscard]] wire::CloseReason close_reason() const noexcept { return close_reason_; }
   [[nodiscard]] const wire::ForceMessage& force() const noexcept { return rx_; }
@@ -104,6 +106,7 @@ class Seat {
   [[nodiscard]] bool held_off() const noexcept { return over_speed_.holds_off() || over_temperature_.holds_off(); }
   [[nodiscard]] bool latched_off() const noexcept { return over_speed_.latched() || over_temperature_.latched(); }
   void settle_wishes() noexcept;
+  void set_session_clock(Time now) noexcept TANDEM_REALTIME;
   void rest() noexcept TANDEM_REALTIME;
   void fill_sample(Time now, const hal::State& device, const AxisArray& wanted) noexcept TANDEM_REALTIME;
 
@@ -136,6 +139,7 @@ class Seat {
   bool ticked_ = false;
   std::optional<Time> session_begin_;  ///< as this server counts
   std::optional<Time> person_begin_;   ///< as the first server did: people go on while servers come and go
+  std::uint32_t clock_stops_ = 0;      ///< stops so far when the clock was learned
   double dissipated_ = 0, age_p99_ms_ = 0;
 
   bool own_stop_ = false, stop_all_ = false;

@@ -6,6 +6,7 @@
 
 #include "common/base/nearest.h"
 #include "netsim/profile_script.h"
+#include "netsim/world_notes.h"
 
 namespace tandem::netsim {
 namespace {
@@ -32,6 +33,7 @@ class Maker {
       add(spec_.scene.place, scene.error());
     }
     if (spec_.duration_s && !blamed("duration_s")) out_.setup.scene.duration = *spec_.duration_s;
+    if (scene && !spec_.duration_s && out_.setup.scene.endless()) add(spec_.scene.place, no_end(spec_.scene.text, "give the scenario a duration_s"));
     if (spec_.channel) out_.setup.scene.channel.law = *spec_.channel;
     if (spec_.mfs) out_.setup.scene.channel.mfs = *spec_.mfs;
     for (const SeatSpec& s : out_.setup.scene.seats) {

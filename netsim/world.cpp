@@ -133,7 +133,7 @@ std::string World::add_station(std::size_t i) {
   // A station steps its device through a tick before it reads it: the device begins one tick earlier.
   hal::sim::SimSetup sim{spec.device, spec.hand, spec.environment, nullptr, now_ - tick_};
   if (const auto m = setup_.motions.find(spec.name); m != setup_.motions.end()) {
-    sim.hand.model = HandModel::kRecorded;
+    if (spec.hand.model != HandModel::kRecorded) sim.hand = person_instead_of(spec.hand, HandModel::kRecorded);
     sim.motion = m->second;
   }
   auto device = hal::sim::SimDevice::make(sim);

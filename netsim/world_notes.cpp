@@ -61,7 +61,8 @@ std::string rebind_note(const NetworkEvent& event, const std::string& seat) {
 
 SessionSpan session_span(const World& world) {
   const Duration end = world.now() - Time{};
-  return {end - from_seconds(world.session().time()), end};
+  const auto& session = world.session();
+  return {end - from_seconds(session.time() + static_cast<double>(session.stood()) / world.scene().tick_hz), end};
 }
 
 std::vector<std::string> session_notes(const WorldSetup& setup, const SessionSpan& span) {
@@ -77,6 +78,10 @@ std::vector<std::string> session_notes(const WorldSetup& setup, const SessionSpa
     if (first != setup.events.end()) notes.push_back(rebind_note(*first, seat.name));
   }
   return notes;
+}
+
+std::string no_end(const std::string& scene, const std::string& remedy) {
+  return "the scene " + scene + " has no end (it gives no duration_s), so its run in virtual time would not end; " + remedy;
 }
 
 std::vector<std::string> late_notes(const WorldSetup& setup) {

@@ -20,6 +20,9 @@ struct SessionSpan {
 /// did not live through, and what a change of address did to a seat.
 [[nodiscard]] std::vector<std::string> session_notes(const WorldSetup& setup, const SessionSpan& span);
 
+/// Why a scene without an end cannot be run in virtual time as it is. @param remedy  what gives it one
+[[nodiscard]] std::string no_end(const std::string& scene, const std::string& remedy);
+
 /// For `--check`, when nobody knows yet when the session will begin: what it can only live through if that is late.
 [[nodiscard]] std::vector<std::string> late_notes(const WorldSetup& setup);
 

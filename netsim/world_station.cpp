@@ -93,7 +93,7 @@ std::string WorldStation::work(Time now, bool awake, server::Session* session, N
     if (seat_ && session != nullptr && session->epoch() != epoch_) rejoin(now, *session);
     if (seat_) serve(now, network, buffer);
   } else if (seat_) {
-    device_->set_session_time(seat_->session_time(own_time(now)));  // the person goes on, the program does not
+    device_->set_session_time(hand_time(own_time(now)));  // the person goes on, the program does not
   }
   return {};
 }
@@ -163,6 +163,9 @@ void WorldStation::rejoin(Time now, server::Session& session) {
   ++joins_;
 }
 
+/// What the simulated hand follows; it waits where it is while the session clock stands still.
+std::optional<double> WorldStation::hand_time(Time own) const noexcept { return seat_->clock_stands() ? std::nullopt : seat_->session_time(own); }
+
 /// What the person presses, as the faults say.
 void WorldStation::act(Time now) noexcept {
   if (faults_.empty()) return;
@@ -204,7 +207,7 @@ void WorldStation::serve(Time now, Network& network, std::span<std::byte> buffer
   served_at_ = now;
   const Time own = own_time(now);
   act(now);
-  device_->set_session_time(seat_->session_time(own));
+  device_->set_session_time(hand_time(own));
   command_ = seat_->on_servo(own, reading(now));
   command_.expires = now + (command_.expires - own);  // the device has a clock of its own
   while (const auto size = seat_->poll_transmit(own, buffer)) {

@@ -83,6 +83,7 @@ class WorldStation {
   void act(Time now) noexcept;
   void listen(Time now, Network& network, std::span<std::byte> buffer);
   [[nodiscard]] std::string join(Time now, server::Session& session);
+  [[nodiscard]] std::optional<double> hand_time(Time own) const noexcept;
   void serve(Time now, Network& network, std::span<std::byte> buffer);
   void hear(Time now, std::span<const std::byte> bytes) noexcept;
   [[nodiscard]] const hal::State& reading(Time now) noexcept;

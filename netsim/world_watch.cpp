@@ -77,7 +77,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
   server::SessionMonitor{}.check(session, violations_);
   check_gathering(session);
   check_authority(lived, session);
-  if (lived > 0) handover_.check(session, violations_);
+  if (lived > 0) handover_.check(lived, session, violations_);
   if (ordinary_ && stations[mover_].seat() != nullptr) {
     const wire::Telemetry& hand = stations[mover_].seat()->sample().telemetry;
     for (std::size_t a = 0; a < scene_->dof; ++a) hand_[a] = scene_->port == PortSpace::kTip ? hand.x[a] : hand.q[a];

@@ -211,6 +211,10 @@ void read_hand(const pb::Hand& in, const std::string& path, Checker& checker, Ha
   if (in.has_from_s()) out.from = in.from_s();
   if (in.has_until_s()) out.until = in.until_s();
   if (in.has_relaxed_b_n_s_m()) out.relaxed_b = in.relaxed_b_n_s_m();
+  if (moved_by_person(out.model))
+    for (const auto& [given, key] : {std::pair{in.has_from_s(), "from_s"}, std::pair{in.has_until_s(), "until_s"}})
+      if (given)
+        checker.error(child_path(path, key), "is for hands that the scene moves; a KEYBOARD or RECORDED hand is never relaxed by the scene: take the key away");
   if (!(out.until > out.from))
     checker.error(child_path(path, "until_s"), "must be after from_s = " + number_text(out.from));
   const std::string where = child_path(path, "trajectory");
@@ -243,8 +247,8 @@ void write_hand(const HandSpec& in, pb::Hand& out) {
     out.set_tremor_amplitude_m(in.tremor_amplitude);
     out.set_tremor_frequency_hz(in.tremor_frequency);
   }
-  out.set_from_s(in.from);
-  if (std::isfinite(in.until)) out.set_until_s(in.until);
+  if (!moved_by_person(in.model)) out.set_from_s(in.from);
+  if (!moved_by_person(in.model) && std::isfinite(in.until)) out.set_until_s(in.until);
   out.set_relaxed_b_n_s_m(in.relaxed_b);
 }
 

@@ -23,7 +23,8 @@ pb::Scene to_proto(const SceneSpec& scene) {
   out.set_tick_hz(scene.tick_hz);
   out.set_dof(static_cast<std::uint32_t>(scene.dof));
   out.set_port(static_cast<pb::Scene::Port>(scene.port));
-  out.set_duration_s(scene.duration);
+  if (!scene.endless()) out.set_duration_s(scene.duration);
+  out.set_clock_runs_while_stopped(scene.clock_runs_while_stopped);
   if (std::isfinite(scene.alpha_slew)) {
     out.set_alpha_slew_per_s(scene.alpha_slew);
   } else {
@@ -77,6 +78,8 @@ pb::Scene to_proto(const SceneSpec& scene) {
 
 }  // namespace
 
-std::string effective_scene_text(const SceneSpec& scene) { return text::listing(to_proto(scene)); }
+std::string effective_scene_text(const SceneSpec& scene) {
+  return (scene.endless() ? "duration_s: none given, the session lasts until it is ended\n" : "") + text::listing(to_proto(scene));
+}
 
 }  // namespace tandem

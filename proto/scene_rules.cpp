@@ -257,8 +257,6 @@ void read_phases(const pb::Scene& in, Checker& checker, SceneSpec& out) {
     }
     out.phases.push_back({phase.name(), phase.from_s(), phase.to_s(), phase.contact()});
   }
-  // The first second after engage is nobody's fault.
-  if (out.phases.empty()) out.phases.push_back({"run", out.duration > 1 ? 1.0 : 0.0, out.duration, false});
 }
 
 void check_passivity(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {

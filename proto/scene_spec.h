@@ -71,6 +71,8 @@ struct SimDeviceSpec {
 };
 
 enum class HandModel : std::uint8_t { kNone, kLeader, kRelaxed, kResting, kLettingGo, kTremor, kKeyboard, kRecorded };
+/// Whether a person moves this hand, now or when it was recorded: then no scene says when it is relaxed.
+[[nodiscard]] constexpr bool moved_by_person(HandModel model) noexcept { return model == HandModel::kKeyboard || model == HandModel::kRecorded; }
 struct Waypoint { double at = 0; Point p; };  ///< min-jerk between waypoints, held before the first and after the last
 struct Deviation { double at = 0, length = 0; Point force; };  ///< extra force of the person [N]
 struct Trajectory {
@@ -95,6 +97,16 @@ struct HandSpec {
   double until = std::numeric_limits<double>::infinity();  ///< from this time on it is RELAXED again (who led, follows) [s]
   double relaxed_b = 2;            ///< damping of the hand outside [from, until), where k = 0 [N s/m]
 };
+
+/// The hand of a person who takes the place of the simulated one: what the scene scripts for that hand (when it is relaxed, opens, pushes)
+/// is not this person's. Impedance: the model's own. Where a recording lies relative to the working pose stays.
+/// @pre moved_by_person(model)
+[[nodiscard]] inline HandSpec person_instead_of(const HandSpec& simulated, HandModel model) {
+  HandSpec own;
+  own.model = model;
+  own.trajectory.center = simulated.trajectory.center;
+  return own;
+}
 
 struct WallSpec { int axis = 0; double at = 0; double k = 20000; double b = 5; bool from_below = true; };
 struct TissueSpec { int axis = 2; double at = 0; double k = 300; double k3 = 1e6; double b = 3; bool from_below = false; };
@@ -133,7 +145,8 @@ struct SceneSpec {
   double tick_hz = 1000;
   std::size_t dof = 3;
   PortSpace port = PortSpace::kTip;
-  double duration = 18;                                              ///< [s]
+  double duration = std::numeric_limits<double>::infinity();         ///< of the session clock [s]; infinity: no end
+  bool clock_runs_while_stopped = false;                             ///< else clock and timeline stand still while STOPPED or PAUSED
   double alpha_slew = 1;                                             ///< [1/s]; infinity: unslewed
   bool unsafe_gains = false;
   bool commanded_force = false;                                      ///< judged on commanded instead of delivered force
@@ -145,8 +158,9 @@ struct SceneSpec {
   std::vector<AuthorityRow> authority;                               ///< one per tool
   std::array<std::array<double, kToolsMax>, kSeatsMax> follow{};     ///< C_ji as [seat][tool]; each seat's row sums to 1
   std::vector<TimedAuthority> timeline;                              ///< ascending in time
-  std::vector<PhaseSpec> phases;
+  std::vector<PhaseSpec> phases;                                     ///< empty: the report covers the whole session
 
+  [[nodiscard]] bool endless() const noexcept { return !(duration < std::numeric_limits<double>::infinity()); }
   [[nodiscard]] std::size_t masters() const noexcept {
     std::size_t n = 0;
     for (const auto& s : seats) n += s.kind == SeatKind::kMaster ? 1 : 0;

@@ -26,6 +26,7 @@ void read_basics(const pb::Scene& in, Checker& checker, SceneSpec& out) {
   if (in.has_tick_hz()) out.tick_hz = in.tick_hz();
   if (in.has_dof()) out.dof = in.dof();
   if (in.has_duration_s()) out.duration = in.duration_s();
+  out.clock_runs_while_stopped = in.clock_runs_while_stopped();
   out.port = static_cast<PortSpace>(in.port());
   out.unsafe_gains = in.unsafe_gains();
   out.commanded_force = in.judged_on() == pb::Scene::COMMANDED;

@@ -2,6 +2,8 @@
 
 #include <google/protobuf/stubs/logging.h>
 
+#include <cmath>
+
 #include "proto/scene_convert.h"
 
 namespace tandem {
@@ -23,6 +25,7 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   setup.dof = scene.dof;
   setup.port = scene.port;
   setup.duration = scene.duration;
+  setup.clock_runs_while_stopped = scene.clock_runs_while_stopped;
   setup.unsafe_gains = scene.unsafe_gains;
   setup.channel = scene.channel;
   setup.coupling = scene.coupling;
@@ -33,14 +36,15 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   if (setup.seat.kind == SeatKind::kMaster)  // the tool whose authority this seat is told, and may move as INSTRUCTOR
     for (std::size_t j = scene.tools.size(); j-- > 0;)
       if (scene.follow[seat][j] > 0) setup.seat.tool = j;
-  if (setup.seat.kind == SeatKind::kMaster && setup.seat.role == Role::kInstructor) {
-    for (std::size_t i = 0; i < scene.masters(); ++i) {
-      const Role role = scene.seats[i].role;
-      setup.masters.push_back(scene.seats[i].name);
-      if (role == Role::kInstructor || role == Role::kTrainee) setup.drivers |= 1u << i;
-    }
-    setup.own_master = seat;
+  const bool instructor = setup.seat.kind == SeatKind::kMaster && setup.seat.role == Role::kInstructor;
+  for (std::size_t i = 0; i < scene.masters(); ++i) {
+    const Role role = scene.seats[i].role;
+    setup.masters.push_back(scene.seats[i].name);
+    if (instructor && (role == Role::kInstructor || role == Role::kTrainee)) setup.drivers |= 1u << i;
   }
+  if (setup.seat.kind == SeatKind::kMaster) setup.own_master = seat;
+  if (scene.tools.size() > 1)
+    for (const ToolSpec& tool : scene.tools) setup.tools.push_back(tool.name);
   setup.ends_pauses = !scene.led() && setup.seat.kind == SeatKind::kMaster && setup.seat.role != Role::kObserver;
   return setup;
 }
@@ -50,7 +54,7 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   message.set_tick_hz(setup.tick_hz);
   message.set_dof(static_cast<std::uint32_t>(setup.dof));
   message.set_port(static_cast<pb::Scene::Port>(setup.port));
-  message.set_duration_s(setup.duration);
+  if (std::isfinite(setup.duration)) message.set_duration_s(setup.duration);
   message.set_unsafe_gains(setup.unsafe_gains);
   write_channel(setup.channel, *message.mutable_channel());
   write_coupling(setup.coupling, *message.mutable_device_coupling());
@@ -61,6 +65,8 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   for (std::size_t axis = 0; axis < setup.dof && axis < kAxesMax; ++axis)
     message.add_axis_scale(setup.axis_scale[axis]);
   for (const std::string& name : setup.masters) message.add_master(name);
+  for (const std::string& name : setup.tools) message.add_tool_name(name);
+  message.set_clock_runs_while_stopped(setup.clock_runs_while_stopped);
   message.set_own_master(static_cast<std::uint32_t>(setup.own_master));
   message.set_drivers(setup.drivers);
   message.set_ends_pauses(setup.ends_pauses);
@@ -85,7 +91,8 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     out.tick_hz = in.tick_hz();
     out.dof = in.dof();
     out.port = static_cast<PortSpace>(in.port());
-    out.duration = in.duration_s();
+    if (in.has_duration_s()) out.duration = in.duration_s();
+    out.clock_runs_while_stopped = in.clock_runs_while_stopped();
     out.unsafe_gains = in.unsafe_gains();
     read_channel(in.channel(), "channel", checker, out.channel);
     read_coupling(in.device_coupling(), out.coupling);
@@ -97,6 +104,7 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     out.k_s = in.k_s_n_m();
     for (std::size_t axis = 0; axis < out.dof; ++axis) out.axis_scale[axis] = in.axis_scale(static_cast<int>(axis));
     out.masters.assign(in.master().begin(), in.master().end());
+    out.tools.assign(in.tool_name().begin(), in.tool_name().end());
     out.own_master = in.own_master();
     out.drivers = in.drivers();
     out.ends_pauses = in.ends_pauses();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ struct SeatSetup {
   double tick_hz = 1000;  ///< 100 ... 10000 [Hz]
   std::size_t dof = 3;    ///< 1 ... 3
   PortSpace port = PortSpace::kTip;
-  double duration = 18;   ///< [s]
+  double duration = std::numeric_limits<double>::infinity();  ///< of the session clock [s]; infinity: no end
+  bool clock_runs_while_stopped = false;
   bool unsafe_gains = false;  ///< springs may command more than a motor delivers
   ChannelSpec channel;    ///< tip gains
   CouplingSpec coupling;  ///< masters
@@ -29,9 +31,12 @@ struct SeatSetup {
   SeatSpec seat;
   std::array<double, kAxesMax> axis_scale{1, 1, 1, 1,
                                           1, 1, 1};  ///< tip gain -> port gain, per axis: diag(J^T J), 1 at a TIP port
-  std::vector<std::string> masters;  ///< INSTRUCTOR seats: names in the order of authority weights; empty for others
-  std::size_t own_master = 0;        ///< place of this seat among them
-  std::uint32_t drivers = 0;         ///< bit i: master i may be given authority
+  std::vector<std::string> masters;  ///< names of all MASTER seats in the order of authority weights
+  std::vector<std::string> tools;    ///< names of all tools in order; empty where there is only one
+  std::size_t own_master = 0;        ///< place of this seat among the masters; 0 for SLAVE seats
+  std::uint32_t drivers = 0;         ///< INSTRUCTOR seats: bit i: master i may be given authority; 0 for others
+  /// Whether this seat's person moves authority.
+  [[nodiscard]] bool moves_authority() const noexcept { return drivers != 0; }
   bool ends_pauses = false;  ///< no seat is an instructor's: who may pause may take his pause back
 };
 

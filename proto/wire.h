@@ -66,6 +66,15 @@ enum class SessionState : std::uint8_t { kWaiting, kRunning, kHeld, kPaused, kSt
 /// What was decided about a seat's weight and is not carried out yet (design notes, security 2.5); or will not be.
 enum class Handover : std::uint8_t { kNone, kComes, kGoes, kCalledOff };
 inline constexpr std::uint32_t kHandoverNotice = 50;  ///< ticks from the decision until weights begin to move
+/// Who decided it and who gains most by it, so that a person reads both. Zeros unless something comes or goes.
+struct HandoverParties {
+  static constexpr std::uint32_t kScene = 0, kOperator = 31, kSeveral = 0;
+  std::uint32_t by = kScene;       ///< kScene: the timeline; kOperator: without a seat; else number of the seat, from 1
+  std::uint32_t to = kSeveral;     ///< number of the master who gains, from 1; kSeveral: more than one
+  std::uint32_t percent = 0;       ///< weight that this master will have, or this seat where several gain [%]
+  std::uint32_t tool = 0;          ///< number of the tool
+  friend bool operator==(const HandoverParties&, const HandoverParties&) = default;
+};
 
 /// Server to client, every tick, 1 kHz. No reply.
 struct ForceMessage {
@@ -79,6 +88,7 @@ struct ForceMessage {
   std::uint32_t stops = 0;       ///< how many stops so far: the number of the newest, which a resume must name
   Handover handover = Handover::kNone;
   std::uint32_t handover_ticks = 0;  ///< until it is carried out, kHandoverNotice at most; 0 unless something comes or goes
+  HandoverParties handover_parties;
 };
 
 inline constexpr std::size_t kSeatNameMax = 32;

@@ -30,7 +30,27 @@ struct StateWords {
 struct ForceWords {
   std::uint32_t session = 0, flags = 0;
 };
-constexpr std::uint32_t kForceFlagsMax = 7U | kHandoverNotice << 3;
+/// Places of the parts of FORCE's flags (wire.proto).
+constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kForceFlagsMax = (1U << 29) - 1;
+static_assert(kHandoverNotice < 1U << 6 && kSeatsMax < HandoverParties::kOperator && kMastersMax < 1U << 5 && kToolsMax <= 1U << 3);
+
+std::uint32_t force_flags(const ForceMessage& m) noexcept {
+  const HandoverParties& p = m.handover_parties;
+  return (m.engage ? 1U : 0U) | static_cast<std::uint32_t>(m.handover) << 1 | m.handover_ticks << kTicksAt | p.by << kByAt | p.to << kToAt |
+         p.percent << kPercentAt | p.tool << kToolAt;
+}
+/// @return whether the flags are in range and say nothing beside what they mean
+bool read_force_flags(std::uint32_t flags, ForceMessage& out) noexcept {
+  HandoverParties& p = out.handover_parties;
+  out.engage = (flags & 1U) != 0;
+  out.handover = static_cast<Handover>(flags >> 1 & 3U);
+  out.handover_ticks = flags >> kTicksAt & 63U;
+  p = {flags >> kByAt & 31U, flags >> kToAt & 31U, flags >> kPercentAt & 127U, flags >> kToolAt & 7U};
+  const bool announced = out.handover == Handover::kComes || out.handover == Handover::kGoes;
+  const bool in_range = out.handover_ticks <= kHandoverNotice && (p.by <= kSeatsMax || p.by == HandoverParties::kOperator) && p.to <= kMastersMax &&
+                        p.percent <= 100 && p.tool < kToolsMax;
+  return in_range && (announced || flags >> kTicksAt == 0);
+}
 
 // The fields of each message in the order of their numbers (wire.proto), with the range a receiver takes.
 
@@ -140,8 +160,7 @@ std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std:
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std::span<std::byte> out) const noexcept {
-  const ForceWords words{static_cast<std::uint32_t>(in.session),
-                         (in.engage ? 1U : 0U) | static_cast<std::uint32_t>(in.handover) << 1 | in.handover_ticks << 3};
+  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in)};
   return with_axes(axes_, [&](auto axes) {
     return write(preamble, force_size(axes), out, [&](ValueWriter& values) { walk_force(values, in, words, axes, 0); });
   });
@@ -186,10 +205,7 @@ Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) const n
       ForceWords words;
       walk_force(values, out, words, axes, position_max_);
       out.session = static_cast<SessionState>(words.session);
-      out.engage = (words.flags & 1U) != 0;
-      out.handover = static_cast<Handover>(words.flags >> 1 & 3U);
-      out.handover_ticks = words.flags >> 3;
-      values.require(out.handover_ticks == 0 || out.handover == Handover::kComes || out.handover == Handover::kGoes);
+      values.require(read_force_flags(words.flags, out));
     });
   });
 }

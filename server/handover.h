@@ -49,6 +49,8 @@ class Handover {
 
   [[nodiscard]] const control::Weights& decided() const noexcept { return decided_; }
   [[nodiscard]] bool pending() const noexcept { return left_ > 0; }
+  /// Who made the last decision, as audit lines name people, as long as it is to come; 0 when nothing is.
+  [[nodiscard]] std::uint8_t newest_by() const noexcept { return pending() ? changes_[(now_ + left_) % changes_.size()].who : 0; }
   [[nodiscard]] std::uint32_t left() const noexcept { return left_; }  ///< ticks until the last decision is carried out
 
  private:

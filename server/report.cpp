@@ -2,52 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tandem::server {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSettle = 1.0;     // [s] not judged after engage or an outage
-constexpr double kLagMax = 2.0;     // [s] longest lag that is looked for
-constexpr double kSlipReach = 0.15;  // [s] catching up and the age of samples: how far from its tick a slip shows
+constexpr double kSettle = 1.0;  // [s] not judged after engage or an outage
 constexpr std::size_t kSlipsMax = 1000;
-constexpr double kSpeedSpan = 0.005;  // [s] over which speed is taken: encoder steps vanish, motion does not
+constexpr double kReservedMax = 60;  // [s] of a session without an end
 
 std::array<float, 3> single(const Triple& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-double distance2(const std::array<float, 3>& a, const std::array<float, 3>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double d = static_cast<double>(a[k]) - static_cast<double>(b[k]);
-    sum += d * d;
-  }
-  return sum;
-}
-
-double norm(const std::array<float, 3>& v) { return std::sqrt(distance2(v, {})); }
-
-/// Root of the mean of what is added; NaN of nothing.
-class Rms {
- public:
-  void add(double square) {
-    sum_ += square;
-    ++n_;
-  }
-  [[nodiscard]] double value() const { return n_ == 0 ? kNaN : std::sqrt(sum_ / static_cast<double>(n_)); }
-
- private:
-  double sum_ = 0;
-  std::uint64_t n_ = 0;
-};
-
 }  // namespace
 
-ReportBuilder::ReportBuilder(const SceneSpec& scene)
+ReportBuilder::ReportBuilder(const SceneSpec& scene, std::size_t slots_max)
     : scene_(&scene),
+      slots_max_(std::max<std::size_t>(slots_max, 2)),
       seats_(scene.seats.size()),
       tools_(scene.tools.size()),
       alpha_sum_(scene.seats.size()),
@@ -59,15 +31,40 @@ ReportBuilder::ReportBuilder(const SceneSpec& scene)
       held_since_(scene.tools.size(), ~0u),
       last_(scene.seats.size()),
       mfs_(scene.tools.size()) {
-  const auto ticks = static_cast<std::size_t>(std::min(scene.duration * scene.tick_hz + 1000, static_cast<double>(kTicksMax)));
-  for (auto& t : seats_) t.reserve(ticks);
-  for (auto& t : tools_) t.reserve(ticks);
+  const double length = scene.endless() ? kReservedMax : scene.duration;
+  const auto slots = static_cast<std::size_t>(std::min(length * scene.tick_hz + 1000, static_cast<double>(slots_max_)));
+  for (auto& t : seats_) t.reserve(slots);
+  for (auto& t : tools_) t.reserve(slots);
 }
 
 void ReportBuilder::place(Track& track, std::uint32_t tick, const Sample& sample) {
-  if (tick >= kTicksMax) return;
-  if (tick >= track.size()) track.resize(tick + 1);
-  track[tick] = sample;
+  if (tick % stride_ != 0) return;
+  const std::size_t slot = tick / stride_;
+  if (slot >= slots_max_) return;
+  if (slot >= track.size()) track.resize(slot + 1);
+  track[slot] = sample;
+}
+
+/// Keeps every second sample: a long session is judged to its end in bounded memory.
+void ReportBuilder::thin_out() {
+  stride_ *= 2;
+  for (auto* tracks : {&seats_, &tools_})
+    for (Track& track : *tracks) {
+      for (std::size_t k = 0; 2 * k < track.size(); ++k) track[k] = track[2 * k];
+      track.resize((track.size() + 1) / 2);
+    }
+}
+
+/// Session time stood still while hands moved: beside it a difference is no speed. After a stop everybody engages again.
+void ReportBuilder::notice_stops(const TickRecord& record) {
+  const bool stopped = record.stood != stood_;
+  if ((record.slipped != slipped_ || stopped) && slips_.size() < kSlipsMax) slips_.push_back(record.tick);
+  stopped_ += record.stood >= stood_ ? record.stood - stood_ : record.stood;  // a server that was started anew counts from 0
+  slipped_ = record.slipped;
+  stood_ = record.stood;
+  if (!stopped) return;
+  std::ranges::fill(engaged_since_, ~0u);
+  std::ranges::fill(held_since_, ~0u);
 }
 
 void ReportBuilder::add(const TickRecord& record) {
@@ -76,10 +73,8 @@ void ReportBuilder::add(const TickRecord& record) {
   const std::uint32_t stands_for = ticks_ > 0 && record.tick > newest_ ? record.tick - newest_ : 1;
   newest_ = record.tick;
   ticks_ += stands_for;
-  if (record.tick >= kTicksMax) return;
-  judged_ += stands_for;
-  if (record.slipped != slipped_ && slips_.size() < kSlipsMax) slips_.push_back(record.tick);
-  slipped_ = record.slipped;
+  notice_stops(record);
+  while (record.tick / stride_ >= slots_max_) thin_out();
   const auto settled = [&](std::uint32_t& since, bool on) {
     if (!on) since = ~0u;
     if (on && since == ~0u) since = record.tick;
@@ -130,119 +125,36 @@ ReportBuilder::Track ReportBuilder::without_gaps(const Track& track) {
   return out;
 }
 
-std::vector<char> ReportBuilder::counted(const Pair& pair, const std::vector<Window>& windows) const {
-  const std::size_t n = std::min(pair.seat->size(), pair.slave->size());
-  std::vector<char> use(n, 0);
-  const auto mark = [&](double from, double to, char value) {
-    const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(from * scene_->tick_hz - 1e-6)));
-    const auto last = static_cast<std::size_t>(std::max(0.0, std::ceil(to * scene_->tick_hz - 1e-6)));
-    for (std::size_t k = first; k < std::min(last, n); ++k) use[k] = value;
-  };
-  for (const Window& w : windows) mark(w.from, w.to, 1);
-  for (const SeatSpec& s : scene_->seats)
-    for (const Deviation& d : s.hand.deviations) mark(d.at, d.at + d.length, 0);
-  for (std::size_t k = 0; k < n; ++k) use[k] = static_cast<char>(use[k] && (*pair.seat)[k].usable && (*pair.slave)[k].usable);
-  return use;
-}
-
-SeatMetrics ReportBuilder::judge(const Pair& pair, const std::vector<Window>& windows, const std::vector<Window>& contact,
-                                 const Window& peaks) const {
-  const Track& s = *pair.seat;
-  const Track& t = *pair.slave;
-  const std::vector<char> use = counted(pair, windows);
-  const std::size_t n = use.size();
-  SeatMetrics m;
-
-  const auto rms_at_lag = [&](std::size_t lag, std::size_t stride) {
-    Rms rms;
-    for (std::size_t k = 0; k + lag < n; k += stride)
-      if (use[k]) rms.add(distance2(s[k].x, t[k + lag].x));
-    return rms.value();
-  };
-  m.tracking_rms_m = rms_at_lag(0, 1);
-  const auto coarse = std::max<std::size_t>(1, static_cast<std::size_t>(0.010 * scene_->tick_hz));
-  std::size_t best = 0;
-  double least = m.tracking_rms_m;
-  const auto try_lag = [&](std::size_t lag, std::size_t stride) {
-    if (const double r = rms_at_lag(lag, stride); r < least) {
-      least = r;
-      best = lag;
-    }
-  };
-  for (std::size_t lag = coarse; lag <= static_cast<std::size_t>(kLagMax * scene_->tick_hz) && lag < n; lag += coarse) try_lag(lag, 4);
-  const std::size_t around = best;
-  least = rms_at_lag(around, 1);
-  for (std::size_t lag = around > coarse ? around - coarse : 0; lag <= around + coarse && lag < n; ++lag) try_lag(lag, 1);
-  m.tracking_rms_lag_removed_m = least;
-
-  const auto delay = static_cast<std::size_t>(std::llround(pair.one_way_s * scene_->tick_hz));
-  Rms transport, error, commanded;
-  std::array<Rms, 3> joints;
-  double effort = 0, speed = 0, environment = 0;
-  const auto span = std::max<std::size_t>(1, static_cast<std::size_t>(kSpeedSpan * scene_->tick_hz));
-  const auto slip_reach = static_cast<std::size_t>(kSlipReach * scene_->tick_hz);
-  const auto slipped_near = [&](std::size_t k) {
-    return std::ranges::any_of(slips_, [&](std::size_t slip) { return k + slip_reach >= slip && k <= slip + slip_reach; });
-  };
-  for (std::size_t k = 0; k < n; ++k) {
-    if (!use[k]) continue;
-    if (k >= delay) transport.add(distance2(s[k].x, s[k - delay].x));
+/// Whether the path of a hand, while its seat was engaged, extends over more than a motion's worth along an axis.
+bool ReportBuilder::has_moved(const Track& track) {
+  std::optional<std::pair<Point3, Point3>> box;
+  for (const Sample& s : track) {
+    if (!s.known || !s.usable) continue;
+    if (!box) box.emplace(s.x, s.x);
     for (std::size_t c = 0; c < 3; ++c) {
-      const double e = static_cast<double>(s[k].q[c]) - static_cast<double>(t[k].q[c]);
-      joints[c].add(e * e);
+      box->first[c] = std::min(box->first[c], s.x[c]);
+      box->second[c] = std::max(box->second[c], s.x[c]);
+      if (box->second[c] - box->first[c] > kMoved) return true;
     }
   }
-  for (std::size_t k = 0; k < n; ++k) {
-    environment = std::max(environment, norm(t[k].f));  // percent is always of the run's peak
-    const double time = static_cast<double>(k) / scene_->tick_hz;
-    if (time < peaks.from || time >= peaks.to || !s[k].known) continue;
-    effort = std::max(effort, norm(s[k].f));
-    // Beside a gap in the samples, or where session time stood still, a difference is no speed.
-    if (k >= span && s[k - span].known && !slipped_near(k)) speed = std::max(speed, std::sqrt(distance2(s[k].x, s[k - span].x)) * scene_->tick_hz / static_cast<double>(span));
-  }
-  if (!contact.empty()) {
-    const std::vector<char> touching = counted(pair, contact);
-    for (std::size_t k = 0; k < n; ++k) {
-      if (!touching[k]) continue;
-      const std::array<float, 3> felt{pair.answer * s[k].f[0], pair.answer * s[k].f[1], pair.answer * s[k].f[2]};
-      const std::array<float, 3> asked{pair.answer * s[k].f_cmd[0], pair.answer * s[k].f_cmd[1], pair.answer * s[k].f_cmd[2]};
-      error.add(distance2(felt, t[k].f));
-      // What was commanded to the slave is what it would have pressed with; the environment answers with the opposite.
-      const std::array<float, 3> wanted{-t[k].f_cmd[0], -t[k].f_cmd[1], -t[k].f_cmd[2]};
-      commanded.add(distance2(asked, wanted));
-    }
-  }
-  m.transport_lag_rms_m = transport.value();
-  const std::size_t count = scene_->seats.front().device.model == DeviceModel::kLinear ? 1 : 3;
-  for (std::size_t c = 0; c < count; ++c) m.joint_rms_rad.push_back(joints[c].value());
-  m.force_error_rms_n = error.value();
-  m.force_error_commanded_rms_n = commanded.value();
-  const double judged = scene_->commanded_force ? m.force_error_commanded_rms_n : m.force_error_rms_n;
-  double peak = environment;
-  if (scene_->commanded_force) {
-    peak = 0;
-    for (std::size_t k = 0; k < n; ++k) peak = std::max(peak, norm(t[k].f_cmd));
-  }
-  m.force_error_percent = peak > 0 ? 100 * judged / peak : kNaN;
-  m.effort_peak_n = effort;
-  m.speed_peak_m_s = speed;
-  return m;
+  return false;
 }
 
 RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
   RunReport r;
   r.scenario = scene_->name;
   r.duration_s = static_cast<double>(ticks_) / scene_->tick_hz;
-  r.judged_s = static_cast<double>(judged_) / scene_->tick_hz;
+  r.stopped_s = static_cast<double>(stopped_) / scene_->tick_hz;
   std::vector<Track> seats, tools;
   for (const auto& t : seats_) seats.push_back(without_gaps(t));
   for (const auto& t : tools_) tools.push_back(without_gaps(t));
 
-  std::vector<Window> all, contact;
+  Part all{.windows = {}, .outside = scene_->phases.empty(), .contact = {}, .all_peaks = true};  // outside of nothing: everything
   for (const PhaseSpec& p : scene_->phases) {
-    all.push_back({p.from, p.to});
-    if (p.contact) contact.push_back({p.from, p.to});
+    all.windows.push_back({p.from, p.to});
+    if (p.contact) all.contact.push_back({p.from, p.to});
   }
+  const Part rest{.windows = all.windows, .outside = true, .contact = {}, .all_peaks = false};
   const auto pair_of = [&](std::size_t i) {
     std::size_t j = scene_->seats[i].kind == SeatKind::kSlave ? scene_->seats[i].tool : 0;
     if (scene_->seats[i].kind == SeatKind::kMaster)
@@ -256,8 +168,9 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
     s.name = scene_->seats[i].name;
     s.kind = scene_->seats[i].kind;
     s.role = scene_->seats[i].role;
-    s.alpha_mean = judged_ > 0 ? alpha_sum_[i] / static_cast<double>(judged_) : 0;
-    s.metrics = judge(pair_of(i), all, contact, {0, std::numeric_limits<double>::infinity()});
+    s.alpha_mean = ticks_ > 0 ? alpha_sum_[i] / static_cast<double>(ticks_) : 0;
+    s.metrics = judge(pair_of(i), all);
+    if (s.kind == SeatKind::kMaster) r.moved = r.moved || has_moved(seats_[i]);
     s.gate = wire::to_text(last_[i].gate);
     s.last = last_[i];
     for (std::size_t j = 0; j < tools.size(); ++j) s.mfs_j += scene_->follow[i][j] > 0 ? mfs_[j] : 0;
@@ -271,10 +184,23 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
   for (const PhaseSpec& p : scene_->phases) {
     PhaseReport phase{p.name, p.from, p.to, {}};
     const std::vector<Window> only{{p.from, p.to}};
-    for (std::size_t i = 0; i < seats.size(); ++i)
-      phase.seats.push_back(judge(pair_of(i), only, p.contact ? only : std::vector<Window>{}, only.front()));
+    const Part part{.windows = only, .outside = false, .contact = p.contact ? only : std::vector<Window>{}, .all_peaks = false};
+    for (std::size_t i = 0; i < seats.size(); ++i) phase.seats.push_back(judge(pair_of(i), part));
     r.phases.push_back(std::move(phase));
   }
+  if (!scene_->phases.empty()) {
+    r.outside.emplace(PhaseReport{"outside phases", 0, r.duration_s, {}});
+    for (std::size_t i = 0; i < seats.size(); ++i) r.outside->seats.push_back(judge(pair_of(i), rest));
+  }
+  // Time is judged when any person's seat is: phases and the rest do not overlap with each other for one seat.
+  std::vector<char> any;
+  for (std::size_t i = 0; i < scene_->masters(); ++i)
+    for (const Part* part : {&static_cast<const Part&>(all), &rest}) {
+      const std::vector<char> use = counted(pair_of(i), part->windows, part->outside);
+      any.resize(std::max(any.size(), use.size()));
+      for (std::size_t k = 0; k < use.size(); ++k) any[k] = static_cast<char>(any[k] | use[k]);
+    }
+  r.judged_s = static_cast<double>(std::ranges::count(any, 1)) / rate();
   return r;
 }
 

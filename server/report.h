@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct LinkReport {
 };
 /// How well one seat and its slave went together. NaN where a number does not exist (no contact phase, nobody leads).
 struct SeatMetrics {
+  double judged_s = 0;  ///< session time that tracking and joint errors are made of [s]
   double tracking_rms_m = 0, tracking_rms_lag_removed_m = 0, transport_lag_rms_m = 0;
   std::vector<double> joint_rms_rad;
   double force_error_rms_n = 0, force_error_commanded_rms_n = 0, force_error_percent = 0;
@@ -50,8 +52,10 @@ struct PhaseReport {
 struct RunReport {
   std::string scenario;
   std::uint64_t seed = 0;
-  double duration_s = 0;
-  double judged_s = 0;  ///< less than duration_s when the run outlived ReportBuilder::kTicksMax
+  double duration_s = 0;  ///< of the session clock
+  double stopped_s = 0;   ///< for which people had stopped the session and its clock stood still; not in `duration_s`
+  double judged_s = 0;    ///< session time that the metrics of at least one MASTER seat are made of
+  bool moved = false;     ///< a hand moved by more than ReportBuilder::kMoved while its seat was engaged
   std::vector<Violation> violations;
   bool passed = true;
   std::string trace_hash;
@@ -59,14 +63,24 @@ struct RunReport {
   std::vector<SeatReport> seats;
   std::vector<ToolReport> tools;
   std::vector<PhaseReport> phases;
+  std::optional<PhaseReport> outside;  ///< what lies outside the scene's phases; nothing: the scene has none
+
+  /// There is something that the metrics tell: somebody moved and it was judged.
+  [[nodiscard]] bool judged() const noexcept { return moved && judged_s > 0; }
+  /// `pass`, `fail` (an invariant is broken), `not_judged` (none is, and there is nothing else to tell).
+  [[nodiscard]] const char* verdict() const noexcept { return !passed ? "fail" : judged() ? "pass" : "not_judged"; }
+  /// The same for people: `pass`, `FAIL`, `not judged`.
+  [[nodiscard]] const char* verdict_words() const noexcept { return !passed ? "FAIL" : judged() ? "pass" : "not judged"; }
 };
 
 /// Collects ticks of a run and judges them afterwards. Each sample is put at the session tick at which it was taken, so that a
 /// record made at the server of a live session compares what happened at the same time. Not real-time: fed by an ordinary thread.
 class ReportBuilder {
  public:
-  static constexpr std::size_t kTicksMax = 1'200'000;  ///< 20 min at 1 kHz; what comes later is not judged
-  explicit ReportBuilder(const SceneSpec& scene);
+  static constexpr std::size_t kSlotsMax = 1'200'000;  ///< samples kept of a seat: 20 min at 1 kHz; of longer runs every 2nd, 4th, ...
+  static constexpr double kMoved = 0.002;              ///< extent of a hand's path along an axis that is a motion [m]
+  /// @param slots_max  as kSlotsMax, for tests
+  explicit ReportBuilder(const SceneSpec& scene, std::size_t slots_max = kSlotsMax);
   void add(const TickRecord& record);
   /// @param links  one per seat.
   [[nodiscard]] RunReport build(const std::vector<LinkReport>& links) const;
@@ -78,7 +92,7 @@ class ReportBuilder {
     bool known = false;   ///< a sample of this very tick came
     bool usable = false;  ///< engaged for more than a second
   };
-  using Track = std::vector<Sample>;  ///< of one seat or slave, by session tick
+  using Track = std::vector<Sample>;  ///< of one seat or slave, by slot: every `stride_`th session tick
   struct Window {
     double from = 0, to = 0;
   };
@@ -89,21 +103,37 @@ class ReportBuilder {
     double one_way_s = 0;
     float answer = 1;  ///< +1: the seat's motor stands for the environment; -1: it is the slave's own, which presses against it
   };
-  /// @param peaks  where peaks are looked for: a phase, or the whole run.
-  [[nodiscard]] SeatMetrics judge(const Pair& pair, const std::vector<Window>& windows, const std::vector<Window>& contact,
-                                  const Window& peaks) const;
-  [[nodiscard]] std::vector<char> counted(const Pair& pair, const std::vector<Window>& windows) const;
+  /// Which part of the session is judged.
+  struct Part {
+    std::vector<Window> windows;  ///< [s]
+    bool outside = false;         ///< what lies outside the windows instead
+    std::vector<Window> contact;  ///< where force errors are judged
+    bool all_peaks = false;       ///< peaks are those of the whole session
+  };
+  // report_judge.cpp
+  [[nodiscard]] SeatMetrics judge(const Pair& pair, const Part& part) const;
+  void judge_forces(const Pair& pair, const Part& part, SeatMetrics& m) const;
+  void find_peaks(const Pair& pair, const Part& part, SeatMetrics& m) const;
+  [[nodiscard]] std::vector<char> within(const std::vector<Window>& windows, bool outside, std::size_t slots) const;
+  /// @param of  the windows: within them, or outside
+  [[nodiscard]] std::vector<char> counted(const Pair& pair, const std::vector<Window>& of, bool outside) const;
+  [[nodiscard]] double rate() const noexcept { return scene_->tick_hz / static_cast<double>(stride_); }  ///< slots per second
+  // report.cpp
   [[nodiscard]] static Track without_gaps(const Track& track);
-  static void place(Track& track, std::uint32_t tick, const Sample& sample);
+  [[nodiscard]] static bool has_moved(const Track& track);
+  void place(Track& track, std::uint32_t tick, const Sample& sample);
+  void thin_out();
+  void notice_stops(const TickRecord& record);
 
   const SceneSpec* scene_;
+  std::size_t slots_max_, stride_ = 1;
   std::vector<Track> seats_, tools_;
   std::vector<double> alpha_sum_, contact_square_, penetration_;
   std::vector<std::uint64_t> contact_count_, held_ticks_;
   std::vector<std::uint32_t> engaged_since_, held_since_;
   std::vector<SeatRecord> last_;
   std::vector<double> mfs_;
-  std::uint64_t ticks_ = 0, judged_ = 0, slipped_ = 0;
+  std::uint64_t ticks_ = 0, slipped_ = 0, stood_ = 0, stopped_ = 0;  ///< stood_: of the record before; stopped_: in all
   std::uint32_t newest_ = 0;  ///< tick of the record before
   std::vector<std::size_t> slips_;  ///< ticks at which session time stood still
 };

@@ -24,6 +24,7 @@ const char* text(Role role) {
 }
 
 void put(Json& j, const SeatMetrics& m) {
+  j["judged_s"] = number(m.judged_s);
   j["tracking_rms_m"] = number(m.tracking_rms_m);
   j["tracking_rms_lag_removed_m"] = number(m.tracking_rms_lag_removed_m);
   j["transport_lag_rms_m"] = number(m.transport_lag_rms_m);
@@ -71,6 +72,17 @@ Json seat(const SeatReport& s) {
   return j;
 }
 
+/// The seats' metrics in one part of the session.
+Json seats_of(const PhaseReport& part, const RunReport& r) {
+  Json seats = Json::array();
+  for (std::size_t i = 0; i < part.seats.size(); ++i) {
+    Json s{{"name", r.seats[i].name}};
+    put(s, part.seats[i]);
+    seats.push_back(std::move(s));
+  }
+  return seats;
+}
+
 }  // namespace
 
 std::string to_json(const RunReport& r, int indent) {
@@ -78,8 +90,10 @@ std::string to_json(const RunReport& r, int indent) {
   j["scenario"] = r.scenario;
   j["seed"] = r.seed;
   j["duration_s"] = number(r.duration_s);
+  j["stopped_s"] = number(r.stopped_s);
   j["judged_s"] = number(r.judged_s);
-  j["verdict"] = r.passed ? "pass" : "fail";
+  j["moved"] = r.moved;
+  j["verdict"] = r.verdict();
   j["violations"] = Json::array();
   for (const Violation& v : r.violations)
     j["violations"].push_back(
@@ -95,15 +109,8 @@ std::string to_json(const RunReport& r, int indent) {
                           {"penetration_max_m", number(t.penetration_max_m)},
                           {"held_s", number(t.held_s)}});
   j["phases"] = Json::array();
-  for (const PhaseReport& p : r.phases) {
-    Json phase{{"name", p.name}, {"from_s", p.from_s}, {"to_s", p.to_s}, {"seats", Json::array()}};
-    for (std::size_t i = 0; i < p.seats.size(); ++i) {
-      Json s{{"name", r.seats[i].name}};
-      put(s, p.seats[i]);
-      phase["seats"].push_back(std::move(s));
-    }
-    j["phases"].push_back(std::move(phase));
-  }
+  for (const PhaseReport& p : r.phases) j["phases"].push_back({{"name", p.name}, {"from_s", p.from_s}, {"to_s", p.to_s}, {"seats", seats_of(p, r)}});
+  j["outside_phases"] = r.outside ? Json{{"seats", seats_of(*r.outside, r)}} : Json(nullptr);
   return j.dump(indent) + "\n";
 }
 

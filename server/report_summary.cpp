@@ -42,10 +42,13 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
       "peak", "speed");
   put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", "", "", "RMS [mm]", "[mm]", "[mm]", "RMS [N]", "[N]", "[m/s]");
   for (const auto& s : r.seats)
-    if (s.kind == SeatKind::kMaster) put_row(out, "all phases", s.name, s.metrics, r.duration_s > 0);
-  for (const auto& p : r.phases)
+    if (s.kind == SeatKind::kMaster) put_row(out, r.phases.empty() ? "whole session" : "all phases", s.name, s.metrics, r.duration_s > 0);
+  const auto put_part = [&](const PhaseReport& p) {
     for (std::size_t i = 0; i < p.seats.size(); ++i)
       if (r.seats[i].kind == SeatKind::kMaster) put_row(out, p.name, r.seats[i].name, p.seats[i], p.from_s < r.duration_s);
+  };
+  for (const auto& p : r.phases) put_part(p);
+  if (r.outside) put_part(*r.outside);
   for (const auto& s : r.seats)
     put(out,
         "  %s: round trip %.1f ms (p99 %.1f), loss up %.1f %% down %.1f %%, longest gap %.0f / %.0f ms, gate trips "
@@ -60,8 +63,16 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
     if (r.tools[j].held_s > 0.01)
       put(out, "  %s: HELD for %.1f s: nobody entitled to it, or not its own slave, was there; it stood braked and no hand was guided\n",
           scene.tools[j].name.c_str(), r.tools[j].held_s);
-  if (r.judged_s < r.duration_s) put(out, "  errors and peaks are of the first %.0f s; invariants of the whole run\n", r.judged_s);
-  if (r.duration_s <= 0) out += "  the session never ran: nothing was judged\n";
+  if (r.stopped_s > 0) put(out, "  the session was stopped for %.1f s, in which its clock stood still\n", r.stopped_s);
+  if (r.duration_s <= 0) {
+    out += "  not judged: the session never ran\n";
+  } else if (r.judged_s <= 0) {
+    out += "  not judged: no seat was engaged for more than a second, undisturbed, so no errors could be measured\n";
+  } else if (!r.moved) {
+    put(out, "  not judged: no hand moved by more than %.0f mm; the figures above tell nothing about tracking\n", ReportBuilder::kMoved * 1e3);
+  } else {
+    put(out, "  judged: %.1f of %.1f s; not in it are the first second after each engagement and scripted pushes\n", r.judged_s, r.duration_s);
+  }
   for (const auto& v : r.violations)
     put(out, "  %s invariant %s%s%s first at %.3f s, %llu times%s\n",
         v.expected ? "broken, never promised:" : "BROKEN:", v.invariant.c_str(), v.seat.empty() ? "" : " at ",

@@ -176,7 +176,7 @@ void Session::live_one_tick(Time now) noexcept {
   elapsed_any_ = true;
   change_state(now);
   if (over_) return;
-  for (auto& tool : tools_) tool.handover.tick();
+  move_handovers_on();
   follow_timeline(now);
   hand_over(now);
   share_authority();
@@ -202,7 +202,11 @@ void Session::change_state(Time now) noexcept {
   if (!begun_) {
     wait_for_people(now);
   } else {
-    ++session_tick_;
+    if (clock_stands()) {
+      ++stood_;
+    } else {
+      ++session_tick_;
+    }
     held_ = std::ranges::all_of(tools_, [](const Tool& t) { return t.authority.held(); });
   }
   settle_state();

@@ -110,7 +110,11 @@ class Session {
   [[nodiscard]] bool over() const noexcept { return over_; }
 
   [[nodiscard]] wire::SessionState state() const noexcept { return state_; }
-  [[nodiscard]] double time() const noexcept { return session_tick_ * dt_; }      ///< since all required seats engaged [s]
+  /// The session clock: since all required seats engaged, without the time it stood still [s].
+  [[nodiscard]] double time() const noexcept { return session_tick_ * dt_; }
+  /// Clock and timeline stand still: the session is STOPPED or PAUSED and its scene does not want them to run on.
+  [[nodiscard]] bool clock_stands() const noexcept { return begun_ && stop_lane_.on() && !scene_->clock_runs_while_stopped && state_ != wire::SessionState::kEnding; }
+  [[nodiscard]] std::uint64_t stood() const noexcept { return stood_; }  ///< ticks for which the clock stood still, in this epoch
   [[nodiscard]] Time last_tick() const noexcept { return last_tick_; }
   [[nodiscard]] std::uint32_t session_tick() const noexcept { return session_tick_; }
   [[nodiscard]] const TickRecord& record() const noexcept { return record_; }
@@ -150,9 +154,11 @@ class Session {
   void decide_authority(Time now, std::uint8_t who, std::size_t tool, const control::Weights& wanted, std::uint32_t ahead) noexcept;
   void refuse_authority(Time now, std::uint8_t who, std::size_t tool, const control::Weights& wanted, std::size_t party) noexcept;
   void follow_timeline(Time now) noexcept TANDEM_REALTIME;
+  void move_handovers_on() noexcept TANDEM_REALTIME;
   void hand_over(Time now) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::optional<std::size_t> out_of_touch(Time now, std::size_t tool, const control::Weights& weights, Moment moment) const noexcept;
   void tell_called_off(std::size_t seat) noexcept;
+  [[nodiscard]] wire::HandoverParties parties(std::size_t tool, std::size_t seat) const noexcept TANDEM_REALTIME;
   void tell_handover(std::size_t seat, wire::ForceMessage& message) noexcept TANDEM_REALTIME;
   void note_authority(Time now, AuditEvent::What what, std::uint8_t who, std::size_t tool, const control::Weights& before,
                       const control::Weights& after, std::size_t party = AuditEvent::kNoSeat) noexcept;
@@ -208,6 +214,7 @@ class Session {
   std::uint64_t not_finite_ = 0;         ///< steps that gave what is no number, as far as judged
   std::optional<Time> last_fault_;
   std::uint32_t session_tick_ = 0, tick_ = 0;
+  std::uint64_t stood_ = 0;
   Time started_{}, last_tick_{};
   bool ticked_ = false, elapsed_any_ = false, over_ = false;
   wire::CloseReason close_reason_ = wire::CloseReason::kDone;

@@ -67,13 +67,19 @@ void Session::decide_authority(Time now, std::uint8_t who, std::size_t tool, con
 
 /// A scene's own changes are known ahead, so they are announced ahead: each acts at its time. Their links are judged then.
 void Session::follow_timeline(Time now) noexcept {
-  if (!begun_ || state_ == wire::SessionState::kEnding) return;
+  if (!begun_ || clock_stands() || state_ == wire::SessionState::kEnding) return;
   for (; next_event_ < scene_->timeline.size(); ++next_event_) {
     const TimedAuthority& event = scene_->timeline[next_event_];
     const double ahead = std::ceil((event.at - time()) / dt_ - 0.5);  // the tick nearest to it
     if (ahead > Handover::kNotice) return;
     decide_authority(now, AuditEvent::kTimeline, event.row.tool, weights_of(event.row), static_cast<std::uint32_t>(std::max(0.0, ahead)));
   }
+}
+
+/// An announced change of the timeline waits while the clock stands still; what a person decides meanwhile comes after its 50 ticks.
+void Session::move_handovers_on() noexcept {
+  for (Tool& tool : tools_)
+    if (!clock_stands() || tool.handover.newest_by() != AuditEvent::kTimeline) tool.handover.tick();
 }
 
 /// What was announced for this tick. It may have become impossible since: then the weights stay as they are, and that is a new version.
@@ -146,21 +152,40 @@ void Session::note_authority(Time now, AuditEvent::What what, std::uint8_t who, 
   audit_.push(e);
 }
 
+/// Who gave what to whom, as seat `i` is told.
+wire::HandoverParties Session::parties(std::size_t j, std::size_t i) const noexcept {
+  const Handover& handover = tools_[j].handover;
+  const control::Weights &after = handover.decided(), &before = tools_[j].authority.requested();
+  const std::uint8_t by = handover.newest_by();
+  wire::HandoverParties p{.by = wire::HandoverParties::kOperator, .tool = static_cast<std::uint32_t>(j)};
+  if (by == AuditEvent::kTimeline) p.by = wire::HandoverParties::kScene;
+  if (by < seats_.size()) p.by = by + 1U;
+  std::size_t gain = 0, one = i;
+  for (std::size_t k = 0; k < masters_; ++k)
+    if (after[k] - before[k] > kSame) ++gain, one = k;
+  if (gain == 1) p.to = static_cast<std::uint32_t>(one + 1);
+  p.percent = static_cast<std::uint32_t>(std::lround(100 * std::clamp(after[gain == 1 ? one : i], 0.0, 1.0)));
+  return p;
+}
+
 /// What the next FORCE says of a seat's weight: the last decision about it, as long as that is to come.
 void Session::tell_handover(std::size_t i, wire::ForceMessage& m) noexcept {
   m.handover = wire::Handover::kNone;
   m.handover_ticks = 0;
+  m.handover_parties = {};
   if (called_off_[i] > 0) {
     --called_off_[i];
     m.handover = wire::Handover::kCalledOff;
   }
   if (i >= masters_ || !begun_ || stop_lane_.on()) return;  // nobody gets weight in a stop
-  for (const Tool& tool : tools_) {
+  for (std::size_t j = 0; j < tools_.size(); ++j) {
+    const Tool& tool = tools_[j];
     if (!tool.handover.pending()) continue;
     const double gain = tool.handover.decided()[i] - tool.authority.requested()[i];
     if (std::abs(gain) <= kSame) continue;
     m.handover = gain > 0 ? wire::Handover::kComes : wire::Handover::kGoes;
     m.handover_ticks = tool.handover.left();
+    m.handover_parties = parties(j, i);
     return;
   }
 }

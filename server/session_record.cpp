@@ -34,7 +34,8 @@ void take_record(const Session& session, TickRecord& record) noexcept {
   record.tick = session.session_tick();
   const wire::SessionState state = session.state();
   const bool stopped = state == wire::SessionState::kPaused || state == wire::SessionState::kStopped || state == wire::SessionState::kPassive;
-  record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld || (stopped && session.session_tick() > 0);
+  record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld || (stopped && session.session_tick() > 0 && !session.clock_stands());
+  record.stood = session.stood();
   record.slipped = session.slipped();
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const wire::StateMessage& m = session.seat(i).heard();

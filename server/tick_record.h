@@ -36,6 +36,7 @@ struct ToolRecord {
 struct TickRecord {
   std::uint32_t tick = 0;    ///< session tick
   bool running = false;
+  std::uint64_t stood = 0;    ///< ticks so far for which the clock stood still, as people had stopped the session; not running then
   std::uint64_t slipped = 0;  ///< ticks given up so far: session time stood still while hands moved
   std::array<SeatRecord, kSeatsMax> seats{};
   std::array<ToolRecord, kToolsMax> tools{};

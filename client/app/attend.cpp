@@ -53,6 +53,15 @@ std::string unfit(const SeatSetup& setup, const hal::DeviceCaps& caps, bool held
 
 }  // namespace
 
+hal::DeviceCaps certain_caps(const hal::DeviceCaps& opened) {
+  hal::DeviceCaps caps = opened;
+  caps.damping.reset();
+  caps.mass.reset();
+  caps.stiffness.reset();
+  for (hal::AxisLimit& axis : caps.axis) axis = {};
+  return caps;
+}
+
 int attend(const AttendPlan& plan) {
   const io::Fd signals = io::signals_as_file();
   const std::string server = io::to_text(plan.server);

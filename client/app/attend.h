@@ -4,6 +4,7 @@
 #include <string>
 
 #include "client/app/alpha_script.h"
+#include "client/app/companion.h"
 #include "common/io/socket_address.h"
 #include "hal/device.h"
 
@@ -21,7 +22,12 @@ struct AttendPlan {
   double patience_s = 5;    ///< for a server that does not answer
   double rejoin_s = 60;     ///< how long to try to come back when the server fell silent; 0: not at all
   bool quiet = false;
+  Companion* companion = nullptr;  ///< outlives `attend`; null: none
 };
+
+/// What can be said of the device before the scene is known: a simulated one gets its numbers from the scene, so that only its axes are
+/// certain, and not more than a Touch's three.
+[[nodiscard]] hal::DeviceCaps certain_caps(const hal::DeviceCaps& opened);
 
 /// Joins, attends the session, leaves. @return exit code
 [[nodiscard]] int attend(const AttendPlan& plan);

@@ -101,26 +101,12 @@ std::string motors_text(const ClientStatus& s) {
   return s.motors_latched ? "motors were too hot three times: press b" : "";
 }
 
-std::string handover_text(const ClientStatus& s) {
-  switch (s.handover) {
-    case wire::Handover::kNone:
-      break;
-    case wire::Handover::kComes:
-      return format("more weight in %.0f ms", 1e3 * s.handover_s);
-    case wire::Handover::kGoes:
-      return format("less weight in %.0f ms", 1e3 * s.handover_s);
-    case wire::Handover::kCalledOff:
-      return "hand-over called off: a link is too old";
-  }
-  return "";
-}
-
 std::string status_line(const ClientStatus& s, const SeatSetup& setup) {
   const bool slave = setup.seat.kind == SeatKind::kSlave;
   std::string line = setup.seat.name + " (" + (slave ? "SLAVE" : to_text(setup.seat.role)) + ") " + session_text(s, setup);
   line += std::string(" | gate ") + to_text(s.gate) + (s.gate == wire::GateState::kDamped ? " (press b)" : "");
   if (!slave) line += format(" | alpha %.2f", s.alpha);
-  if (const std::string told = handover_text(s); !told.empty()) line += " (" + told + ")";
+  if (const std::string told = handover_text(s, setup); !told.empty()) line += " (" + told + ")";
   line += format(" | %.2f N | rtt %.1f ms loss %.1f %%", s.force_n, s.rtt_ms, s.down_loss_percent);
   line += format(" | tip %.0f %.0f %.0f mm", s.x[0] * 1e3, s.x[1] * 1e3, s.x[2] * 1e3);
   line += format(" | margin %.0f mJ | late ticks %u", s.margin_min_j * 1e3, s.late_ticks);

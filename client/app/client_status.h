@@ -26,6 +26,7 @@ struct ClientStatus {
   wire::Handover handover = wire::Handover::kNone;  ///< what was last told of the own weight, for a second
   std::uint32_t handovers = 0;                      ///< how often there was something to tell
   double handover_s = 0;                            ///< from then until it begins [s]
+  wire::HandoverParties handover_parties;           ///< who decided it, and who gains
   double force_n = 0;         ///< delivered to the hand [N]
   std::array<double, 3> x{};  ///< tip [m]
   double rtt_ms = 0, rtt_p50_ms = 0, rtt_p99_ms = 0;
@@ -54,8 +55,8 @@ enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
 
 /// Why the motors gave no force, if they were too hot; empty: they were not.
 [[nodiscard]] std::string motors_text(const ClientStatus& status);
-/// What a person is told of his weight; empty: nothing.
-[[nodiscard]] std::string handover_text(const ClientStatus& status);
+/// Who gives what to whom, and when, or that it was called off; empty: nothing. `the scene gives the tool to trainee in 50 ms`
+[[nodiscard]] std::string handover_text(const ClientStatus& status, const SeatSetup& setup);
 /// One line for a terminal.
 [[nodiscard]] std::string status_line(const ClientStatus& status, const SeatSetup& setup);
 

@@ -38,17 +38,6 @@ double number(const char* option, std::string text, double lo, double hi, Mistak
   return std::stod(text);
 }
 
-/// What can be said of the device before the scene is known: a simulated one gets its numbers from the scene, so that
-/// only its axes are certain, and not more than a Touch's three.
-hal::DeviceCaps certain_caps(const hal::DeviceCaps& opened) {
-  hal::DeviceCaps caps = opened;
-  caps.damping.reset();
-  caps.mass.reset();
-  caps.stiffness.reset();
-  for (hal::AxisLimit& axis : caps.axis) axis = {};
-  return caps;
-}
-
 void understand_files(const JoinArguments& arguments, Mistakes& mistakes) {
   if (!arguments.json.empty() && arguments.json != "-")
     if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty())

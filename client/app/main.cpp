@@ -7,6 +7,7 @@
 #include "client/app/join_command.h"
 #include "client/app/link_test_command.h"
 #include "client/app/sessions_command.h"
+#include "client/app/try_command.h"
 #include "client/app/weigh_command.h"
 #include "common/io/log.h"
 #include "common/io/private_memory.h"
@@ -26,10 +27,11 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "tandem-client " TANDEM_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "`tandem-client join --help`, `doctor --help`, `link-test --help`, `control --help` and `weigh --help` tell more.\n"
+      "`tandem-client try --help`, `join --help`, `doctor --help`, `link-test --help`, `control --help` and `weigh --help` tell more.\n"
       "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files. Not a medical device.");
 
   std::function<int()> action;
+  tandem::client::add_try_command(app, action);
   tandem::client::add_join_command(app, action);
   tandem::client::add_doctor_command(app, action);
   tandem::client::add_link_test_command(app, action);

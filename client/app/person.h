@@ -21,7 +21,7 @@ class Person {
   bool press(const std::string& key);
 
  private:
-  [[nodiscard]] bool may_move_alpha() const noexcept { return setup_->masters.size() > 1; }
+  [[nodiscard]] bool may_move_alpha() const noexcept { return setup_->moves_authority() && setup_->masters.size() > 1; }
   void set_alpha(double own);
   void move_hand(int axis, double distance);
 

@@ -59,7 +59,7 @@ hal::Command SeatPump::tick(const hal::State& state) noexcept {
   obey_person();
   obey_script(now);
   const auto session = seat_->session_time(now);
-  if (sim_ != nullptr) sim_->set_session_time(session);
+  if (sim_ != nullptr) sim_->set_session_time(seat_->clock_stands() ? std::nullopt : session);  // a stopped hand waits
   seat_->note_late_ticks(picture_.late_ticks);
   held_ = seat_->on_servo(now, state);
   send(now);
@@ -173,6 +173,7 @@ void SeatPump::see_handover() noexcept {
   handover_version_ = f.authority_version;
   if (anew) {
     picture_.handover = f.handover;
+    picture_.handover_parties = f.handover_parties;
     picture_.handover_s = f.handover_ticks / seat_->setup().tick_hz;
     ++picture_.handovers;
     handover_told_ = ticks_;

@@ -43,6 +43,7 @@ void Vigil::leave(const std::string& why) {
 
 SeatEnd Vigil::keep() {
   if (keys_.interactive()) o_.line.note(o_.person.help());
+  if (o_.plan.companion != nullptr) o_.plan.companion->begin(o_.seat.setup());
   while (true) {
     // What is not there has a negative number, which is passed over.
     pollfd files[] = {{o_.pump.finished_fd(), POLLIN, 0}, {o_.signals, POLLIN, 0}, {keys_.fd(), POLLIN, 0}, {coming_ ? coming_->done_fd() : -1, POLLIN, 0}, {asking_why_ ? asking_why_->done_fd() : -1, POLLIN, 0}};
@@ -66,6 +67,7 @@ SeatEnd Vigil::keep() {
     if (!left_)
       if (const auto end = see_server(status)) return *end;
     see_stop(status);
+    see_companion(status);
     show(status);
   }
   asking_why_.reset();
@@ -84,6 +86,7 @@ SeatEnd Vigil::keep() {
 void Vigil::hear_person() {
   for (std::string key = keys_.next(); !key.empty(); key = keys_.next()) {
     if (key == "b" && o_.device.phase() == hal::Phase::kFault) wants_force_again_ = o_.device.reset().has_value();
+    if (o_.plan.companion != nullptr) o_.plan.companion->pressed(key);
     if (o_.person.press(key)) leave("letting go");
   }
 }
@@ -162,6 +165,13 @@ void Vigil::see_stop(const ClientStatus& status) {
   asking_why_ = std::make_unique<AskWhy>(connection_, own_.session);
 }
 
+void Vigil::see_companion(const ClientStatus& status) {
+  Companion* const companion = o_.plan.companion;
+  if (companion == nullptr || left_) return;
+  for (const std::string& text : companion->say(seconds(io::monotonic_now().time_since_epoch()), status)) o_.line.note(text);
+  if (const std::string why = companion->why_leave(); !why.empty()) leave(why);
+}
+
 void Vigil::show(ClientStatus status) {
   if (std::exchange(motors_hot_, status.motors_hot) != status.motors_hot) {
     if (status.motors_hot) {
@@ -177,7 +187,7 @@ void Vigil::show(ClientStatus status) {
   const Time now = io::monotonic_now();
   if (std::exchange(handovers_, status.handovers) != status.handovers && now - handover_told_ > kBetweenHandovers) {
     handover_told_ = now;
-    o_.line.note(handover_text(status));
+    o_.line.note(handover_text(status, o_.seat.setup()));
   }
   if (now - shown_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_ = now;

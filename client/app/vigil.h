@@ -50,6 +50,7 @@ class Vigil {
   void show(ClientStatus status);
   /// Says who stopped the session, and why, once per stop.
   void see_stop(const ClientStatus& status);
+  void see_companion(const ClientStatus& status);
   /// The server said that it is about to be started anew.
   [[nodiscard]] static bool returns(const ClientStatus& status) noexcept {
     return status.closed && status.close_reason == wire::CloseReason::kServerReturns;

@@ -134,7 +134,9 @@ Result<OpenedSim> open_stepped(Text spec, const SimDeviceSpec& base, const HandS
   sim::SimSetup setup{base, hand, environment, nullptr, start};
   if (choice->model) setup.device.model = *choice->model;
   if (choice->motion) choice->hand = HandModel::kRecorded;
-  if (choice->hand && *choice->hand != hand.model) {
+  if (choice->hand && *choice->hand != hand.model && moved_by_person(*choice->hand)) {
+    setup.hand = person_instead_of(hand, *choice->hand);
+  } else if (choice->hand && *choice->hand != hand.model) {
     setup.hand.model = *choice->hand;
     setup.hand.k = setup.hand.b = setup.hand.m = 0.0;  // the new model's own
   }

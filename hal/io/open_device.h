@@ -31,7 +31,7 @@ struct LiveSim {
 ///   sim:motion=FILE.csv[,columns=P][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop]
 ///   sim:model=touch|linear[,...]               instead of the seat's device model
 /// @param base, hand, environment  what the scene says of the seat; another hand than the scene's gets its model's
-/// impedance
+/// impedance, and a hand that a person moves (keyboard, recording) also none of the scene's script: it is never relaxed by it
 /// @param start                    `State::sampled_at` of the first reading
 /// Error: names the wrong word, the nearest valid one and all valid ones; or what is wrong with the recording.
 [[nodiscard]] Result<OpenedSim> open_stepped(std::string_view spec, const SimDeviceSpec& base, const HandSpec& hand,

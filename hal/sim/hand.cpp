@@ -79,6 +79,10 @@ Hand::Hand(const HandSpec& spec, const Vec3& start, std::shared_ptr<const Record
   if (spec.k > 0.0) impedance_.k = spec.k;
   if (spec.b > 0.0) impedance_.b = spec.b;
   if (spec.m > 0.0) impedance_.m = spec.m;
+  if (moved_by_person(spec_.model)) {  // no scene says when a person lets go
+    spec_.from = HandSpec{}.from;
+    spec_.until = HandSpec{}.until;
+  }
 }
 
 void Hand::set_session_time(std::optional<double> t) noexcept {

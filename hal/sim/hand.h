@@ -40,7 +40,7 @@ class KeyboardTarget {
 /// - Not engaged (no session time): holds the pose, k 300 N/m, b 10 N s/m, so that nothing drifts.
 /// - Engaged: fades within 0.5 s into its model, without a jump of the intended position or of the stiffness.
 /// - `HandSpec::from`: RELAXED before, then fades within 0.5 s into its own model, moving there with minimum jerk;
-/// `until`: fades back to RELAXED within 0.5 s. Deterministic, no heap after construction, total.
+/// `until`: fades back to RELAXED within 0.5 s. Hands that a person moves (`moved_by_person`) ignore both. Deterministic, no heap after construction, total.
 class Hand {
  public:
   /// @param start   tip position at the start [m], HAL frame

@@ -100,6 +100,7 @@ WorldSetup understand(const RunArguments& arguments, std::vector<std::string>& n
     return setup;  // without a scene nobody knows which seats a script or a hand may name
   }
   if (arguments.duration_s > 0) setup.scene.duration = arguments.duration_s;
+  if (setup.scene.endless()) mistakes.add("--duration: " + no_end(arguments.scene, "give --duration S, such as --duration 60"));
   if (arguments.channel == "raw") setup.scene.channel.law = LawKind::kRaw;
   if (arguments.channel == "set_position") setup.scene.channel.law = LawKind::kSetPosition;
   for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
@@ -216,7 +217,7 @@ int run_command(const RunArguments& arguments) {
   for (const std::string& note : notes) words += "note: " + note + "\n";
   if (!arguments.quiet || !json_on_stdout)
     std::fprintf(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s%s%s",
-                 report.scenario.c_str(), report.passed ? "pass" : broken ? "FAIL" : "interrupted", report.duration_s,
+                 report.scenario.c_str(), interrupted && !broken ? "interrupted" : report.verdict_words(), report.duration_s,
                  setup.replay ? ("replay of " + arguments.replay).c_str() : network->description.c_str(),
                  static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
                  server::report_summary(report, world.scene()).c_str(), quality_report(links, arguments.verbose).c_str(),
@@ -253,7 +254,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--mfs", arguments->mfs, "flow sources instead of the scene's: open (followers get what they need), tank (only what was dissipated), "
                    "seed, seed_signed (two readings of the source paper's equation 3)")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
-  command->add_option("--duration", arguments->duration_s, "session time instead of the scene's")
+  command->add_option("--duration", arguments->duration_s, "session time instead of the scene's; a scene without an end (no duration_s) needs it")
       ->check(io::number_in(0.1, 3e6, "s"))
       ->option_text("S");
   command->add_option("--json", arguments->json, "writes the report; `-`: to standard output")->option_text("FILE|-");
@@ -269,10 +270,11 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--no-quality", arguments->no_quality, "does not judge the network");
   command->add_flag("--quiet", arguments->quiet, "no progress, and no summary beside --json -");
   command->footer(
-      "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then.\n"
+      "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then. It is\n"
+      "`not judged` when no hand moved or no errors could be measured.\n"
       "The network is judged apart, by what force feedback needs (green, amber, red; loss, gaps and jitter in every\n"
       "100 ms, 1 s and 10 s of the session, round trips): it never changes the verdict.\n"
-      "Exit: 0 pass, 1 fail or interrupted, 2 wrong arguments or files.\n\n"
+      "Exit: 0 pass or not judged, 1 fail or interrupted, 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim run free_motion\n"
       "  tandem-netsim run contact --delay 20 --jitter 5 --loss 5 --json -\n"

@@ -12,6 +12,7 @@
 #include "netsim/app/sweep.h"
 #include "netsim/app/test_progress.h"
 #include "proto/io/scene_file.h"
+#include "netsim/world_notes.h"
 #include "server/session_monitor.h"
 
 namespace tandem::netsim {
@@ -55,6 +56,8 @@ SweepSpec understand(const SweepArguments& a, Mistakes& mistakes) {
   if (points > kSweepPointsMax)
     mistakes.add("the grid has " + std::to_string(points) + " points; at most " + std::to_string(kSweepPointsMax) + " are allowed");
   if (const auto known = sweep_metric(a.metric); !known) mistakes.add("--metric: " + known.error());
+  if (a.duration_s <= 0 && !spec.scene.seats.empty() && spec.scene.endless())
+    mistakes.add("--duration: " + no_end(a.scene, "give --duration S, such as --duration 60"));
   if (a.duration_s > 0) {
     spec.scene.duration = a.duration_s;
     spec.options += format("--duration %.9g", a.duration_s);

@@ -4,6 +4,7 @@
 
 #include "common/link/digest.h"
 #include "netsim/profiles.h"
+#include "netsim/world_notes.h"
 #include "netsim/world_report.h"
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
@@ -31,6 +32,7 @@ std::expected<WorldSetup, std::string> world_setup(const SceneRun& run) {
     mistakes += to_text(profile.error());
   }
   if (!(run.duration_s >= 0 && run.duration_s <= 3e6)) mistakes += "duration_s must be in [0, 3e6]\n";
+  if (run.duration_s == 0 && !setup.scene.seats.empty() && setup.scene.endless()) mistakes += no_end(run.scene, "set SceneRun::duration_s") + "\n";
   if (!mistakes.empty()) return std::unexpected(std::move(mistakes));
   if (run.duration_s > 0) setup.scene.duration = run.duration_s;
   return setup;

@@ -23,7 +23,7 @@ std::string announcement(const SessionRun& run, const io::SocketAddress& at, boo
   const bool by_code = !run.code().empty();
   const std::string which = by_code ? " --session " + (read_code.empty() ? code_text(run.code()) : "CODE") : several ? " --session " + name : "";
   std::string text = several ? "session " + name + ": " : "";
-  text += format("scene %s, %g s; ", scene.name.c_str(), scene.duration);
+  text += "scene " + scene.name + (scene.endless() ? ", no end; " : format(", %g s; ", scene.duration));
   if (by_code) text += read_code.empty() ? "session code " + code_text(run.code()) + "; " : "`" + read_code + "` shows the session's CODE; ";
   text += throw_away ? "in other terminals type\n" : "on enrolled workstations type\n";
   for (const SeatSpec& seat : scene.seats) {

@@ -20,7 +20,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
   using State = wire::SessionState;
   News news;
   const bool runs = status.state != State::kWaiting && status.state != State::kEnding;
-  std::size_t came = 0, lost = 0;
+  std::size_t came = 0, lost = 0, left = 0;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const SeatStatus& now_there = status.seats[i];
     Seat& seat = seats_[i];
@@ -38,6 +38,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (!seat.away_since) seat.away_since = now;
     if (now - *seat.away_since < kLost) continue;
     ++lost;
+    left += now_there.taken ? 0 : 1;
     if (!seat.warned)
       news.notes.push_back({"gone", name, name + " has been gone for 10 s; its weight went to the others, or the tool is held", true});
     seat.warned = true;
@@ -54,6 +55,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     state_ = status.state;
   }
   news.all_lost = runs && came > 0 && lost == came;
+  news.all_left = news.all_lost && left == came;
   return news;
 }
 

@@ -24,6 +24,7 @@ class Attendance {
   struct News {
     std::vector<Note> notes;
     bool all_lost = false;    ///< everybody who was there has been away for `kLost`
+    bool all_left = false;  ///< all_lost, and every one of them left as people leave
   };
   [[nodiscard]] News look(Time now, const SessionStatus& status, const SceneSpec& scene);
 

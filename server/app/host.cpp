@@ -301,7 +301,10 @@ class Host {
     for (const Attendance::Note& note : news.notes) tell(r, status, note);
     if (status.state == wire::SessionState::kWaiting) r.waited_for = waiting_for(status, r.plan().scene);
     if (r.end) return;
-    if (news.all_lost) {
+    if (news.all_left && r.plan().scene.endless()) {
+      tell(r, status, {"people_left", "", "everybody left 10 s ago; the session ends"});
+      end(r, End::kPeopleLeft);
+    } else if (news.all_lost) {
       tell(r, status, {"peers_lost", "", "peers lost: everybody has been gone for 10 s; the session ends", true});
       end(r, End::kPeersLost);
     } else if (plan_.wait_s > 0 && status.state == wire::SessionState::kWaiting && seconds(now - began_) > plan_.wait_s) {

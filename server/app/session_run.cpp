@@ -19,7 +19,7 @@ constexpr int kFailed = 1, kTrouble = 1, kWrong = 2;
 constexpr std::size_t kQueueTicks = 2048;
 
 const char* to_text(End end) {
-  constexpr const char* kNames[] = {"scene", "signal", "nobody_came", "peers_lost"};
+  constexpr const char* kNames[] = {"scene", "signal", "nobody_came", "peers_lost", "people_left"};
   return kNames[static_cast<std::size_t>(end)];
 }
 
@@ -84,7 +84,7 @@ std::expected<std::unique_ptr<SessionRun>, SessionRun::Trouble> SessionRun::open
 }
 
 std::string SessionRun::how_it_went(const RunReport& report) const {
-  if (report.duration_s > 0) return format("%s, %.1f s", report.passed ? "pass" : "FAIL", report.duration_s);
+  if (report.duration_s > 0) return format("%s, %.1f s", report.verdict_words(), report.duration_s);
   return std::string(kept_ ? "never went on after the restart" : "never began") + (waited_for.empty() ? "" : ": it waited for " + waited_for);
 }
 
@@ -114,7 +114,7 @@ SessionRun::Verdict SessionRun::finish() {
     if (const auto problem = file->close(); !problem.empty() && verdict.problem.empty()) verdict.problem = problem;
   if (!verdict.problem.empty()) {
     verdict.code = kTrouble;
-  } else if (why == End::kScene) {
+  } else if (why == End::kScene || why == End::kPeopleLeft) {
     verdict.code = report.passed ? 0 : kFailed;
   } else {
     verdict.code = why == End::kSignal ? 0 : kTrouble;

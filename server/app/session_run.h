@@ -14,8 +14,8 @@
 
 namespace tandem::server {
 
-/// Why a session ended.
-enum class End : std::uint8_t { kScene, kSignal, kNobodyCame, kPeersLost };
+/// Why a session ended. kPeopleLeft: of a scene without an end, everybody left as people leave.
+enum class End : std::uint8_t { kScene, kSignal, kNobodyCame, kPeersLost, kPeopleLeft };
 
 /// A session that somebody wants hosted, everything checked.
 struct SessionPlan {

@@ -54,7 +54,7 @@ std::string why_held(const SessionStatus& status, const SceneSpec& scene) {
 }
 
 std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
-  std::string line = format("%.1f/%g s ", status.time, scene.duration);
+  std::string line = scene.endless() ? format("%.1f s ", status.time) : format("%.1f/%g s ", status.time, scene.duration);
   switch (status.state) {
     case wire::SessionState::kWaiting: {
       const std::string whom = waiting_for(status, scene);

@@ -15,17 +15,33 @@ SeatSetup setup() {
   return s;
 }
 
-TEST(ClientStatus, TellsWhenWeightComesAndGoes) {
+TEST(ClientStatus, SaysWhoGivesTheToolToWhomAndWhen) {
+  SeatSetup seat = setup();
+  seat.masters = {"trainer", "trainee", "second"};
+  seat.own_master = 1;
   ClientStatus s;
   s.alpha = 0.25;
-  EXPECT_NE(status_line(s, setup()).find("| alpha 0.25 |"), std::string::npos);
+  EXPECT_EQ(handover_text(s, seat), "");
   s.handover = wire::Handover::kComes;
-  s.handover_s = 0.05;
-  EXPECT_NE(status_line(s, setup()).find("| alpha 0.25 (more weight in 50 ms) |"), std::string::npos) << status_line(s, setup());
+  s.handover_s = 0.049;  // heard a tick after it was said
+  const auto said = [&](wire::HandoverParties parties) {
+    s.handover_parties = parties;
+    return handover_text(s, seat);
+  };
+  EXPECT_EQ(said({.by = wire::HandoverParties::kScene, .to = 2, .percent = 100}), "the scene gives the tool to trainee in 50 ms");
+  EXPECT_NE(status_line(s, seat).find("the scene gives the tool to trainee in 50 ms"), std::string::npos) << status_line(s, seat);
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}), "trainer gives the tool to trainee in 50 ms");
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 30}), "trainer gives 30 % of the tool to trainee in 50 ms");
+  EXPECT_EQ(said({.by = wire::HandoverParties::kOperator, .to = 2, .percent = 100}), "an operator gives the tool to trainee in 50 ms");
+  EXPECT_EQ(said({.by = 1, .to = 0, .percent = 15}), "trainer shares the tool anew in 50 ms: your part becomes 15 %");
   s.handover = wire::Handover::kGoes;
-  EXPECT_EQ(handover_text(s), "less weight in 50 ms");
+  EXPECT_EQ(said({.by = 1, .to = 1, .percent = 100}), "trainer takes the tool in 50 ms");
+  EXPECT_EQ(said({.by = 1, .to = 1, .percent = 75}), "trainer takes more of the tool in 50 ms: 75 %");
+  EXPECT_EQ(said({.by = 24, .to = 16, .percent = 100}), "an operator shares the tool anew in 50 ms: your part becomes 100 %") << "numbers that name nobody";
+  seat.tools = {"left", "right"};
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100, .tool = 1}), "trainer gives the tool right to trainee in 50 ms");
   s.handover = wire::Handover::kCalledOff;
-  EXPECT_EQ(handover_text(s), "hand-over called off: a link is too old");
+  EXPECT_EQ(said({}), "hand-over called off: a link is too old");
 }
 
 TEST(ClientStatus, SaysWhyHotMotorsGiveNoForceAndWhatToDo) {

@@ -216,6 +216,19 @@ TEST(Hand, DeviationsHaveSoftEdges) {
   EXPECT_LT(p.jump_f, 2.0 * 1.9 * kTick / 0.1);
 }
 
+TEST(Hand, OfAPersonIsNeverRelaxedByAScene) {
+  for (const HandModel model : {HandModel::kKeyboard, HandModel::kRecorded}) {
+    HandSpec s = spec(model);
+    s.from = 1;
+    s.until = 3;
+    Player p(s);
+    for (const double t : {0.9, 3.6, 20.0}) {
+      p.play(t);
+      EXPECT_EQ(p.pull.k, impedance_of(model).k) << t << " s";
+    }
+  }
+}
+
 TEST(Hand, KeyboardIsLimitedInSpeed) {
   Player p(spec(HandModel::kKeyboard));
   p.play(1.0);

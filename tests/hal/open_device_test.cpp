@@ -31,6 +31,28 @@ TEST(OpenDevice, AnotherHandGetsItsOwnImpedance) {
   EXPECT_EQ(opened("sim:model=linear,hand=none")->device->caps().joints, 1u);
 }
 
+TEST(OpenDevice, AKeyboardIsNotRelaxedWhenTheScenesHandIs) {
+  HandSpec scripted;
+  scripted.model = HandModel::kLeader;
+  scripted.until = 1;
+  scripted.deviations.push_back({3, 2, {5, 0, 0}});
+  auto d = open_stepped("sim:keyboard", SimDeviceSpec{}, scripted);
+  ASSERT_TRUE(d.has_value());
+  const auto play = [&](int from_ms, int to_ms) {
+    for (int i = from_ms; i < to_ms; ++i) {
+      d->device->set_session_time(i * 1e-3);
+      d->device->advance({}, std::chrono::milliseconds(1));
+    }
+  };
+  play(0, 2900);
+  const Vec3 before = d->device->truth().x;
+  play(2900, 4500);
+  EXPECT_LT((d->device->truth().x - before).norm(), 0.002) << "the scene pushes its own hand, not a person's";
+  d->device->hand().keyboard()->set(before + Vec3(0.03, 0, 0));
+  play(4500, 6500);
+  EXPECT_GT(d->device->truth().x[0] - before[0], 0.025) << "3.5 s after the scene relaxed its hand";
+}
+
 TEST(OpenDevice, SaysWhatIsWrongAndWhatWasMeant) {
   const struct {
     const char* text;

@@ -203,6 +203,20 @@ TEST(BadScene, HandsDoNotContradictThemselves) {
              "after from_s = 5");
 }
 
+TEST(BadScene, AHandThatAPersonMovesIsNotRelaxedByTheClock) {
+  for (const char* model : {"KEYBOARD", "RECORDED"})
+    for (const char* key : {"from_s", "until_s"}) {
+      const std::string text = with("hand { model: LEADER }", std::string("hand { model: ") + model + " " + key + ": @11.5 }");
+      expect_one(text, std::string("seat[0].hand.") + key, "never relaxed by the scene");
+    }
+}
+
+TEST(BadScene, WithoutADurationAnyTimeIsBeforeTheEnd) {
+  EXPECT_EQ(to_text(errors_of(with("duration_s: 18\n", ""))), "");
+  expect_one(with("duration_s: 18", "clock_runs_while_stopped: @1"), "clock_runs_while_stopped", "true or false");
+  EXPECT_TRUE(parse_scene(with("duration_s: 18", "clock_runs_while_stopped: true"), "s")->clock_runs_while_stopped);
+}
+
 TEST(BadScene, TooManySeatsAreRefused) {
   std::string text = good();
   for (int i = 0; i < 15; ++i) text += "seat { name: \"s" + std::to_string(i) + "\" role: OBSERVER }\n";

@@ -22,6 +22,11 @@ void expect_same(const SeatSetup& a, const SeatSetup& b) {
   EXPECT_EQ(a.dof, b.dof);
   EXPECT_EQ(a.port, b.port);
   EXPECT_EQ(a.duration, b.duration);
+  EXPECT_EQ(a.clock_runs_while_stopped, b.clock_runs_while_stopped);
+  EXPECT_EQ(a.masters, b.masters);
+  EXPECT_EQ(a.tools, b.tools);
+  EXPECT_EQ(a.own_master, b.own_master);
+  EXPECT_EQ(a.drivers, b.drivers);
   EXPECT_EQ(a.channel.law, b.channel.law);
   EXPECT_EQ(a.channel.mfs, b.channel.mfs);
   EXPECT_EQ(a.channel.k, b.channel.k);
@@ -74,6 +79,19 @@ TEST(SeatSetup, OfEveryShippedSeatComesBackAsItWas) {
       expect_same(setup, *got);
     }
   }
+}
+
+TEST(SeatSetup, NamesTheMastersToEverySeatAndTheToolsWhereThereAreSeveral) {
+  const auto spec = scene("two_by_two");
+  for (std::size_t s = 0; s < spec.seats.size(); ++s) {
+    EXPECT_EQ(seat_setup(spec, s).masters.size(), spec.masters());
+    EXPECT_EQ(seat_setup(spec, s).tools.size(), 2u);
+  }
+  const auto lesson = scene("lesson");
+  EXPECT_EQ(seat_setup(lesson, 1).masters[0], "instructor");
+  EXPECT_TRUE(seat_setup(lesson, 1).tools.empty());
+  EXPECT_TRUE(seat_setup(lesson, 0).moves_authority());
+  EXPECT_FALSE(seat_setup(lesson, 1).moves_authority()) << "a trainee knows the names and gives nothing";
 }
 
 TEST(SeatSetup, KnowsWhatAServingSeatNeeds) {

@@ -18,7 +18,7 @@ SceneSpec shipped(std::string_view name) {
   return spec.value_or(SceneSpec{});
 }
 
-TEST(ShippedScenes, AreTheTenAndEachIsValidAndSummarised) {
+TEST(ShippedScenes, AreTheElevenAndEachIsValidAndSummarised) {
   std::set<std::string_view> names;
   for (const auto& scene : shipped_scenes()) {
     names.insert(scene.name);
@@ -26,7 +26,7 @@ TEST(ShippedScenes, AreTheTenAndEachIsValidAndSummarised) {
     EXPECT_FALSE(scene.summary.empty()) << scene.name;
     EXPECT_EQ(scene.summary.find('\n'), std::string_view::npos);
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"contact", "contact_remote", "devices", "devices_remote", "eight_seats", "free_motion", "one_axis",
+  EXPECT_EQ(names, (std::set<std::string_view>{"contact", "contact_remote", "devices", "devices_remote", "eight_seats", "free_motion", "lesson", "one_axis",
                                                "seed_contact", "seed_free_motion", "two_by_two"}));
   EXPECT_EQ(find_shipped_scene("contac"), nullptr);
 }
@@ -120,13 +120,33 @@ TEST(ShippedScenes, SeedHasThePapersGains) {
   EXPECT_FALSE(shipped("seed_free_motion").commanded_force);
 }
 
+TEST(ShippedScenes, ALessonHasNoEndNoTimelineAndFiveSeats) {
+  const auto lesson = shipped("lesson");
+  EXPECT_TRUE(lesson.endless());
+  EXPECT_TRUE(lesson.timeline.empty());
+  EXPECT_TRUE(lesson.phases.empty());
+  EXPECT_FALSE(lesson.clock_runs_while_stopped);
+  ASSERT_EQ(lesson.seats.size(), 5u);
+  const std::array<std::pair<Role, bool>, 5> seats{{{Role::kInstructor, true}, {Role::kTrainee, true}, {Role::kEvaluator, false}, {Role::kEvaluator, false}, {Role::kEvaluator, false}}};
+  for (std::size_t i = 0; i < seats.size(); ++i) {
+    EXPECT_EQ(lesson.seats[i].role, seats[i].first);
+    EXPECT_EQ(lesson.seats[i].required, seats[i].second);
+    EXPECT_TRUE(std::isinf(lesson.seats[i].hand.until)) << "nobody is relaxed by the clock";
+    EXPECT_EQ(lesson.seats[i].hand.from, 0);
+  }
+  EXPECT_TRUE(lesson.gate.latch) << "fit for real devices";
+  EXPECT_LE(lesson.gate.loop_age_max, 0.3);
+  const std::string listing = effective_scene_text(lesson);
+  EXPECT_NE(listing.find("duration_s: none given, the session lasts until it is ended"), std::string::npos);
+  EXPECT_NE(listing.find("clock_runs_while_stopped"), std::string::npos);
+}
+
 TEST(ShippedScenes, OthersHaveTheSeatsTheirNamesSay) {
   const auto one = shipped("one_axis");
   EXPECT_EQ(one.dof, 1u);
   EXPECT_EQ(one.seats[0].device.model, DeviceModel::kLinear);
   EXPECT_EQ(one.seats[0].device.encoder, 5.5e-5);
-  ASSERT_EQ(one.phases.size(), 1u);
-  EXPECT_EQ(one.phases[0].name, "run");
+  EXPECT_TRUE(one.phases.empty()) << "its report covers the whole session";
   const auto eight = shipped("eight_seats");
   EXPECT_EQ(eight.seats.size(), 8u);
   EXPECT_EQ(eight.seats[7].role, Role::kEvaluator);

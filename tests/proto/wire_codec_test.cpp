@@ -88,6 +88,7 @@ TEST(WireCodec, ForceComesBackAsItWas) {
       EXPECT_EQ(got->message.stops, sent.stops);
       EXPECT_EQ(got->message.handover, sent.handover);
       EXPECT_EQ(got->message.handover_ticks, sent.handover_ticks);
+      EXPECT_EQ(got->message.handover_parties, sent.handover_parties);
     }
   }
 }
@@ -195,8 +196,23 @@ TEST(WireCodec, RefusesNumbersThatCannotBeMeant) {
     return force([&](auto& m) {
       m.handover = what;
       m.handover_ticks = ticks;
+      m.handover_parties = {};
     });
   };
+  const auto names = [&](Handover what, HandoverParties parties) {
+    return force([&](auto& m) {
+      m.handover = what;
+      m.handover_ticks = 0;
+      m.handover_parties = parties;
+    });
+  };
+  EXPECT_EQ(names(Handover::kComes, {.by = kSeatsMax + 1}), DecodeError::kOutOfRange);
+  EXPECT_EQ(names(Handover::kComes, {.to = kMastersMax + 1}), DecodeError::kOutOfRange);
+  EXPECT_EQ(names(Handover::kGoes, {.percent = 101}), DecodeError::kOutOfRange);
+  for (const HandoverParties& who : {HandoverParties{.by = 1}, {.to = 1}, {.percent = 1}, {.tool = 1}}) {
+    EXPECT_EQ(names(Handover::kNone, who), DecodeError::kOutOfRange) << "who gives what is not given";
+    EXPECT_EQ(names(Handover::kCalledOff, who), DecodeError::kOutOfRange);
+  }
   EXPECT_EQ(tells(Handover::kComes, kHandoverNotice + 1), DecodeError::kOutOfRange);
   EXPECT_EQ(tells(Handover::kNone, 1), DecodeError::kOutOfRange) << "nothing comes, and when?";
   EXPECT_EQ(tells(Handover::kCalledOff, 1), DecodeError::kOutOfRange);

@@ -66,7 +66,12 @@ inline ForceMessage force(RandomStream& random, std::size_t axes) {
   m.alpha = random.uniform();
   m.stops = static_cast<std::uint32_t>(random.bits());
   m.handover = static_cast<Handover>(random.below(4));
-  if (m.handover == Handover::kComes || m.handover == Handover::kGoes) m.handover_ticks = static_cast<std::uint32_t>(random.below(kHandoverNotice + 1));
+  if (m.handover == Handover::kComes || m.handover == Handover::kGoes) {
+    const auto below = [&](std::size_t n) { return static_cast<std::uint32_t>(random.below(n)); };
+    m.handover_ticks = below(kHandoverNotice + 1);
+    m.handover_parties = {below(kSeatsMax + 2), below(kMastersMax + 1), below(101), below(kToolsMax)};
+    if (m.handover_parties.by > kSeatsMax) m.handover_parties.by = HandoverParties::kOperator;
+  }
   return m;
 }
 inline PathMessage path(RandomStream& random) { return {random.bits()}; }

@@ -95,7 +95,9 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       expect_same(f.f(), m.port.f, axes);
       expect_same(f.e_in(), m.port.e_in, axes);
       EXPECT_EQ(f.session(), static_cast<std::uint32_t>(m.session));
-      EXPECT_EQ(f.flags(), (m.engage ? 1U : 0U) + 2 * static_cast<unsigned>(m.handover) + 8 * m.handover_ticks);
+      const HandoverParties& p = m.handover_parties;
+      EXPECT_EQ(f.flags(), (m.engage ? 1U : 0U) + 2 * static_cast<unsigned>(m.handover) + 8 * m.handover_ticks + 512 * p.by + 16384 * p.to +
+                               524288 * p.percent + 67108864 * p.tool);
       EXPECT_EQ(f.session_tick(), m.session_tick);
       EXPECT_EQ(f.authority_version(), m.authority_version);
       EXPECT_EQ(f.missing(), m.missing);

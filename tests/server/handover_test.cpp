@@ -91,6 +91,26 @@ TEST(Handover, BeginsFiftyTicksAfterTheDecisionAndBothAreToldAllTheWhile) {
   EXPECT_EQ(l.session->authority_version(), version + 1);
 }
 
+TEST(Handover, SaysWhoDecidedItAndWhoGains) {
+  Lesson l;
+  const auto both = [&] { return std::pair{l.told(kTrainer).handover_parties, l.told(kTrainee).handover_parties}; };
+  ASSERT_EQ(l.order(kToTrainee), Result::kDone);
+  l.ticks(2);
+  const wire::HandoverParties by_operator{.by = wire::HandoverParties::kOperator, .to = kTrainee + 1, .percent = 100};
+  EXPECT_EQ(both(), std::pair(by_operator, by_operator));
+  l.ticks(1500);
+  EXPECT_EQ(both(), std::pair(wire::HandoverParties{}, wire::HandoverParties{})) << "it was carried out";
+  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.25, 0.75}));
+  l.ticks(5);
+  const wire::HandoverParties by_trainer{.by = kTrainer + 1, .to = kTrainer + 1, .percent = 25};
+  EXPECT_EQ(both(), std::pair(by_trainer, by_trainer));
+  l.ticks(1500);
+  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{1.0, 0.0}));
+  while (l.session->time() < 11.46) l.ticks(1);
+  const wire::HandoverParties by_scene{.by = wire::HandoverParties::kScene, .to = kTrainee + 1, .percent = 100};
+  EXPECT_EQ(both(), std::pair(by_scene, by_scene)) << "the scene's own change at 11.5 s";
+}
+
 TEST(Handover, IsRefusedWhileALinkOfThoseItConcernsIsOlderThan20Milliseconds) {
   for (const std::size_t mute : {kTrainer, kTrainee}) {
     SCOPED_TRACE(mute);
