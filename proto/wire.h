@@ -79,6 +79,7 @@ struct ForceMessage {
   std::uint32_t stops = 0;       ///< how many stops so far: the number of the newest, which a resume must name
   Handover handover = Handover::kNone;
   std::uint32_t handover_ticks = 0;  ///< until it is carried out, kHandoverNotice at most; 0 unless something comes or goes
+  bool touching = false;             ///< the slave of the tool that this seat follows presses against something; for people only
 };
 
 inline constexpr std::size_t kSeatNameMax = 32;

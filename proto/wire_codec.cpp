@@ -30,7 +30,8 @@ struct StateWords {
 struct ForceWords {
   std::uint32_t session = 0, flags = 0;
 };
-constexpr std::uint32_t kForceFlagsMax = 7U | kHandoverNotice << 3;
+constexpr std::uint32_t kTouching = 1U << 31;
+constexpr std::uint32_t kForceFlagsMax = 7U | kHandoverNotice << 3 | kTouching;
 
 // The fields of each message in the order of their numbers (wire.proto), with the range a receiver takes.
 
@@ -141,7 +142,7 @@ std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std:
 
 std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std::span<std::byte> out) const noexcept {
   const ForceWords words{static_cast<std::uint32_t>(in.session),
-                         (in.engage ? 1U : 0U) | static_cast<std::uint32_t>(in.handover) << 1 | in.handover_ticks << 3};
+                         (in.engage ? 1U : 0U) | static_cast<std::uint32_t>(in.handover) << 1 | in.handover_ticks << 3 | (in.touching ? kTouching : 0U)};
   return with_axes(axes_, [&](auto axes) {
     return write(preamble, force_size(axes), out, [&](ValueWriter& values) { walk_force(values, in, words, axes, 0); });
   });
@@ -188,7 +189,9 @@ Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) const n
       out.session = static_cast<SessionState>(words.session);
       out.engage = (words.flags & 1U) != 0;
       out.handover = static_cast<Handover>(words.flags >> 1 & 3U);
-      out.handover_ticks = words.flags >> 3;
+      out.handover_ticks = (words.flags & ~kTouching) >> 3;
+      out.touching = (words.flags & kTouching) != 0;
+      values.require(out.handover_ticks <= kHandoverNotice);
       values.require(out.handover_ticks == 0 || out.handover == Handover::kComes || out.handover == Handover::kGoes);
     });
   });

@@ -22,6 +22,10 @@ struct ClientStatus {
   std::uint32_t missing = 0;  ///< required seats that are not ready
   double session_time = -1;   ///< [s], negative before the session began
   double silence_s = 0;       ///< since something newer came from the server [s]
+  bool own_stop = false;  ///< the person stopped the own hand
+  bool touching = false;  ///< the slave of the tool touches something
+  std::optional<double> distance_m{};  ///< from the hand to the tool, where the port is a tip
+  std::uint32_t authority_version = 0;
   double alpha = 0;
   wire::Handover handover = wire::Handover::kNone;  ///< what was last told of the own weight, for a second
   std::uint32_t handovers = 0;                      ///< how often there was something to tell
@@ -54,11 +58,8 @@ enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
 
 /// Why the motors gave no force, if they were too hot; empty: they were not.
 [[nodiscard]] std::string motors_text(const ClientStatus& status);
-/// What a person is told of his weight; empty: nothing.
+/// What a person is told of the own authority; empty: nothing.
 [[nodiscard]] std::string handover_text(const ClientStatus& status);
-/// One line for a terminal.
-[[nodiscard]] std::string status_line(const ClientStatus& status, const SeatSetup& setup);
-
 /// What the client knows of the run, for machines.
 struct ClientReport {
   std::string server, device_note;

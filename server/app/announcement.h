@@ -9,6 +9,7 @@ namespace tandem::server {
 
 /// What is said of a session that opens: its scene, and for each seat the command that a person types to sit there.
 /// @param at          where clients dial  @param throw_away  keys made on the spot: no tickets  @param several  sessions are served
-[[nodiscard]] std::string announcement(const SessionRun& run, const io::SocketAddress& at, bool throw_away, bool several);
+/// @param folder      the server's state folder, for the commands about tickets
+[[nodiscard]] std::string announcement(const SessionRun& run, const io::SocketAddress& at, bool throw_away, bool several, const std::string& folder);
 
 }  // namespace tandem::server

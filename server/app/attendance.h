@@ -13,7 +13,7 @@ namespace tandem::server {
 /// Notices who comes, goes and stays away while a session runs.
 class Attendance {
  public:
-  static constexpr Duration kLost = std::chrono::seconds(10);
+  static constexpr Duration kLost = std::chrono::seconds(10);  ///< then a warning names the seat
 
   struct Note {
     const char* event;        ///< joined, left, back, gone, running, held
@@ -23,7 +23,7 @@ class Attendance {
   };
   struct News {
     std::vector<Note> notes;
-    bool all_lost = false;    ///< everybody who was there has been away for `kLost`
+    bool all_lost = false;    ///< everybody who was there has been away for kSessionSilence
   };
   [[nodiscard]] News look(Time now, const SessionStatus& status, const SceneSpec& scene);
 

@@ -1,6 +1,8 @@
 // What a person reads of his seat while something happens to his hand.
 #include "client/app/client_status.h"
 
+#include "client/app/seat_screen.h"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -17,11 +19,10 @@ SeatSetup setup() {
 
 TEST(ClientStatus, TellsWhenWeightComesAndGoes) {
   ClientStatus s;
-  s.alpha = 0.25;
-  EXPECT_NE(status_line(s, setup()).find("| alpha 0.25 |"), std::string::npos);
+  EXPECT_EQ(handover_text(s), "");
   s.handover = wire::Handover::kComes;
   s.handover_s = 0.05;
-  EXPECT_NE(status_line(s, setup()).find("| alpha 0.25 (more weight in 50 ms) |"), std::string::npos) << status_line(s, setup());
+  EXPECT_EQ(handover_text(s), "more weight in 50 ms");
   s.handover = wire::Handover::kGoes;
   EXPECT_EQ(handover_text(s), "less weight in 50 ms");
   s.handover = wire::Handover::kCalledOff;
@@ -33,7 +34,7 @@ TEST(ClientStatus, SaysWhyHotMotorsGiveNoForceAndWhatToDo) {
   EXPECT_EQ(motors_text(s), "");
   s.motors_hot = true;
   EXPECT_EQ(motors_text(s), "MOTORS TOO HOT: let go until they are cool");
-  EXPECT_NE(status_line(s, setup()).find(motors_text(s)), std::string::npos);
+  EXPECT_NE(io::joined(seat_screen(s, setup(), std::nullopt)).find(motors_text(s)), std::string::npos);
   s.motors_latched = true;
   EXPECT_NE(motors_text(s).find("press b"), std::string::npos);
   s.motors_hot = false;

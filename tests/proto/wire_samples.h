@@ -67,6 +67,7 @@ inline ForceMessage force(RandomStream& random, std::size_t axes) {
   m.stops = static_cast<std::uint32_t>(random.bits());
   m.handover = static_cast<Handover>(random.below(4));
   if (m.handover == Handover::kComes || m.handover == Handover::kGoes) m.handover_ticks = static_cast<std::uint32_t>(random.below(kHandoverNotice + 1));
+  m.touching = random.below(2) == 1;
   return m;
 }
 inline PathMessage path(RandomStream& random) { return {random.bits()}; }

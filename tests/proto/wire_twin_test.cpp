@@ -95,7 +95,7 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       expect_same(f.f(), m.port.f, axes);
       expect_same(f.e_in(), m.port.e_in, axes);
       EXPECT_EQ(f.session(), static_cast<std::uint32_t>(m.session));
-      EXPECT_EQ(f.flags(), (m.engage ? 1U : 0U) + 2 * static_cast<unsigned>(m.handover) + 8 * m.handover_ticks);
+      EXPECT_EQ(f.flags(), (m.engage ? 1U : 0U) + 2 * static_cast<unsigned>(m.handover) + 8 * m.handover_ticks + (m.touching ? 1U << 31 : 0U));
       EXPECT_EQ(f.session_tick(), m.session_tick);
       EXPECT_EQ(f.authority_version(), m.authority_version);
       EXPECT_EQ(f.missing(), m.missing);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "common/base/printed_command.h"
 #include "common/base/raw_bytes.h"
 #include "proto/trust_text.h"
 
@@ -11,13 +12,14 @@ namespace {
 
 constexpr const char* kLock = "lock";
 constexpr const char* kServingLock = "serving.lock";
-constexpr const char* kInitHint = "run `tandem-server init` first";
+/// What to do about a folder without keys.
+std::string init_hint(const std::string& folder) { return with_options("run `tandem-server init` first", "tandem-server init", server_state_option(folder)); }
 
 /// A file that must be there.
 std::expected<SecretBuffer, std::string> needed(const StateFolder& folder, const char* name) {
   auto bytes = folder.read(name);
   if (!bytes) return std::unexpected(bytes.error());
-  if (!*bytes) return std::unexpected(folder.path_of(name) + " is missing; " + kInitHint);
+  if (!*bytes) return std::unexpected(folder.path_of(name) + " is missing; " + init_hint(folder.path()));
   return std::move(**bytes);
 }
 
@@ -67,7 +69,7 @@ std::expected<Pin, std::string> ServerTrust::init(const std::string& path, std::
 }
 
 std::expected<ServerTrust, std::string> ServerTrust::open(const std::string& path) {
-  auto folder = StateFolder::open(path, StateFolder::Missing::kIsAnError, kInitHint);
+  auto folder = StateFolder::open(path, StateFolder::Missing::kIsAnError, init_hint(path));
   if (!folder) return std::unexpected(folder.error());
   const auto key = needed(*folder, kKeyFile), certificate = needed(*folder, kCertificateFile), ticket = needed(*folder, kTicketKeyFile);
   for (const auto* file : {&key, &certificate, &ticket})
@@ -83,7 +85,7 @@ std::expected<ServerTrust, std::string> ServerTrust::open(const std::string& pat
 }
 
 std::vector<std::string> ServerTrust::mistakes(const std::string& path) {
-  const auto folder = StateFolder::open(path, StateFolder::Missing::kIsAnError, kInitHint);
+  const auto folder = StateFolder::open(path, StateFolder::Missing::kIsAnError, init_hint(path));
   if (!folder) return {folder.error()};
   std::vector<std::string> wrong;
   for (const char* name : {kKeyFile, kCertificateFile, kTicketKeyFile})
