@@ -278,6 +278,12 @@ bool read(const wire_pb::Status& in, Status& out) {
     if (!std::ranges::all_of(tool.alpha, [](double a) { return a >= 0 && a <= 1; })) return false;
   }
   if (in.has_drain()) out.drain = {in.drain().left_s(), in.drain().sessions(), in.drain().people()};
+  if (in.news_size() > static_cast<int>(kStatusNewsMax) || !is_text(in.held())) return false;
+  out.held = in.held();
+  for (const wire_pb::StatusNews& n : in.news()) {
+    if (n.number() == 0 || !is_text(n.text())) return false;
+    out.news.push_back({n.number(), n.text()});
+  }
   return !in.has_stop() || read(in.stop(), out.stop.emplace());
 }
 void write(const Status& in, wire_pb::Status& out) {
@@ -303,6 +309,12 @@ void write(const Status& in, wire_pb::Status& out) {
     for (const double a : t.alpha) tool.add_alpha(a);
   }
   if (in.stop) write(*in.stop, *out.mutable_stop());
+  out.set_held(in.held);
+  for (const StatusNews& n : in.news) {
+    auto& news = *out.add_news();
+    news.set_number(n.number);
+    news.set_text(n.text);
+  }
   if (!in.drain) return;
   out.mutable_drain()->set_left_s(in.drain->left_s);
   out.mutable_drain()->set_sessions(in.drain->sessions);

@@ -249,6 +249,13 @@ struct StatusDrain {
   std::uint32_t people = 0;    ///< on their seats
   friend bool operator==(const StatusDrain&, const StatusDrain&) = default;
 };
+/// What happened to a session lately: a resume or a removal, and by whom.
+struct StatusNews {
+  std::uint32_t number = 0;  ///< 1 ...; counts up within one run of the session
+  std::string text;          ///< for people, at most kTextMax
+  friend bool operator==(const StatusNews&, const StatusNews&) = default;
+};
+inline constexpr std::size_t kStatusNewsMax = 4;
 /// A session as somebody at a control connection may see it.
 struct Status {
   Id session_id{};
@@ -262,6 +269,8 @@ struct Status {
   std::vector<StatusTool> tools;  ///< at most kToolsMax
   std::optional<StatusStop> stop{};    ///< the newest, if this server knows who made it
   std::optional<StatusDrain> drain{};  ///< while the server drains
+  std::string held{};                  ///< why nobody leads any tool while the session runs, at most kTextMax; empty: somebody does, or it does not run
+  std::vector<StatusNews> news{};      ///< at most kStatusNewsMax, newest last
   friend bool operator==(const Status&, const Status&) = default;
 };
 

@@ -89,6 +89,7 @@ struct ForceMessage {
   Handover handover = Handover::kNone;
   std::uint32_t handover_ticks = 0;  ///< until it is carried out, kHandoverNotice at most; 0 unless something comes or goes
   HandoverParties handover_parties;
+  bool touching = false;             ///< the slave of the tool that this seat follows presses against something; for people only
 };
 
 inline constexpr std::size_t kSeatNameMax = 32;

@@ -31,17 +31,20 @@ struct ForceWords {
   std::uint32_t session = 0, flags = 0;
 };
 /// Places of the parts of FORCE's flags (wire.proto).
-constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kForceFlagsMax = (1U << 29) - 1;
+constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kTouching = 1U << 31;
+constexpr std::uint32_t kForceFlagsMax = kTouching | ((1U << 29) - 1);
 static_assert(kHandoverNotice < 1U << 6 && kSeatsMax < HandoverParties::kOperator && kMastersMax < 1U << 5 && kToolsMax <= 1U << 3);
 
 std::uint32_t force_flags(const ForceMessage& m) noexcept {
   const HandoverParties& p = m.handover_parties;
   return (m.engage ? 1U : 0U) | static_cast<std::uint32_t>(m.handover) << 1 | m.handover_ticks << kTicksAt | p.by << kByAt | p.to << kToAt |
-         p.percent << kPercentAt | p.tool << kToolAt;
+         p.percent << kPercentAt | p.tool << kToolAt | (m.touching ? kTouching : 0U);
 }
 /// @return whether the flags are in range and say nothing beside what they mean
 bool read_force_flags(std::uint32_t flags, ForceMessage& out) noexcept {
   HandoverParties& p = out.handover_parties;
+  out.touching = (flags & kTouching) != 0;
+  flags &= ~kTouching;
   out.engage = (flags & 1U) != 0;
   out.handover = static_cast<Handover>(flags >> 1 & 3U);
   out.handover_ticks = flags >> kTicksAt & 63U;

@@ -245,6 +245,15 @@ void Session::say_farewell(Time now) noexcept {
   }
 }
 
+/// Whether the slave of a tool presses against something, as far as its device tells.
+bool Session::touching(std::size_t j) const noexcept {
+  constexpr double kTouchN = 0.05;  // below it a sensor's noise
+  if (const hal::SteppedDevice* const slave = tools_[j].slave()) return slave->state().penetration > 0 || slave->state().f_env.squaredNorm() > kTouchN * kTouchN;
+  if (!scene_->tools[j].remote || !seats_[scene_->tools[j].seat].taken()) return false;
+  const wire::Telemetry& heard = seats_[scene_->tools[j].seat].heard().telemetry;
+  return heard.penetration_m > 0 || std::ranges::any_of(heard.f_env, [](double f) { return std::abs(f) > kTouchN; });
+}
+
 void Session::fill_force_messages(Time now) noexcept {
   std::array<bool, kSeatsMax> ready{};
   std::uint32_t missing_now = 0;
@@ -252,10 +261,11 @@ void Session::fill_force_messages(Time now) noexcept {
     ready[i] = seats_[i].ready(now);
     missing_now += needed(i) && !ready[i] ? 1 : 0;
   }
-  std::array<bool, kToolsMax> entitled{};
+  std::array<bool, kToolsMax> entitled{}, touches{};
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     const bool slave_ready = !scene_->tools[j].remote || ready[scene_->tools[j].seat];
     for (std::size_t i = 0; i < masters_; ++i) entitled[j] |= slave_ready && tools_[j].authority.requested()[i] > 0 && ready[i];
+    touches[j] = touching(j);
   }
   const bool engage = engage_ && state_ != wire::SessionState::kEnding && !lets_go();
 
@@ -269,10 +279,12 @@ void Session::fill_force_messages(Time now) noexcept {
     m.session = state_;
     m.engage = engage && seats_[i].feels() && !seats_[i].conduct().isolated(now) && !leaving(i);
     m.alpha = 0;
+    m.touching = false;
     for (std::size_t j = 0; j < tools_.size(); ++j) {
       const Tie& tie = ties_[i][j];
       m.engage = m.engage && (tie.share == 0 || entitled[j]);
       if (i < masters_ && tie.follow > 0 && m.alpha == 0) m.alpha = tie.alpha;
+      m.touching = m.touching || (tie.share > 0 && touches[j]);
     }
     m.session_tick = session_tick_;
     m.authority_version = authority_version_;

@@ -32,6 +32,14 @@ class StopLane {
     Time at{};
   };
 
+  /// Who ended a stop last.
+  struct Ended {
+    std::uint32_t number = 0;    ///< of the stop; 0: nobody since this server began
+    std::uint8_t by = kNobody;   ///< a seat, or AuditEvent::kControlPlane
+    AccessRole role = AccessRole::kObserver;
+  };
+  [[nodiscard]] const Ended& ended() const noexcept { return ended_; }
+
   [[nodiscard]] Level level() const noexcept { return level_; }
   [[nodiscard]] bool on() const noexcept { return level_ != Level::kNone; }
   [[nodiscard]] bool led() const noexcept { return led_; }
@@ -91,6 +99,7 @@ class StopLane {
     }
     level_ = Level::kNone;
     holders_ = 0;
+    ended_ = {number, seat, who};
     wishes_.fill(false);  // who still wishes a stop, wishes it anew
     return Resume::kEnded;
   }
@@ -122,6 +131,7 @@ class StopLane {
   std::uint32_t stops_ = 0;
   std::uint32_t holders_ = 0;   ///< seats whose pause is on
   Newest newest_;
+  Ended ended_;
   std::array<bool, kSeatsMax> wishes_{};
 };
 

@@ -10,6 +10,7 @@
 
 #include "client/device_facts.h"
 #include "client/seat.h"
+#include "common/base/printed_command.h"
 #include "common/io/clock.h"
 #include "common/io/signals.h"
 #include "common/trust/enrolment.h"
@@ -115,13 +116,19 @@ class Joining {
     const std::string server = io::to_text(asking_.server);
     if (fault.kind == Fault::Kind::kUnreachable)
       return {false, "no server at " + server + ": nothing listens there (asked for " + waited(asking_.patience) +
-                         "). Start `tandem-server run SCENE` first, and use the address it prints as `listening on`"};
+                         "). Start " + start_command() + ", and use the address it prints as `listening on`"};
     if (fault.kind == Fault::Kind::kStream && fault.end == trust::StreamEnd::kDeadline)
       return {false, "no answer from " + server + " within " + waited(asking_.patience) +
                          ": is a tandem-server listening there, of this version, and is the network (or tandem-netsim proxy) between up?"};
     if (fault.kind == Fault::Kind::kStream && fault.end == trust::StreamEnd::kClosed)
       return {false, fault.text + ", again and again for " + waited(asking_.patience) + ": too many try to join from this address, or what listens at " + server + " is no tandem-server"};
-    return {false, fault.text};
+    return {false, complete_commands(fault.text, asking_)};
+  }
+
+  /// A server where this client looked for one: here, or on another computer.
+  [[nodiscard]] std::string start_command() const {
+    const std::string server = io::to_text(asking_.server);
+    return asking_.server.loopback() ? "a server in another terminal first: `tandem-server run free_motion --listen " + server + "`" : "tandem-server on that computer first";
   }
 
   static NotBack again(std::string reason) { return {NotBack::Kind::kAgain, std::move(reason), {}}; }
@@ -284,7 +291,7 @@ class Joining {
       if (s.name == asking_.session || (is_id ? s.id == id : only)) found = &s;
     }
     if (found != nullptr) return *found;
-    if (list->sessions.empty()) return fail("no session is open at " + io::to_text(asking_.server) + "; start one with `tandem-server run SCENE`");
+    if (list->sessions.empty()) return fail("no session is open at " + io::to_text(asking_.server) + "; start " + start_command());
     return fail(asking_.session.empty() ? "several sessions are open there: " + names + "; say which with --session"
                                         : "--session " + asking_.session + ": no such session there; open: " + names);
   }
@@ -339,6 +346,12 @@ class Joining {
 };
 
 }  // namespace
+
+std::string complete_commands(std::string text, const Asking& asking, const std::string& session) {
+  const std::string state = state_option_of(asking.state);
+  text = with_options(std::move(text), "tandem-client control", " --server " + io::to_text(asking.server) + (session.empty() ? "" : " --session " + session) + state);
+  return with_options(std::move(text), "tandem-client enroll", state);
+}
 
 std::expected<GivenSeat, NotSeated> ask_for_seat(const Asking& asking) { return Joining{asking}.join(); }
 

@@ -91,6 +91,10 @@ struct NotBack {
 /// @param wanted  asked just before it is said who comes back: from then on the old connection is void
 [[nodiscard]] std::expected<GivenSeat, NotBack> ask_for_own_seat(const Asking& asking, const OwnSeat& own, const std::function<bool()>& wanted);
 
+/// Words of the server or of this client with what was typed to reach it added to the `tandem-client` commands in them.
+/// @param session  the name of the one joined; empty: none was
+[[nodiscard]] std::string complete_commands(std::string text, const Asking& asking, const std::string& session = {});
+
 /// The sessions that are open there.
 [[nodiscard]] std::expected<control::SessionList, NotSeated> ask_for_sessions(const Asking& asking);
 

@@ -122,6 +122,7 @@ int attend(const AttendPlan& plan) {
   }
   line.note("seat " + setup.seat.name + " at " + server + ", " + note);
   Seat seat{setup, caps, given->link};
+  io::UdpSocket kept = io::duplicate(*socket);
   const auto pump = std::make_unique<SeatPump>(std::move(*socket), seat, live.sim, std::move(script),
                                                writer ? &writer->queue() : nullptr, held ? HeldDevice::kPeriod : Duration::zero());
   const bool by_keys = live.sim != nullptr && live.sim->hand().model() == HandModel::kKeyboard;
@@ -136,7 +137,7 @@ int attend(const AttendPlan& plan) {
   }
 
   const Time begin = io::monotonic_now();
-  Vigil vigil{{plan, wish, *given, seat, *pump, person, device, held.get(), signals.get(), line}};
+  Vigil vigil{{plan, wish, *given, seat, *pump, person, device, held.get(), signals.get(), line}, std::move(kept)};
   const SeatEnd end = vigil.keep();
   ClientReport report;
   report.seconds = seconds(io::monotonic_now() - begin);

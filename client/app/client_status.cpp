@@ -10,37 +10,6 @@
 namespace tandem::client {
 namespace {
 
-/// What he at this seat can do about a stop. Of a pause several may have made the server says more, see Vigil::see_stop.
-const char* way_out(const SeatSetup& setup, bool paused) {
-  if (setup.seat.kind == SeatKind::kMaster && setup.seat.role == Role::kInstructor) return "r resumes";
-  if (setup.ends_pauses) return paused ? "r takes a pause of your own back; an operator resumes" : "an operator resumes";
-  return "an instructor or operator resumes";
-}
-
-std::string session_text(const ClientStatus& s, const SeatSetup& setup) {
-  if (s.coming_back) return s.closed ? "the server is being started anew: coming back" : format("SERVER SILENT for %.0f s: coming back", s.silence_s);
-  if (s.closed) return "closed";
-  if (!s.heard) return "waiting for the server";
-  if (s.silence_s > 0.5) return format("SERVER SILENT for %.0f s", s.silence_s);
-  switch (s.session) {
-    case wire::SessionState::kWaiting:
-      return s.missing == 0 ? "engaging" : format("waiting for %u seat%s", s.missing, s.missing == 1 ? "" : "s");
-    case wire::SessionState::kRunning:
-      return format("%.1f s", s.session_time);
-    case wire::SessionState::kHeld:
-      return format("%.1f s HELD", s.session_time);
-    case wire::SessionState::kPaused:
-      return format("%.1f s PAUSED (%s)", std::max(0.0, s.session_time), way_out(setup, true));
-    case wire::SessionState::kStopped:
-      return format("%.1f s STOPPED (%s)", std::max(0.0, s.session_time), way_out(setup, false));
-    case wire::SessionState::kEnding:
-      return "ending";
-    case wire::SessionState::kPassive:
-      return format("%.1f s PASSIVE: the server is too busy, it goes on by itself", s.session_time);
-  }
-  return "";
-}
-
 nlohmann::ordered_json number(double v) {
   return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
 }
@@ -99,21 +68,6 @@ const char* to_text(Role role) noexcept {
 std::string motors_text(const ClientStatus& s) {
   if (s.motors_hot) return s.motors_latched ? "MOTORS TOO HOT for the third time: let go; once they are cool, press b" : "MOTORS TOO HOT: let go until they are cool";
   return s.motors_latched ? "motors were too hot three times: press b" : "";
-}
-
-std::string status_line(const ClientStatus& s, const SeatSetup& setup) {
-  const bool slave = setup.seat.kind == SeatKind::kSlave;
-  std::string line = setup.seat.name + " (" + (slave ? "SLAVE" : to_text(setup.seat.role)) + ") " + session_text(s, setup);
-  line += std::string(" | gate ") + to_text(s.gate) + (s.gate == wire::GateState::kDamped ? " (press b)" : "");
-  if (!slave) line += format(" | alpha %.2f", s.alpha);
-  if (const std::string told = handover_text(s, setup); !told.empty()) line += " (" + told + ")";
-  line += format(" | %.2f N | rtt %.1f ms loss %.1f %%", s.force_n, s.rtt_ms, s.down_loss_percent);
-  line += format(" | tip %.0f %.0f %.0f mm", s.x[0] * 1e3, s.x[1] * 1e3, s.x[2] * 1e3);
-  line += format(" | margin %.0f mJ | late ticks %u", s.margin_min_j * 1e3, s.late_ticks);
-  if (const std::string why = motors_text(s); !why.empty()) line += " | " + why;
-  if (s.gate_trips > 0) line += format(" | trips %u", s.gate_trips);
-  if (s.rejoins > 0) line += format(" | rejoined %u", s.rejoins);
-  return line;
 }
 
 std::string to_json(const ClientReport& r, const SeatSetup& setup) {

@@ -22,6 +22,10 @@ struct ClientStatus {
   std::uint32_t missing = 0;  ///< required seats that are not ready
   double session_time = -1;   ///< [s], negative before the session began
   double silence_s = 0;       ///< since something newer came from the server [s]
+  bool own_stop = false;  ///< the person stopped the own hand
+  bool touching = false;  ///< the slave of the tool touches something
+  std::optional<double> distance_m{};  ///< from the hand to the tool, where the port is a tip
+  std::uint32_t authority_version = 0;
   double alpha = 0;
   wire::Handover handover = wire::Handover::kNone;  ///< what was last told of the own weight, for a second
   std::uint32_t handovers = 0;                      ///< how often there was something to tell
@@ -57,8 +61,6 @@ enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
 [[nodiscard]] std::string motors_text(const ClientStatus& status);
 /// Who gives what to whom, and when, or that it was called off; empty: nothing. `the scene gives the tool to trainee in 50 ms`
 [[nodiscard]] std::string handover_text(const ClientStatus& status, const SeatSetup& setup);
-/// One line for a terminal.
-[[nodiscard]] std::string status_line(const ClientStatus& status, const SeatSetup& setup);
 
 /// What the client knows of the run, for machines.
 struct ClientReport {

@@ -25,6 +25,12 @@ Duration draw(Duration least, Duration spread) {
   return least + spread * (std::to_integer<int>(random[0]) << 8 | std::to_integer<int>(random[1])) / 65536;
 }
 
+/// Whatever the port.
+bool same_host(const io::SocketAddress& a, const io::SocketAddress& b) {
+  const std::string x = io::to_text(a), y = io::to_text(b);
+  return x.substr(0, x.rfind(':')) == y.substr(0, y.rfind(':'));
+}
+
 void raise(const io::Fd& event) {
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
@@ -34,8 +40,8 @@ void raise(const io::Fd& event) {
 
 Duration draw_wait_before_return() { return draw(kBefore, kBeforeSpread); }
 
-ComeBack::ComeBack(Asking asking, OwnSeat own, const Seat& seat, const SeatPump& pump)
-    : asking_(std::move(asking)), own_(std::move(own)), seat_(&seat), pump_(&pump), cancel_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), done_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+ComeBack::ComeBack(Asking asking, OwnSeat own, const Seat& seat, const SeatPump& pump, const io::UdpSocket& kept)
+    : asking_(std::move(asking)), own_(std::move(own)), seat_(&seat), pump_(&pump), kept_(&kept), cancel_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), done_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   asking_.signals = cancel_.get();
   thread_ = std::thread([this] { work(); });
 }
@@ -78,6 +84,8 @@ std::expected<ComeBack::Back, NotBack> ComeBack::attempt(Duration patience) {
   // Its secret is the newest now, whether or not it could be used.
   own_.secrets.insert(own_.secrets.begin(), given->welcome.resume_secret);
   if (!socket) return std::unexpected(NotBack{NotBack::Kind::kAgain, socket.error(), {}});
+  if (same_host(socket->local, kept_->local))
+    if (auto again = io::duplicate(*kept_); again.fd.open()) *socket = std::move(again);
   auto handover = std::make_unique<SeatPump::Handover>(SeatPump::Handover{std::move(*socket), seat_->prepare(given->link)});
   return Back{std::move(*given), std::move(handover)};
 }

@@ -18,7 +18,9 @@ class ComeBack {
  public:
   /// Begins. @param asking  as the seat was asked for; patience and signals are chosen here
   /// @param seat, pump  must outlive it
-  ComeBack(Asking asking, OwnSeat own, const Seat& seat, const SeatPump& pump);
+  /// @param kept  the socket in use: taken again where this host's address is still the same, so that what stands between (a NAT, netsim's proxy)
+  ///              sees the client it knows
+  ComeBack(Asking asking, OwnSeat own, const Seat& seat, const SeatPump& pump, const io::UdpSocket& kept);
   /// Gives up; a seat that was given and not taken is given back.
   ~ComeBack();
   ComeBack(const ComeBack&) = delete;
@@ -42,6 +44,7 @@ class ComeBack {
   OwnSeat own_;
   const Seat* seat_;
   const SeatPump* pump_;
+  const io::UdpSocket* kept_;
   io::Fd cancel_, done_event_;
   std::optional<std::expected<Back, NotBack>> result_;
   std::atomic<bool> done_{false};

@@ -14,6 +14,7 @@
 #include "client/app/control_words.h"
 #include "client/app/server_option.h"
 #include "common/base/format.h"
+#include "common/io/help_text.h"
 #include "common/io/number_option.h"
 #include "common/io/signals.h"
 #include "common/trust/io/control_client.h"
@@ -75,8 +76,8 @@ class Lines {
 /// Somebody who looks after one session over one connection.
 class Attendant {
  public:
-  Attendant(Console console, Duration patience, bool json)
-      : console_(std::move(console)), patience_(std::chrono::duration_cast<std::chrono::milliseconds>(patience)), json_(json) {}
+  Attendant(Console console, const Asking& asked, bool json)
+      : console_(std::move(console)), asked_(asked), patience_(std::chrono::duration_cast<std::chrono::milliseconds>(asked.patience)), json_(json) {}
 
   [[nodiscard]] const control::Welcome& welcome() const { return console_.welcome; }
   [[nodiscard]] int connection() const { return console_.connection->fd(); }
@@ -86,10 +87,11 @@ class Attendant {
   Look look() {
     const auto answer = console_.connection->ask(control::StatusRequest{console_.welcome.session_id}, patience_);
     if (!answer) return Look::kGone;
-    const auto* now = std::get_if<control::Status>(&*answer);
-    if (now == nullptr) return Look::kNothing;  // asked too often, or the session is over: an order will say so
-    const std::string news = news_text(seen_.value_or(control::Status{}), *now);
-    seen_ = *now;
+    const auto* said = std::get_if<control::Status>(&*answer);
+    if (said == nullptr) return Look::kNothing;  // asked too often, or the session is over: an order will say so
+    const control::Status now = completed(*said);
+    const std::string news = news_text(seen_.value_or(control::Status{}), now);
+    seen_ = now;
     if (news.empty()) return Look::kNothing;
     say((isatty(STDIN_FILENO) == 1 ? "\n" : "") + news);  // not behind the prompt
     return Look::kTold;
@@ -136,11 +138,12 @@ class Attendant {
 
  private:
   static int say(const std::string& text) {
-    std::printf("%s%s", text.c_str(), text.ends_with('\n') ? "" : "\n");
+    const std::string line = text.ends_with('\n') ? text : text + "\n";
+    std::fputs(text.starts_with('{') ? line.c_str() : io::for_terminal(line, stdout).c_str(), stdout);  // JSON stays as it is
     return std::fflush(stdout) == 0 ? kDone : kRefused;
   }
   static int complain(const std::string& text, int code = kRefused) {
-    std::fprintf(stderr, "tandem-client control: %s\n", text.c_str());
+    std::fputs(io::for_terminal("tandem-client control: " + text + "\n", stderr).c_str(), stderr);
     return code;
   }
 
@@ -162,7 +165,7 @@ class Attendant {
   bool order(const control::Body& command) { return ask<control::Done>(command).has_value(); }
   std::optional<control::Status> status() {
     auto now = ask<control::Status>(control::StatusRequest{console_.welcome.session_id});
-    if (now) seen_ = *now;
+    if (now) seen_ = now = completed(*now);
     return now;
   }
 
@@ -200,7 +203,14 @@ class Attendant {
     return complain("refused: somebody was faster. In force: " + is + ". Look, then say it again");
   }
 
+  /// Commands in the server's words work as typed here.
+  [[nodiscard]] control::Status completed(control::Status status) const {
+    if (status.stop) status.stop->ends = complete_commands(status.stop->ends, asked_, status.name);
+    return status;
+  }
+
   Console console_;
+  Asking asked_;
   std::optional<control::Status> seen_;
   std::chrono::milliseconds patience_;
   bool json_;
@@ -294,7 +304,7 @@ int control_command(const Arguments& arguments) {
     std::fprintf(stderr, "tandem-client control: %s\n", console.error().reason.c_str());
     return kRefused;
   }
-  Attendant attendant(std::move(*console), asking.patience, arguments.json);
+  Attendant attendant(std::move(*console), asking, arguments.json);
   if (!wish) return converse(attendant, signals.get());
   const int code = attendant.obey(*wish);
   return code == kDone && wish->what == Wish::What::kDrain ? attendant.follow_drain(signals.get()) : code;

@@ -7,6 +7,7 @@
 
 #include "common/base/format.h"
 #include "common/base/printable.h"
+#include "common/base/unit.h"
 
 namespace tandem::client {
 namespace {
@@ -124,7 +125,7 @@ std::expected<Wish, std::string> understand(std::span<const std::string> words) 
       break;
     case Wish::What::kDrain: {
       if (rest.empty()) return wish;
-      const auto grace = number<std::uint32_t>(rest.front());
+      const auto grace = number<std::uint32_t>(without_unit(rest.front(), "s"));
       if (!grace || *grace > 3600 || rest.size() > 1) return std::unexpected("drain: \"" + joined(rest) + "\" must be seconds in [0, 3600]");
       wish.grace_s = *grace;
       return wish;
@@ -200,11 +201,19 @@ std::string drain_text(const control::StatusDrain& d) {
 
 std::string news_text(const control::Status& before, const control::Status& now) {
   std::string text;
+  const std::uint32_t seen = before.news.empty() ? 0 : before.news.back().number;
+  bool told = false;
+  if (!before.name.empty())  // what happened before somebody looked for the first time is over
+    for (const control::StatusNews& n : now.news)
+      if (n.number > seen) {
+        text += printable(n.text) + "\n";
+        told = true;
+      }
   if (is_stopped(now) && (now.stops != before.stops || !is_stopped(before))) text += stop_text(now) + "\n";
-  if (is_stopped(before) && !is_stopped(now)) text += format("stop %u is over: the session is %s\n", now.stops, control::to_text(now.phase));
+  if (is_stopped(before) && !is_stopped(now) && !told) text += format("stop %u is over: the session is %s\n", now.stops, control::to_text(now.phase));
   if (!now.drain) return text;
   const bool first = !before.drain, last = now.drain->left_s <= 5, ten = !first && before.drain->left_s / 10 != now.drain->left_s / 10;
-  if (first || ((last || ten) && before.drain != now.drain)) text += drain_text(*now.drain) + "\n";
+  if ((first && !told) || ((last || ten) && before.drain != now.drain)) text += drain_text(*now.drain) + "\n";
   return text;
 }
 
@@ -216,6 +225,7 @@ std::string status_text(const control::Status& s) {
   text += s.shed > 0 ? format("; busy, shed level %u of %u\n", s.shed, control::kShedMax) : "\n";
   if (is_stopped(s)) text += "  " + stop_text(s) + "\n";
   if (s.stop && !is_stopped(s)) text += format("  the last stop, %.0f s ago, was of %s\n", s.stop->ago_s, maker_of(*s.stop).c_str());
+  if (!s.held.empty()) text += "  HELD: " + printable(s.held) + "\n";
   if (s.drain) text += "  " + drain_text(*s.drain) + "\n";
   for (const control::StatusSeat& seat : s.seats)
     text += format("  seat %-16s %-10s %s\n", seat.name.c_str(), std::string(to_text(seat.role)).c_str(), !seat.taken ? "free" : seat.heard ? "here" : "SILENT");
@@ -254,7 +264,7 @@ std::string status_json(const control::Status& s) {
   }
   text += ", \"drain\": ";
   text += s.drain ? format("{\"left_s\": %u, \"sessions\": %u, \"people\": %u}", s.drain->left_s, s.drain->sessions, s.drain->people) : "null";
-  return text + "}\n";
+  return text + ", \"held\": " + (s.held.empty() ? "null" : quoted(s.held)) + "}\n";
 }
 
 }  // namespace tandem::client

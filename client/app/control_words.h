@@ -45,14 +45,14 @@ struct Wish {
 [[nodiscard]] std::string stop_text(const control::Status& status);
 /// `DRAINING: 27 s left, 2 sessions, 3 people on their seats`
 [[nodiscard]] std::string drain_text(const control::StatusDrain& drain);
-/// What somebody who looked before should be told now, line by line: a new stop, its end, how far a drain is (each ten seconds, and each
-/// of the last five). Empty: nothing.
+/// What somebody who looked before should be told now, line by line: resumes and removals and by whom, a new stop, how far a drain is (each ten
+/// seconds, and each of the last five). Empty: nothing.
 [[nodiscard]] std::string news_text(const control::Status& before, const control::Status& now);
 /// How a session stands, for people: one line, then one per seat and per tool.
 [[nodiscard]] std::string status_text(const control::Status& status);
 /// `{"session", "id", "phase", "time_s", "stops", "authority_version", "draining", "seats": [{"name", "role", "taken", "heard"}],
 /// "tools": [{"name", "alpha": {SEAT: WEIGHT}}], "stop": null or {"number", "kind", "seat", "workstation", "role", "why", "ago_s", "ends",
-/// "yours"}, "drain": null or {"left_s", "sessions", "people"}}`
+/// "yours"}, "drain": null or {"left_s", "sessions", "people"}, "held": null or why no tool moves}`
 [[nodiscard]] std::string status_json(const control::Status& status);
 
 }  // namespace tandem::client

@@ -7,8 +7,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kShareShown = 0.001;
-
 double ms(std::int64_t ns) { return 1e-6 * static_cast<double>(ns); }
 unsigned long long n(std::uint64_t v) { return v; }
 
@@ -26,22 +24,10 @@ Json durations(const Histogram& of) {
           {"buckets", std::move(buckets)}};
 }
 
+/// Quantiles only: all buckets are in the JSON.
 std::string line_of(const char* name, const Histogram& of) {
   if (of.count() == 0) return {};
-  std::string line = format("%s p50 %.3f, p99 %.3f, max %.3f ms; ", name, ms(of.quantile(0.50)), ms(of.quantile(0.99)), ms(of.max()));
-  std::uint64_t told = 0;
-  of.each_bucket([&](std::int64_t first, std::int64_t last, std::uint64_t count) {
-    const double share = static_cast<double>(count) / static_cast<double>(of.count());
-    if (share < kShareShown) return;
-    line += format("%.2f-%.2f ms %.1f %%, ", ms(first), ms(last), 100 * share);
-    told += count;
-  });
-  if (told == of.count()) {
-    line.resize(line.size() - 2);
-  } else {
-    line += format("elsewhere %llu", n(of.count() - told));
-  }
-  return line;
+  return format("%s p50 %.3f, p99 %.3f, max %.3f ms", name, ms(of.quantile(0.50)), ms(of.quantile(0.99)), ms(of.max()));
 }
 
 }  // namespace

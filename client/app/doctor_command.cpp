@@ -18,6 +18,7 @@
 #include "client/examination.h"
 #include "common/io/clock.h"
 #include "common/io/number_option.h"
+#include "common/io/output_file.h"
 #include "common/io/signals.h"
 #include "hal/io/backend.h"
 #include "hal/io/hotplug.h"
@@ -206,12 +207,13 @@ int install_rules(const std::string& root) {
   const std::string rules = all_rules(), name = root + hal::kUdevRulesFile;
   std::error_code none;  // what cannot be made cannot be written either
   if (!root.empty()) std::filesystem::create_directories(std::filesystem::path(name).parent_path(), none);
-  std::ofstream file(name, std::ios::trunc);
-  if (!(file << rules) || !file.flush()) {
-    std::fprintf(stderr,
-                 "tandem-client doctor: %s cannot be written; %s\n"
-                 "It would contain:\n%s",
-                 name.c_str(), root.empty() ? "run it as root: sudo tandem-client doctor --install-udev" : "is --root a folder of yours?", rules.c_str());
+  io::OutputFile file;
+  std::string problem = file.open(name, false);
+  file.write(rules);
+  if (problem.empty()) problem = file.close();
+  if (!problem.empty()) {
+    std::fprintf(stderr, "tandem-client doctor: %s\n%sIt would contain:\n%s", problem.c_str(),
+                 root.empty() && geteuid() != 0 ? "Run it as root: sudo tandem-client doctor --install-udev\n" : "", rules.c_str());
     return kTrouble;
   }
   std::printf("%s is written. %s\n", name.c_str(),

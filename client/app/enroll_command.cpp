@@ -90,8 +90,9 @@ void add_enroll_command(CLI::App& root, std::function<int()>& action) {
       "Makes the workstation's key where there is none yet; it never leaves the folder. The server must run, and must have the key that the\n"
       "string names: any other is refused before it is told anything.\n"
       "Exit: 0 enrolled; 1 refused, no answer, or the folder cannot be used; 2 wrong arguments.\n\n"
-      "Example\n"
-      "  tandem-client enroll tandem:0G6...");
+      "Examples\n"
+      "  tandem-client enroll tandem:0G6...\n"
+      "  tandem-client enroll - < enrolment.txt");
   command->callback([arguments, &action] { action = [arguments] { return enroll_command(*arguments); }; });
 }
 

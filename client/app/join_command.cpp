@@ -138,7 +138,8 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
   command
       ->add_option("--rejoin", arguments->rejoin,
                    "how long to try to come back to the seat when the server fell silent, died or moved the network away under it [s]; "
-                   "default 60, at most 600; 0: not at all, it counts as lost after 10 s. Your hand is free meanwhile")
+                   "default 60, at most 600; 0: not at all, and a silence of 60 s counts as a lost server. A server ends a session after the same 60 s "
+                   "in which it heard nobody. Your hand is free meanwhile")
       ->option_text("S");
   command->add_flag("--quiet", arguments->quiet, "no status");
   std::string hardware;
@@ -148,8 +149,8 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       "  sim                         simulated, as the scene describes the seat's device and hand\n"
       "  sim:hand=NAME               another hand: none leader relaxed resting letting_go tremor keyboard\n"
       "  sim:keyboard                you move the hand: arrow keys and PgUp/PgDn\n"
-      "  sim:motion=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S][,axes=+x+y+z][,end=hold|loop]\n"
-      "                              a recorded motion moves the hand\n" +
+      "  sim:motion=FILE.csv         a recorded motion moves the hand; behind it, without spaces, also ,columns=PREFIX ,rec=N\n"
+      "                              ,scale=auto|S ,axes=+x+y+z ,end=hold|loop\n" +
       hardware +
       "                              (`tandem-client doctor` lists what is attached; several of a kind need port= or "
       "serial=)\n"

@@ -274,8 +274,9 @@ void add_link_test_command(CLI::App& root, std::function<int()>& action) {
       "GOOD: round trip up to 20 ms (99 %), jitter 2 ms, loss 0.1 %, no silence that lets a hand go; USABLE: up to the age the scene\n"
       "trusts, jitter 10 ms, loss 10 %, seldom a gap of up to 50 ms; BAD: anything more.\n"
       "Exit: 0 good or usable, or ended by a signal; 1 not fit for hands, refused, server not there or lost; 2 wrong arguments.\n\n"
-      "Example\n"
-      "  tandem-client link-test --server 127.0.0.1:7000");
+      "Examples\n"
+      "  tandem-client link-test --server 127.0.0.1:7000\n"
+      "  tandem-client link-test --server lab-server:7000 --duration 30s --json link.json");
   command->callback([arguments, &action] { action = [arguments] { return link_test_command(*arguments); }; });
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/format.h"
+#include "common/base/printable.h"
+
 namespace tandem::client {
 
 namespace {
@@ -31,49 +34,95 @@ std::string Person::help() const {
                       : " left/right less/more authority for you, 0/1 none/all;";
   if (keyboard_) text += " arrows move right/left and away/towards you, PgUp/PgDn up/down;";
   return text + " s stops your hand, S everybody's" + (setup_->seat.role == Role::kInstructor ? "" : " (pause)") +
-         ", r resumes; b button that clears DAMPED; q leaves";
+         ", r resumes; b clears a force that is latched off; ? shows this; q leaves";
 }
 
-bool Person::press(const std::string& key) {
-  if (key == "q" || key == "Q" || key == "\x04") return true;
-  if (key == "b") pump_->press_reset();
-  if (key == "s" || key == " ") pump_->stop();
-  if (key == "S") pump_->stop_all();
-  if (key == "r") pump_->resume();
-  if (keyboard_) {
-    if (key == "right") move_hand(0, kHandStep);
-    if (key == "left") move_hand(0, -kHandStep);
-    if (key == "up") move_hand(1, kHandStep);
-    if (key == "down") move_hand(1, -kHandStep);
-    if (key == "pageup") move_hand(2, kHandStep);
-    if (key == "pagedown") move_hand(2, -kHandStep);
+Person::Pressed Person::press(const std::string& key, const ClientStatus& status, const control::Status* words) {
+  if (key == "q" || key == "Q" || key == "\x04") return {true, {}};
+  if (key == "?" || key == "h") return {false, help()};
+  if (key == "b") return {false, reset(status)};
+  if (key == "s" || key == " ") {
+    pump_->stop();
+    return {false, status.own_stop ? "s: your hand is stopped already; r resumes" : ""};
   }
-  if (!may_move_alpha()) return false;
-  // Steps add to what was asked: authority itself moves there slowly.
-  const double now = asked_ >= 0 ? asked_ : pump_->status().alpha;
-  if (key == "0") set_alpha(0);
-  if (key == "1") set_alpha(1);
-  if (key == "-" || key == "a" || (!keyboard_ && key == "left")) set_alpha(now - kAlphaStep);
-  if (key == "+" || key == "=" || key == "d" || (!keyboard_ && key == "right")) set_alpha(now + kAlphaStep);
-  return false;
+  if (key == "S") return {false, stop_all(status)};
+  if (key == "r") return {false, resume(status, words)};
+  if (keyboard_) {
+    if (key == "right") return {false, move_hand(0, kHandStep)};
+    if (key == "left") return {false, move_hand(0, -kHandStep)};
+    if (key == "up") return {false, move_hand(1, kHandStep)};
+    if (key == "down") return {false, move_hand(1, -kHandStep)};
+    if (key == "pageup") return {false, move_hand(2, kHandStep)};
+    if (key == "pagedown") return {false, move_hand(2, -kHandStep)};
+  }
+  return {false, change_alpha(key, status)};
 }
 
-void Person::set_alpha(double own) {
+std::string Person::reset(const ClientStatus& s) {
+  const bool waits = s.gate == wire::GateState::kDamped || s.gate == wire::GateState::kFault || s.motors_latched;
+  pump_->press_reset();
+  return waits ? "" : s.motors_hot ? "b: the motors are too hot; let go until they are cool" : "b: nothing is latched off, there is nothing to clear";
+}
+
+std::string Person::stop_all(const ClientStatus& s) {
+  if (setup_->seat.role == Role::kObserver) return "S: an observer may not stop the session; an instructor or operator may";
+  if (setup_->seat.kind == SeatKind::kSlave) return "S: a slave's seat may not stop the session; s stops this device";
+  pump_->stop_all();
+  return s.session == wire::SessionState::kStopped ? "S: the session is stopped already" : "";
+}
+
+/// A wish that the server would refuse is not sent in silence.
+std::string Person::resume(const ClientStatus& s, const control::Status* words) {
+  pump_->resume();
+  if (s.own_stop) return {};
+  const bool leads = setup_->seat.role == Role::kInstructor && setup_->seat.kind == SeatKind::kMaster;
+  const bool paused = s.session == wire::SessionState::kPaused, stopped = s.session == wire::SessionState::kStopped;
+  std::string ends = words != nullptr && words->stop ? printable(words->stop->ends) : "";
+  if (ends.empty()) ends = "an instructor or operator";
+  if (stopped && !leads) return "r: you may not end this stop; who may: " + ends;
+  if (paused && !leads && !setup_->ends_pauses) return "r: you may not end this pause; who may: " + ends;
+  if (paused && !leads && words != nullptr && words->stop && words->stop->number == s.stops && !words->stop->yours) return "r: this pause is not yours; who may end it: " + ends;
+  if (paused || stopped) return {};
+  if (s.session == wire::SessionState::kWaiting && leads) return {};  // goes on without those who are missing after a restart
+  if (s.session == wire::SessionState::kHeld) return "r: your hand is not stopped" + (words != nullptr && !words->held.empty() ? "; the tool is held because: " + printable(words->held) : "");
+  return "r: nothing is stopped, there is nothing to resume";
+}
+
+std::string Person::change_alpha(const std::string& key, const ClientStatus& status) {
+  const bool less = key == "-" || key == "a" || (!keyboard_ && key == "left"), more = key == "+" || key == "=" || key == "d" || (!keyboard_ && key == "right");
+  if (!less && !more && key != "0" && key != "1") return key.size() > 1 || key.front() > ' ' ? key + ": no such key. " + help() : "";
+  if (!may_move_alpha()) {
+    const bool instructor = setup_->seat.role == Role::kInstructor && setup_->seat.kind == SeatKind::kMaster;
+    return key + (instructor ? ": no other seat can have authority here" : ": only an instructor moves authority");
+  }
+  // Steps add to what was asked: authority itself moves there slowly.
+  const double now = asked_ >= 0 ? asked_ : status.alpha;
+  const std::string why = set_alpha(key == "0" ? 0 : key == "1" ? 1 : less ? now - kAlphaStep : now + kAlphaStep, now);
+  return why.empty() ? "" : key + ": " + why;
+}
+
+std::string Person::set_alpha(double own, double now) {
   // Steps stay on the grid of 0.05: repeated addition would not come back to 1.
   own = std::round(std::clamp(own, 0.0, 1.0) / kAlphaStep) * kAlphaStep;
   const bool anybody = std::ranges::any_of(others_, [](double share) { return share > 0; });
+  const bool nobody_else = !anybody && own < 1;
   if (!anybody) own = 1;
+  const bool same = asked_ >= 0 && own == now;
   asked_ = own;
   control::Weights alpha{};
   for (std::size_t i = 0; i < setup_->masters.size(); ++i)
     alpha[i] = i == setup_->own_master ? own : (1 - own) * others_[i];
   pump_->request_authority(alpha);
+  if (nobody_else) return "no other seat may have authority: it stays with you";
+  return !same ? "" : own >= 1 ? "you have all authority already" : own <= 0 ? "you gave all authority away already" : "";
 }
 
-void Person::move_hand(int axis, double distance) {
+std::string Person::move_hand(int axis, double distance) {
   hal::Vec3 target = keyboard_->get();
+  const double before = target[axis];
   target[axis] = std::clamp(target[axis] + distance, home_[axis] - kHandReach, home_[axis] + kHandReach);
   keyboard_->set(target);
+  return target[axis] == before ? format("the keyboard's hand reaches %.0f mm from its start, no farther", 1e3 * kHandReach) : "";
 }
 
 }  // namespace tandem::client

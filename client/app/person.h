@@ -5,11 +5,12 @@
 
 #include "client/app/seat_pump.h"
 #include "hal/sim/hand.h"
+#include "proto/control_messages.h"
 
 namespace tandem::client {
 
 /// Turns keys into wishes: stop and resume, authority (INSTRUCTOR), the button that clears a latched gate, a hand moved by arrow keys,
-/// leaving.
+/// leaving. A key that does nothing says why.
 class Person {
  public:
   /// @param keyboard  of a hand that is moved by keys; null for all others
@@ -17,13 +18,21 @@ class Person {
 
   /// What the keys do, one line.
   [[nodiscard]] std::string help() const;
-  /// @return true if the person wants to leave
-  bool press(const std::string& key);
+  struct Pressed {
+    bool leaves = false;  ///< the person wants to leave
+    std::string why;      ///< why the key did nothing, and what to do; empty: it did something
+  };
+  /// @param status  of the seat  @param words  what the server said last over the control connection; null: nothing
+  Pressed press(const std::string& key, const ClientStatus& status, const control::Status* words = nullptr);
 
  private:
   [[nodiscard]] bool may_move_alpha() const noexcept { return setup_->moves_authority() && setup_->masters.size() > 1; }
-  void set_alpha(double own);
-  void move_hand(int axis, double distance);
+  [[nodiscard]] std::string resume(const ClientStatus& status, const control::Status* words);
+  [[nodiscard]] std::string stop_all(const ClientStatus& status);
+  [[nodiscard]] std::string reset(const ClientStatus& status);
+  [[nodiscard]] std::string change_alpha(const std::string& key, const ClientStatus& status);
+  [[nodiscard]] std::string set_alpha(double own, double now);
+  [[nodiscard]] std::string move_hand(int axis, double distance);
 
   SeatPump* pump_;
   const SeatSetup* setup_;

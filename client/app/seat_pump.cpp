@@ -197,6 +197,11 @@ void SeatPump::look(Time now) noexcept {
   if (const auto time = seat_->server_time(now)) p.session_time = *time;  // back at a server that waits for others: what was last shown
   p.silence_s = seconds(f.heard() ? f.silence(now) : now - connected_);
   p.alpha = seat_->force().alpha;
+  p.authority_version = seat_->force().authority_version;
+  p.touching = seat_->force().touching;
+  p.own_stop = seat_->stopped();
+  p.distance_m.reset();
+  if (seat_->setup().port == PortSpace::kTip && f.heard()) p.distance_m = distance_to_tool();
   p.force_n = norm(t.f_out);
   p.x = t.x;
   p.rtt_ms = 1e3 * seconds(f.rtt());
@@ -224,6 +229,16 @@ void SeatPump::look(Time now) noexcept {
   p.refused_datagrams = all.refused;
   const std::unique_lock lock{published_lock_, std::try_to_lock};
   if (lock) published_ = p;
+}
+
+/// Between the hand and the tool as this seat last heard of it [m]. Axes of a tip come first, three at most.
+double SeatPump::distance_to_tool() const noexcept {
+  double square = 0;
+  for (std::size_t a = 0; a < std::min<std::size_t>(seat_->setup().dof, 3); ++a) {
+    const double d = seat_->force().port.x[a] - seat_->sample().port.x[a];
+    square += d * d;
+  }
+  return std::sqrt(square);
 }
 
 ClientStatus SeatPump::status() const {

@@ -83,6 +83,7 @@ class SeatPump final : public hal::ServoClient {
   void send(Time now) noexcept;
   void see_handover() noexcept;
   void look(Time now) noexcept;
+  [[nodiscard]] double distance_to_tool() const noexcept;
 
   io::UdpSocket socket_;
   io::Fd finished_;

@@ -54,8 +54,9 @@ void add_sessions_command(CLI::App& root, std::function<int()>& action) {
   command->footer(
       "The workstation must be enrolled there; beside a loopback server that made its keys itself it need not. Exit: 0 done; 1 refused, or server not there; 2 wrong\n"
       "arguments.\n\n"
-      "Example\n"
-      "  tandem-client sessions --server lab-server:7000");
+      "Examples\n"
+      "  tandem-client sessions --server lab-server:7000\n"
+      "  tandem-client sessions --server 127.0.0.1:7000 --json");
   command->callback([arguments, &action] { action = [arguments] { return sessions_command(*arguments); }; });
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -33,11 +35,15 @@ inline void add_ticket_options(CLI::App& command, TicketOption& ticket, const ch
   if (!named && name.starts_with("ticket:")) return name;
   std::string line;
   std::ifstream file;
-  if (name != "-" || !named) file.open(name);
-  std::istream& in = name == "-" && named ? std::cin : file;
+  const bool named_stdin = name == "-" && named;
+  errno = 0;
+  if (!named_stdin) file.open(name);
+  const int error = errno;
+  std::istream& in = named_stdin ? std::cin : file;
   if (!std::getline(in, line)) {
     if (!named) return name;  // no file: whoever reads it says what a ticket looks like
-    mistakes.push_back(std::string(option) + ": " + (name.empty() ? "@ needs a file's name" : name + " cannot be read, or is empty; write the ticket to it: tandem-server ticket ... > FILE"));
+    const std::string why = file.is_open() || named_stdin ? " is empty" : std::string(" cannot be read: ") + std::strerror(error);
+    mistakes.push_back(std::string(option) + ": " + (name.empty() ? "@ needs a file's name" : name + why + "; write the ticket to it: tandem-server ticket ... > FILE"));
     return {};
   }
   if (!line.empty() && line.back() == '\r') line.pop_back();

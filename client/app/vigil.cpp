@@ -7,7 +7,10 @@
 #include <iterator>
 #include <utility>
 
+#include "client/app/control_words.h"
+#include "client/app/seat_screen.h"
 #include "common/base/format.h"
+#include "common/base/silence.h"
 #include "common/io/clock.h"
 #include "common/io/signals.h"
 
@@ -16,12 +19,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kServerLost = 10;  // [s] without news, where nobody comes back
+constexpr double kServerLost = seconds(kSessionSilence);  // [s] without news, where nobody comes back
 constexpr double kNews = 0.5;       // [s] silence up to which the server is there
 constexpr Duration kLeaveMax = 2s;  // for the gate to ramp out and the server to be told
 constexpr int kLookEveryMs = 100;
 constexpr Duration kStandstill = 400ms;  // between two looks
 constexpr std::size_t kSecretsKept = 2;
+constexpr Duration kBetweenKeys = 1s;
 constexpr Duration kBetweenHandovers = 1s;  // told in a line of their own
 
 OwnSeat own_seat(const GivenSeat& given) {
@@ -30,8 +34,8 @@ OwnSeat own_seat(const GivenSeat& given) {
 
 }  // namespace
 
-Vigil::Vigil(const Over& over)
-    : o_(over), own_(own_seat(over.given)), connection_(over.given.connection), begin_(io::monotonic_now()), shown_(begin_), news_(begin_), looked_(begin_), patience_(draw_wait_before_return()) {}
+Vigil::Vigil(const Over& over, io::UdpSocket socket)
+    : o_(over), kept_(std::move(socket)), own_(own_seat(over.given)), connection_(over.given.connection), begin_(io::monotonic_now()), shown_(begin_), news_(begin_), looked_(begin_), patience_(draw_wait_before_return()) {}
 
 void Vigil::leave(const std::string& why) {
   if (left_) return;
@@ -44,9 +48,10 @@ void Vigil::leave(const std::string& why) {
 SeatEnd Vigil::keep() {
   if (keys_.interactive()) o_.line.note(o_.person.help());
   if (o_.plan.companion != nullptr) o_.plan.companion->begin(o_.seat.setup());
+  words_ = std::make_unique<SessionWords>(connection_, own_.session);
   while (true) {
     // What is not there has a negative number, which is passed over.
-    pollfd files[] = {{o_.pump.finished_fd(), POLLIN, 0}, {o_.signals, POLLIN, 0}, {keys_.fd(), POLLIN, 0}, {coming_ ? coming_->done_fd() : -1, POLLIN, 0}, {asking_why_ ? asking_why_->done_fd() : -1, POLLIN, 0}};
+    pollfd files[] = {{o_.pump.finished_fd(), POLLIN, 0}, {o_.signals, POLLIN, 0}, {keys_.fd(), POLLIN, 0}, {coming_ ? coming_->done_fd() : -1, POLLIN, 0}, {words_ ? words_->news_fd() : -1, POLLIN, 0}};
     poll(files, std::size(files), kLookEveryMs);
     const ClientStatus status = o_.pump.status();
     if (files[0].revents != 0) {
@@ -66,11 +71,11 @@ SeatEnd Vigil::keep() {
     if (o_.plan.duration_s > 0 && seconds(now - begin_) > o_.plan.duration_s) leave("the time given by --duration is over: letting go");
     if (!left_)
       if (const auto end = see_server(status)) return *end;
-    see_stop(status);
+    see_words(status);
     see_companion(status);
     show(status);
   }
-  asking_why_.reset();
+  words_.reset();  // the connection is for the last question now
   if (o_.pump.device_lost()) return SeatEnd::kDeviceLost;
   const ClientStatus last = o_.pump.status();
   if (left_ || last.close_reason == wire::CloseReason::kLeaving) return SeatEnd::kLeft;
@@ -87,7 +92,13 @@ void Vigil::hear_person() {
   for (std::string key = keys_.next(); !key.empty(); key = keys_.next()) {
     if (key == "b" && o_.device.phase() == hal::Phase::kFault) wants_force_again_ = o_.device.reset().has_value();
     if (o_.plan.companion != nullptr) o_.plan.companion->pressed(key);
-    if (o_.person.press(key)) leave("letting go");
+    const Person::Pressed pressed = o_.person.press(key, o_.pump.status(), known_ ? &*known_ : nullptr);
+    if (pressed.leaves) leave("letting go");
+    const Time now = io::monotonic_now();
+    if (pressed.why.empty() || (pressed.why == key_told_ && now - key_told_at_ < kBetweenKeys)) continue;  // a key that is held repeats itself
+    key_told_ = pressed.why;
+    key_told_at_ = now;
+    o_.line.note(pressed.why);
   }
 }
 
@@ -126,7 +137,7 @@ std::optional<SeatEnd> Vigil::see_server(const ClientStatus& status) {
     o_.line.note(format("%s; your hand is free. Coming back by itself, for up to %.0f s (--rejoin); q or Ctrl-C ends it",
                         returns(status) ? "the server is being started anew" : "the server fell silent", o_.plan.rejoin_s));
   patience_ = draw_wait_before_return();
-  coming_ = std::make_unique<ComeBack>(o_.asked, own_, o_.seat, o_.pump);
+  coming_ = std::make_unique<ComeBack>(o_.asked, own_, o_.seat, o_.pump, kept_);
   return std::nullopt;
 }
 
@@ -142,27 +153,37 @@ std::optional<SeatEnd> Vigil::take_back() {
   const control::Welcome& welcome = back->given.welcome;
   o_.line.note(welcome.epoch > own_.epoch ? "the server was started anew and gave the seat back" : "the server gave the seat back");
   own_.epoch = welcome.epoch;
-  connection_ = back->given.connection;  // who still asks over the old one keeps it until then
-  stop_told_ = 0;
+  words_.reset();
+  connection_ = back->given.connection;
+  known_.reset();
   own_.server = back->given.server;
   own_.secrets.insert(own_.secrets.begin(), welcome.resume_secret);
   if (own_.secrets.size() > kSecretsKept) own_.secrets.resize(kSecretsKept);
+  kept_ = io::duplicate(back->handover->socket);
   o_.pump.hand_over(std::move(back->handover));
   handed_over_ = io::monotonic_now();
   coming_.reset();
+  words_ = std::make_unique<SessionWords>(connection_, own_.session);
   return std::nullopt;
 }
 
-void Vigil::see_stop(const ClientStatus& status) {
-  if (asking_why_ && asking_why_->done()) {
-    const std::string& answer = asking_why_->answer();
-    if (!answer.empty()) o_.line.note(answer);
-    asking_why_.reset();
+void Vigil::see_words(const ClientStatus& status) {
+  if (!words_) return;
+  if (auto said = words_->take()) {
+    if (said->stop) said->stop->ends = complete_commands(said->stop->ends, o_.asked, said->name);
+    const std::string news = news_text(known_.value_or(control::Status{}), *said);
+    for (std::size_t at = 0; at < news.size();) {
+      const std::size_t end = news.find('\n', at);
+      o_.line.note(news.substr(at, end - at));
+      at = end + 1;
+    }
+    known_ = std::move(*said);
   }
-  const bool stopped = status.session == wire::SessionState::kPaused || status.session == wire::SessionState::kStopped;
-  if (!stopped || status.closed || asking_why_ || status.stops == stop_told_) return;
-  stop_told_ = status.stops;
-  asking_why_ = std::make_unique<AskWhy>(connection_, own_.session);
+  if (words_->ended()) known_.reset();
+  const bool changed = status.session != asked_at_.session || status.stops != asked_at_.stops || status.authority_version != asked_at_.authority_version || status.missing != asked_at_.missing;
+  if (!changed || status.closed) return;
+  asked_at_ = status;
+  words_->hurry();
 }
 
 void Vigil::see_companion(const ClientStatus& status) {
@@ -192,7 +213,7 @@ void Vigil::show(ClientStatus status) {
   if (now - shown_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_ = now;
   status.coming_back = coming_ != nullptr;
-  o_.line.show(status_line(status, o_.seat.setup()));
+  o_.line.show(seat_screen(status, o_.seat.setup(), known_));
 }
 
 std::string Vigil::farewell(SeatEnd end) const {

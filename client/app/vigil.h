@@ -4,13 +4,13 @@
 #include <optional>
 #include <string>
 
-#include "client/app/ask_why.h"
 #include "client/app/attend.h"
 #include "client/app/client_status.h"
 #include "client/app/come_back.h"
 #include "client/app/held_device.h"
 #include "client/app/person.h"
 #include "client/app/seat_pump.h"
+#include "client/app/session_words.h"
 #include "common/io/terminal.h"
 
 namespace tandem::client {
@@ -31,7 +31,8 @@ class Vigil {
     int signals;              ///< file of signals.h
     io::StatusLine& line;
   };
-  explicit Vigil(const Over& over);
+  /// @param socket  a duplicate of the one that the pump has
+  Vigil(const Over& over, io::UdpSocket socket);
 
   /// Until the end.
   [[nodiscard]] SeatEnd keep();
@@ -48,8 +49,8 @@ class Vigil {
   [[nodiscard]] std::optional<SeatEnd> see_server(const ClientStatus& status);
   [[nodiscard]] std::optional<SeatEnd> take_back();
   void show(ClientStatus status);
-  /// Says who stopped the session, and why, once per stop.
-  void see_stop(const ClientStatus& status);
+  /// Tells what the server says of the session: stops, resumes, removals, a drain. Asks at once when FORCE shows a change.
+  void see_words(const ClientStatus& status);
   void see_companion(const ClientStatus& status);
   /// The server said that it is about to be started anew.
   [[nodiscard]] static bool returns(const ClientStatus& status) noexcept {
@@ -58,12 +59,16 @@ class Vigil {
   [[nodiscard]] bool may_come_back() const noexcept { return o_.plan.rejoin_s > 0 && !left_; }
 
   Over o_;
+  io::UdpSocket kept_;             ///< the same socket as the pump's
   io::KeyReader keys_;
   OwnSeat own_;
   std::unique_ptr<ComeBack> coming_;
   std::shared_ptr<trust::ControlClient> connection_;  ///< by which the seat was given last
-  std::unique_ptr<AskWhy> asking_why_;
-  std::uint32_t stop_told_ = 0;    ///< number of the stop that was asked about last
+  std::unique_ptr<SessionWords> words_;
+  std::optional<control::Status> known_;  ///< what it said last
+  ClientStatus asked_at_;          ///< as FORCE was when it was hurried last
+  std::string key_told_;           ///< why a key did nothing, told last
+  Time key_told_at_{};
   std::string trouble_;            ///< why the seat is gone
   Time begin_, shown_, news_, looked_;  ///< news_: of the server, the last
   Time handed_over_{};             ///< the last new connection

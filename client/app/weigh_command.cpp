@@ -175,8 +175,9 @@ void add_weigh_command(CLI::App& root, std::function<int()>& action) {
       "Prints one `mass_reading { ... }` for the file of `calibration=`; two at least, six are better. Begin lying on its\n"
       "back with 20 to 30 g: without a calibration the motors give little. With that file given, repeat with 100 and 200 g.\n"
       "Exit: 0 a reading was printed; 1 no reading; 2 wrong arguments or files.\n\n"
-      "Example\n"
-      "  tandem-client weigh --device falcon:firmware=falcon.bin --mass 0.02 --lying");
+      "Examples\n"
+      "  tandem-client weigh --device falcon:firmware=falcon.bin --mass 0.02 --lying\n"
+      "  tandem-client weigh --device falcon:firmware=falcon.bin --mass 0.05kg");
   command->callback([arguments, &action] { action = [arguments] { return weigh_command(*arguments); }; });
 }
 

@@ -1,16 +1,21 @@
 #include "common/io/log.h"
 
 #include <spdlog/async.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <ctime>
 #include <memory>
 
 #include "common/io/clock.h"
+#include "common/io/screen_block.h"
+#include "common/io/text_layout.h"
 
 namespace tandem::io {
 namespace {
@@ -96,11 +101,41 @@ class JsonLines final : public spdlog::formatter {
   }
 };
 
+/// Lines for people. On a terminal a long line is broken between words at the width that the terminal has now, and a status that stands there
+/// is cleared first.
+class LinesForPeople final : public spdlog::formatter {
+ public:
+  LinesForPeople() : terminal_(isatty(STDERR_FILENO) != 0) {}
+  void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
+    if (!terminal_) return pattern_.format(message, out);
+    spdlog::memory_buf_t line;
+    pattern_.format(message, line);
+    const std::string_view clearing = ScreenBlock::take_clearing();
+    message.color_range_start += clearing.size();
+    message.color_range_end += clearing.size();
+    std::string text{clearing};
+    std::string_view rest{line.data(), line.size()};
+    const std::size_t width = screen_size(STDERR_FILENO).columns - 1;
+    while (!rest.empty()) {
+      const std::string_view one = rest.substr(0, rest.find('\n'));
+      for (const std::string& part : wrapped(one, width, kIndent)) text += part + "\n";
+      rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+    }
+    out.append(text.data(), text.data() + text.size());
+  }
+  [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override { return std::make_unique<LinesForPeople>(); }
+
+ private:
+  static constexpr std::size_t kIndent = 4;
+  bool terminal_;
+  spdlog::pattern_formatter pattern_{"%n: %^%l%$: %v"};
+};
+
 }  // namespace
 
 void log_to_stderr(const char* program) {
   auto logger = std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
-  logger->set_pattern("%n: %^%l%$: %v");
+  logger->set_formatter(std::make_unique<LinesForPeople>());
   spdlog::set_default_logger(std::move(logger));
 }
 

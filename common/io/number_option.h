@@ -5,21 +5,31 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace tandem::io {
 
-/// A decimal number in [lo, hi]: whole text, finite. CLI11's own ranges let `nan` pass.
+/// A decimal number in [lo, hi]: whole text, finite. CLI11's own ranges let `nan` pass. Where the unit is fixed it may be written behind the number
+/// (`20`, `20ms`, `20 ms`); another unit is a mistake, as nothing is converted.
+/// The text becomes the bare number: give it to `Option::transform` (`check` would leave the unit in it).
 [[nodiscard]] inline CLI::Validator number_in(double lo, double hi, const std::string& unit) {
   std::ostringstream range;
   range.precision(12);  // 3000000, not 3e+06
   range << "[" << lo << ", " << hi << "]" << (unit.empty() ? "" : " " + unit);
   const std::string allowed = range.str();
-  const auto check = [lo, hi, allowed](std::string& text) {
+  const auto check = [lo, hi, allowed, unit](std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool number = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
-    if (number && value >= lo && value <= hi) return std::string{};
-    return "\"" + text + "\" " + (number ? "is out of range" : "is not a number") + ": must be in " + allowed;
+    std::string_view rest{end, static_cast<std::size_t>(text.data() + text.size() - end)};
+    while (error == std::errc{} && end != text.data() && rest.starts_with(' ')) rest.remove_prefix(1);
+    const bool number = error == std::errc{} && std::isfinite(value);
+    const bool looks_like_unit = !rest.empty() && rest.find_first_of("0123456789.,+-") == std::string_view::npos;
+    if (number && looks_like_unit && rest != unit)
+      return "\"" + text + "\" has the unit " + std::string(rest) + ": must be a number in " + allowed + (unit.empty() ? ", without a unit" : "; the unit is " + unit + ", and may be left out");
+    if (!number || (!rest.empty() && rest != unit)) return "\"" + text + "\" is not a number: must be in " + allowed;
+    if (value < lo || value > hi) return "\"" + text + "\" is out of range: must be in " + allowed;
+    text.resize(static_cast<std::size_t>(end - text.data()));
+    return std::string{};
   };
   return {check, "in " + allowed};
 }

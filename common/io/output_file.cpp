@@ -9,6 +9,20 @@
 
 namespace tandem::io {
 
+std::string why_not_written(int error) {
+  const std::string said = std::strerror(error);
+  switch (error) {
+    case ENOSPC: return "the disk is full (" + said + "); free some space there, then repeat";
+    case EDQUOT: return "this user's share of the disk is full (" + said + "); free some space there, then repeat";
+    case EACCES:
+    case EPERM: return "no permission (" + said + "); name a place where this user may write";
+    case EROFS: return "the disk is mounted read-only (" + said + "); name another place";
+    case EFBIG: return "the file would be larger than allowed here (" + said + ")";
+    case EIO: return "the disk reports an error (" + said + ")";
+    default: return said;
+  }
+}
+
 OutputFile::~OutputFile() {
   if (file_ != nullptr && !on_stdout()) std::fclose(file_);
 }
@@ -20,7 +34,7 @@ std::string OutputFile::problem(const std::string& name) {
   const std::filesystem::path parent = std::filesystem::path(name).parent_path();
   const std::string target = exists ? name : parent.empty() ? "." : parent.string();
   if (access(target.c_str(), W_OK) == 0 && (exists || std::filesystem::is_directory(target, error))) return {};
-  return name + " cannot be written: " + (exists ? "" : target + ": ") + std::strerror(errno != 0 ? errno : ENOTDIR);
+  return name + " cannot be written: " + (exists ? "" : target + ": ") + why_not_written(errno != 0 ? errno : ENOTDIR);
 }
 
 std::string OutputFile::open(const std::string& name, bool dash_is_stdout) {
@@ -31,18 +45,22 @@ std::string OutputFile::open(const std::string& name, bool dash_is_stdout) {
     return {};
   }
   file_ = std::fopen(name.c_str(), "wbe");
-  return file_ != nullptr ? std::string{} : name + " cannot be written: " + std::strerror(errno);
+  return file_ != nullptr ? std::string{} : name + " cannot be written: " + why_not_written(errno);
 }
 
 void OutputFile::write(std::string_view text) noexcept {
-  if (file_ != nullptr && std::fwrite(text.data(), 1, text.size(), file_) != text.size()) failed_ = true;
+  if (file_ == nullptr || failed_ != 0) return;
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) failed_ = errno != 0 ? errno : EIO;
 }
 
 std::string OutputFile::close() {
   if (file_ == nullptr) return {};
   std::FILE* const file = std::exchange(file_, nullptr);
+  errno = 0;
   const bool flushed = file == stdout ? std::fflush(file) == 0 : std::fclose(file) == 0;
-  return flushed && !failed_ ? std::string{} : name_ + " could not be written to the end";
+  if (!flushed && failed_ == 0) failed_ = errno != 0 ? errno : EIO;
+  return failed_ == 0 ? std::string{} : (file == stdout ? "standard output" : name_) + " could not be written to the end: " + why_not_written(failed_);
 }
 
 }  // namespace tandem::io

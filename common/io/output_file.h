@@ -6,6 +6,9 @@
 
 namespace tandem::io {
 
+/// Why something could not be written, for a person, by errno: a full disk is called full, a missing permission a permission.
+[[nodiscard]] std::string why_not_written(int error);
+
 /// A file a person named for results: judged before anything starts, so that a name that cannot be written is a mistake
 /// found early; checked to the last byte. `-` is standard output where allowed.
 class OutputFile {
@@ -30,7 +33,7 @@ class OutputFile {
  private:
   std::string name_;
   std::FILE* file_ = nullptr;
-  bool failed_ = false;
+  int failed_ = 0;  ///< errno of the first write that failed
 };
 
 }  // namespace tandem::io

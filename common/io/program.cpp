@@ -1,5 +1,6 @@
 #include "common/io/program.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -7,6 +8,8 @@
 #include <vector>
 
 #include "common/base/nearest.h"
+#include "common/io/help_text.h"
+#include "common/io/output_file.h"
 
 namespace tandem::io {
 namespace {
@@ -82,12 +85,13 @@ std::vector<std::string> all_mistakes(CLI::App& app, const CLI::ParseError& firs
 }  // namespace
 
 int run_program(CLI::App& app, const std::function<int()>& action, int argc, char** argv) {
+  HelpText::give_to(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // CLI11 does not say which word it did not know when a command is missing.
     const std::string_view word = argc > 1 ? argv[1] : "";
-    if (!word.empty() && !word.starts_with('-') && app.get_subcommands().empty()) {
+    if (!word.empty() && !word.starts_with('-') && app.get_subcommands().empty() && !app.get_subcommands({}).empty()) {
       std::vector<std::string> known;
       for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
       std::fprintf(stderr, "%s: no command is called \"%s\"; %s\n", app.get_name().c_str(), argv[1], suggest(word, known).c_str());
@@ -100,13 +104,17 @@ int run_program(CLI::App& app, const std::function<int()>& action, int argc, cha
     std::vector<std::string> all = all_mistakes(app, error, {argv + 1, argv + argc});
     all.front() = meant;
     for (const std::string& mistake : all)
-      std::fprintf(stderr, "%s\n", &mistake == &all.front() ? mistake.c_str() : with_nearest(app, mistake).c_str());
+      std::fputs(for_terminal((&mistake == &all.front() ? mistake : with_nearest(app, mistake)) + "\n", stderr).c_str(), stderr);
     if (all.size() > 1) std::fprintf(stderr, "%zu mistakes; nothing was started\n", all.size());
     std::fputs("Run with --help for more information.\n", stderr);
     return 2;
   }
   try {
-    return action();
+    const int code = action();
+    const int error = errno;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    std::fprintf(stderr, "%s: standard output could not be written to the end: %s\n", app.get_name().c_str(), why_not_written(error != 0 ? error : EIO).c_str());
+    return code != 0 ? code : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
     return 1;

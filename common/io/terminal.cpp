@@ -2,13 +2,14 @@
 
 #include <poll.h>
 #include <spdlog/spdlog.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <utility>
+
+#include "common/io/screen_block.h"
 
 namespace tandem::io {
 namespace {
@@ -23,17 +24,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kKeys{{{
                                                                                {"\x1bOD", "left"},
                                                                                {"\x1b[5~", "pageup"},
                                                                                {"\x1b[6~", "pagedown"}}};
-
-/// Length of the first `columns` characters of UTF-8 text, in bytes.
-std::size_t bytes_of_columns(const std::string& text, std::size_t columns) {
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const bool begins = (static_cast<unsigned char>(text[at]) & 0xC0) != 0x80;
-    if (begins && columns-- == 0) break;
-    ++at;
-  }
-  return at;
-}
 
 }  // namespace
 
@@ -84,23 +74,20 @@ std::string KeyReader::next() {
 
 StatusLine::StatusLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
-void StatusLine::show(const std::string& line) {
+void StatusLine::show(std::span<const ScreenItem> items, std::size_t rows) {
   if (quiet_) return;
   if (!terminal_) {
-    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fprintf(stderr, "%s\n", joined(items).c_str());
     return;
   }
-  winsize size{};
-  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-  const std::size_t bytes = bytes_of_columns(line, known ? size.ws_col - 1u : 119u);
-  std::fprintf(stderr, "\r\x1b[K%.*s", static_cast<int>(bytes), line.c_str());
-  std::fflush(stderr);
-  shown_ = true;
+  const ScreenSize size = screen_size(STDERR_FILENO);
+  ScreenBlock::show(laid_out(items, std::min(rows, rows_max()), size.columns - 1));
 }
 
+std::size_t StatusLine::rows_max() const noexcept { return screen_size(STDERR_FILENO).rows - 1; }
+
 void StatusLine::clear() {
-  if (std::exchange(shown_, false)) std::fprintf(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  if (terminal_) ScreenBlock::clear();
 }
 
 void StatusLine::note(const std::string& text) {

@@ -2,8 +2,12 @@
 
 #include <termios.h>
 
+#include <array>
+#include <span>
 #include <string>
 #include <string_view>
+
+#include "common/io/text_layout.h"
 
 namespace tandem::io {
 
@@ -28,23 +32,26 @@ class KeyReader {
   std::string pending_;
 };
 
-/// A line of status that stays in its place on a terminal. Without one, lines follow each other, seldom.
+/// A status of a few lines that stays in its place on a terminal. Without one, a line follows every five seconds.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
-  /// How often a line is worth making [ms].
+  /// How often a status is worth making [ms].
   [[nodiscard]] int interval_ms() const noexcept { return terminal_ ? 250 : 5000; }
   [[nodiscard]] bool wanted() const noexcept { return !quiet_; }
-  /// Shows the line on standard error; on a terminal it is cut to the width, as a line that wraps cannot be replaced.
-  void show(const std::string& line);
-  /// Removes the line, so that something else can be printed.
+  /// Shows a status on standard error: on a terminal in at most `rows` lines laid out for its width now, elsewhere in one.
+  void show(std::span<const ScreenItem> items, std::size_t rows = 2);
+  void show(const std::string& text) { show(std::array<ScreenItem, 1>{{{text, "", 0}}}); }
+  /// Lines that the terminal has room for beside one line of other text.
+  [[nodiscard]] std::size_t rows_max() const noexcept;
+  /// Removes the status, so that something else can be printed.
   void clear();
   /// Lasting lines, above the status (log.h).
   void note(const std::string& text);
   void warn(const std::string& text);
 
  private:
-  bool quiet_, terminal_, shown_ = false;
+  bool quiet_, terminal_;
 };
 
 }  // namespace tandem::io

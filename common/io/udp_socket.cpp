@@ -1,5 +1,6 @@
 #include "common/io/udp_socket.h"
 
+#include <fcntl.h>
 #include <linux/filter.h>
 
 #include <cerrno>
@@ -94,6 +95,8 @@ std::expected<UdpSocket, std::string> connect_udp(const SocketAddress& to) {
   socket.local = local_address(socket.fd.get());
   return socket;
 }
+
+UdpSocket duplicate(const UdpSocket& socket) noexcept { return {Fd{::fcntl(socket.fd.get(), F_DUPFD_CLOEXEC, 0)}, socket.local}; }
 
 std::expected<TcpListener, std::string> listen_tcp(const SocketAddress& at) {
   TcpListener listener{Fd{::socket(at.family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)}, {}};

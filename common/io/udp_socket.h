@@ -37,4 +37,7 @@ struct Steering {
 /// A socket for one peer only: others' datagrams never reach it, and "nobody listens there" is told by the system.
 [[nodiscard]] std::expected<UdpSocket, std::string> connect_udp(const SocketAddress& to);
 
+/// The same socket under another descriptor; its `fd` is closed if the system gave none.
+[[nodiscard]] UdpSocket duplicate(const UdpSocket& socket) noexcept;
+
 }  // namespace tandem::io

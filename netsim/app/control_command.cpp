@@ -57,7 +57,7 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
                   "  tandem-netsim control /tmp/proxy.sock profile wifi-busy\n"
                   "  tandem-netsim control /tmp/proxy.sock delay 20 loss 2 client 2 up\n"
                   "  tandem-netsim control /tmp/proxy.sock outage 400ms\n"
-                  "  tandem-netsim control /tmp/proxy.sock status --json\n"
+                  "  tandem-netsim control /tmp/proxy.sock status --json\n\n"
                   "Exit: 0 done, 1 no proxy there, it could not do it, or interrupted, 2 a wrong command or file.");
   command->callback([arguments, &action, command] {
     for (const std::string& word : command->remaining()) arguments->words.push_back(word);

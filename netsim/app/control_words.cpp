@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/format.h"
+#include "common/base/unit.h"
 
 namespace tandem::netsim {
 namespace {
@@ -109,7 +110,7 @@ class Reader {
       if (word != key.name) continue;
       const std::string must = format(" must be a number in [0, %.0f] %s", key.max, key.unit);
       if (at_ == words_.size()) return std::string(word) + must;
-      const auto value = number<double>(words_[at_]);
+      const auto value = number<double>(without_unit(words_[at_], key.unit));
       if (!value || !std::isfinite(*value) || *value < 0 || *value > key.max) {
         return std::string(word) + " " + quoted(words_[at_]) + ":" + must;
       }

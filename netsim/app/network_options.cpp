@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "common/base/unit.h"
 #include "common/io/number_option.h"
 #include "netsim/app/capacity_file.h"
 #include "netsim/network_csv.h"
@@ -45,10 +48,11 @@ std::expected<std::string, std::string> read_whole_file(const std::string& path,
   const auto size = std::filesystem::file_size(path, error);
   if (error) return std::unexpected(path + ": " + error.message());
   if (size > bytes_max) return std::unexpected(path + ": is larger than " + std::to_string(bytes_max >> 20) + " MiB");
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string text(static_cast<std::size_t>(size), '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
-  if (!file) return std::unexpected(path + ": cannot be read");
+  if (!file) return std::unexpected(path + ": cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
   return text;
 }
 
@@ -63,13 +67,14 @@ std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {
   std::istringstream cells(text);
   for (std::string cell; std::getline(cells, cell, ','); ++count) {
     double value = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (count >= values.size() || error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) {
-      return wrong("must be START,LENGTH or START,LENGTH,PERIOD: numbers of seconds, such as 12,0.4");
+    const std::string_view bare = without_unit(cell, "s");
+    const auto [end, error] = std::from_chars(bare.data(), bare.data() + bare.size(), value);
+    if (count >= values.size() || error != std::errc{} || end != bare.data() + bare.size() || !std::isfinite(value)) {
+      return wrong("must be START,LENGTH or START,LENGTH,PERIOD: numbers of seconds, such as 12,0.4 or 12s,0.4s");
     }
     values[count] = value;
   }
-  if (count < 2) return wrong("must be START,LENGTH or START,LENGTH,PERIOD: numbers of seconds, such as 12,0.4");
+  if (count < 2) return wrong("must be START,LENGTH or START,LENGTH,PERIOD: numbers of seconds, such as 12,0.4 or 12s,0.4s");
   const auto [start, length, period] = values;
   if (start < 0 || start > 2'592'000) return wrong("START must be in [0, 2592000] s");
   if (!(length > 0 && length <= 3600)) return wrong("LENGTH must be in (0, 3600] s");
@@ -88,7 +93,7 @@ void NetworkOptions::add_to(CLI::App& command) {
   const std::string group = "What the network is like (each direction)";
   const auto number = [&](const char* option, double& value, double hi, const std::string& unit, const char* help) {
     command.add_option(option, value, help)
-        ->check(io::number_in(0, hi, unit))
+        ->transform(io::number_in(0, hi, unit))
         ->option_text(unit == "ms" ? "MS" : "PERCENT")
         ->group(group);
   };
@@ -127,7 +132,7 @@ void NetworkOptions::add_to(CLI::App& command) {
   command
       .add_option("--trace-interval", trace_interval_ms_,
                   "time between the rows of a recording without a time column [ms]")
-      ->check(io::number_in(0.001, 60'000, "ms"))
+      ->transform(io::number_in(0.001, 60'000, "ms"))
       ->option_text("MS")
       ->group(group);
   command

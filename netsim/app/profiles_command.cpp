@@ -133,16 +133,16 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--svg", arguments->svg, "also draws it into this file")->option_text("FILE.svg");
   command->add_option("--capacity", arguments->capacity, "the recorded capacity that the profile plays (4g-trace)")->option_text("FILE");
   command->add_option("--minutes", arguments->minutes, "virtual time to measure; default 30")
-      ->check(io::number_in(0.05, 1440, "min"))
+      ->transform(io::number_in(0.05, 1440, "min"))
       ->option_text("M");
   command->add_option("--seconds", arguments->shown_s, "how much of the beginning the pictures show; default 60")
-      ->check(io::number_in(1, 600, "s"))
+      ->transform(io::number_in(1, 600, "s"))
       ->option_text("S");
   command->add_option("--seed", arguments->seed, "the same seed gives the same network; default 1")
       ->check(io::whole_number())
       ->option_text("N");
   command->add_option("--trace-interval", arguments->interval_ms, "time between the rows of a recording without a time column [ms]")
-      ->check(io::number_in(0.001, 60'000, "ms"))
+      ->transform(io::number_in(0.001, 60'000, "ms"))
       ->option_text("MS");
   command->add_flag("--ascii", arguments->ascii, "pictures of plain letters; so it is anyway where the terminal does not speak UTF-8");
   command->footer(
@@ -154,7 +154,7 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim profiles wifi-busy --svg wifi-busy.svg\n"
       "  tandem-netsim profiles 5g --text > mine.textproto\n"
       "  tandem-netsim profiles mine.textproto --minutes 5\n"
-      "  tandem-netsim profiles 4g-trace --capacity lte.csv\n"
+      "  tandem-netsim profiles 4g-trace --capacity lte.csv\n\n"
       "Exit: 0 done, 1 trouble while running or interrupted, 2 wrong arguments or files.");
   command->callback([arguments, command, &action] {
     bool measured = false;

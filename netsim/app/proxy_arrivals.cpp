@@ -10,6 +10,8 @@ namespace {
 constexpr Duration kAgeMax{1'000'000'000};
 /// A flood of strangers must not hold up the others: then the order of theirs may be lost, nothing else.
 constexpr int kPassesMax = 16;
+/// A hand sends hundreds of datagrams a second: a client that sent none for so long has closed its socket. A seat is free for others as soon.
+constexpr Duration kReconnects{2'000'000'000};
 static_assert(io::ReceiveBatch::kSlotBytes == kSlotBytes, "what can be received can be kept");
 
 }  // namespace
@@ -33,8 +35,9 @@ std::size_t Proxy::read(ProxySource source) noexcept {
   if (fd < 0) return 0;  // closed by an earlier event of this round
   const std::size_t count = receive(fd);
   ProxyClients::Client& client = clients_[source.place];
-  if (count > 0) client.last_seen = now_;
   const bool up = source.kind == ProxySource::Kind::kDownside;
+  if (count > 0) client.last_seen = now_;
+  if (count > 0 && up) client.last_heard = now_;
   const bool former = source.kind == ProxySource::Kind::kFormer;
   for (std::size_t i = 0; i < count; ++i) {
     if (in_.too_long(i)) {
@@ -100,12 +103,14 @@ std::optional<std::uint32_t> Proxy::client_of(std::size_t message, const io::Loc
   const io::PeerKey key = io::PeerKey::of(in_.from(message));
   auto found = clients_.find(key);
   if (!found) found = welcome(key, message, local);
-  if (found) clients_[*found].last_seen = now_;
+  if (found) clients_[*found].last_seen = clients_[*found].last_heard = now_;
   return found;
 }
 
 std::optional<std::uint32_t> Proxy::welcome(const io::PeerKey& key, std::size_t message,
                                             const io::LocalAddress& local) noexcept {
+  // A client that reconnects calls from a new port: commands and reports know it by its number.
+  if (const auto back = clients_.silent_from(in_.from(message), now_ - kReconnects); back && clients_.move(*back, key, in_.from(message), local)) return back;
   if (core_.clients() == ProxyCore::kClientsMax) {
     ++troubles_.too_many_clients;
     return std::nullopt;

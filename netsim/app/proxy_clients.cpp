@@ -26,6 +26,24 @@ void prepare(int fd, int family, bool local, int buffer_bytes) noexcept {
   setsockopt(fd, SOL_SOCKET, SO_RXQ_OVFL, &off, sizeof off);
 }
 
+io::SocketAddress address_of(const sockaddr_storage& address) noexcept {
+  io::SocketAddress peer;
+  peer.storage = address;
+  peer.size = peer.family() == AF_INET6 ? sizeof(sockaddr_in6) : sizeof(sockaddr_in);
+  return peer;
+}
+
+/// The same address, whatever the port.
+bool same_host(const sockaddr_storage& a, const sockaddr_storage& b) noexcept {
+  if (a.ss_family != b.ss_family) return false;
+  if (a.ss_family == AF_INET6) {
+    const auto* const x = reinterpret_cast<const sockaddr_in6*>(&a);
+    const auto* const y = reinterpret_cast<const sockaddr_in6*>(&b);
+    return std::memcmp(&x->sin6_addr, &y->sin6_addr, sizeof x->sin6_addr) == 0 && x->sin6_scope_id == y->sin6_scope_id;
+  }
+  return reinterpret_cast<const sockaddr_in*>(&a)->sin_addr.s_addr == reinterpret_cast<const sockaddr_in*>(&b)->sin_addr.s_addr;
+}
+
 std::uint64_t drops_of(const io::Fd& fd) noexcept {
   std::array<std::uint32_t, SK_MEMINFO_VARS> numbers{};
   socklen_t size = sizeof numbers;
@@ -75,11 +93,31 @@ std::optional<std::uint32_t> ProxyClients::find(const io::PeerKey& key) const no
   return std::nullopt;
 }
 
+std::optional<std::uint32_t> ProxyClients::silent_from(const sockaddr_storage& address, Duration silent_since) const noexcept {
+  for (std::uint32_t place = 0; place < kMax; ++place) {
+    const Client& client = clients_[place];
+    if (client.present && client.last_heard <= silent_since && same_host(client.address.storage, address)) return place;
+  }
+  return std::nullopt;
+}
+
+bool ProxyClients::move(std::uint32_t place, const io::PeerKey& key, const sockaddr_storage& address, const io::LocalAddress& local) noexcept {
+  const io::SocketAddress peer = address_of(address);
+  io::Fd down = connect_downside(peer, local);
+  if (!down.open()) return false;
+  Client& client = clients_[place];
+  client.kernel_drops += drops_of(client.downside);
+  client.downside = std::move(down);
+  client.address = peer;
+  client.key = key;
+  newcomer_[newcomers_++] = place;
+  index();
+  return true;
+}
+
 bool ProxyClients::welcome(std::uint32_t place, std::uint64_t number, const io::PeerKey& key,
                            const sockaddr_storage& address, const io::LocalAddress& local) noexcept {
-  io::SocketAddress peer;
-  peer.storage = address;
-  peer.size = peer.family() == AF_INET6 ? sizeof(sockaddr_in6) : sizeof(sockaddr_in);
+  const io::SocketAddress peer = address_of(address);
   io::Fd down = connect_downside(peer, local);
   io::Fd up = connect_upside();
   if (!down.open() || !up.open() || !watch(up.get(), {ProxySource::Kind::kUpside, place})) return false;

@@ -55,6 +55,7 @@ class ProxyClients {
     io::PeerKey key;
     std::uint64_t number = 0;  ///< in order of arrival, from 1
     Duration last_seen{};
+    Duration last_heard{};     ///< from the client itself
     bool present = false;
     std::uint64_t kernel_drops = 0;  ///< of sockets it has no more
   };
@@ -77,6 +78,11 @@ class ProxyClients {
   /// @return whether the system gave them
   bool welcome(std::uint32_t place, std::uint64_t number, const io::PeerKey& key, const sockaddr_storage& address,
                const io::LocalAddress& local) noexcept;
+  /// A client of the same host that fell silent: who calls from another port of that host now is the same one, come back.
+  /// @param silent_since  it was not heard after that  @return the first of them
+  [[nodiscard]] std::optional<std::uint32_t> silent_from(const sockaddr_storage& address, Duration silent_since) const noexcept;
+  /// The client calls from another address now, and keeps its place, number and network. @return whether the system gave the socket
+  bool move(std::uint32_t place, const io::PeerKey& key, const sockaddr_storage& address, const io::LocalAddress& local) noexcept;
   void forget(std::uint32_t place) noexcept;
   /// From now on the server sees the client at a new address, its `number`th; the old one is heard until it is closed.
   bool change_address(std::uint32_t place, std::uint32_t number) noexcept;

@@ -201,7 +201,7 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--to", arguments->to, "the server")->option_text("HOST:PORT")->required();
   arguments->network.add_to(*command);
   command->add_option("--duration", arguments->duration_s, "ends after so many seconds; default: at Ctrl-C")
-      ->check(io::number_in(0.001, 3e6, "s"))
+      ->transform(io::number_in(0.001, 3e6, "s"))
       ->option_text("S");
   command
       ->add_option("--json", arguments->json,
@@ -223,7 +223,7 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--max-lateness", arguments->lateness_max_us,
                    "exit code 1 when the 99th percentile of the proxy's own lateness is above so many microseconds; "
                    "counted from the moment each datagram was due by the kernel's time of its arrival")
-      ->check(io::number_in(1, 1e7, "us"))
+      ->transform(io::number_in(1, 1e7, "us"))
       ->option_text("US")
       ->group(timing);
   command
@@ -231,14 +231,14 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
           "--coalesce", arguments->coalesce_us,
           "datagrams due less than so many microseconds after others left may leave together, so late at most: "
           "saves wake-ups when there are many clients; default 80, 0: each at its own moment")
-      ->check(io::number_in(0, 1000, "us"))
+      ->transform(io::number_in(0, 1000, "us"))
       ->option_text("US")
       ->group(timing);
   command
       ->add_option("--spin", arguments->spin_us,
                    "watches the clock instead of sleeping for the last so many microseconds before a datagram is due; "
                    "costs up to a whole core; default 0")
-      ->check(io::number_in(0, 1000, "us"))
+      ->transform(io::number_in(0, 1000, "us"))
       ->option_text("US")
       ->group(timing);
   command
@@ -248,7 +248,8 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       ->group(timing);
   command->footer(
       "Clients send to --listen instead of the server. Each client (address and port) gets its own link and its own\n"
-      "socket towards the server; up is client to server. At most 64 clients; a client silent for 60 s is forgotten.\n"
+      "socket towards the server; up is client to server. At most 64 clients; a client silent for 60 s is forgotten,\n"
+      "and one that calls from another port of its host after 2 s of silence has reconnected: it keeps its number.\n"
       "Datagrams above 1500 bytes are dropped and counted. Prints `listening on HOST:PORT` first. On a terminal it "
       "shows\n"
       "each client's rate, delay and loss, and takes commands (`tandem-netsim control --help` lists them); elsewhere "
@@ -258,7 +259,7 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim proxy --listen 127.0.0.1:7001 --to 127.0.0.1:7000 --delay 20 --jitter 5 --loss 5\n"
       "  tandem-netsim proxy --to [::1]:7000 --profile wifi-busy --seed 7 --duration 60 --json proxy.json\n"
       "  tandem-netsim proxy --to 127.0.0.1:7000 --delay 10 --outage 5,0.5,3\n"
-      "  tandem-netsim proxy --to 127.0.0.1:7000 --profile 5g --control /tmp/proxy.sock --max-lateness 500\n"
+      "  tandem-netsim proxy --to 127.0.0.1:7000 --profile 5g --control /tmp/proxy.sock --max-lateness 500\n\n"
       "Exit: 0 done, 1 trouble (port in use), later than --max-lateness, nothing sent that it could judge, or interrupted\n"
       "before --duration was over (without --duration Ctrl-C is its end), 2 wrong arguments or files.");
   command->callback([arguments, &action] { action = [arguments] { return proxy_command(*arguments); }; });

@@ -1,6 +1,7 @@
 #include "netsim/app/proxy_view.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/format.h"
 #include "netsim/app/proxy_report.h"
@@ -27,14 +28,19 @@ std::string fixed(double value, int width, int decimals) {
   return text;
 }
 
-}  // namespace
-
-std::string in_one_line(const std::string& state, double late_p99_ms) {
-  constexpr std::size_t kColumns = 79;
-  for (const std::string& late : {format("; late p99 %.2f ms", late_p99_ms), format("; late p99 %.0f ms", late_p99_ms), format("; late %.0f ms", late_p99_ms)})
-    if (state.size() + late.size() <= kColumns) return state + late;
-  return state.substr(0, kColumns);
+/// As many cells from the left as fit.
+std::string fitted(const std::vector<std::string>& cells, std::size_t width) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    if (line.size() + cell.size() > width) break;
+    line += cell;
+  }
+  return line;
 }
+
+constexpr std::size_t kAddressWidth = 21;  // of IPv4 and its port
+
+}  // namespace
 
 void ProxyView::look() {
   if (pictures_.size() == kPictures) pictures_.erase(pictures_.begin());
@@ -50,37 +56,36 @@ void ProxyView::look() {
   }
 }
 
-std::string ProxyView::line() const {
+std::vector<io::ScreenItem> ProxyView::line() const {
   if (pictures_.empty()) return {};
   const ProxyStatus& now = pictures_.back().status;
   const ProxyStatus& before = pictures_.front().status;
   const double s = seconds(now.since_start - before.since_start);
-  std::string text = format("%.0f s, %llu client%s", seconds(now.since_start),
-                            static_cast<unsigned long long>(now.clients), now.clients == 1 ? "" : "s");
-  for (std::size_t d = 0; d < kDirections; ++d) {
-    text += format("; %s %.0f/s lost %.1f %%", name(static_cast<Direction>(d)),
-                   per_second(now.total[d].in, before.total[d].in, s), lost_percent(now.total[d], before.total[d]));
-  }
-  const auto& late = pictures_.back().late;
-  return in_one_line(text, ms(late.quantile_since(pictures_.front().late, 0.99)));
+  std::vector<io::ScreenItem> items;
+  const auto add = [&](std::string text) { items.push_back({std::move(text), "", 0}); };
+  add(format("%.0f s, %llu client%s", seconds(now.since_start), static_cast<unsigned long long>(now.clients), now.clients == 1 ? "" : "s"));
+  for (std::size_t d = 0; d < kDirections; ++d)
+    add(format("%s %.0f/s lost %.1f %%", name(static_cast<Direction>(d)), per_second(now.total[d].in, before.total[d].in, s), lost_percent(now.total[d], before.total[d])));
+  add(format("late p99 %.2f ms", ms(pictures_.back().late.quantile_since(pictures_.front().late, 0.99))));
+  return items;
 }
 
-std::vector<std::string> ProxyView::table(std::size_t rows) const {
+std::vector<std::string> ProxyView::table(std::size_t rows, std::size_t width) const {
   std::vector<std::string> lines;
   if (pictures_.empty() || rows < 2) return lines;
-  lines.push_back("  n address               dir    in/s  out/s mean ms    p99  queue lost% flight");
   const ProxyStatus& now = pictures_.back().status;
   const bool all = 1 + kDirections * now.clients <= rows;
   const std::uint64_t shown = all ? now.clients : (rows - 2) / kDirections;
-  for (std::uint64_t i = 0; i < shown; ++i) {
-    lines.push_back(row(now.client[i], Direction::kUp));
-    lines.push_back(row(now.client[i], Direction::kDown));
-  }
+  std::size_t address = kAddressWidth;
+  for (std::uint64_t i = 0; i < shown; ++i) address = std::max(address, io::to_text(now.client[i].address).size());
+  lines.push_back(fitted({"  n ", format("%-*s ", static_cast<int>(address), "address"), "dir ", "   in/s", "  out/s", " mean ms", "    p99", "  queue", " lost%", " flight"}, width));
+  for (std::uint64_t i = 0; i < shown; ++i)
+    for (const Direction d : {Direction::kUp, Direction::kDown}) lines.push_back(fitted(row(now.client[i], d, address), width));
   if (!all) lines.push_back(format("  and %llu more", static_cast<unsigned long long>(now.clients - shown)));
   return lines;
 }
 
-std::string ProxyView::row(const ProxyClientStatus& now, Direction direction) const {
+std::vector<std::string> ProxyView::row(const ProxyClientStatus& now, Direction direction, std::size_t address_width) const {
   const auto d = static_cast<std::size_t>(direction);
   // The oldest picture that has this client.
   const Picture* before = &pictures_.back();
@@ -97,14 +102,17 @@ std::string ProxyView::row(const ProxyClientStatus& now, Direction direction) co
   const LiveDelays::Picture& delays = pictures_.back().delays.at(now.number)[d];
   const LiveDelays::Picture& delays_then = before->delays.at(now.number)[d];
   const PathCounters& c = now.counters[d];
-  const std::string who = direction == Direction::kUp ? io::to_text(now.address).substr(0, 21) : "";
-  return format("%3s %-21s %-4s", direction == Direction::kUp ? std::to_string(now.number).c_str() : "", who.c_str(),
-                name(direction)) +
-         " " + fixed(per_second(c.in, then->counters[d].in, s), 6, 0) + " " +
-         fixed(per_second(c.out, then->counters[d].out, s), 6, 0) + " " +
-         fixed(ms(delays.mean_since(delays_then)), 7, 2) + " " +
-         fixed(ms(delays.quantile_since(delays_then, 0.99)), 6, 2) + " " + fixed(ms(now.queue[d]), 6, 2) + " " +
-         fixed(lost_percent(c, then->counters[d]), 5, 2) + " " + fixed(count(c.in_flight()), 6, 0);
+  const bool first = direction == Direction::kUp;
+  return {format("%3s ", first ? std::to_string(now.number).c_str() : ""),
+          format("%-*s ", static_cast<int>(address_width), first ? io::to_text(now.address).c_str() : ""),
+          format("%-4s", name(direction)),
+          " " + fixed(per_second(c.in, then->counters[d].in, s), 6, 0),
+          " " + fixed(per_second(c.out, then->counters[d].out, s), 6, 0),
+          " " + fixed(ms(delays.mean_since(delays_then)), 7, 2),
+          " " + fixed(ms(delays.quantile_since(delays_then, 0.99)), 6, 2),
+          " " + fixed(ms(now.queue[d]), 6, 2),
+          " " + fixed(lost_percent(c, then->counters[d]), 5, 2),
+          " " + fixed(count(c.in_flight()), 6, 0)};
 }
 
 }  // namespace tandem::netsim

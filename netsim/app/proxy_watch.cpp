@@ -1,17 +1,20 @@
 #include "netsim/app/proxy_watch.h"
 
 #include <poll.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/io/clock.h"
+#include "common/io/screen_block.h"
 #include "common/io/terminal.h"
+#include "common/io/text_layout.h"
 #include "netsim/app/proxy_view.h"
 
 namespace tandem::netsim {
@@ -20,40 +23,6 @@ namespace {
 constexpr Duration kEveryOnTerminal{500'000'000};
 constexpr Duration kEveryLine{5'000'000'000};
 constexpr std::size_t kCommandMax = 200;
-
-/// Rows that stay in their place on standard error; each is cut to the width of the terminal.
-class Screen {
- public:
-  Screen() : terminal_(isatty(STDERR_FILENO) != 0) {}
-  [[nodiscard]] bool terminal() const noexcept { return terminal_; }
-  [[nodiscard]] std::size_t height() const {
-    winsize size{};
-    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 4 ? size.ws_row : 24u;
-  }
-  void show(const std::vector<std::string>& rows) {
-    winsize size{};
-    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-    const std::size_t width = known ? size.ws_col - 1u : 79u;
-    std::string text = back();
-    for (const std::string& row : rows) text += "\x1b[K" + row.substr(0, width) + "\n";
-    std::fputs(text.c_str(), stderr);
-    std::fflush(stderr);
-    shown_ = rows.size();
-  }
-  /// Takes the rows away, so that something else can be printed.
-  void clear() {
-    std::fputs(back().c_str(), stderr);
-    std::fflush(stderr);
-    shown_ = 0;
-  }
-
- private:
-  [[nodiscard]] std::string back() const {
-    return shown_ == 0 ? std::string{} : "\x1b[" + std::to_string(shown_) + "A\r\x1b[J";
-  }
-  bool terminal_;
-  std::size_t shown_ = 0;
-};
 
 /// What somebody types: a command, ended by Enter.
 class CommandLine {
@@ -74,7 +43,12 @@ class CommandLine {
     }
     return std::nullopt;
   }
-  [[nodiscard]] const std::string& text() const noexcept { return text_; }
+  /// The end of what is typed, as much as fits.
+  [[nodiscard]] std::string shown(std::size_t width) const {
+    if (text_.empty()) return "> _  (a command; `help`)";
+    const std::size_t room = width > 4 ? width - 4 : 1;
+    return "> " + (text_.size() > room ? text_.substr(text_.size() - room) : text_) + "_";
+  }
 
  private:
   std::string text_;
@@ -97,24 +71,27 @@ std::string wire_text(const ProxyControl::Answer& answer) {
 }
 
 void watch_proxy(Proxy& proxy, ProxyControl& control, ControlSocket& socket, int signals, int finished) {
-  Screen screen;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
   io::KeyReader keys;
   CommandLine command;
   ProxyView view{proxy};
   view.look();
   std::vector<std::string> last_answer;
-  const Duration every = screen.terminal() ? kEveryOnTerminal : kEveryLine;
+  const Duration every = terminal ? kEveryOnTerminal : kEveryLine;
   Duration next = io::read_clock(CLOCK_MONOTONIC) + every;
   bool stop = false;
   const auto show = [&] {
-    if (!screen.terminal()) return;
-    std::vector<std::string> rows =
-        view.table(screen.height() > 6 + last_answer.size() ? screen.height() - 4 - last_answer.size() : 3);
-    rows.insert(rows.begin(), view.line());
-    rows.insert(rows.end(), last_answer.begin(), last_answer.end());
-    if (keys.interactive())
-      rows.push_back("> " + command.text() + "_" + (command.text().empty() ? "  (a command; `help`)" : ""));
-    screen.show(rows);
+    if (!terminal) return;
+    const io::ScreenSize size = io::screen_size(STDERR_FILENO);
+    const std::size_t width = size.columns - 1;
+    std::vector<std::string> rows = io::laid_out(view.line(), 2, width);
+    std::vector<std::string> answer;
+    for (const std::string& line : last_answer) std::ranges::move(io::wrapped(line, width, 2), std::back_inserter(answer));
+    const std::size_t taken = rows.size() + answer.size() + 2;
+    std::ranges::move(view.table(size.rows > taken + 2 ? size.rows - taken : 3, width), std::back_inserter(rows));
+    std::ranges::move(answer, std::back_inserter(rows));
+    if (keys.interactive()) rows.push_back(command.shown(width));
+    io::ScreenBlock::show(rows);
   };
   while (!stop) {
     std::array<pollfd, 5> fds{{{signals, POLLIN, 0},
@@ -143,18 +120,18 @@ void watch_proxy(Proxy& proxy, ProxyControl& control, ControlSocket& socket, int
       const ProxyControl::Answer answer = control.carry_out(*whole);
       stop = stop || answer.stop;
       last_answer = lines_of(answer.text);
-      if (!screen.terminal()) std::fputs(answer.text.c_str(), stderr);
+      if (!terminal) std::fputs(answer.text.c_str(), stderr);
     }
     if (io::read_clock(CLOCK_MONOTONIC) >= next) {
       next += every;
       view.look();
-      if (!screen.terminal()) std::fprintf(stderr, "%s\n", view.line().c_str());
+      if (!terminal) std::fprintf(stderr, "%s\n", io::joined(view.line()).c_str());
       show();
     } else if (typed) {
       show();
     }
   }
-  screen.clear();
+  if (terminal) io::ScreenBlock::clear();
   proxy.stop();
 }
 

@@ -255,7 +255,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
                    "seed, seed_signed (two readings of the source paper's equation 3)")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
   command->add_option("--duration", arguments->duration_s, "session time instead of the scene's; a scene without an end (no duration_s) needs it")
-      ->check(io::number_in(0.1, 3e6, "s"))
+      ->transform(io::number_in(0.1, 3e6, "s"))
       ->option_text("S");
   command->add_option("--json", arguments->json, "writes the report; `-`: to standard output")->option_text("FILE|-");
   command->add_option("--trace", arguments->trace, "writes one row per tick; the same seed and build give the same bytes")
@@ -273,7 +273,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then. It is\n"
       "`not judged` when no hand moved or no errors could be measured.\n"
       "The network is judged apart, by what force feedback needs (green, amber, red; loss, gaps and jitter in every\n"
-      "100 ms, 1 s and 10 s of the session, round trips): it never changes the verdict.\n"
+      "100 ms, 1 s and 10 s of the session, round trips): it never changes the verdict.\n\n"
       "Exit: 0 pass or not judged, 1 fail or interrupted, 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim run free_motion\n"

@@ -249,6 +249,8 @@ std::expected<std::vector<Scenario>, InputErrors> load_scenarios(const std::vect
       shipped(*named);
     } else if (fs::exists(argument, error)) {
       from_file(argument);
+    } else if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory) {
+      errors.push_back({argument, 0, 0, "", "", "cannot be read: " + error.message()});
     } else {
       std::vector<std::string> names{std::string(kAllShipped)};
       for (const ShippedScenario& s : shipped_scenarios()) names.emplace_back(s.name);

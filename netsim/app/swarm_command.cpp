@@ -242,7 +242,7 @@ void add_swarm_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--first", arguments->first, "first seed; default 1")->check(io::whole_number())->option_text("N");
   command->add_option("--seeds", arguments->seeds, "how many sessions; default 500")->check(CLI::Range(1, 10'000'000))->option_text("N");
   command->add_option("--safety", arguments->safety_max_s, "longest time in which things go wrong; default 40")
-      ->check(io::number_in(2, 3600, "s"))
+      ->transform(io::number_in(2, 3600, "s"))
       ->option_text("S");
   command->add_option("--jobs", arguments->jobs, "sessions at a time; default one per core")->check(CLI::Range(1, 1024))->option_text("N");
   command->add_flag("--fail-fast", arguments->fail_fast, "stops at the first session that fails");
@@ -256,7 +256,7 @@ void add_swarm_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-netsim swarm --seeds 500\n"
       "  tandem-netsim swarm --first 17 --seeds 1 --trace trace.csv\n"
-      "  tandem-netsim swarm --first 17 --scene\n"
+      "  tandem-netsim swarm --first 17 --scene\n\n"
       "Exit: 0 all passed, 1 something failed or was interrupted, 2 wrong arguments or files.");
   command->callback([arguments, &action] { action = [arguments] { return swarm_command(*arguments); }; });
 }

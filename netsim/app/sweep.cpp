@@ -9,6 +9,7 @@
 
 #include "common/base/format.h"
 #include "common/base/nearest.h"
+#include "common/base/unit.h"
 
 namespace tandem::netsim {
 namespace {
@@ -99,8 +100,9 @@ std::expected<std::vector<double>, std::string> parse_axis(std::string_view text
     const auto comma = text.find(',');
     const std::string_view word = text.substr(0, comma);
     double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return wrong(word, "is not a number");
+    const std::string_view bare = without_unit(word, unit);
+    const auto [end, error] = std::from_chars(bare.data(), bare.data() + bare.size(), value);
+    if (error != std::errc{} || end != bare.data() + bare.size() || !std::isfinite(value)) return wrong(word, "is not a number");
     if (value < lo || value > hi) return wrong(word, "is out of range");
     if (std::ranges::find(values, value) != values.end()) return wrong(word, "is there twice");
     values.push_back(value);

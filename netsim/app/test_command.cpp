@@ -166,7 +166,7 @@ void add_test_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--quiet", a->quiet, "no progress, and no table beside --json -");
   command->footer(
       "A seed passes when no promised invariant is broken (as `run` judges) and every limit of its scenario holds.\n"
-      "For each failure the one command is printed that runs that seed again, to the same trace_hash, with its trace.\n"
+      "For each failure the one command is printed that runs that seed again, to the same trace_hash, with its trace.\n\n"
       "Exit: 0 all passed, 1 something failed or was not run (Ctrl-C too), 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim test --list\n"

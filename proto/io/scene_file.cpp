@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <vector>
 
 #include "common/base/nearest.h"
@@ -18,6 +19,30 @@ constexpr std::size_t kFileMax = 1 << 20;
 
 InputErrors one_error(const std::string& file, std::string message) {
   return {{file, 0, 0, "", "", std::move(message)}};
+}
+
+/// Whether text is a CSV table: its first rows are cells between commas, as many in each, without any brace or colon of a scene.
+bool is_table(std::string_view text) {
+  std::size_t commas = 0;
+  for (int rows = 0; rows < 3 && text.find('\n') != std::string_view::npos;) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(line.size() + 1);
+    if (line.starts_with('#')) continue;
+    const auto count = static_cast<std::size_t>(std::ranges::count(line, ','));
+    if (count == 0 || line.find_first_of(":{}") != std::string_view::npos || (rows > 0 && count != commas)) return false;
+    commas = count;
+    ++rows;
+  }
+  return commas > 0;
+}
+
+/// The beginning of a file, whatever its size.
+std::string head_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(4096, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
 }
 
 }  // namespace
@@ -48,12 +73,16 @@ std::expected<SceneSpec, InputErrors> load_scene(const std::string& path_or_name
     }
   }
   if (!std::filesystem::exists(path_or_name, error)) {
+    if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+      return std::unexpected(one_error(path_or_name, "cannot be read: " + error.message()));
     std::vector<std::string> names;
     for (const auto& scene : shipped_scenes()) names.emplace_back(scene.name);
     std::string stem = std::filesystem::path(path_or_name).stem().string();
     return std::unexpected(
         one_error(path_or_name, "no such file, and no shipped scene of this name; " + suggest(stem, names)));
   }
+  if (is_table(head_of(path_or_name)))
+    return std::unexpected(one_error(path_or_name, "is a CSV table, not a scene: a scene is text such as `name: \"lesson\"`; `tandem-server scenes` lists those that are shipped"));
   const auto text = read_text_file(path_or_name);
   if (!text) return std::unexpected(text.error());
   return parse_scene(*text, path_or_name);

@@ -1,8 +1,12 @@
 #include "server/app/announcement.h"
 
+#include <unistd.h>
+
+#include <array>
 #include <cerrno>
 
 #include "common/base/format.h"
+#include "common/trust/io/state_folder.h"
 #include "server/app/house.h"
 
 namespace tandem::server {
@@ -15,11 +19,18 @@ std::string client_command() {
   return (slash == std::string::npos ? "" : own.substr(0, slash + 1)) + "tandem-client";
 }
 
+/// By which other computers may know this one; a server that listens on all its addresses has no better one.
+std::string own_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0' ? name.data() : "SERVER";
+}
+
 }  // namespace
 
-std::string announcement(const SessionRun& run, const io::SocketAddress& at, bool throw_away, bool several, const std::string& read_code) {
+std::string announcement(const SessionRun& run, const io::SocketAddress& at, bool throw_away, bool several, const std::string& folder,
+                         const std::string& read_code) {
   const SceneSpec& scene = run.plan().scene;
-  const std::string dialled = at.any() ? "SERVER:" + std::to_string(at.port()) : io::to_text(at), &name = run.plan().name;
+  const std::string dialled = at.any() ? own_name() + ":" + std::to_string(at.port()) : io::to_text(at), &name = run.plan().name;
   const bool by_code = !run.code().empty();
   const std::string which = by_code ? " --session " + (read_code.empty() ? code_text(run.code()) : "CODE") : several ? " --session " + name : "";
   std::string text = several ? "session " + name + ": " : "";
@@ -31,7 +42,8 @@ std::string announcement(const SessionRun& run, const io::SocketAddress& at, boo
     text += format("  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), dialled.c_str(), seat.name.c_str(), ticket ? " --ticket TICKET" : which.c_str(),
                    seat.required ? "" : "    # optional");
   }
-  return throw_away ? text : text + format("a TICKET is written by `tandem-server ticket --session %s --seat SEAT --workstation NAME`\n", name.c_str());
+  return throw_away ? text
+                    : text + "a TICKET is written by\n  tandem-server ticket --session " + name + " --seat SEAT --workstation NAME" + trust::server_state_option(folder) + "\n";
 }
 
 }  // namespace tandem::server

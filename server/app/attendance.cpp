@@ -1,5 +1,6 @@
 #include "server/app/attendance.h"
 
+#include "common/base/silence.h"
 #include "server/app/status.h"
 #include "server/stop_words.h"
 
@@ -37,7 +38,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     }
     if (!seat.away_since) seat.away_since = now;
     if (now - *seat.away_since < kLost) continue;
-    ++lost;
+    lost += now - *seat.away_since >= kSessionSilence ? 1 : 0;
     left += now_there.taken ? 0 : 1;
     if (!seat.warned)
       news.notes.push_back({"gone", name, name + " has been gone for 10 s; its weight went to the others, or the tool is held", true});
@@ -55,7 +56,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     state_ = status.state;
   }
   news.all_lost = runs && came > 0 && lost == came;
-  news.all_left = news.all_lost && left == came;
+  news.all_left = runs && came > 0 && left == came;
   return news;
 }
 

@@ -13,7 +13,7 @@ namespace tandem::server {
 /// Notices who comes, goes and stays away while a session runs.
 class Attendance {
  public:
-  static constexpr Duration kLost = std::chrono::seconds(10);
+  static constexpr Duration kLost = std::chrono::seconds(10);  ///< then a warning names the seat
 
   struct Note {
     const char* event;        ///< joined, left, back, gone, running, held
@@ -23,8 +23,8 @@ class Attendance {
   };
   struct News {
     std::vector<Note> notes;
-    bool all_lost = false;    ///< everybody who was there has been away for `kLost`
-    bool all_left = false;  ///< all_lost, and every one of them left as people leave
+    bool all_lost = false;    ///< everybody who was there has been away for kSessionSilence
+    bool all_left = false;    ///< every one of them left as people leave, `kLost` ago at least
   };
   [[nodiscard]] News look(Time now, const SessionStatus& status, const SceneSpec& scene);
 

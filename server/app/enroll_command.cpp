@@ -63,8 +63,9 @@ void add_enroll_command(CLI::App& root, std::function<int()>& action) {
       "Prints one string to standard output: the server's address, its key's SHA-256 and a code of 128 bits, of which the server keeps a\n"
       "hash only. A second string for the same name makes the first one void. The server may run meanwhile.\n"
       "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments.\n\n"
-      "Example\n"
-      "  tandem-server enroll touch-07 --address lab-server:7000");
+      "Examples\n"
+      "  tandem-server enroll touch-07 --address lab-server:7000\n"
+      "  tandem-server enroll touch-08 --address lab-server:7000 --hours 2 > touch-08.txt");
   command->callback([arguments, &action] { action = [arguments] { return enroll_command(*arguments); }; });
 }
 

@@ -32,7 +32,7 @@ std::expected<trust::ServerTrust, std::string> keys_of(const io::SocketAddress& 
   const auto codes = trust->open_codes(now);
   if (!codes) return std::unexpected(codes.error());
   if (!listen.loopback() && book->empty() && *codes == 0)
-    return std::unexpected("nobody could join: no workstation is enrolled in " + *path + ". Run `tandem-server enroll NAME` for each, then start again");
+    return std::unexpected("nobody could join: no workstation is enrolled in " + *path + ". Run `tandem-server enroll" + trust::server_state_option(*path) + " NAME --address HOST:PORT` for each, then start again");
   return trust;
 }
 

@@ -12,7 +12,10 @@
 
 #include "common/base/format.h"
 #include "common/base/printable.h"
+#include "common/base/printed_command.h"
+#include "common/base/silence.h"
 #include "common/io/clock.h"
+#include "common/io/help_text.h"
 #include "common/io/realtime.h"
 #include "common/io/service_notice.h"
 #include "common/io/signals.h"
@@ -183,8 +186,10 @@ class Host {
 
   void announce(const SessionRun& r) {
     // A journal, a file or a pipe keeps what it is given, and is read by others: codes are shown on terminals only.
-    const std::string read_code = ::isatty(::fileno(people())) == 1 ? "" : "tandem-server sessions --state " + door_->folder();
-    std::fputs(announcement(r, door_->address(), door_->throw_away(), plan_.sessions.size() > 1, read_code).c_str(), people());
+    const std::string folder = door_->throw_away() ? "" : door_->folder();
+    const std::string read_code = ::isatty(::fileno(people())) == 1 ? "" : "tandem-server sessions" + trust::server_state_option(folder);
+    const std::string text = announcement(r, door_->address(), door_->throw_away(), plan_.sessions.size() > 1, folder, read_code);
+    std::fputs(io::for_terminal(text, people()).c_str(), people());
     std::fflush(people());
     io::tell(io::Level::kInfo, {.event = "session_opened", .session = r.plan().name, .text = r.plan().scene.name});
   }
@@ -213,9 +218,14 @@ class Host {
     }
     if (now - shown_ < std::chrono::milliseconds(line_.interval_ms()) || drain_began_) return;
     shown_ = now;
-    std::string text = due ? format("DRAINING, %.0f s left", std::max(0.0, std::ceil(seconds(*due - now)))) : "";
-    for (const auto& r : runs_) text += (text.empty() ? "" : " || ") + prefix(*r) + status_line(r->hosted().status(), r->plan().scene);
-    line_.show(text);
+    show(due ? format("DRAINING, %.0f s left", std::max(0.0, std::ceil(seconds(*due - now)))) : "");
+  }
+
+  void show(const std::string& drain) {
+    std::vector<SessionOnScreen> sessions;
+    for (const auto& r : runs_) sessions.push_back({r->plan().name, r->hosted().status(), &r->plan().scene});
+    const std::size_t rows = line_.rows_max();
+    line_.show(screen_items(sessions, drain, rows), rows);
   }
 
   void tell_notices() {
@@ -265,12 +275,14 @@ class Host {
     if (punctual != std::exchange(punctual_, punctual)) io::notify_service("WATCHDOG=1");
   }
 
+  /// What a command for a session needs to find it.
+  [[nodiscard]] std::string reach(const SessionRun& r) const { return " --server " + io::to_text(door_->address()) + (plan_.sessions.size() == 1 ? "" : " --session " + r.plan().name); }
   [[nodiscard]] std::string prefix(const SessionRun& r) const { return plan_.sessions.size() == 1 ? "" : r.plan().name + ": "; }
 
   void tell(const SessionRun& r, const SessionStatus& status, const Attendance::Note& note) {
     const auto tick = static_cast<std::uint64_t>(status.time * r.plan().scene.tick_hz + 0.5);
     io::tell(note.warning ? io::Level::kWarn : io::Level::kInfo, {.event = note.event, .session = r.plan().name, .seat = note.seat, .tick = tick, .text = note.text});
-    const std::string text = prefix(r) + note.text;
+    const std::string text = prefix(r) + with_options(note.text, "tandem-client control", reach(r));
     if (io::logs_json()) return;
     if (note.warning) return line_.warn(text);
     line_.note(text);
@@ -305,7 +317,7 @@ class Host {
       tell(r, status, {"people_left", "", "everybody left 10 s ago; the session ends"});
       end(r, End::kPeopleLeft);
     } else if (news.all_lost) {
-      tell(r, status, {"peers_lost", "", "peers lost: everybody has been gone for 10 s; the session ends", true});
+      tell(r, status, {"peers_lost", "", format("peers lost: nobody was heard for %.0f s; the session ends", seconds(kSessionSilence)), true});
       end(r, End::kPeersLost);
     } else if (plan_.wait_s > 0 && status.state == wire::SessionState::kWaiting && seconds(now - began_) > plan_.wait_s) {
       tell(r, status, {"nobody_came", "", "nobody came for " + waiting_for(status, r.plan().scene) + " within " + std::to_string(plan_.wait_s) + " s (--wait); the session ends", true});
@@ -359,9 +371,10 @@ class Host {
 
   void summarize(std::FILE* out, const RunReport& report, SessionRun& r) {
     line_.clear();
-    std::fprintf(out, "%s%s: %s%s ticks more than 1 ms late on this machine: %llu\n", prefix(r).c_str(), report.scenario.c_str(), r.how_it_went(report).c_str(), report.duration_s > 0 ? "," : ";",
-                 static_cast<unsigned long long>(r.hosted().final_status().machine.late_ticks));
-    if (report.duration_s > 0) std::fputs(report_summary(report, r.plan().scene).c_str(), out);
+    std::string text = prefix(r) + report.scenario + ": " + r.how_it_went(report) + (report.duration_s > 0 ? "," : ";") +
+                       format(" ticks more than 1 ms late on this machine: %llu\n", static_cast<unsigned long long>(r.hosted().final_status().machine.late_ticks));
+    if (report.duration_s > 0) text += report_summary(report, r.plan().scene);
+    std::fputs(io::for_terminal(text, out).c_str(), out);
     std::fflush(out);
   }
 

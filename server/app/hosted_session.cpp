@@ -2,6 +2,7 @@
 
 #include <sys/eventfd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -146,6 +147,10 @@ void HostedSession::publish(Time now, const MachineStatus& machine) noexcept {
     seat.taken = session_.seat(i).taken();
     seat.alive = session_.seat(i).alive(now);
     seat.ready = session_.seat(i).ready(now);
+    seat.stopped = session_.seat(i).heard().stop;
+    seat.gate = session_.seat(i).heard().gate;
+    seat.weight = i < scene_->masters() ? 0 : 1;
+    for (std::size_t j = 0; i < scene_->masters() && j < scene_->tools.size(); ++j) seat.weight = std::max(seat.weight, session_.tool(j).authority.requested()[i]);
   }
   const std::unique_lock lock{published_lock_, std::try_to_lock};
   if (lock) published_ = picture_;

@@ -105,6 +105,14 @@ class House final : public Admissions {
     std::uint32_t number = 0;
     std::string workstation{}, why{};
   };
+  /// What everybody in a session may read of what happened lately, and who resumed it from a console.
+  struct News {
+    std::vector<control::StatusNews> list{};
+    std::uint32_t count = 0;         ///< so far
+    std::uint32_t resume_told = 0;   ///< number of the stop whose end is in the list
+    std::uint32_t resumed = 0;       ///< number of the stop that `resumer` ended from a console
+    std::string resumer{};
+  };
   struct Visit {
     std::optional<WorkstationRow> by{};
     std::uint32_t cid = 0;
@@ -123,6 +131,7 @@ class House final : public Admissions {
     std::array<Visit, Visitors::kMax> visits{};              ///< who was let in last, by place
     std::vector<std::array<std::byte, 32>> sent_away{};      ///< keys of workstations whose person was removed
     StopWords words{};
+    News news{};
     std::vector<Standing> standing{};
     trust::TokenBucket complaints{1, 5};                     ///< of what roles may not, in the audit log
   };
@@ -143,6 +152,8 @@ class House final : public Admissions {
   void stands_no_more(Room& room, const control::Welcome& standing, bool ticket_is_good_again);
   void write_down(Room& room, const std::string& who, const std::string& why, const Command& command, const Outcome& outcome);
   [[nodiscard]] control::Status status_of(const Room& room, const control::Welcome& standing, const Outcome& outcome) const;
+  static void add_news(Room& room, const std::string& text);
+  static void look_for_resume(Room& room, const Outcome& outcome);
   [[nodiscard]] static std::string why_gone(const Room& room, const control::Welcome& standing);
   static void send_away(Room& room, std::size_t seat, std::string how);
   [[nodiscard]] static bool was_sent_away(const Room& room, const WorkstationRow& workstation);

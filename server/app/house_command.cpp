@@ -7,6 +7,7 @@
 #include "common/io/clock.h"
 #include "common/io/log.h"
 #include "server/app/house.h"
+#include "server/app/status.h"
 #include "server/connection_id.h"
 #include "server/roles.h"
 #include "server/stop_words.h"
@@ -95,6 +96,8 @@ control::Status House::status_of(const Room& room, const control::Welcome& stand
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     status.seats.push_back({scene.seats[i].name, access_role(scene.seats[i].role), outcome.seats[i].taken, outcome.seats[i].heard, i < outcome.masters});
   for (std::size_t j = 0; j < outcome.tools; ++j) status.tools.push_back({scene.tools[j].name, weights_of(outcome, j)});
+  status.news = room.news.list;
+  if (outcome.state == wire::SessionState::kHeld) status.held = cut_to(why_held(room.opening.session->status(), scene), control::kTextMax);
   status.stop = newest_stop(outcome.lane, scene, outcome.stopped_ago, outcome.there);
   if (!status.stop) return status;
   if (status.stop->seat.empty() && room.words.number == status.stop->number && status.stop->kind != control::StopKind::kFault) status.stop->workstation = room.words.workstation;
@@ -253,6 +256,13 @@ void House::command(const control::Welcome& standing, const WorkstationRow& work
     const Command& asked = carried.command;
     const bool done = carried.outcome.result == Result::kDone;
     if (done && (asked.what == Command::What::kStop || asked.what == Command::What::kPause)) room.words = {carried.outcome.stops, name, why};
+    if (done && asked.what == Command::What::kResume) {
+      room.news.resumed = asked.number;
+      room.news.resumer = who;
+    }
+    look_for_resume(room, carried.outcome);
+    if (done && asked.what == Command::What::kRemove)
+      add_news(room, scene.seats[asked.whom].name + " is REMOVED by " + who + ", the hand is released within 0.2 s" + (why.empty() ? "" : ": " + why));
     if (done && asked.what == Command::What::kRemove) send_away(room, asked.whom, "removed by " + who + (why.empty() ? "" : ": " + why));
     write_down(room, who, why, asked, carried.outcome);
     if (done && asked.what == Command::What::kLook) return answer(status_of(room, standing, carried.outcome));
@@ -291,6 +301,7 @@ void House::drain_in(std::uint32_t grace_s, const std::string& who) {
   const std::int64_t due = (io::monotonic_now() + std::chrono::seconds(grace_s)).time_since_epoch().count();
   const std::int64_t before = drain_due_.load(std::memory_order_relaxed);
   if (before == 0 || due < before) drain_due_.store(due, std::memory_order_relaxed);
+  for (Room& room : rooms_) add_news(room, format("the server DRAINS: all hands are let go in %u s; ordered by ", grace_s) + who);
   const std::string detail = who + format(" in %u s", grace_s);
   if (say_) say_(format("DRAINING: nobody new comes in, and all hands are let go in %u s; ordered by ", grace_s) + who);
   io::tell(io::Level::kInfo, {.event = "drain", .text = detail});

@@ -18,7 +18,7 @@ int init_command(const std::string& state) {
     tell_audit_trouble("init", *made);
   }
   std::printf("state folder %s\nserver key   %s\n", path->c_str(), pin->hex().c_str());
-  std::fputs("next: tandem-server enroll NAME --address HOST:PORT, once for each workstation\n", stderr);
+  std::fprintf(stderr, "next, once for each workstation: tandem-server enroll NAME --address HOST:PORT%s\n", trust::server_state_option(*path).c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
@@ -32,8 +32,9 @@ void add_init_command(CLI::App& root, std::function<int()>& action) {
       "The folder gets mode 0700, its files 0600; whoever can read them can be this server. Run it as the user the server runs as.\n"
       "Prints the SHA-256 of the server's key, by which workstations know it.\n"
       "Exit: 0 done; 1 it exists already or cannot be written; 2 wrong arguments.\n\n"
-      "Example\n"
-      "  tandem-server init");
+      "Examples\n"
+      "  tandem-server init\n"
+      "  tandem-server init --state ./state");
   command->callback([state, &action] { action = [state] { return init_command(*state); }; });
 }
 

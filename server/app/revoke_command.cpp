@@ -18,7 +18,7 @@ int revoke_command(const RevokeArguments& arguments) {
   if (!book) return trouble("revoke", book.error());
   const auto gone = state->revoke(arguments.name);
   if (!gone) return trouble("revoke", gone.error());
-  if (gone->workstations + gone->codes == 0) return wrong("revoke", {"NAME: " + no_workstation(arguments.name, *book)});
+  if (gone->workstations + gone->codes == 0) return wrong("revoke", {"NAME: " + no_workstation(arguments.name, *book, state->folder()->path())});
   state->audit(trust::wall_seconds(), "revoked", arguments.name);
   tell_audit_trouble("revoke", *state);
   std::printf("%s: %s%s\n", arguments.name.c_str(), gone->workstations > 0 ? "its key is refused from now on" : "was not enrolled",
@@ -37,8 +37,9 @@ void add_revoke_command(CLI::App& root, std::function<int()>& action) {
       "A running server refuses the workstation at its next word, tickets made for it included, and within a second lets go, gently, of the\n"
       "hand at a seat it has, and ends its other connections.\n"
       "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments, or nobody of this name.\n\n"
-      "Example\n"
-      "  tandem-server revoke touch-07");
+      "Examples\n"
+      "  tandem-server revoke touch-07\n"
+      "  tandem-server revoke touch-07 --state ./state");
   command->callback([arguments, &action] { action = [arguments] { return revoke_command(*arguments); }; });
 }
 

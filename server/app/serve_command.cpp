@@ -136,9 +136,10 @@ void add_serve_command(CLI::App& root, std::function<int()>& action) {
       "one ends at once. Started again within 10 min, however it ended, every session goes on where it was, with the same code, and its\n"
       "clients come back to their seats by themselves. Sessions of different tick rates have threads of their own, behind one port.\n"
       "Exit: 0 ended by a signal, or all sessions over and passed; 1 trouble while running or verdict fail; 2 wrong arguments or files.\n\n"
-      "Example\n"
+      "Examples\n"
       "  tandem-server serve /etc/tandem/server.textproto --check\n"
-      "with, at least\n"
+      "  tandem-server serve server.textproto --quiet\n\n"
+      "The file has at least\n"
       "  version: 1\n"
       "  listen: \"0.0.0.0:7000\"\n"
       "  session { name: \"lab\" scene: \"free_motion\" }");

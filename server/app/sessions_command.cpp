@@ -53,8 +53,9 @@ void add_sessions_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--json", arguments->json, "for machines");
   command->footer(
       "`status` is the same. What it says is at most a second old. Exit: 0 done; 1 no server runs from this folder, or it cannot be read; 2 wrong arguments.\n\n"
-      "Example\n"
-      "  tandem-server sessions --json");
+      "Examples\n"
+      "  tandem-server sessions --json\n"
+      "  tandem-server sessions --state ./state");
   command->callback([arguments, &action] { action = [arguments] { return sessions_command(*arguments); }; });
 }
 

@@ -1,6 +1,8 @@
 #include "server/app/status.h"
 
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "common/base/format.h"
 #include "server/stop_words.h"
@@ -8,18 +10,52 @@
 namespace tandem::server {
 namespace {
 
-std::string seat_text(const SeatStatus& seat, const std::string& name) {
+const char* gate_text(wire::GateState gate) {
+  switch (gate) {
+    case wire::GateState::kOff: return "joining";
+    case wire::GateState::kZero: return "no force yet";
+    case wire::GateState::kRampIn: return "force rising";
+    case wire::GateState::kActive: return "force on";
+    case wire::GateState::kPassive: return "link lost";
+    case wire::GateState::kDamped: return "LATCHED (key b there)";
+    case wire::GateState::kFault: return "DEVICE FAULT";
+  }
+  return "?";
+}
+
+/// @param brief  without the numbers of the link
+std::string seat_text(const SeatStatus& seat, const std::string& name, bool brief) {
   if (!seat.taken) return name + " gone";
   if (!seat.alive) return name + " silent";
-  if (seat.gate == wire::GateState::kOff) return name + " joining";
-  std::string text =
-      format("%s %s alpha %.2f rtt %.1f ms", name.c_str(), to_text(seat.gate), seat.alpha, seat.link.rtt_p50_ms);
-  if (seat.link.up.loss_percent + seat.link.down.loss_percent > 0)
-    text += format(" loss %.1f/%.1f %%", seat.link.up.loss_percent, seat.link.down.loss_percent);
-  text += format(" margin %.0f mJ", seat.margin_j * 1e3);
-  if (seat.gate_trips > 0) text += format(" trips %u", seat.gate_trips);
-  if (seat.late_ticks > 0) text += format(" late %u", seat.late_ticks);
+  std::string text = name + ": " + (seat.stopped ? "stopped own hand" : gate_text(seat.gate));
+  if (brief || seat.gate == wire::GateState::kOff) return text;
+  text += format(", rtt %.1f ms", seat.link.rtt_p50_ms);
+  if (seat.link.up.loss_percent + seat.link.down.loss_percent > 0) text += format(", loss %.1f/%.1f %%", seat.link.up.loss_percent, seat.link.down.loss_percent);
+  text += format(", margin %.0f mJ", seat.margin_j * 1e3);
+  if (seat.gate_trips > 0) text += format(", trips %u", seat.gate_trips);
+  if (seat.late_ticks > 0) text += format(", late %u", seat.late_ticks);
   return text;
+}
+
+/// `trainer leads 75 %`, and who else has authority.
+std::string leaders(const SessionStatus& status, const SceneSpec& scene) {
+  std::string text;
+  std::vector<std::size_t> with;
+  for (std::size_t i = 0; i < scene.masters(); ++i)
+    if (status.seats[i].taken && status.seats[i].alpha > 0) with.push_back(i);
+  std::ranges::stable_sort(with, [&](std::size_t a, std::size_t b) { return status.seats[a].alpha > status.seats[b].alpha; });
+  for (const std::size_t i : with) text += (text.empty() ? "" : ", ") + scene.seats[i].name + format(text.empty() ? " leads %.0f %%" : " %.0f %%", 100 * status.seats[i].alpha);
+  return text;
+}
+
+/// Why this seat does not do its part; empty: it does.
+std::string excuse(const SeatStatus& seat, const SeatSpec& spec) {
+  if (!seat.taken) return seat.ever_taken ? spec.name + " left" : "nobody joined as " + spec.name;
+  if (!seat.alive) return spec.name + " is silent: its link is lost";
+  if (seat.stopped) return "stopped by " + spec.name + ": r there resumes";
+  if (seat.gate == wire::GateState::kDamped) return spec.name + "'s force is latched off: b there switches it on";
+  if (seat.gate == wire::GateState::kFault) return spec.name + "'s device has a fault";
+  return seat.ready ? "" : spec.name + " is not ready";
 }
 
 }  // namespace
@@ -44,46 +80,76 @@ std::string waiting_for(const SessionStatus& status, const SceneSpec& scene) {
 }
 
 std::string why_held(const SessionStatus& status, const SceneSpec& scene) {
-  std::string silent;
+  std::string text;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
-    const SeatStatus& seat = status.seats[i];
-    if (!seat.ever_taken || (seat.taken && seat.alive)) continue;
-    silent += (silent.empty() ? "" : ", ") + scene.seats[i].name + (seat.taken ? " is silent" : " has left");
+    if (status.seats[i].weight <= 0) continue;
+    if (const std::string why = excuse(status.seats[i], scene.seats[i]); !why.empty()) text += (text.empty() ? "" : "; ") + why;
   }
-  return silent.empty() ? "nobody entitled is present" : silent;
+  return text.empty() ? "no seat with authority is engaged" : text;
 }
 
-std::string status_line(const SessionStatus& status, const SceneSpec& scene) {
-  std::string line = scene.endless() ? format("%.1f s ", status.time) : format("%.1f/%g s ", status.time, scene.duration);
+std::vector<io::ScreenItem> status_items(const SessionStatus& status, const SceneSpec& scene, const std::string& session, std::size_t row) {
+  const std::string name = session.empty() ? "" : session + ": ";
+  const std::string time = scene.endless() ? format("%.1f s", status.time) : format("%.1f of %g s", status.time, scene.duration);
+  std::string state = name + time + " ";
+  std::string brief;
+  const auto ends = [&] { return who_ends(status.stop, scene, seats_heard(status)); };
   switch (status.state) {
     case wire::SessionState::kWaiting: {
       const std::string whom = waiting_for(status, scene);
-      line = whom.empty() ? "engaging" : "waiting for " + whom;
+      state = name + (whom.empty() ? "engaging" : "waiting for " + whom);
       break;
     }
     case wire::SessionState::kRunning:
-      line += "running";
+      state += "running";
       break;
     case wire::SessionState::kHeld:
-      line += "HELD (" + why_held(status, scene) + ")";
+      brief = state + "HELD";
+      state += "HELD: " + why_held(status, scene);
       break;
     case wire::SessionState::kPaused:
-      line += "PAUSED (ends it: " + who_ends(status.stop, scene, seats_heard(status)) + ")";
+      brief = state + "PAUSED";
+      state += "PAUSED; ends it: " + ends();
       break;
     case wire::SessionState::kStopped:
-      line += "STOPPED (ends it: " + who_ends(status.stop, scene, seats_heard(status)) + ")";
+      brief = state + "STOPPED";
+      state += "STOPPED; ends it: " + ends();
       break;
     case wire::SessionState::kEnding:
-      line += "ending";
+      state += "ending";
       break;
     case wire::SessionState::kPassive:
-      line += "PASSIVE (this machine is too busy to keep time; goes on by itself)";
+      brief = state + "PASSIVE";
+      state += "PASSIVE: this machine is too busy to keep time; goes on by itself";
       break;
   }
+  std::vector<io::ScreenItem> items{{state, brief, row}};
+  if (status.state == wire::SessionState::kRunning) items.push_back({leaders(status, scene), "", row});
+  if (status.machine.relief.rung > Rung::kNothing) items.push_back({format("goes without: %s", to_text(status.machine.relief.rung)), "", row});
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
-    if (status.seats[i].ever_taken) line += " | " + seat_text(status.seats[i], scene.seats[i].name);
-  if (status.machine.relief.rung > Rung::kNothing) line += format(" | goes without: %s", to_text(status.machine.relief.rung));
-  return line + format(" | late ticks %llu", static_cast<unsigned long long>(status.machine.late_ticks));
+    if (status.seats[i].ever_taken) items.push_back({seat_text(status.seats[i], scene.seats[i].name, false), seat_text(status.seats[i], scene.seats[i].name, true), row + 1});
+  items.push_back({format("late ticks %llu", static_cast<unsigned long long>(status.machine.late_ticks)), "", row + 1});
+  return items;
+}
+
+std::vector<io::ScreenItem> screen_items(std::span<const SessionOnScreen> sessions, const std::string& drain, std::size_t rows) {
+  std::vector<io::ScreenItem> items{{drain, "", 0}};
+  const std::size_t each = sessions.size() <= 1 || sessions.size() * 2 <= rows ? 2 : 1;
+  const bool all = sessions.size() * each <= rows;
+  std::size_t row = 0, shown = 0;
+  for (const SessionOnScreen& s : sessions) {
+    if (!all && row + 1 >= rows) break;
+    std::vector<io::ScreenItem> more = status_items(s.status, *s.scene, sessions.size() == 1 ? "" : s.name, row);
+    for (io::ScreenItem& item : more) {
+      if (each == 1) item.row = row;
+      item.stays = sessions.size() > 1;  // no session's words stand in another one's line
+    }
+    std::ranges::move(more, std::back_inserter(items));
+    row += each;
+    ++shown;
+  }
+  if (!all) items.push_back({format("and %zu sessions more: `tandem-server sessions` lists them", sessions.size() - shown), "", row});
+  return items;
 }
 
 }  // namespace tandem::server

@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "common/io/text_layout.h"
 #include "common/link/link.h"
 #include "proto/scene_spec.h"
 #include "proto/wire.h"
@@ -19,6 +22,8 @@ struct SeatStatus {
   bool ever_taken = false;
   bool ready = false;  ///< its device waits to be engaged, or is
   bool alive = false;  ///< heard from just now
+  bool stopped = false;  ///< the person stopped the own hand (key s)
+  double weight = 0;     ///< the greatest authority over any tool that is decided for it; 1 for a seat that is a tool's slave
   wire::GateState gate = wire::GateState::kOff;
   double alpha = 0;
   double margin_j = 0;  ///< smallest energy margin of its ledger so far [J]
@@ -50,11 +55,20 @@ struct SessionStatus {
 /// Bit i: seat i is heard.
 [[nodiscard]] std::uint32_t seats_heard(const SessionStatus& status) noexcept;
 
-/// Whose absence brakes the tools, for people.
+/// Why nobody leads any tool, in one sentence for people: `trainer left; ...`. Only seats that have authority, or carry a tool, are named.
 [[nodiscard]] std::string why_held(const SessionStatus& status, const SceneSpec& scene);
 
-/// One line for a terminal.
-[[nodiscard]] std::string status_line(const SessionStatus& status, const SceneSpec& scene);
+/// What a screen shows of a session, the important first: its state and who leads in `row`, then its seats in the row after that.
+[[nodiscard]] std::vector<io::ScreenItem> status_items(const SessionStatus& status, const SceneSpec& scene, const std::string& session = {}, std::size_t row = 0);
+
+struct SessionOnScreen {
+  std::string name;
+  SessionStatus status;
+  const SceneSpec* scene = nullptr;
+};
+/// A server's screen: two lines per session, or one where `rows` are too few; then how many sessions are left out.
+/// @param drain  shown first; empty: the server does not drain
+[[nodiscard]] std::vector<io::ScreenItem> screen_items(std::span<const SessionOnScreen> sessions, const std::string& drain, std::size_t rows);
 
 /// `trainee (nobody joined), slave (not ready)`: the required seats a session waits for; empty if for none.
 [[nodiscard]] std::string waiting_for(const SessionStatus& status, const SceneSpec& scene);

@@ -84,8 +84,9 @@ void add_stop_command(CLI::App& root, std::function<int()>& action) {
       "The same without a grace: `kill -TERM PID`, Ctrl-C where it runs, or, as a service, `systemctl stop tandem-server`. From another\n"
       "computer: `tandem-client control drain`.\n"
       "Exit: 0 the server has ended (--no-wait: it was asked to); 1 no server runs from this folder, or it does not end; 2 wrong arguments.\n\n"
-      "Example\n"
-      "  tandem-server stop --grace 60");
+      "Examples\n"
+      "  tandem-server stop --grace 60\n"
+      "  tandem-server stop --state ./state --no-wait");
   command->callback([arguments, &action] { action = [arguments] { return stop_command(*arguments); }; });
 }
 

@@ -82,7 +82,7 @@ int ticket_command(const TicketArguments& arguments) {
   const auto book = state->workstations();
   if (!book) return trouble("ticket", book.error());
   const WorkstationRow* const workstation = trust::find_workstation(*book, arguments.workstation);
-  if (workstation == nullptr) mistakes.push_back("--workstation: " + no_workstation(arguments.workstation, *book));
+  if (workstation == nullptr) mistakes.push_back("--workstation: " + no_workstation(arguments.workstation, *book, state->folder()->path()));
   const auto session = find_session(arguments.session, *serving);
   std::optional<AccessRole> role;
   if (session) {
@@ -107,8 +107,10 @@ int ticket_command(const TicketArguments& arguments) {
   state->audit(ticket.not_before, "ticket", workstation->name, trust::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
   tell_audit_trouble("ticket", *state);
   std::printf("%s\n", trust::ticket_text(*bytes).c_str());
-  std::fprintf(stderr, "good once, for %s h, on %s only: tandem-client %s --ticket-file FILE ... (--ticket TICKET is seen by everybody on that computer)\n", hours.c_str(), workstation->name.c_str(),
-               arguments.seat.empty() ? "control" : "join");
+  const std::string address = *serving ? (*serving)->address : "HOST:PORT";
+  const std::string what = arguments.seat.empty() ? "control --server " + address : "join --server " + address + " --seat " + arguments.seat + " --device sim";
+  std::fprintf(stderr, "good once, for %s h, on %s only; write it to FILE there, then type\n  tandem-client %s --ticket-file FILE\n(--ticket TICKET is seen by everybody on that computer)\n", hours.c_str(),
+               workstation->name.c_str(), what.c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
@@ -130,7 +132,7 @@ void add_ticket_command(CLI::App& root, std::function<int()>& action) {
       "Prints the ticket to standard output. It cannot be changed, used twice or used on another workstation. Codes and names, and the\n"
       "role of a seat, are known while the server runs.\n"
       "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments.\n\n"
-      "Example\n"
+      "Examples\n"
       "  tandem-server ticket --session contact --seat trainee --workstation touch-07\n"
       "  tandem-server ticket --session contact --role operator --workstation office     # for `tandem-client control`");
   command->callback([arguments, &action] { action = [arguments] { return ticket_command(*arguments); }; });

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -37,14 +38,19 @@ inline void tell_audit_trouble(const char* command, const trust::ServerTrust& st
 [[nodiscard]] inline std::expected<trust::ServerTrust, std::string> open_state(const std::string& option) {
   const auto path = trust::server_state_path(option);
   if (!path) return std::unexpected(path.error());
+  std::error_code error;
+  if (!std::filesystem::exists(*path, error) && !error)
+    return std::unexpected("there is no state folder " + *path + ". Name the server's folder with --state. A server on loopback that was started without --state has no folder and needs no "
+                           "`tandem-server` commands: use `tandem-client sessions --server HOST:PORT` and `tandem-client control --server HOST:PORT`. For a server on a network: `tandem-server init" +
+                           trust::server_state_option(*path) + "`");
   return trust::ServerTrust::open(*path);
 }
 
 /// `no workstation is called "tuch-07"; did you mean touch-07?`
-[[nodiscard]] inline std::string no_workstation(const std::string& name, const std::vector<WorkstationRow>& book) {
+[[nodiscard]] inline std::string no_workstation(const std::string& name, const std::vector<WorkstationRow>& book, const std::string& folder) {
   std::vector<std::string> names;
   for (const WorkstationRow& row : book) names.push_back(row.name);
-  return "no workstation is called \"" + name + "\"; " + (names.empty() ? "none is enrolled: run `tandem-server enroll NAME`" : suggest(name, names));
+  return "no workstation is called \"" + name + "\"; " + (names.empty() ? "none is enrolled: run `tandem-server enroll" + trust::server_state_option(folder) + " " + name + "`" : suggest(name, names));
 }
 
 }  // namespace tandem::server

@@ -89,7 +89,24 @@ TEST(ControlWords, AStatusIsReadByPeopleAndMachines) {
             "\"draining\": false, \"shed\": 0, \"seats\": [{\"name\": \"trainer\", \"role\": \"instructor\", \"taken\": true, \"heard\": true}, {\"name\": \"trainee\", \"role\": \"trainee\", "
             "\"taken\": true, \"heard\": false}, {\"name\": \"arm\", \"role\": \"observer\", \"taken\": false, \"heard\": false}], \"tools\": [{\"name\": \"drill\", "
             "\"alpha\": {\"trainer\": 0.25, \"trainee\": 0.75}}], \"stop\": {\"number\": 3, \"kind\": \"stop\", \"seat\": \"\", \"workstation\": \"desk\", \"role\": \"operator\", "
-            "\"why\": \"fire drill\", \"ago_s\": 2.500, \"ends\": \"an operator\", \"yours\": true}, \"drain\": null}\n");
+            "\"why\": \"fire drill\", \"ago_s\": 2.500, \"ends\": \"an operator\", \"yours\": true}, \"drain\": null, \"held\": null}\n");
+}
+
+TEST(ControlWords, NewsAreToldOnceAndOnlyThoseSinceTheFirstLook) {
+  control::Status first = lesson();
+  first.news = {{1, "stop 2 is over: RESUMED by trainer"}};
+  EXPECT_EQ(news_text(control::Status{}, first).find("RESUMED"), std::string::npos) << "of the time before";
+  control::Status next = first;
+  next.phase = control::SessionPhase::kRunning;
+  next.news.push_back({2, "stop 3 is over: RESUMED by desk; force returns over 0.5 s"});
+  next.news.push_back({3, "trainee is REMOVED by desk\x1b[2J"});
+  EXPECT_EQ(news_text(first, next), "stop 3 is over: RESUMED by desk; force returns over 0.5 s\ntrainee is REMOVED by desk\\x1b[2J\n");
+  EXPECT_EQ(news_text(next, next), "");
+  control::Status nameless = next;
+  nameless.news = first.news;
+  EXPECT_EQ(news_text(first, nameless), "stop 3 is over: the session is running\n") << "a server that does not know by whom";
+  next.held = "trainer left";
+  EXPECT_NE(status_text(next).find("HELD: trainer left"), std::string::npos);
 }
 
 // What somebody typed at another console, or a server that is no friend sent, steers no terminal and stands for nothing else.

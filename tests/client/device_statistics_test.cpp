@@ -28,16 +28,17 @@ TEST(DeviceStatistics, GiveBucketsThatHoldEveryExchange) {
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0], "device: 1000 exchanges, 5 late by more than 1 ms, 2 periods missed, 4 unanswered, 3 resyncs");
   EXPECT_EQ(lines[1].find("period: p50 "), 0u) << lines[1];
-  EXPECT_NE(lines[1].find("0.92-1.05 ms 99.9 %"), std::string::npos) << lines[1];
+  EXPECT_TRUE(lines[1].ends_with("max 40.000 ms")) << "buckets are for the JSON: " << lines[1];
 }
 
-TEST(DeviceStatistics, TellSeldomOnesTogether) {
+TEST(DeviceStatistics, KeepTheTextToOneShortLineHoweverManyBuckets) {
   hal::DeviceHistograms histograms;
   for (int i = 0; i < 99'990; ++i) histograms.round_trip.add(300'000);
   for (int i = 0; i < 10; ++i) histograms.round_trip.add(1'000'000 << i);
+  EXPECT_GT(to_json({}, histograms)["round_trip_ms"]["buckets"].size(), 8u);
   const auto lines = summary({}, histograms);
   ASSERT_EQ(lines.size(), 2u);
-  EXPECT_TRUE(lines[1].ends_with("elsewhere 10")) << lines[1];
+  EXPECT_LT(lines[1].size(), 80u) << lines[1];
 }
 
 }  // namespace

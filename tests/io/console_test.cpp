@@ -182,7 +182,7 @@ bool written(const School& school, const std::string& text) {
 std::string operator_ticket(const School& school, const std::string& role) {
   Process made = server({"ticket", "--session", "a", "--role", role, "--workstation", "desk", "--state", school.state});
   EXPECT_EQ(made.wait(), 0) << made.err();
-  EXPECT_NE(made.err().find("tandem-client control --ticket"), std::string::npos) << made.err();
+  EXPECT_NE(made.err().find("tandem-client control --server " + school.address + " --ticket-file FILE"), std::string::npos) << made.err();
   return first_line(made.out());
 }
 
@@ -192,7 +192,7 @@ TEST(SchoolControl, AnOperatorComesByASingleUseTicketAndEverythingIsWrittenDown)
   ASSERT_TRUE(school.host.id() != 0);
   Process without = control(school.address, {"--state", school.own, "stop"});
   EXPECT_EQ(without.wait(), 1);
-  EXPECT_NE(without.err().find("tandem-server ticket --session a --role operator --workstation desk"), std::string::npos) << without.err();
+  EXPECT_NE(without.err().find("tandem-server ticket --state " + school.state + " --session a --role operator --workstation desk"), std::string::npos) << without.err();
   const std::string file = school.folder.write("operator.ticket", operator_ticket(school, "operator") + "\n");
   Process shift = console("status\\nstop fire drill\\nresume 7\\nresume\\nremove trainee\\nauthority trainer=1\\nquit\\n", {"--server", school.address, "--state", school.own, "--ticket", file});
   EXPECT_EQ(shift.wait(), 1) << "two of them were refused\n" << shift.err();

@@ -38,8 +38,8 @@ TEST(Notice, EverybodyOnAScreenReadsWhoStoppedAndWhy) {
   EXPECT_TRUE(trainee.wait_for(words)) << trainee.err();
   EXPECT_TRUE(console.wait_for(words)) << console.out() << console.err();
   EXPECT_TRUE(host.wait_for("STOPPED by local (operator): fire drill")) << host.err();
-  EXPECT_TRUE(trainer.wait_for("(r resumes)")) << trainer.err();
-  EXPECT_TRUE(trainee.wait_for("(an instructor or operator resumes)")) << trainee.err();
+  EXPECT_TRUE(trainer.wait_for("STOPPED by local (console): r resumes")) << trainer.err();
+  EXPECT_TRUE(trainee.wait_for("STOPPED by local (console): an instructor or operator resumes")) << trainee.err();
   Process status = control(address, {"status"});
   EXPECT_EQ(status.wait(), 0) << status.err();
   EXPECT_NE(status.out().find(words), std::string::npos) << status.out();

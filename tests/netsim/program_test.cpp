@@ -141,7 +141,7 @@ TEST(Program, WrongArgumentsAreNamedWithValueAndRangeBeforeAnythingStarts) {
       {{"proxy", "--to", "127.0.0.1:9", "--delay", "-1"}, "\"-1\" is out of range"},
       {{"proxy", "--to", "127.0.0.1:9", "--jitter", "nan"}, "\"nan\" is not a number"},
       {{"proxy", "--to", "127.0.0.1:9", "--loss", "100.5"}, "[0, 100] %"},
-      {{"proxy", "--to", "127.0.0.1:9", "--loss", "5%"}, "\"5%\" is not a number"},
+      {{"proxy", "--to", "127.0.0.1:9", "--loss", "5ms"}, "the unit is %"},
       {{"proxy", "--to", "127.0.0.1:9", "--duplicate", "1e400"}, "--duplicate"},
       {{"proxy", "--to", "127.0.0.1:9", "--seed", "1.5"}, "whole number"},
       {{"proxy", "--to", "127.0.0.1:9", "--duration", "0"}, "--duration"},

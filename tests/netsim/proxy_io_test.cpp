@@ -53,6 +53,41 @@ TEST(Proxy, CarriesBothDirectionsForEachClientApart) {
   EXPECT_EQ(proxy->client_reports().size(), 2U);
 }
 
+TEST(Proxy, AClientThatReconnectsKeepsItsNumberAndOthersDoNotGetIt) {
+  UdpPeer server, first, other, again, third;
+  Running proxy{server.address(), {}};
+  first.connect(proxy->listening());
+  other.connect(proxy->listening());
+  ASSERT_TRUE(first.send("first"));
+  const auto before = server.receive();
+  ASSERT_TRUE(before);
+  for (int i = 0; i < 25; ++i) {  // the other one is heard all the while
+    ASSERT_TRUE(other.send("other"));
+    ASSERT_TRUE(server.receive());
+    EXPECT_FALSE(first.receive(100)) << "nothing is sent to it";
+  }
+  again.connect(proxy->listening());
+  ASSERT_TRUE(again.send("again"));
+  const auto back = server.receive();
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->bytes, "again");
+  EXPECT_EQ(back->from.port(), before->from.port()) << "the same client towards the server";
+  ASSERT_TRUE(server.send_to(back->from, "welcome"));
+  EXPECT_EQ(again.receive()->bytes, "welcome");
+  ASSERT_TRUE(other.send("other"));
+  ASSERT_TRUE(server.receive());
+  third.connect(proxy->listening());
+  ASSERT_TRUE(third.send("third"));
+  ASSERT_TRUE(server.receive());
+  ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.clients == 3; }));
+  proxy.end();
+  const ProxyStatus status = proxy->final_status();
+  EXPECT_EQ(status.clients_seen, 3U);
+  std::set<std::uint64_t> numbers;
+  for (std::size_t i = 0; i < status.clients; ++i) numbers.insert(status.client[i].number);
+  EXPECT_EQ(numbers, (std::set<std::uint64_t>{1, 2, 3}));
+}
+
 TEST(Proxy, KeepsOrderThroughJitter) {
   UdpPeer server, client;
   Running proxy{server.address(), link_from({.delay = 2ms, .jitter = 10ms})};

@@ -47,13 +47,6 @@ TEST(ProxyEvents, SayWhichCameWhichMetNobodyAndWhichNeverCame) {
   EXPECT_EQ(events_text(std::span(all).last(1)), "  event at 9.000 s: outage of 100 ms: never came; the proxy ended before, at 5.000 s\n");
 }
 
-TEST(ProxyView, ALongLineKeepsItsUnits) {
-  EXPECT_EQ(in_one_line(std::string(61, 'x'), 0.25), std::string(61, 'x') + "; late p99 0.25 ms");  // 79
-  EXPECT_EQ(in_one_line(std::string(61, 'x'), 213.91), std::string(61, 'x') + "; late p99 214 ms");
-  EXPECT_EQ(in_one_line(std::string(65, 'x'), 213.91), std::string(65, 'x') + "; late 214 ms");
-  EXPECT_EQ(in_one_line(std::string(67, 'x'), 213.91), std::string(67, 'x'));
-}
-
 TEST(LiveDelays, MeanAndQuantilesAreOfWhatCameInBetween) {
   const auto delays = std::make_unique<LiveDelays>();
   auto before = std::make_unique<LiveDelays::Picture>(), now = std::make_unique<LiveDelays::Picture>();

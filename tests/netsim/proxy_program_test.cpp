@@ -342,16 +342,23 @@ TEST(ProxyView, FitsEightyColumnsAndTheRowsItWasGiven) {
   }
   ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.total[0].out == 9; }));
   ProxyView view{*proxy};
-  EXPECT_EQ(view.line(), "");
+  EXPECT_TRUE(view.line().empty());
   EXPECT_TRUE(view.table(10).empty());
   for (int i = 0; i < 5; ++i) view.look();
-  EXPECT_LE(view.line().size(), 79U);
-  EXPECT_NE(view.line().find("9 clients"), std::string::npos) << view.line();
+  const auto line = io::laid_out(view.line(), 2, 79);
+  ASSERT_FALSE(line.empty());
+  EXPECT_NE(line[0].find("9 clients"), std::string::npos) << line[0];
+  EXPECT_NE(io::joined(view.line()).find("late p99"), std::string::npos);
   for (std::size_t rows = 0; rows < 30; ++rows) {
     const auto table = view.table(rows);
     EXPECT_LE(table.size(), rows);
     for (const std::string& row : table) EXPECT_LE(row.size(), 79U) << row;
   }
+  for (const std::size_t width : {40U, 60U, 79U, 99U, 199U})
+    for (const std::string& row : view.table(30, width)) {
+      EXPECT_LE(row.size(), width) << row;
+      EXPECT_NE(row.back(), ' ') << "whole columns: " << row;
+    }
   EXPECT_EQ(view.table(30).size(), 1U + 2U * 9U);
   EXPECT_NE(view.table(10).back().find("and 5 more"), std::string::npos) << view.table(10).back();
   EXPECT_NE(view.table(30)[1].find("127.0.0.1:"), std::string::npos);

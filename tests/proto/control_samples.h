@@ -121,6 +121,8 @@ inline Status status(RandomStream& r) {
               r.below(2) == 0 ? 0 : r.uniform(0, 1e9), text(r), r.below(2) == 0};
   }
   if (r.below(2) == 0) m.drain = {static_cast<std::uint32_t>(r.below(3601)), static_cast<std::uint32_t>(r.below(33)), static_cast<std::uint32_t>(r.below(300))};
+  if (r.below(2) == 0) m.held = "stopped by trainer: r resumes";
+  for (std::uint64_t i = r.below(control::kStatusNewsMax + 1); i > 0; --i) m.news.push_back({static_cast<std::uint32_t>(1 + r.below(1000)), "RESUMED by trainer"});
   return m;
 }
 

@@ -89,6 +89,7 @@ TEST(WireCodec, ForceComesBackAsItWas) {
       EXPECT_EQ(got->message.handover, sent.handover);
       EXPECT_EQ(got->message.handover_ticks, sent.handover_ticks);
       EXPECT_EQ(got->message.handover_parties, sent.handover_parties);
+      EXPECT_EQ(got->message.touching, sent.touching);
     }
   }
 }
@@ -214,6 +215,12 @@ TEST(WireCodec, RefusesNumbersThatCannotBeMeant) {
     EXPECT_EQ(names(Handover::kCalledOff, who), DecodeError::kOutOfRange);
   }
   EXPECT_EQ(tells(Handover::kComes, kHandoverNotice + 1), DecodeError::kOutOfRange);
+  EXPECT_EQ(force([&](auto& m) {
+              m.handover = Handover::kComes;
+              m.handover_ticks = kHandoverNotice + 1;
+              m.touching = true;
+            }),
+            DecodeError::kOutOfRange);
   EXPECT_EQ(tells(Handover::kNone, 1), DecodeError::kOutOfRange) << "nothing comes, and when?";
   EXPECT_EQ(tells(Handover::kCalledOff, 1), DecodeError::kOutOfRange);
 

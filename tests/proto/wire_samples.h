@@ -72,6 +72,7 @@ inline ForceMessage force(RandomStream& random, std::size_t axes) {
     m.handover_parties = {below(kSeatsMax + 2), below(kMastersMax + 1), below(101), below(kToolsMax)};
     if (m.handover_parties.by > kSeatsMax) m.handover_parties.by = HandoverParties::kOperator;
   }
+  m.touching = random.below(2) == 1;
   return m;
 }
 inline PathMessage path(RandomStream& random) { return {random.bits()}; }

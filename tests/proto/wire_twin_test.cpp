@@ -97,7 +97,7 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       EXPECT_EQ(f.session(), static_cast<std::uint32_t>(m.session));
       const HandoverParties& p = m.handover_parties;
       EXPECT_EQ(f.flags(), (m.engage ? 1U : 0U) + 2 * static_cast<unsigned>(m.handover) + 8 * m.handover_ticks + 512 * p.by + 16384 * p.to +
-                               524288 * p.percent + 67108864 * p.tool);
+                               524288 * p.percent + 67108864 * p.tool + (m.touching ? 1U << 31 : 0U));
       EXPECT_EQ(f.session_tick(), m.session_tick);
       EXPECT_EQ(f.authority_version(), m.authority_version);
       EXPECT_EQ(f.missing(), m.missing);

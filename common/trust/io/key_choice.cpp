@@ -21,6 +21,10 @@ std::expected<const Identity*, std::string> KeyChoice::operator()(const Pin& ser
   if (find_server(known, address_) != nullptr)
     return std::unexpected(address_ + " shows another key than when this workstation was enrolled there. Either another machine answers, or the server was set up anew: ask its "
                                       "admin; if it is true, `tandem-server enroll NAME` there and `tandem-client enroll STRING` here");
+  const bool here = address_.starts_with("127.") || address_.starts_with("[::1]") || address_.starts_with("localhost:");
+  if (here)
+    return std::unexpected("the server at " + address_ + " was not started by this user, or keeps its keys in a state folder. Join as the user who started it; or, if it was started with --state, run "
+                           "`tandem-server enroll NAME` with that --state and `tandem-client enroll STRING` here");
   return std::unexpected("this workstation does not know the server at " + address_ + "; run `tandem-server enroll NAME` there and `tandem-client enroll STRING` here");
 }
 

@@ -2,20 +2,22 @@
 
 #include <charconv>
 
+#include "common/base/printed_command.h"
 #include "common/base/raw_bytes.h"
 #include "proto/trust_text.h"
 
 namespace tandem::trust {
 namespace {
 
-constexpr const char* kInitHint = "run `tandem-server init` first";
 constexpr const char* kUsedHint = "; delete that line (its ticket is then good again), or the file once 12 h have passed";
+/// What to do about a folder without keys.
+std::string init_hint(const std::string& folder) { return with_options("run `tandem-server init` first", "tandem-server init", server_state_option(folder)); }
 
 /// A file that must be there.
 std::expected<SecretBuffer, std::string> needed(const StateFolder& folder, const char* name) {
   auto bytes = folder.read(name);
   if (!bytes) return std::unexpected(bytes.error());
-  if (!*bytes) return std::unexpected(folder.path_of(name) + " is missing; " + kInitHint);
+  if (!*bytes) return std::unexpected(folder.path_of(name) + " is missing; " + init_hint(folder.path()));
   return std::move(**bytes);
 }
 
@@ -53,7 +55,7 @@ std::expected<Pin, std::string> ServerTrust::init(const std::string& path, std::
 }
 
 std::expected<ServerTrust, std::string> ServerTrust::open(const std::string& path) {
-  auto folder = StateFolder::open(path, StateFolder::Missing::kIsAnError, kInitHint);
+  auto folder = StateFolder::open(path, StateFolder::Missing::kIsAnError, init_hint(path));
   if (!folder) return std::unexpected(folder.error());
   const auto key = needed(*folder, kKeyFile), certificate = needed(*folder, kCertificateFile), ticket = needed(*folder, kTicketKeyFile);
   for (const auto* file : {&key, &certificate, &ticket})
@@ -69,7 +71,7 @@ std::expected<ServerTrust, std::string> ServerTrust::open(const std::string& pat
 }
 
 std::vector<std::string> ServerTrust::mistakes(const std::string& path) {
-  const auto folder = StateFolder::open(path, StateFolder::Missing::kIsAnError, kInitHint);
+  const auto folder = StateFolder::open(path, StateFolder::Missing::kIsAnError, init_hint(path));
   if (!folder) return {folder.error()};
   std::vector<std::string> wrong;
   for (const char* name : {kKeyFile, kCertificateFile, kTicketKeyFile})

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "common/base/printed_command.h"
 #include "common/base/format.h"
 #include "common/base/raw_bytes.h"
 #include "common/io/clock.h"
@@ -162,6 +163,15 @@ std::expected<std::string, std::string> server_state_path(const std::string& opt
   const char* const system = "/var/lib/tandem";
   if (access(system, W_OK | X_OK) == 0) return system;
   return below_home("/.local/state/tandem", "TANDEM_STATE");
+}
+
+std::string server_state_option(const std::string& folder) {
+  if (folder.empty()) return {};
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(folder, error);
+  const auto usual = server_state_path("");
+  if (error || (usual && std::filesystem::absolute(*usual, error) == whole)) return {};
+  return state_option_of(whole.lexically_normal().string());
 }
 
 std::expected<std::string, std::string> client_state_path(const std::string& option) {

@@ -85,6 +85,8 @@ class StateFolder {
 /// Where a server keeps its state: `option`, else $TANDEM_STATE, else /var/lib/tandem if this user may write there, else
 /// ~/.local/state/tandem.
 [[nodiscard]] std::expected<std::string, std::string> server_state_path(const std::string& option);
+/// ` --state DIR` for commands that shall find this folder of a server; empty where they find it by themselves.
+[[nodiscard]] std::string server_state_option(const std::string& folder);
 /// Where a workstation does: `option`, else $TANDEM_CLIENT_STATE, else ~/.config/tandem.
 [[nodiscard]] std::expected<std::string, std::string> client_state_path(const std::string& option);
 /// Where servers and clients of one user on one machine meet: $TANDEM_RUNTIME, else $XDG_RUNTIME_DIR/tandem, else /run/user/UID/tandem if

@@ -1,9 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
-#include <exception>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "common/io/program.h"
 #include "netsim/demo/app/child_process.h"
 #include "netsim/demo/app/show.h"
 
@@ -45,6 +48,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "tandem-demo " TANDEM_VERSION);
   tandem::netsim::demo::ShowPlan plan;
   std::string list;
+  bool live = false;
+  app.add_flag("--live", live, "all runs in real time, about two minutes: what ./demo does when it is given nothing else");
   app.add_flag("--quick", plan.quick, "virtual time: the same runs in one process, in seconds, without sockets");
   app.add_option(
          "--runs", list,
@@ -64,31 +69,27 @@ int main(int argc, char** argv) {
       "Exit: 0 done, 1 trouble (a program fails, a promised invariant is broken), 2 wrong arguments, 130 "
       "interrupted.\n\n"
       "Examples\n"
-      "  tandem-demo\n"
+      "  tandem-demo --live\n"
       "  tandem-demo --quick --out /tmp/demo\n"
       "  tandem-demo --runs free_motion,free_motion_bad --keep");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    // Help and version are ends, not mistakes.
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  std::string mistakes;
-  plan.runs = chosen_runs(list, mistakes);
-  if (!mistakes.empty()) {
-    std::fputs(mistakes.c_str(), stderr);
-    return 2;
-  }
-  plan.version = TANDEM_VERSION;
-  plan.repeat = tandem::netsim::demo::command_text([&] {
-    std::vector<std::string> words{"./demo"};
-    words.insert(words.end(), argv + 1, argv + argc);
-    return words;
-  }());
-  try {
+  const auto action = [&] {
+    std::string mistakes;
+    plan.runs = chosen_runs(list, mistakes);
+    if (!mistakes.empty()) {
+      std::fputs(mistakes.c_str(), stderr);
+      return 2;
+    }
+    plan.version = TANDEM_VERSION;
+    plan.repeat = tandem::netsim::demo::command_text([&] {
+      std::vector<std::string> words{"./demo"};
+      for (int i = 1; i < argc; ++i)
+        if (std::string(argv[i]) != "--live") words.emplace_back(argv[i]);  // ./demo does that by itself
+      return words;
+    }());
     return tandem::netsim::demo::show(plan);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "tandem-demo: %s\n", error.what());
-    return 1;
-  }
+  };
+  // Two minutes of experiments are not what a first look at a program should begin.
+  std::string help = "--help";
+  std::array<char*, 3> with_help{argv[0], help.data(), nullptr};
+  return argc > 1 ? tandem::io::run_program(app, action, argc, argv) : tandem::io::run_program(app, action, 2, with_help.data());
 }

@@ -7,9 +7,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <tuple>
+#include <utility>
 
+#include "common/io/output_file.h"
 #include "netsim/demo/animation.h"
 #include "netsim/demo/app/joint_torques.h"
 #include "netsim/demo/app/live_run.h"
@@ -56,11 +57,12 @@ std::vector<fs::path> files_of(const RunPlan& plan, const fs::path& folder) {
   return files;
 }
 
-bool write_file(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  return !file.fail();
+/// @return what is wrong, empty if every byte was written
+std::string write_file(const fs::path& path, const std::string& text) {
+  io::OutputFile file;
+  if (std::string problem = file.open(path.string(), false); !problem.empty()) return problem;
+  file.write(text);
+  return file.close();
 }
 
 /// Report and trace of a run, read, measured and drawn.
@@ -106,9 +108,7 @@ std::expected<Folders, std::string> folders_of(const ShowPlan& plan) {
   fs::create_directories(f.files, error);
   if (error) return std::unexpected(f.files.string() + " cannot be made: " + error.message());
   // Found out now rather than after two minutes.
-  const bool existed = fs::exists(f.report, error);
-  if (!std::ofstream(f.report, std::ios::app)) return std::unexpected(f.report.string() + " cannot be written");
-  if (!existed) fs::remove(f.report, error);
+  if (const std::string problem = io::OutputFile::problem(f.report.string()); !problem.empty()) return std::unexpected(problem);
   return f;
 }
 
@@ -168,10 +168,9 @@ int show(const ShowPlan& plan) {
       }
       return trouble(title_of(run) + ": " + raw.error());
     }
-    if (plan.quick && !folders->temporary &&
-        !(write_file(folders->files / (std::string(run.name) + ".json"), raw->json) &&
-          write_file(folders->files / (std::string(run.name) + ".csv"), raw->trace)))
-      return trouble("report and trace cannot be written to " + folders->files.string());
+    if (plan.quick && !folders->temporary)
+      for (const auto& [ending, text] : {std::pair{".json", &raw->json}, {".csv", &raw->trace}})
+        if (const std::string problem = write_file(folders->files / (std::string(run.name) + ending), *text); !problem.empty()) return trouble(problem);
     auto result = digest(run, *raw, plan.quick ? virtual_commands(run, prefix) : real_commands(run, prefix));
     if (!result) {
       progress.clear();
@@ -188,8 +187,7 @@ int show(const ShowPlan& plan) {
   const Circumstances where{!plan.quick, date_text(), machine_text(), plan.version, plan.repeat};
   std::printf("%s\nBad network: %s. ✓ ✗: within what is asked, or not; %zu missed.\n", where.machine.c_str(),
               network_text(Setting::kBadNetwork).c_str(), comparison.missed);
-  if (!write_file(folders->report, html_report(results, comparison, where)))
-    return trouble(folders->report.string() + " could not be written to the end");
+  if (const std::string problem = write_file(folders->report, html_report(results, comparison, where)); !problem.empty()) return trouble(problem);
   const std::size_t failed = count_failed(results);
   if (folders->temporary && failed == 0) {
     remove_files(plan, *folders);

@@ -1,0 +1,157 @@
+#include "client/app/seat_screen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "client/app/control_words.h"
+#include "common/base/format.h"
+#include "common/base/printable.h"
+
+namespace tandem::client {
+namespace {
+
+constexpr std::size_t kBar = 10;         // characters
+constexpr std::size_t kReasonMax = 160;  // bytes of somebody else's words in a status
+
+using Words = std::optional<control::Status>;
+
+bool is_slave(const SeatSetup& setup) { return setup.seat.kind == SeatKind::kSlave; }
+
+/// `trainer`, or the workstation of a console.
+std::string maker(const Words& words) {
+  if (!words || !words->stop) return {};
+  const control::StatusStop& stop = *words->stop;
+  if (stop.kind == control::StopKind::kFault) return " by the session itself, as its numbers could not be trusted";
+  if (!stop.seat.empty()) return " by " + printable(stop.seat);
+  return stop.workstation.empty() ? std::string() : " by " + printable(stop.workstation) + " (console)";
+}
+
+/// Why no tool moves, as far as this seat knows by itself.
+std::string own_reason(const ClientStatus& s) {
+  if (s.own_stop) return "you stopped your hand: r resumes";
+  if (s.gate == wire::GateState::kDamped) return "your force is latched off: press b";
+  if (s.gate == wire::GateState::kFault) return "your device has a fault: press b";
+  return {};
+}
+
+io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
+  const std::string name = setup.seat.name + " ";
+  if (s.coming_back && s.closed) return {name + "the server restarts: coming back by itself", name + "coming back"};
+  if (s.coming_back) return {name + format("SERVER SILENT for %.0f s: coming back by itself", s.silence_s), name + "SERVER SILENT: coming back"};
+  if (s.closed) return {name + "closed", ""};
+  if (!s.heard) return {name + "waiting for the server", ""};
+  if (s.silence_s > 0.5) return {name + format("SERVER SILENT for %.0f s", s.silence_s), name + "SERVER SILENT"};
+  const std::string time = format("%.1f s", std::max(0.0, s.session_time));
+  switch (s.session) {
+    case wire::SessionState::kWaiting:
+      return {name + (s.missing == 0 ? std::string("engaging") : format("waits for %u seat%s", s.missing, s.missing == 1 ? "" : "s")), ""};
+    case wire::SessionState::kRunning:
+      return s.own_stop ? io::ScreenItem{name + time + " YOUR HAND IS STOPPED: r resumes", name + "YOUR HAND IS STOPPED: r resumes"} : io::ScreenItem{name + time, ""};
+    case wire::SessionState::kHeld: {
+      const std::string own = own_reason(s), why = !own.empty() || !words ? own : printable(words->held, kReasonMax);
+      return {name + time + " HELD" + (why.empty() ? "" : ": " + why), name + "HELD" + (why.empty() ? "" : ": " + why)};
+    }
+    case wire::SessionState::kPaused:
+    case wire::SessionState::kStopped: {
+      const bool paused = s.session == wire::SessionState::kPaused;
+      const std::string what = paused ? "PAUSED" : "STOPPED", out = way_out(setup, paused);
+      return {name + time + " " + what + maker(words) + ": " + out, name + what + maker(words) + ": " + out};
+    }
+    case wire::SessionState::kEnding:
+      return {name + "ending", ""};
+    case wire::SessionState::kPassive:
+      return {name + time + " PASSIVE: the server is too busy, it goes on by itself", name + "PASSIVE: the server is too busy"};
+  }
+  return {name, ""};
+}
+
+/// Who leads the tool of this seat, and the own share.
+std::string leader_text(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
+  const std::string own = format("%.0f %%", 100 * s.alpha);
+  const std::size_t tool = static_cast<std::size_t>(setup.seat.tool);
+  std::string leader;
+  double most = s.alpha;
+  if (words && tool < words->tools.size()) {
+    std::size_t k = 0;
+    for (const control::StatusSeat& seat : words->seats) {
+      if (!seat.master || k >= words->tools[tool].alpha.size()) continue;
+      const double alpha = words->tools[tool].alpha[k++];
+      if (seat.name == setup.seat.name || alpha <= most) continue;
+      most = alpha;
+      leader = seat.name;
+    }
+  }
+  if (is_slave(setup)) return leader.empty() ? std::string() : printable(leader) + " leads";
+  if (!leader.empty()) return printable(leader) + " leads" + (s.alpha > 0 ? ", you " + own : "");
+  return s.alpha > 0 ? "you lead " + own : "you do not lead";
+}
+
+/// Who else sits at this session and is heard.
+std::string partners(const SeatSetup& setup, const Words& words) {
+  if (!words) return {};
+  std::string there, silent;
+  for (const control::StatusSeat& seat : words->seats) {
+    if (!seat.taken || seat.name == setup.seat.name) continue;
+    std::string& list = seat.heard ? there : silent;
+    list += (list.empty() ? "" : ", ") + printable(seat.name);
+  }
+  std::string text = there.empty() ? "nobody else is here" : "with " + there;
+  return silent.empty() ? text : text + "; SILENT: " + silent;
+}
+
+}  // namespace
+
+std::string way_out(const SeatSetup& setup, bool paused) {
+  if (!is_slave(setup) && setup.seat.role == Role::kInstructor) return "r resumes";
+  if (setup.ends_pauses) return paused ? "r takes your own pause back; an operator resumes" : "an operator resumes";
+  return "an instructor or operator resumes";
+}
+
+std::string gate_text(const ClientStatus& s) {
+  switch (s.gate) {
+    case wire::GateState::kOff: return "no force before the session runs";
+    case wire::GateState::kZero: return "force off";
+    case wire::GateState::kRampIn: return "force rising";
+    case wire::GateState::kActive: return "force on";
+    case wire::GateState::kPassive: return "link lost: force off";
+    case wire::GateState::kDamped: return "FORCE LATCHED OFF: press b";
+    case wire::GateState::kFault: return "DEVICE FAULT: press b";
+  }
+  return "?";
+}
+
+std::string force_bar(double force_n, double force_max_n) {
+  const double share = force_max_n > 0 && std::isfinite(force_n) ? std::clamp(force_n / force_max_n, 0.0, 1.0) : 0;
+  const auto full = static_cast<std::size_t>(std::lround(share * kBar));
+  return "[" + std::string(full, '#') + std::string(kBar - full, '.') + "]" + format(" %.1f N", force_n);
+}
+
+std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
+  const bool latched = s.gate == wire::GateState::kDamped || s.gate == wire::GateState::kFault;
+  std::vector<io::ScreenItem> items;
+  const auto add = [&](std::string text, std::size_t row, std::string brief = "") { items.push_back({std::move(text), std::move(brief), row}); };
+  items.push_back(state_item(s, setup, words));
+  if (words && words->drain) add(format("DRAINING: %u s left", words->drain->left_s), 0);
+  if (const std::string why = motors_text(s); !why.empty()) {
+    add(why, 0, s.motors_latched ? "MOTORS TOO HOT: press b" : "MOTORS TOO HOT");
+  } else if (latched) {
+    add(gate_text(s), 0);
+  }
+  if (const std::string told = handover_text(s, setup); !told.empty()) add(told, 0);
+  add(leader_text(s, setup, words), 0);
+  add("force " + force_bar(s.force_n, setup.gate.force_max * share_of_force(setup.seat.role)), 0, format("force %.1f N", s.force_n));
+  std::string tool = s.distance_m ? format("tool %.0f mm away", *s.distance_m * 1e3) : "";
+  if (s.touching) tool += tool.empty() ? "tool touching" : ", touching";
+  add(tool, 1);
+  add(partners(setup, words), 1);
+  if (!latched) add(gate_text(s), 1);
+  add(format("rtt %.1f ms, loss %.1f %%", s.rtt_ms, s.down_loss_percent), 1);
+  if (s.gate_trips > 0) add(format("trips %u", s.gate_trips), 1);
+  if (s.rejoins > 0) add(format("rejoined %u", s.rejoins), 1);
+  add(format("late ticks %u", s.late_ticks), 1);
+  add(format("margin %.0f mJ", s.margin_min_j * 1e3), 1);
+  add(format("tip %.0f %.0f %.0f mm", s.x[0] * 1e3, s.x[1] * 1e3, s.x[2] * 1e3), 1);
+  return items;
+}
+
+}  // namespace tandem::client

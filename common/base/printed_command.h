@@ -1,0 +1,42 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace tandem {
+
+/// A message with options added to the commands it names between backquotes, so that they work as typed: with `ticket --session a` in it,
+/// `with_options(text, "tandem-server ticket", " --state s")` names `tandem-server ticket --state s --session a`. A command that has the first of the
+/// options already stays as it is.
+[[nodiscard]] inline std::string with_options(std::string text, std::string_view command, std::string_view options) {
+  const std::string begin = "`" + std::string(command);
+  const std::string_view first = options.substr(0, options.find(' ', 1));
+  if (options.empty()) return text;
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    const std::size_t after = at + begin.size();
+    const std::size_t end = text.find('`', after);
+    if (end == std::string::npos) return text;
+    const bool whole_word = text[after] == ' ' || after == end;
+    const bool has_it = std::string_view(text).substr(after, end - after).find(first) != std::string_view::npos;
+    if (whole_word && !has_it) text.insert(after, options);
+  }
+  return text;
+}
+
+/// The same for several commands of one program.
+[[nodiscard]] inline std::string with_options(std::string text, std::string_view program, std::initializer_list<std::string_view> commands, std::string_view options) {
+  for (const std::string_view command : commands) text = with_options(std::move(text), std::string(program) + " " + std::string(command), options);
+  return text;
+}
+
+/// ` --state DIR` with the folder quoted for a shell where that is needed; empty for an empty folder.
+[[nodiscard]] inline std::string state_option_of(const std::string& folder) {
+  if (folder.empty()) return {};
+  const bool plain = folder.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,+%@") == std::string::npos;
+  std::string quoted = "'";
+  for (const char c : folder) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return " --state " + (plain ? folder : quoted + "'");
+}
+
+}  // namespace tandem

@@ -1,0 +1,51 @@
+#include "common/io/screen_block.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+
+#include "common/io/text_layout.h"
+
+namespace tandem::io {
+namespace {
+
+constexpr const char* kClear = "\r\x1b[J";
+std::atomic<bool> shown{false};  // a process has one terminal
+
+}  // namespace
+
+ScreenSize screen_size(int fd) noexcept {
+  winsize size{};
+  ScreenSize out;
+  if (ioctl(fd, TIOCGWINSZ, &size) != 0) return out;
+  if (size.ws_col > 1) out.columns = size.ws_col;
+  if (size.ws_row > 1) out.rows = size.ws_row;
+  return out;
+}
+
+void ScreenBlock::show(std::span<const std::string> lines) {
+  const ScreenSize size = screen_size(STDERR_FILENO);
+  std::string text = kClear;
+  std::size_t count = 0;
+  for (const std::string& line : lines) {
+    if (columns_of(line) >= size.columns || count + 1 >= size.rows) continue;
+    text += (count++ == 0 ? "" : "\r\n") + line;
+  }
+  text += "\r";
+  if (count > 1) text += "\x1b[" + std::to_string(count - 1) + "A";
+  shown = count > 0;
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+void ScreenBlock::clear() {
+  std::fputs(take_clearing(), stderr);
+  std::fflush(stderr);
+}
+
+const char* ScreenBlock::take_clearing() noexcept { return shown.exchange(false) ? kClear : ""; }
+
+}  // namespace tandem::io

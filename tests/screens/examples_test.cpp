@@ -1,0 +1,197 @@
+// The help of every command: examples that exist, groups, lines that fit the terminal. Real programs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "tests/io/programs.h"
+#include "tests/support/terminal.h"
+
+namespace tandem::test {
+namespace {
+
+struct Program {
+  const char* path;
+  const char* name;
+};
+constexpr Program kPrograms[] = {{TANDEM_SERVER, "tandem-server"}, {TANDEM_CLIENT, "tandem-client"}, {TANDEM_NETSIM, "tandem-netsim"}, {TANDEM_DEMO, "tandem-demo"}};
+
+std::string help_of(const Program& program, const std::string& command) {
+  Words words{program.path};
+  if (!command.empty()) words.push_back(command);
+  words.push_back("--help");
+  Process process(words);
+  EXPECT_EQ(process.wait(), 0) << process.err();
+  return process.out();
+}
+
+/// Names under "Subcommands:".
+Words commands_of(const std::string& help) {
+  Words commands;
+  std::istringstream lines(help.substr(std::min(help.size(), help.find("Subcommands:"))));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line) && line.starts_with("  "))
+    if (line[2] != ' ') commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return commands;
+}
+
+/// Commands under "Examples", each on one line again.
+Words examples_of(const std::string& help) {
+  Words examples;
+  const auto at = help.find("\nExamples\n");
+  if (at == std::string::npos) return examples;
+  std::istringstream lines(help.substr(at + 10));
+  std::string line, whole;
+  while (std::getline(lines, line) && line.starts_with("  ")) {
+    const bool more = line.ends_with(" \\");
+    whole += line.substr(0, line.size() - (more ? 2 : 0));
+    if (more) continue;
+    examples.push_back(whole.substr(whole.find_first_not_of(' ')));
+    whole.clear();
+  }
+  return examples;
+}
+
+Words words_of(const std::string& line) {
+  std::istringstream in(line);
+  Words words;
+  for (std::string word; in >> word && word != "#" && word != ">" && word != "<";) words.push_back(word);
+  return words;
+}
+
+/// What is wrong with an example; empty: its program and command exist and know every option in it.
+std::string wrong_with(const std::string& example) {
+  Words words = words_of(example);
+  if (!words.empty() && words.front() == "sudo") words.erase(words.begin());
+  if (words.empty()) return "no command";
+  const auto program = std::ranges::find(kPrograms, words.front(), &Program::name);
+  if (program == std::end(kPrograms)) return words.front() + " is no program of ours";
+  const Words commands = commands_of(help_of(*program, ""));
+  std::string command;
+  if (!commands.empty()) {
+    if (words.size() < 2 || std::ranges::find(commands, words[1]) == commands.end()) return "no such command";
+    command = words[1];
+  }
+  const std::string help = help_of(*program, command);
+  for (const std::string& word : words) {
+    if (!word.starts_with("--")) continue;
+    const std::string option = word.substr(0, word.find('='));
+    bool whole = false;
+    for (auto at = help.find(option); at != std::string::npos && !whole; at = help.find(option, at + 1)) whole = help.find_first_of(" ,\n=", at) == at + option.size();
+    if (!whole) return option + " is no option of it";
+  }
+  return {};
+}
+
+TEST(Help, EveryCommandHasTwoExamplesWhoseOptionsExist) {
+  for (const Program& program : kPrograms) {
+    const std::string top = help_of(program, "");
+    Words commands = commands_of(top);
+    EXPECT_EQ(commands.empty(), std::string(program.name) == "tandem-demo") << top;
+    if (commands.empty()) commands.push_back("");
+    for (const std::string& command : commands) {
+      SCOPED_TRACE(std::string(program.name) + " " + command);
+      const std::string help = help_of(program, command);
+      const Words examples = examples_of(help);
+      EXPECT_GE(examples.size(), 2u) << help;
+      for (const std::string& example : examples) EXPECT_EQ(wrong_with(example), "") << example;
+    }
+  }
+}
+
+TEST(Help, OfAnExampleThatDoesNotExistIsFoundWrong) {
+  EXPECT_EQ(wrong_with("tandem-client join --server 127.0.0.1:7000 --saet trainer"), "--saet is no option of it");
+  EXPECT_EQ(wrong_with("tandem-client jion --server 127.0.0.1:7000"), "no such command");
+  EXPECT_EQ(wrong_with("tandem-cleint join"), "tandem-cleint is no program of ours");
+}
+
+TEST(Help, IsGroupedAndWrappedToTheTerminal) {
+  for (const std::size_t columns : {80u, 100u, 120u, 200u}) {
+    TerminalProcess help({TANDEM_CLIENT, "join", "--help"}, columns, 200);
+    EXPECT_EQ(help.wait(), 0);
+    EXPECT_TRUE(help.terminal().wraps().empty()) << columns << ": " << help.terminal().wraps().front();
+    const std::string text = flat(help.terminal().all());
+    const auto needed = text.find("Needed:"), where = text.find("Who and where:"), output = text.find("Output:"), own = text.find("Help:");
+    EXPECT_LT(needed, where) << text;
+    EXPECT_LT(where, output) << text;
+    EXPECT_LT(output, own) << text;
+    EXPECT_LT(own, text.find("Examples")) << text;
+  }
+}
+
+TEST(Demo, WithoutArgumentsPrintsItsHelp) {
+  Process demo({TANDEM_DEMO});
+  EXPECT_EQ(demo.wait(), 0) << demo.err();
+  EXPECT_NE(demo.out().find("Usage: "), std::string::npos) << demo.out();
+  EXPECT_NE(demo.out().find("--live"), std::string::npos) << demo.out();
+}
+
+TEST(Units, AreTakenWhereverAUnitIsFixed) {
+  Process run({TANDEM_NETSIM, "run", "one_axis", "--delay", "20ms", "--loss", "5%", "--duration", "2s", "--outage", "1s,0.1s", "--quiet", "--json", "-"});
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  Process wrong({TANDEM_NETSIM, "run", "one_axis", "--delay", "20s"});
+  EXPECT_EQ(wrong.wait(), 2);
+  EXPECT_NE(wrong.err().find("the unit is ms"), std::string::npos) << wrong.err();
+  for (const Words& words : {Words{TANDEM_SERVER, "run", "one_axis", "--duration", "5ms", "--check"}, Words{TANDEM_CLIENT, "join", "--server", "127.0.0.1:1", "--seat", "a", "--device", "sim", "--rejoin", "5ms"},
+                             Words{TANDEM_CLIENT, "link-test", "--server", "127.0.0.1:1", "--duration", "5%"}, Words{TANDEM_NETSIM, "sweep", "one_axis", "--delay", "5%"}}) {
+    Process process(words);
+    EXPECT_EQ(process.wait(), 2) << words[1];
+    EXPECT_NE(process.err().find(words[1] == "sweep" ? " ms " : "the unit is s"), std::string::npos) << process.err();
+  }
+  Process good({TANDEM_SERVER, "run", "one_axis", "--duration", "5s", "--wait", "2 s", "--check"});
+  EXPECT_EQ(good.wait(), 0) << good.err();
+}
+
+TEST(FullDisk, IsCalledFullForEveryFileOfARun) {
+  for (const char* option : {"--json", "--trace", "--log"}) {
+    Process run({TANDEM_NETSIM, "run", "one_axis", "--duration", "2", option, "/dev/full"});
+    EXPECT_EQ(run.wait(), 1) << option;
+    EXPECT_NE(run.err().find("/dev/full could not be written to the end: the disk is full"), std::string::npos) << option << run.err();
+  }
+  Process sweep({TANDEM_NETSIM, "sweep", "one_axis", "--delay", "0", "--duration", "2", "--csv", "/dev/full"});
+  EXPECT_EQ(sweep.wait(), 1);
+  EXPECT_NE(sweep.err().find("the disk is full"), std::string::npos) << sweep.err();
+}
+
+TEST(Scene, ThatIsACsvTableIsCalledOneInOneLine) {
+  const Folder folder;
+  std::string table = "t_s[s],x[m],y[m]\n";
+  for (int i = 0; i < 200; ++i) table += std::to_string(i) + ",0.1,0.2\n";
+  const std::string file = folder.write("motion.csv", table);
+  Process run({TANDEM_SERVER, "run", file, "--check"});
+  EXPECT_EQ(run.wait(), 2);
+  EXPECT_NE(run.err().find("is a CSV table, not a scene"), std::string::npos) << run.err();
+  EXPECT_LE(std::ranges::count(run.err(), '\n'), 2) << run.err();
+  const std::string large = folder.write("large.csv", [&] {
+    std::string text;
+    while (text.size() < (2U << 20)) text += table;
+    return text;
+  }());
+  Process again({TANDEM_NETSIM, "run", large});
+  EXPECT_EQ(again.wait(), 2);
+  EXPECT_NE(again.err().find("is a CSV table, not a scene"), std::string::npos) << "however long it is: " << again.err();
+}
+
+TEST(Remedies, CarryTheFolderAndDoNotSendLoopbackToInit) {
+  const Folder folder;
+  const std::string missing = folder.file("none");
+  Process sessions({TANDEM_SERVER, "sessions", "--state", missing});
+  EXPECT_EQ(sessions.wait(), 1);
+  EXPECT_NE(sessions.err().find("there is no state folder " + missing), std::string::npos) << sessions.err();
+  EXPECT_NE(sessions.err().find("A server on loopback that was started without --state has no folder"), std::string::npos) << sessions.err();
+  EXPECT_NE(sessions.err().find("tandem-server init --state " + missing), std::string::npos) << sessions.err();
+  Process init({TANDEM_SERVER, "init", "--state", missing});
+  EXPECT_EQ(init.wait(), 0) << init.err();
+  EXPECT_NE(init.err().find("tandem-server enroll NAME --address HOST:PORT --state " + missing), std::string::npos) << init.err();
+  Process run({TANDEM_SERVER, "run", "one_axis", "--listen", "0.0.0.0:0", "--state", missing});
+  EXPECT_EQ(run.wait(), 2);
+  EXPECT_NE(run.err().find("tandem-server enroll --state " + missing + " NAME"), std::string::npos) << run.err();
+  Process join({TANDEM_CLIENT, "join", "--server", "127.0.0.1:1", "--seat", "a", "--device", "sim", "--patience", "0.2s"});
+  EXPECT_EQ(join.wait(), 1);
+  EXPECT_NE(join.err().find("`tandem-server run free_motion --listen 127.0.0.1:1`"), std::string::npos) << join.err();
+}
+
+}  // namespace
+}  // namespace tandem::test

@@ -1,0 +1,160 @@
+// What a person reads of the own seat, at every width.
+#include "client/app/seat_screen.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace tandem::client {
+namespace {
+
+SeatSetup setup(Role role = Role::kTrainee, const std::string& name = "trainee") {
+  SeatSetup s;
+  s.seat.name = name;
+  s.seat.role = role;
+  s.seat.tool = 0;
+  s.gate.force_max = 4;
+  return s;
+}
+
+ClientStatus running() {
+  ClientStatus s;
+  s.heard = true;
+  s.session = wire::SessionState::kRunning;
+  s.session_time = 123.4;
+  s.gate = wire::GateState::kActive;
+  s.alpha = 0.25;
+  s.force_n = 1.2;
+  s.distance_m = 0.012;
+  s.touching = true;
+  s.rtt_ms = 4.1;
+  return s;
+}
+
+control::Status words(const std::string& leader = "trainer", const std::string& follower = "trainee") {
+  control::Status w;
+  w.name = "lab";
+  w.seats = {{leader, AccessRole::kInstructor, true, true, true}, {follower, AccessRole::kTrainee, true, true, true}};
+  w.tools = {{"tool", {0.75, 0.25}}};
+  return w;
+}
+
+std::vector<std::string> at(std::size_t columns, const ClientStatus& s, const SeatSetup& of = setup(), const std::optional<control::Status>& w = words()) {
+  return io::laid_out(seat_screen(s, of, w), 2, columns - 1);
+}
+
+TEST(SeatScreen, SaysTheImportantInTwoLinesOf80Columns) {
+  const auto lines = at(80, running());
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0], "trainee 123.4 s | trainer leads, you 25 % | force [###.......] 1.2 N");
+  EXPECT_EQ(lines[1], "tool 12 mm away, touching | with trainer | force on | rtt 4.1 ms, loss 0.0 %");
+}
+
+TEST(SeatScreen, ShowsWhoLeadsAndWhoIsHere) {
+  ClientStatus s = running();
+  s.alpha = 0.8;
+  control::Status w = words();
+  w.tools[0].alpha = {0.2, 0.8};
+  EXPECT_NE(at(80, s, setup(), w)[0].find("you lead 80 %"), std::string::npos);
+  s.alpha = 0;
+  EXPECT_NE(at(80, s)[0].find("trainer leads |"), std::string::npos);
+  EXPECT_NE(at(80, s, setup(), std::nullopt)[0].find("you do not lead"), std::string::npos) << "nobody says who does";
+  w.seats[0].heard = false;
+  EXPECT_NE(at(80, s, setup(), w)[1].find("nobody else is here; SILENT: trainer"), std::string::npos) << at(80, s, setup(), w)[1];
+  w.seats[0].taken = false;
+  EXPECT_NE(at(80, s, setup(), w)[1].find("nobody else is here"), std::string::npos);
+}
+
+TEST(SeatScreen, HeldSaysWhyInOneSentence) {
+  ClientStatus s = running();
+  s.session = wire::SessionState::kHeld;
+  control::Status w = words();
+  w.held = "trainer left";
+  EXPECT_EQ(at(80, s, setup(), w)[0].find("trainee 123.4 s HELD: trainer left |"), 0u) << at(80, s, setup(), w)[0];
+  w.held = "stopped by trainer: r there resumes";
+  EXPECT_NE(at(80, s, setup(), w)[0].find("HELD: stopped by trainer: r there resumes"), std::string::npos);
+  s.own_stop = true;
+  EXPECT_NE(at(80, s, setup(), w)[0].find("HELD: you stopped your hand: r resumes"), std::string::npos) << "what is known here comes first";
+}
+
+TEST(SeatScreen, AStopNamesItsMakerAndTheKey) {
+  ClientStatus s = running();
+  s.session = wire::SessionState::kStopped;
+  control::Status w = words();
+  w.stop = control::StatusStop{.number = 1, .seat = "trainer", .workstation = "", .role = AccessRole::kInstructor, .why = "", .ends = "x"};
+  EXPECT_NE(at(80, s, setup(Role::kInstructor, "trainer"), w)[0].find("STOPPED by trainer: r resumes"), std::string::npos);
+  EXPECT_NE(at(80, s, setup(), w)[0].find("STOPPED by trainer: an instructor or operator resumes"), std::string::npos) << at(80, s, setup(), w)[0];
+  s.session = wire::SessionState::kPaused;
+  SeatSetup own = setup();
+  own.ends_pauses = true;
+  EXPECT_NE(at(100, s, own, w)[0].find("PAUSED by trainer: r takes your own pause back"), std::string::npos) << at(100, s, own, w)[0];
+  s = running();
+  s.own_stop = true;
+  EXPECT_NE(at(80, s)[0].find("YOUR HAND IS STOPPED: r resumes"), std::string::npos);
+}
+
+TEST(SeatScreen, ALatchedForceAndADrainStandBeforeTheNumbers) {
+  ClientStatus s = running();
+  s.gate = wire::GateState::kDamped;
+  control::Status w = words();
+  w.drain = control::StatusDrain{27, 1, 2};
+  const auto lines = at(80, s, setup(), w);
+  EXPECT_EQ(lines[0].find("trainee 123.4 s | DRAINING: 27 s left | FORCE LATCHED OFF: press b"), 0u) << lines[0];
+  s.gate = wire::GateState::kActive;
+  s.motors_hot = true;
+  EXPECT_NE(at(80, s)[0].find("MOTORS TOO HOT"), std::string::npos);
+}
+
+TEST(SeatScreen, ForceBarIsAShareOfTheLargestForce) {
+  EXPECT_EQ(force_bar(0, 4), "[..........] 0.0 N");
+  EXPECT_EQ(force_bar(2, 4), "[#####.....] 2.0 N");
+  EXPECT_EQ(force_bar(9, 4), "[##########] 9.0 N");
+  EXPECT_EQ(force_bar(1, 0), "[..........] 1.0 N");
+}
+
+/// Every piece of a line is one that the screen has whole.
+TEST(SeatScreen, NothingIsCutInsideAWordAtAnyWidthAndInAnyState) {
+  const std::string longest(32, 'n');
+  for (const std::string& name : {std::string("trainee"), longest}) {
+    for (int state = 0; state <= static_cast<int>(wire::SessionState::kPassive); ++state) {
+      for (int gate = 0; gate <= static_cast<int>(wire::GateState::kFault); ++gate) {
+        ClientStatus s = running();
+        s.session = static_cast<wire::SessionState>(state);
+        s.gate = static_cast<wire::GateState>(gate);
+        s.handover = wire::Handover::kComes;
+        s.gate_trips = 3;
+        s.rejoins = 1;
+        control::Status w = words("trainer", name);
+        w.held = "trainer left; " + longest + " is silent: its link is lost";
+        w.stop = control::StatusStop{.number = 1, .seat = longest, .workstation = "", .role = AccessRole::kInstructor, .why = "", .ends = "x"};
+        const auto items = seat_screen(s, setup(Role::kTrainee, name), w);
+        for (const std::size_t columns : {40u, 60u, 80u, 100u, 120u, 200u}) {
+          const auto lines = io::laid_out(items, 2, columns - 1);
+          ASSERT_LE(lines.size(), 2u);
+          for (const std::string& line : lines) {
+            EXPECT_LT(io::columns_of(line), columns) << line;
+            for (std::size_t begin = 0; begin <= line.size();) {
+              const std::size_t end = std::min(line.find(" | ", begin), line.size());
+              std::string piece = line.substr(begin, end - begin);
+              const bool cut = piece.ends_with(" ...");
+              if (cut) piece.resize(piece.size() - 4);
+              const bool known = std::ranges::any_of(items, [&](const io::ScreenItem& i) {
+                const auto whole = [&](const std::string& text) { return cut ? text.starts_with(piece + " ") : text == piece; };
+                return whole(i.text) || whole(i.brief);
+              });
+              EXPECT_TRUE(known) << columns << ": " << piece;
+              begin = end + 3;
+            }
+          }
+          if (columns < 100) continue;
+          const std::string all = io::joined(items), shown = lines[0] + (lines.size() > 1 ? " | " + lines[1] : "");
+          EXPECT_NE(shown.find("lead"), std::string::npos) << shown;
+          EXPECT_NE(shown.find("force"), std::string::npos) << shown;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tandem::client

@@ -1,0 +1,77 @@
+// What the server's own screen shows of its sessions, and why a tool is held.
+#include <gtest/gtest.h>
+
+#include "proto/scene_text.h"
+#include "proto/scenes_embedded.h"
+#include "server/app/status.h"
+
+namespace tandem::server {
+namespace {
+
+SceneSpec scene() {
+  auto parsed = parse_scene(find_shipped_scene("free_motion")->text, "free_motion");
+  return *parsed;
+}
+
+/// Trainer and trainee, engaged; the trainer has all weight.
+SessionStatus running() {
+  SessionStatus s;
+  s.state = wire::SessionState::kRunning;
+  s.time = 12.3;
+  for (std::size_t i = 0; i < 2; ++i) {
+    SeatStatus& seat = s.seats[i];
+    seat.taken = seat.ever_taken = seat.ready = seat.alive = true;
+    seat.gate = wire::GateState::kActive;
+    seat.link.rtt_p50_ms = 4.1;
+  }
+  s.seats[0].alpha = s.seats[0].weight = 1;
+  return s;
+}
+
+TEST(WhyHeld, NamesTheSeatAndTheReasonInOneSentence) {
+  const SceneSpec spec = scene();
+  SessionStatus s = running();
+  s.seats[0].taken = false;
+  EXPECT_EQ(why_held(s, spec), "trainer left");
+  s = running();
+  s.seats[0].stopped = true;
+  EXPECT_EQ(why_held(s, spec), "stopped by trainer: r there resumes");
+  s = running();
+  s.seats[0].alive = false;
+  EXPECT_EQ(why_held(s, spec), "trainer is silent: its link is lost");
+  s = running();
+  s.seats[0].gate = wire::GateState::kDamped;
+  EXPECT_EQ(why_held(s, spec), "trainer's force is latched off: b there switches it on");
+  s = running();
+  s.seats[1].taken = false;
+  EXPECT_EQ(why_held(s, spec), "no seat with authority is engaged") << "a seat without authority holds nothing up";
+}
+
+TEST(SessionScreen, ShowsStateAndLeaderThenTheSeats) {
+  const SceneSpec spec = scene();
+  SessionStatus s = running();
+  s.seats[0].alpha = 0.75;
+  s.seats[1].alpha = 0.25;
+  const auto lines = io::laid_out(status_items(s, spec), 2, 79);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_NE(lines[0].find("running | trainer leads 75 %, trainee 25 %"), std::string::npos) << lines[0];
+  EXPECT_EQ(lines[1].find("trainer: force on"), 0u) << lines[1];
+  EXPECT_NE(lines[1].find("trainee: force on"), std::string::npos) << lines[1];
+}
+
+TEST(SessionScreen, GivesEachSessionItsLinesAndCountsThoseThatDoNotFit) {
+  const SceneSpec spec = scene();
+  std::vector<SessionOnScreen> sessions;
+  for (int i = 0; i < 10; ++i) sessions.push_back({"session-" + std::to_string(i), running(), &spec});
+  EXPECT_EQ(io::laid_out(screen_items(sessions, "", 23), 23, 79).size(), 20u) << "two each";
+  const auto one_each = io::laid_out(screen_items(sessions, "", 12), 12, 79);
+  ASSERT_EQ(one_each.size(), 10u);
+  EXPECT_EQ(one_each[9].find("session-9: "), 0u) << one_each[9];
+  const auto few = io::laid_out(screen_items(sessions, "DRAINING, 5 s left", 5), 5, 79);
+  ASSERT_EQ(few.size(), 5u);
+  EXPECT_EQ(few[0].find("DRAINING, 5 s left | session-0: "), 0u) << few[0];
+  EXPECT_EQ(few[4], "and 6 sessions more: `tandem-server sessions` lists them");
+}
+
+}  // namespace
+}  // namespace tandem::server
