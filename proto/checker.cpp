@@ -116,7 +116,7 @@ void list(const Message& m, const std::string& path, std::vector<Row>& rows) {
           list(index < 0 ? r.GetMessage(m, f) : r.GetRepeatedMessage(m, f, index), key, rows);
           break;
         case FieldDescriptor::CPPTYPE_STRING:
-          rows.push_back({key, '"' + r.GetString(m, f) + '"', ""});
+          rows.push_back({key, '"' + (index < 0 ? r.GetString(m, f) : r.GetRepeatedString(m, f, index)) + '"', ""});
           break;
         case FieldDescriptor::CPPTYPE_ENUM:
           rows.push_back({key, r.GetEnum(m, f)->name(), ""});
