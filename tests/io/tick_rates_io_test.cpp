@@ -113,5 +113,34 @@ TEST(TickRatesLive, FeelTheSameAt10kHz) {
   live.expect_missed_ticks_are_counted();
 }
 
+/// A device with a rate of its own, 1000 exchanges a second: a recorded motion that stands still.
+std::string device_of_its_own(const Folder& folder) { return "replay:" + folder.write("still.csv", "t_s[s],px[m],py[m],pz[m]\n0,-0.01,0,0\n60,-0.01,0,0\n") + ",scale=1"; }
+
+TEST(TickRatesLive, ARealDevicesSeatWorksAtTheScenesRate) {
+  const Folder folder;
+  PressScene press;
+  press.tick_hz = 100;
+  press.duration_s = 1.5;
+  press.silence_ms = 200;
+  Process host = hosting(folder.write("slow.textproto", press.text()), {"--json", folder.file("s.json")});
+  Process hand = client(address_of(host), "hand", {"--json", folder.file("c.json")}, device_of_its_own(folder));
+  ASSERT_EQ(hand.wait(), 0) << hand.err();
+  ASSERT_EQ(host.wait(), 0) << host.err();
+  const Json own = folder.json("c.json");
+  const double sent = own["link"]["sent"].get<double>(), exchanges = own["device_statistics"]["exchanges"].get<double>();
+  EXPECT_GT(sent, 100);
+  EXPECT_NEAR(sent / exchanges, 0.1, 0.03) << "one STATE per tick of the scene";
+}
+
+TEST(TickRatesLive, ASceneFasterThanARealDeviceIsRefusedWithItsKey) {
+  const Folder folder;
+  PressScene press;
+  press.tick_hz = 4000;
+  Process host = hosting(folder.write("fast.textproto", press.text()));
+  Process hand = client(address_of(host), "hand", {}, device_of_its_own(folder));
+  EXPECT_EQ(hand.wait(), 1);
+  for (const char* part : {"tick_hz is 4000", "1000 times a second", "tick_hz 100 to 1000"}) EXPECT_NE(hand.err().find(part), std::string::npos) << part << " not in " << hand.err();
+}
+
 }  // namespace
 }  // namespace tandem::test
