@@ -1,0 +1,103 @@
+// A workstation whose clock runs fast for hours: what an error that only ever adds up would show. 8 hours at 200 ppm are 5.8 s of difference
+// between the clocks. The shorter runs use 1000 ppm, the most that an endpoint may drift.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <vector>
+
+#include "tests/base/counts.h"
+#include "tests/sim/life.h"
+
+namespace tandem {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct DriftRun {
+  Duration length;
+  double ppm;
+};
+
+DriftRun by_counts() {
+  constexpr std::array<DriftRun, 3> kRuns{{{5min, 1000}, {96min, 1000}, {8h, 200}}};
+  return kRuns[test::draws(0, 1, 2)];
+}
+
+/// Of one seat in a part of the session.
+struct Part {
+  Duration loop_age_max{};  ///< what its gate judges
+  Duration age_max{};       ///< of the newest FORCE, one way, from the transit times of both clocks
+  double gap_max = 0;      ///< between a hand and the tool that it follows [m]
+  double refused = 0;      ///< energy that the client's ledger did not have when the spring asked for it [J]
+};
+
+TEST(Drift, AClockThatRunsFastForHoursCostsNobodyAnything) {
+  const DriftRun planned = by_counts();
+  SceneSpec scene = test::shipped("free_motion");
+  for (SeatSpec& s : scene.seats) s.hand.deviations.clear();
+  scene.timeline.clear();
+  scene.duration = seconds(planned.length);
+  scene.seats[0].hand.until = scene.duration + 1;  // the trainer moves all the time
+  scene.seats[1].hand.from = scene.duration + 1;
+  scene.phases = {{"all", 1, scene.duration, false}};
+  netsim::WorldSetup setup = test::with(scene);
+  setup.network = netsim::link_from(test::delayed(1));
+  setup.endpoints["trainee"].drift_ppm = planned.ppm;
+  setup.endpoints["trainer"].drift_ppm = -0.1 * planned.ppm;
+  test::Life life{std::move(setup)};
+
+  constexpr std::size_t kParts = 10;
+  std::array<std::vector<Part>, kParts> parts;
+  for (auto& part : parts) part.resize(2);
+  life.until(5s);
+  const Duration begin = life.at();
+  double way = 0;
+  std::array<double, 2> refused{};
+  for (std::size_t i = 0; i < 2; ++i) refused[i] = life.world->record().seats[i].refused_j;
+  hal::Vec3 last = life.world->device(0).truth().x;
+  while (life.step() && life.at() < begin + planned.length - 6s) {
+    const auto part = static_cast<std::size_t>(static_cast<double>(kParts) * seconds(life.at() - begin) / seconds(planned.length));
+    const server::TickRecord& record = life.world->record();
+    if (!record.running) continue;
+    const hal::Vec3 now = life.world->device(0).truth().x;
+    way += (now - last).norm();
+    last = now;
+    for (std::size_t i = 0; i < 2; ++i) {
+      Part& p = parts[part][i];
+      const server::SeatRecord& seat = record.seats[i];
+      const link::Freshness& freshness = life.world->seat(i)->link().freshness();
+      const Time own = life.world->own_time(i);
+      p.loop_age_max = std::max(p.loop_age_max, freshness.loop_age(own));
+      p.age_max = std::max(p.age_max, freshness.age(own));
+      p.gap_max = std::max(p.gap_max, (life.world->device(i).truth().x - hal::Vec3(record.tools[0].x_tool.data())).norm());
+      p.refused += seat.refused_j - refused[i];
+      refused[i] = seat.refused_j;
+      ASSERT_TRUE(life.active(i)) << "seat " << i << " at " << seconds(life.at()) << " s";
+    }
+  }
+  EXPECT_GT(way, 0.01 * seconds(planned.length)) << "nobody moved [m]";
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(life.world->seat(i)->gate().trips(), 0u);
+    std::printf("[  drift   ] seat %zu, %.0f s at %.0f ppm: loop age at most %.1f ms in the first tenth, %.1f ms in the last; one way %.1f, %.1f ms; gap %.2f, %.2f mm; refused %.4f, %.4f J\n", i,
+                seconds(planned.length), planned.ppm, 1e3 * seconds(parts[0][i].loop_age_max), 1e3 * seconds(parts[kParts - 1][i].loop_age_max),
+                1e3 * seconds(parts[0][i].age_max), 1e3 * seconds(parts[kParts - 1][i].age_max), 1e3 * parts[0][i].gap_max,
+                1e3 * parts[kParts - 1][i].gap_max, parts[0][i].refused, parts[kParts - 1][i].refused);
+    const Part& first = parts[0][i];
+    for (std::size_t part = 0; part < kParts; ++part) {
+      SCOPED_TRACE(part);
+      const Part& p = parts[part][i];
+      EXPECT_LE(p.loop_age_max, 4ms) << "1 ms each way and two ticks";
+      // One way is measured against the fastest datagram of the last 10 s or less; in that time the clocks part by so much.
+      EXPECT_LE(p.age_max, 4ms + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.1 * 10 * 1e-6 * planned.ppm)));
+      EXPECT_LE(p.gap_max, 1.5 * first.gap_max) << "[m]";
+      EXPECT_LE(p.gap_max, 0.01) << "[m]";
+      EXPECT_LE(p.refused, 1.5 * first.refused + 1e-3 * seconds(planned.length) / kParts) << "[J]";
+    }
+  }
+  life.expect_nothing_broken();
+}
+
+}  // namespace
+}  // namespace tandem
