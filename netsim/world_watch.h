@@ -101,7 +101,7 @@ class WorldWatch {
     bool steady = false;
   };
   void check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const EndLook& look);
-  void check_starvation(std::size_t i, End& now, const End& before, const AxisArray& scale, const EndLook& look);
+  void check_starvation(std::size_t i, const control::ChannelEnd& end, End& now, const End& before, const AxisArray& scale, const EndLook& look);
   void check_authority(std::uint32_t lived, const server::Session& session);
   void check_felt(std::size_t tool, const server::Session& session);
   [[nodiscard]] bool serves_only(std::size_t tool, std::size_t seat, const server::Session& session) const noexcept;

@@ -11,6 +11,7 @@ namespace {
 constexpr double kStarvedMax = 0.3;                     // [s]
 constexpr double kAside = 0.002, kLeash = 0.98;         // [m] of a target that is reached; share of the motor's pull
 constexpr double kStuckMax = 2;                         // [s] on the way home, of a hand that moves
+constexpr std::uint64_t kEmptyNj = 10'000;              // [nJ] less than any step of a reference costs
 constexpr double kMoves = 0.008;                        // [m] by which such a hand moves in that time
 constexpr double kTogether = 1e-5;                      // [m] hand and tool are not apart
 constexpr double kLeads = 0.5;                          // share of authority of who moves the tool and is not moved by it
@@ -46,18 +47,19 @@ void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& b
     if (is > was && !rested && std::abs(now.ref[a] - before.ref[a]) > step * (1 + 1e-9) + 1e-12)
       note("approach", i, !promises.bounded_step);
   }
-  if (ordinary_ && alpha_[0][mover_] >= kLeads && steady && before.known) check_starvation(i, now, before, scale, look);
+  if (ordinary_ && alpha_[0][mover_] >= kLeads && steady && before.known) check_starvation(i, end, now, before, scale, look);
   before = now;
 }
 
 /// A reference that news, hand and motor would let move, and that stays where it is: nothing but an empty account holds it. Told by
 /// where it is, not by what the ledger says it refused.
 ///
-/// Until hand and tool have come together after the calm, only a hand that moves is judged, and less strictly. What parted them (an
+/// Until hand and tool have come together after the calm, an account that really is empty is excused while the hand stands still. What parted them (an
 /// outage, a tool that fell while nobody held it) and emptied the accounts was no ordinary motion. The energy that brings them together
 /// again comes from the hand: a hand that stands still lifts no tool and pulls none through friction, and a channel that did so would
 /// give what it never took. A hand that moves pays for some of the way with every stroke.
-void WorldWatch::check_starvation(std::size_t i, End& now, const End& before, const AxisArray& scale, const EndLook& look) {
+void WorldWatch::check_starvation(std::size_t i, const control::ChannelEnd& end, End& now, const End& before, const AxisArray& scale,
+                                  const EndLook& look) {
   const double dt = 1 / scene_->tick_hz;
   const PortSample& rx = look.rx;
   for (std::size_t a = 0; a < scene_->dof; ++a) {
@@ -76,7 +78,10 @@ void WorldWatch::check_starvation(std::size_t i, End& now, const End& before, co
       now.hand_high[a] = std::max(before.hand_high[a], hand_[a]);
     }
     const bool moves = now.hand_high[a] - now.hand_low[a] > kMoves / root;
-    if (now.home[a] ? now.starved[a] * dt > kStarvedMax : moves && now.starved[a] * dt > kStuckMax) note("starved", i);
+    const control::EnergyLedger& ledger = end.ledger(a);
+    const bool empty = ledger.bound_nj() <= ledger.out_nj() + ledger.forfeited_nj() + kEmptyNj;  // by its sums, not by its verdict
+    const double limit = now.home[a] || !empty ? kStarvedMax : moves ? kStuckMax : HUGE_VAL;
+    if (now.starved[a] * dt > limit) note("starved", i);
   }
 }
 

@@ -27,7 +27,8 @@ class HostedSession {
   /// @param records  every tick while it runs; full: dropped and counted
   /// @param from     where it goes on; null: it is new  @pre unfit(*from, scene) is empty, and `slaves` stand where it says
   HostedSession(const SceneSpec& scene, Slaves slaves, std::uint8_t slot, TickQueue& records, const Checkpoint* from = nullptr);
-  /// Before it is hosted: lays its checkpoint down there, twice a second and at once when somebody comes, goes, moves authority or stops.
+  /// Before it is hosted: lays its checkpoint down there, twice a second and at once when the session begins or somebody comes, goes,
+  /// moves authority or stops.
   /// @param epoch  as its clients know it
   void keep_in(std::shared_ptr<CheckpointMail> mail, std::uint64_t epoch);
 

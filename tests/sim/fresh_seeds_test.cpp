@@ -205,6 +205,12 @@ TEST_P(FreshSeed, BreaksNothingAndRecovers) {
   for (const auto& v : result.broken) ADD_FAILURE() << v.invariant << " at " << v.seat << ", first at " << v.at_s << " s, " << v.count << " times";
 }
 
+TEST(FreshSeeds, AShortSessionOfAnIrregularProgramKeepsTheTank) {
+  const auto result = netsim::live_swarm_case(netsim::draw_swarm_case(5000016, 8));
+  EXPECT_EQ(result.trouble, "");
+  for (const auto& v : result.broken) ADD_FAILURE() << v.invariant << " at " << v.seat << ", first at " << v.at_s << " s, " << v.count << " times";
+}
+
 INSTANTIATE_TEST_SUITE_P(EffortSlew, FreshSeed, testing::Values(700212, 701712, 800062));
 INSTANTIATE_TEST_SUITE_P(SilenceBrakes, FreshSeed, testing::Values(700891, 801021));
 INSTANTIATE_TEST_SUITE_P(AuthorityFelt, FreshSeed, testing::Values(701212, 800191, 802543));

@@ -1,0 +1,70 @@
+// What the server's own host of a session keeps for a restart, in virtual time.
+#include <gtest/gtest.h>
+#include <sys/eventfd.h>
+
+#include "client/seat.h"
+#include "hal/sim/sim_device.h"
+#include "netsim/world_joining.h"
+#include "server/app/checkpoint_mail.h"
+#include "server/app/hosted_session.h"
+#include "tests/support/world_run.h"
+
+namespace tandem {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(HostedCheckpoint, KnowsOfASessionFromItsFirstTickOn) {
+  const SceneSpec scene = test::shipped("one_axis");
+  auto slaves = server::make_slaves(scene, Time{});
+  ASSERT_TRUE(slaves);
+  server::TickQueue records{64};
+  server::HostedSession hosted(scene, std::move(*slaves), 0, records);
+  const io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  const auto mail = std::make_shared<server::CheckpointMail>(wake);
+  hosted.keep_in(mail, 1);
+
+  struct Hand {
+    std::unique_ptr<hal::sim::SimDevice> device;
+    std::unique_ptr<client::Seat> seat;
+    hal::Command command;
+  };
+  std::vector<Hand> hands;
+  Time now = Time{} + 1ms;
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) {
+    auto device = hal::sim::SimDevice::make({scene.seats[i].device, scene.seats[i].hand, scene.seats[i].environment, nullptr, now});
+    ASSERT_TRUE(device);
+    const hal::DeviceCaps caps = (*device)->caps();
+    const auto joined = netsim::join_virtually(hosted.session(), now, i, caps, RandomKey{7}.derive(i), 0);
+    ASSERT_TRUE(joined);
+    hands.push_back({std::move(*device), std::make_unique<client::Seat>(joined->setup, caps, joined->link), {}});
+  }
+
+  std::array<std::byte, link::kDatagramMax> buffer;
+  const auto address = [](std::size_t i) {
+    server::Endpoint e;
+    e.bytes[0] = static_cast<std::byte>(i + 1);
+    e.size = 1;
+    return e;
+  };
+  server::Checkpoint kept{};
+  std::optional<Time> began;
+  for (; now < Time{} + 3s && !began; now += 1ms) {
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+      hands[i].device->advance(hands[i].command, 1ms);
+      hands[i].command = hands[i].seat->on_servo(now, hands[i].device->state());
+      while (const auto size = hands[i].seat->poll_transmit(now, buffer)) hosted.session().on_datagram(now, address(i), std::span{buffer}.first(*size));
+    }
+    hosted.tick(now, 0, {});
+    while (const auto out = hosted.session().poll_transmit(now, buffer))
+      hands[std::to_integer<std::size_t>(out->to.bytes[0]) - 1].seat->on_datagram(now, std::span{buffer}.first(out->size));
+    static_cast<void>(mail->pick_up(kept));
+    if (hosted.session().begun()) began = now;
+    EXPECT_EQ(kept.begun, hosted.session().begun()) << "at " << seconds(now - Time{}) << " s";
+  }
+  ASSERT_TRUE(began) << "else there is nothing to judge";
+  EXPECT_NE((*began - Time{}) % 500ms, 0ms) << "not by chance, with the regular one";
+}
+
+}  // namespace
+}  // namespace tandem
