@@ -71,7 +71,7 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   } else if (!r.moved) {
     put(out, "  not judged: no hand moved by more than %.0f mm; the figures above tell nothing about tracking\n", ReportBuilder::kMoved * 1e3);
   } else {
-    put(out, "  judged: %.1f of %.1f s; not in it are the first second after each engagement and scripted pushes\n", r.judged_s, r.duration_s);
+    put(out, "  judged: %.1f of %.1f s; not in it are times without an engaged hand, the first second after each engagement, and scripted pushes\n", r.judged_s, r.duration_s);
   }
   for (const auto& v : r.violations)
     put(out, "  %s invariant %s%s%s first at %.3f s, %llu times%s\n",

@@ -1,0 +1,54 @@
+// When a session is over because nobody is there any more, and how that is told.
+#include "server/app/attendance.h"
+
+#include <gtest/gtest.h>
+
+#include "proto/scene_text.h"
+#include "proto/scenes_embedded.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A lesson in which instructor and trainee sit.
+struct Running {
+  Running() {
+    status.state = wire::SessionState::kRunning;
+    for (std::size_t i = 0; i < 2; ++i) status.seats[i].taken = status.seats[i].ever_taken = status.seats[i].alive = true;
+    static_cast<void>(attendance.look(now, status, scene));
+  }
+  void leave(std::size_t seat) { status.seats[seat].taken = status.seats[seat].alive = false; }
+  void fall_silent(std::size_t seat) { status.seats[seat].alive = false; }
+  Attendance::News after(Duration time) {
+    static_cast<void>(attendance.look(now, status, scene));
+    now += time;
+    return attendance.look(now, status, scene);
+  }
+
+  SceneSpec scene = *parse_scene(find_shipped_scene("lesson")->text, "lesson.textproto");
+  Time now = Time{} + 1s;
+  SessionStatus status;
+  Attendance attendance;
+};
+
+TEST(Attendance, KnowsWhoLeftFromWhoWasLost) {
+  Running left;
+  left.leave(0);
+  EXPECT_FALSE(left.after(11s).all_lost) << "one is still there";
+  left.leave(1);
+  EXPECT_FALSE(left.after(9s).all_left);
+  const Attendance::News both = left.after(2s);
+  EXPECT_TRUE(both.all_lost);
+  EXPECT_TRUE(both.all_left) << "a session without an end is over, and well";
+
+  Running lost;
+  lost.leave(0);
+  lost.fall_silent(1);
+  const Attendance::News one = lost.after(11s);
+  EXPECT_TRUE(one.all_lost);
+  EXPECT_FALSE(one.all_left) << "the trainee did not leave: its link or program failed";
+}
+
+}  // namespace
+}  // namespace tandem::server
