@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <map>
 #include <sstream>
 
 #include "tests/io/programs.h"
@@ -17,13 +17,16 @@ struct Program {
 };
 constexpr Program kPrograms[] = {{TANDEM_SERVER, "tandem-server"}, {TANDEM_CLIENT, "tandem-client"}, {TANDEM_NETSIM, "tandem-netsim"}, {TANDEM_DEMO, "tandem-demo"}};
 
-std::string help_of(const Program& program, const std::string& command) {
+const std::string& help_of(const Program& program, const std::string& command) {
+  static std::map<std::string, std::string> known;
+  std::string& help = known[program.name + (" " + command)];
+  if (!help.empty()) return help;
   Words words{program.path};
   if (!command.empty()) words.push_back(command);
   words.push_back("--help");
   Process process(words);
   EXPECT_EQ(process.wait(), 0) << process.err();
-  return process.out();
+  return help = process.out();
 }
 
 /// Names under "Subcommands:".

@@ -6,7 +6,6 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <array>
 #include <regex>
 
 #include "tests/io/programs.h"
@@ -16,7 +15,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::array<std::size_t, 6> kWidths{80, 200, 100, 60, 120, 80};
+/// Both ways, and below 80. What a terminal that cuts does differently needs fewer of them.
+std::vector<std::size_t> widths(Terminal::Resize resize = Terminal::Resize::kReflows) {
+  return resize == Terminal::Resize::kReflows ? std::vector<std::size_t>{80, 200, 100, 60, 120} : std::vector<std::size_t>{60, 120, 80};
+}
 
 std::vector<std::string> pieces(const std::string& line) {
   std::vector<std::string> out;
@@ -75,12 +77,12 @@ TEST_P(Screens, ASeatShowsTwoWholeLinesAtEveryWidthAndAfterEveryResize) {
   ASSERT_TRUE(trainee.wait_until([](const Terminal& t) { return flat(t.screen()).find("force on") != std::string::npos; })) << trainee.picture();
   // Words of the beginning were broken between words, at 80 columns.
   EXPECT_NE(flat(trainee.terminal().all()).find("s stops your hand, S everybody's (pause), r resumes"), std::string::npos) << trainee.picture();
-  for (const std::size_t columns : kWidths) {
+  for (const std::size_t columns : widths(GetParam())) {
     trainee.resize(columns, 24);
     trainee.terminal().forget_wraps();
     const std::string wide = columns >= 120 ? "margin" : "";
     // A new picture at this width: the force bar stands there once more.
-    trainee.watch(700ms);
+    trainee.watch(400ms);
     ASSERT_TRUE(trainee.wait_until([&](const Terminal& t) {
       const auto rows = status_of(t, "trainee");
       return rows.size() == 2 && rows[0].size() < columns && rows[1].size() < columns && flat(rows).find("leads") != std::string::npos && flat(rows).find(wide) != std::string::npos;
@@ -105,18 +107,18 @@ TEST_P(Screens, AServerShowsItsSessionWholeAtEveryWidth) {
   EXPECT_TRUE(host.terminal().wraps().empty()) << host.terminal().wraps().front();
   Process trainer = client(address, "trainer", {"--quiet"}), trainee = client(address, "trainee", {"--quiet"});
   ASSERT_TRUE(host.wait_until([](const Terminal& t) { return flat(t.screen()).find("trainer leads 100 %") != std::string::npos; })) << host.picture();
-  for (const std::size_t columns : kWidths) {
+  for (const std::size_t columns : widths(GetParam())) {
     host.resize(columns, 24);
     host.terminal().forget_wraps();
-    host.watch(700ms);
+    host.watch(400ms);
+    // Soon there is one picture of this width, and nothing of the one before.
     ASSERT_TRUE(host.wait_until([&](const Terminal& t) {
-      const std::string now = flat(t.screen());
-      return now.find("trainee: force on") != std::string::npos && t.wraps().empty();
-    })) << columns << host.picture();
-    const auto rows = host.terminal().screen();
-    EXPECT_EQ(std::ranges::count_if(rows, [](const std::string& row) { return row.find(" running | ") != std::string::npos; }), 1) << columns << host.picture();
-    EXPECT_EQ(std::ranges::count_if(rows, [](const std::string& row) { return row.starts_with("trainer: "); }), 1) << columns << host.picture();
-    EXPECT_LT(rows.back().size(), columns);
+      const auto rows = t.screen();
+      const auto count = [&](const auto& is) { return std::ranges::count_if(rows, is); };
+      return t.wraps().empty() && count([](const std::string& row) { return row.find(" running | ") != std::string::npos; }) == 1 &&
+             count([](const std::string& row) { return row.starts_with("trainer: ") && row.find("trainee: force on") != std::string::npos; }) == 1 &&
+             count([](const std::string& row) { return row.find("trainee: force on") != std::string::npos; }) == 1 && rows.back().starts_with("trainer: ") && rows.back().size() < columns;
+    }, 10s)) << columns << host.picture();
   }
   host.signal(SIGINT);
   EXPECT_EQ(host.wait(), 0) << host.picture();
@@ -166,9 +168,9 @@ TEST(Announced, AResumeARemovalAndADrainAtEverySeat) {
   EXPECT_EQ(remove.wait(), 0) << remove.err();
   EXPECT_TRUE(trainer.wait_for("trainee is REMOVED by local (operator), the hand is released within 0.2 s: pushes the others")) << trainer.picture();
   EXPECT_EQ(trainee.wait(), 1);
-  Process drain({TANDEM_CLIENT, "control", "--server", address, "drain", "3s"});
-  EXPECT_TRUE(trainer.wait_for("the server DRAINS: all hands are let go in 3 s; ordered by local (operator)")) << trainer.picture();
-  EXPECT_TRUE(trainer.wait_for("DRAINING: 2 s left")) << trainer.picture();
+  Process drain({TANDEM_CLIENT, "control", "--server", address, "drain", "2s"});
+  EXPECT_TRUE(trainer.wait_for("the server DRAINS: all hands are let go in 2 s; ordered by local (operator)")) << trainer.picture();
+  EXPECT_TRUE(trainer.wait_for("DRAINING: 1 s left")) << trainer.picture();
   EXPECT_EQ(drain.wait(), 0) << drain.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.picture();
   EXPECT_EQ(host.wait(), 0) << host.err();
@@ -194,16 +196,16 @@ TEST(Held, SaysWhyAtTheSeatThatIsLeft) {
 TEST(Proxy, ShowsWholeColumnsAtEveryWidth) {
   TerminalProcess proxy({TANDEM_NETSIM, "proxy", "--to", "127.0.0.1:9", "--listen", "127.0.0.1:0"}, 80, 24);
   ASSERT_TRUE(proxy.wait_for("(a command; `help`)")) << proxy.picture();
-  for (const std::size_t columns : kWidths) {
+  for (const std::size_t columns : {200u, 60u, 80u}) {
     proxy.resize(columns, 24);
     proxy.terminal().forget_wraps();
-    proxy.watch(900ms);
-    const auto rows = proxy.terminal().screen();
-    EXPECT_TRUE(proxy.terminal().wraps().empty()) << proxy.picture();
-    EXPECT_EQ(std::ranges::count_if(rows, [](const std::string& row) { return row.find("0 clients") != std::string::npos; }), 1) << columns << proxy.picture();
-    const auto heading = std::ranges::find_if(rows, [](const std::string& row) { return row.starts_with("  n address"); });
-    ASSERT_NE(heading, rows.end()) << proxy.picture();
-    EXPECT_EQ(heading->find("flight") != std::string::npos, columns >= 80) << *heading;
+    proxy.watch(600ms);
+    ASSERT_TRUE(proxy.wait_until([&](const Terminal& t) {
+      const auto rows = t.screen();
+      const auto heading = std::ranges::find_if(rows, [](const std::string& row) { return row.starts_with("  n address"); });
+      return t.wraps().empty() && heading != rows.end() && (heading->find("flight") != std::string::npos) == (columns >= 80) &&
+             std::ranges::count_if(rows, [](const std::string& row) { return row.find("0 clients") != std::string::npos; }) == 1;
+    }, 10s)) << columns << proxy.picture();
   }
   proxy.type("help\n");
   ASSERT_TRUE(proxy.wait_for("ends the proxy")) << proxy.picture();
