@@ -39,13 +39,15 @@ TEST(Attendance, KnowsWhoLeftFromWhoWasLost) {
   left.leave(1);
   EXPECT_FALSE(left.after(9s).all_left);
   const Attendance::News both = left.after(2s);
-  EXPECT_TRUE(both.all_lost);
   EXPECT_TRUE(both.all_left) << "a session without an end is over, and well";
+  EXPECT_FALSE(both.all_lost) << "a scene with an end waits for them for 60 s";
+  EXPECT_TRUE(left.after(50s).all_lost);
 
   Running lost;
   lost.leave(0);
   lost.fall_silent(1);
-  const Attendance::News one = lost.after(11s);
+  EXPECT_FALSE(lost.after(59s).all_lost) << "clients try for as long to come back";
+  const Attendance::News one = lost.after(2s);
   EXPECT_TRUE(one.all_lost);
   EXPECT_FALSE(one.all_left) << "the trainee did not leave: its link or program failed";
 }
