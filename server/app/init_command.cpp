@@ -22,12 +22,22 @@ int init_command(const std::string& state) {
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
+int renew_ticket_key(const std::string& state) {
+  const auto path = trust::server_state_path(state);
+  if (!path) return wrong("init", {path.error()});
+  if (const std::string problem = trust::ServerTrust::renew_ticket_key(*path, trust::wall_seconds()); !problem.empty()) return trouble("init", problem);
+  std::printf("state folder %s\nnew ticket key: every ticket given out before is void; workstations and codes stay\n", path->c_str());
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 void add_init_command(CLI::App& root, std::function<int()>& action) {
   const auto state = std::make_shared<std::string>();
   CLI::App* const command = root.add_subcommand("init", "Makes a server's keys and empty books, once; needed before it may listen on a network.");
   add_state_option(*command, *state);
+  const auto tickets = std::make_shared<bool>(false);
+  command->add_flag("--new-ticket-key", *tickets, "replaces only the key that signs tickets, in a folder that was set up: every ticket given out before is void; no server may run from it");
   command->footer(
       "The folder gets mode 0700, its files 0600; whoever can read them can be this server. Run it as the user the server runs as.\n"
       "Prints the SHA-256 of the server's key, by which workstations know it.\n"
@@ -35,7 +45,7 @@ void add_init_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-server init\n"
       "  tandem-server init --state ./state");
-  command->callback([state, &action] { action = [state] { return init_command(*state); }; });
+  command->callback([state, tickets, &action] { action = [state, tickets] { return *tickets ? renew_ticket_key(*state) : init_command(*state); }; });
 }
 
 }  // namespace tandem::server

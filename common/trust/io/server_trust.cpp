@@ -28,6 +28,8 @@ bool half_made(const StateFolder& folder, const char* key, const char* audit, co
   return book && (!*book || parse_workstations(text_of((*book)->bytes()), workstations).value_or(std::vector<WorkstationRow>(1)).empty());
 }
 
+TicketKey random_ticket_key() { return TicketKey(Secret<32>(std::span<const std::byte, 32>(random_bytes<std::array<std::byte, 32>>()))); }
+
 }  // namespace
 
 std::expected<Pin, std::string> ServerTrust::init(const std::string& path, std::int64_t now) {
@@ -42,7 +44,7 @@ std::expected<Pin, std::string> ServerTrust::init(const std::string& path, std::
                                                      "to begin anew all the same, delete the folder");
   const auto serial = random_bytes<std::array<std::byte, 16>>();
   const Identity identity = Identity::make("tandem server", serial, now);
-  const TicketKey ticket_key(Secret<32>(std::span<const std::byte, 32>(random_bytes<std::array<std::byte, 32>>())));
+  const TicketKey ticket_key = random_ticket_key();
   const auto write = [&folder](const char* name, auto&& bytes) { return folder->replace(name, bytes); };
   // The key last: with it the folder counts as set up.
   std::string problem = write(kTicketKeyFile, ticket_key.to_text().bytes());
@@ -52,6 +54,15 @@ std::expected<Pin, std::string> ServerTrust::init(const std::string& path, std::
   if (problem.empty()) problem = write(kKeyFile, identity.key.to_pem().bytes());
   if (!problem.empty()) return std::unexpected(std::move(problem));
   return identity.pin();
+}
+
+std::string ServerTrust::renew_ticket_key(const std::string& path, std::int64_t now) {
+  auto trust = open(path);
+  if (!trust) return trust.error();
+  // A server that runs holds the old key in memory, and its used tickets.
+  if (std::string problem = trust->begin_serving(now); !problem.empty()) return problem;
+  if (std::string problem = trust->folder_->replace(kTicketKeyFile, random_ticket_key().to_text().bytes()); !problem.empty()) return problem;
+  return trust->audit(now, "ticket_key_renewed", "");
 }
 
 std::expected<ServerTrust, std::string> ServerTrust::open(const std::string& path) {

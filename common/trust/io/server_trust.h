@@ -38,6 +38,9 @@ class ServerTrust {
 
   /// Makes keys and empty books in a folder that has none yet. @return the server's pin
   [[nodiscard]] static std::expected<Pin, std::string> init(const std::string& path, std::int64_t now);
+  /// Replaces the key that signs tickets: every ticket given out before is void. Keys, workstations and codes
+  /// stay. @return what is wrong, such as a server that runs from the folder
+  [[nodiscard]] static std::string renew_ticket_key(const std::string& path, std::int64_t now);
   /// Reads a folder that `init` made.
   [[nodiscard]] static std::expected<ServerTrust, std::string> open(const std::string& path);
   /// Everything that is wrong with such a folder, each with its remedy; empty: `open` and `begin_serving` would succeed, if no other
