@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "common/base/format.h"
-#include "hal/driver_guard.h"
 #include "hal/port_map.h"
 
 namespace tandem::client {
@@ -22,8 +21,8 @@ std::int32_t difference(std::int32_t a, std::int32_t b) noexcept {
 
 }  // namespace
 
-MotorCheck::MotorCheck(const hal::DeviceCaps& caps, Time begin) noexcept
-    : motors_(std::min(caps.joints, kAxesMax)), peak_(hal::peak_of(caps)), since_(begin) {
+MotorCheck::MotorCheck(std::size_t joints, double peak, Time begin) noexcept
+    : motors_(std::min(joints, kAxesMax)), peak_(peak), since_(begin) {
   if (motors_ == 0 || !(peak_ > 0)) phase_ = Phase::kOver;
 }
 

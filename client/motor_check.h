@@ -40,7 +40,9 @@ class MotorCheck {
     std::array<int, 2> moved{};    ///< counts along the pulse, of the last pair: towards larger angles, towards smaller
   };
 
-  MotorCheck(const hal::DeviceCaps& caps, Time begin) noexcept;
+  /// @param joints  of the device, a motor each
+  /// @param peak    force at the tip that shares are of [N]; 0: unknown, and there is nothing to do
+  MotorCheck(std::size_t joints, double peak, Time begin) noexcept;
 
   /// @return joint effort for this moment [N m] or [N]
   [[nodiscard]] AxisArray step(Time now, const hal::State& state) noexcept TANDEM_REALTIME;

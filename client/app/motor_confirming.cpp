@@ -32,7 +32,7 @@ int fail(const std::string& why, int code = kTrouble) {
 /// Lets the check order pulses from the device's thread, from `begin` to `end`.
 class Pulser final : public hal::ServoClient {
  public:
-  explicit Pulser(const hal::DeviceCaps& caps) : check_(caps, io::monotonic_now()) {}
+  explicit Pulser(const hal::DeviceCaps& caps) : check_(caps.joints, hal::peak_of(caps), io::monotonic_now()) {}
 
   hal::Command tick(const hal::State& state) noexcept override {
     if (ended_.load(std::memory_order_acquire)) return {};

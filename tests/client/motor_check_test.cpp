@@ -79,7 +79,7 @@ struct Board {
 };
 
 struct Pulser final : hal::ServoClient {
-  Pulser(const hal::DeviceCaps& caps, test::WireTime& t) : time(t), check(caps, t.now()) {}
+  Pulser(const hal::DeviceCaps& caps, test::WireTime& t) : time(t), check(caps.joints, hal::peak_of(caps), t.now()) {}
   hal::Command tick(const hal::State& state) noexcept override {
     return {++seq, time.now() + 5ms, hal::CommandKind::kJointEffort, check.step(time.now(), state)};
   }
@@ -253,7 +253,7 @@ TEST(MotorCheck, EndsWhenTheOriginIsLost) {
 
 TEST(MotorCheck, TakesNoHeapWhileItRuns) {
   Board board(arm(), arm(), {}, false);
-  MotorCheck check(board.core->caps(), board.time.now());
+  MotorCheck check(3, hal::peak_of(board.core->caps()), board.time.now());
   hal::State state = board.core->state();
   const test::AllocGuard guard;
   for (int i = 0; i < 2000; ++i) (void)check.step(board.time.now() + i * 1ms, state);

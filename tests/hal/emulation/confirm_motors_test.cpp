@@ -1,6 +1,7 @@
 // `tandem-client doctor --confirm-motors` as a person types it, against an emulated board behind the real hidapi: no force before, force
 // after, none with another file, none of a reversed motor.
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
@@ -89,8 +90,8 @@ class ConfirmMotors : public testing::Test {
     constexpr std::uint64_t kListens = 50;
     constexpr int kSteps = 400;
     const std::uint64_t before = node->with_model([&] { return model->host_reports(); });
-    while (!stop.stop_requested() && node->with_model([&] { return model->host_reports(); }) < before + kListens) std::this_thread::sleep_for(1ms);
-    for (int i = 1; i <= kSteps && !stop.stop_requested(); ++i, std::this_thread::sleep_for(1ms))
+    while (!stop.stop_requested() && node->with_model([&] { return model->host_reports(); }) < before + kListens) (void)::poll(nullptr, 0, 1);
+    for (int i = 1; i <= kSteps && !stop.stop_requested(); ++i, (void)::poll(nullptr, 0, 1))
       node->with_model([&] { model->place(start * (1 - static_cast<double>(i) / kSteps)); });
     node->with_model([&] { model->let_go(); });
   }
@@ -120,7 +121,7 @@ class ConfirmMotors : public testing::Test {
     (*held)->observe(pusher);
     EXPECT_TRUE((*held)->device().enable());
     double most = 0;
-    for (const Time end = io::monotonic_now() + 400ms; io::monotonic_now() < end; std::this_thread::sleep_for(1ms))
+    for (const Time end = io::monotonic_now() + 400ms; io::monotonic_now() < end; (void)::poll(nullptr, 0, 1))
       most = std::max(most, node->with_model([&] { return model->motor_effort().norm(); }));
     (*held)->device().close();
     return std::max(most, pusher.given.load());
@@ -171,7 +172,7 @@ TEST_F(ConfirmMotors, ASignalEndsItWithZerosAndConfirmsNothing) {
   plug(3);
   std::jthread impatient([&](const std::stop_token& stop) {
     // As soon as a motor was given current.
-    while (!stop.stop_requested() && node->with_model([&] { return model->motor_effort().norm(); }) == 0) std::this_thread::sleep_for(1ms);
+    while (!stop.stop_requested() && node->with_model([&] { return model->motor_effort().norm(); }) == 0) (void)::poll(nullptr, 0, 1);
     ::kill(::getpid(), SIGINT);
   });
   EXPECT_EQ(doctor("yes\n"), 1);
