@@ -200,10 +200,7 @@ std::vector<CaptionedFigure> figures_of(const RunPlan& plan, const TraceData& tr
 
 std::string figures_html(const RunPlan& plan, const TraceData& trace) {
   std::string html;
-  for (const CaptionedFigure& f : figures_of(plan, trace)) {
-    html += "<figure id=\"" + std::string(plan.name) + "-" + f.anchor + "\">\n<h4>" + escaped(f.title) + "</h4>\n" +
-            to_svg(f.figure) + "<figcaption>" + escaped(f.caption) + "</figcaption>\n</figure>\n";
-  }
+  for (const CaptionedFigure& f : figures_of(plan, trace)) html += to_html(f, plan.name);
   return html;
 }
 

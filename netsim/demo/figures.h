@@ -3,19 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "netsim/demo/captioned_figure.h"
 #include "netsim/demo/run_numbers.h"
 #include "netsim/demo/trace_data.h"
-#include "netsim/plot/svg_plot.h"
 
 /// The paper's figures 6 to 12, drawn from a trace. Pure.
 namespace tandem::netsim::demo {
-
-struct CaptionedFigure {
-  std::string anchor;   ///< "fig7"
-  std::string title;    ///< "Figure 7: joint angles"
-  std::string caption;  ///< what to look at, in sentences
-  plot::Figure figure;
-};
 
 /// Free motion: 6 path, 7 joint angles, 8 exchanged torques and alpha, 9 energy of the flow sources.
 /// Contact: 10 path, 11 position and force along x, 12 energy of the flow sources.

@@ -7,7 +7,7 @@
 #include "netsim/demo/comparison.h"
 #include "netsim/demo/run_numbers.h"
 
-/// report.html: one file, no network, no script. Pure.
+/// report.html: one file that asks nothing of any network. Its script only moves the animation. Pure.
 namespace tandem::netsim::demo {
 
 /// Where and when the runs were made.

@@ -26,8 +26,24 @@ td.limit { color: var(--soft); text-align: left; padding-left: 0; font-size: 13p
 td.paper { font-weight: 600; } .met { color: var(--met); } .missed { color: var(--missed); font-weight: 700; } sup { line-height: 0; }
 table.facts { width: auto; } table.facts td { text-align: right; } table.facts td:first-child { text-align: left; }
 ol.notes { list-style: lower-alpha; padding-left: 26px; color: var(--soft); font-size: 14px; max-width: 118ch; } ol.notes li { margin: 3px 0; }
+.headline { font-size: 21px; line-height: 1.35; margin: 6px 0 14px; } ul.missed { margin: 0 0 14px; padding-left: 22px; }
+.first { display: flex; flex-wrap: wrap; gap: 20px 36px; align-items: flex-start; } .numbers { flex: 1 1 260px; display: grid; gap: 16px; }
+.number { display: grid; border-left: 4px solid var(--trainer); padding: 2px 0 2px 14px; } .number b { font-size: 34px; line-height: 1.15; }
+svg.setup { flex: 1 1 370px; max-width: 560px; } .player { max-width: 900px; } .player canvas, .player input { width: 100%; display: block; }
+.player canvas { background: var(--panel); border-radius: 6px; } .player input { margin: 12px 0 4px; height: 28px; }
+.player button, .player select { font: inherit; padding: 4px 10px; max-width: 100%; } #player-text { font-variant-numeric: tabular-nums; min-height: 3em; }
+details { border-top: 1px solid var(--rule); padding: 10px 0; } summary { font-size: 17px; font-weight: 600; cursor: pointer; padding: 4px 0; }
+.narrow { display: none; } h4 { margin-top: 22px; }
 figure { margin: 22px 0 30px; break-inside: avoid; } figcaption, p.facts, p.soft { max-width: 118ch; }
-@media print { :root { color-scheme: light; } body { padding: 0; max-width: none; font-size: 11pt; } nav { display: none; } h3 { break-before: page; }
+@media (max-width: 640px) { body { padding: 18px 14px 48px; } h1 { font-size: 25px; } .wide { display: none; } .narrow { display: block; }
+  .headline { font-size: 19px; } pre { white-space: pre-wrap; overflow-wrap: anywhere; } code { overflow-wrap: anywhere; }
+  table.comparison, .comparison tbody { display: block; } .comparison thead, .comparison td.none, .comparison td.none[data-label], .comparison .none + .limit { display: none; }
+  .comparison tr { display: grid; grid-template-columns: 1fr auto auto; gap: 0 8px; padding: 8px 0; border-bottom: 1px solid var(--grid); }
+  .comparison td, .comparison tr.section th { border: 0; padding: 1px 0; white-space: normal; }
+  .comparison tr:not(.section) td:first-child { grid-column: 1 / 3; font-weight: 600; } .comparison td[data-label]:not(.none) { grid-column: 1 / 3; display: flex; justify-content: space-between; padding: 1px 0; }
+  .comparison td[data-label]::before { content: attr(data-label); color: var(--soft); } .comparison td.limit { grid-column: 3; min-width: 86px; }
+  .comparison td.paper { grid-column: 1 / 3; } table.facts td, table.facts th { white-space: normal; padding: 3px 5px; } }
+@media print { :root { color-scheme: light; } body { padding: 0; max-width: none; font-size: 11pt; } nav { display: none; } .player { display: none; }
   .scroll { overflow: visible; } table { font-size: 8pt; } th, td { padding: 1px 4px; } a { color: inherit; text-decoration: none; } pre { white-space: pre-wrap; } }
 )css";
 

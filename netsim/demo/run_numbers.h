@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "netsim/plot/svg_plot.h"
+
 /// The six runs of the demo and the numbers that come out of each. Pure data.
 namespace tandem::netsim::demo {
 
@@ -89,6 +91,24 @@ struct Springs {
   [[nodiscard]] double series() const noexcept { return 1 / (1 / device + 1 / channel + 1 / slave); }
 };
 
+/// Curves of one run for the overlay of the settings (overlay.h), thinned.
+using OverlaySeries = std::vector<std::vector<plot::Point2>>;
+
+/// What the network did to the trainer's datagrams; [0] to the server, [1] from it. Empty: not recorded.
+struct NetworkSeries {
+  std::array<std::vector<plot::Point2>, 2> delay;  ///< session time [s], delay [ms]
+  std::array<std::vector<plot::Band>, 2> lost;     ///< spans of session time [s]
+};
+
+/// The tips and forces of one run for its animation (animation.h).
+struct MotionFrames {
+  static constexpr double kRate = 50;  ///< frames per second of session time [1/s]
+  /// One value per frame, in this order: tip of trainer, trainee, slave (x, y, z each, [0.1 mm]), force on the trainer's
+  /// and on the trainee's hand (norm, [10 mN]), authority of the trainer [0.01].
+  static constexpr std::size_t kValues = 12;
+  std::vector<std::array<int, kValues>> frames;
+};
+
 /// A finished run.
 struct RunResult {
   const RunPlan* plan = nullptr;
@@ -97,6 +117,9 @@ struct RunResult {
   Springs springs;
   std::vector<std::string> commands;  ///< that repeat it
   std::string figures_html;           ///< drawn from its trace
+  OverlaySeries overlay;
+  NetworkSeries network;
+  MotionFrames motion;
 };
 
 }  // namespace tandem::netsim::demo

@@ -27,6 +27,8 @@ svg .line { fill: none; stroke-linejoin: round; stroke-linecap: butt; stroke-wid
 svg .slave { stroke: var(--slave); stroke-width: 4.2; stroke-opacity: .75; } svg .trainer { stroke: var(--trainer); }
 svg .trainee { stroke: var(--trainee); stroke-dasharray: 6 2.5; } svg .alpha, svg .first { stroke: var(--trainer); }
 svg .second { stroke: var(--trainee); stroke-dasharray: 7 3; } svg .third { stroke: var(--third); stroke-dasharray: 2.5 2.5; stroke-width: 2; }
+svg .box { fill: var(--panel); stroke: var(--rule); } svg .cloud { stroke-dasharray: 4 3; } svg .wall { fill: var(--grid); stroke: var(--soft); }
+svg .wire { stroke: var(--soft); } svg .tip.trainer { fill: var(--trainer); } svg .tip.trainee { fill: var(--trainee); } svg .tip.slave { fill: var(--slave); }
 svg .rug { fill: var(--missed); } svg .up { stroke: var(--trainer); stroke-width: 1.1; } svg .down { stroke: var(--trainee); stroke-width: 1.1; }
 )css";
 

@@ -11,6 +11,8 @@ namespace tandem::netsim::plot {
 namespace {
 
 constexpr double kLeft = 62, kRight = 14, kTitle = 20, kTop = 8, kTickRow = 18, kLabelRow = 18, kLegend = 26;
+constexpr double kMarkRow = 14,
+                 kCharacter = 6.2;  // height of a row of names above a panel; width of a character of one
 
 /// Where a panel's plot area stands and what it shows.
 struct Frame {
@@ -41,11 +43,18 @@ void line(std::ostream& out, double x1, double y1, double x2, double y2, std::st
       << "\" y2=\"" << px_text(y2) << "\"/>";
 }
 
+/// Characters of UTF-8 text; all of ours are one column wide.
+double characters(std::string_view text) {
+  return static_cast<double>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
 void draw_curve(std::ostream& out, const Frame& f, const Curve& curve) {
+  // More than two points per pixel cannot be seen.
+  const auto most = std::clamp<std::size_t>(static_cast<std::size_t>(2 * f.width), 4, kCurvePointsMax);
   std::vector<Point2> at;
   at.reserve(curve.points.size());
   for (const Point2& p : curve.points) at.push_back({f.px(p.x), f.py(p.y)});
-  at = curve.path ? downsample_path(at, 1.0, kCurvePointsMax) : downsample_extremes(at, kCurvePointsMax);
+  at = curve.path ? downsample_path(at, 1.0, most) : downsample_extremes(at, most);
   if (at.empty()) return;
   // Relative moves in tenths of a pixel, summed exactly so that rounding does not drift.
   const auto tenths = [](double v) { return std::llround(std::clamp(v, -1e6, 1e6) * 10); };
@@ -98,6 +107,39 @@ void draw_rug(std::ostream& out, const Frame& f, const std::vector<Band>& rug) {
   }
 }
 
+/// The name of a band or line above a panel: x from the panel's left edge, row 0 is the lowest.
+struct PlacedMark {
+  double x = 0;
+  std::size_t row = 0;
+  const std::string* label = nullptr;
+};
+
+/// Puts each name into the lowest row in which it covers no other one.
+std::vector<PlacedMark> placed_marks(const Frame& f, const Panel& panel) {
+  std::vector<PlacedMark> marks;
+  for (const Band& b : panel.bands) marks.push_back({std::clamp(f.px((b.from + b.to) / 2), 0.0, f.width), 0, &b.label});
+  for (const Line& v : panel.verticals) marks.push_back({f.px(v.at), 0, &v.label});
+  std::erase_if(marks, [](const PlacedMark& m) { return m.label->empty(); });
+  std::ranges::sort(marks, {}, &PlacedMark::x);
+  std::vector<double> row_ends;  // the title begins the lowest row
+  if (!panel.title.empty()) row_ends.push_back((characters(panel.title) + 2) * kCharacter);
+  for (PlacedMark& m : marks) {
+    const double half = characters(*m.label) * kCharacter / 2;
+    m.x = std::clamp(m.x, std::min(half - kLeft, f.width), std::max(f.width + kRight - half, 0.0));
+    while (m.row < row_ends.size() && row_ends[m.row] > m.x - half) ++m.row;
+    if (m.row == row_ends.size()) row_ends.push_back(0);
+    row_ends[m.row] = m.x + half + kCharacter;
+  }
+  return marks;
+}
+
+/// Height of what stands above a panel: its title, or the names of its bands and lines.
+double head_height(const Frame& f, const Panel& panel) {
+  std::size_t rows = panel.title.empty() ? 0 : 1;
+  for (const PlacedMark& m : placed_marks(f, panel)) rows = std::max(rows, m.row + 1);
+  return rows == 0 ? kTop : kTitle + kMarkRow * static_cast<double>(rows - 1);
+}
+
 void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_numbers) {
   if (!panel.title.empty()) text_at(out, f.left, f.top - 7, "title", panel.title);
   for (const Band& b : panel.bands) {
@@ -114,9 +156,8 @@ void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_nu
   for (const Curve& c : panel.curves) draw_curve(out, f, c);
   draw_rug(out, f, panel.rug);
   out << "</svg>";
-  for (const Band& b : panel.bands)
-    text_at(out, f.left + std::clamp(f.px((b.from + b.to) / 2), 0.0, f.width), f.top - 6, "note mid", b.label);
-  for (const Line& v : panel.verticals) text_at(out, f.left + f.px(v.at), f.top - 6, "note mid", v.label);
+  for (const PlacedMark& m : placed_marks(f, panel))
+    text_at(out, f.left + m.x, f.top - 6 - kMarkRow * static_cast<double>(m.row), "note mid", *m.label);
   for (const Line& h : panel.horizontals)
     text_at(out, f.left + f.width - 5, f.top + f.py(h.at) - 5, "note end", h.label);
   for (const Note& n : panel.notes) {
@@ -126,12 +167,6 @@ void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_nu
     const bool right = x < f.width * 0.7;
     text_at(out, f.left + x + (right ? 8 : -8), f.top + y + (y < 20 ? 14 : -6), right ? "note" : "note end", n.label);
   }
-}
-
-/// Names of bands and lines stand above the panel.
-bool has_marks(const Panel& panel) {
-  return std::ranges::any_of(panel.bands, [](const Band& b) { return !b.label.empty(); }) ||
-         std::ranges::any_of(panel.verticals, [](const Line& v) { return !v.label.empty(); });
 }
 
 /// Legend entries in the order they first appear: label and ink.
@@ -202,38 +237,43 @@ Range range_of(const std::vector<Curve>& curves, bool along_y, double span_min) 
   return widened({lo - margin, hi + margin}, least);
 }
 
-std::string to_svg(const Figure& figure) {
-  const std::size_t columns = std::max<std::size_t>(1, figure.columns);
-  const std::vector<const Curve*> legend = legend_of(figure);
-  const double cell = kFigureWidth / static_cast<double>(columns);
+std::string to_svg(const Figure& figure, double width) {
+  const std::size_t columns = width < kTwoColumnsFrom ? 1 : std::max<std::size_t>(1, figure.columns);
+  const double cell = width / static_cast<double>(columns);
   std::ostringstream body;
 
-  double x = kLeft;
-  for (const Curve* entry : legend) {
-    body << "<path class=\"line " << entry->ink << "\" d=\"M" << px_text(x) << " 12h30\"/>";
-    text_at(body, x + 37, 16, "legend", entry->label);
-    x += 37 + 30 + 6.7 * static_cast<double>(entry->label.size());
+  double x = kLeft, top = 0;
+  for (const Curve* entry : legend_of(figure)) {
+    const double wide = 37 + 6.7 * characters(entry->label);
+    if (top == 0 || x + wide > width) {
+      x = top == 0 && width >= kTwoColumnsFrom ? kLeft : kRight;
+      top += kLegend;
+    }
+    body << "<path class=\"line " << entry->ink << "\" d=\"M" << px_text(x) << ' ' << px_text(top - 14) << "h30\"/>";
+    text_at(body, x + 37, top - 10, "legend", entry->label);
+    x += wide + 30;
   }
-  double top = legend.empty() ? 0 : kLegend;
   for (std::size_t first = 0; first < figure.panels.size(); first += columns) {
     const std::size_t end = std::min(first + columns, figure.panels.size());
-    bool titled = false, numbered = false;
-    double height = 0;
+    std::vector<Frame> frames;
+    bool numbered = false;
+    double head = 0, height = 0;
     for (std::size_t i = first; i < end; ++i) {
-      titled = titled || !figure.panels[i].title.empty() || has_marks(figure.panels[i]);
-      numbered = numbered || !figure.panels[i].x_label.empty();
-      height = std::max(height, figure.panels[i].height);
+      const Panel& panel = figure.panels[i];
+      frames.push_back(frame_of(panel, cell * static_cast<double>(i - first) + kLeft, 0, cell - kLeft - kRight));
+      head = std::max(head, head_height(frames.back(), panel));
+      numbered = numbered || !panel.x_label.empty();
+      height = std::max(height, panel.height);
     }
-    top += titled ? kTitle : kTop;
+    top += head;
     for (std::size_t i = first; i < end; ++i) {
-      const double left = cell * static_cast<double>(i - first) + kLeft;
-      draw_panel(body, frame_of(figure.panels[i], left, top, cell - kLeft - kRight), figure.panels[i],
-                 !figure.panels[i].x_label.empty());
+      frames[i - first].top = top;
+      draw_panel(body, frames[i - first], figure.panels[i], !figure.panels[i].x_label.empty());
     }
     top += height + (numbered ? kTickRow + kLabelRow : kTop);
   }
   std::ostringstream out;
-  out << "<svg class=\"figure\" viewBox=\"0 0 " << px_text(kFigureWidth) << ' ' << px_text(top + 4)
+  out << "<svg class=\"figure\" viewBox=\"0 0 " << px_text(width) << ' ' << px_text(top + 4)
       << "\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\"><title>" << escaped(figure.description) << "</title>"
       << body.str() << "</svg>\n";
   return out.str();

@@ -56,10 +56,13 @@ struct Figure {
 };
 
 inline constexpr double kFigureWidth = 1080;          ///< of the drawing [px]; the page scales it
+inline constexpr double kNarrowWidth = 372;           ///< the same for a screen of 400 px, where scaled text is too small
+inline constexpr double kTwoColumnsFrom = 600;        ///< narrower figures have one column of panels
 inline constexpr std::size_t kCurvePointsMax = 1000;  ///< per curve
 
 /// The figure as one <svg> element.
-[[nodiscard]] std::string to_svg(const Figure& figure);
+/// @param width  of the drawing [px], at least 200
+[[nodiscard]] std::string to_svg(const Figure& figure, double width = kFigureWidth);
 
 /// The same as a file of its own, with its style sheet and a background.
 [[nodiscard]] std::string to_svg_file(const Figure& figure);

@@ -197,15 +197,32 @@ TEST(NetsimSwarm, OfOneSessionItTellsTheNetworkAndClocks) {
 
 TEST(Demo, ComparesAndWritesAReportInVirtualTime) {
   const Folder folder;
-  Process demo({TANDEM_DEMO, "--quick", "--runs", "contact", "--out", folder.file("out")});
+  Process demo({TANDEM_DEMO, "--quick", "--runs", "contact_bad", "--out", folder.file("out")});
   ASSERT_EQ(demo.wait(), 0) << demo.err();
   EXPECT_NE(demo.out().find("rendered stiffness"), std::string::npos);
   EXPECT_NE(demo.out().find("file://"), std::string::npos);
   const std::string page = folder.read("out/report.html");
   EXPECT_GT(std::count(page.begin(), page.end(), '<'), 500);
-  for (const char* part : {"<svg", "Figure 10", "Figure 11", "Figure 12", "</html>"})
+  for (const char* part : {"<svg", "Figure 10", "Figure 11", "Figure 12", "bad network, to the server: delay", "</html>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("http://") == std::string::npos || page.find("src=\"http") == std::string::npos, true) << "not self-contained";
+
+  // The printed command, as it stands, gives the same trace.
+  const std::size_t begin = page.find("<pre>") + 5;
+  const std::string command = page.substr(begin, page.find("</pre>", begin) - begin);
+  Process again({"/bin/sh", "-c", "cd '" + folder.file("") + "' && " + command});
+  ASSERT_EQ(again.wait(), 0) << command << again.err();
+  EXPECT_EQ(folder.read("contact_bad.csv"), folder.read("out/contact_bad.csv"));
+  EXPECT_GT(folder.read("contact_bad.csv").size(), 1'000'000u);
+}
+
+TEST(Demo, AnimationShowsTheTraceAtTheSlidersTime) {
+  const Folder folder;
+  Process demo({TANDEM_DEMO, "--quick", "--runs", "contact", "--out", folder.file("out")});
+  ASSERT_EQ(demo.wait(), 0) << demo.err();
+  Process node({"/usr/bin/env", "node", TANDEM_ANIMATION_CHECK, folder.file("out/report.html"), folder.file("out/contact.csv")});
+  EXPECT_EQ(node.wait(), 0) << node.out() << node.err();
+  EXPECT_NE(node.out().find("checked "), std::string::npos) << node.out();
 }
 
 }  // namespace

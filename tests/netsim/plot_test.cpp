@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "netsim/plot/downsample.h"
 #include "netsim/plot/svg_plot.h"
@@ -106,6 +108,54 @@ TEST(SvgPlot, DrawsEveryCurveWithUnitsAndEscapedText) {
   EXPECT_EQ(count("<svg"), count("</svg>"));
   EXPECT_EQ(count("nan"), 0u);
   EXPECT_EQ(to_svg(figure), svg) << "same numbers, same bytes";
+}
+
+/// Places of the texts of a class: x of their middle, y, and the text.
+struct PlacedText {
+  double x = 0, y = 0;
+  std::string text;
+};
+std::vector<PlacedText> texts_of(const std::string& svg, const std::string& kind) {
+  std::vector<PlacedText> found;
+  const std::string begin = "<text class=\"" + kind + "\" x=\"";
+  for (std::size_t at = svg.find(begin); at != std::string::npos; at = svg.find(begin, at + 1)) {
+    PlacedText t;
+    t.x = std::stod(svg.substr(at + begin.size()));
+    t.y = std::stod(svg.substr(svg.find("y=\"", at) + 3));
+    const std::size_t open = svg.find('>', at) + 1;
+    t.text = svg.substr(open, svg.find('<', open) - open);
+    found.push_back(t);
+  }
+  return found;
+}
+
+TEST(SvgPlot, OfANarrowScreenHasOneColumnAndNoTextOverAnother) {
+  Panel panel{.title = "one", .x_label = "time [s]", .y_label = "x [mm]"};
+  panel.curves = {{"a legend entry that is long", "slave", {{0, 0}, {18, 5}}},
+                  {"another one that is long", "trainer", {{0, 1}, {18, 4}}}};
+  panel.bands = {{7, 8.5, "trainee pushes"}, {14, 15.5, "trainer pushes"}};
+  panel.verticals = {{11.5, "α moves"}};
+  const Figure figure{"narrow", 3, {panel, panel, panel}};
+  const std::string narrow = to_svg(figure, kNarrowWidth), wide = to_svg(figure);
+  EXPECT_NE(narrow.find("viewBox=\"0 0 372 "), std::string::npos);
+  std::vector<double> columns;
+  for (const PlacedText& t : texts_of(narrow, "label mid"))
+    if (t.text == "time [s]") columns.push_back(t.x);
+  EXPECT_EQ(columns, std::vector<double>(3, columns.at(0))) << "one below the other";
+  for (const std::string& svg : {narrow, wide}) {
+    const auto marks = texts_of(svg, "note mid");
+    ASSERT_EQ(marks.size(), 9u);
+    for (std::size_t a = 0; a < marks.size(); ++a)
+      for (std::size_t b = a + 1; b < marks.size(); ++b) {
+        if (std::abs(marks[a].y - marks[b].y) > 10) continue;
+        const double apart = std::abs(marks[a].x - marks[b].x);
+        EXPECT_GE(apart, 6.2 * static_cast<double>(marks[a].text.size() + marks[b].text.size() - 2) / 2)
+            << marks[a].text << " and " << marks[b].text;
+      }
+  }
+  const auto legend = texts_of(narrow, "legend");
+  ASSERT_EQ(legend.size(), 2u);
+  EXPECT_LT(legend[0].y, legend[1].y) << "both do not fit into one row";
 }
 
 TEST(SvgPlot, SurvivesCurvesWithoutPointsAndWithoutHeight) {

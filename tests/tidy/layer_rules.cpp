@@ -328,7 +328,7 @@ std::vector<Finding> check_top_level(const std::filesystem::path& root) {
   std::set<std::string> known{"CMakeLists.txt",
                               "CMakePresets.json",
                               "README.md",
-                              "ARCHITECTURE.md",
+                              "ARCHITECTURE.md", "CHANGELOG.md",
                               "LICENSE",
                               "SECURITY.md",
                               "demo",

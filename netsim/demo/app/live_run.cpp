@@ -7,8 +7,11 @@
 #include <thread>
 #include <utility>
 
+#include "netsim/decision_csv.h"
 #include "netsim/demo/app/child_process.h"
+#include "netsim/demo/app/network_series.h"
 #include "netsim/demo/app/progress.h"
+#include "netsim/demo/app/repeat_commands.h"
 
 namespace tandem::netsim::demo {
 namespace {
@@ -45,7 +48,7 @@ class Cast {
   std::string file(const std::string& ending) const {
     return (places_.output / (std::string(plan_.name) + ending)).string();
   }
-  bool start(const std::string& name, std::vector<std::string> arguments);
+  bool start(const std::string& name, const std::vector<std::string>& arguments);
   bool wait_for_address(std::size_t child, std::string& address);
   bool wait_for_end();
   bool blame(ChildProcess& child, const std::string& what);
@@ -55,19 +58,16 @@ class Cast {
   const LivePlaces& places_;
   const RunWatch& watch_;
   std::vector<ChildProcess> children_;  // server, netsim, trainer, trainee
-  std::vector<std::string> commands_;
   std::string trouble_;
 };
 
-bool Cast::start(const std::string& name, std::vector<std::string> arguments) {
+bool Cast::start(const std::string& name, const std::vector<std::string>& arguments) {
   auto child = ChildProcess::start(name, arguments, file("-" + name + ".log"));
   if (!child) {
     trouble_ = child.error();
     return false;
   }
   children_.push_back(std::move(*child));
-  arguments[0] = std::filesystem::path(arguments[0]).filename().string();
-  commands_.push_back(command_text(arguments));
   return true;
 }
 
@@ -126,7 +126,8 @@ std::expected<std::string, std::string> Cast::contents(const std::string& path) 
 std::expected<RawRun, std::string> Cast::play() {
   const std::string json = file(".json"), trace = file(".csv");
   std::error_code ignored;
-  for (const char* ending : {".json", ".csv", "-trainer.csv", "-trainee.csv", "-trainer.json", "-trainee.json"})
+  for (const char* ending :
+       {".json", ".csv", "-trainer.csv", "-trainee.csv", "-trainer.json", "-trainee.json", "-network.csv"})
     std::filesystem::remove(file(ending), ignored);
 
   std::string server, network;
@@ -134,12 +135,9 @@ std::expected<RawRun, std::string> Cast::play() {
                                "--json", json, "--trace", trace, "--wait", "20"}) &&
               wait_for_address(0, server);
   std::vector<std::string> proxy{program("tandem-netsim"), "proxy", "--listen", "127.0.0.1:0", "--to", server};
-  const std::vector<std::string> impairment =
-      plan_.setting == Setting::kBadNetwork
-          ? std::vector<std::string>{"--delay", "20", "--jitter", "5",
-                                     "--loss",  "5",  "--seed",   std::to_string(kSeedNumber)}
-          : std::vector<std::string>{"--profile", "ideal"};
+  const std::vector<std::string> impairment = impairment_options(plan_.setting);
   proxy.insert(proxy.end(), impairment.begin(), impairment.end());
+  if (plan_.setting == Setting::kBadNetwork) proxy.insert(proxy.end(), {"--log", file("-network.csv")});
   // Should we be killed, it ends by itself.
   proxy.insert(proxy.end(), {"--duration", "120"});
   fine = fine && start("netsim", proxy) && wait_for_address(1, network);
@@ -162,13 +160,20 @@ std::expected<RawRun, std::string> Cast::play() {
           "ended with exit code " + std::to_string(children_.front().exit_code().value_or(-1)) + " without a report");
     return std::unexpected(trouble_);
   }
-  RawRun run{*report, *rows, {}, {}, {}, {}, commands_};
+  RawRun run{*report, *rows, {}, {}, {}, {}, {}};
   for (const auto& [ending, into] :
        {std::pair{"-trainer.csv", &run.trainer}, std::pair{"-trainee.csv", &run.trainee},
         std::pair{"-trainer.json", &run.trainer_json}, std::pair{"-trainee.json", &run.trainee_json}}) {
     auto text = contents(file(ending));
     if (!text) return std::unexpected(text.error());
     *into = std::move(*text);
+  }
+  if (plan_.setting == Setting::kBadNetwork) {
+    const auto text = contents(file("-network.csv"));
+    if (!text) return std::unexpected(text.error());
+    const auto decisions = parse_decision_csv(*text, file("-network.csv"));
+    if (!decisions) return std::unexpected(to_text(decisions.error()));
+    run.network = network_series(*decisions, begin_of_session(*decisions, plan_.duration_s), plan_.duration_s);
   }
   return run;
 }

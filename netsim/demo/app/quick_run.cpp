@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <ctime>
+#include <optional>
 
 #include "common/link/digest.h"
+#include "netsim/demo/app/network_series.h"
 #include "netsim/world_report.h"
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
@@ -14,12 +16,8 @@ namespace {
 
 Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
 
-std::string command_of(const RunPlan& plan) {
-  std::string text = "tandem-netsim run " + std::string(plan.scene);
-  if (plan.setting == Setting::kBadNetwork) text += " --delay 20 --jitter 5 --loss 5 --seed 1";
-  const std::string name(plan.name);
-  return text + " --json " + name + ".json --trace " + name + ".csv";
-}
+/// Decisions of two seats, both ways, 1000 times a second, and room for the joining.
+constexpr double kDecisionsPerSecond = 5000, kJoining = 10;
 
 std::expected<SceneSpec, std::string> scene_of(const RunPlan& plan) {
   const ShippedScene* shipped = find_shipped_scene(plan.scene);
@@ -52,6 +50,10 @@ std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunWatch
   auto made = World::make(setup);
   if (!made) return std::unexpected(made.error());
   World& world = **made;
+  const bool bad = plan.setting == Setting::kBadNetwork;
+  DecisionLog decisions{bad ? static_cast<std::size_t>(kDecisionsPerSecond * (plan.duration_s + kJoining)) : 0};
+  if (bad) world.network().log_to(&decisions);
+  std::optional<Time> begun;
   server::ReportBuilder builder{world.scene()};
   const server::TraceCsv csv{world.scene()};
 
@@ -59,7 +61,10 @@ std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunWatch
   run.trace = csv.header();
   for (std::uint64_t n = 0; world.step(); ++n) {
     builder.add(world.record());
-    if (world.record().running) csv.append(world.record(), run.trace);
+    if (world.record().running) {
+      csv.append(world.record(), run.trace);
+      if (!begun) begun = world.now();
+    }
     if (n % 250 != 0) continue;
     if (watch.stop->load()) return std::unexpected(kInterrupted);
     watch.progress(world.session().time());
@@ -71,7 +76,7 @@ std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunWatch
   report.trace_hash = digest.hex();
   report.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   run.json = server::to_json(report);
-  run.commands = {command_of(plan)};
+  if (begun) run.network = network_series(decisions.rows(), *begun, plan.duration_s);
   return run;
 }
 

@@ -3,7 +3,8 @@
 #include <atomic>
 #include <functional>
 #include <string>
-#include <vector>
+
+#include "netsim/demo/run_numbers.h"
 
 namespace tandem::netsim::demo {
 
@@ -12,7 +13,7 @@ struct RawRun {
   std::string json, trace;                 ///< as the programs write them
   std::string trainer, trainee;            ///< traces of the workstations; empty in virtual time
   std::string trainer_json, trainee_json;  ///< their reports, likewise
-  std::vector<std::string> commands;       ///< that repeat it
+  NetworkSeries network;                   ///< of the bad network; empty otherwise
 };
 
 /// Told now and then how far a run is [s of session time]; set `stop` from a signal handler and the run ends soon.

@@ -5,20 +5,24 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <tuple>
 
+#include "netsim/demo/animation.h"
 #include "netsim/demo/app/joint_torques.h"
 #include "netsim/demo/app/live_run.h"
 #include "netsim/demo/app/machine.h"
 #include "netsim/demo/app/progress.h"
 #include "netsim/demo/app/quick_run.h"
 #include "netsim/demo/app/read_report.h"
+#include "netsim/demo/app/repeat_commands.h"
 #include "netsim/demo/comparison.h"
 #include "netsim/demo/figures.h"
 #include "netsim/demo/html_report.h"
 #include "netsim/demo/measure.h"
+#include "netsim/demo/overlay.h"
 #include "netsim/demo/text_table.h"
 
 namespace tandem::netsim::demo {
@@ -47,7 +51,7 @@ int trouble(const std::string& what) {
 std::vector<fs::path> files_of(const RunPlan& plan, const fs::path& folder) {
   std::vector<fs::path> files;
   for (const char* ending : {".json", ".csv", "-server.log", "-netsim.log", "-trainer.log", "-trainee.log",
-                             "-trainer.csv", "-trainee.csv", "-trainer.json", "-trainee.json"})
+                             "-trainer.csv", "-trainee.csv", "-trainer.json", "-trainee.json", "-network.csv"})
     files.push_back(folder / (std::string(plan.name) + ending));
   return files;
 }
@@ -60,7 +64,8 @@ bool write_file(const fs::path& path, const std::string& text) {
 }
 
 /// Report and trace of a run, read, measured and drawn.
-std::expected<RunResult, std::string> digest(const RunPlan& plan, const RawRun& raw) {
+std::expected<RunResult, std::string> digest(const RunPlan& plan, const RawRun& raw,
+                                             std::vector<std::string> commands) {
   auto report = read_report(raw.json);
   if (!report) return std::unexpected(report.error());
   auto trace = read_trace(raw.trace);
@@ -76,8 +81,15 @@ std::expected<RunResult, std::string> digest(const RunPlan& plan, const RawRun& 
   add_joint_torques(*trace);
   for (const std::string* client : {&raw.trainer_json, &raw.trainee_json})
     if (!client->empty()) report->late_ticks += read_late_ticks(*client);
-  return RunResult{&plan,        std::move(*report),        measure(plan, *trace), springs_of(plan),
-                   raw.commands, figures_html(plan, *trace)};
+  return RunResult{.plan = &plan,
+                   .report = std::move(*report),
+                   .trace = measure(plan, *trace),
+                   .springs = springs_of(plan),
+                   .commands = std::move(commands),
+                   .figures_html = figures_html(plan, *trace),
+                   .overlay = overlay_series(plan, *trace),
+                   .network = raw.network,
+                   .motion = motion_frames(*trace)};
 }
 
 struct Folders {
@@ -139,6 +151,9 @@ int show(const ShowPlan& plan) {
 
   Progress progress(plan.runs, plan.quick ? 60 : 1);
   const RunWatch watch{[&](double session_s) { progress.at(session_s); }, &stop};
+  const char* search_path = std::getenv("PATH");
+  const std::string prefix =
+      program_prefix(places.programs, fs::current_path(), search_path == nullptr ? "" : search_path);
   std::vector<RunResult> results;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const RunPlan& run = *plan.runs[k];
@@ -157,7 +172,7 @@ int show(const ShowPlan& plan) {
         !(write_file(folders->files / (std::string(run.name) + ".json"), raw->json) &&
           write_file(folders->files / (std::string(run.name) + ".csv"), raw->trace)))
       return trouble("report and trace cannot be written to " + folders->files.string());
-    auto result = digest(run, *raw);
+    auto result = digest(run, *raw, plan.quick ? virtual_commands(run, prefix) : real_commands(run, prefix));
     if (!result) {
       progress.clear();
       return trouble(title_of(run) + ": " + result.error());

@@ -1,0 +1,78 @@
+#include "netsim/demo/headline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "netsim/plot/ticks.h"
+
+namespace tandem::netsim::demo {
+namespace {
+
+constexpr double kPaperTracking = 8.2, kPaperForce = 0.35;  ///< [mm], [N] [Licona et al. 2019, section 5]
+
+const RunResult* find(std::span<const RunResult> runs, Task task, Setting setting) {
+  const auto found = std::ranges::find_if(
+      runs, [&](const RunResult& run) { return run.plan->task == task && run.plan->setting == setting; });
+  return found == runs.end() ? nullptr : &*found;
+}
+
+double tracking_mm(const RunResult& run) {
+  const PhaseNumbers* phase = run.report.phase("demonstration");
+  return phase == nullptr ? kUnknown : 1e3 * phase->trainer.tracking_m;
+}
+double force_error_n(const RunResult& run) { return run.trace.force_x_leader_n; }
+
+/// Adds the number of the defaults, or of the bad network where only that was run.
+void add(std::vector<KeyNumber>& numbers, std::span<const RunResult> runs, Task task, double (*read)(const RunResult&),
+         double paper, const char* unit, const char* what) {
+  const RunResult* defaults = find(runs, task, Setting::kDefaults);
+  const RunResult* bad = find(runs, task, Setting::kBadNetwork);
+  const RunResult* shown = defaults != nullptr ? defaults : bad;
+  if (shown == nullptr || !std::isfinite(read(*shown))) return;
+  const auto text = [&](double value) { return plot::significant_text(value, 2) + " " + unit; };
+  std::string beside = "paper " + text(paper);
+  if (defaults != nullptr && bad != nullptr && std::isfinite(read(*bad)))
+    beside += "; on the bad network " + text(read(*bad));
+  if (defaults == nullptr) beside += "; on the bad network";
+  numbers.push_back({text(read(*shown)), what, beside});
+}
+
+}  // namespace
+
+std::string_view name_of(Setting setting) noexcept {
+  constexpr std::array<std::string_view, kSettings> kNames{"the paper’s gains", "defaults", "bad network"};
+  return kNames[static_cast<std::size_t>(setting)];
+}
+
+Headline headline_of(std::span<const RunResult> runs, const Comparison& comparison) {
+  Headline headline;
+  std::size_t asked = 0;
+  for (const Section& section : comparison.sections)
+    for (const Row& row : section.rows)
+      for (std::size_t s = 0; s < kSettings; ++s) {
+        const Cell& cell = row.cells[s];
+        if (cell.mark == Mark::kNone) continue;
+        ++asked;
+        if (cell.mark == Mark::kMissed)
+          headline.missed.push_back(row.label + ", " + std::string(name_of(static_cast<Setting>(s))) + ": " +
+                                    cell.value + " " + row.unit + ", asked " + cell.limit);
+      }
+  const bool network =
+      std::ranges::any_of(runs, [](const RunResult& run) { return run.plan->setting == Setting::kBadNetwork; });
+  headline.sentence = std::string("Two people held one tool") + (network ? ", also over a bad network" : "") + ". ";
+  if (asked == 0) {
+    headline.sentence += "Nothing was asked of these runs.";
+  } else if (headline.missed.empty()) {
+    headline.sentence += "All " + std::to_string(asked) + " limits were kept.";
+  } else {
+    headline.sentence += std::to_string(headline.missed.size()) + " of " + std::to_string(asked) + " limits " +
+                         (headline.missed.size() == 1 ? "was" : "were") + " missed.";
+  }
+  add(headline.numbers, runs, Task::kFreeMotion, tracking_mm, kPaperTracking, "mm",
+      "between the leader’s hand and the slave in free motion (RMS)");
+  add(headline.numbers, runs, Task::kContact, force_error_n, kPaperForce, "N",
+      "between the force at the wall and the force the leader feels (RMS)");
+  return headline;
+}
+
+}  // namespace tandem::netsim::demo
