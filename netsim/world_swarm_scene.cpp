@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include "common/base/format.h"
@@ -58,7 +59,11 @@ class SceneDraw {
     if (chance(0.4)) out_ += format(" k_n_m: %.4g", log_between(100, 3000));
     const double force_max = chance(0.6) ? 3.3 : between(0.5, 6);
     constexpr double kMin = 60;  // less than the initial energy of the softest spring's full pull would dead-lock a start
-    if (chance(0.5)) out_ += format(" e0_j: %.4g", 1.001 * force_max * force_max / (2 * kMin) * log_between(1, 5));
+    if (chance(0.5)) {
+      const double written = std::strtod(format("%.3g", force_max).c_str(), nullptr);  // rounded, perhaps up
+      const double drawn = 1.001 * force_max * force_max / (2 * kMin) * log_between(1, 5);
+      out_ += format(" e0_j: %.4g", std::max(drawn, 1.001 * written * written / (2 * kMin)));
+    }
     if (chance(0.3)) out_ += format(" eta: %.3g", between(0, 1));
     if (chance(0.3)) out_ += format(" margin_max_j: %.3g", log_between(0.005, 1));
     if (chance(0.3)) out_ += format(" v_app_m_s: %.3g", log_between(0.02, 0.5));

@@ -197,6 +197,9 @@ TEST(FreshSeeds, APersonMovesAHandleBesideWhatTheHandDoes) {
   EXPECT_TRUE((*device)->truth().x.allFinite());
 }
 
+// Generator: it wrote a force limit that was rounded up beside an initial energy that was enough for the one it had drawn.
+TEST(FreshSeeds, DrawsValidScenesThoughItsNumbersAreRounded) { EXPECT_NO_THROW(static_cast<void>(netsim::draw_swarm_case(9007199254741413))); }
+
 class FreshSeed : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(FreshSeed, BreaksNothingAndRecovers) {
