@@ -25,6 +25,7 @@ struct LivedThrough {
       TickRecord r;
       r.tick = ++tick;
       r.running = true;
+      r.stood = stood;
       const double x = amplitude * std::sin(2 * 3.14159265358979 * 0.5 * tick / spec.tick_hz);
       for (std::size_t i = 0; i < spec.seats.size(); ++i) {
         r.seats[i].x = {x + offset, 0, 0};
@@ -48,6 +49,7 @@ struct LivedThrough {
   SceneSpec spec;
   ReportBuilder builder;
   std::uint32_t tick = 0;
+  std::uint64_t stood = 0;  ///< ticks for which the clock stood still so far
 };
 
 TEST(Report, CoversTheWholeSessionWhereASceneHasNoPhases) {
@@ -109,6 +111,17 @@ TEST(Report, SaysNotJudgedWhereNobodyMovedOrNobodyWasEngaged) {
   expect_not_judged(brief, "no seat was engaged");
   LivedThrough none{scene("lesson")};
   expect_not_judged(none, "the session never ran");
+}
+
+TEST(Report, AfterAStopTheFirstSecondIsNotJudged) {
+  LivedThrough run{scene("lesson")};
+  run.live(5, 0.001);
+  run.stood += 3000;  // no record tells of it: the recorder left out those in which hands were let go
+  run.live(5, 0.001);
+  const RunReport r = run.report();
+  EXPECT_NEAR(r.judged_s, 8, 0.01);
+  EXPECT_NEAR(r.stopped_s, 3, 1e-9);
+  EXPECT_NEAR(r.duration_s, 10, 1e-9);
 }
 
 TEST(Report, ABrokenInvariantFailsAlsoWhereNothingWasJudged) {
