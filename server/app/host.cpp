@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
 #include <utility>
 
 #include "common/base/format.h"
@@ -188,8 +189,7 @@ class Host {
     // A journal, a file or a pipe keeps what it is given, and is read by others: codes are shown on terminals only.
     const std::string folder = door_->throw_away() ? "" : door_->folder();
     const std::string read_code = ::isatty(::fileno(people())) == 1 ? "" : "tandem-server sessions" + trust::server_state_option(folder);
-    const std::string text = announcement(r, door_->address(), door_->throw_away(), plan_.sessions.size() > 1, folder, read_code);
-    std::fputs(io::for_terminal(text, people()).c_str(), people());
+    std::fputs(io::for_terminal(announcement(r, door_->address(), door_->throw_away(), plan_.sessions.size() > 1, folder, read_code), people()).c_str(), people());
     std::fflush(people());
     io::tell(io::Level::kInfo, {.event = "session_opened", .session = r.plan().name, .text = r.plan().scene.name});
   }
@@ -329,9 +329,8 @@ class Host {
   }
 
   static bool nobody_sits(const SessionStatus& status, const SceneSpec& scene) {
-    for (std::size_t i = 0; i < scene.seats.size(); ++i)
-      if (status.seats[i].taken) return false;
-    return true;
+    const std::span seats(status.seats.begin(), scene.seats.size());
+    return std::ranges::none_of(seats, &SeatStatus::taken);
   }
 
   void end(SessionRun& r, End why) {
