@@ -304,11 +304,8 @@ class Host {
   void attend(SessionRun& r, Time now) {
     write_down(r);
     const SessionStatus status = r.hosted().status();
-    if (!told_) {
-      told_ = true;
-      const std::string notice = io::realtime_notice(status.machine.realtime, memory_, awake_.granted());
-      if (!notice.empty()) line_.note(notice);
-    }
+    if (!std::exchange(told_, true))
+      if (const std::string notice = io::realtime_notice(status.machine.realtime, memory_, awake_.granted()); !notice.empty()) line_.note(notice);
     const Attendance::News news = r.attendance.look(now, status, r.plan().scene);
     for (const Attendance::Note& note : news.notes) tell(r, status, note);
     if (status.state == wire::SessionState::kWaiting) r.waited_for = waiting_for(status, r.plan().scene);
