@@ -41,7 +41,6 @@ ElfFile::ElfFile(const std::filesystem::path& path) {
     throw std::runtime_error(path.string() + " is no 64-bit ELF file");
   x86_64_ = header.e_machine == EM_X86_64;
   read_segments();
-  add_target(header.e_entry);
 }
 
 void ElfFile::read_segments() {

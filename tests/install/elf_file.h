@@ -36,7 +36,7 @@ class ElfFile {
   /// Whether the code holds these bytes.
   [[nodiscard]] bool code_holds(const std::string& bytes) const;
 
-  /// Addresses in the code that the program's data hold: entry point, constructors, virtual functions, tables of functions.
+  /// Addresses in the code that the program's data hold: constructors, virtual functions, tables of functions. Not the entry point.
   struct Target {
     std::uint64_t address = 0;
     bool endbr64 = false;
