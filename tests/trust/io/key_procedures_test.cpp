@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "common/trust/ticket.h"
 #include "tests/support/process.h"
@@ -44,7 +45,8 @@ struct School {
     EXPECT_EQ(made.code, 0) << made.err;
     return line(made.out);
   }
-  [[nodiscard]] trust::Identity identity(const std::string& name) const { return (*trust::ClientTrust::open(door.folder.path(name)))->identity(); }
+  /// As the workstation's folder has it now.
+  [[nodiscard]] trust::ClientTrust own(const std::string& name) const { return std::move(**trust::ClientTrust::open(door.folder.path(name))); }
   auto join(const trust::Identity& who, const std::string& text) {
     door.wall = trust::wall_seconds();
     auto connected = door.connect(who);
@@ -57,13 +59,13 @@ struct School {
 TEST(KeyProcedures, AWorkstationGetsANewKeyAndTheOldOneIsRefused) {
   School school;
   school.enroll("touch-07");
-  const trust::Identity old = school.identity("touch-07");
+  const trust::ClientTrust old = school.own("touch-07");
   ASSERT_EQ(school.server({"revoke", "touch-07"}).code, 0);
   for (const char* file : {"workstation_key.pem", "workstation_cert.pem"}) ASSERT_TRUE(std::filesystem::remove(school.door.folder.path("touch-07") + "/" + file));
   school.enroll("touch-07");
   const std::string ticket = school.ticket("touch-07");
-  EXPECT_EQ(reason_of(school.join(old, ticket)), control::Reason::kNotEnrolled);
-  const auto joined = school.join(school.identity("touch-07"), ticket);
+  EXPECT_EQ(reason_of(school.join(old.identity(), ticket)), control::Reason::kNotEnrolled);
+  const auto joined = school.join(school.own("touch-07").identity(), ticket);
   ASSERT_TRUE(joined) << joined.error().text;
   EXPECT_TRUE(std::holds_alternative<control::Welcome>(*joined));
 }
