@@ -8,8 +8,9 @@ namespace tandem::client {
 /// works in the exchange nearest to each of its ticks. Ticks that were slept through are not made up for.
 class TickPace {
  public:
-  /// @param tick      of the scene  @param exchange  of the device, at most a tick; zero: every exchange is a tick
-  TickPace(Duration tick, Duration exchange) noexcept : tick_(tick), exchange_(exchange) {}
+  /// @param tick      of the scene  @param exchange  of the device; zero, or so long that a tick has no second one: every exchange is a tick,
+  ///                  however irregularly they come
+  TickPace(Duration tick, Duration exchange) noexcept : tick_(tick), exchange_(2 * exchange > tick ? Duration::zero() : exchange) {}
 
   /// @param now  of an exchange, ascending  @return whether it is a tick
   [[nodiscard]] bool due(Time now) noexcept {

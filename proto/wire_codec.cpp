@@ -31,8 +31,8 @@ struct ForceWords {
   std::uint32_t session = 0, flags = 0;
 };
 /// Places of the parts of FORCE's flags (wire.proto).
-constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kTouching = 1U << 31;
-constexpr std::uint32_t kForceFlagsMax = kTouching | ((1U << 29) - 1);
+constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kFlagsEnd = 29, kTouching = 1U << 31;
+constexpr std::uint32_t kForceFlagsMax = kTouching | ((1U << kFlagsEnd) - 1);
 static_assert(kHandoverNotice < 1U << 6 && kSeatsMax < HandoverParties::kOperator && kMastersMax < 1U << 5 && kToolsMax <= 1U << 3);
 
 std::uint32_t force_flags(const ForceMessage& m) noexcept {
@@ -45,6 +45,7 @@ bool read_force_flags(std::uint32_t flags, ForceMessage& out) noexcept {
   HandoverParties& p = out.handover_parties;
   out.touching = (flags & kTouching) != 0;
   flags &= ~kTouching;
+  if (flags >> kFlagsEnd != 0) return false;
   out.engage = (flags & 1U) != 0;
   out.handover = static_cast<Handover>(flags >> 1 & 3U);
   out.handover_ticks = flags >> kTicksAt & 63U;

@@ -246,10 +246,10 @@ void Session::say_farewell(Time now) noexcept {
 }
 
 /// Whether the slave of a tool presses against something, as far as its device tells.
-bool Session::touching(std::size_t j) const noexcept {
+bool Session::touching(Time now, std::size_t j) const noexcept {
   constexpr double kTouchN = 0.05;  // below it a sensor's noise
   if (const hal::SteppedDevice* const slave = tools_[j].slave()) return slave->state().penetration > 0 || slave->state().f_env.squaredNorm() > kTouchN * kTouchN;
-  if (!scene_->tools[j].remote || !seats_[scene_->tools[j].seat].taken()) return false;
+  if (!scene_->tools[j].remote || !seats_[scene_->tools[j].seat].alive(now)) return false;
   const wire::Telemetry& heard = seats_[scene_->tools[j].seat].heard().telemetry;
   return heard.penetration_m > 0 || std::ranges::any_of(heard.f_env, [](double f) { return std::abs(f) > kTouchN; });
 }
@@ -265,7 +265,7 @@ void Session::fill_force_messages(Time now) noexcept {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     const bool slave_ready = !scene_->tools[j].remote || ready[scene_->tools[j].seat];
     for (std::size_t i = 0; i < masters_; ++i) entitled[j] |= slave_ready && tools_[j].authority.requested()[i] > 0 && ready[i];
-    touches[j] = touching(j);
+    touches[j] = touching(now, j);
   }
   const bool engage = engage_ && state_ != wire::SessionState::kEnding && !lets_go();
 

@@ -176,7 +176,7 @@ class Session {
   void step_tools() noexcept TANDEM_REALTIME;
   void step_following() noexcept TANDEM_REALTIME;
   void follow_tools(std::size_t seat) noexcept TANDEM_REALTIME;
-  [[nodiscard]] bool touching(std::size_t tool) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
 

@@ -61,6 +61,8 @@ enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
 [[nodiscard]] std::string motors_text(const ClientStatus& status);
 /// Who gives what to whom, and when, or that it was called off; empty: nothing. `the scene gives the tool to trainee in 50 ms`
 [[nodiscard]] std::string handover_text(const ClientStatus& status, const SeatSetup& setup);
+/// The same for a narrow screen, without names: `more weight in 50 ms`.
+[[nodiscard]] std::string handover_brief(const ClientStatus& status);
 
 /// What the client knows of the run, for machines.
 struct ClientReport {

@@ -17,6 +17,12 @@ std::string giver(std::uint32_t by, const SeatSetup& setup) {
 
 }  // namespace
 
+std::string handover_brief(const ClientStatus& s) {
+  const bool comes = s.handover == wire::Handover::kComes;
+  if (!comes && s.handover != wire::Handover::kGoes) return "";
+  return std::string(comes ? "more" : "less") + format(" weight in %.0f ms", 10 * std::round(1e2 * s.handover_s));
+}
+
 std::string handover_text(const ClientStatus& s, const SeatSetup& setup) {
   if (s.handover == wire::Handover::kNone) return "";
   if (s.handover == wire::Handover::kCalledOff) return "hand-over called off: a link is too old";

@@ -137,7 +137,7 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   } else if (latched) {
     add(gate_text(s), 0);
   }
-  if (const std::string told = handover_text(s, setup); !told.empty()) add(told, 0);
+  if (const std::string told = handover_text(s, setup); !told.empty()) add(told, 0, handover_brief(s));
   add(leader_text(s, setup, words), 0);
   add("force " + force_bar(s.force_n, setup.gate.force_max * share_of_force(setup.seat.role)), 0, format("force %.1f N", s.force_n));
   std::string tool = s.distance_m ? format("tool %.0f mm away", *s.distance_m * 1e3) : "";

@@ -175,9 +175,11 @@ void ControlConnection::on_hello(control::Hello hello) {
   const bool by_code = std::holds_alternative<std::string>(hello.session) || std::holds_alternative<control::CodeCredential>(hello.credential);
   const Time now = plane_.clocks_.monotonic();
   if (by_code && blocked(by_resume ? plane_.attempts_.blocked_for(pin_, now) : plane_.attempts_.blocked_for(source_, pin_, now))) return;
-  if (!plane_.places_.may_join(by_resume))
-    return refuse(Reason::kFull, "all " + std::to_string(plane_.limits_.connections) + " places of this server's control connections are taken by those who joined; try again later",
-                  true, 5);
+  if (!plane_.places_.may_join(by_resume)) {
+    const std::string full = "all " + std::to_string(plane_.limits_.connections) + " places of this server's control connections are taken by those who joined; try again later";
+    plane_.note(ControlEvent::kRefused, address_, workstation_->name, full);
+    return refuse(Reason::kFull, full, true, 5);
+  }
   const auto request = std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *common, *workstation_, source_, address_});
   if (!pending_) must_be_over_in(plane_.limits_.frame_deadline);
   // The answer may come from another thread, and after this connection has ended.

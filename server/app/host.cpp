@@ -319,15 +319,16 @@ class Host {
     } else if (plan_.wait_s > 0 && status.state == wire::SessionState::kWaiting && seconds(now - began_) > plan_.wait_s) {
       tell(r, status, {"nobody_came", "", "nobody came for " + waiting_for(status, r.plan().scene) + " within " + std::to_string(plan_.wait_s) + " s (--wait); the session ends", true});
       end(r, End::kNobodyCame);
-    } else if (r.kept() != nullptr && now > r.back_until() && status.state == wire::SessionState::kWaiting && nobody_sits(status, r.plan().scene)) {
+    } else if (r.kept() != nullptr && now > r.back_until() && nobody_came_back(status, r.plan().scene)) {
       tell(r, status, {"nobody_came_back", "", "nobody came back within 10 min after the server had ended; the session is over", true});
       end(r, End::kNobodyCame);
     }
   }
 
-  static bool nobody_sits(const SessionStatus& status, const SceneSpec& scene) {
+  /// A session that waits for nobody in particular runs, or is stopped, though nobody came since the restart.
+  static bool nobody_came_back(const SessionStatus& status, const SceneSpec& scene) {
     const std::span seats(status.seats.begin(), scene.seats.size());
-    return std::ranges::none_of(seats, &SeatStatus::taken);
+    return std::ranges::none_of(seats, status.state == wire::SessionState::kWaiting ? &SeatStatus::taken : &SeatStatus::ever_taken);
   }
 
   void end(SessionRun& r, End why) {

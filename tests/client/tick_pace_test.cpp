@@ -25,6 +25,15 @@ TEST(TickPace, TakesOneExchangePerTickOfTheScene) {
   EXPECT_NEAR(ticks_in(Duration{3'333'333}, 1ms, 1000), 300, 1);
 }
 
+TEST(TickPace, TakesEveryExchangeOfADeviceAsFastAsTheScene) {
+  TickPace pace(1ms, 1ms);
+  Time now{1h};
+  for (int n = 0; n < 1000; ++n) {
+    now += n % 10 == 0 ? 5ms : n % 3 == 0 ? 300us : 1ms;  // a bus that stalls and catches up
+    EXPECT_TRUE(pace.due(now)) << n;
+  }
+}
+
 TEST(TickPace, MakesNoTickUpForThatWasSleptThrough) {
   TickPace pace(10ms, 1ms);
   EXPECT_TRUE(pace.due(Time{1h}));

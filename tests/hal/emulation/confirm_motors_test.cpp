@@ -127,13 +127,13 @@ class ConfirmMotors : public testing::Test {
     return std::max(most, pusher.given.load());
   }
 
+  io::Fd signals_;  ///< first: threads of the test bed inherit that signals are blocked
   Folder folder;
   Testbed bed;
   std::unique_ptr<hal::wire::WoodenHapticsModel> model;
   std::unique_ptr<HidrawNode> node;
   hal::Vec3 start;
   std::string file, words, state, said;
-  io::Fd signals_;
 };
 
 TEST_F(ConfirmMotors, NoForceBeforeItAndForceAfterItAndNoneWithAnotherFile) {

@@ -89,6 +89,7 @@ TEST(BareConnections, GoFirstWhenPlacesAreShortAndThoseOfPeopleOnSeatsNever) {
   ASSERT_TRUE(fourth) << "a place beyond them is kept for who comes back";
   const auto refused = fourth->ask(hello_with(door.ticket(me, 4)), kPatience);
   EXPECT_EQ(reason_of(refused), Reason::kFull);
+  EXPECT_TRUE(door.told(ControlEvent::kRefused, 1)) << "the operator reads that places are short";
   EXPECT_NE(std::get<control::Refused>(*refused).text.find("all 3 places"), std::string::npos);
   auto back = door.connect(me);
   ASSERT_TRUE(back);
