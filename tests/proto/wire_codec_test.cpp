@@ -205,6 +205,7 @@ TEST(WireCodec, RefusesNumbersThatCannotBeMeant) {
       m.handover = what;
       m.handover_ticks = 0;
       m.handover_parties = parties;
+      m.touching = false;  // with it a bit beyond would already be above the greatest value
     });
   };
   EXPECT_EQ(names(Handover::kComes, {.by = kSeatsMax + 1}), DecodeError::kOutOfRange);
