@@ -29,7 +29,7 @@ constexpr unsigned kFastMax = 5;
 constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls along overdraws within one tick
 constexpr double kFeltMax = 0.2;                        // [N/ms] a step of authority
 constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: faster, and the strongest springs' shares are felt
-constexpr double kForgotten = 0.025;                    // [s] after which a device holds no force of a command that was not renewed
+constexpr double kLifeTicks = 3, kLifeMin = 0.005, kLifeMax = 0.03, kFade = 0.02;  // ticks, [s]: a command's life, and how its force then fades
 constexpr double kFarTouch = 1, kFarLinear = 50;        // [m] no hand of such a device is there; a rail has no end
 
 double tip_norm(const AxisArray& effort, const AxisArray& scale, std::size_t dof) noexcept {
@@ -215,7 +215,8 @@ void WorldWatch::check_effort(Time own, std::size_t i, const WorldStation& stati
   if (!seat.gate().active() || norm == 0) return;  // letting go at once is always allowed
   // A program that stood still for longer than a command and its device's release last finds motors without force: what it gives
   // then is a step from zero, not from the effort it remembers.
-  const bool stood_still = s.served != Time{} && seconds(own - s.served) > kForgotten;
+  const double forgotten = std::clamp(kLifeTicks / scene_->tick_hz, kLifeMin, kLifeMax) + kFade;
+  const bool stood_still = s.served != Time{} && seconds(own - s.served) > forgotten;
   AxisArray change{};
   for (std::size_t a = 0; a < scene_->dof; ++a) change[a] = seat.effort()[a] - (stood_still ? 0 : s.effort[a]);
   const double dt = s.served == Time{} ? 0 : std::clamp(seconds(own - s.served), 0.0, kGateStepMax);

@@ -4,16 +4,12 @@
 
 #include "proto/scene_convert.h"
 #include "proto/scene_rules.h"
-#include "proto/seat_setup.h"
 #include "proto/text_format_reader.h"
-#include "proto/wire.h"
 
 namespace tandem {
 namespace {
 
 using text::Checker;
-using text::child_path;
-using text::number_text;
 
 /// `server/scenes/contact.textproto` -> `contact`
 std::string scene_name(std::string_view file_name) {
@@ -37,20 +33,6 @@ void read_basics(const pb::Scene& in, Checker& checker, SceneSpec& out) {
   if (in.alpha_step()) out.alpha_slew = std::numeric_limits<double>::infinity();
 }
 
-/// What BIND_ACK must carry has to fit one datagram.
-void check_setup_size(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
-  std::array<char, wire::kSetupMax> bytes;
-  for (std::size_t s = 0; s < scene.seats.size(); ++s) {
-    if (encode_seat_setup(seat_setup(scene, s), bytes) > 0) continue;
-    for (int i = 0; i < in.seat_size(); ++i) {
-      if (in.seat(i).name() != scene.seats[s].name) continue;
-      checker.error(child_path("", "seat", i),
-                    "does not fit the " + std::to_string(wire::kSetupMax) +
-                        " bytes a client is told at joining; use fewer waypoints or deviations");
-    }
-  }
-}
-
 }  // namespace
 
 std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::string_view file_name) {
@@ -71,7 +53,6 @@ std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::st
   rules::read_follow(in, checker, out);
   rules::read_phases(in, checker, out);
   rules::check_passivity(in, checker, out);
-  if (checker.ok()) check_setup_size(in, checker, out);
   if (!checker.ok()) return std::unexpected(checker.take());
   return out;
 }

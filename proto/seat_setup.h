@@ -16,7 +16,7 @@
 
 namespace tandem {
 
-/// What the server tells a client about the seat it was given (in BIND_ACK): all a seat core needs, no more.
+/// What the server tells a client about the seat it was given (in WELCOME): all a seat core needs, no more.
 struct SeatSetup {
   double tick_hz = 1000;  ///< 100 ... 10000 [Hz]
   std::size_t dof = 3;    ///< 1 ... 3
@@ -44,8 +44,7 @@ struct SeatSetup {
 [[nodiscard]] SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat);
 
 /// Writes `setup` as the protobuf message tandem.pb.SeatSetup.
-/// @return bytes written, at most wire::kSetupMax; 0 if it does not fit into `out` (a validated scene always fits
-/// kSetupMax)
+/// @return bytes written; 0 if it does not fit into `out`. A validated scene always fits wire::kSetupMax.
 [[nodiscard]] std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out);
 
 /// Reads what encode_seat_setup wrote. Any bytes are safe: the same ranges and rules as for scene files are checked.

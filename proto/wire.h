@@ -93,7 +93,7 @@ struct ForceMessage {
 };
 
 inline constexpr std::size_t kSeatNameMax = 32;
-inline constexpr std::size_t kSetupMax = 1024;  ///< bytes of a serialized seat setup, see proto/seat_setup.h
+inline constexpr std::size_t kSetupMax = 8192;  ///< bytes of a serialized seat setup; the largest scene has room (proto/seat_setup.h)
 
 /// Server to a client that was heard from a new address, up to five times in 250 ms; reply: PATH_RESPONSE with the same token, from
 /// that address. Smaller than the STATE that caused it.

@@ -223,13 +223,6 @@ TEST(BadScene, TooManySeatsAreRefused) {
   expect_one(mark(text, "seat { name: \"s14"), "seat[16]", "at most 16 MASTER seats");
 }
 
-TEST(BadScene, SetupMustFitADatagram) {
-  std::string points;
-  for (int i = 0; i < 40; ++i) points += " waypoint { at_s: " + std::to_string(i) + " x_m: 0.01 }";
-  expect_one(mark(with("{ model: LEADER }", "{ model: LEADER trajectory {" + points + " } }"), "seat {"), "seat[0]",
-             "1024 bytes");
-}
-
 TEST(BadScene, EveryMistakeIsListedInFileOrder) {
   const auto errors = errors_of(
       "version: 1\n"

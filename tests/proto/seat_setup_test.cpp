@@ -81,6 +81,23 @@ TEST(SeatSetup, OfEveryShippedSeatComesBackAsItWas) {
   }
 }
 
+TEST(SeatSetup, OfALongMotionAndManyNamesComesBackAsItWas) {
+  auto setup = seat_setup(scene("contact_remote"), 0);
+  setup.seat.hand.trajectory = {};
+  setup.seat.hand.trajectory.kind = Trajectory::Kind::kWaypoints;
+  for (int i = 0; i < 64; ++i) setup.seat.hand.trajectory.waypoints.push_back({0.1 + i, {0.011, -0.012, 0.001 * i}});
+  for (int i = 0; i < 8; ++i) setup.seat.hand.deviations.push_back({0.3 + i, 0.1, {1.1, 2.2, -3.3}});
+  setup.masters.assign(16, std::string(wire::kSeatNameMax, 'm'));
+  setup.tools.assign(8, std::string(wire::kSeatNameMax, 't'));
+  Buffer buffer;
+  const auto size = encode_seat_setup(setup, buffer);
+  ASSERT_GT(size, 3000u);
+  const auto got = decode_seat_setup(std::span(buffer).first(size));
+  ASSERT_TRUE(got.has_value()) << to_text(got.error());
+  expect_same(setup, *got);
+  EXPECT_EQ(setup.tools, got->tools);
+}
+
 TEST(SeatSetup, NamesTheMastersToEverySeatAndTheToolsWhereThereAreSeveral) {
   const auto spec = scene("two_by_two");
   for (std::size_t s = 0; s < spec.seats.size(); ++s) {
