@@ -27,6 +27,7 @@ constexpr double kTankPerKg = 0.18, kTankMin = 0.02, kTankMax = 0.1;  // [J/kg],
 constexpr double kSpeedMax = 1.6;                       // [m/s], and how many samples on end
 constexpr unsigned kFastMax = 5;
 constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls along overdraws within one tick
+constexpr double kLatePower = 1;                        // [W] by which a hand of 2 m/s does so while its program wakes up late
 constexpr double kFeltMax = 0.2;                        // [N/ms] a step of authority
 constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: faster, and the strongest springs' shares are felt
 constexpr double kLifeTicks = 3, kLifeMin = 0.005, kLifeMax = 0.03, kFade = 0.02;  // ticks, [s]: a command's life, and how its force then fades
@@ -269,8 +270,11 @@ void WorldWatch::check_energy(std::size_t i, const WorldStation& station) {
   if (seat == nullptr || s.fresh == Time{}) return;
   if (seat->gate().active() && !s.was_active) s.given = 0;
   s.given += station.worked_now();
+  // An effort that was given acts until its program wakes up again, and nobody can take it back before.
+  s.late = s.awake ? 0 : s.late + 1 / scene_->tick_hz;
+  s.awake = station.served_now();
   const double tank = share(i) * std::clamp(kTankPerKg * station.device().caps().mass.value_or(0), kTankMin, kTankMax);
-  if (s.given > tank + kTankSlack) note("loss_energy", i);
+  if (s.given > tank + kTankSlack + kLatePower * s.late) note("loss_energy", i);
 }
 
 void WorldWatch::check_reading(std::size_t i, const WorldStation& station) {

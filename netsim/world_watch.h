@@ -56,6 +56,8 @@ class WorldWatch {
     Time served{};
     Time arrived{}, fresh{};  ///< when something newer last acted: on the seat's clock, on the world's
     double given = 0;         ///< energy the motor really gave the hand since then, and since the gate let go [J]
+    double late = 0;          ///< for how long its program has not been awake, beyond a tick [s]
+    bool awake = true;
     unsigned misread = 0, fast = 0, hot = 0;
     struct Frozen {  ///< when the reading stopped to move
       Time since{};
