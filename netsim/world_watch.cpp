@@ -79,10 +79,6 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
   check_gathering(session);
   check_authority(lived, session);
   if (lived > 0) handover_.check(lived, session, violations_);
-  if (ordinary_ && stations[mover_].seat() != nullptr) {
-    const wire::Telemetry& hand = stations[mover_].seat()->sample().telemetry;
-    for (std::size_t a = 0; a < scene_->dof; ++a) hand_[a] = scene_->port == PortSpace::kTip ? hand.x[a] : hand.q[a];
-  }
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const WorldStation& station = stations[i];
     Seat& s = seats_[i];

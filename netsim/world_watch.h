@@ -46,8 +46,7 @@ class WorldWatch {
     AxisArray ref{}, x{}, k{};
     EnergyArray in{}, received{};
     std::array<unsigned, kAxesMax> starved{};  ///< ticks on end
-    AxisArray hand_low{}, hand_high{};         ///< where the moving hand was meanwhile
-    std::array<bool, kAxesMax> home{};         ///< the reference has reached its target since hand and tool were last apart
+    std::array<bool, kAxesMax> home{};         ///< the reference has reached its target with energy to spare since hand and tool were last apart
   };
   struct Seat {
     std::uint32_t starts = 0, joins = 0;
@@ -113,7 +112,6 @@ class WorldWatch {
   double t_ = 0;
   bool ordinary_ = false;  ///< one hand moves the tool and nothing hinders it
   std::size_t mover_ = 0;  ///< whose
-  AxisArray hand_{};       ///< where that hand's device is, port axes
   std::vector<Seat> seats_;
   std::vector<std::array<double, kMastersMax>> alpha_;
   std::vector<bool> held_;

@@ -10,10 +10,9 @@ namespace {
 
 constexpr double kStarvedMax = 0.3;                     // [s]
 constexpr double kAside = 0.002, kLeash = 0.98;         // [m] of a target that is reached; share of the motor's pull
-constexpr double kStuckMax = 2;                         // [s] on the way home, of a hand that moves
 constexpr std::uint64_t kEmptyNj = 10'000;              // [nJ] less than any step of a reference costs
-constexpr double kMoves = 0.008;                        // [m] by which such a hand moves in that time
-constexpr double kTogether = 1e-5;                      // [m] hand and tool are not apart
+constexpr double kTogether = 1e-5;                      // [m] the session has no distance left to close between hand and tool
+constexpr double kRecovered = 0.5;                      // share of the initial energy that an account has again
 constexpr double kLeads = 0.5;                          // share of authority of who moves the tool and is not moved by it
 
 }  // namespace
@@ -31,7 +30,7 @@ void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& b
   const control::EndState& state = end.state();
   const control::Promises promises = end.promises();
   const auto& [rx, x, hung, offset, steady] = look;
-  End now{.known = true, .ref = state.ref, .x = x, .k = state.k, .in = {}, .received = {}, .starved = {}, .hand_low = hand_, .hand_high = hand_, .home = before.home};
+  End now{.known = true, .ref = state.ref, .x = x, .k = state.k, .in = {}, .received = {}, .starved = {}, .home = before.home};
   const double dt = 1 / scene_->tick_hz;
   for (std::size_t a = 0; a < scene_->dof; ++a) {
     const control::EnergyLedger& ledger = end.ledger(a);
@@ -54,10 +53,10 @@ void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& b
 /// A reference that news, hand and motor would let move, and that stays where it is: nothing but an empty account holds it. Told by
 /// where it is, not by what the ledger says it refused.
 ///
-/// Until hand and tool have come together after the calm, an account that really is empty is excused while the hand stands still. What parted them (an
-/// outage, a tool that fell while nobody held it) and emptied the accounts was no ordinary motion. The energy that brings them together
-/// again comes from the hand: a hand that stands still lifts no tool and pulls none through friction, and a channel that did so would
-/// give what it never took. A hand that moves pays for some of the way with every stroke.
+/// Until hand and tool have come together after the calm, with an account that holds at least half its initial energy again, an account that
+/// really is empty is excused. What parted them (an outage, a tool that fell while nobody held it) and emptied the accounts was no ordinary
+/// motion. The energy that brings them together again comes from the hand, and a hand may give none: one that stands still, or strokes within
+/// the stretch of its spring and takes back what it gave. A channel that lifted the tool nevertheless would give what it never took.
 void WorldWatch::check_starvation(std::size_t i, const control::ChannelEnd& end, End& now, const End& before, const AxisArray& scale,
                                   const EndLook& look) {
   const double dt = 1 / scene_->tick_hz;
@@ -67,21 +66,19 @@ void WorldWatch::check_starvation(std::size_t i, const control::ChannelEnd& end,
     // The target lies between the received position, led by its age, and where the received force would hold.
     const double forced = now.x[a] + rx.f[a] / now.k[a];
     const double missing = std::max({std::min(rx.x[a], forced) - now.ref[a], now.ref[a] - std::max(rx.x[a], forced), 0.0});
-    const bool there = missing <= kAside / root + scene_->channel.lead_max * std::abs(rx.v[a]);
-    const bool leashed = std::abs(now.ref[a] - now.x[a]) > kLeash * scene_->gate.force_max * root / now.k[a];
+    const double aside = kAside / root + scene_->channel.lead_max * std::abs(rx.v[a]);
+    const bool there = missing <= aside;
+    const bool met = std::abs(rx.x[a] - now.ref[a]) <= aside;
+    const bool leashed = std::abs(now.ref[a] - now.x[a]) > kLeash * share(i) * scene_->gate.force_max * root / now.k[a];
     const bool walks = std::abs(now.ref[a] - before.ref[a]) > 0.5 * scene_->channel.v_app / root * dt;
-    const bool together = std::abs(look.offset[a]) <= kTogether / root;
-    now.home[a] = together && (before.home[a] || there);
-    now.starved[a] = there || leashed || walks ? 0 : before.starved[a] + 1;
-    if (now.starved[a] > 1) {
-      now.hand_low[a] = std::min(before.hand_low[a], hand_[a]);
-      now.hand_high[a] = std::max(before.hand_high[a], hand_[a]);
-    }
-    const bool moves = now.hand_high[a] - now.hand_low[a] > kMoves / root;
     const control::EnergyLedger& ledger = end.ledger(a);
-    const bool empty = ledger.bound_nj() <= ledger.out_nj() + ledger.forfeited_nj() + kEmptyNj;  // by its sums, not by its verdict
-    const double limit = now.home[a] || !empty ? kStarvedMax : moves ? kStuckMax : HUGE_VAL;
-    if (now.starved[a] * dt > limit) note("starved", i);
+    const std::uint64_t used = ledger.out_nj() + ledger.forfeited_nj();  // by its sums, not by its verdict
+    const bool empty = ledger.bound_nj() <= used + kEmptyNj;
+    const bool recovered = static_cast<double>(ledger.bound_nj()) >= static_cast<double>(used) + 1e9 * kRecovered * scene_->channel.e0;
+    const bool together = std::abs(look.offset[a]) <= kTogether / root;
+    now.home[a] = together && (before.home[a] || (met && recovered));
+    now.starved[a] = there || leashed || walks ? 0 : before.starved[a] + 1;
+    if ((now.home[a] || !empty) && now.starved[a] * dt > kStarvedMax) note("starved", i);
   }
 }
 

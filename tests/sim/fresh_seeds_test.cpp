@@ -52,6 +52,24 @@ TEST(FreshSeeds, AfterAStandstillEffortBeginsAtZeroAndTheOracleKnows) {
   life.expect_nothing_broken();
 }
 
+// The same oracle again: a slow session's commands live longer, and so does the effort that a program finds after a standstill.
+TEST(FreshSeeds, AfterAShortStandstillOfASlowSessionEffortGoesOnAndTheOracleKnows) {
+  SceneSpec scene = pressing("silence_limit_ms: 100 ramp_in_ms: 1500");
+  scene.tick_hz = 500;
+  scene.coupling.k_c = 200;
+  netsim::WorldSetup setup = test::with(scene, {{Fault::Kind::kPause, "hand", 1200ms, 24ms}});
+  setup.network.up.floor = setup.network.down.floor = 15ms;
+  test::Life life(setup);
+  life.until(1198ms);
+  const double before = life.world->seat(0)->effort()[0];
+  ASSERT_GT(std::abs(before), 0.3);
+  life.until(1224ms);
+  ASSERT_EQ(life.world->seat(0)->gate().phase(), control::GatePhase::kRampIn);
+  EXPECT_NEAR(life.world->seat(0)->effort()[0], before, 0.1 + 1e-9) << "26 ms after the last command the device still holds some of it (6 and 20 ms)";
+  life.until(4s);
+  life.expect_nothing_broken();
+}
+
 // Product: the ramp began when a late program noticed the silence, and so ended late.
 TEST(FreshSeeds, AForceIsGoneInTimeThoughItsProgramWakesUpLate) {
   netsim::WorldSetup setup = test::with(pressing("silence_limit_ms: 20 ramp_in_ms: 100"), {{Fault::Kind::kPause, "hand", 2012ms, 20ms}});
@@ -148,13 +166,16 @@ TEST(FreshSeeds, ASlaveWhoseFrozenSensorMovesAgainBreaksNoApproach) {
   life.expect_nothing_broken();
 }
 
-// Oracle `starved`: a tool that fell while nobody held it is not lifted by a hand that stands still, and must not be.
-TEST(FreshSeeds, AHandThatStandsStillNeedNotLiftAToolThatFell) {
+// Oracle `starved`: a tool that fell while nobody held it is not lifted by a hand that gives nothing, and must not be: one that stands still,
+// or strokes within the stretch of its spring.
+class ToolThatFell : public testing::TestWithParam<const char*> {};
+
+TEST_P(ToolThatFell, NeedNotBeLiftedByAHandThatGivesNothing) {
   const auto scene = scene_of(
       "version: 1 tick_hz: 1000 dof: 3 duration_s: 30 port: TIP channel { law: SET_POSITION }"
       " device_coupling { k_c_n_m: 400 b_n_s_m: 0.5 m_c_kg: 0.02 } gate { latch: false force_max_n: 2 loop_age_max_ms: 300 }"
       " seat { name: \"hand\" kind: MASTER role: INSTRUCTOR required: true device { damping_n_s_m: 0.2 } hand { model: LEADER"
-      " trajectory { waypoint { at_s: 0.2 x_m: 0 } } } }"
+      " trajectory { " + std::string(GetParam()) + " } } }"
       " tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 slave { damping_n_s_m: 0.2 gravity_compensation: false } }"
       " authority { tool: \"tool\" seat: \"hand\" alpha: 1 }");
   netsim::WorldSetup setup = test::with(scene, {{Fault::Kind::kStopHand, "hand", 1s, 8s}});
@@ -175,6 +196,8 @@ TEST(FreshSeeds, AHandThatStandsStillNeedNotLiftAToolThatFell) {
   EXPECT_GT(apart(), 0.02);
   life.expect_nothing_broken();
 }
+
+INSTANTIATE_TEST_SUITE_P(FreshSeeds, ToolThatFell, testing::Values("waypoint { at_s: 0.2 x_m: 0 }", "circle { radius_m: 0.01 frequency_hz: 0.3 }"));
 
 // Swarm: a hand whose sensor is believed to be frozen waits for its person, who moves the handle.
 TEST(FreshSeeds, APersonMovesAHandleBesideWhatTheHandDoes) {
@@ -214,11 +237,13 @@ TEST(FreshSeeds, AShortSessionOfAnIrregularProgramKeepsTheTank) {
   for (const auto& v : result.broken) ADD_FAILURE() << v.invariant << " at " << v.seat << ", first at " << v.at_s << " s, " << v.count << " times";
 }
 
-INSTANTIATE_TEST_SUITE_P(EffortSlew, FreshSeed, testing::Values(700212, 701712, 800062));
+INSTANTIATE_TEST_SUITE_P(EffortSlew, FreshSeed, testing::Values(700212, 701712, 800062, 910004937));
 INSTANTIATE_TEST_SUITE_P(SilenceBrakes, FreshSeed, testing::Values(700891, 801021));
 INSTANTIATE_TEST_SUITE_P(AuthorityFelt, FreshSeed, testing::Values(701212, 800191, 802543));
 INSTANTIATE_TEST_SUITE_P(Approach, FreshSeed, testing::Values(700724, 700883, 700950, 701694, 701827, 701869));
-INSTANTIATE_TEST_SUITE_P(Starved, FreshSeed, testing::Values(5034, 701260, 700655, 801467, 801859));
+INSTANTIATE_TEST_SUITE_P(Starved, FreshSeed, testing::Values(5034, 701260, 700655, 801467, 801859, 910000060, 910000272, 910002480, 910005248, 910007677));
+INSTANTIATE_TEST_SUITE_P(LossEnergy, FreshSeed, testing::Values(910002606));
+INSTANTIATE_TEST_SUITE_P(ManyNames, FreshSeed, testing::Values(910001536));
 INSTANTIATE_TEST_SUITE_P(Gathering, FreshSeed, testing::Values(800394));
 INSTANTIATE_TEST_SUITE_P(FrozenSensor, FreshSeed, testing::Values(800513));
 
