@@ -93,6 +93,33 @@ TEST(SessionClock, AChangeThatWasAnnouncedWaitsWithTheClockAndOneOfAPersonDoesNo
   EXPECT_EQ(s.session->tool(0).authority.requested()[kTrainee], 0.5) << "the newest decision is the last to act";
 }
 
+TEST(SessionClock, StandsStillWhileTheSessionEndsSoThatARestartSkipsNothing) {
+  for (const bool stopped : {false, true}) {
+    SCOPED_TRACE(stopped ? "stopped before" : "running before");
+    Stoppable s;
+    s.until(2.9);
+    if (stopped) {
+      ASSERT_TRUE(s.session->stop_hands(s.now, AccessRole::kInstructor));
+      s.steps(100);
+    }
+    const std::uint32_t ended_at = s.session->session_tick();
+    s.session->stop(wire::CloseReason::kServerReturns);
+    for (int n = 0; n < 1000 && !s.session->over(); ++n) s.step();
+    ASSERT_TRUE(s.session->over());
+    const Checkpoint last = s.session->checkpoint();
+    EXPECT_EQ(last.session_tick, ended_at);
+
+    std::vector<std::unique_ptr<hal::SteppedDevice>> slaves(s.scene.tools.size());
+    AxisArray scale;
+    scale.fill(1);
+    Session next(s.scene, std::move(slaves), scale, last);
+    ASSERT_TRUE(next.resume_hands(s.now, AccessRole::kInstructor, next.stops())) << "goes on without anybody";
+    ASSERT_TRUE(!stopped || next.resume_hands(s.now, AccessRole::kInstructor, next.stops())) << "it was stopped, and still is";
+    for (int n = 0; n < 200; ++n, s.now += 1ms) next.on_tick(s.now, 0);
+    EXPECT_EQ(next.tool(0).handover.decided()[kTrainee], 1) << "the scene's change at 3 s was still to come";
+  }
+}
+
 TEST(SessionClock, AStopBetweenTwoWordsToAClientIsNoticed) {
   Stoppable s;
   s.until(2);
