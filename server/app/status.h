@@ -48,6 +48,7 @@ struct SessionStatus {
   double time = 0;  ///< session time [s]
   std::uint64_t stray = 0;      ///< datagrams to this session for no connection
   std::uint64_t violations = 0; ///< broken invariants that the law promises
+  std::uint64_t audit_dropped = 0;  ///< events that nobody took in time: they are not in the audit log
   std::array<SeatStatus, kSeatsMax> seats{};
   MachineStatus machine;
   StopLane stop;
