@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "common/base/time.h"
 
 namespace tandem::server {
@@ -16,25 +14,20 @@ class Conduct {
   void offend(Time now) noexcept {
     last_ = now;
     offended_ = true;
-    ++offences_;
   }
   [[nodiscard]] bool isolated(Time now) const noexcept { return offended_ && now - last_ < kBehaves; }
-  [[nodiscard]] std::uint64_t offences() const noexcept { return offences_; }
 
   /// He asked for what his role may not. @return whether this is worth an event: one a second is
   [[nodiscard]] bool forbidden(Time now) noexcept {
-    ++forbidden_;
     if (complained_ && now - complaint_ < kBetweenComplaints) return false;
     complained_ = true;
     complaint_ = now;
     return true;
   }
-  [[nodiscard]] std::uint64_t forbidden() const noexcept { return forbidden_; }
 
  private:
   Time last_{}, complaint_{};
   bool offended_ = false, complained_ = false;
-  std::uint64_t offences_ = 0, forbidden_ = 0;
 };
 
 }  // namespace tandem::server

@@ -190,8 +190,7 @@ void Session::live_one_tick(Time now) noexcept {
 void Session::change_state(Time now) noexcept {
   for (std::size_t i = 0; i < seats_.size(); ++i) present_[i] = seats_[i].feels() && seats_[i].present(now) && !leaving(i);
   look_after_people(now);
-  if (state_ == wire::SessionState::kEnding) {
-    ++session_tick_;
+  if (state_ == wire::SessionState::kEnding) {  // the session clock stands: a restart goes on where people were when the end began
     if (farewell_ > 0) {
       --farewell_;
     } else {

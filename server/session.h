@@ -112,8 +112,10 @@ class Session {
   [[nodiscard]] wire::SessionState state() const noexcept { return state_; }
   /// The session clock: since all required seats engaged, without the time it stood still [s].
   [[nodiscard]] double time() const noexcept { return session_tick_ * dt_; }
-  /// Clock and timeline stand still: the session is STOPPED or PAUSED and its scene does not want them to run on.
-  [[nodiscard]] bool clock_stands() const noexcept { return begun_ && stop_lane_.on() && !scene_->clock_runs_while_stopped && state_ != wire::SessionState::kEnding; }
+  /// Clock and timeline stand still: the session is ENDING, or it is STOPPED or PAUSED and its scene does not want them to run on.
+  [[nodiscard]] bool clock_stands() const noexcept {
+    return begun_ && (state_ == wire::SessionState::kEnding || (stop_lane_.on() && !scene_->clock_runs_while_stopped));
+  }
   [[nodiscard]] std::uint64_t stood() const noexcept { return stood_; }  ///< ticks for which the clock stood still, in this epoch
   [[nodiscard]] Time last_tick() const noexcept { return last_tick_; }
   [[nodiscard]] std::uint32_t session_tick() const noexcept { return session_tick_; }

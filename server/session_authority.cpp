@@ -67,7 +67,7 @@ void Session::decide_authority(Time now, std::uint8_t who, std::size_t tool, con
 
 /// A scene's own changes are known ahead, so they are announced ahead: each acts at its time. Their links are judged then.
 void Session::follow_timeline(Time now) noexcept {
-  if (!begun_ || clock_stands() || state_ == wire::SessionState::kEnding) return;
+  if (!begun_ || clock_stands()) return;
   for (; next_event_ < scene_->timeline.size(); ++next_event_) {
     const TimedAuthority& event = scene_->timeline[next_event_];
     const double ahead = std::ceil((event.at - time()) / dt_ - 0.5);  // the tick nearest to it

@@ -34,7 +34,7 @@ void take_record(const Session& session, TickRecord& record) noexcept {
   record.tick = session.session_tick();
   const wire::SessionState state = session.state();
   const bool stopped = state == wire::SessionState::kPaused || state == wire::SessionState::kStopped || state == wire::SessionState::kPassive;
-  record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld || (stopped && session.session_tick() > 0 && !session.clock_stands());
+  record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld || (stopped && session.begun() && !session.gathering() && !session.clock_stands());
   record.stood = session.stood();
   record.slipped = session.slipped();
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {

@@ -36,8 +36,7 @@ class Tool {
   [[nodiscard]] const AxisArray& moved() const noexcept { return moved_; }          ///< during the last step
   [[nodiscard]] const AxisArray& dissipated() const noexcept { return dissipated_; }  ///< during the last step [J]
   [[nodiscard]] const hal::SteppedDevice* slave() const noexcept { return slave_.get(); }
-  [[nodiscard]] const AxisArray& slave_effort() const noexcept { return slave_effort_; }  ///< commanded, port axes
-  [[nodiscard]] hal::Vec3 slave_force_commanded() const noexcept;                         ///< at the tip [N]
+  [[nodiscard]] hal::Vec3 slave_force_commanded() const noexcept;                     ///< at the tip [N]
   [[nodiscard]] std::uint64_t not_finite() const noexcept { return not_finite_; }
 
   control::AuthorityRow authority;
@@ -51,7 +50,7 @@ class Tool {
   AxisArray scale_{1, 1, 1, 1, 1, 1, 1};
   std::unique_ptr<hal::SteppedDevice> slave_;
   std::array<control::ToolIpc, kAxesMax> ipc_{};
-  AxisArray moved_{}, dissipated_{}, slave_effort_{};
+  AxisArray moved_{}, dissipated_{}, slave_effort_{};  ///< slave_effort_: commanded, port axes
   hal::Command command_{};
   std::uint64_t not_finite_ = 0;
 };

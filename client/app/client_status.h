@@ -21,7 +21,7 @@ struct ClientStatus {
   std::uint32_t stops = 0;    ///< how many so far
   std::uint32_t missing = 0;  ///< required seats that are not ready
   double session_time = -1;   ///< [s], negative before the session began
-  double silence_s = 0;       ///< since something newer came from the server [s]
+  double silence_s = 0;       ///< since the server last answered something newer of this seat [s]: one that speaks and hears nothing counts as silent
   bool own_stop = false;  ///< the person stopped the own hand
   bool touching = false;  ///< the slave of the tool touches something
   std::optional<double> distance_m{};  ///< from the hand to the tool, where the port is a tip

@@ -4,6 +4,7 @@
 #include <span>
 #include <system_error>
 
+#include "common/base/printed_command.h"
 #include "common/trust/io/state_folder.h"
 
 namespace tandem::client {
@@ -12,15 +13,6 @@ namespace {
 using trust::StateFolder;
 
 constexpr const char* kLock = "confirmed_motors.lock";
-
-/// One word for a shell.
-std::string shell_word(std::string_view text) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string_view::npos) return std::string(text);
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 std::expected<MotorBook, std::string> read_book(const StateFolder& folder) {
   const auto bytes = folder.read(MotorState::kFile);
@@ -74,7 +66,7 @@ std::string MotorState::keep(const hal::SignFile& signs, bool confirmed) const {
 }
 
 std::string MotorState::command(std::string_view device) const {
-  return "tandem-client doctor --device " + shell_word(device) + " --confirm-motors" + (option_.empty() ? "" : " --state " + shell_word(option_));
+  return "tandem-client doctor --device " + shell_word(device) + " --confirm-motors" + state_option_of(option_);
 }
 
 }  // namespace tandem::client

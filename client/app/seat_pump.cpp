@@ -137,7 +137,7 @@ void SeatPump::obey_person() noexcept {
 
 void SeatPump::obey_script(Time now) noexcept {
   const link::Freshness& f = seat_->link().freshness();
-  if (!f.heard() || f.silence(now) > kScriptWaits) return;  // while there is no server, its time stands still
+  if (!f.heard() || f.unanswered(now) > kScriptWaits) return;  // while there is no server, its time stands still
   // A person who is refused sees it and says it again; for a script this does, as long as nothing else was asked for.
   if (script_asked_ && seat_->force().handover == wire::Handover::kCalledOff && now - *script_asked_ > kScriptAgain && now - *script_asked_ < kScriptStands)
     ask_script(now);
@@ -195,7 +195,7 @@ void SeatPump::look(Time now) noexcept {
   p.stops = seat_->force().stops;
   p.missing = seat_->force().missing;
   if (const auto time = seat_->server_time(now)) p.session_time = *time;  // back at a server that waits for others: what was last shown
-  p.silence_s = seconds(f.heard() ? f.silence(now) : now - connected_);
+  p.silence_s = seconds(f.heard() ? f.unanswered(now) : now - connected_);
   p.alpha = seat_->force().alpha;
   p.authority_version = seat_->force().authority_version;
   p.touching = seat_->force().touching;

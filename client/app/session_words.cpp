@@ -1,7 +1,9 @@
 #include "client/app/session_words.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -13,7 +15,6 @@
 namespace tandem::client {
 namespace {
 
-constexpr auto kPatience = std::chrono::milliseconds(2000);
 constexpr int kEveryMs = 1000;
 constexpr int kLeastMs = 150;  // between two questions: a server answers ten a second
 
@@ -28,8 +29,12 @@ void lower(const io::Fd& event) {
 
 }  // namespace
 
-SessionWords::SessionWords(std::shared_ptr<trust::ControlClient> connection, const control::Id& session)
-    : connection_(std::move(connection)), news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+SessionWords::SessionWords(std::shared_ptr<trust::ControlClient> connection, const control::Id& session, std::chrono::milliseconds patience)
+    : connection_(std::move(connection)),
+      patience_(patience),
+      socket_(connection_ ? ::fcntl(connection_->fd(), F_DUPFD_CLOEXEC, 0) : -1),
+      news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   if (connection_) thread_ = std::thread([this, session] { work(session); });
 }
 
@@ -38,6 +43,8 @@ SessionWords::~SessionWords() {
   hurry();
   if (thread_.joinable()) thread_.join();
 }
+
+void SessionWords::give_up() noexcept { ::shutdown(socket_.get(), SHUT_RDWR); }
 
 void SessionWords::hurry() noexcept { raise(wake_); }
 
@@ -49,7 +56,7 @@ std::optional<control::Status> SessionWords::take() {
 
 void SessionWords::work(const control::Id& session) {
   while (!over_.load(std::memory_order_relaxed)) {
-    auto answer = connection_->ask(control::StatusRequest{session}, kPatience);
+    auto answer = connection_->ask(control::StatusRequest{session}, patience_);
     if (!answer) {
       ended_.store(true, std::memory_order_release);
       return;
@@ -71,7 +78,7 @@ void SessionWords::work(const control::Id& session) {
 
 std::string ask_why_gone(trust::ControlClient* connection, const control::Id& session) {
   if (connection == nullptr) return {};
-  const auto answer = connection->ask(control::StatusRequest{session}, kPatience);
+  const auto answer = connection->ask(control::StatusRequest{session}, SessionWords::kPatience);
   const auto* refused = answer ? std::get_if<control::Refused>(&*answer) : nullptr;
   return refused == nullptr ? std::string() : printable(refused->text);
 }

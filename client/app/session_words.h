@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,13 +18,17 @@ namespace tandem::client {
 /// carries numbers only. The hand waits for nothing of it. A connection that is gone gives no more answers, and the seat lives on.
 class SessionWords {
  public:
+  static constexpr std::chrono::milliseconds kPatience{2000};
   /// Begins. @param connection  of the joining; nobody else uses it until this object is gone. Null: there are no answers
-  SessionWords(std::shared_ptr<trust::ControlClient> connection, const control::Id& session);
-  /// Waits for an answer that is under way, 2 s at most.
+  /// @param patience  for each answer
+  SessionWords(std::shared_ptr<trust::ControlClient> connection, const control::Id& session, std::chrono::milliseconds patience = kPatience);
+  /// Waits for an answer that is under way, for the patience at most.
   ~SessionWords();
   SessionWords(const SessionWords&) = delete;
   SessionWords& operator=(const SessionWords&) = delete;
 
+  /// Ends the connection, which nobody needs any more: the destructor then waits for no answer.
+  void give_up() noexcept;
   /// Something changed: asks now instead of within a second.
   void hurry() noexcept;
   /// Readable when there is something to take.
@@ -37,6 +42,8 @@ class SessionWords {
   void work(const control::Id& session);
 
   std::shared_ptr<trust::ControlClient> connection_;
+  std::chrono::milliseconds patience_;
+  io::Fd socket_;  ///< a duplicate of the connection's: the thread may close that one at any time
   io::Fd news_, wake_;
   std::mutex lock_;
   std::optional<control::Status> newest_;

@@ -150,20 +150,22 @@ std::optional<SeatEnd> Vigil::take_back() {
     trouble_ = back.error().reason + "; join again";
     return SeatEnd::kSeatGone;
   }
-  const control::Welcome& welcome = back->given.welcome;
-  o_.line.note(welcome.epoch > own_.epoch ? "the server was started anew and gave the seat back" : "the server gave the seat back");
-  own_.epoch = welcome.epoch;
-  words_.reset();
-  connection_ = back->given.connection;
-  known_.reset();
-  own_.server = back->given.server;
-  own_.secrets.insert(own_.secrets.begin(), welcome.resume_secret);
-  if (own_.secrets.size() > kSecretsKept) own_.secrets.resize(kSecretsKept);
+  // The hand first: nothing of what follows may keep it from its new connection.
   kept_ = io::duplicate(back->handover->socket);
   o_.pump.hand_over(std::move(back->handover));
   handed_over_ = io::monotonic_now();
-  coming_.reset();
+  const control::Welcome& welcome = back->given.welcome;
+  o_.line.note(welcome.epoch > own_.epoch ? "the server was started anew and gave the seat back" : "the server gave the seat back");
+  own_.epoch = welcome.epoch;
+  own_.server = back->given.server;
+  own_.secrets.insert(own_.secrets.begin(), welcome.resume_secret);
+  if (own_.secrets.size() > kSecretsKept) own_.secrets.resize(kSecretsKept);
+  if (words_) words_->give_up();  // its server may be one that answers nothing any more
+  words_.reset();
+  connection_ = back->given.connection;
+  known_.reset();
   words_ = std::make_unique<SessionWords>(connection_, own_.session);
+  coming_.reset();
   return std::nullopt;
 }
 

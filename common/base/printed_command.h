@@ -30,13 +30,28 @@ namespace tandem {
   return text;
 }
 
-/// ` --state DIR` with the folder quoted for a shell where that is needed; empty for an empty folder.
-[[nodiscard]] inline std::string state_option_of(const std::string& folder) {
-  if (folder.empty()) return {};
-  const bool plain = folder.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,+%@") == std::string::npos;
-  std::string quoted = "'";
-  for (const char c : folder) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return " --state " + (plain ? folder : quoted + "'");
+/// A message without the commands that it names in parentheses and backquotes, for where there is no room: `an operator (`control resume`)`
+/// becomes `an operator`.
+[[nodiscard]] inline std::string without_commands(std::string text) {
+  constexpr std::string_view kBegin = " (`", kEnd = "`)";
+  for (std::size_t at = text.find(kBegin); at != std::string::npos; at = text.find(kBegin, at)) {
+    const std::size_t end = text.find(kEnd, at + kBegin.size());
+    if (end == std::string::npos) break;
+    text.erase(at, end + kEnd.size() - at);
+  }
+  return text;
 }
+
+/// One word of a command line, quoted for a shell where that is needed.
+[[nodiscard]] inline std::string shell_word(std::string_view text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,+%@";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string_view::npos) return std::string(text);
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// ` --state DIR` as it is typed; empty for an empty folder.
+[[nodiscard]] inline std::string state_option_of(const std::string& folder) { return folder.empty() ? std::string() : " --state " + shell_word(folder); }
 
 }  // namespace tandem

@@ -83,7 +83,6 @@ class EnergyLedger {
     return bound > used ? bound - used : 0;
   }
   [[nodiscard]] std::uint64_t received_nj() const noexcept { return received_; }
-  [[nodiscard]] std::uint64_t dissipated_nj() const noexcept { return dissipated_; }
   [[nodiscard]] std::uint64_t forfeited_nj() const noexcept { return forfeited_; }
   [[nodiscard]] double margin() const noexcept { return static_cast<double>(margin_nj()) * 1e-9; }
   /// The invariant itself, for monitors: true unless the account is broken.

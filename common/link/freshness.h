@@ -66,6 +66,10 @@ class Freshness {
   /// One-way age of the newest datagram [RTT/2 of the best case, plus how much later than the best it came, plus the wait since].
   [[nodiscard]] Duration age(Time now) const noexcept { return heard_ ? one_way_ + (now - arrived_) : std::chrono::hours(24); }
   [[nodiscard]] Duration silence(Time now) const noexcept { return heard_ ? now - arrived_ : std::chrono::hours(24); }
+  /// Time since the peer last said something new about what this end sent: a datagram with a newer echo or, before the first echo, its
+  /// first datagram. At least `silence`: it also grows while the peer speaks and hears nothing of this end; a long way alone does not
+  /// make it grow.
+  [[nodiscard]] Duration unanswered(Time now) const noexcept { return heard_ ? now - echo_moved_ : std::chrono::hours(24); }
   [[nodiscard]] Duration rtt() const noexcept { return rtt_; }
   [[nodiscard]] Duration rtt_p50() const noexcept { return Duration{rtts_.quantile(0.50)}; }
   /// Of the last full thousand; before there was one, of all: whoever asks then has it counted.

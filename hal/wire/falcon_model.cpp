@@ -260,6 +260,7 @@ void FalconModel::answer() noexcept {
     kept_size_ += size;
     return;
   }
+  if (use_up(faults.line_errors)) line_.mark_line_error();
   for (; faults.noise_bytes > 0; --faults.noise_bytes) send(bytes(faults.noise_bytes % 2 == 0 ? 0x3E : 0x55));
   if (kept_size_ > 0) send(std::span(kept_).first(kept_size_));
   kept_size_ = 0;

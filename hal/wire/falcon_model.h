@@ -31,6 +31,7 @@ struct FalconFaults {
   int glued_replies = 0;    ///< answers that are kept back and sent together with the next one
   int split_replies = 0;    ///< answers of which the second half comes with the next one
   int noise_bytes = 0;      ///< rubbish before the next answer
+  int line_errors = 0;      ///< answers with which the bridge says that it lost bytes
   int flipped_replies = 0;  ///< answers with one byte made illegal
   int lost_replies = 0;     ///< answers that never come
   bool silent = false;      ///< no answers at all

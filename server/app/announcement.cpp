@@ -1,11 +1,10 @@
 #include "server/app/announcement.h"
 
-#include <unistd.h>
-
-#include <array>
 #include <cerrno>
 
 #include "common/base/format.h"
+#include "common/base/printed_command.h"
+#include "common/io/own_address.h"
 #include "common/trust/io/state_folder.h"
 #include "server/app/house.h"
 
@@ -19,31 +18,26 @@ std::string client_command() {
   return (slash == std::string::npos ? "" : own.substr(0, slash + 1)) + "tandem-client";
 }
 
-/// By which other computers may know this one; a server that listens on all its addresses has no better one.
-std::string own_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0' ? name.data() : "SERVER";
-}
-
 }  // namespace
 
 std::string announcement(const SessionRun& run, const io::SocketAddress& at, bool throw_away, bool several, const std::string& folder,
                          const std::string& read_code) {
   const SceneSpec& scene = run.plan().scene;
-  const std::string dialled = at.any() ? own_name() + ":" + std::to_string(at.port()) : io::to_text(at), &name = run.plan().name;
+  const std::string &name = run.plan().name, dialled = shell_word(io::dialable(at));
   const bool by_code = !run.code().empty();
   const std::string which = by_code ? " --session " + (read_code.empty() ? code_text(run.code()) : "CODE") : several ? " --session " + name : "";
-  std::string text = several ? "session " + name + ": " : "";
+  std::string text = several ? "session " + name + ": " : "", optional;
   text += "scene " + scene.name + (scene.endless() ? ", no end; " : format(", %g s; ", scene.duration));
   if (by_code) text += read_code.empty() ? "session code " + code_text(run.code()) + "; " : "`" + read_code + "` shows the session's CODE; ";
   text += throw_away ? "in other terminals type\n" : "on enrolled workstations type\n";
   for (const SeatSpec& seat : scene.seats) {
     const bool ticket = !throw_away && (!by_code || seat.role == Role::kInstructor);
-    text += format("  %s join --server %s --seat %s --device sim%s%s\n", client_command().c_str(), dialled.c_str(), seat.name.c_str(), ticket ? " --ticket TICKET" : which.c_str(),
-                   seat.required ? "" : "    # optional");
+    (seat.required ? text : optional) +=
+        format("  %s join --server %s --seat %s --device sim%s\n", client_command().c_str(), dialled.c_str(), seat.name.c_str(), ticket ? " --ticket-file FILE" : which.c_str());
   }
+  if (!optional.empty()) text += "and for seats that nobody waits for\n" + optional;
   return throw_away ? text
-                    : text + "a TICKET is written by\n  tandem-server ticket --session " + name + " --seat SEAT --workstation NAME" + trust::server_state_option(folder) + "\n";
+                    : text + "a ticket FILE is written by\n  tandem-server ticket --session " + name + " --seat SEAT --workstation NAME" + trust::server_state_option(folder) + " > FILE\n";
 }
 
 }  // namespace tandem::server

@@ -40,6 +40,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (now - *seat.away_since < kLost) continue;
     lost += now - *seat.away_since >= kSessionSilence ? 1 : 0;
     left += now_there.taken ? 0 : 1;
+    if (!now_there.taken) continue;  // left, and that was told
     if (!seat.warned)
       news.notes.push_back({"gone", name, name + " has been gone for 10 s; its weight went to the others, or the tool is held", true});
     seat.warned = true;

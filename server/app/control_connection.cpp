@@ -246,7 +246,7 @@ void ControlConnection::refuse(Reason reason, std::string text, bool last, std::
 void ControlConnection::answer(control::Body body, bool last) {
   if (finished_ || writing_) return;  // the last word is on its way already
   if (auto* const refused = std::get_if<control::Refused>(&body); refused != nullptr && workstation_ && plane_.trust_.on_disk()) {  // strangers learn nothing of this computer
-    std::string text = with_options(refused->text, "tandem-server", {"ticket", "enroll"}, trust::server_state_option(plane_.trust_.folder()->path()));
+    std::string text = with_options(refused->text, "tandem-server", {"ticket", "enroll", "revoke"}, trust::server_state_option(plane_.trust_.folder()->path()));
     if (text.size() <= control::kTextMax) refused->text = std::move(text);
   }
   refused_ = refused_ || (standing_ && std::holds_alternative<control::Refused>(body));

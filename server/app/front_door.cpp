@@ -173,7 +173,7 @@ void FrontDoor::write_down_now_and_then() {
   refresh_.async_wait([this](const asio::error_code& cancelled) {
     if (cancelled) return;
     const std::string problem = write_down();
-    if (!std::exchange(serving_fails_, !problem.empty()) && !problem.empty() && tell_) tell_({ControlEvent::kTrouble, "", "", problem + "; `tandem-server sessions` shows what was so before"});
+    if (!std::exchange(serving_fails_, !problem.empty()) && !problem.empty() && tell_) tell_({ControlEvent::kTrouble, "", "", problem + "; `tandem-server sessions" + trust::server_state_option(folder()) + "` shows what was so before"});
     look_after_audit();
     write_down_now_and_then();
   });

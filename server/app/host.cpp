@@ -8,15 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <span>
 #include <utility>
 
 #include "common/base/format.h"
 #include "common/base/printable.h"
 #include "common/base/printed_command.h"
-#include "common/base/silence.h"
 #include "common/io/clock.h"
 #include "common/io/help_text.h"
+#include "common/io/own_address.h"
 #include "common/io/realtime.h"
 #include "common/io/service_notice.h"
 #include "common/io/signals.h"
@@ -119,6 +118,7 @@ class Host {
     auto opened = FrontDoor::open(door);
     if (!opened) return trouble(opened.error());
     door_ = std::move(*opened);
+    dialled_ = shell_word(io::dialable(door_->address()));
     if (const std::string problem = open_book(); !problem.empty()) return trouble(problem);
     for (std::size_t slot = 0; slot < plan_.sessions.size(); ++slot) {
       const SessionPlan& session = plan_.sessions[slot];
@@ -165,7 +165,7 @@ class Host {
     std::string text = format("session %s GOES ON where its server ended %lld s ago: at %.1f s, epoch %llu", name.c_str(),
                               static_cast<long long>(std::max<std::int64_t>(0, trust::wall_seconds() - left.kept->written_s)), from.session_tick / r.plan().scene.tick_hz,
                               static_cast<unsigned long long>(r.epoch()));
-    if (from.begun) text += "; it waits until the instructors and all who led are back, or an instructor (key r) or operator (`tandem-client control resume`) goes on without";
+    if (from.begun) text += "; it waits until the instructors and all who led are back, or an instructor (key r) or operator (`tandem-client control" + reach(r) + " resume`) goes on without";
     if (from.stop != StopLane::Level::kNone) text += "; somebody had stopped it, and it stays so until an instructor or operator resumes";
     if (!io::logs_json()) line_.note(text + (plan_.returns ? "" : "; --fresh begins anew"));
     io::tell(io::Level::kInfo, {.event = "session_restored", .session = name, .tick = from.session_tick, .text = text});
@@ -188,7 +188,7 @@ class Host {
   void announce(const SessionRun& r) {
     // A journal, a file or a pipe keeps what it is given, and is read by others: codes are shown on terminals only.
     const std::string folder = door_->throw_away() ? "" : door_->folder();
-    const std::string read_code = ::isatty(::fileno(people())) == 1 ? "" : "tandem-server sessions" + trust::server_state_option(folder);
+    const std::string read_code = ::isatty(::fileno(people())) == 1 ? "" : list_command();
     std::fputs(io::for_terminal(announcement(r, door_->address(), door_->throw_away(), plan_.sessions.size() > 1, folder, read_code), people()).c_str(), people());
     std::fflush(people());
     io::tell(io::Level::kInfo, {.event = "session_opened", .session = r.plan().name, .text = r.plan().scene.name});
@@ -223,9 +223,9 @@ class Host {
 
   void show(const std::string& drain) {
     std::vector<SessionOnScreen> sessions;
-    for (const auto& r : runs_) sessions.push_back({r->plan().name, r->hosted().status(), &r->plan().scene});
+    for (const auto& r : runs_) sessions.push_back({r->plan().name, r->hosted().status(), &r->plan().scene, reach(*r)});
     const std::size_t rows = line_.rows_max();
-    line_.show(screen_items(sessions, drain, rows), rows);
+    line_.show(screen_items(sessions, drain, rows, list_command()), rows);
   }
 
   void tell_notices() {
@@ -276,7 +276,11 @@ class Host {
   }
 
   /// What a command for a session needs to find it.
-  [[nodiscard]] std::string reach(const SessionRun& r) const { return " --server " + io::to_text(door_->address()) + (plan_.sessions.size() == 1 ? "" : " --session " + r.plan().name); }
+  [[nodiscard]] std::string reach(const SessionRun& r) const { return " --server " + dialled_ + (plan_.sessions.size() == 1 ? "" : " --session " + r.plan().name); }
+  /// The command that lists all sessions here: with keys made on the spot the `tandem-server` commands know nothing of this server.
+  [[nodiscard]] std::string list_command() const {
+    return door_->throw_away() ? "tandem-client sessions --server " + dialled_ : "tandem-server sessions" + trust::server_state_option(door_->folder());
+  }
   [[nodiscard]] std::string prefix(const SessionRun& r) const { return plan_.sessions.size() == 1 ? "" : r.plan().name + ": "; }
 
   void tell(const SessionRun& r, const SessionStatus& status, const Attendance::Note& note) {
@@ -310,25 +314,11 @@ class Host {
     for (const Attendance::Note& note : news.notes) tell(r, status, note);
     if (status.state == wire::SessionState::kWaiting) r.waited_for = waiting_for(status, r.plan().scene);
     if (r.end) return;
-    if (news.all_left && r.plan().scene.endless()) {
-      tell(r, status, {"people_left", "", "everybody left 10 s ago; the session ends"});
-      end(r, End::kPeopleLeft);
-    } else if (news.all_lost) {
-      tell(r, status, {"peers_lost", "", format("peers lost: nobody was heard for %.0f s; the session ends", seconds(kSessionSilence)), true});
-      end(r, End::kPeersLost);
-    } else if (plan_.wait_s > 0 && status.state == wire::SessionState::kWaiting && seconds(now - began_) > plan_.wait_s) {
-      tell(r, status, {"nobody_came", "", "nobody came for " + waiting_for(status, r.plan().scene) + " within " + std::to_string(plan_.wait_s) + " s (--wait); the session ends", true});
-      end(r, End::kNobodyCame);
-    } else if (r.kept() != nullptr && now > r.back_until() && nobody_came_back(status, r.plan().scene)) {
-      tell(r, status, {"nobody_came_back", "", "nobody came back within 10 min after the server had ended; the session is over", true});
-      end(r, End::kNobodyCame);
+    const SessionEnding::When when{now, began_, plan_.wait_s, r.kept() != nullptr ? std::optional{r.back_until()} : std::nullopt};
+    if (const auto ending = session_ending(when, news, status, r.plan().scene)) {
+      tell(r, status, ending->note);
+      end(r, ending->why);
     }
-  }
-
-  /// A session that waits for nobody in particular runs, or is stopped, though nobody came since the restart.
-  static bool nobody_came_back(const SessionStatus& status, const SceneSpec& scene) {
-    const std::span seats(status.seats.begin(), scene.seats.size());
-    return std::ranges::none_of(seats, status.state == wire::SessionState::kWaiting ? &SeatStatus::taken : &SeatStatus::ever_taken);
   }
 
   void end(SessionRun& r, End why) {
@@ -381,6 +371,7 @@ class Host {
   Shards shards_;
   Notices notices_;
   std::unique_ptr<FrontDoor> door_;
+  std::string dialled_;  ///< where printed commands reach it, as a word for a shell
   std::unique_ptr<CheckpointBook> book_;  ///< null: nobody could come back anyway
   std::vector<std::unique_ptr<SessionRun>> runs_;  ///< those that are not over, or being followed up
   std::vector<std::unique_ptr<SessionRun>> finished_;  ///< that the door still knows of

@@ -141,6 +141,7 @@ void HostedSession::publish(Time now, const MachineStatus& machine) noexcept {
   picture_.machine = machine;
   picture_.stray = session_.stray();
   picture_.violations = violations_.passed() ? 0 : 1;
+  picture_.audit_dropped = session_.audit_dropped() + audit_.dropped();
   // Quick truths are looked up for all seats at once, so that a line never mixes old and new.
   for (std::size_t i = 0; i < scene_->seats.size(); ++i) {
     SeatStatus& seat = picture_.seats[i];

@@ -94,6 +94,7 @@ std::string metrics(const House& house, const ControlPlane& plane, const AuditSt
       for (std::size_t r = 0; r < refused.size(); ++r) refused[r] += status.seats[i].refused[r];
     }
     page.gauge("tandem_session_time_seconds", "Session time", {{"session", opening->name}}, status.time);
+    page.count("tandem_audit_events_lost_total", "Events of the session that nobody took in time: they are not in the audit log", {{"session", opening->name}}, static_cast<double>(status.audit_dropped));
     page.gauge("tandem_session_broken", "1: an invariant that the session's law promises was broken", {{"session", opening->name}}, static_cast<double>(status.violations));
   }
   for (std::size_t i = 0; i < sessions.size(); ++i)

@@ -10,12 +10,10 @@
 #include "server/app/attendance.h"
 #include "server/app/hosted_session.h"
 #include "server/app/recorder.h"
+#include "server/app/session_ending.h"
 #include "server/kept_session.h"
 
 namespace tandem::server {
-
-/// Why a session ended. kPeopleLeft: of a scene without an end, everybody left as people leave.
-enum class End : std::uint8_t { kScene, kSignal, kNobodyCame, kPeersLost, kPeopleLeft };
 
 /// A session that somebody wants hosted, everything checked.
 struct SessionPlan {

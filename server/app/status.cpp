@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "common/base/format.h"
+#include "common/base/printed_command.h"
 #include "server/stop_words.h"
 
 namespace tandem::server {
@@ -88,12 +89,16 @@ std::string why_held(const SessionStatus& status, const SceneSpec& scene) {
   return text.empty() ? "no seat with authority is engaged" : text;
 }
 
-std::vector<io::ScreenItem> status_items(const SessionStatus& status, const SceneSpec& scene, const std::string& session, std::size_t row) {
+std::vector<io::ScreenItem> status_items(const SessionStatus& status, const SceneSpec& scene, const std::string& session, std::size_t row, const std::string& reach) {
   const std::string name = session.empty() ? "" : session + ": ";
   const std::string time = scene.endless() ? format("%.1f s", status.time) : format("%.1f of %g s", status.time, scene.duration);
   std::string state = name + time + " ";
   std::string brief;
-  const auto ends = [&] { return who_ends(status.stop, scene, seats_heard(status)); };
+  const auto ends = [&](const char* what) {
+    const std::string who = state + what + "; ends it: " + with_options(who_ends(status.stop, scene, seats_heard(status)), "tandem-client control", reach);
+    brief = session.empty() ? without_commands(who) : state + what;  // beside other sessions' lines there is no room for more
+    state = who;
+  };
   switch (status.state) {
     case wire::SessionState::kWaiting: {
       const std::string whom = waiting_for(status, scene);
@@ -108,12 +113,10 @@ std::vector<io::ScreenItem> status_items(const SessionStatus& status, const Scen
       state += "HELD: " + why_held(status, scene);
       break;
     case wire::SessionState::kPaused:
-      brief = state + "PAUSED";
-      state += "PAUSED; ends it: " + ends();
+      ends("PAUSED");
       break;
     case wire::SessionState::kStopped:
-      brief = state + "STOPPED";
-      state += "STOPPED; ends it: " + ends();
+      ends("STOPPED");
       break;
     case wire::SessionState::kEnding:
       state += "ending";
@@ -132,14 +135,14 @@ std::vector<io::ScreenItem> status_items(const SessionStatus& status, const Scen
   return items;
 }
 
-std::vector<io::ScreenItem> screen_items(std::span<const SessionOnScreen> sessions, const std::string& drain, std::size_t rows) {
+std::vector<io::ScreenItem> screen_items(std::span<const SessionOnScreen> sessions, const std::string& drain, std::size_t rows, const std::string& list) {
   std::vector<io::ScreenItem> items{{drain, "", 0}};
   const std::size_t each = sessions.size() <= 1 || sessions.size() * 2 <= rows ? 2 : 1;
   const bool all = sessions.size() * each <= rows;
   std::size_t row = 0, shown = 0;
   for (const SessionOnScreen& s : sessions) {
     if (!all && row + 1 >= rows) break;
-    std::vector<io::ScreenItem> more = status_items(s.status, *s.scene, sessions.size() == 1 ? "" : s.name, row);
+    std::vector<io::ScreenItem> more = status_items(s.status, *s.scene, sessions.size() == 1 ? "" : s.name, row, s.reach);
     for (io::ScreenItem& item : more) {
       if (each == 1) item.row = row;
       item.stays = sessions.size() > 1;  // no session's words stand in another one's line
@@ -148,7 +151,7 @@ std::vector<io::ScreenItem> screen_items(std::span<const SessionOnScreen> sessio
     row += each;
     ++shown;
   }
-  if (!all) items.push_back({format("and %zu sessions more: `tandem-server sessions` lists them", sessions.size() - shown), "", row});
+  if (!all) items.push_back({format("and %zu sessions more: `%s` lists them", sessions.size() - shown, list.c_str()), "", row});
   return items;
 }
 

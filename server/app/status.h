@@ -48,6 +48,7 @@ struct SessionStatus {
   double time = 0;  ///< session time [s]
   std::uint64_t stray = 0;      ///< datagrams to this session for no connection
   std::uint64_t violations = 0; ///< broken invariants that the law promises
+  std::uint64_t audit_dropped = 0;  ///< events that nobody took in time: they are not in the audit log
   std::array<SeatStatus, kSeatsMax> seats{};
   MachineStatus machine;
   StopLane stop;
@@ -59,16 +60,19 @@ struct SessionStatus {
 [[nodiscard]] std::string why_held(const SessionStatus& status, const SceneSpec& scene);
 
 /// What a screen shows of a session, the important first: its state and who leads in `row`, then its seats in the row after that.
-[[nodiscard]] std::vector<io::ScreenItem> status_items(const SessionStatus& status, const SceneSpec& scene, const std::string& session = {}, std::size_t row = 0);
+/// @param reach  options by which a `tandem-client control` command finds the session
+[[nodiscard]] std::vector<io::ScreenItem> status_items(const SessionStatus& status, const SceneSpec& scene, const std::string& session = {}, std::size_t row = 0,
+                                                       const std::string& reach = {});
 
 struct SessionOnScreen {
   std::string name;
   SessionStatus status;
   const SceneSpec* scene = nullptr;
+  std::string reach{};  ///< as for `status_items`
 };
 /// A server's screen: two lines per session, or one where `rows` are too few; then how many sessions are left out.
-/// @param drain  shown first; empty: the server does not drain
-[[nodiscard]] std::vector<io::ScreenItem> screen_items(std::span<const SessionOnScreen> sessions, const std::string& drain, std::size_t rows);
+/// @param drain  shown first; empty: the server does not drain  @param list  the command that lists all sessions of this server
+[[nodiscard]] std::vector<io::ScreenItem> screen_items(std::span<const SessionOnScreen> sessions, const std::string& drain, std::size_t rows, const std::string& list);
 
 /// `trainee (nobody joined), slave (not ready)`: the required seats a session waits for; empty if for none.
 [[nodiscard]] std::string waiting_for(const SessionStatus& status, const SceneSpec& scene);

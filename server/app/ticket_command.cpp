@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "common/base/printed_command.h"
 #include "common/io/number_option.h"
+#include "common/io/own_address.h"
 #include "common/trust/enrolment.h"
 #include "common/trust/ticket.h"
 #include "server/app/trust_commands.h"
@@ -107,7 +109,7 @@ int ticket_command(const TicketArguments& arguments) {
   state->audit(ticket.not_before, "ticket", workstation->name, trust::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
   tell_audit_trouble("ticket", *state);
   std::printf("%s\n", trust::ticket_text(*bytes).c_str());
-  const std::string address = *serving ? (*serving)->address : "HOST:PORT";
+  const std::string address = *serving ? shell_word(io::dialable((*serving)->address)) : "HOST:PORT";
   const std::string what = arguments.seat.empty() ? "control --server " + address : "join --server " + address + " --seat " + arguments.seat + " --device sim";
   std::fprintf(stderr, "good once, for %s h, on %s only; write it to FILE there, then type\n  tandem-client %s --ticket-file FILE\n(--ticket TICKET is seen by everybody on that computer)\n", hours.c_str(),
                workstation->name.c_str(), what.c_str());

@@ -11,6 +11,7 @@
 #include <new>
 #include <set>
 
+#include "common/trust/io/client_trust.h"
 #include "common/trust/io/server_trust.h"
 #include "tests/books/state_check.h"
 #include "tests/books/state_files.h"
@@ -141,6 +142,24 @@ TEST(StateFaults, AFirstStartThatDidNotFinishIsDoneAgain) {
         const auto trust = trust::ServerTrust::open(folder + "/fresh");
         return (trust ? std::string() : trust.error()) + unknown_files(folder);
       });
+}
+
+/// In the words that every other output file has, at the server and at clients.
+TEST(StateFaults, AFullDiskIsCalledFullAndWhatHelpsIsTold) {
+  const trust::test::Folder begin;
+  const std::string path = begin.path() + "/state";
+  ASSERT_TRUE(trust::ServerTrust::init(path, 1));
+  auto trust = trust::ServerTrust::open(path);
+  ASSERT_TRUE(trust) << trust.error();
+  const trust::StateFolder& folder = *trust->folder();
+  ASSERT_EQ(folder.append("lines", "first\n"), "");
+  inject(begin.path(), {Kind::kNoSpace, 0, true});
+  const auto made = trust::ServerTrust::init(begin.path() + "/another", 1);
+  const std::string texts[] = {trust->enrol_directly({"desk", {}, 1}), folder.replace("book", "text"), folder.append("lines", "second\n"), folder.append("new", "line\n"),
+                               made ? "" : made.error(), trust::ClientTrust::open_or_make(begin.path() + "/own", 1).error()};
+  no_faults();
+  for (const std::string& text : texts) EXPECT_NE(text.find(": the disk is full (No space left on device); free some space there"), std::string::npos) << text;
+  EXPECT_EQ(texts[1].find(folder.path_of("book") + " cannot be written"), 0u) << texts[1] << "not a name that nobody knows";
 }
 
 /// The list of files is not longer than what there is.

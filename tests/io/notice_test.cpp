@@ -170,6 +170,32 @@ TEST(Removed, StaysSoAfterARestart) {
   EXPECT_EQ(school.code(), code);
 }
 
+// ---- What a server prints can be typed ----------------------------------------------------------------------------------------
+
+TEST(PrintedCommands, OfAServerOnAllAddressesWorkAsTyped) {
+  const Folder folder;
+  const std::string state = folder.file("state");
+  Process made = server({"init", "--state", state});
+  ASSERT_EQ(made.wait(), 0) << made.err();
+  Process first = server({"enroll", "first", "--state", state, "--address", "127.0.0.1:1"});  // a server on a network wants one
+  ASSERT_EQ(first.wait(), 0) << first.err();
+  Process host = serving(folder.write("s.textproto", "version: 1 listen: \"0.0.0.0:0\" state: \"state\" session { name: \"a\" scene: \"lesson\" }"));
+  const std::string out = host.out(), mark = "--server ";
+  EXPECT_EQ(out.find(mark + "0.0.0.0"), std::string::npos) << out;
+  EXPECT_NE(out.find("--seat instructor --device sim --ticket-file FILE\n"), std::string::npos) << out << "a ticket on a command line is seen by everybody";
+  EXPECT_EQ(out.find('#'), std::string::npos) << out << "not every shell takes comments";
+  const auto at = out.find(mark);
+  ASSERT_NE(at, std::string::npos) << out;
+  const std::string address = out.substr(at + mark.size(), out.find(' ', at + mark.size()) - at - mark.size());
+  Process given = server({"enroll", "desk", "--state", state, "--address", address});
+  ASSERT_EQ(given.wait(), 0) << given.err();
+  Process taken({TANDEM_CLIENT, "enroll", first_line(given.out()), "--state", folder.file("own")});
+  EXPECT_EQ(taken.wait(), 0) << address << taken.err();
+  Process ticket = server({"ticket", "--session", "a", "--seat", "instructor", "--workstation", "desk", "--state", state});
+  EXPECT_EQ(ticket.wait(), 0);
+  EXPECT_NE(ticket.err().find("join --server " + address + " --seat"), std::string::npos) << ticket.err();
+}
+
 // ---- Mistakes of a configuration and its state folder, in one round ------------------------------------------------------------
 
 TEST(Check, TellsSchemaAddressSceneAndStateFolderAtOnce) {

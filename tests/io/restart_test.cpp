@@ -187,6 +187,7 @@ TEST_F(Restart, AServiceThatIsStartedAnewGivesEverybodyHisSeatBack) {
   EXPECT_NE(kept(), "");
   host = server({"serve", config});
   ASSERT_TRUE(host.wait_for("GOES ON where its server ended")) << host.err();
+  EXPECT_NE(host.err().find("`tandem-client control --server " + address + " resume`"), std::string::npos) << host.err();
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err() << trainer.err();
   EXPECT_TRUE(trainer.wait_for("the server is being started anew")) << trainer.err();
   // A person ends them: they do not come back.

@@ -231,7 +231,7 @@ TEST(Monitoring, ShowsMetricsHealthAndNothingElse) {
   EXPECT_TRUE(page.starts_with("HTTP/1.1 200 OK\r\n")) << page;
   for (const char* line : {"tandem_tick_seconds_bucket{tick_hz=\"1000\",le=\"0.0001\"}", "tandem_tick_late_total{", "tandem_loop_age_seconds{session=\"one_axis\",seat=\"trainer\"}",
                            "tandem_gate_state{", "tandem_alpha{session=\"one_axis\",seat=\"trainer\"} ", "tandem_joins_total{result=\"welcomed\"} 1",
-                           "tandem_udp_drop_total{reason=\"tag\"} 0", "tandem_sessions{phase=\"running\"} 1", "# TYPE tandem_tick_seconds histogram"})
+                           "tandem_udp_drop_total{reason=\"tag\"} 0", "tandem_sessions{phase=\"running\"} 1", "tandem_audit_events_lost_total{session=\"one_axis\"} 0", "# TYPE tandem_tick_seconds histogram"})
     EXPECT_NE(page.find(line), std::string::npos) << line << "\n" << page;
   EXPECT_NE(http(metrics, "GET /healthz HTTP/1.0\r\n\r\n").find("200 OK"), std::string::npos);
   EXPECT_NE(http(metrics, "GET /readyz HTTP/1.1\r\nHost: " + metrics + "\r\n\r\n").find("200 OK"), std::string::npos);

@@ -216,6 +216,25 @@ TEST(LiveSession, EndsGentlyOnCtrlCOfTheClient) {
   EXPECT_EQ(host.wait(), 0) << host.err();
 }
 
+TEST(LiveSession, AClientThatTheServerDoesNotHearComesBackThoughItStillHearsTheServer) {
+  const Folder folder;
+  Process host = hosting("one_axis", {"--duration", "120"});
+  Process proxy(Words{TANDEM_NETSIM, "proxy", "--to", address_of(host), "--control", folder.file("p.sock")});
+  ASSERT_TRUE(proxy.wait_for("listening on ")) << proxy.err();
+  Process trainer = client(address_of(proxy), "trainer");
+  ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
+  Process cut(Words{TANDEM_NETSIM, "control", folder.file("p.sock"), "loss", "100", "up"});
+  ASSERT_EQ(cut.wait(), 0) << cut.err();
+  EXPECT_TRUE(trainer.wait_for("the server fell silent")) << trainer.err() << "once a second it says that it hears nothing";
+  Process mended(Words{TANDEM_NETSIM, "control", folder.file("p.sock"), "loss", "0", "up"});
+  ASSERT_EQ(mended.wait(), 0) << mended.err();
+  EXPECT_TRUE(trainer.wait_for("the server is back")) << trainer.err();
+  trainer.signal(SIGINT);
+  EXPECT_EQ(trainer.wait(), 0) << trainer.err();
+  host.signal(SIGINT);
+  EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
 TEST(LiveSession, WaitsForRequiredSeatsAsLongAsItWasTold) {
   Process host = hosting("free_motion", {"--wait", "1"});
   Process trainer = client(address_of(host), "trainer");

@@ -21,6 +21,23 @@ TEST(Freshness, KnowsNothingBeforeItHeard) {
   EXPECT_GE(f.loop_age(at(0s)), 1h);
   EXPECT_GE(f.age(at(0s)), 1h);
   EXPECT_GE(f.silence(at(0s)), 1h);
+  EXPECT_GE(f.unanswered(at(0s)), 1h);
+}
+
+TEST(Freshness, CountsAsUnansweredWhileThePeerSaysNothingOfWhatWasSent) {
+  Freshness f(1ms);
+  f.accepted(at(0ms), 0, 0ms, 0);  // the peer spoke first
+  EXPECT_EQ(f.unanswered(at(40ms)), 40ms) << "nothing was ever echoed";
+  f.sent(at(50ms), 7);
+  f.sent(at(51ms), 8);
+  f.accepted(at(80ms), 7, 0ms, 80);
+  EXPECT_EQ(f.unanswered(at(90ms)), 10ms) << "a long way is no silence";
+  f.accepted(at(100ms), 7, 20ms, 100);
+  EXPECT_EQ(f.unanswered(at(100ms)), 20ms) << "the same again is no news";
+  f.accepted(at(110ms), 8, 0ms, 110);
+  EXPECT_EQ(f.unanswered(at(110ms)), 0ms);
+  f.accepted(at(120ms), 9, 0ms, 120);
+  EXPECT_EQ(f.unanswered(at(120ms)), 10ms) << "that was never sent";
 }
 
 TEST(Freshness, TakesThePeersHoldingTimeOffTheRoundTrip) {

@@ -8,8 +8,11 @@
 
 #include "common/base/printed_command.h"
 #include "common/base/unit.h"
+#include "common/io/dialled_address.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/own_address.h"
+#include "common/io/udp_socket.h"
 
 namespace tandem::io {
 namespace {
@@ -59,6 +62,33 @@ TEST(Unit, IsTakenOffOnlyBehindADigit) {
   EXPECT_EQ(without_unit("12ms", "s"), "12ms") << "another unit";
   EXPECT_EQ(without_unit("s", "s"), "s");
   EXPECT_EQ(without_unit("5%", "%"), "5");
+}
+
+TEST(PrintedCommand, OfAServerOnAllAddressesNamesOneThatIsThisMachines) {
+  EXPECT_EQ(dialable("127.0.0.1:7000"), "127.0.0.1:7000");
+  EXPECT_EQ(dialable("lab-server.invalid:7000"), "lab-server.invalid:7000");
+  for (const char* all : {"0.0.0.0:7000", "[::]:7000"}) {
+    const std::string text = dialable(all);
+    EXPECT_EQ(dialled_problem(text), "");
+    auto address = parse_address(text, 0);
+    ASSERT_TRUE(address) << text;
+    EXPECT_FALSE(address->any()) << text;
+    EXPECT_EQ(address->port(), 7000);
+    EXPECT_TRUE(bind_udp(*parse_address(text.substr(0, text.rfind(':')) + ":0", 0))) << text << " is an address of this machine";
+  }
+}
+
+TEST(PrintedCommand, IsLeftOutWhereThereIsNoRoom) {
+  EXPECT_EQ(without_commands("a (key r) or b (`x resume`), or c (`y`)"), "a (key r) or b, or c");
+  EXPECT_EQ(without_commands("a (`x"), "a (`x");
+}
+
+TEST(PrintedCommand, QuotesWordsForAShell) {
+  EXPECT_EQ(shell_word("/a/b-c_d.e:f=g,h+i%j@k"), "/a/b-c_d.e:f=g,h+i%j@k");
+  EXPECT_EQ(shell_word("it's here"), "'it'\\''s here'");
+  EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(state_option_of("my state"), " --state 'my state'");
+  EXPECT_EQ(state_option_of(""), "");
 }
 
 TEST(PrintedCommand, GetsWhatItNeedsOnce) {

@@ -63,14 +63,30 @@ TEST(SessionScreen, GivesEachSessionItsLinesAndCountsThoseThatDoNotFit) {
   const SceneSpec spec = scene();
   std::vector<SessionOnScreen> sessions;
   for (int i = 0; i < 10; ++i) sessions.push_back({"session-" + std::to_string(i), running(), &spec});
-  EXPECT_EQ(io::laid_out(screen_items(sessions, "", 23), 23, 79).size(), 20u) << "two each";
-  const auto one_each = io::laid_out(screen_items(sessions, "", 12), 12, 79);
+  EXPECT_EQ(io::laid_out(screen_items(sessions, "", 23, ""), 23, 79).size(), 20u) << "two each";
+  const auto one_each = io::laid_out(screen_items(sessions, "", 12, ""), 12, 79);
   ASSERT_EQ(one_each.size(), 10u);
   EXPECT_EQ(one_each[9].find("session-9: "), 0u) << one_each[9];
-  const auto few = io::laid_out(screen_items(sessions, "DRAINING, 5 s left", 5), 5, 79);
+  const auto few = io::laid_out(screen_items(sessions, "DRAINING, 5 s left", 5, "tandem-server sessions --state /s"), 5, 79);
   ASSERT_EQ(few.size(), 5u);
   EXPECT_EQ(few[0].find("DRAINING, 5 s left | session-0: "), 0u) << few[0];
-  EXPECT_EQ(few[4], "and 6 sessions more: `tandem-server sessions` lists them");
+  EXPECT_EQ(few[4], "and 6 sessions more: `tandem-server sessions --state /s` lists them");
+}
+
+TEST(SessionScreen, OfAStopNamesTheWholeCommandAndWhereThatHasNoRoomThePeople) {
+  const SceneSpec spec = scene();
+  SessionStatus s = running();
+  s.state = wire::SessionState::kStopped;
+  s.stop = StopLane(spec.led());
+  s.stop.raise(StopLane::Level::kStopped, {StopLane::Level::kStopped, 0, AccessRole::kInstructor, Time{}});
+  const auto shown = [&](std::size_t width, std::vector<SessionOnScreen> sessions) { return io::laid_out(screen_items(sessions, "", 2, ""), 2, width)[0]; };
+  const SessionOnScreen one{"a", s, &spec, " --server 10.0.0.7:7000"};
+  const std::string wide = shown(200, {one}), narrow = shown(79, {one});
+  EXPECT_NE(wide.find("`tandem-client control --server 10.0.0.7:7000 resume`"), std::string::npos) << wide;
+  EXPECT_NE(narrow.find("STOPPED; ends it: an instructor (key r) or an operator"), std::string::npos) << narrow;
+  EXPECT_EQ(narrow.find('`'), std::string::npos) << narrow;
+  const std::string two = shown(40, {{"a", s, &spec, " --server h:1 --session a"}, {"b", s, &spec, " --server h:1 --session b"}});
+  EXPECT_NE(two.find("STOPPED"), std::string::npos) << two;
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
+#include "server/app/session_ending.h"
 
 namespace tandem::server {
 namespace {
@@ -50,6 +53,82 @@ TEST(Attendance, KnowsWhoLeftFromWhoWasLost) {
   const Attendance::News one = lost.after(2s);
   EXPECT_TRUE(one.all_lost);
   EXPECT_FALSE(one.all_left) << "the trainee did not leave: its link or program failed";
+}
+
+bool says(const Attendance::News& news, const std::string& event, const std::string& seat) {
+  return std::ranges::any_of(news.notes, [&](const Attendance::Note& n) { return n.event == event && n.seat == seat; });
+}
+
+TEST(Attendance, WarnsOfASeatThatFellSilentAndNotOfOneThatLeft) {
+  Running s;
+  s.leave(0);
+  s.fall_silent(1);
+  const Attendance::News news = s.after(11s);
+  EXPECT_FALSE(says(news, "gone", s.scene.seats[0].name)) << "its person left, and that was told";
+  EXPECT_TRUE(says(news, "gone", s.scene.seats[1].name));
+}
+
+TEST(Attendance, OfAnEndlessSessionThatAllLeaveHasNoWarning) {
+  Running s;
+  s.leave(0);
+  s.leave(1);
+  for (const Attendance::Note& note : s.after(11s).notes) EXPECT_FALSE(note.warning) << note.text;
+}
+
+/// A restored session whose people have 10 min to come back.
+struct Restored : Running {
+  Restored() {
+    for (std::size_t i = 0; i < 2; ++i) status.seats[i] = {};
+    status.state = wire::SessionState::kWaiting;
+    when.back_until = now + 10min;
+  }
+  std::optional<SessionEnding> after_restart(Duration time) {
+    when.now = now + time;
+    return session_ending(when, {}, status, scene);
+  }
+  SessionEnding::When when;
+};
+
+TEST(SessionEnding, OfARestoredSessionToWhichNobodyCameBackComesWhenTheTimeIsOver) {
+  Restored s;
+  EXPECT_FALSE(s.after_restart(10min)) << "until then they may come";
+  const auto over = s.after_restart(10min + 1s);
+  ASSERT_TRUE(over);
+  EXPECT_EQ(over->why, End::kNobodyCame);
+  EXPECT_TRUE(over->note.warning);
+  s.when.back_until.reset();
+  EXPECT_FALSE(s.after_restart(11min)) << "a new session waits as long as people like";
+}
+
+TEST(SessionEnding, OfARestoredSessionDoesNotComeWhileSomebodyIsThere) {
+  Restored s;
+  s.status.seats[1].taken = s.status.seats[1].ever_taken = true;
+  EXPECT_FALSE(s.after_restart(11min)) << "it waits for the others";
+  s.leave(1);
+  EXPECT_TRUE(s.after_restart(11min)) << "who came has left, and the session still waits";
+  s.status.state = wire::SessionState::kRunning;
+  EXPECT_FALSE(s.after_restart(11min)) << "it went on, and ends as every session does";
+}
+
+TEST(SessionEnding, OfARestoredSessionThatIsStoppedComesIfNobodyEverCame) {
+  Restored s;
+  s.status.state = wire::SessionState::kStopped;
+  EXPECT_TRUE(s.after_restart(11min));
+  s.status.seats[0].ever_taken = true;
+  EXPECT_FALSE(s.after_restart(11min));
+}
+
+TEST(SessionEnding, IsOneAtATimeAndNamesItsReason) {
+  Restored s;
+  s.when = {.now = s.now, .began = s.now, .wait_s = 5};
+  EXPECT_FALSE(session_ending(s.when, {}, s.status, s.scene));
+  s.when.now = s.now + 6s;
+  ASSERT_TRUE(session_ending(s.when, {}, s.status, s.scene));
+  EXPECT_EQ(session_ending(s.when, {}, s.status, s.scene)->why, End::kNobodyCame);
+  EXPECT_EQ(session_ending(s.when, {.notes = {}, .all_lost = true}, s.status, s.scene)->why, End::kPeersLost);
+  EXPECT_EQ(session_ending(s.when, {.notes = {}, .all_lost = true, .all_left = true}, s.status, s.scene)->why, End::kPeopleLeft);
+  s.scene.duration = 60;
+  EXPECT_EQ(session_ending(s.when, {.notes = {}, .all_lost = true, .all_left = true}, s.status, s.scene)->why, End::kPeersLost) << "a scene with an end waits for its people";
 }
 
 }  // namespace

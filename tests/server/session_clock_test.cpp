@@ -93,6 +93,55 @@ TEST(SessionClock, AChangeThatWasAnnouncedWaitsWithTheClockAndOneOfAPersonDoesNo
   EXPECT_EQ(s.session->tool(0).authority.requested()[kTrainee], 0.5) << "the newest decision is the last to act";
 }
 
+/// What a server that was started again makes of `from`: nobody sits there, and no slave moves.
+Session restored(const SceneSpec& scene, const Checkpoint& from) {
+  AxisArray scale;
+  scale.fill(1);
+  return {scene, std::vector<std::unique_ptr<hal::SteppedDevice>>(scene.tools.size()), scale, from};
+}
+
+TEST(SessionClock, StandsStillWhileTheSessionEndsSoThatARestartSkipsNothing) {
+  for (const bool stopped : {false, true}) {
+    SCOPED_TRACE(stopped ? "stopped before" : "running before");
+    Stoppable s;
+    s.until(2.9);
+    if (stopped) {
+      ASSERT_TRUE(s.session->stop_hands(s.now, AccessRole::kInstructor));
+      s.steps(100);
+    }
+    const std::uint32_t ended_at = s.session->session_tick();
+    s.session->stop(wire::CloseReason::kServerReturns);
+    for (int n = 0; n < 1000 && !s.session->over(); ++n) s.step();
+    ASSERT_TRUE(s.session->over());
+    const Checkpoint last = s.session->checkpoint();
+    EXPECT_EQ(last.session_tick, ended_at);
+
+    Session next = restored(s.scene, last);
+    ASSERT_TRUE(next.resume_hands(s.now, AccessRole::kInstructor, next.stops())) << "goes on without anybody";
+    ASSERT_TRUE(!stopped || next.resume_hands(s.now, AccessRole::kInstructor, next.stops())) << "it was stopped, and still is";
+    for (int n = 0; n < 200; ++n, s.now += 1ms) next.on_tick(s.now, 0);
+    EXPECT_EQ(next.tool(0).handover.decided()[kTrainee], 1) << "the scene's change at 3 s was still to come";
+  }
+}
+
+TEST(SessionClock, OfARestoredSessionDoesNotRunInReportsBeforeTheSessionGoesOn) {
+  Stoppable s;
+  s.until(2);
+  Session next = restored(s.scene, s.session->checkpoint());
+  const auto runs = [&] {
+    next.on_tick(s.now += 1ms, 0);
+    return next.record().running;
+  };
+  EXPECT_FALSE(runs()) << "it gathers";
+  ASSERT_TRUE(next.stop_hands(s.now, AccessRole::kInstructor));
+  EXPECT_FALSE(runs()) << "it gathers, and is stopped";
+  ASSERT_TRUE(next.gathering());
+  ASSERT_TRUE(next.resume_hands(s.now, AccessRole::kInstructor, next.stops()));  // the stop
+  ASSERT_TRUE(next.resume_hands(s.now, AccessRole::kInstructor, next.stops()));  // the gathering
+  EXPECT_TRUE(runs());
+  ASSERT_FALSE(next.gathering());
+}
+
 TEST(SessionClock, AStopBetweenTwoWordsToAClientIsNoticed) {
   Stoppable s;
   s.until(2);

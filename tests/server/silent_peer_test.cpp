@@ -61,6 +61,23 @@ TEST(SilentPeer, IsServedAgainAtOnceWhenItSpeaks) {
   }
 }
 
+TEST(SilentPeer, KnowsThatItIsNotHeardWhateverTheServerStillSays) {
+  Rig rig("one_axis", 3, {}, 0, endless);
+  rig.run(1s);
+  const link::Freshness& fresh = rig.seats[0].core->link().freshness();
+  EXPECT_LE(fresh.unanswered(rig.now), 2ms);
+  const Time cut = rig.now;
+  bool spoke = false;
+  for (int ms = 0; ms < 10'000; ++ms) {
+    static_cast<void>(cut_off(rig, 1));
+    spoke = spoke || (rig.now - cut > 3s && fresh.silence(rig.now) < 10ms);
+    ASSERT_NEAR(seconds(fresh.unanswered(rig.now)), seconds(rig.now - cut), 0.002);
+  }
+  EXPECT_TRUE(spoke) << "else there is nothing to judge";
+  rig.run(5ms);
+  EXPECT_LE(fresh.unanswered(rig.now), 2ms);
+}
+
 TEST(SilentPeer, IsAnObserverToo) {
   constexpr std::size_t observer = 1;
   Rig rig("free_motion", 3, {}, 0, [](SceneSpec& scene) {

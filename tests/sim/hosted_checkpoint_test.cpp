@@ -66,5 +66,33 @@ TEST(HostedCheckpoint, KnowsOfASessionFromItsFirstTickOn) {
   EXPECT_NE((*began - Time{}) % 500ms, 0ms) << "not by chance, with the regular one";
 }
 
+TEST(HostedSession, CountsEventsThatNobodyTookInTime) {
+  const SceneSpec scene = test::shipped("one_axis");
+  auto slaves = server::make_slaves(scene, Time{});
+  ASSERT_TRUE(slaves);
+  server::TickQueue records{64};
+  server::HostedSession hosted(scene, std::move(*slaves), 0, records);
+  Time now = Time{} + 1ms;
+  const auto stops = [&](int many) {  // each is an event, and so is its end
+    for (int n = 0; n < many; ++n) {
+      ASSERT_TRUE(hosted.session().stop_hands(now, AccessRole::kInstructor));
+      ASSERT_TRUE(hosted.session().resume_hands(now, AccessRole::kInstructor, hosted.session().stops()));
+    }
+  };
+  const auto told = [&] {
+    for (int n = 0; n < 64; ++n, now += 1ms) hosted.tick(now, 0, {});
+    return hosted.status().audit_dropped;
+  };
+  stops(100);
+  EXPECT_EQ(told(), 0u);
+  stops(server::AuditQueue::kCapacity / 2 + 5);  // within one tick
+  EXPECT_EQ(told(), 10u);
+  for (int n = 0; n < 10; ++n) {  // nobody writes them down
+    stops(100);
+    hosted.tick(now += 1ms, 0, {});
+  }
+  EXPECT_GT(told(), 10u + 1000u);
+}
+
 }  // namespace
 }  // namespace tandem

@@ -14,6 +14,7 @@
 #include "common/base/format.h"
 #include "common/base/raw_bytes.h"
 #include "common/io/clock.h"
+#include "common/io/output_file.h"
 #include "common/trust/io/write_all.h"
 
 namespace tandem::trust {
@@ -26,6 +27,9 @@ std::string owner_remedy(const std::string& path, uid_t owner) {
          "; run it as that user (sudo -u \\#" + std::to_string(owner) + " ...), or name another folder with --state";
 }
 
+/// In the system's words; of a full disk, which anybody can help, in plain ones.
+std::string why(int error) { return error == ENOSPC || error == EDQUOT ? io::why_not_written(error) : std::strerror(error); }
+
 /// Makes what is missing of a path, for its owner only.
 std::string make_folders(const std::string& path) {
   std::filesystem::path made;
@@ -33,7 +37,7 @@ std::string make_folders(const std::string& path) {
     made /= part;
     if (made.empty() || ::mkdir(made.c_str(), kOwnFolder) == 0 || errno == EEXIST || errno == EISDIR || errno == EROFS) continue;
     if (std::error_code error; std::filesystem::is_directory(made, error)) continue;
-    return made.string() + " cannot be made: " + std::strerror(errno);
+    return made.string() + " cannot be made: " + why(errno);
   }
   return {};
 }
@@ -74,7 +78,7 @@ std::expected<StateFolder, std::string> StateFolder::open(const std::string& pat
 }
 
 std::string StateFolder::trouble(const std::string& name, std::string_view doing) const {
-  return path_of(name) + " cannot be " + std::string(doing) + ": " + std::strerror(errno);
+  return path_of(name) + " cannot be " + std::string(doing) + ": " + why(errno);
 }
 
 std::string StateFolder::wrong_with(int fd, const std::string& name, std::uint64_t size_max) const {
@@ -117,9 +121,9 @@ std::string StateFolder::replace(const std::string& name, std::span<const std::b
   unlinkat(folder_.get(), beside.c_str(), 0);  // of a process that died here
   {
     const io::Fd file{openat(folder_.get(), beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
-    if (!file.open()) return trouble(beside, "made");
+    if (!file.open()) return trouble(name, "written");
     if (!write_all(file.get(), bytes) || fsync(file.get()) != 0) {
-      std::string text = trouble(beside, "written");
+      std::string text = trouble(name, "written");
       unlinkat(folder_.get(), beside.c_str(), 0);
       return text;
     }

@@ -99,6 +99,7 @@ TEST_F(FalconDriverTest, SendsNoForceBeforeAllLegsAreHomed) {
   ASSERT_TRUE(bench.tick(effort(0.1, 0.1, 0.1)));
   EXPECT_NE(bench.model.order().motor[0], 0);
   EXPECT_EQ(bench.model.unsafe_frames(), 0u);
+  EXPECT_EQ(bench.model.bad_frames(), 0u);
 }
 
 TEST_F(FalconDriverTest, KeepsTheHomingBitInEveryFrameOnceAsked) {

@@ -74,6 +74,13 @@ TEST_F(FalconFaultsTest, NoiseIsThrownAwayAndTold) {
   EXPECT_FALSE(bench.state.resynced);
 }
 
+TEST_F(FalconFaultsTest, BytesThatTheBridgeLostAreTold) {
+  bench.model.faults.line_errors = 1;
+  EXPECT_EQ(*bench.tick(), Exchange::kResynced);
+  EXPECT_TRUE(bench.state.resynced);
+  EXPECT_EQ(*bench.tick(), Exchange::kFresh);
+}
+
 TEST_F(FalconFaultsTest, IllegalAnswersAreNotTaken) {
   const auto seq = bench.state.seq;
   bench.model.faults.flipped_replies = 2;
@@ -169,6 +176,7 @@ TEST_F(FalconFaultsTest, UnpluggingEndsEveryExchangeAtOnce) {
   ASSERT_TRUE(bench.tick(push));
   EXPECT_FALSE(bench.state.homed);
   EXPECT_EQ(bench.model.unsafe_frames(), 0u);
+  EXPECT_EQ(bench.model.bad_frames(), 0u);
 }
 
 // Random faults at random times: never force while unhomed beyond the one frame that could not know, every number finite,

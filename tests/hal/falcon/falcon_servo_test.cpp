@@ -76,6 +76,7 @@ TEST_F(FalconServoTest, FromPowerUpToAForceInTheHand) {
   EXPECT_NEAR(model->mechanics().motor_force()[0], -300 * 0.008, 0.1);
   EXPECT_NEAR(client.state.f_out[0], model->mechanics().motor_force()[0], 0.05);
   EXPECT_EQ(model->unsafe_frames(), 0u);
+  EXPECT_EQ(model->bad_frames(), 0u);
   EXPECT_EQ(core->counts().unanswered, 0u);
 }
 

@@ -58,6 +58,8 @@ class OneSession : public Admissions {
   }
   control::SessionList list(const WorkstationRow&) override { return {{{session_id, "contact", control::SessionPhase::kWaiting, {{"trainee"}}}}, false}; }
   void command(const control::Welcome&, const WorkstationRow&, const control::Body&, std::function<void(control::Body)> answer) override {
+    const std::lock_guard lock(mutex);
+    if (mute) return unanswered.push_back(std::move(answer)), changed.notify_all();
     answer(control::Done{});
   }
   bool holds(const control::Welcome&) const override { return seat_is_held; }
@@ -77,12 +79,13 @@ class OneSession : public Admissions {
   }
 
   const control::Id session_id = trust::test::counting<16>(50);
-  bool from_another_thread = false, hold = false;
+  bool from_another_thread = false, hold = false, mute = false;  ///< mute: commands get no answer
   std::atomic<bool> seat_is_held{true};
   std::function<void(Admission)> held;
   std::mutex mutex;
   std::condition_variable changed;
   int abandoned_count = 0;
+  std::vector<std::function<void(control::Body)>> unanswered;
   std::map<std::string, std::array<std::byte, trust::kExportSize>> seats_secrets;
 
  private:
