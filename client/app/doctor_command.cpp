@@ -61,7 +61,7 @@ class Onlooker final : public hal::ServoClient {
       : joints_(std::min(caps.joints, kAxesMax)), examination_(caps), caps_(caps) {}
 
   hal::Command tick(const hal::State& state) noexcept override {
-    examination_.see(state);
+    if (watching_.load(std::memory_order_acquire)) examination_.see(state);
     if (!push_.load(std::memory_order_acquire)) return {};
     const Time now = io::monotonic_now();
     if (!test_) test_.emplace(caps_, now);
@@ -73,9 +73,12 @@ class Onlooker final : public hal::ServoClient {
   }
   void lost(hal::Errc) noexcept override { lost_.store(true); }
 
+  /// What comes from now on, such as the pushes of a force test, is not examined.
+  void end_watch() noexcept { watching_.store(false, std::memory_order_release); }
   void push() noexcept { push_.store(true, std::memory_order_release); }
   [[nodiscard]] bool pushed() const noexcept { return done_.load(std::memory_order_acquire); }
   [[nodiscard]] bool was_lost() const noexcept { return lost_.load(); }
+  /// This and the next: once the device is closed.
   [[nodiscard]] const Examination& examination() const noexcept { return examination_; }
   [[nodiscard]] const std::optional<ForceTest>& force_test() const noexcept { return test_; }
 
@@ -84,7 +87,7 @@ class Onlooker final : public hal::ServoClient {
   Examination examination_;
   hal::DeviceCaps caps_;
   std::optional<ForceTest> test_;
-  std::atomic<bool> push_{false}, done_{false}, lost_{false};
+  std::atomic<bool> watching_{true}, push_{false}, done_{false}, lost_{false};
   std::uint64_t seq_ = 0;
 };
 
@@ -117,8 +120,9 @@ int examine(const DoctorArguments& arguments, double seconds) {
   (*held)->observe(onlooker);
   bool whole = wait(from_seconds(seconds), signals.get(), [&] { return onlooker.was_lost(); });
   const double watched = tandem::seconds(io::monotonic_now() - begin);
+  onlooker.end_watch();
   const hal::DeviceStats stats = device.stats();
-  auto findings = onlooker.examination().findings(stats, watched);
+  std::vector<Examination::Finding> findings;  // of what follows
 
   if (const std::string& why = (*held)->no_force(); !why.empty()) {
     findings.push_back({arguments.force_test ? Kind::kTrouble : Kind::kNotice, why});
@@ -136,6 +140,8 @@ int examine(const DoctorArguments& arguments, double seconds) {
     }
   }
   device.close();
+  const auto watch = onlooker.examination().findings(stats, watched);
+  findings.insert(findings.begin(), watch.begin(), watch.end());
   if (onlooker.force_test() && whole) {
     for (auto& finding : onlooker.force_test()->findings()) findings.push_back(std::move(finding));
   }

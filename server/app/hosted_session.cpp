@@ -94,9 +94,9 @@ void HostedSession::finish(Time now, const MachineStatus& machine) noexcept {
   publish(now, machine);
   keep_now_ = true;
   for (int tries = 0; mail_ && keep_now_ && tries < kLastTries; ++tries) lay_down_checkpoint();
-  over_.store(true, std::memory_order_release);
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto written = ::write(over_event_.get(), &one, sizeof one);
+  over_.store(true, std::memory_order_release);  // last: whoever reads it may destroy this session
 }
 
 void HostedSession::lay_down_checkpoint() noexcept {

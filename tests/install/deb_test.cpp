@@ -192,13 +192,15 @@ void run_as_a_service(const fs::path& root, std::string& why_not) {
   EXPECT_TRUE(becomes("SubState", "running"));
   EXPECT_NE(show("MainPID"), pid);
   // An upgrade restarts it; one that was stopped stays stopped.
-  const std::string before_upgrade = show("MainPID"), upgrade = there + "sh -c 'DEBIAN_FRONTEND=noninteractive dpkg --install /tmp/tandem-server_*.deb'";
-  EXPECT_EQ(shell(upgrade).code, 0);
+  const std::string before_upgrade = show("MainPID"), upgrade = there + "sh -c 'DEBIAN_FRONTEND=noninteractive dpkg --install /opt/tandem-server_*.deb'";
+  const Done upgraded = shell(upgrade);
+  EXPECT_EQ(upgraded.code, 0) << upgraded.text;
   EXPECT_TRUE(becomes("SubState", "running"));
   EXPECT_NE(show("MainPID"), before_upgrade);
   EXPECT_EQ(shell(there + "systemctl stop tandem-server").code, 0);
   EXPECT_EQ(show("Result"), "success");
-  EXPECT_EQ(shell(upgrade).code, 0);
+  const Done again = shell(upgrade);
+  EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_NE(show("SubState"), "running");
   // A wrong configuration is not tried again.
   shell(in + "sh -c 'cp /etc/tandem/server.textproto /tmp/right; echo nonsense >> /etc/tandem/server.textproto'");
@@ -222,9 +224,10 @@ TEST(DebianPackages, InstallOnAFreshDebian) {
   if (mirror.empty()) GTEST_SKIP() << "apt knows no mirror";
   const Done made = shell("debootstrap --variant=minbase bookworm " + quoted(root) + " " + mirror);
   if (made.code != 0) GTEST_SKIP() << "debootstrap failed: " << made.text.substr(made.text.size() > 300 ? made.text.size() - 300 : 0);
-  ASSERT_EQ(shell("cp " + quoted(kPlace) + "/*.deb " + quoted(root) + "/tmp/ && cp /etc/apt/sources.list.d/* " + quoted(root) + "/etc/apt/sources.list.d/ 2>/dev/null; cp /etc/apt/apt.conf.d/* " + quoted(root) + "/etc/apt/apt.conf.d/ 2>/dev/null; true").code, 0);
+  // Not /tmp: the systemd that boots there empties it.
+  ASSERT_EQ(shell("cp " + quoted(kPlace) + "/*.deb " + quoted(root) + "/opt/ && cp /etc/apt/sources.list.d/* " + quoted(root) + "/etc/apt/sources.list.d/ 2>/dev/null; cp /etc/apt/apt.conf.d/* " + quoted(root) + "/etc/apt/apt.conf.d/ 2>/dev/null; true").code, 0);
   const std::string in = "chroot " + quoted(root) + " ";
-  const Done installed = shell(in + "sh -c 'export DEBIAN_FRONTEND=noninteractive; apt-get -qq update; apt-get install -y -qq --no-install-recommends /tmp/*.deb'");
+  const Done installed = shell(in + "sh -c 'export DEBIAN_FRONTEND=noninteractive; apt-get -qq update; apt-get install -y -qq --no-install-recommends /opt/*.deb'");
   ASSERT_EQ(installed.code, 0) << installed.text;
   for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) EXPECT_EQ(shell(in + name + " --version").code, 0) << name;
   EXPECT_EQ(shell(in + "stat -c '%U %a' /var/lib/tandem").text, "tandem 700\n");

@@ -90,6 +90,22 @@ TEST(StateFolderLive, ServesWithAnAuditLogThatIsTooLongAndTornAndTellsNoCode) {
   EXPECT_EQ(again.wait(), 0) << again.err();
 }
 
+// Whoever appends waits for the holder for as long as StateFolder::kLockPatience, and then goes on without having written.
+TEST(StateFolderLive, ALineIsNotWaitedForWhileAnotherProgramHoldsItsFile) {
+  const Folder folder;
+  const auto state = trust::StateFolder::open(folder.file("state"), trust::StateFolder::Missing::kIsMade);
+  ASSERT_TRUE(state) << state.error();
+  ASSERT_EQ(state->append("audit.log", "one\n"), "");
+  {
+    const auto held = state->lock("audit.log");
+    ASSERT_TRUE(held) << held.error();
+    const std::string problem = state->append("audit.log", "two\n");
+    EXPECT_NE(problem.find("is held by process " + std::to_string(::getpid())), std::string::npos) << problem;
+  }
+  EXPECT_EQ(state->append("audit.log", "three\n"), "");
+  EXPECT_EQ(folder.read("state/audit.log"), "one\nthree\n");
+}
+
 TEST(StateFolderLive, StrangersFillNoAuditLogAndAreCounted) {
   School school{kLab};
   const std::string metrics = metrics_of(school.host);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <thread>
 
+#include "tests/base/counts.h"
+
 namespace tandem::io {
 namespace {
 
@@ -24,13 +26,13 @@ TEST(SpscQueue, DropsWhatDoesNotFitAndCountsIt) {
 }
 
 TEST(SpscQueue, CarriesEverythingInOrderBetweenTwoThreads) {
-  constexpr std::uint64_t kCount = 200'000;
+  const std::uint64_t count = test::draws(20'000, 200'000, 200'000);  // where other work takes the cores, every 16 cost two turns
   struct Pair {
     std::uint64_t value = 0, twice = 0;  // torn copies would disagree
   };
   SpscQueue<Pair> queue{16};
   std::thread writer{[&] {
-    for (std::uint64_t i = 0; i < kCount;) {
+    for (std::uint64_t i = 0; i < count;) {
       if (queue.push({i, 2 * i})) {
         ++i;
       } else {
@@ -39,7 +41,7 @@ TEST(SpscQueue, CarriesEverythingInOrderBetweenTwoThreads) {
     }
   }};
   std::uint64_t wrong = 0;
-  for (std::uint64_t i = 0; i < kCount;) {
+  for (std::uint64_t i = 0; i < count;) {
     const Pair* pair = queue.front();
     if (pair == nullptr) {
       std::this_thread::yield();

@@ -39,8 +39,9 @@ TEST(Drift, AClockThatRunsFastForHoursCostsNobodyAnything) {
   for (SeatSpec& s : scene.seats) s.hand.deviations.clear();
   scene.timeline.clear();
   scene.duration = seconds(planned.length);
-  scene.seats[0].hand.until = scene.duration + 1;  // the trainer moves all the time
-  scene.seats[1].hand.from = scene.duration + 1;
+  // The trainer moves all the time, the trainee never. Each reads this from its own clock, which gains seconds on the session's.
+  scene.seats[0].hand.until = 2 * scene.duration;
+  scene.seats[1].hand.from = 2 * scene.duration;
   scene.phases = {{"all", 1, scene.duration, false}};
   netsim::WorldSetup setup = test::with(scene);
   setup.network = netsim::link_from(test::delayed(1));

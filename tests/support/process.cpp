@@ -16,6 +16,17 @@ namespace tandem::test {
 
 using namespace std::chrono_literals;
 
+namespace {
+
+// Programs under a sanitizer take several times as long.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr int kTimesSlower = 4;
+#else
+constexpr int kTimesSlower = 1;
+#endif
+
+}  // namespace
+
 Process::Process(std::vector<std::string> command) {
   std::vector<char*> argv;
   for (std::string& word : command) argv.push_back(word.data());
@@ -83,7 +94,7 @@ bool Process::read_some(std::chrono::milliseconds slice) {
 
 bool Process::wait_for(std::string_view text) {
   const auto found = [&] { return out_.find(text) != std::string::npos || err_.find(text) != std::string::npos; };
-  const auto limit = std::chrono::steady_clock::now() + kPatience;
+  const auto limit = std::chrono::steady_clock::now() + kTimesSlower * kPatience;
   while (!found()) {
     if (std::chrono::steady_clock::now() > limit || !read_some(50ms)) return found();
   }
@@ -91,7 +102,7 @@ bool Process::wait_for(std::string_view text) {
 }
 
 std::optional<int> Process::wait() {
-  const auto limit = std::chrono::steady_clock::now() + kPatience;
+  const auto limit = std::chrono::steady_clock::now() + kTimesSlower * kPatience;
   while (read_some(50ms)) {
     if (std::chrono::steady_clock::now() > limit) return std::nullopt;
   }
