@@ -95,20 +95,19 @@ std::string Person::change_alpha(const std::string& key, const ClientStatus& sta
     const bool instructor = setup_->seat.role == Role::kInstructor && setup_->seat.kind == SeatKind::kMaster;
     return key + (instructor ? ": no other seat can have authority here" : ": only an instructor moves authority");
   }
-  // Steps add to what was asked: authority itself moves there slowly.
-  const double now = asked_ >= 0 ? asked_ : status.alpha;
-  const std::string why = set_alpha(key == "0" ? 0 : key == "1" ? 1 : less ? now - kAlphaStep : now + kAlphaStep, now);
+  const double now = steps_.base(status);
+  const std::string why = set_alpha(key == "0" ? 0 : key == "1" ? 1 : less ? now - kAlphaStep : now + kAlphaStep, status);
   return why.empty() ? "" : key + ": " + why;
 }
 
-std::string Person::set_alpha(double own, double now) {
+std::string Person::set_alpha(double own, const ClientStatus& status) {
   // Steps stay on the grid of 0.05: repeated addition would not come back to 1.
   own = std::round(std::clamp(own, 0.0, 1.0) / kAlphaStep) * kAlphaStep;
   const bool anybody = std::ranges::any_of(others_, [](double share) { return share > 0; });
   const bool nobody_else = !anybody && own < 1;
   if (!anybody) own = 1;
-  const bool same = asked_ >= 0 && own == now;
-  asked_ = own;
+  const bool same = steps_.counts(status) && own == steps_.base(status);
+  if (!same) steps_.ask(own, status);
   control::Weights alpha{};
   for (std::size_t i = 0; i < setup_->masters.size(); ++i)
     alpha[i] = i == setup_->own_master ? own : (1 - own) * others_[i];

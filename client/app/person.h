@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "client/app/authority_steps.h"
 #include "client/app/seat_pump.h"
 #include "hal/sim/hand.h"
 #include "proto/control_messages.h"
@@ -31,14 +32,14 @@ class Person {
   [[nodiscard]] std::string stop_all(const ClientStatus& status);
   [[nodiscard]] std::string reset(const ClientStatus& status);
   [[nodiscard]] std::string change_alpha(const std::string& key, const ClientStatus& status);
-  [[nodiscard]] std::string set_alpha(double own, double now);
+  [[nodiscard]] std::string set_alpha(double own, const ClientStatus& status);
   [[nodiscard]] std::string move_hand(int axis, double distance);
 
   SeatPump* pump_;
   const SeatSetup* setup_;
   std::shared_ptr<hal::sim::KeyboardTarget> keyboard_;
   hal::Vec3 home_ = hal::Vec3::Zero();
-  double asked_ = -1;          ///< own weight asked for last; negative: none yet
+  AuthoritySteps steps_;
   control::Weights others_{};  ///< how the rest is shared, sum 1, own 0
 };
 

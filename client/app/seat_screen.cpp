@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "client/app/control_words.h"
+#include "client/app/handover_text.h"
 #include "common/base/format.h"
 #include "common/base/printable.h"
 
@@ -65,25 +66,32 @@ io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const W
   return {name, ""};
 }
 
-/// Who leads the tool of this seat, and the own share.
+/// Who leads the tool of this seat, and the own share. FORCE says what the own hand has now; the server's words say only what was asked for, which the
+/// others share in the same way.
 std::string leader_text(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
-  const std::string own = format("%.0f %%", 100 * s.alpha);
+  using enum wire::SessionState;
+  if (s.session == kStopped || s.session == kPaused || s.session == kHeld || s.session == kPassive) return "nobody leads";
   const std::size_t tool = static_cast<std::size_t>(setup.seat.tool);
   std::string leader;
-  double most = s.alpha;
+  double most = 0, others = 0;  // asked for
   if (words && tool < words->tools.size()) {
     std::size_t k = 0;
     for (const control::StatusSeat& seat : words->seats) {
       if (!seat.master || k >= words->tools[tool].alpha.size()) continue;
       const double alpha = words->tools[tool].alpha[k++];
-      if (seat.name == setup.seat.name || alpha <= most) continue;
+      if (seat.name == setup.seat.name) continue;
+      others += alpha;
+      if (alpha <= most) continue;
       most = alpha;
       leader = seat.name;
     }
   }
+  const std::string own = format("%.0f %%", 100 * s.alpha);
+  const bool other_leads = !leader.empty() && most / others * (1 - s.alpha) > s.alpha;
   if (is_slave(setup)) return leader.empty() ? std::string() : printable(leader) + " leads";
-  if (!leader.empty()) return printable(leader) + " leads" + (s.alpha > 0 ? ", you " + own : "");
-  return s.alpha > 0 ? "you lead " + own : "you do not lead";
+  if (other_leads) return printable(leader) + " leads" + (s.alpha > 0 ? ", you " + own : "");
+  if (s.alpha <= 0) return "you do not lead";
+  return s.alpha < 0.5 && leader.empty() ? "you " + own + ", not leading" : "you lead " + own;
 }
 
 /// Who else sits at this session and is heard.
@@ -109,7 +117,7 @@ std::string way_out(const SeatSetup& setup, bool paused) {
 
 std::string gate_text(const ClientStatus& s) {
   switch (s.gate) {
-    case wire::GateState::kOff: return "no force before the session runs";
+    case wire::GateState::kOff: return s.session_time < 0 ? "no force before the session runs" : "force off";
     case wire::GateState::kZero: return "force off";
     case wire::GateState::kRampIn: return "force rising";
     case wire::GateState::kActive: return "force on";
@@ -137,7 +145,7 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   } else if (latched) {
     add(gate_text(s), 0);
   }
-  if (const std::string told = handover_text(s, setup); !told.empty()) add(told, 0, handover_brief(s));
+  if (const std::string told = handover_text(s, setup, words); !told.empty()) add(told, 0, handover_brief(s));
   add(leader_text(s, setup, words), 0);
   add("force " + force_bar(s.force_n, setup.gate.force_max * share_of_force(setup.seat.role)), 0, format("force %.1f N", s.force_n));
   std::string tool = s.distance_m ? format("tool %.0f mm away", *s.distance_m * 1e3) : "";

@@ -65,6 +65,43 @@ TEST(SeatScreen, ShowsWhoLeadsAndWhoIsHere) {
   EXPECT_NE(at(80, s, setup(), w)[1].find("nobody else is here"), std::string::npos);
 }
 
+/// While hands are let go nobody leads, whoever will lead when it goes on; every seat says so.
+TEST(SeatScreen, NobodyLeadsWhileTheSessionIsStoppedPausedHeldOrPassive) {
+  using enum wire::SessionState;
+  for (const wire::SessionState state : {kStopped, kPaused, kHeld, kPassive})
+    for (const bool leader : {false, true}) {
+      ClientStatus s = running();
+      s.session = state;
+      s.alpha = 0;  // as FORCE says at every seat
+      const auto lines = leader ? at(120, s, setup(Role::kInstructor, "trainer")) : at(120, s);
+      EXPECT_NE(lines[0].find("| nobody leads |"), std::string::npos) << lines[0];
+      EXPECT_EQ(lines[0].find("you do not lead"), std::string::npos);
+    }
+}
+
+/// The server says what was asked for, FORCE what the own hand has now.
+TEST(SeatScreen, SeatsAgreeWhoLeadsWhileWeightMoves) {
+  control::Status w = words();
+  w.tools[0].alpha = {0, 1};  // the trainee is to have all
+  const auto line = [&](double own, Role role, const std::string& name) {
+    ClientStatus s = running();
+    s.alpha = own;
+    return at(120, s, setup(role, name), w)[0];
+  };
+  EXPECT_NE(line(0.7, Role::kInstructor, "trainer").find("| you lead 70 % |"), std::string::npos);
+  EXPECT_NE(line(0.3, Role::kTrainee, "trainee").find("| you 30 %, not leading |"), std::string::npos) << line(0.3, Role::kTrainee, "trainee");
+  EXPECT_NE(line(0.3, Role::kInstructor, "trainer").find("| trainee leads, you 30 % |"), std::string::npos);
+  EXPECT_NE(line(0.7, Role::kTrainee, "trainee").find("| you lead 70 % |"), std::string::npos);
+}
+
+TEST(SeatScreen, ForceThatWasThereIsOffAndNotExpected) {
+  ClientStatus s = running();
+  s.gate = wire::GateState::kOff;
+  EXPECT_EQ(gate_text(s), "force off");
+  s.session_time = -1;
+  EXPECT_EQ(gate_text(s), "no force before the session runs");
+}
+
 TEST(SeatScreen, HeldSaysWhyInOneSentence) {
   ClientStatus s = running();
   s.session = wire::SessionState::kHeld;

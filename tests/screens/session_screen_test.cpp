@@ -59,6 +59,14 @@ TEST(SessionScreen, ShowsStateAndLeaderThenTheSeats) {
   EXPECT_NE(lines[1].find("trainee: force on"), std::string::npos) << lines[1];
 }
 
+TEST(SessionScreen, CallsAForceThatIsOffSoAndNotOneThatIsToCome) {
+  const SceneSpec spec = scene();
+  SessionStatus s = running();
+  s.state = wire::SessionState::kStopped;
+  s.seats[0].gate = s.seats[1].gate = wire::GateState::kZero;
+  EXPECT_NE(io::laid_out(status_items(s, spec), 2, 119)[1].find("trainer: force off"), std::string::npos);
+}
+
 TEST(SessionScreen, GivesEachSessionItsLinesAndCountsThoseThatDoNotFit) {
   const SceneSpec spec = scene();
   std::vector<SessionOnScreen> sessions;
