@@ -17,6 +17,7 @@
 #include "common/io/datagram_batch.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "common/io/realtime.h"
 #include "common/io/signals.h"
 #include "common/io/terminal.h"
@@ -249,8 +250,8 @@ int link_test_command(const Arguments& arguments) {
   if (!arguments.json.empty() && arguments.json != "-")
     if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty()) mistakes.push_back("--json: " + problem);
   if (mistakes.empty()) return test_link(arguments, *server, duration, patience);
-  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
-  std::fprintf(stderr, "tandem-client link-test: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+  for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "%s\n", mistake.c_str());
+  io::printf_for_people(stderr, "tandem-client link-test: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
   return kWrong;
 }
 

@@ -16,7 +16,7 @@
 #include "common/base/printed_command.h"
 #include "common/base/silence.h"
 #include "common/io/clock.h"
-#include "common/io/help_text.h"
+#include "common/io/print.h"
 #include "common/io/realtime.h"
 #include "common/io/service_notice.h"
 #include "common/io/signals.h"

@@ -147,6 +147,19 @@ TEST(Units, AreTakenWhereverAUnitIsFixed) {
   EXPECT_EQ(good.wait(), 0) << good.err();
 }
 
+TEST(Check, SaysInItsLastLineThatAllIsWell) {
+  const Folder folder;
+  const std::string config = folder.write("s.textproto", "version: 1 listen: \"127.0.0.1:0\" session { name: \"a\" scene: \"contact\" }");
+  for (const Words& words : {Words{TANDEM_SERVER, "run", "lesson", "--check"}, Words{TANDEM_SERVER, "serve", config, "--check"}, Words{TANDEM_NETSIM, "run", "contact", "--check"},
+                             Words{TANDEM_NETSIM, "test", "contact-delay", "--check"}}) {
+    Process check(words);
+    EXPECT_EQ(check.wait(), 0) << check.err();
+    const std::size_t last = check.out().rfind("\n# OK: ");
+    ASSERT_NE(last, std::string::npos) << words[1] << check.out();
+    EXPECT_EQ(check.out().find('\n', last + 1), check.out().size() - 1) << "the last line";
+  }
+}
+
 TEST(FullDisk, IsCalledFullForEveryFileOfARun) {
   for (const char* option : {"--json", "--trace", "--log"}) {
     Process run({TANDEM_NETSIM, "run", "one_axis", "--duration", "2", option, "/dev/full"});
