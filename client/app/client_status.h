@@ -24,6 +24,7 @@ struct ClientStatus {
   double silence_s = 0;       ///< since something newer came from the server [s]
   bool own_stop = false;  ///< the person stopped the own hand
   bool touching = false;  ///< the slave of the tool touches something
+  std::optional<std::array<double, 3>> keys_m{};  ///< where keys hold the hand, from its start: right, away, up [m]; nothing: no keys move it
   std::optional<double> distance_m{};  ///< from the hand to the tool, where the port is a tip
   std::uint32_t authority_version = 0;
   double alpha = 0;

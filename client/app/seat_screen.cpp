@@ -1,6 +1,7 @@
 #include "client/app/seat_screen.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "client/app/control_words.h"
@@ -94,6 +95,18 @@ std::string leader_text(const ClientStatus& s, const SeatSetup& setup, const Wor
   return s.alpha < 0.5 && leader.empty() ? "you " + own + ", not leading" : "you lead " + own;
 }
 
+/// Where keys hold the hand: `keys: 15 mm right`; empty: no keys move it.
+std::string keys_text(const ClientStatus& s) {
+  if (!s.keys_m) return {};
+  constexpr std::array<std::array<const char*, 2>, 3> kWays{{{"left", "right"}, {"near", "away"}, {"down", "up"}}};
+  std::string text;
+  for (std::size_t a = 0; a < kWays.size(); ++a) {
+    const double mm = 1e3 * (*s.keys_m)[a];
+    if (std::abs(mm) >= 0.5) text += (text.empty() ? "" : ", ") + format("%.0f mm %s", std::abs(mm), kWays[a][mm > 0 ? 1 : 0]);
+  }
+  return "keys: " + (text.empty() ? "at the start" : text);
+}
+
 /// Who else sits at this session and is heard.
 std::string partners(const SeatSetup& setup, const Words& words) {
   if (!words) return {};
@@ -139,7 +152,7 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   std::vector<io::ScreenItem> items;
   const auto add = [&](std::string text, std::size_t row, std::string brief = "") { items.push_back({std::move(text), std::move(brief), row}); };
   items.push_back(state_item(s, setup, words));
-  if (words && words->drain) add(format("DRAINING: %u s left", words->drain->left_s), 0);
+  if (words && words->drain && words->drain->left_s > 0) add(format("DRAINING: %u s left", words->drain->left_s), 0);
   if (const std::string why = motors_text(s); !why.empty()) {
     add(why, 0, s.motors_latched ? "MOTORS TOO HOT: press b" : "MOTORS TOO HOT");
   } else if (latched) {
@@ -151,6 +164,7 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   std::string tool = s.distance_m ? format("tool %.0f mm away", *s.distance_m * 1e3) : "";
   if (s.touching) tool += tool.empty() ? "tool touching" : ", touching";
   add(tool, 1);
+  add(keys_text(s), 1);
   add(partners(setup, words), 1);
   if (!latched) add(gate_text(s), 1);
   add(format("rtt %.1f ms, loss %.1f %%", s.rtt_ms, s.down_loss_percent), 1);

@@ -200,7 +200,9 @@ void Vigil::show(ClientStatus status) {
       o_.line.note(status.motors_latched ? motors_text(status) : "the motors are cool again");
     }
   }
-  if (status.session != before_ && status.session == wire::SessionState::kRunning) o_.line.note("the session runs");
+  // Of the end of a stop the server's words tell, with who ended it.
+  const bool words_tell = words_ && !words_->ended() && (before_ == wire::SessionState::kStopped || before_ == wire::SessionState::kPaused);
+  if (status.session != before_ && status.session == wire::SessionState::kRunning && !words_tell) o_.line.note("the session runs");
   if (status.session != before_ && status.session == wire::SessionState::kPassive)
     o_.line.note("PASSIVE: the server is too busy to keep time; the hand is let go, and engaged again by itself");
   before_ = status.session;
@@ -209,6 +211,7 @@ void Vigil::show(ClientStatus status) {
   if (now - shown_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_ = now;
   status.coming_back = coming_ != nullptr;
+  status.keys_m = o_.person.keys();
   o_.line.show(seat_screen(status, o_.seat.setup(), known_));
 }
 

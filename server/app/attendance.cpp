@@ -1,5 +1,8 @@
 #include "server/app/attendance.h"
 
+#include <utility>
+
+#include "common/base/format.h"
 #include "common/base/silence.h"
 #include "server/app/status.h"
 #include "server/stop_words.h"
@@ -21,7 +24,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
   using State = wire::SessionState;
   News news;
   const bool runs = status.state != State::kWaiting && status.state != State::kEnding;
-  std::size_t came = 0, lost = 0, left = 0;
+  std::size_t came = 0, lost = 0, left = 0, taken = 0;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const SeatStatus& now_there = status.seats[i];
     Seat& seat = seats_[i];
@@ -30,6 +33,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (!now_there.taken && seat.taken) news.notes.push_back({"left", name, name + " left"});
     seat.taken = now_there.taken;
     came += now_there.ever_taken ? 1 : 0;
+    taken += now_there.taken ? 1 : 0;
     if (!runs || !now_there.ever_taken || now_there.alive) {
       if (seat.warned && now_there.alive) news.notes.push_back({"back", name, name + " is back"});
       seat.away_since.reset();
@@ -40,7 +44,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (now - *seat.away_since < kLost) continue;
     lost += now - *seat.away_since >= kSessionSilence ? 1 : 0;
     left += now_there.taken ? 0 : 1;
-    if (!seat.warned)
+    if (!seat.warned && !(deserted_ && scene.endless()))  // that everybody left was told
       news.notes.push_back({"gone", name, name + " has been gone for 10 s; its weight went to the others, or the tool is held", true});
     seat.warned = true;
   }
@@ -55,6 +59,10 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (status.state == State::kHeld) news.notes.push_back({"held", "", "HELD: " + why_held(status, scene) + ", the tools are braked"});
     state_ = status.state;
   }
+  const bool deserted = runs && came > 0 && taken == 0;
+  if (deserted && !std::exchange(deserted_, deserted) && scene.endless())
+    news.notes.push_back({"everybody_left", "", format("everybody left: the session ends in %.0f s, unless somebody joins it again", seconds(kLost))});
+  deserted_ = deserted;
   news.all_lost = runs && came > 0 && lost == came;
   news.all_left = runs && came > 0 && left == came;
   return news;

@@ -29,7 +29,7 @@ std::string who_is_there(const ServingSpec& serving) {
     sessions += s.phase == "ending" ? 0 : 1;
     for (const OpenSeat& seat : s.seats) people += seat.taken ? 1 : 0;
   }
-  return format("%zu session%s, %zu %s on their seats", sessions, sessions == 1 ? "" : "s", people, people == 1 ? "person" : "people");
+  return format("%zu session%s, %zu %s", sessions, sessions == 1 ? "" : "s", people, people == 1 ? "person on a seat" : "people on their seats");
 }
 
 /// Until the server has ended: how far it is, each ten seconds and in the last five.

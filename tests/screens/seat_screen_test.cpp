@@ -137,9 +137,23 @@ TEST(SeatScreen, ALatchedForceAndADrainStandBeforeTheNumbers) {
   w.drain = control::StatusDrain{27, 1, 2};
   const auto lines = at(80, s, setup(), w);
   EXPECT_EQ(lines[0].find("trainee 123.4 s | DRAINING: 27 s left | FORCE LATCHED OFF: press b"), 0u) << lines[0];
+  w.drain = control::StatusDrain{0, 1, 2};
+  EXPECT_EQ(at(80, s, setup(), w)[0].find("DRAINING"), std::string::npos) << "there is nothing left to wait for";
   s.gate = wire::GateState::kActive;
   s.motors_hot = true;
   EXPECT_NE(at(80, s)[0].find("MOTORS TOO HOT"), std::string::npos);
+}
+
+/// Also while another hand leads, and the tool does not follow.
+TEST(SeatScreen, ShowsWhereKeysHoldTheHand) {
+  ClientStatus s = running();
+  EXPECT_EQ(at(80, s)[1].find("keys"), std::string::npos) << "no keys move it";
+  s.keys_m = {0, 0, 0};
+  EXPECT_NE(at(80, s)[1].find("| keys: at the start |"), std::string::npos) << at(80, s)[1];
+  s.keys_m = {0.015, 0, 0};
+  EXPECT_NE(at(80, s)[1].find("| keys: 15 mm right |"), std::string::npos) << at(80, s)[1];
+  s.keys_m = {-0.015, -0.005, 0.02};
+  EXPECT_NE(at(120, s)[1].find("| keys: 15 mm left, 5 mm near, 20 mm up |"), std::string::npos) << at(120, s)[1];
 }
 
 TEST(SeatScreen, ForceBarIsAShareOfTheLargestForce) {

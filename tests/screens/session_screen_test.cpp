@@ -3,6 +3,7 @@
 
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
+#include "server/app/control_plane.h"
 #include "server/app/status.h"
 
 namespace tandem::server {
@@ -65,6 +66,18 @@ TEST(SessionScreen, CallsAForceThatIsOffSoAndNotOneThatIsToCome) {
   s.state = wire::SessionState::kStopped;
   s.seats[0].gate = s.seats[1].gate = wire::GateState::kZero;
   EXPECT_NE(io::laid_out(status_items(s, spec), 2, 119)[1].find("trainer: force off"), std::string::npos);
+}
+
+/// The audit log and the metrics keep one word per event; people read a sentence.
+TEST(Notices, OfTheDoorHoldNoTokens) {
+  for (std::size_t i = 0; i < kControlEvents; ++i) {
+    const auto event = static_cast<ControlEvent>(i);
+    EXPECT_EQ(words_of(event).find('_'), std::string::npos) << words_of(event);
+    EXPECT_FALSE(words_of(event).empty());
+  }
+  EXPECT_EQ(words_of(ControlEvent::kCodeRefused), "was refused for a wrong code");
+  EXPECT_EQ(words_of(ControlEvent::kNotEnrolled), "is not enrolled here");
+  EXPECT_EQ(to_text(ControlEvent::kCodeRefused), "code_refused");
 }
 
 TEST(SessionScreen, GivesEachSessionItsLinesAndCountsThoseThatDoNotFit) {
