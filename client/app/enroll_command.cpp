@@ -80,7 +80,7 @@ int enroll_command(Arguments arguments) {
 
 void add_enroll_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = root.add_subcommand("enroll", "makes this workstation known to a server, with the string that tandem-server enroll printed there");
+  CLI::App* const command = root.add_subcommand("enroll", "Makes this workstation known to a server, with the string that tandem-server enroll printed there.");
   command->add_option("STRING", arguments->text, "`tandem:` and what follows, whole; `-`: read from standard input, so that it stands in no list of processes")
       ->option_text(" ")
       ->required();

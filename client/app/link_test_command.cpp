@@ -260,7 +260,7 @@ int link_test_command(const Arguments& arguments) {
 void add_link_test_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = root.add_subcommand(
-      "link-test", "judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks");
+      "link-test", "Judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks.");
   command->add_option("--server", arguments->server, "required: address the server printed")->option_text("HOST:PORT")->required();
   add_joining_options(*command, arguments->session, nullptr, arguments->state);
   command->add_option("--duration", arguments->duration, "how long [s], 1 to 3600; default 10")->option_text("S");

@@ -20,8 +20,8 @@ using Words = std::optional<control::Status>;
 bool is_slave(const SeatSetup& setup) { return setup.seat.kind == SeatKind::kSlave; }
 
 /// `trainer`, or the workstation of a console.
-std::string maker(const Words& words) {
-  if (!words || !words->stop) return {};
+std::string maker(const ClientStatus& s, const Words& words) {
+  if (!words || !words->stop || words->stop->number < s.stops) return {};  // of an older stop
   const control::StatusStop& stop = *words->stop;
   if (stop.kind == control::StopKind::kFault) return " by the session itself, as its numbers could not be trusted";
   if (!stop.seat.empty()) return " by " + printable(stop.seat);
@@ -57,7 +57,7 @@ io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const W
     case wire::SessionState::kStopped: {
       const bool paused = s.session == wire::SessionState::kPaused;
       const std::string what = paused ? "PAUSED" : "STOPPED", out = way_out(setup, paused);
-      return {name + time + " " + what + maker(words) + ": " + out, name + what + maker(words) + ": " + out};
+      return {name + time + " " + what + maker(s, words) + ": " + out, name + what + maker(s, words) + ": " + out};
     }
     case wire::SessionState::kEnding:
       return {name + "ending", ""};

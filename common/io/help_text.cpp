@@ -190,6 +190,9 @@ std::string broken_line(std::string_view line, std::size_t width) {
 
 void HelpText::give_to(CLI::App& app) {
   app.formatter(std::make_shared<HelpText>());
+  // As all our options are told.
+  for (const auto& [name, words] : {std::pair{"--help", "prints this and ends"}, {"--version", "prints the version and ends"}})
+    if (CLI::Option* const option = app.get_option_no_throw(name)) option->description(words);
   for (CLI::Option* const option : app.get_options())
     if (option->get_group() == "Options") option->group(group_of(*option));
   for (CLI::App* const command : app.get_subcommands({})) give_to(*command);

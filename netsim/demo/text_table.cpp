@@ -88,7 +88,7 @@ std::string to_text(const Comparison& comparison, bool colour, std::size_t width
   std::string rule;
   for (std::size_t k = 0; k < width; ++k) rule += "─";
   std::string head = left("", narrow ? kNarrowLabel : kLabel) + right("paper", kPaper);
-  for (const char* column : {"  our seed", "  our defaults", "  defaults, bad net"}) head += left(column, 20);
+  for (const char* column : {"  the paper’s gains", "  Tandem’s defaults", "  on the bad network"}) head += left(column, 20);
   trim(head);
   std::string out = rule + "\n" + paint("1", head) + "\n" + rule + "\n";
   for (const Section& section : comparison.sections) {

@@ -5,17 +5,19 @@
 #include "common/base/format.h"
 #include "common/base/silence.h"
 #include "server/app/status.h"
+#include "server/audit.h"
 #include "server/stop_words.h"
 
 namespace tandem::server {
 
 namespace {
 
-/// By whom, if from a seat (of consoles the house tells by name), and who may end it.
+/// By whom, if from a seat, and who may end it. Of a console the house tells who it is and why; that is not told twice.
 std::string stop_text(const char* what, const SessionStatus& status, const SceneSpec& scene) {
   const std::uint8_t by = status.stop.newest().by;
   const std::string who = who_ends(status.stop, scene, seats_heard(status));
-  return what + (by < scene.seats.size() ? " by " + scene.seats[by].name : std::string()) + ": all hands are let go" + (who.empty() ? "" : "; who may end it: " + who);
+  const std::string head = by == AuditEvent::kControlPlane ? std::string() : what + (by < scene.seats.size() ? " by " + scene.seats[by].name : std::string()) + ": ";
+  return head + "all hands are let go" + (who.empty() ? "" : "; who may end it: " + who);
 }
 
 }  // namespace

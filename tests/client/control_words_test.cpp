@@ -124,6 +124,12 @@ TEST(ControlWords, WordsOfOthersAreShownAndNothingMore) {
   EXPECT_EQ(stop_text(s), "STOPPED by the session itself: its numbers could not be trusted. Who may end it: an operator");
 }
 
+TEST(ControlWords, AnEndResumesNothing) {
+  control::Status before = lesson(), now = lesson();
+  now.phase = control::SessionPhase::kEnding;
+  EXPECT_EQ(news_text(before, now), "");
+}
+
 /// A server that is ended at once has no seconds left to announce: its farewell says it.
 TEST(ControlWords, ADrainWithoutTimeIsNoNews) {
   control::Status before = lesson(), now = lesson();

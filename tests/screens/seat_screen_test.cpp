@@ -121,6 +121,9 @@ TEST(SeatScreen, AStopNamesItsMakerAndTheKey) {
   w.stop = control::StatusStop{.number = 1, .seat = "trainer", .workstation = "", .role = AccessRole::kInstructor, .why = "", .ends = "x"};
   EXPECT_NE(at(80, s, setup(Role::kInstructor, "trainer"), w)[0].find("STOPPED by trainer: r resumes"), std::string::npos);
   EXPECT_NE(at(80, s, setup(), w)[0].find("STOPPED by trainer: an instructor or operator resumes"), std::string::npos) << at(80, s, setup(), w)[0];
+  s.stops = 2;  // a newer one, of which the server was not asked yet
+  EXPECT_NE(at(80, s, setup(), w)[0].find("STOPPED: an instructor or operator resumes"), std::string::npos) << at(80, s, setup(), w)[0];
+  w.stop->number = 2;
   s.session = wire::SessionState::kPaused;
   SeatSetup own = setup();
   own.ends_pauses = true;

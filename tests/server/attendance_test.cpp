@@ -5,6 +5,7 @@
 
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
+#include "server/audit.h"
 
 namespace tandem::server {
 namespace {
@@ -63,6 +64,19 @@ TEST(Attendance, AnnouncesTheEndOfALessonThatEverybodyLeft) {
   lost.leave(0);
   lost.fall_silent(1);
   EXPECT_EQ(texts(lost.after(1s)).find("ends in"), std::string::npos) << "the trainee did not leave";
+}
+
+/// Of a console the house tells who stopped, and why: here follows only what that means.
+TEST(Attendance, AStopFromAConsoleIsNotToldTwice) {
+  Running lesson;
+  lesson.status.state = wire::SessionState::kStopped;
+  static_cast<void>(lesson.status.stop.press(lesson.now, AccessRole::kOperator, AuditEvent::kControlPlane));
+  const std::string told = texts(lesson.attendance.look(lesson.now, lesson.status, lesson.scene));
+  EXPECT_EQ(told.find("all hands are let go; who may end it: "), 0u) << told;
+  Running seat;
+  seat.status.state = wire::SessionState::kStopped;
+  static_cast<void>(seat.status.stop.press(seat.now, AccessRole::kInstructor, 0));
+  EXPECT_EQ(texts(seat.attendance.look(seat.now, seat.status, seat.scene)).find("STOPPED by instructor: all hands are let go"), 0u);
 }
 
 TEST(Attendance, KnowsWhoLeftFromWhoWasLost) {

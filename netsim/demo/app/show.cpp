@@ -146,7 +146,7 @@ int show(const ShowPlan& plan) {
     if (!missing.empty())
       return trouble("not there: " + missing + ". Build them, or use --quick: virtual time needs no other program");
   }
-  io::printf_for_people(stdout, "Two people, one tool: %zu run%s %s.\n", plan.runs.size(), plan.runs.size() == 1 ? "" : "s",
+  io::printf_for_people(stdout, "Tandem: two people, one tool. %zu run%s %s.\n", plan.runs.size(), plan.runs.size() == 1 ? "" : "s",
               plan.quick ? "in virtual time"
                          : "in real time over UDP on loopback: a server, two clients and the network simulator");
 
