@@ -108,7 +108,7 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
     rx_ = decoded->message;
     fresh_ = heard_force_ = true;
     set_session_clock(now);
-    if (authority_ && rx_.authority_version != authority_->version) authority_.reset();
+    if (authority_ && rx_.authority_version != authority_->version) meet_new_version();
     settle_wishes();
   } else if (opened->type == wire::Type::kClose) {
     const auto decoded = codec_.decode_close(opened->plaintext);
@@ -123,6 +123,17 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
   } else {
     link_->refuse_body();
   }
+}
+
+/// Somebody decided about weights meanwhile, so what this seat asks for may rest on what its person did not see: it is not wanted any more. Unless it
+/// was this seat's own step before, which the new wish already builds on: then it is asked for against the new version.
+void Seat::meet_new_version() noexcept {
+  const bool own = rx_.authority_version == authority_->version + 1 && rx_.handover != wire::Handover::kCalledOff &&
+                   setup_.seat.kind == SeatKind::kMaster && rx_.handover_parties.by == setup_.own_master + 1;
+  if (!authority_follows_ || !own) return authority_.reset();
+  authority_->version = rx_.authority_version;
+  authority_sent_ = Time{};
+  authority_follows_ = false;
 }
 
 /// The clock is learned when the session begins, and again after each stop: for how long it stood still only the server knows exactly.
@@ -326,6 +337,7 @@ bool Seat::request_authority(std::uint32_t tool, std::span<const double> alpha) 
   if (!may || alpha.size() > kMastersMax) return false;
   wire::AuthorityMessage m;
   m.version = rx_.authority_version;
+  authority_follows_ = authority_ && (authority_follows_ || authority_sent_ != Time{});
   m.tool = tool;
   m.masters = static_cast<std::uint32_t>(alpha.size());
   std::copy(alpha.begin(), alpha.end(), m.alpha.begin());

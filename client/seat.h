@@ -106,6 +106,7 @@ class Seat {
   [[nodiscard]] bool held_off() const noexcept { return over_speed_.holds_off() || over_temperature_.holds_off(); }
   [[nodiscard]] bool latched_off() const noexcept { return over_speed_.latched() || over_temperature_.latched(); }
   void settle_wishes() noexcept;
+  void meet_new_version() noexcept TANDEM_REALTIME;
   void set_session_clock(Time now) noexcept TANDEM_REALTIME;
   void rest() noexcept TANDEM_REALTIME;
   void fill_sample(Time now, const hal::State& device, const AxisArray& wanted) noexcept TANDEM_REALTIME;
@@ -150,6 +151,7 @@ class Seat {
   wire::CloseReason close_reason_ = wire::CloseReason::kDone;
   std::optional<wire::PathMessage> path_answer_;  ///< the server asks whether this end really is where it heard it from
   std::optional<wire::AuthorityMessage> authority_;
+  bool authority_follows_ = false;  ///< one that it replaces was sent against the same version
   Time authority_sent_{}, authority_asked_{};
   std::uint64_t command_seq_ = 0;
 };

@@ -30,6 +30,7 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   setup.channel = scene.channel;
   setup.coupling = scene.coupling;
   setup.gate = scene.gate;
+  setup.alpha_slew = scene.alpha_slew;
   setup.seat = scene.seats[seat];
   if (setup.seat.kind == SeatKind::kSlave && setup.seat.tool < scene.tools.size())
     setup.k_s = scene.tools[setup.seat.tool].k_s;
@@ -70,6 +71,7 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   message.set_own_master(static_cast<std::uint32_t>(setup.own_master));
   message.set_drivers(setup.drivers);
   message.set_ends_pauses(setup.ends_pauses);
+  message.set_alpha_slew_per_s(std::isfinite(setup.alpha_slew) ? setup.alpha_slew : 0);
   const std::size_t size = message.ByteSizeLong();
   if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
   return size;
@@ -108,6 +110,7 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     out.own_master = in.own_master();
     out.drivers = in.drivers();
     out.ends_pauses = in.ends_pauses();
+    out.alpha_slew = in.alpha_slew_per_s() > 0 ? in.alpha_slew_per_s() : std::numeric_limits<double>::infinity();
     if (!out.masters.empty() && out.own_master >= out.masters.size()) checker.error("own_master", "is not one of the masters");
   }
   if (!checker.ok()) return std::unexpected(checker.take());

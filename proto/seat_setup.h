@@ -37,6 +37,7 @@ struct SeatSetup {
   std::uint32_t drivers = 0;         ///< INSTRUCTOR seats: bit i: master i may be given authority; 0 for others
   /// Whether this seat's person moves authority.
   [[nodiscard]] bool moves_authority() const noexcept { return drivers != 0; }
+  double alpha_slew = 1;  ///< largest change of a weight [1/s]; infinity: in one step. For what the person reads
   bool ends_pauses = false;  ///< no seat is an instructor's: who may pause may take his pause back
 };
 

@@ -38,6 +38,7 @@ struct SeatReport {
   LinkReport link;
   std::uint32_t gate_trips = 0;
   std::string gate;     ///< state at the end, for people
+  bool taken = true;    ///< somebody sat there
 };
 struct ToolReport {
   std::string name;

@@ -1,9 +1,11 @@
 #include "server/report_summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 namespace tandem::server {
 namespace {
@@ -25,11 +27,38 @@ std::string cell(double value, double factor, int decimals) {
   return text;
 }
 
+constexpr std::size_t kLabelsMin = 28;  // columns of phase and seat; with the numbers, which take 50, a table fits 80 columns
+constexpr const char* kNumbers = " %8s %8s %6s %9s %6s %6s\n";
+
+/// The state of a gate for people, who read the same words on the screens of the seats.
+std::string gate_words(const std::string& state) {
+  for (const auto& [token, words] : {std::pair{"off", "no force"}, {"zero", "force off"}, {"ramp-in", "force rising"}, {"active", "force on"},
+                                     {"passive", "link lost"}, {"DAMPED", "latched off"}, {"FAULT", "device fault"}})
+    if (state == token) return words;
+  return state.empty() ? "-" : state;
+}
+
+/// The columns before the numbers.
+struct Labels {
+  std::size_t phase = 5, seat = 4;  ///< widest entries
+  void hold(const std::string& p, const std::string& s) {
+    phase = std::max(phase, p.size());
+    seat = std::max(seat, s.size());
+  }
+  /// Names that leave no room for numbers stand on a line above them.
+  [[nodiscard]] std::string text(const std::string& p, const std::string& s) const {
+    const bool fits = phase + 2 + seat <= kLabelsMin;
+    std::string out = fits ? "  " + p + std::string(phase + 2 - p.size(), ' ') + s : p.empty() ? "" : "  " + p + ", " + s + "\n";
+    out.resize(std::max(out.size(), (fits ? 2 : out.size()) + (fits ? phase + 2 + seat : 2)), ' ');
+    return out;
+  }
+};
+
 /// @param reached  false: the phase began after the end, and the peaks of nothing are no zeros
-void put_row(std::string& out, const std::string& what, const std::string& seat, const SeatMetrics& m, bool reached) {
+void put_row(std::string& out, const Labels& labels, const std::string& what, const std::string& seat, const SeatMetrics& m, bool reached) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", what.c_str(), seat.c_str(),
-      cell(m.tracking_rms_m, 1e3, 2).c_str(), cell(m.tracking_rms_lag_removed_m, 1e3, 2).c_str(),
+  out += labels.text(what, seat);
+  put(out, kNumbers, cell(m.tracking_rms_m, 1e3, 2).c_str(), cell(m.tracking_rms_lag_removed_m, 1e3, 2).c_str(),
       cell(m.transport_lag_rms_m, 1e3, 2).c_str(), cell(m.force_error_rms_n, 1, 3).c_str(),
       cell(reached ? m.effort_peak_n : nothing, 1, 2).c_str(), cell(reached ? m.speed_peak_m_s : nothing, 1, 2).c_str());
 }
@@ -38,23 +67,39 @@ void put_row(std::string& out, const std::string& what, const std::string& seat,
 
 std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   std::string out;
-  put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", "phase", "seat", "tracking", "lag free", "lag", "force err",
-      "peak", "speed");
-  put(out, "  %-14s %-12s %9s %9s %9s %9s %8s %8s\n", "", "", "RMS [mm]", "[mm]", "[mm]", "RMS [N]", "[N]", "[m/s]");
+  Labels labels;
+  for (const auto& s : r.seats) {
+    if (s.kind != SeatKind::kMaster || !s.taken) continue;
+    labels.hold(r.phases.empty() ? "whole session" : "all phases", s.name);
+    for (const auto& p : r.phases) labels.hold(p.name, s.name);
+    if (r.outside) labels.hold(r.outside->name, s.name);
+  }
+  const std::string phase_head = labels.text("phase", "seat"), no_head = labels.text("", "");
+  out += phase_head;
+  put(out, kNumbers, "tracking", "lag free", "lag", "force err", "peak", "speed");
+  out += no_head;
+  put(out, kNumbers, "RMS [mm]", "[mm]", "[mm]", "RMS [N]", "[N]", "[m/s]");
   for (const auto& s : r.seats)
-    if (s.kind == SeatKind::kMaster) put_row(out, r.phases.empty() ? "whole session" : "all phases", s.name, s.metrics, r.duration_s > 0);
+    if (s.kind == SeatKind::kMaster && s.taken) put_row(out, labels, r.phases.empty() ? "whole session" : "all phases", s.name, s.metrics, r.duration_s > 0);
   const auto put_part = [&](const PhaseReport& p) {
     for (std::size_t i = 0; i < p.seats.size(); ++i)
-      if (r.seats[i].kind == SeatKind::kMaster) put_row(out, p.name, r.seats[i].name, p.seats[i], p.from_s < r.duration_s);
+      if (r.seats[i].kind == SeatKind::kMaster && r.seats[i].taken) put_row(out, labels, p.name, r.seats[i].name, p.seats[i], p.from_s < r.duration_s);
   };
   for (const auto& p : r.phases) put_part(p);
   if (r.outside) put_part(*r.outside);
-  for (const auto& s : r.seats)
+  std::string free;
+  for (const auto& s : r.seats) {
+    if (!s.taken) {
+      free += (free.empty() ? "" : ", ") + s.name;
+      continue;
+    }
     put(out,
         "  %s: round trip %.1f ms (p99 %.1f), loss up %.1f %% down %.1f %%, longest gap %.0f / %.0f ms, gate trips "
-        "%u, gate at the end %s\n",
+        "%u, at the end %s\n",
         s.name.c_str(), s.link.rtt_p50_ms, s.link.rtt_p99_ms, s.link.up.loss_percent, s.link.down.loss_percent,
-        s.link.up.longest_gap_ms, s.link.down.longest_gap_ms, s.gate_trips, s.gate.empty() ? "-" : s.gate.c_str());
+        s.link.up.longest_gap_ms, s.link.down.longest_gap_ms, s.gate_trips, gate_words(s.gate).c_str());
+  }
+  if (!free.empty()) out += "  not taken: " + free + "\n";
   for (std::size_t j = 0; j < r.tools.size(); ++j)
     if (r.tools[j].contact_force_rms_n > 0)
       put(out, "  %s: contact force RMS %.2f N, penetration at most %.3f mm\n", scene.tools[j].name.c_str(),

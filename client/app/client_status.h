@@ -24,12 +24,15 @@ struct ClientStatus {
   double silence_s = 0;       ///< since the server last answered something newer of this seat [s]: one that speaks and hears nothing counts as silent
   bool own_stop = false;  ///< the person stopped the own hand
   bool touching = false;  ///< the slave of the tool touches something
+  std::optional<std::array<double, 3>> keys_m{};  ///< where keys hold the hand, from its start: right, away, up [m]; nothing: no keys move it
   std::optional<double> distance_m{};  ///< from the hand to the tool, where the port is a tip
   std::uint32_t authority_version = 0;
   double alpha = 0;
-  wire::Handover handover = wire::Handover::kNone;  ///< what was last told of the own weight, for a second
+  wire::Handover handover = wire::Handover::kNone;  ///< what was last told of the own weight, for a second and as long as it moves
   std::uint32_t handovers = 0;                      ///< how often there was something to tell
-  double handover_s = 0;                            ///< from then until it begins [s]
+  double handover_s = 0;                            ///< until it begins [s]; negative: it began
+  double handover_from = 0;                         ///< own weight when it was told
+  bool handover_done = false;                       ///< it began, and the own weight stands still again
   wire::HandoverParties handover_parties;           ///< who decided it, and who gains
   double force_n = 0;         ///< delivered to the hand [N]
   std::array<double, 3> x{};  ///< tip [m]
@@ -59,10 +62,6 @@ enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
 
 /// Why the motors gave no force, if they were too hot; empty: they were not.
 [[nodiscard]] std::string motors_text(const ClientStatus& status);
-/// Who gives what to whom, and when, or that it was called off; empty: nothing. `the scene gives the tool to trainee in 50 ms`
-[[nodiscard]] std::string handover_text(const ClientStatus& status, const SeatSetup& setup);
-/// The same for a narrow screen, without names: `more weight in 50 ms`.
-[[nodiscard]] std::string handover_brief(const ClientStatus& status);
 
 /// What the client knows of the run, for machines.
 struct ClientReport {

@@ -16,6 +16,7 @@
 #include "common/base/format.h"
 #include "common/io/help_text.h"
 #include "common/io/number_option.h"
+#include "common/io/print.h"
 #include "common/io/signals.h"
 #include "common/trust/io/control_client.h"
 
@@ -143,7 +144,7 @@ class Attendant {
     return std::fflush(stdout) == 0 ? kDone : kRefused;
   }
   static int complain(const std::string& text, int code = kRefused) {
-    std::fputs(io::for_terminal("tandem-client control: " + text + "\n", stderr).c_str(), stderr);
+    io::print(stderr, "tandem-client control: " + text + "\n");
     return code;
   }
 
@@ -224,7 +225,7 @@ std::vector<std::string> words_of(const std::string& line) {
 }
 
 int tell_gone(bool person, int worst) {
-  std::fprintf(stderr,
+  io::printf_for_people(stderr,
                "%standem-client control: the server ended this connection: it was stopped, is being started anew, or took the right to it away. Nothing can be\n"
                "ordered here any more; start again, with a new ticket if you came with one (`tandem-server ticket` on the server)\n",
                person ? "\n" : "");
@@ -259,7 +260,7 @@ int converse(Attendant& attendant, int signals) {
       if (wish->what == Wish::What::kQuit) return worst;
       code = attendant.obey(*wish);
     } else {
-      std::fprintf(stderr, "tandem-client control: %s\n", wish.error().c_str());
+      io::printf_for_people(stderr, "tandem-client control: %s\n", wish.error().c_str());
     }
     worst = std::max(worst, code);
   }
@@ -289,7 +290,7 @@ int control_command(const Arguments& arguments) {
   }
   asking.ticket = ticket_of(arguments.ticket, mistakes);
   if (!mistakes.empty()) {
-    for (const std::string& mistake : mistakes) std::fprintf(stderr, "tandem-client control: %s\n", mistake.c_str());
+    for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "tandem-client control: %s\n", mistake.c_str());
     return kWrong;
   }
   if (wish && wish->what == Wish::What::kHelp) return std::fputs(control_words_help(), stdout) < 0 ? kRefused : kDone;
@@ -301,7 +302,7 @@ int control_command(const Arguments& arguments) {
   asking.signals = signals.get();
   auto console = ask_for_console(asking);
   if (!console) {
-    std::fprintf(stderr, "tandem-client control: %s\n", console.error().reason.c_str());
+    io::printf_for_people(stderr, "tandem-client control: %s\n", console.error().reason.c_str());
     return kRefused;
   }
   Attendant attendant(std::move(*console), asking, arguments.json);

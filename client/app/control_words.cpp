@@ -196,7 +196,7 @@ std::string stop_text(const control::Status& s) {
 }
 
 std::string drain_text(const control::StatusDrain& d) {
-  return format("DRAINING: %u s left, %u session%s, %u %s on their seats", d.left_s, d.sessions, d.sessions == 1 ? "" : "s", d.people, d.people == 1 ? "person" : "people");
+  return format("DRAINING: %u s left, %u session%s, %u %s", d.left_s, d.sessions, d.sessions == 1 ? "" : "s", d.people, d.people == 1 ? "person on a seat" : "people on their seats");
 }
 
 std::string news_text(const control::Status& before, const control::Status& now) {
@@ -210,8 +210,10 @@ std::string news_text(const control::Status& before, const control::Status& now)
         told = true;
       }
   if (is_stopped(now) && (now.stops != before.stops || !is_stopped(before))) text += stop_text(now) + "\n";
-  if (is_stopped(before) && !is_stopped(now) && !told) text += format("stop %u is over: the session is %s\n", now.stops, control::to_text(now.phase));
-  if (!now.drain) return text;
+  const bool ends = now.phase == control::SessionPhase::kEnding;
+  if (is_stopped(before) && !is_stopped(now) && !told && !ends) text += format("stop %u is over: the session is %s\n", now.stops, control::to_text(now.phase));
+  // A server that ends at once, as at Ctrl-C, has no seconds left to tell of.
+  if (!now.drain || (now.drain->left_s == 0 && !before.drain)) return text;
   const bool first = !before.drain, last = now.drain->left_s <= 5, ten = !first && before.drain->left_s / 10 != now.drain->left_s / 10;
   if ((first && !told) || ((last || ten) && before.drain != now.drain)) text += drain_text(*now.drain) + "\n";
   return text;

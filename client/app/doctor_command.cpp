@@ -19,6 +19,7 @@
 #include "common/io/clock.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "common/io/signals.h"
 #include "hal/io/backend.h"
 #include "hal/io/hotplug.h"
@@ -39,15 +40,15 @@ struct DoctorArguments {
 
 void print(const Examination::Finding& finding) {
   static constexpr const char* kMarks[] = {"  ok      ", "  notice  ", "  TROUBLE "};
-  std::printf("%s%s\n", kMarks[static_cast<std::size_t>(finding.kind)], finding.words.c_str());
+  io::printf_for_people(stdout, "%s%s\n", kMarks[static_cast<std::size_t>(finding.kind)], finding.words.c_str());
 }
 
-void print(const hal::DeviceFact& fact) { std::fputs(fact_line(fact).c_str(), stdout); }
+void print(const hal::DeviceFact& fact) { io::print(stdout, fact_line(fact)); }
 
 /// "ended by SIGTERM: ..." or nothing, as long as no signal came.
 void print_interruption() {
   const std::string by{io::signal_that_came()};
-  std::printf("ended by %s: what was seen so far is told and is no clean bill\n", by.c_str());
+  io::printf_for_people(stdout, "ended by %s: what was seen so far is told and is no clean bill\n", by.c_str());
 }
 
 bool trouble_in(const std::vector<Examination::Finding>& findings) {
@@ -106,12 +107,12 @@ int examine(const DoctorArguments& arguments, double seconds) {
   io::StatusLine line{false};
   auto held = HeldDevice::take(arguments.device, signals.get(), line, {.state = arguments.state});
   if (!held) {
-    std::fprintf(stderr, "tandem-client doctor: %s\n", held.error().reason.c_str());
+    io::printf_for_people(stderr, "tandem-client doctor: %s\n", held.error().reason.c_str());
     return held.error().wrong_words ? kWrong : kTrouble;
   }
   hal::Device& device = (*held)->device();
   Onlooker onlooker{device.caps()};
-  std::printf("%s: move the grip in all directions and press its buttons, for %.0f s. No force comes.\n",
+  io::printf_for_people(stdout, "%s: move the grip in all directions and press its buttons, for %.0f s. No force comes.\n",
               (*held)->note().c_str(), seconds);
   print(hal::DeviceFact{"library", (*held)->library()});
   print(hal::DeviceFact{"permission", "it could be opened"});
@@ -127,7 +128,7 @@ int examine(const DoctorArguments& arguments, double seconds) {
   if (const std::string& why = (*held)->no_force(); !why.empty()) {
     findings.push_back({arguments.force_test ? Kind::kTrouble : Kind::kNotice, why});
   } else if (whole && arguments.force_test && !onlooker.was_lost()) {
-    std::printf("force test: hold the grip loosely in the middle of its workspace; six soft pushes of %.1f N follow\n",
+    io::printf_for_people(stdout, "force test: hold the grip loosely in the middle of its workspace; six soft pushes of %.1f N follow\n",
                 ForceTest::kForce);
     std::fflush(stdout);
     if (auto ok = device.enable(); !ok) {
@@ -154,7 +155,7 @@ int examine(const DoctorArguments& arguments, double seconds) {
 int list_all() {
   bool trouble = false;
   std::size_t found = 0;
-  std::printf("looked with:\n");
+  io::printf_for_people(stdout, "looked with:\n");
   for (const hal::Backend* backend : hal::backends())
     if (backend->name() != "replay") print(hal::DeviceFact{std::string(backend->name()), backend->library()});
   for (hal::Backend* backend : hal::backends()) {
@@ -172,11 +173,11 @@ int list_all() {
     }
   }
   if (found == 0) {
-    std::printf("No device that Tandem knows is attached. Is it plugged in and powered? `lsusb` tells what the system sees.\n"
+    io::printf_for_people(stdout, "No device that Tandem knows is attached. Is it plugged in and powered? `lsusb` tells what the system sees.\n"
                 "Without a device, `--device sim` holds a simulated one.\n");
     return kTrouble;
   }
-  std::printf("`tandem-client doctor --device WORDS` examines one of them.\n");
+  io::printf_for_people(stdout, "`tandem-client doctor --device WORDS` examines one of them.\n");
   return trouble ? kTrouble : 0;
 }
 
@@ -185,15 +186,15 @@ int watch_plugs() {
   const io::Fd signals = io::signals_as_file();
   auto watch = hal::PlugWatch::open();
   if (!watch) {
-    std::fprintf(stderr, "tandem-client doctor: %s\n", watch.error().message.c_str());
+    io::printf_for_people(stderr, "tandem-client doctor: %s\n", watch.error().message.c_str());
     return kTrouble;
   }
-  std::printf("plug devices in and out; Ctrl-C ends\n");
-  for (const hal::Attached& device : (*watch)->present()) std::printf("  is there  %s\n", describe(device).c_str());
+  io::printf_for_people(stdout, "plug devices in and out; Ctrl-C ends\n");
+  for (const hal::Attached& device : (*watch)->present()) io::printf_for_people(stdout, "  is there  %s\n", describe(device).c_str());
   std::fflush(stdout);
   do {
     for (const hal::PlugChange& change : (*watch)->wait(200ms)) {
-      std::printf("  %s  %s\n", change.arrived ? "came    " : "left    ", describe(change.device).c_str());
+      io::printf_for_people(stdout, "  %s  %s\n", change.arrived ? "came    " : "left    ", describe(change.device).c_str());
       std::fflush(stdout);
     }
   } while (wait(1ms, signals.get(), [] { return false; }));
@@ -218,11 +219,12 @@ int install_rules(const std::string& root) {
   file.write(rules);
   if (problem.empty()) problem = file.close();
   if (!problem.empty()) {
-    std::fprintf(stderr, "tandem-client doctor: %s\n%sIt would contain:\n%s", problem.c_str(),
-                 root.empty() && geteuid() != 0 ? "Run it as root: sudo tandem-client doctor --install-udev\n" : "", rules.c_str());
+    io::printf_for_people(stderr, "tandem-client doctor: %s\n%sIt would contain:\n", problem.c_str(),
+                          root.empty() && geteuid() != 0 ? "Run it as root: sudo tandem-client doctor --install-udev\n" : "");
+    std::fputs(rules.c_str(), stderr);  // as it stands in the file
     return kTrouble;
   }
-  std::printf("%s is written. %s\n", name.c_str(),
+  io::printf_for_people(stdout, "%s is written. %s\n", name.c_str(),
               root.empty() ? "Now: udevadm control --reload && udevadm trigger, or unplug the device and plug it in." : "It acts when that system runs.");
   return 0;
 }
@@ -254,9 +256,9 @@ int doctor_command(const DoctorArguments& arguments) {
     else if (choice->find("energise") != "yes")
       mistakes.push_back("--confirm-motors: needs energise=yes in the words of --device: without it no current flows");
   }
-  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
+  for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "%s\n", mistake.c_str());
   if (!mistakes.empty()) {
-    std::fprintf(stderr, "tandem-client doctor: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+    io::printf_for_people(stderr, "tandem-client doctor: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
     return kWrong;
   }
   if (arguments.install) return install_rules(arguments.root);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/io/number_option.h"
+#include "common/io/print.h"
 #include "common/io/signals.h"
 #include "common/io/socket_address.h"
 #include "common/trust/enrolment.h"
@@ -21,7 +22,7 @@ struct Arguments {
 };
 
 int trouble(const std::string& what) {
-  std::fprintf(stderr, "tandem-client enroll: %s\n", what.c_str());
+  io::printf_for_people(stderr, "tandem-client enroll: %s\n", what.c_str());
   return 1;
 }
 
@@ -70,8 +71,8 @@ int enroll_command(Arguments arguments) {
   const auto state = trust::client_state_path(arguments.state);
   if (!state) mistakes.push_back(state.error());
   if (mistakes.empty()) return enrol(*given, *server, *state, std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * std::stod(patience))));
-  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
-  std::fprintf(stderr, "tandem-client enroll: %zu mistake%s, nothing was sent\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+  for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "%s\n", mistake.c_str());
+  io::printf_for_people(stderr, "tandem-client enroll: %zu mistake%s, nothing was sent\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
   return 2;
 }
 
@@ -79,7 +80,7 @@ int enroll_command(Arguments arguments) {
 
 void add_enroll_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = root.add_subcommand("enroll", "makes this workstation known to a server, with the string that tandem-server enroll printed there");
+  CLI::App* const command = root.add_subcommand("enroll", "Makes this workstation known to a server, with the string that tandem-server enroll printed there.");
   command->add_option("STRING", arguments->text, "`tandem:` and what follows, whole; `-`: read from standard input, so that it stands in no list of processes")
       ->option_text(" ")
       ->required();

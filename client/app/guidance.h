@@ -30,6 +30,7 @@ class Guidance {
     std::string text;
     std::vector<std::string> keys;   ///< that the text asks for
     std::string happened;            ///< said once, 1.5 s after one of them was pressed
+    std::string early;               ///< what the keys do, said instead of the text where one of them came before
     bool pressed = false, told = false;
     std::optional<double> pressed_at{};
   };

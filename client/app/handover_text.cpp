@@ -1,10 +1,15 @@
+#include "client/app/handover_text.h"
+
+#include <algorithm>
 #include <cmath>
 
-#include "client/app/client_status.h"
 #include "common/base/format.h"
+#include "common/base/printable.h"
 
 namespace tandem::client {
 namespace {
+
+using Words = std::optional<control::Status>;
 
 /// Name number `n` of the list, from 1; empty: there is none.
 std::string name_of(const std::vector<std::string>& names, std::uint32_t n) { return n >= 1 && n <= names.size() ? names[n - 1] : ""; }
@@ -15,24 +20,82 @@ std::string giver(std::uint32_t by, const SeatSetup& setup) {
   return name.empty() ? "an operator" : name;
 }
 
+/// Whether nobody but this seat and the master number `to` has a part of the tool.
+bool only_two(std::uint32_t to, std::size_t tool, const SeatSetup& setup, const Words& words) {
+  if (setup.masters.size() <= 2) return true;
+  if (!words || tool >= words->tools.size()) return false;
+  const std::vector<double>& alpha = words->tools[tool].alpha;
+  for (std::size_t k = 0; k < alpha.size(); ++k)
+    if (k != setup.own_master && k + 1 != to && alpha[k] > 0) return false;
+  return true;
+}
+
+/// The part of who gains, before; of this seat where several gain. Nothing: FORCE tells only this seat's own part, over the tool that it follows.
+std::optional<double> part_before(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
+  const wire::HandoverParties& p = s.handover_parties;
+  const bool master = setup.seat.kind == SeatKind::kMaster;
+  if (!master || s.session != wire::SessionState::kRunning || p.tool != setup.seat.tool) return std::nullopt;
+  if (name_of(setup.masters, p.to).empty() || p.to == setup.own_master + 1) return s.handover_from;
+  return only_two(p.to, p.tool, setup, words) ? std::optional(1 - s.handover_from) : std::nullopt;
+}
+
+std::string seconds_text(double s) { return format(s < 0.095 ? "%.2f s" : "%.1f s", s); }
+
+/// When it begins and how long it takes, or that it is done.
+std::string course_text(const ClientStatus& s, const SeatSetup& setup, std::optional<double> before) {
+  if (s.handover_done) return "done";
+  const std::string ms = format("in %.0f ms", 10 * std::ceil(1e2 * s.handover_s - 0.5));
+  const bool begun = s.handover_s <= 0;
+  if (!std::isfinite(setup.alpha_slew)) return begun ? "done" : "in one step " + ms;
+  const double to = s.handover_parties.percent / 100.0;
+  const bool several = name_of(setup.masters, s.handover_parties.to).empty();
+  const std::string lasts = before && !several ? "takes about " + seconds_text(std::abs(to - *before) / setup.alpha_slew)
+                                               : "takes up to " + seconds_text((several ? 1 : to) / setup.alpha_slew);
+  return (begun ? "under way, " : "begins " + ms + ", ") + lasts;
+}
+
 }  // namespace
 
 std::string handover_brief(const ClientStatus& s) {
   const bool comes = s.handover == wire::Handover::kComes;
   if (!comes && s.handover != wire::Handover::kGoes) return "";
-  return std::string(comes ? "more" : "less") + format(" weight in %.0f ms", 10 * std::round(1e2 * s.handover_s));
+  const std::string what = comes ? "more weight" : "less weight";
+  if (s.handover_done) return what + ": done";
+  return what + (s.handover_s > 0 ? format(" in %.0f ms", 10 * std::ceil(1e2 * s.handover_s - 0.5)) : " under way");
 }
 
-std::string handover_text(const ClientStatus& s, const SeatSetup& setup) {
+std::string handover_text(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
   if (s.handover == wire::Handover::kNone) return "";
   if (s.handover == wire::Handover::kCalledOff) return "hand-over called off: a link is too old";
   const wire::HandoverParties& p = s.handover_parties;
   const std::string tool_name = name_of(setup.tools, p.tool + 1), tool = tool_name.empty() ? "the tool" : "the tool " + tool_name;
-  const std::string by = giver(p.by, setup), to = name_of(setup.masters, p.to), when = format(" in %.0f ms", 10 * std::round(1e2 * s.handover_s));
-  if (to.empty()) return by + " shares " + tool + " anew" + when + format(": your part becomes %u %%", p.percent);
-  const bool whole = p.percent >= 100;
-  if (by == to) return by + (whole ? " takes " + tool + when : " takes more of " + tool + when + format(": %u %%", p.percent));
-  return by + " gives " + (whole ? "" : format("%u %% of ", p.percent)) + tool + " to " + to + when;
+  const std::string by = giver(p.by, setup), to = name_of(setup.masters, p.to);
+  const std::optional<double> before = part_before(s, setup, words);
+  const std::string parts = (before ? format("%.0f %% ", 100 * *before) : "") + format("to %u %%", p.percent), course = ": " + course_text(s, setup, before);
+  if (to.empty()) return by + " shares " + tool + " anew (your part " + parts + ")" + course;
+  const std::string more = p.percent >= 100 ? "" : "more of ";
+  if (by == to) return by + " takes " + more + tool + " (" + parts + ")" + course;
+  return by + " gives " + more + tool + " to " + to + " (" + parts + ")" + course;
+}
+
+std::string HandoverNotes::say(double now_s, const ClientStatus& s, const SeatSetup& setup, const Words& words) {
+  const auto is_one_series = [&](const ClientStatus& a) { return a.handover == s.handover && a.handover_parties.to == s.handover_parties.to && a.handover_parties.tool == s.handover_parties.tool; };
+  if (s.handover != wire::Handover::kNone && s.handovers != seen_) {
+    const std::optional<double> from = untold_ && is_one_series(*untold_) ? std::optional(untold_->handover_from) : std::nullopt;
+    untold_ = s;
+    untold_->handover_from = from.value_or(s.handover_from);
+  } else if (untold_ && s.handover != wire::Handover::kNone) {
+    untold_->handover_s = s.handover_s;
+    untold_->handover_done = s.handover_done;
+  } else if (untold_) {
+    untold_->handover_done = true;  // nothing is shown of it any more
+  }
+  seen_ = s.handovers;
+  if (!untold_ || (told_at_s_ && now_s - *told_at_s_ < kBetween)) return "";
+  told_at_s_ = now_s;
+  const std::string text = handover_text(*untold_, setup, words);
+  untold_.reset();
+  return text;
 }
 
 }  // namespace tandem::client

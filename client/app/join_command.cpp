@@ -11,6 +11,7 @@
 #include "client/app/server_option.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "hal/io/backend.h"
 #include "hal/io/open_device.h"
 #include "proto/wire.h"
@@ -92,8 +93,8 @@ int join_command(const JoinArguments& arguments) {
   Mistakes mistakes;
   const AttendPlan plan = understand(arguments, mistakes);
   if (mistakes.empty()) return attend(plan);
-  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
-  std::fprintf(stderr, "tandem-client join: %zu mistake%s, nothing was started\n", mistakes.size(),
+  for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "%s\n", mistake.c_str());
+  io::printf_for_people(stderr, "tandem-client join: %zu mistake%s, nothing was started\n", mistakes.size(),
                mistakes.size() == 1 ? "" : "s");
   return kWrong;
 }

@@ -17,6 +17,7 @@
 #include "common/io/datagram_batch.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "common/io/realtime.h"
 #include "common/io/signals.h"
 #include "common/io/terminal.h"
@@ -249,8 +250,8 @@ int link_test_command(const Arguments& arguments) {
   if (!arguments.json.empty() && arguments.json != "-")
     if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty()) mistakes.push_back("--json: " + problem);
   if (mistakes.empty()) return test_link(arguments, *server, duration, patience);
-  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
-  std::fprintf(stderr, "tandem-client link-test: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+  for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "%s\n", mistake.c_str());
+  io::printf_for_people(stderr, "tandem-client link-test: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
   return kWrong;
 }
 
@@ -259,7 +260,7 @@ int link_test_command(const Arguments& arguments) {
 void add_link_test_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = root.add_subcommand(
-      "link-test", "judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks");
+      "link-test", "Judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks.");
   command->add_option("--server", arguments->server, "required: address the server printed")->option_text("HOST:PORT")->required();
   add_joining_options(*command, arguments->session, nullptr, arguments->state);
   command->add_option("--duration", arguments->duration, "how long [s], 1 to 3600; default 10")->option_text("S");

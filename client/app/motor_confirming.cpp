@@ -12,6 +12,7 @@
 #include "client/motor_check.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/print.h"
 #include "common/io/signals.h"
 #include "hal/driver_guard.h"
 
@@ -25,7 +26,7 @@ constexpr Duration kCheckLimit = 90s;  ///< longer than every motor can take
 constexpr Duration kOrderLife = 3ms;   ///< a program that stands still does not make a pulse longer
 
 int fail(const std::string& why, int code = kTrouble) {
-  std::fprintf(stderr, "tandem-client doctor: %s\n", why.c_str());
+  io::printf_for_people(stderr, "tandem-client doctor: %s\n", why.c_str());
   return code;
 }
 
@@ -105,15 +106,15 @@ int confirm_motors(const std::string& device, const std::string& state) {
 
   for (const auto& finding : pulser.check().findings(signs->motors)) {
     static constexpr const char* kMarks[] = {"  ok      ", "  notice  ", "  TROUBLE "};
-    std::printf("%s%s\n", kMarks[static_cast<std::size_t>(finding.kind)], finding.words.c_str());
+    io::printf_for_people(stdout, "%s%s\n", kMarks[static_cast<std::size_t>(finding.kind)], finding.words.c_str());
   }
   const bool right = pulser.check().over() && pulser.check().all_right();
   if (const std::string wrong = book.keep(*signs, right); !wrong.empty()) return fail("the result was not kept, so no force will come: " + wrong);
   if (right) {
-    std::printf("All motors push the way %s says. That is kept for this device (%s) and this very file; forces may come now.\n", signs->name.c_str(),
+    io::printf_for_people(stdout, "All motors push the way %s says. That is kept for this device (%s) and this very file; forces may come now.\n", signs->name.c_str(),
                 signs->device.c_str());
   } else {
-    std::printf("Not confirmed: no force will come of this device with this file.\n");
+    io::printf_for_people(stdout, "Not confirmed: no force will come of this device with this file.\n");
   }
   return right ? 0 : kTrouble;
 }

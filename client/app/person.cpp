@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/base/format.h"
 #include "common/base/printable.h"
@@ -37,6 +38,12 @@ std::string Person::help() const {
          ", r resumes; b clears a force that is latched off; ? shows this; q leaves";
 }
 
+std::optional<std::array<double, 3>> Person::keys() const {
+  if (!keyboard_) return std::nullopt;
+  const hal::Vec3 from_home = keyboard_->get() - home_;
+  return std::array{from_home[0], from_home[1], from_home[2]};
+}
+
 Person::Pressed Person::press(const std::string& key, const ClientStatus& status, const control::Status* words) {
   if (key == "q" || key == "Q" || key == "\x04") return {true, {}};
   if (key == "?" || key == "h") return {false, help()};
@@ -48,12 +55,12 @@ Person::Pressed Person::press(const std::string& key, const ClientStatus& status
   if (key == "S") return {false, stop_all(status)};
   if (key == "r") return {false, resume(status, words)};
   if (keyboard_) {
-    if (key == "right") return {false, move_hand(0, kHandStep)};
-    if (key == "left") return {false, move_hand(0, -kHandStep)};
-    if (key == "up") return {false, move_hand(1, kHandStep)};
-    if (key == "down") return {false, move_hand(1, -kHandStep)};
-    if (key == "pageup") return {false, move_hand(2, kHandStep)};
-    if (key == "pagedown") return {false, move_hand(2, -kHandStep)};
+    if (key == "right") return {false, move_hand(0, kHandStep, status)};
+    if (key == "left") return {false, move_hand(0, -kHandStep, status)};
+    if (key == "up") return {false, move_hand(1, kHandStep, status)};
+    if (key == "down") return {false, move_hand(1, -kHandStep, status)};
+    if (key == "pageup") return {false, move_hand(2, kHandStep, status)};
+    if (key == "pagedown") return {false, move_hand(2, -kHandStep, status)};
   }
   return {false, change_alpha(key, status)};
 }
@@ -95,20 +102,19 @@ std::string Person::change_alpha(const std::string& key, const ClientStatus& sta
     const bool instructor = setup_->seat.role == Role::kInstructor && setup_->seat.kind == SeatKind::kMaster;
     return key + (instructor ? ": no other seat can have authority here" : ": only an instructor moves authority");
   }
-  // Steps add to what was asked: authority itself moves there slowly.
-  const double now = asked_ >= 0 ? asked_ : status.alpha;
-  const std::string why = set_alpha(key == "0" ? 0 : key == "1" ? 1 : less ? now - kAlphaStep : now + kAlphaStep, now);
+  const double now = steps_.base(status);
+  const std::string why = set_alpha(key == "0" ? 0 : key == "1" ? 1 : less ? now - kAlphaStep : now + kAlphaStep, status);
   return why.empty() ? "" : key + ": " + why;
 }
 
-std::string Person::set_alpha(double own, double now) {
+std::string Person::set_alpha(double own, const ClientStatus& status) {
   // Steps stay on the grid of 0.05: repeated addition would not come back to 1.
   own = std::round(std::clamp(own, 0.0, 1.0) / kAlphaStep) * kAlphaStep;
   const bool anybody = std::ranges::any_of(others_, [](double share) { return share > 0; });
   const bool nobody_else = !anybody && own < 1;
   if (!anybody) own = 1;
-  const bool same = asked_ >= 0 && own == now;
-  asked_ = own;
+  const bool same = steps_.counts(status) && own == steps_.base(status);
+  if (!same) steps_.ask(own, status);
   control::Weights alpha{};
   for (std::size_t i = 0; i < setup_->masters.size(); ++i)
     alpha[i] = i == setup_->own_master ? own : (1 - own) * others_[i];
@@ -117,12 +123,15 @@ std::string Person::set_alpha(double own, double now) {
   return !same ? "" : own >= 1 ? "you have all authority already" : own <= 0 ? "you gave all authority away already" : "";
 }
 
-std::string Person::move_hand(int axis, double distance) {
+std::string Person::move_hand(int axis, double distance, const ClientStatus& status) {
   hal::Vec3 target = keyboard_->get();
   const double before = target[axis];
   target[axis] = std::clamp(target[axis] + distance, home_[axis] - kHandReach, home_[axis] + kHandReach);
   keyboard_->set(target);
-  return target[axis] == before ? format("the keyboard's hand reaches %.0f mm from its start, no farther", 1e3 * kHandReach) : "";
+  if (target[axis] == before) return format("the keyboard's hand reaches %.0f mm from its start, no farther", 1e3 * kHandReach);
+  const bool follows = status.session != wire::SessionState::kRunning || status.alpha >= 0.5;
+  const bool told = std::exchange(told_that_another_leads_, !follows);
+  return follows || told ? "" : "another hand leads: your keys pull at the tool, and it hardly follows you";
 }
 
 }  // namespace tandem::client

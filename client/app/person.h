@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "client/app/authority_steps.h"
 #include "client/app/seat_pump.h"
 #include "hal/sim/hand.h"
 #include "proto/control_messages.h"
@@ -22,6 +25,8 @@ class Person {
     bool leaves = false;  ///< the person wants to leave
     std::string why;      ///< why the key did nothing, and what to do; empty: it did something
   };
+  /// Where keys hold the hand, from its start [m]; nothing: no keys move it.
+  [[nodiscard]] std::optional<std::array<double, 3>> keys() const;
   /// @param status  of the seat  @param words  what the server said last over the control connection; null: nothing
   Pressed press(const std::string& key, const ClientStatus& status, const control::Status* words = nullptr);
 
@@ -31,14 +36,15 @@ class Person {
   [[nodiscard]] std::string stop_all(const ClientStatus& status);
   [[nodiscard]] std::string reset(const ClientStatus& status);
   [[nodiscard]] std::string change_alpha(const std::string& key, const ClientStatus& status);
-  [[nodiscard]] std::string set_alpha(double own, double now);
-  [[nodiscard]] std::string move_hand(int axis, double distance);
+  [[nodiscard]] std::string set_alpha(double own, const ClientStatus& status);
+  [[nodiscard]] std::string move_hand(int axis, double distance, const ClientStatus& status);
 
   SeatPump* pump_;
   const SeatSetup* setup_;
   std::shared_ptr<hal::sim::KeyboardTarget> keyboard_;
   hal::Vec3 home_ = hal::Vec3::Zero();
-  double asked_ = -1;          ///< own weight asked for last; negative: none yet
+  AuthoritySteps steps_;
+  bool told_that_another_leads_ = false;  ///< since the hand was moved last
   control::Weights others_{};  ///< how the rest is shared, sum 1, own 0
 };
 

@@ -19,7 +19,9 @@ constexpr Duration kScriptWaits = 200ms;  // of silence
 constexpr Duration kScriptAgain = 200ms;  // after it was refused; later than this it was somebody else who was:
 constexpr Duration kScriptStands = 1500ms;
 constexpr std::uint64_t kLookEvery = 64;  // ticks between two pictures for people
-constexpr std::uint64_t kHandoverShown = 1000;  // ticks
+constexpr std::uint64_t kHandoverShown = 1000;    // ticks, at least
+constexpr std::uint64_t kHandoverSettled = 100;   // ticks in which a weight did not move: it has arrived, and no gap of the network is as long
+constexpr double kAlphaStands = 1e-6;
 
 double sum_j(const EnergyArray& nj) {
   double sum = 0;
@@ -165,7 +167,7 @@ void SeatPump::send(Time now) noexcept {
   if (out_.size() > 0) out_.send(socket_.fd.get());  // what cannot be sent is lost, as on any network
 }
 
-/// An announcement lasts 50 ticks and people look less often: it is kept for them.
+/// An announcement lasts 50 ticks and people look less often: it is kept for them, and as long as the weight moves.
 void SeatPump::see_handover() noexcept {
   const wire::ForceMessage& f = seat_->force();
   const bool anew = f.handover != wire::Handover::kNone && (f.handover != handover_ || f.authority_version != handover_version_);
@@ -174,12 +176,18 @@ void SeatPump::see_handover() noexcept {
   if (anew) {
     picture_.handover = f.handover;
     picture_.handover_parties = f.handover_parties;
-    picture_.handover_s = f.handover_ticks / seat_->setup().tick_hz;
+    picture_.handover_from = f.alpha;
     ++picture_.handovers;
     handover_told_ = ticks_;
-  } else if (ticks_ - handover_told_ > kHandoverShown) {
-    picture_.handover = wire::Handover::kNone;
+    handover_begins_ = handover_moved_ = ticks_ + f.handover_ticks;
   }
+  if (std::abs(f.alpha - handover_alpha_) > kAlphaStands) handover_moved_ = std::max(handover_begins_, ticks_);
+  handover_alpha_ = f.alpha;
+  picture_.handover_s = (static_cast<double>(handover_begins_) - static_cast<double>(ticks_)) / seat_->setup().tick_hz;
+  picture_.handover_done = ticks_ > handover_moved_ + kHandoverSettled;
+  const bool long_ago = ticks_ - handover_told_ > kHandoverShown;
+  // Nobody has weight while a session is stopped: nothing is said of who gets some.
+  if (!anew && (f.session != wire::SessionState::kRunning || (long_ago && picture_.handover_done))) picture_.handover = wire::Handover::kNone;
 }
 
 void SeatPump::look(Time now) noexcept {

@@ -116,7 +116,8 @@ class SeatPump final : public hal::ServoClient {
   bool told_ = false;
   wire::Handover handover_ = wire::Handover::kNone;  ///< as FORCE said in the tick before
   std::uint32_t handover_version_ = 0;
-  std::uint64_t handover_told_ = 0;  ///< tick
+  std::uint64_t handover_told_ = 0, handover_begins_ = 0, handover_moved_ = 0;  ///< ticks; the last: when the weight moved last
+  double handover_alpha_ = 0;  ///< own weight in the tick before
   ClientStatus picture_;
   mutable std::mutex published_lock_;  ///< the servo thread only tries it
   ClientStatus published_;

@@ -1,9 +1,11 @@
 #include "client/app/seat_screen.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "client/app/control_words.h"
+#include "client/app/handover_text.h"
 #include "common/base/format.h"
 #include "common/base/printable.h"
 
@@ -18,8 +20,8 @@ using Words = std::optional<control::Status>;
 bool is_slave(const SeatSetup& setup) { return setup.seat.kind == SeatKind::kSlave; }
 
 /// `trainer`, or the workstation of a console.
-std::string maker(const Words& words) {
-  if (!words || !words->stop) return {};
+std::string maker(const ClientStatus& s, const Words& words) {
+  if (!words || !words->stop || words->stop->number < s.stops) return {};  // of an older stop
   const control::StatusStop& stop = *words->stop;
   if (stop.kind == control::StopKind::kFault) return " by the session itself, as its numbers could not be trusted";
   if (!stop.seat.empty()) return " by " + printable(stop.seat);
@@ -55,7 +57,7 @@ io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const W
     case wire::SessionState::kStopped: {
       const bool paused = s.session == wire::SessionState::kPaused;
       const std::string what = paused ? "PAUSED" : "STOPPED", out = way_out(setup, paused);
-      return {name + time + " " + what + maker(words) + ": " + out, name + what + maker(words) + ": " + out};
+      return {name + time + " " + what + maker(s, words) + ": " + out, name + what + maker(s, words) + ": " + out};
     }
     case wire::SessionState::kEnding:
       return {name + "ending", ""};
@@ -65,25 +67,44 @@ io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const W
   return {name, ""};
 }
 
-/// Who leads the tool of this seat, and the own share.
+/// Who leads the tool of this seat, and the own share. FORCE says what the own hand has now; the server's words say only what was asked for, which the
+/// others share in the same way.
 std::string leader_text(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
-  const std::string own = format("%.0f %%", 100 * s.alpha);
+  using enum wire::SessionState;
+  if (s.session == kStopped || s.session == kPaused || s.session == kHeld || s.session == kPassive) return "nobody leads";
   const std::size_t tool = static_cast<std::size_t>(setup.seat.tool);
   std::string leader;
-  double most = s.alpha;
+  double most = 0, others = 0;  // asked for
   if (words && tool < words->tools.size()) {
     std::size_t k = 0;
     for (const control::StatusSeat& seat : words->seats) {
       if (!seat.master || k >= words->tools[tool].alpha.size()) continue;
       const double alpha = words->tools[tool].alpha[k++];
-      if (seat.name == setup.seat.name || alpha <= most) continue;
+      if (seat.name == setup.seat.name) continue;
+      others += alpha;
+      if (alpha <= most) continue;
       most = alpha;
       leader = seat.name;
     }
   }
+  const std::string own = format("%.0f %%", 100 * s.alpha);
+  const bool other_leads = !leader.empty() && most / others * (1 - s.alpha) > s.alpha;
   if (is_slave(setup)) return leader.empty() ? std::string() : printable(leader) + " leads";
-  if (!leader.empty()) return printable(leader) + " leads" + (s.alpha > 0 ? ", you " + own : "");
-  return s.alpha > 0 ? "you lead " + own : "you do not lead";
+  if (other_leads) return printable(leader) + " leads" + (s.alpha > 0 ? ", you " + own : "");
+  if (s.alpha <= 0) return "you do not lead";
+  return s.alpha < 0.5 && leader.empty() ? "you " + own + ", not leading" : "you lead " + own;
+}
+
+/// Where keys hold the hand: `keys: 15 mm right`; empty: no keys move it.
+std::string keys_text(const ClientStatus& s) {
+  if (!s.keys_m) return {};
+  constexpr std::array<std::array<const char*, 2>, 3> kWays{{{"left", "right"}, {"near", "away"}, {"down", "up"}}};
+  std::string text;
+  for (std::size_t a = 0; a < kWays.size(); ++a) {
+    const double mm = 1e3 * (*s.keys_m)[a];
+    if (std::abs(mm) >= 0.5) text += (text.empty() ? "" : ", ") + format("%.0f mm %s", std::abs(mm), kWays[a][mm > 0 ? 1 : 0]);
+  }
+  return "keys: " + (text.empty() ? "at the start" : text);
 }
 
 /// Who else sits at this session and is heard.
@@ -109,7 +130,7 @@ std::string way_out(const SeatSetup& setup, bool paused) {
 
 std::string gate_text(const ClientStatus& s) {
   switch (s.gate) {
-    case wire::GateState::kOff: return "no force before the session runs";
+    case wire::GateState::kOff: return s.session_time < 0 ? "no force before the session runs" : "force off";
     case wire::GateState::kZero: return "force off";
     case wire::GateState::kRampIn: return "force rising";
     case wire::GateState::kActive: return "force on";
@@ -131,18 +152,19 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   std::vector<io::ScreenItem> items;
   const auto add = [&](std::string text, std::size_t row, std::string brief = "") { items.push_back({std::move(text), std::move(brief), row}); };
   items.push_back(state_item(s, setup, words));
-  if (words && words->drain) add(format("DRAINING: %u s left", words->drain->left_s), 0);
+  if (words && words->drain && words->drain->left_s > 0) add(format("DRAINING: %u s left", words->drain->left_s), 0);
   if (const std::string why = motors_text(s); !why.empty()) {
     add(why, 0, s.motors_latched ? "MOTORS TOO HOT: press b" : "MOTORS TOO HOT");
   } else if (latched) {
     add(gate_text(s), 0);
   }
-  if (const std::string told = handover_text(s, setup); !told.empty()) add(told, 0, handover_brief(s));
+  if (const std::string told = handover_text(s, setup, words); !told.empty()) add(told, 0, handover_brief(s));
   add(leader_text(s, setup, words), 0);
   add("force " + force_bar(s.force_n, setup.gate.force_max * share_of_force(setup.seat.role)), 0, format("force %.1f N", s.force_n));
   std::string tool = s.distance_m ? format("tool %.0f mm away", *s.distance_m * 1e3) : "";
   if (s.touching) tool += tool.empty() ? "tool touching" : ", touching";
   add(tool, 1);
+  add(keys_text(s), 1);
   add(partners(setup, words), 1);
   if (!latched) add(gate_text(s), 1);
   add(format("rtt %.1f ms, loss %.1f %%", s.rtt_ms, s.down_loss_percent), 1);

@@ -8,6 +8,7 @@
 #include "client/app/ask.h"
 #include "client/app/server_option.h"
 #include "common/io/number_option.h"
+#include "common/io/print.h"
 #include "common/io/signals.h"
 #include "proto/lobby_text.h"
 
@@ -26,7 +27,7 @@ int sessions_command(const Arguments& arguments) {
   std::string patience = arguments.patience;
   if (const auto problem = io::number_in(0.1, 3600, "s")(patience); !problem.empty()) mistakes.push_back("--patience: " + problem);
   if (!mistakes.empty()) {
-    for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
+    for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "%s\n", mistake.c_str());
     return 2;
   }
   const io::Fd signals = io::signals_as_file();
@@ -35,11 +36,11 @@ int sessions_command(const Arguments& arguments) {
   asking.signals = signals.get();
   const auto list = ask_for_sessions(asking);
   if (!list) {
-    std::fprintf(stderr, "tandem-client sessions: %s\n", list.error().reason.c_str());
+    io::printf_for_people(stderr, "tandem-client sessions: %s\n", list.error().reason.c_str());
     return 1;
   }
   std::fputs((arguments.json ? lobby_json(*list) : lobby_text(*list)).c_str(), stdout);
-  return std::fflush(stdout) == 0 ? 0 : 1;
+  return 0;
 }
 
 }  // namespace

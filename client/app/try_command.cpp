@@ -13,6 +13,7 @@
 #include "client/app/guidance.h"
 #include "common/base/nearest.h"
 #include "common/io/number_option.h"
+#include "common/io/print.h"
 #include "common/io/signals.h"
 #include "hal/io/open_device.h"
 #include "proto/io/scene_file.h"
@@ -131,7 +132,7 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
   const int code = attend(plan);
   trial.stop();
   if (!trial.failed.empty()) return trouble(trial.failed);
-  std::fprintf(stderr, "the server and the simulated hands were ended as well\n");
+  io::printf_for_people(stderr, "the server and the simulated hands were ended as well\n");
   return code;
 }
 
@@ -155,8 +156,8 @@ int try_command(const TryArguments& arguments) {
     for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
   }
   if (mistakes.empty()) return try_scene(*scene, arguments.scene, *own, duration_s);
-  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
-  std::fprintf(stderr, "tandem-client try: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+  for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "%s\n", mistake.c_str());
+  io::printf_for_people(stderr, "tandem-client try: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
   return kWrong;
 }
 

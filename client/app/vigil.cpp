@@ -26,7 +26,6 @@ constexpr int kLookEveryMs = 100;
 constexpr Duration kStandstill = 400ms;  // between two looks
 constexpr std::size_t kSecretsKept = 2;
 constexpr Duration kBetweenKeys = 1s;
-constexpr Duration kBetweenHandovers = 1s;  // told in a line of their own
 
 OwnSeat own_seat(const GivenSeat& given) {
   return {given.welcome.session_id, given.welcome.epoch, {given.welcome.resume_secret}, given.setup, given.server, given.local};
@@ -203,18 +202,18 @@ void Vigil::show(ClientStatus status) {
       o_.line.note(status.motors_latched ? motors_text(status) : "the motors are cool again");
     }
   }
-  if (status.session != before_ && status.session == wire::SessionState::kRunning) o_.line.note("the session runs");
+  // Of the end of a stop the server's words tell, with who ended it.
+  const bool words_tell = words_ && !words_->ended() && (before_ == wire::SessionState::kStopped || before_ == wire::SessionState::kPaused);
+  if (status.session != before_ && status.session == wire::SessionState::kRunning && !words_tell) o_.line.note("the session runs");
   if (status.session != before_ && status.session == wire::SessionState::kPassive)
     o_.line.note("PASSIVE: the server is too busy to keep time; the hand is let go, and engaged again by itself");
   before_ = status.session;
   const Time now = io::monotonic_now();
-  if (std::exchange(handovers_, status.handovers) != status.handovers && now - handover_told_ > kBetweenHandovers) {
-    handover_told_ = now;
-    o_.line.note(handover_text(status, o_.seat.setup()));
-  }
+  if (const std::string told = handovers_.say(seconds(now.time_since_epoch()), status, o_.seat.setup(), known_); !told.empty()) o_.line.note(told);
   if (now - shown_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_ = now;
   status.coming_back = coming_ != nullptr;
+  status.keys_m = o_.person.keys();
   o_.line.show(seat_screen(status, o_.seat.setup(), known_));
 }
 

@@ -7,6 +7,7 @@
 #include "client/app/attend.h"
 #include "client/app/client_status.h"
 #include "client/app/come_back.h"
+#include "client/app/handover_text.h"
 #include "client/app/held_device.h"
 #include "client/app/person.h"
 #include "client/app/seat_pump.h"
@@ -75,9 +76,8 @@ class Vigil {
   Duration patience_;              ///< without news, before it is asked for the seat again
   std::optional<Time> left_;
   wire::SessionState before_ = wire::SessionState::kWaiting;
-  std::uint32_t handovers_ = 0;    ///< seen
+  HandoverNotes handovers_;
   bool motors_hot_ = false;
-  Time handover_told_{};
   bool fault_told_ = false, wants_force_again_ = false, away_ = false;
   double away_longest_s_ = 0;
 };

@@ -16,6 +16,7 @@
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/number_option.h"
+#include "common/io/print.h"
 #include "common/io/signals.h"
 #include "hal/falcon/falcon_force.h"
 #include "hal/falcon/falcon_weighing.h"
@@ -111,7 +112,7 @@ int weigh(const WeighArguments& arguments, double mass, const hal::FalconForce& 
       const std::string by{io::signal_that_came()};
       reason = by.empty() ? "nobody is there to press Enter: no reading" : "ended by " + by + ": no reading";
     }
-    std::fprintf(stderr, "tandem-client weigh: %s\n", reason.c_str());
+    io::printf_for_people(stderr, "tandem-client weigh: %s\n", reason.c_str());
     return kTrouble;
   };
   if (!held) {
@@ -141,7 +142,7 @@ int weigh(const WeighArguments& arguments, double mass, const hal::FalconForce& 
   print_counts("motor_without", motor_counts(*empty, scale));
   print_counts("motor_with", motor_counts(*loaded, scale));
   std::printf("  }\n");
-  std::fprintf(stderr, "Friction took up to %.1f %% of what the mass takes; add the reading to your calibration file.\n",
+  io::printf_for_people(stderr, "Friction took up to %.1f %% of what the mass takes; add the reading to your calibration file.\n",
                100 * loaded->friction / std::max(1e-6, std::abs(loaded->torque[0] - empty->torque[0])));
   return 0;
 }
@@ -156,8 +157,8 @@ int weigh_command(const WeighArguments& arguments) {
     if (std::string heavy = too_heavy(std::stod(arguments.mass), *scale, arguments.lying); !heavy.empty()) mistakes.push_back(std::move(heavy));
   }
   if (mistakes.empty()) return weigh(arguments, std::stod(arguments.mass), *scale);
-  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
-  std::fprintf(stderr, "tandem-client weigh: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
+  for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "%s\n", mistake.c_str());
+  io::printf_for_people(stderr, "tandem-client weigh: %zu mistake%s, nothing was started\n", mistakes.size(), mistakes.size() == 1 ? "" : "s");
   return kWrong;
 }
 

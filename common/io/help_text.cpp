@@ -178,25 +178,21 @@ std::string filled(std::string_view text, std::size_t width) {
   return filling.end();
 }
 
-std::string for_terminal(std::string_view text, std::FILE* file) {
-  if (isatty(fileno(file)) == 0) return std::string(text);
-  const std::size_t width = screen_size(fileno(file)).columns - 1;
+std::string broken_line(std::string_view line, std::size_t width) {
+  const std::size_t indent = indent_of(line);
+  if (indent > 0 && is_command(line)) return command_lines(trimmed(line), width, indent);
+  const std::size_t second = second_column(line);
+  const std::size_t hang = second == kMissing ? 0 : columns_of(line.substr(0, second));
   std::string out;
-  while (!text.empty()) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
-    const std::size_t indent = indent_of(line);
-    if (indent > 0 && is_command(line)) {
-      out += command_lines(trimmed(line), width, indent);
-      continue;
-    }
-    for (const std::string& part : wrapped(line, width, indent + 2)) out += part + "\n";
-  }
+  for (const std::string& part : wrapped(line, width, hang > 0 && hang <= width / 2 ? hang : indent + 2)) out += part + "\n";
   return out;
 }
 
 void HelpText::give_to(CLI::App& app) {
   app.formatter(std::make_shared<HelpText>());
+  // As all our options are told.
+  for (const auto& [name, words] : {std::pair{"--help", "prints this and ends"}, {"--version", "prints the version and ends"}})
+    if (CLI::Option* const option = app.get_option_no_throw(name)) option->description(words);
   for (CLI::Option* const option : app.get_options())
     if (option->get_group() == "Options") option->group(group_of(*option));
   for (CLI::App* const command : app.get_subcommands({})) give_to(*command);

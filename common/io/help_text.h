@@ -1,7 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -11,10 +10,10 @@ namespace tandem::io {
 /// that they can be copied. A line that begins with a space belongs to a table or an example; a blank line, a heading and `Exit:` begin anew.
 [[nodiscard]] std::string filled(std::string_view text, std::size_t width);
 
-/// Text for a person on `file`: on a terminal every line is broken between words, commands with a backslash; elsewhere it stays as it is.
-[[nodiscard]] std::string for_terminal(std::string_view text, std::FILE* file);
+/// One line of other text, broken between words: a command with a backslash, a row of a table below its second column.
+[[nodiscard]] std::string broken_line(std::string_view line, std::size_t width);
 
-/// The help of all our programs: options in groups, everything wrapped to the terminal (80 columns where there is none).
+/// The help of all our programs: options in groups, everything wrapped to the terminal (elsewhere to the variable COLUMNS, else to 80 columns).
 class HelpText final : public CLI::Formatter {
  public:
   /// @param width  0: of the terminal behind standard output, 40 to 120

@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "common/io/clock.h"
+#include "common/io/print.h"
 #include "common/io/screen_block.h"
 #include "common/io/text_layout.h"
 
@@ -105,9 +106,9 @@ class JsonLines final : public spdlog::formatter {
 /// is cleared first.
 class LinesForPeople final : public spdlog::formatter {
  public:
-  LinesForPeople() : terminal_(isatty(STDERR_FILENO) != 0) {}
+  LinesForPeople() : breaks_(text_width(stderr).has_value()) {}
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
-    if (!terminal_) return pattern_.format(message, out);
+    if (!breaks_) return pattern_.format(message, out);
     spdlog::memory_buf_t line;
     pattern_.format(message, line);
     const std::string_view clearing = ScreenBlock::take_clearing();
@@ -115,7 +116,7 @@ class LinesForPeople final : public spdlog::formatter {
     message.color_range_end += clearing.size();
     std::string text{clearing};
     std::string_view rest{line.data(), line.size()};
-    const std::size_t width = screen_size(STDERR_FILENO).columns - 1;
+    const std::size_t width = text_width(stderr).value_or(79);
     while (!rest.empty()) {
       const std::string_view one = rest.substr(0, rest.find('\n'));
       for (const std::string& part : wrapped(one, width, kIndent)) text += part + "\n";
@@ -127,7 +128,7 @@ class LinesForPeople final : public spdlog::formatter {
 
  private:
   static constexpr std::size_t kIndent = 4;
-  bool terminal_;
+  bool breaks_;
   spdlog::pattern_formatter pattern_{"%n: %^%l%$: %v"};
 };
 

@@ -60,6 +60,7 @@ std::string OutputFile::close() {
   errno = 0;
   const bool flushed = file == stdout ? std::fflush(file) == 0 : std::fclose(file) == 0;
   if (!flushed && failed_ == 0) failed_ = errno != 0 ? errno : EIO;
+  if (failed_ == EPIPE && file == stdout) return {};  // its reader went away and wants no more
   return failed_ == 0 ? std::string{} : (file == stdout ? "standard output" : name_) + " could not be written to the end: " + why_not_written(failed_);
 }
 

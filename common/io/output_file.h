@@ -24,7 +24,7 @@ class OutputFile {
   /// @return what is wrong, empty if nothing
   [[nodiscard]] std::string open(const std::string& name, bool dash_is_stdout);
   void write(std::string_view text) noexcept;
-  /// @return what is wrong, empty if every byte was written
+  /// @return what is wrong; empty if every byte was written, or nobody reads standard output any more
   [[nodiscard]] std::string close();
 
   [[nodiscard]] bool wanted() const noexcept { return file_ != nullptr; }

@@ -10,6 +10,7 @@
 #include "common/base/nearest.h"
 #include "common/io/help_text.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 
 namespace tandem::io {
 namespace {
@@ -82,6 +83,18 @@ std::vector<std::string> all_mistakes(CLI::App& app, const CLI::ParseError& firs
   }
 }
 
+/// Exit code of a program whose command came to its end with `code`. Where the reader of standard output went away, as `head` does, nobody misses the rest.
+int finish(const CLI::App& app, int code) {
+  const int before = errno;  // of the last write, if that was the command's last call that failed
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  const bool of_a_write = before == ENOSPC || before == EDQUOT || before == EFBIG || before == EIO;
+  const int error = errno != 0 ? errno : of_a_write ? before : 0;
+  if ((flushed && std::ferror(stdout) == 0) || error == EPIPE || reader_gone(stdout)) return code;
+  printf_for_people(stderr, "%s: standard output could not be written to the end%s\n", app.get_name().c_str(), error != 0 ? (": " + why_not_written(error)).c_str() : "");
+  return code != 0 ? code : 1;
+}
+
 }  // namespace
 
 int run_program(CLI::App& app, const std::function<int()>& action, int argc, char** argv) {
@@ -94,29 +107,25 @@ int run_program(CLI::App& app, const std::function<int()>& action, int argc, cha
     if (!word.empty() && !word.starts_with('-') && app.get_subcommands().empty() && !app.get_subcommands({}).empty()) {
       std::vector<std::string> known;
       for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-      std::fprintf(stderr, "%s: no command is called \"%s\"; %s\n", app.get_name().c_str(), argv[1], suggest(word, known).c_str());
+      printf_for_people(stderr, "%s: no command is called \"%s\"; %s\n", app.get_name().c_str(), argv[1], suggest(word, known).c_str());
       return 2;
     }
     // Help and version are ends, not mistakes; every mistake in arguments is 2, whatever CLI11 calls it.
-    if (error.get_exit_code() == 0) return app.exit(error);
+    if (error.get_exit_code() == 0) return finish(app, app.exit(error));
     // Looked up before the words are parsed again, which changes which command was named.
     const std::string meant = with_nearest(app, error.what());
     std::vector<std::string> all = all_mistakes(app, error, {argv + 1, argv + argc});
     all.front() = meant;
     for (const std::string& mistake : all)
-      std::fputs(for_terminal((&mistake == &all.front() ? mistake : with_nearest(app, mistake)) + "\n", stderr).c_str(), stderr);
+      print(stderr, (&mistake == &all.front() ? mistake : with_nearest(app, mistake)) + "\n");
     if (all.size() > 1) std::fprintf(stderr, "%zu mistakes; nothing was started\n", all.size());
     std::fputs("Run with --help for more information.\n", stderr);
     return 2;
   }
   try {
-    const int code = action();
-    const int error = errno;
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-    std::fprintf(stderr, "%s: standard output could not be written to the end: %s\n", app.get_name().c_str(), why_not_written(error != 0 ? error : EIO).c_str());
-    return code != 0 ? code : 1;
+    return finish(app, action());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
+    printf_for_people(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
     return 1;
   }
 }

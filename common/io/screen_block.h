@@ -6,7 +6,9 @@
 
 namespace tandem::io {
 
-/// Columns and rows of the terminal behind a file descriptor, asked anew each time; 80 and 24 where there is none.
+/// What the environment variable COLUMNS says, if it is a width; 0: nothing.
+[[nodiscard]] std::size_t columns_given() noexcept;
+/// Columns and rows of the terminal behind a file descriptor, asked anew each time; where there is none what COLUMNS says, else 80, and 24.
 struct ScreenSize {
   std::size_t columns = 80, rows = 24;
 };

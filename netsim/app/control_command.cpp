@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/io/print.h"
 #include "netsim/app/control_socket.h"
 #include "netsim/app/control_words.h"
 #include "netsim/app/interruption.h"
@@ -21,13 +22,13 @@ int control_command(const ControlArguments& arguments) {
   for (const std::string& word : arguments.words) line += (line.empty() ? "" : " ") + word;
   // A mistake is found here already; whether the network or the client exists, the proxy knows.
   if (const auto request = parse_control(line); !request) {
-    std::fprintf(stderr, "tandem-netsim control: %s\n", request.error().c_str());
+    io::printf_for_people(stderr, "tandem-netsim control: %s\n", request.error().c_str());
     return 2;
   }
   const Interruption interruption;
   const auto answer = ask_control(arguments.path, line, interruption.fd());
   if (!answer) {
-    std::fprintf(stderr, "tandem-netsim control: %s\n", answer.error().c_str());
+    io::printf_for_people(stderr, "tandem-netsim control: %s\n", answer.error().c_str());
     return 1;
   }
   if (answer->empty()) {

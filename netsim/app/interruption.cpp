@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "common/io/print.h"
 #include "common/io/signals.h"
 
 namespace tandem::netsim {
@@ -17,7 +18,7 @@ bool Interruption::came() const noexcept {
 
 void Interruption::say(std::string_view command, const std::string& done) {
   const std::string_view by = io::signal_that_came();
-  std::fprintf(stderr, "tandem-netsim %.*s: interrupted after %s%s%.*s. What was done so far is told and is no pass\n",
+  io::printf_for_people(stderr, "tandem-netsim %.*s: interrupted after %s%s%.*s. What was done so far is told and is no pass\n",
                static_cast<int>(command.size()), command.data(), done.c_str(), by.empty() ? "" : " by ",
                static_cast<int>(by.size()), by.data());
 }

@@ -1,4 +1,5 @@
 #include "netsim/app/mistakes.h"
+#include "common/io/print.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -19,8 +20,8 @@ std::size_t Mistakes::count() const noexcept {
 
 int Mistakes::refuse(std::string_view command) const {
   for (const std::string& line : lines_)
-    std::fprintf(stderr, "tandem-netsim %.*s: %s\n", static_cast<int>(command.size()), command.data(), line.c_str());
-  std::fprintf(stderr, "%zu mistake%s; nothing was started\n", count(), count() == 1 ? "" : "s");
+    io::printf_for_people(stderr, "tandem-netsim %.*s: %s\n", static_cast<int>(command.size()), command.data(), line.c_str());
+  io::printf_for_people(stderr, "%zu mistake%s; nothing was started\n", count(), count() == 1 ? "" : "s");
   return kWrong;
 }
 

@@ -1,4 +1,3 @@
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -9,6 +8,7 @@
 #include "common/base/format.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "common/io/terminal.h"
 #include "netsim/app/interruption.h"
 #include "netsim/app/mistakes.h"
@@ -32,12 +32,6 @@ struct ProfilesArguments {
 
 int wrong(const std::string& message) { return refuse("profiles", message); }
 
-std::size_t paper_width() {
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1) return size.ws_col;
-  return kPipeWidth;
-}
-
 /// As the C library decides: the first of these that is set names the encoding.
 bool speaks_utf8() {
   for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
@@ -58,7 +52,7 @@ int list(bool json) {
     if (json) {
       all.push_back(profile_json(*profile));
     } else {
-      std::printf("%-20s %s\n", profile->name.c_str(), profile->summary.c_str());
+      io::printf_for_people(stdout, "%-20s %s\n", profile->name.c_str(), profile->summary.c_str());
     }
   }
   if (json) std::printf("%s\n", all.dump(2).c_str());
@@ -83,7 +77,7 @@ int show(const ProfilesArguments& arguments) {
   const Interruption interruption;
   bool interrupted = false;
   if (!arguments.json) {
-    std::fputs(profile_heading(*subject).c_str(), stdout);
+    io::print(stdout, profile_heading(*subject));
     std::fflush(stdout);
   }
   io::StatusLine line{isatty(STDERR_FILENO) == 0};
@@ -102,8 +96,8 @@ int show(const ProfilesArguments& arguments) {
     json["interrupted"] = interrupted;
     std::printf("%s\n", json.dump(2).c_str());
   } else {
-    const PictureStyle style{paper_width(), !arguments.ascii && speaks_utf8()};
-    std::fputs(profile_report(*subject, portrait, style).c_str(), stdout);
+    const PictureStyle style{io::text_width(stdout).value_or(kPipeWidth), !arguments.ascii && speaks_utf8()};
+    io::print(stdout, profile_report(*subject, portrait, style));
   }
   io::OutputFile svg;
   std::string problem = svg.open(arguments.svg, false);
@@ -111,7 +105,7 @@ int show(const ProfilesArguments& arguments) {
   if (problem.empty()) problem = svg.close();
   if (interrupted) Interruption::say("profiles", format("%.2f of %g virtual minutes", seconds(portrait.length) / 60, arguments.minutes));
   if (problem.empty()) return interrupted ? Interruption::kInterrupted : 0;
-  std::fprintf(stderr, "tandem-netsim profiles: --svg: %s\n", problem.c_str());
+  io::printf_for_people(stderr, "tandem-netsim profiles: --svg: %s\n", problem.c_str());
   return kTrouble;
 }
 

@@ -14,6 +14,7 @@
 #include "common/io/fd.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "common/io/realtime.h"
 #include "common/io/socket_address.h"
 #include "common/io/tcp_listener.h"
@@ -48,7 +49,7 @@ struct ProxyArguments {
 Duration microseconds(double us) { return from_seconds(us * 1e-6); }
 
 int trouble(const std::string& message) {
-  std::fprintf(stderr, "tandem-netsim proxy: %s\n", message.c_str());
+  io::printf_for_people(stderr, "tandem-netsim proxy: %s\n", message.c_str());
   return kTrouble;
 }
 
@@ -143,12 +144,12 @@ int proxy_command(const ProxyArguments& arguments) {
 
   // Scripts wait for this line; with JSON on standard output it moves out of the way.
   std::FILE* const people = arguments.json == "-" ? stderr : stdout;
-  std::fprintf(people, "listening on %s\n", io::to_text((*proxy)->listening()).c_str());
-  std::fprintf(people, "to %s, %s, seed %llu; Ctrl-C ends\n", io::to_text(options.to).c_str(),
+  io::printf_for_people(people, "listening on %s\n", io::to_text((*proxy)->listening()).c_str());
+  io::printf_for_people(people, "to %s, %s, seed %llu; Ctrl-C ends\n", io::to_text(options.to).c_str(),
                network->description.c_str(), static_cast<unsigned long long>(options.seed));
-  for (const std::string& note : network->notes) std::fprintf(people, "note: %s\n", note.c_str());
+  for (const std::string& note : network->notes) io::printf_for_people(people, "note: %s\n", note.c_str());
   if (!joining)
-    std::fprintf(people, "note: nobody can join a Tandem session through here, only datagrams pass: %s\n", joining.error().c_str());
+    io::printf_for_people(people, "note: nobody can join a Tandem session through here, only datagrams pass: %s\n", joining.error().c_str());
   std::fflush(people);
 
   std::optional<TcpRelay> relay;
@@ -156,7 +157,7 @@ int proxy_command(const ProxyArguments& arguments) {
   std::thread packets([&] {
     std::string notice;
     ask_for_machine(arguments.realtime, notice);
-    if (!notice.empty()) std::fprintf(stderr, "tandem-netsim proxy: %s\n", notice.c_str());
+    if (!notice.empty()) io::printf_for_people(stderr, "tandem-netsim proxy: %s\n", notice.c_str());
     (*proxy)->run();
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(finished.get(), &one, sizeof one);
@@ -176,7 +177,7 @@ int proxy_command(const ProxyArguments& arguments) {
   notes.events = played;
   notes.interrupted = interruption.came() && options.duration > Duration::zero() && status.since_start < options.duration;
   if (arguments.lateness_max_us > 0) notes.lateness_max = microseconds(arguments.lateness_max_us);
-  std::fputs(summary_text(**proxy, notes).c_str(), people);
+  io::print(people, summary_text(**proxy, notes));
   std::fflush(people);
   if (notes.interrupted) Interruption::say("proxy", format("%.3f of %g s", seconds(status.since_start), arguments.duration_s));
   io::OutputFile json;

@@ -9,6 +9,7 @@
 #include "common/base/format.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/interruption.h"
 #include "netsim/app/mistakes.h"
@@ -123,7 +124,7 @@ WorldSetup understand(const RunArguments& arguments, std::vector<std::string>& n
       continue;
     }
     if (auto motion = hal::load_motion(*options)) {
-      if (!arguments.quiet) std::fprintf(stderr, "%s: %s\n", seat.c_str(), (*motion)->describe().c_str());
+      if (!arguments.quiet) io::printf_for_people(stderr, "%s: %s\n", seat.c_str(), (*motion)->describe().c_str());
       setup.motions[seat] = std::move(*motion);
     } else {
       mistakes.add(motion.error());
@@ -162,7 +163,7 @@ int check(const RunArguments& arguments, const WorldSetup& setup, const NetworkC
     for (const std::string& note : network.notes) text += "note: " + note + "\n";
     for (const std::string& note : late_notes(setup)) text += "note: " + note + "\n";
   }
-  std::fputs(text.c_str(), stdout);
+  std::printf("%s# OK: %s has no mistake; nothing was started\n", text.c_str(), arguments.scene.c_str());
   return 0;
 }
 
@@ -201,7 +202,7 @@ int run_command(const RunArguments& arguments) {
                             .tick = [&](World&) { log.on_tick(world.now()); }});
   if (progress) std::fprintf(stderr, "\r\x1b[K");
   if (!run.trouble.empty()) {
-    std::fprintf(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
+    io::printf_for_people(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
     return kTrouble;
   }
 
@@ -216,7 +217,7 @@ int run_command(const RunArguments& arguments) {
   std::string words;
   for (const std::string& note : notes) words += "note: " + note + "\n";
   if (!arguments.quiet || !json_on_stdout)
-    std::fprintf(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s%s%s",
+    io::printf_for_people(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s%s%s",
                  report.scenario.c_str(), interrupted && !broken ? "interrupted" : report.verdict_words(), report.duration_s,
                  setup.replay ? ("replay of " + arguments.replay).c_str() : network->description.c_str(),
                  static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
@@ -226,7 +227,7 @@ int run_command(const RunArguments& arguments) {
   if (json_file.wanted()) json_file.write(report_json(report, links, notes, interrupted));
   for (const auto& problem : {trace_file.close(), log.close(), json_file.close()})
     if (!problem.empty()) {
-      std::fprintf(stderr, "tandem-netsim run: %s\n", problem.c_str());
+      io::printf_for_people(stderr, "tandem-netsim run: %s\n", problem.c_str());
       return kTrouble;
     }
   if (interrupted) return Interruption::kInterrupted;

@@ -13,6 +13,7 @@
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/parallel_jobs.h"
+#include "common/io/print.h"
 #include "common/io/terminal.h"
 #include "netsim/app/interruption.h"
 #include "netsim/app/mistakes.h"
@@ -207,7 +208,7 @@ int swarm_command(const SwarmArguments& arguments) {
   SwarmSum sum;
   for (std::size_t i = 0; i < results.size(); ++i) sum.add(arguments, arguments.first + i, results[i]);
   const bool json_on_stdout = arguments.json == "-";
-  std::fputs(summary(arguments, sum, wall_s).c_str(), json_on_stdout ? stderr : stdout);
+  io::print(json_on_stdout ? stderr : stdout, summary(arguments, sum, wall_s));
   const bool interrupted = sum.not_run > 0 && interruption.came();
   if (interrupted)
     Interruption::say("swarm", format("%zu of %llu sessions", sum.done, static_cast<unsigned long long>(arguments.seeds)));
@@ -226,7 +227,7 @@ int swarm_command(const SwarmArguments& arguments) {
   }
   if (problem.empty()) problem = json.close();
   if (!problem.empty()) {
-    std::fprintf(stderr, "tandem-netsim swarm: --json: %s\n", problem.c_str());
+    io::printf_for_people(stderr, "tandem-netsim swarm: --json: %s\n", problem.c_str());
     return kTrouble;
   }
   if (interrupted) return Interruption::kInterrupted;

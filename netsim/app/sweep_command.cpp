@@ -7,6 +7,7 @@
 #include "common/base/format.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "netsim/app/interruption.h"
 #include "netsim/app/mistakes.h"
 #include "netsim/app/sweep.h"
@@ -100,7 +101,7 @@ int sweep_command(const SweepArguments& a) {
   progress.end();
 
   const bool on_stdout = a.json == "-" || a.csv == "-";
-  if (!a.quiet || !on_stdout) std::fputs(sweep_map(sweep).c_str(), on_stdout ? stderr : stdout);
+  if (!a.quiet || !on_stdout) io::print(on_stdout ? stderr : stdout, sweep_map(sweep));
   const bool interrupted = sweep.runs.not_run() > 0 && interruption.came();
   if (interrupted)
     Interruption::say("sweep", std::to_string(sweep.runs.all() - sweep.runs.not_run()) + " of " + std::to_string(sweep.runs.all()) + " runs");
@@ -109,7 +110,7 @@ int sweep_command(const SweepArguments& a) {
   int code = interrupted ? Interruption::kInterrupted : sweep.good() ? kGood : kFailed;
   for (const auto& problem : {json_file.close(), csv_file.close()})
     if (!problem.empty()) {
-      std::fprintf(stderr, "tandem-netsim sweep: %s\n", problem.c_str());
+      io::printf_for_people(stderr, "tandem-netsim sweep: %s\n", problem.c_str());
       code = kFailed;
     }
   return code;

@@ -7,6 +7,7 @@
 
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "netsim/app/interruption.h"
 #include "netsim/app/mistakes.h"
 #include "netsim/app/scenario_load.h"
@@ -36,7 +37,7 @@ void list(const std::vector<Scenario>& scenarios) {
   std::size_t width = 0;
   for (const Scenario& s : scenarios) width = std::max(width, s.name.size());
   for (const Scenario& s : scenarios)
-    std::printf("%-*s  %3u seed%s  %5.0f s  %s\n", static_cast<int>(width), s.name.c_str(), s.seeds, s.seeds == 1 ? " " : "s",
+    io::printf_for_people(stdout, "%-*s  %3u seed%s  %5.0f s  %s\n", static_cast<int>(width), s.name.c_str(), s.seeds, s.seeds == 1 ? " " : "s",
                 s.setup.scene.duration, s.summary.c_str());
 }
 
@@ -91,7 +92,7 @@ int test_command(const TestArguments& a) {
     for (const InputError& error : scenarios.error()) mistakes.add(to_text(error));
   }
   if (!mistakes.none()) return mistakes.refuse("test");
-  for (const std::string& note : left_out) std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (const std::string& note : left_out) io::printf_for_people(stderr, "note: %s\n", note.c_str());
   for (Scenario& s : *scenarios) {  // from here on what is in force
     if (a.seed_given) s.seed = a.seed;
     if (a.seeds_given) s.seeds = static_cast<std::uint32_t>(a.seeds);
@@ -105,6 +106,7 @@ int test_command(const TestArguments& a) {
       std::printf("%s%s\n%s", &s == &scenarios->front() ? "" : "\n", s.name.c_str(), effective_scenario_text(s).c_str());
       for (const std::string& note : late_notes(s.setup)) std::printf("note: %s\n", note.c_str());
     }
+    std::printf("# OK: %zu scenario%s without a mistake; nothing was started\n", scenarios->size(), scenarios->size() == 1 ? "" : "s");
     return kPass;
   }
   const Interruption interruption;
@@ -122,14 +124,14 @@ int test_command(const TestArguments& a) {
   result.interrupted = result.not_run() > 0 && interruption.came();
 
   const bool json_on_stdout = a.json == "-";
-  if (!a.quiet || !json_on_stdout) std::fputs(test_summary(result).c_str(), json_on_stdout ? stderr : stdout);
+  if (!a.quiet || !json_on_stdout) io::print(json_on_stdout ? stderr : stdout, test_summary(result));
   if (result.interrupted) Interruption::say("test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
   json_file.write(test_json(result));
   junit_file.write(junit_xml(result));
   int code = result.interrupted ? Interruption::kInterrupted : result.passed() ? kPass : kFailed;
   for (const auto& problem : {json_file.close(), junit_file.close()})
     if (!problem.empty()) {
-      std::fprintf(stderr, "tandem-netsim test: %s\n", problem.c_str());
+      io::printf_for_people(stderr, "tandem-netsim test: %s\n", problem.c_str());
       code = kFailed;
     }
   return code;

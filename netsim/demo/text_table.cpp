@@ -3,7 +3,7 @@
 namespace tandem::netsim::demo {
 namespace {
 
-constexpr std::size_t kLabel = 44, kPaper = 6, kValue = 7, kLimit = 9;  // a cell: value, limit, mark, gaps: 20
+constexpr std::size_t kLabel = 44, kNarrowLabel = 12, kPaper = 6, kValue = 7, kLimit = 9;  // a cell: value, limit, mark, gaps: 20
 
 std::string left(std::string_view text, std::size_t width) {
   const std::size_t own = width_of(text);
@@ -26,11 +26,11 @@ void trim(std::string& line) {
   while (!line.empty() && line.back() == ' ') line.pop_back();
 }
 
-std::string row_text(const Row& row, const Paint& paint) {
+std::string row_text(const Row& row, const Paint& paint, bool narrow) {
   std::string label = "  " + row.label;
   if (!row.unit.empty()) label += " [" + row.unit + "]";
   if (!row.notes.empty()) label += " (" + row.notes + ")";
-  std::string line = left(label, kLabel) + right(row.paper, kPaper);
+  std::string line = (narrow ? label + "\n" + std::string(kNarrowLabel, ' ') : left(label, kLabel)) + right(row.paper, kPaper);
   for (const Cell& cell : row.cells) {
     const std::string mark(symbol(cell.mark));
     line += right(cell.value, kValue) + " " + paint("2", left(cell.limit, kLimit)) + " ";
@@ -81,22 +81,24 @@ std::string wrapped(std::string_view text, std::size_t width, const std::string&
   return out;
 }
 
-std::string to_text(const Comparison& comparison, bool colour) {
+std::string to_text(const Comparison& comparison, bool colour, std::size_t width) {
   const Paint paint{colour};
+  const bool narrow = width < kTextWidth;
+  width = narrow ? kNarrowTextWidth : kTextWidth;
   std::string rule;
-  for (std::size_t k = 0; k < kTextWidth; ++k) rule += "─";
-  std::string head = left("", kLabel) + right("paper", kPaper);
-  for (const char* column : {"  our seed", "  our defaults", "  defaults, bad net"}) head += left(column, 20);
+  for (std::size_t k = 0; k < width; ++k) rule += "─";
+  std::string head = left("", narrow ? kNarrowLabel : kLabel) + right("paper", kPaper);
+  for (const char* column : {"  the paper’s gains", "  Tandem’s defaults", "  on the bad network"}) head += left(column, 20);
   trim(head);
   std::string out = rule + "\n" + paint("1", head) + "\n" + rule + "\n";
   for (const Section& section : comparison.sections) {
     out += paint("1", section.title) + "\n";
-    for (const Row& row : section.rows) out += row_text(row, paint);
+    for (const Row& row : section.rows) out += row_text(row, paint, narrow);
   }
   out += rule + "\n";
   char letter = 'a';
   for (const std::string& note : comparison.footnotes)
-    out += wrapped(std::string("(") + letter++ + ") " + note, kTextWidth, "    ") + "\n";
+    out += wrapped(std::string("(") + letter++ + ") " + note, width, "    ") + "\n";
   return out;
 }
 

@@ -1,18 +1,23 @@
 #include "server/app/attendance.h"
 
+#include <utility>
+
+#include "common/base/format.h"
 #include "common/base/silence.h"
 #include "server/app/status.h"
+#include "server/audit.h"
 #include "server/stop_words.h"
 
 namespace tandem::server {
 
 namespace {
 
-/// By whom, if from a seat (of consoles the house tells by name), and who may end it.
+/// By whom, if from a seat, and who may end it. Of a console the house tells who it is and why; that is not told twice.
 std::string stop_text(const char* what, const SessionStatus& status, const SceneSpec& scene) {
   const std::uint8_t by = status.stop.newest().by;
   const std::string who = who_ends(status.stop, scene, seats_heard(status));
-  return what + (by < scene.seats.size() ? " by " + scene.seats[by].name : std::string()) + ": all hands are let go" + (who.empty() ? "" : "; who may end it: " + who);
+  const std::string head = by == AuditEvent::kControlPlane ? std::string() : what + (by < scene.seats.size() ? " by " + scene.seats[by].name : std::string()) + ": ";
+  return head + "all hands are let go" + (who.empty() ? "" : "; who may end it: " + who);
 }
 
 }  // namespace
@@ -21,7 +26,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
   using State = wire::SessionState;
   News news;
   const bool runs = status.state != State::kWaiting && status.state != State::kEnding;
-  std::size_t came = 0, lost = 0, left = 0;
+  std::size_t came = 0, lost = 0, left = 0, taken = 0;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const SeatStatus& now_there = status.seats[i];
     Seat& seat = seats_[i];
@@ -30,6 +35,7 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (!now_there.taken && seat.taken) news.notes.push_back({"left", name, name + " left"});
     seat.taken = now_there.taken;
     came += now_there.ever_taken ? 1 : 0;
+    taken += now_there.taken ? 1 : 0;
     if (!runs || !now_there.ever_taken || now_there.alive) {
       if (seat.warned && now_there.alive) news.notes.push_back({"back", name, name + " is back"});
       seat.away_since.reset();
@@ -56,6 +62,10 @@ Attendance::News Attendance::look(Time now, const SessionStatus& status, const S
     if (status.state == State::kHeld) news.notes.push_back({"held", "", "HELD: " + why_held(status, scene) + ", the tools are braked"});
     state_ = status.state;
   }
+  const bool deserted = runs && came > 0 && taken == 0;
+  if (deserted && !std::exchange(deserted_, deserted) && scene.endless())
+    news.notes.push_back({"everybody_left", "", format("everybody left: the session ends in %.0f s, unless somebody joins it again", seconds(kLost))});
+  deserted_ = deserted;
   news.all_lost = runs && came > 0 && lost == came;
   news.all_left = runs && came > 0 && left == came;
   return news;

@@ -35,6 +35,7 @@ class Attendance {
   };
   std::array<Seat, kSeatsMax> seats_{};
   std::optional<wire::SessionState> state_;
+  bool deserted_ = false;  ///< everybody had left when it was looked last
 };
 
 }  // namespace tandem::server

@@ -63,6 +63,15 @@ std::string_view to_text(ControlEvent event) noexcept {
   return i < kNames.size() ? kNames[i] : "?";
 }
 
+std::string_view words_of(ControlEvent event) noexcept {
+  constexpr std::array<std::string_view, kControlEvents> kWords{
+      "connected", "came too often", "failed in the TLS handshake", "took too long", "sent too much", "sent what is no message", "is not enrolled here",
+      "is shut out after too many wrong codes", "was enrolled", "was refused for a wrong code", "was let in", "was refused", "gave an order", "gave orders too often",
+      "met trouble", "may not do that", "made room for another", "said nothing for too long", "had too many connections"};
+  const auto i = static_cast<std::size_t>(event);
+  return i < kWords.size() ? kWords[i] : "?";
+}
+
 ControlPlane::ControlPlane(asio::io_context& context, trust::ServerTrust& trust, Admissions& admissions, const ControlLimits& limits, ControlClocks clocks,
                            std::function<void(const ControlNews&)> tell)
     : context_(context),

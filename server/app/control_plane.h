@@ -42,7 +42,8 @@ enum class ControlEvent : std::uint8_t {
   kTooMany,   ///< had not joined, and was one too many of its key or source, or made room for another
 };
 inline constexpr std::size_t kControlEvents = 19;
-[[nodiscard]] std::string_view to_text(ControlEvent event) noexcept;
+[[nodiscard]] std::string_view to_text(ControlEvent event) noexcept;  ///< one word, for logs and metrics
+[[nodiscard]] std::string_view words_of(ControlEvent event) noexcept;  ///< for people: what is to be said of who came
 
 /// For logs and audit; never holds a secret.
 struct ControlNews {

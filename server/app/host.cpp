@@ -16,6 +16,7 @@
 #include "common/io/clock.h"
 #include "common/io/help_text.h"
 #include "common/io/own_address.h"
+#include "common/io/print.h"
 #include "common/io/realtime.h"
 #include "common/io/service_notice.h"
 #include "common/io/signals.h"
@@ -49,10 +50,10 @@ void tell_log(Notices& notices, const ControlNews& news) {
     default:
       return;
   }
-  const std::string who = news.address.empty() ? "" : news.address + " " + news.workstation + ": ";  // else it is about the server itself
-  if (io::logs_json()) return io::tell(trouble ? io::Level::kError : io::Level::kWarn, {.event = std::string(to_text(news.event)), .text = who + news.detail});
-  const std::string what = trouble ? "" : std::string(to_text(news.event)) + " ";
-  notices.add(trouble ? Notices::Weight::kError : Notices::Weight::kWarning, who + what + printable(news.detail));
+  const std::string who = news.address.empty() ? "" : news.address + " " + news.workstation;  // else it is about the server itself
+  if (io::logs_json()) return io::tell(trouble ? io::Level::kError : io::Level::kWarn, {.event = std::string(to_text(news.event)), .text = who + (who.empty() ? "" : ": ") + news.detail});
+  const std::string what = trouble ? who + (who.empty() ? "" : ": ") : who + " " + std::string(words_of(news.event)) + (news.detail.empty() ? "" : ": ");
+  notices.add(trouble ? Notices::Weight::kError : Notices::Weight::kWarning, what + printable(news.detail));
 }
 
 std::vector<double> tick_rates(const HostPlan& plan) {

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "common/io/print.h"
 #include "server/app/trust_commands.h"
 #include "server/app/trust_option.h"
 
@@ -18,7 +19,7 @@ int init_command(const std::string& state) {
     tell_audit_trouble("init", *made);
   }
   std::printf("state folder %s\nserver key   %s\n", path->c_str(), pin->hex().c_str());
-  std::fprintf(stderr, "next, once for each workstation: tandem-server enroll NAME --address HOST:PORT%s\n", trust::server_state_option(*path).c_str());
+  io::printf_for_people(stderr, "next, once for each workstation: tandem-server enroll NAME --address HOST:PORT%s\n", trust::server_state_option(*path).c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "proto/io/scene_file.h"
 #include "proto/scene_text.h"
 #include "server/app/front_door.h"
@@ -89,15 +90,16 @@ int run_command(const RunArguments& arguments) {
   Mistakes mistakes;
   const HostPlan plan = understand(arguments, mistakes);
   if (!mistakes.empty()) {
-    for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
-    std::fprintf(stderr, "tandem-server run: %zu mistake%s, nothing was started\n", mistakes.size(),
+    for (const std::string& mistake : mistakes) io::printf_for_people(stderr, "%s\n", mistake.c_str());
+    io::printf_for_people(stderr, "tandem-server run: %zu mistake%s, nothing was started\n", mistakes.size(),
                  mistakes.size() == 1 ? "" : "s");
     return kWrong;
   }
-  if (plan.metrics && !plan.metrics->loopback()) std::fprintf(stderr, "--metrics %s: %s\n", arguments.metrics.c_str(), kOpenMetrics);
+  if (plan.metrics && !plan.metrics->loopback()) io::printf_for_people(stderr, "--metrics %s: %s\n", arguments.metrics.c_str(), kOpenMetrics);
   if (!arguments.check) return host(plan);
   std::puts(effective_scene_text(plan.sessions.front().scene).c_str());
-  return std::fflush(stdout) == 0 ? 0 : 1;
+  std::printf("# OK: %s has no mistake; nothing was started\n", arguments.scene.c_str());
+  return 0;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/nearest.h"
+#include "common/io/print.h"
 #include "proto/scenes_embedded.h"
 #include "server/app/run_command.h"
 
@@ -19,7 +20,7 @@ int print_scene(const std::string& name, bool json) {
   if (scene == nullptr) {
     std::vector<std::string> names;
     for (const ShippedScene& s : shipped_scenes()) names.emplace_back(s.name);
-    std::fprintf(stderr, "tandem-server scenes: --print %s: no shipped scene of this name; %s\n", name.c_str(),
+    io::printf_for_people(stderr, "tandem-server scenes: --print %s: no shipped scene of this name; %s\n", name.c_str(),
                  suggest(name, names).c_str());
     return 2;
   }
@@ -29,7 +30,7 @@ int print_scene(const std::string& name, bool json) {
   } else {
     std::fwrite(scene->text.data(), 1, scene->text.size(), stdout);
   }
-  return std::fflush(stdout) == 0 ? 0 : 1;
+  return 0;
 }
 
 int scenes_command(const ScenesArguments& arguments) {
@@ -39,12 +40,12 @@ int scenes_command(const ScenesArguments& arguments) {
     if (arguments.json) {
       list.push_back({{"name", scene.name}, {"summary", scene.summary}});
     } else {
-      std::printf("%-17.*s %.*s\n", static_cast<int>(scene.name.size()), scene.name.data(),
+      io::printf_for_people(stdout, "%-17.*s %.*s\n", static_cast<int>(scene.name.size()), scene.name.data(),
                   static_cast<int>(scene.summary.size()), scene.summary.data());
     }
   }
   if (arguments.json) std::printf("%s\n", list.dump(2).c_str());
-  return std::fflush(stdout) == 0 ? 0 : 1;
+  return 0;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "common/io/print.h"
 #include "common/trust/enrolment.h"
 #include "proto/io/scene_file.h"
 #include "proto/server_config_text.h"
@@ -100,8 +101,8 @@ HostPlan understand(const ServerConfigSpec& config, InputErrors& errors) {
 }
 
 int refuse(const InputErrors& errors) {
-  std::fputs(to_text(errors).c_str(), stderr);
-  std::fprintf(stderr, "tandem-server serve: %zu mistake%s, nothing was started\n", errors.size(), errors.size() == 1 ? "" : "s");
+  io::print(stderr, to_text(errors));
+  io::printf_for_people(stderr, "tandem-server serve: %zu mistake%s, nothing was started\n", errors.size(), errors.size() == 1 ? "" : "s");
   return kWrong;
 }
 
@@ -115,10 +116,10 @@ int serve_command(const ServeArguments& arguments) {
   errors.insert(errors.end(), more.begin(), more.end());
   if (!errors.empty()) return refuse(errors);
   plan.quiet = arguments.quiet;
-  if (plan.metrics && !plan.metrics->loopback()) std::fprintf(stderr, "%s\n", to_text(config->metrics.error(config->file, kOpenMetrics)).c_str());
+  if (plan.metrics && !plan.metrics->loopback()) io::printf_for_people(stderr, "%s\n", to_text(config->metrics.error(config->file, kOpenMetrics)).c_str());
   if (!arguments.check) return host(plan);
-  std::fputs(effective_server_config_text(*config).c_str(), stdout);
-  return std::fflush(stdout) == 0 ? 0 : 1;
+  std::printf("%s# OK: %s has no mistake; nothing was started\n", effective_server_config_text(*config).c_str(), arguments.config.c_str());
+  return 0;
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ SessionRun::Verdict SessionRun::finish() {
   report.passed = hosted_->violations().passed();
   report.trace_hash = recorder_.trace_hash();
   report.cpu_s = cpu_seconds();
-  for (std::size_t i = 0; i < report.seats.size(); ++i) report.seats[i].gate_trips = last.seats[i].gate_trips;
+  for (std::size_t i = 0; i < report.seats.size(); ++i) report.seats[i].gate_trips = last.seats[i].gate_trips, report.seats[i].taken = last.seats[i].ever_taken;
 
   const End why = end.value_or(End::kScene);
   const std::string text = live_json(report, why, epoch_, kept(), last.machine, queue_, waited_for);

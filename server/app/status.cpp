@@ -14,7 +14,7 @@ namespace {
 const char* gate_text(wire::GateState gate) {
   switch (gate) {
     case wire::GateState::kOff: return "joining";
-    case wire::GateState::kZero: return "no force yet";
+    case wire::GateState::kZero: return "force off";
     case wire::GateState::kRampIn: return "force rising";
     case wire::GateState::kActive: return "force on";
     case wire::GateState::kPassive: return "link lost";

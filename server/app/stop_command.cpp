@@ -6,6 +6,7 @@
 
 #include "common/base/format.h"
 #include "common/io/number_option.h"
+#include "common/io/print.h"
 #include "server/app/run_command.h"
 #include "server/app/trust_option.h"
 
@@ -28,7 +29,7 @@ std::string who_is_there(const ServingSpec& serving) {
     sessions += s.phase == "ending" ? 0 : 1;
     for (const OpenSeat& seat : s.seats) people += seat.taken ? 1 : 0;
   }
-  return format("%zu session%s, %zu %s on their seats", sessions, sessions == 1 ? "" : "s", people, people == 1 ? "person" : "people");
+  return format("%zu session%s, %zu %s", sessions, sessions == 1 ? "" : "s", people, people == 1 ? "person on a seat" : "people on their seats");
 }
 
 /// Until the server has ended: how far it is, each ten seconds and in the last five.
@@ -41,14 +42,14 @@ int follow(const trust::ServerTrust& state, std::uint32_t grace_s) {
     if (!*serving) break;
     const auto now = Clock::now();
     const long left = std::max(0L, static_cast<long>(std::chrono::ceil<std::chrono::seconds>(due - now).count()));
-    if (told / 10 != left / 10 || (left <= 5 && left != told)) std::printf("DRAINING: %ld s left, %s\n", left, who_is_there(**serving).c_str());
+    if (told / 10 != left / 10 || (left <= 5 && left != told)) io::printf_for_people(stdout, "DRAINING: %ld s left, %s\n", left, who_is_there(**serving).c_str());
     std::fflush(stdout);
     told = left;
     if (now > due + kLate)
       return trouble("stop", "the server is still there 10 s after it should have ended: does it stand still (SIGSTOP, a debugger)? `kill -KILL` ends it; clients let go of their hands by themselves");
     std::this_thread::sleep_for(kLook);
   }
-  std::printf("the server has ended\n");
+  io::printf_for_people(stdout, "the server has ended\n");
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
@@ -66,7 +67,7 @@ int stop_command(const StopArguments& arguments) {
   if (const std::string problem = state->ask_to_end(grace_s); !problem.empty()) return trouble("stop", problem);
   state->audit(trust::wall_seconds(), "stop_ordered", "", format("in %u s", grace_s));
   tell_audit_trouble("stop", *state);
-  std::printf("server at %s: nobody new comes in; all hands are let go in %u s, then it ends\n", (*serving)->address.c_str(), grace_s);
+  io::printf_for_people(stdout, "server at %s: nobody new comes in; all hands are let go in %u s, then it ends\n", (*serving)->address.c_str(), grace_s);
   std::fflush(stdout);
   return arguments.no_wait ? 0 : follow(*state, grace_s);
 }

@@ -124,6 +124,21 @@ TEST(ControlWords, WordsOfOthersAreShownAndNothingMore) {
   EXPECT_EQ(stop_text(s), "STOPPED by the session itself: its numbers could not be trusted. Who may end it: an operator");
 }
 
+TEST(ControlWords, AnEndResumesNothing) {
+  control::Status before = lesson(), now = lesson();
+  now.phase = control::SessionPhase::kEnding;
+  EXPECT_EQ(news_text(before, now), "");
+}
+
+/// A server that is ended at once has no seconds left to announce: its farewell says it.
+TEST(ControlWords, ADrainWithoutTimeIsNoNews) {
+  control::Status before = lesson(), now = lesson();
+  now.drain = control::StatusDrain{0, 1, 1};
+  EXPECT_EQ(news_text(before, now), "");
+  now.drain = control::StatusDrain{3, 1, 1};
+  EXPECT_EQ(news_text(before, now), "DRAINING: 3 s left, 1 session, 1 person on a seat\n");
+}
+
 TEST(ControlWords, NewsAreToldOnce) {
   control::Status before = lesson(), now = lesson();
   EXPECT_EQ(news_text(before, now), "");

@@ -136,7 +136,7 @@ TEST(Try, OneCommandGivesASessionAPartnerAndKeysAndQEndsAll) {
   ASSERT_TRUE(trial.wait_for("the hand with authority moves the tool")) << trial.said();
   ASSERT_TRUE(trial.wait_for("press 0: trainee gets the tool")) << trial.said();
   trial.press("0");
-  ASSERT_TRUE(trial.wait_for("instructor gives the tool to trainee in 50 ms")) << trial.said();
+  ASSERT_TRUE(trial.wait_for("instructor gives the tool to trainee (")) << trial.said();
   trial.press("q");
   EXPECT_EQ(trial.wait(), 0) << trial.said();
   EXPECT_TRUE(all_gone_soon(children));

@@ -136,6 +136,21 @@ TEST(TextTable, FitsATerminalOf110Columns) {
   EXPECT_NE(to_text(compare(runs), true).find('\x1b'), std::string::npos);
 }
 
+TEST(TextTable, FitsATerminalOf80ColumnsWithTheSameNumbers) {
+  const std::vector<RunResult> runs{run(Setting::kSeed, 0.0082, 0.0061), run(Setting::kDefaults, 0.0018, 0.0021), run(Setting::kBadNetwork, 0.0063, 0.004)};
+  const auto words = [](const std::string& text) {
+    std::istringstream in(text.substr(text.find("FREE MOTION")));
+    std::vector<std::string> all;
+    for (std::string word; in >> word;)
+      if (word.find("─") == std::string::npos) all.push_back(word);
+    return all;
+  };
+  const std::string narrow = to_text(compare(runs), false, 80);
+  std::istringstream lines(narrow);
+  for (std::string line; std::getline(lines, line);) EXPECT_LT(width_of(line), 80u) << line;
+  EXPECT_EQ(words(narrow), words(to_text(compare(runs), false)));
+}
+
 TEST(TextTable, CountsCharactersNotBytes) {
   EXPECT_EQ(width_of("α ≤ 2 ✓"), 7u);
   EXPECT_EQ(wrapped("aa bb cc dd", 5, "  "), "aa bb\n  cc\n  dd");

@@ -27,6 +27,7 @@ void expect_same(const SeatSetup& a, const SeatSetup& b) {
   EXPECT_EQ(a.tools, b.tools);
   EXPECT_EQ(a.own_master, b.own_master);
   EXPECT_EQ(a.drivers, b.drivers);
+  EXPECT_EQ(a.alpha_slew, b.alpha_slew);
   EXPECT_EQ(a.channel.law, b.channel.law);
   EXPECT_EQ(a.channel.mfs, b.channel.mfs);
   EXPECT_EQ(a.channel.k, b.channel.k);
@@ -135,6 +136,7 @@ TEST(SeatSetup, IsHeldAgainstTheLimitsOfFiles) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refused([&](SeatSetup& s) { s.tick_hz = nan; }, "tick_hz");
   refused([&](SeatSetup& s) { s.tick_hz = 0; }, "tick_hz");
+  refused([&](SeatSetup& s) { s.alpha_slew = 1e9; }, "alpha_slew_per_s");
   refused([&](SeatSetup& s) { s.dof = 4; }, "dof");
   refused([&](SeatSetup& s) { s.gate.silence_limit = 0.5; }, "gate.silence_limit_ms");
   refused([&](SeatSetup& s) { s.gate.force_max = 1e9; }, "gate.force_max_n");

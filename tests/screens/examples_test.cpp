@@ -147,6 +147,44 @@ TEST(Units, AreTakenWhereverAUnitIsFixed) {
   EXPECT_EQ(good.wait(), 0) << good.err();
 }
 
+/// Of a table of a help text: first letters of what the rows say.
+std::string first_letters(const std::string& help, const std::string& heading) {
+  std::string letters;
+  std::istringstream text(help.substr(std::min(help.find(heading), help.size())));
+  std::string line;
+  for (std::getline(text, line); std::getline(text, line) && !line.empty();) {
+    const std::size_t gap = line.find("  ", 2), words = gap == std::string::npos ? gap : line.find_first_not_of(' ', gap);
+    if (line.starts_with("  ") && line[2] != ' ' && words != std::string::npos) letters += line[words];
+  }
+  return letters;
+}
+
+/// Commands are told in sentences, options in words that go on behind their names.
+TEST(Help, IsOfOneKindInEveryProgram) {
+  for (const std::string program : {TANDEM_SERVER, TANDEM_CLIENT, TANDEM_NETSIM, TANDEM_DEMO}) {
+    Process help({program, "--help"});
+    EXPECT_EQ(help.wait(), 0);
+    const std::string commands = first_letters(help.out(), "\nSubcommands:"), ends = first_letters(help.out(), "\nHelp:");
+    EXPECT_EQ(commands.empty(), program == TANDEM_DEMO) << help.out();
+    EXPECT_TRUE(std::ranges::all_of(commands, [](char c) { return c >= 'A' && c <= 'Z'; })) << commands << help.out();
+    EXPECT_EQ(ends.size(), 2u) << help.out();
+    EXPECT_TRUE(std::ranges::all_of(ends, [](char c) { return c >= 'a' && c <= 'z'; })) << ends << help.out();
+  }
+}
+
+TEST(Check, SaysInItsLastLineThatAllIsWell) {
+  const Folder folder;
+  const std::string config = folder.write("s.textproto", "version: 1 listen: \"127.0.0.1:0\" session { name: \"a\" scene: \"contact\" }");
+  for (const Words& words : {Words{TANDEM_SERVER, "run", "lesson", "--check"}, Words{TANDEM_SERVER, "serve", config, "--check"}, Words{TANDEM_NETSIM, "run", "contact", "--check"},
+                             Words{TANDEM_NETSIM, "test", "contact-delay", "--check"}}) {
+    Process check(words);
+    EXPECT_EQ(check.wait(), 0) << check.err();
+    const std::size_t last = check.out().rfind("\n# OK: ");
+    ASSERT_NE(last, std::string::npos) << words[1] << check.out();
+    EXPECT_EQ(check.out().find('\n', last + 1), check.out().size() - 1) << "the last line";
+  }
+}
+
 TEST(FullDisk, IsCalledFullForEveryFileOfARun) {
   for (const char* option : {"--json", "--trace", "--log"}) {
     Process run({TANDEM_NETSIM, "run", "one_axis", "--duration", "2", option, "/dev/full"});

@@ -65,6 +65,43 @@ TEST(SeatScreen, ShowsWhoLeadsAndWhoIsHere) {
   EXPECT_NE(at(80, s, setup(), w)[1].find("nobody else is here"), std::string::npos);
 }
 
+/// While hands are let go nobody leads, whoever will lead when it goes on; every seat says so.
+TEST(SeatScreen, NobodyLeadsWhileTheSessionIsStoppedPausedHeldOrPassive) {
+  using enum wire::SessionState;
+  for (const wire::SessionState state : {kStopped, kPaused, kHeld, kPassive})
+    for (const bool leader : {false, true}) {
+      ClientStatus s = running();
+      s.session = state;
+      s.alpha = 0;  // as FORCE says at every seat
+      const auto lines = leader ? at(120, s, setup(Role::kInstructor, "trainer")) : at(120, s);
+      EXPECT_NE(lines[0].find("| nobody leads |"), std::string::npos) << lines[0];
+      EXPECT_EQ(lines[0].find("you do not lead"), std::string::npos);
+    }
+}
+
+/// The server says what was asked for, FORCE what the own hand has now.
+TEST(SeatScreen, SeatsAgreeWhoLeadsWhileWeightMoves) {
+  control::Status w = words();
+  w.tools[0].alpha = {0, 1};  // the trainee is to have all
+  const auto line = [&](double own, Role role, const std::string& name) {
+    ClientStatus s = running();
+    s.alpha = own;
+    return at(120, s, setup(role, name), w)[0];
+  };
+  EXPECT_NE(line(0.7, Role::kInstructor, "trainer").find("| you lead 70 % |"), std::string::npos);
+  EXPECT_NE(line(0.3, Role::kTrainee, "trainee").find("| you 30 %, not leading |"), std::string::npos) << line(0.3, Role::kTrainee, "trainee");
+  EXPECT_NE(line(0.3, Role::kInstructor, "trainer").find("| trainee leads, you 30 % |"), std::string::npos);
+  EXPECT_NE(line(0.7, Role::kTrainee, "trainee").find("| you lead 70 % |"), std::string::npos);
+}
+
+TEST(SeatScreen, ForceThatWasThereIsOffAndNotExpected) {
+  ClientStatus s = running();
+  s.gate = wire::GateState::kOff;
+  EXPECT_EQ(gate_text(s), "force off");
+  s.session_time = -1;
+  EXPECT_EQ(gate_text(s), "no force before the session runs");
+}
+
 TEST(SeatScreen, HeldSaysWhyInOneSentence) {
   ClientStatus s = running();
   s.session = wire::SessionState::kHeld;
@@ -84,6 +121,9 @@ TEST(SeatScreen, AStopNamesItsMakerAndTheKey) {
   w.stop = control::StatusStop{.number = 1, .seat = "trainer", .workstation = "", .role = AccessRole::kInstructor, .why = "", .ends = "x"};
   EXPECT_NE(at(80, s, setup(Role::kInstructor, "trainer"), w)[0].find("STOPPED by trainer: r resumes"), std::string::npos);
   EXPECT_NE(at(80, s, setup(), w)[0].find("STOPPED by trainer: an instructor or operator resumes"), std::string::npos) << at(80, s, setup(), w)[0];
+  s.stops = 2;  // a newer one, of which the server was not asked yet
+  EXPECT_NE(at(80, s, setup(), w)[0].find("STOPPED: an instructor or operator resumes"), std::string::npos) << at(80, s, setup(), w)[0];
+  w.stop->number = 2;
   s.session = wire::SessionState::kPaused;
   SeatSetup own = setup();
   own.ends_pauses = true;
@@ -100,9 +140,23 @@ TEST(SeatScreen, ALatchedForceAndADrainStandBeforeTheNumbers) {
   w.drain = control::StatusDrain{27, 1, 2};
   const auto lines = at(80, s, setup(), w);
   EXPECT_EQ(lines[0].find("trainee 123.4 s | DRAINING: 27 s left | FORCE LATCHED OFF: press b"), 0u) << lines[0];
+  w.drain = control::StatusDrain{0, 1, 2};
+  EXPECT_EQ(at(80, s, setup(), w)[0].find("DRAINING"), std::string::npos) << "there is nothing left to wait for";
   s.gate = wire::GateState::kActive;
   s.motors_hot = true;
   EXPECT_NE(at(80, s)[0].find("MOTORS TOO HOT"), std::string::npos);
+}
+
+/// Also while another hand leads, and the tool does not follow.
+TEST(SeatScreen, ShowsWhereKeysHoldTheHand) {
+  ClientStatus s = running();
+  EXPECT_EQ(at(80, s)[1].find("keys"), std::string::npos) << "no keys move it";
+  s.keys_m = {0, 0, 0};
+  EXPECT_NE(at(80, s)[1].find("| keys: at the start |"), std::string::npos) << at(80, s)[1];
+  s.keys_m = {0.015, 0, 0};
+  EXPECT_NE(at(80, s)[1].find("| keys: 15 mm right |"), std::string::npos) << at(80, s)[1];
+  s.keys_m = {-0.015, -0.005, 0.02};
+  EXPECT_NE(at(120, s)[1].find("| keys: 15 mm left, 5 mm near, 20 mm up |"), std::string::npos) << at(120, s)[1];
 }
 
 TEST(SeatScreen, ForceBarIsAShareOfTheLargestForce) {

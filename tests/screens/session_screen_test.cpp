@@ -3,6 +3,7 @@
 
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
+#include "server/app/control_plane.h"
 #include "server/app/status.h"
 
 namespace tandem::server {
@@ -57,6 +58,26 @@ TEST(SessionScreen, ShowsStateAndLeaderThenTheSeats) {
   EXPECT_NE(lines[0].find("running | trainer leads 75 %, trainee 25 %"), std::string::npos) << lines[0];
   EXPECT_EQ(lines[1].find("trainer: force on"), 0u) << lines[1];
   EXPECT_NE(lines[1].find("trainee: force on"), std::string::npos) << lines[1];
+}
+
+TEST(SessionScreen, CallsAForceThatIsOffSoAndNotOneThatIsToCome) {
+  const SceneSpec spec = scene();
+  SessionStatus s = running();
+  s.state = wire::SessionState::kStopped;
+  s.seats[0].gate = s.seats[1].gate = wire::GateState::kZero;
+  EXPECT_NE(io::laid_out(status_items(s, spec), 2, 119)[1].find("trainer: force off"), std::string::npos);
+}
+
+/// The audit log and the metrics keep one word per event; people read a sentence.
+TEST(Notices, OfTheDoorHoldNoTokens) {
+  for (std::size_t i = 0; i < kControlEvents; ++i) {
+    const auto event = static_cast<ControlEvent>(i);
+    EXPECT_EQ(words_of(event).find('_'), std::string::npos) << words_of(event);
+    EXPECT_FALSE(words_of(event).empty());
+  }
+  EXPECT_EQ(words_of(ControlEvent::kCodeRefused), "was refused for a wrong code");
+  EXPECT_EQ(words_of(ControlEvent::kNotEnrolled), "is not enrolled here");
+  EXPECT_EQ(to_text(ControlEvent::kCodeRefused), "code_refused");
 }
 
 TEST(SessionScreen, GivesEachSessionItsLinesAndCountsThoseThatDoNotFit) {

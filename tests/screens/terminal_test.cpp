@@ -35,7 +35,7 @@ bool is_whole(const std::string& piece) {
   static const std::vector<std::regex> kKnown{
       std::regex("(trainer|trainee) [0-9.]+ s( .*)?"),
       std::regex("(trainer|trainee) (engaging|waits for [0-9]+ seats?|waiting for the server|closed|ending).*"),
-      std::regex("you lead [0-9]+ %|you do not lead|(trainer|trainee) leads(, you [0-9]+ %)?"),
+      std::regex("you lead [0-9]+ %|you do not lead|nobody leads|you [0-9]+ %, not leading|(trainer|trainee) leads(, you [0-9]+ %)?"),
       std::regex("force (\\[[#.]{10}\\] )?[0-9.]+ N"),
       std::regex("tool [0-9]+ mm away(, touching)?"),
       std::regex("with (trainer|trainee)|nobody else is here"),
@@ -44,7 +44,7 @@ bool is_whole(const std::string& piece) {
       std::regex("(trips|rejoined|late ticks) [0-9]+"),
       std::regex("margin [-0-9]+ mJ"),
       std::regex("tip [-0-9]+ [-0-9]+ [-0-9]+ mm"),
-      std::regex("(more|less) weight in [0-9]+ ms|hand-over .*")};
+      std::regex("(more|less) weight(: done| under way| in [0-9]+ ms)|hand-over .*|.* gives (more of )?the tool to .*")};
   return std::ranges::any_of(kKnown, [&](const std::regex& r) { return std::regex_match(piece, r); });
 }
 

@@ -8,6 +8,7 @@
 #include "proto/scene_text.h"
 #include "proto/scenes_embedded.h"
 #include "server/app/session_ending.h"
+#include "server/audit.h"
 
 namespace tandem::server {
 namespace {
@@ -34,6 +35,52 @@ struct Running {
   SessionStatus status;
   Attendance attendance;
 };
+
+std::string texts(const Attendance::News& news) {
+  std::string all;
+  for (const Attendance::Note& note : news.notes) all += note.text + "\n";
+  return all;
+}
+
+/// The last ten seconds of a session without an end are announced when they begin, once, and anew after somebody came back.
+TEST(Attendance, AnnouncesTheEndOfALessonThatEverybodyLeft) {
+  const std::string wanted = "everybody left: the session ends in 10 s, unless somebody joins it again\n";
+  Running lesson;
+  lesson.leave(0);
+  EXPECT_EQ(texts(lesson.attendance.look(lesson.now, lesson.status, lesson.scene)), "instructor left\n") << "one is still there";
+  lesson.leave(1);
+  EXPECT_EQ(texts(lesson.attendance.look(lesson.now, lesson.status, lesson.scene)), "trainee left\n" + wanted);
+  EXPECT_EQ(texts(lesson.after(5s)), "") << "once";
+  lesson.status.seats[0].taken = lesson.status.seats[0].alive = true;
+  EXPECT_EQ(texts(lesson.attendance.look(lesson.now, lesson.status, lesson.scene)), "instructor joined\n") << "somebody is there again";
+  lesson.leave(0);
+  EXPECT_EQ(texts(lesson.attendance.look(lesson.now, lesson.status, lesson.scene)), "instructor left\n" + wanted);
+
+  EXPECT_EQ(texts(lesson.after(11s)), "") << "that each of them is gone needs no warning more";
+
+  Running with_end;
+  with_end.scene.duration = 60;
+  with_end.leave(0);
+  with_end.leave(1);
+  EXPECT_EQ(texts(with_end.after(1s)).find("ends in"), std::string::npos) << "it waits for them until its end";
+  Running lost;
+  lost.leave(0);
+  lost.fall_silent(1);
+  EXPECT_EQ(texts(lost.after(1s)).find("ends in"), std::string::npos) << "the trainee did not leave";
+}
+
+/// Of a console the house tells who stopped, and why: here follows only what that means.
+TEST(Attendance, AStopFromAConsoleIsNotToldTwice) {
+  Running lesson;
+  lesson.status.state = wire::SessionState::kStopped;
+  static_cast<void>(lesson.status.stop.press(lesson.now, AccessRole::kOperator, AuditEvent::kControlPlane));
+  const std::string told = texts(lesson.attendance.look(lesson.now, lesson.status, lesson.scene));
+  EXPECT_EQ(told.find("all hands are let go; who may end it: "), 0u) << told;
+  Running seat;
+  seat.status.state = wire::SessionState::kStopped;
+  static_cast<void>(seat.status.stop.press(seat.now, AccessRole::kInstructor, 0));
+  EXPECT_EQ(texts(seat.attendance.look(seat.now, seat.status, seat.scene)).find("STOPPED by instructor: all hands are let go"), 0u);
+}
 
 TEST(Attendance, KnowsWhoLeftFromWhoWasLost) {
   Running left;

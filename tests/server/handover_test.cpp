@@ -111,6 +111,32 @@ TEST(Handover, SaysWhoDecidedItAndWhoGains) {
   EXPECT_EQ(both(), std::pair(by_scene, by_scene)) << "the scene's own change at 11.5 s";
 }
 
+/// Keys come faster than the server answers: the second step is asked for before the first one's new version is known.
+TEST(Handover, StepsThatASeatAsksForBeforeTheFirstIsKnownAreAllCarriedOut) {
+  Lesson l;
+  const std::uint32_t version = l.session->authority_version();
+  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.95, 0.05}));
+  for (const Bytes& d : l.client_tick(kTrainer)) l.session->on_datagram(l.now, address(l.seats[kTrainer].at), d);
+  ASSERT_EQ(l.session->authority_version(), version + 1);
+  ASSERT_EQ(l.told(kTrainer).authority_version, version) << "not known to the seat yet";
+  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.9, 0.1}));
+  l.ticks(1500);
+  EXPECT_EQ(l.session->authority_version(), version + 2);
+  EXPECT_NEAR(l.requested()[kTrainer], 0.9, 1e-12);
+}
+
+/// Compare and set is for two persons: the second step does not overwrite what an operator decided meanwhile.
+TEST(Handover, AStepThatAnotherPersonsDecisionOvertookIsNotAskedForAgain) {
+  Lesson l;
+  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.95, 0.05}));
+  const auto on_their_way = l.client_tick(kTrainer);
+  ASSERT_EQ(l.order({0.5, 0.5}), Result::kDone);
+  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.9, 0.1}));
+  for (const Bytes& d : on_their_way) l.session->on_datagram(l.now, address(l.seats[kTrainer].at), d);
+  l.ticks(1500);
+  EXPECT_NEAR(l.requested()[kTrainer], 0.5, 1e-12);
+}
+
 TEST(Handover, IsRefusedWhileALinkOfThoseItConcernsIsOlderThan20Milliseconds) {
   for (const std::size_t mute : {kTrainer, kTrainee}) {
     SCOPED_TRACE(mute);

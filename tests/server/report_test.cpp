@@ -68,6 +68,22 @@ TEST(Report, CoversTheWholeSessionWhereASceneHasNoPhases) {
   EXPECT_NE(words.find("judged: 29.0 of 30.0 s"), std::string::npos) << words;
 }
 
+TEST(Report, NamesSeatsThatNobodyTookInOneLine) {
+  const SceneSpec scene = *parse_scene(find_shipped_scene("lesson")->text, "lesson");
+  RunReport r;
+  r.duration_s = 5;
+  for (const SeatSpec& s : scene.seats) {
+    SeatReport& seat = r.seats.emplace_back();
+    seat.name = s.name;
+    seat.taken = !s.name.starts_with("evaluator");
+  }
+  const std::string words = report_summary(r, scene);
+  EXPECT_NE(words.find("\n  not taken: evaluator1, evaluator2, evaluator3\n"), std::string::npos) << words;
+  EXPECT_EQ(words.find("evaluator1:"), std::string::npos) << words;
+  EXPECT_EQ(words.find("whole session  evaluator1"), std::string::npos) << words;
+  EXPECT_NE(words.find("whole session  trainee"), std::string::npos) << words;
+}
+
 TEST(Report, ShowsWhatLiesOutsideThePhasesInARowOfItsOwn) {
   SceneSpec spec = scene("free_motion");
   for (SeatSpec& s : spec.seats) s.hand.deviations.clear();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/io/print.h"
 #include "common/io/program.h"
 #include "netsim/demo/app/child_process.h"
 #include "netsim/demo/app/show.h"
@@ -76,7 +77,7 @@ int main(int argc, char** argv) {
     std::string mistakes;
     plan.runs = chosen_runs(list, mistakes);
     if (!mistakes.empty()) {
-      std::fputs(mistakes.c_str(), stderr);
+      tandem::io::print(stderr, mistakes);
       return 2;
     }
     plan.version = TANDEM_VERSION;

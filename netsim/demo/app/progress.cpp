@@ -7,6 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/base/format.h"
+#include "common/io/print.h"
+#include "common/io/text_layout.h"
 #include "netsim/plot/ticks.h"
 
 namespace tandem::netsim::demo {
@@ -14,6 +17,7 @@ namespace tandem::netsim::demo {
 using namespace plot;
 
 namespace {
+constexpr std::size_t kTitle = 50, kBar = 24;  // columns
 constexpr double kEvery = 0.2;     // [s] between two looks of the line
 constexpr double kOverhead = 2.5;  // [s] of starting and ending a run in real time
 }  // namespace
@@ -55,11 +59,19 @@ void Progress::at(double session_s) {
   session_s_ = std::max(session_s_, session_s);
   shown_ = now;
   const RunPlan& plan = *plans_[run_];
-  const int width = 24, full = static_cast<int>(std::clamp(session_s_ / plan.duration_s, 0.0, 1.0) * width);
-  std::string bar;
-  for (int k = 0; k < width; ++k) bar += k < full ? "━" : "╌";
-  std::printf("\r\x1b[K[%zu/%zu] %-44s %s %4.1f / %.0f s, %s left", run_ + 1, plans_.size(), title_of(plan).c_str(),
-              bar.c_str(), session_s_, plan.duration_s, remaining().c_str());
+  const std::size_t columns = io::text_width(stdout).value_or(kTitle);
+  const std::size_t full = static_cast<std::size_t>(std::clamp(session_s_ / plan.duration_s, 0.0, 1.0) * kBar);
+  std::string bar = " ";
+  for (std::size_t k = 0; k < kBar; ++k) bar += k < full ? "━" : "╌";
+  const std::string title = title_of(plan), number = format("[%zu/%zu] ", run_ + 1, plans_.size());
+  const std::string padding(kTitle - std::min(kTitle, io::columns_of(title)), ' ');
+  const std::string done = format(" %4.1f / %.0f s", session_s_, plan.duration_s), left = ", " + remaining() + " left";
+  // The longest form that fits: a line that meets the margin could not be taken away.
+  for (const std::string& line : {number + title + padding + bar + done + left, number + title + done + left, number + title + done, number + done}) {
+    if (io::columns_of(line) > columns) continue;
+    std::printf("\r\x1b[K%s", line.c_str());
+    break;
+  }
   std::fflush(stdout);
 }
 
@@ -70,7 +82,7 @@ void Progress::end() {
   session_s_ = plans_[run_]->duration_s;
   clear();
   const std::string left = run_ + 1 < plans_.size() ? ", " + remaining() + " left" : "";
-  std::printf("[%zu/%zu] %s: done in %s s%s\n", run_ + 1, plans_.size(), title_of(*plans_[run_]).c_str(),
+  io::printf_for_people(stdout, "[%zu/%zu] %s: done in %s s%s\n", run_ + 1, plans_.size(), title_of(*plans_[run_]).c_str(),
               number_text(now - run_begun_, 1).c_str(), left.c_str());
   std::fflush(stdout);
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/io/output_file.h"
+#include "common/io/print.h"
 #include "netsim/demo/animation.h"
 #include "netsim/demo/app/joint_torques.h"
 #include "netsim/demo/app/live_run.h"
@@ -44,7 +45,7 @@ void watch_signals() {
 }
 
 int trouble(const std::string& what) {
-  std::fprintf(stderr, "tandem-demo: %s\n", what.c_str());
+  io::printf_for_people(stderr, "tandem-demo: %s\n", what.c_str());
   return kTrouble;
 }
 
@@ -127,7 +128,7 @@ std::size_t count_failed(const std::vector<RunResult>& results) {
     ++failed;
     for (const ViolationNumbers& v : run.report.violations)
       if (!v.expected)
-        std::fprintf(stderr, "tandem-demo: %s: broken invariant %s %s at %.3f s\n", std::string(run.plan->name).c_str(),
+        io::printf_for_people(stderr, "tandem-demo: %s: broken invariant %s %s at %.3f s\n", std::string(run.plan->name).c_str(),
                      v.invariant.c_str(), v.seat.c_str(), v.at_s);
   }
   return failed;
@@ -145,7 +146,7 @@ int show(const ShowPlan& plan) {
     if (!missing.empty())
       return trouble("not there: " + missing + ". Build them, or use --quick: virtual time needs no other program");
   }
-  std::printf("Three hands on one tool: %zu run%s %s.\n", plan.runs.size(), plan.runs.size() == 1 ? "" : "s",
+  io::printf_for_people(stdout, "Tandem: two people, one tool. %zu run%s %s.\n", plan.runs.size(), plan.runs.size() == 1 ? "" : "s",
               plan.quick ? "in virtual time"
                          : "in real time over UDP on loopback: a server, two clients and the network simulator");
 
@@ -162,7 +163,7 @@ int show(const ShowPlan& plan) {
     if (!raw) {
       progress.clear();
       if (stop) {
-        std::fprintf(stderr, "tandem-demo: interrupted; every program it started has ended\n");
+        io::printf_for_people(stderr, "tandem-demo: interrupted; every program it started has ended\n");
         if (folders->temporary) remove_files(plan, *folders);
         return kInterruptedCode;
       }
@@ -183,16 +184,16 @@ int show(const ShowPlan& plan) {
   const Comparison comparison = compare(results);
   const char* no_colour = std::getenv("NO_COLOR");
   const bool colour = isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
-  std::printf("\n%s", to_text(comparison, colour).c_str());
+  std::printf("\n%s", to_text(comparison, colour, io::text_width(stdout).value_or(kTextWidth)).c_str());
   const Circumstances where{!plan.quick, date_text(), machine_text(), plan.version, plan.repeat};
-  std::printf("%s\nBad network: %s. ✓ ✗: within what is asked, or not; %zu missed.\n", where.machine.c_str(),
+  io::printf_for_people(stdout, "%s\nBad network: %s. ✓ ✗: within what is asked, or not; %zu missed.\n", where.machine.c_str(),
               network_text(Setting::kBadNetwork).c_str(), comparison.missed);
   if (const std::string problem = write_file(folders->report, html_report(results, comparison, where)); !problem.empty()) return trouble(problem);
   const std::size_t failed = count_failed(results);
   if (folders->temporary && failed == 0) {
     remove_files(plan, *folders);
   } else {
-    std::printf("Traces and reports of the runs: %s\n", folders->files.string().c_str());
+    io::printf_for_people(stdout, "Traces and reports of the runs: %s\n", folders->files.string().c_str());
   }
   std::printf("%s\n", file_link(folders->report).c_str());
   return failed == 0 ? kDone : kTrouble;

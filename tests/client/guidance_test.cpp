@@ -1,0 +1,78 @@
+// What a person reads who tries a session for the first time, whatever keys come when.
+#include "client/app/guidance.h"
+
+#include <gtest/gtest.h>
+
+namespace tandem::client {
+namespace {
+
+/// The instructor of a lesson with a simulated trainee.
+struct Lesson {
+  Lesson() {
+    setup.seat.name = "instructor";
+    setup.seat.role = Role::kInstructor;
+    setup.masters = {"instructor", "trainee"};
+    setup.drivers = 3;
+    guidance.emplace(setup, true, std::vector<std::string>{"trainee"});
+    status.session = wire::SessionState::kRunning;
+    status.session_time = 0;
+    status.alpha = 1;
+  }
+  /// What is said until `until_s`.
+  std::string until(double until_s) {
+    std::string text;
+    for (; now_s <= until_s; now_s += 0.1)
+      for (const std::string& line : guidance->say(now_s, status)) text += line + "\n";
+    return text;
+  }
+  SeatSetup setup;
+  ClientStatus status;
+  std::optional<Guidance> guidance;
+  double now_s = 0;
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Guidance, AsksForEachKeyAndTellsWhatItDid) {
+  Lesson l;
+  EXPECT_TRUE(has(l.until(6), "2/6  press the arrow keys"));
+  EXPECT_TRUE(has(l.until(8), "3/6  press 0: trainee gets the tool"));
+  l.guidance->pressed("0");
+  EXPECT_TRUE(has(l.until(11), "trainee has the tool now"));
+}
+
+TEST(Guidance, CountsAKeyThatComesBeforeItsStep) {
+  Lesson l;
+  static_cast<void>(l.until(2));
+  l.guidance->pressed("0");
+  const std::string soon = l.until(5);
+  EXPECT_TRUE(has(soon, "trainee has the tool now")) << soon;
+  const std::string step = l.until(8);
+  EXPECT_TRUE(has(step, "3/6  0 gives the tool to the partner: you have done that already")) << step;
+  EXPECT_FALSE(has(step, "press 0")) << step;
+  l.guidance->pressed("0");
+  EXPECT_FALSE(has(l.until(11), "trainee has the tool now")) << "it is told once";
+}
+
+TEST(Guidance, TakesNothingBackThatWasNotGiven) {
+  Lesson l;
+  static_cast<void>(l.until(2));
+  l.guidance->pressed("1");  // all authority is here already
+  EXPECT_FALSE(has(l.until(5), "you have the tool again"));
+  EXPECT_TRUE(has(l.until(13), "press 1: you take the tool back")) << "it is still to be tried";
+}
+
+TEST(Guidance, TellsTheSmallSFromTheCapitalOne) {
+  Lesson small, capital;
+  const std::string asked = small.until(17);
+  EXPECT_TRUE(has(asked, "press s (small): only your own hand is let go")) << asked;
+  EXPECT_TRUE(has(asked, "Capital S stops everybody")) << asked;
+  small.guidance->pressed("s");
+  EXPECT_TRUE(has(small.until(19), "only your hand is stopped; press r to go on"));
+  static_cast<void>(capital.until(17));
+  capital.guidance->pressed("S");
+  EXPECT_TRUE(has(capital.until(19), "capital S stopped everybody; press r to go on"));
+}
+
+}  // namespace
+}  // namespace tandem::client
