@@ -78,9 +78,13 @@ void HostedSession::tick(Time now, std::uint32_t missed, const MachineStatus& ma
   if (mail_ && (keep_now_ || ++since_kept_ >= kept_every_)) lay_down_checkpoint();
   SessionMonitor{}.check(session_, violations_);
   const bool seldom = machine.relief.rung >= Rung::kTelemetry;
-  if (session_.record().running && ++unrecorded_ >= (seldom ? kRecordSeldom : 1)) {
-    records_->push(session_.record());
-    unrecorded_ = 0;
+  if (session_.record().running) {
+    if (++unrecorded_ >= (seldom ? kRecordSeldom : 1)) {
+      records_->push(session_.record());
+      unrecorded_ = 0;
+    } else {
+      ++spared_;
+    }
   }
   // One seat at a time: quantiles of its histograms take microseconds, of all seats together they would be felt.
   const std::uint64_t every = seldom ? kLookSeldom : kLookEvery;

@@ -55,6 +55,8 @@ class HostedSession {
   // ---- After it is over ----
   [[nodiscard]] const SessionStatus& final_status() const noexcept { return picture_; }
   [[nodiscard]] const Violations& violations() const noexcept { return violations_; }
+  /// Ticks that were not recorded because the server was too busy.
+  [[nodiscard]] std::uint64_t spared() const noexcept { return spared_; }
 
  private:
   void look_at_seat(std::size_t seat, Time now) noexcept;
@@ -70,7 +72,7 @@ class HostedSession {
   Violations violations_;
   std::atomic<bool> over_{false};
   io::Fd over_event_;
-  std::uint64_t ticks_ = 0, unrecorded_ = 0;
+  std::uint64_t ticks_ = 0, unrecorded_ = 0, spared_ = 0;
   SessionStatus picture_;
   mutable std::mutex published_lock_;  ///< the shard only tries it
   SessionStatus published_;

@@ -32,7 +32,7 @@ double cpu_seconds() {
 
 /// The report of every run, and what only a live one knows.
 std::string live_json(const RunReport& report, End end, std::uint64_t epoch, const KeptSession* kept, const MachineStatus& machine, const TickQueue& queue,
-                      const std::string& waited_for) {
+                      std::uint64_t spared, const std::string& waited_for) {
   auto json = nlohmann::ordered_json::parse(to_json(report));
   json["ended_by"] = to_text(end);
   json["began"] = report.duration_s > 0;
@@ -42,6 +42,7 @@ std::string live_json(const RunReport& report, End end, std::uint64_t epoch, con
   json["machine"] = {{"late_ticks", machine.late_ticks},
                      {"missed_ticks", machine.missed_ticks},
                      {"recorder_dropped", queue.dropped()},
+                     {"recorder_spared", spared},
                      {"realtime", machine.realtime}};
   return json.dump(2) + "\n";
 }
@@ -103,7 +104,7 @@ SessionRun::Verdict SessionRun::finish() {
   for (std::size_t i = 0; i < report.seats.size(); ++i) report.seats[i].gate_trips = last.seats[i].gate_trips, report.seats[i].taken = last.seats[i].ever_taken;
 
   const End why = end.value_or(End::kScene);
-  const std::string text = live_json(report, why, epoch_, kept(), last.machine, queue_, waited_for);
+  const std::string text = live_json(report, why, epoch_, kept(), last.machine, queue_, hosted_->spared(), waited_for);
   json_.write(text);
   io::OutputFile kept;
   if (!plan_->reports.empty()) {
