@@ -27,6 +27,7 @@ constexpr double kTankPerKg = 0.18, kTankMin = 0.02, kTankMax = 0.1;  // [J/kg],
 constexpr double kSpeedMax = 1.6;                       // [m/s], and how many samples on end
 constexpr unsigned kFastMax = 5;
 constexpr double kTankSlack = 1e-3;                     // [J] a hand that pulls along overdraws within one tick
+constexpr double kUnseen = 1.6e-4;                      // [m] of way that the gate, which books by encoders, does not see: two steps of them
 constexpr double kLatePower = 1;                        // [W] by which a hand of 2 m/s does so while its program wakes up late
 constexpr double kFeltMax = 0.2;                        // [N/ms] a step of authority
 constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: faster, and the strongest springs' shares are felt
@@ -270,7 +271,8 @@ void WorldWatch::check_energy(std::size_t i, const WorldStation& station) {
   s.late = s.awake ? 0 : s.late + 1 / scene_->tick_hz;
   s.awake = station.served_now();
   const double tank = share(i) * std::clamp(kTankPerKg * station.device().caps().mass.value_or(0), kTankMin, kTankMax);
-  if (s.given > tank + kTankSlack + kLatePower * s.late) note("loss_energy", i);
+  const double unseen = share(i) * scene_->gate.force_max * kUnseen;
+  if (s.given > tank + kTankSlack + unseen + kLatePower * s.late) note("loss_energy", i);
 }
 
 void WorldWatch::check_reading(std::size_t i, const WorldStation& station) {

@@ -1,14 +1,18 @@
 // The server dies and is started anew, with real programs on loopback: nobody is kicked, everybody is back. Times are printed, not asserted.
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <stdexcept>
 #include <thread>
 
 #include "common/base/rng.h"
-#include "common/io/udp_socket.h"
 #include "tests/base/counts.h"
 #include "tests/io/programs.h"
 #include "tests/io/traces.h"
@@ -22,10 +26,27 @@ using std::chrono::milliseconds;
 /// Gate phases as traces name them (wire::GateState).
 enum Gate { kZero = 1, kRampIn = 2, kActive = 3, kPassive = 4 };
 
-/// An address of loopback whose port is free, for UDP at least: a server that is started again must have the same.
+/// Whether a socket of this kind can be bound to the port of loopback.
+bool is_free(int kind, std::uint16_t port) {
+  const int socket = ::socket(AF_INET, kind | SOCK_CLOEXEC, 0);
+  sockaddr_in at{};
+  at.sin_family = AF_INET;
+  at.sin_port = htons(port);
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const bool bound = socket >= 0 && ::bind(socket, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0;
+  if (socket >= 0) ::close(socket);
+  return bound;
+}
+
+/// A free address of loopback: a server that is started again must have the same. It lies below the ports that a kernel gives to whoever
+/// asks for any, or a test beside this one would get it while no server runs.
 std::string free_address() {
-  const auto socket = io::bind_udp(*io::parse_address("127.0.0.1:0", 0));
-  return io::to_text(socket->local);
+  constexpr int kFirst = 20000, kPorts = 12000;
+  for (int i = 0; i < kPorts; ++i) {
+    const auto port = static_cast<std::uint16_t>(kFirst + (7 * ::getpid() + i) % kPorts);
+    if (is_free(SOCK_DGRAM, port) && is_free(SOCK_STREAM, port)) return "127.0.0.1:" + std::to_string(port);
+  }
+  throw std::runtime_error("no free port");
 }
 
 /// Servers and clients of a test meet in a folder of their own.

@@ -327,8 +327,8 @@ TEST(Program, APhaseThatNeverCameHasNoNumbers) {
   std::istringstream lines(program.rest_of_out());
   std::size_t dashes = 0, zeros = 0;
   for (std::string line; std::getline(lines, line);) {
-    dashes += line.ends_with("        -        -") ? 1 : 0;
-    zeros += !line.contains("all phases") && !line.contains("outside phases") && line.ends_with("     0.00     0.00") ? 1 : 0;
+    dashes += line.ends_with("      -      -") ? 1 : 0;
+    zeros += !line.contains("all phases") && !line.contains("outside phases") && line.ends_with("   0.00   0.00") ? 1 : 0;
   }
   EXPECT_GT(dashes, 0u);
   EXPECT_EQ(zeros, 0u);

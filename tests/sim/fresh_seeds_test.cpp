@@ -242,7 +242,7 @@ INSTANTIATE_TEST_SUITE_P(SilenceBrakes, FreshSeed, testing::Values(700891, 80102
 INSTANTIATE_TEST_SUITE_P(AuthorityFelt, FreshSeed, testing::Values(701212, 800191, 802543));
 INSTANTIATE_TEST_SUITE_P(Approach, FreshSeed, testing::Values(700724, 700883, 700950, 701694, 701827, 701869));
 INSTANTIATE_TEST_SUITE_P(Starved, FreshSeed, testing::Values(5034, 701260, 700655, 801467, 801859, 910000060, 910000272, 910002480, 910005248, 910007677));
-INSTANTIATE_TEST_SUITE_P(LossEnergy, FreshSeed, testing::Values(910002606));
+INSTANTIATE_TEST_SUITE_P(LossEnergy, FreshSeed, testing::Values(910002606, 910009057));
 INSTANTIATE_TEST_SUITE_P(ManyNames, FreshSeed, testing::Values(910001536));
 INSTANTIATE_TEST_SUITE_P(Gathering, FreshSeed, testing::Values(800394));
 INSTANTIATE_TEST_SUITE_P(FrozenSensor, FreshSeed, testing::Values(800513));
