@@ -69,7 +69,9 @@ void WorldWatch::check_starvation(std::size_t i, const control::ChannelEnd& end,
     const double aside = kAside / root + scene_->channel.lead_max * std::abs(rx.v[a]);
     const bool there = missing <= aside;
     const bool met = std::abs(rx.x[a] - now.ref[a]) <= aside;
-    const bool leashed = std::abs(now.ref[a] - now.x[a]) > kLeash * share(i) * scene_->gate.force_max * root / now.k[a];
+    // Beside a weak motor the way of one tick matters: what it hangs on, when the reference moved and now.
+    const double pulled = std::max(std::abs(now.ref[a] - now.x[a]), std::abs(now.ref[a] - look.hung[a]));
+    const bool leashed = pulled > kLeash * share(i) * scene_->gate.force_max * root / now.k[a];
     const bool walks = std::abs(now.ref[a] - before.ref[a]) > 0.5 * scene_->channel.v_app / root * dt;
     const control::EnergyLedger& ledger = end.ledger(a);
     const std::uint64_t used = ledger.out_nj() + ledger.forfeited_nj();  // by its sums, not by its verdict
