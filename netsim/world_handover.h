@@ -31,8 +31,9 @@ class HandoverWatch {
       const control::Weights& now = row.requested();
       const bool felt = !row.held() && !held_[j] && now != before_[j];
       if (felt && session.session_tick() > kNotice && !announced(j, now)) violations.note("handover_announced", scene_->tools[j].name, session.time(), false);
-      for (std::size_t i = 0; felt && i < scene_->masters(); ++i)
-        if (now[i] > before_[j][i] + 1e-9 && out_of_touch(session, i, lived)) violations.note("handover_link", scene_->seats[i].name, session.time(), false);
+      // A late server lives through many ticks at once: how long a hand was silent in the one in which its weight grew is not seen.
+      for (std::size_t i = 0; felt && lived == 1 && i < scene_->masters(); ++i)
+        if (now[i] > before_[j][i] + 1e-9 && out_of_touch(session, i)) violations.note("handover_link", scene_->seats[i].name, session.time(), false);
       before_[j] = now;
       held_[j] = row.held();
     }
@@ -48,11 +49,9 @@ class HandoverWatch {
       if (d.tool == tool && lived_ >= d.tick + kNotice && d.weights == weights) return true;
     return false;
   }
-  /// A server that was late lives through several ticks at once; the change may belong to the first of them.
-  [[nodiscard]] bool out_of_touch(const server::Session& session, std::size_t i, std::uint32_t lived) const {
+  [[nodiscard]] bool out_of_touch(const server::Session& session, std::size_t i) const {
     const server::SeatPort& seat = session.seat(i);
-    const double since = (lived > 1 ? lived - 1 : 0) / scene_->tick_hz;
-    return !seat.taken() || seconds(seat.silence(session.last_tick())) - since > scene_->gate.silence_limit + 1e-9;
+    return !seat.taken() || seconds(seat.silence(session.last_tick())) > scene_->gate.silence_limit + 1e-9;
   }
 
   struct Decision {
