@@ -124,6 +124,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     check_end(i, seat->channel(), s.client, seat->setup().axis_scale,
               {seat->force().port, x, slave ? x : s.client.x, offset_of(i, session), s.was_active && seat->gate().active()});
     s.was_active = seat->gate().active();
+    s.trips = seat->gate().trips();
     s.effort = seat->effort();
     s.served = own;
   }
@@ -230,7 +231,8 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
   if (fresh.heard() && fresh.arrived() != s.arrived) {
     s.arrived = fresh.arrived();
     s.fresh = now;
-    if (seat.gate().active() || s.was_active) s.given = 0;  // also the word that tells the gate to let go
+    // Also the word that tells the gate to let go; not one so old that it ended the link.
+    if (seat.gate().active() || (s.was_active && seat.gate().trips() == s.trips)) s.given = 0;
   }
   const double half_tick = 0.5 / scene_->tick_hz;
   if (s.fresh != Time{}) {

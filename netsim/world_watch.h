@@ -50,6 +50,7 @@ class WorldWatch {
   };
   struct Seat {
     std::uint32_t starts = 0, joins = 0;
+    std::uint64_t trips = 0;  ///< of its gate
     bool was_active = false;
     AxisArray effort{};
     Time served{};
