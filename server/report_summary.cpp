@@ -33,7 +33,7 @@ constexpr const char* kNumbers = " %8s %8s %6s %9s %6s %6s\n";
 /// The state of a gate for people, who read the same words on the screens of the seats.
 std::string gate_words(const std::string& state) {
   for (const auto& [token, words] : {std::pair{"off", "no force"}, {"zero", "force off"}, {"ramp-in", "force rising"}, {"active", "force on"},
-                                     {"passive", "link lost"}, {"DAMPED", "latched off"}, {"FAULT", "device fault"}})
+                                     {"passive", "force fading"}, {"DAMPED", "latched off"}, {"FAULT", "device fault"}})
     if (state == token) return words;
   return state.empty() ? "-" : state;
 }

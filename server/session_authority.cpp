@@ -177,10 +177,12 @@ void Session::tell_handover(std::size_t i, wire::ForceMessage& m) noexcept {
     --called_off_[i];
     m.handover = wire::Handover::kCalledOff;
   }
-  if (i >= masters_ || !begun_ || stop_lane_.on()) return;  // nobody gets weight in a stop
+  if (i >= masters_ || !begun_) return;
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     const Tool& tool = tools_[j];
-    if (!tool.handover.pending()) continue;
+    // In a stop nobody gets weight, but who will have it when the session goes on is told at once; the scene's changes wait with its clock.
+    const bool waits = clock_stands() && tool.handover.newest_by() == AuditEvent::kTimeline;
+    if (!tool.handover.pending() || waits) continue;
     const double gain = tool.handover.decided()[i] - tool.authority.requested()[i];
     if (std::abs(gain) <= kSame) continue;
     m.handover = gain > 0 ? wire::Handover::kComes : wire::Handover::kGoes;

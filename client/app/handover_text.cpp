@@ -39,10 +39,13 @@ std::optional<double> part_before(const ClientStatus& s, const SeatSetup& setup,
   return only_two(p.to, p.tool, setup, words) ? std::optional(1 - s.handover_from) : std::nullopt;
 }
 
+bool waits_for_the_end_of_a_stop(const ClientStatus& s) { return s.session == wire::SessionState::kStopped || s.session == wire::SessionState::kPaused; }
+
 std::string seconds_text(double s) { return format(s < 0.095 ? "%.2f s" : "%.1f s", s); }
 
 /// When it begins and how long it takes, or that it is done.
 std::string course_text(const ClientStatus& s, const SeatSetup& setup, std::optional<double> before) {
+  if (waits_for_the_end_of_a_stop(s)) return "when the session goes on";
   if (s.handover_done) return "done";
   const std::string ms = format("in %.0f ms", 10 * std::ceil(1e2 * s.handover_s - 0.5));
   const bool begun = s.handover_s <= 0;
@@ -60,13 +63,14 @@ std::string handover_brief(const ClientStatus& s) {
   const bool comes = s.handover == wire::Handover::kComes;
   if (!comes && s.handover != wire::Handover::kGoes) return "";
   const std::string what = comes ? "more weight" : "less weight";
+  if (waits_for_the_end_of_a_stop(s)) return what + " when the session goes on";
   if (s.handover_done) return what + ": done";
   return what + (s.handover_s > 0 ? format(" in %.0f ms", 10 * std::ceil(1e2 * s.handover_s - 0.5)) : " under way");
 }
 
 std::string handover_text(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
   if (s.handover == wire::Handover::kNone) return "";
-  if (s.handover == wire::Handover::kCalledOff) return "hand-over called off: a link is too old";
+  if (s.handover == wire::Handover::kCalledOff) return "hand-over called off: somebody it concerns is gone, or was not heard from in time";
   const wire::HandoverParties& p = s.handover_parties;
   const std::string tool_name = name_of(setup.tools, p.tool + 1), tool = tool_name.empty() ? "the tool" : "the tool " + tool_name;
   const std::string by = giver(p.by, setup), to = name_of(setup.masters, p.to);

@@ -186,8 +186,8 @@ void SeatPump::see_handover() noexcept {
   picture_.handover_s = (static_cast<double>(handover_begins_) - static_cast<double>(ticks_)) / seat_->setup().tick_hz;
   picture_.handover_done = ticks_ > handover_moved_ + kHandoverSettled;
   const bool long_ago = ticks_ - handover_told_ > kHandoverShown;
-  // Nobody has weight while a session is stopped: nothing is said of who gets some.
-  if (!anew && (f.session != wire::SessionState::kRunning || (long_ago && picture_.handover_done))) picture_.handover = wire::Handover::kNone;
+  const bool told = f.session == wire::SessionState::kRunning || f.session == wire::SessionState::kStopped || f.session == wire::SessionState::kPaused;
+  if (!anew && (!told || (long_ago && picture_.handover_done))) picture_.handover = wire::Handover::kNone;
 }
 
 void SeatPump::look(Time now) noexcept {

@@ -134,7 +134,7 @@ std::string gate_text(const ClientStatus& s) {
     case wire::GateState::kZero: return "force off";
     case wire::GateState::kRampIn: return "force rising";
     case wire::GateState::kActive: return "force on";
-    case wire::GateState::kPassive: return "link lost: force off";
+    case wire::GateState::kPassive: return "force fades";
     case wire::GateState::kDamped: return "FORCE LATCHED OFF: press b";
     case wire::GateState::kFault: return "DEVICE FAULT: press b";
   }

@@ -277,7 +277,9 @@ class Host {
   }
 
   /// What a command for a session needs to find it.
-  [[nodiscard]] std::string reach(const SessionRun& r) const { return " --server " + dialled_ + (plan_.sessions.size() == 1 ? "" : " --session " + r.plan().name); }
+  [[nodiscard]] std::string reach(const SessionRun& r) const {
+    return " --server " + dialled_ + (plan_.sessions.size() == 1 ? "" : " --session " + r.plan().name) + (door_->throw_away() ? "" : " --ticket-file FILE");
+  }
   /// The command that lists all sessions here: with keys made on the spot the `tandem-server` commands know nothing of this server.
   [[nodiscard]] std::string list_command() const {
     return door_->throw_away() ? "tandem-client sessions --server " + dialled_ : "tandem-server sessions" + trust::server_state_option(door_->folder());

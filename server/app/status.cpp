@@ -17,7 +17,7 @@ const char* gate_text(wire::GateState gate) {
     case wire::GateState::kZero: return "force off";
     case wire::GateState::kRampIn: return "force rising";
     case wire::GateState::kActive: return "force on";
-    case wire::GateState::kPassive: return "link lost";
+    case wire::GateState::kPassive: return "force fades";
     case wire::GateState::kDamped: return "LATCHED (key b there)";
     case wire::GateState::kFault: return "DEVICE FAULT";
   }

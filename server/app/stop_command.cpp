@@ -81,7 +81,7 @@ void add_stop_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--grace", arguments->grace, "until all hands are let go [s], 0 to 3600, whole seconds; default 0: at once")->option_text("S");
   command->add_flag("--no-wait", arguments->no_wait, "returns at once; else it shows how far the server is until it has ended");
   command->footer(
-      "Its sessions are kept: a server started again within 10 min goes on with them. Ctrl-C ends this command, not what it asked for.\n"
+      "Sessions of `serve` are kept: started again within 10 min, it goes on with them. Ctrl-C ends this command, not what it asked for.\n"
       "The same without a grace: `kill -TERM PID`, Ctrl-C where it runs, or, as a service, `systemctl stop tandem-server`. From another\n"
       "computer: `tandem-client control drain`.\n"
       "Exit: 0 the server has ended (--no-wait: it was asked to); 1 no server runs from this folder, or it does not end; 2 wrong arguments.\n\n"

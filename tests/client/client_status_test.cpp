@@ -82,8 +82,11 @@ TEST(Handover, IsUnderWayUntilTheWeightStandsStill) {
   said.s.handover_done = true;
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}), "trainer gives the tool to trainee (0 % to 100 %): done");
   EXPECT_EQ(handover_brief(said.s), "more weight: done");
+  said.s.session = wire::SessionState::kStopped;
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}), "trainer gives the tool to trainee (to 100 %): when the session goes on");
+  EXPECT_EQ(handover_brief(said.s), "more weight when the session goes on");
   said.s.handover = wire::Handover::kCalledOff;
-  EXPECT_EQ(said({}), "hand-over called off: a link is too old");
+  EXPECT_EQ(said({}), "hand-over called off: somebody it concerns is gone, or was not heard from in time");
   said.s.handover = wire::Handover::kNone;
   EXPECT_EQ(said({}), "");
 }

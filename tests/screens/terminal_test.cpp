@@ -39,7 +39,7 @@ bool is_whole(const std::string& piece) {
       std::regex("force (\\[[#.]{10}\\] )?[0-9.]+ N"),
       std::regex("tool [0-9]+ mm away(, touching)?"),
       std::regex("with (trainer|trainee)|nobody else is here"),
-      std::regex("force (on|off|rising)|no force before the session runs|link lost: force off"),
+      std::regex("force (on|off|rising)|no force before the session runs|force fades"),
       std::regex("rtt [0-9.]+ ms, loss [0-9.]+ %"),
       std::regex("(trips|rejoined|late ticks) [0-9]+"),
       std::regex("margin [-0-9]+ mJ"),

@@ -239,14 +239,38 @@ TEST(Handover, OfOneTickTheLaterDecisionActs) {
   EXPECT_EQ(l.requested(), (control::Weights{0.3, 0.7}));
 }
 
-TEST(Handover, InAStopMovesNobodysWeightAndIsToldToNobody) {
+TEST(Handover, OrderedInAStopIsToldAtOnceAndActsWhenTheSessionGoesOn) {
+  Lesson l;
+  ASSERT_TRUE(l.session->stop_hands(l.now, AccessRole::kInstructor));
+  l.ticks(300);
+  ASSERT_EQ(l.order(kToTrainee), Result::kDone);
+  l.ticks(1);
+  EXPECT_EQ(l.told(kTrainee).handover, kComes) << "else the trainee's hand leads after the stop and nobody said so";
+  EXPECT_EQ(l.told(kTrainer).handover, wire::Handover::kGoes);
+  l.ticks(60);
+  EXPECT_EQ(l.told(kTrainee).handover, kNone);
+  EXPECT_EQ(l.alpha(kTrainee), 0);
+  ASSERT_TRUE(l.session->resume_hands(l.now, AccessRole::kInstructor, l.session->stops()));
+  l.ticks(1000);
+  EXPECT_EQ(l.alpha(kTrainee), 1);
+}
+
+TEST(Handover, OfTheSceneWaitsInAStopAndIsNotTold) {
+  Lesson l;
+  l.ticks(static_cast<int>(std::lround(l.scene.timeline[0].at * l.scene.tick_hz)) - 30 - static_cast<int>(l.session->session_tick()));
+  ASSERT_EQ(l.told(kTrainee).handover, kComes);
+  ASSERT_TRUE(l.session->stop_hands(l.now, AccessRole::kInstructor));
+  l.ticks(2);
+  EXPECT_EQ(l.told(kTrainee).handover, kNone);
+}
+
+TEST(Handover, InAStopMovesNobodysWeight) {
   Lesson l;
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
   l.ticks(10);
   ASSERT_TRUE(l.session->stop_hands(l.now, AccessRole::kInstructor));
   l.ticks(1);
   EXPECT_TRUE(l.session->tool(0).authority.held()) << "a stop takes all weight at once";
-  for (const std::size_t i : {kTrainer, kTrainee}) EXPECT_EQ(l.told(i).handover, kNone);
   l.ticks(39);
   EXPECT_EQ(l.requested(), kToTrainee) << "on paper";
   EXPECT_EQ(l.alpha(kTrainee), 0);
