@@ -347,9 +347,10 @@ class Joining {
 
 }  // namespace
 
-std::string complete_commands(std::string text, const Asking& asking, const std::string& session) {
+std::string complete_commands(std::string text, const Asking& asking, const std::string& session, bool by_ticket) {
   const std::string state = state_option_of(asking.state);
-  text = with_options(std::move(text), "tandem-client control", " --server " + io::to_text(asking.server) + (session.empty() ? "" : " --session " + session) + state);
+  const std::string reach = " --server " + io::to_text(asking.server) + (session.empty() ? "" : " --session " + session) + state;
+  text = with_options(std::move(text), "tandem-client control", reach + (by_ticket ? " --ticket-file FILE" : ""));
   return with_options(std::move(text), "tandem-client enroll", state);
 }
 

@@ -93,7 +93,7 @@ struct NotBack {
 
 /// Words of the server or of this client with what was typed to reach it added to the `tandem-client` commands in them.
 /// @param session  the name of the one joined; empty: none was
-[[nodiscard]] std::string complete_commands(std::string text, const Asking& asking, const std::string& session = {});
+[[nodiscard]] std::string complete_commands(std::string text, const Asking& asking, const std::string& session = {}, bool by_ticket = false);
 
 /// The sessions that are open there.
 [[nodiscard]] std::expected<control::SessionList, NotSeated> ask_for_sessions(const Asking& asking);

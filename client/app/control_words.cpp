@@ -143,7 +143,7 @@ const char* control_words_help() noexcept {
          "  pause [WHY ...]                           the same for those who may not stop: trainees and evaluators may pause, from their seats\n"
          "  resume [STOP]                             ends that stop; without a number the one there is now (instructor, operator; in a\n"
          "                                            scene without an instructor's seat also who paused). WHY is read by everybody there\n"
-         "  authority SEAT=W,... [tool=T] [version=V] weights of the hands over a tool, together 1 (instructor)\n"
+         "  authority SEAT=W,... [tool=T] [version=V]  weights of the hands over a tool, together 1 (instructor)\n"
          "  remove SEAT [WHY ...]                     lets go of that hand gently and frees the seat (instructor, operator)\n"
          "  drain [SECONDS]                           nobody new comes in; after SECONDS all hands are let go and the server ends (operator)\n"
          "  help, quit                                in the console\n";

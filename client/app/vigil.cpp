@@ -171,7 +171,7 @@ std::optional<SeatEnd> Vigil::take_back() {
 void Vigil::see_words(const ClientStatus& status) {
   if (!words_) return;
   if (auto said = words_->take()) {
-    if (said->stop) said->stop->ends = complete_commands(said->stop->ends, o_.asked, said->name);
+    if (said->stop) said->stop->ends = complete_commands(said->stop->ends, o_.asked, said->name, !o_.given.local);
     const std::string news = news_text(known_.value_or(control::Status{}), *said);
     for (std::size_t at = 0; at < news.size();) {
       const std::size_t end = news.find('\n', at);

@@ -53,7 +53,7 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("COMMAND...")
       ->required();
   command->prefix_command();
-  command->footer(std::string("Commands, also typed into the proxy's terminal\n") + control_help() +
+  command->footer(std::string("Commands, also in the proxy's terminal\n") + control_help() +
                   "\nExamples\n"
                   "  tandem-netsim control /tmp/proxy.sock profile wifi-busy\n"
                   "  tandem-netsim control /tmp/proxy.sock delay 20 loss 2 client 2 up\n"

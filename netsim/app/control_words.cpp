@@ -184,16 +184,22 @@ std::optional<Duration> parse_length(std::string_view text) noexcept {
 }
 
 const char* control_help() noexcept {
-  return "profile NAME|FILE      another network (`tandem-netsim profiles` lists them)\n"
-         "delay MS  jitter MS  loss PERCENT  duplicate PERCENT  reorder PERCENT\n"
-         "                       these numbers of the network; several in one line change at one moment\n"
-         "outage LENGTH [hold|last]  the link is down from now on; what is sent is lost, held, or held but for the "
-         "newest\n"
-         "reset                  the network of the start\n"
-         "rebind [LENGTH]        a new address towards the server; the old one is heard for LENGTH more\n"
-         "  after each: client N [N...]  for these only, in order of arrival;  up | down  for one direction\n"
-         "status [--json]        clients, rates, losses\n"
-         "stop                   ends the proxy\n"
+  return "  profile NAME|FILE    another network; `tandem-netsim profiles` lists them\n"
+         "  delay MS             one-way delay\n"
+         "  jitter MS            up to so much more, by chance\n"
+         "  loss PERCENT         lost datagrams; numbers in one line change at one moment\n"
+         "  duplicate PERCENT    datagrams that come twice\n"
+         "  reorder PERCENT      datagrams that come out of order\n"
+         "  outage LENGTH        the link is down from now on; what is sent is lost\n"
+         "  outage LENGTH hold   the same; it comes afterwards\n"
+         "  outage LENGTH last   the same; only the newest comes afterwards\n"
+         "  reset                the network of the start\n"
+         "  rebind [LENGTH]      a new address towards the server; the old one is heard\n"
+         "                       for LENGTH more\n"
+         "  ... client N [N...]  any of these for some clients, in order of arrival\n"
+         "  ... up, ... down     any of these for one direction\n"
+         "  status [--json]      clients, rates, losses\n"
+         "  stop                 ends the proxy\n"
          "Lengths: 400ms, 0.4s, 2min. Example: delay 20 loss 2 client 2 up\n";
 }
 
