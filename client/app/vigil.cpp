@@ -134,7 +134,7 @@ std::optional<SeatEnd> Vigil::see_server(const ClientStatus& status) {
   if (there || coming_ || now - std::max(news_, handed_over_) < patience_) return std::nullopt;
   if (!std::exchange(away_, true))
     o_.line.note(format("%s; your hand is free. Coming back by itself, for up to %.0f s (--rejoin); q or Ctrl-C ends it",
-                        returns(status) ? "the server is being started anew" : "the server fell silent", o_.plan.rejoin_s));
+                        returns(status) ? "the server ended and keeps your seat for its next start" : "the server fell silent", o_.plan.rejoin_s));
   patience_ = draw_wait_before_return();
   coming_ = std::make_unique<ComeBack>(o_.asked, own_, o_.seat, o_.pump, kept_);
   return std::nullopt;

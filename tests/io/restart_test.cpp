@@ -210,7 +210,7 @@ TEST_F(Restart, AServiceThatIsStartedAnewGivesEverybodyHisSeatBack) {
   ASSERT_TRUE(host.wait_for("GOES ON where its server ended")) << host.err();
   EXPECT_NE(host.err().find("`tandem-client control --server " + address + " resume`"), std::string::npos) << host.err();
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err() << trainer.err();
-  EXPECT_TRUE(trainer.wait_for("the server is being started anew")) << trainer.err();
+  EXPECT_TRUE(trainer.wait_for("the server ended and keeps your seat for its next start")) << trainer.err();
   // A person ends them: they do not come back.
   for (Process* p : {&trainer, &trainee}) {
     p->signal(SIGINT);
