@@ -154,9 +154,10 @@ TEST(ShedOrderLive, RungByRungAsTicksFillUpAndTheTraineeIsToldEveryTick) {
   for (const Rung rung : expected) {
     SCOPED_TRACE(to_text(rung));
     EXPECT_GT(of(rung).forces[kTrainee], 100U);
-    // Wide enough for FORCEs that this thread reads late: whole ticks, every 2nd, every 3rd.
+    // Whole ticks, every 2nd, every 3rd. A busy machine loses more of the trainee's FORCEs, which are more: the 3rd is judged beside the 2nd.
+    const double second = of(Rung::kEvaluators).share(kEvaluator);
     EXPECT_GT(of(rung).share(kEvaluator), rung < Rung::kEvaluators ? 0.85 : rung == Rung::kEvaluators ? 0.42 : 0.25);
-    EXPECT_LT(of(rung).share(kEvaluator), rung < Rung::kEvaluators ? 1.1 : rung == Rung::kEvaluators ? 0.75 : 0.42);
+    EXPECT_LT(of(rung).share(kEvaluator), rung < Rung::kEvaluators ? 1.1 : rung == Rung::kEvaluators ? 0.75 : 0.8 * second);
     const double observer = (rung < Rung::kObservers ? 60 : rung == Rung::kObservers ? 20 : 10) / kTickHz;
     EXPECT_LT(of(rung).share(kObserver), 1.5 * observer + 4.0 / static_cast<double>(of(rung).forces[kTrainee]));
   }
