@@ -20,7 +20,7 @@ struct SwarmCase {
   Duration calm{};         ///< network time at which the safety phase ends
 };
 
-/// How long after the calm all hands may take to be active again [s].
+/// How long after the calm, and after the network has brought what it held then, all hands may take to be active again [s].
 inline constexpr double kLivenessLimit = 10;
 /// How long a session of ordinary motion is then watched [s].
 inline constexpr double kOrdinary = 10;

@@ -246,6 +246,7 @@ INSTANTIATE_TEST_SUITE_P(LossEnergy, FreshSeed, testing::Values(910002606, 91000
 INSTANTIATE_TEST_SUITE_P(HandoverLink, FreshSeed, testing::Values(910015457));
 INSTANTIATE_TEST_SUITE_P(ManyNames, FreshSeed, testing::Values(910001536));
 INSTANTIATE_TEST_SUITE_P(Gathering, FreshSeed, testing::Values(800394));
+INSTANTIATE_TEST_SUITE_P(HeldBackAtTheCalm, FreshSeed, testing::Values(257713452818));
 INSTANTIATE_TEST_SUITE_P(FrozenSensor, FreshSeed, testing::Values(800513));
 
 }  // namespace
