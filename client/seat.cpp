@@ -37,7 +37,7 @@ control::GateParams gate_params(const SeatSetup& s, const hal::DeviceCaps& caps)
 }
 
 std::unique_ptr<control::ChannelEnd> make_end(const SeatSetup& s) {
-  return setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max * share_of_force(s.seat.role), !s.unsafe_gains,
+  return setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max * share_of_force(s.seat.role), s.coupling.k_c, !s.unsafe_gains,
                              s.seat.kind == SeatKind::kSlave ? std::optional{s.k_s} : std::nullopt);
 }
 
@@ -66,12 +66,8 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link
       link_(std::make_unique<link::Link>(link)),
       codec_(setup.dof, setup.port),
       end_(make_end(setup)),
-      gate_(gate_params(setup, caps)) {
-  for (std::size_t a = 0; a < setup.dof; ++a) {
-    const double s = setup.axis_scale[a];
-    gains_[a] = {setup.coupling.k_c * s, setup.coupling.b * s, setup.coupling.m_c * s};
-  }
-}
+      coupling_(make_coupling(setup)),
+      gate_(gate_params(setup, caps)) {}
 
 Seat::Connection Seat::prepare(const link::Link::Params& link) const { return {std::make_unique<link::Link>(link), make_end(setup_)}; }
 
@@ -207,6 +203,7 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   const auto out = gate_.step(in);
   fresh_ = reset_ = false;
   effort_ = out.effort;
+  if (was_active) coupling_->delivered(effort_);
   if (was_active != gate_.active()) rest();  // begins, or begins again, with zero elongation
 
   fill_sample(now, device, wanted);
@@ -230,46 +227,24 @@ bool Seat::may_engage() const noexcept {
 }
 
 AxisArray Seat::control(Time now) noexcept {
-  const bool master = setup_.seat.kind == SeatKind::kMaster;
-  control::EndInput in;
+  Coupling::Input in;
   in.dt = dt_;
   in.age = seconds(link_->freshness().age(now));
-  in.rx = rx_.port;
-  for (std::size_t a = 0; a < setup_.dof; ++a) {
-    in.x[a] = master ? ipc_[a].x : q_[a];
-    in.dissipated[a] = master ? ipc_[a].dissipated : 0;
-  }
-  const control::EndState& end = end_->move(in);
-
-  AxisArray wanted{};
-  for (std::size_t a = 0; a < setup_.dof; ++a) {
-    end_->credit(a, end.absorbed[a]);
-    if (master) {
-      ipc_[a].step(gains_[a], dt_, q_[a], end.ref[a], end.k[a], end.b[a]);
-      dissipated_ += ipc_[a].dissipated;
-      wanted[a] = ipc_[a].device_effort(gains_[a], q_[a]);
-    } else {
-      wanted[a] = end.k[a] * (end.ref[a] - q_[a]) - end.b[a] * v_[a];
-    }
-  }
-  return wanted;
+  in.authority = rx_.alpha;
+  in.q = q_;
+  in.v = v_;
+  in.rx = &rx_.port;
+  return coupling_->step(in, *end_);
 }
 
 void Seat::rest() noexcept {
-  for (std::size_t a = 0; a < setup_.dof; ++a) ipc_[a].rest_at(q_[a]);
   const auto& f = link_->freshness();
-  end_->engage(q_, f.heard() ? std::max(0.0, 0.5 * seconds(f.rtt_p50()) - 0.5 * dt_) : 0);
+  coupling_->rest(q_, heard_force_ ? &rx_.port.f : nullptr, f.heard() ? std::max(0.0, 0.5 * seconds(f.rtt_p50()) - 0.5 * dt_) : 0, *end_);
 }
 
 void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& wanted) noexcept {
-  const control::EndState& end = end_->state();
-  const bool master = setup_.seat.kind == SeatKind::kMaster;
   const bool engaged = gate_.active();
-  for (std::size_t a = 0; a < setup_.dof; ++a) {
-    tx_.port.x[a] = master ? ipc_[a].x : q_[a];
-    tx_.port.v[a] = engaged && master ? ipc_[a].v : v_[a];
-    tx_.port.f[a] = end.k[a] * (tx_.port.x[a] - end.ref[a]);
-  }
+  coupling_->tell(q_, v_, engaged, *end_, tx_.port);
   tx_.port.e_in = end_->e_in();
   const auto put = [](std::array<double, 3>& to, const hal::Vec3& from) {
     for (int i = 0; i < 3; ++i) to[static_cast<std::size_t>(i)] = from[i];
@@ -286,7 +261,7 @@ void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& want
   t.down_loss_percent = down.loss_percent();
   t.down_longest_gap_ms = 1e3 * seconds(down.longest_gap);
   t.down_age_p99_ms = age_p99_ms_;
-  t.dissipated_j = dissipated_;
+  t.dissipated_j = coupling_->dissipated();
   t.refused_j = end_->refused();
   t.delivered_j = meter_.total();
   t.margin_min_j = end_->margin_min();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "client/coupling.h"
 #include "client/frozen_sensor.h"
 #include "client/over_speed.h"
 #include "client/over_temperature.h"
@@ -14,7 +15,6 @@
 #include "common/control/channel.h"
 #include "common/control/energy_meter.h"
 #include "common/control/force_gate.h"
-#include "common/control/ipc.h"
 #include "common/link/link.h"
 #include "hal/device.h"
 #include "hal/port_map.h"
@@ -26,8 +26,7 @@ namespace tandem::client {
 /// One hand at one seat: device state in, device command out, datagrams in between. The same core runs on a device's servo thread
 /// and in virtual time. Order within a tick: move the reference to what was received, IPC, force gate, send (design notes, control 4).
 ///
-/// A MASTER hangs on its reference through device - k_c - virtual mass - k; a SLAVE directly through k, so that a remote slave is
-/// the server's own slave but for the extra tick. No heap, no lock, no clock after construction.
+/// No heap, no lock, no clock after construction.
 class Seat {
  public:
   /// @throws SetupError-like std::runtime_error if the law is unknown or the crypto library lacks a cipher.
@@ -89,7 +88,7 @@ class Seat {
   [[nodiscard]] const control::ChannelEnd& channel() const noexcept { return *end_; }
   [[nodiscard]] const link::Link& link() const noexcept { return *link_; }
   [[nodiscard]] const SeatSetup& setup() const noexcept { return setup_; }
-  [[nodiscard]] const control::MasterIpc& ipc(std::size_t axis) const noexcept { return ipc_[axis]; }
+  [[nodiscard]] const Coupling& coupling() const noexcept { return *coupling_; }
   [[nodiscard]] bool sensor_frozen() const noexcept { return sensor_.frozen(); }
   [[nodiscard]] const OverSpeed& over_speed() const noexcept { return over_speed_; }
   [[nodiscard]] const OverTemperature& over_temperature() const noexcept { return over_temperature_; }
@@ -119,8 +118,7 @@ class Seat {
   std::unique_ptr<link::Link> link_;
   wire::Codec codec_;
   std::unique_ptr<control::ChannelEnd> end_;
-  std::array<control::MasterIpc, kAxesMax> ipc_{};
-  std::array<control::MasterIpc::Gains, kAxesMax> gains_{};
+  std::unique_ptr<Coupling> coupling_;
   control::ForceGate gate_;
   control::EnergyMeter meter_;
 
@@ -141,7 +139,7 @@ class Seat {
   std::optional<Time> session_begin_;  ///< as this server counts
   std::optional<Time> person_begin_;   ///< as the first server did: people go on while servers come and go
   std::uint32_t clock_stops_ = 0;      ///< stops so far when the clock was learned
-  double dissipated_ = 0, age_p99_ms_ = 0;
+  double age_p99_ms_ = 0;
 
   bool own_stop_ = false, stop_all_ = false;
   std::optional<std::uint32_t> stops_at_press_;  ///< of the wish; nothing: this server has not spoken since

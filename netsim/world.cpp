@@ -78,7 +78,7 @@ std::expected<std::vector<std::unique_ptr<hal::SteppedDevice>>, std::string> Wor
   std::vector<std::unique_ptr<hal::SteppedDevice>> slaves;
   for (std::size_t j = 0; j < setup_.scene.tools.size(); ++j) {
     const ToolSpec& tool = setup_.scene.tools[j];
-    if (tool.remote) {
+    if (tool.remote || tool.is_virtual) {
       slaves.push_back(nullptr);
       continue;
     }

@@ -11,7 +11,7 @@ using text::child_path;
 using text::number_text;
 
 // Enumerators are converted by number; the last of each pair tells when one side gained one.
-static_assert(static_cast<int>(LawKind::kRaw) == pb::Channel::RAW && pb::Channel::Law_MAX == pb::Channel::RAW);
+static_assert(static_cast<int>(LawKind::kReplica) == pb::Channel::REPLICA && pb::Channel::Law_MAX == pb::Channel::REPLICA);
 static_assert(static_cast<int>(MfsMode::kSeedSigned) == pb::Channel::SEED_SIGNED &&
               pb::Channel::Mfs_MAX == pb::Channel::SEED_SIGNED);
 static_assert(static_cast<int>(SeatKind::kSlave) == pb::Seat::SLAVE && pb::Seat::Kind_MAX == pb::Seat::SLAVE);
@@ -37,7 +37,8 @@ void write_point(const Point& in, Message& out) {
 /// Device and Slave carry the same numbers; the text asks for `slave { model ... }` without another level.
 template <class Message>
 void read_device(const Message& in, std::size_t dof, const std::string& path, Checker& checker, SimDeviceSpec& out) {
-  const bool linear = in.has_model() ? in.model() == pb::LINEAR : dof == 1;
+  if (in.model() == pb::VIRTUAL) checker.error(child_path(path, "model"), "is for tool { slave { } }: a hand holds a device", "VIRTUAL");
+  const bool linear = in.has_model() && in.model() != pb::VIRTUAL ? in.model() == pb::LINEAR : dof == 1;
   out.model = linear ? DeviceModel::kLinear : DeviceModel::kTouch;
   const std::size_t axes = linear ? 1 : 3;
   if (axes != dof) {
@@ -92,47 +93,6 @@ int axis_in(bool given, pb::Axis axis, int fallback, std::size_t dof, const std:
   return std::clamp(index, 0, 2);
 }
 
-void read_environment(const pb::Environment& in, std::size_t dof, const std::string& path, Checker& checker,
-                      EnvironmentSpec& out) {
-  if (in.has_wall()) {
-    const auto& w = in.wall();
-    auto& wall = out.wall.emplace();
-    wall.axis = axis_in(w.has_axis(), w.axis(), wall.axis, dof, child_path(path, "wall"), checker);
-    if (w.has_at_m()) wall.at = w.at_m();
-    if (w.has_k_n_m()) wall.k = w.k_n_m();
-    if (w.has_b_n_s_m()) wall.b = w.b_n_s_m();
-    if (w.has_from_below()) wall.from_below = w.from_below();
-  }
-  if (in.has_tissue()) {
-    const auto& t = in.tissue();
-    auto& tissue = out.tissue.emplace();
-    tissue.axis = axis_in(t.has_axis(), t.axis(), tissue.axis, dof, child_path(path, "tissue"), checker);
-    if (t.has_at_m()) tissue.at = t.at_m();
-    if (t.has_k_n_m()) tissue.k = t.k_n_m();
-    if (t.has_k3_n_m3()) tissue.k3 = t.k3_n_m3();
-    if (t.has_b_n_s_m()) tissue.b = t.b_n_s_m();
-    if (t.has_from_below()) tissue.from_below = t.from_below();
-  }
-}
-void write_environment(const EnvironmentSpec& in, pb::Environment& out) {
-  if (in.wall) {
-    auto& wall = *out.mutable_wall();
-    wall.set_axis(static_cast<pb::Axis>(in.wall->axis));
-    wall.set_at_m(in.wall->at);
-    wall.set_k_n_m(in.wall->k);
-    wall.set_b_n_s_m(in.wall->b);
-    wall.set_from_below(in.wall->from_below);
-  }
-  if (in.tissue) {
-    auto& tissue = *out.mutable_tissue();
-    tissue.set_axis(static_cast<pb::Axis>(in.tissue->axis));
-    tissue.set_at_m(in.tissue->at);
-    tissue.set_k_n_m(in.tissue->k);
-    tissue.set_k3_n_m3(in.tissue->k3);
-    tissue.set_b_n_s_m(in.tissue->b);
-    tissue.set_from_below(in.tissue->from_below);
-  }
-}
 
 void read_trajectory(const pb::Trajectory& in, const std::string& path, Checker& checker, Trajectory& out) {
   if (in.has_circle() && in.waypoint_size() > 0) {
@@ -254,6 +214,48 @@ void write_hand(const HandSpec& in, pb::Hand& out) {
 
 }  // namespace
 
+void read_environment(const pb::Environment& in, std::size_t dof, const std::string& path, Checker& checker,
+                      EnvironmentSpec& out) {
+  if (in.has_wall()) {
+    const auto& w = in.wall();
+    auto& wall = out.wall.emplace();
+    wall.axis = axis_in(w.has_axis(), w.axis(), wall.axis, dof, child_path(path, "wall"), checker);
+    if (w.has_at_m()) wall.at = w.at_m();
+    if (w.has_k_n_m()) wall.k = w.k_n_m();
+    if (w.has_b_n_s_m()) wall.b = w.b_n_s_m();
+    if (w.has_from_below()) wall.from_below = w.from_below();
+  }
+  if (in.has_tissue()) {
+    const auto& t = in.tissue();
+    auto& tissue = out.tissue.emplace();
+    tissue.axis = axis_in(t.has_axis(), t.axis(), tissue.axis, dof, child_path(path, "tissue"), checker);
+    if (t.has_at_m()) tissue.at = t.at_m();
+    if (t.has_k_n_m()) tissue.k = t.k_n_m();
+    if (t.has_k3_n_m3()) tissue.k3 = t.k3_n_m3();
+    if (t.has_b_n_s_m()) tissue.b = t.b_n_s_m();
+    if (t.has_from_below()) tissue.from_below = t.from_below();
+  }
+}
+void write_environment(const EnvironmentSpec& in, pb::Environment& out) {
+  if (in.wall) {
+    auto& wall = *out.mutable_wall();
+    wall.set_axis(static_cast<pb::Axis>(in.wall->axis));
+    wall.set_at_m(in.wall->at);
+    wall.set_k_n_m(in.wall->k);
+    wall.set_b_n_s_m(in.wall->b);
+    wall.set_from_below(in.wall->from_below);
+  }
+  if (in.tissue) {
+    auto& tissue = *out.mutable_tissue();
+    tissue.set_axis(static_cast<pb::Axis>(in.tissue->axis));
+    tissue.set_at_m(in.tissue->at);
+    tissue.set_k_n_m(in.tissue->k);
+    tissue.set_k3_n_m3(in.tissue->k3);
+    tissue.set_b_n_s_m(in.tissue->b);
+    tissue.set_from_below(in.tissue->from_below);
+  }
+}
+
 void read_channel(const pb::Channel& in, const std::string& path, Checker& checker, ChannelSpec& out) {
   out.law = static_cast<LawKind>(in.law());
   out.mfs = static_cast<MfsMode>(in.mfs());
@@ -271,6 +273,7 @@ void read_channel(const pb::Channel& in, const std::string& path, Checker& check
   if (in.has_margin_max_j()) out.margin_max = in.margin_max_j();
   if (in.has_v_app_m_s()) out.v_app = in.v_app_m_s();
   if (in.has_tank_j()) out.tank = in.tank_j();
+  if (in.has_b_rel_n_s_m()) out.b_rel = in.b_rel_n_s_m();
 }
 
 void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out) {
@@ -296,13 +299,13 @@ constexpr double kE0Max = 10;  ///< [J], what the schemas of scene and seat take
 void settle_e0(const pb::Channel& in, const std::string& path, Checker& checker, const GateSpec& gate,
                ChannelSpec& out) {
   const double least = e0_min(out, gate);
-  if (!in.has_e0_j() && least > kE0Max) {  // else every client would refuse what the server sends it
+  if (!in.has_e0_j() && out.law != LawKind::kReplica && least > kE0Max) {  // else every client would refuse what the server sends it
     const std::string cause = "force_max_n^2 / (2 k_min_n_m) = " + number_text(least) + " J must be at most " + number_text(kE0Max) +
                               " J: each end of the channel begins with so much energy; lower gate.force_max_n or raise channel.k_min_n_m";
     const bool by_stiffness = in.has_k_min_n_m();
     checker.error(by_stiffness ? child_path(path, "k_min_n_m") : "gate.force_max_n", cause, number_text(by_stiffness ? out.k_min : gate.force_max));
   } else if (!in.has_e0_j()) {
-    out.e0 = std::max(0.05, least);
+    out.e0 = out.law == LawKind::kReplica ? 0.05 : std::max(0.05, least);
   } else if (out.law == LawKind::kSetPosition && out.e0 < least * (1 - 1e-9)) {
     checker.error(child_path(path, "e0_j"), "must be at least force_max_n^2 / (2 k_min_n_m) = " + number_text(least) +
                                                 " J, or the channel dead-locks at its start; raise it or k_min_n_m");
@@ -342,6 +345,18 @@ void read_slave(const pb::Slave& in, std::size_t dof, const std::string& path, C
   read_environment(in.environment(), dof, child_path(path, "environment"), checker, environment);
 }
 
+void read_virtual_slave(const pb::Slave& in, std::size_t dof, const std::string& path, Checker& checker, Point& start,
+                        EnvironmentSpec& environment) {
+  read_point(in.start_m(), start);
+  pb::Slave rest = in;
+  rest.clear_model();
+  rest.clear_start_m();
+  rest.clear_environment();
+  if (rest.ByteSizeLong() > 0)
+    checker.error(child_path(path, "model"), "a VIRTUAL slave has no device: take its numbers away, all but start_m and environment, or say TOUCH or LINEAR", "VIRTUAL");
+  read_environment(in.environment(), dof, child_path(path, "environment"), checker, environment);
+}
+
 void write_channel(const ChannelSpec& in, pb::Channel& out) {
   out.set_law(static_cast<pb::Channel::Law>(in.law));
   out.set_mfs(static_cast<pb::Channel::Mfs>(in.mfs));
@@ -356,6 +371,7 @@ void write_channel(const ChannelSpec& in, pb::Channel& out) {
   out.set_margin_max_j(in.margin_max);
   out.set_v_app_m_s(in.v_app);
   out.set_tank_j(in.tank);
+  out.set_b_rel_n_s_m(in.b_rel);
 }
 
 void write_coupling(const CouplingSpec& in, pb::DeviceCoupling& out) {

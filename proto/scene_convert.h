@@ -29,6 +29,12 @@ void read_seat(const pb::Seat& in, std::size_t dof, const std::string& path, tex
 void read_slave(const pb::Slave& in, std::size_t dof, const std::string& path, text::Checker& checker,
                 SimDeviceSpec& device, EnvironmentSpec& environment);
 
+/// The same of a tool without a device. Any key about one is a mistake.
+void read_virtual_slave(const pb::Slave& in, std::size_t dof, const std::string& path, text::Checker& checker, Point& start,
+                        EnvironmentSpec& environment);
+void read_environment(const pb::Environment& in, std::size_t dof, const std::string& path, text::Checker& checker, EnvironmentSpec& out);
+
+void write_environment(const EnvironmentSpec& in, pb::Environment& out);
 void write_channel(const ChannelSpec& in, pb::Channel& out);
 void write_coupling(const CouplingSpec& in, pb::DeviceCoupling& out);
 void write_gate(const GateSpec& in, pb::Gate& out);

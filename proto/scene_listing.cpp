@@ -46,6 +46,14 @@ pb::Scene to_proto(const SceneSpec& scene) {
     t.set_k_s_n_m(tool.k_s);
     t.set_m_s_kg(tool.m_s);
     t.set_b_s_n_s_m(tool.b_s);
+    if (tool.is_virtual) {
+      t.mutable_slave()->set_model(pb::VIRTUAL);
+      t.mutable_slave()->mutable_start_m()->set_x(tool.slave.start.x);
+      t.mutable_slave()->mutable_start_m()->set_y(tool.slave.start.y);
+      t.mutable_slave()->mutable_start_m()->set_z(tool.slave.start.z);
+      write_environment(tool.environment, *t.mutable_slave()->mutable_environment());
+      continue;
+    }
     if (!tool.remote) write_slave(tool.slave, tool.environment, *t.mutable_slave());
   }
   for (const auto& row : scene.authority) write_rows(scene, row, *out.mutable_authority());

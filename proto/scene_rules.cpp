@@ -97,11 +97,19 @@ std::vector<AuthorityRow> read_rows(const google::protobuf::RepeatedPtrField<pb:
   return rows;
 }
 
+/// Light, so that the hand's own spring does not ring on it: with 0.05 kg a motion of 14 Hz is amplified by 1.7, so by 1.2 [kg].
+constexpr double kVirtualMass = 0.02;
+
 void read_tool(const pb::Tool& in, const std::string& path, Checker& checker, std::size_t dof, ToolSpec& out) {
   out.name = in.name();
   if (in.has_k_s_n_m()) out.k_s = in.k_s_n_m();
   if (in.has_m_s_kg()) out.m_s = in.m_s_kg();
   if (in.has_b_s_n_s_m()) out.b_s = in.b_s_n_s_m();
+  if (in.slave().model() == pb::VIRTUAL) {
+    out.is_virtual = true;
+    if (!in.has_m_s_kg()) out.m_s = kVirtualMass;
+    return read_virtual_slave(in.slave(), dof, child_path(path, "slave"), checker, out.slave.start, out.environment);
+  }
   if (in.has_slave()) read_slave(in.slave(), dof, child_path(path, "slave"), checker, out.slave, out.environment);
 }
 
@@ -259,6 +267,18 @@ void read_phases(const pb::Scene& in, Checker& checker, SceneSpec& out) {
   }
 }
 
+void check_law(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
+  const bool joints = scene.port == PortSpace::kJoint;
+  if (scene.channel.law == LawKind::kReplica) {
+    if (joints) checker.error("channel.law", "needs port: TIP, as every client simulates the tool where it meets its surfaces", "REPLICA");
+    if (scene.channel.mfs == MfsMode::kSeed || scene.channel.mfs == MfsMode::kSeedSigned)
+      checker.error("channel.mfs", "cuts a velocity, which law REPLICA does not send; use OPEN or TANK, or law SET_POSITION");
+  }
+  for (std::size_t t = 0; t < scene.tools.size() && t < static_cast<std::size_t>(in.tool_size()); ++t)
+    if (scene.tools[t].is_virtual && joints)
+      checker.error(child_path(child_path(child_path("", "tool", static_cast<int>(t)), "slave"), "model"), "needs port: TIP, where surfaces are", "VIRTUAL");
+}
+
 void check_passivity(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
   if (scene.unsafe_gains || !(scene.tick_hz > 0)) return;
   const auto limit = [&](const SimDeviceSpec& device) { return 2 * device.damping * scene.tick_hz; };
@@ -282,6 +302,7 @@ void check_passivity(const pb::Scene& in, Checker& checker, const SceneSpec& sce
   }
   for (std::size_t t = 0; t < scene.tools.size() && t < static_cast<std::size_t>(in.tool_size()); ++t) {
     const auto& tool = scene.tools[t];
+    if (tool.is_virtual) continue;
     judge(tool.k_s, tool.slave, "the slave of tool " + quoted(tool.name),
           child_path(child_path("", "tool", static_cast<int>(t)), "k_s_n_m"));
   }

@@ -15,6 +15,8 @@ void read_authority(const pb::Scene& in, text::Checker& checker, SceneSpec& out)
 /// What every master follows; needs the authority for its default.
 void read_follow(const pb::Scene& in, text::Checker& checker, SceneSpec& out);
 void read_phases(const pb::Scene& in, text::Checker& checker, SceneSpec& out);
+/// What the law of the channel and tools without a device need.
+void check_law(const pb::Scene& in, text::Checker& checker, const SceneSpec& scene);
 /// Springs that meet a sampled device: k <= 2 b_device / T [Colgate, Schenkel 1997; design notes, control 3].
 void check_passivity(const pb::Scene& in, text::Checker& checker, const SceneSpec& scene);
 

@@ -13,7 +13,7 @@
 namespace tandem {
 
 enum class PortSpace : std::uint8_t { kTip, kJoint };
-enum class LawKind : std::uint8_t { kSetPosition, kRaw };
+enum class LawKind : std::uint8_t { kSetPosition, kRaw, kReplica };
 enum class MfsMode : std::uint8_t { kOpen, kTank, kSeed, kSeedSigned };
 enum class SeatKind : std::uint8_t { kMaster, kSlave };
 enum class Role : std::uint8_t { kInstructor, kTrainee, kEvaluator, kObserver };
@@ -32,6 +32,7 @@ struct ChannelSpec {
   double eta = 0.9;           ///< share of the dissipation that may be spent
   double margin_max = 0.1;    ///< unspent energy above is forfeited [J]
   double v_app = 0.1;         ///< approach speed after an outage [m/s]
+  double b_rel = 12;          ///< REPLICA: damping relative to what drives the tool [N s/m]
   double tank = 0.05;         ///< MFS tank and authority tank, initial [J]
 };
 
@@ -126,6 +127,7 @@ struct SeatSpec {
 struct ToolSpec {
   std::string name;
   double k_s = 400, m_s = 0.05, b_s = 0.2;  ///< [N/m, kg, N s/m]
+  bool is_virtual = false;                  ///< no slave device: the tool itself meets the environment
   bool remote = false;                      ///< served by a SLAVE seat
   std::size_t seat = 0;                     ///< that seat, when remote
   SimDeviceSpec slave;

@@ -52,6 +52,7 @@ std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::st
   rules::read_authority(in, checker, out);
   rules::read_follow(in, checker, out);
   rules::read_phases(in, checker, out);
+  rules::check_law(in, checker, out);
   rules::check_passivity(in, checker, out);
   if (!checker.ok()) return std::unexpected(checker.take());
   return out;

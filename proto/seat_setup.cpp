@@ -37,6 +37,12 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   if (setup.seat.kind == SeatKind::kMaster)  // the tool whose authority this seat is told, and may move as INSTRUCTOR
     for (std::size_t j = scene.tools.size(); j-- > 0;)
       if (scene.follow[seat][j] > 0) setup.seat.tool = j;
+  if (setup.seat.tool < scene.tools.size()) {
+    const ToolSpec& tool = scene.tools[setup.seat.tool];
+    setup.m_s = tool.m_s;
+    setup.b_s = tool.b_s;
+    setup.environment = tool.environment;
+  }
   const bool instructor = setup.seat.kind == SeatKind::kMaster && setup.seat.role == Role::kInstructor;
   for (std::size_t i = 0; i < scene.masters(); ++i) {
     const Role role = scene.seats[i].role;
@@ -71,6 +77,9 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   message.set_own_master(static_cast<std::uint32_t>(setup.own_master));
   message.set_drivers(setup.drivers);
   message.set_ends_pauses(setup.ends_pauses);
+  write_environment(setup.environment, *message.mutable_environment());
+  message.set_m_s_kg(setup.m_s);
+  message.set_b_s_n_s_m(setup.b_s);
   message.set_alpha_slew_per_s(std::isfinite(setup.alpha_slew) ? setup.alpha_slew : 0);
   const std::size_t size = message.ByteSizeLong();
   if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
@@ -104,6 +113,9 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     read_seat(in.seat(), out.dof, "seat", checker, out.seat);
     out.seat.tool = in.tool_index();
     out.k_s = in.k_s_n_m();
+    out.m_s = in.m_s_kg();
+    out.b_s = in.b_s_n_s_m();
+    read_environment(in.environment(), out.dof, "environment", checker, out.environment);
     for (std::size_t axis = 0; axis < out.dof; ++axis) out.axis_scale[axis] = in.axis_scale(static_cast<int>(axis));
     out.masters.assign(in.master().begin(), in.master().end());
     out.tools.assign(in.tool_name().begin(), in.tool_name().end());

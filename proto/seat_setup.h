@@ -27,6 +27,8 @@ struct SeatSetup {
   ChannelSpec channel;    ///< tip gains
   CouplingSpec coupling;  ///< masters
   double k_s = 400;       ///< SLAVE seats: tool - slave spring at the tip [N/m]
+  double m_s = 0.02, b_s = 0.2;  ///< mass and damping of the tool this seat follows [kg, N s/m]
+  EnvironmentSpec environment;   ///< of that tool: a master of law REPLICA simulates it
   GateSpec gate;
   SeatSpec seat;
   std::array<double, kAxesMax> axis_scale{1, 1, 1, 1,

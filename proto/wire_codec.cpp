@@ -84,6 +84,7 @@ void walk(Values& v, Message& s, Words& words, Axes axes, double position_max) n
   v.number32(22, s.telemetry.down_longest_gap_ms, 0, kMillisecondsMax);
   v.number32(23, s.telemetry.down_age_p99_ms, 0, kMillisecondsMax);
   v.word(24, s.resume_stop);
+  v.floats(25, s.port.a, axes, kAccelerationMax);
 }
 
 template <class Values, class Message, class Words, class Axes>

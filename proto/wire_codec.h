@@ -34,7 +34,8 @@ constexpr std::size_t state_size(std::size_t axes) {
          + detail::scalar(4, 1, 4)                             // energies
          + detail::scalar(2, 1, 4) + detail::scalar(3, 2, 4)  // gate, flags; counts
          + 1 + detail::packed(3, 4) + detail::scalar(4, 2, 4)  // f_env; penetration, link down
-         + detail::scalar(1, 2, 4);                           // resume_stop
+         + detail::scalar(1, 2, 4)                            // resume_stop
+         + 1 + detail::packed(axes, 4);                       // a
 }
 constexpr std::size_t force_size(std::size_t axes) {
   return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8) + detail::scalar(1, 1, 4);
@@ -56,7 +57,7 @@ enum class DecodeError : std::uint8_t {
 };
 
 /// Largest magnitudes a port sample or telemetry may carry.
-inline constexpr double kPositionMaxM = 10, kPositionMaxRad = 100, kVelocityMax = 100, kEffortMax = 1e4;
+inline constexpr double kPositionMaxM = 10, kPositionMaxRad = 100, kVelocityMax = 100, kEffortMax = 1e4, kAccelerationMax = 1e5;
 /// Largest cumulative energy [nJ]: 2^62 nJ are 4.6 GJ, so sums of two never wrap.
 inline constexpr std::uint64_t kEnergyMax = std::uint64_t{1} << 62;
 

@@ -9,7 +9,7 @@ namespace tandem::server {
 std::unique_ptr<control::ChannelEnd> make_channel_end(const SceneSpec& scene, std::size_t seat, const AxisArray& scale) {
   const SeatSpec& s = scene.seats[seat];
   const std::optional<double> k_s = s.kind == SeatKind::kSlave ? std::optional{scene.tools[s.tool].k_s} : std::nullopt;
-  return setup::make_channel(scene.channel, control::Side::kServer, scene.dof, scale, scene.gate.force_max * share_of_force(s.role), !scene.unsafe_gains, k_s);
+  return setup::make_channel(scene.channel, control::Side::kServer, scene.dof, scale, scene.gate.force_max * share_of_force(s.role), scene.coupling.k_c, !scene.unsafe_gains, k_s);
 }
 
 Reception::Reception(const SceneSpec& scene, const AxisArray& scale) : scene_(&scene), scale_(scale) {

@@ -114,7 +114,7 @@ void SeatPort::hold(const AxisArray& x) noexcept {
 }
 
 void SeatPort::move(Time now, double dt, bool present, const Near& near) noexcept {
-  const double age = taken_ ? seconds(connection_->link().freshness().age(now)) : 0;
+  const double age = age_ = taken_ ? seconds(connection_->link().freshness().age(now)) : 0;
   if (!present || !was_present_) {
     if (was_present_) ++outages_;
     end_->engage(near.x, age);

@@ -23,6 +23,8 @@ class SeatPort {
   /// A client took the seat. Energies, statistics and freshness start anew.
   /// @param entry  holds what was there before afterwards: memory is given back on the caller's thread
   void take(Time now, Entry& entry) noexcept;
+  /// Of its newest sample, when this end last moved [s].
+  [[nodiscard]] double age() const noexcept { return age_; }
   /// Since it was last heard; since it was taken when its client never spoke. @pre taken()
   [[nodiscard]] Duration silence(Time now) const noexcept { return connection_->silence(now); }
   void release() noexcept { taken_ = false; }
@@ -120,6 +122,7 @@ class SeatPort {
   wire::Codec codec_;
   wire::StateMessage rx_{};
   std::uint64_t generation_ = 0;
+  double age_ = 0;
   bool was_present_ = false, energy_fell_ = false;
   std::uint32_t outages_ = 0;
 };

@@ -24,6 +24,7 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       tick_length_(from_seconds(dt_)),
       scale_(scale),
       masters_(scene.masters()),
+      replica_(scene.channel.law == LawKind::kReplica),
       watcher_every_(static_cast<std::uint32_t>(std::ceil(scene.tick_hz / kWatcherHz))),
       feeler_every_max_(static_cast<std::uint32_t>(std::max(1.0, scene.gate.silence_limit * scene.tick_hz / kIntervalsOfSilence))),
       reception_(scene, scale),
@@ -248,6 +249,7 @@ void Session::say_farewell(Time now) noexcept {
 bool Session::touching(Time now, std::size_t j) const noexcept {
   constexpr double kTouchN = 0.05;  // below it a sensor's noise
   if (const hal::SteppedDevice* const slave = tools_[j].slave()) return slave->state().penetration > 0 || slave->state().f_env.squaredNorm() > kTouchN * kTouchN;
+  if (const control::VirtualTool* const body = tools_[j].body()) return body->penetration() > 0;
   if (!scene_->tools[j].remote || !seats_[scene_->tools[j].seat].alive(now)) return false;
   const wire::Telemetry& heard = seats_[scene_->tools[j].seat].heard().telemetry;
   return heard.penetration_m > 0 || std::ranges::any_of(heard.f_env, [](double f) { return std::abs(f) > kTouchN; });
@@ -273,7 +275,7 @@ void Session::fill_force_messages(Time now) noexcept {
     const control::EndState& end = seats_[i].end().state();
     m.port.x = following_[i];
     m.port.v = following_v_[i];
-    for (std::size_t a = 0; a < scene_->dof; ++a) m.port.f[a] = end.k[a] * (end.ref[a] - following_[i][a]);
+    for (std::size_t a = 0; a < scene_->dof; ++a) m.port.f[a] = told_of_others(i) ? tool_told_[i][a] : end.k[a] * (end.ref[a] - following_[i][a]);
     m.port.e_in = seats_[i].end().e_in();
     m.session = state_;
     m.engage = engage && seats_[i].feels() && !seats_[i].conduct().isolated(now) && !leaving(i);

@@ -178,6 +178,9 @@ class Session {
   void step_tools() noexcept TANDEM_REALTIME;
   void step_following() noexcept TANDEM_REALTIME;
   void follow_tools(std::size_t seat) noexcept TANDEM_REALTIME;
+  [[nodiscard]] bool told_of_others(std::size_t i) const noexcept;
+  void grant_following(std::size_t i) noexcept TANDEM_REALTIME;
+  void follow_others(std::size_t i) noexcept TANDEM_REALTIME;
   [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
@@ -190,6 +193,7 @@ class Session {
   std::vector<SeatPort> seats_;
   std::vector<Tool> tools_;
   std::size_t masters_;
+  bool replica_;  ///< law of the channel: seats are told of the others, not of the tool
   std::uint32_t watcher_every_;    ///< ticks between two FORCEs for who feels nothing
   std::uint32_t feeler_every_max_; ///< at most, for who only feels: six intervals fit into the gates' silence limit
   Relief relief_;
@@ -245,6 +249,7 @@ class Session {
   std::array<AxisArray, kSeatsMax> following_{};    ///< y_i plus offset: what each seat follows
   std::array<AxisArray, kSeatsMax> following_v_{};
   std::array<AxisArray, kSeatsMax> reference_before_{};
+  std::array<AxisArray, kSeatsMax> tool_told_{};    ///< law `replica`: where the tool is that each seat has a copy of
   std::array<bool, kSeatsMax> present_{};
   TickRecord record_{};
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/control/hand_motion.h"
 #include "server/session.h"
 
 /// What a tick does to springs and tools (design notes, control 4), in the order of the functions.
@@ -8,6 +9,8 @@ namespace tandem::server {
 
 namespace {
 constexpr double kUpToSpeed = 0.3;  // [s] from rest to the approach speed
+constexpr double kNobody = 1e-9;    // authority of others below which the tool itself is what is followed
+constexpr double kShares = 1e-3;    // authority from which on a hand's motion comes back to it by way of the others
 }
 
 bool Session::slave_present(std::size_t j) const noexcept {
@@ -72,14 +75,14 @@ void Session::move_references(Time now) noexcept {
     }
     reference_before_[i] = seats_[i].end().state().ref;
     const bool engaged = present_[i] && !held;
-    step_offset(i, engaged);
+    if (!told_of_others(i)) step_offset(i, engaged);
     near.offset = offset_[i];
     if (leaving && !present_[i] && !held) {  // no energy is paid or credited while it waits for its weight to go
       seats_[i].hold(near.x);
       continue;
     }
     seats_[i].move(now, dt_, engaged, near);
-    credit_seat(i);
+    if (!told_of_others(i)) credit_seat(i);
   }
 }
 
@@ -147,24 +150,25 @@ std::size_t Session::first_tool(std::size_t i) const noexcept {
 void Session::step_tools() noexcept {
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     Tool& tool = tools_[j];
-    std::array<control::ToolIpc::Pull, kAxesMax> pull{};
-    AxisArray damping{};  // the schedule's, shared like the springs: P+d wants it at both ends
+    std::array<control::Pull, kAxesMax> pull{};
     for (std::size_t a = 0; a < scene_->dof; ++a) {
       for (std::size_t i = 0; i < masters_; ++i) {
         const double alpha = tool.authority.alpha(i);
         const control::EndState& end = seats_[i].end().state();
-        if (alpha > 0) pull[a].add(alpha * end.k[a], end.ref[a]);
-        damping[a] += alpha * end.b[a];
+        if (alpha > 0) pull[a].spring(alpha * end.k[a], end.ref[a]);
+        // The schedule's damping, shared like the springs: P+d wants it at both ends. Or a hand's own, relative to its motion.
+        const double part = tool.body() != nullptr && replica_ ? tool.body()->relative_damping_share(a, scene_->channel.b_rel, 0, scene_->coupling.k_c, 0) : 1;
+        pull[a].damper(part * alpha * end.b[a], end.rate[a]);
       }
       if (scene_->tools[j].remote) {
         const control::EndState& end = seats_[scene_->tools[j].seat].end().state();
         if (slave_present(j)) {
-          pull[a].add(end.k[a], end.ref[a]);
-          damping[a] += end.b[a];
+          pull[a].spring(end.k[a], end.ref[a]);
+          pull[a].damper(end.b[a], end.rate[a]);
         }
       }
     }
-    tool.step(dt_, pull, damping, tool.authority.held());
+    tool.step(dt_, pull, tool.authority.held());
     if (tool.sources.mode() == control::FlowSourceMode::kTank)
       for (std::size_t a = 0; a < scene_->dof; ++a) tool.sources.fill(0.5 * scene_->channel.eta * tool.dissipated()[a]);
   }
@@ -178,7 +182,59 @@ void Session::step_following() noexcept {
         if (present_[i]) injected -= (ties_[i][j].follow - ties_[i][j].alpha) * seats_[i].heard().port.f[a] * tools_[j].moved()[a];
       tools_[j].sources.observe(a, injected / dt_, dt_);
     }
-  for (std::size_t i = 0; i < seats_.size(); ++i) follow_tools(i);
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    if (told_of_others(i)) {
+      grant_following(i);
+      follow_others(i);
+    } else {
+      follow_tools(i);
+    }
+  }
+}
+
+bool Session::told_of_others(std::size_t i) const noexcept { return replica_ && i < masters_; }
+
+/// What the others' motion gives a hand beyond its own authority is the flow sources': at most the strongest force along the tool's path.
+void Session::grant_following(std::size_t i) noexcept {
+  if (!present_[i]) return;
+  const double strongest = scene_->gate.force_max * share_of_force(scene_->seats[i].role);
+  for (std::size_t j = 0; j < tools_.size(); ++j) {
+    const Tie& tie = ties_[i][j];
+    if (!(tie.follow > 0)) continue;
+    for (std::size_t a = 0; a < scene_->dof; ++a) {
+      const double pull = std::clamp(scene_->coupling.k_c * (tools_[j].x(a) - seats_[i].heard().port.x[a]), -strongest, strongest);
+      seats_[i].end().credit(a, tools_[j].sources.grant(tie.follow * (1 - tie.alpha) * pull * tools_[j].moved()[a]));
+    }
+  }
+}
+
+/// Mix-minus, as in a telephone conference: where the others pull at the tool, and never this hand's own echo. A hand that shares hears of them
+/// as they were; one that only follows, as they are by now.
+void Session::follow_others(std::size_t i) noexcept {
+  following_[i] = following_v_[i] = tool_told_[i] = {};
+  for (std::size_t j = 0; j < tools_.size(); ++j) {
+    const Tie& tie = ties_[i][j];
+    if (!(tie.follow > 0)) continue;
+    double others = 0;
+    for (std::size_t h = 0; h < masters_; ++h) others += h == i ? 0 : tools_[j].authority.alpha(h);
+    for (std::size_t a = 0; a < scene_->dof; ++a) {
+      double x = tools_[j].x(a), v = tools_[j].v(a);
+      tool_told_[i][a] += tie.follow * x;
+      if (others > kNobody) {
+        x = v = 0;
+        for (std::size_t h = 0; h < masters_; ++h) {
+          const double part = h == i ? 0 : tools_[j].authority.alpha(h) / others;
+          if (part == 0) continue;
+          const PortSample& hand = seats_[h].heard().port;
+          const double age = tie.alpha < kShares ? seats_[h].age() : 0;
+          x += part * (present_[h] ? control::Prediction::place_for_hand(hand.x[a], hand.v[a], age) : seats_[h].end().state().ref[a]);
+          v += part * (present_[h] ? hand.v[a] : 0);
+        }
+      }
+      following_[i][a] += tie.follow * x;
+      following_v_[i][a] += tie.follow * v;
+    }
+  }
 }
 
 /// Where the seat's target goes. Velocity gates act on it as increments; ungated, it is absolute and cannot drift.

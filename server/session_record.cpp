@@ -64,6 +64,12 @@ void take_record(const Session& session, TickRecord& record) noexcept {
       r.q = s.q;
       r.penetration = s.penetration;
       r.sample_tick = session.session_tick();
+    } else if (const control::VirtualTool* const body = tool.body()) {
+      r.x = r.x_tool;
+      r.f_env = body->surface_force();
+      for (std::size_t k = 0; k < 3; ++k) r.f_cmd[k] = -r.f_env[k];
+      r.penetration = body->penetration();
+      r.sample_tick = session.session_tick();
     } else {
       put_slave(session.seat(tool.spec().seat).heard().telemetry, r);
       r.sample_tick = session.seat(tool.spec().seat).heard().seat_tick;

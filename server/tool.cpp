@@ -16,7 +16,10 @@ Tool::Tool(const SceneSpec& scene, std::size_t index, std::unique_ptr<hal::Stepp
       spec_(&scene.tools[index]),
       dof_(scene.dof),
       slave_(std::move(slave)) {
-  if (slave_) {
+  if (spec_->is_virtual) {
+    body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_, setup::contacts(spec_->environment));
+    rest_at({spec_->slave.start.x, spec_->slave.start.y, spec_->slave.start.z});
+  } else if (slave_) {
     map_ = hal::PortMap(scene.port, dof_, slave_->caps().joints);
     scale_ = map_.scale(slave_->state());
     rest_at(map_.position(slave_->state()));
@@ -24,18 +27,35 @@ Tool::Tool(const SceneSpec& scene, std::size_t index, std::unique_ptr<hal::Stepp
 }
 
 void Tool::rest_at(const AxisArray& x) noexcept {
+  if (body_) return body_->rest_at(x);
   for (std::size_t a = 0; a < dof_; ++a) ipc_[a] = {x[a], 0, 0};
 }
 
-void Tool::step(double dt, const std::array<control::ToolIpc::Pull, kAxesMax>& seats, const AxisArray& damping,
-                bool braked) noexcept {
+void Tool::step_body(double dt, const std::array<control::Pull, kAxesMax>& seats, bool braked) noexcept {
+  control::VirtualTool::Pulls pulls{};
+  AxisArray before{};
+  for (std::size_t a = 0; a < dof_; ++a) {
+    pulls[a] = seats[a];
+    if (braked) pulls[a].damper(kBrake, 0);
+    before[a] = body_->x(a);
+  }
+  if (!body_->step(dt, pulls)) ++not_finite_;
+  for (std::size_t a = 0; a < dof_; ++a) {
+    const double v = body_->v(a);
+    moved_[a] = body_->x(a) - before[a];
+    dissipated_[a] = (spec_->b_s + pulls[a].b + 0.5 * pulls[a].k * dt) * v * v * dt;
+  }
+}
+
+void Tool::step(double dt, const std::array<control::Pull, kAxesMax>& seats, bool braked) noexcept {
+  if (body_) return step_body(dt, seats, braked);
   const AxisArray q = slave_ ? map_.position(slave_->state()) : AxisArray{};
   for (std::size_t a = 0; a < dof_; ++a) {
     const control::ToolIpc before = ipc_[a];
-    control::ToolIpc::Pull pull = seats[a];
-    if (slave_) pull.add(spec_->k_s * scale_[a], q[a]);
-    ipc_[a].step({spec_->m_s * scale_[a], spec_->b_s * scale_[a]}, dt, pull, seats[a].k,
-                 damping[a] + (braked ? kBrake * scale_[a] : 0.0));
+    control::Pull pull = seats[a];
+    if (slave_) pull.spring(spec_->k_s * scale_[a], q[a]);
+    if (braked) pull.damper(kBrake * scale_[a], 0);
+    ipc_[a].step({spec_->m_s * scale_[a], spec_->b_s * scale_[a]}, dt, pull, seats[a].k);
     if (!std::isfinite(ipc_[a].x) || !std::isfinite(ipc_[a].v)) {  // one tick back, at rest; counted
       ipc_[a] = {before.x, 0, 0};
       ++not_finite_;
@@ -61,13 +81,13 @@ void Tool::advance_slave(Duration dt) noexcept {
 
 AxisArray Tool::position() const noexcept {
   AxisArray x{};
-  for (std::size_t a = 0; a < dof_; ++a) x[a] = ipc_[a].x;
+  for (std::size_t a = 0; a < dof_; ++a) x[a] = this->x(a);
   return x;
 }
 
 AxisArray Tool::velocity() const noexcept {
   AxisArray v{};
-  for (std::size_t a = 0; a < dof_; ++a) v[a] = ipc_[a].v;
+  for (std::size_t a = 0; a < dof_; ++a) v[a] = this->v(a);
   return v;
 }
 

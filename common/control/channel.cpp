@@ -1,6 +1,7 @@
 #include "common/control/channel.h"
 
 #include "common/control/channel_raw.h"
+#include "common/control/channel_replica.h"
 #include "common/control/channel_set_position.h"
 
 namespace tandem::control {
@@ -32,7 +33,13 @@ std::unique_ptr<ChannelEnd> make(const ChannelParams& p) {
   return std::make_unique<Law>(p);
 }
 
+std::unique_ptr<ChannelEnd> make_replica(const ChannelParams& p) {
+  if (p.side == Side::kClient) return std::make_unique<ReplicaReference>(p);
+  return std::make_unique<PredictedHand>(p);
+}
+
 constexpr ChannelLaw kLaws[] = {
+    {"replica", "every client simulates the tool; only what others do crosses the network, paid from an energy ledger", make_replica},
     {"set_position", "positions both ways, every move paid from an energy ledger; stiffness, damping and lead follow the delay",
      make<SetPositionEnd>},
     {"raw", "positions both ways, constant stiffness, no passivity: what happens without", make<RawEnd>},

@@ -28,6 +28,8 @@ struct ChannelParams {
   double margin_max = 0.1;      ///< [J] per axis
   double v_app = 0.1;           ///< at the tip [m/s]
   double effort_max = std::numeric_limits<double>::infinity();  ///< a spring need not pull harder: no motor could [N at the tip]
+  double k_c = 400;             ///< `replica`: between hand and tool, and to the others where nothing is fed back [N/m at the tip]
+  double b_rel = 12;            ///< `replica`: damping relative to what drives the tool [N s/m at the tip]
 };
 
 /// What a law promises; a breach of anything else is reported as expected and fails nothing.
@@ -42,6 +44,7 @@ struct EndInput {
   double weight = 1;            ///< how many such springs this end loads: 1 but for seats that drive several tools
   AxisArray x{};                ///< what hangs on the near end of the spring: xc at a client, the tool at the server
   AxisArray dissipated{};       ///< heat made here during the last step that may be spent [J]
+  double authority = 1;         ///< of this seat's hand over its tool [0, 1]; `replica` only
   double pass_on = 1;           ///< share of this end's heat the other end may have when it is not needed here [0, 1]
   PortSample rx{};              ///< newest datagram's port
 };
@@ -49,7 +52,8 @@ struct EndInput {
 struct EndState {
   AxisArray ref{};              ///< reference r (client) or p (server)
   AxisArray k{};                ///< stiffness to it
-  AxisArray b{};                ///< damping to be added at this end (client)
+  AxisArray b{};                ///< damping to be added at this end
+  AxisArray rate{};             ///< velocity which that damping is relative to [m/s]; 0: the ground
   AxisArray absorbed{};         ///< energy this move gave back [J]; the owner decides how much becomes credit
   AxisArray paid{};             ///< energy this move cost [J]
   AxisArray passed{};           ///< heat of this end that was passed on [J]
@@ -73,6 +77,12 @@ class ChannelEnd {
 
   /// Turns absorbed energy into credit the other end may spend [J].
   void credit(std::size_t axis, double joule) noexcept { ledger_[axis].absorb(joule); }
+  /// Pays for what the owner does beside moving the reference; a negative cost comes back [J]. @return false: not paid, the margin is too small
+  [[nodiscard]] bool pay(std::size_t axis, double joule) noexcept {
+    if (joule < 0) ledger_[axis].take_back(-joule);
+    return joule <= 0 || ledger_[axis].spend(joule);
+  }
+  void note_refused(double joule) noexcept { refused_ += joule; }
   [[nodiscard]] const EndState& state() const noexcept { return state_; }
   [[nodiscard]] const EnergyLedger& ledger(std::size_t axis) const noexcept { return ledger_[axis]; }
   [[nodiscard]] const DelaySchedule& schedule() const noexcept { return schedule_; }

@@ -52,6 +52,8 @@ class EnergyLedger {
     dissipated_ = saturating_add(dissipated_, credited);
     return credited;
   }
+  /// A move of this end gave back what an earlier one had cost [J]; it may be spent here again.
+  void take_back(double joule) noexcept { dissipated_ = saturating_add(dissipated_, credit_nj(joule)); }
   /// Gives up what is unspent above `limit` [J], so that nobody hoards while his authority is 0 and spends it later at once. Of that at
   /// most `most` [nJ] is handed on to the other end: here it counts as given up, there as received.
   /// @return what was handed on [nJ].

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/base/axes.h"
+#include "common/control/pull.h"
 
 /// Intrinsically passive controllers of one axis [Stramigioli, LNCIS 266, 2001], stepped implicitly: the virtual mass sees the
 /// springs at the END of the step, so no step creates energy whatever stiffness, mass and sample time are (design notes, control 3).
@@ -50,20 +51,12 @@ struct ToolIpc {
   struct Gains {
     double m_s = 0, b_s = 0;
   };
-  /// Sum of the springs that pull: stiffness and stiffness times anchor. The seats' come in as alpha_i k_i and alpha_i k_i p_i.
-  struct Pull {
-    double k = 0, k_anchor = 0;
-    void add(double stiffness, double anchor) noexcept {
-      k += stiffness;
-      k_anchor += stiffness * anchor;
-    }
-  };
-
+  using Pull = control::Pull;  ///< the seats' springs come in as alpha_i k_i and alpha_i k_i p_i
   /// One step; springs act at the end of the step, so the printed explicit form's growth of the weighted storage is absent.
   /// @param k_seats  the seats' part of pull.k.
-  void step(const Gains& g, double T, const Pull& pull, double k_seats, double b_added) noexcept TANDEM_REALTIME {
-    const double b = g.b_s + b_added;
-    v = (g.m_s * v + T * (pull.k_anchor - pull.k * x)) / (g.m_s + T * b + T * T * pull.k);
+  void step(const Gains& g, double T, const Pull& pull, double k_seats) noexcept TANDEM_REALTIME {
+    const double b = g.b_s + pull.b;
+    v = (g.m_s * v + T * (pull.k_anchor - pull.k * x + pull.b_velocity)) / (g.m_s + T * b + T * T * pull.k);
     x += T * v;
     dissipated = (b + 0.5 * k_seats * T) * v * v * T;
   }

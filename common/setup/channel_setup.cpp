@@ -13,6 +13,7 @@ std::string_view law_name(LawKind law) noexcept {
   switch (law) {
     case LawKind::kSetPosition: return "set_position";
     case LawKind::kRaw: return "raw";
+    case LawKind::kReplica: return "replica";
   }
   return "";
 }
@@ -27,8 +28,27 @@ control::FlowSourceMode flow_source_mode(MfsMode mode) noexcept {
   return control::FlowSourceMode::kOpen;
 }
 
+control::ContactSet contacts(const EnvironmentSpec& environment) noexcept {
+  control::ContactSet all;
+  if (const auto& w = environment.wall) {
+    control::Contact contact{.k = w->k, .b = w->b};
+    const double sign = w->from_below ? -1 : 1;
+    contact.normal[static_cast<std::size_t>(w->axis)] = sign;
+    contact.at = sign * w->at;
+    all.add(contact);
+  }
+  if (const auto& t = environment.tissue) {
+    control::Contact contact{.k = t->k, .k3 = t->k3, .b = t->b};
+    const double sign = t->from_below ? -1 : 1;
+    contact.normal[static_cast<std::size_t>(t->axis)] = sign;
+    contact.at = sign * t->at;
+    all.add(contact);
+  }
+  return all;
+}
+
 std::unique_ptr<control::ChannelEnd> make_channel(const ChannelSpec& spec, control::Side side, std::size_t dof,
-                                                  const AxisArray& scale, double force_max, bool leashed, std::optional<double> stiffness) {
+                                                  const AxisArray& scale, double force_max, double k_c, bool leashed, std::optional<double> stiffness) {
   control::ChannelParams p;
   if (leashed) p.effort_max = force_max;
   p.side = side;
@@ -45,6 +65,13 @@ std::unique_ptr<control::ChannelEnd> make_channel(const ChannelSpec& spec, contr
   p.eta = spec.eta;
   p.margin_max = std::max(spec.margin_max, p.e0);
   p.v_app = spec.v_app;
+  p.k_c = k_c;
+  p.b_rel = spec.b_rel;
+  if (spec.law != LawKind::kReplica) return control::make_channel_end(law_name(spec.law), p);
+  // A robot hangs on the tool by a spring with two ends, as it always did; what a hand is owed does not depend on its motors.
+  if (stiffness) return control::make_channel_end(law_name(LawKind::kSetPosition), p);
+  p.e0 = spec.e0;
+  p.margin_max = spec.margin_max;
   return control::make_channel_end(law_name(spec.law), p);
 }
 

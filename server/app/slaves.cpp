@@ -9,7 +9,7 @@ std::expected<Slaves, std::vector<std::string>> make_slaves(const SceneSpec& sce
   Slaves slaves;
   std::vector<std::string> mistakes;
   for (const ToolSpec& tool : scene.tools) {
-    if (tool.remote) {
+    if (tool.remote || tool.is_virtual) {
       slaves.devices.push_back(nullptr);
       continue;
     }

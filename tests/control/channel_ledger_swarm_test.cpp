@@ -175,9 +175,10 @@ Worst play(std::string_view law, std::uint64_t seed, int ticks) {
     const EndState& s = server.move(x, heat);
     for (std::size_t a = 0; a < kDof; ++a) {
       ToolIpc::Pull pull;
-      pull.add(s.k[a], s.ref[a]);
-      pull.add(environment * p.scale[a], 0);
-      tool[a].step({0.05 * p.scale[a], 0.5 * p.scale[a]}, kT, pull, s.k[a], s.b[a]);
+      pull.spring(s.k[a], s.ref[a]);
+      pull.spring(environment * p.scale[a], 0);
+      pull.damper(s.b[a], 0);
+      tool[a].step({0.05 * p.scale[a], 0.5 * p.scale[a]}, kT, pull, s.k[a]);
       worst.moved = std::max(worst.moved, std::abs(tool[a].x) / tip);
     }
     down.send(now, sample(server, tool));

@@ -53,9 +53,9 @@ TEST(MasterIpc, RendersTheSeriesOfItsSprings) {  // oracle 3: [P]'s 250 N/m
   for (int i = 0; i < 20000; ++i) {  // alpha = 1, the network's cut at zero delay
     ipc.step(g, 0.001, q, t.x, k, 0);
     ToolIpc::Pull pull;
-    pull.add(k, ipc.x);
-    pull.add(k_s, q_s);
-    t.step(tool, 0.001, pull, k, 0);
+    pull.spring(k, ipc.x);
+    pull.spring(k_s, q_s);
+    t.step(tool, 0.001, pull, k);
   }
   EXPECT_NEAR(ipc.device_effort(g, q), -250 * q, 0.001 * 250 * q);
   EXPECT_NEAR(k_s * (t.x - q_s), 250 * q, 0.001 * 250 * q);  // and the slave feels the same
@@ -103,9 +103,9 @@ TEST(ToolIpc, NeverCreatesEnergyWhateverPullsIt) {
     };
     for (int step = 0; step < 50; ++step) {
       ToolIpc::Pull pull;
-      for (std::size_t i = 0; i < 8; ++i) pull.add(k[i], anchor[i]);
+      for (std::size_t i = 0; i < 8; ++i) pull.spring(k[i], anchor[i]);
       const double before = energy();
-      tool.step(g, T, pull, pull.k - k[0], 0);
+      tool.step(g, T, pull, pull.k - k[0]);
       ASSERT_TRUE(std::isfinite(tool.x) && std::isfinite(tool.v));
       ASSERT_LE(energy() + tool.dissipated, before * (1 + 1e-12) + 1e-12) << "step " << step;
     }
@@ -114,7 +114,7 @@ TEST(ToolIpc, NeverCreatesEnergyWhateverPullsIt) {
 
 TEST(ToolIpc, CoastsWhenNobodyPulls) {
   ToolIpc tool{0.1, 0.2, 0};
-  tool.step({0.05, 0}, 0.001, {}, 0, 0);
+  tool.step({0.05, 0}, 0.001, {}, 0);
   EXPECT_DOUBLE_EQ(tool.v, 0.2);
   EXPECT_DOUBLE_EQ(tool.x, 0.1002);
   EXPECT_EQ(tool.dissipated, 0);

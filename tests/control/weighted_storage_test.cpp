@@ -37,12 +37,12 @@ struct Monolith {
     double printed = 0;
     for (std::size_t i = 0; i < ipc.size(); ++i) {
       ipc[i].step(gains, kT, q[i], tool.x, k, 0);
-      if (implicit) pull.add(alpha[i] * k, ipc[i].x);
+      if (implicit) pull.spring(alpha[i] * k, ipc[i].x);
       printed += alpha[i] * k * (ipc[i].x - tool.x);
     }
-    pull.add(k_s, q_s);
+    pull.spring(k_s, q_s);
     if (!implicit) pull.k_anchor += printed;
-    tool.step(tool_gains, kT, pull, pull.k - k_s, 0);
+    tool.step(tool_gains, kT, pull, pull.k - k_s);
   }
 };
 

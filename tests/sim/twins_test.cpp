@@ -46,15 +46,15 @@ class Monolith {
       const auto e = static_cast<Eigen::Index>(a);
       const control::ToolIpc before = tool_[a];
       control::ToolIpc::Pull pull;
-      pull.add(scene_.tools[0].k_s, slave_->state().x[e]);
+      pull.spring(scene_.tools[0].k_s, slave_->state().x[e]);
       const auto move_hand = [&](std::size_t i, double r) {
         const control::MasterIpc::Gains g{scene_.coupling.k_c, scene_.coupling.b, scene_.coupling.m_c};
         ipc_[i][a].step(g, T, hands_[i]->state().x[e], r, k, 0);
         effort[i][a] = ipc_[i][a].device_effort(g, hands_[i]->state().x[e]);
       };
       for (std::size_t i = 0; i < 2; ++i) move_hand(i, before.x + lead * before.v);
-      for (std::size_t i = 0; i < 2; ++i) pull.add(alpha[i] * k, ipc_[i][a].x + lead * ipc_[i][a].v);
-      tool_[a].step({scene_.tools[0].m_s, scene_.tools[0].b_s}, T, pull, 0, 0);
+      for (std::size_t i = 0; i < 2; ++i) pull.spring(alpha[i] * k, ipc_[i][a].x + lead * ipc_[i][a].v);
+      tool_[a].step({scene_.tools[0].m_s, scene_.tools[0].b_s}, T, pull, 0);
       pull_slave[a] = scene_.tools[0].k_s * (tool_[a].x - slave_->state().x[e]);
     }
     for (std::size_t i = 0; i < 2; ++i) {

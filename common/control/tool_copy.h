@@ -1,0 +1,59 @@
+#pragma once
+
+#include "common/control/channel.h"
+#include "common/control/hand_motion.h"
+#include "common/control/virtual_tool.h"
+
+namespace tandem::control {
+
+/// The tool as one hand feels it: a copy of the server's, simulated at the client with its surfaces, so that contact and leading cost no delay.
+///
+///     m x'' = a k_c (q - x) + (1 - a) k_x (r - x) + b_rel (v_in - v) - b v + F_env(x)        one implicit step
+///     F     = k_c (y - q)                                                                  on the hand; y = x as far as is paid
+///
+/// What the ledger pays, per axis, before it acts (storage W = 1/2 m v^2 + 1/2 k_c |q - x|^2 + 1/2 (1 - a) k_x |r - x|^2 + H_env): moves of r
+/// (ReplicaReference), (1 - a) F dx, b_rel (v_in - v) dx, and F do for the way home of an offset between hand and tool. Negative costs
+/// come back. A hand that leads alone (a = 1) pays nothing and gets nothing: passive by construction.
+class ToolCopy {
+ public:
+  static constexpr std::size_t kAxes = VirtualTool::kAxes;
+  struct Params {
+    VirtualTool::Gains tool;
+    std::size_t axes = 3;      ///< of a TIP port, 1 to 3
+    ContactSet contacts;
+    double k_c = 400;          ///< hand to copy [N/m]
+    double b_rel = 12;         ///< [N s/m]
+    double v_app = 0.1;        ///< of an offset's way home [m/s]
+    double offset_rests = 0.5; ///< how long an offset stays once it began [s]: the ramp of the gate
+    double dt = 0.001;         ///< tick [s]
+  };
+  explicit ToolCopy(const Params& params) noexcept;
+
+  /// Not engaged: the copy stands where the server's tool is, the hand wherever it is; their distance becomes the offset.
+  void rest_at(const AxisArray& tool, const AxisArray& hand) noexcept;
+  /// @param end  of this seat, already moved in this tick: its reference, stiffness, damping and ledger
+  /// @return the effort wanted on the hand, before the gate [N]
+  const AxisArray& step(const AxisArray& hand, double authority, ChannelEnd& end) noexcept TANDEM_REALTIME;
+  /// What the gate let through of `step`'s effort: the copy is pulled by just that.
+  void delivered(const AxisArray& effort) noexcept TANDEM_REALTIME;
+
+  [[nodiscard]] const VirtualTool& tool() const noexcept { return tool_; }
+  /// Where the hand pulls at the tool, as the server shall take it: q where the whole effort is given, nearer to the copy where it is clipped.
+  [[nodiscard]] const HandMotion& anchor(std::size_t axis) const noexcept { return anchor_[axis].now(); }
+  [[nodiscard]] double dissipated(std::size_t axis) const noexcept { return dissipated_[axis]; }  ///< heat of the last step that may be spent [J]
+  [[nodiscard]] double offset(std::size_t axis) const noexcept { return offset_[axis]; }          ///< hand minus tool, on its way to 0 [m]
+
+ private:
+  void bring_offset_home(ChannelEnd& end) noexcept;
+  [[nodiscard]] bool pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualTool& before, ChannelEnd& end) noexcept;
+  void show(std::size_t axis, double hand, double alone, ChannelEnd& end) noexcept;
+
+  Params p_;
+  VirtualTool tool_;
+  std::array<HandMotionFilter, kAxes> hand_, anchor_;
+  AxisArray shown_{}, offset_{}, wanted_{}, dissipated_{};
+  double share_ = 0;       ///< of the wanted effort that the gate gave last [0, 1]
+  double engaged_for_ = 0; ///< [s]
+};
+
+}  // namespace tandem::control

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "common/base/axes.h"
+#include "common/control/contact.h"
+#include "common/control/pull.h"
+
+namespace tandem::control {
+
+/// A tool without a device: a mass that meets its surfaces itself. The server steps one per tool, every client a copy of it, by this very
+/// code. Implicit: springs, dampers and surfaces act at the end of the step, so no step creates energy whatever their gains are
+/// [Stramigioli, LNCIS 266, 2001]; several surfaces are solved for together.
+class VirtualTool {
+ public:
+  static constexpr std::size_t kAxes = 3;
+
+  struct Gains {
+    double m = 0.02;  ///< [kg], above 0
+    double b = 0.2;   ///< towards the ground [N s/m]
+  };
+  using Pulls = std::array<Pull, kAxes>;
+
+  /// @param axes  1 to 3; the others stand still at 0
+  VirtualTool(const Gains& gains, std::size_t axes, const ContactSet& contacts = {}) noexcept : gains_(gains), axes_(axes), contacts_(contacts) {}
+
+  void rest_at(const AxisArray& x) noexcept;
+  /// One step of length `dt` [s]. What is not finite leaves the tool where it was, at rest. @return whether it was finite.
+  bool step(double dt, const Pulls& pulls) noexcept TANDEM_REALTIME;
+
+  [[nodiscard]] double x(std::size_t axis) const noexcept { return x_[axis]; }
+  [[nodiscard]] double v(std::size_t axis) const noexcept { return v_[axis]; }
+  [[nodiscard]] const Gains& gains() const noexcept { return gains_; }
+  [[nodiscard]] std::size_t axes() const noexcept { return axes_; }
+  /// Force of all surfaces on the tool at the end of the last step [N].
+  [[nodiscard]] const std::array<double, kAxes>& surface_force() const noexcept { return surface_force_; }
+  /// Damping relative to what drives a tool has no reaction on the hand: beside a stiff surface it would make energy.
+  /// @param b_rel   wanted, above 0 [N s/m]  @param b_others  other damping along this axis [N s/m]
+  /// @param k_c     of the spring that the hand feels  @param k_others  of other springs [N/m]
+  /// @return share of b_rel that may act (0, 1]
+  [[nodiscard]] double relative_damping_share(std::size_t axis, double b_rel, double b_others, double k_c, double k_others) const noexcept {
+    if (!(surface_k_[axis] > 0)) return 1;
+    const double most = (gains_.b + surface_b_[axis] + b_others) * k_c / (surface_k_[axis] + k_others);
+    return most < b_rel ? most / b_rel : 1;
+  }
+  /// Deepest penetration [m], 0 without contact.
+  [[nodiscard]] double penetration() const noexcept;
+
+ private:
+  /// The equations of one step: matrix v' = rhs.
+  struct Equations {
+    std::array<std::array<double, kAxes>, kAxes> matrix{};
+    std::array<double, kAxes> rhs{};
+  };
+  void meet_surfaces(double dt, const Equations& free, std::array<double, kAxes>& velocity) noexcept;
+
+  Gains gains_;
+  std::size_t axes_;
+  ContactSet contacts_;
+  std::array<double, kAxes> x_{}, v_{};
+  std::array<double, kAxes> surface_force_{}, surface_k_{}, surface_b_{};
+};
+
+}  // namespace tandem::control
