@@ -29,6 +29,8 @@ class Coupling {
   virtual void delivered(const AxisArray&) noexcept TANDEM_REALTIME {}
   /// What the server is told: x, v, f, a. @param engaged  else the device's own motion
   virtual void tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd& end, PortSample& out) const noexcept TANDEM_REALTIME = 0;
+  /// The copy of the tool that the hand hangs on, where there is one.
+  [[nodiscard]] virtual const control::VirtualTool* copy() const noexcept { return nullptr; }
   [[nodiscard]] double dissipated() const noexcept { return dissipated_; }  ///< all axes, cumulative [J]
 
  protected:
@@ -62,7 +64,7 @@ class CopyCoupling final : public Coupling {
   AxisArray step(const Input& in, control::ChannelEnd& end) noexcept override;
   void delivered(const AxisArray& effort) noexcept override;
   void tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd& end, PortSample& out) const noexcept override;
-  [[nodiscard]] const control::ToolCopy& copy() const noexcept { return copy_; }
+  [[nodiscard]] const control::VirtualTool* copy() const noexcept override { return &copy_.tool(); }
 
  private:
   std::size_t dof_;

@@ -34,6 +34,9 @@ constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: f
 constexpr double kLifeTicks = 3, kLifeMin = 0.005, kLifeMax = 0.03, kFade = 0.02;  // ticks, [s]: a command's life, and how its force then fades
 constexpr double kFarTouch = 1, kFarLinear = 50;        // [m] no hand of such a device is there; a rail has no end
 
+/// A person speeds up by at most 0.5 m/s^2 for the 250 ms that are ever predicted.
+constexpr double kGainsSpeed = 0.125;
+
 double tip_norm(const AxisArray& effort, const AxisArray& scale, std::size_t dof) noexcept {
   double sum = 0;
   for (std::size_t a = 0; a < dof; ++a) sum += effort[a] * effort[a] / scale[a];
@@ -102,6 +105,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     if (lived == 1 && (slave || scene_->tools.size() == 1)) {
       const std::size_t tool = slave ? scene_->seats[i].tool : 0;
       EndLook look{port.heard().port, session.tool(tool).position(), s.server.x, offset_of(i, session), seat != nullptr};
+      if (scene_->channel.law == LawKind::kReplica && !slave) look.gains_speed = kGainsSpeed;
       for (std::size_t a = 0; a < scene_->dof; ++a) look.rx.x[a] -= look.offset[a];  // as the tool sees it
       check_end(i, port.end(), s.server, seat ? seat->setup().axis_scale : AxisArray{1, 1, 1, 1, 1, 1, 1}, look);
     } else {
@@ -120,7 +124,9 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     check_sensor(i, station);
     check_speed(i, station);
     // A master's reference moves against the virtual mass as the tick before left it, a slave's against this tick's reading.
-    const AxisArray& x = seat->sample().port.x;
+    AxisArray x = seat->sample().port.x;
+    if (const control::VirtualTool* const copy = seat->coupling().copy())
+      for (std::size_t a = 0; a < scene_->dof; ++a) x[a] = copy->x(a);
     check_end(i, seat->channel(), s.client, seat->setup().axis_scale,
               {seat->force().port, x, slave ? x : s.client.x, offset_of(i, session), s.was_active && seat->gate().active()});
     s.was_active = seat->gate().active();

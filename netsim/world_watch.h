@@ -101,6 +101,7 @@ class WorldWatch {
     PortSample rx;
     AxisArray x{}, hung{}, offset{};
     bool steady = false;
+    double gains_speed = 0;  ///< [m/s] that a prediction may add to the speed heard
   };
   void check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const EndLook& look);
   void check_starvation(std::size_t i, const control::ChannelEnd& end, End& now, const End& before, const AxisArray& scale, const EndLook& look);

@@ -20,7 +20,8 @@ constexpr double kLeads = 0.5;                          // share of authority of
 /// Hand minus tool, where the tool is what one seat follows; else 0, and nothing is judged that needs it.
 AxisArray WorldWatch::offset_of(std::size_t i, const server::Session& session) const noexcept {
   AxisArray offset{};
-  if (scene_->seats[i].kind != SeatKind::kSlave && scene_->tools.size() != 1) return offset;
+  const bool hears_of_hands = scene_->channel.law == LawKind::kReplica && scene_->seats[i].kind == SeatKind::kMaster;
+  if (hears_of_hands || (scene_->seats[i].kind != SeatKind::kSlave && scene_->tools.size() != 1)) return offset;
   const std::size_t tool = scene_->seats[i].kind == SeatKind::kSlave ? scene_->seats[i].tool : 0;
   for (std::size_t a = 0; a < scene_->dof; ++a) offset[a] = session.seat(i).tx.port.x[a] - session.tool(tool).x(a);
   return offset;
@@ -29,7 +30,7 @@ AxisArray WorldWatch::offset_of(std::size_t i, const server::Session& session) c
 void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const EndLook& look) {
   const control::EndState& state = end.state();
   const control::Promises promises = end.promises();
-  const auto& [rx, x, hung, offset, steady] = look;
+  const auto& [rx, x, hung, offset, steady, gains_speed] = look;
   End now{.known = true, .ref = state.ref, .x = x, .k = state.k, .in = {}, .received = {}, .starved = {}, .home = before.home};
   const double dt = 1 / scene_->tick_hz;
   for (std::size_t a = 0; a < scene_->dof; ++a) {
@@ -41,7 +42,7 @@ void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& b
     const bool anew = ledger.in_nj() == 0 && ledger.received_nj() == 0;  // a client took the seat: a new account
     if (!anew && (now.in[a] < before.in[a] || now.received[a] < before.received[a])) note("energy_monotone", i, !promises.ledger);
     const double was = std::abs(before.ref[a] - hung[a]), is = std::abs(now.ref[a] - hung[a]);
-    const double step = (std::abs(rx.v[a]) + scene_->channel.v_app / std::sqrt(scale[a])) * dt;
+    const double step = (std::abs(rx.v[a]) + gains_speed + scene_->channel.v_app / std::sqrt(scale[a])) * dt;
     const bool rested = now.ref[a] == x[a] || now.ref[a] == before.x[a];  // engaged anew, without elongation
     if (is > was && !rested && std::abs(now.ref[a] - before.ref[a]) > step * (1 + 1e-9) + 1e-12)
       note("approach", i, !promises.bounded_step);
