@@ -82,7 +82,8 @@ void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector& veloci
       const double along = dot(contacts_[c].normal, velocity);
       const bool pushes = surfaces[c].force - surfaces[c].gain * along > 0;
       const bool inside = contacts_[c].penetration(x_) - dt * along > 0;
-      const bool met = pushes && inside;
+      // Once met it stays so while it pushes: its damping may hold the tool just outside, and without it the tool would be inside.
+      const bool met = pushes && (inside || surfaces[c].met);
       changed = changed || met != surfaces[c].met;
       surfaces[c].met = met;
     }

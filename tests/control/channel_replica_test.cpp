@@ -1,0 +1,133 @@
+#include "common/control/channel_replica.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace tandem::control {
+namespace {
+
+ChannelParams one_axis() {
+  ChannelParams p;
+  p.dof = 1;
+  p.k_c = 400;
+  p.b_rel = 12;
+  p.effort_max = 3.3;
+  p.v_app = 1e9;  // no approach limit
+  p.margin_max = 10;
+  return p;
+}
+
+EndInput hears(double r, double authority, double age = 0.0005) {
+  EndInput in;
+  in.rx.x[0] = r;
+  in.authority = authority;
+  in.age = age;
+  return in;
+}
+
+/// After so long that stiffness has gone where delay and authority want it.
+const EndState& settled(ReplicaReference& end, const EndInput& in) {
+  end.engage({}, in.age);
+  for (int i = 0; i < 3000; ++i) end.move(in);
+  return end.state();
+}
+
+TEST(ReplicaReference, AHandThatLeadsAloneIsTiedToNobody) {
+  ReplicaReference end(one_axis());
+  const EndState& s = settled(end, hears(0.005, 1));
+  EXPECT_EQ(s.k[0], 0);
+  EXPECT_EQ(s.b[0], 0);
+  EXPECT_EQ(end.ledger(0).out_nj(), 0u) << "so nothing is paid";
+}
+
+TEST(ReplicaReference, AHandThatFollowsHasTheFullSpringAtAnyDelay) {
+  for (const double delay : {0.001, 0.1, 0.5}) {
+    ReplicaReference end(one_axis());
+    const EndState& s = settled(end, hears(0.005, 0, delay));
+    EXPECT_NEAR(s.k[0], 400, 1e-9) << delay;
+    EXPECT_NEAR(s.b[0], 12, 1e-9) << delay;
+  }
+}
+
+// kappa / 2 d = 2 / (2 * 0.1) = 10 N/m, half of it at half authority; damping relative to the others by the same ratio, and 0.5 k d beside it.
+TEST(ReplicaReference, HandsThatShareAreTiedByWhatTheDelayAllows) {
+  ReplicaReference end(one_axis());
+  const EndState& s = settled(end, hears(0.005, 0.5, 0.1005));
+  EXPECT_NEAR(s.k[0], 0.5 * 10, 5e-3);
+  EXPECT_NEAR(s.b[0], 0.5 * 12 * 10 / 400 + 0.5 * 0.5 * 10 * 0.1, 5e-3);
+  ReplicaReference near(one_axis());
+  EXPECT_NEAR(settled(near, hears(0.005, 0.5, 0.0025)).k[0], 0.5 * 400, 1e-6) << "2 ms allow 500 N/m, more than the spring has";
+}
+
+TEST(ReplicaReference, PaysExactlyWhatAMoveStores) {
+  ReplicaReference end(one_axis());
+  settled(end, hears(0, 0));
+  const double before = end.ledger(0).margin();
+  end.move(hears(0.01, 0));  // 1/2 400 0.01^2 = 20 mJ
+  EXPECT_NEAR(before - end.ledger(0).margin(), 0.02, 1e-8);
+  end.move(hears(0, 0));
+  EXPECT_NEAR(before - end.ledger(0).margin(), 0, 1e-8) << "and gets it back, to spend again";
+}
+
+TEST(ReplicaReference, GoesNoFartherThanIsPaid) {
+  ReplicaReference end(one_axis());
+  settled(end, hears(0, 0));
+  end.move(hears(0.0165, 0));  // 54 mJ wanted, 50 there
+  EXPECT_NEAR(end.state().ref[0], std::sqrt(2 * 0.05 / 400), 1e-6);
+  EXPECT_TRUE(end.ledger(0).holds());
+  EXPECT_NEAR(end.refused(), 0.5 * 400 * 0.0165 * 0.0165 - 0.05, 1e-6);
+}
+
+TEST(ReplicaReference, PredictsForAHandThatFollowsAndNotForOneThatShares) {
+  EndInput in = hears(0, 0, 0.1);
+  in.rx.v[0] = 0.05;
+  ReplicaReference follows(one_axis());
+  EXPECT_NEAR(settled(follows, in).ref[0], 0.005, 1e-9);
+  in.authority = 0.5;
+  ReplicaReference shares(one_axis());
+  EXPECT_NEAR(settled(shares, in).ref[0], 0, 1e-9);
+}
+
+TEST(PredictedHand, GoesToTheBetterPredictionAndNeverByAStep) {
+  ChannelParams p = one_axis();
+  p.v_app = 0.1;
+  PredictedHand end(p);
+  end.engage({}, 0.1);
+  EndInput in = hears(0.005, 1, 0.1);
+  in.rx.v[0] = 0.02;
+  double before = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double now = end.move(in).ref[0];
+    EXPECT_LE(now - before, (0.02 + 0.1) * 0.001 + 1e-12);
+    before = now;
+  }
+  EXPECT_NEAR(before, 0.005 + 0.1 * 0.02, 1e-12);
+  EXPECT_EQ(end.state().k[0], 400);
+  EXPECT_EQ(end.state().rate[0], 0.02);
+}
+
+TEST(PredictedHand, PullsNoHarderThanAnyMotor) {
+  PredictedHand end(one_axis());
+  end.engage({}, 0);
+  EXPECT_DOUBLE_EQ(end.move(hears(0.05, 1)).ref[0], 3.3 / 400);
+  AxisArray away{};
+  away[0] = -0.01;
+  end.give_way(away);
+  EXPECT_DOUBLE_EQ(end.state().ref[0], -0.01 + 3.3 / 400);
+}
+
+TEST(PredictedHand, BadNumbersMoveNothing) {
+  PredictedHand end(one_axis());
+  end.engage({}, 0);
+  end.move(hears(0.002, 1));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EndInput in = hears(nan, 1);
+  in.rx.v[0] = in.rx.a[0] = nan;
+  EXPECT_DOUBLE_EQ(end.move(in).ref[0], 0.002);
+  EXPECT_EQ(end.state().rate[0], 0);
+}
+
+}  // namespace
+}  // namespace tandem::control

@@ -1,0 +1,168 @@
+#include "common/control/tool_copy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/base/rng.h"
+#include "common/control/channel_replica.h"
+#include "tests/base/counts.h"
+#include "tests/support/alloc_guard.h"
+
+namespace tandem::control {
+namespace {
+
+constexpr double kT = 0.001;
+
+ToolCopy::Params one_axis(double k_wall = 0) {
+  ToolCopy::Params p;
+  p.axes = 1;
+  if (k_wall > 0) p.contacts.add({.normal = {-1, 0, 0}, .at = 0, .k = k_wall, .b = 5});
+  return p;
+}
+ChannelParams channel(double e0 = 0.05) {
+  ChannelParams p;
+  p.dof = 1;
+  p.e0 = e0;
+  p.effort_max = 3.3;
+  return p;
+}
+AxisArray at(double x) {
+  AxisArray a{};
+  a[0] = x;
+  return a;
+}
+
+/// One hand, its copy and its end, whose gate gives what is wanted up to `most`.
+struct Seat {
+  explicit Seat(const ToolCopy::Params& p = one_axis(), double e0 = 0.05) : copy(p), end(channel(e0)) {}
+  void engage(double tool, double hand) {
+    copy.rest_at(at(tool), at(hand));
+    end.engage(at(tool), 0);
+  }
+  /// @return force on the hand [N]
+  double tick(double hand, double authority = 1, double r = 0, double r_velocity = 0, double e_in = 0) {
+    EndInput in;
+    in.x[0] = copy.tool().x(0);
+    in.authority = authority;
+    in.rx.x[0] = r;
+    in.rx.v[0] = r_velocity;
+    in.rx.e_in[0] = static_cast<std::uint64_t>(e_in * 1e9);
+    in.dissipated[0] = copy.dissipated(0);
+    end.move(in);
+    const double wanted = copy.step(at(hand), authority, end)[0];
+    const double given = std::clamp(wanted, -most, most);
+    copy.delivered(at(given));
+    return given;
+  }
+  ToolCopy copy;
+  ReplicaReference end;
+  double most = 3.3;
+};
+
+TEST(ToolCopy, ALeaderFeelsBoneThroughHisOwnSpringAtOnce) {
+  Seat seat(one_axis(20000));
+  seat.engage(0, 0);
+  double force = 0;
+  for (int i = 0; i < 3000; ++i) force = seat.tick(std::min(0.005, i * 1e-5));
+  // Springs in series, 1 / (1/400 + 1/20000) = 392 N/m, over 5 mm.
+  EXPECT_NEAR(force, -0.005 / (1 / 400.0 + 1 / 20000.0), 1e-3);
+  EXPECT_LT(seat.end.ledger(0).out_nj(), 10'000u) << "who leads alone pays for the damping relative to his own motion only";
+}
+
+TEST(ToolCopy, TheServerIsToldWhereTheHandPulls) {
+  Seat seat(one_axis(20000));
+  seat.engage(0, 0);
+  for (int i = 0; i < 3000; ++i) seat.tick(std::min(0.004, i * 1e-5));
+  EXPECT_NEAR(seat.copy.anchor(0).x, 0.004, 1e-9) << "the hand itself, where its whole force is given";
+  double force = 0;
+  for (int i = 0; i < 3000; ++i) force = seat.tick(std::min(0.03, 0.004 + i * 1e-5));
+  EXPECT_DOUBLE_EQ(force, -3.3);
+  EXPECT_NEAR(seat.copy.anchor(0).x, seat.copy.tool().x(0) + 3.3 / 400, 1e-6) << "no farther than the motor pulls";
+  EXPECT_NEAR(seat.copy.tool().surface_force()[0], -3.3, 0.01) << "the copy is pulled by what the hand was given";
+}
+
+TEST(ToolCopy, AnOffsetStaysWhileTheGateRampsInAndThenGoesHome) {
+  Seat seat;
+  seat.engage(0, 0.02);
+  for (int i = 0; i < 500; ++i) EXPECT_EQ(seat.tick(0.02), 0) << "a hand that holds still is pulled nowhere";
+  EXPECT_DOUBLE_EQ(seat.copy.offset(0), 0.02);
+  double before = 0.02;
+  for (int i = 0; i < 1000; ++i) {
+    seat.tick(0.02);
+    EXPECT_LE(before - seat.copy.offset(0), 0.1 * kT + 1e-12) << "at v_app at most";
+    before = seat.copy.offset(0);
+  }
+  EXPECT_EQ(before, 0);
+  EXPECT_NEAR(seat.copy.tool().x(0), 0.02, 0.001) << "the tool came to the hand that leads it";
+}
+
+TEST(ToolCopy, AFollowerIsGuidedAsFarAsIsPaid) {
+  // Nothing granted: 50 mJ and no more. 1/2 k (q - y)^2 of the spring, and that of r, are all there is.
+  Seat poor(one_axis(), 0.05);
+  poor.engage(0, 0);
+  double given = 0, before = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double r = 0.05 * std::sin(2 * std::numbers::pi * 0.5 * i * kT);
+    const double hand = before;
+    const double force = poor.tick(hand, 0, r, 0.157 * std::cos(2 * std::numbers::pi * 0.5 * i * kT));
+    before += 2e-5 * force;  // a hand that goes along
+    given += force * (before - hand);
+  }
+  EXPECT_LE(given, 0.05 + 1e-3);
+  EXPECT_TRUE(poor.end.ledger(0).holds());
+  EXPECT_GT(poor.end.refused(), 0.01);
+
+  Seat rich(one_axis(), 0.05);
+  rich.engage(0, 0);
+  double worst = 0, hand = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double r = 0.05 * std::sin(2 * std::numbers::pi * 0.5 * i * kT);
+    hand += 2e-4 * rich.tick(hand, 0, r, 0.157 * std::cos(2 * std::numbers::pi * 0.5 * i * kT), 0.002 * i);
+    if (i > 500) worst = std::max(worst, std::abs(hand - r));
+  }
+  EXPECT_LT(worst, 0.006);
+  EXPECT_EQ(rich.end.refused(), 0);
+}
+
+// The energy balance of the class: what the motor gives a hand, whatever the hand does, never exceeds what it started with, what it was
+// granted, and its heat, plus what hand and spring hold in store.
+TEST(ToolCopy, GivesNoHandMoreThanWasPaid) {
+  const RandomKey key{77};
+  const std::uint64_t cases = test::seeds(200);
+  for (std::uint64_t c = 0; c < cases; ++c) {
+    std::uint64_t n = 0;
+    const auto draw = [&](double low, double high) { return low + (high - low) * key.derive(c).uniform(n++); };
+    Seat seat(one_axis(draw(0, 1) < 0.5 ? 0 : std::pow(10, draw(2, 4.5))), 0.05);
+    const double tool = draw(-0.02, 0.02);
+    double hand = draw(-0.02, 0.02);
+    seat.engage(tool, hand);
+    double authority = draw(0, 1), r = tool, speed = 0, given = 0, received = 0, force = 0;
+    const double hz = draw(0.2, 6), width = draw(0, 0.03), phase = draw(0, 6);
+    for (int i = 0; i < 3000; ++i) {
+      if (draw(0, 1) < 0.002) authority = draw(0, 1);
+      const double t = i * kT;
+      const double next = hand + kT * (speed = 0.98 * speed + draw(-0.02, 0.02));
+      given += force * (next - hand);
+      hand = next;
+      received += draw(0, 1e-5);
+      r = width * std::sin(2 * std::numbers::pi * hz * t + phase);
+      force = seat.tick(hand, authority, r, width * 2 * std::numbers::pi * hz * std::cos(2 * std::numbers::pi * hz * t + phase), received);
+      ASSERT_TRUE(seat.end.ledger(0).holds());
+      // The gate holds a force for a tick: k_c (dq)^2 of each step may be more (here 400 N/m and at most 1 m/s).
+      const double bound = 1e-9 * static_cast<double>(seat.end.ledger(0).bound_nj());
+      ASSERT_LE(given, bound + 400 * 1e-6 * i * 0.5) << "case " << c << " tick " << i;
+    }
+  }
+}
+
+TEST(ToolCopy, TakesNoMemory) {
+  Seat seat(one_axis(20000));
+  seat.engage(0, 0);
+  const test::AllocGuard guard;
+  for (int i = 0; i < 100; ++i) seat.tick(i * 1e-5, 0.5, 0.001);
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+}  // namespace
+}  // namespace tandem::control
