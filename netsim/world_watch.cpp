@@ -243,14 +243,18 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
   const double half_tick = 0.5 / scene_->tick_hz;
   if (s.fresh != Time{}) {
     const double silence = seconds(now - s.fresh);
-    if (seat.gate().active() && silence > scene_->gate.silence_limit + half_tick) note("silence_ramps", i);
-    if (silence > scene_->gate.silence_limit + kRampOut + 3 * half_tick) {
+    const bool hand = scene_->seats[i].kind == SeatKind::kMaster;
+    const double limit = hand ? silence_limit(scene_->gate, scene_->channel.law, seat.force().alpha) : scene_->gate.silence_limit;
+    if (seat.gate().active() && silence > limit + half_tick) note("silence_ramps", i);
+    if (silence > limit + kRampOut + 3 * half_tick) {
       double power = 0;  // what is left may brake a hand and never push it
       for (std::size_t a = 0; a < scene_->dof; ++a) power += seat.effort()[a] * seat.sample().port.v[a];
       if (power > 1e-9) note("silence_brakes", i);
     }
   }
-  if (seat.gate().active() && seconds(fresh.loop_age(own)) > scene_->gate.loop_age_max + 1e-9) note("loop_age", i);
+  const bool replica = scene_->channel.law == LawKind::kReplica && scene_->seats[i].kind == SeatKind::kMaster;
+  const double patience = replica ? silence_limit(scene_->gate, LawKind::kReplica, seat.force().alpha) : 0;
+  if (seat.gate().active() && seconds(fresh.loop_age(own)) > scene_->gate.loop_age_max + patience + 1e-9) note("loop_age", i);
 }
 
 /// Of force and tank that this hand may be given.

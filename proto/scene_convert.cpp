@@ -284,6 +284,8 @@ void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out) {
 
 void read_gate(const pb::Gate& in, GateSpec& out) {
   if (in.has_silence_limit_ms()) out.silence_limit = in.silence_limit_ms() / 1e3;
+  if (in.has_local_hold_ms()) out.local_hold = in.local_hold_ms() / 1e3;
+  if (in.has_follow_hold_ms()) out.follow_hold = in.follow_hold_ms() / 1e3;
   if (in.has_loop_age_max_ms()) out.loop_age_max = in.loop_age_max_ms() / 1e3;
   if (in.has_latch()) out.latch = in.latch();
   if (in.has_ramp_in_ms()) out.ramp_in = in.ramp_in_ms() / 1e3;
@@ -382,6 +384,8 @@ void write_coupling(const CouplingSpec& in, pb::DeviceCoupling& out) {
 
 void write_gate(const GateSpec& in, pb::Gate& out) {
   out.set_silence_limit_ms(in.silence_limit * 1e3);
+  out.set_local_hold_ms(in.local_hold * 1e3);
+  out.set_follow_hold_ms(in.follow_hold * 1e3);
   out.set_loop_age_max_ms(in.loop_age_max * 1e3);
   out.set_latch(in.latch);
   out.set_ramp_in_ms(in.ramp_in * 1e3);

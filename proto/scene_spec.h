@@ -45,11 +45,22 @@ struct CouplingSpec {
 
 struct GateSpec {
   double silence_limit = 0.020;  ///< [s]
+  double local_hold = 0.25;      ///< REPLICA: the same for a hand that leads alone, whose force needs no network [s]
+  double follow_hold = 0.1;      ///< REPLICA: the same for other hands, for as long as others are predicted [s]
   double loop_age_max = 0.100;   ///< [s]
   bool latch = true;
   double ramp_in = 0.5;          ///< [s]
   double force_max = 3.3;        ///< [N], never above what the device declares
 };
+/// Authority from which on a hand counts as leading alone.
+inline constexpr double kLeadsAlone = 0.98;
+/// How long a hand may be given force without news [s].
+[[nodiscard]] constexpr double silence_limit(const GateSpec& gate, LawKind law, double authority) noexcept {
+  if (law != LawKind::kReplica) return gate.silence_limit;
+  const double hold = authority >= kLeadsAlone ? gate.local_hold : gate.follow_hold;
+  return hold > gate.silence_limit ? hold : gate.silence_limit;
+}
+
 /// Of the force and of the energy after a loss that a hand may be given: who only feels what others do gets half (design notes,
 /// security 1.5: a separate lower clamp and tank).
 [[nodiscard]] constexpr double share_of_force(Role role) noexcept { return role == Role::kEvaluator ? 0.5 : 1.0; }

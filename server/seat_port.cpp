@@ -22,7 +22,7 @@ SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& sc
       tick_(from_seconds(1.0 / scene.tick_hz)),
       role_(access_role(scene.seats[seat].role)),
       feels_(allowed(role_, Right::kForce) != Grant::kNo),
-      deaf_after_(from_seconds(scene.gate.silence_limit) + kDeafMargin),
+      deaf_after_(from_seconds(scene.seats[seat].kind == SeatKind::kMaster ? silence_limit(scene.gate, scene.channel.law, 0) : scene.gate.silence_limit) + kDeafMargin),
       end_(make_channel_end(scene, seat, scale)),
       codec_(scene.dof, scene.port) {}
 

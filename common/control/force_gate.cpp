@@ -75,7 +75,8 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
     age_limit_ = learned;
   }
 
-  const bool too_old = in.loop_age > age_limit_;
+  silence_limit_ = std::max(p_.silence_limit, in.patience);
+  const bool too_old = in.loop_age > age_limit_ + in.patience;
   renewed_ = in.fresh && !too_old;
   if (renewed_) {
     last_fresh_ = in.now;
@@ -83,7 +84,7 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
     // A ramp that has begun still holds the stale force: its account closes when the gate engages again, not with the next datagram.
     if (phase_ != GatePhase::kPassive && phase_ != GatePhase::kDamped) given_ = 0;
   }
-  const bool silent = in.now - last_fresh_ >= p_.silence_limit || !heard_;
+  const bool silent = in.now - last_fresh_ >= silence_limit_ || !heard_;
 
   switch (phase_) {
     case GatePhase::kOff:
@@ -124,7 +125,7 @@ void ForceGate::lose(const Input& in, Output& out) noexcept {
   phase_ = GatePhase::kPassive;
   since_ = in.now;
   // A client that wakes up late notices the silence late. The ramp begins when the limit passed, so that it ends in time.
-  ramp_since_ = std::min(in.now, std::max(last_step_, last_fresh_ + p_.silence_limit));
+  ramp_since_ = std::min(in.now, std::max(last_step_, last_fresh_ + silence_limit_));
   at_loss_ = effort_;
   losses_[trips_ % 3] = in.now;
   // Otherwise a flapping link would give a tankful at every loss.

@@ -33,6 +33,7 @@ class ForceGate {
     bool fresh = false;          ///< a strictly newer valid datagram came since the last call
     Duration loop_age{};         ///< own counter echoed by the peer: age on the own clock
     Duration rtt_p99{};          ///< learned
+    Duration patience{};         ///< how long what is simulated here may act without news, where that is longer than the silence limit
     bool engage = false;         ///< the server wants this seat active
     bool reset = false;          ///< the person pressed the button that clears DAMPED
     bool reading_valid = true;   ///< false: position not finite for more than 3 samples -> FAULT
@@ -76,6 +77,7 @@ class ForceGate {
   bool started_ = false, heard_ = false;
   bool renewed_ = false;         ///< this tick brought a fresh datagram from a loop that is young enough
   Duration age_limit_{};
+  Duration silence_limit_{};     ///< in force
   AxisArray effort_{};           ///< held by the motor
   AxisArray at_loss_{};          ///< effort when PASSIVE began
   AxisArray q_{};

@@ -253,7 +253,7 @@ TEST(ChannelLaws, AreFoundByNameAndSayWhatTheyPromise) {
   EXPECT_FALSE(raw->promises().ledger);
   EXPECT_FALSE(raw->promises().bounded_step);
   EXPECT_EQ(make_channel_end("no such law", plain()), nullptr);
-  EXPECT_EQ(channel_laws().front().name, "set_position");
+  EXPECT_EQ(channel_laws().front().name, "replica");
 }
 
 TEST(RawChannel, JumpsAtOnceAndLeavesTheLedgerBroken) {

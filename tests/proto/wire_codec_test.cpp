@@ -57,6 +57,7 @@ TEST(WireCodec, StateComesBackAsItWas) {
       EXPECT_EQ(got->message.stop, sent.stop);
       EXPECT_EQ(got->message.stop_all, sent.stop_all);
       EXPECT_EQ(got->message.resume_stop, sent.resume_stop);
+      EXPECT_EQ(got->message.port.a, sent.port.a);
       EXPECT_EQ(got->message.gate_trips, sent.gate_trips);
       EXPECT_EQ(got->message.late_ticks, sent.late_ticks);
       EXPECT_EQ(got->message.seat_tick, sent.seat_tick);

@@ -50,6 +50,7 @@ inline StateMessage state(RandomStream& random, std::size_t axes) {
   m.stop = random.below(2) == 1;
   m.stop_all = random.below(2) == 1;
   m.resume_stop = static_cast<std::uint32_t>(random.bits());
+  for (std::size_t a = 0; a < axes; ++a) m.port.a[a] = single(random, 100);
   m.gate_trips = static_cast<std::uint32_t>(random.bits());
   m.late_ticks = static_cast<std::uint32_t>(random.bits());
   m.seat_tick = static_cast<std::uint32_t>(random.bits());

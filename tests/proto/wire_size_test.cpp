@@ -7,8 +7,8 @@ namespace {
 
 /// The numbers wire.proto and the documents name. A change here is a change of the protocol.
 TEST(WireSize, IsWhatTheDocumentsSay) {
-  EXPECT_EQ(state_size(3), 295u);
-  EXPECT_EQ(state_size(7), 471u);
+  EXPECT_EQ(state_size(3), 310u);
+  EXPECT_EQ(state_size(7), 502u);
   EXPECT_EQ(force_size(3), 159u);
   EXPECT_EQ(force_size(7), 287u);
   EXPECT_EQ(kPathSize, 25u);

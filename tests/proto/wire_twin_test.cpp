@@ -75,6 +75,7 @@ TEST(WireTwin, StateIsWhatTheLibraryReadsAndWrites) {
       EXPECT_EQ(s.late_ticks(), m.late_ticks);
       EXPECT_EQ(s.seat_tick(), m.seat_tick);
       EXPECT_EQ(s.resume_stop(), m.resume_stop);
+      expect_same(s.a(), m.port.a, axes);
     }
   }
 }
