@@ -217,12 +217,12 @@ std::string who_is_not_active(const World& world) {
 
 }  // namespace
 
-SwarmCase draw_swarm_case(std::uint64_t seed, double safety_max) {
+SwarmCase draw_swarm_case(std::uint64_t seed, double safety_max, LawKind law) {
   SwarmCase out;
   out.seed = seed;
   Draw d(seed, kTimes);
   out.calm = ms(1e3 * d.between(1, std::max(2.0, safety_max)));
-  out.scene_text = draw_scene_text(RandomKey{seed}.derive(0x5a).derive(kScene), std::ceil(seconds(out.calm)) + 2 * kLivenessLimit);
+  out.scene_text = draw_scene_text(RandomKey{seed}.derive(0x5a).derive(kScene), std::ceil(seconds(out.calm)) + 2 * kLivenessLimit, law);
   auto scene = parse_scene(out.scene_text, format("swarm-%llu.textproto", static_cast<unsigned long long>(seed)));
   if (!scene) throw std::logic_error("swarm: seed " + std::to_string(seed) + ": " + to_text(scene.error()));
   out.words = format("%zu masters, %zu tools, %.1f s", scene->masters(), scene->tools.size(), seconds(out.calm));

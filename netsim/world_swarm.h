@@ -26,8 +26,9 @@ inline constexpr double kLivenessLimit = 10;
 inline constexpr double kOrdinary = 10;
 
 /// @param safety_max  longest safety phase [s], at least 2
+/// @param law         of hands, kSetPosition or kReplica
 /// @throws std::logic_error if a drawn scene is not valid: a mistake of the generator, with the reason.
-[[nodiscard]] SwarmCase draw_swarm_case(std::uint64_t seed, double safety_max = 40);
+[[nodiscard]] SwarmCase draw_swarm_case(std::uint64_t seed, double safety_max = 40, LawKind law = LawKind::kSetPosition);
 
 struct SwarmResult {
   std::vector<server::Violation> broken;  ///< of a promise that was made; expected ones are left out

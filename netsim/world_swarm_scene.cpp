@@ -14,7 +14,8 @@ namespace {
 
 class SceneDraw {
  public:
-  SceneDraw(RandomKey key, double duration_s) : random_(key), duration_s_(duration_s) {}
+  SceneDraw(RandomKey key, double duration_s, LawKind law)
+      : random_(key), replica_draws_(key.derive(kReplicaDraws)), replica_(law == LawKind::kReplica), duration_s_(duration_s) {}
 
   std::string text() {
     draw_size();
@@ -52,10 +53,11 @@ class SceneDraw {
   void header() {
     const double limit = std::min(400.0, 2 * 0.2 * tick_hz_);
     out_ += format("version: 1  tick_hz: %g  dof: %zu  duration_s: %g  port: %s  ", tick_hz_, axes_, duration_s_,
-                   axes_ == 3 && chance(0.25) ? "JOINT" : "TIP");
+                   axes_ == 3 && chance(0.25) && !replica_ ? "JOINT" : "TIP");
     out_ += chance(0.1) ? "alpha_step: true\n" : format("alpha_slew_per_s: %.3g\n", chance(0.5) ? 1.0 : log_between(0.1, 100));
     const char* const mfs = std::array{"OPEN", "TANK", "SEED", "SEED_SIGNED"}[choose(std::array{0.7, 0.1, 0.1, 0.1})];
-    out_ += format("channel { law: SET_POSITION mfs: %s", mfs);
+    const bool seeds = mfs[0] == 'S';  // cut a velocity, which this law does not send
+    out_ += format("channel { law: %s mfs: %s", replica_ ? "REPLICA" : "SET_POSITION", replica_ && seeds ? "OPEN" : mfs);
     if (chance(0.4)) out_ += format(" k_n_m: %.4g", log_between(100, 3000));
     const double force_max = chance(0.6) ? 3.3 : between(0.5, 6);
     constexpr double kMin = 60;  // less than the initial energy of the softest spring's full pull would dead-lock a start
@@ -133,8 +135,14 @@ class SceneDraw {
       out_ += format("tool { name: \"tool%zu\" %s }\n", j, ipc.c_str());
       out_ += format("seat { name: \"slave%zu\" kind: SLAVE tool: \"tool%zu\" required: true", j, j);
       out_ += " device { " + device() + " } " + environment() + " }\n";
+      return;
+    }
+    const std::string slave = device(), surfaces = environment();
+    if (replica_ && replica_draws_.uniform() < kVirtual) {
+      const double mass = std::exp(replica_draws_.uniform(std::log(0.005), std::log(0.1)));
+      out_ += format("tool { name: \"tool%zu\" m_s_kg: %.3g slave { model: VIRTUAL %s } }\n", j, mass, surfaces.c_str());
     } else {
-      out_ += format("tool { name: \"tool%zu\" %s slave { ", j, ipc.c_str()) + device() + " " + environment() + " } }\n";
+      out_ += format("tool { name: \"tool%zu\" %s slave { ", j, ipc.c_str()) + slave + " " + surfaces + " } }\n";
     }
   }
 
@@ -160,7 +168,12 @@ class SceneDraw {
       out_ += format("timeline { at_s: %.4f ", at) + weights(random_.below(tools_)) + "}\n";
   }
 
+  static constexpr std::uint64_t kReplicaDraws = 0x72;
+  static constexpr double kVirtual = 0.75;  ///< of the tools that the server simulates
+
   RandomStream random_;
+  RandomStream replica_draws_;  ///< apart, so that a seed draws the same people, tools and motions for every law
+  bool replica_;
   double duration_s_;
   std::size_t axes_ = 3, masters_ = 1, tools_ = 1, leaders_ = 1;
   double tick_hz_ = 1000, damping_ = 0.2;
@@ -169,6 +182,6 @@ class SceneDraw {
 
 }  // namespace
 
-std::string draw_scene_text(RandomKey key, double duration_s) { return SceneDraw(key, duration_s).text(); }
+std::string draw_scene_text(RandomKey key, double duration_s, LawKind law) { return SceneDraw(key, duration_s, law).text(); }
 
 }  // namespace tandem::netsim

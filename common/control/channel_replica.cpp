@@ -74,11 +74,10 @@ void PredictedHand::give_way(const AxisArray& x) noexcept {
 
 const EndState& PredictedHand::move(const EndInput& in) noexcept {
   schedule_.step(std::max(0.0, in.age - 0.5 * in.dt), in.dt);
-  const double approach = params_.v_app;
   for (std::size_t a = 0; a < params_.dof; ++a) {
     const HandMotion heard{in.rx.x[a], in.rx.v[a], in.rx.a[a]};
     const double rate = Prediction::rate(heard, in.age);
-    const double step = (std::max(std::abs(rate), std::abs(in.rx.v[a])) + approach / std::sqrt(params_.scale[a])) * in.dt;
+    const double step = (std::max(std::abs(rate), std::abs(in.rx.v[a])) + Prediction::kApproach / std::sqrt(params_.scale[a])) * in.dt;
     const double reach = params_.effort_max * std::sqrt(params_.scale[a]) / state_.k[a];
     const double near = std::clamp(Prediction::place(heard, in.age), state_.ref[a] - step, state_.ref[a] + step);
     const double leashed = std::clamp(near, in.x[a] - reach, in.x[a] + reach);

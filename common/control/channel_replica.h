@@ -29,7 +29,7 @@ class ReplicaReference final : public PaidEnd {
 };
 
 /// The server's end: the hand as it is by now, predicted over the whole age of its newest sample. It pulls a tool that no hand hears by
-/// way of this end, so nothing is paid. When news come it goes to the better prediction by v_app and never by a step.
+/// way of this end, so nothing is paid. When news come it goes to the better prediction by and by, never by a step.
 class PredictedHand final : public ChannelEnd {
  public:
   explicit PredictedHand(const ChannelParams& params);

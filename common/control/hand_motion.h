@@ -15,8 +15,9 @@ struct HandMotion {
   double a = 0;  ///< [m/s^2]
 };
 
-/// Velocity and acceleration of one axis from encoder steps: a difference through one pole of 13 Hz, and the difference of that through one of
-/// 1.5 Hz. Chosen on recorded motion of people together with `Prediction`; both are one choice.
+/// Velocity and acceleration of one axis from encoder steps: a difference through one pole of 17 Hz, and the difference of that through one of
+/// 2.3 Hz. Chosen together with `Prediction`, on circles with tremor and intention noise and on recorded motion: slower poles lag
+/// behind a hand, faster ones amplify what it does at 3 to 10 Hz (ARCHITECTURE.md has the trade).
 class HandMotionFilter {
  public:
   explicit HandMotionFilter(double dt = 0.001) noexcept
@@ -35,7 +36,7 @@ class HandMotionFilter {
   }
   [[nodiscard]] const HandMotion& now() const noexcept { return now_; }
 
-  static constexpr double kVelocityHz = 13, kAccelerationHz = 1.5;
+  static constexpr double kVelocityHz = 17, kAccelerationHz = 2.3;
 
  private:
   double dt_, velocity_part_, acceleration_part_;
@@ -47,6 +48,7 @@ struct Prediction {
   static constexpr double kHorizonMax = 0.25;       ///< [s]
   static constexpr double kVelocityMax = 1;         ///< [m/s]
   static constexpr double kAccelerationMax = 0.5;   ///< [m/s^2]
+  static constexpr double kApproach = 0.06;         ///< at which a tool goes to a better prediction [m/s]
   /// Half of the velocity filter's own delay is left in: taking all of it out costs more gain than it saves error.
   static constexpr double kFilterDelay = -0.5 / (2 * std::numbers::pi * HandMotionFilter::kVelocityHz);  ///< [s]
 

@@ -251,7 +251,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
                    "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
       ->option_text("SEAT=FILE...")
       ->allow_extra_args(false);
-  command->add_option("--channel", arguments->channel, "channel law instead of the scene's: set_position (passive whatever the network does), raw (what happens without)")
+  command->add_option("--channel", arguments->channel, "channel law instead of the scene's: replica (every client simulates the tool), set_position (passive whatever the network does), raw (what happens without)")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command->add_option("--mfs", arguments->mfs, "flow sources instead of the scene's: open (followers get what they need), tank (only what was dissipated), "
                    "seed, seed_signed (two readings of the source paper's equation 3)")

@@ -34,6 +34,7 @@ constexpr std::size_t kShown = 20;
 struct SwarmArguments {
   std::uint64_t first = 1, seeds = 500;
   double safety_max_s = 40;
+  LawKind law = LawKind::kSetPosition;
   std::size_t jobs = 0;
   bool fail_fast = false, scene = false;
   std::string json, trace;
@@ -42,6 +43,7 @@ struct SwarmArguments {
 std::string replay_command(const SwarmArguments& arguments, std::uint64_t seed) {
   std::string text = format("tandem-netsim swarm --first %llu --seeds 1", static_cast<unsigned long long>(seed));
   if (arguments.safety_max_s != SwarmArguments{}.safety_max_s) text += format(" --safety %g", arguments.safety_max_s);
+  if (arguments.law != SwarmArguments{}.law) text += " --law replica";
   return text + " --trace trace.csv";
 }
 
@@ -72,7 +74,7 @@ Json to_json(const SwarmCase& which, const SwarmResult& result, double cpu_s) {
 /// One seed in the process of its job.
 std::string live_seed(const SwarmArguments& arguments, std::uint64_t seed, io::JobShare share) {
   const std::clock_t begin = std::clock();
-  SwarmCase which = draw_swarm_case(seed, arguments.safety_max_s);
+  SwarmCase which = draw_swarm_case(seed, arguments.safety_max_s, arguments.law);
   which.setup.keep_record = !arguments.trace.empty();
   which.setup.watch_quality = arguments.seeds == 1;
   which.setup.heap_count = heap_allocations;
@@ -167,7 +169,7 @@ std::string summary(const SwarmArguments& arguments, const SwarmSum& sum, double
 }
 
 int print_scene(const SwarmArguments& arguments) {
-  const SwarmCase which = draw_swarm_case(arguments.first, arguments.safety_max_s);
+  const SwarmCase which = draw_swarm_case(arguments.first, arguments.safety_max_s, arguments.law);
   std::printf("# seed %llu: %s\n%s", static_cast<unsigned long long>(which.seed), which.words.c_str(), which.scene_text.c_str());
   for (const Fault& f : which.setup.faults)
     std::printf("# fault at %.3f s for %.3f s: %s%s%s\n", seconds(f.at), seconds(f.length), std::string(name(f.kind)).c_str(),
@@ -242,6 +244,9 @@ void add_swarm_command(CLI::App& root, std::function<int()>& action) {
       "swarm", "Runs random sessions: seats, tools, hands, networks and faults from one seed each, every invariant checked in every tick.");
   command->add_option("--first", arguments->first, "first seed; default 1")->check(io::whole_number())->option_text("N");
   command->add_option("--seeds", arguments->seeds, "how many sessions; default 500")->check(CLI::Range(1, 10'000'000))->option_text("N");
+  command->add_option("--law", arguments->law, "law of the hands: set_position (default) or replica; all else is drawn alike")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, LawKind>{{"set_position", LawKind::kSetPosition}, {"replica", LawKind::kReplica}}, CLI::ignore_case))
+      ->option_text("LAW");
   command->add_option("--safety", arguments->safety_max_s, "longest time in which things go wrong; default 40")
       ->transform(io::number_in(2, 3600, "s"))
       ->option_text("S");

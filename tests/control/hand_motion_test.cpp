@@ -26,12 +26,12 @@ TEST(HandMotionFilter, FindsVelocityAndAccelerationOfSteadyMotion) {
   EXPECT_NEAR(filter.now().a, 0.4, 1e-6);
 }
 
-// One pole of 13 Hz: after 1 / (2 pi 13 Hz) = 12.2 ms a step of velocity is at 63 %.
+// One pole of 17 Hz: after 1 / (2 pi 17 Hz) = 9.4 ms a step of velocity is at 63 %.
 TEST(HandMotionFilter, VelocityHasOnePole) {
   HandMotionFilter filter(kT);
   filter.rest_at(0);
   for (int i = 1; i <= 12; ++i) filter.step(0.1 * kT * i);
-  EXPECT_NEAR(filter.now().v, 0.1 * (1 - std::exp(-2 * std::numbers::pi * 13 * 0.012)), 1e-9);
+  EXPECT_NEAR(filter.now().v, 0.1 * (1 - std::exp(-2 * std::numbers::pi * 17 * 0.012)), 1e-9);
 }
 
 TEST(HandMotionFilter, WhatIsNotFiniteChangesNothing) {
