@@ -34,8 +34,9 @@ constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: f
 constexpr double kLifeTicks = 3, kLifeMin = 0.005, kLifeMax = 0.03, kFade = 0.02;  // ticks, [s]: a command's life, and how its force then fades
 constexpr double kFarTouch = 1, kFarLinear = 50;        // [m] no hand of such a device is there; a rail has no end
 
-/// A person speeds up by at most 0.5 m/s^2 for the 250 ms that are ever predicted.
-constexpr double kGainsSpeed = 0.125;
+/// A person speeds up by at most 0.5 m/s^2 for the 250 ms that are ever predicted, and a tool goes to a better prediction by 60 mm/s,
+/// where a scene's approach speed is less.
+constexpr double kGainsSpeed = 0.125 + 0.06;
 
 double tip_norm(const AxisArray& effort, const AxisArray& scale, std::size_t dof) noexcept {
   double sum = 0;
@@ -236,6 +237,7 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
   const link::Freshness& fresh = seat.link().freshness();
   if (fresh.heard() && fresh.arrived() != s.arrived) {
     s.arrived = fresh.arrived();
+    s.silence_limit = 0;
     s.fresh = now;
     // Also the word that tells the gate to let go; not one so old that it ended the link.
     if (seat.gate().active() || (s.was_active && seat.gate().trips() == s.trips)) s.given = 0;
@@ -244,7 +246,9 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
   if (s.fresh != Time{}) {
     const double silence = seconds(now - s.fresh);
     const bool hand = scene_->seats[i].kind == SeatKind::kMaster;
-    const double limit = hand ? silence_limit(scene_->gate, scene_->channel.law, seat.force().alpha) : scene_->gate.silence_limit;
+    // The longest that was in force since the last word: who loses his authority or his server in a silence lets go from then on.
+    s.silence_limit = std::max(s.silence_limit, hand ? silence_limit(scene_->gate, scene_->channel.law, seat.force().alpha) : scene_->gate.silence_limit);
+    const double limit = s.silence_limit;
     if (seat.gate().active() && silence > limit + half_tick) note("silence_ramps", i);
     if (silence > limit + kRampOut + 3 * half_tick) {
       double power = 0;  // what is left may brake a hand and never push it

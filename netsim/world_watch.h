@@ -54,6 +54,7 @@ class WorldWatch {
     bool was_active = false;
     AxisArray effort{};
     Time served{};
+    double silence_limit = 0;  ///< longest that was in force since [s]
     Time arrived{}, fresh{};  ///< when something newer last acted: on the seat's clock, on the world's
     double given = 0;         ///< energy the motor really gave the hand since then, and since the gate let go [J]
     double late = 0;          ///< for how long its program has not been awake, beyond a tick [s]
