@@ -7,6 +7,7 @@
 #include "common/base/nearest.h"
 #include "netsim/profile_script.h"
 #include "netsim/world_notes.h"
+#include "proto/scene_text.h"
 
 namespace tandem::netsim {
 namespace {
@@ -36,6 +37,7 @@ class Maker {
     if (scene && !spec_.duration_s && out_.setup.scene.endless()) add(spec_.scene.place, no_end(spec_.scene.text, "give the scenario a duration_s"));
     if (spec_.channel) out_.setup.scene.channel.law = *spec_.channel;
     if (spec_.mfs) out_.setup.scene.channel.mfs = *spec_.mfs;
+    if (const auto problem = law_problem(out_.setup.scene)) add(spec_.scene.place, problem->key + ": " + problem->words);
     for (const SeatSpec& s : out_.setup.scene.seats) {
       seats_.push_back(s.name);
       if (s.kind == SeatKind::kMaster) masters_.push_back(s.name);

@@ -7,6 +7,7 @@
 
 #include "common/base/nearest.h"
 #include "proto/scene_convert.h"
+#include "proto/scene_text.h"
 
 namespace tandem::rules {
 namespace {
@@ -269,11 +270,7 @@ void read_phases(const pb::Scene& in, Checker& checker, SceneSpec& out) {
 
 void check_law(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
   const bool joints = scene.port == PortSpace::kJoint;
-  if (scene.channel.law == LawKind::kReplica) {
-    if (joints) checker.error("channel.law", "needs port: TIP, as every client simulates the tool where it meets its surfaces", "REPLICA");
-    if (scene.channel.mfs == MfsMode::kSeed || scene.channel.mfs == MfsMode::kSeedSigned)
-      checker.error("channel.mfs", "cuts a velocity, which law REPLICA does not send; use OPEN or TANK, or law SET_POSITION");
-  }
+  if (const auto problem = law_problem(scene)) checker.error(problem->key, problem->words);
   for (std::size_t t = 0; t < scene.tools.size() && t < static_cast<std::size_t>(in.tool_size()); ++t)
     if (scene.tools[t].is_virtual && joints)
       checker.error(child_path(child_path(child_path("", "tool", static_cast<int>(t)), "slave"), "model"), "needs port: TIP, where surfaces are", "VIRTUAL");

@@ -35,6 +35,15 @@ void read_basics(const pb::Scene& in, Checker& checker, SceneSpec& out) {
 
 }  // namespace
 
+std::optional<LawProblem> law_problem(const SceneSpec& scene) {
+  if (scene.channel.law != LawKind::kReplica) return std::nullopt;
+  if (scene.port == PortSpace::kJoint)
+    return LawProblem{"channel.law", "REPLICA needs port: TIP, as every client simulates the tool where it meets its surfaces"};
+  if (scene.channel.mfs == MfsMode::kSeed || scene.channel.mfs == MfsMode::kSeedSigned)
+    return LawProblem{"channel.mfs", "cuts a velocity, which law REPLICA does not send; use OPEN or TANK, or law SET_POSITION"};
+  return std::nullopt;
+}
+
 std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::string_view file_name) {
   pb::Scene in;
   Checker checker(file_name);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <expected>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,13 @@ using SceneError = InputError;
 /// @param file_name  used in messages; a name ending in `.json` selects JSON, where places are key paths only
 /// @return the scene (its `name` is the file's name without folder and ending), or every mistake found, in file order
 [[nodiscard]] std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::string_view file_name);
+
+/// Why the law of a scene's channel does not fit its other keys, if it does not: for who puts another law in its place.
+struct LawProblem {
+  std::string key;    ///< of the scene
+  std::string words;  ///< follow the key
+};
+[[nodiscard]] std::optional<LawProblem> law_problem(const SceneSpec& scene);
 
 /// Every value in force, defaults included, one per line: key, value and unit in three aligned columns. For `--check`.
 [[nodiscard]] std::string effective_scene_text(const SceneSpec& scene);

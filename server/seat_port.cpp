@@ -1,5 +1,6 @@
 #include "server/seat_port.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +16,16 @@ constexpr Duration kDeafMargin = std::chrono::milliseconds(10);
 constexpr Duration kEchoStallMax = std::chrono::milliseconds(200);
 /// Between two samples of an engaged hand that are less than the hold limit apart.
 constexpr double kJumpMaxM = 1, kJumpMaxRad = 5;
+
+/// How long a seat may be given force without news, at the longest [s].
+double patience(const SceneSpec& scene, std::size_t seat) {
+  return scene.seats[seat].kind == SeatKind::kMaster ? silence_limit(scene.gate, scene.channel.law, 1) : scene.gate.silence_limit;
+}
+/// A hand that simulates its tool holds on for as long as its own gate does: the tool waits for it.
+Duration hold_limit(const SceneSpec& scene, std::size_t seat) {
+  const bool simulates = scene.channel.law == LawKind::kReplica && scene.seats[seat].kind == SeatKind::kMaster;
+  return simulates ? std::max(kHoldLimit, from_seconds(scene.gate.local_hold)) : kHoldLimit;
+}
 }  // namespace
 
 SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& scale)
@@ -22,7 +33,8 @@ SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& sc
       tick_(from_seconds(1.0 / scene.tick_hz)),
       role_(access_role(scene.seats[seat].role)),
       feels_(allowed(role_, Right::kForce) != Grant::kNo),
-      deaf_after_(from_seconds(scene.seats[seat].kind == SeatKind::kMaster ? silence_limit(scene.gate, scene.channel.law, 0) : scene.gate.silence_limit) + kDeafMargin),
+      hold_limit_(hold_limit(scene, seat)),
+      deaf_after_(from_seconds(patience(scene, seat)) + kDeafMargin),
       end_(make_channel_end(scene, seat, scale)),
       codec_(scene.dof, scene.port) {}
 
@@ -92,7 +104,7 @@ SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<
 }
 
 bool SeatPort::alive(Time now) const noexcept {
-  return taken_ && generation_ > 0 && connection_->silence(now) < kHoldLimit;
+  return taken_ && generation_ > 0 && connection_->silence(now) < hold_limit_;
 }
 
 bool SeatPort::deaf() const noexcept {

@@ -112,6 +112,7 @@ class SeatPort {
   Duration tick_;
   AccessRole role_;
   bool feels_;
+  Duration hold_limit_;
   Duration deaf_after_;  ///< its own word that it hears nothing
   Conduct conduct_;
   std::array<std::byte, 32> resume_{};

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/control/hand_motion.h"
 #include "server/session.h"
 
 /// What a tick does to springs and tools (design notes, control 4), in the order of the functions.
@@ -225,10 +224,11 @@ void Session::follow_others(std::size_t i) noexcept {
         for (std::size_t h = 0; h < masters_; ++h) {
           const double part = h == i ? 0 : tools_[j].authority.alpha(h) / others;
           if (part == 0) continue;
+          const control::EndState& by_now = seats_[h].end().state();
           const PortSample& hand = seats_[h].heard().port;
-          const double age = tie.alpha < kShares ? seats_[h].age() : 0;
-          x += part * (present_[h] ? control::Prediction::place_for_hand(hand.x[a], hand.v[a], age) : seats_[h].end().state().ref[a]);
-          v += part * (present_[h] ? hand.v[a] : 0);
+          const bool shares = tie.alpha >= kShares && present_[h];
+          x += part * (shares ? hand.x[a] : by_now.ref[a]);
+          v += part * (shares ? hand.v[a] : present_[h] ? by_now.rate[a] : 0);
         }
       }
       following_[i][a] += tie.follow * x;

@@ -107,6 +107,7 @@ WorldSetup understand(const RunArguments& arguments, std::vector<std::string>& n
   if (arguments.channel == "set_position") setup.scene.channel.law = LawKind::kSetPosition;
   for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
     if (arguments.mfs == server::mfs_name(mode)) setup.scene.channel.mfs = mode;
+  if (const auto problem = law_problem(setup.scene)) mistakes.add((arguments.channel.empty() ? "--mfs: " : "--channel: ") + arguments.scene + ": " + problem->key + ": " + problem->words);
   for (const std::string& text : arguments.hands) {
     const auto cut = text.find('=');
     const std::string seat = text.substr(0, cut);

@@ -13,6 +13,7 @@
 #include "netsim/app/sweep.h"
 #include "netsim/app/test_progress.h"
 #include "proto/io/scene_file.h"
+#include "proto/scene_text.h"
 #include "netsim/world_notes.h"
 #include "server/session_monitor.h"
 
@@ -78,6 +79,7 @@ SweepSpec understand(const SweepArguments& a, Mistakes& mistakes) {
       if (a.mfs == server::mfs_name(mode)) spec.scene.channel.mfs = mode;
     add("--mfs " + a.mfs);
   }
+  if (const auto problem = law_problem(spec.scene)) mistakes.add((a.channel.empty() ? "--mfs: " : "--channel: ") + a.scene + ": " + problem->key + ": " + problem->words);
   return spec;
 }
 

@@ -58,6 +58,20 @@ void expect_same(const SeatSetup& a, const SeatSetup& b) {
     EXPECT_EQ(a.seat.hand.trajectory.waypoints[i].p.x, b.seat.hand.trajectory.waypoints[i].p.x);
   }
   EXPECT_EQ(a.seat.environment.wall.has_value(), b.seat.environment.wall.has_value());
+  EXPECT_EQ(a.channel.b_rel, b.channel.b_rel);
+  expect_near(a.gate.local_hold, b.gate.local_hold);
+  expect_near(a.gate.follow_hold, b.gate.follow_hold);
+  EXPECT_EQ(a.m_s, b.m_s);
+  EXPECT_EQ(a.b_s, b.b_s);
+  ASSERT_EQ(a.environment.wall.has_value(), b.environment.wall.has_value());
+  if (a.environment.wall) {
+    EXPECT_EQ(a.environment.wall->axis, b.environment.wall->axis);
+    EXPECT_EQ(a.environment.wall->at, b.environment.wall->at);
+    EXPECT_EQ(a.environment.wall->k, b.environment.wall->k);
+    EXPECT_EQ(a.environment.wall->b, b.environment.wall->b);
+    EXPECT_EQ(a.environment.wall->from_below, b.environment.wall->from_below);
+  }
+  EXPECT_EQ(a.environment.tissue.has_value(), b.environment.tissue.has_value());
   for (std::size_t i = 0; i < a.dof; ++i) EXPECT_EQ(a.axis_scale[i], b.axis_scale[i]);
 }
 
@@ -121,6 +135,25 @@ TEST(SeatSetup, KnowsWhatAServingSeatNeeds) {
   EXPECT_EQ(setup.seat.environment.wall->k, 20000);
 }
 
+/// A master of law REPLICA simulates the tool: he is told its mass, its damping and what it meets.
+TEST(SeatSetup, TellsAMasterOfTheToolThatHeFollows) {
+  auto spec = scene("contact");
+  spec.channel.law = LawKind::kReplica;
+  spec.tools[0].m_s = 0.033;
+  spec.tools[0].b_s = 0.44;
+  spec.tools[0].environment.tissue = TissueSpec{};
+  const auto setup = seat_setup(spec, 1);
+  EXPECT_EQ(setup.m_s, 0.033);
+  EXPECT_EQ(setup.b_s, 0.44);
+  ASSERT_TRUE(setup.environment.wall && setup.environment.tissue);
+  Buffer buffer;
+  const auto size = encode_seat_setup(setup, buffer);
+  const auto got = decode_seat_setup(std::span(buffer).first(size));
+  ASSERT_TRUE(got.has_value()) << to_text(got.error());
+  expect_same(setup, *got);
+  EXPECT_EQ(got->channel.law, LawKind::kReplica);
+}
+
 TEST(SeatSetup, IsHeldAgainstTheLimitsOfFiles) {
   const auto spec = scene("contact");
   const auto refused = [&](auto change, const std::string& key) {
@@ -140,6 +173,11 @@ TEST(SeatSetup, IsHeldAgainstTheLimitsOfFiles) {
   refused([&](SeatSetup& s) { s.dof = 4; }, "dof");
   refused([&](SeatSetup& s) { s.gate.silence_limit = 0.5; }, "gate.silence_limit_ms");
   refused([&](SeatSetup& s) { s.gate.force_max = 1e9; }, "gate.force_max_n");
+  refused([&](SeatSetup& s) { s.gate.local_hold = 0.5; }, "gate.local_hold_ms");
+  refused([&](SeatSetup& s) { s.channel.b_rel = -1; }, "channel.b_rel_n_s_m");
+  refused([&](SeatSetup& s) { s.m_s = 0; }, "m_s_kg");
+  refused([&](SeatSetup& s) { s.b_s = nan; }, "b_s_n_s_m");
+  refused([&](SeatSetup& s) { s.environment.wall->k = -1; }, "environment.wall.k_n_m");
   refused([&](SeatSetup& s) { s.coupling.k_c = -1; }, "device_coupling.k_c_n_m");
   refused([&](SeatSetup& s) { s.axis_scale[1] = 0; }, "axis_scale[1]");
   refused([&](SeatSetup& s) { s.seat.name = "\x1b[2J"; }, "seat.name");
