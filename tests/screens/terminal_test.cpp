@@ -176,6 +176,23 @@ TEST(Announced, AResumeARemovalAndADrainAtEverySeat) {
   EXPECT_EQ(host.wait(), 0) << host.err();
 }
 
+/// The hand-over acts only when the session goes on: a person who ordered it reads it at once, else the other hand leads without a word.
+TEST(Handover, ThatAPersonOrdersInAStopIsToldOnTheScreenAndActsAtTheResume) {
+  TerminalProcess trial({TANDEM_CLIENT, "try"}, 160, 40);
+  ASSERT_TRUE(trial.wait_for("you hold the seat instructor")) << trial.picture();
+  ASSERT_TRUE(trial.wait_for("force on")) << trial.picture();
+  trial.type("S");
+  ASSERT_TRUE(trial.wait_for("STOPPED by instructor: r resumes")) << trial.picture();
+  EXPECT_EQ(flat(trial.terminal().all()).find("gives the tool"), std::string::npos) << "nobody ordered anything" << trial.picture();
+  trial.type("0");
+  EXPECT_TRUE(trial.wait_for("instructor gives the tool to trainee (")) << trial.picture();
+  EXPECT_TRUE(trial.wait_until([](const Terminal& t) { return flat(status_of(t, "instructor")).find("when the session goes on") != std::string::npos; })) << trial.picture();
+  trial.type("r");
+  EXPECT_TRUE(trial.wait_until([](const Terminal& t) { return flat(status_of(t, "instructor")).find("trainee leads") != std::string::npos; })) << trial.picture();
+  trial.type("q");
+  EXPECT_EQ(trial.wait(), 0) << trial.picture();
+}
+
 TEST(Held, SaysWhyAtTheSeatThatIsLeft) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
