@@ -70,6 +70,18 @@ TEST(Notice, ADrainShowsHowFarItIsAtTheConsoleAndAtTheServer) {
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
 }
 
+/// The console stays open behind its order; the one who ordered the end is told that it came as ordered, and is not asked to guess.
+TEST(Notice, ADrainOrderedInAConsoleEndsItWithoutAComplaint) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const std::string pipe = folder.file("pipe");
+  Process console({"/bin/bash", "-c", "mkfifo " + pipe + " && exec 3<>" + pipe + " && echo drain 1 >&3 && exec " + TANDEM_CLIENT + " control --server " + address_of(host) + " <&3"});
+  EXPECT_EQ(console.wait(), 0) << console.out() << console.err();
+  EXPECT_NE(console.out().find("the server has ended: the drain was carried out as ordered"), std::string::npos) << console.out() << console.err();
+  EXPECT_EQ(console.err(), "");
+  EXPECT_EQ(host.wait(), 0) << host.err();
+}
+
 TEST(Notice, ASessionThatNeverBeganSaysWhoWasMissing) {
   const Folder folder;
   Process host = hosting("free_motion", {"--json", folder.file("r.json")});
