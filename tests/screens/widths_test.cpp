@@ -56,6 +56,16 @@ TEST(Widths, OfADoctorsFindings) {
   }
 }
 
+TEST(Widths, OfALinkTest) {
+  Process host = hosting("free_motion", {"--duration", "600"});
+  for (const std::size_t columns : {60u, 80u, 120u}) {
+    TerminalProcess test({TANDEM_CLIENT, "link-test", "--server", address_of(host), "--duration", "1"}, columns, 400);
+    static_cast<void>(test.wait());  // a busy machine may be called unfit
+    EXPECT_NE(flat(test.terminal().all()).find("ticks late by more than 1 ms"), std::string::npos) << test.picture();
+    for (const std::string& row : test.terminal().wraps()) ADD_FAILURE() << columns << ", cut by the margin: " << row;
+  }
+}
+
 TEST(Widths, OfAProxysSummary) {
   for (const std::size_t columns : kWidths) {
     TerminalProcess proxy({TANDEM_NETSIM, "proxy", "--to", "127.0.0.1:9", "--listen", "127.0.0.1:0", "--delay", "20", "--loss", "5", "--jitter", "5"}, columns, 24);
