@@ -210,6 +210,21 @@ TEST(Held, SaysWhyAtTheSeatThatIsLeft) {
   ASSERT_TRUE(trainee.wait_for("HELD: trainer left")) << trainee.picture();
 }
 
+TEST(Held, NamesTheKeyThatHelpsASeatThatMovesAuthority) {
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const std::string address = address_of(host);
+  Process trainee = client(address, "trainee");
+  TerminalProcess trainer({TANDEM_CLIENT, "join", "--server", address, "--seat", "trainer", "--device", "sim"}, 80, 24);
+  ASSERT_TRUE(trainer.wait_for("force on")) << trainer.picture();
+  trainer.type("0");
+  ASSERT_TRUE(trainer.wait_for("trainee leads")) << trainer.picture();
+  trainee.signal(SIGINT);
+  EXPECT_EQ(trainee.wait(), 0) << trainee.err();
+  ASSERT_TRUE(trainer.wait_for("HELD: trainee left; 1 takes the tool")) << trainer.picture();
+  trainer.type("1");
+  EXPECT_TRUE(trainer.wait_until([](const Terminal& t) { return flat(status_of(t, "trainer")).find("you lead 100 %") != std::string::npos; })) << "the key does what is said" << trainer.picture();
+}
+
 TEST(Proxy, ShowsWholeColumnsAtEveryWidth) {
   TerminalProcess proxy({TANDEM_NETSIM, "proxy", "--to", "127.0.0.1:9", "--listen", "127.0.0.1:0"}, 80, 24);
   ASSERT_TRUE(proxy.wait_for("(a command; `help`)")) << proxy.picture();
