@@ -234,7 +234,7 @@ std::vector<std::string> words_of(const std::string& line) {
 
 int tell_gone(bool person, int worst) {
   io::printf_for_people(stderr,
-               "%standem-client control: the server ended this connection: it was stopped, is being started anew, or took the right to it away. Nothing can be\n"
+               "%standem-client control: the server ended this connection: it was stopped, is being restarted, or took the right to it away. Nothing can be\n"
                "ordered here any more; start again, with a new ticket if you came with one (`tandem-server ticket` on the server)\n",
                person ? "\n" : "");
   return std::max(worst, kRefused);
