@@ -106,7 +106,7 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
           r.tools[j].contact_force_rms_n, r.tools[j].penetration_max_m * 1e3);
   for (std::size_t j = 0; j < r.tools.size(); ++j)
     if (r.tools[j].held_s > 0.01)
-      put(out, "  %s: HELD for %.1f s: nobody entitled to it, or not its own slave, was there; it stood braked and no hand was guided\n",
+      put(out, "  %s: HELD for %.1f s: no seat with authority over it, or not its own slave, was there; it stood braked and no hand was guided\n",
           scene.tools[j].name.c_str(), r.tools[j].held_s);
   if (r.stopped_s > 0) put(out, "  the session was stopped for %.1f s, in which its clock stood still\n", r.stopped_s);
   if (r.duration_s <= 0) {

@@ -28,7 +28,7 @@ std::optional<tandem::control::StatusStop> newest_stop(const StopLane& lane, con
   stop.kind = (known ? newest.level : lane.level()) == StopLane::Level::kPaused ? tandem::control::StopKind::kPause : tandem::control::StopKind::kStop;
   if (newest.by < scene.seats.size()) stop.seat = scene.seats[newest.by].name;
   if (known && newest.by == StopLane::kNobody) stop.kind = tandem::control::StopKind::kFault;
-  if (!known) stop.why = "it was on before the server was started anew";
+  if (!known) stop.why = "it was on before the server was restarted";
   stop.role = newest.role;
   stop.ago_s = std::max(0.0, ago_s);
   stop.ends = who_ends(lane, scene, there);

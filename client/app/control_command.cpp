@@ -14,6 +14,7 @@
 #include "client/app/control_words.h"
 #include "client/app/server_option.h"
 #include "common/base/format.h"
+#include "common/io/clock.h"
 #include "common/io/help_text.h"
 #include "common/io/number_option.h"
 #include "common/io/print.h"
@@ -109,6 +110,9 @@ class Attendant {
     }
   }
 
+  /// A drain ordered here was due: a server that ended the connection now did what it was told.
+  [[nodiscard]] bool drained() const { return drain_due_ && io::monotonic_now() >= *drain_due_; }
+
   int obey(const Wish& wish) {
     const control::Id& id = console_.welcome.session_id;
     switch (wish.what) {
@@ -125,10 +129,13 @@ class Attendant {
       case Wish::What::kRemove:
         if (!order(control::RemovePerson{id, wish.seat, wish.why})) return kRefused;
         return say(wish.seat + ": let go; the seat is free in a moment, and the session's code does not let that workstation in again");
-      case Wish::What::kDrain:
+      case Wish::What::kDrain: {
+        const Time due = io::monotonic_now() + std::chrono::seconds(wish.grace_s);  // looked at before the server does: it never ends earlier
         if (!order(control::Drain{wish.grace_s})) return kRefused;
+        if (!drain_due_ || due < *drain_due_) drain_due_ = due;
         return say(wish.grace_s == 0 ? std::string("draining: all hands are let go, then the server ends")
                                      : format("draining: nobody new comes in; all hands are let go in %u s, then the server ends", wish.grace_s));
+      }
       case Wish::What::kHelp:
         return say(control_words_help());
       case Wish::What::kQuit:
@@ -213,6 +220,7 @@ class Attendant {
   Console console_;
   Asking asked_;
   std::optional<control::Status> seen_;
+  std::optional<Time> drain_due_;  ///< the earliest that was ordered here
   std::chrono::milliseconds patience_;
   bool json_;
 };
@@ -226,7 +234,7 @@ std::vector<std::string> words_of(const std::string& line) {
 
 int tell_gone(bool person, int worst) {
   io::printf_for_people(stderr,
-               "%standem-client control: the server ended this connection: it was stopped, is being started anew, or took the right to it away. Nothing can be\n"
+               "%standem-client control: the server ended this connection: it was stopped, is being restarted, or took the right to it away. Nothing can be\n"
                "ordered here any more; start again, with a new ticket if you came with one (`tandem-server ticket` on the server)\n",
                person ? "\n" : "");
   return std::max(worst, kRefused);
@@ -250,7 +258,11 @@ int converse(Attendant& attendant, int signals) {
       if (became != Attendant::Look::kGone) continue;
     }
     waiting = false;
-    if (lines.server_gone() || (!line && lines.idle())) return tell_gone(person, worst);
+    if (lines.server_gone() || (!line && lines.idle())) {
+      if (!attendant.drained()) return tell_gone(person, worst);
+      std::printf("%sthe server has ended: the drain was carried out as ordered\n", person ? "\n" : "");
+      return worst;
+    }
     if (!line) return worst;
     const auto words = words_of(*line);
     if (words.empty()) continue;

@@ -34,7 +34,7 @@ int enrol(const trust::EnrolmentString& given, const io::SocketAddress& server, 
     if (seen == given.server) return &own->identity();
     return std::unexpected("the server at " + given.address +
                            " has another key than the string says, so nothing was told to it. Either another machine answers there, or the server was set up "
-                           "anew: ask for a new string");
+                           "again: ask for a new string");
   };
   auto client = trust::ControlClient::connect(server, judge, patience, signals.get());
   const auto told = [](const trust::ClientFault& fault) {

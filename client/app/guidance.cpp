@@ -74,9 +74,12 @@ std::vector<std::string> Guidance::say(double now_s, const ClientStatus& status)
     step.told = true;
     lines.push_back("  " + step.happened + format(" (your hand feels %.1f N, your part of the tool is %.0f %%)", status.force_n, 100 * status.alpha));
   }
+  // A key that is asked for should do what is said of it.
+  const bool all = status.session == wire::SessionState::kStopped || status.session == wire::SessionState::kPaused;
+  const std::string first = all ? "press r first, everybody is stopped; then " : status.own_stop ? "press r first, your hand is stopped; then " : "";
   for (; next_ < steps_.size() && now_s - *began_ >= steps_[next_].at; ++next_)
     lines.push_back(format("%zu/%zu  ", next_ + 1, steps_.size()) +
-                    (steps_[next_].pressed ? steps_[next_].early + ": you have done that already" : steps_[next_].text));
+                    (steps_[next_].pressed ? steps_[next_].early + ": you have done that already" : (steps_[next_].keys.empty() ? "" : first) + steps_[next_].text));
   return lines;
 }
 

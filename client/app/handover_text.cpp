@@ -76,7 +76,7 @@ std::string handover_text(const ClientStatus& s, const SeatSetup& setup, const W
   const std::string by = giver(p.by, setup), to = name_of(setup.masters, p.to);
   const std::optional<double> before = part_before(s, setup, words);
   const std::string parts = (before ? format("%.0f %% ", 100 * *before) : "") + format("to %u %%", p.percent), course = ": " + course_text(s, setup, before);
-  if (to.empty()) return by + " shares " + tool + " anew (your part " + parts + ")" + course;
+  if (to.empty()) return by + " sets new parts of " + tool + " (your part " + parts + ")" + course;
   const std::string more = p.percent >= 100 ? "" : "more of ";
   if (by == to) return by + " takes " + more + tool + " (" + parts + ")" + course;
   return by + " gives " + more + tool + " to " + to + " (" + parts + ")" + course;

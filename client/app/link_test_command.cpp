@@ -229,7 +229,7 @@ int test_link(const Arguments& arguments, const io::SocketAddress& address, doub
     if (const std::string notice = io::realtime_notice(fifo, memory, awake.granted());
         !notice.empty() && findings.late_ticks + findings.missed_ticks > 0)
       text += "- " + notice + "\n";
-    std::fputs(text.c_str(), stdout);
+    std::fputs(io::for_terminal(text, stdout).c_str(), stdout);
   }
   json.write(to_json(findings, verdict, server, to_text(ended), ended == Ended::kDone));
   if (const auto problem = json.close(); !problem.empty()) return trouble(problem);

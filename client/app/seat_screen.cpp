@@ -19,6 +19,20 @@ using Words = std::optional<control::Status>;
 
 bool is_slave(const SeatSetup& setup) { return setup.seat.kind == SeatKind::kSlave; }
 
+/// Whether key 1 ends a HELD: this seat moves authority, a seat that has some of its tool was left, and no slave is missing.
+bool takes_what_was_left(const SeatSetup& setup, const control::Status& words) {
+  const std::size_t tool = static_cast<std::size_t>(setup.seat.tool);
+  if (!setup.moves_authority() || is_slave(setup) || tool >= words.tools.size()) return false;
+  const auto& alpha = words.tools[tool].alpha;
+  bool left = false;
+  std::size_t k = 0;
+  for (const control::StatusSeat& seat : words.seats) {
+    if (!seat.master && !(seat.taken && seat.heard)) return false;
+    if (seat.master && k < alpha.size()) left = (alpha[k++] > 0 && !seat.taken) || left;
+  }
+  return left;
+}
+
 /// `trainer`, or the workstation of a console.
 std::string maker(const ClientStatus& s, const Words& words) {
   if (!words || !words->stop || words->stop->number < s.stops) return {};  // of an older stop
@@ -50,7 +64,7 @@ io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const W
     case wire::SessionState::kRunning:
       return s.own_stop ? io::ScreenItem{name + time + " YOUR HAND IS STOPPED: r resumes", name + "YOUR HAND IS STOPPED: r resumes"} : io::ScreenItem{name + time, ""};
     case wire::SessionState::kHeld: {
-      const std::string own = own_reason(s), why = !own.empty() || !words ? own : printable(words->held, kReasonMax);
+      const std::string own = own_reason(s), why = !own.empty() || !words ? own : printable(words->held, kReasonMax) + (takes_what_was_left(setup, *words) ? "; 1 takes the tool" : "");
       return {name + time + " HELD" + (why.empty() ? "" : ": " + why), name + "HELD" + (why.empty() ? "" : ": " + why)};
     }
     case wire::SessionState::kPaused:

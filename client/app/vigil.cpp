@@ -81,7 +81,7 @@ SeatEnd Vigil::keep() {
   if (last.close_reason == wire::CloseReason::kRemoved || last.close_reason == wire::CloseReason::kRevoked) {
     const std::string why = last.close_reason == wire::CloseReason::kRemoved ? ask_why_gone(connection_.get(), own_.session) : "";
     trouble_ = last.close_reason == wire::CloseReason::kRemoved ? "the seat was taken away by somebody who may; ask him for a ticket" + (why.empty() ? "" : ". The server says: " + why)
-                                                                : "this workstation was revoked on the server; ask its admin to enrol it anew";
+                                                                : "this workstation was revoked on the server; ask its admin to enrol it again";
     return SeatEnd::kSeatGone;
   }
   return last.close_reason == wire::CloseReason::kDone ? SeatEnd::kDone : SeatEnd::kServerStopped;
@@ -154,7 +154,7 @@ std::optional<SeatEnd> Vigil::take_back() {
   o_.pump.hand_over(std::move(back->handover));
   handed_over_ = io::monotonic_now();
   const control::Welcome& welcome = back->given.welcome;
-  o_.line.note(welcome.epoch > own_.epoch ? "the server was started anew and gave the seat back" : "the server gave the seat back");
+  o_.line.note(welcome.epoch > own_.epoch ? "the server was restarted and gave the seat back" : "the server gave the seat back");
   own_.epoch = welcome.epoch;
   own_.server = back->given.server;
   own_.secrets.insert(own_.secrets.begin(), welcome.resume_secret);

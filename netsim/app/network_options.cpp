@@ -124,7 +124,7 @@ void NetworkOptions::add_to(CLI::App& command) {
       ->group(group);
   command
       .add_option("--network", network_,
-                  "the same, or a recording: .csv with a column rtt_ms or delay_ms (empty: lost) and t_s or t_send_s; "
+                  "a profile or a file, as --profile takes, or a recording: .csv with a column rtt_ms or delay_ms (empty: lost) and t_s or t_send_s; "
                   "or a recorded capacity: mahimahi's file, or .csv with direction,t_ms,opportunities; excludes the "
                   "numbers")
       ->option_text("NAME|FILE")

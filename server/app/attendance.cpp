@@ -25,7 +25,7 @@ std::string stop_text(const char* what, const SessionStatus& status, const Scene
 Attendance::News Attendance::look(Time now, const SessionStatus& status, const SceneSpec& scene) {
   using State = wire::SessionState;
   News news;
-  const bool runs = status.state != State::kWaiting && status.state != State::kEnding;
+  const bool runs = status.state != State::kWaiting && status.state != State::kEnding && !status.waits;
   std::size_t came = 0, lost = 0, left = 0, taken = 0;
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const SeatStatus& now_there = status.seats[i];

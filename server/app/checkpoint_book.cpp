@@ -168,7 +168,7 @@ void CheckpointBook::write(Page& page, const Checkpoint& checkpoint) {
   const std::string problem = folder_.replace(file_of(page.kept.name), std::span<const std::byte>(encode_kept(page.kept)));
   if (problem.empty()) page.written = std::move(bytes);
   const bool before = std::exchange(page.troubled, !problem.empty());
-  if (!problem.empty() && !before) trouble_("session " + page.kept.name + ": " + problem + "; after a crash it would begin anew");
+  if (!problem.empty() && !before) trouble_("session " + page.kept.name + ": " + problem + "; after a crash it would start from the beginning");
 }
 
 }  // namespace tandem::server

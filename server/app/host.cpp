@@ -157,7 +157,7 @@ class Host {
   void tell_what_was_left(const SessionRun& r, const CheckpointBook::Found& left) {
     const std::string& name = r.plan().name;
     if (!left.unfit.empty()) {
-      const std::string text = "session " + name + " begins anew: its checkpoint is not used: " + left.unfit;
+      const std::string text = "session " + name + " starts from the beginning: its checkpoint is not used: " + left.unfit;
       if (!io::logs_json()) line_.warn(text);
       io::tell(io::Level::kWarn, {.event = "checkpoint_unfit", .session = name, .text = text});
     }
@@ -168,7 +168,7 @@ class Host {
                               static_cast<unsigned long long>(r.epoch()));
     if (from.begun) text += "; it waits until the instructors and all who led are back, or an instructor (key r) or operator (`tandem-client control" + reach(r) + " resume`) goes on without";
     if (from.stop != StopLane::Level::kNone) text += "; somebody had stopped it, and it stays so until an instructor or operator resumes";
-    if (!io::logs_json()) line_.note(text + (plan_.returns ? "" : "; --fresh begins anew"));
+    if (!io::logs_json()) line_.note(text + (plan_.returns ? "" : "; --fresh starts it from the beginning"));
     io::tell(io::Level::kInfo, {.event = "session_restored", .session = name, .tick = from.session_tick, .text = text});
   }
 

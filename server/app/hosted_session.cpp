@@ -142,6 +142,7 @@ void HostedSession::publish(Time now, const MachineStatus& machine) noexcept {
   picture_.state = session_.state();
   picture_.time = session_.time();
   picture_.stop = session_.stop_lane();
+  picture_.waits = !session_.begun() || session_.gathering();
   picture_.machine = machine;
   picture_.stray = session_.stray();
   picture_.violations = violations_.passed() ? 0 : 1;

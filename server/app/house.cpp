@@ -150,7 +150,7 @@ std::variant<House::Room*, Refused> House::room_for(const JoinRequest& request) 
   if (found == nullptr) {
     const bool by_code = std::holds_alternative<std::string>(request.hello.session);
     // A code that names a session is tried by it, whatever else is shown.
-    return Refused{by_code ? Reason::kCode : Reason::kNoSession, (by_code ? "no session here has this code (one that begins anew has another: ask for it); open: " : "there is no such session here; open: ") + names_of(open), 0};
+    return Refused{by_code ? Reason::kCode : Reason::kNoSession, (by_code ? "no session here has this code (a session that starts again has another: ask for it); open: " : "there is no such session here; open: ") + names_of(open), 0};
   }
   if (found->opening.session->over()) return Refused{Reason::kSessionOver, "this session is over", 0};
   return found;

@@ -140,7 +140,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
                    "a number for the report, to name the run; default 1 (a live session draws nothing)")
       ->option_text("N");
   command->add_flag("--fresh", arguments->fresh,
-                    "begins anew although the last server of this scene died here less than 10 min ago; default: the session goes on where it was, "
+                    "starts from the beginning although the last server of this scene died here less than 10 min ago; default: the session goes on where it was, "
                     "and its clients come back by themselves (not with port 0 on loopback, where nobody would find it)");
   command->add_flag("--quiet", arguments->quiet, "no status and no summary");
   command->footer(

@@ -132,7 +132,7 @@ void add_serve_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--quiet", arguments->quiet, "no status and no summaries");
   command->footer(
       "Prints `listening on HOST:PORT` first, then the commands that people type; on a terminal with each session's code, elsewhere\n"
-      "`tandem-server sessions` shows the codes. A session that is over opens anew, with another code, unless\n"
+      "`tandem-server sessions` shows the codes. A session that is over opens again, with another code, unless\n"
       "`restart: false`. SIGTERM or Ctrl-C: nobody new comes in, all hands are let go, reports are written, the end within 3 s; a second\n"
       "one ends at once. Started again within 10 min, however it ended, every session goes on where it was, with the same code, and its\n"
       "clients come back to their seats by themselves. Sessions of different tick rates have threads of their own, behind one port.\n"

@@ -12,7 +12,8 @@ namespace {
 /// A session that waits for nobody in particular runs, or is stopped, though nobody came since the restart.
 bool nobody_came_back(const SessionStatus& status, const SceneSpec& scene) {
   const std::span seats(status.seats.begin(), scene.seats.size());
-  return std::ranges::none_of(seats, status.state == wire::SessionState::kWaiting ? &SeatStatus::taken : &SeatStatus::ever_taken);
+  const bool waits = status.waits || status.state == wire::SessionState::kWaiting;
+  return std::ranges::none_of(seats, waits ? &SeatStatus::taken : &SeatStatus::ever_taken);
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ struct SessionStatus {
   std::array<SeatStatus, kSeatsMax> seats{};
   MachineStatus machine;
   StopLane stop;
+  bool waits = false;  ///< for people: it has not begun, or gathers them after a restart; also while it is stopped
 };
 /// Bit i: seat i is heard.
 [[nodiscard]] std::uint32_t seats_heard(const SessionStatus& status) noexcept;

@@ -15,7 +15,10 @@ function(roff out text)
 endfunction()
 
 help_of(main)
-string(REGEX MATCH "^[^\n]*" summary "${main}")
+# The first sentence, over however many lines the help breaks it; `et al. (` ends none.
+string(REGEX REPLACE "\n\n.*$" "" summary "${main}")
+string(REGEX REPLACE "[ \n]+" " " summary "${summary}")
+string(REGEX REPLACE "[.] [A-Z].*$" "." summary "${summary}")
 roff(body "${main}")
 string(TOUPPER ${NAME} title)
 set(page ".TH ${title} 1 \"\" \"Tandem ${VERSION}\" \"Tandem\"\n.SH NAME\n${NAME} \\- ${summary}\n.SH DESCRIPTION\n${body}")

@@ -48,7 +48,7 @@ TEST(Handover, SaysWhoGivesToWhomHowMuchWhenItBeginsAndHowLongItTakes) {
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}), "trainer gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 1.0 s");
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 30}, 0.25), "trainer gives more of the tool to trainee (25 % to 30 %): begins in 50 ms, takes about 0.05 s");
   EXPECT_EQ(said({.by = wire::HandoverParties::kOperator, .to = 2, .percent = 100}), "an operator gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 1.0 s");
-  EXPECT_EQ(said({.by = 1, .to = 0, .percent = 15}, 0.25), "trainer shares the tool anew (your part 25 % to 15 %): begins in 50 ms, takes up to 1.0 s");
+  EXPECT_EQ(said({.by = 1, .to = 0, .percent = 15}, 0.25), "trainer sets new parts of the tool (your part 25 % to 15 %): begins in 50 ms, takes up to 1.0 s");
   said.seat.alpha_slew = 0.25;
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}), "trainer gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 4.0 s") << "the scene's slew";
   said.seat.alpha_slew = std::numeric_limits<double>::infinity();
@@ -69,7 +69,7 @@ TEST(Handover, OfAnotherHandNamesItsPartBeforeOnlyWhereThatIsKnown) {
   said.s.session = wire::SessionState::kHeld;
   EXPECT_EQ(said({.by = 1, .to = 1, .percent = 100}, 0), "trainer takes the tool (to 100 %): begins in 50 ms, takes up to 1.0 s") << "nobody has a part now";
   said.seat.tools = {"left", "right"};
-  EXPECT_EQ(said({.by = 24, .to = 16, .percent = 100, .tool = 1}), "an operator shares the tool right anew (your part to 100 %): begins in 50 ms, takes up to 1.0 s") << "numbers that name nobody";
+  EXPECT_EQ(said({.by = 24, .to = 16, .percent = 100, .tool = 1}), "an operator sets new parts of the tool right (your part to 100 %): begins in 50 ms, takes up to 1.0 s") << "numbers that name nobody";
 }
 
 TEST(Handover, IsUnderWayUntilTheWeightStandsStill) {

@@ -74,5 +74,18 @@ TEST(Guidance, TellsTheSmallSFromTheCapitalOne) {
   EXPECT_TRUE(has(capital.until(19), "capital S stopped everybody; press r to go on"));
 }
 
+TEST(Guidance, SaysThatAKeyActsOnlyAfterAResume) {
+  Lesson l;
+  static_cast<void>(l.until(6));
+  l.status.session = wire::SessionState::kStopped;
+  EXPECT_TRUE(has(l.until(8), "3/6  press r first, everybody is stopped; then press 0: trainee gets the tool"));
+  l.status.session = wire::SessionState::kRunning;
+  l.status.own_stop = true;
+  EXPECT_TRUE(has(l.until(13), "4/6  press r first, your hand is stopped; then press 1: you take the tool back"));
+  const std::string rest = l.until(21);
+  EXPECT_TRUE(has(rest, "5/6  press r first, your hand is stopped; then press s (small)")) << rest;
+  EXPECT_TRUE(has(rest, "6/6  that was all")) << "nothing is to be pressed for it";
+}
+
 }  // namespace
 }  // namespace tandem::client

@@ -58,6 +58,9 @@ TEST(DebianPackages, HoldWhatTheyShallAndRunFromAnUnpackedRoot) {
       const Done page = shell("man --warnings -l " + quoted(root / ("usr/share/man/man1/" + name + ".1.gz")) + " >/dev/null");
       EXPECT_EQ(page.text, "") << "the manual page has mistakes";
     }
+    // What `apropos` and `man -f` show: one line that is not cut in the middle of its sentence.
+    const std::string summary = shell("zcat " + quoted(root / ("usr/share/man/man1/" + name + ".1.gz")) + " | sed -n '/^.SH NAME/{n;p;q}'").text;
+    EXPECT_TRUE(summary.starts_with(name + " \\- ") && summary.ends_with(".\n")) << summary;
   }
   const fs::path deb = package("tandem-server"), root = kPlace / "root-tandem-server", control = kPlace / "control";
   ASSERT_EQ(shell("dpkg-deb -e " + quoted(deb) + " " + quoted(control)).code, 0);

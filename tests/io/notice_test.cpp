@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <thread>
@@ -67,6 +68,18 @@ TEST(Notice, ADrainShowsHowFarItIsAtTheConsoleAndAtTheServer) {
   EXPECT_NE(host.err().find("DRAINING: nobody new comes in, and all hands are let go in 4 s; ordered by local (operator)"), std::string::npos) << host.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
+}
+
+/// The console stays open behind its order; the one who ordered the end is told that it came as ordered, and is not asked to guess.
+TEST(Notice, ADrainOrderedInAConsoleEndsItWithoutAComplaint) {
+  const Folder folder;
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const std::string pipe = folder.file("pipe");
+  Process console({"/bin/bash", "-c", "mkfifo " + pipe + " && exec 3<>" + pipe + " && echo drain 1 >&3 && exec " + TANDEM_CLIENT + " control --server " + address_of(host) + " <&3"});
+  EXPECT_EQ(console.wait(), 0) << console.out() << console.err();
+  EXPECT_NE(console.out().find("the server has ended: the drain was carried out as ordered"), std::string::npos) << console.out() << console.err();
+  EXPECT_EQ(console.err(), "");
+  EXPECT_EQ(host.wait(), 0) << host.err();
 }
 
 TEST(Notice, ASessionThatNeverBeganSaysWhoWasMissing) {
@@ -194,6 +207,57 @@ TEST(PrintedCommands, OfAServerOnAllAddressesWorkAsTyped) {
   Process ticket = server({"ticket", "--session", "a", "--seat", "instructor", "--workstation", "desk", "--state", state});
   EXPECT_EQ(ticket.wait(), 0);
   EXPECT_NE(ticket.err().find("join --server " + address + " --seat"), std::string::npos) << ticket.err();
+}
+
+/// The command behind `mark` in a program's words, as somebody copies it: up to the closing backquote.
+std::string command_in(const std::string& words, const std::string& mark) {
+  const auto at = words.find(mark);
+  if (at == std::string::npos) return "";
+  const auto begin = words.find('`', at) + 1, end = words.find('`', begin);
+  std::string command = words.substr(begin, end - begin);
+  std::ranges::replace(command, '\n', ' ');
+  return command;
+}
+/// Runs a printed command in a shell, FILE being that file. A server's screen knows nothing of the reader's folder: that one is where it is looked for.
+Process typed(std::string command, const std::string& file, const std::string& own) {
+  const auto at = command.find("FILE");
+  if (at != std::string::npos) command.replace(at, 4, file);
+  return Process({"/usr/bin/env", "TANDEM_CLIENT_STATE=" + own, "PATH=" + fs::path(TANDEM_CLIENT).parent_path().string() + ":/usr/bin:/bin", "/bin/sh", "-c", command});
+}
+
+// With tickets nobody looks after a session without one: a command that leaves it out is refused.
+TEST(PrintedCommands, ThatResumeNameTheTicketFileWhereTicketsAreNeededAndWorkAsTyped) {
+  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 } session { name: \"b\" scene: \"free_motion\" duration_s: 600 }"};
+  const auto right = [&](const std::string& name) {
+    Process made = server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", school.state});
+    EXPECT_EQ(made.wait(), 0) << made.err();
+    return school.folder.write(name, made.out());
+  };
+  Process trainer = school.join("trainer", {"--ticket-file", school.folder.write("trainer.ticket", school.ticket("a", "trainer") + "\n")});
+  Process trainee = school.join("trainee", {"--ticket-file", school.folder.write("trainee.ticket", school.ticket("a", "trainee") + "\n")});
+  ASSERT_TRUE(school.host.wait_for("the session runs")) << trainer.err() << trainee.err();
+  const std::string reach = "tandem-client control --server " + school.address + " --session a";
+  const auto stop = [&](const std::string& number) {
+    Process order = control(school.address, {"--state", school.own, "--ticket-file", right("stop" + number), "stop", "fire", "drill"});
+    EXPECT_EQ(order.wait(), 0) << order.err();
+    EXPECT_TRUE(school.host.wait_for("fire drill")) << school.host.err();
+  };
+  stop("1");
+  ASSERT_TRUE(trainee.wait_for("Who may end it: an instructor (key r) or an operator (`")) << trainee.err();
+  ASSERT_TRUE(trainee.wait_for(" resume`")) << trainee.err();
+  const std::string seats = command_in(trainee.err(), "Who may end it");
+  EXPECT_EQ(seats, reach + " --state " + school.own + " --ticket-file FILE resume");
+  Process first = typed(seats, right("first"), school.own);
+  EXPECT_EQ(first.wait(), 0) << seats << first.err();
+  ASSERT_TRUE(trainee.wait_for("stop 1 is over")) << trainee.err();
+  stop("2");
+  ASSERT_TRUE(trainee.wait_for("STOPPED by desk (console)")) << trainee.err();
+  ASSERT_TRUE(school.host.wait_for("resume`")) << school.host.err();
+  const std::string hosts = command_in(school.host.err(), "STOPPED by desk");
+  EXPECT_EQ(hosts, reach + " --ticket-file FILE resume");
+  Process second = typed(hosts, right("second"), school.own);
+  EXPECT_EQ(second.wait(), 0) << hosts << second.err();
+  EXPECT_TRUE(trainee.wait_for("stop 2 is over")) << trainee.err();
 }
 
 // ---- Mistakes of a configuration and its state folder, in one round ------------------------------------------------------------

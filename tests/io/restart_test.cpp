@@ -234,7 +234,7 @@ TEST_F(Restart, WhatDoesNotFitIsToldAndMovedAside) {
   EXPECT_EQ(trainer.wait(), 1);
   EXPECT_NE(trainer.err().find("server lost: no news for 2 s"), std::string::npos) << trainer.err();
   host = hosting("one_axis", {"--listen", address, "--duration", "5"});  // another scene now
-  EXPECT_NE(host.err().find("begins anew: its checkpoint is not used: the checkpoint belongs to another scene"), std::string::npos) << host.err();
+  EXPECT_NE(host.err().find("starts from the beginning: its checkpoint is not used: the checkpoint belongs to another scene"), std::string::npos) << host.err();
   EXPECT_TRUE(fs::exists(wait_until_kept() + ".unfit"));
   die();
   {

@@ -104,6 +104,19 @@ TEST(Help, EveryCommandHasTwoExamplesWhoseOptionsExist) {
   }
 }
 
+/// Words that a reader has to guess at: an order that begins "anew", a person "entitled" to a tool, an option that is "the same" as one shown elsewhere.
+TEST(Help, UsesPlainWords) {
+  for (const Program& program : kPrograms) {
+    Words commands = commands_of(help_of(program, ""));
+    commands.emplace_back();
+    for (const std::string& command : commands) {
+      std::string help = " " + help_of(program, command);
+      std::ranges::replace(help, '\n', ' ');
+      for (const char* word : {" anew", "entitled", "  the same, or a recording"}) EXPECT_EQ(help.find(word), std::string::npos) << program.name << " " << command << ": " << word;
+    }
+  }
+}
+
 TEST(Help, OfAnExampleThatDoesNotExistIsFoundWrong) {
   EXPECT_EQ(wrong_with("tandem-client join --server 127.0.0.1:7000 --saet trainer"), "--saet is no option of it");
   EXPECT_EQ(wrong_with("tandem-client jion --server 127.0.0.1:7000"), "no such command");

@@ -102,6 +102,30 @@ TEST(SeatScreen, ForceThatWasThereIsOffAndNotExpected) {
   EXPECT_EQ(gate_text(s), "no force before the session runs");
 }
 
+/// Only where it helps: the seat moves authority, the one who left had some, and no slave is missing.
+TEST(SeatScreen, HeldNamesTheKeyThatTakesTheTool) {
+  ClientStatus s = running();
+  s.session = wire::SessionState::kHeld;
+  SeatSetup trainer = setup(Role::kInstructor, "trainer");
+  trainer.masters = {"trainer", "trainee"};
+  trainer.drivers = 3;
+  control::Status w = words();
+  w.held = "trainee left";
+  w.tools[0].alpha = {0, 1};
+  w.seats[1].taken = w.seats[1].heard = false;
+  const auto hint = [&] { return at(80, s, trainer, w)[0].find("HELD: trainee left; 1 takes the tool |") != std::string::npos; };
+  EXPECT_TRUE(hint()) << at(80, s, trainer, w)[0];
+  w.tools[0].alpha = {1, 0};
+  EXPECT_FALSE(hint()) << "the tool is here already";
+  w.tools[0].alpha = {0, 1};
+  w.seats.push_back({"arm", AccessRole::kObserver, false, false, false});
+  EXPECT_FALSE(hint()) << "without its slave no tool moves";
+  w.seats.pop_back();
+  trainer.drivers = 0;
+  EXPECT_FALSE(hint()) << "this seat moves no authority";
+  EXPECT_EQ(at(80, s, trainer, w)[0].find("trainer 123.4 s HELD: trainee left |"), 0u) << at(80, s, trainer, w)[0];
+}
+
 TEST(SeatScreen, HeldSaysWhyInOneSentence) {
   ClientStatus s = running();
   s.session = wire::SessionState::kHeld;

@@ -176,6 +176,23 @@ TEST(Announced, AResumeARemovalAndADrainAtEverySeat) {
   EXPECT_EQ(host.wait(), 0) << host.err();
 }
 
+/// The hand-over acts only when the session goes on: a person who ordered it reads it at once, else the other hand leads without a word.
+TEST(Handover, ThatAPersonOrdersInAStopIsToldOnTheScreenAndActsAtTheResume) {
+  TerminalProcess trial({TANDEM_CLIENT, "try"}, 160, 40);
+  ASSERT_TRUE(trial.wait_for("you hold the seat instructor")) << trial.picture();
+  ASSERT_TRUE(trial.wait_for("force on")) << trial.picture();
+  trial.type("S");
+  ASSERT_TRUE(trial.wait_for("STOPPED by instructor: r resumes")) << trial.picture();
+  EXPECT_EQ(flat(trial.terminal().all()).find("gives the tool"), std::string::npos) << "nobody ordered anything" << trial.picture();
+  trial.type("0");
+  EXPECT_TRUE(trial.wait_for("instructor gives the tool to trainee (")) << trial.picture();
+  EXPECT_TRUE(trial.wait_until([](const Terminal& t) { return flat(status_of(t, "instructor")).find("when the session goes on") != std::string::npos; })) << trial.picture();
+  trial.type("r");
+  EXPECT_TRUE(trial.wait_until([](const Terminal& t) { return flat(status_of(t, "instructor")).find("trainee leads") != std::string::npos; })) << trial.picture();
+  trial.type("q");
+  EXPECT_EQ(trial.wait(), 0) << trial.picture();
+}
+
 TEST(Held, SaysWhyAtTheSeatThatIsLeft) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
@@ -191,6 +208,21 @@ TEST(Held, SaysWhyAtTheSeatThatIsLeft) {
   trainer.type("q");
   EXPECT_EQ(trainer.wait(), 0) << trainer.picture();
   ASSERT_TRUE(trainee.wait_for("HELD: trainer left")) << trainee.picture();
+}
+
+TEST(Held, NamesTheKeyThatHelpsASeatThatMovesAuthority) {
+  Process host = hosting("free_motion", {"--duration", "600"});
+  const std::string address = address_of(host);
+  Process trainee = client(address, "trainee");
+  TerminalProcess trainer({TANDEM_CLIENT, "join", "--server", address, "--seat", "trainer", "--device", "sim"}, 80, 24);
+  ASSERT_TRUE(trainer.wait_for("force on")) << trainer.picture();
+  trainer.type("0");
+  ASSERT_TRUE(trainer.wait_for("trainee leads")) << trainer.picture();
+  trainee.signal(SIGINT);
+  EXPECT_EQ(trainee.wait(), 0) << trainee.err();
+  ASSERT_TRUE(trainer.wait_for("HELD: trainee left; 1 takes the tool")) << trainer.picture();
+  trainer.type("1");
+  EXPECT_TRUE(trainer.wait_until([](const Terminal& t) { return flat(status_of(t, "trainer")).find("you lead 100 %") != std::string::npos; })) << "the key does what is said" << trainer.picture();
 }
 
 TEST(Proxy, ShowsWholeColumnsAtEveryWidth) {

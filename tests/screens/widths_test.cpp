@@ -56,6 +56,16 @@ TEST(Widths, OfADoctorsFindings) {
   }
 }
 
+TEST(Widths, OfALinkTest) {
+  Process host = hosting("free_motion", {"--duration", "600"});
+  for (const std::size_t columns : {60u, 80u, 120u}) {
+    TerminalProcess test({TANDEM_CLIENT, "link-test", "--server", address_of(host), "--duration", "1"}, columns, 400);
+    static_cast<void>(test.wait());  // a busy machine may be called unfit
+    EXPECT_NE(flat(test.terminal().all()).find("ticks late by more than 1 ms"), std::string::npos) << test.picture();
+    for (const std::string& row : test.terminal().wraps()) ADD_FAILURE() << columns << ", cut by the margin: " << row;
+  }
+}
+
 TEST(Widths, OfAProxysSummary) {
   for (const std::size_t columns : kWidths) {
     TerminalProcess proxy({TANDEM_NETSIM, "proxy", "--to", "127.0.0.1:9", "--listen", "127.0.0.1:0", "--delay", "20", "--loss", "5", "--jitter", "5"}, columns, 24);
@@ -73,6 +83,33 @@ TEST(Widths, OfMistakes) {
   expect_whole({TANDEM_CLIENT, "doctor", "--confirm-motors", "--force-test", "--watch", "--root", "/nosuch", "--seconds", "5ms"}, "mistakes, nothing was started", 2);
   expect_whole({TANDEM_CLIENT, "try", "nosuch", "--duration", "5ms"}, "nothing was started", 2);
   expect_whole({TANDEM_NETSIM, "profils"}, "no command is called", 2);
+}
+
+/// The help of `tandem-netsim control` at 80 columns: each command on a line of its own with its words, under headings of groups.
+TEST(Widths, OfTheHelpOfAProxysControlLeaveEveryCommandALineOfItsOwn) {
+  TerminalProcess help({TANDEM_NETSIM, "control", "--help"}, 80, 400);
+  EXPECT_EQ(help.wait(), 0) << help.picture();
+  for (const std::string& row : help.terminal().wraps()) ADD_FAILURE() << "cut by the margin: " << row;
+  const std::vector<std::string> rows = help.terminal().all();
+  for (const std::string& row : rows) EXPECT_LT(row.size(), 80u) << row;
+  const auto row_of = [&](const std::string& start) { return std::ranges::find_if(rows, [&](const std::string& row) { return row.starts_with(start); }); };
+  // No heading, no order: a row that is missing would make the ones behind it end().
+  std::size_t before = 0;
+  for (const char* heading : {"Usage:", "Positionals:", "Help:", "Commands, also", "Lengths:", "Examples", "Exit:"}) {
+    const auto row = row_of(heading);
+    ASSERT_NE(row, rows.end()) << heading << help.picture();
+    const auto at = static_cast<std::size_t>(row - rows.begin());
+    EXPECT_GE(at, before) << heading << " is out of order";
+    before = at;
+  }
+  for (const char* command : {"profile NAME|FILE", "delay MS", "jitter MS", "loss PERCENT", "duplicate PERCENT", "reorder PERCENT", "outage LENGTH", "outage LENGTH hold", "outage LENGTH last",
+                              "reset", "rebind [LENGTH]", "... client N [N...]", "... up, ... down", "status [--json]", "stop"}) {
+    // Behind the command a gap, and behind the gap the words that say what it does.
+    const auto row = row_of("  " + std::string(command) + "  ");
+    ASSERT_NE(row, rows.end()) << command << help.picture();
+    const auto words = row->find_first_not_of(' ', 2 + std::string(command).size());
+    EXPECT_EQ(words, 23u) << *row << ": all words begin in one column";
+  }
 }
 
 /// As `COLUMNS=60 tandem-netsim profiles | less`.

@@ -122,6 +122,22 @@ TEST(Attendance, OfAnEndlessSessionThatAllLeaveHasNoWarning) {
   for (const Attendance::Note& note : s.after(11s).notes) EXPECT_FALSE(note.warning) << note.text;
 }
 
+/// A stop hides that a session still waits: who is away then is waited for, as without the stop.
+TEST(Attendance, CountsASessionThatIsStoppedWhileItWaitsAsWaiting) {
+  Running s;
+  s.status.state = wire::SessionState::kStopped;
+  s.status.waits = true;
+  s.fall_silent(0);
+  s.leave(1);
+  const Attendance::News news = s.after(61s);
+  EXPECT_FALSE(news.all_lost) << "else it ends as peers_lost while people have 10 min to come back";
+  EXPECT_FALSE(says(news, "gone", s.scene.seats[0].name));
+  s.leave(0);
+  EXPECT_FALSE(s.after(61s).all_left);
+  s.status.waits = false;
+  EXPECT_TRUE(s.after(61s).all_left) << "a session that began and was stopped";
+}
+
 /// A restored session whose people have 10 min to come back.
 struct Restored : Running {
   Restored() {
@@ -163,6 +179,16 @@ TEST(SessionEnding, OfARestoredSessionThatIsStoppedComesIfNobodyEverCame) {
   EXPECT_TRUE(s.after_restart(11min));
   s.status.seats[0].ever_taken = true;
   EXPECT_FALSE(s.after_restart(11min));
+}
+
+TEST(SessionEnding, OfARestoredSessionThatIsStoppedWhileItGathersComesWhenThoseWhoCameLeft) {
+  Restored s;
+  s.status.state = wire::SessionState::kStopped;
+  s.status.waits = true;
+  s.status.seats[0].taken = s.status.seats[0].ever_taken = true;
+  EXPECT_FALSE(s.after_restart(11min));
+  s.leave(0);
+  EXPECT_TRUE(s.after_restart(11min));
 }
 
 TEST(SessionEnding, IsOneAtATimeAndNamesItsReason) {

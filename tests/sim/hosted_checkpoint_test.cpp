@@ -66,6 +66,38 @@ TEST(HostedCheckpoint, KnowsOfASessionFromItsFirstTickOn) {
   EXPECT_NE((*began - Time{}) % 500ms, 0ms) << "not by chance, with the regular one";
 }
 
+/// A stop changes the state that is told, and not that the session waits for people.
+TEST(HostedSession, SaysThatItWaitsAlsoWhileItIsStopped) {
+  const SceneSpec scene = test::shipped("one_axis");
+  server::TickQueue records{64};
+  server::Checkpoint from{};
+  {
+    auto slaves = server::make_slaves(scene, Time{});
+    ASSERT_TRUE(slaves);
+    server::HostedSession first(scene, std::move(*slaves), 0, records);
+    from = first.session().checkpoint();
+  }
+  from.begun = true;
+  from.seats[0].taken = true;
+  from.tools[0].alpha[0] = 1;
+  auto slaves = server::make_slaves(scene, Time{});
+  ASSERT_TRUE(slaves);
+  server::HostedSession restored(scene, std::move(*slaves), 0, records, &from);
+  Time now = Time{} + 1ms;
+  const auto look = [&] {
+    for (int n = 0; n < 64; ++n, now += 1ms) restored.tick(now, 0, {});
+    return restored.status();
+  };
+  EXPECT_TRUE(look().waits);
+  ASSERT_TRUE(restored.session().stop_hands(now, AccessRole::kOperator));
+  const server::SessionStatus stopped = look();
+  EXPECT_EQ(stopped.state, wire::SessionState::kStopped);
+  EXPECT_TRUE(stopped.waits) << "it gathers";
+  ASSERT_TRUE(restored.session().resume_hands(now, AccessRole::kOperator, restored.session().stops()));
+  ASSERT_TRUE(restored.session().resume_hands(now, AccessRole::kOperator, restored.session().stops()));  // goes on without those who are missing
+  EXPECT_FALSE(look().waits);
+}
+
 TEST(HostedSession, CountsEventsThatNobodyTookInTime) {
   const SceneSpec scene = test::shipped("one_axis");
   auto slaves = server::make_slaves(scene, Time{});

@@ -201,6 +201,7 @@ TEST(Overload, AnEvaluatorAtAThirdOfTheRateFeelsNoDifferenceAndNoLossTripsHisGat
 /// calm everybody is active and everything is done again.
 TEST(Overload, WhateverTheLoadNothingBreaksAndEverybodyComesBack) {
   const std::uint64_t seeds = test::seeds(6);
+  std::uint64_t too_late = 0;  // sessions whose server could not keep its time; a drawn load may be light for all of its 12 s
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     SceneSpec scene = seed % 3 == 0 ? eight_seats() : seed % 3 == 1 ? contact() : test::shipped("two_by_two");
@@ -224,11 +225,12 @@ TEST(Overload, WhateverTheLoadNothingBreaksAndEverybodyComesBack) {
     };
     Life life{std::move(setup)};
     life.until(24s);
-    EXPECT_GE(life.audit[What::kPassive], 1);
+    too_late += life.audit[What::kPassive] > 0 ? 1 : 0;
     EXPECT_EQ(life.audit[What::kPassive], life.audit[What::kInTime]);
     for (std::size_t i = 0; i < life.steps.size(); ++i) EXPECT_TRUE(life.active(i)) << i;
     life.expect_nothing_broken();
   }
+  EXPECT_GE(too_late, seeds * 3 / 4);
 }
 
 }  // namespace
