@@ -85,11 +85,6 @@ void write_device(const SimDeviceSpec& in, Message& out) {
   write_point(in.start, *out.mutable_start_m());
 }
 
-int axis_in(bool given, pb::Axis axis, int fallback, std::size_t dof, const std::string& path, Checker& checker) {
-  const int index = given ? static_cast<int>(axis) : fallback;
-  if (index < 0 || static_cast<std::size_t>(index) >= dof) {
-    checker.error(child_path(path, "axis"), "there is no such axis when dof is " + std::to_string(dof));
-  }
   return std::clamp(index, 0, 2);
 }
 
@@ -214,48 +209,6 @@ void write_hand(const HandSpec& in, pb::Hand& out) {
 
 }  // namespace
 
-void read_environment(const pb::Environment& in, std::size_t dof, const std::string& path, Checker& checker,
-                      EnvironmentSpec& out) {
-  if (in.has_wall()) {
-    const auto& w = in.wall();
-    auto& wall = out.wall.emplace();
-    wall.axis = axis_in(w.has_axis(), w.axis(), wall.axis, dof, child_path(path, "wall"), checker);
-    if (w.has_at_m()) wall.at = w.at_m();
-    if (w.has_k_n_m()) wall.k = w.k_n_m();
-    if (w.has_b_n_s_m()) wall.b = w.b_n_s_m();
-    if (w.has_from_below()) wall.from_below = w.from_below();
-  }
-  if (in.has_tissue()) {
-    const auto& t = in.tissue();
-    auto& tissue = out.tissue.emplace();
-    tissue.axis = axis_in(t.has_axis(), t.axis(), tissue.axis, dof, child_path(path, "tissue"), checker);
-    if (t.has_at_m()) tissue.at = t.at_m();
-    if (t.has_k_n_m()) tissue.k = t.k_n_m();
-    if (t.has_k3_n_m3()) tissue.k3 = t.k3_n_m3();
-    if (t.has_b_n_s_m()) tissue.b = t.b_n_s_m();
-    if (t.has_from_below()) tissue.from_below = t.from_below();
-  }
-}
-void write_environment(const EnvironmentSpec& in, pb::Environment& out) {
-  if (in.wall) {
-    auto& wall = *out.mutable_wall();
-    wall.set_axis(static_cast<pb::Axis>(in.wall->axis));
-    wall.set_at_m(in.wall->at);
-    wall.set_k_n_m(in.wall->k);
-    wall.set_b_n_s_m(in.wall->b);
-    wall.set_from_below(in.wall->from_below);
-  }
-  if (in.tissue) {
-    auto& tissue = *out.mutable_tissue();
-    tissue.set_axis(static_cast<pb::Axis>(in.tissue->axis));
-    tissue.set_at_m(in.tissue->at);
-    tissue.set_k_n_m(in.tissue->k);
-    tissue.set_k3_n_m3(in.tissue->k3);
-    tissue.set_b_n_s_m(in.tissue->b);
-    tissue.set_from_below(in.tissue->from_below);
-  }
-}
-
 void read_channel(const pb::Channel& in, const std::string& path, Checker& checker, ChannelSpec& out) {
   out.law = static_cast<LawKind>(in.law());
   out.mfs = static_cast<MfsMode>(in.mfs());
@@ -344,18 +297,6 @@ void read_seat(const pb::Seat& in, std::size_t dof, const std::string& path, Che
 void read_slave(const pb::Slave& in, std::size_t dof, const std::string& path, Checker& checker, SimDeviceSpec& device,
                 EnvironmentSpec& environment) {
   read_device(in, dof, path, checker, device);
-  read_environment(in.environment(), dof, child_path(path, "environment"), checker, environment);
-}
-
-void read_virtual_slave(const pb::Slave& in, std::size_t dof, const std::string& path, Checker& checker, Point& start,
-                        EnvironmentSpec& environment) {
-  read_point(in.start_m(), start);
-  pb::Slave rest = in;
-  rest.clear_model();
-  rest.clear_start_m();
-  rest.clear_environment();
-  if (rest.ByteSizeLong() > 0)
-    checker.error(child_path(path, "model"), "a VIRTUAL slave has no device: take its numbers away, all but start_m and environment, or say TOUCH or LINEAR", "VIRTUAL");
   read_environment(in.environment(), dof, child_path(path, "environment"), checker, environment);
 }
 

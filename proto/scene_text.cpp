@@ -38,7 +38,7 @@ void read_basics(const pb::Scene& in, Checker& checker, SceneSpec& out) {
 std::optional<LawProblem> law_problem(const SceneSpec& scene) {
   if (scene.channel.law != LawKind::kReplica) return std::nullopt;
   if (scene.port == PortSpace::kJoint)
-    return LawProblem{"channel.law", "REPLICA needs port: TIP, as every client simulates the tool where it meets its surfaces"};
+    return LawProblem{"channel.law", "needs port: TIP under REPLICA, as every client simulates the tool where it meets its surfaces"};
   if (scene.channel.mfs == MfsMode::kSeed || scene.channel.mfs == MfsMode::kSeedSigned)
     return LawProblem{"channel.mfs", "cuts a velocity, which law REPLICA does not send; use OPEN or TANK, or law SET_POSITION"};
   return std::nullopt;

@@ -68,10 +68,10 @@ TEST(BadScene, LawReplicaAndToolsWithoutADeviceSayWhatTheyNeed) {
   const std::string replica = "channel { law: REPLICA } device_coupling";
   EXPECT_EQ(to_text(errors_of(with("device_coupling", replica))), "");
   EXPECT_EQ(to_text(errors_of(with("slave { model: TOUCH }", "slave { model: VIRTUAL start_m { x: 0.01 } environment { wall { at_m: 0 } } }"))), "");
-  expect_one(with("device_coupling", "port: JOINT channel { @law: REPLICA } device_coupling"), "channel.law", "needs port: TIP");
-  expect_one(with("device_coupling", "channel { law: REPLICA @mfs: SEED } device_coupling"), "channel.mfs", "use OPEN or TANK");
-  expect_one(with("slave { model: TOUCH }", "slave { @model: VIRTUAL friction_n: 0.1 }"), "tool[0].slave.model", "all but start_m and environment");
-  expect_one(with("hand { model: RELAXED }", "device { @model: VIRTUAL }"), "seat[1].device.model", "a hand holds a device");
+  expect_one(with("device_coupling", "port: JOINT channel { law: @REPLICA } device_coupling"), "channel.law", "needs port: TIP");
+  expect_one(with("device_coupling", "channel { law: REPLICA mfs: @SEED } device_coupling"), "channel.mfs", "use OPEN or TANK");
+  expect_one(with("slave { model: TOUCH }", "slave { model: @VIRTUAL friction_n: 0.1 }"), "tool[0].slave.model", "all but start_m and environment");
+  expect_one(with("hand { model: RELAXED }", "device { model: @VIRTUAL }"), "seat[1].device.model", "a hand holds a device");
 }
 
 TEST(BadScene, EmptyOneIsAnError) {
