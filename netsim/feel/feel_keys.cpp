@@ -32,6 +32,7 @@ constexpr FeelKey kFree[] = {
     {"leader_tool_recorded_m", "leader to tool, recorded motion, RMS", "mm", 1e3},
     {"transport_lag_recorded_m", "  transport lag alone", "mm", 1e3},
     {"overshoot", "overshoot of the tool, 20 mm in 0.15 s", "%", 100},
+    {"overshoot_above_hand", "  above the highest point of the hand", "%", 100},
     {"follower_tool_05hz_m", "follower to tool, 0.5 Hz, RMS", "mm", 1e3},
     {"follower_tool_1hz_m", "follower to tool, 1 Hz, RMS", "mm", 1e3},
     {"follower_tool_step_m", "follower to tool, step, RMS", "mm", 1e3},
@@ -77,7 +78,7 @@ constexpr FeelKey kExposure[] = {
 constexpr std::array<FeelSection, 7> kSections{{
     {Probe::kPress, "Pressing", kContact},
     {Probe::kFree, "Free motion", kFree},
-    {Probe::kGain, "Tool over hand, circles of 10 mm", kGain},
+    {Probe::kGain, "Tool over hand, circles of 3 mm", kGain},
     {Probe::kRest, "At rest, from 5 s after a kick, without tremor", kRest},
     {Probe::kRelease, "Released, about 1 N pulls against a spring", kRelease},
     {Probe::kHandOver, "Handing authority over, both hands press on bone", kHandOver},

@@ -39,6 +39,9 @@ Windowed windowed(Series values, Eigen::Index axis) {
   return out;
 }
 
+constexpr std::size_t kTenth = 10;
+double end_of(std::span<const double> x) noexcept { return mean(x.last(x.size() / kTenth)); }
+
 }  // namespace
 
 double mean(std::span<const double> values) noexcept {
@@ -150,11 +153,16 @@ double largest_distance(Series values, const hal::Vec3& from) noexcept {
   return largest;
 }
 
-double overshoot(std::span<const double> x, std::span<const double> y) noexcept {
-  if (x.size() < 10 || y.empty()) return kNaN;
-  const double rise = mean(x.last(x.size() / 10)) - x.front();
-  if (!(rise > 0)) return kNaN;
-  return std::max(0.0, *std::ranges::max_element(y) - *std::ranges::max_element(x)) / rise;
+double overshoot(std::span<const double> x) noexcept {
+  if (x.size() < kTenth) return kNaN;
+  const double end = end_of(x), rise = end - x.front();
+  return rise > 0 ? std::max(0.0, *std::ranges::max_element(x) - end) / rise : kNaN;
+}
+
+double overshoot_above(std::span<const double> x, std::span<const double> above) noexcept {
+  if (above.size() < kTenth || x.empty()) return kNaN;
+  const double rise = end_of(above) - above.front();
+  return rise > 0 ? std::max(0.0, *std::ranges::max_element(x) - *std::ranges::max_element(above)) / rise : kNaN;
 }
 
 }  // namespace tandem::netsim

@@ -39,8 +39,10 @@ using Series = std::span<const hal::Vec3>;
 /// Largest distance of a row from `from`.
 [[nodiscard]] double largest_distance(Series values, const hal::Vec3& from) noexcept;
 
-/// How far y rises above the highest x, as a share of the rise of x from its first row to its mean over the last tenth.
+/// How far x rises above its end (the mean of its last tenth), as a share of the rise from its first row to its end.
 /// Never below 0; NaN if x does not rise.
-[[nodiscard]] double overshoot(std::span<const double> x, std::span<const double> y) noexcept;
+[[nodiscard]] double overshoot(std::span<const double> x) noexcept;
+/// How far `x` rises above the highest `above`, as a share of the rise of `above`. Never below 0; NaN if `above` does not rise.
+[[nodiscard]] double overshoot_above(std::span<const double> x, std::span<const double> above) noexcept;
 
 }  // namespace tandem::netsim

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSettle = 3;                                // [s] before anything is measured
 constexpr double kStepAt = 2, kStepFor = 0.15, kStep = 0.02;  // [s, s, m]
-constexpr double kStepEnd = 4;
+constexpr double kStepEnd = 5.5;
 constexpr double kRecordingMax = 20;  // [s] of a recording that is played
 constexpr double kTurn = 2 * std::numbers::pi;
 
@@ -72,7 +72,8 @@ void put_overshoot(const FeelTrace& trace, FeelValues& v) {
     hand.push_back(trace.hands[0].x[i].x());
     tool.push_back(trace.tool[i].x());
   }
-  v["overshoot"] = overshoot(hand, tool);
+  v["overshoot"] = overshoot(tool);
+  v["overshoot_above_hand"] = overshoot_above(tool, hand);
 }
 
 }  // namespace

@@ -8,12 +8,13 @@
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
-/// How much larger the tool moves than the hand: circles of 10 mm, one frequency after the other in one run. Each grows within
-/// 0.5 s, settles for a period or 1 s, is measured for whole periods of 1.5 s or more, and fades within 0.5 s.
+/// How much larger the tool moves than the hand: circles of 3 mm, one frequency after the other in one run. Larger
+/// ones saturate a motor of 3.3 N from 5 Hz on, smaller ones are lost in friction. Each
+/// grows within 0.5 s, settles for a period or 1 s, is measured for whole periods of 1.5 s or more, and fades within 0.5 s.
 namespace tandem::netsim {
 namespace {
 
-constexpr double kRadius = 0.010, kEdge = 0.5, kBegin = 1.5;  // [m, s, s]
+constexpr double kRadius = 0.003, kEdge = 0.5, kBegin = 1.5;  // [m, s, s]
 constexpr double kTurn = 2 * std::numbers::pi;
 
 struct Dwell {
