@@ -70,11 +70,14 @@ std::string feel_text(const FeelReport& r) {
   for (const std::string& trouble : r.troubles) out += wrapped_lines("could not be measured: " + trouble, "");
   for (const FeelLimit* limit : r.broken()) {
     const auto it = r.numbers.find(limit->key);
-    const FeelNumber number = it == r.numbers.end() ? FeelNumber{NAN, NAN, 0} : it->second;
-    const std::string unit(si_unit(limit->key));
-    out += wrapped_lines(format("FAIL %s: mean %.4g, worst %.4g (seed %llu) %s; must be at %s %g (worst: %g)", limit->key.c_str(), number.mean, number.worst,
-                                static_cast<unsigned long long>(number.worst_seed), unit.c_str(), limit->at_least ? "least" : "most", limit->end,
-                                limit->at_least ? limit->end / FeelLimit::kWorstFactor : limit->end * FeelLimit::kWorstFactor),
+    const std::string unit = si_unit(limit->key).empty() ? "" : " " + std::string(si_unit(limit->key));
+    const std::string got = it == r.numbers.end()          ? "was not measured"
+                            : std::isnan(it->second.mean) ? "does not exist in every seed"
+                                                          : format("mean %.4g, worst %.4g%s (seed %llu)", it->second.mean, it->second.worst, unit.c_str(),
+                                                                   static_cast<unsigned long long>(it->second.worst_seed));
+    out += wrapped_lines(format("FAIL %s: ", limit->key.c_str()) + got +
+                             format("; must be at %s %g, the worst seed %g", limit->at_least ? "least" : "most", limit->end,
+                                    limit->at_least ? limit->end / FeelLimit::kWorstFactor : limit->end * FeelLimit::kWorstFactor),
                          "");
   }
   if (!r.limits.empty()) out += format("%s: %zu of %zu limits hold\n", r.passed() ? "pass" : "FAIL", r.limits.size() - r.broken().size(), r.limits.size());

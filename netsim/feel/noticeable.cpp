@@ -41,7 +41,7 @@ std::vector<std::string> noticeable_text(const SceneSpec& scene, const std::map<
                          steps < 1 ? "not noticed" : "noticed"));
   const double drag = mean_of(numbers, "drag_1hz_n");
   if (!std::isnan(drag))
-    out.push_back(format("Moving a tool of 1 Hz in free space costs %.2f N, %.1f times a friction of 0.1 N.", drag, drag / 0.1));
+    out.push_back(format("Moving the tool through free space at 1 Hz takes %.2f N, %.1f times a friction of 0.1 N.", drag, drag / 0.1));
   const double mass = mean_of(numbers, "apparent_mass_1hz_kg");
   if (const double steps = noticeable_steps(kHandleMass + std::max(0.0, mass), kHandleMass, kMassWeber); !std::isnan(mass) && !std::isnan(steps))
     out.push_back(format("The handle feels %.0f g heavier at 1 Hz, %s on a handle of %.0f g.", 1e3 * std::max(0.0, mass), steps_text(steps).c_str(),
