@@ -189,7 +189,7 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
       ->check(io::number_in(1, 256, ""))
       ->check(io::whole_number())
       ->option_text("N");
-  command->add_option("--probe", a->probes, "only these: press, free, gain, rest, release, handover; default: all")->option_text("NAME,...");
+  command->add_option("--probe", a->probes, "only these: press, free, gain, rest, release, handover, share; default: all")->option_text("NAME,...");
   command->add_option("--hand", a->hands, "a recorded motion for the probe `free`: FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]; may be repeated")
       ->option_text("FILE...")
       ->allow_extra_args(false);

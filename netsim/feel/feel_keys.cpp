@@ -68,6 +68,14 @@ constexpr FeelKey kHandOver[] = {
     {"handover_step_n_ms", "largest step", "N/ms"},
     {"handover_step_before_n_ms", "  the same in the second before", "N/ms"},
 };
+constexpr FeelKey kShare[] = {
+    {"shared_cycle_n", "force above 1 Hz at rest, worst, RMS", "N"},
+    {"shared_cycle_2_n", "  the kicked hand has 2 % of authority", "N"},
+    {"shared_cycle_10_n", "  10 %", "N"},
+    {"shared_cycle_50_n", "  50 %", "N"},
+    {"shared_cycle_90_n", "  90 %", "N"},
+    {"shared_cycle_98_n", "  98 %", "N"},
+};
 constexpr FeelKey kExposure[] = {
     {"engaged_share", "time in which the leader was engaged", "%", 100, true},
     {"held_share", "time in which the tool stood braked", "%", 100},
@@ -75,13 +83,14 @@ constexpr FeelKey kExposure[] = {
     {"saturated_share", "time at the motors' limit", "%", 100},
     {"delivered_error_n", "commanded minus delivered force, RMS", "N"},
 };
-constexpr std::array<FeelSection, 7> kSections{{
+constexpr std::array<FeelSection, 8> kSections{{
     {Probe::kPress, "Pressing", kContact},
     {Probe::kFree, "Free motion", kFree},
     {Probe::kGain, "Tool over hand, circles of 3 mm", kGain},
     {Probe::kRest, "At rest, from 5 s after a kick, without tremor", kRest},
     {Probe::kRelease, "Released, about 1 N pulls against a spring", kRelease},
     {Probe::kHandOver, "Handing authority over, both hands press on bone", kHandOver},
+    {Probe::kShare, "Two hands share a tool, firm and soft, from 5 s after a kick", kShare},
     {Probe::kFree, "While pressing and in free motion", kExposure},
 }};
 

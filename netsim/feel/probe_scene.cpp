@@ -83,7 +83,8 @@ WorldSetup world_of(const FeelSetup& setup, const ProbeRun& run, std::uint64_t s
   }
   scene.tools.push_back(std::move(tool));
   AuthorityRow row;
-  row.alpha[0] = 1;
+  row.alpha[0] = run.share;
+  row.alpha[1] = 1 - run.share;
   scene.authority = {row};
   if (run.hand_over_at > 0) {
     AuthorityRow other;

@@ -42,6 +42,7 @@ struct ProbeRun {
   std::vector<ProbeHand> hands = {};   ///< one or two
   EnvironmentSpec environment = {};    ///< of the tool
   std::vector<ProbePush> pushes = {};
+  double share = 1;                    ///< authority of hand 0; hand 1 has the rest
   double hand_over_at = 0;             ///< from then on hand 1 has all authority; 0: never [s]
   bool frictionless = false;           ///< devices and tool without Coulomb friction
   bool perfect_network = false;        ///< in place of the one to be measured

@@ -53,6 +53,7 @@ ProbeResult run_probe(Probe probe, const FeelSetup& setup, std::uint64_t seed) {
     case Probe::kRest: return probe_rest(setup, seed);
     case Probe::kRelease: return probe_release(setup, seed);
     case Probe::kHandOver: return probe_handover(setup, seed);
+    case Probe::kShare: return probe_share(setup, seed);
   }
   return {};
 }

@@ -18,23 +18,27 @@ enum class Probe : std::uint8_t {
   kRest,      ///< hands that are kicked and then rest
   kRelease,   ///< frictionless hands that let go while something pulls them against a spring
   kHandOver,  ///< authority changes while both hands press
+  kShare,     ///< two hands that share a tool, one is kicked
 };
 struct ProbeName {
   Probe probe;
   std::string_view name;
   std::string_view words;
 };
-inline constexpr std::array<ProbeName, 6> kProbes{{
+inline constexpr std::array<ProbeName, 7> kProbes{{
     {Probe::kPress, "press", "pressing on bone and tissue"},
     {Probe::kFree, "free", "free motion"},
     {Probe::kGain, "gain", "tool over hand by frequency"},
     {Probe::kRest, "rest", "resting hands after a kick"},
     {Probe::kRelease, "release", "released hands against a spring"},
     {Probe::kHandOver, "handover", "handing authority over in contact"},
+    {Probe::kShare, "share", "hands that share a tool, after a kick"},
 }};
 
 /// Frequencies of Probe::kGain [Hz].
 inline constexpr std::array<double, 10> kGainHz{0.25, 0.5, 1, 2, 3, 4, 5, 6, 8, 10};
+/// Authority of the hand that is kicked in Probe::kShare.
+inline constexpr std::array<double, 5> kShares{0.02, 0.1, 0.5, 0.9, 0.98};
 /// Springs of Probe::kRelease [N/m].
 inline constexpr std::array<double, 5> kReleaseK{100, 300, 1000, 5000, 20'000};
 
@@ -69,6 +73,7 @@ struct ProbeResult {
 [[nodiscard]] ProbeResult probe_rest(const FeelSetup& setup, std::uint64_t seed);
 [[nodiscard]] ProbeResult probe_release(const FeelSetup& setup, std::uint64_t seed);
 [[nodiscard]] ProbeResult probe_handover(const FeelSetup& setup, std::uint64_t seed);
+[[nodiscard]] ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed);
 
 /// Runs one part of a probe and keeps its time and its trouble.
 [[nodiscard]] FeelTrace run_part(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed, ProbeResult& result);

@@ -97,6 +97,11 @@ TEST(FeelHandOver, ChangesNoForceWithoutDelay) {
   EXPECT_LE(v.at("handover_step_n_ms"), 0.001);
 }
 
+TEST(FeelShare, IsQuietWithoutDelayAndCanFail) {
+  EXPECT_LE(probe_share(contact_over(0), 1).values.at("shared_cycle_n"), 0.02);
+  EXPECT_GT(probe_share(contact_over(100), 1).values.at("shared_cycle_n"), 0.06);
+}
+
 TEST(FeelExposure, CountsWhatTheNetworkTakesAway) {
   FeelSetup setup = contact_over(5);
   SimpleNetwork network = tandem::test::delayed(5);
