@@ -134,7 +134,7 @@ TEST(FeelExposure, CountsMotorsAtTheirLimit) {
 
 TEST(FeelProbes, TellWhyNothingCouldBeMeasured) {
   FeelSetup setup = contact_over(100);
-  setup.scene.gate.loop_age_max = 0.1;  // a loop of 200 ms must not engage
+  setup.scene.seats[0].device.damping = -1;  // there is no such device
   const ProbeResult result = probe_handover(setup, 1);
   EXPECT_NE(result.trouble, "");
   EXPECT_TRUE(std::isnan(result.values.at("handover_bump_n")));
