@@ -213,7 +213,8 @@ class Maker {
     if (traits->needs_contact && !(limit.phase ? phases[*limit.phase].contact : std::ranges::any_of(phases, touches)))
       return add(in.place, std::string("force errors are measured in phases that the scene marks `contact: true`; ") +
                                (limit.phase ? "this one is not" : "it has none"));
-    if (in.of == ScenarioLimitSpec::Of::kSession) {
+    if (in.of == ScenarioLimitSpec::Of::kSession || in.of == ScenarioLimitSpec::Of::kFeel) {
+      if (in.of == ScenarioLimitSpec::Of::kFeel) limit.subject = "feel";
       out_.limits.push_back(std::move(limit));
       return;
     }

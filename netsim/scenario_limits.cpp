@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "netsim/feel/observed_feel.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -88,6 +90,9 @@ std::optional<MetricTraits> known_metric(Limit::Of of, std::string_view metric) 
       break;
     case Limit::Of::kSession:
       if (metric == "duration_s") return MetricTraits{};
+      break;
+    case Limit::Of::kFeel:
+      if (std::ranges::find(ObservedFeel::keys(), metric) != ObservedFeel::keys().end()) return MetricTraits{};
   }
   return {};
 }
@@ -108,6 +113,9 @@ double value_of(const Limit& limit, const RunReport& report) {
       return kNaN;
     case Limit::Of::kSession:
       return report.duration_s;
+    case Limit::Of::kFeel:
+      for (const auto& [key, value] : report.feel)
+        if (key == limit.metric) return value;
   }
   return kNaN;
 }

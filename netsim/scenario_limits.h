@@ -14,11 +14,11 @@ namespace tandem::netsim {
 
 /// One number of a report that must lie in a range. Made by netsim/scenario.h; indices are those of the scene.
 struct Limit {
-  enum class Of : std::uint8_t { kSeat, kTool, kSession } of = Of::kSeat;
+  enum class Of : std::uint8_t { kSeat, kTool, kSession, kFeel } of = Of::kSeat;
   std::size_t index = 0;             ///< seat or tool
   std::optional<std::size_t> phase;  ///< none: the whole run
   std::string metric;                ///< known_metric(of, metric)
-  std::string subject;               ///< for people: `trainer`, `trainer in guidance`, `tool`, `session`
+  std::string subject;               ///< for people: `trainer`, `trainer in guidance`, `tool`, `session`, `feel`
   std::string unit;                  ///< empty: a plain number
   std::optional<double> min, max;    ///< ends included
 };

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "common/link/digest.h"
+#include "netsim/feel/observed_feel.h"
 #include "netsim/world.h"
 #include "netsim/world_notes.h"
 #include "netsim/world_quality.h"
@@ -41,6 +42,7 @@ WorldRun run_world(const WorldSetup& setup, const WorldRunWatch& watch) {
 WorldRun run_world(World& world, std::uint64_t seed, const WorldRunWatch& watch) {
   WorldRun run;
   server::ReportBuilder builder{world.scene()};
+  ObservedFeel feel{world.scene()};
   const server::TraceCsv csv{world.scene()};
   link::Digest digest;
   std::string rows = csv.header();
@@ -53,6 +55,7 @@ WorldRun run_world(World& world, std::uint64_t seed, const WorldRunWatch& watch)
     if (watch.tick) watch.tick(world);
     const server::TickRecord& record = world.record();
     builder.add(record);
+    feel.add(record);
     if (record.running) csv.append(record, rows);
     if (rows.size() > kRowsAtOnce) flush();
     if (n % kTicksPerLook == 0 && watch.go_on && !watch.go_on(world.session().time())) {
@@ -65,6 +68,9 @@ WorldRun run_world(World& world, std::uint64_t seed, const WorldRunWatch& watch)
   run.links = link_qualities(world);
   run.report = world_report(world, builder, seed);
   run.report.trace_hash = digest.hex();
+  std::vector<std::uint32_t> trips;
+  for (const server::SeatReport& seat : run.report.seats) trips.push_back(seat.gate_trips);
+  run.report.feel = feel.values(trips);
   if (run.trouble.empty() && run.report.duration_s <= 0 && !run.interrupted)
     run.trouble = "the session never ran: there is nothing to judge";
   return run;

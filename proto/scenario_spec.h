@@ -58,7 +58,7 @@ struct ScenarioEndpointSpec {
 
 /// One number that must lie in a range.
 struct ScenarioLimitSpec {
-  enum class Of : std::uint8_t { kSeat, kTool, kSession } of = Of::kSeat;
+  enum class Of : std::uint8_t { kSeat, kTool, kSession, kFeel } of = Of::kSeat;
   std::vector<ScenarioName> names;    ///< seats or tools; none: every MASTER seat, every tool
   std::optional<ScenarioName> phase;  ///< none: the whole run
   std::string metric;                 ///< key of the schema, such as `tracking_rms_m`

@@ -126,6 +126,11 @@ void all_limits_from(const pb::Scenario& in, Checker& checker, std::vector<Scena
     common.of = ScenarioLimitSpec::Of::kSession;
     limits_from(in.session_limits(), common, checker, "session_limits", out);
   }
+  if (in.has_feel()) {
+    ScenarioLimitSpec common;
+    common.of = ScenarioLimitSpec::Of::kFeel;
+    limits_from(in.feel(), common, checker, "feel", out);
+  }
 }
 
 std::string stem(std::string_view file) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "proto/scene_spec.h"
@@ -64,6 +65,8 @@ struct RunReport {
   std::vector<SeatReport> seats;
   std::vector<ToolReport> tools;
   std::vector<PhaseReport> phases;
+  /// How the run felt, by key: netsim/feel/observed_feel.h. NaN where it shows no such number; empty: not judged.
+  std::vector<std::pair<std::string, double>> feel;
   std::optional<PhaseReport> outside;  ///< what lies outside the scene's phases; nothing: the scene has none
 
   /// There is something that the metrics tell: somebody moved and it was judged.

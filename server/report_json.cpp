@@ -111,6 +111,10 @@ std::string to_json(const RunReport& r, int indent) {
   j["phases"] = Json::array();
   for (const PhaseReport& p : r.phases) j["phases"].push_back({{"name", p.name}, {"from_s", p.from_s}, {"to_s", p.to_s}, {"seats", seats_of(p, r)}});
   j["outside_phases"] = r.outside ? Json{{"seats", seats_of(*r.outside, r)}} : Json(nullptr);
+  if (!r.feel.empty()) {
+    j["feel"] = Json::object();
+    for (const auto& [key, value] : r.feel) j["feel"][key] = number(value);
+  }
   return j.dump(indent) + "\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/base/csv.h"
 
@@ -250,6 +251,21 @@ std::expected<RecordedMotion, std::string> RecordedMotion::parse(Text csv, const
   motion.drop_repeats();
   if (motion.t_.size() < 2) return std::unexpected(std::string(file) + ": the recording has no duration");
   motion.fit(options);
+  motion.make_tangents();
+  return motion;
+}
+
+std::expected<RecordedMotion, std::string> RecordedMotion::from_points(std::vector<double> t, std::vector<Vec3> x) {
+  if (t.size() < 2 || t.size() != x.size()) return std::unexpected("a motion needs at least two points, and one position per time");
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (!std::isfinite(t[i]) || !x[i].allFinite()) return std::unexpected("point " + std::to_string(i) + " is not finite");
+    if (i == 0 ? t[i] != 0.0 : t[i] <= t[i - 1]) return std::unexpected("point " + std::to_string(i) + ": time must begin at 0 and ascend");
+  }
+  RecordedMotion motion;
+  motion.line_.resize(t.size());
+  std::iota(motion.line_.begin(), motion.line_.end(), std::size_t{1});
+  motion.t_ = std::move(t);
+  motion.x_ = std::move(x);
   motion.make_tangents();
   return motion;
 }

@@ -54,6 +54,11 @@ class RecordedMotion {
                                                                         const MotionOptions& options,
                                                                         std::string_view name);
 
+  /// A motion that a program made: neither centred nor scaled, held at its ends.
+  /// @param t  ascending, from 0 [s]  @param x  one position per time [m]
+  /// Error: fewer than two points, another count of positions, time that does not ascend, a number that is not finite.
+  [[nodiscard]] static std::expected<RecordedMotion, std::string> from_points(std::vector<double> t, std::vector<Vec3> x);
+
   /// Position [m] and velocity [m/s] at `t` [s] after the first row; before it the first position, after the last row
   /// held at rest or, with `end=loop`, moved back to the start with minimum jerk and played again.
   [[nodiscard]] MotionPoint at(double t, Cursor& cursor) const noexcept TANDEM_REALTIME;

@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "common/io/program.h"
+#include "netsim/app/feel_command.h"
 #include "netsim/app/proxy_command.h"
 #include "netsim/app/run_command.h"
 #include "netsim/app/swarm_command.h"
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   tandem::netsim::add_run_command(app, action);
   tandem::netsim::add_test_command(app, action);
   tandem::netsim::add_sweep_command(app, action);
+  tandem::netsim::add_feel_command(app, action);
   tandem::netsim::add_proxy_command(app, action);
   tandem::netsim::add_control_command(app, action);
   tandem::netsim::add_profiles_command(app, action);

@@ -283,6 +283,23 @@ TEST(Program, AsksWhatWasMeant) {
   }
 }
 
+TEST(Program, FeelMeasuresJudgesLimitsAndWritesJson) {
+  Program good({"feel", "contact", "--plain-hands", "--seeds", "2", "--probe", "press", "--limit", "stiffness_felt_n_m>=150", "--json", "-", "--quiet"});
+  const auto json = nlohmann::json::parse(good.rest_of_out());
+  EXPECT_EQ(good.exit_code(), 0);
+  EXPECT_NEAR(json["feel"]["stiffness_felt_n_m"]["mean"].get<double>(), 175, 3);
+  EXPECT_EQ(json["seeds"].size(), 2u);
+  EXPECT_TRUE(json["passed"].get<bool>());
+  Program bad({"feel", "contact", "--plain-hands", "--seeds", "1", "--probe", "press", "--limit", "stiffness_felt_n_m>=360"});
+  EXPECT_NE(bad.rest_of_out().find("FAIL stiffness_felt_n_m"), std::string::npos);
+  EXPECT_EQ(bad.exit_code(), 1);
+  Program wrong({"feel", "contact", "--probe", "pres", "--limit", "drag<=1"});
+  const std::string err = wrong.rest_of_err();
+  EXPECT_EQ(wrong.exit_code(), 2);
+  EXPECT_NE(err.find("did you mean press?"), std::string::npos) << err;
+  EXPECT_NE(err.find("2 mistakes"), std::string::npos) << err;
+}
+
 TEST(Program, RunSaysThatTheProfilesFirstOutageCameTooLate) {
   const std::string said = "note: the first periodic outage at 10 s ";
   for (const auto& [more, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{

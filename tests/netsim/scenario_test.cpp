@@ -227,7 +227,7 @@ std::vector<std::string> keys_of(const std::string& block) {
 
 TEST(Scenario, EveryLimitOfTheSchemaCanBeMeasured) {
   for (const auto& [block, words] : std::vector<std::pair<std::string, std::set<std::string>>>{
-           {"seat_limits", {"seat", "phase"}}, {"tool_limits", {"tool"}}, {"session_limits", {}}}) {
+           {"seat_limits", {"seat", "phase"}}, {"tool_limits", {"tool"}}, {"session_limits", {}}, {"feel", {}}}) {
     const auto keys = keys_of(block);
     EXPECT_GE(keys.size(), words.size() + 1) << block;
     for (const std::string& key : keys)
@@ -236,6 +236,7 @@ TEST(Scenario, EveryLimitOfTheSchemaCanBeMeasured) {
       }
   }
   EXPECT_EQ(keys_of("seat_limits").size(), 27u);
+  EXPECT_EQ(keys_of("feel").size(), 12u);
 }
 
 TEST(Scenario, EveryFaultOfTheEngineCanBeWritten) {
@@ -276,6 +277,24 @@ TEST(Scenario, LimitsByHand) {
   EXPECT_EQ(short_number(kNaN), "none");
 }
 
+TEST(Scenario, FeelLimitsAreJudgedAndCanFail) {
+  const auto s = make("version: 1 scene: \"contact\" feel { stiffness_felt_n_m { min: 360 } trips_per_min { max: 1 } }");
+  ASSERT_TRUE(s) << to_text(s.error());
+  ASSERT_EQ(s->limits.size(), 2u);
+  EXPECT_EQ(s->limits[0].subject, "feel");
+  server::RunReport report;
+  const auto hold = [&](double stiffness, double trips) {
+    report.feel = {{"stiffness_felt_n_m", stiffness}, {"trips_per_min", trips}};
+    return std::pair(holds(s->limits[0], value_of(s->limits[0], report)), holds(s->limits[1], value_of(s->limits[1], report)));
+  };
+  EXPECT_EQ(hold(390, 0.5), std::pair(true, true));
+  EXPECT_EQ(hold(45, 0.5), std::pair(false, true));
+  EXPECT_EQ(hold(390, 24), std::pair(true, false));
+  EXPECT_EQ(hold(kNaN, 0), std::pair(false, true)) << "nobody pressed";
+  EXPECT_NE(mistakes("version: 1 scene: \"contact\" feel { stiffness { min: 360 } }"), "");
+  EXPECT_NE(mistakes("version: 1 scene: \"contact\" feel { engaged_share { min: 2 } }"), "");
+}
+
 TEST(Scenario, ValuesComeFromTheirPlaceInTheReport) {
   server::RunReport report;
   report.duration_s = 9;
@@ -304,6 +323,10 @@ TEST(Scenario, ValuesComeFromTheirPlaceInTheReport) {
   EXPECT_EQ(value(kTool, 0, "held_s"), 2.5);
   EXPECT_EQ(value(kTool, 0, "penetration_max_m"), 0.5);
   EXPECT_EQ(value(kSession, 0, "duration_s"), 9);
+  report.feel = {{"drag_n", 0.5}, {"gain_max", kNaN}};
+  EXPECT_EQ(value(kFeel, 0, "drag_n"), 0.5);
+  EXPECT_TRUE(std::isnan(value(kFeel, 0, "gain_max")));
+  EXPECT_TRUE(std::isnan(value(kFeel, 0, "overshoot"))) << "not judged";
   EXPECT_TRUE(std::isnan(value(kSeat, 2, "gate_trips")));
   EXPECT_TRUE(std::isnan(value(kSeat, 1, "joint_rms_rad", 1)));
   EXPECT_TRUE(std::isnan(value(kTool, 1, "held_s")));

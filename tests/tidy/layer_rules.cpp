@@ -44,7 +44,7 @@ constexpr std::array<std::string_view, 7> kTopFolders{"client/", "common/", "hal
                                                       "proto/",  "server/", "tests/"};
 
 /// Mirrors "Rooms and who may know whom". The room with the longest `folder` that the path begins with decides.
-const std::array<Room, 19> kRooms{{
+const std::array<Room, 20> kRooms{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -93,6 +93,10 @@ const std::array<Room, 19> kRooms{{
      {"common", "proto", "hal", "server", "client", "netsim"},
      {"Eigen", "openssl", "json"},
      "the World runs the cores in virtual time: no asio, spdlog or system headers"},
+    {"netsim/feel",
+     {"common", "proto", "hal", "server", "client", "netsim"},
+     {"Eigen", "json"},
+     "what hands feel is measured in the World: no files, clocks or threads; those belong to netsim/app"},
     {"netsim/testing",
      {"common", "proto", "hal", "server", "client", "netsim"},
      {"gtest"},

@@ -1,0 +1,221 @@
+#include "netsim/app/feel_command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <unistd.h>
+
+#include "common/base/format.h"
+#include "common/base/nearest.h"
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "common/io/print.h"
+#include "common/io/terminal.h"
+#include "common/setup/channel_setup.h"
+#include "hal/io/motion_file.h"
+#include "netsim/app/feel_measure.h"
+#include "netsim/app/interruption.h"
+#include "netsim/app/mistakes.h"
+#include "netsim/app/network_options.h"
+#include "netsim/app/test_progress.h"
+#include "proto/io/scene_file.h"
+#include "server/session_monitor.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr int kGood = 0, kFailed = 1;
+constexpr std::size_t kRecordingsMax = 8;
+
+struct FeelArguments {
+  std::string scene, channel, mfs, probes, recordings, json, csv;
+  std::vector<std::string> hands, limits;
+  double seeds = 20, jobs = 0;
+  bool plain = false, quiet = false;
+  NetworkOptions network;
+};
+
+std::vector<Probe> probes_named(const std::string& text, Mistakes& mistakes) {
+  std::vector<Probe> out;
+  std::vector<std::string> known;
+  for (const ProbeName& one : kProbes) known.emplace_back(one.name);
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    at = end + 1;
+    if (text.empty()) break;
+    const auto it = std::ranges::find(kProbes, word, &ProbeName::name);
+    if (it == kProbes.end()) {
+      mistakes.add("--probe: no probe is called \"" + word + "\"; " + suggest(word, known));
+    } else if (std::ranges::find(out, it->probe) == out.end()) {
+      out.push_back(it->probe);
+    }
+  }
+  if (text.empty())
+    for (const ProbeName& one : kProbes) out.push_back(one.probe);
+  return out;
+}
+
+void add_recording(const std::string& text, FeelSetup& setup, Mistakes& mistakes, const char* option) {
+  const auto options = hal::sim::parse_motion_options(text);
+  if (!options) return mistakes.add(std::string(option) + ": " + options.error());
+  auto motion = hal::load_motion(*options);
+  if (!motion) return mistakes.add(motion.error());
+  setup.recordings.push_back({text, std::move(*motion)});
+}
+
+/// Every recording of a folder that can be read without further options: those that cannot are named.
+void add_folder(const FeelArguments& a, FeelSetup& setup, Mistakes& mistakes, std::vector<std::string>& notes) {
+  if (a.recordings.empty()) return;
+  std::error_code error;
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(a.recordings, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("motion_") && name.ends_with(".csv")) files.push_back(entry.path().string());
+  }
+  if (error) return mistakes.add("--recordings: " + a.recordings + ": " + error.message());
+  std::ranges::sort(files);
+  std::size_t read = 0;
+  for (const std::string& file : files) {
+    const auto options = hal::sim::parse_motion_options(file);
+    auto motion = options ? hal::load_motion(*options) : std::unexpected(options.error());
+    if (motion) {
+      setup.recordings.push_back({file, std::move(*motion)});
+      ++read;
+    } else {
+      notes.push_back("left out: " + motion.error() + "; name it by --hand");
+    }
+  }
+  if (read == 0) mistakes.add("--recordings: " + a.recordings + " holds no motion_*.csv that can be read without options");
+}
+
+void set_law(const FeelArguments& a, SceneSpec& scene) {
+  if (a.channel == "raw") scene.channel.law = LawKind::kRaw;
+  if (a.channel == "set_position") scene.channel.law = LawKind::kSetPosition;
+  for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
+    if (a.mfs == server::mfs_name(mode)) scene.channel.mfs = mode;
+}
+
+int feel_command(const FeelArguments& a) {
+  Mistakes mistakes;
+  FeelSetup feel{.scene = {}};
+  FeelReport report;
+  feel.hands = a.plain ? HandKind::kPlain : HandKind::kDrawn;
+  if (auto network = a.network.resolve()) {
+    feel.network = network->link;
+    report.network = network->description;
+    report.notes = network->notes;
+  } else {
+    mistakes.add(network.error());
+  }
+  if (auto scene = load_scene(a.scene)) {
+    feel.scene = std::move(*scene);
+    set_law(a, feel.scene);
+  } else {
+    for (const InputError& error : scene.error()) mistakes.add(to_text(error));
+  }
+  FeelOptions options{.first = a.network.seed(),
+                      .seeds = static_cast<std::uint64_t>(a.seeds),
+                      .probes = probes_named(a.probes, mistakes),
+                      .jobs = static_cast<std::size_t>(a.jobs)};
+  for (const std::string& text : a.hands) add_recording(text, feel, mistakes, "--hand");
+  add_folder(a, feel, mistakes, report.notes);
+  if (feel.recordings.size() > kRecordingsMax) mistakes.add(format("--hand: at most %zu recordings", kRecordingsMax));
+  for (const std::string& text : a.limits) {
+    if (auto limit = parse_feel_limit(text)) {
+      report.limits.push_back(std::move(*limit));
+    } else {
+      mistakes.add("--limit: " + limit.error());
+    }
+  }
+  for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
+    if (!file->empty() && *file != "-")
+      if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) mistakes.add(std::string(option) + ": " + problem);
+  if (!a.json.empty() && a.json == a.csv) mistakes.add("--csv: is the same file as --json");
+  for (const std::string& other : a.network.all_given())
+    if (other == "--script") mistakes.add("--script: a probe is too short for a script; name one network");
+  if (!mistakes.none()) return mistakes.refuse("feel");
+
+  const Interruption interruption;
+  io::OutputFile json_file, csv_file;
+  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return refuse("feel", "--json: " + problem);
+  if (const auto problem = csv_file.open(a.csv, true); !problem.empty()) return refuse("feel", "--csv: " + problem);
+  report.scene = a.scene;
+  report.spec = feel.scene;
+  report.channel = setup::law_name(feel.scene.channel.law);
+  report.plain_hands = a.plain;
+  for (const auto& recording : feel.recordings) report.recordings.push_back(recording.name);
+  io::StatusLine line{a.quiet || isatty(STDERR_FILENO) == 0};
+  options.stop_fd = interruption.fd();
+  options.watch = [&](const io::JobsProgress& p) {
+    if (!line.wanted()) return;
+    line.show(format("%3.0f %%  %zu of %zu probes done%s", 100 * p.share, p.done, p.count,
+                     std::isfinite(p.left_s) && p.done < p.count ? (", about " + length_text(p.left_s) + " left").c_str() : ""));
+  };
+  measure_feel(feel, options, report);
+  line.clear();
+
+  const bool on_stdout = a.json == "-" || a.csv == "-";
+  if (!a.quiet || !on_stdout) io::print(on_stdout ? stderr : stdout, feel_text(report));
+  const bool interrupted = report.interrupted && interruption.came();
+  if (interrupted) Interruption::say("feel", format("%zu of %.0f seeds", report.seeds.size(), a.seeds));
+  json_file.write(feel_json(report));
+  csv_file.write(feel_csv(report));
+  int code = interrupted ? Interruption::kInterrupted : report.passed() ? kGood : kFailed;
+  for (const auto& problem : {json_file.close(), csv_file.close()})
+    if (!problem.empty()) {
+      io::printf_for_people(stderr, "tandem-netsim feel: %s\n", problem.c_str());
+      code = kFailed;
+    }
+  return code;
+}
+
+}  // namespace
+
+void add_feel_command(CLI::App& root, std::function<int()>& action) {
+  const auto a = std::make_shared<FeelArguments>();
+  CLI::App* const command =
+      root.add_subcommand("feel", "Measures what hands feel with a scene's settings over a network: stiffness, drag, errors, oscillation.");
+  command->add_option("scene", a->scene, "a scene file, or the name of a shipped scene; its channel, coupling, gate, devices and first tool are used")
+      ->option_text(" ")
+      ->required();
+  a->network.add_to(*command);
+  command->add_option("--seeds", a->seeds, "how many seeds, from --seed on; each has other hands; default 20")
+      ->check(io::number_in(1, 10'000, ""))
+      ->check(io::whole_number())
+      ->option_text("N");
+  command->add_option("--jobs", a->jobs, "probes at a time; default: one per core. No number depends on it")
+      ->check(io::number_in(1, 256, ""))
+      ->check(io::whole_number())
+      ->option_text("N");
+  command->add_option("--probe", a->probes, "only these: press, free, gain, rest, release, handover, share; default: all")->option_text("NAME,...");
+  command->add_option("--hand", a->hands, "a recorded motion for the probe `free`: FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]; may be repeated")
+      ->option_text("FILE...")
+      ->allow_extra_args(false);
+  command->add_option("--recordings", a->recordings, "a folder: every motion_*.csv in it that needs no options")->option_text("DIR");
+  command->add_flag("--plain-hands", a->plain, "hands without tremor and noise, all with the same impedance");
+  command->add_option("--channel", a->channel, "channel law instead of the scene's: set_position, raw")
+      ->transform(CLI::IsMember({"set_position", "raw"}, CLI::ignore_case));
+  command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
+      ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
+  command->add_option("--limit", a->limits, "what must hold of a mean, in SI; the worst seed may be 1.5 times worse: KEY<=NUMBER or KEY>=NUMBER; may be repeated")
+      ->option_text("LIMIT")
+      ->allow_extra_args(false);
+  command->add_option("--json", a->json, "writes all numbers and seeds; `-`: to standard output")->option_text("FILE|-");
+  command->add_option("--csv", a->csv, "writes one row per number; `-`: to standard output")->option_text("FILE|-");
+  command->add_flag("--quiet", a->quiet, "no progress, and no table beside --json - or --csv -");
+  command->footer(
+      "Every number is the mean and the worst over the seeds. Hands have drawn tremor (8 to 12 Hz), intention noise (0.3 mm RMS\n"
+      "about 2.3 Hz) and impedance. The probes do not know the law.\n\n"
+      "Exit: 0 measured and every --limit holds, 1 a limit is broken, something could not be measured, or interrupted,\n"
+      "2 wrong arguments or files.\n\n"
+      "Examples\n"
+      "  tandem-netsim feel contact --delay 50\n"
+      "  tandem-netsim feel contact --profile wifi-busy --probe press,free --json feel.json\n"
+      "  tandem-netsim feel contact --delay 100 --limit 'stiffness_felt_n_m>=360' --limit 'drag_1hz_n<=0.15'\n"
+      "  tandem-netsim feel contact --delay 20 --probe free --hand motion.csv,columns=baton");
+  command->callback([a, &action] { action = [a] { return feel_command(*a); }; });
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/format.h"
+#include "netsim/feel/feel_report.h"
+#include "netsim/feel/noticeable.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr std::size_t kWidth = 80;
+
+/// Three digits that mean something.
+std::string shown(double value) {
+  if (std::isnan(value)) return "none";
+  const double size = std::abs(value);
+  return format(size >= 99.95 ? "%.0f" : size >= 9.995 ? "%.1f" : size >= 0.9995 || size == 0 ? "%.2f" : "%.3f", value);
+}
+
+std::string wrapped_lines(const std::string& text, const std::string& indent) {
+  std::string out, line = indent;
+  bool empty = true;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    if (!empty && line.size() + 1 + word.size() > kWidth) {
+      out += line + "\n";
+      line = std::string(indent.size() + 2, ' ');
+      empty = true;
+    }
+    line += (empty ? "" : " ") + word;
+    empty = false;
+    at = end + 1;
+  }
+  return out + line + "\n";
+}
+
+std::string row(const FeelKey& key, const FeelNumber& number) {
+  return format("  %-42s %9s %9s  %s\n", std::string(key.words).c_str(), shown(number.mean * key.factor).c_str(),
+                shown(number.worst * key.factor).c_str(), std::string(key.unit).c_str());
+}
+
+}  // namespace
+
+std::vector<const FeelLimit*> FeelReport::broken() const {
+  std::vector<const FeelLimit*> out;
+  for (const FeelLimit& limit : limits) {
+    const auto it = numbers.find(limit.key);
+    if (it == numbers.end() || !limit.holds(it->second)) out.push_back(&limit);
+  }
+  return out;
+}
+
+std::string feel_text(const FeelReport& r) {
+  std::string out = wrapped_lines(format("%s over %s, law %s, %zu %s", r.scene.c_str(), r.network.c_str(), r.channel.c_str(), r.seeds.size(),
+                                         r.seeds.size() == 1 ? "seed" : "seeds") +
+                                      (r.plain_hands ? ", plain hands: no tremor, no noise, one impedance" : ", hands of different people"),
+                                  "");
+  for (const std::string& note : r.notes) out += wrapped_lines("note: " + note, "");
+  out += format("  %-42s %9s %9s\n", "", "mean", "worst");
+  for (const FeelSection& section : feel_sections()) {
+    std::string rows;
+    for (const FeelKey& key : section.keys)
+      if (const auto it = r.numbers.find(std::string(key.key)); it != r.numbers.end()) rows += row(key, it->second);
+    if (!rows.empty()) out += std::string(section.title) + "\n" + rows;
+  }
+  const std::vector<std::string> words = noticeable_text(r.spec, r.numbers, r.one_way_s);
+  if (!words.empty()) out += "What a person notices (a step is a just-noticeable difference)\n";
+  for (const std::string& sentence : words) out += wrapped_lines(sentence, "  ");
+  for (const std::string& trouble : r.troubles) out += wrapped_lines("could not be measured: " + trouble, "");
+  for (const FeelLimit* limit : r.broken()) {
+    const auto it = r.numbers.find(limit->key);
+    const std::string unit = si_unit(limit->key).empty() ? "" : " " + std::string(si_unit(limit->key));
+    const std::string got = it == r.numbers.end()          ? "was not measured"
+                            : std::isnan(it->second.mean) ? "does not exist in every seed"
+                                                          : format("mean %.4g, worst %.4g%s (seed %llu)", it->second.mean, it->second.worst, unit.c_str(),
+                                                                   static_cast<unsigned long long>(it->second.worst_seed));
+    out += wrapped_lines(format("FAIL %s: ", limit->key.c_str()) + got +
+                             format("; must be at %s %g, the worst seed %g", limit->at_least ? "least" : "most", limit->end,
+                                    limit->at_least ? limit->end / FeelLimit::kWorstFactor : limit->end * FeelLimit::kWorstFactor),
+                         "");
+  }
+  if (!r.limits.empty()) out += format("%s: %zu of %zu limits hold\n", r.passed() ? "pass" : "FAIL", r.limits.size() - r.broken().size(), r.limits.size());
+  out += format("%.0f s of sessions in %.1f s: %.0f x real time\n", r.lived_s, r.wall_s, r.wall_s > 0 ? r.lived_s / r.wall_s : 0.0);
+  return out;
+}
+
+std::string feel_csv(const FeelReport& r) {
+  std::string out = "key,unit,mean,worst,worst_seed\n";
+  const auto value = [](double v) { return std::isfinite(v) ? format("%.9g", v) : std::string(); };
+  for (const FeelSection& section : feel_sections())
+    for (const FeelKey& key : section.keys) {
+      const auto it = r.numbers.find(std::string(key.key));
+      if (it == r.numbers.end()) continue;
+      out += std::string(key.key) + "," + std::string(si_unit(key.key)) + "," + value(it->second.mean) + "," + value(it->second.worst) + "," +
+             std::to_string(it->second.worst_seed) + "\n";
+    }
+  return out;
+}
+
+}  // namespace tandem::netsim

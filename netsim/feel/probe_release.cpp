@@ -1,0 +1,47 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/format.h"
+#include "netsim/feel/meters.h"
+#include "netsim/feel/probes.h"
+
+/// A hand presses, then opens; about 1 N still pulls the handle of a frictionless device against a spring, as gravity would. What
+/// the law adds to the spring must not make energy: the handle has to come to rest.
+namespace tandem::netsim {
+namespace {
+
+constexpr double kPress = 0.004, kRelease = 4, kPull = 1;  // [m, s, N]
+constexpr double kMeasure = 11, kEnd = 15;                 // [s]
+constexpr double kBand = 0.5;                              // [Hz] below: the pose's drift under gravity compensation
+constexpr double kSettled = 1e-4;                          // [m] RMS; an encoder step of a Touch is 5.5e-5
+
+}  // namespace
+
+ProbeResult probe_release(const FeelSetup& setup, std::uint64_t seed) {
+  ProbeResult result;
+  const DrawnHand hand{setup.hands, seed, 0};
+  double most = 0;
+  for (const double k : kReleaseK) {
+    ProbeRun run;
+    run.length = kEnd;
+    run.frictionless = true;
+    run.environment = wall_of(k);
+    run.hands = {{hand.with_impedance(HandModel::kLettingGo, kFirmK, kFirmB, kFirmM)}};
+    HandSpec& opens = run.hands[0].hand;
+    opens.release_at = kRelease;
+    opens.drags = {kPull * hand.factor(11, 0.7, 1.4), 0, 0};
+    opens.trajectory.kind = Trajectory::Kind::kWaypoints;
+    opens.trajectory.waypoints = {{1, {0, 0, 0}}, {3, {kPress, 0, 0}}};
+    const FeelTrace trace = run_part(setup, run, seed, result);
+    const auto [first, end] = trace.window(kMeasure, kEnd);
+    const double amplitude = rms_above(Series{trace.hands[0].x}.subspan(first, end - first), kBand, trace.tick_hz);
+    result.values[format("released_%g_m", k)] = amplitude;
+    most = std::isnan(amplitude) || std::isnan(most) ? std::numeric_limits<double>::quiet_NaN() : std::max(most, amplitude);
+  }
+  result.values["released_m"] = most;
+  result.values["released_settles"] = std::isnan(most) ? most : most <= kSettled ? 1 : 0;
+  return result;
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "netsim/feel/meters.h"
+#include "netsim/feel/probes.h"
+
+/// Limit cycles: a hand moves 30 mm within 0.3 s and back, then rests without tremor; a relaxed hand is knocked. What force goes on
+/// above 1 Hz from 5 s after the kick?
+namespace tandem::netsim {
+namespace {
+
+constexpr double kAway = 0.03, kMove = 0.3, kOut = 1, kBack = 2;  // [m, s, s, s]
+constexpr double kMeasure = 7.5, kEnd = 12.5;                     // [s]
+constexpr double kBand = 1;                                       // [Hz]
+
+struct Resting {
+  const char* key;
+  HandModel model;
+  double k, b, m;  ///< [N/m, N s/m, kg]
+};
+constexpr Resting kHands[] = {
+    {"limit_cycle_firm_n", HandModel::kRecorded, kFirmK, kFirmB, kFirmM},
+    {"limit_cycle_resting_n", HandModel::kRecorded, 50, 5, 0.1},
+    {"limit_cycle_soft_n", HandModel::kRecorded, 50, 1, 0.2},
+    {"limit_cycle_relaxed_n", HandModel::kRelaxed, 0, 2, 0.1},
+};
+
+}  // namespace
+
+ProbeResult probe_rest(const FeelSetup& setup, std::uint64_t seed) {
+  ProbeResult result;
+  const DrawnHand hand{setup.hands, seed, 0};
+  const DrawnHand steady{HandKind::kPlain, seed, 0};  // moves without tremor
+  const auto path = [](double t) {
+    return hal::Vec3(kAway * (hal::sim::min_jerk((t - kOut) / kMove).value - hal::sim::min_jerk((t - kBack) / kMove).value), 0, 0);
+  };
+  double most = 0;
+  for (const Resting& r : kHands) {
+    ProbeRun run;
+    run.length = kEnd;
+    run.hands = {{hand.with_impedance(r.model, r.k, r.b, r.m)}};
+    if (r.model == HandModel::kRecorded) run.hands[0].motion = steady.move(path, kEnd);
+    if (r.model == HandModel::kRelaxed) run.pushes = {{.hand = 0, .at = kBack, .force = {2, 0, 0}, .length = 0.1}};
+    const FeelTrace trace = run_part(setup, run, seed, result);
+    const auto [first, end] = trace.window(kMeasure, kEnd);
+    const double force = rms_above(Series{trace.hands[0].f}.subspan(first, end - first), kBand, trace.tick_hz);
+    result.values[r.key] = force;
+    most = std::isnan(force) || std::isnan(most) ? std::numeric_limits<double>::quiet_NaN() : std::max(most, force);
+  }
+  result.values["limit_cycle_n"] = most;
+  return result;
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,128 @@
+#include "netsim/feel/probe_scene.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "netsim/world.h"
+#include "netsim/world_report.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr const char* kNames[] = {"leader", "follower"};
+
+SimDeviceSpec placed(SimDeviceSpec device, const ProbeRun& run) {
+  device.start = {run.start_x, 0, 0};
+  if (run.frictionless) device.friction = 0;
+  return device;
+}
+
+hal::Vec3 vector_of(const server::Triple& v) { return {v[0], v[1], v[2]}; }
+
+void add_row(FeelTrace& trace, const World& world) {
+  const server::TickRecord& record = world.record();
+  trace.t.push_back(record.tick / trace.tick_hz);
+  for (std::size_t i = 0; i < trace.hands.size(); ++i) {
+    const server::SeatRecord& seat = record.seats[i];
+    FeelTrace::Hand& hand = trace.hands[i];
+    hand.x.push_back(vector_of(seat.x));
+    hand.f.push_back(vector_of(seat.f_out));
+    hand.f_cmd.push_back(vector_of(seat.f_cmd));
+    hand.engaged.push_back(seat.engaged ? 1 : 0);
+    hand.trips.push_back(world.gate_trips(i));
+  }
+  const server::ToolRecord& tool = record.tools[0];
+  trace.tool.push_back(vector_of(tool.x));
+  trace.f_env.push_back(vector_of(tool.f_env));
+  trace.held.push_back(tool.held ? 1 : 0);
+}
+
+}  // namespace
+
+EnvironmentSpec wall_of(double k) {
+  EnvironmentSpec environment;
+  environment.wall = WallSpec{.axis = 0, .at = 0, .k = k, .b = 5, .from_below = true};
+  return environment;
+}
+
+WorldSetup world_of(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed) {
+  WorldSetup out{.scene = setup.scene, .network = run.perfect_network ? LinkSpec{} : setup.network, .seed = seed};
+  SceneSpec& scene = out.scene;
+  const SceneSpec& given = setup.scene;
+  scene.name = "probe of " + given.name;
+  scene.duration = run.length;
+  scene.seats.clear();
+  scene.tools.clear();
+  scene.timeline.clear();
+  scene.phases.clear();
+  scene.follow = {};
+  const std::size_t masters = given.masters();
+  for (std::size_t i = 0; i < run.hands.size(); ++i) {
+    SeatSpec seat = given.seats[std::min(i, masters - 1)];
+    seat.name = kNames[i];
+    seat.role = i == 0 ? Role::kInstructor : Role::kTrainee;
+    seat.required = true;
+    seat.device = placed(seat.device, run);
+    seat.hand = run.hands[i].hand;
+    if (run.hands[i].motion) out.motions[seat.name] = run.hands[i].motion;
+    scene.seats.push_back(std::move(seat));
+    scene.follow[i][0] = 1;
+  }
+  ToolSpec tool = given.tools[0];
+  if (tool.remote) {
+    SeatSpec slave = given.seats[tool.seat];
+    slave.tool = 0;
+    slave.required = true;
+    slave.device = placed(slave.device, run);
+    slave.environment = run.environment;
+    tool.seat = scene.seats.size();
+    scene.seats.push_back(std::move(slave));
+  } else {
+    tool.slave = placed(tool.slave, run);
+    tool.environment = run.environment;
+  }
+  scene.tools.push_back(std::move(tool));
+  AuthorityRow row;
+  row.alpha[0] = run.share;
+  row.alpha[1] = 1 - run.share;
+  scene.authority = {row};
+  if (run.hand_over_at > 0) {
+    AuthorityRow other;
+    other.alpha[1] = 1;
+    scene.timeline = {{run.hand_over_at, other}};
+  }
+  return out;
+}
+
+FeelTrace run_probe(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed) {
+  const WorldSetup world_setup = world_of(setup, run, seed);
+  FeelTrace trace;
+  trace.tick_hz = world_setup.scene.tick_hz;
+  auto made = World::make(world_setup);
+  if (!made) {
+    trace.trouble = made.error();
+    return trace;
+  }
+  World& world = **made;
+  trace.hands.resize(run.hands.size());
+  for (std::size_t i = 0; i < trace.hands.size(); ++i) {
+    const SeatSpec& seat = world_setup.scene.seats[i];
+    trace.hands[i].force_max = std::min(seat.device.force_peak, world_setup.scene.gate.force_max * share_of_force(seat.role));
+  }
+  std::vector<ProbePush> pushes = run.pushes;
+  while (world.step()) {
+    if (!world.record().running) continue;
+    add_row(trace, world);
+    std::erase_if(pushes, [&](const ProbePush& push) {
+      if (trace.t.back() < push.at) return false;
+      world.device(push.hand).push(push.force, push.length);
+      return true;
+    });
+  }
+  trace.trouble = world.trouble();
+  if (trace.rows() == 0 && trace.trouble.empty()) trace.trouble = "the session never ran";
+  trace.one_way_s = std::max(0.0, 0.5 * (link_reports(world)[0].rtt_p50_ms * 1e-3 - 1 / trace.tick_hz));
+  return trace;
+}
+
+}  // namespace tandem::netsim

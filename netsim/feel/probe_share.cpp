@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/format.h"
+#include "netsim/feel/meters.h"
+#include "netsim/feel/probes.h"
+
+/// Two hands share a tool, one with 2 to 98 % of the authority. One moves 30 mm within 0.3 s and back, then both rest without tremor.
+/// What force goes on above 1 Hz at either hand from 5 s after the kick? Both hands are firm, then both soft.
+namespace tandem::netsim {
+namespace {
+
+constexpr double kAway = 0.03, kMove = 0.3, kOut = 1, kBack = 2;  // [m, s, s, s]
+constexpr double kMeasure = 7.5, kEnd = 12.5;                     // [s]
+constexpr double kBand = 1;                                       // [Hz]
+
+}  // namespace
+
+ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  ProbeResult result;
+  const DrawnHand steady{HandKind::kPlain, seed, 0};  // moves without tremor
+  const auto kick = steady.move(
+      [](double t) { return hal::Vec3(kAway * (hal::sim::min_jerk((t - kOut) / kMove).value - hal::sim::min_jerk((t - kBack) / kMove).value), 0, 0); },
+      kEnd);
+  const auto still = steady.move([](double) { return hal::Vec3(0, 0, 0); }, kEnd);
+  double most = 0;
+  for (const double share : kShares) {
+    double worst = 0;
+    for (const bool soft : {false, true}) {
+      ProbeRun run;
+      run.length = kEnd;
+      run.share = share;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const DrawnHand hand{setup.hands, seed, i};
+        run.hands.push_back({soft ? hand.with_impedance(HandModel::kRecorded, 50, 1, 0.2) : hand.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM),
+                             i == 0 ? kick : still});
+      }
+      const FeelTrace trace = run_part(setup, run, seed, result);
+      const auto [first, end] = trace.window(kMeasure, kEnd);
+      for (const FeelTrace::Hand& hand : trace.hands) {
+        const double force = rms_above(Series{hand.f}.subspan(first, end - first), kBand, trace.tick_hz);
+        worst = std::isnan(force) || std::isnan(worst) ? kNaN : std::max(worst, force);
+      }
+    }
+    result.values[format("shared_cycle_%g_n", 100 * share)] = worst;
+    most = std::isnan(worst) || std::isnan(most) ? kNaN : std::max(most, worst);
+  }
+  result.values["shared_cycle_n"] = most;
+  return result;
+}
+
+}  // namespace tandem::netsim
