@@ -85,9 +85,6 @@ void write_device(const SimDeviceSpec& in, Message& out) {
   write_point(in.start, *out.mutable_start_m());
 }
 
-  return std::clamp(index, 0, 2);
-}
-
 
 void read_trajectory(const pb::Trajectory& in, const std::string& path, Checker& checker, Trajectory& out) {
   if (in.has_circle() && in.waypoint_size() > 0) {

@@ -16,6 +16,8 @@ int axis_in(bool given, pb::Axis axis, int fallback, std::size_t dof, const std:
   if (index < 0 || static_cast<std::size_t>(index) >= dof) {
     checker.error(child_path(path, "axis"), "there is no such axis when dof is " + std::to_string(dof));
   }
+  return std::clamp(index, 0, 2);
+}
 
 }  // namespace
 

@@ -20,6 +20,7 @@
 #include "netsim/app/network_options.h"
 #include "netsim/app/test_progress.h"
 #include "proto/io/scene_file.h"
+#include "proto/scene_text.h"
 #include "server/session_monitor.h"
 
 namespace tandem::netsim {
@@ -91,6 +92,7 @@ void add_folder(const FeelArguments& a, FeelSetup& setup, Mistakes& mistakes, st
 }
 
 void set_law(const FeelArguments& a, SceneSpec& scene) {
+  if (a.channel == "replica") scene.channel.law = LawKind::kReplica;
   if (a.channel == "raw") scene.channel.law = LawKind::kRaw;
   if (a.channel == "set_position") scene.channel.law = LawKind::kSetPosition;
   for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
@@ -112,6 +114,7 @@ int feel_command(const FeelArguments& a) {
   if (auto scene = load_scene(a.scene)) {
     feel.scene = std::move(*scene);
     set_law(a, feel.scene);
+    if (const auto problem = law_problem(feel.scene)) mistakes.add("--channel: " + a.scene + ": " + problem->key + ": " + problem->words);
   } else {
     for (const InputError& error : scene.error()) mistakes.add(to_text(error));
   }
@@ -195,8 +198,8 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
       ->allow_extra_args(false);
   command->add_option("--recordings", a->recordings, "a folder: every motion_*.csv in it that needs no options")->option_text("DIR");
   command->add_flag("--plain-hands", a->plain, "hands without tremor and noise, all with the same impedance");
-  command->add_option("--channel", a->channel, "channel law instead of the scene's: set_position, raw")
-      ->transform(CLI::IsMember({"set_position", "raw"}, CLI::ignore_case));
+  command->add_option("--channel", a->channel, "channel law instead of the scene's: replica, set_position, raw")
+      ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
   command->add_option("--limit", a->limits, "what must hold of a mean, in SI; the worst seed may be 1.5 times worse: KEY<=NUMBER or KEY>=NUMBER; may be repeated")

@@ -142,7 +142,7 @@ void add_sweep_command(CLI::App& root, std::function<int()>& action) {
       ->check(io::whole_number())
       ->option_text("N");
   command->add_option("--duration", a->duration_s, "session time instead of the scene's")->transform(io::number_in(0.1, 3e6, "s"))->option_text("S");
-  command->add_option("--channel", a->channel, "channel law instead of the scene's: set_position, raw")
+  command->add_option("--channel", a->channel, "channel law instead of the scene's: replica, set_position, raw")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
