@@ -69,7 +69,7 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
   // Before engage the limit is learned freely; with a hand on the device it follows slowly, or a slow attacker could raise it.
   const Duration learned = std::min(p_.loop_age_max, std::max(kMargin, in.rtt_p99 + kMargin));
   if (active()) {
-    const Duration step = from_seconds(kAgeSlew * seconds(in.now - last_step_));
+    const Duration step = from_seconds(kAgeSlew * std::max(0.0, seconds(in.now - last_step_)));  // a clock may turn back
     age_limit_ += std::clamp(learned - age_limit_, -step, step);
   } else {
     age_limit_ = learned;

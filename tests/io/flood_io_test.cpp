@@ -128,7 +128,9 @@ TEST(FloodLive, TwoThousandConnectionsASecondDisturbNoHandAndTakeLittleMemory) {
   std::printf("[ hostile  ] ticks: quiet %s; with the flood %s\n", quiet.c_str(), session.lateness(0.999).c_str());
   EXPECT_EQ(tried, 2000 * length);
   EXPECT_GT(reached, tried / 10);
+#ifndef TANDEM_SANITIZED  // a sanitizer keeps freed memory, 256 MiB of it
   EXPECT_LE(most - before, 32 * 1024);
+#endif
   session.expect_undisturbed();
 }
 
