@@ -96,8 +96,9 @@ class Prober {
   void receive() {
     for (int round = 0; round < kRounds; ++round) {
       const int count = in_.receive(socket_.fd.get());
-      const Time now = io::monotonic_now();
+      // In this order: a program that is put aside between the two clocks finds a way longer than it was, never shorter.
       const Duration wall = io::read_clock(CLOCK_REALTIME);
+      const Time now = io::monotonic_now();
       for (int k = 0; k < count; ++k) {
         const auto i = static_cast<std::size_t>(k);
         // The kernel's stamp: what this program did not see at once is no fault of the network.
