@@ -186,7 +186,10 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   in.fresh = fresh_;
   in.loop_age = link_->freshness().loop_age(now);
   in.rtt_p99 = link_->freshness().rtt_p99();
-  if (setup_.channel.law == LawKind::kReplica && setup_.seat.kind == SeatKind::kMaster) in.patience = from_seconds(silence_limit(setup_.gate, LawKind::kReplica, rx_.alpha));
+  if (setup_.channel.law == LawKind::kReplica && setup_.seat.kind == SeatKind::kMaster) {
+    const SilenceLimits limits = silence_limits(setup_.gate, LawKind::kReplica, rx_.alpha);
+    in.patience = link_->freshness().gaps().patience(from_seconds(limits.least), from_seconds(limits.most));
+  }
   if (setup_.seat.kind == SeatKind::kMaster)  // a slave may be pressed against something harder than any grip
     sensor_.look(now, reading_.q, joints_, end_->state().ref, effort_, setup_.axis_scale, setup_.dof, was_active);
   if (reset_) {

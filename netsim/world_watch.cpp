@@ -247,7 +247,7 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
     const double silence = seconds(now - s.fresh);
     const bool hand = scene_->seats[i].kind == SeatKind::kMaster;
     // The longest that was in force since the last word: who loses his authority or his server in a silence lets go from then on.
-    s.silence_limit = std::max(s.silence_limit, hand ? silence_limit(scene_->gate, scene_->channel.law, seat.force().alpha) : scene_->gate.silence_limit);
+    s.silence_limit = std::max(s.silence_limit, hand ? silence_limits(scene_->gate, scene_->channel.law, seat.force().alpha).most : scene_->gate.silence_limit);
     const double limit = s.silence_limit;
     if (seat.gate().active() && silence > limit + half_tick) note("silence_ramps", i);
     if (silence > limit + kRampOut + 3 * half_tick) {
@@ -257,7 +257,7 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
     }
   }
   const bool replica = scene_->channel.law == LawKind::kReplica && scene_->seats[i].kind == SeatKind::kMaster;
-  const double patience = replica ? silence_limit(scene_->gate, LawKind::kReplica, seat.force().alpha) : 0;
+  const double patience = replica ? silence_limits(scene_->gate, LawKind::kReplica, seat.force().alpha).most : 0;
   if (seat.gate().active() && seconds(fresh.loop_age(own)) > scene_->gate.loop_age_max + patience + 1e-9) note("loop_age", i);
 }
 

@@ -45,8 +45,8 @@ struct CouplingSpec {
 
 struct GateSpec {
   double silence_limit = 0.020;  ///< [s]
-  double local_hold = 0.25;      ///< REPLICA: the same for a hand that leads alone, whose force needs no network [s]
-  double follow_hold = 0.1;      ///< REPLICA: the same for other hands, for as long as others are predicted [s]
+  double local_hold = 0.45;      ///< REPLICA: the longest silence borne by a hand that leads alone, whose force needs no network [s]
+  double follow_hold = 0.45;     ///< REPLICA: the same for other hands; the tank bounds what either is given meanwhile [s]
   double loop_age_max = 0.100;   ///< [s]
   bool latch = true;
   double ramp_in = 0.5;          ///< [s]
@@ -54,11 +54,15 @@ struct GateSpec {
 };
 /// Authority from which on a hand counts as leading alone.
 inline constexpr double kLeadsAlone = 0.98;
-/// How long a hand may be given force without news [s].
-[[nodiscard]] constexpr double silence_limit(const GateSpec& gate, LawKind law, double authority) noexcept {
-  if (law != LawKind::kReplica) return gate.silence_limit;
-  const double hold = authority >= kLeadsAlone ? gate.local_hold : gate.follow_hold;
-  return hold > gate.silence_limit ? hold : gate.silence_limit;
+/// How long a hand may be given force without news, on a link without gaps and at the longest [s].
+struct SilenceLimits { double least = 0, most = 0; };
+[[nodiscard]] constexpr SilenceLimits silence_limits(const GateSpec& gate, LawKind law, double authority) noexcept {
+  constexpr double kLocalLeast = 0.25, kFollowLeast = 0.1;
+  if (law != LawKind::kReplica) return {gate.silence_limit, gate.silence_limit};
+  const bool leads = authority >= kLeadsAlone;
+  const double hold = leads ? gate.local_hold : gate.follow_hold, least = leads ? kLocalLeast : kFollowLeast;
+  const double most = hold > gate.silence_limit ? hold : gate.silence_limit;
+  return {least < most ? least : most, most};
 }
 
 /// Of the force and of the energy after a loss that a hand may be given: who only feels what others do gets half (design notes,

@@ -19,12 +19,15 @@ constexpr double kJumpMaxM = 1, kJumpMaxRad = 5;
 
 /// How long a seat may be given force without news, at the longest [s].
 double patience(const SceneSpec& scene, std::size_t seat) {
-  return scene.seats[seat].kind == SeatKind::kMaster ? silence_limit(scene.gate, scene.channel.law, 1) : scene.gate.silence_limit;
+  return scene.seats[seat].kind == SeatKind::kMaster ? silence_limits(scene.gate, scene.channel.law, 1).most : scene.gate.silence_limit;
 }
 /// A hand that simulates its tool holds on for as long as its own gate does: the tool waits for it.
-Duration hold_limit(const SceneSpec& scene, std::size_t seat) {
+SilenceLimits hold_limits(const SceneSpec& scene, std::size_t seat) {
+  const double usual = seconds(kHoldLimit);
   const bool simulates = scene.channel.law == LawKind::kReplica && scene.seats[seat].kind == SeatKind::kMaster;
-  return simulates ? std::max(kHoldLimit, from_seconds(scene.gate.local_hold)) : kHoldLimit;
+  if (!simulates) return {usual, usual};
+  const SilenceLimits own = silence_limits(scene.gate, scene.channel.law, 1);
+  return {std::max(usual, own.least), std::max(usual, own.most)};
 }
 }  // namespace
 
@@ -33,7 +36,8 @@ SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& sc
       tick_(from_seconds(1.0 / scene.tick_hz)),
       role_(access_role(scene.seats[seat].role)),
       feels_(allowed(role_, Right::kForce) != Grant::kNo),
-      hold_limit_(hold_limit(scene, seat)),
+      hold_least_(from_seconds(hold_limits(scene, seat).least)),
+      hold_most_(from_seconds(hold_limits(scene, seat).most)),
       deaf_after_(from_seconds(patience(scene, seat)) + kDeafMargin),
       end_(make_channel_end(scene, seat, scale)),
       codec_(scene.dof, scene.port) {}
@@ -104,12 +108,14 @@ SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<
 }
 
 bool SeatPort::alive(Time now) const noexcept {
-  return taken_ && generation_ > 0 && connection_->silence(now) < hold_limit_;
+  if (!taken_ || generation_ == 0) return false;
+  const Duration silence = connection_->silence(now);
+  return silence < hold_least_ || silence < connection_->link().freshness().gaps().patience(hold_least_, hold_most_);
 }
 
 bool SeatPort::deaf() const noexcept {
   const link::Freshness& fresh = connection_->link().freshness();
-  return (feels_ && fresh.peer_silence() > deaf_after_) || fresh.echo_stall() > kEchoStallMax;  // who feels nothing is not told often
+  return (feels_ && fresh.peer_silence() > deaf_after_) || fresh.echo_stall() > std::max(kEchoStallMax, deaf_after_);  // who feels nothing is not told often
 }
 
 bool SeatPort::jumps(const PortSample& next) const noexcept {

@@ -112,7 +112,7 @@ class SeatPort {
   Duration tick_;
   AccessRole role_;
   bool feels_;
-  Duration hold_limit_;
+  Duration hold_least_, hold_most_;  ///< of a silence, by the gaps of its link
   Duration deaf_after_;  ///< its own word that it hears nothing
   Conduct conduct_;
   std::array<std::byte, 32> resume_{};

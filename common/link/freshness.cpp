@@ -3,6 +3,7 @@
 namespace tandem::link {
 
 void Freshness::accepted(Time now, std::uint64_t echo_counter, Duration echo_age, std::uint32_t peer_tick) noexcept {
+  if (heard_) gaps_.add(now, now - arrived_);
   arrived_ = now;
   if (!heard_) echo_moved_ = now;
   heard_ = true;

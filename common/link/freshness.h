@@ -9,6 +9,7 @@
 
 #include "common/base/histogram.h"
 #include "common/base/time.h"
+#include "common/link/recent_gaps.h"
 
 namespace tandem::link {
 
@@ -85,6 +86,7 @@ class Freshness {
   [[nodiscard]] Duration echo_stall() const noexcept { return arrived_ - echo_moved_; }
   [[nodiscard]] bool heard() const noexcept { return heard_; }
   [[nodiscard]] Time arrived() const noexcept { return arrived_; }
+  [[nodiscard]] const RecentGaps& gaps() const noexcept { return gaps_; }
 
  private:
   static constexpr Duration kTickMin = std::chrono::microseconds(100), kTickMax = std::chrono::milliseconds(100);
@@ -106,6 +108,7 @@ class Freshness {
   WindowedMinimum rtt_floor_, transit_floor_;
   Histogram rtts_, recent_;
   std::int64_t recent_p99_ = 0;
+  RecentGaps gaps_;
 };
 
 }  // namespace tandem::link

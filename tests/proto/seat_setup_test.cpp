@@ -173,7 +173,7 @@ TEST(SeatSetup, IsHeldAgainstTheLimitsOfFiles) {
   refused([&](SeatSetup& s) { s.dof = 4; }, "dof");
   refused([&](SeatSetup& s) { s.gate.silence_limit = 0.5; }, "gate.silence_limit_ms");
   refused([&](SeatSetup& s) { s.gate.force_max = 1e9; }, "gate.force_max_n");
-  refused([&](SeatSetup& s) { s.gate.local_hold = 0.5; }, "gate.local_hold_ms");
+  refused([&](SeatSetup& s) { s.gate.local_hold = 0.51; }, "gate.local_hold_ms");
   refused([&](SeatSetup& s) { s.channel.b_rel = -1; }, "channel.b_rel_n_s_m");
   refused([&](SeatSetup& s) { s.m_s = 0; }, "m_s_kg");
   refused([&](SeatSetup& s) { s.b_s = nan; }, "b_s_n_s_m");
