@@ -22,7 +22,7 @@ double ReplicaReference::stiffness_for(double authority, double delay) const noe
 void ReplicaReference::engage(const AxisArray& x, double age) noexcept {
   ChannelEnd::engage(x, age);
   k_x_ = stiffness_for(1, schedule_.delay());
-  for (std::size_t a = 0; a < params_.dof; ++a) state_.k[a] = 0;
+  for (std::size_t a = 0; a < params_.dof; ++a) state_.k[a] = calm_v_[a] = 0;
 }
 
 const EndState& ReplicaReference::move(const EndInput& in) noexcept {
@@ -31,6 +31,7 @@ const EndState& ReplicaReference::move(const EndInput& in) noexcept {
   const double wanted = stiffness_for(in.authority, d);
   k_x_ += std::clamp(wanted - k_x_, -params_.schedule.k_fall * in.dt, params_.schedule.k_rise * in.dt);
   const bool follows = in.authority < 1e-3;
+  const double calm = follows ? Prediction::calm_part(in.dt) : 1;
   const double shared_damping = follows ? 0 : kSharedDamping * alone * k_x_ * d;
   const double damping = alone * params_.b_rel * k_x_ / params_.k_c + shared_damping;
   for (std::size_t a = 0; a < params_.dof; ++a) {
@@ -43,7 +44,8 @@ const EndState& ReplicaReference::move(const EndInput& in) noexcept {
     state_.rate[a] = in.rx.v[a];
     change_stiffness(a, alone * k_x_ * params_.scale[a], in.x[a], 1);
 
-    const double target = follows ? Prediction::place_for_hand(in.rx.x[a], in.rx.v[a], in.age) : in.rx.x[a];
+    calm_v_[a] += calm * (in.rx.v[a] - calm_v_[a]);
+    const double target = follows ? Prediction::place_for_hand(in.rx.x[a], calm_v_[a], in.age) : in.rx.x[a];
     const double step = (std::abs(in.rx.v[a]) + approach_[a]) * in.dt;
     const double reach = 2 * strongest_[a] / (k_x_ * params_.scale[a]);
     const double leashed = std::clamp(std::clamp(target, state_.ref[a] - step, state_.ref[a] + step), in.x[a] - reach, in.x[a] + reach);

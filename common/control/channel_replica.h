@@ -25,7 +25,8 @@ class ReplicaReference final : public PaidEnd {
  private:
   [[nodiscard]] double stiffness_for(double authority, double delay) const noexcept;
 
-  double k_x_ = 0;  ///< slewed [N/m]
+  double k_x_ = 0;      ///< slewed [N/m]
+  AxisArray calm_v_{};  ///< the others' velocity by which a hand that follows is led [m/s]
 };
 
 /// The server's end: the hand as it is by now, predicted over the whole age of its newest sample. It pulls a tool that no hand hears by

@@ -64,7 +64,10 @@ struct Prediction {
     const double h = std::clamp(age, 0.0, kHorizonMax);
     return velocity(m) + acceleration(m) * (h + kFilterDelay);
   }
-  /// What pulls a hand is predicted by its velocity alone: the bolder prediction shakes a relaxed hand.
+  /// What pulls a hand is predicted by its velocity alone, and by one that went through a further pole of 5 Hz: the bolder prediction shakes
+  /// a relaxed hand.
+  static constexpr double kCalmHz = 5;
+  [[nodiscard]] static double calm_part(double dt) noexcept { return 1 - std::exp(-2 * std::numbers::pi * kCalmHz * dt); }
   [[nodiscard]] static double place_for_hand(double x, double v, double age) noexcept {
     return x + std::clamp(age, 0.0, kHorizonMax) * std::clamp(v, -kVelocityMax, kVelocityMax);
   }

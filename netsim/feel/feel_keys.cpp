@@ -37,8 +37,10 @@ constexpr FeelKey kFree[] = {
     {"follower_tool_1hz_m", "follower to tool, 1 Hz, RMS", "mm", 1e3},
     {"follower_tool_step_m", "follower to tool, step, RMS", "mm", 1e3},
     {"follower_tool_recorded_m", "follower to tool, recorded, RMS", "mm", 1e3},
-    {"follower_force_n", "force on a relaxed follower, RMS", "N"},
-    {"follower_step_n_ms", "  its largest step", "N/ms"},
+    {"follower_force_05hz_n", "force on a relaxed follower, 0.5 Hz, RMS", "N"},
+    {"follower_step_05hz_n_ms", "  its largest step", "N/ms"},
+    {"follower_force_1hz_n", "force on a relaxed follower, 1 Hz, RMS", "N"},
+    {"follower_step_1hz_n_ms", "  its largest step", "N/ms"},
 };
 constexpr FeelKey kGain[] = {
     {"gain_max", "largest gain, tool over hand", ""},

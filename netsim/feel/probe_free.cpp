@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "netsim/feel/meters.h"
@@ -39,15 +38,11 @@ void put_errors(const FeelTrace& trace, double from, double to, const std::strin
   v["transport_lag_" + motion + "_m"] = rms_lag(part(trace.hands[0].x), lag);
 }
 
-/// The greater one; NaN if either does not exist.
-double worse(double a, double b) { return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b); }
-
-void put_follower(const FeelTrace& trace, double from, double to, FeelValues& v) {
-  const auto [first, end] = trace.window(from, to);
+void put_follower(const FeelTrace& trace, const Circle& circle, FeelValues& v) {
+  const auto [first, end] = trace.window(kSettle, circle.end);
   const Series force = Series{trace.hands[1].f}.subspan(first, end - first);
-  const double mean_square = rms(force), step = largest_step_per_ms(force, trace.tick_hz);
-  v["follower_force_n"] = v.contains("follower_force_n") ? worse(v["follower_force_n"], mean_square) : mean_square;
-  v["follower_step_n_ms"] = v.contains("follower_step_n_ms") ? worse(v["follower_step_n_ms"], step) : step;
+  v[std::string("follower_force_") + circle.name + "_n"] = rms(force);
+  v[std::string("follower_step_") + circle.name + "_n_ms"] = largest_step_per_ms(force, trace.tick_hz);
 }
 
 /// Drag and apparent mass: the leader's force against the velocity and the acceleration of the hand, along x.
@@ -97,7 +92,7 @@ ProbeResult probe_free(const FeelSetup& setup, std::uint64_t seed) {
         circle.end);
     put_drag(trace, circle, result.values);
     put_errors(trace, kSettle, circle.end, circle.name, result.values);
-    put_follower(trace, kSettle, circle.end, result.values);
+    put_follower(trace, circle, result.values);
   }
   const FeelTrace step = go([](double t) { return hal::Vec3(kStep * hal::sim::min_jerk((t - kStepAt) / kStepFor).value, 0, 0); }, kStepEnd);
   put_overshoot(step, result.values);
