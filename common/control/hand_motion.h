@@ -35,6 +35,11 @@ class HandMotionFilter {
     return now_;
   }
   [[nodiscard]] const HandMotion& now() const noexcept { return now_; }
+  /// With half of the velocity's own delay made up for: a damper to a velocity that lags feels like mass. All of it would
+  /// make the damping that a hand feels at 1 Hz negative.
+  [[nodiscard]] static double velocity_by_now(const HandMotion& m) noexcept {
+    return m.v + m.a * 0.5 / (2 * std::numbers::pi * kVelocityHz);
+  }
 
   static constexpr double kVelocityHz = 17, kAccelerationHz = 2.3;
 

@@ -34,7 +34,7 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   VirtualTool::Pulls pulls{}, without_dampers{};
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double q = hand[a] - offset_[a];
-    const double velocity = hand_[a].step(hand[a]).v;
+    const double velocity = HandMotionFilter::velocity_by_now(hand_[a].step(hand[a]));
     pulls[a].spring(own * share_ * p_.k_c, q);
     pulls[a].spring(reference.k[a], reference.ref[a]);
     without_dampers[a] = pulls[a];

@@ -34,6 +34,17 @@ TEST(HandMotionFilter, VelocityHasOnePole) {
   EXPECT_NEAR(filter.now().v, 0.1 * (1 - std::exp(-2 * std::numbers::pi * 17 * 0.012)), 1e-9);
 }
 
+// At 0.4 m/s^2 a pole of 17 Hz lags by 0.4 / (2 pi 17) = 3.7 mm/s.
+TEST(HandMotionFilter, HalfOfItsDelayIsMadeUpForByTheAcceleration) {
+  HandMotionFilter filter(kT);
+  filter.rest_at(0);
+  constexpr int kTicks = 3000;
+  for (int i = 1; i <= kTicks; ++i) filter.step(0.5 * 0.4 * kT * kT * i * i);
+  const double lag = 0.4 / (2 * std::numbers::pi * 17), real = 0.4 * kT * kTicks;
+  EXPECT_NEAR(filter.now().v, real - lag, 3e-4);
+  EXPECT_NEAR(HandMotionFilter::velocity_by_now(filter.now()), real - 0.5 * lag, 3e-4);
+}
+
 TEST(HandMotionFilter, WhatIsNotFiniteChangesNothing) {
   HandMotionFilter filter(kT);
   filter.rest_at(0.01);

@@ -125,7 +125,7 @@ TEST(Replica, ToolAndFollowerKeepUpAndTheLeaderIsNotDragged) {
                 1e3 * m.follower_tool, m.drag, m.follower_force, m.follower_step);
     EXPECT_LE(m.leader_tool, asked.leader_mm * kMm) << asked.delay_ms;
     EXPECT_LE(m.follower_tool, asked.follower_mm * kMm) << asked.delay_ms;
-    EXPECT_LE(m.drag, 0.15) << asked.delay_ms;
+    EXPECT_LE(m.drag, 0.06) << asked.delay_ms;  // 0.072 with a velocity that lags in the relative damper; asked: 0.15
     EXPECT_LE(m.follower_force, asked.force_n) << asked.delay_ms;
     EXPECT_LE(m.follower_step, 0.15) << asked.delay_ms;
   }
