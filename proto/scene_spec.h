@@ -32,7 +32,7 @@ struct ChannelSpec {
   double eta = 0.9;           ///< share of the dissipation that may be spent
   double margin_max = 0.1;    ///< unspent energy above is forfeited [J]
   double v_app = 0.1;         ///< approach speed after an outage [m/s]
-  double b_rel = 12;          ///< REPLICA: damping relative to what drives the tool [N s/m]
+  double b_rel = 14;          ///< REPLICA: damping relative to what drives the tool [N s/m]
   double tank = 0.05;         ///< MFS tank and authority tank, initial [J]
 };
 

@@ -29,7 +29,7 @@ struct ChannelParams {
   double v_app = 0.1;           ///< at the tip [m/s]
   double effort_max = std::numeric_limits<double>::infinity();  ///< a spring need not pull harder: no motor could [N at the tip]
   double k_c = 400;             ///< `replica`: between hand and tool, and to the others where nothing is fed back [N/m at the tip]
-  double b_rel = 12;            ///< `replica`: damping relative to what drives the tool [N s/m at the tip]
+  double b_rel = 14;            ///< `replica`: damping relative to what drives the tool [N s/m at the tip]
 };
 
 /// What a law promises; a breach of anything else is reported as expected and fails nothing.

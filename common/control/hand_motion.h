@@ -54,8 +54,8 @@ struct Prediction {
   static constexpr double kVelocityMax = 1;         ///< [m/s]
   static constexpr double kAccelerationMax = 0.5;   ///< [m/s^2]
   static constexpr double kApproach = 0.06;         ///< at which a tool goes to a better prediction [m/s]
-  /// Half of the velocity filter's own delay is left in: taking all of it out costs more gain than it saves error.
-  static constexpr double kFilterDelay = -0.5 / (2 * std::numbers::pi * HandMotionFilter::kVelocityHz);  ///< [s]
+  /// Half of the velocity filter's own delay is made up for: all of it costs more gain than it saves error.
+  static constexpr double kFilterDelay = 0.5 / (2 * std::numbers::pi * HandMotionFilter::kVelocityHz);  ///< [s]
 
   [[nodiscard]] static double acceleration(const HandMotion& m) noexcept { return std::clamp(m.a, -kAccelerationMax, kAccelerationMax); }
   [[nodiscard]] static double velocity(const HandMotion& m) noexcept { return std::clamp(m.v, -kVelocityMax, kVelocityMax); }
@@ -69,9 +69,9 @@ struct Prediction {
     const double h = std::clamp(age, 0.0, kHorizonMax);
     return velocity(m) + acceleration(m) * (h + kFilterDelay);
   }
-  /// What pulls a hand is predicted by its velocity alone, and by one that went through a further pole of 5 Hz: the bolder prediction shakes
+  /// What pulls a hand is predicted by its velocity alone, and by one that went through a further pole of 7 Hz: the bolder prediction shakes
   /// a relaxed hand.
-  static constexpr double kCalmHz = 5;
+  static constexpr double kCalmHz = 7;
   [[nodiscard]] static double calm_part(double dt) noexcept { return 1 - std::exp(-2 * std::numbers::pi * kCalmHz * dt); }
   [[nodiscard]] static double place_for_hand(double x, double v, double age) noexcept {
     return x + std::clamp(age, 0.0, kHorizonMax) * std::clamp(v, -kVelocityMax, kVelocityMax);

@@ -22,7 +22,7 @@ class ToolCopy {
     std::size_t axes = 3;      ///< of a TIP port, 1 to 3
     ContactSet contacts;
     double k_c = 400;          ///< hand to copy [N/m]
-    double b_rel = 12;         ///< [N s/m]
+    double b_rel = 14;         ///< [N s/m]
     double v_app = 0.1;        ///< of an offset's way home [m/s]
     double offset_rests = 0.5; ///< how long an offset stays once it began [s]: the ramp of the gate
     double dt = 0.001;         ///< tick [s]

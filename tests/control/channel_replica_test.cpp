@@ -91,14 +91,14 @@ TEST(ReplicaReference, PredictsForAHandThatFollowsAndNotForOneThatShares) {
   EXPECT_NEAR(settled(shares, in).ref[0], 0, 1e-9);
 }
 
-// Through one pole of 5 Hz: after 32 ms a step of velocity counts for 1 - exp(-2 pi 5 0.032) = 63 %.
+// Through one pole of 7 Hz: after 32 ms a step of velocity counts for 1 - exp(-2 pi 7 0.032) = 76 %.
 TEST(ReplicaReference, LeadsAHandThatFollowsByACalmVelocity) {
   EndInput in = hears(0, 0, 0.1);
   ReplicaReference end(one_axis());
   settled(end, in);
   in.rx.v[0] = 0.05;
   for (int i = 0; i < 32; ++i) end.move(in);
-  EXPECT_NEAR(end.state().ref[0], 0.1 * 0.05 * (1 - std::exp(-2 * std::numbers::pi * 5 * 0.032)), 1e-9);
+  EXPECT_NEAR(end.state().ref[0], 0.1 * 0.05 * (1 - std::exp(-2 * std::numbers::pi * 7 * 0.032)), 1e-9);
   EXPECT_EQ(end.state().rate[0], 0.05) << "the damper needs no prediction";
 }
 
