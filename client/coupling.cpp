@@ -66,6 +66,7 @@ control::ToolCopy::Params copy_params(const SeatSetup& setup) {
   p.b_rel = setup.channel.b_rel;
   p.v_app = setup.channel.v_app;
   p.offset_rests = setup.gate.ramp_in;
+  p.force_max = setup.gate.force_max * share_of_force(setup.seat.role);
   p.dt = 1.0 / setup.tick_hz;
   return p;
 }

@@ -35,7 +35,7 @@ class Maker {
     }
     if (spec_.duration_s && !blamed("duration_s")) out_.setup.scene.duration = *spec_.duration_s;
     if (scene && !spec_.duration_s && out_.setup.scene.endless()) add(spec_.scene.place, no_end(spec_.scene.text, "give the scenario a duration_s"));
-    if (spec_.channel) out_.setup.scene.channel.law = *spec_.channel;
+    if (spec_.channel) choose_law(out_.setup.scene, *spec_.channel);
     if (spec_.mfs) out_.setup.scene.channel.mfs = *spec_.mfs;
     if (const auto problem = law_problem(out_.setup.scene)) add(spec_.scene.place, problem->key + ": " + problem->words);
     for (const SeatSpec& s : out_.setup.scene.seats) {

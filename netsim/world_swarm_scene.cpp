@@ -142,7 +142,7 @@ class SceneDraw {
       const double mass = std::exp(replica_draws_.uniform(std::log(0.005), std::log(0.1)));
       out_ += format("tool { name: \"tool%zu\" m_s_kg: %.3g slave { model: VIRTUAL %s } }\n", j, mass, surfaces.c_str());
     } else {
-      out_ += format("tool { name: \"tool%zu\" %s slave { ", j, ipc.c_str()) + slave + " " + surfaces + " } }\n";
+      out_ += format("tool { name: \"tool%zu\" %s slave { model: %s ", j, ipc.c_str(), axes_ == 1 ? "LINEAR" : "TOUCH") + slave + " " + surfaces + " } }\n";
     }
   }
 

@@ -207,7 +207,7 @@ void write_hand(const HandSpec& in, pb::Hand& out) {
 }  // namespace
 
 void read_channel(const pb::Channel& in, const std::string& path, Checker& checker, ChannelSpec& out) {
-  out.law = static_cast<LawKind>(in.law());
+  if (in.has_law()) out.law = static_cast<LawKind>(in.law());
   out.mfs = static_cast<MfsMode>(in.mfs());
   if (in.has_k_n_m()) out.k = in.k_n_m();
   // The default floor gives way to a softer channel; a written one is held against it.
@@ -218,6 +218,7 @@ void read_channel(const pb::Channel& in, const std::string& path, Checker& check
   if (in.has_b_delay()) out.b_delay = in.b_delay();
   if (in.has_lead_max_ms()) out.lead_max = in.lead_max_ms() / 1e3;
   if (in.has_effort_half()) out.effort_half = in.effort_half();
+  out.e0_given = in.has_e0_j();
   if (in.has_e0_j()) out.e0 = in.e0_j();
   if (in.has_eta()) out.eta = in.eta();
   if (in.has_margin_max_j()) out.margin_max = in.margin_max_j();
@@ -242,11 +243,14 @@ void read_gate(const pb::Gate& in, GateSpec& out) {
   if (in.has_force_max_n()) out.force_max = in.force_max_n();
 }
 
-double e0_min(const ChannelSpec& channel, const GateSpec& gate) {
+double e0_min(const ChannelSpec& channel, const GateSpec& gate) noexcept {
   return channel.k_min > 0 ? gate.force_max * gate.force_max / (2 * channel.k_min) : 0;
 }
 
-constexpr double kE0Max = 10;  ///< [J], what the schemas of scene and seat take
+double e0_by_law(const ChannelSpec& channel, const GateSpec& gate) noexcept {
+  const double least = ChannelSpec{}.e0;
+  return channel.law == LawKind::kReplica ? least : std::max(least, e0_min(channel, gate));
+}
 
 void settle_e0(const pb::Channel& in, const std::string& path, Checker& checker, const GateSpec& gate,
                ChannelSpec& out) {
@@ -257,7 +261,7 @@ void settle_e0(const pb::Channel& in, const std::string& path, Checker& checker,
     const bool by_stiffness = in.has_k_min_n_m();
     checker.error(by_stiffness ? child_path(path, "k_min_n_m") : "gate.force_max_n", cause, number_text(by_stiffness ? out.k_min : gate.force_max));
   } else if (!in.has_e0_j()) {
-    out.e0 = out.law == LawKind::kReplica ? 0.05 : std::max(0.05, least);
+    out.e0 = e0_by_law(out, gate);
   } else if (out.law == LawKind::kSetPosition && out.e0 < least * (1 - 1e-9)) {
     checker.error(child_path(path, "e0_j"), "must be at least force_max_n^2 / (2 k_min_n_m) = " + number_text(least) +
                                                 " J, or the channel dead-locks at its start; raise it or k_min_n_m");

@@ -15,9 +15,12 @@ namespace tandem {
 void read_channel(const pb::Channel& in, const std::string& path, text::Checker& checker, ChannelSpec& out);
 void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out);
 void read_gate(const pb::Gate& in, GateSpec& out);
+constexpr double kE0Max = 10;  ///< what the schemas of scene and seat take as e0 [J]
 /// Smallest initial ledger energy that does not dead-lock the channel at its start: F_max^2 / (2 k_min) [J] (design notes, control
 /// 4).
-[[nodiscard]] double e0_min(const ChannelSpec& channel, const GateSpec& gate);
+[[nodiscard]] double e0_min(const ChannelSpec& channel, const GateSpec& gate) noexcept;
+/// What e0 is where a scene names none, by the law of `channel` [J].
+[[nodiscard]] double e0_by_law(const ChannelSpec& channel, const GateSpec& gate) noexcept;
 /// The default of e0, or the rule about a written one.
 void settle_e0(const pb::Channel& in, const std::string& path, text::Checker& checker, const GateSpec& gate,
                ChannelSpec& out);

@@ -71,7 +71,8 @@ void read_virtual_slave(const pb::Slave& in, std::size_t dof, const std::string&
   rest.clear_start_m();
   rest.clear_environment();
   if (rest.ByteSizeLong() > 0)
-    checker.error(child_path(path, "model"), "a VIRTUAL slave has no device: take its numbers away, all but start_m and environment, or say TOUCH or LINEAR", "VIRTUAL");
+    checker.error(child_path(path, "model"), "is VIRTUAL, named or by default, and has no device: take the numbers of a device away, all but start_m and environment, or name model: TOUCH or LINEAR", "VIRTUAL");
+  if (dof == 1 && (start.y != 0 || start.z != 0)) checker.error(child_path(path, "start_m"), "a tool with 1 axis moves along x only");
   read_environment(in.environment(), dof, child_path(path, "environment"), checker, environment);
 }
 

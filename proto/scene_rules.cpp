@@ -98,19 +98,14 @@ std::vector<AuthorityRow> read_rows(const google::protobuf::RepeatedPtrField<pb:
   return rows;
 }
 
-/// Light, so that the hand's own spring does not ring on it: with 0.05 kg a motion of 14 Hz is amplified by 1.7, so by 1.2 [kg].
-constexpr double kVirtualMass = 0.02;
-
 void read_tool(const pb::Tool& in, const std::string& path, Checker& checker, std::size_t dof, ToolSpec& out) {
   out.name = in.name();
   if (in.has_k_s_n_m()) out.k_s = in.k_s_n_m();
-  if (in.has_m_s_kg()) out.m_s = in.m_s_kg();
   if (in.has_b_s_n_s_m()) out.b_s = in.b_s_n_s_m();
-  if (in.slave().model() == pb::VIRTUAL) {
-    out.is_virtual = true;
-    if (!in.has_m_s_kg()) out.m_s = kVirtualMass;
-    return read_virtual_slave(in.slave(), dof, child_path(path, "slave"), checker, out.slave.start, out.environment);
-  }
+  // No slave at all: a SLAVE seat serves the tool, or nobody does, which is a mistake that read_seats_and_tools tells.
+  out.is_virtual = in.has_slave() && (!in.slave().has_model() || in.slave().model() == pb::VIRTUAL);
+  out.m_s = in.has_m_s_kg() ? in.m_s_kg() : out.is_virtual ? kVirtualToolMass : kDeviceToolMass;
+  if (out.is_virtual) return read_virtual_slave(in.slave(), dof, child_path(path, "slave"), checker, out.slave.start, out.environment);
   if (in.has_slave()) read_slave(in.slave(), dof, child_path(path, "slave"), checker, out.slave, out.environment);
 }
 
@@ -270,10 +265,14 @@ void read_phases(const pb::Scene& in, Checker& checker, SceneSpec& out) {
 
 void check_law(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
   const bool joints = scene.port == PortSpace::kJoint;
-  if (const auto problem = law_problem(scene)) checker.error(problem->key, problem->words);
+  if (const auto problem = law_problem(scene)) {
+    const bool written = problem->key != "channel.law" || in.channel().has_law();  // else the place to look at is the port's line
+    checker.error(written ? problem->key : "port", problem->words);
+  }
   for (std::size_t t = 0; t < scene.tools.size() && t < static_cast<std::size_t>(in.tool_size()); ++t)
     if (scene.tools[t].is_virtual && joints)
-      checker.error(child_path(child_path(child_path("", "tool", static_cast<int>(t)), "slave"), "model"), "needs port: TIP, where surfaces are", "VIRTUAL");
+      checker.error(child_path(child_path(child_path("", "tool", static_cast<int>(t)), "slave"), "model"),
+                    "is VIRTUAL, named or by default; it needs port: TIP, where surfaces are; for port: JOINT name model: TOUCH or LINEAR", "VIRTUAL");
 }
 
 void check_passivity(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {

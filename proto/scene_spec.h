@@ -20,7 +20,7 @@ enum class Role : std::uint8_t { kInstructor, kTrainee, kEvaluator, kObserver };
 
 /// Channel between a seat and the server (design notes, control 4). Gains are tip gains; joint ports scale them by diag(J^T J).
 struct ChannelSpec {
-  LawKind law = LawKind::kSetPosition;
+  LawKind law = LawKind::kReplica;
   MfsMode mfs = MfsMode::kOpen;
   double k = 1500;            ///< stiffness at no delay [N/m]
   double k_min = 60;          ///< stiffness at any delay [N/m]
@@ -29,6 +29,7 @@ struct ChannelSpec {
   double lead_max = 0.1;      ///< longest extrapolation [s]; 0: none
   bool effort_half = true;    ///< server's target mixes in the effort
   double e0 = 0.05;           ///< initial energy per axis and end [J]
+  bool e0_given = false;      ///< the scene names e0; else it is the law's own, see `choose_law`
   double eta = 0.9;           ///< share of the dissipation that may be spent
   double margin_max = 0.1;    ///< unspent energy above is forfeited [J]
   double v_app = 0.1;         ///< approach speed after an outage [m/s]
@@ -139,10 +140,16 @@ struct SeatSpec {
   EnvironmentSpec environment;     ///< SLAVE seats
 };
 
+/// Light, so that the hand's own spring does not ring on it: with 0.05 kg a motion of 14 Hz is amplified by 1.7, so by 1.2 [kg].
+inline constexpr double kVirtualToolMass = 0.02;
+/// The moving part of a tool that pulls at a slave device [kg].
+inline constexpr double kDeviceToolMass = 0.05;
 struct ToolSpec {
   std::string name;
-  double k_s = 400, m_s = 0.05, b_s = 0.2;  ///< [N/m, kg, N s/m]
-  bool is_virtual = false;                  ///< no slave device: the tool itself meets the environment
+  double k_s = 400;                         ///< between tool and slave device; no part of a virtual tool [N/m]
+  double m_s = kVirtualToolMass;            ///< [kg]
+  double b_s = 0.2;                         ///< [N s/m]
+  bool is_virtual = true;                   ///< no slave device: the tool itself meets the environment
   bool remote = false;                      ///< served by a SLAVE seat
   std::size_t seat = 0;                     ///< that seat, when remote
   SimDeviceSpec slave;

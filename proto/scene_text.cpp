@@ -1,5 +1,6 @@
 #include "proto/scene_text.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "proto/scene_convert.h"
@@ -35,12 +36,20 @@ void read_basics(const pb::Scene& in, Checker& checker, SceneSpec& out) {
 
 }  // namespace
 
+void choose_law(SceneSpec& scene, LawKind law) noexcept {
+  scene.channel.law = law;
+  const double own = e0_by_law(scene.channel, scene.gate);
+  scene.channel.e0 = scene.channel.e0_given ? std::max(scene.channel.e0, own) : own;
+}
+
 std::optional<LawProblem> law_problem(const SceneSpec& scene) {
+  if (scene.channel.e0 > kE0Max)  // by choose_law only: scene files hold less
+    return LawProblem{"gate.force_max_n", "force_max_n^2 / (2 k_min_n_m) = " + text::number_text(scene.channel.e0) + " J must be at most " + text::number_text(kE0Max) + " J under this law; lower it or raise channel.k_min_n_m"};
   if (scene.channel.law != LawKind::kReplica) return std::nullopt;
   if (scene.port == PortSpace::kJoint)
-    return LawProblem{"channel.law", "needs port: TIP under REPLICA, as every client simulates the tool where it meets its surfaces"};
+    return LawProblem{"channel.law", "law REPLICA, which is the default, needs port: TIP, where every client simulates the tool; for port: JOINT name law: SET_POSITION (or RAW)"};
   if (scene.channel.mfs == MfsMode::kSeed || scene.channel.mfs == MfsMode::kSeedSigned)
-    return LawProblem{"channel.mfs", "cuts a velocity, which law REPLICA does not send; use OPEN or TANK, or law SET_POSITION"};
+    return LawProblem{"channel.mfs", "cuts a velocity, which law REPLICA (named or by default) does not send; use OPEN or TANK, or name law: SET_POSITION"};
   return std::nullopt;
 }
 

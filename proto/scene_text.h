@@ -22,7 +22,11 @@ using SceneError = InputError;
 /// @return the scene (its `name` is the file's name without folder and ending), or every mistake found, in file order
 [[nodiscard]] std::expected<SceneSpec, InputErrors> parse_scene(std::string_view text, std::string_view file_name);
 
-/// Why the law of a scene's channel does not fit its other keys, if it does not: for who puts another law in its place.
+/// Puts another law in a scene, as if the scene had named it: the initial energy becomes the law's own, or stays what the scene
+/// names if that is more.
+void choose_law(SceneSpec& scene, LawKind law) noexcept;
+
+/// Why the law of a scene's channel does not fit its other keys, if it does not. Callers that put another law in a scene ask after it.
 struct LawProblem {
   std::string key;    ///< of the scene
   std::string words;  ///< follow the key

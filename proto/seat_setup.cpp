@@ -109,6 +109,7 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     read_coupling(in.device_coupling(), out.coupling);
     read_gate(in.gate(), out.gate);
     settle_e0(in.channel(), "channel", checker, out.gate, out.channel);
+    if (out.channel.law == LawKind::kReplica && out.port == PortSpace::kJoint) checker.error("channel.law", "is REPLICA, which needs port: TIP");
     check_gate(out.gate, out.tick_hz, "gate", checker);
     read_seat(in.seat(), out.dof, "seat", checker, out.seat);
     out.seat.tool = in.tool_index();

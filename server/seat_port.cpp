@@ -12,7 +12,7 @@ namespace {
 constexpr Duration kHoldLimit = std::chrono::milliseconds(100);
 /// A client whose gate must have let go for silence is believed to be deaf so much later.
 constexpr Duration kDeafMargin = std::chrono::milliseconds(10);
-/// Its own word aside: echoes that stand still for so long while datagrams come.
+/// Its own word aside: echoes that stand still for so long while datagrams come, or for as long as it may be deaf if that is longer.
 constexpr Duration kEchoStallMax = std::chrono::milliseconds(200);
 /// Between two samples of an engaged hand that are less than the hold limit apart.
 constexpr double kJumpMaxM = 1, kJumpMaxRad = 5;

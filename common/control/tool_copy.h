@@ -25,6 +25,7 @@ class ToolCopy {
     double b_rel = 14;         ///< [N s/m]
     double v_app = 0.1;        ///< of an offset's way home [m/s]
     double offset_rests = 0.5; ///< how long an offset stays once it began [s]: the ramp of the gate
+    double force_max = 3.3;    ///< of the gate [N]
     double dt = 0.001;         ///< tick [s]
   };
   explicit ToolCopy(const Params& params) noexcept;
@@ -44,6 +45,7 @@ class ToolCopy {
   [[nodiscard]] double offset(std::size_t axis) const noexcept { return offset_[axis]; }          ///< hand minus tool, on its way to 0 [m]
 
  private:
+  void let_offset_grow(const AxisArray& hand) noexcept;
   void bring_offset_home(ChannelEnd& end) noexcept;
   [[nodiscard]] bool pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualTool& before, ChannelEnd& end) noexcept;
   void show(std::size_t axis, double hand, double alone, ChannelEnd& end) noexcept;

@@ -92,9 +92,9 @@ void add_folder(const FeelArguments& a, FeelSetup& setup, Mistakes& mistakes, st
 }
 
 void set_law(const FeelArguments& a, SceneSpec& scene) {
-  if (a.channel == "replica") scene.channel.law = LawKind::kReplica;
-  if (a.channel == "raw") scene.channel.law = LawKind::kRaw;
-  if (a.channel == "set_position") scene.channel.law = LawKind::kSetPosition;
+  if (a.channel == "replica") choose_law(scene, LawKind::kReplica);
+  if (a.channel == "raw") choose_law(scene, LawKind::kRaw);
+  if (a.channel == "set_position") choose_law(scene, LawKind::kSetPosition);
   for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
     if (a.mfs == server::mfs_name(mode)) scene.channel.mfs = mode;
 }
@@ -198,7 +198,7 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
       ->allow_extra_args(false);
   command->add_option("--recordings", a->recordings, "a folder: every motion_*.csv in it that needs no options")->option_text("DIR");
   command->add_flag("--plain-hands", a->plain, "hands without tremor and noise, all with the same impedance");
-  command->add_option("--channel", a->channel, "channel law instead of the scene's: replica, set_position, raw")
+  command->add_option("--channel", a->channel, "channel law instead of the scene's: replica (what scenes have that name none), set_position, raw")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));

@@ -102,9 +102,9 @@ WorldSetup understand(const RunArguments& arguments, std::vector<std::string>& n
   }
   if (arguments.duration_s > 0) setup.scene.duration = arguments.duration_s;
   if (setup.scene.endless()) mistakes.add("--duration: " + no_end(arguments.scene, "give --duration S, such as --duration 60"));
-  if (arguments.channel == "raw") setup.scene.channel.law = LawKind::kRaw;
-  if (arguments.channel == "replica") setup.scene.channel.law = LawKind::kReplica;
-  if (arguments.channel == "set_position") setup.scene.channel.law = LawKind::kSetPosition;
+  if (arguments.channel == "raw") choose_law(setup.scene, LawKind::kRaw);
+  if (arguments.channel == "replica") choose_law(setup.scene, LawKind::kReplica);
+  if (arguments.channel == "set_position") choose_law(setup.scene, LawKind::kSetPosition);
   for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
     if (arguments.mfs == server::mfs_name(mode)) setup.scene.channel.mfs = mode;
   if (const auto problem = law_problem(setup.scene)) mistakes.add((arguments.channel.empty() ? "--mfs: " : "--channel: ") + arguments.scene + ": " + problem->key + ": " + problem->words);
@@ -252,7 +252,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
                    "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
       ->option_text("SEAT=FILE...")
       ->allow_extra_args(false);
-  command->add_option("--channel", arguments->channel, "channel law instead of the scene's: replica (every client simulates the tool), set_position (passive whatever the network does), raw (what happens without)")
+  command->add_option("--channel", arguments->channel, "channel law instead of the scene's: replica (every client simulates the tool; what scenes have that name none), set_position (springs between hand and tool, held passive by a ledger at both ends), raw (what happens without)")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command->add_option("--mfs", arguments->mfs, "flow sources instead of the scene's: open (followers get what they need), tank (only what was dissipated), "
                    "seed, seed_signed (two readings of the source paper's equation 3)")

@@ -71,7 +71,7 @@ SweepSpec understand(const SweepArguments& a, Mistakes& mistakes) {
   }
   const auto add = [&](const std::string& option) { spec.options += (spec.options.empty() ? "" : " ") + option; };
   if (!a.channel.empty()) {
-    spec.scene.channel.law = a.channel == "raw" ? LawKind::kRaw : a.channel == "replica" ? LawKind::kReplica : LawKind::kSetPosition;
+    choose_law(spec.scene, a.channel == "raw" ? LawKind::kRaw : a.channel == "replica" ? LawKind::kReplica : LawKind::kSetPosition);
     add("--channel " + a.channel);
   }
   if (!a.mfs.empty()) {
@@ -142,7 +142,7 @@ void add_sweep_command(CLI::App& root, std::function<int()>& action) {
       ->check(io::whole_number())
       ->option_text("N");
   command->add_option("--duration", a->duration_s, "session time instead of the scene's")->transform(io::number_in(0.1, 3e6, "s"))->option_text("S");
-  command->add_option("--channel", a->channel, "channel law instead of the scene's: replica, set_position, raw")
+  command->add_option("--channel", a->channel, "channel law instead of the scene's: replica (what scenes have that name none), set_position, raw")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));

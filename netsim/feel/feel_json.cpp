@@ -33,6 +33,8 @@ std::string feel_json(const FeelReport& r) {
     }
   j["feel"] = std::move(feel);
   j["noticed"] = noticeable_text(r.spec, r.numbers, r.one_way_s);
+  j["noticeable"] = Json::object();
+  for (const auto& [key, value] : noticeable_numbers(r.spec, r.numbers, r.one_way_s)) j["noticeable"][key] = number(value);
   j["limits"] = Json::array();
   for (const FeelLimit& limit : r.limits) {
     const auto it = r.numbers.find(limit.key);

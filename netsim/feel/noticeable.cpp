@@ -25,6 +25,20 @@ double noticeable_steps(double a, double b, double weber) noexcept {
   return std::abs(std::log(a / b)) / std::log1p(weber);
 }
 
+std::vector<std::pair<std::string, double>> noticeable_numbers(const SceneSpec& scene, const std::map<std::string, FeelNumber>& numbers, double one_way_s) {
+  const double bone = mean_of(numbers, "stiffness_felt_n_m"), tissue = mean_of(numbers, "stiffness_tissue_n_m");
+  const double mass = mean_of(numbers, "apparent_mass_1hz_kg");
+  const double heavier = std::isnan(mass) ? mass : noticeable_steps(kHandleMass + std::max(0.0, mass), kHandleMass, kMassWeber);
+  const double round = 2 * one_way_s;
+  const double own = scene.channel.law == LawKind::kReplica ? 0 * round : round;  // of an unknown network NaN, as well
+  return {{"stiffness_lost_steps", noticeable_steps(bone, in_series(scene.coupling.k_c, kBone), kStiffnessWeber)},
+          {"bone_tissue_steps", noticeable_steps(bone, tissue, kStiffnessWeber)},
+          {"force_lost_steps", noticeable_steps(mean_of(numbers, "force_share"), 1, kForceWeber)},
+          {"mass_added_steps", heavier},
+          {"others_late_s", round},
+          {"own_contact_late_s", own}};
+}
+
 std::vector<std::string> noticeable_text(const SceneSpec& scene, const std::map<std::string, FeelNumber>& numbers, double one_way_s) {
   std::vector<std::string> out;
   const double bone = mean_of(numbers, "stiffness_felt_n_m"), tissue = mean_of(numbers, "stiffness_tissue_n_m");
@@ -56,7 +70,9 @@ std::vector<std::string> noticeable_text(const SceneSpec& scene, const std::map<
                        : round < kDelaySpring ? "noticed in a damper (15 ms), not in a spring (36 ms)"
                        : round < kDelayMass   ? "noticed in a spring (36 ms), not in a mass (72 ms)"
                                               : "noticed even in a mass (72 ms)";
-    out.push_back(format("A force that goes round the network is %.0f ms late: %s.", 1e3 * round, what));
+    const bool local = scene.channel.law == LawKind::kReplica;
+    out.push_back(format(local ? "What other hands do is felt %.0f ms late: %s. A hand's own contact does not cross the network." : "A force that goes round the network is %.0f ms late: %s.",
+                         1e3 * round, what));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "netsim/feel/feel_summary.h"
@@ -30,6 +31,16 @@ inline constexpr double kHandleMass = 0.1;
 
 /// Springs in series [N/m].
 [[nodiscard]] constexpr double in_series(double a, double b) noexcept { return a * b / (a + b); }
+
+/// The same as numbers, for JSON; what cannot be told is NaN. Keys, in just-noticeable steps unless named otherwise:
+///   stiffness_lost_steps   bone as felt, below what the coupling can show
+///   bone_tissue_steps      bone apart from tissue of 300 N/m
+///   force_lost_steps       the force that arrives while pressing, below all of it
+///   mass_added_steps       mass felt at 1 Hz on top of a handle of `kHandleMass`
+///   others_late_s          how late what other hands do is felt [s]
+///   own_contact_late_s     the same of the hand's own contact [s]: nothing under law `replica`, else a round trip
+[[nodiscard]] std::vector<std::pair<std::string, double>> noticeable_numbers(const SceneSpec& scene, const std::map<std::string, FeelNumber>& numbers,
+                                                                            double one_way_s);
 
 /// Sentences for people, one per line; only of numbers that exist.
 /// @param one_way_s  the delay of the network each way, as the leader met it [s]; NaN: unknown

@@ -16,7 +16,9 @@ struct Choice {
   LawKind law;
   MfsMode mfs;
 };
-constexpr Choice kChoices[] = {{"set_position, open", LawKind::kSetPosition, MfsMode::kOpen},
+constexpr Choice kChoices[] = {{"replica, open", LawKind::kReplica, MfsMode::kOpen},
+                               {"replica, tank", LawKind::kReplica, MfsMode::kTank},
+                               {"set_position, open", LawKind::kSetPosition, MfsMode::kOpen},
                                {"set_position, tank", LawKind::kSetPosition, MfsMode::kTank},
                                {"set_position, seed", LawKind::kSetPosition, MfsMode::kSeed},
                                {"set_position, seed_signed", LawKind::kSetPosition, MfsMode::kSeedSigned},
@@ -54,7 +56,7 @@ int main() {
     for (const double d : delays) {
       Mean leader, follower;
       for (const Hand& h : kHands) {
-        SceneSpec scene = test::shipped("free_motion");
+        SceneSpec scene = (c.law == LawKind::kReplica ? test::shipped : test::set_position)("free_motion");
         scene.channel.law = c.law;
         scene.channel.mfs = c.mfs;
         scene.duration = 11.5;

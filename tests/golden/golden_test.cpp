@@ -52,10 +52,15 @@ void expect_golden(const std::string& name, const std::string& now) {
     ASSERT_EQ(was, is) << path << ":" << line << "; if meant: TANDEM_UPDATE_GOLDEN=1";
 }
 
-TEST(Golden, FreeMotionIsToldAsBefore) { expect_golden("free_motion", told(test::shipped("free_motion"), {})); }
+// Written anew on 2026-11-23, when shipped scenes became law REPLICA's; the lines of before are those that end in `_set_position`, as they were.
+TEST(Golden, FreeMotionIsToldAsBefore) {
+  expect_golden("free_motion", told(test::shipped("free_motion"), {}));
+  expect_golden("free_motion_set_position", told(test::set_position("free_motion"), {}));
+}
 
 TEST(Golden, ContactOverABadNetworkIsToldAsBefore) {
   expect_golden("contact_bad_network", told(test::shipped("contact"), test::delayed(20, 5, 5)));
+  expect_golden("contact_bad_network_set_position", told(test::set_position("contact"), test::delayed(20, 5, 5)));
 }
 
 }  // namespace

@@ -71,7 +71,57 @@ TEST(BadScene, LawReplicaAndToolsWithoutADeviceSayWhatTheyNeed) {
   expect_one(with("device_coupling", "port: JOINT channel { law: @REPLICA } device_coupling"), "channel.law", "needs port: TIP");
   expect_one(with("device_coupling", "channel { law: REPLICA mfs: @SEED } device_coupling"), "channel.mfs", "use OPEN or TANK");
   expect_one(with("slave { model: TOUCH }", "slave { model: @VIRTUAL friction_n: 0.1 }"), "tool[0].slave.model", "all but start_m and environment");
+  expect_one(with("slave { model: TOUCH }", "@slave { friction_n: 0.1 }"), "tool[0].slave.model", "name model: TOUCH or LINEAR");
+  expect_one(with("device_coupling", "dof: 1 device_coupling").replace(with("device_coupling", "dof: 1 device_coupling").find("slave { model: TOUCH }"), 22, "slave { @start_m { y: 0.01 } }"), "tool[0].slave.start_m", "along x only");
   expect_one(with("hand { model: RELAXED }", "device { model: @VIRTUAL }"), "seat[1].device.model", "a hand holds a device");
+}
+
+/// What a scene that names neither law nor slave model gets where the defaults cannot be: the names to write.
+TEST(BadScene, AJointPortNamesALawAndASlaveModel) {
+  expect_one(with("device_coupling", "port: @JOINT device_coupling"), "port", "name law: SET_POSITION");
+  expect_one(with("device_coupling", "port: @JOINT channel { k_n_m: 900 } device_coupling"), "port", "name law: SET_POSITION");
+  const std::string law = "port: JOINT channel { law: SET_POSITION } device_coupling";
+  EXPECT_EQ(to_text(errors_of(with("device_coupling", law))), "");
+  std::string bare = with("device_coupling", law);
+  bare.replace(bare.find("slave { model: TOUCH }"), 22, "@slave { }");
+  expect_one(bare, "tool[0].slave.model", "name model: TOUCH or LINEAR");
+}
+
+TEST(BadScene, WithoutALawItIsReplicaAndWithoutASlaveModelThereIsNoDevice) {
+  const auto bare = parse_scene(with("slave { model: TOUCH }", "slave { start_m { x: 0.01 } }"), "s");
+  ASSERT_TRUE(bare.has_value());
+  EXPECT_EQ(bare->channel.law, LawKind::kReplica);
+  EXPECT_EQ(bare->channel.e0, 0.05);
+  EXPECT_TRUE(bare->tools[0].is_virtual);
+  EXPECT_EQ(bare->tools[0].m_s, kVirtualToolMass);
+  EXPECT_EQ(bare->tools[0].slave.start.x, 0.01);
+  const auto robot = parse_scene(good(), "s");
+  EXPECT_FALSE(robot->tools[0].is_virtual);
+  EXPECT_EQ(robot->tools[0].m_s, kDeviceToolMass);
+  const auto springs = parse_scene(with("device_coupling", "channel { law: SET_POSITION } device_coupling"), "s");
+  EXPECT_EQ(springs->channel.law, LawKind::kSetPosition);
+  EXPECT_NEAR(springs->channel.e0, 3.3 * 3.3 / 120, 1e-12);
+}
+
+/// Another law in a scene's place: the initial energy is what the reader would have given it.
+TEST(BadScene, AnotherLawBringsItsOwnInitialEnergyUnlessTheSceneNamesMore) {
+  const double spring = 3.3 * 3.3 / 120;
+  SceneSpec bare = *parse_scene(good(), "s");
+  choose_law(bare, LawKind::kSetPosition);
+  EXPECT_NEAR(bare.channel.e0, spring, 1e-12);
+  choose_law(bare, LawKind::kReplica);
+  EXPECT_EQ(bare.channel.e0, 0.05);
+  SceneSpec named = *parse_scene(good() + "channel { e0_j: 0.07 }", "s");
+  choose_law(named, LawKind::kSetPosition);
+  EXPECT_NEAR(named.channel.e0, spring, 1e-12);
+  SceneSpec more = *parse_scene(good() + "channel { e0_j: 0.7 }", "s");
+  choose_law(more, LawKind::kRaw);
+  EXPECT_EQ(more.channel.e0, 0.7);
+  SceneSpec strong = *parse_scene(good() + "gate { force_max_n: 40 }", "s");
+  EXPECT_FALSE(law_problem(strong));
+  choose_law(strong, LawKind::kSetPosition);
+  ASSERT_TRUE(law_problem(strong));
+  EXPECT_EQ(law_problem(strong)->key, "gate.force_max_n");
 }
 
 TEST(BadScene, EmptyOneIsAnError) {
@@ -198,9 +248,11 @@ TEST(BadScene, DevicesFitTheAxes) {
 TEST(BadScene, GateAndLedgerBounds) {
   expect_one(good() + "gate { silence_limit_ms: @301 }", "gate.silence_limit_ms", "must be in (0, 300] ms");
   expect_one(good() + "gate { silence_limit_ms: @1 }", "gate.silence_limit_ms", "two ticks = 2 ms");
-  expect_one(good() + "channel { e0_j: @0.05 }", "channel.e0_j", "0.09075 J");
-  expect_one(good() + "gate { force_max_n: @40 }", "gate.force_max_n", "13.3333333333 J must be at most 10 J");
-  expect_one(good() + "channel { k_min_n_m: @0.5 }", "channel.k_min_n_m", "10.89 J must be at most 10 J");
+  const std::string springs = good() + "channel { law: SET_POSITION ";
+  expect_one(springs + "e0_j: @0.05 }", "channel.e0_j", "0.09075 J");
+  expect_one(springs + "} gate { force_max_n: @40 }", "gate.force_max_n", "13.3333333333 J must be at most 10 J");
+  expect_one(springs + "k_min_n_m: @0.5 }", "channel.k_min_n_m", "10.89 J must be at most 10 J");
+  EXPECT_EQ(to_text(errors_of(good() + "channel { e0_j: 0.05 } gate { force_max_n: 40 }")), "") << "law REPLICA has no such spring";
   EXPECT_TRUE(errors_of(good() + "gate { loop_age_max_ms: 2500 latch: false }").empty());
 }
 

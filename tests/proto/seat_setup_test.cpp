@@ -138,7 +138,7 @@ TEST(SeatSetup, KnowsWhatAServingSeatNeeds) {
 /// A master of law REPLICA simulates the tool: he is told its mass, its damping and what it meets.
 TEST(SeatSetup, TellsAMasterOfTheToolThatHeFollows) {
   auto spec = scene("contact");
-  spec.channel.law = LawKind::kReplica;
+  ASSERT_EQ(spec.channel.law, LawKind::kReplica);
   spec.tools[0].m_s = 0.033;
   spec.tools[0].b_s = 0.44;
   spec.tools[0].environment.tissue = TissueSpec{};
@@ -183,7 +183,14 @@ TEST(SeatSetup, IsHeldAgainstTheLimitsOfFiles) {
   refused([&](SeatSetup& s) { s.seat.name = "\x1b[2J"; }, "seat.name");
   refused([&](SeatSetup& s) { s.seat.hand.model = static_cast<HandModel>(99); }, "seat.hand.model");
   refused([&](SeatSetup& s) { s.seat.hand.trajectory.waypoints[1].at = 0; }, "seat.hand.trajectory.waypoint[1].at_s");
-  refused([&](SeatSetup& s) { s.channel.e0 = 1e-3; }, "channel.e0_j");
+  refused([&](SeatSetup& s) { s.channel.e0 = 11; }, "channel.e0_j");
+  refused(
+      [&](SeatSetup& s) {
+        s.channel.law = LawKind::kSetPosition;
+        s.channel.e0 = 1e-3;
+      },
+      "channel.e0_j");
+  refused([&](SeatSetup& s) { s.port = PortSpace::kJoint; }, "channel.law");
   refused([&](SeatSetup& s) { s.seat.device.model = DeviceModel::kLinear; }, "seat.device.model");
 }
 

@@ -31,6 +31,17 @@ TEST(ShippedScenes, AreTheElevenAndEachIsValidAndSummarised) {
   EXPECT_EQ(find_shipped_scene("contac"), nullptr);
 }
 
+/// Tandem's own scenes are the new law's; those whose tool is a device, and the paper's, name the other and their devices.
+TEST(ShippedScenes, AreOfLawReplicaWhereTheirToolIsNoDevice) {
+  for (const auto& entry : shipped_scenes()) {
+    SCOPED_TRACE(entry.name);
+    const auto scene = shipped(entry.name);
+    const bool devices = entry.name.starts_with("seed_") || entry.name.ends_with("_remote");
+    EXPECT_EQ(scene.channel.law, devices ? LawKind::kSetPosition : LawKind::kReplica);
+    for (const ToolSpec& tool : scene.tools) EXPECT_EQ(tool.is_virtual, !devices);
+  }
+}
+
 TEST(ShippedScenes, WeightsSumToOneInEveryRow) {
   for (const auto& entry : shipped_scenes()) {
     SCOPED_TRACE(entry.name);
@@ -76,10 +87,11 @@ TEST(ShippedScenes, FreeMotionHandsOverAtElevenAndAHalf) {
 
 TEST(ShippedScenes, ContactStaysWithinTheTouch) {
   const auto scene = shipped("contact");
-  const double series = 1 / (1 / scene.seats[0].hand.k + 2 / scene.coupling.k_c + 1 / scene.channel.k);
-  const double peak = series * scene.seats[0].hand.trajectory.waypoints.back().p.x;
+  const double wall = scene.tools[0].environment.wall->k, intended = scene.seats[0].hand.trajectory.waypoints.back().p.x;
+  const double peak = intended / (1 / scene.seats[0].hand.k + 1 / scene.coupling.k_c + 1 / wall);
   EXPECT_GT(peak, 2.5);
   EXPECT_LT(peak, 3.0);
+  EXPECT_LE(intended - peak / scene.seats[0].hand.k, 0.008) << "the hand itself presses no deeper than 8 mm";
   EXPECT_EQ(scene.seats[1].hand.from, 12);
   EXPECT_EQ(scene.seats[1].hand.trajectory.waypoints.back().p.x, scene.seats[0].hand.trajectory.waypoints.back().p.x);
   ASSERT_TRUE(scene.tools[0].environment.wall.has_value());
@@ -98,7 +110,8 @@ TEST(ShippedScenes, RemoteContactIsTheSameWithTheSlaveAtASeat) {
   EXPECT_EQ(remote.seats[2].name, "slave");
   EXPECT_EQ(remote.seats[2].environment.wall->k, here.tools[0].environment.wall->k);
   EXPECT_EQ(remote.tools[0].environment.wall->k, here.tools[0].environment.wall->k);
-  EXPECT_EQ(remote.seats[0].hand.trajectory.waypoints.back().p.x, here.seats[0].hand.trajectory.waypoints.back().p.x);
+  EXPECT_EQ(remote.channel.law, LawKind::kSetPosition) << "three springs lie between its hands and the wall, so they press deeper";
+  EXPECT_EQ(remote.seats[0].hand.trajectory.waypoints[1].p.x, here.seats[0].hand.trajectory.waypoints[1].p.x);
 }
 
 TEST(ShippedScenes, SeedHasThePapersGains) {
@@ -163,7 +176,9 @@ TEST(EffectiveScene, ListsDefaultsWithUnitsInColumns) {
     return at == std::string::npos ? std::string() : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
   };
   EXPECT_TRUE(line("channel.e0_j").ends_with(" J")) << text;
-  EXPECT_NE(line("channel.e0_j").find("0.09075"), std::string::npos) << "F^2 / (2 k_min)";
+  EXPECT_NE(line("channel.e0_j").find("0.05"), std::string::npos);
+  EXPECT_NE(line("channel.law").find("REPLICA"), std::string::npos);
+  EXPECT_NE(effective_scene_text(shipped("seed_contact")).find("0.09075"), std::string::npos) << "F^2 / (2 k_min)";
   EXPECT_NE(line("seat[0].device.encoder_m").find("5.5e-5"), std::string::npos) << text;
   EXPECT_EQ(line("tick_hz").find("1000"), line("gate.silence_limit_ms").find("20"));
 }

@@ -59,7 +59,7 @@ struct Rig {
   }
   [[nodiscard]] bool stopped() const { return session->state() == wire::SessionState::kStopped; }
 
-  SceneSpec scene = test::shipped("one_axis");
+  SceneSpec scene = test::set_position("one_axis");  // its tool is a device, which can fall sick
   bool sick = false;
   SickSlave* slave = nullptr;
   std::unique_ptr<Session> session;

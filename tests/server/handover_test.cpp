@@ -189,7 +189,7 @@ TEST(Handover, OfAHolderWhoIsLostMeanwhileGoesOn) {
   l.ticks_without(kTrainer, 50);
   EXPECT_EQ(l.requested(), kToTrainee);
   bool held = false;
-  for (int n = 50; n < 220; ++n) {
+  for (int n = 50; n < 420; ++n) {  // 250 ms until a leader counts as lost, and his weight moves within 100 ms
     l.ticks_without(kTrainer, 1);
     held |= l.session->tool(0).authority.held();
   }

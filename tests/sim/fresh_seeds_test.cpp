@@ -26,13 +26,13 @@ SceneSpec on_one_axis(const std::string& gate, const std::string& seats) {
                   gate + " } " + seats);
 }
 
-constexpr const char* kStillTool = "tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 slave { damping_n_s_m: 0.2 } }";
+constexpr const char* kStillTool = "tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 slave { model: LINEAR damping_n_s_m: 0.2 } }";
 
 /// A hand that presses at its tool, which a wall stops, from 0.2 s on.
 SceneSpec pressing(const std::string& gate) {
   return on_one_axis(gate, std::string("seat { name: \"hand\" kind: MASTER role: INSTRUCTOR required: true device { damping_n_s_m: 0.2 }"
                                        " hand { model: LEADER trajectory { waypoint { at_s: 0.2 x_m: 0.03 } } } }"
-                                       " tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 slave { damping_n_s_m: 0.2"
+                                       " tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 slave { model: LINEAR damping_n_s_m: 0.2"
                                        " environment { wall { axis: X at_m: 0.005 k_n_m: 5000 } } } }"
                                        " authority { tool: \"tool\" seat: \"hand\" alpha: 1 }"));
 }
@@ -176,7 +176,7 @@ TEST_P(ToolThatFell, NeedNotBeLiftedByAHandThatGivesNothing) {
       " device_coupling { k_c_n_m: 400 b_n_s_m: 0.5 m_c_kg: 0.02 } gate { latch: false force_max_n: 2 loop_age_max_ms: 300 }"
       " seat { name: \"hand\" kind: MASTER role: INSTRUCTOR required: true device { damping_n_s_m: 0.2 } hand { model: LEADER"
       " trajectory { " + std::string(GetParam()) + " } } }"
-      " tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 slave { damping_n_s_m: 0.2 gravity_compensation: false } }"
+      " tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 slave { model: TOUCH damping_n_s_m: 0.2 gravity_compensation: false } }"
       " authority { tool: \"tool\" seat: \"hand\" alpha: 1 }");
   netsim::WorldSetup setup = test::with(scene, {{Fault::Kind::kStopHand, "hand", 1s, 8s}});
   setup.network.up.floor = setup.network.down.floor = 50ms;  // soft springs, far from their leash

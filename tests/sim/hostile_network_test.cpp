@@ -28,7 +28,7 @@ struct Held {
 /// The trainer presses the tool against the block. When the attack begins he stops pressing and goes along with the device: the
 /// worst moment, since nothing but the gate keeps the spring from pushing his hand away.
 SceneSpec in_contact() {
-  SceneSpec scene = test::shipped("contact");
+  SceneSpec scene = test::set_position("contact");
   scene.duration = 20;
   scene.phases.clear();
   auto made = netsim::World::make({.scene = scene});

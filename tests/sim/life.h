@@ -63,7 +63,7 @@ struct Life {
 
 /// Two hands press the tool against a wall from 3 s on; both lead.
 inline SceneSpec contact(double trainer = 0.5) {
-  SceneSpec scene = shipped("contact");
+  SceneSpec scene = set_position("contact");
   scene.seats[0].hand.trajectory.waypoints = {{0.5, {-0.02, 0, 0}}, {1.5, {0, 0, 0}}, {3, {0.012, 0, 0}}};
   scene.seats[1].hand = scene.seats[0].hand;
   scene.authority[0].alpha = {trainer, 1 - trainer};

@@ -1,4 +1,5 @@
-// The numbers this project promises, in virtual time (issue: "Numbers to show"). README's table is made of the same runs.
+// The numbers this project promises, in virtual time (issue: "Numbers to show"). README's table is made of the same
+// runs.
 #include <gtest/gtest.h>
 
 #include "tests/support/world_run.h"
@@ -8,12 +9,14 @@ namespace {
 
 using test::delayed;
 using test::run;
+using test::set_position;
 using test::shipped;
+using test::under_both_laws;
 
 constexpr double kMm = 1e-3;
 
 SceneSpec free_motion_with_friction(double newton, bool feedforward) {
-  SceneSpec scene = shipped("free_motion");
+  SceneSpec scene = set_position("free_motion");
   for (auto& s : scene.seats) {
     s.device.friction = newton;
     s.device.friction_feedforward = feedforward;
@@ -33,7 +36,9 @@ void expect_tracking_within(const SceneSpec& scene, double limit) {
       EXPECT_LE(r.phase(phase, seat).tracking_rms_m, limit) << phase << " " << seat;
 }
 
-TEST(Numbers, FreeMotionTracksWithinTwoMillimetresInEveryPhase) { expect_tracking_within(shipped("free_motion"), 2 * kMm); }
+TEST(Numbers, FreeMotionTracksWithinTwoMillimetresInEveryPhase) {
+  for (const SceneSpec& scene : under_both_laws("free_motion")) expect_tracking_within(scene, 2 * kMm);
+}
 
 TEST(Numbers, FrictionFeedForwardKeepsTwoMillimetresAtAQuarterNewton) {
   expect_tracking_within(free_motion_with_friction(0.26, true), 2 * kMm);
@@ -45,7 +50,7 @@ TEST(Numbers, WithoutFeedForwardAQuarterNewtonOfFrictionCostsMore) {
 }
 
 TEST(Numbers, ContactForceIsFeltWithinTwoTenthsOfANewton) {
-  const auto r = run(shipped("contact"));
+  const auto r = run(set_position("contact"));
   ASSERT_TRUE(r.report.passed);
   EXPECT_LE(r.phase("alignment", "trainer").force_error_rms_n, 0.2);
   EXPECT_LE(r.phase("alignment", "trainee").force_error_rms_n, 0.1);
@@ -53,13 +58,35 @@ TEST(Numbers, ContactForceIsFeltWithinTwoTenthsOfANewton) {
   EXPECT_LE(r.seat("trainer").metrics.effort_peak_n, 3.3);
 }
 
+/// Law `replica`: the hand presses no deeper than 8 mm, feels what the tool gives, and the block at least as stiff as
+/// 360 N/m.
+TEST(Numbers, ContactUnderTheDefaultLawIsFeltWithinAFiftiethOfANewton) {
+  for (const double ms : {0.0, 20.0, 100.0}) {
+    double depth = 0, force = 0, ticks = 0;
+    const auto r = run(shipped("contact"), delayed(ms), 1, [&](netsim::World& w) {
+      if (w.session().time() < 8 || w.session().time() > 11) return;
+      depth += w.device(0).truth().x.x();
+      force -= w.device(0).state().f_out.x();
+      ++ticks;
+    });
+    ASSERT_TRUE(r.report.passed) << ms;
+    for (const char* seat : {"trainer", "trainee"})
+      EXPECT_LE(r.phase("alignment", seat).force_error_rms_n, 0.05) << seat << " " << ms;
+    EXPECT_LE(depth / ticks, 0.008) << ms;
+    EXPECT_GE(force / depth, 360) << ms;
+    EXPECT_GT(r.report.tools[0].contact_force_rms_n, 2.0) << "nobody pressed";
+    EXPECT_LE(r.seat("trainer").metrics.effort_peak_n, 3.3);
+  }
+}
+
 TEST(Numbers, ContactForceSurvivesAQuarterNewtonOfFriction) {
-  SceneSpec scene = shipped("contact");
-  for (auto& s : scene.seats) s.device.friction = 0.26;
-  for (auto& t : scene.tools) t.slave.friction = 0.26;
-  const auto r = run(scene);
-  EXPECT_LE(r.phase("alignment", "trainer").force_error_rms_n, 0.3);
-  EXPECT_LE(r.phase("alignment", "trainee").force_error_rms_n, 0.3);
+  for (SceneSpec scene : under_both_laws("contact")) {
+    for (auto& s : scene.seats) s.device.friction = 0.26;
+    for (auto& t : scene.tools) t.slave.friction = 0.26;
+    const auto r = run(scene);
+    EXPECT_LE(r.phase("alignment", "trainer").force_error_rms_n, 0.3);
+    EXPECT_LE(r.phase("alignment", "trainee").force_error_rms_n, 0.3);
+  }
 }
 
 TEST(Numbers, TheSeedsFreeMotionIsNotWorseThanTwiceThePapers) {
@@ -95,25 +122,28 @@ TEST(Numbers, TheSeedRendersTwoHundredFiftyNewtonPerMetre) {
 }
 
 TEST(Numbers, TwentyMillisecondsCostLittleMoreThanTheirTransport) {
-  const double still = run(shipped("free_motion")).phase("demonstration", "trainer").tracking_rms_m;
-  const auto r = run(shipped("free_motion"), delayed(20));
-  ASSERT_TRUE(r.report.passed);
-  for (const auto& [phase, leader] : {std::pair{"demonstration", "trainer"}, std::pair{"evaluation", "trainee"}}) {
-    const auto& m = r.phase(phase, leader);
-    EXPECT_NEAR(m.transport_lag_rms_m, 3.1 * kMm, 0.3 * kMm) << "2 R sin(w d / 2) of the circle";
-    EXPECT_LE(m.tracking_rms_m, 1.25 * (still + m.transport_lag_rms_m)) << phase;
+  for (const SceneSpec& scene : under_both_laws("free_motion")) {
+    const double still = run(scene).phase("demonstration", "trainer").tracking_rms_m;
+    const auto r = run(scene, delayed(20));
+    ASSERT_TRUE(r.report.passed);
+    for (const auto& [phase, leader] : {std::pair{"demonstration", "trainer"}, std::pair{"evaluation", "trainee"}}) {
+      const auto& m = r.phase(phase, leader);
+      EXPECT_NEAR(m.transport_lag_rms_m, 3.1 * kMm, 0.3 * kMm) << "2 R sin(w d / 2) of the circle";
+      EXPECT_LE(m.tracking_rms_m, 1.25 * (still + m.transport_lag_rms_m)) << phase;
+    }
   }
 }
 
 TEST(Numbers, LongDelaysCostNoMoreThanTheirTransport) {
-  for (const double ms : {50.0, 100.0, 200.0}) {
-    const auto r = run(shipped("free_motion"), delayed(ms));
-    ASSERT_TRUE(r.report.passed) << ms;
-    for (const auto& [phase, leader] : {std::pair{"demonstration", "trainer"}, std::pair{"evaluation", "trainee"}}) {
-      const auto& m = r.phase(phase, leader);
-      EXPECT_LE(m.tracking_rms_m, m.transport_lag_rms_m) << phase << " at " << ms << " ms";
+  for (const SceneSpec& scene : under_both_laws("free_motion"))
+    for (const double ms : {50.0, 100.0, 200.0}) {
+      const auto r = run(scene, delayed(ms));
+      ASSERT_TRUE(r.report.passed) << ms;
+      for (const auto& [phase, leader] : {std::pair{"demonstration", "trainer"}, std::pair{"evaluation", "trainee"}}) {
+        const auto& m = r.phase(phase, leader);
+        EXPECT_LE(m.tracking_rms_m, m.transport_lag_rms_m) << phase << " at " << ms << " ms";
+      }
     }
-  }
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 using test::delayed;
 using test::Life;
 using test::pressing;
-using test::replica;
+using test::shipped;
 using test::with;
 
 constexpr double kMm = 1e-3;
@@ -82,7 +82,7 @@ struct Motion {
   double leader_tool = 0, follower_tool = 0, drag = 0, follower_force = 0, follower_step = 0;
 };
 Motion free_motion(double delay_ms) {
-  SceneSpec scene = replica("free_motion");
+  SceneSpec scene = shipped("free_motion");
   for (SeatSpec& seat : scene.seats) seat.hand.deviations.clear();
   scene.timeline.clear();
   scene.seats[0].hand.until = std::numeric_limits<double>::infinity();
@@ -161,7 +161,7 @@ TEST(Replica, HandsThatShareComeToRestAlsoWithoutTheLedgersHelp) {
   for (const double delay : {0.0, 50.0, 200.0, 500.0})
     for (const double alpha : {0.05, 0.5, 0.98})
       for (const double stiffness : {50.0, 1000.0}) {
-        SceneSpec scene = replica("free_motion");
+        SceneSpec scene = shipped("free_motion");
         scene.channel.e0 = scene.channel.margin_max = 10;
         scene.timeline.clear();
         scene.authority[0].alpha = {alpha, 1 - alpha};

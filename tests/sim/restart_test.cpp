@@ -51,7 +51,7 @@ class Engagement {
 };
 
 SceneSpec pressing() {
-  SceneSpec scene = test::shipped("contact");
+  SceneSpec scene = test::set_position("contact");
   scene.seats[0].hand.trajectory.waypoints = {{0.5, {-0.02, 0, 0}}, {1.5, {0, 0, 0}}, {3, {0.012, 0, 0}}};
   scene.seats[1].hand = scene.seats[0].hand;
   scene.authority[0].alpha = {0.5, 0.5};

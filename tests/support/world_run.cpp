@@ -21,6 +21,23 @@ SceneSpec shipped(const std::string& name) {
   return *scene;
 }
 
+SceneSpec set_position(const std::string& name) {
+  SceneSpec scene = shipped(name);
+  choose_law(scene, LawKind::kSetPosition);
+  for (ToolSpec& tool : scene.tools) {
+    if (!tool.is_virtual) continue;
+    tool.is_virtual = false;
+    tool.m_s = kDeviceToolMass;
+    tool.slave.model = scene.dof == 1 ? DeviceModel::kLinear : DeviceModel::kTouch;
+    if (scene.dof == 1) tool.slave.encoder = 5.5e-5;
+  }
+  if (name == "contact")
+    for (SeatSpec& seat : scene.seats) seat.hand.trajectory.waypoints.back().p.x = 0.019;
+  return scene;
+}
+
+std::vector<SceneSpec> under_both_laws(const std::string& name) { return {shipped(name), set_position(name)}; }
+
 netsim::SimpleNetwork delayed(double delay_ms, double jitter_ms, double loss_percent) {
   netsim::SimpleNetwork net;
   net.delay = from_seconds(delay_ms * 1e-3);

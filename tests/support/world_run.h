@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "netsim/world.h"
 #include "netsim/world_report.h"
@@ -11,6 +12,11 @@ namespace tandem::test {
 
 /// A shipped scene, parsed.
 [[nodiscard]] SceneSpec shipped(const std::string& name);
+/// The same under law SET_POSITION, with a simulated robot at every tool, as scenes without a law had it before REPLICA was the default:
+/// for what is claimed of that law. Hands that press `contact` go 19 mm beyond the wall, since three springs lie between them and it.
+[[nodiscard]] SceneSpec set_position(const std::string& name);
+/// Both of these: for claims about any law that promises passivity.
+[[nodiscard]] std::vector<SceneSpec> under_both_laws(const std::string& name);
 
 [[nodiscard]] netsim::SimpleNetwork delayed(double delay_ms, double jitter_ms = 0, double loss_percent = 0);
 /// Adds outages of `length_s` every `period_s`, both directions.

@@ -17,7 +17,7 @@ FeelReport report_of(std::vector<FeelSeed> seeds) {
   r.scene = "contact";
   r.network = "delay 100 ms";
   r.channel = "set_position";
-  r.spec = tandem::test::shipped("contact");
+  r.spec = tandem::test::set_position("contact");
   r.seeds = std::move(seeds);
   r.numbers = summarised(r.seeds);
   r.one_way_s = 0.1;
@@ -140,6 +140,25 @@ TEST(FeelKeys, AreThoseThatProbesGive) {
       ++count;
     }
   EXPECT_EQ(all.size(), count) << "something is measured and not told";
+}
+
+TEST(Noticeable, NumbersAreStepsAndHowLateAForceComesByTheLaw) {
+  const std::map<std::string, FeelNumber> felt{{"stiffness_felt_n_m", {in_series(400, kBone) / 1.23, 1, 1}}, {"stiffness_tissue_n_m", {in_series(400, kBone) / 1.23 / 1.23, 1, 1}},
+                                               {"force_share", {1 / 1.07, 1, 1}}, {"apparent_mass_1hz_kg", {0.021, 1, 1}}};
+  for (const bool local : {true, false}) {
+    std::map<std::string, double> n;
+    for (const auto& [key, value] : noticeable_numbers(local ? tandem::test::shipped("contact") : tandem::test::set_position("contact"), felt, 0.05)) n[key] = value;
+    EXPECT_NEAR(n.at("stiffness_lost_steps"), 1, 1e-9);
+    EXPECT_NEAR(n.at("bone_tissue_steps"), 1, 1e-9);
+    EXPECT_NEAR(n.at("force_lost_steps"), 1, 1e-9);
+    EXPECT_NEAR(n.at("mass_added_steps"), 1, 1e-9);
+    EXPECT_NEAR(n.at("others_late_s"), 0.1, 1e-12);
+    EXPECT_NEAR(n.at("own_contact_late_s"), local ? 0 : 0.1, 1e-12);
+  }
+  for (const auto& [key, value] : noticeable_numbers(tandem::test::shipped("contact"), {}, NAN)) EXPECT_TRUE(std::isnan(value)) << key;
+  const auto j = nlohmann::json::parse(feel_json(report_of(kThree)));
+  EXPECT_NEAR(j.at("noticeable").at("others_late_s").get<double>(), 0.2, 1e-12);
+  EXPECT_TRUE(j.at("noticeable").at("mass_added_steps").is_null());
 }
 
 TEST(Noticeable, AStepIsTheWeberFraction) {

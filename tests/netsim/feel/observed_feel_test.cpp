@@ -120,11 +120,13 @@ TEST(ObservedFeel, SharesAreOfTheWorstSeat) {
 }
 
 TEST(ObservedFeel, IsPartOfEveryReportOfAWorld) {
-  const WorldRun run = run_world({.scene = tandem::test::shipped("contact"), .network = link_from(tandem::test::delayed(20))});
-  ASSERT_EQ(run.report.feel.size(), ObservedFeel::keys().size());
-  EXPECT_EQ(run.report.feel[0].first, "stiffness_felt_n_m");
-  EXPECT_NEAR(run.report.feel[0].second, 112, 5) << "as measured independently and by `tandem-netsim feel`";
-  EXPECT_NE(server::to_json(run.report).find("\"stiffness_felt_n_m\""), std::string::npos);
+  for (const auto& [scene, stiffness] : {std::pair{tandem::test::set_position("contact"), 112.0}, {tandem::test::shipped("contact"), 392.0}}) {
+    const WorldRun run = run_world({.scene = scene, .network = link_from(tandem::test::delayed(20))});
+    ASSERT_EQ(run.report.feel.size(), ObservedFeel::keys().size());
+    EXPECT_EQ(run.report.feel[0].first, "stiffness_felt_n_m");
+    EXPECT_NEAR(run.report.feel[0].second, stiffness, 5) << "as measured independently and by `tandem-netsim feel`";
+    EXPECT_NE(server::to_json(run.report).find("\"stiffness_felt_n_m\""), std::string::npos);
+  }
 }
 
 }  // namespace

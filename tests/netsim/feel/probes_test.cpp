@@ -36,6 +36,17 @@ TEST(FeelPress, FindsTheStiffnessMeasuredIndependentlyAtEveryDelay) {
     EXPECT_NEAR(probe_press(contact_over(ms), 1).values.at("stiffness_felt_n_m"), stiffness, 0.04 * stiffness) << ms << " ms";
 }
 
+/// Of the default law at any delay: what lies between hand and surface is the coupling's spring and the surface, and nothing else.
+TEST(FeelPress, FeelsTheCouplingAndTheSurfaceUnderTheDefaultLaw) {
+  for (const int ms : {0, 100}) {
+    const FeelValues v = probe_press(contact_over(ms, tandem::test::shipped("contact")), 1).values;
+    EXPECT_NEAR(v.at("stiffness_felt_n_m"), in_series(400, kBone), 4) << ms;
+    EXPECT_NEAR(v.at("stiffness_tissue_n_m"), in_series(400, kTissue), 4) << ms;
+    EXPECT_NEAR(v.at("force_share"), 1, 0.02) << ms;
+    EXPECT_LT(v.at("tool_felt_bone_n"), 0.05) << ms;
+  }
+}
+
 TEST(FeelPress, LosesForceOverADelay) {
   const FeelValues v = probe_press(contact_over(100), 1).values;
   EXPECT_LT(v.at("force_share"), 0.35);
