@@ -156,7 +156,7 @@ void Session::step_tools() noexcept {
         const control::EndState& end = seats_[i].end().state();
         if (alpha > 0) pull[a].spring(alpha * end.k[a], end.ref[a]);
         // The schedule's damping, shared like the springs: P+d wants it at both ends. Or a hand's own, relative to its motion.
-        const double part = tool.body() != nullptr && replica_ ? tool.body()->relative_damping_share(a, scene_->channel.b_rel, 0, scene_->coupling.k_c, 0) : 1;
+        const double part = tool.body() != nullptr && replica_ ? tool.body()->relative_damping_share(a, scene_->channel.b_rel, 0, end.k[a], 0) : 1;
         pull[a].damper(part * alpha * end.b[a], end.rate[a]);
       }
       if (scene_->tools[j].remote) {
@@ -201,7 +201,7 @@ void Session::grant_following(std::size_t i) noexcept {
     const Tie& tie = ties_[i][j];
     if (!(tie.follow > 0)) continue;
     for (std::size_t a = 0; a < scene_->dof; ++a) {
-      const double pull = std::clamp(scene_->coupling.k_c * (tools_[j].x(a) - seats_[i].heard().port.x[a]), -strongest, strongest);
+      const double pull = std::clamp(seats_[i].end().state().k[a] * (tools_[j].x(a) - seats_[i].heard().port.x[a]), -strongest, strongest);
       seats_[i].end().credit(a, tools_[j].sources.grant(tie.follow * (1 - tie.alpha) * pull * tools_[j].moved()[a]));
     }
   }
