@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/base/device_stiffness.h"
 #include "hal/device.h"
 #include "proto/control_messages.h"
 
@@ -15,6 +16,7 @@ namespace tandem::client {
   f.force_peak_n = caps.axis[0].peak.value_or(0);
   f.damping_n_s_m = caps.damping.value_or(0);
   f.mass_kg = caps.mass.value_or(0);
+  f.latency_s = caps.latency.value_or(caps.simulated ? 0 : kLatencyUnknown);
   return f;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/base/device_stiffness.h"
+
 namespace tandem::client {
 namespace {
 
@@ -132,6 +134,12 @@ std::vector<Finding> Examination::findings(const hal::DeviceStats& stats, double
   } else {
     say(Kind::kNotice, "its force scale was never measured: forces are kept to a tenth of the peak; hal/README.md tells how "
                        "to measure it with a known mass");
+  }
+  if (std::ranges::any_of(caps_.axis, [](const hal::AxisLimit& axis) { return axis.peak.value_or(0) > 0; })) {
+    const double damping = caps_.damping.value_or(kDampingUnknown), latency = caps_.latency.value_or(caps_.simulated ? 0 : kLatencyUnknown);
+    say(caps_.damping ? Kind::kGood : Kind::kNotice,
+        text("renders springs up to %.0f N/m at 1000 Hz: b / (T/2 + t_d) of its damping b %g N s/m%s and its latency t_d %g ms%s", stiffness_limit(damping, latency, 1e-3), damping,
+             caps_.damping ? "" : ", assumed as it is not known", 1e3 * latency, caps_.latency ? "" : ", assumed as it is not known"));
   }
   static constexpr const char* kGravity[] = {"no gravity compensation", "gravity is compensated by this program",
                                              "the device compensates gravity itself"};

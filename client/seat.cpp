@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "client/device_facts.h"
 #include "common/base/command_life.h"
 #include "common/setup/channel_setup.h"
+#include "common/setup/device_stiffness.h"
 
 namespace tandem::client {
 
@@ -58,15 +60,15 @@ bool plausible(const hal::State& s, std::size_t joints) noexcept {
 }  // namespace
 
 Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link::Params& link)
-    : setup_(setup),
+    : setup_(setup::softened(setup, device_facts(caps))),  // whatever the server says
       map_(setup.port, setup.dof, caps.joints),
       joints_(caps.joints),
       dt_(1.0 / setup.tick_hz),
       command_life_(command_life(from_seconds(dt_))),
       link_(std::make_unique<link::Link>(link)),
       codec_(setup.dof, setup.port),
-      end_(make_end(setup)),
-      coupling_(make_coupling(setup)),
+      end_(make_end(setup_)),
+      coupling_(make_coupling(setup_)),
       gate_(gate_params(setup, caps)) {}
 
 Seat::Connection Seat::prepare(const link::Link::Params& link) const { return {std::make_unique<link::Link>(link), make_end(setup_)}; }

@@ -71,6 +71,7 @@ struct DeviceCaps {
   std::array<AxisLimit, 3> axis{};
   std::optional<double> mass;       ///< apparent mass at the tip [kg]
   std::optional<double> damping;    ///< physical damping at the tip b_device [N s/m], bounds the coupling stiffness
+  std::optional<double> latency;    ///< t_d from a reading to the force that answers it, beside the hold of one tick [s]; bounds it too
   std::optional<double> stiffness;  ///< largest stiffness the maker allows [N/m]
   std::optional<std::chrono::milliseconds> watchdog;  ///< after which the device itself lets go of its motors
   bool needs_firmware = false;

@@ -46,12 +46,12 @@ std::expected<VirtualSeat, server::JoinResult> join_virtually(server::Session& s
   fill_path_tokens(session, key.derive(number).derive(3), 0);
   const server::Reception& reception = session.reception();
   if (seat >= reception.scene().seats.size()) return std::unexpected(server::JoinResult::kNoSuchSeat);
-  if (!reception.unfit(seat, client::device_facts(caps)).empty()) return std::unexpected(server::JoinResult::kDeviceUnfit);
+  if (!reception.unfit(client::device_facts(caps)).empty()) return std::unexpected(server::JoinResult::kDeviceUnfit);
   const link::Link::Params client = client_end(key.derive(number), slot, seat + 1, reception.tick());
-  server::Entry entry = reception.prepare(seat, server_end(client));
+  server::Entry entry = reception.prepare(seat, server_end(client), client::device_facts(caps));
   const server::JoinResult result = session.admit(now, seat, entry, same_owner);
   if (result != server::JoinResult::kAccepted) return std::unexpected(result);
-  return VirtualSeat{reception.setup(seat), client};
+  return VirtualSeat{reception.setup_for(seat, client::device_facts(caps)), client};
 }
 
 std::expected<VirtualSeat, server::JoinResult> visit_virtually(server::Session& session, Time now, RandomKey key, std::uint64_t number) {

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "common/base/format.h"
+#include "common/setup/device_stiffness.h"
 #include "netsim/event_times.h"
 #include "netsim/link_text.h"
 #include "netsim/world.h"
@@ -57,6 +58,15 @@ std::string rebind_note(const NetworkEvent& event, const std::string& seat) {
                 seat.c_str(), seconds(event.at), seconds(event.at + event.rebind->dead_after));
 }
 
+/// Of the spring between a simulated device and its seat.
+std::string softened_note(const SceneSpec& scene, std::size_t seat) {
+  control::DeviceFacts device;
+  device.simulated = true;
+  device = setup::completed(device, scene.seats[seat].device);
+  const std::string words = setup::softened_words(setup::softened(seat_setup(scene, seat), device), device);
+  return words.empty() ? words : scene.seats[seat].name + ": " + words;
+}
+
 }  // namespace
 
 SessionSpan session_span(const World& world) {
@@ -67,6 +77,8 @@ SessionSpan session_span(const World& world) {
 
 std::vector<std::string> session_notes(const WorldSetup& setup, const SessionSpan& span) {
   std::vector<std::string> notes;
+  for (std::size_t i = 0; i < setup.scene.seats.size(); ++i)
+    if (std::string note = softened_note(setup.scene, i); !note.empty()) notes.push_back(std::move(note));
   for (const EventTime& event : asked_for(setup))
     if (std::string note = missed(event, span); !note.empty()) notes.push_back(std::move(note));
   if (setup.replay) return notes;

@@ -139,7 +139,7 @@ std::string WorldStation::join(Time now, server::Session& session) {
     case server::JoinResult::kAccepted:
       break;
   }
-  return "seat " + name + ": " + session.reception().unfit(number_, client::device_facts(device_->caps()));
+  return "seat " + name + ": " + session.reception().unfit(client::device_facts(device_->caps()));
 }
 
 /// Up to half a second, as programs do who do not want to ask all at once (design notes, security 4): nobody may be engaged meanwhile.

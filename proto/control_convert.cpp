@@ -11,9 +11,9 @@ namespace {
 namespace wire_pb = pb::control;
 
 bool read(const wire_pb::Device& in, DeviceFacts& out) {
-  out = {in.joints(), in.tip_axes(), in.simulated(), in.prismatic(), in.force_peak_n(), in.damping_n_s_m(), in.mass_kg()};
+  out = {in.joints(), in.tip_axes(), in.simulated(), in.prismatic(), in.force_peak_n(), in.damping_n_s_m(), in.mass_kg(), in.latency_s()};
   return within(in.joints(), 1, kAxesMax) && within(in.tip_axes(), 1, kAxesMax) && within(in.force_peak_n()) && within(in.damping_n_s_m()) &&
-         within(in.mass_kg());
+         within(in.mass_kg()) && in.latency_s() >= 0 && in.latency_s() <= kLatencyMax;
 }
 
 bool read(const wire_pb::Hello& in, Hello& out) {
@@ -57,6 +57,7 @@ void write(const Hello& in, wire_pb::Hello& out) {
   d.set_force_peak_n(in.device.force_peak_n);
   d.set_damping_n_s_m(in.device.damping_n_s_m);
   d.set_mass_kg(in.device.mass_kg);
+  d.set_latency_s(in.device.latency_s);
   out.set_has_aes(in.has_aes);
   out.set_visit(in.visit);
 }

@@ -21,6 +21,7 @@ inline constexpr std::uint32_t kFrameVersion = 1;     ///< of the frames
 inline constexpr std::uint32_t kProtocolVersion = 1;  ///< of everything: handshake, frames, datagrams
 inline constexpr std::size_t kFrameMax = 65536;       ///< one frame without its length [bytes]
 inline constexpr std::size_t kTextMax = 480;          ///< texts for people [bytes of UTF-8 without control characters]
+inline constexpr double kLatencyMax = 1;              ///< of a device [s]
 inline constexpr std::size_t kNameMax = 32;           ///< names: A-Z a-z 0-9 _ -
 inline constexpr std::size_t kVersionsMax = 8;
 inline constexpr std::size_t kTicketMax = 512;        ///< more than a ticket has: another length is the ticket's own mistake
@@ -35,6 +36,7 @@ struct DeviceFacts {
   std::uint32_t tip_axes = 1;  ///< 1 ... kAxesMax
   bool simulated = false, prismatic = false;
   double force_peak_n = 0, damping_n_s_m = 0, mass_kg = 0;  ///< 0 ... 1e4; 0: unknown
+  double latency_s = 0;  ///< from a reading to the force that answers it, beside the hold of a tick; 0 ... kLatencyMax
   friend bool operator==(const DeviceFacts&, const DeviceFacts&) = default;
 };
 

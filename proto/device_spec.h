@@ -33,6 +33,7 @@ struct FalconSpec {
   std::string measured;                                ///< by whom, when, how; never empty if there are numbers above
   std::optional<double> peak, continuous;              ///< [N] at the tip
   std::optional<double> mass, damping, stiffness;      ///< [kg, N s/m, N/m] at the tip
+  double latency = 0.001;                              ///< of force after reading [s]: forces travel with the next exchange
   std::optional<std::string> firmware_sha256;          ///< lower-case hex
   FalconFlags flags;
   int line = 0;                                        ///< of its file, from 1; 0: of no file

@@ -84,6 +84,7 @@ FalconSpec falcon_from(const pb::FalconFile& in, Checker& checker, const std::st
   spec.mass = number(in.has_mass_kg(), in.mass_kg());
   spec.damping = number(in.has_damping_n_s_m(), in.damping_n_s_m());
   spec.stiffness = number(in.has_stiffness_n_m(), in.stiffness_n_m());
+  if (in.has_latency_ms()) spec.latency = 1e-3 * in.latency_ms();
   if (in.firmware().has_sha256()) {
     std::string hash = in.firmware().sha256();
     std::ranges::transform(hash, hash.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/device_stiffness.h"
 #include "common/base/nearest.h"
 #include "proto/scene_convert.h"
 #include "proto/scene_text.h"
@@ -275,14 +276,17 @@ void check_law(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
                     "is VIRTUAL, named or by default; it needs port: TIP, where surfaces are; for port: JOINT name model: TOUCH or LINEAR", "VIRTUAL");
 }
 
+/// Law REPLICA softens a hand's spring to what its device renders, down to this [N/m].
+constexpr double kRenderedLeast = 1;
+
 void check_passivity(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
   if (scene.unsafe_gains || !(scene.tick_hz > 0)) return;
-  const auto limit = [&](const SimDeviceSpec& device) { return 2 * device.damping * scene.tick_hz; };
+  const auto limit = [&](const SimDeviceSpec& device) { return stiffness_limit(device.damping, 0, 1 / scene.tick_hz); };  // simulated: no latency
   const auto judge = [&](double k, const SimDeviceSpec& device, const std::string& whose, const std::string& path) {
     if (k <= limit(device) * (1 + kSumTolerance)) return;
     checker.error(
         path,
-        "is above the passivity limit 2 b/T = " + number_text(limit(device)) + " N/m of " + whose + " (damping " +
+        "is above the passivity limit b / (T/2) = " + number_text(limit(device)) + " N/m of " + whose + " (damping " +
             number_text(device.damping) + " N s/m, tick " + number_text(scene.tick_hz) +
             " Hz); lower it, raise tick_hz or the device's damping_n_s_m, or accept the risk with unsafe_gains: true",
         number_text(k));
@@ -293,8 +297,14 @@ void check_passivity(const pb::Scene& in, Checker& checker, const SceneSpec& sce
     if (weakest == nullptr || limit(seat.device) < limit(weakest->device)) weakest = &seat;
   }
   if (weakest != nullptr) {
-    judge(scene.coupling.k_c, weakest->device, "the device of seat " + quoted(weakest->name),
-          "device_coupling.k_c_n_m");
+    const std::string whose = "the device of seat " + quoted(weakest->name), path = "device_coupling.k_c_n_m";
+    if (scene.channel.law != LawKind::kReplica) {
+      judge(scene.coupling.k_c, weakest->device, whose, path);
+    } else if (limit(weakest->device) < kRenderedLeast) {
+      checker.error(path, "meets " + whose + ", which renders at most b / (T/2) = " + number_text(limit(weakest->device)) + " N/m (damping " +
+                              number_text(weakest->device.damping) + " N s/m, tick " + number_text(scene.tick_hz) + " Hz); at least " +
+                              number_text(kRenderedLeast) + " N/m are needed: raise the device's damping_n_s_m or tick_hz");
+    }
   }
   for (std::size_t t = 0; t < scene.tools.size() && t < static_cast<std::size_t>(in.tool_size()); ++t) {
     const auto& tool = scene.tools[t];

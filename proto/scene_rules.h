@@ -17,7 +17,8 @@ void read_follow(const pb::Scene& in, text::Checker& checker, SceneSpec& out);
 void read_phases(const pb::Scene& in, text::Checker& checker, SceneSpec& out);
 /// What the law of the channel and tools without a device need.
 void check_law(const pb::Scene& in, text::Checker& checker, const SceneSpec& scene);
-/// Springs that meet a sampled device: k <= 2 b_device / T [Colgate, Schenkel 1997; design notes, control 3].
+/// Springs that meet a sampled device: k <= b / (T/2 + t_d) (common/base/device_stiffness.h). Law REPLICA gives each hand a spring that its device
+/// renders, so there k_c is what is asked for, and only a device that renders next to nothing is a mistake.
 void check_passivity(const pb::Scene& in, text::Checker& checker, const SceneSpec& scene);
 
 }  // namespace tandem::rules

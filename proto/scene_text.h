@@ -16,7 +16,7 @@ using SceneError = InputError;
 
 /// Turns the text of a scene into numbers that cannot be wrong: every value finite and in range, every name resolved,
 /// every row of weights summing to 1, every spring that meets a sampled device within its passivity limit
-/// (k_c, k_s <= 2 b_device / T, design notes, control 3) unless the scene says `unsafe_gains`.
+/// (k_c, k_s <= b / (T/2 + t_d), common/base/device_stiffness.h) unless the scene says `unsafe_gains` or the law softens it by itself.
 /// @param text       whole file, at most 1 MiB
 /// @param file_name  used in messages; a name ending in `.json` selects JSON, where places are key paths only
 /// @return the scene (its `name` is the file's name without folder and ending), or every mistake found, in file order

@@ -34,6 +34,7 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
   setup.seat = scene.seats[seat];
   if (setup.seat.kind == SeatKind::kSlave && setup.seat.tool < scene.tools.size())
     setup.k_s = scene.tools[setup.seat.tool].k_s;
+  setup.stiffness_asked = setup.seat.kind == SeatKind::kSlave ? setup.k_s : setup.coupling.k_c;
   if (setup.seat.kind == SeatKind::kMaster)  // the tool whose authority this seat is told, and may move as INSTRUCTOR
     for (std::size_t j = scene.tools.size(); j-- > 0;)
       if (scene.follow[seat][j] > 0) setup.seat.tool = j;
@@ -80,6 +81,7 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   write_environment(setup.environment, *message.mutable_environment());
   message.set_m_s_kg(setup.m_s);
   message.set_b_s_n_s_m(setup.b_s);
+  message.set_stiffness_asked_n_m(setup.stiffness_asked);
   message.set_alpha_slew_per_s(std::isfinite(setup.alpha_slew) ? setup.alpha_slew : 0);
   const std::size_t size = message.ByteSizeLong();
   if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
@@ -116,6 +118,7 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     out.k_s = in.k_s_n_m();
     out.m_s = in.m_s_kg();
     out.b_s = in.b_s_n_s_m();
+    out.stiffness_asked = in.stiffness_asked_n_m();
     read_environment(in.environment(), out.dof, "environment", checker, out.environment);
     for (std::size_t axis = 0; axis < out.dof; ++axis) out.axis_scale[axis] = in.axis_scale(static_cast<int>(axis));
     out.masters.assign(in.master().begin(), in.master().end());

@@ -27,6 +27,8 @@ struct SeatSetup {
   ChannelSpec channel;    ///< tip gains
   CouplingSpec coupling;  ///< masters
   double k_s = 400;       ///< SLAVE seats: tool - slave spring at the tip [N/m]
+  /// What the scene asks of the spring that meets the device, coupling.k_c or k_s: more than that where the device renders less [N/m].
+  double stiffness_asked = 400;
   double m_s = 0.02, b_s = 0.2;  ///< mass and damping of the tool this seat follows [kg, N s/m]
   EnvironmentSpec environment;   ///< of that tool: a master of law REPLICA simulates it
   GateSpec gate;

@@ -128,23 +128,27 @@ Preamble read_preamble(std::span<const std::byte> in) noexcept {
   return preamble;
 }
 
-/// The size first: then everything has its place. One result and one way out, so that a message is never copied.
+/// The size first: then everything has its place. What `values` has read counts only if no error came.
+template <class Read>
+std::expected<Preamble, DecodeError> read_into(std::span<const std::byte> in, std::size_t size, Read&& values) noexcept {
+  if (in.size() != size) return std::unexpected(DecodeError::kSize);
+  ValueReader reader{in.subspan(kPreambleSize)};
+  values(reader);
+  if (!reader.well_formed()) [[unlikely]] return std::unexpected(DecodeError::kMalformed);
+  if (!reader.finite()) [[unlikely]] return std::unexpected(DecodeError::kNotFinite);
+  if (!reader.in_range()) [[unlikely]] return std::unexpected(DecodeError::kOutOfRange);
+  return read_preamble(in);
+}
+
+/// One result and one way out, so that a message is never copied.
 template <class Message, class Read>
 Decoded<Message> read(std::span<const std::byte> in, std::size_t size, Read&& values) noexcept {
   Decoded<Message> result{std::in_place};
-  if (in.size() != size) {
-    result = std::unexpected(DecodeError::kSize);
-    return result;
-  }
-  result->preamble = read_preamble(in);
-  ValueReader reader{in.subspan(kPreambleSize)};
-  values(reader, result->message);
-  if (!reader.well_formed()) [[unlikely]] {
-    result = std::unexpected(DecodeError::kMalformed);
-  } else if (!reader.finite()) [[unlikely]] {
-    result = std::unexpected(DecodeError::kNotFinite);
-  } else if (!reader.in_range()) [[unlikely]] {
-    result = std::unexpected(DecodeError::kOutOfRange);
+  const auto preamble = read_into(in, size, [&](ValueReader& reader) { values(reader, result->message); });
+  if (preamble) {
+    result->preamble = *preamble;
+  } else {
+    result = std::unexpected(preamble.error());
   }
   return result;
 }
@@ -190,9 +194,9 @@ std::size_t Codec::encode(const Preamble& preamble, const PingMessage&, std::spa
   return write(preamble, kPingSize, out, [](ValueWriter&) {});
 }
 
-Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) const noexcept {
+std::expected<Preamble, DecodeError> Codec::decode_state(std::span<const std::byte> in, StateMessage& out) const noexcept {
   return with_axes(axes_, [&](auto axes) {
-    return read<StateMessage>(in, state_size(axes), [&](ValueReader& values, StateMessage& out) {
+    return read_into(in, state_size(axes), [&](ValueReader& values) {
       StateWords words;
       walk(values, out, words, axes, position_max_);
       out.gate = static_cast<GateState>(words.gate);
@@ -202,6 +206,17 @@ Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) const n
       out.stop_all = (words.flags & 8U) != 0;
     });
   });
+}
+
+Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) const noexcept {
+  Decoded<StateMessage> result{std::in_place};
+  const auto preamble = decode_state(in, result->message);
+  if (preamble) {
+    result->preamble = *preamble;
+  } else {
+    result = std::unexpected(preamble.error());
+  }
+  return result;
 }
 
 Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) const noexcept {

@@ -94,6 +94,9 @@ class Codec {
   [[nodiscard]] std::size_t encode(const Preamble&, const PingMessage&, std::span<std::byte> out) const noexcept TANDEM_REALTIME;
 
   [[nodiscard]] Decoded<StateMessage> decode_state(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
+  /// The same without a copy: writes every number of a message into `out`, but axes that this codec does not use, which stay as they are.
+  /// After an error `out` holds anything.
+  [[nodiscard]] std::expected<Preamble, DecodeError> decode_state(std::span<const std::byte> plaintext, StateMessage& out) const noexcept TANDEM_REALTIME;
   [[nodiscard]] Decoded<ForceMessage> decode_force(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
   [[nodiscard]] Decoded<PathMessage> decode_path(std::span<const std::byte> plaintext) const noexcept TANDEM_REALTIME;
   /// Weights are in [0, 1] and sum to 1 within 1e-9.

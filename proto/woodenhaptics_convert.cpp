@@ -99,6 +99,7 @@ WoodenHapticsSpec woodenhaptics_from(const pb::WoodenHapticsFile& in, Checker& c
   }
   if (limits.has_stiffness_n_m()) spec.stiffness_max = limits.stiffness_n_m();
   if (limits.has_damping_n_s_m()) spec.damping = limits.damping_n_s_m();
+  if (limits.has_latency_ms()) spec.latency = kMilli * limits.latency_ms();
   if (limits.has_mass_kg()) spec.tip_mass = limits.mass_kg();
 
   const pb::WoodenWeight& weight = in.weight();

@@ -30,6 +30,7 @@ struct WoodenHapticsSpec {
   double radius = 0.1;              ///< of the workspace about its origin [m]
   std::optional<double> stiffness_max;  ///< [N/m]
   std::optional<double> damping;        ///< physical, at the tip [N s/m]
+  double latency = 0.001;               ///< of force after reading [s]: forces travel with the next exchange
   std::optional<double> tip_mass;       ///< apparent mass at the tip [kg]
   std::array<double, 2> arm_mass{};     ///< upper arm, forearm [kg]
   std::array<double, 2> arm_mass_at{};  ///< its centre, from the joint before it [m]

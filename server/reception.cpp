@@ -3,13 +3,21 @@
 #include <algorithm>
 
 #include "common/setup/channel_setup.h"
+#include "common/setup/device_stiffness.h"
 
 namespace tandem::server {
 
+namespace {
+
+std::unique_ptr<control::ChannelEnd> end_of(const SeatSetup& s, const AxisArray& scale) {
+  const std::optional<double> k_s = s.seat.kind == SeatKind::kSlave ? std::optional{s.k_s} : std::nullopt;
+  return setup::make_channel(s.channel, control::Side::kServer, s.dof, scale, s.gate.force_max * share_of_force(s.seat.role), s.coupling.k_c, !s.unsafe_gains, k_s);
+}
+
+}  // namespace
+
 std::unique_ptr<control::ChannelEnd> make_channel_end(const SceneSpec& scene, std::size_t seat, const AxisArray& scale) {
-  const SeatSpec& s = scene.seats[seat];
-  const std::optional<double> k_s = s.kind == SeatKind::kSlave ? std::optional{scene.tools[s.tool].k_s} : std::nullopt;
-  return setup::make_channel(scene.channel, control::Side::kServer, scene.dof, scale, scene.gate.force_max * share_of_force(s.role), scene.coupling.k_c, !scene.unsafe_gains, k_s);
+  return end_of(seat_setup(scene, seat), scale);
 }
 
 Reception::Reception(const SceneSpec& scene, const AxisArray& scale) : scene_(&scene), scale_(scale) {
@@ -31,7 +39,7 @@ std::string Reception::seat_names() const {
   return text;
 }
 
-std::string Reception::unfit(std::size_t seat, const tandem::control::DeviceFacts& device) const {
+std::string Reception::unfit(const tandem::control::DeviceFacts& device) const {
   const std::size_t needed = scene_->dof;
   if (scene_->port == PortSpace::kTip ? device.tip_axes < needed : device.joints < needed)
     return "the scene needs " + std::to_string(needed) + " axes, the device has " +
@@ -39,18 +47,21 @@ std::string Reception::unfit(std::size_t seat, const tandem::control::DeviceFact
   if (!device.simulated && !scene_->gate.latch) return "gate.latch: false is for simulated devices only";
   if (!device.simulated && scene_->gate.loop_age_max > 0.3)
     return "gate.loop_age_max_ms above 300 is for simulated devices only; use a scene with at most 300";
-  if (!scene_->unsafe_gains && device.damping_n_s_m > 0 && scene_->seats[seat].kind == SeatKind::kMaster) {
-    const double limit = 2 * device.damping_n_s_m * scene_->tick_hz;
-    if (scene_->coupling.k_c > limit * (1 + 1e-9))
-      return "k_c is above the device's passivity limit 2 b/T = " + std::to_string(static_cast<int>(limit)) + " N/m";
-  }
   return {};
 }
 
-Entry Reception::prepare(std::size_t seat, link::Link::Params link) const {
+SeatSetup Reception::setup_for(std::size_t seat, const tandem::control::DeviceFacts& device) const {
+  return setup::softened(setups_[seat], setup::completed(device, setups_[seat].seat.device));
+}
+
+std::string Reception::softened_words(std::size_t seat, const tandem::control::DeviceFacts& device) const {
+  return setup::softened_words(setup_for(seat, device), setup::completed(device, setups_[seat].seat.device));
+}
+
+Entry Reception::prepare(std::size_t seat, link::Link::Params link, const tandem::control::DeviceFacts& device) const {
   link.outgoing = link::Direction::kToClient;
   link.tick = tick();
-  return {std::make_unique<link::Link>(link), make_channel_end(*scene_, seat, scale_), {}, 1};
+  return {std::make_unique<link::Link>(link), end_of(setup_for(seat, device), scale_), {}, 1};
 }
 
 }  // namespace tandem::server

@@ -27,7 +27,7 @@ struct Entry {
   double force_scale = 1;              ///< its ticket's, told to the client; kept for when it comes back
 };
 
-/// The server's end of a seat's spring.
+/// The server's end of a seat's spring, as the scene asks for it.
 [[nodiscard]] std::unique_ptr<control::ChannelEnd> make_channel_end(const SceneSpec& scene, std::size_t seat, const AxisArray& scale);
 
 /// Who asks for a seat is answered from what never changes in a session, on any thread: which seats there are, who fits, what a client
@@ -40,11 +40,16 @@ class Reception {
   [[nodiscard]] std::optional<std::size_t> seat_named(std::string_view name) const noexcept;
   /// The names of all seats, for a person.
   [[nodiscard]] std::string seat_names() const;
-  /// Why this device may not sit there; empty when it may.
-  [[nodiscard]] std::string unfit(std::size_t seat, const tandem::control::DeviceFacts& device) const;
+  /// Why this device may not sit in this session; empty when it may.
+  [[nodiscard]] std::string unfit(const tandem::control::DeviceFacts& device) const;
+  /// As the scene asks for it, whatever device comes.
   [[nodiscard]] const SeatSetup& setup(std::size_t seat) const noexcept { return setups_[seat]; }
-  /// @param link  with the ids and the secrets of this joining
-  [[nodiscard]] Entry prepare(std::size_t seat, link::Link::Params link) const;
+  /// For this device: its spring no stiffer than the device renders.
+  [[nodiscard]] SeatSetup setup_for(std::size_t seat, const tandem::control::DeviceFacts& device) const;
+  /// What the operator is told of that spring; empty where the device renders what the scene asks for.
+  [[nodiscard]] std::string softened_words(std::size_t seat, const tandem::control::DeviceFacts& device) const;
+  /// @param link  with the ids and the secrets of this joining  @param device  both ends reckon with the spring it renders
+  [[nodiscard]] Entry prepare(std::size_t seat, link::Link::Params link, const tandem::control::DeviceFacts& device) const;
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
   /// Between two datagrams of a seat.
   [[nodiscard]] Duration tick() const noexcept { return from_seconds(1.0 / scene_->tick_hz); }

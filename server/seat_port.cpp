@@ -48,7 +48,7 @@ void SeatPort::take(Time now, Entry& entry) noexcept {
   std::swap(end_, entry.end);
   taken_ = true;
   generation_ = 0;
-  rx_ = wire::StateMessage{};
+  *rx_ = {};
   conduct_ = {};
   resume_ = entry.resume;
   force_scale_ = entry.force_scale;
@@ -72,25 +72,25 @@ SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<
   };
   switch (opened->type) {
     case wire::Type::kState: {
-      const auto decoded = codec_.decode_state(opened->plaintext);
-      if (!decoded) {
+      const auto preamble = codec_.decode_state(opened->plaintext, *next_);
+      if (!preamble) {
         offence();
         break;
       }
       if (!opened->newer) break;  // latest wins: nothing acts backwards
-      const PortSample& next = decoded->message.port;
-      if (alive(now) && rx_.engaged && decoded->message.engaged && jumps(next)) conduct_.offend(now);
+      if (alive(now) && rx_->engaged && next_->engaged && jumps(next_->port)) conduct_.offend(now);
       heard.acted = true;
-      connection_->acts(now, from, *opened, decoded->preamble, tokens);
-      for (std::size_t a = 0; a < scene_->dof; ++a) energy_fell_ |= decoded->message.port.e_in[a] < rx_.port.e_in[a];
-      rx_ = decoded->message;
+      connection_->acts(now, from, *opened, *preamble, tokens);
+      for (std::size_t a = 0; a < scene_->dof; ++a) energy_fell_ |= next_->port.e_in[a] < rx_->port.e_in[a];
+      std::swap(rx_, next_);
       ++generation_;
       break;
     }
     case wire::Type::kAuthority:
       if (const auto decoded = codec_.decode_authority(opened->plaintext)) {
         link.accept_other();
-        heard.authority = decoded->message;
+        wish_ = decoded->message;
+        heard.authority = &wish_;
       } else {
         offence();
       }
@@ -121,7 +121,7 @@ bool SeatPort::deaf() const noexcept {
 bool SeatPort::jumps(const PortSample& next) const noexcept {
   const double most = scene_->port == PortSpace::kTip ? kJumpMaxM : kJumpMaxRad;
   for (std::size_t a = 0; a < scene_->dof; ++a)
-    if (!(std::abs(next.x[a] - rx_.port.x[a]) <= most)) return true;
+    if (!(std::abs(next.x[a] - rx_->port.x[a]) <= most)) return true;
   return false;
 }
 
@@ -139,16 +139,21 @@ void SeatPort::move(Time now, double dt, bool present, const Near& near) noexcep
     was_present_ = present;
     return;
   }
-  control::EndInput in;
-  in.dt = dt;
-  in.age = age;
-  in.weight = near.weight;
-  in.x = near.x;
-  in.dissipated = near.dissipated;
-  in.pass_on = near.pass_on;
-  in.rx = rx_.port;
-  for (std::size_t a = 0; a < scene_->dof; ++a) in.rx.x[a] -= near.offset[a];
-  end_->move(in);
+  input_.dt = dt;
+  input_.age = age;
+  input_.weight = near.weight;
+  input_.pass_on = near.pass_on;
+  const PortSample& heard = rx_->port;
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    input_.x[a] = near.x[a];
+    input_.dissipated[a] = near.dissipated[a];
+    input_.rx.x[a] = heard.x[a] - near.offset[a];
+    input_.rx.v[a] = heard.v[a];
+    input_.rx.f[a] = heard.f[a];
+    input_.rx.a[a] = heard.a[a];
+    input_.rx.e_in[a] = heard.e_in[a];
+  }
+  end_->move(input_);
 }
 
 Transmit SeatPort::transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept {

@@ -32,7 +32,7 @@ class SeatPort {
 
   /// Opens, asks whether the role may send such a thing, decodes; STATE acts here. @return the rest, for the session.
   struct Heard {
-    std::optional<wire::AuthorityMessage> authority;
+    const wire::AuthorityMessage* authority = nullptr;  ///< until the next datagram
     bool close = false;
     bool acted = false;      ///< a newer STATE
     bool forbidden = false;  ///< its role may not send this
@@ -47,11 +47,11 @@ class SeatPort {
   [[nodiscard]] bool deaf() const noexcept;
   /// Alive, its device streams, nothing latched, nobody stopped it.
   [[nodiscard]] bool ready(Time now) const noexcept {
-    return alive(now) && (rx_.ready || rx_.engaged) && !rx_.stop && !conduct_.isolated(now);
+    return alive(now) && (rx_->ready || rx_->engaged) && !rx_->stop && !conduct_.isolated(now);
   }
   [[nodiscard]] bool alive_once() const noexcept { return generation_ > 0; }
   /// Its spring may act on tools.
-  [[nodiscard]] bool present(Time now) const noexcept { return alive(now) && rx_.engaged && !rx_.stop && !conduct_.isolated(now) && !deaf(); }
+  [[nodiscard]] bool present(Time now) const noexcept { return alive(now) && rx_->engaged && !rx_->stop && !conduct_.isolated(now) && !deaf(); }
 
   /// What the near end of the spring hangs on.
   struct Near {
@@ -72,7 +72,7 @@ class SeatPort {
   [[nodiscard]] const control::ChannelEnd& end() const noexcept { return *end_; }
   [[nodiscard]] link::Link* link() noexcept { return taken_ ? &connection_->link() : nullptr; }
   [[nodiscard]] const link::Link* link() const noexcept { return taken_ ? &connection_->link() : nullptr; }
-  [[nodiscard]] const wire::StateMessage& heard() const noexcept { return rx_; }
+  [[nodiscard]] const wire::StateMessage& heard() const noexcept { return *rx_; }
   [[nodiscard]] Conduct& conduct() noexcept { return conduct_; }
   [[nodiscard]] const Conduct& conduct() const noexcept { return conduct_; }
   [[nodiscard]] bool poll_flood() noexcept { return taken_ && connection_->poll_flood(); }
@@ -121,7 +121,10 @@ class SeatPort {
   std::optional<Connection> connection_;  ///< kept when its client has left, until another comes
   bool taken_ = false;
   wire::Codec codec_;
-  wire::StateMessage rx_{};
+  control::EndInput input_;  ///< of the last `move`: kept, as most of its arrays are beyond the axes in use
+  wire::AuthorityMessage wish_;
+  /// What acts, and room for what comes next: exchanged, never copied.
+  std::unique_ptr<wire::StateMessage> rx_ = std::make_unique<wire::StateMessage>(), next_ = std::make_unique<wire::StateMessage>();
   std::uint64_t generation_ = 0;
   double age_ = 0;
   bool was_present_ = false, energy_fell_ = false;

@@ -273,10 +273,13 @@ void Session::fill_force_messages(Time now) noexcept {
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     wire::ForceMessage& m = seats_[i].tx;
     const control::EndState& end = seats_[i].end().state();
-    m.port.x = following_[i];
-    m.port.v = following_v_[i];
-    for (std::size_t a = 0; a < scene_->dof; ++a) m.port.f[a] = told_of_others(i) ? tool_told_[i][a] : end.k[a] * (end.ref[a] - following_[i][a]);
-    m.port.e_in = seats_[i].end().e_in();
+    const bool of_others = told_of_others(i);
+    for (std::size_t a = 0; a < scene_->dof; ++a) {
+      m.port.x[a] = following_[i][a];
+      m.port.v[a] = following_v_[i][a];
+      m.port.f[a] = of_others ? tool_told_[i][a] : end.k[a] * (end.ref[a] - following_[i][a]);
+      m.port.e_in[a] = seats_[i].end().ledger(a).in_nj();
+    }
     m.session = state_;
     m.engage = engage && seats_[i].feels() && !seats_[i].conduct().isolated(now) && !leaving(i);
     m.alpha = 0;

@@ -46,6 +46,8 @@ void Session::tie_seats() noexcept {
     }
 }
 
+bool Session::told_of_others(std::size_t i) const noexcept { return replica_ && i < masters_; }
+
 void Session::move_references(Time now) noexcept {
   const bool tank = scene_->channel.mfs == MfsMode::kTank;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
@@ -157,7 +159,7 @@ void Session::step_tools() noexcept {
         const control::EndState& end = seats_[i].end().state();
         if (alpha > 0) pull[a].spring(alpha * end.k[a], end.ref[a]);
         // The schedule's damping, shared like the springs: P+d wants it at both ends. Or a hand's own, relative to its motion.
-        const double part = tool.body() != nullptr && replica_ ? tool.body()->relative_damping_share(a, scene_->channel.b_rel, 0, scene_->coupling.k_c, 0) : 1;
+        const double part = tool.body() != nullptr && replica_ ? tool.body()->relative_damping_share(a, scene_->channel.b_rel, 0, end.k[a], 0) : 1;
         pull[a].damper(part * alpha * end.b[a], end.rate[a]);
       }
       if (scene_->tools[j].remote) {
@@ -192,8 +194,6 @@ void Session::step_following() noexcept {
   }
 }
 
-bool Session::told_of_others(std::size_t i) const noexcept { return replica_ && i < masters_; }
-
 /// What the others' motion gives a hand beyond its own authority is the flow sources': at most the strongest force along the tool's path.
 /// How far the hand is behind is known here by its newest sample and there by the age of news, which two clocks that part (200 ppm, and 10 s
 /// until the client learns anew) and a hand's filters make longer: without room for it a follower's account ran dry at 1000 ppm within 5 s.
@@ -205,7 +205,7 @@ void Session::grant_following(std::size_t i) noexcept {
     if (!(tie.follow > 0)) continue;
     for (std::size_t a = 0; a < scene_->dof; ++a) {
       const double room = tools_[j].sources.mode() == control::FlowSourceMode::kOpen ? kAgeRoom * tools_[j].moved()[a] / dt_ : 0;
-      const double pull = std::clamp(scene_->coupling.k_c * (tools_[j].x(a) + room - seats_[i].heard().port.x[a]), -strongest, strongest);
+      const double pull = std::clamp(seats_[i].end().state().k[a] * (tools_[j].x(a) + room - seats_[i].heard().port.x[a]), -strongest, strongest);
       seats_[i].end().credit(a, tools_[j].sources.grant(tie.follow * (1 - tie.alpha) * pull * tools_[j].moved()[a]));
     }
   }
@@ -245,19 +245,32 @@ void Session::follow_others(std::size_t i) noexcept {
 void Session::follow_tools(std::size_t i) noexcept {
   bool gated = false;
   for (const Tool& tool : tools_) gated |= i < masters_ && tool.sources.gates_velocity();
-  for (std::size_t a = 0; a < scene_->dof; ++a) {
-    double absolute = 0, moved = 0, velocity = 0;
-    for (std::size_t j = 0; j < tools_.size(); ++j) {
-      const Tie& tie = ties_[i][j];
-      const double part = gated ? control::following_share(tie.alpha, tie.follow, tools_[j].sources.gate(a)) : tie.follow;
-      absolute += tie.follow * tools_[j].x(a);
-      moved += part * tools_[j].moved()[a];
-      velocity += part * tools_[j].v(a);
+  const std::size_t dof = scene_->dof, tools = tools_.size();
+  AxisArray absolute{}, velocities{};
+  for (std::size_t j = 0; j < tools; ++j) {
+    const double follow = ties_[i][j].follow;
+    for (std::size_t a = 0; a < dof; ++a) {
+      absolute[a] += follow * tools_[j].x(a);
+      velocities[a] += follow * tools_[j].v(a);
     }
-    absolute_[i][a] = gated && present_[i] ? absolute_[i][a] + moved : absolute;
+  }
+  if (gated) {
+    velocities = {};
+    AxisArray moved{};
+    for (std::size_t j = 0; j < tools; ++j)
+      for (std::size_t a = 0; a < dof; ++a) {
+        const double part = control::following_share(ties_[i][j].alpha, ties_[i][j].follow, tools_[j].sources.gate(a));
+        moved[a] += part * tools_[j].moved()[a];
+        velocities[a] += part * tools_[j].v(a);
+      }
+    if (present_[i])
+      for (std::size_t a = 0; a < dof; ++a) absolute[a] = absolute_[i][a] + moved[a];
+  }
+  for (std::size_t a = 0; a < dof; ++a) {
+    absolute_[i][a] = absolute[a];
     following_[i][a] = absolute_[i][a] + offset_[i][a];
     // Until it is engaged its own motion: nothing pulls before.
-    following_v_[i][a] = present_[i] ? velocity + offset_step_[i][a] / dt_ : seats_[i].heard().port.v[a];
+    following_v_[i][a] = present_[i] ? velocities[a] + offset_step_[i][a] / dt_ : seats_[i].heard().port.v[a];
   }
 }
 

@@ -12,12 +12,14 @@
 #include "client/app/sample_trace.h"
 #include "client/app/seat_pump.h"
 #include "client/app/vigil.h"
+#include "client/device_facts.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/output_file.h"
 #include "common/io/realtime.h"
 #include "common/io/signals.h"
 #include "common/io/terminal.h"
+#include "common/setup/device_stiffness.h"
 #include "hal/io/open_device.h"
 
 namespace tandem::client {
@@ -121,6 +123,7 @@ int attend(const AttendPlan& plan) {
     if (auto ok = device.enable(); !ok) return refuse("--device: " + ok.error().message, kTrouble);
   }
   line.note("seat " + setup.seat.name + " at " + server + ", " + note);
+  if (const std::string softer = setup::softened_words(setup::softened(setup, device_facts(caps)), device_facts(caps)); !softer.empty()) line.note(softer);
   Seat seat{setup, caps, given->link};
   io::UdpSocket kept = io::duplicate(*socket);
   const auto pump = std::make_unique<SeatPump>(std::move(*socket), seat, live.sim, std::move(script),

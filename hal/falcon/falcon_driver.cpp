@@ -38,6 +38,7 @@ DeviceCaps caps_of(const FalconSpec& spec, const FalconForce& force) {
   caps.leds = 3;
   caps.mass = spec.mass;
   caps.damping = spec.damping;
+  caps.latency = spec.latency;
   caps.stiffness = spec.stiffness;
   caps.workspace_min = {-kFalconSide, -kFalconDepth, -kFalconSide};
   caps.workspace_max = {kFalconSide, kFalconDepth, kFalconSide};

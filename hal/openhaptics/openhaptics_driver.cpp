@@ -48,6 +48,7 @@ Result<> OpenHapticsDriver::bring_up(BringUp& watcher) {
   caps_.timing = Timing::kVendor;
   caps_.homing = homing_of(about->calibration);
   caps_.gravity = GravityCompensation::kDevice;
+  caps_.latency = 0.001;  // a force is set in the vendor's cycle after that which gave the reading
   caps_.buttons = 4;
   for (AxisLimit& axis : caps_.axis) {
     axis.peak = about->force_max;  // unknown: the guard gives no force

@@ -112,6 +112,7 @@ void SimDevice::make_caps() {
   caps_.gravity =
       touch && spec_.gravity && spec_.gravity_compensation ? GravityCompensation::kHost : GravityCompensation::kNone;
   caps_.damping = spec_.damping;
+  caps_.latency = 0;  // what is commanded after a reading acts from that instant on
   if (touch) {
     // Mean over the directions: a push of 1 N moves the tip by the mean of diag(J M^-1 J^T).
     if (const auto q = touch_inverse(Vec3::Zero())) {

@@ -19,6 +19,7 @@ DeviceCaps caps_of(const WoodenHapticsSpec& spec) {
   caps.nominal_hz = 1000.0;
   caps.mass = spec.tip_mass;
   caps.damping = spec.damping;
+  caps.latency = spec.latency;
   caps.stiffness = spec.stiffness_max;
   if (spec.protocol != WoodenProtocol::kRaw64) caps.watchdog = kBoardWatchdog;
   caps.signs_from_file = true;

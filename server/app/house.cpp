@@ -180,7 +180,7 @@ void House::sit(Room& room, const JoinRequest& request, std::function<void(Admis
   const Reception& reception = room.opening.session->reception();
   const auto seat = reception.seat_named(request.hello.seat);
   if (!seat) return answer(Refused{Reason::kNoSeat, "no seat of this name; seats: " + reception.seat_names(), 0});
-  if (const std::string why = reception.unfit(*seat, request.hello.device); !why.empty()) return answer(Refused{Reason::kDeviceUnfit, why, 0});
+  if (const std::string why = reception.unfit(request.hello.device); !why.empty()) return answer(Refused{Reason::kDeviceUnfit, why, 0});
   Claim& claim = room.claims[*seat];
   const auto* resume = std::get_if<control::ResumeCredential>(&request.hello.credential);
   const Back back = resume != nullptr ? comes_back(claim, resume->secret, request.workstation) : Back::kNo;
@@ -210,7 +210,7 @@ void House::sit(Room& room, const JoinRequest& request, std::function<void(Admis
       return answer(*refused);
     }
     claim.offered_scale = force_scale;
-    answer(welcome(room, seat, false, static_cast<std::uint8_t>(seat + 1), request.hello.has_aes, force_scale));
+    answer(welcome(room, seat, &request.hello.device, static_cast<std::uint8_t>(seat + 1), request.hello.has_aes, force_scale));
   };
   post(room, std::move(order));
 }
@@ -239,7 +239,8 @@ std::optional<Refused> House::judge(Room& room, const JoinRequest& request, std:
                                       request.hello.seat + " --workstation " + request.workstation.name + "`", 0};
 }
 
-control::Welcome House::welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes, double force_scale) {
+control::Welcome House::welcome(const Room& room, std::size_t seat, const control::DeviceFacts* device, std::uint8_t place, bool has_aes, double force_scale) {
+  const bool visit = device == nullptr;
   const HostedSession& session = *room.opening.session;
   control::Welcome w;
   w.session_id = room.opening.id;
@@ -251,7 +252,7 @@ control::Welcome House::welcome(const Room& room, std::size_t seat, bool visit, 
   w.cipher = aes ? control::Cipher::kAes256Gcm : control::Cipher::kChaCha20Poly1305;
   if (!visit) w.seat = session.scene().seats[seat].name;
   w.role = visit ? AccessRole::kObserver : access_role(session.scene().seats[seat].role);
-  SeatSetup own = session.reception().setup(seat);
+  SeatSetup own = visit ? session.reception().setup(seat) : session.reception().setup_for(seat, *device);
   own.gate.force_max *= force_scale;  // a ticket may only take away
   std::array<char, wire::kSetupMax> setup;
   const std::size_t size = encode_seat_setup(own, setup);
@@ -292,7 +293,9 @@ void House::seated(const JoinRequest& request, const control::Welcome& welcome, 
     order.what = Order::What::kAdmit;
     order.seat = seat;
     order.same_owner = true;  // it was asked for, and held since
-    order.entry = reception.prepare(seat, params);
+    order.entry = reception.prepare(seat, params, request.hello.device);
+    if (std::string softer = reception.softened_words(seat, request.hello.device); !softer.empty())
+      io::tell(io::Level::kInfo, {.event = "softer", .session = welcome.session_name, .seat = welcome.seat, .cid = welcome.server_cid, .text = std::move(softer)});
     give(claim, welcome.resume_secret, request.workstation, order.entry);
     order.done = [&claim](Order&) { claim.being_given = false; };
   }

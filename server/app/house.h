@@ -160,7 +160,8 @@ class House final : public Admissions {
   void let_go(Room& room, std::size_t seat);
   void sit(Room& room, const JoinRequest& request, std::function<void(Admission)> answer);
   [[nodiscard]] std::optional<control::Refused> judge(Room& room, const JoinRequest& request, std::size_t seat, double& force_scale);
-  [[nodiscard]] control::Welcome welcome(const Room& room, std::size_t seat, bool visit, std::uint8_t place, bool has_aes, double force_scale);
+  /// @param device  of the seat; null: a visit, or somebody without a seat
+  [[nodiscard]] control::Welcome welcome(const Room& room, std::size_t seat, const control::DeviceFacts* device, std::uint8_t place, bool has_aes, double force_scale);
   /// Whether anybody new may come in at all.
   [[nodiscard]] std::optional<control::Refused> too_busy(const Room& room) const;
   // Coming back (house_resume.cpp).

@@ -132,7 +132,7 @@ void House::stand(Room& room, const JoinRequest& request, const std::function<vo
   const trust::TicketUse use{room.opening.id, room.opening.epoch, "", std::nullopt, trust::Pin{request.workstation.spki}, trust::wall_seconds()};
   const auto redeemed = trust_.redeem(ticket->bytes, use);
   if (!redeemed) return answer(ticket_refused(redeemed.error()));
-  control::Welcome w = welcome(room, 0, true, 0, request.hello.has_aes, 1);  // place 0 is nobody's: no datagram opens under these keys
+  control::Welcome w = welcome(room, 0, nullptr, 0, request.hello.has_aes, 1);  // place 0 is nobody's: no datagram opens under these keys
   w.role = redeemed->role;
   w.setup.clear();
   room.standing.push_back({w.resume_secret, redeemed->ticket_id});
@@ -189,7 +189,7 @@ void House::visit(Room& room, const JoinRequest& request, std::function<void(Adm
   order.session = room.opening.session;
   order.done = [this, &room, full, has_aes = request.hello.has_aes, answer = std::move(answer)](Order& asked) {
     if (asked.result == JoinResult::kAccepted && asked.place >= room.visits_being_given)
-      return answer(welcome(room, 0, true, static_cast<std::uint8_t>(kSeatsMax + 1 + visitors_++ % kVisitorPlaces), has_aes, 1));
+      return answer(welcome(room, 0, nullptr, static_cast<std::uint8_t>(kSeatsMax + 1 + visitors_++ % kVisitorPlaces), has_aes, 1));
     --room.visits_being_given;
     answer(asked.result == JoinResult::kAccepted ? full : Refused{Reason::kSessionOver, "the session is ending", 0});
   };

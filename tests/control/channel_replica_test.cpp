@@ -81,6 +81,21 @@ TEST(ReplicaReference, GoesNoFartherThanIsPaid) {
   EXPECT_NEAR(end.refused(), 0.5 * 400 * 0.0165 * 0.0165 - 0.05, 1e-6);
 }
 
+// Two motors' strength from the copy at most, however rich the account is: what the spring stores must stay what a hand can be given.
+TEST(ReplicaReference, IsLeashedToTheCopyThoughItCouldPay) {
+  ChannelParams p = one_axis();
+  p.e0 = p.margin_max = 100;
+  ReplicaReference end(p);
+  end.engage({}, 0.0005);
+  for (int i = 0; i < 3000; ++i) end.move(hears(0.5, 0));
+  EXPECT_DOUBLE_EQ(end.state().ref[0], 2 * 3.3 / 400);
+  EndInput moved = hears(0.5, 0);
+  moved.x[0] = -0.01;  // the copy goes away: the reference comes along
+  end.move(moved);
+  EXPECT_DOUBLE_EQ(end.state().ref[0], -0.01 + 2 * 3.3 / 400);
+  EXPECT_TRUE(end.ledger(0).holds());
+}
+
 TEST(ReplicaReference, PredictsForAHandThatFollowsAndNotForOneThatShares) {
   EndInput in = hears(0, 0, 0.1);
   in.rx.v[0] = 0.05;

@@ -137,12 +137,14 @@ TEST(ToolCopy, GivesNoHandMoreThanWasPaid) {
     const double tool = draw(-0.02, 0.02);
     double hand = draw(-0.02, 0.02);
     seat.engage(tool, hand);
-    double authority = draw(0, 1), r = tool, speed = 0, given = 0, received = 0, force = 0, unseen = 0;
+    const double goes_along = draw(0, 1) < 0.5 ? 0 : draw(5e-3, 3e-2);  // [m/s per N]: a hand that yields is the one that takes energy
+    double authority = draw(0, 1) < 0.4 ? 0 : draw(0, 1), r = tool, speed = 0, given = 0, received = 0, force = 0, unseen = 0;
     const double hz = draw(0.2, 6), width = draw(0, 0.03), phase = draw(0, 6);
     for (int i = 0; i < 3000; ++i) {
       if (draw(0, 1) < 0.002) authority = draw(0, 1);
       const double t = i * kT;
-      const double next = hand + kT * (speed = 0.98 * speed + draw(-0.02, 0.02));
+      speed = 0.98 * speed + draw(-0.02, 0.02);
+      const double next = hand + kT * (goes_along > 0 ? goes_along * force + 0.1 * speed : speed);
       given += force * (next - hand);
       unseen += 0.5 * 400 * (next - hand) * (next - hand);  // a held force follows a moving spring one tick late
       hand = next;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "common/base/rng.h"
 #include "tests/support/alloc_guard.h"
@@ -203,6 +204,38 @@ TEST(RecordedMotion, PlaysWithoutHeap) {
   for (double t = 0; t < 3; t += 1e-3) sum += m.at(t, c).x;
   EXPECT_EQ(guard.count(), 0u);
   EXPECT_TRUE(sum.allFinite());
+}
+
+// Points of a parabola: tangents by three points are exact for it (those of both ends have but two), and nothing is centred or scaled.
+TEST(RecordedMotion, MadeOfPointsIsPlayedAsTheyAre) {
+  const auto made = RecordedMotion::from_points({0, 0.5, 2, 3, 4}, {{1, 0, 0}, {1.25, 0, 0}, {5, 0, 0}, {10, 0, 0}, {17, 0, 0}});  // 1 + t^2
+  ASSERT_TRUE(made) << made.error();
+  EXPECT_DOUBLE_EQ(made->duration(), 4);
+  EXPECT_EQ(made->rows(), 5u);
+  EXPECT_EQ(made->scale(), 1);
+  EXPECT_EQ(made->middle().norm(), 0);
+  for (const double t : {0.0, 0.5, 0.7, 1.3, 2.0, 2.9, 3.0, 4.0}) EXPECT_NEAR(position(*made, t)[0], 1 + t * t, 1e-12) << t;
+  RecordedMotion::Cursor cursor;
+  EXPECT_NEAR(made->at(1, cursor).v[0], 2, 1e-12);
+  EXPECT_DOUBLE_EQ(position(*made, 9)[0], 17) << "held at its end";
+  EXPECT_EQ(made->at(9, cursor).v.norm(), 0);
+  EXPECT_DOUBLE_EQ(position(*made, -1)[0], 1);
+}
+
+TEST(RecordedMotion, MadeOfBadPointsSaysWhichAndWhy) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto error = [](std::vector<double> t, std::vector<Vec3> x) {
+    const auto made = RecordedMotion::from_points(std::move(t), std::move(x));
+    return made ? std::string("none") : made.error();
+  };
+  const Vec3 o = Vec3::Zero();
+  EXPECT_NE(error({0}, {o}).find("at least two points"), std::string::npos);
+  EXPECT_NE(error({0, 1}, {o}).find("one position per time"), std::string::npos);
+  EXPECT_EQ(error({0, nan}, {o, o}), "point 1 is not finite");
+  EXPECT_EQ(error({0, 1}, {o, Vec3(0, nan, 0)}), "point 1 is not finite");
+  EXPECT_EQ(error({0.1, 1}, {o, o}), "point 0: time must begin at 0 and ascend");
+  EXPECT_EQ(error({0, 1, 1}, {o, o, o}), "point 2: time must begin at 0 and ascend");
+  EXPECT_EQ(error({0, 1, 2}, {o, o, o}), "none");
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ TEST(SimDevice, DeclaresWhatItIs) {
   EXPECT_TRUE(touch->caps().simulated);
   EXPECT_EQ(touch->caps().gravity, GravityCompensation::kHost);
   EXPECT_EQ(touch->caps().damping, 0.2);
+  EXPECT_EQ(touch->caps().latency, 0);
   EXPECT_EQ(touch->caps().axis[2].peak, 3.3);
   EXPECT_GT(*touch->caps().mass, 0.02);
   EXPECT_LT(*touch->caps().mass, 0.2);

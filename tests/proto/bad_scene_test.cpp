@@ -172,7 +172,7 @@ TEST(BadScene, NumbersMustBeNumbers) {
 }
 
 TEST(BadScene, SpringAbovePassivityLimitNeedsUnsafeGains) {
-  expect_one(with("400", "@401"), "device_coupling.k_c_n_m", "passivity limit 2 b/T = 400 N/m");
+  expect_one(with("400", "@401"), "device_coupling.k_c_n_m", "passivity limit b / (T/2) = 400 N/m");
   EXPECT_TRUE(errors_of(with("400", "401") + "unsafe_gains: true\n").empty());
   expect_one(with("name: \"tool\" slave", "name: \"tool\" k_s_n_m: @750 slave"), "tool[0].k_s_n_m",
              "unsafe_gains: true");
@@ -180,6 +180,16 @@ TEST(BadScene, SpringAbovePassivityLimitNeedsUnsafeGains) {
   EXPECT_TRUE(errors_of(with("400", "800") + "tick_hz: 2000\n").empty());
   expect_one(mark(with("role: TRAINEE", "role: TRAINEE device { damping_n_s_m: 0.1 }"), "400"),
              "device_coupling.k_c_n_m", "200 N/m of the device of seat \"trainee\"");
+}
+
+// Law REPLICA gives each hand what its device renders, at any rate; only a device that renders nothing is a mistake.
+TEST(BadScene, LawReplicaAsksForStiffnessAndRefusesOnlyDevicesThatRenderNone) {
+  const std::string replica = "channel { law: REPLICA }\n";
+  EXPECT_TRUE(errors_of(with("400", "900") + replica).empty());
+  const auto errors = errors_of(with("role: TRAINEE", "role: TRAINEE device { damping_n_s_m: 0.0001 }") + replica);
+  ASSERT_EQ(errors.size(), 1u) << to_text(errors);
+  EXPECT_EQ(errors[0].key, "device_coupling.k_c_n_m");
+  EXPECT_NE(errors[0].message.find("at least 1 N/m are needed"), std::string::npos) << errors[0].message;
 }
 
 TEST(BadScene, PassivityLimitAppliesToDefaultsToo) {

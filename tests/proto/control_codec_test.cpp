@@ -147,6 +147,7 @@ TEST(ControlCodec, WhatIsBeyondItsBoundIsNeitherSentNorTaken) {
   EXPECT_TRUE(hello([](Hello& m) { m.device.tip_axes = kAxesMax + 1; }));
   for (const double bad : {-1.0, 1.1e4, std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_TRUE(hello([bad](Hello& m) { m.device.mass_kg = bad; }));
+  for (const double bad : {-0.001, 1.1, std::nan("")}) EXPECT_TRUE(hello([bad](Hello& m) { m.device.latency_s = bad; }));
   const auto welcome = [&](auto change) {
     Welcome m = samples::welcome(random);
     change(m);

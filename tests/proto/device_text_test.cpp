@@ -24,7 +24,7 @@ TEST(DeviceText, ReadsAFalconWithItsScale) {
     falcon {
       force { motor_1_counts_per_nm: 9000 motor_2_counts_per_nm: 10000 motor_3_counts_per_nm: 11000 }
       measured: "NN, 2026-11-21, masses of 50 and 100 g"
-      peak_n: 6 continuous_n: 2.5 mass_kg: 0.15 damping_n_s_m: 0.8
+      peak_n: 6 continuous_n: 2.5 mass_kg: 0.15 damping_n_s_m: 0.8 latency_ms: 2.5
       firmware { sha256: "00112233445566778899AABBCCDDEEFF00112233445566778899aabbccddeeff" }
       flags { homing: 16 green: 4 blue: 8 red: 2 }
     })", "mine.textproto");
@@ -34,6 +34,7 @@ TEST(DeviceText, ReadsAFalconWithItsScale) {
   EXPECT_EQ(falcon.peak, 6.0);
   EXPECT_EQ(falcon.mass, 0.15);
   EXPECT_FALSE(falcon.stiffness);
+  EXPECT_EQ(falcon.latency, 0.0025);
   EXPECT_EQ(falcon.firmware_sha256, "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff");
   EXPECT_EQ(falcon.flags.homing, 16);
   EXPECT_EQ(falcon.flags.red, 2);

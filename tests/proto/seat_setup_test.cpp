@@ -63,6 +63,7 @@ void expect_same(const SeatSetup& a, const SeatSetup& b) {
   expect_near(a.gate.follow_hold, b.gate.follow_hold);
   EXPECT_EQ(a.m_s, b.m_s);
   EXPECT_EQ(a.b_s, b.b_s);
+  EXPECT_EQ(a.stiffness_asked, b.stiffness_asked);
   ASSERT_EQ(a.environment.wall.has_value(), b.environment.wall.has_value());
   if (a.environment.wall) {
     EXPECT_EQ(a.environment.wall->axis, b.environment.wall->axis);

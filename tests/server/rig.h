@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client/device_facts.h"
 #include "client/seat.h"
 #include "common/base/rng.h"
 #include "hal/sim/sim_device.h"
@@ -63,7 +64,7 @@ class Rig {
       auto joined = netsim::join_virtually(*session, now, i, seat.device->caps(), RandomKey{key}, i + 1, false, slot);
       seat.params = joined->link;
       seat.params.rekey = rekey;
-      if (rekey.packets != link::RekeyRule{}.packets) renew(i, seat.params);
+      if (rekey.packets != link::RekeyRule{}.packets) renew(i, seat.params, client::device_facts(seat.device->caps()));
       seat.core = std::make_unique<client::Seat>(joined->setup, seat.device->caps(), seat.params);
       seat.at = static_cast<std::uint8_t>(i + 1);
       seats.push_back(std::move(seat));
@@ -159,10 +160,10 @@ class Rig {
 
  private:
   /// The same connection with another rule for its keys.
-  void renew(std::size_t i, link::Link::Params client) {
+  void renew(std::size_t i, link::Link::Params client, const control::DeviceFacts& device) {
     std::swap(client.own_cid, client.peer_cid);
     client.outgoing = link::Direction::kToClient;
-    Entry entry = session->reception().prepare(i, client);
+    Entry entry = session->reception().prepare(i, client, device);
     static_cast<void>(session->admit(now, i, entry, true));
   }
   bool ticked_ = false;

@@ -46,7 +46,9 @@ std::array<double, N> means(Life& life, const std::array<std::function<double()>
 Duration after(Duration session_time, double delay_ms) { return session_time + 200ms + from_seconds(5e-3 * delay_ms); }
 
 double stiffness_felt(double k_surface, double delay_ms, double shallow, double deep) {
-  Life life{over(pressing(k_surface, shallow, deep), delay_ms)};
+  SceneSpec scene = pressing(k_surface, shallow, deep);
+  scene.seats[0].device.encoder = 0;  // its steps of 0.07 mm would be 2 % of the way between the two presses
+  Life life{over(std::move(scene), delay_ms)};
   const std::array<std::function<double()>, 2> hand{[&] { return force_x(life, 0); }, [&] { return place_x(life, 0); }};
   life.until(after(4s, delay_ms));
   const auto lightly = means(life, hand);

@@ -63,7 +63,7 @@ const std::array<Room, 20> kRooms{{
      {"openssl", "asio"},
      "common/trust/io keeps keys and books in files and speaks frames over TLS: trust, proto's frames and books, OpenSSL and asio"},
     {"common/setup",
-     {"common/base", "common/control", "common/setup", "proto/scene_spec.h", "proto/seat_setup.h"},
+     {"common/base", "common/control", "common/setup", "proto/control_messages.h", "proto/scene_spec.h", "proto/seat_setup.h"},
      {"Eigen"},
      "common/setup turns the plain structs of a scene into parameters of common/control, nothing else"},
     {"proto",

@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include "proto/scene_text.h"
+
+namespace tandem {
+namespace {
+
+SceneSpec scene(LawKind law, PortSpace port, MfsMode mfs) {
+  SceneSpec s;
+  s.channel.law = law;
+  s.channel.mfs = mfs;
+  s.port = port;
+  return s;
+}
+
+TEST(LawProblem, OfLawReplicaIsAPortOfJointsOrAGateThatCutsVelocities) {
+  for (const MfsMode mfs : {MfsMode::kOpen, MfsMode::kTank}) {
+    EXPECT_FALSE(law_problem(scene(LawKind::kReplica, PortSpace::kTip, mfs)));
+    const auto joints = law_problem(scene(LawKind::kReplica, PortSpace::kJoint, mfs));
+    ASSERT_TRUE(joints);
+    EXPECT_EQ(joints->key, "channel.law");
+    EXPECT_NE(joints->words.find("port: TIP"), std::string::npos) << joints->words;
+  }
+  for (const MfsMode mfs : {MfsMode::kSeed, MfsMode::kSeedSigned}) {
+    const auto cut = law_problem(scene(LawKind::kReplica, PortSpace::kTip, mfs));
+    ASSERT_TRUE(cut);
+    EXPECT_EQ(cut->key, "channel.mfs");
+    EXPECT_NE(cut->words.find("use OPEN or TANK"), std::string::npos) << cut->words;
+  }
+}
+
+TEST(LawProblem, IsThereForNoOtherLaw) {
+  for (const LawKind law : {LawKind::kSetPosition, LawKind::kRaw})
+    for (const PortSpace port : {PortSpace::kTip, PortSpace::kJoint})
+      for (const MfsMode mfs : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned}) EXPECT_FALSE(law_problem(scene(law, port, mfs)));
+}
+
+// What a scene's file is told is the same: with its place.
+TEST(LawProblem, OfASceneFileNamesItsKeyAndLine) {
+  const auto errors = parse_scene(
+      "version: 1\nport: JOINT\nchannel { law: REPLICA }\nseat { name: \"a\" role: TRAINEE }\ntool { name: \"t\" slave { } }\nauthority { tool: \"t\" seat: \"a\" alpha: 1 }\n", "s");
+  ASSERT_FALSE(errors);
+  ASSERT_EQ(errors.error().size(), 1u) << to_text(errors.error());
+  EXPECT_EQ(errors.error()[0].key, "channel.law");
+  EXPECT_EQ(errors.error()[0].line, 3);
+}
+
+}  // namespace
+}  // namespace tandem
