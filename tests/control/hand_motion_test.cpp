@@ -45,6 +45,30 @@ TEST(HandMotionFilter, HalfOfItsDelayIsMadeUpForByTheAcceleration) {
   EXPECT_NEAR(HandMotionFilter::velocity_by_now(filter.now()), real - 0.5 * lag, 3e-4);
 }
 
+// Poles are in Hz, not in ticks: at every rate a hand on 50 mm at 0.5 Hz is foreseen by 50 ms with the same error.
+TEST(HandMotionFilter, ForeseesAlikeAtEveryRate) {
+  const auto error = [](double rate) {
+    HandMotionFilter filter(1 / rate);
+    const double w = 2 * std::numbers::pi * 0.5, age = 0.05;
+    const auto place = [&](double t) { return 0.05 * std::sin(w * t); };
+    filter.rest_at(0);
+    double square = 0;
+    int n = 0;
+    for (int i = 1; i <= static_cast<int>(6 * rate); ++i) {
+      const double t = i / rate;
+      const HandMotion& now = filter.step(place(t));
+      if (t < 2) continue;
+      const double e = Prediction::place(now, age) - place(t + age);
+      square += e * e;
+      ++n;
+    }
+    return std::sqrt(square / n);
+  };
+  const double usual = error(1000);
+  EXPECT_LT(usual, 1e-3) << "the way itself is 5.5 mm RMS";
+  for (const double rate : {100.0, 200.0, 500.0, 2000.0, 4000.0}) EXPECT_NEAR(error(rate), usual, 0.03e-3) << rate << " Hz";
+}
+
 TEST(HandMotionFilter, WhatIsNotFiniteChangesNothing) {
   HandMotionFilter filter(kT);
   filter.rest_at(0.01);

@@ -224,5 +224,44 @@ TEST(Replica, ALeadersForceSurvivesAGapAndNotAnOutage) {
   }
 }
 
+/// What a leader's motor gave in every tick of [6.9 s, 7.6 s), to the last bit: pressing on bone over 5 ms, and what happens at 7 s.
+std::vector<hal::Vec3> forces_through(const std::function<void(netsim::WorldSetup&)>& what) {
+  netsim::WorldSetup setup = with(pressing(20000, 0.004, 0.007));
+  setup.network = netsim::link_from(delayed(5));
+  what(setup);
+  Life life{std::move(setup)};
+  life.until(6900ms);
+  std::vector<hal::Vec3> forces;
+  while (life.at() < 7600ms) {
+    life.step();
+    forces.push_back(life.world->device(0).state().f_out);
+  }
+  life.expect_nothing_broken();
+  return forces;
+}
+
+// With authority 1 nothing of the loop crosses the network: everything that the server says may be lost for 200 ms, or come 60 ms later, and no bit of
+// the leader's force changes. That what it says may also be wrong: CopyCoupling.NothingThatTheServerSaysReachesAHandThatLeadsAlone.
+TEST(Replica, WhatTheServerSaysIsLostOrLateAndNoBitOfALeadersForceChanges) {
+  const auto undisturbed = forces_through([](netsim::WorldSetup&) {});
+  ASSERT_LT(undisturbed.front()[0], -1);
+  const auto lost = forces_through([](netsim::WorldSetup& setup) {
+    netsim::SimpleNetwork net = delayed(5);
+    netsim::OutageSpec outage;
+    outage.start = 7s;
+    outage.length = 200ms;
+    net.outages.push_back(outage);
+    setup.network = netsim::link_from(net);
+  });
+  const auto late = forces_through([](netsim::WorldSetup& setup) {
+    netsim::NetworkEvent event;
+    event.at = 7s;
+    event.link = netsim::link_from(delayed(65));
+    setup.events.push_back(event);
+  });
+  EXPECT_EQ(undisturbed, lost);
+  EXPECT_EQ(undisturbed, late);
+}
+
 }  // namespace
 }  // namespace tandem
