@@ -176,9 +176,9 @@ TEST(Deaf, AClientThatHearsNothingIsLostThoughItSpeaks) {
     Rig rig{1, Role::kTrainee, scene};
     rig.live(300ms);
     rig.hears = false;
-    const int limit = static_cast<int>(std::lround(1e3 * silence_limit(scene.gate, scene.channel.law, 1)));
+    const int limit = static_cast<int>(std::lround(1e3 * silence_limits(scene.gate, scene.channel.law, 1).most));
     int lost_after = -1;
-    for (int ms = 0; ms < 400 && lost_after < 0; ++ms) {
+    for (int ms = 0; ms < 700 && lost_after < 0; ++ms) {
       rig.live(1ms);
       if (!rig.port().present(rig.now)) lost_after = ms + 1;
     }
@@ -197,9 +197,9 @@ TEST(Deaf, AnEchoThatStandsStillIsNotBelieved) {
     Rig rig{1, Role::kTrainee, scene};
     rig.live(300ms);
     const wire::Preamble still{rig.link->preamble(rig.now, 0).echo_counter, 0, 0};
-    const int most = std::max(200, static_cast<int>(std::lround(1e3 * silence_limit(scene.gate, scene.channel.law, 1))) + 20);
+    const int most = std::max(200, static_cast<int>(std::lround(1e3 * silence_limits(scene.gate, scene.channel.law, 1).most)) + 20);
     int lost_after = -1;
-    for (int ms = 0; ms < 400 && lost_after < 0; ++ms) {
+    for (int ms = 0; ms < 700 && lost_after < 0; ++ms) {
       rig.send(wire::Type::kState, rig.state, still);
       rig.tick();
       if (!rig.port().present(rig.now)) lost_after = ms + 1;

@@ -88,7 +88,7 @@ Loss lose(LawKind law, const Case& c, Grip grip, Duration cut, bool replayed) {
     opens = rehearsal.world->session().time();
   }
   scene = scene_of(law, c, grip, opens);
-  const double limit = silence_limit(scene.gate, law, 1);
+  const double limit = silence_limits(scene.gate, law, 1).most;
   netsim::WorldSetup setup = test::with(scene);
   netsim::OutageSpec outage;
   outage.start = cut;
