@@ -106,6 +106,9 @@ void read_tool(const pb::Tool& in, const std::string& path, Checker& checker, st
   if (in.has_k_s_n_m()) out.k_s = in.k_s_n_m();
   if (in.has_m_s_kg()) out.m_s = in.m_s_kg();
   if (in.has_b_s_n_s_m()) out.b_s = in.b_s_n_s_m();
+  if (in.has_contacts()) out.contacts = static_cast<ContactsMode>(in.contacts());
+  if (in.has_contacts() && in.has_slave())
+    checker.error(child_path(path, "contacts"), "is for tools that a SLAVE seat serves; the surfaces of this one are those of slave { environment { } }");
   if (in.slave().model() == pb::VIRTUAL) {
     out.is_virtual = true;
     if (!in.has_m_s_kg()) out.m_s = kVirtualMass;
@@ -271,6 +274,9 @@ void read_phases(const pb::Scene& in, Checker& checker, SceneSpec& out) {
 void check_law(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
   const bool joints = scene.port == PortSpace::kJoint;
   if (const auto problem = law_problem(scene)) checker.error(problem->key, problem->words);
+  for (int t = 0; t < in.tool_size(); ++t)
+    if (in.tool(t).contacts() == pb::Tool::ESTIMATED && scene.channel.law != LawKind::kReplica)
+      checker.error(child_path(child_path("", "tool", t), "contacts"), "needs channel { law: REPLICA }, under which clients simulate the tool; take it away or say NONE", "ESTIMATED");
   for (std::size_t t = 0; t < scene.tools.size() && t < static_cast<std::size_t>(in.tool_size()); ++t)
     if (scene.tools[t].is_virtual && joints)
       checker.error(child_path(child_path(child_path("", "tool", static_cast<int>(t)), "slave"), "model"), "needs port: TIP, where surfaces are", "VIRTUAL");

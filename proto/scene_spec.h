@@ -120,8 +120,8 @@ struct HandSpec {
   return own;
 }
 
-struct WallSpec { int axis = 0; double at = 0; double k = 20000; double b = 5; bool from_below = true; };
-struct TissueSpec { int axis = 2; double at = 0; double k = 300; double k3 = 1e6; double b = 3; bool from_below = false; };
+struct WallSpec { int axis = 0; double at = 0; double k = 20000; double b = 5; bool from_below = true; double mu = 0; };
+struct TissueSpec { int axis = 2; double at = 0; double k = 300; double k3 = 1e6; double b = 3; bool from_below = false; double mu = 0; };
 struct EnvironmentSpec { std::optional<WallSpec> wall; std::optional<TissueSpec> tissue; };
 
 struct SeatSpec {
@@ -135,6 +135,11 @@ struct SeatSpec {
   EnvironmentSpec environment;     ///< SLAVE seats
 };
 
+/// What hands are told of what the slave of a SLAVE seat touches, law REPLICA.
+enum class ContactsMode : std::uint8_t {
+  kNone,       ///< nothing: they feel the slave by a spring over the network
+  kEstimated,  ///< a plane, as soon as one is known from its motion and effort
+};
 struct ToolSpec {
   std::string name;
   double k_s = 400, m_s = 0.05, b_s = 0.2;  ///< [N/m, kg, N s/m]
@@ -143,6 +148,7 @@ struct ToolSpec {
   std::size_t seat = 0;                     ///< that seat, when remote
   SimDeviceSpec slave;
   EnvironmentSpec environment;
+  ContactsMode contacts = ContactsMode::kEstimated;  ///< remote tools
 };
 
 /// Weights of all masters (index = seat) over one tool; sum 1.

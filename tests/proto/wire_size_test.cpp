@@ -9,8 +9,10 @@ namespace {
 TEST(WireSize, IsWhatTheDocumentsSay) {
   EXPECT_EQ(state_size(3), 310u);
   EXPECT_EQ(state_size(7), 502u);
-  EXPECT_EQ(force_size(3), 159u);
-  EXPECT_EQ(force_size(7), 287u);
+  EXPECT_EQ(force_size(3), 164u);
+  EXPECT_EQ(force_size(7), 292u);
+  EXPECT_EQ(kContactSize, 50u);
+  EXPECT_EQ(force_size(3, 4), 364u);
   EXPECT_EQ(kPathSize, 25u);
   EXPECT_EQ(kAuthoritySize, 162u);
   EXPECT_EQ(kCloseSize, 21u);

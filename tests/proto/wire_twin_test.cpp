@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "proto/wire.pb.h"
 #include "proto/wire_codec.h"
@@ -86,7 +87,8 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       SCOPED_TRACE(std::to_string(axes) + " axes, seed " + std::to_string(seed));
       RandomStream random{seed};
       Codec codec(axes, PortSpace::kTip);
-      const ForceMessage m = samples::force(random, axes);
+      ForceMessage m = samples::force(random, axes);
+      if (axes <= 3) samples::contacts(random, axes, m.contacts);
       Buffer buffer;
       const auto bytes = std::span<const std::byte>(buffer).first(codec.encode(samples::preamble(random), m, buffer));
       const auto f = parsed<pb::Force>(bytes);
@@ -104,6 +106,17 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       EXPECT_EQ(f.missing(), m.missing);
       EXPECT_EQ(f.alpha(), m.alpha);
       EXPECT_EQ(f.stops(), m.stops);
+      EXPECT_EQ(f.surfaces(), m.contacts.size + 256 * static_cast<std::uint32_t>(std::lround(m.slave_pull * 65535)));
+      ASSERT_EQ(static_cast<std::uint32_t>(f.contact_size()), m.contacts.size);
+      for (int c = 0; c < f.contact_size(); ++c) {
+        const LocalContact& ours = m.contacts.item[static_cast<std::size_t>(c)];
+        EXPECT_EQ(f.contact(c).id(), ours.id);
+        EXPECT_TRUE(std::ranges::equal(f.contact(c).point(), ours.point));
+        EXPECT_TRUE(std::ranges::equal(f.contact(c).normal(), ours.normal));
+        EXPECT_EQ(f.contact(c).k(), ours.k);
+        EXPECT_EQ(f.contact(c).b(), ours.b);
+        EXPECT_EQ(f.contact(c).mu(), ours.mu);
+      }
     }
   }
 }
