@@ -20,7 +20,6 @@ constexpr double kSlip = 0.02;         // across the normal; beyond, force is al
 constexpr double kCorrelated = 0.005;  // samples nearer in time than that have one error [s]
 constexpr double kSpread = 0.05;       // of forces, without which they say nothing of the stiffness [N]
 constexpr double kTouchedMin = 0.05;   // [s]
-constexpr double kWrong = 0.002;       // distance between the slave and where the plane would hold it that means another surface [m]
 constexpr double kHand = 1 / 400.0;    // compliance of a hand's spring [m/N]
 
 double dot(const Vector& a, const Vector& b) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -82,9 +81,9 @@ void PlaneEstimator::step(double dt, const Sample& sample) noexcept {
   turn(dt, sample);
   double depth = 0;
   for (std::size_t a = 0; a < axes_; ++a) depth -= normal_[a] * (x_[a] - origin_[a]);
-  const double force = dot(force_, normal_);
-  regress(dt, depth, force);
-  judge(dt, depth, force);
+  regress(dt, depth, dot(force_, normal_));
+  if (state_ == State::kTouching && touched_ >= kTouchedMin && doubt_ <= kDoubtMax) state_ = State::kKnown;
+  if (state_ == State::kKnown && doubt_ > 2 * kDoubtMax) state_ = State::kTouching;
 }
 
 void PlaneEstimator::begin() noexcept {
@@ -128,13 +127,6 @@ void PlaneEstimator::regress(double dt, double depth, double force) noexcept {
     doubt_ = std::sqrt(left / (nn_ * pairs)) / (compliance_ + kHand);
   }
   place_ += settle * (depth - compliance_ * force - place_);
-}
-
-void PlaneEstimator::judge(double dt, double depth, double force) noexcept {
-  const double apart = std::abs(depth - place_ - compliance_ * force);
-  wrong_ = apart > kWrong ? wrong_ + dt : 0;
-  if (state_ == State::kTouching && touched_ >= kTouchedMin && doubt_ <= kDoubtMax && wrong_ == 0) state_ = State::kKnown;
-  if (state_ == State::kKnown && (wrong_ > kPersist || doubt_ > 2 * kDoubtMax)) state_ = State::kTouching;
 }
 
 }  // namespace tandem::control

@@ -53,7 +53,6 @@ class PlaneEstimator {
   void leave() noexcept;
   void turn(double dt, const Sample& sample) noexcept;
   void regress(double dt, double depth, double force) noexcept;
-  void judge(double dt, double depth, double force) noexcept;
 
   std::size_t axes_;
   State state_ = State::kFree;
@@ -66,7 +65,7 @@ class PlaneEstimator {
   double touched_ = 0;              ///< [s]
   double weight_ = 0;               ///< of the sums [s]
   double mean_u_ = 0, mean_n_ = 0, uu_ = 0, un_ = 0, nn_ = 0;
-  double compliance_ = 1 / kStiffnessMax, place_ = 0, doubt_ = 0, wrong_ = 0;
+  double compliance_ = 1 / kStiffnessMax, place_ = 0, doubt_ = 0;
 };
 
 }  // namespace tandem::control

@@ -134,28 +134,12 @@ Vector VirtualTool::with_surfaces(double dt, Equations equations, const Surfaces
 }
 
 /// Coulomb friction at the end of the step. A surface holds the tool where mu times its force is enough; else it drags with just that, written
-/// as damping: what only ever opposes the slip cannot make energy, nor chatter.
+/// as damping: what only ever opposes the slip cannot make energy, nor chatter. Exact at once where one surface is met and all axes
+/// are alike; else by a few rounds.
 void VirtualTool::rub_surfaces(double dt, const Equations& free, Surfaces& surfaces, Vector& velocity) const noexcept {
   for (std::size_t c = 0; c < contacts_.size(); ++c) surfaces[c].drag = surfaces[c].met && contacts_[c].mu > 0 ? kHolds : 0;
   velocity = with_surfaces(dt, free, surfaces);
-  bool slips = false;
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    Met& surface = surfaces[c];
-    if (surface.drag == 0) continue;
-    const Vector slip = across(contacts_[c], velocity);
-    const double rate = std::sqrt(dot(slip, slip)), needed = surface.drag * rate;
-    const double most = contacts_[c].mu * std::max(0.0, surface.force - surface.gain * dot(contacts_[c].normal, velocity));
-    if (needed <= most) continue;
-    slips = true;
-    // Slip is as if `needed - most` moved the tool freely along the direction of the slip.
-    double inertia = 0;
-    for (std::size_t a = 0; a < axes_; ++a) inertia += free.matrix[a][a] * slip[a] * slip[a] / (rate * rate);
-    surface.drag = std::min(kHolds, most * inertia / (dt * (needed - most)));
-  }
-  if (!slips) return;
-  velocity = with_surfaces(dt, free, surfaces);
-  // Exact where one surface is met and all axes are alike; else the drag is taken back to what the surface can give.
-  constexpr int kRounds = 3;
+  constexpr int kRounds = 5;
   bool too_much = true;
   for (int round = 0; round < kRounds && too_much; ++round) {
     too_much = false;
@@ -163,10 +147,13 @@ void VirtualTool::rub_surfaces(double dt, const Equations& free, Surfaces& surfa
       Met& surface = surfaces[c];
       if (surface.drag == 0) continue;
       const Vector slip = across(contacts_[c], velocity);
-      const double given = surface.drag * std::sqrt(dot(slip, slip));
+      const double rate = std::sqrt(dot(slip, slip));
       const double most = contacts_[c].mu * std::max(0.0, surface.force - surface.gain * dot(contacts_[c].normal, velocity));
-      if (given <= most * (1 + 1e-9)) continue;
-      surface.drag *= most / given;
+      if (surface.drag * rate <= most * (1 + 1e-9)) continue;
+      double inertia = 0;  // of the tool, its springs and dampers along the slip
+      for (std::size_t a = 0; a < axes_; ++a) inertia += free.matrix[a][a] * slip[a] * slip[a] / (rate * rate);
+      const double drive = rate * (inertia + dt * surface.drag);  // momentum that the slip would have without friction
+      surface.drag = std::min(surface.drag, most * inertia / (drive - dt * most));
       too_much = true;
     }
     if (too_much) velocity = with_surfaces(dt, free, surfaces);

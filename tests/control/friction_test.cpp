@@ -73,6 +73,20 @@ TEST(Friction, DoesNotChatter) {
   EXPECT_LT(change, 1e-6);
 }
 
+/// Damping that differs by axis, as beside a stiff surface: the drag is still bounded by mu times the force.
+TEST(Friction, IsBoundedAlsoWhereAxesDiffer) {
+  VirtualTool tool({.m = 0.02, .b = 0.2}, 3, floor_with(0.5));
+  for (int i = 0; i < 2000; ++i) {
+    VirtualTool::Pulls pulls = pressed(0, 0);
+    pulls[0].spring(400, 0.05 * i * kT);
+    pulls[0].damper(50, 0.05);
+    pulls[1].spring(2000, 0.05 * i * kT + 0.002 * std::sin(0.05 * i));
+    tool.step(kT, pulls);
+    const auto& f = tool.surface_force();
+    ASSERT_LE(std::hypot(f[0], f[1]), 0.5 * f[2] * 1.001 + 1e-6) << i;
+  }
+}
+
 TEST(Friction, NeedsAnAxisAcross) {
   ContactSet wall;
   wall.add({.normal = {-1, 0, 0}, .at = 0, .k = 20000, .mu = 1});
