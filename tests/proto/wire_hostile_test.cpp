@@ -138,6 +138,18 @@ TEST(WireHostile, StructureThatChangedIsMalformed) {
   }
 }
 
+/// FORCE's word about surfaces has bits that are always 0.
+TEST(WireHostile, BitsWithoutAMeaningAreRefused) {
+  Codec codec(3, PortSpace::kTip);
+  const auto all = cases(codec);
+  constexpr std::size_t kSurfacesAt = 160;
+  for (std::uint32_t bit = 0; bit < 32; ++bit) {
+    Bytes changed = all[1].bytes;
+    changed[kSurfacesAt + bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    EXPECT_EQ(codec.decode_force(changed).has_value(), bit >= 8 && bit < 24) << bit;
+  }
+}
+
 TEST(WireHostile, NoiseOfTheRightSizeCostsNoHeap) {
   Codec codec(3, PortSpace::kTip);
   const auto all = cases(codec);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "server/estimated_plane.h"
 #include "tests/sim/life.h"
 #include "tests/support/world_run.h"
 
@@ -96,6 +97,33 @@ TEST(EstimatedPlane, ComesAndGoesWithoutAStep) {
     EXPECT_LT(life.steps[0], 0.15) << delay << " ms";
     life.expect_nothing_broken();
   }
+}
+
+/// From one tick to the next the spring to the slave comes and goes by little.
+TEST(EstimatedPlane, IsTrustedAndDoubtedByAndBy) {
+  server::EstimatedPlane plane(3);
+  server::ToolView view;
+  view.slave = view.fresh = true;
+  double before = plane.trust(), least = 1;
+  bool named = false;
+  for (int i = 0; i < 1500; ++i) {
+    const double force = std::clamp(0.004 * (i - 100), 0.0, 2.0);  // comes to rest on 1000 N/m
+    view.slave_x[0] = force / 1000;
+    view.slave_f[0] = -force;
+    LocalContactList out;
+    plane.look(view, out);
+    ASSERT_LE(std::abs(plane.trust() - before), server::EstimatedPlane::kTrustRate * view.dt + 1e-12) << i;
+    before = plane.trust();
+    least = std::min(least, before);
+    named = named || out.size == 1;
+  }
+  EXPECT_LT(least, 0.9);
+  EXPECT_EQ(before, 1);
+  EXPECT_TRUE(named);
+  view.slave = false;
+  LocalContactList out;
+  plane.look(view, out);
+  EXPECT_EQ(out.size, 0u) << "a slave that is gone touches nothing";
 }
 
 /// Free motion: what touches nothing is not felt.
