@@ -39,9 +39,11 @@ constexpr std::size_t state_size(std::size_t axes) {
 }
 inline constexpr std::size_t kContactBody = detail::scalar(4, 1, 4) + 2 * detail::packed(3, 4);
 inline constexpr std::size_t kContactSize = detail::packed(kContactBody, 1);
-constexpr std::size_t force_size(std::size_t axes, std::size_t contacts = 0) {
-  return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8) + detail::scalar(2, 1, 4) + contacts * kContactSize;
+constexpr std::size_t force_size(std::size_t axes) {
+  return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8) + detail::scalar(1, 1, 4);
 }
+/// Of a FORCE that says something of surfaces.
+constexpr std::size_t force_size(std::size_t axes, std::size_t contacts) { return force_size(axes) + detail::scalar(1, 1, 4) + contacts * kContactSize; }
 inline constexpr std::size_t kPathSize = kPreambleSize + detail::scalar(1, 1, 8);
 inline constexpr std::size_t kAuthoritySize = kPreambleSize + detail::scalar(3, 1, 4) + 3 + kMastersMax * 8;
 inline constexpr std::size_t kCloseSize = kPreambleSize + detail::scalar(1, 1, 4);

@@ -75,6 +75,8 @@ inline LocalContact contact(RandomStream& random, std::size_t axes, std::uint32_
   c.mu = static_cast<float>(random.uniform(0, 2));
   return c;
 }
+/// One that the wire holds exactly.
+inline double slave_pull(RandomStream& random) { return static_cast<double>(random.below(65536)) / 65535; }
 /// As many contacts as the draw says, 0 to 4.
 inline void contacts(RandomStream& random, std::size_t axes, LocalContactList& out) {
   const auto n = static_cast<std::uint32_t>(random.below(kLocalContactsMax + 1));
@@ -98,7 +100,6 @@ inline ForceMessage force(RandomStream& random, std::size_t axes) {
     if (m.handover_parties.by > kSeatsMax) m.handover_parties.by = HandoverParties::kOperator;
   }
   m.touching = random.below(2) == 1;
-  m.slave_pull = static_cast<double>(random.below(65536)) / 65535;
   return m;
 }
 inline PathMessage path(RandomStream& random) { return {random.bits()}; }
