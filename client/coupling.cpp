@@ -86,6 +86,7 @@ AxisArray CopyCoupling::step(const Input& in, control::ChannelEnd& end) noexcept
   move.dt = in.dt;
   move.age = in.age;
   move.authority = in.authority;
+  move.slave_pull = in.slave_pull;
   move.rx = *in.rx;
   for (std::size_t a = 0; a < dof_; ++a) {
     move.x[a] = copy_.tool().x(a);

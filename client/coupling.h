@@ -2,7 +2,9 @@
 
 #include <array>
 #include <memory>
+#include <span>
 
+#include "common/base/local_contact.h"
 #include "common/control/channel.h"
 #include "common/control/ipc.h"
 #include "common/control/tool_copy.h"
@@ -17,6 +19,7 @@ class Coupling {
     double dt = 0.001;
     double age = 0;       ///< of `rx`, now [s]
     double authority = 0; ///< of this hand
+    double slave_pull = 0;  ///< of a SLAVE seat's device, by way of the reference (wire::ForceMessage)
     AxisArray q{}, v{};   ///< of the device's port
     const PortSample* rx = nullptr;
   };
@@ -25,6 +28,8 @@ class Coupling {
   virtual void rest(const AxisArray& q, const AxisArray* tool, double age, control::ChannelEnd& end) noexcept TANDEM_REALTIME = 0;
   /// @return the effort wanted on the device, before the gate
   [[nodiscard]] virtual AxisArray step(const Input& in, control::ChannelEnd& end) noexcept TANDEM_REALTIME = 0;
+  /// The server named these surfaces now. @pre each is_surface and in_range
+  virtual void hear(std::span<const LocalContact>) noexcept TANDEM_REALTIME {}
   /// What the gate let through of it.
   virtual void delivered(const AxisArray&) noexcept TANDEM_REALTIME {}
   /// What the server is told: x, v, f, a. @param engaged  else the device's own motion
@@ -62,6 +67,7 @@ class CopyCoupling final : public Coupling {
   explicit CopyCoupling(const SeatSetup& setup);
   void rest(const AxisArray& q, const AxisArray* tool, double age, control::ChannelEnd& end) noexcept override;
   AxisArray step(const Input& in, control::ChannelEnd& end) noexcept override;
+  void hear(std::span<const LocalContact> contacts) noexcept override { copy_.hear(contacts); }
   void delivered(const AxisArray& effort) noexcept override;
   void tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd& end, PortSample& out) const noexcept override;
   [[nodiscard]] const control::VirtualTool* copy() const noexcept override { return &copy_.tool(); }

@@ -105,6 +105,7 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
       link_->restart_statistics(now);
     rx_ = decoded->message;
     fresh_ = heard_force_ = true;
+    if (rx_.contacts.size > 0) coupling_->hear(rx_.contacts.all());
     set_session_clock(now);
     if (authority_ && rx_.authority_version != authority_->version) meet_new_version();
     settle_wishes();
@@ -237,6 +238,7 @@ AxisArray Seat::control(Time now) noexcept {
   in.dt = dt_;
   in.age = seconds(link_->freshness().age(now));
   in.authority = rx_.alpha;
+  in.slave_pull = rx_.slave_pull;
   in.q = q_;
   in.v = v_;
   in.rx = &rx_.port;

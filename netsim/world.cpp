@@ -69,6 +69,7 @@ std::expected<std::unique_ptr<World>, std::string> World::make(const WorldSetup&
   const hal::SteppedDevice& first = world->stations_[0].device();
   world->scale_ = hal::PortMap(scene.port, scene.dof, first.caps().joints).scale(first.state());
   world->session_ = std::make_unique<server::Session>(scene, std::move(*slaves), world->scale_);
+  world->plug_contact_sources();
   world->checkpoint_ = world->session_->checkpoint();
   return world;
 }
@@ -89,6 +90,11 @@ std::expected<std::vector<std::unique_ptr<hal::SteppedDevice>>, std::string> Wor
     slaves.push_back(std::move(*slave));
   }
   return slaves;
+}
+
+void World::plug_contact_sources() {
+  if (!setup_.contact_source) return;
+  for (std::size_t j = 0; j < setup_.scene.tools.size(); ++j) session_->set_contact_source(j, setup_.contact_source(j));
 }
 
 void World::keep_server() {
@@ -114,6 +120,7 @@ void World::restart_server() {
     return;
   }
   session_ = std::make_unique<server::Session>(setup_.scene, std::move(*slaves), scale_, *read);
+  plug_contact_sources();
   server_missed_ = 0;
   up_ = true;
 }

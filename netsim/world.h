@@ -68,6 +68,7 @@ class World {
   [[nodiscard]] bool works_before(std::size_t a, std::size_t b) const noexcept;
   void serve_server();
   [[nodiscard]] std::expected<std::vector<std::unique_ptr<hal::SteppedDevice>>, std::string> make_slaves(const server::Checkpoint* from) const;
+  void plug_contact_sources();
   /// Dies, or comes back, as the faults say.
   void keep_server();
   void restart_server();

@@ -14,6 +14,7 @@
 #include "netsim/replay.h"
 #include "netsim/script.h"
 #include "proto/scene_spec.h"
+#include "server/contact_source.h"
 
 namespace tandem::netsim {
 
@@ -35,6 +36,8 @@ struct WorldSetup {
   /// How much the calling thread has taken from the heap so far (common/base/heap_count.h); null: "no heap below a tick" is
   /// not judged, as whoever runs the world did not replace operator new.
   std::uint64_t (*heap_count)() noexcept = nullptr;
+  /// Makes the source of contacts of a tool (server/contact_source.h) when a session is made, law REPLICA; null: the scene's surfaces are all.
+  std::function<std::unique_ptr<server::ContactSource>(std::size_t tool)> contact_source = {};
   bool keep_record = true;  ///< false: World::record() stays empty; for runs that only judge invariants
 };
 

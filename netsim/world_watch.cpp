@@ -105,7 +105,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
     if (lived == 1 && (slave || scene_->tools.size() == 1)) {
       const std::size_t tool = slave ? scene_->seats[i].tool : 0;
-      EndLook look{port.heard().port, session.tool(tool).position(), s.server.x, offset_of(i, session), seat != nullptr};
+      EndLook look{port.heard().port, hung_on(i, tool, session), s.server.x, offset_of(i, session), seat != nullptr};
       if (scene_->channel.law == LawKind::kReplica && !slave) look.gains_speed = kGainsSpeed;
       for (std::size_t a = 0; a < scene_->dof; ++a) look.rx.x[a] -= look.offset[a];  // as the tool sees it
       check_end(i, port.end(), s.server, seat ? seat->setup().axis_scale : AxisArray{1, 1, 1, 1, 1, 1, 1}, look);

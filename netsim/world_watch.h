@@ -92,6 +92,7 @@ class WorldWatch {
   void check_role(std::size_t i, const WorldStation& station, const server::SeatPort& port);
   void check_speed(std::size_t i, const WorldStation& station);
   [[nodiscard]] double share(std::size_t i) const noexcept;
+  [[nodiscard]] AxisArray hung_on(std::size_t seat, std::size_t tool, const server::Session& session) const noexcept;
   [[nodiscard]] AxisArray offset_of(std::size_t i, const server::Session& session) const noexcept;
   void check_energy(std::size_t i, const WorldStation& station);
   void check_reading(std::size_t i, const WorldStation& station);

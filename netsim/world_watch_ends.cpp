@@ -17,13 +17,22 @@ constexpr double kLeads = 0.5;                          // share of authority of
 
 }  // namespace
 
+/// What the server's end of a seat's spring hangs on: the tool; of a slave, where it is to go.
+AxisArray WorldWatch::hung_on(std::size_t i, std::size_t tool, const server::Session& session) const noexcept {
+  AxisArray x = session.tool(tool).position();
+  if (scene_->seats[i].kind == SeatKind::kSlave)
+    for (std::size_t a = 0; a < scene_->dof; ++a) x[a] = session.tool(tool).slave_goal(a, session.seat(i).end().state().k[a]);
+  return x;
+}
+
 /// Hand minus tool, where the tool is what one seat follows; else 0, and nothing is judged that needs it.
 AxisArray WorldWatch::offset_of(std::size_t i, const server::Session& session) const noexcept {
   AxisArray offset{};
   const bool hears_of_hands = scene_->channel.law == LawKind::kReplica && scene_->seats[i].kind == SeatKind::kMaster;
   if (hears_of_hands || (scene_->seats[i].kind != SeatKind::kSlave && scene_->tools.size() != 1)) return offset;
   const std::size_t tool = scene_->seats[i].kind == SeatKind::kSlave ? scene_->seats[i].tool : 0;
-  for (std::size_t a = 0; a < scene_->dof; ++a) offset[a] = session.seat(i).tx.port.x[a] - session.tool(tool).x(a);
+  const AxisArray x = hung_on(i, tool, session);
+  for (std::size_t a = 0; a < scene_->dof; ++a) offset[a] = session.seat(i).tx.port.x[a] - x[a];
   return offset;
 }
 

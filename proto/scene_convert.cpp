@@ -14,6 +14,7 @@ using text::number_text;
 static_assert(static_cast<int>(LawKind::kReplica) == pb::Channel::REPLICA && pb::Channel::Law_MAX == pb::Channel::REPLICA);
 static_assert(static_cast<int>(MfsMode::kSeedSigned) == pb::Channel::SEED_SIGNED &&
               pb::Channel::Mfs_MAX == pb::Channel::SEED_SIGNED);
+static_assert(static_cast<int>(ContactsMode::kEstimated) == pb::Tool::ESTIMATED && pb::Tool::Contacts_MAX == pb::Tool::ESTIMATED);
 static_assert(static_cast<int>(SeatKind::kSlave) == pb::Seat::SLAVE && pb::Seat::Kind_MAX == pb::Seat::SLAVE);
 static_assert(static_cast<int>(Role::kObserver) == pb::Seat::OBSERVER && pb::Seat::Role_MAX == pb::Seat::OBSERVER);
 static_assert(static_cast<int>(HandModel::kRecorded) == pb::Hand::RECORDED &&
@@ -292,6 +293,7 @@ void read_seat(const pb::Seat& in, std::size_t dof, const std::string& path, Che
     if (in.has_role()) checker.error(child_path(path, "role"), "is for MASTER seats: a slave has no role");
     if (in.has_hand()) checker.error(child_path(path, "hand"), "is for MASTER seats: nobody holds a slave");
     read_environment(in.environment(), dof, child_path(path, "environment"), checker, out.environment);
+    refuse_friction(in.environment(), child_path(path, "environment"), checker);
   }
 }
 
@@ -299,6 +301,7 @@ void read_slave(const pb::Slave& in, std::size_t dof, const std::string& path, C
                 EnvironmentSpec& environment) {
   read_device(in, dof, path, checker, device);
   read_environment(in.environment(), dof, child_path(path, "environment"), checker, environment);
+  refuse_friction(in.environment(), child_path(path, "environment"), checker);
 }
 
 void write_channel(const ChannelSpec& in, pb::Channel& out) {

@@ -36,6 +36,8 @@ void read_slave(const pb::Slave& in, std::size_t dof, const std::string& path, t
 void read_virtual_slave(const pb::Slave& in, std::size_t dof, const std::string& path, text::Checker& checker, Point& start,
                         EnvironmentSpec& environment);
 void read_environment(const pb::Environment& in, std::size_t dof, const std::string& path, text::Checker& checker, EnvironmentSpec& out);
+/// Surfaces that a simulated device meets have no friction.
+void refuse_friction(const pb::Environment& in, const std::string& path, text::Checker& checker);
 
 void write_environment(const EnvironmentSpec& in, pb::Environment& out);
 void write_channel(const ChannelSpec& in, pb::Channel& out);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 #include "proto/scene_convert.h"
 
@@ -31,6 +32,7 @@ void read_environment(const pb::Environment& in, std::size_t dof, const std::str
     if (w.has_k_n_m()) wall.k = w.k_n_m();
     if (w.has_b_n_s_m()) wall.b = w.b_n_s_m();
     if (w.has_from_below()) wall.from_below = w.from_below();
+    if (w.has_friction()) wall.mu = w.friction();
   }
   if (in.has_tissue()) {
     const auto& t = in.tissue();
@@ -41,8 +43,16 @@ void read_environment(const pb::Environment& in, std::size_t dof, const std::str
     if (t.has_k3_n_m3()) tissue.k3 = t.k3_n_m3();
     if (t.has_b_n_s_m()) tissue.b = t.b_n_s_m();
     if (t.has_from_below()) tissue.from_below = t.from_below();
+    if (t.has_friction()) tissue.mu = t.friction();
   }
 }
+
+void refuse_friction(const pb::Environment& in, const std::string& path, Checker& checker) {
+  for (const auto& [above, surface, mu] : {std::tuple{in.wall().friction() > 0, "wall", in.wall().friction()}, {in.tissue().friction() > 0, "tissue", in.tissue().friction()}})
+    if (above)
+      checker.error(child_path(child_path(path, surface), "friction"), "must be 0: only a VIRTUAL slave meets friction; the surfaces of simulated devices are smooth", text::number_text(mu));
+}
+
 void write_environment(const EnvironmentSpec& in, pb::Environment& out) {
   if (in.wall) {
     auto& wall = *out.mutable_wall();
@@ -51,6 +61,7 @@ void write_environment(const EnvironmentSpec& in, pb::Environment& out) {
     wall.set_k_n_m(in.wall->k);
     wall.set_b_n_s_m(in.wall->b);
     wall.set_from_below(in.wall->from_below);
+    wall.set_friction(in.wall->mu);
   }
   if (in.tissue) {
     auto& tissue = *out.mutable_tissue();
@@ -60,6 +71,7 @@ void write_environment(const EnvironmentSpec& in, pb::Environment& out) {
     tissue.set_k3_n_m3(in.tissue->k3);
     tissue.set_b_n_s_m(in.tissue->b);
     tissue.set_from_below(in.tissue->from_below);
+    tissue.set_friction(in.tissue->mu);
   }
 }
 

@@ -54,6 +54,7 @@ pb::Scene to_proto(const SceneSpec& scene) {
       write_environment(tool.environment, *t.mutable_slave()->mutable_environment());
       continue;
     }
+    if (tool.remote && scene.channel.law == LawKind::kReplica) t.set_contacts(static_cast<pb::Tool::Contacts>(tool.contacts));
     if (!tool.remote) write_slave(tool.slave, tool.environment, *t.mutable_slave());
   }
   for (const auto& row : scene.authority) write_rows(scene, row, *out.mutable_authority());

@@ -103,6 +103,9 @@ void read_tool(const pb::Tool& in, const std::string& path, Checker& checker, st
   out.name = in.name();
   if (in.has_k_s_n_m()) out.k_s = in.k_s_n_m();
   if (in.has_b_s_n_s_m()) out.b_s = in.b_s_n_s_m();
+  if (in.has_contacts()) out.contacts = static_cast<ContactsMode>(in.contacts());
+  if (in.has_contacts() && in.has_slave())
+    checker.error(child_path(path, "contacts"), "is for tools that a SLAVE seat serves; the surfaces of this one are those of slave { environment { } }");
   // No slave at all: a SLAVE seat serves the tool, or nobody does, which is a mistake that read_seats_and_tools tells.
   out.is_virtual = in.has_slave() && (!in.slave().has_model() || in.slave().model() == pb::VIRTUAL);
   out.m_s = in.has_m_s_kg() ? in.m_s_kg() : out.is_virtual ? kVirtualToolMass : kDeviceToolMass;
@@ -270,6 +273,9 @@ void check_law(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
     const bool written = problem->key != "channel.law" || in.channel().has_law();  // else the place to look at is the port's line
     checker.error(written ? problem->key : "port", problem->words);
   }
+  for (int t = 0; t < in.tool_size(); ++t)
+    if (in.tool(t).contacts() == pb::Tool::ESTIMATED && scene.channel.law != LawKind::kReplica)
+      checker.error(child_path(child_path("", "tool", t), "contacts"), "needs channel { law: REPLICA }, under which clients simulate the tool; take it away or say NONE", "ESTIMATED");
   for (std::size_t t = 0; t < scene.tools.size() && t < static_cast<std::size_t>(in.tool_size()); ++t)
     if (scene.tools[t].is_virtual && joints)
       checker.error(child_path(child_path(child_path("", "tool", static_cast<int>(t)), "slave"), "model"),

@@ -125,8 +125,8 @@ struct HandSpec {
   return own;
 }
 
-struct WallSpec { int axis = 0; double at = 0; double k = 20000; double b = 5; bool from_below = true; };
-struct TissueSpec { int axis = 2; double at = 0; double k = 300; double k3 = 1e6; double b = 3; bool from_below = false; };
+struct WallSpec { int axis = 0; double at = 0; double k = 20000; double b = 5; bool from_below = true; double mu = 0; };
+struct TissueSpec { int axis = 2; double at = 0; double k = 300; double k3 = 1e6; double b = 3; bool from_below = false; double mu = 0; };
 struct EnvironmentSpec { std::optional<WallSpec> wall; std::optional<TissueSpec> tissue; };
 
 struct SeatSpec {
@@ -144,6 +144,11 @@ struct SeatSpec {
 inline constexpr double kVirtualToolMass = 0.02;
 /// The moving part of a tool that pulls at a slave device [kg].
 inline constexpr double kDeviceToolMass = 0.05;
+/// What hands are told of what the slave of a SLAVE seat touches, law REPLICA.
+enum class ContactsMode : std::uint8_t {
+  kNone,       ///< nothing: they feel the slave by a spring over the network
+  kEstimated,  ///< a plane, as soon as one is known from its motion and effort
+};
 struct ToolSpec {
   std::string name;
   double k_s = 400;                         ///< between tool and slave device; no part of a virtual tool [N/m]
@@ -154,6 +159,7 @@ struct ToolSpec {
   std::size_t seat = 0;                     ///< that seat, when remote
   SimDeviceSpec slave;
   EnvironmentSpec environment;
+  ContactsMode contacts = ContactsMode::kEstimated;  ///< remote tools
 };
 
 /// Weights of all masters (index = seat) over one tool; sum 1.

@@ -42,7 +42,7 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
     const ToolSpec& tool = scene.tools[setup.seat.tool];
     setup.m_s = tool.m_s;
     setup.b_s = tool.b_s;
-    setup.environment = tool.environment;
+    if (!tool.remote) setup.environment = tool.environment;  // what a SLAVE seat's device touches is not known to others
   }
   const bool instructor = setup.seat.kind == SeatKind::kMaster && setup.seat.role == Role::kInstructor;
   for (std::size_t i = 0; i < scene.masters(); ++i) {

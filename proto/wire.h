@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "common/base/axes.h"
+#include "common/base/local_contact.h"
 #include "common/base/port_sample.h"
 
 /// Owned, fixed-size forms of what travels in a datagram. Bytes are made and read by proto/wire_codec.h.
@@ -90,6 +91,9 @@ struct ForceMessage {
   std::uint32_t handover_ticks = 0;  ///< until it is carried out, kHandoverNotice at most; 0 unless something comes or goes
   HandoverParties handover_parties;
   bool touching = false;             ///< the slave of the tool that this seat follows presses against something; for people only
+  LocalContactList contacts;         ///< surfaces near that tool, law `replica`
+  /// Law `replica`: how stiffly the slave of a SLAVE seat pulls at this seat's copy of the tool, by way of the reference, as a part of k_c [0, 1].
+  double slave_pull = 0;
 };
 
 inline constexpr std::size_t kSeatNameMax = 32;

@@ -28,11 +28,12 @@ struct StateWords {
   std::uint32_t gate = 0, flags = 0;
 };
 struct ForceWords {
-  std::uint32_t session = 0, flags = 0;
+  std::uint32_t session = 0, flags = 0, surfaces = 0;
+  bool told = false;  ///< of surfaces
 };
 /// Places of the parts of FORCE's flags (wire.proto).
-constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kFlagsEnd = 29, kTouching = 1U << 31;
-constexpr std::uint32_t kForceFlagsMax = kTouching | ((1U << kFlagsEnd) - 1);
+constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kFlagsEnd = 29, kSurfaces = 1U << 29, kTouching = 1U << 31;
+constexpr std::uint32_t kForceFlagsMax = kTouching | kSurfaces | ((1U << kFlagsEnd) - 1);
 static_assert(kHandoverNotice < 1U << 6 && kSeatsMax < HandoverParties::kOperator && kMastersMax < 1U << 5 && kToolsMax <= 1U << 3);
 
 std::uint32_t force_flags(const ForceMessage& m) noexcept {
@@ -44,7 +45,7 @@ std::uint32_t force_flags(const ForceMessage& m) noexcept {
 bool read_force_flags(std::uint32_t flags, ForceMessage& out) noexcept {
   HandoverParties& p = out.handover_parties;
   out.touching = (flags & kTouching) != 0;
-  flags &= ~kTouching;
+  flags &= ~(kTouching | kSurfaces);
   if (flags >> kFlagsEnd != 0) return false;
   out.engage = (flags & 1U) != 0;
   out.handover = static_cast<Handover>(flags >> 1 & 3U);
@@ -54,6 +55,14 @@ bool read_force_flags(std::uint32_t flags, ForceMessage& out) noexcept {
   const bool in_range = out.handover_ticks <= kHandoverNotice && (p.by <= kSeatsMax || p.by == HandoverParties::kOperator) && p.to <= kMastersMax &&
                         p.percent <= 100 && p.tool < kToolsMax;
   return in_range && (announced || flags >> kTicksAt == 0);
+}
+
+/// FORCE's word about surfaces (wire.proto).
+constexpr std::uint32_t kCount = 7, kPull = 0xffff, kPullAt = 8, kSurfacesMax = kPull << kPullAt | kCount;
+std::uint32_t surfaces_word(const ForceMessage& m) noexcept {
+  if (m.contacts.size == 0 && m.slave_pull == 0) [[likely]] return 0;
+  const double pull = std::isfinite(m.slave_pull) ? std::clamp(m.slave_pull, 0.0, 1.0) : 0;
+  return m.contacts.size | static_cast<std::uint32_t>(pull * kPull + 0.5) << kPullAt;
 }
 
 // The fields of each message in the order of their numbers (wire.proto), with the range a receiver takes.
@@ -87,6 +96,26 @@ void walk(Values& v, Message& s, Words& words, Axes axes, double position_max) n
   v.floats(25, s.port.a, axes, kAccelerationMax);
 }
 
+template <class Values, class Contact>
+void walk_contact(Values& v, Contact& c) noexcept {
+  v.message(13, kContactBody);
+  v.word(1, c.id);
+  v.singles(2, c.point, LocalContact::kPointMax);
+  v.singles(3, c.normal, 2);
+  v.single(4, c.k, LocalContact::kStiffnessMax);
+  v.single(5, c.b, LocalContact::kDampingMax);
+  v.single(6, c.mu, LocalContact::kFrictionMax);
+}
+/// The surfaces are such, and no two are the same.
+bool are_surfaces(const LocalContactList& contacts, std::size_t axes) noexcept {
+  for (std::uint32_t c = 0; c < contacts.size; ++c) {
+    if (!is_surface(contacts.item[c], axes)) return false;
+    for (std::uint32_t before = 0; before < c; ++before)
+      if (contacts.item[before].id == contacts.item[c].id) return false;
+  }
+  return true;
+}
+
 template <class Values, class Message, class Words, class Axes>
 void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_max) noexcept {
   v.doubles(1, f.port.x, axes, position_max);
@@ -100,6 +129,9 @@ void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_
   v.word(9, f.missing, kSeatsMax);
   v.number64(10, f.alpha, 0, 1);
   v.word(11, f.stops);
+  if (!words.told) [[likely]] return;
+  v.word(12, words.surfaces, kSurfacesMax);
+  for (std::uint32_t c = 0; c < f.contacts.size; ++c) walk_contact(v, f.contacts.item[c]);
 }
 
 template <class Values, class Message>
@@ -158,6 +190,7 @@ Decoded<Message> read(std::span<const std::byte> in, std::size_t size, Read&& va
 void Codec::configure(std::size_t axes, PortSpace port) noexcept {
   axes_ = std::clamp<std::size_t>(axes, 1, kAxesMax);
   position_max_ = port == PortSpace::kTip ? kPositionMaxM : kPositionMaxRad;
+  contacts_max_ = port == PortSpace::kTip && axes_ <= 3 ? kLocalContactsMax : 0;
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std::span<std::byte> out) const noexcept {
@@ -169,9 +202,12 @@ std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std:
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std::span<std::byte> out) const noexcept {
-  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in)};
+  if (in.contacts.size > kLocalContactsMax) return 0;
+  const std::uint32_t surfaces = surfaces_word(in);
+  const bool told = surfaces != 0;
+  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | (told ? kSurfaces : 0U), surfaces, told};
   return with_axes(axes_, [&](auto axes) {
-    return write(preamble, force_size(axes), out, [&](ValueWriter& values) { walk_force(values, in, words, axes, 0); });
+    return write(preamble, told ? force_size(axes, in.contacts.size) : force_size(axes), out, [&](ValueWriter& values) { walk_force(values, in, words, axes, 0); });
   });
 }
 
@@ -221,11 +257,19 @@ Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) const n
 
 Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) const noexcept {
   return with_axes(axes_, [&](auto axes) {
-    return read<ForceMessage>(in, force_size(axes), [&](ValueReader& values, ForceMessage& out) {
+    const bool told = in.size() >= force_size(axes, 0);
+    const std::size_t contacts = told ? std::min((in.size() - force_size(axes, 0)) / kContactSize, contacts_max_) : 0;
+    return read<ForceMessage>(in, told ? force_size(axes, contacts) : force_size(axes), [&](ValueReader& values, ForceMessage& out) {
       ForceWords words;
+      words.told = told;
+      out.contacts.size = static_cast<std::uint32_t>(contacts);
       walk_force(values, out, words, axes, position_max_);
       out.session = static_cast<SessionState>(words.session);
-      values.require(read_force_flags(words.flags, out));
+      values.require(read_force_flags(words.flags, out) && ((words.flags & kSurfaces) != 0) == told);
+      if (!told) [[likely]] return;
+      values.require(words.surfaces != 0 && (words.surfaces & kCount) == contacts && (words.surfaces & ~(kCount | kPull << kPullAt)) == 0);
+      values.require(are_surfaces(out.contacts, axes));
+      out.slave_pull = static_cast<double>(words.surfaces >> kPullAt) / kPull;
     });
   });
 }

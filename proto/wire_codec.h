@@ -37,20 +37,24 @@ constexpr std::size_t state_size(std::size_t axes) {
          + detail::scalar(1, 2, 4)                            // resume_stop
          + 1 + detail::packed(axes, 4);                       // a
 }
+inline constexpr std::size_t kContactBody = detail::scalar(4, 1, 4) + 2 * detail::packed(3, 4);
+inline constexpr std::size_t kContactSize = detail::packed(kContactBody, 1);
 constexpr std::size_t force_size(std::size_t axes) {
   return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8) + detail::scalar(1, 1, 4);
 }
+/// Of a FORCE that says something of surfaces.
+constexpr std::size_t force_size(std::size_t axes, std::size_t contacts) { return force_size(axes) + detail::scalar(1, 1, 4) + contacts * kContactSize; }
 inline constexpr std::size_t kPathSize = kPreambleSize + detail::scalar(1, 1, 8);
 inline constexpr std::size_t kAuthoritySize = kPreambleSize + detail::scalar(3, 1, 4) + 3 + kMastersMax * 8;
 inline constexpr std::size_t kCloseSize = kPreambleSize + detail::scalar(1, 1, 4);
 inline constexpr std::size_t kPingSize = kPreambleSize;
 
 static_assert(state_size(3) <= 400 && state_size(kAxesMax) + kDatagramOverhead <= kDatagramMax);
-static_assert(force_size(kAxesMax) + kDatagramOverhead <= kDatagramMax);
+static_assert(force_size(kAxesMax, kLocalContactsMax) + kDatagramOverhead <= kDatagramMax);
 
 /// Why bytes were refused. One counter each at the receiver; never an exception, never a log line.
 enum class DecodeError : std::uint8_t {
-  kSize,        ///< not the exact size of (type, axes), or more than the maximum
+  kSize,        ///< not the exact size of (type, axes, contacts), or more than the maximum
   kMalformed,   ///< not the encoding of this message: wrong, unknown, repeated or missing fields
   kNotFinite,   ///< a NaN or infinity
   kOutOfRange,  ///< a magnitude, count or enumerator that cannot be meant
@@ -107,6 +111,7 @@ class Codec {
  private:
   std::size_t axes_ = kAxesMax;
   double position_max_ = 0;  ///< of a port sample [m] or [rad]
+  std::size_t contacts_max_ = 0;  ///< in a FORCE
 };
 
 }  // namespace tandem::wire

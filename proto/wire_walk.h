@@ -18,7 +18,7 @@ namespace tandem::wire {
 
 static_assert(std::endian::native == std::endian::little, "values are copied as they lie in memory");
 
-/// How a field's value is encoded, low three bits of its tag.
+/// How a field's value is encoded, low three bits of its tag; a message in a message is like an array packed.
 enum class Encoding : std::uint32_t { kFixed64 = 1, kPacked = 2, kFixed32 = 5 };
 constexpr std::uint32_t tag(std::uint32_t number, Encoding encoding) noexcept { return number << 3 | static_cast<std::uint32_t>(encoding); }
 
@@ -62,6 +62,16 @@ class ValueWriter {
   }
   void long_word(std::uint32_t number, std::uint64_t value) noexcept {
     structure(tag(number, Encoding::kFixed64));
+    put(value);
+  }
+
+  void message(std::uint32_t number, std::size_t bytes) noexcept { array(number, bytes); }
+  void singles(std::uint32_t number, const std::array<float, 3>& in, float) noexcept {
+    array(number, sizeof in);
+    copy(in.data(), in.size());
+  }
+  void single(std::uint32_t number, float value, float) noexcept {
+    structure(tag(number, Encoding::kFixed32));
     put(value);
   }
 
@@ -132,6 +142,20 @@ class ValueReader {
   void long_word(std::uint32_t number, std::uint64_t& out) noexcept {
     structure(tag(number, Encoding::kFixed64));
     out = get<std::uint64_t>();
+  }
+
+  void message(std::uint32_t number, std::size_t bytes) noexcept { array(number, bytes); }
+  /// @param limit  of the magnitudes
+  void singles(std::uint32_t number, std::array<float, 3>& out, float limit) noexcept {
+    array(number, sizeof out);
+    copy(out.data(), out.size());
+    for (const float value : out) judge(static_cast<double>(value), -limit, limit);
+  }
+  /// Of at least 0 and at most `limit`.
+  void single(std::uint32_t number, float& out, float limit) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    out = get<float>();
+    judge(static_cast<double>(out), 0, limit);
   }
 
   void require(bool condition) noexcept { in_range_ &= condition; }

@@ -73,6 +73,12 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
   note(Time{}, AuditEvent::What::kRestored, AuditEvent::kNoSeat, static_cast<std::uint32_t>(epoch_));
 }
 
+bool Session::set_contact_source(std::size_t tool, std::unique_ptr<ContactSource> source) {
+  if (!replica_ || tool >= tools_.size() || tools_[tool].body() == nullptr) return false;
+  tools_[tool].set_contact_source(std::move(source));
+  return true;
+}
+
 Checkpoint Session::checkpoint() const noexcept {
   Checkpoint c;
   c.scene = scene_hash_;
@@ -249,7 +255,7 @@ void Session::say_farewell(Time now) noexcept {
 bool Session::touching(Time now, std::size_t j) const noexcept {
   constexpr double kTouchN = 0.05;  // below it a sensor's noise
   if (const hal::SteppedDevice* const slave = tools_[j].slave()) return slave->state().penetration > 0 || slave->state().f_env.squaredNorm() > kTouchN * kTouchN;
-  if (const control::VirtualTool* const body = tools_[j].body()) return body->penetration() > 0;
+  if (const control::VirtualTool* const body = tools_[j].body(); body != nullptr && !scene_->tools[j].remote) return body->penetration() > 0;
   if (!scene_->tools[j].remote || !seats_[scene_->tools[j].seat].alive(now)) return false;
   const wire::Telemetry& heard = seats_[scene_->tools[j].seat].heard().telemetry;
   return heard.penetration_m > 0 || std::ranges::any_of(heard.f_env, [](double f) { return std::abs(f) > kTouchN; });
@@ -294,6 +300,9 @@ void Session::fill_force_messages(Time now) noexcept {
     m.authority_version = authority_version_;
     m.missing = missing_now;
     m.stops = stop_lane_.stops();
+    m.slave_pull = slave_pull_[i];
+    m.contacts.size = 0;
+    if (told_of_others(i) && tools_[first_tool(i)].contacts().size > 0) m.contacts = tools_[first_tool(i)].contacts();
     tell_handover(i, m);
   }
 }

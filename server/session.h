@@ -43,6 +43,10 @@ class Session {
   /// Back from a checkpoint and not everybody needed is there.
   [[nodiscard]] bool gathering() const noexcept { return gathering_; }
 
+  /// Where surfaces near a tool come from beside the scene's own (server/contact_source.h). Before the first tick, or between ticks.
+  /// @return false: no such tool, or it is not one that meets surfaces itself: law REPLICA, with a VIRTUAL slave or a SLAVE seat
+  bool set_contact_source(std::size_t tool, std::unique_ptr<ContactSource> source);
+
   /// What never changes: for whoever answers those who ask for a seat, on any thread.
   [[nodiscard]] const Reception& reception() const noexcept { return reception_; }
   /// Whether a client could be put into a seat: it is free, or its owner fell silent 2 s ago, or (`same_owner`) is himself.
@@ -176,6 +180,8 @@ class Session {
   void step_offset(std::size_t seat, bool engaged) noexcept TANDEM_REALTIME;
   void credit_seat(std::size_t seat) noexcept TANDEM_REALTIME;
   void step_tools() noexcept TANDEM_REALTIME;
+  void look_for_contacts(std::size_t tool) noexcept TANDEM_REALTIME;
+  [[nodiscard]] double slave_pull(std::size_t seat, std::size_t tool) const noexcept TANDEM_REALTIME;
   void step_following() noexcept TANDEM_REALTIME;
   void follow_tools(std::size_t seat) noexcept TANDEM_REALTIME;
   [[nodiscard]] bool told_of_others(std::size_t i) const noexcept;
@@ -250,6 +256,8 @@ class Session {
   std::array<AxisArray, kSeatsMax> following_v_{};
   std::array<AxisArray, kSeatsMax> reference_before_{};
   std::array<AxisArray, kSeatsMax> tool_told_{};    ///< law `replica`: where the tool is that each seat has a copy of
+  std::array<double, kSeatsMax> slave_pull_{};      ///< law `replica`: wire::ForceMessage::slave_pull
+  std::array<std::uint64_t, kToolsMax> slave_heard_{};  ///< generation of the SLAVE seat's newest sample that a source of contacts saw
   std::array<bool, kSeatsMax> present_{};
   TickRecord record_{};
 

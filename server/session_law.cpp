@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "server/session.h"
 
@@ -56,7 +57,7 @@ void Session::move_references(Time now) noexcept {
     if (scene_->seats[i].kind == SeatKind::kSlave) {
       Tool& tool = tools_[scene_->seats[i].tool];
       if (!present_[i] && seats_[i].alive(now)) tool.rest_at(seats_[i].heard().port.x);
-      near.x = tool.position();
+      for (std::size_t a = 0; a < scene_->dof; ++a) near.x[a] = tool.slave_goal(a, seats_[i].end().state().k[a]);
       near.weight = 1;
     } else {
       for (std::size_t j = 0; j < tools_.size(); ++j) {
@@ -164,16 +165,43 @@ void Session::step_tools() noexcept {
       }
       if (scene_->tools[j].remote) {
         const control::EndState& end = seats_[scene_->tools[j].seat].end().state();
-        if (slave_present(j)) {
-          pull[a].spring(end.k[a], end.ref[a]);
-          pull[a].damper(end.b[a], end.rate[a]);
+        const double share = tool.slave_share();
+        if (slave_present(j) && share > 0) {
+          pull[a].spring(share * end.k[a], end.ref[a]);
+          pull[a].damper(share * end.b[a], end.rate[a]);
         }
       }
     }
+    if (tool.has_contact_source()) look_for_contacts(j);
     tool.step(dt_, pull, tool.authority.held());
     if (tool.sources.mode() == control::FlowSourceMode::kTank)
       for (std::size_t a = 0; a < scene_->dof; ++a) tool.sources.fill(0.5 * scene_->channel.eta * tool.dissipated()[a]);
   }
+}
+
+void Session::look_for_contacts(std::size_t j) noexcept {
+  ToolView view;
+  view.dt = dt_;
+  view.time = time();
+  if (scene_->tools[j].remote) {
+    const SeatPort& seat = seats_[scene_->tools[j].seat];
+    view.slave = slave_present(j) && elapsed_any_;
+    view.fresh = std::exchange(slave_heard_[j], seat.generation()) != seat.generation();
+    view.slave_x = seat.heard().port.x;
+    view.slave_v = seat.heard().port.v;
+    for (std::size_t a = 0; a < scene_->dof; ++a) view.slave_f[a] = seat.heard().port.f[a] + seat.end().state().b[a] * view.slave_v[a];
+  }
+  tools_[j].look_for_contacts(view);
+}
+
+/// The loop of this spring is closed over both networks, so it is as soft as P+d asks for both delays [Nuno et al., IJRR 28(7) 2009].
+double Session::slave_pull(std::size_t i, std::size_t j) const noexcept {
+  const double share = tools_[j].slave_share();
+  if (!scene_->tools[j].remote || !slave_present(j) || share <= 0) return 0;
+  const control::ChannelEnd& slave = seats_[scene_->tools[j].seat].end();
+  const double delay = seats_[i].end().schedule().delay() + slave.schedule().delay();
+  const double most = delay > 0 ? scene_->channel.k_delay / delay : slave.schedule().stiffness();
+  return share * std::min({1.0, slave.schedule().stiffness() / scene_->coupling.k_c, most / scene_->coupling.k_c});
 }
 
 void Session::step_following() noexcept {
@@ -215,10 +243,14 @@ void Session::grant_following(std::size_t i) noexcept {
 /// as they were; one that only follows, as they are by now.
 void Session::follow_others(std::size_t i) noexcept {
   following_[i] = following_v_[i] = tool_told_[i] = {};
+  slave_pull_[i] = 0;
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     const Tie& tie = ties_[i][j];
     if (!(tie.follow > 0)) continue;
     double others = 0;
+    const double alone = 1 - tie.alpha, slave = slave_pull(i, j);
+    const control::EndState* const device = slave > 0 ? &seats_[scene_->tools[j].seat].end().state() : nullptr;
+    slave_pull_[i] += tie.follow * slave;
     for (std::size_t h = 0; h < masters_; ++h) others += h == i ? 0 : tools_[j].authority.alpha(h);
     for (std::size_t a = 0; a < scene_->dof; ++a) {
       double x = tools_[j].x(a), v = tools_[j].v(a);
@@ -235,6 +267,10 @@ void Session::follow_others(std::size_t i) noexcept {
           v += part * (shares ? hand.v[a] : present_[h] ? by_now.rate[a] : 0);
         }
       }
+      if (device != nullptr) {  // two springs of stiffness alone and slave, as one between them
+        x = (alone * x + slave * device->ref[a]) / (alone + slave);
+        v = (alone * v + slave * seats_[scene_->tools[j].seat].heard().port.v[a]) / (alone + slave);
+      }
       following_[i][a] += tie.follow * x;
       following_v_[i][a] += tie.follow * v;
     }
@@ -250,7 +286,7 @@ void Session::follow_tools(std::size_t i) noexcept {
   for (std::size_t j = 0; j < tools; ++j) {
     const double follow = ties_[i][j].follow;
     for (std::size_t a = 0; a < dof; ++a) {
-      absolute[a] += follow * tools_[j].x(a);
+      absolute[a] += follow * (i < masters_ ? tools_[j].x(a) : tools_[j].slave_goal(a, seats_[i].end().state().k[a]));
       velocities[a] += follow * tools_[j].v(a);
     }
   }

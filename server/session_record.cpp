@@ -64,7 +64,7 @@ void take_record(const Session& session, TickRecord& record) noexcept {
       r.q = s.q;
       r.penetration = s.penetration;
       r.sample_tick = session.session_tick();
-    } else if (const control::VirtualTool* const body = tool.body()) {
+    } else if (const control::VirtualTool* const body = tool.body(); body != nullptr && !tool.spec().remote) {
       r.x = r.x_tool;
       r.f_env = body->surface_force();
       for (std::size_t k = 0; k < 3; ++k) r.f_cmd[k] = -r.f_env[k];

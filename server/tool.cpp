@@ -1,8 +1,10 @@
 #include "server/tool.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/setup/channel_setup.h"
+#include "server/estimated_plane.h"
 
 namespace tandem::server {
 
@@ -15,10 +17,14 @@ Tool::Tool(const SceneSpec& scene, std::size_t index, std::unique_ptr<hal::Stepp
       sources(setup::flow_source_mode(scene.channel.mfs), scene.channel.tank),
       spec_(&scene.tools[index]),
       dof_(scene.dof),
-      slave_(std::move(slave)) {
+      slave_(std::move(slave)),
+      told_({scene.dof, scene.channel.v_app, scene.coupling.k_c, 1.0 / scene.tick_hz}) {
   if (spec_->is_virtual) {
     body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_, setup::contacts(spec_->environment));
     rest_at({spec_->slave.start.x, spec_->slave.start.y, spec_->slave.start.z});
+  } else if (spec_->remote && scene.channel.law == LawKind::kReplica) {
+    body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_);
+    if (spec_->contacts == ContactsMode::kEstimated) source_ = std::make_unique<EstimatedPlane>(dof_);
   } else if (slave_) {
     map_ = hal::PortMap(scene.port, dof_, slave_->caps().joints);
     scale_ = map_.scale(slave_->state());
@@ -27,8 +33,32 @@ Tool::Tool(const SceneSpec& scene, std::size_t index, std::unique_ptr<hal::Stepp
 }
 
 void Tool::rest_at(const AxisArray& x) noexcept {
-  if (body_) return body_->rest_at(x);
+  if (body_) {
+    told_.clear();
+    body_->stream(told_.surfaces());
+    return body_->rest_at(x);
+  }
   for (std::size_t a = 0; a < dof_; ++a) ipc_[a] = {x[a], 0, 0};
+}
+
+void Tool::look_for_contacts(ToolView view) noexcept {
+  if (source_ == nullptr || !body_) return;
+  view.axes = dof_;
+  view.x = position();
+  view.v = velocity();
+  LocalContactList wanted;
+  source_->look(view, wanted);
+  named_.size = 0;
+  for (const LocalContact& contact : std::span{wanted.item}.first(std::min<std::size_t>(wanted.size, kLocalContactsMax))) {
+    const bool known = std::ranges::any_of(named_.all(), [&](const LocalContact& other) { return other.id == contact.id; });
+    if (known || !is_surface(contact, dof_) || !in_range(contact)) {
+      ++contacts_refused_;
+      continue;
+    }
+    named_.add(contact);
+  }
+  told_.hear(named_.all());
+  if (told_.step(view.x, nullptr)) body_->stream(told_.surfaces());
 }
 
 void Tool::step_body(double dt, const std::array<control::Pull, kAxesMax>& seats, bool braked) noexcept {

@@ -45,6 +45,7 @@ struct EndInput {
   AxisArray x{};                ///< what hangs on the near end of the spring: xc at a client, the tool at the server
   AxisArray dissipated{};       ///< heat made here during the last step that may be spent [J]
   double authority = 1;         ///< of this seat's hand over its tool [0, 1]; `replica` only
+  double slave_pull = 0;        ///< part of k_c with which a slave pulls by way of the reference [0, 1]; `replica` only
   double pass_on = 1;           ///< share of this end's heat the other end may have when it is not needed here [0, 1]
   PortSample rx{};              ///< newest datagram's port
 };

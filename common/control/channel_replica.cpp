@@ -33,7 +33,8 @@ const EndState& ReplicaReference::move(const EndInput& in) noexcept {
   const bool follows = in.authority < 1e-3;
   const double calm = follows ? Prediction::calm_part(in.dt) : 1;
   const double shared_damping = follows ? 0 : kSharedDamping * alone * k_x_ * d;
-  const double damping = alone * params_.b_rel * k_x_ / params_.k_c + shared_damping;
+  const double slave = std::clamp(in.slave_pull, 0.0, 1.0) * params_.k_c;
+  const double damping = alone * params_.b_rel * k_x_ / params_.k_c + shared_damping + kSharedDamping * slave * d;
   for (std::size_t a = 0; a < params_.dof; ++a) {
     EnergyLedger& ledger = ledger_[a];
     ledger.dissipate(in.dissipated[a]);
@@ -42,12 +43,12 @@ const EndState& ReplicaReference::move(const EndInput& in) noexcept {
     state_.absorbed[a] = state_.paid[a] = state_.passed[a] = 0;
     state_.b[a] = damping * params_.scale[a];
     state_.rate[a] = in.rx.v[a];
-    change_stiffness(a, alone * k_x_ * params_.scale[a], in.x[a], 1);
+    change_stiffness(a, (alone * k_x_ + slave) * params_.scale[a], in.x[a], 1);
 
     calm_v_[a] += calm * (in.rx.v[a] - calm_v_[a]);
     const double target = follows ? Prediction::place_for_hand(in.rx.x[a], calm_v_[a], in.age) : in.rx.x[a];
     const double step = (std::abs(in.rx.v[a]) + approach_[a]) * in.dt;
-    const double reach = 2 * strongest_[a] / (k_x_ * params_.scale[a]);
+    const double reach = 2 * strongest_[a] / (slave > 0 ? (alone * k_x_ + slave) * params_.scale[a] : k_x_ * params_.scale[a]);
     const double leashed = std::clamp(std::clamp(target, state_.ref[a] - step, state_.ref[a] + step), in.x[a] - reach, in.x[a] + reach);
     if (std::isfinite(leashed)) move_reference(a, leashed, in.x[a], 1);
     ledger.take_back(state_.absorbed[a]);  // what a spring to the reference gives back is this end's to spend again

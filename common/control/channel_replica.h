@@ -11,6 +11,8 @@ namespace tandem::control {
 ///
 ///     k_x = min(k_c, kappa / 2 d), kappa = 2 N s/m        where hands share: P+d [Nuno et al., IJRR 28(7) 2009] halved, found by measurement
 ///     k_x = k_c                                           below a = 0.02, where nothing is fed back
+///
+/// Where a slave of a SLAVE seat is felt by way of the server, its spring adds to (1 - a) k_x and its place to r.
 class ReplicaReference final : public PaidEnd {
  public:
   explicit ReplicaReference(const ChannelParams& params);

@@ -9,13 +9,15 @@ namespace {
 constexpr double kUpToSpeed = 0.3;  // [s] from rest to the speed at which an offset goes home
 }
 
-ToolCopy::ToolCopy(const Params& params) noexcept : p_(params), tool_(params.tool, params.axes, params.contacts) {
+ToolCopy::ToolCopy(const Params& params) noexcept : p_(params), tool_(params.tool, params.axes, params.contacts), told_({params.axes, params.v_app, params.k_c, params.dt}) {
   hand_.fill(HandMotionFilter(params.dt));
   anchor_.fill(HandMotionFilter(params.dt));
 }
 
 void ToolCopy::rest_at(const AxisArray& tool, const AxisArray& hand) noexcept {
   tool_.rest_at(tool);
+  told_.clear();
+  tool_.stream(told_.surfaces());
   for (std::size_t a = 0; a < p_.axes; ++a) {
     shown_[a] = tool[a];
     offset_[a] = hand[a] - tool[a];
@@ -30,6 +32,7 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   engaged_for_ += p_.dt;
   let_offset_grow(hand);
   bring_offset_home(end);
+  meet_told(end);
   const EndState& reference = end.state();
   const double own = std::clamp(authority, 0.0, 1.0), alone = 1 - own;
   VirtualTool::Pulls pulls{}, without_dampers{};
@@ -71,6 +74,11 @@ void ToolCopy::let_offset_grow(const AxisArray& hand) noexcept {
   if (!(square > reach * reach)) return;
   const double beyond = 1 - reach / std::sqrt(square);
   for (std::size_t a = 0; a < p_.axes; ++a) offset_[a] -= beyond * wound[a];
+}
+
+void ToolCopy::meet_told(ChannelEnd& end) noexcept {
+  const AxisArray x{tool_.x(0), tool_.x(1), tool_.x(2)};
+  if (told_.step(x, &end)) tool_.stream(told_.surfaces());
 }
 
 /// A hand that holds still is pulled nowhere by a spring that only grows, so an offset stays until the gate has ramped in, and then

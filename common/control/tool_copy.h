@@ -2,6 +2,7 @@
 
 #include "common/control/channel.h"
 #include "common/control/hand_motion.h"
+#include "common/control/local_contacts.h"
 #include "common/control/virtual_tool.h"
 
 namespace tandem::control {
@@ -12,8 +13,8 @@ namespace tandem::control {
 ///     F     = k_c (y - q)                                                                  on the hand; y = x as far as is paid
 ///
 /// What the ledger pays, per axis, before it acts (storage W = 1/2 m v^2 + 1/2 k_c |q - x|^2 + 1/2 (1 - a) k_x |r - x|^2 + H_env): moves of r
-/// (ReplicaReference), (1 - a) F dx, b_rel (v_in - v) dx, and F do for the way home of an offset between hand and tool. Negative costs
-/// come back. A hand that leads alone (a = 1) pays nothing and gets nothing: passive by construction.
+/// (ReplicaReference), (1 - a) F dx, b_rel (v_in - v) dx, moves of surfaces that the server tells of (LocalContacts), and F do for the way
+/// home of an offset between hand and tool. Negative costs come back. A hand that leads alone (a = 1) pays nothing and gets nothing: passive by construction.
 class ToolCopy {
  public:
   static constexpr std::size_t kAxes = VirtualTool::kAxes;
@@ -32,6 +33,8 @@ class ToolCopy {
 
   /// Not engaged: the copy stands where the server's tool is, the hand wherever it is; their distance becomes the offset.
   void rest_at(const AxisArray& tool, const AxisArray& hand) noexcept;
+  /// The server named these surfaces now, beside those of the scene. @pre each is_surface and in_range
+  void hear(std::span<const LocalContact> told) noexcept TANDEM_REALTIME { told_.hear(told); }
   /// @param end  of this seat, already moved in this tick: its reference, stiffness, damping and ledger
   /// @return the effort wanted on the hand, before the gate [N]
   const AxisArray& step(const AxisArray& hand, double authority, ChannelEnd& end) noexcept TANDEM_REALTIME;
@@ -39,6 +42,7 @@ class ToolCopy {
   void delivered(const AxisArray& effort) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] const VirtualTool& tool() const noexcept { return tool_; }
+  [[nodiscard]] const LocalContacts& told() const noexcept { return told_; }
   /// Where the hand pulls at the tool, as the server shall take it: q where the whole effort is given, nearer to the copy where it is clipped.
   [[nodiscard]] const HandMotion& anchor(std::size_t axis) const noexcept { return anchor_[axis].now(); }
   [[nodiscard]] double dissipated(std::size_t axis) const noexcept { return dissipated_[axis]; }  ///< heat of the last step that may be spent [J]
@@ -47,11 +51,13 @@ class ToolCopy {
  private:
   void let_offset_grow(const AxisArray& hand) noexcept;
   void bring_offset_home(ChannelEnd& end) noexcept;
+  void meet_told(ChannelEnd& end) noexcept;
   [[nodiscard]] bool pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualTool& before, ChannelEnd& end) noexcept;
   void show(std::size_t axis, double hand, double alone, ChannelEnd& end) noexcept;
 
   Params p_;
   VirtualTool tool_;
+  LocalContacts told_;
   std::array<HandMotionFilter, kAxes> hand_, anchor_;
   AxisArray shown_{}, offset_{}, wanted_{}, dissipated_{};
   double share_ = 0;       ///< of the wanted effort that the gate gave last [0, 1]

@@ -10,6 +10,9 @@ namespace {
 using Vector = std::array<double, VirtualTool::kAxes>;
 using Matrix = std::array<Vector, VirtualTool::kAxes>;
 
+/// Friction that holds is damping so large that the tool creeps by 0.01 mm/s under 1 kN [N s/m].
+constexpr double kHolds = 1e8;
+
 double dot(const Vector& a, const Vector& b) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Solves a symmetric, positive definite system by elimination; three unknowns need no pivot.
@@ -60,24 +63,26 @@ bool VirtualTool::step(double dt, const Pulls& pulls) noexcept {
   return true;
 }
 
+void VirtualTool::stream(const ContactSet& told) noexcept {
+  contacts_.keep(own_contacts_);
+  for (std::size_t c = 0; c < told.size(); ++c) contacts_.add(told[c]);
+}
+
 /// Which surfaces are met is found by rounds: one that the step would enter is added, one that would have to pull is taken out.
 void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector& velocity) noexcept {
   surface_force_ = surface_k_ = surface_b_ = {};
   if (contacts_.size() == 0) return;
-  struct Met {
-    bool met = false;
-    double force = 0, gain = 0;  ///< the surface's force is force - gain * (normal . velocity)
-  };
-  std::array<Met, ContactSet::kMax> surfaces{};
+  Surfaces surfaces{};
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const Contact& contact = contacts_[c];
     const double depth = contact.penetration(x_), slope = contact.slope(depth);
     surfaces[c].force = contact.spring(depth);
     surfaces[c].gain = contact.b + dt * slope;
   }
-  constexpr int kRounds = 4;
-  for (int round = 0; round < kRounds; ++round) {
-    bool changed = false;
+  constexpr int kRounds = 4, kRoundsRubbing = 12;
+  bool settled = false;
+  for (int round = 0, rounds = kRounds; round < rounds; ++round) {
+    bool changed = false, rubs = false;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const double along = dot(contacts_[c].normal, velocity);
       const bool pushes = surfaces[c].force - surfaces[c].gain * along > 0;
@@ -86,30 +91,81 @@ void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector& veloci
       const bool met = pushes && (inside || surfaces[c].met);
       changed = changed || met != surfaces[c].met;
       surfaces[c].met = met;
+      rubs = rubs || (met && contacts_[c].mu > 0);
     }
-    if (!changed) break;
-    Equations with = free;
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      if (!surfaces[c].met) continue;
-      const Vector& n = contacts_[c].normal;
-      for (std::size_t i = 0; i < axes_; ++i) {
-        with.rhs[i] += dt * surfaces[c].force * n[i];
-        for (std::size_t j = 0; j < axes_; ++j) with.matrix[i][j] += dt * surfaces[c].gain * n[i] * n[j];
-      }
+    if (!changed) {
+      settled = true;
+      break;
     }
-    velocity = solved(with.matrix, with.rhs);
+    if (rubs) {
+      rounds = kRoundsRubbing;
+      rub_surfaces(dt, free, surfaces, velocity);
+    } else {
+      for (Met& surface : surfaces) surface.drag = 0;
+      velocity = with_surfaces(dt, free, surfaces);
+    }
   }
+  // Rare, between three stiff surfaces: no set of them agrees with its own step. The tool stands still for this tick, which makes no energy.
+  if (!settled) velocity = {};
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (!surfaces[c].met) continue;
     const Vector& n = contacts_[c].normal;
     const double force = std::max(0.0, surfaces[c].force - surfaces[c].gain * dot(n, velocity));
     const double slope = contacts_[c].slope(contacts_[c].penetration(x_));
+    const Vector slip = surfaces[c].drag > 0 ? across(contacts_[c], velocity) : Vector{};
     for (std::size_t a = 0; a < axes_; ++a) {
-      surface_force_[a] += force * n[a];
+      surface_force_[a] += force * n[a] - surfaces[c].drag * slip[a];
       surface_k_[a] += slope * n[a] * n[a];
       surface_b_[a] += contacts_[c].b * n[a] * n[a];
     }
   }
+}
+
+Vector VirtualTool::with_surfaces(double dt, Equations equations, const Surfaces& surfaces) const noexcept {
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    if (!surfaces[c].met) continue;
+    const Vector& n = contacts_[c].normal;
+    for (std::size_t i = 0; i < axes_; ++i) {
+      equations.rhs[i] += dt * surfaces[c].force * n[i];
+      for (std::size_t j = 0; j < axes_; ++j) equations.matrix[i][j] += dt * ((surfaces[c].gain - surfaces[c].drag) * n[i] * n[j] + (i == j ? surfaces[c].drag : 0));
+    }
+  }
+  return solved(equations.matrix, equations.rhs);
+}
+
+/// Coulomb friction at the end of the step. A surface holds the tool where mu times its force is enough; else it drags with just that, written
+/// as damping: what only ever opposes the slip cannot make energy, nor chatter. Exact at once where one surface is met and all axes
+/// are alike; else by a few rounds.
+void VirtualTool::rub_surfaces(double dt, const Equations& free, Surfaces& surfaces, Vector& velocity) const noexcept {
+  for (std::size_t c = 0; c < contacts_.size(); ++c) surfaces[c].drag = surfaces[c].met && contacts_[c].mu > 0 ? kHolds : 0;
+  velocity = with_surfaces(dt, free, surfaces);
+  constexpr int kRounds = 5;
+  bool too_much = true;
+  for (int round = 0; round < kRounds && too_much; ++round) {
+    too_much = false;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      Met& surface = surfaces[c];
+      if (surface.drag == 0) continue;
+      const Vector slip = across(contacts_[c], velocity);
+      const double rate = std::sqrt(dot(slip, slip));
+      const double most = contacts_[c].mu * std::max(0.0, surface.force - surface.gain * dot(contacts_[c].normal, velocity));
+      if (surface.drag * rate <= most * (1 + 1e-9)) continue;
+      double inertia = 0;  // of the tool, its springs and dampers along the slip
+      for (std::size_t a = 0; a < axes_; ++a) inertia += free.matrix[a][a] * slip[a] * slip[a] / (rate * rate);
+      const double drive = rate * (inertia + dt * surface.drag);  // momentum that the slip would have without friction
+      surface.drag = std::min(surface.drag, most * inertia / (drive - dt * most));
+      too_much = true;
+    }
+    if (too_much) velocity = with_surfaces(dt, free, surfaces);
+  }
+}
+
+/// The part of a vector that lies in the surface, in the axes that this tool has.
+Vector VirtualTool::across(const Contact& contact, const Vector& vector) const noexcept {
+  const double along = dot(contact.normal, vector);
+  Vector out{};
+  for (std::size_t a = 0; a < axes_; ++a) out[a] = vector[a] - along * contact.normal[a];
+  return out;
 }
 
 double VirtualTool::penetration() const noexcept {

@@ -10,8 +10,8 @@
 namespace tandem::control {
 
 /// A tool without a device: a mass that meets its surfaces itself. The server steps one per tool, every client a copy of it, by this very
-/// code. Implicit: springs, dampers and surfaces act at the end of the step, so no step creates energy whatever their gains are
-/// [Stramigioli, LNCIS 266, 2001]; several surfaces are solved for together.
+/// code. Implicit: springs, dampers, surfaces and their friction act at the end of the step, so no step creates energy whatever their gains
+/// are [Stramigioli, LNCIS 266, 2001]; several surfaces are solved for together.
 class VirtualTool {
  public:
   static constexpr std::size_t kAxes = 3;
@@ -23,7 +23,11 @@ class VirtualTool {
   using Pulls = std::array<Pull, kAxes>;
 
   /// @param axes  1 to 3; the others stand still at 0
-  VirtualTool(const Gains& gains, std::size_t axes, const ContactSet& contacts = {}) noexcept : gains_(gains), axes_(axes), contacts_(contacts) {}
+  VirtualTool(const Gains& gains, std::size_t axes, const ContactSet& contacts = {}) noexcept
+      : gains_(gains), axes_(axes), own_contacts_(contacts.size()), contacts_(contacts) {}
+
+  /// Replaces the surfaces that it meets beside those it was made with. What has no room is left out.
+  void stream(const ContactSet& told) noexcept TANDEM_REALTIME;
 
   void rest_at(const AxisArray& x) noexcept;
   /// One step of length `dt` [s]. What is not finite leaves the tool where it was, at rest. @return whether it was finite.
@@ -53,10 +57,20 @@ class VirtualTool {
     std::array<std::array<double, kAxes>, kAxes> matrix{};
     std::array<double, kAxes> rhs{};
   };
+  struct Met {
+    bool met = false;
+    double force = 0, gain = 0;  ///< the surface's force is force - gain * (normal . velocity)
+    double drag = 0;             ///< friction as damping across the surface [N s/m]
+  };
+  using Surfaces = std::array<Met, ContactSet::kMax>;
   void meet_surfaces(double dt, const Equations& free, std::array<double, kAxes>& velocity) noexcept;
+  [[nodiscard]] std::array<double, kAxes> with_surfaces(double dt, Equations equations, const Surfaces& surfaces) const noexcept;
+  void rub_surfaces(double dt, const Equations& free, Surfaces& surfaces, std::array<double, kAxes>& velocity) const noexcept;
+  [[nodiscard]] std::array<double, kAxes> across(const Contact& contact, const std::array<double, kAxes>& vector) const noexcept;
 
   Gains gains_;
   std::size_t axes_;
+  std::size_t own_contacts_;  ///< the first so many of `contacts_`
   ContactSet contacts_;
   std::array<double, kAxes> x_{}, v_{};
   std::array<double, kAxes> surface_force_{}, surface_k_{}, surface_b_{};

@@ -31,14 +31,14 @@ control::FlowSourceMode flow_source_mode(MfsMode mode) noexcept {
 control::ContactSet contacts(const EnvironmentSpec& environment) noexcept {
   control::ContactSet all;
   if (const auto& w = environment.wall) {
-    control::Contact contact{.k = w->k, .b = w->b};
+    control::Contact contact{.k = w->k, .b = w->b, .mu = w->mu};
     const double sign = w->from_below ? -1 : 1;
     contact.normal[static_cast<std::size_t>(w->axis)] = sign;
     contact.at = sign * w->at;
     all.add(contact);
   }
   if (const auto& t = environment.tissue) {
-    control::Contact contact{.k = t->k, .k3 = t->k3, .b = t->b};
+    control::Contact contact{.k = t->k, .k3 = t->k3, .b = t->b, .mu = t->mu};
     const double sign = t->from_below ? -1 : 1;
     contact.normal[static_cast<std::size_t>(t->axis)] = sign;
     contact.at = sign * t->at;

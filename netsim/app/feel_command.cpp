@@ -30,7 +30,7 @@ constexpr int kGood = 0, kFailed = 1;
 constexpr std::size_t kRecordingsMax = 8;
 
 struct FeelArguments {
-  std::string scene, channel, mfs, probes, recordings, json, csv;
+  std::string scene, channel, mfs, contacts, probes, recordings, json, csv;
   std::vector<std::string> hands, limits;
   double seeds = 20, jobs = 0;
   bool plain = false, quiet = false;
@@ -99,6 +99,15 @@ void set_law(const FeelArguments& a, SceneSpec& scene) {
     if (a.mfs == server::mfs_name(mode)) scene.channel.mfs = mode;
 }
 
+/// @return what is wrong with it; empty: nothing
+std::string set_contacts(const FeelArguments& a, SceneSpec& scene) {
+  if (a.contacts.empty()) return {};
+  if (scene.channel.law != LawKind::kReplica) return "is for law REPLICA, under which clients simulate the tool; add --channel replica";
+  if (!scene.tools[0].remote) return "is for tools that a SLAVE seat serves; the first tool of " + a.scene + " has a slave of its own";
+  scene.tools[0].contacts = a.contacts == "none" ? ContactsMode::kNone : ContactsMode::kEstimated;
+  return {};
+}
+
 int feel_command(const FeelArguments& a) {
   Mistakes mistakes;
   FeelSetup feel{.scene = {}};
@@ -114,6 +123,7 @@ int feel_command(const FeelArguments& a) {
   if (auto scene = load_scene(a.scene)) {
     feel.scene = std::move(*scene);
     set_law(a, feel.scene);
+    if (const std::string problem = set_contacts(a, feel.scene); !problem.empty()) mistakes.add("--contacts: " + problem);
     if (const auto problem = law_problem(feel.scene)) mistakes.add("--channel: " + a.scene + ": " + problem->key + ": " + problem->words);
   } else {
     for (const InputError& error : scene.error()) mistakes.add(to_text(error));
@@ -200,6 +210,8 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--plain-hands", a->plain, "hands without tremor and noise, all with the same impedance");
   command->add_option("--channel", a->channel, "channel law instead of the scene's: replica (what scenes have that name none), set_position, raw")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
+  command->add_option("--contacts", a->contacts, "how hands feel what a SLAVE seat's device touches, instead of the scene's tool { contacts }: estimated, none")
+      ->transform(CLI::IsMember({"estimated", "none"}, CLI::ignore_case));
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
   command->add_option("--limit", a->limits, "what must hold of a mean, in SI; the worst seed may be 1.5 times worse: KEY<=NUMBER or KEY>=NUMBER; may be repeated")
@@ -217,6 +229,7 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim feel contact --delay 50\n"
       "  tandem-netsim feel contact --profile wifi-busy --probe press,free --json feel.json\n"
       "  tandem-netsim feel contact --delay 100 --limit 'stiffness_felt_n_m>=360' --limit 'drag_1hz_n<=0.15'\n"
+      "  tandem-netsim feel contact_remote --channel replica --contacts none --delay 50 --probe press\n"
       "  tandem-netsim feel contact --delay 20 --probe free --hand motion.csv,columns=baton");
   command->callback([a, &action] { action = [a] { return feel_command(*a); }; });
 }

@@ -10,6 +10,8 @@ namespace {
 constexpr FeelKey kContact[] = {
     {"stiffness_felt_n_m", "stiffness felt on bone (20 kN/m)", "N/m", 1, true},
     {"stiffness_tissue_n_m", "stiffness felt on tissue (300 N/m)", "N/m", 1, true},
+    {"stiffness_bone_held_n_m", "  held still on bone, force over depth", "N/m", 1, true},
+    {"stiffness_tissue_held_n_m", "  held still on tissue", "N/m", 1, true},
     {"force_got_n", "force felt while pressing on bone", "N", 1, true},
     {"force_wanted_n", "the same over a perfect network", "N", 1, true},
     {"force_share", "share of that force", "%", 100, true},

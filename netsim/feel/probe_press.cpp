@@ -62,10 +62,11 @@ double stiffness(const FeelTrace& trace) {
 /// While the hand holds still.
 struct Held {
   double felt = 0, difference = 0;  ///< [N]
+  double stiffness = 0;             ///< force felt over depth of the hand [N/m]
 };
 Held held(const FeelTrace& trace, double end) {
   const Pressed p = along_x(trace, kSteady, end);
-  return {mean(p.felt), std::abs(mean(p.felt) - mean(p.tool))};
+  return {mean(p.felt), std::abs(mean(p.felt) - mean(p.tool)), mean(p.felt) / mean(p.x)};
 }
 
 }  // namespace
@@ -83,6 +84,8 @@ ProbeResult probe_press(const FeelSetup& setup, std::uint64_t seed) {
   FeelValues& v = result.values;
   v["stiffness_felt_n_m"] = stiffness(run_part(setup, press(setup, seed, kBone, kDeep, kSlowly, kSlowly), seed, result));
   v["stiffness_tissue_n_m"] = stiffness(run_part(setup, press(setup, seed, kTissue, kDeep, kSlowly, kSlowly), seed, result));
+  v["stiffness_bone_held_n_m"] = bone_held.stiffness;
+  v["stiffness_tissue_held_n_m"] = tissue_held.stiffness;
   v["force_got_n"] = bone_held.felt;
   v["force_wanted_n"] = held(wanted, kBoneEnd).felt;
   v["force_share"] = v["force_got_n"] / v["force_wanted_n"];

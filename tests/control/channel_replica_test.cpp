@@ -52,6 +52,19 @@ TEST(ReplicaReference, AHandThatFollowsHasTheFullSpringAtAnyDelay) {
   }
 }
 
+// The device of a SLAVE seat pulls also where a hand leads alone; what it pulls is paid like any move of r.
+TEST(ReplicaReference, ASlaveThatIsFeltPullsBesideTheOthers) {
+  ReplicaReference end(one_axis());
+  EndInput in = hears(0.002, 1, 0.0505);
+  in.slave_pull = 0.25;
+  const EndState& s = settled(end, in);
+  EXPECT_NEAR(s.k[0], 0.25 * 400, 1e-9);
+  EXPECT_NEAR(s.b[0], 0.5 * 100 * 0.05, 5e-3);
+  EXPECT_NEAR(1e-9 * static_cast<double>(end.ledger(0).out_nj()), 0.5 * 100 * 0.002 * 0.002, 1e-8);
+  in.slave_pull = std::numeric_limits<double>::infinity();
+  EXPECT_LE(settled(end, in).k[0], 400);
+}
+
 // kappa / 2 d = 2 / (2 * 0.1) = 10 N/m, half of it at half authority; damping relative to the others by the same ratio, and 0.5 k d beside it.
 TEST(ReplicaReference, HandsThatShareAreTiedByWhatTheDelayAllows) {
   ReplicaReference end(one_axis());

@@ -46,6 +46,7 @@ void as_insider(std::span<const std::byte> plain) {
       }
       if (const auto m = codec.decode_force(plain)) {
         expect_sound(m->message.port, axes, position_max);
+        for (const LocalContact& contact : m->message.contacts.all()) FUZZ_EXPECT(is_surface(contact, axes) && in_range(contact));
         expect_same(codec, m, plain);
       }
       if (const auto m = codec.decode_authority(plain)) expect_same(codec, m, plain);

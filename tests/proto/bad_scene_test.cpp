@@ -73,6 +73,9 @@ TEST(BadScene, LawReplicaAndToolsWithoutADeviceSayWhatTheyNeed) {
   expect_one(with("slave { model: TOUCH }", "slave { model: @VIRTUAL friction_n: 0.1 }"), "tool[0].slave.model", "all but start_m and environment");
   expect_one(with("slave { model: TOUCH }", "@slave { friction_n: 0.1 }"), "tool[0].slave.model", "name model: TOUCH or LINEAR");
   expect_one(with("device_coupling", "dof: 1 device_coupling").replace(with("device_coupling", "dof: 1 device_coupling").find("slave { model: TOUCH }"), 22, "slave { @start_m { y: 0.01 } }"), "tool[0].slave.start_m", "along x only");
+  EXPECT_EQ(to_text(errors_of(with("slave { model: TOUCH }", "slave { model: VIRTUAL environment { wall { friction: 0.4 } tissue { friction: 2 } } }"))), "");
+  expect_one(with("slave { model: TOUCH }", "slave { model: TOUCH environment { wall { friction: @0.4 } } }"), "tool[0].slave.environment.wall.friction", "only a VIRTUAL slave");
+  expect_one(with("slave { model: TOUCH }", "slave { model: VIRTUAL environment { tissue { friction: @2.1 } } }"), "tool[0].slave.environment.tissue.friction", "2");
   expect_one(with("hand { model: RELAXED }", "device { model: @VIRTUAL }"), "seat[1].device.model", "a hand holds a device");
 }
 
@@ -245,6 +248,17 @@ TEST(BadScene, EveryToolHasOneSlave) {
   EXPECT_TRUE(errors_of(with(" slave { model: TOUCH }", "") + seat).empty());
   expect_one(with(" slave { model: TOUCH }", "") + seat + "seat { name: \"second\" kind: SLAVE tool: @\"tool\" }\n",
              "seat[3].tool", "served by seat[2] already");
+}
+
+TEST(BadScene, ContactsAreToldOfWhereASlaveSeatServesATool) {
+  const std::string seat = "seat { name: \"slave\" kind: SLAVE tool: \"tool\" }\n", law = "channel { law: REPLICA }\n";
+  const auto remote = [&](const std::string& contacts) { return with(" slave { model: TOUCH }", contacts) + seat; };
+  EXPECT_EQ(parse_scene(remote("") + law, "s")->tools[0].contacts, ContactsMode::kEstimated) << "the default";
+  EXPECT_EQ(parse_scene(remote(" contacts: NONE") + law, "s")->tools[0].contacts, ContactsMode::kNone);
+  EXPECT_EQ(parse_scene(remote(" contacts: ESTIMATED") + law, "s")->tools[0].contacts, ContactsMode::kEstimated);
+  expect_one(remote(" contacts: @ESTIMATED") + "channel { law: SET_POSITION }\n", "tool[0].contacts", "needs channel { law: REPLICA }");
+  EXPECT_EQ(to_text(errors_of(remote(" contacts: NONE") + "channel { law: SET_POSITION }\n")), "");
+  expect_one(with("slave { model: TOUCH }", "contacts: @NONE slave { model: VIRTUAL }") + law, "tool[0].contacts", "is for tools that a SLAVE seat serves");
 }
 
 TEST(BadScene, DevicesFitTheAxes) {

@@ -71,6 +71,7 @@ void expect_same(const SeatSetup& a, const SeatSetup& b) {
     EXPECT_EQ(a.environment.wall->k, b.environment.wall->k);
     EXPECT_EQ(a.environment.wall->b, b.environment.wall->b);
     EXPECT_EQ(a.environment.wall->from_below, b.environment.wall->from_below);
+    EXPECT_EQ(a.environment.wall->mu, b.environment.wall->mu);
   }
   EXPECT_EQ(a.environment.tissue.has_value(), b.environment.tissue.has_value());
   for (std::size_t i = 0; i < a.dof; ++i) EXPECT_EQ(a.axis_scale[i], b.axis_scale[i]);
@@ -95,6 +96,20 @@ TEST(SeatSetup, OfEveryShippedSeatComesBackAsItWas) {
       expect_same(setup, *got);
     }
   }
+}
+
+TEST(SeatSetup, CarriesTheFrictionOfSurfacesAndNotWhatARemoteSlaveTouches) {
+  auto setup = seat_setup(scene("contact"), 0);
+  setup.environment.wall.emplace().mu = 0.4;
+  setup.environment.tissue.emplace().mu = 0.7;
+  Buffer buffer;
+  const auto got = decode_seat_setup(std::span(buffer).first(encode_seat_setup(setup, buffer)));
+  ASSERT_TRUE(got.has_value()) << to_text(got.error());
+  EXPECT_EQ(got->environment.wall->mu, 0.4);
+  EXPECT_EQ(got->environment.tissue->mu, 0.7);
+  const SceneSpec remote = scene("contact_remote");
+  EXPECT_TRUE(remote.tools[0].environment.wall.has_value());
+  EXPECT_FALSE(seat_setup(remote, 0).environment.wall.has_value());
 }
 
 TEST(SeatSetup, OfALongMotionAndManyNamesComesBackAsItWas) {

@@ -95,6 +95,80 @@ TEST(WireCodec, ForceComesBackAsItWas) {
   }
 }
 
+TEST(WireCodec, ContactsComeBackAsTheyWere) {
+  for (std::size_t axes = 1; axes <= 3; ++axes) {
+    Codec codec(axes, PortSpace::kTip);
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      SCOPED_TRACE(seed);
+      RandomStream random(seed);
+      auto sent = samples::force(random, axes);
+      samples::contacts(random, axes, sent.contacts);
+      if (seed % 2 == 0) sent.slave_pull = samples::slave_pull(random);
+      Buffer buffer;
+      const auto size = codec.encode({}, sent, buffer);
+      const bool told = sent.contacts.size > 0 || sent.slave_pull > 0;
+      ASSERT_EQ(size, told ? force_size(axes, sent.contacts.size) : force_size(axes));
+      const auto got = codec.decode_force(view(buffer, size));
+      ASSERT_TRUE(got.has_value()) << static_cast<int>(got.error());
+      EXPECT_EQ(got->message.contacts.size, sent.contacts.size);
+      EXPECT_EQ(got->message.contacts.item, sent.contacts.item);
+      EXPECT_EQ(got->message.slave_pull, sent.slave_pull);
+      EXPECT_EQ(got->message.stops, sent.stops);
+    }
+  }
+}
+
+/// One contact of a FORCE is made wrong in one way.
+TEST(WireCodec, ContactsThatAreNoSurfacesAreRefused) {
+  Codec codec(3, PortSpace::kTip);
+  const auto refused = [&](auto&& spoil) -> std::optional<DecodeError> {
+    RandomStream random(5);
+    ForceMessage m = samples::force(random, 3);
+    for (std::uint32_t id = 1; id <= 3; ++id) m.contacts.add(samples::contact(random, 3, id));
+    spoil(m.contacts.item[1]);
+    Buffer buffer;
+    const auto got = codec.decode_force(view(buffer, codec.encode({}, m, buffer)));
+    return got ? std::nullopt : std::optional{got.error()};
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(refused([](LocalContact&) {}), std::nullopt);
+  for (const float bad : {nan, inf, -inf}) {
+    EXPECT_EQ(refused([&](LocalContact& c) { c.k = bad; }), DecodeError::kNotFinite);
+    EXPECT_EQ(refused([&](LocalContact& c) { c.b = bad; }), DecodeError::kNotFinite);
+    EXPECT_EQ(refused([&](LocalContact& c) { c.mu = bad; }), DecodeError::kNotFinite);
+    for (std::size_t a = 0; a < 3; ++a) {
+      EXPECT_EQ(refused([&](LocalContact& c) { c.point[a] = bad; }), DecodeError::kNotFinite);
+      EXPECT_EQ(refused([&](LocalContact& c) { c.normal[a] = bad; }), DecodeError::kNotFinite);
+    }
+  }
+  const auto out_of_range = [&](auto&& spoil) { EXPECT_EQ(refused(spoil), DecodeError::kOutOfRange); };
+  out_of_range([](LocalContact& c) { c.k = -1; });
+  out_of_range([](LocalContact& c) { c.k = 1.01e6F; });
+  out_of_range([](LocalContact& c) { c.b = -0.1F; });
+  out_of_range([](LocalContact& c) { c.b = 1001; });
+  out_of_range([](LocalContact& c) { c.mu = -0.1F; });
+  out_of_range([](LocalContact& c) { c.mu = 2.1F; });
+  out_of_range([](LocalContact& c) { c.point[2] = 10.1F; });
+  out_of_range([](LocalContact& c) { c.normal = {}; });
+  out_of_range([](LocalContact& c) { c.normal = {0, 0, 1.001F}; });
+  out_of_range([](LocalContact& c) { c.normal = {0.7F, 0.7F, 0}; });
+  out_of_range([](LocalContact& c) { c.id = 0; });
+  out_of_range([](LocalContact& c) { c.id = 1; });  // that of another one
+}
+
+TEST(WireCodec, ContactsNeedAPortWhereSurfacesAre) {
+  RandomStream random(6);
+  Buffer buffer;
+  ForceMessage m;
+  m.contacts.add(samples::contact(random, 3, 1));
+  Codec tip(3, PortSpace::kTip), joints(3, PortSpace::kJoint), plane(2, PortSpace::kTip);
+  EXPECT_TRUE(tip.decode_force(view(buffer, tip.encode({}, m, buffer))));
+  EXPECT_EQ(joints.decode_force(view(buffer, joints.encode({}, m, buffer))).error(), DecodeError::kSize);
+  EXPECT_EQ(plane.decode_force(view(buffer, plane.encode({}, m, buffer))).error(), DecodeError::kOutOfRange) << "a normal out of the plane";
+  m.contacts.size = kLocalContactsMax + 1;
+  EXPECT_EQ(tip.encode({}, m, buffer), 0u);
+}
+
 TEST(WireCodec, PathMessagesComeBackAsTheyWere) {
   Codec codec;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

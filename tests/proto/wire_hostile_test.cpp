@@ -58,6 +58,19 @@ std::vector<Case> cases(Codec& codec) {
          }
          return got.has_value();
        }},
+      {"FORCE with contacts", bytes([&] {
+         ForceMessage m = samples::force(random, 3);
+         for (std::uint32_t id = 1; id <= kLocalContactsMax; ++id) m.contacts.add(samples::contact(random, 3, id));
+         return m;
+       }()),
+       [](Codec& c, std::span<const std::byte> in) {
+         const auto got = c.decode_force(in);
+         if (got) {
+           EXPECT_LE(got->message.contacts.size, kLocalContactsMax);
+           for (const LocalContact& contact : got->message.contacts.all()) EXPECT_TRUE(is_surface(contact, 3) && in_range(contact));
+         }
+         return got.has_value();
+       }},
       {"PATH", bytes(samples::path(random)),
        [](Codec& c, std::span<const std::byte> in) { return c.decode_path(in).has_value(); }},
       {"AUTHORITY", bytes(samples::authority(random)),
@@ -110,8 +123,9 @@ TEST(WireHostile, EveryFlippedByteIsAnErrorOrAMessageInRange) {
 TEST(WireHostile, StructureThatChangedIsMalformed) {
   Codec codec(3, PortSpace::kTip);
   const auto all = cases(codec);
-  // FORCE, 3 axes: tag and length of x, v, f, e_in, then tags of five fixed32 and a double.
-  const std::vector<std::size_t> structure{16, 17, 42, 43, 68, 69, 94, 95, 120, 125, 130, 135, 140, 145};
+  // FORCE, 3 axes: tag and length of x, v, f, e_in, then tags of five fixed32, a double and a fixed32.
+  const std::vector<std::size_t> structure{16, 17, 42, 43, 68, 69, 94, 95, 120, 125, 130, 135, 140, 145, 154};
+  ASSERT_EQ(all[1].bytes.size(), 159u);
   for (const auto at : structure) {
     for (int value = 0; value < 256; ++value) {
       Bytes changed = all[1].bytes;
@@ -122,6 +136,21 @@ TEST(WireHostile, StructureThatChangedIsMalformed) {
       EXPECT_EQ(got.error(), DecodeError::kMalformed) << at << " " << value;
     }
   }
+}
+
+/// FORCE's word about surfaces has bits that are always 0.
+TEST(WireHostile, BitsWithoutAMeaningAreRefused) {
+  Codec codec(3, PortSpace::kTip);
+  const auto all = cases(codec);
+  constexpr std::size_t kSurfacesAt = 160;
+  for (std::uint32_t bit = 0; bit < 32; ++bit) {
+    Bytes changed = all[2].bytes;
+    changed[kSurfacesAt + bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    EXPECT_EQ(codec.decode_force(changed).has_value(), bit >= 8 && bit < 24) << bit;
+  }
+  Bytes none = all[1].bytes;
+  none[126 + 3] ^= static_cast<std::byte>(1U << 5);  // bit 29 of the flags: something of surfaces follows
+  EXPECT_FALSE(codec.decode_force(none).has_value());
 }
 
 TEST(WireHostile, NoiseOfTheRightSizeCostsNoHeap) {

@@ -56,6 +56,32 @@ inline StateMessage state(RandomStream& random, std::size_t axes) {
   m.seat_tick = static_cast<std::uint32_t>(random.bits());
   return m;
 }
+/// @param axes  of the port, 1 to 3
+inline LocalContact contact(RandomStream& random, std::size_t axes, std::uint32_t id) {
+  LocalContact c;
+  c.id = id;
+  double square = 0;
+  std::array<double, 3> n{};
+  while (square < 0.01) {
+    square = 0;
+    for (std::size_t a = 0; a < axes; ++a) square += (n[a] = random.uniform(-1, 1)) * n[a];
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    c.point[a] = static_cast<float>(random.uniform(-0.2, 0.2));
+    c.normal[a] = static_cast<float>(n[a] / std::sqrt(square));
+  }
+  c.k = static_cast<float>(random.uniform(0, 1e6));
+  c.b = static_cast<float>(random.uniform(0, 1000));
+  c.mu = static_cast<float>(random.uniform(0, 2));
+  return c;
+}
+/// One that the wire holds exactly.
+inline double slave_pull(RandomStream& random) { return static_cast<double>(random.below(65536)) / 65535; }
+/// As many contacts as the draw says, 0 to 4.
+inline void contacts(RandomStream& random, std::size_t axes, LocalContactList& out) {
+  const auto n = static_cast<std::uint32_t>(random.below(kLocalContactsMax + 1));
+  for (std::uint32_t c = 0; c < n; ++c) out.add(contact(random, axes, 1 + c + 10 * static_cast<std::uint32_t>(random.below(1000))));
+}
 inline ForceMessage force(RandomStream& random, std::size_t axes) {
   ForceMessage m;
   port(random, axes, m.port);

@@ -11,6 +11,8 @@ TEST(WireSize, IsWhatTheDocumentsSay) {
   EXPECT_EQ(state_size(7), 502u);
   EXPECT_EQ(force_size(3), 159u);
   EXPECT_EQ(force_size(7), 287u);
+  EXPECT_EQ(kContactSize, 50u);
+  EXPECT_EQ(force_size(3, 4), 364u);
   EXPECT_EQ(kPathSize, 25u);
   EXPECT_EQ(kAuthoritySize, 162u);
   EXPECT_EQ(kCloseSize, 21u);
@@ -25,7 +27,12 @@ TEST(WireSize, DependsOnAxesOnly) {
     EXPECT_EQ(codec.encode({}, ForceMessage{}, buffer), force_size(axes));
     for (int i = 0; i < 20; ++i) {
       EXPECT_EQ(codec.encode({}, samples::state(random, axes), buffer), state_size(axes));
-      EXPECT_EQ(codec.encode({}, samples::force(random, axes), buffer), force_size(axes));
+      ForceMessage force = samples::force(random, axes);
+      EXPECT_EQ(codec.encode({}, force, buffer), force_size(axes));
+      force.slave_pull = 1;
+      EXPECT_EQ(codec.encode({}, force, buffer), force_size(axes, 0));
+      force.slave_pull = 1e-6;  // as good as none
+      EXPECT_EQ(codec.encode({}, force, buffer), force_size(axes));
     }
   }
 }

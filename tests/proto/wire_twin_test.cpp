@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "proto/wire.pb.h"
 #include "proto/wire_codec.h"
@@ -86,7 +87,9 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       SCOPED_TRACE(std::to_string(axes) + " axes, seed " + std::to_string(seed));
       RandomStream random{seed};
       Codec codec(axes, PortSpace::kTip);
-      const ForceMessage m = samples::force(random, axes);
+      ForceMessage m = samples::force(random, axes);
+      if (axes <= 3 && seed % 3 > 0) samples::contacts(random, axes, m.contacts);
+      if (seed % 3 == 2) m.slave_pull = samples::slave_pull(random);
       Buffer buffer;
       const auto bytes = std::span<const std::byte>(buffer).first(codec.encode(samples::preamble(random), m, buffer));
       const auto f = parsed<pb::Force>(bytes);
@@ -98,12 +101,24 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       EXPECT_EQ(f.session(), static_cast<std::uint32_t>(m.session));
       const HandoverParties& p = m.handover_parties;
       EXPECT_EQ(f.flags(), (m.engage ? 1U : 0U) + 2 * static_cast<unsigned>(m.handover) + 8 * m.handover_ticks + 512 * p.by + 16384 * p.to +
-                               524288 * p.percent + 67108864 * p.tool + (m.touching ? 1U << 31 : 0U));
+                               524288 * p.percent + 67108864 * p.tool + (m.touching ? 1U << 31 : 0U) + (m.contacts.size > 0 || m.slave_pull > 0 ? 1U << 29 : 0U));
       EXPECT_EQ(f.session_tick(), m.session_tick);
       EXPECT_EQ(f.authority_version(), m.authority_version);
       EXPECT_EQ(f.missing(), m.missing);
       EXPECT_EQ(f.alpha(), m.alpha);
       EXPECT_EQ(f.stops(), m.stops);
+      EXPECT_EQ(f.has_surfaces(), m.contacts.size > 0 || m.slave_pull > 0);
+      EXPECT_EQ(f.surfaces(), m.contacts.size + 256 * static_cast<std::uint32_t>(std::lround(m.slave_pull * 65535)));
+      ASSERT_EQ(static_cast<std::uint32_t>(f.contact_size()), m.contacts.size);
+      for (int c = 0; c < f.contact_size(); ++c) {
+        const LocalContact& ours = m.contacts.item[static_cast<std::size_t>(c)];
+        EXPECT_EQ(f.contact(c).id(), ours.id);
+        EXPECT_TRUE(std::ranges::equal(f.contact(c).point(), ours.point));
+        EXPECT_TRUE(std::ranges::equal(f.contact(c).normal(), ours.normal));
+        EXPECT_EQ(f.contact(c).k(), ours.k);
+        EXPECT_EQ(f.contact(c).b(), ours.b);
+        EXPECT_EQ(f.contact(c).mu(), ours.mu);
+      }
     }
   }
 }

@@ -47,6 +47,24 @@ TEST(FeelPress, FeelsTheCouplingAndTheSurfaceUnderTheDefaultLaw) {
   }
 }
 
+/// What a remote slave touches, at 50 ms: felt as the springs in series where it is estimated, as the spring over both ways where not.
+TEST(FeelPress, AnEstimatedPlaneIsFeltWhereTheSpringToTheSlaveIsSoft) {
+  FeelSetup setup = contact_over(50);
+  setup.scene = tandem::test::shipped("contact_remote");
+  setup.scene.channel.law = LawKind::kReplica;
+  setup.scene.channel.e0 = ChannelSpec{}.e0;
+  setup.scene.tools[0].contacts = ContactsMode::kEstimated;
+  const FeelValues plane = probe_press(setup, 1).values;
+  EXPECT_NEAR(plane.at("stiffness_bone_held_n_m"), in_series(400, kBone), 10);
+  EXPECT_NEAR(plane.at("stiffness_tissue_held_n_m"), in_series(400, kTissue), 10);
+  EXPECT_NEAR(plane.at("force_share"), 1, 0.02);
+  EXPECT_LT(plane.at("tool_felt_bone_n"), 0.1);
+  setup.scene.tools[0].contacts = ContactsMode::kNone;
+  const FeelValues spring = probe_press(setup, 1).values;
+  // k_delay over the delay of both ways: 5 / 0.1 = 50 N/m.
+  EXPECT_NEAR(spring.at("stiffness_bone_held_n_m"), in_series(400, 50), 3);
+}
+
 TEST(FeelPress, LosesForceOverADelay) {
   const FeelValues v = probe_press(contact_over(100), 1).values;
   EXPECT_LT(v.at("force_share"), 0.35);
