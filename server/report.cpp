@@ -161,7 +161,7 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
       while (j + 1 < tools.size() && scene_->follow[i][j] <= 0) ++j;
     // Delay of the leader's path: up to the server; a remote slave adds its own, which the tracking error then contains.
     return Pair{&seats[i], &tools[j], i < links.size() ? std::max(0.0, 0.5 * (links[i].rtt_p50_ms * 1e-3 - 1 / scene_->tick_hz)) : 0,
-                scene_->seats[i].kind == SeatKind::kSlave ? -1.0f : 1.0f};
+                !scene_->tools[j].is_virtual || scene_->tools[j].remote, scene_->seats[i].kind == SeatKind::kSlave ? -1.0f : 1.0f};
   };
   for (std::size_t i = 0; i < seats.size(); ++i) {
     SeatReport s;

@@ -105,6 +105,7 @@ class ReportBuilder {
     const Track* seat = nullptr;
     const Track* slave = nullptr;
     double one_way_s = 0;
+    bool has_joints = true;  ///< the slave is a device; a virtual tool has no joints to compare
     float answer = 1;  ///< +1: the seat's motor stands for the environment; -1: it is the slave's own, which presses against it
   };
   /// Which part of the session is judged.

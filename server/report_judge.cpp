@@ -106,7 +106,7 @@ SeatMetrics ReportBuilder::judge(const Pair& pair, const Part& part) const {
   }
   m.transport_lag_rms_m = transport.value();
   const std::size_t count = scene_->seats.front().device.model == DeviceModel::kLinear ? 1 : 3;
-  for (std::size_t c = 0; c < count; ++c) m.joint_rms_rad.push_back(joints[c].value());
+  for (std::size_t c = 0; c < count; ++c) m.joint_rms_rad.push_back(pair.has_joints ? joints[c].value() : kNaN);
   find_peaks(pair, part, m);
   judge_forces(pair, part, m);
   return m;

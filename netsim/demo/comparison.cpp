@@ -15,6 +15,7 @@ namespace {
 constexpr double kMilli = 1e3;
 constexpr Limit kNothing{};
 constexpr double kAlignedFrom = 13;  // [s] the trainee has aligned
+Limit at_least(double v) { return {.least = v, .most = std::numeric_limits<double>::infinity()}; }
 constexpr Limit at_most(double v) { return {-std::numeric_limits<double>::infinity(), v}; }
 
 using Runs = std::array<const RunResult*, kSettings>;  // of one task, null: not made
@@ -158,11 +159,15 @@ std::vector<PhaseNumbers> judged_phases(const Runs& runs) {
   return judged;
 }
 
-/// " Defaults: 400, 1500 and 400 N/m in series are 176 N/m; ..."
+/// " Defaults: one spring of 400 N/m lies between the hand and its copy of the tool, ..."
 std::string springs_text(const Runs& runs) {
   for (const RunResult* run : runs) {
     if (run == nullptr || run->plan->setting == Setting::kSeed || !std::isfinite(run->springs.series())) continue;
     const Springs& s = run->springs;
+    if (std::isinf(s.channel) && std::isinf(s.slave))
+      return " Defaults: one spring of " + number_text(s.device, 0) +
+             " N/m, the most that a Touch allows at 1 kHz, lies between the hand and its own copy of the tool, at any delay; the block "
+             "of 20 kN/m behind it leaves " + number_text(1 / (1 / s.device + 1 / 20000.0), 0) + " N/m.";
     return " Defaults: " + number_text(s.device, 0) + ", " + number_text(s.channel, 0) + " and " +
            number_text(s.slave, 0) + " N/m in series are " + number_text(s.series(), 0) +
            " N/m; two Touch allow at most 200 N/m at 1 kHz; with delay the channel’s spring softens.";
@@ -177,7 +182,7 @@ void forces_along_x(Builder& b, const Runs& runs) {
          .paper = 250,
          .paper_decimals = 0,
          .decimals = 1,
-         .limits = {Limit{245, 255}, kNothing, kNothing},
+         .limits = {Limit{245, 255}, at_least(360), at_least(360)},
          .notes = {notes::kStiffness + springs_text(runs)}},
         of_trace(&TraceNumbers::stiffness_n_m));
   b.row({.label = "held force / depth, 8–11.5 s",
@@ -192,7 +197,7 @@ void forces_along_x(Builder& b, const Runs& runs) {
          .paper = 0.35,
          .paper_decimals = 2,
          .decimals = 3,
-         .limits = {kNothing, at_most(0.2), kNothing},
+         .limits = {kNothing, at_most(0.05), at_most(0.05)},
          .notes = {notes::kAlongX},
          .lacks = notes::kLacksMotors},
         of_trace(&TraceNumbers::force_x_leader_n));
@@ -202,7 +207,7 @@ void forces_along_x(Builder& b, const Runs& runs) {
          .paper = 0.20,
          .paper_decimals = 2,
          .decimals = 3,
-         .limits = {kNothing, at_most(0.1), kNothing},
+         .limits = {kNothing, at_most(0.05), at_most(0.05)},
          .lacks = notes::kLacksMotors},
         of_trace(&TraceNumbers::force_x_follower_n));
   b.row({.label = "  of the peak force", .unit = "%", .paper = 2.0}, of_trace(&TraceNumbers::force_x_follower_percent));
@@ -232,7 +237,7 @@ void contact(Comparison& out, const Runs& runs) {
     b.row({.label = "leader force error, " + phase.name,
            .unit = "N",
            .decimals = 3,
-           .limits = {kNothing, at_most(0.2), kNothing},
+           .limits = {kNothing, at_most(0.05), kNothing},
            .notes = {notes::kAllAxes}},
           error_of(phase.name, true));
     // Before he has aligned the follower has nothing to press with.
@@ -240,7 +245,7 @@ void contact(Comparison& out, const Runs& runs) {
     b.row({.label = "follower force error, " + phase.name,
            .unit = "N",
            .decimals = 3,
-           .limits = {kNothing, at_most(0.1), kNothing}},
+           .limits = {kNothing, at_most(0.05), kNothing}},
           error_of(phase.name, false));
   }
   b.row({.label = "force of the block on the slave", .unit = "N"}, of_report(&ReportNumbers::contact_force_n));
@@ -287,7 +292,9 @@ std::string short_text(double value) {
 Cell cell_of(double value, int decimals, const Limit& limit) {
   Cell cell{number_text(value, decimals), "", Mark::kNone};
   if (!limit.asked() || !std::isfinite(value)) return cell;
-  if (std::isfinite(limit.least)) {
+  if (std::isfinite(limit.least) && !std::isfinite(limit.most)) {
+    cell.limit = "≥ " + short_text(limit.least);
+  } else if (std::isfinite(limit.least)) {
     const double middle = (limit.least + limit.most) / 2;
     cell.limit = short_text(middle) + " ± " + short_text(100 * (limit.most - middle) / middle) + " %";
   } else {

@@ -10,7 +10,7 @@ inline constexpr const char* kDelayed =
     "at 20 ms one way, here with jitter and loss on top.";
 inline constexpr const char* kJoints =
     "The paper gives joints for t < 5 s, we for the whole phase. Its trajectory is not published; ours is a circle of "
-    "5 cm at 0.5 Hz. ≤ 10 is the design’s own goal.";
+    "5 cm at 0.5 Hz. ≤ 10 is the design’s own goal. The defaults’ tool is no robot and has no joints.";
 inline constexpr const char* kAlphaStep =
     "The paper: “a small sudden change”, “hardly perceived”. Commanded force on either hand, 1 ms apart.";
 inline constexpr const char* kStiffness =
@@ -21,7 +21,8 @@ inline constexpr const char* kHeld =
     "the working pose while they press, which softens what is felt along x.";
 inline constexpr const char* kAlongX =
     "Along x as in the paper; leader 5–20 s, follower from 13 s. Seed: commanded force, since no Touch gives 10 N; "
-    "defaults: force delivered at the hand against the force of the block on the slave.";
+    "defaults: force delivered at the hand against the force of the block on the slave, while both hold still; "
+    "while the leader moves into the block the two differ by up to 0.02 N.";
 inline constexpr const char* kAligned =
     "From 13 s. The trainee’s simulated hand goes where the scene tells it, not where a plot tells a person: this "
     "measures the hand model. ≤ 0.5 is the design’s own goal.";

@@ -85,7 +85,7 @@ struct TraceNumbers {
   double force_step_n = kUnknown;  ///< largest change of a commanded force in 1 ms while alpha moves
 };
 
-/// Springs between a hand and the slave at no delay [N/m].
+/// Springs between a hand and the slave at no delay [N/m]; infinite: there is none. A scene of law `replica` has the device's alone.
 struct Springs {
   double device = kUnknown, channel = kUnknown, slave = kUnknown;
   [[nodiscard]] double series() const noexcept { return 1 / (1 / device + 1 / channel + 1 / slave); }

@@ -140,6 +140,16 @@ TEST(Report, AfterAStopTheFirstSecondIsNotJudged) {
   EXPECT_NEAR(r.duration_s, 10, 1e-9);
 }
 
+TEST(Report, ComparesNoJointsWithAToolThatHasNone) {
+  for (const char* name : {"contact", "seed_contact", "contact_remote"}) {
+    LivedThrough run{scene(name)};
+    run.live(8, 0.004);
+    const auto joints = run.report().seats[0].metrics.joint_rms_rad;
+    ASSERT_EQ(joints.size(), 3u) << name;
+    for (const double q : joints) EXPECT_EQ(std::isnan(q), std::string(name) == "contact") << name;
+  }
+}
+
 TEST(Report, ABrokenInvariantFailsAlsoWhereNothingWasJudged) {
   RunReport r;
   r.passed = false;

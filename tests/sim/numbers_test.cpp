@@ -2,6 +2,9 @@
 // runs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "tests/base/counts.h"
 #include "tests/support/world_run.h"
 
 namespace tandem {
@@ -132,6 +135,21 @@ TEST(Numbers, TwentyMillisecondsCostLittleMoreThanTheirTransport) {
       EXPECT_LE(m.tracking_rms_m, 1.25 * (still + m.transport_lag_rms_m)) << phase;
     }
   }
+}
+
+TEST(Numbers, HalfTheDatagramsLostCostTheLeaderLessThanAMillimetre) {
+  const std::size_t seeds = test::draws(4, 100, 100);
+  double sum = 0, worst = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const auto r = run(shipped("free_motion"), delayed(20, 20, 50), seed);
+    ASSERT_TRUE(r.report.passed) << seed;
+    const double error = r.phase("demonstration", "trainer").tracking_rms_m;
+    sum += error;
+    worst = std::max(worst, error);
+    for (const auto& s : r.report.seats) EXPECT_EQ(s.gate_trips, 0u) << s.name << " of seed " << seed;
+  }
+  EXPECT_LE(sum / static_cast<double>(seeds), 1 * kMm);
+  EXPECT_LE(worst, 2 * kMm);
 }
 
 TEST(Numbers, LongDelaysCostNoMoreThanTheirTransport) {

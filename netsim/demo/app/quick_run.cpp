@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <optional>
 
 #include "common/link/digest.h"
@@ -33,7 +34,9 @@ std::expected<SceneSpec, std::string> scene_of(const RunPlan& plan) {
 Springs springs_of(const RunPlan& plan) {
   const auto scene = scene_of(plan);
   if (!scene || scene->tools.empty()) return {};
-  return {scene->coupling.k_c, scene->channel.k, scene->tools.front().k_s};
+  constexpr double kNone = std::numeric_limits<double>::infinity();  // nothing that gives way
+  const bool local = scene->channel.law == LawKind::kReplica;
+  return {scene->coupling.k_c, local ? kNone : scene->channel.k, scene->tools.front().is_virtual ? kNone : scene->tools.front().k_s};
 }
 
 std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunWatch& watch) {

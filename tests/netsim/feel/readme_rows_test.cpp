@@ -1,0 +1,67 @@
+// The rows of README.md that say what hands feel over a delay: the same probes, hands and seeds as `tandem-netsim feel
+// contact --delay MS`. Limits are the printed means with a tenth of headroom; the worst seed stays within 1.5 times.
+// TANDEM_COUNTS=full takes all 20 seeds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "netsim/feel/feel_summary.h"
+#include "tests/base/counts.h"
+#include "tests/netsim/feel/feel_support.h"
+
+namespace tandem::netsim {
+namespace {
+
+struct Row {
+  int delay_ms;
+  double leader_05hz_mm, leader_1hz_mm, leader_step_mm, follower_05hz_mm, gain_max, overshoot;
+};
+constexpr Row kRows[] = {{0, 0.24, 0.46, 0.21, 1.46, 1.13, 0.135},
+                         {20, 0.53, 1.30, 0.86, 1.80, 1.51, 0.252},
+                         {50, 1.03, 3.19, 1.90, 3.06, 2.02, 0.381},
+                         {100, 2.14, 8.67, 3.37, 8.46, 2.86, 0.529},
+                         {200, 6.71, 27.2, 5.92, 32.7, 4.18, 0.793}};
+constexpr double kHeadroom = 1.1, kWorst = 1.5;
+
+void expect_row(const Row& row) {
+  SCOPED_TRACE(row.delay_ms);
+  FeelSetup setup = contact_over(row.delay_ms, tandem::test::shipped("contact"));
+  setup.hands = HandKind::kDrawn;
+  std::vector<FeelSeed> seeds;
+  const std::uint64_t count = tandem::test::draws(2, 20, 20);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    FeelSeed one{seed, {}};
+    for (const Probe probe : {Probe::kPress, Probe::kFree, Probe::kGain}) {
+      const ProbeResult result = run_probe(probe, setup, seed);
+      EXPECT_EQ(result.trouble, "");
+      one.values.insert(result.values.begin(), result.values.end());
+    }
+    seeds.push_back(std::move(one));
+  }
+  const auto numbers = summarised(seeds);
+  const auto at_most = [&](const char* key, double printed) {
+    EXPECT_LE(numbers.at(key).mean, kHeadroom * printed) << key;
+    EXPECT_LE(numbers.at(key).worst, kWorst * printed) << key;
+  };
+  EXPECT_GE(numbers.at("stiffness_felt_n_m").worst, 388);
+  EXPECT_GE(numbers.at("stiffness_tissue_n_m").worst, 165);
+  at_most("drag_05hz_n", 0.083);
+  at_most("drag_1hz_n", 0.161);
+  at_most("leader_tool_05hz_m", 1e-3 * row.leader_05hz_mm);
+  at_most("leader_tool_1hz_m", 1e-3 * row.leader_1hz_mm);
+  at_most("leader_tool_step_m", 1e-3 * row.leader_step_mm);
+  at_most("follower_tool_05hz_m", 1e-3 * row.follower_05hz_mm);
+  at_most("gain_max", row.gain_max);
+  at_most("overshoot", row.overshoot);
+  EXPECT_LE(numbers.at("tool_felt_bone_n").mean, row.delay_ms > 100 ? 0.1 : 0.05);
+}
+
+TEST(ReadmeRows, HandsFeelWhatIsPrintedWithoutDelay) { expect_row(kRows[0]); }
+TEST(ReadmeRows, HandsFeelWhatIsPrintedAt20Milliseconds) { expect_row(kRows[1]); }
+TEST(ReadmeRows, HandsFeelWhatIsPrintedAt50Milliseconds) { expect_row(kRows[2]); }
+TEST(ReadmeRows, HandsFeelWhatIsPrintedAt100Milliseconds) { expect_row(kRows[3]); }
+TEST(ReadmeRows, HandsFeelWhatIsPrintedAt200Milliseconds) { expect_row(kRows[4]); }
+
+}  // namespace
+}  // namespace tandem::netsim
