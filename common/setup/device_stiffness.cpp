@@ -35,7 +35,8 @@ SeatSetup softened(SeatSetup setup, const control::DeviceFacts& device) {
 std::string softened_words(const SeatSetup& setup, const control::DeviceFacts& device) {
   SeatSetup copy = setup;
   const double given = spring_of(copy);
-  if (!(given < setup.stiffness_asked)) return {};
+  constexpr double kWorthAWord = 0.9;  // of what was asked: nobody feels a tenth less
+  if (!(given < kWorthAWord * setup.stiffness_asked)) return {};
   const bool slave = setup.seat.kind == SeatKind::kSlave, known = device.damping_n_s_m > 0;
   std::string words = format("%s is %.0f N/m instead of the scene's %.0f: this device renders at most ", slave ? "k_s_n_m" : "k_c_n_m", given, setup.stiffness_asked);
   words += share(setup.channel.law) < 1 ? format("%g b / (T/2 + t_d)", share(setup.channel.law)) : std::string("b / (T/2 + t_d)");

@@ -43,6 +43,7 @@ struct Seat {
   static ToolCopy::Params params(std::size_t axes) {
     ToolCopy::Params p;
     p.axes = axes;
+    p.force_max = 10;
     return p;
   }
   void rest(double tool, double hand) {

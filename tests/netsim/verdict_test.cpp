@@ -179,8 +179,8 @@ TEST(Verdict, JUnitSurvivesEveryTextThatAFileCanHold) {
 
 TEST(Verdict, AnOutageOfAScenarioHappensAndTheNetworkIsCalledRed) {
   const TestResult result = run_tests(
-      {scenario("version: 1 scene: \"one_axis\" duration_s: 4 event { at_s: 2 client: \"trainer\" outage_ms: 300 }\n"
-                "seat_limits { longest_gap_ms { min: 300 max: 302 } gate_trips { min: 1 } }")}, {});
+      {scenario("version: 1 scene: \"one_axis\" duration_s: 4 event { at_s: 2 client: \"trainer\" outage_ms: 600 }\n"
+                "seat_limits { longest_gap_ms { min: 600 max: 602 } gate_trips { min: 1 } }")}, {});
   EXPECT_TRUE(result.passed()) << test_summary(result);
   ASSERT_EQ(result.scenarios[0].seeds[0].bands.size(), 1u);
   EXPECT_EQ(result.scenarios[0].seeds[0].bands[0], (std::pair<std::string, std::string>{"trainer", "red"}));

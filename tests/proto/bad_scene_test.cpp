@@ -175,13 +175,14 @@ TEST(BadScene, NumbersMustBeNumbers) {
 }
 
 TEST(BadScene, SpringAbovePassivityLimitNeedsUnsafeGains) {
-  expect_one(with("400", "@401"), "device_coupling.k_c_n_m", "passivity limit b / (T/2) = 400 N/m");
+  const std::string law = "channel { law: SET_POSITION }\n";  // REPLICA asks for stiffness, see below
+  expect_one(with("400", "@401") + law, "device_coupling.k_c_n_m", "passivity limit b / (T/2) = 400 N/m");
   EXPECT_TRUE(errors_of(with("400", "401") + "unsafe_gains: true\n").empty());
   expect_one(with("name: \"tool\" slave", "name: \"tool\" k_s_n_m: @750 slave"), "tool[0].k_s_n_m",
              "unsafe_gains: true");
   // A device with more damping, or a faster tick, may be stiffer.
   EXPECT_TRUE(errors_of(with("400", "800") + "tick_hz: 2000\n").empty());
-  expect_one(mark(with("role: TRAINEE", "role: TRAINEE device { damping_n_s_m: 0.1 }"), "400"),
+  expect_one(mark(with("role: TRAINEE", "role: TRAINEE device { damping_n_s_m: 0.1 }"), "400") + law,
              "device_coupling.k_c_n_m", "200 N/m of the device of seat \"trainee\"");
 }
 
@@ -196,7 +197,7 @@ TEST(BadScene, LawReplicaAsksForStiffnessAndRefusesOnlyDevicesThatRenderNone) {
 }
 
 TEST(BadScene, PassivityLimitAppliesToDefaultsToo) {
-  const auto errors = errors_of(with("{ k_c_n_m: 400 }", "{ }") + "tick_hz: 500\n");
+  const auto errors = errors_of(with("{ k_c_n_m: 400 }", "{ }") + "tick_hz: 500\nchannel { law: SET_POSITION }\n");
   ASSERT_EQ(errors.size(), 2u) << to_text(errors);
   EXPECT_EQ(errors[0].key, "device_coupling.k_c_n_m");
   EXPECT_EQ(errors[0].value, "400");
@@ -314,7 +315,7 @@ TEST(BadScene, EveryMistakeIsListedInFileOrder) {
       "version: 1\n"
       "colour: \"red\"\n"
       "channel { k_n_m: -5 law: SET_POSITON }\n"
-      "device_coupling { k_c_n_m: 900 k_c_n_m: 3 }\n"
+      "device_coupling { k_c_n_m: -900 k_c_n_m: 3 }\n"
       "gate { silence_limit_ms: nan loop_age_max_ms: 1e400 }\n"
       "seat { name: \"a\" hand { model: LEADER k_n_m: -2 } }\n"
       "seat { name: \"a\" }\n"

@@ -38,7 +38,7 @@ TEST(LawProblem, IsThereForNoOtherLaw) {
 // What a scene's file is told is the same: with its place.
 TEST(LawProblem, OfASceneFileNamesItsKeyAndLine) {
   const auto errors = parse_scene(
-      "version: 1\nport: JOINT\nchannel { law: REPLICA }\nseat { name: \"a\" role: TRAINEE }\ntool { name: \"t\" slave { } }\nauthority { tool: \"t\" seat: \"a\" alpha: 1 }\n", "s");
+      "version: 1\nport: JOINT\nchannel { law: REPLICA }\nseat { name: \"a\" role: TRAINEE }\ntool { name: \"t\" slave { model: TOUCH } }\nauthority { tool: \"t\" seat: \"a\" alpha: 1 }\n", "s");
   ASSERT_FALSE(errors);
   ASSERT_EQ(errors.error().size(), 1u) << to_text(errors.error());
   EXPECT_EQ(errors.error()[0].key, "channel.law");

@@ -189,7 +189,7 @@ TEST(Handover, OfAHolderWhoIsLostMeanwhileGoesOn) {
   l.ticks_without(kTrainer, 50);
   EXPECT_EQ(l.requested(), kToTrainee);
   bool held = false;
-  for (int n = 50; n < 420; ++n) {  // 250 ms until a leader counts as lost, and his weight moves within 100 ms
+  for (int n = 50; n < 620; ++n) {  // 450 ms until a leader counts as lost, and his weight moves within 100 ms
     l.ticks_without(kTrainer, 1);
     held |= l.session->tool(0).authority.held();
   }
@@ -201,11 +201,11 @@ TEST(Handover, OfAHolderWhoIsLostMeanwhileGoesOn) {
 
 TEST(Handover, ToSomebodyWhoIsNotThereIsRefusedAndFromHimIsNot) {
   Lesson to, from;
-  to.ticks_without(kTrainee, 300);
+  to.ticks_without(kTrainee, 500);
   EXPECT_EQ(to.order({0.5, 0.5}), Result::kOutOfTouch);
   ASSERT_EQ(from.order({0.5, 0.5}), Result::kDone);
   from.ticks(600);
-  from.ticks_without(kTrainee, 300);
+  from.ticks_without(kTrainee, 500);
   EXPECT_EQ(from.order(kToTrainer), Result::kDone);
   from.ticks_without(kTrainee, 50);
   EXPECT_EQ(from.requested(), kToTrainer);

@@ -37,8 +37,8 @@ class MovingPlane final : public server::ContactSource {
 };
 
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-/// The spring of the hand in series with that of the plane.
-double series(double k) { return 1 / (1 / 400.0 + 1 / k); }
+/// The spring of the hand, 0.93 b / (T/2) = 372 N/m, in series with that of the plane.
+double series(double k) { return 1 / (1 / 372.0 + 1 / k); }
 
 /// One hand alone that wants to be 7 mm beyond x = 0 from 2 s on; no surface of the scene's own.
 netsim::WorldSetup held(double delay_ms, MovingPlane::Place place, float k = 20000, float mu = 0) {
@@ -179,7 +179,7 @@ TEST(Contacts, NeedALawAndAToolThatMeetSurfaces) {
   std::vector<std::unique_ptr<hal::SteppedDevice>> none(scene.tools.size());
   server::Session session(scene, std::move(none), {1, 1, 1, 1, 1, 1, 1});
   EXPECT_FALSE(session.set_contact_source(0, std::make_unique<MovingPlane>([](double) { return 0.0; }, 100)));
-  scene = test::replica("contact");
+  scene = test::shipped("contact");
   std::vector<std::unique_ptr<hal::SteppedDevice>> more(scene.tools.size());
   server::Session other(scene, std::move(more), {1, 1, 1, 1, 1, 1, 1});
   EXPECT_TRUE(other.set_contact_source(0, std::make_unique<MovingPlane>([](double) { return 0.0; }, 100)));

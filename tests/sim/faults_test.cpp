@@ -130,11 +130,11 @@ TEST(Faults, AnAccountThatRunsBackwardsIsSeenAndGivesNobodyAnything) {
 }
 
 TEST(Faults, AServerThatStandsStillMakesUpForItAndHandsLetGoMeanwhile) {
-  const Lived run = live(with_fault(Fault::Kind::kServerLate, 300ms, ""));
+  const Lived run = live(with_fault(Fault::Kind::kServerLate, 600ms, ""));
   expect_nothing_broken(*run.world);
   EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 1u);
   EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
-  EXPECT_EQ(run.world->session().slipped(), 250u) << "it lives through 50 missed ticks, gives up the rest";
+  EXPECT_EQ(run.world->session().slipped(), 550u) << "it lives through 50 missed ticks, gives up the rest";
 }
 
 // 46 mm that a hand went while session time stood still look like 9 m/s.

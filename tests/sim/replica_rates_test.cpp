@@ -60,7 +60,7 @@ TEST_P(ReplicaTickRates, GiveTheForceOfTheSpringsInSeries) {
 
 /// Leader minus tool in free motion, 50 mm at 0.5 Hz over 20 ms, once both are on their way [m RMS].
 double behind(double tick_hz) {
-  SceneSpec scene = test::replica("free_motion");
+  SceneSpec scene = test::shipped("free_motion");
   scene.tick_hz = tick_hz;
   scene.coupling.k_c = 360;  // the same springs at every rate, also where a Touch renders less
   for (SeatSpec& seat : scene.seats) {
@@ -100,7 +100,7 @@ TEST_P(ReplicaTickRates, TheToolFollowsItsLeader) {
 
 // What a Touch renders: 0.93 b / (T/2), and never more than the scene asks for. Both ends reckon with it.
 TEST_P(ReplicaTickRates, TheStiffnessIsWhatTheDeviceRenders) {
-  SceneSpec scene = test::replica("contact");
+  SceneSpec scene = test::shipped("contact");
   scene.tick_hz = GetParam();
   const double renders = std::min(400.0, 0.93 * 0.2 / (0.5 / GetParam()));
   Life life{with(scene)};
@@ -111,7 +111,7 @@ TEST_P(ReplicaTickRates, TheStiffnessIsWhatTheDeviceRenders) {
     EXPECT_NEAR(life.world->session().seat(i).end().state().k[0], renders, 1e-9);
   }
   const auto notes = netsim::session_notes({.scene = scene}, {1s, 20s});
-  EXPECT_EQ(notes.size(), renders < 400 ? 2u : 0u);
+  EXPECT_EQ(notes.size(), renders < 0.9 * 400 ? 2u : 0u);
   if (!notes.empty()) {
     EXPECT_NE(notes[0].find("instead of the scene's 400"), std::string::npos) << notes[0];
     EXPECT_NE(notes[0].find("damping b 0.2 N s/m, tick T"), std::string::npos) << notes[0];

@@ -120,7 +120,7 @@ TEST(ObservedFeel, SharesAreOfTheWorstSeat) {
 }
 
 TEST(ObservedFeel, IsPartOfEveryReportOfAWorld) {
-  for (const auto& [scene, stiffness] : {std::pair{tandem::test::set_position("contact"), 112.0}, {tandem::test::shipped("contact"), 392.0}}) {
+  for (const auto& [scene, stiffness] : {std::pair{tandem::test::set_position("contact"), 112.0}, {tandem::test::shipped("contact"), 365.0}}) {
     const WorldRun run = run_world({.scene = scene, .network = link_from(tandem::test::delayed(20))});
     ASSERT_EQ(run.report.feel.size(), ObservedFeel::keys().size());
     EXPECT_EQ(run.report.feel[0].first, "stiffness_felt_n_m");
