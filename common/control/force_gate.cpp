@@ -46,6 +46,7 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
     // and what the hand seemed to give back was never taken.
     if (in.now - last_step_ > p_.command_life) given = std::max(0.0, given);
     if (std::isfinite(given)) given_ += given;
+    for (std::size_t a = 0; a < p_.dof; ++a) moved_[a] = in.q[a] - q_[a];
     q_ = in.q;
   }
   // The driver has let go of the effort: no ramp begins from it.
@@ -84,7 +85,9 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
     // A ramp that has begun still holds the stale force: its account closes when the gate engages again, not with the next datagram.
     if (phase_ != GatePhase::kPassive && phase_ != GatePhase::kDamped) given_ = 0;
   }
-  const bool silent = in.now - last_fresh_ >= silence_limit_ || !heard_;
+  // Patience is with a network, not with a program that stood still: its device forgot the force meanwhile, which would come back at once.
+  const bool stood_still = in.patience > Duration::zero() && in.now - last_step_ >= p_.silence_limit;
+  const bool silent = in.now - last_fresh_ >= silence_limit_ || !heard_ || stood_still;
 
   switch (phase_) {
     case GatePhase::kOff:
@@ -184,20 +187,22 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
 }
 
 /// Predictive rule |f| (|v| + |f| dt / m) dt <= what is left, else 0: with no fresh datagram the motor gives at most the tank.
-/// Braking is free: effort against the motion takes energy out of the hand.
+/// Braking is free: effort against the motion takes energy out of the hand. The velocity of a device lags, so that for a hand that shakes at 12 Hz
+/// effort along its motion looks like braking half of the time: the way of the last tick must say the same.
 /// dt is the longest step of late: a program that wakes up irregularly lets an effort act for longer than its last step took.
 void ForceGate::keep_within_tank(const Input& in, AxisArray& f) noexcept {
   const double dt = std::max(1e-3, pace_);
-  double force2 = 0, speed2 = 0, power = 0;
+  double force2 = 0, speed2 = 0, power = 0, work = 0;
   for (std::size_t a = 0; a < p_.dof; ++a) {
     const double v = std::isfinite(in.v[a]) ? in.v[a] : 0;
     force2 += f[a] * f[a] / p_.scale[a];
     speed2 += v * v * p_.scale[a];
     power += f[a] * v;
+    work += f[a] * moved_[a];
   }
   const double force = std::sqrt(force2);
   const double next = force * (std::sqrt(speed2) + force * dt / p_.mass) * dt;
-  const bool braking = power < 0 && -power * dt >= force2 * dt * dt / p_.mass;
+  const bool braking = power < 0 && work <= 0 && -power * dt >= force2 * dt * dt / p_.mass;
   if (!braking && next > tank_size_ - given_) f.fill(0);
 }
 

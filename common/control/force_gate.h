@@ -80,7 +80,7 @@ class ForceGate {
   Duration silence_limit_{};     ///< in force
   AxisArray effort_{};           ///< held by the motor
   AxisArray at_loss_{};          ///< effort when PASSIVE began
-  AxisArray q_{};
+  AxisArray q_{}, moved_{};      ///< position, and its change in the last step
   double given_ = 0, given_max_ = 0;
   std::uint32_t trips_ = 0;
   std::array<Time, 3> losses_{};  ///< the last three

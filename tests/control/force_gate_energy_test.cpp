@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 
 #include "tests/control/force_gate_drive.h"
@@ -168,6 +169,48 @@ TEST(ForceGate, CreditsNothingForTimeInWhichTheDeviceHadForgottenItsCommand) {
   other.in.fresh = false;
   other.tick();
   EXPECT_NEAR(other.gate.given_since_fresh(), 0.018, 1e-9);
+}
+
+/// A released handle that shakes at 12 Hz, as one may on a spring to a tool that goes on, and that is pushed along its motion all the time. Its velocity
+/// is told a quarter of a period late, so half of the time the push looks like braking.
+TEST(ForceGate, GivesAHandThatShakesNoMoreThanItsTankThoughItsVelocityIsToldLate) {
+  GateParams p;
+  p.dof = 1;
+  GateDrive d(p);
+  d.ticks(700);
+  d.in.fresh = false;
+  d.in.patience = 450ms;
+  const double w = 2 * std::numbers::pi * 12, amplitude = 0.01;
+  double given = 0, most = 0, x = 0;
+  for (int ms = 1; ms <= 430; ++ms) {
+    const double t = 1e-3 * ms, next = amplitude * std::sin(w * t);
+    given += d.out.effort[0] * (next - x);
+    most = std::max(most, given);
+    x = next;
+    d.in.q[0] = x;
+    d.in.v[0] = amplitude * w * std::cos(w * t - std::numbers::pi / 2);
+    d.in.wanted[0] = std::cos(w * (t + 0.0005)) > 0 ? 3 : -3;
+    d.tick();
+  }
+  EXPECT_TRUE(d.gate.active());
+  EXPECT_GT(most, 0.01) << "or nobody was pushed";
+  EXPECT_LE(most, d.gate.tank_size() + 0.001);
+}
+
+/// The device forgets the force of a program that stands still; news that come as it wakes up bring none of it back.
+TEST(ForceGate, LetsGoAfterAStandstillOfItsOwnProgramHoweverLongANetworkIsBorne) {
+  GateParams p;
+  p.dof = 1;
+  GateDrive d(p);
+  d.in.patience = 450ms;
+  d.in.wanted[0] = 2;
+  d.ticks(700);
+  ASSERT_TRUE(d.gate.active());
+  d.in.now += 200ms;
+  d.tick();
+  EXPECT_EQ(d.gate.phase(), GatePhase::kPassive);
+  EXPECT_EQ(d.out.effort[0], 0);
+  EXPECT_EQ(d.gate.trips(), 1u);
 }
 
 }  // namespace

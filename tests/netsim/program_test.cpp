@@ -284,13 +284,13 @@ TEST(Program, AsksWhatWasMeant) {
 }
 
 TEST(Program, FeelMeasuresJudgesLimitsAndWritesJson) {
-  Program good({"feel", "contact", "--plain-hands", "--seeds", "2", "--probe", "press", "--limit", "stiffness_felt_n_m>=150", "--json", "-", "--quiet"});
+  Program good({"feel", "contact", "--channel", "set_position", "--plain-hands", "--seeds", "2", "--probe", "press", "--limit", "stiffness_felt_n_m>=150", "--json", "-", "--quiet"});
   const auto json = nlohmann::json::parse(good.rest_of_out());
   EXPECT_EQ(good.exit_code(), 0);
-  EXPECT_NEAR(json["feel"]["stiffness_felt_n_m"]["mean"].get<double>(), 175, 3);
+  EXPECT_NEAR(json["feel"]["stiffness_felt_n_m"]["mean"].get<double>(), 311, 4);
   EXPECT_EQ(json["seeds"].size(), 2u);
   EXPECT_TRUE(json["passed"].get<bool>());
-  Program bad({"feel", "contact", "--plain-hands", "--seeds", "1", "--probe", "press", "--limit", "stiffness_felt_n_m>=360"});
+  Program bad({"feel", "contact", "--channel", "set_position", "--plain-hands", "--seeds", "1", "--probe", "press", "--limit", "stiffness_felt_n_m>=360"});
   EXPECT_NE(bad.rest_of_out().find("FAIL stiffness_felt_n_m"), std::string::npos);
   EXPECT_EQ(bad.exit_code(), 1);
   Program wrong({"feel", "contact", "--probe", "pres", "--limit", "drag<=1"});
