@@ -77,25 +77,31 @@ struct HandoverParties {
   friend bool operator==(const HandoverParties&, const HandoverParties&) = default;
 };
 
-/// Server to client, every tick, 1 kHz. No reply.
-struct ForceMessage {
+/// What a seat is told of one tool that its hand is tied to.
+struct TieForce {
   PortSample port;
+  double alpha = 0;           ///< of this seat over that tool
+  /// Law `replica`: how stiffly the slave of a SLAVE seat pulls at this seat's copy of the tool, by way of the reference, as a part of k_c [0, 1].
+  double slave_pull = 0;
+  LocalContactList contacts;  ///< surfaces near that tool, law `replica`
+};
+
+/// Server to client, every tick, 1 kHz. No reply. Of a hand that is tied to several tools, law `replica`, it begins with the first one; a
+/// TieForce follows for each of the others, and a STATE has a PortSample more for each.
+struct ForceMessage : TieForce {
   SessionState session = SessionState::kWaiting;
   bool engage = false;           ///< this seat shall be engaged
   std::uint32_t session_tick = 0;
   std::uint32_t authority_version = 0;
   std::uint32_t missing = 0;     ///< required seats that are not ready
-  double alpha = 0;              ///< of this seat over the tool it follows
   std::uint32_t stops = 0;       ///< how many stops so far: the number of the newest, which a resume must name
   Handover handover = Handover::kNone;
   std::uint32_t handover_ticks = 0;  ///< until it is carried out, kHandoverNotice at most; 0 unless something comes or goes
   HandoverParties handover_parties;
   bool touching = false;             ///< the slave of the tool that this seat follows presses against something; for people only
-  LocalContactList contacts;         ///< surfaces near that tool, law `replica`
-  /// Law `replica`: how stiffly the slave of a SLAVE seat pulls at this seat's copy of the tool, by way of the reference, as a part of k_c [0, 1].
-  double slave_pull = 0;
 };
 
+inline constexpr std::size_t kFurtherTiesMax = kToolsMax - 1;
 inline constexpr std::size_t kSeatNameMax = 32;
 inline constexpr std::size_t kSetupMax = 8192;  ///< bytes of a serialized seat setup; the largest scene has room (proto/seat_setup.h)
 

@@ -59,7 +59,7 @@ bool read_force_flags(std::uint32_t flags, ForceMessage& out) noexcept {
 
 /// FORCE's word about surfaces (wire.proto).
 constexpr std::uint32_t kCount = 7, kPull = 0xffff, kPullAt = 8, kSurfacesMax = kPull << kPullAt | kCount;
-std::uint32_t surfaces_word(const ForceMessage& m) noexcept {
+std::uint32_t surfaces_word(const TieForce& m) noexcept {
   if (m.contacts.size == 0 && m.slave_pull == 0) [[likely]] return 0;
   const double pull = std::isfinite(m.slave_pull) ? std::clamp(m.slave_pull, 0.0, 1.0) : 0;
   return m.contacts.size | static_cast<std::uint32_t>(pull * kPull + 0.5) << kPullAt;
@@ -96,9 +96,19 @@ void walk(Values& v, Message& s, Words& words, Axes axes, double position_max) n
   v.floats(25, s.port.a, axes, kAccelerationMax);
 }
 
+template <class Values, class Sample>
+void walk_tie(Values& v, Sample& s, std::size_t axes, double position_max) noexcept {
+  v.message(26, tie_state_body(axes));
+  v.doubles(1, s.x, axes, position_max);
+  v.floats(2, s.v, axes, kVelocityMax);
+  v.floats(3, s.f, axes, kEffortMax);
+  v.floats(4, s.a, axes, kAccelerationMax);
+  v.energies(5, s.e_in, axes, kEnergyMax);
+}
+
 template <class Values, class Contact>
 void walk_contact(Values& v, Contact& c) noexcept {
-  v.message(13, kContactBody);
+  v.message(14, kContactBody);
   v.word(1, c.id);
   v.singles(2, c.point, LocalContact::kPointMax);
   v.singles(3, c.normal, 2);
@@ -116,6 +126,17 @@ bool are_surfaces(const LocalContactList& contacts, std::size_t axes) noexcept {
   return true;
 }
 
+template <class Values, class Tie, class Word>
+void walk_tie_force(Values& v, Tie& t, Word& word, std::size_t axes, double position_max) noexcept {
+  v.message(13, tie_force_body(axes));
+  v.doubles(1, t.port.x, axes, position_max);
+  v.floats(2, t.port.v, axes, kVelocityMax);
+  v.floats(3, t.port.f, axes, kEffortMax);
+  v.energies(4, t.port.e_in, axes, kEnergyMax);
+  v.number32(5, t.alpha, 0, 1);
+  v.word(6, word, kSurfacesMax);
+}
+
 template <class Values, class Message, class Words, class Axes>
 void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_max) noexcept {
   v.doubles(1, f.port.x, axes, position_max);
@@ -131,7 +152,6 @@ void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_
   v.word(11, f.stops);
   if (!words.told) [[likely]] return;
   v.word(12, words.surfaces, kSurfacesMax);
-  for (std::uint32_t c = 0; c < f.contacts.size; ++c) walk_contact(v, f.contacts.item[c]);
 }
 
 template <class Values, class Message>
@@ -140,6 +160,21 @@ void walk_authority(Values& v, Message& a) noexcept {
   v.word(2, a.tool, kToolsMax - 1);
   v.word(3, a.masters, kMastersMax);
   v.doubles(4, a.alpha, std::integral_constant<std::size_t, kMastersMax>{}, 1);
+}
+
+/// What a word about surfaces says: how many contacts of this tie follow, and how its slave pulls.
+/// @param left  contacts in this FORCE that no word has spoken for yet: no more are read, whatever the words say
+void read_surfaces(ValueReader& values, std::uint32_t word, std::size_t& left, TieForce& out) noexcept {
+  const std::uint32_t count = word & kCount;
+  const bool good = count <= kLocalContactsMax && count <= left && (word & ~(kCount | kPull << kPullAt)) == 0;
+  values.require(good);
+  out.contacts.size = good ? count : 0;
+  left -= out.contacts.size;
+  out.slave_pull = static_cast<double>(word >> kPullAt & kPull) / kPull;
+}
+void read_contacts(ValueReader& values, std::size_t axes, LocalContactList& out) noexcept {
+  for (std::uint32_t c = 0; c < out.size; ++c) walk_contact(values, out.item[c]);
+  values.require(are_surfaces(out, axes));
 }
 
 static_assert(sizeof(Preamble) == kPreambleSize && std::is_trivially_copyable_v<Preamble>);
@@ -187,10 +222,12 @@ Decoded<Message> read(std::span<const std::byte> in, std::size_t size, Read&& va
 
 }  // namespace
 
-void Codec::configure(std::size_t axes, PortSpace port) noexcept {
+void Codec::configure(std::size_t axes, PortSpace port, std::size_t further) noexcept {
   axes_ = std::clamp<std::size_t>(axes, 1, kAxesMax);
   position_max_ = port == PortSpace::kTip ? kPositionMaxM : kPositionMaxRad;
-  contacts_max_ = port == PortSpace::kTip && axes_ <= 3 ? kLocalContactsMax : 0;
+  const bool tip = port == PortSpace::kTip && axes_ <= 3;
+  further_ = tip ? std::min(further, kFurtherTiesMax) : 0;
+  contacts_max_ = tip ? contacts_room(axes_, further_) : 0;
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std::span<std::byte> out) const noexcept {
@@ -201,13 +238,42 @@ std::size_t Codec::encode(const Preamble& preamble, const StateMessage& in, std:
   });
 }
 
+std::size_t Codec::encode(const Preamble& preamble, const StateWithTies& in, std::span<std::byte> out) const noexcept {
+  if (in.further.size() != further_) return 0;
+  const std::size_t first = encode(preamble, in.message, out), size = first + further_ * tie_state_size(axes_);
+  if (first == 0 || out.size() < size) return 0;
+  ValueWriter values{out.subspan(first, size - first)};
+  for (const PortSample& sample : in.further) walk_tie(values, sample, axes_, 0);
+  return size;
+}
+
 std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std::span<std::byte> out) const noexcept {
-  if (in.contacts.size > kLocalContactsMax) return 0;
+  return encode(preamble, ForceWithTies{in, {}}, out);
+}
+
+std::size_t Codec::encode(const Preamble& preamble, const ForceWithTies& with, std::span<std::byte> out) const noexcept {
+  const ForceMessage& in = with.message;
+  if (with.further.size() != further_ || in.contacts.size > kLocalContactsMax) return 0;
+  std::size_t contacts = in.contacts.size;
+  for (const TieForce& tie : with.further) {
+    if (tie.contacts.size > kLocalContactsMax) return 0;
+    contacts += tie.contacts.size;
+  }
+  if (contacts > kLocalContactsMax && contacts > contacts_max_) return 0;
   const std::uint32_t surfaces = surfaces_word(in);
-  const bool told = surfaces != 0;
+  const bool told = surfaces != 0 || further_ > 0;
   const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | (told ? kSurfaces : 0U), surfaces, told};
   return with_axes(axes_, [&](auto axes) {
-    return write(preamble, told ? force_size(axes, in.contacts.size) : force_size(axes), out, [&](ValueWriter& values) { walk_force(values, in, words, axes, 0); });
+    return write(preamble, told ? force_size(axes, contacts) + further_ * tie_force_size(axes) : force_size(axes), out, [&](ValueWriter& values) {
+      walk_force(values, in, words, axes, 0);
+      for (const TieForce& tie : with.further) {
+        const std::uint32_t word = surfaces_word(tie);
+        walk_tie_force(values, tie, word, axes, 0);
+      }
+      for (const LocalContact& contact : in.contacts.all()) walk_contact(values, contact);
+      for (const TieForce& tie : with.further)
+        for (const LocalContact& contact : tie.contacts.all()) walk_contact(values, contact);
+    });
   });
 }
 
@@ -230,11 +296,15 @@ std::size_t Codec::encode(const Preamble& preamble, const PingMessage&, std::spa
   return write(preamble, kPingSize, out, [](ValueWriter&) {});
 }
 
-std::expected<Preamble, DecodeError> Codec::decode_state(std::span<const std::byte> in, StateMessage& out) const noexcept {
+std::expected<Preamble, DecodeError> Codec::decode_state(std::span<const std::byte> in, StateMessage& out) const noexcept { return decode_state(in, out, {}); }
+
+std::expected<Preamble, DecodeError> Codec::decode_state(std::span<const std::byte> in, StateMessage& out, std::span<PortSample> further) const noexcept {
+  if (further.size() != further_) [[unlikely]] return std::unexpected(DecodeError::kSize);
   return with_axes(axes_, [&](auto axes) {
-    return read_into(in, state_size(axes), [&](ValueReader& values) {
+    return read_into(in, state_size(axes) + (further_ > 0 ? further_ * tie_state_size(axes) : 0), [&](ValueReader& values) {
       StateWords words;
       walk(values, out, words, axes, position_max_);
+      for (PortSample& sample : further) walk_tie(values, sample, axes, position_max_);
       out.gate = static_cast<GateState>(words.gate);
       out.ready = (words.flags & 1U) != 0;
       out.engaged = (words.flags & 2U) != 0;
@@ -255,21 +325,31 @@ Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) const n
   return result;
 }
 
-Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in) const noexcept {
+Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in, std::span<TieForce> further) const noexcept {
+  if (further.size() != further_) [[unlikely]] return std::unexpected(DecodeError::kSize);
   return with_axes(axes_, [&](auto axes) {
-    const bool told = in.size() >= force_size(axes, 0);
-    const std::size_t contacts = told ? std::min((in.size() - force_size(axes, 0)) / kContactSize, contacts_max_) : 0;
-    return read<ForceMessage>(in, told ? force_size(axes, contacts) : force_size(axes), [&](ValueReader& values, ForceMessage& out) {
+    const std::size_t ties = further_ > 0 ? further_ * tie_force_size(axes) : 0;
+    const std::size_t least = force_size(axes, 0) + ties;
+    const bool told = further_ > 0 || in.size() >= least;
+    const std::size_t contacts = in.size() >= least ? std::min((in.size() - least) / kContactSize, contacts_max_) : 0;
+    return read<ForceMessage>(in, told ? force_size(axes, contacts) + ties : force_size(axes), [&](ValueReader& values, ForceMessage& out) {
       ForceWords words;
       words.told = told;
-      out.contacts.size = static_cast<std::uint32_t>(contacts);
       walk_force(values, out, words, axes, position_max_);
       out.session = static_cast<SessionState>(words.session);
       values.require(read_force_flags(words.flags, out) && ((words.flags & kSurfaces) != 0) == told);
       if (!told) [[likely]] return;
-      values.require(words.surfaces != 0 && (words.surfaces & kCount) == contacts && (words.surfaces & ~(kCount | kPull << kPullAt)) == 0);
-      values.require(are_surfaces(out.contacts, axes));
-      out.slave_pull = static_cast<double>(words.surfaces >> kPullAt) / kPull;
+      values.require(words.surfaces != 0 || !further.empty());
+      std::size_t left = contacts;
+      read_surfaces(values, words.surfaces, left, out);
+      for (TieForce& tie : further) {
+        std::uint32_t word = 0;
+        walk_tie_force(values, tie, word, axes, position_max_);
+        read_surfaces(values, word, left, tie);
+      }
+      values.require(left == 0);
+      read_contacts(values, axes, out.contacts);
+      for (TieForce& tie : further) read_contacts(values, axes, tie.contacts);
     });
   });
 }

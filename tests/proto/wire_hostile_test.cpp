@@ -71,6 +71,43 @@ std::vector<Case> cases(Codec& codec) {
          }
          return got.has_value();
        }},
+      {"STATE with ties", [&] {
+         Codec several(3, PortSpace::kTip, 2);
+         const StateMessage m = samples::state(random, 3);
+         const auto ties = samples::tie_states(random, 3, 2);
+         const auto size = several.encode({}, StateWithTies{m, ties}, buffer);
+         return Bytes(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size));
+       }(),
+       [](Codec&, std::span<const std::byte> in) {
+         const Codec several(3, PortSpace::kTip, 2);
+         StateMessage m;
+         std::array<PortSample, 2> ties;
+         const bool got = several.decode_state(in, m, ties).has_value();
+         if (got)
+           for (const PortSample& tie : ties) expect_in_range(tie, kPositionMaxM);
+         return got;
+       }},
+      {"FORCE with ties", [&] {
+         Codec several(3, PortSpace::kTip, 2);
+         ForceMessage m = samples::force(random, 3);
+         m.contacts.add(samples::contact(random, 3, 1));
+         const auto ties = samples::tie_forces(random, 3, 2, 4);
+         const auto size = several.encode({}, ForceWithTies{m, ties}, buffer);
+         return Bytes(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size));
+       }(),
+       [](Codec&, std::span<const std::byte> in) {
+         const Codec several(3, PortSpace::kTip, 2);
+         std::array<TieForce, 2> ties;
+         const auto got = several.decode_force(in, ties);
+         if (got)
+           for (const TieForce& tie : ties) {
+             expect_in_range(tie.port, kPositionMaxM);
+             EXPECT_TRUE(tie.alpha >= 0 && tie.alpha <= 1 && tie.slave_pull >= 0 && tie.slave_pull <= 1);
+             EXPECT_LE(tie.contacts.size, kLocalContactsMax);
+             for (const LocalContact& contact : tie.contacts.all()) EXPECT_TRUE(is_surface(contact, 3) && in_range(contact));
+           }
+         return got.has_value();
+       }},
       {"PATH", bytes(samples::path(random)),
        [](Codec& c, std::span<const std::byte> in) { return c.decode_path(in).has_value(); }},
       {"AUTHORITY", bytes(samples::authority(random)),

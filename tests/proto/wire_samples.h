@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #include "common/base/rng.h"
 #include "proto/wire_codec.h"
@@ -81,6 +82,37 @@ inline double slave_pull(RandomStream& random) { return static_cast<double>(rand
 inline void contacts(RandomStream& random, std::size_t axes, LocalContactList& out) {
   const auto n = static_cast<std::uint32_t>(random.below(kLocalContactsMax + 1));
   for (std::uint32_t c = 0; c < n; ++c) out.add(contact(random, axes, 1 + c + 10 * static_cast<std::uint32_t>(random.below(1000))));
+}
+/// Further ties of a hand, in numbers that the wire holds exactly.
+inline std::vector<PortSample> tie_states(RandomStream& random, std::size_t axes, std::size_t further) {
+  std::vector<PortSample> all(further);
+  for (PortSample& s : all) {
+    fill(random, s.x, axes, 10);
+    for (std::size_t a = 0; a < axes; ++a) {
+      s.v[a] = single(random, 100);
+      s.f[a] = single(random, 100);
+      s.a[a] = single(random, 100);
+    }
+    fill(random, s.e_in, axes);
+  }
+  return all;
+}
+/// @param room  for contacts of all of them
+inline std::vector<TieForce> tie_forces(RandomStream& random, std::size_t axes, std::size_t further, std::size_t room) {
+  std::vector<TieForce> all(further);
+  for (TieForce& t : all) {
+    fill(random, t.port.x, axes, 10);
+    for (std::size_t a = 0; a < axes; ++a) {
+      t.port.v[a] = single(random, 100);
+      t.port.f[a] = single(random, 1);
+    }
+    fill(random, t.port.e_in, axes);
+    t.alpha = std::abs(single(random, 1));
+    t.slave_pull = slave_pull(random);
+    if (contacts(random, axes, t.contacts); t.contacts.size > room) t.contacts.size = static_cast<std::uint32_t>(room);
+    room -= t.contacts.size;
+  }
+  return all;
 }
 inline ForceMessage force(RandomStream& random, std::size_t axes) {
   ForceMessage m;

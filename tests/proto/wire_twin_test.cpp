@@ -123,6 +123,55 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
   }
 }
 
+TEST(WireTwin, FurtherTiesAreWhatTheLibraryReadsAndWrites) {
+  for (std::size_t axes = 1; axes <= 3; ++axes)
+    for (std::size_t further = 1; further <= kFurtherTiesMax; ++further)
+      for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        SCOPED_TRACE(std::to_string(axes) + " axes, " + std::to_string(further) + " further, seed " + std::to_string(seed));
+        RandomStream random{seed};
+        Codec codec(axes, PortSpace::kTip, further);
+        Buffer buffer;
+        const auto states = samples::tie_states(random, axes, further);
+        const StateMessage state = samples::state(random, axes);
+        auto bytes = std::span<const std::byte>(buffer).first(codec.encode(samples::preamble(random), StateWithTies{state, states}, buffer));
+        const auto s = parsed<pb::State>(bytes);
+        expect_written_back(s, bytes);
+        expect_same(s.x(), state.port.x, axes);
+        ASSERT_EQ(static_cast<std::size_t>(s.tie_size()), further);
+        for (std::size_t k = 0; k < further; ++k) {
+          const auto& tie = s.tie(static_cast<int>(k));
+          expect_same(tie.x(), states[k].x, axes);
+          expect_same(tie.v(), states[k].v, axes);
+          expect_same(tie.f(), states[k].f, axes);
+          expect_same(tie.a(), states[k].a, axes);
+          expect_same(tie.e_in(), states[k].e_in, axes);
+        }
+
+        ForceMessage force = samples::force(random, axes);
+        samples::contacts(random, axes, force.contacts);
+        const auto ties = samples::tie_forces(random, axes, further, contacts_room(axes, further) - force.contacts.size);
+        bytes = std::span<const std::byte>(buffer).first(codec.encode(samples::preamble(random), ForceWithTies{force, ties}, buffer));
+        const auto f = parsed<pb::Force>(bytes);
+        expect_written_back(f, bytes);
+        expect_same(f.x(), force.port.x, axes);
+        EXPECT_NE(f.flags() & 1U << 29, 0u);
+        ASSERT_EQ(static_cast<std::size_t>(f.tie_size()), further);
+        int contact = 0;
+        for (const LocalContact& c : force.contacts.all()) EXPECT_EQ(f.contact(contact++).id(), c.id);
+        for (std::size_t k = 0; k < further; ++k) {
+          const auto& tie = f.tie(static_cast<int>(k));
+          expect_same(tie.x(), ties[k].port.x, axes);
+          expect_same(tie.v(), ties[k].port.v, axes);
+          expect_same(tie.f(), ties[k].port.f, axes);
+          expect_same(tie.e_in(), ties[k].port.e_in, axes);
+          EXPECT_EQ(static_cast<double>(tie.alpha()), ties[k].alpha);
+          EXPECT_EQ(tie.surfaces(), ties[k].contacts.size + 256 * static_cast<std::uint32_t>(std::lround(ties[k].slave_pull * 65535)));
+          for (const LocalContact& c : ties[k].contacts.all()) EXPECT_EQ(f.contact(contact++).id(), c.id);
+        }
+        EXPECT_EQ(contact, f.contact_size());
+      }
+}
+
 TEST(WireTwin, TheSmallOnesAreWhatTheLibraryReadsAndWrites) {
   Codec codec;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
