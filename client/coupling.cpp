@@ -16,16 +16,17 @@ SpringCoupling::SpringCoupling(const SeatSetup& setup) : dof_(setup.dof), master
   }
 }
 
-void SpringCoupling::rest(const AxisArray& q, const AxisArray*, double age, control::ChannelEnd& end) noexcept {
-  for (std::size_t a = 0; a < dof_; ++a) ipc_[a].rest_at(q[a]);
-  end.engage(q, age);
+void SpringCoupling::rest(const Input& in, bool) noexcept {
+  for (std::size_t a = 0; a < dof_; ++a) ipc_[a].rest_at(in.q[a]);
+  in.ties[0].end->engage(in.q, in.age);
 }
 
-AxisArray SpringCoupling::step(const Input& in, control::ChannelEnd& end) noexcept {
+AxisArray SpringCoupling::step(const Input& in) noexcept {
+  control::ChannelEnd& end = *in.ties[0].end;
   control::EndInput move;
   move.dt = in.dt;
   move.age = in.age;
-  move.rx = *in.rx;
+  move.rx = in.ties[0].told->port;
   for (std::size_t a = 0; a < dof_; ++a) {
     move.x[a] = master_ ? ipc_[a].x : in.q[a];
     move.dissipated[a] = master_ ? ipc_[a].dissipated : 0;
@@ -46,69 +47,100 @@ AxisArray SpringCoupling::step(const Input& in, control::ChannelEnd& end) noexce
   return wanted;
 }
 
-void SpringCoupling::tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd& end, PortSample& out) const noexcept {
-  const control::EndState& state = end.state();
+void SpringCoupling::tell(std::size_t, const Input& in, bool engaged, PortSample& out) const noexcept {
+  const control::EndState& state = in.ties[0].end->state();
   for (std::size_t a = 0; a < dof_; ++a) {
-    out.x[a] = master_ ? ipc_[a].x : q[a];
-    out.v[a] = engaged && master_ ? ipc_[a].v : v[a];
+    out.x[a] = master_ ? ipc_[a].x : in.q[a];
+    out.v[a] = engaged && master_ ? ipc_[a].v : in.v[a];
     out.f[a] = state.k[a] * (out.x[a] - state.ref[a]);
   }
 }
 
 namespace {
 
-control::ToolCopy::Params copy_params(const SeatSetup& setup) {
+control::ToolCopy::Params copy_params(const SeatSetup& setup, const control::VirtualTool::Gains& gains, const EnvironmentSpec& environment) {
   control::ToolCopy::Params p;
-  p.tool = {setup.m_s, setup.b_s};
+  p.tool = gains;
   p.axes = setup.dof;
-  p.contacts = setup::contacts(setup.environment);
+  p.contacts = setup::contacts(environment);
   p.k_c = setup.coupling.k_c;
   p.b_rel = setup.channel.b_rel;
   p.v_app = setup.channel.v_app;
   p.offset_rests = setup.gate.ramp_in;
   p.force_max = setup.gate.force_max * share_of_force(setup.seat.role);
+  p.of_several = !setup.further.empty();
   p.dt = 1.0 / setup.tick_hz;
   return p;
 }
 
 }  // namespace
 
-CopyCoupling::CopyCoupling(const SeatSetup& setup) : dof_(setup.dof), copy_(copy_params(setup)) {}
-
-void CopyCoupling::rest(const AxisArray& q, const AxisArray* tool, double age, control::ChannelEnd& end) noexcept {
-  copy_.rest_at(tool != nullptr ? *tool : q, q);
-  end.engage(tool != nullptr ? *tool : q, age);
-  effort_ = {};
+CopyCoupling::CopyCoupling(const SeatSetup& setup) : dof_(setup.dof) {
+  copies_.reserve(1 + setup.further.size());
+  copies_.push_back({.tool = control::ToolCopy(copy_params(setup, {setup.m_s, setup.b_s}, setup.environment)), .weight = setup.weight});
+  for (const TieSetup& tie : setup.further)
+    copies_.push_back({.tool = control::ToolCopy(copy_params(setup, {tie.m_s, tie.b_s}, tie.environment)), .weight = tie.weight});
 }
 
-AxisArray CopyCoupling::step(const Input& in, control::ChannelEnd& end) noexcept {
+void CopyCoupling::rest(const Input& in, bool told) noexcept {
+  for (std::size_t k = 0; k < copies_.size(); ++k) {
+    const AxisArray& tool = told ? in.ties[k].told->port.f : in.q;
+    copies_[k].tool.rest_at(tool, in.q);
+    in.ties[k].end->engage(tool, in.age);
+    copies_[k].effort = {};
+  }
+  share_ = 0;
+}
+
+const AxisArray& CopyCoupling::wanted_of(Copy& copy, const Tie& tie, const Input& in) noexcept {
   control::EndInput move;
   move.dt = in.dt;
   move.age = in.age;
-  move.authority = in.authority;
-  move.slave_pull = in.slave_pull;
-  move.rx = *in.rx;
+  move.authority = tie.told->alpha;
+  move.slave_pull = tie.told->slave_pull;
+  move.rx = tie.told->port;
   for (std::size_t a = 0; a < dof_; ++a) {
-    move.x[a] = copy_.tool().x(a);
-    move.dissipated[a] = copy_.dissipated(a);
-    dissipated_ += move.dissipated[a];
+    move.x[a] = copy.tool.tool().x(a);
+    move.dissipated[a] = copy.tool.dissipated(a);
+    dissipated_ += copy.weight * move.dissipated[a];
   }
-  end.move(move);
-  return copy_.step(in.q, in.authority, end);
+  tie.end->move(move);
+  return copy.tool.step(in.q, move.authority, *tie.end);
+}
+
+AxisArray CopyCoupling::step(const Input& in) noexcept {
+  if (copies_.size() == 1) return wanted_ = wanted_of(copies_[0], in.ties[0], in);
+  wanted_ = {};
+  for (std::size_t k = 0; k < copies_.size(); ++k) {
+    Copy& copy = copies_[k];
+    const AxisArray& wanted = wanted_of(copy, in.ties[k], in);
+    for (std::size_t a = 0; a < dof_; ++a) {
+      copy.wanted[a] = wanted[a];
+      wanted_[a] += copy.weight * wanted[a];
+    }
+  }
+  return wanted_;
 }
 
 void CopyCoupling::delivered(const AxisArray& effort) noexcept {
-  effort_ = effort;
-  copy_.delivered(effort);
+  if (copies_.size() == 1) {
+    copies_[0].effort = effort;
+    return copies_[0].tool.delivered(effort);
+  }
+  share_ = control::ToolCopy::share_of(effort, wanted_, dof_).value_or(share_);
+  for (Copy& copy : copies_) {
+    for (std::size_t a = 0; a < dof_; ++a) copy.effort[a] = share_ * copy.wanted[a];
+    copy.tool.delivered(copy.effort);
+  }
 }
 
-void CopyCoupling::tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd&, PortSample& out) const noexcept {
+void CopyCoupling::tell(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept {
   for (std::size_t a = 0; a < dof_; ++a) {
-    const control::HandMotion& anchor = copy_.anchor(a);
-    out.x[a] = engaged ? anchor.x : q[a];
-    out.v[a] = engaged ? anchor.v : v[a];
+    const control::HandMotion& anchor = copies_[k].tool.anchor(a);
+    out.x[a] = engaged ? anchor.x : in.q[a];
+    out.v[a] = engaged ? anchor.v : in.v[a];
     out.a[a] = engaged ? anchor.a : 0;
-    out.f[a] = engaged ? effort_[a] : 0;
+    out.f[a] = engaged ? copies_[k].effort[a] : 0;
   }
 }
 

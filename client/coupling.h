@@ -3,39 +3,45 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "common/base/local_contact.h"
 #include "common/control/channel.h"
 #include "common/control/ipc.h"
 #include "common/control/tool_copy.h"
 #include "proto/seat_setup.h"
+#include "proto/wire.h"
 
 namespace tandem::client {
 
 /// What stands between a seat's device and its end of the channel. Real-time safe after construction.
 class Coupling {
  public:
+  /// One tool that the hand is tied to: this client's end of the channel, and what the server said last. Law `replica` has one for each tool
+  /// that the hand follows, the other laws one for all.
+  struct Tie {
+    control::ChannelEnd* end = nullptr;
+    const wire::TieForce* told = nullptr;
+  };
   struct Input {
     double dt = 0.001;
-    double age = 0;       ///< of `rx`, now [s]
-    double authority = 0; ///< of this hand
-    double slave_pull = 0;  ///< of a SLAVE seat's device, by way of the reference (wire::ForceMessage)
+    double age = 0;       ///< of what was told, now [s]
     AxisArray q{}, v{};   ///< of the device's port
-    const PortSample* rx = nullptr;
+    std::span<const Tie> ties;  ///< as many as `SeatSetup` says
   };
   virtual ~Coupling() = default;
-  /// Not engaged: begins, or begins again, without elongation. @param tool  where the server's tool is, if it was told
-  virtual void rest(const AxisArray& q, const AxisArray* tool, double age, control::ChannelEnd& end) noexcept TANDEM_REALTIME = 0;
+  /// Not engaged: begins, or begins again, without elongation. @param told  the server said where its tools are
+  virtual void rest(const Input& in, bool told) noexcept TANDEM_REALTIME = 0;
   /// @return the effort wanted on the device, before the gate
-  [[nodiscard]] virtual AxisArray step(const Input& in, control::ChannelEnd& end) noexcept TANDEM_REALTIME = 0;
-  /// The server named these surfaces now. @pre each is_surface and in_range
-  virtual void hear(std::span<const LocalContact>) noexcept TANDEM_REALTIME {}
+  [[nodiscard]] virtual AxisArray step(const Input& in) noexcept TANDEM_REALTIME = 0;
+  /// The server named these surfaces now, near the tool of tie k. @pre each is_surface and in_range
+  virtual void hear(std::size_t, std::span<const LocalContact>) noexcept TANDEM_REALTIME {}
   /// What the gate let through of it.
   virtual void delivered(const AxisArray&) noexcept TANDEM_REALTIME {}
-  /// What the server is told: x, v, f, a. @param engaged  else the device's own motion
-  virtual void tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd& end, PortSample& out) const noexcept TANDEM_REALTIME = 0;
-  /// The copy of the tool that the hand hangs on, where there is one.
-  [[nodiscard]] virtual const control::VirtualTool* copy() const noexcept { return nullptr; }
+  /// What the server is told of tie k: x, v, f, a. @param engaged  else the device's own motion
+  virtual void tell(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept TANDEM_REALTIME = 0;
+  /// The copy of tie k's tool that the hand hangs on, where there is one.
+  [[nodiscard]] virtual const control::VirtualTool* copy(std::size_t = 0) const noexcept { return nullptr; }
   [[nodiscard]] double dissipated() const noexcept { return dissipated_; }  ///< all axes, cumulative [J]
 
  protected:
@@ -50,9 +56,9 @@ class Coupling {
 class SpringCoupling final : public Coupling {
  public:
   explicit SpringCoupling(const SeatSetup& setup);
-  void rest(const AxisArray& q, const AxisArray* tool, double age, control::ChannelEnd& end) noexcept override;
-  AxisArray step(const Input& in, control::ChannelEnd& end) noexcept override;
-  void tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd& end, PortSample& out) const noexcept override;
+  void rest(const Input& in, bool told) noexcept override;
+  AxisArray step(const Input& in) noexcept override;
+  void tell(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept override;
 
  private:
   std::size_t dof_;
@@ -61,21 +67,31 @@ class SpringCoupling final : public Coupling {
   std::array<control::MasterIpc::Gains, kAxesMax> gains_{};
 };
 
-/// A hand on a copy of the tool, law `replica`.
+/// A hand on copies of its tools, law `replica`: it feels sum_j C_j F_j of copies that each are as if they were alone. Energy too is that
+/// sum, so a hand that is given no more than was paid by each copy is given no more than was paid.
 class CopyCoupling final : public Coupling {
  public:
   explicit CopyCoupling(const SeatSetup& setup);
-  void rest(const AxisArray& q, const AxisArray* tool, double age, control::ChannelEnd& end) noexcept override;
-  AxisArray step(const Input& in, control::ChannelEnd& end) noexcept override;
-  void hear(std::span<const LocalContact> contacts) noexcept override { copy_.hear(contacts); }
+  void rest(const Input& in, bool told) noexcept override;
+  AxisArray step(const Input& in) noexcept override;
+  void hear(std::size_t k, std::span<const LocalContact> contacts) noexcept override { copies_[k].tool.hear(contacts); }
   void delivered(const AxisArray& effort) noexcept override;
-  void tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd& end, PortSample& out) const noexcept override;
-  [[nodiscard]] const control::VirtualTool* copy() const noexcept override { return &copy_.tool(); }
+  void tell(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept override;
+  [[nodiscard]] const control::VirtualTool* copy(std::size_t k = 0) const noexcept override { return k < copies_.size() ? &copies_[k].tool.tool() : nullptr; }
 
  private:
+  struct Copy {
+    control::ToolCopy tool;
+    double weight = 1;    ///< C_j: of its force in what the hand feels
+    AxisArray wanted{};   ///< of this copy alone [N]
+    AxisArray effort{};   ///< what was delivered of it [N]
+  };
+  [[nodiscard]] const AxisArray& wanted_of(Copy& copy, const Tie& tie, const Input& in) noexcept;
+
   std::size_t dof_;
-  control::ToolCopy copy_;
-  AxisArray effort_{};
+  std::vector<Copy> copies_;
+  AxisArray wanted_{};       ///< in all
+  double share_ = 0;         ///< of it that was delivered last [0, 1]
 };
 
 }  // namespace tandem::client

@@ -38,9 +38,12 @@ control::GateParams gate_params(const SeatSetup& s, const hal::DeviceCaps& caps)
   return g;
 }
 
-std::unique_ptr<control::ChannelEnd> make_end(const SeatSetup& s) {
-  return setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max * share_of_force(s.seat.role), s.coupling.k_c, !s.unsafe_gains,
-                             s.seat.kind == SeatKind::kSlave ? std::optional{s.k_s} : std::nullopt);
+std::vector<std::unique_ptr<control::ChannelEnd>> make_ends(const SeatSetup& s) {
+  std::vector<std::unique_ptr<control::ChannelEnd>> ends;
+  for (std::size_t k = 0; k <= s.further.size(); ++k)
+    ends.push_back(setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max * share_of_force(s.seat.role), s.coupling.k_c, !s.unsafe_gains,
+                                       s.seat.kind == SeatKind::kSlave ? std::optional{s.k_s} : std::nullopt));
+  return ends;
 }
 
 wire::GateState wire_state(control::GatePhase p) noexcept { return static_cast<wire::GateState>(p); }
@@ -66,12 +69,28 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link
       dt_(1.0 / setup.tick_hz),
       command_life_(command_life(from_seconds(dt_))),
       link_(std::make_unique<link::Link>(link)),
-      codec_(setup.dof, setup.port),
-      end_(make_end(setup_)),
+      codec_(setup.dof, setup.port, setup.further.size()),
+      ends_(make_ends(setup_)),
       coupling_(make_coupling(setup_)),
-      gate_(gate_params(setup, caps)) {}
+      gate_(gate_params(setup, caps)),
+      further_rx_(setup.further.size()),
+      further_next_(setup.further.size()),
+      further_tx_(setup.further.size()),
+      ties_(ends_.size()) {
+  tie();
+}
 
-Seat::Connection Seat::prepare(const link::Link::Params& link) const { return {std::make_unique<link::Link>(link), make_end(setup_)}; }
+void Seat::tie() noexcept {
+  for (std::size_t k = 0; k < ties_.size(); ++k) ties_[k] = {ends_[k].get(), k == 0 ? &rx_ : &further_rx_[k - 1]};
+}
+
+double Seat::authority() const noexcept {
+  double most = rx_.alpha;
+  for (const wire::TieForce& tie : further_rx_) most = std::max(most, tie.alpha);
+  return most;
+}
+
+Seat::Connection Seat::prepare(const link::Link::Params& link) const { return {std::make_unique<link::Link>(link), make_ends(setup_)}; }
 
 void Seat::rejoin(const link::Link::Params& link) {
   Connection next = prepare(link);
@@ -80,10 +99,12 @@ void Seat::rejoin(const link::Link::Params& link) {
 
 void Seat::rejoin(Connection& next) noexcept {
   std::swap(link_, next.link);
-  std::swap(end_, next.end);
+  std::swap(ends_, next.ends);
+  tie();
   rest();
   closed_ = closed_ && leaving_;
   rx_ = {};
+  std::ranges::fill(further_rx_, wire::TieForce{});
   fresh_ = heard_force_ = false;
   session_begin_.reset();
   tx_.seat_tick = 0;
@@ -97,15 +118,18 @@ void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
   const auto opened = link_->open(now, bytes);
   if (!opened) return;
   if (opened->type == wire::Type::kForce) {
-    const auto decoded = codec_.decode_force(opened->plaintext);
+    const auto decoded = codec_.decode_force(opened->plaintext, further_next_);
     if (!decoded) return link_->refuse_body();
     if (!opened->newer) return;  // latest wins: nothing acts backwards
     link_->accept(now, *opened, decoded->preamble);
     if (rx_.session == wire::SessionState::kWaiting && decoded->message.session == wire::SessionState::kRunning)
       link_->restart_statistics(now);
     rx_ = decoded->message;
+    std::ranges::copy(further_next_, further_rx_.begin());
     fresh_ = heard_force_ = true;
-    if (rx_.contacts.size > 0) coupling_->hear(rx_.contacts.all());
+    if (rx_.contacts.size > 0) coupling_->hear(0, rx_.contacts.all());
+    for (std::size_t k = 0; k < further_rx_.size(); ++k)
+      if (further_rx_[k].contacts.size > 0) coupling_->hear(k + 1, further_rx_[k].contacts.all());
     set_session_clock(now);
     if (authority_ && rx_.authority_version != authority_->version) meet_new_version();
     settle_wishes();
@@ -190,11 +214,11 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   in.loop_age = link_->freshness().loop_age(now);
   in.rtt_p99 = link_->freshness().rtt_p99();
   if (setup_.channel.law == LawKind::kReplica && setup_.seat.kind == SeatKind::kMaster) {
-    const SilenceLimits limits = silence_limits(setup_.gate, LawKind::kReplica, rx_.alpha);
+    const SilenceLimits limits = silence_limits(setup_.gate, LawKind::kReplica, authority());
     in.patience = link_->freshness().gaps().patience(from_seconds(limits.least), from_seconds(limits.most));
   }
   if (setup_.seat.kind == SeatKind::kMaster)  // a slave may be pressed against something harder than any grip
-    sensor_.look(now, reading_.q, joints_, end_->state().ref, effort_, setup_.axis_scale, setup_.dof, was_active);
+    sensor_.look(now, reading_.q, joints_, ends_[0]->state().ref, effort_, setup_.axis_scale, setup_.dof, was_active);
   if (reset_) {
     over_speed_.reset();
     over_temperature_.reset();
@@ -233,27 +257,23 @@ bool Seat::may_engage() const noexcept {
          setup_.seat.role != Role::kObserver;
 }
 
-AxisArray Seat::control(Time now) noexcept {
-  Coupling::Input in;
-  in.dt = dt_;
-  in.age = seconds(link_->freshness().age(now));
-  in.authority = rx_.alpha;
-  in.slave_pull = rx_.slave_pull;
-  in.q = q_;
-  in.v = v_;
-  in.rx = &rx_.port;
-  return coupling_->step(in, *end_);
-}
+Coupling::Input Seat::coupling_input(double age) const noexcept { return {.dt = dt_, .age = age, .q = q_, .v = v_, .ties = ties_}; }
+
+AxisArray Seat::control(Time now) noexcept { return coupling_->step(coupling_input(seconds(link_->freshness().age(now)))); }
 
 void Seat::rest() noexcept {
   const auto& f = link_->freshness();
-  coupling_->rest(q_, heard_force_ ? &rx_.port.f : nullptr, f.heard() ? std::max(0.0, 0.5 * seconds(f.rtt_p50()) - 0.5 * dt_) : 0, *end_);
+  coupling_->rest(coupling_input(f.heard() ? std::max(0.0, 0.5 * seconds(f.rtt_p50()) - 0.5 * dt_) : 0), heard_force_);
 }
 
 void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& wanted) noexcept {
   const bool engaged = gate_.active();
-  coupling_->tell(q_, v_, engaged, *end_, tx_.port);
-  tx_.port.e_in = end_->e_in();
+  const Coupling::Input now_here = coupling_input(0);
+  for (std::size_t k = 0; k < ties_.size(); ++k) {
+    PortSample& said = k == 0 ? tx_.port : further_tx_[k - 1];
+    coupling_->tell(k, now_here, engaged, said);
+    said.e_in = ends_[k]->e_in();
+  }
   const auto put = [](std::array<double, 3>& to, const hal::Vec3& from) {
     for (int i = 0; i < 3; ++i) to[static_cast<std::size_t>(i)] = from[i];
   };
@@ -264,15 +284,19 @@ void Seat::fill_sample(Time now, const hal::State& device, const AxisArray& want
   put(t.f_out, reading_.f_out);
   put(t.f_env, reading_.f_env);
   t.penetration_m = reading_.penetration;
-  t.e_out = end_->e_out();
+  t.e_out = ends_[0]->e_out();
   const link::LinkStats& down = link_->stats();
   t.down_loss_percent = down.loss_percent();
   t.down_longest_gap_ms = 1e3 * seconds(down.longest_gap);
   t.down_age_p99_ms = age_p99_ms_;
   t.dissipated_j = coupling_->dissipated();
-  t.refused_j = end_->refused();
+  t.refused_j = setup_.weight * ends_[0]->refused();
   t.delivered_j = meter_.total();
-  t.margin_min_j = end_->margin_min();
+  t.margin_min_j = ends_[0]->margin_min();
+  for (std::size_t k = 1; k < ends_.size(); ++k) {
+    t.refused_j += setup_.further[k - 1].weight * ends_[k]->refused();
+    t.margin_min_j = std::min(t.margin_min_j, ends_[k]->margin_min());
+  }
   const bool latched_off_now = latched_off() && gate_.phase() == control::GatePhase::kZero;
   tx_.gate = wire_state(latched_off_now ? control::GatePhase::kDamped : gate_.phase());  // both wait for the person's button
   tx_.engaged = engaged;
@@ -297,7 +321,7 @@ std::optional<std::size_t> Seat::poll_transmit(Time now, std::span<std::byte> bu
   if (path_answer_) return seal(wire::Type::kPathResponse, *std::exchange(path_answer_, std::nullopt));
   if (state_due_ && !closed_) {
     state_due_ = false;
-    return seal(wire::Type::kState, tx_);
+    return further_tx_.empty() ? seal(wire::Type::kState, tx_) : seal(wire::Type::kState, wire::StateWithTies{tx_, further_tx_});
   }
   if (authority_ && authority_sent_ != Time{} && now - authority_asked_ > kAuthorityPatience) authority_.reset();
   if (authority_ && (authority_sent_ == Time{} || now - authority_sent_ >= kAuthorityRepeat)) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "client/coupling.h"
 #include "client/frozen_sensor.h"
@@ -31,11 +32,13 @@ class Seat {
  public:
   /// @throws SetupError-like std::runtime_error if the law is unknown or the crypto library lacks a cipher.
   Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const link::Link::Params& link);
+  Seat(const Seat&) = delete;  // its ties point into it
+  Seat& operator=(const Seat&) = delete;
 
   /// A new connection for this hand, made where memory may be taken.
   struct Connection {
     std::unique_ptr<link::Link> link;
-    std::unique_ptr<control::ChannelEnd> end;
+    std::vector<std::unique_ptr<control::ChannelEnd>> ends;  ///< one per tie
   };
   /// On any thread, also while others serve this seat.
   [[nodiscard]] Connection prepare(const link::Link::Params& link) const;
@@ -85,7 +88,13 @@ class Seat {
   [[nodiscard]] const wire::ForceMessage& force() const noexcept { return rx_; }
   [[nodiscard]] const wire::StateMessage& sample() const noexcept { return tx_; }
   [[nodiscard]] const control::ForceGate& gate() const noexcept { return gate_; }
-  [[nodiscard]] const control::ChannelEnd& channel() const noexcept { return *end_; }
+  /// Tools that this hand is tied to, each by an end of its own: the first one's stands in `force` and `sample`.
+  [[nodiscard]] std::size_t ties() const noexcept { return ties_.size(); }
+  [[nodiscard]] const control::ChannelEnd& channel(std::size_t tie = 0) const noexcept { return *ends_[tie]; }
+  [[nodiscard]] const wire::TieForce& told(std::size_t tie) const noexcept { return *ties_[tie].told; }
+  [[nodiscard]] const PortSample& told_of(std::size_t tie) const noexcept { return tie == 0 ? tx_.port : further_tx_[tie - 1]; }
+  /// The largest over any of its tools.
+  [[nodiscard]] double authority() const noexcept;
   [[nodiscard]] const link::Link& link() const noexcept { return *link_; }
   [[nodiscard]] const SeatSetup& setup() const noexcept { return setup_; }
   [[nodiscard]] const Coupling& coupling() const noexcept { return *coupling_; }
@@ -107,6 +116,8 @@ class Seat {
   void settle_wishes() noexcept;
   void meet_new_version() noexcept TANDEM_REALTIME;
   void set_session_clock(Time now) noexcept TANDEM_REALTIME;
+  [[nodiscard]] Coupling::Input coupling_input(double age) const noexcept;
+  void tie() noexcept;
   void rest() noexcept TANDEM_REALTIME;
   void fill_sample(Time now, const hal::State& device, const AxisArray& wanted) noexcept TANDEM_REALTIME;
 
@@ -117,7 +128,7 @@ class Seat {
   Duration command_life_;
   std::unique_ptr<link::Link> link_;
   wire::Codec codec_;
-  std::unique_ptr<control::ChannelEnd> end_;
+  std::vector<std::unique_ptr<control::ChannelEnd>> ends_;
   std::unique_ptr<Coupling> coupling_;
   control::ForceGate gate_;
   control::EnergyMeter meter_;
@@ -130,6 +141,10 @@ class Seat {
   OverTemperature over_temperature_;
   wire::ForceMessage rx_{};
   wire::StateMessage tx_{};
+  /// Of the ties beyond the first. What is heard is read into room of its own: a datagram that is refused half way changes nothing.
+  std::vector<wire::TieForce> further_rx_, further_next_;
+  std::vector<PortSample> further_tx_;
+  std::vector<Coupling::Tie> ties_;
   AxisArray effort_{};
   bool fresh_ = false;         ///< something newer came since the last servo tick
   bool heard_force_ = false;

@@ -23,6 +23,7 @@ class SceneDraw {
     for (std::size_t i = 0; i < masters_; ++i) seat(i);
     for (std::size_t j = 0; j < tools_; ++j) tool(j);
     for (std::size_t j = 0; j < tools_; ++j) out_ += weights(j) + "\n";
+    for (std::size_t i = 0; replica_ && tools_ > 1 && i < masters_; ++i) follow(i);
     timeline();
     return std::move(out_);
   }
@@ -143,6 +144,17 @@ class SceneDraw {
       out_ += format("tool { name: \"tool%zu\" m_s_kg: %.3g slave { model: VIRTUAL %s } }\n", j, mass, surfaces.c_str());
     } else {
       out_ += format("tool { name: \"tool%zu\" %s slave { model: %s ", j, ipc.c_str(), axes_ == 1 ? "LINEAR" : "TOUCH") + slave + " " + surfaces + " } }\n";
+    }
+  }
+
+  /// Half of the hands are tied to several tools; the weights sum to 1 exactly as written.
+  void follow(std::size_t seat) {
+    if (replica_draws_.uniform() < 0.5) return;
+    int left = 1000;
+    for (std::size_t j = 0; j < tools_ && left > 0; ++j) {
+      const int share = j + 1 == tools_ ? left : static_cast<int>(replica_draws_.below(static_cast<std::uint64_t>(left) + 1));
+      if (share > 0) out_ += format("follow { seat: \"seat%zu\" tool: \"tool%zu\" weight: %.3f }\n", seat, j, share / 1000.0);
+      left -= share;
     }
   }
 

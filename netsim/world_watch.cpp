@@ -34,9 +34,6 @@ constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: f
 constexpr double kLifeTicks = 3, kLifeMin = 0.005, kLifeMax = 0.03, kFade = 0.02;  // ticks, [s]: a command's life, and how its force then fades
 constexpr double kFarTouch = 1, kFarLinear = 50;        // [m] no hand of such a device is there; a rail has no end
 
-/// A person speeds up by at most 0.5 m/s^2 for the 250 ms that are ever predicted, and a tool goes to a better prediction by 60 mm/s,
-/// where a scene's approach speed is less.
-constexpr double kGainsSpeed = 0.125 + 0.06;
 
 double tip_norm(const AxisArray& effort, const AxisArray& scale, std::size_t dof) noexcept {
   double sum = 0;
@@ -98,24 +95,20 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     if (s.joins != station.joins()) {  // another connection: its counters begin anew, the hand goes on
       s.joins = station.joins();
       s.accepted = s.session_tick = 0;
-      s.client.known = false;
+      for (End& end : s.client) end.known = false;
     }
     check_role(i, station, port);
 
     const bool slave = scene_->seats[i].kind == SeatKind::kSlave;
-    if (lived == 1 && (slave || scene_->tools.size() == 1)) {
-      const std::size_t tool = slave ? scene_->seats[i].tool : 0;
-      EndLook look{port.heard().port, hung_on(i, tool, session), s.server.x, offset_of(i, session), seat != nullptr};
-      if (scene_->channel.law == LawKind::kReplica && !slave) look.gains_speed = kGainsSpeed;
-      for (std::size_t a = 0; a < scene_->dof; ++a) look.rx.x[a] -= look.offset[a];  // as the tool sees it
-      check_end(i, port.end(), s.server, seat ? seat->setup().axis_scale : AxisArray{1, 1, 1, 1, 1, 1, 1}, look);
+    if (lived == 1 && (slave || scene_->tools.size() == 1 || scene_->channel.law == LawKind::kReplica)) {
+      check_server_ends(i, session, seat, slave);
     } else {
-      s.server.known = false;
+      for (End& end : s.server) end.known = false;
     }
     check_once(i, station, port);
     if (seat == nullptr) continue;
     if (!station.served_now()) {
-      s.client.known = false;
+      for (End& end : s.client) end.known = false;
       continue;
     }
     const Time own = station.own_time(station.served_at());
@@ -124,12 +117,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     check_reading(i, station);
     check_sensor(i, station);
     check_speed(i, station);
-    // A master's reference moves against the virtual mass as the tick before left it, a slave's against this tick's reading.
-    AxisArray x = seat->sample().port.x;
-    if (const control::VirtualTool* const copy = seat->coupling().copy())
-      for (std::size_t a = 0; a < scene_->dof; ++a) x[a] = copy->x(a);
-    check_end(i, seat->channel(), s.client, seat->setup().axis_scale,
-              {seat->force().port, x, slave ? x : s.client.x, offset_of(i, session), s.was_active && seat->gate().active()});
+    check_client_ends(i, *seat, session, slave);
     s.was_active = seat->gate().active();
     s.trips = seat->gate().trips();
     s.effort = seat->effort();
@@ -247,7 +235,7 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
     const double silence = seconds(now - s.fresh);
     const bool hand = scene_->seats[i].kind == SeatKind::kMaster;
     // The longest that was in force since the last word: who loses his authority or his server in a silence lets go from then on.
-    s.silence_limit = std::max(s.silence_limit, hand ? silence_limits(scene_->gate, scene_->channel.law, seat.force().alpha).most : scene_->gate.silence_limit);
+    s.silence_limit = std::max(s.silence_limit, hand ? silence_limits(scene_->gate, scene_->channel.law, seat.authority()).most : scene_->gate.silence_limit);
     const double limit = s.silence_limit;
     if (seat.gate().active() && silence > limit + half_tick) note("silence_ramps", i);
     if (silence > limit + kRampOut + 3 * half_tick) {
@@ -257,7 +245,7 @@ void WorldWatch::check_silence(Time own, std::size_t i, const WorldStation& stat
     }
   }
   const bool replica = scene_->channel.law == LawKind::kReplica && scene_->seats[i].kind == SeatKind::kMaster;
-  const double patience = replica ? silence_limits(scene_->gate, LawKind::kReplica, seat.force().alpha).most : 0;
+  const double patience = replica ? silence_limits(scene_->gate, LawKind::kReplica, seat.authority()).most : 0;
   if (seat.gate().active() && seconds(fresh.loop_age(own)) > scene_->gate.loop_age_max + patience + 1e-9) note("loop_age", i);
 }
 
@@ -358,8 +346,8 @@ void WorldWatch::check_felt(std::size_t j, const server::Session& session) {
   for (std::size_t i = 0; i < scene_->masters(); ++i) {
     const double by = tool.authority.alpha(i) - alpha_[j][i];
     if (by == 0) continue;
-    if (!serves_only(j, i, session)) return;
-    const control::EndState& spring = session.seat(i).end().state();
+    if (scene_->channel.law != LawKind::kReplica && !serves_only(j, i, session)) return;
+    const control::EndState& spring = session.seat(i).end(j).state();
     for (std::size_t a = 0; a < scene_->dof; ++a) change[a] += by * spring.k[a] * (spring.ref[a] - (tool.x(a) - tool.moved()[a]));
   }
   const double ms = 1e3 / scene_->tick_hz;

@@ -70,7 +70,7 @@ class WorldWatch {
     std::uint64_t accepted = 0, generation = 0, server_heard = 0;
     std::uint32_t session_tick = 0, seat_tick = 0;
     Distinct given_to_server;
-    End client, server;
+    std::array<End, kToolsMax> client, server;  ///< per end
 
     /// The client's program was started once more: what was known of the one before is void.
     void begin_anew(std::uint32_t start) noexcept {
@@ -110,6 +110,8 @@ class WorldWatch {
   void check_authority(std::uint32_t lived, const server::Session& session);
   void check_felt(std::size_t tool, const server::Session& session);
   [[nodiscard]] bool serves_only(std::size_t tool, std::size_t seat, const server::Session& session) const noexcept;
+  void check_server_ends(std::size_t i, const server::Session& session, const client::Seat* seat, bool slave);
+  void check_client_ends(std::size_t i, const client::Seat& seat, const server::Session& session, bool slave);
   void note(std::string_view invariant, std::size_t seat, bool expected = false);
 
   const SceneSpec* scene_;

@@ -14,6 +14,9 @@ constexpr std::uint64_t kEmptyNj = 10'000;              // [nJ] less than any st
 constexpr double kTogether = 1e-5;                      // [m] the session has no distance left to close between hand and tool
 constexpr double kRecovered = 0.5;                      // share of the initial energy that an account has again
 constexpr double kLeads = 0.5;                          // share of authority of who moves the tool and is not moved by it
+/// A person speeds up by at most 0.5 m/s^2 for the 250 ms that are ever predicted, and a tool goes to a better prediction by 60 mm/s,
+/// where a scene's approach speed is less.
+constexpr double kGainsSpeed = 0.125 + 0.06;
 
 }  // namespace
 
@@ -34,6 +37,32 @@ AxisArray WorldWatch::offset_of(std::size_t i, const server::Session& session) c
   const AxisArray x = hung_on(i, tool, session);
   for (std::size_t a = 0; a < scene_->dof; ++a) offset[a] = session.seat(i).tx.port.x[a] - x[a];
   return offset;
+}
+
+/// One end for all tools, or one for each: of hands of law `replica`.
+void WorldWatch::check_server_ends(std::size_t i, const server::Session& session, const client::Seat* seat, bool slave) {
+  const server::SeatPort& port = session.seat(i);
+  const bool predicts = scene_->channel.law == LawKind::kReplica && !slave;
+  for (std::size_t k = 0; k < port.ends(); ++k) {
+    End& before = seats_[i].server[k];
+    const std::size_t tool = slave ? scene_->seats[i].tool : k;
+    EndLook look{port.heard_of(tool), hung_on(i, tool, session), before.x, offset_of(i, session), seat != nullptr};
+    if (predicts) look.gains_speed = kGainsSpeed;
+    for (std::size_t a = 0; a < scene_->dof; ++a) look.rx.x[a] -= look.offset[a];  // as the tool sees it
+    check_end(i, port.end(tool), before, seat ? seat->setup().axis_scale : AxisArray{1, 1, 1, 1, 1, 1, 1}, look);
+  }
+}
+
+/// A master's reference moves against the virtual mass as the tick before left it, a slave's against this tick's reading.
+void WorldWatch::check_client_ends(std::size_t i, const client::Seat& seat, const server::Session& session, bool slave) {
+  Seat& s = seats_[i];
+  for (std::size_t k = 0; k < seat.ties(); ++k) {
+    AxisArray x = seat.told_of(k).x;
+    if (const control::VirtualTool* const copy = seat.coupling().copy(k))
+      for (std::size_t a = 0; a < scene_->dof; ++a) x[a] = copy->x(a);
+    check_end(i, seat.channel(k), s.client[k], seat.setup().axis_scale,
+              {seat.told(k).port, x, slave ? x : s.client[k].x, offset_of(i, session), s.was_active && seat.gate().active()});
+  }
 }
 
 void WorldWatch::check_end(std::size_t i, const control::ChannelEnd& end, End& before, const AxisArray& scale, const EndLook& look) {

@@ -17,6 +17,28 @@ void check_scale(const pb::SeatSetup& in, Checker& checker) {
   }
 }
 
+/// Only hands of law REPLICA simulate tools, each once and in order, and what they feel is a mean of them.
+void read_ties(const pb::SeatSetup& in, Checker& checker, SeatSetup& out) {
+  out.weight = in.weight();
+  double sum = out.weight;
+  std::size_t before = out.seat.tool;
+  for (int k = 0; k < in.further_size(); ++k) {
+    const pb::TieSetup& tie = in.further(k);
+    const std::string path = text::child_path("", "further", k);
+    TieSetup& read = out.further.emplace_back();
+    read.tool = tie.tool_index();
+    read.weight = tie.weight();
+    read.m_s = tie.m_s_kg();
+    read.b_s = tie.b_s_n_s_m();
+    read_environment(tie.environment(), out.dof, text::child_path(path, "environment"), checker, read.environment);
+    if (read.tool <= before) checker.error(text::child_path(path, "tool_index"), "must be above that of the tool before, " + std::to_string(before));
+    before = read.tool;
+    sum += read.weight;
+  }
+  if (!out.further.empty() && (out.channel.law != LawKind::kReplica || out.seat.kind != SeatKind::kMaster)) checker.error("further", "is for masters of law REPLICA");
+  if (!out.further.empty() && !(std::abs(sum - 1) <= 1e-9)) checker.error("weight", "and those of `further` sum to " + text::number_text(sum) + "; they must sum to 1");
+}
+
 }  // namespace
 
 SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
@@ -43,6 +65,13 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
     setup.m_s = tool.m_s;
     setup.b_s = tool.b_s;
     if (!tool.remote) setup.environment = tool.environment;  // what a SLAVE seat's device touches is not known to others
+  }
+  if (setup.seat.kind == SeatKind::kMaster && scene.channel.law == LawKind::kReplica) {
+    setup.weight = scene.follow[seat][setup.seat.tool];
+    for (std::size_t j = setup.seat.tool + 1; j < scene.tools.size(); ++j) {
+      const ToolSpec& tool = scene.tools[j];
+      if (scene.follow[seat][j] > 0) setup.further.push_back({j, scene.follow[seat][j], tool.m_s, tool.b_s, tool.remote ? EnvironmentSpec{} : tool.environment});
+    }
   }
   const bool instructor = setup.seat.kind == SeatKind::kMaster && setup.seat.role == Role::kInstructor;
   for (std::size_t i = 0; i < scene.masters(); ++i) {
@@ -82,6 +111,15 @@ std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   message.set_m_s_kg(setup.m_s);
   message.set_b_s_n_s_m(setup.b_s);
   message.set_stiffness_asked_n_m(setup.stiffness_asked);
+  message.set_weight(setup.weight);
+  for (const TieSetup& tie : setup.further) {
+    pb::TieSetup& out_tie = *message.add_further();
+    out_tie.set_tool_index(static_cast<std::uint32_t>(tie.tool));
+    out_tie.set_weight(tie.weight);
+    out_tie.set_m_s_kg(tie.m_s);
+    out_tie.set_b_s_n_s_m(tie.b_s);
+    write_environment(tie.environment, *out_tie.mutable_environment());
+  }
   message.set_alpha_slew_per_s(std::isfinite(setup.alpha_slew) ? setup.alpha_slew : 0);
   const std::size_t size = message.ByteSizeLong();
   if (size > out.size() || !message.SerializeToArray(out.data(), static_cast<int>(size))) return 0;
@@ -120,6 +158,7 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     out.b_s = in.b_s_n_s_m();
     out.stiffness_asked = in.stiffness_asked_n_m();
     read_environment(in.environment(), out.dof, "environment", checker, out.environment);
+    read_ties(in, checker, out);
     for (std::size_t axis = 0; axis < out.dof; ++axis) out.axis_scale[axis] = in.axis_scale(static_cast<int>(axis));
     out.masters.assign(in.master().begin(), in.master().end());
     out.tools.assign(in.tool_name().begin(), in.tool_name().end());

@@ -16,6 +16,14 @@
 
 namespace tandem {
 
+/// One of several tools that a hand is tied to, as its client simulates it.
+struct TieSetup {
+  std::size_t tool = 0;  ///< number of it
+  double weight = 0;     ///< of its force in what the hand feels, C_ji (0, 1)
+  double m_s = 0.02, b_s = 0.2;  ///< mass and damping [kg, N s/m]
+  EnvironmentSpec environment;
+};
+
 /// What the server tells a client about the seat it was given (in WELCOME): all a seat core needs, no more.
 struct SeatSetup {
   double tick_hz = 1000;  ///< 100 ... 10000 [Hz]
@@ -31,6 +39,8 @@ struct SeatSetup {
   double stiffness_asked = 400;
   double m_s = 0.02, b_s = 0.2;  ///< mass and damping of the tool this seat follows [kg, N s/m]
   EnvironmentSpec environment;   ///< of that tool: a master of law REPLICA simulates it
+  double weight = 1;             ///< of that tool's force in what the hand feels, C_ji (0, 1]
+  std::vector<TieSetup> further; ///< of a master of law REPLICA: the other tools that it follows, in the scene's order
   GateSpec gate;
   SeatSpec seat;
   std::array<double, kAxesMax> axis_scale{1, 1, 1, 1,

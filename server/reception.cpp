@@ -9,15 +9,21 @@ namespace tandem::server {
 
 namespace {
 
-std::unique_ptr<control::ChannelEnd> end_of(const SeatSetup& s, const AxisArray& scale) {
-  const std::optional<double> k_s = s.seat.kind == SeatKind::kSlave ? std::optional{s.k_s} : std::nullopt;
-  return setup::make_channel(s.channel, control::Side::kServer, s.dof, scale, s.gate.force_max * share_of_force(s.seat.role), s.coupling.k_c, !s.unsafe_gains, k_s);
+std::vector<std::unique_ptr<control::ChannelEnd>> ends_of(const SeatSetup& s, const AxisArray& scale) {
+  const bool slave = s.seat.kind == SeatKind::kSlave;
+  const std::optional<double> k_s = slave ? std::optional{s.k_s} : std::nullopt;
+  // Also for tools that this hand does not follow: he may be given authority over them.
+  const std::size_t tools = s.channel.law == LawKind::kReplica && !slave ? std::max<std::size_t>(1, s.tools.size()) : 1;
+  std::vector<std::unique_ptr<control::ChannelEnd>> ends;
+  for (std::size_t j = 0; j < tools; ++j)
+    ends.push_back(setup::make_channel(s.channel, control::Side::kServer, s.dof, scale, s.gate.force_max * share_of_force(s.seat.role), s.coupling.k_c, !s.unsafe_gains, k_s));
+  return ends;
 }
 
 }  // namespace
 
-std::unique_ptr<control::ChannelEnd> make_channel_end(const SceneSpec& scene, std::size_t seat, const AxisArray& scale) {
-  return end_of(seat_setup(scene, seat), scale);
+std::vector<std::unique_ptr<control::ChannelEnd>> make_channel_ends(const SceneSpec& scene, std::size_t seat, const AxisArray& scale) {
+  return ends_of(seat_setup(scene, seat), scale);
 }
 
 Reception::Reception(const SceneSpec& scene, const AxisArray& scale) : scene_(&scene), scale_(scale) {
@@ -61,7 +67,7 @@ std::string Reception::softened_words(std::size_t seat, const tandem::control::D
 Entry Reception::prepare(std::size_t seat, link::Link::Params link, const tandem::control::DeviceFacts& device) const {
   link.outgoing = link::Direction::kToClient;
   link.tick = tick();
-  return {std::make_unique<link::Link>(link), end_of(setup_for(seat, device), scale_), {}, 1};
+  return {std::make_unique<link::Link>(link), ends_of(setup_for(seat, device), scale_), {}, 1};
 }
 
 }  // namespace tandem::server

@@ -22,13 +22,13 @@ enum class JoinResult : std::uint8_t { kAccepted, kNoSuchSeat, kSeatTaken, kDevi
 /// A seat's place in the session for one client, made where memory may be taken; the session's own thread only puts it in.
 struct Entry {
   std::unique_ptr<link::Link> link;
-  std::unique_ptr<control::ChannelEnd> end;
+  std::vector<std::unique_ptr<control::ChannelEnd>> ends;
   std::array<std::byte, 32> resume{};  ///< resume_hash of the secret this client may come back with; zero: none
   double force_scale = 1;              ///< its ticket's, told to the client; kept for when it comes back
 };
 
-/// The server's end of a seat's spring, as the scene asks for it.
-[[nodiscard]] std::unique_ptr<control::ChannelEnd> make_channel_end(const SceneSpec& scene, std::size_t seat, const AxisArray& scale);
+/// The server's end of a seat's spring, as the scene asks for it: one for all tools, or one for each where law REPLICA predicts a hand for each.
+[[nodiscard]] std::vector<std::unique_ptr<control::ChannelEnd>> make_channel_ends(const SceneSpec& scene, std::size_t seat, const AxisArray& scale);
 
 /// Who asks for a seat is answered from what never changes in a session, on any thread: which seats there are, who fits, what a client
 /// must know, and the entry itself. Whether the seat is free only the session knows.

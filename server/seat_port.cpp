@@ -39,16 +39,28 @@ SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& sc
       hold_least_(from_seconds(hold_limits(scene, seat).least)),
       hold_most_(from_seconds(hold_limits(scene, seat).most)),
       deaf_after_(from_seconds(patience(scene, seat)) + kDeafMargin),
-      end_(make_channel_end(scene, seat, scale)),
-      codec_(scene.dof, scene.port) {}
+      ends_(make_channel_ends(scene, seat, scale)) {
+  const SeatSetup setup = seat_setup(scene, seat);
+  tied_tools_.push_back(setup.seat.tool);
+  for (const TieSetup& tie : setup.further) {
+    tie_of_[tie.tool] = static_cast<std::uint8_t>(tied_tools_.size());
+    tied_tools_.push_back(tie.tool);
+  }
+  codec_.configure(scene.dof, scene.port, setup.further.size());
+  further_rx_.resize(setup.further.size());
+  further_next_.resize(setup.further.size());
+  further_tx_.resize(setup.further.size());
+}
 
 void SeatPort::take(Time now, Entry& entry) noexcept {
   std::unique_ptr<link::Link> before = connection_ ? connection_->give_up() : nullptr;
   connection_.emplace(now, std::exchange(entry.link, std::move(before)), tick_);
-  std::swap(end_, entry.end);
+  std::swap(ends_, entry.ends);
   taken_ = true;
   generation_ = 0;
   *rx_ = {};
+  std::ranges::fill(further_rx_, PortSample{});
+  was_engaged_ = {};
   conduct_ = {};
   resume_ = entry.resume;
   force_scale_ = entry.force_scale;
@@ -72,17 +84,18 @@ SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<
   };
   switch (opened->type) {
     case wire::Type::kState: {
-      const auto preamble = codec_.decode_state(opened->plaintext, *next_);
+      const auto preamble = codec_.decode_state(opened->plaintext, *next_, further_next_);
       if (!preamble) {
         offence();
         break;
       }
       if (!opened->newer) break;  // latest wins: nothing acts backwards
-      if (alive(now) && rx_->engaged && next_->engaged && jumps(next_->port)) conduct_.offend(now);
+      if (alive(now) && rx_->engaged && next_->engaged && jumps()) conduct_.offend(now);
       heard.acted = true;
       connection_->acts(now, from, *opened, *preamble, tokens);
-      for (std::size_t a = 0; a < scene_->dof; ++a) energy_fell_ |= next_->port.e_in[a] < rx_->port.e_in[a];
+      energy_fell_ |= takes_energy_back();
       std::swap(rx_, next_);
+      further_rx_.swap(further_next_);
       ++generation_;
       break;
     }
@@ -118,46 +131,68 @@ bool SeatPort::deaf() const noexcept {
   return (feels_ && fresh.peer_silence() > deaf_after_) || fresh.echo_stall() > std::max(kEchoStallMax, deaf_after_);  // who feels nothing is not told often
 }
 
-bool SeatPort::jumps(const PortSample& next) const noexcept {
+bool SeatPort::jumps(const PortSample& next, const PortSample& last) const noexcept {
   const double most = scene_->port == PortSpace::kTip ? kJumpMaxM : kJumpMaxRad;
   for (std::size_t a = 0; a < scene_->dof; ++a)
-    if (!(std::abs(next.x[a] - rx_->port.x[a]) <= most)) return true;
+    if (!(std::abs(next.x[a] - last.x[a]) <= most)) return true;
   return false;
 }
 
-void SeatPort::hold(const AxisArray& x) noexcept {
-  if (was_present_) ++outages_;
-  was_present_ = false;
-  end_->give_way(x);
+bool SeatPort::jumps() const noexcept {
+  bool any = jumps(next_->port, rx_->port);
+  for (std::size_t k = 0; k < further_rx_.size(); ++k) any |= jumps(further_next_[k], further_rx_[k]);
+  return any;
 }
 
-void SeatPort::move(Time now, double dt, bool present, const Near& near) noexcept {
-  const double age = age_ = taken_ ? seconds(connection_->link().freshness().age(now)) : 0;
-  if (!present || !was_present_) {
-    if (was_present_) ++outages_;
-    end_->engage(near.x, age);
-    was_present_ = present;
-    return;
+bool SeatPort::takes_energy_back() const noexcept {
+  bool any = false;
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    any |= next_->port.e_in[a] < rx_->port.e_in[a];
+    for (std::size_t k = 0; k < further_rx_.size(); ++k) any |= further_next_[k].e_in[a] < further_rx_[k].e_in[a];
   }
+  return any;
+}
+
+void SeatPort::hold(std::span<const Near> near) noexcept {
+  if (was_present_) ++outages_;
+  was_present_ = false;
+  was_engaged_ = {};
+  for (std::size_t k = 0; k < ends_.size(); ++k) ends_[k]->give_way(near[k].x);
+}
+
+void SeatPort::move(Time now, double dt, std::span<const Near> near) noexcept {
+  const double age = age_ = taken_ ? seconds(connection_->link().freshness().age(now)) : 0;
+  const bool present = std::ranges::any_of(near, &Near::engaged);
+  if (was_present_ && !present) ++outages_;
+  was_present_ = present;
   input_.dt = dt;
   input_.age = age;
-  input_.weight = near.weight;
-  input_.pass_on = near.pass_on;
-  const PortSample& heard = rx_->port;
-  for (std::size_t a = 0; a < scene_->dof; ++a) {
-    input_.x[a] = near.x[a];
-    input_.dissipated[a] = near.dissipated[a];
-    input_.rx.x[a] = heard.x[a] - near.offset[a];
-    input_.rx.v[a] = heard.v[a];
-    input_.rx.f[a] = heard.f[a];
-    input_.rx.a[a] = heard.a[a];
-    input_.rx.e_in[a] = heard.e_in[a];
+  for (std::size_t k = 0; k < ends_.size(); ++k) {
+    const Near& here = near[k];
+    if (!std::exchange(was_engaged_[k], here.engaged) || !here.engaged) {
+      ends_[k]->engage(here.x, age);
+      continue;
+    }
+    input_.weight = here.weight;
+    input_.pass_on = here.pass_on;
+    const PortSample& heard = heard_of(k);
+    for (std::size_t a = 0; a < scene_->dof; ++a) {
+      input_.x[a] = here.x[a];
+      input_.dissipated[a] = here.dissipated[a];
+      input_.rx.x[a] = heard.x[a] - here.offset[a];
+      input_.rx.v[a] = heard.v[a];
+      input_.rx.f[a] = heard.f[a];
+      input_.rx.a[a] = heard.a[a];
+      input_.rx.e_in[a] = heard.e_in[a];
+    }
+    ends_[k]->move(input_);
   }
-  end_->move(input_);
 }
 
 Transmit SeatPort::transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept {
-  return taken_ ? connection_->seal(now, tick, wire::Type::kForce, tx, codec_, buffer) : Transmit{};
+  if (!taken_) return {};
+  if (further_tx_.empty()) return connection_->seal(now, tick, wire::Type::kForce, tx, codec_, buffer);
+  return connection_->seal(now, tick, wire::Type::kForce, wire::ForceWithTies{tx, further_tx_}, codec_, buffer);
 }
 
 Transmit SeatPort::transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept {

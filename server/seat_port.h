@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "common/control/channel.h"
 #include "proto/scene_spec.h"
@@ -53,23 +55,34 @@ class SeatPort {
   /// Its spring may act on tools.
   [[nodiscard]] bool present(Time now) const noexcept { return alive(now) && rx_->engaged && !rx_->stop && !conduct_.isolated(now) && !deaf(); }
 
-  /// What the near end of the spring hangs on.
+  /// What the near end of a spring hangs on.
   struct Near {
-    AxisArray x{};           ///< the tool's position, a weighted one where a seat serves several tools
+    bool engaged = false;    ///< else it rests, without elongation
+    AxisArray x{};           ///< the tool's position, a weighted one where one end serves several tools
     AxisArray offset{};      ///< hand minus tool, taken off what was received
     AxisArray dissipated{};  ///< heat at the tools this seat may spend [J]
     double weight = 0;       ///< how many such springs a move loads
     double pass_on = 1;      ///< share of the heat the client may have when it is not needed here
   };
-  /// Moves this end's reference; rests it (no elongation) while the seat is not present.
-  void move(Time now, double dt, bool present, const Near& near) noexcept TANDEM_REALTIME;
+  /// Moves the references of all ends. @param near  of each
+  void move(Time now, double dt, std::span<const Near> near) noexcept TANDEM_REALTIME;
   /// The seat is lost and its weight moves to other seats: its end keeps its reference, so that nothing at the tool jumps. The
   /// reference gives way to a tool that others take farther than this seat's motor could pull.
-  /// @param x  of the tool; a weighted position where the seat serves several tools
-  void hold(const AxisArray& x) noexcept TANDEM_REALTIME;
+  /// @param near  as for `move`
+  void hold(std::span<const Near> near) noexcept TANDEM_REALTIME;
 
-  [[nodiscard]] control::ChannelEnd& end() noexcept { return *end_; }
-  [[nodiscard]] const control::ChannelEnd& end() const noexcept { return *end_; }
+  /// This seat's end of the spring to a tool: hands of law `replica` have one for each tool, all others one.
+  [[nodiscard]] control::ChannelEnd& end(std::size_t tool = 0) noexcept { return *ends_[ends_.size() == 1 ? 0 : tool]; }
+  [[nodiscard]] const control::ChannelEnd& end(std::size_t tool = 0) const noexcept { return *ends_[ends_.size() == 1 ? 0 : tool]; }
+  [[nodiscard]] std::size_t ends() const noexcept { return ends_.size(); }
+  /// The tools whose ties have a place in this seat's STATE and FORCE, in order; at least one.
+  [[nodiscard]] std::span<const std::size_t> tied_tools() const noexcept { return tied_tools_; }
+  /// What the hand said last of its tie to this tool; of its first one, where it has none to it.
+  [[nodiscard]] const PortSample& heard_of(std::size_t tool) const noexcept {
+    return tie_of_[tool] == 0 ? rx_->port : further_rx_[tie_of_[tool] - 1];
+  }
+  /// What the hand is told next of its tie k.
+  [[nodiscard]] wire::TieForce& told(std::size_t k) noexcept { return k == 0 ? tx : further_tx_[k - 1]; }
   [[nodiscard]] link::Link* link() noexcept { return taken_ ? &connection_->link() : nullptr; }
   [[nodiscard]] const link::Link* link() const noexcept { return taken_ ? &connection_->link() : nullptr; }
   [[nodiscard]] const wire::StateMessage& heard() const noexcept { return *rx_; }
@@ -106,7 +119,9 @@ class SeatPort {
 
  private:
   /// Farther from the sample before than any hand comes in the time between.
-  [[nodiscard]] bool jumps(const PortSample& next) const noexcept;
+  [[nodiscard]] bool jumps() const noexcept;
+  [[nodiscard]] bool jumps(const PortSample& next, const PortSample& last) const noexcept;
+  [[nodiscard]] bool takes_energy_back() const noexcept;
 
   const SceneSpec* scene_;
   Duration tick_;
@@ -117,7 +132,9 @@ class SeatPort {
   Conduct conduct_;
   std::array<std::byte, 32> resume_{};
   double force_scale_ = 1;
-  std::unique_ptr<control::ChannelEnd> end_;
+  std::vector<std::unique_ptr<control::ChannelEnd>> ends_;
+  std::vector<std::size_t> tied_tools_;
+  std::array<std::uint8_t, kToolsMax> tie_of_{};  ///< place in `tied_tools_`; 0 also of tools without a tie
   std::optional<Connection> connection_;  ///< kept when its client has left, until another comes
   bool taken_ = false;
   wire::Codec codec_;
@@ -125,8 +142,11 @@ class SeatPort {
   wire::AuthorityMessage wish_;
   /// What acts, and room for what comes next: exchanged, never copied.
   std::unique_ptr<wire::StateMessage> rx_ = std::make_unique<wire::StateMessage>(), next_ = std::make_unique<wire::StateMessage>();
+  std::vector<PortSample> further_rx_, further_next_;
+  std::vector<wire::TieForce> further_tx_;
   std::uint64_t generation_ = 0;
   double age_ = 0;
+  std::array<bool, kToolsMax> was_engaged_{};  ///< per end
   bool was_present_ = false, energy_fell_ = false;
   std::uint32_t outages_ = 0;
 };

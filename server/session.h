@@ -177,6 +177,7 @@ class Session {
   void share_authority() noexcept TANDEM_REALTIME;
   void tie_seats() noexcept TANDEM_REALTIME;
   void move_references(Time now) noexcept TANDEM_REALTIME;
+  void move_predictions(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
   void step_offset(std::size_t seat, bool engaged) noexcept TANDEM_REALTIME;
   void credit_seat(std::size_t seat) noexcept TANDEM_REALTIME;
   void step_tools() noexcept TANDEM_REALTIME;
@@ -187,6 +188,9 @@ class Session {
   [[nodiscard]] bool told_of_others(std::size_t i) const noexcept;
   void grant_following(std::size_t i) noexcept TANDEM_REALTIME;
   void follow_others(std::size_t i) noexcept TANDEM_REALTIME;
+  void follow_others(std::size_t i, std::size_t j, wire::TieForce& told) const noexcept TANDEM_REALTIME;
+  void tell_ties(std::size_t i) noexcept TANDEM_REALTIME;
+  void tell_tools(std::size_t i) noexcept TANDEM_REALTIME;
   [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
@@ -255,8 +259,6 @@ class Session {
   std::array<AxisArray, kSeatsMax> following_{};    ///< y_i plus offset: what each seat follows
   std::array<AxisArray, kSeatsMax> following_v_{};
   std::array<AxisArray, kSeatsMax> reference_before_{};
-  std::array<AxisArray, kSeatsMax> tool_told_{};    ///< law `replica`: where the tool is that each seat has a copy of
-  std::array<double, kSeatsMax> slave_pull_{};      ///< law `replica`: wire::ForceMessage::slave_pull
   std::array<std::uint64_t, kToolsMax> slave_heard_{};  ///< generation of the SLAVE seat's newest sample that a source of contacts saw
   std::array<bool, kSeatsMax> present_{};
   TickRecord record_{};

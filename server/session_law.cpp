@@ -25,7 +25,7 @@ void Session::share_authority() noexcept {
     in.dt = dt_;
     for (std::size_t i = 0; i < masters_; ++i) {
       in.present[i] = present_[i] && slave_present(j) && state_ != wire::SessionState::kEnding && !lets_go();
-      const control::EndState& end = seats_[i].end().state();
+      const control::EndState& end = seats_[i].end(j).state();
       for (std::size_t a = 0; a < scene_->dof; ++a) {
         const double e = end.ref[a] - tool.x(a);
         in.stored[i] += 0.5 * end.k[a] * e * e;
@@ -52,6 +52,10 @@ bool Session::told_of_others(std::size_t i) const noexcept { return replica_ && 
 void Session::move_references(Time now) noexcept {
   const bool tank = scene_->channel.mfs == MfsMode::kTank;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
+    if (told_of_others(i)) {
+      move_predictions(now, i);
+      continue;
+    }
     SeatPort::Near near;
     bool held = false, leaving = false;
     if (scene_->seats[i].kind == SeatKind::kSlave) {
@@ -77,16 +81,33 @@ void Session::move_references(Time now) noexcept {
       for (std::size_t a = 0; a < scene_->dof; ++a) near.x[a] /= near.weight > 0 ? near.weight : 1;
     }
     reference_before_[i] = seats_[i].end().state().ref;
-    const bool engaged = present_[i] && !held;
-    if (!told_of_others(i)) step_offset(i, engaged);
+    near.engaged = present_[i] && !held;
+    step_offset(i, near.engaged);
     near.offset = offset_[i];
     if (leaving && !present_[i] && !held) {  // no energy is paid or credited while it waits for its weight to go
-      seats_[i].hold(near.x);
+      seats_[i].hold(std::span{&near, 1});
       continue;
     }
-    seats_[i].move(now, dt_, engaged, near);
-    if (!told_of_others(i)) credit_seat(i);
+    seats_[i].move(now, dt_, std::span{&near, 1});
+    credit_seat(i);
   }
+}
+
+/// The hand as each of its tools is pulled by it.
+void Session::move_predictions(Time now, std::size_t i) noexcept {
+  std::array<SeatPort::Near, kToolsMax> near;
+  bool held = false, leaving = false;
+  for (std::size_t j = 0; j < seats_[i].ends(); ++j) {
+    const Tie& tie = ties_[i][j];
+    const bool tool_held = tools_[j].authority.held();
+    near[j].engaged = present_[i] && tie.share > 0 && !tool_held;
+    held |= tie.share > 0 && tool_held;
+    leaving |= tie.alpha > 0;
+    for (std::size_t a = 0; a < scene_->dof; ++a) near[j].x[a] = tools_[j].x(a);
+  }
+  const std::span<const SeatPort::Near> all{near.data(), seats_[i].ends()};
+  if (leaving && !present_[i] && !held) return seats_[i].hold(all);
+  seats_[i].move(now, dt_, all);
 }
 
 /// Hand and tool need not be at one place when a seat engages, or engages again after an outage: both springs begin without
@@ -157,7 +178,7 @@ void Session::step_tools() noexcept {
     for (std::size_t a = 0; a < scene_->dof; ++a) {
       for (std::size_t i = 0; i < masters_; ++i) {
         const double alpha = tool.authority.alpha(i);
-        const control::EndState& end = seats_[i].end().state();
+        const control::EndState& end = seats_[i].end(j).state();
         if (alpha > 0) pull[a].spring(alpha * end.k[a], end.ref[a]);
         // The schedule's damping, shared like the springs: P+d wants it at both ends. Or a hand's own, relative to its motion.
         const double part = tool.body() != nullptr && replica_ ? tool.body()->relative_damping_share(a, scene_->channel.b_rel, 0, end.k[a], 0) : 1;
@@ -199,7 +220,7 @@ double Session::slave_pull(std::size_t i, std::size_t j) const noexcept {
   const double share = tools_[j].slave_share();
   if (!scene_->tools[j].remote || !slave_present(j) || share <= 0) return 0;
   const control::ChannelEnd& slave = seats_[scene_->tools[j].seat].end();
-  const double delay = seats_[i].end().schedule().delay() + slave.schedule().delay();
+  const double delay = seats_[i].end(j).schedule().delay() + slave.schedule().delay();
   const double most = delay > 0 ? scene_->channel.k_delay / delay : slave.schedule().stiffness();
   return share * std::min({1.0, slave.schedule().stiffness() / scene_->coupling.k_c, most / scene_->coupling.k_c});
 }
@@ -209,7 +230,7 @@ void Session::step_following() noexcept {
     for (std::size_t a = 0; a < scene_->dof; ++a) {
       double injected = 0;  // F_ri is the effort on the IPC, the client sends its opposite
       for (std::size_t i = 0; i < masters_; ++i)
-        if (present_[i]) injected -= (ties_[i][j].follow - ties_[i][j].alpha) * seats_[i].heard().port.f[a] * tools_[j].moved()[a];
+        if (present_[i]) injected -= (ties_[i][j].follow - ties_[i][j].alpha) * seats_[i].heard_of(j).f[a] * tools_[j].moved()[a];
       tools_[j].sources.observe(a, injected / dt_, dt_);
     }
   for (std::size_t i = 0; i < seats_.size(); ++i) {
@@ -233,47 +254,68 @@ void Session::grant_following(std::size_t i) noexcept {
     if (!(tie.follow > 0)) continue;
     for (std::size_t a = 0; a < scene_->dof; ++a) {
       const double room = tools_[j].sources.mode() == control::FlowSourceMode::kOpen ? kAgeRoom * tools_[j].moved()[a] / dt_ : 0;
-      const double pull = std::clamp(seats_[i].end().state().k[a] * (tools_[j].x(a) + room - seats_[i].heard().port.x[a]), -strongest, strongest);
-      seats_[i].end().credit(a, tools_[j].sources.grant(tie.follow * (1 - tie.alpha) * pull * tools_[j].moved()[a]));
+      control::ChannelEnd& end = seats_[i].end(j);
+      const double pull = std::clamp(end.state().k[a] * (tools_[j].x(a) + room - seats_[i].heard_of(j).x[a]), -strongest, strongest);
+      // The hand has that share of what its copy of this tool gives and takes; the account is the copy's.
+      end.credit(a, tools_[j].sources.grant(tie.follow * (1 - tie.alpha) * pull * tools_[j].moved()[a]) / tie.follow);
     }
   }
 }
 
 /// Mix-minus, as in a telephone conference: where the others pull at the tool, and never this hand's own echo. A hand that shares hears of them
 /// as they were; one that only follows, as they are by now.
-void Session::follow_others(std::size_t i) noexcept {
-  following_[i] = following_v_[i] = tool_told_[i] = {};
-  slave_pull_[i] = 0;
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
-    const Tie& tie = ties_[i][j];
-    if (!(tie.follow > 0)) continue;
-    double others = 0;
-    const double alone = 1 - tie.alpha, slave = slave_pull(i, j);
-    const control::EndState* const device = slave > 0 ? &seats_[scene_->tools[j].seat].end().state() : nullptr;
-    slave_pull_[i] += tie.follow * slave;
-    for (std::size_t h = 0; h < masters_; ++h) others += h == i ? 0 : tools_[j].authority.alpha(h);
-    for (std::size_t a = 0; a < scene_->dof; ++a) {
-      double x = tools_[j].x(a), v = tools_[j].v(a);
-      tool_told_[i][a] += tie.follow * x;
-      if (others > kNobody) {
-        x = v = 0;
-        for (std::size_t h = 0; h < masters_; ++h) {
-          const double part = h == i ? 0 : tools_[j].authority.alpha(h) / others;
-          if (part == 0) continue;
-          const control::EndState& by_now = seats_[h].end().state();
-          const PortSample& hand = seats_[h].heard().port;
-          const bool shares = tie.alpha >= kShares && present_[h];
-          x += part * (shares ? hand.x[a] : by_now.ref[a]);
-          v += part * (shares ? hand.v[a] : present_[h] ? by_now.rate[a] : 0);
-        }
+void Session::follow_others(std::size_t i, std::size_t j, wire::TieForce& told) const noexcept {
+  const Tie& tie = ties_[i][j];
+  double others = 0;
+  const double alone = 1 - tie.alpha, slave = slave_pull(i, j);
+  const control::EndState* const device = slave > 0 ? &seats_[scene_->tools[j].seat].end().state() : nullptr;
+  told.slave_pull = slave;
+  for (std::size_t h = 0; h < masters_; ++h) others += h == i ? 0 : tools_[j].authority.alpha(h);
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    double x = tools_[j].x(a), v = tools_[j].v(a);
+    told.port.f[a] = x;
+    if (others > kNobody) {
+      x = v = 0;
+      for (std::size_t h = 0; h < masters_; ++h) {
+        const double part = h == i ? 0 : tools_[j].authority.alpha(h) / others;
+        if (part == 0) continue;
+        const control::EndState& by_now = seats_[h].end(j).state();
+        const PortSample& hand = seats_[h].heard_of(j);
+        const bool shares = tie.alpha >= kShares && present_[h];
+        x += part * (shares ? hand.x[a] : by_now.ref[a]);
+        v += part * (shares ? hand.v[a] : present_[h] ? by_now.rate[a] : 0);
       }
-      if (device != nullptr) {  // two springs of stiffness alone and slave, as one between them
-        x = (alone * x + slave * device->ref[a]) / (alone + slave);
-        v = (alone * v + slave * seats_[scene_->tools[j].seat].heard().port.v[a]) / (alone + slave);
-      }
-      following_[i][a] += tie.follow * x;
-      following_v_[i][a] += tie.follow * v;
     }
+    if (device != nullptr) {  // two springs of stiffness alone and slave, as one between them
+      x = (alone * x + slave * device->ref[a]) / (alone + slave);
+      v = (alone * v + slave * seats_[scene_->tools[j].seat].heard().port.v[a]) / (alone + slave);
+    }
+    told.port.x[a] = x;
+    told.port.v[a] = v;
+  }
+}
+
+void Session::follow_others(std::size_t i) noexcept {
+  const std::span<const std::size_t> tools = seats_[i].tied_tools();
+  for (std::size_t k = 0; k < tools.size(); ++k) follow_others(i, tools[k], seats_[i].told(k));
+}
+
+/// What else each tie is told. Where the surfaces near all tools do not fit into a datagram, the tools take turns: each is named
+/// again long before its surfaces are forgotten.
+void Session::tell_ties(std::size_t i) noexcept {
+  const std::span<const std::size_t> tools = seats_[i].tied_tools();
+  std::size_t room = wire::contacts_room(scene_->dof, tools.size() - 1);
+  const std::size_t first = tick_ % tools.size();
+  for (std::size_t n = 0; n < tools.size(); ++n) {
+    const std::size_t k = (first + n) % tools.size(), j = tools[k];
+    wire::TieForce& told = seats_[i].told(k);
+    for (std::size_t a = 0; a < scene_->dof; ++a) told.port.e_in[a] = seats_[i].end(j).ledger(a).in_nj();
+    told.alpha = ties_[i][j].alpha;
+    told.contacts.size = 0;
+    const LocalContactList& surfaces = tools_[j].contacts();
+    if (surfaces.size == 0 || surfaces.size > room) continue;
+    told.contacts = surfaces;
+    room -= surfaces.size;
   }
 }
 

@@ -34,8 +34,9 @@ void SessionMonitor::check(const Session& session, Violations& out) {
   }
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const SeatPort& seat = session.seat(i);
-    for (std::size_t a = 0; a < scene.dof; ++a)
-      if (!seat.end().ledger(a).holds()) out.note("ledger", scene.seats[i].name, t, !seat.end().promises().ledger);
+    for (std::size_t k = 0; k < seat.ends(); ++k)
+      for (std::size_t a = 0; a < scene.dof; ++a)
+        if (!seat.end(k).ledger(a).holds()) out.note("ledger", scene.seats[i].name, t, !seat.end(k).promises().ledger);
     if (seat.energy_fell()) out.note("energy_monotone", scene.seats[i].name, t, false);
   }
 }

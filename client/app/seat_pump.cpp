@@ -71,7 +71,7 @@ hal::Command SeatPump::tick(const hal::State& state) noexcept {
   picture_.force_peak_n = std::max(picture_.force_peak_n, norm(t.f_out));
   if (samples_ != nullptr)
     samples_->push({session.value_or(-seconds(now - began_)), t.q, t.x, t.f_cmd, triple(seat_->tip_force()), t.f_out,
-                    seat_->sample().gate, seat_->force().alpha, seat_->link().freshness().heard() ? seconds(seat_->link().freshness().silence(now)) : -1});
+                    seat_->sample().gate, seat_->authority(), seat_->link().freshness().heard() ? seconds(seat_->link().freshness().silence(now)) : -1});
   if (ticks_ % kLookEvery == 1 || seat_->closed()) look(now);
   if (seat_->closed() && !std::exchange(told_, true)) {
     const std::uint64_t one = 1;
@@ -204,7 +204,7 @@ void SeatPump::look(Time now) noexcept {
   p.missing = seat_->force().missing;
   if (const auto time = seat_->server_time(now)) p.session_time = *time;  // back at a server that waits for others: what was last shown
   p.silence_s = seconds(f.heard() ? f.unanswered(now) : now - connected_);
-  p.alpha = seat_->force().alpha;
+  p.alpha = seat_->authority();
   p.authority_version = seat_->force().authority_version;
   p.touching = seat_->force().touching;
   p.own_stop = seat_->stopped();

@@ -25,7 +25,7 @@ void ToolCopy::rest_at(const AxisArray& tool, const AxisArray& hand) noexcept {
     anchor_[a].rest_at(tool[a]);
     wanted_[a] = dissipated_[a] = 0;
   }
-  share_ = engaged_for_ = 0;
+  share_ = pull_ = engaged_for_ = 0;
 }
 
 const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, ChannelEnd& end) noexcept {
@@ -39,11 +39,11 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double q = hand[a] - offset_[a];
     const double velocity = HandMotionFilter::velocity_by_now(hand_[a].step(hand[a]));
-    pulls[a].spring(own * share_ * p_.k_c, q);
+    pulls[a].spring(own * pull_ * p_.k_c, q);
     pulls[a].spring(reference.k[a], reference.ref[a]);
     without_dampers[a] = pulls[a];
     const double part = tool_.relative_damping_share(a, p_.b_rel, alone * p_.b_rel, p_.k_c, reference.k[a]);
-    pulls[a].damper(part * own * share_ * p_.b_rel, velocity);
+    pulls[a].damper(part * own * pull_ * p_.b_rel, velocity);
     pulls[a].damper(part * reference.b[a], reference.rate[a]);
   }
   const VirtualTool before = tool_;
@@ -55,7 +55,7 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double v = tool_.v(a);
     dissipated_[a] = (p_.tool.b + 0.5 * reference.k[a] * p_.dt) * v * v * p_.dt;
-    show(a, hand[a] - offset_[a], alone, end);
+    show(a, hand[a] - offset_[a], alone * share_ + own * (share_ - pull_), end);
   }
   return wanted_;
 }
@@ -106,8 +106,9 @@ bool ToolCopy::pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualToo
 }
 
 /// The hand feels the copy as far as is paid: k (y' - q)(y' - y) is the work of the spring's end at its new force.
-void ToolCopy::show(std::size_t axis, double hand, double alone, ChannelEnd& end) noexcept {
-  const double k = alone * share_ * p_.k_c;
+/// @param part  of the spring that pulls at the hand and not at the copy [0, 1]
+void ToolCopy::show(std::size_t axis, double hand, double part, ChannelEnd& end) noexcept {
+  const double k = part * p_.k_c;
   const double from = shown_[axis] - hand, to = tool_.x(axis) - hand;
   const double cost = k * to * (to - from);
   double shown = to;
@@ -124,15 +125,25 @@ void ToolCopy::show(std::size_t axis, double hand, double alone, ChannelEnd& end
   wanted_[axis] = p_.k_c * shown;
 }
 
-void ToolCopy::delivered(const AxisArray& effort) noexcept {
-  double given = 0, wanted = 0;
-  for (std::size_t a = 0; a < p_.axes; ++a) {
-    given += effort[a] * wanted_[a];
-    wanted += wanted_[a] * wanted_[a];
+std::optional<double> ToolCopy::share_of(const AxisArray& given, const AxisArray& wanted, std::size_t axes) noexcept {
+  double part = 0, whole = 0;
+  for (std::size_t a = 0; a < axes; ++a) {
+    part += given[a] * wanted[a];
+    whole += wanted[a] * wanted[a];
   }
-  constexpr double kLeast = 1e-12;  // [N^2] below it a ratio says nothing
-  if (wanted > kLeast) share_ = std::clamp(given / wanted, 0.0, 1.0);
-  for (std::size_t a = 0; a < p_.axes; ++a) anchor_[a].step(tool_.x(a) - share_ * wanted_[a] / p_.k_c);
+  constexpr double kLeast = 1e-12;  // [N^2]
+  return whole > kLeast ? std::optional{std::clamp(part / whole, 0.0, 1.0)} : std::nullopt;
+}
+
+void ToolCopy::delivered(const AxisArray& effort) noexcept {
+  share_ = share_of(effort, wanted_, p_.axes).value_or(share_);
+  pull_ = share_;
+  if (p_.of_several) {  // two tools that part pull a hand to both sides: the motor gives the difference only, and pulls neither harder than it could
+    double square = 0;
+    for (std::size_t a = 0; a < p_.axes; ++a) square += wanted_[a] * wanted_[a];
+    if (share_ * share_ * square > p_.force_max * p_.force_max) pull_ = p_.force_max / std::sqrt(square);
+  }
+  for (std::size_t a = 0; a < p_.axes; ++a) anchor_[a].step(tool_.x(a) - pull_ * wanted_[a] / p_.k_c);
 }
 
 }  // namespace tandem::control

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "common/control/channel.h"
 #include "common/control/hand_motion.h"
 #include "common/control/local_contacts.h"
@@ -27,6 +29,7 @@ class ToolCopy {
     double v_app = 0.1;        ///< of an offset's way home [m/s]
     double offset_rests = 0.5; ///< how long an offset stays once it began [s]: the ramp of the gate
     double force_max = 3.3;    ///< of the gate [N]
+    bool of_several = false;   ///< the hand feels other tools too
     double dt = 0.001;         ///< tick [s]
   };
   explicit ToolCopy(const Params& params) noexcept;
@@ -41,6 +44,9 @@ class ToolCopy {
   /// What the gate let through of `step`'s effort: the copy is pulled by just that.
   void delivered(const AxisArray& effort) noexcept TANDEM_REALTIME;
 
+  /// How much of what was wanted was given; nothing where so little was wanted that a ratio says nothing.
+  [[nodiscard]] static std::optional<double> share_of(const AxisArray& given, const AxisArray& wanted, std::size_t axes) noexcept;
+
   [[nodiscard]] const VirtualTool& tool() const noexcept { return tool_; }
   [[nodiscard]] const LocalContacts& told() const noexcept { return told_; }
   /// Where the hand pulls at the tool, as the server shall take it: q where the whole effort is given, nearer to the copy where it is clipped.
@@ -53,7 +59,7 @@ class ToolCopy {
   void bring_offset_home(ChannelEnd& end) noexcept;
   void meet_told(ChannelEnd& end) noexcept;
   [[nodiscard]] bool pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualTool& before, ChannelEnd& end) noexcept;
-  void show(std::size_t axis, double hand, double alone, ChannelEnd& end) noexcept;
+  void show(std::size_t axis, double hand, double part, ChannelEnd& end) noexcept;
 
   Params p_;
   VirtualTool tool_;
@@ -61,6 +67,7 @@ class ToolCopy {
   std::array<HandMotionFilter, kAxes> hand_, anchor_;
   AxisArray shown_{}, offset_{}, wanted_{}, dissipated_{};
   double share_ = 0;       ///< of the wanted effort that the gate gave last [0, 1]
+  double pull_ = 0;        ///< of it that the hand pulls the copy with: as much, and no more than its motor could give
   double engaged_for_ = 0; ///< [s]
 };
 

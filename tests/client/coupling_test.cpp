@@ -28,24 +28,38 @@ SeatSetup leader() {
 
 /// A hand and all of its loop that is at the client, with a gate that gives what is wanted up to 3.3 N.
 struct Hand {
-  explicit Hand(const SeatSetup& s)
-      : end(setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max, s.coupling.k_c, true, std::nullopt)), coupling(make_coupling(s)) {}
+  explicit Hand(const SeatSetup& s) : coupling(make_coupling(s)), told(1 + s.further.size()), ties(told.size()) {
+    for (std::size_t k = 0; k < ties.size(); ++k) {
+      ends.push_back(setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max, s.coupling.k_c, true, std::nullopt));
+      ties[k] = {ends[k].get(), &told[k]};
+    }
+  }
+  void rest(const AxisArray& q) { coupling->rest({.age = 0.005, .q = q, .ties = ties}, false); }
   AxisArray tick(double x, double v, double authority, const PortSample& rx, double age) {
-    Coupling::Input in;
-    in.dt = kT;
-    in.age = age;
-    in.authority = authority;
+    told[0].alpha = authority;
+    told[0].port = rx;
+    return tick(x, v, age);
+  }
+  /// What is told of each tie stands in `told`.
+  AxisArray tick(double x, double v, double age) {
+    Coupling::Input in{.dt = kT, .age = age, .ties = ties};
     in.q[0] = x;
     in.v[0] = v;
-    in.rx = &rx;
-    AxisArray effort = coupling->step(in, *end);
+    AxisArray effort = coupling->step(in);
     const double norm = std::hypot(effort[0], effort[1], effort[2]);
     for (double& f : effort) f *= norm > 3.3 ? 3.3 / norm : 1;
     coupling->delivered(effort);
     return effort;
   }
-  std::unique_ptr<control::ChannelEnd> end;
+  [[nodiscard]] PortSample tells(std::size_t k = 0) const {
+    PortSample out;
+    coupling->tell(k, {.ties = ties}, true, out);
+    return out;
+  }
+  std::vector<std::unique_ptr<control::ChannelEnd>> ends;
   std::unique_ptr<Coupling> coupling;
+  std::vector<wire::TieForce> told;
+  std::vector<Coupling::Tie> ties;
 };
 
 /// What a server may say of others, true or not.
@@ -72,8 +86,8 @@ Differences between_two_servers(double authority, std::uint64_t seed) {
   Hand one{s}, other{s};
   AxisArray start{};
   start[0] = -0.02;
-  one.coupling->rest(start, nullptr, 0.005, *one.end);
-  other.coupling->rest(start, nullptr, 0.005, *other.end);
+  one.rest(start);
+  other.rest(start);
   PortSample quiet, wild;
   quiet.x = start;
   Differences d;
@@ -83,9 +97,7 @@ Differences between_two_servers(double authority, std::uint64_t seed) {
     if (i % 40 == 0) wild = said(key, i);
     const double age = 0.005 + 0.25 * key.derive(1).uniform(i);
     const AxisArray a = one.tick(x, v, authority, quiet, 0.005), b = other.tick(x, v, authority, wild, age);
-    PortSample tells_a, tells_b;
-    one.coupling->tell(start, start, true, *one.end, tells_a);
-    other.coupling->tell(start, start, true, *other.end, tells_b);
+    const PortSample tells_a = one.tells(), tells_b = other.tells();
     d.felt += a != b ? 1 : 0;
     d.told += tells_a.x != tells_b.x || tells_a.v != tells_b.v || tells_a.a != tells_b.a || tells_a.f != tells_b.f ? 1 : 0;
   }
@@ -101,6 +113,105 @@ TEST(CopyCoupling, NothingThatTheServerSaysReachesAHandThatLeadsAlone) {
     EXPECT_EQ(d.told, 0) << seed;
   }
   EXPECT_GT(between_two_servers(0.9, 1).felt, 1000) << "else the comparison would see nothing";
+}
+
+/// The leader above, who follows a second tool too, heavier and without a wall.
+SeatSetup on_two_tools(double first) {
+  SeatSetup s = leader();
+  s.weight = first;
+  s.further = {{.tool = 1, .weight = 1 - first, .m_s = 0.05, .b_s = 0.2, .environment = {}}};
+  return s;
+}
+SeatSetup on_the_second(const SeatSetup& both) {
+  SeatSetup s = both;
+  s.weight = 1;
+  s.m_s = both.further[0].m_s;
+  s.b_s = both.further[0].b_s;
+  s.environment = both.further[0].environment;
+  s.further.clear();
+  return s;
+}
+
+// F = sum_j C_j F_j: 10 mm into bone with a quarter of the weight is a quarter of the force, and the tool in free motion adds nothing at rest.
+TEST(CopyCoupling, AHandOnTwoToolsFeelsEachByItsWeight) {
+  const SeatSetup both = on_two_tools(0.25);
+  SeatSetup bone = both;
+  bone.weight = 1;
+  bone.further.clear();
+  Hand hand{both}, alone{bone};
+  AxisArray start{};
+  start[0] = -0.002;
+  hand.rest(start);
+  alone.rest(start);
+  for (wire::TieForce& told : hand.told) told.alpha = 1;
+  alone.told[0].alpha = 1;
+  AxisArray felt{}, full{};
+  for (int i = 0; i < 6000; ++i) {
+    const double x = std::min(-0.002 + 0.01 * kT * i, 0.005);
+    felt = hand.tick(x, 0, 0.005);
+    full = alone.tick(x, 0, 0.005);
+  }
+  EXPECT_NEAR(full[0], -0.005 * both.coupling.k_c * 20000 / (both.coupling.k_c + 20000), 0.02);
+  EXPECT_NEAR(felt[0], 0.25 * full[0], 0.002);
+}
+
+// A twin of two hands that each follow one of the tools: no copy knows of the other, neither its place nor its account.
+TEST(CopyCoupling, CopiesOfSeveralToolsAreAsIfEachWereAlone) {
+  const SeatSetup both = on_two_tools(0.3);
+  SeatSetup bone = both;
+  bone.weight = 1;
+  bone.further.clear();
+  Hand hand{both}, first{bone}, second{on_the_second(both)};
+  AxisArray start{};
+  start[0] = -0.006;
+  for (Hand* h : {&hand, &first, &second}) h->rest(start);
+  const RandomKey key{7};
+  double moved = 0;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const double w = 2 * std::numbers::pi * 0.5, t = kT * static_cast<double>(i);
+    const double x = -0.006 * std::cos(w * t), v = 0.006 * w * std::sin(w * t);  // never so far that one alone would be clipped
+    if (i % 50 == 0)
+      for (std::size_t k = 0; k < 2; ++k) {
+        PortSample& port = hand.told[k].port;
+        for (std::size_t a = 0; a < 3; ++a) port.x[a] = 0.004 * (key.derive(k).uniform(3 * i + a) - 0.5) + (a == 0 ? x : 0);
+        for (std::size_t a = 0; a < 3; ++a) port.e_in[a] += 1'000'000;
+        hand.told[k].alpha = i < 2000 ? 0.6 : 0;
+      }
+    first.told[0] = hand.told[0];
+    second.told[0] = hand.told[1];
+    const AxisArray felt = hand.tick(x, v, 0.03), one = first.tick(x, v, 0.03), other = second.tick(x, v, 0.03);
+    for (std::size_t a = 0; a < 3; ++a) ASSERT_NEAR(felt[a], 0.3 * one[a] + 0.7 * other[a], 1e-12) << i;
+    ASSERT_EQ(hand.tells(0).x, first.tells().x) << i;
+    ASSERT_EQ(hand.tells(1).x, second.tells().x) << i;
+    moved = std::max(moved, std::abs(one[0] - other[0]));
+  }
+  EXPECT_GT(moved, 0.1) << "else both tools do the same";
+  for (std::size_t a = 0; a < 3; ++a) {
+    EXPECT_EQ(hand.ends[0]->ledger(a).out_nj(), first.ends[0]->ledger(a).out_nj());
+    EXPECT_EQ(hand.ends[1]->ledger(a).out_nj(), second.ends[0]->ledger(a).out_nj());
+  }
+}
+
+// Two tools that part pull to both sides: no motor ever gives such forces, so no tool is pulled by them.
+TEST(CopyCoupling, AToolOfSeveralIsPulledNoHarderThanTheMotorCould) {
+  SeatSetup both = on_two_tools(0.5);
+  both.environment = {};
+  Hand hand{both};
+  hand.rest({});
+  double pulled = 0, felt = 0, sum = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const double way = std::min(0.05, 0.02 * kT * i);
+    for (std::size_t k = 0; k < 2; ++k) {
+      hand.told[k].port.x[0] = k == 0 ? way : -way;
+      for (std::size_t a = 0; a < 3; ++a) hand.told[k].port.e_in[a] += 2'000'000;  // 2 mJ in each tick: nothing is refused
+    }
+    sum = std::abs(hand.tick(0, 0, 0.005)[0]);
+    felt = std::max(felt, std::abs(hand.tells(0).f[0]));
+    pulled = std::max(pulled, both.coupling.k_c * std::abs(hand.tells(0).x[0] - hand.coupling->copy(0)->x(0)));
+  }
+  EXPECT_NEAR(felt, 0.05 * both.coupling.k_c, 0.5) << "each is 50 mm away, and the motor gives the difference";
+  EXPECT_NEAR(pulled, 3.3, 1e-6);
+  EXPECT_NEAR(sum, 0, 0.01);
 }
 
 hal::DeviceCaps device(double damping) {

@@ -112,6 +112,33 @@ TEST(SeatSetup, CarriesTheFrictionOfSurfacesAndNotWhatARemoteSlaveTouches) {
   EXPECT_FALSE(seat_setup(remote, 0).environment.wall.has_value());
 }
 
+TEST(SeatSetup, CarriesEachToolThatAHandFollows) {
+  SceneSpec two = scene("two_by_two");
+  two.follow[0] = {0.25, 0.75};
+  two.tools[1].m_s = 0.07;
+  two.tools[1].environment.wall.emplace().at = 0.011;
+  const auto setup = seat_setup(two, 0);
+  Buffer buffer;
+  const auto got = decode_seat_setup(std::span(buffer).first(encode_seat_setup(setup, buffer)));
+  ASSERT_TRUE(got.has_value()) << to_text(got.error());
+  EXPECT_EQ(got->weight, 0.25);
+  ASSERT_EQ(got->further.size(), 1u);
+  EXPECT_EQ(got->further[0].tool, 1u);
+  EXPECT_EQ(got->further[0].weight, 0.75);
+  EXPECT_EQ(got->further[0].m_s, 0.07);
+  EXPECT_EQ(got->further[0].environment.wall->at, 0.011);
+  EXPECT_TRUE(seat_setup(two, 1).further.empty()) << "he follows one";
+
+  const auto refused = [&](auto&& change) {
+    auto wrong = setup;
+    change(wrong);
+    return !decode_seat_setup(std::span(buffer).first(encode_seat_setup(wrong, buffer))).has_value();
+  };
+  EXPECT_TRUE(refused([](auto& s) { s.further[0].weight = 0.7; })) << "the weights do not sum to 1";
+  EXPECT_TRUE(refused([](auto& s) { s.further[0].tool = 0; })) << "the same tool twice";
+  EXPECT_TRUE(refused([](auto& s) { s.channel.law = LawKind::kSetPosition; }));
+}
+
 TEST(SeatSetup, OfALongMotionAndManyNamesComesBackAsItWas) {
   auto setup = seat_setup(scene("contact_remote"), 0);
   setup.seat.hand.trajectory = {};
