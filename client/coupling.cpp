@@ -109,7 +109,7 @@ const AxisArray& CopyCoupling::wanted_of(Copy& copy, const Tie& tie, const Input
 }
 
 AxisArray CopyCoupling::step(const Input& in) noexcept {
-  if (copies_.size() == 1) return wanted_ = wanted_of(copies_[0], in.ties[0], in);
+  if (copies_.size() == 1) return wanted_of(copies_[0], in.ties[0], in);
   wanted_ = {};
   for (std::size_t k = 0; k < copies_.size(); ++k) {
     Copy& copy = copies_[k];

@@ -26,7 +26,8 @@ class Coupling {
   struct Input {
     double dt = 0.001;
     double age = 0;       ///< of what was told, now [s]
-    AxisArray q{}, v{};   ///< of the device's port
+    const AxisArray& q;   ///< of the device's port
+    const AxisArray& v;
     std::span<const Tie> ties;  ///< as many as `SeatSetup` says
   };
   virtual ~Coupling() = default;

@@ -162,6 +162,17 @@ void walk_authority(Values& v, Message& a) noexcept {
   v.doubles(4, a.alpha, std::integral_constant<std::size_t, kMastersMax>{}, 1);
 }
 
+template <class Axes>
+void read_state(ValueReader& values, StateMessage& out, Axes axes, double position_max) noexcept {
+  StateWords words;
+  walk(values, out, words, axes, position_max);
+  out.gate = static_cast<GateState>(words.gate);
+  out.ready = (words.flags & 1U) != 0;
+  out.engaged = (words.flags & 2U) != 0;
+  out.stop = (words.flags & 4U) != 0;
+  out.stop_all = (words.flags & 8U) != 0;
+}
+
 /// What a word about surfaces says: how many contacts of this tie follow, and how its slave pulls.
 /// @param left  contacts in this FORCE that no word has spoken for yet: no more are read, whatever the words say
 void read_surfaces(ValueReader& values, std::uint32_t word, std::size_t& left, TieForce& out) noexcept {
@@ -248,32 +259,38 @@ std::size_t Codec::encode(const Preamble& preamble, const StateWithTies& in, std
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std::span<std::byte> out) const noexcept {
-  return encode(preamble, ForceWithTies{in, {}}, out);
+  if (further_ > 0 || in.contacts.size > kLocalContactsMax) return 0;
+  const std::uint32_t surfaces = surfaces_word(in);
+  const bool told = surfaces != 0;
+  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | (told ? kSurfaces : 0U), surfaces, told};
+  return with_axes(axes_, [&](auto axes) {
+    return write(preamble, told ? force_size(axes, in.contacts.size) : force_size(axes), out, [&](ValueWriter& values) {
+      walk_force(values, in, words, axes, 0);
+      for (const LocalContact& contact : in.contacts.all()) walk_contact(values, contact);
+    });
+  });
 }
 
 std::size_t Codec::encode(const Preamble& preamble, const ForceWithTies& with, std::span<std::byte> out) const noexcept {
   const ForceMessage& in = with.message;
+  if (further_ == 0 && with.further.empty()) return encode(preamble, in, out);
   if (with.further.size() != further_ || in.contacts.size > kLocalContactsMax) return 0;
   std::size_t contacts = in.contacts.size;
   for (const TieForce& tie : with.further) {
     if (tie.contacts.size > kLocalContactsMax) return 0;
     contacts += tie.contacts.size;
   }
-  if (contacts > kLocalContactsMax && contacts > contacts_max_) return 0;
-  const std::uint32_t surfaces = surfaces_word(in);
-  const bool told = surfaces != 0 || further_ > 0;
-  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | (told ? kSurfaces : 0U), surfaces, told};
-  return with_axes(axes_, [&](auto axes) {
-    return write(preamble, told ? force_size(axes, contacts) + further_ * tie_force_size(axes) : force_size(axes), out, [&](ValueWriter& values) {
-      walk_force(values, in, words, axes, 0);
-      for (const TieForce& tie : with.further) {
-        const std::uint32_t word = surfaces_word(tie);
-        walk_tie_force(values, tie, word, axes, 0);
-      }
-      for (const LocalContact& contact : in.contacts.all()) walk_contact(values, contact);
-      for (const TieForce& tie : with.further)
-        for (const LocalContact& contact : tie.contacts.all()) walk_contact(values, contact);
-    });
+  if (contacts > contacts_max_) return 0;
+  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | kSurfaces, surfaces_word(in), true};
+  return write(preamble, force_size(axes_, contacts) + further_ * tie_force_size(axes_), out, [&](ValueWriter& values) {
+    walk_force(values, in, words, axes_, 0);
+    for (const TieForce& tie : with.further) {
+      const std::uint32_t word = surfaces_word(tie);
+      walk_tie_force(values, tie, word, axes_, 0);
+    }
+    for (const LocalContact& contact : in.contacts.all()) walk_contact(values, contact);
+    for (const TieForce& tie : with.further)
+      for (const LocalContact& contact : tie.contacts.all()) walk_contact(values, contact);
   });
 }
 
@@ -296,21 +313,18 @@ std::size_t Codec::encode(const Preamble& preamble, const PingMessage&, std::spa
   return write(preamble, kPingSize, out, [](ValueWriter&) {});
 }
 
-std::expected<Preamble, DecodeError> Codec::decode_state(std::span<const std::byte> in, StateMessage& out) const noexcept { return decode_state(in, out, {}); }
+std::expected<Preamble, DecodeError> Codec::decode_state(std::span<const std::byte> in, StateMessage& out) const noexcept {
+  return with_axes(axes_, [&](auto axes) {
+    return read_into(in, state_size(axes), [&](ValueReader& values) { read_state(values, out, axes, position_max_); });
+  });
+}
 
 std::expected<Preamble, DecodeError> Codec::decode_state(std::span<const std::byte> in, StateMessage& out, std::span<PortSample> further) const noexcept {
   if (further.size() != further_) [[unlikely]] return std::unexpected(DecodeError::kSize);
-  return with_axes(axes_, [&](auto axes) {
-    return read_into(in, state_size(axes) + (further_ > 0 ? further_ * tie_state_size(axes) : 0), [&](ValueReader& values) {
-      StateWords words;
-      walk(values, out, words, axes, position_max_);
-      for (PortSample& sample : further) walk_tie(values, sample, axes, position_max_);
-      out.gate = static_cast<GateState>(words.gate);
-      out.ready = (words.flags & 1U) != 0;
-      out.engaged = (words.flags & 2U) != 0;
-      out.stop = (words.flags & 4U) != 0;
-      out.stop_all = (words.flags & 8U) != 0;
-    });
+  if (further.empty()) [[likely]] return decode_state(in, out);
+  return read_into(in, state_size(axes_) + further_ * tie_state_size(axes_), [&](ValueReader& values) {
+    read_state(values, out, axes_, position_max_);
+    for (PortSample& sample : further) walk_tie(values, sample, axes_, position_max_);
   });
 }
 

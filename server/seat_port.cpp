@@ -90,10 +90,15 @@ SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<
         break;
       }
       if (!opened->newer) break;  // latest wins: nothing acts backwards
-      if (alive(now) && rx_->engaged && next_->engaged && jumps()) conduct_.offend(now);
+      bool jumped = jumps(next_->port, rx_->port);
+      energy_fell_ |= takes_energy_back(next_->port, rx_->port);
+      for (std::size_t k = 0; k < further_rx_.size(); ++k) {
+        jumped |= jumps(further_next_[k], further_rx_[k]);
+        energy_fell_ |= takes_energy_back(further_next_[k], further_rx_[k]);
+      }
+      if (jumped && alive(now) && rx_->engaged && next_->engaged) conduct_.offend(now);
       heard.acted = true;
       connection_->acts(now, from, *opened, *preamble, tokens);
-      energy_fell_ |= takes_energy_back();
       std::swap(rx_, next_);
       further_rx_.swap(further_next_);
       ++generation_;
@@ -138,18 +143,9 @@ bool SeatPort::jumps(const PortSample& next, const PortSample& last) const noexc
   return false;
 }
 
-bool SeatPort::jumps() const noexcept {
-  bool any = jumps(next_->port, rx_->port);
-  for (std::size_t k = 0; k < further_rx_.size(); ++k) any |= jumps(further_next_[k], further_rx_[k]);
-  return any;
-}
-
-bool SeatPort::takes_energy_back() const noexcept {
+bool SeatPort::takes_energy_back(const PortSample& next, const PortSample& last) const noexcept {
   bool any = false;
-  for (std::size_t a = 0; a < scene_->dof; ++a) {
-    any |= next_->port.e_in[a] < rx_->port.e_in[a];
-    for (std::size_t k = 0; k < further_rx_.size(); ++k) any |= further_next_[k].e_in[a] < further_rx_[k].e_in[a];
-  }
+  for (std::size_t a = 0; a < scene_->dof; ++a) any |= next.e_in[a] < last.e_in[a];
   return any;
 }
 
@@ -162,12 +158,13 @@ void SeatPort::hold(std::span<const Near> near) noexcept {
 
 void SeatPort::move(Time now, double dt, std::span<const Near> near) noexcept {
   const double age = age_ = taken_ ? seconds(connection_->link().freshness().age(now)) : 0;
-  const bool present = std::ranges::any_of(near, &Near::engaged);
+  bool present = false;
+  for (const Near& here : near) present |= here.engaged;
   if (was_present_ && !present) ++outages_;
   was_present_ = present;
   input_.dt = dt;
   input_.age = age;
-  for (std::size_t k = 0; k < ends_.size(); ++k) {
+  for (std::size_t k = 0; k < near.size(); ++k) {
     const Near& here = near[k];
     if (!std::exchange(was_engaged_[k], here.engaged) || !here.engaged) {
       ends_[k]->engage(here.x, age);

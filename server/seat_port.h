@@ -119,9 +119,8 @@ class SeatPort {
 
  private:
   /// Farther from the sample before than any hand comes in the time between.
-  [[nodiscard]] bool jumps() const noexcept;
   [[nodiscard]] bool jumps(const PortSample& next, const PortSample& last) const noexcept;
-  [[nodiscard]] bool takes_energy_back() const noexcept;
+  [[nodiscard]] bool takes_energy_back(const PortSample& next, const PortSample& last) const noexcept;
 
   const SceneSpec* scene_;
   Duration tick_;

@@ -278,7 +278,6 @@ void Session::fill_force_messages(Time now) noexcept {
 
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     wire::ForceMessage& m = seats_[i].tx;
-    if (!told_of_others(i)) tell_tools(i);
     m.session = state_;
     m.engage = engage && seats_[i].feels() && !seats_[i].conduct().isolated(now) && !leaving(i);
     m.touching = false;
@@ -291,24 +290,9 @@ void Session::fill_force_messages(Time now) noexcept {
     m.authority_version = authority_version_;
     m.missing = missing_now;
     m.stops = stop_lane_.stops();
-    if (told_of_others(i)) tell_ties(i);
+    tell_ties(i);
     tell_handover(i, m);
   }
-}
-
-/// Where its tools are, as one, to a seat of a law without copies.
-void Session::tell_tools(std::size_t i) noexcept {
-  wire::ForceMessage& m = seats_[i].tx;
-  const control::EndState& end = seats_[i].end().state();
-  for (std::size_t a = 0; a < scene_->dof; ++a) {
-    m.port.x[a] = following_[i][a];
-    m.port.v[a] = following_v_[i][a];
-    m.port.f[a] = end.k[a] * (end.ref[a] - following_[i][a]);
-    m.port.e_in[a] = seats_[i].end().ledger(a).in_nj();
-  }
-  m.alpha = 0;
-  for (std::size_t j = 0; i < masters_ && j < tools_.size() && m.alpha == 0; ++j)
-    if (ties_[i][j].follow > 0) m.alpha = ties_[i][j].alpha;
 }
 
 bool Session::closing() const noexcept { return over_ || (state_ == wire::SessionState::kEnding && farewell_ < kCloseRepeats); }

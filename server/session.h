@@ -256,9 +256,8 @@ class Session {
   std::array<AxisArray, kSeatsMax> offset_{};       ///< hand minus tool, on its way to 0
   std::array<std::uint32_t, kSeatsMax> engaged_for_{};  ///< ticks
   std::array<AxisArray, kSeatsMax> offset_step_{};  ///< during this tick
-  std::array<AxisArray, kSeatsMax> following_{};    ///< y_i plus offset: what each seat follows
-  std::array<AxisArray, kSeatsMax> following_v_{};
   std::array<AxisArray, kSeatsMax> reference_before_{};
+  std::array<SeatPort::Near, kToolsMax> near_{};    ///< room for `move_predictions`
   std::array<std::uint64_t, kToolsMax> slave_heard_{};  ///< generation of the SLAVE seat's newest sample that a source of contacts saw
   std::array<bool, kSeatsMax> present_{};
   TickRecord record_{};

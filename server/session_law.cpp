@@ -95,17 +95,16 @@ void Session::move_references(Time now) noexcept {
 
 /// The hand as each of its tools is pulled by it.
 void Session::move_predictions(Time now, std::size_t i) noexcept {
-  std::array<SeatPort::Near, kToolsMax> near;
   bool held = false, leaving = false;
   for (std::size_t j = 0; j < seats_[i].ends(); ++j) {
     const Tie& tie = ties_[i][j];
     const bool tool_held = tools_[j].authority.held();
-    near[j].engaged = present_[i] && tie.share > 0 && !tool_held;
+    near_[j].engaged = present_[i] && tie.share > 0 && !tool_held;
     held |= tie.share > 0 && tool_held;
     leaving |= tie.alpha > 0;
-    for (std::size_t a = 0; a < scene_->dof; ++a) near[j].x[a] = tools_[j].x(a);
+    for (std::size_t a = 0; a < scene_->dof; ++a) near_[j].x[a] = tools_[j].x(a);
   }
-  const std::span<const SeatPort::Near> all{near.data(), seats_[i].ends()};
+  const std::span<const SeatPort::Near> all{near_.data(), seats_[i].ends()};
   if (leaving && !present_[i] && !held) return seats_[i].hold(all);
   seats_[i].move(now, dt_, all);
 }
@@ -271,27 +270,28 @@ void Session::follow_others(std::size_t i, std::size_t j, wire::TieForce& told) 
   const control::EndState* const device = slave > 0 ? &seats_[scene_->tools[j].seat].end().state() : nullptr;
   told.slave_pull = slave;
   for (std::size_t h = 0; h < masters_; ++h) others += h == i ? 0 : tools_[j].authority.alpha(h);
+  AxisArray& places = told.port.x;
+  AxisArray& speeds = told.port.v;
   for (std::size_t a = 0; a < scene_->dof; ++a) {
-    double x = tools_[j].x(a), v = tools_[j].v(a);
-    told.port.f[a] = x;
-    if (others > kNobody) {
-      x = v = 0;
-      for (std::size_t h = 0; h < masters_; ++h) {
-        const double part = h == i ? 0 : tools_[j].authority.alpha(h) / others;
-        if (part == 0) continue;
-        const control::EndState& by_now = seats_[h].end(j).state();
-        const PortSample& hand = seats_[h].heard_of(j);
-        const bool shares = tie.alpha >= kShares && present_[h];
-        x += part * (shares ? hand.x[a] : by_now.ref[a]);
-        v += part * (shares ? hand.v[a] : present_[h] ? by_now.rate[a] : 0);
-      }
+    told.port.f[a] = tools_[j].x(a);
+    places[a] = others > kNobody ? 0 : told.port.f[a];
+    speeds[a] = others > kNobody ? 0 : tools_[j].v(a);
+  }
+  for (std::size_t h = 0; others > kNobody && h < masters_; ++h) {
+    const double part = h == i ? 0 : tools_[j].authority.alpha(h) / others;
+    if (part == 0) continue;
+    const control::EndState& by_now = seats_[h].end(j).state();
+    const PortSample& hand = seats_[h].heard_of(j);
+    const bool shares = tie.alpha >= kShares && present_[h];
+    for (std::size_t a = 0; a < scene_->dof; ++a) {
+      places[a] += part * (shares ? hand.x[a] : by_now.ref[a]);
+      speeds[a] += part * (shares ? hand.v[a] : present_[h] ? by_now.rate[a] : 0);
     }
-    if (device != nullptr) {  // two springs of stiffness alone and slave, as one between them
-      x = (alone * x + slave * device->ref[a]) / (alone + slave);
-      v = (alone * v + slave * seats_[scene_->tools[j].seat].heard().port.v[a]) / (alone + slave);
-    }
-    told.port.x[a] = x;
-    told.port.v[a] = v;
+  }
+  if (device == nullptr) return;
+  for (std::size_t a = 0; a < scene_->dof; ++a) {  // two springs of stiffness alone and slave, as one between them
+    places[a] = (alone * places[a] + slave * device->ref[a]) / (alone + slave);
+    speeds[a] = (alone * speeds[a] + slave * seats_[scene_->tools[j].seat].heard().port.v[a]) / (alone + slave);
   }
 }
 
@@ -303,6 +303,7 @@ void Session::follow_others(std::size_t i) noexcept {
 /// What else each tie is told. Where the surfaces near all tools do not fit into a datagram, the tools take turns: each is named
 /// again long before its surfaces are forgotten.
 void Session::tell_ties(std::size_t i) noexcept {
+  if (!told_of_others(i)) return tell_tools(i);
   const std::span<const std::size_t> tools = seats_[i].tied_tools();
   std::size_t room = wire::contacts_room(scene_->dof, tools.size() - 1);
   const std::size_t first = tick_ % tools.size();
@@ -317,6 +318,15 @@ void Session::tell_ties(std::size_t i) noexcept {
     told.contacts = surfaces;
     room -= surfaces.size;
   }
+}
+
+/// To a seat of a law without copies, of its tools as one.
+void Session::tell_tools(std::size_t i) noexcept {
+  wire::TieForce& told = seats_[i].tx;
+  for (std::size_t a = 0; a < scene_->dof; ++a) told.port.e_in[a] = seats_[i].end().ledger(a).in_nj();
+  told.alpha = 0;
+  for (std::size_t j = 0; i < masters_ && j < tools_.size() && told.alpha == 0; ++j)
+    if (ties_[i][j].follow > 0) told.alpha = ties_[i][j].alpha;
 }
 
 /// Where the seat's target goes. Velocity gates act on it as increments; ungated, it is absolute and cannot drift.
@@ -344,11 +354,14 @@ void Session::follow_tools(std::size_t i) noexcept {
     if (present_[i])
       for (std::size_t a = 0; a < dof; ++a) absolute[a] = absolute_[i][a] + moved[a];
   }
+  const control::EndState& end = seats_[i].end().state();
+  PortSample& told = seats_[i].tx.port;
   for (std::size_t a = 0; a < dof; ++a) {
     absolute_[i][a] = absolute[a];
-    following_[i][a] = absolute_[i][a] + offset_[i][a];
+    told.x[a] = absolute[a] + offset_[i][a];
     // Until it is engaged its own motion: nothing pulls before.
-    following_v_[i][a] = present_[i] ? velocities[a] + offset_step_[i][a] / dt_ : seats_[i].heard().port.v[a];
+    told.v[a] = present_[i] ? velocities[a] + offset_step_[i][a] / dt_ : seats_[i].heard().port.v[a];
+    told.f[a] = end.k[a] * (end.ref[a] - told.x[a]);
   }
 }
 

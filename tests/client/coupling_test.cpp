@@ -15,6 +15,7 @@ namespace tandem::client {
 namespace {
 
 constexpr double kT = 0.001;
+const AxisArray kStill{};
 
 /// The first seat of the shipped scene `contact` under law REPLICA: a wall at x = 0.
 SeatSetup leader() {
@@ -34,7 +35,7 @@ struct Hand {
       ties[k] = {ends[k].get(), &told[k]};
     }
   }
-  void rest(const AxisArray& q) { coupling->rest({.age = 0.005, .q = q, .ties = ties}, false); }
+  void rest(const AxisArray& q) { coupling->rest({.age = 0.005, .q = q, .v = kStill, .ties = ties}, false); }
   AxisArray tick(double x, double v, double authority, const PortSample& rx, double age) {
     told[0].alpha = authority;
     told[0].port = rx;
@@ -42,10 +43,8 @@ struct Hand {
   }
   /// What is told of each tie stands in `told`.
   AxisArray tick(double x, double v, double age) {
-    Coupling::Input in{.dt = kT, .age = age, .ties = ties};
-    in.q[0] = x;
-    in.v[0] = v;
-    AxisArray effort = coupling->step(in);
+    const AxisArray place{x}, speed{v};
+    AxisArray effort = coupling->step({.dt = kT, .age = age, .q = place, .v = speed, .ties = ties});
     const double norm = std::hypot(effort[0], effort[1], effort[2]);
     for (double& f : effort) f *= norm > 3.3 ? 3.3 / norm : 1;
     coupling->delivered(effort);
@@ -53,7 +52,7 @@ struct Hand {
   }
   [[nodiscard]] PortSample tells(std::size_t k = 0) const {
     PortSample out;
-    coupling->tell(k, {.ties = ties}, true, out);
+    coupling->tell(k, {.q = kStill, .v = kStill, .ties = ties}, true, out);
     return out;
   }
   std::vector<std::unique_ptr<control::ChannelEnd>> ends;
