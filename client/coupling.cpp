@@ -68,6 +68,8 @@ control::ToolCopy::Params copy_params(const SeatSetup& setup) {
   p.offset_rests = setup.gate.ramp_in;
   p.force_max = setup.gate.force_max * share_of_force(setup.seat.role);
   p.dt = 1.0 / setup.tick_hz;
+  p.assist.force = setup.seat.assist.force;
+  p.assist.in_contact = setup.seat.assist.in_contact;
   return p;
 }
 
@@ -94,6 +96,14 @@ AxisArray CopyCoupling::step(const Input& in, control::ChannelEnd& end) noexcept
     dissipated_ += move.dissipated[a];
   }
   end.move(move);
+  if (in.ghost != nullptr && in.ghost->leader != 0 && copy_.assist().on()) {
+    AxisArray x{}, v{};
+    for (std::size_t a = 0; a < dof_; ++a) {
+      v[a] = in.ghost->v[a];
+      x[a] = control::Prediction::place_for_hand(in.ghost->x[a], v[a], in.age);
+    }
+    copy_.see_leader(x, v, in.slave_pull > 0);
+  }
   return copy_.step(in.q, in.authority, end);
 }
 

@@ -22,6 +22,7 @@ class Coupling {
     double slave_pull = 0;  ///< of a SLAVE seat's device, by way of the reference (wire::ForceMessage)
     AxisArray q{}, v{};   ///< of the device's port
     const PortSample* rx = nullptr;
+    const wire::Ghost* ghost = nullptr;  ///< as heard with `rx`
   };
   virtual ~Coupling() = default;
   /// Not engaged: begins, or begins again, without elongation. @param tool  where the server's tool is, if it was told
@@ -36,6 +37,8 @@ class Coupling {
   virtual void tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd& end, PortSample& out) const noexcept TANDEM_REALTIME = 0;
   /// The copy of the tool that the hand hangs on, where there is one.
   [[nodiscard]] virtual const control::VirtualTool* copy() const noexcept { return nullptr; }
+  /// The pull towards the leader's hand, where there is one [N].
+  [[nodiscard]] virtual double assist_force() const noexcept { return 0; }
   [[nodiscard]] double dissipated() const noexcept { return dissipated_; }  ///< all axes, cumulative [J]
 
  protected:
@@ -71,6 +74,7 @@ class CopyCoupling final : public Coupling {
   void delivered(const AxisArray& effort) noexcept override;
   void tell(const AxisArray& q, const AxisArray& v, bool engaged, const control::ChannelEnd& end, PortSample& out) const noexcept override;
   [[nodiscard]] const control::VirtualTool* copy() const noexcept override { return &copy_.tool(); }
+  [[nodiscard]] double assist_force() const noexcept override { return copy_.assist().force(); }
 
  private:
   std::size_t dof_;

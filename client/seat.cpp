@@ -242,7 +242,17 @@ AxisArray Seat::control(Time now) noexcept {
   in.q = q_;
   in.v = v_;
   in.rx = &rx_.port;
+  in.ghost = &rx_.ghost;
   return coupling_->step(in, *end_);
+}
+
+std::optional<hal::Vec3> Seat::beside_leader(Time now) const noexcept {
+  const wire::Ghost& ghost = rx_.ghost;
+  if (!heard_force_ || ghost.leader == 0) return std::nullopt;
+  const double age = seconds(link_->freshness().age(now));
+  hal::Vec3 beside = reading_.x;
+  for (std::size_t k = 0; k < 3; ++k) beside[static_cast<Eigen::Index>(k)] -= control::Prediction::place_for_hand(ghost.x[k], ghost.v[k], age);
+  return beside;
 }
 
 void Seat::rest() noexcept {

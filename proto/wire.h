@@ -77,6 +77,14 @@ struct HandoverParties {
   friend bool operator==(const HandoverParties&, const HandoverParties&) = default;
 };
 
+/// The hand that leads: of the seat with most authority over the tool that the receiver follows. For screens, and for the pull of `assist`.
+struct Ghost {
+  std::uint32_t leader = 0;        ///< number of this master, from 1; 0: no other hand leads, and the rest is 0
+  std::array<float, 3> x{};        ///< its tip, as the server believes it to be by now [m]
+  std::array<float, 3> v{};        ///< its velocity without what shakes it [m/s]; 0 at JOINT ports
+  friend bool operator==(const Ghost&, const Ghost&) = default;
+};
+
 /// Server to client, every tick, 1 kHz. No reply.
 struct ForceMessage {
   PortSample port;
@@ -94,6 +102,7 @@ struct ForceMessage {
   LocalContactList contacts;         ///< surfaces near that tool, law `replica`
   /// Law `replica`: how stiffly the slave of a SLAVE seat pulls at this seat's copy of the tool, by way of the reference, as a part of k_c [0, 1].
   double slave_pull = 0;
+  Ghost ghost;                       ///< law `replica`
 };
 
 inline constexpr std::size_t kSeatNameMax = 32;

@@ -44,17 +44,19 @@ constexpr std::size_t force_size(std::size_t axes) {
 }
 /// Of a FORCE that says something of surfaces.
 constexpr std::size_t force_size(std::size_t axes, std::size_t contacts) { return force_size(axes) + detail::scalar(1, 1, 4) + contacts * kContactSize; }
+/// What a ghost adds to a FORCE.
+inline constexpr std::size_t kGhostSize = detail::scalar(1, 1, 4) + detail::packed(3, 4) + 1 + detail::packed(3, 4);
 inline constexpr std::size_t kPathSize = kPreambleSize + detail::scalar(1, 1, 8);
 inline constexpr std::size_t kAuthoritySize = kPreambleSize + detail::scalar(3, 1, 4) + 3 + kMastersMax * 8;
 inline constexpr std::size_t kCloseSize = kPreambleSize + detail::scalar(1, 1, 4);
 inline constexpr std::size_t kPingSize = kPreambleSize;
 
 static_assert(state_size(3) <= 400 && state_size(kAxesMax) + kDatagramOverhead <= kDatagramMax);
-static_assert(force_size(kAxesMax, kLocalContactsMax) + kDatagramOverhead <= kDatagramMax);
+static_assert(force_size(kAxesMax, kLocalContactsMax) + kGhostSize + kDatagramOverhead <= kDatagramMax);
 
 /// Why bytes were refused. One counter each at the receiver; never an exception, never a log line.
 enum class DecodeError : std::uint8_t {
-  kSize,        ///< not the exact size of (type, axes, contacts), or more than the maximum
+  kSize,        ///< not the exact size of (type, axes, contacts, ghost), or more than the maximum
   kMalformed,   ///< not the encoding of this message: wrong, unknown, repeated or missing fields
   kNotFinite,   ///< a NaN or infinity
   kOutOfRange,  ///< a magnitude, count or enumerator that cannot be meant

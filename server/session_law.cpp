@@ -263,8 +263,9 @@ void Session::follow_others(std::size_t i) noexcept {
           const control::EndState& by_now = seats_[h].end().state();
           const PortSample& hand = seats_[h].heard().port;
           const bool shares = tie.alpha >= kShares && present_[h];
-          x += part * (shares ? hand.x[a] : by_now.ref[a]);
-          v += part * (shares ? hand.v[a] : present_[h] ? by_now.rate[a] : 0);
+          const double steady = scene_->seats[i].assist.force > 0 ? leading_[h].steady_share() : 0, rate = present_[h] ? by_now.rate[a] : 0;
+          x += part * (shares ? hand.x[a] : by_now.ref[a] + steady * (leading_[h].steady_x(a) - by_now.ref[a]));
+          v += part * (shares ? hand.v[a] : rate + steady * (leading_[h].steady_v(a) - rate));
         }
       }
       if (device != nullptr) {  // two springs of stiffness alone and slave, as one between them

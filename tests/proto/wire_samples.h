@@ -82,6 +82,13 @@ inline void contacts(RandomStream& random, std::size_t axes, LocalContactList& o
   const auto n = static_cast<std::uint32_t>(random.below(kLocalContactsMax + 1));
   for (std::uint32_t c = 0; c < n; ++c) out.add(contact(random, axes, 1 + c + 10 * static_cast<std::uint32_t>(random.below(1000))));
 }
+/// Of a leader.
+inline Ghost ghost(RandomStream& random) {
+  Ghost out{.leader = 1 + static_cast<std::uint32_t>(random.below(kMastersMax))};
+  for (float& x : out.x) x = static_cast<float>(random.uniform(-10, 10));
+  for (float& v : out.v) v = static_cast<float>(random.uniform(-100, 100));
+  return out;
+}
 inline ForceMessage force(RandomStream& random, std::size_t axes) {
   ForceMessage m;
   port(random, axes, m.port);

@@ -13,6 +13,7 @@ TEST(WireSize, IsWhatTheDocumentsSay) {
   EXPECT_EQ(force_size(7), 287u);
   EXPECT_EQ(kContactSize, 50u);
   EXPECT_EQ(force_size(3, 4), 364u);
+  EXPECT_EQ(kGhostSize, 34u);
   EXPECT_EQ(kPathSize, 25u);
   EXPECT_EQ(kAuthoritySize, 162u);
   EXPECT_EQ(kCloseSize, 21u);
