@@ -70,6 +70,8 @@ control::ToolCopy::Params copy_params(const SeatSetup& setup, const control::Vir
   p.force_max = setup.gate.force_max * share_of_force(setup.seat.role);
   p.of_several = !setup.further.empty();
   p.dt = 1.0 / setup.tick_hz;
+  p.assist.force = setup.seat.assist.force;
+  p.assist.in_contact = setup.seat.assist.in_contact;
   return p;
 }
 
@@ -105,6 +107,14 @@ const AxisArray& CopyCoupling::wanted_of(Copy& copy, const Tie& tie, const Input
     dissipated_ += copy.weight * move.dissipated[a];
   }
   tie.end->move(move);
+  if (&copy == &copies_[0] && in.ghost != nullptr && in.ghost->leader != 0 && copy.tool.assist().on()) {
+    AxisArray x{}, v{};
+    for (std::size_t a = 0; a < dof_; ++a) {
+      v[a] = in.ghost->v[a];
+      x[a] = control::Prediction::place_for_hand(in.ghost->x[a], v[a], in.age);
+    }
+    copy.tool.see_leader(x, v, tie.told->slave_pull > 0);
+  }
   return copy.tool.step(in.q, move.authority, *tie.end);
 }
 

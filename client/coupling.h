@@ -29,6 +29,7 @@ class Coupling {
     const AxisArray& q;   ///< of the device's port
     const AxisArray& v;
     std::span<const Tie> ties;  ///< as many as `SeatSetup` says
+    const wire::Ghost* ghost = nullptr;  ///< as told; of the first tool's leader
   };
   virtual ~Coupling() = default;
   /// Not engaged: begins, or begins again, without elongation. @param told  the server said where its tools are
@@ -43,6 +44,8 @@ class Coupling {
   virtual void tell(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept TANDEM_REALTIME = 0;
   /// The copy of tie k's tool that the hand hangs on, where there is one.
   [[nodiscard]] virtual const control::VirtualTool* copy(std::size_t = 0) const noexcept { return nullptr; }
+  /// The pull towards the leader's hand, where there is one [N].
+  [[nodiscard]] virtual double assist_force() const noexcept { return 0; }
   [[nodiscard]] double dissipated() const noexcept { return dissipated_; }  ///< all axes, cumulative [J]
 
  protected:
@@ -79,6 +82,7 @@ class CopyCoupling final : public Coupling {
   void delivered(const AxisArray& effort) noexcept override;
   void tell(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept override;
   [[nodiscard]] const control::VirtualTool* copy(std::size_t k = 0) const noexcept override { return k < copies_.size() ? &copies_[k].tool.tool() : nullptr; }
+  [[nodiscard]] double assist_force() const noexcept override { return copies_[0].weight * copies_[0].tool.assist().force(); }
 
  private:
   struct Copy {

@@ -257,9 +257,18 @@ bool Seat::may_engage() const noexcept {
          setup_.seat.role != Role::kObserver;
 }
 
-Coupling::Input Seat::coupling_input(double age) const noexcept { return {.dt = dt_, .age = age, .q = q_, .v = v_, .ties = ties_}; }
+Coupling::Input Seat::coupling_input(double age) const noexcept { return {.dt = dt_, .age = age, .q = q_, .v = v_, .ties = ties_, .ghost = &rx_.ghost}; }
 
 AxisArray Seat::control(Time now) noexcept { return coupling_->step(coupling_input(seconds(link_->freshness().age(now)))); }
+
+std::optional<hal::Vec3> Seat::beside_leader(Time now) const noexcept {
+  const wire::Ghost& ghost = rx_.ghost;
+  if (!heard_force_ || ghost.leader == 0) return std::nullopt;
+  const double age = seconds(link_->freshness().age(now));
+  hal::Vec3 beside = reading_.x;
+  for (std::size_t k = 0; k < 3; ++k) beside[static_cast<Eigen::Index>(k)] -= control::Prediction::place_for_hand(ghost.x[k], ghost.v[k], age);
+  return beside;
+}
 
 void Seat::rest() noexcept {
   const auto& f = link_->freshness();

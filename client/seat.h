@@ -103,6 +103,8 @@ class Seat {
   [[nodiscard]] const OverTemperature& over_temperature() const noexcept { return over_temperature_; }
   [[nodiscard]] const std::optional<double>& heat() const noexcept { return reading_.heat; }  ///< as the device told it (hal::State)
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes
+  /// The tip minus that of the hand that leads, as far as both are known by now [m]; nothing: no other hand leads, or the law does not tell.
+  [[nodiscard]] std::optional<hal::Vec3> beside_leader(Time now) const noexcept;
   [[nodiscard]] hal::Vec3 tip_force() const noexcept { return map_.tip_force(reading_, effort_); }  ///< the same at the tip [N]
 
  private:

@@ -24,7 +24,7 @@ struct PhaseMetric {
   bool needs_contact;
   double (*of)(const SeatMetrics&);
 };
-constexpr std::array<PhaseMetric, 9> kPhaseMetrics{{
+constexpr std::array<PhaseMetric, 10> kPhaseMetrics{{
     {"tracking_rms_m", false, [](const SeatMetrics& m) { return m.tracking_rms_m; }},
     {"tracking_rms_lag_removed_m", false, [](const SeatMetrics& m) { return m.tracking_rms_lag_removed_m; }},
     {"transport_lag_rms_m", false, [](const SeatMetrics& m) { return m.transport_lag_rms_m; }},
@@ -39,6 +39,7 @@ constexpr std::array<PhaseMetric, 9> kPhaseMetrics{{
     {"force_error_percent", true, [](const SeatMetrics& m) { return m.force_error_percent; }},
     {"effort_peak_n", false, [](const SeatMetrics& m) { return m.effort_peak_n; }},
     {"speed_peak_m_s", false, [](const SeatMetrics& m) { return m.speed_peak_m_s; }},
+    {"leader_offset_rms_m", false, [](const SeatMetrics& m) { return m.leader_offset_rms_m; }},
 }};
 
 struct SeatMetric {

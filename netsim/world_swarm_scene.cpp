@@ -15,7 +15,7 @@ namespace {
 class SceneDraw {
  public:
   SceneDraw(RandomKey key, double duration_s, LawKind law)
-      : random_(key), replica_draws_(key.derive(kReplicaDraws)), replica_(law == LawKind::kReplica), duration_s_(duration_s) {}
+      : random_(key), replica_draws_(key.derive(kReplicaDraws)), assist_draws_(key.derive(kAssistDraws)), replica_(law == LawKind::kReplica), duration_s_(duration_s) {}
 
   std::string text() {
     draw_size();
@@ -126,7 +126,10 @@ class SceneDraw {
     const char* const role = i == 0 ? "INSTRUCTOR" : i < leaders_ ? "TRAINEE" : chance(0.7) ? "EVALUATOR" : "OBSERVER";
     out_ += format("seat { name: \"seat%zu\" kind: MASTER role: %s required: %s", i, role,
                    i < tools_ || chance(0.7) ? "true" : "false");
-    out_ += " device { " + device() + " } " + hand() + " }\n";
+    out_ += " device { " + device() + " } " + hand();
+    if (replica_ && assist_draws_.uniform() < kAssisted)
+      out_ += format(" assist { force_n: %.3g in_contact: %s }", assist_draws_.uniform(0, 3), assist_draws_.uniform() < 0.5 ? "true" : "false");
+    out_ += " }\n";
   }
 
   void tool(std::size_t j) {
@@ -180,11 +183,12 @@ class SceneDraw {
       out_ += format("timeline { at_s: %.4f ", at) + weights(random_.below(tools_)) + "}\n";
   }
 
-  static constexpr std::uint64_t kReplicaDraws = 0x72;
+  static constexpr std::uint64_t kReplicaDraws = 0x72, kAssistDraws = 0x61;
   static constexpr double kVirtual = 0.75;  ///< of the tools that the server simulates
+  static constexpr double kAssisted = 0.4;  ///< of the hands
 
   RandomStream random_;
-  RandomStream replica_draws_;  ///< apart, so that a seed draws the same people, tools and motions for every law
+  RandomStream replica_draws_, assist_draws_;  ///< apart, so that a seed draws the same people, tools and motions for every law
   bool replica_;
   double duration_s_;
   std::size_t axes_ = 3, masters_ = 1, tools_ = 1, leaders_ = 1;

@@ -289,7 +289,9 @@ void read_seat(const pb::Seat& in, std::size_t dof, const std::string& path, Che
     if (in.has_environment())
       checker.error(child_path(path, "environment"), "is for SLAVE seats and for tool { slave { } }");
     read_hand(in.hand(), child_path(path, "hand"), checker, out.hand);
+    if (in.has_assist()) out.assist = {in.assist().force_n(), in.assist().in_contact()};
   } else {
+    if (in.has_assist()) checker.error(child_path(path, "assist"), "is for MASTER seats: a slave follows nobody's hand");
     if (in.has_role()) checker.error(child_path(path, "role"), "is for MASTER seats: a slave has no role");
     if (in.has_hand()) checker.error(child_path(path, "hand"), "is for MASTER seats: nobody holds a slave");
     read_environment(in.environment(), dof, child_path(path, "environment"), checker, out.environment);
@@ -345,6 +347,10 @@ void write_seat(const SeatSpec& in, pb::Seat& out) {
   if (in.kind == SeatKind::kMaster) {
     out.set_role(static_cast<pb::Seat::Role>(in.role));
     write_hand(in.hand, *out.mutable_hand());
+    if (in.assist.force != 0) {
+      out.mutable_assist()->set_force_n(in.assist.force);
+      out.mutable_assist()->set_in_contact(in.assist.in_contact);
+    }
   } else {
     write_environment(in.environment, *out.mutable_environment());
   }

@@ -273,6 +273,9 @@ void check_law(const pb::Scene& in, Checker& checker, const SceneSpec& scene) {
     const bool written = problem->key != "channel.law" || in.channel().has_law();  // else the place to look at is the port's line
     checker.error(written ? problem->key : "port", problem->words);
   }
+  for (int i = 0; i < in.seat_size(); ++i)
+    if (in.seat(i).assist().force_n() > 0 && scene.channel.law != LawKind::kReplica)
+      checker.error(child_path(child_path("", "seat", i), "assist"), "needs channel { law: REPLICA }, under which clients know the leader's hand; take it away or say force_n: 0");
   for (int t = 0; t < in.tool_size(); ++t)
     if (in.tool(t).contacts() == pb::Tool::ESTIMATED && scene.channel.law != LawKind::kReplica)
       checker.error(child_path(child_path("", "tool", t), "contacts"), "needs channel { law: REPLICA }, under which clients simulate the tool; take it away or say NONE", "ESTIMATED");

@@ -129,6 +129,12 @@ struct WallSpec { int axis = 0; double at = 0; double k = 20000; double b = 5; b
 struct TissueSpec { int axis = 2; double at = 0; double k = 300; double k3 = 1e6; double b = 3; bool from_below = false; double mu = 0; };
 struct EnvironmentSpec { std::optional<WallSpec> wall; std::optional<TissueSpec> tissue; };
 
+/// A pull of a hand that follows towards the hand that leads, law REPLICA.
+struct AssistSpec {
+  double force = 0;         ///< at most, beside the force of following [N]; 0: none
+  bool in_contact = false;  ///< also while the tool touches a surface
+};
+
 struct SeatSpec {
   std::string name;
   SeatKind kind = SeatKind::kMaster;
@@ -137,6 +143,7 @@ struct SeatSpec {
   std::size_t tool = 0;            ///< SLAVE seats: the tool it serves
   SimDeviceSpec device;
   HandSpec hand;                   ///< masters
+  AssistSpec assist;               ///< masters
   EnvironmentSpec environment;     ///< SLAVE seats
 };
 

@@ -77,6 +77,14 @@ struct HandoverParties {
   friend bool operator==(const HandoverParties&, const HandoverParties&) = default;
 };
 
+/// The hand that leads: of the seat with most authority over the tool that the receiver follows. For screens, and for the pull of `assist`.
+struct Ghost {
+  std::uint32_t leader = 0;        ///< number of this master, from 1; 0: no other hand leads, and the rest is 0
+  std::array<float, 3> x{};        ///< its tip, as the server believes it to be by now [m]
+  std::array<float, 3> v{};        ///< its velocity without what shakes it [m/s]; 0 at JOINT ports
+  friend bool operator==(const Ghost&, const Ghost&) = default;
+};
+
 /// What a seat is told of one tool that its hand is tied to.
 struct TieForce {
   PortSample port;
@@ -99,6 +107,7 @@ struct ForceMessage : TieForce {
   std::uint32_t handover_ticks = 0;  ///< until it is carried out, kHandoverNotice at most; 0 unless something comes or goes
   HandoverParties handover_parties;
   bool touching = false;             ///< the slave of the tool that this seat follows presses against something; for people only
+  Ghost ghost;                       ///< law `replica`; of the first tool's leader
 };
 
 inline constexpr std::size_t kFurtherTiesMax = kToolsMax - 1;

@@ -29,11 +29,12 @@ struct StateWords {
 };
 struct ForceWords {
   std::uint32_t session = 0, flags = 0, surfaces = 0;
-  bool told = false;  ///< of surfaces
+  bool told = false;     ///< of surfaces
+  bool ghost = false;
 };
 /// Places of the parts of FORCE's flags (wire.proto).
-constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kFlagsEnd = 29, kSurfaces = 1U << 29, kTouching = 1U << 31;
-constexpr std::uint32_t kForceFlagsMax = kTouching | kSurfaces | ((1U << kFlagsEnd) - 1);
+constexpr std::uint32_t kTicksAt = 3, kByAt = 9, kToAt = 14, kPercentAt = 19, kToolAt = 26, kFlagsEnd = 29, kSurfaces = 1U << 29, kGhost = 1U << 30, kTouching = 1U << 31;
+constexpr std::uint32_t kForceFlagsMax = kTouching | kGhost | kSurfaces | ((1U << kFlagsEnd) - 1);
 static_assert(kHandoverNotice < 1U << 6 && kSeatsMax < HandoverParties::kOperator && kMastersMax < 1U << 5 && kToolsMax <= 1U << 3);
 
 std::uint32_t force_flags(const ForceMessage& m) noexcept {
@@ -45,7 +46,7 @@ std::uint32_t force_flags(const ForceMessage& m) noexcept {
 bool read_force_flags(std::uint32_t flags, ForceMessage& out) noexcept {
   HandoverParties& p = out.handover_parties;
   out.touching = (flags & kTouching) != 0;
-  flags &= ~(kTouching | kSurfaces);
+  flags &= ~(kTouching | kSurfaces | kGhost);
   if (flags >> kFlagsEnd != 0) return false;
   out.engage = (flags & 1U) != 0;
   out.handover = static_cast<Handover>(flags >> 1 & 3U);
@@ -55,6 +56,14 @@ bool read_force_flags(std::uint32_t flags, ForceMessage& out) noexcept {
   const bool in_range = out.handover_ticks <= kHandoverNotice && (p.by <= kSeatsMax || p.by == HandoverParties::kOperator) && p.to <= kMastersMax &&
                         p.percent <= 100 && p.tool < kToolsMax;
   return in_range && (announced || flags >> kTicksAt == 0);
+}
+
+/// FORCE's flags, where they stand. @pre in has the size of the smallest FORCE
+std::uint32_t flags_of_force(std::span<const std::byte> in, std::size_t axes) noexcept {
+  const std::size_t at = kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(1, 1, 4) + 1;
+  std::uint32_t flags = 0;
+  std::memcpy(&flags, in.data() + at, sizeof flags);
+  return flags;
 }
 
 /// FORCE's word about surfaces (wire.proto).
@@ -108,7 +117,7 @@ void walk_tie(Values& v, Sample& s, std::size_t axes, double position_max) noexc
 
 template <class Values, class Contact>
 void walk_contact(Values& v, Contact& c) noexcept {
-  v.message(14, kContactBody);
+  v.message(17, kContactBody);
   v.word(1, c.id);
   v.singles(2, c.point, LocalContact::kPointMax);
   v.singles(3, c.normal, 2);
@@ -150,8 +159,13 @@ void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_
   v.word(9, f.missing, kSeatsMax);
   v.number64(10, f.alpha, 0, 1);
   v.word(11, f.stops);
-  if (!words.told) [[likely]] return;
-  v.word(12, words.surfaces, kSurfacesMax);
+  if (words.told) [[unlikely]] v.word(12, words.surfaces, kSurfacesMax);
+}
+template <class Values, class Message>
+void walk_ghost(Values& v, Message& f) noexcept {
+  v.word(14, f.ghost.leader, kMastersMax);
+  v.singles(15, f.ghost.x, kPositionMaxM);
+  v.singles(16, f.ghost.v, kVelocityMax);
 }
 
 template <class Values, class Message>
@@ -262,10 +276,12 @@ std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std:
   if (further_ > 0 || in.contacts.size > kLocalContactsMax) return 0;
   const std::uint32_t surfaces = surfaces_word(in);
   const bool told = surfaces != 0;
-  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | (told ? kSurfaces : 0U), surfaces, told};
+  const bool ghost = in.ghost.leader != 0;
+  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | (told ? kSurfaces : 0U) | (ghost ? kGhost : 0U), surfaces, told, ghost};
   return with_axes(axes_, [&](auto axes) {
-    return write(preamble, told ? force_size(axes, in.contacts.size) : force_size(axes), out, [&](ValueWriter& values) {
+    return write(preamble, (told ? force_size(axes, in.contacts.size) : force_size(axes)) + (ghost ? kGhostSize : 0), out, [&](ValueWriter& values) {
       walk_force(values, in, words, axes, 0);
+      if (ghost) walk_ghost(values, in);
       for (const LocalContact& contact : in.contacts.all()) walk_contact(values, contact);
     });
   });
@@ -281,13 +297,15 @@ std::size_t Codec::encode(const Preamble& preamble, const ForceWithTies& with, s
     contacts += tie.contacts.size;
   }
   if (contacts > contacts_max_) return 0;
-  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | kSurfaces, surfaces_word(in), true};
-  return write(preamble, force_size(axes_, contacts) + further_ * tie_force_size(axes_), out, [&](ValueWriter& values) {
+  const bool ghost = in.ghost.leader != 0;
+  const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | kSurfaces | (ghost ? kGhost : 0U), surfaces_word(in), true, ghost};
+  return write(preamble, force_size(axes_, contacts) + further_ * tie_force_size(axes_) + (ghost ? kGhostSize : 0), out, [&](ValueWriter& values) {
     walk_force(values, in, words, axes_, 0);
     for (const TieForce& tie : with.further) {
       const std::uint32_t word = surfaces_word(tie);
       walk_tie_force(values, tie, word, axes_, 0);
     }
+    if (ghost) walk_ghost(values, in);
     for (const LocalContact& contact : in.contacts.all()) walk_contact(values, contact);
     for (const TieForce& tie : with.further)
       for (const LocalContact& contact : tie.contacts.all()) walk_contact(values, contact);
@@ -342,26 +360,31 @@ Decoded<StateMessage> Codec::decode_state(std::span<const std::byte> in) const n
 Decoded<ForceMessage> Codec::decode_force(std::span<const std::byte> in, std::span<TieForce> further) const noexcept {
   if (further.size() != further_) [[unlikely]] return std::unexpected(DecodeError::kSize);
   return with_axes(axes_, [&](auto axes) {
-    const std::size_t ties = further_ > 0 ? further_ * tie_force_size(axes) : 0;
-    const std::size_t least = force_size(axes, 0) + ties;
-    const bool told = further_ > 0 || in.size() >= least;
-    const std::size_t contacts = in.size() >= least ? std::min((in.size() - least) / kContactSize, contacts_max_) : 0;
-    return read<ForceMessage>(in, told ? force_size(axes, contacts) + ties : force_size(axes), [&](ValueReader& values, ForceMessage& out) {
+    const std::uint32_t flags = in.size() >= force_size(axes) ? flags_of_force(in, axes) : 0;  // what follows, which decides the size
+    const bool told = (flags & kSurfaces) != 0, ghost = (flags & kGhost) != 0;
+    if (further_ > 0 && !told) [[unlikely]] return Decoded<ForceMessage>{std::unexpected(DecodeError::kSize)};
+    const std::size_t fixed = (told ? force_size(axes, 0) : force_size(axes)) + (ghost ? kGhostSize : 0) + (further_ > 0 ? further_ * tie_force_size(axes) : 0);
+    const std::size_t contacts = told && in.size() >= fixed ? std::min((in.size() - fixed) / kContactSize, contacts_max_) : 0;
+    return read<ForceMessage>(in, fixed + contacts * kContactSize, [&](ValueReader& values, ForceMessage& out) {
       ForceWords words;
       words.told = told;
+      words.ghost = ghost;
       walk_force(values, out, words, axes, position_max_);
       out.session = static_cast<SessionState>(words.session);
-      values.require(read_force_flags(words.flags, out) && ((words.flags & kSurfaces) != 0) == told);
-      if (!told) [[likely]] return;
-      values.require(words.surfaces != 0 || !further.empty());
+      values.require(read_force_flags(words.flags, out));
       std::size_t left = contacts;
-      read_surfaces(values, words.surfaces, left, out);
-      for (TieForce& tie : further) {
-        std::uint32_t word = 0;
-        walk_tie_force(values, tie, word, axes, position_max_);
-        read_surfaces(values, word, left, tie);
+      if (told) [[unlikely]] {
+        values.require(words.surfaces != 0 || !further.empty());
+        read_surfaces(values, words.surfaces, left, out);
+        for (TieForce& tie : further) {
+          std::uint32_t word = 0;
+          walk_tie_force(values, tie, word, axes, position_max_);
+          read_surfaces(values, word, left, tie);
+        }
       }
-      values.require(left == 0);
+      if (ghost) walk_ghost(values, out);
+      values.require((out.ghost.leader != 0) == ghost && left == 0);
+      if (contacts == 0) [[likely]] return;
       read_contacts(values, axes, out.contacts);
       for (TieForce& tie : further) read_contacts(values, axes, tie.contacts);
     });

@@ -39,12 +39,14 @@ constexpr std::size_t state_size(std::size_t axes) {
          + 1 + detail::packed(axes, 4);                       // a
 }
 inline constexpr std::size_t kContactBody = detail::scalar(4, 1, 4) + 2 * detail::packed(3, 4);
-inline constexpr std::size_t kContactSize = detail::packed(kContactBody, 1);
+inline constexpr std::size_t kContactSize = 1 + detail::packed(kContactBody, 1);
 constexpr std::size_t force_size(std::size_t axes) {
   return kPreambleSize + 4 * detail::packed(axes, 8) + detail::scalar(5, 1, 4) + detail::scalar(1, 1, 8) + detail::scalar(1, 1, 4);
 }
 /// Of a FORCE that says something of surfaces, or of further ties.
 constexpr std::size_t force_size(std::size_t axes, std::size_t contacts) { return force_size(axes) + detail::scalar(1, 1, 4) + contacts * kContactSize; }
+/// What a ghost adds to a FORCE.
+inline constexpr std::size_t kGhostSize = detail::scalar(1, 1, 4) + detail::packed(3, 4) + 1 + detail::packed(3, 4);
 /// What a hand that is tied to several tools says, and is told, of each beyond the first; up to 3 axes.
 constexpr std::size_t tie_state_body(std::size_t axes) { return 2 * detail::packed(axes, 8) + 3 * detail::packed(axes, 4); }
 constexpr std::size_t tie_state_size(std::size_t axes) { return 1 + detail::packed(tie_state_body(axes), 1); }
@@ -52,7 +54,7 @@ constexpr std::size_t tie_force_body(std::size_t axes) { return 2 * detail::pack
 constexpr std::size_t tie_force_size(std::size_t axes) { return detail::packed(tie_force_body(axes), 1); }
 /// Of all ties, that one FORCE has room for.
 constexpr std::size_t contacts_room(std::size_t axes, std::size_t further) {
-  return std::min(kLocalContactsMax * (1 + further), (kPlaintextMax - force_size(axes, 0) - further * tie_force_size(axes)) / kContactSize);
+  return std::min(kLocalContactsMax * (1 + further), (kPlaintextMax - force_size(axes, 0) - kGhostSize - further * tie_force_size(axes)) / kContactSize);
 }
 inline constexpr std::size_t kPathSize = kPreambleSize + detail::scalar(1, 1, 8);
 inline constexpr std::size_t kAuthoritySize = kPreambleSize + detail::scalar(3, 1, 4) + 3 + kMastersMax * 8;
@@ -60,12 +62,12 @@ inline constexpr std::size_t kCloseSize = kPreambleSize + detail::scalar(1, 1, 4
 inline constexpr std::size_t kPingSize = kPreambleSize;
 
 static_assert(state_size(3) <= 400 && state_size(kAxesMax) + kDatagramOverhead <= kDatagramMax);
-static_assert(force_size(kAxesMax, kLocalContactsMax) + kDatagramOverhead <= kDatagramMax);
+static_assert(force_size(kAxesMax, kLocalContactsMax) + kGhostSize + kDatagramOverhead <= kDatagramMax);
 static_assert(state_size(3) + kFurtherTiesMax * tie_state_size(3) <= kPlaintextMax && contacts_room(3, kFurtherTiesMax) >= kLocalContactsMax);
 
 /// Why bytes were refused. One counter each at the receiver; never an exception, never a log line.
 enum class DecodeError : std::uint8_t {
-  kSize,        ///< not the exact size of (type, axes, contacts), or more than the maximum
+  kSize,        ///< not the exact size of (type, axes, contacts, ghost), or more than the maximum
   kMalformed,   ///< not the encoding of this message: wrong, unknown, repeated or missing fields
   kNotFinite,   ///< a NaN or infinity
   kOutOfRange,  ///< a magnitude, count or enumerator that cannot be meant

@@ -85,14 +85,14 @@ void ReportBuilder::add(const TickRecord& record) {
     alpha_sum_[i] += stands_for * s.alpha;
     last_[i] = s;
     const bool usable = settled(engaged_since_[i], s.engaged);
-    place(seats_[i], s.sample_tick, {single(s.x), single(s.f_out), single(s.f_cmd), single({s.q[0], s.q[1], s.q[2]}), true, usable});
+    place(seats_[i], s.sample_tick, {single(s.x), single(s.f_out), single(s.f_cmd), single({s.q[0], s.q[1], s.q[2]}), true, usable, static_cast<std::uint8_t>(s.leader)});
   }
   for (std::size_t j = 0; j < tools_.size(); ++j) {
     const ToolRecord& t = record.tools[j];
     mfs_[j] = t.mfs_j;
     held_ticks_[j] += t.held ? stands_for : 0;
     const bool usable = settled(held_since_[j], !t.held);
-    place(tools_[j], t.sample_tick, {single(t.x), single(t.f_env), single(t.f_cmd), single({t.q[0], t.q[1], t.q[2]}), true, usable});
+    place(tools_[j], t.sample_tick, {single(t.x), single(t.f_env), single(t.f_cmd), single({t.q[0], t.q[1], t.q[2]}), true, usable, 0});
     const double square = t.f_env[0] * t.f_env[0] + t.f_env[1] * t.f_env[1] + t.f_env[2] * t.f_env[2];
     if (square > 1e-12) {
       contact_square_[j] += square;
@@ -119,6 +119,7 @@ ReportBuilder::Track ReportBuilder::without_gaps(const Track& track) {
         out[g].q[c] = a.q[c] + w * (b.q[c] - a.q[c]);
       }
       out[g].usable = a.usable && b.usable;
+      out[g].leader = a.leader == b.leader ? a.leader : std::uint8_t{0};
     }
     before = k;
   }
@@ -161,7 +162,7 @@ RunReport ReportBuilder::build(const std::vector<LinkReport>& links) const {
       while (j + 1 < tools.size() && scene_->follow[i][j] <= 0) ++j;
     // Delay of the leader's path: up to the server; a remote slave adds its own, which the tracking error then contains.
     return Pair{&seats[i], &tools[j], i < links.size() ? std::max(0.0, 0.5 * (links[i].rtt_p50_ms * 1e-3 - 1 / scene_->tick_hz)) : 0,
-                !scene_->tools[j].is_virtual || scene_->tools[j].remote, scene_->seats[i].kind == SeatKind::kSlave ? -1.0f : 1.0f};
+                !scene_->tools[j].is_virtual || scene_->tools[j].remote, seats, scene_->seats[i].kind == SeatKind::kSlave ? -1.0f : 1.0f};
   };
   for (std::size_t i = 0; i < seats.size(); ++i) {
     SeatReport s;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@ struct SeatMetrics {
   std::vector<double> joint_rms_rad;
   double force_error_rms_n = 0, force_error_commanded_rms_n = 0, force_error_percent = 0;
   double effort_peak_n = 0, speed_peak_m_s = 0;
+  double leader_offset_rms_m = 0;  ///< from the hand that led this one, at the same session tick; NaN where none did
 };
 struct SeatReport {
   std::string name;
@@ -95,6 +97,7 @@ class ReportBuilder {
     Point3 x{}, f{}, f_cmd{}, q{};
     bool known = false;   ///< a sample of this very tick came
     bool usable = false;  ///< engaged for more than a second
+    std::uint8_t leader = 0;  ///< number of the seat whose hand led this one, from 1; 0: none
   };
   using Track = std::vector<Sample>;  ///< of one seat or slave, by slot: every `stride_`th session tick
   struct Window {
@@ -106,6 +109,7 @@ class ReportBuilder {
     const Track* slave = nullptr;
     double one_way_s = 0;
     bool has_joints = true;  ///< the slave is a device; a virtual tool has no joints to compare
+    std::span<const Track> all = {};  ///< of every seat
     float answer = 1;  ///< +1: the seat's motor stands for the environment; -1: it is the slave's own, which presses against it
   };
   /// Which part of the session is judged.
@@ -117,6 +121,7 @@ class ReportBuilder {
   };
   // report_judge.cpp
   [[nodiscard]] SeatMetrics judge(const Pair& pair, const Part& part) const;
+  [[nodiscard]] double beside_leader(const Pair& pair, const std::vector<char>& use) const;
   void judge_forces(const Pair& pair, const Part& part, SeatMetrics& m) const;
   void find_peaks(const Pair& pair, const Part& part, SeatMetrics& m) const;
   [[nodiscard]] std::vector<char> within(const std::vector<Window>& windows, bool outside, std::size_t slots) const;

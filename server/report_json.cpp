@@ -35,6 +35,7 @@ void put(Json& j, const SeatMetrics& m) {
   j["force_error_percent"] = number(m.force_error_percent);
   j["effort_peak_n"] = number(m.effort_peak_n);
   j["speed_peak_m_s"] = number(m.speed_peak_m_s);
+  j["leader_offset_rms_m"] = number(m.leader_offset_rms_m);
 }
 
 Json direction(const DirectionReport& d) {

@@ -107,9 +107,23 @@ SeatMetrics ReportBuilder::judge(const Pair& pair, const Part& part) const {
   m.transport_lag_rms_m = transport.value();
   const std::size_t count = scene_->seats.front().device.model == DeviceModel::kLinear ? 1 : 3;
   for (std::size_t c = 0; c < count; ++c) m.joint_rms_rad.push_back(pair.has_joints ? joints[c].value() : kNaN);
+  m.leader_offset_rms_m = beside_leader(pair, use);
   find_peaks(pair, part, m);
   judge_forces(pair, part, m);
   return m;
+}
+
+/// RMS distance from the hand that led, over what is judged.
+double ReportBuilder::beside_leader(const Pair& pair, const std::vector<char>& use) const {
+  Rms beside;
+  const Track& own = *pair.seat;
+  for (std::size_t k = 0; k < use.size(); ++k) {
+    const std::size_t leader = own[k].leader;
+    if (use[k] == 0 || leader == 0 || leader > pair.all.size()) continue;
+    const Track& other = pair.all[leader - 1];
+    if (k < other.size() && other[k].usable) beside.add(distance2(own[k].x, other[k].x));
+  }
+  return beside.value();
 }
 
 /// Largest force and speed, also of moments that are not judged.

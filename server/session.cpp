@@ -32,6 +32,7 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       stop_lane_(scene.led()) {
   for (std::size_t a = 0; a < kAxesMax; ++a) root_scale_[a] = std::sqrt(scale_[a]);
   turns_.fill(~0u);
+  leading_.fill(LeadingHand(dt_));
   seats_.reserve(scene.seats.size());
   for (std::size_t i = 0; i < scene.seats.size(); ++i) seats_.emplace_back(scene, i, scale);
   tools_.reserve(scene.tools.size());
@@ -190,6 +191,7 @@ void Session::live_one_tick(Time now) noexcept {
   tie_seats();
   move_references(now);
   step_tools();
+  see_leaders();
   step_following();
   take_record(*this, record_);
 }
@@ -291,6 +293,7 @@ void Session::fill_force_messages(Time now) noexcept {
     m.missing = missing_now;
     m.stops = stop_lane_.stops();
     tell_ties(i);
+    if (i < masters_) m.ghost = told_of_others(i) ? ghost_[i] : wire::Ghost{};
     tell_handover(i, m);
   }
 }

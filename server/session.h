@@ -12,6 +12,7 @@
 #include "server/reception.h"
 #include "server/audit.h"
 #include "server/checkpoint.h"
+#include "server/leading_hand.h"
 #include "server/load_ladder.h"
 #include "server/path_tokens.h"
 #include "server/seat_port.h"
@@ -127,6 +128,8 @@ class Session {
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
   [[nodiscard]] const SeatPort& seat(std::size_t i) const noexcept { return seats_[i]; }
   [[nodiscard]] const Tool& tool(std::size_t j) const noexcept { return tools_[j]; }
+  /// The hand that leads this seat, as of the last tick; leader 0: none. @pre a master's seat
+  [[nodiscard]] const wire::Ghost& ghost(std::size_t master) const noexcept { return ghost_[master]; }
   [[nodiscard]] std::vector<std::size_t> missing(Time now) const;                 ///< required seats that are not ready
   [[nodiscard]] std::uint64_t stray() const noexcept { return stray_; }           ///< datagrams for no connection
   [[nodiscard]] std::uint64_t slipped() const noexcept { return slipped_; }       ///< ticks given up after a long stall
@@ -192,6 +195,8 @@ class Session {
   void tell_ties(std::size_t i) noexcept TANDEM_REALTIME;
   void tell_tools(std::size_t i) noexcept TANDEM_REALTIME;
   [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept TANDEM_REALTIME;
+  void see_leaders() noexcept TANDEM_REALTIME;
+  [[nodiscard]] std::size_t leader_of(std::size_t seat) const noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
 
@@ -260,6 +265,8 @@ class Session {
   std::array<SeatPort::Near, kToolsMax> near_{};    ///< room for `move_predictions`
   std::array<std::uint64_t, kToolsMax> slave_heard_{};  ///< generation of the SLAVE seat's newest sample that a source of contacts saw
   std::array<bool, kSeatsMax> present_{};
+  std::array<LeadingHand, kMastersMax> leading_{};
+  std::array<wire::Ghost, kMastersMax> ghost_{};
   TickRecord record_{};
 
   std::array<bool, kSeatsMax> send_due_{};

@@ -42,6 +42,9 @@ void take_record(const Session& session, TickRecord& record) noexcept {
     SeatRecord& r = record.seats[i];
     r.alpha = session.seat(i).tx.alpha;
     if (i < masters) {
+      const wire::Ghost& ghost = session.ghost(i);
+      r.leader = ghost.leader;
+      for (std::size_t k = 0; k < 3; ++k) r.ghost[k] = ghost.x[k];
       r.alpha = 0;
       for (std::size_t j = 0; j < scene.tools.size() && r.alpha == 0; ++j)
         if (scene.follow[i][j] > 0) r.alpha = session.tool(j).authority.alpha(i);

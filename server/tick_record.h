@@ -17,6 +17,8 @@ struct SeatRecord {
   Triple x{}, f_cmd{}, f_out{};  ///< tip [m]; commanded before the gate, delivered [N]
   EnergyArray e_in{}, e_out{};   ///< of the client's end [nJ]
   double dissipated_j = 0, refused_j = 0, margin_min_j = 0, delivered_j = 0;
+  std::uint32_t leader = 0;  ///< number of the master that leads this hand, from 1; 0: none
+  Triple ghost{};            ///< where that hand is by now, as the server believes [m]; 0 where none leads
   wire::GateState gate = wire::GateState::kOff;
   bool engaged = false;
   std::uint32_t sample_tick = 0;  ///< session tick at which x, q, f were sampled: earlier than the record's over a network

@@ -63,6 +63,9 @@ TraceCsv::TraceCsv(const SceneSpec& scene) : scene_(&scene) {
     triple(s.name + ".f_out_", "[N]");
     for (std::size_t a = 0; a < scene.dof; ++a) column(s.name + ".e_in" + std::to_string(a) + "[nJ]");
     for (std::size_t a = 0; a < scene.dof; ++a) column(s.name + ".e_out" + std::to_string(a) + "[nJ]");
+    if (s.kind != SeatKind::kMaster) continue;
+    column(s.name + ".leader[1]");
+    triple(s.name + ".ghost_", "[m]");
   }
   for (const ToolSpec& t : scene.tools) {
     for (std::size_t j = 0; j < joints_; ++j) column(t.name + ".q" + std::to_string(j) + angle);
@@ -88,6 +91,9 @@ void TraceCsv::append(const TickRecord& record, std::string& out) const {
     put_triple(out, s.f_out);
     for (std::size_t a = 0; a < scene_->dof; ++a) (out += ','), put_integer(out, s.e_in[a]);
     for (std::size_t a = 0; a < scene_->dof; ++a) (out += ','), put_integer(out, s.e_out[a]);
+    if (scene_->seats[i].kind != SeatKind::kMaster) continue;
+    (out += ','), put_integer(out, s.leader);
+    put_triple(out, s.ghost);
   }
   for (std::size_t j = 0; j < scene_->tools.size(); ++j) {
     const ToolRecord& t = record.tools[j];

@@ -85,6 +85,7 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   j["away_longest_s"] = number(r.away_longest_s);
   j["session_s"] = number(std::max(0.0, s.session_time));
   j["alpha"] = number(s.alpha);
+  j["beside_leader_m"] = s.beside_leader_m ? number(*s.beside_leader_m) : nlohmann::ordered_json(nullptr);
   j["effort_peak_n"] = number(s.force_peak_n);
   j["gate"] = {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.given_after_loss_max_j)}};
   j["motors"] = {{"too_hot", s.hot_trips}, {"heat_max", s.heat_max ? number(*s.heat_max) : nlohmann::ordered_json(nullptr)}};

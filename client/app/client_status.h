@@ -26,6 +26,7 @@ struct ClientStatus {
   bool touching = false;  ///< the slave of the tool touches something
   std::optional<std::array<double, 3>> keys_m{};  ///< where keys hold the hand, from its start: right, away, up [m]; nothing: no keys move it
   std::optional<double> distance_m{};  ///< from the hand to the tool, where the port is a tip
+  std::optional<double> beside_leader_m{};  ///< from the hand that leads to the own one, by now; nothing: no other hand leads
   std::uint32_t authority_version = 0;
   double alpha = 0;
   wire::Handover handover = wire::Handover::kNone;  ///< what was last told of the own weight, for a second and as long as it moves

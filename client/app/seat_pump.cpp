@@ -210,6 +210,8 @@ void SeatPump::look(Time now) noexcept {
   p.own_stop = seat_->stopped();
   p.distance_m.reset();
   if (seat_->setup().port == PortSpace::kTip && f.heard()) p.distance_m = distance_to_tool();
+  const auto beside = seat_->beside_leader(now);
+  p.beside_leader_m = beside ? std::optional{beside->norm()} : std::nullopt;
   p.force_n = norm(t.f_out);
   p.x = t.x;
   p.rtt_ms = 1e3 * seconds(f.rtt());

@@ -178,6 +178,7 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   std::string tool = s.distance_m ? format("tool %.0f mm away", *s.distance_m * 1e3) : "";
   if (s.touching) tool += tool.empty() ? "tool touching" : ", touching";
   add(tool, 1);
+  if (s.beside_leader_m) add(format("%.1f mm beside the leader's hand", *s.beside_leader_m * 1e3), 1);
   add(keys_text(s), 1);
   add(partners(setup, words), 1);
   if (!latched) add(gate_text(s), 1);

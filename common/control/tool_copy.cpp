@@ -7,9 +7,17 @@ namespace tandem::control {
 
 namespace {
 constexpr double kUpToSpeed = 0.3;  // [s] from rest to the speed at which an offset goes home
+
+Assist::Params assist_of(const ToolCopy::Params& p) noexcept {
+  Assist::Params own = p.assist;
+  own.axes = p.axes;
+  own.k_c = p.k_c;
+  own.dt = p.dt;
+  return own;
+}
 }
 
-ToolCopy::ToolCopy(const Params& params) noexcept : p_(params), tool_(params.tool, params.axes, params.contacts), told_({params.axes, params.v_app, params.k_c, params.dt}) {
+ToolCopy::ToolCopy(const Params& params) noexcept : p_(params), tool_(params.tool, params.axes, params.contacts), told_({params.axes, params.v_app, params.k_c, params.dt}), assist_(assist_of(params)) {
   hand_.fill(HandMotionFilter(params.dt));
   anchor_.fill(HandMotionFilter(params.dt));
 }
@@ -26,18 +34,27 @@ void ToolCopy::rest_at(const AxisArray& tool, const AxisArray& hand) noexcept {
     wanted_[a] = dissipated_[a] = 0;
   }
   share_ = pull_ = engaged_for_ = 0;
+  assist_.rest();
+}
+
+void ToolCopy::see_leader(const AxisArray& x, const AxisArray& velocity, bool touching) noexcept {
+  leader_.led = true;
+  leader_.touching = touching;
+  leader_.ahead = x;
+  leader_.velocity = velocity;
 }
 
 const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, ChannelEnd& end) noexcept {
   engaged_for_ += p_.dt;
   let_offset_grow(hand);
   bring_offset_home(end);
+  pull_to_leader(hand, authority, end);
   meet_told(end);
   const EndState& reference = end.state();
   const double own = std::clamp(authority, 0.0, 1.0), alone = 1 - own;
   VirtualTool::Pulls pulls{}, without_dampers{};
   for (std::size_t a = 0; a < p_.axes; ++a) {
-    const double q = hand[a] - offset_[a];
+    const double q = place(hand, a);
     const double velocity = HandMotionFilter::velocity_by_now(hand_[a].step(hand[a]));
     pulls[a].spring(own * pull_ * p_.k_c, q);
     pulls[a].spring(reference.k[a], reference.ref[a]);
@@ -55,7 +72,7 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double v = tool_.v(a);
     dissipated_[a] = (p_.tool.b + 0.5 * reference.k[a] * p_.dt) * v * v * p_.dt;
-    show(a, hand[a] - offset_[a], alone * share_ + own * (share_ - pull_), end);
+    show(a, place(hand, a), alone * share_ + own * (share_ - pull_), end);
   }
   return wanted_;
 }
@@ -68,7 +85,7 @@ void ToolCopy::let_offset_grow(const AxisArray& hand) noexcept {
   AxisArray wound{};
   double square = 0;
   for (std::size_t a = 0; a < p_.axes; ++a) {
-    wound[a] = shown_[a] - (hand[a] - offset_[a]);
+    wound[a] = shown_[a] - place(hand, a);
     square += wound[a] * wound[a];
   }
   if (!(square > reach * reach)) return;
@@ -90,6 +107,26 @@ void ToolCopy::bring_offset_home(ChannelEnd& end) noexcept {
     const double step = -std::clamp(offset_[a], -most, most);
     if (step != 0 && end.pay(a, share_ * wanted_[a] * step)) offset_[a] += step;
   }
+}
+
+/// An offset goes home first: what it leaves beside the leader is not the hand's. The step is paid at the spring's new force, which is
+/// never less than its work; in all axes or not at all, so that the pull stays within its bound.
+void ToolCopy::pull_to_leader(const AxisArray& hand, double authority, ChannelEnd& end) noexcept {
+  if (!assist_.on()) return;
+  leader_.led = leader_.led && engaged_for_ >= p_.offset_rests;
+  leader_.authority = authority;
+  leader_.touching |= tool_.penetration() > 0;
+  for (std::size_t a = 0; a < p_.axes; ++a) leader_.ahead[a] -= hand[a] - offset_[a];
+  const AxisArray& step = assist_.step(leader_);
+  leader_.led = leader_.touching = false;
+  AxisArray cost{};
+  for (std::size_t a = 0; a < p_.axes; ++a) {
+    const double work = p_.k_c * (shown_[a] - place(hand, a) + step[a]) * step[a];
+    cost[a] = work > 0 ? work : share_ * work;  // as if the whole force were given, which it will be; and back only what was
+    if (cost[a] > 0 && !(cost[a] < end.ledger(a).margin())) return end.note_refused(cost[a]);
+  }
+  for (std::size_t a = 0; a < p_.axes; ++a)
+    if (end.pay(a, cost[a])) assist_.move(a, step[a]);
 }
 
 bool ToolCopy::pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualTool& before, ChannelEnd& end) noexcept {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "common/control/assist.h"
 #include "common/control/channel.h"
 #include "common/control/hand_motion.h"
 #include "common/control/local_contacts.h"
@@ -16,7 +17,7 @@ namespace tandem::control {
 ///
 /// What the ledger pays, per axis, before it acts (storage W = 1/2 m v^2 + 1/2 k_c |q - x|^2 + 1/2 (1 - a) k_x |r - x|^2 + H_env): moves of r
 /// (ReplicaReference), (1 - a) F dx, b_rel (v_in - v) dx, moves of surfaces that the server tells of (LocalContacts), and F do for the way
-/// home of an offset between hand and tool. Negative costs come back. A hand that leads alone (a = 1) pays nothing and gets nothing: passive by construction.
+/// home of an offset o between hand and tool and for the shift by which a hand that follows is assisted (Assist). Negative costs come back. A hand that leads alone (a = 1) pays nothing and gets nothing: passive by construction.
 class ToolCopy {
  public:
   static constexpr std::size_t kAxes = VirtualTool::kAxes;
@@ -31,6 +32,7 @@ class ToolCopy {
     double force_max = 3.3;    ///< of the gate [N]
     bool of_several = false;   ///< the hand feels other tools too
     double dt = 0.001;         ///< tick [s]
+    Assist::Params assist;     ///< bound and where it acts; axes, k_c and dt are the copy's own
   };
   explicit ToolCopy(const Params& params) noexcept;
 
@@ -38,6 +40,9 @@ class ToolCopy {
   void rest_at(const AxisArray& tool, const AxisArray& hand) noexcept;
   /// The server named these surfaces now, beside those of the scene. @pre each is_surface and in_range
   void hear(std::span<const LocalContact> told) noexcept TANDEM_REALTIME { told_.hear(told); }
+  /// Where the hand is by now that leads this one, for `step` in this tick; not called: no other hand leads.
+  /// @param touching  something that is no surface of the copy, as a slave that is felt over the network
+  void see_leader(const AxisArray& x, const AxisArray& velocity, bool touching = false) noexcept TANDEM_REALTIME;
   /// @param end  of this seat, already moved in this tick: its reference, stiffness, damping and ledger
   /// @return the effort wanted on the hand, before the gate [N]
   const AxisArray& step(const AxisArray& hand, double authority, ChannelEnd& end) noexcept TANDEM_REALTIME;
@@ -53,10 +58,14 @@ class ToolCopy {
   [[nodiscard]] const HandMotion& anchor(std::size_t axis) const noexcept { return anchor_[axis].now(); }
   [[nodiscard]] double dissipated(std::size_t axis) const noexcept { return dissipated_[axis]; }  ///< heat of the last step that may be spent [J]
   [[nodiscard]] double offset(std::size_t axis) const noexcept { return offset_[axis]; }          ///< hand minus tool, on its way to 0 [m]
+  [[nodiscard]] const Assist& assist() const noexcept { return assist_; }
 
  private:
   void let_offset_grow(const AxisArray& hand) noexcept;
   void bring_offset_home(ChannelEnd& end) noexcept;
+  void pull_to_leader(const AxisArray& hand, double authority, ChannelEnd& end) noexcept;
+  /// Where the hand stands beside the copy: its offset and the shift of its assist taken off [m].
+  [[nodiscard]] double place(const AxisArray& hand, std::size_t axis) const noexcept { return hand[axis] - offset_[axis] - assist_.shift(axis); }
   void meet_told(ChannelEnd& end) noexcept;
   [[nodiscard]] bool pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualTool& before, ChannelEnd& end) noexcept;
   void show(std::size_t axis, double hand, double part, ChannelEnd& end) noexcept;
@@ -64,6 +73,8 @@ class ToolCopy {
   Params p_;
   VirtualTool tool_;
   LocalContacts told_;
+  Assist assist_;
+  Assist::Input leader_;  ///< as seen in this tick
   std::array<HandMotionFilter, kAxes> hand_, anchor_;
   AxisArray shown_{}, offset_{}, wanted_{}, dissipated_{};
   double share_ = 0;       ///< of the wanted effort that the gate gave last [0, 1]

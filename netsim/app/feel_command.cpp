@@ -33,6 +33,8 @@ struct FeelArguments {
   std::string scene, channel, mfs, contacts, probes, recordings, json, csv;
   std::vector<std::string> hands, limits;
   double seeds = 20, jobs = 0;
+  double assist = -1;  ///< [N]; below 0: the scene's
+  bool assist_in_contact = false;
   bool plain = false, quiet = false;
   NetworkOptions network;
 };
@@ -108,6 +110,15 @@ std::string set_contacts(const FeelArguments& a, SceneSpec& scene) {
   return {};
 }
 
+/// @return what is wrong with it; empty: nothing
+std::string set_assist(const FeelArguments& a, SceneSpec& scene) {
+  if (a.assist < 0) return a.assist_in_contact ? "--assist-in-contact: needs --assist, the pull's bound" : "";
+  if (a.assist > 0 && scene.channel.law != LawKind::kReplica) return "--assist: is for law REPLICA, under which clients know the leader's hand; add --channel replica";
+  for (SeatSpec& seat : scene.seats)
+    if (seat.kind == SeatKind::kMaster) seat.assist = {a.assist, a.assist_in_contact};
+  return {};
+}
+
 int feel_command(const FeelArguments& a) {
   Mistakes mistakes;
   FeelSetup feel{.scene = {}};
@@ -124,6 +135,7 @@ int feel_command(const FeelArguments& a) {
     feel.scene = std::move(*scene);
     set_law(a, feel.scene);
     if (const std::string problem = set_contacts(a, feel.scene); !problem.empty()) mistakes.add("--contacts: " + problem);
+    if (const std::string problem = set_assist(a, feel.scene); !problem.empty()) mistakes.add(problem);
     if (const auto problem = law_problem(feel.scene)) mistakes.add("--channel: " + a.scene + ": " + problem->key + ": " + problem->words);
   } else {
     for (const InputError& error : scene.error()) mistakes.add(to_text(error));
@@ -202,7 +214,7 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
       ->check(io::number_in(1, 256, ""))
       ->check(io::whole_number())
       ->option_text("N");
-  command->add_option("--probe", a->probes, "only these: press, free, gain, rest, release, handover, share; default: all")->option_text("NAME,...");
+  command->add_option("--probe", a->probes, "only these: press, free, gain, rest, release, handover, share, follow; default: all")->option_text("NAME,...");
   command->add_option("--hand", a->hands, "a recorded motion for the probe `free`: FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]; may be repeated")
       ->option_text("FILE...")
       ->allow_extra_args(false);
@@ -212,6 +224,10 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command->add_option("--contacts", a->contacts, "how hands feel what a SLAVE seat's device touches, instead of the scene's tool { contacts }: estimated, none")
       ->transform(CLI::IsMember({"estimated", "none"}, CLI::ignore_case));
+  command->add_option("--assist", a->assist, "bound of the pull of hands that follow towards the leader's, instead of the scene's seat { assist }; 0: none")
+      ->check(io::number_in(0, 3, "N"))
+      ->option_text("N");
+  command->add_flag("--assist-in-contact", a->assist_in_contact, "that pull acts in contact too");
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
   command->add_option("--limit", a->limits, "what must hold of a mean, in SI; the worst seed may be 1.5 times worse: KEY<=NUMBER or KEY>=NUMBER; may be repeated")

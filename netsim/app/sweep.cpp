@@ -22,7 +22,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// What can be swept, for suggestions; known_metric has the last word.
 const std::vector<std::string> kMetrics{
     "tracking_rms_m",      "tracking_rms_lag_removed_m", "transport_lag_rms_m", "joint_rms_rad",     "force_error_rms_n",
-    "force_error_percent", "effort_peak_n",              "speed_peak_m_s",      "gate_trips",        "engaged_at_end",
+    "force_error_percent", "effort_peak_n",              "speed_peak_m_s",      "leader_offset_rms_m", "gate_trips",        "engaged_at_end",
     "refused_j",           "margin_min_j",               "rtt_p50_ms",          "rtt_p99_ms",        "contact_force_rms_n",
     "penetration_max_m",   "held_s"};
 

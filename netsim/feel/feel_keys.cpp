@@ -80,6 +80,13 @@ constexpr FeelKey kShare[] = {
     {"shared_cycle_90_n", "  90 %", "N"},
     {"shared_cycle_98_n", "  98 %", "N"},
 };
+constexpr FeelKey kFollow[] = {
+    {"follower_offset_m", "relaxed follower beside the leader's hand, RMS", "mm", 1e3},
+    {"follower_offset_still_m", "  2 s after a step of 42 mm, leader still", "mm", 1e3},
+    {"follower_offset_slow_m", "  leader at 13 mm/s", "mm", 1e3},
+    {"follower_wander_m", "  what comes and goes within a second, still", "mm", 1e3},
+    {"follower_offset_contact_m", "leader presses 10 mm into bone", "mm", 1e3},
+};
 constexpr FeelKey kExposure[] = {
     {"engaged_share", "time in which the leader was engaged", "%", 100, true},
     {"held_share", "time in which the tool stood braked", "%", 100},
@@ -87,7 +94,7 @@ constexpr FeelKey kExposure[] = {
     {"saturated_share", "time at the motors' limit", "%", 100},
     {"delivered_error_n", "commanded minus delivered force, RMS", "N"},
 };
-constexpr std::array<FeelSection, 8> kSections{{
+constexpr std::array<FeelSection, 9> kSections{{
     {Probe::kPress, "Pressing", kContact},
     {Probe::kFree, "Free motion", kFree},
     {Probe::kGain, "Tool over hand, circles of 3 mm", kGain},
@@ -95,6 +102,7 @@ constexpr std::array<FeelSection, 8> kSections{{
     {Probe::kRelease, "Released, about 1 N pulls against a spring", kRelease},
     {Probe::kHandOver, "Handing authority over, both hands press on bone", kHandOver},
     {Probe::kShare, "Two hands share a tool, firm and soft, from 5 s after a kick", kShare},
+    {Probe::kFollow, "Following: hand of a relaxed follower against the leader's", kFollow},
     {Probe::kFree, "While pressing and in free motion", kExposure},
 }};
 

@@ -54,6 +54,7 @@ ProbeResult run_probe(Probe probe, const FeelSetup& setup, std::uint64_t seed) {
     case Probe::kRelease: return probe_release(setup, seed);
     case Probe::kHandOver: return probe_handover(setup, seed);
     case Probe::kShare: return probe_share(setup, seed);
+    case Probe::kFollow: return probe_follow(setup, seed);
   }
   return {};
 }

@@ -19,13 +19,14 @@ enum class Probe : std::uint8_t {
   kRelease,   ///< frictionless hands that let go while something pulls them against a spring
   kHandOver,  ///< authority changes while both hands press
   kShare,     ///< two hands that share a tool, one is kicked
+  kFollow,    ///< a relaxed hand beside the hand that leads it
 };
 struct ProbeName {
   Probe probe;
   std::string_view name;
   std::string_view words;
 };
-inline constexpr std::array<ProbeName, 7> kProbes{{
+inline constexpr std::array<ProbeName, 8> kProbes{{
     {Probe::kPress, "press", "pressing on bone and tissue"},
     {Probe::kFree, "free", "free motion"},
     {Probe::kGain, "gain", "tool over hand by frequency"},
@@ -33,6 +34,7 @@ inline constexpr std::array<ProbeName, 7> kProbes{{
     {Probe::kRelease, "release", "released hands against a spring"},
     {Probe::kHandOver, "handover", "handing authority over in contact"},
     {Probe::kShare, "share", "hands that share a tool, after a kick"},
+    {Probe::kFollow, "follow", "a relaxed hand beside the leader's"},
 }};
 
 /// Frequencies of Probe::kGain [Hz].
@@ -74,6 +76,7 @@ struct ProbeResult {
 [[nodiscard]] ProbeResult probe_release(const FeelSetup& setup, std::uint64_t seed);
 [[nodiscard]] ProbeResult probe_handover(const FeelSetup& setup, std::uint64_t seed);
 [[nodiscard]] ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed);
+[[nodiscard]] ProbeResult probe_follow(const FeelSetup& setup, std::uint64_t seed);
 
 /// Runs one part of a probe and keeps its time and its trouble.
 [[nodiscard]] FeelTrace run_part(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed, ProbeResult& result);

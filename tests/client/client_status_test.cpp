@@ -181,5 +181,12 @@ TEST(ClientReport, TellsOfHotMotorsAndOfNoneWhereNobodyKnows) {
   EXPECT_EQ(motors["heat_max"], 1.25);
 }
 
+TEST(ClientReport, TellsTheDistanceToTheLeadersHandOrThatNoneLeads) {
+  ClientReport r;
+  EXPECT_TRUE(nlohmann::json::parse(to_json(r, setup()))["beside_leader_m"].is_null());
+  r.last.beside_leader_m = 0.0032;
+  EXPECT_DOUBLE_EQ(nlohmann::json::parse(to_json(r, setup()))["beside_leader_m"].get<double>(), 0.0032);
+}
+
 }  // namespace
 }  // namespace tandem::client

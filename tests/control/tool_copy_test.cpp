@@ -171,6 +171,95 @@ TEST(ToolCopy, DampingRelativeToOthersMovesTheCopyOnlyAsFarAsIsPaid) {
   EXPECT_GT(rich.end.ledger(0).out_nj(), 1'000'000u);
 }
 
+ToolCopy::Params assisted(double k_wall = 0) {
+  ToolCopy::Params p = one_axis(k_wall);
+  p.assist.force = 1;
+  return p;
+}
+
+// 20 s about a leader who stands 2 mm from where the others' reference is: the hand of friction 0.1 N (which 0.25 mm of the spring hold) arrives within
+// what the pull leaves, and a hand that resists gets the bound on top of its spring.
+TEST(ToolCopy, AHandThatFollowsIsBroughtToTheLeadersHandByABoundedPull) {
+  for (const bool resists : {false, true}) {
+    Seat seat(assisted());
+    seat.engage(0, 0);
+    double hand = 0, force = 0, most = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      seat.copy.see_leader(at(0.002), at(0));
+      force = seat.tick(hand, 0, 0, 0);
+      most = std::max(most, std::abs(force));
+      if (!resists && std::abs(force) > 0.1) hand += 2e-4 * (force - std::copysign(0.1, force)) * 1.0;
+    }
+    if (resists) {
+      EXPECT_NEAR(most, 1, 1e-3) << "the spring gives nothing here, so this is the pull's";
+    } else {
+      EXPECT_NEAR(hand, 0.002, 0.0005);
+    }
+    EXPECT_TRUE(seat.end.ledger(0).holds());
+  }
+}
+
+TEST(ToolCopy, ThePullOfAnAssistIsPaidOrDoesNotCome) {
+  Seat poor(assisted(), 0), rich(assisted(), 0.05);
+  for (Seat* seat : {&poor, &rich}) {
+    seat->engage(0, 0);
+    for (int i = 0; i < 3000; ++i) {
+      seat->copy.see_leader(at(0.01), at(0));
+      seat->tick(0, 0, 0, 0);
+    }
+  }
+  EXPECT_EQ(poor.copy.assist().force(), 0);
+  EXPECT_GT(poor.end.refused(), 0);
+  EXPECT_NEAR(rich.copy.assist().force(), 1, 1e-3);
+  // The spring's store at 1 N: F^2 / 2k = 1.25 mJ, and no more than 2 % above for paying at the new force of each step.
+  const double paid = 1e-9 * static_cast<double>(rich.end.ledger(0).out_nj());
+  EXPECT_GE(paid, 1.25e-3 - 1e-9);
+  EXPECT_LE(paid, 1.02 * 1.25e-3);
+}
+
+TEST(ToolCopy, AnAssistedHandIsGivenNoMoreThanWasPaid) {
+  const RandomKey key{78};
+  const std::uint64_t cases = test::seeds(100);
+  for (std::uint64_t c = 0; c < cases; ++c) {
+    std::uint64_t n = 0;
+    const auto draw = [&](double low, double high) { return low + (high - low) * key.derive(c).uniform(n++); };
+    ToolCopy::Params p = assisted(draw(0, 1) < 0.5 ? 0 : std::pow(10, draw(2, 4.5)));
+    p.assist.force = draw(0, 3);
+    p.assist.in_contact = draw(0, 1) < 0.5;
+    Seat seat(p, draw(0, 0.002));
+    double hand = 0, given = 0, unseen = 0, force = 0, leader = 0, authority = 0;
+    seat.engage(hand, hand);
+    const double goes_along = draw(1e-3, 3e-2);  // [m/s per N]
+    for (int i = 0; i < 4000; ++i) {
+      if (draw(0, 1) < 0.002) leader = draw(-0.03, 0.03);  // as a ghost that lies would
+      if (draw(0, 1) < 0.001) authority = draw(0, 1) < 0.5 ? 0 : draw(0, 1);
+      const double next = hand + kT * goes_along * force;
+      given += force * (next - hand);
+      unseen += 0.5 * 400 * (next - hand) * (next - hand);
+      hand = next;
+      seat.copy.see_leader(at(leader), at(0));
+      force = seat.tick(hand, authority, 0, 0, 0);
+      ASSERT_LE(given, 1e-9 * static_cast<double>(seat.end.ledger(0).bound_nj()) + unseen + 1e-6) << "case " << c << " tick " << i;
+    }
+  }
+}
+
+TEST(ToolCopy, AnAssistPullsAtNoSurfaceAndNotBeforeTheGateHasRampedIn) {
+  Seat seat(assisted(20000));
+  seat.engage(0.001, 0.001);
+  const auto ticks = [&](int n, double r) {
+    for (int i = 0; i < n; ++i) {
+      seat.copy.see_leader(at(0.01), at(0));
+      seat.tick(0, 0, r, 0);
+    }
+    return seat.copy.assist().force();
+  };
+  EXPECT_EQ(ticks(499, 0.002), 0) << "the ramp of the gate lasts 0.5 s";
+  EXPECT_EQ(ticks(2000, 0.002), 0) << "the copy is pulled 2 mm into the wall";
+  EXPECT_GT(ticks(2000, -0.005), 0.9) << "and out of it";
+  EXPECT_LT(ticks(2000, 0.002), 0.01);
+}
+
 TEST(ToolCopy, TakesNoMemory) {
   Seat seat(one_axis(20000));
   seat.engage(0, 0);

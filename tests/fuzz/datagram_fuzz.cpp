@@ -47,6 +47,8 @@ void as_insider(std::span<const std::byte> plain) {
       if (const auto m = codec.decode_force(plain)) {
         expect_sound(m->message.port, axes, position_max);
         for (const LocalContact& contact : m->message.contacts.all()) FUZZ_EXPECT(is_surface(contact, axes) && in_range(contact));
+        FUZZ_EXPECT(m->message.ghost.leader <= kMastersMax);
+        for (std::size_t k = 0; k < 3; ++k) FUZZ_EXPECT(std::abs(m->message.ghost.x[k]) <= wire::kPositionMaxM && std::abs(m->message.ghost.v[k]) <= wire::kVelocityMax);
         expect_same(codec, m, plain);
       }
       if (const auto m = codec.decode_authority(plain)) expect_same(codec, m, plain);

@@ -235,7 +235,7 @@ TEST(Scenario, EveryLimitOfTheSchemaCanBeMeasured) {
         EXPECT_EQ(mistakes("version: 1 scene: \"contact\" " + block + " { " + key + " { min: 0.5 max: 1 } }"), "") << block;
       }
   }
-  EXPECT_EQ(keys_of("seat_limits").size(), 27u);
+  EXPECT_EQ(keys_of("seat_limits").size(), 28u);
   EXPECT_EQ(keys_of("feel").size(), 12u);
 }
 

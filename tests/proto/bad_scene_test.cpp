@@ -251,6 +251,22 @@ TEST(BadScene, EveryToolHasOneSlave) {
              "seat[3].tool", "served by seat[2] already");
 }
 
+TEST(BadScene, AnAssistIsForMastersOfLawReplica) {
+  const auto assisted = [](const std::string& assist) { return with("hand { model: RELAXED } }", "hand { model: RELAXED } " + assist + " }"); };
+  const auto scene = parse_scene(assisted("assist { force_n: 1.5 in_contact: true }"), "s");
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->seats[1].assist.force, 1.5);
+  EXPECT_TRUE(scene->seats[1].assist.in_contact);
+  EXPECT_EQ(scene->seats[0].assist.force, 0) << "none by default";
+  EXPECT_NE(effective_scene_text(*scene).find("seat[1].assist.force_n"), std::string::npos);
+  expect_one(assisted("assist { force_n: @3.1 }"), "seat[1].assist.force_n", "must be in [0, 3] N");
+  expect_one(assisted("assist { force_n: @-1 }"), "seat[1].assist.force_n", "must be in [0, 3] N");
+  expect_one(assisted("@assist { in_contact: true }"), "seat[1].assist.force_n", "is missing");
+  expect_one(assisted("@assist { force_n: 1 }") + "channel { law: SET_POSITION }\n", "seat[1].assist", "needs channel { law: REPLICA }");
+  const std::string slave = "seat { name: \"slave\" kind: SLAVE tool: \"tool\" @assist { force_n: 1 } }\n";
+  expect_one(with(" slave { model: TOUCH }", "") + slave, "seat[2].assist", "is for MASTER seats");
+}
+
 TEST(BadScene, ContactsAreToldOfWhereASlaveSeatServesATool) {
   const std::string seat = "seat { name: \"slave\" kind: SLAVE tool: \"tool\" }\n", law = "channel { law: REPLICA }\n";
   const auto remote = [&](const std::string& contacts) { return with(" slave { model: TOUCH }", contacts) + seat; };

@@ -48,6 +48,8 @@ void expect_same(const SeatSetup& a, const SeatSetup& b) {
   EXPECT_EQ(a.seat.device.encoder, b.seat.device.encoder);
   EXPECT_EQ(a.seat.device.start.x, b.seat.device.start.x);
   EXPECT_EQ(a.seat.hand.model, b.seat.hand.model);
+  EXPECT_EQ(a.seat.assist.force, b.seat.assist.force);
+  EXPECT_EQ(a.seat.assist.in_contact, b.seat.assist.in_contact);
   EXPECT_EQ(a.seat.hand.from, b.seat.hand.from);
   EXPECT_EQ(a.seat.hand.until, b.seat.hand.until);
   EXPECT_EQ(a.seat.hand.relaxed_b, b.seat.hand.relaxed_b);
@@ -218,6 +220,8 @@ TEST(SeatSetup, IsHeldAgainstTheLimitsOfFiles) {
   refused([&](SeatSetup& s) { s.gate.force_max = 1e9; }, "gate.force_max_n");
   refused([&](SeatSetup& s) { s.gate.local_hold = 0.51; }, "gate.local_hold_ms");
   refused([&](SeatSetup& s) { s.channel.b_rel = -1; }, "channel.b_rel_n_s_m");
+  refused([&](SeatSetup& s) { s.seat.assist.force = 3.1; }, "seat.assist.force_n");
+  refused([&](SeatSetup& s) { s.seat.assist.force = nan; }, "seat.assist.force_n");
   refused([&](SeatSetup& s) { s.m_s = 0; }, "m_s_kg");
   refused([&](SeatSetup& s) { s.b_s = nan; }, "b_s_n_s_m");
   refused([&](SeatSetup& s) { s.environment.wall->k = -1; }, "environment.wall.k_n_m");

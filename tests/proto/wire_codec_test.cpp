@@ -288,7 +288,7 @@ TEST(WireCodec, RefusesNumbersThatCannotBeMeant) {
   EXPECT_EQ(names(Handover::kGoes, {.percent = 101}), DecodeError::kOutOfRange);
   static_assert(kToolsMax == 1 << 3);
   for (const std::uint32_t beyond : {1U, 2U, 3U})
-    EXPECT_EQ(names(Handover::kComes, {.tool = beyond << 3}), DecodeError::kOutOfRange) << "bits 29 and 30 mean nothing";
+    EXPECT_EQ(names(Handover::kComes, {.tool = beyond << 3}), DecodeError::kSize) << "bits 29 and 30 announce what does not follow";
   for (const HandoverParties& who : {HandoverParties{.by = 1}, {.to = 1}, {.percent = 1}, {.tool = 1}}) {
     EXPECT_EQ(names(Handover::kNone, who), DecodeError::kOutOfRange) << "who gives what is not given";
     EXPECT_EQ(names(Handover::kCalledOff, who), DecodeError::kOutOfRange);
@@ -347,6 +347,44 @@ TEST(WireCodec, NeverAllocatesAfterConstruction) {
     EXPECT_TRUE(codec.decode_close(view(buffer, codec.encode({}, CloseMessage{}, buffer))));
   }
   EXPECT_EQ(guard.count(), 0u);
+}
+
+TEST(WireGhost, TravelsOnlyWhereAnotherHandLeadsAndInRange) {
+  Codec codec(3, PortSpace::kTip);
+  std::array<std::byte, kPlaintextMax> buffer;
+  RandomStream random{9};
+  ForceMessage sent = samples::force(random, 3);
+  sent.ghost = samples::ghost(random);
+  ASSERT_EQ(codec.encode({}, sent, buffer), force_size(3) + kGhostSize);
+  auto got = codec.decode_force(std::span<const std::byte>(buffer).first(force_size(3) + kGhostSize));
+  ASSERT_TRUE(got);
+  EXPECT_EQ(got->message.ghost, sent.ghost);
+  sent.ghost.leader = 0;  // what is left beside it is nobody's
+  ASSERT_EQ(codec.encode({}, sent, buffer), force_size(3));
+  got = codec.decode_force(std::span<const std::byte>(buffer).first(force_size(3)));
+  ASSERT_TRUE(got);
+  EXPECT_EQ(got->message.ghost, Ghost{});
+
+  const auto refused = [&](auto&& spoil, DecodeError why) {
+    ForceMessage m = samples::force(random, 3);
+    m.ghost = samples::ghost(random);
+    spoil(m.ghost);
+    const std::size_t size = codec.encode({}, m, buffer);
+    const auto read = codec.decode_force(std::span<const std::byte>(buffer).first(size));
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error(), why);
+  };
+  refused([](Ghost& g) { g.leader = kMastersMax + 1; }, DecodeError::kOutOfRange);
+  refused([](Ghost& g) { g.x[1] = 10.1f; }, DecodeError::kOutOfRange);
+  refused([](Ghost& g) { g.v[2] = -101; }, DecodeError::kOutOfRange);
+  refused([](Ghost& g) { g.x[0] = std::numeric_limits<float>::quiet_NaN(); }, DecodeError::kNotFinite);
+  refused([](Ghost& g) { g.v[0] = std::numeric_limits<float>::infinity(); }, DecodeError::kNotFinite);
+
+  // A ghost of nobody: the number, behind tag 14, is 0.
+  sent.ghost = samples::ghost(random);
+  const std::size_t size = codec.encode({}, sent, buffer);
+  for (std::size_t k = 0; k < 4; ++k) buffer[force_size(3) + 1 + k] = std::byte{0};
+  EXPECT_FALSE(codec.decode_force(std::span<const std::byte>(buffer).first(size)));
 }
 
 }  // namespace

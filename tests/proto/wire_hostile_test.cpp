@@ -108,6 +108,21 @@ std::vector<Case> cases(Codec& codec) {
            }
          return got.has_value();
        }},
+      {"FORCE with a ghost", bytes([&] {
+         ForceMessage m = samples::force(random, 3);
+         m.contacts.add(samples::contact(random, 3, 1));
+         m.ghost = samples::ghost(random);
+         return m;
+       }()),
+       [](Codec& c, std::span<const std::byte> in) {
+         const auto got = c.decode_force(in);
+         if (got) {
+           EXPECT_LE(got->message.ghost.leader, kMastersMax);
+           for (const float x : got->message.ghost.x) EXPECT_LE(std::abs(x), kPositionMaxM);
+           for (const float v : got->message.ghost.v) EXPECT_LE(std::abs(v), kVelocityMax);
+         }
+         return got.has_value();
+       }},
       {"PATH", bytes(samples::path(random)),
        [](Codec& c, std::span<const std::byte> in) { return c.decode_path(in).has_value(); }},
       {"AUTHORITY", bytes(samples::authority(random)),

@@ -114,6 +114,13 @@ inline std::vector<TieForce> tie_forces(RandomStream& random, std::size_t axes, 
   }
   return all;
 }
+/// Of a leader.
+inline Ghost ghost(RandomStream& random) {
+  Ghost out{.leader = 1 + static_cast<std::uint32_t>(random.below(kMastersMax))};
+  for (float& x : out.x) x = static_cast<float>(random.uniform(-10, 10));
+  for (float& v : out.v) v = static_cast<float>(random.uniform(-100, 100));
+  return out;
+}
 inline ForceMessage force(RandomStream& random, std::size_t axes) {
   ForceMessage m;
   port(random, axes, m.port);

@@ -11,8 +11,11 @@ TEST(WireSize, IsWhatTheDocumentsSay) {
   EXPECT_EQ(state_size(7), 502u);
   EXPECT_EQ(force_size(3), 159u);
   EXPECT_EQ(force_size(7), 287u);
-  EXPECT_EQ(kContactSize, 50u);
-  EXPECT_EQ(force_size(3, 4), 364u);
+  EXPECT_EQ(kContactSize, 51u);
+  EXPECT_EQ(force_size(3, 4), 368u);
+  EXPECT_EQ(kGhostSize, 34u);
+  EXPECT_EQ(tie_state_size(3), 97u);
+  EXPECT_EQ(tie_force_size(3), 92u);
   EXPECT_EQ(kPathSize, 25u);
   EXPECT_EQ(kAuthoritySize, 162u);
   EXPECT_EQ(kCloseSize, 21u);

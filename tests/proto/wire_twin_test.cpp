@@ -90,6 +90,7 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       ForceMessage m = samples::force(random, axes);
       if (axes <= 3 && seed % 3 > 0) samples::contacts(random, axes, m.contacts);
       if (seed % 3 == 2) m.slave_pull = samples::slave_pull(random);
+      if (seed % 2 == 1) m.ghost = samples::ghost(random);
       Buffer buffer;
       const auto bytes = std::span<const std::byte>(buffer).first(codec.encode(samples::preamble(random), m, buffer));
       const auto f = parsed<pb::Force>(bytes);
@@ -101,7 +102,7 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       EXPECT_EQ(f.session(), static_cast<std::uint32_t>(m.session));
       const HandoverParties& p = m.handover_parties;
       EXPECT_EQ(f.flags(), (m.engage ? 1U : 0U) + 2 * static_cast<unsigned>(m.handover) + 8 * m.handover_ticks + 512 * p.by + 16384 * p.to +
-                               524288 * p.percent + 67108864 * p.tool + (m.touching ? 1U << 31 : 0U) + (m.contacts.size > 0 || m.slave_pull > 0 ? 1U << 29 : 0U));
+                               524288 * p.percent + 67108864 * p.tool + (m.touching ? 1U << 31 : 0U) + (m.contacts.size > 0 || m.slave_pull > 0 ? 1U << 29 : 0U) + (m.ghost.leader > 0 ? 1U << 30 : 0U));
       EXPECT_EQ(f.session_tick(), m.session_tick);
       EXPECT_EQ(f.authority_version(), m.authority_version);
       EXPECT_EQ(f.missing(), m.missing);
@@ -109,6 +110,10 @@ TEST(WireTwin, ForceIsWhatTheLibraryReadsAndWrites) {
       EXPECT_EQ(f.stops(), m.stops);
       EXPECT_EQ(f.has_surfaces(), m.contacts.size > 0 || m.slave_pull > 0);
       EXPECT_EQ(f.surfaces(), m.contacts.size + 256 * static_cast<std::uint32_t>(std::lround(m.slave_pull * 65535)));
+      EXPECT_EQ(f.has_leader(), m.ghost.leader > 0);
+      EXPECT_EQ(f.leader(), m.ghost.leader);
+      EXPECT_TRUE(std::ranges::equal(f.ghost_x(), m.ghost.leader > 0 ? std::span<const float>(m.ghost.x) : std::span<const float>{}));
+      EXPECT_TRUE(std::ranges::equal(f.ghost_v(), m.ghost.leader > 0 ? std::span<const float>(m.ghost.v) : std::span<const float>{}));
       ASSERT_EQ(static_cast<std::uint32_t>(f.contact_size()), m.contacts.size);
       for (int c = 0; c < f.contact_size(); ++c) {
         const LocalContact& ours = m.contacts.item[static_cast<std::size_t>(c)];

@@ -50,6 +50,13 @@ TEST(SeatScreen, SaysTheImportantInTwoLinesOf80Columns) {
   EXPECT_EQ(lines[1], "tool 12 mm away, touching | with trainer | force on | rtt 4.1 ms, loss 0.0 %");
 }
 
+TEST(SeatScreen, SaysHowFarAFollowerIsFromTheLeadersHandAndNothingToWhoLeads) {
+  ClientStatus s = running();
+  EXPECT_EQ(at(160, s)[1].find("leader's hand"), std::string::npos);
+  s.beside_leader_m = 0.0032;
+  EXPECT_NE(at(160, s)[1].find("| 3.2 mm beside the leader's hand |"), std::string::npos) << at(160, s)[1];
+}
+
 TEST(SeatScreen, ShowsWhoLeadsAndWhoIsHere) {
   ClientStatus s = running();
   s.alpha = 0.8;

@@ -38,6 +38,7 @@ bool is_whole(const std::string& piece) {
       std::regex("you lead [0-9]+ %|you do not lead|nobody leads|you [0-9]+ %, not leading|(trainer|trainee) leads(, you [0-9]+ %)?"),
       std::regex("force (\\[[#.]{10}\\] )?[0-9.]+ N"),
       std::regex("tool [0-9]+ mm away(, touching)?"),
+      std::regex("[0-9.]+ mm beside the leader's hand"),
       std::regex("with (trainer|trainee)|nobody else is here"),
       std::regex("force (on|off|rising)|no force before the session runs|force fades"),
       std::regex("rtt [0-9.]+ ms, loss [0-9.]+ %"),

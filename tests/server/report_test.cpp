@@ -169,5 +169,32 @@ TEST(Report, OfALongSessionCoversItsEndWithFewerSamples) {
   EXPECT_NEAR(r.seats[0].metrics.effort_peak_n, 0.3, 1e-6);
 }
 
+/// At the same session tick, wherever the slave is: hand 1 stands 3 mm and 4 mm from hand 0, which leads it for 10 s.
+TEST(Report, TellsHowFarAHandStandsFromTheOneThatLeadsIt) {
+  const SceneSpec spec = scene("free_motion");
+  ReportBuilder builder(spec);
+  for (std::uint32_t tick = 1; tick <= 17'000; ++tick) {
+    TickRecord r;
+    r.tick = tick;
+    r.running = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double x = 0.02 * std::sin(0.003 * tick);
+      r.seats[i].x = {x + (i == 1 ? 0.003 : 0), 0, i == 1 ? 0.004 : 0};
+      r.seats[i].engaged = true;
+      r.seats[i].sample_tick = tick;
+    }
+    r.seats[1].leader = tick <= 10'000 ? 1 : 0;
+    r.tools[0].held = false;
+    r.tools[0].sample_tick = tick;
+    builder.add(r);
+  }
+  const RunReport r = builder.build(std::vector<LinkReport>(2));
+  EXPECT_NEAR(r.seats[1].metrics.leader_offset_rms_m, 0.005, 1e-6);
+  EXPECT_TRUE(std::isnan(r.seats[0].metrics.leader_offset_rms_m)) << "no hand led it";
+  const auto json = nlohmann::json::parse(to_json(r));
+  EXPECT_NEAR(json["seats"][1]["leader_offset_rms_m"].get<double>(), 0.005, 1e-6);
+  EXPECT_TRUE(json["seats"][0]["leader_offset_rms_m"].is_null());
+}
+
 }  // namespace
 }  // namespace tandem::server

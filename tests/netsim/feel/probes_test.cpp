@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "netsim/feel/meters.h"
 #include "netsim/feel/noticeable.h"
 #include "tests/netsim/feel/feel_support.h"
 
@@ -132,6 +133,51 @@ TEST(FeelHandOver, ChangesNoForceWithoutDelay) {
 TEST(FeelShare, IsQuietWithoutDelayAndCanFail) {
   EXPECT_LE(probe_share(contact_over(0), 1).values.at("shared_cycle_n"), 0.02);
   EXPECT_GT(probe_share(contact_over(100), 1).values.at("shared_cycle_n"), 0.06);
+}
+
+/// Of law `replica`, hands drawn by seed 1, 100 ms each way: beside the leader's hand at rest, on slow ways, and what it comes and goes by.
+TEST(FeelFollow, AnAssistedHandStandsNearerToTheLeadersAndIsShakenLess) {
+  const auto probe = [](int ms, double force, bool in_contact = false) {
+    FeelSetup setup = contact_over(ms, tandem::test::shipped("contact"));
+    setup.hands = HandKind::kDrawn;
+    for (SeatSpec& seat : setup.scene.seats) seat.assist = {force, in_contact};
+    return probe_follow(setup, 1).values;
+  };
+  const FeelValues none = probe(0, 0), near = probe(0, 1), far_none = probe(100, 0), far = probe(100, 1);
+  EXPECT_GT(none.at("follower_offset_slow_m"), 0.35e-3) << "the probe sees what friction and damping leave";
+  EXPECT_LT(near.at("follower_offset_m"), 0.25e-3);
+  EXPECT_LT(far.at("follower_offset_still_m"), 0.25e-3);
+  EXPECT_GT(far_none.at("follower_wander_m"), 2.5e-3) << "and that a leader who holds still shakes a hand 100 ms away";
+  EXPECT_LT(far.at("follower_wander_m"), 1.5e-3);
+  EXPECT_NEAR(near.at("follower_offset_contact_m"), none.at("follower_offset_contact_m"), 0.3e-3) << "in contact only where that is wanted";
+  EXPECT_LT(probe(0, 2, true).at("follower_offset_contact_m"), none.at("follower_offset_contact_m") - 3e-3);
+}
+
+/// A hand that follows one that holds still is kicked: from 5 s on nothing swings, also where the ledger pays for everything.
+TEST(FeelFollow, AKickedHandWithAssistComesToRest) {
+  struct Case {
+    HandModel model;
+    double k, b, m;
+  };
+  for (const int ms : {0, 20, 100, 200, 500})
+    for (const Case& hand : {Case{HandModel::kRelaxed, 0, 2, 0.1}, {HandModel::kRecorded, 50, 5, 0.1}, {HandModel::kRecorded, 50, 1, 0.2}})
+      for (const bool ledger : {true, false}) {
+        SCOPED_TRACE(std::to_string(ms) + " ms, damping " + std::to_string(hand.b) + (ledger ? "" : ", ledger off"));
+        FeelSetup setup = contact_over(ms, tandem::test::shipped("contact"));
+        if (!ledger) setup.scene.channel.e0 = 10;  // more than anything here costs
+        for (SeatSpec& seat : setup.scene.seats) seat.assist = {3, true};
+        const DrawnHand plain{HandKind::kPlain, 1, 0};
+        const auto still = plain.move([](double) { return hal::Vec3(0, 0, 0); }, 12);
+        ProbeRun run;
+        run.length = 12;
+        run.hands = {{plain.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM), still}, {plain.with_impedance(hand.model, hand.k, hand.b, hand.m), still}};
+        run.pushes = {{.hand = 1, .at = 2, .force = {2, 0, 0}, .length = 0.1}};
+        const FeelTrace trace = run_probe(setup, run, 1);
+        const auto [first, end] = trace.window(7, 12);
+        EXPECT_LE(rms_above(Series{trace.hands[1].f}.subspan(first, end - first), 1, trace.tick_hz), 0.01);
+        const auto [kicked, after] = trace.window(2, 2.5);
+        EXPECT_GT(largest_distance(Series{trace.hands[1].x}.subspan(kicked, after - kicked), hal::Vec3::Zero()), 0.001) << "it was kicked";
+      }
 }
 
 TEST(FeelExposure, CountsWhatTheNetworkTakesAway) {

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "common/base/axes.h"
+#include "common/control/hand_motion.h"
+#include "proto/wire.h"
+
+namespace tandem::server {
+
+/// One hand as others are shown it, and as hands with `assist` are led by it: where it is by now, predicted over the age of its newest sample.
+///
+///     quick     x + age v              v: as heard, through one pole of 2.5 Hz
+///     steady    x_s + age v_s          x_s' = v_s + 2 w0 (x - x_s), v_s' = w0^2 (x - x_s), w0 = 8 /s
+///     shown     quick + u (steady - quick)     u = age^2 / (age^2 + (50 ms)^2) / (1 + (v / 11 mm/s)^4)
+///
+/// A hand that is held still shakes by 0.5 mm at 2 Hz and by 0.1 mm at 10 Hz. The prediction by which a tool keeps up with a fast hand makes several
+/// millimetres of that when news are 100 ms old and more; the steady one makes one of it. It is late where a hand turns, so it has no part in fast motion.
+class LeadingHand {
+ public:
+  LeadingHand() noexcept : LeadingHand(0.001) {}
+  /// @param dt  tick [s]
+  explicit LeadingHand(double dt) noexcept : dt_(dt), part_(1 - std::exp(-2 * std::numbers::pi * kHz * dt)) {}
+
+  /// Once per tick.
+  /// @param present  else it is forgotten
+  /// @param heard    of its port  @param axes  of a TIP port, 1 to 3; 0 at JOINT ports, whose hand is shown where it was
+  /// @param age      of what was heard [s]
+  void step(bool present, const PortSample& heard, std::size_t axes, double age) noexcept TANDEM_REALTIME {
+    double square = 0;
+    for (std::size_t a = 0; a < axes && present; ++a) {
+      if (!present_) {
+        slow_[a] = heard.x[a];
+        slow_v_[a] = quick_v_[a] = 0;
+      }
+      quick_v_[a] += part_ * (std::clamp(heard.v[a], -control::Prediction::kVelocityMax, control::Prediction::kVelocityMax) - quick_v_[a]);
+      const double behind = heard.x[a] - slow_[a];
+      slow_[a] += (slow_v_[a] + 2 * kSlowPole * behind) * dt_;
+      slow_v_[a] += kSlowPole * kSlowPole * behind * dt_;
+      square += quick_v_[a] * quick_v_[a];
+    }
+    const double speed = square / (kSlow * kSlow);
+    share_ = present ? age * age / (age * age + kAge * kAge) / (1 + speed * speed) : 0;
+    for (std::size_t a = 0; a < axes && present; ++a) {
+      steady_x_[a] = control::Prediction::place_for_hand(slow_[a], slow_v_[a], age);
+      const double quick = control::Prediction::place_for_hand(heard.x[a], quick_v_[a], age);
+      moved_[a] = quick + share_ * (steady_x_[a] - quick) - heard.x[a];
+      shown_v_[a] = quick_v_[a] + share_ * (slow_v_[a] - quick_v_[a]);
+    }
+    present_ = present;
+  }
+  [[nodiscard]] bool present() const noexcept { return present_; }
+  /// u above [0, 1].
+  [[nodiscard]] double steady_share() const noexcept { return share_; }
+  /// The steady prediction of where it pulls at the tool [m], and its velocity [m/s]. @pre present, at a TIP port
+  [[nodiscard]] double steady_x(std::size_t axis) const noexcept { return steady_x_[axis]; }
+  [[nodiscard]] double steady_v(std::size_t axis) const noexcept { return slow_v_[axis]; }
+  /// As FORCE tells it. @param number  of the master, from 1  @param tip  as heard [m]: that of a motor at its limit is beyond where it pulls
+  [[nodiscard]] wire::Ghost ghost(std::uint32_t number, const std::array<double, 3>& tip) const noexcept TANDEM_REALTIME {
+    wire::Ghost out{.leader = number};
+    for (std::size_t a = 0; a < 3; ++a) {
+      out.x[a] = static_cast<float>(std::clamp(tip[a] + moved_[a], -kTipMax, kTipMax));
+      out.v[a] = static_cast<float>(shown_v_[a]);
+    }
+    return out;
+  }
+
+  static constexpr double kHz = 2.5;       ///< [Hz]
+  static constexpr double kSlowPole = 8;   ///< w0 [1/s]
+  static constexpr double kSlow = 0.011;   ///< [m/s]
+  static constexpr double kAge = 0.05;     ///< [s]
+  static constexpr double kTipMax = 10;    ///< of a position on the wire [m]
+
+ private:
+  double dt_, part_;
+  bool present_ = false;
+  double share_ = 0;
+  std::array<double, 3> slow_{}, slow_v_{}, quick_v_{}, steady_x_{}, shown_v_{}, moved_{};
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,55 @@
+// The rows of README.md that say how near a relaxed follower stands to the leader's hand: as `tandem-netsim feel contact --delay MS --probe follow`
+// measures, with `--assist 1` and without. Limits are the printed means with a tenth of headroom; the worst seed stays within 1.5 times.
+// TANDEM_COUNTS=full takes all 20 seeds.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "netsim/feel/feel_summary.h"
+#include "tests/base/counts.h"
+#include "tests/netsim/feel/feel_support.h"
+
+namespace tandem::netsim {
+namespace {
+
+struct Printed {
+  double still_mm, slow_mm, wander_mm;
+};
+struct Row {
+  int delay_ms;
+  Printed none, assist;
+};
+constexpr Row kRows[] = {FIGURES};
+constexpr double kHeadroom = 1.1, kWorst = 1.5, kLeast = 0.1;  // kLeast [mm]: of what is as small as two steps of the encoder
+
+void expect_printed(int delay_ms, double force, const Printed& printed) {
+  SCOPED_TRACE(std::to_string(delay_ms) + " ms, assist of " + std::to_string(force) + " N");
+  FeelSetup setup = contact_over(delay_ms, tandem::test::shipped("contact"));
+  setup.hands = HandKind::kDrawn;
+  for (SeatSpec& seat : setup.scene.seats) seat.assist.force = force;
+  std::vector<FeelSeed> seeds;
+  const std::uint64_t count = tandem::test::draws(3, 20, 20);
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    const ProbeResult result = probe_follow(setup, seed);
+    EXPECT_EQ(result.trouble, "");
+    seeds.push_back({seed, result.values});
+  }
+  const auto numbers = summarised(seeds);
+  const auto at_most = [&](const char* key, double mm) {
+    EXPECT_LE(1e3 * numbers.at(key).mean, kHeadroom * std::max(kLeast, mm)) << key;
+    EXPECT_LE(1e3 * numbers.at(key).worst, kWorst * std::max(kLeast, mm)) << key;
+  };
+  at_most("follower_offset_still_m", printed.still_mm);
+  at_most("follower_offset_slow_m", printed.slow_mm);
+  at_most("follower_wander_m", printed.wander_mm);
+}
+
+TEST(FollowRows, AFollowerStandsWhereIsPrinted) {
+  for (const Row& row : kRows) expect_printed(row.delay_ms, 0, row.none);
+}
+TEST(FollowRows, AFollowerWithAssistStandsWhereIsPrinted) {
+  for (const Row& row : kRows) expect_printed(row.delay_ms, 1, row.assist);
+}
+
+}  // namespace
+}  // namespace tandem::netsim
