@@ -16,7 +16,7 @@ namespace tandem::server {
 ///
 ///     quick     x + age v              v: as heard, through one pole of 2.5 Hz
 ///     steady    x_s + age v_s          x_s' = v_s + 2 w0 (x - x_s), v_s' = w0^2 (x - x_s), w0 = 8 /s
-///     shown     quick + u (steady - quick)     u = age^2 / (age^2 + (50 ms)^2) / (1 + (v / 11 mm/s)^4)
+///     shown     quick + u (steady - quick)     u = age^2 / (age^2 + (50 ms)^2) / (1 + (v / 10 mm/s)^4)
 ///
 /// A hand that is held still shakes by 0.5 mm at 2 Hz and by 0.1 mm at 10 Hz. The prediction by which a tool keeps up with a fast hand makes several
 /// millimetres of that when news are 100 ms old and more; the steady one makes one of it. It is late where a hand turns, so it has no part in fast motion.
@@ -71,7 +71,7 @@ class LeadingHand {
 
   static constexpr double kHz = 2.5;       ///< [Hz]
   static constexpr double kSlowPole = 8;   ///< w0 [1/s]
-  static constexpr double kSlow = 0.011;   ///< [m/s]
+  static constexpr double kSlow = 0.010;   ///< [m/s]
   static constexpr double kAge = 0.05;     ///< [s]
   static constexpr double kTipMax = 10;    ///< of a position on the wire [m]
 
