@@ -303,7 +303,7 @@ void Session::fill_force_messages(Time now) noexcept {
     m.missing = missing_now;
     m.stops = stop_lane_.stops();
     m.slave_pull = slave_pull_[i];
-    m.ghost = of_others ? ghost_[i] : wire::Ghost{};
+    if (of_others) m.ghost = ghost_[i];
     m.contacts.size = 0;
     if (told_of_others(i) && tools_[first_tool(i)].contacts().size > 0) m.contacts = tools_[first_tool(i)].contacts();
     tell_handover(i, m);
