@@ -16,7 +16,7 @@ namespace tandem::server {
 ///
 ///     quick     x + age v              v: as heard, through one pole of 2.5 Hz
 ///     steady    x_s + age v_s          x_s' = v_s + 2 w0 (x - x_s), v_s' = w0^2 (x - x_s), w0 = 8 /s
-///     shown     quick + u (steady - quick)     u = age^2 / (age^2 + (50 ms)^2) / (1 + (v / 11 mm/s)^4)
+///     shown     quick + u (steady - quick)     u = age^2 / (age^2 + (50 ms)^2) / (1 + (v / 10 mm/s)^4)
 ///
 /// A hand that is held still shakes by 0.5 mm at 2 Hz and by 0.1 mm at 10 Hz. The prediction by which a tool keeps up with a fast hand makes several
 /// millimetres of that when news are 100 ms old and more; the steady one makes one of it. It is late where a hand turns, so it has no part in fast motion.
@@ -31,9 +31,10 @@ class LeadingHand {
   /// @param heard    of its port  @param axes  of a TIP port, 1 to 3; 0 at JOINT ports, whose hand is shown where it was
   /// @param age      of what was heard [s]
   void step(bool present, const PortSample& heard, std::size_t axes, double age) noexcept TANDEM_REALTIME {
+    if (!present) [[unlikely]] return stand(false);
     double square = 0;
-    for (std::size_t a = 0; a < axes && present; ++a) {
-      if (!present_) {
+    for (std::size_t a = 0; a < axes; ++a) {
+      if (!present_) [[unlikely]] {
         slow_[a] = heard.x[a];
         slow_v_[a] = quick_v_[a] = 0;
       }
@@ -44,18 +45,20 @@ class LeadingHand {
       square += quick_v_[a] * quick_v_[a];
     }
     const double speed = square / (kSlow * kSlow);
-    share_ = present ? age * age / (age * age + kAge * kAge) / (1 + speed * speed) : 0;
-    for (std::size_t a = 0; a < axes && present; ++a) {
+    share_ = age * age / ((age * age + kAge * kAge) * (1 + speed * speed));
+    for (std::size_t a = 0; a < axes; ++a) {
       steady_x_[a] = control::Prediction::place_for_hand(slow_[a], slow_v_[a], age);
       const double quick = control::Prediction::place_for_hand(heard.x[a], quick_v_[a], age);
       moved_[a] = quick + share_ * (steady_x_[a] - quick) - heard.x[a];
       shown_v_[a] = quick_v_[a] + share_ * (slow_v_[a] - quick_v_[a]);
     }
-    present_ = present;
+    present_ = true;
   }
+  /// In place of `step` where hands are not predicted: shown where it was.
+  void stand(bool present) noexcept TANDEM_REALTIME { present_ = present; }
   [[nodiscard]] bool present() const noexcept { return present_; }
   /// u above [0, 1].
-  [[nodiscard]] double steady_share() const noexcept { return share_; }
+  [[nodiscard]] double steady_share() const noexcept { return present_ ? share_ : 0; }
   /// The steady prediction of where it pulls at the tool [m], and its velocity [m/s]. @pre present, at a TIP port
   [[nodiscard]] double steady_x(std::size_t axis) const noexcept { return steady_x_[axis]; }
   [[nodiscard]] double steady_v(std::size_t axis) const noexcept { return slow_v_[axis]; }
@@ -71,7 +74,7 @@ class LeadingHand {
 
   static constexpr double kHz = 2.5;       ///< [Hz]
   static constexpr double kSlowPole = 8;   ///< w0 [1/s]
-  static constexpr double kSlow = 0.011;   ///< [m/s]
+  static constexpr double kSlow = 0.010;   ///< [m/s]
   static constexpr double kAge = 0.05;     ///< [s]
   static constexpr double kTipMax = 10;    ///< of a position on the wire [m]
 

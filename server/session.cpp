@@ -293,7 +293,6 @@ void Session::fill_force_messages(Time now) noexcept {
     m.missing = missing_now;
     m.stops = stop_lane_.stops();
     tell_ties(i);
-    if (i < masters_) m.ghost = told_of_others(i) ? ghost_[i] : wire::Ghost{};
     tell_handover(i, m);
   }
 }

@@ -1,6 +1,7 @@
 #include "server/session.h"
 
-/// Which hand leads each seat, and where it is: for screens, records, and the pull of `assist`.
+/// Which hand leads each seat, and where it is: for screens, records, and the pull of `assist`. Laws other than `replica` tell nobody, and keep where it was
+/// in records.
 namespace tandem::server {
 
 namespace {
@@ -9,7 +10,13 @@ constexpr double kLeads = 1e-9;  // authority above which a hand leads
 
 void Session::see_leaders() noexcept {
   const std::size_t axes = scene_->port == PortSpace::kTip ? scene_->dof : 0;
-  for (std::size_t h = 0; h < masters_; ++h) leading_[h].step(present_[h], seats_[h].heard().port, axes, seats_[h].age());
+  for (std::size_t h = 0; h < masters_; ++h) {
+    if (replica_) {
+      leading_[h].step(present_[h], seats_[h].heard().port, axes, seats_[h].age());
+    } else {
+      leading_[h].stand(present_[h]);
+    }
+  }
   for (std::size_t i = 0; i < masters_; ++i) {
     const std::size_t leader = leader_of(i);
     ghost_[i] = leader < masters_ ? leading_[leader].ghost(static_cast<std::uint32_t>(leader + 1), seats_[leader].heard().telemetry.x) : wire::Ghost{};

@@ -305,6 +305,7 @@ void Session::follow_others(std::size_t i) noexcept {
 /// again long before its surfaces are forgotten.
 void Session::tell_ties(std::size_t i) noexcept {
   if (!told_of_others(i)) return tell_tools(i);
+  seats_[i].tx.ghost = ghost_[i];
   const std::span<const std::size_t> tools = seats_[i].tied_tools();
   std::size_t room = wire::contacts_room(scene_->dof, tools.size() - 1);
   const std::size_t first = tick_ % tools.size();
