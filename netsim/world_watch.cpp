@@ -34,9 +34,11 @@ constexpr double kFeltSlewMax = 10;                     // [1/s] of authority: f
 constexpr double kLifeTicks = 3, kLifeMin = 0.005, kLifeMax = 0.03, kFade = 0.02;  // ticks, [s]: a command's life, and how its force then fades
 constexpr double kFarTouch = 1, kFarLinear = 50;        // [m] no hand of such a device is there; a rail has no end
 
-/// A person speeds up by at most 0.5 m/s^2 for the 250 ms that are ever predicted, and a tool goes to a better prediction by 60 mm/s,
-/// where a scene's approach speed is less.
-constexpr double kGainsSpeed = 0.125 + 0.06;
+/// A person is taken to speed up by at most 0.35 m/s^2 for the 265 ms that are ever predicted, and a tool goes to a better prediction by at most
+/// 150 mm/s, where a scene's approach speed is less.
+constexpr double kGainsSpeed = 0.35 * 0.265 + 0.15;
+/// What leads a follower moves faster than the others by so much while they speed up.
+constexpr double kFollowGainsSpeed = 0.04;
 
 double tip_norm(const AxisArray& effort, const AxisArray& scale, std::size_t dof) noexcept {
   double sum = 0;
@@ -129,7 +131,8 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     if (const control::VirtualTool* const copy = seat->coupling().copy())
       for (std::size_t a = 0; a < scene_->dof; ++a) x[a] = copy->x(a);
     check_end(i, seat->channel(), s.client, seat->setup().axis_scale,
-              {seat->force().port, x, slave ? x : s.client.x, offset_of(i, session), s.was_active && seat->gate().active()});
+              {seat->force().port, x, slave ? x : s.client.x, offset_of(i, session), s.was_active && seat->gate().active(),
+               scene_->channel.law == LawKind::kReplica && !slave ? kFollowGainsSpeed : 0});
     s.was_active = seat->gate().active();
     s.trips = seat->gate().trips();
     s.effort = seat->effort();

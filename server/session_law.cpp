@@ -264,7 +264,7 @@ void Session::follow_others(std::size_t i) noexcept {
           const PortSample& hand = seats_[h].heard().port;
           const bool shares = tie.alpha >= kShares && present_[h];
           x += part * (shares ? hand.x[a] : by_now.ref[a]);
-          v += part * (shares ? hand.v[a] : present_[h] ? by_now.rate[a] : 0);
+          v += part * (shares ? hand.v[a] : present_[h] ? by_now.led[a] : 0);
         }
       }
       if (device != nullptr) {  // two springs of stiffness alone and slave, as one between them

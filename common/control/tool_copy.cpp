@@ -10,7 +10,7 @@ constexpr double kUpToSpeed = 0.3;  // [s] from rest to the speed at which an of
 }
 
 ToolCopy::ToolCopy(const Params& params) noexcept : p_(params), tool_(params.tool, params.axes, params.contacts), told_({params.axes, params.v_app, params.k_c, params.dt}) {
-  hand_.fill(HandMotionFilter(params.dt));
+  hand_.fill(HandVelocity(params.dt));
   anchor_.fill(HandMotionFilter(params.dt));
 }
 
@@ -38,7 +38,7 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   VirtualTool::Pulls pulls{}, without_dampers{};
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double q = hand[a] - offset_[a];
-    const double velocity = HandMotionFilter::velocity_by_now(hand_[a].step(hand[a]));
+    const double velocity = hand_[a].step(hand[a]);
     pulls[a].spring(own * share_ * p_.k_c, q);
     pulls[a].spring(reference.k[a], reference.ref[a]);
     without_dampers[a] = pulls[a];

@@ -58,7 +58,8 @@ class ToolCopy {
   Params p_;
   VirtualTool tool_;
   LocalContacts told_;
-  std::array<HandMotionFilter, kAxes> hand_, anchor_;
+  std::array<HandVelocity, kAxes> hand_;
+  std::array<HandMotionFilter, kAxes> anchor_;
   AxisArray shown_{}, offset_{}, wanted_{}, dissipated_{};
   double share_ = 0;       ///< of the wanted effort that the gate gave last [0, 1]
   double engaged_for_ = 0; ///< [s]
