@@ -14,9 +14,11 @@ constexpr std::uint64_t kEmptyNj = 10'000;              // [nJ] less than any st
 constexpr double kTogether = 1e-5;                      // [m] the session has no distance left to close between hand and tool
 constexpr double kRecovered = 0.5;                      // share of the initial energy that an account has again
 constexpr double kLeads = 0.5;                          // share of authority of who moves the tool and is not moved by it
-/// A person speeds up by at most 0.5 m/s^2 for the 250 ms that are ever predicted, and a tool goes to a better prediction by 60 mm/s,
-/// where a scene's approach speed is less.
-constexpr double kGainsSpeed = 0.125 + 0.06;
+/// A person is taken to speed up by at most 0.35 m/s^2 for the 265 ms that are ever predicted, and a tool goes to a better prediction by at most
+/// 150 mm/s, where a scene's approach speed is less.
+constexpr double kGainsSpeed = 0.35 * 0.265 + 0.15;
+/// What leads a follower moves faster than the others by so much while they speed up.
+constexpr double kFollowGainsSpeed = 0.04;
 
 }  // namespace
 
@@ -61,7 +63,8 @@ void WorldWatch::check_client_ends(std::size_t i, const client::Seat& seat, cons
     if (const control::VirtualTool* const copy = seat.coupling().copy(k))
       for (std::size_t a = 0; a < scene_->dof; ++a) x[a] = copy->x(a);
     check_end(i, seat.channel(k), s.client[k], seat.setup().axis_scale,
-              {seat.told(k).port, x, slave ? x : s.client[k].x, offset_of(i, session), s.was_active && seat.gate().active()});
+              {seat.told(k).port, x, slave ? x : s.client[k].x, offset_of(i, session), s.was_active && seat.gate().active(),
+               scene_->channel.law == LawKind::kReplica && !slave ? kFollowGainsSpeed : 0});
   }
 }
 

@@ -284,7 +284,7 @@ void Session::follow_others(std::size_t i, std::size_t j, wire::TieForce& told) 
     const PortSample& hand = seats_[h].heard_of(j);
     const bool shares = tie.alpha >= kShares && present_[h];
     for (std::size_t a = 0; a < scene_->dof; ++a) {
-      const double steady = scene_->seats[i].assist.force > 0 ? leading_[h].steady_share() : 0, rate = present_[h] ? by_now.rate[a] : 0;
+      const double steady = scene_->seats[i].assist.force > 0 ? leading_[h].steady_share() : 0, rate = present_[h] ? by_now.led[a] : 0;
       places[a] += part * (shares ? hand.x[a] : by_now.ref[a] + steady * (leading_[h].steady_x(a) - by_now.ref[a]));
       speeds[a] += part * (shares ? hand.v[a] : rate + steady * (leading_[h].steady_v(a) - rate));
     }

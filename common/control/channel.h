@@ -35,7 +35,7 @@ struct ChannelParams {
 /// What a law promises; a breach of anything else is reported as expected and fails nothing.
 struct Promises {
   bool ledger = false;          ///< E_out <= E_0 + E_in received + eta D
-  bool bounded_step = false;    ///< |dr| <= (|v_rx| + v_app) T away from x; giving way to a hand is faster
+  bool bounded_step = false;    ///< |dr| <= (|v_rx| + v_app + what a prediction gains) T away from x; giving way to a hand is faster
 };
 
 struct EndInput {
@@ -55,6 +55,7 @@ struct EndState {
   AxisArray k{};                ///< stiffness to it
   AxisArray b{};                ///< damping to be added at this end
   AxisArray rate{};             ///< velocity which that damping is relative to [m/s]; 0: the ground
+  AxisArray led{};              ///< `replica`, server: velocity of the hand by now, without the encoder's steps; others are led by it [m/s]
   AxisArray absorbed{};         ///< energy this move gave back [J]; the owner decides how much becomes credit
   AxisArray paid{};             ///< energy this move cost [J]
   AxisArray passed{};           ///< heat of this end that was passed on [J]

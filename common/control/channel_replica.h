@@ -23,6 +23,8 @@ class ReplicaReference final : public PaidEnd {
 
   static constexpr double kKappa = 2;       ///< [N s/m]
   static constexpr double kFollows = 0.02;  ///< authority below which a hand's loop over the network is as good as open
+  /// A reference that leads a follower moves faster than the others while they accelerate, beside v_app [m/s].
+  static constexpr double kGainsSpeed = 0.04;
 
  private:
   [[nodiscard]] double stiffness_for(double authority, double delay) const noexcept;

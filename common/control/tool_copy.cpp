@@ -18,7 +18,7 @@ Assist::Params assist_of(const ToolCopy::Params& p) noexcept {
 }
 
 ToolCopy::ToolCopy(const Params& params) noexcept : p_(params), tool_(params.tool, params.axes, params.contacts), told_({params.axes, params.v_app, params.k_c, params.dt}), assist_(assist_of(params)) {
-  hand_.fill(HandMotionFilter(params.dt));
+  hand_.fill(HandVelocity(params.dt));
   anchor_.fill(HandMotionFilter(params.dt));
 }
 
@@ -55,7 +55,7 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   VirtualTool::Pulls pulls{}, without_dampers{};
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double q = place(hand, a);
-    const double velocity = HandMotionFilter::velocity_by_now(hand_[a].step(hand[a]));
+    const double velocity = hand_[a].step(hand[a]);
     pulls[a].spring(own * pull_ * p_.k_c, q);
     pulls[a].spring(reference.k[a], reference.ref[a]);
     without_dampers[a] = pulls[a];

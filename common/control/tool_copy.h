@@ -75,7 +75,8 @@ class ToolCopy {
   LocalContacts told_;
   Assist assist_;
   Assist::Input leader_;  ///< as seen in this tick
-  std::array<HandMotionFilter, kAxes> hand_, anchor_;
+  std::array<HandVelocity, kAxes> hand_;
+  std::array<HandMotionFilter, kAxes> anchor_;
   AxisArray shown_{}, offset_{}, wanted_{}, dissipated_{};
   double share_ = 0;       ///< of the wanted effort that the gate gave last [0, 1]
   double pull_ = 0;        ///< of it that the hand pulls the copy with: as much, and no more than its motor could give

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "common/control/hand_motion.h"
+
 namespace tandem::control {
 namespace {
 
@@ -48,7 +50,7 @@ TEST(ReplicaReference, AHandThatFollowsHasTheFullSpringAtAnyDelay) {
     ReplicaReference end(one_axis());
     const EndState& s = settled(end, hears(0.005, 0, delay));
     EXPECT_NEAR(s.k[0], 400, 1e-9) << delay;
-    EXPECT_NEAR(s.b[0], 12, 1e-9) << delay;
+    EXPECT_NEAR(s.b[0], 1.25 * 12, 1e-9) << delay;
   }
 }
 
@@ -119,15 +121,36 @@ TEST(ReplicaReference, PredictsForAHandThatFollowsAndNotForOneThatShares) {
   EXPECT_NEAR(settled(shares, in).ref[0], 0, 1e-9);
 }
 
-// Through one pole of 7 Hz: after 32 ms a step of velocity counts for 1 - exp(-2 pi 7 0.032) = 76 %.
+// Through one pole of 7 Hz: after 32 ms a step of velocity counts for 1 - exp(-2 pi 7 0.032) = 76 %. At an age of 200 ms it is one of 4.5 Hz.
 TEST(ReplicaReference, LeadsAHandThatFollowsByACalmVelocity) {
   EndInput in = hears(0, 0, 0.1);
-  ReplicaReference end(one_axis());
+  ReplicaReference end(one_axis()), later(one_axis());
   settled(end, in);
-  in.rx.v[0] = 0.05;
-  for (int i = 0; i < 32; ++i) end.move(in);
+  EndInput old = hears(0, 0, 0.2);
+  settled(later, old);
+  in.rx.v[0] = old.rx.v[0] = 0.05;
+  for (int i = 0; i < 32; ++i) {
+    end.move(in);
+    later.move(old);
+  }
   EXPECT_NEAR(end.state().ref[0], 0.1 * 0.05 * (1 - std::exp(-2 * std::numbers::pi * 7 * 0.032)), 1e-9);
+  EXPECT_NEAR(later.state().ref[0], 0.2 * 0.05 * (1 - std::exp(-2 * std::numbers::pi * 4.5 * 0.032)), 1e-9);
   EXPECT_EQ(end.state().rate[0], 0.05) << "the damper needs no prediction";
+}
+
+// While the others speed up, what leads a follower moves faster than they do, by 40 mm/s beside v_app; a hand that shares has none of it.
+TEST(ReplicaReference, AReferenceThatLeadsGainsSpeedWithinItsBound) {
+  for (const double authority : {0.0, 0.5}) {
+    ChannelParams p = one_axis();
+    p.v_app = 0.1;
+    ReplicaReference end(p);
+    const EndInput still = hears(0, authority, 0.1);
+    settled(end, still);
+    const double before = end.state().ref[0];
+    EndInput in = hears(0.005, authority, 0.1);
+    in.rx.v[0] = 0.02;
+    EXPECT_NEAR(end.move(in).ref[0] - before, (0.02 + 0.1 + (authority == 0 ? 0.04 : 0)) * 0.001, 1e-12) << authority;
+  }
 }
 
 TEST(PredictedHand, GoesToTheBetterPredictionAndNeverByAStep) {
@@ -138,12 +161,27 @@ TEST(PredictedHand, GoesToTheBetterPredictionAndNeverByAStep) {
   double before = 0;
   for (int i = 0; i < 200; ++i) {
     const double now = end.move(in).ref[0];
-    EXPECT_LE(now - before, (0.02 + 0.06) * 0.001 + 1e-12);
+    EXPECT_LE(now - before, (0.02 + 0.05) * 0.001 + 1e-12);
+    EXPECT_NEAR(end.state().rate[0], (now - before) / 0.001, 1e-9) << "the tool's damper goes as the reference goes";
     before = now;
   }
   EXPECT_NEAR(before, 0.005 + 0.1 * 0.02, 1e-12);
   EXPECT_EQ(end.state().k[0], 400);
-  EXPECT_EQ(end.state().rate[0], 0.02);
+  EXPECT_NEAR(end.state().led[0], 0.02, 1e-12) << "others are led by the hand's velocity, without encoder steps";
+
+  // The hand nearly stands: the prediction is less far ahead now, and is followed faster.
+  in.rx.v[0] = 1e-9;
+  EXPECT_NEAR(end.move(in).ref[0], before - 0.15 * 0.001, 1e-9);
+}
+
+// Where it will be when the news come to the others: further by a part of the hand's own age.
+TEST(PredictedHand, LeadsOthersByALaterVelocity) {
+  PredictedHand end(one_axis());
+  end.engage({}, 0.1);
+  EndInput in = hears(0, 1, 0.1);
+  in.rx.a[0] = 0.3;
+  end.move(in);
+  EXPECT_NEAR(end.state().led[0], 0.3 * (1.4 * 0.1 + Prediction::kFilterDelay), 1e-12);
 }
 
 TEST(PredictedHand, PullsNoHarderThanAnyMotor) {

@@ -90,12 +90,12 @@ double behind(double tick_hz) {
   return std::sqrt(square / n);
 }
 
-// Poles, slews and predictions are in seconds, so the rate hardly matters: 0.36 mm at 100 Hz to 0.43 mm at 4 kHz, where the transport lag is 3.1.
+// Poles, slews and predictions are in seconds, so the rate hardly matters: 0.08 mm at 500 Hz to 0.12 mm at 4 kHz, where the transport lag is 3.1.
 TEST_P(ReplicaTickRates, TheToolFollowsItsLeader) {
   const double at_this = behind(GetParam());
   std::printf("%5.0f Hz: leader-tool %.3f mm\n", GetParam(), 1e3 * at_this);
-  EXPECT_NEAR(at_this, behind(1000), 0.1e-3);
-  EXPECT_LT(at_this, 0.5e-3);
+  EXPECT_NEAR(at_this, behind(1000), 0.05e-3);
+  EXPECT_LT(at_this, 0.15e-3);
 }
 
 // What a Touch renders: 0.93 b / (T/2), and never more than the scene asks for. Both ends reckon with it.

@@ -17,19 +17,20 @@ struct Row {
   int delay_ms;
   double leader_05hz_mm, leader_1hz_mm, leader_step_mm, follower_05hz_mm, gain_max, overshoot;
 };
-constexpr Row kRows[] = {{0, 0.14, 0.37, 0.22, 1.55, 1.13, 0.135},
-                         {20, 0.42, 1.24, 0.87, 1.94, 1.52, 0.255},
-                         {50, 0.91, 3.19, 1.93, 3.47, 2.05, 0.383},
-                         {100, 2.03, 8.71, 3.41, 9.19, 2.93, 0.528},
-                         {200, 6.69, 27.7, 6, 35.2, 4.29, 0.793}};
+constexpr Row kRows[] = {{0, 0.03, 0.05, 0.03, 1.45, 1.04, 0.07},
+                         {20, 0.26, 0.39, 0.55, 1.67, 1.23, 0.104},
+                         {50, 0.88, 1.77, 1.6, 3.43, 1.70, 0.19},
+                         {100, 1.82, 6.8, 3, 9.85, 2.44, 0.322},
+                         {200, 6.2, 23.7, 5.2, 38.2, 3.6, 0.465}};
 constexpr double kHeadroom = 1.1, kWorst = 1.5;
+constexpr std::uint64_t kAllHands = 20;
 
 void expect_row(const Row& row) {
   SCOPED_TRACE(row.delay_ms);
   FeelSetup setup = contact_over(row.delay_ms, tandem::test::shipped("contact"));
   setup.hands = HandKind::kDrawn;
   std::vector<FeelSeed> seeds;
-  const std::uint64_t count = tandem::test::draws(2, 20, 20);
+  const std::uint64_t count = tandem::test::draws(2, kAllHands, kAllHands);
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     FeelSeed one{seed, {}};
     for (const Probe probe : {Probe::kPress, Probe::kFree, Probe::kGain}) {
@@ -46,15 +47,17 @@ void expect_row(const Row& row) {
   };
   EXPECT_GE(numbers.at("stiffness_felt_n_m").worst, 360);
   EXPECT_GE(numbers.at("stiffness_tissue_n_m").worst, 164);
-  at_most("drag_05hz_n", 0.06);
-  at_most("drag_1hz_n", 0.112);
+  at_most("drag_05hz_n", 0.052);
+  at_most("drag_1hz_n", 0.092);
   at_most("leader_tool_05hz_m", 1e-3 * row.leader_05hz_mm);
   at_most("leader_tool_1hz_m", 1e-3 * row.leader_1hz_mm);
   at_most("leader_tool_step_m", 1e-3 * row.leader_step_mm);
   at_most("follower_tool_05hz_m", 1e-3 * row.follower_05hz_mm);
   at_most("gain_max", row.gain_max);
-  at_most("overshoot", row.overshoot);
-  EXPECT_LE(numbers.at("tool_felt_bone_n").mean, row.delay_ms > 100 ? 0.1 : 0.05);
+  // The hands themselves pass the goal by 3 to 9 %; the first two, which a short run has, by 2 % more than the mean of all.
+  at_most("overshoot", row.overshoot + (count < kAllHands ? 0.02 : 0));
+  EXPECT_LE(numbers.at("overshoot_above_hand").mean, kHeadroom * row.overshoot);
+  EXPECT_LE(numbers.at("tool_felt_bone_n").mean, 0.05);
 }
 
 TEST(ReadmeRows, HandsFeelWhatIsPrintedWithoutDelay) { expect_row(kRows[0]); }
