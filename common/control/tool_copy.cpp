@@ -131,8 +131,9 @@ void ToolCopy::show(std::size_t axis, double hand, double others, ChannelEnd& en
 /// way, it would come back with the next word as a step of force, and with energy that nobody paid. So the offset takes it.
 void ToolCopy::let_spring_go() noexcept {
   for (std::size_t a = 0; a < p_.axes; ++a) {
-    offset_[a] -= wanted_[a] / p_.k_c;
-    wanted_[a] = 0;
+    offset_[a] -= wanted_[a] / p_.k_c - lag_[a];  // also of what the hand was not shown
+    shown_[a] = tool_.x(a);
+    wanted_[a] = lag_[a] = 0;
   }
 }
 
