@@ -91,6 +91,7 @@ void WorldWatch::check(std::uint32_t lived, const server::Session& session,
     const double far = scene_->seats[i].device.model == DeviceModel::kTouch ? kFarTouch : kFarLinear;
     if (!truth.x.allFinite() || truth.x.norm() > far) note("diverged", i);
     check_energy(i, station);
+    if (scene_->channel.law == LawKind::kReplica && scene_->seats[i].kind == SeatKind::kMaster) check_hand(i, station);
     if (s.starts != station.starts()) s.begin_anew(station.starts());
     if (s.joins != station.joins()) {  // another connection: its counters begin anew, the hand goes on
       s.joins = station.joins();

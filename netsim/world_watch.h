@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "netsim/distinct.h"
+#include "netsim/world_hand_energy.h"
 #include "netsim/world_handover.h"
 #include "netsim/world_station.h"
 #include "server/session.h"
@@ -70,6 +71,14 @@ class WorldWatch {
     std::uint64_t accepted = 0, generation = 0, server_heard = 0;
     std::uint32_t session_tick = 0, seat_tick = 0;
     Distinct given_to_server;
+    struct Hand {  ///< for the energy of its whole session
+      HandEnergy energy;
+      std::uint32_t starts = 0, joins = 0;
+      double worked = 0;         ///< since its program last worked [J]
+      unsigned ticks = 0;        ///< since then
+      bool lied = false;         ///< its sensor, since then
+      AxisArray effort{}, q{};   ///< of then
+    } hand;
     std::array<End, kToolsMax> client, server;  ///< per end
 
     /// The client's program was started once more: what was known of the one before is void.
@@ -95,6 +104,8 @@ class WorldWatch {
   [[nodiscard]] AxisArray hung_on(std::size_t seat, std::size_t tool, const server::Session& session) const noexcept;
   [[nodiscard]] AxisArray offset_of(std::size_t i, const server::Session& session) const noexcept;
   void check_energy(std::size_t i, const WorldStation& station);
+  void check_hand(std::size_t i, const WorldStation& station);
+  [[nodiscard]] double motor_max(std::size_t i, const WorldStation& station) const noexcept;
   void check_reading(std::size_t i, const WorldStation& station);
   void check_once(std::size_t i, const WorldStation& station, const server::SeatPort& port);
   /// @param x   of what hangs on this end, after the tick  @param hung  of the same, when the reference moved

@@ -221,7 +221,8 @@ double Session::slave_pull(std::size_t i, std::size_t j) const noexcept {
   const control::ChannelEnd& slave = seats_[scene_->tools[j].seat].end();
   const double delay = seats_[i].end(j).schedule().delay() + slave.schedule().delay();
   const double most = delay > 0 ? scene_->channel.k_delay / delay : slave.schedule().stiffness();
-  return share * std::min({1.0, slave.schedule().stiffness() / scene_->coupling.k_c, most / scene_->coupling.k_c});
+  const double k_c = seats_[i].end().state().k[0];  // the seat's own, which its device may have made softer than the scene's
+  return share * std::min(1.0, std::min(slave.schedule().stiffness(), most) / k_c);
 }
 
 void Session::step_following() noexcept {

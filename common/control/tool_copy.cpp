@@ -31,7 +31,7 @@ void ToolCopy::rest_at(const AxisArray& tool, const AxisArray& hand) noexcept {
     offset_[a] = hand[a] - tool[a];
     hand_[a].rest_at(hand[a]);
     anchor_[a].rest_at(tool[a]);
-    wanted_[a] = dissipated_[a] = 0;
+    wanted_[a] = dissipated_[a] = lag_[a] = 0;
   }
   share_ = pull_ = engaged_for_ = 0;
   assist_.rest();
@@ -56,7 +56,7 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double q = place(hand, a);
     const double velocity = hand_[a].step(hand[a]);
-    pulls[a].spring(own * pull_ * p_.k_c, q);
+    pulls[a].spring(own * pull_ * p_.k_c, q - lag_[a]);  // by the force that the hand feels
     pulls[a].spring(reference.k[a], reference.ref[a]);
     without_dampers[a] = pulls[a];
     const double part = tool_.relative_damping_share(a, p_.b_rel, alone * p_.b_rel, p_.k_c, reference.k[a]);
@@ -69,10 +69,12 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
     tool_ = before;
     tool_.step(p_.dt, without_dampers);
   }
+  // What moves the copy beside this hand; the whole, as a share, of what the hand feels and the copy does not.
+  const double others = pull_ == share_ ? alone : 1 - own * pull_ / share_;
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double v = tool_.v(a);
     dissipated_[a] = (p_.tool.b + 0.5 * reference.k[a] * p_.dt) * v * v * p_.dt;
-    show(a, place(hand, a), alone * share_ + own * (share_ - pull_), end);
+    show(a, place(hand, a), others * (tool_.x(a) - before.x(a)), end);
   }
   return wanted_;
 }
@@ -142,11 +144,12 @@ bool ToolCopy::pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualToo
   return true;
 }
 
-/// The hand feels the copy as far as is paid: k (y' - q)(y' - y) is the work of the spring's end at its new force.
-/// @param part  of the spring that pulls at the hand and not at the copy [0, 1]
-void ToolCopy::show(std::size_t axis, double hand, double part, ChannelEnd& end) noexcept {
-  const double k = part * p_.k_c;
-  const double from = shown_[axis] - hand, to = tool_.x(axis) - hand;
+/// The hand feels the copy as far as is paid. The copy moved by dx and gave the spring a F dx, which moves the spring's end by a dx; its way
+/// beyond that, k (y' - q)(y' - y - a dx), is paid.
+/// @param others  (1 - a) dx [m]
+void ToolCopy::show(std::size_t axis, double hand, double others, ChannelEnd& end) noexcept {
+  const double k = share_ * p_.k_c;
+  const double to = tool_.x(axis) - hand, from = to + lag_[axis] - others;
   const double cost = k * to * (to - from);
   double shown = to;
   if (!end.pay(axis, cost)) {
@@ -159,7 +162,18 @@ void ToolCopy::show(std::size_t axis, double hand, double part, ChannelEnd& end)
     if (!end.pay(axis, affordable)) shown = from;
   }
   shown_[axis] = hand + shown;
+  lag_[axis] = shown - to;
   wanted_[axis] = p_.k_c * shown;
+}
+
+/// The gate gives nothing, as the energy of a silence is spent: hand and copy part without a force that anybody pays for. If the spring kept that
+/// way, it would come back with the next word as a step of force, and with energy that nobody paid. So the offset takes it.
+void ToolCopy::let_spring_go() noexcept {
+  for (std::size_t a = 0; a < p_.axes; ++a) {
+    offset_[a] -= wanted_[a] / p_.k_c - lag_[a];  // also of what the hand was not shown
+    shown_[a] = tool_.x(a);
+    wanted_[a] = lag_[a] = 0;
+  }
 }
 
 std::optional<double> ToolCopy::share_of(const AxisArray& given, const AxisArray& wanted, std::size_t axes) noexcept {
@@ -180,6 +194,7 @@ void ToolCopy::delivered(const AxisArray& effort) noexcept {
     for (std::size_t a = 0; a < p_.axes; ++a) square += wanted_[a] * wanted_[a];
     if (share_ * share_ * square > p_.force_max * p_.force_max) pull_ = p_.force_max / std::sqrt(square);
   }
+  if (std::ranges::all_of(effort, [](double f) { return f == 0; })) let_spring_go();
   for (std::size_t a = 0; a < p_.axes; ++a) anchor_[a].step(tool_.x(a) - pull_ * wanted_[a] / p_.k_c);
 }
 

@@ -15,8 +15,10 @@ namespace tandem::control {
 ///     m x'' = a k_c (q - x) + (1 - a) k_x (r - x) + b_rel (v_in - v) - b v + F_env(x)        one implicit step
 ///     F     = k_c (y - q)                                                                  on the hand; y = x as far as is paid
 ///
+/// Where y lags x, the copy is pulled by the same force: a k_c (q - (y - x) - x).
+///
 /// What the ledger pays, per axis, before it acts (storage W = 1/2 m v^2 + 1/2 k_c |q - x|^2 + 1/2 (1 - a) k_x |r - x|^2 + H_env): moves of r
-/// (ReplicaReference), (1 - a) F dx, b_rel (v_in - v) dx, moves of surfaces that the server tells of (LocalContacts), and F do for the way
+/// (ReplicaReference), F (dy - a dx), which is (1 - a) F dx where y = x, b_rel (v_in - v) dx, moves of surfaces that the server tells of (LocalContacts), and F do for the way
 /// home of an offset o between hand and tool and for the shift by which a hand that follows is assisted (Assist). Negative costs come back. A hand that leads alone (a = 1) pays nothing and gets nothing: passive by construction.
 class ToolCopy {
  public:
@@ -62,13 +64,14 @@ class ToolCopy {
 
  private:
   void let_offset_grow(const AxisArray& hand) noexcept;
+  void let_spring_go() noexcept;
   void bring_offset_home(ChannelEnd& end) noexcept;
   void pull_to_leader(const AxisArray& hand, double authority, ChannelEnd& end) noexcept;
   /// Where the hand stands beside the copy: its offset and the shift of its assist taken off [m].
   [[nodiscard]] double place(const AxisArray& hand, std::size_t axis) const noexcept { return hand[axis] - offset_[axis] - assist_.shift(axis); }
   void meet_told(ChannelEnd& end) noexcept;
   [[nodiscard]] bool pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualTool& before, ChannelEnd& end) noexcept;
-  void show(std::size_t axis, double hand, double part, ChannelEnd& end) noexcept;
+  void show(std::size_t axis, double hand, double others, ChannelEnd& end) noexcept;
 
   Params p_;
   VirtualTool tool_;
@@ -78,6 +81,7 @@ class ToolCopy {
   std::array<HandVelocity, kAxes> hand_;
   std::array<HandMotionFilter, kAxes> anchor_;
   AxisArray shown_{}, offset_{}, wanted_{}, dissipated_{};
+  AxisArray lag_{};        ///< y - x: what the hand is not shown, as it is not paid [m]
   double share_ = 0;       ///< of the wanted effort that the gate gave last [0, 1]
   double pull_ = 0;        ///< of it that the hand pulls the copy with: as much, and no more than its motor could give
   double engaged_for_ = 0; ///< [s]

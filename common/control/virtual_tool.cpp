@@ -168,6 +168,15 @@ Vector VirtualTool::across(const Contact& contact, const Vector& vector) const n
   return out;
 }
 
+double VirtualTool::surface_energy() const noexcept {
+  double sum = 0;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const double d = std::max(0.0, contacts_[c].penetration(x_));
+    sum += (0.5 * contacts_[c].k + 0.25 * contacts_[c].k3 * d * d) * d * d;
+  }
+  return sum;
+}
+
 double VirtualTool::penetration() const noexcept {
   double deepest = 0;
   for (std::size_t c = 0; c < contacts_.size(); ++c) deepest = std::max(deepest, contacts_[c].penetration(x_));

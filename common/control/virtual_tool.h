@@ -50,6 +50,8 @@ class VirtualTool {
   }
   /// Deepest penetration [m], 0 without contact.
   [[nodiscard]] double penetration() const noexcept;
+  /// What all surfaces store [J].
+  [[nodiscard]] double surface_energy() const noexcept;
 
  private:
   /// The equations of one step: matrix v' = rhs.

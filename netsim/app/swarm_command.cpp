@@ -34,7 +34,7 @@ constexpr std::size_t kShown = 20;
 struct SwarmArguments {
   std::uint64_t first = 1, seeds = 500;
   double safety_max_s = 40;
-  LawKind law = LawKind::kSetPosition;
+  LawKind law = LawKind::kReplica;
   std::size_t jobs = 0;
   bool fail_fast = false, scene = false;
   std::string json, trace;
@@ -43,7 +43,7 @@ struct SwarmArguments {
 std::string replay_command(const SwarmArguments& arguments, std::uint64_t seed) {
   std::string text = format("tandem-netsim swarm --first %llu --seeds 1", static_cast<unsigned long long>(seed));
   if (arguments.safety_max_s != SwarmArguments{}.safety_max_s) text += format(" --safety %g", arguments.safety_max_s);
-  if (arguments.law != SwarmArguments{}.law) text += " --law replica";
+  if (arguments.law != SwarmArguments{}.law) text += " --law set_position";
   return text + " --trace trace.csv";
 }
 
@@ -244,7 +244,7 @@ void add_swarm_command(CLI::App& root, std::function<int()>& action) {
       "swarm", "Runs random sessions: seats, tools, hands, networks and faults from one seed each, every invariant checked in every tick.");
   command->add_option("--first", arguments->first, "first seed; default 1")->check(io::whole_number())->option_text("N");
   command->add_option("--seeds", arguments->seeds, "how many sessions; default 500")->check(CLI::Range(1, 10'000'000))->option_text("N");
-  command->add_option("--law", arguments->law, "law of the hands: set_position (default) or replica; all else is drawn alike")
+  command->add_option("--law", arguments->law, "law of the hands: replica (default) or set_position; all else is drawn alike")
       ->transform(CLI::CheckedTransformer(std::map<std::string, LawKind>{{"set_position", LawKind::kSetPosition}, {"replica", LawKind::kReplica}}, CLI::ignore_case))
       ->option_text("LAW");
   command->add_option("--safety", arguments->safety_max_s, "longest time in which things go wrong; default 40")

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "common/base/rng.h"
 #include "common/control/channel_replica.h"
@@ -156,6 +158,35 @@ TEST(ToolCopy, GivesNoHandMoreThanWasPaid) {
       ASSERT_LE(given, bound + unseen + 1e-6) << "case " << c << " tick " << i;
     }
   }
+}
+
+// In a silence the gate gives nothing once its tank is empty. Hand and copy then part without a force, and nothing of it comes back.
+TEST(ToolCopy, WhatPartsWhileTheGateGivesNothingComesBackAsNoStep) {
+  for (const double authority : {0.0, 0.5, 1.0}) {
+    Seat seat;
+    seat.engage(0, 0);
+    double r = 0;
+    for (int i = 0; i < 1500; ++i) seat.tick(0, authority, r);
+    const double most = std::exchange(seat.most, 0);
+    for (int i = 0; i < 300; ++i) seat.tick(i * 1e-4, authority, r);  // the hand goes 30 mm
+    seat.most = most;
+    for (int i = 0; i < 10; ++i) EXPECT_LE(std::abs(seat.tick(0.03, authority, r)), 0.1 * 400 * kT * (i + 3)) << authority << " tick " << i << ": at v_app";
+    for (int i = 0; i < 2000; ++i) seat.tick(0.03, authority, r);
+    if (authority == 1) {
+      EXPECT_NEAR(seat.copy.tool().x(0), 0.03, 0.001) << "and the tool comes to the hand";
+    }
+  }
+}
+
+// A hand that shares with others and cannot pay is not shown where the copy goes. The copy is then pulled by what the hand feels, no more.
+TEST(ToolCopy, IsPulledByWhatTheHandFeelsAlsoWhereItIsNotShown) {
+  Seat poor(one_axis(), 0.01);
+  poor.engage(0, 0);
+  double force = 0;
+  for (int i = 0; i < 4000; ++i) force = poor.tick(0, 0.5, 0.03, i < 500 ? 1 : 0);
+  EXPECT_GT(poor.copy.tool().x(0) - force / 400, 0.001) << "the hand is not shown all of it";
+  const EndState& others = poor.end.state();
+  EXPECT_NEAR(others.k[0] * (others.ref[0] - poor.copy.tool().x(0)), 0.5 * force, 0.02);
 }
 
 // A velocity of others that is a lie pushes by the damping relative to it: with nothing to pay from it moves nothing.
