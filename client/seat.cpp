@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "client/device_facts.h"
@@ -85,9 +86,7 @@ void Seat::tie() noexcept {
 }
 
 double Seat::authority() const noexcept {
-  double most = rx_.alpha;
-  for (const wire::TieForce& tie : further_rx_) most = std::max(most, tie.alpha);
-  return most;
+  return std::ranges::max(ties_ | std::views::transform([](const Coupling::Tie& tie) { return tie.told->alpha; }));
 }
 
 Seat::Connection Seat::prepare(const link::Link::Params& link) const { return {std::make_unique<link::Link>(link), make_ends(setup_)}; }

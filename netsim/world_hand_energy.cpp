@@ -43,8 +43,8 @@ double HandEnergy::judge(const Look& look) noexcept {
     moved2 += (t.x[a] - q_[a]) * (t.x[a] - q_[a]);
   }
   const bool whole = std::sqrt(given2) >= kWhole * std::min(look.motor_max, std::sqrt(wanted2));
-  const bool active = seat.gate().phase() == control::GatePhase::kActive && (active_ || whole);
-  const bool several = seat.ties() > 1;
+  const bool several = seat.ties() > 1, clipped = wanted2 > kWhole * kWhole * look.motor_max * look.motor_max;
+  const bool active = seat.gate().phase() == control::GatePhase::kActive && (active_ || whole) && !(several && clipped);
   double stored = several ? 0 : stored_in_spring(wanted2, k_c, look.motor_max);
   for (std::size_t k = 0; k < seat.ties(); ++k) {
     const control::VirtualTool& copy = *seat.coupling().copy(k);
@@ -71,7 +71,7 @@ double HandEnergy::judge(const Look& look) noexcept {
   known_ = true;
   active_ = active;
   q_ = t.x;
-  if (!active || (several && wanted2 > kWhole * look.motor_max * look.motor_max)) return 0;
+  if (!active) return 0;
   return given_ + stored + heat_lost_ - paid_ - sampled_ - begun_;
 }
 

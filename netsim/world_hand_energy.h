@@ -20,7 +20,9 @@ namespace tandem::netsim {
 /// S    1/2 k_c |dq|^2 per tick: what a sampled spring makes [Colgate & Schenkel, J. Robotic Systems 14(1) 1997]; the device's damping takes it
 ///
 /// So all that a hand is given beyond what is stored and sampled is paid, whichever guard it passes. Who leads alone is given nothing else.
-/// Of a hand on several tools each sum is weighted as its force is; it is judged while its motor gives all that is wanted.
+/// Of a hand on several tools each sum is weighted as its force is, and each stretch is judged in which its motor gives all that is wanted: where it
+/// cannot, the springs to tools that part are wound up for the share of their force that is delivered, and come back whole. That is at most
+/// 1/2 C_1 C_2 k_c d^2 of two tools d apart.
 class HandEnergy {
  public:
   struct Look {
