@@ -107,7 +107,7 @@ void walk_tie_force(Values& v, Tie& t, Word& word, std::size_t axes, double posi
 }
 
 template <class Values, class Message, class Words, class Axes>
-void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_max) noexcept {
+[[gnu::always_inline]] inline void walk_force(Values& v, Message& f, Words& words, Axes axes, double position_max) noexcept {
   v.doubles(1, f.port.x, axes, position_max);
   v.doubles(2, f.port.v, axes, kVelocityMax);
   v.doubles(3, f.port.f, axes, kEffortMax);
@@ -239,6 +239,7 @@ std::size_t Codec::encode(const Preamble& preamble, const ForceMessage& in, std:
   const bool ghost = in.ghost.leader != 0;
   const ForceWords words{static_cast<std::uint32_t>(in.session), force_flags(in) | (told ? kSurfaces : 0U) | (ghost ? kGhost : 0U), surfaces, told, ghost};
   return with_axes(axes_, [&](auto axes) {
+    if (!told && !ghost) return write(preamble, force_size(axes), out, [&](ValueWriter& values) { walk_force(values, in, words, axes, 0); });
     return write(preamble, (told ? force_size(axes, in.contacts.size) : force_size(axes)) + (ghost ? kGhostSize : 0), out, [&](ValueWriter& values) {
       walk_force(values, in, words, axes, 0);
       if (ghost) walk_ghost(values, in);

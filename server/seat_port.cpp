@@ -39,7 +39,8 @@ SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& sc
       hold_least_(from_seconds(hold_limits(scene, seat).least)),
       hold_most_(from_seconds(hold_limits(scene, seat).most)),
       deaf_after_(from_seconds(patience(scene, seat)) + kDeafMargin),
-      ends_(make_channel_ends(scene, seat, scale)) {
+      ends_(make_channel_ends(scene, seat, scale)),
+      end_mask_(ends_.size() == 1 ? 0 : ~std::size_t{0}) {
   const SeatSetup setup = seat_setup(scene, seat);
   tied_tools_.push_back(setup.seat.tool);
   for (const TieSetup& tie : setup.further) {
@@ -55,7 +56,7 @@ SeatPort::SeatPort(const SceneSpec& scene, std::size_t seat, const AxisArray& sc
 void SeatPort::take(Time now, Entry& entry) noexcept {
   std::unique_ptr<link::Link> before = connection_ ? connection_->give_up() : nullptr;
   connection_.emplace(now, std::exchange(entry.link, std::move(before)), tick_);
-  std::swap(ends_, entry.ends);
+  std::swap(ends_, entry.ends);  // as many
   taken_ = true;
   generation_ = 0;
   *rx_ = {};

@@ -72,8 +72,8 @@ class SeatPort {
   void hold(std::span<const Near> near) noexcept TANDEM_REALTIME;
 
   /// This seat's end of the spring to a tool: hands of law `replica` have one for each tool, all others one.
-  [[nodiscard]] control::ChannelEnd& end(std::size_t tool = 0) noexcept { return *ends_[ends_.size() == 1 ? 0 : tool]; }
-  [[nodiscard]] const control::ChannelEnd& end(std::size_t tool = 0) const noexcept { return *ends_[ends_.size() == 1 ? 0 : tool]; }
+  [[nodiscard]] control::ChannelEnd& end(std::size_t tool = 0) noexcept { return *ends_[tool & end_mask_]; }
+  [[nodiscard]] const control::ChannelEnd& end(std::size_t tool = 0) const noexcept { return *ends_[tool & end_mask_]; }
   [[nodiscard]] std::size_t ends() const noexcept { return ends_.size(); }
   /// The tools whose ties have a place in this seat's STATE and FORCE, in order; at least one.
   [[nodiscard]] std::span<const std::size_t> tied_tools() const noexcept { return tied_tools_; }
@@ -132,6 +132,7 @@ class SeatPort {
   std::array<std::byte, 32> resume_{};
   double force_scale_ = 1;
   std::vector<std::unique_ptr<control::ChannelEnd>> ends_;
+  std::size_t end_mask_;  ///< of a tool's number, which says which end: 0 where there is one for all
   std::vector<std::size_t> tied_tools_;
   std::array<std::uint8_t, kToolsMax> tie_of_{};  ///< place in `tied_tools_`; 0 also of tools without a tie
   std::optional<Connection> connection_;  ///< kept when its client has left, until another comes

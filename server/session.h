@@ -197,6 +197,7 @@ class Session {
   [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept TANDEM_REALTIME;
   void see_leaders() noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t leader_of(std::size_t seat) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] bool leads(std::size_t master) const noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
   [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "server/session.h"
 
 /// Which hand leads each seat, and where it is: for screens, records, and the pull of `assist`. Laws other than `replica` tell nobody, and keep where it was
@@ -6,13 +8,15 @@ namespace tandem::server {
 
 namespace {
 constexpr double kLeads = 1e-9;  // authority above which a hand leads
+constexpr std::uint32_t kForRecords = 16;  // ticks between two looks where nobody is told
 }
 
 void Session::see_leaders() noexcept {
+  if (!replica_ && tick_ % kForRecords != 0) return;
   const std::size_t axes = scene_->port == PortSpace::kTip ? scene_->dof : 0;
   for (std::size_t h = 0; h < masters_; ++h) {
     if (replica_) {
-      leading_[h].step(present_[h], seats_[h].heard().port, axes, seats_[h].age());
+      leading_[h].step(present_[h] && leads(h), seats_[h].heard().port, axes, seats_[h].age());
     } else {
       leading_[h].stand(present_[h]);
     }
@@ -21,6 +25,10 @@ void Session::see_leaders() noexcept {
     const std::size_t leader = leader_of(i);
     ghost_[i] = leader < masters_ ? leading_[leader].ghost(static_cast<std::uint32_t>(leader + 1), seats_[leader].heard().telemetry.x) : wire::Ghost{};
   }
+}
+
+bool Session::leads(std::size_t master) const noexcept {
+  return std::ranges::any_of(tools_, [&](const Tool& tool) { return tool.authority.alpha(master) > kLeads; });
 }
 
 /// The present hand with most authority over the tool that a seat follows, the first of equals; masters_ where no other has more than the seat itself.
