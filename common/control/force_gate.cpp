@@ -78,15 +78,15 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
 
   silence_limit_ = std::max(p_.silence_limit, in.patience);
   const bool too_old = in.loop_age > age_limit_ + in.patience;
+  // Patience is with a network, not with a program that stood still: its device forgot the force meanwhile, which would come back at once.
+  const bool stood_still = in.patience > Duration::zero() && in.now - last_step_ >= p_.silence_limit;
   renewed_ = in.fresh && !too_old;
   if (renewed_) {
     last_fresh_ = in.now;
     heard_ = true;
-    // A ramp that has begun still holds the stale force: its account closes when the gate engages again, not with the next datagram.
-    if (phase_ != GatePhase::kPassive && phase_ != GatePhase::kDamped) given_ = 0;
+    // A ramp that has begun, or begins now, still holds the stale force: its account closes when the gate engages again, not with the next datagram.
+    if (phase_ != GatePhase::kPassive && phase_ != GatePhase::kDamped && !stood_still) given_ = 0;
   }
-  // Patience is with a network, not with a program that stood still: its device forgot the force meanwhile, which would come back at once.
-  const bool stood_still = in.patience > Duration::zero() && in.now - last_step_ >= p_.silence_limit;
   const bool silent = in.now - last_fresh_ >= silence_limit_ || !heard_ || stood_still;
 
   switch (phase_) {

@@ -213,5 +213,32 @@ TEST(ForceGate, LetsGoAfterAStandstillOfItsOwnProgramHoweverLongANetworkIsBorne)
   EXPECT_EQ(d.gate.trips(), 1u);
 }
 
+// Found by the swarm (seed 3113): a word that came while the program stood still closed the account of the silence before, and the ramp that the standstill began
+// had a whole tank again.
+TEST(ForceGate, AStandstillOfItsOwnProgramOpensNoNewAccount) {
+  GateParams p;
+  p.dof = 1;
+  GateDrive d(p);
+  d.in.patience = 450ms;
+  d.hold(3);
+  double given = 0, most = 0;
+  const auto move = [&](int ticks, bool fresh) {  // the hand goes along with the force at 0.3 m/s
+    for (int i = 0; i < ticks; ++i, d.in.fresh = false) {
+      most = std::max(most, given += 0.3e-3 * d.out.effort[0]);
+      d.in.q[0] += 0.3e-3;
+      d.in.v[0] = 0.3;
+      d.in.fresh = d.in.fresh || (fresh && i == 0);
+      d.tick();
+    }
+  };
+  d.in.fresh = false;
+  move(17, false);
+  ASSERT_TRUE(d.gate.active());
+  ASSERT_GT(given, 0.012);
+  d.in.now += 21ms;  // so short that the force still fades in the device; the hand stands still
+  move(150, true);
+  EXPECT_LE(most, 0.02 + 0.001) << "[J] the tank, since the last word before the standstill";
+}
+
 }  // namespace
 }  // namespace tandem::control
