@@ -85,18 +85,14 @@ SeatPort::Heard SeatPort::on_datagram(Time now, const Endpoint& from, std::span<
   };
   switch (opened->type) {
     case wire::Type::kState: {
-      const auto preamble = codec_.decode_state(opened->plaintext, *next_, further_next_);
+      const auto preamble = further_next_.empty() ? codec_.decode_state(opened->plaintext, *next_) : codec_.decode_state(opened->plaintext, *next_, further_next_);
       if (!preamble) {
         offence();
         break;
       }
       if (!opened->newer) break;  // latest wins: nothing acts backwards
       bool jumped = jumps(next_->port, rx_->port);
-      energy_fell_ |= takes_energy_back(next_->port, rx_->port);
-      for (std::size_t k = 0; k < further_rx_.size(); ++k) {
-        jumped |= jumps(further_next_[k], further_rx_[k]);
-        energy_fell_ |= takes_energy_back(further_next_[k], further_rx_[k]);
-      }
+      for (std::size_t k = 0; k < further_rx_.size(); ++k) jumped |= jumps(further_next_[k], further_rx_[k]);
       if (jumped && alive(now) && rx_->engaged && next_->engaged) conduct_.offend(now);
       heard.acted = true;
       connection_->acts(now, from, *opened, *preamble, tokens);
@@ -137,17 +133,15 @@ bool SeatPort::deaf() const noexcept {
   return (feels_ && fresh.peer_silence() > deaf_after_) || fresh.echo_stall() > std::max(kEchoStallMax, deaf_after_);  // who feels nothing is not told often
 }
 
-bool SeatPort::jumps(const PortSample& next, const PortSample& last) const noexcept {
+bool SeatPort::jumps(const PortSample& next, const PortSample& last) noexcept {
   const double most = scene_->port == PortSpace::kTip ? kJumpMaxM : kJumpMaxRad;
-  for (std::size_t a = 0; a < scene_->dof; ++a)
-    if (!(std::abs(next.x[a] - last.x[a]) <= most)) return true;
-  return false;
-}
-
-bool SeatPort::takes_energy_back(const PortSample& next, const PortSample& last) const noexcept {
-  bool any = false;
-  for (std::size_t a = 0; a < scene_->dof; ++a) any |= next.e_in[a] < last.e_in[a];
-  return any;
+  bool near = true, fell = false;
+  for (std::size_t a = 0, axes = scene_->dof; a < axes; ++a) {
+    near &= std::abs(next.x[a] - last.x[a]) <= most;
+    fell |= next.e_in[a] < last.e_in[a];
+  }
+  energy_fell_ |= fell;
+  return !near;
 }
 
 void SeatPort::hold(std::span<const Near> near) noexcept {
@@ -165,16 +159,19 @@ void SeatPort::move(Time now, double dt, std::span<const Near> near) noexcept {
   was_present_ = present;
   input_.dt = dt;
   input_.age = age;
+  const std::size_t axes = scene_->dof;
   for (std::size_t k = 0; k < near.size(); ++k) {
     const Near& here = near[k];
-    if (!std::exchange(was_engaged_[k], here.engaged) || !here.engaged) {
+    const bool goes_on = was_engaged_[k] && here.engaged;
+    was_engaged_[k] = here.engaged;
+    if (!goes_on) {
       ends_[k]->engage(here.x, age);
       continue;
     }
     input_.weight = here.weight;
     input_.pass_on = here.pass_on;
     const PortSample& heard = heard_of(k);
-    for (std::size_t a = 0; a < scene_->dof; ++a) {
+    for (std::size_t a = 0; a < axes; ++a) {
       input_.x[a] = here.x[a];
       input_.dissipated[a] = here.dissipated[a];
       input_.rx.x[a] = heard.x[a] - here.offset[a];

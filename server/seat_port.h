@@ -119,8 +119,8 @@ class SeatPort {
 
  private:
   /// Farther from the sample before than any hand comes in the time between.
-  [[nodiscard]] bool jumps(const PortSample& next, const PortSample& last) const noexcept;
-  [[nodiscard]] bool takes_energy_back(const PortSample& next, const PortSample& last) const noexcept;
+  /// Also notes energy that is taken back.
+  [[nodiscard]] bool jumps(const PortSample& next, const PortSample& last) noexcept;
 
   const SceneSpec* scene_;
   Duration tick_;

@@ -137,8 +137,8 @@ void Session::credit_seat(std::size_t i) noexcept {
     for (std::size_t a = 0; a < dof; ++a) end.credit(a, s.absorbed[a]);
     return;
   }
-  const Tool& first = tools_[first_tool(i)];
-  control::FlowSources& sources = tools_[first_tool(i)].sources;
+  Tool& first = tools_[first_tool(i)];
+  control::FlowSources& sources = first.sources;
   const double unpaid = 1 - first.authority.alpha(i);
   const bool passes_on = scene_->channel.mfs != MfsMode::kTank;
   for (std::size_t a = 0; a < dof; ++a) {
