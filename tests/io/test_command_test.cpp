@@ -23,7 +23,7 @@ Process netsim_test(test::Words arguments) {
 /// Must fail: 30 ms each way on a scene whose tracking is then worse than 1 mm, and 5 % lost where nothing may be.
 constexpr const char* kMustFail =
     "version: 1\nscene: \"one_axis\"\nduration_s: 3\nseeds: 3\nnetwork { delay_ms: 30 loss_percent: 5 }\n"
-    "seat_limits { tracking_rms_m { max: 0.0001 } loss_percent { max: 0 } }\n";
+    "seat_limits { tracking_rms_m { max: 0.00001 } loss_percent { max: 0 } }\n";
 
 TEST(NetsimTest, ShippedScenariosPassWithinTheirLimits) {
   const Folder folder;
@@ -53,7 +53,7 @@ TEST(NetsimTest, AFailureSaysWhyAndItsCommandRepeatsTheTraceToTheByte) {
   const std::string file = folder.write("must fail.textproto", kMustFail);
   auto run = netsim_test({file, "--json", folder.file("v.json"), "--junit", folder.file("v.xml")});
   ASSERT_EQ(run.wait(), 1) << run.err();
-  for (const char* part : {"FFF", "FAIL 3 of 3", "tracking_rms_m", "must be at most 0.0001 m", "must be at most 0 %", "--seed 2 --seeds 1 --trace"})
+  for (const char* part : {"FFF", "FAIL 3 of 3", "tracking_rms_m", "must be at most 1e-05 m", "must be at most 0 %", "--seed 2 --seeds 1 --trace"})
     EXPECT_NE(run.out().find(part), std::string::npos) << part << " not in\n" << run.out();
   const Json seed = folder.json("v.json")["scenarios"][0]["seeds"][1];
   EXPECT_EQ(seed["verdict"], "fail");
