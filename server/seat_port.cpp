@@ -152,42 +152,40 @@ void SeatPort::hold(std::span<const Near> near) noexcept {
 }
 
 void SeatPort::move(Time now, double dt, std::span<const Near> near) noexcept {
-  const double age = age_ = taken_ ? seconds(connection_->link().freshness().age(now)) : 0;
+  input_.age = age_ = taken_ ? seconds(connection_->link().freshness().age(now)) : 0;
+  input_.dt = dt;
   bool present = false;
-  for (const Near& here : near) present |= here.engaged;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    present |= near[k].engaged;
+    move(k, near[k]);
+  }
   if (was_present_ && !present) ++outages_;
   was_present_ = present;
-  input_.dt = dt;
-  input_.age = age;
-  const std::size_t axes = scene_->dof;
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    const Near& here = near[k];
-    const bool goes_on = was_engaged_[k] && here.engaged;
-    was_engaged_[k] = here.engaged;
-    if (!goes_on) {
-      ends_[k]->engage(here.x, age);
-      continue;
-    }
-    input_.weight = here.weight;
-    input_.pass_on = here.pass_on;
-    const PortSample& heard = heard_of(k);
-    for (std::size_t a = 0; a < axes; ++a) {
-      input_.x[a] = here.x[a];
-      input_.dissipated[a] = here.dissipated[a];
-      input_.rx.x[a] = heard.x[a] - here.offset[a];
-      input_.rx.v[a] = heard.v[a];
-      input_.rx.f[a] = heard.f[a];
-      input_.rx.a[a] = heard.a[a];
-      input_.rx.e_in[a] = heard.e_in[a];
-    }
-    ends_[k]->move(input_);
+}
+
+void SeatPort::move(std::size_t k, const Near& near) noexcept {
+  if (!near.engaged || !was_engaged_[k]) {
+    was_engaged_[k] = near.engaged;
+    return ends_[k]->engage(near.x, age_);
   }
+  input_.weight = near.weight;
+  input_.pass_on = near.pass_on;
+  const PortSample& heard = heard_of(k);
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    input_.x[a] = near.x[a];
+    input_.dissipated[a] = near.dissipated[a];
+    input_.rx.x[a] = heard.x[a] - near.offset[a];
+    input_.rx.v[a] = heard.v[a];
+    input_.rx.f[a] = heard.f[a];
+    input_.rx.a[a] = heard.a[a];
+    input_.rx.e_in[a] = heard.e_in[a];
+  }
+  ends_[k]->move(input_);
 }
 
 Transmit SeatPort::transmit(Time now, std::uint32_t tick, std::span<std::byte> buffer) noexcept {
-  if (!taken_) return {};
-  if (further_tx_.empty()) return connection_->seal(now, tick, wire::Type::kForce, tx, codec_, buffer);
-  return connection_->seal(now, tick, wire::Type::kForce, wire::ForceWithTies{tx, further_tx_}, codec_, buffer);
+  if (further_tx_.empty()) return taken_ ? connection_->seal(now, tick, wire::Type::kForce, tx, codec_, buffer) : Transmit{};
+  return !taken_ ? Transmit{} : connection_->seal(now, tick, wire::Type::kForce, wire::ForceWithTies{tx, further_tx_}, codec_, buffer);
 }
 
 Transmit SeatPort::transmit_close(Time now, std::uint32_t tick, wire::CloseReason why, std::span<std::byte> buffer) noexcept {

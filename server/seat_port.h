@@ -118,8 +118,8 @@ class SeatPort {
   }
 
  private:
-  /// Farther from the sample before than any hand comes in the time between.
-  /// Also notes energy that is taken back.
+  void move(std::size_t end, const Near& near) noexcept TANDEM_REALTIME;
+  /// Farther from the sample before than any hand comes in the time between. Also notes energy that is taken back.
   [[nodiscard]] bool jumps(const PortSample& next, const PortSample& last) noexcept;
 
   const SceneSpec* scene_;

@@ -16,6 +16,7 @@ constexpr Duration kSilentOwner = std::chrono::seconds(2);  // then his seat is 
 constexpr double kWatcherHz = 60;              // who feels nothing is told no more often
 constexpr double kIntervalsOfSilence = 6;      // isolated losses trip no gate: at 5 % random loss five in a row come every day or two
 constexpr std::uint32_t kCloseRepeats = 20;    // CLOSE goes out this many ticks long: one may be lost
+constexpr std::uint32_t kGhostForRecords = 16; // ticks between two looks for who leads where nobody is told
 }  // namespace
 
 Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale)
@@ -191,7 +192,7 @@ void Session::live_one_tick(Time now) noexcept {
   tie_seats();
   move_references(now);
   step_tools();
-  see_leaders();
+  if (replica_ || tick_ % kGhostForRecords == 0) see_leaders();
   step_following();
   take_record(*this, record_);
 }
@@ -292,7 +293,11 @@ void Session::fill_force_messages(Time now) noexcept {
     m.authority_version = authority_version_;
     m.missing = missing_now;
     m.stops = stop_lane_.stops();
-    tell_ties(i);
+    if (told_of_others(i)) {
+      tell_ties(i);
+    } else {
+      tell_tools(i);
+    }
     tell_handover(i, m);
   }
 }

@@ -188,7 +188,7 @@ class Session {
   [[nodiscard]] double slave_pull(std::size_t seat, std::size_t tool) const noexcept TANDEM_REALTIME;
   void step_following() noexcept TANDEM_REALTIME;
   void follow_tools(std::size_t seat) noexcept TANDEM_REALTIME;
-  [[nodiscard]] bool told_of_others(std::size_t i) const noexcept;
+  [[nodiscard]] bool told_of_others(std::size_t i) const noexcept { return replica_ && i < masters_; }
   void grant_following(std::size_t i) noexcept TANDEM_REALTIME;
   void follow_others(std::size_t i) noexcept TANDEM_REALTIME;
   void follow_others(std::size_t i, std::size_t j, wire::TieForce& told) const noexcept TANDEM_REALTIME;

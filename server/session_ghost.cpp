@@ -8,11 +8,9 @@ namespace tandem::server {
 
 namespace {
 constexpr double kLeads = 1e-9;  // authority above which a hand leads
-constexpr std::uint32_t kForRecords = 16;  // ticks between two looks where nobody is told
 }
 
 void Session::see_leaders() noexcept {
-  if (!replica_ && tick_ % kForRecords != 0) return;
   const std::size_t axes = scene_->port == PortSpace::kTip ? scene_->dof : 0;
   for (std::size_t h = 0; h < masters_; ++h) {
     if (replica_) {

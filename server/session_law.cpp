@@ -47,8 +47,6 @@ void Session::tie_seats() noexcept {
     }
 }
 
-bool Session::told_of_others(std::size_t i) const noexcept { return replica_ && i < masters_; }
-
 void Session::move_references(Time now) noexcept {
   const bool tank = scene_->channel.mfs == MfsMode::kTank;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
@@ -226,13 +224,16 @@ double Session::slave_pull(std::size_t i, std::size_t j) const noexcept {
 }
 
 void Session::step_following() noexcept {
-  for (std::size_t j = 0; j < tools_.size(); ++j)
-    for (std::size_t a = 0; a < scene_->dof; ++a) {
-      double injected = 0;  // F_ri is the effort on the IPC, the client sends its opposite
-      for (std::size_t i = 0; i < masters_; ++i)
-        if (present_[i]) injected -= (ties_[i][j].follow - ties_[i][j].alpha) * seats_[i].heard_of(j).f[a] * tools_[j].moved()[a];
-      tools_[j].sources.observe(a, injected / dt_, dt_);
+  for (std::size_t j = 0; j < tools_.size(); ++j) {
+    AxisArray injected{};  // F_ri is the effort on the IPC, the client sends its opposite
+    for (std::size_t i = 0; i < masters_; ++i) {
+      if (!present_[i]) continue;
+      const double unpaid = ties_[i][j].follow - ties_[i][j].alpha;
+      const AxisArray& f = seats_[i].heard_of(j).f;
+      for (std::size_t a = 0; a < scene_->dof; ++a) injected[a] -= unpaid * f[a] * tools_[j].moved()[a];
     }
+    for (std::size_t a = 0; a < scene_->dof; ++a) tools_[j].sources.observe(a, injected[a] / dt_, dt_);
+  }
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     if (told_of_others(i)) {
       grant_following(i);
@@ -305,7 +306,6 @@ void Session::follow_others(std::size_t i) noexcept {
 /// What else each tie is told. Where the surfaces near all tools do not fit into a datagram, the tools take turns: each is named
 /// again long before its surfaces are forgotten.
 void Session::tell_ties(std::size_t i) noexcept {
-  if (!told_of_others(i)) return tell_tools(i);
   seats_[i].tx.ghost = ghost_[i];
   const std::span<const std::size_t> tools = seats_[i].tied_tools();
   std::size_t room = wire::contacts_room(scene_->dof, tools.size() - 1);
@@ -326,7 +326,8 @@ void Session::tell_ties(std::size_t i) noexcept {
 /// To a seat of a law without copies, of its tools as one.
 void Session::tell_tools(std::size_t i) noexcept {
   wire::TieForce& told = seats_[i].tx;
-  for (std::size_t a = 0; a < scene_->dof; ++a) told.port.e_in[a] = seats_[i].end().ledger(a).in_nj();
+  const control::ChannelEnd& end = seats_[i].end();
+  for (std::size_t a = 0; a < scene_->dof; ++a) told.port.e_in[a] = end.ledger(a).in_nj();
   told.alpha = 0;
   for (std::size_t j = 0; i < masters_ && j < tools_.size() && told.alpha == 0; ++j)
     if (ties_[i][j].follow > 0) told.alpha = ties_[i][j].alpha;
