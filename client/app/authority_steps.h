@@ -7,17 +7,19 @@
 
 namespace tandem::client {
 
-/// The own weight that the next step of a person counts from. Weights move slowly, so steps add to what was asked for last, and not to what is felt
-/// now. That holds as long as nobody else decided anything since: each decision, the own ones as well, raises the version of the weights by one.
+/// Base of the user's next authority step. Authority changes slowly, so steps add to the authority requested last, not
+/// to the present one. This is valid only while no other party has decided about authority: each decision, including
+/// the own ones, increments the authority version by one.
 class AuthoritySteps {
  public:
-  /// @return own weight, 0 ... 1
+  /// Returns the own authority that the next step adds to, 0 ... 1.
   [[nodiscard]] double base(const ClientStatus& now) const noexcept { return counts(now) ? asked_ : now.alpha; }
-  /// Whether `base` is what was asked for last.
+  /// True if `base` is the authority requested last.
   [[nodiscard]] bool counts(const ClientStatus& now) const noexcept {
-    return first_version_ && now.handover != wire::Handover::kCalledOff && now.authority_version - *first_version_ <= asks_;
+    return first_version_ && now.transfer != wire::TransferNotice::kCancelled &&
+           now.authority_version - *first_version_ <= asks_;
   }
-  /// `own` is asked for now.
+  /// Records that `own` is requested now.
   void ask(double own, const ClientStatus& now) noexcept {
     if (!counts(now)) {
       first_version_ = now.authority_version;
@@ -29,7 +31,7 @@ class AuthoritySteps {
 
  private:
   double asked_ = 0;
-  std::optional<std::uint32_t> first_version_;  ///< before the first of the steps that count
+  std::optional<std::uint32_t> first_version_;  ///< authority version before the first valid step
   std::uint32_t asks_ = 0;
 };
 

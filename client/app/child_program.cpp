@@ -23,16 +23,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kGentleEnd = 5s;  // a server lets all hands go first
+constexpr Duration kGentleEnd = 5s;  // time between SIGTERM and SIGKILL; a server first releases all seats
 constexpr Duration kLook = 20ms;
 constexpr std::size_t kLastLines = 3;
 constexpr off_t kLastBytes = 4096;
 
-/// Between fork and exec only calls that are safe there.
+/// Runs in the child between fork and exec; only async-signal-safe calls.
 [[noreturn]] void become(const std::vector<char*>& arguments, pid_t parent, int out, int err) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) ::_exit(127);  // it died before the line above
+  if (::getppid() != parent) ::_exit(127);  // the parent died before prctl
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -46,8 +46,11 @@ constexpr off_t kLastBytes = 4096;
 
 }  // namespace
 
-std::expected<ChildProgram, std::string> ChildProgram::start(std::string name, const std::vector<std::string>& command) {
-  const auto trouble = [&](const char* what) { return std::unexpected(name + " cannot be started: " + what + ": " + std::strerror(errno)); };
+std::expected<ChildProgram, std::string> ChildProgram::start(std::string name,
+                                                             const std::vector<std::string>& command) {
+  const auto trouble = [&](const char* what) {
+    return std::unexpected(name + " cannot be started: " + what + ": " + std::strerror(errno));
+  };
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return trouble("pipe");
   ChildProgram child;
@@ -63,14 +66,19 @@ std::expected<ChildProgram, std::string> ChildProgram::start(std::string name, c
   const pid_t pid = ::fork();
   if (pid < 0) return trouble("fork");
   if (pid == 0) become(arguments, parent, out.get(), child.err_.get());
-  ::setpgid(pid, pid);  // whoever comes first
+  ::setpgid(pid, pid);  // in parent and child, so that the group exists before either continues
   child.pid_ = pid;
   child.name_ = std::move(name);
   return child;
 }
 
 ChildProgram::ChildProgram(ChildProgram&& other) noexcept
-    : name_(std::move(other.name_)), pid_(std::exchange(other.pid_, 0)), status_(other.status_), out_(std::move(other.out_)), err_(std::move(other.err_)), said_(std::move(other.said_)) {}
+    : name_(std::move(other.name_)),
+      pid_(std::exchange(other.pid_, 0)),
+      status_(other.status_),
+      out_(std::move(other.out_)),
+      err_(std::move(other.err_)),
+      said_(std::move(other.said_)) {}
 
 ChildProgram& ChildProgram::operator=(ChildProgram&& other) noexcept {
   std::swap(name_, other.name_);
@@ -108,14 +116,15 @@ bool ChildProgram::running() noexcept {
   return pid_ > 0;
 }
 
-std::string ChildProgram::last_words() const {
+std::string ChildProgram::last_output() const {
   const off_t size = ::lseek(err_.get(), 0, SEEK_END), from = size > kLastBytes ? size - kLastBytes : 0;
   std::string text(static_cast<std::size_t>(size > 0 ? size - from : 0), '\0');
   const ssize_t got = ::pread(err_.get(), text.data(), text.size(), from);
   text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
   while (text.ends_with('\n')) text.pop_back();
   std::size_t begin = text.size();
-  for (std::size_t n = 0; n < kLastLines && begin != std::string::npos && begin > 0; ++n) begin = text.rfind('\n', begin - 1);
+  for (std::size_t n = 0; n < kLastLines && begin != std::string::npos && begin > 0; ++n)
+    begin = text.rfind('\n', begin - 1);
   return begin == std::string::npos || begin == 0 ? text : text.substr(begin + 1);
 }
 

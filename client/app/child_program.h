@@ -12,42 +12,48 @@
 
 namespace tandem::client {
 
-/// A program that this one started. It runs in a process group of its own, so that Ctrl-C in the terminal reaches only its parent, and
-/// the kernel sends it SIGTERM when its parent dies, however that happens. Standard input is empty; what it prints is kept.
+/// A child process of this program. It runs in its own process group, so that Ctrl-C in the terminal reaches only the
+/// parent. The kernel sends it SIGTERM when the parent dies for any reason. Its standard input is empty and its output
+/// is kept.
 class ChildProgram {
  public:
-  /// @param name  for people  @param command  program (a path) and arguments. Call from a thread that lives as long as this program.
-  /// @return the running child, or why it could not be started
-  [[nodiscard]] static std::expected<ChildProgram, std::string> start(std::string name, const std::vector<std::string>& command);
+  /// Starts a program. Call on a thread that runs as long as this program, because the kernel watches that thread.
+  /// @param name     name for messages
+  /// @param command  path of the program, and its arguments
+  /// @return         the running child, or why it could not be started
+  [[nodiscard]] static std::expected<ChildProgram, std::string> start(std::string name,
+                                                                      const std::vector<std::string>& command);
   ChildProgram(ChildProgram&& other) noexcept;
   ChildProgram& operator=(ChildProgram&& other) noexcept;
-  ~ChildProgram();  ///< `stop`
+  ~ChildProgram();  ///< calls `stop`
 
-  /// The rest of the line of standard output that begins with `mark`, once it came; nothing: the child ended before, or `patience` is over.
-  /// @param interrupt  a file that becomes readable when nobody wants to wait any longer; -1: none
+  /// Waits for a line of standard output that begins with `mark`.
+  /// @param patience   longest wait
+  /// @param interrupt  file that ends the wait when it becomes readable; -1: none
+  /// @return           the rest of the line; nullopt if the child ended before, or after a timeout or an interrupt
   [[nodiscard]] std::optional<std::string> wait_for_line(std::string_view mark, Duration patience, int interrupt);
-  /// Whether it still runs.
+  /// True if the child still runs.
   [[nodiscard]] bool running() noexcept;
-  /// It ended, and not with exit code 0.
+  /// True if the child ended with another exit code than 0.
   [[nodiscard]] bool failed() noexcept { return !running() && status_ != 0; }
-  /// What it last said on standard error, at most three lines.
-  [[nodiscard]] std::string last_words() const;
+  /// Returns the last lines of its standard error, at most three.
+  [[nodiscard]] std::string last_output() const;
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] pid_t id() const noexcept { return pid_; }
-  /// Asks it to end (SIGTERM) and waits; kills it after 5 s.
+  /// Sends SIGTERM and waits for the end; kills the child after 5 s.
   void stop() noexcept;
 
  private:
   ChildProgram() = default;
 
   std::string name_;
-  pid_t pid_ = 0;  ///< 0: ended and waited for
-  int status_ = 0;  ///< as waitpid told it
+  pid_t pid_ = 0;   ///< 0: ended and reaped
+  int status_ = 0;  ///< status from waitpid
   io::Fd out_, err_;
   std::string said_;
 };
 
-/// Path of a program beside this one, or in $PATH; empty: there is none.
+/// Returns the path of a program in the directory of this one or in $PATH; empty if there is none.
 [[nodiscard]] std::string program_path(const std::string& name);
 
 }  // namespace tandem::client

@@ -16,19 +16,19 @@ nlohmann::ordered_json number(double v) {
 
 }  // namespace
 
-const char* to_text(SeatEnd end) noexcept {
+const char* to_text(ExitReason end) noexcept {
   switch (end) {
-    case SeatEnd::kDone:
+    case ExitReason::kDone:
       return "done";
-    case SeatEnd::kServerStopped:
+    case ExitReason::kServerStopped:
       return "server_stopped";
-    case SeatEnd::kLeft:
+    case ExitReason::kLeft:
       return "left";
-    case SeatEnd::kServerLost:
+    case ExitReason::kServerLost:
       return "server_lost";
-    case SeatEnd::kDeviceLost:
+    case ExitReason::kDeviceLost:
       return "device_lost";
-    case SeatEnd::kSeatGone:
+    case ExitReason::kSeatGone:
       return "seat_gone";
   }
   return "";
@@ -47,7 +47,9 @@ const char* to_text(SeatVerdict verdict) noexcept {
 }
 
 SeatVerdict verdict_of(const ClientReport& report) noexcept {
-  if (report.end == SeatEnd::kServerLost || report.end == SeatEnd::kDeviceLost || report.end == SeatEnd::kSeatGone) return SeatVerdict::kFail;
+  if (report.end == ExitReason::kServerLost || report.end == ExitReason::kDeviceLost ||
+      report.end == ExitReason::kSeatGone)
+    return SeatVerdict::kFail;
   return report.last.session_time >= 0 ? SeatVerdict::kPass : SeatVerdict::kNotJudged;
 }
 
@@ -66,7 +68,9 @@ const char* to_text(Role role) noexcept {
 }
 
 std::string motors_text(const ClientStatus& s) {
-  if (s.motors_hot) return s.motors_latched ? "MOTORS TOO HOT for the third time: let go; once they are cool, press b" : "MOTORS TOO HOT: let go until they are cool";
+  if (s.motors_hot)
+    return s.motors_latched ? "MOTORS TOO HOT for the third time: take your hand off; once they are cool, press b"
+                            : "MOTORS TOO HOT: take your hand off until they are cool";
   return s.motors_latched ? "motors were too hot three times: press b" : "";
 }
 
@@ -81,14 +85,15 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   j["verdict"] = to_text(verdict_of(r));
   j["ended_by"] = to_text(r.end);
   j["seconds"] = number(r.seconds);
-  j["rejoins"] = s.rejoins;
-  j["away_longest_s"] = number(r.away_longest_s);
+  j["rejoins"] = s.reconnects;
+  j["away_longest_s"] = number(r.outage_longest_s);
   j["session_s"] = number(std::max(0.0, s.session_time));
   j["alpha"] = number(s.alpha);
-  j["beside_leader_m"] = s.beside_leader_m ? number(*s.beside_leader_m) : nlohmann::ordered_json(nullptr);
+  j["beside_leader_m"] = s.offset_from_leader_m ? number(*s.offset_from_leader_m) : nlohmann::ordered_json(nullptr);
   j["effort_peak_n"] = number(s.force_peak_n);
   j["gate"] = {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.given_after_loss_max_j)}};
-  j["motors"] = {{"too_hot", s.hot_trips}, {"heat_max", s.heat_max ? number(*s.heat_max) : nlohmann::ordered_json(nullptr)}};
+  j["motors"] = {{"too_hot", s.hot_trips},
+                 {"heat_max", s.heat_max ? number(*s.heat_max) : nlohmann::ordered_json(nullptr)}};
   j["energy"] = {{"in_j", number(s.energy_in_j)},          {"out_j", number(s.energy_out_j)},
                  {"dissipated_j", number(s.dissipated_j)}, {"refused_j", number(s.refused_j)},
                  {"margin_min_j", number(s.margin_min_j)}, {"delivered_j", number(s.delivered_j)}};
@@ -115,7 +120,8 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   return j.dump(2) + "\n";
 }
 
-std::string unattended_json(const std::string& seat, const std::string& server, const std::string& device, const std::string& why) {
+std::string join_failure_json(const std::string& seat, const std::string& server, const std::string& device,
+                              const std::string& why) {
   nlohmann::ordered_json j;
   j["seat"] = seat;
   j["server"] = server;

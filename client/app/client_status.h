@@ -5,71 +5,76 @@
 #include <optional>
 #include <string>
 
-#include "client/seat.h"
-#include "hal/device.h"
-#include "proto/seat_setup.h"
+#include "client/seat/seat.h"
+#include "hal/core/device.h"
+#include "proto/text/seat_setup.h"
 
 namespace tandem::client {
 
-/// What a person wants to see of his seat: plain data, copied out of the servo thread now and then.
+/// Status of one seat for the user: plain data, copied out of the servo thread every 64 ticks.
 struct ClientStatus {
   wire::SessionState session = wire::SessionState::kWaiting;
   wire::GateState gate = wire::GateState::kOff;
-  bool heard = false;  ///< anything at all from the server
+  bool heard = false;  ///< a FORCE arrived on this connection
   bool closed = false;
   wire::CloseReason close_reason = wire::CloseReason::kDone;
-  std::uint32_t stops = 0;    ///< how many so far
+  std::uint32_t stops = 0;    ///< number of stops so far
   std::uint32_t missing = 0;  ///< required seats that are not ready
-  double session_time = -1;   ///< [s], negative before the session began
-  double silence_s = 0;       ///< since the server last answered something newer of this seat [s]: one that speaks and hears nothing counts as silent
-  bool own_stop = false;  ///< the person stopped the own hand
-  bool touching = false;  ///< the slave of the tool touches something
-  std::optional<std::array<double, 3>> keys_m{};  ///< where keys hold the hand, from its start: right, away, up [m]; nothing: no keys move it
-  std::optional<double> distance_m{};  ///< from the hand to the tool, where the port is a tip
-  std::optional<double> beside_leader_m{};  ///< from the hand that leads to the own one, by now; nothing: no other hand leads
+  double session_time = -1;   ///< session time [s]; negative before the session began
+  double silence_s = 0;  ///< time since the server last acknowledged a newer datagram of this seat [s]; a server that
+                         ///< sends but receives nothing counts as silent
+  bool local_stop = false;  ///< the user stopped this seat
+  bool touching = false;    ///< the slave of the tool is in contact
+  std::optional<std::array<double, 3>>
+      keys_m{};  ///< position set by keys, relative to its start: right, away, up [m]; empty: not moved by keys
+  std::optional<double> distance_m{};  ///< between device and tool [m]; only for TIP ports
+  std::optional<double>
+      offset_from_leader_m{};  ///< distance between the leader's tip and the own tip [m]; empty: no other leader
   std::uint32_t authority_version = 0;
-  double alpha = 0;
-  wire::Handover handover = wire::Handover::kNone;  ///< what was last told of the own weight, for a second and as long as it moves
-  std::uint32_t handovers = 0;                      ///< how often there was something to tell
-  double handover_s = 0;                            ///< until it begins [s]; negative: it began
-  double handover_from = 0;                         ///< own weight when it was told
-  bool handover_done = false;                       ///< it began, and the own weight stands still again
-  wire::HandoverParties handover_parties;           ///< who decided it, and who gains
-  double force_n = 0;         ///< delivered to the hand [N]
-  std::array<double, 3> x{};  ///< tip [m]
+  double alpha = 0;  ///< own authority [0, 1]
+  wire::TransferNotice transfer =
+      wire::TransferNotice::kNone;  ///< last transfer notice, kept for 1000 ticks and while the authority changes
+  std::uint32_t transfers = 0;      ///< number of transfer notices so far
+  double transfer_begins_s = 0;     ///< time until the transfer begins [s]; negative: it began
+  double transfer_from = 0;         ///< own authority at the notice
+  bool transfer_done = false;       ///< the transfer began and the own authority is constant again
+  wire::TransferParties transfer_parties;  ///< seat that decided the transfer, and master that gains
+  double force_n = 0;                      ///< delivered at the tip [N]
+  std::array<double, 3> x{};               ///< tip [m]
   double rtt_ms = 0, rtt_p50_ms = 0, rtt_p99_ms = 0;
   double down_loss_percent = 0, down_longest_gap_ms = 0, down_age_p99_ms = 0;
   double energy_in_j = 0, energy_out_j = 0, dissipated_j = 0, refused_j = 0, delivered_j = 0, margin_min_j = 0;
   double given_after_loss_max_j = 0;
-  double force_peak_n = 0;  ///< so far [N]
+  double force_peak_n = 0;  ///< largest delivered force so far [N]
   std::uint32_t gate_trips = 0, late_ticks = 0;
-  bool motors_hot = false, motors_latched = false;  ///< the hand was let go for it; and only the person's button lets it be engaged again
-  std::uint32_t hot_trips = 0;   ///< times
-  std::optional<double> heat_max;  ///< of the hottest motor so far, 1: too hot; where the device tells it
-  std::uint32_t rejoins = 0;  ///< connections after the first
-  bool coming_back = false;   ///< somebody asks for the seat again
+  bool motors_hot = false,
+       motors_latched = false;  ///< seat released because of hot motors; latched: only the user's reset re-engages it
+  std::uint32_t hot_trips = 0;  ///< number of releases because of hot motors
+  std::optional<double> heat_max;  ///< largest heat of the hottest motor so far, 1: too hot; empty: not reported
+  std::uint32_t reconnects = 0;    ///< number of connections after the first
+  bool reconnecting = false;       ///< a Reconnector is active
   std::uint64_t sent = 0, accepted = 0, late_datagrams = 0, refused_datagrams = 0;
 };
 
-/// How a seat's life ended.
-enum class SeatEnd : std::uint8_t { kDone, kServerStopped, kLeft, kServerLost, kDeviceLost, kSeatGone };
+/// Reason for which a seat ended.
+enum class ExitReason : std::uint8_t { kDone, kServerStopped, kLeft, kServerLost, kDeviceLost, kSeatGone };
 
-[[nodiscard]] const char* to_text(SeatEnd end) noexcept;
+[[nodiscard]] const char* to_text(ExitReason end) noexcept;
 
-/// Whether a seat's life was what it should be. Without a session there is nothing to judge, and that is no pass.
+/// Verdict on a run of a seat. A run without a session is not judged, which is not a pass.
 enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
 [[nodiscard]] const char* to_text(SeatVerdict verdict) noexcept;
 [[nodiscard]] const char* to_text(Role role) noexcept;
 
-/// Why the motors gave no force, if they were too hot; empty: they were not.
+/// Returns why the motors give no force after they were too hot; empty if they were not.
 [[nodiscard]] std::string motors_text(const ClientStatus& status);
 
-/// What the client knows of the run, for machines.
+/// Report of one run of a seat, for the JSON output.
 struct ClientReport {
   std::string server, device_note;
-  double seconds = 0;  ///< at the seat
-  double away_longest_s = 0;  ///< without news of the server, of those times after which it came back
-  SeatEnd end = SeatEnd::kDone;
+  double seconds = 0;           ///< time at the seat [s]
+  double outage_longest_s = 0;  ///< longest outage of the server that ended [s]
+  ExitReason end = ExitReason::kDone;
   ClientStatus last;
   hal::DeviceStats device;
   hal::DeviceHistograms histograms;
@@ -79,7 +84,8 @@ struct ClientReport {
 [[nodiscard]] SeatVerdict verdict_of(const ClientReport& report) noexcept;
 [[nodiscard]] std::string to_json(const ClientReport& report, const SeatSetup& setup);
 
-/// The same of somebody who never had a seat. @param why  as it was told
-[[nodiscard]] std::string unattended_json(const std::string& seat, const std::string& server, const std::string& device, const std::string& why);
+/// Returns the JSON report of a failed join. @param why  reason as shown to the user
+[[nodiscard]] std::string join_failure_json(const std::string& seat, const std::string& server,
+                                            const std::string& device, const std::string& why);
 
 }  // namespace tandem::client

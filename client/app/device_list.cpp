@@ -4,14 +4,17 @@
 
 namespace tandem::client {
 
-std::string fact_line(const hal::DeviceFact& fact) { return format("            %-13s ", fact.about.c_str()) + fact.words + "\n"; }
+std::string fact_line(const hal::DeviceFact& fact) {
+  return format("            %-13s ", fact.topic.c_str()) + fact.text + "\n";
+}
 
 std::string describe(const hal::Backend& backend, const hal::FoundDevice& device) {
-  std::string text = device.about + "\n            --device " + device.words + "\n";
-  if (!device.trouble.empty()) text += "            " + device.trouble + "\n";
+  std::string text = device.description + "\n            --device " + device.spec + "\n";
+  if (!device.problem.empty()) text += "            " + device.problem + "\n";
   text += fact_line({"library", backend.library()});
   if (!device.node.empty())
-    text += fact_line({"permission", device.trouble.empty() ? "you may open " + device.node : "none for " + device.node + ", see above"});
+    text += fact_line({"permission", device.problem.empty() ? "you may open " + device.node
+                                                            : "none for " + device.node + ", see above"});
   for (const hal::DeviceFact& fact : backend.facts()) text += fact_line(fact);
   return text;
 }

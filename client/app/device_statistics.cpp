@@ -1,5 +1,7 @@
 #include "client/app/device_statistics.h"
 
+#include <nlohmann/json.hpp>
+
 #include "common/base/format.h"
 
 namespace tandem::client {
@@ -14,7 +16,7 @@ Json durations(const Histogram& of) {
   if (of.count() == 0) return nullptr;
   Json buckets = Json::array();
   of.each_bucket([&](std::int64_t first, std::int64_t last, std::uint64_t count) {
-    // The end is the next bucket's beginning, but for the last bucket that a duration can have.
+    // `to` is the beginning of the next bucket, except for the last bucket.
     buckets.push_back({{"from", ms(first)}, {"to", 1e-6 * (static_cast<double>(last) + 1)}, {"count", count}});
   });
   return {{"count", of.count()},
@@ -24,7 +26,7 @@ Json durations(const Histogram& of) {
           {"buckets", std::move(buckets)}};
 }
 
-/// Quantiles only: all buckets are in the JSON.
+/// Returns the quantiles as one line; the JSON contains all buckets.
 std::string line_of(const char* name, const Histogram& of) {
   if (of.count() == 0) return {};
   return format("%s p50 %.3f, p99 %.3f, max %.3f ms", name, ms(of.quantile(0.50)), ms(of.quantile(0.99)), ms(of.max()));
@@ -47,8 +49,9 @@ Json to_json(const hal::DeviceStats& stats, const hal::DeviceHistograms& histogr
 
 std::vector<std::string> summary(const hal::DeviceStats& stats, const hal::DeviceHistograms& histograms) {
   std::vector<std::string> lines;
-  lines.push_back(format("device: %llu exchanges, %llu late by more than 1 ms, %llu periods missed, %llu unanswered, %llu resyncs", n(stats.ticks),
-                         n(stats.late), n(stats.missed), n(stats.unanswered), n(stats.resyncs)));
+  lines.push_back(
+      format("device: %llu exchanges, %llu late by more than 1 ms, %llu periods missed, %llu unanswered, %llu resyncs",
+             n(stats.ticks), n(stats.late), n(stats.missed), n(stats.unanswered), n(stats.resyncs)));
   for (std::string line : {line_of("period:", histograms.period), line_of("round trip:", histograms.round_trip)})
     if (!line.empty()) lines.push_back(std::move(line));
   return lines;

@@ -1,16 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "client/app/control_command.h"
-#include "client/app/doctor_command.h"
-#include "client/app/enroll_command.h"
-#include "client/app/join_command.h"
-#include "client/app/link_test_command.h"
-#include "client/app/sessions_command.h"
-#include "client/app/try_command.h"
-#include "client/app/weigh_command.h"
+#include "client/app/commands/calibrate_command.h"
+#include "client/app/commands/control_command.h"
+#include "client/app/commands/doctor_command.h"
+#include "client/app/commands/enroll_command.h"
+#include "client/app/commands/join_command.h"
+#include "client/app/commands/link_test_command.h"
+#include "client/app/commands/sessions_command.h"
+#include "client/app/commands/try_command.h"
 #include "common/io/log.h"
-#include "common/io/private_memory.h"
+#include "common/io/process_hardening.h"
 #include "common/io/program.h"
 
 #ifndef TANDEM_VERSION
@@ -18,7 +18,7 @@
 #endif
 
 int main(int argc, char** argv) {
-  tandem::io::keep_memory_private();
+  tandem::io::harden_process();
   CLI::App app{
       "tandem-client attaches a haptic device to a session of tandem-server: your hand and the hands of others hold "
       "the same\n"
@@ -27,7 +27,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "tandem-client " TANDEM_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "`tandem-client try --help`, `join --help`, `doctor --help`, `link-test --help`, `control --help` and `weigh --help` tell more.\n"
+      "`tandem-client try --help`, `join --help`, `doctor --help`, `link-test --help`, `control --help` and `calibrate "
+      "--help` tell more.\n"
       "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files. Not a medical device.");
 
   std::function<int()> action;
@@ -35,7 +36,7 @@ int main(int argc, char** argv) {
   tandem::client::add_join_command(app, action);
   tandem::client::add_doctor_command(app, action);
   tandem::client::add_link_test_command(app, action);
-  tandem::client::add_weigh_command(app, action);
+  tandem::client::add_calibrate_command(app, action);
   tandem::client::add_enroll_command(app, action);
   tandem::client::add_sessions_command(app, action);
   tandem::client::add_control_command(app, action);

@@ -4,21 +4,21 @@
 #include <string>
 #include <thread>
 
-#include "client/app/seat_pump.h"
+#include "client/app/seat_runner.h"
 #include "common/io/output_file.h"
 
 namespace tandem::client {
 
-/// An ordinary thread that writes a seat's own samples: `t_s[s]`, joints, tip, forces (wanted, let through by the gate,
-/// delivered), gate, alpha, one row per servo tick. Before the session began, t_s is minus the time at the seat.
+/// Writes a seat's samples as CSV on an ordinary thread, one row per servo tick: `t_s[s]`, joints, tip, forces (wanted,
+/// after the gate, delivered), gate, alpha. Before the session, t_s is minus the time at the seat.
 class SampleTrace {
  public:
-  /// @param file  opened
+  /// @param file  open file; must outlive this object
   SampleTrace(io::OutputFile& file, std::size_t joints, bool prismatic);
   ~SampleTrace() { finish(); }
 
   [[nodiscard]] SampleQueue& queue() noexcept { return queue_; }
-  /// Once the servo is over: writes what is left.
+  /// Writes the remaining samples and ends the thread. Call after the servo thread has ended.
   void finish();
 
  private:

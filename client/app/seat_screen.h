@@ -6,20 +6,21 @@
 
 #include "client/app/client_status.h"
 #include "common/io/text_layout.h"
-#include "proto/control_messages.h"
+#include "proto/rpc/rpc_messages.h"
 
 namespace tandem::client {
 
-/// What the screen of a seat shows, the important first. Row 0: the state of the session and how it goes on, who leads, the own force. Row 1: where the
-/// tool is and whether it touches something, who else is there, the force gate in words, then the numbers of the link.
-/// @param words  what the server said last over the control connection; nothing: it was not heard there
-[[nodiscard]] std::vector<io::ScreenItem> seat_screen(const ClientStatus& status, const SeatSetup& setup, const std::optional<control::Status>& words);
+/// Returns the items of the seat screen, the most important first. Row 0: session state and the way out of it, leader,
+/// own force. Row 1: tool position and contact, other participants, force gate, numbers of the link.
+/// @param words  newest status over the control connection; empty: none received
+[[nodiscard]] std::vector<io::ScreenItem> seat_screen(const ClientStatus& status, const SeatSetup& setup,
+                                                      const std::optional<rpc::Status>& words);
 
-/// The force gate in words, and which key helps.
+/// Returns the gate state as text, with the key that changes it.
 [[nodiscard]] std::string gate_text(const ClientStatus& status);
-/// `[####......] 1.24 N`: the share of the largest force that this seat gives.
+/// Returns the force as a bar and a number, e.g. `[####......] 1.2 N`. A full bar is `force_max_n`.
 [[nodiscard]] std::string force_bar(double force_n, double force_max_n);
-/// How the person at this seat gets out of a stop or a pause, `r resumes` or who does.
+/// Returns how a stop or pause ends as seen from this seat, e.g. `r resumes` or `an operator resumes`.
 [[nodiscard]] std::string way_out(const SeatSetup& setup, bool paused);
 
 }  // namespace tandem::client

@@ -4,16 +4,16 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Marks functions that may run below a tick: no heap, no lock, no log, no clock, no exception.
+/// Marks functions that may run within a tick: no heap, no lock, no log, no clock, no exception.
 #define TANDEM_REALTIME
 
 namespace tandem {
 
-/// Bounds of a scene. Everything below a tick is an array of these sizes, used up to the scene's own count.
+/// Bounds of a scene. All per-tick data are arrays of these sizes, used up to the scene's own count.
 inline constexpr std::size_t kAxesMax = 7;
 inline constexpr std::size_t kMastersMax = 16;
 inline constexpr std::size_t kToolsMax = 8;
-/// Masters plus slaves that are seats of their own.
+/// Masters plus the slaves that have seats of their own.
 inline constexpr std::size_t kSeatsMax = kMastersMax + kToolsMax;
 
 /// One number per axis of a port: joint space [rad, rad/s, N m] or tip space [m, m/s, N].

@@ -13,7 +13,7 @@ std::string_view trimmed(std::string_view s) noexcept {
   return s;
 }
 
-/// What a message may repeat of a foreign text: short and printable.
+/// Returns the part of a foreign text that a message may repeat: short and printable.
 std::string shown(std::string_view s) {
   std::string out = "'";
   for (const char c : s.substr(0, 40)) out += c >= ' ' && c < 127 ? c : '?';

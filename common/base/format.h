@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-/// printf into a string, for lines that people read; what is longer than 511 characters is cut.
+/// printf into a string, for lines that users read; text beyond 511 characters is cut.
 [[nodiscard, gnu::format(printf, 1, 2)]] inline std::string format(const char* pattern, ...) {
   char line[512];
   va_list arguments;

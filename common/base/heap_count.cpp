@@ -11,7 +11,7 @@ thread_local std::uint64_t allocations = 0;
 void* counted(std::size_t size, std::size_t alignment) noexcept {
   ++allocations;
   if (size == 0) size = 1;
-  // aligned_alloc wants a multiple of the alignment.
+  // aligned_alloc requires a multiple of the alignment.
   return alignment <= alignof(std::max_align_t)
              ? std::malloc(size)
              : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
@@ -27,8 +27,8 @@ constexpr std::size_t bytes(std::align_val_t a) noexcept { return static_cast<st
 
 }  // namespace
 
-// Every form, nothrow too: std::stable_sort takes its buffer through it, and a form left to the library would meet our
-// delete.
+// All forms are replaced, nothrow too: std::stable_sort allocates through it, and a form of the library would pair with
+// this file's delete.
 void* operator new(std::size_t n) { return counted_or_throw(n, 1); }
 void* operator new[](std::size_t n) { return counted_or_throw(n, 1); }
 void* operator new(std::size_t n, std::align_val_t a) { return counted_or_throw(n, bytes(a)); }

@@ -4,8 +4,9 @@
 
 namespace tandem {
 
-/// What this thread has taken from the heap through operator new so far. A program that links this has the global operator
-/// new replaced by one that counts: for tests, and for oracles that judge "no heap below a tick" (WorldSetup::heap_count).
+/// Returns how many times this thread has allocated through operator new. A program that links this replaces the global
+/// operator new by a counting one. Used by tests and by invariant checkers of "no heap within a tick"
+/// (SimulationConfig::heap_count).
 [[nodiscard]] std::uint64_t heap_allocations() noexcept;
 
 }  // namespace tandem

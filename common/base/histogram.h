@@ -9,9 +9,9 @@
 
 namespace tandem {
 
-/// Counts durations in bins whose width grows with the value: exact below 64 ns, then 32 bins per octave, so a quantile
-/// is at most 1/32 (3.2 %) above the true value. Covers 0 to 2^63 ns in fixed memory (15 KiB); total, no heap,
-/// real-time safe. The idea is HdrHistogram's [Tene 2012].
+/// Counts durations in bins whose width grows with the value: exact below 64 ns, then 32 bins per octave. A quantile is
+/// therefore at most 1/32 (3.2 %) above the true value. Covers 0 to 2^63 ns in fixed memory (15 KiB); accepts any
+/// value, no heap, real-time safe. The idea is that of HdrHistogram [Tene 2012].
 class Histogram {
  public:
   /// @param ns  duration [ns]; negative counts as 0
@@ -23,7 +23,7 @@ class Histogram {
     sum_ += static_cast<double>(value);
   }
 
-  /// The smallest bin end below or at which at least a share `q` of all values lies, never above max().
+  /// Returns the smallest bin end at or below which at least a share `q` of all values lies; never above max().
   /// @param q  share, clamped to [0, 1]; NaN counts as 0
   /// @return   [ns]; 0 when nothing was added
   [[nodiscard]] constexpr std::int64_t quantile(double q) const noexcept {
@@ -44,8 +44,9 @@ class Histogram {
     return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0;
   }
 
-  /// Calls `bucket(first, last, count)` for every bucket that holds anything, ascending; a value v [ns] is in it if
-  /// first <= v <= last. Four buckets to an octave, so each is at most a quarter as wide as its values are large.
+  /// Calls `bucket(first, last, count)` for every non-empty bucket, in ascending order; a bucket contains the values v
+  /// [ns] with first <= v <= last. There are four buckets per octave, so the width of a bucket is at most a quarter of
+  /// its values.
   template <class Bucket>
   constexpr void each_bucket(Bucket&& bucket) const {
     for (std::size_t bin = 0; bin < kBins; bin += kBinsPerBucket) {
@@ -57,7 +58,7 @@ class Histogram {
 
   constexpr void reset() noexcept { *this = Histogram{}; }
 
-  /// As if all values of `other` had been added here.
+  /// Adds all values of `other`.
   constexpr void merge(const Histogram& other) noexcept {
     for (std::size_t bin = 0; bin < kBins; ++bin) bins_[bin] += other.bins_[bin];
     count_ += other.count_;
@@ -72,13 +73,13 @@ class Histogram {
   static constexpr std::size_t kBinsPerBucket = std::size_t{1} << (kSubBits - 2);
   static_assert(kBins % kBinsPerBucket == 0 && kExact % kBinsPerBucket == 0);
 
-  /// The top kSubBits + 1 bits of the value, after its octave.
+  /// Returns the bin: the octave of the value, followed by its top kSubBits + 1 bits.
   static constexpr std::size_t bin_of(std::uint64_t value) noexcept {
     if (value < kExact) return static_cast<std::size_t>(value);
     const int shift = static_cast<int>(std::bit_width(value)) - kSubBits - 1;
     return (static_cast<std::size_t>(shift) << kSubBits) + static_cast<std::size_t>(value >> shift);
   }
-  /// Largest value of a bin.
+  /// Returns the largest value of a bin.
   static constexpr std::int64_t last_of(std::size_t bin) noexcept {
     if (bin < kExact) return static_cast<std::int64_t>(bin);
     const int shift = static_cast<int>(bin >> kSubBits) - 1;

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-/// Bytes that nobody else may learn: wiped when they go, compared in a time that tells nothing.
+/// Secret bytes: wiped on destruction and compared in constant time.
 namespace tandem {
 
-/// Overwrites with zeros; not removed by the optimiser: it must believe that somebody reads them.
+/// Overwrites with zeros. The assembly statement keeps the optimiser from removing this.
 inline void wipe(std::span<std::byte> bytes) noexcept {
   for (std::byte& b : bytes) b = std::byte{0};
   asm volatile("" : : "r"(bytes.data()) : "memory");
@@ -22,13 +22,13 @@ inline void wipe(std::string& text) noexcept {
   text.clear();
 }
 
-/// Equal lengths and equal bytes, in a time that depends on the lengths only.
+/// Returns whether lengths and bytes are equal; the time depends on the lengths only.
 [[nodiscard]] inline bool equal_secret(std::span<const std::byte> a, std::span<const std::byte> b) noexcept {
   if (a.size() != b.size()) return false;
   std::byte differs{0};
   for (std::size_t i = 0; i < a.size(); ++i) {
     differs |= a[i] ^ b[i];
-    asm volatile("" : "+r"(differs));  // keeps the compiler from leaving early
+    asm volatile("" : "+r"(differs));  // keeps the compiler from returning early
   }
   return differs == std::byte{0};
 }
@@ -49,7 +49,8 @@ struct Secret {
   friend bool operator==(const Secret& a, const Secret& b) noexcept { return equal_secret(a.bytes, b.bytes); }
 };
 
-/// A secret whose size is known only when it is read, such as a key file. Never grows, so no copy is left behind by a new allocation.
+/// A secret whose size is known only when it is read, such as a key file. It never grows, so no reallocation leaves a
+/// copy behind.
 class SecretBuffer {
  public:
   SecretBuffer() = default;

@@ -6,8 +6,8 @@
 
 namespace tandem {
 
-/// A clock without `now()`: cores are told the time, they never ask for it. The same core therefore runs live
-/// (the pump reads a monotonic clock) and in virtual time (the simulator counts ticks).
+/// A clock without `now()`: the caller passes the time to the cores. The same core therefore runs in real time (the
+/// caller reads a monotonic clock) and in virtual time (the simulator counts ticks).
 struct Clock {
   using rep = std::int64_t;
   using period = std::nano;
@@ -19,10 +19,10 @@ struct Clock {
 using Duration = Clock::duration;
 using Time = Clock::time_point;
 
-/// Seconds as double, for laws and reports; 2^53 ns are 104 days, beyond that the last digits round.
+/// Converts to seconds as double, for laws and reports; exact to the nanosecond up to 2^53 ns (104 days).
 [[nodiscard]] constexpr double seconds(Duration d) noexcept { return std::chrono::duration<double>(d).count(); }
 
-/// The nearest nanosecond to `s` seconds. Valid for |s| < 9e9.
+/// Returns the nanosecond nearest to `s` seconds. Valid for |s| < 9e9.
 [[nodiscard]] constexpr Duration from_seconds(double s) noexcept {
   return Duration{static_cast<std::int64_t>(s * 1e9 + (s < 0 ? -0.5 : 0.5))};
 }

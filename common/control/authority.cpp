@@ -6,9 +6,10 @@
 namespace tandem::control {
 
 namespace {
-/// However slowly the scene slews otherwise, a lost holder's weight is gone 100 ms after the server gave him up, and that is 100 ms
-/// after his last datagram: within the 220 ms of the design notes, security 2.4. To ramp from the first missing tick on and twice as
-/// slowly would take weight away at every gap of a wireless network.
+/// Slew of authority after a loss [1/s]. For any slew of the scene, the authority of a lost seat is 0 within 100 ms
+/// after the server declares the loss. The server declares it 100 ms after the last datagram, which meets the 220 ms of
+/// the design notes, security 2.4. A ramp from the first missing tick at half the slew would remove authority at every
+/// gap of a wireless network.
 constexpr double kLossSlew = 10.0;
 }  // namespace
 
@@ -26,31 +27,31 @@ double AuthorityTank::pay(double joule) noexcept {
   return share;
 }
 
-AuthorityRow::AuthorityRow(std::size_t masters, double slew, double tank) noexcept
+ToolAuthority::ToolAuthority(std::size_t masters, double slew, double tank) noexcept
     : masters_(std::min(masters, kMastersMax)), slew_(slew), tank_(tank) {}
 
-bool AuthorityRow::request(const Weights& wanted) noexcept {
+bool ToolAuthority::request(const MasterArray& wanted) noexcept {
   const auto weights = normalised(wanted);
   if (weights) wanted_ = *weights;
   return weights.has_value();
 }
 
-std::optional<Weights> AuthorityRow::normalised(const Weights& wanted) const noexcept {
+std::optional<MasterArray> ToolAuthority::normalised(const MasterArray& wanted) const noexcept {
   double sum = 0;
   for (std::size_t i = 0; i < masters_; ++i) {
     if (!(wanted[i] >= 0) || !(wanted[i] <= 1)) return std::nullopt;
     sum += wanted[i];
   }
   if (!(std::abs(sum - 1) <= 1e-6)) return std::nullopt;
-  Weights out{};
+  MasterArray out{};
   for (std::size_t i = 0; i < masters_; ++i) out[i] = wanted[i] / sum;
   return out;
 }
 
-void AuthorityRow::step(const Input& in) noexcept {
+void ToolAuthority::step(const Input& in) noexcept {
   tank_.fill(in.dissipated);
-  // Renormalised over who is present: a passive watcher (weight 0) never inherits.
-  Weights goal{};
+  // Renormalised over the masters present: a passive observer (authority 0) never inherits authority.
+  MasterArray goal{};
   double sum = 0;
   bool somebody_lost = false;
   for (std::size_t i = 0; i < masters_; ++i) {
@@ -64,7 +65,7 @@ void AuthorityRow::step(const Input& in) noexcept {
     return;
   }
   for (std::size_t i = 0; i < masters_; ++i) goal[i] /= sum;
-  if (held_) {  // springs are at rest after HELD, so nothing is injected by giving everybody his weight at once
+  if (held_) {  // springs are at rest after HELD, so setting all authorities at once injects nothing
     now_ = goal;
     held_ = false;
     return;
@@ -78,7 +79,8 @@ void AuthorityRow::step(const Input& in) noexcept {
   double cost = 0;
   for (std::size_t i = 0; i < masters_; ++i) cost += share * (goal[i] - now_[i]) * in.stored[i];
   if (!std::isfinite(cost)) return;
-  // An unslewed scene asked for the step, paid or not; and a lost holder's weight must go, whatever the tank says.
+  // A scene without slew requires the step even if it is not paid. The authority of a lost seat must go, for any level
+  // of the tank.
   if (std::isfinite(slew_) && !somebody_lost) {
     const double paid = tank_.pay(cost);
     share *= paid;

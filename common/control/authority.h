@@ -9,56 +9,71 @@
 
 namespace tandem::control {
 
-/// Pays for what changing authority injects. Weighted storage V = sum alpha_i V_i: a change of alpha adds sum alpha'_i V_i,
-/// whatever the flow sources do (design notes, control 2, "weighted passivity").
+/// Tank that pays for the energy injected by changes of authority. The weighted storage is V = sum alpha_i V_i. A
+/// change of alpha adds sum alpha'_i V_i to it, for any state of the flow sources (design notes, control 2, "weighted
+/// passivity").
 class AuthorityTank {
  public:
+  /// @param initial  initial level [J]; the capacity is twice that
   explicit AuthorityTank(double initial = 0.05) noexcept : level_(initial), capacity_(2 * initial) {}
+  /// Adds energy [J] up to the capacity.
   void fill(double joule) noexcept {
     if (joule > 0) level_ = level_ + joule < capacity_ ? level_ + joule : capacity_;
   }
-  /// Largest share of a change costing `joule` that can be paid, [0, 1]; negative costs are free and fill the tank.
+  /// Returns the largest payable share of a change that costs `joule`, [0, 1]. A negative cost is always payable and
+  /// fills the tank.
   [[nodiscard]] double pay(double joule) noexcept;
+  /// Present level [J].
   [[nodiscard]] double level() const noexcept { return level_; }
 
  private:
   double level_, capacity_;
 };
 
-using Weights = std::array<double, kMastersMax>;
+/// One number per master.
+using MasterArray = std::array<double, kMastersMax>;
 
-/// Authority of all masters over one tool: sum alpha = 1 at every tick, or all 0 while nobody entitled is present (HELD).
-class AuthorityRow {
+/// Authority of all masters over one tool. At every tick sum alpha = 1, or all are 0 while no authorised seat is
+/// present (HELD: the tool is braked).
+class ToolAuthority {
  public:
-  /// @param slew  largest |d alpha / dt| [1/s]; infinity: at once.
-  AuthorityRow(std::size_t masters, double slew, double tank) noexcept;
+  /// @param slew  largest |d alpha / dt| [1/s]; infinity: changes take effect at once.
+  ToolAuthority(std::size_t masters, double slew, double tank) noexcept;
 
-  /// What the instructor wants. Ignored unless finite, >= 0 and of sum 1 (to 1e-6; then normalised exactly).
-  /// @return whether it was taken.
-  bool request(const Weights& wanted) noexcept;
-  /// What `request` would make of it; nullopt: it would be ignored.
-  [[nodiscard]] std::optional<Weights> normalised(const Weights& wanted) const noexcept;
+  /// Sets the authority that the instructor requests. It is ignored unless all values are finite, >= 0 and sum to 1
+  /// (within 1e-6; then normalised exactly).
+  /// @return whether it was accepted.
+  bool request(const MasterArray& wanted) noexcept;
+  /// Returns what `request` would store; nullopt if `request` would ignore it.
+  [[nodiscard]] std::optional<MasterArray> normalised(const MasterArray& wanted) const noexcept;
 
+  /// Input of one tick.
   struct Input {
     double dt = 0.001;
-    std::array<bool, kMastersMax> present{};  ///< engaged and heard from: weight of the others ramps to those who are
-    Weights stored{};                         ///< V_i: energy in each seat's spring at this tool [J]
-    double dissipated = 0;                    ///< heat of the tool not spent elsewhere [J]
+    std::array<bool, kMastersMax>
+        present{};          ///< engaged, with recent datagrams; the authority of absent masters ramps to those present
+    MasterArray stored{};   ///< V_i: energy in each seat's spring at this tool [J]
+    double dissipated = 0;  ///< heat of the tool that is not spent elsewhere [J]
   };
+  /// Moves all authorities towards the requested ones, renormalised over the masters present; called once per tick.
   void step(const Input& in) noexcept TANDEM_REALTIME;
 
+  /// Authority of one master [0, 1].
   [[nodiscard]] double alpha(std::size_t master) const noexcept { return now_[master]; }
-  [[nodiscard]] const Weights& weights() const noexcept { return now_; }
-  [[nodiscard]] const Weights& requested() const noexcept { return wanted_; }
+  [[nodiscard]] const MasterArray& weights() const noexcept { return now_; }
+  /// Authorities requested last, of sum 1.
+  [[nodiscard]] const MasterArray& requested() const noexcept { return wanted_; }
+  /// True while the tool is braked: all authorities are 0.
   [[nodiscard]] bool held() const noexcept { return held_; }
-  [[nodiscard]] double injected() const noexcept { return injected_; }  ///< by alpha changes, cumulative [J]
+  [[nodiscard]] double injected() const noexcept { return injected_; }  ///< by changes of alpha, cumulative [J]
+  /// Level of the tank [J].
   [[nodiscard]] double tank() const noexcept { return tank_.level(); }
 
  private:
   std::size_t masters_;
   double slew_;
   AuthorityTank tank_;
-  Weights wanted_{}, now_{};
+  MasterArray wanted_{}, now_{};
   bool held_ = true;
   double injected_ = 0;
 };

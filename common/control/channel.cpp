@@ -18,7 +18,7 @@ void ChannelEnd::engage(const AxisArray& x, double age) noexcept {
   for (std::size_t a = 0; a < params_.dof; ++a) state_.k[a] = schedule_.stiffness() * params_.scale[a];
 }
 
-void ChannelEnd::give_way(const AxisArray&) noexcept {}
+void ChannelEnd::clamp_reference(const AxisArray&) noexcept {}
 
 EnergyArray ChannelEnd::e_out() const noexcept {
   EnergyArray e{};
@@ -39,8 +39,10 @@ std::unique_ptr<ChannelEnd> make_replica(const ChannelParams& p) {
 }
 
 constexpr ChannelLaw kLaws[] = {
-    {"replica", "every client simulates the tool; only what others do crosses the network, paid from an energy ledger", make_replica},
-    {"set_position", "positions both ways, every move paid from an energy ledger; stiffness, damping and lead follow the delay",
+    {"replica", "every client simulates the tool; only what others do crosses the network, paid from an energy ledger",
+     make_replica},
+    {"set_position",
+     "positions both ways, every move paid from an energy ledger; stiffness, damping and lead follow the delay",
      make<SetPositionEnd>},
     {"raw", "positions both ways, constant stiffness, no passivity: what happens without", make<RawEnd>},
 };

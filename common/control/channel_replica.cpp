@@ -8,17 +8,19 @@
 namespace tandem::control {
 
 namespace {
-/// Damping between reference and copy beside the relative one, where hands share, as a part of k d.
+/// Damping between reference and copy where hands share authority, in addition to the relative damping, as a part of k
+/// d.
 constexpr double kSharedDamping = 0.5;
-/// A follower is led by the velocity that the hand will have about when the news come to it: what is added to the hand's own age, as a part of it.
-/// With this, kFollowDamping, kGainsSpeed and the calmer pole beyond 130 ms a relaxed follower is 9.9 mm behind at 100 ms (0.5 Hz, 20 hands) and its
-/// force steps by 0.146 N per ms at 200 ms; without them 10.3 mm and 0.161.
+/// Additional prediction time of a following hand, as a part of the leading hand's sample age. The follower then
+/// receives about the velocity that the leading hand has when the datagram reaches it. With kFurther, kFollowDamping,
+/// kFollowerSpeedGain and the slower pole beyond 130 ms, a relaxed follower lags 9.9 mm at 100 ms (0.5 Hz, 20 hands).
+/// Its force then steps by 0.146 N per ms at 200 ms. Without them the values are 10.3 mm and 0.161.
 constexpr double kFurther = 0.4;
-/// Damping of a follower's copy towards the others' velocity, as part of b_rel.
+/// Damping of a follower's copy towards the velocity of the other hands, as a part of b_rel.
 constexpr double kFollowDamping = 1.25;
 }  // namespace
 
-ReplicaReference::ReplicaReference(const ChannelParams& params) : PaidEnd(params), k_x_(params.k_c) {}
+ReplicaReference::ReplicaReference(const ChannelParams& params) : EnergyBoundedEnd(params), k_x_(params.k_c) {}
 
 double ReplicaReference::stiffness_for(double authority, double delay) const noexcept {
   const double shared = delay > 0 ? std::min(params_.k_c, kKappa / (2 * delay)) : params_.k_c;
@@ -46,7 +48,7 @@ const EndState& ReplicaReference::move(const EndInput& in) noexcept {
     EnergyLedger& ledger = ledger_[a];
     ledger.dissipate(in.dissipated[a]);
     ledger.receive(in.rx.e_in[a]);
-    static_cast<void>(ledger.give_up_above(params_.margin_max, 0));
+    static_cast<void>(ledger.forfeit_above(params_.margin_max, 0));
     state_.absorbed[a] = state_.paid[a] = state_.passed[a] = 0;
     state_.b[a] = damping * params_.scale[a];
     state_.rate[a] = in.rx.v[a];
@@ -54,12 +56,14 @@ const EndState& ReplicaReference::move(const EndInput& in) noexcept {
 
     calm_v_[a] += calm * (in.rx.v[a] - calm_v_[a]);
     const double target = follows ? Prediction::place_for_hand(in.rx.x[a], calm_v_[a], in.age) : in.rx.x[a];
-    const double gains = follows ? kGainsSpeed / std::sqrt(params_.scale[a]) : 0;
+    const double gains = follows ? kFollowerSpeedGain / std::sqrt(params_.scale[a]) : 0;
     const double step = (std::abs(in.rx.v[a]) + approach_[a] + gains) * in.dt;
-    const double reach = 2 * strongest_[a] / (slave > 0 ? (alone * k_x_ + slave) * params_.scale[a] : k_x_ * params_.scale[a]);
-    const double leashed = std::clamp(std::clamp(target, state_.ref[a] - step, state_.ref[a] + step), in.x[a] - reach, in.x[a] + reach);
-    if (std::isfinite(leashed)) move_reference(a, leashed, in.x[a], 1);
-    ledger.take_back(state_.absorbed[a]);  // what a spring to the reference gives back is this end's to spend again
+    const double reach =
+        2 * effort_max_[a] / (slave > 0 ? (alone * k_x_ + slave) * params_.scale[a] : k_x_ * params_.scale[a]);
+    const double clamped =
+        std::clamp(std::clamp(target, state_.ref[a] - step, state_.ref[a] + step), in.x[a] - reach, in.x[a] + reach);
+    if (std::isfinite(clamped)) move_reference(a, clamped, in.x[a], 1);
+    ledger.refund(state_.absorbed[a]);  // this end may spend again the energy that a spring to the reference returns
     margin_min_ = std::min(margin_min_, ledger.margin());
   }
   return state_;
@@ -74,11 +78,11 @@ void PredictedHand::engage(const AxisArray& x, double age) noexcept {
   for (std::size_t a = 0; a < params_.dof; ++a) state_.k[a] = params_.k_c * params_.scale[a];
 }
 
-void PredictedHand::give_way(const AxisArray& x) noexcept {
+void PredictedHand::clamp_reference(const AxisArray& x) noexcept {
   for (std::size_t a = 0; a < params_.dof; ++a) {
     const double reach = params_.effort_max * std::sqrt(params_.scale[a]) / state_.k[a];
-    const double leashed = std::clamp(state_.ref[a], x[a] - reach, x[a] + reach);
-    if (std::isfinite(leashed)) state_.ref[a] = leashed;
+    const double clamped = std::clamp(state_.ref[a], x[a] - reach, x[a] + reach);
+    if (std::isfinite(clamped)) state_.ref[a] = clamped;
     state_.b[a] = state_.rate[a] = state_.led[a] = 0;
   }
 }
@@ -89,14 +93,15 @@ const EndState& PredictedHand::move(const EndInput& in) noexcept {
     const HandMotion heard{in.rx.x[a], in.rx.v[a], in.rx.a[a]};
     const double rate = Prediction::rate(heard, in.age);
     const double place = Prediction::place(heard, in.age), before = state_.ref[a];
-    const bool back = (before - place) * heard.v > 0;  // it was farther ahead
+    const bool back = (before - place) * heard.v > 0;  // the earlier prediction was farther ahead
     const double approach = (Prediction::kApproach + (back ? Prediction::kBackBy : 0)) / std::sqrt(params_.scale[a]);
     const double step = (std::max(std::abs(rate), std::abs(in.rx.v[a])) + approach) * in.dt;
     const double reach = params_.effort_max * std::sqrt(params_.scale[a]) / state_.k[a];
     const double near = std::clamp(place, before - step, before + step);
-    const double leashed = std::clamp(near, in.x[a] - reach, in.x[a] + reach);
-    if (std::isfinite(leashed)) state_.ref[a] = leashed;
-    // The damper goes as the reference goes, not as the hand's filtered velocity says: that lags, and a tool that hears of a stop late overshoots.
+    const double clamped = std::clamp(near, in.x[a] - reach, in.x[a] + reach);
+    if (std::isfinite(clamped)) state_.ref[a] = clamped;
+    // The damper uses the velocity of the reference. The hand's filtered velocity lags, and a tool that receives a stop
+    // late overshoots.
     state_.rate[a] = (state_.ref[a] - before) / in.dt;
     const double led = Prediction::rate(heard, (1 + kFurther) * in.age);
     state_.led[a] = std::isfinite(led) ? led : 0;

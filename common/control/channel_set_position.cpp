@@ -6,27 +6,29 @@
 namespace tandem::control {
 
 const EndState& SetPositionEnd::move(const EndInput& in) noexcept {
-  schedule_.step(std::max(0.0, in.age - 0.5 * in.dt), in.dt);  // half a tick is sampling, there without a network too
+  schedule_.step(std::max(0.0, in.age - 0.5 * in.dt),
+                 in.dt);  // half a tick is sampling, which also exists without a network
   const double stiffness = schedule_.stiffness(), damping = schedule_.damping();
   for (std::size_t a = 0; a < params_.dof; ++a) {
     EnergyLedger& ledger = ledger_[a];
     const std::uint64_t heat = ledger.dissipate(in.dissipated[a]);
     ledger.receive(in.rx.e_in[a]);
     const auto most = static_cast<std::uint64_t>(in.pass_on * static_cast<double>(heat));
-    state_.passed[a] = 1e-9 * static_cast<double>(ledger.give_up_above(params_.margin_max, most));
+    state_.passed[a] = 1e-9 * static_cast<double>(ledger.forfeit_above(params_.margin_max, most));
     state_.absorbed[a] = 0;
     state_.paid[a] = 0;
     state_.b[a] = damping * params_.scale[a];
     change_stiffness(a, stiffness * params_.scale[a], in.x[a], in.weight);
 
-    // After an outage the reference may lie far away: it comes home at v_app, but motion itself is never clipped.
+    // After an outage the reference may be far away. It approaches at v_app, but motion itself is never clipped.
     const double step = (std::abs(in.rx.v[a]) + approach_[a]) * in.dt;
     const double t = target(in, a, state_.k[a]);
     const double wanted = std::clamp(t, state_.ref[a] - step, state_.ref[a] + step);
-    // An elongation beyond the strongest motor would only be stored and come back as a kick; giving way frees energy.
-    const double reach = strongest_[a] / state_.k[a];
-    const double leashed = std::clamp(wanted, in.x[a] - reach, in.x[a] + reach);
-    if (std::isfinite(leashed)) move_reference(a, leashed, in.x[a], in.weight);
+    // An elongation beyond the strongest motor's force would only be stored and return as a kick. Yielding releases
+    // energy.
+    const double reach = effort_max_[a] / state_.k[a];
+    const double clamped = std::clamp(wanted, in.x[a] - reach, in.x[a] + reach);
+    if (std::isfinite(clamped)) move_reference(a, clamped, in.x[a], in.weight);
     margin_min_ = std::min(margin_min_, ledger.margin());
   }
   return state_;

@@ -7,12 +7,14 @@
 
 namespace tandem::control {
 
-/// Energy a sampled motor gives to the hand: the effort held between two samples does exactly F(k-1) (q(k) - q(k-1)) (design notes, control 6).
-/// Never F v T with a filtered velocity: a sampled spring of 1000 N/m moved 10 mm at 5 Hz makes 4.9 mJ a cycle, and that product says -4.9.
+/// Measures the energy that a sampled motor gives to the hand. The effort held between two samples does exactly the
+/// work F(k-1) (q(k) - q(k-1)) (design notes, control 6). F v T with a filtered velocity is wrong. For a sampled spring
+/// of 1000 N/m moved 10 mm at 5 Hz it yields -4.9 mJ per cycle; the true value is +4.9 mJ.
 class EnergyMeter {
  public:
-  /// @param q  position now.  @param effort_held  what the motor really held since the last call, saturated.
-  /// @return energy given to the hand since then [J], all axes; 0 at the first call and for readings that are not finite.
+  /// @param q  present position.  @param effort_held  effort that the motor really held since the last call, saturated.
+  /// @return energy given to the hand since then [J], sum of all axes; 0 at the first call and for readings that are
+  /// not finite.
   double advance(std::size_t dof, const AxisArray& q, const AxisArray& effort_held) noexcept TANDEM_REALTIME {
     double given = 0;
     if (started_)
@@ -23,6 +25,7 @@ class EnergyMeter {
     total_ += given;
     return given;
   }
+  /// Energy given since construction [J].
   [[nodiscard]] double total() const noexcept { return total_; }
 
  private:

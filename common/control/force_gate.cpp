@@ -10,14 +10,14 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kRampOut = 100ms;
-constexpr Duration kDampOut = 500ms;        // damping alone goes on for so long without a link
-constexpr Duration kMargin = 20ms;          // a loop may be this much older than its learned p99
-constexpr double kAgeSlew = 0.010;          // the limit follows the learned RTT by at most 10 ms per s
-constexpr double kSlewActive = 1000;        // [N/s] = 1 N/ms
-constexpr double kSlewRampIn = 10;          // [N/s]
-constexpr double kDamping = 5;              // [N s/m] while ramping out and DAMPED
+constexpr Duration kDampOut = 500ms;  // duration of damping alone after the link is lost
+constexpr Duration kMargin = 20ms;    // a loop may exceed its learned p99 by this much
+constexpr double kAgeSlew = 0.010;    // the limit follows the learned RTT by at most 10 ms per s
+constexpr double kSlewActive = 1000;  // [N/s] = 1 N/ms
+constexpr double kSlewRampIn = 10;    // [N/s]
+constexpr double kDamping = 5;        // [N s/m] in kReleasing and kLatched
 constexpr Duration kLatchWindow = 10s;
-constexpr double kPaceMemory = 1;            // [s] in which a long step is forgotten
+constexpr double kPaceMemory = 1;  // [s] in which a long step is forgotten
 
 double tank_for(double mass) noexcept { return 1e-3 * std::min(100.0, std::max(20.0, 180.0 * mass)); }
 
@@ -42,19 +42,20 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
   if (all_finite(in.q, p_.dof)) {
     double given = 0;
     for (std::size_t a = 0; a < p_.dof; ++a) given += effort_[a] * (in.q[a] - q_[a]);
-    // After a standstill of this program the device had forgotten the effort long ago: what it gave may be less than this,
-    // and what the hand seemed to give back was never taken.
-    if (in.now - last_step_ > p_.command_life) given = std::max(0.0, given);
+    // After a standstill of this program the device had dropped the effort long before. The energy given may be less
+    // than this product, and energy that the hand seemed to return was never absorbed.
+    if (in.now - last_step_ > p_.command_lifetime) given = std::max(0.0, given);
     if (std::isfinite(given)) given_ += given;
     for (std::size_t a = 0; a < p_.dof; ++a) moved_[a] = in.q[a] - q_[a];
     q_ = in.q;
   }
-  // The driver has let go of the effort: no ramp begins from it.
-  if (in.now - last_step_ > p_.command_life + kCommandFade) effort_.fill(0);
-  const double step = std::clamp(seconds(in.now - last_step_), 0.0, seconds(p_.command_life));
+  // The driver has dropped the effort: no ramp begins from it.
+  if (in.now - last_step_ > p_.command_lifetime + kCommandFade) effort_.fill(0);
+  const double step = std::clamp(seconds(in.now - last_step_), 0.0, seconds(p_.command_lifetime));
   pace_ = std::max(step, pace_ - step * pace_ / kPaceMemory);
   change_phase(in, out);
-  if (phase_ == GatePhase::kPassive || phase_ == GatePhase::kDamped || active()) given_max_ = std::max(given_max_, given_);
+  if (phase_ == GatePhase::kReleasing || phase_ == GatePhase::kLatched || active())
+    given_max_ = std::max(given_max_, given_);
   limit(in, out);
   effort_ = out.effort;
   last_step_ = in.now;
@@ -64,28 +65,32 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
 void ForceGate::change_phase(const Input& in, Output& out) noexcept {
   renewed_ = false;
   if (!in.reading_valid) {
-    phase_ = GatePhase::kFault;  // untrusted sensors: motors off until a person resets
+    phase_ = GatePhase::kFault;  // untrusted sensors: motors stay off until the participant resets
     return;
   }
-  // Before engage the limit is learned freely; with a hand on the device it follows slowly, or a slow attacker could raise it.
+  // Before engaging, the limit follows the learned value freely. With a hand engaged it follows slowly, because
+  // otherwise a slow attacker could raise it.
   const Duration learned = std::min(p_.loop_age_max, std::max(kMargin, in.rtt_p99 + kMargin));
   if (active()) {
-    const Duration step = from_seconds(kAgeSlew * std::max(0.0, seconds(in.now - last_step_)));  // a clock may turn back
+    const Duration step =
+        from_seconds(kAgeSlew * std::max(0.0, seconds(in.now - last_step_)));  // a clock may step back
     age_limit_ += std::clamp(learned - age_limit_, -step, step);
   } else {
     age_limit_ = learned;
   }
 
-  silence_limit_ = std::max(p_.silence_limit, in.patience);
-  const bool too_old = in.loop_age > age_limit_ + in.patience;
-  // Patience is with a network, not with a program that stood still: its device forgot the force meanwhile, which would come back at once.
-  const bool stood_still = in.patience > Duration::zero() && in.now - last_step_ >= p_.silence_limit;
+  silence_limit_ = std::max(p_.silence_limit, in.silence_allowance);
+  const bool too_old = in.loop_age > age_limit_ + in.silence_allowance;
+  // The allowance covers a silent network, not a program that stood still. Its device dropped the force meanwhile, and
+  // the force would return at once.
+  const bool stood_still = in.silence_allowance > Duration::zero() && in.now - last_step_ >= p_.silence_limit;
   renewed_ = in.fresh && !too_old;
   if (renewed_) {
     last_fresh_ = in.now;
     heard_ = true;
-    // A ramp that has begun, or begins now, still holds the stale force: its account closes when the gate engages again, not with the next datagram.
-    if (phase_ != GatePhase::kPassive && phase_ != GatePhase::kDamped && !stood_still) given_ = 0;
+    // A ramp that has begun or begins now still holds the stale force. Its account closes when the gate engages again,
+    // not with the next datagram.
+    if (phase_ != GatePhase::kReleasing && phase_ != GatePhase::kLatched && !stood_still) given_ = 0;
   }
   const bool silent = in.now - last_fresh_ >= silence_limit_ || !heard_ || stood_still;
 
@@ -105,17 +110,18 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
     case GatePhase::kActive:
       if (silent || too_old) {
         lose(in, out);
-      } else if (!in.engage) {  // asked to let go: the same ramp, but no loss
-        phase_ = GatePhase::kPassive;
+      } else if (!in.engage) {  // requested release: the same ramp, but not counted as a loss
+        phase_ = GatePhase::kReleasing;
         since_ = ramp_since_ = in.now;
         at_loss_ = effort_;
       }
       break;
-    case GatePhase::kPassive:
-      // Damping stays until the seat may engage again or the hand has come to rest: it moves fastest when the ramp ends.
+    case GatePhase::kReleasing:
+      // Damping stays until the seat may engage again or the hand has come to rest: the hand is fastest when the ramp
+      // ends.
       if (in.now - since_ >= (renewed_ && in.engage ? kRampOut : kDampOut)) phase_ = GatePhase::kZero;
       break;
-    case GatePhase::kDamped:
+    case GatePhase::kLatched:
     case GatePhase::kFault:
       if (in.reset) phase_ = GatePhase::kZero;
       break;
@@ -125,14 +131,15 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
 void ForceGate::lose(const Input& in, Output& out) noexcept {
   out.tripped = true;
   ++trips_;
-  phase_ = GatePhase::kPassive;
+  phase_ = GatePhase::kReleasing;
   since_ = in.now;
-  // A client that wakes up late notices the silence late. The ramp begins when the limit passed, so that it ends in time.
+  // A client that wakes up late notices the silence late. The ramp begins at the time the limit passed, so that it ends
+  // in time.
   ramp_since_ = std::min(in.now, std::max(last_step_, last_fresh_ + silence_limit_));
   at_loss_ = effort_;
   losses_[trips_ % 3] = in.now;
-  // Otherwise a flapping link would give a tankful at every loss.
-  if (p_.latch && trips_ >= 3 && in.now - losses_[(trips_ + 1) % 3] <= kLatchWindow) phase_ = GatePhase::kDamped;
+  // Without the latch a flapping link would release a full tank at every loss.
+  if (p_.latch && trips_ >= 3 && in.now - losses_[(trips_ + 1) % 3] <= kLatchWindow) phase_ = GatePhase::kLatched;
 }
 
 void ForceGate::limit(const Input& in, Output& out) noexcept {
@@ -145,25 +152,27 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
       ++not_finite_;
       return;  // zero
     }
-    const double gain =
-        phase_ == GatePhase::kRampIn ? std::min(1.0, seconds(in.now - since_) / std::max(1e-3, seconds(p_.ramp_in))) : 1.0;
-    // What the growing spring does not hold yet, damping does: a hand found in motion is caught, not flung.
+    const double gain = phase_ == GatePhase::kRampIn
+                            ? std::min(1.0, seconds(in.now - since_) / std::max(1e-3, seconds(p_.ramp_in)))
+                            : 1.0;
+    // Damping replaces what the growing spring does not hold yet, so that a hand that is moving at engagement is slowed
+    // and not accelerated.
     for (std::size_t a = 0; a < p_.dof; ++a)
       f[a] = gain * in.wanted[a] - (std::isfinite(in.v[a]) ? (1.0 - gain) * kDamping * p_.scale[a] * in.v[a] : 0.0);
-  } else if (phase_ == GatePhase::kPassive || phase_ == GatePhase::kDamped) {
+  } else if (phase_ == GatePhase::kReleasing || phase_ == GatePhase::kLatched) {
     const double left = std::max(0.0, 1.0 - seconds(in.now - ramp_since_) / seconds(kRampOut));
     for (std::size_t a = 0; a < p_.dof; ++a) {
       const double v = std::isfinite(in.v[a]) ? in.v[a] : 0;
-      f[a] = left * at_loss_[a] - kDamping * p_.scale[a] * v * (phase_ == GatePhase::kDamped ? 1.0 : 1.0 - left);
+      f[a] = left * at_loss_[a] - kDamping * p_.scale[a] * v * (phase_ == GatePhase::kLatched ? 1.0 : 1.0 - left);
     }
   } else {
     return;
   }
 
-  // Clamp at the tip's norm, direction kept.
+  // Clamp the norm at the tip; the direction stays.
   double norm2 = 0;
   for (std::size_t a = 0; a < p_.dof; ++a) norm2 += f[a] * f[a] / p_.scale[a];
-  if (!std::isfinite(norm2)) {  // finite numbers whose product is none
+  if (!std::isfinite(norm2)) {  // finite numbers whose square overflows
     f.fill(0);
     out.not_finite = true;
     ++not_finite_;
@@ -174,7 +183,7 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
     for (std::size_t a = 0; a < p_.dof; ++a) f[a] *= shrink;
     out.clipped = true;
   }
-  if (active()) {  // along the straight line from the last effort, so that the norm's limit holds on the way
+  if (active()) {  // along the straight line from the last effort, so that the limit of the norm holds in between
     double change2 = 0;
     for (std::size_t a = 0; a < p_.dof; ++a) change2 += (f[a] - effort_[a]) * (f[a] - effort_[a]) / p_.scale[a];
     const double step = (phase_ == GatePhase::kRampIn ? kSlewRampIn : kSlewActive) * dt;
@@ -183,14 +192,15 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
       for (std::size_t a = 0; a < p_.dof; ++a) f[a] = effort_[a] + share * (f[a] - effort_[a]);
     }
   }
-  if (!renewed_ || phase_ == GatePhase::kPassive) keep_within_tank(in, f);
+  if (!renewed_ || phase_ == GatePhase::kReleasing) limit_to_tank(in, f);
 }
 
-/// Predictive rule |f| (|v| + |f| dt / m) dt <= what is left, else 0: with no fresh datagram the motor gives at most the tank.
-/// Braking is free: effort against the motion takes energy out of the hand. The velocity of a device lags, so that for a hand that shakes at 12 Hz
-/// effort along its motion looks like braking half of the time: the way of the last tick must say the same.
-/// dt is the longest step of late: a program that wakes up irregularly lets an effort act for longer than its last step took.
-void ForceGate::keep_within_tank(const Input& in, AxisArray& f) noexcept {
+/// Passes the effort only while |f| (|v| + |f| dt / m) dt is at most the rest of the tank, else sets it to 0. Without a
+/// fresh datagram the motor then gives at most the tank. Braking is free: effort against the motion takes energy out of
+/// the hand. A device's velocity lags: for a hand that shakes at 12 Hz, effort along its motion looks like braking half
+/// of the time. Therefore the displacement of the last tick must also show braking. The longest recent step is used for
+/// dt. In an irregularly scheduled program an effort may act for longer than the last step.
+void ForceGate::limit_to_tank(const Input& in, AxisArray& f) noexcept {
   const double dt = std::max(1e-3, pace_);
   double force2 = 0, speed2 = 0, power = 0, work = 0;
   for (std::size_t a = 0; a < p_.dof; ++a) {

@@ -4,86 +4,106 @@
 #include <cstdint>
 
 #include "common/base/axes.h"
-#include "common/base/command_life.h"
+#include "common/base/command_lifetime.h"
 #include "common/base/time.h"
 
 namespace tandem::control {
 
-enum class GatePhase : std::uint8_t { kOff, kZero, kRampIn, kActive, kPassive, kDamped, kFault };
-
-/// The last instance before the motor, at the client, trusting nobody (design notes, control 7; design notes, security 2.3):
-/// finite -> clamp -> slew -> silence and loop age -> energy tank -> latched state.
-struct GateParams {
-  std::size_t dof = 3;
-  AxisArray scale{1, 1, 1, 1, 1, 1, 1};  ///< diag(J^T J): a limit F at the tip is F sqrt(scale) on the axis
-  double force_max = 3.3;                ///< at the tip [N]
-  double mass = 0.1;                     ///< of the device at the tip [kg]; scales the energy tank
-  double tank_share = 1;                 ///< (0, 1], of the tank that this mass would have
-  Duration silence_limit = std::chrono::milliseconds(20);
-  Duration loop_age_max = std::chrono::milliseconds(100);
-  Duration ramp_in = std::chrono::milliseconds(500);
-  bool latch = true;
-  Duration command_life = kCommandLifeMin;  ///< after which the device forgets an effort that is not renewed
+/// Phases of a force gate.
+enum class GatePhase : std::uint8_t {
+  kOff,        ///< no effort
+  kZero,       ///< no effort; ready to engage
+  kRampIn,     ///< engaging: effort grows and damping fades
+  kActive,     ///< effort passes
+  kReleasing,  ///< effort is ramped to zero, with damping
+  kLatched,    ///< after repeated losses: effort ramped to zero, damping until the participant resets
+  kFault       ///< untrusted reading: no effort, until the participant resets
 };
 
+/// Parameters of a force gate.
+struct GateParams {
+  std::size_t dof = 3;                   ///< number of axes in use
+  AxisArray scale{1, 1, 1, 1, 1, 1, 1};  ///< per axis: diag(J^T J); a limit F at the tip is F sqrt(scale) on the axis
+  double force_max = 3.3;                ///< largest force at the tip [N]
+  double mass = 0.1;                     ///< of the device at the tip [kg]; scales the energy tank
+  double tank_share = 1;                 ///< share of the tank size that follows from `mass`, (0, 1]
+  Duration silence_limit = std::chrono::milliseconds(20);  ///< silence after which force is released
+  Duration loop_age_max = std::chrono::milliseconds(100);  ///< upper bound of the learned limit of the loop age
+  Duration ramp_in = std::chrono::milliseconds(500);       ///< duration of kRampIn
+  bool latch = true;                                       ///< three losses within 10 s latch the gate
+  Duration command_lifetime = kCommandLifetimeMin;  ///< the device drops an effort that is not renewed within this time
+};
+
+/// Last safety stage before the motor, on the client; it trusts neither the server nor the controller (design notes,
+/// control 7; design notes, security 2.3). Stages in order: finite check, clamp, slew limit, silence and loop age,
+/// energy tank, latch.
 class ForceGate {
  public:
+  /// Input of one step. Arrays are per axis of the port.
   struct Input {
     Time now{};
-    bool fresh = false;          ///< a strictly newer valid datagram came since the last call
-    Duration loop_age{};         ///< own counter echoed by the peer: age on the own clock
-    Duration rtt_p99{};          ///< learned
-    Duration patience{};         ///< how long what is simulated here may act without news, where that is longer than the silence limit
-    bool engage = false;         ///< the server wants this seat active
-    bool reset = false;          ///< the person pressed the button that clears DAMPED
-    bool reading_valid = true;   ///< false: position not finite for more than 3 samples -> FAULT
-    AxisArray wanted{};          ///< effort of the controller [N or N m]
-    AxisArray q{};               ///< measured port position, for the energy actually given
-    AxisArray v{};               ///< port velocity
+    bool fresh = false;            ///< a strictly newer valid datagram arrived since the last call
+    Duration loop_age{};           ///< age of the own counter that the peer echoed, on the own clock
+    Duration rtt_p99{};            ///< learned 99th percentile of the round-trip time
+    Duration silence_allowance{};  ///< how long the local simulation may act without datagrams, where this exceeds the
+                                   ///< silence limit
+    bool engage = false;           ///< the server requests that this seat be active
+    bool reset = false;            ///< the participant pressed the button that clears kLatched and kFault
+    bool reading_valid = true;  ///< false: the position was not finite for more than 3 samples; the gate enters kFault
+    AxisArray wanted{};         ///< effort requested by the controller [N or N m]
+    AxisArray q{};              ///< measured port position; yields the energy that the motor really gave
+    AxisArray v{};              ///< port velocity
   };
+  /// Result of one step.
   struct Output {
-    AxisArray effort{};
-    bool clipped = false, not_finite = false;
-    bool tripped = false;        ///< a loss began now
-    bool engaged_now = false;    ///< RAMP_IN begins now: start the controller bumplessly
+    AxisArray effort{};                        ///< effort for the motor [N or N m]
+    bool clipped = false, not_finite = false;  ///< the norm was clamped; the wanted effort was not finite and became 0
+    bool tripped = false;                      ///< a loss of the link began in this step
+    bool engaged_now = false;  ///< kRampIn began in this step: the owner starts the controller without a bump
   };
 
   explicit ForceGate(const GateParams& p) noexcept;
+  /// Limits the wanted effort; called once per tick. Accepts any input.
   [[nodiscard]] Output step(const Input& in) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] GatePhase phase() const noexcept { return phase_; }
-  /// The controller's effort may reach the hand (in part).
+  /// True if the controller's effort may reach the hand, at least in part.
   [[nodiscard]] bool active() const noexcept { return phase_ == GatePhase::kRampIn || phase_ == GatePhase::kActive; }
+  /// Number of losses so far.
   [[nodiscard]] std::uint32_t trips() const noexcept { return trips_; }
+  /// Number of steps with an effort that was not finite.
   [[nodiscard]] std::uint64_t not_finite() const noexcept { return not_finite_; }
+  /// Present limit of the loop age.
   [[nodiscard]] Duration loop_age_limit() const noexcept { return age_limit_; }
-  [[nodiscard]] double tank_size() const noexcept { return tank_size_; }          ///< [J]
-  [[nodiscard]] double given_since_fresh() const noexcept { return given_; }      ///< [J]
-  [[nodiscard]] double given_after_loss_max() const noexcept { return given_max_; }  ///< worst loss so far [J]
+  [[nodiscard]] double tank_size() const noexcept { return tank_size_; }  ///< [J]
+  /// Energy given to the hand since the last fresh datagram [J].
+  [[nodiscard]] double given_since_fresh() const noexcept { return given_; }
+  /// Largest energy given during one loss so far [J].
+  [[nodiscard]] double given_after_loss_max() const noexcept { return given_max_; }
 
  private:
   void change_phase(const Input& in, Output& out) noexcept;
   void lose(const Input& in, Output& out) noexcept;
   void limit(const Input& in, Output& out) noexcept;
-  void keep_within_tank(const Input& in, AxisArray& effort) noexcept;
+  void limit_to_tank(const Input& in, AxisArray& effort) noexcept;
 
   GateParams p_;
   double tank_size_;
   GatePhase phase_ = GatePhase::kZero;
-  Time since_{};                 ///< begin of the phase
-  Time ramp_since_{};            ///< begin of the ramp that takes the force away; before `since_` if a silence was noticed late
+  Time since_{};       ///< start of the phase
+  Time ramp_since_{};  ///< start of the ramp to zero force; earlier than `since_` if a silence was noticed late
   Time last_fresh_{}, last_step_{};
-  double pace_ = 0;              ///< longest time between two steps of late: for how long an effort may act [s]
+  double pace_ = 0;  ///< longest recent time between two steps; an effort may act for this long [s]
   bool started_ = false, heard_ = false;
-  bool renewed_ = false;         ///< this tick brought a fresh datagram from a loop that is young enough
+  bool renewed_ = false;  ///< in this tick a fresh datagram arrived whose loop age is within the limit
   Duration age_limit_{};
-  Duration silence_limit_{};     ///< in force
-  AxisArray effort_{};           ///< held by the motor
-  AxisArray at_loss_{};          ///< effort when PASSIVE began
-  AxisArray q_{}, moved_{};      ///< position, and its change in the last step
+  Duration silence_limit_{};  ///< silence limit in force
+  AxisArray effort_{};        ///< effort that the motor holds
+  AxisArray at_loss_{};       ///< effort when kReleasing began
+  AxisArray q_{}, moved_{};   ///< position, and its change in the last step
   double given_ = 0, given_max_ = 0;
   std::uint32_t trips_ = 0;
-  std::array<Time, 3> losses_{};  ///< the last three
+  std::array<Time, 3> losses_{};  ///< times of the last three losses
   std::uint64_t not_finite_ = 0;
 };
 

@@ -16,7 +16,7 @@ Vector unit(Vector v) noexcept {
   return v;
 }
 
-/// The surface as a tool meets it; its normal has length 1 to double precision.
+/// Converts a received surface; its normal has length 1 to double precision.
 Contact surface_of(const LocalContact& told) noexcept {
   Contact out{.k = told.k, .b = told.b, .mu = told.mu};
   const Vector point{told.point[0], told.point[1], told.point[2]};
@@ -29,7 +29,8 @@ double energy(double k, double depth) noexcept { return 0.5 * k * depth * depth;
 
 }  // namespace
 
-LocalContacts::LocalContacts(const Params& params) noexcept : p_(params), valid_ticks_(static_cast<std::uint32_t>(std::lround(kValid / params.dt))) {}
+LocalContacts::LocalContacts(const Params& params) noexcept
+    : p_(params), valid_ticks_(static_cast<std::uint32_t>(std::lround(kValid / params.dt))) {}
 
 void LocalContacts::clear() noexcept {
   for (Slot& slot : slots_) slot.used = false;
@@ -37,15 +38,15 @@ void LocalContacts::clear() noexcept {
   surfaces_.keep(0);
 }
 
-void LocalContacts::hear(std::span<const LocalContact> told) noexcept {
+void LocalContacts::update(std::span<const LocalContact> told) noexcept {
   for (const LocalContact& contact : told) {
     Slot* place = nullptr;
     for (Slot& slot : slots_)
       if (slot.used && slot.id == contact.id) place = &slot;
     for (Slot& slot : slots_)
       if (place == nullptr && !slot.used) place = &slot;
-    if (place == nullptr) {  // others still retreat: it gets the place of one of them then
-      ++left_out_;
+    if (place == nullptr) {  // other surfaces still retreat; a slot becomes free when one of them is gone
+      ++dropped_;
       continue;
     }
     place->told = surface_of(contact);
@@ -90,7 +91,8 @@ void LocalContacts::follow(Slot& slot, const Vector& x, ChannelEnd* end) noexcep
     if (now.penetration(x) <= 0) return;
     now.at = dot(now.normal, x);  // begins at the tool
   }
-  const bool opposite = dot(now.normal, slot.told.normal) < 0;  // no way to turn to it while it presses
+  const bool opposite =
+      dot(now.normal, slot.told.normal) < 0;  // a normal cannot turn by that much while its surface presses
   const double depth = std::max(0.0, now.penetration(x));
   const double most = p_.v_app * p_.dt;
   const double wanted = !named || opposite ? -most : slot.told.penetration(x);
@@ -99,9 +101,10 @@ void LocalContacts::follow(Slot& slot, const Vector& x, ChannelEnd* end) noexcep
     turn(now, slot.told);
     now.b = slot.told.b;
     now.mu = slot.told.mu;
-    // A tool that a spring holds against the surface then moves by at most as much.
+    // A tool that a spring holds against the surface then moves by at most the same distance.
     const double series = now.k + p_.k_c;
-    k = std::clamp(slot.told.k, now.k - series * most / (depth + most), now.k + (depth > 0 ? series * most / depth : slot.told.k));
+    k = std::clamp(slot.told.k, now.k - series * most / (depth + most),
+                   now.k + (depth > 0 ? series * most / depth : slot.told.k));
   }
   const auto cost = [&] { return energy(k, std::max(0.0, next)) - energy(now.k, depth); };
   if (end != nullptr) {
@@ -118,16 +121,17 @@ void LocalContacts::follow(Slot& slot, const Vector& x, ChannelEnd* end) noexcep
   now.at = next + dot(now.normal, x);
 }
 
-/// A move is paid as if the tool stood still. It gave way in its step, so the work was that of the force after the step over the move,
-/// as 1/2 k d^2 is convex; the rest comes back.
+/// Refunds the excess charge of a move. The charge assumed a tool at rest. The tool yielded in its step, so
+/// the work was at most the force after the step times the move, as 1/2 k d^2 is convex.
 void LocalContacts::settle(Slot& slot, double depth, ChannelEnd* end) const noexcept {
   const double rest = slot.paid - slot.now.k * std::max(0.0, depth) * slot.moved;
   slot.paid = slot.moved = 0;
   if (end == nullptr || !(rest > 0)) return;
-  for (std::size_t a = 0; a < p_.axes; ++a) static_cast<void>(end->pay(a, -rest * slot.now.normal[a] * slot.now.normal[a]));
+  for (std::size_t a = 0; a < p_.axes; ++a)
+    static_cast<void>(end->pay(a, -rest * slot.now.normal[a] * slot.now.normal[a]));
 }
 
-/// Turns about the tool: penetration and stored energy stay.
+/// Turns the surface about the tool: penetration and stored energy stay the same.
 void LocalContacts::turn(Contact& now, const Contact& told) const noexcept {
   Vector way{};
   for (std::size_t a = 0; a < way.size(); ++a) way[a] = told.normal[a] - now.normal[a];
@@ -140,7 +144,7 @@ void LocalContacts::turn(Contact& now, const Contact& told) const noexcept {
   now.normal = unit(now.normal);
 }
 
-/// How much of `energy` the accounts of all axes pay together [J].
+/// Returns how much of `energy` the accounts of all axes can pay together [J].
 double LocalContacts::affordable(double energy, const Contact& now, std::size_t axes, const ChannelEnd& end) noexcept {
   constexpr double kRounding = 1e-9;  // [J]
   for (std::size_t a = 0; a < axes; ++a) {

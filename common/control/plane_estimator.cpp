@@ -10,15 +10,15 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-constexpr double kSmooth = 0.01;       // of forces [s]
-constexpr double kPersist = 0.02;      // a touch begins or ends when it was so for that long [s]
+constexpr double kSmooth = 0.01;       // time constant of forces [s]
+constexpr double kPersist = 0.02;      // a touch begins or ends after its condition held for this time [s]
 constexpr double kForget = 0.5;        // of the sums [s]
 constexpr double kSettle = 0.05;       // of the place and of the stiffness [s]
 constexpr double kTurnTime = 0.2;      // of the normal [s]
-constexpr double kTurnRate = 1;        // of the normal, at most [rad/s]
-constexpr double kSlip = 0.02;         // across the normal; beyond, force is also friction [m/s]
-constexpr double kCorrelated = 0.005;  // samples nearer in time than that have one error [s]
-constexpr double kSpread = 0.05;       // of forces, without which they say nothing of the stiffness [N]
+constexpr double kTurnRate = 1;        // of the normal, largest [rad/s]
+constexpr double kSlip = 0.02;         // velocity across the normal above which the force contains friction [m/s]
+constexpr double kCorrelated = 0.005;  // samples nearer in time than this share one error [s]
+constexpr double kSpread = 0.05;       // spread of forces below which they do not determine the stiffness [N]
 constexpr double kTouchedMin = 0.05;   // [s]
 constexpr double kHand = 1 / 400.0;    // compliance of a hand's spring [m/N]
 
@@ -34,7 +34,7 @@ void PlaneEstimator::reset() noexcept {
   touches_ = touches;
 }
 
-/// What is known of the touch that ended is void.
+/// Ends the touch and discards what was learned about its surface.
 void PlaneEstimator::leave() noexcept {
   const Vector force = force_, x = x_, v = v_, a = a_;
   reset();
@@ -62,7 +62,7 @@ void PlaneEstimator::step(double dt, const Sample& sample) noexcept {
     force_ = sample.f;
   }
   heard_ = true;
-  for (std::size_t a = 0; a < axes_; ++a) {  // alike, so that pairs belong together
+  for (std::size_t a = 0; a < axes_; ++a) {  // equal filters keep the pairs of depth and force aligned
     force_[a] += part * (sample.f[a] - force_[a]);
     x_[a] += part * (sample.x[a] - x_[a]);
     const double before = v_[a];
@@ -82,8 +82,8 @@ void PlaneEstimator::step(double dt, const Sample& sample) noexcept {
   double depth = 0;
   for (std::size_t a = 0; a < axes_; ++a) depth -= normal_[a] * (x_[a] - origin_[a]);
   regress(dt, depth, dot(force_, normal_));
-  if (state_ == State::kTouching && touched_ >= kTouchedMin && doubt_ <= kDoubtMax) state_ = State::kKnown;
-  if (state_ == State::kKnown && doubt_ > 2 * kDoubtMax) state_ = State::kTouching;
+  if (state_ == State::kTouching && touched_ >= kTouchedMin && uncertainty_ <= kUncertaintyMax) state_ = State::kKnown;
+  if (state_ == State::kKnown && uncertainty_ > 2 * kUncertaintyMax) state_ = State::kTouching;
 }
 
 void PlaneEstimator::begin() noexcept {
@@ -92,7 +92,7 @@ void PlaneEstimator::begin() noexcept {
   state_ = State::kTouching;
   normal_ = scaled(force_, 1 / norm(force_));
   origin_ = x_;
-  doubt_ = std::numeric_limits<double>::infinity();
+  uncertainty_ = std::numeric_limits<double>::infinity();
 }
 
 void PlaneEstimator::turn(double dt, const Sample& sample) noexcept {
@@ -109,7 +109,7 @@ void PlaneEstimator::turn(double dt, const Sample& sample) noexcept {
   normal_ = scaled(normal_, 1 / norm(normal_));
 }
 
-/// Means, variances and covariance, older pairs counting less.
+/// Updates means, variances and covariance; older pairs count less.
 void PlaneEstimator::regress(double dt, double depth, double force) noexcept {
   weight_ = std::min(weight_ + dt, kForget);
   const double part = dt / weight_, du = depth - mean_u_, dn = force - mean_n_;
@@ -124,7 +124,7 @@ void PlaneEstimator::regress(double dt, double depth, double force) noexcept {
     const double slope = un_ / nn_, left = std::max(0.0, uu_ - un_ * un_ / nn_);
     compliance_ += settle * (std::clamp(slope, 1 / kStiffnessMax, 1 / kStiffnessMin) - compliance_);
     const double pairs = std::max(1.0, weight_ / kCorrelated);
-    doubt_ = std::sqrt(left / (nn_ * pairs)) / (compliance_ + kHand);
+    uncertainty_ = std::sqrt(left / (nn_ * pairs)) / (compliance_ + kHand);
   }
   place_ += settle * (depth - compliance_ * force - place_);
 }

@@ -2,15 +2,17 @@
 
 namespace tandem::control {
 
-/// What pulls at a mass along one axis: springs and dampers summed, so that an implicit step can take them all at its end.
+/// The sum of all springs and dampers that pull a mass along one axis, so that an implicit step can apply them at its
+/// end.
 struct Pull {
   double k = 0, k_anchor = 0;    ///< sums of stiffness, and of stiffness times anchor [N/m, N]
-  double b = 0, b_velocity = 0;  ///< sums of damping, and of damping times the velocity it is relative to [N s/m, N]
+  double b = 0, b_velocity = 0;  ///< sums of damping, and of damping times its reference velocity [N s/m, N]
+  /// Adds a spring. @param stiffness  [N/m]  @param anchor  position of its far end [m]
   void spring(double stiffness, double anchor) noexcept {
     k += stiffness;
     k_anchor += stiffness * anchor;
   }
-  /// @param velocity  it is relative to; 0: the ground
+  /// Adds a damper. @param gain  [N s/m]  @param velocity  to which the damping is relative [m/s]; 0: ground
   void damper(double gain, double velocity) noexcept {
     b += gain;
     b_velocity += gain * velocity;

@@ -6,7 +6,7 @@
 namespace tandem::control {
 
 namespace {
-constexpr double kUpToSpeed = 0.3;  // [s] from rest to the speed at which an offset goes home
+constexpr double kUpToSpeed = 0.3;  // [s] ramp from rest to the speed at which an offset decays
 
 Assist::Params assist_of(const ToolCopy::Params& p) noexcept {
   Assist::Params own = p.assist;
@@ -15,17 +15,21 @@ Assist::Params assist_of(const ToolCopy::Params& p) noexcept {
   own.dt = p.dt;
   return own;
 }
-}
+}  // namespace
 
-ToolCopy::ToolCopy(const Params& params) noexcept : p_(params), tool_(params.tool, params.axes, params.contacts), told_({params.axes, params.v_app, params.k_c, params.dt}), assist_(assist_of(params)) {
+ToolCopy::ToolCopy(const Params& params) noexcept
+    : p_(params),
+      tool_(params.tool, params.axes, params.contacts),
+      received_contacts_({params.axes, params.v_app, params.k_c, params.dt}),
+      assist_(assist_of(params)) {
   hand_.fill(HandVelocity(params.dt));
   anchor_.fill(HandMotionFilter(params.dt));
 }
 
 void ToolCopy::rest_at(const AxisArray& tool, const AxisArray& hand) noexcept {
   tool_.rest_at(tool);
-  told_.clear();
-  tool_.stream(told_.surfaces());
+  received_contacts_.clear();
+  tool_.set_received_contacts(received_contacts_.surfaces());
   for (std::size_t a = 0; a < p_.axes; ++a) {
     shown_[a] = tool[a];
     offset_[a] = hand[a] - tool[a];
@@ -37,7 +41,7 @@ void ToolCopy::rest_at(const AxisArray& tool, const AxisArray& hand) noexcept {
   assist_.rest();
 }
 
-void ToolCopy::see_leader(const AxisArray& x, const AxisArray& velocity, bool touching) noexcept {
+void ToolCopy::set_leader(const AxisArray& x, const AxisArray& velocity, bool touching) noexcept {
   leader_.led = true;
   leader_.touching = touching;
   leader_.ahead = x;
@@ -46,17 +50,17 @@ void ToolCopy::see_leader(const AxisArray& x, const AxisArray& velocity, bool to
 
 const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, ChannelEnd& end) noexcept {
   engaged_for_ += p_.dt;
-  let_offset_grow(hand);
-  bring_offset_home(end);
-  pull_to_leader(hand, authority, end);
-  meet_told(end);
+  grow_offset(hand);
+  decay_offset(end);
+  apply_assist(hand, authority, end);
+  apply_received_contacts(end);
   const EndState& reference = end.state();
   const double own = std::clamp(authority, 0.0, 1.0), alone = 1 - own;
   VirtualTool::Pulls pulls{}, without_dampers{};
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double q = place(hand, a);
     const double velocity = hand_[a].step(hand[a]);
-    pulls[a].spring(own * pull_ * p_.k_c, q - lag_[a]);  // by the force that the hand feels
+    pulls[a].spring(own * pull_ * p_.k_c, q - lag_[a]);  // with the force that the hand feels
     pulls[a].spring(reference.k[a], reference.ref[a]);
     without_dampers[a] = pulls[a];
     const double part = tool_.relative_damping_share(a, p_.b_rel, alone * p_.b_rel, p_.k_c, reference.k[a]);
@@ -69,7 +73,8 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
     tool_ = before;
     tool_.step(p_.dt, without_dampers);
   }
-  // What moves the copy beside this hand; the whole, as a share, of what the hand feels and the copy does not.
+  // Share of the copy's motion that does not come from this hand. It includes, as a share, the force that the hand
+  // feels and the copy does not.
   const double others = pull_ == share_ ? alone : 1 - own * pull_ / share_;
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double v = tool_.v(a);
@@ -79,10 +84,11 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
   return wanted_;
 }
 
-/// While the gate ramps in, a tool that moves on winds up the spring of a hand that is hardly pulled yet; let go at full force, a relaxed hand
-/// flew at 0.9 m/s. So the offset takes what the motor could not give anyway. What the spring loses so is lost: nothing is credited.
-void ToolCopy::let_offset_grow(const AxisArray& hand) noexcept {
-  if (engaged_for_ >= p_.offset_rests) return;
+/// Moves into the offset the elongation for which the motor had no force during the ramp of the gate. A tool that moves
+/// on would wind up the spring of a hand that is hardly pulled yet. Released at full force, a relaxed hand reached 0.9
+/// m/s. Energy that the spring loses here is dropped and never credited.
+void ToolCopy::grow_offset(const AxisArray& hand) noexcept {
+  if (engaged_for_ >= p_.offset_hold) return;
   const double reach = p_.force_max / p_.k_c;
   AxisArray wound{};
   double square = 0;
@@ -95,15 +101,15 @@ void ToolCopy::let_offset_grow(const AxisArray& hand) noexcept {
   for (std::size_t a = 0; a < p_.axes; ++a) offset_[a] -= beyond * wound[a];
 }
 
-void ToolCopy::meet_told(ChannelEnd& end) noexcept {
+void ToolCopy::apply_received_contacts(ChannelEnd& end) noexcept {
   const AxisArray x{tool_.x(0), tool_.x(1), tool_.x(2)};
-  if (told_.step(x, &end)) tool_.stream(told_.surfaces());
+  if (received_contacts_.step(x, &end)) tool_.set_received_contacts(received_contacts_.surfaces());
 }
 
-/// A hand that holds still is pulled nowhere by a spring that only grows, so an offset stays until the gate has ramped in, and then
-/// gets up to its speed by and by.
-void ToolCopy::bring_offset_home(ChannelEnd& end) noexcept {
-  const double pace = std::clamp((engaged_for_ - p_.offset_rests) / kUpToSpeed, 0.0, 1.0);
+/// Decays the offset. It stays until the gate has ramped in, because a growing spring does not move a hand that holds
+/// still. Its speed is then ramped up over kUpToSpeed.
+void ToolCopy::decay_offset(ChannelEnd& end) noexcept {
+  const double pace = std::clamp((engaged_for_ - p_.offset_hold) / kUpToSpeed, 0.0, 1.0);
   const double most = pace * p_.v_app * p_.dt;
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double step = -std::clamp(offset_[a], -most, most);
@@ -111,11 +117,12 @@ void ToolCopy::bring_offset_home(ChannelEnd& end) noexcept {
   }
 }
 
-/// An offset goes home first: what it leaves beside the leader is not the hand's. The step is paid at the spring's new force, which is
-/// never less than its work; in all axes or not at all, so that the pull stays within its bound.
-void ToolCopy::pull_to_leader(const AxisArray& hand, double authority, ChannelEnd& end) noexcept {
+/// Applies the assist once the offset decays, because what the offset leaves between the hands is not an error of this
+/// hand. The step is paid at the spring's new force, which is never less than its work. All axes pay or none does, so
+/// that the pull stays within its bound.
+void ToolCopy::apply_assist(const AxisArray& hand, double authority, ChannelEnd& end) noexcept {
   if (!assist_.on()) return;
-  leader_.led = leader_.led && engaged_for_ >= p_.offset_rests;
+  leader_.led = leader_.led && engaged_for_ >= p_.offset_hold;
   leader_.authority = authority;
   leader_.touching |= tool_.penetration() > 0;
   for (std::size_t a = 0; a < p_.axes; ++a) leader_.ahead[a] -= hand[a] - offset_[a];
@@ -124,7 +131,8 @@ void ToolCopy::pull_to_leader(const AxisArray& hand, double authority, ChannelEn
   AxisArray cost{};
   for (std::size_t a = 0; a < p_.axes; ++a) {
     const double work = p_.k_c * (shown_[a] - place(hand, a) + step[a]) * step[a];
-    cost[a] = work > 0 ? work : share_ * work;  // as if the whole force were given, which it will be; and back only what was
+    // Charged for the whole force, which will be given; refunded only for the given share.
+    cost[a] = work > 0 ? work : share_ * work;
     if (cost[a] > 0 && !(cost[a] < end.ledger(a).margin())) return end.note_refused(cost[a]);
   }
   for (std::size_t a = 0; a < p_.axes; ++a)
@@ -144,8 +152,8 @@ bool ToolCopy::pay_for_dampers(const VirtualTool::Pulls& pulls, const VirtualToo
   return true;
 }
 
-/// The hand feels the copy as far as is paid. The copy moved by dx and gave the spring a F dx, which moves the spring's end by a dx; its way
-/// beyond that, k (y' - q)(y' - y - a dx), is paid.
+/// Shows the hand the motion of the copy as far as it is paid. The copy moved by dx and gave the spring a F dx, which
+/// moves the spring's end by a dx. The rest of its path, k (y' - q)(y' - y - a dx), is paid.
 /// @param others  (1 - a) dx [m]
 void ToolCopy::show(std::size_t axis, double hand, double others, ChannelEnd& end) noexcept {
   const double k = share_ * p_.k_c;
@@ -166,9 +174,10 @@ void ToolCopy::show(std::size_t axis, double hand, double others, ChannelEnd& en
   wanted_[axis] = p_.k_c * shown;
 }
 
-/// The gate gives nothing, as the energy of a silence is spent: hand and copy part without a force that anybody pays for. If the spring kept that
-/// way, it would come back with the next word as a step of force, and with energy that nobody paid. So the offset takes it.
-void ToolCopy::let_spring_go() noexcept {
+/// Moves the elongation of the spring into the offset while the gate passes no effort because the energy of a silence
+/// is spent. Hand and copy then separate without any force that an account pays for. A spring that kept the elongation
+/// would return it with the next datagram as a step of force with unpaid energy.
+void ToolCopy::release_spring() noexcept {
   for (std::size_t a = 0; a < p_.axes; ++a) {
     offset_[a] -= wanted_[a] / p_.k_c - lag_[a];  // also of what the hand was not shown
     shown_[a] = tool_.x(a);
@@ -189,12 +198,13 @@ std::optional<double> ToolCopy::share_of(const AxisArray& given, const AxisArray
 void ToolCopy::delivered(const AxisArray& effort) noexcept {
   share_ = share_of(effort, wanted_, p_.axes).value_or(share_);
   pull_ = share_;
-  if (p_.of_several) {  // two tools that part pull a hand to both sides: the motor gives the difference only, and pulls neither harder than it could
+  if (p_.of_several) {  // Two tools that separate pull a hand in opposite directions: the motor gives only the
+                        // difference, and each pull is limited to its force.
     double square = 0;
     for (std::size_t a = 0; a < p_.axes; ++a) square += wanted_[a] * wanted_[a];
     if (share_ * share_ * square > p_.force_max * p_.force_max) pull_ = p_.force_max / std::sqrt(square);
   }
-  if (std::ranges::all_of(effort, [](double f) { return f == 0; })) let_spring_go();
+  if (std::ranges::all_of(effort, [](double f) { return f == 0; })) release_spring();
   for (std::size_t a = 0; a < p_.axes; ++a) anchor_[a].step(tool_.x(a) - pull_ * wanted_[a] / p_.k_c);
 }
 

@@ -10,7 +10,7 @@ namespace {
 using Vector = std::array<double, VirtualTool::kAxes>;
 using Matrix = std::array<Vector, VirtualTool::kAxes>;
 
-/// Friction that holds is damping so large that the tool creeps by 0.01 mm/s under 1 kN [N s/m].
+/// Static friction is modelled as damping so large that the tool creeps by 0.01 mm/s under 1 kN [N s/m].
 constexpr double kHolds = 1e8;
 
 double dot(const Vector& a, const Vector& b) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -63,12 +63,13 @@ bool VirtualTool::step(double dt, const Pulls& pulls) noexcept {
   return true;
 }
 
-void VirtualTool::stream(const ContactSet& told) noexcept {
+void VirtualTool::set_received_contacts(const ContactSet& told) noexcept {
   contacts_.keep(own_contacts_);
   for (std::size_t c = 0; c < told.size(); ++c) contacts_.add(told[c]);
 }
 
-/// Which surfaces are met is found by rounds: one that the step would enter is added, one that would have to pull is taken out.
+/// Determines the touched surfaces by rounds: a surface that the step would enter is added; one that would have to pull
+/// is removed.
 void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector& velocity) noexcept {
   surface_force_ = surface_k_ = surface_b_ = {};
   if (contacts_.size() == 0) return;
@@ -87,7 +88,8 @@ void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector& veloci
       const double along = dot(contacts_[c].normal, velocity);
       const bool pushes = surfaces[c].force - surfaces[c].gain * along > 0;
       const bool inside = contacts_[c].penetration(x_) - dt * along > 0;
-      // Once met it stays so while it pushes: its damping may hold the tool just outside, and without it the tool would be inside.
+      // A touched surface stays touched while it pushes: its damping may hold the tool just outside, and without it the
+      // tool would be inside.
       const bool met = pushes && (inside || surfaces[c].met);
       changed = changed || met != surfaces[c].met;
       surfaces[c].met = met;
@@ -99,13 +101,14 @@ void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector& veloci
     }
     if (rubs) {
       rounds = kRoundsRubbing;
-      rub_surfaces(dt, free, surfaces, velocity);
+      apply_friction(dt, free, surfaces, velocity);
     } else {
       for (Met& surface : surfaces) surface.drag = 0;
       velocity = with_surfaces(dt, free, surfaces);
     }
   }
-  // Rare, between three stiff surfaces: no set of them agrees with its own step. The tool stands still for this tick, which makes no energy.
+  // Rare, between three stiff surfaces: no set of them is consistent with its own step. The tool rests for this tick,
+  // which creates no energy.
   if (!settled) velocity = {};
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (!surfaces[c].met) continue;
@@ -127,17 +130,22 @@ Vector VirtualTool::with_surfaces(double dt, Equations equations, const Surfaces
     const Vector& n = contacts_[c].normal;
     for (std::size_t i = 0; i < axes_; ++i) {
       equations.rhs[i] += dt * surfaces[c].force * n[i];
-      for (std::size_t j = 0; j < axes_; ++j) equations.matrix[i][j] += dt * ((surfaces[c].gain - surfaces[c].drag) * n[i] * n[j] + (i == j ? surfaces[c].drag : 0));
+      for (std::size_t j = 0; j < axes_; ++j)
+        equations.matrix[i][j] +=
+            dt * ((surfaces[c].gain - surfaces[c].drag) * n[i] * n[j] + (i == j ? surfaces[c].drag : 0));
     }
   }
   return solved(equations.matrix, equations.rhs);
 }
 
-/// Coulomb friction at the end of the step. A surface holds the tool where mu times its force is enough; else it drags with just that, written
-/// as damping: what only ever opposes the slip cannot make energy, nor chatter. Exact at once where one surface is met and all axes
-/// are alike; else by a few rounds.
-void VirtualTool::rub_surfaces(double dt, const Equations& free, Surfaces& surfaces, Vector& velocity) const noexcept {
-  for (std::size_t c = 0; c < contacts_.size(); ++c) surfaces[c].drag = surfaces[c].met && contacts_[c].mu > 0 ? kHolds : 0;
+/// Applies Coulomb friction at the end of the step. A surface holds the tool where mu times its force suffices.
+/// Otherwise it drags with exactly that force, written as damping: a force that only opposes the slip creates no energy
+/// and no chatter. One round is exact where one surface is touched and all axes are alike; other cases take a few
+/// rounds.
+void VirtualTool::apply_friction(double dt, const Equations& free, Surfaces& surfaces,
+                                 Vector& velocity) const noexcept {
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    surfaces[c].drag = surfaces[c].met && contacts_[c].mu > 0 ? kHolds : 0;
   velocity = with_surfaces(dt, free, surfaces);
   constexpr int kRounds = 5;
   bool too_much = true;
@@ -148,7 +156,8 @@ void VirtualTool::rub_surfaces(double dt, const Equations& free, Surfaces& surfa
       if (surface.drag == 0) continue;
       const Vector slip = across(contacts_[c], velocity);
       const double rate = std::sqrt(dot(slip, slip));
-      const double most = contacts_[c].mu * std::max(0.0, surface.force - surface.gain * dot(contacts_[c].normal, velocity));
+      const double most =
+          contacts_[c].mu * std::max(0.0, surface.force - surface.gain * dot(contacts_[c].normal, velocity));
       if (surface.drag * rate <= most * (1 + 1e-9)) continue;
       double inertia = 0;  // of the tool, its springs and dampers along the slip
       for (std::size_t a = 0; a < axes_; ++a) inertia += free.matrix[a][a] * slip[a] * slip[a] / (rate * rate);
@@ -160,7 +169,7 @@ void VirtualTool::rub_surfaces(double dt, const Equations& free, Surfaces& surfa
   }
 }
 
-/// The part of a vector that lies in the surface, in the axes that this tool has.
+/// Returns the part of a vector that lies in the surface, in the axes of this tool.
 Vector VirtualTool::across(const Contact& contact, const Vector& vector) const noexcept {
   const double along = dot(contact.normal, vector);
   Vector out{};

@@ -9,48 +9,58 @@
 
 namespace tandem::control {
 
-/// A tool without a device: a mass that meets its surfaces itself. The server steps one per tool, every client a copy of it, by this very
-/// code. Implicit: springs, dampers, surfaces and their friction act at the end of the step, so no step creates energy whatever their gains
-/// are [Stramigioli, LNCIS 266, 2001]; several surfaces are solved for together.
+/// A tool without a device: a mass that touches its surfaces itself. The server steps one per tool and every client
+/// steps a copy of it, with this same code. The step is implicit: springs, dampers, surfaces and their friction act at
+/// its end. No step therefore creates energy, for any gains [Stramigioli, LNCIS 266, 2001]. Several surfaces are solved
+/// together.
 class VirtualTool {
  public:
   static constexpr std::size_t kAxes = 3;
 
+  /// Inertia and damping of the tool.
   struct Gains {
     double m = 0.02;  ///< [kg], above 0
     double b = 0.2;   ///< towards the ground [N s/m]
   };
+  /// Springs and dampers on the tool, per axis.
   using Pulls = std::array<Pull, kAxes>;
 
-  /// @param axes  1 to 3; the others stand still at 0
+  /// @param axes  1 to 3; the other axes stay at 0
   VirtualTool(const Gains& gains, std::size_t axes, const ContactSet& contacts = {}) noexcept
       : gains_(gains), axes_(axes), own_contacts_(contacts.size()), contacts_(contacts) {}
 
-  /// Replaces the surfaces that it meets beside those it was made with. What has no room is left out.
-  void stream(const ContactSet& told) noexcept TANDEM_REALTIME;
+  /// Replaces the surfaces received from the server; those of the constructor stay. Surfaces beyond the capacity are
+  /// omitted.
+  void set_received_contacts(const ContactSet& told) noexcept TANDEM_REALTIME;
 
+  /// Places the tool at `x` [m], at rest.
   void rest_at(const AxisArray& x) noexcept;
-  /// One step of length `dt` [s]. What is not finite leaves the tool where it was, at rest. @return whether it was finite.
+  /// Advances by one step of length `dt` [s]. If the result is not finite, the tool stays where it was, at rest.
+  /// @return whether the result was finite.
   bool step(double dt, const Pulls& pulls) noexcept TANDEM_REALTIME;
 
+  /// Position [m].
   [[nodiscard]] double x(std::size_t axis) const noexcept { return x_[axis]; }
+  /// Velocity [m/s].
   [[nodiscard]] double v(std::size_t axis) const noexcept { return v_[axis]; }
   [[nodiscard]] const Gains& gains() const noexcept { return gains_; }
   [[nodiscard]] std::size_t axes() const noexcept { return axes_; }
   /// Force of all surfaces on the tool at the end of the last step [N].
   [[nodiscard]] const std::array<double, kAxes>& surface_force() const noexcept { return surface_force_; }
-  /// Damping relative to what drives a tool has no reaction on the hand: beside a stiff surface it would make energy.
+  /// Limits damping relative to the motion that drives the tool. Such damping has no reaction on the hand, so at a
+  /// stiff surface it would create energy.
   /// @param b_rel   wanted, above 0 [N s/m]  @param b_others  other damping along this axis [N s/m]
   /// @param k_c     of the spring that the hand feels  @param k_others  of other springs [N/m]
   /// @return share of b_rel that may act (0, 1]
-  [[nodiscard]] double relative_damping_share(std::size_t axis, double b_rel, double b_others, double k_c, double k_others) const noexcept {
+  [[nodiscard]] double relative_damping_share(std::size_t axis, double b_rel, double b_others, double k_c,
+                                              double k_others) const noexcept {
     if (!(surface_k_[axis] > 0)) return 1;
     const double most = (gains_.b + surface_b_[axis] + b_others) * k_c / (surface_k_[axis] + k_others);
     return most < b_rel ? most / b_rel : 1;
   }
-  /// Deepest penetration [m], 0 without contact.
+  /// Deepest penetration [m]; 0 without contact.
   [[nodiscard]] double penetration() const noexcept;
-  /// What all surfaces store [J].
+  /// Energy stored in all surfaces [J].
   [[nodiscard]] double surface_energy() const noexcept;
 
  private:
@@ -60,19 +70,25 @@ class VirtualTool {
     std::array<double, kAxes> rhs{};
   };
   struct Met {
+    /// State of one surface within a step.
     bool met = false;
     double force = 0, gain = 0;  ///< the surface's force is force - gain * (normal . velocity)
     double drag = 0;             ///< friction as damping across the surface [N s/m]
   };
   using Surfaces = std::array<Met, ContactSet::kMax>;
+  /// Finds the touched surfaces and the velocity at the end of the step.
   void meet_surfaces(double dt, const Equations& free, std::array<double, kAxes>& velocity) noexcept;
-  [[nodiscard]] std::array<double, kAxes> with_surfaces(double dt, Equations equations, const Surfaces& surfaces) const noexcept;
-  void rub_surfaces(double dt, const Equations& free, Surfaces& surfaces, std::array<double, kAxes>& velocity) const noexcept;
-  [[nodiscard]] std::array<double, kAxes> across(const Contact& contact, const std::array<double, kAxes>& vector) const noexcept;
+  /// Returns the velocity at the end of the step with the touched surfaces.
+  [[nodiscard]] std::array<double, kAxes> with_surfaces(double dt, Equations equations,
+                                                        const Surfaces& surfaces) const noexcept;
+  void apply_friction(double dt, const Equations& free, Surfaces& surfaces,
+                      std::array<double, kAxes>& velocity) const noexcept;
+  [[nodiscard]] std::array<double, kAxes> across(const Contact& contact,
+                                                 const std::array<double, kAxes>& vector) const noexcept;
 
   Gains gains_;
   std::size_t axes_;
-  std::size_t own_contacts_;  ///< the first so many of `contacts_`
+  std::size_t own_contacts_;  ///< number of leading entries of `contacts_` that come from the constructor
   ContactSet contacts_;
   std::array<double, kAxes> x_{}, v_{};
   std::array<double, kAxes> surface_force_{}, surface_k_{}, surface_b_{};

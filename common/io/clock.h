@@ -4,7 +4,7 @@
 
 #include "common/base/time.h"
 
-/// The clocks of this machine, for pumps: cores are told the time.
+/// The clocks of this machine, for I/O loops; cores receive the time as an argument.
 namespace tandem::io {
 
 [[nodiscard]] inline Duration read_clock(clockid_t clock) noexcept {
@@ -13,10 +13,10 @@ namespace tandem::io {
   return std::chrono::seconds(t.tv_sec) + Duration{t.tv_nsec};
 }
 
-/// CLOCK_MONOTONIC as the time cores live in.
+/// Returns CLOCK_MONOTONIC as the time type of the cores.
 [[nodiscard]] inline Time monotonic_now() noexcept { return Time{read_clock(CLOCK_MONOTONIC)}; }
 
-/// For system calls that wait; negative durations become 0.
+/// Converts for system calls that wait; negative durations become 0.
 [[nodiscard]] inline timespec to_timespec(Duration d) noexcept {
   if (d < Duration::zero()) d = Duration::zero();
   const auto whole = std::chrono::duration_cast<std::chrono::seconds>(d);

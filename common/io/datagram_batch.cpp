@@ -41,11 +41,11 @@ ReceiveBatch::ReceiveBatch() : data_(std::make_unique<std::byte[]>(kMax * kSlotB
 }
 
 void ReceiveBatch::prepare(int fd, int family, bool local, int buffer_bytes) noexcept {
-  // All of these are wishes: without them datagrams flow as well, with less to tell.
+  // All of these are optional: without them datagrams are received with fewer details.
   const int on = 1;
   setsockopt(fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   setsockopt(fd, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
-  // The usual limit holds about 280 small datagrams; root may have more.
+  // The usual limit holds about 280 small datagrams; root may exceed it.
   if (setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &buffer_bytes, sizeof buffer_bytes) != 0) {
     setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &buffer_bytes, sizeof buffer_bytes);
   }
@@ -68,7 +68,7 @@ int ReceiveBatch::receive(int fd) noexcept {
     header.msg_flags = 0;
   }
   const int count = recvmmsg(fd, headers_.data(), kMax, MSG_DONTWAIT, nullptr);
-  // The one after the last may have been begun before the kernel found nothing for it.
+  // The kernel may have changed the header after the last received one before it found no datagram for it.
   used_ = std::min<std::size_t>(count < 0 ? kMax : static_cast<std::size_t>(count) + 1, kMax);
   if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return 0;
   return count;
@@ -106,7 +106,7 @@ void SendBatch::add(std::span<const std::byte> bytes, const SocketAddress* to, c
   if (count_ == kMax) return;
   msghdr& message = headers_[count_].msg_hdr;
   message = {};
-  // sendmmsg only reads them, but its structures were made for both ways.
+  // sendmmsg only reads these bytes, but its structures also serve reception.
   pieces_[count_] = {const_cast<std::byte*>(bytes.data()), bytes.size()};
   message.msg_iov = &pieces_[count_];
   message.msg_iovlen = 1;
@@ -146,7 +146,7 @@ SendBatch::Result SendBatch::send(int fd) noexcept {
     }
     if (errno == EINTR) continue;
     if (errno == ECONNREFUSED) {
-      // News about an earlier datagram, not about this one: ask once more before giving it up.
+      // This error concerns an earlier datagram: retry once before dropping this one.
       ++result.refused;
       if (!std::exchange(retried, true)) continue;
     } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {

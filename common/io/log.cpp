@@ -21,8 +21,8 @@
 namespace tandem::io {
 namespace {
 
-constexpr std::size_t kLinesMax = 8192;  // that may wait to be written
-constexpr char kMembers = '\x1f';        // first character of what is JSON already
+constexpr std::size_t kLinesMax = 8192;  // capacity of the write queue
+constexpr char kMembers = '\x1f';        // first character of a payload that is already JSON
 
 std::atomic<bool> as_json{false};
 std::shared_ptr<spdlog::logger>& logger_before() {
@@ -42,7 +42,7 @@ spdlog::level::level_enum level_of(Level level) {
   return spdlog::level::err;
 }
 
-/// As a JSON string. Texts are ours, or UTF-8 that the codec has judged.
+/// Appends a JSON string. Texts come from this program, or are UTF-8 that the codec has validated.
 void append_quoted(std::string& out, std::string_view text) {
   out += '"';
   for (const char c : text) {
@@ -77,12 +77,16 @@ class JsonLines final : public spdlog::formatter {
     const std::time_t whole = us / 1'000'000;
     std::tm utc{};
     gmtime_r(&whole, &utc);
-    // Both clocks now, and how long ago it was.
-    const double ago = 1e-6 * static_cast<double>(std::chrono::duration_cast<std::chrono::microseconds>(read_clock(CLOCK_REALTIME) - since_epoch).count());
+    // The monotonic time of the event follows from both clocks now and the age of the event.
+    const double ago =
+        1e-6 *
+        static_cast<double>(
+            std::chrono::duration_cast<std::chrono::microseconds>(read_clock(CLOCK_REALTIME) - since_epoch).count());
     const double mono = seconds(monotonic_now().time_since_epoch()) - ago;
     char head[128];
-    std::snprintf(head, sizeof head, "{\"ts\":\"%04d-%02d-%02dT%02d:%02d:%02d.%06ldZ\",\"mono\":%.6f,\"level\":\"%s\",", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
-                  utc.tm_hour, utc.tm_min, utc.tm_sec, static_cast<long>(us % 1'000'000), mono, name_of(message.level));
+    std::snprintf(head, sizeof head, "{\"ts\":\"%04d-%02d-%02dT%02d:%02d:%02d.%06ldZ\",\"mono\":%.6f,\"level\":\"%s\",",
+                  utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
+                  static_cast<long>(us % 1'000'000), mono, name_of(message.level));
     std::string line = head;
     const std::string_view payload{message.payload.data(), message.payload.size()};
     if (!payload.empty() && payload.front() == kMembers) {
@@ -102,8 +106,8 @@ class JsonLines final : public spdlog::formatter {
   }
 };
 
-/// Lines for people. On a terminal a long line is broken between words at the width that the terminal has now, and a status that stands there
-/// is cleared first.
+/// Log lines for terminals. Long lines are wrapped between words at the terminal's present width, and a displayed
+/// status block is cleared first.
 class LinesForPeople final : public spdlog::formatter {
  public:
   LinesForPeople() : breaks_(text_width(stderr).has_value()) {}
@@ -111,7 +115,7 @@ class LinesForPeople final : public spdlog::formatter {
     if (!breaks_) return pattern_.format(message, out);
     spdlog::memory_buf_t line;
     pattern_.format(message, line);
-    const std::string_view clearing = ScreenBlock::take_clearing();
+    const std::string_view clearing = ScreenBlock::take_clear_sequence();
     message.color_range_start += clearing.size();
     message.color_range_end += clearing.size();
     std::string text{clearing};
@@ -119,7 +123,7 @@ class LinesForPeople final : public spdlog::formatter {
     const std::size_t width = text_width(stderr).value_or(79);
     while (!rest.empty()) {
       const std::string_view one = rest.substr(0, rest.find('\n'));
-      for (const std::string& part : wrapped(one, width, kIndent)) text += part + "\n";
+      for (const std::string& part : wrap_words(one, width, kIndent)) text += part + "\n";
       rest.remove_prefix(std::min(rest.size(), one.size() + 1));
     }
     out.append(text.data(), text.data() + text.size());
@@ -141,10 +145,11 @@ void log_to_stderr(const char* program) {
 }
 
 void log_as_json(Level least) {
-  // The thread that writes must leave signals to the one who waits for them: call after signals_as_file().
+  // The writing thread must inherit the signal mask, so call this after make_signalfd().
   spdlog::init_thread_pool(kLinesMax, 1);
-  auto logger = std::make_shared<spdlog::async_logger>("json", std::make_shared<spdlog::sinks::stderr_sink_mt>(), spdlog::thread_pool(),
-                                                       spdlog::async_overflow_policy::overrun_oldest);
+  auto logger =
+      std::make_shared<spdlog::async_logger>("json", std::make_shared<spdlog::sinks::stderr_sink_mt>(),
+                                             spdlog::thread_pool(), spdlog::async_overflow_policy::overrun_oldest);
   logger->set_formatter(std::make_unique<JsonLines>());
   logger->set_level(level_of(least));
   logger_before() = spdlog::default_logger();
@@ -159,15 +164,16 @@ std::uint64_t log_dropped() {
   return pool ? pool->overrun_counter() : 0;
 }
 
-void end_log() {
+void stop_log() {
   if (!as_json) return;
-  if (const std::uint64_t dropped = log_dropped(); dropped > 0) tell(Level::kWarn, {.event = "log_dropped", .text = std::to_string(dropped) + " lines were dropped"});
+  if (const std::uint64_t dropped = log_dropped(); dropped > 0)
+    log_event(Level::kWarn, {.event = "log_dropped", .text = std::to_string(dropped) + " lines were dropped"});
   as_json = false;
   spdlog::shutdown();
   spdlog::set_default_logger(std::move(logger_before()));
 }
 
-void tell(Level level, const Happening& h) {
+void log_event(Level level, const LogEvent& h) {
   if (!as_json) return;
   std::string line{kMembers};
   line += "\"event\":";

@@ -6,33 +6,33 @@
 
 namespace tandem::io {
 
-/// Makes the default logger write to standard error, each line beginning with the program's name: standard output
-/// belongs to results. For ordinary threads only; spdlog takes a lock.
+/// Makes the default logger write to standard error, with the program's name before each line: standard output is for
+/// results. For non-real-time threads only, because spdlog takes a lock.
 void log_to_stderr(const char* program);
 
 enum class Level : std::uint8_t { kInfo, kWarn, kError };
 
-/// From now on one JSON object per line on standard error, for a journal: `ts` (UTC), `mono` [s of CLOCK_MONOTONIC], `level`, `event`, and
-/// what is known of `session`, `seat`, `cid`, `tick`, `text`. A thread of its own writes; when it cannot keep up the oldest lines go and
-/// are counted. What was logged by text only has the event `message`.
-/// @param least  this level and graver
+/// Switches to one JSON object per line on standard error, for a journal. Members: `ts` (UTC), `mono` [s of
+/// CLOCK_MONOTONIC], `level`, `event`, and where known `session`, `seat`, `cid`, `tick`, `text`. A separate thread
+/// writes; if it cannot keep up, the oldest lines are dropped and counted. Plain text lines get the event `message`.
+/// @param least  lowest level that is logged
 void log_as_json(Level least);
-/// Whether that is so.
+/// Returns whether `log_as_json` is active.
 [[nodiscard]] bool logs_json() noexcept;
-/// Lines that were dropped so far.
+/// Returns the number of dropped lines so far.
 [[nodiscard]] std::uint64_t log_dropped();
-/// Waits until everything is written, and ends the thread. Before the program ends.
-void end_log();
+/// Waits until all lines are written, and ends the thread. Call before the program ends.
+void stop_log();
 
-/// Something that happened. No secrets, no names of people.
-struct Happening {
-  std::string event;                   ///< one word
+/// Structured log event. It must not contain secrets or names of users.
+struct LogEvent {
+  std::string event;  ///< one word
   std::string session{}, seat{};
   std::optional<std::uint32_t> cid{};
   std::optional<std::uint64_t> tick{};
-  std::string text{};                  ///< for a person
+  std::string text{};  ///< for users
 };
-/// Only with `log_as_json`: people at a terminal are told otherwise.
-void tell(Level level, const Happening& happening);
+/// Logs an event; has an effect only after `log_as_json`, because terminals show other messages.
+void log_event(Level level, const LogEvent& happening);
 
 }  // namespace tandem::io

@@ -9,9 +9,9 @@
 
 namespace tandem::io {
 
-/// A decimal number in [lo, hi]: whole text, finite. CLI11's own ranges let `nan` pass. Where the unit is fixed it may be written behind the number
-/// (`20`, `20ms`, `20 ms`); another unit is a mistake, as nothing is converted.
-/// The text becomes the bare number: give it to `Option::transform` (`check` would leave the unit in it).
+/// Validates a decimal number in [lo, hi]: whole text, finite. CLI11's own ranges accept `nan`. Where the unit is
+/// fixed, it may follow the number (`20`, `20ms`, `20 ms`). Another unit is an error, because nothing is converted. The
+/// text becomes the bare number: pass the validator to `Option::transform` (`check` would leave the unit in the text).
 [[nodiscard]] inline CLI::Validator number_in(double lo, double hi, const std::string& unit) {
   std::ostringstream range;
   range.precision(12);  // 3000000, not 3e+06
@@ -25,7 +25,8 @@ namespace tandem::io {
     const bool number = error == std::errc{} && std::isfinite(value);
     const bool looks_like_unit = !rest.empty() && rest.find_first_of("0123456789.,+-") == std::string_view::npos;
     if (number && looks_like_unit && rest != unit)
-      return "\"" + text + "\" has the unit " + std::string(rest) + ": must be a number in " + allowed + (unit.empty() ? ", without a unit" : "; the unit is " + unit + ", and may be left out");
+      return "\"" + text + "\" has the unit " + std::string(rest) + ": must be a number in " + allowed +
+             (unit.empty() ? ", without a unit" : "; the unit is " + unit + ", and may be left out");
     if (!number || (!rest.empty() && rest != unit)) return "\"" + text + "\" is not a number: must be in " + allowed;
     if (value < lo || value > hi) return "\"" + text + "\" is out of range: must be in " + allowed;
     text.resize(static_cast<std::size_t>(end - text.data()));
@@ -34,7 +35,7 @@ namespace tandem::io {
   return {check, "in " + allowed};
 }
 
-/// A whole number from 0 to 2^64 - 1.
+/// Validates a whole number from 0 to 2^64 - 1.
 [[nodiscard]] inline CLI::Validator whole_number() {
   const auto check = [](std::string& text) {
     std::uint64_t value = 0;

@@ -9,17 +9,24 @@
 
 namespace tandem::io {
 
-std::string why_not_written(int error) {
+std::string write_error_text(int error) {
   const std::string said = std::strerror(error);
   switch (error) {
-    case ENOSPC: return "the disk is full (" + said + "); free some space there, then repeat";
-    case EDQUOT: return "this user's share of the disk is full (" + said + "); free some space there, then repeat";
+    case ENOSPC:
+      return "the disk is full (" + said + "); free some space there, then repeat";
+    case EDQUOT:
+      return "this user's share of the disk is full (" + said + "); free some space there, then repeat";
     case EACCES:
-    case EPERM: return "no permission (" + said + "); name a place where this user may write";
-    case EROFS: return "the disk is mounted read-only (" + said + "); name another place";
-    case EFBIG: return "the file would be larger than allowed here (" + said + ")";
-    case EIO: return "the disk reports an error (" + said + ")";
-    default: return said;
+    case EPERM:
+      return "no permission (" + said + "); name a place where this user may write";
+    case EROFS:
+      return "the disk is mounted read-only (" + said + "); name another place";
+    case EFBIG:
+      return "the file would be larger than allowed here (" + said + ")";
+    case EIO:
+      return "the disk reports an error (" + said + ")";
+    default:
+      return said;
   }
 }
 
@@ -34,7 +41,7 @@ std::string OutputFile::problem(const std::string& name) {
   const std::filesystem::path parent = std::filesystem::path(name).parent_path();
   const std::string target = exists ? name : parent.empty() ? "." : parent.string();
   if (access(target.c_str(), W_OK) == 0 && (exists || std::filesystem::is_directory(target, error))) return {};
-  return name + " cannot be written: " + (exists ? "" : target + ": ") + why_not_written(errno != 0 ? errno : ENOTDIR);
+  return name + " cannot be written: " + (exists ? "" : target + ": ") + write_error_text(errno != 0 ? errno : ENOTDIR);
 }
 
 std::string OutputFile::open(const std::string& name, bool dash_is_stdout) {
@@ -45,7 +52,7 @@ std::string OutputFile::open(const std::string& name, bool dash_is_stdout) {
     return {};
   }
   file_ = std::fopen(name.c_str(), "wbe");
-  return file_ != nullptr ? std::string{} : name + " cannot be written: " + why_not_written(errno);
+  return file_ != nullptr ? std::string{} : name + " cannot be written: " + write_error_text(errno);
 }
 
 void OutputFile::write(std::string_view text) noexcept {
@@ -60,8 +67,10 @@ std::string OutputFile::close() {
   errno = 0;
   const bool flushed = file == stdout ? std::fflush(file) == 0 : std::fclose(file) == 0;
   if (!flushed && failed_ == 0) failed_ = errno != 0 ? errno : EIO;
-  if (failed_ == EPIPE && file == stdout) return {};  // its reader went away and wants no more
-  return failed_ == 0 ? std::string{} : (file == stdout ? "standard output" : name_) + " could not be written to the end: " + why_not_written(failed_);
+  if (failed_ == EPIPE && file == stdout) return {};  // the reader closed its end and needs no more
+  return failed_ == 0 ? std::string{}
+                      : (file == stdout ? "standard output" : name_) +
+                            " could not be written to the end: " + write_error_text(failed_);
 }
 
 }  // namespace tandem::io

@@ -6,11 +6,11 @@
 
 namespace tandem::io {
 
-/// Why something could not be written, for a person, by errno: a full disk is called full, a missing permission a permission.
-[[nodiscard]] std::string why_not_written(int error);
+/// Returns for users why a write failed, by errno, with a specific text for a full disk and for a missing permission.
+[[nodiscard]] std::string write_error_text(int error);
 
-/// A file a person named for results: judged before anything starts, so that a name that cannot be written is a mistake
-/// found early; checked to the last byte. `-` is standard output where allowed.
+/// An output file named by the user for results. Its name is checked before any work starts, so that an unusable name
+/// is reported early. Writes are checked to the last byte. `-` is standard output where allowed.
 class OutputFile {
  public:
   OutputFile() = default;
@@ -18,16 +18,16 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Why a file of this name could not be written, empty if it could. Touches nothing.
+  /// Returns why a file of this name could not be written, empty if it could. Creates nothing.
   [[nodiscard]] static std::string problem(const std::string& name);
-  /// @param name  empty: nothing is wanted, every write is ignored
-  /// @return what is wrong, empty if nothing
+  /// @param name  empty: no output is wanted, every write is ignored
+  /// @return the error, empty if none
   [[nodiscard]] std::string open(const std::string& name, bool dash_is_stdout);
   void write(std::string_view text) noexcept;
-  /// @return what is wrong; empty if every byte was written, or nobody reads standard output any more
+  /// @return the error; empty if every byte was written, or if the reader of standard output has closed it
   [[nodiscard]] std::string close();
 
-  [[nodiscard]] bool wanted() const noexcept { return file_ != nullptr; }
+  [[nodiscard]] bool is_open() const noexcept { return file_ != nullptr; }
   [[nodiscard]] bool on_stdout() const noexcept { return file_ == stdout; }
 
  private:

@@ -27,10 +27,10 @@ namespace tandem::io {
 namespace {
 
 constexpr int kWatchMs = 250;
-constexpr std::size_t kLastWords = 2000;  // kept of what a piece wrote to standard error [bytes]
-constexpr int kThrew = 70;                // exit code of a piece that threw; the pipe tells what
+constexpr std::size_t kLastWords = 2000;  // kept of the job's standard error [bytes]
+constexpr int kThrew = 70;                // exit code of a job that threw; the pipe carries the message
 
-/// One float per piece, seen by parent and children.
+/// One float per job, visible to parent and children.
 class SharedShares {
  public:
   explicit SharedShares(std::size_t count) : bytes_(std::max<std::size_t>(1, count) * sizeof(float)) {
@@ -67,9 +67,9 @@ void write_all(int fd, std::string_view text) noexcept {
   }
 }
 
-[[noreturn]] void be_child(const std::function<std::string(std::size_t, JobShare)>& work, std::size_t index,
-                           JobShare share, int result, int words, pid_t parent) noexcept {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // never outlive who asked
+[[noreturn]] void be_child(const std::function<std::string(std::size_t, JobProgressReporter)>& work, std::size_t index,
+                           JobProgressReporter share, int result, int words, pid_t parent) noexcept {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // never outlive the parent
   if (getppid() != parent) _exit(1);
   dup2(words, STDERR_FILENO);
   int code = 0;
@@ -87,15 +87,15 @@ void write_all(int fd, std::string_view text) noexcept {
   _exit(code);
 }
 
-/// @return the piece that runs, or why it could not be begun
-std::expected<Piece, std::string> begin(const std::function<std::string(std::size_t, JobShare)>& work, std::size_t index,
-                                        JobShare share) {
+/// @return the running job, or why it could not be started
+std::expected<Piece, std::string> begin(const std::function<std::string(std::size_t, JobProgressReporter)>& work,
+                                        std::size_t index, JobProgressReporter share) {
   std::array<int, 2> result{-1, -1}, words{-1, -1};
   if (pipe2(result.data(), O_CLOEXEC) != 0) return std::unexpected(std::generic_category().message(errno));
   Fd result_in{result[0]}, result_out{result[1]};
   if (pipe2(words.data(), O_CLOEXEC) != 0) return std::unexpected(std::generic_category().message(errno));
   Fd words_in{words[0]}, words_out{words[1]};
-  std::fflush(nullptr);  // or the child would own a copy of what waits in our buffers
+  std::fflush(nullptr);  // else the child would own a copy of the buffered output
   const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0) return std::unexpected(std::generic_category().message(errno));
@@ -108,7 +108,7 @@ std::expected<Piece, std::string> begin(const std::function<std::string(std::siz
   return piece;
 }
 
-/// Reads what is there. Closes the file at its end.
+/// Reads available data. Closes the file at its end.
 void read_some(Fd& fd, std::string& into) {
   std::array<char, 65536> buffer;
   const auto n = ::read(fd.get(), buffer.data(), buffer.size());
@@ -129,7 +129,7 @@ JobResult result_of(Piece& piece) {
   while (waitpid(piece.pid, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
-    if (!piece.last_words.empty()) write_all(STDERR_FILENO, piece.last_words);  // said without failing: for people
+    if (!piece.last_words.empty()) write_all(STDERR_FILENO, piece.last_words);  // output of a successful job: for users
     return {JobResult::State::kDone, std::move(piece.text), {}};
   }
   std::string reason;
@@ -146,7 +146,7 @@ JobResult result_of(Piece& piece) {
 
 }  // namespace
 
-void JobShare::set(double share) const noexcept {
+void JobProgressReporter::set(double share) const noexcept {
   std::atomic_ref(*slot_).store(static_cast<float>(std::clamp(share, 0.0, 1.0)), std::memory_order_relaxed);
 }
 
@@ -156,8 +156,9 @@ std::size_t cores() {
   return static_cast<std::size_t>(std::max(1, CPU_COUNT(&set)));
 }
 
-std::vector<JobResult> run_jobs(std::size_t count, const std::function<std::string(std::size_t, JobShare)>& work,
-                                const JobsOptions& options) {
+std::vector<JobResult> run_jobs(std::size_t count,
+                                const std::function<std::string(std::size_t, JobProgressReporter)>& work,
+                                const JobOptions& options) {
   using Clock = std::chrono::steady_clock;
   std::vector<JobResult> results(count);
   const SharedShares shares(count);
@@ -192,19 +193,19 @@ std::vector<JobResult> run_jobs(std::size_t count, const std::function<std::stri
   auto told = begun;
   while (!stopped && (next < wanted || !running.empty())) {
     while (next < wanted && running.size() < jobs) {
-      auto piece = begin(work, next, JobShare{shares.slot(next)});
+      auto piece = begin(work, next, JobProgressReporter{shares.slot(next)});
       if (piece) {
         running.push_back(std::move(*piece));
       } else if (running.empty()) {
         finish(next, {JobResult::State::kCrashed, {}, "could not be started: " + piece.error()});
       } else {
-        break;  // the system is short of something: fewer at a time
+        break;  // the system lacks resources: run fewer at a time
       }
       ++next;
     }
     std::vector<pollfd> files;
     for (const Piece& piece : running) {
-      files.push_back({piece.result.get(), POLLIN, 0});  // a negative number is passed over
+      files.push_back({piece.result.get(), POLLIN, 0});  // poll ignores negative numbers
       files.push_back({piece.words.get(), POLLIN, 0});
     }
     files.push_back({options.stop_fd, POLLIN, 0});

@@ -6,25 +6,25 @@
 #include <string>
 #include <string_view>
 
-/// Text for people: lines end between words, as wide as whoever reads them has room.
+/// Text output for users: lines are wrapped between words at the width of the display.
 namespace tandem::io {
 
-/// Columns that text for people on `file` may take: one less than its terminal has; elsewhere one less than the environment variable COLUMNS says.
-/// Nothing: lines stay as they are.
+/// Returns the columns for text on `file`: the width of its terminal minus one, else the environment variable COLUMNS
+/// minus one. nullopt: lines stay as they are.
 [[nodiscard]] std::optional<std::size_t> text_width(std::FILE* file) noexcept;
 
-/// Text for a person on `file`: every line is broken between words at `text_width`, commands with a backslash. Continued lines begin below the second
-/// column of a table where there is one.
-[[nodiscard]] std::string for_terminal(std::string_view text, std::FILE* file);
+/// Wraps every line of text for `file` between words at `text_width`, commands with a backslash. In tables, continued
+/// lines begin below the second column.
+[[nodiscard]] std::string wrap_for_terminal(std::string_view text, std::FILE* file);
 /// The same at a given width.
-[[nodiscard]] std::string broken(std::string_view text, std::size_t width);
+[[nodiscard]] std::string wrap_text(std::string_view text, std::size_t width);
 
-/// Prints text for a person, as `for_terminal` breaks it.
+/// Prints text for users, wrapped by `wrap_for_terminal`.
 void print(std::FILE* file, std::string_view text);
 /// The same, formatted as by printf.
-__attribute__((format(printf, 2, 3))) void printf_for_people(std::FILE* file, const char* format, ...);
+__attribute__((format(printf, 2, 3))) void print_formatted(std::FILE* file, const char* format, ...);
 
-/// Whether nobody reads what is written to `file` any more, as in `tandem-netsim profiles | head -1`.
-[[nodiscard]] bool reader_gone(std::FILE* file) noexcept;
+/// Returns whether the reader of `file` has closed its end, as in `tandem-netsim profiles | head -1`.
+[[nodiscard]] bool reader_closed(std::FILE* file) noexcept;
 
 }  // namespace tandem::io

@@ -1,12 +1,15 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace tandem::io {
 
-/// What every program of ours does with its command line: parses it, runs what was chosen, turns mistakes into exit code 2 (also a
-/// command that does not exist, with the nearest that does) and an exception that nobody expected into 1.
+/// Runs a program from its command line: parses it and executes the chosen action. Usage errors end with exit code 2;
+/// an unknown command is reported with its nearest match. Unexpected exceptions end with 1.
 /// @param action  set by the chosen subcommand; its result is the exit code
 [[nodiscard]] int run_program(CLI::App& app, const std::function<int()>& action, int argc, char** argv);
 

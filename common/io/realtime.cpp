@@ -11,7 +11,7 @@
 
 namespace tandem::io {
 
-AwakeProcessor::AwakeProcessor() noexcept : fd_(::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC)) {
+CpuLatencyRequest::CpuLatencyRequest() noexcept : fd_(::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC)) {
   const std::int32_t microseconds = 0;
   if (fd_.open() && ::write(fd_.get(), &microseconds, sizeof microseconds) != sizeof microseconds) fd_.reset();
 }
@@ -24,13 +24,13 @@ bool lock_memory() noexcept {
   return mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
 }
 
-bool ask_for_realtime(int priority) noexcept {
+bool request_realtime(int priority) noexcept {
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   const sched_param p{priority};
   return pthread_setschedparam(pthread_self(), SCHED_FIFO, &p) == 0;
 }
 
-std::string realtime_notice(bool fifo, bool memory, bool awake) {
+std::string realtime_warning(bool fifo, bool memory, bool awake) {
   std::string missing;
   const auto add = [&](bool granted, const char* what) {
     if (!granted) missing += (missing.empty() ? "" : ", ") + std::string(what);

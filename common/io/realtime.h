@@ -6,25 +6,25 @@
 
 namespace tandem::io {
 
-/// Keeps the processor out of deep sleep as long as it lives, where permitted (root): the cheapest gain in wake-up
-/// jitter (design notes, performance 2: p99 153 -> 57 us).
-class AwakeProcessor {
+/// CPU latency request (pm_qos): keeps the processor out of deep sleep until the object is destroyed, where permitted
+/// (root). It is the cheapest reduction of wake-up jitter (design notes, performance 2: p99 153 -> 57 us).
+class CpuLatencyRequest {
  public:
-  AwakeProcessor() noexcept;
+  CpuLatencyRequest() noexcept;
   [[nodiscard]] bool granted() const noexcept { return fd_.open(); }
 
  private:
   Fd fd_;
 };
 
-/// Locks the process's memory as it is used, where that cannot make a later allocation fail. @return whether it is
-/// locked
+/// Locks the pages of the process in memory as they are used, where that cannot make a later allocation fail. @return
+/// whether it is locked
 bool lock_memory() noexcept;
 
-/// Asks for SCHED_FIFO and exact timers for the calling thread. @return whether SCHED_FIFO was granted
-bool ask_for_realtime(int priority) noexcept;
+/// Requests SCHED_FIFO and exact timers for the calling thread. @return whether SCHED_FIFO was granted
+bool request_realtime(int priority) noexcept;
 
-/// One sentence about what was not granted, and the remedy; empty if all was.
-[[nodiscard]] std::string realtime_notice(bool fifo, bool memory, bool awake);
+/// Returns one sentence about requests that were not granted, with the remedy; empty if all were granted.
+[[nodiscard]] std::string realtime_warning(bool fifo, bool memory, bool awake);
 
 }  // namespace tandem::io

@@ -22,7 +22,7 @@ std::atomic<bool> shown{false};  // a process has one terminal
 
 }  // namespace
 
-std::size_t columns_given() noexcept {
+std::size_t columns_from_environment() noexcept {
   const char* const text = std::getenv("COLUMNS");
   if (text == nullptr) return 0;
   std::size_t columns = 0;
@@ -35,7 +35,7 @@ ScreenSize screen_size(int fd) noexcept {
   winsize size{};
   ScreenSize out;
   if (ioctl(fd, TIOCGWINSZ, &size) != 0) {
-    if (const std::size_t columns = columns_given(); columns > 0) out.columns = columns;
+    if (const std::size_t columns = columns_from_environment(); columns > 0) out.columns = columns;
     return out;
   }
   if (size.ws_col > 1) out.columns = size.ws_col;
@@ -48,7 +48,7 @@ void ScreenBlock::show(std::span<const std::string> lines) {
   std::string text = kClear;
   std::size_t count = 0;
   for (const std::string& line : lines) {
-    if (columns_of(line) >= size.columns || count + 1 >= size.rows) continue;
+    if (display_width(line) >= size.columns || count + 1 >= size.rows) continue;
     text += (count++ == 0 ? "" : "\r\n") + line;
   }
   text += "\r";
@@ -59,10 +59,10 @@ void ScreenBlock::show(std::span<const std::string> lines) {
 }
 
 void ScreenBlock::clear() {
-  std::fputs(take_clearing(), stderr);
+  std::fputs(take_clear_sequence(), stderr);
   std::fflush(stderr);
 }
 
-const char* ScreenBlock::take_clearing() noexcept { return shown.exchange(false) ? kClear : ""; }
+const char* ScreenBlock::take_clear_sequence() noexcept { return shown.exchange(false) ? kClear : ""; }
 
 }  // namespace tandem::io

@@ -6,24 +6,28 @@
 
 namespace tandem::io {
 
-/// What the environment variable COLUMNS says, if it is a width; 0: nothing.
-[[nodiscard]] std::size_t columns_given() noexcept;
-/// Columns and rows of the terminal behind a file descriptor, asked anew each time; where there is none what COLUMNS says, else 80, and 24.
+/// Returns the width in the environment variable COLUMNS; 0: none.
+[[nodiscard]] std::size_t columns_from_environment() noexcept;
+/// Present columns and rows of the terminal behind a file descriptor. Without a terminal: the width in COLUMNS, else
+/// 80, and 24 rows.
 struct ScreenSize {
   std::size_t columns = 80, rows = 24;
 };
 [[nodiscard]] ScreenSize screen_size(int fd) noexcept;
 
-/// A few lines that stay in their place at the end of standard error. The cursor rests at the start of the first of them: a terminal that is
-/// resized, whether it reflows lines or cuts them, keeps it there, so that erasing from the cursor on leaves nothing behind.
+/// A status block of a few lines that keeps its place at the end of standard error. The cursor rests at the start of
+/// its first line. A resized terminal keeps the cursor there, whether it reflows or cuts lines, so erasing from the
+/// cursor on leaves no remains.
 class ScreenBlock {
  public:
-  /// Replaces what is shown. @param lines  each less wide than the terminal (see text_layout.h); a wider one is left out
+  /// Replaces the displayed lines. @param lines  each narrower than the terminal (see text_layout.h); a wider one is
+  /// omitted
   static void show(std::span<const std::string> lines);
-  /// Takes the lines away, so that something else can be printed.
+  /// Removes the lines, so that other text can be printed.
   static void clear();
-  /// What clears the block, to be written before a line of the log; empty if none is shown. The block counts as cleared afterwards.
-  [[nodiscard]] static const char* take_clearing() noexcept;
+  /// Returns the sequence that clears the block, to be written before a log line; empty if no block is shown. The block
+  /// counts as cleared afterwards.
+  [[nodiscard]] static const char* take_clear_sequence() noexcept;
 };
 
 }  // namespace tandem::io

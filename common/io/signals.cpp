@@ -7,16 +7,16 @@
 
 namespace tandem::io {
 
-Fd signals_as_file() {
+Fd make_signalfd() {
   sigset_t set;
   sigemptyset(&set);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away must not take a session with it
+  std::signal(SIGPIPE, SIG_IGN);  // a closed reader of standard output must not end a session
   return Fd{signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK)};
 }
 
-std::string_view signal_that_came() noexcept {
+std::string_view pending_signal() noexcept {
   sigset_t pending;
   if (sigpending(&pending) != 0) return {};
   if (sigismember(&pending, SIGTERM) == 1) return "SIGTERM";

@@ -6,11 +6,12 @@
 
 namespace tandem::io {
 
-/// SIGINT, SIGTERM and SIGHUP as something to wait for. Call before threads start: they inherit the block, and all of
-/// them leave the signals to the one who reads here.
-[[nodiscard]] Fd signals_as_file();
+/// Returns a signalfd for SIGINT, SIGTERM and SIGHUP. Call before threads start: they inherit the blocked signals, so
+/// that only the reader of this descriptor receives them.
+[[nodiscard]] Fd make_signalfd();
 
-/// What came and was not read yet, in a person's words: "Ctrl-C", "SIGTERM", "SIGHUP (its terminal is gone)"; empty: nothing.
-[[nodiscard]] std::string_view signal_that_came() noexcept;
+/// Returns the text of a pending signal for users: "Ctrl-C", "SIGTERM", "SIGHUP (its terminal is gone)"; empty: none.
+/// The signal stays pending.
+[[nodiscard]] std::string_view pending_signal() noexcept;
 
 }  // namespace tandem::io

@@ -21,7 +21,7 @@ T as(const sockaddr_storage& storage) noexcept {
 }  // namespace
 
 const sockaddr* SocketAddress::get() const noexcept {
-  return reinterpret_cast<const sockaddr*>(&storage);  // what the socket interface was designed for
+  return reinterpret_cast<const sockaddr*>(&storage);  // the socket interface is designed for this cast
 }
 
 std::uint16_t SocketAddress::port() const noexcept {

@@ -8,8 +8,8 @@
 
 namespace tandem::io {
 
-/// A bounded queue of plain data from one thread to another, without lock, and without heap after construction. Full:
-/// what comes is dropped and counted; a reader that is late never delays the writer.
+/// A bounded single-producer, single-consumer queue of plain data, without lock and without heap use after
+/// construction. If it is full, new elements are dropped and counted; a late reader never delays the writer.
 template <class T>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -17,7 +17,7 @@ class SpscQueue {
  public:
   explicit SpscQueue(std::size_t capacity) : capacity_(capacity), slots_(std::make_unique<T[]>(capacity)) {}
 
-  /// Of the writing thread. @return false if it was dropped
+  /// For the writing thread. @return false if the element was dropped
   bool push(const T& value) noexcept {
     const std::uint64_t end = end_.load(std::memory_order_relaxed);
     if (end - begin_.load(std::memory_order_acquire) >= capacity_) {
@@ -28,7 +28,7 @@ class SpscQueue {
     end_.store(end + 1, std::memory_order_release);
     return true;
   }
-  /// Of the reading thread: the oldest element in its place, null if there is none. It stays until `pop`.
+  /// For the reading thread: returns the oldest element in place, null if there is none. It stays valid until `pop`.
   [[nodiscard]] const T* front() const noexcept {
     const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
     return begin == end_.load(std::memory_order_acquire) ? nullptr : &slots_[begin % capacity_];

@@ -14,8 +14,8 @@ struct TcpListener {
   SocketAddress local;  ///< with the port in force
 };
 
-/// Listens for connections; the address may be used again at once after a restart.
-/// @return the socket, or what went wrong and what to do about it
+/// Listens for connections; the address can be reused at once after a restart.
+/// @return the socket, or the error with its remedy
 [[nodiscard]] std::expected<TcpListener, std::string> listen_tcp(const SocketAddress& at);
 
 }  // namespace tandem::io

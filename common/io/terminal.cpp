@@ -28,7 +28,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kKeys{{{
 }  // namespace
 
 KeyReader::KeyReader() {
-  // A program in the background may not touch the terminal: it would be stopped.
+  // A background program must not change the terminal: the system would stop it.
   interactive_ =
       isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp() && tcgetattr(STDIN_FILENO, &before_) == 0;
   if (!interactive_) return;
@@ -53,7 +53,7 @@ std::string KeyReader::next() {
     std::array<char, 64> bytes;
     const auto count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
     if (count <= 0) {
-      interactive_ = false;  // the terminal went away
+      interactive_ = false;  // the terminal was closed
       return {};
     }
     pending_.assign(bytes.data(), static_cast<std::size_t>(count));
@@ -63,7 +63,7 @@ std::string KeyReader::next() {
     pending_.erase(0, bytes.size());
     return std::string(name);
   }
-  if (pending_.front() == '\x1b') {  // some other key with a sequence of its own
+  if (pending_.front() == '\x1b') {  // another key with a sequence of its own
     pending_.clear();
     return {};
   }
@@ -77,11 +77,11 @@ StatusLine::StatusLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILE
 void StatusLine::show(std::span<const ScreenItem> items, std::size_t rows) {
   if (quiet_) return;
   if (!terminal_) {
-    std::fprintf(stderr, "%s\n", joined(items).c_str());
+    std::fprintf(stderr, "%s\n", join_items(items).c_str());
     return;
   }
   const ScreenSize size = screen_size(STDERR_FILENO);
-  ScreenBlock::show(laid_out(items, std::min(rows, rows_max()), size.columns - 1));
+  ScreenBlock::show(lay_out_items(items, std::min(rows, rows_max()), size.columns - 1));
 }
 
 std::size_t StatusLine::rows_max() const noexcept { return screen_size(STDERR_FILENO).rows - 1; }

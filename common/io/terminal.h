@@ -11,8 +11,8 @@
 
 namespace tandem::io {
 
-/// Single keys from the terminal, without echo and without waiting. Everything is put back when it ends; signals are
-/// read elsewhere (signals.h), so that no end of the program goes around it.
+/// Reads single keys from the terminal, without echo and without waiting. The destructor restores the terminal. Signals
+/// are read elsewhere (signals.h), so that every end of the program runs the destructor.
 class KeyReader {
  public:
   KeyReader();
@@ -21,9 +21,9 @@ class KeyReader {
   KeyReader& operator=(const KeyReader&) = delete;
 
   [[nodiscard]] bool interactive() const noexcept { return interactive_; }
-  /// File to wait for; -1 when there is no terminal.
+  /// Descriptor to wait for; -1 without a terminal.
   [[nodiscard]] int fd() const noexcept;
-  /// The next key pressed: one character, or `up down left right pageup pagedown`; empty when none waits.
+  /// Returns the next key: one character, or `up down left right pageup pagedown`; empty if none waits.
   [[nodiscard]] std::string next();
 
  private:
@@ -32,21 +32,23 @@ class KeyReader {
   std::string pending_;
 };
 
-/// A status of a few lines that stays in its place on a terminal. Without one, a line follows every five seconds.
+/// A status of a few lines that keeps its place on a terminal. Without a terminal it prints one line every five
+/// seconds.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
-  /// How often a status is worth making [ms].
+  /// Returns the refresh interval of the status [ms].
   [[nodiscard]] int interval_ms() const noexcept { return terminal_ ? 250 : 5000; }
   [[nodiscard]] bool wanted() const noexcept { return !quiet_; }
-  /// Shows a status on standard error: on a terminal in at most `rows` lines laid out for its width now, elsewhere in one.
+  /// Shows a status on standard error: on a terminal in at most `rows` lines laid out for its present width, elsewhere
+  /// in one line.
   void show(std::span<const ScreenItem> items, std::size_t rows = 2);
   void show(const std::string& text) { show(std::array<ScreenItem, 1>{{{text, "", 0}}}); }
-  /// Lines that the terminal has room for beside one line of other text.
+  /// Returns the number of lines that fit the terminal in addition to one line of other text.
   [[nodiscard]] std::size_t rows_max() const noexcept;
-  /// Removes the status, so that something else can be printed.
+  /// Removes the status, so that other text can be printed.
   void clear();
-  /// Lasting lines, above the status (log.h).
+  /// Prints permanent lines above the status (log.h).
   void note(const std::string& text);
   void warn(const std::string& text);
 

@@ -12,7 +12,7 @@
 namespace tandem::io {
 namespace {
 
-constexpr int kBacklog = 1024;  // a whole school joins at once
+constexpr int kBacklog = 1024;  // a whole class of clients joins at once
 
 std::string bind_problem(const SocketAddress& address, int error) {
   const std::string where = to_text(address);
@@ -50,7 +50,7 @@ std::expected<UdpSocket, std::string> bind_udp(const SocketAddress& at, bool loc
 
 namespace {
 
-/// Tells the kernel which socket of a port gets which datagram.
+/// Installs the kernel program that selects the socket of a datagram.
 int steer(int fd, const Steering& steering) {
   std::vector<sock_filter> program{{BPF_LD | BPF_B | BPF_ABS, 0, 0, static_cast<std::uint32_t>(steering.byte)}};
   for (std::size_t value = 0; value < steering.socket_of.size(); ++value) {
@@ -96,7 +96,9 @@ std::expected<UdpSocket, std::string> connect_udp(const SocketAddress& to) {
   return socket;
 }
 
-UdpSocket duplicate(const UdpSocket& socket) noexcept { return {Fd{::fcntl(socket.fd.get(), F_DUPFD_CLOEXEC, 0)}, socket.local}; }
+UdpSocket duplicate(const UdpSocket& socket) noexcept {
+  return {Fd{::fcntl(socket.fd.get(), F_DUPFD_CLOEXEC, 0)}, socket.local};
+}
 
 std::expected<TcpListener, std::string> listen_tcp(const SocketAddress& at) {
   TcpListener listener{Fd{::socket(at.family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)}, {}};

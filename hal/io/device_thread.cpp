@@ -9,12 +9,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint64_t kPublishEvery = 64;  // exchanges between copies for readers: quantiles cost some microseconds
+constexpr std::uint64_t kPublishEvery =
+    64;  // exchanges between copies for readers: computing quantiles costs some microseconds
 
-/// Nobody sees the progress of a second start; closing ends it.
-class Unwatched final : public BringUp {
+/// Observer of a bring-up during operation: its progress is not shown; closing the device cancels it.
+class SilentBringUp final : public BringUp {
  public:
-  explicit Unwatched(const std::atomic<bool>& stop) : stop_(stop) {}
+  explicit SilentBringUp(const std::atomic<bool>& stop) : stop_(stop) {}
   void progress(std::string_view, double) override {}
   bool cancelled() const noexcept override { return stop_.load(std::memory_order_relaxed); }
 
@@ -24,8 +25,12 @@ class Unwatched final : public BringUp {
 
 }  // namespace
 
-DeviceThread::DeviceThread(std::unique_ptr<ServoCore> core, Duration period, Pulse* pulse)
-    : core_(std::move(core)), caps_(core_->caps()), period_(std::clamp<Duration>(period, 100us, 100ms)), pace_(period_), pulse_(pulse) {}
+DeviceThread::DeviceThread(std::unique_ptr<ServoCore> core, Duration period, Heartbeat* pulse)
+    : core_(std::move(core)),
+      caps_(core_->caps()),
+      period_(std::clamp<Duration>(period, 100us, 100ms)),
+      pace_(period_),
+      heartbeat_(pulse) {}
 
 Result<> DeviceThread::start(ServoClient& client) {
   if (thread_.joinable() || closed_) {
@@ -40,7 +45,7 @@ Result<> DeviceThread::start(ServoClient& client) {
 }
 
 void DeviceThread::run(ServoClient& client) noexcept {
-  realtime_.store(ask_for_realtime(), std::memory_order_relaxed);
+  realtime_.store(request_realtime(), std::memory_order_relaxed);
   MonotonicClock clock;
   const auto publish = [&] {
     DeviceStats stats = core_->counts();
@@ -51,26 +56,26 @@ void DeviceThread::run(ServoClient& client) noexcept {
     published_ = stats;
   };
   const auto show_life = [&](bool forces) {
-    if (pulse_ != nullptr) forces ? pulse_->beat() : pulse_->rest();
+    if (heartbeat_ != nullptr) forces ? heartbeat_->beat() : heartbeat_->set_idle();
   };
-  Unwatched watcher{stop_};
+  SilentBringUp watcher{stop_};
   pace_.begin();
   while (!stop_.load(std::memory_order_relaxed)) {
     pace_.next();
-    const Time now = clock.now();  // a command that died while this thread slept is dead
+    const Time now = clock.now();  // taken after the wait: a command that expired while this thread slept must not act
     if (core_->phase() == Phase::kBooting) {
-      show_life(false);  // zeros of somebody else's would get into a firmware
-      static_cast<void>(core_->bring_up(watcher));  // the phase tells how it went
+      show_life(false);  // zero frames of the watchdog process would corrupt a firmware upload
+      static_cast<void>(core_->bring_up(watcher));  // the phase shows the result
     }
     if (!core_->step(now, client)) break;
-    show_life(core_->energised());
-    core_->took(clock.now() - now);
+    show_life(core_->motors_enabled());
+    core_->record_round_trip(clock.now() - now);
     if (core_->counts().ticks % kPublishEvery == 1 && stats_lock_.try_lock()) {
       publish();
       stats_lock_.unlock();
     }
   }
-  core_->silence();
+  core_->send_zeros();
   show_life(false);
   const std::lock_guard lock(stats_lock_);
   publish();
@@ -92,7 +97,7 @@ void DeviceThread::close() noexcept {
     if (thread_.get_id() == std::this_thread::get_id()) return;  // the owner's close() or destructor joins
     thread_.join();
   } else if (!closed_.load()) {
-    core_->silence();  // brought up and never started
+    core_->send_zeros();  // brought up but never started
   }
   closed_.store(true, std::memory_order_release);
 }

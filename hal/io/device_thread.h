@@ -5,20 +5,22 @@
 #include <mutex>
 #include <thread>
 
-#include "hal/io/pulse.h"
-#include "hal/io/servo_pace.h"
-#include "hal/servo_core.h"
+#include "hal/core/servo_core.h"
+#include "hal/io/heartbeat.h"
+#include "hal/io/periodic_timer.h"
 
 namespace tandem::hal {
 
-/// A driver made live: a thread of its own steps its ServoCore on an absolute schedule. `State::sampled_at` and
-/// `Command::expires` are CLOCK_MONOTONIC. When the thread ends, whatever the reason, the device gets zeros. Threads:
-/// everything from any thread but the client's tick, where close() only asks the thread to end.
+/// A live device: a servo thread that steps a ServoCore on an absolute schedule.
+/// `State::sampled_at` and `Command::expires` are CLOCK_MONOTONIC. When the thread ends, for any reason, the device
+/// receives zero effort.
+/// Threads: every function from any thread except the client's tick. There, close() only requests the thread's end.
 class DeviceThread final : public Device {
  public:
-  /// @param core   brought up
-  /// @param pulse  beats while forces may be on, for a Deadman; lives as long as this; nullptr: nobody watches
-  DeviceThread(std::unique_ptr<ServoCore> core, Duration period, Pulse* pulse = nullptr);
+  /// @param core   already brought up
+  /// @param pulse  heartbeat for a WatchdogProcess, beats while forces may be on; outlives this object; nullptr: no
+  ///           watchdog
+  DeviceThread(std::unique_ptr<ServoCore> core, Duration period, Heartbeat* pulse = nullptr);
   ~DeviceThread() override { close(); }
 
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
@@ -42,11 +44,11 @@ class DeviceThread final : public Device {
   std::unique_ptr<ServoCore> core_;
   DeviceCaps caps_;
   Duration period_;
-  ServoPace pace_;  ///< of the servo thread
-  Pulse* pulse_;
+  PeriodicTimer pace_;  ///< used by the servo thread
+  Heartbeat* heartbeat_;
   std::atomic<bool> stop_{false}, realtime_{false}, closed_{false};
   std::thread thread_;
-  // The servo thread only tries this lock: it never waits for a reader.
+  // The servo thread uses try_lock only: it never waits for a reader.
   mutable std::mutex stats_lock_;
   DeviceStats published_;
 };

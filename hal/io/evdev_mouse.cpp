@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kFolder = "/dev/input/";
 constexpr unsigned kLeft = 1, kRight = 2, kMiddle = 4;
-constexpr int kRoundsMax = 16;  // batches per exchange: a flood cannot stop the servo
+constexpr int kRoundsMax = 16;  // batches per exchange: a flood of events cannot block the servo
 
 using KeyBits = std::array<unsigned char, KEY_MAX / 8 + 1>;
 
@@ -32,8 +32,9 @@ bool has(const Bits& bits, unsigned bit) noexcept {
 bool is_mouse(int fd) noexcept {
   std::array<unsigned char, REL_MAX / 8 + 1> axes{};
   KeyBits keys{};
-  return ioctl(fd, EVIOCGBIT(EV_REL, axes.size()), axes.data()) >= 0 && ioctl(fd, EVIOCGBIT(EV_KEY, keys.size()), keys.data()) >= 0 &&
-         has(axes, REL_X) && has(axes, REL_Y) && has(keys, BTN_LEFT);
+  return ioctl(fd, EVIOCGBIT(EV_REL, axes.size()), axes.data()) >= 0 &&
+         ioctl(fd, EVIOCGBIT(EV_KEY, keys.size()), keys.data()) >= 0 && has(axes, REL_X) && has(axes, REL_Y) &&
+         has(keys, BTN_LEFT);
 }
 
 std::string name_of(int fd) {
@@ -41,14 +42,14 @@ std::string name_of(int fd) {
   return ioctl(fd, EVIOCGNAME(name.size() - 1), name.data()) < 0 ? std::string() : std::string(name.data());
 }
 
-/// Without opening it: sysfs shows its axes to everybody.
+/// Returns whether sysfs lists the axes of a mouse; needs no permission.
 bool looks_like_a_mouse(const std::string& node) {
   std::ifstream file("/sys/class/input/" + node + "/device/capabilities/rel");
   unsigned long axes = 0;
   return (file >> std::hex >> axes) && (axes & 3U) == 3;
 }
 
-/// sysfs shows them to everybody.
+/// Returns the ids from sysfs; needs no permission.
 std::optional<EvdevMouse::Ids> ids_of(const std::string& node) {
   const std::string folder = "/sys/class/input/" + node + "/device/id/";
   std::ifstream vendor(folder + "vendor"), product(folder + "product");
@@ -68,13 +69,18 @@ std::string EvdevMouse::permission_advice(const std::string& path, std::optional
   std::string advice = "mouse: " + path + ": you may not read it. ";
   if (ids) {
     advice += "For this mouse alone, put this udev rule into /etc/udev/rules.d/70-tandem-mouse.rules:\n  " +
-              format("SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{id/vendor}==\"%04x\", ATTRS{id/product}==\"%04x\", TAG+=\"uaccess\"",
-                     ids->vendor, ids->product) +
+              format(
+                  "SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{id/vendor}==\"%04x\", ATTRS{id/product}==\"%04x\", "
+                  "TAG+=\"uaccess\"",
+                  ids->vendor, ids->product) +
               "\nthen `sudo udevadm control --reload` and plug the mouse in again. Or join";
   } else {
     advice += "Join";
   }
-  return advice + " the group 'input' (`sudo usermod -aG input $USER`, then log in again): whoever is in it can read every keyboard, too. " + kWithout;
+  return advice +
+         " the group 'input' (`sudo usermod -aG input $USER`, then log in again): whoever is in it can read every "
+         "keyboard, too. " +
+         kWithout;
 }
 
 std::vector<EvdevMouse::Found> EvdevMouse::list() {
@@ -85,7 +91,8 @@ std::vector<EvdevMouse::Found> EvdevMouse::list() {
     if (!node.starts_with("event")) continue;
     const int fd = ::open(entry.path().c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0) {
-      if ((errno == EACCES || errno == EPERM) && looks_like_a_mouse(node)) found.push_back({node, "", permission_advice(kFolder + node, ids_of(node))});
+      if ((errno == EACCES || errno == EPERM) && looks_like_a_mouse(node))
+        found.push_back({node, "", permission_advice(kFolder + node, ids_of(node))});
       continue;
     }
     if (is_mouse(fd)) found.push_back({node, name_of(fd), ""});
@@ -100,14 +107,19 @@ Result<std::unique_ptr<EvdevMouse>> EvdevMouse::open(const std::string& node, bo
   const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) {
     const int why = errno;
-    if (why == EACCES || why == EPERM) return std::unexpected(DeviceError{Errc::kPermission, permission_advice(path, ids_of(path.substr(path.rfind('/') + 1)))});
-    return std::unexpected(DeviceError{Errc::kNotFound, "mouse: " + path + ": " + std::strerror(why) + "; is it plugged in? " + kWithout});
+    if (why == EACCES || why == EPERM)
+      return std::unexpected(
+          DeviceError{Errc::kPermission, permission_advice(path, ids_of(path.substr(path.rfind('/') + 1)))});
+    return std::unexpected(
+        DeviceError{Errc::kNotFound, "mouse: " + path + ": " + std::strerror(why) + "; is it plugged in? " + kWithout});
   }
   auto mouse = std::make_unique<EvdevMouse>(fd);
   if (!is_mouse(fd))
-    return std::unexpected(DeviceError{Errc::kUnsupported, "mouse: " + path + " is no mouse: it has no relative x and y with a button"});
+    return std::unexpected(
+        DeviceError{Errc::kUnsupported, "mouse: " + path + " is no mouse: it has no relative x and y with a button"});
   if (grab && ioctl(fd, EVIOCGRAB, 1) < 0)
-    return std::unexpected(DeviceError{Errc::kBusy, "mouse: " + path + ": another program has it for itself; end that, or leave out grab=yes"});
+    return std::unexpected(DeviceError{
+        Errc::kBusy, "mouse: " + path + ": another program has it for itself; end that, or leave out grab=yes"});
   mouse->ask_buttons();
   return mouse;
 }
@@ -129,7 +141,7 @@ std::expected<MouseMove, Errc> EvdevMouse::read() noexcept {
     const ssize_t got = ::read(fd_, events.data(), sizeof events);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0 && errno == EAGAIN) break;
-    if (got <= 0) return std::unexpected(Errc::kUnplugged);  // ENODEV; evdev gives whole records only
+    if (got <= 0) return std::unexpected(Errc::kUnplugged);  // ENODEV; evdev delivers complete records only
     for (std::size_t i = 0; i < static_cast<std::size_t>(got) / sizeof(input_event); ++i) {
       const input_event& e = events[i];
       if (e.type == EV_SYN && e.code == SYN_DROPPED) {

@@ -15,14 +15,15 @@
 #include <limits>
 #include <string>
 
+#include "hal/core/report_descriptor.h"
 #include "hal/io/hidapi_lock.h"
 #include "hal/io/udev_rule.h"
-#include "hal/report_descriptor.h"
 
 namespace tandem::hal {
 namespace {
 
-/// What a failed call of hidapi means; it leaves the system's errno, or 0 when poll told of the unplugging.
+/// Returns the error of a failed hidapi call, which leaves the system's errno. 0: poll reported that the device is
+/// unplugged.
 Errc from_errno(int error) noexcept {
   switch (error) {
     case 0:
@@ -48,7 +49,7 @@ Errc from_errno(int error) noexcept {
   }
 }
 
-/// From sysfs: hidapi gives it only from 0.14 on. Empty if there is none.
+/// Reads the report descriptor from sysfs; hidapi provides it only from 0.14 on. Empty: none.
 std::vector<std::byte> read_descriptor(const std::string& node) {
   std::vector<std::byte> bytes;
   udev* context = udev_new();
@@ -64,7 +65,7 @@ std::vector<std::byte> read_descriptor(const std::string& node) {
   return bytes;
 }
 
-DeviceError opening_error(int error, const Attached& device) {
+DeviceError opening_error(int error, const AttachedDevice& device) {
   const Errc code = error == ENOENT ? Errc::kUnplugged : from_errno(error);
   if (code == Errc::kPermission) return {code, permission_advice(device)};
   if (code == Errc::kUnplugged) return {code, describe(device) + " was unplugged while it was being opened."};
@@ -75,7 +76,7 @@ DeviceError opening_error(int error, const Attached& device) {
 
 struct HidrawPipe::Impl {
   hid_device* device = nullptr;
-  int lock = -1;  ///< the node once more, only to hold it: hidapi does not show its own descriptor
+  int lock = -1;  ///< second descriptor of the node, only for the lock: hidapi does not expose its own
   bool numbered = false;
   bool lost = false;
   std::array<unsigned char, kReportMax + 1> out{};
@@ -98,16 +99,16 @@ struct HidrawPipe::Impl {
 HidrawPipe::HidrawPipe(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 HidrawPipe::~HidrawPipe() = default;
 
-Result<std::unique_ptr<HidrawPipe>> HidrawPipe::open(const Attached& device) {
+Result<std::unique_ptr<HidrawPipe>> HidrawPipe::open(const AttachedDevice& device) {
   const auto present = list_hidraw();
-  if (std::ranges::find_if(present, [&](const Attached& a) {
+  if (std::ranges::find_if(present, [&](const AttachedDevice& a) {
         return a.node == device.node && a.instance == device.instance;
       }) == present.end()) {
     return std::unexpected(
         DeviceError{Errc::kNotFound, describe(device) + " is no longer attached at " + device.node + "."});
   }
   auto impl = std::make_unique<Impl>();
-  // Opened for writing as hidapi will, so that a lack of permission is known with its reason.
+  // Opened for writing as hidapi does, so that a missing permission is reported with its reason.
   impl->lock = ::open(device.node.c_str(), O_RDWR | O_CLOEXEC);
   if (impl->lock < 0) return std::unexpected(opening_error(errno, device));
   if (flock(impl->lock, LOCK_EX | LOCK_NB) != 0) {
@@ -150,7 +151,7 @@ Moved HidrawPipe::read(std::span<std::byte> into, Duration timeout) noexcept {
   const int got = hid_read_timeout(i.device, reinterpret_cast<unsigned char*>(into.data()), into.size(),
                                    static_cast<int>(std::min<std::int64_t>(whole, kLongest)));
   if (got >= 0) return static_cast<std::size_t>(got);
-  if (errno == EINTR) return std::size_t{0};  // a signal; whoever waits asks again
+  if (errno == EINTR) return std::size_t{0};  // interrupted by a signal; the caller retries
   return i.fail(errno);
 }
 

@@ -4,8 +4,8 @@
 
 namespace tandem::hal {
 
-/// hidapi's enumeration, opening and last error are shared by the whole process and not thread-safe: whoever calls one
-/// of them holds this. Reading and writing of opened devices need it not.
+/// Lock of hidapi's enumeration, opening and last error, which are process-wide and not thread-safe.
+/// Callers of these functions hold it. Reading and writing of opened devices do not need it.
 class HidapiLock {
  public:
   HidapiLock() : hold_(mutex()) {}

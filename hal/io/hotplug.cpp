@@ -15,24 +15,24 @@ Time now() noexcept {
   return Time{std::chrono::seconds(t.tv_sec) + Duration{t.tv_nsec}};
 }
 
-std::vector<Attached> look() {
-  std::vector<Attached> all = list_usb();
+std::vector<AttachedDevice> look() {
+  std::vector<AttachedDevice> all = list_usb();
   std::ranges::move(list_hidraw(), std::back_inserter(all));
   return all;
 }
 
-bool holds(const std::vector<Attached>& list, const Attached& device) {
-  return std::ranges::any_of(list, [&](const Attached& a) {
+bool holds(const std::vector<AttachedDevice>& list, const AttachedDevice& device) {
+  return std::ranges::any_of(list, [&](const AttachedDevice& a) {
     return a.bus == device.bus && a.node == device.node && a.instance == device.instance;
   });
 }
 
 }  // namespace
 
-struct PlugWatch::Impl {
+struct HotplugMonitor::Impl {
   udev* context = nullptr;
   udev_monitor* monitor = nullptr;
-  std::vector<Attached> present;
+  std::vector<AttachedDevice> present;
   Time looked_at{};
 
   ~Impl() {
@@ -49,7 +49,7 @@ struct PlugWatch::Impl {
            udev_monitor_enable_receiving(monitor) >= 0;
   }
 
-  /// @return whether udev had something to say
+  /// @return whether udev sent an event
   bool drain(Duration patience) {
     pollfd one{udev_monitor_get_fd(monitor), POLLIN, 0};
     const auto ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(patience, Duration::zero())).count();
@@ -58,14 +58,14 @@ struct PlugWatch::Impl {
     return true;
   }
 
-  std::vector<PlugChange> difference() {
-    std::vector<Attached> fresh = look();
+  std::vector<HotplugEvent> difference() {
+    std::vector<AttachedDevice> fresh = look();
     looked_at = now();
-    std::vector<PlugChange> changes;
-    for (const Attached& a : present) {
+    std::vector<HotplugEvent> changes;
+    for (const AttachedDevice& a : present) {
       if (!holds(fresh, a)) changes.push_back({false, a});
     }
-    for (const Attached& a : fresh) {
+    for (const AttachedDevice& a : fresh) {
       if (!holds(present, a)) changes.push_back({true, a});
     }
     present = std::move(fresh);
@@ -73,22 +73,22 @@ struct PlugWatch::Impl {
   }
 };
 
-PlugWatch::PlugWatch(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-PlugWatch::~PlugWatch() = default;
+HotplugMonitor::HotplugMonitor(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+HotplugMonitor::~HotplugMonitor() = default;
 
-Result<std::unique_ptr<PlugWatch>> PlugWatch::open() {
+Result<std::unique_ptr<HotplugMonitor>> HotplugMonitor::open() {
   auto impl = std::make_unique<Impl>();
   if (!impl->listen()) {
     return std::unexpected(
         DeviceError{Errc::kInternal, "udev does not let this program listen for devices (libudev's monitor)."});
   }
-  (void)impl->difference();  // after listening began, so that nothing falls between
-  return std::unique_ptr<PlugWatch>(new PlugWatch(std::move(impl)));
+  (void)impl->difference();  // after the subscription, so that no change is missed
+  return std::unique_ptr<HotplugMonitor>(new HotplugMonitor(std::move(impl)));
 }
 
-const std::vector<Attached>& PlugWatch::present() const noexcept { return impl_->present; }
+const std::vector<AttachedDevice>& HotplugMonitor::present() const noexcept { return impl_->present; }
 
-std::vector<PlugChange> PlugWatch::wait(Duration patience) {
+std::vector<HotplugEvent> HotplugMonitor::wait(Duration patience) {
   const Time until = now() + patience;
   for (;;) {
     const Time next = std::min(until, impl_->looked_at + kLookAnyway);

@@ -3,35 +3,38 @@
 #include <memory>
 #include <vector>
 
-#include "hal/io/attached.h"
+#include "hal/io/enumeration.h"
 
 namespace tandem::hal {
 
-struct PlugChange {
-  bool arrived = false;  ///< else it left
-  Attached device;
+struct HotplugEvent {
+  bool arrived = false;  ///< true: plugged in, false: unplugged
+  AttachedDevice device;
 };
 
-/// Tells what is plugged in and out, USB and hidraw. Events of udev only wake it; what changed is the difference
-/// between two listings, so a lost event, or no udev at all (then it looks once a second), costs time and no truth.
-/// libusb's own callback is fed by the same events on Linux and would add its thread. One thread at a time.
-class PlugWatch {
+/// Monitor of hotplug events, USB and hidraw.
+/// udev events only wake it; the changes are the difference between two listings. A lost event therefore only delays
+/// the report.
+/// Without udev events it lists the devices once a second. libusb's own callback uses the same events on Linux and
+/// would add its thread.
+/// Use from one thread at a time.
+class HotplugMonitor {
  public:
   static constexpr Duration kLookAnyway = std::chrono::seconds(1);
 
-  /// Error: kInternal when udev does not let us listen.
-  [[nodiscard]] static Result<std::unique_ptr<PlugWatch>> open();
-  ~PlugWatch();
+  /// Error: kInternal if udev refuses the subscription.
+  [[nodiscard]] static Result<std::unique_ptr<HotplugMonitor>> open();
+  ~HotplugMonitor();
 
-  /// What was there at the last look.
-  [[nodiscard]] const std::vector<Attached>& present() const noexcept;
-  /// Waits until something changed, at most `patience`. What left comes before what arrived; a device that was plugged
-  /// out and in again between two looks has done both.
-  [[nodiscard]] std::vector<PlugChange> wait(Duration patience);
+  /// Returns the devices of the last listing.
+  [[nodiscard]] const std::vector<AttachedDevice>& present() const noexcept;
+  /// Waits until a device changed, at most `patience`. Removals come before arrivals.
+  /// A device that was unplugged and plugged in again between two listings appears in both.
+  [[nodiscard]] std::vector<HotplugEvent> wait(Duration patience);
 
  private:
   struct Impl;
-  explicit PlugWatch(std::unique_ptr<Impl> impl);
+  explicit HotplugMonitor(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "hal/io/attached.h"
+#include "hal/io/enumeration.h"
 
 namespace tandem::hal {
 
-/// What speaks on this bus, with the version the loaded library says it has: "libusb 1.0.26.11724".
+/// Returns the library used for this bus, with the version it reports at run time: "libusb 1.0.26.11724".
 [[nodiscard]] std::string library_of(Bus bus);
 
 }  // namespace tandem::hal

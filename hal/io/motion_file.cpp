@@ -12,7 +12,7 @@ namespace tandem::hal {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 16;
-constexpr std::size_t kBytesMax = std::size_t{256} << 20;  // a day at 1 kHz would be more; a hand's session is far less
+constexpr std::size_t kBytesMax = std::size_t{256} << 20;  // less than a day at 1 kHz, far more than a session
 
 }  // namespace
 
@@ -23,15 +23,16 @@ std::expected<std::shared_ptr<const sim::RecordedMotion>, std::string> load_moti
   std::ifstream in(options.file, std::ios::binary);
   std::string text;
   std::vector<char> chunk(kChunk);
-  // An empty file is no trouble of reading: the parser says what it misses.
+  // Reading an empty file succeeds; the parser reports what is missing.
   while (in && in.peek() != std::ifstream::traits_type::eof()) {
     in.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
     const std::string_view got{chunk.data(), static_cast<std::size_t>(in.gcount())};
-    // Seen at once: a device file such as /dev/zero never ends.
+    // Checked in every chunk: a device file such as /dev/zero never ends.
     if (got.find('\0') != std::string_view::npos)
       return std::unexpected(options.file + ": is not text: it has the byte 0x00; a recording is a CSV file");
     if (text.size() + got.size() > kBytesMax)
-      return std::unexpected(options.file + ": is longer than " + std::to_string(kBytesMax >> 20) + " MiB: not a recording of a hand");
+      return std::unexpected(options.file + ": is longer than " + std::to_string(kBytesMax >> 20) +
+                             " MiB: not a recording of a hand");
     text += got;
   }
   if (in.eof()) in.clear();

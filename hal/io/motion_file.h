@@ -8,7 +8,7 @@
 
 namespace tandem::hal {
 
-/// Reads and parses `options.file`. Error: one line naming the file and, if the content is wrong, line, column and
+/// Reads and parses `options.file`. Error: one line with the file and, if the content is invalid, line, column and
 /// value.
 [[nodiscard]] std::expected<std::shared_ptr<const sim::RecordedMotion>, std::string> load_motion(
     const sim::MotionOptions& options);

@@ -11,10 +11,11 @@ Result<std::shared_ptr<OpenHapticsLibrary>> OpenHapticsLibrary::load(const std::
   if (handle == nullptr) {
     const char* why = dlerror();
     return std::unexpected(DeviceError{
-        Errc::kLibraryMissing, "openhaptics: " + file + " cannot be loaded: " + (why == nullptr ? "no reason was given" : why) +
-                                   ". Install the vendor's OpenHaptics and the driver of your device (they belong to 3D Systems and "
-                                   "need a licence); versions before 3.4 need libncurses5 as well. Not in the loader's path? "
-                                   "openhaptics:NAME,library=/path/to/libHD.so"});
+        Errc::kLibraryMissing,
+        "openhaptics: " + file + " cannot be loaded: " + (why == nullptr ? "no reason was given" : why) +
+            ". Install the vendor's OpenHaptics and the driver of your device (they belong to 3D Systems and "
+            "need a licence); versions before 3.4 need libncurses5 as well. Not in the loader's path? "
+            "openhaptics:NAME,library=/path/to/libHD.so"});
   }
   std::shared_ptr<OpenHapticsLibrary> library{new OpenHapticsLibrary};
   openhaptics::Api& api = library->api_;
@@ -44,8 +45,9 @@ Result<std::shared_ptr<OpenHapticsLibrary>> OpenHapticsLibrary::load(const std::
   find(api.check_calibration, "hdCheckCalibration");
   find(api.update_calibration, "hdUpdateCalibration");
   if (!missing.empty())
-    return std::unexpected(DeviceError{Errc::kUnsupported, "openhaptics: " + file + " is too old, or another library of that name: it lacks " +
-                                                               missing + ". Version 3.0 and later have them"});
+    return std::unexpected(DeviceError{
+        Errc::kUnsupported, "openhaptics: " + file + " is too old, or another library of that name: it lacks " +
+                                missing + ". Version 3.0 and later have them"});
   return library;
 }
 

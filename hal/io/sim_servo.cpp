@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// After a longer gap (suspended machine) the plant is not run through all of it.
+/// Longest gap that the plant is stepped through; longer gaps (suspended machine) are cut to it.
 constexpr Duration kCatchUpMax = 250ms;
 constexpr std::uint64_t kPublishEvery = 64;  // ticks between copies for readers
 
@@ -104,9 +104,9 @@ void SimServo::publish() noexcept {
 }
 
 void SimServo::run(ServoClient& client) noexcept {
-  realtime_.store(ask_for_realtime(), std::memory_order_relaxed);
+  realtime_.store(request_realtime(), std::memory_order_relaxed);
   pace_.begin();
-  // The device counts its own time; what the client sees is shifted to the host's clock.
+  // The device has its own time; the client sees it shifted to the host's clock.
   Duration shift = MonotonicClock{}.now() - device_->state().sampled_at;
   Command command;
   while (!stop_.load(std::memory_order_relaxed)) {

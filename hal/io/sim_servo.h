@@ -5,16 +5,18 @@
 #include <mutex>
 #include <thread>
 
-#include "hal/device.h"
-#include "hal/io/servo_pace.h"
+#include "hal/core/device.h"
+#include "hal/io/periodic_timer.h"
 
 namespace tandem::hal {
 
-/// Makes a stepped device live: a thread of its own steps it by `period` on an absolute CLOCK_MONOTONIC schedule and
-/// calls the client once per wake-up. A wake-up that comes several periods late steps the device through all of them
-/// under the last command (which dies at its own expiry) and calls the client once: no bursts. `State::sampled_at` seen
-/// by the client and `Command::expires` are CLOCK_MONOTONIC. Threads: start, enable, disable, reset, unplug, stats,
-/// close from any thread but the client's tick, where close() only asks the thread to end.
+/// A live stepped device: a servo thread steps it by `period` on an absolute CLOCK_MONOTONIC schedule and calls the
+/// client once per wake-up.
+/// A wake-up that is several periods late steps the device through all of them under the last command, up to its
+/// expiry. The client is then called once, so there are no bursts.
+/// `State::sampled_at` as seen by the client and `Command::expires` are CLOCK_MONOTONIC.
+/// Threads: start, enable, disable, reset, unplug, stats and close from any thread except the client's tick. There,
+/// close() only requests the thread's end.
 class SimServo final : public Device {
  public:
   SimServo(std::unique_ptr<SteppedDevice> device, DeviceId id, Duration period);
@@ -23,19 +25,19 @@ class SimServo final : public Device {
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
   [[nodiscard]] const DeviceId& id() const noexcept override { return id_; }
   [[nodiscard]] Phase phase() const noexcept override { return phase_.load(std::memory_order_acquire); }
-  /// Identified -> Ready. Error: kBadState if already started or closed, kInternal if there is no thread to be had.
+  /// Starts the servo thread: Identified -> Ready. Error: kBadState if already started or closed, kInternal if no
+  /// thread can be created.
   Result<> start(ServoClient& client) override;
   Result<> enable() override;
   void disable() noexcept override;
-  /// A simulated device has no faults to leave; kBadState when Lost (open it again) or not started.
+  /// Does nothing: a simulated device has no faults. Error: kBadState if Lost (open it again) or not started.
   Result<> reset() override;
   [[nodiscard]] DeviceStats stats() const override;
   [[nodiscard]] DeviceHistograms histograms() const override;
-  /// Ends the thread after a last step with zero effort. May be called again.
+  /// Ends the thread after a last step with zero effort. May be called repeatedly.
   void close() noexcept override;
 
-  /// Pulls the plug, as a test or a person would: the client hears lost(kUnplugged) on the device's thread, no more
-  /// ticks come.
+  /// Simulates unplugging: the client receives lost(kUnplugged) on the device's thread, and no more ticks follow.
   void unplug() noexcept { unplugged_.store(true, std::memory_order_relaxed); }
   [[nodiscard]] bool realtime() const noexcept override { return realtime_.load(std::memory_order_relaxed); }
 
@@ -52,11 +54,11 @@ class SimServo final : public Device {
   std::atomic<bool> stop_{false}, unplugged_{false}, realtime_{false};
   std::thread thread_;
 
-  // The servo thread only tries this lock and keeps its numbers for the next tick if a reader holds it: it never waits.
+  // The servo thread uses try_lock only. If a reader holds the lock, the thread publishes its numbers at a later tick.
   mutable std::mutex stats_lock_;
   DeviceStats published_;
   DeviceStats stats_;
-  ServoPace pace_;
+  PeriodicTimer pace_;
 };
 
 }  // namespace tandem::hal

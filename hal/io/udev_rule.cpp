@@ -11,7 +11,7 @@ std::string udev_rule(Bus bus, UsbIds ids) {
                   ids.product) +
            kRights;
   }
-  // The kernel's name of a HID device, "0003:1234:0006.0001", is there on every bus; the attributes of USB are not.
+  // The kernel's name of a HID device, "0003:1234:0006.0001", exists on every bus; USB attributes do not.
   return format("SUBSYSTEM==\"hidraw\", KERNELS==\"*:%04X:%04X.*\", ", ids.vendor, ids.product) + kRights;
 }
 
@@ -20,10 +20,11 @@ std::string udev_vendor_rule(std::uint16_t vendor) {
 }
 
 std::string udev_no_rule(UsbIds ids) {
-  return format("SUBSYSTEM==\"hidraw\", KERNELS==\"*:%04X:%04X.*\", MODE=\"0600\", TAG-=\"uaccess\"", ids.vendor, ids.product);
+  return format("SUBSYSTEM==\"hidraw\", KERNELS==\"*:%04X:%04X.*\", MODE=\"0600\", TAG-=\"uaccess\"", ids.vendor,
+                ids.product);
 }
 
-std::string permission_advice(const Attached& device) {
+std::string permission_advice(const AttachedDevice& device) {
   return "permission denied on " + device.node + " (" + describe(device) + "). Put this udev rule into " +
          kUdevRulesFile + ":\n  " + udev_rule(device.bus, device.ids) +
          "\nthen type 'sudo udevadm control --reload' and plug the device in again; 'tandem-client doctor "

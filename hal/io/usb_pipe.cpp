@@ -48,7 +48,8 @@ Errc from_call(int code) noexcept {
   }
 }
 
-/// A broken transfer is counted like a broken frame: just before an unplugging is noticed, and on a bad cable.
+/// Maps a transfer status. A broken transfer counts like a broken frame: it occurs on bad cables and just before
+/// unplugging is detected.
 Errc from_transfer(libusb_transfer_status status) noexcept {
   switch (status) {
     case LIBUSB_TRANSFER_NO_DEVICE:
@@ -65,16 +66,16 @@ Errc from_transfer(libusb_transfer_status status) noexcept {
   }
 }
 
-/// A transfer that is made once and sent again and again.
+/// A transfer that is allocated once and submitted repeatedly.
 struct Slot {
   libusb_transfer* transfer = nullptr;
   bool under_way = false;
-  int done = 0;  ///< int, as libusb wants it
+  int done = 0;  ///< int, as libusb requires
 
   Slot() : transfer(libusb_alloc_transfer(0)) {}
   Slot(const Slot&) = delete;
   ~Slot() { release(); }
-  /// Before the context it was used with is gone.
+  /// Frees the transfer; call it before its context is freed.
   void release() noexcept { libusb_free_transfer(std::exchange(transfer, nullptr)); }
 };
 
@@ -82,7 +83,7 @@ void LIBUSB_CALL on_done(libusb_transfer* transfer) noexcept { static_cast<Slot*
 
 unsigned char* raw(std::byte* bytes) noexcept { return reinterpret_cast<unsigned char*>(bytes); }
 
-/// Packet size of the IN endpoint if the interface has both bulk endpoints.
+/// Returns the packet size of the IN endpoint [bytes] if the interface has both bulk endpoints.
 std::optional<std::size_t> packet_size(libusb_device* device, const UsbInterface& wanted) {
   libusb_config_descriptor* config = nullptr;
   if (libusb_get_active_config_descriptor(device, &config) != 0) return std::nullopt;
@@ -100,7 +101,7 @@ std::optional<std::size_t> packet_size(libusb_device* device, const UsbInterface
   return has_out && found > 0 ? std::optional(found) : std::nullopt;
 }
 
-DeviceError opening_error(int code, const Attached& device, const UsbInterface& interface) {
+DeviceError opening_error(int code, const AttachedDevice& device, const UsbInterface& interface) {
   const Errc errc = from_call(code);
   const std::string who = describe(device);
   switch (errc) {
@@ -129,10 +130,10 @@ struct LibusbPipe::Impl {
   bool lost = false;
   std::size_t packet = 0;
   Slot in, out, request;
-  std::array<std::byte, 1024> in_bytes{};  // the largest bulk packet there is
+  std::array<std::byte, 1024> in_bytes{};  // the largest bulk packet
   std::array<std::byte, kWriteMax> out_bytes{};
   std::array<std::byte, LIBUSB_CONTROL_SETUP_SIZE> request_bytes{};
-  // libusb's own waiting counts in whole milliseconds, so the waiting is done here. The set is fixed while opened.
+  // libusb waits in whole milliseconds, so the pipe waits with ppoll. The set is constant while the device is open.
   std::array<pollfd, 8> wakers{};
   nfds_t waker_count = 0;
 
@@ -146,7 +147,7 @@ struct LibusbPipe::Impl {
     if (context != nullptr) libusb_exit(context);
   }
 
-  int open(const Attached& device, bool& fits) {
+  int open(const AttachedDevice& device, bool& fits) {
     if (const int code = libusb_init(&context); code != 0) return code;
     libusb_device** list = nullptr;
     const auto count = libusb_get_device_list(context, &list);
@@ -163,7 +164,7 @@ struct LibusbPipe::Impl {
     }
     libusb_free_device_list(list, 1);
     if (code != 0 || !fits) return code;
-    libusb_set_auto_detach_kernel_driver(handle, 1);  // unsupported only where no kernel driver could be
+    libusb_set_auto_detach_kernel_driver(handle, 1);  // fails only on systems without kernel drivers
     code = libusb_claim_interface(handle, interface.number);
     claimed = code == 0;
     return claimed ? remember_wakers() : code;
@@ -179,11 +180,11 @@ struct LibusbPipe::Impl {
     return 0;
   }
 
-  /// @return whether the transfer ended before the time was over
+  /// @return whether the transfer ended within `timeout`
   bool wait(Slot& slot, Duration timeout) noexcept {
     const Time until = now() + timeout;
     Duration left = timeout;
-    while (slot.done == 0) {  // may have ended while another one was waited for
+    while (slot.done == 0) {  // may have ended during the wait for another transfer
       const auto whole = std::chrono::duration_cast<std::chrono::seconds>(std::max(left, Duration::zero()));
       timespec rest{};
       rest.tv_sec = whole.count();
@@ -207,7 +208,7 @@ struct LibusbPipe::Impl {
     return {};
   }
 
-  /// False if it would not end: then its buffer must not be used again.
+  /// Cancels a transfer. @return false: it did not end, and its buffer must not be used again
   bool cancel(Slot& slot) noexcept {
     libusb_cancel_transfer(slot.transfer);
     return wait(slot, kPatience);
@@ -218,7 +219,7 @@ struct LibusbPipe::Impl {
     return std::unexpected(code);
   }
 
-  /// Sends and waits; what ran out of time is taken back. @return bytes moved
+  /// Submits and waits; cancels the transfer at the time-out. @return bytes moved
   Moved run(Slot& slot, Duration timeout) noexcept {
     if (slot.under_way && !cancel(slot)) return std::unexpected(Errc::kInternal);
     if (const auto sent = submit(slot); !sent) return std::unexpected(sent.error());
@@ -234,7 +235,7 @@ struct LibusbPipe::Impl {
 LibusbPipe::LibusbPipe(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 LibusbPipe::~LibusbPipe() = default;
 
-Result<std::unique_ptr<LibusbPipe>> LibusbPipe::open(const Attached& device, UsbInterface interface) {
+Result<std::unique_ptr<LibusbPipe>> LibusbPipe::open(const AttachedDevice& device, UsbInterface interface) {
   auto impl = std::make_unique<Impl>();
   impl->interface = interface;
   bool fits = false;
@@ -284,7 +285,7 @@ Moved LibusbPipe::read(std::span<std::byte> into, Duration timeout) noexcept {
   if (i.in.transfer->status != LIBUSB_TRANSFER_COMPLETED) return i.fail(from_transfer(i.in.transfer->status));
   const auto moved = static_cast<std::size_t>(i.in.transfer->actual_length);
   std::ranges::copy(std::span(i.in_bytes).first(moved), into.begin());
-  (void)i.submit(i.in);  // the next packet may come while nobody reads; if this fails, the next call says so
+  (void)i.submit(i.in);  // the next packet may arrive between calls; if this fails, the next call returns the error
   return moved;
 }
 

@@ -9,17 +9,17 @@
 namespace tandem::hal::sim {
 namespace {
 
-constexpr double kHoldK = 300.0, kHoldB = 10.0;          // [N/m, N s/m] before the session engages
-constexpr double kFade = 0.5;                            // [s] from one impedance to another
-constexpr double kApproach = 1.0;                        // [s] from the held pose to the intended motion
+constexpr double kHoldK = 300.0, kHoldB = 10.0;          // [N/m, N s/m] while not engaged
+constexpr double kFade = 0.5;                            // [s] fade between two impedances
+constexpr double kApproach = 1.0;                        // [s] fade from the held pose to the intended motion
 constexpr double kDeviationEdge = 0.1;                   // [s]
 constexpr double kTremorFade = 0.5;                      // [s]
 constexpr double kKeyboardSpeed = 0.3;                   // [m/s]
 constexpr double kClockJump = 0.05, kClockExact = 1e-6;  // [s]
-constexpr double kClockGain = 0.05;                      // share of a small clock difference closed per period
+constexpr double kClockGain = 0.05;                      // share of a small clock difference that is closed per period
 constexpr double kAtRest = 1e-6;                         // [m/s]
 
-/// Moves over from the fixed point `from` to the moving `to` with minimum jerk.
+/// Returns the blend from the fixed point `from` to the moving `to`, with minimum jerk.
 MotionPoint blend(const Vec3& from, const MotionPoint& to, double since, double length) noexcept {
   const MinJerk s = min_jerk(since / length);
   return {from + s.value * (to.x - from), s.value * to.v + s.rate / length * (to.x - from)};
@@ -79,7 +79,7 @@ Hand::Hand(const HandSpec& spec, const Vec3& start, std::shared_ptr<const Record
   if (spec.k > 0.0) impedance_.k = spec.k;
   if (spec.b > 0.0) impedance_.b = spec.b;
   if (spec.m > 0.0) impedance_.m = spec.m;
-  if (moved_by_person(spec_.model)) {  // no scene says when a person lets go
+  if (moved_by_person(spec_.model)) {  // the scene's script does not apply to a hand that a user moves
     spec_.from = HandSpec{}.from;
     spec_.until = HandSpec{}.until;
   }
@@ -106,7 +106,7 @@ void Hand::engage(double t, const Vec3& tip) noexcept {
 void Hand::follow_session(const Vec3& tip, double dt) noexcept {
   const double t = session_.load(std::memory_order_relaxed);
   if (std::isnan(t)) {
-    if (time_) hold_ = tip;  // stay here, not where the session began
+    if (time_) hold_ = tip;  // hold the present position, not the one at the session start
     time_.reset();
     return;
   }
@@ -215,8 +215,8 @@ HandPull Hand::advance(const Vec3& tip, double dt) noexcept {
     }
   }
 
-  // Three hands whose shares fade: one that holds, one that is relaxed, one with the model's own impedance. Their sum
-  // is again one spring and one damper.
+  // Sum of three impedances with fading shares: the holding one, the relaxed one and the model's own. The sum is again
+  // one spring and one damper.
   const double engaged = min_jerk((t - engaged_at_) / kFade).value;
   const double begun = !own_ ? 0.0 : from_blend_ ? min_jerk((t - spec_.from) / kFade).value : 1.0;
   const double own = engaged * begun * (1.0 - min_jerk((t - spec_.until) / kFade).value);

@@ -5,24 +5,25 @@
 #include <memory>
 #include <optional>
 
-#include "hal/device.h"
+#include "hal/core/device.h"
 #include "hal/sim/recorded_motion.h"
 #include "hal/sim/trajectory.h"
-#include "proto/scene_spec.h"
+#include "proto/spec/scene_spec.h"
 
 namespace tandem::hal::sim {
 
-/// What a hand does to the tip it holds: F = k (x - tip) + b (v - d tip/dt) + force, and its mass moves with the tip.
-/// `x` and `v` are meant for the middle of the period; within the period x moves on with v.
+/// Force law of a hand that holds the tip: F = k (x - tip) + b (v - d tip/dt) + force. The mass m moves with the tip.
+/// `x` and `v` are given for the middle of the period; within the period x advances with v.
 struct HandPull {
   double k = 0, b = 0, m = 0;  ///< [N/m, N s/m, kg]
   Vec3 x = Vec3::Zero();       ///< intended tip position [m], HAL frame
   Vec3 v = Vec3::Zero();       ///< intended velocity [m/s]
-  Vec3 force = Vec3::Zero();   ///< on top of it [N]
+  Vec3 force = Vec3::Zero();   ///< additional force [N]
 };
 
-/// Where the keys want the tip to be. Written by a person's thread, read by the device's; axes are independent atomics,
-/// a torn read mixes two neighbouring wishes and the hand is limited in speed anyway.
+/// Target tip position of the keyboard. The input thread writes it, the device thread reads it.
+/// The axes are independent atomics. A torn read mixes two consecutive targets, which is harmless because the hand's
+/// speed is limited.
 class KeyboardTarget {
  public:
   explicit KeyboardTarget(const Vec3& start) noexcept;
@@ -33,33 +34,37 @@ class KeyboardTarget {
   std::array<std::atomic<double>, 3> p_;
 };
 
-/// Stiffness, damping and mass of a model; zeros in HandSpec mean these.
+/// Returns stiffness, damping and mass of a model. A zero in HandSpec selects the model's value.
 [[nodiscard]] HandPull impedance_of(HandModel model) noexcept;
 
-/// A simulated person's hand: an impedance about an intended motion (design notes, control 8), following session time.
-/// - Not engaged (no session time): holds the pose, k 300 N/m, b 10 N s/m, so that nothing drifts.
+/// Simulated hand of an operator: an impedance about an intended motion (design notes, control 8), driven by session
+/// time.
+/// - Not engaged (no session time): holds the pose with k 300 N/m and b 10 N s/m, so that nothing drifts.
 /// - Engaged: fades within 0.5 s into its model, without a jump of the intended position or of the stiffness.
-/// - `HandSpec::from`: RELAXED before, then fades within 0.5 s into its own model, moving there with minimum jerk;
-/// `until`: fades back to RELAXED within 0.5 s. Hands that a person moves (`moved_by_person`) ignore both. Deterministic, no heap after construction, total.
+/// - `HandSpec::from`: RELAXED before. Then the hand fades within 0.5 s into its own model and moves there with minimum
+///   jerk.
+/// - `HandSpec::until`: the hand fades back to RELAXED within 0.5 s.
+/// Models driven by a user or a recording (`moved_by_person`) ignore `from` and `until`. Deterministic, no heap after
+/// construction, total.
 class Hand {
  public:
   /// @param start   tip position at the start [m], HAL frame
-  /// @param motion  needed by HandModel::kRecorded, ignored otherwise; without it such a hand holds the start
+  /// @param motion  recording for HandModel::kRecorded, ignored otherwise; without it such a hand holds the start
   Hand(const HandSpec& spec, const Vec3& start, std::shared_ptr<const RecordedMotion> motion = nullptr);
 
-  /// Time since all required seats engaged [s], or none while not engaged. Thread-safe. The hand runs on by itself
-  /// between calls; a difference of more than 50 ms is a jump, a smaller one is closed gently so that a jittery source
-  /// causes no kicks.
+  /// Sets the time since all required seats engaged [s]; empty: not engaged. Thread-safe.
+  /// Between calls the hand's own time runs on. A difference of more than 50 ms is a jump. A smaller one is closed
+  /// gradually, so that a jittery source causes no force steps.
   void set_session_time(std::optional<double> t) noexcept TANDEM_REALTIME;
 
-  /// The pull during the coming `dt` [s], and moves the hand's own time on.
-  /// @param tip  tip position now [m]
+  /// Returns the force law for the coming `dt` [s] and advances the hand's time by `dt`.
+  /// @param tip  present tip position [m]
   [[nodiscard]] HandPull advance(const Vec3& tip, double dt) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] HandModel model() const noexcept { return spec_.model; }
-  /// The intended position is read from here by HandModel::kKeyboard.
+  /// Returns the target that HandModel::kKeyboard reads its intended position from.
   [[nodiscard]] const std::shared_ptr<KeyboardTarget>& keyboard() const noexcept { return keyboard_; }
-  /// Session time at the end of the last period, if engaged [s].
+  /// Returns the session time at the end of the last period [s]; empty: not engaged.
   [[nodiscard]] std::optional<double> time() const noexcept { return time_; }
 
  private:
@@ -70,23 +75,23 @@ class Hand {
   [[nodiscard]] Vec3 deviation(double t) const noexcept;
 
   HandSpec spec_;
-  HandPull impedance_;  ///< of the own model
+  HandPull impedance_;  ///< of the hand's own model
   std::shared_ptr<const RecordedMotion> motion_;
   RecordedMotion::Cursor cursor_;
   std::shared_ptr<KeyboardTarget> keyboard_;
   std::atomic<double> session_;  ///< NaN: not engaged
-  double session_seen_ = 0;      ///< last value acted on
+  double session_seen_ = 0;      ///< last value used
 
   std::optional<double> time_;
   Vec3 hold_;  ///< held while not engaged
   double engaged_at_ = 0;
   Vec3 tip_engaged_;  ///< tip when engaged
-  Vec3 approach_ =
-      Vec3::Zero();  ///< hold - intended at engagement, fades out; used when the intended motion starts at rest
+  /// hold - intended at engagement, fades out; used if the intended motion starts at rest.
+  Vec3 approach_ = Vec3::Zero();
   bool approach_by_offset_ = true;
   bool own_ = false;             ///< `from` has passed
-  bool from_blend_ = false;      ///< it passed while engaged: the hand moves over from where it was
-  Vec3 tip_own_ = Vec3::Zero();  ///< tip when it passed
+  bool from_blend_ = false;      ///< `from` passed while engaged: the hand blends from its position at that time
+  Vec3 tip_own_ = Vec3::Zero();  ///< tip position when `from` passed
   MotionPoint key_;              ///< rate-limited keyboard motion
 };
 

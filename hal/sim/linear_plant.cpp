@@ -64,7 +64,8 @@ void LinearPlant::substep(double force, const HandPull& hand, double intended, d
     if (s.axis != 0) continue;
     contact[i] = ContactStep(s, s.penetration(middle), -s.sign * v_, -s.sign * change, inv, h);
   }
-  // Two surfaces may face each other or lie behind one another; sweeps converge because each is exact by itself.
+  // Two surfaces may face each other or be one behind the other. The sweeps converge because each single solution is
+  // exact.
   for (int sweep = 0; sweep < 8; ++sweep) {
     for (std::size_t i = 0; i < environment_.size(); ++i) {
       if (!contact[i].active) continue;
@@ -78,7 +79,7 @@ void LinearPlant::substep(double force, const HandPull& hand, double intended, d
   for (std::size_t i = 0; i < environment_.size(); ++i) f_environment_[0] += environment_[i].sign * push[i];
 
   double v = v_ + change;
-  if (!std::isfinite(v) || std::abs(v) < kSpeedMin) v = 0.0;  // also what would become denormal
+  if (!std::isfinite(v) || std::abs(v) < kSpeedMin) v = 0.0;  // also avoids denormal numbers
   v = std::clamp(v, -kSpeedMax, kSpeedMax);
   f_hand_[0] += pull - hand.b * v_;
   tip_[0] += 0.5 * h * (v_ + v);

@@ -1,16 +1,16 @@
 #pragma once
 
-#include "hal/device.h"
+#include "hal/core/device.h"
 #include "hal/sim/environment.h"
 #include "hal/sim/hand.h"
-#include "proto/scene_spec.h"
+#include "proto/spec/scene_spec.h"
 
 namespace tandem::hal::sim {
 
-/// A mass on a rail along x with the same hand, environment, friction and integrator as TouchPlant; y and z stay at the
-/// start.
+/// A mass on a rail along x, with the same hand, environment, friction and integrator as TouchPlant; y and z stay at
+/// the start.
 ///   (m + m_h) ddx + friction + b dx = f + F_hand + F_environment.
-/// Deterministic, no heap, total: forces are cut to 1 kN, the position to +-10 m.
+/// Deterministic, no heap, total: forces are limited to 1 kN, the position to +-10 m.
 class LinearPlant {
  public:
   static constexpr bool kPrismatic = true;
@@ -18,7 +18,7 @@ class LinearPlant {
 
   LinearPlant(const SimDeviceSpec& spec, const EnvironmentSpec& environment, const Vec3& start) noexcept;
 
-  /// Moves on by `dt` [s] under the force `tau[0]` [N]; a non-finite one counts as 0.
+  /// Advances by `dt` [s] under the force `tau[0]` [N]; a non-finite force counts as 0.
   void advance(const Vec3& tau, const HandPull& hand, double dt) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] Vec3 q() const noexcept { return {tip_[0], 0.0, 0.0}; }
@@ -29,7 +29,7 @@ class LinearPlant {
   [[nodiscard]] const Vec3& hand_force() const noexcept { return f_hand_; }
   [[nodiscard]] double penetration() const noexcept;
   [[nodiscard]] double kinetic_energy() const noexcept { return 0.5 * mass_ * v_ * v_; }
-  /// For tests: start from another state.
+  /// For tests: sets position [m] and velocity [m/s].
   void set(double x, double v) noexcept;
 
  private:

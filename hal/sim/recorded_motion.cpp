@@ -9,11 +9,12 @@
 namespace tandem::hal::sim {
 namespace {
 
-constexpr double kReach = 0.060;  // [m] a recording is shrunk to
+constexpr double kReach = 0.060;  // [m] automatic scaling shrinks larger recordings to this excursion
 constexpr double kScaleMax = 1e3;
-constexpr double kRepeatMax = 0.010;  // [s] a position repeated for shorter is the logger's, not the person's
-constexpr double kBackMin = 0.5;      // [s] way back of a looped motion
-constexpr double kBackSpeed = 0.1;    // [m/s]
+constexpr double kRepeatMax =
+    0.010;                        // [s] a shorter repetition of a position comes from the logger, not from the operator
+constexpr double kBackMin = 0.5;  // [s] shortest return of a looped motion
+constexpr double kBackSpeed = 0.1;  // [m/s]
 
 using Text = std::string_view;
 
@@ -44,7 +45,7 @@ std::expected<std::array<MotionOptions::Axis, 3>, std::string> parse_axes(Text v
   return axes;
 }
 
-/// Name of a position column without `_m` or `_mm`, and without its axis letter: `px_m` -> ("p", 0), `baton_x` ->
+/// Name of a position column without `_m` or `_mm` and without its axis letter: `px_m` -> ("p", 0), `baton_x` ->
 /// ("baton", 0).
 struct PositionName {
   std::string prefix;
@@ -197,7 +198,7 @@ std::expected<RecordedMotion, std::string> RecordedMotion::parse(Text csv, const
   std::string recs;
   std::optional<double> last_rec;
   double t_first = 0, t_last = 0;
-  bool left = false;  // the wanted recording has ended
+  bool left = false;  // the selected recording has ended
   for (std::size_t row = 0; row < table->rows(); ++row) {
     if (rec_column) {
       const auto r = table->number(row, *rec_column);
@@ -256,10 +257,13 @@ std::expected<RecordedMotion, std::string> RecordedMotion::parse(Text csv, const
 }
 
 std::expected<RecordedMotion, std::string> RecordedMotion::from_points(std::vector<double> t, std::vector<Vec3> x) {
-  if (t.size() < 2 || t.size() != x.size()) return std::unexpected("a motion needs at least two points, and one position per time");
+  if (t.size() < 2 || t.size() != x.size())
+    return std::unexpected("a motion needs at least two points, and one position per time");
   for (std::size_t i = 0; i < t.size(); ++i) {
-    if (!std::isfinite(t[i]) || !x[i].allFinite()) return std::unexpected("point " + std::to_string(i) + " is not finite");
-    if (i == 0 ? t[i] != 0.0 : t[i] <= t[i - 1]) return std::unexpected("point " + std::to_string(i) + ": time must begin at 0 and ascend");
+    if (!std::isfinite(t[i]) || !x[i].allFinite())
+      return std::unexpected("point " + std::to_string(i) + " is not finite");
+    if (i == 0 ? t[i] != 0.0 : t[i] <= t[i - 1])
+      return std::unexpected("point " + std::to_string(i) + ": time must begin at 0 and ascend");
   }
   RecordedMotion motion;
   motion.line_.resize(t.size());
@@ -271,8 +275,8 @@ std::expected<RecordedMotion, std::string> RecordedMotion::from_points(std::vect
 }
 
 void RecordedMotion::drop_repeats() {
-  // A logger that runs faster than its source writes a position several times; taken literally that is a stop and a
-  // jump, so only the first row of a short repetition counts. A longer one is a person who pauses: its two ends stay.
+  // A logger that runs faster than its source repeats positions, which would appear as a stop and a jump. Only the
+  // first row of a short repetition is kept. A longer one is a real pause: both of its ends are kept.
   std::vector<double> t;
   std::vector<Vec3> x;
   std::vector<std::size_t> line;
@@ -338,7 +342,7 @@ MotionPoint RecordedMotion::at(double t, Cursor& cursor) const noexcept {
       return {x_.back() + s.value * way, s.rate / back_ * way};
     }
   }
-  // The next interval is nearly always this one or the following one; anything else is searched.
+  // The next interval is nearly always this one or the following one; otherwise it is searched.
   std::size_t i = std::min(cursor.i, t_.size() - 2);
   if (t >= t_[i + 1] && i + 2 < t_.size()) ++i;
   if (!(t_[i] <= t && t < t_[i + 1])) {

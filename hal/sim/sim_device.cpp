@@ -6,19 +6,22 @@
 #include <numbers>
 #include <string>
 
-#include "hal/port_map.h"
+#include "hal/core/port_map.h"
 
 namespace tandem::hal::sim {
 namespace {
 
-/// Farther no joint of such a device goes [rad] or [m].
+/// Largest joint position of such a device [rad] or [m].
 constexpr double kJointMax = 100;
-/// Cut-off of the velocity estimate: one encoder count per tick (0.4 rad/s) must not shake what is computed from it.
+/// Cut-off of the velocity estimate. One encoder count per tick (0.4 rad/s) must not cause visible ripple in derived
+/// forces.
 constexpr double kVelocityCutoff = 40.0;  // [Hz]
-/// Below this the estimate is zero: an endless decay would end in denormal numbers, which are slow for everybody.
+/// Below this the estimate is set to zero: an endless decay would end in denormal numbers, which slow down all
+/// arithmetic.
 constexpr double kRateMin = 1e-12;  // [rad/s]
-/// Friction feed-forward: share of the friction, and the tip speed over which its sign is smoothed. The speed lies
-/// above the ripple of the estimated velocity; the share below 1 keeps friction and feed-forward together dissipative.
+/// Friction feed-forward: share of the friction, and the tip speed over which its sign is smoothed.
+/// The speed is above the ripple of the estimated velocity. The share below 1 keeps friction and feed-forward together
+/// dissipative.
 constexpr double kFeedforwardShare = 0.9;
 constexpr double kFeedforwardSpeed = 0.015;  // [m/s]
 constexpr double kLinearEncoder = 5.5e-5;    // [m]
@@ -67,9 +70,10 @@ Result<> check(const SimSetup& s) {
 Result<std::unique_ptr<SimDevice>> SimDevice::make(const SimSetup& setup) {
   if (auto ok = check(setup); !ok) return std::unexpected(ok.error());
   Vec3 start = to_vec3(setup.device.start);
-  if (setup.joints) {  // a reading of such a device, perhaps a count beyond a stop: that gives way
+  if (setup.joints) {  // a reading of such a device may be a count beyond a stop; stops are soft, so it is accepted
     for (std::size_t i = 0; i < 3; ++i)
-      if (!(std::abs((*setup.joints)[i]) <= kJointMax)) return std::unexpected(limit("simulated device: no device of this kind has such joints"));
+      if (!(std::abs((*setup.joints)[i]) <= kJointMax))
+        return std::unexpected(limit("simulated device: no device of this kind has such joints"));
     const Vec3 q{(*setup.joints)[0], (*setup.joints)[1], (*setup.joints)[2]};
     if (setup.device.model == DeviceModel::kLinear) {
       start[0] = q[0];
@@ -94,7 +98,7 @@ Result<std::unique_ptr<SimDevice>> SimDevice::make(const SimSetup& setup) {
 
 SimDevice::SimDevice(const SimSetup& setup, Plant plant, const Vec3& start)
     : spec_(setup.device), plant_(std::move(plant)), hand_(setup.hand, start, setup.motion) {
-  // The scene leaves the joint default where a one-axis device has its own, in metres.
+  // If the scene does not set the encoder step, its default is in radians; a one-axis device has its own, in metres.
   if (spec_.model == DeviceModel::kLinear && spec_.encoder == SimDeviceSpec{}.encoder) spec_.encoder = kLinearEncoder;
   make_caps();
   state_.sampled_at = setup.start;
@@ -112,7 +116,7 @@ void SimDevice::make_caps() {
   caps_.gravity =
       touch && spec_.gravity && spec_.gravity_compensation ? GravityCompensation::kHost : GravityCompensation::kNone;
   caps_.damping = spec_.damping;
-  caps_.latency = 0;  // what is commanded after a reading acts from that instant on
+  caps_.latency = 0;  // a command acts from the instant of the reading on
   if (touch) {
     // Mean over the directions: a push of 1 N moves the tip by the mean of diag(J M^-1 J^T).
     if (const auto q = touch_inverse(Vec3::Zero())) {
@@ -138,12 +142,12 @@ void SimDevice::read_truth() noexcept {
       [this](const auto& plant) {
         const Vec3 q = plant.q(), dq = plant.dq();
         for (std::size_t i = 0; i < caps_.joints; ++i) {
-          truth_.q[i] = q[static_cast<int>(i)];
-          truth_.dq[i] = dq[static_cast<int>(i)];
+          ground_truth_.q[i] = q[static_cast<int>(i)];
+          ground_truth_.dq[i] = dq[static_cast<int>(i)];
         }
-        truth_.x = plant.tip();
-        truth_.dx = plant.tip_velocity();
-        truth_.penetration = plant.penetration();
+        ground_truth_.x = plant.tip();
+        ground_truth_.dx = plant.tip_velocity();
+        ground_truth_.penetration = plant.penetration();
       },
       plant_);
 }
@@ -155,13 +159,13 @@ void SimDevice::measure(double dt) noexcept {
   }
   for (std::size_t i = 0; i < caps_.joints; ++i) {
     if (spec_.encoder > 0.0) {
-      const double q = spec_.encoder * std::round(truth_.q[i] / spec_.encoder);
+      const double q = spec_.encoder * std::round(ground_truth_.q[i] / spec_.encoder);
       if (dt > 0.0) state_.dq[i] += filter_ * ((q - state_.q[i]) / dt - state_.dq[i]);
       if (std::abs(state_.dq[i]) < kRateMin) state_.dq[i] = 0.0;
       state_.q[i] = q;
     } else {
-      state_.q[i] = truth_.q[i];
-      state_.dq[i] = truth_.dq[i];
+      state_.q[i] = ground_truth_.q[i];
+      state_.dq[i] = ground_truth_.dq[i];
     }
   }
   derive_pose();
@@ -169,7 +173,7 @@ void SimDevice::measure(double dt) noexcept {
 
 void SimDevice::derive_pose() noexcept {
   if (caps_.prismatic) {
-    state_.x = truth_.x;
+    state_.x = ground_truth_.x;
     state_.x[0] = state_.q[0];
     state_.dx[0] = state_.dq[0];
     state_.J(0, 0) = 1.0;
@@ -192,7 +196,7 @@ SimDevice::Effort SimDevice::limited_effort(const Command& command) noexcept {
       ++counts_.rejected;
       return {};
     }
-    // Numbers beyond this are beyond every motor; cutting them first keeps their squares finite.
+    // Larger numbers exceed every motor. Limiting them first keeps their squares finite.
     constexpr double kBeyond = 1e6;
     out.tau[i] = std::clamp(tau, -kBeyond, kBeyond);
     any = any || tau != 0.0;
@@ -232,8 +236,8 @@ void SimDevice::move(const Vec3& tau, HandPull pull, double middle, double lengt
   std::visit(
       [&](auto& plant) {
         plant.advance(tau, pull, length);
-        truth_.f_environment += length / period * plant.environment_force();
-        truth_.f_hand += length / period * plant.hand_force();
+        ground_truth_.f_environment += length / period * plant.environment_force();
+        ground_truth_.f_hand += length / period * plant.hand_force();
       },
       plant_);
 }
@@ -252,14 +256,14 @@ void SimDevice::advance(const Command& command, Duration dt) noexcept {
   state_.echo_command = alive > Duration::zero() ? command.seq : 0;
 
   const Vec3 host = compensation();
-  HandPull pull = hand_.advance(truth_.x, period);
+  HandPull pull = hand_.advance(ground_truth_.x, period);
   if (push_left_ > 0) {
     pull.force += push_;
     push_left_ -= period;
   }
   const double acting = seconds(alive);
-  truth_.f_environment.setZero();
-  truth_.f_hand.setZero();
+  ground_truth_.f_environment.setZero();
+  ground_truth_.f_hand.setZero();
   move(host + Vec3(effort.tau[0], effort.tau[1], effort.tau[2]), pull, 0.5 * acting, acting, period);
   move(host, pull, 0.5 * (acting + period), period - acting, period);
 
@@ -267,8 +271,8 @@ void SimDevice::advance(const Command& command, Duration dt) noexcept {
   for (std::size_t i = 0; i < caps_.joints; ++i) state_.tau_out[i] = share * effort.tau[i];
   state_.f_out = share * effort.force;
   read_truth();
-  state_.f_env = truth_.f_environment;
-  state_.penetration = truth_.penetration;
+  state_.f_env = ground_truth_.f_environment;
+  state_.penetration = ground_truth_.penetration;
   measure(period);
   state_.sampled_at += dt;
   ++state_.seq;

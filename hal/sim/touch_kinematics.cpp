@@ -23,7 +23,8 @@ Eigen::Matrix3d TouchPose::jacobian() const noexcept {
 }
 
 std::optional<Vec3> touch_inverse(const Vec3& tip) noexcept {
-  // In the vertical plane of the arm: link 1 from the origin at elevation q2, link 2 at elevation q3 - 90 degrees.
+  // In the vertical plane of the arm, link 1 starts at the origin at elevation q2; link 2 is at elevation q3 - 90
+  // degrees.
   const double forward = kTouchW - tip[1];
   const double rho = std::hypot(tip[0], forward);
   const double height = tip[2] - kTouchH;

@@ -20,14 +20,15 @@ constexpr double kG3 = kM3 * kR3 * kG;
 
 constexpr double kEffortMax = 10.0, kForceMax = 1000.0, kRateMax = 200.0, kRateMin = 1e-30;
 
-// Where the mechanism ends (assumed; the reachable part of the vendor's workspace and some more). A stop is a stiff
-// implicit spring and damper; beyond its softness the joint is held, so that q is bounded whatever pushes.
+// Mechanical stops (assumed: somewhat outside the reachable part of the vendor's workspace).
+// A stop is a stiff implicit spring and damper. Beyond kStopSoft the joint is held, so that q is bounded under every
+// force.
 constexpr std::array<double, 3> kStopLow{-1.1, -0.4, -0.9};
 constexpr std::array<double, 3> kStopHigh{1.1, 1.8, 1.6};
-constexpr double kStopElbow = 1.45;  // |q3 - q2|, before the arm is stretched or folded
+constexpr double kStopElbow = 1.45;  // limit of |q3 - q2|: the arm is neither fully stretched nor folded
 constexpr double kStopK = 20.0, kStopB = 0.05, kStopSoft = 0.6;
 
-/// Symmetric 3x3 of the pattern [a11 0 0; 0 a22 a23; 0 a23 a33].
+/// Symmetric 3x3 matrix of the pattern [a11 0 0; 0 a22 a23; 0 a23 a33].
 struct Block {
   double a11, a22, a33, a23;
 
@@ -134,14 +135,14 @@ void TouchPlant::substep(const Vec3& tau, const HandPull& hand, const Vec3& inte
   const double sd = p.s3 * p.c2 - p.c3 * p.s2;  // sin, cos of q3 - q2
   const double cd = p.c3 * p.c2 + p.s3 * p.s2;
 
-  // Inertia of device and hand; the hand is a point mass at the tip and therefore just a heavier link 3.
+  // Inertia of device and hand. The hand is a point mass at the tip, so it only makes link 3 heavier.
   const double arm = kL1 * p.c2 + kR3 * p.s3;
   const double kappa = kM23 + m * kL1 * kL2;
   Block a{kI + kM2 * kR2 * kR2 * p.c2 * p.c2 + kM3 * arm * arm + m * p.rho * p.rho, kM22 + m * kL1 * kL1,
           kM33 + m * kL2 * kL2, kappa * sd};
 
-  // Coriolis and centrifugal terms from Lagrange's equations of that inertia (dM11/dq2, dM11/dq3, dM23/d(q3 - q2)), at
-  // the velocity extrapolated to the middle of the step, which makes the free motion second order.
+  // Coriolis and centrifugal terms from Lagrange's equations of that inertia (dM11/dq2, dM11/dq3, dM23/d(q3 - q2)).
+  // They use the velocity extrapolated to the middle of the step, which makes the free motion second-order accurate.
   const Vec3 w = 1.5 * dq_ - 0.5 * dq_prev_;
   const double d2 = -2.0 * p.s2 * (kM2 * kR2 * kR2 * p.c2 + kL1 * (kM3 * arm + m * p.rho));
   const double d3 = 2.0 * p.c3 * (kM3 * kR3 * arm + m * kL2 * p.rho);
@@ -185,7 +186,7 @@ void TouchPlant::substep(const Vec3& tau, const HandPull& hand, const Vec3& inte
     for (std::size_t i = 0; i < environment_.size(); ++i) {
       const Surface& s = environment_[i];
       const double d = s.penetration(tip);
-      if (d < -0.02) continue;  // farther than anything moves in a substep
+      if (d < -0.02) continue;  // farther than any motion within a substep
       Vec3 normal = Vec3::Zero();
       normal[s.axis] = s.sign;
       row[i] = p.joint_effort(normal);
@@ -211,7 +212,8 @@ void TouchPlant::substep(const Vec3& tau, const HandPull& hand, const Vec3& inte
 
   Vec3 dq = dq_ + change;
   if (!dq.allFinite()) dq.setZero();
-  // What decays without end would become denormal, and a resting device ten times as expensive as a moving one.
+  // Values that decay without end would become denormal. Then a resting device would cost ten times as much as a moving
+  // one.
   dq = (dq.array().abs() < kRateMin).select(0.0, dq);
   dq = dq.cwiseMax(-kRateMax).cwiseMin(kRateMax);
   f_hand_ += pull - hand.b * v;

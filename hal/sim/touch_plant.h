@@ -1,10 +1,10 @@
 #pragma once
 
-#include "hal/device.h"
+#include "hal/core/device.h"
 #include "hal/sim/environment.h"
 #include "hal/sim/hand.h"
 #include "hal/sim/touch_kinematics.h"
-#include "proto/scene_spec.h"
+#include "proto/spec/scene_spec.h"
 
 namespace tandem::hal::sim {
 
@@ -15,11 +15,13 @@ inline constexpr double kFrictionSpeed = 1e-3;
 
 /// Dynamics of the simulated Touch with a hand and an environment at its tip (design notes, control 8):
 ///   (M(q) + m_h J^T J) ddq + C(q, dq) dq + G(q) + friction + J^T b J dq = tau + J^T (F_hand + F_environment).
-/// Scheme: midpoint pose, linearly implicit. Springs are trapezoidal (they keep their energy), viscous and Coulomb
-/// damping are backward Euler (secant damping tau_c / sqrt(dq^2 + v_s^2)), contacts see environment.h: stable for any
-/// stiffness, damping, friction. Because J^T J has the same 1 + 2 block pattern as M, one closed-form inverse serves
-/// everything isotropic at the tip; contacts are rank-one on top of it. Deterministic, no heap, total: efforts are cut
-/// to 10 N m, forces to 1 kN, speeds to 200 rad/s.
+/// Scheme: midpoint pose, linearly implicit; stable for any stiffness, damping and friction.
+/// - Springs are trapezoidal (they conserve energy).
+/// - Viscous and Coulomb damping are backward Euler (secant damping tau_c / sqrt(dq^2 + v_s^2)).
+/// - Contacts: see environment.h.
+/// J^T J has the same 1 + 2 block pattern as M, so one closed-form inverse covers everything isotropic at the tip.
+/// Contacts are rank-one updates of it.
+/// Deterministic, no heap, total: efforts are limited to 10 N m, forces to 1 kN, speeds to 200 rad/s.
 class TouchPlant {
  public:
   static constexpr bool kPrismatic = false;
@@ -28,7 +30,7 @@ class TouchPlant {
   /// @param q0  joint angles at the start [rad], at rest
   TouchPlant(const SimDeviceSpec& spec, const EnvironmentSpec& environment, const Vec3& q0) noexcept;
 
-  /// Moves on by `dt` [s] under the joint effort `tau` [N m]; non-finite entries count as 0.
+  /// Advances by `dt` [s] under the joint effort `tau` [N m]; non-finite entries count as 0.
   void advance(const Vec3& tau, const HandPull& hand, double dt) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] const Vec3& q() const noexcept { return q_; }
@@ -38,27 +40,27 @@ class TouchPlant {
   [[nodiscard]] Vec3 tip_velocity() const noexcept { return pose_.tip_velocity(dq_); }
   [[nodiscard]] const Vec3& environment_force() const noexcept {
     return f_environment_;
-  }                                                                          ///< on the tip, mean of last advance [N]
+  }  ///< on the tip, mean of the last advance [N]
   [[nodiscard]] const Vec3& hand_force() const noexcept { return f_hand_; }  ///< likewise, without inertia [N]
   [[nodiscard]] double penetration() const noexcept { return environment_.penetration(tip()); }
 
-  /// Energies of the device itself, without hand [J].
+  /// Energies of the device without the hand [J].
   [[nodiscard]] double kinetic_energy() const noexcept;
   [[nodiscard]] double potential_energy() const noexcept;
-  /// Device inertia [kg m^2] at a pose, without hand.
+  /// Returns the device inertia [kg m^2] at a pose, without the hand.
   [[nodiscard]] static Eigen::Matrix3d inertia(const TouchPose& pose) noexcept;
-  /// Joint effort that holds the device against gravity [N m].
+  /// Returns the joint effort that balances gravity [N m].
   [[nodiscard]] static Vec3 gravity(const TouchPose& pose) noexcept;
-  /// Coulomb friction of the joints [N m] for `friction` [N] at the tip: the lever of each joint with the tip at the
-  /// vendor's origin.
+  /// Returns the Coulomb friction of the joints [N m] that corresponds to `friction` [N] at the tip.
+  /// It is `friction` times the lever arm of each joint, with the tip at the vendor's origin.
   [[nodiscard]] static Vec3 joint_friction(double friction) noexcept;
-  /// Levers |J column| at the working pose [m].
+  /// Returns the lever arms |J column| at the working pose [m].
   [[nodiscard]] static Vec3 working_levers() noexcept;
 
-  /// Whether a pose lies within the mechanical stops.
+  /// Returns whether a pose is within the mechanical stops.
   [[nodiscard]] static bool within_stops(const Vec3& q) noexcept;
 
-  /// For tests: start from another state.
+  /// For tests: sets joint angles [rad] and rates [rad/s].
   void set(const Vec3& q, const Vec3& dq) noexcept;
 
  private:

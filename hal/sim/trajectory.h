@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hal/device.h"
-#include "proto/scene_spec.h"
+#include "hal/core/device.h"
+#include "proto/spec/scene_spec.h"
 
 namespace tandem::hal::sim {
 
@@ -11,7 +11,7 @@ struct MotionPoint {
   Vec3 v = Vec3::Zero();
 };
 
-/// Minimum-jerk step from 0 to 1 over u in [0, 1], constant outside [Flash, Hogan 1985]; `rate` is its derivative by u.
+/// Minimum-jerk step from 0 to 1 over u in [0, 1], constant outside [Flash, Hogan 1985]. `rate` is its derivative by u.
 struct MinJerk {
   double value = 0;
   double rate = 0;
@@ -25,10 +25,11 @@ struct MinJerk {
 
 [[nodiscard]] inline Vec3 to_vec3(const Point& p) noexcept { return {p.x, p.y, p.z}; }
 
-/// Where a trajectory is at time `t` [s].
-/// Circle: centre + r(t) (cos wt, sin wt) in the plane normal to `plane`; r grows from 0 with minimum jerk in `ramp`,
-/// so the motion starts at the centre and at rest. Waypoints: held before the first and after the last, minimum jerk in
-/// between. Total: non-finite time counts as 0. Real-time safe.
+/// Returns the point of a trajectory at time `t` [s].
+/// Circle: center + r(t) (cos wt, sin wt) in the plane normal to `plane`. r grows from 0 with minimum jerk in `ramp`,
+/// so the motion starts at the center and at rest.
+/// Waypoints: held before the first and after the last, minimum jerk in between.
+/// Total: non-finite time counts as 0. Real-time safe.
 [[nodiscard]] MotionPoint at(const Trajectory& trajectory, double t) noexcept TANDEM_REALTIME;
 
 }  // namespace tandem::hal::sim

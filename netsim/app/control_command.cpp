@@ -1,13 +1,14 @@
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "common/io/print.h"
-#include "netsim/app/control_socket.h"
-#include "netsim/app/control_words.h"
-#include "netsim/app/interruption.h"
 #include "netsim/app/proxy_command.h"
+#include "netsim/app/signal_watcher.h"
+#include "netsim/proxy/app/control_request.h"
+#include "netsim/proxy/app/control_socket.h"
 
 namespace tandem::netsim {
 namespace {
@@ -20,20 +21,20 @@ struct ControlArguments {
 int control_command(const ControlArguments& arguments) {
   std::string line;
   for (const std::string& word : arguments.words) line += (line.empty() ? "" : " ") + word;
-  // A mistake is found here already; whether the network or the client exists, the proxy knows.
-  if (const auto request = parse_control(line); !request) {
-    io::printf_for_people(stderr, "tandem-netsim control: %s\n", request.error().c_str());
+  // The command checks the syntax here; the proxy checks whether the network or the client exists.
+  if (const auto request = parse_control_request(line); !request) {
+    io::print_formatted(stderr, "tandem-netsim control: %s\n", request.error().c_str());
     return 2;
   }
-  const Interruption interruption;
-  const auto answer = ask_control(arguments.path, line, interruption.fd());
+  const SignalWatcher interruption;
+  const auto answer = send_control_request(arguments.path, line, interruption.fd());
   if (!answer) {
-    io::printf_for_people(stderr, "tandem-netsim control: %s\n", answer.error().c_str());
+    io::print_formatted(stderr, "tandem-netsim control: %s\n", answer.error().c_str());
     return 1;
   }
   if (answer->empty()) {
-    Interruption::say("control", "the command was sent; whether the proxy carried it out, `status --json` shows");
-    return Interruption::kInterrupted;
+    SignalWatcher::report("control", "the command was sent; whether the proxy carried it out, `status --json` shows");
+    return SignalWatcher::kInterrupted;
   }
   const int code = answer->front() == '0' ? 0 : answer->front() == '1' ? 1 : 2;
   std::fprintf(code == 0 ? stdout : stderr, "%s%s", code == 0 ? "" : "tandem-netsim control: ", answer->c_str() + 1);

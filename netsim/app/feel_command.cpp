@@ -1,27 +1,28 @@
 #include "netsim/app/feel_command.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <unistd.h>
 
 #include "common/base/format.h"
-#include "common/base/nearest.h"
+#include "common/base/suggestions.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/terminal.h"
-#include "common/setup/channel_setup.h"
+#include "common/setup/channel_factory.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/feel_measure.h"
-#include "netsim/app/interruption.h"
-#include "netsim/app/mistakes.h"
-#include "netsim/app/network_options.h"
+#include "netsim/app/signal_watcher.h"
 #include "netsim/app/test_progress.h"
+#include "netsim/app/usage_errors.h"
+#include "netsim/profiles/app/network_options.h"
 #include "proto/io/scene_file.h"
-#include "proto/scene_text.h"
-#include "server/session_monitor.h"
+#include "proto/text/scene_text.h"
+#include "server/session/session_invariant_checker.h"
 
 namespace tandem::netsim {
 namespace {
@@ -33,13 +34,13 @@ struct FeelArguments {
   std::string scene, channel, mfs, contacts, probes, recordings, json, csv;
   std::vector<std::string> hands, limits;
   double seeds = 20, jobs = 0;
-  double assist = -1;  ///< [N]; below 0: the scene's
+  double assist = -1;  ///< [N]; below 0: that of the scene
   bool assist_in_contact = false;
   bool plain = false, quiet = false;
   NetworkOptions network;
 };
 
-std::vector<Probe> probes_named(const std::string& text, Mistakes& mistakes) {
+std::vector<Probe> probes_named(const std::string& text, UsageErrors& mistakes) {
   std::vector<Probe> out;
   std::vector<std::string> known;
   for (const ProbeName& one : kProbes) known.emplace_back(one.name);
@@ -60,7 +61,7 @@ std::vector<Probe> probes_named(const std::string& text, Mistakes& mistakes) {
   return out;
 }
 
-void add_recording(const std::string& text, FeelSetup& setup, Mistakes& mistakes, const char* option) {
+void add_recording(const std::string& text, FeelSetup& setup, UsageErrors& mistakes, const char* option) {
   const auto options = hal::sim::parse_motion_options(text);
   if (!options) return mistakes.add(std::string(option) + ": " + options.error());
   auto motion = hal::load_motion(*options);
@@ -68,8 +69,8 @@ void add_recording(const std::string& text, FeelSetup& setup, Mistakes& mistakes
   setup.recordings.push_back({text, std::move(*motion)});
 }
 
-/// Every recording of a folder that can be read without further options: those that cannot are named.
-void add_folder(const FeelArguments& a, FeelSetup& setup, Mistakes& mistakes, std::vector<std::string>& notes) {
+/// Adds every recording of a folder that needs no further options; names the others in `notes`.
+void add_folder(const FeelArguments& a, FeelSetup& setup, UsageErrors& mistakes, std::vector<std::string>& notes) {
   if (a.recordings.empty()) return;
   std::error_code error;
   std::vector<std::string> files;
@@ -90,7 +91,8 @@ void add_folder(const FeelArguments& a, FeelSetup& setup, Mistakes& mistakes, st
       notes.push_back("left out: " + motion.error() + "; name it by --hand");
     }
   }
-  if (read == 0) mistakes.add("--recordings: " + a.recordings + " holds no motion_*.csv that can be read without options");
+  if (read == 0)
+    mistakes.add("--recordings: " + a.recordings + " holds no motion_*.csv that can be read without options");
 }
 
 void set_law(const FeelArguments& a, SceneSpec& scene) {
@@ -101,26 +103,29 @@ void set_law(const FeelArguments& a, SceneSpec& scene) {
     if (a.mfs == server::mfs_name(mode)) scene.channel.mfs = mode;
 }
 
-/// @return what is wrong with it; empty: nothing
+/// @return the error; empty if there is none
 std::string set_contacts(const FeelArguments& a, SceneSpec& scene) {
   if (a.contacts.empty()) return {};
-  if (scene.channel.law != LawKind::kReplica) return "is for law REPLICA, under which clients simulate the tool; add --channel replica";
-  if (!scene.tools[0].remote) return "is for tools that a SLAVE seat serves; the first tool of " + a.scene + " has a slave of its own";
+  if (scene.channel.law != LawKind::kReplica)
+    return "is for law REPLICA, under which clients simulate the tool; add --channel replica";
+  if (!scene.tools[0].remote)
+    return "is for tools that a SLAVE seat serves; the first tool of " + a.scene + " has a slave of its own";
   scene.tools[0].contacts = a.contacts == "none" ? ContactsMode::kNone : ContactsMode::kEstimated;
   return {};
 }
 
-/// @return what is wrong with it; empty: nothing
+/// @return the error; empty if there is none
 std::string set_assist(const FeelArguments& a, SceneSpec& scene) {
   if (a.assist < 0) return a.assist_in_contact ? "--assist-in-contact: needs --assist, the pull's bound" : "";
-  if (a.assist > 0 && scene.channel.law != LawKind::kReplica) return "--assist: is for law REPLICA, under which clients know the leader's hand; add --channel replica";
+  if (a.assist > 0 && scene.channel.law != LawKind::kReplica)
+    return "--assist: is for law REPLICA, under which clients know the leader's hand; add --channel replica";
   for (SeatSpec& seat : scene.seats)
     if (seat.kind == SeatKind::kMaster) seat.assist = {a.assist, a.assist_in_contact};
   return {};
 }
 
 int feel_command(const FeelArguments& a) {
-  Mistakes mistakes;
+  UsageErrors mistakes;
   FeelSetup feel{.scene = {}};
   FeelReport report;
   feel.hands = a.plain ? HandKind::kPlain : HandKind::kDrawn;
@@ -134,9 +139,11 @@ int feel_command(const FeelArguments& a) {
   if (auto scene = load_scene(a.scene)) {
     feel.scene = std::move(*scene);
     set_law(a, feel.scene);
-    if (const std::string problem = set_contacts(a, feel.scene); !problem.empty()) mistakes.add("--contacts: " + problem);
+    if (const std::string problem = set_contacts(a, feel.scene); !problem.empty())
+      mistakes.add("--contacts: " + problem);
     if (const std::string problem = set_assist(a, feel.scene); !problem.empty()) mistakes.add(problem);
-    if (const auto problem = law_problem(feel.scene)) mistakes.add("--channel: " + a.scene + ": " + problem->key + ": " + problem->words);
+    if (const auto problem = law_problem(feel.scene))
+      mistakes.add("--channel: " + a.scene + ": " + problem->key + ": " + problem->words);
   } else {
     for (const InputError& error : scene.error()) mistakes.add(to_text(error));
   }
@@ -156,16 +163,19 @@ int feel_command(const FeelArguments& a) {
   }
   for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
     if (!file->empty() && *file != "-")
-      if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) mistakes.add(std::string(option) + ": " + problem);
+      if (const auto problem = io::OutputFile::problem(*file); !problem.empty())
+        mistakes.add(std::string(option) + ": " + problem);
   if (!a.json.empty() && a.json == a.csv) mistakes.add("--csv: is the same file as --json");
   for (const std::string& other : a.network.all_given())
     if (other == "--script") mistakes.add("--script: a probe is too short for a script; name one network");
-  if (!mistakes.none()) return mistakes.refuse("feel");
+  if (!mistakes.empty()) return mistakes.report("feel");
 
-  const Interruption interruption;
+  const SignalWatcher interruption;
   io::OutputFile json_file, csv_file;
-  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return refuse("feel", "--json: " + problem);
-  if (const auto problem = csv_file.open(a.csv, true); !problem.empty()) return refuse("feel", "--csv: " + problem);
+  if (const auto problem = json_file.open(a.json, true); !problem.empty())
+    return report_usage_error("feel", "--json: " + problem);
+  if (const auto problem = csv_file.open(a.csv, true); !problem.empty())
+    return report_usage_error("feel", "--csv: " + problem);
   report.scene = a.scene;
   report.spec = feel.scene;
   report.channel = setup::law_name(feel.scene.channel.law);
@@ -173,24 +183,25 @@ int feel_command(const FeelArguments& a) {
   for (const auto& recording : feel.recordings) report.recordings.push_back(recording.name);
   io::StatusLine line{a.quiet || isatty(STDERR_FILENO) == 0};
   options.stop_fd = interruption.fd();
-  options.watch = [&](const io::JobsProgress& p) {
+  options.on_progress = [&](const io::JobProgress& p) {
     if (!line.wanted()) return;
-    line.show(format("%3.0f %%  %zu of %zu probes done%s", 100 * p.share, p.done, p.count,
-                     std::isfinite(p.left_s) && p.done < p.count ? (", about " + length_text(p.left_s) + " left").c_str() : ""));
+    line.show(format(
+        "%3.0f %%  %zu of %zu probes done%s", 100 * p.share, p.done, p.count,
+        std::isfinite(p.left_s) && p.done < p.count ? (", about " + length_text(p.left_s) + " left").c_str() : ""));
   };
   measure_feel(feel, options, report);
   line.clear();
 
   const bool on_stdout = a.json == "-" || a.csv == "-";
   if (!a.quiet || !on_stdout) io::print(on_stdout ? stderr : stdout, feel_text(report));
-  const bool interrupted = report.interrupted && interruption.came();
-  if (interrupted) Interruption::say("feel", format("%zu of %.0f seeds", report.seeds.size(), a.seeds));
+  const bool interrupted = report.interrupted && interruption.signalled();
+  if (interrupted) SignalWatcher::report("feel", format("%zu of %.0f seeds", report.seeds.size(), a.seeds));
   json_file.write(feel_json(report));
   csv_file.write(feel_csv(report));
-  int code = interrupted ? Interruption::kInterrupted : report.passed() ? kGood : kFailed;
+  int code = interrupted ? SignalWatcher::kInterrupted : report.passed() ? kGood : kFailed;
   for (const auto& problem : {json_file.close(), csv_file.close()})
     if (!problem.empty()) {
-      io::printf_for_people(stderr, "tandem-netsim feel: %s\n", problem.c_str());
+      io::print_formatted(stderr, "tandem-netsim feel: %s\n", problem.c_str());
       code = kFailed;
     }
   return code;
@@ -200,9 +211,12 @@ int feel_command(const FeelArguments& a) {
 
 void add_feel_command(CLI::App& root, std::function<int()>& action) {
   const auto a = std::make_shared<FeelArguments>();
-  CLI::App* const command =
-      root.add_subcommand("feel", "Measures what hands feel with a scene's settings over a network: stiffness, drag, errors, oscillation.");
-  command->add_option("scene", a->scene, "a scene file, or the name of a shipped scene; its channel, coupling, gate, devices and first tool are used")
+  CLI::App* const command = root.add_subcommand(
+      "feel", "Measures what hands feel with a scene's settings over a network: stiffness, drag, errors, oscillation.");
+  command
+      ->add_option(
+          "scene", a->scene,
+          "a scene file, or the name of a shipped scene; its channel, coupling, gate, devices and first tool are used")
       ->option_text(" ")
       ->required();
   a->network.add_to(*command);
@@ -214,32 +228,53 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
       ->check(io::number_in(1, 256, ""))
       ->check(io::whole_number())
       ->option_text("N");
-  command->add_option("--probe", a->probes, "only these: press, free, gain, rest, release, handover, share, follow; default: all")->option_text("NAME,...");
-  command->add_option("--hand", a->hands, "a recorded motion for the probe `free`: FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]; may be repeated")
+  command
+      ->add_option("--probe", a->probes,
+                   "only these: press, free, gain, rest, release, handover, share, follow; default: all")
+      ->option_text("NAME,...");
+  command
+      ->add_option(
+          "--hand", a->hands,
+          "a recorded motion for the probe `free`: FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]; may be repeated")
       ->option_text("FILE...")
       ->allow_extra_args(false);
-  command->add_option("--recordings", a->recordings, "a folder: every motion_*.csv in it that needs no options")->option_text("DIR");
+  command->add_option("--recordings", a->recordings, "a folder: every motion_*.csv in it that needs no options")
+      ->option_text("DIR");
   command->add_flag("--plain-hands", a->plain, "hands without tremor and noise, all with the same impedance");
-  command->add_option("--channel", a->channel, "channel law instead of the scene's: replica (what scenes have that name none), set_position, raw")
+  command
+      ->add_option("--channel", a->channel,
+                   "channel law instead of the scene's: replica (what scenes have that name none), set_position, raw")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
-  command->add_option("--contacts", a->contacts, "how hands feel what a SLAVE seat's device touches, instead of the scene's tool { contacts }: estimated, none")
+  command
+      ->add_option("--contacts", a->contacts,
+                   "how hands feel what a SLAVE seat's device touches, instead of the scene's tool { contacts }: "
+                   "estimated, none")
       ->transform(CLI::IsMember({"estimated", "none"}, CLI::ignore_case));
-  command->add_option("--assist", a->assist, "bound of the pull of hands that follow towards the leader's, instead of the scene's seat { assist }; 0: none")
+  command
+      ->add_option("--assist", a->assist,
+                   "bound of the pull of hands that follow towards the leader's, instead of the scene's seat { assist "
+                   "}; 0: none")
       ->check(io::number_in(0, 3, "N"))
       ->option_text("N");
   command->add_flag("--assist-in-contact", a->assist_in_contact, "that pull acts in contact too");
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
-  command->add_option("--limit", a->limits, "what must hold of a mean, in SI; the worst seed may be 1.5 times worse: KEY<=NUMBER or KEY>=NUMBER; may be repeated")
+  command
+      ->add_option("--limit", a->limits,
+                   "what must hold of a mean, in SI; the worst seed may be 1.5 times worse: KEY<=NUMBER or "
+                   "KEY>=NUMBER; may be repeated")
       ->option_text("LIMIT")
       ->allow_extra_args(false);
-  command->add_option("--json", a->json, "writes all numbers and seeds; `-`: to standard output")->option_text("FILE|-");
+  command->add_option("--json", a->json, "writes all numbers and seeds; `-`: to standard output")
+      ->option_text("FILE|-");
   command->add_option("--csv", a->csv, "writes one row per number; `-`: to standard output")->option_text("FILE|-");
   command->add_flag("--quiet", a->quiet, "no progress, and no table beside --json - or --csv -");
   command->footer(
-      "Every number is the mean and the worst over the seeds. Hands have drawn tremor (8 to 12 Hz), intention noise (0.3 mm RMS\n"
+      "Every number is the mean and the worst over the seeds. Hands have drawn tremor (8 to 12 Hz), intention noise "
+      "(0.3 mm RMS\n"
       "about 2.3 Hz) and impedance. The probes do not know the law.\n\n"
-      "Exit: 0 measured and every --limit holds, 1 a limit is broken, something could not be measured, or interrupted,\n"
+      "Exit: 0 measured and every --limit holds, 1 a limit is broken, something could not be measured, or "
+      "interrupted,\n"
       "2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim feel contact --delay 50\n"

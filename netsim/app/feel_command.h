@@ -1,11 +1,15 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace tandem::netsim {
 
-/// `tandem-netsim feel SCENE`: measures what hands feel. Sets `action` when it is chosen.
+/// Adds `feel SCENE`, which measures what hands feel. If the user chooses it, `action` becomes the function to run; its
+/// result is the exit code.
 void add_feel_command(CLI::App& root, std::function<int()>& action);
 
 }  // namespace tandem::netsim

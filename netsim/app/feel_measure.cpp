@@ -17,19 +17,23 @@ std::string_view name_of(Probe probe) { return std::ranges::find(kProbes, probe,
 
 void measure_feel(const FeelSetup& setup, const FeelOptions& options, FeelReport& report) {
   const std::size_t probes = options.probes.size();
-  const auto results = io::run_jobs(
-      options.seeds * probes,
-      [&](std::size_t i, io::JobShare) { return to_bytes(run_probe(options.probes[i % probes], setup, options.first + i / probes)); },
-      {.jobs = options.jobs, .stop_fd = options.stop_fd, .watch = [&](const io::JobsProgress& p) {
-         report.wall_s = p.elapsed_s;
-         if (options.watch) options.watch(p);
-       }});
+  const auto results =
+      io::run_jobs(options.seeds * probes,
+                   [&](std::size_t i, io::JobProgressReporter) {
+                     return to_bytes(run_probe(options.probes[i % probes], setup, options.first + i / probes));
+                   },
+                   {.jobs = options.jobs, .stop_fd = options.stop_fd, .watch = [&](const io::JobProgress& p) {
+                      report.wall_s = p.elapsed_s;
+                      if (options.on_progress) options.on_progress(p);
+                    }});
   report.probes = options.probes;
   double one_way = 0, counted = 0;
   std::size_t troubles = 0;
   const auto trouble = [&](std::uint64_t seed, Probe probe, const std::string& why) {
     if (++troubles <= kTroublesShown)
-      report.troubles.push_back(format("seed %llu, probe %s: ", static_cast<unsigned long long>(seed), std::string(name_of(probe)).c_str()) + why);
+      report.troubles.push_back(
+          format("seed %llu, probe %s: ", static_cast<unsigned long long>(seed), std::string(name_of(probe)).c_str()) +
+          why);
   };
   for (std::uint64_t s = 0; s < options.seeds; ++s) {
     FeelSeed seed{.seed = options.first + s, .values = {}};
@@ -54,7 +58,7 @@ void measure_feel(const FeelSetup& setup, const FeelOptions& options, FeelReport
     }
     if (!whole) {
       report.interrupted = true;
-      continue;  // what was measured in part is left out: means are of whole seeds
+      continue;  // partial results are left out, because means are of whole seeds
     }
     if (exposure.s > 0) put_exposure(exposure, seed.values);
     report.seeds.push_back(std::move(seed));

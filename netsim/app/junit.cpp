@@ -9,22 +9,26 @@ namespace {
 
 using State = SeedOutcome::State;
 
-/// Bytes of the UTF-8 character that begins here, 0 if none does [RFC 3629].
+/// Returns the number of bytes of the UTF-8 character that begins here; 0 if there is none [RFC 3629].
 std::size_t character(std::string_view text) {
   const auto at = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const unsigned first = at(0);
   if (first < 0x80) return 1;
-  const std::size_t size = first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+  const std::size_t size = first >= 0xC2 && first < 0xE0   ? 2
+                           : first >= 0xE0 && first < 0xF0 ? 3
+                           : first >= 0xF0 && first < 0xF5 ? 4
+                                                           : 0;
   for (std::size_t i = 1; i < size; ++i)
     if ((at(i) & 0xC0) != 0x80) return 0;
   const bool overlong = (first == 0xE0 && at(1) < 0xA0) || (first == 0xF0 && at(1) < 0x90);
   const bool surrogate = first == 0xED && at(1) >= 0xA0;
   const bool beyond = first == 0xF4 && at(1) >= 0x90;
-  const bool never = first == 0xEF && at(1) == 0xBF && at(2) >= 0xBE;  // U+FFFE, U+FFFF are no characters of XML
+  const bool never = first == 0xEF && at(1) == 0xBF && at(2) >= 0xBE;  // U+FFFE and U+FFFF are no characters of XML
   return overlong || surrogate || beyond || never ? 0 : size;
 }
 
-/// Text for content and attributes. What XML 1.0 cannot carry (control characters, broken UTF-8) becomes `?`.
+/// Escapes text for content and attributes. Bytes that XML 1.0 cannot contain (control characters, invalid UTF-8)
+/// become `?`.
 std::string escaped(std::string_view text, bool attribute = true) {
   std::string out;
   while (!text.empty()) {
@@ -65,7 +69,8 @@ std::string time_attribute(double cpu_s) {
 struct Counts {
   std::size_t tests = 0, failures = 0, errors = 0, skipped = 0;
   double cpu_s = 0;
-  /// Readers take `skipped` alone for a pass: where an interruption left seeds out, the first of them is an error.
+  /// Adds a scenario. CI servers count `skipped` as passed; the first seed left out by an interruption is therefore an
+  /// error.
   void add(const ScenarioResult& r, bool interrupted) {
     const std::size_t not_run = r.count(State::kNotRun), cut = interrupted && not_run > 0 ? 1 : 0;
     tests += r.seeds.size();
@@ -75,22 +80,24 @@ struct Counts {
     for (const SeedOutcome& s : r.seeds) cpu_s += s.cpu_s;
   }
   [[nodiscard]] std::string text() const {
-    return attribute("tests", tests) + attribute("failures", failures) + attribute("errors", errors) + attribute("skipped", skipped) +
-           time_attribute(cpu_s);
+    return attribute("tests", tests) + attribute("failures", failures) + attribute("errors", errors) +
+           attribute("skipped", skipped) + time_attribute(cpu_s);
   }
 };
 
-/// @param cut  this is the seed that tells of the interruption (Counts::add)
+/// @param cut  this seed reports the interruption (Counts::add)
 void put_case(const Scenario& scenario, const SeedOutcome& s, bool cut, std::string& out) {
-  out += "    <testcase" + attribute("name", "seed " + std::to_string(s.seed)) + attribute("classname", "tandem." + scenario.name) +
-         time_attribute(s.cpu_s);
+  out += "    <testcase" + attribute("name", "seed " + std::to_string(s.seed)) +
+         attribute("classname", "tandem." + scenario.name) + time_attribute(s.cpu_s);
   if (s.state == State::kPass) {
     out += "/>\n";
     return;
   }
   out += ">\n";
   if (cut) {
-    out += "      <error" + attribute("message", "interrupted: this seed and those skipped after it were not run, nothing is known of them") +
+    out += "      <error" +
+           attribute("message",
+                     "interrupted: this seed and those skipped after it were not run, nothing is known of them") +
            attribute("type", "interrupted") + "/>\n";
   } else if (s.state == State::kNotRun) {
     out += "      <skipped" + attribute("message", "not run") + "/>\n";
@@ -100,8 +107,8 @@ void put_case(const Scenario& scenario, const SeedOutcome& s, bool cut, std::str
     for (const std::string& cause : all) text += cause + "\n";
     text += "replay: " + replay_command(scenario, s.seed) + "\n";
     const char* const element = s.state == State::kFail ? "failure" : "error";
-    out += std::string("      <") + element + attribute("message", all.empty() ? "failed" : all.front()) + attribute("type", name(s.state)) +
-           ">" + escaped(text, false) + "</" + element + ">\n";
+    out += std::string("      <") + element + attribute("message", all.empty() ? "failed" : all.front()) +
+           attribute("type", name(s.state)) + ">" + escaped(text, false) + "</" + element + ">\n";
   }
   out += "    </testcase>\n";
 }
@@ -111,7 +118,8 @@ void put_case(const Scenario& scenario, const SeedOutcome& s, bool cut, std::str
 std::string junit_xml(const TestResult& result) {
   Counts all;
   for (const ScenarioResult& r : result.scenarios) all.add(r, result.interrupted);
-  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", "tandem-netsim test") + all.text() + ">\n";
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" +
+                    attribute("name", "tandem-netsim test") + all.text() + ">\n";
   for (const ScenarioResult& r : result.scenarios) {
     Counts own;
     own.add(r, result.interrupted);

@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "tandem-netsim " TANDEM_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "`tandem-netsim COMMAND --help` tells more. Exit: 0 done, 1 trouble while running or interrupted,\n2 wrong arguments or files.");
+      "`tandem-netsim COMMAND --help` tells more. Exit: 0 done, 1 trouble while running or interrupted,\n2 wrong "
+      "arguments or files.");
 
   std::function<int()> action;
   tandem::netsim::add_run_command(app, action);

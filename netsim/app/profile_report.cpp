@@ -1,12 +1,13 @@
 #include "netsim/app/profile_report.h"
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "common/base/format.h"
-#include "netsim/app/quality_json.h"
-#include "netsim/portrait_figure.h"
-#include "netsim/quality_text.h"
+#include "netsim/profiles/profile_preview_figure.h"
+#include "netsim/quality/quality_json.h"
+#include "netsim/quality/quality_text.h"
 
 namespace tandem::netsim {
 namespace {
@@ -16,15 +17,15 @@ using Json = nlohmann::ordered_json;
 constexpr std::array kShares{0.05, 0.50, 0.95, 0.99};
 constexpr std::array kShareNames{"p5", "p50", "p95", "p99"};
 
-const PortraitWay& way_of(const Portrait& portrait, Direction direction) {
+const ProfilePreviewDirection& way_of(const ProfilePreview& portrait, Direction direction) {
   return portrait.ways[static_cast<std::size_t>(direction)];
 }
 
-const DirectionSummary& quality_of(const Portrait& portrait, Direction direction) {
+const DirectionSummary& quality_of(const ProfilePreview& portrait, Direction direction) {
   return direction == Direction::kUp ? portrait.quality.up : portrait.quality.down;
 }
 
-/// Lines of the file that hold parameters: what the heading says already is left out.
+/// Returns the lines of the file with parameters, without those that the heading contains.
 std::string parameters_of(const std::string& text) {
   std::string kept, line;
   std::istringstream lines(text);
@@ -40,10 +41,11 @@ std::string ms_cell(double ms) { return format("%.*f", ms < 9.995 ? 2 : ms < 99.
 
 std::string measured_row(const char* what, const std::array<double, 4>& q, const std::string& rest) {
   return format("  %-16s %8s %8s %8s %8s", what, ms_cell(q[0]).c_str(), ms_cell(q[1]).c_str(), ms_cell(q[2]).c_str(),
-                ms_cell(q[3]).c_str()) + rest + "\n";
+                ms_cell(q[3]).c_str()) +
+         rest + "\n";
 }
 
-std::string causes_of(const PortraitWay& way) {
+std::string causes_of(const ProfilePreviewDirection& way) {
   std::string text;
   for (std::size_t i = 0; i < kOutcomes; ++i) {
     const auto outcome = static_cast<Outcome>(i);
@@ -53,36 +55,39 @@ std::string causes_of(const PortraitWay& way) {
   return text;
 }
 
-std::array<double, 4> quantiles_ms(const PortraitWay& way) {
+std::array<double, 4> quantiles_ms(const ProfilePreviewDirection& way) {
   std::array<double, 4> q{};
   for (std::size_t i = 0; i < q.size(); ++i) q[i] = seconds(way.quantile(kShares[i])) * 1e3;
   return q;
 }
 
-std::string measured_text(const ProfileSubject& subject, const Portrait& portrait) {
-  std::string text = format("\n  one-way delay over %.1f virtual minutes, 128 bytes at 1 kHz [ms]\n", seconds(portrait.length) / 60);
+std::string measured_text(const ProfileSource& subject, const ProfilePreview& portrait) {
+  std::string text =
+      format("\n  one-way delay over %.1f virtual minutes, 128 bytes at 1 kHz [ms]\n", seconds(portrait.length) / 60);
   text += format("  %-16s %8s %8s %8s %8s %8s %9s  %s\n", "", "p5", "p50", "p95", "p99", "max", "lost", "longest gap");
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    const PortraitWay& way = way_of(portrait, direction);
+    const ProfilePreviewDirection& way = way_of(portrait, direction);
     const DirectionSummary& quality = quality_of(portrait, direction);
-    text += measured_row(name(direction), quantiles_ms(way),
-                         format(" %8s %9s  %s at %.1f s", ms_cell(seconds(way.quantile(1)) * 1e3).c_str(),
-                                share_text(quality.lost_share()).c_str(), delay_text(seconds(quality.longest_gap)).c_str(),
-                                seconds(quality.longest_gap_at.time_since_epoch())));
+    text +=
+        measured_row(name(direction), quantiles_ms(way),
+                     format(" %8s %9s  %s at %.1f s", ms_cell(seconds(way.quantile(1)) * 1e3).c_str(),
+                            share_text(quality.lost_share()).c_str(), delay_text(seconds(quality.longest_gap)).c_str(),
+                            seconds(quality.longest_gap_at.time_since_epoch())));
     for (const ProfileCheck& check : subject.profile.checks) {
       if (check.direction == direction) text += measured_row("  promised", check.delay_ms, "");
     }
     if (const std::string causes = causes_of(way); !causes.empty()) text += "    dropped: " + causes + "\n";
   }
-  if (subject.profile.checks.empty() && !subject.recording) text += "  no quantiles promised: nothing to hold these against\n";
+  if (subject.profile.checks.empty() && !subject.recording)
+    text += "  no quantiles promised: nothing to hold these against\n";
   return text;
 }
 
-bool both_alike(const ProfileSubject& subject) { return subject.profile.link.up == subject.profile.link.down; }
+bool both_alike(const ProfileSource& subject) { return subject.profile.link.up == subject.profile.link.down; }
 
 }  // namespace
 
-std::string profile_heading(const ProfileSubject& subject) {
+std::string profile_heading(const ProfileSource& subject) {
   const Profile& profile = subject.profile;
   std::string text = profile.name;
   if (!subject.recording) text += format(", version %u", profile.version);
@@ -94,18 +99,19 @@ std::string profile_heading(const ProfileSubject& subject) {
   return parameters.empty() ? text : text + "  parameters\n" + parameters;
 }
 
-std::string profile_report(const ProfileSubject& subject, const Portrait& portrait, const PictureStyle& style) {
+std::string profile_report(const ProfileSource& subject, const ProfilePreview& portrait, const PictureStyle& style) {
   std::string text = measured_text(subject, portrait);
   const auto called = verdict(portrait.quality);
   text += format("\n  for force feedback: %s, %s\n", verdict_name(called), meaning(called));
-  text += quality_words(portrait.quality, "    ") + quality_table(portrait.quality, "    ");
+  text += quality_text(portrait.quality, "    ") + quality_table(portrait.quality, "    ");
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     const bool alike = both_alike(subject);
     if (alike && direction == Direction::kDown) break;
     const char* const which = alike ? "up (down is alike)" : name(direction);
     text += format("\n  %s: delay of the first %.0f s\n", which, seconds(portrait.shown));
     text += delay_picture(way_of(portrait, direction), portrait.shown, style);
-    text += format("\n  %s: delay of all %.1f minutes; share, share up to here\n", which, seconds(portrait.length) / 60);
+    text +=
+        format("\n  %s: delay of all %.1f minutes; share, share up to here\n", which, seconds(portrait.length) / 60);
     text += delay_histogram(way_of(portrait, direction), style);
   }
   return text;
@@ -128,13 +134,13 @@ Json profile_json(const Profile& profile) {
   return json;
 }
 
-Json profile_json(const ProfileSubject& subject, const Portrait& portrait) {
+Json profile_json(const ProfileSource& subject, const ProfilePreview& portrait) {
   Json json = profile_json(subject.profile);
   json["notes"] = subject.notes;
   Json& measured = json["measured"];
   measured["minutes"] = seconds(portrait.length) / 60;
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    const PortraitWay& way = way_of(portrait, direction);
+    const ProfilePreviewDirection& way = way_of(portrait, direction);
     Json& of = measured[name(direction)];
     const std::array<double, 4> q = quantiles_ms(way);
     for (std::size_t i = 0; i < q.size(); ++i) of[std::string(kShareNames[i]) + "_ms"] = q[i];
@@ -150,12 +156,13 @@ Json profile_json(const ProfileSubject& subject, const Portrait& portrait) {
   return json;
 }
 
-plot::Figure profile_figure(const ProfileSubject& subject, const Portrait& portrait) {
-  std::vector<PromisedQuantile> promised;
+plot::Figure profile_figure(const ProfileSource& subject, const ProfilePreview& portrait) {
+  std::vector<ExpectedQuantile> promised;
   for (const ProfileCheck& check : subject.profile.checks) {
-    for (std::size_t i = 0; i < kShares.size(); ++i) promised.push_back({check.direction, kShares[i], check.delay_ms[i]});
+    for (std::size_t i = 0; i < kShares.size(); ++i)
+      promised.push_back({check.direction, kShares[i], check.delay_ms[i]});
   }
-  return portrait_figure(portrait, subject.profile.name, promised);
+  return profile_preview_figure(portrait, subject.profile.name, promised);
 }
 
 }  // namespace tandem::netsim

@@ -1,28 +1,28 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "netsim/app/profile_subject.h"
+#include "netsim/app/profile_source.h"
 #include "netsim/plot/svg_plot.h"
-#include "netsim/portrait.h"
-#include "netsim/portrait_text.h"
+#include "netsim/profiles/profile_preview.h"
+#include "netsim/profiles/profile_preview_text.h"
 
 namespace tandem::netsim {
 
-/// What a profile says about itself: summary, version, sources, and its parameters as they stand in its file.
-[[nodiscard]] std::string profile_heading(const ProfileSubject& subject);
+/// Returns the description of a profile: summary, version, sources, and the parameters as written in its file.
+[[nodiscard]] std::string profile_heading(const ProfileSource& subject);
 
-/// What was measured: quantiles beside those promised, loss by cause, the verdict, pictures.
-[[nodiscard]] std::string profile_report(const ProfileSubject& subject, const Portrait& portrait,
+/// Returns the measured results: quantiles beside the promised ones, loss by cause, the verdict, pictures.
+[[nodiscard]] std::string profile_report(const ProfileSource& subject, const ProfilePreview& portrait,
                                          const PictureStyle& style);
 
-/// The heading for machines: name, version, summary, sources, checks.
+/// Returns the description as JSON: name, version, summary, sources, checks.
 [[nodiscard]] nlohmann::ordered_json profile_json(const Profile& profile);
-/// Heading and what was measured: `measured` has minutes, and per direction p5_ms .. max_ms, lost_percent, dropped (by
-/// cause); `quality` as quality_json says.
-[[nodiscard]] nlohmann::ordered_json profile_json(const ProfileSubject& subject, const Portrait& portrait);
+/// Returns description and measured results as JSON. `measured` has minutes, and per direction p5_ms .. max_ms,
+/// lost_percent, dropped (by cause); `quality` is that of quality_json.
+[[nodiscard]] nlohmann::ordered_json profile_json(const ProfileSource& subject, const ProfilePreview& portrait);
 
-[[nodiscard]] plot::Figure profile_figure(const ProfileSubject& subject, const Portrait& portrait);
+[[nodiscard]] plot::Figure profile_figure(const ProfileSource& subject, const ProfilePreview& portrait);
 
 }  // namespace tandem::netsim

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "common/base/format.h"
@@ -10,18 +11,18 @@
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/terminal.h"
-#include "netsim/app/interruption.h"
-#include "netsim/app/mistakes.h"
 #include "netsim/app/profile_report.h"
-#include "netsim/app/profile_subject.h"
+#include "netsim/app/profile_source.h"
 #include "netsim/app/proxy_command.h"
-#include "netsim/profiles.h"
+#include "netsim/app/signal_watcher.h"
+#include "netsim/app/usage_errors.h"
+#include "netsim/profiles/profile_loader.h"
 
 namespace tandem::netsim {
 namespace {
 
 constexpr int kTrouble = 1;
-constexpr std::size_t kPipeWidth = 100;  ///< when nobody says how wide the paper is
+constexpr std::size_t kPipeWidth = 100;  ///< columns, if the output has no known width
 
 struct ProfilesArguments {
   std::string name, svg, capacity;
@@ -30,9 +31,10 @@ struct ProfilesArguments {
   bool json = false, text = false, ascii = false;
 };
 
-int wrong(const std::string& message) { return refuse("profiles", message); }
+int wrong(const std::string& message) { return report_usage_error("profiles", message); }
 
-/// As the C library decides: the first of these that is set names the encoding.
+/// Returns whether the terminal uses UTF-8. As in the C library, the first of these variables that is set names the
+/// encoding.
 bool speaks_utf8() {
   for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
     const char* const value = std::getenv(variable);
@@ -48,11 +50,11 @@ int list(bool json) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const ShippedProfile& shipped : shipped_profiles()) {
     const auto profile = shipped_profile(shipped.name);
-    if (!profile) continue;  // a test reads them all; one that cannot be read would be our mistake
+    if (!profile) continue;  // a test reads all shipped profiles; a profile that cannot be read is a bug
     if (json) {
       all.push_back(profile_json(*profile));
     } else {
-      io::printf_for_people(stdout, "%-20s %s\n", profile->name.c_str(), profile->summary.c_str());
+      io::print_formatted(stdout, "%-20s %s\n", profile->name.c_str(), profile->summary.c_str());
     }
   }
   if (json) std::printf("%s\n", all.dump(2).c_str());
@@ -60,34 +62,37 @@ int list(bool json) {
 }
 
 int show(const ProfilesArguments& arguments) {
-  auto subject = load_profile_subject(arguments.name, from_seconds(arguments.interval_ms * 1e-3));
+  auto subject = load_profile_source(arguments.name, from_seconds(arguments.interval_ms * 1e-3));
   if (!subject) return wrong(subject.error());
   if (arguments.interval_ms > 0 && !subject->plays_interval)
-    return wrong("--trace-interval: is for a recording without a column of times, and " + arguments.name + " is none; leave it out");
+    return wrong("--trace-interval: is for a recording without a column of times, and " + arguments.name +
+                 " is none; leave it out");
   if (arguments.text) {
     if (subject->recording) return wrong("--text: " + arguments.name + " is a recording and has no text of a profile");
     std::fputs(subject->text.c_str(), stdout);
     return 0;
   }
-  Mistakes mistakes;
+  UsageErrors mistakes;
   mistakes.add(complete(*subject, arguments.capacity));
   if (!arguments.svg.empty())
-    if (const std::string problem = io::OutputFile::problem(arguments.svg); !problem.empty()) mistakes.add("--svg: " + problem);
-  if (!mistakes.none()) return mistakes.refuse("profiles");
-  const Interruption interruption;
+    if (const std::string problem = io::OutputFile::problem(arguments.svg); !problem.empty())
+      mistakes.add("--svg: " + problem);
+  if (!mistakes.empty()) return mistakes.report("profiles");
+  const SignalWatcher interruption;
   bool interrupted = false;
   if (!arguments.json) {
     io::print(stdout, profile_heading(*subject));
     std::fflush(stdout);
   }
   io::StatusLine line{isatty(STDERR_FILENO) == 0};
-  const PortraitSetup setup{.link = subject->profile.link,
-                            .seed = arguments.seed,
-                            .length = from_seconds(arguments.minutes * 60),
-                            .shown = from_seconds(arguments.shown_s)};
-  const Portrait portrait = portrait_of(setup, [&](double share) {
-    if (line.wanted()) line.show(format("measuring: %.1f of %.1f virtual minutes", share * arguments.minutes, arguments.minutes));
-    interrupted = interruption.came();
+  const ProfilePreviewOptions setup{.link = subject->profile.link,
+                                    .seed = arguments.seed,
+                                    .length = from_seconds(arguments.minutes * 60),
+                                    .shown = from_seconds(arguments.shown_s)};
+  const ProfilePreview portrait = preview_profile(setup, [&](double share) {
+    if (line.wanted())
+      line.show(format("measuring: %.1f of %.1f virtual minutes", share * arguments.minutes, arguments.minutes));
+    interrupted = interruption.signalled();
     return !interrupted;
   });
   line.clear();
@@ -101,11 +106,13 @@ int show(const ProfilesArguments& arguments) {
   }
   io::OutputFile svg;
   std::string problem = svg.open(arguments.svg, false);
-  if (svg.wanted()) svg.write(plot::to_svg_file(profile_figure(*subject, portrait)));
+  if (svg.is_open()) svg.write(plot::to_svg_file(profile_figure(*subject, portrait)));
   if (problem.empty()) problem = svg.close();
-  if (interrupted) Interruption::say("profiles", format("%.2f of %g virtual minutes", seconds(portrait.length) / 60, arguments.minutes));
-  if (problem.empty()) return interrupted ? Interruption::kInterrupted : 0;
-  io::printf_for_people(stderr, "tandem-netsim profiles: --svg: %s\n", problem.c_str());
+  if (interrupted)
+    SignalWatcher::report("profiles",
+                          format("%.2f of %g virtual minutes", seconds(portrait.length) / 60, arguments.minutes));
+  if (problem.empty()) return interrupted ? SignalWatcher::kInterrupted : 0;
+  io::print_formatted(stderr, "tandem-netsim profiles: --svg: %s\n", problem.c_str());
   return kTrouble;
 }
 
@@ -119,13 +126,15 @@ int profiles_command(const ProfilesArguments& arguments, bool measured) {
 
 void add_profiles_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<ProfilesArguments>();
-  CLI::App* const command = root.add_subcommand(
-      "profiles", "Lists the named networks, or shows what one does: measured, judged and drawn.");
+  CLI::App* const command =
+      root.add_subcommand("profiles", "Lists the named networks, or shows what one does: measured, judged and drawn.");
   command->add_option("NAME", arguments->name, "a profile to show, or a file: a .textproto profile, a .csv recording");
-  command->add_flag("--json", arguments->json, "for machines: name, version, summary, sources, checks; with NAME also what was measured");
+  command->add_flag("--json", arguments->json,
+                    "for machines: name, version, summary, sources, checks; with NAME also what was measured");
   command->add_flag("--text", arguments->text, "only prints the profile as text: a start for a file of your own");
   command->add_option("--svg", arguments->svg, "also draws it into this file")->option_text("FILE.svg");
-  command->add_option("--capacity", arguments->capacity, "the recorded capacity that the profile plays (4g-trace)")->option_text("FILE");
+  command->add_option("--capacity", arguments->capacity, "the recorded capacity that the profile plays (4g-trace)")
+      ->option_text("FILE");
   command->add_option("--minutes", arguments->minutes, "virtual time to measure; default 30")
       ->transform(io::number_in(0.05, 1440, "min"))
       ->option_text("M");
@@ -135,10 +144,13 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--seed", arguments->seed, "the same seed gives the same network; default 1")
       ->check(io::whole_number())
       ->option_text("N");
-  command->add_option("--trace-interval", arguments->interval_ms, "time between the rows of a recording without a time column [ms]")
+  command
+      ->add_option("--trace-interval", arguments->interval_ms,
+                   "time between the rows of a recording without a time column [ms]")
       ->transform(io::number_in(0.001, 60'000, "ms"))
       ->option_text("MS");
-  command->add_flag("--ascii", arguments->ascii, "pictures of plain letters; so it is anyway where the terminal does not speak UTF-8");
+  command->add_flag("--ascii", arguments->ascii,
+                    "pictures of plain letters; so it is anyway where the terminal does not speak UTF-8");
   command->footer(
       "Each profile promises quantiles of its delay (`check` in its file); they stand beside those measured now.\n"
       "Green, amber and red are what force feedback needs: round trip p99 20 / 100 ms, jitter (p99 - p50) 2 / 10 ms,\n"
@@ -152,7 +164,8 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
       "Exit: 0 done, 1 trouble while running or interrupted, 2 wrong arguments or files.");
   command->callback([arguments, command, &action] {
     bool measured = false;
-    for (const char* option : {"--text", "--svg", "--capacity", "--minutes", "--seconds", "--seed", "--trace-interval"}) {
+    for (const char* option :
+         {"--text", "--svg", "--capacity", "--minutes", "--seconds", "--seed", "--trace-interval"}) {
       measured = measured || command->get_option(option)->count() > 0;
     }
     action = [arguments, measured] { return profiles_command(*arguments, measured); };

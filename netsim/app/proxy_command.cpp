@@ -18,23 +18,23 @@
 #include "common/io/realtime.h"
 #include "common/io/socket_address.h"
 #include "common/io/tcp_listener.h"
-#include "netsim/app/control_socket.h"
-#include "netsim/app/decision_writer.h"
-#include "netsim/app/interruption.h"
-#include "netsim/app/mistakes.h"
-#include "netsim/app/network_options.h"
-#include "netsim/app/proxy.h"
-#include "netsim/app/proxy_control.h"
-#include "netsim/app/proxy_report.h"
-#include "netsim/app/proxy_watch.h"
-#include "netsim/app/tcp_relay.h"
+#include "netsim/app/signal_watcher.h"
+#include "netsim/app/usage_errors.h"
+#include "netsim/profiles/app/network_options.h"
+#include "netsim/proxy/app/control_socket.h"
+#include "netsim/proxy/app/decision_writer.h"
+#include "netsim/proxy/app/proxy.h"
+#include "netsim/proxy/app/proxy_control.h"
+#include "netsim/proxy/app/proxy_control_loop.h"
+#include "netsim/proxy/app/proxy_report.h"
+#include "netsim/proxy/app/tcp_relay.h"
 
 namespace tandem::netsim {
 namespace {
 
-constexpr int kTrouble = 1;  // while running
+constexpr int kTrouble = 1;  // exit code: failed while running
 constexpr int kPriority = 50;
-constexpr int kPortsTried = 20;  // until one is free for UDP and TCP
+constexpr int kPortsTried = 20;  // attempts to find a port that is free for UDP and TCP
 
 struct ProxyArguments {
   std::string listen = "127.0.0.1:0";
@@ -49,21 +49,21 @@ struct ProxyArguments {
 Duration microseconds(double us) { return from_seconds(us * 1e-6); }
 
 int trouble(const std::string& message) {
-  io::printf_for_people(stderr, "tandem-netsim proxy: %s\n", message.c_str());
+  io::print_formatted(stderr, "tandem-netsim proxy: %s\n", message.c_str());
   return kTrouble;
 }
 
-int wrong(const std::string& message) { return refuse("proxy", message); }
+int wrong(const std::string& message) { return report_usage_error("proxy", message); }
 
-/// Why a file named for results cannot be written, found before anything starts.
+/// Returns why an output file cannot be written; checked before the proxy starts.
 std::string output_problem(const char* option, const std::string& name) {
   if (name.empty() || name == "-") return {};
   const std::string problem = io::OutputFile::problem(name);
   return problem.empty() ? problem : std::string(option) + ": " + problem;
 }
 
-/// A network named while the proxy runs.
-ProxyControl::Find find_network(const NetworkOptions& networks) {
+/// Returns the function that finds a network named while the proxy runs.
+ProxyControl::FindNetwork find_network(const NetworkOptions& networks) {
   return [&networks](const std::string& name) -> std::expected<ProxyControl::Network, std::string> {
     auto choice = networks.named(name);
     if (!choice) return std::unexpected(choice.error());
@@ -71,17 +71,19 @@ ProxyControl::Find find_network(const NetworkOptions& networks) {
   };
 }
 
-/// What the packet thread needs of the machine, as far as it is granted.
+/// Requests real-time scheduling, locked memory and low CPU latency for the packet thread. `notice` names what the
+/// system rejected.
 void ask_for_machine(bool realtime, std::string& notice) {
   if (!realtime) return;
-  static const io::AwakeProcessor awake;  // as long as the program
+  static const io::CpuLatencyRequest awake;  // for the lifetime of the program
   const bool memory = io::lock_memory();
-  const bool fifo = io::ask_for_realtime(kPriority);
-  notice = io::realtime_notice(fifo, memory, awake.granted());
+  const bool fifo = io::request_realtime(kPriority);
+  notice = io::realtime_warning(fifo, memory, awake.granted());
 }
 
-/// An address of this computer.
-std::expected<io::SocketAddress, std::string> own_address(const std::string& option, const std::string& text, std::uint16_t port_min) {
+/// Parses a local address; only loopback addresses are allowed.
+std::expected<io::SocketAddress, std::string> own_address(const std::string& option, const std::string& text,
+                                                          std::uint16_t port_min) {
   const auto address = io::parse_address(text, port_min);
   if (!address) return std::unexpected(option + ": " + address.error());
   if (address->loopback()) return *address;
@@ -92,7 +94,7 @@ std::expected<io::SocketAddress, std::string> own_address(const std::string& opt
 }
 
 int proxy_command(const ProxyArguments& arguments) {
-  Mistakes mistakes;
+  UsageErrors mistakes;
   const auto listen = own_address("--listen", arguments.listen, 0);
   const auto to = own_address("--to", arguments.to, 1);
   for (const auto* address : {&listen, &to})
@@ -107,11 +109,12 @@ int proxy_command(const ProxyArguments& arguments) {
     mistakes.add(sharing_problem(network->link, script->events));
     add_notes(network->notes, script->notes);
   }
-  // Judged now, opened when there is something to write: a run that never starts leaves an older file alone.
+  // The check happens here, the file is opened at the first output. A run that never starts leaves an older file
+  // unchanged.
   mistakes.add(output_problem("--json", arguments.json));
   if (arguments.log == "-") mistakes.add("--log needs a file");
   mistakes.add(output_problem("--log", arguments.log));
-  if (!mistakes.none()) return mistakes.refuse("proxy");
+  if (!mistakes.empty()) return mistakes.report("proxy");
 
   DecisionWriter log;
   ProxyOptions options;
@@ -125,7 +128,7 @@ int proxy_command(const ProxyArguments& arguments) {
   options.coalesce = microseconds(arguments.coalesce_us);
   if (arguments.lateness_max_us > 0) options.late_limit = microseconds(arguments.lateness_max_us);
   options.sink = arguments.log.empty() ? nullptr : &log;
-  const Interruption interruption;
+  const SignalWatcher interruption;
   const io::Fd finished{eventfd(0, EFD_CLOEXEC)};
   auto proxy = Proxy::open(options);
   if (!proxy) return trouble(proxy.error());
@@ -142,14 +145,15 @@ int proxy_command(const ProxyArguments& arguments) {
   }
   if (const std::string problem = log.open(arguments.log); !problem.empty()) return trouble("--log: " + problem);
 
-  // Scripts wait for this line; with JSON on standard output it moves out of the way.
+  // Scripts wait for this line. It goes to standard error if standard output receives JSON.
   std::FILE* const people = arguments.json == "-" ? stderr : stdout;
-  io::printf_for_people(people, "listening on %s\n", io::to_text((*proxy)->listening()).c_str());
-  io::printf_for_people(people, "to %s, %s, seed %llu; Ctrl-C ends\n", io::to_text(options.to).c_str(),
-               network->description.c_str(), static_cast<unsigned long long>(options.seed));
-  for (const std::string& note : network->notes) io::printf_for_people(people, "note: %s\n", note.c_str());
+  io::print_formatted(people, "listening on %s\n", io::to_text((*proxy)->listening()).c_str());
+  io::print_formatted(people, "to %s, %s, seed %llu; Ctrl-C ends\n", io::to_text(options.to).c_str(),
+                      network->description.c_str(), static_cast<unsigned long long>(options.seed));
+  for (const std::string& note : network->notes) io::print_formatted(people, "note: %s\n", note.c_str());
   if (!joining)
-    io::printf_for_people(people, "note: nobody can join a Tandem session through here, only datagrams pass: %s\n", joining.error().c_str());
+    io::print_formatted(people, "note: nobody can join a Tandem session through here, only datagrams pass: %s\n",
+                        joining.error().c_str());
   std::fflush(people);
 
   std::optional<TcpRelay> relay;
@@ -157,43 +161,46 @@ int proxy_command(const ProxyArguments& arguments) {
   std::thread packets([&] {
     std::string notice;
     ask_for_machine(arguments.realtime, notice);
-    if (!notice.empty()) io::printf_for_people(stderr, "tandem-netsim proxy: %s\n", notice.c_str());
+    if (!notice.empty()) io::print_formatted(stderr, "tandem-netsim proxy: %s\n", notice.c_str());
     (*proxy)->run();
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(finished.get(), &one, sizeof one);
   });
   ProxyControl control{**proxy, options.link, find_network(arguments.network)};
-  watch_proxy(**proxy, control, socket, interruption.fd(), finished.get());
+  run_control_loop(**proxy, control, socket, interruption.fd(), finished.get());
   packets.join();
   log.stop();
-  (*proxy)->log_waiting();
+  (*proxy)->log_in_flight();
   const std::string log_problem = log.close();
 
   const std::vector<ProxyClientQuality> qualities = (*proxy)->qualities();
   ProxyReportNotes notes{
-      .qualities = qualities, .changes = control.notes(), .log_rows = log.written(), .log_missed = log.missed()};
+      .qualities = qualities, .changes = control.changes(), .log_rows = log.written(), .log_missed = log.missed()};
   const ProxyStatus status = (*proxy)->final_status();
-  const std::vector<ProxyEvent> played = proxy_events(options, (*proxy)->client_reports(), status.clients_seen, status.since_start);
+  const std::vector<ProxyEvent> played =
+      proxy_events(options, (*proxy)->client_reports(), status.clients_seen, status.since_start);
   notes.events = played;
-  notes.interrupted = interruption.came() && options.duration > Duration::zero() && status.since_start < options.duration;
+  notes.interrupted =
+      interruption.signalled() && options.duration > Duration::zero() && status.since_start < options.duration;
   if (arguments.lateness_max_us > 0) notes.lateness_max = microseconds(arguments.lateness_max_us);
   io::print(people, summary_text(**proxy, notes));
   std::fflush(people);
-  if (notes.interrupted) Interruption::say("proxy", format("%.3f of %g s", seconds(status.since_start), arguments.duration_s));
+  if (notes.interrupted)
+    SignalWatcher::report("proxy", format("%.3f of %g s", seconds(status.since_start), arguments.duration_s));
   io::OutputFile json;
   std::string problem = json.open(arguments.json, true);
-  if (json.wanted()) json.write(summary_json(**proxy, options, *network, notes));
+  if (json.is_open()) json.write(summary_json(**proxy, options, *network, notes));
   if (problem.empty()) problem = json.close();
   if (!problem.empty()) return trouble("--json: " + problem);
   if (!log_problem.empty()) return trouble("--log: " + log_problem);
-  if (notes.interrupted) return Interruption::kInterrupted;
+  if (notes.interrupted) return SignalWatcher::kInterrupted;
   return in_time(**proxy, notes) ? 0 : kTrouble;
 }
 
 }  // namespace
 
 void add_proxy_command(CLI::App& root, std::function<int()>& action) {
-  // Lives as long as the program's options, which refer to it.
+  // The options of the program refer to it; it lives as long as they do.
   const auto arguments = std::make_shared<ProxyArguments>();
   CLI::App* const command = root.add_subcommand("proxy", "Plays a network between live UDP clients and a server.");
   command
@@ -216,7 +223,8 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("PATH");
   command
       ->add_option("--log", arguments->log,
-                   "writes every decision as CSV: when it came in, what became of it, when it was due to leave; the proxy left it later by "
+                   "writes every decision as CSV: when it came in, what became of it, when it was due to leave; the "
+                   "proxy left it later by "
                    "its own lateness, which the report tells")
       ->option_text("FILE");
   const std::string timing = "How exact";
@@ -261,7 +269,8 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim proxy --to [::1]:7000 --profile wifi-busy --seed 7 --duration 60 --json proxy.json\n"
       "  tandem-netsim proxy --to 127.0.0.1:7000 --delay 10 --outage 5,0.5,3\n"
       "  tandem-netsim proxy --to 127.0.0.1:7000 --profile 5g --control /tmp/proxy.sock --max-lateness 500\n\n"
-      "Exit: 0 done, 1 trouble (port in use), later than --max-lateness, nothing sent that it could judge, or interrupted\n"
+      "Exit: 0 done, 1 trouble (port in use), later than --max-lateness, nothing sent that it could judge, or "
+      "interrupted\n"
       "before --duration was over (without --duration Ctrl-C is its end), 2 wrong arguments or files.");
   command->callback([arguments, &action] { action = [arguments] { return proxy_command(*arguments); }; });
 }

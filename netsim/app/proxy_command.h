@@ -1,17 +1,21 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace tandem::netsim {
 
-/// Adds `proxy` to the program. When it was chosen, `action` becomes what to run; its result is the exit code.
+/// Adds `proxy` to the program. If the user chooses it, `action` becomes the function to run; its result is the exit
+/// code.
 void add_proxy_command(CLI::App& root, std::function<int()>& action);
 
-/// Adds `control PATH COMMAND...`: a word to a running proxy.
+/// Adds `control PATH COMMAND...`, which sends a command to a running proxy.
 void add_control_command(CLI::App& root, std::function<int()>& action);
 
-/// Adds `profiles [NAME]`.
+/// Adds `profiles [NAME]`, which lists or previews networks.
 void add_profiles_command(CLI::App& root, std::function<int()>& action);
 
 }  // namespace tandem::netsim

@@ -5,24 +5,25 @@
 #include <cstdio>
 #include <ctime>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "common/base/format.h"
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "hal/io/motion_file.h"
-#include "netsim/app/interruption.h"
-#include "netsim/app/mistakes.h"
-#include "netsim/app/network_options.h"
-#include "netsim/app/quality_json.h"
 #include "netsim/app/run_log.h"
-#include "netsim/world.h"
-#include "netsim/world_notes.h"
-#include "netsim/world_run.h"
+#include "netsim/app/signal_watcher.h"
+#include "netsim/app/usage_errors.h"
+#include "netsim/profiles/app/network_options.h"
+#include "netsim/quality/quality_json.h"
+#include "netsim/system/run_simulation.h"
+#include "netsim/system/session_notes.h"
+#include "netsim/system/simulation.h"
 #include "proto/io/scene_file.h"
-#include "proto/scene_text.h"
-#include "server/report_summary.h"
-#include "server/session_monitor.h"
+#include "proto/text/scene_text.h"
+#include "server/report/report_summary.h"
+#include "server/session/session_invariant_checker.h"
 
 namespace tandem::netsim {
 namespace {
@@ -37,11 +38,12 @@ struct RunArguments {
   NetworkOptions network;
 };
 
-int wrong(const std::string& mistake) { return refuse("run", mistake); }
+int wrong(const std::string& mistake) { return report_usage_error("run", mistake); }
 
-/// What depends on the seats: a script names them, a recording must have them.
-/// @param notes  what the report must say of the script's networks
-void understand_network(const RunArguments& arguments, WorldSetup& setup, std::vector<std::string>& notes, Mistakes& mistakes) {
+/// Adds the parts that depend on the seats: scripts and recordings name them.
+/// @param notes  receives facts about the script's networks for the report
+void understand_network(const RunArguments& arguments, SimulationConfig& setup, std::vector<std::string>& notes,
+                        UsageErrors& mistakes) {
   std::vector<std::string> seats;
   for (const SeatSpec& seat : setup.scene.seats) seats.push_back(seat.name);
   if (auto script = arguments.network.events(seats)) {
@@ -61,11 +63,12 @@ void understand_network(const RunArguments& arguments, WorldSetup& setup, std::v
   setup.replay = *replay;
   for (std::size_t i = 0; i < seats.size(); ++i)
     if (!setup.replay->has(static_cast<std::uint32_t>(i)))
-      mistakes.add("--replay: " + arguments.replay + " holds no flow " + std::to_string(i) + ", which is seat " + seats[i]);
+      mistakes.add("--replay: " + arguments.replay + " holds no flow " + std::to_string(i) + ", which is seat " +
+                   seats[i]);
 }
 
-/// How much of a replay met its own record, for people.
-std::string replay_summary(const World& world) {
+/// Returns how many datagrams of a replay had a recorded decision of their own, for reports.
+std::string replay_summary(const Simulation& world) {
   std::uint64_t sent = 0, own = 0;
   for (std::uint32_t link = 0; link < world.network().links(); ++link)
     for (const Direction direction : {Direction::kUp, Direction::kDown}) {
@@ -76,38 +79,45 @@ std::string replay_summary(const World& world) {
          (own == sent ? "\n" : ", the others that of the last one recorded before them\n");
 }
 
-void check_outputs(const RunArguments& arguments, Mistakes& mistakes) {
+void check_outputs(const RunArguments& arguments, UsageErrors& mistakes) {
   for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
     if (!file.empty() && !(file == "-" && file == arguments.json))
-      if (const auto problem = io::OutputFile::problem(file); !problem.empty()) mistakes.add(std::string(option) + ": " + problem);
+      if (const auto problem = io::OutputFile::problem(file); !problem.empty())
+        mistakes.add(std::string(option) + ": " + problem);
   if (arguments.trace == "-") mistakes.add("--trace: standard output is for --json; name a file");
-  if (!arguments.trace.empty() && arguments.trace == arguments.json) mistakes.add("--trace: is the same file as --json");
+  if (!arguments.trace.empty() && arguments.trace == arguments.json)
+    mistakes.add("--trace: is the same file as --json");
   if (!arguments.log.empty()) {
-    if (const auto problem = io::OutputFile::problem(arguments.log); !problem.empty()) mistakes.add("--log: " + problem);
+    if (const auto problem = io::OutputFile::problem(arguments.log); !problem.empty())
+      mistakes.add("--log: " + problem);
     if (arguments.log == "-") mistakes.add("--log: standard output is for --json; name a file");
-    if (arguments.log == arguments.json || arguments.log == arguments.trace) mistakes.add("--log: is the same file as another result");
+    if (arguments.log == arguments.json || arguments.log == arguments.trace)
+      mistakes.add("--log: is the same file as another result");
     if (arguments.log == arguments.replay) mistakes.add("--log: would overwrite what --replay reads");
   }
 }
 
-/// Everything a person typed, turned into a setup; and all that is wrong with it.
-WorldSetup understand(const RunArguments& arguments, std::vector<std::string>& notes, Mistakes& mistakes) {
-  WorldSetup setup;
+/// Makes the configuration from the arguments; collects all errors.
+SimulationConfig understand(const RunArguments& arguments, std::vector<std::string>& notes, UsageErrors& mistakes) {
+  SimulationConfig setup;
   if (auto scene = load_scene(arguments.scene)) {
     setup.scene = std::move(*scene);
   } else {
     for (const InputError& error : scene.error()) mistakes.add(to_text(error));
     check_outputs(arguments, mistakes);
-    return setup;  // without a scene nobody knows which seats a script or a hand may name
+    return setup;  // without a scene the seats are unknown, and names in scripts or hands cannot be checked
   }
   if (arguments.duration_s > 0) setup.scene.duration = arguments.duration_s;
-  if (setup.scene.endless()) mistakes.add("--duration: " + no_end(arguments.scene, "give --duration S, such as --duration 60"));
+  if (setup.scene.endless())
+    mistakes.add("--duration: " + endless_scene_error(arguments.scene, "give --duration S, such as --duration 60"));
   if (arguments.channel == "raw") choose_law(setup.scene, LawKind::kRaw);
   if (arguments.channel == "replica") choose_law(setup.scene, LawKind::kReplica);
   if (arguments.channel == "set_position") choose_law(setup.scene, LawKind::kSetPosition);
   for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned})
     if (arguments.mfs == server::mfs_name(mode)) setup.scene.channel.mfs = mode;
-  if (const auto problem = law_problem(setup.scene)) mistakes.add((arguments.channel.empty() ? "--mfs: " : "--channel: ") + arguments.scene + ": " + problem->key + ": " + problem->words);
+  if (const auto problem = law_problem(setup.scene))
+    mistakes.add((arguments.channel.empty() ? "--mfs: " : "--channel: ") + arguments.scene + ": " + problem->key +
+                 ": " + problem->words);
   for (const std::string& text : arguments.hands) {
     const auto cut = text.find('=');
     const std::string seat = text.substr(0, cut);
@@ -126,7 +136,7 @@ WorldSetup understand(const RunArguments& arguments, std::vector<std::string>& n
       continue;
     }
     if (auto motion = hal::load_motion(*options)) {
-      if (!arguments.quiet) io::printf_for_people(stderr, "%s: %s\n", seat.c_str(), (*motion)->describe().c_str());
+      if (!arguments.quiet) io::print_formatted(stderr, "%s: %s\n", seat.c_str(), (*motion)->describe().c_str());
       setup.motions[seat] = std::move(*motion);
     } else {
       mistakes.add(motion.error());
@@ -138,14 +148,15 @@ WorldSetup understand(const RunArguments& arguments, std::vector<std::string>& n
   return setup;
 }
 
-/// Progress on a terminal, some times per virtual second.
-void show_progress(const World& world) {
+/// Shows the progress on a terminal, some times per virtual second.
+void show_progress(const Simulation& world) {
   std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", world.session().time(), world.scene().duration);
   std::fflush(stderr);
 }
 
-/// The report, with every seat's network beside its link, and what its reader must know.
-std::string report_json(const server::RunReport& report, const std::vector<NamedLink>& links, const std::vector<std::string>& notes, bool interrupted) {
+/// Returns the report as JSON, with every seat's network quality beside its link, and the notes.
+std::string report_json(const server::RunReport& report, const std::vector<NamedLink>& links,
+                        const std::vector<std::string>& notes, bool interrupted) {
   auto json = nlohmann::ordered_json::parse(server::to_json(report));
   for (auto& seat : json["seats"])
     for (const NamedLink& one : links)
@@ -155,13 +166,14 @@ std::string report_json(const server::RunReport& report, const std::vector<Named
   return json.dump(2) + "\n";
 }
 
-/// Every value in force: the scene's, then the network's.
-int check(const RunArguments& arguments, const WorldSetup& setup, const NetworkChoice& network) {
+/// Prints all effective values: the scene's, then the network's.
+int check(const RunArguments& arguments, const SimulationConfig& setup, const NetworkChoice& network) {
   std::string text = effective_scene_text(setup.scene);
   if (setup.replay) {
     text += "network of every seat: replay of " + arguments.replay + "\n";
   } else {
-    text += "network: " + network.description + format(", seed %llu\n", static_cast<unsigned long long>(setup.seed)) + network_listing(setup, "  ");
+    text += "network: " + network.description + format(", seed %llu\n", static_cast<unsigned long long>(setup.seed)) +
+            network_listing(setup, "  ");
     for (const std::string& note : network.notes) text += "note: " + note + "\n";
     for (const std::string& note : late_notes(setup)) text += "note: " + note + "\n";
   }
@@ -170,41 +182,42 @@ int check(const RunArguments& arguments, const WorldSetup& setup, const NetworkC
 }
 
 int run_command(const RunArguments& arguments) {
-  Mistakes mistakes;
+  UsageErrors mistakes;
   auto network = arguments.network.resolve();
   if (!network) mistakes.add(network.error());
   std::vector<std::string> script_notes;
-  WorldSetup setup = understand(arguments, script_notes, mistakes);
-  if (!mistakes.none()) return mistakes.refuse("run");
+  SimulationConfig setup = understand(arguments, script_notes, mistakes);
+  if (!mistakes.empty()) return mistakes.report("run");
   add_notes(network->notes, script_notes);
   setup.network = network->link;
-  setup.watch_quality = !arguments.no_quality;
+  setup.monitor_quality = !arguments.no_quality;
   if (arguments.check) return check(arguments, setup, *network);
-  auto made = World::make(setup);
+  auto made = Simulation::make(setup);
   if (!made) return wrong(made.error());
   const bool json_on_stdout = arguments.json == "-";
   io::OutputFile json_file, trace_file;
   if (const auto problem = json_file.open(arguments.json, true); !problem.empty()) return wrong("--json: " + problem);
-  if (const auto problem = trace_file.open(arguments.trace, false); !problem.empty()) return wrong("--trace: " + problem);
-  World& world = **made;
+  if (const auto problem = trace_file.open(arguments.trace, false); !problem.empty())
+    return wrong("--trace: " + problem);
+  Simulation& world = **made;
   RunLog log;
   if (const auto problem = log.open(arguments.log); !problem.empty()) return wrong("--log: " + problem);
   log.attach(world.network());
 
-  const Interruption interruption;
+  const SignalWatcher interruption;
   const bool progress = !arguments.quiet && isatty(STDERR_FILENO) != 0;
   const std::clock_t begin = std::clock();
-  WorldRun run = run_world(world, setup.seed,
-                           {.go_on =
-                                [&](double) {
-                                  if (progress) show_progress(world);
-                                  return !interruption.came();
-                                },
-                            .trace = [&](std::string_view rows) { trace_file.write(rows); },
-                            .tick = [&](World&) { log.on_tick(world.now()); }});
+  SimulationResult run = run_simulation(world, setup.seed,
+                                        {.keep_running =
+                                             [&](double) {
+                                               if (progress) show_progress(world);
+                                               return !interruption.signalled();
+                                             },
+                                         .trace = [&](std::string_view rows) { trace_file.write(rows); },
+                                         .tick = [&](Simulation&) { log.on_tick(world.now()); }});
   if (progress) std::fprintf(stderr, "\r\x1b[K");
   if (!run.trouble.empty()) {
-    io::printf_for_people(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
+    io::print_formatted(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
     return kTrouble;
   }
 
@@ -219,20 +232,22 @@ int run_command(const RunArguments& arguments) {
   std::string words;
   for (const std::string& note : notes) words += "note: " + note + "\n";
   if (!arguments.quiet || !json_on_stdout)
-    io::printf_for_people(json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s%s%s",
-                 report.scenario.c_str(), interrupted && !broken ? "interrupted" : report.verdict_words(), report.duration_s,
-                 setup.replay ? ("replay of " + arguments.replay).c_str() : network->description.c_str(),
-                 static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
-                 server::report_summary(report, world.scene()).c_str(), quality_report(links, arguments.verbose).c_str(),
-                 setup.replay ? replay_summary(world).c_str() : "", words.c_str());
-  if (interrupted) Interruption::say("run", format("%.3f of %g s of the session", report.duration_s, setup.scene.duration));
-  if (json_file.wanted()) json_file.write(report_json(report, links, notes, interrupted));
+    io::print_formatted(
+        json_on_stdout ? stderr : stdout, "%s: %s, %.1f s over %s, seed %llu, %.0f x real time\n%s%s%s%s",
+        report.scenario.c_str(), interrupted && !broken ? "interrupted" : report.verdict_text(), report.duration_s,
+        setup.replay ? ("replay of " + arguments.replay).c_str() : network->description.c_str(),
+        static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
+        server::report_summary(report, world.scene()).c_str(), quality_report(links, arguments.verbose).c_str(),
+        setup.replay ? replay_summary(world).c_str() : "", words.c_str());
+  if (interrupted)
+    SignalWatcher::report("run", format("%.3f of %g s of the session", report.duration_s, setup.scene.duration));
+  if (json_file.is_open()) json_file.write(report_json(report, links, notes, interrupted));
   for (const auto& problem : {trace_file.close(), log.close(), json_file.close()})
     if (!problem.empty()) {
-      io::printf_for_people(stderr, "tandem-netsim run: %s\n", problem.c_str());
+      io::print_formatted(stderr, "tandem-netsim run: %s\n", problem.c_str());
       return kTrouble;
     }
-  if (interrupted) return Interruption::kInterrupted;
+  if (interrupted) return SignalWatcher::kInterrupted;
   return report.passed ? 0 : kFailed;
 }
 
@@ -252,28 +267,46 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
                    "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
       ->option_text("SEAT=FILE...")
       ->allow_extra_args(false);
-  command->add_option("--channel", arguments->channel, "channel law instead of the scene's: replica (every client simulates the tool; what scenes have that name none), set_position (springs between hand and tool, held passive by a ledger at both ends), raw (what happens without)")
+  command
+      ->add_option("--channel", arguments->channel,
+                   "channel law instead of the scene's: replica (every client simulates the tool; what scenes have "
+                   "that name none), set_position (springs between hand and tool, held passive by a ledger at both "
+                   "ends), raw (what happens without)")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
-  command->add_option("--mfs", arguments->mfs, "flow sources instead of the scene's: open (followers get what they need), tank (only what was dissipated), "
-                   "seed, seed_signed (two readings of the source paper's equation 3)")
+  command
+      ->add_option(
+          "--mfs", arguments->mfs,
+          "flow sources instead of the scene's: open (followers get what they need), tank (only what was dissipated), "
+          "seed, seed_signed (two readings of the source paper's equation 3)")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
-  command->add_option("--duration", arguments->duration_s, "session time instead of the scene's; a scene without an end (no duration_s) needs it")
+  command
+      ->add_option("--duration", arguments->duration_s,
+                   "session time instead of the scene's; a scene without an end (no duration_s) needs it")
       ->transform(io::number_in(0.1, 3e6, "s"))
       ->option_text("S");
   command->add_option("--json", arguments->json, "writes the report; `-`: to standard output")->option_text("FILE|-");
-  command->add_option("--trace", arguments->trace, "writes one row per tick; the same seed and build give the same bytes")
+  command
+      ->add_option("--trace", arguments->trace, "writes one row per tick; the same seed and build give the same bytes")
       ->option_text("FILE.csv");
-  command->add_option("--log", arguments->log, "writes the fate of every datagram and copy: t_in_ns,link,dir,flow,idx,size,verdict,t_out_ns,cause")
+  command
+      ->add_option("--log", arguments->log,
+                   "writes the fate of every datagram and copy: t_in_ns,link,dir,flow,idx,size,verdict,t_out_ns,cause")
       ->option_text("FILE.csv");
-  command->add_option("--replay", arguments->replay, "a --log file is the network: the same run meets the same fates, another one those of the last datagram recorded "
+  command
+      ->add_option("--replay", arguments->replay,
+                   "a --log file is the network: the same run meets the same fates, another one those of the last "
+                   "datagram recorded "
                    "before, from the start again after the end; excludes what says what the network is like")
       ->option_text("LOG.csv");
-  command->add_flag("--check", arguments->check, "only checks scene and network and prints every value in force, with units");
-  command->add_flag("--verbose", arguments->verbose, "the network of every seat in words and numbers, not only of the worst");
+  command->add_flag("--check", arguments->check,
+                    "only checks scene and network and prints every value in force, with units");
+  command->add_flag("--verbose", arguments->verbose,
+                    "the network of every seat in words and numbers, not only of the worst");
   command->add_flag("--no-quality", arguments->no_quality, "does not judge the network");
   command->add_flag("--quiet", arguments->quiet, "no progress, and no summary beside --json -");
   command->footer(
-      "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then. It is\n"
+      "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then. "
+      "It is\n"
       "`not judged` when no hand moved or no errors could be measured.\n"
       "The network is judged apart, by what force feedback needs (green, amber, red; loss, gaps and jitter in every\n"
       "100 ms, 1 s and 10 s of the session, round trips): it never changes the verdict.\n\n"

@@ -1,11 +1,14 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace tandem::netsim {
 
-/// Adds `run SCENE`: a whole session in virtual time.
+/// Adds `run SCENE`, which runs a whole session in virtual time.
 void add_run_command(CLI::App& root, std::function<int()>& action);
 
 }  // namespace tandem::netsim

@@ -1,12 +1,12 @@
 #include "netsim/app/run_log.h"
 
-#include "netsim/app/network_options.h"
-#include "netsim/decision_csv.h"
+#include "netsim/profiles/app/network_options.h"
+#include "netsim/profiles/decision_csv.h"
 
 namespace tandem::netsim {
 namespace {
 
-/// Rows kept free for a second of traffic: 64 datagrams and copies per millisecond.
+/// Capacity for a second of traffic: 64 datagrams and copies per millisecond.
 constexpr std::size_t kRoom = 64'000;
 constexpr Duration kEvery = std::chrono::seconds(1);
 constexpr std::uintmax_t kFileMax = std::uintmax_t{1} << 30;
@@ -15,21 +15,21 @@ constexpr std::uintmax_t kFileMax = std::uintmax_t{1} << 30;
 
 std::string RunLog::open(const std::string& name) {
   std::string problem = file_.open(name, false);
-  if (file_.wanted()) file_.write(decision_csv_header());
+  if (file_.is_open()) file_.write(decision_csv_header());
   return problem;
 }
 
 void RunLog::attach(Network& network) {
-  if (!file_.wanted()) return;
+  if (!file_.is_open()) return;
   log_.reserve(kRoom);
   network_ = &network;
   network.log_to(&log_);
 }
 
 void RunLog::on_tick(Time now) {
-  if (network_ == nullptr || (now < next_ && log_.room() > kRoom / 2)) return;
+  if (network_ == nullptr || (now < next_ && log_.free_rows() > kRoom / 2)) return;
   next_ = now + kEvery;
-  write(network_->oldest_under_way().value_or(now));
+  write(network_->oldest_in_flight().value_or(now));
   log_.reserve(kRoom);
 }
 
@@ -42,7 +42,7 @@ void RunLog::write(Time until) {
 std::string RunLog::close() {
   if (network_ != nullptr) {
     log_.reserve(kRoom);
-    network_->log_waiting();
+    network_->log_in_flight();
     write(Time::max());
     network_->log_to(nullptr);
     if (log_.missed() > 0) return std::to_string(log_.missed()) + " decisions found no room in the log";

@@ -5,24 +5,25 @@
 #include <string>
 
 #include "common/io/output_file.h"
-#include "netsim/decision_log.h"
-#include "netsim/network.h"
-#include "netsim/replay.h"
+#include "netsim/engine/decision_log.h"
+#include "netsim/engine/network.h"
+#include "netsim/engine/replay.h"
 
 namespace tandem::netsim {
 
-/// Option --log of `run`: every decision of a virtual network, written as the run goes on, in the order of
-/// DecisionLog::sorted.
+/// Writes every decision of a simulated network to a file during the run, in the order of DecisionLog::sorted. It
+/// implements option --log of `run`.
 class RunLog {
  public:
-  /// @param name  empty: nothing is wanted
-  /// @return what is wrong, empty if nothing
+  /// Opens the file. @param name  empty: no log is written
+  /// @return the error; empty if there is none
   [[nodiscard]] std::string open(const std::string& name);
-  /// Before the first datagram; `network` must outlive `close`.
+  /// Starts the log. Call it before the first datagram; `network` must outlive `close`.
   void attach(Network& network);
-  /// After a tick that ended at `now`; cheap unless a second went by.
+  /// Writes the decisions after a tick that ended at `now`. It does so once per second; other calls cost almost
+  /// nothing.
   void on_tick(Time now);
-  /// @return what is wrong, empty if every row was written
+  /// Closes the file. @return the error; empty if every row was written
   [[nodiscard]] std::string close();
 
  private:
@@ -34,8 +35,8 @@ class RunLog {
   Time next_{};
 };
 
-/// Reads a decision log to play it: option --replay.
-/// @return the recording, or what is wrong: one mistake per line
+/// Reads a decision log for replay: option --replay.
+/// @return the recording, or the errors, one per line
 [[nodiscard]] std::expected<std::shared_ptr<const Replay>, std::string> load_replay(const std::string& file);
 
 }  // namespace tandem::netsim

@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "netsim/world_run.h"
+#include "netsim/system/run_simulation.h"
 
 namespace tandem::netsim {
 namespace {
@@ -28,18 +28,18 @@ std::string_view name(State state) noexcept {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRunWatch& watch) {
+SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRunObserver& watch) {
   SeedOutcome out;
   out.seed = seed;
-  WorldSetup setup = scenario.setup;
+  SimulationConfig setup = scenario.setup;
   setup.seed = seed;
-  setup.watch_quality = true;
+  setup.monitor_quality = true;
   const double begun = cpu_now();
   const auto go_on = [&](double session_s) {
     if (watch.progress) watch.progress(session_s / setup.scene.duration);
     return true;
   };
-  WorldRun run = run_world(setup, {.go_on = go_on, .trace = watch.trace});
+  SimulationResult run = run_simulation(setup, {.keep_running = go_on, .trace = watch.trace});
   out.cpu_s = cpu_now() - begun;
   out.violations = run.report.violations;
   out.trace_hash = run.report.trace_hash;
@@ -48,7 +48,7 @@ SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRun
   out.notes = run.notes;
   for (const NamedLink& one : run.links) out.bands.emplace_back(one.name, verdict_name(verdict(one.link)));
   for (const NamedLink& one : run.links) out.badness = std::max(out.badness, badness(one.link));
-  out.words = quality_report(run.links, false);
+  out.network_text = quality_report(run.links, false);
   bool good = run.report.passed;
   for (const Limit& limit : scenario.limits) {
     out.values.push_back(value_of(limit, run.report));
@@ -64,12 +64,22 @@ SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRun
 }
 
 std::string to_bytes(const SeedOutcome& o) {
-  Json j{{"seed", o.seed},         {"state", static_cast<int>(o.state)}, {"trouble", o.trouble},
-         {"hash", o.trace_hash},   {"duration", o.duration_s},           {"cpu", o.cpu_s},
-         {"report", o.report},     {"values", Json::array()},            {"violations", Json::array()}, {"bands", Json::array()},
-         {"words", o.words},       {"badness", o.badness},           {"notes", o.notes}};
+  Json j{{"seed", o.seed},
+         {"state", static_cast<int>(o.state)},
+         {"trouble", o.trouble},
+         {"hash", o.trace_hash},
+         {"duration", o.duration_s},
+         {"cpu", o.cpu_s},
+         {"report", o.report},
+         {"values", Json::array()},
+         {"violations", Json::array()},
+         {"bands", Json::array()},
+         {"words", o.network_text},
+         {"badness", o.badness},
+         {"notes", o.notes}};
   for (const double value : o.values) j["values"].push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
-  for (const server::Violation& v : o.violations) j["violations"].push_back({v.invariant, v.seat, v.at_s, v.expected, v.count});
+  for (const server::Violation& v : o.violations)
+    j["violations"].push_back({v.invariant, v.seat, v.at_s, v.expected, v.count});
   for (const auto& [seat, band] : o.bands) j["bands"].push_back(Json{{"seat", seat}, {"band", band}});
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -87,11 +97,12 @@ SeedOutcome outcome_from_bytes(const std::string& bytes) {
   for (const Json& value : j.at("values"))
     o.values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
   for (const Json& v : j.at("violations"))
-    o.violations.push_back({v.at(0).get<std::string>(), v.at(1).get<std::string>(), v.at(2).get<double>(), v.at(3).get<bool>(),
-                            v.at(4).get<std::uint64_t>()});
+    o.violations.push_back({v.at(0).get<std::string>(), v.at(1).get<std::string>(), v.at(2).get<double>(),
+                            v.at(3).get<bool>(), v.at(4).get<std::uint64_t>()});
   o.notes = j.at("notes").get<std::vector<std::string>>();
-  for (const Json& b : j.at("bands")) o.bands.emplace_back(b.at("seat").get<std::string>(), b.at("band").get<std::string>());
-  o.words = j.at("words").get<std::string>();
+  for (const Json& b : j.at("bands"))
+    o.bands.emplace_back(b.at("seat").get<std::string>(), b.at("band").get<std::string>());
+  o.network_text = j.at("words").get<std::string>();
   o.badness = j.at("badness").get<double>();
   return o;
 }

@@ -8,14 +8,14 @@
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
-#include "netsim/app/interruption.h"
-#include "netsim/app/mistakes.h"
+#include "netsim/app/signal_watcher.h"
 #include "netsim/app/sweep.h"
 #include "netsim/app/test_progress.h"
+#include "netsim/app/usage_errors.h"
+#include "netsim/system/session_notes.h"
 #include "proto/io/scene_file.h"
-#include "proto/scene_text.h"
-#include "netsim/world_notes.h"
-#include "server/session_monitor.h"
+#include "proto/text/scene_text.h"
+#include "server/session/session_invariant_checker.h"
 
 namespace tandem::netsim {
 namespace {
@@ -29,10 +29,10 @@ struct SweepArguments {
   bool quiet = false;
 };
 
-int wrong(const std::string& mistake) { return refuse("sweep", mistake); }
+int wrong(const std::string& mistake) { return report_usage_error("sweep", mistake); }
 
-/// Everything a person typed, and all that is wrong with it.
-SweepSpec understand(const SweepArguments& a, Mistakes& mistakes) {
+/// Makes the sweep from the arguments; collects all errors.
+SweepSpec understand(const SweepArguments& a, UsageErrors& mistakes) {
   SweepSpec spec;
   spec.scene_name = a.scene;
   spec.metric = a.metric;
@@ -41,7 +41,8 @@ SweepSpec understand(const SweepArguments& a, Mistakes& mistakes) {
   } else {
     for (const InputError& error : scene.error()) mistakes.add(to_text(error));
   }
-  const auto axis = [&](const char* option, const std::string& text, double hi, const char* unit, std::vector<double>& into) {
+  const auto axis = [&](const char* option, const std::string& text, double hi, const char* unit,
+                        std::vector<double>& into) {
     if (text.empty()) return;
     if (auto values = parse_axis(text, 0, hi, unit)) {
       into = std::move(*values);
@@ -56,22 +57,27 @@ SweepSpec understand(const SweepArguments& a, Mistakes& mistakes) {
     mistakes.add("nothing to sweep: give at least one of --delay, --jitter, --loss, such as --delay 0,20,50");
   const std::size_t points = spec.delays_ms.size() * spec.jitters_ms.size() * spec.losses_percent.size();
   if (points > kSweepPointsMax)
-    mistakes.add("the grid has " + std::to_string(points) + " points; at most " + std::to_string(kSweepPointsMax) + " are allowed");
+    mistakes.add("the grid has " + std::to_string(points) + " points; at most " + std::to_string(kSweepPointsMax) +
+                 " are allowed");
   if (const auto known = sweep_metric(a.metric); !known) mistakes.add("--metric: " + known.error());
   if (a.duration_s <= 0 && !spec.scene.seats.empty() && spec.scene.endless())
-    mistakes.add("--duration: " + no_end(a.scene, "give --duration S, such as --duration 60"));
+    mistakes.add("--duration: " + endless_scene_error(a.scene, "give --duration S, such as --duration 60"));
   if (a.duration_s > 0) {
     spec.scene.duration = a.duration_s;
     spec.options += format("--duration %.9g", a.duration_s);
   }
   if (const auto of = sweep_metric(a.metric)) {
     const auto touches = [&](const PhaseSpec& p) { return p.contact && p.from < spec.scene.duration; };
-    if (!spec.scene.seats.empty() && known_metric(*of, a.metric)->needs_contact && !std::ranges::any_of(spec.scene.phases, touches))
-      mistakes.add("--metric: " + a.metric + " is measured in phases that the scene marks `contact: true`; the run of " + a.scene + " has none");
+    if (!spec.scene.seats.empty() && known_metric(*of, a.metric)->needs_contact &&
+        !std::ranges::any_of(spec.scene.phases, touches))
+      mistakes.add("--metric: " + a.metric +
+                   " is measured in phases that the scene marks `contact: true`; the run of " + a.scene + " has none");
   }
   const auto add = [&](const std::string& option) { spec.options += (spec.options.empty() ? "" : " ") + option; };
   if (!a.channel.empty()) {
-    choose_law(spec.scene, a.channel == "raw" ? LawKind::kRaw : a.channel == "replica" ? LawKind::kReplica : LawKind::kSetPosition);
+    choose_law(spec.scene, a.channel == "raw"       ? LawKind::kRaw
+                           : a.channel == "replica" ? LawKind::kReplica
+                                                    : LawKind::kSetPosition);
     add("--channel " + a.channel);
   }
   if (!a.mfs.empty()) {
@@ -79,40 +85,47 @@ SweepSpec understand(const SweepArguments& a, Mistakes& mistakes) {
       if (a.mfs == server::mfs_name(mode)) spec.scene.channel.mfs = mode;
     add("--mfs " + a.mfs);
   }
-  if (const auto problem = law_problem(spec.scene)) mistakes.add((a.channel.empty() ? "--mfs: " : "--channel: ") + a.scene + ": " + problem->key + ": " + problem->words);
+  if (const auto problem = law_problem(spec.scene))
+    mistakes.add((a.channel.empty() ? "--mfs: " : "--channel: ") + a.scene + ": " + problem->key + ": " +
+                 problem->words);
   return spec;
 }
 
 int sweep_command(const SweepArguments& a) {
-  Mistakes mistakes;
+  UsageErrors mistakes;
   SweepSpec spec = understand(a, mistakes);
   for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
     if (!file->empty() && *file != "-")
-      if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) mistakes.add(std::string(option) + ": " + problem);
+      if (const auto problem = io::OutputFile::problem(*file); !problem.empty())
+        mistakes.add(std::string(option) + ": " + problem);
   if (!a.json.empty() && a.json == a.csv) mistakes.add("--csv: is the same file as --json");
-  if (!mistakes.none()) return mistakes.refuse("sweep");
+  if (!mistakes.empty()) return mistakes.report("sweep");
 
-  const Interruption interruption;
+  const SignalWatcher interruption;
   io::OutputFile json_file, csv_file;
   if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong("--json: " + problem);
   if (const auto problem = csv_file.open(a.csv, true); !problem.empty()) return wrong("--csv: " + problem);
   TestProgress progress(a.quiet);
-  TestOptions options{.seed = a.seed, .seeds = static_cast<std::uint64_t>(a.seeds), .jobs = static_cast<std::size_t>(a.jobs), .stop_fd = interruption.fd()};
-  options.watch = [&](const io::JobsProgress& p, std::size_t failed) { progress.show(p, failed); };
+  TestOptions options{.seed = a.seed,
+                      .seeds = static_cast<std::uint64_t>(a.seeds),
+                      .jobs = static_cast<std::size_t>(a.jobs),
+                      .stop_fd = interruption.fd()};
+  options.on_progress = [&](const io::JobProgress& p, std::size_t failed) { progress.show(p, failed); };
   const Sweep sweep = run_sweep(std::move(spec), options);
   progress.end();
 
   const bool on_stdout = a.json == "-" || a.csv == "-";
   if (!a.quiet || !on_stdout) io::print(on_stdout ? stderr : stdout, sweep_map(sweep));
-  const bool interrupted = sweep.runs.not_run() > 0 && interruption.came();
+  const bool interrupted = sweep.runs.not_run() > 0 && interruption.signalled();
   if (interrupted)
-    Interruption::say("sweep", std::to_string(sweep.runs.all() - sweep.runs.not_run()) + " of " + std::to_string(sweep.runs.all()) + " runs");
+    SignalWatcher::report("sweep", std::to_string(sweep.runs.all() - sweep.runs.not_run()) + " of " +
+                                       std::to_string(sweep.runs.all()) + " runs");
   json_file.write(sweep_json(sweep));
   csv_file.write(sweep_csv(sweep));
-  int code = interrupted ? Interruption::kInterrupted : sweep.good() ? kGood : kFailed;
+  int code = interrupted ? SignalWatcher::kInterrupted : sweep.good() ? kGood : kFailed;
   for (const auto& problem : {json_file.close(), csv_file.close()})
     if (!problem.empty()) {
-      io::printf_for_people(stderr, "tandem-netsim sweep: %s\n", problem.c_str());
+      io::print_formatted(stderr, "tandem-netsim sweep: %s\n", problem.c_str());
       code = kFailed;
     }
   return code;
@@ -122,15 +135,23 @@ int sweep_command(const SweepArguments& a) {
 
 void add_sweep_command(CLI::App& root, std::function<int()>& action) {
   const auto a = std::make_shared<SweepArguments>();
-  CLI::App* const command = root.add_subcommand("sweep", "Runs a scene over a grid of networks and prints a map of one number.");
-  command->add_option("scene", a->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")->option_text(" ")->required();
-  command->add_option("--delay", a->delay, "constant delays, each direction [ms], 0 to 60000")->option_text("MS,MS,...");
-  command->add_option("--jitter", a->jitter, "delays uniform in [0, MS] added to every datagram [ms], 0 to 60000; order is kept")
+  CLI::App* const command =
+      root.add_subcommand("sweep", "Runs a scene over a grid of networks and prints a map of one number.");
+  command->add_option("scene", a->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
+      ->option_text(" ")
+      ->required();
+  command->add_option("--delay", a->delay, "constant delays, each direction [ms], 0 to 60000")
+      ->option_text("MS,MS,...");
+  command
+      ->add_option("--jitter", a->jitter,
+                   "delays uniform in [0, MS] added to every datagram [ms], 0 to 60000; order is kept")
       ->option_text("MS,MS,...");
   command->add_option("--loss", a->loss, "datagrams lost, each alone [%], 0 to 100")->option_text("PERCENT,...");
-  command->add_option("--metric", a->metric,
-                      "the number of the map, as in `run --json`: tracking_rms_m (default), force_error_rms_n, effort_peak_n, gate_trips, "
-                      "held_s, ...; the worst seat or tool over all seeds counts")
+  command
+      ->add_option("--metric", a->metric,
+                   "the number of the map, as in `run --json`: tracking_rms_m (default), force_error_rms_n, "
+                   "effort_peak_n, gate_trips, "
+                   "held_s, ...; the worst seat or tool over all seeds counts")
       ->option_text("NAME");
   command->add_option("--seeds", a->seeds, "how many seeds of each point; default 1")
       ->check(io::number_in(1, 10'000, ""))
@@ -141,8 +162,12 @@ void add_sweep_command(CLI::App& root, std::function<int()>& action) {
       ->check(io::number_in(1, 256, ""))
       ->check(io::whole_number())
       ->option_text("N");
-  command->add_option("--duration", a->duration_s, "session time instead of the scene's")->transform(io::number_in(0.1, 3e6, "s"))->option_text("S");
-  command->add_option("--channel", a->channel, "channel law instead of the scene's: replica (what scenes have that name none), set_position, raw")
+  command->add_option("--duration", a->duration_s, "session time instead of the scene's")
+      ->transform(io::number_in(0.1, 3e6, "s"))
+      ->option_text("S");
+  command
+      ->add_option("--channel", a->channel,
+                   "channel law instead of the scene's: replica (what scenes have that name none), set_position, raw")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
@@ -150,10 +175,12 @@ void add_sweep_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--csv", a->csv, "writes one row per point; `-`: to standard output")->option_text("FILE|-");
   command->add_flag("--quiet", a->quiet, "no progress, and no map beside --json - or --csv -");
   command->footer(
-      "Exit: 0 no promised invariant was broken anywhere, 1 one was, a run could not begin, or it was interrupted, 2 wrong arguments or files.\n\n"
+      "Exit: 0 no promised invariant was broken anywhere, 1 one was, a run could not begin, or it was interrupted, 2 "
+      "wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim sweep free_motion --delay 0,20,50,100 --loss 0,5,20\n"
-      "  tandem-netsim sweep contact --delay 0,10,20,40 --jitter 0,5 --metric force_error_rms_n --seeds 5 --csv map.csv\n"
+      "  tandem-netsim sweep contact --delay 0,10,20,40 --jitter 0,5 --metric force_error_rms_n --seeds 5 --csv "
+      "map.csv\n"
       "  tandem-netsim sweep contact --delay 0,50,100,200 --channel raw");
   command->callback([a, &action] { action = [a] { return sweep_command(*a); }; });
 }

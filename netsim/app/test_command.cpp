@@ -8,13 +8,13 @@
 #include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
-#include "netsim/app/interruption.h"
-#include "netsim/app/mistakes.h"
-#include "netsim/app/scenario_load.h"
+#include "netsim/app/scenario_loader.h"
+#include "netsim/app/signal_watcher.h"
 #include "netsim/app/test_progress.h"
 #include "netsim/app/test_report.h"
-#include "netsim/scenario_shipped.h"
-#include "netsim/world_notes.h"
+#include "netsim/app/usage_errors.h"
+#include "netsim/scenario/shipped_scenarios.h"
+#include "netsim/system/session_notes.h"
 
 namespace tandem::netsim {
 namespace {
@@ -28,35 +28,38 @@ struct TestArguments {
   double seeds = 1, jobs = 0;
   std::string junit, json, trace;
   bool seed_given = false, seeds_given = false;
-  bool keep_going = false, fail_fast = false, list = false, check = false, reports = false, quiet = false;
+  bool fail_fast = false, list = false, check = false, reports = false, quiet = false;
 };
 
-int wrong(const std::string& mistake) { return refuse("test", mistake); }
+int wrong(const std::string& mistake) { return report_usage_error("test", mistake); }
 
 void list(const std::vector<Scenario>& scenarios) {
   std::size_t width = 0;
   for (const Scenario& s : scenarios) width = std::max(width, s.name.size());
   for (const Scenario& s : scenarios)
-    io::printf_for_people(stdout, "%-*s  %3u seed%s  %5.0f s  %s\n", static_cast<int>(width), s.name.c_str(), s.seeds, s.seeds == 1 ? " " : "s",
-                s.setup.scene.duration, s.summary.c_str());
+    io::print_formatted(stdout, "%-*s  %3u seed%s  %5.0f s  %s\n", static_cast<int>(width), s.name.c_str(), s.seeds,
+                        s.seeds == 1 ? " " : "s", s.setup.scene.duration, s.summary.c_str());
 }
 
-/// What only shows once the scenarios are known.
-void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, Mistakes& mistakes) {
+/// Checks the options that depend on the scenarios.
+void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, UsageErrors& mistakes) {
   std::uint64_t runs = 0;
   for (const Scenario& s : scenarios) {
     const std::uint64_t seeds = a.seeds_given ? static_cast<std::uint64_t>(a.seeds) : s.seeds;
     const std::uint64_t first = a.seed_given ? a.seed : s.seed;
     runs += seeds;
     if (first > std::numeric_limits<std::uint64_t>::max() - (seeds - 1))
-      mistakes.add(s.name + ": seed " + std::to_string(first) + " and " + std::to_string(seeds - 1) + " more are beyond 64 bits");
+      mistakes.add(s.name + ": seed " + std::to_string(first) + " and " + std::to_string(seeds - 1) +
+                   " more are beyond 64 bits");
   }
   if (!a.trace.empty() && runs != 1)
-    mistakes.add("--trace: is of one seed of one scenario, these are " + std::to_string(runs) + "; add --seeds 1 and name one");
+    mistakes.add("--trace: is of one seed of one scenario, these are " + std::to_string(runs) +
+                 "; add --seeds 1 and name one");
 }
 
-void check_outputs(const TestArguments& a, Mistakes& mistakes) {
-  const std::array<std::pair<const char*, const std::string*>, 3> files{{{"--json", &a.json}, {"--junit", &a.junit}, {"--trace", &a.trace}}};
+void check_outputs(const TestArguments& a, UsageErrors& mistakes) {
+  const std::array<std::pair<const char*, const std::string*>, 3> files{
+      {{"--json", &a.json}, {"--junit", &a.junit}, {"--trace", &a.trace}}};
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto& [option, file] = files[i];
     if (file->empty() || (*file == "-" && i == 0)) continue;
@@ -71,7 +74,7 @@ void check_outputs(const TestArguments& a, Mistakes& mistakes) {
 }
 
 int test_command(const TestArguments& a) {
-  Mistakes mistakes;
+  UsageErrors mistakes;
   check_outputs(a, mistakes);
   std::vector<std::string> names = a.scenarios;
   if (names.empty() && a.list) names.emplace_back(kAllShipped);
@@ -81,9 +84,11 @@ int test_command(const TestArguments& a) {
     mistakes.add("SCENARIO is required: a file, a folder, `shipped` for all shipped ones, or one of:" + all);
   }
   for (const auto& [only, wanted] : {std::pair{"--check", a.check}, std::pair{"--list", a.list}})
-    for (const auto& [option, file] : {std::pair{"--json", &a.json}, std::pair{"--junit", &a.junit}, std::pair{"--trace", &a.trace}})
-      if (wanted && !file->empty()) mistakes.add(std::string(only) + " runs nothing, so there is nothing for " + option + "; leave one of them out");
-  if (a.keep_going && a.fail_fast) mistakes.add("--keep-going excludes --fail-fast");
+    for (const auto& [option, file] :
+         {std::pair{"--json", &a.json}, std::pair{"--junit", &a.junit}, std::pair{"--trace", &a.trace}})
+      if (wanted && !file->empty())
+        mistakes.add(std::string(only) + " runs nothing, so there is nothing for " + option +
+                     "; leave one of them out");
   std::vector<std::string> left_out;
   auto scenarios = load_scenarios(names, &left_out);
   if (scenarios) {
@@ -91,9 +96,9 @@ int test_command(const TestArguments& a) {
   } else {
     for (const InputError& error : scenarios.error()) mistakes.add(to_text(error));
   }
-  if (!mistakes.none()) return mistakes.refuse("test");
-  for (const std::string& note : left_out) io::printf_for_people(stderr, "note: %s\n", note.c_str());
-  for (Scenario& s : *scenarios) {  // from here on what is in force
+  if (!mistakes.empty()) return mistakes.report("test");
+  for (const std::string& note : left_out) io::print_formatted(stderr, "note: %s\n", note.c_str());
+  for (Scenario& s : *scenarios) {  // the options now replace the scenario's values
     if (a.seed_given) s.seed = a.seed;
     if (a.seeds_given) s.seeds = static_cast<std::uint32_t>(a.seeds);
   }
@@ -103,35 +108,43 @@ int test_command(const TestArguments& a) {
   }
   if (a.check) {
     for (const Scenario& s : *scenarios) {
-      std::printf("%s%s\n%s", &s == &scenarios->front() ? "" : "\n", s.name.c_str(), effective_scenario_text(s).c_str());
+      std::printf("%s%s\n%s", &s == &scenarios->front() ? "" : "\n", s.name.c_str(),
+                  effective_scenario_text(s).c_str());
       for (const std::string& note : late_notes(s.setup)) std::printf("note: %s\n", note.c_str());
     }
-    std::printf("# OK: %zu scenario%s without a mistake; nothing was started\n", scenarios->size(), scenarios->size() == 1 ? "" : "s");
+    std::printf("# OK: %zu scenario%s without a mistake; nothing was started\n", scenarios->size(),
+                scenarios->size() == 1 ? "" : "s");
     return kPass;
   }
-  const Interruption interruption;
+  const SignalWatcher interruption;
   io::OutputFile json_file, junit_file;
   if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong("--json: " + problem);
   if (const auto problem = junit_file.open(a.junit, false); !problem.empty()) return wrong("--junit: " + problem);
 
   TestProgress progress(a.quiet);
-  TestOptions options{.jobs = static_cast<std::size_t>(a.jobs), .fail_fast = a.fail_fast, .reports = a.reports, .trace = a.trace, .stop_fd = interruption.fd()};
+  TestOptions options{.jobs = static_cast<std::size_t>(a.jobs),
+                      .fail_fast = a.fail_fast,
+                      .reports = a.reports,
+                      .trace = a.trace,
+                      .stop_fd = interruption.fd()};
   if (a.seed_given) options.seed = a.seed;
   if (a.seeds_given) options.seeds = static_cast<std::uint64_t>(a.seeds);
-  options.watch = [&](const io::JobsProgress& p, std::size_t failed) { progress.show(p, failed); };
+  options.on_progress = [&](const io::JobProgress& p, std::size_t failed) { progress.show(p, failed); };
   TestResult result = run_tests(std::move(*scenarios), options);
   progress.end();
-  result.interrupted = result.not_run() > 0 && interruption.came();
+  result.interrupted = result.not_run() > 0 && interruption.signalled();
 
   const bool json_on_stdout = a.json == "-";
   if (!a.quiet || !json_on_stdout) io::print(json_on_stdout ? stderr : stdout, test_summary(result));
-  if (result.interrupted) Interruption::say("test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
+  if (result.interrupted)
+    SignalWatcher::report(
+        "test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
   json_file.write(test_json(result));
   junit_file.write(junit_xml(result));
-  int code = result.interrupted ? Interruption::kInterrupted : result.passed() ? kPass : kFailed;
+  int code = result.interrupted ? SignalWatcher::kInterrupted : result.passed() ? kPass : kFailed;
   for (const auto& problem : {json_file.close(), junit_file.close()})
     if (!problem.empty()) {
-      io::printf_for_people(stderr, "tandem-netsim test: %s\n", problem.c_str());
+      io::print_formatted(stderr, "tandem-netsim test: %s\n", problem.c_str());
       code = kFailed;
     }
   return code;
@@ -146,29 +159,36 @@ void add_test_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("SCENARIO", a->scenarios,
                    "scenario files, folders of them, names of shipped ones (--list), or `shipped`: all of these")
       ->option_text(" ");
-  CLI::Option* const seeds = command->add_option("--seeds", a->seeds, "how many seeds of each scenario, instead of its own number")
-                                 ->check(io::number_in(1, kSeedsMax, ""))
-                                 ->check(io::whole_number())
-                                 ->option_text("N");
-  CLI::Option* const seed =
-      command->add_option("--seed", a->seed, "the first seed, instead of the scenario's")->check(io::whole_number())->option_text("FIRST");
+  CLI::Option* const seeds =
+      command->add_option("--seeds", a->seeds, "how many seeds of each scenario, instead of its own number")
+          ->check(io::number_in(1, kSeedsMax, ""))
+          ->check(io::whole_number())
+          ->option_text("N");
+  CLI::Option* const seed = command->add_option("--seed", a->seed, "the first seed, instead of the scenario's")
+                                ->check(io::whole_number())
+                                ->option_text("FIRST");
   command->add_option("--jobs", a->jobs, "seeds that run at a time; default: one per core. No result depends on it")
       ->check(io::number_in(1, kJobsMax, ""))
       ->check(io::whole_number())
       ->option_text("N");
-  command->add_option("--junit", a->junit, "writes JUnit XML: one testsuite per scenario, one testcase per seed")->option_text("FILE");
-  command->add_option("--json", a->json, "writes the verdicts; `-`: to standard output. Equal but for the keys cpu_s for equal seeds")
+  command->add_option("--junit", a->junit, "writes JUnit XML: one testsuite per scenario, one testcase per seed")
+      ->option_text("FILE");
+  command
+      ->add_option("--json", a->json,
+                   "writes the verdicts; `-`: to standard output. Equal but for the keys cpu_s for equal seeds")
       ->option_text("FILE|-");
   command->add_flag("--reports", a->reports, "adds to --json what `run --json` says of each seed");
   command->add_option("--trace", a->trace, "writes one row per tick; of one seed only")->option_text("FILE.csv");
-  command->add_flag("--keep-going", a->keep_going, "runs all seeds whatever fails (so it is anyway)");
-  command->add_flag("--fail-fast", a->fail_fast, "runs nothing after the first seed that fails, in the order of the table");
-  command->add_flag("--list", a->list, "only lists scenarios: seeds, length, summary; without SCENARIO the shipped ones");
+  command->add_flag("--fail-fast", a->fail_fast,
+                    "runs nothing after the first seed that fails, in the order of the table");
+  command->add_flag("--list", a->list,
+                    "only lists scenarios: seeds, length, summary; without SCENARIO the shipped ones");
   command->add_flag("--check", a->check, "only checks the files and prints every value in force, with units");
   command->add_flag("--quiet", a->quiet, "no progress, and no table beside --json -");
   command->footer(
       "A seed passes when no promised invariant is broken (as `run` judges) and every limit of its scenario holds.\n"
-      "For each failure the one command is printed that runs that seed again, to the same trace_hash, with its trace.\n\n"
+      "For each failure the one command is printed that runs that seed again, to the same trace_hash, with its "
+      "trace.\n\n"
       "Exit: 0 all passed, 1 something failed or was not run (Ctrl-C too), 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-netsim test --list\n"

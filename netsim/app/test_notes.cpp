@@ -7,20 +7,25 @@ namespace {
 
 constexpr std::size_t kSeedsShown = 5;
 
-/// A note of one kind: seeds differ in when their sessions began, and so in the numbers after the event's own.
+/// Notes of one kind. Sessions of different seeds begin at different times; the number after the last comma differs.
 struct Kind {
-  std::string head;  ///< up to the time of the event
-  std::string note;  ///< of the first seed that has it
+  std::string head;  ///< text up to the last comma
+  std::string note;  ///< note of the first seed that has it
   std::vector<std::uint64_t> seeds;
 };
 
-/// "the outage at 90 s came after the end of the run, 18.1 s": what follows the last comma is each seed's own.
+/// Returns the text before the last comma. Example: "the outage at 90 s came after the end of the run, 18.1 s"; the
+/// rest depends on the seed.
 std::string head_of(const std::string& note) { return note.substr(0, note.rfind(',')); }
 
 std::string seeds_text(const Kind& kind, std::size_t all) {
-  if (kind.seeds.size() == all) return all == 1 ? "" : kind.note == kind.head ? " (every seed)" : " (seed " + std::to_string(kind.seeds.front()) + ", the others alike)";
+  if (kind.seeds.size() == all)
+    return all == 1                 ? ""
+           : kind.note == kind.head ? " (every seed)"
+                                    : " (seed " + std::to_string(kind.seeds.front()) + ", the others alike)";
   std::string text;
-  for (std::size_t i = 0; i < kind.seeds.size() && i < kSeedsShown; ++i) text += (i == 0 ? "" : ", ") + std::to_string(kind.seeds[i]);
+  for (std::size_t i = 0; i < kind.seeds.size() && i < kSeedsShown; ++i)
+    text += (i == 0 ? "" : ", ") + std::to_string(kind.seeds[i]);
   if (kind.seeds.size() > kSeedsShown) text += " and " + std::to_string(kind.seeds.size() - kSeedsShown) + " more";
   return (kind.seeds.size() == 1 ? " (seed " : " (seeds ") + text + ")";
 }

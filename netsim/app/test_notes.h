@@ -6,8 +6,8 @@
 
 namespace tandem::netsim {
 
-/// What the seeds of a scenario have to say besides their verdicts (SeedOutcome::notes), one line for each kind of note:
-/// `  note: the outage at 90 s came after ... (seed 3; seeds 4, 5 say alike)`. Empty when they say nothing.
+/// Returns the notes of a scenario's seeds (SeedOutcome::notes), one line per kind of note: `  note: the outage at 90 s
+/// came after ... (seed 3; seeds 4, 5 say alike)`. Empty if there are none.
 [[nodiscard]] std::string notes_text(const ScenarioResult& result);
 
 }  // namespace tandem::netsim

@@ -7,18 +7,18 @@
 
 namespace tandem::netsim {
 
-/// How far all seeds are, on one line of the terminal; silent without one.
+/// Shows the progress of all seeds on one line of the terminal; prints nothing without a terminal.
 class TestProgress {
  public:
   explicit TestProgress(bool quiet);
-  void show(const io::JobsProgress& progress, std::size_t failed);
+  void show(const io::JobProgress& progress, std::size_t failed);
   void end() { line_.clear(); }
 
  private:
   io::StatusLine line_;
 };
 
-/// `12 s`, `3.5 min`
+/// Returns a duration as text: `12 s`, `3.5 min`.
 [[nodiscard]] std::string length_text(double seconds);
 
 }  // namespace tandem::netsim

@@ -16,11 +16,11 @@ using Json = nlohmann::ordered_json;
 using State = SeedOutcome::State;
 
 constexpr std::size_t kSeedsShown = 40;     // marks per line of the table
-constexpr std::size_t kFailuresShown = 20;  // with causes; the rest is named by seed only
+constexpr std::size_t kFailuresShown = 20;  // with causes; the others by seed only
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
-/// The value of a limit that is nearest to breaking it, or breaks it most.
+/// Value of a limit that is nearest to breaking it, or exceeds it most.
 struct Worst {
   const Limit* limit = nullptr;
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -28,7 +28,7 @@ struct Worst {
   [[nodiscard]] double room() const noexcept { return slack(*limit, value); }
 };
 
-/// Nothing: no seed was judged by it.
+/// Returns the worst value of a limit; nullopt if no seed was judged by it.
 std::optional<Worst> worst_of(const ScenarioResult& r, std::size_t limit) {
   std::optional<Worst> worst;
   for (const SeedOutcome& s : r.seeds) {
@@ -44,7 +44,7 @@ char mark(State state) {
   return kMarks[static_cast<std::size_t>(state)];
 }
 
-/// Limits that people wrote in one line (the same for several seats) are one line again.
+/// Returns whether two limits come from one line of the scenario (the same limit for several seats).
 bool together(const Limit& a, const Limit& b) {
   return a.of == b.of && a.metric == b.metric && a.phase == b.phase && a.min == b.min && a.max == b.max;
 }
@@ -63,7 +63,8 @@ void put_limits(const ScenarioResult& r, std::string& out) {
   };
   std::vector<Row> rows{{"limit", "worst", "must be", "margin", "at"}};
   for (std::size_t i = 0; i < limits.size(); ++i) {
-    if (std::any_of(limits.begin(), limits.begin() + static_cast<std::ptrdiff_t>(i), [&](const Limit& l) { return together(l, limits[i]); }))
+    if (std::any_of(limits.begin(), limits.begin() + static_cast<std::ptrdiff_t>(i),
+                    [&](const Limit& l) { return together(l, limits[i]); }))
       continue;
     std::optional<Worst> worst;
     for (std::size_t k = i; k < limits.size(); ++k) {
@@ -72,9 +73,11 @@ void put_limits(const ScenarioResult& r, std::string& out) {
     }
     if (!worst) continue;
     const Limit& limit = *worst->limit;
-    rows.push_back({limit.metric, short_number(worst->value) + (limit.unit.empty() || std::isnan(worst->value) ? "" : " " + limit.unit), range_text(limit),
-                    holds(limit, worst->value) ? percent(margin_percent(limit, worst->value)) : "BROKEN",
-                    limit.subject + ", seed " + std::to_string(worst->seed)});
+    rows.push_back(
+        {limit.metric,
+         short_number(worst->value) + (limit.unit.empty() || std::isnan(worst->value) ? "" : " " + limit.unit),
+         range_text(limit), holds(limit, worst->value) ? percent(margin_percent(limit, worst->value)) : "BROKEN",
+         limit.subject + ", seed " + std::to_string(worst->seed)});
   }
   if (rows.size() == 1) return;
   std::array<std::size_t, 4> width{};
@@ -82,11 +85,11 @@ void put_limits(const ScenarioResult& r, std::string& out) {
     for (std::size_t c = 0; c < 4; ++c)
       width[c] = std::max(width[c], std::array{&row.metric, &row.worst, &row.range, &row.margin}[c]->size());
   for (const Row& row : rows)
-    out += "  " + padded(row.metric, width[0]) + "  " + padded(row.worst, width[1]) + "  " + padded(row.range, width[2]) + "  " +
-           padded(row.margin, width[3]) + "  " + row.where + "\n";
+    out += "  " + padded(row.metric, width[0]) + "  " + padded(row.worst, width[1]) + "  " +
+           padded(row.range, width[2]) + "  " + padded(row.margin, width[3]) + "  " + row.where + "\n";
 }
 
-/// What the network was like for force feedback, each seat at its worst seed: `red: trainee; green: trainer`.
+/// Returns the link quality for force feedback, each seat at its worst seed: `red: trainee; green: trainer`.
 std::string bands_text(const ScenarioResult& r) {
   constexpr std::array<std::string_view, 4> kWorstFirst{"red", "amber", "green", "too short"};
   const auto rank = [&](std::string_view band) { return std::ranges::find(kWorstFirst, band) - kWorstFirst.begin(); };
@@ -110,11 +113,13 @@ std::string bands_text(const ScenarioResult& r) {
   return text;
 }
 
-/// The network of the worst seed per direction, as `run` tells it.
+/// Returns the network of the worst seed per direction, as `run` prints it.
 std::string network_words(const ScenarioResult& r) {
-  const auto worst = std::ranges::max_element(r.seeds, {}, [](const SeedOutcome& s) { return s.words.empty() ? -1 : s.badness; });
-  if (worst == r.seeds.end() || worst->words.empty()) return {};
-  return "  seed " + std::to_string(worst->seed) + "," + worst->words.substr(worst->words.find_first_not_of(' ') - 1);
+  const auto worst = std::ranges::max_element(
+      r.seeds, {}, [](const SeedOutcome& s) { return s.network_text.empty() ? -1 : s.badness; });
+  if (worst == r.seeds.end() || worst->network_text.empty()) return {};
+  return "  seed " + std::to_string(worst->seed) + "," +
+         worst->network_text.substr(worst->network_text.find_first_not_of(' ') - 1);
 }
 
 std::string verdict(const ScenarioResult& r) {
@@ -123,7 +128,8 @@ std::string verdict(const ScenarioResult& r) {
 }
 
 void put_scenario(const ScenarioResult& r, std::size_t name_width, std::string& out) {
-  const std::string range = std::to_string(r.seeds.front().seed) + (r.seeds.size() > 1 ? "-" + std::to_string(r.seeds.back().seed) : "");
+  const std::string range =
+      std::to_string(r.seeds.front().seed) + (r.seeds.size() > 1 ? "-" + std::to_string(r.seeds.back().seed) : "");
   std::string marks;
   for (const SeedOutcome& s : r.seeds) marks += mark(s.state);
   for (std::size_t at = 0; at < marks.size(); at += kSeedsShown) {
@@ -169,7 +175,8 @@ std::string test_summary(const TestResult& result) {
     out += "\n" + r.scenario.name + ": " + r.scenario.scene + " over " + r.scenario.network;
     for (const auto& [seat, network] : r.scenario.seat_networks) out += ", " + seat + " over " + network;
     out += "\n";
-    if (const std::string bands = bands_text(r); !bands.empty()) out += "  network for force feedback, at the worst seed: " + bands + "\n";
+    if (const std::string bands = bands_text(r); !bands.empty())
+      out += "  network for force feedback, at the worst seed: " + bands + "\n";
     out += network_words(r);
     put_limits(r, out);
     for (const std::string& note : r.scenario.notes) out += "  note: " + note + "\n";
@@ -190,7 +197,8 @@ std::string test_summary(const TestResult& result) {
   }
   std::array<char, 200> line;
   std::snprintf(line.data(), line.size(), "\n%s: %zu of %zu seeds passed, %zu failed, %zu not run, in %.1f s\n",
-                result.passed() ? "pass" : "FAIL", seeds - failed - result.not_run(), seeds, failed, result.not_run(), result.wall_s);
+                result.passed() ? "pass" : "FAIL", seeds - failed - result.not_run(), seeds, failed, result.not_run(),
+                result.wall_s);
   return out + line.data();
 }
 
@@ -206,23 +214,31 @@ std::string test_json(const TestResult& result) {
     cpu += scenario_cpu;
     seeds += r.seeds.size();
     failed += r.failed();
-    Json one{{"name", s.name}, {"file", s.file}, {"summary", s.summary}, {"scene", s.scene}, {"network", s.network},
-             {"seat_networks", Json::array()}, {"duration_s", number(s.setup.scene.duration)},
-             {"verdict", r.passed() ? "pass" : "fail"}, {"cpu_s", number(scenario_cpu)}};
-    for (const auto& [seat, network] : s.seat_networks) one["seat_networks"].push_back({{"seat", seat}, {"network", network}});
+    Json one{{"name", s.name},
+             {"file", s.file},
+             {"summary", s.summary},
+             {"scene", s.scene},
+             {"network", s.network},
+             {"seat_networks", Json::array()},
+             {"duration_s", number(s.setup.scene.duration)},
+             {"verdict", r.passed() ? "pass" : "fail"},
+             {"cpu_s", number(scenario_cpu)}};
+    for (const auto& [seat, network] : s.seat_networks)
+      one["seat_networks"].push_back({{"seat", seat}, {"network", network}});
     one["notes"] = s.notes;
     one["limits"] = Json::array();
     for (std::size_t i = 0; i < s.limits.size(); ++i) {
       const Limit& limit = s.limits[i];
       const auto worst = worst_of(r, i);
-      one["limits"].push_back({{"subject", limit.subject},
-                               {"metric", limit.metric},
-                               {"unit", limit.unit},
-                               {"min", limit.min ? number(*limit.min) : Json(nullptr)},
-                               {"max", limit.max ? number(*limit.max) : Json(nullptr)},
-                               {"worst", worst ? number(worst->value) : Json(nullptr)},
-                               {"worst_seed", worst ? Json(worst->seed) : Json(nullptr)},
-                               {"margin_percent", worst ? number(margin_percent(limit, worst->value)) : Json(nullptr)}});
+      one["limits"].push_back(
+          {{"subject", limit.subject},
+           {"metric", limit.metric},
+           {"unit", limit.unit},
+           {"min", limit.min ? number(*limit.min) : Json(nullptr)},
+           {"max", limit.max ? number(*limit.max) : Json(nullptr)},
+           {"worst", worst ? number(worst->value) : Json(nullptr)},
+           {"worst_seed", worst ? Json(worst->seed) : Json(nullptr)},
+           {"margin_percent", worst ? number(margin_percent(limit, worst->value)) : Json(nullptr)}});
     }
     one["seeds"] = Json::array();
     for (const SeedOutcome& o : r.seeds) {
@@ -231,8 +247,11 @@ std::string test_json(const TestResult& result) {
       for (const double value : o.values) seed["values"].push_back(number(value));
       seed["violations"] = Json::array();
       for (const server::Violation& v : o.violations)
-        seed["violations"].push_back(
-            {{"invariant", v.invariant}, {"seat", v.seat}, {"at_s", v.at_s}, {"expected", v.expected}, {"count", v.count}});
+        seed["violations"].push_back({{"invariant", v.invariant},
+                                      {"seat", v.seat},
+                                      {"at_s", v.at_s},
+                                      {"expected", v.expected},
+                                      {"count", v.count}});
       seed["network"] = Json::array();
       for (const auto& [seat, band] : o.bands) seed["network"].push_back({{"seat", seat}, {"band", band}});
       seed["notes"] = o.notes;

@@ -12,10 +12,11 @@ namespace {
 
 using State = SeedOutcome::State;
 
-/// A word as a shell takes it.
+/// Quotes an argument for the shell.
 std::string quoted(const std::string& word) {
   const auto plain = [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || std::string_view("_-./,:=+@%").contains(c);
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./,:=+@%").contains(c);
   };
   if (!word.empty() && std::ranges::all_of(word, plain)) return word;
   std::string out = "'";
@@ -23,11 +24,12 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::string run_in_child(const Scenario& scenario, std::uint64_t seed, const TestOptions& options, io::JobShare share) {
+std::string run_in_child(const Scenario& scenario, std::uint64_t seed, const TestOptions& options,
+                         io::JobProgressReporter share) {
   io::OutputFile trace;
   if (const std::string problem = trace.open(options.trace, false); !problem.empty()) throw std::runtime_error(problem);
-  SeedRunWatch watch{.progress = [&](double part) { share.set(part); }, .report = options.reports};
-  if (trace.wanted()) watch.trace = [&](std::string_view rows) { trace.write(rows); };
+  SeedRunObserver watch{.progress = [&](double part) { share.set(part); }, .report = options.reports};
+  if (trace.is_open()) watch.trace = [&](std::string_view rows) { trace.write(rows); };
   const SeedOutcome outcome = run_seed(scenario, seed, watch);
   if (const std::string problem = trace.close(); !problem.empty()) throw std::runtime_error(problem);
   return to_bytes(outcome);
@@ -102,24 +104,24 @@ TestResult run_tests(std::vector<Scenario> scenarios, const TestOptions& options
     out.seed = outcome_of(index).seed;
     return out;
   };
-  const auto jobs = io::run_jobs(
-      places.size(),
-      [&](std::size_t index, io::JobShare share) {
-        return run_in_child(result.scenarios[places[index].scenario].scenario, outcome_of(index).seed, options, share);
-      },
-      {.jobs = options.jobs,
-       .stop_fd = options.stop_fd,
-       .watch =
-           [&](const io::JobsProgress& p) {
-             result.wall_s = p.elapsed_s;
-             if (options.watch) options.watch(p, failed);
-           },
-       .keep_going =
-           [&](std::size_t index, const io::JobResult& job) {
-             const bool bad = understand(index, job).failed();
-             failed += bad ? 1 : 0;
-             return !(bad && options.fail_fast);
-           }});
+  const auto jobs = io::run_jobs(places.size(),
+                                 [&](std::size_t index, io::JobProgressReporter share) {
+                                   return run_in_child(result.scenarios[places[index].scenario].scenario,
+                                                       outcome_of(index).seed, options, share);
+                                 },
+                                 {.jobs = options.jobs,
+                                  .stop_fd = options.stop_fd,
+                                  .watch =
+                                      [&](const io::JobProgress& p) {
+                                        result.wall_s = p.elapsed_s;
+                                        if (options.on_progress) options.on_progress(p, failed);
+                                      },
+                                  .keep_going =
+                                      [&](std::size_t index, const io::JobResult& job) {
+                                        const bool bad = understand(index, job).failed();
+                                        failed += bad ? 1 : 0;
+                                        return !(bad && options.fail_fast);
+                                      }});
   for (std::size_t i = 0; i < jobs.size(); ++i) outcome_of(i) = understand(i, jobs[i]);
   return result;
 }
@@ -136,8 +138,8 @@ std::vector<std::string> causes(const Scenario& scenario, const SeedOutcome& out
     const Limit& limit = scenario.limits[i];
     const double value = outcome.values[i];
     if (holds(limit, value)) continue;
-    out.push_back(limit.subject + ": " + limit.metric + " = " + short_number(value) + (limit.unit.empty() || std::isnan(value) ? "" : " " + limit.unit) +
-                  ", must be " + range_text(limit));
+    out.push_back(limit.subject + ": " + limit.metric + " = " + short_number(value) +
+                  (limit.unit.empty() || std::isnan(value) ? "" : " " + limit.unit) + ", must be " + range_text(limit));
   }
   return out;
 }

@@ -12,23 +12,23 @@
 namespace tandem::netsim {
 
 struct TestOptions {
-  std::optional<std::uint64_t> seed = {}, seeds = {};  ///< first seed and how many, instead of the scenario's
-  std::size_t jobs = 0;                      ///< 0: one per core
-  bool fail_fast = false;                    ///< nothing after the first failure, in the order of scenarios and seeds
-  bool reports = false;                      ///< SeedOutcome::report of every seed
-  std::string trace = {};                    ///< file for the rows of the only seed
-  int stop_fd = -1;                          ///< as io::JobsOptions
-  std::function<void(const io::JobsProgress&, std::size_t failed)> watch = {};
+  std::optional<std::uint64_t> seed = {}, seeds = {};  ///< first seed and number of seeds; they replace the scenario's
+  std::size_t jobs = 0;                                ///< 0: one per core
+  bool fail_fast = false;  ///< stops after the first failure, in the order of scenarios and seeds
+  bool reports = false;    ///< fills SeedOutcome::report of every seed
+  std::string trace = {};  ///< file for the rows; requires a single seed
+  int stop_fd = -1;        ///< as in io::JobOptions
+  std::function<void(const io::JobProgress&, std::size_t failed)> on_progress = {};
 };
 
 struct ScenarioResult {
   Scenario scenario;
-  std::vector<SeedOutcome> seeds;  ///< ascending; a seed that was not run says so
+  std::vector<SeedOutcome> seeds;  ///< ascending; includes the seeds that were not run
 
   [[nodiscard]] std::size_t count(SeedOutcome::State state) const noexcept;
   [[nodiscard]] std::size_t failed() const noexcept;
-  [[nodiscard]] bool passed() const noexcept;  ///< every seed was run and passed
-  /// Virtual seconds per second of one core; 0 when nothing ran.
+  [[nodiscard]] bool passed() const noexcept;  ///< returns whether every seed was run and passed
+  /// Returns virtual seconds per second of one core; 0 if no seed ran.
   [[nodiscard]] double real_time() const noexcept;
 };
 
@@ -39,16 +39,16 @@ struct TestResult {
 
   [[nodiscard]] bool passed() const noexcept;
   [[nodiscard]] std::size_t not_run() const noexcept;
-  [[nodiscard]] std::size_t all() const noexcept;  ///< seeds of all scenarios
+  [[nodiscard]] std::size_t all() const noexcept;  ///< returns the number of seeds of all scenarios
 };
 
-/// Runs all seeds of all scenarios side by side. The result does not depend on `jobs`, but for cpu_s and wall_s.
+/// Runs all seeds of all scenarios in parallel. The result does not depend on `jobs`, except for cpu_s and wall_s.
 [[nodiscard]] TestResult run_tests(std::vector<Scenario> scenarios, const TestOptions& options);
 
-/// Every cause of a failure, one line each; empty for a seed that passed or was not run.
+/// Returns every cause of a failure, one line each; empty for a seed that passed or was not run.
 [[nodiscard]] std::vector<std::string> causes(const Scenario& scenario, const SeedOutcome& outcome);
 
-/// The one command that runs this seed again and writes its trace.
+/// Returns the command that runs this seed again and writes its trace.
 [[nodiscard]] std::string replay_command(const Scenario& scenario, std::uint64_t seed);
 
 }  // namespace tandem::netsim

@@ -9,7 +9,7 @@ namespace tandem::netsim::demo {
 namespace {
 
 constexpr double kTenthMm = 1e4, kHundredthN = 100, kPercent = 100;
-constexpr double kLimit = 1e6;  ///< of a value that is drawn: garbage stays a number
+constexpr double kLimit = 1e6;  ///< limit of a drawn value, so that invalid data stays a number
 
 void put(std::array<int, MotionFrames::kValues>& frame, std::size_t& at, double value, double scale) {
   const double scaled = value * scale;
@@ -39,7 +39,7 @@ MotionFrames motion_frames(const TraceData& trace) {
     for (const SeatTrace* seat : {&trace.trainer, &trace.trainee})
       put(frame, at, std::hypot(seat->f_out[0][k], seat->f_out[1][k], seat->f_out[2][k]), kHundredthN);
     put(frame, at, trace.trainer.alpha[k], kPercent);
-    // A gap in the trace repeats the frame, so that time stays true.
+    // A gap in the trace repeats the frame, so that the time axis stays correct.
     for (; next <= trace.t[k] + 1e-9; next += 1 / MotionFrames::kRate) motion.frames.push_back(frame);
   }
   return motion;

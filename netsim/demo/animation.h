@@ -6,13 +6,13 @@
 #include "netsim/demo/run_numbers.h"
 #include "netsim/demo/trace_data.h"
 
-/// The hands, the slave and the wall in motion, with a slider over session time: a canvas and a script inside the page.
+/// Animation of the hands, the slave and the wall, with a slider over session time: a canvas and a script in the page.
 namespace tandem::netsim::demo {
 
-/// Frames of a run at MotionFrames::kRate. A value that is unknown repeats the one before.
+/// Returns the frames of a run at MotionFrames::kRate. An unknown value repeats the previous one.
 [[nodiscard]] MotionFrames motion_frames(const TraceData& trace);
 
-/// The section of the page. Without script the page says so and shows the rest.
+/// Returns the section of the page. If scripts are disabled, it shows a message; the rest of the page is unaffected.
 [[nodiscard]] std::string animation_html(std::span<const RunResult> runs);
 
 }  // namespace tandem::netsim::demo

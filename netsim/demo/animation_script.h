@@ -4,7 +4,7 @@
 
 namespace tandem::netsim::demo {
 
-/// Draws kRuns (see animation.cpp) on a canvas in two views, front and above. It asks nothing of any network.
+/// Script that draws kRuns (see animation.cpp) on a canvas in two views, front and above. It makes no network request.
 inline constexpr std::string_view kAnimationScript = R"js((() => {
   const element = id => document.getElementById(id);
   const canvas = element('player-view'), slider = element('player-time'), choice = element('player-run');

@@ -14,16 +14,16 @@ namespace {
 
 constexpr double kMilli = 1e3;
 constexpr Limit kNothing{};
-constexpr double kAlignedFrom = 13;  // [s] the trainee has aligned
+constexpr double kAlignedFrom = 13;  // [s], when the trainee has aligned
 Limit at_least(double v) { return {.least = v, .most = std::numeric_limits<double>::infinity()}; }
 constexpr Limit at_most(double v) { return {-std::numeric_limits<double>::infinity(), v}; }
 
-using Runs = std::array<const RunResult*, kSettings>;  // of one task, null: not made
+using Runs = std::array<const RunResult*, kSettings>;  // of one task; null: missing run
 using Reading = std::function<double(const RunResult&)>;
 using Limits = std::array<Limit, kSettings>;
 
-/// A number of one seat in one phase, or of the whole run if `phase` is empty.
-Reading of_seat(std::string phase, bool trainer, double SeatNumbers::*number, double scale) {
+/// Returns a number of one seat in one phase, or of the whole run if `phase` is empty.
+Reading of_seat(std::string phase, bool trainer, double SeatNumbers::* number, double scale) {
   return [=](const RunResult& run) {
     if (phase.empty()) return scale * ((trainer ? run.report.trainer : run.report.trainee).*number);
     const PhaseNumbers* p = run.report.phase(phase);
@@ -36,14 +36,14 @@ Reading of_joint(std::string phase, std::size_t joint) {
     return p == nullptr ? kUnknown : kMilli * p->trainer.joint_rad[joint];
   };
 }
-Reading of_trace(double TraceNumbers::*number, double scale = 1) {
+Reading of_trace(double TraceNumbers::* number, double scale = 1) {
   return [=](const RunResult& run) { return scale * (run.trace.*number); };
 }
-Reading of_report(double ReportNumbers::*number, double scale = 1) {
+Reading of_report(double ReportNumbers::* number, double scale = 1) {
   return [=](const RunResult& run) { return scale * (run.report.*number); };
 }
 
-/// Builds rows of one task and collects footnotes, each text once.
+/// Builds the rows of one task and collects footnotes, each text once.
 class Builder {
  public:
   Builder(Comparison& out, const Runs& runs) : out_(&out), runs_(runs) {}
@@ -57,7 +57,8 @@ class Builder {
     int decimals = 2;
     Limits limits{};
     std::vector<std::string> notes{};
-    std::string lacks{};  ///< the disturbance our model lacks, should the seed come out below half of the paper's
+    std::string lacks{};  ///< disturbance that the model lacks; reported if the run with the paper's gains is below
+                          ///< half of the paper's number
   };
   void row(const Wanted& wanted, const Reading& read) {
     Row row{wanted.label,
@@ -93,7 +94,7 @@ class Builder {
   Runs runs_;
 };
 
-/// Limit of the leader's RMS on the bad network; none if a run is missing.
+/// Returns the limit of the leader's RMS on the bad network; none if a run is missing.
 Limit delayed_limit(const Builder& b, const std::string& phase, bool trainer) {
   const double still = b.value(Setting::kDefaults, of_seat(phase, trainer, &SeatNumbers::tracking_m, kMilli));
   const double lag = b.value(Setting::kBadNetwork, of_seat(phase, trainer, &SeatNumbers::transport_lag_m, kMilli));
@@ -148,7 +149,7 @@ void free_motion(Comparison& out, const Runs& runs) {
   b.row({.label = "top speed of a hand", .unit = "m/s"}, of_report(&ReportNumbers::speed_peak_m_s));
 }
 
-/// Phases of the contact experiment in which forces are judged.
+/// Returns the phases of the contact experiment in which forces are judged.
 std::vector<PhaseNumbers> judged_phases(const Runs& runs) {
   std::vector<PhaseNumbers> judged;
   for (const RunResult* run : runs) {
@@ -159,15 +160,17 @@ std::vector<PhaseNumbers> judged_phases(const Runs& runs) {
   return judged;
 }
 
-/// " Defaults: one spring of 400 N/m lies between the hand and its copy of the tool, ..."
+/// Returns, for example, " Defaults: one spring of 400 N/m lies between the hand and its copy of the tool, ...".
 std::string springs_text(const Runs& runs) {
   for (const RunResult* run : runs) {
     if (run == nullptr || run->plan->setting == Setting::kSeed || !std::isfinite(run->springs.series())) continue;
     const Springs& s = run->springs;
     if (std::isinf(s.channel) && std::isinf(s.slave))
       return " Defaults: one spring of " + number_text(s.device, 0) +
-             " N/m, the most that a Touch allows at 1 kHz, lies between the hand and its own copy of the tool, at any delay; the block "
-             "of 20 kN/m behind it leaves " + number_text(1 / (1 / s.device + 1 / 20000.0), 0) + " N/m.";
+             " N/m, the most that a Touch allows at 1 kHz, lies between the hand and its own copy of the tool, at any "
+             "delay; the block "
+             "of 20 kN/m behind it leaves " +
+             number_text(1 / (1 / s.device + 1 / 20000.0), 0) + " N/m.";
     return " Defaults: " + number_text(s.device, 0) + ", " + number_text(s.channel, 0) + " and " +
            number_text(s.slave, 0) + " N/m in series are " + number_text(s.series(), 0) +
            " N/m; two Touch allow at most 200 N/m at 1 kHz; with delay the channel’s spring softens.";
@@ -240,7 +243,7 @@ void contact(Comparison& out, const Runs& runs) {
            .limits = {kNothing, at_most(0.05), kNothing},
            .notes = {notes::kAllAxes}},
           error_of(phase.name, true));
-    // Before he has aligned the follower has nothing to press with.
+    // Before the trainee has aligned, the trainee's hand presses on nothing.
     if (phase.from_s < kAlignedFrom) continue;
     b.row({.label = "follower force error, " + phase.name,
            .unit = "N",
@@ -251,7 +254,7 @@ void contact(Comparison& out, const Runs& runs) {
   b.row({.label = "force of the block on the slave", .unit = "N"}, of_report(&ReportNumbers::contact_force_n));
 }
 
-/// What the network and the machine did; nothing here is a failure of Tandem.
+/// Adds rows about the network and the machine; they are not judged.
 void circumstances(Comparison& out, const Runs& runs, const std::string& task) {
   Builder b(out, runs);
   b.section(task + ", network and machine");
@@ -278,7 +281,7 @@ void circumstances(Comparison& out, const Runs& runs, const std::string& task) {
         });
 }
 
-/// Three significant digits, without zeros at the end of decimals: 2, 16.4, 0.2.
+/// Returns three significant digits without zeros at the end of the decimals: 2, 16.4, 0.2.
 std::string short_text(double value) {
   std::string text = significant_text(value, 3);
   if (text.find('.') == std::string::npos) return text;

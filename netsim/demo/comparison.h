@@ -9,10 +9,10 @@
 
 #include "netsim/demo/run_numbers.h"
 
-/// The paper's numbers beside ours. Pure.
+/// Comparison of the paper's numbers with those of Tandem. Pure functions.
 namespace tandem::netsim::demo {
 
-/// What a number has to stay within; both infinite: nothing is asked.
+/// Range of a number; both ends infinite: no limit.
 struct Limit {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
@@ -22,13 +22,13 @@ struct Limit {
 enum class Mark : std::uint8_t { kNone, kMet, kMissed };
 
 struct Cell {
-  std::string value;  ///< "1.94"; an en dash when there is none
-  std::string limit;  ///< "≤ 2", "250 ± 2 %"; empty when nothing is asked
+  std::string value;  ///< "1.94"; an en dash if there is no value
+  std::string limit;  ///< "≤ 2", "250 ± 2 %"; empty if there is no limit
   Mark mark = Mark::kNone;
 };
 struct Row {
   std::string label, unit;
-  std::string paper;  ///< empty when the paper gives none
+  std::string paper;  ///< empty if the paper gives no value
   std::string notes;  ///< letters of the footnotes, "a" or "ac"
   std::array<Cell, kSettings> cells;
 };
@@ -42,10 +42,10 @@ struct Comparison {
   std::size_t missed = 0;              ///< cells marked kMissed
 };
 
-/// All rows; runs that were not made leave dashes.
+/// Returns all rows; cells of missing runs contain dashes.
 [[nodiscard]] Comparison compare(std::span<const RunResult> runs);
 
-/// Cell of a number with its limit; three significant digits at most.
+/// Returns the cell of a number with its limit; at most three significant digits.
 [[nodiscard]] Cell cell_of(double value, int decimals, const Limit& limit = {});
 
 }  // namespace tandem::netsim::demo

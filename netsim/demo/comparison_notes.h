@@ -1,6 +1,7 @@
 #pragma once
 
-/// Footnotes of the comparison: how a number is made, and what the model lacks where it is better than it should be.
+/// Footnotes of the comparison: how a number is measured, and which disturbances the model lacks where it is better
+/// than expected.
 namespace tandem::netsim::demo::notes {
 
 inline constexpr const char* kDistance =
@@ -36,7 +37,7 @@ inline constexpr const char* kMachine =
     "Counted and shown, never a failure: a busy machine makes ticks late, and after a silence a gate lets the hand go "
     "softly.";
 
-/// What stands behind "the model lacks".
+/// Disturbances that the footnote "the model lacks" names.
 inline constexpr const char* kLacksArms =
     "the weight and friction of real arms and the differences between three real devices";
 inline constexpr const char* kLacksJoints = "the play, cable stretch and unequal weight of the paper’s real joints";

@@ -19,13 +19,13 @@ std::string cell_html(const Cell& cell, std::string_view column) {
                                     met ? "class=\"met\" title=\"met\"" : "class=\"missed\" title=\"missed\"");
     if (!met) value = tag("span", value, "class=\"missed\"");
   }
-  // Narrow screens show neither the head of the table nor what is empty.
+  // Narrow screens hide the head of the table and empty cells.
   const std::string label = "data-label=\"" + std::string(column) + "\"";
   return tag("td", value, "class=\"value" + std::string(cell.value == "–" ? " none" : "") + "\" " + label) +
          tag("td", limit, "class=\"limit\"");
 }
 
-/// Spaces at the beginning indent.
+/// Returns the label with an indent if it begins with spaces.
 std::string indented(const std::string& label) {
   const std::size_t spaces = label.find_first_not_of(' ');
   return (spaces == 0 ? "" : "&emsp;") + escaped(label.substr(spaces));

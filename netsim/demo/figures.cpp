@@ -25,7 +25,7 @@ Curve over_time(const TraceData& d, const std::string& label, const std::string&
   return curve(label, ink, d.t, y, 1, scale, false);
 }
 
-/// Slave first: it is drawn broad and pale, and the hands lie over it.
+/// Returns the curves of slave and hands. The slave is first, because its broad, pale line must lie below the others.
 std::vector<Curve> three(const TraceData& d, const Column& tool, const Column& trainer, const Column& trainee,
                          double tool_scale, double hand_scale) {
   return {over_time(d, "slave", "slave", tool, tool_scale), over_time(d, "trainer", "trainer", trainer, hand_scale),
@@ -43,7 +43,7 @@ void mark_contact(Panel& panel, double duration, bool named) {
   panel.verticals = {{3, named ? "reaches the wall" : ""}, {13, named ? "trainee aligned" : ""}};
 }
 
-/// Row of `t` closest to a time from below.
+/// Returns the first row of `t` at or after a time; the last row if there is none.
 std::size_t row_at(const TraceData& d, double t) {
   const auto it = std::ranges::lower_bound(d.t, t);
   return std::min<std::size_t>(static_cast<std::size_t>(it - d.t.begin()), d.rows() - 1);
@@ -135,7 +135,7 @@ CaptionedFigure energy(const RunPlan& plan, const TraceData& d, const std::strin
       "Eₚ of the paper’s equation 3, with its sign: it falls while the sources give energy to the follower. They are "
       "open here and Eₚ is only watched; what keeps hands safe is the energy ledger of each spring.",
       {"Energy of the flow sources over time, per axis", 1, {}}};
-  const bool milli = plan.task == Task::kContact;  // hardly anything moves there
+  const bool milli = plan.task == Task::kContact;  // the motion in contact is small
   Panel p{.x_label = kTimeAxis, .y_label = milli ? "Eₚ [mJ]" : "Eₚ [J]", .height = 200};
   const std::array<const char*, 3> inks{"first", "second", "third"};
   for (std::size_t a = 0; a < 3; ++a)

@@ -22,7 +22,7 @@ double tracking_mm(const RunResult& run) {
 }
 double force_error_n(const RunResult& run) { return run.trace.force_x_leader_n; }
 
-/// Adds the number of the defaults, or of the bad network where only that was run.
+/// Adds the number of the defaults, or of the bad network if only that run exists.
 void add(std::vector<KeyNumber>& numbers, std::span<const RunResult> runs, Task task, double (*read)(const RunResult&),
          double paper, const char* unit, const char* what) {
   const RunResult* defaults = find(runs, task, Setting::kDefaults);

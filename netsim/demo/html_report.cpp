@@ -28,7 +28,7 @@ std::string violations_html(const ReportNumbers& report) {
   return text;
 }
 
-/// "2.3 / 2.4 ms"
+/// Returns, for example, "2.3 / 2.4 ms".
 std::string pair_text(double a, double b, int decimals, const char* unit) {
   return number_text(a, decimals) + " / " + number_text(b, decimals) + unit;
 }
@@ -61,7 +61,7 @@ std::string facts_html(const RunResult& run, const std::string& note) {
   return html + "</pre>\n";
 }
 
-std::string first_screen(const Headline& headline, const Circumstances& where) {
+std::string first_screen(const Headline& headline, const RunInfo& where) {
   std::string html = tag("p", escaped(headline.sentence), "class=\"headline\"") + "\n";
   if (!headline.missed.empty()) {
     html += "<ul class=\"missed\">";
@@ -75,7 +75,7 @@ std::string first_screen(const Headline& headline, const Circumstances& where) {
   return html + "</div>\n" + setup_picture(where.real_time) + "</div>\n";
 }
 
-std::string introduction(const Circumstances& where) {
+std::string introduction(const RunInfo& where) {
   std::string text =
       "<p>Tandem couples several people, each with a haptic device at their own workstation, to the same tool. A "
       "server "
@@ -105,7 +105,7 @@ std::string head() {
          std::string(kPlotColours) + std::string(kReportStyle) + std::string(kPlotRules) + "</style>\n</head>\n";
 }
 
-std::string run_section(const RunResult& run, const Circumstances& where) {
+std::string run_section(const RunResult& run, const RunInfo& where) {
   const std::string note = where.real_time ? "These commands repeat the run. Start each in a terminal of its own, in "
                                              "this order, from the folder in which the demo was started:"
                                            : "This command repeats the run, from the folder in which the demo was "
@@ -116,7 +116,7 @@ std::string run_section(const RunResult& run, const Circumstances& where) {
 
 }  // namespace
 
-std::string html_report(std::span<const RunResult> runs, const Comparison& comparison, const Circumstances& where) {
+std::string html_report(std::span<const RunResult> runs, const Comparison& comparison, const RunInfo& where) {
   std::string html = head() + "<body>\n<header>\n<h1>Tandem: two people, one tool</h1>\n" +
                      first_screen(headline_of(runs, comparison), where) +
                      "<nav><a href=\"#motion\">Watch it</a><a href=\"#overlays\">Settings compared</a>"

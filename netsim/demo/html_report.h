@@ -7,11 +7,11 @@
 #include "netsim/demo/comparison.h"
 #include "netsim/demo/run_numbers.h"
 
-/// report.html: one file that asks nothing of any network. Its script only moves the animation. Pure.
+/// report.html: a single file without network requests. Its script only drives the animation. Pure functions.
 namespace tandem::netsim::demo {
 
-/// Where and when the runs were made.
-struct Circumstances {
+/// Machine and time of the runs.
+struct RunInfo {
   bool real_time = false;  ///< processes over UDP; otherwise virtual time
   std::string date;        ///< "2026-11-21 10:30 UTC"
   std::string machine;     ///< "2 cores, Linux 6.1, x86_64"
@@ -20,6 +20,6 @@ struct Circumstances {
 };
 
 [[nodiscard]] std::string html_report(std::span<const RunResult> runs, const Comparison& comparison,
-                                      const Circumstances& where);
+                                      const RunInfo& where);
 
 }  // namespace tandem::netsim::demo

@@ -8,9 +8,9 @@ namespace tandem::netsim::demo {
 namespace {
 
 constexpr double kTouching = 0.3;       // [N]
-constexpr std::size_t kSpeedHalf = 25;  // samples on each side: encoder steps vanish, the approach does not
+constexpr std::size_t kSpeedHalf = 25;  // samples on each side: they average out encoder steps, not the approach
 
-/// Mean of squares, bit by bit.
+/// Accumulates a mean of squares.
 class Squares {
  public:
   void add(double v) {
@@ -25,7 +25,7 @@ class Squares {
   std::size_t n_ = 0;
 };
 
-/// Least squares of y = p0 u + p1 v + p2; the first parameter, NaN if the samples do not say.
+/// Least squares of y = p0 u + p1 v + p2. Returns the first parameter; NaN if the samples do not determine it.
 class Fit {
  public:
   void add(double u, double v, double y) {
@@ -84,7 +84,7 @@ ForceError force_error_x(const TraceData& trace, const SeatTrace& seat, double f
   Squares squares;
   double peak = 0;
   for (std::size_t k = 0; k < trace.rows(); ++k) {
-    // What is commanded to the slave is what it presses with; the environment answers with the opposite.
+    // The force commanded to the slave is the force with which it presses; the environment's force is its opposite.
     const double wanted = commanded ? -trace.tool.f_cmd[0][k] : trace.tool.f_env[0][k];
     if (std::isfinite(wanted)) peak = std::max(peak, std::abs(wanted));
     if (trace.t[k] < from_s || trace.t[k] >= to_s) continue;
@@ -95,7 +95,8 @@ ForceError force_error_x(const TraceData& trace, const SeatTrace& seat, double f
 }
 
 double force_step(const TraceData& trace) {
-  // Until the trainer's weight has arrived at 0, and a tenth of a second: the springs need a moment to answer.
+  // The interval ends a tenth of a second after the trainer's authority has reached 0, because the springs respond with
+  // a delay.
   double until = kAlphaMovesAt;
   for (std::size_t k = 0; k < trace.rows(); ++k)
     if (trace.t[k] >= kAlphaMovesAt && trace.trainer.alpha[k] > 1e-6) until = trace.t[k];

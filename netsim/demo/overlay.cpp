@@ -10,20 +10,20 @@ using namespace plot;
 namespace {
 
 constexpr double kMm = 1e3;
-constexpr double kPathStep = 0.2;  ///< between two points of a path that are kept [mm]
+constexpr double kPathStep = 0.2;  ///< smallest distance of two kept points of a path [mm]
 const char* const kTimeAxis = "time [s]";
 
-/// Distance of two tips in space [mm].
+/// Returns the distance of two tips in space [mm].
 double distance(const Column3& a, const Column3& b, std::size_t k) {
   return kMm * std::hypot(a[0][k] - b[0][k], a[1][k] - b[1][k], a[2][k] - b[2][k]);
 }
 double norm(const Column3& a, std::size_t k) { return std::hypot(a[0][k], a[1][k], a[2][k]); }
 
-/// A panel over time in which each setting has one curve.
+/// A panel over time with one curve per setting.
 struct Subject {
   const char *title, *y_label;
   double (*value)(const TraceData&, std::size_t row);
-  double mark = kUnknown;  ///< a horizontal line
+  double mark = kUnknown;  ///< position of a horizontal line
   const char* mark_label = "";
 };
 

@@ -4,7 +4,7 @@
 
 namespace tandem::netsim::demo {
 
-/// Style sheet of the report's text; that of its figures and the colours are in netsim/plot/plot_style.h.
+/// Style sheet of the report's text; netsim/plot/plot_style.h defines colours and figures.
 inline constexpr std::string_view kReportStyle = R"css(
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 32px 28px 64px; max-width: 1160px; background: var(--bg); color: var(--fg);

@@ -10,37 +10,37 @@
 
 #include "netsim/plot/svg_plot.h"
 
-/// The six runs of the demo and the numbers that come out of each. Pure data.
+/// The six runs of the demo and the numbers of each run. Data only.
 namespace tandem::netsim::demo {
 
 enum class Task : std::uint8_t { kFreeMotion, kContact };
-/// Columns of the table.
+/// Columns of the table: paper's gains, Tandem's defaults, defaults on the bad network.
 enum class Setting : std::uint8_t { kSeed, kDefaults, kBadNetwork };
 inline constexpr std::size_t kSettings = 3, kRuns = 6;
 
 struct RunPlan {
-  std::string_view name;   ///< for --runs and for files
-  std::string_view scene;  ///< a shipped scene
+  std::string_view name;   ///< for --runs and for file names
+  std::string_view scene;  ///< name of a shipped scene
   Task task = Task::kFreeMotion;
   Setting setting = Setting::kSeed;
   double duration_s = 0;  ///< session time [s]
   [[nodiscard]] constexpr bool joint_port() const noexcept { return setting == Setting::kSeed; }
 };
-/// All of them, in the order in which they run.
+/// Returns all plans, in the order in which they run.
 [[nodiscard]] const std::array<RunPlan, kRuns>& run_plans() noexcept;
 [[nodiscard]] const RunPlan& run_plan(Task task, Setting setting) noexcept;
-/// "Free motion, the paper's gains".
+/// Returns a title, for example "Free motion, the paper's gains".
 [[nodiscard]] std::string title_of(const RunPlan& plan);
 
-/// The network of Setting::kBadNetwork, each direction.
+/// Network of Setting::kBadNetwork, in each direction.
 inline constexpr double kBadDelayMs = 20, kBadJitterMs = 5, kBadLossPercent = 5;
 inline constexpr std::uint64_t kSeedNumber = 1;
-/// "20 ms + 0–5 ms jitter, 5 % loss each way" or "none added".
+/// Returns "20 ms + 0–5 ms jitter, 5 % loss each way" or "none added".
 [[nodiscard]] std::string network_text(Setting setting);
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// One seat over one span, from the JSON report (README: report keys).
+/// Numbers of one seat over one interval, from the JSON report (server/README.md: report keys).
 struct SeatNumbers {
   double tracking_m = kUnknown, lag_removed_m = kUnknown, transport_lag_m = kUnknown;
   std::array<double, 3> joint_rad{kUnknown, kUnknown, kUnknown};
@@ -67,15 +67,15 @@ struct ReportNumbers {
   std::vector<ViolationNumbers> violations;
   SeatNumbers trainer, trainee;  ///< whole run
   LinkNumbers trainer_link, trainee_link;
-  double effort_peak_n = kUnknown, speed_peak_m_s = kUnknown;  ///< of both hands
-  double gate_trips = kUnknown;                                ///< of both hands
+  double effort_peak_n = kUnknown, speed_peak_m_s = kUnknown;  ///< largest of both hands
+  double gate_trips = kUnknown;                                ///< sum of both hands
   double late_ticks = kUnknown;                                ///< of server and clients; unknown in virtual time
   double contact_force_n = kUnknown, penetration_m = kUnknown;
   std::vector<PhaseNumbers> phases;
   [[nodiscard]] const PhaseNumbers* phase(std::string_view name) const noexcept;
 };
 
-/// What only the trace tells (measure.h).
+/// Numbers that only the trace contains (measure.h).
 struct TraceNumbers {
   double stiffness_n_m = kUnknown;                                            ///< rendered, near the working pose
   double stiffness_held_n_m = kUnknown;                                       ///< force / depth while the leader holds
@@ -85,26 +85,27 @@ struct TraceNumbers {
   double force_step_n = kUnknown;  ///< largest change of a commanded force in 1 ms while alpha moves
 };
 
-/// Springs between a hand and the slave at no delay [N/m]; infinite: there is none. A scene of law `replica` has the device's alone.
+/// Stiffness of the springs between a hand and the slave at zero delay [N/m]; infinite: no such spring. A scene of law
+/// `replica` has only the device's spring.
 struct Springs {
   double device = kUnknown, channel = kUnknown, slave = kUnknown;
   [[nodiscard]] double series() const noexcept { return 1 / (1 / device + 1 / channel + 1 / slave); }
 };
 
-/// Curves of one run for the overlay of the settings (overlay.h), thinned.
+/// Reduced curves of one run for the overlay of the settings (overlay.h).
 using OverlaySeries = std::vector<std::vector<plot::Point2>>;
 
-/// What the network did to the trainer's datagrams; [0] to the server, [1] from it. Empty: not recorded.
+/// Delays and losses of the trainer's datagrams; [0] to the server, [1] from it. Empty: not recorded.
 struct NetworkSeries {
   std::array<std::vector<plot::Point2>, 2> delay;  ///< session time [s], delay [ms]
-  std::array<std::vector<plot::Band>, 2> lost;     ///< spans of session time [s]
+  std::array<std::vector<plot::Band>, 2> lost;     ///< intervals of session time [s]
 };
 
-/// The tips and forces of one run for its animation (animation.h).
+/// Tips and forces of one run for its animation (animation.h).
 struct MotionFrames {
   static constexpr double kRate = 50;  ///< frames per second of session time [1/s]
-  /// One value per frame, in this order: tip of trainer, trainee, slave (x, y, z each, [0.1 mm]), force on the trainer's
-  /// and on the trainee's hand (norm, [10 mN]), authority of the trainer [0.01].
+  /// One value per frame, in this order: tip of trainer, trainee, slave (x, y, z each, [0.1 mm]), force on the
+  /// trainer's and on the trainee's hand (norm, [10 mN]), authority of the trainer [0.01].
   static constexpr std::size_t kValues = 12;
   std::vector<std::array<int, kValues>> frames;
 };
@@ -115,7 +116,7 @@ struct RunResult {
   ReportNumbers report;
   TraceNumbers trace;
   Springs springs;
-  std::vector<std::string> commands;  ///< that repeat it
+  std::vector<std::string> commands;  ///< commands that repeat the run
   std::string figures_html;           ///< drawn from its trace
   OverlaySeries overlay;
   NetworkSeries network;

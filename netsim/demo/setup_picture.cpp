@@ -6,7 +6,7 @@
 namespace tandem::netsim::demo {
 namespace {
 
-/// One workstation: a hand on a device, drawn around `x`.
+/// Returns the drawing of one client: a hand on a device, centred at `x`.
 std::string workstation(double x, const std::string& name, const std::string& ink) {
   const auto at = [&](double dx) { return plot::number_text(x + dx, 0); };
   return "<rect class=\"box\" x=\"" + at(-85) +

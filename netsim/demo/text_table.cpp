@@ -3,7 +3,8 @@
 namespace tandem::netsim::demo {
 namespace {
 
-constexpr std::size_t kLabel = 44, kNarrowLabel = 12, kPaper = 6, kValue = 7, kLimit = 9;  // a cell: value, limit, mark, gaps: 20
+constexpr std::size_t kLabel = 44, kNarrowLabel = 12, kPaper = 6, kValue = 7,
+                      kLimit = 9;  // a cell has 20 columns: value, limit, mark, gaps
 
 std::string left(std::string_view text, std::size_t width) {
   const std::size_t own = width_of(text);
@@ -14,7 +15,7 @@ std::string right(std::string_view text, std::size_t width) {
   return std::string(own < width ? width - own : 0, ' ') + std::string(text);
 }
 
-/// ANSI escapes, or nothing.
+/// ANSI escapes; without colour the plain text.
 struct Paint {
   bool on;
   [[nodiscard]] std::string operator()(const char* code, const std::string& text) const {
@@ -30,7 +31,8 @@ std::string row_text(const Row& row, const Paint& paint, bool narrow) {
   std::string label = "  " + row.label;
   if (!row.unit.empty()) label += " [" + row.unit + "]";
   if (!row.notes.empty()) label += " (" + row.notes + ")";
-  std::string line = (narrow ? label + "\n" + std::string(kNarrowLabel, ' ') : left(label, kLabel)) + right(row.paper, kPaper);
+  std::string line =
+      (narrow ? label + "\n" + std::string(kNarrowLabel, ' ') : left(label, kLabel)) + right(row.paper, kPaper);
   for (const Cell& cell : row.cells) {
     const std::string mark(symbol(cell.mark));
     line += right(cell.value, kValue) + " " + paint("2", left(cell.limit, kLimit)) + " ";
@@ -88,7 +90,8 @@ std::string to_text(const Comparison& comparison, bool colour, std::size_t width
   std::string rule;
   for (std::size_t k = 0; k < width; ++k) rule += "─";
   std::string head = left("", narrow ? kNarrowLabel : kLabel) + right("paper", kPaper);
-  for (const char* column : {"  the paper’s gains", "  Tandem’s defaults", "  on the bad network"}) head += left(column, 20);
+  for (const char* column : {"  the paper’s gains", "  Tandem’s defaults", "  on the bad network"})
+    head += left(column, 20);
   trim(head);
   std::string out = rule + "\n" + paint("1", head) + "\n" + rule + "\n";
   for (const Section& section : comparison.sections) {

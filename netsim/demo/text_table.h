@@ -4,22 +4,24 @@
 
 #include "netsim/demo/comparison.h"
 
-/// The comparison for a terminal. Pure.
+/// The comparison as text for a terminal. Pure functions.
 namespace tandem::netsim::demo {
 
-inline constexpr std::size_t kTextWidth = 110;       ///< characters in a line, at most
-inline constexpr std::size_t kNarrowTextWidth = 79;  ///< the least: each number's name stands on a line above it
+inline constexpr std::size_t kTextWidth = 110;       ///< largest number of characters in a line
+inline constexpr std::size_t kNarrowTextWidth = 79;  ///< the smallest: each number has its name on a line above
 
-/// @param colour  ANSI colours for the marks and headings  @param width  columns that there are
+/// Returns the table as text.
+/// @param colour  whether marks and headings use ANSI colours
+/// @param width   columns of the terminal
 [[nodiscard]] std::string to_text(const Comparison& comparison, bool colour, std::size_t width = kTextWidth);
 
-/// Characters of UTF-8 text as a terminal counts them (all of ours are one column wide).
+/// Returns the number of characters of UTF-8 text as a terminal counts them; all characters here are one column wide.
 [[nodiscard]] std::size_t width_of(std::string_view text) noexcept;
 
-/// Breaks at spaces into lines of at most `width`; lines after the first begin with `indent`.
+/// Breaks text at spaces into lines of at most `width`; lines after the first begin with `indent`.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, const std::string& indent);
 
-/// ✓, ✗ or nothing.
+/// Returns ✓, ✗ or nothing.
 [[nodiscard]] std::string_view symbol(Mark mark) noexcept;
 
 }  // namespace tandem::netsim::demo

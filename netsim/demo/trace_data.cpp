@@ -9,10 +9,10 @@
 namespace tandem::netsim::demo {
 namespace {
 
-/// Takes columns by name and remembers which were not there.
-class Taker {
+/// Takes columns by name and collects the names of missing ones.
+class ColumnReader {
  public:
-  explicit Taker(const CsvTable& table) : table_(&table) {}
+  explicit ColumnReader(const CsvTable& table) : table_(&table) {}
 
   void take(const std::string& name, Column& into) {
     const auto column = table_->find(name);
@@ -44,7 +44,7 @@ std::expected<TraceData, std::string> read_trace(std::string_view text) {
   if (!table) return std::unexpected(table.error().text("trace"));
   if (table->rows() == 0) return std::unexpected("trace: no rows: the session never began");
   TraceData data;
-  Taker taker(*table);
+  ColumnReader taker(*table);
   taker.take("t_s", data.t);
   for (const auto& [name, seat] : {std::pair{"trainer", &data.trainer}, std::pair{"trainee", &data.trainee}}) {
     const std::string stem = std::string(name) + ".";
@@ -67,14 +67,14 @@ std::expected<SeatSamples, std::string> read_samples(std::string_view text) {
   const auto table = CsvTable::parse(text);
   if (!table) return std::unexpected(table.error().text("samples"));
   SeatSamples all;
-  Taker taker(*table);
+  ColumnReader taker(*table);
   taker.take("t_s", all.t);
   taker.take("q", kNumbers, all.q);
   taker.take("", kAxes, all.x);
   taker.take("f_cmd_", kAxes, all.f_cmd);
   taker.take("f_out_", kAxes, all.f_out);
   if (!taker.missing().empty()) return std::unexpected("samples: no column " + taker.missing());
-  // The session's part: ascending from 0.
+  // Rows of the session: ascending from 0.
   std::vector<std::size_t> rows;
   double newest = -1e-9;
   for (std::size_t k = 0; k < all.t.size(); ++k) {
@@ -99,7 +99,7 @@ void put_samples(const Column& t, const SeatSamples& own, SeatTrace& seat) {
   std::size_t after = 0;
   for (std::size_t k = 0; k < t.size(); ++k) {
     while (after < own.t.size() && own.t[after] < t[k]) ++after;
-    // At the very ends the nearest sample may stand half a tick aside.
+    // Before the first and after the last sample, the nearest sample may be half a tick away.
     const bool inside = after > 0 && after < own.t.size();
     const double gap = inside ? own.t[after] - own.t[after - 1] : 1;
     const double w = inside ? (t[k] - own.t[after - 1]) / gap : 0;

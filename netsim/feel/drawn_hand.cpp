@@ -13,10 +13,12 @@ constexpr double kTremorMin = 0.07e-3, kTremorMax = 0.13e-3;  // [m]
 constexpr double kTremorLow = 8, kTremorHigh = 12;            // [Hz]
 constexpr double kNoiseRms = 0.3e-3;                          // [m] per axis
 constexpr double kNoiseLow = 1.5, kNoiseHigh = 3.1;           // [Hz]
-constexpr double kStep = 0.002;                               // [s] between points of a motion: 40 per period of the fastest tremor
+constexpr double kStep = 0.002;  // [s] between points of a motion: 40 per period of the fastest tremor
 constexpr std::uint64_t kStiffness = 1, kDamping = 2, kMass = 3, kWaves = 100;
 
-double between(const RandomKey& key, std::uint64_t counter, double lo, double hi) { return key.uniform(counter, lo, hi); }
+double between(const RandomKey& key, std::uint64_t counter, double lo, double hi) {
+  return key.uniform(counter, lo, hi);
+}
 
 }  // namespace
 
@@ -30,12 +32,14 @@ DrawnHand::DrawnHand(HandKind kind, std::uint64_t seed, std::size_t number)
     for (std::size_t i = 0; i <= kNoiseWaves; ++i) {
       const bool tremor = i == kNoiseWaves;
       Wave& wave = waves_[axis][i];
-      // Noise: one wave in each eighth of the band, so that none of them is drawn twice.
-      const double part = (kNoiseHigh - kNoiseLow) / static_cast<double>(kNoiseWaves), low = kNoiseLow + part * static_cast<double>(i);
+      // Noise: one wave in each eighth of the band, so that no two waves are equal.
+      const double part = (kNoiseHigh - kNoiseLow) / static_cast<double>(kNoiseWaves),
+                   low = kNoiseLow + part * static_cast<double>(i);
       const double hz = tremor ? between(own, draw++, kTremorLow, kTremorHigh) : between(own, draw++, low, low + part);
       wave.omega = 2 * std::numbers::pi * hz;
       wave.phase = between(own, draw++, 0, 2 * std::numbers::pi);
-      wave.amplitude = tremor ? between(own, draw++, kTremorMin, kTremorMax) : kNoiseRms * std::sqrt(2.0 / static_cast<double>(kNoiseWaves));
+      wave.amplitude = tremor ? between(own, draw++, kTremorMin, kTremorMax)
+                              : kNoiseRms * std::sqrt(2.0 / static_cast<double>(kNoiseWaves));
     }
   }
 }
@@ -58,7 +62,8 @@ hal::Vec3 DrawnHand::unsteadiness(double t) const {
   hal::Vec3 sum = hal::Vec3::Zero();
   if (kind_ == HandKind::kPlain) return sum;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    for (const Wave& wave : waves_[axis]) sum[static_cast<Eigen::Index>(axis)] += wave.amplitude * std::sin(wave.omega * t + wave.phase);
+    for (const Wave& wave : waves_[axis])
+      sum[static_cast<Eigen::Index>(axis)] += wave.amplitude * std::sin(wave.omega * t + wave.phase);
   return sum;
 }
 

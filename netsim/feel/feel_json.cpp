@@ -17,7 +17,11 @@ double from_json(const Json& j) { return j.is_null() ? std::numeric_limits<doubl
 }  // namespace
 
 std::string feel_json(const FeelReport& r) {
-  Json j{{"version", 1}, {"scene", r.scene}, {"network", r.network}, {"law", r.channel}, {"hands", r.plain_hands ? "plain" : "drawn"}};
+  Json j{{"version", 1},
+         {"scene", r.scene},
+         {"network", r.network},
+         {"law", r.channel},
+         {"hands", r.plain_hands ? "plain" : "drawn"}};
   j["probes"] = Json::array();
   for (const ProbeName& one : kProbes)
     if (std::ranges::find(r.probes, one.probe) != r.probes.end()) j["probes"].push_back(one.name);
@@ -28,17 +32,23 @@ std::string feel_json(const FeelReport& r) {
     for (const FeelKey& key : section.keys) {
       const auto it = r.numbers.find(std::string(key.key));
       if (it == r.numbers.end()) continue;
-      feel[std::string(key.key)] = {{"mean", number(it->second.mean)}, {"worst", number(it->second.worst)}, {"worst_seed", it->second.worst_seed},
+      feel[std::string(key.key)] = {{"mean", number(it->second.mean)},
+                                    {"worst", number(it->second.worst)},
+                                    {"worst_seed", it->second.worst_seed},
                                     {"unit", std::string(si_unit(key.key))}};
     }
   j["feel"] = std::move(feel);
   j["noticed"] = noticeable_text(r.spec, r.numbers, r.one_way_s);
   j["noticeable"] = Json::object();
-  for (const auto& [key, value] : noticeable_numbers(r.spec, r.numbers, r.one_way_s)) j["noticeable"][key] = number(value);
+  for (const auto& [key, value] : noticeable_numbers(r.spec, r.numbers, r.one_way_s))
+    j["noticeable"][key] = number(value);
   j["limits"] = Json::array();
   for (const FeelLimit& limit : r.limits) {
     const auto it = r.numbers.find(limit.key);
-    j["limits"].push_back({{"key", limit.key}, {"at_least", limit.at_least}, {"end", limit.end}, {"holds", it != r.numbers.end() && limit.holds(it->second)}});
+    j["limits"].push_back({{"key", limit.key},
+                           {"at_least", limit.at_least},
+                           {"end", limit.end},
+                           {"holds", it != r.numbers.end() && limit.holds(it->second)}});
   }
   j["passed"] = r.passed();
   j["interrupted"] = r.interrupted;
@@ -57,7 +67,10 @@ std::string feel_json(const FeelReport& r) {
 
 std::string to_bytes(const ProbeResult& result) {
   const Exposure& e = result.exposure;
-  Json j{{"exposure", {e.s, e.engaged_s, e.held_s, e.saturated_s, e.trips, e.error_square}}, {"lived", result.lived_s}, {"one_way", number(result.one_way_s)}, {"trouble", result.trouble}};
+  Json j{{"exposure", {e.s, e.engaged_s, e.held_s, e.saturated_s, e.trips, e.error_square}},
+         {"lived", result.lived_s},
+         {"one_way", number(result.one_way_s)},
+         {"trouble", result.trouble}};
   j["values"] = Json::object();
   for (const auto& [key, value] : result.values) j["values"][key] = number(value);
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -67,7 +80,12 @@ ProbeResult probe_result_from_bytes(const std::string& bytes) {
   const Json j = Json::parse(bytes);
   ProbeResult out;
   const Json& e = j.at("exposure");
-  out.exposure = {.s = e.at(0), .engaged_s = e.at(1), .held_s = e.at(2), .saturated_s = e.at(3), .trips = e.at(4), .error_square = e.at(5)};
+  out.exposure = {.s = e.at(0),
+                  .engaged_s = e.at(1),
+                  .held_s = e.at(2),
+                  .saturated_s = e.at(3),
+                  .trips = e.at(4),
+                  .error_square = e.at(5)};
   out.lived_s = j.at("lived").get<double>();
   out.one_way_s = from_json(j.at("one_way"));
   out.trouble = j.at("trouble").get<std::string>();

@@ -46,9 +46,15 @@ constexpr FeelKey kFree[] = {
 };
 constexpr FeelKey kGain[] = {
     {"gain_max", "largest gain, tool over hand", ""},
-    {"gain_0.25hz", "  at 0.25 Hz", ""}, {"gain_0.5hz", "  at 0.5 Hz", ""}, {"gain_1hz", "  at 1 Hz", ""},
-    {"gain_2hz", "  at 2 Hz", ""},       {"gain_3hz", "  at 3 Hz", ""},     {"gain_4hz", "  at 4 Hz", ""},
-    {"gain_5hz", "  at 5 Hz", ""},       {"gain_6hz", "  at 6 Hz", ""},     {"gain_8hz", "  at 8 Hz", ""},
+    {"gain_0.25hz", "  at 0.25 Hz", ""},
+    {"gain_0.5hz", "  at 0.5 Hz", ""},
+    {"gain_1hz", "  at 1 Hz", ""},
+    {"gain_2hz", "  at 2 Hz", ""},
+    {"gain_3hz", "  at 3 Hz", ""},
+    {"gain_4hz", "  at 4 Hz", ""},
+    {"gain_5hz", "  at 5 Hz", ""},
+    {"gain_6hz", "  at 6 Hz", ""},
+    {"gain_8hz", "  at 8 Hz", ""},
     {"gain_10hz", "  at 10 Hz", ""},
 };
 constexpr FeelKey kRest[] = {

@@ -8,30 +8,31 @@
 
 namespace tandem::netsim {
 
-/// A number of the feel report.
+/// Description of one number of the feel report.
 struct FeelKey {
-  std::string_view key;    ///< in JSON, CSV and limits; SI
-  std::string_view words;  ///< for people
-  std::string_view unit;   ///< of the number as people read it; empty: a plain number
-  double factor = 1;       ///< from SI to that unit
+  std::string_view key;          ///< key in JSON, CSV and limits; values are in SI units
+  std::string_view description;  ///< description for reports
+  std::string_view unit;         ///< unit in reports; empty: dimensionless
+  double factor = 1;             ///< factor from SI to that unit
   bool least_is_worst = false;
 };
 
-/// A heading and its numbers, in the order of the report.
+/// A section of the report: title and numbers, in order.
 struct FeelSection {
-  Probe probe;  ///< that measures them; exposure belongs to press and free together
+  Probe probe;  ///< probe that measures them; press and free both measure exposure
   std::string_view title;
   std::span<const FeelKey> keys;
 };
 [[nodiscard]] std::span<const FeelSection> feel_sections();
 
-/// Null: there is no such number.
+/// Returns the description of a key; null if the key is unknown.
 [[nodiscard]] const FeelKey* find_feel_key(std::string_view key);
 
-/// The unit of a key's SI value, from its ending: `n_m` N/m, `n` N, `m` m, ...; empty: a plain number.
+/// Returns the unit of a key's SI value, from its ending: `n_m` N/m, `n` N, `m` m, ...; empty: dimensionless.
 [[nodiscard]] std::string_view si_unit(std::string_view key);
 
-/// The numbers that exposure gives: engaged_share, held_share, saturated_share, trips_per_min, delivered_error_n. NaN of no time.
+/// Writes the numbers of an exposure: engaged_share, held_share, saturated_share, trips_per_min, delivered_error_n.
+/// They are NaN if the exposure has no time.
 void put_exposure(const Exposure& exposure, FeelValues& values);
 
 }  // namespace tandem::netsim

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "netsim/feel/feel_summary.h"
-#include "proto/scene_spec.h"
+#include "proto/spec/scene_spec.h"
 
 namespace tandem::netsim {
 
-/// Everything that was measured.
+/// All results of a measurement.
 struct FeelReport {
-  std::string scene, network, channel;  ///< for people
+  std::string scene, network, channel;  ///< descriptions for reports
   SceneSpec spec;
   bool plain_hands = false;
   std::vector<Probe> probes;
@@ -19,28 +19,28 @@ struct FeelReport {
   std::vector<std::string> recordings;
   std::vector<FeelLimit> limits;
   std::map<std::string, FeelNumber> numbers;  ///< summarised(seeds)
-  double one_way_s = 0;                       ///< mean over the seeds; NaN: unknown
-  std::vector<std::string> troubles;          ///< of single seeds and probes, for people
-  std::vector<std::string> notes;             ///< of the network
+  double one_way_s = 0;                       ///< network delay each way [s], mean over the seeds; NaN: unknown
+  std::vector<std::string> troubles;          ///< failures of single seeds and probes, for reports
+  std::vector<std::string> notes;             ///< facts about the network
   double lived_s = 0, wall_s = 0;
   bool interrupted = false;
 
-  /// Limits that are broken, or whose number does not exist.
+  /// Returns the limits that are broken, or whose number does not exist.
   [[nodiscard]] std::vector<const FeelLimit*> broken() const;
-  /// Everything was measured, and every limit holds.
+  /// Returns whether all was measured and every limit holds.
   [[nodiscard]] bool passed() const { return troubles.empty() && !interrupted && broken().empty(); }
 };
 
-/// Readable at 80 columns.
+/// Returns the report as text of 80 columns.
 [[nodiscard]] std::string feel_text(const FeelReport& report);
-/// One row per number: `key,unit,mean,worst,worst_seed`, SI.
+/// Returns one row per number: `key,unit,mean,worst,worst_seed`, in SI units.
 [[nodiscard]] std::string feel_csv(const FeelReport& report);
-/// Keys as in the manual; SI; NaN becomes null.
+/// Returns the report as JSON with the keys of the manual, in SI units; NaN becomes null.
 [[nodiscard]] std::string feel_json(const FeelReport& report);
 
-/// A probe's result as text, from one process to another; and back.
+/// Encodes a probe's result for transfer from one process to another.
 [[nodiscard]] std::string to_bytes(const ProbeResult& result);
-/// @throws std::exception if the bytes are not those of to_bytes.
+/// Decodes a result. @throws std::exception if the bytes are not those of to_bytes.
 [[nodiscard]] ProbeResult probe_result_from_bytes(const std::string& bytes);
 
 }  // namespace tandem::netsim

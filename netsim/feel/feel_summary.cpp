@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "common/base/nearest.h"
+#include "common/base/suggestions.h"
 
 namespace tandem::netsim {
 
@@ -47,7 +47,8 @@ std::expected<FeelLimit, std::string> parse_feel_limit(std::string_view text) {
   const std::string shown = "\"" + std::string(text.substr(0, 60)) + "\"";
   const auto cut = text.find_first_of("<>");
   if (cut == std::string_view::npos || cut + 2 >= text.size() || text[cut + 1] != '=')
-    return std::unexpected(shown + " is no limit: write KEY<=NUMBER or KEY>=NUMBER in SI units, such as 'drag_1hz_n<=0.15'");
+    return std::unexpected(shown +
+                           " is no limit: write KEY<=NUMBER or KEY>=NUMBER in SI units, such as 'drag_1hz_n<=0.15'");
   FeelLimit limit{.key = std::string(text.substr(0, cut)), .at_least = text[cut] == '>'};
   if (find_feel_key(limit.key) == nullptr) {
     std::vector<std::string> known;

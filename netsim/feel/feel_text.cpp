@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kWidth = 80;
 
-/// Three digits that mean something.
+/// Returns a number with three significant digits.
 std::string shown(double value) {
   if (std::isnan(value)) return "none";
   const double size = std::abs(value);
@@ -36,7 +36,7 @@ std::string wrapped_lines(const std::string& text, const std::string& indent) {
 }
 
 std::string row(const FeelKey& key, const FeelNumber& number) {
-  return format("  %-42s %9s %9s  %s\n", std::string(key.words).c_str(), shown(number.mean * key.factor).c_str(),
+  return format("  %-42s %9s %9s  %s\n", std::string(key.description).c_str(), shown(number.mean * key.factor).c_str(),
                 shown(number.worst * key.factor).c_str(), std::string(key.unit).c_str());
 }
 
@@ -52,10 +52,11 @@ std::vector<const FeelLimit*> FeelReport::broken() const {
 }
 
 std::string feel_text(const FeelReport& r) {
-  std::string out = wrapped_lines(format("%s over %s, law %s, %zu %s", r.scene.c_str(), r.network.c_str(), r.channel.c_str(), r.seeds.size(),
-                                         r.seeds.size() == 1 ? "seed" : "seeds") +
-                                      (r.plain_hands ? ", plain hands: no tremor, no noise, one impedance" : ", hands of different people"),
-                                  "");
+  std::string out = wrapped_lines(
+      format("%s over %s, law %s, %zu %s", r.scene.c_str(), r.network.c_str(), r.channel.c_str(), r.seeds.size(),
+             r.seeds.size() == 1 ? "seed" : "seeds") +
+          (r.plain_hands ? ", plain hands: no tremor, no noise, one impedance" : ", hands of different people"),
+      "");
   for (const std::string& note : r.notes) out += wrapped_lines("note: " + note, "");
   out += format("  %-42s %9s %9s\n", "", "mean", "worst");
   for (const FeelSection& section : feel_sections()) {
@@ -71,17 +72,22 @@ std::string feel_text(const FeelReport& r) {
   for (const FeelLimit* limit : r.broken()) {
     const auto it = r.numbers.find(limit->key);
     const std::string unit = si_unit(limit->key).empty() ? "" : " " + std::string(si_unit(limit->key));
-    const std::string got = it == r.numbers.end()          ? "was not measured"
-                            : std::isnan(it->second.mean) ? "does not exist in every seed"
-                                                          : format("mean %.4g, worst %.4g%s (seed %llu)", it->second.mean, it->second.worst, unit.c_str(),
-                                                                   static_cast<unsigned long long>(it->second.worst_seed));
-    out += wrapped_lines(format("FAIL %s: ", limit->key.c_str()) + got +
-                             format("; must be at %s %g, the worst seed %g", limit->at_least ? "least" : "most", limit->end,
-                                    limit->at_least ? limit->end / FeelLimit::kWorstFactor : limit->end * FeelLimit::kWorstFactor),
-                         "");
+    const std::string got = it == r.numbers.end() ? "was not measured"
+                            : std::isnan(it->second.mean)
+                                ? "does not exist in every seed"
+                                : format("mean %.4g, worst %.4g%s (seed %llu)", it->second.mean, it->second.worst,
+                                         unit.c_str(), static_cast<unsigned long long>(it->second.worst_seed));
+    out += wrapped_lines(
+        format("FAIL %s: ", limit->key.c_str()) + got +
+            format("; must be at %s %g, the worst seed %g", limit->at_least ? "least" : "most", limit->end,
+                   limit->at_least ? limit->end / FeelLimit::kWorstFactor : limit->end * FeelLimit::kWorstFactor),
+        "");
   }
-  if (!r.limits.empty()) out += format("%s: %zu of %zu limits hold\n", r.passed() ? "pass" : "FAIL", r.limits.size() - r.broken().size(), r.limits.size());
-  out += format("%.0f s of sessions in %.1f s: %.0f x real time\n", r.lived_s, r.wall_s, r.wall_s > 0 ? r.lived_s / r.wall_s : 0.0);
+  if (!r.limits.empty())
+    out += format("%s: %zu of %zu limits hold\n", r.passed() ? "pass" : "FAIL", r.limits.size() - r.broken().size(),
+                  r.limits.size());
+  out += format("%.0f s of sessions in %.1f s: %.0f x real time\n", r.lived_s, r.wall_s,
+                r.wall_s > 0 ? r.lived_s / r.wall_s : 0.0);
   return out;
 }
 
@@ -92,8 +98,8 @@ std::string feel_csv(const FeelReport& r) {
     for (const FeelKey& key : section.keys) {
       const auto it = r.numbers.find(std::string(key.key));
       if (it == r.numbers.end()) continue;
-      out += std::string(key.key) + "," + std::string(si_unit(key.key)) + "," + value(it->second.mean) + "," + value(it->second.worst) + "," +
-             std::to_string(it->second.worst_seed) + "\n";
+      out += std::string(key.key) + "," + std::string(si_unit(key.key)) + "," + value(it->second.mean) + "," +
+             value(it->second.worst) + "," + std::to_string(it->second.worst_seed) + "\n";
     }
   return out;
 }

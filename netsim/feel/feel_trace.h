@@ -6,33 +6,33 @@
 #include <utility>
 #include <vector>
 
-#include "hal/device.h"
+#include "hal/core/device.h"
 
 namespace tandem::netsim {
 
-/// What happened during a probe: one row per tick of the running session, in columns. All vectors have the same length.
-/// Positions [m], forces [N], frame W.
+/// Recording of a probe: one row per tick of the running session, in columns of equal length. Positions [m], forces
+/// [N], frame W.
 struct FeelTrace {
   struct Hand {
     std::vector<hal::Vec3> x;      ///< tip of the device
     std::vector<hal::Vec3> f;      ///< delivered by the motor to the hand
     std::vector<hal::Vec3> f_cmd;  ///< commanded before the force gate
     std::vector<char> engaged;
-    double force_max = 0;          ///< what motor and gate allow this seat [N]
-    std::vector<std::uint32_t> trips;  ///< of the force gate, since the start
+    double force_max = 0;              ///< largest force that motor and gate allow this seat [N]
+    std::vector<std::uint32_t> trips;  ///< trips of the force gate since the start
   };
   double tick_hz = 1000;
-  double one_way_s = 0;  ///< half of the leader's median round trip, without the server's tick [s]
+  double one_way_s = 0;   ///< half of the leader's median round trip, without the server's tick [s]
   std::vector<double> t;  ///< session time [s]
   std::vector<Hand> hands;
   std::vector<hal::Vec3> tool;   ///< tip of the tool
-  std::vector<hal::Vec3> f_env;  ///< of the environment on the tool
-  std::vector<char> held;        ///< the tool stood braked
-  std::string trouble;           ///< why there is nothing to measure; empty: the session ran
+  std::vector<hal::Vec3> f_env;  ///< force of the environment on the tool
+  std::vector<char> held;        ///< whether the tool is braked (HELD)
+  std::string trouble;           ///< why there is no result; empty: the session ran
 
   [[nodiscard]] std::size_t rows() const noexcept { return t.size(); }
 
-  /// Rows [first, second) with session times in [from, to).
+  /// Returns the rows [first, second) with session times in [from, to).
   [[nodiscard]] std::pair<std::size_t, std::size_t> window(double from, double to) const noexcept;
 };
 

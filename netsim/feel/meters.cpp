@@ -13,7 +13,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kSlopeRowsMin = 50, kWaveRowsMin = 8;
 
-/// What remains of one axis when a straight line is taken away, times a Hann window; and the window's mean square.
+/// One axis without its straight line, times a Hann window; and the window's mean square.
 struct Windowed {
   std::vector<double> x;
   double window_square = 0;
@@ -32,7 +32,8 @@ Windowed windowed(Series values, Eigen::Index axis) {
   Windowed out;
   out.x.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double w = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+    const double w =
+        0.5 - 0.5 * std::cos(2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
     out.x[i] = w * (values[i][axis] - level - rise * (static_cast<double>(i) - middle));
     out.window_square += w * w;
   }
@@ -117,7 +118,7 @@ double rms_above(Series values, double hz, double rate) noexcept {
   const std::size_t n = values.size();
   if (n < kWaveRowsMin) return kNaN;
   const double length = static_cast<double>(n) / rate;
-  // By Parseval: everything, less the lines of the spectrum below `hz`.
+  // Parseval's theorem: the total power minus the lines of the spectrum below `hz`.
   const auto lines = std::min(static_cast<std::size_t>(std::ceil(hz * length)), n / 2);
   double power = 0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -125,7 +126,8 @@ double rms_above(Series values, double hz, double rate) noexcept {
     double all = 0, low = 0;
     for (const double x : w.x) all += x * x;
     for (std::size_t k = 0; k < lines; ++k) {
-      const std::complex<double> turn = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n));
+      const std::complex<double> turn =
+          std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n));
       std::complex<double> sum = 0, at = 1;
       for (const double x : w.x) {
         sum += x * at;

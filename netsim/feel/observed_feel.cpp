@@ -15,20 +15,20 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRowHz = 100;
 constexpr std::size_t kRowsMax = 240'000;
-constexpr double kBegin = 1;                                  // [s] of session time
+constexpr double kBegin = 1;  // [s] of session time
 constexpr double kAlone = 0.99, kSaturated = 0.99;
-constexpr double kAfterHandOver = 0.5;                        // [s]
+constexpr double kAfterHandOver = 0.5;                                  // [s]
 constexpr double kContact = 0.05, kSpringLow = 0.2, kSpringHigh = 0.9;  // [N, N, share of the motor's]
-constexpr double kDepthMin = 1e-3;                            // [m] a spring is pressed at least
-constexpr double kSpeedMin = 0.02;                            // [m/s]
-constexpr double kGainHand = 0.2e-3;                          // [m] RMS of the hand in a line of the spectrum
-constexpr std::size_t kGainRows = 400;                        // 4 s: lines of 0.25 Hz
-constexpr std::size_t kGainLines = 40;                        // up to 10 Hz
-constexpr std::size_t kBoxRows = 100, kRestRows = 200;        // 1 s, 2 s
-constexpr double kBoxMin = 0.01, kRestMax = 0.002;            // [m]
-constexpr std::array<std::string_view, 12> kKeys{"stiffness_felt_n_m", "drag_n",          "gain_max",   "overshoot",
-                                                 "limit_cycle_n",      "handover_bump_n", "handover_step_n_ms", "engaged_share",
-                                                 "held_share",         "saturated_share", "trips_per_min", "delivered_error_n"};
+constexpr double kDepthMin = 1e-3;                                      // [m] smallest change of depth of a press
+constexpr double kSpeedMin = 0.02;                                      // [m/s]
+constexpr double kGainHand = 0.2e-3;                                    // [m] RMS of the hand in a line of the spectrum
+constexpr std::size_t kGainRows = 400;                                  // 4 s: lines of 0.25 Hz
+constexpr std::size_t kGainLines = 40;                                  // up to 10 Hz
+constexpr std::size_t kBoxRows = 100, kRestRows = 200;                  // 1 s, 2 s
+constexpr double kBoxMin = 0.01, kRestMax = 0.002;                      // [m]
+constexpr std::array<std::string_view, 12> kKeys{
+    "stiffness_felt_n_m", "drag_n",        "gain_max",   "overshoot",       "limit_cycle_n", "handover_bump_n",
+    "handover_step_n_ms", "engaged_share", "held_share", "saturated_share", "trips_per_min", "delivered_error_n"};
 
 hal::Vec3 vector_of(const server::Triple& v) { return {v[0], v[1], v[2]}; }
 
@@ -41,15 +41,16 @@ struct Box {
     }
   }
   [[nodiscard]] double extent() const { return (high - low).maxCoeff(); }
-  /// How far a point lies outside.
+  /// Returns the distance of a point from the box; 0 inside.
   [[nodiscard]] double beyond(const hal::Vec3& p) const { return (low - p).cwiseMax(p - high).cwiseMax(0.0).norm(); }
 };
 
 bool all(const std::vector<char>& flags, std::size_t first, std::size_t count) {
-  return std::all_of(flags.begin() + static_cast<std::ptrdiff_t>(first), flags.begin() + static_cast<std::ptrdiff_t>(first + count), [](char c) { return c != 0; });
+  return std::all_of(flags.begin() + static_cast<std::ptrdiff_t>(first),
+                     flags.begin() + static_cast<std::ptrdiff_t>(first + count), [](char c) { return c != 0; });
 }
 
-/// Of seats: the worst that exists.
+/// Keeps the worse of two numbers, ignoring NaN in `worst`. @param least  a smaller number is worse
 void worsen(double& worst, double value, bool least = false) {
   if (std::isnan(worst) || (least ? value < worst : value > worst)) worst = value;
 }
@@ -66,11 +67,13 @@ ObservedFeel::ObservedFeel(const SceneSpec& scene)
       held_(scene.tools.size()) {
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     while (seats_[i].tool + 1 < scene.tools.size() && scene.follow[i][seats_[i].tool] <= 0) ++seats_[i].tool;
-    seats_[i].force_max = std::min(scene.seats[i].device.force_peak, scene.gate.force_max * share_of_force(scene.seats[i].role));
+    seats_[i].force_max =
+        std::min(scene.seats[i].device.force_peak, scene.gate.force_max * share_of_force(scene.seats[i].role));
   }
 }
 
-void ObservedFeel::watch_hand_over(Seat& seat, const server::SeatRecord& record, const hal::Vec3& f, std::uint32_t tick) {
+void ObservedFeel::observe_transfer(Seat& seat, const server::SeatRecord& record, const hal::Vec3& f,
+                                    std::uint32_t tick) {
   const bool changes = seat.alpha >= 0 && record.alpha != seat.alpha;
   seat.alpha = record.alpha;
   if (!record.engaged) seat.hand_over_until = 0;
@@ -97,7 +100,7 @@ void ObservedFeel::add(const server::TickRecord& record) {
     seat.engaged_ticks += s.engaged ? 1 : 0;
     seat.saturated_ticks += f.norm() >= kSaturated * seat.force_max ? 1 : 0;
     seat.error_square += (vector_of(s.f_cmd) - f).squaredNorm();
-    watch_hand_over(seat, s, f, record.tick);
+    observe_transfer(seat, s, f, record.tick);
     if (record.tick % every_ != 0 || seat.x.size() >= rows_max_) continue;
     const server::ToolRecord& tool = record.tools[seat.tool];
     seat.x.push_back(vector_of(s.x));
@@ -110,7 +113,7 @@ void ObservedFeel::add(const server::TickRecord& record) {
 }
 
 double ObservedFeel::stiffness(const Seat& seat) const {
-  // Every side of every axis may be pressed on; the one that was pressed on most is told.
+  // A hand may press on both sides of each axis. The result is that of the side with most rows.
   std::array<std::vector<double>, 6> depth, force;
   for (std::size_t r = 0; r < seat.x.size(); ++r) {
     Eigen::Index axis = 0;
@@ -120,7 +123,8 @@ double ObservedFeel::stiffness(const Seat& seat) const {
     depth[place].push_back(-side * seat.x[r][axis]);
     force[place].push_back(side * seat.f[r][axis]);
   }
-  const auto most = static_cast<std::size_t>(std::ranges::max_element(depth, {}, [](const auto& d) { return d.size(); }) - depth.begin());
+  const auto most = static_cast<std::size_t>(
+      std::ranges::max_element(depth, {}, [](const auto& d) { return d.size(); }) - depth.begin());
   if (depth[most].empty()) return kNaN;
   const auto [least, deepest] = std::ranges::minmax(depth[most]);
   return deepest - least < kDepthMin ? kNaN : slope(depth[most], force[most], kSpringLow, kSpringHigh * seat.force_max);
@@ -129,26 +133,30 @@ double ObservedFeel::stiffness(const Seat& seat) const {
 double ObservedFeel::drag(const Seat& seat) const {
   std::vector<hal::Vec3> forces;
   for (std::size_t r = 1; r < seat.x.size(); ++r)
-    if (seat.alone[r] != 0 && seat.alone[r - 1] != 0 && seat.f_env[r].norm() == 0 && (seat.x[r] - seat.x[r - 1]).norm() * tick_hz_ / every_ > kSpeedMin)
+    if (seat.alone[r] != 0 && seat.alone[r - 1] != 0 && seat.f_env[r].norm() == 0 &&
+        (seat.x[r] - seat.x[r - 1]).norm() * tick_hz_ / every_ > kSpeedMin)
       forces.push_back(seat.f[r]);
   return rms(forces);
 }
 
 double ObservedFeel::gain(const Seat& seat) const {
   std::array<std::complex<double>, kGainRows> turns;
-  for (std::size_t k = 0; k < kGainRows; ++k) turns[k] = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(kGainRows));
+  for (std::size_t k = 0; k < kGainRows; ++k)
+    turns[k] = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(kGainRows));
   std::array<double, kGainLines> hand{}, tool{};
   std::size_t parts = 0;
   for (std::size_t first = 0; first + kGainRows <= seat.x.size(); first += kGainRows / 2) {
     const auto touches = [](const hal::Vec3& f) { return f.norm() > 0; };
     const auto from = seat.f_env.begin() + static_cast<std::ptrdiff_t>(first);
-    if (!all(seat.alone, first, kGainRows) || std::any_of(from, from + static_cast<std::ptrdiff_t>(kGainRows), touches)) continue;
+    if (!all(seat.alone, first, kGainRows) || std::any_of(from, from + static_cast<std::ptrdiff_t>(kGainRows), touches))
+      continue;
     ++parts;
     for (std::size_t line = 0; line < kGainLines; ++line)
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         std::complex<double> x = 0, y = 0;
         for (std::size_t k = 0; k < kGainRows; ++k) {
-          const std::complex<double> w = (1 - turns[k].real()) * turns[k * (line + 1) % kGainRows] / static_cast<double>(kGainRows);
+          const std::complex<double> w =
+              (1 - turns[k].real()) * turns[k * (line + 1) % kGainRows] / static_cast<double>(kGainRows);
           x += w * (seat.x[first + k][axis] - seat.x[first][axis]);
           y += w * (seat.tool_x[first + k][axis] - seat.tool_x[first][axis]);
         }
@@ -158,7 +166,8 @@ double ObservedFeel::gain(const Seat& seat) const {
   }
   double most = kNaN;
   for (std::size_t line = 1; line < kGainLines; ++line)
-    if (parts > 0 && hand[line] > kGainHand * kGainHand * static_cast<double>(parts)) worsen(most, std::sqrt(tool[line] / hand[line]));
+    if (parts > 0 && hand[line] > kGainHand * kGainHand * static_cast<double>(parts))
+      worsen(most, std::sqrt(tool[line] / hand[line]));
   return most;
 }
 
@@ -176,7 +185,8 @@ double ObservedFeel::overshoot(const Seat& seat) const {
 double ObservedFeel::limit_cycle(const Seat& seat) const {
   double most = kNaN;
   for (std::size_t first = 0; first + kRestRows <= seat.x.size(); first += kRestRows / 2) {
-    if (!all(seat.engaged, first, kRestRows) || Box{Series{seat.x}.subspan(first, kRestRows)}.extent() > kRestMax) continue;
+    if (!all(seat.engaged, first, kRestRows) || Box{Series{seat.x}.subspan(first, kRestRows)}.extent() > kRestMax)
+      continue;
     worsen(most, rms_above(Series{seat.f}.subspan(first, kRestRows), 1, tick_hz_ / every_));
   }
   return most;

@@ -5,9 +5,9 @@
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
-/// Following: how far a relaxed hand that is led stands from the hand that leads it. The leader moves 30 mm within 0.5 s and holds still;
-/// moves slowly on a circle; and presses on bone. Judged from 2 s after the motion began on, as distance of the means over one second: what is left of a
-/// hand's tremor and noise at the other end of a network is told by `follower_wander_m`.
+/// Following: distance of a relaxed hand from the hand that leads it. The leader moves 30 mm within 0.5 s and holds
+/// still; moves slowly on a circle; and presses on bone. The measurement begins 2 s after the motion. It compares means
+/// over one second; `follower_wander_m` reports the rest, which comes from tremor and noise across the network.
 namespace tandem::netsim {
 namespace {
 
@@ -23,7 +23,7 @@ struct Beside {
   double offset = 0, wander = 0;  ///< RMS of the mean over a second, and of the rest [m]
 };
 
-/// Of hand 1 from hand 0.
+/// Returns the distance of hand 1 from hand 0.
 Beside beside(const FeelTrace& trace, double from, double to) {
   const auto [first, end] = trace.window(from, to);
   const auto length = static_cast<std::size_t>(std::llround(kMean * trace.tick_hz));
@@ -32,7 +32,8 @@ Beside beside(const FeelTrace& trace, double from, double to) {
   double square = 0, rest = 0;
   std::size_t parts = 0;
   for (std::size_t begin = first; begin + length <= end; begin += length, ++parts) {
-    const Series leader = Series{trace.hands[0].x}.subspan(begin, length), follower = Series{trace.hands[1].x}.subspan(begin, length);
+    const Series leader = Series{trace.hands[0].x}.subspan(begin, length),
+                 follower = Series{trace.hands[1].x}.subspan(begin, length);
     const hal::Vec3 middle = mean(follower) - mean(leader);
     square += middle.squaredNorm();
     const double all = rms_difference(follower, leader);
@@ -48,7 +49,8 @@ Beside beside(const FeelTrace& trace, double from, double to) {
 ProbeResult probe_follow(const FeelSetup& setup, std::uint64_t seed) {
   ProbeResult result;
   const DrawnHand leader{setup.hands, seed, 0}, follower{setup.hands, seed, 1};
-  const auto go = [&](const IntendedPath& path, double length, const EnvironmentSpec& environment = {}, double start = 0) {
+  const auto go = [&](const IntendedPath& path, double length, const EnvironmentSpec& environment = {},
+                      double start = 0) {
     ProbeRun run;
     run.length = length;
     run.start_x = start;
@@ -58,16 +60,19 @@ ProbeResult probe_follow(const FeelSetup& setup, std::uint64_t seed) {
     return run_part(setup, run, seed, result);
   };
   const auto away = [](double t) { return hal::sim::min_jerk((t - kMoveAt) / kMoveFor).value; };
-  const Beside still = beside(go([&](double t) { return hal::Vec3(kAway * away(t), 0, -kAway * away(t)); }, kStillEnd), kJudged, kStillEnd);
+  const Beside still = beside(go([&](double t) { return hal::Vec3(kAway * away(t), 0, -kAway * away(t)); }, kStillEnd),
+                              kJudged, kStillEnd);
   const Beside slow = beside(go(
                                  [&](double t) {
-                                   const double turn = 2 * std::numbers::pi * kSlowHz * std::max(0.0, t - kMoveAt), r = kSlowRadius * away(t);
+                                   const double turn = 2 * std::numbers::pi * kSlowHz * std::max(0.0, t - kMoveAt),
+                                                r = kSlowRadius * away(t);
                                    return hal::Vec3(r * std::cos(turn), 0, r * std::sin(turn));
                                  },
                                  kSlowEnd),
                              kJudged, kSlowEnd);
-  const Beside contact =
-      beside(go([&](double t) { return hal::Vec3(kFrom + (kDeep - kFrom) * away(t), 0, 0); }, kStillEnd, wall_of(kBone), kFrom), kJudged, kStillEnd);
+  const Beside contact = beside(go([&](double t) { return hal::Vec3(kFrom + (kDeep - kFrom) * away(t), 0, 0); },
+                                   kStillEnd, wall_of(kBone), kFrom),
+                                kJudged, kStillEnd);
   result.values["follower_offset_m"] = std::max(still.offset, slow.offset);
   result.values["follower_offset_still_m"] = still.offset;
   result.values["follower_offset_slow_m"] = slow.offset;

@@ -4,14 +4,14 @@
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
-/// Free motion: the leader moves the tool, a relaxed hand is led by it.
+/// Free motion: the leader moves the tool, which leads a relaxed hand.
 namespace tandem::netsim {
 namespace {
 
-constexpr double kSettle = 3;                                // [s] before anything is measured
+constexpr double kSettle = 3;                                 // [s] before anything is measured
 constexpr double kStepAt = 2, kStepFor = 0.15, kStep = 0.02;  // [s, s, m]
 constexpr double kStepEnd = 5.5;
-constexpr double kRecordingMax = 20;  // [s] of a recording that is played
+constexpr double kRecordingMax = 20;  // [s], longest part of a recording that is played
 constexpr double kTurn = 2 * std::numbers::pi;
 
 struct Circle {
@@ -45,7 +45,7 @@ void put_follower(const FeelTrace& trace, const Circle& circle, FeelValues& v) {
   v[std::string("follower_step_") + circle.name + "_n_ms"] = largest_step_per_ms(force, trace.tick_hz);
 }
 
-/// Drag and apparent mass: the leader's force against the velocity and the acceleration of the hand, along x.
+/// Measures drag and apparent mass: the leader's force against velocity and acceleration of the hand, along x.
 void put_drag(const FeelTrace& trace, const Circle& circle, FeelValues& v) {
   const auto [first, end] = trace.window(kSettle, circle.end);
   v[std::string("drag_") + circle.name + "_n"] = rms(Series{trace.hands[0].f}.subspan(first, end - first));
@@ -54,8 +54,10 @@ void put_drag(const FeelTrace& trace, const Circle& circle, FeelValues& v) {
     x.push_back(trace.hands[0].x[i].x());
     f.push_back(trace.hands[0].f[i].x());
   }
-  const std::complex<double> speed = std::complex<double>(0, kTurn * circle.hz) * harmonic(std::span{trace.t}.subspan(first, end - first), x, circle.hz);
-  const std::complex<double> impedance = -harmonic(std::span{trace.t}.subspan(first, end - first), f, circle.hz) / speed;
+  const std::complex<double> speed = std::complex<double>(0, kTurn * circle.hz) *
+                                     harmonic(std::span{trace.t}.subspan(first, end - first), x, circle.hz);
+  const std::complex<double> impedance =
+      -harmonic(std::span{trace.t}.subspan(first, end - first), f, circle.hz) / speed;
   v[std::string("drag_") + circle.name + "_n_s_m"] = impedance.real();
   v[std::string("apparent_mass_") + circle.name + "_kg"] = impedance.imag() / (kTurn * circle.hz);
 }
@@ -94,7 +96,8 @@ ProbeResult probe_free(const FeelSetup& setup, std::uint64_t seed) {
     put_errors(trace, kSettle, circle.end, circle.name, result.values);
     put_follower(trace, circle, result.values);
   }
-  const FeelTrace step = go([](double t) { return hal::Vec3(kStep * hal::sim::min_jerk((t - kStepAt) / kStepFor).value, 0, 0); }, kStepEnd);
+  const FeelTrace step = go(
+      [](double t) { return hal::Vec3(kStep * hal::sim::min_jerk((t - kStepAt) / kStepFor).value, 0, 0); }, kStepEnd);
   put_overshoot(step, result.values);
   put_errors(step, kStepAt, kStepEnd, "step", result.values);
 

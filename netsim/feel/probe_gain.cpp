@@ -8,9 +8,9 @@
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
-/// How much larger the tool moves than the hand: circles of 3 mm, one frequency after the other in one run. Larger
-/// ones saturate a motor of 3.3 N from 5 Hz on, smaller ones are lost in friction. Each
-/// grows within 0.5 s, settles for a period or 1 s, is measured for whole periods of 1.5 s or more, and fades within 0.5 s.
+/// Gain: ratio of the tool's to the hand's motion, on circles of 3 mm, one frequency after the other in one run. Larger
+/// circles saturate a motor of 3.3 N from 5 Hz on; smaller ones disappear in friction. Each circle grows within 0.5 s
+/// and settles for a period or 1 s. It is measured for whole periods of 1.5 s or more, and fades within 0.5 s.
 namespace tandem::netsim {
 namespace {
 
@@ -37,7 +37,8 @@ std::vector<Dwell> dwells() {
 hal::Vec3 position(const std::vector<Dwell>& plan, double t) {
   for (const Dwell& d : plan) {
     if (t < d.from || t >= d.end) continue;
-    const double r = kRadius * hal::sim::min_jerk((t - d.from) / kEdge).value * hal::sim::min_jerk((d.end - t) / kEdge).value;
+    const double r =
+        kRadius * hal::sim::min_jerk((t - d.from) / kEdge).value * hal::sim::min_jerk((d.end - t) / kEdge).value;
     const double phase = kTurn * d.hz * (t - d.from);
     return {r * std::cos(phase), 0, r * std::sin(phase)};
   }

@@ -3,8 +3,8 @@
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
-/// Two hands press on bone at the same place; at 7 s all authority goes from one to the other, as fast as the scene lets it. Neither
-/// hand moves, so no force should change.
+/// Authority transfer: two hands press on bone at the same position. At 7 s all authority moves from one to the other,
+/// as fast as the scene allows. Neither hand moves, so no force should change.
 namespace tandem::netsim {
 namespace {
 
@@ -16,9 +16,10 @@ constexpr double kEnd = 11;
 
 ProbeResult probe_handover(const FeelSetup& setup, std::uint64_t seed) {
   ProbeResult result;
-  const DrawnHand steady{HandKind::kPlain, seed, 0};  // 0.3 mm of intention noise alone are 0.1 N
+  const DrawnHand steady{HandKind::kPlain, seed, 0};  // 0.3 mm of intention noise alone cause 0.1 N
   const auto path = [](double t) {
-    const double approach = hal::sim::min_jerk(t - 1).value, press = hal::sim::min_jerk((t - kTouch) / (kPressed - kTouch)).value;
+    const double approach = hal::sim::min_jerk(t - 1).value,
+                 press = hal::sim::min_jerk((t - kTouch) / (kPressed - kTouch)).value;
     return hal::Vec3(kFront * (approach - 1) + kDepth * press, 0, 0);
   };
   ProbeRun run;

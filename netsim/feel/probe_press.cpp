@@ -4,16 +4,19 @@
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
-/// Slow press: 10 mm in front of the wall, touched at 2 s. For the stiffness the hand then goes 50 mm deep within 14 s, so that also
-/// a law of 45 N/m gives forces well above friction; only what comes before the motor's limit counts. For the force it presses within
-/// 6 s and holds, as deep as a device of this coupling and these motors can answer without saturation, 3 to 20 mm.
+/// Slow press: the hand starts 10 mm in front of the wall and touches it at 2 s.
+/// - For the stiffness it moves 50 mm deep within 14 s, so that a law of 45 N/m also gives forces well above friction.
+/// Only rows before the motor's limit count.
+/// - For the force it presses within 6 s and holds. The depth is 3 to 20 mm: as deep as this coupling and these motors
+/// can render without saturation.
 namespace tandem::netsim {
 namespace {
 
-constexpr double kFront = 0.010, kDepthMin = 0.003, kDepthMax = 0.020, kDeep = 0.050;  // [m]
+constexpr double kFront = 0.010, kDepthMin = 0.003, kDepthMax = 0.020, kDeep = 0.050;                   // [m]
 constexpr double kTouch = 2, kPressed = 8, kSlowly = 16, kSteady = 10, kBoneEnd = 20, kTissueEnd = 14;  // [s]
-constexpr double kReserve = 0.85;               // of the motor's force
-constexpr double kSlopeLow = 0.15, kSlopeHigh = 0.9;  // of the motor's force, or of the largest force if that is smaller
+constexpr double kReserve = 0.85;  // of the motor's force
+constexpr double kSlopeLow = 0.15,
+                 kSlopeHigh = 0.9;  // of the motor's force, or of the largest force if that is smaller
 
 double depth_of(const FeelSetup& setup) {
   const SceneSpec& s = setup.scene;
@@ -24,7 +27,8 @@ double depth_of(const FeelSetup& setup) {
 ProbeRun press(const FeelSetup& setup, std::uint64_t seed, double wall, double depth, double pressed, double length) {
   const DrawnHand hand{setup.hands, seed, 0};
   const auto path = [=](double t) {
-    const double approach = hal::sim::min_jerk(t - 1).value, press = hal::sim::min_jerk((t - kTouch) / (pressed - kTouch)).value;
+    const double approach = hal::sim::min_jerk(t - 1).value,
+                 press = hal::sim::min_jerk((t - kTouch) / (pressed - kTouch)).value;
     return hal::Vec3(kFront * (approach - 1) + depth * press, 0, 0);
   };
   ProbeRun run;
@@ -35,7 +39,7 @@ ProbeRun press(const FeelSetup& setup, std::uint64_t seed, double wall, double d
   return run;
 }
 
-/// Along x: position of the hand [m], force that it feels, force on the environment [N].
+/// Along x: position of the hand [m], force on the hand [N], force on the environment [N].
 struct Pressed {
   std::vector<double> x, felt, tool;
 };
@@ -55,14 +59,15 @@ double stiffness(const FeelTrace& trace) {
   if (p.felt.empty()) return mean(p.felt);
   const double limit = trace.hands[0].force_max, most = std::min(*std::ranges::max_element(p.felt), limit);
   const double high = kSlopeHigh * most, low = kSlopeLow * (most > 2 * kSlopeLow * limit ? limit : most);
-  const auto end = static_cast<std::size_t>(std::ranges::find_if(p.felt, [&](double f) { return f > high; }) - p.felt.begin());
+  const auto end =
+      static_cast<std::size_t>(std::ranges::find_if(p.felt, [&](double f) { return f > high; }) - p.felt.begin());
   return slope(std::span{p.x}.first(end), std::span{p.felt}.first(end), low, high);
 }
 
-/// While the hand holds still.
+/// Means while the hand holds still.
 struct Held {
   double felt = 0, difference = 0;  ///< [N]
-  double stiffness = 0;             ///< force felt over depth of the hand [N/m]
+  double stiffness = 0;             ///< force on the hand over its depth [N/m]
 };
 Held held(const FeelTrace& trace, double end) {
   const Pressed p = along_x(trace, kSteady, end);
@@ -82,8 +87,10 @@ ProbeResult probe_press(const FeelSetup& setup, std::uint64_t seed) {
   const FeelTrace wanted = run_part(setup, undisturbed, seed, result);
   const Held bone_held = held(bone, kBoneEnd), tissue_held = held(tissue, kTissueEnd);
   FeelValues& v = result.values;
-  v["stiffness_felt_n_m"] = stiffness(run_part(setup, press(setup, seed, kBone, kDeep, kSlowly, kSlowly), seed, result));
-  v["stiffness_tissue_n_m"] = stiffness(run_part(setup, press(setup, seed, kTissue, kDeep, kSlowly, kSlowly), seed, result));
+  v["stiffness_felt_n_m"] =
+      stiffness(run_part(setup, press(setup, seed, kBone, kDeep, kSlowly, kSlowly), seed, result));
+  v["stiffness_tissue_n_m"] =
+      stiffness(run_part(setup, press(setup, seed, kTissue, kDeep, kSlowly, kSlowly), seed, result));
   v["stiffness_bone_held_n_m"] = bone_held.stiffness;
   v["stiffness_tissue_held_n_m"] = tissue_held.stiffness;
   v["force_got_n"] = bone_held.felt;

@@ -6,16 +6,17 @@
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
-/// A hand presses, then opens; about 1 N still pulls the handle of a frictionless device against a spring, as gravity would. What
-/// the law adds to the spring must not make energy: the handle has to come to rest.
+/// Release: a hand presses on a spring, then opens. About 1 N, as from gravity, still pulls the handle of a
+/// frictionless device against the spring. The handle must come to rest; otherwise the law adds energy to the spring.
 namespace tandem::netsim {
 namespace {
 
 constexpr double kPress = 0.004, kRelease = 4, kPull = 1;  // [m, s, N]
-// The device's own damping calms it, less what the sampled spring takes: at 0.93 of what a Touch renders with a time constant of 9 s on bone.
-constexpr double kMeasure = 30, kEnd = 34;                 // [s]
-constexpr double kBand = 0.5;                              // [Hz] below: the pose's drift under gravity compensation
-constexpr double kSettled = 1e-4;                          // [m] RMS; an encoder step of a Touch is 5.5e-5
+// The device's damping, minus the effect of the sampled spring, lets the handle settle. On bone, at 0.93 of the
+// stiffness that a Touch renders, the time constant is 9 s.
+constexpr double kMeasure = 30, kEnd = 34;  // [s]
+constexpr double kBand = 0.5;               // [Hz]; below it is the drift of the pose under gravity compensation
+constexpr double kSettled = 1e-4;           // [m] RMS; an encoder step of a Touch is 5.5e-5
 
 }  // namespace
 
@@ -38,7 +39,8 @@ ProbeResult probe_release(const FeelSetup& setup, std::uint64_t seed) {
     const auto [first, end] = trace.window(kMeasure, kEnd);
     const double amplitude = rms_above(Series{trace.hands[0].x}.subspan(first, end - first), kBand, trace.tick_hz);
     result.values[format("released_%g_m", k)] = amplitude;
-    most = std::isnan(amplitude) || std::isnan(most) ? std::numeric_limits<double>::quiet_NaN() : std::max(most, amplitude);
+    most = std::isnan(amplitude) || std::isnan(most) ? std::numeric_limits<double>::quiet_NaN()
+                                                     : std::max(most, amplitude);
   }
   result.values["released_m"] = most;
   result.values["released_settles"] = std::isnan(most) ? most : most <= kSettled ? 1 : 0;

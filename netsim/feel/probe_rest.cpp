@@ -5,8 +5,8 @@
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
-/// Limit cycles: a hand moves 30 mm within 0.3 s and back, then rests without tremor; a relaxed hand is knocked. What force goes on
-/// above 1 Hz from 5 s after the kick?
+/// Limit cycles: the force above 1 Hz on a hand at rest, from 5 s after a kick on. A hand moves 30 mm within 0.3 s and
+/// back, then rests without tremor; a relaxed hand is pushed.
 namespace tandem::netsim {
 namespace {
 
@@ -33,7 +33,8 @@ ProbeResult probe_rest(const FeelSetup& setup, std::uint64_t seed) {
   const DrawnHand hand{setup.hands, seed, 0};
   const DrawnHand steady{HandKind::kPlain, seed, 0};  // moves without tremor
   const auto path = [](double t) {
-    return hal::Vec3(kAway * (hal::sim::min_jerk((t - kOut) / kMove).value - hal::sim::min_jerk((t - kBack) / kMove).value), 0, 0);
+    return hal::Vec3(
+        kAway * (hal::sim::min_jerk((t - kOut) / kMove).value - hal::sim::min_jerk((t - kBack) / kMove).value), 0, 0);
   };
   double most = 0;
   for (const Resting& r : kHands) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "netsim/world.h"
-#include "netsim/world_report.h"
+#include "netsim/system/simulation.h"
+#include "netsim/system/simulation_report.h"
 
 namespace tandem::netsim {
 namespace {
@@ -19,7 +19,7 @@ SimDeviceSpec placed(SimDeviceSpec device, const ProbeRun& run) {
 
 hal::Vec3 vector_of(const server::Triple& v) { return {v[0], v[1], v[2]}; }
 
-void add_row(FeelTrace& trace, const World& world) {
+void add_row(FeelTrace& trace, const Simulation& world) {
   const server::TickRecord& record = world.record();
   trace.t.push_back(record.tick / trace.tick_hz);
   for (std::size_t i = 0; i < trace.hands.size(); ++i) {
@@ -45,8 +45,8 @@ EnvironmentSpec wall_of(double k) {
   return environment;
 }
 
-WorldSetup world_of(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed) {
-  WorldSetup out{.scene = setup.scene, .network = run.perfect_network ? LinkSpec{} : setup.network, .seed = seed};
+SimulationConfig simulation_config_of(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed) {
+  SimulationConfig out{.scene = setup.scene, .network = run.perfect_network ? LinkSpec{} : setup.network, .seed = seed};
   SceneSpec& scene = out.scene;
   const SceneSpec& given = setup.scene;
   scene.name = "probe of " + given.name;
@@ -95,19 +95,20 @@ WorldSetup world_of(const FeelSetup& setup, const ProbeRun& run, std::uint64_t s
 }
 
 FeelTrace run_probe(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed) {
-  const WorldSetup world_setup = world_of(setup, run, seed);
+  const SimulationConfig simulation_config = simulation_config_of(setup, run, seed);
   FeelTrace trace;
-  trace.tick_hz = world_setup.scene.tick_hz;
-  auto made = World::make(world_setup);
+  trace.tick_hz = simulation_config.scene.tick_hz;
+  auto made = Simulation::make(simulation_config);
   if (!made) {
     trace.trouble = made.error();
     return trace;
   }
-  World& world = **made;
+  Simulation& world = **made;
   trace.hands.resize(run.hands.size());
   for (std::size_t i = 0; i < trace.hands.size(); ++i) {
-    const SeatSpec& seat = world_setup.scene.seats[i];
-    trace.hands[i].force_max = std::min(seat.device.force_peak, world_setup.scene.gate.force_max * share_of_force(seat.role));
+    const SeatSpec& seat = simulation_config.scene.seats[i];
+    trace.hands[i].force_max =
+        std::min(seat.device.force_peak, simulation_config.scene.gate.force_max * share_of_force(seat.role));
   }
   std::vector<ProbePush> pushes = run.pushes;
   while (world.step()) {

@@ -6,8 +6,9 @@
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
 
-/// Two hands share a tool, one with 2 to 98 % of the authority. One moves 30 mm within 0.3 s and back, then both rest without tremor.
-/// What force goes on above 1 Hz at either hand from 5 s after the kick? Both hands are firm, then both soft.
+/// Shared authority: the force above 1 Hz on either of two hands that share a tool, from 5 s after a kick on. One hand
+/// has 2 to 98 % of the authority; it moves 30 mm within 0.3 s and back. Then both rest without tremor. Both hands are
+/// firm in one run and soft in the next.
 namespace tandem::netsim {
 namespace {
 
@@ -22,7 +23,11 @@ ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed) {
   ProbeResult result;
   const DrawnHand steady{HandKind::kPlain, seed, 0};  // moves without tremor
   const auto kick = steady.move(
-      [](double t) { return hal::Vec3(kAway * (hal::sim::min_jerk((t - kOut) / kMove).value - hal::sim::min_jerk((t - kBack) / kMove).value), 0, 0); },
+      [](double t) {
+        return hal::Vec3(
+            kAway * (hal::sim::min_jerk((t - kOut) / kMove).value - hal::sim::min_jerk((t - kBack) / kMove).value), 0,
+            0);
+      },
       kEnd);
   const auto still = steady.move([](double) { return hal::Vec3(0, 0, 0); }, kEnd);
   double most = 0;
@@ -34,7 +39,8 @@ ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed) {
       run.share = share;
       for (std::size_t i = 0; i < 2; ++i) {
         const DrawnHand hand{setup.hands, seed, i};
-        run.hands.push_back({soft ? hand.with_impedance(HandModel::kRecorded, 50, 1, 0.2) : hand.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM),
+        run.hands.push_back({soft ? hand.with_impedance(HandModel::kRecorded, 50, 1, 0.2)
+                                  : hand.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM),
                              i == 0 ? kick : still});
       }
       const FeelTrace trace = run_part(setup, run, seed, result);

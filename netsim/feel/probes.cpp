@@ -6,7 +6,7 @@ namespace tandem::netsim {
 
 namespace {
 
-constexpr double kSaturated = 0.99;  // of the largest force: the delivered one is quantised and turns with the pose
+constexpr double kSaturated = 0.99;  // of the largest force; the delivered one is quantised and turns with the pose
 
 }  // namespace
 
@@ -47,14 +47,22 @@ FeelTrace run_part(const FeelSetup& setup, const ProbeRun& run, std::uint64_t se
 
 ProbeResult run_probe(Probe probe, const FeelSetup& setup, std::uint64_t seed) {
   switch (probe) {
-    case Probe::kPress: return probe_press(setup, seed);
-    case Probe::kFree: return probe_free(setup, seed);
-    case Probe::kGain: return probe_gain(setup, seed);
-    case Probe::kRest: return probe_rest(setup, seed);
-    case Probe::kRelease: return probe_release(setup, seed);
-    case Probe::kHandOver: return probe_handover(setup, seed);
-    case Probe::kShare: return probe_share(setup, seed);
-    case Probe::kFollow: return probe_follow(setup, seed);
+    case Probe::kPress:
+      return probe_press(setup, seed);
+    case Probe::kFree:
+      return probe_free(setup, seed);
+    case Probe::kGain:
+      return probe_gain(setup, seed);
+    case Probe::kRest:
+      return probe_rest(setup, seed);
+    case Probe::kRelease:
+      return probe_release(setup, seed);
+    case Probe::kHandOver:
+      return probe_handover(setup, seed);
+    case Probe::kShare:
+      return probe_share(setup, seed);
+    case Probe::kFollow:
+      return probe_follow(setup, seed);
   }
   return {};
 }

@@ -8,23 +8,24 @@
 
 #include "netsim/feel/probe_scene.h"
 
-/// What is done with the hands to find out how a session feels. A probe is one or a few short runs of the virtual world.
+/// Probes measure how a session feels by moving simulated hands in prescribed ways. A probe consists of one or a few
+/// short runs of the simulation.
 namespace tandem::netsim {
 
 enum class Probe : std::uint8_t {
-  kPress,     ///< slow press on bone and tissue, then held
+  kPress,     ///< slow press on bone and tissue, then a constant press
   kFree,      ///< free motion: circles, a step, recordings; the other hand is relaxed
   kGain,      ///< small circles from 0.25 to 10 Hz
   kRest,      ///< hands that are kicked and then rest
-  kRelease,   ///< frictionless hands that let go while something pulls them against a spring
+  kRelease,   ///< frictionless devices whose hand is taken away while a force pulls the handle against a spring
   kHandOver,  ///< authority changes while both hands press
-  kShare,     ///< two hands that share a tool, one is kicked
+  kShare,     ///< two hands that share a tool; one of them is kicked
   kFollow,    ///< a relaxed hand beside the hand that leads it
 };
 struct ProbeName {
   Probe probe;
   std::string_view name;
-  std::string_view words;
+  std::string_view description;
 };
 inline constexpr std::array<ProbeName, 8> kProbes{{
     {Probe::kPress, "press", "pressing on bone and tissue"},
@@ -39,20 +40,20 @@ inline constexpr std::array<ProbeName, 8> kProbes{{
 
 /// Frequencies of Probe::kGain [Hz].
 inline constexpr std::array<double, 10> kGainHz{0.25, 0.5, 1, 2, 3, 4, 5, 6, 8, 10};
-/// Authority of the hand that is kicked in Probe::kShare.
+/// Authority of the kicked hand in Probe::kShare.
 inline constexpr std::array<double, 5> kShares{0.02, 0.1, 0.5, 0.9, 0.98};
-/// Springs of Probe::kRelease [N/m].
+/// Spring stiffnesses of Probe::kRelease [N/m].
 inline constexpr std::array<double, 5> kReleaseK{100, 300, 1000, 5000, 20'000};
 
-/// Time during which people work, summed over runs: what the network and the motors made of it.
+/// Effect of network and motors during the working time, summed over runs.
 struct Exposure {
-  double s = 0, engaged_s = 0, held_s = 0, saturated_s = 0;  ///< session time; of the leader and the tool [s]
+  double s = 0, engaged_s = 0, held_s = 0, saturated_s = 0;  ///< [s]: all, engaged, tool braked, motor saturated
   double trips = 0;                                          ///< of the leader's gate
   double error_square = 0;                                   ///< (commanded - delivered)^2 [N^2 s]
 
   void add(const Exposure& other) noexcept;
 };
-/// Of hand 0 from session time `from` on.
+/// Returns the exposure of hand 0 from session time `from` [s] on.
 [[nodiscard]] Exposure exposure_of(const FeelTrace& trace, double from);
 
 /// Numbers by key (netsim/feel/feel_keys.h), SI units. A number that does not exist is NaN.
@@ -61,9 +62,9 @@ using FeelValues = std::map<std::string, double>;
 struct ProbeResult {
   FeelValues values;
   Exposure exposure;
-  double lived_s = 0;   ///< session time of all runs [s]
-  double one_way_s = std::numeric_limits<double>::quiet_NaN();  ///< as the leader met it in the first run [s]
-  std::string trouble;  ///< of the first run that did not work; its numbers are NaN
+  double lived_s = 0;                                           ///< session time of all runs [s]
+  double one_way_s = std::numeric_limits<double>::quiet_NaN();  ///< network delay of the leader in the first run [s]
+  std::string trouble;  ///< failure of the first run that did not work; its numbers are NaN
 };
 
 [[nodiscard]] ProbeResult run_probe(Probe probe, const FeelSetup& setup, std::uint64_t seed);
@@ -78,9 +79,9 @@ struct ProbeResult {
 [[nodiscard]] ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed);
 [[nodiscard]] ProbeResult probe_follow(const FeelSetup& setup, std::uint64_t seed);
 
-/// Runs one part of a probe and keeps its time and its trouble.
+/// Runs one part of a probe; adds its time and its trouble to `result`.
 [[nodiscard]] FeelTrace run_part(const FeelSetup& setup, const ProbeRun& run, std::uint64_t seed, ProbeResult& result);
-/// The hand of an ideal person who guides a tool firmly; HandModel::kRecorded. [N/m, N s/m, kg]
+/// Impedance of an ideal user who guides a tool firmly; HandModel::kRecorded. [N/m, N s/m, kg]
 inline constexpr double kFirmK = 1000, kFirmB = 10, kFirmM = 0.1;
 
 }  // namespace tandem::netsim

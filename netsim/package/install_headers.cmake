@@ -1,12 +1,12 @@
-# Run by `cmake --install`: copies the entry headers of the package and all of ours that they include.
+# `cmake --install` runs this script. It copies the entry headers of the package and the headers of Tandem that they include.
 cmake_policy(VERSION 3.25)
 set(queue)
 foreach(pattern netsim/testing/*.h)
   file(GLOB found RELATIVE ${TANDEM_SOURCE_DIR} ${TANDEM_SOURCE_DIR}/${pattern})
   list(APPEND queue ${found})
 endforeach()
-list(APPEND queue netsim/capacity_csv.h netsim/network.h netsim/network_csv.h netsim/path.h netsim/profiles.h netsim/proxy_core.h
-     netsim/world.h netsim/world_report.h proto/scene_text.h proto/scenes_embedded.h common/base/rng.h)
+list(APPEND queue netsim/profiles/capacity_csv.h netsim/engine/network.h netsim/profiles/network_csv.h netsim/engine/path.h netsim/profiles/profile_loader.h netsim/proxy/proxy_core.h
+     netsim/system/simulation.h netsim/system/simulation_report.h proto/text/scene_text.h proto/text/scenes_embedded.h common/base/rng.h)
 
 set(done)
 while(queue)

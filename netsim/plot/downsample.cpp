@@ -30,7 +30,7 @@ std::vector<Point2> downsample_extremes(std::span<const Point2> curve, std::size
   const std::vector<Point2> all = finite_only(curve);
   most = std::max<std::size_t>(most, 4);
   if (all.size() <= most) return all;
-  // Ends apart, every bucket gives two points.
+  // Between the two ends, every bucket gives two points.
   const std::size_t buckets = (most - 2) / 2, inner = all.size() - 2;
   std::vector<Point2> out{all.front()};
   out.reserve(most);

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-/// Fewer points that draw the same picture. Pure.
+/// Reduces the number of points of a curve without a visible change. Pure functions.
 namespace tandem::netsim::plot {
 
 struct Point2 {
@@ -12,13 +12,14 @@ struct Point2 {
   friend bool operator==(const Point2&, const Point2&) = default;
 };
 
-/// A curve over an ascending x: the span is cut into equal numbers of samples, and of each the lowest and the highest
-/// are kept, in order, so that no peak is lost. First and last points stay. Points that are not finite are left out.
+/// Reduces a curve over an ascending x. The samples are divided into parts of equal count; of each part the lowest and
+/// the highest point are kept, in order, so that no peak is lost. First and last points stay. Points that are not
+/// finite are left out.
 /// @param most  at least 4; the result never has more points
 [[nodiscard]] std::vector<Point2> downsample_extremes(std::span<const Point2> curve, std::size_t most);
 
-/// A path in a plane (x goes back and forth): a point is kept when it is at least `step` away from the last one kept,
-/// and the ends always; while there are still more than `most`, the step is doubled.
+/// Reduces a path in a plane, where x may decrease. A point is kept if it is at least `step` away from the last kept
+/// one; both ends are always kept. While more than `most` points remain, the step is doubled.
 /// @param step  in units of the axes; > 0
 [[nodiscard]] std::vector<Point2> downsample_path(std::span<const Point2> path, double step, std::size_t most);
 

@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-/// Style sheet of the drawings, for a page that has several and for a file of one. Lines: Okabe and Ito's palette, which
-/// colour-blind people can tell apart; those that share a panel also differ in width and dashes, so that they stay apart
-/// on grey paper. Dark mode changes the variables only.
+/// Style sheet of the drawings, for a page with several drawings and for a file with one. Line colours are Okabe and
+/// Ito's palette, which colour-blind readers can distinguish. Lines of one panel also differ in width and dashes, so
+/// that they differ in a grey print. Dark mode changes the variables only.
 namespace tandem::netsim::plot {
 
 inline constexpr std::string_view kPlotColours = R"css(

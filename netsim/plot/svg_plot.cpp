@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kLeft = 62, kRight = 14, kTitle = 20, kTop = 8, kTickRow = 18, kLabelRow = 18, kLegend = 26;
 constexpr double kMarkRow = 14,
-                 kCharacter = 6.2;  // height of a row of names above a panel; width of a character of one
+                 kCharacter = 6.2;  // height of a row of labels above a panel; width of a character
 
-/// Where a panel's plot area stands and what it shows.
+/// Position of a panel's plot area, and the range that it shows.
 struct Frame {
   double left = 0, top = 0, width = 0, height = 0;
   Range x, y;
@@ -22,7 +22,7 @@ struct Frame {
   [[nodiscard]] double py(double v) const { return (y.hi - v) / (y.hi - y.lo) * height; }
 };
 
-/// A coordinate to a tenth of a pixel, in ASCII.
+/// Returns a coordinate to a tenth of a pixel, in ASCII.
 std::string px_text(double v) {
   const auto tenths = static_cast<long long>(std::llround(std::clamp(v, -1e6, 1e6) * 10));
   std::string text = tenths < 0 ? "-" : "";
@@ -43,20 +43,20 @@ void line(std::ostream& out, double x1, double y1, double x2, double y2, std::st
       << "\" y2=\"" << px_text(y2) << "\"/>";
 }
 
-/// Characters of UTF-8 text; all of ours are one column wide.
+/// Returns the number of characters of UTF-8 text; all characters here are one column wide.
 double characters(std::string_view text) {
   return static_cast<double>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 void draw_curve(std::ostream& out, const Frame& f, const Curve& curve) {
-  // More than two points per pixel cannot be seen.
+  // More than two points per pixel are not visible.
   const auto most = std::clamp<std::size_t>(static_cast<std::size_t>(2 * f.width), 4, kCurvePointsMax);
   std::vector<Point2> at;
   at.reserve(curve.points.size());
   for (const Point2& p : curve.points) at.push_back({f.px(p.x), f.py(p.y)});
   at = curve.path ? downsample_path(at, 1.0, most) : downsample_extremes(at, most);
   if (at.empty()) return;
-  // Relative moves in tenths of a pixel, summed exactly so that rounding does not drift.
+  // Relative moves in tenths of a pixel. Their exact sum keeps rounding errors from accumulating.
   const auto tenths = [](double v) { return std::llround(std::clamp(v, -1e6, 1e6) * 10); };
   long long x = tenths(at.front().x), y = tenths(at.front().y);
   out << "<path class=\"line " << curve.ink << "\" d=\"M" << px_text(at.front().x) << ' ' << px_text(at.front().y)
@@ -93,7 +93,7 @@ void draw_axes(std::ostream& out, const Frame& f, const Panel& panel, bool x_num
   if (x_numbers) text_at(out, f.left + f.width / 2, f.top + f.height + 32, "label mid", panel.x_label);
 }
 
-/// Spans that would stand in the same pixel are drawn as one.
+/// Draws the intervals; those in the same pixel become one.
 void draw_rug(std::ostream& out, const Frame& f, const std::vector<Band>& rug) {
   constexpr double kHeight = 7;
   double done = -1;
@@ -107,21 +107,21 @@ void draw_rug(std::ostream& out, const Frame& f, const std::vector<Band>& rug) {
   }
 }
 
-/// The name of a band or line above a panel: x from the panel's left edge, row 0 is the lowest.
+/// The label of a band or line above a panel: x from the panel's left edge, row 0 is the lowest.
 struct PlacedMark {
   double x = 0;
   std::size_t row = 0;
   const std::string* label = nullptr;
 };
 
-/// Puts each name into the lowest row in which it covers no other one.
+/// Places each label in the lowest row in which it covers no other label.
 std::vector<PlacedMark> placed_marks(const Frame& f, const Panel& panel) {
   std::vector<PlacedMark> marks;
   for (const Band& b : panel.bands) marks.push_back({std::clamp(f.px((b.from + b.to) / 2), 0.0, f.width), 0, &b.label});
   for (const Line& v : panel.verticals) marks.push_back({f.px(v.at), 0, &v.label});
   std::erase_if(marks, [](const PlacedMark& m) { return m.label->empty(); });
   std::ranges::sort(marks, {}, &PlacedMark::x);
-  std::vector<double> row_ends;  // the title begins the lowest row
+  std::vector<double> row_ends;  // the title starts the lowest row
   if (!panel.title.empty()) row_ends.push_back((characters(panel.title) + 2) * kCharacter);
   for (PlacedMark& m : marks) {
     const double half = characters(*m.label) * kCharacter / 2;
@@ -133,7 +133,7 @@ std::vector<PlacedMark> placed_marks(const Frame& f, const Panel& panel) {
   return marks;
 }
 
-/// Height of what stands above a panel: its title, or the names of its bands and lines.
+/// Returns the height of the area above a panel: its title, or the labels of its bands and lines.
 double head_height(const Frame& f, const Panel& panel) {
   std::size_t rows = panel.title.empty() ? 0 : 1;
   for (const PlacedMark& m : placed_marks(f, panel)) rows = std::max(rows, m.row + 1);
@@ -148,7 +148,7 @@ void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_nu
         << px_text(to - from) << "\" height=\"" << px_text(f.height) << "\"/>";
   }
   draw_axes(out, f, panel, x_numbers);
-  // A nested svg cuts off what is outside of the plot area.
+  // A nested svg clips what is outside the plot area.
   out << "<svg x=\"" << px_text(f.left) << "\" y=\"" << px_text(f.top) << "\" width=\"" << px_text(f.width)
       << "\" height=\"" << px_text(f.height) << "\">";
   for (const Line& v : panel.verticals) line(out, f.px(v.at), 0, f.px(v.at), f.height, "mark");
@@ -169,7 +169,7 @@ void draw_panel(std::ostream& out, const Frame& f, const Panel& panel, bool x_nu
   }
 }
 
-/// Legend entries in the order they first appear: label and ink.
+/// Returns the legend entries in the order of their first use: label and ink.
 std::vector<const Curve*> legend_of(const Figure& figure) {
   std::vector<const Curve*> entries;
   for (const Panel& p : figure.panels)

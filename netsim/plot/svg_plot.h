@@ -7,17 +7,17 @@
 
 #include "netsim/plot/downsample.h"
 
-/// Line plots as inline SVG. Pure: numbers in, text out. Colours and fonts are classes that the page's style sheet
-/// defines (plot_style.h), so that one drawing serves light, dark and paper.
+/// Line plots as inline SVG. Pure functions: numbers in, text out. The page's style sheet (plot_style.h) defines the
+/// classes of colours and fonts. One drawing therefore works in light mode, in dark mode and in print.
 namespace tandem::netsim::plot {
 
 struct Curve {
-  std::string label;  ///< in the legend, once per figure; empty: not there
-  std::string ink;    ///< class of the line
+  std::string label;  ///< in the legend, once per figure; empty: not in the legend
+  std::string ink;    ///< CSS class of the line
   std::vector<Point2> points;
-  bool path = false;  ///< goes back and forth in x: thinned as a path
+  bool path = false;  ///< x may decrease: reduced as a path
 };
-/// A span of x that is shaded, named at its top.
+/// A shaded interval of x, with its label above.
 struct Band {
   double from = 0, to = 0;
   std::string label;
@@ -27,7 +27,7 @@ struct Line {
   double at = 0;
   std::string label;
 };
-/// A dot with a name beside it.
+/// A dot with a label beside it.
 struct Note {
   Point2 at;
   std::string label;
@@ -37,41 +37,41 @@ struct Range {
 };
 
 struct Panel {
-  std::string title = {}, x_label = {}, y_label = {};  ///< labels carry their unit: "time [s]"
+  std::string title = {}, x_label = {}, y_label = {};  ///< axis labels contain their unit: "time [s]"
   std::vector<Curve> curves = {};
   std::vector<Band> bands = {};
-  std::vector<Band> rug = {};  ///< spans marked along the lower edge, at least a pixel wide each
+  std::vector<Band> rug = {};  ///< intervals marked along the lower edge, each at least one pixel wide
   std::vector<Line> verticals = {}, horizontals = {};
   std::vector<Note> notes = {};
-  std::optional<Range> x = {}, y = {};  ///< default: what the curves need, and a margin
-  double y_span_min = 0;                ///< the automatic y range is at least so wide: noise stays small
-  bool equal_scale = false;             ///< one unit is as long along x as along y
+  std::optional<Range> x = {}, y = {};  ///< default: the range of the curves plus a margin
+  double y_span_min = 0;                ///< minimum of the automatic y range, so that noise is not magnified
+  bool equal_scale = false;             ///< one unit has the same length along x and y
   double height = 150;                  ///< of the plot area [px]
 };
 
 struct Figure {
-  std::string description;    ///< for those who cannot see it
+  std::string description;    ///< for readers who cannot see the drawing
   std::size_t columns = 1;    ///< panels side by side
   std::vector<Panel> panels;  ///< row by row
 };
 
-inline constexpr double kFigureWidth = 1080;          ///< of the drawing [px]; the page scales it
-inline constexpr double kNarrowWidth = 372;           ///< the same for a screen of 400 px, where scaled text is too small
-inline constexpr double kTwoColumnsFrom = 600;        ///< narrower figures have one column of panels
+inline constexpr double kFigureWidth = 1080;    ///< of the drawing [px]; the page scales it
+inline constexpr double kNarrowWidth = 372;     ///< the same for a screen of 400 px, where scaled text is too small
+inline constexpr double kTwoColumnsFrom = 600;  ///< narrower figures have one column of panels
 inline constexpr std::size_t kCurvePointsMax = 1000;  ///< per curve
 
-/// The figure as one <svg> element.
+/// Returns the figure as one <svg> element.
 /// @param width  of the drawing [px], at least 200
 [[nodiscard]] std::string to_svg(const Figure& figure, double width = kFigureWidth);
 
-/// The same as a file of its own, with its style sheet and a background.
+/// Returns the figure as a separate file, with its style sheet and a background.
 [[nodiscard]] std::string to_svg_file(const Figure& figure);
 
-/// The range a panel shows along y (or x): the curves' extremes and 6 % on each side, at least `span_min` wide.
-/// No finite point: [0, 1].
+/// Returns the range that a panel shows along y (or x): the curves' extremes and 6 % on each side, at least `span_min`
+/// wide. Without a finite point it is [0, 1].
 [[nodiscard]] Range range_of(const std::vector<Curve>& curves, bool along_y, double span_min);
 
-/// Text with &, <, > and quotes escaped.
+/// Returns the text with &, <, > and quotes escaped.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 }  // namespace tandem::netsim::plot

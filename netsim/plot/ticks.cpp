@@ -16,7 +16,7 @@ Ticks round_ticks(double lo, double hi, int wanted) {
   const double ratio = raw / unit;  // [1, 10)
   const double step = (ratio <= 1 ? 1 : ratio <= 2 ? 2 : ratio <= 5 ? 5 : 10) * unit;
   const double first = std::ceil(lo / step - 1e-9), last = std::floor(hi / step + 1e-9);
-  if (!(std::abs(first) < 1e12) || last - first > 2 * wanted + 2) return ticks;  // span lost in rounding
+  if (!(std::abs(first) < 1e12) || last - first > 2 * wanted + 2) return ticks;  // the span is lost in rounding
   for (double k = first; k <= last; ++k) ticks.values.push_back(k * step);
   ticks.decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   return ticks;
@@ -34,7 +34,7 @@ std::string number_text(double value, int decimals) {
 
 std::string significant_text(double value, int digits) {
   if (!std::isfinite(value) || value == 0) return number_text(value, 0);
-  // 9.96 with two digits is 10, not 10.0: count the digits of what will be written.
+  // 9.96 with two digits is 10, not 10.0: the digits of the rounded value count.
   const double scale = std::pow(10, digits - 1 - std::floor(std::log10(std::abs(value))));
   const double rounded = std::round(value * scale) / scale;
   const int whole = static_cast<int>(std::floor(std::log10(std::abs(rounded)) + 1e-12)) + 1;

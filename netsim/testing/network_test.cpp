@@ -94,7 +94,8 @@ Outcome NetworkTest::send(Direction direction, std::string_view text, std::uint3
 std::optional<Received> NetworkTest::receive(Direction direction, std::uint32_t link) {
   const auto got = network_->poll(now_, link, direction, buffer_);
   if (!got) return std::nullopt;
-  return Received{{buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(got->size)}, got->sent, got->at, got->index};
+  return Received{
+      {buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(got->size)}, got->sent, got->at, got->index};
 }
 
 server::RunReport NetworkTest::run_scene(const SceneRun& run) {

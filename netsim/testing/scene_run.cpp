@@ -2,19 +2,19 @@
 
 #include <sstream>
 
-#include "common/link/digest.h"
-#include "netsim/profiles.h"
-#include "netsim/world_notes.h"
-#include "netsim/world_report.h"
-#include "proto/scene_text.h"
-#include "proto/scenes_embedded.h"
-#include "server/trace_csv.h"
+#include "common/transport/digest.h"
+#include "netsim/profiles/profile_loader.h"
+#include "netsim/system/session_notes.h"
+#include "netsim/system/simulation_report.h"
+#include "proto/text/scene_text.h"
+#include "proto/text/scenes_embedded.h"
+#include "server/report/trace_csv.h"
 
 namespace tandem::netsim {
 
-std::expected<WorldSetup, std::string> world_setup(const SceneRun& run) {
+std::expected<SimulationConfig, std::string> simulation_config(const SceneRun& run) {
   std::string mistakes;
-  WorldSetup setup;
+  SimulationConfig setup;
   setup.seed = run.seed;
   if (const ShippedScene* const shipped = find_shipped_scene(run.scene); shipped == nullptr) {
     mistakes += "there is no scene " + run.scene + "; there are:";
@@ -27,24 +27,26 @@ std::expected<WorldSetup, std::string> world_setup(const SceneRun& run) {
   }
   if (auto profile = shipped_profile(run.profile)) {
     setup.network = profile->link;
-    if (profile->capacity_file) mistakes += "profile " + run.profile + " needs a recorded capacity, which a program must supply\n";
+    if (profile->capacity_file)
+      mistakes += "profile " + run.profile + " needs a recorded capacity, which a program must supply\n";
   } else {
     mistakes += to_text(profile.error());
   }
   if (!(run.duration_s >= 0 && run.duration_s <= 3e6)) mistakes += "duration_s must be in [0, 3e6]\n";
-  if (run.duration_s == 0 && !setup.scene.seats.empty() && setup.scene.endless()) mistakes += no_end(run.scene, "set SceneRun::duration_s") + "\n";
+  if (run.duration_s == 0 && !setup.scene.seats.empty() && setup.scene.endless())
+    mistakes += endless_scene_error(run.scene, "set SceneRun::duration_s") + "\n";
   if (!mistakes.empty()) return std::unexpected(std::move(mistakes));
   if (run.duration_s > 0) setup.scene.duration = run.duration_s;
   return setup;
 }
 
-std::expected<server::RunReport, std::string> run_world(const WorldSetup& setup) {
-  auto made = World::make(setup);
+std::expected<server::RunReport, std::string> run_simulation(const SimulationConfig& setup) {
+  auto made = Simulation::make(setup);
   if (!made) return std::unexpected(made.error());
-  World& world = **made;
+  Simulation& world = **made;
   server::ReportBuilder builder{world.scene()};
   const server::TraceCsv csv{world.scene()};
-  link::Digest digest;
+  transport::Digest digest;
   std::string row = csv.header();
   digest.add(row);
   while (world.step()) {
@@ -56,15 +58,15 @@ std::expected<server::RunReport, std::string> run_world(const WorldSetup& setup)
     digest.add(row);
   }
   if (!world.trouble().empty()) return std::unexpected(world.trouble());
-  server::RunReport report = world_report(world, builder, setup.seed);
+  server::RunReport report = simulation_report(world, builder, setup.seed);
   report.trace_hash = digest.hex();
   return report;
 }
 
 std::expected<server::RunReport, std::string> run_scene(const SceneRun& run) {
-  const auto setup = world_setup(run);
+  const auto setup = simulation_config(run);
   if (!setup) return std::unexpected(setup.error());
-  return run_world(*setup);
+  return run_simulation(*setup);
 }
 
 std::string replay_command(const SceneRun& run) {

@@ -4,31 +4,32 @@
 #include <expected>
 #include <string>
 
-#include "netsim/world.h"
-#include "server/report.h"
+#include "netsim/system/simulation.h"
+#include "server/report/report.h"
 
 namespace tandem::netsim {
 
-/// One whole session in virtual time, named as on the command line.
+/// One whole session in virtual time, with the names that the command line uses.
 struct SceneRun {
-  std::string scene;              ///< a shipped scene: `tandem-server scenes`
-  std::string profile = "ideal";  ///< a shipped network: `tandem-netsim profiles`
+  std::string scene;              ///< name of a shipped scene, see `tandem-server scenes`
+  std::string profile = "ideal";  ///< name of a shipped network, see `tandem-netsim profiles`
   std::uint64_t seed = 1;
-  double duration_s = 0;  ///< 0: the scene's own
+  double duration_s = 0;  ///< length of the session [s], [0, 3e6]; 0: the scene's own
 };
 
-/// The setup that a run stands for, to be changed before `run_world`. Error: all mistakes, one per line.
-[[nodiscard]] std::expected<WorldSetup, std::string> world_setup(const SceneRun& run);
+/// Returns the configuration of a run, which the caller may change before `run_simulation`.
+/// Error: all errors of the names and values, one per line.
+[[nodiscard]] std::expected<SimulationConfig, std::string> simulation_config(const SceneRun& run);
 
-/// Runs a session to its end and judges it. Same setup: same report and `trace_hash`, which is the SHA-256 of the same rows
-/// that `tandem-netsim run --trace` writes.
-/// Error: the session could not be made or did not begin.
-[[nodiscard]] std::expected<server::RunReport, std::string> run_world(const WorldSetup& setup);
+/// Runs a session to its end and returns its report. The same setup gives the same report and `trace_hash`. That hash
+/// is the SHA-256 of the rows that `tandem-netsim run --trace` writes. Error: the session could not be made or did not
+/// begin.
+[[nodiscard]] std::expected<server::RunReport, std::string> run_simulation(const SimulationConfig& setup);
 
-/// Both together.
+/// Calls `simulation_config` and `run_simulation`. Error: as of these two.
 [[nodiscard]] std::expected<server::RunReport, std::string> run_scene(const SceneRun& run);
 
-/// What a person types to see the same run again, with every tick in a file.
+/// Returns the shell command that repeats the run and writes every tick to a file.
 [[nodiscard]] std::string replay_command(const SceneRun& run);
 
 }  // namespace tandem::netsim

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/nearest.h"
-#include "proto/scene_text.h"
-#include "proto/scenes_embedded.h"
+#include "common/base/suggestions.h"
+#include "proto/text/scene_text.h"
+#include "proto/text/scenes_embedded.h"
 
 namespace tandem {
 namespace {
@@ -21,7 +21,8 @@ InputErrors one_error(const std::string& file, std::string message) {
   return {{file, 0, 0, "", "", std::move(message)}};
 }
 
-/// Whether text is a CSV table: its first rows are cells between commas, as many in each, without any brace or colon of a scene.
+/// Whether text is a CSV table: its first rows have the same number of comma-separated cells and no brace or colon of a
+/// scene.
 bool is_table(std::string_view text) {
   std::size_t commas = 0;
   for (int rows = 0; rows < 3 && text.find('\n') != std::string_view::npos;) {
@@ -29,14 +30,15 @@ bool is_table(std::string_view text) {
     text.remove_prefix(line.size() + 1);
     if (line.starts_with('#')) continue;
     const auto count = static_cast<std::size_t>(std::ranges::count(line, ','));
-    if (count == 0 || line.find_first_of(":{}") != std::string_view::npos || (rows > 0 && count != commas)) return false;
+    if (count == 0 || line.find_first_of(":{}") != std::string_view::npos || (rows > 0 && count != commas))
+      return false;
     commas = count;
     ++rows;
   }
   return commas > 0;
 }
 
-/// The beginning of a file, whatever its size.
+/// The first 4096 bytes of a file of any size.
 std::string head_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text(4096, '\0');
@@ -82,7 +84,9 @@ std::expected<SceneSpec, InputErrors> load_scene(const std::string& path_or_name
         one_error(path_or_name, "no such file, and no shipped scene of this name; " + suggest(stem, names)));
   }
   if (is_table(head_of(path_or_name)))
-    return std::unexpected(one_error(path_or_name, "is a CSV table, not a scene: a scene is text such as `name: \"lesson\"`; `tandem-server scenes` lists those that are shipped"));
+    return std::unexpected(one_error(path_or_name,
+                                     "is a CSV table, not a scene: a scene is text such as `name: \"lesson\"`; "
+                                     "`tandem-server scenes` lists those that are shipped"));
   const auto text = read_text_file(path_or_name);
   if (!text) return std::unexpected(text.error());
   return parse_scene(*text, path_or_name);

@@ -2,17 +2,17 @@
 #include <functional>
 
 #include "common/io/log.h"
-#include "common/io/private_memory.h"
+#include "common/io/process_hardening.h"
 #include "common/io/program.h"
-#include "server/app/run_command.h"
-#include "server/app/trust_commands.h"
+#include "server/app/commands/auth_commands.h"
+#include "server/app/commands/server_commands.h"
 
 #ifndef TANDEM_VERSION
 #define TANDEM_VERSION "unknown"
 #endif
 
 int main(int argc, char** argv) {
-  tandem::io::keep_memory_private();
+  tandem::io::harden_process();
   CLI::App app{
       "tandem-server hosts sessions in which several people hold the same tool over a network. It couples all hands to "
       "the\n"

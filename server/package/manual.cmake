@@ -1,4 +1,4 @@
-# A manual page made of what the program says of itself: cmake -DPROGRAM=... -DNAME=... -DVERSION=... -DOUT=... -P manual.cmake
+# Builds a manual page from a program's --help: cmake -DPROGRAM=... -DNAME=... -DVERSION=... -DOUT=... -P manual.cmake
 function(help_of out)
   execute_process(COMMAND ${PROGRAM} ${ARGN} --help OUTPUT_VARIABLE text RESULT_VARIABLE code)
   if(NOT code EQUAL 0)
@@ -7,7 +7,7 @@ function(help_of out)
   set(${out} "${text}" PARENT_SCOPE)
 endfunction()
 
-# As roff without filling: backslashes and leading dots mean something there.
+# Converts text to roff without filling; backslashes and leading dots are escaped.
 function(roff out text)
   string(REPLACE "\\" "\\e" text "${text}")
   string(REGEX REPLACE "(^|\n)([.'])" "\\1\\\\\\\\&\\2" text "${text}")
@@ -15,7 +15,7 @@ function(roff out text)
 endfunction()
 
 help_of(main)
-# The first sentence, over however many lines the help breaks it; `et al. (` ends none.
+# The first sentence of the help, without line breaks; `et al. (` does not end it.
 string(REGEX REPLACE "\n\n.*$" "" summary "${main}")
 string(REGEX REPLACE "[ \n]+" " " summary "${summary}")
 string(REGEX REPLACE "[.] [A-Z].*$" "." summary "${summary}")

@@ -1,7 +1,7 @@
-# The SBOM of one program: SPDX 2.3 in JSON. Lists the program, every Debian package whose shared library it is linked with
-# (DT_NEEDED), and the libraries of headers alone that are compiled into it.
+# Writes the SBOM of one program: SPDX 2.3 in JSON. It lists the program, every Debian package of a linked shared
+# library (DT_NEEDED), and the header-only libraries compiled into it.
 #   cmake -DPROGRAM=... -DNAME=... -DVERSION=... -DHEADERS=PACKAGE;... -DOUT=... -P sbom.cmake
-# The time in it is SOURCE_DATE_EPOCH where that is set.
+# SOURCE_DATE_EPOCH, if set, is the time in the SBOM.
 cmake_minimum_required(VERSION 3.25)
 set(ours Apache-2.0)  # LICENSE
 
@@ -14,7 +14,7 @@ function(run out)
   set(${out} "${text}" PARENT_SCOPE)
 endfunction()
 
-# The SPDX expression of a package; its copyright file must still say what licences.txt was made from.
+# The SPDX expression of a package. Fails if its copyright file does not contain the words in licences.txt.
 function(licence_of out source package)
   file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/licences.txt lines REGEX "^[^#]")
   foreach(line IN LISTS lines)
@@ -34,7 +34,7 @@ function(licence_of out source package)
   message(FATAL_ERROR "SBOM of ${NAME}: no licence of '${source}' (package ${package}) in licences.txt; read its copyright file and add a line")
 endfunction()
 
-# ---- what it consists of -------------------------------------------------------------------------------------------------
+# ---- contents of the program -------------------------------------------------------------------------------------------------
 run(dynamic readelf -d ${PROGRAM})
 string(REGEX MATCHALL "\\(NEEDED\\)[^\n]*\\[[^]\n]+\\]" needed "${dynamic}")
 set(packages)
@@ -43,7 +43,7 @@ foreach(line IN LISTS needed)
   string(REGEX REPLACE ".*\\[(.*)\\]" "\\1" library "${line}")
   list(APPEND names ${library})
 endforeach()
-# The file that the loader takes decides: other architectures have libraries of the same names.
+# Uses the file that the loader selects: libraries of other architectures have the same names.
 run(loaded ldd ${PROGRAM})
 set(patterns)
 foreach(library IN LISTS names)

@@ -15,8 +15,8 @@
 
 namespace tandem::bench {
 
-/// The least that a UDP forwarder with a socket pair per client can do: epoll, recvmmsg, sendmmsg on the partner. No
-/// network, no stamps, no counters. What the proxy is compared with.
+/// Minimal UDP forwarder with a socket pair per client: epoll, recvmmsg, and sendmmsg on the other socket of the pair.
+/// It has no network model, no time stamps and no counters. Reference for the cost of the proxy.
 class BareForwarder {
  public:
   BareForwarder(const io::SocketAddress& to) : to_(to), listen_(udp()), poll_(epoll_create1(0)), wake_(eventfd(0, 0)) {
@@ -112,7 +112,7 @@ class BareForwarder {
   io::SocketAddress to_, listening_;
   io::Fd listen_, poll_, wake_;
   std::atomic<bool> stopping_{false};
-  std::vector<io::Fd> sockets_;  ///< 2 n: towards client n, 2 n + 1: towards the server
+  std::vector<io::Fd> sockets_;  ///< index 2 n: towards client n; 2 n + 1: towards the server
   std::array<std::array<std::byte, 1500>, kBatch> data_;
   std::array<iovec, kBatch> pieces_{};
   std::array<mmsghdr, kBatch> headers_{};

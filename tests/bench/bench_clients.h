@@ -6,21 +6,21 @@
 #include <span>
 #include <vector>
 
-#include "client/seat.h"
-#include "common/link/link.h"
+#include "client/seat/seat.h"
+#include "common/transport/secure_channel.h"
 #include "hal/sim/sim_device.h"
-#include "netsim/world_joining.h"
-#include "proto/wire_codec.h"
-#include "server/session.h"
+#include "netsim/system/simulated_handshake.h"
+#include "proto/wire/wire_codec.h"
+#include "server/session/session.h"
 
 namespace tandem::bench {
 
-/// A client that costs next to nothing: seals STATEs of an engaged hand at rest, answers challenges, and learns from FORCE only what it
-/// must echo.
+/// Minimal client: seals STATE messages of an engaged hand at rest and answers path challenges. It uses only those
+/// fields of FORCE that it must echo.
 class BareClient {
  public:
-  BareClient(const netsim::VirtualSeat& joined)
-      : link_(joined.link), codec_(joined.setup.dof, joined.setup.port) {
+  BareClient(const netsim::SimulatedJoin& joined)
+      : link_(joined.channel_params), codec_(joined.setup.dof, joined.setup.port) {
     state_.ready = true;
   }
 
@@ -36,12 +36,12 @@ class BareClient {
     link_.accept(now, *opened, force->preamble);
     ++forces_;
     state_.engaged = force->message.engage;
-    if (!settled_) state_.port.x = force->message.port.x;  // where the tool is: no elongation
+    if (!settled_) state_.port.x = force->message.port.x;  // position of the tool: the coupling has no elongation
     settled_ = state_.engaged;
   }
-  /// The next datagram; 0: there is none.
+  /// Writes the next datagram into `buffer`. @return size [bytes]; 0: none
   std::size_t send(Time now, std::uint32_t tick, std::span<std::byte> buffer) {
-    const auto body = buffer.subspan(link::kHeaderSize);
+    const auto body = buffer.subspan(transport::kHeaderSize);
     if (answer_) {
       const std::size_t plain = codec_.encode(link_.preamble(now, tick), *answer_, body);
       answer_.reset();
@@ -49,13 +49,13 @@ class BareClient {
     }
     return link_.seal(now, wire::Type::kState, buffer, codec_.encode(link_.preamble(now, tick), state_, body));
   }
-  [[nodiscard]] const link::Link& link() const { return link_; }
+  [[nodiscard]] const transport::SecureChannel& link() const { return link_; }
   [[nodiscard]] bool settled() const { return settled_; }
   [[nodiscard]] bool answers() const { return answer_.has_value(); }
   [[nodiscard]] std::uint64_t forces() const { return forces_; }
 
  private:
-  link::Link link_;
+  transport::SecureChannel link_;
   wire::Codec codec_;
   wire::StateMessage state_;
   std::optional<wire::PathMessage> answer_;
@@ -63,9 +63,11 @@ class BareClient {
   std::uint64_t forces_ = 0;
 };
 
-/// Caps of the device that a seat of the scene describes.
+/// Returns the capabilities of the device that the scene describes for a seat.
 inline hal::DeviceCaps caps_of(const SceneSpec& scene, std::size_t seat) {
-  return (*hal::sim::SimDevice::make({scene.seats[seat].device, HandSpec{}, scene.seats[seat].environment, nullptr, Time{}}))->caps();
+  return (*hal::sim::SimDevice::make(
+              {scene.seats[seat].device, HandSpec{}, scene.seats[seat].environment, nullptr, Time{}}))
+      ->caps();
 }
 
 }  // namespace tandem::bench

@@ -1,5 +1,6 @@
-// What the engine costs per datagram in virtual time: Network::send and everything polled that is due, 128 bytes at 1 kHz. Beside
-// it, in the same run, the least that anything could do: bytes copied into a slot, a time into std::priority_queue, and out again.
+// Measures the cost of the engine per datagram in virtual time: Network::send and polling of all due datagrams, 128
+// bytes at 1 kHz. The reference in the same run is the least possible work: it copies the bytes into a slot and out
+// again, and passes a time through std::priority_queue.
 #include <linux/perf_event.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -15,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "netsim/decision_log.h"
-#include "netsim/network.h"
-#include "netsim/profiles.h"
+#include "netsim/engine/decision_log.h"
+#include "netsim/engine/network.h"
+#include "netsim/profiles/profile_loader.h"
 #include "tests/support/alloc_guard.h"
 
 namespace {
@@ -31,7 +32,7 @@ constexpr int kWarm = 5'000, kMeasured = 100'000, kRounds = 7;
 
 double cpu_ns() { return 1e9 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Something that takes one datagram per call.
+/// A measured case: handles one datagram per call.
 class Case {
  public:
   virtual ~Case() = default;
@@ -108,7 +109,8 @@ Cost measure(const std::string& name) {
   return {(cpu_ns() - begin) / kMeasured, guard.count()};
 }
 
-/// Counts the user instructions of this thread; -1 where the kernel or the machine has no counter for us.
+/// Opens a counter of this thread's user-space instructions. @return file descriptor; -1: the kernel or the machine
+/// provides no counter
 int open_counter() {
   perf_event_attr attributes{};
   attributes.type = PERF_TYPE_HARDWARE;
@@ -123,7 +125,8 @@ double counted_by_kernel(int counter, const std::string& name) {
   const auto one = make(name);
   const auto value = [&] {
     std::uint64_t instructions = 0;
-    return read(counter, &instructions, sizeof instructions) == sizeof instructions ? static_cast<double>(instructions) : 0;
+    return read(counter, &instructions, sizeof instructions) == sizeof instructions ? static_cast<double>(instructions)
+                                                                                    : 0;
   };
   int i = 0;
   for (; i < kWarm; ++i) one->one(Time{1ms * i});
@@ -132,10 +135,10 @@ double counted_by_kernel(int counter, const std::string& name) {
   return (value() - before) / kWarm;
 }
 
-/// Instructions of this program for `count` datagrams, by callgrind; 0 when it cannot be had.
+/// Returns the instructions of this program for `count` datagrams, counted by callgrind; 0 if callgrind failed.
 double collected(const std::string& self, const std::string& name, int count) {
-  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '" + self + "' --only '" + name + "' " +
-                              std::to_string(count) + " 2>&1";
+  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '" + self + "' --only '" +
+                              name + "' " + std::to_string(count) + " 2>&1";
   FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return 0;
   double all = 0;
@@ -153,7 +156,7 @@ double counted_by_valgrind(const std::string& self, const std::string& name) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count == 4 && std::string(arguments[1]) == "--only") {  // what callgrind looks at
+  if (count == 4 && std::string(arguments[1]) == "--only") {  // callgrind runs the program with these arguments
     const auto one = make(arguments[2]);
     const int datagrams = std::atoi(arguments[3]);
     for (int i = 0; i < datagrams; ++i) one->one(Time{1ms * i});
@@ -161,7 +164,7 @@ int main(int count, char** arguments) {
   }
   const std::vector<std::string> names{"reference", "ideal", "lan", "wifi-busy", "4g", "worst", "wifi-busy logged"};
   std::vector<std::vector<Cost>> costs(names.size());
-  for (int round = 0; round < kRounds; ++round)  // interleaved: a noisy moment hits all cases alike
+  for (int round = 0; round < kRounds; ++round)  // interleaved, so that a disturbance affects all cases
     for (std::size_t i = 0; i < names.size(); ++i) costs[i].push_back(measure(names[i]));
 
   const std::string self = "/proc/" + std::to_string(getpid()) + "/exe";
@@ -174,16 +177,24 @@ int main(int count, char** arguments) {
     std::ranges::sort(all, {}, &Cost::ns);
     return all[all.size() / 2];
   };
-  std::printf("%-18s %14s %12s %14s %12s %14s\n", "network", "ns/datagram", "x reference", "instructions", "x reference", "heap/100000");
+  std::printf("%-18s %14s %12s %14s %12s %14s\n", "network", "ns/datagram", "x reference", "instructions",
+              "x reference", "heap/100000");
   double ns = 0, ops = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Cost cost = median(costs[i]);
     const double own = instructions(names[i]);
     if (i == 0) ns = cost.ns, ops = own;
-    std::printf("%-18s %14.1f %12.2f %14.0f %12.2f %14zu\n", names[i].c_str(), cost.ns, cost.ns / ns, own, ops > 0 ? own / ops : 0, cost.heap);
+    std::printf("%-18s %14.1f %12.2f %14.0f %12.2f %14zu\n", names[i].c_str(), cost.ns, cost.ns / ns, own,
+                ops > 0 ? own / ops : 0, cost.heap);
   }
-  std::printf("one way, %zu bytes at 1 kHz in virtual time; CPU time, median of %d interleaved rounds of %d; instructions by %s\n", kSize, kRounds,
-              kMeasured, counter >= 0 ? "the kernel's counter (perf_event_open)" : valgrind ? "valgrind --tool=callgrind" : "nobody: 0");
-  if (counter < 0 && !valgrind) std::printf("[ NOT RUN  ] instructions per datagram: no counter for us (perf_event_open) and no valgrind\n");
+  std::printf(
+      "one way, %zu bytes at 1 kHz in virtual time; CPU time, median of %d interleaved rounds of %d; instructions by "
+      "%s\n",
+      kSize, kRounds, kMeasured,
+      counter >= 0 ? "the kernel's counter (perf_event_open)"
+      : valgrind   ? "valgrind --tool=callgrind"
+                   : "nobody: 0");
+  if (counter < 0 && !valgrind)
+    std::printf("[ NOT RUN  ] instructions per datagram: no counter for us (perf_event_open) and no valgrind\n");
   return 0;
 }

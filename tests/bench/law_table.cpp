@@ -1,11 +1,12 @@
-// Channel laws and flow source modes side by side: the same hands, networks and seeds, so that the table and not taste chooses defaults.
+// Compares channel laws and flow source modes with the same hands, networks and seeds. The table is the basis for the
+// choice of defaults.
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace {
 
@@ -24,7 +25,7 @@ constexpr Choice kChoices[] = {{"replica, open", LawKind::kReplica, MfsMode::kOp
                                {"set_position, seed_signed", LawKind::kSetPosition, MfsMode::kSeedSigned},
                                {"raw, open", LawKind::kRaw, MfsMode::kOpen}};
 
-/// Follower's hand [N s/m, N/m]; the leader is the scene's.
+/// Hand of the follower: damping b [N s/m], stiffness k [N/m]. The scene defines the hand of the leader.
 struct Hand {
   const char* name;
   double b, k;
@@ -44,8 +45,10 @@ struct Mean {
 
 int main() {
   const std::vector<double> delays{0, 20, 100};
-  std::printf("free motion, demonstration phase, mean over %zu follower hands: leader - slave / follower - slave RMS [mm], broken promises\n",
-              std::size(kHands));
+  std::printf(
+      "free motion, demonstration phase, mean over %zu follower hands: leader - slave / follower - slave RMS [mm], "
+      "broken promises\n",
+      std::size(kHands));
   std::printf("%-27s", "law, flow sources");
   for (const double d : delays) std::printf("  %8.0f ms one way  ", d);
   std::printf("  ledger\n");

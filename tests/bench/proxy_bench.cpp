@@ -1,5 +1,5 @@
-// CPU of the live proxy per datagram beside that of a bare forwarder, same sockets and load, rounds interleaved. Ratios
-// of one run are worth something on a shared machine; absolute times are not.
+// Compares the CPU time per datagram of the live proxy with that of a bare forwarder: same sockets and load, rounds
+// interleaved. On a shared machine only the ratios within one run are meaningful; absolute times are not.
 #include <pthread.h>
 #include <sys/prctl.h>
 
@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "netsim/app/proxy.h"
-#include "netsim/profiles.h"
+#include "netsim/profiles/profile_loader.h"
+#include "netsim/proxy/app/proxy.h"
 #include "tests/bench/bare_forwarder.h"
 #include "tests/bench/udp_load.h"
 
@@ -32,7 +32,7 @@ struct Measured {
   bench::UdpLoad::Counts counts;
 };
 
-/// CPU of the thread that runs `work` while `load` is on it.
+/// Measures the CPU time of the thread that runs `forwarder` under `load`.
 template <class Forwarder>
 Measured measure(Forwarder& forwarder, bench::UdpLoad& load, Duration length, bool spread, Duration delay_max,
                  const char* name) {
@@ -46,7 +46,7 @@ Measured measure(Forwarder& forwarder, bench::UdpLoad& load, Duration length, bo
   Measured measured;
   if (!load.meet(forwarder.listening())) std::printf("not all clients got through\n");
   bench::UdpLoad::Counts rest;
-  load.run(200ms, spread);  // until everything flows
+  load.run(200ms, spread);  // until the forwarder serves all clients
   bench::UdpLoad::pause_until(io::read_clock(CLOCK_MONOTONIC) + delay_max + 50ms);
   load.drain(rest);
   const Duration begin = io::read_clock(CLOCK_MONOTONIC);
@@ -102,12 +102,12 @@ void one_round(const Case& c, Row& row, Duration length) {
   row.late.merge((*proxy)->lateness());
   row.bare_missing += reference.counts.sent - reference.counts.up - reference.counts.down;
   if (c.lossless) row.missing += ours.counts.sent - ours.counts.up - ours.counts.down;
-  row.drops += end.troubles.kernel_drops + end.troubles.no_room + end.troubles.refused + end.troubles.other;
+  row.drops += end.errors.kernel_drops + end.errors.no_room + end.errors.refused + end.errors.other;
 }
 
 }  // namespace
 
-/// Arguments, for profiling: seconds per round, rounds, a part of a case's name.
+/// Arguments, for profiling: seconds per round, number of rounds, part of a case's name.
 int main(int argc, char** argv) {
   const Duration length = from_seconds(argc > 1 ? std::atof(argv[1]) : 1.0);
   const int rounds = argc > 2 ? std::atoi(argv[2]) : 5;
@@ -118,8 +118,7 @@ int main(int argc, char** argv) {
     const std::string arrivals = spread ? ", spread" : ", together";
     cases.push_back({"no delay" + arrivals, {}, 0ms, spread});
     cases.push_back({"5 ms" + arrivals, netsim::link_from({.delay = 5ms}), 5ms, spread});
-    cases.push_back(
-        {"5 to 15 ms" + arrivals, netsim::link_from({.delay = 5ms, .jitter = 10ms}), 15ms, spread, true});
+    cases.push_back({"5 to 15 ms" + arrivals, netsim::link_from({.delay = 5ms, .jitter = 10ms}), 15ms, spread, true});
     cases.push_back({"wifi-busy" + arrivals, busy->link, 500ms, spread, false});
   }
   std::erase_if(cases, [&](const Case& c) { return c.name.find(only) == std::string::npos; });
@@ -136,14 +135,17 @@ int main(int argc, char** argv) {
     const Row& row = rows[i];
     const double ratio = median(row.ratio);
     kept = kept && ratio <= kRatioAsked;
-    std::printf(
-        "%-22s %9.0f %9.0f %6.2f (%4.2f..%4.2f) %5.2f %6.1f us %6.1f us %8llu %6llu%s\n", cases[i].name.c_str(),
-        median(row.bare), median(row.ours), ratio, std::ranges::min(row.ratio), std::ranges::max(row.ratio), row.share,
-        static_cast<double>(row.late.quantile(0.5)) / 1e3, static_cast<double>(row.late.quantile(0.99)) / 1e3,
-        static_cast<unsigned long long>(row.missing + row.bare_missing), static_cast<unsigned long long>(row.drops), ratio <= kRatioAsked ? "" : " *");
+    std::printf("%-22s %9.0f %9.0f %6.2f (%4.2f..%4.2f) %5.2f %6.1f us %6.1f us %8llu %6llu%s\n", cases[i].name.c_str(),
+                median(row.bare), median(row.ours), ratio, std::ranges::min(row.ratio), std::ranges::max(row.ratio),
+                row.share, static_cast<double>(row.late.quantile(0.5)) / 1e3,
+                static_cast<double>(row.late.quantile(0.99)) / 1e3,
+                static_cast<unsigned long long>(row.missing + row.bare_missing),
+                static_cast<unsigned long long>(row.drops), ratio <= kRatioAsked ? "" : " *");
   }
-  std::printf("* above what is asked. Where all clients send in one instant and the network spreads them, the bare forwarder wakes\n"
-              "  up once per millisecond, and who keeps each one's moment cannot.\n");
+  std::printf(
+      "* above what is asked. Where all clients send in one instant and the network spreads them, the bare forwarder "
+      "wakes\n"
+      "  up once per millisecond, and who keeps each one's moment cannot.\n");
   std::printf("asked: at most %.1f: %s\n", kRatioAsked, kept ? "kept" : "NOT KEPT");
-  return 0;  // it measures; machines are shared and noisy
+  return 0;  // a measurement, not a test: shared machines are noisy
 }

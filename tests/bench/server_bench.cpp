@@ -1,5 +1,6 @@
-// What a sealed client-tick costs the server (open, decode, step, encode, seal; 3 axes): user-space instructions by callgrind, and CPU
-// of the shard's thread beside a bare recvmmsg/sendmmsg echo of the same datagrams in the same run.
+// Measures the server's cost of a sealed client-tick (open, decode, step, encode, seal; 3 axes). It counts user-space
+// instructions with callgrind. It also compares the CPU time of the shard's thread with a bare recvmmsg/sendmmsg echo
+// of the same datagrams in the same run.
 #include <pthread.h>
 #include <sys/socket.h>
 
@@ -16,35 +17,37 @@
 
 #include "common/io/clock.h"
 #include "common/io/realtime.h"
-#include "server/app/shard.h"
+#include "server/app/process/shard.h"
 #include "tests/bench/bench_clients.h"
 #include "tests/bench/udp_load.h"
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem::bench {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// One datagram in a test's hands.
+/// One datagram in memory.
 struct Carried {
-  std::array<std::byte, link::kDatagramMax> bytes;
+  std::array<std::byte, transport::kDatagramMax> bytes;
   std::size_t size = 0;
   std::size_t client = 0;
 };
 
-server::Endpoint address_of(std::size_t client) {
-  server::Endpoint e;
+server::PeerAddress address_of(std::size_t client) {
+  server::PeerAddress e;
   e.bytes[0] = static_cast<std::byte>(client);
   e.bytes[1] = static_cast<std::byte>(client >> 8);
   e.size = 2;
   return e;
 }
 
-/// The whole of a server's work in a tick: callgrind counts in here. Not inlined, so that it finds it.
-[[gnu::noinline]] std::size_t serve_one_tick(std::vector<std::unique_ptr<server::Session>>& sessions, std::size_t seats, Time now,
-                                             std::span<const Carried> in, std::span<Carried> out) {
-  for (const Carried& d : in) sessions[d.client / seats]->on_datagram(now, address_of(d.client), std::span{d.bytes}.first(d.size));
+/// Does all work of a server in a tick. callgrind counts inside this function and needs its symbol: not inlined.
+/// @return number of datagrams in `out`
+[[gnu::noinline]] std::size_t serve_one_tick(std::vector<std::unique_ptr<server::Session>>& sessions, std::size_t seats,
+                                             Time now, std::span<const Carried> in, std::span<Carried> out) {
+  for (const Carried& d : in)
+    sessions[d.client / seats]->on_datagram(now, address_of(d.client), std::span{d.bytes}.first(d.size));
   std::size_t sent = 0;
   for (auto& session : sessions) {
     session->on_tick(now, 0);
@@ -52,7 +55,8 @@ server::Endpoint address_of(std::size_t client) {
       const auto due = session->poll_transmit(now, out[sent].bytes);
       if (!due) break;
       out[sent].size = due->size;
-      out[sent].client = std::to_integer<std::size_t>(due->to.bytes[0]) | std::to_integer<std::size_t>(due->to.bytes[1]) << 8;
+      out[sent].client = std::to_integer<std::size_t>(due->to.bytes[0]) | std::to_integer<std::size_t>(due->to.bytes[1])
+                                                                              << 8;
       ++sent;
     }
   }
@@ -60,11 +64,11 @@ server::Endpoint address_of(std::size_t client) {
 }
 
 std::unique_ptr<server::Session> session_of(const SceneSpec& scene) {
-  auto slaves = *server::make_slaves(scene, Time{});
+  auto slaves = *server::make_local_slaves(scene, Time{});
   return std::make_unique<server::Session>(scene, std::move(slaves.devices), slaves.scale);
 }
 
-/// In memory, for callgrind. @return exit code
+/// Runs sessions in memory, for callgrind. @return exit code
 int serve(const std::string& name, int ticks) {
   const SceneSpec scene = test::shipped(name);
   constexpr std::size_t kSessions = 8;
@@ -75,7 +79,8 @@ int serve(const std::string& name, int ticks) {
   for (std::size_t s = 0; s < kSessions; ++s) {
     sessions.push_back(session_of(scene));
     for (std::size_t i = 0; i < seats; ++i)
-      clients.push_back(std::make_unique<BareClient>(*netsim::join_virtually(*sessions.back(), now, i, caps_of(scene, i), RandomKey{s}, i)));
+      clients.push_back(std::make_unique<BareClient>(
+          *netsim::simulate_join(*sessions.back(), now, i, caps_of(scene, i), RandomKey{s}, i)));
   }
   std::vector<Carried> in(2 * clients.size()), out(2 * clients.size());
   for (int tick = 0; tick < ticks; ++tick, now += 1ms) {
@@ -91,15 +96,15 @@ int serve(const std::string& name, int ticks) {
     for (const Carried& d : std::span{out}.first(sent)) clients[d.client]->hear(now, std::span{d.bytes}.first(d.size));
   }
   for (const auto& session : sessions)
-    if (session->state() != wire::SessionState::kRunning) return 1;  // else it measured people who wait
+    if (session->state() != wire::SessionState::kRunning) return 1;  // otherwise it measured waiting participants
   std::printf("%zu client-ticks\n", clients.size() * static_cast<std::size_t>(ticks));
   return 0;
 }
 
-/// @return instructions inside `function`, -1 if callgrind did not run
+/// Returns the instructions inside `function`; -1 if callgrind did not run.
 double collected(const std::string& self, const std::string& scene, int ticks, const std::string& function) {
-  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '--toggle-collect=" + function + "' " + self +
-                              " --serve " + scene + " " + std::to_string(ticks) + " 2>&1";
+  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '--toggle-collect=" + function +
+                              "' " + self + " --serve " + scene + " " + std::to_string(ticks) + " 2>&1";
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return -1;
   double instructions = -1;
@@ -109,7 +114,8 @@ double collected(const std::string& self, const std::string& scene, int ticks, c
   return pclose(pipe) == 0 ? instructions : -1;
 }
 
-/// @return instructions inside `function` per client-tick once everybody is engaged, nothing if callgrind did not run
+/// Returns the instructions inside `function` per client-tick after all hands are engaged; nothing if callgrind did not
+/// run.
 std::optional<double> per_client_tick(const std::string& self, const std::string& scene, const std::string& function) {
   constexpr int kFew = 300, kMany = 1300;
   const double few = collected(self, scene, kFew, function), many = collected(self, scene, kMany, function);
@@ -118,13 +124,16 @@ std::optional<double> per_client_tick(const std::string& self, const std::string
 }
 
 void count_instructions(const std::string& self) {
-  std::printf("user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s %10s  %s\n", "scene", "seats",
-              "instructions", "its arms'", "what the server does besides");
+  std::printf(
+      "user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s %10s  %s\n",
+      "scene", "seats", "instructions", "its arms'", "what the server does besides");
   const struct {
     const char *scene, *besides;
     bool arms;
-  } cases[] = {{"contact_remote", "one tool, its slave is a client", false}, {"free_motion", "one tool and a simulated arm", true},
-               {"two_by_two", "two tools and two simulated arms", true}, {"eight_seats", "one tool, eight hands, a simulated arm", true}};
+  } cases[] = {{"contact_remote", "one tool, its slave is a client", false},
+               {"free_motion", "one tool and a simulated arm", true},
+               {"two_by_two", "two tools and two simulated arms", true},
+               {"eight_seats", "one tool, eight hands, a simulated arm", true}};
   for (const auto& c : cases) {
     const auto all = per_client_tick(self, c.scene, "*serve_one_tick*");
     const auto arms = c.arms ? per_client_tick(self, c.scene, "*SimDevice::advance*") : 0.0;
@@ -142,12 +151,12 @@ Duration cpu_of(pthread_t thread) {
   return io::read_clock(clock);
 }
 
-/// Answers each datagram with `size` bytes, in batches, once a millisecond: what no server can do cheaper.
+/// Answers each datagram with `size` bytes, in batches, once per millisecond: the minimum cost of any server.
 class Echo {
  public:
   Echo(io::UdpSocket socket, std::size_t size) : socket_(std::move(socket)), size_(size) {}
   void run() {
-    io::ask_for_realtime(70);
+    io::request_realtime(70);
     Time due = io::monotonic_now() + 1ms;
     while (!stop_.load()) {
       UdpLoad::pause_until(due.time_since_epoch());
@@ -174,11 +183,11 @@ class Echo {
   std::atomic<std::uint64_t> answered_{0};
   io::ReceiveBatch in_;
   io::SendBatch out_;
-  std::array<std::byte, link::kDatagramMax> bytes_{};
+  std::array<std::byte, transport::kDatagramMax> bytes_{};
   std::array<io::SocketAddress, io::ReceiveBatch::kMax> to_{};
 };
 
-/// Sockets of many clients, driven by one thread: all send at the millisecond.
+/// Sockets of many clients. One thread drives them: all clients send at the start of each millisecond.
 class Crowd {
  public:
   Crowd(std::size_t clients, const io::SocketAddress& to) {
@@ -193,7 +202,8 @@ class Crowd {
       for (std::size_t c = 0; c < sockets_.size(); ++c) {
         for (ssize_t size; (size = ::recv(sockets_[c].get(), buffer.data(), buffer.size(), MSG_DONTWAIT)) > 0;)
           hear(c, std::span{buffer}.first(static_cast<std::size_t>(size)));
-        for (std::size_t size; (size = fill(c, buffer)) > 0;) [[maybe_unused]] const auto sent = ::send(sockets_[c].get(), buffer.data(), size, 0);
+        for (std::size_t size; (size = fill(c, buffer)) > 0;) [[maybe_unused]]
+          const auto sent = ::send(sockets_[c].get(), buffer.data(), size, 0);
       }
     }
   }
@@ -204,7 +214,7 @@ class Crowd {
 
 constexpr std::size_t kStateBytes = wire::state_size(3) + 32, kForceBytes = wire::force_size(3) + 32;
 
-/// CPU of the echo's thread per datagram pair [ns].
+/// Returns the CPU time of the echo's thread per datagram pair [ns].
 double echo_cost(std::size_t clients, Duration length) {
   auto socket = io::bind_udp(*io::parse_address("127.0.0.1:0", 0));
   Crowd crowd{clients, socket->local};
@@ -226,22 +236,25 @@ double echo_cost(std::size_t clients, Duration length) {
   return static_cast<double>(spent.count()) / pairs;
 }
 
-/// CPU of the shard's thread per client-tick [ns]; negative if not every hand was held.
+/// Returns the CPU time of the shard's thread per client-tick [ns]; negative if not every hand was engaged.
 double shard_cost(const SceneSpec& scene, std::size_t sessions, Duration length) {
   auto socket = io::bind_udp(*io::parse_address("127.0.0.1:0", 0));
   const io::SocketAddress at = socket->local;
   auto shard = std::make_unique<server::Shard>(std::move(*socket), scene.tick_hz);
   std::vector<std::unique_ptr<server::TickQueue>> queues;
-  std::vector<std::unique_ptr<server::HostedSession>> hosted;
+  std::vector<std::unique_ptr<server::LiveSession>> hosted;
   std::vector<std::unique_ptr<BareClient>> clients;
-  std::vector<server::Order> orders(sessions);
+  std::vector<server::ShardRequest> orders(sessions);
   for (std::size_t s = 0; s < sessions; ++s) {
-    queues.push_back(std::make_unique<server::TickQueue>(64));  // full soon: its rows are dropped and counted, as when a recorder is late
-    hosted.push_back(std::make_unique<server::HostedSession>(scene, *server::make_slaves(scene, Time{}), static_cast<std::uint8_t>(s), *queues.back()));
+    queues.push_back(std::make_unique<server::TickQueue>(
+        64));  // full soon: the shard drops and counts further rows, as with a late recorder
+    hosted.push_back(std::make_unique<server::LiveSession>(scene, *server::make_local_slaves(scene, Time{}),
+                                                           static_cast<std::uint8_t>(s), *queues.back()));
     for (std::size_t i = 0; i < scene.seats.size(); ++i)
       clients.push_back(std::make_unique<BareClient>(
-          *netsim::join_virtually(hosted.back()->session(), io::monotonic_now(), i, caps_of(scene, i), RandomKey{s}, i, false, static_cast<std::uint8_t>(s))));
-    orders[s].what = server::Order::What::kHost;
+          *netsim::simulate_join(hosted.back()->session(), io::monotonic_now(), i, caps_of(scene, i), RandomKey{s}, i,
+                                 false, static_cast<std::uint8_t>(s))));
+    orders[s].what = server::ShardRequest::What::kAddSession;
     orders[s].session = hosted.back().get();
     if (!shard->post(orders[s])) return -1;
   }
@@ -254,7 +267,9 @@ double shard_cost(const SceneSpec& scene, std::size_t sessions, Duration length)
     if (!answers) sent[c] = !sent[c];
     return answers || sent[c] ? clients[c]->send(io::monotonic_now(), ++tick, buffer) : 0;
   };
-  const auto hear = [&](std::size_t c, std::span<const std::byte> bytes) { clients[c]->hear(io::monotonic_now(), bytes); };
+  const auto hear = [&](std::size_t c, std::span<const std::byte> bytes) {
+    clients[c]->hear(io::monotonic_now(), bytes);
+  };
   const auto forces = [&] {
     std::uint64_t sum = 0;
     for (const auto& c : clients) sum += c->forces();
@@ -277,7 +292,7 @@ void compare_with_echo() {
   const SceneSpec scene = test::shipped("contact_remote");
   const std::size_t sessions = 100 / scene.seats.size(), clients = sessions * scene.seats.size();
   std::vector<double> echo, shard, ratio;
-  for (int i = 0; i < kPairs; ++i) {  // interleaved: a noisy moment hits both
+  for (int i = 0; i < kPairs; ++i) {  // interleaved, so that a disturbance affects both
     echo.push_back(echo_cost(clients, 1s));
     shard.push_back(shard_cost(scene, sessions, 1s));
     ratio.push_back(shard.back() / echo.back());
@@ -286,9 +301,14 @@ void compare_with_echo() {
     std::ranges::sort(v);
     return v[v.size() / 2];
   };
-  std::printf("\nCPU of the server's thread, %zu clients of %zu sessions, all at the millisecond (asked: ratio at most 1.4)\n", clients, sessions);
-  std::printf("cpu_ns_per_client_tick=%.0f ref_echo_cpu_ns_per_pair=%.0f ratio=%.2f [%.2f..%.2f] median of %d interleaved pairs of 1 s\n",
-              median(shard), median(echo), median(ratio), *std::ranges::min_element(ratio), *std::ranges::max_element(ratio), kPairs);
+  std::printf(
+      "\nCPU of the server's thread, %zu clients of %zu sessions, all at the millisecond (asked: ratio at most 1.4)\n",
+      clients, sessions);
+  std::printf(
+      "cpu_ns_per_client_tick=%.0f ref_echo_cpu_ns_per_pair=%.0f ratio=%.2f [%.2f..%.2f] median of %d interleaved "
+      "pairs of 1 s\n",
+      median(shard), median(echo), median(ratio), *std::ranges::min_element(ratio), *std::ranges::max_element(ratio),
+      kPairs);
 }
 
 }  // namespace

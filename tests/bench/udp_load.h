@@ -14,8 +14,8 @@
 
 namespace tandem::bench {
 
-/// Clients and a server around something that forwards UDP between them, from one thread: every client sends to the
-/// server, and the server to every client, `kBytes` each millisecond.
+/// Load on a UDP forwarder: one thread drives the clients and the server at its two sides. Each millisecond every
+/// client sends `kBytes` to the server, and the server sends `kBytes` to every client.
 class UdpLoad {
  public:
   static constexpr std::size_t kBytes = 128;
@@ -30,7 +30,7 @@ class UdpLoad {
   }
   [[nodiscard]] const io::SocketAddress& server() const { return address_; }
 
-  /// Every client says hello until the server heard all of them. @return whether it did, within 20 s
+  /// Each client sends datagrams until the server has received one from each. @return whether it did, within 20 s
   bool meet(const io::SocketAddress& forwarder) {
     upstreams_.assign(clients_, {});
     for (auto& socket : sockets_) ::connect(socket.get(), forwarder.get(), forwarder.size);
@@ -53,10 +53,11 @@ class UdpLoad {
     return met == clients_;
   }
 
-  /// What `meet` sent, and read.
+  /// Returns the datagrams that `meet` sent and received.
   [[nodiscard]] const Counts& met() const { return met_; }
 
-  /// @param spread  clients one after another within the millisecond; else all at its beginning
+  /// Sends for `length`. @param spread  true: clients one after another within the millisecond; false: all at its
+  /// beginning
   Counts run(Duration length, bool spread) {
     Counts counts;
     const Duration begin = io::read_clock(CLOCK_MONOTONIC);
@@ -75,7 +76,7 @@ class UdpLoad {
     }
     return counts;
   }
-  /// Reads everything that arrived.
+  /// Reads and counts all datagrams that arrived.
   void drain(Counts& counts) {
     while (::recv(server_.get(), in_.data(), in_.size(), MSG_DONTWAIT) >= 0) ++counts.up;
     for (const io::Fd& socket : sockets_) {

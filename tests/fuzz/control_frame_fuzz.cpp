@@ -1,9 +1,9 @@
-// Frames of the control connection: an error, or a message that is written by the very same bytes.
-#include "proto/control_codec.h"
+// Fuzzes frames of the control connection: decoding gives an error, or a message that encodes to the same bytes.
+#include "proto/rpc/rpc_codec.h"
 #include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace tandem::control;
+  using namespace tandem::rpc;
   const auto in = tandem::fuzz::bytes(data, size);
   if (size >= kLengthSize) {
     const auto length = frame_length(in.first<kLengthSize>());

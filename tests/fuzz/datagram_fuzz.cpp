@@ -1,21 +1,22 @@
-// Datagrams at both ends of a connection: first as a stranger sends them, then as if the tag had been right, since whoever holds a key may
-// say anything. Whatever is taken is finite and in range, and is written by the very bytes it was read from.
+// Fuzzes datagrams at both ends of a connection: first as from an unknown sender, then as plaintext with a valid tag,
+// because a peer with a key may send any content. Each accepted message is finite and in range, and encodes to as many
+// bytes as it was decoded from.
 #include <cmath>
 
-#include "common/link/link.h"
-#include "proto/wire_codec.h"
+#include "common/transport/secure_channel.h"
+#include "proto/wire/wire_codec.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {
 
 using namespace tandem;
 
-link::Link::Params end_of(link::Direction outgoing) {
-  link::Link::Params p;
+transport::SecureChannel::Params end_of(transport::Direction outgoing) {
+  transport::SecureChannel::Params p;
   p.outgoing = outgoing;
-  p.own_cid = outgoing == link::Direction::kToServer ? 11 : 22;
+  p.own_cid = outgoing == transport::Direction::kToServer ? 11 : 22;
   p.peer_cid = 33 - p.own_cid;
-  p.secrets.cipher = link::Cipher::kChaCha20Poly1305;
+  p.secrets.cipher = transport::Cipher::kChaCha20Poly1305;
   return p;
 }
 
@@ -46,9 +47,12 @@ void as_insider(std::span<const std::byte> plain) {
       }
       if (const auto m = codec.decode_force(plain)) {
         expect_sound(m->message.port, axes, position_max);
-        for (const LocalContact& contact : m->message.contacts.all()) FUZZ_EXPECT(is_surface(contact, axes) && in_range(contact));
+        for (const LocalContact& contact : m->message.contacts.all())
+          FUZZ_EXPECT(is_surface(contact, axes) && in_range(contact));
         FUZZ_EXPECT(m->message.ghost.leader <= kMastersMax);
-        for (std::size_t k = 0; k < 3; ++k) FUZZ_EXPECT(std::abs(m->message.ghost.x[k]) <= wire::kPositionMaxM && std::abs(m->message.ghost.v[k]) <= wire::kVelocityMax);
+        for (std::size_t k = 0; k < 3; ++k)
+          FUZZ_EXPECT(std::abs(m->message.ghost.x[k]) <= wire::kPositionMaxM &&
+                      std::abs(m->message.ghost.v[k]) <= wire::kVelocityMax);
         expect_same(codec, m, plain);
       }
       if (const auto m = codec.decode_authority(plain)) expect_same(codec, m, plain);
@@ -62,18 +66,20 @@ void as_insider(std::span<const std::byte> plain) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto in = fuzz::bytes(data, size);
-  static link::Link client{end_of(link::Direction::kToServer)}, server{end_of(link::Direction::kToClient)};
+  static transport::SecureChannel client{end_of(transport::Direction::kToServer)},
+      server{end_of(transport::Direction::kToClient)};
   const Time now{std::chrono::hours(1)};
   FUZZ_EXPECT(!client.open(now, in));
   FUZZ_EXPECT(!server.open(now, in));
   as_insider(in);
 
   if (size == 0 || size > wire::kPlaintextMax) return 0;
-  link::Link sender{end_of(link::Direction::kToServer)}, receiver{end_of(link::Direction::kToClient)};
-  std::array<std::byte, link::kDatagramMax> datagram{};
-  std::ranges::copy(in, datagram.begin() + link::kHeaderSize);
+  transport::SecureChannel sender{end_of(transport::Direction::kToServer)},
+      receiver{end_of(transport::Direction::kToClient)};
+  std::array<std::byte, transport::kDatagramMax> datagram{};
+  std::ranges::copy(in, datagram.begin() + transport::kHeaderSize);
   const std::size_t sealed = sender.seal(now, wire::Type::kState, datagram, size);
-  FUZZ_EXPECT(sealed == size + link::kHeaderSize + link::kTagSize);
+  FUZZ_EXPECT(sealed == size + transport::kHeaderSize + transport::kTagSize);
   const auto opened = receiver.open(now, std::span{datagram}.first(sealed));
   FUZZ_EXPECT(opened && std::ranges::equal(opened->plaintext, in));
   return 0;

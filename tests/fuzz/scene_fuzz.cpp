@@ -1,7 +1,7 @@
-// Scene texts, strict and lenient form alike, and the setup of a seat as it travels: mistakes with their places, or a scene whose
-// explanation can be printed and whose seats' setups are read back.
-#include "proto/scene_text.h"
-#include "proto/seat_setup.h"
+// Fuzzes scene texts in strict and lenient form, and encoded seat setups. Parsing a scene gives errors with their
+// locations, or a scene whose seat setups can be encoded and decoded.
+#include "proto/text/scene_text.h"
+#include "proto/text/seat_setup.h"
 #include "tests/fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,5 @@
-// A whole session as text: what changes here was changed on purpose, or by accident. TANDEM_UPDATE_GOLDEN=1 writes the files anew.
+// Compares whole sessions with stored text files. A difference is either an intended change of behaviour or a
+// regression. TANDEM_UPDATE_GOLDEN=1 writes the files again.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -6,16 +7,16 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
 
-/// Twice a second: authority, tips and forces, in tenths of a millimetre and hundredths of a newton, so that only behaviour shows and
-/// not the last bit of a compiler's arithmetic.
+/// Returns authority, tips and forces as text, twice a second, in tenths of a millimetre and hundredths of a newton. At
+/// this resolution the text shows changes of behaviour, but not the last bit of a compiler's arithmetic.
 std::string told(const SceneSpec& scene, const netsim::SimpleNetwork& net) {
   std::string out = "t alpha x[mm] y z f_out[N] ... per master, slave x y z f_env\n";
-  const auto r = test::run(scene, net, 1, [&](netsim::World& w) {
+  const auto r = test::run(scene, net, 1, [&](netsim::Simulation& w) {
     const auto& record = w.record();
     if (!record.running || record.tick % 500 != 0) return;
     char text[128];
@@ -52,13 +53,14 @@ void expect_golden(const std::string& name, const std::string& now) {
     ASSERT_EQ(was, is) << path << ":" << line << "; if meant: TANDEM_UPDATE_GOLDEN=1";
 }
 
-// Written anew on 2026-11-23, when shipped scenes became law REPLICA's; the lines of before are those that end in `_set_position`, as they were.
-TEST(Golden, FreeMotionIsToldAsBefore) {
+// Written again on 2026-11-23, when the shipped scenes changed to law REPLICA. The previous texts are the files that
+// end in `_set_position`, unchanged.
+TEST(Golden, ReproducesFreeMotion) {
   expect_golden("free_motion", told(test::shipped("free_motion"), {}));
   expect_golden("free_motion_set_position", told(test::set_position("free_motion"), {}));
 }
 
-TEST(Golden, ContactOverABadNetworkIsToldAsBefore) {
+TEST(Golden, ReproducesContactOverABadNetwork) {
   expect_golden("contact_bad_network", told(test::shipped("contact"), test::delayed(20, 5, 5)));
   expect_golden("contact_bad_network_set_position", told(test::set_position("contact"), test::delayed(20, 5, 5)));
 }

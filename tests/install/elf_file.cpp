@@ -16,7 +16,8 @@ constexpr std::string_view kEndbr64{"\xf3\x0f\x1e\xfa", 4};
 
 template <class T>
 T ElfFile::at(std::uint64_t offset) const {
-  if (offset > bytes_.size() || bytes_.size() - offset < sizeof(T)) throw std::runtime_error("an offset beyond the end of the file");
+  if (offset > bytes_.size() || bytes_.size() - offset < sizeof(T))
+    throw std::runtime_error("an offset beyond the end of the file");
   T value;
   std::memcpy(&value, bytes_.data() + offset, sizeof value);
   return value;
@@ -67,28 +68,44 @@ void ElfFile::read_dynamic(std::uint64_t offset, std::uint64_t size) {
   for (std::uint64_t i = 0; i < size; i += sizeof(Elf64_Dyn)) {
     const auto d = at<Elf64_Dyn>(offset + i);
     switch (d.d_tag) {
-      case DT_STRTAB: names = offset_of(d.d_un.d_ptr); break;
-      case DT_SYMTAB: symbols = offset_of(d.d_un.d_ptr); break;
-      case DT_NEEDED: needed.push_back(d.d_un.d_val); break;
-      case DT_RELA: relocations = offset_of(d.d_un.d_ptr); break;
-      case DT_RELASZ: relocations_size = d.d_un.d_val; break;
-      case DT_BIND_NOW: bind_now_ = true; break;
-      case DT_FLAGS: bind_now_ = bind_now_ || (d.d_un.d_val & DF_BIND_NOW) != 0; break;
+      case DT_STRTAB:
+        names = offset_of(d.d_un.d_ptr);
+        break;
+      case DT_SYMTAB:
+        symbols = offset_of(d.d_un.d_ptr);
+        break;
+      case DT_NEEDED:
+        needed.push_back(d.d_un.d_val);
+        break;
+      case DT_RELA:
+        relocations = offset_of(d.d_un.d_ptr);
+        break;
+      case DT_RELASZ:
+        relocations_size = d.d_un.d_val;
+        break;
+      case DT_BIND_NOW:
+        bind_now_ = true;
+        break;
+      case DT_FLAGS:
+        bind_now_ = bind_now_ || (d.d_un.d_val & DF_BIND_NOW) != 0;
+        break;
       case DT_FLAGS_1:
         bind_now_ = bind_now_ || (d.d_un.d_val & DF_1_NOW) != 0;
         position_independent_ = (d.d_un.d_val & DF_1_PIE) != 0 && at<Elf64_Ehdr>(0).e_type == ET_DYN;
         break;
-      default: break;
+      default:
+        break;
     }
   }
   for (const std::uint64_t name : needed) libraries_.push_back(text_at(names + name));
-  // The table of symbols has no length of its own; its section, which stripping leaves, has.
+  // The symbol table does not state its length; its section, which stripping keeps, does.
   const auto header = at<Elf64_Ehdr>(0);
   for (unsigned i = 0; i < header.e_shnum; ++i) {
     const auto section = at<Elf64_Shdr>(header.e_shoff + i * sizeof(Elf64_Shdr));
     if (section.sh_type == SHT_DYNSYM) symbols_end = section.sh_offset + section.sh_size;
   }
-  for (std::uint64_t at_symbol = symbols; at_symbol + sizeof(Elf64_Sym) <= symbols_end; at_symbol += sizeof(Elf64_Sym)) {
+  for (std::uint64_t at_symbol = symbols; at_symbol + sizeof(Elf64_Sym) <= symbols_end;
+       at_symbol += sizeof(Elf64_Sym)) {
     const auto symbol = at<Elf64_Sym>(at_symbol);
     if (symbol.st_shndx == SHN_UNDEF) imports_.insert(text_at(names + symbol.st_name));
   }

@@ -1,4 +1,4 @@
-// What the shipped programs are built with against mistakes in memory, read from their files (SECURITY.md, "Build").
+// Checks the hardening of the shipped programs against memory errors, read from their files (SECURITY.md, "Build").
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -15,7 +15,7 @@ struct Hardening : testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(Hardening, OfTheFileIsAsTheLoaderAndTheKernelAreTold) {
+TEST_P(Hardening, EnablesTheProtectionsOfLoaderAndKernel) {
   const ElfFile program{GetParam()};
   EXPECT_TRUE(program.position_independent()) << "-pie";
   EXPECT_TRUE(program.relro()) << "-z relro";
@@ -27,7 +27,7 @@ TEST_P(Hardening, OfTheFileIsAsTheLoaderAndTheKernelAreTold) {
   EXPECT_TRUE(program.shadow_stack()) << "-z shstk";
 }
 
-TEST_P(Hardening, OfTheCodeIsThere) {
+TEST_P(Hardening, IsCompiledIntoTheCode) {
   const ElfFile program{GetParam()};
   EXPECT_TRUE(program.imports().contains("__stack_chk_fail")) << "-fstack-protector-strong";
   EXPECT_TRUE(program.imports().contains("_ZSt21__glibcxx_assert_failPKciS0_S0_")) << "-D_GLIBCXX_ASSERTIONS";
@@ -37,13 +37,15 @@ TEST_P(Hardening, OfTheCodeIsThere) {
   EXPECT_NE(checked, "") << "-D_FORTIFY_SOURCE=2";
   std::printf("[ imports  ] %s\n", checked.c_str());
   if (program.x86_64()) {
-    EXPECT_TRUE(program.code_holds({"\x48\x83\x0c\x24\x00", 5})) << "-fstack-clash-protection: no probe `orq $0, (%rsp)`";
+    EXPECT_TRUE(program.code_holds({"\x48\x83\x0c\x24\x00", 5}))
+        << "-fstack-clash-protection: no probe `orq $0, (%rsp)`";
   }
 }
 
-// The note alone says nothing: with -z ibt the linker writes it whatever the code is. So every address that indirect jumps can take
-// from the program's data must hold endbr64. The entry point is Debian's own start file, which lacks it.
-TEST_P(Hardening, OfIndirectJumpsIsInEveryTarget) {
+// The note alone proves nothing: with -z ibt the linker writes it for any code. So every code address that indirect
+// jumps can take from the program's data must hold endbr64. The entry point is excluded, because it is in Debian's
+// start file, which lacks endbr64.
+TEST_P(Hardening, MarksEveryTargetOfIndirectJumps) {
   const ElfFile program{GetParam()};
   if (!program.x86_64()) GTEST_SKIP() << "endbr64 is an instruction of x86-64";
   std::size_t without = 0;
@@ -57,12 +59,13 @@ TEST_P(Hardening, OfIndirectJumpsIsInEveryTarget) {
   std::printf("[ targets  ] %zu addresses of code in data, %zu without endbr64\n", program.targets().size(), without);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Hardening, testing::Values(TANDEM_SERVER, TANDEM_CLIENT, TANDEM_NETSIM, TANDEM_DEMO), [](const auto& program) {
-  const std::string_view path = program.param;
-  std::string name{path.substr(path.rfind("tandem-") + 7)};
-  name[0] = static_cast<char>(name[0] - 'a' + 'A');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Shipped, Hardening, testing::Values(TANDEM_SERVER, TANDEM_CLIENT, TANDEM_NETSIM, TANDEM_DEMO),
+                         [](const auto& program) {
+                           const std::string_view path = program.param;
+                           std::string name{path.substr(path.rfind("tandem-") + 7)};
+                           name[0] = static_cast<char>(name[0] - 'a' + 'A');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace tandem::test

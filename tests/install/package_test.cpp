@@ -1,5 +1,5 @@
-// What `cmake --install` gives to other projects, seen by one: installs this build, moves the result to another folder, builds
-// tests/install/sample from there and runs its tests. Offline; ends by itself.
+// Tests `cmake --install` as another project uses it: installs this build, moves the result to another folder, builds
+// tests/install/sample with it and runs the sample's tests. Needs no network and no input.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPatienceTimes = 12;  // of Process::kPatience: a build on a busy machine
+constexpr int kPatienceTimes = 12;  // [Process::kPatience] time-out of a command: a build on a busy machine is slow
 
 struct Done {
   int code = -1;
-  std::string text;  ///< both streams
+  std::string text;  ///< stdout and stderr
 };
 
 Done shell(const std::string& command) {
@@ -40,7 +40,7 @@ std::string content_of(const fs::path& path) {
 
 const fs::path kPlace = fs::path{TANDEM_BINARY_DIR} / "package";
 
-/// Installs into one folder and gives back another it was moved to.
+/// Installs into a folder, moves the folder and returns its new path.
 fs::path installed_and_moved() {
   const fs::path first = kPlace / "first", moved = kPlace / "moved";
   fs::remove_all(kPlace);
@@ -63,7 +63,7 @@ void check_texts(const fs::path& prefix) {
   EXPECT_GE(scripts, 5U);
 }
 
-/// Every installed header finds all it includes, and gives no warning to those who ask for all of them.
+/// Checks that the installed headers find all their includes and compile without warnings (-Wall -Wextra -Wpedantic).
 void check_headers(const fs::path& include) {
   std::ofstream all(kPlace / "all_headers.cpp");
   std::size_t headers = 0;
@@ -78,12 +78,13 @@ void check_headers(const fs::path& include) {
   }
   all.close();
   EXPECT_GT(headers, 20U);
-  const Done done = shell(std::string(TANDEM_COMPILER) + " -std=c++23 -fsyntax-only -Wall -Wextra -Wpedantic -Werror -I " +
-                          quoted(include) + " -isystem /usr/include/eigen3 " + quoted(kPlace / "all_headers.cpp"));
+  const Done done =
+      shell(std::string(TANDEM_COMPILER) + " -std=c++23 -fsyntax-only -Wall -Wextra -Wpedantic -Werror -I " +
+            quoted(include) + " -isystem /usr/include/eigen3 " + quoted(kPlace / "all_headers.cpp"));
   EXPECT_EQ(done.code, 0) << done.text;
 }
 
-TEST(Package, ServesAnotherProjectFromWhereverItWasMovedTo) {
+TEST(Package, WorksForAnotherProjectAfterItWasMoved) {
   if (std::string_view{TANDEM_SANITIZE} != "") GTEST_SKIP() << "a build with sanitizers is not for installing";
   const fs::path prefix = installed_and_moved();
   ASSERT_FALSE(HasFailure());
@@ -98,9 +99,10 @@ TEST(Package, ServesAnotherProjectFromWhereverItWasMovedTo) {
   const fs::path build = kPlace / "sample";
   const std::string generator = quoted(TANDEM_GENERATOR);
   const Done configured =
-      shell(quoted(TANDEM_CMAKE) + " -G " + generator + " -S " + quoted(fs::path{TANDEM_SOURCE_DIR} / "tests/install/sample") +
-            " -B " + quoted(build) + " -DCMAKE_CXX_COMPILER=" + TANDEM_COMPILER +
-            " -DCMAKE_CXX_COMPILER_LAUNCHER=" + quoted(TANDEM_LAUNCHER) + " -DCMAKE_PREFIX_PATH=" + quoted(prefix));
+      shell(quoted(TANDEM_CMAKE) + " -G " + generator + " -S " +
+            quoted(fs::path{TANDEM_SOURCE_DIR} / "tests/install/sample") + " -B " + quoted(build) +
+            " -DCMAKE_CXX_COMPILER=" + TANDEM_COMPILER + " -DCMAKE_CXX_COMPILER_LAUNCHER=" + quoted(TANDEM_LAUNCHER) +
+            " -DCMAKE_PREFIX_PATH=" + quoted(prefix));
   ASSERT_EQ(configured.code, 0) << configured.text;
   const Done built = shell(quoted(TANDEM_CMAKE) + " --build " + quoted(build));
   ASSERT_EQ(built.code, 0) << built.text;
@@ -108,7 +110,7 @@ TEST(Package, ServesAnotherProjectFromWhereverItWasMovedTo) {
   EXPECT_EQ(tested.code, 0) << tested.text;
   EXPECT_NE(tested.text.find("100% tests passed, 0 tests failed out of 5"), std::string::npos) << tested.text;
 
-  // A test of theirs that fails names its network and seed; the command it prints fails again in the same way.
+  // A failing test of the sample prints its network and seed. The printed command reproduces the failure.
   const Done failed = shell("cd " + quoted(build) + " && TOY_FAILS=1 ./toy_test --gtest_filter=Toy.Fails*");
   EXPECT_EQ(failed.code, 1) << failed.text;
   const std::string mark = "again: ";
@@ -119,7 +121,7 @@ TEST(Package, ServesAnotherProjectFromWhereverItWasMovedTo) {
   EXPECT_EQ(again, "TANDEM_SEED=3 ./toy_test --gtest_filter=Toy.FailsWhenAskedTo");
   EXPECT_EQ(shell("cd " + quoted(build) + " && TOY_FAILS=1 " + again).code, 1);
 
-  // Another major or minor version is not taken for this one.
+  // find_package rejects a request for another version.
   std::ofstream{kPlace / "CMakeLists.txt"} << "cmake_minimum_required(VERSION 3.25)\nproject(Late LANGUAGES CXX)\n"
                                               "find_package(Tandem 99.0 REQUIRED)\n";
   const Done late = shell(quoted(TANDEM_CMAKE) + " -G " + generator + " -S " + quoted(kPlace) + " -B " +

@@ -1,8 +1,8 @@
 # shellcheck shell=bash
-# What Tandem needs from Debian, and one function that sees to it. Sourced by ./test and ./demo.
+# Debian packages that Tandem needs, and functions that install them. ./test and ./demo source this file.
 
-# "package: what it is needed for". All of them are in Debian 12.
-# shellcheck disable=SC2034  # used by those who source this
+# Entries "package: purpose". All these packages are in Debian 12.
+# shellcheck disable=SC2034  # used by the scripts that source this file
 TANDEM_PACKAGES=(
   "g++: compiles C++23"
   "cmake: configures the build"
@@ -11,14 +11,13 @@ TANDEM_PACKAGES=(
   "pkg-config: lets CMake find installed libraries"
   "libeigen3-dev: vectors and matrices of the control laws"
   "libprotobuf-dev: encodes datagrams, reads scenes"
-  "protobuf-compiler: turns proto/*.proto into C++"
+  "protobuf-compiler: turns proto/schema/*.proto into C++"
   "libspdlog-dev: log lines for people"
   "libcli11-dev: command lines and --help"
   "nlohmann-json3-dev: writes the JSON reports"
   "libasio-dev: the control connection's sockets and timers"
   "libssl-dev: TLS of the control connection, keys, SHA-256 of traces"
   "libsodium-dev: keys of datagrams, and their cipher for processors without AES"
-  "libasio-dev: TCP connections"
   "prometheus-cpp-dev: writes the server's metrics"
   "libusb-1.0-0-dev: talks to USB devices"
   "libhidapi-dev: talks to HID devices"
@@ -28,10 +27,16 @@ TANDEM_PACKAGES=(
   "nodejs: runs the second decoder of datagrams"
 )
 if [[ "$(dpkg --print-architecture 2>/dev/null)" == amd64 ]]; then
-  TANDEM_PACKAGES+=("libipsec-mb-dev: seals datagrams with AES")  # made for these processors only
+  TANDEM_PACKAGES+=("libipsec-mb-dev: seals datagrams with AES")  # in Debian for amd64 only
 fi
 
-# What only the longer kinds of ./test need; without them it says what it did not run.
+# Further packages of ./test that ./demo does not need.
+# shellcheck disable=SC2034
+TANDEM_PACKAGES_TEST=(
+  "clang-format-19: compares the sources with .clang-format"
+)
+
+# Further packages of ./test --full, --nightly and --bench. Without them the default ./test lists what it did not run.
 # shellcheck disable=SC2034
 TANDEM_PACKAGES_FULL=(
   "clang-19: second compiler that must decide as g++ does"
@@ -47,14 +52,14 @@ TANDEM_PACKAGES_FULL=(
   "libxml2-utils: checks the JUnit files"
 )
 
-# What ./test --fuzz needs.
+# Further packages of ./test --fuzz.
 # shellcheck disable=SC2034
 TANDEM_PACKAGES_FUZZ=(
   "clang-19: compiles the fuzz targets"
   "libclang-rt-19-dev: libFuzzer and sanitizers of that compiler"
 )
 
-# What ./test --vm needs: a virtual machine and what its small system is made of.
+# Further packages of ./test --vm: the virtual machine and the contents of its small system.
 # shellcheck disable=SC2034
 TANDEM_PACKAGES_VM=(
   "qemu-system-x86: runs the virtual machine"
@@ -64,7 +69,7 @@ TANDEM_PACKAGES_VM=(
 
 packages_say() { printf '%s\n' "$@" >&2; }
 
-# packages_missing "name: reason" ...: prints those entries whose package is not installed.
+# packages_missing "name: reason" ...: prints the entries whose package is not installed.
 packages_missing() {
   local entry
   for entry in "$@"; do
@@ -74,7 +79,8 @@ packages_missing() {
   done
 }
 
-# Sets PACKAGES_BECOME to the words that make a command run as root; fails when there is no way.
+# Sets PACKAGES_BECOME to the prefix that runs a command as root; empty if the user is root.
+# Fails if there is no sudo, or if it needs a password and there is no terminal.
 packages_become_root() {
   PACKAGES_BECOME=()
   if [[ "$(id -u)" == 0 ]]; then return 0; fi
@@ -94,8 +100,8 @@ packages_apt() {
     apt-get -qq -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 "$@" >&2
 }
 
-# ensure_packages "name: reason" ...: installs what is missing; prints nothing when nothing is.
-# Exits 1, with the command to type, when it cannot.
+# ensure_packages "name: reason" ...: installs the missing packages. Prints nothing if none is missing.
+# If it cannot install them, prints the command for the user and exits with 1.
 ensure_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     packages_say "Tandem builds on Debian 12 (Ubuntu 24.04 is intended, untested); this system has no apt." \
@@ -125,7 +131,7 @@ ensure_packages() {
   fi
 
   packages_say "Installing them now."
-  # The lists are fetched only when they do not know a package or point at versions that are gone.
+  # Fetch package lists only if the present ones lack a package or name versions that the archive no longer has.
   if ! apt-get -s -qq "${install[@]}" >/dev/null 2>&1 || ! packages_apt "${install[@]}"; then
     packages_say "Fetching newer package lists first."
     if ! packages_apt update || ! packages_apt "${install[@]}"; then

@@ -1,4 +1,5 @@
-// The SBOMs of the packages: SPDX 2.3 (https://spdx.github.io/spdx-spec/v2.3), and true to the programs.
+// Checks that the SBOMs of the packages conform to SPDX 2.3 (https://spdx.github.io/spdx-spec/v2.3) and match the
+// programs.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -25,7 +26,7 @@ struct Sbom : testing::TestWithParam<const char*> {
     document = Json::parse(file, nullptr, false);
     ASSERT_FALSE(document.is_discarded());
   }
-  /// Of a package by its name, empty if there is none.
+  /// Returns the entry of a package by its name; null if there is none.
   [[nodiscard]] Json package(const std::string& name) const {
     for (const Json& p : document["packages"])
       if (p["name"] == name) return p;
@@ -34,10 +35,12 @@ struct Sbom : testing::TestWithParam<const char*> {
   Json document;
 };
 
-/// An expression of identifiers that are in the SPDX licence list (those Debian's copyright files of our libraries lead to).
+/// Returns whether `expression` is a licence expression of known identifiers. These are the identifiers of the SPDX
+/// licence list that Debian's copyright files of the linked libraries lead to.
 bool is_licence(const std::string& expression) {
-  static const std::set<std::string> kKnown{"Apache-2.0", "BSD-3-Clause", "BSL-1.0", "GPL-3.0-only", "GPL-3.0-or-later", "ISC", "LGPL-2.1-or-later", "MIT", "MPL-2.0",
-                                            "GCC-exception-3.1"};
+  static const std::set<std::string> kKnown{
+      "Apache-2.0", "BSD-3-Clause",      "BSL-1.0", "GPL-3.0-only", "GPL-3.0-or-later",
+      "ISC",        "LGPL-2.1-or-later", "MIT",     "MPL-2.0",      "GCC-exception-3.1"};
   std::istringstream words(expression);
   bool operand = true;
   for (std::string word; words >> word; operand = !operand)
@@ -51,10 +54,13 @@ TEST_P(Sbom, HoldsEveryFieldThatSpdxRequires) {
   EXPECT_EQ(document["SPDXID"], "SPDXRef-DOCUMENT");
   EXPECT_NE(document["name"].get<std::string>(), "");
   const std::string space = document["documentNamespace"];
-  EXPECT_TRUE(space.starts_with("https://") && space.find('#') == std::string::npos) << space << ": a unique absolute URI without '#'";
-  EXPECT_TRUE(std::regex_match(document["creationInfo"]["created"].get<std::string>(), std::regex{R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)"}));
+  EXPECT_TRUE(space.starts_with("https://") && space.find('#') == std::string::npos)
+      << space << ": a unique absolute URI without '#'";
+  EXPECT_TRUE(std::regex_match(document["creationInfo"]["created"].get<std::string>(),
+                               std::regex{R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)"}));
   ASSERT_FALSE(document["creationInfo"]["creators"].empty());
-  for (const Json& who : document["creationInfo"]["creators"]) EXPECT_TRUE(std::regex_search(who.get<std::string>(), std::regex{"^(Person|Organization|Tool): ."}));
+  for (const Json& who : document["creationInfo"]["creators"])
+    EXPECT_TRUE(std::regex_search(who.get<std::string>(), std::regex{"^(Person|Organization|Tool): ."}));
 
   std::set<std::string> ids{"SPDXRef-DOCUMENT"};
   for (const Json& p : document["packages"]) {
@@ -62,7 +68,8 @@ TEST_P(Sbom, HoldsEveryFieldThatSpdxRequires) {
     const std::string id = p["SPDXID"];
     EXPECT_TRUE(std::regex_match(id, std::regex{"SPDXRef-[A-Za-z0-9.-]+"}));
     EXPECT_TRUE(ids.insert(id).second) << "an identifier twice";
-    for (const char* field : {"name", "downloadLocation", "versionInfo", "licenseConcluded", "licenseDeclared", "copyrightText"})
+    for (const char* field :
+         {"name", "downloadLocation", "versionInfo", "licenseConcluded", "licenseDeclared", "copyrightText"})
       EXPECT_NE(p.value(field, ""), "") << field;
     EXPECT_EQ(p["filesAnalyzed"], false) << "else the package needs a verification code";
     EXPECT_TRUE(is_licence(p["licenseConcluded"])) << "no SPDX licence expression";
@@ -92,7 +99,8 @@ TEST_P(Sbom, NamesThePackageOfEveryLibraryTheProgramNeeds) {
     if (r["relationshipType"] == "DYNAMIC_LINK") dynamic.insert(r["relatedSpdxElement"].get<std::string>().substr(16));
   std::set<std::string> owners;
   ASSERT_FALSE(program.libraries().empty());
-  // The loader's words: "libc.so.6 => /lib/x86_64-linux-gnu/libc.so.6 (0x7f...)". Packages know some files by /lib and some by /usr/lib.
+  // Output of the loader: "libc.so.6 => /lib/x86_64-linux-gnu/libc.so.6 (0x7f...)". Packages list some files under /lib
+  // and some under /usr/lib.
   std::string patterns, installed;
   std::istringstream loaded(shell("ldd " + quoted(fs::path{TANDEM_BINARY_DIR} / "bin" / GetParam())).text);
   for (std::string line; std::getline(loaded, line);) {
@@ -115,23 +123,27 @@ TEST_P(Sbom, NamesThePackageOfEveryLibraryTheProgramNeeds) {
     const Json p = package(owner);
     ASSERT_FALSE(p.is_null()) << owner << " is not in the SBOM";
     EXPECT_EQ(p["versionInfo"], version_of[owner]);
-    EXPECT_NE((", " + p["comment"].get<std::string>() + ",").find(", " + library + ","), std::string::npos) << p["comment"];
+    EXPECT_NE((", " + p["comment"].get<std::string>() + ",").find(", " + library + ","), std::string::npos)
+        << p["comment"];
     owners.insert(p["SPDXID"].get<std::string>().substr(16));
   }
   EXPECT_EQ(dynamic, owners) << "and no other";
 }
 
-/// Every include of another project's headers in the sources of the programs leads to a package that is named.
+/// Checks that the SBOM names the package of each header of another project that the programs' sources include.
 TEST_P(Sbom, NamesThePackageOfEveryHeaderThatIsCompiledIn) {
-  const std::map<std::string, std::string> kHeadersOnly{{"Eigen", "libeigen3-dev"}, {"unsupported", "libeigen3-dev"}, {"asio", "libasio-dev"}, {"asio.hpp", "libasio-dev"},
-                                                        {"CLI", "libcli11-dev"}, {"nlohmann", "nlohmann-json3-dev"}};
-  const std::set<std::string> kOfLibrariesAbove{"spdlog", "fmt", "google", "openssl", "prometheus", "libusb-1.0", "hidapi", "sodium.h", "intel-ipsec-mb.h", "ipsec-mb.h", "libudev.h",
-                                                "sys", "linux", "net", "netinet", "arpa", "bits"};
+  const std::map<std::string, std::string> kHeadersOnly{{"Eigen", "libeigen3-dev"}, {"unsupported", "libeigen3-dev"},
+                                                        {"asio", "libasio-dev"},    {"asio.hpp", "libasio-dev"},
+                                                        {"CLI", "libcli11-dev"},    {"nlohmann", "nlohmann-json3-dev"}};
+  const std::set<std::string> kOfLibrariesAbove{
+      "spdlog", "fmt",      "google",           "openssl",    "prometheus", "libusb-1.0",
+      "hidapi", "sodium.h", "intel-ipsec-mb.h", "ipsec-mb.h", "libudev.h",  "sys",
+      "linux",  "net",      "netinet",          "arpa",       "bits"};
   const std::regex include{R"(^\s*#\s*include <([^/>]+)(/?)[^>]*>)"};
   std::set<std::string> met;
   for (const char* folder : {"client", "common", "hal", "netsim", "proto", "server"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path{TANDEM_SOURCE_DIR} / folder)) {
-      if (entry.path().string().find("/testing/") != std::string::npos) continue;  // what tests share, in no program
+      if (entry.path().string().find("/testing/") != std::string::npos) continue;  // code for tests, part of no program
       if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
       std::ifstream file(entry.path());
       std::smatch found;
@@ -141,7 +153,8 @@ TEST_P(Sbom, NamesThePackageOfEveryHeaderThatIsCompiledIn) {
         if (const auto known = kHeadersOnly.find(first); known != kHeadersOnly.end()) {
           met.insert(known->second);
         } else if (found[2].length() > 0) {
-          EXPECT_TRUE(kOfLibrariesAbove.contains(first)) << entry.path() << ": which package is <" << first << "/...> of?";
+          EXPECT_TRUE(kOfLibrariesAbove.contains(first))
+              << entry.path() << ": which package is <" << first << "/...> of?";
         }
       }
     }
@@ -159,11 +172,12 @@ TEST_P(Sbom, NamesOurOwnLicenceAsTheLicenceFileDoes) {
   EXPECT_EQ(own["versionInfo"], TANDEM_VERSION);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Sbom, testing::Values("tandem-server", "tandem-client", "tandem-netsim"), [](const auto& program) {
-  std::string name{program.param + 7};
-  name[0] = static_cast<char>(name[0] - 'a' + 'A');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Of, Sbom, testing::Values("tandem-server", "tandem-client", "tandem-netsim"),
+                         [](const auto& program) {
+                           std::string name{program.param + 7};
+                           name[0] = static_cast<char>(name[0] - 'a' + 'A');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace tandem::test

@@ -10,10 +10,11 @@ namespace tandem::test {
 
 struct Done {
   int code = -1;
-  std::string text;  ///< both streams
+  std::string text;  ///< stdout and stderr
 };
 
-/// Runs a line of shell until its end, or 20 times Process::kPatience: packages are compressed, a system may be installed.
+/// Runs a shell command. The time-out is 20 times Process::kPatience, because commands may compress packages or install
+/// a system.
 inline Done shell(const std::string& command) {
   constexpr int kPatienceTimes = 20;
   Process process{{"/bin/sh", "-c", command + " 2>&1"}};

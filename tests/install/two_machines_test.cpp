@@ -1,5 +1,6 @@
-// README's commands from an installed package to two enrolled workstations that join, between two network namespaces of this machine: a
-// school's server and a workstation, with nothing but a cable between them. Needs root, and takes everything away that it made.
+// Runs README's commands from an installed package to two enrolled workstations that join. The server and the
+// workstations run in two network namespaces of this machine, connected only by a virtual cable. Needs root, and
+// removes everything that it created.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,23 +16,27 @@ namespace fs = std::filesystem;
 
 constexpr const char* kIp = "/usr/sbin/ip";
 
-/// `ip` with words; both of its streams when it failed.
+/// Runs `ip` with arguments. @return empty on success, else its output and errors
 std::string ip(Words words) {
   words.insert(words.begin(), kIp);
   Process process(std::move(words));
   return process.wait() == 0 ? "" : process.out() + process.err() + " ";
 }
 
-/// Two namespaces and a cable: the server's end is 10.213.7.1, the workstation's 10.213.7.2.
+/// Two network namespaces and a virtual cable (veth). The server's end is 10.213.7.1, the workstations' end 10.213.7.2.
 class Cable {
  public:
-  Cable() : server_("tandem-" + std::to_string(getpid()) + "-s"), workstation_("tandem-" + std::to_string(getpid()) + "-w") {
+  Cable()
+      : server_("tandem-" + std::to_string(getpid()) + "-s"),
+        workstation_("tandem-" + std::to_string(getpid()) + "-w") {
     const std::string number = std::to_string(getpid() % 100000), a = "tds" + number, b = "tdw" + number;
     problem += ip({"netns", "add", server_});
     problem += ip({"netns", "add", workstation_});
     problem += ip({"link", "add", a, "netns", server_, "type", "veth", "peer", "name", b, "netns", workstation_});
-    for (const auto& [space, end, address] : {std::tuple{server_, a, "10.213.7.1/24"}, std::tuple{workstation_, b, "10.213.7.2/24"}})
-      for (const Words& words : {Words{"addr", "add", address, "dev", end}, Words{"link", "set", end, "up"}, Words{"link", "set", "lo", "up"}}) {
+    for (const auto& [space, end, address] :
+         {std::tuple{server_, a, "10.213.7.1/24"}, std::tuple{workstation_, b, "10.213.7.2/24"}})
+      for (const Words& words : {Words{"addr", "add", address, "dev", end}, Words{"link", "set", end, "up"},
+                                 Words{"link", "set", "lo", "up"}}) {
         Words all{"-n", space};
         all.insert(all.end(), words.begin(), words.end());
         problem += ip(std::move(all));
@@ -45,7 +50,7 @@ class Cable {
   Cable& operator=(const Cable&) = delete;
   [[nodiscard]] Process at_server(Words words) const { return in(server_, TANDEM_SERVER, std::move(words)); }
   [[nodiscard]] Process at_workstation(Words words) const { return in(workstation_, TANDEM_CLIENT, std::move(words)); }
-  std::string problem;  ///< empty: both ends are there
+  std::string problem;  ///< output of the commands that failed; empty: both ends exist
 
  private:
   static Process in(const std::string& space, const std::string& program, Words words) {
@@ -68,9 +73,11 @@ TEST(TwoMachines, InitEnrolServeAndJoinAcrossACable) {
   const Folder folder;
   const std::string at = "10.213.7.1:7000", state = folder.file("state");
   fs::create_directory(folder.file("reports"));
-  const std::string config = folder.write("server.textproto", "version: 1 listen: \"0.0.0.0:7000\" state: \"state\" reports: \"reports\"\n"
-                                                              "session { name: \"lab\" scene: \"free_motion\" duration_s: 4 restart: false }\n");
-  // Before keys there is no network.
+  const std::string config =
+      folder.write("server.textproto",
+                   "version: 1 listen: \"0.0.0.0:7000\" state: \"state\" reports: \"reports\"\n"
+                   "session { name: \"lab\" scene: \"free_motion\" duration_s: 4 restart: false }\n");
+  // Without keys the server rejects a network address.
   Process early = cable.at_server({"serve", config});
   EXPECT_EQ(early.wait(), 2);
   EXPECT_NE(early.err().find("tandem-server init"), std::string::npos) << early.err();
@@ -88,18 +95,22 @@ TEST(TwoMachines, InitEnrolServeAndJoinAcrossACable) {
   const Json lobby = Json::parse(asked.out(), nullptr, false);
   ASSERT_FALSE(lobby.is_discarded()) << asked.out();
   const std::string code = lobby["sessions"][0]["code"].get<std::string>();
-  const std::string ticket = said(cable.at_server({"ticket", "--session", "lab", "--seat", "trainer", "--workstation", "desk-1", "--state", state}));
+  const std::string ticket = said(cable.at_server(
+      {"ticket", "--session", "lab", "--seat", "trainer", "--workstation", "desk-1", "--state", state}));
   Process listed = cable.at_workstation({"sessions", "--server", at, "--state", folder.file("desk-2")});
   EXPECT_EQ(listed.wait(), 0) << listed.err();
   EXPECT_NE(listed.out().find("lab: waiting"), std::string::npos) << listed.out();
 
-  Process trainer = cable.at_workstation({"join", "--server", at, "--seat", "trainer", "--device", "sim", "--ticket", ticket, "--state", folder.file("desk-1")});
-  Process trainee = cable.at_workstation({"join", "--server", at, "--session", code, "--seat", "trainee", "--device", "sim", "--state", folder.file("desk-2")});
+  Process trainer = cable.at_workstation({"join", "--server", at, "--seat", "trainer", "--device", "sim", "--ticket",
+                                          ticket, "--state", folder.file("desk-1")});
+  Process trainee = cable.at_workstation({"join", "--server", at, "--session", code, "--seat", "trainee", "--device",
+                                          "sim", "--state", folder.file("desk-2")});
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
   EXPECT_EQ(host.wait(), 0) << "its only session is over and does not begin anew\n" << host.err();
   Json report;
-  for (const auto& entry : fs::directory_iterator(folder.file("reports"))) report = folder.json("reports/" + entry.path().filename().string());
+  for (const auto& entry : fs::directory_iterator(folder.file("reports")))
+    report = folder.json("reports/" + entry.path().filename().string());
   ASSERT_TRUE(report.is_object()) << "no report";
   EXPECT_EQ(report["violations"], Json::array());
   EXPECT_EQ(report["ended_by"], "scene");

@@ -1,4 +1,4 @@
-// Runs the script of a report in a page of stubs, drags its slider, and compares what it says with the trace.
+// Runs the script of a report in a page of stubs, moves its slider, and compares the shown values with the trace.
 // Usage: node animation_check.mjs report.html trace.csv; exit 0 if all frames agree.
 import {readFileSync} from 'node:fs';
 

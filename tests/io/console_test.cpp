@@ -1,5 +1,5 @@
-// People who look after sessions without sitting in them: real programs on loopback. States, orders and words are asserted, never how long
-// anything took.
+// Consoles that operate sessions without a seat: real programs on loopback. States, commands and messages are
+// asserted, never durations.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -9,24 +9,24 @@
 #include <filesystem>
 #include <thread>
 
-#include "tests/io/school.h"
+#include "tests/io/multi_client_fixture.h"
 
 namespace tandem::test {
 namespace {
 
-/// `tandem-client control` of the server's own computer.
+/// Runs `tandem-client control` on the server's own computer.
 Process control(const std::string& address, Words words) {
   words.insert(words.begin(), {TANDEM_CLIENT, "control", "--server", address});
   return Process(std::move(words));
 }
-/// Its console, fed these lines.
+/// Runs a console with these input lines.
 Process console(const std::string& lines, const Words& arguments) {
   std::string command = "printf '" + lines + "' | '" + std::string(TANDEM_CLIENT) + "' control";
   for (const std::string& a : arguments) command += " '" + a + "'";
   return Process({"/bin/sh", "-c", command});
 }
 
-/// What happened to a hand, from its client's trace: letters for phases, A: its gate is active, - : no effort leaves the gate for a while.
+/// Phases of a hand from its client's trace. A: the gate is active; -: the gate passes no effort for a while.
 std::string phases_of(const std::string& trace) {
   std::istringstream lines(trace);
   std::string header, line, phases;
@@ -55,11 +55,14 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
   const Folder folder;
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
-  Process trainer = client(address, "trainer", {"--trace", folder.file("trainer.csv")}), trainee = client(address, "trainee", {"--trace", folder.file("trainee.csv")});
+  Process trainer = client(address, "trainer", {"--trace", folder.file("trainer.csv")}),
+          trainee = client(address, "trainee", {"--trace", folder.file("trainee.csv")});
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
   const auto both_show = [&](const char* phases) {
     for (int tries = 0; tries < 150; ++tries, std::this_thread::sleep_for(std::chrono::milliseconds(200)))
-      if (phases_of(folder.read("trainer.csv")).find(phases) != std::string::npos && phases_of(folder.read("trainee.csv")).find(phases) != std::string::npos) return true;
+      if (phases_of(folder.read("trainer.csv")).find(phases) != std::string::npos &&
+          phases_of(folder.read("trainee.csv")).find(phases) != std::string::npos)
+        return true;
     return false;
   };
   ASSERT_TRUE(both_show("A")) << "the session runs while hands still ramp in";
@@ -69,7 +72,7 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
 
   Process stop = control(address, {"stop", "somebody", "is", "in", "the", "way"});
   EXPECT_EQ(stop.wait(), 0) << stop.err();
-  EXPECT_NE(stop.out().find("STOPPED: all hands are let go; `resume 1` ends it"), std::string::npos) << stop.out();
+  EXPECT_NE(stop.out().find("STOPPED: all hands are released; `resume 1` ends it"), std::string::npos) << stop.out();
   EXPECT_TRUE(host.wait_for("STOPPED")) << host.err();
   EXPECT_TRUE(trainer.wait_for("STOPPED") && trainee.wait_for("STOPPED")) << "the clients show it\n" << trainer.err();
   Process again = control(address, {"stop"});
@@ -88,7 +91,8 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
   Process resume = control(address, {"resume", "2"});
   EXPECT_EQ(resume.wait(), 0) << resume.err();
   ASSERT_TRUE(host.wait_for("the session runs again")) << host.err();
-  EXPECT_TRUE(both_show("A-A")) << "active, let go, active again; " << phases_of(folder.read("trainer.csv")) << ' ' << phases_of(folder.read("trainee.csv"));
+  EXPECT_TRUE(both_show("A-A")) << "active, let go, active again; " << phases_of(folder.read("trainer.csv")) << ' '
+                                << phases_of(folder.read("trainee.csv"));
 
   Process drain = control(address, {"drain"});
   EXPECT_EQ(drain.wait(), 0) << drain.err();
@@ -99,24 +103,24 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
   EXPECT_NE(trainer.err().find("the server ended the session"), std::string::npos) << trainer.err();
 }
 
-TEST(Control, MistakesAreToldWithTheWordsThatShouldBe) {
+TEST(Control, RejectsInvalidCommandsWithTheAllowedValues) {
   const auto wrong = [](Words words, const char* text) {
     Process p = control("127.0.0.1:9", std::move(words));
     EXPECT_EQ(p.wait(), 2) << p.out();
     EXPECT_NE(p.err().find(text), std::string::npos) << p.err();
   };
-  wrong({"halt"}, "orders: status, stop, pause, resume, authority, remove, drain");
+  wrong({"halt"}, "commands: status, stop, pause, resume, authority, remove, drain");
   wrong({"resume", "now"}, "must be the number of a stop");
-  wrong({"authority", "trainer=0.4"}, "together 0.4; they must be 1");
-  wrong({"authority", "trainer=2"}, "weight in [0, 1]");
+  wrong({"authority", "trainer=0.4"}, "sum to 0.4; they must sum to 1");
+  wrong({"authority", "trainer=2"}, "authority in [0, 1]");
   wrong({"drain", "3601"}, "[0, 3600]");
   wrong({"--role", "trainee", "status"}, "must be operator, instructor or recorder");
-  Process nobody = control("127.0.0.1:9", {"--patience", "0.2", "status"});
+  Process nobody = control("127.0.0.1:9", {"--timeout", "0.2", "status"});
   EXPECT_EQ(nobody.wait(), 1);
   EXPECT_NE(nobody.err().find("no server at 127.0.0.1:9"), std::string::npos) << nobody.err();
 }
 
-TEST(Control, OfTwoInstructorsExactlyOneWins) {
+TEST(Control, AcceptsExactlyOneOfTwoInstructorsChanges) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
   Process trainer = client(address, "trainer"), trainee = client(address, "trainee");
@@ -128,24 +132,34 @@ TEST(Control, OfTwoInstructorsExactlyOneWins) {
   };
   const int before = version();
   const std::string seen = "version=" + std::to_string(before);
-  Process one = control(address, {"authority", "trainer=0.25,trainee=0.75", seen}), two = control(address, {"authority", "trainer=0.75,trainee=0.25", seen});
+  Process one = control(address, {"authority", "trainer=0.25,trainee=0.75", seen}),
+          two = control(address, {"authority", "trainer=0.75,trainee=0.25", seen});
   const auto first = one.wait(), second = two.wait();
-  EXPECT_TRUE((first == 0 && second == 1) || (first == 1 && second == 0)) << *first << *second << one.err() << two.err();
+  EXPECT_TRUE((first == 0 && second == 1) || (first == 1 && second == 0))
+      << *first << *second << one.err() << two.err();
   EXPECT_EQ(version(), before + 1);
   Process& loser = first == 0 ? two : one;
-  EXPECT_NE(loser.err().find("somebody was faster. In force: authority over tool, version " + std::to_string(before + 1)), std::string::npos) << loser.err();
-  EXPECT_NE(loser.err().find(first == 0 ? "trainer 0.25, trainee 0.75" : "trainer 0.75, trainee 0.25"), std::string::npos) << loser.err();
+  EXPECT_NE(loser.err().find("another change was faster. In force: authority over tool, version " +
+                             std::to_string(before + 1)),
+            std::string::npos)
+      << loser.err();
+  EXPECT_NE(loser.err().find(first == 0 ? "trainer 0.25, trainee 0.75" : "trainer 0.75, trainee 0.25"),
+            std::string::npos)
+      << loser.err();
   Process stranger = control(address, {"authority", "trainer=0.5,nobody=0.5"});
   EXPECT_EQ(stranger.wait(), 2);
-  EXPECT_NE(stranger.err().find("no seat \"nobody\" that leads; seats: trainer, trainee"), std::string::npos) << stranger.err();
+  EXPECT_NE(stranger.err().find("no seat \"nobody\" that leads; seats: trainer, trainee"), std::string::npos)
+      << stranger.err();
 }
 
-// Somebody who believes that he could stop a session must not sit in front of a console that no server hears.
-TEST(Control, AConsoleWhoseServerIsGoneSaysSoAtOnceAndEnds) {
+// A console whose server is gone must end, so that no operator relies on it to stop the session.
+TEST(Control, EndsAtOnceWhenTheServerIsGone) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const Folder folder;
-  const std::string pipe = folder.file("pipe");  // held open at both ends by the console itself: its input never ends
-  Process waiting({"/bin/bash", "-c", "mkfifo " + pipe + " && exec 3<>" + pipe + " && echo status >&3 && exec " + TANDEM_CLIENT + " control --server " + address_of(host) + " <&3"});
+  const std::string pipe = folder.file("pipe");  // the console itself holds both ends open, so its input never ends
+  Process waiting({"/bin/bash", "-c",
+                   "mkfifo " + pipe + " && exec 3<>" + pipe + " && echo status >&3 && exec " + TANDEM_CLIENT +
+                       " control --server " + address_of(host) + " <&3"});
   ASSERT_TRUE(waiting.wait_for("free_motion: waiting")) << waiting.err();
   host.signal(SIGKILL);
   EXPECT_TRUE(waiting.wait_for("the server ended this connection")) << waiting.err();
@@ -153,7 +167,7 @@ TEST(Control, AConsoleWhoseServerIsGoneSaysSoAtOnceAndEnds) {
   EXPECT_NE(waiting.err().find("start again"), std::string::npos) << waiting.err();
 }
 
-TEST(Control, APersonIsRemovedAndHisClientSaysSo) {
+TEST(Control, RemovesAParticipantWhoseClientReportsIt) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
   Process trainer = client(address, "trainer"), trainee = client(address, "trainee");
@@ -161,86 +175,100 @@ TEST(Control, APersonIsRemovedAndHisClientSaysSo) {
   Process removed = control(address, {"remove", "trainee", "pushes"});
   EXPECT_EQ(removed.wait(), 0) << removed.err();
   EXPECT_EQ(trainee.wait(), 1) << trainee.err();
-  EXPECT_NE(trainee.err().find("the seat was taken away by somebody who may"), std::string::npos) << trainee.err();
+  EXPECT_NE(trainee.err().find("an instructor or operator removed this client"), std::string::npos) << trainee.err();
   EXPECT_TRUE(host.wait_for("trainee left"));
   Process again = control(address, {"remove", "trainee"});
   EXPECT_EQ(again.wait(), 1);
-  EXPECT_NE(again.err().find("nobody sits on trainee"), std::string::npos) << again.err();
+  EXPECT_NE(again.err().find("no client is on seat trainee"), std::string::npos) << again.err();
 }
 
-// ---- A school: keys, tickets, an audit log ------------------------------------------------------------------------------------
+// ---- With keys, tickets and an audit log ----
 
-/// Until the audit log has it: sessions' events are written some times a second.
-bool written(const School& school, const std::string& text) {
+/// Waits until the audit log contains it: session events are written several times per second.
+bool written(const MultiClientFixture& fixture, const std::string& text) {
   for (int i = 0; i < 600; ++i) {
-    if (school.folder.read("state/audit.log").find(text) != std::string::npos) return true;
+    if (fixture.folder.read("state/audit.log").find(text) != std::string::npos) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   return false;
 }
 
-std::string operator_ticket(const School& school, const std::string& role) {
-  Process made = server({"ticket", "--session", "a", "--role", role, "--workstation", "desk", "--state", school.state});
+std::string operator_ticket(const MultiClientFixture& fixture, const std::string& role) {
+  Process made =
+      server({"ticket", "--session", "a", "--role", role, "--workstation", "desk", "--state", fixture.state});
   EXPECT_EQ(made.wait(), 0) << made.err();
-  EXPECT_NE(made.err().find("tandem-client control --server " + school.address + " --ticket-file FILE"), std::string::npos) << made.err();
+  EXPECT_NE(made.err().find("tandem-client control --server " + fixture.address + " --ticket-file FILE"),
+            std::string::npos)
+      << made.err();
   return first_line(made.out());
 }
 
-TEST(SchoolControl, AnOperatorComesByASingleUseTicketAndEverythingIsWrittenDown) {
-  const School school{"session { name: \"a\" scene: \"free_motion\" }"};
-  Process code = school.join("trainee", {"--session", school.code()});
-  ASSERT_TRUE(school.host.id() != 0);
-  Process without = control(school.address, {"--state", school.own, "stop"});
+TEST(MultiClientControl, AdmitsAnOperatorByASingleUseTicketAndAuditsEveryCommand) {
+  const MultiClientFixture fixture{"session { name: \"a\" scene: \"free_motion\" }"};
+  Process code = fixture.join("trainee", {"--session", fixture.code()});
+  ASSERT_TRUE(fixture.host.id() != 0);
+  Process without = control(fixture.address, {"--state", fixture.own, "stop"});
   EXPECT_EQ(without.wait(), 1);
-  EXPECT_NE(without.err().find("tandem-server ticket --state " + school.state + " --session a --role operator --workstation desk"), std::string::npos) << without.err();
-  const std::string file = school.folder.write("operator.ticket", operator_ticket(school, "operator") + "\n");
-  Process shift = console("status\\nstop fire drill\\nresume 7\\nresume\\nremove trainee\\nauthority trainer=1\\nquit\\n", {"--server", school.address, "--state", school.own, "--ticket", file});
+  EXPECT_NE(without.err().find("tandem-server ticket --state " + fixture.state +
+                               " --session a --role operator --workstation desk"),
+            std::string::npos)
+      << without.err();
+  const std::string file = fixture.folder.write("operator.ticket", operator_ticket(fixture, "operator") + "\n");
+  Process shift =
+      console("status\\nstop fire drill\\nresume 7\\nresume\\nremove trainee\\nauthority trainer=1\\nquit\\n",
+              {"--server", fixture.address, "--state", fixture.own, "--ticket", file});
   EXPECT_EQ(shift.wait(), 1) << "two of them were refused\n" << shift.err();
   EXPECT_NE(shift.out().find("STOPPED"), std::string::npos) << shift.out();
   EXPECT_NE(shift.out().find("RESUMED: stop 1 is over"), std::string::npos) << shift.out();
   EXPECT_NE(shift.err().find("there is no stop 7"), std::string::npos) << shift.err();
-  EXPECT_NE(shift.err().find("the role operator may not move authority; who may: instructor, trainee"), std::string::npos) << shift.err();
+  EXPECT_NE(shift.err().find("the role operator may not move authority; permitted for: instructor, trainee"),
+            std::string::npos)
+      << shift.err();
   EXPECT_EQ(code.wait(), 1) << code.err();
-  EXPECT_TRUE(written(school, "desk (operator) stop 1 tick 0: fire drill"));
-  EXPECT_TRUE(written(school, "\"event\":\"resume\",\"name\":\"a\",\"detail\":\"desk (operator) stop 1 tick 0\""));
-  EXPECT_TRUE(written(school, "\"event\":\"remove\",\"name\":\"a\",\"detail\":\"desk (operator) trainee tick 0\""));
-  EXPECT_TRUE(written(school, "\"event\":\"removed\""));
-  EXPECT_TRUE(written(school, "the role operator may not move authority"));
-  Process used = control(school.address, {"--state", school.own, "--ticket", file, "status"});
+  EXPECT_TRUE(written(fixture, "desk (operator) stop 1 tick 0: fire drill"));
+  EXPECT_TRUE(written(fixture, "\"event\":\"resume\",\"name\":\"a\",\"detail\":\"desk (operator) stop 1 tick 0\""));
+  EXPECT_TRUE(written(fixture, "\"event\":\"remove\",\"name\":\"a\",\"detail\":\"desk (operator) trainee tick 0\""));
+  EXPECT_TRUE(written(fixture, "\"event\":\"removed\""));
+  EXPECT_TRUE(written(fixture, "the role operator may not move authority"));
+  Process used = control(fixture.address, {"--state", fixture.own, "--ticket", file, "status"});
   EXPECT_EQ(used.wait(), 1);
   EXPECT_NE(used.err().find("used already"), std::string::npos) << used.err();
-  Process recorder = control(school.address, {"--state", school.own, "--ticket", operator_ticket(school, "recorder"), "stop"});
+  Process recorder =
+      control(fixture.address, {"--state", fixture.own, "--ticket", operator_ticket(fixture, "recorder"), "stop"});
   EXPECT_EQ(recorder.wait(), 1);
   EXPECT_NE(recorder.err().find("the role recorder may not stop the session"), std::string::npos) << recorder.err();
-  Process seatless = server({"ticket", "--session", "a", "--role", "trainee", "--workstation", "desk", "--state", school.state});
+  Process seatless =
+      server({"ticket", "--session", "a", "--role", "trainee", "--workstation", "desk", "--state", fixture.state});
   EXPECT_EQ(seatless.wait(), 2) << "who works in a session sits on a seat";
-  Process seated = server({"ticket", "--session", "a", "--role", "operator", "--seat", "trainee", "--workstation", "desk", "--state", school.state});
+  Process seated = server({"ticket", "--session", "a", "--role", "operator", "--seat", "trainee", "--workstation",
+                           "desk", "--state", fixture.state});
   EXPECT_EQ(seated.wait(), 2);
 }
 
-TEST(SchoolControl, ARevokedWorkstationLosesItsSeatAndNobodyElseDoes) {
-  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
-  const std::string second = school.enrolled("desk-2");
-  Process trainer = school.join("trainer", {"--ticket", school.ticket("a", "trainer")});
-  Process trainee = client(school.address, "trainee", {"--session", school.code(), "--state", second});
-  ASSERT_TRUE(school.host.wait_for("the session runs")) << school.host.err();
-  Process visitor({TANDEM_CLIENT, "link-test", "--server", school.address, "--state", second, "--duration", "600"});
-  ASSERT_TRUE(written(school, "\"event\":\"welcomed\",\"name\":\"desk-2\"")) << visitor.err();
-  std::this_thread::sleep_for(std::chrono::seconds(1));  // it proves its address meanwhile
-  Process revoked = server({"revoke", "desk-2", "--state", school.state});
+TEST(MultiClientControl, RemovesOnlyTheSeatOfARevokedWorkstation) {
+  MultiClientFixture fixture{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
+  const std::string second = fixture.enrolled("desk-2");
+  Process trainer = fixture.join("trainer", {"--ticket", fixture.ticket("a", "trainer")});
+  Process trainee = client(fixture.address, "trainee", {"--session", fixture.code(), "--state", second});
+  ASSERT_TRUE(fixture.host.wait_for("the session runs")) << fixture.host.err();
+  Process visitor({TANDEM_CLIENT, "link-test", "--server", fixture.address, "--state", second, "--duration", "600"});
+  ASSERT_TRUE(written(fixture, "\"event\":\"welcomed\",\"name\":\"desk-2\"")) << visitor.err();
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // meanwhile the server validates its address
+  Process revoked = server({"revoke", "desk-2", "--state", fixture.state});
   EXPECT_EQ(revoked.wait(), 0) << revoked.err();
   EXPECT_EQ(trainee.wait(), 1) << trainee.err();
   EXPECT_NE(trainee.err().find("this workstation was revoked on the server"), std::string::npos) << trainee.err();
   EXPECT_TRUE(visitor.wait()) << "its visit ends too";
-  EXPECT_TRUE(written(school, "\"event\":\"revoked_seat\",\"name\":\"desk-2\",\"detail\":\"a trainee tick"));
-  Process status = control(school.address, {"--state", school.own, "--ticket", operator_ticket(school, "operator"), "--json", "status"});
+  EXPECT_TRUE(written(fixture, "\"event\":\"revoked_seat\",\"name\":\"desk-2\",\"detail\":\"a trainee tick"));
+  Process status = control(
+      fixture.address, {"--state", fixture.own, "--ticket", operator_ticket(fixture, "operator"), "--json", "status"});
   EXPECT_EQ(status.wait(), 0) << status.err();
   const Json now = Json::parse(status.out(), nullptr, false);
   ASSERT_TRUE(now.is_object()) << status.out();
   EXPECT_TRUE(now["seats"][0]["taken"]);
   EXPECT_FALSE(now["seats"][1]["taken"]);
-  school.host.signal(SIGTERM);
-  EXPECT_EQ(school.host.wait(), 0) << school.host.err();
+  fixture.host.signal(SIGTERM);
+  EXPECT_EQ(fixture.host.wait(), 0) << fixture.host.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
 }
 

@@ -1,4 +1,5 @@
-// Rows of the failure table (design notes, security 2.4) with real programs on loopback. What happened is asserted, never how long it took.
+// Rows of the failure table (design notes, security 2.4) with real programs on loopback. Outcomes are asserted, never
+// durations.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -8,10 +9,10 @@
 #include <cstdio>
 #include <thread>
 
-#include "tests/base/counts.h"
+#include "tests/common/base/counts.h"
+#include "tests/io/constant_force_scene.h"
 #include "tests/io/metrics_page.h"
 #include "tests/io/programs.h"
-#include "tests/io/steady_press.h"
 
 namespace tandem::test {
 namespace {
@@ -21,7 +22,8 @@ namespace fs = std::filesystem;
 
 /// A row of a client's trace.
 struct Row {
-  double t = 0, x = 0, force = 0, gate_force = 0;  ///< session time [s]; tip [m]; delivered, ordered [N] along x
+  double t = 0, x = 0, force = 0,
+         gate_force = 0;  ///< session time [s]; tip [m]; delivered and commanded force [N] along x
   int gate = 0;
 };
 
@@ -31,44 +33,56 @@ std::vector<Row> trace_of(const Folder& folder, const std::string& name) {
   std::getline(text, line);
   std::vector<std::string> columns;
   for (std::istringstream head(line); std::getline(head, line, ',');) columns.push_back(line);
-  const auto column = [&](const char* wanted) { return static_cast<std::size_t>(std::ranges::find(columns, wanted) - columns.begin()); };
-  const std::size_t t = column("t_s[s]"), x = column("x[m]"), out = column("f_out_x[N]"), ordered = column("f_gate_x[N]"), gate = column("gate[1]");
+  const auto column = [&](const char* wanted) {
+    return static_cast<std::size_t>(std::ranges::find(columns, wanted) - columns.begin());
+  };
+  const std::size_t t = column("t_s[s]"), x = column("x[m]"), out = column("f_out_x[N]"),
+                    ordered = column("f_gate_x[N]"), gate = column("gate[1]");
   std::vector<Row> rows;
   while (std::getline(text, line)) {
     std::vector<double> v;
     std::string word;
-    for (std::istringstream words(line); std::getline(words, word, ',');) v.push_back(std::strtod(word.c_str(), nullptr));
+    for (std::istringstream words(line); std::getline(words, word, ',');)
+      v.push_back(std::strtod(word.c_str(), nullptr));
     if (v.size() != columns.size()) continue;
     rows.push_back({v[t], v[x], v[out], v[ordered], static_cast<int>(v[gate])});
   }
   return rows;
 }
 
-/// The words that start `program` with another wall clock: what stands in `file` is added to it; monotonic clocks are left alone.
+/// Command line that starts `program` with another wall clock: the content of `file` is added to it. Monotonic clocks
+/// are not changed.
 Words faked(const std::string& library, const std::string& file, Words program) {
-  Words command{"/usr/bin/env", "LD_PRELOAD=" TANDEM_REAL_SLEEP ":" + library, "FAKETIME_TIMESTAMP_FILE=" + file, "FAKETIME_NO_CACHE=1", "FAKETIME_DONT_FAKE_MONOTONIC=1",
+  Words command{"/usr/bin/env",
+                "LD_PRELOAD=" TANDEM_REAL_SLEEP ":" + library,
+                "FAKETIME_TIMESTAMP_FILE=" + file,
+                "FAKETIME_NO_CACHE=1",
+                "FAKETIME_DONT_FAKE_MONOTONIC=1",
                 "FAKETIME_DISABLE_SHM=1"};
   command.insert(command.end(), program.begin(), program.end());
   return command;
 }
 
 // Wall-clock jump: force change <= 0.01 N for +-1 h, +-10 y, monotonic clocks not faked.
-TEST(FailureLive, WallClocksThatJumpAreFeltByNobody) {
+TEST(FailureLive, ChangesNoForceWhenWallClocksJump) {
   const std::string library = "/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1";
   if (!fs::exists(library)) GTEST_SKIP() << "libfaketime is not installed (apt install faketime; ./test --full does)";
 #ifdef TANDEM_SANITIZED
   GTEST_SKIP() << "a sanitizer's library must be the first that is loaded";
 #endif
   const Folder folder;
-  const std::string scene = folder.write("press.textproto", steady_press()), clock = folder.write("clock", "+0\n");
+  const std::string scene = folder.write("press.textproto", constant_force_scene()),
+                    clock = folder.write("clock", "+0\n");
   Process host(faked(library, clock, {TANDEM_SERVER, "run", scene, "--log", "json", "--json", folder.file("s.json")}));
   ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
   const auto join = [&](const std::string& seat) {
-    return Process(faked(library, clock, {TANDEM_CLIENT, "join", "--server", address_of(host), "--seat", seat, "--device", "sim", "--trace", folder.file(seat + ".csv"), "--json", folder.file(seat + ".json")}));
+    return Process(faked(library, clock,
+                         {TANDEM_CLIENT, "join", "--server", address_of(host), "--seat", seat, "--device", "sim",
+                          "--trace", folder.file(seat + ".csv"), "--json", folder.file(seat + ".json")}));
   };
   Process trainer = join("trainer"), trainee = join("trainee");
   ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
-  std::this_thread::sleep_for(10s);  // both press by now, and have come to rest
+  std::this_thread::sleep_for(10s);  // both hands press and rest by now
   for (const char* jump : {"+3600", "+0", "-3600", "+0", "+10y", "+0", "-10y"}) {
     folder.write("clock", std::string(jump) + "\n");
     std::this_thread::sleep_for(1500ms);
@@ -77,7 +91,7 @@ TEST(FailureLive, WallClocksThatJumpAreFeltByNobody) {
   EXPECT_EQ(host.wait(), 0) << host.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
-  // That it was tried: the server's last line is ten years away from its first.
+  // Proves that the clock was changed: the server's last log line is ten years from its first.
   const auto year = [&](std::size_t at) { return std::atoi(host.err().c_str() + at + 6); };
   const std::size_t first = host.err().find("\"ts\":\""), last = host.err().rfind("\"ts\":\"");
   ASSERT_NE(first, std::string::npos) << host.err();
@@ -93,13 +107,17 @@ TEST(FailureLive, WallClocksThatJumpAreFeltByNobody) {
       if (r.t < 9 || r.gate != 3) continue;
       late += r.t - before > 0.004 ? 1 : 0;
       before = r.t;
-      least = std::min(least, r.gate_force);  // what is ordered: a late exchange lets a command die, whatever the clocks do
+      least = std::min(
+          least, r.gate_force);  // the commanded force: a late exchange lets a command expire, whatever the clocks do
       most = std::max(most, r.gate_force);
     }
     std::printf("[ failure  ] %s: %.4f to %.4f N while wall clocks jump by +-1 h and +-10 y\n", seat, least, most);
     EXPECT_GT(std::abs(least), 0.5) << "nobody was pressed";
     if (late > 0) {
-      std::printf("[ NOT RUN ] FailureLive.WallClocksThatJumpAreFeltByNobody, force of the %s: threads of this machine woke up late %zu times\n", seat, late);
+      std::printf(
+          "[ NOT RUN ] FailureLive.ChangesNoForceWhenWallClocksJump, force of the %s: threads of this machine woke up "
+          "late %zu times\n",
+          seat, late);
     } else {
       EXPECT_LE(most - least, 0.01);
     }
@@ -107,12 +125,13 @@ TEST(FailureLive, WallClocksThatJumpAreFeltByNobody) {
   EXPECT_EQ(folder.json("s.json")["violations"], Json::array());
 }
 
-// Client paused 500 ms: PASSIVE first, nothing of the backlog acts, the others go on.
-TEST(FailureLive, AClientThatWasStoppedLetsGoFirstAndPlaysNothingBack) {
+// Client paused 500 ms: it releases first, no datagram of the backlog acts, the other clients continue.
+TEST(FailureLive, ReleasesAPausedClientFirstAndAppliesNoBacklog) {
   const Folder folder;
-  Process host = hosting(folder.write("press.textproto", steady_press(100)), {"--json", folder.file("s.json")});
+  Process host = hosting(folder.write("press.textproto", constant_force_scene(100)), {"--json", folder.file("s.json")});
   Process trainer = client(address_of(host), "trainer", {"--json", folder.file("trainer.json")});
-  Process trainee = client(address_of(host), "trainee", {"--trace", folder.file("trainee.csv"), "--json", folder.file("trainee.json")});
+  Process trainee = client(address_of(host), "trainee",
+                           {"--trace", folder.file("trainee.csv"), "--json", folder.file("trainee.json")});
   ASSERT_TRUE(trainee.wait_for("the session runs")) << trainee.err();
   const std::size_t pauses = draws(2, 10, 100);
   for (std::size_t n = 0; n < pauses; ++n) {
@@ -135,7 +154,8 @@ TEST(FailureLive, AClientThatWasStoppedLetsGoFirstAndPlaysNothingBack) {
     EXPECT_EQ(rows[i].gate, 4) << "PASSIVE before anything else, at " << rows[i].t;
     EXPECT_EQ(rows[i].gate_force, 0) << "the device has forgotten the force: no ramp begins from it";
     std::size_t again = i;
-    for (; again < rows.size() && rows[again].gate != 2; ++again) {  // what there is may brake the hand and never push it
+    for (; again < rows.size() && rows[again].gate != 2;
+         ++again) {  // the remaining force may brake the hand and never push it
       const double speed = again == i ? 0 : (rows[again].x - rows[again - 1].x) / (rows[again].t - rows[again - 1].t);
       EXPECT_LE(rows[again].gate_force * speed > 0 ? std::abs(rows[again].gate_force) : 0, 0.05) << rows[again].t;
     }
@@ -147,54 +167,61 @@ TEST(FailureLive, AClientThatWasStoppedLetsGoFirstAndPlaysNothingBack) {
   EXPECT_EQ(folder.json("s.json")["violations"], Json::array());
 }
 
-/// A gauge of one seat becomes `value`, sooner or later.
+/// Waits until a gauge of one seat becomes `value`.
 bool becomes(const std::string& metrics, const std::string& gauge, const std::string& seat, double value) {
   for (int i = 0; i < 300; ++i) {
     const std::string all = page(metrics);
-    for (std::size_t at = all.find("\n" + gauge + "{"); at != std::string::npos; at = all.find("\n" + gauge + "{", at + 1)) {
+    for (std::size_t at = all.find("\n" + gauge + "{"); at != std::string::npos;
+         at = all.find("\n" + gauge + "{", at + 1)) {
       const std::string line = all.substr(at + 1, all.find('\n', at + 1) - at - 1);
-      if (line.find("seat=\"" + seat + "\"") != std::string::npos && std::abs(std::strtod(line.c_str() + line.rfind(' '), nullptr) - value) < 1e-3) return true;
+      if (line.find("seat=\"" + seat + "\"") != std::string::npos &&
+          std::abs(std::strtod(line.c_str() + line.rfind(' '), nullptr) - value) < 1e-3)
+        return true;
     }
     std::this_thread::sleep_for(100ms);
   }
   return false;
 }
 
-// Client kill -9: his weight goes to the others, the session goes on, and he comes back.
-TEST(FailureLive, AClientThatIsKilledLeavesItsWeightToTheOthersAndMayComeBack) {
+// Client kill -9: its authority goes to the other seats, the session continues, and the client comes back.
+TEST(FailureLive, TransfersTheAuthorityOfAKilledClientAndLetsItComeBack) {
   const Folder folder;
-  Process host = hosting(folder.write("press.textproto", steady_press(300, false)), {"--metrics", "127.0.0.1:0", "--json", folder.file("s.json")});
+  Process host = hosting(folder.write("press.textproto", constant_force_scene(300, false)),
+                         {"--metrics", "127.0.0.1:0", "--json", folder.file("s.json")});
   std::string metrics = host.after("metrics on http://");
   metrics = metrics.substr(0, metrics.find('/'));
   ASSERT_FALSE(metrics.empty()) << host.out();
-  Process trainer = client(address_of(host), "trainer", {"--json", folder.file("trainer.json"), "--trace", folder.file("trainer.csv")});
+  Process trainer = client(address_of(host), "trainer",
+                           {"--json", folder.file("trainer.json"), "--trace", folder.file("trainer.csv")});
   ASSERT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
   const std::size_t kills = draws(3, 20, 100);
   for (std::size_t n = 0; n < kills; ++n) {
     SCOPED_TRACE(n);
-    Process trainee = client(address_of(host), "trainee", {"--patience", "30"});
-    while (!becomes(metrics, "tandem_alpha", "trainee", 0.5)) {  // else his seat was not free yet
+    Process trainee = client(address_of(host), "trainee", {"--timeout", "30"});
+    while (!becomes(metrics, "tandem_authority", "trainee", 0.5)) {  // otherwise its seat was not free yet
       ASSERT_EQ(trainee.wait(), 1) << trainee.err();
-      trainee = client(address_of(host), "trainee", {"--patience", "30"});
+      trainee = client(address_of(host), "trainee", {"--timeout", "30"});
     }
     ASSERT_TRUE(becomes(metrics, "tandem_gate_state", "trainee", 3));
     trainee.signal(SIGKILL);
     EXPECT_EQ(trainee.wait(), -SIGKILL);
-    EXPECT_TRUE(becomes(metrics, "tandem_alpha", "trainee", 0));
-    EXPECT_TRUE(becomes(metrics, "tandem_alpha", "trainer", 1));
-    std::this_thread::sleep_for(2100ms);  // from then on his seat is free for whoever asks
+    EXPECT_TRUE(becomes(metrics, "tandem_authority", "trainee", 0));
+    EXPECT_TRUE(becomes(metrics, "tandem_authority", "trainer", 1));
+    std::this_thread::sleep_for(2100ms);  // after that any client may take the seat
   }
   host.signal(SIGINT);
   EXPECT_EQ(host.wait(), 0) << host.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(folder.json("s.json")["violations"], Json::array());
-  // That a kill trips nobody else is asserted in virtual time; here a thread that this machine wakes up late may do it.
-  std::printf("[ failure  ] trips of the other hand's gate: %s\n", folder.json("trainer.json")["gate"]["trips"].dump().c_str());
+  // Virtual time asserts that a kill trips no other gate. Here a thread that this machine wakes up late may trip it.
+  std::printf("[ failure  ] trips of the other hand's gate: %s\n",
+              folder.json("trainer.json")["gate"]["trips"].dump().c_str());
   double step = 0;
   const std::vector<Row> rows = trace_of(folder, "trainer.csv");
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (rows[i].t > 5) step = std::max(step, std::abs(rows[i].force - rows[i - 1].force));
-  std::printf("[ failure  ] %zu kills: the other hand's force changed by at most %.3f N within a tick of 2 ms\n", kills, step);
+  std::printf("[ failure  ] %zu kills: the other hand's force changed by at most %.3f N within a tick of 2 ms\n", kills,
+              step);
 }
 
 }  // namespace

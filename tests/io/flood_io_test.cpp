@@ -1,4 +1,5 @@
-// Strangers who connect much and readers who do not read (design notes, security 1.8 and 2.4), against a session that runs.
+// Connection floods by unknown senders, and clients that do not read (design notes, security 1.8 and 2.4), against a
+// running session.
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -12,21 +13,21 @@
 #include <deque>
 #include <thread>
 
+#include "common/auth/io/client_keystore.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
-#include "common/trust/io/client_trust.h"
-#include "proto/control_codec.h"
-#include "tests/base/counts.h"
+#include "proto/rpc/rpc_codec.h"
+#include "tests/common/base/counts.h"
+#include "tests/io/constant_force_scene.h"
 #include "tests/io/metrics_page.h"
 #include "tests/io/programs.h"
-#include "tests/io/steady_press.h"
 
 namespace tandem::test {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// Of a process, in KiB, as /proc says.
+/// Resident memory of a process [KiB], from /proc.
 long resident_kib(pid_t id) {
   std::ifstream status("/proc/" + std::to_string(id) + "/status");
   for (std::string line; std::getline(status, line);)
@@ -34,10 +35,11 @@ long resident_kib(pid_t id) {
   return -1;
 }
 
-/// A session that runs with two hands, and what became of it.
+/// A running session with two hands, and its outcome.
 struct Running {
   Running()
-      : host(hosting(folder.write("press.textproto", steady_press()), {"--metrics", "127.0.0.1:0", "--json", folder.file("s.json")})),
+      : host(hosting(folder.write("press.textproto", constant_force_scene()),
+                     {"--metrics", "127.0.0.1:0", "--json", folder.file("s.json")})),
         trainer(client(address_of(host), "trainer", {"--json", folder.file("trainer.json")})),
         trainee(client(address_of(host), "trainee", {"--json", folder.file("trainee.json")})),
         to(*io::parse_address(address_of(host), 1)) {
@@ -55,7 +57,7 @@ struct Running {
     EXPECT_EQ(folder.json("s.json")["violations"], Json::array());
     for (const char* seat : {"trainer.json", "trainee.json"}) EXPECT_EQ(folder.json(seat)["gate"]["trips"], 0) << seat;
   }
-  /// The greatest bucket of the histogram of lateness that holds less than `share` of all ticks; for people.
+  /// The highest histogram bucket of lateness that holds less than `share` of all ticks, as text.
   [[nodiscard]] std::string lateness(double share) const {
     const std::string all = page(metrics);
     const auto number = [&](const std::string& name) {
@@ -64,7 +66,8 @@ struct Running {
     };
     const double count = number("tandem_tick_lateness_seconds_count");
     std::string least = "?";
-    for (std::size_t at = all.find("\ntandem_tick_lateness_seconds_bucket"); at != std::string::npos; at = all.find("\ntandem_tick_lateness_seconds_bucket", at + 1)) {
+    for (std::size_t at = all.find("\ntandem_tick_lateness_seconds_bucket"); at != std::string::npos;
+         at = all.find("\ntandem_tick_lateness_seconds_bucket", at + 1)) {
       const std::size_t le = all.find("le=\"", at) + 4, value = all.find("} ", at) + 2;
       least = all.substr(le, all.find('"', le) - le);
       if (std::strtod(all.c_str() + value, nullptr) >= share * count) break;
@@ -77,7 +80,7 @@ struct Running {
   std::string metrics;
 };
 
-/// The first words of a TLS client, as they are sent.
+/// The first bytes of a TLS client.
 std::string client_hello() {
   SSL_CTX* const context = SSL_CTX_new(TLS_client_method());
   SSL* const tls = SSL_new(context);
@@ -94,8 +97,8 @@ std::string client_hello() {
   return bytes;
 }
 
-// "TLS connect flood 2000/s for 10 s: running sessions undisturbed; memory + <= 32 MiB." From 1000 addresses, each says a ClientHello and
-// never goes on; at most 600 are open at a time.
+// "TLS connect flood 2000/s for 10 s: running sessions undisturbed; memory + <= 32 MiB." From 1000 addresses, each says
+// a ClientHello and never goes on; at most 600 are open at a time.
 TEST(FloodLive, TwoThousandConnectionsASecondDisturbNoHandAndTakeLittleMemory) {
   Running session;
   const std::size_t length = draws(2, 10, 10);
@@ -108,10 +111,11 @@ TEST(FloodLive, TwoThousandConnectionsASecondDisturbNoHandAndTakeLittleMemory) {
   std::size_t tried = 0, reached = 0;
   const Time begin = io::monotonic_now();
   for (std::size_t ms = 0; ms < 1000 * length; ++ms) {
-    std::this_thread::sleep_until(std::chrono::steady_clock::time_point{(begin + std::chrono::milliseconds(ms)).time_since_epoch()});
+    std::this_thread::sleep_until(
+        std::chrono::steady_clock::time_point{(begin + std::chrono::milliseconds(ms)).time_since_epoch()});
     for (int k = 0; k < 2; ++k, ++tried) {
       io::Fd fd{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
-      const linger at_once{1, 0};  // no port waits for stragglers
+      const linger at_once{1, 0};  // no port waits for late segments
       setsockopt(fd.get(), SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
       const auto from = *io::parse_address(format("127.0.%zu.%zu:0", 1 + tried / 250 % 4, 1 + tried % 250), 0);
       if (::bind(fd.get(), from.get(), from.size) != 0) continue;
@@ -124,20 +128,25 @@ TEST(FloodLive, TwoThousandConnectionsASecondDisturbNoHandAndTakeLittleMemory) {
   }
   open.clear();
   most = std::max(most, resident_kib(session.host.id()));
-  std::printf("[ hostile  ] %zu connections in %zu s, %zu said hello; memory of the server %ld KiB, at most %ld KiB more\n", tried, length, reached, before, most - before);
+  std::printf(
+      "[ hostile  ] %zu connections in %zu s, %zu said hello; memory of the server %ld KiB, at most %ld KiB more\n",
+      tried, length, reached, before, most - before);
   std::printf("[ hostile  ] ticks: quiet %s; with the flood %s\n", quiet.c_str(), session.lateness(0.999).c_str());
   EXPECT_EQ(tried, 2000 * length);
   EXPECT_GT(reached, tried / 10);
-#ifndef TANDEM_SANITIZED  // a sanitizer keeps freed memory, 256 MiB of it
+#ifndef TANDEM_SANITIZED  // a sanitizer keeps 256 MiB of freed memory
   EXPECT_LE(most - before, 32 * 1024);
 #endif
   session.expect_undisturbed();
 }
 
-/// TLS of a workstation that this server let in by its own files, blocking.
+/// Blocking TLS connection of a workstation that is enrolled by the server's own files.
 class Reader {
  public:
-  explicit Reader(const io::SocketAddress& to) : context_(SSL_CTX_new(TLS_client_method())), tls_(SSL_new(context_)), fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  explicit Reader(const io::SocketAddress& to)
+      : context_(SSL_CTX_new(TLS_client_method())),
+        tls_(SSL_new(context_)),
+        fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     const int small = 4096;
     setsockopt(fd_.get(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
     const timeval patience{30, 0};
@@ -153,15 +162,15 @@ class Reader {
   }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
-  /// @return whether the handshake came to its end
-  bool greet(const trust::LocalKeys& keys) {
+  /// @return whether the handshake completed
+  bool greet(const auth::LocalKeys& keys) {
     SSL_use_certificate(tls_, keys.workstation.certificate.handle());
     SSL_use_PrivateKey(tls_, keys.workstation.key.handle());
     return SSL_connect(tls_) == 1;
   }
-  /// Asks on and on, reads nothing. @return how often before the server let go of it
+  /// Sends requests and reads nothing. @return number of requests before the server closed the connection
   std::size_t ask_until_dropped(std::size_t most) {
-    const auto frame = control::encode({1, control::SessionListRequest{}});
+    const auto frame = rpc::encode({1, rpc::SessionListRequest{}});
     const auto bytes = frame->bytes();
     for (std::size_t n = 0; n < most; ++n)
       if (SSL_write(tls_, bytes.data(), static_cast<int>(bytes.size())) <= 0) return n;
@@ -175,22 +184,23 @@ class Reader {
   io::Fd fd_;
 };
 
-/// The keys that a server of this user laid down, found by the certificate it shows.
-std::optional<trust::LocalKeys> keys_of(const io::SocketAddress& server) {
+/// The keys that a server of this user published, found by the certificate it shows.
+std::optional<auth::LocalKeys> keys_of(const io::SocketAddress& server) {
   Reader first{server};
   SSL_connect(first.tls());
   X509* const certificate = SSL_get1_peer_certificate(first.tls());
   if (certificate == nullptr) return std::nullopt;
-  const auto pin = trust::pin_of(certificate);
+  const auto fingerprint = auth::fingerprint_of(certificate);
   X509_free(certificate);
-  if (!pin) return std::nullopt;
-  auto found = trust::find_local(trust::runtime_path(), *pin);
+  if (!fingerprint) return std::nullopt;
+  auto found = auth::find_local_keys(auth::runtime_path(), *fingerprint);
   if (!found || !*found) return std::nullopt;
   return std::move(**found);
 }
 
-// Slow consumer: what is meant for somebody who does not read is bounded, he is let go of, and no hand feels it.
-TEST(FloodLive, ReadersWhoDoNotReadAreLetGoAndNoHandFeelsIt) {
+// Slow consumer: the data for a client that does not read is bounded, its connection is closed, and no hand is
+// affected.
+TEST(FloodLive, DisconnectsSlowConsumersWithoutDisturbingAHand) {
   std::signal(SIGPIPE, SIG_IGN);
   Running session;
   const auto keys = keys_of(session.to);
@@ -210,8 +220,10 @@ TEST(FloodLive, ReadersWhoDoNotReadAreLetGoAndNoHandFeelsIt) {
     EXPECT_GT(n, 0U) << "never let in";
     EXPECT_LT(n, kMost) << "nobody let go of him";
   }
-  std::printf("[ hostile  ] readers who do not read asked %zu, %zu, %zu, %zu times before they were let go; memory of the server %ld KiB more; %s\n", asked[0],
-              asked[1], asked[2], asked[3], after - before, session.lateness(0.999).c_str());
+  std::printf(
+      "[ hostile  ] readers who do not read asked %zu, %zu, %zu, %zu times before they were let go; memory of the "
+      "server %ld KiB more; %s\n",
+      asked[0], asked[1], asked[2], asked[3], after - before, session.lateness(0.999).c_str());
   EXPECT_LE(after - before, 4 * 1024);
   session.expect_undisturbed();
 }

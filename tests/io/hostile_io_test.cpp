@@ -1,4 +1,5 @@
-// Strangers and insiders against real programs on loopback (design notes, security 1.8). What happened is asserted, times are printed.
+// Unknown senders and insiders against real programs on loopback (design notes, security 1.8). Outcomes are asserted,
+// durations are printed.
 #include <gtest/gtest.h>
 #include <netinet/tcp.h>
 #include <openssl/ssl.h>
@@ -10,18 +11,18 @@
 #include <limits>
 #include <thread>
 
-#include "client/app/ask.h"
-#include "client/seat.h"
-#include "common/io/private_memory.h"
-#include "common/trust/io/client_trust.h"
-#include "common/trust/io/state_folder.h"
-#include "common/trust/ticket.h"
+#include "client/app/join_client.h"
+#include "client/seat/seat.h"
+#include "common/auth/io/client_keystore.h"
+#include "common/auth/io/state_directory.h"
+#include "common/auth/ticket.h"
+#include "common/io/process_hardening.h"
 #include "hal/sim/sim_device.h"
-#include "proto/control_codec.h"
-#include "proto/scene_text.h"
-#include "proto/scenes_embedded.h"
-#include "proto/wire_codec.h"
-#include "tests/base/counts.h"
+#include "proto/rpc/rpc_codec.h"
+#include "proto/text/scene_text.h"
+#include "proto/text/scenes_embedded.h"
+#include "proto/wire/wire_codec.h"
+#include "tests/common/base/counts.h"
 #include "tests/io/junk.h"
 #include "tests/io/programs.h"
 
@@ -32,8 +33,8 @@ using namespace std::chrono_literals;
 
 io::SocketAddress udp_of(const Process& host) { return *io::parse_address(address_of(host), 1); }
 
-// "Flood 50 kpps junk for 10 s on loopback: valid loss 0 %, 0 bytes sent back." How late a tick may be is printed by flood_bench.
-TEST(HostileLive, AFloodOfJunkCostsTheSessionNothingAndGetsNothingBack) {
+// "Flood 50 kpps junk for 10 s on loopback: valid loss 0 %, 0 bytes sent back." flood_bench prints how late ticks get.
+TEST(HostileLive, LosesNoValidDatagramAndSendsNoReplyInAFloodOfJunk) {
   const Folder folder;
   const std::size_t duration = draws(2, 10, 10);
   Process host = hosting("one_axis", {"--duration", std::to_string(duration + 2), "--json", folder.file("s.json")});
@@ -47,17 +48,19 @@ TEST(HostileLive, AFloodOfJunkCostsTheSessionNothingAndGetsNothingBack) {
   const Json report = folder.json("s.json");
   ASSERT_FALSE(report.is_discarded());
   const Json& seat = report["seats"][0];
-  std::printf("[ hostile  ] %zu s of 50 kpps: loss up %s %%, down %s %%, rtt p99 %s ms, late ticks %s\n", duration, seat["link"]["up"]["loss_percent"].dump().c_str(),
-              seat["link"]["down"]["loss_percent"].dump().c_str(), seat["link"]["rtt_p99_ms"].dump().c_str(), report["machine"]["late_ticks"].dump().c_str());
+  std::printf("[ hostile  ] %zu s of 50 kpps: loss up %s %%, down %s %%, rtt p99 %s ms, late ticks %s\n", duration,
+              seat["link"]["up"]["loss_percent"].dump().c_str(), seat["link"]["down"]["loss_percent"].dump().c_str(),
+              seat["link"]["rtt_p99_ms"].dump().c_str(), report["machine"]["late_ticks"].dump().c_str());
   EXPECT_EQ(seat["link"]["up"]["loss_percent"].get<double>(), 0);
   EXPECT_EQ(seat["link"]["down"]["loss_percent"].get<double>(), 0);
   EXPECT_EQ(report["violations"], Json::array());
 }
 
-/// A workstation that joins from an address of its choice on this machine, blocking, one connection at a time.
+/// A workstation that joins from a chosen address of this machine, blocking, one connection at a time.
 class Joiner {
  public:
-  Joiner(const io::SocketAddress& to, const trust::LocalKeys& keys) : to_(to), keys_(keys), context_(SSL_CTX_new(TLS_client_method())) {
+  Joiner(const io::SocketAddress& to, const auth::LocalKeys& keys)
+      : to_(to), keys_(keys), context_(SSL_CTX_new(TLS_client_method())) {
     SSL_CTX_set_min_proto_version(context_, TLS1_3_VERSION);
     SSL_CTX_use_certificate(context_, keys_.workstation.certificate.handle());
     SSL_CTX_use_PrivateKey(context_, keys_.workstation.key.handle());
@@ -66,39 +69,40 @@ class Joiner {
   Joiner(const Joiner&) = delete;
   Joiner& operator=(const Joiner&) = delete;
 
-  /// @return whether it was welcomed; else `why` says what happened
+  /// @return whether it received a Welcome; otherwise `why` is the reason
   bool join(unsigned last_byte, std::uint32_t number) {
     io::Fd fd{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
     const timeval patience{30, 0};
     setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    const int at_once = 1;  // else the Hello waits for an acknowledgement of the handshake's end, 40 ms
+    const int at_once = 1;  // otherwise the Hello waits 40 ms for an acknowledgement of the handshake's last segment
     setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
     const auto from = *io::parse_address("127.0.0." + std::to_string(last_byte) + ":0", 0);
-    if (::bind(fd.get(), from.get(), from.size) != 0 || ::connect(fd.get(), to_.get(), to_.size) != 0) return failed("no connection");
+    if (::bind(fd.get(), from.get(), from.size) != 0 || ::connect(fd.get(), to_.get(), to_.size) != 0)
+      return failed("no connection");
     const std::unique_ptr<SSL, void (*)(SSL*)> tls{SSL_new(context_), SSL_free};
     const unsigned char alpn[] = "\x08tandem/1";
     SSL_set_alpn_protos(tls.get(), alpn, sizeof alpn - 1);
     SSL_set_fd(tls.get(), fd.get());
     if (SSL_connect(tls.get()) != 1) return failed("no handshake");
-    const auto listed = ask(tls.get(), control::SessionListRequest{});
-    if (!listed || !std::holds_alternative<control::SessionList>(*listed)) return failed("no list");
-    trust::Ticket ticket;
-    trust::fill_random(ticket.ticket_id);
-    ticket.session_id = std::get<control::SessionList>(*listed).sessions.at(0).id;
+    const auto listed = ask(tls.get(), rpc::SessionListRequest{});
+    if (!listed || !std::holds_alternative<rpc::SessionList>(*listed)) return failed("no list");
+    auth::Ticket ticket;
+    auth::fill_random(ticket.ticket_id);
+    ticket.session_id = std::get<rpc::SessionList>(*listed).sessions.at(0).id;
     ticket.role = AccessRole::kOperator;
-    ticket.workstation = keys_.workstation.pin();
-    ticket.not_before = trust::wall_seconds() - 1;
+    ticket.workstation = keys_.workstation.fingerprint();
+    ticket.not_before = auth::wall_seconds() - 1;
     ticket.not_after = ticket.not_before + 60;
-    const auto bytes = trust::sign_ticket(ticket, keys_.ticket_key);
+    const auto bytes = auth::sign_ticket(ticket, keys_.ticket_key);
     if (!bytes) return failed("no ticket");
-    control::Hello hello;
+    rpc::Hello hello;
     hello.client_cid = number | 1;
     hello.session = ticket.session_id;
-    hello.credential = control::TicketCredential{{bytes->begin(), bytes->end()}};
+    hello.credential = rpc::TicketCredential{{bytes->begin(), bytes->end()}};
     const auto answer = ask(tls.get(), std::move(hello));
     if (!answer) return failed("no answer");
-    if (const auto* refused = std::get_if<control::Refused>(&*answer)) return failed(refused->text);
-    if (!std::holds_alternative<control::Welcome>(*answer)) return failed("not welcomed");
+    if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return failed(refused->text);
+    if (!std::holds_alternative<rpc::Welcome>(*answer)) return failed("not welcomed");
     SSL_shutdown(tls.get());
     return true;
   }
@@ -109,16 +113,17 @@ class Joiner {
     why = std::move(what);
     return false;
   }
-  static std::optional<control::Body> ask(SSL* tls, control::Body question) {
-    const auto frame = control::encode({1, std::move(question)});
-    if (!frame || SSL_write(tls, frame->bytes().data(), static_cast<int>(frame->bytes().size())) <= 0) return std::nullopt;
-    std::array<std::byte, control::kLengthSize> head;
+  static std::optional<rpc::Body> ask(SSL* tls, rpc::Body question) {
+    const auto frame = rpc::encode({1, std::move(question)});
+    if (!frame || SSL_write(tls, frame->bytes().data(), static_cast<int>(frame->bytes().size())) <= 0)
+      return std::nullopt;
+    std::array<std::byte, rpc::kLengthSize> head;
     if (!read(tls, head)) return std::nullopt;
-    const auto length = control::frame_length(head);
+    const auto length = rpc::frame_length(head);
     if (!length) return std::nullopt;
     std::vector<std::byte> body(*length);
     if (!read(tls, body)) return std::nullopt;
-    auto answer = control::decode(body);
+    auto answer = rpc::decode(body);
     if (!answer) return std::nullopt;
     return std::move(answer->body);
   }
@@ -131,13 +136,13 @@ class Joiner {
     return true;
   }
   io::SocketAddress to_;
-  const trust::LocalKeys& keys_;
+  const auth::LocalKeys& keys_;
   SSL_CTX* context_;
 };
 
-/// Of the only server of this user that laid its keys down: the certificate that the handshake shows names its file.
-std::optional<trust::LocalKeys> keys_of(const io::SocketAddress& server) {
-  std::optional<trust::LocalKeys> keys;
+/// Keys of this user's only server with published keys: the certificate in the handshake names the file.
+std::optional<auth::LocalKeys> keys_of(const io::SocketAddress& server) {
+  std::optional<auth::LocalKeys> keys;
   SSL_CTX* const context = SSL_CTX_new(TLS_client_method());
   io::Fd fd{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
   if (::connect(fd.get(), server.get(), server.size) == 0) {
@@ -148,8 +153,9 @@ std::optional<trust::LocalKeys> keys_of(const io::SocketAddress& server) {
     SSL_connect(tls);
     X509* const certificate = SSL_get1_peer_certificate(tls);
     if (certificate != nullptr)
-      if (const auto pin = trust::pin_of(certificate))
-        if (auto found = trust::find_local(trust::runtime_path(), *pin); found && *found) keys.emplace(std::move(**found));
+      if (const auto fingerprint = auth::fingerprint_of(certificate))
+        if (auto found = auth::find_local_keys(auth::runtime_path(), *fingerprint); found && *found)
+          keys.emplace(std::move(**found));
     X509_free(certificate);
     SSL_free(tls);
   }
@@ -157,9 +163,10 @@ std::optional<trust::LocalKeys> keys_of(const io::SocketAddress& server) {
   return keys;
 }
 
-// "1000 joins from 127.0.0.2-127.0.0.101: all in; running sessions' ledgers and gates undisturbed." Each is a whole TLS handshake with
-// both keys, a list, a single-use ticket and a Welcome; who comes stands by as an operator, as no session has a thousand seats.
-TEST(HostileLive, AStormOfJoinsLetsEverybodyInAndDisturbsNoHand) {
+// "1000 joins from 127.0.0.2-127.0.0.101: all in; running sessions' ledgers and gates undisturbed." Each join is a
+// whole TLS handshake with both keys, a list, a single-use ticket and a Welcome. The clients join as operators,
+// because no session has a thousand seats.
+TEST(HostileLive, AcceptsEveryJoinOfABurstWithoutDisturbingAHand) {
   const Folder folder;
   const unsigned joins = static_cast<unsigned>(draws(100, 1000, 1000));
   Process host = hosting("one_axis", {"--duration", "600", "--json", folder.file("s.json")});
@@ -182,23 +189,24 @@ TEST(HostileLive, AStormOfJoinsLetsEverybodyInAndDisturbsNoHand) {
   ASSERT_FALSE(report.is_discarded());
   EXPECT_EQ(report["violations"], Json::array());
   EXPECT_EQ(report["seats"][0]["gate_trips"], 0);
-  std::printf("[ hostile  ] the running session meanwhile: rtt p99 %s ms, late ticks %s, loss up %s %%\n", report["seats"][0]["link"]["rtt_p99_ms"].dump().c_str(),
-              report["machine"]["late_ticks"].dump().c_str(), report["seats"][0]["link"]["up"]["loss_percent"].dump().c_str());
+  std::printf("[ hostile  ] the running session meanwhile: rtt p99 %s ms, late ticks %s, loss up %s %%\n",
+              report["seats"][0]["link"]["rtt_p99_ms"].dump().c_str(), report["machine"]["late_ticks"].dump().c_str(),
+              report["seats"][0]["link"]["up"]["loss_percent"].dump().c_str());
 }
 
-/// Somebody who joined as everybody does, and then says what he likes under his own keys.
+/// A client that joined normally and then sends arbitrary messages under its own keys.
 class Insider {
  public:
   Insider(const io::SocketAddress& server, const std::string& scene, const std::string& seat) {
     const SceneSpec spec = *parse_scene(find_shipped_scene(scene)->text, scene);
     const auto& own = *std::ranges::find(spec.seats, seat, &SeatSpec::name);
     device_ = std::move(*hal::sim::SimDevice::make({own.device, own.hand, {}, nullptr, io::monotonic_now()}));
-    client::Asking asking;
+    client::JoinOptions asking;
     asking.server = server;
     asking.seat = seat;
     asking.caps = device_->caps();
-    asking.patience = 20s;
-    auto given = client::ask_for_seat(asking);
+    asking.timeout = 20s;
+    auto given = client::join_seat(asking);
     if (!given) {
       ADD_FAILURE() << given.error().reason;
       return;
@@ -208,7 +216,7 @@ class Insider {
     codec_.configure(given->setup.dof, given->setup.port);
     socket_ = std::move(*io::connect_udp(given->udp));
   }
-  /// As an honest client: a millisecond.
+  /// Runs one millisecond as an honest client.
   void tick(bool speaks = true) {
     const Time now = io::monotonic_now();
     std::array<std::byte, 1500> buffer;
@@ -220,14 +228,15 @@ class Insider {
   }
   [[nodiscard]] bool runs() const { return core_->force().session == wire::SessionState::kRunning; }
 
-  /// Sends a message of his own making, sealed as the server wants it; `cut` bytes short.
+  /// Sends a forged message, sealed correctly; `cut` bytes short.
   template <class Message>
   void say(wire::Type type, const Message& message, std::size_t cut = 0) {
-    std::array<std::byte, link::kDatagramMax> datagram;
-    const std::size_t plain = codec_.encode({0, 0, 0}, message, std::span{datagram}.subspan(link::kHeaderSize)) - cut;
-    const auto all = std::span{datagram}.first(link::kHeaderSize + plain + link::kTagSize);
-    link::write_header({type, 0, link_.peer_cid, counter_}, all.first<link::kHeaderSize>());
-    link::Seal seal{link::key_of(link_.secrets.to_server, link_.secrets.cipher)};
+    std::array<std::byte, transport::kDatagramMax> datagram;
+    const std::size_t plain =
+        codec_.encode({0, 0, 0}, message, std::span{datagram}.subspan(transport::kHeaderSize)) - cut;
+    const auto all = std::span{datagram}.first(transport::kHeaderSize + plain + transport::kTagSize);
+    transport::write_header({type, 0, link_.peer_cid, counter_}, all.first<transport::kHeaderSize>());
+    transport::Aead seal{transport::key_of(link_.secrets.to_server, link_.secrets.cipher)};
     if (seal.seal(counter_++, all)) ::send(socket_.fd.get(), all.data(), all.size(), 0);
   }
   [[nodiscard]] wire::StateMessage honest() const { return core_->sample(); }
@@ -235,15 +244,15 @@ class Insider {
  private:
   std::unique_ptr<hal::sim::SimDevice> device_;
   std::optional<client::Seat> core_;
-  link::Link::Params link_;
+  transport::SecureChannel::Params link_;
   wire::Codec codec_;
   io::UdpSocket socket_;
-  std::uint64_t counter_ = 1'000'000;  // newer than all that the honest core sends
+  std::uint64_t counter_ = 1'000'000;  // newer than all counters of the honest core
 };
 
-// "Hostile authenticated client: NaN, 1e308, 100 m jumps, 10 kHz, wrong lengths, instructor messages from a trainee: only he is isolated."
-// What the other hand feels is measured in virtual time (Insider.*).
-TEST(HostileLive, AnInsiderWhoLiesIsIsolatedAndNobodyElse) {
+// "Hostile authenticated client: NaN, 1e308, 100 m jumps, 10 kHz, wrong lengths, instructor messages from a trainee":
+// only that client is quarantined. The effect on the other hand is measured in virtual time (Insider.*).
+TEST(HostileLive, QuarantinesOnlyTheMisbehavingClient) {
   const Folder folder;
   Process host = hosting("free_motion", {"--duration", "8", "--json", folder.file("s.json")});
   Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json")});
@@ -255,17 +264,25 @@ TEST(HostileLive, AnInsiderWhoLiesIsIsolatedAndNobodyElse) {
     std::this_thread::sleep_for(1ms);
   }
   ASSERT_TRUE(insider.runs()) << host.err();
-  const double wrong[] = {std::numeric_limits<double>::quiet_NaN(), 1e308, std::numeric_limits<double>::infinity(), 100, -100};
+  const double wrong[] = {std::numeric_limits<double>::quiet_NaN(), 1e308, std::numeric_limits<double>::infinity(), 100,
+                          -100};
   const int milliseconds = static_cast<int>(draws(1500, 4000, 4000));
   for (int ms = 0; ms < milliseconds; ++ms) {
     insider.tick(false);
     for (int k = 0; k < 10; ++k) {  // 10 kHz
       wire::StateMessage m = insider.honest();
       switch ((ms + k) % 4) {
-        case 0: m.port.x[static_cast<std::size_t>(k) % 3] = wrong[static_cast<std::size_t>(ms) % 5]; break;
-        case 1: m.port.f[static_cast<std::size_t>(k) % 3] = wrong[static_cast<std::size_t>(ms) % 3]; break;
-        case 2: m.port.v[static_cast<std::size_t>(k) % 3] = wrong[static_cast<std::size_t>(ms) % 3]; break;
-        default: break;
+        case 0:
+          m.port.x[static_cast<std::size_t>(k) % 3] = wrong[static_cast<std::size_t>(ms) % 5];
+          break;
+        case 1:
+          m.port.f[static_cast<std::size_t>(k) % 3] = wrong[static_cast<std::size_t>(ms) % 3];
+          break;
+        case 2:
+          m.port.v[static_cast<std::size_t>(k) % 3] = wrong[static_cast<std::size_t>(ms) % 3];
+          break;
+        default:
+          break;
       }
       insider.say(wire::Type::kState, m, (ms + k) % 4 == 3 ? 1 + static_cast<std::size_t>(k) : 0);
       wire::AuthorityMessage authority;
@@ -286,15 +303,16 @@ TEST(HostileLive, AnInsiderWhoLiesIsIsolatedAndNobodyElse) {
   EXPECT_EQ(report["ended_by"], "scene");
 }
 
-// "Keys in memory: core dumps off": a program that crashes leaves nothing to search. The twin shows that without it one would be written.
-TEST(PrivateMemory, OfAProgramThatCrashesIsNotDumped) {
+// "Keys in memory: core dumps off": a program that crashes leaves no dump to search. The twin shows that otherwise a
+// dump would be written.
+TEST(ProcessHardening, WritesNoCoreDumpOfACrash) {
   const Folder folder;
   const auto dumped = [&](bool hide) {
     const pid_t child = fork();
     if (child == 0) {
       const rlimit all{RLIM_INFINITY, RLIM_INFINITY};
       if (chdir(folder.file("").c_str()) != 0 || setrlimit(RLIMIT_CORE, &all) != 0) _exit(3);
-      if (hide) io::forbid_dumps();
+      if (hide) io::disable_core_dumps();
       signal(SIGABRT, SIG_DFL);
       abort();
     }
@@ -303,11 +321,12 @@ TEST(PrivateMemory, OfAProgramThatCrashesIsNotDumped) {
     return WIFSIGNALED(status) && WCOREDUMP(status);
   };
   EXPECT_FALSE(dumped(true));
-  if (!dumped(false)) std::puts("[ NOT RUN ] PrivateMemory, the twin that may be dumped: this system writes no core dumps, whoever crashes");
+  if (!dumped(false))
+    std::puts("[ NOT RUN ] ProcessHardening, the twin that may be dumped: this system writes no core dumps");
 }
 
-// The programs themselves do it first of all.
-TEST(PrivateMemory, IsWhatServerAndClientHave) {
+// The programs themselves do it first.
+TEST(ProcessHardening, IsActiveInServerAndClient) {
 #ifdef TANDEM_DEBUG
   GTEST_SKIP() << "builds for debuggers and sanitizers may be dumped";
 #else

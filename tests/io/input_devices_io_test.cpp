@@ -14,7 +14,8 @@ TEST(ReplayLive, LeadsASession) {
   for (int i = 0; i <= 60; ++i) csv += std::to_string(0.1 * i) + "," + (i / 10 % 2 == 0 ? "0" : "0.02") + ",0,0\n";
   const std::string motion = folder.write("m.csv", csv);
   Process host = hosting("one_axis", {"--duration", "3", "--json", folder.file("s.json")});
-  Process trainer = client(address_of(host), "trainer", {"--json", folder.file("c.json")}, "replay:" + motion + ",scale=1,end=loop");
+  Process trainer =
+      client(address_of(host), "trainer", {"--json", folder.file("c.json")}, "replay:" + motion + ",scale=1,end=loop");
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(host.wait(), 0) << host.err();
   EXPECT_EQ(folder.json("c.json")["ended_by"], "done");
@@ -28,18 +29,19 @@ TEST(ReplayLive, LeadsASession) {
 }
 
 TEST(ReplayLive, NamesAFileThatIsNotThere) {
-  Process trainer = client("127.0.0.1:9", "trainer", {"--patience", "0.2"}, "replay:/no/such/file.csv");
+  Process trainer = client("127.0.0.1:9", "trainer", {"--timeout", "0.2"}, "replay:/no/such/file.csv");
   EXPECT_EQ(trainer.wait(), 2);
   EXPECT_NE(trainer.err().find("/no/such/file.csv"), std::string::npos) << trainer.err();
 }
 
 TEST(OpenHapticsLive, SaysThatTheVendorsLibraryIsMissing) {
-  Process trainer = client("127.0.0.1:9", "trainer", {"--patience", "0.2"}, "openhaptics:left,library=/no/such/libHD.so");
+  Process trainer =
+      client("127.0.0.1:9", "trainer", {"--timeout", "0.2"}, "openhaptics:left,library=/no/such/libHD.so");
   EXPECT_EQ(trainer.wait(), 1);
   EXPECT_NE(trainer.err().find("Install the vendor's OpenHaptics"), std::string::npos) << trainer.err();
 }
 
-TEST(ReplayLive, ThatLeavesTheWorkspaceIsRefusedBeforeAnybodyIsAsked) {
+TEST(ReplayLive, RejectsAMotionOutsideTheWorkspaceBeforeItConnects) {
   const Folder folder;
   const std::string motion = folder.write("wide.csv", "t_s[s],px[m],py[m],pz[m]\n0,0,0,0\n1,0,0.3,0\n2,0,0,0\n");
   Process trainer = client("127.0.0.1:9", "trainer", {}, "replay:" + motion + ",scale=1");
@@ -48,13 +50,14 @@ TEST(ReplayLive, ThatLeavesTheWorkspaceIsRefusedBeforeAnybodyIsAsked) {
   EXPECT_NE(trainer.err().find("[-0.1, 0.1] m"), std::string::npos) << trainer.err();
 }
 
-TEST(DeviceWords, AllMistakesAreToldTogether) {
+TEST(DeviceSpecLive, ReportsAllErrorsTogether) {
   const Folder folder;
   const std::string file = folder.write("mine.textproto", "falcon {\n  peak_n: 99\n}\n");
   const std::string words = "falcon:prot=1,calibration=" + file + ",firmware=/no/such.bin";
-  for (Words command : {Words{TANDEM_CLIENT, "join", "--server", "127.0.0.1:9", "--seat", "trainer", "--duration", "-1", "--device", words},
+  for (Words command : {Words{TANDEM_CLIENT, "join", "--server", "127.0.0.1:9", "--seat", "trainer", "--duration", "-1",
+                              "--device", words},
                         Words{TANDEM_CLIENT, "doctor", "--seconds", "nan", "--device", words},
-                        Words{TANDEM_CLIENT, "weigh", "--mass", "-1", "--device", words}}) {
+                        Words{TANDEM_CLIENT, "calibrate", "--mass", "-1", "--device", words}}) {
     Process process{command};
     EXPECT_EQ(process.wait(), 2) << command[1];
     for (const char* part : {"has no option 'prot'", "mine.textproto:2:", "/no/such.bin", "4 mistakes"})
@@ -62,11 +65,20 @@ TEST(DeviceWords, AllMistakesAreToldTogether) {
   }
 }
 
-TEST(Weigh, RefusesAMassThatNoMotorHolds) {
-  Process process{Words{TANDEM_CLIENT, "weigh", "--device", "falcon", "--mass", "0.5", "--lying"}};
+TEST(Calibrate, RejectsAMassThatTheMotorsCannotHold) {
+  Process process{Words{TANDEM_CLIENT, "calibrate", "--device", "falcon", "--mass", "0.5", "--orientation", "supine"}};
   EXPECT_EQ(process.wait(), 2);
   EXPECT_NE(process.err().find("--mass: 0.5 kg takes 4.9 N"), std::string::npos) << process.err();
   EXPECT_NE(process.err().find("Begin with 0.02 and 0.03"), std::string::npos) << process.err();
+}
+
+TEST(Calibrate, RejectsAnUnknownOrientation) {
+  Process process{
+      Words{TANDEM_CLIENT, "calibrate", "--device", "falcon", "--mass", "0.02", "--orientation", "sideways"}};
+  EXPECT_EQ(process.wait(), 2);
+  EXPECT_NE(process.err().find("--orientation: \"sideways\" is not an orientation: must be upright or supine"),
+            std::string::npos)
+      << process.err();
 }
 
 TEST(Doctor, InstallsItsRulesIntoAnotherRoot) {
@@ -87,10 +99,11 @@ TEST(Doctor, InstallsItsRulesIntoAnotherRoot) {
   EXPECT_EQ(alone.wait(), 2);
 }
 
-TEST(Doctor, NamesTheLibrariesItLooksWith) {
+TEST(Doctor, NamesTheLibrariesItUses) {
   Process process{Words{TANDEM_CLIENT, "doctor"}};
   EXPECT_TRUE(process.wait().has_value());
-  for (const char* part : {"libusb 1.", "hidapi 0.", "evdev of Linux"}) EXPECT_NE(process.out().find(part), std::string::npos) << process.out();
+  for (const char* part : {"libusb 1.", "hidapi 0.", "evdev of Linux"})
+    EXPECT_NE(process.out().find(part), std::string::npos) << process.out();
 }
 
 }  // namespace

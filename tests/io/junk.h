@@ -11,17 +11,17 @@
 #include "common/io/clock.h"
 #include "common/io/datagram_batch.h"
 #include "common/io/udp_socket.h"
-#include "common/link/datagram.h"
+#include "common/transport/datagram.h"
 
 namespace tandem::test {
 
-/// What a stranger got out of it.
+/// Replies that the sender of junk received.
 struct JunkOutcome {
   std::uint64_t sent = 0, replies = 0;
 };
 
-/// Sends `per_ms` datagrams of junk each millisecond for `length`, then ends by itself. A third is noise, a third names the first
-/// session's places, a third looks whole up to its tag. Only for addresses of this very machine.
+/// Sends `per_ms` datagrams of junk per millisecond for `length`. One third is noise, one third names places of the
+/// first session, one third is valid up to the tag. Only for addresses of this machine.
 inline JunkOutcome send_junk(const io::SocketAddress& to, Duration length, std::size_t per_ms, std::uint64_t seed = 1) {
   JunkOutcome out;
   if (!to.loopback()) return out;
@@ -36,7 +36,8 @@ inline JunkOutcome send_junk(const io::SocketAddress& to, Duration length, std::
     size[i] = 1 + random.below(junk[i].size());
     if (i % 3 == 0) continue;
     const auto cid = static_cast<std::uint32_t>(random.below(65536) << 16 | (1 + random.below(4)));
-    link::write_header({wire::Type::kState, 0, cid, random.below(100'000)}, std::span(junk[i]).first<link::kHeaderSize>());
+    transport::write_header({wire::Type::kState, 0, cid, random.below(100'000)},
+                            std::span(junk[i]).first<transport::kHeaderSize>());
     size[i] = i % 3 == 1 ? std::max<std::size_t>(32, size[i]) : 321;
   }
   const Time begin = io::monotonic_now();

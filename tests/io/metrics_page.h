@@ -10,7 +10,7 @@
 
 namespace tandem::test {
 
-/// A page of a metrics server; empty: none.
+/// Response of a metrics server, with its header; empty: none.
 inline std::string page(const std::string& address, const std::string& path = "/metrics") {
   const auto to = io::parse_address(address, 1);
   const io::Fd socket{::socket(to->family(), SOCK_STREAM | SOCK_CLOEXEC, 0)};
@@ -19,7 +19,8 @@ inline std::string page(const std::string& address, const std::string& path = "/
   ::send(socket.get(), ask.data(), ask.size(), MSG_NOSIGNAL);
   std::string answer;
   std::array<char, 4096> part;
-  for (ssize_t n = 0; (n = ::recv(socket.get(), part.data(), part.size(), 0)) > 0;) answer.append(part.data(), static_cast<std::size_t>(n));
+  for (ssize_t n = 0; (n = ::recv(socket.get(), part.data(), part.size(), 0)) > 0;)
+    answer.append(part.data(), static_cast<std::size_t>(n));
   return answer;
 }
 

@@ -1,4 +1,4 @@
-// What people get wrong, through the real programs: exit code and words. Nothing starts before everything was judged.
+// User errors with the real programs: exit codes and messages. No program starts before all input was checked.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -30,13 +30,13 @@ const std::string kScene =
     "tool { name: \"tool\" slave { model: LINEAR } }\n"
     "authority { tool: \"tool\" seat: \"trainer\" alpha: 1 }\n";
 
-/// The scene with one place changed.
+/// The scene with one text replaced.
 std::string changed(const std::string& from, const std::string& to) {
   std::string text = kScene;
   return text.replace(text.find(from), from.size(), to);
 }
 
-TEST(ServerMistakes, InASceneAreListedWithTheirPlaces) {
+TEST(ServerUsageErrors, NameTheirPlacesInAScene) {
   const Folder folder;
   EXPECT_EQ(server({"run", folder.write("good.textproto", kScene), "--check"}).wait(), 0);
   const auto refused = [&](const std::string& text, const Words& words) {
@@ -54,20 +54,22 @@ TEST(ServerMistakes, InASceneAreListedWithTheirPlaces) {
   refused(changed("k_c_n_m: 400", "k_c_n_m: 900"), {"s.textproto:4:", "900", "unsafe_gains"});
 }
 
-TEST(ServerMistakes, AreAllToldTogether) {
+TEST(ServerUsageErrors, AreReportedTogether) {
   const Folder folder;
-  expect_refused(server({"run", "free_moton", "--listen", "0.0.0.0:7000", "--duration", "soon", "--seed", "-1",
-                         "--wait", "nan", "--json", folder.file("no/such/folder.json"), "--trace", folder.file("")}),
-                 2,
-                 {"did you mean free_motion?", "--listen 0.0.0.0:7000", "tandem-server init", "--duration: \"soon\"", "--seed: \"-1\"", "--wait: \"nan\"",
-                  "--json: ", "--trace: ", "it is a folder", "7 mistakes, nothing was started"});
+  expect_refused(
+      server({"run", "free_moton", "--listen", "0.0.0.0:7000", "--duration", "soon", "--seed", "-1", "--start-timeout",
+              "nan", "--json", folder.file("no/such/folder.json"), "--trace", folder.file("")}),
+      2,
+      {"did you mean free_motion?", "--listen 0.0.0.0:7000", "tandem-server init", "--duration: \"soon\"",
+       "--seed: \"-1\"", "--start-timeout: \"nan\"", "--json: ", "--trace: ", "it is a folder",
+       "7 mistakes, nothing was started"});
   expect_refused(server({"run", "free_motion", "--listen", "192.0.2.1:7000"}), 2, {"tandem-server init"});
   expect_refused(server({"run", "free_motion", "--listen", "7000"}), 2, {"needs HOST:PORT"});
   expect_refused(server({"run", "one_axis", "--json", folder.file("a"), "--trace", folder.file("a")}), 2,
                  {"same file"});
 }
 
-TEST(ServerMistakes, OfTheCommandLineEndWithTwo) {
+TEST(ServerUsageErrors, OfTheCommandLineReturnExitCodeTwo) {
   expect_refused(server({"run"}), 2, {"SCENE"});
   expect_refused(server({"run", "free_motion", "--lisen", "127.0.0.1:0"}), 2, {"--lisen"});
   expect_refused(server({"scenes", "--print", "contct"}), 2, {"did you mean contact?"});
@@ -81,23 +83,23 @@ TEST(ServerMistakes, OfTheCommandLineEndWithTwo) {
   }
 }
 
-TEST(ServerTrouble, PortInUse) {
+TEST(ServerErrors, NameAPortInUse) {
   const auto taken = io::bind_udp(*io::parse_address("127.0.0.1:0", 0));
   ASSERT_TRUE(taken);
   const std::string address = io::to_text(taken->local);
   expect_refused(server({"run", "one_axis", "--listen", address}), 1, {address, "in use", "choose another port"});
 }
 
-TEST(ClientMistakes, AreAllToldTogether) {
+TEST(ClientUsageErrors, AreReportedTogether) {
   const Folder folder;
   const std::string script =
       folder.write("a.csv", "t_s[s],trainer[1],trainee[1]\n0,1,0\n2,0.5,0.6\n1,half,0\n3,2,-1\n");
   expect_refused(client("127.0.0.1", "trainer", {"--alpha-script", script, "--duration", "-1"}, "sim:hand=leadr"), 2,
-                 {"needs HOST:PORT", "did you mean leader", "a.csv:3: the weights sum to 1.1", "a.csv:4: column 2",
+                 {"needs HOST:PORT", "did you mean leader", "a.csv:3: the authorities sum to 1.1", "a.csv:4: column 2",
                   "half", "a.csv:5: trainer = 2", "--duration: \"-1\"", "nothing was started"});
 }
 
-TEST(ClientMistakes, InAScriptNameTheLine) {
+TEST(ClientUsageErrors, NameTheLineInAScript) {
   const Folder folder;
   const auto refused = [&](const std::string& text, const Words& words) {
     SCOPED_TRACE(text);
@@ -113,7 +115,7 @@ TEST(ClientMistakes, InAScriptNameTheLine) {
   expect_refused(client("127.0.0.1:1", "trainer", {"--alpha-script", folder.file("none.csv")}), 2, {"none.csv"});
 }
 
-TEST(ClientMistakes, InARecordingNameTheLine) {
+TEST(ClientUsageErrors, NameTheLineInARecording) {
   const Folder folder;
   const std::string good = "t[s],px[m],py[m],pz[m]\n0,0,0,0\n0.01,0.001,0,0\n";
   const std::string bad = folder.write("nan.csv", good + "0.02,nan,0,0\n");
@@ -121,27 +123,27 @@ TEST(ClientMistakes, InARecordingNameTheLine) {
   expect_refused(client("127.0.0.1:1", "trainer", {}, "sim:motion=" + folder.file("none.csv")), 2, {"none.csv"});
 }
 
-TEST(ClientTrouble, NoServer) {
+TEST(ClientErrors, ReportAMissingServer) {
   std::string address;
   {
     const auto free = io::bind_udp(*io::parse_address("127.0.0.1:0", 0));
     ASSERT_TRUE(free);
     address = io::to_text(free->local);
   }
-  expect_refused(client(address, "trainer", {"--patience", "0.5"}), 1,
+  expect_refused(client(address, "trainer", {"--timeout", "0.5"}), 1,
                  {address, "nothing listens there", "tandem-server run"});
   const auto deaf = io::listen_tcp(*io::parse_address("127.0.0.1:0", 0));
   ASSERT_TRUE(deaf);
-  expect_refused(client(io::to_text(deaf->local), "trainer", {"--patience", "0.5"}), 1, {"no answer"});
+  expect_refused(client(io::to_text(deaf->local), "trainer", {"--timeout", "0.5"}), 1, {"no answer"});
 }
 
-TEST(ClientTrouble, RefusedByTheServer) {
+TEST(ClientErrors, ReportARejectionByTheServer) {
   const Folder folder;
   Process host = hosting("free_motion");
   const std::string address = address_of(host);
   Process trainer = client(address, "trainer");
   ASSERT_TRUE(host.wait_for("trainer joined")) << host.err();
-  expect_refused(client(address, "trainer"), 1, {"somebody sits there already", "take another seat"});
+  expect_refused(client(address, "trainer"), 1, {"this seat is taken already", "take another seat"});
   expect_refused(client(address, "trainr"), 1, {"no seat of this name", "trainer trainee"});
   expect_refused(client(address, "trainee", {}, "sim:model=linear"), 1, {"does not fit", "3 axes"});
   const std::string script = folder.write("a.csv", "t_s[s],trainer[1],trainee[1]\n0,0,1\n");

@@ -1,5 +1,5 @@
-// What people on a screen read of stops, removals and a server that ends, and what they can do: real programs on loopback. Words and
-// states are asserted, never how long anything took.
+// Messages to users about stops, removals and a server that ends, and the commands they offer: real programs on
+// loopback. Messages and states are asserted, never durations.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "tests/io/school.h"
+#include "tests/io/multi_client_fixture.h"
 
 namespace tandem::test {
 namespace {
@@ -20,21 +20,25 @@ Process control(const std::string& address, Words words) {
   words.insert(words.begin(), {TANDEM_CLIENT, "control", "--server", address});
   return Process(std::move(words));
 }
-/// A console whose input stays open: what it is told, it was not asked for.
+/// A console whose input stays open: it prints what it did not request.
 Process waiting_console(const std::string& address, const Folder& folder) {
   const std::string pipe = folder.file("pipe");
-  return Process({"/bin/bash", "-c", "mkfifo " + pipe + " && exec 3<>" + pipe + " && exec " + TANDEM_CLIENT + " control --server " + address + " <&3"});
+  return Process({"/bin/bash", "-c",
+                  "mkfifo " + pipe + " && exec 3<>" + pipe + " && exec " + TANDEM_CLIENT + " control --server " +
+                      address + " <&3"});
 }
 
-TEST(Notice, EverybodyOnAScreenReadsWhoStoppedAndWhy) {
+TEST(Notice, NamesTheStoppingRoleAndReasonOnEveryScreen) {
   const Folder folder;
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
-  Process trainer = client(address, "trainer"), trainee = client(address, "trainee"), console = waiting_console(address, folder);
+  Process trainer = client(address, "trainer"), trainee = client(address, "trainee"),
+          console = waiting_console(address, folder);
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
   Process stop = control(address, {"stop", "fire", "drill"});
   EXPECT_EQ(stop.wait(), 0) << stop.err();
-  const std::string words = "STOPPED by local (operator at a console): fire drill. Who may end it: an instructor (key r) or an operator";
+  const std::string words =
+      "STOPPED by local (operator at a console): fire drill. It can be ended by: an instructor (key r) or an operator";
   EXPECT_TRUE(trainer.wait_for(words)) << trainer.err();
   EXPECT_TRUE(trainee.wait_for(words)) << trainee.err();
   EXPECT_TRUE(console.wait_for(words)) << console.out() << console.err();
@@ -55,7 +59,7 @@ TEST(Notice, EverybodyOnAScreenReadsWhoStoppedAndWhy) {
   EXPECT_EQ(console.wait(), 0) << console.err();
 }
 
-TEST(Notice, ADrainShowsHowFarItIsAtTheConsoleAndAtTheServer) {
+TEST(Notice, ShowsTheProgressOfADrainAtConsoleAndServer) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
   Process trainer = client(address, "trainer"), trainee = client(address, "trainee");
@@ -65,24 +69,30 @@ TEST(Notice, ADrainShowsHowFarItIsAtTheConsoleAndAtTheServer) {
   EXPECT_NE(drain.out().find("s left, 1 session, 2 people on their seats"), std::string::npos) << drain.out();
   EXPECT_NE(drain.out().find("the server has ended"), std::string::npos) << drain.out();
   EXPECT_EQ(host.wait(), 0) << host.err();
-  EXPECT_NE(host.err().find("DRAINING: nobody new comes in, and all hands are let go in 4 s; ordered by local (operator)"), std::string::npos) << host.err();
+  EXPECT_NE(host.err().find(
+                "DRAINING: new joins are rejected, and all hands are released in 4 s; requested by local (operator)"),
+            std::string::npos)
+      << host.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
 }
 
-/// The console stays open behind its order; the one who ordered the end is told that it came as ordered, and is not asked to guess.
-TEST(Notice, ADrainOrderedInAConsoleEndsItWithoutAComplaint) {
+/// The console stays open after its command. It reports that the drain it requested is complete.
+TEST(Notice, EndsTheConsoleThatOrderedADrainWithoutAnError) {
   const Folder folder;
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string pipe = folder.file("pipe");
-  Process console({"/bin/bash", "-c", "mkfifo " + pipe + " && exec 3<>" + pipe + " && echo drain 1 >&3 && exec " + TANDEM_CLIENT + " control --server " + address_of(host) + " <&3"});
+  Process console({"/bin/bash", "-c",
+                   "mkfifo " + pipe + " && exec 3<>" + pipe + " && echo drain 1 >&3 && exec " + TANDEM_CLIENT +
+                       " control --server " + address_of(host) + " <&3"});
   EXPECT_EQ(console.wait(), 0) << console.out() << console.err();
-  EXPECT_NE(console.out().find("the server has ended: the drain was carried out as ordered"), std::string::npos) << console.out() << console.err();
+  EXPECT_NE(console.out().find("the server has ended: the drain is complete"), std::string::npos)
+      << console.out() << console.err();
   EXPECT_EQ(console.err(), "");
   EXPECT_EQ(host.wait(), 0) << host.err();
 }
 
-TEST(Notice, ASessionThatNeverBeganSaysWhoWasMissing) {
+TEST(Notice, NamesTheMissingSeatOfASessionThatNeverBegan) {
   const Folder folder;
   Process host = hosting("free_motion", {"--json", folder.file("r.json")});
   Process trainer = client(address_of(host), "trainer");
@@ -97,105 +107,116 @@ TEST(Notice, ASessionThatNeverBeganSaysWhoWasMissing) {
   EXPECT_EQ(report["waited_for"], "trainee (nobody joined)");
 }
 
-// ---- At the server's own computer ---------------------------------------------------------------------------------------------
+// ---- On the server's own computer ----
 
-TEST(Stop, EndsTheServerOfAStateFolderGentlyAndFollowsIt) {
-  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
-  Process trainer = school.join("trainer", {"--ticket", school.ticket("a", "trainer")}), trainee = school.join("trainee", {"--session", school.code(), "--rejoin", "0"});
-  ASSERT_TRUE(school.host.wait_for("the session runs")) << school.host.err();
-  for (int i = 0; i < 300; ++i) {  // what it says is up to a second old
-    Process status = server({"status", "--json", "--state", school.state});
+TEST(Stop, EndsTheServerOfAStateDirectoryAndReportsItsProgress) {
+  MultiClientFixture fixture{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
+  Process trainer = fixture.join("trainer", {"--ticket", fixture.ticket("a", "trainer")}),
+          trainee = fixture.join("trainee", {"--session", fixture.code(), "--reconnect-timeout", "0"});
+  ASSERT_TRUE(fixture.host.wait_for("the session runs")) << fixture.host.err();
+  for (int i = 0; i < 300; ++i) {  // its output is up to a second old
+    Process status = server({"status", "--json", "--state", fixture.state});
     EXPECT_EQ(status.wait(), 0) << status.err();
     const Json now = Json::parse(status.out(), nullptr, false)["sessions"][0];
     if (now["phase"] == "running" && now["seats"][0]["taken"] && now["seats"][1]["taken"]) break;
     ASSERT_LT(i, 299) << status.out();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  Process wrong = server({"stop", "--grace", "soon", "--state", school.state});
+  Process wrong = server({"stop", "--grace", "soon", "--state", fixture.state});
   EXPECT_EQ(wrong.wait(), 2) << wrong.err();
-  Process stop = server({"stop", "--grace", "2", "--state", school.state});
+  Process stop = server({"stop", "--grace", "2", "--state", fixture.state});
   EXPECT_EQ(stop.wait(), 0) << stop.err();
   EXPECT_NE(stop.out().find("DRAINING: 2 s left, 1 session, 2 people on their seats"), std::string::npos) << stop.out();
   EXPECT_NE(stop.out().find("the server has ended"), std::string::npos) << stop.out();
-  EXPECT_EQ(school.host.wait(), 0) << school.host.err();
-  EXPECT_NE(school.host.err().find("ordered by `tandem-server stop` on this computer"), std::string::npos) << school.host.err();
+  EXPECT_EQ(fixture.host.wait(), 0) << fixture.host.err();
+  EXPECT_NE(fixture.host.err().find("requested by `tandem-server stop` on this computer"), std::string::npos)
+      << fixture.host.err();
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
-  Process again = server({"stop", "--state", school.state});
+  Process again = server({"stop", "--state", fixture.state});
   EXPECT_EQ(again.wait(), 1) << again.out();
   EXPECT_NE(again.err().find("no server runs from"), std::string::npos) << again.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
 }
 
-// ---- Tickets in files ---------------------------------------------------------------------------------------------------------
+// ---- Tickets in files ----
 
-TEST(TicketFile, IsReadByJoinAndControlAndMistakesAreTold) {
-  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
-  const std::string first = school.folder.write("trainer.ticket", school.ticket("a", "trainer") + "\n"), second = school.folder.write("trainee.ticket", school.ticket("a", "trainee") + "\r\n");
-  Process trainer = school.join("trainer", {"--ticket", "@" + first}), trainee = school.join("trainee", {"--ticket-file", second});
-  ASSERT_TRUE(school.host.wait_for("the session runs")) << trainer.err() << trainee.err();
-  Process made = server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", school.state});
+TEST(TicketFile, IsReadByJoinAndControlAndItsErrorsAreReported) {
+  MultiClientFixture fixture{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
+  const std::string first = fixture.folder.write("trainer.ticket", fixture.ticket("a", "trainer") + "\n"),
+                    second = fixture.folder.write("trainee.ticket", fixture.ticket("a", "trainee") + "\r\n");
+  Process trainer = fixture.join("trainer", {"--ticket", "@" + first}),
+          trainee = fixture.join("trainee", {"--ticket-file", second});
+  ASSERT_TRUE(fixture.host.wait_for("the session runs")) << trainer.err() << trainee.err();
+  Process made =
+      server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", fixture.state});
   EXPECT_EQ(made.wait(), 0);
-  const std::string third = school.folder.write("operator.ticket", made.out());
-  Process refused = control(school.address, {"--state", school.own, "--ticket-file", third, "remove", "nobody"});
+  const std::string third = fixture.folder.write("operator.ticket", made.out());
+  Process refused = control(fixture.address, {"--state", fixture.own, "--ticket-file", third, "remove", "nobody"});
   EXPECT_EQ(refused.wait(), 1) << refused.err();
-  for (int i = 0; i < 100; ++i) {  // the ticket is good again a moment after that connection is over
-    Process status = control(school.address, {"--state", school.own, "--ticket-file", third, "remove", "trainee"});
+  for (int i = 0; i < 100; ++i) {  // the ticket becomes valid again shortly after that connection has ended
+    Process status = control(fixture.address, {"--state", fixture.own, "--ticket-file", third, "remove", "trainee"});
     if (status.wait() == 0) break;
     EXPECT_NE(status.err().find("used already"), std::string::npos) << status.err();
     ASSERT_LT(i, 99) << status.err();
   }
-  Process used = control(school.address, {"--state", school.own, "--ticket-file", third, "status"});
+  Process used = control(fixture.address, {"--state", fixture.own, "--ticket-file", third, "status"});
   EXPECT_EQ(used.wait(), 1) << used.out();
   EXPECT_NE(used.err().find("used already"), std::string::npos) << used.err();
   const auto wrong = [&](Words words, const char* text) {
-    Process p = school.join("trainee", std::move(words));
+    Process p = fixture.join("trainee", std::move(words));
     EXPECT_EQ(p.wait(), 2) << p.err();
     EXPECT_NE(p.err().find(text), std::string::npos) << p.err();
   };
   wrong({"--ticket", "@none"}, "none cannot be read");
   wrong({"--ticket-file", first, "--ticket", "ticket:x"}, "there is a --ticket too");
-  wrong({"--ticket-file", school.folder.write("other", "hello\n")}, "its first line is no ticket");
+  wrong({"--ticket-file", fixture.folder.write("other", "hello\n")}, "its first line is no ticket");
 }
 
-// ---- What a restart keeps -----------------------------------------------------------------------------------------------------
+// ---- State that a restart keeps ----
 
-TEST(Removed, StaysSoAfterARestart) {
-  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
-  const std::string code = school.code();
-  Process trainee = school.join("trainee", {"--session", code});
-  ASSERT_TRUE(school.host.wait_for("trainee joined")) << trainee.err();
-  Process made = server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", school.state});
+TEST(Removal, PersistsAfterARestart) {
+  MultiClientFixture fixture{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 }"};
+  const std::string code = fixture.code();
+  Process trainee = fixture.join("trainee", {"--session", code});
+  ASSERT_TRUE(fixture.host.wait_for("trainee joined")) << trainee.err();
+  Process made =
+      server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", fixture.state});
   EXPECT_EQ(made.wait(), 0);
-  Process removed = control(school.address, {"--state", school.own, "--ticket", first_line(made.out()), "remove", "trainee"});
+  Process removed =
+      control(fixture.address, {"--state", fixture.own, "--ticket", first_line(made.out()), "remove", "trainee"});
   EXPECT_EQ(removed.wait(), 0) << removed.err();
   EXPECT_EQ(trainee.wait(), 1) << trainee.err();
   for (int round = 0; round < 2; ++round) {
-    school.host.signal(SIGTERM);
-    EXPECT_EQ(school.host.wait(), 0) << school.host.err();
-    school.host = serving(school.folder.file("s.textproto"));
-    ASSERT_NE(school.host.err().find("GOES ON"), std::string::npos) << school.host.err();
-    Process again = client(address_of(school.host), "trainee", {"--session", code, "--state", school.own});
+    fixture.host.signal(SIGTERM);
+    EXPECT_EQ(fixture.host.wait(), 0) << fixture.host.err();
+    fixture.host = serving(fixture.folder.file("s.textproto"));
+    ASSERT_NE(fixture.host.err().find("RESTORED"), std::string::npos) << fixture.host.err();
+    Process again = client(address_of(fixture.host), "trainee", {"--session", code, "--state", fixture.own});
     EXPECT_EQ(again.wait(), 1) << again.err();
-    EXPECT_NE(again.err().find("was removed from the session; a ticket lets it in again"), std::string::npos) << again.err();
+    EXPECT_NE(again.err().find("was removed from the session; a ticket lets it in again"), std::string::npos)
+        << again.err();
   }
-  Process own = server({"status", "--state", school.state});
+  Process own = server({"status", "--state", fixture.state});
   EXPECT_EQ(own.wait(), 0);
-  EXPECT_EQ(school.code(), code);
+  EXPECT_EQ(fixture.code(), code);
 }
 
-// ---- What a server prints can be typed ----------------------------------------------------------------------------------------
+// ---- Printed commands work as printed ----
 
-TEST(PrintedCommands, OfAServerOnAllAddressesWorkAsTyped) {
+TEST(PrintedCommands, WorkAsPrintedForAServerOnAllAddresses) {
   const Folder folder;
   const std::string state = folder.file("state");
   Process made = server({"init", "--state", state});
   ASSERT_EQ(made.wait(), 0) << made.err();
-  Process first = server({"enroll", "first", "--state", state, "--address", "127.0.0.1:1"});  // a server on a network wants one
+  Process first =
+      server({"enroll", "first", "--state", state, "--address", "127.0.0.1:1"});  // a server on a network needs one
   ASSERT_EQ(first.wait(), 0) << first.err();
-  Process host = serving(folder.write("s.textproto", "version: 1 listen: \"0.0.0.0:0\" state: \"state\" session { name: \"a\" scene: \"lesson\" }"));
+  Process host = serving(folder.write(
+      "s.textproto", "version: 1 listen: \"0.0.0.0:0\" state: \"state\" session { name: \"a\" scene: \"lesson\" }"));
   const std::string out = host.out(), mark = "--server ";
   EXPECT_EQ(out.find(mark + "0.0.0.0"), std::string::npos) << out;
-  EXPECT_NE(out.find("--seat instructor --device sim --ticket-file FILE\n"), std::string::npos) << out << "a ticket on a command line is seen by everybody";
+  EXPECT_NE(out.find("--seat instructor --device sim --ticket-file FILE\n"), std::string::npos)
+      << out << "a ticket on a command line is seen by everybody";
   EXPECT_EQ(out.find('#'), std::string::npos) << out << "not every shell takes comments";
   const auto at = out.find(mark);
   ASSERT_NE(at, std::string::npos) << out;
@@ -204,12 +225,13 @@ TEST(PrintedCommands, OfAServerOnAllAddressesWorkAsTyped) {
   ASSERT_EQ(given.wait(), 0) << given.err();
   Process taken({TANDEM_CLIENT, "enroll", first_line(given.out()), "--state", folder.file("own")});
   EXPECT_EQ(taken.wait(), 0) << address << taken.err();
-  Process ticket = server({"ticket", "--session", "a", "--seat", "instructor", "--workstation", "desk", "--state", state});
+  Process ticket =
+      server({"ticket", "--session", "a", "--seat", "instructor", "--workstation", "desk", "--state", state});
   EXPECT_EQ(ticket.wait(), 0);
   EXPECT_NE(ticket.err().find("join --server " + address + " --seat"), std::string::npos) << ticket.err();
 }
 
-/// The command behind `mark` in a program's words, as somebody copies it: up to the closing backquote.
+/// The command after `mark` in a program's output, up to the closing backquote.
 std::string command_in(const std::string& words, const std::string& mark) {
   const auto at = words.find(mark);
   if (at == std::string::npos) return "";
@@ -218,51 +240,60 @@ std::string command_in(const std::string& words, const std::string& mark) {
   std::ranges::replace(command, '\n', ' ');
   return command;
 }
-/// Runs a printed command in a shell, FILE being that file. A server's screen knows nothing of the reader's folder: that one is where it is looked for.
+/// Runs a printed command in a shell with FILE replaced. A server's screen does not know the reader's client
+/// directory, so it is set in the environment.
 Process typed(std::string command, const std::string& file, const std::string& own) {
   const auto at = command.find("FILE");
   if (at != std::string::npos) command.replace(at, 4, file);
-  return Process({"/usr/bin/env", "TANDEM_CLIENT_STATE=" + own, "PATH=" + fs::path(TANDEM_CLIENT).parent_path().string() + ":/usr/bin:/bin", "/bin/sh", "-c", command});
+  return Process({"/usr/bin/env", "TANDEM_CLIENT_STATE=" + own,
+                  "PATH=" + fs::path(TANDEM_CLIENT).parent_path().string() + ":/usr/bin:/bin", "/bin/sh", "-c",
+                  command});
 }
 
-// With tickets nobody looks after a session without one: a command that leaves it out is refused.
-TEST(PrintedCommands, ThatResumeNameTheTicketFileWhereTicketsAreNeededAndWorkAsTyped) {
-  School school{"session { name: \"a\" scene: \"free_motion\" duration_s: 600 } session { name: \"b\" scene: \"free_motion\" duration_s: 600 }"};
+// With tickets, a console needs one: the server rejects a command without it.
+TEST(PrintedCommands, NameTheTicketFileToResumeAndWorkAsPrinted) {
+  MultiClientFixture fixture{
+      "session { name: \"a\" scene: \"free_motion\" duration_s: 600 } session { name: \"b\" scene: \"free_motion\" "
+      "duration_s: 600 }"};
   const auto right = [&](const std::string& name) {
-    Process made = server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", school.state});
+    Process made =
+        server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", fixture.state});
     EXPECT_EQ(made.wait(), 0) << made.err();
-    return school.folder.write(name, made.out());
+    return fixture.folder.write(name, made.out());
   };
-  Process trainer = school.join("trainer", {"--ticket-file", school.folder.write("trainer.ticket", school.ticket("a", "trainer") + "\n")});
-  Process trainee = school.join("trainee", {"--ticket-file", school.folder.write("trainee.ticket", school.ticket("a", "trainee") + "\n")});
-  ASSERT_TRUE(school.host.wait_for("the session runs")) << trainer.err() << trainee.err();
-  const std::string reach = "tandem-client control --server " + school.address + " --session a";
+  Process trainer = fixture.join(
+      "trainer", {"--ticket-file", fixture.folder.write("trainer.ticket", fixture.ticket("a", "trainer") + "\n")});
+  Process trainee = fixture.join(
+      "trainee", {"--ticket-file", fixture.folder.write("trainee.ticket", fixture.ticket("a", "trainee") + "\n")});
+  ASSERT_TRUE(fixture.host.wait_for("the session runs")) << trainer.err() << trainee.err();
+  const std::string reach = "tandem-client control --server " + fixture.address + " --session a";
   const auto stop = [&](const std::string& number) {
-    Process order = control(school.address, {"--state", school.own, "--ticket-file", right("stop" + number), "stop", "fire", "drill"});
+    Process order = control(fixture.address,
+                            {"--state", fixture.own, "--ticket-file", right("stop" + number), "stop", "fire", "drill"});
     EXPECT_EQ(order.wait(), 0) << order.err();
-    EXPECT_TRUE(school.host.wait_for("fire drill")) << school.host.err();
+    EXPECT_TRUE(fixture.host.wait_for("fire drill")) << fixture.host.err();
   };
   stop("1");
-  ASSERT_TRUE(trainee.wait_for("Who may end it: an instructor (key r) or an operator (`")) << trainee.err();
+  ASSERT_TRUE(trainee.wait_for("It can be ended by: an instructor (key r) or an operator (`")) << trainee.err();
   ASSERT_TRUE(trainee.wait_for(" resume`")) << trainee.err();
-  const std::string seats = command_in(trainee.err(), "Who may end it");
-  EXPECT_EQ(seats, reach + " --state " + school.own + " --ticket-file FILE resume");
-  Process first = typed(seats, right("first"), school.own);
+  const std::string seats = command_in(trainee.err(), "It can be ended by");
+  EXPECT_EQ(seats, reach + " --state " + fixture.own + " --ticket-file FILE resume");
+  Process first = typed(seats, right("first"), fixture.own);
   EXPECT_EQ(first.wait(), 0) << seats << first.err();
   ASSERT_TRUE(trainee.wait_for("stop 1 is over")) << trainee.err();
   stop("2");
   ASSERT_TRUE(trainee.wait_for("STOPPED by desk (console)")) << trainee.err();
-  ASSERT_TRUE(school.host.wait_for("resume`")) << school.host.err();
-  const std::string hosts = command_in(school.host.err(), "STOPPED by desk");
+  ASSERT_TRUE(fixture.host.wait_for("resume`")) << fixture.host.err();
+  const std::string hosts = command_in(fixture.host.err(), "STOPPED by desk");
   EXPECT_EQ(hosts, reach + " --ticket-file FILE resume");
-  Process second = typed(hosts, right("second"), school.own);
+  Process second = typed(hosts, right("second"), fixture.own);
   EXPECT_EQ(second.wait(), 0) << hosts << second.err();
   EXPECT_TRUE(trainee.wait_for("stop 2 is over")) << trainee.err();
 }
 
-// ---- Mistakes of a configuration and its state folder, in one round ------------------------------------------------------------
+// ---- All errors of a configuration and its state directory, in one run ----
 
-TEST(Check, TellsSchemaAddressSceneAndStateFolderAtOnce) {
+TEST(Check, ReportsSchemaAddressSceneAndStateDirectoryErrorsTogether) {
   const Folder folder;
   Process made = server({"init", "--state", folder.file("state")});
   EXPECT_EQ(made.wait(), 0) << made.err();
@@ -271,18 +302,26 @@ TEST(Check, TellsSchemaAddressSceneAndStateFolderAtOnce) {
   const auto check = [&](const std::string& text, const std::vector<std::string>& mistakes) {
     Process p = server({"serve", folder.write("s.textproto", "version: 1 " + text), "--check"});
     EXPECT_EQ(p.wait(), mistakes.empty() ? 0 : 2) << p.err() << p.out();
-    for (const std::string& mistake : mistakes) EXPECT_NE(p.err().find(mistake), std::string::npos) << mistake << "\n" << p.err();
+    for (const std::string& mistake : mistakes)
+      EXPECT_NE(p.err().find(mistake), std::string::npos) << mistake << "\n" << p.err();
   };
   const std::string session = " session { name: \"a\" scene: \"contact\" }";
   check("listen: \"127.0.0.1:0\" state: \"state\"" + session, {});
-  check("listen: \"192.0.2.1:7000\" state: \"nowhere\" limitz { } session { name: \"a\" scene: \"contakt\" duration_s: -1 }",
-        {"limitz", "duration_s", "did you mean contact", "this computer cannot listen there", "nowhere cannot be opened", "tandem-server init", "5 mistakes"});
-  check("listen: \"127.0.0.1:0\" state: \"bare\"" + session, {"server_key.pem is missing", "server_cert.pem is missing", "ticket_key is missing", "3 mistakes"});
+  check(
+      "listen: \"192.0.2.1:7000\" state: \"nowhere\" limitz { } session { name: \"a\" scene: \"contakt\" duration_s: "
+      "-1 }",
+      {"limitz", "duration_s", "did you mean contact", "this computer cannot listen there", "nowhere cannot be opened",
+       "tandem-server init", "5 mistakes"});
+  check("listen: \"127.0.0.1:0\" state: \"bare\"" + session,
+        {"server_key.pem is missing", "server_cert.pem is missing", "ticket_key is missing", "3 mistakes"});
   ASSERT_EQ(::chmod(folder.file("state/ticket_key").c_str(), 0644), 0);
   ASSERT_EQ(::chmod(folder.file("state/workstations.textproto").c_str(), 0640), 0);
-  check("listen: \"127.0.0.1:0\" state: \"state\"" + session, {"ticket_key can be read by others", "workstations.textproto can be read by others", "chmod 0600", "2 mistakes"});
+  check(
+      "listen: \"127.0.0.1:0\" state: \"state\"" + session,
+      {"ticket_key can be read by others", "workstations.textproto can be read by others", "chmod 0600", "2 mistakes"});
   ASSERT_EQ(::chmod(folder.file("state").c_str(), 0755), 0);
-  check("listen: \"127.0.0.1:0\" state: \"state\"" + session, {"can be entered by others (mode 0755)", "chmod 0700", "1 mistake"});
+  check("listen: \"127.0.0.1:0\" state: \"state\"" + session,
+        {"can be entered by others (mode 0755)", "chmod 0700", "1 mistake"});
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace tandem::test {
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
-/// A folder of a test's own, gone with it.
+/// A directory for one test, deleted at its end.
 class Folder {
  public:
   Folder() {
@@ -46,7 +46,7 @@ inline Process server(Words arguments) {
   return Process(std::move(arguments));
 }
 
-/// A server that runs `scene`, after it printed its address.
+/// Starts a server that runs `scene`. Returns after it has printed its address.
 inline Process hosting(const std::string& scene, Words arguments = {}) {
   arguments.insert(arguments.begin(), {"run", scene});
   Process process = server(std::move(arguments));

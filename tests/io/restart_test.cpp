@@ -1,4 +1,5 @@
-// The server dies and is started anew, with real programs on loopback: nobody is kicked, everybody is back. Times are printed, not asserted.
+// The server is killed and started again, with real programs on loopback: no hand is kicked, and all clients come
+// back. Durations are printed, not asserted.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -13,7 +14,7 @@
 #include <thread>
 
 #include "common/base/rng.h"
-#include "tests/base/counts.h"
+#include "tests/common/base/counts.h"
 #include "tests/io/programs.h"
 #include "tests/io/traces.h"
 
@@ -23,10 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
-/// Gate phases as traces name them (wire::GateState).
+/// Gate states as in traces (wire::GateState).
 enum Gate { kZero = 1, kRampIn = 2, kActive = 3, kPassive = 4 };
 
-/// Whether a socket of this kind can be bound to the port of loopback.
+/// Whether a socket of this kind can be bound to this port of loopback.
 bool is_free(int kind, std::uint16_t port) {
   const int socket = ::socket(AF_INET, kind | SOCK_CLOEXEC, 0);
   sockaddr_in at{};
@@ -38,8 +39,8 @@ bool is_free(int kind, std::uint16_t port) {
   return bound;
 }
 
-/// A free address of loopback: a server that is started again must have the same. It lies below the ports that a kernel gives to whoever
-/// asks for any, or a test beside this one would get it while no server runs.
+/// A free loopback address, because a restarted server must have the same one. It is below the kernel's range of
+/// ephemeral ports: otherwise another test could get it while no server runs.
 std::string free_address() {
   constexpr int kFirst = 20000, kPorts = 12000;
   for (int i = 0; i < kPorts; ++i) {
@@ -49,7 +50,7 @@ std::string free_address() {
   throw std::runtime_error("no free port");
 }
 
-/// Servers and clients of a test meet in a folder of their own.
+/// Servers and clients of a test share a directory.
 class Restart : public ::testing::Test {
  protected:
   Restart() { setenv("TANDEM_RUNTIME", folder.file("runtime").c_str(), 1); }
@@ -60,7 +61,7 @@ class Restart : public ::testing::Test {
       if (entry.path().extension() == ".checkpoint") return entry.path().string();
     return "";
   }
-  /// The same, once it is there.
+  /// The same, after waiting for it.
   [[nodiscard]] std::string wait_until_kept() const {
     for (int i = 0; i < 3000 && kept().empty(); ++i) std::this_thread::sleep_for(milliseconds(10));
     return kept();
@@ -70,28 +71,34 @@ class Restart : public ::testing::Test {
   std::string address = free_address();
 };
 
-/// Two hands press the tool against a wall from 3 s on; both lead.
+/// Two hands press the tool against a wall from 3 s on; both have authority.
 std::string pressing(const std::string& more = "") {
   const auto seat = [](const std::string& name, const std::string& role) {
     return "seat { name: \"" + name + "\" kind: MASTER role: " + role +
-           " required: true device { model: TOUCH friction_n: 0.1 start_m { x: -0.02 } } hand { model: LEADER trajectory { "
+           " required: true device { model: TOUCH friction_n: 0.1 start_m { x: -0.02 } } hand { model: LEADER "
+           "trajectory { "
            "waypoint { at_s: 0.5 x_m: -0.02 } waypoint { at_s: 1.5 x_m: 0 } waypoint { at_s: 3 x_m: 0.012 } } } }\n";
   };
-  return "version: 1 tick_hz: 1000 dof: 3 port: TIP duration_s: 3000\nchannel { law: SET_POSITION mfs: OPEN k_n_m: 1500 }\n"
-         "device_coupling { k_c_n_m: 400 b_n_s_m: 0.5 m_c_kg: 0.02 }\ngate { silence_limit_ms: 20 loop_age_max_ms: 2500 latch: false }\n" +
+  return "version: 1 tick_hz: 1000 dof: 3 port: TIP duration_s: 3000\nchannel { law: SET_POSITION mfs: OPEN k_n_m: "
+         "1500 }\n"
+         "device_coupling { k_c_n_m: 400 b_n_s_m: 0.5 m_c_kg: 0.02 }\ngate { silence_limit_ms: 20 loop_age_max_ms: "
+         "2500 latch: false }\n" +
          seat("trainer", "INSTRUCTOR") + seat("trainee", "TRAINEE") +
-         "tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 b_s_n_s_m: 0.2 slave { model: TOUCH friction_n: 0.1 start_m { x: -0.02 } "
+         "tool { name: \"tool\" k_s_n_m: 400 m_s_kg: 0.05 b_s_n_s_m: 0.2 slave { model: TOUCH friction_n: 0.1 start_m "
+         "{ x: -0.02 } "
          "environment { wall { axis: X at_m: 0 k_n_m: 20000 } } } }\n"
-         "authority { tool: \"tool\" seat: \"trainer\" alpha: 0.5 }\nauthority { tool: \"tool\" seat: \"trainee\" alpha: 0.5 }\n" + more;
+         "authority { tool: \"tool\" seat: \"trainer\" alpha: 0.5 }\nauthority { tool: \"tool\" seat: \"trainee\" "
+         "alpha: 0.5 }\n" +
+         more;
 }
 
-/// What a seat's trace says of the times without a server.
+/// One absence of the server, from a seat's trace.
 struct Absence {
-  double back_s = 0;    ///< from the gate's letting go until it was wholly active again
-  double first_n = 0;   ///< what the motor was given in the first tick of its return
-  double jump_mm = 0;   ///< of the tip, between two ticks around the return
-  double beyond_n = 0;  ///< in the first 500 ms, beyond what it had been given before
-  double forward_mm = 0;  ///< the way of the hand in 300 ms after it was let go
+  double back_s = 0;      ///< from the gate's release until it was fully active again
+  double first_n = 0;     ///< motor force in the first tick of the return
+  double jump_mm = 0;     ///< of the tip, between two ticks around the return
+  double beyond_n = 0;    ///< force in the first 500 ms above the maximum before
+  double forward_mm = 0;  ///< motion of the hand in the 300 ms after the release
 };
 std::vector<Absence> absences(const Trace& t) {
   std::vector<Absence> out;
@@ -108,7 +115,8 @@ std::vector<Absence> absences(const Trace& t) {
     if (k == t.size()) break;
     a.first_n = norm(t.triple(k, "f_gate_"));
     for (std::size_t m = k; m < t.size() && t.at(m, "t_s") < t.at(k, "t_s") + 0.5; ++m) {
-      const double missed = std::max(1.0, (t.at(m, "t_s") - t.at(m - 1, "t_s")) / 1e-3);  // ticks that this machine left out
+      // Ticks that this machine skipped.
+      const double missed = std::max(1.0, (t.at(m, "t_s") - t.at(m - 1, "t_s")) / 1e-3);
       a.jump_mm = std::max(a.jump_mm, 1e3 * distance(t.triple(m, ""), t.triple(m - 1, "")) / missed);
       a.beyond_n = std::max(a.beyond_n, norm(t.triple(m, "f_gate_")) - before);
     }
@@ -123,10 +131,11 @@ std::vector<Absence> absences(const Trace& t) {
 
 void print(const char* what, std::vector<double> v) {
   std::ranges::sort(v);
-  std::printf("[  figures ] %-46s min %.3f median %.3f max %.3f (%zu)\n", what, v.front(), v[v.size() / 2], v.back(), v.size());
+  std::printf("[  figures ] %-46s min %.3f median %.3f max %.3f (%zu)\n", what, v.front(), v[v.size() / 2], v.back(),
+              v.size());
 }
 
-TEST_F(Restart, KilledInContactEverybodyIsBackAndNobodyIsKicked) {
+TEST_F(Restart, RestoresAllSeatsWithoutAForceStepAfterAKillInContact) {
   const std::size_t restarts = draws(2, 50, 50);
   std::printf("[  counts  ] %zu restarts\n", restarts);
   const std::string scene = folder.write("press.textproto", pressing());
@@ -143,8 +152,9 @@ TEST_F(Restart, KilledInContactEverybodyIsBackAndNobodyIsKicked) {
     host.signal(SIGKILL);
     ASSERT_EQ(host.wait(), -SIGKILL);
     std::this_thread::sleep_for(milliseconds(random.below(900)));
-    host = hosting(scene, {"--listen", address, "--trace", folder.file(std::to_string(n) + ".csv"), "--json", folder.file("s.json")});
-    ASSERT_NE(host.err().find("GOES ON where its server ended"), std::string::npos) << host.err();
+    host = hosting(scene, {"--listen", address, "--trace", folder.file(std::to_string(n) + ".csv"), "--json",
+                           folder.file("s.json")});
+    ASSERT_NE(host.err().find("RESTORED from its checkpoint"), std::string::npos) << host.err();
     ASSERT_NE(host.err().find("epoch " + std::to_string(n + 1)), std::string::npos) << host.err();
     ASSERT_TRUE(host.wait_for("the session runs")) << n << host.err() << trainer.err() << trainee.err();
   }
@@ -159,8 +169,10 @@ TEST_F(Restart, KilledInContactEverybodyIsBackAndNobodyIsKicked) {
     const Trace before(folder.read(std::to_string(n - 1) + ".csv")), after(folder.read(std::to_string(n) + ".csv"));
     ASSERT_GT(before.size(), 0u);
     ASSERT_GT(after.size(), 0u);
-    tool_jump_mm = std::max(tool_jump_mm, 1e3 * distance(before.triple(before.size() - 1, "tool."), after.triple(0, "tool.")));
-    EXPECT_GT(after.at(0, "t_s"), before.at(before.size() - 1, "t_s") - 0.6) << "session time goes on where the checkpoint was";
+    tool_jump_mm =
+        std::max(tool_jump_mm, 1e3 * distance(before.triple(before.size() - 1, "tool."), after.triple(0, "tool.")));
+    EXPECT_GT(after.at(0, "t_s"), before.at(before.size() - 1, "t_s") - 0.6)
+        << "session time goes on where the checkpoint was";
   }
   EXPECT_LE(tool_jump_mm, 1) << "it stands where it was, but for what the wall gives";
   std::vector<double> back, first, jump, beyond, forward;
@@ -179,11 +191,12 @@ TEST_F(Restart, KilledInContactEverybodyIsBackAndNobodyIsKicked) {
       EXPECT_LE(a.jump_mm, 0.5) << "0.5 m/s";
       EXPECT_LE(a.beyond_n, 0.3);
       EXPECT_LE(a.forward_mm, 6);
-      back.push_back(a.back_s), first.push_back(a.first_n), jump.push_back(a.jump_mm), beyond.push_back(a.beyond_n), forward.push_back(a.forward_mm);
+      back.push_back(a.back_s), first.push_back(a.first_n), jump.push_back(a.jump_mm), beyond.push_back(a.beyond_n),
+          forward.push_back(a.forward_mm);
     }
   }
   const Json report = folder.json("s.json");
-  // The hands rest in the contact, so there is no motion to judge.
+  // The hands rest in contact, so there is no motion to judge.
   EXPECT_NE(report["verdict"], "fail") << report["violations"];
   EXPECT_EQ(report["violations"].size(), 0U) << report["violations"];
   EXPECT_EQ(report["epoch"], restarts + 1);
@@ -196,9 +209,10 @@ TEST_F(Restart, KilledInContactEverybodyIsBackAndNobodyIsKicked) {
   std::printf("[  figures ] tool, before and after a restart: at most %.3f mm apart\n", tool_jump_mm);
 }
 
-TEST_F(Restart, AServiceThatIsStartedAnewGivesEverybodyHisSeatBack) {
+TEST_F(Restart, RestoresAllSeatsOfARestartedService) {
   folder.write("press.textproto", pressing());
-  const std::string config = folder.write("s.textproto", "version: 1 listen: \"" + address + "\" session { name: \"lab\" scene: \"press.textproto\" }");
+  const std::string config = folder.write(
+      "s.textproto", "version: 1 listen: \"" + address + "\" session { name: \"lab\" scene: \"press.textproto\" }");
   Process host = server({"serve", config});
   ASSERT_TRUE(host.wait_for("Ctrl-C ends")) << host.err();
   Process trainer = client(address, "trainer", {"--json", folder.file("a.json")}), trainee = client(address, "trainee");
@@ -207,11 +221,12 @@ TEST_F(Restart, AServiceThatIsStartedAnewGivesEverybodyHisSeatBack) {
   EXPECT_EQ(host.wait(), 0) << host.err();
   EXPECT_NE(kept(), "");
   host = server({"serve", config});
-  ASSERT_TRUE(host.wait_for("GOES ON where its server ended")) << host.err();
-  EXPECT_NE(host.err().find("`tandem-client control --server " + address + " resume`"), std::string::npos) << host.err();
+  ASSERT_TRUE(host.wait_for("RESTORED from its checkpoint")) << host.err();
+  EXPECT_NE(host.err().find("`tandem-client control --server " + address + " resume`"), std::string::npos)
+      << host.err();
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err() << trainer.err();
   EXPECT_TRUE(trainer.wait_for("the server ended and keeps your seat for its next start")) << trainer.err();
-  // A person ends them: they do not come back.
+  // The user ends the clients: they do not come back.
   for (Process* p : {&trainer, &trainee}) {
     p->signal(SIGINT);
     EXPECT_EQ(p->wait(), 0) << p->err();
@@ -221,9 +236,9 @@ TEST_F(Restart, AServiceThatIsStartedAnewGivesEverybodyHisSeatBack) {
   EXPECT_EQ(host.wait(), 0) << host.err();
 }
 
-TEST_F(Restart, WhatDoesNotFitIsToldAndMovedAside) {
+TEST_F(Restart, ReportsAnIncompatibleSnapshotAndMovesItAside) {
   Process host = hosting("one_axis", {"--listen", address});
-  Process trainer = client(address, "trainer", {"--rejoin", "1.5"});
+  Process trainer = client(address, "trainer", {"--reconnect-timeout", "1.5"});
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
   const auto die = [&] {
     ASSERT_NE(wait_until_kept(), "");
@@ -233,8 +248,11 @@ TEST_F(Restart, WhatDoesNotFitIsToldAndMovedAside) {
   die();
   EXPECT_EQ(trainer.wait(), 1);
   EXPECT_NE(trainer.err().find("server lost: no news for 2 s"), std::string::npos) << trainer.err();
-  host = hosting("one_axis", {"--listen", address, "--duration", "5"});  // another scene now
-  EXPECT_NE(host.err().find("starts from the beginning: its checkpoint is not used: the checkpoint belongs to another scene"), std::string::npos) << host.err();
+  host = hosting("one_axis", {"--listen", address, "--duration", "5"});  // another scene this time
+  EXPECT_NE(
+      host.err().find("starts from the beginning: its checkpoint is not used: the checkpoint belongs to another scene"),
+      std::string::npos)
+      << host.err();
   EXPECT_TRUE(fs::exists(wait_until_kept() + ".unfit"));
   die();
   {
@@ -245,27 +263,27 @@ TEST_F(Restart, WhatDoesNotFitIsToldAndMovedAside) {
   host = hosting("one_axis", {"--listen", address, "--duration", "5"});
   EXPECT_NE(host.err().find("it is damaged"), std::string::npos) << host.err();
   die();
-  host = hosting("one_axis", {"--listen", address, "--duration", "5", "--fresh"});
-  EXPECT_NE(host.err().find("--fresh says so"), std::string::npos) << host.err();
-  EXPECT_EQ(host.err().find("GOES ON"), std::string::npos) << host.err();
+  host = hosting("one_axis", {"--listen", address, "--duration", "5", "--no-restore"});
+  EXPECT_NE(host.err().find("--no-restore was given"), std::string::npos) << host.err();
+  EXPECT_EQ(host.err().find("RESTORED"), std::string::npos) << host.err();
   die();
   host = hosting("one_axis", {"--listen", address, "--duration", "5"});
-  EXPECT_NE(host.err().find("GOES ON"), std::string::npos) << host.err();
+  EXPECT_NE(host.err().find("RESTORED"), std::string::npos) << host.err();
   host.signal(SIGINT);
   EXPECT_EQ(host.wait(), 0);
   host = hosting("one_axis", {"--listen", address, "--duration", "5"});
-  EXPECT_EQ(host.err().find("GOES ON"), std::string::npos) << "a person had ended it\n" << host.err();
+  EXPECT_EQ(host.err().find("RESTORED"), std::string::npos) << "a person had ended it\n" << host.err();
 }
 
-/// His program stood still for so long that somebody else got the seat.
-TEST_F(Restart, WhoseSeatWasGivenToSomebodyElseIsToldSo) {
+/// The client was stopped for so long that another client got the seat.
+TEST_F(Restart, ReportsThatAnotherClientTookTheSeat) {
   Process host = hosting("free_motion", {"--listen", address});
   Process trainer = client(address, "trainer"), trainee = client(address, "trainee", {"--json", folder.file("b.json")});
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
   trainee.signal(SIGSTOP);
   Process other = client(address, "trainee", {"--duration", "4"});
-  while (other.wait() == 1) {  // until the server knows that its owner is gone
-    ASSERT_NE(other.err().find("somebody sits there already"), std::string::npos) << other.err();
+  while (other.wait() == 1) {  // until the server knows that the seat's owner is gone
+    ASSERT_NE(other.err().find("this seat is taken already"), std::string::npos) << other.err();
     other = client(address, "trainee", {"--duration", "4"});
   }
   trainee.signal(SIGCONT);

@@ -1,4 +1,5 @@
-// The order of shedding, live: a server's own thread and socket, and more and more sessions on it until its ticks are full.
+// The order of load shedding, live: a server's own thread and socket, with more and more sessions until its ticks are
+// full.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,18 +9,18 @@
 #include <vector>
 
 #include "common/io/clock.h"
-#include "server/app/shard.h"
+#include "server/app/process/shard.h"
 #include "tests/bench/bench_clients.h"
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem::bench {
 namespace {
 
 using namespace std::chrono_literals;
-using server::Rung;
+using server::ShedLevel;
 
 constexpr std::size_t kTrainee = 0, kEvaluator = 1, kObserver = 7;
-constexpr Duration kPatience = 60s;  // never judged
+constexpr Duration kPatience = 60s;  // limit against hanging, never judged
 constexpr double kTickHz = 8000;
 
 /// A trainee, six evaluators and an observer.
@@ -31,14 +32,16 @@ SceneSpec watched() {
   return scene;
 }
 
-/// Sessions of clients and of none, on one thread that ticks.
+/// Sessions with and without clients, on one tick thread.
 class Crowded {
  public:
-  Crowded() : shard_(std::make_unique<server::Shard>(std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0))), kTickHz)) {
+  Crowded()
+      : shard_(
+            std::make_unique<server::Shard>(std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0))), kTickHz)) {
     host(scene_);
     for (std::size_t i = 0; i < scene_.seats.size(); ++i) {
-      clients_.push_back(
-          std::make_unique<BareClient>(*netsim::join_virtually(hosted_[0]->session(), io::monotonic_now(), i, caps_of(scene_, i), RandomKey{1}, i, false, 0)));
+      clients_.push_back(std::make_unique<BareClient>(*netsim::simulate_join(
+          hosted_[0]->session(), io::monotonic_now(), i, caps_of(scene_, i), RandomKey{1}, i, false, 0)));
       sockets_.push_back(std::move(io::connect_udp(shard_->address())->fd));
     }
     thread_ = std::thread([this] { shard_->run(); });
@@ -50,11 +53,11 @@ class Crowded {
   Crowded(const Crowded&) = delete;
   Crowded& operator=(const Crowded&) = delete;
 
-  /// One more session, whose arms are simulated in every tick.
+  /// Adds a session whose arms are simulated in every tick.
   void add_work() { host(work_); }
   [[nodiscard]] std::size_t sessions() const { return hosted_.size(); }
 
-  /// Every client says where its hand is and hears what came.
+  /// Every client sends its position and receives.
   void exchange() {
     std::array<std::byte, 1500> buffer;
     ++tick_;
@@ -64,23 +67,27 @@ class Crowded {
       for (bool more = true; more;) {
         more = clients_[c]->answers();
         const std::size_t size = clients_[c]->send(io::monotonic_now(), tick_, buffer);
-        if (size > 0) [[maybe_unused]] const auto sent = ::send(sockets_[c].get(), buffer.data(), size, 0);
+        if (size > 0) [[maybe_unused]]
+          const auto sent = ::send(sockets_[c].get(), buffer.data(), size, 0);
       }
     }
   }
-  [[nodiscard]] Rung rung() const { return shard_->relief().rung; }
+  [[nodiscard]] ShedLevel rung() const { return shard_->load_state().level; }
   [[nodiscard]] std::uint64_t forces(std::size_t client) const { return clients_[client]->forces(); }
   [[nodiscard]] bool engaged() const { return clients_[kTrainee]->settled() && clients_[kEvaluator]->settled(); }
 
  private:
   void host(const SceneSpec& scene) {
-    queues_.push_back(std::make_unique<server::TickQueue>(64));  // full soon: its rows are dropped and counted, as when a recorder is late
-    hosted_.push_back(std::make_unique<server::HostedSession>(scene, *server::make_slaves(scene, Time{}), static_cast<std::uint8_t>(hosted_.size()), *queues_.back()));
-    orders_.push_back(std::make_unique<server::Order>());
-    orders_.back()->what = server::Order::What::kHost;
+    queues_.push_back(std::make_unique<server::TickQueue>(
+        64));  // soon full: its records are dropped and counted, as with a late recorder
+    hosted_.push_back(std::make_unique<server::LiveSession>(
+        scene, *server::make_local_slaves(scene, Time{}), static_cast<std::uint8_t>(hosted_.size()), *queues_.back()));
+    orders_.push_back(std::make_unique<server::ShardRequest>());
+    orders_.back()->what = server::ShardRequest::What::kAddSession;
     orders_.back()->session = hosted_.back().get();
     EXPECT_TRUE(shard_->post(*orders_.back()));
-    while (shard_->answered() != nullptr) {}
+    while (shard_->next_completed() != nullptr) {
+    }
   }
 
   SceneSpec scene_ = watched(), work_ = [] {
@@ -90,21 +97,23 @@ class Crowded {
   }();
   std::unique_ptr<server::Shard> shard_;
   std::vector<std::unique_ptr<server::TickQueue>> queues_;
-  std::vector<std::unique_ptr<server::HostedSession>> hosted_;
-  std::vector<std::unique_ptr<server::Order>> orders_;
+  std::vector<std::unique_ptr<server::LiveSession>> hosted_;
+  std::vector<std::unique_ptr<server::ShardRequest>> orders_;
   std::vector<std::unique_ptr<BareClient>> clients_;
   std::vector<io::Fd> sockets_;
   std::thread thread_;
   std::uint32_t tick_ = 0;
 };
 
-/// FORCEs that were heard while a rung was in force.
+/// FORCE datagrams received at one shed level.
 struct Heard {
   std::array<std::uint64_t, 8> forces{};
-  [[nodiscard]] double share(std::size_t client) const { return static_cast<double>(forces[client]) / static_cast<double>(forces[kTrainee]); }
+  [[nodiscard]] double share(std::size_t client) const {
+    return static_cast<double>(forces[client]) / static_cast<double>(forces[kTrainee]);
+  }
 };
 
-TEST(ShedOrderLive, RungByRungAsTicksFillUpAndTheTraineeIsToldEveryTick) {
+TEST(ShedOrderLive, RaisesTheLevelInOrderAndServesTheTraineeEveryTick) {
   Crowded crowd;
   const Time begin = io::monotonic_now();
   while (!crowd.engaged() && io::monotonic_now() - begin < kPatience) {
@@ -113,22 +122,25 @@ TEST(ShedOrderLive, RungByRungAsTicksFillUpAndTheTraineeIsToldEveryTick) {
   }
   ASSERT_TRUE(crowd.engaged());
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-  if (crowd.rung() != Rung::kNothing) GTEST_SKIP() << "under this sanitizer one session fills the ticks already; a release build climbs all rungs";
+  if (crowd.rung() != ShedLevel::kNone)
+    GTEST_SKIP() << "under this sanitizer one session fills the ticks already; a release build climbs all rungs";
 #endif
 
-  std::vector<Rung> order{Rung::kNothing};
-  std::array<Heard, server::kRungs> heard{};
+  std::vector<ShedLevel> order{ShedLevel::kNone};
+  std::array<Heard, server::kShedLevels> heard{};
   std::array<std::uint64_t, 8> before{};
   for (std::size_t c = 0; c < before.size(); ++c) before[c] = crowd.forces(c);
-  std::array<std::size_t, server::kRungs> sessions{};
+  std::array<std::size_t, server::kShedLevels> sessions{};
   Time grown = io::monotonic_now(), reached = grown;
-  // The last rung for half a second: its shares too.
-  while (io::monotonic_now() - begin < kPatience && !(order.back() == Rung::kNewcomers && io::monotonic_now() - reached > 500ms)) {
+  // The last level runs for half a second, so that its shares are measured too.
+  while (io::monotonic_now() - begin < kPatience &&
+         !(order.back() == ShedLevel::kNewJoins && io::monotonic_now() - reached > 500ms)) {
     crowd.exchange();
-    const Rung now = crowd.rung();
+    const ShedLevel now = crowd.rung();
     for (std::size_t c = 0; c < before.size(); ++c) {
-      // What was still under way when a rung was reached counts for none.
-      if (io::monotonic_now() - reached > 40ms) heard[static_cast<std::size_t>(now)].forces[c] += crowd.forces(c) - before[c];
+      // Datagrams that were in flight when a level was reached count for no level.
+      if (io::monotonic_now() - reached > 40ms)
+        heard[static_cast<std::size_t>(now)].forces[c] += crowd.forces(c) - before[c];
       before[c] = crowd.forces(c);
     }
     if (now != order.back()) {
@@ -136,32 +148,48 @@ TEST(ShedOrderLive, RungByRungAsTicksFillUpAndTheTraineeIsToldEveryTick) {
       reached = io::monotonic_now();
     }
     sessions[static_cast<std::size_t>(now)] = crowd.sessions();
-    // Several windows of the ladder on every rung, so that it shows what it saves before more work comes.
-    const bool settled = now == Rung::kNothing || io::monotonic_now() - reached > 350ms;
-    if (now != Rung::kNewcomers && io::monotonic_now() - grown > 50ms && settled && crowd.sessions() < server::Shard::kSessionsMax) {
+    // Several windows of the shedder at every level, so that its effect shows before more load is added.
+    const bool settled = now == ShedLevel::kNone || io::monotonic_now() - reached > 350ms;
+    if (now != ShedLevel::kNewJoins && io::monotonic_now() - grown > 50ms && settled &&
+        crowd.sessions() < server::Shard::kSessionsMax) {
       crowd.add_work();
       grown = io::monotonic_now();
     }
     std::this_thread::sleep_for(400us);
   }
 
-  for (std::size_t r = 0; r < server::kRungs; ++r)
-    std::printf("[  shed    ] %-27s at %2zu sessions: %5llu FORCEs to the trainee, %.3f of that to an evaluator, %.4f to the observer\n",
-                to_text(static_cast<Rung>(r)), sessions[r], static_cast<unsigned long long>(heard[r].forces[kTrainee]), heard[r].share(kEvaluator), heard[r].share(kObserver));
-  const std::vector<Rung> expected{Rung::kNothing, Rung::kTelemetry, Rung::kObservers, Rung::kObserversMore, Rung::kEvaluators, Rung::kEvaluatorsMore, Rung::kNewcomers};
+  for (std::size_t r = 0; r < server::kShedLevels; ++r)
+    std::printf(
+        "[  shed    ] %-27s at %2zu sessions: %5llu FORCEs to the trainee, %.3f of that to an evaluator, %.4f to the "
+        "observer\n",
+        to_text(static_cast<ShedLevel>(r)), sessions[r], static_cast<unsigned long long>(heard[r].forces[kTrainee]),
+        heard[r].share(kEvaluator), heard[r].share(kObserver));
+  const std::vector<ShedLevel> expected{
+      ShedLevel::kNone,          ShedLevel::kTelemetry,          ShedLevel::kObservers20Hz,
+      ShedLevel::kObservers10Hz, ShedLevel::kEvaluatorsEvery2nd, ShedLevel::kEvaluatorsEvery3rd,
+      ShedLevel::kNewJoins};
   ASSERT_EQ(order, expected) << "one after the other, none back";
-  const auto of = [&](Rung rung) -> const Heard& { return heard[static_cast<std::size_t>(rung)]; };
-  for (const Rung rung : expected) {
+  const auto of = [&](ShedLevel rung) -> const Heard& { return heard[static_cast<std::size_t>(rung)]; };
+  for (const ShedLevel rung : expected) {
     SCOPED_TRACE(to_text(rung));
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-    if (rung == Rung::kNothing && of(rung).forces[kTrainee] <= 100U) continue;  // one session filled the ticks before it was listened to
+    if (rung == ShedLevel::kNone && of(rung).forces[kTrainee] <= 100U)
+      continue;  // one session filled the ticks before the count began
 #endif
     EXPECT_GT(of(rung).forces[kTrainee], 100U);
-    // Whole ticks, every 2nd, every 3rd. A busy machine loses more of the trainee's FORCEs, which are more: the 3rd is judged beside the 2nd.
-    const double second = of(Rung::kEvaluators).share(kEvaluator);
-    EXPECT_GT(of(rung).share(kEvaluator), rung < Rung::kEvaluators ? 0.85 : rung == Rung::kEvaluators ? 0.42 : 0.25);
-    EXPECT_LT(of(rung).share(kEvaluator), rung < Rung::kEvaluators ? 1.1 : rung == Rung::kEvaluators ? 0.75 : 0.8 * second);
-    const double observer = (rung < Rung::kObservers ? 60 : rung == Rung::kObservers ? 20 : 10) / kTickHz;
+    // Every tick, every 2nd, every 3rd. A busy machine loses more of the trainee's FORCEs, because there are more of
+    // them. So the 3rd is compared with the 2nd.
+    const double second = of(ShedLevel::kEvaluatorsEvery2nd).share(kEvaluator);
+    EXPECT_GT(of(rung).share(kEvaluator), rung < ShedLevel::kEvaluatorsEvery2nd    ? 0.85
+                                          : rung == ShedLevel::kEvaluatorsEvery2nd ? 0.42
+                                                                                   : 0.25);
+    EXPECT_LT(of(rung).share(kEvaluator), rung < ShedLevel::kEvaluatorsEvery2nd    ? 1.1
+                                          : rung == ShedLevel::kEvaluatorsEvery2nd ? 0.75
+                                                                                   : 0.8 * second);
+    const double observer = (rung < ShedLevel::kObservers20Hz    ? 60
+                             : rung == ShedLevel::kObservers20Hz ? 20
+                                                                 : 10) /
+                            kTickHz;
     EXPECT_LT(of(rung).share(kObserver), 1.5 * observer + 4.0 / static_cast<double>(of(rung).forces[kTrainee]));
   }
 }

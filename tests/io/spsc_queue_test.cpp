@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <thread>
 
-#include "tests/base/counts.h"
+#include "tests/common/base/counts.h"
 
 namespace tandem::io {
 namespace {
 
-TEST(SpscQueue, DropsWhatDoesNotFitAndCountsIt) {
+TEST(SpscQueue, DropsAndCountsElementsThatDoNotFit) {
   SpscQueue<int> queue{3};
   EXPECT_EQ(queue.front(), nullptr);
   for (int i = 0; i < 5; ++i) EXPECT_EQ(queue.push(i), i < 3);
@@ -26,9 +26,10 @@ TEST(SpscQueue, DropsWhatDoesNotFitAndCountsIt) {
 }
 
 TEST(SpscQueue, CarriesEverythingInOrderBetweenTwoThreads) {
-  const std::uint64_t count = test::draws(20'000, 200'000, 200'000);  // where other work takes the cores, every 16 cost two turns
+  const std::uint64_t count =
+      test::draws(20'000, 200'000, 200'000);  // when other work uses the cores, every 16 cost two time slices
   struct Pair {
-    std::uint64_t value = 0, twice = 0;  // torn copies would disagree
+    std::uint64_t value = 0, twice = 0;  // torn copies would differ
   };
   SpscQueue<Pair> queue{16};
   std::thread writer{[&] {
@@ -36,7 +37,7 @@ TEST(SpscQueue, CarriesEverythingInOrderBetweenTwoThreads) {
       if (queue.push({i, 2 * i})) {
         ++i;
       } else {
-        std::this_thread::yield();  // full: on a busy machine spinning would only keep the reader from its turn
+        std::this_thread::yield();  // full: on a busy machine spinning would only delay the reader
       }
     }
   }};

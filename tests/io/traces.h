@@ -12,7 +12,7 @@
 
 namespace tandem::test {
 
-/// A trace as a program wrote it: numbers by the name of their column, units left out. A last row that is not whole is no row.
+/// A trace as a program wrote it: numbers by column name without unit. An incomplete last row is ignored.
 class Trace {
  public:
   explicit Trace(const std::string& text) {
@@ -39,8 +39,10 @@ class Trace {
     EXPECT_NE(found, columns_.end()) << column;
     return found == columns_.end() ? NAN : rows_[row][found->second];
   }
-  /// `stem` with x, y, z behind it.
-  [[nodiscard]] std::array<double, 3> triple(std::size_t row, const std::string& stem) const { return {at(row, stem + "x"), at(row, stem + "y"), at(row, stem + "z")}; }
+  /// The columns `stem`x, `stem`y and `stem`z.
+  [[nodiscard]] std::array<double, 3> triple(std::size_t row, const std::string& stem) const {
+    return {at(row, stem + "x"), at(row, stem + "y"), at(row, stem + "z")};
+  }
 
  private:
   std::map<std::string, std::size_t> columns_;
@@ -48,6 +50,8 @@ class Trace {
 };
 
 inline double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) { return norm({a[0] - b[0], a[1] - b[1], a[2] - b[2]}); }
+inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return norm({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+}
 
 }  // namespace tandem::test

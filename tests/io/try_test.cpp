@@ -1,5 +1,5 @@
-// `tandem-client try`: the real programs, the person's terminal a pseudo-terminal. Words, exit codes and processes are asserted, never how
-// long anything took.
+// `tandem-client try` with the real programs, on a pseudo-terminal. Messages, exit codes and processes are asserted,
+// never durations.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -29,7 +29,7 @@ struct Stat {
   pid_t parent = 0, group = 0;
   char state = 'X';
 };
-/// Of a process; nothing: there is none.
+/// Status of a process; nullopt if there is none.
 std::optional<Stat> stat_of(pid_t pid) {
   std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
   std::string text;
@@ -58,7 +58,7 @@ bool all_gone_soon(const std::vector<pid_t>& all) {
   return false;
 }
 
-/// A program on a terminal of its own.
+/// A program on its own pseudo-terminal.
 class OnTerminal {
  public:
   explicit OnTerminal(std::vector<std::string> command) {
@@ -85,15 +85,18 @@ class OnTerminal {
       if (Clock::now() > end || !read_some()) return said_.find(text) != std::string::npos;
     return true;
   }
-  void press(const std::string& keys) { ASSERT_EQ(write(terminal_.get(), keys.data(), keys.size()), static_cast<ssize_t>(keys.size())); }
-  /// Exit code, or minus the signal; nothing: it does not end.
+  void press(const std::string& keys) {
+    ASSERT_EQ(write(terminal_.get(), keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+  }
+  /// Exit code, or minus the signal; nullopt if it does not end.
   std::optional<int> wait() {
     for (const auto end = Clock::now() + kPatience; Clock::now() < end && !code_;) {
       read_some();
       int status = 0;
       if (waitpid(pid_, &status, WNOHANG) == pid_) code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     }
-    while (read_some()) {}
+    while (read_some()) {
+    }
     return code_;
   }
   [[nodiscard]] pid_t id() const { return pid_; }
@@ -119,7 +122,7 @@ class OnTerminal {
   std::string said_;
 };
 
-/// The server and the partner of a trial that runs: two programs, each in a process group of its own.
+/// The server and the partner of a running trial: two programs, each in its own process group.
 std::vector<pid_t> companions(const OnTerminal& trial) {
   const std::vector<pid_t> children = children_of(trial.id());
   EXPECT_EQ(children.size(), 2u) << trial.said();
@@ -127,7 +130,7 @@ std::vector<pid_t> companions(const OnTerminal& trial) {
   return children;
 }
 
-TEST(Try, OneCommandGivesASessionAPartnerAndKeysAndQEndsAll) {
+TEST(Try, StartsASessionWithASimulatedPartnerAndEndsAllOnQ) {
   OnTerminal trial({TANDEM_CLIENT, "try"});
   ASSERT_TRUE(trial.wait_for("you hold the seat instructor; trainee is simulated")) << trial.said();
   const std::vector<pid_t> children = companions(trial);
@@ -143,7 +146,7 @@ TEST(Try, OneCommandGivesASessionAPartnerAndKeysAndQEndsAll) {
   EXPECT_NE(trial.said().find("were ended as well"), std::string::npos) << trial.said();
 }
 
-TEST(Try, CtrlCEndsAll) {
+TEST(Try, EndsAllOnCtrlC) {
   OnTerminal trial({TANDEM_CLIENT, "try"});
   ASSERT_TRUE(trial.wait_for("you hold the seat instructor")) << trial.said();
   const std::vector<pid_t> children = companions(trial);
@@ -152,7 +155,7 @@ TEST(Try, CtrlCEndsAll) {
   EXPECT_TRUE(all_gone_soon(children));
 }
 
-TEST(Try, KilledItLeavesNoOrphan) {
+TEST(Try, LeavesNoOrphanProcessWhenKilled) {
   OnTerminal trial({TANDEM_CLIENT, "try", "free_motion", "--seat", "trainee"});
   ASSERT_TRUE(trial.wait_for("you hold the seat trainee; trainer is simulated")) << trial.said();
   const std::vector<pid_t> children = companions(trial);
@@ -161,14 +164,17 @@ TEST(Try, KilledItLeavesNoOrphan) {
   EXPECT_TRUE(all_gone_soon(children));
 }
 
-TEST(Try, WithoutATerminalItShowsASessionSaysWhatToDoAndEnds) {
+TEST(Try, SimulatesTheUsersHandWithoutATerminalAndEnds) {
   Process trial({TANDEM_CLIENT, "try", "--duration", "2"});
-  EXPECT_TRUE(trial.wait_for("Standard input is no terminal, so your hand is simulated too: start this command in a terminal")) << trial.err();
+  EXPECT_TRUE(
+      trial.wait_for("Standard input is no terminal, so your hand is simulated too: start this command in a terminal"))
+      << trial.err();
   EXPECT_EQ(trial.wait(), 0) << trial.err();
 }
 
-TEST(Try, WithoutAServerProgramItNamesThePackage) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("tandem_try_" + std::to_string(getpid()));
+TEST(Try, NamesThePackageOfAMissingServerProgram) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("tandem_try_" + std::to_string(getpid()));
   std::filesystem::create_directory(folder);
   std::filesystem::copy_file(TANDEM_CLIENT, folder / "tandem-client");
   Process trial({"/usr/bin/env", "-i", (folder / "tandem-client").string(), "try"});
@@ -177,13 +183,14 @@ TEST(Try, WithoutAServerProgramItNamesThePackage) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Try, WhatIsWrongIsSaidBeforeAnythingStarts) {
+TEST(Try, ReportsErrorsBeforeAnythingStarts) {
   Process scene({TANDEM_CLIENT, "try", "lessen"});
   EXPECT_EQ(scene.wait(), 2);
   EXPECT_NE(scene.err().find("did you mean lesson?"), std::string::npos) << scene.err();
   Process seat({TANDEM_CLIENT, "try", "lesson", "--seat", "trainer", "--duration", "x"});
   EXPECT_EQ(seat.wait(), 2);
-  EXPECT_NE(seat.err().find("--seat trainer: no MASTER seat of the scene lesson has this name"), std::string::npos) << seat.err();
+  EXPECT_NE(seat.err().find("--seat trainer: no MASTER seat of the scene lesson has this name"), std::string::npos)
+      << seat.err();
   EXPECT_NE(seat.err().find("2 mistakes, nothing was started"), std::string::npos) << seat.err();
 }
 

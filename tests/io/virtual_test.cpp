@@ -1,4 +1,4 @@
-// Programs that work in virtual time, as a person or a CI job starts them.
+// Programs that work in virtual time, as a user or a CI job starts them.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -22,8 +22,9 @@ TEST(NetsimRun, RepeatsReportAndTraceToTheByte) {
   const Folder folder;
   std::vector<Json> reports;
   for (const char* name : {"a", "b"}) {
-    auto run = netsim({"run", "contact", "--delay", "20", "--jitter", "5", "--loss", "5", "--seed", "3", "--duration", "6", "--json",
-                       folder.file(std::string(name) + ".json"), "--trace", folder.file(std::string(name) + ".csv")});
+    auto run = netsim({"run", "contact", "--delay", "20", "--jitter", "5", "--loss", "5", "--seed", "3", "--duration",
+                       "6", "--json", folder.file(std::string(name) + ".json"), "--trace",
+                       folder.file(std::string(name) + ".csv")});
     ASSERT_EQ(run.wait(), 0) << run.err();
     reports.push_back(folder.json(std::string(name) + ".json"));
     reports.back().erase("cpu_s");
@@ -48,9 +49,10 @@ TEST(NetsimRun, HashesTheTraceAlsoWhenNoneIsWritten) {
   EXPECT_EQ(sum.out().substr(0, 64), report["trace_hash"].get<std::string>());
 }
 
-TEST(NetsimRun, SaysWhatIsWrongAndStartsNothing) {
+TEST(NetsimRun, ReportsErrorsAndStartsNothing) {
   const Folder folder;
-  const std::string bad = folder.write("bad.textproto", "version: 1\nchannle { }\nseat { name: \"a\" device { mass_kg: nan } }\n");
+  const std::string bad =
+      folder.write("bad.textproto", "version: 1\nchannle { }\nseat { name: \"a\" device { mass_kg: nan } }\n");
   for (const auto& [arguments, part] : std::vector<std::pair<test::Words, std::string>>{
            {{"run", "no_such_scene"}, "free_motion"},
            {{"run", bad}, "bad.textproto:2"},
@@ -73,17 +75,20 @@ TEST(NetsimRun, ChecksASceneWithoutRunningIt) {
   EXPECT_NE(run.out().find("channel.k_n_m"), std::string::npos);
   const Folder folder;
   const std::string script = folder.write("s.textproto", "event { at_s: 2 client: \"trainee\" outage_ms: 400 }\n");
-  auto with = netsim({"run", "free_motion", "--delay", "20", "--loss", "3", "--seed", "9", "--script", script, "--check"});
+  auto with =
+      netsim({"run", "free_motion", "--delay", "20", "--loss", "3", "--seed", "9", "--script", script, "--check"});
   EXPECT_EQ(with.wait(), 0);
-  for (const char* part : {"network: delay 20 ms, loss 3 %, seed 9", "each direction: loss 3 %; delay 20 ms", "network at 2.000 s: outage of 400 ms, for trainee"})
+  for (const char* part : {"network: delay 20 ms, loss 3 %, seed 9", "each direction: loss 3 %; delay 20 ms",
+                           "network at 2.000 s: outage of 400 ms, for trainee"})
     EXPECT_NE(with.out().find(part), std::string::npos) << part << " not in\n" << with.out();
 }
 
-TEST(NetsimRun, ToldRoundTripsAreOfTheWholeSession) {
-  // 8.5 of 12 s over 100 ms, the rest over nearly nothing: the p99 of the session is 100 ms, whatever the last second was.
+TEST(NetsimRun, ReportsRoundTripsOfTheWholeSession) {
+  // 100 ms for 8.5 of 12 s, nearly 0 for the rest: the session's p99 is 100 ms, independent of the last second.
   const Folder folder;
   const std::string script = folder.write("s.textproto", "event { at_s: 9 profile: \"lan\" }\n");
-  auto run = netsim({"run", "free_motion", "--delay", "50", "--script", script, "--duration", "12", "--quiet", "--json", "-"});
+  auto run =
+      netsim({"run", "free_motion", "--delay", "50", "--script", script, "--duration", "12", "--quiet", "--json", "-"});
   ASSERT_EQ(run.wait(), 0) << run.err();
   const Json report = Json::parse(run.out(), nullptr, false);
   const Json& link = report["seats"][0]["link"];
@@ -91,57 +96,68 @@ TEST(NetsimRun, ToldRoundTripsAreOfTheWholeSession) {
   EXPECT_GE(link["rtt_p99_ms"].get<double>(), link["rtt_p50_ms"].get<double>());
 }
 
-TEST(NetsimRun, SaysWhichEventsTheSessionNeverMet) {
+TEST(NetsimRun, ReportsEventsThatTheSessionDidNotReach) {
   const Folder folder;
-  const std::string script = folder.write("s.textproto", "event { at_s: 0 outage_ms: 1 }\nevent { at_s: 90 outage_ms: 5 }\nevent { at_s: 1 outage_ms: 5 }\n");
+  const std::string script =
+      folder.write("s.textproto",
+                   "event { at_s: 0 outage_ms: 1 }\nevent { at_s: 90 outage_ms: 5 }\nevent { at_s: 1 outage_ms: 5 }\n");
   auto run = netsim({"run", "free_motion", "--script", script, "--duration", "2"});
   ASSERT_EQ(run.wait(), 0) << run.err();
-  EXPECT_NE(run.out().find("note: the outage at 0 s was over before the session began"), std::string::npos) << run.out();
+  EXPECT_NE(run.out().find("note: the outage at 0 s was over before the session began"), std::string::npos)
+      << run.out();
   EXPECT_NE(run.out().find("note: the outage at 90 s came after the end"), std::string::npos) << run.out();
   EXPECT_EQ(run.out().find("the outage at 1 s"), std::string::npos) << run.out();
 }
 
-TEST(NetsimRun, ItsJsonHasTheNotesThatItsTextHas) {
+TEST(NetsimRun, WritesTheSameNotesToJsonAndText) {
   const Folder folder;
   const std::string script = folder.write("s.textproto", "event { at_s: 90 outage_ms: 5 }\n");
   const std::string recording = folder.write("r.csv", "t_s[s],rtt_ms[ms]\n0,10\n0.5,12\n1,10\n");
-  auto run = netsim({"run", "one_axis", "--network", recording, "--script", script, "--duration", "2", "--json", folder.file("r.json")});
+  auto run = netsim({"run", "one_axis", "--network", recording, "--script", script, "--duration", "2", "--json",
+                     folder.file("r.json")});
   ASSERT_EQ(run.wait(), 0) << run.err();
   const Json notes = folder.json("r.json")["notes"];
   ASSERT_EQ(notes.size(), 2u) << notes;
-  for (const Json& note : notes) EXPECT_NE(run.out().find("note: " + note.get<std::string>()), std::string::npos) << note << run.out();
+  for (const Json& note : notes)
+    EXPECT_NE(run.out().find("note: " + note.get<std::string>()), std::string::npos) << note << run.out();
   EXPECT_EQ(folder.json("r.json")["interrupted"], false);
 }
 
-TEST(NetsimRun, SaysWhySeatAndNetworkDifferAfterANewAddress) {
+TEST(NetsimRun, ReportsWhySeatAndNetworkDifferAfterANewAddress) {
   const Folder folder;
-  const std::string script = folder.write("s.textproto", "event { at_s: 3 client: \"trainee\" rebind { dead_after_ms: 100 } }\n");
+  const std::string script =
+      folder.write("s.textproto", "event { at_s: 3 client: \"trainee\" rebind { dead_after_ms: 100 } }\n");
   auto run = netsim({"run", "free_motion", "--script", script, "--duration", "5"});
   ASSERT_EQ(run.wait(), 0) << run.err();
   EXPECT_NE(run.out().find("network: green"), std::string::npos) << "the network carried on: " << run.out();
-  EXPECT_NE(run.out().find("note: trainee has a new address from 3 s on: the server asks there before it sends forces there"), std::string::npos)
+  EXPECT_NE(
+      run.out().find("note: trainee has a new address from 3 s on: the server asks there before it sends forces there"),
+      std::string::npos)
       << run.out();
   EXPECT_NE(run.out().find("lost from 3.1 s on"), std::string::npos) << run.out();
 }
 
-TEST(NetsimRun, CountsEveryMistakeAndRefusesASeedBesideAReplay) {
+TEST(NetsimRun, CountsEveryErrorAndRejectsASeedWithAReplay) {
   const Folder folder;
-  const std::string script = folder.write("s.textproto", "event { at_s: 1 client: \"traine\" outage_ms: 0 }\nevent { at_s: -1 profile: \"nix\" }\n");
+  const std::string script = folder.write(
+      "s.textproto", "event { at_s: 1 client: \"traine\" outage_ms: 0 }\nevent { at_s: -1 profile: \"nix\" }\n");
   auto run = netsim({"run", "free_motion", "--script", script, "--hand", "nobody=x.csv"});
   EXPECT_EQ(run.wait(), 2);
   EXPECT_NE(run.err().find("5 mistakes; nothing was started"), std::string::npos) << run.err();
   auto logged = netsim({"run", "one_axis", "--duration", "1", "--seed", "4", "--log", folder.file("l.csv")});
   ASSERT_EQ(logged.wait(), 0) << logged.err();
-  auto again = netsim({"run", "one_axis", "--duration", "1", "--seed", "4", "--loss", "1", "--replay", folder.file("l.csv")});
+  auto again =
+      netsim({"run", "one_axis", "--duration", "1", "--seed", "4", "--loss", "1", "--replay", folder.file("l.csv")});
   EXPECT_EQ(again.wait(), 2);
   for (const char* part : {"--replay excludes --seed", "--replay excludes --loss", "2 mistakes"})
     EXPECT_NE(again.err().find(part), std::string::npos) << part << " not in\n" << again.err();
 }
 
-TEST(NetsimRun, InterruptedIsNoPass) {
+TEST(NetsimRun, DoesNotPassWhenInterrupted) {
   const Folder folder;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    auto run = netsim({"run", "one_axis", "--duration", "300000", "--trace", folder.file("t.csv"), "--json", folder.file("r.json")});
+    auto run = netsim(
+        {"run", "one_axis", "--duration", "300000", "--trace", folder.file("t.csv"), "--json", folder.file("r.json")});
     for (int tries = 0; tries < 3000 && folder.read("t.csv").empty(); ++tries) usleep(10'000);
     run.signal(signal);
     EXPECT_EQ(run.wait(), 1) << run.err();
@@ -158,12 +174,15 @@ TEST(NetsimInterrupt, HasOneWordingAndOneExitCodeForAllCommands) {
   const Folder folder;
   struct Case {
     test::Words arguments;
-    std::string ready, reports;  ///< what it says once it works; what it must tell of what was done
+    std::string ready, reports;  ///< its output once it works; its report of the completed work
   };
-  const std::vector<Case> cases{{{"swarm", "--seeds", "100000"}, " sessions, ", "sessions passed"},
-                                {{"profiles", "5g", "--minutes", "1440", "--ascii"}, "source:", "one-way delay over"},
-                                {{"sweep", "one_axis", "--duration", "300000", "--delay", "0,10", "--json", folder.file("sweep.json")}, "", "delay [ms]  loss"},
-                                {{"test", "free-motion-lan", "--seeds", "100000", "--json", folder.file("test.json")}, "", "not run:"}};
+  const std::vector<Case> cases{
+      {{"swarm", "--seeds", "100000"}, " sessions, ", "sessions passed"},
+      {{"profiles", "5g", "--minutes", "1440", "--ascii"}, "source:", "one-way delay over"},
+      {{"sweep", "one_axis", "--duration", "300000", "--delay", "0,10", "--json", folder.file("sweep.json")},
+       "",
+       "delay [ms]  loss"},
+      {{"test", "free-motion-lan", "--seeds", "100000", "--json", folder.file("test.json")}, "", "not run:"}};
   for (const Case& one : cases) {
     auto process = netsim(one.arguments);
     const std::string file = folder.file(one.arguments[0] + ".json");
@@ -171,13 +190,14 @@ TEST(NetsimInterrupt, HasOneWordingAndOneExitCodeForAllCommands) {
     for (int tries = 0; one.ready.empty() && tries < 3000 && !std::filesystem::exists(file); ++tries) usleep(10'000);
     process.signal(SIGINT);
     EXPECT_EQ(process.wait(), 1) << one.arguments[0] << process.err();
-    EXPECT_NE(process.err().find("tandem-netsim " + one.arguments[0] + ": interrupted after "), std::string::npos) << process.err();
+    EXPECT_NE(process.err().find("tandem-netsim " + one.arguments[0] + ": interrupted after "), std::string::npos)
+        << process.err();
     EXPECT_NE(process.err().find("What was done so far is told and is no pass"), std::string::npos) << process.err();
     EXPECT_NE(process.out().find(one.reports), std::string::npos) << one.reports << " not in\n" << process.out();
   }
 }
 
-TEST(NetsimSwarm, OfOneSessionItTellsTheNetworkAndClocks) {
+TEST(NetsimSwarm, ReportsNetworkAndClocksOfASingleSession) {
   const Folder folder;
   auto one = netsim({"swarm", "--first", "17", "--seeds", "1", "--json", folder.file("s.json")});
   ASSERT_EQ(one.wait(), 0) << one.err();
@@ -203,11 +223,13 @@ TEST(Demo, ComparesAndWritesAReportInVirtualTime) {
   EXPECT_NE(demo.out().find("file://"), std::string::npos);
   const std::string page = folder.read("out/report.html");
   EXPECT_GT(std::count(page.begin(), page.end(), '<'), 500);
-  for (const char* part : {"<svg", "Figure 10", "Figure 11", "Figure 12", "bad network, to the server: delay", "</html>"})
+  for (const char* part :
+       {"<svg", "Figure 10", "Figure 11", "Figure 12", "bad network, to the server: delay", "</html>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
-  EXPECT_EQ(page.find("http://") == std::string::npos || page.find("src=\"http") == std::string::npos, true) << "not self-contained";
+  EXPECT_EQ(page.find("http://") == std::string::npos || page.find("src=\"http") == std::string::npos, true)
+      << "not self-contained";
 
-  // The printed command, as it stands, gives the same trace.
+  // The printed command, unchanged, gives the same trace.
   const std::size_t begin = page.find("<pre>") + 5;
   const std::string command = page.substr(begin, page.find("</pre>", begin) - begin);
   Process again({"/bin/sh", "-c", "cd '" + folder.file("") + "' && " + command});
@@ -220,7 +242,8 @@ TEST(Demo, AnimationShowsTheTraceAtTheSlidersTime) {
   const Folder folder;
   Process demo({TANDEM_DEMO, "--quick", "--runs", "contact", "--out", folder.file("out")});
   ASSERT_EQ(demo.wait(), 0) << demo.err();
-  Process node({"/usr/bin/env", "node", TANDEM_ANIMATION_CHECK, folder.file("out/report.html"), folder.file("out/contact.csv")});
+  Process node(
+      {"/usr/bin/env", "node", TANDEM_ANIMATION_CHECK, folder.file("out/report.html"), folder.file("out/contact.csv")});
   EXPECT_EQ(node.wait(), 0) << node.out() << node.err();
   EXPECT_NE(node.out().find("checked "), std::string::npos) << node.out();
 }

@@ -10,29 +10,29 @@
 
 #include "common/base/rng.h"
 #include "common/base/time.h"
-#include "netsim/path.h"
-#include "netsim/path_spec.h"
+#include "netsim/engine/path.h"
+#include "netsim/models/path_spec.h"
 
-/// What many tests of the simulator need. Times are written as 5 ms, 20 us.
+/// Support for simulator tests. Times are written as 5 ms, 20 us.
 namespace tandem::netsim::test {
 
 using namespace std::chrono_literals;
 
 inline constexpr std::size_t kSize = 128;
 
-/// Numbers that differ from datagram to datagram.
+/// Returns bytes that differ between datagrams.
 inline std::vector<std::byte> datagram(std::uint64_t number, std::size_t size = kSize) {
   std::vector<std::byte> bytes(size);
   for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::byte>(number >> (8 * (i % 8)));
   return bytes;
 }
 
-/// A path as the n-th link of a network with this seed.
+/// Returns a path as the n-th link of a network with this seed.
 inline Path path_of(const PathSpec& spec, std::uint64_t seed = 7, std::uint64_t link = 0) {
   return {spec, Path::key_for(seed, link, Direction::kUp)};
 }
 
-/// What a path did with `count` datagrams sent every `period` from time 0.
+/// Returns the verdicts of a path on `count` datagrams sent every `period` from time 0.
 inline std::vector<Verdict> verdicts(Path path, std::size_t count, Duration period = 1ms, std::size_t size = kSize) {
   std::vector<Verdict> all;
   all.reserve(count);
@@ -48,7 +48,7 @@ inline std::size_t count_of(const std::vector<Verdict>& all, Outcome outcome) {
       std::count_if(all.begin(), all.end(), [outcome](const Verdict& v) { return v.outcome == outcome; }));
 }
 
-/// Delays of what was delivered [ns], when sent every `period`.
+/// Returns the delays of delivered datagrams [ns], for datagrams sent every `period`.
 inline std::vector<double> delays(const std::vector<Verdict>& all, Duration period = 1ms) {
   std::vector<double> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -58,7 +58,7 @@ inline std::vector<double> delays(const std::vector<Verdict>& all, Duration peri
   return out;
 }
 
-/// Largest distance between the distribution of `samples` and `cdf` [Kolmogorov-Smirnov].
+/// Returns the largest distance between the distribution of `samples` and `cdf` [Kolmogorov-Smirnov].
 inline double ks_distance(std::vector<double> samples, const std::function<double(double)>& cdf) {
   std::sort(samples.begin(), samples.end());
   const double n = static_cast<double>(samples.size());
@@ -76,13 +76,13 @@ inline double quantile(std::vector<double> samples, double q) {
   return samples[static_cast<std::size_t>(q * static_cast<double>(samples.size() - 1))];
 }
 
-/// Whether k of n is within `sigmas` of a binomial with p.
+/// Returns whether k of n is within `sigmas` of a binomial distribution with probability p.
 inline bool binomial_fits(std::size_t k, std::size_t n, double p, double sigmas = 4.9) {  // two-sided 1e-6
   const double mean = static_cast<double>(n) * p;
   return std::abs(static_cast<double>(k) - mean) <= sigmas * std::sqrt(mean * (1 - p)) + 1;
 }
 
-/// Every model at once: what a property must survive.
+/// Returns a path with every model enabled, for property tests.
 inline PathSpec everything() {
   PathSpec spec;
   spec.outages = {{.start = 2s, .length = 300ms, .period = 3s},
@@ -98,7 +98,7 @@ inline PathSpec everything() {
   return spec;
 }
 
-/// A running digest of decisions; equal digests mean equal logs.
+/// Running digest of decisions; equal digests mean equal logs.
 class Digest {
  public:
   void add(std::uint64_t value) noexcept { state_ = mix64(state_ ^ value); }

@@ -1,5 +1,5 @@
-// Real programs on a pseudo-terminal: two lines that stay in their place, whole words, at every width and after a resize. What stands there is
-// asserted, never how long anything took.
+// Real programs on a pseudo-terminal: two status lines in a fixed place, whole words, at every width and after a
+// resize. The tests assert content, never durations.
 #include "tests/support/terminal.h"
 
 #include <gtest/gtest.h>
@@ -15,9 +15,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Both ways, and below 80. What a terminal that cuts does differently needs fewer of them.
+/// Widths for resizes in both directions, and below 80. A terminal that cuts lines needs fewer of them.
 std::vector<std::size_t> widths(Terminal::Resize resize = Terminal::Resize::kReflows) {
-  return resize == Terminal::Resize::kReflows ? std::vector<std::size_t>{80, 200, 100, 60, 120} : std::vector<std::size_t>{60, 120, 80};
+  return resize == Terminal::Resize::kReflows ? std::vector<std::size_t>{80, 200, 100, 60, 120}
+                                              : std::vector<std::size_t>{60, 120, 80};
 }
 
 std::vector<std::string> pieces(const std::string& line) {
@@ -30,26 +31,28 @@ std::vector<std::string> pieces(const std::string& line) {
   return out;
 }
 
-/// The pieces of a seat's screen, whole.
+/// True if `piece` is a complete item of a seat's screen.
 bool is_whole(const std::string& piece) {
   static const std::vector<std::regex> kKnown{
       std::regex("(trainer|trainee) [0-9.]+ s( .*)?"),
       std::regex("(trainer|trainee) (engaging|waits for [0-9]+ seats?|waiting for the server|closed|ending).*"),
-      std::regex("you lead [0-9]+ %|you do not lead|nobody leads|you [0-9]+ %, not leading|(trainer|trainee) leads(, you [0-9]+ %)?"),
+      std::regex("you lead [0-9]+ %|you do not lead|nobody leads|you [0-9]+ %, not leading|(trainer|trainee) leads(, "
+                 "you [0-9]+ %)?"),
       std::regex("force (\\[[#.]{10}\\] )?[0-9.]+ N"),
       std::regex("tool [0-9]+ mm away(, touching)?"),
       std::regex("[0-9.]+ mm beside the leader's hand"),
       std::regex("with (trainer|trainee)|nobody else is here"),
       std::regex("force (on|off|rising)|no force before the session runs|force fades"),
       std::regex("rtt [0-9.]+ ms, loss [0-9.]+ %"),
-      std::regex("(trips|rejoined|late ticks) [0-9]+"),
+      std::regex("(trips|reconnected|late ticks) [0-9]+"),
       std::regex("margin [-0-9]+ mJ"),
       std::regex("tip [-0-9]+ [-0-9]+ [-0-9]+ mm"),
-      std::regex("(more|less) weight(: done| under way| in [0-9]+ ms)|hand-over .*|.* gives (more of )?the tool to .*")};
+      std::regex(
+          "(more|less) authority(: done| under way| in [0-9]+ ms)|hand-over .*|.* gives (more of )?the tool to .*")};
   return std::ranges::any_of(kKnown, [&](const std::regex& r) { return std::regex_match(piece, r); });
 }
 
-/// The rows of a screen's status: the last two.
+/// Returns the status rows of a screen, from the row that begins with the seat's name to the last one.
 std::vector<std::string> status_of(const Terminal& t, const std::string& seat) {
   const auto rows = t.screen();
   const auto first = std::ranges::find_if(rows, [&](const std::string& row) { return row.starts_with(seat + " "); });
@@ -69,25 +72,36 @@ void expect_sound(TerminalProcess& p, const std::string& seat, std::size_t colum
 
 class Screens : public testing::TestWithParam<Terminal::Resize> {};
 
-TEST_P(Screens, ASeatShowsTwoWholeLinesAtEveryWidthAndAfterEveryResize) {
+TEST_P(Screens, ShowTwoWholeSeatLinesAtEveryWidthAndResize) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
   Process trainer = client(address, "trainer", {"--quiet"});
-  TerminalProcess trainee({TANDEM_CLIENT, "join", "--server", address, "--seat", "trainee", "--device", "sim"}, 80, 24, GetParam());
-  ASSERT_TRUE(trainee.wait_until([](const Terminal& t) { return flat(t.screen()).find("with trainer") != std::string::npos; })) << trainee.picture();
-  ASSERT_TRUE(trainee.wait_until([](const Terminal& t) { return flat(t.screen()).find("force on") != std::string::npos; })) << trainee.picture();
-  // Words of the beginning were broken between words, at 80 columns.
-  EXPECT_NE(flat(trainee.terminal().all()).find("s stops your hand, S everybody's (pause), r resumes"), std::string::npos) << trainee.picture();
+  TerminalProcess trainee({TANDEM_CLIENT, "join", "--server", address, "--seat", "trainee", "--device", "sim"}, 80, 24,
+                          GetParam());
+  ASSERT_TRUE(trainee.wait_until([](const Terminal& t) {
+    return flat(t.screen()).find("with trainer") != std::string::npos;
+  })) << trainee.picture();
+  ASSERT_TRUE(trainee.wait_until([](const Terminal& t) {
+    return flat(t.screen()).find("force on") != std::string::npos;
+  })) << trainee.picture();
+  // The first lines, at 80 columns, are wrapped between words.
+  EXPECT_NE(flat(trainee.terminal().all()).find("s stops your hand, S everybody's (pause), r resumes"),
+            std::string::npos)
+      << trainee.picture();
   for (const std::size_t columns : widths(GetParam())) {
     trainee.resize(columns, 24);
     trainee.terminal().forget_wraps();
-    const std::string wide = columns >= 200 ? "margin" : columns >= 120 ? "rtt" : "";  // what has room only there
-    // A new picture at this width: the force bar stands there once more.
+    const std::string wide = columns >= 200   ? "margin"
+                             : columns >= 120 ? "rtt"
+                                              : "";  // items that fit only at this width
+    // The screen is drawn again at this width, so the force bar appears once more.
     trainee.watch(400ms);
     ASSERT_TRUE(trainee.wait_until([&](const Terminal& t) {
       const auto rows = status_of(t, "trainee");
-      return rows.size() == 2 && rows[0].size() < columns && rows[1].size() < columns && flat(rows).find("leads") != std::string::npos && flat(rows).find(wide) != std::string::npos;
-    })) << columns << trainee.picture();
+      return rows.size() == 2 && rows[0].size() < columns && rows[1].size() < columns &&
+             flat(rows).find("leads") != std::string::npos && flat(rows).find(wide) != std::string::npos;
+    })) << columns
+        << trainee.picture();
     expect_sound(trainee, "trainee", columns);
   }
   trainee.type("q");
@@ -95,47 +109,66 @@ TEST_P(Screens, ASeatShowsTwoWholeLinesAtEveryWidthAndAfterEveryResize) {
   EXPECT_TRUE(status_of(trainee.terminal(), "trainee").empty()) << "the status is gone in the end" << trainee.picture();
 }
 
-TEST_P(Screens, AServerShowsItsSessionWholeAtEveryWidth) {
+TEST_P(Screens, ShowTheWholeServerSessionAtEveryWidth) {
   TerminalProcess host({TANDEM_SERVER, "run", "free_motion", "--duration", "600"}, 80, 24, GetParam());
-  ASSERT_TRUE(host.wait_until([](const Terminal& t) { return flat(t.screen()).find("waiting for trainer (nobody joined), trainee (nobody joined)") != std::string::npos; })) << host.picture();
+  ASSERT_TRUE(host.wait_until([](const Terminal& t) {
+    return flat(t.screen()).find("waiting for trainer (nobody joined), trainee (nobody joined)") != std::string::npos;
+  })) << host.picture();
   const std::string all = flat(host.terminal().all());
   const auto at = all.find("listening on ");
   ASSERT_NE(at, std::string::npos) << host.picture();
   const std::string address = all.substr(at + 13, all.find(' ', at + 13) - at - 13);
-  std::string commands = all;  // lines that go on are one for a shell
-  for (auto back = commands.find("\\ "); back != std::string::npos; back = commands.find("\\ ")) commands.erase(back, 2);
-  EXPECT_NE(commands.find("tandem-client join --server " + address + " --seat trainer --device sim"), std::string::npos) << host.picture();
+  std::string commands = all;  // a shell joins continued lines
+  for (auto back = commands.find("\\ "); back != std::string::npos; back = commands.find("\\ "))
+    commands.erase(back, 2);
+  EXPECT_NE(commands.find("tandem-client join --server " + address + " --seat trainer --device sim"), std::string::npos)
+      << host.picture();
   EXPECT_TRUE(host.terminal().wraps().empty()) << host.terminal().wraps().front();
   Process trainer = client(address, "trainer", {"--quiet"}), trainee = client(address, "trainee", {"--quiet"});
-  ASSERT_TRUE(host.wait_until([](const Terminal& t) { return flat(t.screen()).find("trainer leads 100 %") != std::string::npos; })) << host.picture();
+  ASSERT_TRUE(host.wait_until([](const Terminal& t) {
+    return flat(t.screen()).find("trainer leads 100 %") != std::string::npos;
+  })) << host.picture();
   for (const std::size_t columns : widths(GetParam())) {
     host.resize(columns, 24);
     host.terminal().forget_wraps();
     host.watch(400ms);
-    // Soon there is one picture of this width, and nothing of the one before.
-    ASSERT_TRUE(host.wait_until([&](const Terminal& t) {
-      const auto rows = t.screen();
-      const auto count = [&](const auto& is) { return std::ranges::count_if(rows, is); };
-      return t.wraps().empty() && count([](const std::string& row) { return row.find(" running | ") != std::string::npos; }) == 1 &&
-             count([](const std::string& row) { return row.starts_with("trainer: ") && row.find("trainee: force on") != std::string::npos; }) == 1 &&
-             count([](const std::string& row) { return row.find("trainee: force on") != std::string::npos; }) == 1 && rows.back().starts_with("trainer: ") && rows.back().size() < columns;
-    }, 10s)) << columns << host.picture();
+    // The screen is drawn once at this width, without remains of the previous one.
+    ASSERT_TRUE(host.wait_until(
+        [&](const Terminal& t) {
+          const auto rows = t.screen();
+          const auto count = [&](const auto& is) { return std::ranges::count_if(rows, is); };
+          return t.wraps().empty() &&
+                 count([](const std::string& row) { return row.find(" running | ") != std::string::npos; }) == 1 &&
+                 count([](const std::string& row) {
+                   return row.starts_with("trainer: ") && row.find("trainee: force on") != std::string::npos;
+                 }) == 1 &&
+                 count([](const std::string& row) { return row.find("trainee: force on") != std::string::npos; }) ==
+                     1 &&
+                 rows.back().starts_with("trainer: ") && rows.back().size() < columns;
+        },
+        10s))
+        << columns << host.picture();
   }
   host.signal(SIGINT);
   EXPECT_EQ(host.wait(), 0) << host.picture();
 }
 
 INSTANTIATE_TEST_SUITE_P(Terminals, Screens, testing::Values(Terminal::Resize::kReflows, Terminal::Resize::kCuts),
-                         [](const auto& i) { return i.param == Terminal::Resize::kReflows ? "ThatReflow" : "ThatCut"; });
+                         [](const auto& i) {
+                           return i.param == Terminal::Resize::kReflows ? "ThatReflow" : "ThatCut";
+                         });
 
-TEST(Keys, ThatDoNothingSayWhy) {
+TEST(Keys, ExplainWhyTheyHaveNoEffect) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
   Process trainer = client(address, "trainer", {"--quiet"});
-  TerminalProcess trainee({TANDEM_CLIENT, "join", "--server", address, "--seat", "trainee", "--device", "sim"}, 100, 40);
+  TerminalProcess trainee({TANDEM_CLIENT, "join", "--server", address, "--seat", "trainee", "--device", "sim"}, 100,
+                          40);
   ASSERT_TRUE(trainee.wait_for("force on")) << trainee.picture();
-  for (const auto& [key, why] : {std::pair{"r", "r: nothing is stopped, there is nothing to resume"}, {"b", "b: nothing is latched off, there is nothing to clear"},
-                                 {"0", "0: only an instructor moves authority"}, {"x", "x: no such key. keys:"}}) {
+  for (const auto& [key, why] : {std::pair{"r", "r: nothing is stopped, there is nothing to resume"},
+                                 {"b", "b: nothing is latched off, there is nothing to clear"},
+                                 {"0", "0: only an instructor moves authority"},
+                                 {"x", "x: no such key. keys:"}}) {
     trainee.type(key);
     EXPECT_TRUE(trainee.wait_for(why)) << key << trainee.picture();
   }
@@ -143,7 +176,11 @@ TEST(Keys, ThatDoNothingSayWhy) {
   EXPECT_EQ(stop.wait(), 0) << stop.err();
   ASSERT_TRUE(trainee.wait_for("STOPPED by local (console): an instructor or operator resumes")) << trainee.picture();
   trainee.type("r");
-  EXPECT_TRUE(trainee.wait_for("r: you may not end this stop; who may: an instructor (key r) or an operator (`tandem-client control --server " + address)) << trainee.picture();
+  EXPECT_TRUE(
+      trainee.wait_for("r: you may not end this stop; it can be ended by: an instructor (key r) or an operator "
+                       "(`tandem-client control --server " +
+                       address))
+      << trainee.picture();
   trainee.type("s");
   ASSERT_TRUE(trainee.wait_for("s stops")) << trainee.picture();
   trainee.watch(500ms);
@@ -151,7 +188,7 @@ TEST(Keys, ThatDoNothingSayWhy) {
   EXPECT_TRUE(trainee.wait_for("s: your hand is stopped already; r resumes")) << trainee.picture();
 }
 
-TEST(Announced, AResumeARemovalAndADrainAtEverySeat) {
+TEST(Announcements, ReachEverySeatForAResumeARemovalAndADrain) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
   TerminalProcess trainer({TANDEM_CLIENT, "join", "--server", address, "--seat", "trainer", "--device", "sim"}, 80, 30);
@@ -163,38 +200,49 @@ TEST(Announced, AResumeARemovalAndADrainAtEverySeat) {
   ASSERT_TRUE(trainer.wait_for("STOPPED by trainer: r resumes")) << trainer.picture();
   ASSERT_TRUE(trainee.wait_for("STOPPED by trainer (instructor)")) << trainee.err();
   trainer.type("r");
-  EXPECT_TRUE(trainer.wait_for("stop 1 is over: RESUMED by trainer (instructor); force returns over 0.5 s")) << trainer.picture();
-  EXPECT_TRUE(trainee.wait_for("stop 1 is over: RESUMED by trainer (instructor); force returns over 0.5 s")) << trainee.err();
+  EXPECT_TRUE(trainer.wait_for("stop 1 is over: RESUMED by trainer (instructor); force returns over 0.5 s"))
+      << trainer.picture();
+  EXPECT_TRUE(trainee.wait_for("stop 1 is over: RESUMED by trainer (instructor); force returns over 0.5 s"))
+      << trainee.err();
   Process remove({TANDEM_CLIENT, "control", "--server", address, "remove", "trainee", "pushes", "the", "others"});
   EXPECT_EQ(remove.wait(), 0) << remove.err();
-  EXPECT_TRUE(trainer.wait_for("trainee is REMOVED by local (operator), the hand is released within 0.2 s: pushes the others")) << trainer.picture();
+  EXPECT_TRUE(
+      trainer.wait_for("trainee is REMOVED by local (operator), the hand is released within 0.2 s: pushes the others"))
+      << trainer.picture();
   EXPECT_EQ(trainee.wait(), 1);
   Process drain({TANDEM_CLIENT, "control", "--server", address, "drain", "2s"});
-  EXPECT_TRUE(trainer.wait_for("the server DRAINS: all hands are let go in 2 s; ordered by local (operator)")) << trainer.picture();
+  EXPECT_TRUE(trainer.wait_for("the server DRAINS: all hands are released in 2 s; requested by local (operator)"))
+      << trainer.picture();
   EXPECT_TRUE(trainer.wait_for("DRAINING: 1 s left")) << trainer.picture();
   EXPECT_EQ(drain.wait(), 0) << drain.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.picture();
   EXPECT_EQ(host.wait(), 0) << host.err();
 }
 
-/// The hand-over acts only when the session goes on: a person who ordered it reads it at once, else the other hand leads without a word.
-TEST(Handover, ThatAPersonOrdersInAStopIsToldOnTheScreenAndActsAtTheResume) {
+/// A transfer requested during a stop acts only at the resume. The screen shows it at once, because otherwise the other
+/// seat would lead without notice.
+TEST(AuthorityTransfer, ShowsTransferRequestedDuringStopAndActsAtResume) {
   TerminalProcess trial({TANDEM_CLIENT, "try"}, 160, 40);
   ASSERT_TRUE(trial.wait_for("you hold the seat instructor")) << trial.picture();
   ASSERT_TRUE(trial.wait_for("force on")) << trial.picture();
   trial.type("S");
   ASSERT_TRUE(trial.wait_for("STOPPED by instructor: r resumes")) << trial.picture();
-  EXPECT_EQ(flat(trial.terminal().all()).find("gives the tool"), std::string::npos) << "nobody ordered anything" << trial.picture();
+  EXPECT_EQ(flat(trial.terminal().all()).find("gives the tool"), std::string::npos)
+      << "nobody ordered anything" << trial.picture();
   trial.type("0");
   EXPECT_TRUE(trial.wait_for("instructor gives the tool to trainee (")) << trial.picture();
-  EXPECT_TRUE(trial.wait_until([](const Terminal& t) { return flat(status_of(t, "instructor")).find("when the session goes on") != std::string::npos; })) << trial.picture();
+  EXPECT_TRUE(trial.wait_until([](const Terminal& t) {
+    return flat(status_of(t, "instructor")).find("when the session goes on") != std::string::npos;
+  })) << trial.picture();
   trial.type("r");
-  EXPECT_TRUE(trial.wait_until([](const Terminal& t) { return flat(status_of(t, "instructor")).find("trainee leads") != std::string::npos; })) << trial.picture();
+  EXPECT_TRUE(trial.wait_until([](const Terminal& t) {
+    return flat(status_of(t, "instructor")).find("trainee leads") != std::string::npos;
+  })) << trial.picture();
   trial.type("q");
   EXPECT_EQ(trial.wait(), 0) << trial.picture();
 }
 
-TEST(Held, SaysWhyAtTheSeatThatIsLeft) {
+TEST(Braked, ShowsTheReasonAtTheRemainingSeat) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
   TerminalProcess trainee({TANDEM_CLIENT, "join", "--server", address, "--seat", "trainee", "--device", "sim"}, 80, 24);
@@ -202,16 +250,18 @@ TEST(Held, SaysWhyAtTheSeatThatIsLeft) {
   ASSERT_TRUE(trainee.wait_for("force on")) << trainee.picture();
   ASSERT_TRUE(trainer.wait_for("force on")) << trainer.picture();
   trainer.type("s");
-  ASSERT_TRUE(trainer.wait_for("HELD: you stopped your hand: r resumes")) << trainer.picture();
-  ASSERT_TRUE(trainee.wait_for("HELD: stopped by trainer: r there resumes")) << trainee.picture();
+  ASSERT_TRUE(trainer.wait_for("BRAKED: you stopped your hand: r resumes")) << trainer.picture();
+  ASSERT_TRUE(trainee.wait_for("BRAKED: stopped by trainer: r there resumes")) << trainee.picture();
   trainer.type("r");
-  ASSERT_TRUE(trainer.wait_until([](const Terminal& t) { return flat(status_of(t, "trainer")).find("resumes") == std::string::npos; })) << trainer.picture();
+  ASSERT_TRUE(trainer.wait_until([](const Terminal& t) {
+    return flat(status_of(t, "trainer")).find("resumes") == std::string::npos;
+  })) << trainer.picture();
   trainer.type("q");
   EXPECT_EQ(trainer.wait(), 0) << trainer.picture();
-  ASSERT_TRUE(trainee.wait_for("HELD: trainer left")) << trainee.picture();
+  ASSERT_TRUE(trainee.wait_for("BRAKED: trainer left")) << trainee.picture();
 }
 
-TEST(Held, NamesTheKeyThatHelpsASeatThatMovesAuthority) {
+TEST(Braked, NamesTheKeyToASeatThatMayMoveAuthority) {
   Process host = hosting("free_motion", {"--duration", "600"});
   const std::string address = address_of(host);
   Process trainee = client(address, "trainee");
@@ -221,9 +271,12 @@ TEST(Held, NamesTheKeyThatHelpsASeatThatMovesAuthority) {
   ASSERT_TRUE(trainer.wait_for("trainee leads")) << trainer.picture();
   trainee.signal(SIGINT);
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
-  ASSERT_TRUE(trainer.wait_for("HELD: trainee left; 1 takes the tool")) << trainer.picture();
+  ASSERT_TRUE(trainer.wait_for("BRAKED: trainee left; 1 takes the tool")) << trainer.picture();
   trainer.type("1");
-  EXPECT_TRUE(trainer.wait_until([](const Terminal& t) { return flat(status_of(t, "trainer")).find("you lead 100 %") != std::string::npos; })) << "the key does what is said" << trainer.picture();
+  EXPECT_TRUE(trainer.wait_until([](const Terminal& t) {
+    return flat(status_of(t, "trainer")).find("you lead 100 %") != std::string::npos;
+  })) << "the key does what is said"
+      << trainer.picture();
 }
 
 TEST(Proxy, ShowsWholeColumnsAtEveryWidth) {
@@ -233,12 +286,18 @@ TEST(Proxy, ShowsWholeColumnsAtEveryWidth) {
     proxy.resize(columns, 24);
     proxy.terminal().forget_wraps();
     proxy.watch(600ms);
-    ASSERT_TRUE(proxy.wait_until([&](const Terminal& t) {
-      const auto rows = t.screen();
-      const auto heading = std::ranges::find_if(rows, [](const std::string& row) { return row.starts_with("  n address"); });
-      return t.wraps().empty() && heading != rows.end() && (heading->find("flight") != std::string::npos) == (columns >= 80) &&
-             std::ranges::count_if(rows, [](const std::string& row) { return row.find("0 clients") != std::string::npos; }) == 1;
-    }, 10s)) << columns << proxy.picture();
+    ASSERT_TRUE(proxy.wait_until(
+        [&](const Terminal& t) {
+          const auto rows = t.screen();
+          const auto heading =
+              std::ranges::find_if(rows, [](const std::string& row) { return row.starts_with("  n address"); });
+          return t.wraps().empty() && heading != rows.end() &&
+                 (heading->find("flight") != std::string::npos) == (columns >= 80) &&
+                 std::ranges::count_if(
+                     rows, [](const std::string& row) { return row.find("0 clients") != std::string::npos; }) == 1;
+        },
+        10s))
+        << columns << proxy.picture();
   }
   proxy.type("help\n");
   ASSERT_TRUE(proxy.wait_for("ends the proxy")) << proxy.picture();

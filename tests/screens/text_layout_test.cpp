@@ -7,7 +7,7 @@
 #include <set>
 
 #include "common/base/rng.h"
-#include "common/io/help_text.h"
+#include "common/io/help_formatter.h"
 
 namespace tandem::io {
 namespace {
@@ -29,10 +29,11 @@ TEST(TextLayout, BreaksOnlyBetweenWordsAndLosesNone) {
   RandomStream random{1};
   for (int round = 0; round < 200; ++round) {
     std::string text;
-    for (std::uint64_t n = 1 + random.below(40); n > 0; --n) text += (text.empty() ? "" : " ") + std::string(1 + random.below(18), static_cast<char>('a' + random.below(26)));
+    for (std::uint64_t n = 1 + random.below(40); n > 0; --n)
+      text += (text.empty() ? "" : " ") + std::string(1 + random.below(18), static_cast<char>('a' + random.below(26)));
     const std::size_t width = 28 + random.below(180), indent = random.below(8);
     std::string all;
-    for (const std::string& line : wrapped(text, width, indent)) {
+    for (const std::string& line : wrap_words(text, width, indent)) {
       EXPECT_LE(line.size(), width);
       all += line + " ";
     }
@@ -41,31 +42,37 @@ TEST(TextLayout, BreaksOnlyBetweenWordsAndLosesNone) {
 }
 
 TEST(TextLayout, CountsCharactersNotBytes) {
-  EXPECT_EQ(columns_of("✓ ä"), 3u);
-  EXPECT_EQ(wrapped("ää öö", 5).size(), 1u);
+  EXPECT_EQ(display_width("✓ ä"), 3u);
+  EXPECT_EQ(wrap_words("ää öö", 5).size(), 1u);
 }
 
 TEST(TextLayout, KeepsAWordThatIsWiderThanTheTerminalWhole) {
-  const auto lines = wrapped("see https://example.org/a/very/long/address now", 20);
+  const auto lines = wrap_words("see https://example.org/a/very/long/address now", 20);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[1], "https://example.org/a/very/long/address");
 }
 
-TEST(TextLayout, LeavesOutTheLeastImportantFirst) {
-  const std::vector<ScreenItem> items{{"state of it all", "state", 0}, {"who leads", "", 0}, {"force 1.2 N", "", 0}, {"tool near", "", 1}, {"rtt 1 ms", "", 1}};
-  EXPECT_EQ(laid_out(items, 2, 80), (std::vector<std::string>{"state of it all | who leads | force 1.2 N", "tool near | rtt 1 ms"}));
-  // What does not fit above comes before what belongs below.
-  EXPECT_EQ(laid_out(items, 2, 30), (std::vector<std::string>{"state of it all | who leads", "force 1.2 N | tool near"}));
-  EXPECT_EQ(laid_out(items, 1, 30), (std::vector<std::string>{"state of it all | who leads"}));
-  EXPECT_EQ(laid_out(items, 2, 14).front(), "state") << "the shorter form before anything is cut";
-  EXPECT_EQ(joined(items), "state of it all | who leads | force 1.2 N | tool near | rtt 1 ms");
+TEST(TextLayout, OmitsTheLeastImportantFirst) {
+  const std::vector<ScreenItem> items{{"state of it all", "state", 0},
+                                      {"who leads", "", 0},
+                                      {"force 1.2 N", "", 0},
+                                      {"tool near", "", 1},
+                                      {"rtt 1 ms", "", 1}};
+  EXPECT_EQ(lay_out_items(items, 2, 80),
+            (std::vector<std::string>{"state of it all | who leads | force 1.2 N", "tool near | rtt 1 ms"}));
+  // Items that do not fit in the upper row precede the items of the lower row.
+  EXPECT_EQ(lay_out_items(items, 2, 30),
+            (std::vector<std::string>{"state of it all | who leads", "force 1.2 N | tool near"}));
+  EXPECT_EQ(lay_out_items(items, 1, 30), (std::vector<std::string>{"state of it all | who leads"}));
+  EXPECT_EQ(lay_out_items(items, 2, 14).front(), "state") << "the shorter form before anything is cut";
+  EXPECT_EQ(join_items(items), "state of it all | who leads | force 1.2 N | tool near | rtt 1 ms");
 }
 
 TEST(TextLayout, CutsTheFirstItemAfterAWordWhenNothingElseHelps) {
   const std::vector<ScreenItem> items{{"STOPPED by somebody with a long name", "", 0}};
-  EXPECT_EQ(laid_out(items, 2, 24), (std::vector<std::string>{"STOPPED by somebody ..."}));
+  EXPECT_EQ(lay_out_items(items, 2, 24), (std::vector<std::string>{"STOPPED by somebody ..."}));
   for (std::size_t width = 4; width < 60; ++width)
-    for (const std::string& line : laid_out(items, 2, width)) EXPECT_LE(columns_of(line), width);
+    for (const std::string& line : lay_out_items(items, 2, width)) EXPECT_LE(display_width(line), width);
 }
 
 constexpr const char* kHelp =
@@ -80,16 +87,24 @@ constexpr const char* kHelp =
     "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim:motion=baton.csv\n"
     "      --alpha-script handover.csv\n";
 
-TEST(HelpText, FillsParagraphsAndKeepsTables) {
-  const std::string wide = filled(kHelp, 119);
-  EXPECT_NE(wide.find("Judges the network for as long as it is told to, and says so.\nExit: 0 done, 1 trouble.\n\nDevices\n"), std::string::npos) << wide;
-  EXPECT_NE(wide.find("  sim                  simulated, as the scene describes the device of the seat and its hand\n"), std::string::npos) << wide;
-  EXPECT_NE(wide.find("  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim:motion=baton.csv --alpha-script handover.csv\n"), std::string::npos) << wide;
+TEST(HelpFormatter, FillsParagraphsAndKeepsTables) {
+  const std::string wide = fill_paragraphs(kHelp, 119);
+  EXPECT_NE(
+      wide.find("Judges the network for as long as it is told to, and says so.\nExit: 0 done, 1 trouble.\n\nDevices\n"),
+      std::string::npos)
+      << wide;
+  EXPECT_NE(wide.find("  sim                  simulated, as the scene describes the device of the seat and its hand\n"),
+            std::string::npos)
+      << wide;
+  EXPECT_NE(wide.find("  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim:motion=baton.csv "
+                      "--alpha-script handover.csv\n"),
+            std::string::npos)
+      << wide;
 }
 
-TEST(HelpText, FitsEveryWidthWithoutCuttingAWord) {
+TEST(HelpFormatter, FitsEveryWidthWithoutCuttingAWord) {
   for (const std::size_t width : {40u, 60u, 79u, 99u, 119u, 199u}) {
-    const std::string text = filled(kHelp, width);
+    const std::string text = fill_paragraphs(kHelp, width);
     std::size_t at = 0;
     while (at < text.size()) {
       const std::size_t end = text.find('\n', at);
@@ -102,8 +117,8 @@ TEST(HelpText, FitsEveryWidthWithoutCuttingAWord) {
   }
 }
 
-TEST(HelpText, ContinuesCommandsSoThatTheyCanBeCopied) {
-  const std::string text = filled(kHelp, 60);
+TEST(HelpFormatter, ContinuesCommandsSoThatTheyCanBeCopied) {
+  const std::string text = fill_paragraphs(kHelp, 60);
   const auto at = text.find("  tandem-client join");
   ASSERT_NE(at, std::string::npos);
   std::string command;
@@ -114,7 +129,8 @@ TEST(HelpText, ContinuesCommandsSoThatTheyCanBeCopied) {
     }
     command += text[i];
   }
-  EXPECT_EQ(words_of(command), words_of("tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim:motion=baton.csv --alpha-script handover.csv"));
+  EXPECT_EQ(words_of(command), words_of("tandem-client join --server 127.0.0.1:7000 --seat trainer --device "
+                                        "sim:motion=baton.csv --alpha-script handover.csv"));
   EXPECT_EQ(command.find('\n'), command.size() - 1) << "one line for a shell:\n" << text;
 }
 

@@ -1,28 +1,29 @@
-// Surfaces that an engine beside the server tells of, in whole sessions of law `replica`: felt at every delay as they are, with no step of
-// force, and no energy that was not paid.
+// Surfaces from an engine beside the server, in whole sessions of law `replica`. Hands feel them correctly at every
+// delay, without a step of force and without unpaid energy.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "tests/sim/life.h"
 #include "tests/sim/replica_scene.h"
+#include "tests/sim/session_driver.h"
 
 namespace tandem {
 namespace {
 
 using namespace std::chrono_literals;
 using test::delayed;
-using test::Life;
 using test::pressing;
+using test::SessionDriver;
 using test::with;
 
-/// A plane normal to x whose place is a function of session time. Nothing is told where that is not finite.
+/// A plane normal to x whose position is a function of session time [s -> m]. While that is not finite, there is no
+/// plane.
 class MovingPlane final : public server::ContactSource {
  public:
   using Place = std::function<double(double)>;
   MovingPlane(Place place, float k, float mu = 0) : place_(std::move(place)), k_(k), mu_(mu) {}
-  void look(const server::ToolView& tool, LocalContactList& out) noexcept override {
+  void find_contacts(const server::ToolView& tool, LocalContactList& out) noexcept override {
     const double at = place_(tool.time);
     if (!std::isfinite(at)) return;
     LocalContact plane{.id = 7, .k = k_, .b = 5, .mu = mu_};
@@ -37,29 +38,30 @@ class MovingPlane final : public server::ContactSource {
 };
 
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-/// The spring of the hand, 0.93 b / (T/2) = 372 N/m, in series with that of the plane.
+/// Returns the stiffness of the hand's spring, 0.93 b / (T/2) = 372 N/m, in series with that of the plane [N/m].
 double series(double k) { return 1 / (1 / 372.0 + 1 / k); }
 
-/// One hand alone that wants to be 7 mm beyond x = 0 from 2 s on; no surface of the scene's own.
-netsim::WorldSetup held(double delay_ms, MovingPlane::Place place, float k = 20000, float mu = 0) {
+/// Returns one hand alone that intends to be 7 mm beyond x = 0 from 2 s on; the scene has no surface of its own.
+netsim::SimulationConfig held(double delay_ms, MovingPlane::Place place, float k = 20000, float mu = 0) {
   SceneSpec scene = pressing(20000, 0.007, 0.007);
   scene.tools[0].environment = {};
-  scene.seats[0].device.encoder = 0;  // what a resting hand's encoder steps do to the tool at the server is not the matter here
-  netsim::WorldSetup setup = with(std::move(scene));
+  scene.seats[0].device.encoder = 0;  // encoder steps are not covered here
+  netsim::SimulationConfig setup = with(std::move(scene));
   setup.network = netsim::link_from(delayed(delay_ms));
   setup.contact_source = [=](std::size_t) { return std::make_unique<MovingPlane>(place, k, mu); };
   return setup;
 }
-void until_session(Life& life, double t) {
-  while (life.world->session().time() < t && life.step()) {}
+void until_session(SessionDriver& life, double t) {
+  while (life.simulation->session().time() < t && life.step()) {
+  }
 }
-double force_x(const Life& life) { return life.world->device(0).state().f_out[0]; }
-double hand_x(const Life& life) { return life.world->device(0).truth().x[0]; }
+double force_x(const SessionDriver& life) { return life.simulation->device(0).state().f_out[0]; }
+double hand_x(const SessionDriver& life) { return life.simulation->device(0).ground_truth().x[0]; }
 
-TEST(Contacts, AreFeltAtEveryDelayAsThoseOfASceneAre) {
+TEST(Contacts, RenderSpringsInSeriesAtEveryDelay) {
   for (const double delay : {0.0, 50.0, 200.0, 500.0})
     for (const float k : {300.0F, 20000.0F}) {
-      Life life{held(delay, [](double) { return 0.0; }, k)};
+      SessionDriver life{held(delay, [](double) { return 0.0; }, k)};
       until_session(life, 7);
       double felt = 0, place = 0, tool = 0, apart = 0;
       constexpr int kTicks = 500;
@@ -67,8 +69,10 @@ TEST(Contacts, AreFeltAtEveryDelayAsThoseOfASceneAre) {
         life.step();
         felt += force_x(life) / kTicks;
         place += hand_x(life) / kTicks;
-        tool += life.world->session().tool(0).body()->surface_force()[0] / kTicks;
-        apart += std::abs(life.world->seat(0)->coupling().copy()->x(0) - life.world->session().tool(0).x(0)) / kTicks;
+        tool += life.simulation->session().tool(0).body()->surface_force()[0] / kTicks;
+        apart +=
+            std::abs(life.simulation->seat(0)->coupling().tool_copy()->x(0) - life.simulation->session().tool(0).x(0)) /
+            kTicks;
       }
       EXPECT_NEAR(felt, -series(k) * place, 0.03) << delay << " ms, " << k << " N/m";  // a step of an encoder is 0.02 N
       EXPECT_NEAR(tool, felt, 0.05) << delay << " ms, " << k << " N/m";
@@ -77,10 +81,12 @@ TEST(Contacts, AreFeltAtEveryDelayAsThoseOfASceneAre) {
     }
 }
 
-/// Appears inside the hand's way, leaps, and goes; the hand is held all the time.
-TEST(Contacts, ComeMoveAndGoWithoutAStep) {
+/// The plane appears inside the hand's path, jumps, and disappears while the hand is held.
+TEST(Contacts, AppearMoveAndDisappearWithoutAForceStep) {
   for (const double delay : {0.0, 100.0}) {
-    Life life{held(delay, [](double t) { return t < 5 ? kNowhere : t < 6 ? 0.0 : t < 7 ? 0.004 : t < 8 ? 0.001 : kNowhere; })};
+    SessionDriver life{held(delay, [](double t) {
+      return t < 5 ? kNowhere : t < 6 ? 0.0 : t < 7 ? 0.004 : t < 8 ? 0.001 : kNowhere;
+    })};
     until_session(life, 4.95);
     EXPECT_NEAR(force_x(life), 0, 0.05);
     life.forget_steps();
@@ -93,18 +99,18 @@ TEST(Contacts, ComeMoveAndGoWithoutAStep) {
     until_session(life, 8.8);
     EXPECT_NEAR(force_x(life), 0, 0.05);
     EXPECT_LT(life.steps[0], 0.1) << "0.04 N per ms at v_app, and steps of the encoder";
-    EXPECT_EQ(life.world->session().tool(0).contacts_refused(), 0u);
+    EXPECT_EQ(life.simulation->session().tool(0).contacts_refused(), 0u);
     life.expect_nothing_broken();
   }
 }
 
-/// A plane that swings by 6 mm drives a hand that gives way. Every newton metre of that was paid.
-TEST(Contacts, ThatMoveStayWithinTheLedger) {
+/// A plane that oscillates by 6 mm drives a hand that yields. The ledger pays all of that energy.
+TEST(Contacts, StayWithinTheLedgerWhileTheyMove) {
   for (const double delay : {0.0, 100.0}) {
-    netsim::WorldSetup setup = held(delay, [](double t) { return 0.003 * std::sin(2 * t); });
+    netsim::SimulationConfig setup = held(delay, [](double t) { return 0.003 * std::sin(2 * t); });
     setup.scene.seats[0].hand.k = 100;
     setup.scene.seats[0].hand.b = 3;
-    Life life{std::move(setup)};
+    SessionDriver life{std::move(setup)};
     double least = 0, most = -10;
     life.until(5s);
     while (life.at() < 10s) {
@@ -118,17 +124,17 @@ TEST(Contacts, ThatMoveStayWithinTheLedger) {
   }
 }
 
-/// A network that is silent for 60 ms takes nothing away; after 150 ms the plane retreats, and comes back.
-TEST(Contacts, OutliveAGapOf100Milliseconds) {
+/// A gap of 60 ms changes nothing. After 150 ms without data the plane retreats, and returns later.
+TEST(Contacts, PersistThroughAShortGapAndRetreatInALongOne) {
   for (const double gap_ms : {60.0, 200.0}) {
-    netsim::WorldSetup setup = held(5, [](double) { return 0.0; });
+    netsim::SimulationConfig setup = held(5, [](double) { return 0.0; });
     netsim::SimpleNetwork net = delayed(5);
     netsim::OutageSpec outage;
     outage.start = 7s;
     outage.length = from_seconds(1e-3 * gap_ms);
     net.outages.push_back(outage);
     setup.network = netsim::link_from(net);
-    Life life{std::move(setup)};
+    SessionDriver life{std::move(setup)};
     life.until(6900ms);
     const double before = force_x(life);
     life.forget_steps();
@@ -149,10 +155,10 @@ TEST(Contacts, OutliveAGapOf100Milliseconds) {
   }
 }
 
-/// What an engine says is judged before it acts.
-TEST(Contacts, ThatAreNoSurfacesAreRefusedAtTheServer) {
+/// The server validates the contacts of an engine before it uses them.
+TEST(Contacts, AreRejectedByTheServerWhenInvalid) {
   class Broken final : public server::ContactSource {
-    void look(const server::ToolView&, LocalContactList& out) noexcept override {
+    void find_contacts(const server::ToolView&, LocalContactList& out) noexcept override {
       LocalContact c{.id = 1, .k = 1000};
       out.add(c);  // no normal
       c.normal = {-1, 0, 0};
@@ -164,17 +170,17 @@ TEST(Contacts, ThatAreNoSurfacesAreRefusedAtTheServer) {
       out.size = 1000;
     }
   };
-  netsim::WorldSetup setup = held(5, {});
+  netsim::SimulationConfig setup = held(5, {});
   setup.contact_source = [](std::size_t) { return std::make_unique<Broken>(); };
-  Life life{std::move(setup)};
+  SessionDriver life{std::move(setup)};
   life.until(4s);
-  EXPECT_EQ(life.world->session().tool(0).contacts().size, 1u);
-  EXPECT_GT(life.world->session().tool(0).contacts_refused(), 3000u);
+  EXPECT_EQ(life.simulation->session().tool(0).contacts().size, 1u);
+  EXPECT_GT(life.simulation->session().tool(0).contacts_refused(), 3000u);
   EXPECT_NEAR(force_x(life), -series(1000) * hand_x(life), 0.1);
   life.expect_nothing_broken();
 }
 
-TEST(Contacts, NeedALawAndAToolThatMeetSurfaces) {
+TEST(Contacts, NeedALawAndAToolThatSupportSurfaces) {
   SceneSpec scene = test::shipped("seed_contact");
   std::vector<std::unique_ptr<hal::SteppedDevice>> none(scene.tools.size());
   server::Session session(scene, std::move(none), {1, 1, 1, 1, 1, 1, 1});
@@ -186,18 +192,19 @@ TEST(Contacts, NeedALawAndAToolThatMeetSurfaces) {
   EXPECT_FALSE(other.set_contact_source(1, nullptr));
 }
 
-/// A rough plane drags a hand that slides over it with mu times the force that presses.
-TEST(Contacts, RubAsTheirFrictionSays) {
-  netsim::WorldSetup setup = held(50, [](double) { return 0.0; }, 5000, 0.5F);
+/// A rough plane drags a sliding hand with mu times the normal force.
+TEST(Contacts, DragASlidingHandByTheirFriction) {
+  netsim::SimulationConfig setup = held(50, [](double) { return 0.0; }, 5000, 0.5F);
   setup.scene.seats[0].device.friction = 0;
-  setup.scene.seats[0].hand.trajectory.waypoints = {{0.5, {-0.02, 0, 0}}, {2, {0.006, -0.04, 0}}, {4, {0.006, -0.04, 0}}, {8, {0.006, 0.04, 0}}};
-  Life life{std::move(setup)};
+  setup.scene.seats[0].hand.trajectory.waypoints = {
+      {0.5, {-0.02, 0, 0}}, {2, {0.006, -0.04, 0}}, {4, {0.006, -0.04, 0}}, {8, {0.006, 0.04, 0}}};
+  SessionDriver life{std::move(setup)};
   life.until(5500ms);
   double across = 0, along = 0;
   for (int i = 0; i < 1000; ++i) {
     life.step();
-    along += life.world->device(0).state().f_out[0];
-    across += life.world->device(0).state().f_out[1];
+    along += life.simulation->device(0).state().f_out[0];
+    across += life.simulation->device(0).state().f_out[1];
   }
   EXPECT_LT(along, -1000.0);
   EXPECT_NEAR(across / along, 0.5, 0.05) << "against the motion, along +y";

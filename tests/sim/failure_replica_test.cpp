@@ -1,30 +1,31 @@
-// Rows of the failure table (design notes, security 2.4) once more under law `replica`, whose hands bear longer silences: the tool waits for a hand
-// for as long as that hand's own gate bears it, 450 ms at most, and then its weight goes in 100 ms as under the other law.
+// Rows of the failure table (design notes, security 2.4) under law `replica`, whose hands tolerate longer silences. The
+// tool waits for a hand as long as that hand's gate tolerates, 450 ms at most. Its authority then decays in 100 ms, as
+// under the other law.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <optional>
 
-#include "tests/base/counts.h"
-#include "tests/sim/life.h"
+#include "tests/common/base/counts.h"
+#include "tests/sim/session_driver.h"
 
 namespace tandem {
 namespace {
 
 using namespace std::chrono_literals;
 using netsim::Fault;
-using test::Life;
+using test::SessionDriver;
 using test::What;
 using test::with;
 
-constexpr double kFelt = 0.2;        // [N/ms] others may feel of a fault
-constexpr double kBelowTank = 1e-3;  // [J] a hand that pulls along overdraws within one tick
+constexpr double kFelt = 0.2;        // [N/ms] that others may feel of a fault
+constexpr double kBelowTank = 1e-3;  // [J] that a hand pulling along overdraws within one tick
 constexpr Duration kBorne = 450ms, kWeightGone = kBorne + 122ms;
 
 constexpr std::size_t kTrainer = 0, kTrainee = 1;
 
-/// Two hands press a virtual tool 8 mm into bone from 3 s on; both lead.
+/// Returns a scene in which two hands lead a virtual tool and press it 8 mm into bone from 3 s on.
 SceneSpec pressing(double trainer = 0.5) {
   SceneSpec scene = test::shipped("contact");
   EXPECT_EQ(scene.channel.law, LawKind::kReplica);
@@ -37,12 +38,13 @@ SceneSpec pressing(double trainer = 0.5) {
   return scene;
 }
 
-TEST(FailureReplica, AClientThatDiesInContactIsNotFeltByTheOthers) {
+TEST(FailureReplica, DoesNotDisturbOtherHandsWhenAClientDiesInContact) {
   const std::uint64_t crashes = test::seeds(12);
   for (std::uint64_t n = 0; n < crashes; ++n) {
     SCOPED_TRACE(n);
-    const Duration at = 1500ms + std::chrono::milliseconds(n * 2503 / crashes);  // from before the touch to steady pressing
-    Life life{with(pressing(), {{Fault::Kind::kRestart, "trainee", at, 1500ms}})};
+    const Duration at =
+        1500ms + std::chrono::milliseconds(n * 2503 / crashes);  // from before the contact to steady pressing
+    SessionDriver life{with(pressing(), {{Fault::Kind::kRestart, "trainee", at, 1500ms}})};
     life.until(at);
     life.forget_steps();
     EXPECT_LE(life.time_to([&] { return life.alpha(kTrainee) == 0; }, 1s), kWeightGone);
@@ -59,10 +61,10 @@ TEST(FailureReplica, AClientThatDiesInContactIsNotFeltByTheOthers) {
   }
 }
 
-TEST(FailureReplica, ALostHolderLeavesNothingToAWatcher) {
-  Life life{with(pressing(1), {{Fault::Kind::kRestart, "trainer", 4s, 1s}})};
+TEST(FailureReplica, BrakesTheToolWhenItsOnlyAuthorityHolderIsLost) {
+  SessionDriver life{with(pressing(1), {{Fault::Kind::kRestart, "trainer", 4s, 1s}})};
   life.until(4s);
-  EXPECT_LE(life.time_to([&] { return life.world->session().tool(0).authority.held(); }, 1s), kWeightGone);
+  EXPECT_LE(life.time_to([&] { return life.simulation->session().tool(0).authority.held(); }, 1s), kWeightGone);
   while (life.at() < 4900ms) {
     life.step();
     ASSERT_EQ(life.alpha(kTrainee), 0);
@@ -74,8 +76,8 @@ TEST(FailureReplica, ALostHolderLeavesNothingToAWatcher) {
   life.expect_nothing_broken();
 }
 
-TEST(FailureReplica, ALostInstructorChangesNoForceAndIsMissedAfterTenSeconds) {
-  Life life{with(pressing(0), {{Fault::Kind::kRestart, "trainer", 5s, 15s}})};
+TEST(FailureReplica, ChangesNoForceForALostInstructorAndWarnsAfterTenSeconds) {
+  SessionDriver life{with(pressing(0), {{Fault::Kind::kRestart, "trainer", 5s, 15s}})};
   life.until(5s);
   life.forget_steps();
   const hal::Vec3 force = life.before[kTrainee];
@@ -89,8 +91,9 @@ TEST(FailureReplica, ALostInstructorChangesNoForceAndIsMissedAfterTenSeconds) {
   life.expect_nothing_broken();
 }
 
-TEST(FailureReplica, APartitionIsALossForTheCutSideOnly) {
-  for (const std::optional<netsim::Direction> direction : {std::optional<netsim::Direction>{}, {netsim::Direction::kUp}, {netsim::Direction::kDown}}) {
+TEST(FailureReplica, LimitsAPartitionToTheIsolatedSide) {
+  for (const std::optional<netsim::Direction> direction :
+       {std::optional<netsim::Direction>{}, {netsim::Direction::kUp}, {netsim::Direction::kDown}}) {
     SCOPED_TRACE(direction ? static_cast<int>(*direction) : -1);
     auto setup = with(pressing());
     netsim::NetworkEvent cut;
@@ -101,7 +104,7 @@ TEST(FailureReplica, APartitionIsALossForTheCutSideOnly) {
     outage.length = 2s;
     cut.outage = outage;
     setup.events = {cut};
-    Life life{setup};
+    SessionDriver life{setup};
     life.until(4s);
     life.forget_steps();
     EXPECT_LE(life.time_to([&] { return !life.active(kTrainee); }, 1s), kBorne + 26ms);
@@ -110,44 +113,45 @@ TEST(FailureReplica, APartitionIsALossForTheCutSideOnly) {
     life.until(5900ms);
     EXPECT_LE(life.steps[kTrainer], kFelt);
     EXPECT_TRUE(life.active(kTrainer));
-    EXPECT_LE(life.world->seat(kTrainee)->gate().given_after_loss_max(), life.world->seat(kTrainee)->gate().tank_size() + kBelowTank);
+    EXPECT_LE(life.simulation->seat(kTrainee)->gate().given_after_loss_max(),
+              life.simulation->seat(kTrainee)->gate().tank_size() + kBelowTank);
     life.until(9s);
     EXPECT_TRUE(life.active(kTrainee));
     life.expect_nothing_broken();
   }
 }
 
-TEST(FailureReplica, AStopOfTheOwnHandLetsGoAtOnceAndStaysUntilThePersonResumes) {
-  Life life{with(pressing())};
+TEST(FailureReplica, LatchesALocalStopUntilItsUserResumes) {
+  SessionDriver life{with(pressing())};
   life.until(5s);
   life.forget_steps();
-  life.world->seat(kTrainee)->press_stop();
+  life.simulation->seat(kTrainee)->request_local_stop();
   EXPECT_LE(life.time_to([&] { return !life.active(kTrainee); }, 100ms), 5ms);
   EXPECT_LE(life.time_to([&] { return life.alpha(kTrainee) == 0; }, 500ms), 220ms);
   life.until(8s);
   EXPECT_FALSE(life.active(kTrainee)) << "latched";
   EXPECT_TRUE(life.active(kTrainer));
   EXPECT_LE(life.steps[kTrainer], kFelt);
-  life.world->seat(kTrainee)->press_resume();
+  life.simulation->seat(kTrainee)->request_resume();
   life.until(12s);
   EXPECT_TRUE(life.active(kTrainee));
   life.expect_nothing_broken();
 }
 
-TEST(FailureReplica, AnInstructorStopsEverybodyWithinTheRoundTripAndATick) {
+TEST(FailureReplica, ReleasesAllHandsWithinARoundTripAndATickOfAnInstructorsStop) {
   for (const int one_way : {0, 5, 12}) {
     SCOPED_TRACE(one_way);
     auto setup = with(pressing());
     setup.network = netsim::link_from(test::delayed(one_way));
-    Life life{setup};
+    SessionDriver life{setup};
     life.until(5s);
     ASSERT_TRUE(life.active(kTrainer) && life.active(kTrainee));
-    ASSERT_TRUE(life.world->seat(kTrainer)->press_stop_all());
+    ASSERT_TRUE(life.simulation->seat(kTrainer)->request_stop_all());
     const Duration all = life.time_to([&] { return !life.active(kTrainer) && !life.active(kTrainee); }, 500ms);
     EXPECT_LE(all, std::chrono::milliseconds(2 * one_way) + 2ms) << "a tick, and the one in which he pressed";
-    EXPECT_TRUE(life.world->session().tool(0).authority.held());
+    EXPECT_TRUE(life.simulation->session().tool(0).authority.held());
     life.until(8s);
-    life.world->seat(kTrainer)->press_resume();
+    life.simulation->seat(kTrainer)->request_resume();
     life.time_to([&] { return life.active(kTrainer) && life.active(kTrainee); }, 2s);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_LE(life.before[i].norm(), 0.05) << "bumpless";
     life.until(13s);
@@ -156,17 +160,23 @@ TEST(FailureReplica, AnInstructorStopsEverybodyWithinTheRoundTripAndATick) {
   }
 }
 
-TEST(FailureReplica, AHostileClientIsAloneWithIt) {
+TEST(FailureReplica, QuarantinesAHostileClientWithoutDisturbingOtherHands) {
   for (const double trainer : {1.0, 0.5}) {
     SCOPED_TRACE(trainer);
-    Life life{with(pressing(trainer), {{Fault::Kind::kHostile, "trainee", 5s, 1s}})};
+    SessionDriver life{with(pressing(trainer), {{Fault::Kind::kHostile, "trainee", 5s, 1s}})};
     life.until(5s);
     const hal::Vec3 force = life.before[kTrainer];
     life.forget_steps();
-    EXPECT_LE(life.time_to([&] { return life.world->session().seat(kTrainee).conduct().isolated(life.world->now()); }, 100ms), 5ms);
+    EXPECT_LE(life.time_to(
+                  [&] {
+                    return life.simulation->session().seat(kTrainee).misbehaviour().quarantined(life.simulation->now());
+                  },
+                  100ms),
+              5ms);
     life.until(5990ms);
     EXPECT_LE(life.steps[kTrainer], kFelt);
-    EXPECT_LE((life.before[kTrainer] - force).norm(), trainer == 1 ? 0.01 : 3.3) << "of somebody without authority nothing is felt";
+    EXPECT_LE((life.before[kTrainer] - force).norm(), trainer == 1 ? 0.01 : 3.3)
+        << "of somebody without authority nothing is felt";
     EXPECT_TRUE(life.active(kTrainer));
     EXPECT_FALSE(life.active(kTrainee));
     life.until(10s);
@@ -175,14 +185,14 @@ TEST(FailureReplica, AHostileClientIsAloneWithIt) {
   }
 }
 
-// The server dies in contact and goes on from its checkpoint: everybody comes back, nobody gets a force at once.
-TEST(FailureReplica, AServerThatDiesInContactKicksNobody) {
+// The server dies in contact and restarts from its checkpoint. All clients join again, and no force starts abruptly.
+TEST(FailureReplica, RestartsAServerInContactWithoutAForceStep) {
   for (const Duration gone : {500ms, 1500ms, 3000ms}) {
     SCOPED_TRACE(seconds(gone));
-    Life life{with(pressing(), {{Fault::Kind::kServerRestart, "", 5s, gone}})};
+    SessionDriver life{with(pressing(), {{Fault::Kind::kServerRestart, "", 5s, gone}})};
     life.until(5s);
     ASSERT_TRUE(life.active(kTrainer) && life.active(kTrainee));
-    const double tool = life.world->session().tool(0).x(0);
+    const double tool = life.simulation->session().tool(0).x(0);
     life.until(5s + gone);
     life.forget_steps();
     life.time_to([&] { return life.active(kTrainer) && life.active(kTrainee); }, 5s);
@@ -190,7 +200,7 @@ TEST(FailureReplica, AServerThatDiesInContactKicksNobody) {
     for (std::size_t i = 0; i < 2; ++i) EXPECT_LE(life.before[i].norm(), 0.05) << "first tick";
     life.until(5s + gone + 6s);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_LE(life.steps[i], kFelt);
-    EXPECT_NEAR(life.world->session().tool(0).x(0), tool, 2e-4);
+    EXPECT_NEAR(life.simulation->session().tool(0).x(0), tool, 2e-4);
     EXPECT_EQ(life.state(), wire::SessionState::kRunning);
     life.expect_nothing_broken();
   }

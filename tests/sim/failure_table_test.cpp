@@ -1,13 +1,14 @@
-// The failure table of the design notes, security 2.4: the rows marked Sim that are about people, seats and the server, each with its
-// behaviour and its bound. Others: readings and clocks in faults_test.cpp, networks in robustness_test.cpp, bytes in tests/link.
+// The failure table of the design notes, security 2.4: the rows marked Sim about participants, seats and the server,
+// each with its behaviour and its bound. Other rows: readings and clocks in faults_test.cpp, networks in
+// robustness_test.cpp, bytes in tests/common/transport.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <optional>
 
-#include "tests/base/counts.h"
-#include "tests/sim/life.h"
+#include "tests/common/base/counts.h"
+#include "tests/sim/session_driver.h"
 
 namespace tandem {
 namespace {
@@ -15,22 +16,24 @@ namespace {
 using namespace std::chrono_literals;
 using netsim::Fault;
 using test::contact;
-using test::Life;
+using test::SessionDriver;
 using test::What;
 using test::with;
 
-constexpr double kFelt = 0.2;        // [N/ms] others may feel of a fault
-constexpr double kBelowTank = 1e-3;  // [J] a hand that pulls along overdraws within one tick
+constexpr double kFelt = 0.2;        // [N/ms] that others may feel of a fault
+constexpr double kBelowTank = 1e-3;  // [J] that a hand pulling along overdraws within one tick
 
 constexpr std::size_t kTrainer = 0, kTrainee = 1;
 
-// Client process crash / Authority holder lost: his weight is gone within 220 ms, others feel at most 0.2 N/ms, the session goes on.
-TEST(FailureTable, AClientThatDiesInContactIsNotFeltByTheOthers) {
+// Client process crash / Authority holder lost: its authority is gone within 220 ms. Others feel at most 0.2 N/ms, and
+// the session continues.
+TEST(FailureTable, DoesNotDisturbOtherHandsWhenAClientDiesInContact) {
   const std::uint64_t crashes = test::seeds(12);
   for (std::uint64_t n = 0; n < crashes; ++n) {
     SCOPED_TRACE(n);
-    const Duration at = 1500ms + std::chrono::milliseconds(n * 2503 / crashes);  // from before the touch to steady pressing
-    Life life{with(contact(), {{Fault::Kind::kRestart, "trainee", at, 1500ms}})};
+    const Duration at =
+        1500ms + std::chrono::milliseconds(n * 2503 / crashes);  // from before the contact to steady pressing
+    SessionDriver life{with(contact(), {{Fault::Kind::kRestart, "trainee", at, 1500ms}})};
     life.until(at);
     life.forget_steps();
     const Duration gone = life.time_to([&] { return life.alpha(kTrainee) == 0; }, 500ms);
@@ -48,12 +51,12 @@ TEST(FailureTable, AClientThatDiesInContactIsNotFeltByTheOthers) {
   }
 }
 
-// Authority holder lost, none left: the tool holds; never onto a passive watcher.
-TEST(FailureTable, ALostHolderLeavesNothingToAWatcher) {
+// Authority holder lost, no other holder: the tool is braked; authority never moves to an observer.
+TEST(FailureTable, BrakesTheToolWhenItsOnlyAuthorityHolderIsLost) {
   SceneSpec scene = contact(1);
-  Life life{with(scene, {{Fault::Kind::kRestart, "trainer", 4s, 1s}})};
+  SessionDriver life{with(scene, {{Fault::Kind::kRestart, "trainer", 4s, 1s}})};
   life.until(4s);
-  const Duration held = life.time_to([&] { return life.world->session().tool(0).authority.held(); }, 500ms);
+  const Duration held = life.time_to([&] { return life.simulation->session().tool(0).authority.held(); }, 500ms);
   EXPECT_LE(held, 222ms);
   life.step();
   EXPECT_EQ(life.state(), wire::SessionState::kHeld);
@@ -67,44 +70,46 @@ TEST(FailureTable, ALostHolderLeavesNothingToAWatcher) {
   life.expect_nothing_broken();
 }
 
-// Instructor console lost: alpha stays, 10 s warning, nobody's force changes.
-TEST(FailureTable, ALostInstructorChangesNoForceAndIsMissedAfterTenSeconds) {
-  Life life{with(contact(0), {{Fault::Kind::kRestart, "trainer", 5s, 15s}})};
+// Instructor console lost: alpha stays, a warning after 10 s, no force changes.
+TEST(FailureTable, ChangesNoForceForALostInstructorAndWarnsAfterTenSeconds) {
+  SessionDriver life{with(contact(0), {{Fault::Kind::kRestart, "trainer", 5s, 15s}})};
   life.until(5s);
   life.forget_steps();
   const hal::Vec3 force = life.before[kTrainee];
-  const std::uint32_t version = life.world->session().authority_version();
+  const std::uint32_t version = life.simulation->session().authority_version();
   life.until(14s);
   EXPECT_EQ(life.audit[What::kInstructorAway], 0);
   life.until(16s);
   EXPECT_EQ(life.audit[What::kInstructorAway], 1);
   EXPECT_EQ(life.alpha(kTrainee), 1);
-  EXPECT_EQ(life.world->session().authority_version(), version);
+  EXPECT_EQ(life.simulation->session().authority_version(), version);
   EXPECT_LE((life.before[kTrainee] - force).norm(), 0.1);
   EXPECT_LE(life.steps[kTrainee], 0.05);
   life.expect_nothing_broken();
 }
 
-// Two instructors set alpha together: exactly one wins, the loser gets the new value.
-TEST(FailureTable, OfTwoInstructorsAtOnceExactlyOneWins) {
+// Two instructors set alpha at the same time: exactly one succeeds, the other receives the new value.
+TEST(FailureTable, AcceptsExactlyOneOfTwoConcurrentInstructorChanges) {
   SceneSpec scene = contact();
   scene.seats[1].role = Role::kInstructor;
-  Life life{with(scene)};
+  SessionDriver life{with(scene)};
   life.until(4s);
-  const std::uint32_t version = life.world->session().authority_version();
-  ASSERT_TRUE(life.world->seat(0)->request_authority(0, std::array{1.0, 0.0}));
-  ASSERT_TRUE(life.world->seat(1)->request_authority(0, std::array{0.0, 1.0}));
+  const std::uint32_t version = life.simulation->session().authority_version();
+  ASSERT_TRUE(life.simulation->seat(0)->request_authority(0, std::array{1.0, 0.0}));
+  ASSERT_TRUE(life.simulation->seat(1)->request_authority(0, std::array{0.0, 1.0}));
   life.until(6s);
-  EXPECT_EQ(life.world->session().authority_version(), version + 1);
+  EXPECT_EQ(life.simulation->session().authority_version(), version + 1);
   EXPECT_EQ(life.audit[What::kAuthority], 1);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.world->seat(i)->force().authority_version, version + 1);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->seat(i)->force().authority_version, version + 1);
   EXPECT_TRUE(life.alpha(0) == 1 || life.alpha(1) == 1);
   life.expect_nothing_broken();
 }
 
-// Partition, symmetric and each direction alone: the cut side as link loss, the rest goes on; healed, it ramps in.
-TEST(FailureTable, APartitionIsALossForTheCutSideOnly) {
-  for (const std::optional<netsim::Direction> direction : {std::optional<netsim::Direction>{}, {netsim::Direction::kUp}, {netsim::Direction::kDown}}) {
+// Partition of both directions and of each direction alone. The isolated side has a link loss, the other seats
+// continue. After the partition the isolated hand ramps in.
+TEST(FailureTable, LimitsAPartitionToTheIsolatedSide) {
+  for (const std::optional<netsim::Direction> direction :
+       {std::optional<netsim::Direction>{}, {netsim::Direction::kUp}, {netsim::Direction::kDown}}) {
     SCOPED_TRACE(direction ? static_cast<int>(*direction) : -1);
     auto setup = with(contact());
     netsim::NetworkEvent cut;
@@ -115,11 +120,12 @@ TEST(FailureTable, APartitionIsALossForTheCutSideOnly) {
     outage.length = 2s;
     cut.outage = outage;
     setup.events = {cut};
-    Life life{setup};
+    SessionDriver life{setup};
     life.until(4s);
     life.forget_steps();
     const Duration let_go = life.time_to([&] { return !life.active(kTrainee); }, 500ms);
-    // Upwards only he hears everything: his echoes stop, and the loop's age tells (20 ms above what he learned).
+    // With only the upward direction cut, the seat receives all data but no echoes. The loop age then shows the loss
+    // (20 ms above the learned age).
     EXPECT_LE(let_go, direction == netsim::Direction::kUp ? 26ms : 22ms);
     const bool downward_only = direction == netsim::Direction::kDown;
     const Duration gone = life.time_to([&] { return life.alpha(kTrainee) == 0; }, 500ms);
@@ -127,21 +133,22 @@ TEST(FailureTable, APartitionIsALossForTheCutSideOnly) {
     life.until(5900ms);
     EXPECT_LE(life.steps[kTrainer], kFelt);
     EXPECT_TRUE(life.active(kTrainer));
-    EXPECT_LE(life.world->seat(kTrainee)->gate().given_after_loss_max(), life.world->seat(kTrainee)->gate().tank_size() + kBelowTank);
+    EXPECT_LE(life.simulation->seat(kTrainee)->gate().given_after_loss_max(),
+              life.simulation->seat(kTrainee)->gate().tank_size() + kBelowTank);
     life.until(9s);
     EXPECT_TRUE(life.active(kTrainee));
     life.expect_nothing_broken();
   }
 }
 
-// Random loss: no gate trip at 5 % random; 20 in a row are one.
-TEST(FailureTable, RandomLossTripsNobodyTwentyInARowDo) {
+// Random loss: no gate trip at 5 % random loss; 20 lost datagrams in a row cause one trip.
+TEST(FailureTable, TripsNoGateOnRandomLossButOnTwentyLossesInARow) {
   for (const double percent : {1.0, 5.0}) {
     auto setup = with(contact());
     setup.network = netsim::link_from(test::delayed(5, 0, percent));
-    Life life{setup};
+    SessionDriver life{setup};
     life.until(15s);
-    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.world->gate_trips(i), 0u) << percent;
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->gate_trips(i), 0u) << percent;
     life.expect_nothing_broken();
   }
   auto setup = with(contact());
@@ -152,39 +159,39 @@ TEST(FailureTable, RandomLossTripsNobodyTwentyInARowDo) {
   outage.length = 22ms;
   cut.outage = outage;
   setup.events = {cut};
-  Life life{setup};
+  SessionDriver life{setup};
   life.until(8s);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.world->gate_trips(i), 1u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->gate_trips(i), 1u);
   life.expect_nothing_broken();
 }
 
-// Frozen sensor: let go after 100 ms in which the hand should have moved 5 mm; nobody else suffers.
-TEST(FailureTable, AFrozenSensorIsFoundOutWhereMotionIsExpected) {
+// Frozen sensor: release after 100 ms in which the hand should have moved 5 mm; no other seat is affected.
+TEST(FailureTable, DetectsAFrozenSensorWhereMotionIsExpected) {
   SceneSpec scene = test::shipped("free_motion");
   for (auto& s : scene.seats) s.hand.deviations.clear();
   scene.timeline.clear();
   scene.duration = 15;
   scene.phases = {{"run", 1, 15, false}};
-  Life life{with(scene, {{Fault::Kind::kFrozen, "trainee", 6s, 800ms}})};
+  SessionDriver life{with(scene, {{Fault::Kind::kFrozen, "trainee", 6s, 800ms}})};
   life.until(6s);
   ASSERT_TRUE(life.active(kTrainee));
   const Duration found = life.time_to([&] { return !life.active(kTrainee); }, 700ms);
   EXPECT_GT(found, 100ms);
   EXPECT_LE(found, 160ms) << "at 0.157 m/s 5 mm take 32 ms";
-  EXPECT_TRUE(life.world->seat(kTrainee)->sensor_frozen());
+  EXPECT_TRUE(life.simulation->seat(kTrainee)->sensor_stuck());
   EXPECT_TRUE(life.active(kTrainer));
   life.until(10s);
   EXPECT_TRUE(life.active(kTrainee)) << "the reading moves again";
-  EXPECT_EQ(life.world->gate_trips(kTrainer), 0u);
+  EXPECT_EQ(life.simulation->gate_trips(kTrainer), 0u);
   life.expect_nothing_broken();
 }
 
-// Stop pressed, local: 5 ms, latched, his weight goes as a lost holder's; the same person resumes.
-TEST(FailureTable, AStopOfTheOwnHandLetsGoAtOnceAndStaysUntilThePersonResumes) {
-  Life life{with(contact())};
+// Stop pressed, local: within 5 ms, latched; authority decays as for a lost holder; the same user resumes.
+TEST(FailureTable, LatchesALocalStopUntilItsUserResumes) {
+  SessionDriver life{with(contact())};
   life.until(5s);
   life.forget_steps();
-  life.world->seat(kTrainee)->press_stop();
+  life.simulation->seat(kTrainee)->request_local_stop();
   EXPECT_LE(life.time_to([&] { return !life.active(kTrainee); }, 100ms), 5ms);
   EXPECT_LE(life.time_to([&] { return life.alpha(kTrainee) == 0; }, 500ms), 220ms);
   life.until(8s);
@@ -192,37 +199,37 @@ TEST(FailureTable, AStopOfTheOwnHandLetsGoAtOnceAndStaysUntilThePersonResumes) {
   EXPECT_TRUE(life.active(kTrainer));
   EXPECT_EQ(life.state(), wire::SessionState::kRunning);
   EXPECT_LE(life.steps[kTrainer], kFelt);
-  EXPECT_EQ(life.audit[What::kOwnStop], 1);
-  life.world->seat(kTrainer)->press_resume();
+  EXPECT_EQ(life.audit[What::kLocalStop], 1);
+  life.simulation->seat(kTrainer)->request_resume();
   life.until(9s);
   EXPECT_FALSE(life.active(kTrainee)) << "another person's button";
-  life.world->seat(kTrainee)->press_resume();
+  life.simulation->seat(kTrainee)->request_resume();
   life.until(12s);
   EXPECT_TRUE(life.active(kTrainee));
-  EXPECT_EQ(life.audit[What::kOwnResume], 1);
+  EXPECT_EQ(life.audit[What::kLocalResume], 1);
   life.expect_nothing_broken();
 }
 
-// Stop pressed, by the instructor for all: RTT and one tick; latched; resumed by a person, without a kick.
-TEST(FailureTable, AnInstructorStopsEverybodyWithinTheRoundTripAndATick) {
+// Stop pressed by the instructor for all: RTT and one tick; latched; the instructor resumes without an abrupt force.
+TEST(FailureTable, ReleasesAllHandsWithinARoundTripAndATickOfAnInstructorsStop) {
   for (const int one_way : {0, 5, 12}) {
     SCOPED_TRACE(one_way);
     auto setup = with(contact());
     setup.network = netsim::link_from(test::delayed(one_way));
-    Life life{setup};
+    SessionDriver life{setup};
     life.until(5s);
     ASSERT_TRUE(life.active(kTrainer) && life.active(kTrainee));
-    ASSERT_TRUE(life.world->seat(kTrainer)->press_stop_all());
+    ASSERT_TRUE(life.simulation->seat(kTrainer)->request_stop_all());
     const Duration all = life.time_to([&] { return !life.active(kTrainer) && !life.active(kTrainee); }, 500ms);
     EXPECT_LE(all, std::chrono::milliseconds(2 * one_way) + 2ms) << "a tick, and the one in which he pressed";
     EXPECT_EQ(life.state(), wire::SessionState::kStopped);
-    EXPECT_TRUE(life.world->session().tool(0).authority.held());
+    EXPECT_TRUE(life.simulation->session().tool(0).authority.held());
     life.until(8s);
     EXPECT_FALSE(life.active(kTrainer) || life.active(kTrainee)) << "latched";
-    life.world->seat(kTrainee)->press_resume();
+    life.simulation->seat(kTrainee)->request_resume();
     life.until(9s);
     EXPECT_EQ(life.state(), wire::SessionState::kStopped) << "not his to end";
-    life.world->seat(kTrainer)->press_resume();
+    life.simulation->seat(kTrainer)->request_resume();
     life.time_to([&] { return life.active(kTrainer) && life.active(kTrainee); }, 2s);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_LE(life.before[i].norm(), 0.05) << "bumpless";
     life.until(13s);
@@ -236,38 +243,45 @@ TEST(FailureTable, AnInstructorStopsEverybodyWithinTheRoundTripAndATick) {
 
 TEST(FailureTable, ATraineePausesAndTheInstructorResumes) {
   auto setup = with(contact());
-  setup.network = netsim::link_from(test::delayed(10, 5, 20));  // wishes are repeated until they are heard
-  Life life{setup};
+  setup.network = netsim::link_from(test::delayed(10, 5, 20));  // requests are repeated until the server confirms them
+  SessionDriver life{setup};
   life.until(6s);
-  ASSERT_TRUE(life.world->seat(kTrainee)->press_stop_all());
+  ASSERT_TRUE(life.simulation->seat(kTrainee)->request_stop_all());
   life.until(7s);
   EXPECT_EQ(life.state(), wire::SessionState::kPaused);
-  EXPECT_EQ(life.world->session().stops(), 1u) << "repeated, and one stop";
-  life.world->seat(kTrainer)->press_resume();
+  EXPECT_EQ(life.simulation->session().stops(), 1u) << "repeated, and one stop";
+  life.simulation->seat(kTrainer)->request_resume();
   life.until(8s);
   EXPECT_NE(life.state(), wire::SessionState::kPaused);
   EXPECT_EQ(life.audit[What::kPause], 1);
   life.expect_nothing_broken();
 }
 
-// Hostile authenticated client: isolated; the others' force changes by at most 0.2 N/ms, by nothing when he had no authority.
-TEST(FailureTable, AHostileClientIsAloneWithIt) {
+// Hostile authenticated client: quarantined. The others' force changes by at most 0.2 N/ms, and not at all if that
+// client had no authority.
+TEST(FailureTable, QuarantinesAHostileClientWithoutDisturbingOtherHands) {
   for (const double trainer : {1.0, 0.5}) {
     SCOPED_TRACE(trainer);
-    Life life{with(contact(trainer), {{Fault::Kind::kHostile, "trainee", 5s, 1s}})};
+    SessionDriver life{with(contact(trainer), {{Fault::Kind::kHostile, "trainee", 5s, 1s}})};
     life.until(5s);
     const hal::Vec3 force = life.before[kTrainer];
-    const std::uint32_t version = life.world->session().authority_version();
+    const std::uint32_t version = life.simulation->session().authority_version();
     life.forget_steps();
-    // One of six kinds of attack is drawn each tick, and a wish for authority is no malformed message.
-    EXPECT_LE(life.time_to([&] { return life.world->session().seat(kTrainee).conduct().isolated(life.world->now()); }, 100ms), 5ms);
+    // One of six kinds of attack is drawn each tick; a request for authority is not a malformed message.
+    EXPECT_LE(life.time_to(
+                  [&] {
+                    return life.simulation->session().seat(kTrainee).misbehaviour().quarantined(life.simulation->now());
+                  },
+                  100ms),
+              5ms);
     life.until(5990ms);
-    EXPECT_EQ(life.world->session().authority_version(), version);
+    EXPECT_EQ(life.simulation->session().authority_version(), version);
     EXPECT_LE(life.steps[kTrainer], kFelt);
-    EXPECT_LE((life.before[kTrainer] - force).norm(), trainer == 1 ? kFelt : 3.3) << "of somebody without authority nothing is felt";
+    EXPECT_LE((life.before[kTrainer] - force).norm(), trainer == 1 ? kFelt : 3.3)
+        << "of somebody without authority nothing is felt";
     EXPECT_TRUE(life.active(kTrainer));
     EXPECT_FALSE(life.active(kTrainee));
-    EXPECT_GE(life.audit[What::kIsolated], 1);
+    EXPECT_GE(life.audit[What::kQuarantined], 1);
     life.until(10s);
     EXPECT_TRUE(life.active(kTrainee)) << "he behaves again";
     life.expect_nothing_broken();

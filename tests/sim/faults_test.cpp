@@ -1,4 +1,4 @@
-// What goes wrong at the ends of the network: programs that stand still or die, readings that lie, bytes from strangers, clocks.
+// Faults at the ends of the network: suspended or dead programs, wrong readings, bytes from unknown senders, clocks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
@@ -26,40 +26,42 @@ SceneSpec calm_scene(LawKind law = LawKind::kReplica) {
 }
 
 struct Lived {
-  std::unique_ptr<netsim::World> world;
-  std::uint64_t fingerprint = 0;  ///< of where every hand was at every tick
+  std::unique_ptr<netsim::Simulation> world;
+  std::uint64_t fingerprint = 0;  ///< hash of the position of every hand at every tick
   std::uint64_t faulted_ticks = 0;
 };
 
-Lived live(netsim::WorldSetup setup, const test::Observer& observer = {}) {
-  auto made = netsim::World::make(setup);
+Lived live(netsim::SimulationConfig setup, const test::Observer& observer = {}) {
+  auto made = netsim::Simulation::make(setup);
   if (!made) throw std::runtime_error(made.error());
   Lived out{std::move(*made)};
   while (out.world->step()) {
     for (std::size_t i = 0; i < out.world->scene().seats.size(); ++i)
-      out.fingerprint = mix64(out.fingerprint ^ std::bit_cast<std::uint64_t>(out.world->device(i).truth().x[0]));
+      out.fingerprint = mix64(out.fingerprint ^ std::bit_cast<std::uint64_t>(out.world->device(i).ground_truth().x[0]));
     if (observer) observer(*out.world);
   }
   return out;
 }
 
-netsim::WorldSetup with_fault(Fault::Kind kind, Duration length, const std::string& seat = "trainee", LawKind law = LawKind::kReplica) {
-  netsim::WorldSetup setup{.scene = calm_scene(law)};
+netsim::SimulationConfig with_fault(Fault::Kind kind, Duration length, const std::string& seat = "trainee",
+                                    LawKind law = LawKind::kReplica) {
+  netsim::SimulationConfig setup{.scene = calm_scene(law)};
   setup.faults = {{kind, seat, 5s, length}};
   return setup;
 }
 
-void expect_nothing_broken(const netsim::World& world) {
+void expect_nothing_broken(const netsim::Simulation& world) {
   EXPECT_EQ(world.trouble(), "");
-  for (const auto& v : world.violations().list()) EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
+  for (const auto& v : world.violations().list())
+    EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
 }
 
 constexpr std::size_t kTrainer = 0, kTrainee = 1;
 
-TEST(Faults, AProgramThatStandsStillLetsGoAndComesBack) {
+TEST(Faults, ReleaseTheHandOfAPausedProgramAndEngageItAgain) {
   Duration let_go_after{};
-  const Lived run = live(with_fault(Fault::Kind::kPause, 500ms), [&](netsim::World& w) {
-    // The device forgets its command by itself, 5 ms after the program's last word.
+  const Lived run = live(with_fault(Fault::Kind::kPause, 500ms), [&](netsim::Simulation& w) {
+    // The device drops its command by itself, 5 ms after the program's last command.
     const Duration into = w.now() - (Time{} + 5s);
     if (into > 6ms && into < 490ms) {
       EXPECT_EQ(w.device(kTrainee).state().f_out.norm(), 0) << seconds(into);
@@ -69,13 +71,14 @@ TEST(Faults, AProgramThatStandsStillLetsGoAndComesBack) {
   expect_nothing_broken(*run.world);
   EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
   EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 0u) << "the others are not to suffer";
-  EXPECT_EQ(run.world->device(kTrainee).counts().expired, 496u) << "the command of 4.999 s lives until 5.004 s, the next comes at 5.500 s";
+  EXPECT_EQ(run.world->device(kTrainee).counts().expired, 496u)
+      << "the command of 4.999 s lives until 5.004 s, the next comes at 5.500 s";
   EXPECT_GE(let_go_after, 500ms) << "nobody was there to let go before";
 }
 
-TEST(Faults, AProgramThatIsStartedAgainGetsItsSeatAndTheHandIsEngagedAgain) {
+TEST(Faults, RestoreSeatAndEngagementOfARestartedProgram) {
   bool gone = false, back = false;
-  const Lived run = live(with_fault(Fault::Kind::kRestart, 1s), [&](netsim::World& w) {
+  const Lived run = live(with_fault(Fault::Kind::kRestart, 1s), [&](netsim::Simulation& w) {
     gone |= w.seat(kTrainee) == nullptr;
     back |= gone && w.seat(kTrainee) != nullptr && w.seat(kTrainee)->gate().phase() == control::GatePhase::kActive;
   });
@@ -88,11 +91,12 @@ TEST(Faults, WrongReadingsAreHeldForThreeSamplesThenFaultOneSeat) {
   for (const auto kind : {Fault::Kind::kNotANumber, Fault::Kind::kOutOfRange}) {
     const Lived shortly = live(with_fault(kind, 3ms));
     expect_nothing_broken(*shortly.world);
-    EXPECT_EQ(shortly.world->seat(kTrainee)->gate().phase(), control::GatePhase::kPassive) << "the session's end, not FAULT";
+    EXPECT_EQ(shortly.world->seat(kTrainee)->gate().phase(), control::GatePhase::kReleasing)
+        << "the session's end, not FAULT";
     EXPECT_EQ(shortly.world->seat(kTrainee)->gate().trips(), 0u);
 
     Duration faulted{};
-    const Lived longer = live(with_fault(kind, 10ms), [&](netsim::World& w) {
+    const Lived longer = live(with_fault(kind, 10ms), [&](netsim::Simulation& w) {
       const auto phase = w.seat(kTrainee) ? w.seat(kTrainee)->gate().phase() : control::GatePhase::kOff;
       if (faulted == Duration{} && phase == control::GatePhase::kFault) faulted = w.now() - (Time{} + 5s);
     });
@@ -104,44 +108,48 @@ TEST(Faults, WrongReadingsAreHeldForThreeSamplesThenFaultOneSeat) {
 }
 
 TEST(Faults, ReplayedAndRandomDatagramsChangeNothingAtAll) {
-  netsim::WorldSetup clean{.scene = calm_scene()};
+  netsim::SimulationConfig clean{.scene = calm_scene()};
   clean.network = netsim::link_from(test::delayed(10, 5, 2));
-  netsim::WorldSetup attacked = clean;
+  netsim::SimulationConfig attacked = clean;
   attacked.faults = {{Fault::Kind::kReplay, "", 1s, 9s}, {Fault::Kind::kJunk, "", 1s, 9s}};
   const Lived quiet = live(clean), loud = live(attacked);
   expect_nothing_broken(*loud.world);
   EXPECT_EQ(quiet.fingerprint, loud.fingerprint) << "a hand moved by what an attacker sent";
-  EXPECT_EQ(quiet.world->session().stray(), 0u);
-  EXPECT_GT(loud.world->session().stray(), 18'000u) << "nothing was sent";
-  const auto& refused = loud.world->session().seat(kTrainee).link()->stats().refused;
-  EXPECT_GT(refused[static_cast<std::size_t>(link::Refusal::kDuplicate)] + refused[static_cast<std::size_t>(link::Refusal::kTooOld)], 8000u);
+  EXPECT_EQ(quiet.world->session().unmatched_datagrams(), 0u);
+  EXPECT_GT(loud.world->session().unmatched_datagrams(), 18'000u) << "nothing was sent";
+  const auto& refused = loud.world->session().seat(kTrainee).link()->stats().dropped;
+  EXPECT_GT(refused[static_cast<std::size_t>(transport::DropReason::kDuplicate)] +
+                refused[static_cast<std::size_t>(transport::DropReason::kTooOld)],
+            8000u);
 }
 
-TEST(Faults, AnAccountThatRunsBackwardsIsSeenAndGivesNobodyAnything) {
+TEST(Faults, GainNoEnergyByADecreasingAccount) {
   for (const LawKind law : {LawKind::kSetPosition, LawKind::kReplica}) {
     const Lived honest = live(with_fault(Fault::Kind::kLiar, 1ms, "trainee", law));
     const Lived run = live(with_fault(Fault::Kind::kLiar, 5s, "trainee", law));
     expect_nothing_broken(*run.world);
     bool seen = false;
-    for (const auto& v : run.world->violations().list()) seen |= v.invariant == "energy_monotone" && v.seat == "trainee" && v.expected;
-    EXPECT_EQ(seen, law == LawKind::kSetPosition) << "under law replica no end at the server lives on a follower's account";
+    for (const auto& v : run.world->violations().list())
+      seen |= v.invariant == "energy_monotone" && v.seat == "trainee" && v.expected;
+    EXPECT_EQ(seen, law == LawKind::kSetPosition)
+        << "under law replica no end at the server lives on a follower's account";
     EXPECT_GT(honest.world->session().time(), 11.9);
   }
 }
 
-TEST(Faults, AServerThatStandsStillMakesUpForItAndHandsLetGoMeanwhile) {
+TEST(Faults, ReleaseHandsDuringAServerPauseAndDropExcessTicks) {
   const Lived run = live(with_fault(Fault::Kind::kServerLate, 600ms, ""));
   expect_nothing_broken(*run.world);
   EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 1u);
   EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
-  EXPECT_EQ(run.world->session().slipped(), 550u) << "it lives through 50 missed ticks, gives up the rest";
+  EXPECT_EQ(run.world->session().dropped_ticks(), 550u) << "it lives through 50 missed ticks, gives up the rest";
 }
 
-// 46 mm that a hand went while session time stood still look like 9 m/s.
-TEST(Faults, TicksGivenUpAreNoSpeedOfAHand) {
+// A motion of 46 mm while the session time was paused appears as 9 m/s.
+TEST(Faults, ReportNoHandSpeedFromDroppedTicks) {
   const auto setup = with_fault(Fault::Kind::kServerLate, 300ms, "");
   std::optional<server::ReportBuilder> judge;
-  const Lived run = live(setup, [&](netsim::World& w) {
+  const Lived run = live(setup, [&](netsim::Simulation& w) {
     if (!judge) judge.emplace(w.session().scene());
     judge->add(w.record());
   });
@@ -152,8 +160,8 @@ TEST(Faults, TicksGivenUpAreNoSpeedOfAHand) {
 }
 
 TEST(Clocks, AnOffsetOfADayChangesNothingAtAll) {
-  netsim::WorldSetup same{.scene = calm_scene()};
-  netsim::WorldSetup other = same;
+  netsim::SimulationConfig same{.scene = calm_scene()};
+  netsim::SimulationConfig other = same;
   other.endpoints["trainee"].offset = std::chrono::hours(24);
   other.endpoints["trainer"].offset = -std::chrono::hours(24);
   const Lived a = live(same), b = live(other);
@@ -161,17 +169,18 @@ TEST(Clocks, AnOffsetOfADayChangesNothingAtAll) {
   EXPECT_EQ(a.fingerprint, b.fingerprint);
 }
 
-TEST(Clocks, DriftAndLateWakeUpsOfALoggerCostNobodyHisHand) {
-  netsim::WorldSetup setup{.scene = calm_scene()};
+TEST(Clocks, ReleaseNoHandUnderDriftAndLateWakeUps) {
+  netsim::SimulationConfig setup{.scene = calm_scene()};
   setup.endpoints["trainee"] = {.drift_ppm = 200, .wake = {.kind = netsim::WakeSpec::Kind::kMeasured}};
-  setup.endpoints["trainer"] = {.drift_ppm = -200, .wake = {.kind = netsim::WakeSpec::Kind::kUniform, .late_max = 900us}};
+  setup.endpoints["trainer"] = {.drift_ppm = -200,
+                                .wake = {.kind = netsim::WakeSpec::Kind::kUniform, .late_max = 900us}};
   const Lived run = live(setup);
   expect_nothing_broken(*run.world);
   EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 0u);
   EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 0u);
 }
 
-/// When each seat sent, by seat, and how long what it sent took.
+/// Send times by seat, and the transit times of the datagrams.
 struct SentUp : netsim::DecisionSink {
   std::map<std::uint32_t, std::set<Time>> in;
   std::set<Duration> took;
@@ -184,7 +193,7 @@ struct SentUp : netsim::DecisionSink {
 
 constexpr netsim::WakeSpec kLate{.kind = netsim::WakeSpec::Kind::kUniform, .late_max = 900us};
 
-/// When a seat's program is meant to wake up until `end`, as the World draws it.
+/// Returns when a seat's program wakes up until `end`, from the same draws as in the Simulation.
 std::set<Time> wakes_of(std::size_t seat, Duration tick, Time end) {
   netsim::WakeUps wakes{kLate, tick, Time{}, RandomKey{1}.derive(1000 + seat).derive(3)};
   std::set<Time> all;
@@ -195,17 +204,18 @@ std::set<Time> wakes_of(std::size_t seat, Duration tick, Time end) {
   return all;
 }
 
-// Late by 0.3 ms, and that datagram leaves 0.3 ms later: not at the next tick.
+// A wake-up that is 0.3 ms late sends its datagram 0.3 ms later, not at the next tick.
 TEST(Clocks, ALateWakeUpShiftsItsDatagramToTheNanosecond) {
-  netsim::WorldSetup setup{.scene = calm_scene()};
+  netsim::SimulationConfig setup{.scene = calm_scene()};
   setup.scene.duration = 3;
   setup.endpoints["trainee"].wake = kLate;
   const Duration tick = 1ms;
   SentUp sent;
-  auto made = netsim::World::make(setup);
+  auto made = netsim::Simulation::make(setup);
   ASSERT_TRUE(made);
   (*made)->network().log_to(&sent);
-  while ((*made)->step()) {}
+  while ((*made)->step()) {
+  }
   expect_nothing_broken(**made);
   const std::set<Time> meant = wakes_of(kTrainee, tick, (*made)->now());
   const auto& late = sent.in[kTrainee];
@@ -218,35 +228,37 @@ TEST(Clocks, ALateWakeUpShiftsItsDatagramToTheNanosecond) {
       << "who is not late works at the ticks";
 }
 
-// On a link that both share a datagram would wait for a younger one if the World let seats work out of turn.
+// If the Simulation ran seats out of order, a datagram on a shared link would wait for a newer one.
 TEST(Clocks, SeatsThatWakeUpLateEnterASharedLinkInTheOrderOfTheirTimes) {
-  netsim::WorldSetup setup{.scene = calm_scene()};
+  netsim::SimulationConfig setup{.scene = calm_scene()};
   setup.scene.duration = 3;
   setup.network.up.floor = setup.network.down.floor = 5ms;
   setup.network.shared = true;
   setup.endpoints["trainee"].wake = setup.endpoints["trainer"].wake = kLate;
   SentUp sent;
-  auto made = netsim::World::make(setup);
+  auto made = netsim::Simulation::make(setup);
   ASSERT_TRUE(made);
   (*made)->network().log_to(&sent);
-  while ((*made)->step()) {}
+  while ((*made)->step()) {
+  }
   expect_nothing_broken(**made);
   EXPECT_GT(sent.in[kTrainer].size() + sent.in[kTrainee].size(), 5800u);
   EXPECT_EQ(sent.took, std::set<Duration>{5ms});
 }
 
-// What a program reads is where its device is when it wakes up. Within a millisecond a hand moves straight on.
+// A program reads the device's position at the moment of its wake-up. Within a millisecond a hand moves along a
+// straight line.
 TEST(Clocks, ALateWakeUpReadsTheDeviceAtItsOwnMoment) {
-  netsim::WorldSetup setup{.scene = calm_scene()};
+  netsim::SimulationConfig setup{.scene = calm_scene()};
   setup.scene.duration = 6;
   for (auto& s : setup.scene.seats) s.device.encoder = 0;
   setup.endpoints["trainer"].wake = kLate;
   const std::set<Time> meant = wakes_of(kTrainer, 1ms, Time{30s});
   hal::Vec3 before = hal::Vec3::Zero();
   double off = 0, off_if_at_tick = 0;
-  const Lived run = live(setup, [&](netsim::World& w) {
-    const hal::Vec3 now = w.device(kTrainer).truth().x;
-    const Time end = w.now() - 1ms;  // of the tick that was
+  const Lived run = live(setup, [&](netsim::Simulation& w) {
+    const hal::Vec3 now = w.device(kTrainer).ground_truth().x;
+    const Time end = w.now() - 1ms;  // of the previous tick
     const auto woke = meant.upper_bound(end - 1ms);
     if (w.session().time() > 1 && woke != meant.end() && *woke < end) {
       const auto& read = w.seat(kTrainer)->sample().telemetry.x;
@@ -261,18 +273,18 @@ TEST(Clocks, ALateWakeUpReadsTheDeviceAtItsOwnMoment) {
   EXPECT_LT(off, 0.1 * off_if_at_tick);
 }
 
-TEST(Clocks, AStepOfASecondMakesTheHandLetGoOnce) {
-  netsim::WorldSetup setup{.scene = calm_scene()};
+TEST(Clocks, ReleaseTheHandOnceForAStepOfASecond) {
+  netsim::SimulationConfig setup{.scene = calm_scene()};
   setup.endpoints["trainee"].steps = {{5s, 1s}};
   const Lived run = live(setup);
   expect_nothing_broken(*run.world);
   EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
 }
 
-TEST(Faults, OfASeatThatIsNotThereAreRefused) {
-  netsim::WorldSetup setup{.scene = calm_scene()};
+TEST(Faults, AreRejectedForAnUnknownSeat) {
+  netsim::SimulationConfig setup{.scene = calm_scene()};
   setup.faults = {{Fault::Kind::kPause, "nobody", 1s, 1s}};
-  const auto made = netsim::World::make(setup);
+  const auto made = netsim::Simulation::make(setup);
   ASSERT_FALSE(made);
   EXPECT_NE(made.error().find("nobody"), std::string::npos);
 }

@@ -1,10 +1,10 @@
-// A switch that holds what it should pass on, in a whole session in contact (design notes, security 1.8: hold-and-release).
+// A switch that holds datagrams back, in a whole session in contact (design notes, security 1.8: hold-and-release).
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
 
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
@@ -13,43 +13,44 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kTrainer = 0;
 constexpr Duration kAttack = 6s;
-constexpr double kPressed = 0.5;  ///< the hand presses the tool against the block at least so when the attack begins [N]
+constexpr double kPressed = 0.5;  ///< least force on the block when the attack begins [N]
 
 struct Held {
-  Duration seen{};             ///< from the attack to the loss state
-  double given_j = 0;          ///< most that the motor gave the hand since the attack, until the force was gone
+  Duration seen{};     ///< from the attack to the loss state
+  double given_j = 0;  ///< largest energy that the motor gave the hand from the attack until the force was gone
   double tank_j = 0;
-  bool active_meanwhile = false;  ///< once more while what arrives is too old for any link
-  bool active_after = false;      ///< in the end, when the network was honest again
+  bool active_meanwhile = false;  ///< active again while the arriving data is too old for any link
+  bool active_after = false;      ///< active at the end, when the network delivers normally again
   std::uint32_t trips = 0;
-  double pressed_n = 0;           ///< when the attack began
+  double pressed_n = 0;  ///< at the begin of the attack
 };
 
-/// The trainer presses the tool against the block. When the attack begins he stops pressing and goes along with the device: the
-/// worst moment, since nothing but the gate keeps the spring from pushing his hand away.
+/// Returns a scene in which the trainer presses the tool against the block. At the attack the trainer stops pressing
+/// and moves along with the device. This is the worst moment, because only the gate keeps the spring from pushing the
+/// hand away.
 SceneSpec in_contact() {
   SceneSpec scene = test::set_position("contact");
   scene.duration = 20;
   scene.phases.clear();
-  auto made = netsim::World::make({.scene = scene});
-  netsim::World& rehearsal = **made;
+  auto made = netsim::Simulation::make({.scene = scene});
+  netsim::Simulation& rehearsal = **made;
   while (rehearsal.now() < Time{} + kAttack && rehearsal.step()) {
   }
   scene.seats[kTrainer].hand.until = rehearsal.session().time();
   return scene;
 }
 
-Held attacked(const netsim::WorldSetup& setup, Duration ends) {
-  auto made = netsim::World::make(setup);
+Held attacked(const netsim::SimulationConfig& setup, Duration ends) {
+  auto made = netsim::Simulation::make(setup);
   EXPECT_TRUE(made);
-  netsim::World& world = **made;
+  netsim::Simulation& world = **made;
   Held out;
   double given = 0;
   hal::Vec3 before = hal::Vec3::Zero();
   while (world.step()) {
     const Duration into = world.now() - (Time{} + kAttack);
     const client::Seat* seat = world.seat(kTrainer);
-    const hal::Vec3 x = world.device(kTrainer).truth().x;
+    const hal::Vec3 x = world.device(kTrainer).ground_truth().x;
     if (into >= 0ms && out.seen == Duration{} && !seat->gate().active()) out.seen = into;
     if (into >= 0ms && into < 400ms) {
       given += world.device(kTrainer).state().f_out.dot(x - before);
@@ -67,16 +68,17 @@ Held attacked(const netsim::WorldSetup& setup, Duration ends) {
     if (into > ends + 3s) break;
   }
   out.trips = world.gate_trips(kTrainer);
-  for (const auto& v : world.violations().list()) EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
+  for (const auto& v : world.violations().list())
+    EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
   return out;
 }
 
 // "Hold-and-release: delay all FORCE by 25/100/1000/5000 ms in order: loss state within 20 ms of the limit; <= 20 mJ."
-TEST(HostileNetwork, ForcesThatAreAllDelayedInOrderAreALossAndNoPush) {
+TEST(HostileNetwork, CausesALossButNoPushByDelayingAllForcesInOrder) {
   const SceneSpec scene = in_contact();
   for (const Duration delay : {Duration{25ms}, Duration{100ms}, Duration{1000ms}, Duration{5000ms}}) {
     SCOPED_TRACE(seconds(delay));
-    netsim::WorldSetup setup{.scene = scene};
+    netsim::SimulationConfig setup{.scene = scene};
     netsim::LinkSpec slow = setup.network;
     slow.down.floor = delay;
     netsim::NetworkEvent begins, ends;
@@ -87,12 +89,12 @@ TEST(HostileNetwork, ForcesThatAreAllDelayedInOrderAreALossAndNoPush) {
     ends.link = setup.network;
     setup.events = {begins, ends};
     const Held held = attacked(setup, 8s);
-    std::printf("[ hostile  ] held by %4.0f ms: %.2f N, loss state after %2.0f ms, %.2f mJ of %.0f\n", 1e3 * seconds(delay), held.pressed_n, 1e3 * seconds(held.seen),
-                1e3 * held.given_j, 1e3 * held.tank_j);
+    std::printf("[ hostile  ] held by %4.0f ms: %.2f N, loss state after %2.0f ms, %.2f mJ of %.0f\n",
+                1e3 * seconds(delay), held.pressed_n, 1e3 * seconds(held.seen), 1e3 * held.given_j, 1e3 * held.tank_j);
     EXPECT_GT(held.seen, 0ms);
     EXPECT_LE(held.seen, from_seconds(scene.gate.silence_limit) + 20ms);
     EXPECT_LE(held.given_j, std::min(0.02, held.tank_j + 1e-6));
-    // Above the loop age that any link may have, what is played back never moves the hand, however regular it comes.
+    // Above the largest loop age of any link, replayed data never moves the hand, at any regularity.
     if (delay > from_seconds(scene.gate.loop_age_max)) {
       EXPECT_FALSE(held.active_meanwhile);
     }
@@ -100,20 +102,21 @@ TEST(HostileNetwork, ForcesThatAreAllDelayedInOrderAreALossAndNoPush) {
   }
 }
 
-// The same switch lets go at once of everything it held: a burst of old forces, in order, all authentic.
-TEST(HostileNetwork, ForcesThatAreReleasedAtOnceMoveNothing) {
+// The switch delivers all held datagrams at once: a burst of old forces, in order, all authentic.
+TEST(HostileNetwork, MovesNothingByReleasingHeldForcesAtOnce) {
   const SceneSpec scene = in_contact();
   for (const Duration held_for : {Duration{25ms}, Duration{100ms}, Duration{1000ms}, Duration{5000ms}}) {
     SCOPED_TRACE(seconds(held_for));
-    netsim::WorldSetup setup{.scene = scene};
+    netsim::SimulationConfig setup{.scene = scene};
     netsim::OutageSpec outage;
     outage.start = kAttack;
     outage.length = held_for;
     outage.mode = netsim::OutageSpec::Mode::kHold;
     setup.network.down.outages = {outage};
     const Held held = attacked(setup, held_for);
-    std::printf("[ hostile  ] released after %4.0f ms: %.2f N, loss state after %2.0f ms, %.2f mJ of %.0f\n", 1e3 * seconds(held_for), held.pressed_n, 1e3 * seconds(held.seen),
-                1e3 * held.given_j, 1e3 * held.tank_j);
+    std::printf("[ hostile  ] released after %4.0f ms: %.2f N, loss state after %2.0f ms, %.2f mJ of %.0f\n",
+                1e3 * seconds(held_for), held.pressed_n, 1e3 * seconds(held.seen), 1e3 * held.given_j,
+                1e3 * held.tank_j);
     EXPECT_GT(held.seen, 0ms);
     EXPECT_LE(held.seen, from_seconds(scene.gate.silence_limit) + 20ms);
     EXPECT_LE(held.given_j, std::min(0.02, held.tank_j + 1e-6));

@@ -1,7 +1,7 @@
-// The table of link loss in contact (design notes, security 2.3): five forces and devices, three kinds of hands, under
-// both laws. The law `replica` goes on giving force through a gap that its gate bears, so its clock of a loss starts
-// later; what a motor may give a hand from the last fresh datagram on is the same tank. The same table with a server
-// that is really killed: tests/io/restart_loss_test.cpp.
+// The table of link loss in contact (design notes, security 2.3): five forces and devices, three kinds of hands, both
+// laws. Law `replica` continues its force through a gap that its gate tolerates; its loss is therefore detected later.
+// The limit of energy after the last fresh datagram is the same tank. The same table with a killed server:
+// tests/io/restart_loss_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 #include <cstdio>
 
 #include "common/base/format.h"
-#include "proto/scene_text.h"
-#include "tests/sim/life.h"
+#include "proto/text/scene_text.h"
+#include "tests/sim/session_driver.h"
 
 namespace tandem {
 namespace {
 
 using namespace std::chrono_literals;
-using test::Life;
+using test::SessionDriver;
 
 struct Case {
   const char* seat;
@@ -25,24 +25,24 @@ struct Case {
 };
 constexpr std::array<Case, 5> kCases{
     {{"a", 0.5, 0.05}, {"b", 3.3, 0.05}, {"c", 3.3, 0.1}, {"d", 7.9, 0.15}, {"e", 20, 0.4}}};
-/// A hand that opens at the loss, one that opens while 3 N drag the handle the way the motor pulls, one that rests (the
-/// published fit: 0.55 kg, 6.45 N s/m, 135 N/m).
+/// A hand that opens at the loss; one that opens while 3 N drag the handle in the motor's direction; one that rests
+/// (the published fit: 0.55 kg, 6.45 N s/m, 135 N/m).
 enum class Grip { kReleased, kDragged, kResting };
 constexpr std::array kGrips{Grip::kReleased, Grip::kDragged, Grip::kResting};
 
-constexpr double kWall = -0.15;   // [m] so that the place a soft hand means to be is within a scene's reach
-constexpr double kTooFast = 1.5;  // [m/s] over which a hand is let go whatever the network does
-constexpr std::size_t kAround =
-    10;                      // ticks in which a speed is looked for: the gate damps the device's own, filtered speed
-constexpr double kLoss = 5;  // [s] of the session, about when the network is cut
-constexpr double kDrag = 3;  // [N]
-constexpr double kBelowTank = 1e-3;                // [J] within one tick
-constexpr double kDamping = 5;                     // [N s/m] what is left when the force is gone
+constexpr double kWall = -0.15;      // [m], so that the intended position of a soft hand is within the scene's range
+constexpr double kTooFast = 1.5;     // [m/s], above which a hand is released on every network
+constexpr std::size_t kAround = 10;  // ticks of a speed; the gate damps the device's filtered speed
+constexpr double kLoss = 5;          // [s] of the session, approximate time of the cut
+constexpr double kDrag = 3;          // [N]
+constexpr double kBelowTank = 1e-3;  // [J] within one tick
+constexpr double kDamping = 5;       // [N s/m] that remains when the force is gone
 constexpr double kSilence = 0.020, kRamp = 0.100;  // [s]
 
 double tank(double mass_kg) { return std::min(0.100, std::max(0.020, 0.180 * mass_kg)); }
 
-/// One hand alone on the tool, which stands at the wall at 0. @param opens  session time at which the hand opens [s]
+/// Returns one hand alone on the tool, which is at the wall at 0. @param opens  session time at which the hand opens
+/// [s]
 SceneSpec scene_of(LawKind law, const Case& c, Grip grip, double opens) {
   const bool resting = grip == Grip::kResting;
   const double hand = resting ? 135 : 1000;
@@ -73,42 +73,43 @@ SceneSpec scene_of(LawKind law, const Case& c, Grip grip, double opens) {
 
 struct Loss {
   double pressed_n = 0, energy_j = 0, beyond_m = 0, counted_j = 0;
-  Duration seen{};    ///< from the last fresh datagram until the gate called it a loss
-  double left_n = 0;  ///< beyond what damps, once the force must be gone
-  double speed = 0;   ///< most until `seen` [m/s]
+  Duration seen{};    ///< from the last fresh datagram until the gate detected the loss
+  double left_n = 0;  ///< beyond the damping, when the force must be gone
+  double speed = 0;   ///< largest until `seen` [m/s]
 };
 
-/// @param replayed  an attacker plays every datagram of before once more while the network is down
+/// @param replayed  an attacker replays every earlier datagram while the network is cut
 Loss lose(LawKind law, const Case& c, Grip grip, Duration cut, bool replayed) {
   SceneSpec scene = scene_of(law, c, grip, 1e6);
   double opens = 0;
-  {  // when the session's clock will stand where the cut is
-    Life rehearsal{test::with(scene)};
+  {  // session time at the cut
+    SessionDriver rehearsal{test::with(scene)};
     rehearsal.until(cut);
-    opens = rehearsal.world->session().time();
+    opens = rehearsal.simulation->session().time();
   }
   scene = scene_of(law, c, grip, opens);
   const double limit = silence_limits(scene.gate, law, 1).most;
-  netsim::WorldSetup setup = test::with(scene);
+  netsim::SimulationConfig setup = test::with(scene);
   netsim::OutageSpec outage;
   outage.start = cut;
   outage.length = 2s;
   setup.network.up.outages = setup.network.down.outages = {outage};
   if (replayed) setup.faults = {{netsim::Fault::Kind::kReplay, "hand", cut, 1500ms}};
-  Life life{setup};
+  SessionDriver life{setup};
   life.until(cut);
   EXPECT_TRUE(life.active(0));
   Loss out;
   out.pressed_n = std::abs(life.before[0][0]);
-  const double target = life.world->device(0).truth().x[0] + out.pressed_n / (grip == Grip::kResting ? 135 : 1000);
+  const double target =
+      life.simulation->device(0).ground_truth().x[0] + out.pressed_n / (grip == Grip::kResting ? 135 : 1000);
   std::array<double, kAround> speeds{};
   std::size_t tick = 0;
-  double given = 0, x = life.world->device(0).truth().x[0];
+  double given = 0, x = life.simulation->device(0).ground_truth().x[0];
   while (life.at() < cut + 1400ms) {
     life.step();
     const Duration into = life.at() - cut;
-    const double now = life.world->device(0).truth().x[0];
-    speeds[tick++ % kAround] = std::abs(life.world->device(0).truth().dx[0]);
+    const double now = life.simulation->device(0).ground_truth().x[0];
+    speeds[tick++ % kAround] = std::abs(life.simulation->device(0).ground_truth().dx[0]);
     const double v = std::ranges::max(speeds);
     if (out.seen == Duration{}) out.speed = std::max(out.speed, v);
     given += life.before[0][0] * (now - x);
@@ -119,9 +120,9 @@ Loss lose(LawKind law, const Case& c, Grip grip, Duration cut, bool replayed) {
     if (seconds(into) > limit + kRamp + 0.003)
       out.left_n = std::max(out.left_n, std::abs(life.before[0][0]) - kDamping * v);
   }
-  out.counted_j = life.world->seat(0)->gate().given_after_loss_max();
-  // A hand that the motor and 3 N make too fast is let go for that, before its silence is a loss.
-  EXPECT_EQ(life.world->seat(0)->gate().trips(), out.seen < from_seconds(limit) && out.speed > kTooFast ? 0u : 1u);
+  out.counted_j = life.simulation->seat(0)->gate().given_after_loss_max();
+  // A hand that the motor and 3 N accelerate too much is released for its speed, before its silence counts as a loss.
+  EXPECT_EQ(life.simulation->seat(0)->gate().trips(), out.seen < from_seconds(limit) && out.speed > kTooFast ? 0u : 1u);
   life.expect_nothing_broken();
   return out;
 }

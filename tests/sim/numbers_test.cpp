@@ -1,11 +1,11 @@
-// The numbers this project promises, in virtual time (issue: "Numbers to show"). README's table is made of the same
-// runs.
+// The numbers that this project promises, in virtual time (issue: "Numbers to show"). The table of netsim/README.md
+// uses the same runs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "tests/base/counts.h"
-#include "tests/support/world_run.h"
+#include "tests/common/base/counts.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
@@ -61,14 +61,14 @@ TEST(Numbers, ContactForceIsFeltWithinTwoTenthsOfANewton) {
   EXPECT_LE(r.seat("trainer").metrics.effort_peak_n, 3.3);
 }
 
-/// Law `replica`: the hand presses no deeper than 8 mm, feels what the tool gives, and the block at least as stiff as
+/// Law `replica`: the hand presses at most 8 mm deep, feels the force at the tool, and renders the block with at least
 /// 360 N/m.
 TEST(Numbers, ContactUnderTheDefaultLawIsFeltWithinAFiftiethOfANewton) {
   for (const double ms : {0.0, 20.0, 100.0}) {
     double depth = 0, force = 0, ticks = 0;
-    const auto r = run(shipped("contact"), delayed(ms), 1, [&](netsim::World& w) {
+    const auto r = run(shipped("contact"), delayed(ms), 1, [&](netsim::Simulation& w) {
       if (w.session().time() < 8 || w.session().time() > 11) return;
-      depth += w.device(0).truth().x.x();
+      depth += w.device(0).ground_truth().x.x();
       force -= w.device(0).state().f_out.x();
       ++ticks;
     });
@@ -97,13 +97,13 @@ TEST(Numbers, TheSeedsFreeMotionIsNotWorseThanTwiceThePapers) {
   ASSERT_TRUE(r.report.passed);
   EXPECT_LE(r.phase("demonstration", "trainer").tracking_rms_m, 16.4 * kMm);
   EXPECT_LE(r.phase("demonstration", "trainee").tracking_rms_m, 12 * kMm);
-  // Not below half either: then a disturbance would be missing that README would have to name.
+  // A value below half would indicate a disturbance missing from the model, which README would have to name.
   EXPECT_GE(r.phase("demonstration", "trainer").tracking_rms_m, 4.1 * kMm);
   EXPECT_GE(r.phase("demonstration", "trainee").tracking_rms_m, 3.0 * kMm);
 }
 
 TEST(Numbers, TheSeedRendersTwoHundredFiftyNewtonPerMetre) {
-  // At the working pose, in x: a few millimetres beyond the wall, no friction that could hold part of the force.
+  // At the working pose, in x: a few millimetres beyond the wall, without friction that could hold part of the force.
   SceneSpec scene = shipped("seed_contact");
   for (auto& s : scene.seats) {
     s.device.friction = 0;
@@ -115,10 +115,10 @@ TEST(Numbers, TheSeedRendersTwoHundredFiftyNewtonPerMetre) {
     t.slave.gravity_compensation = true;
   }
   double force = 0, depth = 0;
-  const auto r = run(scene, {}, 1, [&](netsim::World& w) {
+  const auto r = run(scene, {}, 1, [&](netsim::Simulation& w) {
     if (w.session().time() < 10 || w.session().time() > 11) return;
     force += -w.seat(std::size_t{0})->sample().telemetry.f_cmd[0];
-    depth += w.device(0).truth().x.x() - w.record().tools[0].penetration;
+    depth += w.device(0).ground_truth().x.x() - w.record().tools[0].penetration;
   });
   ASSERT_TRUE(r.report.passed);
   EXPECT_NEAR(force / depth, 250, 5);

@@ -1,4 +1,5 @@
-// Recorded human motion as a hand: the real files when TANDEM_TRACES names their folder, look-alikes with the same columns always.
+// Recorded human motion as a hand. The real files are used when TANDEM_TRACES names their folder; synthetic files with
+// the same columns always.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,26 +10,27 @@
 #include <sstream>
 
 #include "hal/sim/recorded_motion.h"
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
 
 struct Recording {
   const char* file;     ///< of the shared recordings
-  const char* options;  ///< what a person has to add
-  const char* header;   ///< of the look-alike
+  const char* options;  ///< options that a user has to add
+  const char* header;   ///< of the synthetic file
   double step_s;
-  int columns_before;   ///< columns between time and the position triple
+  int columns_before;  ///< columns between time and the position triple
   int columns_after;
 };
 
-// Columns as in the recordings: the position triple stands among others that must not be taken for it.
+// Columns as in the recordings: columns similar to the position triple surround it.
 constexpr Recording kRecordings[] = {
     {"motion_franka_teleop_follower_1khz_a.csv", "",
      "t_s[s],q1_rad[rad],dq1_radps[rad/s],tauext1_Nm[N*m],px_m[m],py_m[m],pz_m[m]", 0.00105, 3, 0},
     {"motion_human_handover_120hz.csv", ",columns=baton",
-     "t_s[s],giver_fx_N[N],baton_x_m[m],baton_y_m[m],baton_z_m[m],baton_q0[1],giver_hand_x_m[m],giver_hand_y_m[m],giver_hand_z_m[m]",
+     "t_s[s],giver_fx_N[N],baton_x_m[m],baton_y_m[m],baton_z_m[m],baton_q0[1],giver_hand_x_m[m],giver_hand_y_m[m],"
+     "giver_hand_z_m[m]",
      1.0 / 120, 1, 4},
     {"motion_panda_comanip_1khz.csv", "", "rec[1],t_s[s],px_m[m],py_m[m],pz_m[m],vx_mps[m/s],fx_N[N]", 0.001, -1, 2},
 };
@@ -37,9 +39,10 @@ std::string look_alike(const Recording& r) {
   std::ostringstream out;
   out << r.header << "\n";
   for (int k = 0; k * r.step_s < 6; ++k) {
-    const double t = k * r.step_s + (k % 7 == 0 ? 0.1 * r.step_s : 0);  // a logger's own jitter
+    const double t = k * r.step_s + (k % 7 == 0 ? 0.1 * r.step_s : 0);  // jitter of the logger
     const auto position = [&](std::ostringstream& o) {
-      o << "," << 0.5 + 0.2 * std::sin(1.3 * t) << "," << -0.1 + 0.1 * std::sin(2.1 * t) << "," << 0.8 + 0.05 * std::sin(0.7 * t);
+      o << "," << 0.5 + 0.2 * std::sin(1.3 * t) << "," << -0.1 + 0.1 * std::sin(2.1 * t) << ","
+        << 0.8 + 0.05 * std::sin(0.7 * t);
     };
     if (r.columns_before < 0) out << "0,";
     out << t;
@@ -61,13 +64,15 @@ void expect_followed(const std::string& csv, const Recording& r, const std::stri
   scene.duration = 5;
   scene.timeline.clear();
   scene.phases = {{"run", 1, 5, false}};
-  auto made = netsim::World::make(
-      {scene, netsim::link_from(test::delayed(10)), 1, {{"trainer", std::make_shared<hal::sim::RecordedMotion>(std::move(*motion))}}});
+  auto made = netsim::Simulation::make({scene,
+                                        netsim::link_from(test::delayed(10)),
+                                        1,
+                                        {{"trainer", std::make_shared<hal::sim::RecordedMotion>(std::move(*motion))}}});
   ASSERT_TRUE(made) << made.error();
-  netsim::World& world = **made;
+  netsim::Simulation& world = **made;
   server::ReportBuilder builder{world.scene()};
   while (world.step()) builder.add(world.record());
-  const auto report = netsim::world_report(world, builder, 1);
+  const auto report = netsim::simulation_report(world, builder, 1);
   EXPECT_TRUE(report.passed) << name;
   EXPECT_GT(report.seats[0].metrics.speed_peak_m_s, 0.01) << name << " did not move the hand";
   EXPECT_LE(report.seats[0].metrics.tracking_rms_m, 0.005) << name;
@@ -79,7 +84,8 @@ TEST(Recordings, LookAlikesOfEveryRecordingMoveAHand) {
 
 TEST(Recordings, EverySharedRecordingMovesAHand) {
   const char* folder = std::getenv("TANDEM_TRACES");
-  if (folder == nullptr) GTEST_SKIP() << "TANDEM_TRACES, the folder of the shared recordings, is not set (./test --traces DIR)";
+  if (folder == nullptr)
+    GTEST_SKIP() << "TANDEM_TRACES, the folder of the shared recordings, is not set (./test --traces DIR)";
   for (const Recording& r : kRecordings) {
     const std::string path = std::string(folder) + "/" + r.file;
     if (!std::filesystem::exists(path)) {

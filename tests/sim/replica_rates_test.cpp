@@ -1,15 +1,15 @@
-// Law `replica` at every tick rate, in virtual time: the stiffness that a device renders, the force on a resting hand, the tool behind its
-// leader. Live twins: tests/io/tick_rates_io_test.cpp.
+// Law `replica` at every tick rate, in virtual time: the stiffness that a device renders, the force on a resting hand,
+// the distance of tool and leader. Live twins: tests/io/tick_rates_io_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/device_stiffness.h"
-#include "netsim/world_notes.h"
-#include "proto/scene_text.h"
-#include "tests/sim/life.h"
+#include "common/base/stiffness_limit.h"
+#include "netsim/system/session_notes.h"
+#include "proto/text/scene_text.h"
 #include "tests/sim/replica_scene.h"
+#include "tests/sim/session_driver.h"
 #include "tests/support/press_scene.h"
 
 namespace tandem {
@@ -17,8 +17,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::delayed;
-using test::Life;
 using test::PressScene;
+using test::SessionDriver;
 using test::with;
 
 SceneSpec parsed(const PressScene& press) {
@@ -27,38 +27,40 @@ SceneSpec parsed(const PressScene& press) {
   return *scene;
 }
 
-double place_x(const Life& life, std::size_t seat) { return life.world->device(seat).truth().x[0]; }
+double place_x(const SessionDriver& life, std::size_t seat) {
+  return life.simulation->device(seat).ground_truth().x[0];
+}
 
 class ReplicaTickRates : public testing::TestWithParam<double> {};
 
-// Device spring and wall in series, and the hand's own: neither the rate nor the way over the network changes the force on a resting hand, and
-// the tool stands where that force presses it.
+// Device spring and wall in series, and the hand's own spring. Neither the rate nor the network delay changes the force
+// on a resting hand, and the tool is at the position that this force causes.
 TEST_P(ReplicaTickRates, GiveTheForceOfTheSpringsInSeries) {
   PressScene press;
   press.tick_hz = GetParam();
   press.replica = true;
   for (const double delay : {0.0, 40.0}) {
-    netsim::WorldSetup setup = with(parsed(press));
+    netsim::SimulationConfig setup = with(parsed(press));
     setup.network = netsim::link_from(delayed(delay));
-    Life life{std::move(setup)};
+    SessionDriver life{std::move(setup)};
     double force = 0, tool = 0;
     std::size_t n = 0;
     while (life.step()) {
-      if (!press.rests(life.world->session().time())) continue;
+      if (!press.rests(life.simulation->session().time())) continue;
       ++n;
-      force -= life.world->device(0).state().f_out[0];
-      tool += life.world->session().tool(0).x(0);
+      force -= life.simulation->device(0).state().f_out[0];
+      tool += life.simulation->session().tool(0).x(0);
     }
     ASSERT_GT(n, 10u);
     force /= static_cast<double>(n), tool /= static_cast<double>(n);
     EXPECT_NEAR(force / press.force(), 1, 0.01) << delay << " ms";
     EXPECT_NEAR(tool, press.force() / PressScene::kWall, 5e-6) << delay << " ms";
-    EXPECT_EQ(life.world->device(0).counts().expired, 0u) << "commands that died of age between two ticks";
+    EXPECT_EQ(life.simulation->device(0).counts().expired, 0u) << "commands that died of age between two ticks";
     life.expect_nothing_broken();
   }
 }
 
-/// Leader minus tool in free motion, 50 mm at 0.5 Hz over 20 ms, once both are on their way [m RMS].
+/// Returns leader minus tool in free motion, 50 mm at 0.5 Hz over 20 ms, after the start of the motion [m RMS].
 double behind(double tick_hz) {
   SceneSpec scene = test::shipped("free_motion");
   scene.tick_hz = tick_hz;
@@ -75,22 +77,23 @@ double behind(double tick_hz) {
   scene.seats[1].hand.m = 0.1;
   scene.phases = {{"all", 0, 7, false}};
   scene.duration = 7;
-  netsim::WorldSetup setup = with(std::move(scene));
+  netsim::SimulationConfig setup = with(std::move(scene));
   setup.network = netsim::link_from(delayed(20));
-  Life life{std::move(setup)};
+  SessionDriver life{std::move(setup)};
   life.until(3s);
   double square = 0;
   int n = 0;
   for (; life.at() < 6500ms; ++n) {
     life.step();
-    const server::Tool& tool = life.world->session().tool(0);
-    square += (life.world->device(0).truth().x - hal::Vec3{tool.x(0), tool.x(1), tool.x(2)}).squaredNorm();
+    const server::Tool& tool = life.simulation->session().tool(0);
+    square += (life.simulation->device(0).ground_truth().x - hal::Vec3{tool.x(0), tool.x(1), tool.x(2)}).squaredNorm();
   }
   life.expect_nothing_broken();
   return std::sqrt(square / n);
 }
 
-// Poles, slews and predictions are in seconds, so the rate hardly matters: 0.08 mm at 500 Hz to 0.12 mm at 4 kHz, where the transport lag is 3.1.
+// Poles, slews and predictions are in seconds, so that the rate hardly matters: 0.08 mm at 500 Hz to 0.12 mm at 4 kHz.
+// The transport lag is 3.1 mm.
 TEST_P(ReplicaTickRates, TheToolFollowsItsLeader) {
   const double at_this = behind(GetParam());
   std::printf("%5.0f Hz: leader-tool %.3f mm\n", GetParam(), 1e3 * at_this);
@@ -98,17 +101,17 @@ TEST_P(ReplicaTickRates, TheToolFollowsItsLeader) {
   EXPECT_LT(at_this, 0.15e-3);
 }
 
-// What a Touch renders: 0.93 b / (T/2), and never more than the scene asks for. Both ends reckon with it.
+// A Touch renders 0.93 b / (T/2), limited by the stiffness of the scene. Both ends use this value.
 TEST_P(ReplicaTickRates, TheStiffnessIsWhatTheDeviceRenders) {
   SceneSpec scene = test::shipped("contact");
   scene.tick_hz = GetParam();
   const double renders = std::min(400.0, 0.93 * 0.2 / (0.5 / GetParam()));
-  Life life{with(scene)};
+  SessionDriver life{with(scene)};
   life.until(1s);
   for (const std::size_t i : {0u, 1u}) {
-    ASSERT_NE(life.world->seat(i), nullptr);
-    EXPECT_NEAR(life.world->seat(i)->setup().coupling.k_c, renders, 1e-9);
-    EXPECT_NEAR(life.world->session().seat(i).end().state().k[0], renders, 1e-9);
+    ASSERT_NE(life.simulation->seat(i), nullptr);
+    EXPECT_NEAR(life.simulation->seat(i)->setup().coupling.k_c, renders, 1e-9);
+    EXPECT_NEAR(life.simulation->session().seat(i).end().state().k[0], renders, 1e-9);
   }
   const auto notes = netsim::session_notes({.scene = scene}, {1s, 20s});
   EXPECT_EQ(notes.size(), renders < 0.9 * 400 ? 2u : 0u);
@@ -121,19 +124,21 @@ TEST_P(ReplicaTickRates, TheStiffnessIsWhatTheDeviceRenders) {
 INSTANTIATE_TEST_SUITE_P(All, ReplicaTickRates, testing::Values(100, 200, 500, 1000, 2000, 4000),
                          [](const auto& rate) { return std::to_string(static_cast<int>(rate.param)) + "Hz"; });
 
-// Two devices, two springs: each hand feels its own, and the tool is pressed with what they feel together.
+// Two devices, two springs: each hand feels its own, and both forces together press the tool.
 TEST(ReplicaStiffness, EachSeatHasTheSpringOfItsOwnDevice) {
   SceneSpec scene = test::pressing(20000, 0.003, 0.007);
   scene.seats[0].device.damping = 0.1;
-  Life life{with(scene)};
+  SessionDriver life{with(scene)};
   life.until(4200ms);
-  const double lightly = life.world->device(0).state().f_out[0], there = place_x(life, 0);
+  const double lightly = life.simulation->device(0).state().f_out[0], there = place_x(life, 0);
   life.until(8s);
-  const double felt = -(life.world->device(0).state().f_out[0] - lightly) / (place_x(life, 0) - there);
+  const double felt = -(life.simulation->device(0).state().f_out[0] - lightly) / (place_x(life, 0) - there);
   const double k = kStiffnessShare * stiffness_limit(0.1, 0, 1e-3);  // 186 N/m
   EXPECT_NEAR(felt, 1 / (1 / k + 1 / 20000.0), 0.03 * k);
-  EXPECT_NEAR(life.world->seat(1)->setup().coupling.k_c, 2 * k, 1e-9);
-  EXPECT_NEAR(life.world->session().tool(0).body()->surface_force()[0], life.world->device(0).state().f_out[0], 0.05) << "the tool presses as hard as he feels";
+  EXPECT_NEAR(life.simulation->seat(1)->setup().coupling.k_c, 2 * k, 1e-9);
+  EXPECT_NEAR(life.simulation->session().tool(0).body()->surface_force()[0],
+              life.simulation->device(0).state().f_out[0], 0.05)
+      << "the tool presses as hard as he feels";
   life.expect_nothing_broken();
 }
 

@@ -1,13 +1,15 @@
 #pragma once
 
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem::test {
 
-/// One hand, alone, that presses along x against a surface at 0: at `shallow` from 3 s on and at `deep` from 6 s on [m].
+/// Returns a scene with one hand that presses along x against a surface at 0. Its depth is `shallow` from 3 s on and
+/// `deep` from 6 s on [m].
 inline SceneSpec pressing(double k_surface, double shallow, double deep) {
   SceneSpec scene = shipped("contact");
-  scene.seats[0].hand.trajectory.waypoints = {{0.5, {-0.02, 0, 0}}, {2, {shallow, 0, 0}}, {5, {shallow, 0, 0}}, {6, {deep, 0, 0}}};
+  scene.seats[0].hand.trajectory.waypoints = {
+      {0.5, {-0.02, 0, 0}}, {2, {shallow, 0, 0}}, {5, {shallow, 0, 0}}, {6, {deep, 0, 0}}};
   scene.seats[1].hand = {};
   scene.seats[1].hand.model = HandModel::kRelaxed;
   scene.seats[1].hand.b = 2;

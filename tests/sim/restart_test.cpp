@@ -1,12 +1,13 @@
-// The server dies and goes on from its checkpoint (design notes, security 2.4 and 2.5): nobody is kicked, nothing jumps, everybody is back.
+// The server dies and restarts from its checkpoint (design notes, security 2.4 and 2.5): no abrupt force, no jump, and
+// all seats return.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
-#include "tests/base/counts.h"
-#include "tests/support/world_run.h"
+#include "tests/common/base/counts.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
@@ -18,13 +19,13 @@ constexpr double kFirst = 0.05;      // [N] in the first millisecond
 constexpr double kBeyond = 0.3;      // [N] beyond the environment's own force, in the first 500 ms
 constexpr double kInjected = 0.005;  // [J] in that time
 
-/// From the moment a gate engages again: what its motor does to the hand in the first 500 ms.
+/// Work and force of a motor on the hand in the first 500 ms after its gate engages again.
 class Engagement {
  public:
-  /// @param environment  force the tool bears [N]
-  void look(const netsim::World& world, std::size_t seat, double environment) {
+  /// @param environment  force on the tool [N]
+  void look(const netsim::Simulation& world, std::size_t seat, double environment) {
     const bool active = world.seat(seat) != nullptr && world.seat(seat)->gate().active();
-    const hal::Vec3 x = world.device(seat).truth().x;
+    const hal::Vec3 x = world.device(seat).ground_truth().x;
     const double force = world.device(seat).state().f_out.norm();
     if (active && !was_active_) {
       since_ = world.now();
@@ -61,17 +62,17 @@ SceneSpec pressing() {
   return scene;
 }
 
-TEST(ServerRestart, AtAnyTickOfAContactHurtsNobodyAndEverybodyIsBack) {
+TEST(ServerRestart, RestoresAllHandsWithoutAForceStepAtAnyTickOfAContact) {
   const std::uint64_t restarts = test::seeds(10);
   for (std::uint64_t n = 0; n < restarts; ++n) {
     SCOPED_TRACE(n);
     const Duration at = 4s + std::chrono::milliseconds(n * 997 / restarts);
     const Duration down = 300ms + std::chrono::milliseconds(n * 131 % 900);
-    netsim::WorldSetup setup{.scene = pressing()};
+    netsim::SimulationConfig setup{.scene = pressing()};
     setup.faults = {{Fault::Kind::kServerRestart, "", at, down}};
-    auto made = netsim::World::make(setup);
+    auto made = netsim::Simulation::make(setup);
     ASSERT_TRUE(made);
-    netsim::World& world = **made;
+    netsim::Simulation& world = **made;
     std::map<server::AuditEvent::What, int> audit;
     world.on_audit = [&](const server::AuditEvent& e) { ++audit[e.what]; };
     std::array<Engagement, 2> hands;
@@ -82,7 +83,7 @@ TEST(ServerRestart, AtAnyTickOfAContactHurtsNobodyAndEverybodyIsBack) {
     while (world.now() < Time{} + at + down + 5s && world.step()) {
       const Duration now = world.now() - Time{};
       if (world.server_up() && !restarted && now <= at) left = world.checkpoint();
-      if (world.server_up() && now > at && !restarted) {  // the first tick of the new one
+      if (world.server_up() && now > at && !restarted) {  // the first tick of the new server
         restarted = true;
         EXPECT_EQ(world.session().epoch(), left.epoch + 1);
         EXPECT_EQ(world.session().tool(0).slave()->state().q, left.tools[0].slave) << "to the encoder's count";
@@ -93,18 +94,20 @@ TEST(ServerRestart, AtAnyTickOfAContactHurtsNobodyAndEverybodyIsBack) {
         const auto& gate = world.seat(i)->gate();
         if (let_go[i] == Duration{} && !gate.active()) let_go[i] = now - at;
         hands[i].look(world, i, world.session().tool(0).slave()->state().f_env.norm());
-        if (now > at + 125ms && now < at + down) {  // what is left may brake a hand and never push it
-          const double power = world.device(i).state().f_out.dot(world.device(i).truth().dx);
+        if (now > at + 125ms && now < at + down) {  // the remaining force may brake a hand and never push it
+          const double power = world.device(i).state().f_out.dot(world.device(i).ground_truth().dx);
           EXPECT_LE(power, 1e-4) << now.count();
         }
       }
       if (back == Duration{} && restarted && hands[0].count > 0 && hands[1].count > 0 &&
-          world.seat(0)->gate().phase() == control::GatePhase::kActive && world.seat(1)->gate().phase() == control::GatePhase::kActive)
+          world.seat(0)->gate().phase() == control::GatePhase::kActive &&
+          world.seat(1)->gate().phase() == control::GatePhase::kActive)
         back = now - at - down;
     }
     EXPECT_EQ(world.trouble(), "");
     EXPECT_TRUE(world.violations().passed());
-    for (const auto& v : world.violations().list()) EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
+    for (const auto& v : world.violations().list())
+      EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_LE(let_go[i], 22ms);
       EXPECT_EQ(hands[i].count, 1);
@@ -116,66 +119,70 @@ TEST(ServerRestart, AtAnyTickOfAContactHurtsNobodyAndEverybodyIsBack) {
     EXPECT_GT(back, 0s);
     EXPECT_LE(back, 3s);
     EXPECT_EQ(audit[server::AuditEvent::What::kRestored], 1);
-    EXPECT_EQ(audit[server::AuditEvent::What::kGathered], 1);
+    EXPECT_EQ(audit[server::AuditEvent::What::kAllBack], 1);
     EXPECT_EQ(world.session().tool(0).authority.requested()[0], 0.5);
   }
 }
 
-TEST(ServerRestart, NobodyIsEngagedBeforeWhoHadWeightIsBackUnlessTheInstructorGoesOnWithout) {
+TEST(ServerRestart, EngagesNoHandUntilAuthorityHoldersReturnOrTheInstructorResumes) {
   for (const bool goes_on : {false, true}) {
-    netsim::WorldSetup setup{.scene = pressing()};
+    netsim::SimulationConfig setup{.scene = pressing()};
     setup.faults = {{Fault::Kind::kServerRestart, "", 4s, 500ms}, {Fault::Kind::kRestart, "trainee", 4100ms, 4s}};
-    auto made = netsim::World::make(setup);
+    auto made = netsim::Simulation::make(setup);
     ASSERT_TRUE(made);
-    netsim::World& world = **made;
-    while (world.now() < Time{} + 7s && world.step()) {}
-    EXPECT_TRUE(world.session().gathering());
+    netsim::Simulation& world = **made;
+    while (world.now() < Time{} + 7s && world.step()) {
+    }
+    EXPECT_TRUE(world.session().recovering());
     EXPECT_EQ(world.session().state(), wire::SessionState::kWaiting);
     EXPECT_FALSE(world.seat(0)->gate().active());
     EXPECT_EQ(world.session().missing(world.now()), (std::vector<std::size_t>{1}));
-    if (goes_on) world.seat(0)->press_resume();
-    while (world.now() < Time{} + 8s && world.step()) {}
-    EXPECT_EQ(world.session().gathering(), !goes_on);
+    if (goes_on) world.seat(0)->request_resume();
+    while (world.now() < Time{} + 8s && world.step()) {
+    }
+    EXPECT_EQ(world.session().recovering(), !goes_on);
     EXPECT_EQ(world.seat(0)->gate().active(), goes_on);
     EXPECT_EQ(world.session().tool(0).authority.alpha(0), goes_on ? 1 : 0);
-    while (world.now() < Time{} + 12s && world.step()) {}
-    EXPECT_FALSE(world.session().gathering());
+    while (world.now() < Time{} + 12s && world.step()) {
+    }
+    EXPECT_FALSE(world.session().recovering());
     for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(world.seat(i)->gate().active()) << i;
     EXPECT_NEAR(world.session().tool(0).authority.alpha(1), 0.5, 1e-9);
     EXPECT_TRUE(world.violations().passed());
   }
 }
 
-TEST(ServerRestart, AStopSurvivesIt) {
-  netsim::WorldSetup setup{.scene = pressing()};
+TEST(ServerRestart, PreservesAStop) {
+  netsim::SimulationConfig setup{.scene = pressing()};
   setup.faults = {{Fault::Kind::kServerRestart, "", 5s, 500ms}};
-  auto made = netsim::World::make(setup);
+  auto made = netsim::Simulation::make(setup);
   ASSERT_TRUE(made);
-  netsim::World& world = **made;
+  netsim::Simulation& world = **made;
   const auto until = [&](Duration end) {
-    while (world.now() < Time{} + end && world.step()) {}
+    while (world.now() < Time{} + end && world.step()) {
+    }
   };
   until(4s);
-  ASSERT_TRUE(world.seat(0)->press_stop_all());
-  world.seat(1)->press_stop();
+  ASSERT_TRUE(world.seat(0)->request_stop_all());
+  world.seat(1)->request_local_stop();
   until(4900ms);
   const std::uint32_t stops = world.session().stops();
   EXPECT_EQ(stops, 1u);
   until(6s);
-  world.seat(1)->press_resume();  // his own hand: else the session waits for him
+  world.seat(1)->request_resume();  // its own hand; otherwise the session waits for it
   until(8s);
   EXPECT_EQ(world.session().state(), wire::SessionState::kStopped);
   EXPECT_GT(world.session().stops(), stops) << "under a new number: an old wish to resume is void";
   for (std::size_t i = 0; i < 2; ++i) EXPECT_FALSE(world.seat(i)->gate().active());
-  world.seat(0)->press_resume();
+  world.seat(0)->request_resume();
   until(11s);
   EXPECT_EQ(world.session().state(), wire::SessionState::kRunning);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(world.seat(i)->gate().active());
   EXPECT_TRUE(world.violations().passed());
 }
 
-// Bumpless re-attach: the hand went 0 to 150 mm while its program was away, and holds still there.
-TEST(Reattach, AHandFoundElsewhereIsNotKicked) {
+// Bumpless re-attach: the hand moved 0 to 150 mm while its program was down, and holds still there.
+TEST(Reattach, EngagesAMovedHandWithoutAForceStep) {
   const std::uint64_t runs = test::draws(40, 1000, 1000);
   std::printf("[  seeds   ] %llu re-attachments\n", static_cast<unsigned long long>(runs));
   RandomStream random{17};
@@ -186,10 +193,11 @@ TEST(Reattach, AHandFoundElsewhereIsNotKicked) {
     scene.seats[0].hand.trajectory.kind = Trajectory::Kind::kWaypoints;
     scene.seats[0].hand.trajectory.waypoints = {{0.1, {0, 0, 0}}, {1.2, {0, 0, 0}}, {1.8, {offset, 0, 0}}};
     scene.duration = 10;
-    netsim::WorldSetup setup{.scene = scene, .seed = n + 1};
-    const bool server = random.below(2) == 0;  // dies, or the network does: either way it is a new connection, or none
-    setup.faults = {{server ? Fault::Kind::kServerRestart : Fault::Kind::kPause, server ? "" : "trainer", 1400ms, 1500ms}};
-    auto made = netsim::World::make(setup);
+    netsim::SimulationConfig setup{.scene = scene, .seed = n + 1};
+    const bool server = random.below(2) == 0;  // the server dies or the network fails: a new connection, or none
+    setup.faults = {
+        {server ? Fault::Kind::kServerRestart : Fault::Kind::kPause, server ? "" : "trainer", 1400ms, 1500ms}};
+    auto made = netsim::Simulation::make(setup);
     ASSERT_TRUE(made);
     Engagement hand;
     while ((*made)->now() < Time{} + 4800ms && (*made)->step())

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "proto/scene_text.h"
-#include "tests/support/world_run.h"
+#include "proto/text/scene_text.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
@@ -34,7 +34,7 @@ TEST(Robustness, HalfTheDatagramsLostAndJitterAtMostDoubleTheError) {
   }
 }
 
-TEST(Robustness, HalfSecondOutagesEndWithoutAKick) {
+TEST(Robustness, BoundsTheHandSpeedAfterHalfSecondOutages) {
   for (const double ms : {0.0, 20.0})
     for (SceneSpec scene : under_both_laws("free_motion")) {
       SCOPED_TRACE(scene.channel.law == LawKind::kReplica ? "replica" : "set_position");
@@ -46,14 +46,16 @@ TEST(Robustness, HalfSecondOutagesEndWithoutAKick) {
       EXPECT_GE(broken.seat("trainer").gate_trips, 5u) << "the outages did not happen";
       EXPECT_LE(broken.hand_speed_max, 0.5) << ms;
       for (const char* seat : {"trainer", "trainee"})
-        // Under law replica hands are in force, and judged, for 450 ms of each outage, in which they go 70 mm and no tool can follow.
-        EXPECT_LE(broken.seat(seat).metrics.tracking_rms_m, scene.channel.law == LawKind::kReplica ? 0.012 : 2 * whole.seat(seat).metrics.tracking_rms_m)
+        // Under law replica hands stay active, and are judged, for 450 ms of each outage. They move 70 mm in that time,
+        // and no tool can follow.
+        EXPECT_LE(broken.seat(seat).metrics.tracking_rms_m,
+                  scene.channel.law == LawKind::kReplica ? 0.012 : 2 * whole.seat(seat).metrics.tracking_rms_m)
             << seat << " " << ms;
     }
 }
 
-TEST(Robustness, FiveMinutesOfMotionNeverStarveALedger) {
-  // The channel must live on what moves through it; E_0 alone lasts some seconds.
+TEST(Robustness, RefusesNoEnergyInFiveMinutesOfMotion) {
+  // The channel must use the energy of the motion; E_0 alone lasts some seconds.
   for (SceneSpec scene : under_both_laws("free_motion"))
     for (const double ms : {0.0, 20.0}) {
       scene = without_deviations(scene);
@@ -73,10 +75,10 @@ TEST(Robustness, FiveMinutesOfMotionNeverStarveALedger) {
     }
 }
 
-TEST(Robustness, ASessionThatCannotBeginSaysWhy) {
+TEST(Robustness, ReportsWhyASessionCannotBegin) {
   const SceneSpec scene = shipped("one_axis");
-  for (const double ms : {1500.0, 5000.0, 60'000.0}) {  // loops of 3 s and more are older than any gate allows
-    auto made = netsim::World::make({scene, netsim::link_from(delayed(ms)), 1, {}});
+  for (const double ms : {1500.0, 5000.0, 60'000.0}) {  // loops of 3 s and more exceed the age limit of every gate
+    auto made = netsim::Simulation::make({scene, netsim::link_from(delayed(ms)), 1, {}});
     ASSERT_TRUE(made);
     std::uint64_t ticks = 0;
     while ((*made)->step()) ASSERT_LT(++ticks, 400'000u) << "waits for ever at " << ms;
@@ -90,7 +92,7 @@ TEST(Robustness, ThreeLossesInTenSecondsLatchTheGate) {
   scene.gate.latch = true;
   const auto r = run(scene, with_outages(delayed(0), 0.5, 3));
   EXPECT_TRUE(r.report.passed);
-  EXPECT_EQ(r.report.seats[0].last.gate, wire::GateState::kDamped);
+  EXPECT_EQ(r.report.seats[0].last.gate, wire::GateState::kLatched);
 }
 
 struct GridPoint {
@@ -105,7 +107,7 @@ std::string name_of(HandModel m) {
 
 class DelayGrid : public ::testing::TestWithParam<GridPoint> {};
 
-TEST_P(DelayGrid, StaysBoundedAndBreaksNothing) {
+TEST_P(DelayGrid, StaysBoundedAndBreaksNoInvariant) {
   const GridPoint p = GetParam();
   SceneSpec scene =
       without_deviations((p.law == LawKind::kReplica ? shipped : set_position)(p.contact ? "contact" : "free_motion"));
@@ -122,13 +124,12 @@ TEST_P(DelayGrid, StaysBoundedAndBreaksNothing) {
   EXPECT_TRUE(r.report.passed);
   EXPECT_TRUE(r.trouble.empty()) << r.trouble;
   EXPECT_GE(r.report.duration_s, scene.duration - 0.01) << "the session did not live to its end";
-  // Nobody moves a hand faster than the leader's own 0.157 m/s times a bounded overshoot, or away from the desk.
+  // No hand moves faster than the leader's own 0.157 m/s times a bounded overshoot, or leaves the workspace.
   EXPECT_LE(r.hand_speed_max, 1.0);
   for (const auto& s : r.report.seats) {
     EXPECT_LE(s.metrics.effort_peak_n, 3.3 + 1e-6) << s.name;
     EXPECT_LE(s.metrics.tracking_rms_m, 0.12) << s.name;
-    // The energy a motor gave is bounded by what the hands and the initial stores put in: a few joules in twenty
-    // seconds.
+    // The energy of a motor is at most the input of the hands plus the initial stores: a few joules in twenty seconds.
     EXPECT_LE(s.last.delivered_j, 10) << s.name;
   }
 }
@@ -140,7 +141,7 @@ std::vector<GridPoint> grid() {
       for (const bool contact : {false, true})
         for (const HandModel follower : {HandModel::kLeader, HandModel::kRelaxed, HandModel::kResting})
           points.push_back({law, ms, contact, HandModel::kLeader, follower});
-    for (const double ms : {0.0, 50.0, 500.0})  // nobody leads: both let the springs decide
+    for (const double ms : {0.0, 50.0, 500.0})  // no leader: both hands follow the springs
       for (const bool contact : {false, true})
         for (const HandModel both : {HandModel::kRelaxed, HandModel::kResting})
           points.push_back({law, ms, contact, both, both});
@@ -173,7 +174,7 @@ TEST(Robustness, AThousandChangesOfAuthorityInContactAreNotFelt) {
     double step = 0;
     std::array<hal::Vec3, 2> before{};
     std::uint32_t version_first = 0;
-    const auto r = run(scene, {}, 1, [&](netsim::World& w) {
+    const auto r = run(scene, {}, 1, [&](netsim::Simulation& w) {
       for (std::size_t i = 0; i < 2; ++i) {
         const hal::Vec3 f = w.device(i).state().f_out;
         if (w.session().time() > 4) step = std::max(step, (f - before[i]).norm());
@@ -191,7 +192,7 @@ TEST(Robustness, AThousandChangesOfAuthorityInContactAreNotFelt) {
   }
 }
 
-TEST(Robustness, WithoutPassivityDelayBreaksTheLedgerAndSaysItWasNeverPromised) {
+TEST(Robustness, ExpectsALedgerViolationUnderDelayWithoutPassivity) {
   SceneSpec scene = set_position("free_motion");
   scene.channel.law = LawKind::kRaw;
   const auto r = run(scene, delayed(100));
@@ -203,11 +204,11 @@ TEST(Robustness, WithoutPassivityDelayBreaksTheLedgerAndSaysItWasNeverPromised) 
             run(set_position("free_motion"), delayed(100)).seat("trainer").metrics.tracking_rms_m);
 }
 
-TEST(Robustness, EveryFlowSourceModeRunsAndKeepsItsPromises) {
+TEST(Robustness, KeepsTheGuaranteesOfEveryFlowSourceMode) {
   for (const MfsMode mode : {MfsMode::kOpen, MfsMode::kTank, MfsMode::kSeed, MfsMode::kSeedSigned}) {
     for (SceneSpec scene : under_both_laws("free_motion")) {
       scene.channel.mfs = mode;
-      if (law_problem(scene)) continue;  // the seeds' modes cut a velocity, which law replica does not send
+      if (law_problem(scene)) continue;  // the modes `seed` cut a velocity, which law replica does not send
       const auto r = run(scene);
       EXPECT_TRUE(r.report.passed) << static_cast<int>(mode);
       EXPECT_LE(r.phase("demonstration", "trainer").tracking_rms_m, 0.005) << static_cast<int>(mode);
@@ -215,14 +216,14 @@ TEST(Robustness, EveryFlowSourceModeRunsAndKeepsItsPromises) {
   }
 }
 
-TEST(Robustness, ReadingsThatAreNoNumbersFaultOneSeatAndMoveNobody) {
-  // A device that begins to say NaN at 5 s: the seat holds for three samples, then faults; the session goes on or
-  // holds.
+TEST(Robustness, FaultsTheSeatForNonFiniteReadings) {
+  // A device that reports NaN from 5 s on: the seat holds for three samples, then faults. The session continues or
+  // brakes the tool.
   SceneSpec scene = without_deviations(shipped("free_motion"));
   const SeatSetup setup = seat_setup(scene, 1);
   hal::DeviceCaps caps;
   caps.joints = caps.tip_axes = 3;
-  client::Seat seat{setup, caps, {link::Direction::kToServer, 1, 2}};
+  client::Seat seat{setup, caps, {transport::Direction::kToServer, 1, 2}};
   hal::State state;
   state.J.leftCols<3>().setIdentity();
   Time now{std::chrono::milliseconds(1)};

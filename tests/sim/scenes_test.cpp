@@ -1,14 +1,14 @@
-// Every shipped scene runs to its end and keeps every promise; seats, tools and sizes beside the usual two hands.
+// Every shipped scene runs to its end and keeps every invariant; also other numbers of seats and tools than two hands.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "netsim/world_joining.h"
-#include "proto/scenes_embedded.h"
-#include "server/trace_csv.h"
+#include "netsim/system/simulated_handshake.h"
+#include "proto/text/scenes_embedded.h"
+#include "server/report/trace_csv.h"
 #include "tests/support/alloc_guard.h"
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
@@ -23,7 +23,7 @@ class ShippedScene : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ShippedScene, RunsToItsEndAndPasses) {
   SceneSpec scene = shipped(GetParam());
-  scene.duration = std::min(scene.duration, 60.0);  // those for people run for hours, and nothing happens in them by itself
+  scene.duration = std::min(scene.duration, 60.0);  // scenes for users run for hours, without events of their own
   const auto r = run(scene);
   EXPECT_TRUE(r.trouble.empty()) << r.trouble;
   EXPECT_TRUE(r.report.passed);
@@ -42,9 +42,10 @@ std::vector<std::string> names() {
   for (const auto& s : shipped_scenes()) all.emplace_back(s.name);
   return all;
 }
-INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::ValuesIn(names()), [](const auto& scene) { return scene.param; });
+INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::ValuesIn(names()),
+                         [](const auto& scene) { return scene.param; });
 
-/// n hands on m tools; hand i leads tool i mod m, everybody follows the tool he leads.
+/// Returns n hands on m tools; hand i leads tool i mod m and follows the same tool.
 SceneSpec crowd(std::size_t n, std::size_t m) {
   SceneSpec scene = shipped("free_motion");
   const SeatSpec leader = scene.seats[0];
@@ -90,17 +91,17 @@ TEST(ManyHands, AnyNumberOnAnyNumberOfToolsKeepsTheInvariants) {
     }
 }
 
-TEST(World, TakesNoHeapBelowATickOnEitherSide) {
-  auto made = netsim::World::make({shipped("free_motion"), netsim::link_from(delayed(20, 5, 5)), 1, {}});
+TEST(Simulation, TakesNoHeapBelowATickOnEitherSide) {
+  auto made = netsim::Simulation::make({shipped("free_motion"), netsim::link_from(delayed(20, 5, 5)), 1, {}});
   ASSERT_TRUE(made);
-  netsim::World& world = **made;
+  netsim::Simulation& world = **made;
   for (int k = 0; k < 3000; ++k) ASSERT_TRUE(world.step());
   test::AllocGuard guard;
   for (int k = 0; k < 10'000; ++k) world.step();
   EXPECT_EQ(guard.count(), 0u);
 }
 
-TEST(World, SeatsAreRefusedWhenTakenOrUnknown) {
+TEST(Simulation, SeatsAreRefusedWhenTakenOrUnknown) {
   const SceneSpec scene = shipped("one_axis");
   AxisArray scale;
   scale.fill(1);
@@ -112,8 +113,9 @@ TEST(World, SeatsAreRefusedWhenTakenOrUnknown) {
   caps.simulated = true;
   const auto ask = [&](const std::string& seat, Duration at, bool same_owner = false) {
     static std::uint64_t attempts = 0;
-    const auto number = session.reception().seat_named(seat);
-    const auto joined = netsim::join_virtually(session, Time{} + at, number.value_or(99), caps, RandomKey{1}, ++attempts, same_owner);
+    const auto number = session.seat_catalogue().seat_named(seat);
+    const auto joined =
+        netsim::simulate_join(session, Time{} + at, number.value_or(99), caps, RandomKey{1}, ++attempts, same_owner);
     return joined ? server::JoinResult::kAccepted : joined.error();
   };
   EXPECT_EQ(ask("trainer", 5ms), server::JoinResult::kAccepted);
@@ -122,21 +124,21 @@ TEST(World, SeatsAreRefusedWhenTakenOrUnknown) {
   EXPECT_EQ(ask("trainer", 2007ms), server::JoinResult::kSeatTaken);
   EXPECT_EQ(ask("trainer", 2008ms), server::JoinResult::kAccepted) << "its owner was silent for two seconds";
   EXPECT_EQ(ask("nobody", 5ms), server::JoinResult::kNoSuchSeat);
-  EXPECT_EQ(session.reception().seat_names(), "trainer");
+  EXPECT_EQ(session.seat_catalogue().seat_names(), "trainer");
   caps.joints = caps.tip_axes = 0;
   EXPECT_EQ(ask("trainer", 3000ms), server::JoinResult::kDeviceUnfit);
-  session.stop(wire::CloseReason::kDone);
+  session.end(wire::CloseReason::kDone);
   caps.joints = caps.tip_axes = 1;
   EXPECT_EQ(ask("trainer", 3000ms), server::JoinResult::kSessionOver);
 }
 
-TEST(World, NobodyGivesAuthorityToAnEvaluator) {
+TEST(Simulation, GivesNoAuthorityToAnEvaluator) {
   SceneSpec scene = shipped("eight_seats");
-  scene.seats[0].role = Role::kInstructor;  // he may move alpha, but not onto an evaluator
+  scene.seats[0].role = Role::kInstructor;  // the instructor may move alpha, but not onto an evaluator
   scene.duration = 4;
   scene.phases = {{"work", 1, 4, false}};
   bool asked = false, asked_by_evaluator = false;
-  const auto r = run(scene, {}, 1, [&](netsim::World& w) {
+  const auto r = run(scene, {}, 1, [&](netsim::Simulation& w) {
     if (w.session().time() < 2 || w.session().time() > 3.9) return;
     std::array<double, 8> alpha{};
     alpha[3] = 1;
@@ -150,18 +152,19 @@ TEST(World, NobodyGivesAuthorityToAnEvaluator) {
   EXPECT_FALSE(asked_by_evaluator) << "a client refuses already";
 }
 
-TEST(World, AnInstructorMovesAuthorityFromHisSeat) {
+TEST(Simulation, LetsAnInstructorMoveAuthorityFromTheSeat) {
   SceneSpec scene = shipped("free_motion");
   scene.timeline.clear();
   scene.duration = 6;
   scene.phases = {{"run", 1, 6, false}};
   double at_three = 1, at_end = 1;
-  const auto r = run(scene, delayed(20, 5, 20), 1, [&](netsim::World& w) {
+  const auto r = run(scene, delayed(20, 5, 20), 1, [&](netsim::Simulation& w) {
     const double t = w.session().time();
     if (t >= 3 && t < 3.0015) {
       const std::array<double, 2> half{0.5, 0.5};
       EXPECT_TRUE(w.seat(0)->request_authority(0, half));
-      EXPECT_TRUE(w.seat(1)->request_authority(0, std::array{0.0, 1.0})) << "a trainee may ask, and only to give back: the server decides";
+      EXPECT_TRUE(w.seat(1)->request_authority(0, std::array{0.0, 1.0}))
+          << "a trainee may ask, and only to give back: the server decides";
       at_three = w.session().tool(0).authority.alpha(0);
     }
     if (w.record().running) at_end = w.session().tool(0).authority.alpha(0);
@@ -171,10 +174,10 @@ TEST(World, AnInstructorMovesAuthorityFromHisSeat) {
   EXPECT_NEAR(at_end, 0.5, 1e-9) << "lost datagrams are asked again until the server shows the version";
 }
 
-TEST(World, RandomBytesOnThePortChangeNothing) {
+TEST(Simulation, RandomBytesOnThePortChangeNothing) {
   const auto trace_with_noise = [](bool noise) {
-    auto made = netsim::World::make({shipped("one_axis"), {}, 1, {}});
-    netsim::World& world = **made;
+    auto made = netsim::Simulation::make({shipped("one_axis"), {}, 1, {}});
+    netsim::Simulation& world = **made;
     server::TraceCsv csv{world.scene()};
     RandomStream random{99};
     std::string trace;
@@ -184,8 +187,9 @@ TEST(World, RandomBytesOnThePortChangeNothing) {
         for (int i = 0; i < 20; ++i) {
           const std::size_t size = random.below(bytes.size());
           for (std::size_t b = 0; b < size; ++b) bytes[b] = static_cast<std::byte>(random.bits());
-          if (size > 1 && i % 2 == 0) bytes[0] = static_cast<std::byte>(0x10 | (1 + i % 9)), bytes[2] = bytes[3] = std::byte{0};
-          server::Endpoint from;
+          if (size > 1 && i % 2 == 0)
+            bytes[0] = static_cast<std::byte>(0x10 | (1 + i % 9)), bytes[2] = bytes[3] = std::byte{0};
+          server::PeerAddress from;
           from.bytes[0] = static_cast<std::byte>(random.below(3));
           from.size = 1;
           const_cast<server::Session&>(world.session()).on_datagram(world.now(), from, std::span{bytes}.first(size));

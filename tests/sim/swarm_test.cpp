@@ -1,32 +1,34 @@
-// The generator of random sessions, and that a seed is one session and no other. The swarm itself runs as a program (Swarm.*).
+// The generator of random sessions: a seed always gives the same session, and only that. The swarm itself runs as a
+// program (Swarm.*).
+#include "netsim/system/swarm.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
 #include "common/base/heap_count.h"
-#include "netsim/world_swarm.h"
 
 namespace tandem {
 namespace {
 
-TEST(SwarmCases, AreValidAndCoverWhatTheyPromise) {
+TEST(SwarmCases, AreValidAndCoverAllScenesAndFaults) {
   std::set<std::size_t> masters, tools;
   std::set<netsim::Fault::Kind> faults;
   std::size_t remote = 0, joint = 0, one_axis = 0, evaluators = 0, scripted = 0, clocks = 0;
   constexpr std::uint64_t kCases = 1000;
   for (std::uint64_t seed = 1; seed <= kCases; ++seed) {
-    const netsim::SwarmCase c = netsim::draw_swarm_case(seed);  // throws if its scene is not valid
+    const netsim::SwarmCase c = netsim::generate_swarm_case(seed);  // throws if its scene is not valid
     const SceneSpec& scene = c.setup.scene;
     masters.insert(scene.masters());
     tools.insert(scene.tools.size());
     for (const auto& f : c.setup.faults) {
       faults.insert(f.kind);
-      EXPECT_LE(f.at + f.length, c.calm) << seed;
+      EXPECT_LE(f.at + f.length, c.recovery_start) << seed;
     }
     for (const auto& e : c.setup.events) {
       EXPECT_TRUE(problems(e).empty()) << seed;
-      EXPECT_LE(e.at + (e.outage ? e.outage->length : Duration{}), c.calm) << seed;
+      EXPECT_LE(e.at + (e.outage ? e.outage->length : Duration{}), c.recovery_start) << seed;
     }
     remote += scene.seats.size() > scene.masters();
     joint += scene.port == PortSpace::kJoint;
@@ -43,14 +45,14 @@ TEST(SwarmCases, AreValidAndCoverWhatTheyPromise) {
 
 TEST(SwarmCases, AreTheSameSessionEveryTime) {
   for (const std::uint64_t seed : {3, 8}) {
-    const auto once = netsim::live_swarm_case(netsim::draw_swarm_case(seed, 6));
-    const auto again = netsim::live_swarm_case(netsim::draw_swarm_case(seed, 6));
+    const auto once = netsim::run_swarm_case(netsim::generate_swarm_case(seed, 6));
+    const auto again = netsim::run_swarm_case(netsim::generate_swarm_case(seed, 6));
     EXPECT_TRUE(once.passed()) << once.trouble;
     EXPECT_EQ(once.fingerprint, again.fingerprint);
     EXPECT_EQ(once.lived_s, again.lived_s);
   }
-  EXPECT_NE(netsim::live_swarm_case(netsim::draw_swarm_case(3, 6)).fingerprint,
-            netsim::live_swarm_case(netsim::draw_swarm_case(4, 6)).fingerprint);
+  EXPECT_NE(netsim::run_swarm_case(netsim::generate_swarm_case(3, 6)).fingerprint,
+            netsim::run_swarm_case(netsim::generate_swarm_case(4, 6)).fingerprint);
 }
 
 std::uint64_t always_more() noexcept {
@@ -59,14 +61,16 @@ std::uint64_t always_more() noexcept {
 }
 
 TEST(SwarmCases, TakeNoHeapBelowATick) {
-  for (const std::uint64_t seed : {3, 8, 25, 44}) {  // the last two with clients that lie: their tamperer takes none either
-    netsim::SwarmCase which = netsim::draw_swarm_case(seed, 6);
+  for (const std::uint64_t seed :
+       {3, 8, 25, 44}) {  // the last two with lying clients, whose attacker allocates nothing either
+    netsim::SwarmCase which = netsim::generate_swarm_case(seed, 6);
     which.setup.heap_count = heap_allocations;
-    EXPECT_TRUE(netsim::live_swarm_case(which).passed()) << seed;
-    which.setup.heap_count = always_more;  // as if every tick took some
-    const auto result = netsim::live_swarm_case(which);
+    EXPECT_TRUE(netsim::run_swarm_case(which).passed()) << seed;
+    which.setup.heap_count = always_more;  // as if every tick allocated memory
+    const auto result = netsim::run_swarm_case(which);
     const auto of = [&](const std::string& whom) {
-      return std::ranges::any_of(result.broken, [&](const auto& v) { return v.invariant == "heap" && v.seat == whom; });
+      return std::ranges::any_of(result.violations,
+                                 [&](const auto& v) { return v.invariant == "heap" && v.seat == whom; });
     };
     EXPECT_TRUE(of("")) << seed << ": the server's";
     EXPECT_TRUE(of(which.setup.scene.seats[0].name)) << seed;

@@ -1,10 +1,10 @@
-// Forces and links at every tick rate a scene may have, in virtual time.
+// Forces and links at every tick rate of a scene, in virtual time.
 #include <gtest/gtest.h>
 
-#include "netsim/world_waiting.h"
-#include "proto/scene_text.h"
+#include "netsim/system/not_engaged_reason.h"
+#include "proto/text/scene_text.h"
 #include "tests/support/press_scene.h"
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
@@ -18,21 +18,21 @@ SceneSpec parsed(const PressScene& press) {
   return *scene;
 }
 
-std::unique_ptr<netsim::World> world_of(const PressScene& press, double delay_ms = 0) {
-  auto made = netsim::World::make({parsed(press), netsim::link_from(test::delayed(delay_ms)), 1, {}});
+std::unique_ptr<netsim::Simulation> simulation_config_of(const PressScene& press, double delay_ms = 0) {
+  auto made = netsim::Simulation::make({parsed(press), netsim::link_from(test::delayed(delay_ms)), 1, {}});
   if (!made) throw std::runtime_error(made.error());
   return std::move(*made);
 }
 
 struct Pressed {
-  double force = 0;      ///< mean that the motor gave once the hand rested [N]
-  double commanded = 0;  ///< mean that the seat asked for [N]
+  double force = 0;      ///< mean that the motor gave after the hand came to rest [N]
+  double commanded = 0;  ///< mean that the seat requested [N]
   std::uint64_t expired = 0;
   std::string trouble;
 };
 
 Pressed pressed(const PressScene& press, double delay_ms = 0) {
-  const auto world = world_of(press, delay_ms);
+  const auto world = simulation_config_of(press, delay_ms);
   Pressed out;
   std::size_t n = 0;
   while (world->step()) {
@@ -50,38 +50,40 @@ Pressed pressed(const PressScene& press, double delay_ms = 0) {
 
 class TickRates : public testing::TestWithParam<double> {};
 
-// Four springs in series, and that of the hand: the force on a resting hand has nothing to do with the rate.
+// Four springs in series, and that of the hand: the force on a resting hand does not depend on the rate.
 TEST_P(TickRates, GiveTheForceOfTheSpringsInSeries) {
   PressScene press;
   press.tick_hz = GetParam();
   const Pressed p = pressed(press);
   EXPECT_EQ(p.trouble, "");
-  EXPECT_NEAR(p.force / press.force(), 1, 0.02) << p.force << " N delivered, " << p.commanded << " N commanded, " << press.force() << " N by the springs";
+  EXPECT_NEAR(p.force / press.force(), 1, 0.02)
+      << p.force << " N delivered, " << p.commanded << " N commanded, " << press.force() << " N by the springs";
   EXPECT_EQ(p.expired, 0U) << "commands that died of age between two ticks";
 }
 
-// A loop of one second, which a gate with loop_age_max_ms = 2500 trusts.
+// A loop of one second, which a gate with loop_age_max_ms = 2500 accepts.
 TEST_P(TickRates, EngageOverALoopOfOneSecond) {
   PressScene press;
   press.tick_hz = GetParam();
   press.duration_s = 0.5;
-  const auto world = world_of(press, 500);
+  const auto world = simulation_config_of(press, 500);
   bool engaged = false;
   while (world->step() && world->now() < Time{} + 20s) engaged = engaged || world->seat(0)->gate().active();
   EXPECT_EQ(world->trouble(), "");
   EXPECT_TRUE(engaged);
   EXPECT_GT(world->session().time(), 0.4);
-  EXPECT_NEAR(seconds(world->seat(0)->link().freshness().rtt_p50()), 1.0, 0.05);
+  EXPECT_NEAR(seconds(world->seat(0)->link().timing().rtt_p50()), 1.0, 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TickRates, testing::Values(100, 150, 200, 250, 300, 400, 500, 1000, 2000, 4000, 6000, 10000),
+INSTANTIATE_TEST_SUITE_P(All, TickRates,
+                         testing::Values(100, 150, 200, 250, 300, 400, 500, 1000, 2000, 4000, 6000, 10000),
                          [](const auto& rate) { return std::to_string(static_cast<int>(rate.param)) + "Hz"; });
 
-// A device whose clock is ahead takes a part of its life from every command.
-TEST(TickRate, ASimulatedDevicesClockIsTheWorlds) {
+// A device whose clock is ahead shortens the validity of every command.
+TEST(TickRate, RunsASimulatedDeviceOnTheSimulationsClock) {
   PressScene press;
   press.tick_hz = 100;
-  const auto world = world_of(press);
+  const auto world = simulation_config_of(press);
   for (int i = 0; i < 100; ++i) {
     const Time tick = world->now();
     ASSERT_TRUE(world->step());
@@ -89,24 +91,26 @@ TEST(TickRate, ASimulatedDevicesClockIsTheWorlds) {
   }
 }
 
-TEST(TickRate, EngagesAt10kHzOverTheOldestLoopThatAGateMayTrust) {
+TEST(TickRate, EngagesAt10kHzOverTheOldestPermittedLoop) {
   PressScene press;
   press.tick_hz = 10000;
   press.duration_s = 0.2;
-  const auto world = world_of(press, 1200);
-  while (world->step() && world->now() < Time{} + 20s) {}
+  const auto world = simulation_config_of(press, 1200);
+  while (world->step() && world->now() < Time{} + 20s) {
+  }
   EXPECT_EQ(world->trouble(), "");
   EXPECT_GT(world->session().time(), 0.1);
 }
 
-/// Why a session did not begin that waits as long as people would.
+/// Returns why a session does not begin within the start timeout.
 std::string refusal(int loop_age_ms, double delay_ms) {
   PressScene press;
   press.tick_hz = 100;
   press.loop_age_ms = loop_age_ms;
   press.duration_s = 1;
-  const auto world = world_of(press, delay_ms);
-  while (world->step()) {}
+  const auto world = simulation_config_of(press, delay_ms);
+  while (world->step()) {
+  }
   return world->trouble();
 }
 
@@ -116,19 +120,22 @@ TEST(TickRate, AnErrorNamesTheKeyThatForbidsTheLoopAndWhatWasMeasured) {
   EXPECT_NE(old.find("gate.loop_age_max_ms = 100 (20 to 2500)"), std::string::npos) << old;
   EXPECT_EQ(old.find("silence_limit"), std::string::npos) << old;
 
-  const std::string beyond = refusal(2500, 2100);  // older than what is remembered
+  const std::string beyond = refusal(2500, 2100);  // older than the stored history
   EXPECT_NE(beyond.find("none of its datagrams was answered within 4000 ms"), std::string::npos) << beyond;
   EXPECT_NE(beyond.find("gate.loop_age_max_ms = 2500"), std::string::npos) << beyond;
 }
 
 TEST(TickRate, AnErrorNamesTheSilenceLimitWhereDatagramsComeTooSeldom) {
   PressScene press;
-  auto made = netsim::World::make({parsed(press), netsim::link_from(test::with_outages(test::delayed(5), 0.06, 1.5)), 1, {}});
+  auto made = netsim::Simulation::make(
+      {parsed(press), netsim::link_from(test::with_outages(test::delayed(5), 0.06, 1.5)), 1, {}});
   ASSERT_TRUE(made);
-  netsim::World& world = **made;
-  while (world.step() && (world.seat(0) == nullptr || world.seat(0)->gate().trips() == 0)) {}
+  netsim::Simulation& world = **made;
+  while (world.step() && (world.seat(0) == nullptr || world.seat(0)->gate().trips() == 0)) {
+  }
   for (int i = 0; i < 200; ++i) world.step();
-  const std::string why = netsim::why_not_engaged(world.scene(), 0, world.seat(0), world.session(), world.now(), world.now());
+  const std::string why =
+      netsim::not_engaged_reason(world.scene(), 0, world.seat(0), world.session(), world.now(), world.now());
   EXPECT_NE(why.find("gate.silence_limit_ms = 20"), std::string::npos) << why;
   EXPECT_NE(why.find("up to 6"), std::string::npos) << why;
   EXPECT_EQ(why.find("loop_age"), std::string::npos) << why;

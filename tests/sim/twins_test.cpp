@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/control/ipc.h"
-#include "tests/support/world_run.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem {
 namespace {
@@ -28,8 +28,9 @@ TEST(Twins, SameSeedSameTrace) {
   }
 }
 
-/// Energy Shared Control in one loop: no datagrams, no ledgers, no gate; springs and masses of design notes, control 3 with the order of
-/// one tick. `order` 1: hands see the tool one tick late, as over the network; 0: all springs at once.
+/// Energy Shared Control in one loop, without datagrams, ledgers and gate: springs and masses of design notes, control
+/// 3, in the order of one tick. With `one_tick`, hands see the tool one tick late, as over the network; otherwise all
+/// springs act at once.
 class Monolith {
  public:
   Monolith(const SceneSpec& scene, bool one_tick) : scene_(scene), one_tick_(one_tick) {
@@ -37,7 +38,8 @@ class Monolith {
     slave_ = make(scene.tools[0].slave, {}, scene.tools[0].environment);
     for (std::size_t a = 0; a < 3; ++a) {
       tool_[a].x = slave_->state().x[static_cast<Eigen::Index>(a)];
-      for (std::size_t i = 0; i < hands_.size(); ++i) ipc_[i][a].rest_at(hands_[i]->state().x[static_cast<Eigen::Index>(a)]);
+      for (std::size_t i = 0; i < hands_.size(); ++i)
+        ipc_[i][a].rest_at(hands_[i]->state().x[static_cast<Eigen::Index>(a)]);
     }
   }
   void step(double t, const std::array<double, 2>& alpha) {
@@ -65,11 +67,12 @@ class Monolith {
     }
     advance(*slave_, pull_slave);
   }
-  [[nodiscard]] hal::Vec3 hand(std::size_t i) const { return hands_[i]->truth().x; }
-  [[nodiscard]] hal::Vec3 slave() const { return slave_->truth().x; }
+  [[nodiscard]] hal::Vec3 hand(std::size_t i) const { return hands_[i]->ground_truth().x; }
+  [[nodiscard]] hal::Vec3 slave() const { return slave_->ground_truth().x; }
 
  private:
-  static std::unique_ptr<hal::sim::SimDevice> make(const SimDeviceSpec& d, const HandSpec& h, const EnvironmentSpec& e) {
+  static std::unique_ptr<hal::sim::SimDevice> make(const SimDeviceSpec& d, const HandSpec& h,
+                                                   const EnvironmentSpec& e) {
     return std::move(*hal::sim::SimDevice::make({d, h, e, nullptr, Time{}}));
   }
   static void advance(hal::sim::SimDevice& d, const AxisArray& effort) {
@@ -97,7 +100,8 @@ SceneSpec calm_free_motion() {
   return scene;
 }
 
-/// Largest distance of two paths at the best shift of up to three ticks: hands of a session learn its time to within a tick.
+/// Returns the largest distance of two paths at the best shift of up to three ticks. Hands of a session learn its time
+/// to within a tick.
 double apart(const std::vector<hal::Vec3>& a, const std::vector<hal::Vec3>& b) {
   double least = 1e9;
   for (int shift = -3; shift <= 3; ++shift) {
@@ -109,39 +113,40 @@ double apart(const std::vector<hal::Vec3>& a, const std::vector<hal::Vec3>& b) {
   return least;
 }
 
-TEST(Twins, OverANetworkWithoutDelayTheSystemIsTheMonolithicOne) {
+TEST(Twins, MatchTheMonolithicSystemWithoutNetworkDelay) {
   const SceneSpec scene = calm_free_motion();
   Monolith twin{scene, true}, simultaneous{scene, false};
   std::array<std::vector<hal::Vec3>, 3> networked, monolithic;  // leader, follower, slave
   double square = 0, square_twin = 0, square_once = 0;
-  const auto r = run(scene, {}, 1, [&](netsim::World& w) {
+  const auto r = run(scene, {}, 1, [&](netsim::Simulation& w) {
     if (!w.record().running) return;
     const double t = w.session().time();
     twin.step(t, {1, 0});
     simultaneous.step(t, {1, 0});
-    if (t < 5) return;  // the ramp-in is the gate's, not the law's
+    if (t < 5) return;  // the ramp-in is part of the gate, not of the law
     const hal::Vec3 slave{w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]};
     for (std::size_t i = 0; i < 2; ++i) {
-      networked[i].push_back(w.device(i).truth().x);
+      networked[i].push_back(w.device(i).ground_truth().x);
       monolithic[i].push_back(twin.hand(i));
     }
     networked[2].push_back(slave);
     monolithic[2].push_back(twin.slave());
-    square += (w.device(0).truth().x - slave).squaredNorm();
+    square += (w.device(0).ground_truth().x - slave).squaredNorm();
     square_twin += (twin.hand(0) - twin.slave()).squaredNorm();
     square_once += (simultaneous.hand(0) - simultaneous.slave()).squaredNorm();
   });
   ASSERT_TRUE(r.report.passed);
   const auto n = static_cast<double>(networked[0].size());
   ASSERT_GT(n, 4000);
-  // Encoder steps fall at other instants (0.055 mm at the tip, each hand its own); nothing else differs.
+  // Encoder steps occur at different times (0.055 mm at the tip, each hand its own); nothing else differs.
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(apart(networked[i], monolithic[i]), 0.25e-3) << i;
   EXPECT_NEAR(std::sqrt(square / n), std::sqrt(square_twin / n), 0.05e-3);
   EXPECT_LE(std::sqrt(square / n), std::sqrt(square_once / n) + 0.8e-3) << "k T drag of the two ticks";
 }
 
 TEST(Twins, ARemoteSlaveFollowsTheServersWithinTheDragOfItsExtraTick) {
-  // The extra tick shows the slave the tool T later (v T), and drags the tool by k_s v T, which the seat's spring k bears.
+  // With the extra tick the slave receives the tool's position T later (v T). It drags the tool by k_s v T, which the
+  // seat's spring k bears.
   const SceneSpec local = calm_free_motion();
   SceneSpec remote = local;
   SeatSpec slave;
@@ -153,12 +158,14 @@ TEST(Twins, ARemoteSlaveFollowsTheServersWithinTheDragOfItsExtraTick) {
   remote.tools[0].remote = true;
   remote.tools[0].seat = 2;
   std::vector<hal::Vec3> path;
-  const auto a = run(local, {}, 1, [&](netsim::World& w) {
-    if (w.record().running) path.emplace_back(w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]);
+  const auto a = run(local, {}, 1, [&](netsim::Simulation& w) {
+    if (w.record().running)
+      path.emplace_back(w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]);
   });
   std::vector<hal::Vec3> remote_path;
-  const auto b = run(remote, {}, 1, [&](netsim::World& w) {
-    if (w.record().running) remote_path.emplace_back(w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]);
+  const auto b = run(remote, {}, 1, [&](netsim::Simulation& w) {
+    if (w.record().running)
+      remote_path.emplace_back(w.record().tools[0].x[0], w.record().tools[0].x[1], w.record().tools[0].x[2]);
   });
   ASSERT_TRUE(a.report.passed);
   ASSERT_TRUE(b.report.passed);
@@ -167,7 +174,7 @@ TEST(Twins, ARemoteSlaveFollowsTheServersWithinTheDragOfItsExtraTick) {
   for (std::size_t k = 3000; k < path.size(); ++k) apart = std::max(apart, (path[k] - remote_path[k]).norm());
   const double v = 2 * 3.14159265 * 0.5 * 0.05, T = 1e-3;  // of the circle
   const double drag = v * T * (1 + local.tools[0].k_s / local.channel.k);
-  const double encoder = 2 * 5.5e-5;  // steps of the two devices fall at different instants
+  const double encoder = 2 * 5.5e-5;  // the steps of the two devices occur at different times
   EXPECT_LE(apart, drag + encoder);
   EXPECT_GT(apart, 0) << "the same run twice";
 }

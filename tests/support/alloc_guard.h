@@ -4,8 +4,8 @@
 
 namespace tandem::test {
 
-/// Counts what this thread takes from the heap through operator new while the guard lives. Guards may nest. Linking
-/// alloc_guard.cpp replaces the global operator new of the test program.
+/// Counts the allocations of this thread through operator new during the lifetime of the guard. Guards may nest.
+/// Linking alloc_guard.cpp replaces the global operator new of the test program.
 class AllocGuard {
  public:
   AllocGuard() noexcept;

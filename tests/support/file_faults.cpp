@@ -1,4 +1,4 @@
-#undef _FORTIFY_SOURCE  // its inline versions of these calls would be in the way
+#undef _FORTIFY_SOURCE  // its inline versions of these calls would bypass the replacements
 #include "tests/support/file_faults.h"
 
 #include <fcntl.h>
@@ -26,7 +26,7 @@ std::atomic<bool> hit{false};
 std::mutex names_lock;
 std::vector<std::string> names;
 
-/// @return the path, empty if it is not in the folder
+/// Returns the absolute path of `name`; empty if it is not below the folder.
 std::string path_of(int folder, const char* name) {
   if (below.empty()) return {};
   std::string path;
@@ -46,7 +46,7 @@ std::string path_of(int folder, const char* name) {
 
 enum class Verdict { kPass, kFail, kHalf, kKillBehind };
 
-/// Counts a call and says what becomes of it. Sets errno for kFail.
+/// Counts a call and decides its outcome. Sets errno for kFail.
 Verdict judge(const char* word, Call call, const std::string& path) {
   if (path.empty()) return Verdict::kPass;
   const std::size_t number = count++;
@@ -96,7 +96,7 @@ long call(Verdict verdict, Real real) {
   return result;
 }
 
-/// @param real  of (bytes, size)
+/// Makes a write call under the fault. @param real  performs it with the given size
 template <class Real>
 long write_with(int file, std::size_t size, Real real) {
   const Verdict verdict = judge("write", Call::kWrite, path_of(file, nullptr));
@@ -123,7 +123,7 @@ void no_faults() noexcept { below.clear(); }
 
 }  // namespace tandem::test
 
-// ---- The C library's calls, in front of its own -------------------------------------------------------------------------------
+// Replacements of the C library's calls.
 
 extern "C" {
 
@@ -138,7 +138,7 @@ ssize_t write(int file, const void* bytes, size_t size) {
 ssize_t pwrite(int file, const void* bytes, size_t size, off_t at) {
   return tandem::test::write_with(file, size, [&](std::size_t n) { return syscall(SYS_pwrite64, file, bytes, n, at); });
 }
-// Nothing here needs to outlive the machine: to sync for real would only cost time.
+// The files need not survive a power failure; a real sync would only cost time.
 int fsync(int file) {
   return static_cast<int>(call(judge("fsync", Call::kSync, path_of(file, nullptr)), [] { return 0L; }));
 }
@@ -146,27 +146,35 @@ int fdatasync(int file) {
   return static_cast<int>(call(judge("fdatasync", Call::kSync, path_of(file, nullptr)), [] { return 0L; }));
 }
 int ftruncate(int file, off_t size) {
-  return static_cast<int>(call(judge("ftruncate", Call::kOther, path_of(file, nullptr)), [&] { return syscall(SYS_ftruncate, file, size); }));
+  return static_cast<int>(call(judge("ftruncate", Call::kOther, path_of(file, nullptr)),
+                               [&] { return syscall(SYS_ftruncate, file, size); }));
 }
 int openat(int folder, const char* name, int flags, ...) {
   va_list rest;
   va_start(rest, flags);
   const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
   va_end(rest);
-  return static_cast<int>(call(judge("open", (flags & O_CREAT) != 0 ? Call::kMake : Call::kOpen, path_of(folder, name)), [&] { return syscall(SYS_openat, folder, name, flags, mode); }));
+  return static_cast<int>(call(judge("open", (flags & O_CREAT) != 0 ? Call::kMake : Call::kOpen, path_of(folder, name)),
+                               [&] { return syscall(SYS_openat, folder, name, flags, mode); }));
 }
 int open(const char* name, int flags, ...) {
   va_list rest;
   va_start(rest, flags);
   const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
   va_end(rest);
-  return static_cast<int>(call(judge("open", (flags & O_CREAT) != 0 ? Call::kMake : Call::kOpen, path_of(AT_FDCWD, name)), [&] { return syscall(SYS_openat, AT_FDCWD, name, flags, mode); }));
+  return static_cast<int>(
+      call(judge("open", (flags & O_CREAT) != 0 ? Call::kMake : Call::kOpen, path_of(AT_FDCWD, name)),
+           [&] { return syscall(SYS_openat, AT_FDCWD, name, flags, mode); }));
 }
 int renameat(int from, const char* old_name, int to, const char* new_name) noexcept {
-  return static_cast<int>(call(judge("rename", Call::kRename, path_of(from, old_name)), [&] { return syscall(SYS_renameat, from, old_name, to, new_name); }));
+  return static_cast<int>(call(judge("rename", Call::kRename, path_of(from, old_name)),
+                               [&] { return syscall(SYS_renameat, from, old_name, to, new_name); }));
 }
-int rename(const char* old_name, const char* new_name) noexcept { return renameat(AT_FDCWD, old_name, AT_FDCWD, new_name); }
+int rename(const char* old_name, const char* new_name) noexcept {
+  return renameat(AT_FDCWD, old_name, AT_FDCWD, new_name);
+}
 int unlinkat(int folder, const char* name, int flags) noexcept {
-  return static_cast<int>(call(judge("unlink", Call::kOther, path_of(folder, name)), [&] { return syscall(SYS_unlinkat, folder, name, flags); }));
+  return static_cast<int>(call(judge("unlink", Call::kOther, path_of(folder, name)),
+                               [&] { return syscall(SYS_unlinkat, folder, name, flags); }));
 }
 }  // extern "C"

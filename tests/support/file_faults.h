@@ -3,36 +3,37 @@
 #include <cstddef>
 #include <string>
 
-/// Faults of a disk, injected below the C library's file calls of the program that links this. Counted are the calls that touch files
-/// below one folder: open, write, pwrite, fsync, fdatasync, rename, ftruncate, unlink. Whatever code makes them, none can be forgotten.
+/// Injects disk faults below the C library's file calls of the program that links this. It counts the calls that touch
+/// files below one folder: open, write, pwrite, fsync, fdatasync, rename, ftruncate, unlink. The interception covers
+/// all code of the program, so no call site is missed.
 namespace tandem::test {
 
 struct FileFault {
   enum class Kind {
-    kNone,           ///< only counts
-    kNoSpace,        ///< ENOSPC of write, fsync, rename, and open of a file that is made
-    kInputOutput,    ///< EIO of every call
-    kNoDescriptors,  ///< EMFILE of open
-    kHalf,           ///< half of a write reaches the file, the next write is ENOSPC; other calls: as kNoSpace
+    kNone,           ///< counts only
+    kNoSpace,        ///< ENOSPC from write, fsync, rename, and from an open that creates a file
+    kInputOutput,    ///< EIO from every call
+    kNoDescriptors,  ///< EMFILE from open
+    kHalf,           ///< half of a write reaches the file, the next write gives ENOSPC; other calls: as kNoSpace
     kKill,           ///< the process ends before the call
-    kKillHalfway,    ///< half of a write reaches the file, then the process ends; other calls: it ends behind them
+    kKillHalfway,    ///< half of a write reaches the file, then the process ends; other calls: it ends after them
   };
   Kind kind = Kind::kNone;
   std::size_t at = 0;    ///< number of the call, from 0
-  bool lasting = false;  ///< this call and all behind it; else this one only
+  bool lasting = false;  ///< this call and all later ones; otherwise this one only
 };
 /// Exit code of a process that a fault killed.
 inline constexpr int kKilledByFault = 77;
 
-/// From now on, with numbers from 0. @param folder  absolute
+/// Injects `fault` from now on and restarts the count at 0. @param folder  absolute path
 void inject(const std::string& folder, const FileFault& fault);
-/// Calls counted since `inject`.
+/// Number of calls since `inject`.
 [[nodiscard]] std::size_t file_calls() noexcept;
-/// Whether the fault hit a call.
+/// Returns whether the fault hit a call.
 [[nodiscard]] bool fault_hit() noexcept;
-/// What call number `at` was, such as `write /folder/name`; from the counting process only.
+/// Returns call number `at` as text, such as `write /folder/name`; only in the counting process.
 [[nodiscard]] std::string file_call(std::size_t at);
-/// No more faults; counts stay.
+/// Ends the injection; the counts stay.
 void no_faults() noexcept;
 
 }  // namespace tandem::test

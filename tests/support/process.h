@@ -12,32 +12,33 @@
 
 namespace tandem::test {
 
-/// A real program with its output. Everything that waits has a generous limit, so that a hanging program fails a test
-/// instead of hanging it; no test may assert how long anything took.
+/// A child process with its output. Every wait has a generous limit, so that a hanging program fails the test instead
+/// of hanging it. No test may assert durations.
 class Process {
  public:
   static constexpr std::chrono::seconds kPatience{30};
 
   /// @param command  program and arguments; standard input is /dev/null
   explicit Process(std::vector<std::string> command);
-  ~Process();  ///< kills what still runs
+  ~Process();  ///< kills a process that still runs
   Process(Process&& other) noexcept;
   Process& operator=(Process&& other) noexcept;
 
-  /// Waits until standard output or standard error holds `text`. @return whether it came before the end or the limit
+  /// Waits until standard output or standard error contains `text`. @return whether it appeared before the end or the
+  /// limit
   bool wait_for(std::string_view text);
-  /// Waits for the end. @return the exit code, minus the signal that killed it, or nothing if it still runs
+  /// Waits for the end. @return the exit code, or minus the signal that killed it; nullopt if it still runs
   std::optional<int> wait();
   void signal(int number) const;
   [[nodiscard]] pid_t id() const { return pid_; }
 
   [[nodiscard]] const std::string& out() const { return out_; }
   [[nodiscard]] const std::string& err() const { return err_; }
-  /// What follows `mark` on its line of standard output, empty if there is no such line.
+  /// Returns the text after `mark` on its line of standard output; empty if no line has `mark`.
   [[nodiscard]] std::string after(std::string_view mark) const;
 
  private:
-  /// Reads what comes within `slice`. @return false once both pipes are closed
+  /// Reads the output that arrives within `slice`. @return false once both pipes are closed
   bool read_some(std::chrono::milliseconds slice);
 
   pid_t pid_ = 0;

@@ -1,4 +1,5 @@
-// Loaded before libfaketime 0.9.10, which lets clock_nanosleep with an absolute time return at once, whatever clock it is about.
+// Preloaded before libfaketime 0.9.10. With an absolute time, clock_nanosleep of that version returns at once, for
+// every clock.
 #include <sys/syscall.h>
 #include <unistd.h>
 

@@ -21,14 +21,14 @@ struct HeldMass {
   }
 };
 
-/// Mass [kg] with damping [N s/m] against a virtual wall, sampled every T [s], that answers `delay` ticks late:
-/// F(k) = -K x(k - delay) - B [x(k - delay) - x(k - delay - 1)] / T, held.
+/// Mass [kg] with damping [N s/m] against a virtual wall that is sampled every T [s] and responds `delay` ticks late.
+/// The force is held for one tick: F(k) = -K x(k - delay) - B [x(k - delay) - x(k - delay - 1)] / T.
 struct SampledWall {
   double m = 0.045, b = 0.1, B = 0, T = 0.001;
   int delay = 0;
 
-  /// Largest magnitude of an eigenvalue of one tick; the loop is stable below 1. Exact: no frequency-domain
-  /// approximation.
+  /// Returns the largest magnitude of an eigenvalue of one tick; the loop is stable below 1. Exact, without a
+  /// frequency-domain approximation.
   [[nodiscard]] double spectral_radius(double K) const {
     const HeldMass mass(m, b, T);
     const int n = 3 + delay;  // x(k), v(k), then x(k-1) ... x(k-delay-1)
@@ -41,7 +41,7 @@ struct SampledWall {
     return M.eigenvalues().cwiseAbs().maxCoeff();
   }
 
-  /// Largest stable stiffness [N/m], by bisection from `lo` upwards; 0 when even `lo` is unstable.
+  /// Returns the largest stable stiffness [N/m], by bisection from `lo` upwards; 0 if even `lo` is unstable.
   [[nodiscard]] double stiffness_limit(double lo = 1e-3, double hi = 1e5) const {
     if (spectral_radius(lo) >= 1) return 0;
     for (int i = 0; i < 60; ++i) {

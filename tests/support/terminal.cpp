@@ -73,11 +73,21 @@ void Terminal::down() {
 void Terminal::command(char what, std::size_t number, bool given) {
   const std::size_t n = std::max<std::size_t>(1, number);
   switch (what) {
-    case 'A': row_ = std::max(top(), row_ - std::min(row_, n)); break;
-    case 'B': row_ = std::min(lines_.size() - 1, row_ + n); break;
-    case 'C': column_ = std::min(columns_ - 1, column_ + n); break;
-    case 'D': column_ -= std::min(column_, n); break;
-    case 'G': column_ = std::min(columns_, n) - 1; break;
+    case 'A':
+      row_ = std::max(top(), row_ - std::min(row_, n));
+      break;
+    case 'B':
+      row_ = std::min(lines_.size() - 1, row_ + n);
+      break;
+    case 'C':
+      column_ = std::min(columns_ - 1, column_ + n);
+      break;
+    case 'D':
+      column_ -= std::min(column_, n);
+      break;
+    case 'G':
+      column_ = std::min(columns_, n) - 1;
+      break;
     case 'J':
       EXPECT_TRUE(!given || number == 0) << "only to the end of the screen";
       for (std::size_t r = row_ + 1; r < lines_.size(); ++r) lines_[r] = {};
@@ -88,8 +98,10 @@ void Terminal::command(char what, std::size_t number, bool given) {
       break;
     case 'm':
     case 'h':
-    case 'l': break;
-    default: ADD_FAILURE() << "CSI " << what << " is not known here";
+    case 'l':
+      break;
+    default:
+      ADD_FAILURE() << "CSI " << what << " is not known here";
   }
 }
 
@@ -113,7 +125,8 @@ void Terminal::resize(std::size_t columns, std::size_t rows) {
       do {
         Row& row = out.emplace_back();
         const std::size_t size = std::min(columns, line.size() - at);
-        row.cells.assign(line.begin() + static_cast<std::ptrdiff_t>(at), line.begin() + static_cast<std::ptrdiff_t>(at + size));
+        row.cells.assign(line.begin() + static_cast<std::ptrdiff_t>(at),
+                         line.begin() + static_cast<std::ptrdiff_t>(at + size));
         at += size;
         row.continues = at < line.size();
       } while (at < line.size());
@@ -156,7 +169,9 @@ std::string flat(const std::vector<std::string>& rows) {
   return text;
 }
 
-TerminalProcess::TerminalProcess(std::vector<std::string> command, std::size_t columns, std::size_t rows, Terminal::Resize resize) : terminal_(columns, rows, resize) {
+TerminalProcess::TerminalProcess(std::vector<std::string> command, std::size_t columns, std::size_t rows,
+                                 Terminal::Resize resize)
+    : terminal_(columns, rows, resize) {
   std::vector<char*> argv;
   for (std::string& word : command) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -189,7 +204,8 @@ bool TerminalProcess::read_some(std::chrono::milliseconds slice) {
   return true;
 }
 
-bool TerminalProcess::wait_until(const std::function<bool(const Terminal&)>& wanted, std::chrono::milliseconds patience) {
+bool TerminalProcess::wait_until(const std::function<bool(const Terminal&)>& wanted,
+                                 std::chrono::milliseconds patience) {
   const auto until = std::chrono::steady_clock::now() + patience;
   while (!wanted(terminal_)) {
     if (std::chrono::steady_clock::now() > until) return false;
@@ -209,13 +225,15 @@ void TerminalProcess::watch(std::chrono::milliseconds time) {
 }
 
 void TerminalProcess::resize(std::size_t columns, std::size_t rows) {
-  watch(1ms);  // what is under way still meets the old size
+  watch(1ms);  // output already sent still gets the old size
   terminal_.resize(columns, rows);
   const winsize size{static_cast<unsigned short>(rows), static_cast<unsigned short>(columns), 0, 0};
   EXPECT_EQ(ioctl(master_.get(), TIOCSWINSZ, &size), 0);
 }
 
-void TerminalProcess::type(std::string_view keys) const { EXPECT_EQ(::write(master_.get(), keys.data(), keys.size()), static_cast<ssize_t>(keys.size())); }
+void TerminalProcess::type(std::string_view keys) const {
+  EXPECT_EQ(::write(master_.get(), keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+}
 
 void TerminalProcess::signal(int number) const { ::kill(pid_, number); }
 

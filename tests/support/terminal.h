@@ -13,11 +13,11 @@
 
 namespace tandem::test {
 
-/// A small terminal: what a program's bytes look like on a screen. Knows carriage return, line feed, backspace, CSI A B C D G J K m and the wrap at
-/// the right margin.
+/// A small terminal emulator: shows a program's output as a screen does. It supports carriage return, line feed,
+/// backspace, CSI A B C D G J K m and the wrap at the right margin.
 class Terminal {
  public:
-  /// What happens to lines that are wider than the new width: newer terminals wrap them anew, older ones cut them.
+  /// Treatment of lines that are wider than the new width: newer terminals wrap them again, older ones cut them.
   enum class Resize { kReflows, kCuts };
 
   Terminal(std::size_t columns, std::size_t rows, Resize resize) : columns_(columns), rows_(rows), resize_(resize) {}
@@ -25,11 +25,11 @@ class Terminal {
   void feed(std::string_view bytes);
   void resize(std::size_t columns, std::size_t rows);
 
-  /// What stands on the screen, without blanks at the right and empty rows at the bottom.
+  /// Returns the rows on the screen, without blanks at the right and empty rows at the bottom.
   [[nodiscard]] std::vector<std::string> screen() const;
-  /// The same with what has scrolled away.
+  /// Returns the same rows, preceded by those that have scrolled off the screen.
   [[nodiscard]] std::vector<std::string> all() const;
-  /// Rows that were broken by the right margin since the last `forget_wraps`.
+  /// Rows that were broken at the right margin since the last `forget_wraps`.
   [[nodiscard]] const std::vector<std::string>& wraps() const noexcept { return wraps_; }
   void forget_wraps() { wraps_.clear(); }
 
@@ -53,29 +53,32 @@ class Terminal {
   std::vector<std::string> wraps_;
 };
 
-/// A real program on a pseudo-terminal, shown on a Terminal. Everything that waits has a generous limit; no test may assert how long anything took.
+/// A child process on a pseudo-terminal, shown on a Terminal. Every wait has a generous limit; no test may assert
+/// durations.
 class TerminalProcess {
  public:
-  TerminalProcess(std::vector<std::string> command, std::size_t columns, std::size_t rows, Terminal::Resize resize = Terminal::Resize::kReflows);
-  ~TerminalProcess();  ///< kills what still runs
+  TerminalProcess(std::vector<std::string> command, std::size_t columns, std::size_t rows,
+                  Terminal::Resize resize = Terminal::Resize::kReflows);
+  ~TerminalProcess();  ///< kills a process that still runs
   TerminalProcess(const TerminalProcess&) = delete;
   TerminalProcess& operator=(const TerminalProcess&) = delete;
 
-  /// Waits until the screen is as wanted. @return whether it was before the end or the limit
-  bool wait_until(const std::function<bool(const Terminal&)>& wanted, std::chrono::milliseconds patience = std::chrono::seconds(30));
-  /// Waits until `text` stands on the screen or has scrolled away; line breaks count as spaces.
+  /// Waits until `wanted` accepts the screen. @return whether it did before the end or the limit
+  bool wait_until(const std::function<bool(const Terminal&)>& wanted,
+                  std::chrono::milliseconds patience = std::chrono::seconds(30));
+  /// Waits until `text` is on the screen or has scrolled off it; line breaks count as spaces.
   bool wait_for(std::string_view text);
-  /// Reads what comes within this time.
+  /// Reads the output that arrives within this time.
   void watch(std::chrono::milliseconds time);
   void resize(std::size_t columns, std::size_t rows);
   void type(std::string_view keys) const;
   void signal(int number) const;
-  /// @return the exit code, or minus the signal
+  /// Waits for the end. @return the exit code, or minus the signal
   int wait();
 
   [[nodiscard]] const Terminal& terminal() const noexcept { return terminal_; }
   [[nodiscard]] Terminal& terminal() noexcept { return terminal_; }
-  /// All rows, for a test that failed.
+  /// Returns all rows, for the message of a failed test.
   [[nodiscard]] std::string picture() const;
 
  private:
@@ -86,7 +89,7 @@ class TerminalProcess {
   io::Fd master_;
 };
 
-/// Rows as one text, blanks run together.
+/// Returns the rows as one text, with runs of blanks joined.
 [[nodiscard]] std::string flat(const std::vector<std::string>& rows);
 
 }  // namespace tandem::test

@@ -39,7 +39,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
-/// The text between each pair of backticks on a line.
+/// Returns the text between each pair of backticks on a line.
 std::vector<std::string_view> quoted_in(std::string_view line) {
   std::vector<std::string_view> quoted;
   std::size_t open = line.find('`');
@@ -56,20 +56,20 @@ bool is_name(std::string_view s) {
   return !s.empty() && s.front() >= 'A' && s.front() <= 'Z' && std::ranges::all_of(s, is_word);
 }
 
-/// `Suite.Name`, both beginning with a capital.
+/// Returns whether `s` has the form `Suite.Name`, both beginning with a capital.
 bool looks_like_test(std::string_view s) {
   const std::size_t dot = s.find('.');
   return dot != std::string_view::npos && is_name(s.substr(0, dot)) && is_name(s.substr(dot + 1));
 }
 
-/// A path into one of the rooms, without wildcards or placeholders.
+/// Returns whether `s` is a path into a folder of kRooms, without wildcards or placeholders.
 bool looks_like_path(std::string_view s) {
   const std::size_t slash = s.find('/');
   return slash != std::string_view::npos && std::ranges::find(kRooms, s.substr(0, slash)) != kRooms.end() &&
          std::ranges::all_of(s, [](char c) { return is_word(c) || c == '/' || c == '.' || c == '-'; });
 }
 
-/// The number of an item, "12. ..." or "| 12 | ...", or nothing.
+/// Returns the number of an item, "12. ..." or "| 12 | ..."; nullopt for other lines.
 std::optional<std::size_t> item_number(std::string_view line) {
   line = trim(line);
   const bool row = line.starts_with('|');
@@ -123,7 +123,7 @@ void add_tests(const SourceFile& file, std::set<std::string, std::less<>>& tests
   }
 }
 
-/// Tests that are programs: add_test(NAME Suite.Name ...).
+/// Adds tests that are programs: add_test(NAME Suite.Name ...).
 void add_program_tests(const SourceFile& file, std::set<std::string, std::less<>>& tests) {
   constexpr std::string_view kDeclaration = "add_test(NAME ";
   const std::string_view text = file.text;
@@ -142,7 +142,7 @@ void add_programs(const SourceFile& file, std::set<std::string, std::less<>>& pr
   }
 }
 
-/// "tandem-server" for a build's own path to it.
+/// Returns "tandem-server" for its path in a build folder.
 std::string_view without_build_folder(std::string_view command) {
   for (const std::string_view prefix : {"./build/", "build/"}) {
     if (command.starts_with(prefix)) return command.substr(command.rfind('/') + 1);
@@ -166,7 +166,8 @@ Known known_things(std::span<const SourceFile> files) {
       add_program_tests(file, known.tests);
     }
     if (file.path == "demo" || file.path == "test") known.programs.insert("./" + file.path);
-    const bool script = file.path == "demo" || file.path == "test" || file.path.ends_with(".sh") || file.path == "tests/sim/mutations";
+    const bool script =
+        file.path == "demo" || file.path == "test" || file.path.ends_with(".sh") || file.path == "tests/sim/mutations";
     if (script || (is_cpp(file.path) && !is_within(file.path, "tests/tidy"))) known.option_texts += file.text;
   }
   return known;

@@ -10,7 +10,7 @@ namespace {
 
 const std::filesystem::path kRoot{TANDEM_SOURCE_DIR};
 
-/// The document of that name at the root; a failed test when it is missing.
+/// Returns the document of that name at the root; if it is missing, the test fails.
 const SourceFile* find_document(const std::vector<SourceFile>& files, const std::string& name) {
   const auto found = std::ranges::find(files, name, &SourceFile::path);
   if (found == files.end()) ADD_FAILURE() << name << " is missing at the top level";
@@ -19,7 +19,7 @@ const SourceFile* find_document(const std::vector<SourceFile>& files, const std:
 
 Known small_world() {
   const std::vector<SourceFile> files{
-      make_source("tests/link/link_test.cpp",
+      make_source("tests/common/transport/secure_channel_test.cpp",
                   "TEST(Link, Works) {}\nTEST_P(Gate,\n       Ramps) {}\n// TEST(Not, This)\n"),
       make_source("server/CMakeLists.txt", "tandem_program(tandem-server SOURCES app/main.cpp)\n"),
       make_source("server/app/main.cpp", "app.add_option(\"--listen\", x);\n"),
@@ -60,7 +60,8 @@ TEST(Security, EveryClaimNamesATestThatExists) {
   ASSERT_NE(document, nullptr);
   const Known known = known_things(files);
   EXPECT_TRUE(check_rows(*document, known).empty()) << to_string(check_rows(*document, known));
-  EXPECT_TRUE(check_references(*document, known, kRoot).empty()) << to_string(check_references(*document, known, kRoot));
+  EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+      << to_string(check_references(*document, known, kRoot));
 }
 
 TEST(NetsimManual, EveryCommandFileAndTestItNamesExists) {
@@ -73,9 +74,49 @@ TEST(NetsimManual, EveryCommandFileAndTestItNamesExists) {
   }
 }
 
+TEST(ClientManual, EveryCommandFileAndTestItNamesExists) {
+  const auto files = read_repository(kRoot);
+  if (const SourceFile* document = find_document(files, "client/README.md")) {
+    const Known known = known_things(files);
+    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
+    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+        << to_string(check_references(*document, known, kRoot));
+  }
+}
+
+TEST(ServerManual, EveryCommandFileAndTestItNamesExists) {
+  const auto files = read_repository(kRoot);
+  if (const SourceFile* document = find_document(files, "server/README.md")) {
+    const Known known = known_things(files);
+    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
+    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+        << to_string(check_references(*document, known, kRoot));
+  }
+}
+
+TEST(HalManual, EveryCommandFileAndTestItNamesExists) {
+  const auto files = read_repository(kRoot);
+  if (const SourceFile* document = find_document(files, "hal/README.md")) {
+    const Known known = known_things(files);
+    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
+    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+        << to_string(check_references(*document, known, kRoot));
+  }
+}
+
+TEST(Contributing, EveryCommandFileAndTestItNamesExists) {
+  const auto files = read_repository(kRoot);
+  if (const SourceFile* document = find_document(files, "CONTRIBUTING.md")) {
+    const Known known = known_things(files);
+    EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
+    EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+        << to_string(check_references(*document, known, kRoot));
+  }
+}
+
 TEST(ValidationMatrix, EveryRowNamesTestsThatExist) {
   const auto files = read_repository(kRoot);
-  if (const SourceFile* document = find_document(files, "tests/netsim/MATRIX.md")) {
+  if (const SourceFile* document = find_document(files, "tests/netsim/validation/MATRIX.md")) {
     const Known known = known_things(files);
     EXPECT_GE(lines_with(document->text, "exact").size(), 10u) << "the table is not there";
     EXPECT_TRUE(check_rows(*document, known).empty()) << to_string(check_rows(*document, known));
@@ -91,7 +132,8 @@ TEST(FailureTable, EveryRowNamesTestsThatExist) {
   const Known known = known_things(files);
   EXPECT_GE(lines_with(document->text, "| `").size(), 10u) << "the tables are not there";
   EXPECT_TRUE(check_rows(*document, known).empty()) << to_string(check_rows(*document, known));
-  EXPECT_TRUE(check_references(*document, known, kRoot).empty()) << to_string(check_references(*document, known, kRoot));
+  EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+      << to_string(check_references(*document, known, kRoot));
 }
 
 TEST(Documents, KnowsTestsAndPrograms) {
@@ -101,7 +143,7 @@ TEST(Documents, KnowsTestsAndPrograms) {
 }
 
 TEST(Documents, InvariantsWithoutTestCodeOrOrderAreReported) {
-  std::string good = "# House\n1. not an invariant\n## Invariants\n";
+  std::string good = "# SessionRegistry\n1. not an invariant\n## Invariants\n";
   for (int i = 1; i <= 9; ++i) good += std::to_string(i) + ". holds: `tests/tidy/documents.h`,\n   test `Link.Works`\n";
   const std::string row = "| 10 | holds | `tests/tidy/documents.h` | `Gate.Ramps` |\n";
   const auto trouble = [&](const std::string& text) {
@@ -114,7 +156,7 @@ TEST(Documents, InvariantsWithoutTestCodeOrOrderAreReported) {
   EXPECT_EQ(trouble(good + "10. holds: `tests/tidy/nothing.h`, `Gate.Ramps`\n"), 1u) << "no such file";
 }
 
-TEST(Documents, NamesWithoutAThingAreReported) {
+TEST(Documents, ReportNamesThatDoNotExist) {
   const auto trouble = [](const std::string& text) {
     return check_references(make_source("README.md", text), small_world(), kRoot).size();
   };

@@ -11,7 +11,7 @@
 namespace tandem::tidy {
 namespace {
 
-/// Which library a header of others belongs to. What is not listed and has a '/' or ".h" is the operating system's.
+/// Maps a header prefix to its library. An unlisted header with a '/' or ".h" belongs to the operating system.
 struct Library {
   std::string_view prefix;
   std::string_view name;
@@ -43,144 +43,9 @@ constexpr std::string_view kSystem = "system";
 constexpr std::array<std::string_view, 7> kTopFolders{"client/", "common/", "hal/",  "netsim/",
                                                       "proto/",  "server/", "tests/"};
 
-/// Mirrors "Rooms and who may know whom". The room with the longest `folder` that the path begins with decides.
-const std::array<Room, 20> kRooms{{
-    {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
-    {"common/control",
-     {"common/base", "common/control"},
-     {"Eigen"},
-     "common/control sees fixed-size numbers only: base and Eigen, no bytes, peers, clocks"},
-    {"common/link",
-     {"common/base", "common/link", "proto"},
-     {"openssl", "sodium", "ipsec-mb"},
-     "common/link sees time and bytes: base, proto, OpenSSL, libsodium and libipsec-mb, no sockets, threads, clocks"},
-    {"common/trust",
-     {"common/base", "common/trust", "proto/trust_spec.h", "proto/access_role.h"},
-     {"openssl", "sodium"},
-     "common/trust decides over values it is given: base, the plain rows of its books, OpenSSL and libsodium"},
-    {"common/trust/io",
-     {"common/base", "common/io", "common/trust", "proto/control_codec.h", "proto/control_messages.h", "proto/trust_text.h", "proto/trust_spec.h"},
-     {"openssl", "asio"},
-     "common/trust/io keeps keys and books in files and speaks frames over TLS: trust, proto's frames and books, OpenSSL and asio"},
-    {"common/setup",
-     {"common/base", "common/control", "common/setup", "proto/control_messages.h", "proto/scene_spec.h", "proto/seat_setup.h"},
-     {"Eigen"},
-     "common/setup turns the plain structs of a scene into parameters of common/control, nothing else"},
-    {"proto",
-     {"common/base", "proto"},
-     {"protobuf"},
-     "proto turns bytes and text into owned structs: base and protobuf"},
-    {"hal",
-     {"common/base", "hal", "proto/scene_spec.h", "proto/device_spec.h", "proto/woodenhaptics_spec.h",
-      "proto/spacemouse_spec.h"},
-     {"Eigen"},
-     "hal is base, Eigen and the plain structs of a scene and of a device's file; it knows no network and no session"},
-    {"hal/app",
-     {"common/base", "common/link/digest.h", "hal", "proto"},
-     {},
-     "hal/app makes drivers of what a person names: buses, files, presets; no network and no session"},
-    {"netsim",
-     {"common/base", "proto/input_error.h", "netsim"},
-     {},
-     "impairments and the virtual network are base only; what runs a whole scene is netsim/world..., programs "
-     "netsim/app"},
-    {"netsim/profile", {"common/base", "proto", "netsim"}, {}, "profiles are text: base and proto's reader of text"},
-    {"netsim/scenario",
-     {"common", "proto", "hal", "server", "client", "netsim"},
-     {},
-     "scenarios hold text against a scene and judge reports: no JSON, no files; those belong to netsim/app"},
-    {"netsim/world",
-     {"common", "proto", "hal", "server", "client", "netsim"},
-     {"Eigen", "openssl", "json"},
-     "the World runs the cores in virtual time: no asio, spdlog or system headers"},
-    {"netsim/feel",
-     {"common", "proto", "hal", "server", "client", "netsim"},
-     {"Eigen", "json"},
-     "what hands feel is measured in the World: no files, clocks or threads; those belong to netsim/app"},
-    {"netsim/testing",
-     {"common", "proto", "hal", "server", "client", "netsim"},
-     {"gtest"},
-     "what other projects test with: the World, the network and GoogleTest; no clock, no file"},
-    {"server",
-     {"common", "proto", "hal/device.h", "hal/port_map.h", "server"},
-     {"Eigen"},
-     "the server's core knows control, link and the hal interface; wiring belongs to server/app"},
-    {"server/report",
-     {"common", "proto", "server"},
-     {"json"},
-     "reports are made after the fact from plain records: text and JSON, no session, no device"},
-    {"client",
-     {"common", "proto", "hal/device.h", "hal/port_map.h", "client"},
-     {"Eigen"},
-     "the client's core knows control, link and the hal interface; wiring belongs to client/app"},
-    {"common", {"common"}, {"asio", "spdlog", "CLI11", "json"}, "common knows nobody above it"},
-    {"tests", {}, {}, "tests know everybody; nothing is checked"},
-}};
-
-const std::vector<std::string_view> kPumps{"app", "io", "tests"};
-
-const std::array<Ban, 8> kBans{{
-    {Ban::In::kCode,
-     {"steady_clock", "system_clock", "high_resolution_clock", "utc_clock", "clock_gettime", "gettimeofday",
-      "timespec_get", "timerfd_create", "sleep_for", "sleep_until", "usleep", "nanosleep"},
-     {},
-     kPumps,
-     {},
-     "clocks and sleeping belong to folders called app or io; cores are told the time"},
-    {Ban::In::kInclude,
-     {"thread", "mutex", "shared_mutex", "condition_variable", "future", "semaphore", "latch", "barrier", "stop_token",
-      "ctime", "iostream"},
-     {},
-     kPumps,
-     {},
-     "threads, locks, clocks and streams to a terminal belong to folders called app or io"},
-    {Ban::In::kCode,
-     {"reinterpret_cast"},
-     {},
-     kPumps,
-     {"common/link/aes_gcm.cpp", "common/base/raw_bytes.h"},  // the cipher's expanded key in our bytes; unsigned char*, where we speak std::byte
-     "buffers are decoded by a parser that checks lengths, not by a cast"},
-    {Ban::In::kInclude,
-     {"random"},
-     {},
-     {},
-     {},
-     "std distributions differ between libraries: same seed, same trace needs common/base/rng.h"},
-    {Ban::In::kCode,
-     {"std::rand", "srand", "drand48", "random_device", "mt19937", "mt19937_64"},
-     {},
-     {},
-     {},
-     "randomness is a seeded argument: common/base/rng.h"},
-    {Ban::In::kCode,
-     {"sleep_for", "sleep_until", "usleep", "nanosleep"},
-     {"tests"},
-     {"tests/io", "tests/vm"},
-     {},
-     "a test moves virtual time; only tests/io waits for real things, and tests/vm for those of its own machine"},
-    {Ban::In::kText,
-     {"TO"
-      "DO",
-      "FIX"
-      "ME",
-      "XX"
-      "X"},
-     {},
-     {},
-     {},
-     "work left is an issue, not a comment"},
-    {Ban::In::kCode,
-     {"DISABLED_*", "GTEST_SKIP();"},
-     {"tests"},
-     {},
-     {},
-     "a test that cannot run on this machine says why: GTEST_SKIP() << reason; a part of one prints '[ NOT RUN ] what: why'"},
-}};
-
-/// The files that may be longer than kLinesMax.
-constexpr std::array<std::string_view, 0> kLongerFiles{};
-
-bool is_pump(std::string_view path) { return has_folder(path, "app") || has_folder(path, "io"); }
+bool is_pump(std::string_view path) {
+  return has_folder(path, "app") || has_folder(path, "io") || is_within(path, "hal/backends");
+}
 
 bool is_free(std::string_view path, std::span<const std::string_view> folders) {
   return std::ranges::any_of(folders, [&](std::string_view f) {
@@ -190,13 +55,13 @@ bool is_free(std::string_view path, std::span<const std::string_view> folders) {
 
 const Room* room_of(std::string_view path) {
   const Room* best = nullptr;
-  for (const Room& room : kRooms) {
+  for (const Room& room : rooms()) {
     if (path.starts_with(room.folder) && (best == nullptr || room.folder.size() > best->folder.size())) best = &room;
   }
   return best;
 }
 
-/// Empty for headers of the C++ library.
+/// Returns the library of a header; empty for headers of the C++ library.
 std::string_view library_of(std::string_view include) {
   for (const Library& library : kLibraries) {
     if (include.starts_with(library.prefix)) return library.name;
@@ -212,7 +77,7 @@ constexpr std::string_view kGeneratedReason = "generated code and headers that s
 
 bool may_see_protobuf(std::string_view path) { return is_within(path, "proto") || is_within(path, "tests/proto"); }
 
-/// "server" for server/session.h, server/app/main.cpp, ...
+/// Returns the first folder: "server" for server/session/session.h, server/app/main.cpp, ...
 std::string_view top_folder(std::string_view path) { return path.substr(0, path.find('/')); }
 
 std::optional<std::string> trouble_with_ours(const SourceFile& file, const Room& room, const Include& include) {
@@ -225,6 +90,9 @@ std::optional<std::string> trouble_with_ours(const SourceFile& file, const Room&
   if (is_pump(path) && !is_pump(file.path)) return "a core does not know what is in an app or io folder";
   if (has_folder(path, "app") && top_folder(path) != "common" && top_folder(path) != top_folder(file.path)) {
     return "an app folder serves its own program";
+  }
+  if (is_within(path, "hal/backends") && top_folder(file.path) != "hal" && top_folder(file.path) != "client") {
+    return "only the client opens hardware; hal/io/open_sim_device.h opens simulated devices";
   }
   if (has_folder(file.path, "app")) return std::nullopt;
   const bool may = std::ranges::any_of(room.may_include, [&](std::string_view f) { return is_within(path, f); });
@@ -245,7 +113,7 @@ void check_includes(const SourceFile& file, std::vector<Finding>& findings) {
   for (const Include& include : includes_of(file)) {
     std::optional<std::string> trouble;
     if (room == nullptr) {
-      trouble = "this folder is in no room of the table (tests/tidy/layer_rules.cpp)";
+      trouble = "this folder is in no row of the table (tests/tidy/layer_table.cpp)";
     } else if (is_ours(include.path)) {
       trouble = trouble_with_ours(file, *room, include);
     } else if (include.quoted && include.path.ends_with(".inc")) {
@@ -281,7 +149,7 @@ void check_ban(const SourceFile& file, const Ban& ban, std::vector<Finding>& fin
   }
 }
 
-/// A test that prints "[ NOT RUN" and returns would count as passed.
+/// Finds tests that print "[ NOT RUN" and return: they would count as passed.
 void check_not_run(const SourceFile& file, std::vector<Finding>& findings) {
   std::istringstream lines(file.text);
   bool said = false;
@@ -289,16 +157,13 @@ void check_not_run(const SourceFile& file, std::vector<Finding>& findings) {
   for (std::string line; std::getline(lines, line); ++number) {
     const std::size_t begin = line.find_first_not_of(' ');
     if (said && begin != std::string::npos && line.compare(begin, 7, "return;") == 0)
-      findings.push_back({file.path, number, "a test that returns after printing [ NOT RUN ] counts as passed; GTEST_SKIP() << reason"});
+      findings.push_back({file.path, number,
+                          "a test that returns after printing [ NOT RUN ] counts as passed; GTEST_SKIP() << reason"});
     said = line.find("\"[ NOT RUN") != std::string::npos;
   }
 }
 
 }  // namespace
-
-std::span<const Room> rooms() { return kRooms; }
-std::span<const Ban> bans() { return kBans; }
-std::span<const std::string_view> longer_files() { return kLongerFiles; }
 
 std::vector<Finding> check_layers(const SourceFile& file) {
   std::vector<Finding> findings;
@@ -306,18 +171,18 @@ std::vector<Finding> check_layers(const SourceFile& file) {
   if (is_cpp(file.path)) {
     check_includes(file, findings);
     const auto lines = static_cast<std::size_t>(std::ranges::count(file.text, '\n'));
-    if (lines > kLinesMax && std::ranges::find(kLongerFiles, file.path) == kLongerFiles.end()) {
+    if (lines > kLinesMax && std::ranges::find(longer_files(), file.path) == longer_files().end()) {
       findings.push_back({file.path, 0,
                           std::to_string(lines) + " lines, more than " + std::to_string(kLinesMax) +
                               ": a mechanism wants its own pair of files"});
     }
   }
-  for (const Ban& ban : kBans) check_ban(file, ban, findings);
+  for (const Ban& ban : bans()) check_ban(file, ban, findings);
   return findings;
 }
 
 std::vector<Finding> check_generated(std::span<const SourceFile> files) {
-  std::set<std::string, std::less<>> shows;  // headers of proto through which generated code is seen
+  std::set<std::string, std::less<>> shows;  // headers of proto that include generated code, directly or indirectly
   bool grew = true;
   while (grew) {
     const std::size_t before = shows.size();
@@ -362,6 +227,9 @@ std::vector<Finding> check_top_level(const std::filesystem::path& root) {
                               "tests",
                               ".ci",
                               ".clang-format",
+                              ".editorconfig",
+                              ".pre-commit-config.yaml",
+                              "CONTRIBUTING.md",
                               ".clang-tidy",
                               ".gitignore",
                               ".git",

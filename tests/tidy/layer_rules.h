@@ -7,46 +7,48 @@
 
 #include "tests/tidy/source_text.h"
 
-/// The table of rooms of ARCHITECTURE.md as data, and the engine that holds sources against it.
+/// Compares the sources with the layers and allowed dependencies of ARCHITECTURE.md, which layer_table.cpp holds as
+/// data.
 namespace tandem::tidy {
 
-/// A folder and all it may include besides the C++ library: prefixes of our own headers and names of libraries.
-/// The longest `folder` that a path begins with decides ("netsim/world" takes netsim/world.h and netsim/world/ alike).
-/// Folders called app may include all but another program's app, folders called io what their room may and the
-/// operating system besides.
+/// A layer: a folder and everything it may include besides the C++ library, as prefixes of our headers and names of
+/// libraries. The longest `folder` that a path begins with decides. It may also be the beginning of a file name, such
+/// as "netsim/quality/quality_json". Folders called app may include everything except another program's app. Folders
+/// called io may include what their layer may, and the operating system.
 struct Room {
   std::string_view folder;
-  std::vector<std::string_view> may_include;  ///< folders or files of ours
+  std::vector<std::string_view> may_include;  ///< our folders or files
   std::vector<std::string_view> libraries;    ///< "Eigen", "asio", ...
   std::string_view reason;
 };
 
 /// Words or headers that must not occur in some folders.
 struct Ban {
-  enum class In { kCode, kInclude, kText };  ///< words in code; whole includes; words anywhere, comments too
+  enum class In { kCode, kInclude, kText };  ///< words in code; whole includes; words anywhere, including comments
   In in = In::kCode;
   std::vector<std::string_view> words;
-  std::vector<std::string_view> folders;      ///< where; empty: everywhere
-  std::vector<std::string_view> not_folders;  ///< names of folders ("app", "io") or path prefixes that are free of it
-  std::vector<std::string_view> allowed;      ///< files that may, each with its reason beside it in the table
+  std::vector<std::string_view> folders;      ///< folders of the ban; empty: everywhere
+  std::vector<std::string_view> not_folders;  ///< names of folders ("app", "io") or path prefixes that are exempt
+  std::vector<std::string_view> allowed;      ///< exempt files, each with its reason beside it in the table
   std::string_view reason;
 };
 
 [[nodiscard]] std::span<const Room> rooms();
 [[nodiscard]] std::span<const Ban> bans();
 
-/// Longest .h or .cpp file.
+/// Largest number of lines of a .h or .cpp file.
 inline constexpr std::size_t kLinesMax = 400;
-/// Files that may be longer, printed by the test.
+/// Returns the files that may be longer; the test prints them.
 [[nodiscard]] std::span<const std::string_view> longer_files();
 
-/// All rules over one file.
+/// Checks all rules for one file.
 [[nodiscard]] std::vector<Finding> check_layers(const SourceFile& file);
 
-/// Headers of proto that include generated code, directly or through each other, are private: who outside includes one?
+/// Finds files outside proto that include one of its private headers. A header of proto is private if it includes
+/// generated code, directly or indirectly.
 [[nodiscard]] std::vector<Finding> check_generated(std::span<const SourceFile> files);
 
-/// Entries of the root that product.md does not prescribe and .gitignore does not name.
+/// Finds entries of the root that product.md does not list and .gitignore does not name.
 [[nodiscard]] std::vector<Finding> check_top_level(const std::filesystem::path& root);
 
 }  // namespace tandem::tidy

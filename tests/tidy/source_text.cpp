@@ -30,7 +30,7 @@ void blank(std::string& text, std::size_t from, std::size_t to) {
   }
 }
 
-/// Index of the quote that ends the literal opened at `open`, or the end of its line.
+/// Returns the index of the quote that ends the literal opened at `open`, or the end of its line.
 std::size_t end_of_literal(std::string_view text, std::size_t open) {
   for (std::size_t i = open + 1; i < text.size(); ++i) {
     if (text[i] == '\\') {
@@ -42,7 +42,7 @@ std::size_t end_of_literal(std::string_view text, std::size_t open) {
   return text.size();
 }
 
-/// The quote at `quote` opens a raw string: R", uR", LR", u8R".
+/// Returns whether the quote at `quote` opens a raw string: R", uR", LR", u8R".
 bool opens_raw_string(std::string_view text, std::size_t quote) {
   if (quote == 0 || text[quote - 1] != 'R') return false;
   std::size_t first = quote - 1;

@@ -1,5 +1,6 @@
-// The client as users run it, in contact, ended in every way there is; what counts is what the device was ordered after that.
-// Runs in the virtual machine: libusb, hidapi, usbfs, hidraw, fork and signals are the real ones, time is the machine's.
+// Ends or stalls a client in contact by every kind of signal, and checks the commands that its device receives after
+// that. Runs in the virtual machine: libusb, hidapi, usbfs, hidraw, fork and signals are the real ones, time is the
+// machine's.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -21,24 +22,28 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// From death or the last exchange to the first zeros: the deadman's patience, twice its look, and a dying process's tidying.
+/// Maximum time from the end of the client, or from its last exchange, to the first zeros: the watchdog's time-out, two
+/// of its poll intervals, and the time that the kernel needs to end a process.
 constexpr Duration kPromised = 40ms;
-constexpr Duration kLetGo = 1s;           // asked to: the program looks every 100 ms, ramps for 100, damps for 500
+/// Maximum time from a request to end to the last force: the client polls every 100 ms, ramps for 100 ms and damps for
+/// 500 ms.
+constexpr Duration kLetGo = 1s;
 constexpr Duration kStale = 100ms;
-constexpr double kRampIn = 10;        // [N/s]
-constexpr Duration kSeatIsFree = 2500ms;  // after its owner fell silent
-constexpr double kContact = 1;  // [N]
+constexpr double kRampIn = 10;            // [N/s]
+constexpr Duration kSeatIsFree = 2500ms;  // after the last datagram of its owner
+constexpr double kContact = 1;            // [N]
 
 double ms(Duration d) { return 1e3 * seconds(d); }
 
-/// The process that speaks when its client cannot; 0: there is none (any more).
+/// Returns the id of the watchdog process, which sends zeros when its client cannot; 0: none runs.
 pid_t deadman() {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const std::string pid = entry.path().filename();
     if (pid.find_first_not_of("0123456789") != std::string::npos) continue;
     std::ifstream file(entry.path() / "stat");
     const std::string stat((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    if (stat.find("(tandem-deadman)") != std::string::npos && stat.find(") Z") == std::string::npos) return std::stoi(pid);
+    if (stat.find("(tandem-watchdog)") != std::string::npos && stat.find(") Z") == std::string::npos)
+      return std::stoi(pid);
   }
   return 0;
 }
@@ -52,15 +57,16 @@ bool within(Duration limit, Condition condition) {
   return condition();
 }
 
-/// A device in its socket with its orders written down.
+/// An attached device with a log of the commands that it received.
 struct Desk {
   explicit Desk(Kind kind, Found found = Found::kReady) : plug(plug_in(kind, folder, found)) {
     EXPECT_TRUE(plug->attached());
-    auto watch = hal::PlugWatch::open();
-    EXPECT_TRUE(watch && within(20s, [&] {
-                  (void)(*watch)->wait(100ms);
-                  return !(*watch)->present().empty();
-                }))
+    auto watch = hal::HotplugMonitor::open();
+    EXPECT_TRUE(watch && within(20s,
+                                [&] {
+                                  (void)(*watch)->wait(100ms);
+                                  return !(*watch)->present().empty();
+                                }))
         << "the kernel or udev did not show the device";
     log = std::jthread([this](std::stop_token stop) {
       for (; !stop.stop_requested(); std::this_thread::sleep_for(20ms)) note_orders();
@@ -75,7 +81,7 @@ struct Desk {
     const std::lock_guard hold(mutex);
     return orders;
   }
-  /// Forgets all that was ordered so far. @return now
+  /// Clears the log of commands. @return now, in the device's time
   Time begin_anew() {
     note_orders();
     const std::lock_guard hold(mutex);
@@ -83,7 +89,7 @@ struct Desk {
     return plug->now();
   }
 
-  /// Words for `join` that name the state folder of this device's confirmed motors.
+  /// Returns the arguments of `join` that name the state directory with this device's confirmed motors.
   [[nodiscard]] Words confirmed() const {
     const std::string state = plug->state();
     return state.empty() ? Words{} : Words{"--state", state};
@@ -96,7 +102,7 @@ struct Desk {
   std::jthread log;
 };
 
-/// The desk's person sits in the trainer's seat of `devices`, a simulated one in the other.
+/// A session of scene `devices`: the device of `desk` in seat trainer, a simulated device in seat trainee.
 struct Contact : testing::TestWithParam<Kind> {
   void SetUp() override {
     server = hosting("devices", {"--listen", "127.0.0.1:0"});
@@ -107,14 +113,15 @@ struct Contact : testing::TestWithParam<Kind> {
     press();
   }
   void TearDown() override {
-    if (HasFailure()) std::printf("client: %s\nserver: %s%s\n", trainer.err().c_str(), server.out().c_str(), server.err().c_str());
+    if (HasFailure())
+      std::printf("client: %s\nserver: %s%s\n", trainer.err().c_str(), server.out().c_str(), server.err().c_str());
   }
   [[nodiscard]] Process join() const {
     desk.plug->rest();
     return client(address, "trainer", desk.confirmed(), desk.plug->words());
   }
 
-  /// Into the block until the motors push back.
+  /// Moves the hand into the block until the motors push back.
   void press() {
     ASSERT_TRUE(trainer.wait_for("the session runs"));
     desk.plug->carry();
@@ -126,7 +133,7 @@ struct Contact : testing::TestWithParam<Kind> {
     std::this_thread::sleep_for(50ms);
     ASSERT_GT(desk.plug->force(), kContact / 2) << "no contact";
   }
-  /// Of all orders after `at`: the first without force came in time, and none with force after it.
+  /// Checks the commands after `at`: the first without force arrived within `limit`, and none with force followed.
   void expect_zeros_after(Time at, Duration limit, const char* what) {
     std::size_t forces = 0, zeros = 0;
     std::optional<Time> silent;
@@ -145,11 +152,12 @@ struct Contact : testing::TestWithParam<Kind> {
     EXPECT_GE(zeros, 3U);
     ASSERT_TRUE(silent);
     EXPECT_LE(ms(*silent - at), ms(limit));
-    std::printf("[  guest   ] %s: %zu more orders with force, zeros from %.2f ms on, %zu of them until %.0f ms\n", what, forces,
-                ms(*silent - at), zeros, ms(last - at));
+    std::printf("[  guest   ] %s: %zu more orders with force, zeros from %.2f ms on, %zu of them until %.0f ms\n", what,
+                forces, ms(*silent - at), zeros, ms(last - at));
     EXPECT_EQ(desk.plug->force(), 0);
   }
-  /// A force that was asked to go went, by a ramp, and zeros followed.
+  /// Checks the commands after `at`: the last with force, at the end of the ramp, arrived within `limit`; zeros
+  /// followed.
   void expect_end_in_zeros_after(Time at, Duration limit, const char* what) {
     std::size_t forces = 0, zeros = 0;
     Time last = at;
@@ -162,9 +170,10 @@ struct Contact : testing::TestWithParam<Kind> {
     EXPECT_GE(zeros, 3U);
     EXPECT_LE(ms(last - at), ms(limit));
     EXPECT_EQ(desk.plug->force(), 0);
-    std::printf("[  guest   ] %s: %zu orders with force until %.1f ms, then %zu without\n", what, forces, ms(last - at), zeros);
+    std::printf("[  guest   ] %s: %zu orders with force until %.1f ms, then %zu without\n", what, forces, ms(last - at),
+                zeros);
   }
-  /// Forces begin at zero and grow no faster than a gate ramps in, from now on.
+  /// Checks for `time` from now on that the force begins at zero and grows no faster than a force gate ramps it in.
   void expect_gentle_force(Duration time, const char* what) {
     std::optional<Time> first;
     double most = 0, steepest = 0;
@@ -187,7 +196,7 @@ struct Contact : testing::TestWithParam<Kind> {
   std::string address;
 };
 
-TEST_P(Contact, KilledItsDeadmanSendsZerosAndEndsAndTheNextClientBeginsGently) {
+TEST_P(Contact, GetsZerosFromTheWatchdogAfterAKillAndRampsUpForTheNextClient) {
   ASSERT_NE(deadman(), 0);
   const Time at = desk.begin_anew();
   trainer.signal(SIGKILL);
@@ -198,7 +207,7 @@ TEST_P(Contact, KilledItsDeadmanSendsZerosAndEndsAndTheNextClientBeginsGently) {
 
   std::this_thread::sleep_for(kSeatIsFree);
   desk.begin_anew();
-  trainer = join();  // the file is nobody's: it opens; a Falcon's grip is still in the block
+  trainer = join();  // no process has the device open; a Falcon's grip is still in the block
   expect_gentle_force(2s, "the next client");
   EXPECT_TRUE(trainer.wait_for("the session runs")) << trainer.err();
   std::size_t zeros = 0;
@@ -209,7 +218,7 @@ TEST_P(Contact, KilledItsDeadmanSendsZerosAndEndsAndTheNextClientBeginsGently) {
   EXPECT_GE(zeros, 3U) << "a host that connects again begins with zeros";
 }
 
-TEST_P(Contact, KilledWithItsDeadmanOnlyTheDevicesOwnWatchdogIsLeft) {
+TEST_P(Contact, LeavesTheDevicesOwnWatchdogWhenClientAndWatchdogAreKilled) {
   const pid_t speaker = deadman();
   ASSERT_NE(speaker, 0);
   ::kill(speaker, SIGKILL);
@@ -222,20 +231,22 @@ TEST_P(Contact, KilledWithItsDeadmanOnlyTheDevicesOwnWatchdogIsLeft) {
   const Duration watchdog = desk.plug->watchdog();
   if (watchdog > Duration::zero()) {
     EXPECT_TRUE(within(watchdog, [&] { return desk.plug->force() == 0; }));
-    std::printf("[  guest   ] kill -9 of both: the board's own watchdog let go after %.0f ms\n", ms(desk.plug->now() - at));
+    std::printf("[  guest   ] kill -9 of both: the board's own watchdog let go after %.0f ms\n",
+                ms(desk.plug->now() - at));
     EXPECT_LE(ms(desk.plug->now() - at), ms(watchdog) + 20);
     return;
   }
   std::this_thread::sleep_for(1s);
   EXPECT_GT(desk.plug->force(), kContact / 2);
-  std::printf("[  guest   ] kill -9 of both: the device still pushes with %.2f N after %.0f ms\n", desk.plug->force(), ms(desk.plug->now() - at));
+  std::printf("[  guest   ] kill -9 of both: the device still pushes with %.2f N after %.0f ms\n", desk.plug->force(),
+              ms(desk.plug->now() - at));
   trainer = join();
   EXPECT_TRUE(within(5s, [&] { return desk.plug->force() == 0; })) << "whoever opens it next takes the force away";
 }
 
 struct ContactOfTwo : Contact {};
 
-TEST_P(ContactOfTwo, StoppedForHalfASecondGetsZerosAndNoStaleForceWhenItGoesOn) {
+TEST_P(ContactOfTwo, GetsZerosInAHalfSecondPauseAndNoStaleForceAfterIt) {
   const Time at = desk.begin_anew();
   trainer.signal(SIGSTOP);
   std::this_thread::sleep_for(500ms);
@@ -254,7 +265,7 @@ TEST_P(ContactOfTwo, StoppedForHalfASecondGetsZerosAndNoStaleForceWhenItGoesOn) 
   EXPECT_FALSE(desk.seen().empty()) << "it goes on";
 }
 
-/// Whether a crash of any other program leaves the file "core" here.
+/// Returns whether the crash of another program writes the file "core" in this folder.
 bool crash_of_another_leaves_a_core() {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -269,10 +280,10 @@ bool crash_of_another_leaves_a_core() {
   return std::filesystem::remove("core") && WIFSIGNALED(status) && WCOREDUMP(status);
 }
 
-// The client forbids core dumps at its start, because its memory holds keys: a crash ends it at once, and the deadman sees its line closed.
-// That the limit is raised afterwards, as root can, changes nothing: the process stays undumpable. A crash that takes longer to end the
-// process is the standstill of the test above.
-TEST_P(ContactOfTwo, CrashedZerosComeWithinTheBoundAndNoCoreIsWritten) {
+// The client forbids core dumps at its start, because its memory holds keys. A crash therefore ends it at once, and the
+// watchdog finds its socket closed. A limit that root raises afterwards has no effect: the process stays undumpable. A
+// crash that takes longer to end the process is a stall, as in the test above.
+TEST_P(ContactOfTwo, GetsZerosWithinTheLimitAfterACrashAndWritesNoCoreFile) {
   std::ofstream("/proc/sys/kernel/core_pattern") << "core";
   ASSERT_TRUE(crash_of_another_leaves_a_core());
   const rlimit cores{RLIM_INFINITY, RLIM_INFINITY};
@@ -282,7 +293,7 @@ TEST_P(ContactOfTwo, CrashedZerosComeWithinTheBoundAndNoCoreIsWritten) {
     trainer.signal(signal);
     EXPECT_EQ(trainer.wait(), -signal);
     const Time ended = desk.plug->now();
-    std::this_thread::sleep_for(250ms);  // the deadman's hundred rounds, a millisecond apart
+    std::this_thread::sleep_for(250ms);  // the watchdog sends its zeros 100 times, 1 ms apart
     expect_zeros_after(at, kPromised, signal == SIGSEGV ? "SIGSEGV" : "SIGABRT");
     EXPECT_EQ(deadman(), 0) << "its process ends";
     EXPECT_FALSE(std::filesystem::exists("core")) << "the client's memory holds keys";
@@ -294,7 +305,7 @@ TEST_P(ContactOfTwo, CrashedZerosComeWithinTheBoundAndNoCoreIsWritten) {
   }
 }
 
-TEST_P(ContactOfTwo, AskedToEndLetsGoAndEndsWithZeros) {
+TEST_P(ContactOfTwo, ReleasesAndEndsWithZerosOnRequest) {
   for (const int signal : {SIGTERM, SIGINT}) {
     const Time at = desk.begin_anew();
     trainer.signal(signal);
@@ -302,32 +313,34 @@ TEST_P(ContactOfTwo, AskedToEndLetsGoAndEndsWithZeros) {
     expect_end_in_zeros_after(at, kLetGo, signal == SIGTERM ? "SIGTERM" : "Ctrl-C");
     EXPECT_EQ(deadman(), 0);
     if (signal == SIGINT) return;
-    trainer = join();  // it said goodbye: the seat is free
+    trainer = join();  // after a clean end the seat is free
     ASSERT_NO_FATAL_FAILURE(press());
   }
 }
 
-TEST_P(ContactOfTwo, WithoutItsDeadmanTheClientLetsGo) {
+TEST_P(ContactOfTwo, ReleasesWhenTheWatchdogProcessEnds) {
   const Time at = desk.begin_anew();
   ::kill(deadman(), SIGKILL);
   EXPECT_EQ(trainer.wait(), 0);
-  expect_end_in_zeros_after(at, kLetGo, "kill -9 of the deadman");
-  EXPECT_NE(trainer.err().find("somebody ended the process that would send zeros"), std::string::npos);
+  expect_end_in_zeros_after(at, kLetGo, "kill -9 of the watchdog process");
+  EXPECT_NE(trainer.err().find("the process tandem-watchdog ended, which sends zero forces"), std::string::npos);
 }
 
 struct Phases : testing::TestWithParam<Kind> {
-  /// Ends the client in every way once it has come as far as `far_enough` says. Never a force, zeros at the end.
+  /// Ends clients by each signal, after `far_enough` has returned true. Expects no command with force, and zeros at the
+  /// end.
   void end_in_every_way(Found found, const char* phase, const std::function<bool(Desk&, Process&)>& far_enough) {
     Desk desk{GetParam(), found};
     for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGKILL}) {
       SCOPED_TRACE(signal);
       Words more = desk.confirmed();
-      more.insert(more.end(), {"--patience", "30"});
+      more.insert(more.end(), {"--timeout", "30"});
       Process person = client("127.0.0.1:9", "trainer", more, desk.plug->words());
       ASSERT_TRUE(far_enough(desk, person)) << person.err();
       const Time at = desk.begin_anew();
       person.signal(signal);
-      EXPECT_EQ(person.wait(), signal == SIGINT || signal == SIGTERM ? 1 : -signal) << person.err();  // 1: there never was a session
+      EXPECT_EQ(person.wait(), signal == SIGINT || signal == SIGTERM ? 1 : -signal)
+          << person.err();  // 1: the client joined no session
       EXPECT_TRUE(within(300ms, [] { return deadman() == 0; }));
       std::size_t zeros = 0;
       for (const Order& order : desk.seen()) {
@@ -341,11 +354,11 @@ struct Phases : testing::TestWithParam<Kind> {
   }
 };
 
-TEST_P(Phases, EndedBeforeThereIsAnyForceLeavesZeros) {
-  end_in_every_way(Found::kUnhomed, "being homed", [](Desk&, Process& person) { return person.wait_for("home the device"); });
-  end_in_every_way(Found::kReady, "waiting for a seat", [](Desk& desk, Process&) {
-    return within(20s, [&] { return desk.seen().size() > 100; });
-  });
+TEST_P(Phases, LeaveZerosWhenEndedBeforeTheFirstForce) {
+  end_in_every_way(Found::kUnhomed, "being homed",
+                   [](Desk&, Process& person) { return person.wait_for("home the device"); });
+  end_in_every_way(Found::kReady, "waiting for a seat",
+                   [](Desk& desk, Process&) { return within(20s, [&] { return desk.seen().size() > 100; }); });
   if (GetParam() != Kind::kFalcon) return;
   end_in_every_way(Found::kNoFirmware, "loading firmware", [](Desk&, Process& person) {
     const bool begun = person.wait_for("%") && person.wait_for("firmware");
@@ -354,7 +367,9 @@ TEST_P(Phases, EndedBeforeThereIsAnyForceLeavesZeros) {
   });
 }
 
-std::string name_of(Kind kind) { return kind == Kind::kFalcon ? "Falcon" : kind == Kind::kBoardV1 ? "BoardV1" : "BoardV2"; }
+std::string name_of(Kind kind) {
+  return kind == Kind::kFalcon ? "Falcon" : kind == Kind::kBoardV1 ? "BoardV1" : "BoardV2";
+}
 constexpr auto kName = [](const auto& kind) { return name_of(kind.param); };
 
 INSTANTIATE_TEST_SUITE_P(Devices, Contact, testing::Values(Kind::kFalcon, Kind::kBoardV1, Kind::kBoardV2), kName);

@@ -1,6 +1,6 @@
-// Runs as the only program of a virtual machine with Debian's kernel: drivers, libusb, hidapi, usbfs, hidraw and udev
-// are all what users have; only the devices are models. Time is the machine's, which counts instructions, so it may be
-// asserted.
+// Runs as the only program of a virtual machine with Debian's kernel. Drivers, libusb, hidapi, usbfs, hidraw and udev
+// are those of users; only the devices are emulated. The machine's time follows its instruction count, so that tests
+// can assert times.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -9,14 +9,14 @@
 #include <thread>
 
 #include "common/base/histogram.h"
-#include "hal/falcon/falcon_line.h"
+#include "hal/drivers/falcon/falcon_ftdi.h"
 #include "hal/io/hid_pipe.h"
 #include "hal/io/hotplug.h"
-#include "hal/io/servo_pace.h"
+#include "hal/io/periodic_timer.h"
 #include "hal/io/udev_rule.h"
 #include "hal/io/usb_pipe.h"
-#include "tests/hal/falcon/bench.h"
-#include "tests/hal/woodenhaptics/bench.h"
+#include "tests/hal/drivers/falcon/falcon_fixture.h"
+#include "tests/hal/drivers/woodenhaptics/woodenhaptics_fixture.h"
 #include "tests/vm/uhid_device.h"
 #include "tests/vm/usbip_server.h"
 
@@ -30,10 +30,11 @@ using hal::Exchange;
 constexpr hal::UsbIds kFalcon{hal::kFalconVendor, hal::kFalconProduct};
 constexpr unsigned kTicks = 2000;
 
-/// Until a device with these ids is there with its final rights, or gone.
-std::optional<hal::Attached> settle(hal::PlugWatch& watch, hal::Bus bus, hal::UsbIds ids, bool there) {
+/// Waits until a device with these ids is present with its final permissions, or (`there` false) absent. @return the
+/// device, if present
+std::optional<hal::AttachedDevice> settle(hal::HotplugMonitor& watch, hal::Bus bus, hal::UsbIds ids, bool there) {
   for (int tries = 0; tries < 50; ++tries) {
-    for (const hal::Attached& a : watch.present()) {
+    for (const hal::AttachedDevice& a : watch.present()) {
       if (a.bus == bus && a.ids == ids) {
         if (there) return a;
         goto again;
@@ -53,14 +54,14 @@ struct Course {
   Histogram round_trip;
 };
 
-/// A servo as a device's thread runs it, for kTicks periods of 1 ms.
+/// Runs a servo as a device's thread does, for kTicks periods of 1 ms.
 template <class Driver>
 Course serve(Driver& driver, hal::State& state) {
   Course course;
   std::jthread([&] {
-    hal::ask_for_realtime();
+    hal::request_realtime();
     hal::MonotonicClock clock;
-    hal::ServoPace pace(1ms);
+    hal::PeriodicTimer pace(1ms);
     pace.begin();
     for (unsigned i = 0; i < kTicks; ++i) {
       course.missed += pace.next().missed;
@@ -87,21 +88,21 @@ void print(const char* what, const Course& c) {
 }
 
 unsigned rights(const std::string& node) {
-  struct stat status {};
+  struct stat status{};
   return stat(node.c_str(), &status) == 0 ? status.st_mode & 0777 : 0;
 }
 
 struct Guest : testing::Test {
   Guest() {
-    auto opened = hal::PlugWatch::open();
+    auto opened = hal::HotplugMonitor::open();
     EXPECT_TRUE(opened);
     watch = std::move(*opened);
   }
-  std::unique_ptr<hal::PlugWatch> watch;
+  std::unique_ptr<hal::HotplugMonitor> watch;
 };
 
 TEST_F(Guest, FalconBootsThroughUsbfsServesAtOneKilohertzAndIsUnplugged) {
-  hal::wire::FalconModel model;
+  hal::emulation::FalconModel model;
   UsbipServer server(model, 0);
   ASSERT_TRUE(server.attached());
   const auto device = settle(*watch, hal::Bus::kUsb, kFalcon, true);
@@ -128,22 +129,23 @@ TEST_F(Guest, FalconBootsThroughUsbfsServesAtOneKilohertzAndIsUnplugged) {
   print("Falcon, vhci_hcd and usbfs, libusb", course);
   EXPECT_EQ(course.missed, 0u);
   EXPECT_EQ(course.errors, 0u);
-  // Where the bridge's flushing falls into an answer (a tenth of the millisecond), its rest comes with the next exchange.
+  // If the bridge flushes during an answer (a tenth of the millisecond), the rest of the answer arrives with the next
+  // exchange.
   EXPECT_GT(course.fresh, kTicks * 3 / 4);
 
   server.unplug();
   std::optional<Errc> error;
   for (int i = 0; i < 100 && !error; ++i) {
     if (const auto result = driver->exchange({}, state); !result) error = result.error();
-    if (error == Errc::kProtocol) error.reset();  // transfers that broke before the kernel knew why
+    if (error == Errc::kProtocol) error.reset();  // transfers that failed before the kernel reported the unplugging
   }
   EXPECT_EQ(error, Errc::kUnplugged);
   (void)settle(*watch, hal::Bus::kUsb, kFalcon, false);
 }
 
-TEST_F(Guest, AFalconPluggedInAgainIsAnotherOneInTheSameSocket) {
-  hal::wire::FalconModel model(hal::falcon::ready_model());
-  std::optional<hal::Attached> first;
+TEST_F(Guest, ReportsAFalconPluggedInAgainAsANewInstanceOnTheSamePort) {
+  hal::emulation::FalconModel model(hal::falcon::ready_model());
+  std::optional<hal::AttachedDevice> first;
   {
     UsbipServer server(model, 1);
     first = settle(*watch, hal::Bus::kUsb, kFalcon, true);
@@ -160,7 +162,7 @@ TEST_F(Guest, AFalconPluggedInAgainIsAnotherOneInTheSameSocket) {
 }
 
 TEST_F(Guest, BoardOverHidrawServesAtOneKilohertzAndIsUnplugged) {
-  hal::wire::WoodenHapticsModel model(WoodenBench::at_calibration(wooden_2015(), {}));
+  hal::emulation::WoodenHapticsModel model(WoodenHapticsFixture::at_calibration(wooden_2015(), {}));
   model.place(model.tip());
   UhidDevice plug(model);
   ASSERT_TRUE(plug.attached());
@@ -174,7 +176,7 @@ TEST_F(Guest, BoardOverHidrawServesAtOneKilohertzAndIsUnplugged) {
 
   hal::MonotonicClock clock;
   hal::woodenhaptics::WoodenHapticsDriver driver({"woodenhaptics", device->serial}, **pipe, clock,
-                                                 {.spec = wooden_2015(), .energise = true});
+                                                 {.spec = wooden_2015(), .enable_motors = true});
   QuietBringUp watcher;
   const auto up = driver.bring_up(watcher);
   ASSERT_TRUE(up) << up.error().message;
@@ -197,7 +199,7 @@ TEST_F(Guest, BoardOverHidrawServesAtOneKilohertzAndIsUnplugged) {
 }  // namespace
 }  // namespace tandem::test
 
-/// `--rules`: prints the udev rules of the devices above, for the guest's init to install before udevd starts.
+/// `--rules`: prints the udev rules of the devices above. The guest's init installs them before udevd starts.
 int main(int argc, char** argv) {
   if (argc == 2 && std::string_view(argv[1]) == "--rules") {
     constexpr tandem::hal::UsbIds kBoard{0x1234, 0x0006};

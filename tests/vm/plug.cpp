@@ -7,18 +7,18 @@
 #include <cstdlib>
 #include <thread>
 
-#include "hal/app/device_files.h"
-#include "proto/presets_embedded.h"
-#include "tests/hal/falcon/bench.h"
-#include "tests/hal/woodenhaptics/bench.h"
-#include "tests/hal/woodenhaptics/confirmed.h"
+#include "hal/backends/device_files.h"
+#include "proto/text/presets_embedded.h"
+#include "tests/hal/drivers/falcon/falcon_fixture.h"
+#include "tests/hal/drivers/woodenhaptics/confirmed.h"
+#include "tests/hal/drivers/woodenhaptics/woodenhaptics_fixture.h"
 
 namespace tandem::test {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kRaster = 250us;  // leaves the processor to the programs
+constexpr Duration kRaster = 250us;  // coarse, so that the programs get enough processor time
 
 constexpr const char* kFalconFile =
     "falcon {\n  force { motor_1_counts_per_nm: 10000 motor_2_counts_per_nm: 10000 motor_3_counts_per_nm: 10000 }\n"
@@ -32,10 +32,13 @@ Order order_of(Time at, const std::array<std::int16_t, 3>& motors) {
 class FalconPlug final : public Plug {
  public:
   FalconPlug(const Folder& folder, Found found)
-      : words_("falcon:calibration=" + folder.write("falcon.textproto", kFalconFile)), model_(described(found)), server_(model_, next_port(), kRaster) {
+      : words_("falcon:calibration=" + folder.write("falcon.textproto", kFalconFile)),
+        model_(described(found)),
+        server_(model_, next_port(), kRaster) {
     if (found == Found::kNoFirmware) {
       const auto image = hal::falcon::some_firmware().image;
-      words_ += ",firmware=" + folder.write("firmware.bin", {reinterpret_cast<const char*>(image.data()), image.size()});
+      words_ +=
+          ",firmware=" + folder.write("firmware.bin", {reinterpret_cast<const char*>(image.data()), image.size()});
     }
     hold(0);
   }
@@ -55,13 +58,13 @@ class FalconPlug final : public Plug {
   [[nodiscard]] Duration watchdog() const override { return {}; }
 
  private:
-  /// A port is busy for a moment after somebody left it.
+  /// Returns the ports in turn, because a port stays busy for a moment after its device was detached.
   static unsigned next_port() {
     static unsigned used = 0;
     constexpr unsigned kPorts = 8;
     return used++ % kPorts;
   }
-  static hal::wire::FalconModelSpec described(Found found) {
+  static hal::emulation::FalconModelSpec described(Found found) {
     auto spec = hal::falcon::ready_model();
     spec.running = found != Found::kNoFirmware;
     spec.homed = found == Found::kReady;
@@ -78,11 +81,11 @@ class FalconPlug final : public Plug {
   }
 
   std::string words_;
-  hal::wire::FalconModel model_;
+  hal::emulation::FalconModel model_;
   UsbipServer server_;
 };
 
-/// The shipped preset, as somebody would keep it who checked its force scale.
+/// Returns the shipped preset as a user saves it after a check of its force scale.
 std::string checked(const char* name) {
   std::string text{find_shipped_preset(name)->text};
   text.insert(text.rfind('}'), "  measured: \"the model's own\"\n");
@@ -95,7 +98,7 @@ class BoardPlug final : public Plug {
       : file_(folder.write("arm.textproto", checked(preset))),
         state_(confirmed_motors(folder.file("state"), "serial:0001", file_)),
         found_(found),
-        model_(WoodenBench::at_calibration(*hal::load_device_file(file_)->woodenhaptics, {})),
+        model_(WoodenHapticsFixture::at_calibration(*hal::load_device_file(file_)->woodenhaptics, {})),
         from_(model_.tip()) {
     model_.place(from_);
     plug_ = std::make_unique<UhidDevice>(model_, kRaster);
@@ -103,7 +106,7 @@ class BoardPlug final : public Plug {
   ~BoardPlug() override { plug_.reset(); }
   [[nodiscard]] bool attached() const override { return plug_->attached(); }
   [[nodiscard]] std::string words() const override {
-    return "woodenhaptics:preset=" + file_ + ",energise=yes" + (found_ == Found::kReady ? ",home=here" : "");
+    return "woodenhaptics:preset=" + file_ + ",enable_motors=yes" + (found_ == Found::kReady ? ",home=here" : "");
   }
   [[nodiscard]] std::string state() const override { return state_; }
   void rest() override {
@@ -126,7 +129,7 @@ class BoardPlug final : public Plug {
   [[nodiscard]] Time now() override {
     return plug_->with_model([&] { return model_.now(); });
   }
-  [[nodiscard]] Duration watchdog() const override { return hal::wire::WoodenHapticsModel::kWatchdog; }
+  [[nodiscard]] Duration watchdog() const override { return hal::emulation::WoodenHapticsModel::kWatchdog; }
 
  private:
   std::uint64_t remembered(std::vector<Order>& newest) override {
@@ -141,7 +144,7 @@ class BoardPlug final : public Plug {
 
   std::string file_, state_;
   Found found_;
-  hal::wire::WoodenHapticsModel model_;
+  hal::emulation::WoodenHapticsModel model_;
   hal::Vec3 from_;
   std::unique_ptr<UhidDevice> plug_;
 };
@@ -159,7 +162,8 @@ std::vector<Order> Plug::take() {
 
 std::unique_ptr<Plug> plug_in(Kind kind, const Folder& folder, Found found) {
   if (kind == Kind::kFalcon) return std::make_unique<FalconPlug>(folder, found);
-  return std::make_unique<BoardPlug>(folder, kind == Kind::kBoardV1 ? "woodenhaptics-2015" : "woodenhaptics-2019", found);
+  return std::make_unique<BoardPlug>(folder, kind == Kind::kBoardV1 ? "woodenhaptics-2015" : "woodenhaptics-2019",
+                                     found);
 }
 
 }  // namespace tandem::test

@@ -4,48 +4,50 @@
 #include <string>
 #include <vector>
 
-#include "hal/wire/falcon_model.h"
-#include "hal/wire/woodenhaptics_model.h"
+#include "tests/hal/emulation/devices/falcon_model.h"
+#include "tests/hal/emulation/devices/woodenhaptics_model.h"
 #include "tests/io/programs.h"
 #include "tests/vm/uhid_device.h"
 #include "tests/vm/usbip_server.h"
 
 namespace tandem::test {
 
-/// An order of the host as the device took it; time is the device's own.
+/// A command of the host as the device received it; `at` is in the device's time.
 struct Order {
   Time at{};
   bool force = false;
-  int strength = 0;  ///< of the motor that is told most, as it was told [counts or mA]
+  int strength = 0;  ///< largest absolute value of the motor commands [counts or mA]
 };
 
-/// A device in a socket of this machine, and the hand that holds it: what was ordered at the wire, what its motors give.
+/// An emulated device attached to this machine, and the hand that holds it. It reports the commands received on the bus
+/// and the force of the motors.
 class Plug {
  public:
   virtual ~Plug() = default;
   [[nodiscard]] virtual bool attached() const = 0;
-  /// What a person writes after --device.
+  /// Returns the device specification for --device.
   [[nodiscard]] virtual std::string words() const = 0;
-  /// A state folder in which its motors are confirmed; empty: it needs none.
+  /// Returns a state directory in which its motors are confirmed; empty: it needs none.
   [[nodiscard]] virtual std::string state() const { return {}; }
-  /// Puts the tip where a start expects it, nobody listening.
+  /// Places the tip where a starting client expects it. No client is connected.
   virtual void rest() = 0;
-  /// Carries the tip to where sessions are, the host listening.
+  /// Moves the tip to the workspace of the session while a client is connected.
   virtual void carry() = 0;
-  /// The hand's place on the axis to the right [m].
+  /// Sets the position of the hand on the axis to the right [m].
   virtual void hold(double x) = 0;
-  /// Of the motors at the tip, now [N].
+  /// Returns the current force of the motors at the tip [N].
   [[nodiscard]] virtual double force() = 0;
   [[nodiscard]] virtual Time now() = 0;
-  /// After which the device lets go by itself when nobody orders; zero: it never does, as far as anybody knows.
+  /// Returns the time without commands after which the device itself removes the force; zero: no such watchdog is
+  /// known.
   [[nodiscard]] virtual Duration watchdog() const = 0;
 
-  /// Orders since the last call, oldest first. Call it every 200 ms at least, by one thread.
+  /// Returns the commands since the last call, oldest first. Call it at least every 200 ms, from one thread.
   [[nodiscard]] std::vector<Order> take();
 
  protected:
   static constexpr std::size_t kRemembered = 256;
-  /// How many orders there were in all, and the newest ones of them, oldest first.
+  /// Returns the total number of commands; appends the newest, at most kRemembered, to `newest`, oldest first.
   virtual std::uint64_t remembered(std::vector<Order>& newest) = 0;
 
  private:
@@ -53,11 +55,11 @@ class Plug {
 };
 
 enum class Kind { kFalcon, kBoardV1, kBoardV2 };
-/// How far a device is when its client starts.
+/// State of a device when its client starts.
 enum class Found {
-  kReady,       ///< homed, or resting where the words tell it to be homed
-  kUnhomed,     ///< a person must home it
-  kNoFirmware,  ///< Falcons only: just got its power
+  kReady,       ///< homed, or at rest where the device specification homes it
+  kUnhomed,     ///< the user must home it
+  kNoFirmware,  ///< Falcons only: just powered on
 };
 [[nodiscard]] std::unique_ptr<Plug> plug_in(Kind kind, const Folder& folder, Found found = Found::kReady);
 

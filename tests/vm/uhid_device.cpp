@@ -16,12 +16,12 @@
 
 #include "common/io/clock.h"
 #include "common/io/realtime.h"
-#include "hal/report_descriptor.h"
+#include "hal/core/report_descriptor.h"
 
 namespace tandem::test {
 namespace {
 
-constexpr int kEventsMax = 32;  // the kernel keeps as many
+constexpr int kEventsMax = 32;  // length of the kernel's queue
 
 template <std::size_t N>
 void copy(std::string_view text, __u8 (&into)[N]) {
@@ -34,7 +34,7 @@ bool post(int fd, const uhid_event& event) {
 
 }  // namespace
 
-UhidDevice::UhidDevice(hal::wire::HidWireModel& model, Duration raster)
+UhidDevice::UhidDevice(hal::emulation::EmulatedHidDevice& model, Duration raster)
     : model_(model),
       raster_(raster),
       fd_(open("/dev/uhid", O_RDWR | O_NONBLOCK | O_CLOEXEC)),
@@ -65,11 +65,11 @@ void UhidDevice::unplug() {
   with_model([&] { model_.unplug(); });
   thread_.request_stop();
   if (thread_.joinable()) thread_.join();
-  fd_.reset();  // the kernel destroys the device with its last descriptor
+  fd_.reset();  // the kernel destroys the device when its last file descriptor closes
 }
 
 void UhidDevice::serve(std::stop_token stop) {
-  (void)io::ask_for_realtime(kDevicePriority);  // a device does not wait for its host's processor
+  (void)io::request_realtime(kDevicePriority);  // a real device does not wait for the host's processor
   while (!stop.stop_requested()) {
     pollfd one{fd_.get(), POLLIN, 0};
     const timespec raster = io::to_timespec(raster_);

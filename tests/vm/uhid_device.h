@@ -4,19 +4,19 @@
 #include <thread>
 
 #include "common/io/fd.h"
-#include "hal/wire/wire_model.h"
+#include "tests/hal/emulation/devices/emulated_device.h"
 
 namespace tandem::test {
 
-/// Above every servo.
+/// Real-time priority of emulated devices: above every servo.
 inline constexpr int kDevicePriority = 90;
 
-/// A wire model as a HID device of the real kernel, through /dev/uhid. Needs root and the module. The model's time is
-/// the machine's.
+/// Presents an emulated device as a HID device to the real kernel, through /dev/uhid. Needs root and the kernel module.
+/// The model's time follows the machine's clock.
 class UhidDevice {
  public:
-  /// @param raster  how often the device is looked after
-  explicit UhidDevice(hal::wire::HidWireModel& model, Duration raster = std::chrono::microseconds(50));
+  /// @param raster  period in which the model advances and sends its reports
+  explicit UhidDevice(hal::emulation::EmulatedHidDevice& model, Duration raster = std::chrono::microseconds(50));
   ~UhidDevice();
   UhidDevice(const UhidDevice&) = delete;
 
@@ -34,7 +34,7 @@ class UhidDevice {
   bool take_event();
   void send_reports();
 
-  hal::wire::HidWireModel& model_;
+  hal::emulation::EmulatedHidDevice& model_;
   Duration raster_;
   io::Fd fd_;
   bool numbered_;

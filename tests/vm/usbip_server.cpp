@@ -17,13 +17,13 @@
 
 namespace tandem::test {
 
-using hal::wire::SetupPacket;
-using hal::wire::WireMoved;
-using hal::wire::WireStatus;
+using hal::emulation::SetupPacket;
+using hal::emulation::TransferResult;
+using hal::emulation::TransferStatus;
 
 namespace {
 
-// USB/IP, Documentation/usb/usbip_protocol.rst of the kernel: headers of 48 bytes, big endian.
+// USB/IP header: 48 bytes, big endian (Documentation/usb/usbip_protocol.rst of the kernel).
 constexpr std::size_t kHeaderWords = 12;
 constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
 constexpr std::size_t kSequence = 1, kDirection = 3, kEndpoint = 4, kLength = 6, kVictim = 5, kSetup = 10;
@@ -62,7 +62,7 @@ std::size_t give(std::span<const std::byte> from, std::vector<std::byte>& into, 
 
 }  // namespace
 
-UsbipServer::UsbipServer(hal::wire::UsbWireModel& model, unsigned port, Duration raster)
+UsbipServer::UsbipServer(hal::emulation::EmulatedUsbDevice& model, unsigned port, Duration raster)
     : model_(model), raster_(raster), served_at_(on_raster(io::monotonic_now())) {
   int pair[2] = {-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair) != 0) return;
@@ -84,10 +84,10 @@ void UsbipServer::unplug() {
 }
 
 void UsbipServer::serve(std::stop_token stop) {
-  (void)io::ask_for_realtime(kDevicePriority);  // a device does not wait for its host's processor
+  (void)io::request_realtime(kDevicePriority);  // a real device does not wait for the host's processor
   while (!stop.stop_requested()) {
     pollfd one{ours_.get(), POLLIN, 0};
-    // While somebody waits, the device is looked after at every instant of its raster.
+    // While a transfer is pending, the model advances at every step of its raster.
     const Duration until_next = on_raster(io::monotonic_now()) + raster_ - io::monotonic_now();
     const timespec patience = io::to_timespec(pending_.empty() ? Duration(std::chrono::milliseconds(5)) : until_next);
     const int ready = ppoll(&one, 1, &patience, nullptr);
@@ -101,7 +101,7 @@ bool UsbipServer::take_request() {
   Header h{};
   if (!receive(ours_.get(), h.data(), sizeof h)) return false;
   Transfer transfer;
-  std::memcpy(transfer.setup.data(), &h[kSetup], transfer.setup.size());  // bytes, not a number
+  std::memcpy(transfer.setup.data(), &h[kSetup], transfer.setup.size());  // eight bytes, not numbers: their order stays
   for (auto& word : h) word = ntohl(word);
   transfer.sequence = h[kSequence];
   if (h[0] == kUnlink) {
@@ -134,7 +134,7 @@ void UsbipServer::finish_pending() {
 }
 
 bool UsbipServer::carry_out(Transfer& transfer) {
-  WireMoved moved = 0;
+  TransferResult moved = 0;
   constexpr std::uint8_t kIn = 0x80;
   const auto endpoint = static_cast<std::uint8_t>(transfer.endpoint | (transfer.in ? kIn : 0));
   if (transfer.endpoint == 0) {
@@ -146,8 +146,8 @@ bool UsbipServer::carry_out(Transfer& transfer) {
   } else {
     moved = model_.bulk_out(endpoint, transfer.data);
   }
-  if (!moved && moved.error() == WireStatus::kNak) return false;
-  answer(transfer, moved ? 0 : moved.error() == WireStatus::kStall ? -EPIPE : -ESHUTDOWN, moved.value_or(0));
+  if (!moved && moved.error() == TransferStatus::kNak) return false;
+  answer(transfer, moved ? 0 : moved.error() == TransferStatus::kStall ? -EPIPE : -ESHUTDOWN, moved.value_or(0));
   return true;
 }
 
@@ -159,9 +159,9 @@ void UsbipServer::answer(const Transfer& transfer, int status, std::size_t moved
            transfer.in ? std::span<const std::byte>(transfer.data).first(moved) : std::span<const std::byte>{});
 }
 
-/// Standard requests of an enumeration are answered here, the rest is the model's. (SET_ADDRESS is the controller's.)
-WireMoved UsbipServer::control(Transfer& transfer) {
-  const SetupPacket setup = hal::wire::setup_from(transfer.setup);
+/// Answers the standard requests of an enumeration; the model answers all others. (The controller handles SET_ADDRESS.)
+TransferResult UsbipServer::control(Transfer& transfer) {
+  const SetupPacket setup = hal::emulation::setup_from(transfer.setup);
   constexpr std::uint8_t kGetStatus = 0, kGetDescriptor = 6, kSetConfiguration = 9, kSetInterface = 11;
   constexpr std::uint8_t kOfDevice = 1, kOfConfiguration = 2, kOfString = 3;
   const bool standard = (setup.request_type & 0x60) == 0;
@@ -183,7 +183,7 @@ WireMoved UsbipServer::control(Transfer& transfer) {
         return give(text, transfer.data, transfer.room);
       }
       default:
-        return std::unexpected(WireStatus::kStall);
+        return std::unexpected(TransferStatus::kStall);
     }
   }
   if (standard && setup.request == kGetStatus) {
@@ -193,7 +193,7 @@ WireMoved UsbipServer::control(Transfer& transfer) {
   if (standard && (setup.request == kSetConfiguration || setup.request == kSetInterface)) return 0;
   std::vector<std::byte> room = transfer.data;
   if (transfer.in) room.resize(transfer.room);
-  const WireMoved moved = model_.control(setup, room);
+  const TransferResult moved = model_.control(setup, room);
   if (moved && transfer.in) transfer.data = room;
   return moved;
 }

@@ -20,14 +20,15 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kLook = 20ms;
-/// How long a program may take to obey: a session ramps its hands down and says goodbye first.
+/// Signal and time limit of one step. The limit is long, because a session first ramps its forces to zero and ends its
+/// connections.
 struct Step {
   int signal;
   std::chrono::milliseconds patience;
 };
 constexpr Step kSteps[] = {{SIGINT, 4000ms}, {SIGTERM, 2000ms}, {SIGKILL, 2000ms}};
 
-/// posix_spawn's settings, freed whatever happens.
+/// Settings of posix_spawn, freed by the destructor.
 struct SpawnSettings {
   posix_spawn_file_actions_t files;
   posix_spawnattr_t attributes;
@@ -99,7 +100,7 @@ bool ChildProcess::running() noexcept {
   const pid_t got = waitpid(pid_, &status, WNOHANG);
   if (got == 0) return true;
   exit_code_ = got == pid_ ? (WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status)) : 1;
-  pid_ = -1;  // reaped: the id may belong to somebody else from now on
+  pid_ = -1;  // the process is reaped; its id may belong to another process from now on
   return false;
 }
 
@@ -116,7 +117,7 @@ std::string ChildProcess::output() const {
 
 void end_all(std::span<ChildProcess> children) noexcept {
   const auto any = [&] {
-    // All are asked, so that all are reaped.
+    // Every process is queried, so that every ended one is reaped.
     return std::ranges::count_if(children, [](ChildProcess& c) { return c.running(); }) > 0;
   };
   for (const Step& step : kSteps) {

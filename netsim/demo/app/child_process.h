@@ -10,10 +10,12 @@
 
 namespace tandem::netsim::demo {
 
-/// A program we started: its output goes to a log file, its input is empty, and it has a process group of its own, so
-/// that Ctrl-C in the terminal reaches us alone and we end it, by its own id, in our own order. Ended when destroyed.
+/// A child process. Its output goes to a log file, its input is empty, and it has its own process group. Ctrl-C in the
+/// terminal therefore reaches only the demo, which ends its children in order, by process id. The destructor ends the
+/// process.
 class ChildProcess {
  public:
+  /// Starts a program.
   /// @param arguments  the program's path first
   /// @return the running program, or why it could not be started
   [[nodiscard]] static std::expected<ChildProcess, std::string> start(std::string name,
@@ -28,13 +30,13 @@ class ChildProcess {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] const std::string& log() const noexcept { return log_; }
   [[nodiscard]] pid_t pid() const noexcept { return pid_; }
-  /// Looks whether it still runs.
+  /// Returns whether the process still runs; reaps it if it ended.
   [[nodiscard]] bool running() noexcept;
-  /// Ended by itself with this exit code; 128 + n if by signal n. Nothing while it runs.
+  /// Returns the exit code of a process that ended; 128 + n after signal n. Empty while it runs.
   [[nodiscard]] std::optional<int> exit_code() const noexcept { return exit_code_; }
-  /// To this process only, and only while it is ours.
+  /// Sends a signal to this process only, and only while it runs.
   void signal(int number) noexcept;
-  /// The text it has written so far.
+  /// Returns the text that the process has written so far.
   [[nodiscard]] std::string output() const;
 
  private:
@@ -44,10 +46,10 @@ class ChildProcess {
   std::optional<int> exit_code_;
 };
 
-/// Ends those that still run: SIGINT, then SIGTERM, then SIGKILL, with time to obey before each next step.
+/// Ends the processes that still run: SIGINT, then SIGTERM, then SIGKILL, with a time limit for each step.
 void end_all(std::span<ChildProcess> children) noexcept;
 
-/// The command as a person would type it.
+/// Returns the command as a user would type it.
 [[nodiscard]] std::string command_text(const std::vector<std::string>& arguments);
 
 }  // namespace tandem::netsim::demo

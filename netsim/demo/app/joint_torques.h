@@ -4,7 +4,7 @@
 
 namespace tandem::netsim::demo {
 
-/// Fills the torques that the paper draws (figure 8): T = J(q)^T f_cmd [N m] of both hands and the slave, with the
+/// Fills in the torques of the paper's figure 8: T = J(q)^T f_cmd [N m] of both hands and the slave, with the
 /// kinematics of the simulated Touch. Rows without a finite pose or force become NaN.
 void add_joint_torques(TraceData& trace);
 

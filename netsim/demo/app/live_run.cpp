@@ -7,11 +7,11 @@
 #include <thread>
 #include <utility>
 
-#include "netsim/decision_csv.h"
 #include "netsim/demo/app/child_process.h"
 #include "netsim/demo/app/network_series.h"
 #include "netsim/demo/app/progress.h"
 #include "netsim/demo/app/repeat_commands.h"
+#include "netsim/profiles/decision_csv.h"
 
 namespace tandem::netsim::demo {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kLook = 25ms;
-constexpr double kStartPatience = 10;  // [s] until a program says where it listens
+constexpr double kStartPatience = 10;  // [s] until a program prints its address
 constexpr double kEndPatience = 30;    // [s] beyond the session's length
 constexpr std::size_t kLogLines = 12;
 
@@ -35,10 +35,10 @@ std::string last_lines(const std::string& text, std::size_t count) {
   return out;
 }
 
-/// All that belongs to one run, ended together.
-class Cast {
+/// All processes of one run, which end together.
+class LiveRunProcesses {
  public:
-  Cast(const RunPlan& plan, const LivePlaces& places, const RunWatch& watch)
+  LiveRunProcesses(const RunPlan& plan, const DemoPaths& places, const RunObserver& watch)
       : plan_(plan), places_(places), watch_(watch) {}
 
   std::expected<RawRun, std::string> play();
@@ -51,17 +51,17 @@ class Cast {
   bool start(const std::string& name, const std::vector<std::string>& arguments);
   bool wait_for_address(std::size_t child, std::string& address);
   bool wait_for_end();
-  bool blame(ChildProcess& child, const std::string& what);
+  bool set_error(ChildProcess& child, const std::string& what);
   static std::expected<std::string, std::string> contents(const std::string& path);
 
   const RunPlan& plan_;
-  const LivePlaces& places_;
-  const RunWatch& watch_;
+  const DemoPaths& places_;
+  const RunObserver& watch_;
   std::vector<ChildProcess> children_;  // server, netsim, trainer, trainee
   std::string trouble_;
 };
 
-bool Cast::start(const std::string& name, const std::vector<std::string>& arguments) {
+bool LiveRunProcesses::start(const std::string& name, const std::vector<std::string>& arguments) {
   auto child = ChildProcess::start(name, arguments, file("-" + name + ".log"));
   if (!child) {
     trouble_ = child.error();
@@ -71,13 +71,13 @@ bool Cast::start(const std::string& name, const std::vector<std::string>& argume
   return true;
 }
 
-bool Cast::blame(ChildProcess& child, const std::string& what) {
+bool LiveRunProcesses::set_error(ChildProcess& child, const std::string& what) {
   trouble_ = child.name() + " " + what + ". The end of its log (" + child.log() + "):\n" +
              last_lines(child.output(), kLogLines);
   return false;
 }
 
-bool Cast::wait_for_address(std::size_t index, std::string& address) {
+bool LiveRunProcesses::wait_for_address(std::size_t index, std::string& address) {
   const double begin = monotonic_seconds();
   ChildProcess& child = children_[index];
   while (true) {
@@ -85,15 +85,17 @@ bool Cast::wait_for_address(std::size_t index, std::string& address) {
     if (!address.empty()) return true;
     if (watch_.stop->load()) return trouble_ = kInterrupted, false;
     if (!child.running())
-      return blame(child,
-                   "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " before it listened");
-    if (monotonic_seconds() - begin > kStartPatience) return blame(child, "did not say where it listens within 10 s");
+      return set_error(
+          child, "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " before it listened");
+    if (monotonic_seconds() - begin > kStartPatience)
+      return set_error(child, "did not say where it listens within 10 s");
     std::this_thread::sleep_for(kLook);
   }
 }
 
-/// Until the server has ended the session. A client or the network that goes first is why it failed.
-bool Cast::wait_for_end() {
+/// Waits until the server has ended the session. A client or network simulator that ends earlier is the cause of a
+/// failure.
+bool LiveRunProcesses::wait_for_end() {
   const double begin = monotonic_seconds();
   ChildProcess& server = children_.front();
   while (server.running()) {
@@ -102,20 +104,20 @@ bool Cast::wait_for_end() {
     for (std::size_t k = 1; k < children_.size(); ++k) {
       ChildProcess& child = children_[k];
       if (child.running() || (child.exit_code() == 0 && elapsed > plan_.duration_s)) continue;
-      // The server says goodbye first and ends a moment later: that is no failure.
+      // Clients end a moment before the server does; that is no failure.
       std::this_thread::sleep_for(1s);
       if (!server.running() && child.exit_code() == 0) return true;
-      return blame(child,
-                   "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " while the session ran");
+      return set_error(
+          child, "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " while the session ran");
     }
-    if (elapsed > plan_.duration_s + kEndPatience) return blame(server, "did not end the session in time");
+    if (elapsed > plan_.duration_s + kEndPatience) return set_error(server, "did not end the session in time");
     watch_.progress(elapsed);
     std::this_thread::sleep_for(kLook);
   }
   return true;
 }
 
-std::expected<std::string, std::string> Cast::contents(const std::string& path) {
+std::expected<std::string, std::string> LiveRunProcesses::contents(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
@@ -123,7 +125,7 @@ std::expected<std::string, std::string> Cast::contents(const std::string& path) 
   return text.str();
 }
 
-std::expected<RawRun, std::string> Cast::play() {
+std::expected<RawRun, std::string> LiveRunProcesses::play() {
   const std::string json = file(".json"), trace = file(".csv");
   std::error_code ignored;
   for (const char* ending :
@@ -132,13 +134,13 @@ std::expected<RawRun, std::string> Cast::play() {
 
   std::string server, network;
   bool fine = start("server", {program("tandem-server"), "run", std::string(plan_.scene), "--listen", "127.0.0.1:0",
-                               "--json", json, "--trace", trace, "--wait", "20"}) &&
+                               "--json", json, "--trace", trace, "--start-timeout", "20"}) &&
               wait_for_address(0, server);
   std::vector<std::string> proxy{program("tandem-netsim"), "proxy", "--listen", "127.0.0.1:0", "--to", server};
   const std::vector<std::string> impairment = impairment_options(plan_.setting);
   proxy.insert(proxy.end(), impairment.begin(), impairment.end());
   if (plan_.setting == Setting::kBadNetwork) proxy.insert(proxy.end(), {"--log", file("-network.csv")});
-  // Should we be killed, it ends by itself.
+  // A limit for the proxy, in case the demo itself is killed.
   proxy.insert(proxy.end(), {"--duration", "120"});
   fine = fine && start("netsim", proxy) && wait_for_address(1, network);
   for (const char* seat : {"trainer", "trainee"})
@@ -147,7 +149,7 @@ std::expected<RawRun, std::string> Cast::play() {
                                 file(std::string("-") + seat + ".json")});
   fine = fine && wait_for_end();
   if (fine) {
-    // Clients have been told; they need a moment, and the network until then.
+    // The clients have received the end of the session. They need the network until they exit.
     for (int n = 0; n < 80 && (children_[2].running() || children_[3].running()); ++n)
       std::this_thread::sleep_for(kLook);
   }
@@ -156,8 +158,8 @@ std::expected<RawRun, std::string> Cast::play() {
 
   const auto report = contents(json), rows = contents(trace);
   if (!report || report->empty() || !rows) {
-    blame(children_.front(),
-          "ended with exit code " + std::to_string(children_.front().exit_code().value_or(-1)) + " without a report");
+    set_error(children_.front(), "ended with exit code " + std::to_string(children_.front().exit_code().value_or(-1)) +
+                                     " without a report");
     return std::unexpected(trouble_);
   }
   RawRun run{*report, *rows, {}, {}, {}, {}, {}};
@@ -191,7 +193,7 @@ std::string listening_address(const std::string& output) {
   return rest.substr(0, rest.find_first_of(" ,;\r"));
 }
 
-std::string missing_programs(const LivePlaces& places) {
+std::string missing_programs(const DemoPaths& places) {
   std::string missing;
   for (const char* name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
     std::error_code ignored;
@@ -201,8 +203,8 @@ std::string missing_programs(const LivePlaces& places) {
   return missing;
 }
 
-std::expected<RawRun, std::string> live_run(const RunPlan& plan, const LivePlaces& places, const RunWatch& watch) {
-  return Cast(plan, places, watch).play();
+std::expected<RawRun, std::string> live_run(const RunPlan& plan, const DemoPaths& places, const RunObserver& watch) {
+  return LiveRunProcesses(plan, places, watch).play();
 }
 
 }  // namespace tandem::netsim::demo

@@ -9,7 +9,7 @@
 #include "common/io/print.h"
 #include "common/io/program.h"
 #include "netsim/demo/app/child_process.h"
-#include "netsim/demo/app/show.h"
+#include "netsim/demo/app/run_demo.h"
 
 #ifndef TANDEM_VERSION
 #define TANDEM_VERSION "unknown"
@@ -20,7 +20,7 @@ namespace {
 using tandem::netsim::demo::run_plans;
 using tandem::netsim::demo::RunPlan;
 
-/// The runs named in "a,b,c", in the order in which they run. Empty: all.
+/// Returns the runs named in "a,b,c", in the order in which they run. Empty: all.
 std::vector<const RunPlan*> chosen_runs(const std::string& list, std::string& mistakes) {
   std::vector<std::string> names;
   std::istringstream words(list);
@@ -47,10 +47,11 @@ int main(int argc, char** argv) {
       "beside ours and draws the paper's figures 6 to 12 into report.html.",
       "tandem-demo"};
   app.set_version_flag("--version", "tandem-demo " TANDEM_VERSION);
-  tandem::netsim::demo::ShowPlan plan;
+  tandem::netsim::demo::DemoOptions plan;
   std::string list;
   bool live = false;
-  app.add_flag("--live", live, "all runs in real time, about two minutes: what ./demo does when it is given nothing else");
+  app.add_flag("--live", live,
+               "all runs in real time, about two minutes: what ./demo does when it is given nothing else");
   app.add_flag("--quick", plan.quick, "virtual time: the same runs in one process, in seconds, without sockets");
   app.add_option(
          "--runs", list,
@@ -84,13 +85,14 @@ int main(int argc, char** argv) {
     plan.repeat = tandem::netsim::demo::command_text([&] {
       std::vector<std::string> words{"./demo"};
       for (int i = 1; i < argc; ++i)
-        if (std::string(argv[i]) != "--live") words.emplace_back(argv[i]);  // ./demo does that by itself
+        if (std::string(argv[i]) != "--live") words.emplace_back(argv[i]);  // ./demo adds this option itself
       return words;
     }());
-    return tandem::netsim::demo::show(plan);
+    return tandem::netsim::demo::run_demo(plan);
   };
-  // Two minutes of experiments are not what a first look at a program should begin.
+  // Without arguments the program prints its help, because the experiments take two minutes.
   std::string help = "--help";
   std::array<char*, 3> with_help{argv[0], help.data(), nullptr};
-  return argc > 1 ? tandem::io::run_program(app, action, argc, argv) : tandem::io::run_program(app, action, 2, with_help.data());
+  return argc > 1 ? tandem::io::run_program(app, action, argc, argv)
+                  : tandem::io::run_program(app, action, 2, with_help.data());
 }

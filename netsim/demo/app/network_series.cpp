@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "netsim/verdict.h"
+#include "netsim/engine/verdict.h"
 
 namespace tandem::netsim::demo {
 namespace {

@@ -18,8 +18,8 @@ using namespace plot;
 
 namespace {
 constexpr std::size_t kTitle = 50, kBar = 24;  // columns
-constexpr double kEvery = 0.2;     // [s] between two looks of the line
-constexpr double kOverhead = 2.5;  // [s] of starting and ending a run in real time
+constexpr double kEvery = 0.2;                 // [s] between two updates of the line
+constexpr double kOverhead = 2.5;              // [s] to start and end a run in real time
 }  // namespace
 
 double monotonic_seconds() {
@@ -64,11 +64,12 @@ void Progress::at(double session_s) {
   std::string bar = " ";
   for (std::size_t k = 0; k < kBar; ++k) bar += k < full ? "━" : "╌";
   const std::string title = title_of(plan), number = format("[%zu/%zu] ", run_ + 1, plans_.size());
-  const std::string padding(kTitle - std::min(kTitle, io::columns_of(title)), ' ');
+  const std::string padding(kTitle - std::min(kTitle, io::display_width(title)), ' ');
   const std::string done = format(" %4.1f / %.0f s", session_s_, plan.duration_s), left = ", " + remaining() + " left";
-  // The longest form that fits: a line that meets the margin could not be taken away.
-  for (const std::string& line : {number + title + padding + bar + done + left, number + title + done + left, number + title + done, number + done}) {
-    if (io::columns_of(line) > columns) continue;
+  // The longest form that fits: a line that reaches the margin could not be cleared.
+  for (const std::string& line : {number + title + padding + bar + done + left, number + title + done + left,
+                                  number + title + done, number + done}) {
+    if (io::display_width(line) > columns) continue;
     std::printf("\r\x1b[K%s", line.c_str());
     break;
   }
@@ -78,12 +79,12 @@ void Progress::at(double session_s) {
 void Progress::end() {
   const double now = monotonic_seconds();
   done_s_ += plans_[run_]->duration_s;
-  if (rate_ > 1) rate_ = done_s_ / std::max(1e-3, now - begun_);  // virtual time: as fast as it has been
+  if (rate_ > 1) rate_ = done_s_ / std::max(1e-3, now - begun_);  // in virtual time: the measured rate
   session_s_ = plans_[run_]->duration_s;
   clear();
   const std::string left = run_ + 1 < plans_.size() ? ", " + remaining() + " left" : "";
-  io::printf_for_people(stdout, "[%zu/%zu] %s: done in %s s%s\n", run_ + 1, plans_.size(), title_of(*plans_[run_]).c_str(),
-              number_text(now - run_begun_, 1).c_str(), left.c_str());
+  io::print_formatted(stdout, "[%zu/%zu] %s: done in %s s%s\n", run_ + 1, plans_.size(),
+                      title_of(*plans_[run_]).c_str(), number_text(now - run_begun_, 1).c_str(), left.c_str());
   std::fflush(stdout);
 }
 

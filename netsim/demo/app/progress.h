@@ -8,18 +8,18 @@
 
 namespace tandem::netsim::demo {
 
-/// Seconds on a clock that never jumps.
+/// Returns the seconds of a monotonic clock.
 [[nodiscard]] double monotonic_seconds();
 
-/// One line that stays alive on a terminal; on anything else one line per run.
+/// Shows the progress: one updated line on a terminal; otherwise one line per run.
 class Progress {
  public:
-  /// @param rate  seconds of session time that pass in a second, as far as known before; runs correct it
+  /// @param rate  estimated session time per real time [s/s]; finished runs correct it
   Progress(std::vector<const RunPlan*> plans, double rate);
   void begin(std::size_t run);
   void at(double session_s);
   void end();
-  /// Clears the line, before something else is printed.
+  /// Clears the line, before other output.
   void clear() const;
 
  private:
@@ -29,11 +29,11 @@ class Progress {
   double rate_;
   bool terminal_;
   std::size_t run_ = 0;
-  double session_s_ = 0, done_s_ = 0;              ///< of this run; of those before [s]
-  double begun_ = 0, run_begun_ = 0, shown_ = -1;  ///< own clock [s]
+  double session_s_ = 0, done_s_ = 0;              ///< of this run; of the runs before [s]
+  double begun_ = 0, run_begun_ = 0, shown_ = -1;  ///< on the monotonic clock [s]
 };
 
-/// "45 s", "2 min 05 s".
+/// Returns a duration such as "45 s" or "2 min 05 s".
 [[nodiscard]] std::string duration_text(double seconds);
 
 }  // namespace tandem::netsim::demo

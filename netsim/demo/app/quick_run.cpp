@@ -5,19 +5,20 @@
 #include <limits>
 #include <optional>
 
-#include "common/link/digest.h"
+#include "common/transport/digest.h"
 #include "netsim/demo/app/network_series.h"
-#include "netsim/world_report.h"
-#include "proto/scene_text.h"
-#include "proto/scenes_embedded.h"
-#include "server/trace_csv.h"
+#include "netsim/system/simulation_report.h"
+#include "proto/text/scene_text.h"
+#include "proto/text/scenes_embedded.h"
+#include "server/report/trace_csv.h"
 
 namespace tandem::netsim::demo {
 namespace {
 
 Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
 
-/// Decisions of two seats, both ways, 1000 times a second, and room for the joining.
+/// Capacity of the decision log: two seats, both directions, 1000 decisions per second each, and a reserve for the
+/// joins.
 constexpr double kDecisionsPerSecond = 5000, kJoining = 10;
 
 std::expected<SceneSpec, std::string> scene_of(const RunPlan& plan) {
@@ -34,25 +35,26 @@ std::expected<SceneSpec, std::string> scene_of(const RunPlan& plan) {
 Springs springs_of(const RunPlan& plan) {
   const auto scene = scene_of(plan);
   if (!scene || scene->tools.empty()) return {};
-  constexpr double kNone = std::numeric_limits<double>::infinity();  // nothing that gives way
+  constexpr double kNone = std::numeric_limits<double>::infinity();  // no such spring
   const bool local = scene->channel.law == LawKind::kReplica;
-  return {scene->coupling.k_c, local ? kNone : scene->channel.k, scene->tools.front().is_virtual ? kNone : scene->tools.front().k_s};
+  return {scene->coupling.k_c, local ? kNone : scene->channel.k,
+          scene->tools.front().is_virtual ? kNone : scene->tools.front().k_s};
 }
 
-std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunWatch& watch) {
+std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunObserver& watch) {
   auto scene = scene_of(plan);
   if (!scene) return std::unexpected(scene.error());
 
-  WorldSetup setup;
+  SimulationConfig setup;
   setup.scene = std::move(*scene);
   setup.seed = kSeedNumber;
   if (plan.setting == Setting::kBadNetwork)
     setup.network = link_from(
         {.delay = milliseconds(kBadDelayMs), .jitter = milliseconds(kBadJitterMs), .loss = kBadLossPercent / 100});
   const std::clock_t begin = std::clock();
-  auto made = World::make(setup);
+  auto made = Simulation::make(setup);
   if (!made) return std::unexpected(made.error());
-  World& world = **made;
+  Simulation& world = **made;
   const bool bad = plan.setting == Setting::kBadNetwork;
   DecisionLog decisions{bad ? static_cast<std::size_t>(kDecisionsPerSecond * (plan.duration_s + kJoining)) : 0};
   if (bad) world.network().log_to(&decisions);
@@ -73,8 +75,8 @@ std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunWatch
     watch.progress(world.session().time());
   }
   if (!world.trouble().empty()) return std::unexpected(world.trouble());
-  server::RunReport report = world_report(world, builder, setup.seed);
-  link::Digest digest;
+  server::RunReport report = simulation_report(world, builder, setup.seed);
+  transport::Digest digest;
   digest.add(run.trace);
   report.trace_hash = digest.hex();
   report.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;

@@ -7,12 +7,12 @@
 
 namespace tandem::netsim::demo {
 
-/// The run in virtual time, in this process: byte for byte what `tandem-netsim run` makes of the same scene, network
-/// and seed.
-/// @return report and trace, or why not
-[[nodiscard]] std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunWatch& watch);
+/// Runs in virtual time, in this process. The result equals that of `tandem-netsim run` with the same scene, network
+/// and seed, byte for byte.
+/// @return report and trace, or the error
+[[nodiscard]] std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunObserver& watch);
 
-/// The springs of the run's scene; unknown if it is not shipped.
+/// Returns the springs of the run's scene; unknown if the scene is not shipped.
 [[nodiscard]] Springs springs_of(const RunPlan& plan);
 
 }  // namespace tandem::netsim::demo

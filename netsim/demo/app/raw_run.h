@@ -8,16 +8,17 @@
 
 namespace tandem::netsim::demo {
 
-/// What a run leaves behind, before anybody has read it.
+/// Unparsed results of a run.
 struct RawRun {
-  std::string json, trace;                 ///< as the programs write them
-  std::string trainer, trainee;            ///< traces of the workstations; empty in virtual time
-  std::string trainer_json, trainee_json;  ///< their reports, likewise
+  std::string json, trace;                 ///< as written by the programs
+  std::string trainer, trainee;            ///< traces of the clients; empty in virtual time
+  std::string trainer_json, trainee_json;  ///< reports of the clients, likewise
   NetworkSeries network;                   ///< of the bad network; empty otherwise
 };
 
-/// Told now and then how far a run is [s of session time]; set `stop` from a signal handler and the run ends soon.
-struct RunWatch {
+/// Receives the progress of a run at intervals [s of session time]. A signal handler may set `stop`; the run then ends
+/// soon.
+struct RunObserver {
   std::function<void(double session_s)> progress;
   const std::atomic<bool>* stop = nullptr;
 };

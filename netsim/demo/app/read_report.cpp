@@ -14,7 +14,7 @@ double number(const Json& j, const char* key) {
   return at != j.end() && at->is_number() ? at->get<double>() : kUnknown;
 }
 
-/// Both when both are known, else the one that is.
+/// Combines two numbers; if one is unknown, returns the other.
 template <typename Combine>
 double both(double a, double b, Combine combine) {
   if (std::isnan(a)) return b;

@@ -1,11 +1,11 @@
-// The WoodenHaptics driver as users run it, over the real hidapi, on its wire model.
+// The WoodenHaptics driver in a user's configuration, over the real hidapi, on its device model.
 #include <gtest/gtest.h>
 
 #include "hal/io/hid_pipe.h"
-#include "hal/io/servo_pace.h"
+#include "hal/io/periodic_timer.h"
+#include "tests/hal/drivers/woodenhaptics/woodenhaptics_fixture.h"
 #include "tests/hal/emulation/echo_model.h"
 #include "tests/hal/emulation/testbed.h"
-#include "tests/hal/woodenhaptics/bench.h"
 
 namespace tandem::test {
 namespace {
@@ -17,16 +17,16 @@ using hal::woodenhaptics::WoodenHapticsDriver;
 
 struct BoardSeat {
   explicit BoardSeat(Testbed& bed_, bool energise = true)
-      : bed(bed_), model(WoodenBench::at_calibration(wooden_2015(), {})) {
+      : bed(bed_), model(WoodenHapticsFixture::at_calibration(wooden_2015(), {})) {
     node.with_model([&] { model.place(model.tip()); });
     bed.plug(node, model, "1-2");
-    const hal::Wanted wanted{"WoodenHaptics board", {}, {}, std::string(model.serial()), "1-2"};
-    auto opened = hal::HidrawPipe::open(*hal::choose(hal::list_hidraw(), wanted));
+    const hal::DeviceFilter wanted{"WoodenHaptics board", {}, {}, std::string(model.serial()), "1-2"};
+    auto opened = hal::HidrawPipe::open(*hal::select_device(hal::list_hidraw(), wanted));
     EXPECT_TRUE(opened) << opened.error().message;
     pipe = std::move(*opened);
     driver = std::make_unique<WoodenHapticsDriver>(
         hal::DeviceId{"woodenhaptics", "1-2"}, *pipe, clock,
-        hal::woodenhaptics::WoodenHapticsOptions{.spec = wooden_2015(), .energise = energise});
+        hal::woodenhaptics::WoodenHapticsOptions{.spec = wooden_2015(), .enable_motors = energise});
   }
   ~BoardSeat() { bed.remove("1-2"); }
 
@@ -40,7 +40,7 @@ struct BoardSeat {
     return driver->bring_up(watcher);
   }
   std::expected<Exchange, Errc> tick(double effort = 0) {
-    const hal::Orders orders{.seq = ++seq, .effort = {effort, effort, effort}};
+    const hal::ServoCommand orders{.seq = ++seq, .effort = {effort, effort, effort}};
     const auto result = driver->exchange(orders, state);
     clock.wait_until(clock.now() + 1ms);
     return result;
@@ -59,7 +59,7 @@ struct BoardSeat {
     return false;
   }
   Testbed& bed;
-  hal::wire::WoodenHapticsModel model;
+  hal::emulation::WoodenHapticsModel model;
   HidrawNode node{model};
   hal::MonotonicClock clock;
   std::unique_ptr<hal::HidrawPipe> pipe;
@@ -82,11 +82,11 @@ TEST(BoardOnHidraw, IsHomedByItsButtonAndGivesCurrentOnlyThen) {
     most = std::max(most, seat.with_model([](auto& m) { return m.motor_effort().norm(); }));
   }
   EXPECT_GT(most, 0.01);
-  seat.driver->silence();
+  seat.driver->send_zeros();
   EXPECT_EQ(seat.with_model([](auto& m) { return m.motor_effort().norm(); }), 0.0);
 }
 
-TEST(BoardOnHidraw, FaultsPassAndTheServoComesBack) {
+TEST(BoardOnHidraw, RecoversTheServoAfterFaults) {
   Testbed bed;
   BoardSeat seat(bed);
   ASSERT_TRUE(seat.bring_up());
@@ -103,7 +103,7 @@ TEST(BoardOnHidraw, FaultsPassAndTheServoComesBack) {
   EXPECT_TRUE(seat.recovers());
 }
 
-TEST(BoardOnHidraw, UnpluggedAtAnyReportEndsBootOrServo) {
+TEST(BoardOnHidraw, EndsBootOrServoWhenUnpluggedAtAnyReport) {
   Testbed bed;
   for (unsigned at = 1; at <= 12; ++at) {
     SCOPED_TRACE(at);
@@ -114,11 +114,11 @@ TEST(BoardOnHidraw, UnpluggedAtAnyReportEndsBootOrServo) {
     for (int i = 0; i < 40 && !error; ++i) error = error_of(seat.tick());
     EXPECT_EQ(error, Errc::kUnplugged);
     EXPECT_EQ(error_of(seat.tick()), Errc::kUnplugged);
-    seat.driver->silence();
+    seat.driver->send_zeros();
   }
 }
 
-TEST(BoardOnHidraw, PluggedInAgainBeginsWithZerosAndUnhomed) {
+TEST(BoardOnHidraw, StartsWithZerosAndUnhomedAfterReplug) {
   Testbed bed;
   {
     BoardSeat seat(bed);

@@ -1,5 +1,5 @@
-// `tandem-client doctor --confirm-motors` as a person types it, against an emulated board behind the real hidapi: no force before, force
-// after, none with another file, none of a reversed motor.
+// `tandem-client doctor --confirm-motors` as a user runs it, against an emulated board behind the real hidapi.
+// No force before it, force after it, none with another file, none of a reversed motor.
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
@@ -10,25 +10,25 @@
 #include <functional>
 #include <thread>
 
-#include "client/app/doctor_command.h"
-#include "client/app/held_device.h"
-#include "client/app/motor_state.h"
+#include "client/app/commands/doctor_command.h"
+#include "client/app/hardware_device.h"
+#include "client/app/motor_registry_file.h"
 #include "common/io/clock.h"
 #include "common/io/signals.h"
-#include "hal/app/device_files.h"
-#include "proto/presets_embedded.h"
+#include "hal/backends/device_files.h"
+#include "proto/text/presets_embedded.h"
+#include "tests/hal/drivers/woodenhaptics/confirmed.h"
+#include "tests/hal/drivers/woodenhaptics/woodenhaptics_fixture.h"
 #include "tests/hal/emulation/testbed.h"
-#include "tests/hal/woodenhaptics/bench.h"
-#include "tests/hal/woodenhaptics/confirmed.h"
 #include "tests/io/programs.h"
 
 namespace tandem::test {
 namespace {
 
 using namespace std::chrono_literals;
-using client::HeldDevice;
+using client::HardwareDevice;
 
-/// What a person types into standard input.
+/// Input of the user on standard input.
 class Typed {
  public:
   explicit Typed(const std::string& text) : before_(::dup(STDIN_FILENO)) {
@@ -48,7 +48,7 @@ class Typed {
   int before_;
 };
 
-/// Pushes with a joint effort that every motor can give.
+/// Client that pushes with a joint effort that every motor can give.
 struct Pusher final : hal::ServoClient {
   hal::Command tick(const hal::State& state) noexcept override {
     given = std::max(given.load(), state.f_out.norm());
@@ -61,41 +61,42 @@ struct Pusher final : hal::ServoClient {
 
 class ConfirmMotors : public testing::Test {
  protected:
-  ConfirmMotors() : signals_(io::signals_as_file()) {}
-  /// @param reversed  the motor that is connected the wrong way round; 3: none
+  ConfirmMotors() : signals_(io::make_signalfd()) {}
+  /// @param reversed  the motor connected with reversed polarity; 3: none
   void plug(std::size_t reversed) {
     std::string text{find_shipped_preset("woodenhaptics-2019")->text};
     file = folder.write("arm.textproto", text);
     WoodenHapticsSpec truth = *hal::load_device_file(file)->woodenhaptics;
     if (reversed < 3) truth.motor_direction[reversed] = -truth.motor_direction[reversed];
-    model = std::make_unique<hal::wire::WoodenHapticsModel>(WoodenBench::at_calibration(truth, {}));
+    model = std::make_unique<hal::emulation::WoodenHapticsModel>(WoodenHapticsFixture::at_calibration(truth, {}));
     start = model->tip();
     node = std::make_unique<HidrawNode>(*model);
     bed.plug(*node, *model, "1-2");
-    words = "woodenhaptics:preset=" + file + ",energise=yes,home=here";
+    words = "woodenhaptics:preset=" + file + ",enable_motors=yes,home=here";
     state = folder.file("my state");
   }
   void TearDown() override {
     if (node) bed.remove("1-2");
   }
-  /// Somebody puts the arm into its calibration pose and lets go of it there.
+  /// Puts the arm into its calibration pose and releases it there.
   void rest() {
     node->with_model([&] {
       model->place(start);
       model->let_go();
     });
   }
-  /// From there into the middle, once a host has listened for a while, and lets go.
+  /// Moves the arm from there into the middle, after a host has read reports for a while, and releases it.
   void carry(const std::stop_token& stop) {
     constexpr std::uint64_t kListens = 50;
     constexpr int kSteps = 400;
     const std::uint64_t before = node->with_model([&] { return model->host_reports(); });
-    while (!stop.stop_requested() && node->with_model([&] { return model->host_reports(); }) < before + kListens) (void)::poll(nullptr, 0, 1);
+    while (!stop.stop_requested() && node->with_model([&] { return model->host_reports(); }) < before + kListens)
+      (void)::poll(nullptr, 0, 1);
     for (int i = 1; i <= kSteps && !stop.stop_requested(); ++i, (void)::poll(nullptr, 0, 1))
       node->with_model([&] { model->place(start * (1 - static_cast<double>(i) / kSteps)); });
     node->with_model([&] { model->let_go(); });
   }
-  /// What was printed is in `said`.
+  /// Runs doctor; its output is in `said`.
   int doctor(const std::string& typed, const std::string& more = "--confirm-motors") {
     rest();
     const Typed person(typed);
@@ -109,15 +110,16 @@ class ConfirmMotors : public testing::Test {
     said = testing::internal::GetCapturedStdout();
     return code;
   }
-  /// Takes the device as `join` does and pushes for a while. @return force that came out [N]; `why`: what was said of none
+  /// Opens the device as `join` does and pushes for a while. @return largest force delivered [N]; `why`: the reason
+  /// reported if there is none
   double pushed(std::string& why) {
     rest();
     io::StatusLine line{true};
     Pusher pusher;
-    auto held = HeldDevice::take(words, signals_.get(), line, {.state = state});
+    auto held = HardwareDevice::open(words, signals_.get(), line, {.state = state});
     EXPECT_TRUE(held) << held.error().reason;
     if (!held) return -1;
-    why = (*held)->no_force();
+    why = (*held)->no_force_reason();
     (*held)->observe(pusher);
     EXPECT_TRUE((*held)->device().enable());
     double most = 0;
@@ -127,20 +129,22 @@ class ConfirmMotors : public testing::Test {
     return std::max(most, pusher.given.load());
   }
 
-  io::Fd signals_;  ///< first: threads of the test bed inherit that signals are blocked
+  io::Fd signals_;  ///< first member: threads of the test bed inherit the blocked signals
   Folder folder;
   Testbed bed;
-  std::unique_ptr<hal::wire::WoodenHapticsModel> model;
+  std::unique_ptr<hal::emulation::WoodenHapticsModel> model;
   std::unique_ptr<HidrawNode> node;
   hal::Vec3 start;
   std::string file, words, state, said;
 };
 
-TEST_F(ConfirmMotors, NoForceBeforeItAndForceAfterItAndNoneWithAnotherFile) {
+TEST_F(ConfirmMotors, EnablesForceForTheConfirmedFileOnly) {
   plug(3);
   std::string why;
   EXPECT_EQ(pushed(why), 0.0);
-  EXPECT_NE(why.find("Type:\n  tandem-client doctor --device " + words + " --confirm-motors --state '" + state + "'"), std::string::npos) << why;
+  EXPECT_NE(why.find("Type:\n  tandem-client doctor --device " + words + " --confirm-motors --state '" + state + "'"),
+            std::string::npos)
+      << why;
   EXPECT_EQ(doctor("", "--seconds 0.5 --force-test"), 1) << "a force test is a force, too";
   EXPECT_EQ(doctor("no\n"), 1);
   EXPECT_EQ(doctor(""), 1) << "nobody is there";
@@ -156,7 +160,7 @@ TEST_F(ConfirmMotors, NoForceBeforeItAndForceAfterItAndNoneWithAnotherFile) {
   EXPECT_NE(why.find("nobody confirmed them"), std::string::npos) << why;
 }
 
-TEST_F(ConfirmMotors, AReversedMotorIsRefusedAlsoIfItWasConfirmedBefore) {
+TEST_F(ConfirmMotors, RejectsAReversedMotorDespiteAConfirmation) {
   plug(1);
   confirmed_motors(state, "serial:0001", file);
   EXPECT_EQ(doctor("yes\n"), 1);
@@ -168,11 +172,12 @@ TEST_F(ConfirmMotors, AReversedMotorIsRefusedAlsoIfItWasConfirmedBefore) {
   EXPECT_NE(why.find("did not find all of them right"), std::string::npos) << why;
 }
 
-TEST_F(ConfirmMotors, ASignalEndsItWithZerosAndConfirmsNothing) {
+TEST_F(ConfirmMotors, SendsZerosAtASignalAndConfirmsNothing) {
   plug(3);
   std::jthread impatient([&](const std::stop_token& stop) {
-    // As soon as a motor was given current.
-    while (!stop.stop_requested() && node->with_model([&] { return model->motor_effort().norm(); }) == 0) (void)::poll(nullptr, 0, 1);
+    // Waits until a motor receives current.
+    while (!stop.stop_requested() && node->with_model([&] { return model->motor_effort().norm(); }) == 0)
+      (void)::poll(nullptr, 0, 1);
     ::kill(::getpid(), SIGINT);
   });
   EXPECT_EQ(doctor("yes\n"), 1);
@@ -185,7 +190,7 @@ TEST_F(ConfirmMotors, ASignalEndsItWithZerosAndConfirmsNothing) {
   EXPECT_EQ(pushed(why), 0.0);
 }
 
-TEST_F(ConfirmMotors, ABookThatIsTornConfirmsNothingAndIsNotWrittenOver) {
+TEST_F(ConfirmMotors, RejectsATornRegistryAndDoesNotOverwriteIt) {
   plug(3);
   confirmed_motors(state, "serial:0001", file);
   std::string why;

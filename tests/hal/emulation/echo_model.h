@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "hal/device.h"
-#include "hal/wire/wire_model.h"
+#include "hal/core/device.h"
+#include "tests/hal/emulation/devices/emulated_device.h"
 
-/// The smallest devices worth talking to: what goes out comes back. For tests of the pipes, which know no protocol.
+/// Minimal devices that echo the data they receive, for tests of the pipes, which are independent of protocols.
 namespace tandem::test {
 
 inline std::vector<std::byte> bytes(std::initializer_list<int> values) {
@@ -21,26 +21,26 @@ inline std::vector<std::byte> bytes(std::initializer_list<int> values) {
   return out;
 }
 
-/// Nothing where it went well.
+/// Empty if the call succeeded.
 template <class T>
 std::optional<hal::Errc> error_of(const std::expected<T, hal::Errc>& outcome) {
   return outcome ? std::nullopt : std::optional(outcome.error());
 }
 
-/// A serial bridge as FTDI's: every IN packet begins with two status bytes, and one with nothing else comes each time
-/// the latency timer runs out.
-class UsbEcho final : public hal::wire::UsbWireModel {
+/// A serial bridge like FTDI's: every IN packet begins with two status bytes. An otherwise empty packet is sent
+/// whenever the latency timer expires.
+class UsbEcho final : public hal::emulation::EmulatedUsbDevice {
  public:
   static constexpr std::size_t kPacket = 64, kStatus = 2;
 
-  // Faults, and what the tests look at.
+  // Faults, and observations for the tests.
   bool stall_in = false, stall_out = false, refuse_control = false;
   bool takes_nothing = false;                   ///< OUT endpoint answers NAK
-  bool silent = false;        ///< echoes nothing; no empty packets either
-  bool holds_back = false;    ///< echoes later
-  std::size_t packet_data = kPacket - kStatus;  ///< at most so much data in a packet: small values cut frames
+  bool silent = false;                          ///< echoes nothing; no empty packets either
+  bool holds_back = false;                      ///< echoes later
+  std::size_t packet_data = kPacket - kStatus;  ///< most data in a packet: small values cut frames
   Duration latency = std::chrono::milliseconds(1);
-  std::vector<hal::wire::SetupPacket> requests;
+  std::vector<hal::emulation::SetupPacket> requests;
   std::uint64_t bytes_taken = 0, halts_cleared = 0;
 
   UsbEcho() {
@@ -51,7 +51,7 @@ class UsbEcho final : public hal::wire::UsbWireModel {
                           0xFF, 2, 7,  5, 0x81, 2, 64, 0,    0,  7, 5, 0x02, 2, 64, 0,    0});
     std::ranges::copy(c, config_.begin());
   }
-  /// No bulk endpoints: something else with the same id.
+  /// Removes the bulk endpoints: another device with the same id.
   void become_another_device() { config_[21] = config_[28] = std::byte{3}; }
 
   std::span<const std::byte> device_descriptor() const noexcept override { return device_; }
@@ -59,31 +59,32 @@ class UsbEcho final : public hal::wire::UsbWireModel {
   std::string_view string(std::uint8_t index) const noexcept override {
     return index == 1 ? "Tandem" : index == 2 ? "ECHO" : index == 3 ? "E7" : "";
   }
-  hal::wire::WireMoved control(const hal::wire::SetupPacket& setup, std::span<std::byte>) noexcept override {
-    if (gone_) return std::unexpected(hal::wire::WireStatus::kGone);
+  hal::emulation::TransferResult control(const hal::emulation::SetupPacket& setup,
+                                         std::span<std::byte>) noexcept override {
+    if (gone_) return std::unexpected(hal::emulation::TransferStatus::kGone);
     if (setup.request_type == 0x02 && setup.request == 1) {
       ++halts_cleared;
       ((setup.index & 0x80) != 0 ? stall_in : stall_out) = false;
       return 0u;
     }
-    if (refuse_control) return std::unexpected(hal::wire::WireStatus::kStall);
+    if (refuse_control) return std::unexpected(hal::emulation::TransferStatus::kStall);
     if (requests.size() < requests.capacity()) requests.push_back(setup);
     return 0u;
   }
-  hal::wire::WireMoved bulk_out(std::uint8_t, std::span<const std::byte> sent) noexcept override {
-    if (gone_) return std::unexpected(hal::wire::WireStatus::kGone);
-    if (stall_out) return std::unexpected(hal::wire::WireStatus::kStall);
-    if (takes_nothing) return std::unexpected(hal::wire::WireStatus::kNak);
+  hal::emulation::TransferResult bulk_out(std::uint8_t, std::span<const std::byte> sent) noexcept override {
+    if (gone_) return std::unexpected(hal::emulation::TransferStatus::kGone);
+    if (stall_out) return std::unexpected(hal::emulation::TransferStatus::kStall);
+    if (takes_nothing) return std::unexpected(hal::emulation::TransferStatus::kNak);
     bytes_taken += sent.size();
     if (!silent) echo_.insert(echo_.end(), sent.begin(), sent.end());
     return sent.size();
   }
-  hal::wire::WireMoved bulk_in(std::uint8_t, std::span<std::byte> into) noexcept override {
-    if (gone_) return std::unexpected(hal::wire::WireStatus::kGone);
-    if (stall_in) return std::unexpected(hal::wire::WireStatus::kStall);
-    if (holds_back) return std::unexpected(hal::wire::WireStatus::kNak);
+  hal::emulation::TransferResult bulk_in(std::uint8_t, std::span<std::byte> into) noexcept override {
+    if (gone_) return std::unexpected(hal::emulation::TransferStatus::kGone);
+    if (stall_in) return std::unexpected(hal::emulation::TransferStatus::kStall);
+    if (holds_back) return std::unexpected(hal::emulation::TransferStatus::kNak);
     const bool timer = waited_ >= latency && !silent;
-    if (echo_.empty() && !timer) return std::unexpected(hal::wire::WireStatus::kNak);
+    if (echo_.empty() && !timer) return std::unexpected(hal::emulation::TransferStatus::kNak);
     waited_ = {};
     const std::size_t n = std::min(echo_.size(), packet_data);
     into[0] = std::byte{0x01};
@@ -108,11 +109,11 @@ class UsbEcho final : public hal::wire::UsbWireModel {
   bool gone_ = false;
 };
 
-/// A board in lock step: a report of 14 bytes comes back for each it got. Or one that talks by itself.
-class HidEcho final : public hal::wire::HidWireModel {
+/// A board in lock-step: it echoes every report of 14 bytes. Optionally it sends unprompted reports.
+class HidEcho final : public hal::emulation::EmulatedHidDevice {
  public:
   bool silent = false, refuses = false;
-  Duration period{};  ///< if not 0: sends a report with a counter by itself, and echoes nothing
+  Duration period{};  ///< if not 0: sends an unprompted report with a counter and echoes nothing
   std::uint64_t taken = 0;
 
   explicit HidEcho(bool numbered = false) {
@@ -127,32 +128,32 @@ class HidEcho final : public hal::wire::HidWireModel {
   std::string_view product() const noexcept override { return "HID DEVICE"; }
   std::string_view serial() const noexcept override { return "H3"; }
   std::span<const std::byte> report_descriptor() const noexcept override { return descriptor_; }
-  hal::wire::WireMoved report_out(std::span<const std::byte> report) noexcept override {
-    if (gone_) return std::unexpected(hal::wire::WireStatus::kGone);
-    if (refuses) return std::unexpected(hal::wire::WireStatus::kStall);
+  hal::emulation::TransferResult report_out(std::span<const std::byte> report) noexcept override {
+    if (gone_) return std::unexpected(hal::emulation::TransferStatus::kGone);
+    if (refuses) return std::unexpected(hal::emulation::TransferStatus::kStall);
     ++taken;
     if (!silent && period == Duration{}) waiting_.emplace_back(report.begin(), report.end());
     return report.size();
   }
-  hal::wire::WireMoved report_in(std::span<std::byte> into) noexcept override {
-    if (gone_) return std::unexpected(hal::wire::WireStatus::kGone);
+  hal::emulation::TransferResult report_in(std::span<std::byte> into) noexcept override {
+    if (gone_) return std::unexpected(hal::emulation::TransferStatus::kGone);
     if (period > Duration{} && waited_ >= period) {
       waited_ -= period;
       ++count_;
       std::memcpy(into.data(), &count_, sizeof count_);
       return 14u;
     }
-    if (waiting_.empty()) return std::unexpected(hal::wire::WireStatus::kNak);
+    if (waiting_.empty()) return std::unexpected(hal::emulation::TransferStatus::kNak);
     const std::size_t n = waiting_.front().size();
     std::ranges::copy(waiting_.front(), into.begin());
     waiting_.pop_front();
     return n;
   }
-  hal::wire::WireMoved feature_set(std::span<const std::byte>) noexcept override {
-    return std::unexpected(hal::wire::WireStatus::kStall);
+  hal::emulation::TransferResult feature_set(std::span<const std::byte>) noexcept override {
+    return std::unexpected(hal::emulation::TransferStatus::kStall);
   }
-  hal::wire::WireMoved feature_get(std::span<std::byte>) noexcept override {
-    return std::unexpected(hal::wire::WireStatus::kStall);
+  hal::emulation::TransferResult feature_get(std::span<std::byte>) noexcept override {
+    return std::unexpected(hal::emulation::TransferStatus::kStall);
   }
   void advance(Duration dt) noexcept override { waited_ += dt; }
   void unplug() noexcept override { gone_ = true; }

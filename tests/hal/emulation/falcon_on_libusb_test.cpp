@@ -1,14 +1,15 @@
-// The Falcon's driver as users run it, over the real libusb, on its wire model: boot, faults, unplugging at every
-// phase. Times are the machine's, so what is asserted are outcomes, not durations.
+// The Falcon's driver in a user's configuration, over the real libusb, on its device model: boot, faults, unplugging at
+// every phase.
+// Times are the machine's, so the tests assert outcomes, not durations.
 #include <gtest/gtest.h>
 
-#include "hal/falcon/falcon_line.h"
-#include "hal/io/servo_pace.h"
+#include "hal/drivers/falcon/falcon_ftdi.h"
+#include "hal/io/periodic_timer.h"
 #include "hal/io/usb_pipe.h"
-#include "tests/base/counts.h"
+#include "tests/common/base/counts.h"
+#include "tests/hal/drivers/falcon/falcon_fixture.h"
 #include "tests/hal/emulation/echo_model.h"
 #include "tests/hal/emulation/testbed.h"
-#include "tests/hal/falcon/bench.h"
 
 namespace tandem::test {
 namespace {
@@ -18,12 +19,13 @@ using hal::Errc;
 using hal::Exchange;
 using hal::falcon::Watcher;
 
-/// A Falcon in a socket, opened by its driver through the operating system.
+/// A plugged-in Falcon, opened by its driver through the operating system.
 struct FalconSeat {
-  explicit FalconSeat(Testbed& bed_, const hal::wire::FalconModelSpec& spec) : bed(bed_), model(spec) {
+  explicit FalconSeat(Testbed& bed_, const hal::emulation::FalconModelSpec& spec) : bed(bed_), model(spec) {
     bed.plug(node, model, "1-2");
-    const hal::Wanted wanted{"Novint Falcon", {{hal::kFalconVendor, hal::kFalconProduct}}, {}, {}, {}};
-    auto opened = hal::LibusbPipe::open(*hal::choose(hal::list_usb(), wanted), {0, hal::kFalconIn, hal::kFalconOut});
+    const hal::DeviceFilter wanted{"Novint Falcon", {{hal::kFalconVendor, hal::kFalconProduct}}, {}, {}, {}};
+    auto opened =
+        hal::LibusbPipe::open(*hal::select_device(hal::list_usb(), wanted), {0, hal::kFalconIn, hal::kFalconOut});
     EXPECT_TRUE(opened) << opened.error().message;
     pipe = std::move(*opened);
     driver.emplace(*hal::FalconDriver::make({"falcon", "1-2"}, *pipe, clock,
@@ -35,12 +37,12 @@ struct FalconSeat {
     Watcher watcher;
     return driver->bring_up(watcher);
   }
-  std::expected<Exchange, Errc> tick(const hal::Orders& orders = {}) {
+  std::expected<Exchange, Errc> tick(const hal::ServoCommand& orders = {}) {
     const auto result = driver->exchange(orders, state);
     clock.wait_until(clock.now() + 1ms);
     return result;
   }
-  /// Exchanges until a fresh reading; false if there is none in many.
+  /// Performs exchanges until a fresh reading. @return false: none in many exchanges
   bool recovers() {
     for (int i = 0; i < 500; ++i) {
       const auto result = tick(push);
@@ -54,21 +56,21 @@ struct FalconSeat {
   }
 
   Testbed& bed;
-  hal::wire::FalconModel model;
+  hal::emulation::FalconModel model;
   UsbfsNode node{model};
   hal::MonotonicClock clock;
   std::unique_ptr<hal::LibusbPipe> pipe;
   std::optional<hal::FalconDriver> driver;
   hal::State state;
-  hal::Orders push{.seq = 1, .effort = {0.02, 0.02, 0.02}};
+  hal::ServoCommand push{.seq = 1, .effort = {0.02, 0.02, 0.02}};
 };
 
-TEST(FalconOnLibusb, BootsFromItsFileThroughTroubleAndThenServes) {
+TEST(FalconOnLibusb, BootsFromItsFileDespiteFaultsAndThenServes) {
   Testbed bed;
   FalconSeat seat(bed, {});
   seat.with_model([](auto& m) {
     m.faults.deaf_greetings = 1;
-    m.faults.wrong_echoes = 1;  // a mismatch between image and echo: from the beginning
+    m.faults.wrong_echoes = 1;  // a mismatch between image and echo restarts the loading
   });
   const auto up = seat.bring_up();
   ASSERT_TRUE(up) << up.error().message;
@@ -79,28 +81,28 @@ TEST(FalconOnLibusb, BootsFromItsFileThroughTroubleAndThenServes) {
       << "not homed: no force, though it was asked for";
 }
 
-TEST(FalconOnLibusb, RunningFirmwareIsTakenAsItIsAndForcesArrive) {
+TEST(FalconOnLibusb, KeepsRunningFirmwareAndDeliversForces) {
   Testbed bed;
   FalconSeat seat(bed, hal::falcon::ready_model());
   ASSERT_TRUE(seat.bring_up());
   EXPECT_EQ(seat.driver->boot_attempts(), 0);
   ASSERT_TRUE(seat.recovers());
   seat.with_model([](auto& m) { m.mechanics().set_pull({.k = 1e4, .b = 100, .m = 1, .x = m.mechanics().tip()}); });
-  // 0.02 N m at 10000 counts per N m, with the sign the motors want.
+  // 0.02 N m at 10000 counts per N m, with the sign of the motors.
   bool arrived = false;
   for (int i = 0; i < 200 && !arrived; ++i) {
     (void)seat.tick(seat.push);
     arrived = seat.with_model([](auto& m) { return std::abs(m.order().motor[0]) == 200; });
   }
   EXPECT_TRUE(arrived);
-  seat.driver->silence();
+  seat.driver->send_zeros();
   EXPECT_EQ(seat.with_model([](auto& m) { return m.order().motor; }), (std::array<std::int16_t, 3>{}));
 }
 
-TEST(FalconOnLibusb, EveryFaultOfTheLinePassesAndTheServoComesBack) {
+TEST(FalconOnLibusb, RecoversTheServoAfterEveryLineFault) {
   struct Fault {
     const char* name;
-    std::function<void(hal::wire::FalconFaults&)> make;
+    std::function<void(hal::emulation::FalconFaults&)> make;
   };
   const std::vector<Fault> faults{
       {"short", [](auto& f) { f.short_replies = 3; }},     {"glued", [](auto& f) { f.glued_replies = 2; }},
@@ -110,7 +112,7 @@ TEST(FalconOnLibusb, EveryFaultOfTheLinePassesAndTheServoComesBack) {
   Testbed bed;
   FalconSeat seat(bed, hal::falcon::ready_model());
   ASSERT_TRUE(seat.bring_up());
-  // A hand holds the grip: on a slow machine the push would drive it to its stops, where counts have no pose.
+  // A hand holds the grip. On a slow machine the push would otherwise drive it to its stops, where counts have no pose.
   seat.with_model([](auto& m) { m.mechanics().set_pull({.k = 1e4, .b = 100, .m = 1, .x = m.mechanics().tip()}); });
   for (const Fault& fault : faults) {
     SCOPED_TRACE(fault.name);
@@ -126,12 +128,12 @@ TEST(FalconOnLibusb, EveryFaultOfTheLinePassesAndTheServoComesBack) {
   EXPECT_EQ(seat.with_model([](auto& m) { return m.unsafe_frames(); }), 0u);
 }
 
-TEST(FalconOnLibusb, ASilentDeviceIsNothingUntilItSpeaksAgain) {
+TEST(FalconOnLibusb, ReportsNothingUntilASilentDeviceResponds) {
   Testbed bed;
   FalconSeat seat(bed, hal::falcon::ready_model());
   ASSERT_TRUE(seat.bring_up());
   seat.with_model([](auto& m) { m.faults.silent = true; });
-  for (int i = 0; i < 5; ++i) (void)seat.tick();  // what was under way
+  for (int i = 0; i < 5; ++i) (void)seat.tick();  // replies in transit
   for (int i = 0; i < 10; ++i) {
     const auto result = seat.tick();
     ASSERT_TRUE(result);
@@ -141,8 +143,8 @@ TEST(FalconOnLibusb, ASilentDeviceIsNothingUntilItSpeaksAgain) {
   EXPECT_TRUE(seat.recovers());
 }
 
-/// Reset, greeting, speed, image, probe: each transfer of the first ones, some of the image's.
-TEST(FalconOnLibusb, UnpluggedAtAnyTransferOfItsBootItIsSaid) {
+/// Reset, greeting, speed, image, probe: tests every one of the first transfers and some of the image's.
+TEST(FalconOnLibusb, ReportsUnpluggingAtAnyTransferOfTheBoot) {
   Testbed bed;
   for (const unsigned at : {1u, 2u, 3u, 5u, 8u, 13u, 21u, 34u, 55u, 89u, 144u, 233u}) {
     SCOPED_TRACE(at);
@@ -155,7 +157,7 @@ TEST(FalconOnLibusb, UnpluggedAtAnyTransferOfItsBootItIsSaid) {
   }
 }
 
-TEST(FalconOnLibusb, UnpluggedAtAnyTransferOfTheServoEndsTheExchange) {
+TEST(FalconOnLibusb, EndsTheExchangeWhenUnpluggedAtAnyTransfer) {
   Testbed bed;
   for (unsigned at = 1; at <= 8; ++at) {
     SCOPED_TRACE(at);
@@ -166,7 +168,7 @@ TEST(FalconOnLibusb, UnpluggedAtAnyTransferOfTheServoEndsTheExchange) {
     for (int i = 0; i < 20 && !error; ++i) error = error_of(seat.tick(seat.push));
     EXPECT_EQ(error, Errc::kUnplugged);
     EXPECT_EQ(error_of(seat.tick(seat.push)), Errc::kUnplugged);
-    seat.driver->silence();  // harmless
+    seat.driver->send_zeros();  // harmless
   }
 }
 

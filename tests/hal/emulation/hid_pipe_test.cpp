@@ -27,7 +27,7 @@ std::vector<std::byte> report(int first) {
   return out;
 }
 
-/// What a reading gave; reads again while the emulated node woke it for nothing.
+/// Returns the bytes of a read; repeats it while the emulated node wakes the pipe without data.
 std::vector<std::byte> next(HidrawPipe& pipe) {
   std::array<std::byte, 64> into{};
   for (int tries = 0; tries < 100; ++tries) {
@@ -41,10 +41,10 @@ std::vector<std::byte> next(HidrawPipe& pipe) {
 struct HidPipe : testing::Test {
   HidPipe() { bed.plug(node, model, "1-2"); }
 
-  hal::Attached attached() {
+  hal::AttachedDevice attached() {
     const auto list = hal::list_hidraw();
     EXPECT_EQ(list.size(), 1u);
-    return list.empty() ? hal::Attached{} : list.front();
+    return list.empty() ? hal::AttachedDevice{} : list.front();
   }
   std::unique_ptr<HidrawPipe> open() {
     auto pipe = HidrawPipe::open(attached());
@@ -57,7 +57,7 @@ struct HidPipe : testing::Test {
   HidrawNode node{model};
 };
 
-TEST_F(HidPipe, IsListedWithItsNamesUsageAndSocketBeforeAnybodyOpensIt) {
+TEST_F(HidPipe, IsListedWithNamesUsageAndPortBeforeItIsOpened) {
   const auto device = attached();
   EXPECT_EQ(device.bus, hal::Bus::kHidraw);
   EXPECT_EQ(device.ids, (hal::UsbIds{0x1234, 0x0006}));
@@ -88,7 +88,7 @@ TEST_F(HidPipe, CarriesReportsInLockStepWithoutHeap) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(HidNumbered, ReportsKeepTheirId) {
+TEST(HidNumbered, KeepsTheIdOfReports) {
   HidEcho model(true);
   Testbed bed;
   HidrawNode node(model);
@@ -111,7 +111,7 @@ TEST_F(HidPipe, PermissionDeniedNamesTheUdevRule) {
   EXPECT_NE(pipe.error().message.find("/dev/hidraw0"), std::string::npos);
 }
 
-TEST_F(HidPipe, ASecondOneIsToldThatItIsBusyUntilTheFirstIsGone) {
+TEST_F(HidPipe, ReportsBusyToASecondClientUntilTheFirstCloses) {
   auto first = open();
   const auto second = HidrawPipe::open(attached());
   ASSERT_FALSE(second);
@@ -120,9 +120,9 @@ TEST_F(HidPipe, ASecondOneIsToldThatItIsBusyUntilTheFirstIsGone) {
   EXPECT_TRUE(HidrawPipe::open(attached()));
 }
 
-TEST_F(HidPipe, OnlyNodesThatWereListedAreOpened) {
+TEST_F(HidPipe, OpensOnlyListedNodes) {
   for (const char* path : {"/dev/null", "/dev/hidraw7", "/dev/ptmx", ""}) {
-    hal::Attached device = attached();
+    hal::AttachedDevice device = attached();
     device.node = path;
     const auto pipe = HidrawPipe::open(device);
     ASSERT_FALSE(pipe) << path;
@@ -130,7 +130,7 @@ TEST_F(HidPipe, OnlyNodesThatWereListedAreOpened) {
   }
 }
 
-TEST_F(HidPipe, ReportsWaitInOrderAndKeepTheirBoundaries) {
+TEST_F(HidPipe, QueuesReportsInOrderWithTheirBoundaries) {
   auto pipe = open();
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(pipe->write(report(10 * i)));
   for (int i = 0; i < 5; ++i) EXPECT_EQ(next(*pipe), report(10 * i));
@@ -138,7 +138,7 @@ TEST_F(HidPipe, ReportsWaitInOrderAndKeepTheirBoundaries) {
   for (int tries = 0; tries < 3; ++tries) EXPECT_EQ(pipe->read(into, 0ms).value_or(9), 0u);
 }
 
-TEST_F(HidPipe, ASilentDeviceIsNothingInTimeAndItsLateReportIsNotLost) {
+TEST_F(HidPipe, TimesOutOnASilentDeviceAndKeepsItsLateReport) {
   auto pipe = open();
   node.with_model([&] { model.silent = true; });
   ASSERT_TRUE(pipe->write(report(1)));
@@ -149,7 +149,7 @@ TEST_F(HidPipe, ASilentDeviceIsNothingInTimeAndItsLateReportIsNotLost) {
   EXPECT_EQ(next(*pipe), report(2));
 }
 
-TEST_F(HidPipe, ADeviceThatTalksByItselfIsReadToTheNewest) {
+TEST_F(HidPipe, ReadsAStreamingDeviceToTheNewest) {
   auto pipe = open();
   node.with_model([&] { model.period = 1ms; });
   std::uint64_t newest = 0;
@@ -166,7 +166,7 @@ TEST_F(HidPipe, ADeviceThatTalksByItselfIsReadToTheNewest) {
   }
 }
 
-TEST_F(HidPipe, ARefusedReportIsAProtocolErrorAndTheDeviceStays) {
+TEST_F(HidPipe, ReportsARejectedReportAsAProtocolError) {
   auto pipe = open();
   node.with_model([&] { model.refuses = true; });
   EXPECT_EQ(error_of(pipe->write(report(1))), Errc::kProtocol);
@@ -176,7 +176,7 @@ TEST_F(HidPipe, ARefusedReportIsAProtocolErrorAndTheDeviceStays) {
   EXPECT_EQ(error_of(pipe->write(std::vector<std::byte>(HidrawPipe::kReportMax + 1))), Errc::kInternal);
 }
 
-TEST(HidUnplug, AtEveryReportOfAConversationIsSeenAtOnceAndForGood) {
+TEST(HidUnplug, IsDetectedAtOnceAtEveryReport) {
   Testbed bed;
   for (unsigned at = 1; at <= 6; ++at) {
     SCOPED_TRACE(at);
@@ -208,7 +208,7 @@ TEST(HidUnplug, AtEveryReportOfAConversationIsSeenAtOnceAndForGood) {
   }
 }
 
-TEST_F(HidPipe, UnpluggedWhileAReadingWaitsEndsIt) {
+TEST_F(HidPipe, EndsAPendingReadWhenUnplugged) {
   auto pipe = open();
   std::array<std::byte, 64> into{};
   std::jthread hand([&] { node.unplug(); });
@@ -218,7 +218,7 @@ TEST_F(HidPipe, UnpluggedWhileAReadingWaitsEndsIt) {
   EXPECT_EQ(error_of(pipe->write(report(1))), Errc::kUnplugged);
 }
 
-TEST_F(HidPipe, PluggedInAgainItIsANewDeviceAndTheOldPipeStaysDead) {
+TEST_F(HidPipe, TreatsAReplugAsANewDevice) {
   auto old = open();
   const auto before = attached();
   node.unplug();

@@ -10,23 +10,23 @@
 #include <cstring>
 #include <span>
 
-#include "hal/report_descriptor.h"
+#include "hal/core/report_descriptor.h"
 
 namespace tandem::test {
 
-using hal::wire::WireStatus;
+using hal::emulation::TransferStatus;
 
 namespace {
 
 constexpr std::size_t kReportMax = 4096;
 
-int error_of(WireStatus status) {
-  return status == WireStatus::kStall ? EPIPE : status == WireStatus::kNak ? ETIMEDOUT : ENODEV;
+int error_of(TransferStatus status) {
+  return status == TransferStatus::kStall ? EPIPE : status == TransferStatus::kNak ? ETIMEDOUT : ENODEV;
 }
 
 }  // namespace
 
-HidrawNode::HidrawNode(hal::wire::HidWireModel& model)
+HidrawNode::HidrawNode(hal::emulation::EmulatedHidDevice& model)
     : ModelNode(model), numbered_(hal::has_report_ids(model.report_descriptor())) {
   appear();
 }

@@ -4,16 +4,16 @@
 #include <deque>
 #include <vector>
 
-#include "hal/wire/wire_model.h"
+#include "tests/hal/emulation/devices/emulated_device.h"
 #include "tests/hal/emulation/model_node.h"
 
 namespace tandem::test {
 
-/// /dev/hidrawN in front of a wire model. The queue of reports holds 64 and then forgets the newest, as the kernel's.
-class HidrawNode final : public ModelNode<hal::wire::HidWireModel> {
+/// /dev/hidrawN in front of a device model. The queue holds 64 reports and then drops the newest, as the kernel's does.
+class HidrawNode final : public ModelNode<hal::emulation::EmulatedHidDevice> {
  public:
   static constexpr std::size_t kQueueMax = 64;
-  explicit HidrawNode(hal::wire::HidWireModel& model);
+  explicit HidrawNode(hal::emulation::EmulatedHidDevice& model);
   ~HidrawNode() override;
 
   long on_ioctl(int fd, unsigned long request, void* argument) override;
@@ -28,7 +28,7 @@ class HidrawNode final : public ModelNode<hal::wire::HidWireModel> {
 
   bool numbered_;
   std::deque<std::vector<std::byte>> queue_;
-  std::condition_variable_any changed_;  ///< something to read, or gone
+  std::condition_variable_any changed_;  ///< data to read, or unplugged
 };
 
 }  // namespace tandem::test

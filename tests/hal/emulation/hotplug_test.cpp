@@ -1,4 +1,4 @@
-// Listing, choosing and hotplug with the real libudev.
+// Enumeration, selection and hotplug with the real libudev.
 #include "hal/io/hotplug.h"
 
 #include <gtest/gtest.h>
@@ -13,11 +13,11 @@ namespace {
 using namespace std::chrono_literals;
 constexpr Duration kPatient = 20s;
 
-TEST(PlugWatch, TellsWhatArrivesAndWhatLeaves) {
+TEST(HotplugMonitor, ReportsArrivalsAndRemovals) {
   Testbed bed;
-  auto opened = hal::PlugWatch::open();
+  auto opened = hal::HotplugMonitor::open();
   ASSERT_TRUE(opened) << opened.error().message;
-  hal::PlugWatch& watch = **opened;
+  hal::HotplugMonitor& watch = **opened;
   EXPECT_TRUE(watch.present().empty());
   UsbEcho model;
   UsbfsNode node(model);
@@ -35,14 +35,14 @@ TEST(PlugWatch, TellsWhatArrivesAndWhatLeaves) {
   EXPECT_TRUE(watch.present().empty());
 }
 
-TEST(PlugWatch, SeesAHidDeviceOnBothBuses) {
+TEST(HotplugMonitor, SeesAHidDeviceOnBothBuses) {
   Testbed bed;
-  auto opened = hal::PlugWatch::open();
+  auto opened = hal::HotplugMonitor::open();
   ASSERT_TRUE(opened);
   HidEcho model;
   HidrawNode node(model);
   bed.plug(node, model, "1-4");
-  std::vector<hal::PlugChange> all;
+  std::vector<hal::HotplugEvent> all;
   while (all.size() < 2) {
     const auto some = (*opened)->wait(kPatient);
     ASSERT_FALSE(some.empty());
@@ -53,12 +53,12 @@ TEST(PlugWatch, SeesAHidDeviceOnBothBuses) {
       all, [](const auto& c) { return c.device.bus == hal::Bus::kHidraw && c.device.port == "1-4"; }));
 }
 
-TEST(PlugWatch, OutAndInAgainBetweenTwoLooksIsBoth) {
+TEST(HotplugMonitor, ReportsBothChangesOfAReplugBetweenPolls) {
   Testbed bed;
   UsbEcho model;
   auto first = std::make_unique<UsbfsNode>(model);
   bed.plug(*first, model, "1-2");
-  auto opened = hal::PlugWatch::open();
+  auto opened = hal::HotplugMonitor::open();
   ASSERT_TRUE(opened);
   EXPECT_EQ((*opened)->present().size(), 1u);
   first->unplug();
@@ -73,41 +73,41 @@ TEST(PlugWatch, OutAndInAgainBetweenTwoLooksIsBoth) {
   EXPECT_EQ(changes[0].device.port, changes[1].device.port);
 }
 
-TEST(PlugWatch, ANodeWhoseNameCameAgainIsAnotherDevice) {
+TEST(HotplugMonitor, TreatsAReusedNodeNameAsAnotherDevice) {
   Testbed bed;
   HidEcho model;
   auto first = std::make_unique<HidrawNode>(model);
   bed.plug(*first, model, "1-2");
-  auto opened = hal::PlugWatch::open();
+  auto opened = hal::HotplugMonitor::open();
   ASSERT_TRUE(opened);
   first->unplug();
   bed.remove("1-2");
   model.plug_in();
   HidrawNode second(model);
   bed.plug(second, model, "1-2");
-  std::vector<hal::PlugChange> all;
-  while (all.size() < 4) {  // out and in, on both buses
+  std::vector<hal::HotplugEvent> all;
+  while (all.size() < 4) {  // removed and added, on both buses
     const auto some = (*opened)->wait(kPatient);
     ASSERT_FALSE(some.empty());
     all.insert(all.end(), some.begin(), some.end());
   }
-  const auto raw = [](const hal::PlugChange& c) { return c.device.bus == hal::Bus::kHidraw; };
+  const auto raw = [](const hal::HotplugEvent& c) { return c.device.bus == hal::Bus::kHidraw; };
   EXPECT_EQ(std::ranges::count_if(all, raw), 2);
   EXPECT_EQ(std::ranges::find_if(all, raw)->device.node, "/dev/hidraw0");
   EXPECT_EQ(hal::list_hidraw().at(0).node, "/dev/hidraw0");
 }
 
-TEST(PlugWatch, NothingChangedIsNothing) {
+TEST(HotplugMonitor, ReportsNothingWithoutAChange) {
   Testbed bed;
-  auto opened = hal::PlugWatch::open();
+  auto opened = hal::HotplugMonitor::open();
   ASSERT_TRUE(opened);
   EXPECT_TRUE((*opened)->wait(0ms).empty());
   EXPECT_TRUE((*opened)->wait(1200ms).empty()) << "looks once by itself";
 }
 
-struct Choosing : testing::Test {
-  static hal::Attached one(const char* port, const char* serial, std::uint16_t product = 0xCB48) {
-    hal::Attached a;
+struct SelectDevice : testing::Test {
+  static hal::AttachedDevice one(const char* port, const char* serial, std::uint16_t product = 0xCB48) {
+    hal::AttachedDevice a;
     a.ids = {0x0403, product};
     a.name = "FALCON HAPTIC";
     a.port = port;
@@ -115,34 +115,34 @@ struct Choosing : testing::Test {
     a.node = "/dev/bus/usb/001/004";
     return a;
   }
-  std::vector<hal::Attached> list{one("1-1", "A"), one("1-2", "B"), one("1-3", "C", 0x6001)};
-  hal::Wanted falcon{"Novint Falcon", {{0x0403, 0xCB48}}, {}, {}, {}};
+  std::vector<hal::AttachedDevice> list{one("1-1", "A"), one("1-2", "B"), one("1-3", "C", 0x6001)};
+  hal::DeviceFilter falcon{"Novint Falcon", {{0x0403, 0xCB48}}, {}, {}, {}};
 };
 
-TEST_F(Choosing, ByPortOrSerial) {
+TEST_F(SelectDevice, SelectsByPortOrSerial) {
   falcon.port = "1-2";
-  EXPECT_EQ(hal::choose(list, falcon)->serial, "B");
+  EXPECT_EQ(hal::select_device(list, falcon)->serial, "B");
   falcon.port.reset();
   falcon.serial = "A";
-  EXPECT_EQ(hal::choose(list, falcon)->port, "1-1");
+  EXPECT_EQ(hal::select_device(list, falcon)->port, "1-1");
   falcon.port = "1-2";
-  EXPECT_FALSE(hal::choose(list, falcon)) << "both must fit";
+  EXPECT_FALSE(hal::select_device(list, falcon)) << "both must fit";
 }
 
-TEST_F(Choosing, AmongSeveralThereIsNoDefault) {
-  const auto chosen = hal::choose(list, falcon);
+TEST_F(SelectDevice, SelectsNoDefaultAmongSeveral) {
+  const auto chosen = hal::select_device(list, falcon);
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, hal::Errc::kBadState);
   EXPECT_EQ(
       chosen.error().message,
       "2 devices could be meant by Novint Falcon; say which one: port=1-1 (0403:cb48 FALCON HAPTIC, serial A, at port "
       "1-1), or port=1-2 (0403:cb48 FALCON HAPTIC, serial B, at port 1-2)");
-  EXPECT_EQ(hal::choose(std::span(list).subspan(1), falcon)->port, "1-2") << "the only one needs no words";
+  EXPECT_EQ(hal::select_device(std::span(list).subspan(1), falcon)->port, "1-2") << "the only one needs no words";
 }
 
-TEST_F(Choosing, WhenThereIsNoneItSaysWhatIsThere) {
+TEST_F(SelectDevice, ListsTheAttachedDevicesIfNoneMatches) {
   falcon.port = "2-9";
-  const auto chosen = hal::choose(std::span(list).last(1), falcon);
+  const auto chosen = hal::select_device(std::span(list).last(1), falcon);
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, hal::Errc::kNotFound);
   EXPECT_EQ(chosen.error().message,
@@ -150,15 +150,15 @@ TEST_F(Choosing, WhenThereIsNoneItSaysWhatIsThere) {
             "at port "
             "1-3. Is it plugged in, and has it power?");
   EXPECT_EQ(
-      hal::choose({}, falcon).error().message,
+      hal::select_device({}, falcon).error().message,
       "no Novint Falcon at port 2-9 is attached (USB id 0403:cb48); nothing is. Is it plugged in, and has it power?");
 }
 
-TEST_F(Choosing, ByUsageWhereIdsAreNotUnique) {
+TEST_F(SelectDevice, SelectsByUsageWhereIdsAreNotUnique) {
   list[0].usages = {{0x01, 0x02}};
   list[1].usages = {{0x01, 0x06}, {0xFFAB, 0x0200}};
   falcon.usage = hal::HidUsage{0xFFAB, 0x0200};
-  EXPECT_EQ(hal::choose(list, falcon)->port, "1-2");
+  EXPECT_EQ(hal::select_device(list, falcon)->port, "1-2");
 }
 
 TEST(UdevRule, IsOneLinePerBus) {

@@ -1,4 +1,5 @@
-// The test program's own ioctl, read, write and poll: exported (-rdynamic), they come before those of umockdev and of libc.
+// The test program's own ioctl, read, write and poll. They are exported (-rdynamic) and therefore precede those of
+// umockdev and of libc.
 #include <asm/ioctl.h>
 #include <dlfcn.h>
 #include <linux/poll.h>
@@ -17,7 +18,7 @@ Function next(const char* name) {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
 
-/// Runs a handler as the kernel would run a call: what it takes from the heap is counted apart.
+/// Runs a handler as the kernel runs a call: its heap allocations are counted separately.
 template <class Handler>
 auto inside(Handler handler) {
   const auto before = tandem::heap_allocations();

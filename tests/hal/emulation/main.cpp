@@ -1,5 +1,4 @@
-// Starts itself again with umockdev's library before all others: sysfs, /dev and udev's netlink are then the
-// test-bed's.
+// Restarts itself with umockdev's library preloaded: sysfs, /dev and udev's netlink then belong to the test bed.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <link.h>
@@ -16,7 +15,7 @@ namespace {
 
 constexpr const char* kPreload = "libumockdev-preload.so.0";
 
-/// A sanitizer's library insists on being the first.
+/// Returns the sanitizer's library, which must be loaded first.
 std::string sanitizers() {
   std::string names;
   dl_iterate_phdr(
@@ -33,8 +32,8 @@ std::string sanitizers() {
 
 }  // namespace
 
-/// umockdev, GLib and libudev are built without the sanitizer, which therefore cannot see how their threads agree
-/// (libudev keeps one random seed for all its contexts). libusb, hidapi and everything of ours is judged.
+/// Suppressions: umockdev, GLib and libudev are built without the sanitizer, which cannot see their synchronisation.
+/// One example: libudev keeps one random seed for all its contexts. libusb, hidapi and all Tandem code are checked.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
   return "race:libumockdev\nrace:libglib-2.0\nrace:libgobject-2.0\nrace:libgio-2.0\nrace:libudev.so\n"
@@ -42,7 +41,7 @@ extern "C" const char* __tsan_default_suppressions() {
 }
 
 int main(int argc, char** argv) {
-  // A pseudo terminal that hangs up may be this process's controlling one.
+  // A pseudo terminal that hangs up may be the controlling one of this process.
   std::signal(SIGHUP, SIG_IGN);
   const bool listing =
       std::any_of(argv, argv + argc, [](const char* a) { return std::string(a) == "--gtest_list_tests"; });
@@ -53,11 +52,13 @@ int main(int argc, char** argv) {
       libraries += std::string(":") + others;
     if (dlopen("libumockdev.so.0", RTLD_NOW) != nullptr && std::getenv("TANDEM_EMULATION") == nullptr) {
       setenv("LD_PRELOAD", libraries.c_str(), 1);
-      setenv("TANDEM_EMULATION", "once", 1);  // never twice, whatever the loader makes of it
+      setenv("TANDEM_EMULATION", "once", 1);  // never twice, whatever the loader does with it
       execv("/proc/self/exe", argv);
     }
-    // As gtest writes it, so that ctest counts the test as skipped.
-    std::printf("main.cpp: Skipped\numockdev is not installed or does not load; it emulates devices for libusb, hidapi and libudev\n\n[  SKIPPED ]\n");
+    // Same text as gtest's, so that ctest counts the test as skipped.
+    std::printf(
+        "main.cpp: Skipped\numockdev is not installed or does not load; it emulates devices for libusb, hidapi and "
+        "libudev\n\n[  SKIPPED ]\n");
     return 0;
   }
   testing::InitGoogleTest(&argc, argv);

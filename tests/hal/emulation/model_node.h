@@ -5,13 +5,14 @@
 #include <mutex>
 
 #include "common/io/clock.h"
-#include "hal/wire/wire_model.h"
+#include "tests/hal/emulation/devices/emulated_device.h"
 #include "tests/hal/emulation/node.h"
 
 namespace tandem::test {
 
-/// Whoever holds it runs at the priority of whoever waits for it. A servo thread with a real-time priority would else wait for
-/// an ordinary thread of the test that a busy machine does not let run: a kernel does not do that to it.
+/// Mutex with priority inheritance: its holder runs at the priority of the thread that waits for it.
+/// Otherwise a real-time servo thread would wait for an ordinary test thread that a busy machine does not schedule. A
+/// kernel does not do this.
 class PriorityMutex {
  public:
   PriorityMutex() {
@@ -30,11 +31,11 @@ class PriorityMutex {
   pthread_mutex_t mutex_;
 };
 
-/// A node in front of a wire model: what usbfs and hidraw have in common. The model's time is the machine's.
+/// A node in front of a device model: common part of usbfs and hidraw. The model's time is the machine's.
 template <class Model>
 class ModelNode : public Node {
  public:
-  /// Runs with nobody else in the model.
+  /// Runs `Do` with exclusive access to the model.
   template <class Do>
   auto with_model(Do&& act) {
     const std::lock_guard hold(mutex_);
@@ -44,13 +45,13 @@ class ModelNode : public Node {
     const std::lock_guard hold(mutex_);
     pull();
   }
-  /// Unplugs when the `count`-th transfer (usbfs) or report (hidraw) from now on is handed in: 1 is the next one. The device
-  /// does not get it.
+  /// Unplugs on submission of the `count`-th transfer (usbfs) or report (hidraw) from now on; 1 is the next one. The
+  /// device does not receive it.
   void unplug_at(unsigned count) {
     const std::lock_guard hold(mutex_);
     unplug_at_ = handed_in_ + count;
   }
-  /// Transfers or reports handed in so far.
+  /// Returns the number of transfers or reports submitted so far.
   [[nodiscard]] unsigned handed_in() const {
     const std::lock_guard hold(mutex_);
     return handed_in_;
@@ -59,10 +60,10 @@ class ModelNode : public Node {
  protected:
   explicit ModelNode(Model& model) : model_(model), served_at_(io::monotonic_now()) {}
 
-  /// What is under way ends as the kernel ends it.
+  /// Ends pending transfers as the kernel ends them.
   virtual void end_transfers() = 0;
 
-  // With the mutex held.
+  // Call these with the mutex held.
   [[nodiscard]] Model& model() { return model_; }
   [[nodiscard]] bool gone() const { return gone_; }
   void advance() {
@@ -70,7 +71,7 @@ class ModelNode : public Node {
     model_.advance(now - served_at_);
     served_at_ = now;
   }
-  /// Something is handed in. @return false: there is no device any more
+  /// Counts a submission. @return false: the device is unplugged
   bool hand_in() {
     ++handed_in_;
     if (unplug_at_ != 0 && handed_in_ == unplug_at_) pull();

@@ -25,7 +25,7 @@ constexpr unsigned kPtyMajor = 136;
 std::array<std::atomic<Node*>, kMinors> g_nodes{};
 std::atomic<int> g_count{0};
 
-/// Calls `service` of every node; lives while there is one.
+/// Thread that calls `service` of every node; it exists while there is a node.
 struct Ticker {
   std::mutex mutex;  ///< held while nodes are served, taken to add and remove them
   std::condition_variable_any wake;
@@ -37,7 +37,7 @@ struct Ticker {
     nodes.push_back(node);
     if (!thread.joinable()) {
       thread = std::jthread([this](std::stop_token stop) {
-        // As a device and its bus: nobody's program keeps them waiting, if the machine lets us say so.
+        // A device and its bus are not delayed by other programs: priority above the servos, if the machine allows it.
         const sched_param above_servos{70};
         pthread_setschedparam(pthread_self(), SCHED_FIFO, &above_servos);
         std::unique_lock hold_on(mutex);
@@ -78,7 +78,7 @@ PollGate::PollGate() {
   fcntl(slave_, F_SETFD, FD_CLOEXEC);
   fcntl(master_, F_SETFD, FD_CLOEXEC);
   path_ = name.data();
-  struct stat status {};
+  struct stat status{};
   if (syscall(SYS_fstat, slave_, &status) != 0) give_up("fstat");
   minor_ = minor(status.st_rdev);
   if (minor_ >= kMinors) give_up("too many pseudo terminals");
@@ -122,7 +122,7 @@ void Node::vanish() {
 
 Node* Node::of(int fd) {
   if (g_count.load(std::memory_order_relaxed) == 0) return nullptr;
-  struct stat status {};
+  struct stat status{};
   const int before = errno;
   const bool known = syscall(SYS_fstat, fd, &status) == 0 && S_ISCHR(status.st_mode) &&
                      major(status.st_rdev) == kPtyMajor && minor(status.st_rdev) < kMinors;

@@ -7,23 +7,26 @@
 #include <string>
 #include <vector>
 
-#include "hal/device.h"
+#include "hal/core/device.h"
 
-/// What `tandem-client join --trace` wrote of a seat with three joints, and how one seat's motion follows another's.
+/// Trace that `tandem-client join --trace` wrote for a seat with three joints, and comparison of the motions of two
+/// seats.
 namespace tandem::test {
 
 struct SeatTrace {
   struct Row {
-    double t = 0;  ///< session time [s], negative before it began
-    hal::Vec3 q, x, wanted, passed, given;  ///< joints [rad], tip [m]; force wanted, let through by the gate, delivered [N]
-    int gate = 0;                           ///< wire::GateState
+    double t = 0;  ///< session time [s], negative before the session start
+    hal::Vec3 q, x, wanted, passed,
+        given;     ///< joints [rad], tip [m]; force commanded, passed by the gate, delivered [N]
+    int gate = 0;  ///< wire::GateState
   };
   std::vector<Row> rows;
 
-  /// Empty unless every line has the columns that a trace of three joints has.
+  /// Parses a trace. Returns an empty one unless every line has the columns of a trace of three joints.
   static SeatTrace parse(const std::string& csv) {
     constexpr const char* kHeader =
-        "t_s[s],q0[rad],q1[rad],q2[rad],x[m],y[m],z[m],f_cmd_x[N],f_cmd_y[N],f_cmd_z[N],f_gate_x[N],f_gate_y[N],f_gate_z[N],"
+        "t_s[s],q0[rad],q1[rad],q2[rad],x[m],y[m],z[m],f_cmd_x[N],f_cmd_y[N],f_cmd_z[N],f_gate_x[N],f_gate_y[N],f_gate_"
+        "z[N],"
         "f_out_x[N],f_out_y[N],f_out_z[N],gate[1],alpha[1],silence[s]";
     SeatTrace trace;
     std::istringstream in(csv);
@@ -45,10 +48,10 @@ struct SeatTrace {
   }
 };
 
-/// Three seats at the same session times, while all their gates were ACTIVE, and had been for `settle`.
+/// Readings of three seats at equal session times, while all gates had been ACTIVE for at least `settle`.
 struct Together {
   std::vector<hal::Vec3> lead, follow, tool;
-  double seconds = 0;  ///< of the session while the leader was at his seat
+  double seconds = 0;  ///< duration of the session while the leader was seated
 
   static Together of(const SeatTrace& lead, const SeatTrace& follow, const SeatTrace& tool, double settle) {
     constexpr int kActive = 3;
@@ -59,7 +62,7 @@ struct Together {
       while (i + 1 < trace.rows.size() && std::abs(trace.rows[i + 1].t - t) <= std::abs(trace.rows[i].t - t)) ++i;
       return trace.rows[i];
     };
-    // Before the session began, times count down: not to be compared.
+    // Before the session start times count down; these rows are not compared.
     const auto begin = [](const SeatTrace& trace) {
       std::size_t i = trace.rows.size();
       while (i > 0 && trace.rows[i - 1].t > 0) --i;
@@ -74,7 +77,8 @@ struct Together {
       const auto& third = at(tool, row.t, s);
       const bool active = row.gate == kActive && other.gate == kActive && third.gate == kActive;
       if (!active) disturbed = row.t;
-      if (!active || row.t - disturbed < settle || std::abs(other.t - row.t) > kApart || std::abs(third.t - row.t) > kApart)
+      if (!active || row.t - disturbed < settle || std::abs(other.t - row.t) > kApart ||
+          std::abs(third.t - row.t) > kApart)
         continue;
       out.lead.push_back(row.x);
       out.follow.push_back(other.x);
@@ -90,8 +94,8 @@ inline hal::Vec3 mean(const std::vector<hal::Vec3>& all) {
   return sum / static_cast<double>(std::max<std::size_t>(1, all.size()));
 }
 
-/// How far `path` is from moving as `lead` does, wherever each began: RMS of the difference over RMS of the motion; 1 for
-/// one that stands still.
+/// Returns the deviation of `path` from the motion of `lead`, independent of the starting points.
+/// It is the RMS of the difference divided by the RMS of the motion; 1 for a path at rest.
 inline double unlike(const std::vector<hal::Vec3>& path, const std::vector<hal::Vec3>& lead) {
   const hal::Vec3 of_path = mean(path), of_lead = mean(lead);
   double difference = 0, motion = 0;

@@ -1,5 +1,5 @@
-// 1 kHz through the real libraries, without a claim on the machine: what is asserted are exchanges and heap, rates are
-// printed.
+// 1 kHz through the real libraries, without requirements on the machine: the tests assert exchanges and heap use, and
+// print rates.
 #include <gtest/gtest.h>
 #include <sched.h>
 
@@ -13,7 +13,7 @@
 #include "common/io/realtime.h"
 #include "hal/io/hid_pipe.h"
 #include "hal/io/usb_pipe.h"
-#include "tests/base/counts.h"
+#include "tests/common/base/counts.h"
 #include "tests/hal/emulation/echo_model.h"
 #include "tests/hal/emulation/testbed.h"
 #include "tests/support/alloc_guard.h"
@@ -30,12 +30,12 @@ struct Course {
   Histogram round_trip;  ///< [ns]
 };
 
-/// `ticks` exchanges, one per millisecond; when a millisecond was missed the next one is not hurried.
+/// Performs `ticks` exchanges, one per millisecond; after a missed millisecond the next exchange keeps its schedule.
 template <class Exchange>
 void run(std::uint64_t ticks, Exchange exchange, Course& course) {
-  // As a device's own thread does. Where the system refuses, the neighbours' load is in the figures.
+  // Priority of a device's own thread. If the system refuses it, the figures include the load of other programs.
   constexpr int kPriority = 80;
-  course.realtime = io::ask_for_realtime(kPriority);
+  course.realtime = io::request_realtime(kPriority);
   const Time began = io::monotonic_now();
   const Duration cpu_before = io::read_clock(CLOCK_THREAD_CPUTIME_ID);
   const AllocGuard heap;
@@ -85,8 +85,8 @@ std::array<std::byte, 16> stamp(std::uint64_t i) {
 struct UsbSeat {
   explicit UsbSeat(Testbed& bed, const std::string& port) {
     bed.plug(node, model, port);
-    hal::Wanted wanted{"echo", {}, {}, {}, port};
-    auto opened = hal::LibusbPipe::open(*hal::choose(hal::list_usb(), wanted));
+    hal::DeviceFilter wanted{"echo", {}, {}, {}, port};
+    auto opened = hal::LibusbPipe::open(*hal::select_device(hal::list_usb(), wanted));
     EXPECT_TRUE(opened) << opened.error().message;
     pipe = std::move(*opened);
   }
@@ -97,7 +97,7 @@ struct UsbSeat {
     for (int tries = 0; tries < 1000; ++tries) {
       const auto got = pipe->read(packet, 5s);
       if (!got || *got < UsbEcho::kStatus) return false;
-      if (*got == UsbEcho::kStatus) continue;  // the latency timer's
+      if (*got == UsbEcho::kStatus) continue;  // a packet of the latency timer
       return *got == UsbEcho::kStatus + frame.size() &&
              std::equal(frame.begin(), frame.end(), packet.begin() + UsbEcho::kStatus);
     }
@@ -111,8 +111,8 @@ struct UsbSeat {
 struct HidSeat {
   explicit HidSeat(Testbed& bed, const std::string& port) {
     bed.plug(node, model, port);
-    hal::Wanted wanted{"echo", {}, {}, {}, port};
-    auto opened = hal::HidrawPipe::open(*hal::choose(hal::list_hidraw(), wanted));
+    hal::DeviceFilter wanted{"echo", {}, {}, {}, port};
+    auto opened = hal::HidrawPipe::open(*hal::select_device(hal::list_hidraw(), wanted));
     EXPECT_TRUE(opened) << opened.error().message;
     pipe = std::move(*opened);
   }
@@ -139,38 +139,35 @@ void expect_clean(const Course& c, std::uint64_t ticks) {
   EXPECT_EQ(c.heap, 0u);
 }
 
-/// 60 s with --full and --nightly.
+/// Returns the number of ticks; 60 s with --full and --nightly.
 std::uint64_t ticks() { return draws(2000, 60000, 60000); }
 
-TEST(ServoRate, NothingAtAllForComparison) {
+TEST(ServoRate, MeasuresAnEmptyLoop) {
   Course course;
-  run(
-      ticks(), [](std::uint64_t) { return true; }, course);
+  run(ticks(), [](std::uint64_t) { return true; }, course);
   print("an empty loop", course);
   expect_clean(course, ticks());
 }
 
-TEST(ServoRate, OneUsbDevice) {
+TEST(ServoRate, MeasuresOneUsbDevice) {
   Testbed bed;
   UsbSeat seat(bed, "1-2");
   Course course;
-  run(
-      ticks(), [&](std::uint64_t i) { return seat.exchange(i); }, course);
+  run(ticks(), [&](std::uint64_t i) { return seat.exchange(i); }, course);
   print("one USB device", course);
   expect_clean(course, ticks());
 }
 
-TEST(ServoRate, OneHidDevice) {
+TEST(ServoRate, MeasuresOneHidDevice) {
   Testbed bed;
   HidSeat seat(bed, "1-2");
   Course course;
-  run(
-      ticks(), [&](std::uint64_t i) { return seat.exchange(i); }, course);
+  run(ticks(), [&](std::uint64_t i) { return seat.exchange(i); }, course);
   print("one HID device", course);
   expect_clean(course, ticks());
 }
 
-TEST(ServoRate, ThreeDevicesAtOnce) {
+TEST(ServoRate, MeasuresThreeDevicesAtOnce) {
   Testbed bed;
   UsbSeat first(bed, "1-2"), second(bed, "1-3");
   HidSeat third(bed, "1-4");
@@ -179,18 +176,19 @@ TEST(ServoRate, ThreeDevicesAtOnce) {
   const auto thread = [&](auto& seat, Course& course) {
     return std::jthread([&] {
       together.arrive_and_wait();
-      run(
-          ticks(), [&](std::uint64_t i) { return seat.exchange(i); }, course);
+      run(ticks(), [&](std::uint64_t i) { return seat.exchange(i); }, course);
     });
   };
-  { const auto a = thread(first, courses[0]), b = thread(second, courses[1]), c = thread(third, courses[2]); }
+  {
+    const auto a = thread(first, courses[0]), b = thread(second, courses[1]), c = thread(third, courses[2]);
+  }
   print("three at once, USB", courses[0]);
   print("three at once, USB", courses[1]);
   print("three at once, HID", courses[2]);
   for (const Course& course : courses) expect_clean(course, ticks());
 }
 
-TEST(ServoRate, FreeRunning) {
+TEST(ServoRate, MeasuresTheUnpacedRate) {
   Testbed bed;
   UsbSeat usb(bed, "1-2");
   HidSeat hid(bed, "1-3");

@@ -1,25 +1,25 @@
-// The SpaceMouse driver over the real hidapi, on its wire model: units with a cable (two reports by turns), wireless ones
-// (all axes in one report).
+// The SpaceMouse driver over the real hidapi, on its device model: wired units (two alternating reports) and wireless
+// ones (all axes in one report).
 #include <gtest/gtest.h>
 
 #include "common/base/rng.h"
+#include "hal/drivers/spacemouse/products.h"
+#include "hal/drivers/spacemouse/spacemouse_driver.h"
 #include "hal/io/hid_pipe.h"
-#include "hal/io/servo_pace.h"
-#include "hal/spacemouse/products.h"
-#include "hal/spacemouse/spacemouse_driver.h"
-#include "hal/wire/spacemouse_model.h"
-#include "tests/base/counts.h"
+#include "hal/io/periodic_timer.h"
+#include "tests/common/base/counts.h"
+#include "tests/hal/emulation/devices/hid_model_pipe.h"
+#include "tests/hal/emulation/devices/spacemouse_model.h"
 #include "tests/hal/emulation/echo_model.h"
 #include "tests/hal/emulation/testbed.h"
-#include "tests/support/hid_wire_pipe.h"
 
 namespace tandem::test {
 namespace {
 
 using namespace std::chrono_literals;
 using hal::Errc;
-using hal::wire::SpaceMouseModel;
-using hal::wire::SpaceMouseModelParams;
+using hal::emulation::SpaceMouseModel;
+using hal::emulation::SpaceMouseModelParams;
 
 constexpr double kSpeed = 0.1, kTurn = 0.5;  // at full deflection, 350 counts [m/s, rad/s]
 
@@ -33,19 +33,22 @@ SpaceMouseModelParams wireless() {
   return params;
 }
 
-/// Whatever is plugged in, as long as it says that it is a puck.
+/// Opens any plugged-in device that reports the SpaceMouse usage.
 hal::Result<std::unique_ptr<hal::HidrawPipe>> open_puck() {
-  for (const hal::Attached& device : hal::list_hidraw()) {
+  for (const hal::AttachedDevice& device : hal::list_hidraw()) {
     for (const hal::HidUsage& usage : device.usages) {
-      if (hal::spacemouse::is_puck(device.ids.vendor, device.ids.product, usage.page, usage.usage)) return hal::HidrawPipe::open(device);
+      if (hal::spacemouse::is_spacemouse(device.ids.vendor, device.ids.product, usage.page, usage.usage))
+        return hal::HidrawPipe::open(device);
     }
   }
   return std::unexpected(hal::DeviceError{Errc::kNotFound, "no puck"});
 }
 
-/// A puck on a table, and the driver that listens to it.
+/// A SpaceMouse model and the driver that reads it.
 struct Puck {
-  explicit Puck(Testbed& bed_, hal::wire::HidWireModel& model) : bed(bed_), node(model) { bed.plug(node, model, "1-2"); }
+  explicit Puck(Testbed& bed_, hal::emulation::EmulatedHidDevice& model) : bed(bed_), node(model) {
+    bed.plug(node, model, "1-2");
+  }
   ~Puck() { bed.remove("1-2"); }
   hal::Result<> begin() {
     auto opened = open_puck();
@@ -60,7 +63,7 @@ struct Puck {
     clock.wait_until(clock.now() + 1ms);
     return error_of(result);
   }
-  /// Ticks until it is so, or it is clear that it will not be.
+  /// Ticks until the condition holds, or until it clearly does not.
   template <class Is>
   bool until(Is&& is) {
     for (int i = 0; i < 3000; ++i) {
@@ -78,31 +81,34 @@ struct Puck {
   std::uint64_t seq = 0;
 };
 
-class EveryPuck : public testing::TestWithParam<SpaceMouseModelParams> {};
-INSTANTIATE_TEST_SUITE_P(SpaceMouse, EveryPuck, testing::Values(with_cable(), wireless()),
+class EverySpaceMouse : public testing::TestWithParam<SpaceMouseModelParams> {};
+INSTANTIATE_TEST_SUITE_P(SpaceMouse, EverySpaceMouse, testing::Values(with_cable(), wireless()),
                          [](const auto& of) { return of.param.combined ? "Wireless" : "WithCable"; });
 
-TEST_P(EveryPuck, MovesTurnsRestsAndShines) {
+TEST_P(EverySpaceMouse, MovesRotatesRestsAndLights) {
   Testbed bed;
   SpaceMouseModel model(GetParam());
   Puck puck(bed, model);
   ASSERT_TRUE(puck.begin());
   EXPECT_TRUE(puck.node.with_model([&] { return model.light(); }));
   puck.node.with_model([&] { model.deflect({350, 0, -175, 0, 350, 0}); });
-  // HAL: x as the maker's, y and z against his.
-  EXPECT_TRUE(puck.until([&] { return puck.state.dx == hal::Vec3(kSpeed, 0, kSpeed / 2) && puck.state.dq[4] == -kTurn; }))
-      << puck.state.dx.transpose() << ", " << puck.state.dq[4];
+  // HAL: x as the maker's, y and z opposite.
+  EXPECT_TRUE(puck.until([&] {
+    return puck.state.dx == hal::Vec3(kSpeed, 0, kSpeed / 2) && puck.state.dq[4] == -kTurn;
+  })) << puck.state.dx.transpose()
+      << ", " << puck.state.dq[4];
   puck.node.with_model([&] { model.press(5), model.tell_battery(42, false); });
   EXPECT_TRUE(puck.until([&] { return puck.state.buttons == 5 && puck.driver->battery_percent() == 42; }));
   puck.node.with_model([&] { model.deflect({}), model.press(0); });
-  EXPECT_TRUE(puck.until([&] { return puck.state.dx == hal::Vec3::Zero() && puck.state.dq[4] == 0 && puck.state.buttons == 0; }));
+  EXPECT_TRUE(puck.until(
+      [&] { return puck.state.dx == hal::Vec3::Zero() && puck.state.dq[4] == 0 && puck.state.buttons == 0; }));
   EXPECT_TRUE(puck.until([&] { return puck.state.stale; })) << "a puck at rest falls silent";
   EXPECT_EQ(puck.state.dx, hal::Vec3::Zero());
-  puck.driver->silence();
+  puck.driver->send_zeros();
   EXPECT_FALSE(puck.node.with_model([&] { return model.light(); }));
 }
 
-TEST_P(EveryPuck, OneThatDiesInMotionComesToRest) {
+TEST_P(EverySpaceMouse, ComesToRestIfItFailsInMotion) {
   Testbed bed;
   SpaceMouseModel model(GetParam());
   Puck puck(bed, model);
@@ -113,7 +119,7 @@ TEST_P(EveryPuck, OneThatDiesInMotionComesToRest) {
   EXPECT_TRUE(puck.until([&] { return puck.state.dx == hal::Vec3::Zero() && puck.state.stale; }));
 }
 
-TEST_P(EveryPuck, PermissionDeniedNamesTheUdevRuleAndBusyIsSaid) {
+TEST_P(EverySpaceMouse, ReportsDeniedPermissionAndABusyDevice) {
   Testbed bed;
   SpaceMouseModel model(GetParam());
   Puck puck(bed, model);
@@ -124,7 +130,9 @@ TEST_P(EveryPuck, PermissionDeniedNamesTheUdevRuleAndBusyIsSaid) {
     ASSERT_FALSE(denied);
     EXPECT_EQ(denied.error().code, Errc::kPermission);
     const std::string ids = GetParam().combined ? "256F:C62F" : "046D:C626";
-    EXPECT_NE(denied.error().message.find(R"(SUBSYSTEM=="hidraw", KERNELS=="*:)" + ids + R"(.*", MODE="0660", TAG+="uaccess")"), std::string::npos)
+    EXPECT_NE(denied.error().message.find(R"(SUBSYSTEM=="hidraw", KERNELS=="*:)" + ids +
+                                          R"(.*", MODE="0660", TAG+="uaccess")"),
+              std::string::npos)
         << denied.error().message;
     bed.set_mode("/dev/hidraw0", 0600);
   }
@@ -136,7 +144,7 @@ TEST_P(EveryPuck, PermissionDeniedNamesTheUdevRuleAndBusyIsSaid) {
   EXPECT_TRUE(open_puck());
 }
 
-TEST_P(EveryPuck, UnpluggedInMotionIsSaidAtOnceAndPluggedInAgainItIsAtRest) {
+TEST_P(EverySpaceMouse, ReportsUnpluggingAtOnceAndRestsAfterReplug) {
   Testbed bed;
   SpaceMouseModel model(GetParam());
   {
@@ -147,7 +155,7 @@ TEST_P(EveryPuck, UnpluggedInMotionIsSaidAtOnceAndPluggedInAgainItIsAtRest) {
     puck.node.unplug();
     EXPECT_EQ(puck.tick(), Errc::kUnplugged);
     EXPECT_EQ(puck.tick(), Errc::kUnplugged);
-    puck.driver->silence();
+    puck.driver->send_zeros();
   }
   EXPECT_TRUE(hal::list_hidraw().empty());
   model.deflect({});
@@ -161,7 +169,7 @@ TEST_P(EveryPuck, UnpluggedInMotionIsSaidAtOnceAndPluggedInAgainItIsAtRest) {
   EXPECT_TRUE(again.until([&] { return again.state.dx[2] == -kSpeed; }));
 }
 
-TEST_P(EveryPuck, UnpluggedWhileTheLightIsSetEndsTheStart) {
+TEST_P(EverySpaceMouse, EndsTheStartIfUnpluggedWhileTheLightIsSet) {
   Testbed bed;
   SpaceMouseModel model(GetParam());
   Puck puck(bed, model);
@@ -171,11 +179,11 @@ TEST_P(EveryPuck, UnpluggedWhileTheLightIsSetEndsTheStart) {
   EXPECT_EQ(up.error().code, Errc::kUnplugged);
 }
 
-/// A puck between whose reports somebody puts rubbish: any id, any length, any bytes.
-class Rubbish final : public hal::wire::HidWireModel {
+/// A SpaceMouse with random reports in between: any id, any length, any bytes.
+class Rubbish final : public hal::emulation::EmulatedHidDevice {
  public:
   Rubbish(SpaceMouseModel& model, std::uint64_t seed) : model_(model), random_(seed) {}
-  hal::wire::WireMoved report_in(std::span<std::byte> into) noexcept override {
+  hal::emulation::TransferResult report_in(std::span<std::byte> into) noexcept override {
     if (left > 0 && random_.below(2) == 0) {
       --left;
       const std::size_t size = 1 + random_.below(60);
@@ -194,10 +202,18 @@ class Rubbish final : public hal::wire::HidWireModel {
   [[nodiscard]] std::string_view manufacturer() const noexcept override { return model_.manufacturer(); }
   [[nodiscard]] std::string_view product() const noexcept override { return model_.product(); }
   [[nodiscard]] std::string_view serial() const noexcept override { return model_.serial(); }
-  [[nodiscard]] std::span<const std::byte> report_descriptor() const noexcept override { return model_.report_descriptor(); }
-  hal::wire::WireMoved report_out(std::span<const std::byte> report) noexcept override { return model_.report_out(report); }
-  hal::wire::WireMoved feature_set(std::span<const std::byte> report) noexcept override { return model_.feature_set(report); }
-  hal::wire::WireMoved feature_get(std::span<std::byte> into) noexcept override { return model_.feature_get(into); }
+  [[nodiscard]] std::span<const std::byte> report_descriptor() const noexcept override {
+    return model_.report_descriptor();
+  }
+  hal::emulation::TransferResult report_out(std::span<const std::byte> report) noexcept override {
+    return model_.report_out(report);
+  }
+  hal::emulation::TransferResult feature_set(std::span<const std::byte> report) noexcept override {
+    return model_.feature_set(report);
+  }
+  hal::emulation::TransferResult feature_get(std::span<std::byte> into) noexcept override {
+    return model_.feature_get(into);
+  }
 
   unsigned left = 0;
 
@@ -206,7 +222,7 @@ class Rubbish final : public hal::wire::HidWireModel {
   RandomStream random_;
 };
 
-TEST_P(EveryPuck, RubbishNeverMovesFasterThanAFullDeflectionAndPasses) {
+TEST_P(EverySpaceMouse, BoundsTheVelocityForGarbageAndRecovers) {
   const auto reports = static_cast<unsigned>(draws(20'000, 200'000, 2'000'000));
   std::printf("[ reports  ] %u of rubbish\n", reports);
   Testbed bed;

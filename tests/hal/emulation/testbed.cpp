@@ -17,7 +17,7 @@
 namespace tandem::test {
 namespace {
 
-/// umockdev's C interface, as far as it is used here; its objects are GObjects.
+/// umockdev's C interface, as far as used here; its objects are GObjects.
 struct Library {
   void* (*testbed_new)() = nullptr;
   char* (*get_root_dir)(void*) = nullptr;
@@ -117,7 +117,7 @@ void Testbed::tell(const std::string& sysfs, const char* action) {
   library().uevent(bed_, ("/sys" + sysfs).c_str(), action);
 }
 
-void Testbed::plug(UsbfsNode& node, const hal::wire::UsbWireModel& model, const std::string& port) {
+void Testbed::plug(UsbfsNode& node, const hal::emulation::EmulatedUsbDevice& model, const std::string& port) {
   const unsigned address = next_address_++;
   const auto device = model.device_descriptor();
   const auto text_of = [&](std::size_t at) { return model.string(static_cast<std::uint8_t>(device[at])); };
@@ -129,9 +129,9 @@ void Testbed::plug(UsbfsNode& node, const hal::wire::UsbWireModel& model, const 
   tell(kController + port, "add");
 }
 
-void Testbed::plug(HidrawNode& node, const hal::wire::HidWireModel& model, const std::string& port) {
+void Testbed::plug(HidrawNode& node, const hal::emulation::EmulatedHidDevice& model, const std::string& port) {
   const unsigned address = next_address_++;
-  unsigned number = 0;  // the lowest free one, as in the kernel: names come again
+  unsigned number = 0;  // the lowest free number, as in the kernel: names are reused
   while (std::filesystem::is_symlink(root_ + format("/dev/hidraw%u", number))) ++number;
   const std::string usb = kController + port, interface = usb + "/" + port + ":1.0",
                     hid = interface + format("/0003:%04X:%04X.%04X", model.vendor_id(), model.product_id(), address),

@@ -3,32 +3,34 @@
 #include <string>
 #include <vector>
 
-#include "hal/wire/wire_model.h"
+#include "tests/hal/emulation/devices/emulated_device.h"
 #include "tests/hal/emulation/hidraw.h"
 #include "tests/hal/emulation/usbfs.h"
 
 namespace tandem::test {
 
-/// A machine with nothing plugged in, until a test plugs something in: sysfs, udev's data, uevents and names of nodes
-/// are umockdev's, what is behind a node is a UsbfsNode or HidrawNode. One at a time; needs umockdev's preload library
-/// (main.cpp sees to it). The library is looked up at run time, so that nothing here needs it to be built.
+/// A machine without devices, until a test plugs one in. sysfs, udev's data, uevents and node names are umockdev's; a
+/// UsbfsNode or HidrawNode is behind a node.
+/// One at a time. It needs umockdev's preload library, which main.cpp loads. The library is looked up at run time, so
+/// the build does not need it.
 class Testbed {
  public:
   Testbed();
   ~Testbed();
   Testbed(const Testbed&) = delete;
 
-  /// Whether umockdev is installed; if not, why not.
+  /// Returns whether umockdev is installed; `why`: the reason if not.
   static bool available(std::string* why = nullptr);
 
-  /// Plugs in and tells udev's listeners. The address counts up with every call, as the kernel's does.
+  /// Plugs in a device and notifies udev's listeners. The address increases with every call, as the kernel's does.
   /// @param port  "1-2"
-  void plug(UsbfsNode& node, const hal::wire::UsbWireModel& model, const std::string& port);
-  void plug(HidrawNode& node, const hal::wire::HidWireModel& model, const std::string& port);
-  /// The node's own unplugging is the caller's, before: first the kernel ends transfers, then it tells.
+  void plug(UsbfsNode& node, const hal::emulation::EmulatedUsbDevice& model, const std::string& port);
+  void plug(HidrawNode& node, const hal::emulation::EmulatedHidDevice& model, const std::string& port);
+  /// Removes the device from sysfs and notifies udev's listeners.
+  /// The caller unplugs the node first: the kernel ends transfers before it notifies.
   void remove(const std::string& port);
 
-  /// Rights of a node, e.g. 0: nobody may open it.
+  /// Sets the permissions of a node, e.g. 0: no user may open it.
   void set_mode(const std::string& node, unsigned mode) const;
 
  private:
@@ -46,7 +48,7 @@ class Testbed {
   unsigned next_address_ = 4;
 };
 
-/// While it lives, this thread may not open what its rights forbid, even as root.
+/// While this object exists, file permissions apply to this thread even as root.
 class WithoutOverride {
  public:
   WithoutOverride();

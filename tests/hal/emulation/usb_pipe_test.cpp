@@ -18,23 +18,23 @@ using namespace std::chrono_literals;
 using hal::Errc;
 using hal::LibusbPipe;
 
-/// Long enough for a busy machine: reading returns as soon as something is there.
+/// Long enough for a busy machine: a read returns as soon as data is available.
 constexpr Duration kPatient = 5s;
 
 struct UsbPipe : testing::Test {
   UsbPipe() { bed.plug(node, model, "1-2"); }
 
-  hal::Attached attached() {
+  hal::AttachedDevice attached() {
     const auto list = hal::list_usb();
     EXPECT_EQ(list.size(), 1u);
-    return list.empty() ? hal::Attached{} : list.front();
+    return list.empty() ? hal::AttachedDevice{} : list.front();
   }
   std::unique_ptr<LibusbPipe> open() {
     auto pipe = LibusbPipe::open(attached());
     EXPECT_TRUE(pipe) << pipe.error().message;
     return pipe ? std::move(*pipe) : nullptr;
   }
-  /// Data bytes of whole packets, without their status, until `count` came.
+  /// Returns data bytes of complete packets without their status, until `count` bytes arrived.
   static std::vector<std::byte> gather(hal::UsbPipe& pipe, std::size_t count, std::size_t* packets = nullptr) {
     std::vector<std::byte> out;
     std::array<std::byte, UsbEcho::kPacket> packet{};
@@ -58,7 +58,7 @@ std::vector<std::byte> frame(int first, std::size_t size = 16) {
   return out;
 }
 
-TEST_F(UsbPipe, IsListedWithItsNamesBeforeAnybodyOpensIt) {
+TEST_F(UsbPipe, IsListedWithItsNamesBeforeItIsOpened) {
   const auto device = attached();
   EXPECT_EQ(device.ids, (hal::UsbIds{0x0403, 0xCB48}));
   EXPECT_EQ(device.maker, "Tandem");
@@ -110,7 +110,7 @@ TEST_F(UsbPipe, PermissionDeniedNamesTheUdevRule) {
   EXPECT_NE(pipe.error().message.find("/dev/bus/usb/001/004"), std::string::npos);
 }
 
-TEST_F(UsbPipe, ASecondOneIsToldThatItIsBusyUntilTheFirstIsGone) {
+TEST_F(UsbPipe, ReportsBusyToASecondClientUntilTheFirstCloses) {
   auto first = open();
   const auto second = LibusbPipe::open(attached());
   ASSERT_FALSE(second);
@@ -120,7 +120,7 @@ TEST_F(UsbPipe, ASecondOneIsToldThatItIsBusyUntilTheFirstIsGone) {
   EXPECT_TRUE(LibusbPipe::open(attached()));
 }
 
-TEST_F(UsbPipe, TakesTheInterfaceFromAKernelDriverAndGivesItBack) {
+TEST_F(UsbPipe, DetachesAndReattachesTheKernelDriver) {
   UsbEcho other;
   UsbfsNode bound(other, "ftdi_sio");
   bed.plug(bound, other, "1-3");
@@ -144,7 +144,7 @@ TEST_F(UsbPipe, RefusesAnotherDeviceWithTheSameId) {
   EXPECT_EQ(pipe.error().code, Errc::kUnsupported);
 }
 
-TEST_F(UsbPipe, AStallIsAProtocolErrorUntilTheHaltIsCleared) {
+TEST_F(UsbPipe, ReportsAStallAsAProtocolErrorUntilCleared) {
   auto pipe = open();
   std::array<std::byte, UsbEcho::kPacket> packet{};
   node.with_model([&] { model.stall_in = model.stall_out = true; });
@@ -160,7 +160,7 @@ TEST_F(UsbPipe, AStallIsAProtocolErrorUntilTheHaltIsCleared) {
   EXPECT_TRUE(pipe->control(1, 2, 3));
 }
 
-TEST_F(UsbPipe, AHaltCanBeClearedWhileAReadingIsUnderWay) {
+TEST_F(UsbPipe, ClearsAHaltDuringAPendingRead) {
   auto pipe = open();
   std::array<std::byte, UsbEcho::kPacket> packet{};
   node.with_model([&] { model.silent = true; });
@@ -172,7 +172,7 @@ TEST_F(UsbPipe, AHaltCanBeClearedWhileAReadingIsUnderWay) {
   EXPECT_EQ(gather(*pipe, 16), frame(3));
 }
 
-TEST_F(UsbPipe, WhatComesAfterAReadingGaveUpIsNotLost) {
+TEST_F(UsbPipe, KeepsDataThatArrivesAfterAReadTimeout) {
   auto pipe = open();
   std::array<std::byte, UsbEcho::kPacket> packet{};
   node.with_model([&] { model.silent = true; });
@@ -184,7 +184,7 @@ TEST_F(UsbPipe, WhatComesAfterAReadingGaveUpIsNotLost) {
   EXPECT_EQ(gather(*pipe, 40), frame(5, 40));
 }
 
-TEST_F(UsbPipe, AWriteNobodyTakesIsTakenBack) {
+TEST_F(UsbPipe, CancelsAWriteThatTimesOut) {
   auto pipe = open();
   node.with_model([&] { model.takes_nothing = true; });
   EXPECT_EQ(error_of(pipe->write(frame(1), 2ms)), Errc::kTimeout);
@@ -194,7 +194,7 @@ TEST_F(UsbPipe, AWriteNobodyTakesIsTakenBack) {
   EXPECT_EQ(node.with_model([&] { return model.bytes_taken; }), 16u);
 }
 
-TEST_F(UsbPipe, PartialAndGluedFramesComeByteForByte) {
+TEST_F(UsbPipe, DeliversPartialAndConcatenatedFramesByteForByte) {
   auto pipe = open();
   for (const std::size_t piece : {std::size_t{1}, std::size_t{5}, std::size_t{14}}) {
     node.with_model([&] { model.packet_data = piece; });
@@ -215,7 +215,7 @@ TEST_F(UsbPipe, PartialAndGluedFramesComeByteForByte) {
   EXPECT_EQ(packets, 1u) << "two frames in one packet";
 }
 
-TEST_F(UsbPipe, AFirmwareSizedUploadComesBackUnchanged) {
+TEST_F(UsbPipe, TransfersAFirmwareSizedUploadUnchanged) {
   auto pipe = open();
   for (int block = 0; block < 118; ++block) {
     const auto sent = frame(block, 62);
@@ -224,13 +224,13 @@ TEST_F(UsbPipe, AFirmwareSizedUploadComesBackUnchanged) {
   }
 }
 
-TEST_F(UsbPipe, EmptyPacketsOfTheLatencyTimerAreJustStatus) {
+TEST_F(UsbPipe, TreatsEmptyLatencyTimerPacketsAsStatus) {
   auto pipe = open();
   std::array<std::byte, UsbEcho::kPacket> packet{};
   for (int i = 0; i < 5; ++i) EXPECT_EQ(pipe->read(packet, kPatient).value_or(0), UsbEcho::kStatus);
 }
 
-TEST_F(UsbPipe, RefusesWhatDoesNotFit) {
+TEST_F(UsbPipe, RejectsTransfersThatDoNotFit) {
   auto pipe = open();
   std::array<std::byte, UsbEcho::kPacket - 1> small{};
   EXPECT_EQ(error_of(pipe->read(small, kPatient)), Errc::kInternal);
@@ -238,7 +238,7 @@ TEST_F(UsbPipe, RefusesWhatDoesNotFit) {
   EXPECT_TRUE(pipe->write(frame(0, LibusbPipe::kWriteMax), kPatient));
 }
 
-/// Boot-like conversation; returns its first error.
+/// Performs a boot-like exchange of transfers. Returns its first error.
 std::optional<Errc> converse(hal::UsbPipe& pipe) {
   std::array<std::byte, UsbEcho::kPacket> packet{};
   for (int i = 0; i < 3; ++i) {
@@ -251,7 +251,7 @@ std::optional<Errc> converse(hal::UsbPipe& pipe) {
   return std::nullopt;
 }
 
-TEST(UsbUnplug, AtEveryTransferOfAConversationIsSeenAtOnceAndForGood) {
+TEST(UsbUnplug, IsDetectedAtOnceAtEveryTransfer) {
   Testbed bed;
   unsigned transfers = 0;
   for (unsigned at = 1; at <= 13; ++at) {
@@ -266,7 +266,7 @@ TEST(UsbUnplug, AtEveryTransferOfAConversationIsSeenAtOnceAndForGood) {
       node.unplug_at(at);
       const auto error = converse(**pipe);
       transfers = node.handed_in() - before;
-      constexpr unsigned kAll = 12;  // the last one is a reading ahead, whose failure the next call tells
+      constexpr unsigned kAll = 12;  // the last one is a read in advance, whose failure the next call reports
       EXPECT_EQ(error, at < kAll ? std::optional(Errc::kUnplugged) : std::nullopt);
       if (at <= kAll) {
         std::array<std::byte, UsbEcho::kPacket> packet{};
@@ -281,16 +281,16 @@ TEST(UsbUnplug, AtEveryTransferOfAConversationIsSeenAtOnceAndForGood) {
   }
 }
 
-TEST_F(UsbPipe, UnpluggedWhileAReadingWaitsEndsIt) {
+TEST_F(UsbPipe, EndsAPendingReadWhenUnplugged) {
   auto pipe = open();
   node.with_model([&] { model.silent = true; });
   std::array<std::byte, UsbEcho::kPacket> packet{};
-  EXPECT_EQ(pipe->read(packet, 0ms).value_or(9), 0u);  // now it is under way
+  EXPECT_EQ(pipe->read(packet, 0ms).value_or(9), 0u);  // now a transfer is pending
   std::jthread hand([&] { node.unplug(); });
   EXPECT_EQ(error_of(pipe->read(packet, kPatient)), Errc::kUnplugged);
 }
 
-TEST_F(UsbPipe, UnpluggedWithAReadingUnderWayIsSeenByTheNextWrite) {
+TEST_F(UsbPipe, ReportsUnpluggingDuringAReadAtTheNextWrite) {
   auto pipe = open();
   node.with_model([&] { model.silent = true; });
   std::array<std::byte, UsbEcho::kPacket> packet{};
@@ -299,7 +299,7 @@ TEST_F(UsbPipe, UnpluggedWithAReadingUnderWayIsSeenByTheNextWrite) {
   EXPECT_EQ(error_of(pipe->write(frame(1), kPatient)), Errc::kUnplugged);
 }
 
-TEST_F(UsbPipe, UnpluggedBetweenListingAndOpeningIsSaid) {
+TEST_F(UsbPipe, ReportsUnpluggingBetweenListingAndOpening) {
   const auto device = attached();
   node.unplug();
   bed.remove("1-2");
@@ -308,7 +308,7 @@ TEST_F(UsbPipe, UnpluggedBetweenListingAndOpeningIsSaid) {
   EXPECT_EQ(pipe.error().code, Errc::kUnplugged);
 }
 
-TEST_F(UsbPipe, PluggedInAgainItIsANewDeviceAndTheOldPipeStaysDead) {
+TEST_F(UsbPipe, TreatsAReplugAsANewDevice) {
   auto old = open();
   const auto before = attached();
   node.unplug();

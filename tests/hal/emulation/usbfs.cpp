@@ -12,11 +12,11 @@
 
 namespace tandem::test {
 
-using hal::wire::SetupPacket;
-using hal::wire::WireMoved;
-using hal::wire::WireStatus;
+using hal::emulation::SetupPacket;
+using hal::emulation::TransferResult;
+using hal::emulation::TransferStatus;
 
-/// What the kernel keeps of a transfer: results go back into the caller's record only when he reaps it.
+/// The kernel's record of a transfer; results are copied to the caller's record only on reaping.
 struct UsbfsNode::Urb {
   usbdevfs_urb* owner = nullptr;
   int status = 0;
@@ -34,7 +34,7 @@ std::span<std::byte> bytes_of(void* buffer, int size) {
 
 }  // namespace
 
-UsbfsNode::UsbfsNode(hal::wire::UsbWireModel& model, std::string kernel_driver)
+UsbfsNode::UsbfsNode(hal::emulation::EmulatedUsbDevice& model, std::string kernel_driver)
     : ModelNode(model), driver_(std::move(kernel_driver)) {
   appear();
 }
@@ -43,7 +43,7 @@ UsbfsNode::~UsbfsNode() { vanish(); }
 void UsbfsNode::serve() {
   if (gone()) return;
   advance();
-  // What goes out may be answered at once, by a reading that was handed in before.
+  // Sent data may be answered at once by a read submitted earlier.
   for (bool moved = true; moved;) {
     moved = false;
     for (auto urb = pending_.begin(); urb != pending_.end();) {
@@ -63,13 +63,13 @@ void UsbfsNode::service() {
   serve();
 }
 
-/// @return whether it ended
+/// Performs a transfer. @return whether it ended
 bool UsbfsNode::carry_out(Urb& urb) {
   usbdevfs_urb& u = *urb.owner;
   const auto buffer = bytes_of(u.buffer, u.buffer_length);
-  WireMoved moved = std::unexpected(WireStatus::kStall);
+  TransferResult moved = std::unexpected(TransferStatus::kStall);
   if (u.type == USBDEVFS_URB_TYPE_CONTROL) {
-    const SetupPacket setup = hal::wire::setup_from(buffer.first<kSetupSize>());
+    const SetupPacket setup = hal::emulation::setup_from(buffer.first<kSetupSize>());
     moved = model().control(
         setup, buffer.subspan(kSetupSize).first(std::min<std::size_t>(setup.length, buffer.size() - kSetupSize)));
   } else if ((u.endpoint & 0x80) != 0) {
@@ -88,8 +88,8 @@ bool UsbfsNode::carry_out(Urb& urb) {
     urb.moved = static_cast<int>(*moved);
     return true;
   }
-  if (moved.error() == WireStatus::kNak) return false;
-  urb.status = moved.error() == WireStatus::kStall ? -EPIPE : -ESHUTDOWN;
+  if (moved.error() == TransferStatus::kNak) return false;
+  urb.status = moved.error() == TransferStatus::kStall ? -EPIPE : -ESHUTDOWN;
   return true;
 }
 
@@ -133,7 +133,7 @@ long UsbfsNode::claim(int fd) {
   return 0;
 }
 
-/// Unbinding and binding the kernel's own driver.
+/// Unbinds and binds the kernel's own driver.
 long UsbfsNode::driver_request(void* argument) {
   const auto& command = *static_cast<usbdevfs_ioctl*>(argument);
   if (static_cast<unsigned>(command.ioctl_code) == USBDEVFS_DISCONNECT) {
@@ -199,7 +199,7 @@ long UsbfsNode::on_ioctl(int fd, unsigned long request, void* argument) {
       return model().control({kToEndpoint, kClearFeature, 0, endpoint, 0}, {}) ? 0 : -EPIPE;
     }
     default:
-      return -ENOTTY;  // also USBDEVFS_DISCONNECT_CLAIM: libusb then does both steps by themselves
+      return -ENOTTY;  // also USBDEVFS_DISCONNECT_CLAIM: libusb then performs both steps separately
   }
 }
 

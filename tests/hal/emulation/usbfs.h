@@ -5,22 +5,22 @@
 #include <string>
 #include <vector>
 
-#include "hal/wire/wire_model.h"
+#include "tests/hal/emulation/devices/emulated_device.h"
 #include "tests/hal/emulation/model_node.h"
 
 namespace tandem::test {
 
-/// usbfs in front of a wire model: what libusb's Linux backend asks of /dev/bus/usb/BBB/DDD. After an
-/// unplugging, pending transfers end with -ESHUTDOWN, then everything is -ENODEV, as in the kernel.
-class UsbfsNode final : public ModelNode<hal::wire::UsbWireModel> {
+/// usbfs in front of a device model: the calls of libusb's Linux backend on /dev/bus/usb/BBB/DDD.
+/// After unplugging, pending transfers end with -ESHUTDOWN, then every call returns -ENODEV, as in the kernel.
+class UsbfsNode final : public ModelNode<hal::emulation::EmulatedUsbDevice> {
  public:
-  explicit UsbfsNode(hal::wire::UsbWireModel& model, std::string kernel_driver = {});
+  explicit UsbfsNode(hal::emulation::EmulatedUsbDevice& model, std::string kernel_driver = {});
   ~UsbfsNode() override;
 
   long on_ioctl(int fd, unsigned long request, void* argument) override;
   void service() override;
 
-  [[nodiscard]] std::string kernel_driver() const;  ///< bound to the interface now
+  [[nodiscard]] std::string kernel_driver() const;  ///< driver bound to the interface now
 
  private:
   struct Urb;

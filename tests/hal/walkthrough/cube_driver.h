@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "hal/clock.h"
-#include "hal/driver.h"
-#include "hal/pipes.h"
+#include "hal/core/clock.h"
+#include "hal/core/driver.h"
+#include "hal/core/pipes.h"
 
 namespace tandem::hal {
 
@@ -44,12 +44,12 @@ class CubeDriver final : public Driver {
     return std::unexpected(DeviceError{Errc::kTimeout, "cube: is there but does not answer; unplug it and plug it in"});
   }
 
-  std::expected<Exchange, Errc> exchange(const Orders& orders, State& state) noexcept override {
+  std::expected<Exchange, Errc> exchange(const ServoCommand& orders, State& state) noexcept override {
     std::array<std::byte, kReport> out{}, in{};
     Vec3 sent = Vec3::Zero();
     bool saturated = false;
     for (std::size_t i = 0; i < 3; ++i) {
-      // Clamp before the integer: what wraps around pushes the other way.
+      // Clamp before the conversion: a value that wraps around pushes the other way.
       const double wanted = std::isfinite(orders.effort[i]) ? orders.effort[i] * kCountsPerNewton : 0.0;
       const double counts = std::round(std::clamp(wanted, -kCountsMax, kCountsMax));
       saturated = saturated || std::abs(wanted) > kCountsMax;
@@ -90,7 +90,7 @@ class CubeDriver final : public Driver {
     return Exchange::kFresh;
   }
 
-  void silence() noexcept override {
+  void send_zeros() noexcept override {
     State unused;
     for (int i = 0; i < 3; ++i) {
       if (const auto how = exchange({}, unused); !how && how.error() == Errc::kUnplugged) return;
@@ -108,7 +108,8 @@ class CubeDriver final : public Driver {
     report[at + 1] = static_cast<std::byte>(static_cast<std::uint16_t>(value) >> 8);
   }
   static std::int16_t get(std::span<const std::byte, kReport> report, std::size_t at) noexcept {
-    return static_cast<std::int16_t>(std::to_integer<unsigned>(report[at]) | std::to_integer<unsigned>(report[at + 1]) << 8);
+    return static_cast<std::int16_t>(std::to_integer<unsigned>(report[at]) | std::to_integer<unsigned>(report[at + 1])
+                                                                                 << 8);
   }
 
   DeviceId id_;

@@ -3,17 +3,17 @@
 #include <fstream>
 #include <sstream>
 
-#include "hal/servo_core.h"
+#include "hal/core/servo_core.h"
 #include "tests/hal/walkthrough/cube_driver.h"
 #include "tests/support/alloc_guard.h"
 
-// The device of hal/README.md, "A new device": its driver stands there word for word and runs here.
+// The device of hal/README.md, "A new device": the README contains its driver word for word, and it runs here.
 namespace tandem::hal {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// The cube itself: 0.1 kg on three rails with some friction, answering each report with one.
+/// Model of the cube: 0.1 kg on three rails with some friction; it answers each report with one.
 struct Cube final : HidPipe, Clock {
   std::array<double, 3> x{}, v{}, force{};
   bool zeroed = false, unplugged = false, silent = false, waiting = false;
@@ -71,7 +71,7 @@ struct Nobody final : BringUp {
   bool cancelled() const noexcept override { return false; }
 };
 
-TEST(Walkthrough, TheDriverOfTheReadmeHomesPushesAndLetsGo) {
+TEST(Walkthrough, HomesPushesAndReleasesWithTheReadmeDriver) {
   Cube cube;
   Pushes client{cube};
   ServoCore core{std::make_unique<CubeDriver>(DeviceId{"cube", "1"}, cube, cube)};
@@ -93,7 +93,7 @@ TEST(Walkthrough, TheDriverOfTheReadmeHomesPushesAndLetsGo) {
   EXPECT_GT(core.state().x[0], 0.05);
   EXPECT_LT(core.state().x[2], -0.025);
   EXPECT_NEAR(core.state().dx[0], cube.v[0], 0.02);
-  client.effort = {100, 0, 0};  // beyond the peak of 4 N: the guard's business, not the wire's
+  client.effort = {100, 0, 0};  // above the peak of 4 N: limited by the guard, not by the driver
   run(2);
   EXPECT_NEAR(cube.force[0], 4.0, 1e-6);
   cube.silent = true;
@@ -116,7 +116,7 @@ TEST(Walkthrough, ExchangesWithoutHeap) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
-TEST(Walkthrough, TheReadmeShowsTheDriverAsItIsAndItIsShort) {
+TEST(Walkthrough, MatchesTheDriverInTheReadme) {
   const auto text_of = [](const std::string& name) {
     std::ifstream in(std::string(TANDEM_SOURCE_DIR) + "/" + name);
     std::ostringstream text;
@@ -126,7 +126,8 @@ TEST(Walkthrough, TheReadmeShowsTheDriverAsItIsAndItIsShort) {
   const std::string driver = text_of("tests/hal/walkthrough/cube_driver.h");
   ASSERT_FALSE(driver.empty());
   EXPECT_LT(std::ranges::count(driver, '\n'), 150);
-  EXPECT_NE(text_of("hal/README.md").find(driver), std::string::npos) << "hal/README.md shows another driver than the one tested here";
+  EXPECT_NE(text_of("hal/README.md").find(driver), std::string::npos)
+      << "hal/README.md shows another driver than the one tested here";
 }
 
 }  // namespace

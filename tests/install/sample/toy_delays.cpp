@@ -1,13 +1,14 @@
-// Mean delay and share of what a thousand datagrams met on a named network.
+// Prints the mean delay and the number of arrivals of a thousand datagrams on a named network.
 #include <array>
 #include <cstdio>
 
-#include "netsim/network.h"
-#include "netsim/profiles.h"
+#include "netsim/engine/network.h"
+#include "netsim/profiles/profile_loader.h"
 
 int main(int, char** arguments) {
   using namespace tandem;
-  const auto profile = arguments[1] == nullptr ? netsim::shipped_profile("ideal") : netsim::shipped_profile(arguments[1]);
+  const auto profile =
+      arguments[1] == nullptr ? netsim::shipped_profile("ideal") : netsim::shipped_profile(arguments[1]);
   if (!profile) {
     std::fputs(to_text(profile.error()).c_str(), stderr);
     return 2;

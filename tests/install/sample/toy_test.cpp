@@ -1,13 +1,13 @@
-// A project that is not Tandem tests its own protocol over Tandem's networks, in virtual time.
-#include "netsim/testing/network_test.h"
-
+// Example of another project that tests its own protocol over Tandem's simulated networks, in virtual time.
 #include <cstdlib>
 #include <numeric>
+
+#include "netsim/testing/network_test.h"
 
 using namespace std::chrono_literals;
 using tandem::netsim::Direction;
 
-/// The protocol under test: numbers go one by one, each again and again until it is acknowledged.
+/// Sender of the protocol under test: sends numbers in order and repeats each until it is acknowledged.
 class Sender {
  public:
   explicit Sender(int count) : count_(count) {}
@@ -30,7 +30,7 @@ class Sender {
 
 class Receiver {
  public:
-  /// @return what to acknowledge
+  /// @return the number to acknowledge
   std::string on_number(const std::string& number) {
     if (numbers_.empty() || numbers_.back() != std::atoi(number.c_str())) numbers_.push_back(std::atoi(number.c_str()));
     return number;
@@ -78,7 +78,8 @@ TEST_F(Toy, ASessionStaysPassiveOverTheSameNetwork) {
   EXPECT_LT(report.seats[0].metrics.effort_peak_n, 10);
 }
 
-// What a test that fails tells. Off unless asked for: it expects a network without loss to lose something.
+// Shows the output of a failing test. It fails only if TOY_FAILS is set: it then expects a network without loss to drop
+// a datagram.
 TEST_F(Toy, FailsWhenAskedTo) {
   use_seed(3);
   use_profile("ideal");

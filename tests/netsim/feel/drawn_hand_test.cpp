@@ -16,7 +16,7 @@ std::vector<hal::Vec3> unsteady(const DrawnHand& hand) {
   return out;
 }
 
-TEST(DrawnHand, HasIntentionNoiseAndTremorOfThePromisedSize) {
+TEST(DrawnHand, HasIntentionNoiseAndTremorOfTheSpecifiedSize) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
     const std::vector<hal::Vec3> all = unsteady({HandKind::kDrawn, seed, 0});
@@ -40,14 +40,16 @@ TEST(DrawnHand, ImpedanceDiffersBetweenSeedsAndHandsWithinItsRange) {
   }
   EXPECT_LT(least, 600);
   EXPECT_GT(most, 1300);
-  EXPECT_NE(DrawnHand(HandKind::kDrawn, 7, 0).factor(1, 0.5, 1.5), DrawnHand(HandKind::kDrawn, 7, 1).factor(1, 0.5, 1.5));
+  EXPECT_NE(DrawnHand(HandKind::kDrawn, 7, 0).factor(1, 0.5, 1.5),
+            DrawnHand(HandKind::kDrawn, 7, 1).factor(1, 0.5, 1.5));
 }
 
-TEST(DrawnHand, OfOneSeedIsAlwaysTheSame) {
-  EXPECT_EQ(DrawnHand(HandKind::kDrawn, 3, 0).unsteadiness(1.234), DrawnHand(HandKind::kDrawn, 3, 0).unsteadiness(1.234));
+TEST(DrawnHand, IsAFunctionOfItsSeed) {
+  EXPECT_EQ(DrawnHand(HandKind::kDrawn, 3, 0).unsteadiness(1.234),
+            DrawnHand(HandKind::kDrawn, 3, 0).unsteadiness(1.234));
 }
 
-TEST(DrawnHand, PlainHandsAreSteadyAndAlike) {
+TEST(DrawnHand, KeepsPlainHandsSteadyAndAlike) {
   const DrawnHand hand{HandKind::kPlain, 5, 0};
   EXPECT_EQ(hand.unsteadiness(2.5), hal::Vec3::Zero());
   EXPECT_DOUBLE_EQ(hand.with_impedance(HandModel::kRecorded, 1000, 10, 0.1).k, 1000);

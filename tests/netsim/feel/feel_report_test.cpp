@@ -27,7 +27,7 @@ const std::vector<FeelSeed> kThree{{1, {{"stiffness_felt_n_m", 40}, {"drag_1hz_n
                                    {2, {{"stiffness_felt_n_m", 50}, {"drag_1hz_n", 4}}},
                                    {3, {{"stiffness_felt_n_m", 60}, {"drag_1hz_n", 1}}}};
 
-TEST(FeelSummary, WorstOfAStiffnessIsTheLeastAndOfADragTheGreatest) {
+TEST(FeelSummary, TakesTheLeastStiffnessAndTheGreatestDragAsWorst) {
   const auto numbers = summarised(kThree);
   EXPECT_DOUBLE_EQ(numbers.at("stiffness_felt_n_m").mean, 50);
   EXPECT_DOUBLE_EQ(numbers.at("stiffness_felt_n_m").worst, 40);
@@ -36,7 +36,7 @@ TEST(FeelSummary, WorstOfAStiffnessIsTheLeastAndOfADragTheGreatest) {
   EXPECT_EQ(numbers.at("drag_1hz_n").worst_seed, 2u);
 }
 
-TEST(FeelSummary, ASeedWithoutTheNumberMakesItUnknown) {
+TEST(FeelSummary, ReportsUnknownIfASeedLacksTheValue) {
   std::vector<FeelSeed> seeds = kThree;
   seeds[1].values.erase("drag_1hz_n");
   const FeelNumber drag = summarised(seeds).at("drag_1hz_n");
@@ -56,14 +56,15 @@ TEST(FeelLimit, HoldsForTheMeanAndOneAndAHalfTimesForTheWorst) {
   EXPECT_FALSE(least.holds({60, 33, 1}));
 }
 
-TEST(FeelLimit, IsReadFromTextAndRefusedWithTheNearestKey) {
+TEST(FeelLimit, ParsesTextAndSuggestsTheNearestKey) {
   const auto limit = parse_feel_limit("drag_1hz_n<=0.15");
   ASSERT_TRUE(limit);
   EXPECT_EQ(limit->key, "drag_1hz_n");
   EXPECT_DOUBLE_EQ(limit->end, 0.15);
   EXPECT_FALSE(limit->at_least);
   EXPECT_TRUE(parse_feel_limit("stiffness_felt_n_m>=360")->at_least);
-  for (const char* bad : {"", "drag_1hz_n", "drag_1hz_n<0.15", "drag_1hz_n<=", "drag_1hz_n<=nan", "drag_1hz_n<=1N", "drag_1hz_n=<1"})
+  for (const char* bad :
+       {"", "drag_1hz_n", "drag_1hz_n<0.15", "drag_1hz_n<=", "drag_1hz_n<=nan", "drag_1hz_n<=1N", "drag_1hz_n=<1"})
     EXPECT_FALSE(parse_feel_limit(bad)) << bad;
   EXPECT_NE(parse_feel_limit("drag_1h_n<=1").error().find("did you mean drag_1hz_n"), std::string::npos);
 }
@@ -83,20 +84,22 @@ TEST(FeelReport, PassesOnlyWhenEveryLimitHoldsAndEverythingWasMeasured) {
   EXPECT_FALSE(r.passed());
 }
 
-TEST(FeelReport, TextFitsIntoEightyColumnsAndSaysWhatAPersonNotices) {
+TEST(FeelReport, FitsEightyColumnsAndMarksNoticeableValues) {
   FeelReport r = report_of({{1, {}}});
   for (const FeelSection& section : feel_sections())
     for (const FeelKey& key : section.keys) r.seeds[0].values[std::string(key.key)] = 123.456;
   r.numbers = summarised(r.seeds);
   r.limits = {{"stiffness_felt_n_m", 360, true}};
-  r.troubles = {"seed 1, probe press: the session never ran because of a reason that needs more than one line of a terminal to be told in full"};
+  r.troubles = {
+      "seed 1, probe press: the session never ran because of a reason that needs more than one line of a terminal to "
+      "be told in full"};
   std::istringstream lines(feel_text(r));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   EXPECT_NE(feel_text(r).find("FAIL stiffness_felt_n_m"), std::string::npos);
   EXPECT_NE(feel_text(r).find("steps softer than the 392 N/m"), std::string::npos);
 }
 
-TEST(FeelReport, JsonHasEveryNumberAndNoNan) {
+TEST(FeelReport, WritesEveryNumberAsJsonWithoutNan) {
   std::vector<FeelSeed> seeds = kThree;
   seeds[0].values["gain_max"] = NAN;
   const auto json = nlohmann::json::parse(feel_json(report_of(seeds)));
@@ -106,7 +109,7 @@ TEST(FeelReport, JsonHasEveryNumberAndNoNan) {
   EXPECT_EQ(json["seeds"][1]["drag_1hz_n"], 4);
 }
 
-TEST(FeelReport, AProbesResultSurvivesTheWayBetweenProcesses) {
+TEST(FeelReport, TransfersProbeResultsBetweenProcessesUnchanged) {
   ProbeResult result;
   result.values = {{"gain_max", 5.25}, {"overshoot", NAN}};
   result.exposure = {10, 9, 1, 0.5, 3, 0.25};
@@ -121,7 +124,7 @@ TEST(FeelReport, AProbesResultSurvivesTheWayBetweenProcesses) {
   EXPECT_EQ(back.trouble, "no");
 }
 
-TEST(FeelKeys, AreThoseThatProbesGive) {
+TEST(FeelKeys, MatchTheKeysOfProbes) {
   FeelSetup setup = contact_over(0);
   const DrawnHand hand{HandKind::kPlain, 1, 0};
   setup.recordings = {{"still", hand.move([](double t) { return hal::Vec3(0.01 * t, 0, 0); }, 2)}};
@@ -142,12 +145,16 @@ TEST(FeelKeys, AreThoseThatProbesGive) {
   EXPECT_EQ(all.size(), count) << "something is measured and not told";
 }
 
-TEST(Noticeable, NumbersAreStepsAndHowLateAForceComesByTheLaw) {
-  const std::map<std::string, FeelNumber> felt{{"stiffness_felt_n_m", {in_series(400, kBone) / 1.23, 1, 1}}, {"stiffness_tissue_n_m", {in_series(400, kBone) / 1.23 / 1.23, 1, 1}},
-                                               {"force_share", {1 / 1.07, 1, 1}}, {"apparent_mass_1hz_kg", {0.021, 1, 1}}};
+TEST(Noticeable, AppliesToForceStepsAndForceDelay) {
+  const std::map<std::string, FeelNumber> felt{{"stiffness_felt_n_m", {in_series(400, kBone) / 1.23, 1, 1}},
+                                               {"stiffness_tissue_n_m", {in_series(400, kBone) / 1.23 / 1.23, 1, 1}},
+                                               {"force_share", {1 / 1.07, 1, 1}},
+                                               {"apparent_mass_1hz_kg", {0.021, 1, 1}}};
   for (const bool local : {true, false}) {
     std::map<std::string, double> n;
-    for (const auto& [key, value] : noticeable_numbers(local ? tandem::test::shipped("contact") : tandem::test::set_position("contact"), felt, 0.05)) n[key] = value;
+    for (const auto& [key, value] : noticeable_numbers(
+             local ? tandem::test::shipped("contact") : tandem::test::set_position("contact"), felt, 0.05))
+      n[key] = value;
     EXPECT_NEAR(n.at("stiffness_lost_steps"), 1, 1e-9);
     EXPECT_NEAR(n.at("bone_tissue_steps"), 1, 1e-9);
     EXPECT_NEAR(n.at("force_lost_steps"), 1, 1e-9);
@@ -155,7 +162,8 @@ TEST(Noticeable, NumbersAreStepsAndHowLateAForceComesByTheLaw) {
     EXPECT_NEAR(n.at("others_late_s"), 0.1, 1e-12);
     EXPECT_NEAR(n.at("own_contact_late_s"), local ? 0 : 0.1, 1e-12);
   }
-  for (const auto& [key, value] : noticeable_numbers(tandem::test::shipped("contact"), {}, NAN)) EXPECT_TRUE(std::isnan(value)) << key;
+  for (const auto& [key, value] : noticeable_numbers(tandem::test::shipped("contact"), {}, NAN))
+    EXPECT_TRUE(std::isnan(value)) << key;
   const auto j = nlohmann::json::parse(feel_json(report_of(kThree)));
   EXPECT_NEAR(j.at("noticeable").at("others_late_s").get<double>(), 0.2, 1e-12);
   EXPECT_TRUE(j.at("noticeable").at("mass_added_steps").is_null());
@@ -166,7 +174,7 @@ TEST(Noticeable, AStepIsTheWeberFraction) {
   EXPECT_NEAR(noticeable_steps(100, 123 * 1.23, 0.23), 2, 1e-9);
   EXPECT_DOUBLE_EQ(noticeable_steps(5, 5, 0.07), 0);
   EXPECT_TRUE(std::isnan(noticeable_steps(-1, 5, 0.07)));
-  // Bone of 45 N/m where 392 are possible; bone of 45 beside tissue of 40.
+  // Bone of 45 N/m out of 392 N/m possible; bone of 45 N/m next to tissue of 40 N/m.
   EXPECT_NEAR(noticeable_steps(45, 392, kStiffnessWeber), 10.5, 0.1);
   EXPECT_LT(noticeable_steps(45, 40, kStiffnessWeber), 1);
 }

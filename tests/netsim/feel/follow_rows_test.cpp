@@ -1,6 +1,6 @@
-// The rows of README.md that say how near a relaxed follower stands to the leader's hand: as `tandem-netsim feel contact --delay MS --probe follow`
-// measures, with `--assist 1` and without. Limits are the printed means with a tenth of headroom; the worst seed stays within 1.5 times.
-// TANDEM_COUNTS=full takes all 20 seeds.
+// Rows of netsim/README.md about the distance of a relaxed follower from the leader's hand. They are measured with
+// `tandem-netsim feel contact --delay MS --probe follow`, with and without `--assist 1`. Limits are the printed means
+// with 10 % headroom; the worst seed stays within 1.5 times. TANDEM_COUNTS=full runs all 20 seeds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "netsim/feel/feel_summary.h"
-#include "tests/base/counts.h"
+#include "tests/common/base/counts.h"
 #include "tests/netsim/feel/feel_support.h"
 
 namespace tandem::netsim {
@@ -26,7 +26,7 @@ constexpr Row kRows[] = {{0, {0.049, 0.42, 0.4}, {0.044, 0.155, 0.417}},
                          {50, {0.127, 0.335, 1.479}, {0.109, 0.238, 1.111}},
                          {100, {0.276, 0.571, 3.218}, {0.147, 0.505, 1.431}},
                          {200, {0.563, 1.367, 6.19}, {0.169, 1.291, 1.526}}};
-constexpr double kHeadroom = 1.1, kWorst = 1.5, kLeast = 0.2;  // [mm]: below it a few steps of the encoder decide
+constexpr double kHeadroom = 1.1, kWorst = 1.5, kLeast = 0.2;  // [mm]: smaller values depend on a few encoder steps
 
 void expect_printed(int delay_ms, double force, const Printed& printed) {
   SCOPED_TRACE(std::to_string(delay_ms) + " ms, assist of " + std::to_string(force) + " N");
@@ -50,10 +50,10 @@ void expect_printed(int delay_ms, double force, const Printed& printed) {
   at_most("follower_wander_m", printed.wander_mm);
 }
 
-TEST(FollowRows, AFollowerStandsWhereIsPrinted) {
+TEST(FollowRows, MatchThePrintedFollowerDistance) {
   for (const Row& row : kRows) expect_printed(row.delay_ms, 0, row.none);
 }
-TEST(FollowRows, AFollowerWithAssistStandsWhereIsPrinted) {
+TEST(FollowRows, MatchThePrintedFollowerDistanceWithAssist) {
   for (const Row& row : kRows) expect_printed(row.delay_ms, 1, row.assist);
 }
 

@@ -30,7 +30,8 @@ TEST(FeelMeters, RmsOfASineIsItsAmplitudeOverRootTwo) {
 
 TEST(FeelMeters, RmsLagOfACircleIsTheChordOfTheLag) {
   std::vector<hal::Vec3> circle;
-  for (const double t : times(4)) circle.emplace_back(0.05 * std::cos(kTurn * 0.5 * t), 0, 0.05 * std::sin(kTurn * 0.5 * t));
+  for (const double t : times(4))
+    circle.emplace_back(0.05 * std::cos(kTurn * 0.5 * t), 0, 0.05 * std::sin(kTurn * 0.5 * t));
   // 100 ms of a period of 2 s: a chord of 18 degrees.
   EXPECT_NEAR(rms_lag(circle, 100), 2 * 0.05 * std::sin(kTurn * 0.5 * 0.1 / 2), 1e-9);
   EXPECT_DOUBLE_EQ(rms_lag(circle, 0), 0);
@@ -48,7 +49,7 @@ TEST(FeelMeters, SlopeFindsASpringAndIgnoresRowsOutsideTheBand) {
   EXPECT_TRUE(std::isnan(slope(x, f, 5, 6)));
 }
 
-TEST(FeelMeters, SlopeOfAPointDoesNotExist) {
+TEST(FeelMeters, ReturnNoSlopeForAPoint) {
   const std::vector<double> same(100, 1.0);
   EXPECT_TRUE(std::isnan(slope(same, same, 0, 2)));
 }
@@ -63,8 +64,8 @@ TEST(FeelMeters, HarmonicFindsAmplitudeAndPhaseBesideOffsetAndNoise) {
   EXPECT_NEAR(std::abs(harmonic(t, x, 7)), 0, 1e-6);
 }
 
-TEST(FeelMeters, RmsAboveSeesTheFastPartAlone) {
-  // 15 Hz of 0.1 N on a drift of 1 N and a slow wave of 0.3 Hz: only the 15 Hz count.
+TEST(FeelMeters, MeasureOnlyTheFastPartByRmsAbove) {
+  // 15 Hz of 0.1 N on a drift of 1 N and a slow wave of 0.3 Hz: only the 15 Hz part counts.
   std::vector<hal::Vec3> force = wave(5, 0.1, 15);
   for (std::size_t i = 0; i < force.size(); ++i) {
     const double t = static_cast<double>(i) / kRate;
@@ -97,7 +98,7 @@ TEST(FeelMeters, OvershootIsMeasuredFromTheEndOrFromTheHand) {
   EXPECT_NEAR(overshoot(tool), 0.5, 1e-9);
   EXPECT_NEAR(overshoot_above(tool, hand), 0.5, 1e-9);
   EXPECT_DOUBLE_EQ(overshoot(hand), 0);
-  hand[150] = 0.024;  // the hand itself went further: not the tool's doing
+  hand[150] = 0.024;  // the hand itself moved further: not caused by the tool
   EXPECT_NEAR(overshoot_above(tool, hand), 0.3, 1e-9);
   EXPECT_TRUE(std::isnan(overshoot(std::vector<double>(100, 1.0))));
 }

@@ -1,4 +1,4 @@
-// How a run felt, from records that are made up: each number is known by hand.
+// Haptic measures of a run, from constructed records whose results are known.
 #include "netsim/feel/observed_feel.h"
 
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <map>
 #include <numbers>
 
-#include "netsim/world_run.h"
-#include "tests/support/world_run.h"
+#include "netsim/system/run_simulation.h"
+#include "tests/support/simulation_run.h"
 
 namespace tandem::netsim {
 namespace {
@@ -18,7 +18,8 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 using Fill = std::function<void(double t, server::TickRecord& record)>;
 
-/// `contact` for `length` seconds; both hands engaged, seat 0 leads, unless `fill` says otherwise.
+/// Returns the measures of `contact` for `length` seconds. Both hands are engaged and seat 0 leads, unless `fill`
+/// changes that.
 std::map<std::string, double> observed(double length, const Fill& fill, std::vector<std::uint32_t> trips = {0, 0}) {
   const SceneSpec scene = tandem::test::shipped("contact");
   ObservedFeel feel{scene};
@@ -37,7 +38,7 @@ std::map<std::string, double> observed(double length, const Fill& fill, std::vec
   return out;
 }
 
-TEST(ObservedFeel, FindsASpringThatWasPressed) {
+TEST(ObservedFeel, FindsTheStiffnessOfAPressedSpring) {
   const auto v = observed(11, [](double t, server::TickRecord& r) {
     const double depth = 1e-3 * (t - 1);
     r.seats[0].x[0] = depth;
@@ -56,7 +57,7 @@ TEST(ObservedFeel, FindsNoStiffnessWithoutContactOrDepth) {
                          }).at("stiffness_felt_n_m")));
 }
 
-TEST(ObservedFeel, DragIsTheForceInFreeMotionOfTheLeaderAlone) {
+TEST(ObservedFeel, TakesDragFromTheLeadersFreeMotionOnly) {
   const auto v = observed(10, [](double t, server::TickRecord& r) {
     r.seats[0].x[0] = 0.05 * std::cos(kTurn * 0.5 * t);
     r.seats[0].x[2] = 0.05 * std::sin(kTurn * 0.5 * t);
@@ -71,7 +72,7 @@ TEST(ObservedFeel, DragIsTheForceInFreeMotionOfTheLeaderAlone) {
   EXPECT_TRUE(std::isnan(v.at("handover_bump_n")));
 }
 
-TEST(ObservedFeel, GainIsTheToolsAmplitudeOverTheHands) {
+TEST(ObservedFeel, TakesGainAsToolOverHandAmplitude) {
   const auto v = observed(20, [](double t, server::TickRecord& r) {
     r.seats[0].x[0] = 0.03 * std::sin(kTurn * 0.5 * t) + 0.002 * std::sin(kTurn * 6 * t);
     r.tools[0].x[0] = 0.03 * std::sin(kTurn * 0.5 * t) + 0.009 * std::sin(kTurn * 6 * t - 1);
@@ -79,7 +80,7 @@ TEST(ObservedFeel, GainIsTheToolsAmplitudeOverTheHands) {
   EXPECT_NEAR(v.at("gain_max"), 4.5, 0.02);
 }
 
-TEST(ObservedFeel, OvershootIsHowFarTheToolLeavesTheHandsLastSecond) {
+TEST(ObservedFeel, TakesOvershootBeyondTheHandsLastSecond) {
   const auto v = observed(4, [](double t, server::TickRecord& r) {
     r.seats[0].x[0] = t < 2 ? 0 : 0.02;
     r.tools[0].x[0] = t < 2.1 ? 0 : t < 2.3 ? 0.026 : 0.02;
@@ -87,31 +88,31 @@ TEST(ObservedFeel, OvershootIsHowFarTheToolLeavesTheHandsLastSecond) {
   EXPECT_NEAR(v.at("overshoot"), 0.3, 1e-6);
 }
 
-TEST(ObservedFeel, LimitCycleIsTheFastForceOfAHandAtRest) {
-  const auto v = observed(12, [](double t, server::TickRecord& r) { r.seats[1].f_out[0] = 0.5 + 0.1 * std::sin(kTurn * 15 * t); });
+TEST(ObservedFeel, TakesTheFastForceAtRestAsLimitCycle) {
+  const auto v =
+      observed(12, [](double t, server::TickRecord& r) { r.seats[1].f_out[0] = 0.5 + 0.1 * std::sin(kTurn * 15 * t); });
   EXPECT_NEAR(v.at("limit_cycle_n"), 0.1 / std::sqrt(2.0), 0.002);
 }
 
-TEST(ObservedFeel, HandOverIsWatchedUntilHalfASecondAfterTheLastWeight) {
+TEST(ObservedFeel, MeasuresATransferUntilHalfASecondAfterItsEnd) {
   const auto v = observed(10, [](double t, server::TickRecord& r) {
     r.seats[0].alpha = t < 5 ? 1 : std::max(0.0, 6 - t);
     r.seats[1].alpha = 1 - r.seats[0].alpha;
-    r.seats[0].f_out[0] = t < 5.5 ? 1 : t < 6.8 ? 1.3 : 3;  // the last step is no part of it
+    r.seats[0].f_out[0] = t < 5.5 ? 1 : t < 6.8 ? 1.3 : 3;  // the last step does not count
   });
   EXPECT_NEAR(v.at("handover_bump_n"), 0.3, 1e-9);
   EXPECT_NEAR(v.at("handover_step_n_ms"), 0.3, 1e-9);
 }
 
-TEST(ObservedFeel, SharesAreOfTheWorstSeat) {
-  const auto v = observed(
-      11,
-      [](double t, server::TickRecord& r) {
-        r.seats[1].engaged = t < 8.5;            // three quarters of 10 s
-        r.seats[0].f_out[0] = t < 6 ? 3.3 : 0;   // half of them
-        r.seats[0].f_cmd[0] = r.seats[0].f_out[0] + 0.2;
-        r.tools[0].held = t > 10;
-      },
-      {1, 5});
+TEST(ObservedFeel, TakesSharesOfTheWorstSeat) {
+  const auto v = observed(11,
+                          [](double t, server::TickRecord& r) {
+                            r.seats[1].engaged = t < 8.5;           // three quarters of 10 s
+                            r.seats[0].f_out[0] = t < 6 ? 3.3 : 0;  // half of that time
+                            r.seats[0].f_cmd[0] = r.seats[0].f_out[0] + 0.2;
+                            r.tools[0].held = t > 10;
+                          },
+                          {1, 5});
   EXPECT_NEAR(v.at("engaged_share"), 0.75, 1e-3);
   EXPECT_NEAR(v.at("saturated_share"), 0.5, 1e-3);
   EXPECT_NEAR(v.at("held_share"), 0.1, 1e-3);
@@ -119,9 +120,10 @@ TEST(ObservedFeel, SharesAreOfTheWorstSeat) {
   EXPECT_NEAR(v.at("delivered_error_n"), 0.2, 1e-9);
 }
 
-TEST(ObservedFeel, IsPartOfEveryReportOfAWorld) {
-  for (const auto& [scene, stiffness] : {std::pair{tandem::test::set_position("contact"), 112.0}, {tandem::test::shipped("contact"), 365.0}}) {
-    const WorldRun run = run_world({.scene = scene, .network = link_from(tandem::test::delayed(20))});
+TEST(ObservedFeel, IsPartOfEverySimulationReport) {
+  for (const auto& [scene, stiffness] :
+       {std::pair{tandem::test::set_position("contact"), 112.0}, {tandem::test::shipped("contact"), 365.0}}) {
+    const SimulationResult run = run_simulation({.scene = scene, .network = link_from(tandem::test::delayed(20))});
     ASSERT_EQ(run.report.feel.size(), ObservedFeel::keys().size());
     EXPECT_EQ(run.report.feel[0].first, "stiffness_felt_n_m");
     EXPECT_NEAR(run.report.feel[0].second, stiffness, 5) << "as measured independently and by `tandem-netsim feel`";

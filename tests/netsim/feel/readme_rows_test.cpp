@@ -1,13 +1,13 @@
-// The rows of README.md that say what hands feel over a delay: the same probes, hands and seeds as `tandem-netsim feel
-// contact --delay MS`. Limits are the printed means with a tenth of headroom; the worst seed stays within 1.5 times.
-// TANDEM_COUNTS=full takes all 20 seeds.
+// Rows of netsim/README.md about the forces that hands feel over a delay, with the probes, hands and seeds of
+// `tandem-netsim feel contact --delay MS`. Limits are the printed means with 10 % headroom; the worst seed stays
+// within 1.5 times. TANDEM_COUNTS=full runs all 20 seeds.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "netsim/feel/feel_summary.h"
-#include "tests/base/counts.h"
+#include "tests/common/base/counts.h"
 #include "tests/netsim/feel/feel_support.h"
 
 namespace tandem::netsim {
@@ -54,17 +54,18 @@ void expect_row(const Row& row) {
   at_most("leader_tool_step_m", 1e-3 * row.leader_step_mm);
   at_most("follower_tool_05hz_m", 1e-3 * row.follower_05hz_mm);
   at_most("gain_max", row.gain_max);
-  // The hands themselves pass the goal by 3 to 9 %; the first two, which a short run has, by 2 % more than the mean of all.
+  // The hands themselves overshoot the goal by 3 to 9 %. The first two, which a short run uses, overshoot by 2 % more
+  // than the mean.
   at_most("overshoot", row.overshoot + (count < kAllHands ? 0.02 : 0));
   EXPECT_LE(numbers.at("overshoot_above_hand").mean, kHeadroom * row.overshoot);
   EXPECT_LE(numbers.at("tool_felt_bone_n").mean, 0.05);
 }
 
-TEST(ReadmeRows, HandsFeelWhatIsPrintedWithoutDelay) { expect_row(kRows[0]); }
-TEST(ReadmeRows, HandsFeelWhatIsPrintedAt20Milliseconds) { expect_row(kRows[1]); }
-TEST(ReadmeRows, HandsFeelWhatIsPrintedAt50Milliseconds) { expect_row(kRows[2]); }
-TEST(ReadmeRows, HandsFeelWhatIsPrintedAt100Milliseconds) { expect_row(kRows[3]); }
-TEST(ReadmeRows, HandsFeelWhatIsPrintedAt200Milliseconds) { expect_row(kRows[4]); }
+TEST(ReadmeRows, MatchThePrintedValuesWithoutDelay) { expect_row(kRows[0]); }
+TEST(ReadmeRows, MatchThePrintedValuesAt20Milliseconds) { expect_row(kRows[1]); }
+TEST(ReadmeRows, MatchThePrintedValuesAt50Milliseconds) { expect_row(kRows[2]); }
+TEST(ReadmeRows, MatchThePrintedValuesAt100Milliseconds) { expect_row(kRows[3]); }
+TEST(ReadmeRows, MatchThePrintedValuesAt200Milliseconds) { expect_row(kRows[4]); }
 
 }  // namespace
 }  // namespace tandem::netsim

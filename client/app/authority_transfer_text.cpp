@@ -1,0 +1,120 @@
+#include "client/app/authority_transfer_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/format.h"
+#include "common/base/sanitize.h"
+
+namespace tandem::client {
+namespace {
+
+using Words = std::optional<rpc::Status>;
+
+/// Returns name number `n` of the list, counted from 1; empty if there is none.
+std::string name_of(const std::vector<std::string>& names, std::uint32_t n) {
+  return n >= 1 && n <= names.size() ? names[n - 1] : "";
+}
+
+std::string giver(std::uint32_t by, const SeatSetup& setup) {
+  if (by == wire::TransferParties::kScene) return "the scene";
+  const std::string name = by == wire::TransferParties::kOperator ? "" : name_of(setup.masters, by);
+  return name.empty() ? "an operator" : name;
+}
+
+/// True if only this seat and master number `to` have authority over the tool.
+bool only_two(std::uint32_t to, std::size_t tool, const SeatSetup& setup, const Words& words) {
+  if (setup.masters.size() <= 2) return true;
+  if (!words || tool >= words->tools.size()) return false;
+  const std::vector<double>& alpha = words->tools[tool].alpha;
+  for (std::size_t k = 0; k < alpha.size(); ++k)
+    if (k != setup.own_master && k + 1 != to && alpha[k] > 0) return false;
+  return true;
+}
+
+/// Returns the authority before the transfer of the master that gains, or of this seat if several gain; nullopt if not
+/// known. FORCE contains only the authority of this seat over the tool that it follows.
+std::optional<double> part_before(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
+  const wire::TransferParties& p = s.transfer_parties;
+  const bool master = setup.seat.kind == SeatKind::kMaster;
+  if (!master || s.session != wire::SessionState::kRunning || p.tool != setup.seat.tool) return std::nullopt;
+  if (name_of(setup.masters, p.to).empty() || p.to == setup.own_master + 1) return s.transfer_from;
+  return only_two(p.to, p.tool, setup, words) ? std::optional(1 - s.transfer_from) : std::nullopt;
+}
+
+bool waits_for_the_end_of_a_stop(const ClientStatus& s) {
+  return s.session == wire::SessionState::kStopped || s.session == wire::SessionState::kPaused;
+}
+
+std::string seconds_text(double s) { return format(s < 0.095 ? "%.2f s" : "%.1f s", s); }
+
+/// Returns when the transfer begins and how long it takes, or that it is done.
+std::string course_text(const ClientStatus& s, const SeatSetup& setup, std::optional<double> before) {
+  if (waits_for_the_end_of_a_stop(s)) return "when the session goes on";
+  if (s.transfer_done) return "done";
+  const std::string ms = format("in %.0f ms", 10 * std::ceil(1e2 * s.transfer_begins_s - 0.5));
+  const bool begun = s.transfer_begins_s <= 0;
+  if (!std::isfinite(setup.alpha_slew)) return begun ? "done" : "in one step " + ms;
+  const double to = s.transfer_parties.percent / 100.0;
+  const bool several = name_of(setup.masters, s.transfer_parties.to).empty();
+  const std::string lasts = before && !several
+                                ? "takes about " + seconds_text(std::abs(to - *before) / setup.alpha_slew)
+                                : "takes up to " + seconds_text((several ? 1 : to) / setup.alpha_slew);
+  return (begun ? "under way, " : "begins " + ms + ", ") + lasts;
+}
+
+}  // namespace
+
+std::string authority_transfer_brief(const ClientStatus& s) {
+  const bool comes = s.transfer == wire::TransferNotice::kGaining;
+  if (!comes && s.transfer != wire::TransferNotice::kLosing) return "";
+  const std::string what = comes ? "more authority" : "less authority";
+  if (waits_for_the_end_of_a_stop(s)) return what + " when the session goes on";
+  if (s.transfer_done) return what + ": done";
+  return what + (s.transfer_begins_s > 0 ? format(" in %.0f ms", 10 * std::ceil(1e2 * s.transfer_begins_s - 0.5))
+                                         : " under way");
+}
+
+std::string authority_transfer_text(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
+  if (s.transfer == wire::TransferNotice::kNone) return "";
+  if (s.transfer == wire::TransferNotice::kCancelled)
+    return "hand-over canceled: a seat it concerns is gone, or its link is stale";
+  const wire::TransferParties& p = s.transfer_parties;
+  const std::string tool_name = name_of(setup.tools, p.tool + 1),
+                    tool = tool_name.empty() ? "the tool" : "the tool " + tool_name;
+  const std::string by = giver(p.by, setup), to = name_of(setup.masters, p.to);
+  const std::optional<double> before = part_before(s, setup, words);
+  const std::string parts = (before ? format("%.0f %% ", 100 * *before) : "") + format("to %u %%", p.percent),
+                    course = ": " + course_text(s, setup, before);
+  if (to.empty()) return by + " sets new parts of " + tool + " (your part " + parts + ")" + course;
+  const std::string more = p.percent >= 100 ? "" : "more of ";
+  if (by == to) return by + " takes " + more + tool + " (" + parts + ")" + course;
+  return by + " gives " + more + tool + " to " + to + " (" + parts + ")" + course;
+}
+
+std::string AuthorityTransferNotices::message(double now_s, const ClientStatus& s, const SeatSetup& setup,
+                                              const Words& words) {
+  const auto is_one_series = [&](const ClientStatus& a) {
+    return a.transfer == s.transfer && a.transfer_parties.to == s.transfer_parties.to &&
+           a.transfer_parties.tool == s.transfer_parties.tool;
+  };
+  if (s.transfer != wire::TransferNotice::kNone && s.transfers != seen_) {
+    const std::optional<double> from =
+        untold_ && is_one_series(*untold_) ? std::optional(untold_->transfer_from) : std::nullopt;
+    untold_ = s;
+    untold_->transfer_from = from.value_or(s.transfer_from);
+  } else if (untold_ && s.transfer != wire::TransferNotice::kNone) {
+    untold_->transfer_begins_s = s.transfer_begins_s;
+    untold_->transfer_done = s.transfer_done;
+  } else if (untold_) {
+    untold_->transfer_done = true;  // FORCE no longer contains the transfer
+  }
+  seen_ = s.transfers;
+  if (!untold_ || (told_at_s_ && now_s - *told_at_s_ < kBetween)) return "";
+  told_at_s_ = now_s;
+  const std::string text = authority_transfer_text(*untold_, setup, words);
+  untold_.reset();
+  return text;
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,211 @@
+#include "client/app/commands/calibrate_command.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/app/hardware_device.h"
+#include "client/app/terminal_prompt.h"
+#include "common/base/format.h"
+#include "common/base/sanitize.h"
+#include "common/io/clock.h"
+#include "common/io/number_option.h"
+#include "common/io/print.h"
+#include "common/io/signals.h"
+#include "hal/backends/device_spec_parser.h"
+#include "hal/drivers/falcon/falcon_calibration.h"
+#include "hal/drivers/falcon/falcon_force.h"
+#include "proto/io/scene_file.h"
+#include "proto/text/device_text.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kTrouble = 1, kWrong = 2;
+
+struct CalibrateArguments {
+  std::string device, mass;
+  std::string orientation = "upright";
+};
+
+/// Returns the force scale that the driver will use: from its calibration file, or the default. For an invalid device,
+/// appends an error to `mistakes` and returns nullopt.
+std::optional<hal::FalconForce> present_scale(const std::string& device, std::vector<std::string>& mistakes) {
+  const std::string kind = device.substr(0, device.find(':'));
+  if (kind != "falcon") {
+    mistakes.push_back("--device: only a falcon is calibrated, not '" + kind.substr(0, 60) +
+                       "': other devices report what their motors give");
+    return std::nullopt;
+  }
+  auto wrong = HardwareDevice::spec_errors(device);
+  mistakes.insert(mistakes.end(), wrong.begin(), wrong.end());
+  if (!wrong.empty()) return std::nullopt;
+  const auto file = hal::parse_device_spec(device)->find("calibration");
+  if (!file) return hal::FalconForce{};
+  // The file was validated just before; an error here means that it has changed since.
+  const auto text = read_text_file(*file);
+  const auto spec = parse_device_text(text.value_or(""), *file);
+  const auto force = hal::FalconForce::from(spec && spec->falcon ? *spec->falcon : FalconSpec{});
+  if (text && spec && force) return *force;
+  mistakes.push_back("--device: " + *file + ": changed while it was read");
+  return std::nullopt;
+}
+
+bool is_supine(const CalibrateArguments& arguments) { return arguments.orientation == "supine"; }
+
+hal::Vec3 up_of(bool supine) { return supine ? hal::Vec3(0, -1, 0) : hal::Vec3(0, 0, 1); }
+
+/// Returns why the motors cannot hold this mass; empty if they can.
+std::string too_heavy(double mass, const hal::FalconForce& scale, bool supine) {
+  constexpr double kGravity = 9.80665;  // [m/s^2]
+  const double most = hal::FalconCalibration::weight_max(scale, hal::Vec3::Zero(), up_of(supine));
+  if (mass * kGravity <= most) return {};
+  return format("--mass: %g kg takes %.1f N, and %s holds at most %.2f N %s: must be in [0.005, %.3f] kg%s", mass,
+                mass * kGravity,
+                scale.calibrated() ? "this device by its calibration" : "a device without a calibration", most,
+                supine ? "supine" : "upright", most / kGravity,
+                scale.calibrated() ? "" : ". Begin with 0.02 and 0.03, then give what came out as calibration=FILE");
+}
+
+struct Trouble {
+  std::string reason;  ///< empty: a signal arrived
+};
+
+std::expected<hal::FalconCalibration::Measurement, Trouble> weigh_once(HardwareDevice& held,
+                                                                       hal::FalconCalibration& calibration,
+                                                                       hal::FalconCalibration::Load load, int signals) {
+  held.observe(calibration);
+  if (auto enabled = held.device().enable(); !enabled) return std::unexpected(Trouble{enabled.error().message});
+  const Time end = io::monotonic_now() + hal::FalconCalibration::length() + 5s;
+  while (!calibration.finished() && !calibration.was_lost() && io::monotonic_now() < end) {
+    pollfd file{signals, POLLIN, 0};
+    if (poll(&file, 1, 50) > 0) {
+      held.device().disable();
+      return std::unexpected(Trouble{});
+    }
+  }
+  held.device().disable();
+  if (calibration.was_lost()) return std::unexpected(Trouble{"the device was unplugged"});
+  auto result = calibration.measurement(load);
+  if (!result) return std::unexpected(Trouble{result.error()});
+  return *result;
+}
+
+void print_counts(const char* key, const std::array<double, 3>& counts) {
+  std::printf("    %s { leg_1: %.1f leg_2: %.1f leg_3: %.1f }\n", key, counts[0], counts[1], counts[2]);
+}
+
+/// Returns the motor commands of a measurement [counts], with the sign and scale of FalconForce.
+std::array<double, 3> motor_counts(const hal::FalconCalibration::Measurement& held, const hal::FalconForce& scale) {
+  std::array<double, 3> counts{};
+  for (std::size_t i = 0; i < 3; ++i) counts[i] = -held.torque[i] * scale.counts_per_nm()[i];
+  return counts;
+}
+
+int calibrate(const CalibrateArguments& arguments, double mass, const hal::FalconForce& scale) {
+  const io::Fd signals = io::make_signalfd();
+  io::StatusLine line{false};
+  auto held = HardwareDevice::open(arguments.device, signals.get(), line, {});
+  const auto fail = [](std::string reason) {
+    if (reason.empty()) {
+      const std::string by{io::pending_signal()};
+      reason = by.empty() ? "nobody is there to press Enter: no reading" : "ended by " + by + ": no reading";
+    }
+    io::print_formatted(stderr, "tandem-client calibrate: %s\n", reason.c_str());
+    return kTrouble;
+  };
+  if (!held) {
+    (void)fail(held.error().reason);
+    return held.error().invalid_spec ? kWrong : kTrouble;
+  }
+  const hal::Vec3 up = up_of(is_supine(arguments));
+  hal::FalconCalibration without(hal::Vec3::Zero(), up), with(hal::Vec3::Zero(), up);
+  const auto close = [&](int code) {
+    (*held)->device().close();  // before the destruction of the clients that its thread calls
+    return code;
+  };
+  if (!wait_for_enter("Leave the empty grip in the middle of its reach and let go; it will hold itself there for 14 s",
+                      signals.get())) {
+    return close(fail({}));
+  }
+  const auto empty = weigh_once(**held, without, hal::FalconCalibration::Load::kEmptyGrip, signals.get());
+  if (!empty) return close(fail(empty.error().reason));
+  if (!wait_for_enter("Hang the mass on the grip, put it in the middle again, let go and let nothing swing",
+                      signals.get())) {
+    return close(fail({}));
+  }
+  const auto loaded = weigh_once(**held, with, hal::FalconCalibration::Load::kMass, signals.get());
+  (*held)->device().close();
+  if (!loaded) return fail(loaded.error().reason);
+
+  std::printf("  mass_reading {\n    mass_kg: %.6g %s\n", mass, is_supine(arguments) ? "up_y: -1" : "up_z: 1");
+  print_counts("encoder", loaded->encoder);
+  print_counts("motor_without", motor_counts(*empty, scale));
+  print_counts("motor_with", motor_counts(*loaded, scale));
+  std::printf("  }\n");
+  io::print_formatted(stderr,
+                      "Friction took up to %.1f %% of what the mass takes; add the reading to your calibration file.\n",
+                      100 * loaded->friction / std::max(1e-6, std::abs(loaded->torque[0] - empty->torque[0])));
+  return 0;
+}
+
+int calibrate_command(const CalibrateArguments& arguments) {
+  std::vector<std::string> mistakes;
+  if (const std::string problem = io::number_in(0.005, 1, "kg")(std::string(arguments.mass)); !problem.empty())
+    mistakes.push_back("--mass: " + problem);
+  if (arguments.orientation != "upright" && arguments.orientation != "supine")
+    mistakes.push_back("--orientation: \"" + sanitize(arguments.orientation) +
+                       "\" is not an orientation: must be upright or supine");
+  const bool weight_known = mistakes.empty();
+  const auto scale = present_scale(arguments.device, mistakes);
+  if (weight_known && scale) {
+    if (std::string heavy = too_heavy(std::stod(arguments.mass), *scale, is_supine(arguments)); !heavy.empty())
+      mistakes.push_back(std::move(heavy));
+  }
+  if (mistakes.empty()) return calibrate(arguments, std::stod(arguments.mass), *scale);
+  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
+  io::print_formatted(stderr, "tandem-client calibrate: %zu mistake%s, nothing was started\n", mistakes.size(),
+                      mistakes.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<CalibrateArguments>();
+  CLI::App* const command =
+      root.add_subcommand("calibrate", "Measures the force scale of a Falcon's motors with a known mass.");
+  command
+      ->add_option("--device", arguments->device, "required: the Falcon; the specification is that of `join --device`")
+      ->option_text("SPEC")
+      ->required();
+  command->add_option("--mass", arguments->mass, "required: the mass that you hang on the grip [kg]")
+      ->option_text("KG")
+      ->required();
+  command
+      ->add_option("--orientation", arguments->orientation,
+                   "upright: the device stands; supine: it lies on its back, with its grip upwards; default upright")
+      ->option_text("upright|supine");
+  command->footer(
+      "Prints one `mass_reading { ... }` for the file of `calibration=`. The file needs at least two readings; six are "
+      "better.\n"
+      "Begin with the device supine and 20 to 30 g: without a calibration the motors give little force. With that file "
+      "given,\n"
+      "repeat with 100 and 200 g.\n"
+      "Exit: 0 a reading was printed; 1 no reading; 2 wrong arguments or files.\n\n"
+      "Examples\n"
+      "  tandem-client calibrate --device falcon:firmware=falcon.bin --mass 0.02 --orientation supine\n"
+      "  tandem-client calibrate --device falcon:firmware=falcon.bin --mass 0.05kg");
+  command->callback([arguments, &action] { action = [arguments] { return calibrate_command(*arguments); }; });
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,397 @@
+#include "client/app/commands/control_command.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "client/app/commands/server_option.h"
+#include "client/app/console_commands.h"
+#include "client/app/join_client.h"
+#include "common/auth/io/control_client.h"
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "common/io/help_formatter.h"
+#include "common/io/number_option.h"
+#include "common/io/print.h"
+#include "common/io/signals.h"
+
+namespace tandem::client {
+namespace {
+
+constexpr int kDone = 0, kRefused = 1, kWrong = 2;
+constexpr int kPollIntervalMs = 1000;  // between two polls of the session status
+
+struct Arguments {
+  TicketOption ticket;
+  std::string server, session, state, role, patience = "5";
+  std::vector<std::string> words;
+  bool json = false;
+};
+
+/// Reads the lines of standard input until it ends or a signal arrives.
+class Lines {
+ public:
+  Lines(int signals, int server) : signals_(signals), server_(server) {}
+  /// Returns the next line; nullopt at the end of input, after a signal, if the server is gone, or if `idle`.
+  std::optional<std::string> next() {
+    idle_ = false;
+    while (true) {
+      if (const auto end = text_.find('\n'); end != std::string::npos) {
+        std::string line = text_.substr(0, end);
+        text_.erase(0, end + 1);
+        return line;
+      }
+      pollfd files[] = {{STDIN_FILENO, POLLIN, 0}, {signals_, POLLIN, 0}, {server_, POLLIN | POLLRDHUP, 0}};
+      const int events = poll(files, 3, kPollIntervalMs);
+      if (events == 0) {
+        idle_ = true;
+        return std::nullopt;
+      }
+      if (events < 0 || files[1].revents != 0) return std::nullopt;
+      if (files[2].revents != 0) {
+        server_gone_ = true;
+        return std::nullopt;
+      }
+      std::array<char, 4096> part;
+      const ssize_t size = ::read(STDIN_FILENO, part.data(), part.size());
+      if (size <= 0 || text_.size() > part.size())
+        return text_.empty() ? std::nullopt : std::optional(std::exchange(text_, {}));
+      text_.append(part.data(), static_cast<std::size_t>(size));
+    }
+  }
+
+  /// True if `next` returned because of kPollIntervalMs without input.
+  [[nodiscard]] bool idle() const { return idle_; }
+  /// True if the server closed the connection while no request was pending.
+  [[nodiscard]] bool server_gone() const { return server_gone_; }
+
+ private:
+  int signals_, server_;
+  bool server_gone_ = false, idle_ = false;
+  std::string text_;
+};
+
+/// Executes console commands for one session over one connection.
+class ConsoleClient {
+ public:
+  ConsoleClient(Console console, const JoinOptions& asked, bool json)
+      : console_(std::move(console)),
+        asked_(asked),
+        patience_(std::chrono::duration_cast<std::chrono::milliseconds>(asked.timeout)),
+        json_(json) {}
+
+  [[nodiscard]] const rpc::Welcome& welcome() const { return console_.welcome; }
+  [[nodiscard]] int connection() const { return console_.connection->fd(); }
+
+  /// kTold: a change of the session status was printed. kGone: the connection is lost.
+  enum class PollResult { kNothing, kTold, kGone };
+  PollResult poll_status() {
+    const auto answer = console_.connection->ask(rpc::StatusRequest{console_.welcome.session_id}, patience_);
+    if (!answer) return PollResult::kGone;
+    const auto* said = std::get_if<rpc::Status>(&*answer);
+    if (said == nullptr) return PollResult::kNothing;  // rate limit or end of the session; the next command reports it
+    const rpc::Status now = completed(*said);
+    const std::string news = status_changes_text(seen_.value_or(rpc::Status{}), now);
+    seen_ = now;
+    if (news.empty()) return PollResult::kNothing;
+    say((isatty(STDIN_FILENO) == 1 ? "\n" : "") + news);  // on its own line, not after the prompt
+    return PollResult::kTold;
+  }
+
+  /// Shows the progress of a drain until the server has ended or a signal arrives. @return exit code
+  int follow_drain(int signals) {
+    while (true) {
+      const bool gone = poll_status() == PollResult::kGone;
+      pollfd files[] = {{signals, POLLIN, 0}, {connection(), POLLIN | POLLRDHUP, 0}};
+      poll(files, 2, gone ? 0 : kPollIntervalMs / 2);
+      if (files[0].revents != 0) return say("the drain continues without this console");
+      if (gone || files[1].revents != 0) return say("the server has ended");
+    }
+  }
+
+  /// True if a drain requested on this console is due, so that an end of the connection is expected.
+  [[nodiscard]] bool drained() const { return drain_due_ && io::monotonic_now() >= *drain_due_; }
+
+  int execute(const ConsoleCommand& wish) {
+    const rpc::Id& id = console_.welcome.session_id;
+    switch (wish.kind) {
+      case ConsoleCommand::Kind::kStatus:
+        return show_status();
+      case ConsoleCommand::Kind::kStop:
+        return order(rpc::StopSession{id, wish.why}) ? tell_stop("STOPPED") : kRefused;
+      case ConsoleCommand::Kind::kPause:
+        return order(rpc::PauseSession{id, wish.why}) ? tell_stop("PAUSED") : kRefused;
+      case ConsoleCommand::Kind::kResume:
+        return resume(wish);
+      case ConsoleCommand::Kind::kAuthority:
+        return authority(wish);
+      case ConsoleCommand::Kind::kRemove:
+        if (!order(rpc::RemoveParticipant{id, wish.seat, wish.why})) return kRefused;
+        return say(
+            wish.seat +
+            ": released; the seat is free in a moment, and that workstation cannot join again with the session's code");
+      case ConsoleCommand::Kind::kDrain: {
+        const Time due =
+            io::monotonic_now() +
+            std::chrono::seconds(wish.grace_s);  // computed before the request, so the server never ends earlier
+        if (!order(rpc::Drain{wish.grace_s})) return kRefused;
+        if (!drain_due_ || due < *drain_due_) drain_due_ = due;
+        return say(
+            wish.grace_s == 0
+                ? std::string("draining: all hands are released, then the server ends")
+                : format("draining: new joins are rejected; all hands are released in %u s, then the server ends",
+                         wish.grace_s));
+      }
+      case ConsoleCommand::Kind::kHelp:
+        return say(console_commands_help());
+      case ConsoleCommand::Kind::kQuit:
+        return kDone;
+    }
+    return kWrong;
+  }
+
+ private:
+  static int say(const std::string& text) {
+    const std::string line = text.ends_with('\n') ? text : text + "\n";
+    std::fputs(text.starts_with('{') ? line.c_str() : io::wrap_for_terminal(line, stdout).c_str(),
+               stdout);  // JSON is not wrapped
+    return std::fflush(stdout) == 0 ? kDone : kRefused;
+  }
+  static int complain(const std::string& text, int code = kRefused) {
+    io::print(stderr, "tandem-client control: " + text + "\n");
+    return code;
+  }
+
+  /// Returns the reply if it has this type; otherwise prints the error.
+  template <class Answer>
+  std::optional<Answer> ask(const rpc::Body& question) {
+    const auto answer = console_.connection->ask(question, patience_);
+    if (!answer) {
+      complain(answer.error().text);
+    } else if (const auto* good = std::get_if<Answer>(&*answer)) {
+      return *good;
+    } else if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) {
+      complain("refused: " + refused->text);
+    } else {
+      complain("the server answered something else; is it of the same release?");
+    }
+    return std::nullopt;
+  }
+  bool order(const rpc::Body& command) { return ask<rpc::Ok>(command).has_value(); }
+  std::optional<rpc::Status> status() {
+    auto now = ask<rpc::Status>(rpc::StatusRequest{console_.welcome.session_id});
+    if (now) seen_ = now = completed(*now);
+    return now;
+  }
+
+  int show_status() {
+    const auto now = status();
+    return now ? say(json_ ? status_json(*now) : status_text(*now)) : kRefused;
+  }
+
+  int tell_stop(const char* what) {
+    const auto now = status();
+    if (!now)
+      return say(std::string(what) + ": all hands are released");  // the stop succeeded even if the status query failed
+    return say(format("%s: all hands are released; `resume %u` ends it", what, now->stops));
+  }
+
+  int resume(const ConsoleCommand& wish) {
+    std::uint32_t stop = wish.stop.value_or(0);
+    if (!wish.stop) {
+      const auto now = status();
+      if (!now) return kRefused;
+      stop = now->stops;
+    }
+    if (!order(rpc::ResumeSession{console_.welcome.session_id, stop})) return kRefused;
+    return say(format("RESUMED: stop %u is over", stop));
+  }
+
+  int authority(const ConsoleCommand& wish) {
+    const auto now = status();
+    if (!now) return kRefused;
+    const auto frame = authority_frame(wish, *now);
+    if (!frame) return complain(frame.error(), kWrong);
+    const auto answer = ask<rpc::AuthorityReply>(*frame);
+    if (!answer) return kRefused;
+    const std::string is =
+        format("authority over %s, version %u: ", now->tools[frame->tool].name.c_str(), answer->version) +
+        weights_text(*now, answer->alpha);
+    if (answer->applied) return say(is + "; announced, it begins in 50 ms");
+    return complain("refused: another change was faster. In force: " + is + ". Check it, then repeat the command");
+  }
+
+  /// Completes the commands in the server's texts with the options of this console.
+  [[nodiscard]] rpc::Status completed(rpc::Status status) const {
+    if (status.stop) status.stop->ends = complete_commands(status.stop->ends, asked_, status.name);
+    return status;
+  }
+
+  Console console_;
+  JoinOptions asked_;
+  std::optional<rpc::Status> seen_;
+  std::optional<Time> drain_due_;  ///< earliest drain requested on this console
+  std::chrono::milliseconds patience_;
+  bool json_;
+};
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+int tell_gone(bool person, int worst) {
+  io::print_formatted(
+      stderr,
+      "%standem-client control: the server ended this connection: it was stopped, is being restarted, or withdrew its "
+      "rights.\n"
+      "To continue, start again, with a new ticket if you joined with one (`tandem-server ticket` on the server)\n",
+      person ? "\n" : "");
+  return std::max(worst, kRefused);
+}
+
+/// Executes the commands of standard input line by line. @return the largest exit code
+int converse(ConsoleClient& attendant, int signals) {
+  const bool person = isatty(STDIN_FILENO) == 1;
+  const std::string prompt =
+      attendant.welcome().session_name + " (" + std::string(to_text(attendant.welcome().role)) + ")> ";
+  if (person) std::printf("the connection stays open until you quit; `help` lists the commands\n");
+  Lines lines(signals, attendant.connection());
+  int worst = kDone;
+  bool waiting = false;  // the prompt is already shown
+  while (true) {
+    if (person && !waiting) std::printf("%s", prompt.c_str());
+    std::fflush(stdout);
+    const auto line = lines.next();
+    if (!line && lines.idle()) {
+      const auto became = attendant.poll_status();
+      waiting = became == ConsoleClient::PollResult::kNothing;
+      if (became != ConsoleClient::PollResult::kGone) continue;
+    }
+    waiting = false;
+    if (lines.server_gone() || (!line && lines.idle())) {
+      if (!attendant.drained()) return tell_gone(person, worst);
+      std::printf("%sthe server has ended: the drain is complete\n", person ? "\n" : "");
+      return worst;
+    }
+    if (!line) return worst;
+    const auto words = words_of(*line);
+    if (words.empty()) continue;
+    const auto wish = parse_command(words);
+    int code = kWrong;
+    if (wish) {
+      if (wish->kind == ConsoleCommand::Kind::kQuit) return worst;
+      code = attendant.execute(*wish);
+    } else {
+      io::print_formatted(stderr, "tandem-client control: %s\n", wish.error().c_str());
+    }
+    worst = std::max(worst, code);
+  }
+}
+
+int control_command(const Arguments& arguments) {
+  std::vector<std::string> mistakes;
+  JoinOptions asking;
+  if (const auto server = server_option(arguments.server, mistakes)) asking.server = *server;
+  std::string patience = arguments.patience;
+  if (const auto problem = io::number_in(0.1, 3600, "s")(patience); !problem.empty())
+    mistakes.push_back("--timeout: " + problem);
+  std::optional<ConsoleCommand> wish;
+  if (!arguments.words.empty()) {
+    auto understood = parse_command(arguments.words);
+    if (understood) {
+      wish = std::move(*understood);
+    } else {
+      mistakes.push_back(understood.error());
+    }
+  }
+  asking.console = wish ? role_for(wish->kind) : AccessRole::kOperator;
+  if (!arguments.role.empty()) {
+    const auto role = access_role_named(arguments.role);
+    const bool stands =
+        role && (*role == AccessRole::kInstructor || *role == AccessRole::kOperator || *role == AccessRole::kRecorder);
+    if (!stands) mistakes.push_back("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
+    if (stands) asking.console = *role;
+  }
+  asking.ticket = ticket_of(arguments.ticket, mistakes);
+  if (!mistakes.empty()) {
+    for (const std::string& mistake : mistakes)
+      io::print_formatted(stderr, "tandem-client control: %s\n", mistake.c_str());
+    return kWrong;
+  }
+  if (wish && wish->kind == ConsoleCommand::Kind::kHelp)
+    return std::fputs(console_commands_help(), stdout) < 0 ? kRefused : kDone;
+  if (wish && wish->kind == ConsoleCommand::Kind::kQuit) return kDone;
+  const io::Fd signals = io::make_signalfd();
+  asking.session = arguments.session;
+  asking.state = arguments.state;
+  asking.timeout = from_seconds(std::stod(patience));
+  asking.signals = signals.get();
+  auto console = join_console(asking);
+  if (!console) {
+    io::print_formatted(stderr, "tandem-client control: %s\n", console.error().reason.c_str());
+    return kRefused;
+  }
+  ConsoleClient attendant(std::move(*console), asking, arguments.json);
+  if (!wish) return converse(attendant, signals.get());
+  const int code = attendant.execute(*wish);
+  return code == kDone && wish->kind == ConsoleCommand::Kind::kDrain ? attendant.follow_drain(signals.get()) : code;
+}
+
+}  // namespace
+
+void add_control_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command = root.add_subcommand(
+      "control", "Operates a session from a console: stops, resumes, moves authority, removes clients.");
+  command
+      ->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
+      ->option_text("HOST:PORT")
+      ->required();
+  command
+      ->add_option("--session", arguments->session,
+                   "name, code or id of the session; default: the ticket's, or the only one there")
+      ->option_text("NAME|CODE|ID");
+  add_ticket_options(
+      *command, arguments->ticket,
+      "what `tandem-server ticket --role operator` printed; not needed with a loopback server with ephemeral keys");
+  command
+      ->add_option("--role", arguments->role,
+                   "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")
+      ->option_text("ROLE");
+  command
+      ->add_option("--state", arguments->state,
+                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      ->option_text("DIR");
+  command
+      ->add_option("--timeout", arguments->patience,
+                   "how long to wait for a server that does not answer [s]; default 5")
+      ->option_text("S");
+  command->add_flag("--json", arguments->json, "status for machines");
+  command
+      ->add_option("COMMAND", arguments->words,
+                   "one of the commands below; none: a console that takes one command per line and stays connected")
+      ->option_text("...");
+  command->footer(std::string("Commands\n") + console_commands_help() +
+                  "\nA ticket is good for one connection, and used up by the first command that succeeds (`status` "
+                  "too, unless all others are refused).\n"
+                  "For several commands use the console (a pipe will do); it reports stops by others and the progress "
+                  "of a drain. A stop is latched\n"
+                  "and numbered; a resume names the newest stop, so that an old command never ends a newer stop.\n"
+                  "Exit: 0 done; 1 refused, with the reason, or server not there; 2 wrong arguments. In the console: "
+                  "the greatest code of its commands.\n\n"
+                  "Examples\n"
+                  "  tandem-client control --server 127.0.0.1:7000 stop a hand is in the way\n"
+                  "  tandem-client control --server lab-server:7000 --ticket-file operator.ticket");
+  command->callback([arguments, &action] { action = [arguments] { return control_command(*arguments); }; });
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,116 @@
+#include "client/app/commands/enroll_command.h"
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/auth/enrolment.h"
+#include "common/auth/io/client_keystore.h"
+#include "common/auth/io/control_client.h"
+#include "common/io/number_option.h"
+#include "common/io/print.h"
+#include "common/io/signals.h"
+#include "common/io/socket_address.h"
+
+namespace tandem::client {
+namespace {
+
+struct Arguments {
+  std::string text, state, patience = "5";
+};
+
+int trouble(const std::string& what) {
+  io::print_formatted(stderr, "tandem-client enroll: %s\n", what.c_str());
+  return 1;
+}
+
+int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, const std::string& state,
+          std::chrono::milliseconds patience) {
+  const io::Fd signals = io::make_signalfd();
+  const auto own = auth::ClientKeystore::open_or_make(state, auth::wall_seconds());
+  if (!own) return trouble(own.error());
+  const auto judge = [&](const auth::KeyFingerprint& seen) -> std::expected<const auth::Identity*, std::string> {
+    if (seen == given.server) return &own->identity();
+    return std::unexpected("the server at " + given.address +
+                           " has another key than the string says, so nothing was told to it. Either another machine "
+                           "answers there, or the server was set up "
+                           "again: ask for a new string");
+  };
+  auto client = auth::ControlClient::connect(server, judge, patience, signals.get());
+  const auto told = [](const auth::ClientError& fault) {
+    return trouble(fault.kind == auth::ClientError::Kind::kInterrupted ? "ended by Ctrl-C; the string may still be good"
+                                                                       : fault.text);
+  };
+  if (!client) return told(client.error());
+  const auto answer = client->ask(rpc::Enroll{given.code}, patience);
+  if (!answer) return told(answer.error());
+  if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return trouble("refused: " + refused->text);
+  const auto* taken = std::get_if<rpc::EnrollAck>(&*answer);
+  if (taken == nullptr) return trouble("the server answered something else; is it of the same release?");
+  if (const std::string problem = own->store_server({given.address, given.server.sha256, taken->workstation});
+      !problem.empty())
+    return trouble("enrolled as " + taken->workstation + ", but " + problem);
+  std::printf("enrolled at %s as %s\n", given.address.c_str(), taken->workstation.c_str());
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+int enroll_command(Arguments arguments) {
+  std::vector<std::string> mistakes;
+  if (arguments.text == "-") {
+    arguments.text.clear();
+    std::getline(std::cin, arguments.text);
+  }
+  auto given = auth::EnrolmentString::from_text(arguments.text);
+  wipe(arguments.text);
+  std::expected<io::SocketAddress, std::string> server = std::unexpected(std::string());
+  if (!given) {
+    mistakes.push_back("STRING: " + given.error());
+  } else if (server = io::parse_address(given->address, 1); !server) {
+    mistakes.push_back("STRING: its server " + server.error());
+  }
+  std::string patience = arguments.patience;
+  if (const auto problem = io::number_in(0.1, 3600, "s")(patience); !problem.empty())
+    mistakes.push_back("--timeout: " + problem);
+  const auto state = auth::client_state_path(arguments.state);
+  if (!state) mistakes.push_back(state.error());
+  if (mistakes.empty())
+    return enrol(*given, *server, *state,
+                 std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * std::stod(patience))));
+  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
+  io::print_formatted(stderr, "tandem-client enroll: %zu mistake%s, nothing was sent\n", mistakes.size(),
+                      mistakes.size() == 1 ? "" : "s");
+  return 2;
+}
+
+}  // namespace
+
+void add_enroll_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command = root.add_subcommand(
+      "enroll", "Makes this workstation known to a server, with the string that tandem-server enroll printed there.");
+  command
+      ->add_option(
+          "STRING", arguments->text,
+          "`tandem:` and what follows, whole; `-`: read from standard input, so that it stands in no list of processes")
+      ->option_text(" ")
+      ->required();
+  command
+      ->add_option("--state", arguments->state,
+                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      ->option_text("DIR");
+  command->add_option("--timeout", arguments->patience, "how long to wait for the server [s]; default 5")
+      ->option_text("S");
+  command->footer(
+      "Makes the workstation's key where there is none yet; it never leaves the folder. The server must run, and must "
+      "have the key that the\n"
+      "string names: any other is refused before it is told anything.\n"
+      "Exit: 0 enrolled; 1 refused, no answer, or the folder cannot be used; 2 wrong arguments.\n\n"
+      "Examples\n"
+      "  tandem-client enroll tandem:0G6...\n"
+      "  tandem-client enroll - < enrolment.txt");
+  command->callback([arguments, &action] { action = [arguments] { return enroll_command(*arguments); }; });
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,186 @@
+#include "client/app/commands/join_command.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <sstream>
+
+#include "client/app/commands/server_option.h"
+#include "client/app/hardware_device.h"
+#include "client/app/run_seat.h"
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "common/io/print.h"
+#include "hal/backends/backend.h"
+#include "hal/io/open_sim_device.h"
+#include "proto/wire/wire_messages.h"
+
+namespace tandem::client {
+namespace {
+
+constexpr int kWrong = 2;
+
+/// Arguments as typed. Numbers remain text until parse_command, so that all errors are reported together.
+struct JoinArguments {
+  TicketOption ticket;
+  std::string server, session, state, seat, device, script, trace, json, duration, patience = "5", rejoin = "60";
+  bool quiet = false;
+};
+
+using Mistakes = std::vector<std::string>;
+
+double number(const char* option, std::string text, double lo, double hi, Mistakes& mistakes) {
+  if (text.empty()) return 0;
+  if (const std::string problem = io::number_in(lo, hi, "s")(text); !problem.empty()) {
+    mistakes.push_back(std::string(option) + ": " + problem);
+    return 0;
+  }
+  return std::stod(text);
+}
+
+void check_files(const JoinArguments& arguments, Mistakes& mistakes) {
+  if (!arguments.json.empty() && arguments.json != "-")
+    if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty())
+      mistakes.push_back("--json: " + problem);
+  if (!arguments.trace.empty())
+    if (const auto problem = io::OutputFile::problem(arguments.trace); !problem.empty())
+      mistakes.push_back("--trace: " + problem);
+  if (!arguments.trace.empty() && arguments.trace == arguments.json)
+    mistakes.push_back("--trace: is the same file as --json");
+}
+
+/// Returns the options, and appends all errors to `mistakes`.
+SeatOptions parse_command(const JoinArguments& arguments, Mistakes& mistakes) {
+  SeatOptions plan;
+  if (const auto server = server_option(arguments.server, mistakes)) plan.server = *server;
+  if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
+    mistakes.push_back("--seat: a name has 1 to 32 characters");
+  if (HardwareDevice::is_hardware_spec(arguments.device)) {
+    for (std::string& wrong : HardwareDevice::spec_errors(arguments.device)) mistakes.push_back(std::move(wrong));
+  } else if (const auto device = hal::open_sim_device(arguments.device, SimDeviceSpec{}, HandSpec{})) {
+    plan.caps = known_caps(device->device->caps());
+  } else {
+    std::istringstream lines(device.error().message);
+    for (std::string line; std::getline(lines, line);)
+      mistakes.push_back("--device: " + line.substr(line.starts_with("device: ") ? 8 : 0));
+  }
+  if (arguments.device.find("keyboard") != std::string::npos && isatty(STDIN_FILENO) == 0)
+    mistakes.push_back("--device " + arguments.device +
+                       ": the keys are read from a terminal, and standard input is none");
+  if (!arguments.script.empty()) {
+    auto script = AuthorityScript::load(arguments.script);
+    if (script) {
+      plan.script = std::move(*script);
+    } else {
+      mistakes.insert(mistakes.end(), script.error().begin(), script.error().end());
+    }
+  }
+  check_files(arguments, mistakes);
+  plan.duration_s = number("--duration", arguments.duration, 0.1, 3e6, mistakes);
+  plan.timeout_s = number("--timeout", arguments.patience, 0.1, 3600, mistakes);
+  plan.reconnect_timeout_s = number("--reconnect-timeout", arguments.rejoin, 0, 600, mistakes);
+  plan.seat = arguments.seat;
+  plan.session = arguments.session;
+  plan.ticket = ticket_of(arguments.ticket, mistakes);
+  plan.state = arguments.state;
+  plan.device = arguments.device;
+  plan.trace = arguments.trace;
+  plan.json = arguments.json;
+  plan.quiet = arguments.quiet;
+  return plan;
+}
+
+int join_command(const JoinArguments& arguments) {
+  Mistakes mistakes;
+  const SeatOptions plan = parse_command(arguments, mistakes);
+  if (mistakes.empty()) return run_seat(plan);
+  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
+  io::print_formatted(stderr, "tandem-client join: %zu mistake%s, nothing was started\n", mistakes.size(),
+                      mistakes.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+}  // namespace
+
+void add_join_command(CLI::App& root, std::function<int()>& action) {
+  // Shared, because the program's options refer to it.
+  const auto arguments = std::make_shared<JoinArguments>();
+  CLI::App* const command = root.add_subcommand("join", "Attaches one device to one seat of a session.");
+  command
+      ->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
+      ->option_text("HOST:PORT")
+      ->required();
+  add_joining_options(*command, arguments->session, &arguments->ticket, arguments->state);
+  command->add_option("--seat", arguments->seat, "required: which seat of the scene; the server prints their names")
+      ->option_text("NAME")
+      ->required();
+  command->add_option("--device", arguments->device, "required: what to hold, see below")
+      ->option_text("SPEC")
+      ->required();
+  command
+      ->add_option("--alpha-script", arguments->script,
+                   "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1, asked for 50 ms ahead as "
+                   "that is how long a change "
+                   "is announced; INSTRUCTOR's seat only")
+      ->option_text("FILE.csv");
+  command->add_option("--trace", arguments->trace, "writes this seat's own samples, one row per servo tick")
+      ->option_text("FILE.csv");
+  command
+      ->add_option("--json", arguments->json,
+                   "writes verdict, link statistics, gate trips, energies, and the device's periods and round trips as "
+                   "histograms; `-`: "
+                   "to standard output")
+      ->option_text("FILE|-");
+  command
+      ->add_option("--duration", arguments->duration,
+                   "leaves after so many seconds at the seat; default: stays to the end")
+      ->option_text("S");
+  command
+      ->add_option("--timeout", arguments->patience,
+                   "how long to wait for a server that does not answer [s]; default 5")
+      ->option_text("S");
+  command
+      ->add_option("--reconnect-timeout", arguments->rejoin,
+                   "how long to try to come back to the seat when the server fell silent, died or moved the network "
+                   "away under it [s]; "
+                   "default 60, at most 600; 0: not at all, and a silence of 60 s counts as a lost server. A server "
+                   "ends a session after the same 60 s "
+                   "in which it heard nobody. Your hand is free meanwhile")
+      ->option_text("S");
+  command->add_flag("--quiet", arguments->quiet, "no status");
+  std::string hardware;
+  for (const hal::Backend* backend : hal::backends()) hardware += backend->help();
+  command->footer(
+      "Devices\n"
+      "  sim                         simulated, as the scene describes the seat's device and hand\n"
+      "  sim:hand=NAME               another hand: none leader relaxed resting letting_go tremor keyboard\n"
+      "  sim:keyboard                you move the hand: arrow keys and PgUp/PgDn\n"
+      "  sim:motion=FILE.csv         a recorded motion moves the hand; behind it, without spaces, also ,columns=PREFIX "
+      ",rec=N\n"
+      "                              ,scale=auto|S ,axes=+x+y+z ,end=hold|loop\n" +
+      hardware +
+      "                              (`tandem-client doctor` lists what is attached; several of a kind need port= or "
+      "serial=)\n"
+      "Keys: s (or space) stops your hand, S everybody's (a pause, unless you are the instructor), r resumes (in a "
+      "scene without an\n"
+      "instructor's seat: takes your own pause back); when the session is stopped you read by whom, why and who can "
+      "resume it; the instructor\n"
+      "moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
+      "gate;\n"
+      "q or Ctrl-C releases the hand and leaves.\n"
+      "When the server falls silent the hand is released within 120 ms. After 1 s the client reconnects to its seat, "
+      "until\n"
+      "--reconnect-timeout is over; the force comes up slowly from zero where the hand is.\n"
+      "Exit: 0 session over or left (verdict pass); 1 refused, server not there, server, seat or device lost (fail), "
+      "or the session\n"
+      "never ran, so that there is nothing to judge (not_judged); 2 wrong arguments or files.\n\n"
+      "Examples\n"
+      "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim\n"
+      "  tandem-client join --server 127.0.0.1:7000 --seat trainee --device sim:keyboard\n"
+      "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim:motion=baton.csv,columns=baton\n"
+      "      --alpha-script handover.csv --json trainer.json");
+  command->callback([arguments, &action] { action = [arguments] { return join_command(*arguments); }; });
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,300 @@
+#include "client/app/commands/link_test_command.h"
+
+#include <poll.h>
+#include <spdlog/spdlog.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "client/app/commands/server_option.h"
+#include "client/app/join_client.h"
+#include "client/diagnostics/link_verdict.h"
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "common/io/datagram_batch.h"
+#include "common/io/number_option.h"
+#include "common/io/output_file.h"
+#include "common/io/print.h"
+#include "common/io/realtime.h"
+#include "common/io/signals.h"
+#include "common/io/terminal.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kTrouble = 1, kWrong = 2;
+constexpr int kPriority = 60;         // real-time priority of a device's thread, so that its lateness is measured
+constexpr Duration kSilentMax = 10s;  // silence of the server that ends the test
+constexpr Duration kRefusedMax = 1s;  // the same after ECONNREFUSED
+constexpr int kRounds = 4;
+
+struct Arguments {
+  std::string server, session, state, json, duration = "10", patience = "5";
+  bool quiet = false;
+};
+
+enum class Ended { kDone, kInterrupted, kServerEnded, kServerLost };
+
+/// Runs a LinkTest on a socket with one tick per period. Ends after the duration, on a signal, or with the server.
+class Prober {
+ public:
+  Prober(const io::UdpSocket& socket, LinkTest& test, double tick_hz, int signals)
+      : socket_(socket), test_(test), period_(from_seconds(1.0 / tick_hz)), signals_(signals) {}
+
+  Ended run(Duration duration, io::StatusLine& line) {
+    const Time begin = io::monotonic_now();
+    due_ = begin + period_;
+    Time shown = begin;
+    while (true) {
+      if (!tick()) return Ended::kInterrupted;
+      const Time now = io::monotonic_now();
+      if (test_.closed()) return Ended::kServerEnded;
+      const Duration silence = test_.silence(now);
+      if (silence > (refused_ ? kRefusedMax : kSilentMax)) return Ended::kServerLost;
+      if (now - begin >= duration) return Ended::kDone;
+      if (now - shown >= std::chrono::milliseconds(line.interval_ms())) {
+        shown = now;
+        line.show(format("link test: %.0f of %.0f s", seconds(now - begin), seconds(duration)));
+      }
+    }
+  }
+  /// Receives datagrams that are still in flight. @return false if a signal arrived
+  bool listen(Duration time) {
+    for (const Time end = io::monotonic_now() + time; io::monotonic_now() < end;)
+      if (!tick()) return false;
+    return true;
+  }
+
+ private:
+  bool tick() {
+    while (io::monotonic_now() < due_) {
+      pollfd files[] = {{socket_.fd.get(), POLLIN, 0}, {signals_, POLLIN, 0}};
+      const timespec rest = io::to_timespec(due_ - io::monotonic_now());
+      ppoll(files, 2, &rest, nullptr);
+      if (files[1].revents != 0) return false;
+      receive();
+      // A pending socket error keeps poll() returning without datagrams: clear it, then wait for the tick.
+      if ((files[0].revents & POLLERR) != 0) take_error();
+    }
+    const Time now = io::monotonic_now();
+    const Duration late = now - due_;
+    const auto missed = static_cast<std::uint32_t>(late / period_);
+    test_.on_tick(now, late, missed, io::read_clock(CLOCK_REALTIME) - io::monotonic_now().time_since_epoch());
+    std::array<std::byte, transport::kDatagramMax> buffer;
+    while (const auto size = test_.poll_transmit(io::monotonic_now(), buffer))
+      if (::send(socket_.fd.get(), buffer.data(), *size, MSG_NOSIGNAL | MSG_DONTWAIT) <
+          0)  // a datagram that cannot be sent counts as lost
+        refused_ = refused_ || errno == ECONNREFUSED;
+    due_ += (missed + 1) * period_;
+    return true;
+  }
+
+  void receive() {
+    for (int round = 0; round < kRounds; ++round) {
+      const int count = in_.receive(socket_.fd.get());
+      // Read in this order, a preemption between the two clocks can only lengthen the measured transit time.
+      const Duration wall = io::read_clock(CLOCK_REALTIME);
+      const Time now = io::monotonic_now();
+      for (int k = 0; k < count; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        // Uses the kernel's arrival time, so that a delay of this program is not attributed to the network.
+        refused_ = false;
+        if (!in_.too_long(i)) test_.on_datagram(now - in_.details(i, wall).age, in_.bytes(i));
+      }
+      if (count < static_cast<int>(io::ReceiveBatch::kMax)) return;
+    }
+  }
+
+  void take_error() {
+    int error = 0;
+    socklen_t size = sizeof error;
+    getsockopt(socket_.fd.get(), SOL_SOCKET, SO_ERROR, &error, &size);
+    refused_ = refused_ || error == ECONNREFUSED;
+  }
+
+  const io::UdpSocket& socket_;
+  LinkTest& test_;
+  Duration period_;
+  int signals_;
+  Time due_{};
+  bool refused_ = false;  ///< ECONNREFUSED arrived, and no datagram since
+  io::ReceiveBatch in_;
+};
+
+using Json = nlohmann::ordered_json;
+
+Json milliseconds(const std::optional<double>& s) { return s ? Json(1e3 * *s) : Json(nullptr); }
+
+Json way(const std::optional<LinkTestResult::Direction>& w) {
+  if (!w) return nullptr;
+  return {{"sent", w->sent},
+          {"lost", w->lost},
+          {"loss_percent", w->loss_percent()},
+          {"reordered", w->reordered},
+          {"longest_gap_ms", 1e3 * w->longest_gap}};
+}
+
+std::string to_json(const LinkTestResult& f, const LinkVerdict& verdict, const std::string& server,
+                    const char* ended_by, bool complete) {
+  Json j;
+  j["server"] = server;
+  j["verdict"] = to_text(verdict.grade);
+  j["words"] = verdict.text;
+  j["advice"] = verdict.advice;
+  j["complete"] = complete;  // ran to its end and the server was present until then
+  j["ended_by"] = ended_by;
+  j["duration_s"] = f.seconds;
+  j["rate_hz"] = f.tick_hz;
+  j["rtt_min_ms"] = milliseconds(f.rtt_min);
+  j["rtt_p50_ms"] = milliseconds(f.rtt_p50);
+  j["rtt_p99_ms"] = milliseconds(f.rtt_p99);
+  j["rtt_max_ms"] = milliseconds(f.rtt_max);
+  j["jitter_p99_ms"] = milliseconds(f.jitter);
+  j["up"] = way(f.up);
+  j["down"] = way(f.down);
+  j["duplicates"] = f.duplicates;
+  j["refused"] = f.refused;
+  j["pauses"] = f.pauses;
+  j["clock_step_ms"] = milliseconds(f.clock_step);
+  j["transit_step_ms"] = milliseconds(f.transit_step);
+  j["machine"] = {{"ticks", f.ticks},
+                  {"late_ticks", f.late_ticks},
+                  {"missed_ticks", f.missed_ticks},
+                  {"wake_p99_ms", 1e3 * f.wake_p99},
+                  {"wake_max_ms", 1e3 * f.wake_max}};
+  return j.dump(2) + "\n";
+}
+
+std::string why(Ended ended, const LinkTestResult& findings) {
+  switch (ended) {
+    case Ended::kDone:
+      return "";
+    case Ended::kInterrupted:
+      return "ended by " + std::string(io::pending_signal()) + ": what follows is of a shorter test";
+    case Ended::kServerEnded:
+      return "the server ended: what follows is of a shorter test";
+    case Ended::kServerLost:
+      return format("the server was lost: nothing came for the last %.1f s. What follows is of the time until then",
+                    findings.silent_at_end);
+  }
+  return "";
+}
+
+const char* to_text(Ended ended) noexcept {
+  constexpr const char* kWords[] = {"done", "interrupted", "server_ended", "server_lost"};
+  return kWords[static_cast<std::size_t>(ended)];
+}
+
+int trouble(const std::string& what, int code = kTrouble) {
+  spdlog::error("link-test: {}", what);
+  return code;
+}
+
+int test_link(const Arguments& arguments, const io::SocketAddress& address, double duration_s, double patience_s) {
+  const io::Fd signals = io::make_signalfd();
+  io::OutputFile json;
+  if (const auto problem = json.open(arguments.json, true); !problem.empty())
+    return trouble("--json: " + problem, kWrong);
+  const std::string server = io::to_text(address);
+  hal::DeviceCaps nobody;  // a link-test peer has no device, but Hello requires plausible capabilities
+  nobody.joints = nobody.tip_axes = 1;
+  nobody.simulated = true;
+  const auto given =
+      join_seat({address, {}, arguments.session, {}, arguments.state, nobody, from_seconds(patience_s), signals.get()});
+  if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
+  auto socket = io::connect_udp(given->udp);
+  if (!socket) return trouble("--server: " + socket.error());
+
+  const auto test = std::make_unique<LinkTest>(given->setup, given->link);
+  const auto prober = std::make_unique<Prober>(*socket, *test, given->setup.tick_hz, signals.get());
+  io::StatusLine line{arguments.quiet};
+  const io::CpuLatencyRequest awake;
+  const bool memory = io::lock_memory();
+  const bool fifo = io::request_realtime(kPriority);
+  Ended ended = prober->run(from_seconds(duration_s), line);
+  const Time stopped = io::monotonic_now();
+  test->stop_sending(stopped);
+  const Duration under_way = from_seconds(std::min(1.0, 0.2 + 2 * test->findings(stopped).rtt_max.value_or(0)));
+  bool patient = ended == Ended::kDone && prober->listen(under_way);
+  test->leave();
+  patient = prober->listen(patient ? under_way : from_seconds(4.0 / given->setup.tick_hz)) && patient;
+  line.clear();
+
+  const LinkTestResult findings = test->findings(io::monotonic_now());
+  if (ended == Ended::kDone && server_lost(findings)) ended = Ended::kServerLost;
+  if (ended != Ended::kDone) line.warn(why(ended, findings));
+  const LinkVerdict verdict = assess_link(findings);
+  if (!json.on_stdout()) {
+    std::string text = summary(findings) + "\n" + to_text(verdict.grade) + ": " + verdict.text + "\n";
+    for (const std::string& advice : verdict.advice) text += "- " + advice + "\n";
+    if (const std::string notice = io::realtime_warning(fifo, memory, awake.granted());
+        !notice.empty() && findings.late_ticks + findings.missed_ticks > 0)
+      text += "- " + notice + "\n";
+    std::fputs(io::wrap_for_terminal(text, stdout).c_str(), stdout);
+  }
+  json.write(to_json(findings, verdict, server, to_text(ended), ended == Ended::kDone));
+  if (const auto problem = json.close(); !problem.empty()) return trouble(problem);
+  if (ended == Ended::kInterrupted) return 0;
+  return verdict.grade == LinkGrade::kBad || ended != Ended::kDone ? kTrouble : 0;
+}
+
+int link_test_command(const Arguments& arguments) {
+  std::vector<std::string> mistakes;
+  const auto server = server_option(arguments.server, mistakes);
+  const auto number = [&](const char* option, std::string text, double lo, double hi) {
+    const std::string problem = io::number_in(lo, hi, "s")(text);
+    if (!problem.empty()) mistakes.push_back(std::string(option) + ": " + problem);
+    return problem.empty() ? std::stod(text) : 0.0;
+  };
+  const double duration = number("--duration", arguments.duration, 1, 3600);
+  const double patience = number("--timeout", arguments.patience, 0.1, 3600);
+  if (!arguments.json.empty() && arguments.json != "-")
+    if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty())
+      mistakes.push_back("--json: " + problem);
+  if (mistakes.empty()) return test_link(arguments, *server, duration, patience);
+  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
+  io::print_formatted(stderr, "tandem-client link-test: %zu mistake%s, nothing was started\n", mistakes.size(),
+                      mistakes.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+}  // namespace
+
+void add_link_test_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = root.add_subcommand(
+      "link-test",
+      "Judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks.");
+  command->add_option("--server", arguments->server, "required: address the server printed")
+      ->option_text("HOST:PORT")
+      ->required();
+  add_joining_options(*command, arguments->session, nullptr, arguments->state);
+  command->add_option("--duration", arguments->duration, "how long [s], 1 to 3600; default 10")->option_text("S");
+  command->add_option("--json", arguments->json, "writes all findings; `-`: to standard output, instead of the text")
+      ->option_text("FILE|-");
+  command
+      ->add_option("--timeout", arguments->patience,
+                   "how long to wait for a server that does not answer [s]; default 5")
+      ->option_text("S");
+  command->add_flag("--quiet", arguments->quiet, "no status");
+  command->footer(
+      "Sends and receives what a hand would, at the scene's rate, beside a session that runs or waits; nobody there "
+      "feels it.\n"
+      "Ctrl-C or SIGTERM ends it early, with what was found so far.\n"
+      "GOOD: round trip up to 20 ms (99 %), jitter 2 ms, loss 0.1 %, no silence that lets a hand go; USABLE: up to the "
+      "age the scene\n"
+      "trusts, jitter 10 ms, loss 10 %, seldom a gap of up to 50 ms; BAD: anything more.\n"
+      "Exit: 0 good or usable, or ended by a signal; 1 not fit for hands, refused, server not there or lost; 2 wrong "
+      "arguments.\n\n"
+      "Examples\n"
+      "  tandem-client link-test --server 127.0.0.1:7000\n"
+      "  tandem-client link-test --server lab-server:7000 --duration 30s --json link.json");
+  command->callback([arguments, &action] { action = [arguments] { return link_test_command(*arguments); }; });
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+/// Options that give a ticket. All users of the computer can read a command line (ps), so a file is preferable.
+namespace tandem::client {
+
+struct TicketOption {
+  std::string text;  ///< `ticket:...`, `@FILE`, or a file's name
+  std::string file;  ///< file name, or `-` for standard input
+};
+
+inline void add_ticket_options(CLI::App& command, TicketOption& ticket, const char* what) {
+  command
+      .add_option(
+          "--ticket", ticket.text,
+          std::string(what) + "; @FILE: the first line of that file, which nobody reads in the list of processes")
+      ->option_text("TICKET|@FILE");
+  command.add_option("--ticket-file", ticket.file, "the same as --ticket @FILE; `-`: the first line of standard input")
+      ->option_text("FILE");
+}
+
+/// Returns the text of the ticket; empty if none is given, or if an error was appended to `mistakes`.
+[[nodiscard]] inline std::string ticket_of(const TicketOption& given, std::vector<std::string>& mistakes) {
+  if (!given.text.empty() && !given.file.empty()) {
+    mistakes.push_back("--ticket-file: there is a --ticket too; give one of them");
+    return {};
+  }
+  const bool named = !given.file.empty() || given.text.starts_with('@');
+  const std::string name = !given.file.empty() ? given.file : named ? given.text.substr(1) : given.text;
+  const char* const option = given.file.empty() ? "--ticket" : "--ticket-file";
+  if (name.empty() && !named) return {};
+  if (!named && name.starts_with("ticket:")) return name;
+  std::string line;
+  std::ifstream file;
+  const bool named_stdin = name == "-" && named;
+  errno = 0;
+  if (!named_stdin) file.open(name);
+  const int error = errno;
+  std::istream& in = named_stdin ? std::cin : file;
+  if (!std::getline(in, line)) {
+    if (!named) return name;  // not a file: join_seat reports the expected form
+    const std::string why =
+        file.is_open() || named_stdin ? " is empty" : std::string(" cannot be read: ") + std::strerror(error);
+    mistakes.push_back(std::string(option) + ": " +
+                       (name.empty() ? "@ needs a file's name"
+                                     : name + why + "; write the ticket to it: tandem-server ticket ... > FILE"));
+    return {};
+  }
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  if (line.starts_with("ticket:")) return line;
+  mistakes.push_back(std::string(option) + ": " + name + ": its first line is no ticket, which begins with `ticket:`");
+  return {};
+}
+
+}  // namespace tandem::client

@@ -1,0 +1,203 @@
+#include "client/app/commands/try_command.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "client/app/child_program.h"
+#include "client/app/run_seat.h"
+#include "client/app/seat_observer.h"
+#include "client/app/tutorial.h"
+#include "common/base/suggestions.h"
+#include "common/io/number_option.h"
+#include "common/io/print.h"
+#include "common/io/signals.h"
+#include "hal/io/open_sim_device.h"
+#include "proto/io/scene_file.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kTrouble = 1, kWrong = 2;
+constexpr Duration kServerStarts = 20s;
+constexpr double kAfterTutorial = 2;  // [s] time after the tutorial until a trial without terminal ends
+
+struct TryArguments {
+  std::string scene = "lesson", seat, duration;
+};
+
+/// The child processes of a trial, and the tutorial for the user.
+class TrySession final : public SeatObserver {
+ public:
+  TrySession(bool by_keys, std::vector<std::string> partners) : by_keys_(by_keys), partners_(std::move(partners)) {}
+
+  void add(ChildProgram child) { children_.push_back(std::move(child)); }
+  /// Ends the partners before the server, so that each can leave its seat cleanly.
+  void stop() noexcept {
+    while (!children_.empty()) children_.pop_back();
+  }
+
+  void on_joined(const SeatSetup& setup) override { tutorial_.emplace(setup, by_keys_, partners_); }
+  void on_key(const std::string& key) override { tutorial_->on_key(key); }
+  [[nodiscard]] std::vector<std::string> messages(double now_s, const ClientStatus& status) override {
+    std::vector<std::string> lines = tutorial_->messages(now_s, status);
+    if (tutorial_->finished() && !tutorial_over_since_) tutorial_over_since_ = now_s;
+    over_ = !by_keys_ && ends_by_itself && tutorial_over_since_ && now_s - *tutorial_over_since_ > kAfterTutorial;
+    return lines;
+  }
+  [[nodiscard]] std::string leave_reason() override {
+    for (ChildProgram& child : children_)
+      if (child.failed()) {
+        failed = child.name() + " ended by itself" + (child.last_output().empty() ? "" : ": " + child.last_output());
+        return failed;
+      }
+    return over_ ? "the guidance is over: releasing the hand" : "";
+  }
+
+  bool ends_by_itself = false;
+  std::string failed;  ///< why the trial ended early; empty: it did not
+
+ private:
+  bool by_keys_, over_ = false;
+  std::vector<std::string> partners_;
+  std::vector<ChildProgram> children_;  ///< server at index 0, then the partners
+  std::optional<Tutorial> tutorial_;
+  std::optional<double> tutorial_over_since_;
+};
+
+int trouble(const std::string& what, int code = kTrouble) {
+  spdlog::error("try: {}", what);
+  return code;
+}
+
+bool is_master(const SeatSpec& s) { return s.kind == SeatKind::kMaster; }
+
+/// Returns the user's seat: the requested one, else an instructor's, else the first with authority. Null, and the
+/// reason in `why`, if the requested seat does not exist.
+const SeatSpec* seat_for_person(const SceneSpec& scene, const std::string& wanted, std::string& why) {
+  std::vector<std::string> names;
+  for (const SeatSpec& s : scene.seats)
+    if (is_master(s)) names.push_back(s.name);
+  for (const SeatSpec& s : scene.seats)
+    if (is_master(s) && (wanted.empty() ? s.role == Role::kInstructor : s.name == wanted)) return &s;
+  if (!wanted.empty()) {
+    why = "--seat " + wanted + ": no MASTER seat of the scene " + scene.name + " has this name; " +
+          suggest(wanted, names);
+    return nullptr;
+  }
+  for (std::size_t i = 0; i < scene.seats.size(); ++i)
+    for (const AuthorityRow& row : scene.authority)
+      if (row.alpha[i] > 0) return &scene.seats[i];
+  return &scene.seats.front();
+}
+
+/// Runs a trial. All child processes have ended when it returns. @return exit code
+int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatSpec& own, double duration_s) {
+  const std::string server_path = program_path("tandem-server"), client_path = program_path("tandem-client");
+  if (server_path.empty())
+    return trouble(
+        "it needs the program tandem-server, which is neither beside tandem-client nor in $PATH; install the package "
+        "tandem-server "
+        "(apt install ./tandem-server_*.deb), or join a server on another computer with `tandem-client join`");
+  const bool by_keys = isatty(STDIN_FILENO) != 0;
+  const io::Fd signals = io::make_signalfd();
+  std::vector<std::string> partners;
+  for (const SeatSpec& s : scene.seats)
+    if (&s != &own && s.required) partners.push_back(s.name);
+  TrySession trial{by_keys, partners};
+  trial.ends_by_itself = duration_s <= 0;
+
+  auto server =
+      ChildProgram::start("the server", {server_path, "run", scene_text, "--listen", "127.0.0.1:0", "--quiet"});
+  if (!server) return trouble(server.error());
+  const auto address = server->wait_for_line("listening on ", kServerStarts, signals.get());
+  if (!address) {
+    if (!io::pending_signal().empty()) return 0;
+    return trouble("the server did not start" + (server->last_output().empty() ? "" : ": " + server->last_output()));
+  }
+  trial.add(std::move(*server));
+  for (const std::string& partner : partners) {
+    auto child =
+        ChildProgram::start("the simulated " + partner, {client_path, "join", "--server", *address, "--seat", partner,
+                                                         "--device", "sim", "--quiet", "--reconnect-timeout", "0"});
+    if (!child) return trouble(child.error());
+    trial.add(std::move(*child));
+  }
+
+  SeatOptions plan;
+  plan.server = *io::parse_address(*address, 0);
+  plan.seat = own.name;
+  plan.device = by_keys ? "sim:keyboard" : "sim";
+  plan.caps = known_caps((*hal::open_sim_device(plan.device, SimDeviceSpec{}, HandSpec{})).device->caps());
+  plan.duration_s = duration_s;
+  plan.observer = &trial;
+  const int code = run_seat(plan);
+  trial.stop();
+  if (!trial.failed.empty()) return trouble(trial.failed);
+  io::print_formatted(stderr, "the server and the simulated hands were ended as well\n");
+  return code;
+}
+
+int try_command(const TryArguments& arguments) {
+  std::vector<std::string> mistakes;
+  double duration_s = 0;
+  if (std::string text = arguments.duration; !text.empty()) {
+    if (const std::string problem = io::number_in(0.1, 3e6, "s")(text); !problem.empty()) {
+      mistakes.push_back("--duration: " + problem);
+    } else {
+      duration_s = std::stod(text);
+    }
+  }
+  const auto scene = load_scene(arguments.scene);
+  const SeatSpec* own = nullptr;
+  if (scene) {
+    std::string why;
+    own = seat_for_person(*scene, arguments.seat, why);
+    if (own == nullptr) mistakes.push_back(why);
+  } else {
+    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
+  }
+  if (mistakes.empty()) return try_scene(*scene, arguments.scene, *own, duration_s);
+  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
+  io::print_formatted(stderr, "tandem-client try: %zu mistake%s, nothing was started\n", mistakes.size(),
+                      mistakes.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+}  // namespace
+
+void add_try_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<TryArguments>();
+  CLI::App* const command = root.add_subcommand(
+      "try", "Shows a session on this computer: a server, a simulated partner, and your hand moved by keys.");
+  command
+      ->add_option("SCENE", arguments->scene,
+                   "a scene file, or the name of a shipped scene (tandem-server scenes); default lesson")
+      ->option_text(" ");
+  command
+      ->add_option("--seat", arguments->seat,
+                   "which seat is yours; default: the instructor's, else the first with authority")
+      ->option_text("NAME");
+  command
+      ->add_option("--duration", arguments->duration,
+                   "leaves after so many seconds; default: at q or Ctrl-C, and without a terminal after the guidance")
+      ->option_text("S");
+  command->footer(
+      "Starts tandem-server on a free port of 127.0.0.1, joins it with a simulated hand for every other seat that the "
+      "scene requires, and\n"
+      "gives you one seat. Twenty seconds of guidance say what to press and what it did. The end of this command, "
+      "however it comes, ends\n"
+      "everything that it started.\n"
+      "Exit: 0 left or over; 1 the server or a partner could not be started or failed; 2 wrong arguments or files.\n\n"
+      "Examples\n"
+      "  tandem-client try\n"
+      "  tandem-client try contact --seat trainee");
+  command->callback([arguments, &action] { action = [arguments] { return try_command(*arguments); }; });
+}
+
+}  // namespace tandem::client

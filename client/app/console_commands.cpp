@@ -1,0 +1,313 @@
+#include "client/app/console_commands.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "common/base/format.h"
+#include "common/base/sanitize.h"
+#include "common/base/unit_suffix.h"
+
+namespace tandem::client {
+namespace {
+
+constexpr double kSumSlack = 1e-9;  // tolerance for authority with sum 1
+
+struct CommandName {
+  std::string_view word;
+  ConsoleCommand::Kind what;
+};
+constexpr std::array<CommandName, 9> kCommandNames{{{"status", ConsoleCommand::Kind::kStatus},
+                                                    {"stop", ConsoleCommand::Kind::kStop},
+                                                    {"pause", ConsoleCommand::Kind::kPause},
+                                                    {"resume", ConsoleCommand::Kind::kResume},
+                                                    {"authority", ConsoleCommand::Kind::kAuthority},
+                                                    {"remove", ConsoleCommand::Kind::kRemove},
+                                                    {"drain", ConsoleCommand::Kind::kDrain},
+                                                    {"help", ConsoleCommand::Kind::kHelp},
+                                                    {"quit", ConsoleCommand::Kind::kQuit}}};
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::string joined(std::span<const std::string> words) {
+  std::string text;
+  for (const std::string& w : words) text += (text.empty() ? "" : " ") + w;
+  return text;
+}
+
+/// Parses authority such as `trainer=0.5,trainee=0.5`.
+std::expected<std::vector<std::pair<std::string, double>>, std::string> weights(std::string_view text) {
+  std::vector<std::pair<std::string, double>> out;
+  double sum = 0;
+  while (!text.empty()) {
+    const std::string_view part = text.substr(0, text.find(','));
+    text.remove_prefix(std::min(text.size(), part.size() + 1));
+    const auto sign = part.find('=');
+    const auto value = sign == std::string_view::npos ? std::nullopt : number<double>(part.substr(sign + 1));
+    if (sign == 0 || !value || !(*value >= 0 && *value <= 1))
+      return std::unexpected("authority: \"" + std::string(part) +
+                             "\" must be SEAT=AUTHORITY with an authority in [0, 1], such as trainer=0.5,trainee=0.5");
+    const std::string seat{part.substr(0, sign)};
+    if (std::ranges::find(out, seat, &std::pair<std::string, double>::first) != out.end())
+      return std::unexpected("authority: " + seat + " is named twice");
+    out.emplace_back(seat, *value);
+    sum += *value;
+  }
+  if (std::abs(sum - 1) > kSumSlack)
+    return std::unexpected(format("authority: the values sum to %g; they must sum to 1", sum));
+  return out;
+}
+
+std::expected<ConsoleCommand, std::string> parse_authority(ConsoleCommand wish, std::span<const std::string> words) {
+  if (words.empty())
+    return std::unexpected("authority: SEAT=AUTHORITY is missing. Example: authority trainer=0.5,trainee=0.5");
+  auto given = weights(words.front());
+  if (!given) return std::unexpected(given.error());
+  wish.weights = std::move(*given);
+  for (const std::string& word : words.subspan(1)) {
+    if (word.starts_with("tool=") && word.size() > 5) {
+      wish.tool = word.substr(5);
+    } else if (const auto version = word.starts_with("version=")
+                                        ? number<std::uint32_t>(std::string_view(word).substr(8))
+                                        : std::nullopt) {
+      wish.version = version;
+    } else {
+      return std::unexpected("authority: \"" + word +
+                             "\" must be tool=NAME or version=N; values are separated by commas, without spaces");
+    }
+  }
+  return wish;
+}
+
+/// Returns the sanitised text as a JSON string.
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : sanitize(text)) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string maker_of(const rpc::StatusStop& stop) {
+  const std::string& who = stop.seat.empty() ? stop.workstation : stop.seat;
+  if (stop.kind == rpc::StopKind::kFault) return "the session itself";
+  std::string text = "an unknown client";
+  if (!who.empty())
+    text = sanitize(who) + " (" + std::string(to_text(stop.role)) + (stop.seat.empty() ? " at a console)" : ")");
+  return text + (stop.why.empty() ? "" : ": " + sanitize(stop.why));
+}
+
+}  // namespace
+
+std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::string> words) {
+  const auto found = std::ranges::find(
+      kCommandNames, words.empty() ? std::string_view() : std::string_view(words.front()), &CommandName::word);
+  if (found == kCommandNames.end())
+    return std::unexpected("\"" + (words.empty() ? std::string() : words.front()) +
+                           "\" is no command; commands: status, stop, pause, resume, authority, remove, drain");
+  ConsoleCommand wish;
+  wish.kind = found->what;
+  const auto rest = words.subspan(1);
+  const std::string name{found->word};
+  switch (wish.kind) {
+    case ConsoleCommand::Kind::kStop:
+    case ConsoleCommand::Kind::kPause:
+      wish.why = joined(rest);
+      break;
+    case ConsoleCommand::Kind::kResume:
+      if (rest.empty()) return wish;
+      wish.stop = number<std::uint32_t>(rest.front());
+      if (!wish.stop || *wish.stop == 0 || rest.size() > 1)
+        return std::unexpected("resume: \"" + joined(rest) + "\" must be the number of a stop, as `status` shows it");
+      return wish;
+    case ConsoleCommand::Kind::kAuthority:
+      return parse_authority(std::move(wish), rest);
+    case ConsoleCommand::Kind::kRemove:
+      if (rest.empty()) return std::unexpected("remove: who? Such as: remove trainee");
+      wish.seat = rest.front();
+      wish.why = joined(rest.subspan(1));
+      break;
+    case ConsoleCommand::Kind::kDrain: {
+      if (rest.empty()) return wish;
+      const auto grace = number<std::uint32_t>(strip_unit(rest.front(), "s"));
+      if (!grace || *grace > 3600 || rest.size() > 1)
+        return std::unexpected("drain: \"" + joined(rest) + "\" must be seconds in [0, 3600]");
+      wish.grace_s = *grace;
+      return wish;
+    }
+    default:
+      if (!rest.empty()) return std::unexpected(name + ": takes no arguments, and got \"" + joined(rest) + "\"");
+  }
+  if (wish.why.size() > rpc::kTextMax) return std::unexpected(name + format(": why may have %zu bytes", rpc::kTextMax));
+  return wish;
+}
+
+const char* console_commands_help() noexcept {
+  return "  status                                    state of the session: phase, stops, seats, authority\n"
+         "  stop [WHY ...]                            releases all hands until an instructor or operator resumes "
+         "(instructor, operator)\n"
+         "  pause [WHY ...]                           the same for roles without the right to stop: trainees and "
+         "evaluators, from their seats\n"
+         "  resume [STOP]                             ends that stop; without a number the one there is now "
+         "(instructor, operator; in a\n"
+         "                                            scene without an instructor's seat also the seat that paused). "
+         "All participants read WHY\n"
+         "  authority SEAT=A,... [tool=T] [version=V]  authority of the seats over a tool, sum 1 (instructor)\n"
+         "  remove SEAT [WHY ...]                     releases that hand and frees the seat (instructor, operator)\n"
+         "  drain [SECONDS]                           rejects new joins; after SECONDS releases all hands and ends the "
+         "server (operator)\n"
+         "  help, quit                                in the console\n";
+}
+
+AccessRole role_for(ConsoleCommand::Kind what) noexcept {
+  return what == ConsoleCommand::Kind::kAuthority ? AccessRole::kInstructor : AccessRole::kOperator;
+}
+
+std::expected<rpc::SetAuthority, std::string> authority_frame(const ConsoleCommand& wish, const rpc::Status& status) {
+  rpc::SetAuthority frame;
+  frame.session_id = status.session_id;
+  frame.version = wish.version.value_or(status.authority_version);
+  std::string names;
+  for (const rpc::StatusTool& t : status.tools) names += (names.empty() ? "" : ", ") + t.name;
+  if (wish.tool.empty() && status.tools.size() != 1)
+    return std::unexpected("authority: over which tool? Say tool=NAME; tools: " + names);
+  const auto tool =
+      wish.tool.empty() ? status.tools.begin() : std::ranges::find(status.tools, wish.tool, &rpc::StatusTool::name);
+  if (tool == status.tools.end()) return std::unexpected("authority: no tool \"" + wish.tool + "\"; tools: " + names);
+  frame.tool = static_cast<std::uint32_t>(tool - status.tools.begin());
+  std::string masters;
+  std::vector<std::string> unknown;
+  for (const auto& [seat, weight] : wish.weights) unknown.push_back(seat);
+  for (const rpc::StatusSeat& s : status.seats) {
+    if (!s.master) continue;
+    masters += (masters.empty() ? "" : ", ") + s.name;
+    std::erase(unknown, s.name);
+    const auto given = std::ranges::find(wish.weights, s.name, &std::pair<std::string, double>::first);
+    frame.alpha.push_back(given == wish.weights.end() ? 0.0 : given->second);
+  }
+  if (!unknown.empty())
+    return std::unexpected("authority: no seat \"" + unknown.front() + "\" that leads; seats: " + masters);
+  return frame;
+}
+
+std::string weights_text(const rpc::Status& status, std::span<const double> alpha) {
+  std::string text;
+  std::size_t k = 0;
+  for (const rpc::StatusSeat& s : status.seats)
+    if (s.master && k < alpha.size()) text += (text.empty() ? "" : ", ") + s.name + format(" %.3g", alpha[k++]);
+  return text.empty() ? "nobody" : text;
+}
+
+bool is_stopped(const rpc::Status& s) noexcept {
+  return s.phase == rpc::SessionPhase::kStopped || s.phase == rpc::SessionPhase::kPaused;
+}
+
+std::string stop_text(const rpc::Status& s) {
+  std::string text = s.phase == rpc::SessionPhase::kPaused ? "PAUSED" : "STOPPED";
+  if (!s.stop) return text;
+  const rpc::StatusStop& stop = *s.stop;
+  text += " by " + maker_of(stop);
+  if (stop.kind == rpc::StopKind::kFault) text += ": its numbers could not be trusted";
+  if (stop.ends.empty()) return text;
+  return text + ". It can be ended by: " + sanitize(stop.ends) + (stop.yours ? ". You may end it" : "");
+}
+
+std::string drain_text(const rpc::StatusDrain& d) {
+  return format("DRAINING: %u s left, %u session%s, %u %s", d.left_s, d.sessions, d.sessions == 1 ? "" : "s",
+                d.participants, d.participants == 1 ? "person on a seat" : "people on their seats");
+}
+
+std::string status_changes_text(const rpc::Status& before, const rpc::Status& now) {
+  std::string text;
+  const std::uint32_t seen = before.events.empty() ? 0 : before.events.back().number;
+  bool told = false;
+  if (!before.name.empty())  // events before the first status are not reported
+    for (const rpc::StatusEvent& n : now.events)
+      if (n.number > seen) {
+        text += sanitize(n.text) + "\n";
+        told = true;
+      }
+  if (is_stopped(now) && (now.stops != before.stops || !is_stopped(before))) text += stop_text(now) + "\n";
+  const bool ends = now.phase == rpc::SessionPhase::kEnding;
+  if (is_stopped(before) && !is_stopped(now) && !told && !ends)
+    text += format("stop %u is over: the session is %s\n", now.stops, rpc::to_text(now.phase));
+  // A server that ends at once, as after Ctrl-C, reports a drain with 0 s left.
+  if (!now.drain || (now.drain->left_s == 0 && !before.drain)) return text;
+  const bool first = !before.drain, last = now.drain->left_s <= 5,
+             ten = !first && before.drain->left_s / 10 != now.drain->left_s / 10;
+  if ((first && !told) || ((last || ten) && before.drain != now.drain)) text += drain_text(*now.drain) + "\n";
+  return text;
+}
+
+std::string status_text(const rpc::Status& s) {
+  std::string text = format("%s: %s, %.1f s", s.name.c_str(), rpc::to_text(s.phase), s.time_s);
+  text += is_stopped(s) ? format("; `resume %u` ends it", s.stops) : format("; %u stops so far", s.stops);
+  text += format("; authority version %u%s", s.authority_version, s.draining ? "; the server is DRAINING" : "");
+  if (s.phase == rpc::SessionPhase::kOverloaded)
+    text += "; OVERLOADED: the server is too busy to keep time, all hands are released and engaged again automatically";
+  text += s.shed > 0 ? format("; busy, shed level %u of %u\n", s.shed, rpc::kShedMax) : "\n";
+  if (is_stopped(s)) text += "  " + stop_text(s) + "\n";
+  if (s.stop && !is_stopped(s))
+    text += format("  the last stop, %.0f s ago, was of %s\n", s.stop->ago_s, maker_of(*s.stop).c_str());
+  if (!s.held.empty()) text += "  BRAKED: " + sanitize(s.held) + "\n";
+  if (s.drain) text += "  " + drain_text(*s.drain) + "\n";
+  for (const rpc::StatusSeat& seat : s.seats)
+    text += format("  seat %-16s %-10s %s\n", seat.name.c_str(), std::string(to_text(seat.role)).c_str(),
+                   !seat.taken  ? "free"
+                   : seat.heard ? "here"
+                                : "SILENT");
+  for (const rpc::StatusTool& tool : s.tools)
+    text += format("  tool %-16s %s\n", tool.name.c_str(), weights_text(s, tool.alpha).c_str());
+  return text;
+}
+
+std::string status_json(const rpc::Status& s) {
+  // Names contain only A-Z a-z 0-9 _ -, so they need no escaping.
+  std::string text = "{\"session\": \"" + s.name + "\", \"id\": \"";
+  for (const std::byte b : s.session_id) text += format("%02x", std::to_integer<unsigned>(b));
+  text += format(
+      "\", \"phase\": \"%s\", \"time_s\": %.3f, \"stops\": %u, \"authority_version\": %u, \"draining\": %s, \"shed\": "
+      "%u, \"seats\": [",
+      rpc::to_text(s.phase), s.time_s, s.stops, s.authority_version, s.draining ? "true" : "false", s.shed);
+  std::vector<std::string> masters;
+  for (std::size_t i = 0; i < s.seats.size(); ++i) {
+    const rpc::StatusSeat& seat = s.seats[i];
+    if (seat.master) masters.push_back(seat.name);
+    text += format("%s{\"name\": \"%s\", \"role\": \"%s\", \"taken\": %s, \"heard\": %s}", i == 0 ? "" : ", ",
+                   seat.name.c_str(), std::string(to_text(seat.role)).c_str(), seat.taken ? "true" : "false",
+                   seat.heard ? "true" : "false");
+  }
+  text += "], \"tools\": [";
+  for (std::size_t j = 0; j < s.tools.size(); ++j) {
+    text += format("%s{\"name\": \"%s\", \"alpha\": {", j == 0 ? "" : ", ", s.tools[j].name.c_str());
+    for (std::size_t k = 0; k < s.tools[j].alpha.size() && k < masters.size(); ++k)
+      text += format("%s\"%s\": %.9g", k == 0 ? "" : ", ", masters[k].c_str(), s.tools[j].alpha[k]);
+    text += "}}";
+  }
+  text += "], \"stop\": ";
+  if (s.stop) {
+    constexpr const char* kKinds[] = {"", "pause", "stop", "fault"};
+    text += format(
+        "{\"number\": %u, \"kind\": \"%s\", \"seat\": \"%s\", \"workstation\": \"%s\", \"role\": \"%s\", \"why\": ",
+        s.stop->number, kKinds[static_cast<int>(s.stop->kind)], s.stop->seat.c_str(), s.stop->workstation.c_str(),
+        std::string(to_text(s.stop->role)).c_str());
+    text += quoted(s.stop->why) + format(", \"ago_s\": %.3f, \"ends\": ", s.stop->ago_s) + quoted(s.stop->ends) +
+            (s.stop->yours ? ", \"yours\": true}" : ", \"yours\": false}");
+  } else {
+    text += "null";
+  }
+  text += ", \"drain\": ";
+  text += s.drain ? format("{\"left_s\": %u, \"sessions\": %u, \"people\": %u}", s.drain->left_s, s.drain->sessions,
+                           s.drain->participants)
+                  : "null";
+  return text + ", \"held\": " + (s.held.empty() ? "null" : quoted(s.held)) + "}\n";
+}
+
+}  // namespace tandem::client

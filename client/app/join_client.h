@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/auth/key_fingerprint.h"
+#include "common/base/time.h"
+#include "common/io/socket_address.h"
+#include "common/io/udp_socket.h"
+#include "common/transport/secure_channel.h"
+#include "hal/core/device.h"
+#include "proto/rpc/rpc_messages.h"
+#include "proto/text/seat_setup.h"
+
+namespace tandem::auth {
+class ControlClient;
+}
+
+namespace tandem::client {
+
+/// Options of a request to a server: a seat, a link test, a console or the session list.
+struct JoinOptions {
+  io::SocketAddress server;
+  std::string seat;     ///< empty without `console`: link test (proto/wire/link_test_report.h)
+  std::string session;  ///< name, code or id; empty: the only session of the server
+  std::string ticket;   ///< output of `tandem-server ticket`; empty: none
+  std::string state;    ///< state directory with this workstation's key; empty: the default directory
+  hal::DeviceCaps caps;
+  Duration timeout{};  ///< connect and reply timeout
+  int signals = -1;    ///< signalfd (common/io/signals.h); -1: none
+  std::optional<AccessRole>
+      console{};  ///< joins as console instead of a seat; the role counts only on the server's own computer
+};
+
+/// A joined seat.
+struct JoinedSeat {
+  SeatSetup setup;
+  transport::SecureChannel::Params link;
+  io::SocketAddress udp;  ///< destination of the datagrams
+  rpc::Welcome welcome;
+  auth::KeyFingerprint server;  ///< key of the server
+  bool local = false;           ///< key found in this user's runtime directory, not by enrolment
+  std::shared_ptr<auth::ControlClient>
+      connection{};  ///< control connection of the join, optional for the seat; null for link tests
+};
+
+/// A control connection without a seat.
+struct Console {
+  rpc::Welcome welcome;
+  std::shared_ptr<auth::ControlClient> connection;
+};
+
+/// Reason of a failed join.
+struct JoinError {
+  bool interrupted = false;  ///< a signal ended it
+  std::string reason;        ///< cause and remedy, or the name of the signal
+};
+
+/// Joins a seat, or starts a link test, over a TLS connection. Both ends prove their keys. The client presents a ticket
+/// or a code, or on the server's own computer a ticket signed with the key in the user's runtime directory. The
+/// datagram secrets are exported from the connection. Blocks until the reply.
+[[nodiscard]] std::expected<JoinedSeat, JoinError> join_seat(const JoinOptions& asking);
+
+/// Joins without a seat, by a ticket. @pre asking.console, no asking.seat
+[[nodiscard]] std::expected<Console, JoinError> join_console(const JoinOptions& asking);
+
+/// Credentials and facts that a client needs to resume its seat.
+struct ResumeState {
+  rpc::Id session{};
+  std::uint64_t epoch = 0;          ///< a server with a lower epoch is outdated and not accepted
+  std::vector<Secret<32>> secrets;  ///< newest first; a restarted server may know only the previous one
+  SeatSetup setup;
+  auth::KeyFingerprint server;
+  bool local = false;  ///< true: any server key in this user's runtime directory is accepted, not only `server`
+};
+/// Reason of a failed resume.
+struct ResumeError {
+  enum class Kind : std::uint8_t {
+    kAgain,      ///< server unreachable or temporarily unable; retry
+    kGone,       ///< the seat or session is gone; a retry is useless
+    kNotNeeded,  ///< the server answers on the old connection again
+    kInterrupted,
+  } kind = Kind::kAgain;
+  std::string reason;  ///< text for the user
+  Duration wait{};     ///< kAgain: shortest wait before the next attempt
+};
+/// Tries once to resume a seat over a new TLS connection. Accepts only the same server, with the same or a higher
+/// epoch. Each secret gets one connection; `asking.timeout` limits each connect and each reply. A readable
+/// `asking.signals` file cancels the attempt.
+/// @param wanted  called just before the request, because the request invalidates the old connection; false cancels
+[[nodiscard]] std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& asking, const ResumeState& own,
+                                                                 const std::function<bool()>& wanted);
+
+/// Returns `text` with the options of this connection appended to each `tandem-client control` and `enroll` command in
+/// it, so that the user can paste the command.
+/// @param session    name of the joined session; empty: none
+/// @param by_ticket  true: the commands also need a ticket file
+[[nodiscard]] std::string complete_commands(std::string text, const JoinOptions& asking,
+                                            const std::string& session = {}, bool by_ticket = false);
+
+/// Returns the open sessions of the server.
+[[nodiscard]] std::expected<rpc::SessionList, JoinError> list_sessions(const JoinOptions& asking);
+
+/// Sends CLOSE for a seat that was just joined and will not be used, so that other clients can join it at once.
+void release_seat(const io::UdpSocket& socket, const JoinedSeat& given, const hal::DeviceCaps& caps);
+
+}  // namespace tandem::client

@@ -1,0 +1,104 @@
+#include "client/app/reconnector.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <utility>
+
+#include "common/auth/io/state_directory.h"
+#include "common/io/clock.h"
+
+namespace tandem::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kBefore = 1s, kBeforeSpread = 500ms;
+constexpr Duration kAgain = 100ms, kAgainSpread = 150ms;  // pause between two attempts
+// Timeout of the first attempt, doubled after each timeout up to the largest. Short first attempts detect a recovered
+// network sooner.
+constexpr Duration kTimeoutFirst = 1s, kTimeoutMax = 5s;
+constexpr double kSilenceMax = 0.5;  // [s] silence up to which the old connection counts as alive
+
+Duration draw(Duration least, Duration spread) {
+  const auto random = auth::random_bytes<std::array<std::byte, 2>>();
+  return least + spread * (std::to_integer<int>(random[0]) << 8 | std::to_integer<int>(random[1])) / 65536;
+}
+
+/// Compares two addresses without their ports.
+bool same_host(const io::SocketAddress& a, const io::SocketAddress& b) {
+  const std::string x = io::to_text(a), y = io::to_text(b);
+  return x.substr(0, x.rfind(':')) == y.substr(0, y.rfind(':'));
+}
+
+void raise(const io::Fd& event) {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
+}
+
+}  // namespace
+
+Duration initial_backoff() { return draw(kBefore, kBeforeSpread); }
+
+Reconnector::Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, const SeatRunner& pump,
+                         const io::UdpSocket& kept)
+    : options_(std::move(asking)),
+      resume_state_(std::move(own)),
+      seat_(&seat),
+      pump_(&pump),
+      socket_(&kept),
+      cancel_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      done_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  options_.signals = cancel_.get();
+  thread_ = std::thread([this] { work(); });
+}
+
+Reconnector::~Reconnector() {
+  if (!done()) raise(cancel_);  // once done, the signal would disturb the connection in the result
+  thread_.join();
+  if (result_ && *result_ && (*result_)->swap)
+    release_seat((*result_)->swap->socket, (*result_)->joined, options_.caps);
+}
+
+void Reconnector::work() {
+  Duration patience = kTimeoutFirst;
+  while (true) {
+    const Time began = io::monotonic_now();
+    auto back = attempt(patience);
+    if (back || back.error().kind != ResumeError::Kind::kAgain) {
+      result_ = std::move(back);
+      break;
+    }
+    if (io::monotonic_now() - began >= patience) patience = std::min(2 * patience, kTimeoutMax);
+    const Duration wait = std::max(back.error().wait, draw(kAgain, kAgainSpread));
+    pollfd cancelled{cancel_.get(), POLLIN, 0};
+    if (poll(&cancelled, 1, static_cast<int>(wait / 1ms)) > 0) {
+      result_ = std::unexpected(ResumeError{ResumeError::Kind::kInterrupted, {}, {}});
+      break;
+    }
+  }
+  done_.store(true, std::memory_order_release);
+  raise(done_event_);
+}
+
+std::expected<Reconnector::Resumed, ResumeError> Reconnector::attempt(Duration patience) {
+  options_.timeout = patience;
+  auto given = resume_seat(options_, resume_state_, [this] {
+    const ClientStatus now = pump_->status();
+    return now.closed || now.silence_s > kSilenceMax;
+  });
+  if (!given) return std::unexpected(given.error());
+  auto socket = io::connect_udp(given->udp);
+  // The server now expects this secret, even if the local socket cannot be opened.
+  resume_state_.secrets.insert(resume_state_.secrets.begin(), given->welcome.resume_secret);
+  if (!socket) return std::unexpected(ResumeError{ResumeError::Kind::kAgain, socket.error(), {}});
+  if (same_host(socket->local, socket_->local))
+    if (auto again = io::duplicate(*socket_); again.fd.open()) *socket = std::move(again);
+  auto handover = std::make_unique<SeatRunner::ConnectionSwap>(
+      SeatRunner::ConnectionSwap{std::move(*socket), seat_->prepare(given->link)});
+  return Resumed{std::move(*given), std::move(handover)};
+}
+
+}  // namespace tandem::client

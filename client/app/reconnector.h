@@ -1,0 +1,60 @@
+#pragma once
+
+#include <atomic>
+#include <expected>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "client/app/join_client.h"
+#include "client/app/seat_runner.h"
+#include "common/io/fd.h"
+
+namespace tandem::client {
+
+/// Reconnects a seat to a silent server on its own thread. It retries until the server returns the seat, rejects it
+/// permanently, or answers on the old connection again. Meanwhile the servo thread runs on; its force gate has
+/// released the force and the motors receive zeros.
+class Reconnector {
+ public:
+  /// Starts the thread.
+  /// @param asking      options of the join; the Reconnector sets its own timeout and signals
+  /// @param seat, pump  must outlive this object
+  /// @param kept        the socket in use. It is reused while this host has the same address, so that a NAT or the
+  ///                    netsim proxy recognises the client.
+  Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, const SeatRunner& pump, const io::UdpSocket& kept);
+  /// Cancels the attempt. A seat that was resumed but not taken is released at the server.
+  ~Reconnector();
+  Reconnector(const Reconnector&) = delete;
+  Reconnector& operator=(const Reconnector&) = delete;
+
+  [[nodiscard]] bool done() const noexcept { return done_.load(std::memory_order_acquire); }
+  /// Readable once `done()`.
+  [[nodiscard]] int done_fd() const noexcept { return done_event_.get(); }
+  struct Resumed {
+    JoinedSeat joined;
+    std::unique_ptr<SeatRunner::ConnectionSwap> swap;
+  };
+  /// Returns the result. Call once. @pre done()
+  [[nodiscard]] std::expected<Resumed, ResumeError> take() { return std::move(*result_); }
+
+ private:
+  void work();
+  [[nodiscard]] std::expected<Resumed, ResumeError> attempt(Duration patience);
+
+  JoinOptions options_;
+  ResumeState resume_state_;
+  const Seat* seat_;
+  const SeatRunner* pump_;
+  const io::UdpSocket* socket_;
+  io::Fd cancel_, done_event_;
+  std::optional<std::expected<Resumed, ResumeError>> result_;
+  std::atomic<bool> done_{false};
+  std::thread thread_;
+};
+
+/// Returns the randomised silence of the server before a client reconnects, 1 s to 1.5 s (design notes, security 4).
+/// Short outages then need no reconnect, and many clients do not reconnect at the same time.
+[[nodiscard]] Duration initial_backoff();
+
+}  // namespace tandem::client

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <string>
+
+#include "common/auth/io/client_keystore.h"
+#include "common/auth/io/server_keystore.h"
+
+namespace tandem::auth {
+
+/// Selects the identity that a client presents to a server (ClientTls::IdentityCallback). The server's key is known
+/// before the client's is due, so one handshake suffices. The selector first searches the servers at which this
+/// workstation is enrolled, by key: a server that moved keeps its key. It then searches the keys published by servers
+/// of the same user in the runtime directory.
+class IdentitySelector {
+ public:
+  /// @param address  the address the client connects to  @param own  nullopt: this workstation was never enrolled
+  /// @param runtime  runtime_path()
+  IdentitySelector(std::string address, std::optional<ClientKeystore> own, std::string runtime)
+      : address_(std::move(address)), own_(std::move(own)), runtime_(std::move(runtime)) {}
+
+  [[nodiscard]] std::expected<const Identity*, std::string> operator()(const KeyFingerprint& server);
+  /// Returns the published keys if they were selected, so that the client signs its own tickets; else null.
+  [[nodiscard]] const LocalKeys* local() const noexcept { return local_ ? &*local_ : nullptr; }
+
+ private:
+  std::string address_;
+  std::optional<ClientKeystore> own_;
+  std::string runtime_;
+  std::optional<LocalKeys> local_;
+};
+
+/// The server's side on loopback: creates a workstation `local`, enrols it, and publishes its keys in `runtime` until
+/// the result is destroyed.
+[[nodiscard]] std::expected<RuntimeDirectory, std::string> publish_local_keys(ServerKeystore& server,
+                                                                              const std::string& runtime,
+                                                                              std::int64_t now);
+
+}  // namespace tandem::auth

@@ -1,0 +1,110 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <limits>
+
+#include "common/auth/io/state_directory.h"
+#include "common/auth/io/write_all.h"
+#include "common/base/raw_bytes.h"
+
+/// Append-only files of a state directory.
+namespace tandem::auth {
+namespace {
+
+constexpr mode_t kOwnFile = 0600;
+constexpr int kOpenedAgainMax = 8;  // attempts while other processes rotate
+
+/// @return the length of the file's whole lines; nullopt: it cannot be read
+std::optional<off_t> whole_lines(int fd, off_t size) {
+  std::array<char, 4096> part;
+  for (off_t end = size; end > 0;) {
+    const off_t begin = std::max<off_t>(
+        0, end - static_cast<off_t>(end == size ? 1 : part.size()));  // the last byte alone usually decides
+    const ssize_t n = pread(fd, part.data(), static_cast<std::size_t>(end - begin), begin);
+    if (n != end - begin) return std::nullopt;
+    for (ssize_t i = n; i > 0; --i)
+      if (part[static_cast<std::size_t>(i - 1)] == '\n') return begin + i;
+    end = begin;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::expected<io::Fd, std::string> StateDirectory::open_to_append(const std::string& name, TornLine torn) const {
+  for (int i = 0; i < kOpenedAgainMax; ++i) {
+    io::Fd file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC,
+                       kOwnFile)};
+    if (!file.open()) return std::unexpected(trouble(name, "opened"));
+    if (std::string wrong =
+            wrong_with(file.get(), name, torn == TornLine::kCut ? kFileMax : std::numeric_limits<std::uint64_t>::max());
+        !wrong.empty())
+      return std::unexpected(std::move(wrong));
+    if (!wait_for(file.get(), kLockTimeout))
+      return std::unexpected(path_of(name) + " is held by " + holder_of(name) + "; end it, then try again");
+    // Another process may have rotated the file in between.
+    struct stat opened{}, named{};
+    if (fstat(file.get(), &opened) != 0) return std::unexpected(trouble(name, "looked at"));
+    if (fstatat(folder_.get(), name.c_str(), &named, AT_SYMLINK_NOFOLLOW) == 0 && named.st_ino == opened.st_ino &&
+        named.st_dev == opened.st_dev)
+      return file;
+  }
+  return std::unexpected(path_of(name) + " is replaced again and again by another process");
+}
+
+std::string StateDirectory::append(const std::string& name, std::string_view lines, TornLine torn) const {
+  auto file = open_to_append(name, torn);
+  if (!file) return file.error();
+  struct stat s{};
+  if (fstat(file->get(), &s) != 0) return trouble(name, "looked at");
+  const bool is_new = s.st_size == 0;
+  const auto whole = whole_lines(file->get(), s.st_size);
+  if (!whole) return trouble(name, "read");
+  off_t before = s.st_size;
+  std::string text(lines);
+  if (*whole < before && torn == TornLine::kEnded) text = "\n" + text;
+  if (*whole < before && torn == TornLine::kCut) {
+    if (ftruncate(file->get(), *whole) != 0) return trouble(name, "rid of an unfinished line");
+    before = *whole;
+  }
+  if (torn == TornLine::kCut && static_cast<std::uint64_t>(before) + text.size() > kFileMax)
+    return path_of(name) + " would be longer than 8 MiB";
+  if (write_all(file->get(), bytes_of(text)) && fdatasync(file->get()) == 0 && (!is_new || fsync(folder_.get()) == 0))
+    return {};
+  std::string problem = trouble(name, "written");
+  if (ftruncate(file->get(), before) != 0) problem += "; an unfinished line may be left at its end";
+  return problem;
+}
+
+std::string StateDirectory::append_problem(const std::string& name, TornLine torn) const {
+  const io::Fd file{openat(folder_.get(), name.c_str(), O_RDWR | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+  if (!file.open()) return trouble(name, "written to");
+  return wrong_with(file.get(), name, torn == TornLine::kCut ? kFileMax : std::numeric_limits<std::uint64_t>::max());
+}
+
+std::expected<std::uint64_t, std::string> StateDirectory::rotate(const std::string& name, std::uint64_t size_max,
+                                                                 std::uint32_t older) const {
+  const auto file = open_to_append(name, TornLine::kEnded);
+  if (!file) return std::unexpected(file.error());
+  struct stat s{};
+  if (fstat(file->get(), &s) != 0) return std::unexpected(trouble(name, "looked at"));
+  const auto size = static_cast<std::uint64_t>(s.st_size);
+  if (size <= size_max) return 0;
+  const auto numbered = [&name](std::uint32_t number) { return name + "." + std::to_string(number); };
+  // From the oldest on, so that a crash leaves a gap and loses only files beyond the count.
+  for (std::uint32_t number = older; number > 0; --number) {
+    const std::string from = number == 1 ? name : numbered(number - 1);
+    if (renameat(folder_.get(), from.c_str(), folder_.get(), numbered(number).c_str()) != 0 && errno != ENOENT)
+      return std::unexpected(trouble(from, "renamed"));
+  }
+  for (std::uint32_t number = older + 1; unlinkat(folder_.get(), numbered(number).c_str(), 0) == 0;)
+    ++number;  // an earlier limit kept more files
+  if (fsync(folder_.get()) != 0) return std::unexpected(trouble(name, "rotated"));
+  return size;
+}
+
+}  // namespace tandem::auth

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "common/base/time.h"
+
+/// Rate limits, as functions of the time passed in.
+namespace tandem::auth {
+
+/// Token bucket: allows `rate` per second, and up to `burst` at once after a pause. Starts full.
+class TokenBucket {
+ public:
+  constexpr TokenBucket(double rate, double burst) noexcept : rate_(rate), burst_(burst), tokens_(burst) {}
+
+  [[nodiscard]] constexpr bool take(Time now) noexcept {
+    fill(now);
+    if (tokens_ < 1.0) return false;
+    tokens_ -= 1.0;
+    return true;
+  }
+  /// Returns the time until a token is available; zero: now.
+  [[nodiscard]] constexpr Duration wait(Time now) noexcept {
+    fill(now);
+    return tokens_ >= 1.0 ? Duration::zero() : from_seconds((1.0 - tokens_) / rate_) + Duration{1};
+  }
+
+ private:
+  constexpr void fill(Time now) noexcept {
+    if (now <= last_) return;
+    tokens_ = std::min(burst_, tokens_ + rate_ * seconds(now - last_));
+    last_ = now;
+  }
+  double rate_, burst_, tokens_;
+  Time last_{};
+};
+
+/// Origin of a connection for rate limits: an IPv4 address, or the first 64 bits of an IPv6 address, because a site
+/// controls that many. An IPv4 address inside IPv6 (::ffff:a.b.c.d) is the IPv4 one.
+struct Source {
+  std::uint64_t prefix = 0;
+  bool v6 = false;
+  bool loopback = false;
+
+  [[nodiscard]] static Source v4(std::uint32_t address) noexcept { return {address, false, (address >> 24) == 127}; }
+  [[nodiscard]] static Source of_v6(const std::array<std::uint8_t, 16>& address) noexcept;
+  friend auto operator<=>(const Source&, const Source&) = default;
+};
+
+/// Table with one `Entry` per source, at most `kMax`. A new source beyond that replaces the one unused for longest.
+/// Memory stays bounded, and active sources stay stored.
+template <class Entry>
+class SourceTable {
+ public:
+  static constexpr std::size_t kMax = 4096;
+
+  [[nodiscard]] Entry& at(const Source& source, Time now, const Entry& fresh) {
+    const auto [found, is_new] = entries_.try_emplace(source, Slot{fresh, now});
+    if (!is_new) by_time_.erase({found->second.heard, source});
+    found->second.heard = now;
+    if (entries_.size() > kMax) {
+      entries_.erase(by_time_.begin()->second);
+      by_time_.erase(by_time_.begin());
+    }
+    by_time_.emplace(now, source);
+    return found->second.entry;
+  }
+  [[nodiscard]] const Entry* find(const Source& source) const {
+    const auto found = entries_.find(source);
+    return found == entries_.end() ? nullptr : &found->second.entry;
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
+
+ private:
+  struct Slot {
+    Entry entry;
+    Time heard;
+  };
+  std::map<Source, Slot> entries_;
+  std::set<std::pair<Time, Source>> by_time_;  ///< of `entries_`
+};
+
+/// Limits of connections per source, and of TLS handshakes of all sources (PendingSlots).
+struct AcceptLimits {
+  double source_rate = 10, source_burst = 100;  ///< [1/s], [1]: a lab behind one address may join at once
+  double all_rate = 300, all_burst = 300;       ///< handshakes
+};
+class AcceptLimiter {
+ public:
+  explicit AcceptLimiter(const AcceptLimits& limits = {}) noexcept : limits_(limits) {}
+  /// Counts an arriving connection. @return false: its source exceeds its rate
+  [[nodiscard]] bool accept(const Source& source, Time now) {
+    return sources_.at(source, now, TokenBucket{limits_.source_rate, limits_.source_burst}).take(now);
+  }
+
+ private:
+  AcceptLimits limits_;
+  SourceTable<TokenBucket> sources_;
+};
+
+}  // namespace tandem::auth

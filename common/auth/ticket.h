@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "common/auth/key_fingerprint.h"
+#include "common/auth/ticket_key.h"
+#include "proto/spec/access_role.h"
+
+namespace tandem::auth {
+
+using Id16 = std::array<std::byte, 16>;
+
+/// The right of one workstation to join one seat of one session, once. All times are seconds since 1970, UTC, on the
+/// server's clock. The server both signs and checks, so clocks of other machines do not matter.
+struct Ticket {
+  static constexpr std::uint8_t kVersion = 1;
+  static constexpr std::size_t kSeatMax = 32;
+  static constexpr std::int64_t kLifeMax = 12 * 3600;  ///< [s]
+  static constexpr std::uint16_t kFullForce = 1000;
+
+  Id16 ticket_id{};  ///< random; makes the ticket single-use
+  Id16 session_id{};
+  std::string seat;  ///< 0 to 32 characters of A-Z a-z 0-9 _ -; empty for operators and recorders, which have no seat,
+                     ///< and for an instructor at a console
+  AccessRole role = AccessRole::kObserver;
+  KeyFingerprint workstation;              ///< only the machine with this key may use the ticket
+  std::uint16_t force_scale = kFullForce;  ///< of the scene's force limit [1/1000], 1 to 1000
+  std::int64_t not_before = 0;             ///< first second of validity
+  std::int64_t not_after = 0;              ///< last second of validity; at most 12 h after not_before
+  std::uint64_t epoch_min = 0;             ///< smallest valid epoch of the session
+
+  friend bool operator==(const Ticket&, const Ticket&) = default;
+};
+
+/// Layout, numbers little-endian; every ticket consists of exactly these bytes:
+///   0 u8 version = 1 | 1 u8 role | 2 u16 force_scale | 4 u32 kid | 8 ticket_id 16 | 24 session_id 16 |
+///   40 workstation 32 | 72 seat 32, padded with zeros | 104 i64 not_before | 112 i64 not_after | 120 u64 epoch_min |
+///   128 signature 64: Ed25519 over "tandem ticket v1\0" and bytes 0 ... 127.
+inline constexpr std::size_t kTicketSize = 192;
+using TicketBytes = std::array<std::byte, kTicketSize>;
+
+/// @return the ticket, or the field that is out of range (nothing was signed then)
+[[nodiscard]] std::expected<TicketBytes, std::string> sign_ticket(const Ticket& ticket, const TicketKey& key);
+
+/// Text form of a ticket for users: `ticket:` and base32.
+[[nodiscard]] std::string ticket_text(const TicketBytes& ticket);
+[[nodiscard]] std::expected<TicketBytes, std::string> ticket_from_text(std::string_view text);
+
+/// Returns the session named in a ticket; not authenticated.
+[[nodiscard]] Id16 claimed_session(const TicketBytes& ticket) noexcept;
+
+/// Returns the role named in a ticket; not authenticated. nullopt: wrong length or unknown role.
+[[nodiscard]] std::optional<AccessRole> claimed_role(std::span<const std::byte> bytes) noexcept;
+
+/// The rule that a ticket violates.
+enum class TicketCheck : std::uint8_t {
+  kLength,  ///< not 192 bytes
+  kVersion,
+  kKey,  ///< signed with a key that this server does not have
+  kSignature,
+  kContent,  ///< signed, but a field is out of range: an error of the signer
+  kNotYet,
+  kExpired,
+  kWorkstation,  ///< of another machine
+  kSession,
+  kEpoch,
+  kSeat,
+  kRole,
+  kUsed,
+  kBookFull,  ///< the list of redeemed tickets is full
+};
+inline constexpr std::size_t kTicketChecks = 14;
+
+/// The violated rule with details.
+struct TicketError {
+  TicketCheck rule = TicketCheck::kLength;
+  std::int64_t seconds = 0;  ///< [s] kExpired: since expiry; kNotYet: until validity
+  std::string detail;        ///< the ticket's seat or role, where that helps
+
+  friend bool operator==(const TicketError&, const TicketError&) = default;
+};
+/// Returns the message for users: the error and the next step.
+[[nodiscard]] std::string to_text(const TicketError& fault);
+/// Returns one word for counters and logs.
+[[nodiscard]] std::string_view name_of(TicketCheck rule) noexcept;
+
+/// The intended use of a ticket.
+struct TicketUse {
+  Id16 session_id{};
+  std::uint64_t epoch = 0;
+  std::string_view seat;
+  std::optional<AccessRole> role;  ///< of the seat in the scene; nullopt: any
+  KeyFingerprint workstation;      ///< key that the TLS handshake proved
+  std::int64_t now = 0;            ///< [s] since 1970, UTC
+};
+
+/// Checks all rules but single use, in the order of TicketCheck. No content of a ticket is trusted before its signature
+/// is verified.
+[[nodiscard]] std::expected<Ticket, TicketError> check_ticket(std::span<const std::byte> bytes,
+                                                              const TicketVerifier& key, const TicketUse& use);
+
+}  // namespace tandem::auth

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "common/control/channel.h"
+#include "common/control/contact.h"
+#include "common/control/flow_sources.h"
+#include "proto/spec/scene_spec.h"
+
+/// Builds the control laws from a scene. Both ends of a channel use this code, so they cannot differ.
+namespace tandem::setup {
+
+[[nodiscard]] std::string_view law_name(LawKind law) noexcept;
+[[nodiscard]] control::FlowSourceMode flow_source_mode(MfsMode mode) noexcept;
+
+/// Returns the surfaces of the scene's own environment, for a virtual tool and its copies.
+[[nodiscard]] control::ContactSet contacts(const EnvironmentSpec& environment) noexcept;
+
+/// Returns one end of a channel.
+/// @param scale  tip gain to port gain, per axis
+/// @param clamped  springs yield beyond `force_max`; false in scenes with `unsafe_gains`, which command forces that no
+/// motor delivers
+/// @param k_c  stiffness of the coupling between device and tool [N/m]
+/// @param stiffness  stiffness of a SLAVE seat's spring (k_s) in place of the channel's [N/m]
+[[nodiscard]] std::unique_ptr<control::ChannelEnd> make_channel(const ChannelSpec& spec, control::Side side,
+                                                                std::size_t dof, const AxisArray& scale,
+                                                                double force_max, double k_c, bool clamped,
+                                                                std::optional<double> stiffness);
+
+}  // namespace tandem::setup

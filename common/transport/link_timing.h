@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "common/base/histogram.h"
+#include "common/base/time.h"
+#include "common/transport/recent_gaps.h"
+
+namespace tandem::transport {
+
+/// Minimum over the last 5 to 10 s. Two buckets, so that it follows a drifting clock or a changed path.
+class WindowedMinimum {
+ public:
+  void add(Time now, std::int64_t value) noexcept {
+    if (!any_ || now - begin_ > kBucket) {
+      previous_ = any_ ? current_ : value;
+      current_ = value;
+      begin_ = now;
+      any_ = true;
+    }
+    current_ = std::min(current_, value);
+  }
+  [[nodiscard]] std::int64_t value() const noexcept { return std::min(current_, previous_); }
+  [[nodiscard]] bool any() const noexcept { return any_; }
+
+ private:
+  static constexpr Duration kBucket = std::chrono::seconds(5);
+  Time begin_{};
+  std::int64_t current_ = std::numeric_limits<std::int64_t>::max();
+  std::int64_t previous_ = std::numeric_limits<std::int64_t>::max();
+  bool any_ = false;
+};
+
+/// Estimates the age of received data and the round-trip time. All times are on the own monotonic clock. The peer
+/// echoes the newest counter it used, and the own send times are kept for `kMemory`. A switch that holds datagrams for
+/// seconds and releases them in order is therefore detected.
+class LinkTiming {
+ public:
+  /// Largest loop time whose echo still counts; older echoes are ignored. It is the same at every rate and longer than
+  /// every `loop_age_max` (proto/schema/scene.proto: 2.5 s).
+  static constexpr Duration kMemory = std::chrono::seconds(4);
+
+  /// Allocates 8 bytes for each datagram of `kMemory`: 32 KiB at 1 kHz, 512 KiB at 10 kHz.
+  /// @param tick  time between two datagrams of this end, 100 us to 100 ms
+  explicit LinkTiming(Duration tick)
+      : tick_(tick),
+        sent_(std::bit_ceil(static_cast<std::size_t>(kMemory / std::clamp<Duration>(tick, kTickMin, kTickMax)) +
+                            kOtherDatagramsMax)),
+        mask_(sent_.size() - 1) {}
+
+  /// Records a sent datagram.
+  /// @param counter  one more than the last time
+  void sent(Time now, std::uint64_t counter) noexcept {
+    if (next_ == 0) first_ = counter;
+    sent_[counter & mask_] = now;
+    next_ = counter + 1;
+  }
+  /// Records that a strictly newer datagram was accepted. @param peer_tick  its sender's tick count, for the variation
+  /// of the transit time.
+  void accepted(Time now, std::uint64_t echo_counter, Duration echo_age, std::uint32_t peer_tick) noexcept;
+
+  /// Returns the time since the newest echoed counter was sent; 24 h while nothing was echoed.
+  [[nodiscard]] Duration loop_age(Time now) const noexcept {
+    return echoed_ ? now - echo_sent_ : std::chrono::hours(24);
+  }
+  /// Returns the one-way age of the newest datagram: RTT/2 of the best case, plus its delay beyond the best transit,
+  /// plus the time since its arrival; 24 h before the first datagram.
+  [[nodiscard]] Duration age(Time now) const noexcept {
+    return heard_ ? one_way_ + (now - arrived_) : std::chrono::hours(24);
+  }
+  [[nodiscard]] Duration silence(Time now) const noexcept { return heard_ ? now - arrived_ : std::chrono::hours(24); }
+  /// Returns the time since the peer last confirmed new data of this end. A datagram with a newer echo confirms, or,
+  /// before the first echo, the first datagram. It is at least `silence`. It also grows while the peer sends but
+  /// receives nothing; a long delay alone does not make it grow.
+  [[nodiscard]] Duration unanswered_for(Time now) const noexcept {
+    return heard_ ? now - echo_moved_ : std::chrono::hours(24);
+  }
+  [[nodiscard]] Duration rtt() const noexcept { return rtt_; }
+  [[nodiscard]] Duration rtt_p50() const noexcept { return Duration{rtts_.quantile(0.50)}; }
+  /// Returns the p99 of the last full thousand samples; before there is one, of all samples (computed on each call).
+  [[nodiscard]] Duration rtt_p99() const noexcept {
+    return Duration{rtts_.count() < kLearnEvery ? rtts_.quantile(0.99) : recent_p99_};
+  }
+  [[nodiscard]] std::uint64_t rtt_samples() const noexcept { return rtts_.count(); }
+  [[nodiscard]] const Histogram& rtts() const noexcept { return rtts_; }
+  /// `peer_silence` is the time that the peer had received nothing from this end when it sent its newest datagram, on
+  /// its clock. `echo_stall` is the time for which datagrams have arrived without a newer echo, on the own clock. It
+  /// counts from the first datagram even if nothing was ever echoed.
+  [[nodiscard]] Duration peer_silence() const noexcept { return peer_silence_; }
+  [[nodiscard]] Duration echo_stall() const noexcept { return arrived_ - echo_moved_; }
+  [[nodiscard]] bool heard() const noexcept { return heard_; }
+  [[nodiscard]] Time arrived() const noexcept { return arrived_; }
+  [[nodiscard]] const RecentGaps& gaps() const noexcept { return gaps_; }
+
+ private:
+  static constexpr Duration kTickMin = std::chrono::microseconds(100), kTickMax = std::chrono::milliseconds(100);
+  static constexpr std::size_t kOtherDatagramsMax =
+      64;  ///< datagrams in addition to the one per tick: challenges, requests, CLOSE
+  static constexpr std::uint64_t kLearnEvery = 1000;
+  [[nodiscard]] bool remembers(Time now, std::uint64_t counter) const noexcept {
+    return counter >= first_ && counter < next_ && next_ - counter <= mask_ + 1 &&
+           now - sent_[counter & mask_] <= kMemory;
+  }
+
+  Duration tick_;
+  std::vector<Time> sent_;  ///< send time of a counter, at its remainder; a power of two of entries
+  std::uint64_t mask_;
+  std::uint64_t first_ = 0, next_ = 0;
+  bool heard_ = false, echoed_ = false;
+  Time arrived_{}, echo_sent_{}, echo_moved_{};
+  Duration peer_silence_{};
+  std::uint64_t echo_counter_ = 0;
+  Duration rtt_{}, one_way_{};
+  WindowedMinimum rtt_floor_, transit_floor_;
+  Histogram rtts_, recent_;
+  std::int64_t recent_p99_ = 0;
+  RecentGaps gaps_;
+};
+
+}  // namespace tandem::transport

@@ -1,0 +1,198 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/base/axes.h"
+#include "common/base/histogram.h"
+#include "common/base/time.h"
+
+/// Vocabulary of haptic devices: capabilities, readings, commands, errors and the device interfaces.
+/// Units: SI. Frame of every device: right-handed, x right, y away from the user, z up; drivers convert to it.
+/// Unknown numbers are empty `optional`s, never 0.
+namespace tandem::hal {
+
+using Vec3 = Eigen::Vector3d;
+/// Jacobian of the tip, one column per joint. Tip velocity [m/s] = J * dq; joint effort = J^T * tip force [N].
+using Jacobian = Eigen::Matrix<double, 3, static_cast<int>(kAxesMax)>;
+
+enum class Errc : std::uint8_t {
+  kNotFound,
+  kPermission,
+  kBusy,
+  kUnplugged,
+  kTimeout,
+  kFraming,
+  kProtocol,
+  kFirmware,
+  kNotHomed,
+  kLimit,
+  kUnsupported,
+  kLibraryMissing,
+  kBadState,
+  kInternal
+};
+[[nodiscard]] const char* to_string(Errc) noexcept;
+
+struct DeviceError {
+  Errc code = Errc::kInternal;
+  std::string message;  ///< cause and remedy, as text for the user
+};
+template <class T = void>
+using Result = std::expected<T, DeviceError>;
+
+enum class Provenance : std::uint8_t { kUnknown, kDatasheet, kVendorQuery, kConfig, kModel };
+enum class Phase : std::uint8_t { kAbsent, kOpening, kBooting, kIdentified, kUnhomed, kReady, kEnabled, kFault, kLost };
+enum class Timing : std::uint8_t { kLockStep, kFreeRunning, kVendor };
+/// How a device finds its origin. kResetPose: the user puts the device into its reset pose and confirms this before the
+/// servo starts.
+enum class Homing : std::uint8_t { kNone, kManual, kPresetPose, kInkwell, kAuto, kResetPose };
+enum class GravityCompensation : std::uint8_t { kNone, kHost, kDevice };
+enum class InputKind : std::uint8_t { kPose, kRate };
+enum class CommandKind : std::uint8_t { kNone, kJointEffort };
+
+/// Identity of a device: its backend and a key that identifies the same hardware again.
+struct DeviceId {
+  std::string backend;
+  std::string key;
+};
+
+struct AxisLimit {
+  std::optional<double> peak;        ///< [N] along this tip axis
+  std::optional<double> continuous;  ///< [N]
+  std::optional<double> resolution;  ///< [m]
+  Provenance from = Provenance::kUnknown;
+};
+
+/// Capabilities of a device. Immutable after open.
+struct DeviceCaps {
+  std::size_t joints = 0;    ///< sensed and actuated joints, <= kAxesMax
+  std::size_t tip_axes = 0;  ///< number of axes along which the tip moves, 1..3: the first of x, y, z
+  bool prismatic = false;    ///< joint units are [m] and [N] instead of [rad] and [N m]
+  bool simulated = false;    ///< simulated: no operator is at risk, so delay studies may relax the force gate
+  InputKind input = InputKind::kPose;
+  Timing timing = Timing::kFreeRunning;
+  Homing homing = Homing::kNone;
+  GravityCompensation gravity = GravityCompensation::kNone;
+  double nominal_hz = 1000.0;
+  std::array<AxisLimit, 3> axis{};
+  std::optional<double> mass;     ///< apparent mass at the tip [kg]
+  std::optional<double> damping;  ///< physical damping at the tip, b_device [N s/m]; bounds the coupling stiffness
+  /// Delay t_d from a reading to the force that answers it, without the hold of one tick [s]; bounds the coupling
+  /// stiffness too.
+  std::optional<double> latency;
+  std::optional<double> stiffness;  ///< largest stiffness the manufacturer allows [N/m]
+  /// Time-out after which the device itself switches its motors off.
+  std::optional<std::chrono::milliseconds> watchdog;
+  bool needs_firmware = false;
+  /// The motor directions come from a file written by the user. The guard allows no force until they are confirmed on
+  /// this device.
+  bool signs_from_file = false;
+  bool force_calibrated = true;  ///< false: the force scale is a guess, and the guard uses a low ceiling
+  std::array<double, 3> workspace_min{}, workspace_max{};  ///< workspace box of the tip [m]; both 0: unknown
+  unsigned buttons = 0, leds = 0;
+};
+
+/// One reading of a device. Joint arrays are used up to `DeviceCaps::joints`.
+struct State {
+  std::uint64_t seq = 0;
+  std::uint64_t echo_command = 0;  ///< sequence number of the command in effect during this reading
+  Time sampled_at{};
+  AxisArray q{};                  ///< [rad] or [m]
+  AxisArray dq{};                 ///< estimate [rad/s] or [m/s]
+  Vec3 x = Vec3::Zero();          ///< tip [m]
+  Vec3 dx = Vec3::Zero();         ///< tip [m/s]
+  Jacobian J = Jacobian::Zero();  ///< at q
+  AxisArray tau_out{};  ///< joint effort the motors delivered during the last period, without compensation [N m] or [N]
+  Vec3 f_out = Vec3::Zero();  ///< the same at the tip [N]
+  Vec3 f_env = Vec3::Zero();  ///< force of the environment on the tip, where known (simulated slaves) [N]
+  double penetration = 0;     ///< depth of the tip in the environment, where known [m]
+  std::array<std::int32_t, kAxesMax> raw{};     ///< encoder counts from the device, unwrapped
+  unsigned buttons = 0;                         ///< bit mask, 1 = pressed
+  std::optional<std::uint8_t> battery_percent;  ///< 0..100; empty: the device has no battery or reported nothing
+  /// Temperature of the hottest motor as a share of its limit, from the device or its vendor library; 1: too hot.
+  /// Empty: not measured. NaN: the device reports temperatures, but this one is unknown.
+  std::optional<double> heat;
+  bool stale = false;     ///< no new reading arrived in time: values are held or decay
+  bool resynced = false;  ///< positions may have jumped since the previous reading
+  bool homed = true;
+  bool saturated = false;  ///< the last command exceeded the motors' limit
+};
+
+/// Command to a device, valid until the next command or until `expires`, whichever is first.
+/// There is no command without expiry: a client sets `expires` to its time plus `command_lifetime` of its ticks.
+/// Motors of hardware devices obey a command for at most `kCommandLifetimeMax` (common/base/command_lifetime.h).
+struct Command {
+  std::uint64_t seq = 0;
+  Time expires{};
+  CommandKind kind = CommandKind::kNone;
+  AxisArray effort{};  ///< joint effort [N m] or [N]
+};
+
+/// Client of a device's servo, called once per exchange on the device's own thread.
+struct ServoClient {
+  virtual ~ServoClient() = default;
+  virtual Command tick(const State&) noexcept = 0;
+  virtual void lost(Errc) noexcept = 0;
+};
+
+struct DeviceStats {
+  std::uint64_t ticks = 0;
+  std::uint64_t late = 0;        ///< exchanges that began more than 1 ms late
+  std::uint64_t missed = 0;      ///< periods without an exchange
+  std::uint64_t expired = 0;     ///< commands that expired
+  std::uint64_t rejected = 0;    ///< commands with a non-finite effort
+  std::uint64_t resyncs = 0;     ///< exchanges that had to resynchronise to a frame start
+  std::uint64_t unanswered = 0;  ///< exchanges without a complete reply in time
+  std::uint64_t clamped = 0;     ///< commands that the guard reduced
+  double round_trip_p50_s = 0, round_trip_p99_s = 0, round_trip_max_s = 0;
+  double period_p50_s = 0, period_p99_s = 0, period_max_s = 0;
+};
+
+/// Histograms of durations [ns]. Empty where the duration does not apply: a simulated device has no exchange.
+struct DeviceHistograms {
+  Histogram period;      ///< from the start of one exchange to the next
+  Histogram round_trip;  ///< duration of one exchange
+};
+
+/// A device with its own servo thread.
+/// Phases: Absent -> Opening -> ... -> Ready (zero force) -> Enabled -> {Fault, Lost}. A Lost device is never enabled
+/// again.
+struct Device {
+  virtual ~Device() = default;
+  [[nodiscard]] virtual const DeviceCaps& caps() const noexcept = 0;
+  [[nodiscard]] virtual const DeviceId& id() const noexcept = 0;
+  [[nodiscard]] virtual Phase phase() const noexcept = 0;
+  /// Starts the servo with zero force. The servo calls `client` until `close()`.
+  virtual Result<> start(ServoClient& client) = 0;
+  /// Lets commands reach the motors. Allowed only in Ready.
+  virtual Result<> enable() = 0;
+  virtual void disable() noexcept = 0;
+  virtual Result<> reset() = 0;
+  [[nodiscard]] virtual DeviceStats stats() const = 0;
+  /// Histograms since `start()`; empty before `close()` has returned.
+  [[nodiscard]] virtual DeviceHistograms histograms() const { return {}; }
+  /// Returns whether the kernel granted real-time priority to the servo thread.
+  [[nodiscard]] virtual bool realtime() const noexcept { return false; }
+  virtual void close() noexcept = 0;
+};
+
+/// A device without a thread: its owner advances its time. Simulated devices implement this; live use wraps them in a
+/// Device.
+struct SteppedDevice {
+  virtual ~SteppedDevice() = default;
+  [[nodiscard]] virtual const DeviceCaps& caps() const noexcept = 0;
+  /// Returns the reading at the present instant.
+  [[nodiscard]] virtual const State& state() const noexcept = 0;
+  /// Applies `command` for `dt` and advances the device by `dt`. Real-time safe; a non-finite effort counts as zero.
+  virtual void advance(const Command& command, Duration dt) noexcept TANDEM_REALTIME = 0;
+};
+
+}  // namespace tandem::hal

@@ -1,0 +1,63 @@
+#include "hal/io/periodic_timer.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/prctl.h>
+
+#include <cerrno>
+#include <ctime>
+
+namespace tandem::hal {
+namespace {
+
+constexpr int kPriority = 60;
+constexpr Duration kLateLimit = std::chrono::milliseconds(1);
+
+Time monotonic_now() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return Time{} + std::chrono::seconds(t.tv_sec) + std::chrono::nanoseconds(t.tv_nsec);
+}
+
+}  // namespace
+
+Time MonotonicClock::now() noexcept { return monotonic_now(); }
+
+void MonotonicClock::wait_until(Time at) noexcept {
+  const auto ns = at.time_since_epoch().count();
+  const timespec t{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+  }
+}
+
+bool request_realtime() noexcept {
+  prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
+  const sched_param p{kPriority};
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &p) == 0;
+}
+
+void PeriodicTimer::begin() noexcept { due_ = last_ = monotonic_now(); }
+
+PeriodicTimer::WakeUp PeriodicTimer::next() noexcept {
+  due_ += period_;
+  MonotonicClock{}.wait_until(due_);
+  const Time now = monotonic_now();
+  const Duration late = now - due_;
+  const auto missed = late > Duration::zero() ? static_cast<std::uint64_t>(late / period_) : 0;
+  due_ += missed * period_;
+  late_ += late > kLateLimit ? 1 : 0;
+  missed_ += missed;
+  periods_.add((now - last_).count());
+  last_ = now;
+  return {due_, missed};
+}
+
+void PeriodicTimer::report(DeviceStats& stats) const noexcept {
+  stats.late = late_;
+  stats.missed = missed_;
+  stats.period_p50_s = 1e-9 * static_cast<double>(periods_.quantile(0.50));
+  stats.period_p99_s = 1e-9 * static_cast<double>(periods_.quantile(0.99));
+  stats.period_max_s = 1e-9 * static_cast<double>(periods_.max());
+}
+
+}  // namespace tandem::hal

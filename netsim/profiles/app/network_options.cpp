@@ -1,0 +1,322 @@
+#include "netsim/profiles/app/network_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/base/unit_suffix.h"
+#include "common/io/number_option.h"
+#include "netsim/profiles/app/capacity_file.h"
+#include "netsim/profiles/network_csv.h"
+#include "netsim/profiles/profile_loader.h"
+#include "netsim/profiles/schedule_loader.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr std::uintmax_t kFileMax = 64U << 20;
+constexpr std::array kNumbers{"--delay", "--jitter", "--loss", "--duplicate", "--reorder", "--outage"};
+
+Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
+
+/// Returns whether a name denotes a file: an existing file, or a name with a slash or a dot.
+bool is_file(const std::string& name) {
+  return std::filesystem::exists(name) || name.find('/') != std::string::npos || name.find('.') != std::string::npos;
+}
+
+std::string lines_of(const InputErrors& errors) {
+  std::string text = to_text(errors);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more) {
+  for (const std::string& note : more)
+    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+}
+
+std::expected<std::string, std::string> read_whole_file(const std::string& path, std::uintmax_t bytes_max) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) return std::unexpected(path + ": " + error.message());
+  if (size > bytes_max) return std::unexpected(path + ": is larger than " + std::to_string(bytes_max >> 20) + " MiB");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string text(static_cast<std::size_t>(size), '\0');
+  file.read(text.data(), static_cast<std::streamsize>(size));
+  if (!file) return std::unexpected(path + ": cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
+  return text;
+}
+
+std::expected<std::string, std::string> read_network_file(const std::string& path) {
+  return read_whole_file(path, kFileMax);
+}
+
+std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {
+  const auto wrong = [&text](const std::string& why) { return std::unexpected("--outage: \"" + text + "\": " + why); };
+  std::array<double, 3> values{};
+  std::size_t count = 0;
+  std::istringstream cells(text);
+  for (std::string cell; std::getline(cells, cell, ','); ++count) {
+    double value = 0;
+    const std::string_view bare = strip_unit(cell, "s");
+    const auto [end, error] = std::from_chars(bare.data(), bare.data() + bare.size(), value);
+    if (count >= values.size() || error != std::errc{} || end != bare.data() + bare.size() || !std::isfinite(value)) {
+      return wrong("must be START,LENGTH or START,LENGTH,PERIOD: numbers of seconds, such as 12,0.4 or 12s,0.4s");
+    }
+    values[count] = value;
+  }
+  if (count < 2)
+    return wrong("must be START,LENGTH or START,LENGTH,PERIOD: numbers of seconds, such as 12,0.4 or 12s,0.4s");
+  const auto [start, length, period] = values;
+  if (start < 0 || start > 2'592'000) return wrong("START must be in [0, 2592000] s");
+  if (!(length > 0 && length <= 3600)) return wrong("LENGTH must be in (0, 3600] s");
+  if (count == 3 && !(period > length && period <= 2'592'000)) {
+    return wrong("PERIOD must be longer than LENGTH and at most 2592000 s");
+  }
+  OutageSpec outage;
+  outage.start = from_seconds(start);
+  outage.length = from_seconds(length);
+  outage.period = from_seconds(period);
+  return outage;
+}
+
+void NetworkOptions::add_to(CLI::App& command) {
+  command_ = &command;
+  const std::string group = "What the network is like (each direction)";
+  const auto number = [&](const char* option, double& value, double hi, const std::string& unit, const char* help) {
+    command.add_option(option, value, help)
+        ->transform(io::number_in(0, hi, unit))
+        ->option_text(unit == "ms" ? "MS" : "PERCENT")
+        ->group(group);
+  };
+  number("--delay", delay_ms_, 60'000, "ms", "constant delay [ms], 0 to 60000; default 0");
+  number("--jitter", jitter_ms_, 60'000, "ms",
+         "adds a delay uniform in [0, MS] to every datagram [ms], 0 to 60000; order is kept");
+  number("--loss", loss_percent_, 100, "%", "datagrams lost, each alone [%], 0 to 100");
+  number("--duplicate", duplicate_percent_, 100, "%", "datagrams that come twice, the copy within 1 ms [%], 0 to 100");
+  number("--reorder", reorder_percent_, 100, "%", "datagrams that arrive after three later ones [%], 0 to 100");
+  command
+      .add_option("--outage", outages_,
+                  "the link is down from START for LENGTH, again every PERIOD [s]; what is sent meanwhile is lost; "
+                  "may be given several times")
+      ->option_text("START,LENGTH[,PERIOD]")
+      ->allow_extra_args(false)
+      ->group(group);
+  command
+      .add_option("--profile", profile_,
+                  "a named network (`tandem-netsim profiles` lists them) or a .textproto file; numbers given beside "
+                  "it replace its own")
+      ->option_text("NAME|FILE")
+      ->group(group);
+  command
+      .add_option(
+          "--capacity", capacity_,
+          "the recorded capacity that the profile plays (4g-trace): mahimahi's file, one millisecond per line and "
+          "opportunity to send 1500 bytes, or a table direction,t_ms,opportunities")
+      ->option_text("FILE")
+      ->group(group);
+  command
+      .add_option("--network", network_,
+                  "a profile or a file, as --profile takes, or a recording: .csv with a column rtt_ms or delay_ms "
+                  "(empty: lost) and t_s or t_send_s; "
+                  "or a recorded capacity: mahimahi's file, or .csv with direction,t_ms,opportunities; excludes the "
+                  "numbers")
+      ->option_text("NAME|FILE")
+      ->group(group);
+  command
+      .add_option("--trace-interval", trace_interval_ms_,
+                  "time between the rows of a recording without a time column [ms]")
+      ->transform(io::number_in(0.001, 60'000, "ms"))
+      ->option_text("MS")
+      ->group(group);
+  command
+      .add_option("--script", script_,
+                  "what changes while it runs: outages, other networks, other addresses at their times; a .textproto "
+                  "file of `event { at_s: 12 client: \"trainee\" outage_ms: 400 }`, schema proto/schema/script.proto")
+      ->option_text("FILE")
+      ->group(group);
+  command.add_option("--seed", seed_, "the same seed gives the same network; default 1")
+      ->check(io::whole_number())
+      ->option_text("N")
+      ->group(group);
+}
+
+std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
+  auto choice = network();
+  // A script may name the recording that needs --trace-interval; events() checks that case.
+  if (choice && !given("--script"))
+    if (std::string wrong = interval_problem(*choice); !wrong.empty()) return std::unexpected(std::move(wrong));
+  return choice;
+}
+
+bool NetworkOptions::given(const char* option) const { return command_->get_option(option)->count() > 0; }
+
+std::string NetworkOptions::interval_problem(const NetworkChoice& choice) const {
+  if (!given("--trace-interval") || choice.plays_interval) return {};
+  // With --control, the user may name such a recording while the proxy runs.
+  const CLI::Option* const control = command_->get_option_no_throw("--control");
+  if (control != nullptr && control->count() > 0) return {};
+  return "--trace-interval: is for a recording without a column of times, and " + choice.description +
+         " is none; leave it out";
+}
+
+std::expected<NetworkChoice, std::string> NetworkOptions::network() const {
+  if (given("--network")) {
+    std::string mistakes;
+    for (const char* option : kNumbers) {
+      if (given(option)) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes " + option;
+    }
+    for (const char* option : {"--profile", "--capacity"}) {
+      if (given(option)) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes " + option;
+    }
+    if (!mistakes.empty()) return std::unexpected(mistakes);
+    return from_file(network_);
+  }
+
+  if (given("--capacity") && !given("--profile")) {
+    return std::unexpected(
+        "--capacity: belongs to --profile 4g-trace or another that plays it; --network FILE plays it "
+        "alone");
+  }
+  NetworkChoice choice;
+  choice.name = "custom";
+  if (given("--profile")) {
+    auto profile = from_file(profile_);
+    if (!profile) return profile;
+    if (given("--capacity") && !profile->plays_capacity) {
+      return std::unexpected("--capacity: profile " + profile->name +
+                             " plays no recorded capacity; 4g-trace does, or a " + "profile with rate { capacity {} }");
+    }
+    choice = std::move(*profile);
+  }
+  std::vector<OutageSpec> outages;
+  for (const std::string& text : outages_) {
+    const auto outage = parse_outage(text);
+    if (!outage) return std::unexpected(outage.error());
+    outages.push_back(*outage);
+  }
+  const LinkSpec numbers = link_from({.delay = milliseconds(delay_ms_),
+                                      .jitter = milliseconds(jitter_ms_),
+                                      .loss = loss_percent_ / 100,
+                                      .duplicate = duplicate_percent_ / 100,
+                                      .reorder = reorder_percent_ / 100,
+                                      .outages = outages});
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    PathSpec& path = choice.link[direction];
+    const PathSpec& wanted = numbers[direction];
+    if (given("--delay")) path.floor = wanted.floor;
+    if (given("--jitter")) path.body = wanted.body;
+    if (given("--loss")) path.loss.probability = wanted.loss.probability;
+    if (given("--duplicate")) path.duplicate = wanted.duplicate;
+    if (given("--reorder")) path.reorder = wanted.reorder;
+    path.outages.insert(path.outages.end(), outages.begin(), outages.end());
+    for (const SpecError& problem : problems(path)) {
+      return std::unexpected(std::string(netsim::name(direction)) + ": " + problem.key + ": " + problem.message);
+    }
+  }
+  std::ostringstream words;
+  const auto add = [&words](const auto&... parts) {
+    if (words.tellp() > 0) words << ", ";
+    (words << ... << parts);
+  };
+  if (given("--profile")) add(choice.description);
+  if (!given("--profile") || given("--delay")) add("delay ", delay_ms_, " ms");
+  if (given("--jitter")) add("jitter 0 to ", jitter_ms_, " ms");
+  if (given("--loss")) add("loss ", loss_percent_, " %");
+  if (given("--duplicate")) add("duplicates ", duplicate_percent_, " %");
+  if (given("--reorder")) add("reordered ", reorder_percent_, " %");
+  for (const std::string& outage : outages_) add("outage ", outage, " s");
+  choice.description = words.str();
+  return choice;
+}
+
+std::expected<ScriptChoice, std::string> NetworkOptions::events(std::span<const std::string> clients) const {
+  ScriptChoice script;
+  if (!given("--script")) return script;
+  const auto text = read_network_file(script_);
+  if (!text) return std::unexpected("--script: " + text.error());
+  bool plays_interval = false;
+  const auto find = [&](const std::string& name) -> std::expected<LinkSpec, InputErrors> {
+    const bool file = name.find_first_of("/.") != std::string::npos;
+    const bool beside = file && !std::filesystem::path(name).is_absolute();
+    auto choice = from_file(beside ? (std::filesystem::path(script_).parent_path() / name).string() : name);
+    if (choice) {
+      plays_interval = plays_interval || choice->plays_interval;
+      add_notes(script.notes, choice->notes);
+      return std::move(choice->link);
+    }
+    InputError error;
+    error.message = choice.error();
+    return std::unexpected(InputErrors{error});
+  };
+  auto events = parse_script(*text, script_, clients, find);
+  if (!events) return std::unexpected(lines_of(events.error()));
+  if (!plays_interval)
+    if (const auto base = network())
+      if (std::string wrong = interval_problem(*base); !wrong.empty())
+        return std::unexpected(wrong + ", and the script names none");
+  script.events = std::move(*events);
+  return script;
+}
+
+std::vector<std::string> NetworkOptions::all_given() const {
+  std::vector<std::string> all;
+  const auto look = [&](const char* option) {
+    if (given(option)) all.emplace_back(option);
+  };
+  for (const char* option : kNumbers) look(option);
+  for (const char* option : {"--profile", "--capacity", "--network", "--trace-interval", "--script", "--seed"})
+    look(option);
+  return all;
+}
+
+std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::string& name_or_file) const {
+  NetworkChoice choice;
+  if (!is_file(name_or_file)) return from_profile(shipped_profile(name_or_file), "");
+  const auto text = read_network_file(name_or_file);
+  if (!text) return std::unexpected(text.error());
+  choice.name = std::filesystem::path(name_or_file).stem().string();
+  if (looks_like_capacity(*text)) {
+    auto recorded = parse_capacity_file(*text, name_or_file);
+    if (!recorded) return std::unexpected(recorded.error());
+    choice.link = std::move(recorded->link);
+    choice.description = std::move(recorded->description);
+    return choice;
+  }
+  if (!name_or_file.ends_with(".csv")) return from_profile(parse_profile(*text, name_or_file), name_or_file);
+  const auto recorded = parse_network_csv(*text, name_or_file, milliseconds(trace_interval_ms_));
+  if (!recorded) return std::unexpected(lines_of(recorded.error()));
+  choice.link = recorded->link;
+  std::ostringstream words;
+  words << "recording " << name_or_file << ": " << recorded->rows << " rows, " << recorded->lost << " lost, "
+        << seconds(recorded->length) << " s, then from the start again";
+  choice.description = words.str();
+  choice.notes = notes_of(*recorded, name_or_file);
+  choice.plays_interval = !recorded->timed;
+  return choice;
+}
+
+std::expected<NetworkChoice, std::string> NetworkOptions::from_profile(std::expected<Profile, InputErrors> profile,
+                                                                       const std::string& file) const {
+  if (!profile) return std::unexpected(lines_of(profile.error()));
+  const auto capacity = complete_capacity(*profile, file, capacity_);
+  if (!capacity) return std::unexpected(capacity.error());
+  NetworkChoice choice;
+  choice.name = profile->name;
+  choice.description = "profile " + (file.empty() ? profile->name : file) + " (version " +
+                       std::to_string(profile->version) + ")" + (capacity->empty() ? "" : ", " + *capacity);
+  choice.link = std::move(profile->link);
+  choice.plays_capacity = !capacity->empty();
+  return choice;
+}
+
+}  // namespace tandem::netsim

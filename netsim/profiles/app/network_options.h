@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "netsim/engine/schedule.h"
+#include "netsim/models/path_spec.h"
+#include "netsim/profiles/profile_loader.h"
+#include "proto/spec/input_error.h"
+
+namespace CLI {
+class App;
+}
+
+namespace tandem::netsim {
+
+/// Network selected by the command line.
+struct NetworkChoice {
+  LinkSpec link;
+  std::string name;                ///< `custom`, or the name of the profile or file
+  std::string description;         ///< one line of text
+  std::vector<std::string> notes;  ///< notes that a report must contain
+  bool plays_capacity = false;     ///< the profile required a recorded capacity and got one
+  bool plays_interval = false;     ///< a recording without times that uses --trace-interval
+};
+
+/// Events selected by the script.
+struct ScriptChoice {
+  std::vector<NetworkEvent> events;
+  std::vector<std::string> notes;  ///< notes that a report must contain about the named networks
+};
+
+/// Command-line options of the network, shared by `proxy` and `run`: --delay --jitter --loss --duplicate --reorder
+/// --outage --profile --capacity --network --trace-interval --script --seed. Must live as long as the command, which
+/// stores references to it.
+class NetworkOptions {
+ public:
+  void add_to(CLI::App& command);
+
+  /// Reads the named files and combines all options. Options given beside --profile replace the profile's parameters.
+  /// @return network, or errors, one per line
+  [[nodiscard]] std::expected<NetworkChoice, std::string> resolve() const;
+
+  /// Returns a network by name or file, as --profile and --network accept it.
+  /// @return network, or errors
+  [[nodiscard]] std::expected<NetworkChoice, std::string> named(const std::string& name_or_file) const {
+    return from_file(name_or_file);
+  }
+
+  /// Reads --script, the scheduled changes. The networks it names are shipped profiles, or files relative to the
+  /// script.
+  /// @param clients  allowed client names; empty: "1", "2", ... in order of arrival
+  /// @return events (empty without a script), or errors, one per line
+  [[nodiscard]] std::expected<ScriptChoice, std::string> events(std::span<const std::string> clients = {}) const;
+
+  /// Returns the given options that define network or seed. Callers use it to reject options that another source
+  /// replaces.
+  [[nodiscard]] std::vector<std::string> all_given() const;
+
+  [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
+
+ private:
+  /// Returns the network; does not apply the rules that depend on --script.
+  [[nodiscard]] std::expected<NetworkChoice, std::string> network() const;
+  /// Returns why --trace-interval does not apply to this network; empty if it applies or was not given.
+  [[nodiscard]] std::string interval_problem(const NetworkChoice& choice) const;
+  [[nodiscard]] std::expected<NetworkChoice, std::string> from_file(const std::string& name_or_file) const;
+  /// @param file  file of the profile; empty: shipped profile
+  [[nodiscard]] std::expected<NetworkChoice, std::string> from_profile(std::expected<Profile, InputErrors> profile,
+                                                                       const std::string& file) const;
+  [[nodiscard]] bool given(const char* option) const;
+
+  CLI::App* command_ = nullptr;
+  double delay_ms_ = 0, jitter_ms_ = 0, loss_percent_ = 0, duplicate_percent_ = 0, reorder_percent_ = 0;
+  double trace_interval_ms_ = 0;
+  std::vector<std::string> outages_;
+  std::string profile_, network_, capacity_, script_;
+  std::uint64_t seed_ = 1;
+};
+
+/// Appends the notes that are not present yet, because several networks may share a recording.
+void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more);
+
+/// Returns the contents of a file of at most `bytes_max` bytes, or an error: `FILE: reason`.
+[[nodiscard]] std::expected<std::string, std::string> read_whole_file(const std::string& path,
+                                                                      std::uintmax_t bytes_max);
+/// Returns the contents of a profile or recording of at most 64 MiB, or an error.
+[[nodiscard]] std::expected<std::string, std::string> read_network_file(const std::string& path);
+
+/// Parses `START,LENGTH[,PERIOD]` in seconds. Returns the outage, or an error.
+[[nodiscard]] std::expected<OutageSpec, std::string> parse_outage(const std::string& text);
+
+}  // namespace tandem::netsim

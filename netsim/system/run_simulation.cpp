@@ -1,0 +1,79 @@
+#include "netsim/system/run_simulation.h"
+
+#include <stdexcept>
+
+#include "common/transport/digest.h"
+#include "netsim/feel/observed_feel.h"
+#include "netsim/system/link_qualities.h"
+#include "netsim/system/session_notes.h"
+#include "netsim/system/simulation.h"
+#include "netsim/system/simulation_report.h"
+#include "server/report/trace_csv.h"
+
+namespace tandem::netsim {
+namespace {
+
+constexpr std::size_t kRowsAtOnce = 60'000;  // [bytes]
+constexpr std::uint64_t kTicksPerLook = 250;
+
+/// Makes a simulation; also returns the errors of links, which Simulation::make throws.
+std::expected<std::unique_ptr<Simulation>, std::string> make(const SimulationConfig& setup) {
+  try {
+    return Simulation::make(setup);
+  } catch (const std::invalid_argument& e) {
+    return std::unexpected(std::string(e.what()));
+  }
+}
+
+}  // namespace
+
+SimulationResult run_simulation(const SimulationConfig& setup, const SimulationObserver& watch) {
+  const auto made = make(setup);
+  SimulationResult run;
+  if (!made) {
+    run.trouble = made.error();
+    return run;
+  }
+  run = run_simulation(**made, setup.seed, watch);
+  if (run.trouble.empty()) run.notes = session_notes(setup, session_span(**made));
+  return run;
+}
+
+SimulationResult run_simulation(Simulation& world, std::uint64_t seed, const SimulationObserver& watch) {
+  SimulationResult run;
+  server::ReportBuilder builder{world.scene()};
+  ObservedFeel feel{world.scene()};
+  const server::TraceCsv csv{world.scene()};
+  transport::Digest digest;
+  std::string rows = csv.header();
+  const auto flush = [&] {
+    digest.add(rows);
+    if (watch.trace) watch.trace(rows);
+    rows.clear();
+  };
+  for (std::uint64_t n = 0; world.step(); ++n) {
+    if (watch.tick) watch.tick(world);
+    const server::TickRecord& record = world.record();
+    builder.add(record);
+    feel.add(record);
+    if (record.running) csv.append(record, rows);
+    if (rows.size() > kRowsAtOnce) flush();
+    if (n % kTicksPerLook == 0 && watch.keep_running && !watch.keep_running(world.session().time())) {
+      run.interrupted = true;
+      break;
+    }
+  }
+  flush();
+  run.trouble = world.trouble();
+  run.links = link_qualities(world);
+  run.report = simulation_report(world, builder, seed);
+  run.report.trace_hash = digest.hex();
+  std::vector<std::uint32_t> trips;
+  for (const server::SeatReport& seat : run.report.seats) trips.push_back(seat.gate_trips);
+  run.report.feel = feel.values(trips);
+  if (run.trouble.empty() && run.report.duration_s <= 0 && !run.interrupted)
+    run.trouble = "the session never ran: there is nothing to judge";
+  return run;
+}
+
+}  // namespace tandem::netsim

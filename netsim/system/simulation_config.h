@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/sim/recorded_motion.h"
+#include "netsim/engine/replay.h"
+#include "netsim/engine/schedule.h"
+#include "netsim/models/endpoint_clock.h"
+#include "netsim/models/path_spec.h"
+#include "netsim/system/fault.h"
+#include "proto/spec/scene_spec.h"
+#include "server/session/contact_source.h"
+
+namespace tandem::netsim {
+
+/// Configuration of one session in virtual time: scene, networks, faults and clocks.
+struct SimulationConfig {
+  SceneSpec scene;
+  LinkSpec network = {};  ///< every seat has its own link with this specification
+  std::uint64_t seed = 1;
+  std::map<std::string, std::shared_ptr<const hal::sim::RecordedMotion>> motions = {};  ///< by seat
+  std::map<std::string, LinkSpec> seat_networks = {};  ///< by seat, instead of `network`
+  std::vector<NetworkEvent> events = {};               ///< in network time
+  std::shared_ptr<const Replay> replay = {};  ///< replaces every network and event: seat i is flow i of the recording
+  std::vector<Fault> faults = {};             ///< in any order
+  std::map<std::string, EndpointSpec> endpoints = {};  ///< by seat: clock errors and wake-up times of its program
+  bool monitor_quality = false;  ///< judges every seat's link from the session's begin on: Simulation::link_monitor
+  /// Returns the processor time of the server's tick at `now`, which sends `sent` datagrams. If it exceeds a tick, the
+  /// server misses the next ticks and runs them later. Empty: ticks take no time.
+  std::function<Duration(Time now, std::size_t sent)> tick_cost = {};
+  /// Returns how often the calling thread has allocated from the heap (common/base/heap_count.h). Null: the invariant
+  /// "no heap below a tick" is not judged; it needs a replaced operator new.
+  std::uint64_t (*heap_count)() noexcept = nullptr;
+  /// Makes the source of contacts of a tool (server/session/contact_source.h) when a session is made, law REPLICA.
+  /// Null: the tool has only the scene's surfaces.
+  std::function<std::unique_ptr<server::ContactSource>(std::size_t tool)> contact_source = {};
+  bool keep_record = true;  ///< false: Simulation::record() stays empty; for runs that only judge invariants
+};
+
+}  // namespace tandem::netsim

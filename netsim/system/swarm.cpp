@@ -1,0 +1,306 @@
+#include "netsim/system/swarm.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/base/format.h"
+#include "netsim/profiles/profile_loader.h"
+#include "netsim/system/link_qualities.h"
+#include "netsim/system/scene_generator.h"
+#include "proto/text/scene_text.h"
+
+namespace tandem::netsim {
+
+namespace {
+
+enum Purpose : std::uint64_t { kScene = 1, kTimes, kLinks, kFaults, kClocks };
+
+Duration ms(double value) { return Duration{std::llround(value * 1e6)}; }
+
+/// Random draws of one purpose.
+class RandomDraws {
+ public:
+  RandomDraws(std::uint64_t seed, Purpose purpose) : random_(RandomKey{seed}.derive(0x5a).derive(purpose)) {}
+  bool chance(double p) { return random_.uniform() < p; }
+  double between(double lo, double hi) { return random_.uniform(lo, hi); }
+  double log_between(double lo, double hi) { return std::exp(between(std::log(lo), std::log(hi))); }
+  std::size_t below(std::size_t n) { return random_.below(n); }
+
+ private:
+  RandomStream random_;
+};
+
+/// Draws one direction; every impairment has its own probability.
+PathSpec draw_path(RandomDraws& d) {
+  PathSpec path;
+  path.floor = ms(d.chance(0.3) ? 0 : d.log_between(0.05, 200));
+  if (d.chance(0.5)) {
+    path.body.kind = BodySpec::Kind::kUniform;
+    path.body.high = ms(d.log_between(0.1, 60));
+    if (d.chance(0.5)) path.body.tau = ms(d.log_between(1, 300));
+  }
+  if (d.chance(0.3)) path.loss.probability = d.log_between(0.001, 0.6);
+  if (d.chance(0.3)) {
+    const Duration good = ms(d.log_between(50, 5000)), bad = ms(d.log_between(1, 300));
+    path.loss.periods = BadPeriodsSpec{good, bad, 0, d.between(0.3, 1)};
+  }
+  if (d.chance(0.3)) {
+    path.stall.rate_per_s = d.between(0.05, 2);
+    path.stall.length_min = ms(d.log_between(2, 100));
+    path.stall.cap = path.stall.length_min + ms(d.log_between(1, 600));
+  }
+  if (d.chance(0.25)) {
+    path.rate.bits_per_s = static_cast<std::uint64_t>(d.log_between(2e6, 1e8));
+    path.rate.queue_wait = ms(d.log_between(5, 500));
+  }
+  if (d.chance(0.2)) path.reorder.probability = d.log_between(0.001, 0.3);
+  if (d.chance(0.2)) path.order = Order::kFree;
+  if (d.chance(0.3)) path.duplicate = {d.log_between(0.001, 0.5), ms(d.log_between(0.01, 50))};
+  if (d.chance(0.1)) path.corruption.probability = d.log_between(0.001, 0.1);
+  return path;
+}
+
+LinkSpec draw_link(RandomDraws& d, std::string& words) {
+  if (d.chance(0.4)) {
+    const auto shipped = complete_profiles();
+    const ShippedProfile& chosen = shipped[d.below(shipped.size())];
+    const auto profile = shipped_profile(chosen.name);
+    if (profile && !profile->capacity_file) {  // such a profile needs a recording
+      words = chosen.name;
+      return profile->link;
+    }
+  }
+  words = "own";
+  return {draw_path(d), draw_path(d)};
+}
+
+NetworkEvent change(Duration at, const LinkSpec& link, const std::string& client = {}) {
+  NetworkEvent event;
+  event.at = at;
+  event.link = link;
+  if (!client.empty()) event.clients = {client};
+  return event;
+}
+
+void draw_network(SwarmCase& out) {
+  RandomDraws d(out.seed, kLinks);
+  LinkSpec clean;
+  clean.up.floor = clean.down.floor = ms(d.chance(0.3) ? 0 : d.log_between(0.05, 60));
+  std::string words;
+  const LinkSpec bad = draw_link(d, words);
+  const Duration begin = d.chance(0.4) ? Duration{} : ms(d.between(100, 2000));
+  out.setup.network = begin == Duration{} ? bad : clean;
+  if (begin > Duration{} && begin < out.recovery_start) out.setup.events.push_back(change(begin, bad));
+  for (const SeatSpec& seat : out.setup.scene.seats) {
+    if (d.chance(0.2)) {
+      std::string own;
+      const Duration at = ms(d.between(0, 1e3 * seconds(out.recovery_start)));
+      if (at > begin && at < out.recovery_start) out.setup.events.push_back(change(at, draw_link(d, own), seat.name));
+    }
+    for (std::size_t n = d.chance(0.4) ? 1 + d.below(4) : 0; n > 0; --n) {
+      NetworkEvent event;
+      event.at = ms(d.between(0, 1e3 * seconds(out.recovery_start)));
+      event.clients = {seat.name};
+      if (d.chance(0.3)) event.direction = d.chance(0.5) ? Direction::kUp : Direction::kDown;
+      OutageSpec outage;
+      outage.length = std::min(ms(d.log_between(1, 3000)), out.recovery_start - event.at);
+      outage.mode = d.chance(0.5) ? OutageSpec::Mode::kDrop : OutageSpec::Mode::kHold;
+      event.outage = outage;
+      if (outage.length > Duration{}) out.setup.events.push_back(event);
+    }
+  }
+  out.setup.events.push_back(change(out.recovery_start, clean));
+  std::ranges::stable_sort(out.setup.events, {}, &NetworkEvent::at);
+  out.description += ", " + words;
+}
+
+void draw_faults(SwarmCase& out) {
+  RandomDraws d(out.seed, kFaults);
+  struct Choice {
+    Fault::Kind kind;
+    double shortest_ms, longest_ms;
+  };
+  constexpr std::array kChoices{Choice{Fault::Kind::kPause, 2, 1500},     Choice{Fault::Kind::kRestart, 50, 4000},
+                                Choice{Fault::Kind::kNotANumber, 1, 30},  Choice{Fault::Kind::kOutOfRange, 1, 30},
+                                Choice{Fault::Kind::kFrozen, 5, 1000},    Choice{Fault::Kind::kReplay, 100, 5000},
+                                Choice{Fault::Kind::kJunk, 100, 3000},    Choice{Fault::Kind::kLiar, 100, 10000},
+                                Choice{Fault::Kind::kServerLate, 2, 800}, Choice{Fault::Kind::kServerRestart, 20, 4000},
+                                Choice{Fault::Kind::kStopHand, 20, 5000}, Choice{Fault::Kind::kStopAll, 20, 5000},
+                                Choice{Fault::Kind::kHostile, 5, 3000}};
+  for (std::size_t n = d.below(5); n > 0; --n) {
+    const Choice& c = kChoices[d.below(kChoices.size())];
+    Fault fault{c.kind,
+                {},
+                ms(d.between(0, 1e3 * seconds(out.recovery_start))),
+                ms(d.log_between(c.shortest_ms, c.longest_ms))};
+    if (!of_server(fault.kind) && !d.chance(0.1))
+      fault.seat = out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name;
+    fault.length = std::min(fault.length, out.recovery_start - fault.at);
+    if (fault.length <= Duration{}) continue;
+    out.description += format(", %s", std::string(name(fault.kind)).c_str());
+    out.setup.faults.push_back(fault);
+    // The attacker meets a stop of the instructor, which the attacker may not end.
+    if (c.kind == Fault::Kind::kHostile && d.chance(0.5)) {
+      out.setup.faults.push_back({Fault::Kind::kStopAll, out.setup.scene.seats[0].name, fault.at, fault.length});
+      out.description += format(", %s", std::string(name(Fault::Kind::kStopAll)).c_str());
+    }
+  }
+  // Drawn last, so that older faults of a seed do not change when this kind is added.
+  for (std::size_t n = d.chance(0.15) ? 1 + d.below(4) : 0; n > 0; --n) {
+    Fault hot{Fault::Kind::kHot, out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name,
+              ms(d.between(0, 1e3 * seconds(out.recovery_start))), ms(d.log_between(2, 2000))};
+    hot.length = std::min(hot.length, out.recovery_start - hot.at);
+    if (hot.length <= Duration{}) continue;
+    out.description += format(", %s", std::string(name(hot.kind)).c_str());
+    out.setup.faults.push_back(hot);
+  }
+}
+
+void draw_clocks(SwarmCase& out) {
+  RandomDraws d(out.seed, kClocks);
+  for (const SeatSpec& seat : out.setup.scene.seats) {
+    if (!d.chance(0.3)) continue;
+    EndpointSpec endpoint;
+    endpoint.offset = ms(d.between(-8e7, 8e7));
+    endpoint.drift_ppm = d.between(-200, 200);
+    if (d.chance(0.2))
+      endpoint.steps = {{ms(d.between(0, 1e3 * seconds(out.recovery_start))), ms(d.log_between(1, 1e6))}};
+    if (d.chance(0.3))
+      endpoint.wake = {WakeSpec::Kind::kUniform, ms(d.log_between(0.1, 5))};
+    else if (d.chance(0.3))
+      endpoint.wake.kind = WakeSpec::Kind::kMeasured;
+    out.setup.endpoints[seat.name] = endpoint;
+  }
+}
+
+std::uint64_t mixed(std::uint64_t into, double value) noexcept {
+  return mix64(into ^ std::bit_cast<std::uint64_t>(value));
+}
+
+/// Lets a simulated user reset every latched device, at intervals. If the client reports a stuck sensor, the user also
+/// pushes the handle, because only a new reading ends that state. A hand at the end of its arm's travel, or in a pose
+/// where the motors have no lever, counts as a frozen sensor.
+void press_buttons(Simulation& world) {
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
+    client::Seat* const seat = world.seat(i);
+    if (seat == nullptr) continue;
+    const auto phase = seat->gate().phase();
+    if (phase == control::GatePhase::kLatched || phase == control::GatePhase::kFault ||
+        seat->overspeed_guard().latched() || seat->overtemperature_guard().latched())
+      seat->request_gate_reset();
+    const wire::SessionState session = seat->force().session;
+    if (seat->sensor_stuck()) {
+      constexpr double kPush = 2, kPushLength = 0.05;  // [N], [s]
+      const hal::Vec3 from_home = world.device(i).ground_truth().x;
+      world.device(i).push(kPush * from_home.unaryExpr([](double x) { return x > 0 ? -1.0 : 1.0; }), kPushLength);
+    }
+    if (seat->locally_stopped() || session == wire::SessionState::kPaused || session == wire::SessionState::kStopped)
+      seat->request_resume();
+  }
+}
+
+/// Returns whether the seat is an observer with a client. An observer's hand is never engaged and counts as active.
+bool watches(const Simulation& world, std::size_t i) {
+  return world.scene().seats[i].kind == SeatKind::kMaster && world.scene().seats[i].role == Role::kObserver &&
+         world.seat(i) != nullptr;
+}
+
+const char* gate_words(control::GatePhase phase) {
+  if (phase == control::GatePhase::kReleasing) return "releasing";
+  if (phase == control::GatePhase::kLatched) return "LATCHED";
+  return wire::to_text(static_cast<wire::GateState>(phase));
+}
+
+bool everybody_active(const Simulation& world) {
+  if (world.session().state() != wire::SessionState::kRunning) return false;
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
+    if (!watches(world, i) &&
+        (world.seat(i) == nullptr || world.seat(i)->gate().phase() != control::GatePhase::kActive))
+      return false;
+  return true;
+}
+
+std::string who_is_not_active(const Simulation& world) {
+  std::string text = format("recovery phase: not every seat was active again after %g s:", kRecoveryLimit);
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
+    const client::Seat* const seat = world.seat(i);
+    if (watches(world, i) || (seat != nullptr && seat->gate().phase() == control::GatePhase::kActive)) continue;
+    text += " " + world.scene().seats[i].name + " " +
+            (seat == nullptr ? "has no seat" : gate_words(seat->gate().phase())) + ";";
+  }
+  if (world.session().state() != wire::SessionState::kRunning) text += " the session does not run";
+  return text;
+}
+
+}  // namespace
+
+SwarmCase generate_swarm_case(std::uint64_t seed, double safety_max, LawKind law) {
+  SwarmCase out;
+  out.seed = seed;
+  RandomDraws d(seed, kTimes);
+  out.recovery_start = ms(1e3 * d.between(1, std::max(2.0, safety_max)));
+  out.scene_text = generate_scene_text(RandomKey{seed}.derive(0x5a).derive(kScene),
+                                       std::ceil(seconds(out.recovery_start)) + 2 * kRecoveryLimit, law);
+  auto scene = parse_scene(out.scene_text, format("swarm-%llu.textproto", static_cast<unsigned long long>(seed)));
+  if (!scene) throw std::logic_error("swarm: seed " + std::to_string(seed) + ": " + to_text(scene.error()));
+  out.description =
+      format("%zu masters, %zu tools, %.1f s", scene->masters(), scene->tools.size(), seconds(out.recovery_start));
+  out.setup.scene = std::move(*scene);
+  out.setup.seed = seed;
+  out.setup.keep_record = false;
+  draw_network(out);
+  draw_faults(out);
+  draw_clocks(out);
+  return out;
+}
+
+SwarmResult run_swarm_case(const SwarmCase& which, const std::function<void(Simulation&)>& each_tick) {
+  SwarmResult result;
+  auto made = Simulation::make(which.setup);
+  if (!made) {
+    result.trouble = made.error();
+    return result;
+  }
+  Simulation& world = **made;
+  const Time calm = Time{} + which.recovery_start;
+  Time end = calm + from_seconds(kRecoveryLimit);
+  Time buttons = calm;
+  // A datagram of the fault phase is still under way. A link that keeps order delivers nothing newer before it.
+  bool held_back = true;
+  while (world.now() < end) {
+    if (world.now() >= buttons) {
+      press_buttons(world);
+      buttons += ms(500);
+    }
+    const bool goes_on = world.step();
+    for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
+      if (world.seat(i) != nullptr) result.fingerprint = mixed(result.fingerprint, world.seat(i)->effort()[0]);
+      result.fingerprint = mixed(result.fingerprint, world.device(i).ground_truth().x[0]);
+    }
+    if (each_tick) each_tick(world);
+    if (!goes_on) break;
+    if (held_back && world.now() > calm) {
+      const auto oldest = world.network().oldest_in_flight();
+      held_back = oldest && *oldest < calm;
+      end = world.now() + from_seconds(kRecoveryLimit);
+    }
+    if (result.recovered_s == 0 && world.now() > calm && everybody_active(world)) {
+      result.recovered_s = seconds(world.now() - calm);
+      if (!world.begin_recovery_phase()) break;
+      end = world.now() + from_seconds(kOrdinaryMotionDuration);
+    }
+  }
+  result.lived_s = seconds(world.now() - Time{});
+  result.trouble = world.trouble();
+  if (result.trouble.empty() && result.recovered_s == 0) result.trouble = who_is_not_active(world);
+  for (const server::Violation& violation : world.violations().list())
+    if (!violation.expected) result.violations.push_back(violation);
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) result.gate_trips += world.gate_trips(i);
+  result.links = link_qualities(world);
+  return result;
+}
+
+}  // namespace tandem::netsim

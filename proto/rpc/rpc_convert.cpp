@@ -1,0 +1,419 @@
+#include "proto/rpc/rpc_convert.h"
+
+#include <algorithm>
+#include <string>
+
+#include "proto/rpc/rpc_bounds.h"
+
+namespace tandem::rpc {
+namespace {
+
+namespace wire_pb = pb::rpc;
+
+bool read(const wire_pb::Device& in, DeviceFacts& out) {
+  out = {in.joints(),       in.tip_axes(),      in.simulated(), in.prismatic(),
+         in.force_peak_n(), in.damping_n_s_m(), in.mass_kg(),   in.latency_s()};
+  return within(in.joints(), 1, kAxesMax) && within(in.tip_axes(), 1, kAxesMax) && within(in.force_peak_n()) &&
+         within(in.damping_n_s_m()) && within(in.mass_kg()) && in.latency_s() >= 0 && in.latency_s() <= kLatencyMax;
+}
+
+bool read(const wire_pb::Hello& in, Hello& out) {
+  out.versions.assign(in.versions().begin(), in.versions().end());
+  bool good = !out.versions.empty() && out.versions.size() <= kVersionsMax && out.versions.front() >= 1 &&
+              out.versions.back() <= 65535 &&
+              std::ranges::adjacent_find(out.versions, std::greater_equal{}) == out.versions.end();
+  if (in.has_session_id()) good = take(in.session_id(), out.session.emplace<Id>()) && good;
+  if (in.has_session_code()) {
+    out.session = in.session_code();
+    good = good && is_code(in.session_code());
+  }
+  good = take_name(in.seat(), out.seat, true) && good;
+  if (in.has_ticket()) {
+    out.credential = TicketCredential{to_bytes(in.ticket())};
+    good = good && !in.ticket().empty() && in.ticket().size() <= kTicketMax;
+  } else if (in.has_resume_secret()) {
+    good = take(in.resume_secret(), out.credential.emplace<ResumeCredential>().secret.bytes) && good;
+  } else if (in.has_code()) {
+    out.credential = CodeCredential{in.code()};
+    good = good && is_code(in.code());
+  }
+  out.client_cid = in.client_cid();
+  out.has_aes = in.has_aes();
+  out.link_test = in.visit();
+  return in.has_device() && read(in.device(), out.device) && good;
+}
+void write(const Hello& in, wire_pb::Hello& out) {
+  for (const std::uint32_t v : in.versions) out.add_versions(v);
+  if (const auto* id = std::get_if<Id>(&in.session)) out.set_session_id(text_of(*id));
+  if (const auto* code = std::get_if<std::string>(&in.session)) out.set_session_code(*code);
+  out.set_seat(in.seat);
+  if (const auto* t = std::get_if<TicketCredential>(&in.credential)) out.set_ticket(text_of(t->bytes));
+  if (const auto* r = std::get_if<ResumeCredential>(&in.credential)) out.set_resume_secret(text_of(r->secret.bytes));
+  if (const auto* c = std::get_if<CodeCredential>(&in.credential)) out.set_code(c->code);
+  out.set_client_cid(in.client_cid);
+  auto& d = *out.mutable_device();
+  d.set_joints(in.device.joints);
+  d.set_tip_axes(in.device.tip_axes);
+  d.set_simulated(in.device.simulated);
+  d.set_prismatic(in.device.prismatic);
+  d.set_force_peak_n(in.device.force_peak_n);
+  d.set_damping_n_s_m(in.device.damping_n_s_m);
+  d.set_mass_kg(in.device.mass_kg);
+  d.set_latency_s(in.device.latency_s);
+  out.set_has_aes(in.has_aes);
+  out.set_visit(in.link_test);
+}
+
+bool read(const wire_pb::RateLimits& in, RateLimits& out) {
+  out = {in.datagrams_per_s(), in.datagrams_burst(), in.authority_per_s(),
+         in.authority_burst(), in.commands_per_s(),  in.commands_burst()};
+  const std::array all{out.datagrams_per_s, out.datagrams_burst, out.authority_per_s,
+                       out.authority_burst, out.commands_per_s,  out.commands_burst};
+  return std::ranges::all_of(all, [](std::uint32_t v) { return within(v, 1, 1000000); });
+}
+
+bool read(const wire_pb::Welcome& in, Welcome& out) {
+  out.version = in.version();
+  bool good = within(in.version(), 1, 65535) && take(in.session_id(), out.session_id);
+  good = take_name(in.session_name(), out.session_name) && good;
+  out.epoch = in.epoch();
+  out.server_cid = in.server_cid();
+  out.cipher = static_cast<Cipher>(in.cipher() & 1U);
+  good = in.cipher() <= 1 && take_name(in.seat(), out.seat, true) && take_role(in.role(), out.role) && good;
+  out.setup = to_bytes(in.setup());
+  good = out.setup.size() <= wire::kSetupMax && within(in.udp_port(), 1, 65535) && good;
+  out.udp_port = static_cast<std::uint16_t>(in.udp_port());
+  good = take(in.resume_secret(), out.resume_secret.bytes) && good;
+  out.authority_version = in.authority_version();
+  return in.has_limits() && read(in.limits(), out.limits) && good;
+}
+void write(const Welcome& in, wire_pb::Welcome& out) {
+  out.set_version(in.version);
+  out.set_session_id(text_of(in.session_id));
+  out.set_session_name(in.session_name);
+  out.set_epoch(in.epoch);
+  out.set_server_cid(in.server_cid);
+  out.set_cipher(static_cast<std::uint32_t>(in.cipher));
+  out.set_seat(in.seat);
+  out.set_role(static_cast<std::uint32_t>(in.role));
+  out.set_setup(text_of(in.setup));
+  out.set_udp_port(in.udp_port);
+  out.set_resume_secret(text_of(in.resume_secret.bytes));
+  out.set_authority_version(in.authority_version);
+  auto& l = *out.mutable_limits();
+  l.set_datagrams_per_s(in.limits.datagrams_per_s);
+  l.set_datagrams_burst(in.limits.datagrams_burst);
+  l.set_authority_per_s(in.limits.authority_per_s);
+  l.set_authority_burst(in.limits.authority_burst);
+  l.set_commands_per_s(in.limits.commands_per_s);
+  l.set_commands_burst(in.limits.commands_burst);
+}
+
+bool read(const wire_pb::ErrorReply& in, ErrorReply& out) {
+  out = {static_cast<ErrorCode>(in.reason() & 0xffU), in.text(), in.retry_after_s()};
+  return within(in.reason(), 1, kErrorCodes) && is_text(in.text()) && in.retry_after_s() <= 86400;
+}
+void write(const ErrorReply& in, wire_pb::ErrorReply& out) {
+  out.set_reason(static_cast<std::uint32_t>(in.code));
+  out.set_text(in.text);
+  out.set_retry_after_s(in.retry_after_s);
+}
+
+bool read(const wire_pb::Enroll& in, Enroll& out) { return take(in.code(), out.code.bytes); }
+void write(const Enroll& in, wire_pb::Enroll& out) { out.set_code(text_of(in.code.bytes)); }
+bool read(const wire_pb::EnrollAck& in, EnrollAck& out) { return take_name(in.workstation(), out.workstation); }
+void write(const EnrollAck& in, wire_pb::EnrollAck& out) { out.set_workstation(in.workstation); }
+
+bool read(const wire_pb::SessionListRequest&, SessionListRequest&) { return true; }
+void write(const SessionListRequest&, wire_pb::SessionListRequest&) {}
+
+bool read(const wire_pb::SessionList& in, SessionList& out) {
+  if (in.session_size() > static_cast<int>(kSessionsMax)) return false;
+  out.more = in.more();
+  for (const wire_pb::Session& s : in.session()) {
+    ListedSession& session = out.sessions.emplace_back();
+    if (s.seat_size() > static_cast<int>(kListedSeatsMax) ||
+        s.state() > static_cast<std::uint32_t>(SessionPhase::kOverloaded))
+      return false;
+    session.phase = static_cast<SessionPhase>(s.state());
+    if (!take(s.id(), session.id) || !take_name(s.name(), session.name)) return false;
+    for (const wire_pb::Seat& seat : s.seat()) {
+      ListedSeat& listed = session.seats.emplace_back();
+      listed.taken = seat.taken();
+      listed.required = seat.required();
+      if (!take_name(seat.name(), listed.name) || !take_role(seat.role(), listed.role)) return false;
+    }
+  }
+  return true;
+}
+void write(const SessionList& in, wire_pb::SessionList& out) {
+  out.set_more(in.more);
+  for (const ListedSession& s : in.sessions) {
+    auto& session = *out.add_session();
+    session.set_id(text_of(s.id));
+    session.set_name(s.name);
+    session.set_state(static_cast<std::uint32_t>(s.phase));
+    for (const ListedSeat& listed : s.seats) {
+      auto& seat = *session.add_seat();
+      seat.set_name(listed.name);
+      seat.set_role(static_cast<std::uint32_t>(listed.role));
+      seat.set_taken(listed.taken);
+      seat.set_required(listed.required);
+    }
+  }
+}
+
+bool read(const wire_pb::StopSession& in, StopSession& out) {
+  out.why = in.why();
+  return take(in.session_id(), out.session_id) && is_text(in.why());
+}
+void write(const StopSession& in, wire_pb::StopSession& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_why(in.why);
+}
+bool read(const wire_pb::ResumeSession& in, ResumeSession& out) {
+  out.stop = in.stop();
+  return take(in.session_id(), out.session_id);
+}
+void write(const ResumeSession& in, wire_pb::ResumeSession& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_stop(in.stop);
+}
+bool read(const wire_pb::PauseSession& in, PauseSession& out) {
+  out.why = in.why();
+  return take(in.session_id(), out.session_id) && is_text(out.why);
+}
+void write(const PauseSession& in, wire_pb::PauseSession& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_why(in.why);
+}
+
+bool read(const wire_pb::SetAuthority& in, SetAuthority& out) {
+  out.tool = in.tool();
+  out.version = in.version();
+  return take(in.session_id(), out.session_id) && in.tool() < kToolsMax && take_weights(in.alpha(), out.alpha);
+}
+void write(const SetAuthority& in, wire_pb::SetAuthority& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_tool(in.tool);
+  out.set_version(in.version);
+  for (const double a : in.alpha) out.add_alpha(a);
+}
+bool read(const wire_pb::AuthorityReply& in, AuthorityReply& out) {
+  out.applied = in.applied();
+  out.tool = in.tool();
+  out.version = in.version();
+  return in.tool() < kToolsMax && take_weights(in.alpha(), out.alpha);
+}
+void write(const AuthorityReply& in, wire_pb::AuthorityReply& out) {
+  out.set_applied(in.applied);
+  out.set_tool(in.tool);
+  out.set_version(in.version);
+  for (const double a : in.alpha) out.add_alpha(a);
+}
+
+bool read(const wire_pb::Drain& in, Drain& out) {
+  out.grace_s = in.grace_s();
+  return in.grace_s() <= 3600;
+}
+void write(const Drain& in, wire_pb::Drain& out) { out.set_grace_s(in.grace_s); }
+bool read(const wire_pb::Ping& in, Ping& out) {
+  out.nonce = in.nonce();
+  return true;
+}
+void write(const Ping& in, wire_pb::Ping& out) { out.set_nonce(in.nonce); }
+bool read(const wire_pb::Pong& in, Pong& out) {
+  out.nonce = in.nonce();
+  return true;
+}
+void write(const Pong& in, wire_pb::Pong& out) { out.set_nonce(in.nonce); }
+bool read(const wire_pb::Ok&, Ok&) { return true; }
+void write(const Ok&, wire_pb::Ok&) {}
+
+bool read(const wire_pb::RemoveParticipant& in, RemoveParticipant& out) {
+  out.why = in.why();
+  return take(in.session_id(), out.session_id) && take_name(in.seat(), out.seat) && is_text(in.why());
+}
+void write(const RemoveParticipant& in, wire_pb::RemoveParticipant& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_seat(in.seat);
+  out.set_why(in.why);
+}
+bool read(const wire_pb::StatusRequest& in, StatusRequest& out) { return take(in.session_id(), out.session_id); }
+void write(const StatusRequest& in, wire_pb::StatusRequest& out) { out.set_session_id(text_of(in.session_id)); }
+
+bool read(const wire_pb::StatusStop& in, StatusStop& out) {
+  out = {in.number(), static_cast<StopKind>(in.kind()), {}, {}, {}, in.why(), in.ago_s(), in.ends(), in.yours()};
+  return in.number() > 0 && within(in.kind(), 1, static_cast<std::uint32_t>(StopKind::kFault)) &&
+         take_name(in.seat(), out.seat, true) && take_name(in.workstation(), out.workstation, true) &&
+         (out.seat.empty() || out.workstation.empty()) && take_role(in.role(), out.role) && is_text(out.why) &&
+         in.ago_s() >= 0 && in.ago_s() <= kTimeMax && is_text(out.ends);
+}
+void write(const StatusStop& in, wire_pb::StatusStop& out) {
+  out.set_number(in.number);
+  out.set_kind(static_cast<std::uint32_t>(in.kind));
+  out.set_seat(in.seat);
+  out.set_workstation(in.workstation);
+  out.set_role(static_cast<std::uint32_t>(in.role));
+  out.set_why(in.why);
+  out.set_ago_s(in.ago_s);
+  out.set_ends(in.ends);
+  out.set_yours(in.yours);
+}
+
+bool read(const wire_pb::Status& in, Status& out) {
+  if (in.seat_size() > static_cast<int>(kListedSeatsMax) || in.tool_size() > static_cast<int>(kToolsMax)) return false;
+  if (in.state() > static_cast<std::uint32_t>(SessionPhase::kOverloaded) ||
+      !(in.time_s() >= 0 && in.time_s() <= kTimeMax))
+    return false;
+  out.phase = static_cast<SessionPhase>(in.state());
+  out.stops = in.stops();
+  out.authority_version = in.authority_version();
+  out.time_s = in.time_s();
+  out.draining = in.draining();
+  out.shed = in.shed();
+  if (in.shed() > kShedMax) return false;
+  if (!take(in.session_id(), out.session_id) || !take_name(in.name(), out.name)) return false;
+  for (const wire_pb::StatusSeat& s : in.seat()) {
+    StatusSeat& seat = out.seats.emplace_back();
+    seat.taken = s.taken();
+    seat.heard = s.heard();
+    seat.master = s.master();
+    if (!take_name(s.name(), seat.name) || !take_role(s.role(), seat.role)) return false;
+  }
+  for (const wire_pb::StatusTool& t : in.tool()) {
+    StatusTool& tool = out.tools.emplace_back();
+    tool.alpha.assign(t.alpha().begin(), t.alpha().end());
+    if (!take_name(t.name(), tool.name) || tool.alpha.size() > kMastersMax) return false;
+    if (!std::ranges::all_of(tool.alpha, [](double a) { return a >= 0 && a <= 1; })) return false;
+  }
+  if (in.has_drain()) out.drain = {in.drain().left_s(), in.drain().sessions(), in.drain().people()};
+  if (in.news_size() > static_cast<int>(kStatusEventsMax) || !is_text(in.held())) return false;
+  out.held = in.held();
+  for (const wire_pb::StatusEvent& n : in.news()) {
+    if (n.number() == 0 || !is_text(n.text())) return false;
+    out.events.push_back({n.number(), n.text()});
+  }
+  return !in.has_stop() || read(in.stop(), out.stop.emplace());
+}
+void write(const Status& in, wire_pb::Status& out) {
+  out.set_session_id(text_of(in.session_id));
+  out.set_name(in.name);
+  out.set_state(static_cast<std::uint32_t>(in.phase));
+  out.set_stops(in.stops);
+  out.set_authority_version(in.authority_version);
+  out.set_time_s(in.time_s);
+  out.set_draining(in.draining);
+  out.set_shed(in.shed);
+  for (const StatusSeat& s : in.seats) {
+    auto& seat = *out.add_seat();
+    seat.set_name(s.name);
+    seat.set_role(static_cast<std::uint32_t>(s.role));
+    seat.set_taken(s.taken);
+    seat.set_heard(s.heard);
+    seat.set_master(s.master);
+  }
+  for (const StatusTool& t : in.tools) {
+    auto& tool = *out.add_tool();
+    tool.set_name(t.name);
+    for (const double a : t.alpha) tool.add_alpha(a);
+  }
+  if (in.stop) write(*in.stop, *out.mutable_stop());
+  out.set_held(in.held);
+  for (const StatusEvent& n : in.events) {
+    auto& news = *out.add_news();
+    news.set_number(n.number);
+    news.set_text(n.text);
+  }
+  if (!in.drain) return;
+  out.mutable_drain()->set_left_s(in.drain->left_s);
+  out.mutable_drain()->set_sessions(in.drain->sessions);
+  out.mutable_drain()->set_people(in.drain->participants);
+}
+
+void wipe_text(std::string& text) noexcept { wipe(text); }
+
+}  // namespace
+
+bool from_pb(const wire_pb::ControlFrame& in, Body& out) {
+  using Case = wire_pb::ControlFrame;
+  switch (in.body_case()) {
+    case Case::kHello:
+      return read(in.hello(), out.emplace<Hello>());
+    case Case::kWelcome:
+      return read(in.welcome(), out.emplace<Welcome>());
+    case Case::kErrorReply:
+      return read(in.error_reply(), out.emplace<ErrorReply>());
+    case Case::kEnroll:
+      return read(in.enroll(), out.emplace<Enroll>());
+    case Case::kEnrollAck:
+      return read(in.enroll_ack(), out.emplace<EnrollAck>());
+    case Case::kSessionListRequest:
+      return read(in.session_list_request(), out.emplace<SessionListRequest>());
+    case Case::kSessionList:
+      return read(in.session_list(), out.emplace<SessionList>());
+    case Case::kStopSession:
+      return read(in.stop_session(), out.emplace<StopSession>());
+    case Case::kResumeSession:
+      return read(in.resume_session(), out.emplace<ResumeSession>());
+    case Case::kPauseSession:
+      return read(in.pause_session(), out.emplace<PauseSession>());
+    case Case::kSetAuthority:
+      return read(in.set_authority(), out.emplace<SetAuthority>());
+    case Case::kAuthorityReply:
+      return read(in.authority_reply(), out.emplace<AuthorityReply>());
+    case Case::kDrain:
+      return read(in.drain(), out.emplace<Drain>());
+    case Case::kPing:
+      return read(in.ping(), out.emplace<Ping>());
+    case Case::kPong:
+      return read(in.pong(), out.emplace<Pong>());
+    case Case::kOk:
+      return read(in.ok(), out.emplace<Ok>());
+    case Case::kRemoveParticipant:
+      return read(in.remove_participant(), out.emplace<RemoveParticipant>());
+    case Case::kStatusRequest:
+      return read(in.status_request(), out.emplace<StatusRequest>());
+    case Case::kStatus:
+      return read(in.status(), out.emplace<Status>());
+    case Case::BODY_NOT_SET:
+      return false;
+  }
+  return false;
+}
+
+void to_pb(const Body& in, wire_pb::ControlFrame& out) {
+  struct Writer {
+    wire_pb::ControlFrame& out;
+    void operator()(const Hello& m) const { write(m, *out.mutable_hello()); }
+    void operator()(const Welcome& m) const { write(m, *out.mutable_welcome()); }
+    void operator()(const ErrorReply& m) const { write(m, *out.mutable_error_reply()); }
+    void operator()(const Enroll& m) const { write(m, *out.mutable_enroll()); }
+    void operator()(const EnrollAck& m) const { write(m, *out.mutable_enroll_ack()); }
+    void operator()(const SessionListRequest& m) const { write(m, *out.mutable_session_list_request()); }
+    void operator()(const SessionList& m) const { write(m, *out.mutable_session_list()); }
+    void operator()(const StopSession& m) const { write(m, *out.mutable_stop_session()); }
+    void operator()(const ResumeSession& m) const { write(m, *out.mutable_resume_session()); }
+    void operator()(const PauseSession& m) const { write(m, *out.mutable_pause_session()); }
+    void operator()(const SetAuthority& m) const { write(m, *out.mutable_set_authority()); }
+    void operator()(const AuthorityReply& m) const { write(m, *out.mutable_authority_reply()); }
+    void operator()(const Drain& m) const { write(m, *out.mutable_drain()); }
+    void operator()(const Ping& m) const { write(m, *out.mutable_ping()); }
+    void operator()(const Pong& m) const { write(m, *out.mutable_pong()); }
+    void operator()(const Ok& m) const { write(m, *out.mutable_ok()); }
+    void operator()(const RemoveParticipant& m) const { write(m, *out.mutable_remove_participant()); }
+    void operator()(const StatusRequest& m) const { write(m, *out.mutable_status_request()); }
+    void operator()(const Status& m) const { write(m, *out.mutable_status()); }
+  };
+  std::visit(Writer{out}, in);
+}
+
+void wipe_secrets(wire_pb::ControlFrame& frame) noexcept {
+  if (frame.has_hello() && frame.hello().has_ticket()) wipe_text(*frame.mutable_hello()->mutable_ticket());
+  if (frame.has_hello() && frame.hello().has_resume_secret())
+    wipe_text(*frame.mutable_hello()->mutable_resume_secret());
+  if (frame.has_welcome()) wipe_text(*frame.mutable_welcome()->mutable_resume_secret());
+  if (frame.has_enroll()) wipe_text(*frame.mutable_enroll()->mutable_code());
+}
+
+}  // namespace tandem::rpc

@@ -1,0 +1,322 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/base/axes.h"
+#include "common/base/secret.h"
+#include "proto/spec/access_role.h"
+#include "proto/wire/wire_messages.h"
+
+/// Structs of the messages on the control connection (proto/schema/rpc.proto). proto/rpc/rpc_codec.h encodes and
+/// decodes them, and enforces every bound written here in both directions.
+namespace tandem::rpc {
+
+inline constexpr std::uint32_t kFrameVersion = 1;     ///< version of the frames
+inline constexpr std::uint32_t kProtocolVersion = 1;  ///< version of the whole protocol: handshake, frames, datagrams
+inline constexpr std::size_t kFrameMax = 65536;       ///< one frame without its length [bytes]
+inline constexpr std::size_t kTextMax = 480;          ///< texts for display [bytes of UTF-8 without control characters]
+inline constexpr double kLatencyMax = 1;              ///< of a device [s]
+inline constexpr std::size_t kNameMax = 32;           ///< names: A-Z a-z 0-9 _ -
+inline constexpr std::size_t kVersionsMax = 8;
+inline constexpr std::size_t kTicketMax = 512;  ///< more than a ticket has, so that a wrong length is a ticket error
+inline constexpr std::size_t kSessionCodeSize = 10;
+inline constexpr std::size_t kSessionsMax = 48, kListedSeatsMax = kSeatsMax;
+
+using Id = std::array<std::byte, 16>;
+
+/// Device parameters that the server needs before it assigns a seat.
+struct DeviceFacts {
+  std::uint32_t joints = 1;    ///< 1 ... kAxesMax
+  std::uint32_t tip_axes = 1;  ///< 1 ... kAxesMax
+  bool simulated = false, prismatic = false;
+  double force_peak_n = 0, damping_n_s_m = 0, mass_kg = 0;  ///< 0 ... 1e4; 0: unknown
+  double latency_s = 0;  ///< delay of the force after the reading, without the hold of a tick; 0 ... kLatencyMax
+  friend bool operator==(const DeviceFacts&, const DeviceFacts&) = default;
+};
+
+/// Credential of a join, at most one of these. None: a client on the same machine (a loopback server decides).
+struct TicketCredential {
+  std::vector<std::byte> bytes;  ///< 1 ... kTicketMax
+  friend bool operator==(const TicketCredential&, const TicketCredential&) = default;
+};
+struct ResumeCredential {
+  Secret<32> secret;
+  friend bool operator==(const ResumeCredential&, const ResumeCredential&) = default;
+};
+struct CodeCredential {
+  std::string code;  ///< 10 characters of 0-9 A-Z
+  friend bool operator==(const CodeCredential&, const CodeCredential&) = default;
+};
+using Credential = std::variant<std::monostate, TicketCredential, ResumeCredential, CodeCredential>;
+
+/// Selection of a session: an id, a code of 10 characters, or the only session.
+using SessionChoice = std::variant<std::monostate, Id, std::string>;
+
+struct Hello {
+  std::vector<std::uint32_t> versions{kProtocolVersion};  ///< 1 ... 8 of them, ascending, 1 ... 65535
+  SessionChoice session;
+  std::string seat;  ///< a name, or empty
+  Credential credential;
+  std::uint32_t client_cid = 0;
+  DeviceFacts device;
+  bool has_aes = false, link_test = false;
+  friend bool operator==(const Hello&, const Hello&) = default;
+};
+
+/// [1/s] and [1], each 1 ... 1e6.
+struct RateLimits {
+  std::uint32_t datagrams_per_s = 1250, datagrams_burst = 64, authority_per_s = 60, authority_burst = 120,
+                commands_per_s = 10, commands_burst = 20;
+  friend bool operator==(const RateLimits&, const RateLimits&) = default;
+};
+
+enum class Cipher : std::uint8_t { kAes256Gcm, kChaCha20Poly1305 };
+
+struct Welcome {
+  std::uint32_t version = kProtocolVersion;  ///< 1 ... 65535
+  Id session_id{};
+  std::string session_name;  ///< a name
+  std::uint64_t epoch = 0;
+  std::uint32_t server_cid = 0;
+  Cipher cipher = Cipher::kAes256Gcm;
+  std::string seat;  ///< a name, or empty
+  AccessRole role = AccessRole::kObserver;
+  std::vector<std::byte> setup;  ///< at most wire::kSetupMax
+  std::uint16_t udp_port = 1;    ///< 1 ... 65535
+  Secret<32> resume_secret;
+  std::uint32_t authority_version = 0;
+  RateLimits limits;
+  friend bool operator==(const Welcome&, const Welcome&) = default;
+};
+
+/// Reason of an ErrorReply. The numbers are sent on the wire: append-only.
+enum class ErrorCode : std::uint8_t {
+  kVersion = 1,      ///< no version in common
+  kNotEnrolled = 2,  ///< this workstation's key is unknown or revoked
+  kTicket = 3,       ///< the text names the violated rule
+  kCode = 4,         ///< the code is wrong, used or expired
+  kResume = 5,       ///< no reservation for this resume secret
+  kNoSession = 6,
+  kSessionOver = 7,
+  kNoSeat = 8,
+  kSeatTaken = 9,
+  kDeviceUnfit = 10,
+  kFull = 11,        ///< this server has no capacity for more
+  kDraining = 12,    ///< this server is about to exit
+  kBlocked = 13,     ///< too many wrong codes from this address or key
+  kNotAllowed = 14,  ///< this role may not do this
+  kTooFast = 15,     ///< rate limit exceeded
+  kBadFrame = 16,    ///< not a frame, or a frame out of sequence
+  kInternal = 17,    ///< a failure of the server; its log has the cause
+  kOutdated = 18,    ///< the request names a version that is not the newest
+  kNotNow = 19,      ///< possible at a later time
+};
+inline constexpr std::uint8_t kErrorCodes = 19;
+
+struct ErrorReply {
+  ErrorCode code = ErrorCode::kInternal;
+  std::string text;                 ///< at most kTextMax
+  std::uint32_t retry_after_s = 0;  ///< at most 86400
+  friend bool operator==(const ErrorReply&, const ErrorReply&) = default;
+};
+
+struct Enroll {
+  Secret<16> code;
+  friend bool operator==(const Enroll&, const Enroll&) = default;
+};
+struct EnrollAck {
+  std::string workstation;  ///< a name
+  friend bool operator==(const EnrollAck&, const EnrollAck&) = default;
+};
+
+enum class SessionPhase : std::uint8_t { kWaiting, kRunning, kPaused, kStopped, kEnding, kOverloaded };
+[[nodiscard]] constexpr const char* to_text(SessionPhase phase) noexcept {
+  constexpr const char* kNames[] = {"waiting", "running", "paused", "stopped", "ending", "overloaded"};
+  return phase <= SessionPhase::kOverloaded ? kNames[static_cast<std::size_t>(phase)] : "?";
+}
+struct ListedSeat {
+  std::string name;
+  AccessRole role = AccessRole::kTrainee;
+  bool taken = false, required = false;
+  friend bool operator==(const ListedSeat&, const ListedSeat&) = default;
+};
+struct ListedSession {
+  Id id{};
+  std::string name;
+  SessionPhase phase = SessionPhase::kWaiting;
+  std::vector<ListedSeat> seats;  ///< at most kListedSeatsMax
+  friend bool operator==(const ListedSession&, const ListedSession&) = default;
+};
+struct SessionListRequest {
+  friend bool operator==(const SessionListRequest&, const SessionListRequest&) = default;
+};
+struct SessionList {
+  std::vector<ListedSession> sessions;  ///< at most kSessionsMax
+  bool more = false;
+  friend bool operator==(const SessionList&, const SessionList&) = default;
+};
+
+struct StopSession {
+  Id session_id{};
+  std::string why;  ///< at most kTextMax
+  friend bool operator==(const StopSession&, const StopSession&) = default;
+};
+struct ResumeSession {
+  Id session_id{};
+  std::uint32_t stop = 0;  ///< number of the stop to end
+  friend bool operator==(const ResumeSession&, const ResumeSession&) = default;
+};
+struct PauseSession {
+  Id session_id{};
+  std::string why{};  ///< at most kTextMax
+  friend bool operator==(const PauseSession&, const PauseSession&) = default;
+};
+struct SetAuthority {
+  Id session_id{};
+  std::uint32_t tool = 0;     ///< below kToolsMax
+  std::uint32_t version = 0;  ///< the version that it replaces
+  std::vector<double> alpha;  ///< 1 ... kMastersMax values in [0, 1], sum 1 within 1e-9
+  friend bool operator==(const SetAuthority&, const SetAuthority&) = default;
+};
+struct AuthorityReply {
+  bool applied = false;  ///< decided and announced; authority begins to move 50 ticks later
+  std::uint32_t tool = 0;
+  std::uint32_t version = 0;  ///< version of the last decision
+  std::vector<double> alpha;  ///< authority of the last decision, as above
+  friend bool operator==(const AuthorityReply&, const AuthorityReply&) = default;
+};
+struct Drain {
+  std::uint32_t grace_s = 0;  ///< at most 3600
+  friend bool operator==(const Drain&, const Drain&) = default;
+};
+struct Ping {
+  std::uint64_t nonce = 0;
+  friend bool operator==(const Ping&, const Ping&) = default;
+};
+struct Pong {
+  std::uint64_t nonce = 0;
+  friend bool operator==(const Pong&, const Pong&) = default;
+};
+struct Ok {
+  friend bool operator==(const Ok&, const Ok&) = default;
+};
+
+struct RemoveParticipant {
+  Id session_id{};
+  std::string seat;  ///< a name
+  std::string why;   ///< at most kTextMax
+  friend bool operator==(const RemoveParticipant&, const RemoveParticipant&) = default;
+};
+struct StatusRequest {
+  Id session_id{};
+  friend bool operator==(const StatusRequest&, const StatusRequest&) = default;
+};
+struct StatusSeat {
+  std::string name;
+  AccessRole role = AccessRole::kTrainee;
+  bool taken = false, heard = false;
+  bool master = false;  ///< MASTER seat: the k-th of these is the k-th element of StatusTool::alpha
+  friend bool operator==(const StatusSeat&, const StatusSeat&) = default;
+};
+struct StatusTool {
+  std::string name;
+  std::vector<double> alpha;  ///< requested authority; at most kMastersMax values in [0, 1]
+  friend bool operator==(const StatusTool&, const StatusTool&) = default;
+};
+/// Largest shed level of an overloaded server (server/policy/load_shedder.h).
+inline constexpr std::uint32_t kShedMax = 6;
+/// Kind of a stop. The numbers are sent on the wire: append-only.
+enum class StopKind : std::uint8_t { kPause = 1, kStop = 2, kFault = 3 };
+/// Origin and reason of a stop, for all participants.
+struct StatusStop {
+  std::uint32_t number = 0;
+  StopKind kind = StopKind::kStop;
+  std::string seat, workstation;  ///< names; at most one of them. Neither: the session itself
+  AccessRole role = AccessRole::kObserver;
+  std::string why;     ///< reason given with the stop, at most kTextMax
+  double ago_s = 0;    ///< [s] 0 ... 1e9
+  std::string ends;    ///< roles that may end it, for display, at most kTextMax; empty: it is over
+  bool yours = false;  ///< the requesting client may end it
+  friend bool operator==(const StatusStop&, const StatusStop&) = default;
+};
+/// Progress of a draining server.
+struct StatusDrain {
+  std::uint32_t left_s = 0;        ///< time until all hands are disengaged
+  std::uint32_t sessions = 0;      ///< number of sessions that are not over
+  std::uint32_t participants = 0;  ///< number of occupied seats
+  friend bool operator==(const StatusDrain&, const StatusDrain&) = default;
+};
+/// A recent event of a session: a resume or a removal, with its origin.
+struct StatusEvent {
+  std::uint32_t number = 0;  ///< from 1; increases by 1 within one run of the session
+  std::string text;          ///< for display, at most kTextMax
+  friend bool operator==(const StatusEvent&, const StatusEvent&) = default;
+};
+inline constexpr std::size_t kStatusEventsMax = 4;
+/// Status of a session for clients of its control connection.
+struct Status {
+  Id session_id{};
+  std::string name;
+  SessionPhase phase = SessionPhase::kWaiting;
+  std::uint32_t stops = 0, authority_version = 0;
+  double time_s = 0;  ///< session time [s], 0 ... 1e9
+  bool draining = false;
+  std::uint32_t shed = 0;              ///< shed level of the server, 0 ... kShedMax
+  std::vector<StatusSeat> seats;       ///< at most kListedSeatsMax
+  std::vector<StatusTool> tools;       ///< at most kToolsMax
+  std::optional<StatusStop> stop{};    ///< the newest stop, if this server knows its origin
+  std::optional<StatusDrain> drain{};  ///< while the server drains
+  /// Reason why no seat controls any tool while the session runs, at most kTextMax. Empty: a seat does, or the session
+  /// does not run.
+  std::string held{};
+  std::vector<StatusEvent> events{};  ///< at most kStatusEventsMax, newest last
+  friend bool operator==(const Status&, const Status&) = default;
+};
+
+/// The message of a frame, in the order of Kind.
+using Body = std::variant<Hello, Welcome, ErrorReply, Enroll, EnrollAck, SessionListRequest, SessionList, StopSession,
+                          ResumeSession, PauseSession, SetAuthority, AuthorityReply, Drain, Ping, Pong, Ok,
+                          RemoveParticipant, StatusRequest, Status>;
+
+/// Kind of the message in a frame. It is readable before the payload, so that roles are checked first. The number is
+/// the field's number in ControlFrame.
+enum class Kind : std::uint8_t {
+  kHello = 3,
+  kWelcome,
+  kErrorReply,
+  kEnroll,
+  kEnrollAck,
+  kSessionListRequest,
+  kSessionList,
+  kStopSession,
+  kResumeSession,
+  kPauseSession,
+  kSetAuthority,
+  kAuthorityReply,
+  kDrain,
+  kPing,
+  kPong,
+  kOk,
+  kRemoveParticipant,
+  kStatusRequest,
+  kStatus
+};
+inline constexpr std::size_t kKinds = std::variant_size_v<Body>;
+static_assert(static_cast<std::size_t>(Kind::kStatus) == static_cast<std::size_t>(Kind::kHello) + kKinds - 1);
+
+struct Frame {
+  std::uint32_t request = 0;
+  Body body;
+  friend bool operator==(const Frame&, const Frame&) = default;
+};
+[[nodiscard]] inline Kind kind_of(const Frame& frame) noexcept {
+  return static_cast<Kind>(frame.body.index() + static_cast<std::size_t>(Kind::kHello));
+}
+
+}  // namespace tandem::rpc

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "proto/spec/access_role.h"
+
+/// Rows of the registry files of servers and workstations (proto/schema/registry.proto) as plain structs. Times are
+/// seconds since 1970, UTC.
+namespace tandem {
+
+using Sha256 = std::array<std::byte, 32>;
+
+struct WorkstationRow {
+  std::string name;  ///< 1 to 32 of A-Z a-z 0-9 _ -
+  Sha256 spki{};     ///< of its key
+  std::int64_t enrolled_at = 0;
+  friend bool operator==(const WorkstationRow&, const WorkstationRow&) = default;
+};
+
+/// A one-time code that is issued and not yet used.
+struct CodeRow {
+  Sha256 hash{};
+  std::string workstation;
+  std::int64_t not_after = 0;
+  friend bool operator==(const CodeRow&, const CodeRow&) = default;
+};
+
+/// A server that a workstation knows.
+struct ServerRow {
+  std::string address;  ///< HOST:PORT as dialled
+  Sha256 spki{};
+  std::string name;  ///< name of this workstation at the server
+  friend bool operator==(const ServerRow&, const ServerRow&) = default;
+};
+
+/// A session that a running server publishes for commands on the same machine. They use it to write a ticket for a
+/// session given by name or code.
+struct OpenSeat {
+  std::string name;
+  AccessRole role = AccessRole::kTrainee;
+  bool taken = false, required = false;
+  friend bool operator==(const OpenSeat&, const OpenSeat&) = default;
+};
+struct OpenSession {
+  std::array<std::byte, 16> id{};
+  std::string code;  ///< 10 base32 characters; empty: tickets only
+  std::string name;
+  std::uint64_t epoch = 0;
+  std::vector<OpenSeat> seats;
+  std::string phase{};  ///< waiting, running, paused, stopped, ending; empty: unknown
+  friend bool operator==(const OpenSession&, const OpenSession&) = default;
+};
+/// State that a running server writes to serving.textproto.
+struct ServingSpec {
+  std::string address;  ///< HOST:PORT that the server listens on
+  std::vector<OpenSession> sessions;
+  friend bool operator==(const ServingSpec&, const ServingSpec&) = default;
+};
+
+}  // namespace tandem

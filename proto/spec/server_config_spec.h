@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "proto/spec/input_error.h"
+
+/// Validated configuration of a server as plain structs (proto/schema/server_config.proto).
+namespace tandem {
+
+/// A text and its location in the file, for values that only a later check can validate (an address, another file).
+struct LocatedText {
+  std::string text;  ///< empty: absent
+  std::string key;
+  int line = 0, column = 0;
+  [[nodiscard]] InputError error(const std::string& file, std::string message) const {
+    return {file, line, column, key, text, std::move(message)};
+  }
+};
+
+struct ConfiguredSessionSpec {
+  std::string name;         ///< 1 to 32 of A-Z a-z 0-9 _ -, unique in this server
+  LocatedText placed_name;  ///< the name with its location in the file
+  LocatedText scene;        ///< name of a shipped scene, or a file
+  bool tickets_only = false;
+  bool restart = true;
+  double duration_s = 0;  ///< 0: the duration of the scene
+};
+
+struct ConnectionLimitsSpec {
+  double accepts_per_s = 10, accepts_burst = 100, accepts_per_s_all = 300;
+  std::uint32_t pending = 256, connections = 2048;
+  double deadline_s = 5;
+  double load_percent = 60;
+  double core_percent = 80;
+};
+
+struct LogSpec {
+  enum class Level : std::uint8_t { kInfo, kWarn, kError };
+  bool json = false;
+  Level level = Level::kInfo;
+};
+
+struct AuditSpec {
+  double file_mib = 8;
+  std::uint32_t older_files = 7;
+};
+
+struct ServerConfigSpec {
+  std::string file;
+  LocatedText listen, state, metrics, reports;
+  std::vector<std::string> metrics_hosts;
+  std::vector<ConfiguredSessionSpec> sessions;  ///< at least one
+  ConnectionLimitsSpec limits;
+  LogSpec log;
+  AuditSpec audit;
+};
+
+}  // namespace tandem

@@ -1,0 +1,204 @@
+#include "proto/text/registry_text.h"
+
+#include <algorithm>
+#include <set>
+#include <span>
+
+#include "proto/schema/registry.pb.h"
+#include "proto/text/text_format_reader.h"
+
+namespace tandem {
+namespace {
+
+using text::child_path;
+using text::MessageValidator;
+
+constexpr std::string_view kHexDigits = "0123456789abcdef";
+
+template <std::size_t N>
+std::array<std::byte, N> bytes_from(const std::string& hex, MessageValidator& validator, const std::string& key) {
+  std::array<std::byte, N> out{};
+  bool good = hex.size() == 2 * N;
+  for (std::size_t i = 0; good && i < 2 * N; ++i) {
+    const auto digit = kHexDigits.find(hex[i]);
+    good = digit != std::string_view::npos;
+    if (good) out[i / 2] |= static_cast<std::byte>(i % 2 == 0 ? digit << 4 : digit);
+  }
+  if (!good && validator.is_set(key))
+    validator.error(key, "must be " + std::to_string(2 * N) + " lower-case hex digits");
+  return out;
+}
+
+std::string hex_of(std::span<const std::byte> bytes) {
+  std::string out;
+  for (const std::byte b : bytes) {
+    out += kHexDigits[std::to_integer<std::size_t>(b >> 4)];
+    out += kHexDigits[std::to_integer<std::size_t>(b & std::byte{15})];
+  }
+  return out;
+}
+
+/// Checks the form HOST:PORT only; a client that dials the address checks the rest.
+void check_address(const std::string& address, MessageValidator& validator, const std::string& key) {
+  const bool printable =
+      std::ranges::all_of(address, [](char c) { return c > ' ' && c <= '~' && c != '"' && c != '\\'; });
+  if (validator.is_set(key) &&
+      (address.empty() || address.size() > 96 || !printable || address.find(':') == std::string::npos))
+    validator.error(key, "must be HOST:PORT, at most 96 characters");
+}
+
+/// Rejects a value that an earlier row has.
+template <class Value>
+void once(std::set<Value>& seen, const Value& value, MessageValidator& validator, const std::string& key) {
+  if (!seen.insert(value).second) validator.error(key, "comes twice; delete one of the two rows");
+}
+
+template <class File>
+File read(std::string_view text, MessageValidator& validator) {
+  File file;
+  if (text.size() > text::kTextMax) {
+    validator.error_at({}, "", "is longer than 1 MiB");
+    return file;
+  }
+  text::read_text_format(text, file, validator);
+  validator.check_limits(file);
+  return file;
+}
+
+std::string header(std::string_view what) {
+  return "# " + std::string(what) + " Written by Tandem: a program that runs may replace it.\n";
+}
+
+std::string row(std::string_view key, const std::string& value) {
+  return "  " + std::string(key) + ": \"" + value + "\"\n";
+}
+std::string row(std::string_view key, std::uint64_t value) {
+  return "  " + std::string(key) + ": " + std::to_string(value) + "\n";
+}
+std::string row(std::string_view key, std::int64_t value) {
+  return row(key, static_cast<std::uint64_t>(std::max<std::int64_t>(value, 0)));
+}
+
+template <class T>
+std::expected<T, InputErrors> verdict(T&& value, MessageValidator& validator) {
+  if (validator.ok()) return std::forward<T>(value);
+  return std::unexpected(validator.take());
+}
+
+}  // namespace
+
+std::expected<std::vector<WorkstationRow>, InputErrors> parse_workstations(std::string_view text,
+                                                                           std::string_view file) {
+  MessageValidator validator(file);
+  const auto in = read<pb::WorkstationBookFile>(text, validator);
+  std::vector<WorkstationRow> rows;
+  std::set<std::string> names;
+  std::set<Sha256> keys;
+  for (int i = 0; i < in.workstation_size(); ++i) {
+    const pb::Workstation& w = in.workstation(i);
+    const std::string at = child_path("", "workstation", i);
+    const Sha256 spki = bytes_from<32>(w.spki_sha256(), validator, child_path(at, "spki_sha256"));
+    once(names, w.name(), validator, child_path(at, "name"));
+    once(keys, spki, validator, child_path(at, "spki_sha256"));
+    rows.push_back({w.name(), spki, static_cast<std::int64_t>(w.enrolled_at_s())});
+  }
+  return verdict(std::move(rows), validator);
+}
+
+std::expected<std::vector<CodeRow>, InputErrors> parse_codes(std::string_view text, std::string_view file) {
+  MessageValidator validator(file);
+  const auto in = read<pb::EnrolmentCodeFile>(text, validator);
+  std::vector<CodeRow> rows;
+  std::set<Sha256> hashes;
+  for (int i = 0; i < in.code_size(); ++i) {
+    const pb::EnrolmentCode& c = in.code(i);
+    const std::string at = child_path("", "code", i);
+    const Sha256 hash = bytes_from<32>(c.sha256(), validator, child_path(at, "sha256"));
+    once(hashes, hash, validator, child_path(at, "sha256"));
+    rows.push_back({hash, c.workstation(), static_cast<std::int64_t>(c.not_after_s())});
+  }
+  return verdict(std::move(rows), validator);
+}
+
+std::expected<std::vector<ServerRow>, InputErrors> parse_servers(std::string_view text, std::string_view file) {
+  MessageValidator validator(file);
+  const auto in = read<pb::KnownServerFile>(text, validator);
+  std::vector<ServerRow> rows;
+  std::set<std::string> addresses;
+  for (int i = 0; i < in.server_size(); ++i) {
+    const pb::KnownServer& s = in.server(i);
+    const std::string at = child_path("", "server", i);
+    check_address(s.address(), validator, child_path(at, "address"));
+    once(addresses, s.address(), validator, child_path(at, "address"));
+    rows.push_back({s.address(), bytes_from<32>(s.spki_sha256(), validator, child_path(at, "spki_sha256")), s.name()});
+  }
+  return verdict(std::move(rows), validator);
+}
+
+std::expected<ServingSpec, InputErrors> parse_serving(std::string_view text, std::string_view file) {
+  MessageValidator validator(file);
+  const auto in = read<pb::ServingFile>(text, validator);
+  check_address(in.address(), validator, "address");
+  ServingSpec out{in.address(), {}};
+  std::set<std::array<std::byte, 16>> ids;
+  for (int i = 0; i < in.session_size(); ++i) {
+    const pb::ServedSession& s = in.session(i);
+    const std::string at = child_path("", "session", i);
+    OpenSession session{
+        bytes_from<16>(s.id(), validator, child_path(at, "id")), s.code(), s.name(), s.epoch(), {}, s.phase()};
+    once(ids, session.id, validator, child_path(at, "id"));
+    const bool code = s.code().size() == 10 && std::ranges::all_of(s.code(), [](char c) {
+                        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z');
+                      });
+    if (!code && s.has_code()) validator.error(child_path(at, "code"), "must be 10 characters of 0-9 A-Z");
+    for (int k = 0; k < s.seat_size(); ++k) {
+      const auto role = access_role_named(s.seat(k).role());
+      if (!role && s.seat(k).has_role())
+        validator.error(child_path(child_path(at, "seat", k), "role"),
+                        "must be instructor, trainee, evaluator, observer, operator or recorder");
+      session.seats.push_back(
+          {s.seat(k).name(), role.value_or(AccessRole::kObserver), s.seat(k).taken(), s.seat(k).required()});
+    }
+    out.sessions.push_back(std::move(session));
+  }
+  return verdict(std::move(out), validator);
+}
+
+std::string print_workstations(const std::vector<WorkstationRow>& rows) {
+  std::string out = header("Enrolled workstations; to revoke one, `tandem-server revoke NAME` or delete its row.");
+  for (const WorkstationRow& r : rows)
+    out += "workstation {\n" + row("name", r.name) + row("spki_sha256", hex_of(r.spki)) +
+           row("enrolled_at_s", r.enrolled_at) + "}\n";
+  return out;
+}
+
+std::string print_codes(const std::vector<CodeRow>& rows) {
+  std::string out = header("Hashes of one-time enrolment codes that were not used yet.");
+  for (const CodeRow& r : rows)
+    out += "code {\n" + row("sha256", hex_of(r.hash)) + row("workstation", r.workstation) +
+           row("not_after_s", r.not_after) + "}\n";
+  return out;
+}
+
+std::string print_servers(const std::vector<ServerRow>& rows) {
+  std::string out = header("Servers this workstation was enrolled at.");
+  for (const ServerRow& r : rows)
+    out += "server {\n" + row("address", r.address) + row("spki_sha256", hex_of(r.spki)) + row("name", r.name) + "}\n";
+  return out;
+}
+
+std::string print_serving(const ServingSpec& serving) {
+  std::string out = header("What the running server offers.") + "address: \"" + serving.address + "\"\n";
+  for (const OpenSession& s : serving.sessions) {
+    out += "session {\n" + row("id", hex_of(s.id)) + (s.code.empty() ? std::string() : row("code", s.code)) +
+           row("name", s.name) + row("epoch", s.epoch);
+    if (!s.phase.empty()) out += row("phase", s.phase);
+    for (const OpenSeat& seat : s.seats)
+      out += "  seat { name: \"" + seat.name + "\" role: \"" + std::string(to_text(seat.role)) + "\"" +
+             (seat.taken ? " taken: true" : "") + (seat.required ? " required: true" : "") + " }\n";
+    out += "}\n";
+  }
+  return out;
+}
+
+}  // namespace tandem

@@ -1,0 +1,132 @@
+#include "proto/text/server_config_text.h"
+
+#include "proto/schema/server_config.pb.h"
+#include "proto/text/text_format_reader.h"
+
+namespace tandem {
+namespace {
+
+using text::child_path;
+using text::MessageValidator;
+
+LocatedText placed(const std::string& value, const MessageValidator& validator, const std::string& key) {
+  const text::SourceLocation place = validator.location(key);
+  return {value, key, place.line, place.column};
+}
+
+/// Rejects an empty text that was written.
+LocatedText not_empty(bool written, const std::string& value, MessageValidator& validator, const std::string& key,
+                      const char* remedy) {
+  if (written && value.empty()) validator.error(key, std::string("is empty; ") + remedy);
+  return placed(value, validator, key);
+}
+
+ConfiguredSessionSpec session_from(const pb::ConfiguredSession& in, MessageValidator& validator,
+                                   const std::string& key) {
+  ConfiguredSessionSpec out;
+  out.name = in.name();
+  out.placed_name = placed(in.name(), validator, child_path(key, "name"));
+  out.scene =
+      not_empty(in.has_scene(), in.scene(), validator, child_path(key, "scene"), "name a shipped scene or a file");
+  out.tickets_only = in.entry() == pb::ConfiguredSession::TICKETS;
+  if (in.has_restart()) out.restart = in.restart();
+  out.duration_s = in.duration_s();
+  return out;
+}
+
+ConnectionLimitsSpec limits_from(const pb::DoorLimits& in) {
+  ConnectionLimitsSpec out;
+  if (in.has_accepts_per_s()) out.accepts_per_s = in.accepts_per_s();
+  if (in.has_accepts_burst()) out.accepts_burst = in.accepts_burst();
+  if (in.has_accepts_per_s_all()) out.accepts_per_s_all = in.accepts_per_s_all();
+  if (in.has_pending()) out.pending = in.pending();
+  if (in.has_connections()) out.connections = in.connections();
+  if (in.has_deadline_s()) out.deadline_s = in.deadline_s();
+  if (in.has_load_percent()) out.load_percent = in.load_percent();
+  if (in.has_core_percent()) out.core_percent = in.core_percent();
+  return out;
+}
+
+}  // namespace
+
+std::expected<ServerConfigSpec, InputErrors> parse_server_config(std::string_view text, std::string_view file_name) {
+  InputErrors errors;
+  auto config = read_server_config(text, file_name, errors);
+  if (!errors.empty()) return std::unexpected(std::move(errors));
+  return std::move(*config);
+}
+
+std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::string_view file_name,
+                                                   InputErrors& errors) {
+  MessageValidator validator{file_name};
+  pb::ServerConfig in;
+  const bool read = text::read_document(text, file_name, in, validator);
+  errors = validator.take();
+  if (!read) return std::nullopt;
+
+  ServerConfigSpec out;
+  out.file = file_name;
+  out.listen = not_empty(in.has_listen(), in.listen(), validator, "listen", "write HOST:PORT");
+  out.state = not_empty(in.has_state(), in.state(), validator, "state", "name a folder, or leave the key out");
+  out.metrics =
+      not_empty(in.has_metrics(), in.metrics(), validator, "metrics", "write HOST:PORT, or leave the key out");
+  out.reports = not_empty(in.has_reports(), in.reports(), validator, "reports", "name a folder, or leave the key out");
+  if (in.session_size() == 0 && !validator.is_set("session[0]"))
+    validator.error("session", "is missing: a server without a session serves nobody");
+  for (int i = 0; i < in.session_size(); ++i) {
+    const std::string key = child_path("", "session", i);
+    for (const ConfiguredSessionSpec& other : out.sessions)
+      if (!in.session(i).name().empty() && other.name == in.session(i).name())
+        validator.error(child_path(key, "name"),
+                        "is the name of another session already; people must be able to tell them apart");
+    out.sessions.push_back(session_from(in.session(i), validator, key));
+  }
+  out.limits = limits_from(in.limits());
+  for (int i = 0; i < in.metrics_host_size(); ++i) {
+    const std::string& name = in.metrics_host(i);
+    if (name.empty() || name.size() > 253 || name.find_first_of(": /[]\t") != std::string::npos)
+      validator.error(child_path("", "metrics_host", i),
+                      "must be a computer's name, 1 to 253 characters, without a port");
+    out.metrics_hosts.push_back(name);
+  }
+  if (in.audit().has_file_mib()) out.audit.file_mib = in.audit().file_mib();
+  if (in.audit().has_older_files()) out.audit.older_files = in.audit().older_files();
+  out.log.json = in.log().format() == pb::LogConfig::JSON;
+  out.log.level = static_cast<LogSpec::Level>(in.log().level());
+  add_unexplained(errors, validator.take());
+  return out;
+}
+
+std::string effective_server_config_text(const ServerConfigSpec& config) {
+  pb::ServerConfig out;
+  out.set_version(1);
+  out.set_listen(config.listen.text);
+  if (!config.state.text.empty()) out.set_state(config.state.text);
+  for (const ConfiguredSessionSpec& s : config.sessions) {
+    auto& session = *out.add_session();
+    session.set_name(s.name);
+    session.set_scene(s.scene.text);
+    session.set_entry(s.tickets_only ? pb::ConfiguredSession::TICKETS : pb::ConfiguredSession::CODE);
+    session.set_restart(s.restart);
+    if (s.duration_s > 0) session.set_duration_s(s.duration_s);
+  }
+  auto& limits = *out.mutable_limits();
+  limits.set_accepts_per_s(config.limits.accepts_per_s);
+  limits.set_accepts_burst(config.limits.accepts_burst);
+  limits.set_accepts_per_s_all(config.limits.accepts_per_s_all);
+  limits.set_pending(config.limits.pending);
+  limits.set_connections(config.limits.connections);
+  limits.set_deadline_s(config.limits.deadline_s);
+  limits.set_load_percent(config.limits.load_percent);
+  limits.set_core_percent(config.limits.core_percent);
+  out.mutable_log()->set_format(config.log.json ? pb::LogConfig::JSON : pb::LogConfig::TEXT);
+  out.mutable_log()->set_level(static_cast<pb::LogConfig::Level>(config.log.level));
+  if (!config.metrics.text.empty()) out.set_metrics(config.metrics.text);
+  for (const std::string& name : config.metrics_hosts) out.add_metrics_host(name);
+  if (!config.reports.text.empty()) out.set_reports(config.reports.text);
+  out.mutable_audit()->set_file_mib(config.audit.file_mib);
+  out.mutable_audit()->set_older_files(config.audit.older_files);
+  return text::listing(out);
+}
+
+}  // namespace tandem

@@ -1,0 +1,218 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "common/base/axes.h"
+
+/// Private to proto/wire/wire_codec.cpp: writes and reads protobuf fields at fixed offsets. All fields of a body have
+/// fixed widths, so each tag, length and value has a fixed offset. This takes a tenth of the instructions of a general
+/// parser and serializer. The bytes remain Protocol Buffers; the tests WireTwin compare them with the library. One list
+/// of fields per message serves both directions. Axis counts are numbers or constants (`std::integral_constant`), for
+/// which loops unroll.
+namespace tandem::wire {
+
+static_assert(std::endian::native == std::endian::little, "values are copied as they lie in memory");
+
+/// Wire type of a field, the low three bits of its tag. A nested message is encoded like a packed array.
+enum class Encoding : std::uint32_t { kFixed64 = 1, kPacked = 2, kFixed32 = 5 };
+constexpr std::uint32_t tag(std::uint32_t number, Encoding encoding) noexcept {
+  return number << 3 | static_cast<std::uint32_t>(encoding);
+}
+
+/// The varint of a tag or length, at most 2^14 - 1, in memory order.
+constexpr bool one_byte(std::uint32_t value) noexcept { return value < 0x80; }
+constexpr std::uint16_t two_bytes(std::uint32_t value) noexcept {
+  return static_cast<std::uint16_t>((value & 0x7f) | 0x80 | (value >> 7) << 8);
+}
+
+/// Writes a whole body without range checks; the receiver checks ranges. @pre the span has room for the body
+class FieldWriter {
+ public:
+  explicit FieldWriter(std::span<std::byte> body) noexcept : at_(body.data()) {}
+
+  template <std::size_t N, class Count>
+  void doubles(std::uint32_t number, const std::array<double, N>& in, Count count, double) noexcept {
+    array(number, 8 * count);
+    copy(in.data(), count);
+  }
+  template <std::size_t N, class Count>
+  void floats(std::uint32_t number, const std::array<double, N>& in, Count count, double) noexcept {
+    array(number, 4 * count);
+    for (std::size_t i = 0; i < count; ++i) put(static_cast<float>(in[i]));
+  }
+  template <class Count>
+  void energies(std::uint32_t number, const EnergyArray& in, Count count, std::uint64_t) noexcept {
+    array(number, 8 * count);
+    copy(in.data(), count);
+  }
+  void number64(std::uint32_t number, double value, double, double) noexcept {
+    structure(tag(number, Encoding::kFixed64));
+    put(value);
+  }
+  void number32(std::uint32_t number, double value, double, double) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    put(static_cast<float>(value));
+  }
+  void word(std::uint32_t number, std::uint32_t value, std::uint32_t = 0) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    put(value);
+  }
+  void long_word(std::uint32_t number, std::uint64_t value) noexcept {
+    structure(tag(number, Encoding::kFixed64));
+    put(value);
+  }
+
+  void message(std::uint32_t number, std::size_t bytes) noexcept { array(number, bytes); }
+  void singles(std::uint32_t number, const std::array<float, 3>& in, float) noexcept {
+    array(number, sizeof in);
+    copy(in.data(), in.size());
+  }
+  void single(std::uint32_t number, float value, float) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    put(value);
+  }
+
+ private:
+  void structure(std::uint32_t value) noexcept {
+    if (one_byte(value)) {
+      put(static_cast<std::uint8_t>(value));
+    } else {
+      put(two_bytes(value));
+    }
+  }
+  void array(std::uint32_t number, std::size_t bytes) noexcept {
+    structure(tag(number, Encoding::kPacked));
+    structure(static_cast<std::uint32_t>(bytes));
+  }
+  template <class T>
+  void put(T value) noexcept {
+    std::memcpy(at_, &value, sizeof value);
+    at_ += sizeof value;
+  }
+  template <class T, class Count>
+  void copy(const T* from, Count count) noexcept {
+    std::memcpy(at_, from, sizeof(T) * count);
+    at_ += sizeof(T) * count;
+  }
+
+  std::byte* at_;
+};
+
+/// Reads the values of a body and records format, finiteness and range errors. @pre the span has the size of this
+/// message
+class FieldReader {
+ public:
+  explicit FieldReader(std::span<const std::byte> body) noexcept : at_(body.data()) {}
+
+  template <std::size_t N, class Count>
+  void doubles(std::uint32_t number, std::array<double, N>& out, Count count, double limit) noexcept {
+    array(number, 8 * count);
+    copy(out.data(), count);
+    judge(out, count, limit);
+  }
+  template <std::size_t N, class Count>
+  void floats(std::uint32_t number, std::array<double, N>& out, Count count, double limit) noexcept {
+    array(number, 4 * count);
+    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<double>(get<float>());
+    judge(out, count, limit);
+  }
+  template <class Count>
+  void energies(std::uint32_t number, EnergyArray& out, Count count, std::uint64_t limit) noexcept {
+    array(number, 8 * count);
+    copy(out.data(), count);
+    for (std::size_t i = 0; i < count; ++i) in_range_ &= out[i] <= limit;
+  }
+  void number64(std::uint32_t number, double& out, double low, double high) noexcept {
+    structure(tag(number, Encoding::kFixed64));
+    out = get<double>();
+    judge(out, low, high);
+  }
+  void number32(std::uint32_t number, double& out, double low, double high) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    out = static_cast<double>(get<float>());
+    judge(out, low, high);
+  }
+  void word(std::uint32_t number, std::uint32_t& out, std::uint32_t limit = ~std::uint32_t{0}) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    out = get<std::uint32_t>();
+    in_range_ &= out <= limit;
+  }
+  void long_word(std::uint32_t number, std::uint64_t& out) noexcept {
+    structure(tag(number, Encoding::kFixed64));
+    out = get<std::uint64_t>();
+  }
+
+  void message(std::uint32_t number, std::size_t bytes) noexcept { array(number, bytes); }
+  /// @param limit  largest magnitude
+  void singles(std::uint32_t number, std::array<float, 3>& out, float limit) noexcept {
+    array(number, sizeof out);
+    copy(out.data(), out.size());
+    for (const float value : out) judge(static_cast<double>(value), -limit, limit);
+  }
+  /// Reads a value in [0, limit].
+  void single(std::uint32_t number, float& out, float limit) noexcept {
+    structure(tag(number, Encoding::kFixed32));
+    out = get<float>();
+    judge(static_cast<double>(out), 0, limit);
+  }
+
+  void require(bool condition) noexcept { in_range_ &= condition; }
+  /// Whether all tags and lengths are those of this message: no unknown, missing, repeated or reordered fields, no
+  /// wrong lengths.
+  [[nodiscard]] bool well_formed() const noexcept { return differs_ == 0; }
+  [[nodiscard]] bool in_range() const noexcept { return in_range_; }
+  [[nodiscard]] bool finite() const noexcept { return finite_; }
+
+ private:
+  /// Accumulates differences without a branch: one branch per field costs more than all comparisons.
+  void structure(std::uint32_t value) noexcept {
+    if (one_byte(value)) {
+      differs_ |= get<std::uint8_t>() ^ value;
+    } else {
+      differs_ |= static_cast<std::uint32_t>(get<std::uint16_t>() ^ two_bytes(value));
+    }
+  }
+  void array(std::uint32_t number, std::size_t bytes) noexcept {
+    structure(tag(number, Encoding::kPacked));
+    structure(static_cast<std::uint32_t>(bytes));
+  }
+  template <class T>
+  T get() noexcept {
+    T value;
+    std::memcpy(&value, at_, sizeof value);
+    at_ += sizeof value;
+    return value;
+  }
+  template <class T, class Count>
+  void copy(T* to, Count count) noexcept {
+    std::memcpy(to, at_, sizeof(T) * count);
+    at_ += sizeof(T) * count;
+  }
+  template <std::size_t N, class Count>
+  void judge(const std::array<double, N>& values, Count count, double limit) noexcept {
+    bool good = true;
+    for (std::size_t i = 0; i < count; ++i) good &= std::abs(values[i]) <= limit;  // false for NaN
+    if (good) [[likely]]
+      return;
+    in_range_ = false;
+    for (std::size_t i = 0; i < count; ++i) finite_ = finite_ && std::isfinite(values[i]);
+  }
+  void judge(double value, double low, double high) noexcept {
+    if (!(value >= low && value <= high)) [[unlikely]] {  // also true for NaN
+      in_range_ = false;
+      finite_ = finite_ && std::isfinite(value);
+    }
+  }
+
+  const std::byte* at_;
+  std::uint32_t differs_ = 0;
+  bool in_range_ = true, finite_ = true;
+};
+
+}  // namespace tandem::wire

@@ -1,0 +1,90 @@
+#include <cstdio>
+#include <memory>
+
+#include "common/auth/enrolment.h"
+#include "common/io/number_option.h"
+#include "common/io/remote_address.h"
+#include "common/io/socket_address.h"
+#include "server/app/commands/auth_commands.h"
+#include "server/app/commands/state_option.h"
+
+namespace tandem::server {
+namespace {
+
+struct EnrollArguments {
+  std::string name, address, state, hours = "24";
+};
+
+constexpr double kHoursMax = 720;
+
+int enroll_command(const EnrollArguments& arguments) {
+  std::vector<std::string> mistakes;
+  if (!auth::is_valid_name(arguments.name))
+    mistakes.push_back("NAME: \"" + arguments.name + "\" must have 1 to 32 characters of A-Z a-z 0-9 _ -");
+  std::string hours = arguments.hours;
+  if (const auto problem = io::number_in(0.01, kHoursMax, "h")(hours); !problem.empty())
+    mistakes.push_back("--hours: " + problem);
+  if (!arguments.address.empty())
+    if (const auto problem = io::remote_address_error(arguments.address); !problem.empty())
+      mistakes.push_back("--address: " + problem);
+  if (!mistakes.empty()) return print_usage_errors("enroll", mistakes);
+
+  auto state = open_state(arguments.state);
+  if (!state) return print_error("enroll", state.error());
+  auth::EnrolmentString out;
+  out.address = arguments.address;
+  if (out.address.empty()) {
+    const auto serving = state->read_serving();
+    if (!serving) return print_error("enroll", serving.error());
+    if (!*serving)
+      return print_usage_errors("enroll", {"--address is required: no server runs from " + state->folder()->path() +
+                                           " that could tell where it listens"});
+    out.address = (*serving)->address;
+    if (const auto problem = io::remote_address_error(out.address); !problem.empty())
+      return print_usage_errors("enroll", {"--address is required: the running server listens on " + problem});
+  }
+  out.server = state->identity().fingerprint();
+  auth::fill_random(out.code.bytes);
+  const std::int64_t now = auth::wall_seconds();
+  const auto life = static_cast<std::int64_t>(std::stod(hours) * 3600.0);
+  if (const std::string problem = state->issue_code(out.code, arguments.name, now, now + life); !problem.empty())
+    return print_error("enroll", problem);
+  warn_audit_failure("enroll", *state);
+  std::string text = out.to_text();
+  std::printf("%s\n", text.c_str());
+  wipe(text);
+  std::fprintf(
+      stderr,
+      "type on %s, within %s h: tandem-client enroll STRING\nthe string is a secret until then, and good once\n",
+      arguments.name.c_str(), hours.c_str());
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_enroll_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<EnrollArguments>();
+  CLI::App* const command = root.add_subcommand(
+      "enroll", "Gives out a one-time string with which one workstation becomes known to this server.");
+  command->add_option("NAME", arguments->name, "what the workstation shall be called here, such as touch-07")
+      ->option_text(" ")
+      ->required();
+  command
+      ->add_option("--address", arguments->address,
+                   "where workstations reach this server; default: where the running server listens")
+      ->option_text("HOST:PORT");
+  command->add_option("--hours", arguments->hours, "how long the string is good [h], 0.01 to 720; default 24")
+      ->option_text("H");
+  add_state_option(*command, arguments->state);
+  command->footer(
+      "Prints one string to standard output: the server's address, its key's SHA-256 and a code of 128 bits, of which "
+      "the server keeps a\n"
+      "hash only. A second string for the same name makes the first one void. The server may run meanwhile.\n"
+      "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments.\n\n"
+      "Examples\n"
+      "  tandem-server enroll touch-07 --address lab-server:7000\n"
+      "  tandem-server enroll touch-08 --address lab-server:7000 --hours 2 > touch-08.txt");
+  command->callback([arguments, &action] { action = [arguments] { return enroll_command(*arguments); }; });
+}
+
+}  // namespace tandem::server

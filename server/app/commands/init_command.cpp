@@ -1,0 +1,62 @@
+#include <cstdio>
+#include <memory>
+
+#include "common/io/print.h"
+#include "server/app/commands/auth_commands.h"
+#include "server/app/commands/state_option.h"
+
+namespace tandem::server {
+namespace {
+
+int init_command(const std::string& state) {
+  const auto path = auth::server_state_path(state);
+  if (!path) return print_usage_errors("init", {path.error()});
+  const std::int64_t now = auth::wall_seconds();
+  const auto fingerprint = auth::ServerKeystore::init(*path, now);
+  if (!fingerprint) return print_error("init", fingerprint.error());
+  if (auto made = auth::ServerKeystore::open(*path)) {
+    made->audit(now, "init", "", fingerprint->hex());
+    warn_audit_failure("init", *made);
+  }
+  std::printf("state folder %s\nserver key   %s\n", path->c_str(), fingerprint->hex().c_str());
+  io::print_formatted(stderr, "next, once for each workstation: tandem-server enroll NAME --address HOST:PORT%s\n",
+                      auth::server_state_option(*path).c_str());
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+int rotate_ticket_key(const std::string& state) {
+  const auto path = auth::server_state_path(state);
+  if (!path) return print_usage_errors("init", {path.error()});
+  if (const std::string problem = auth::ServerKeystore::rotate_ticket_key(*path, auth::wall_seconds());
+      !problem.empty())
+    return print_error("init", problem);
+  std::printf("state folder %s\nnew ticket key: every ticket given out before is void; workstations and codes stay\n",
+              path->c_str());
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_init_command(CLI::App& root, std::function<int()>& action) {
+  const auto state = std::make_shared<std::string>();
+  CLI::App* const command = root.add_subcommand(
+      "init", "Makes a server's keys and empty books, once; needed before it may listen on a network.");
+  add_state_option(*command, *state);
+  const auto tickets = std::make_shared<bool>(false);
+  command->add_flag("--new-ticket-key", *tickets,
+                    "replaces only the key that signs tickets, in a folder that was set up: every ticket given out "
+                    "before is void; no server may run from it");
+  command->footer(
+      "The folder gets mode 0700, its files 0600; whoever can read them can be this server. Run it as the user the "
+      "server runs as.\n"
+      "Prints the SHA-256 of the server's key, by which workstations know it.\n"
+      "Exit: 0 done; 1 it exists already or cannot be written; 2 wrong arguments.\n\n"
+      "Examples\n"
+      "  tandem-server init\n"
+      "  tandem-server init --state ./state");
+  command->callback([state, tickets, &action] {
+    action = [state, tickets] { return *tickets ? rotate_ticket_key(*state) : init_command(*state); };
+  });
+}
+
+}  // namespace tandem::server

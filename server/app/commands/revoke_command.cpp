@@ -1,0 +1,51 @@
+#include <cstdio>
+#include <memory>
+
+#include "server/app/commands/auth_commands.h"
+#include "server/app/commands/state_option.h"
+
+namespace tandem::server {
+namespace {
+
+struct RevokeArguments {
+  std::string name, state;
+};
+
+int revoke_command(const RevokeArguments& arguments) {
+  auto state = open_state(arguments.state);
+  if (!state) return print_error("revoke", state.error());
+  const auto book = state->workstations();
+  if (!book) return print_error("revoke", book.error());
+  const auto gone = state->revoke(arguments.name);
+  if (!gone) return print_error("revoke", gone.error());
+  if (gone->workstations + gone->codes == 0)
+    return print_usage_errors("revoke",
+                              {"NAME: " + unknown_workstation_text(arguments.name, *book, state->folder()->path())});
+  state->audit(auth::wall_seconds(), "revoked", arguments.name);
+  warn_audit_failure("revoke", *state);
+  std::printf("%s: %s%s\n", arguments.name.c_str(),
+              gone->workstations > 0 ? "its key is refused from now on" : "was not enrolled",
+              gone->codes > 0 ? "; its enrolment string is void" : "");
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_revoke_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<RevokeArguments>();
+  CLI::App* const command =
+      root.add_subcommand("revoke", "Makes a workstation unknown: its key, and an enrolment string not used yet.");
+  command->add_option("NAME", arguments->name, "the workstation, as it was enrolled")->option_text(" ")->required();
+  add_state_option(*command, arguments->state);
+  command->footer(
+      "A running server refuses the workstation at its next word, tickets made for it included, and within a second "
+      "releases the\n"
+      "hand at a seat it has, and ends its other connections.\n"
+      "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments, or nobody of this name.\n\n"
+      "Examples\n"
+      "  tandem-server revoke touch-07\n"
+      "  tandem-server revoke touch-07 --state ./state");
+  command->callback([arguments, &action] { action = [arguments] { return revoke_command(*arguments); }; });
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,175 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "common/auth/enrolment.h"
+#include "common/io/print.h"
+#include "proto/io/scene_file.h"
+#include "proto/text/server_config_text.h"
+#include "server/app/commands/server_commands.h"
+#include "server/app/control/control_server.h"
+#include "server/app/process/server_process.h"
+
+namespace tandem::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWrong = 2;
+
+struct ServeArguments {
+  std::string config;
+  bool check = false, quiet = false;
+};
+
+/// Path that the configuration names, relative to the configuration's directory.
+std::string path_beside_config(const ServerConfigSpec& config, const std::string& named) {
+  if (named.empty() || fs::path(named).is_absolute()) return named;
+  const fs::path folder = fs::path(config.file).parent_path();
+  return folder.empty() ? named : (folder / named).string();
+}
+
+/// A bare name is a shipped scene, unless a file of this name is beside the configuration.
+std::string scene_file(const ServerConfigSpec& config, const std::string& named) {
+  const bool bare = named.find_first_of("/.") == std::string::npos;
+  const std::string file = path_beside_config(config, named);
+  std::error_code error;
+  return bare && !fs::is_regular_file(file, error) ? named : file;
+}
+
+std::string folder_error(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return "is not a folder; make it first";
+  return ::access(path.c_str(), W_OK | X_OK) == 0 ? "" : "is not writable for this user";
+}
+
+SessionOptions session_options_from(const ServerConfigSpec& config, const ConfiguredSessionSpec& in,
+                                    InputErrors& errors) {
+  SessionOptions out;
+  out.name = in.name;
+  out.tickets_only = in.tickets_only;
+  out.restart = in.restart;
+  out.reports = path_beside_config(config, config.reports.text);
+  if (in.scene.text.empty()) return out;  // reported already
+  if (auto scene = load_scene(scene_file(config, in.scene.text))) {
+    out.scene = std::move(*scene);
+  } else {
+    // Errors of the scene file, each with the place in the configuration that names it.
+    for (const InputError& error : scene.error()) errors.push_back(in.scene.error(config.file, to_text(error)));
+  }
+  if (auth::canonical_session_code(in.name))
+    errors.push_back(in.placed_name.error(
+        config.file,
+        "reads as a session's code (10 letters and digits), so nobody could join by this name; choose a shorter one"));
+  if (in.duration_s > 0) out.scene.duration = in.duration_s;
+  return out;
+}
+
+ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors) {
+  ServerOptions plan;
+  plan.command = "serve";
+  plan.sessions_resume = true;
+  plan.state = path_beside_config(config, config.state.text);
+  if (const auto listen = io::parse_address(config.listen.text, 0)) {
+    plan.listen = *listen;
+    if (const std::string problem = ControlServer::problem_with_address(*listen); !problem.empty())
+      errors.push_back(config.listen.error(config.file, problem));
+    const LocatedText& keys = config.state.text.empty() ? config.listen : config.state;
+    for (const std::string& problem : ControlServer::problems_with_keys(*listen, plan.state))
+      errors.push_back(keys.error(config.file, problem));
+  } else if (!config.listen.text.empty()) {
+    errors.push_back(config.listen.error(config.file, listen.error()));
+  }
+  if (!config.metrics.text.empty()) {
+    if (const auto metrics = io::parse_address(config.metrics.text, 0)) {
+      plan.metrics = *metrics;
+      if (const std::string problem = ControlServer::problem_with_address(*metrics); !problem.empty())
+        errors.push_back(config.metrics.error(config.file, problem));
+    } else {
+      errors.push_back(config.metrics.error(config.file, metrics.error()));
+    }
+  }
+  if (!config.reports.text.empty())
+    if (const std::string problem = folder_error(path_beside_config(config, config.reports.text)); !problem.empty())
+      errors.push_back(config.reports.error(config.file, problem));
+  for (const ConfiguredSessionSpec& session : config.sessions)
+    plan.sessions.push_back(session_options_from(config, session, errors));
+  const ConnectionLimitsSpec& limits = config.limits;
+  plan.limits.accept = {limits.accepts_per_s, limits.accepts_burst, limits.accepts_per_s_all, limits.accepts_per_s_all};
+  plan.limits.pending = limits.pending;
+  plan.limits.connections = limits.connections;
+  plan.limits.deadline = std::chrono::milliseconds(static_cast<std::int64_t>(limits.deadline_s * 1000));
+  plan.metrics_hosts = config.metrics_hosts;
+  plan.audit = {static_cast<std::uint64_t>(config.audit.file_mib * (1 << 20)), config.audit.older_files};
+  plan.load_limits = {limits.load_percent / 100, limits.core_percent / 100};
+  if (config.log.json) plan.json_log = static_cast<io::Level>(config.log.level);
+  return plan;
+}
+
+int refuse(const InputErrors& errors) {
+  io::print(stderr, to_text(errors));
+  io::print_formatted(stderr, "tandem-server serve: %zu mistake%s, nothing was started\n", errors.size(),
+                      errors.size() == 1 ? "" : "s");
+  return kWrong;
+}
+
+int serve_command(const ServeArguments& arguments) {
+  const auto text = read_text_file(arguments.config);
+  if (!text) return refuse(text.error());
+  InputErrors errors, more;
+  const auto config = read_server_config(*text, arguments.config, errors);
+  if (!config) return refuse(errors);
+  // Continues after errors, so that all of them are reported at once.
+  ServerOptions plan = parse_options(*config, more);
+  errors.insert(errors.end(), more.begin(), more.end());
+  if (!errors.empty()) return refuse(errors);
+  plan.quiet = arguments.quiet;
+  if (plan.metrics && !plan.metrics->loopback())
+    io::print_formatted(stderr, "%s\n",
+                        to_text(config->metrics.error(config->file, kUnprotectedMetricsWarning)).c_str());
+  if (!arguments.check) return run_server(plan);
+  std::printf("%s# OK: %s has no mistake; nothing was started\n", effective_server_config_text(*config).c_str(),
+              arguments.config.c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_serve_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<ServeArguments>();
+  CLI::App* const command =
+      root.add_subcommand("serve", "Hosts all sessions of a configuration, until it is told to end.");
+  command
+      ->add_option("CONFIG", arguments->config,
+                   "a file of proto/schema/server_config.proto; server/README.md has the table of its keys")
+      ->option_text(" ")
+      ->required();
+  command->add_flag("--check", arguments->check,
+                    "only checks everything, the state folder too, and prints every value in force, with units");
+  command->add_flag("--quiet", arguments->quiet, "no status and no summaries");
+  command->footer(
+      "Prints `listening on HOST:PORT` first, then the commands that people type; on a terminal with each session's "
+      "code, elsewhere\n"
+      "`tandem-server sessions` shows the codes. A session that is over opens again, with another code, unless\n"
+      "`restart: false`. SIGTERM or Ctrl-C: new joins are rejected, all hands are released, reports are written, the "
+      "end within 3 s; a second\n"
+      "one ends at once. Started again within 10 min, however it ended, every session goes on where it was, with the "
+      "same code, and its\n"
+      "clients reconnect to their seats automatically. Sessions of different tick rates have threads of their own, "
+      "behind one port.\n"
+      "Exit: 0 ended by a signal, or all sessions over and passed; 1 trouble while running or verdict fail; 2 wrong "
+      "arguments or files.\n\n"
+      "Examples\n"
+      "  tandem-server serve /etc/tandem/server.textproto --check\n"
+      "  tandem-server serve server.textproto --quiet\n\n"
+      "The file has at least\n"
+      "  version: 1\n"
+      "  listen: \"0.0.0.0:7000\"\n"
+      "  session { name: \"lab\" scene: \"free_motion\" }");
+  command->callback([arguments, &action] { action = [arguments] { return serve_command(*arguments); }; });
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,65 @@
+#include <cstdio>
+#include <memory>
+
+#include "proto/rpc/session_list_text.h"
+#include "server/app/commands/server_commands.h"
+#include "server/app/commands/state_option.h"
+#include "server/app/control/session_registry.h"
+
+namespace tandem::server {
+namespace {
+
+struct SessionsArguments {
+  std::string state;
+  bool json = false;
+};
+
+rpc::SessionPhase phase_named(const std::string& name) {
+  for (int i = 0; i <= static_cast<int>(rpc::SessionPhase::kOverloaded); ++i)
+    if (name == rpc::to_text(static_cast<rpc::SessionPhase>(i))) return static_cast<rpc::SessionPhase>(i);
+  return rpc::SessionPhase::kWaiting;
+}
+
+int sessions_command(const SessionsArguments& arguments) {
+  const auto state = open_state(arguments.state);
+  if (!state) return print_error("sessions", state.error());
+  const auto serving = state->read_serving();
+  if (!serving) return print_error("sessions", serving.error());
+  if (!*serving)
+    return print_error("sessions",
+                       "no server runs from " + state->folder()->path() +
+                           "; a server with ephemeral keys has no folder: tandem-client sessions --server HOST:PORT");
+  rpc::SessionList list;
+  std::vector<std::string> codes;
+  for (const OpenSession& s : (*serving)->sessions) {
+    rpc::ListedSession& out = list.sessions.emplace_back();
+    out.id = s.id;
+    out.name = s.name;
+    out.phase = phase_named(s.phase);
+    for (const OpenSeat& seat : s.seats) out.seats.push_back({seat.name, seat.role, seat.taken, seat.required});
+    codes.push_back(s.code.empty() ? "" : code_text(s.code));
+  }
+  if (!arguments.json) std::printf("server at %s\n", (*serving)->address.c_str());
+  std::fputs((arguments.json ? session_list_json(list, codes) : session_list_text(list, codes)).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_sessions_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<SessionsArguments>();
+  CLI::App* const command =
+      root.add_subcommand("sessions", "Lists the sessions of the running server: codes, phases, seats.");
+  command->alias("status");
+  add_state_option(*command, arguments->state);
+  command->add_flag("--json", arguments->json, "for machines");
+  command->footer(
+      "`status` is the same. What it says is at most a second old. Exit: 0 done; 1 no server runs from this folder, or "
+      "it cannot be read; 2 wrong arguments.\n\n"
+      "Examples\n"
+      "  tandem-server sessions --json\n"
+      "  tandem-server sessions --state ./state");
+  command->callback([arguments, &action] { action = [arguments] { return sessions_command(*arguments); }; });
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/auth/io/server_keystore.h"
+#include "common/base/suggestions.h"
+
+/// Shared by the commands that use a server's state directory.
+namespace tandem::server {
+
+inline void add_state_option(CLI::App& command, std::string& state) {
+  command
+      .add_option("--state", state,
+                  "the server's state folder; default: $TANDEM_STATE, else /var/lib/tandem where this user may write, "
+                  "else ~/.local/state/tandem")
+      ->option_text("DIR");
+}
+
+/// Prints all usage errors. @return exit code 2
+[[nodiscard]] inline int print_usage_errors(const char* command, const std::vector<std::string>& mistakes) {
+  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
+  std::fprintf(stderr, "tandem-server %s: %zu mistake%s, nothing was done\n", command, mistakes.size(),
+               mistakes.size() == 1 ? "" : "s");
+  return 2;
+}
+[[nodiscard]] inline int print_error(const char* command, const std::string& what) {
+  std::fprintf(stderr, "tandem-server %s: %s\n", command, what.c_str());
+  return 1;
+}
+
+/// Warns, after a command has succeeded, if the audit log could not record it.
+inline void warn_audit_failure(const char* command, const auth::ServerKeystore& state) {
+  if (const std::string& what = state.audit_log().error(); !what.empty())
+    std::fprintf(stderr, "tandem-server %s: it is done, but the audit log does not say so: %s\n", command,
+                 what.c_str());
+}
+
+/// Opens the state directory that `--state` names, or the default one. @return the keystore, or the error and its
+/// remedy
+[[nodiscard]] inline std::expected<auth::ServerKeystore, std::string> open_state(const std::string& option) {
+  const auto path = auth::server_state_path(option);
+  if (!path) return std::unexpected(path.error());
+  std::error_code error;
+  if (!std::filesystem::exists(*path, error) && !error)
+    return std::unexpected(
+        "there is no state folder " + *path +
+        ". Name the server's folder with --state. A server on loopback that was started without --state has no folder "
+        "and needs no "
+        "`tandem-server` commands: use `tandem-client sessions --server HOST:PORT` and `tandem-client control --server "
+        "HOST:PORT`. For a server on a network: `tandem-server init" +
+        auth::server_state_option(*path) + "`");
+  return auth::ServerKeystore::open(*path);
+}
+
+/// Error message for an unknown name: `no workstation is called "tuch-07"; did you mean touch-07?`
+[[nodiscard]] inline std::string unknown_workstation_text(const std::string& name,
+                                                          const std::vector<WorkstationRow>& book,
+                                                          const std::string& folder) {
+  std::vector<std::string> names;
+  for (const WorkstationRow& row : book) names.push_back(row.name);
+  return "no workstation is called \"" + name + "\"; " +
+         (names.empty()
+              ? "none is enrolled: run `tandem-server enroll" + auth::server_state_option(folder) + " " + name + "`"
+              : suggest(name, names));
+}
+
+}  // namespace tandem::server

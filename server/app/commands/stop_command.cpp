@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "common/base/format.h"
+#include "common/io/number_option.h"
+#include "common/io/print.h"
+#include "server/app/commands/server_commands.h"
+#include "server/app/commands/state_option.h"
+
+namespace tandem::server {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kLook = std::chrono::milliseconds(200);
+constexpr auto kLate = std::chrono::seconds(10);  // after the grace; a draining server ends within 3 s of it
+
+struct StopArguments {
+  std::string state, grace = "0";
+  bool no_wait = false;
+};
+
+std::string participants_text(const ServingSpec& serving) {
+  std::size_t sessions = 0, people = 0;
+  for (const OpenSession& s : serving.sessions) {
+    sessions += s.phase == "ending" ? 0 : 1;
+    for (const OpenSeat& seat : s.seats) people += seat.taken ? 1 : 0;
+  }
+  return format("%zu session%s, %zu %s", sessions, sessions == 1 ? "" : "s", people,
+                people == 1 ? "person on a seat" : "people on their seats");
+}
+
+/// Waits until the server has ended. Prints the progress every ten seconds, and every second in the last five.
+int wait_for_drain(const auth::ServerKeystore& state, std::uint32_t grace_s) {
+  const auto due = Clock::now() + std::chrono::seconds(grace_s);
+  long told = static_cast<long>(grace_s) + 10;
+  while (true) {
+    const auto serving = state.read_serving();
+    if (!serving) return print_error("stop", serving.error());
+    if (!*serving) break;
+    const auto now = Clock::now();
+    const long left = std::max(0L, static_cast<long>(std::chrono::ceil<std::chrono::seconds>(due - now).count()));
+    if (told / 10 != left / 10 || (left <= 5 && left != told))
+      io::print_formatted(stdout, "DRAINING: %ld s left, %s\n", left, participants_text(**serving).c_str());
+    std::fflush(stdout);
+    told = left;
+    if (now > due + kLate)
+      return print_error("stop",
+                         "the server is still there 10 s after it should have ended: does it stand still (SIGSTOP, a "
+                         "debugger)? `kill -KILL` ends it; each client releases its own hand");
+    std::this_thread::sleep_for(kLook);
+  }
+  io::print_formatted(stdout, "the server has ended\n");
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+int stop_command(const StopArguments& arguments) {
+  std::string grace = arguments.grace;
+  if (const auto problem = io::number_in(0, 3600, "s")(grace); !problem.empty())
+    return print_usage_errors("stop", {"--grace: " + problem});
+  const auto grace_s = static_cast<std::uint32_t>(std::stod(grace));
+  auto state = open_state(arguments.state);
+  if (!state) return print_error("stop", state.error());
+  const auto serving = state->read_serving();
+  if (!serving) return print_error("stop", serving.error());
+  if (!*serving)
+    return print_error("stop", "no server runs from " + state->folder()->path() +
+                                   "; a loopback server with ephemeral keys has no folder: Ctrl-C where it runs, or "
+                                   "`tandem-client control --server HOST:PORT drain`");
+  if (const std::string problem = state->request_shutdown(grace_s); !problem.empty())
+    return print_error("stop", problem);
+  state->audit(auth::wall_seconds(), "stop_requested", "", format("in %u s", grace_s));
+  warn_audit_failure("stop", *state);
+  io::print_formatted(stdout,
+                      "server at %s: new joins are rejected; all hands are released in %u s, then the server ends\n",
+                      (*serving)->address.c_str(), grace_s);
+  std::fflush(stdout);
+  return arguments.no_wait ? 0 : wait_for_drain(*state, grace_s);
+}
+
+}  // namespace
+
+void add_stop_command(CLI::App& root, std::function<int()>& action) {
+  const auto arguments = std::make_shared<StopArguments>();
+  CLI::App* const command = root.add_subcommand(
+      "stop", "Ends the server that runs on this computer: rejects new joins and releases all hands.");
+  add_state_option(*command, arguments->state);
+  command
+      ->add_option("--grace", arguments->grace,
+                   "until all hands are released [s], 0 to 3600, whole seconds; default 0: at once")
+      ->option_text("S");
+  command->add_flag("--no-wait", arguments->no_wait,
+                    "returns at once; else it shows how far the server is until it has ended");
+  command->footer(
+      "Sessions of `serve` are kept: started again within 10 min, it goes on with them. Ctrl-C ends this command, not "
+      "what it asked for.\n"
+      "The same without a grace: `kill -TERM PID`, Ctrl-C where it runs, or, as a service, `systemctl stop "
+      "tandem-server`. From another\n"
+      "computer: `tandem-client control drain`.\n"
+      "Exit: 0 the server has ended (--no-wait: it was asked to); 1 no server runs from this folder, or it does not "
+      "end; 2 wrong arguments.\n\n"
+      "Examples\n"
+      "  tandem-server stop --grace 60\n"
+      "  tandem-server stop --state ./state --no-wait");
+  command->callback([arguments, &action] { action = [arguments] { return stop_command(*arguments); }; });
+}
+
+}  // namespace tandem::server

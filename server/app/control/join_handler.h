@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+
+#include "common/auth/exporter_context.h"
+#include "common/auth/io/server_keystore.h"
+#include "common/auth/limiter.h"
+#include "proto/rpc/rpc_messages.h"
+
+namespace tandem::server {
+
+/// Request to join. The workstation is enrolled at the time of the request and has proved its key.
+struct JoinRequest {
+  rpc::Hello hello;
+  std::uint32_t version = 0;  ///< protocol version: the highest that both ends support
+  WorkstationRow workstation;
+  auth::Source source;
+  std::string address;  ///< of the peer, for logs
+};
+
+using JoinReply = std::variant<rpc::Welcome, rpc::ErrorReply>;
+
+/// Decides about sessions and seats. All calls come from the control plane's thread; none may block. A reply may come
+/// at once or later, from any thread, exactly once, and only while the control plane's io_context exists. Tickets are
+/// redeemed by `ServerKeystore::redeem` on the control plane's thread, as late as possible. A redeemed ticket is used,
+/// unless `ServerKeystore::restore_ticket` makes it valid again after a failed join.
+class JoinHandler {
+ public:
+  virtual ~JoinHandler() = default;
+
+  /// Resolves session and seat and checks the credential. With a Welcome the seat is reserved from now on.
+  virtual void admit(const JoinRequest& request, std::function<void(JoinReply)> answer) = 0;
+  /// Called just before a Welcome is sent, with the secrets of the seat's datagrams. Datagrams under these keys may
+  /// arrive from now on.
+  virtual void on_joined(const JoinRequest& request, const rpc::Welcome& welcome,
+                         const Secret<auth::kExportSize>& secrets) = 0;
+  /// A Welcome could not be sent: the seat is free again.
+  virtual void on_join_failed(const rpc::Welcome& welcome) = 0;
+
+  [[nodiscard]] virtual rpc::SessionList list(const WorkstationRow& workstation) = 0;
+
+  /// Executes a command of a joined connection: stop, pause, resume, authority, remove, status, drain. Replies with
+  /// Ok, Status, AuthorityReply or ErrorReply.
+  virtual void command(const rpc::Welcome& standing, const WorkstationRow& workstation, const rpc::Body& command,
+                       std::function<void(rpc::Body)> answer) = 0;
+  /// Whether a Welcome is still valid: the seat was not resumed elsewhere or taken away, and the session is not over.
+  /// Otherwise the connection counts as one that never joined.
+  [[nodiscard]] virtual bool is_current(const rpc::Welcome& standing) const = 0;
+  /// The control connection of a joined client has ended. A seat stays occupied while its datagrams arrive.
+  /// @param in_vain  all its commands except status queries were rejected, so its ticket may become valid again
+  virtual void on_disconnected(const rpc::Welcome& standing, bool in_vain) = 0;
+};
+
+/// Reply to a rejected ticket.
+[[nodiscard]] inline rpc::ErrorReply ticket_error_reply(const auth::ServerKeystore::RedeemFailure& trouble) {
+  if (trouble.fault) return {rpc::ErrorCode::kTicket, trouble.text, 0};
+  return {rpc::ErrorCode::kInternal,
+          "the server cannot record that a ticket is used, so it accepts no tickets; the ticket stays good. Ask the "
+          "administrator of the server: its log has the cause",
+          0};
+}
+
+}  // namespace tandem::server

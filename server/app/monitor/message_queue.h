@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tandem::server {
+
+/// Terminal messages from other threads. The thread that owns the terminal prints them above the status line. If the
+/// queue is full, new messages are dropped and counted.
+class MessageQueue {
+ public:
+  static constexpr std::size_t kMax = 256;
+  enum class Severity { kInfo, kWarning, kError };
+  struct Line {
+    Severity severity = Severity::kInfo;
+    std::string text;
+  };
+
+  void add(Severity weight, std::string text) {
+    const std::lock_guard lock{lock_};
+    if (lines_.size() < kMax) {
+      lines_.push_back({weight, std::move(text)});
+    } else {
+      ++dropped_;
+    }
+  }
+  [[nodiscard]] std::vector<Line> take() {
+    const std::lock_guard lock{lock_};
+    if (const std::size_t dropped = std::exchange(dropped_, 0); dropped > 0)
+      lines_.push_back({Severity::kWarning, std::to_string(dropped) + " more lines came at once and are left out"});
+    return std::exchange(lines_, {});
+  }
+
+ private:
+  std::mutex lock_;
+  std::vector<Line> lines_;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,178 @@
+#include "server/app/monitor/metrics.h"
+
+#include <prometheus/text_serializer.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/io/clock.h"
+#include "common/io/log.h"
+
+namespace tandem::server {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+using Labels = std::vector<ClientMetric::Label>;
+
+constexpr Duration kTickAgeMax = std::chrono::seconds(1);
+
+/// A metrics page under construction. Families appear in the order of their first value.
+class Families {
+ public:
+  void count(const char* name, const char* help, Labels labels, double value) {
+    metric(name, help, MetricType::Counter, std::move(labels)).counter.value = value;
+  }
+  void gauge(const char* name, const char* help, Labels labels, double value) {
+    metric(name, help, MetricType::Gauge, std::move(labels)).gauge.value = value;
+  }
+  void ticks(const char* name, const char* help, Labels labels, const TickHistogram& counts) {
+    ClientMetric::Histogram& h = metric(name, help, MetricType::Histogram, std::move(labels)).histogram;
+    std::uint64_t so_far = 0;
+    for (std::size_t i = 0; i < TickHistogram::kBounds.size(); ++i)
+      h.bucket.push_back({so_far += counts.count(i), TickHistogram::kBounds[i]});
+    h.sample_count = so_far + counts.count(TickHistogram::kBounds.size());
+    h.sample_sum = counts.sum();
+  }
+  [[nodiscard]] std::string text() const { return prometheus::TextSerializer{}.Serialize(families_); }
+
+ private:
+  ClientMetric& metric(const char* name, const char* help, MetricType type, Labels labels) {
+    for (MetricFamily& family : families_)
+      if (family.name == name) return add(family, std::move(labels));
+    MetricFamily& family = families_.emplace_back();
+    family.name = name;
+    family.help = help;
+    family.type = type;
+    return add(family, std::move(labels));
+  }
+  static ClientMetric& add(MetricFamily& family, Labels labels) {
+    ClientMetric& made = family.metric.emplace_back();
+    made.label = std::move(labels);
+    return made;
+  }
+  std::vector<MetricFamily> families_;
+};
+
+const char* to_text(transport::DropReason reason) {
+  constexpr const char* kNames[] = {"header", "connection", "too_old", "tag", "duplicate", "body", "rate", "role"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(transport::DropReason::kCount));
+  return kNames[static_cast<std::size_t>(reason)];
+}
+
+void describe_seat(Families& page, const Labels& who, const SeatStatus& seat) {
+  const auto with = [&](const char* name, std::string value) {
+    Labels labels = who;
+    labels.push_back({name, std::move(value)});
+    return labels;
+  };
+  page.gauge("tandem_seat_taken", "Whether a client has joined this seat", who, seat.taken ? 1 : 0);
+  page.gauge("tandem_authority", "Authority of the seat over the tool it follows", who, seat.alpha);
+  page.gauge("tandem_gate_state", "Force gate: 0 off, 1 zero, 2 ramp-in, 3 active, 4 releasing, 5 latched, 6 fault",
+             who, static_cast<double>(seat.gate));
+  page.count("tandem_gate_trip_total", "Times the force gate tripped", who, seat.gate_trips);
+  page.gauge("tandem_energy_joules", "Least unspent energy of the seat's ledger so far", with("port", "margin"),
+             seat.margin_j);
+  if (!seat.taken) return;  // the other metrics are per connection
+  page.gauge("tandem_loop_age_seconds", "How old the newest echo of the seat is", who, seat.loop_age_s);
+  page.gauge("tandem_rtt_seconds", "Round trip including the wait for the next tick", with("quantile", "0.5"),
+             1e-3 * seat.link.rtt_p50_ms);
+  page.gauge("tandem_rtt_seconds", "", with("quantile", "0.99"), 1e-3 * seat.link.rtt_p99_ms);
+  page.count("tandem_udp_accepted_total", "Datagrams that acted", who, static_cast<double>(seat.accepted));
+  page.count("tandem_udp_late_total", "Authentic datagrams older than one that had acted", who,
+             static_cast<double>(seat.late));
+  page.count("tandem_udp_lost_total", "Datagrams that did not arrive", who, static_cast<double>(seat.lost));
+  page.count("tandem_client_tick_late_total", "Late servo ticks of the client's machine", who, seat.late_ticks);
+}
+
+std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, const AuditState& audit) {
+  Families page;
+  std::array<std::uint64_t, static_cast<std::size_t>(transport::DropReason::kCount)> refused{};
+  std::array<std::size_t, static_cast<std::size_t>(rpc::SessionPhase::kOverloaded) + 1> sessions{};
+  std::uint64_t stray = 0;
+  for (const SessionRegistry::Registration* opening : registry.registrations()) {
+    const SessionStatus status = opening->session->status();
+    ++sessions[static_cast<std::size_t>(SessionRegistry::phase_of(status.state))];
+    stray += status.unmatched_datagrams;
+    const auto& seats = opening->session->scene().seats;
+    for (std::size_t i = 0; i < seats.size(); ++i) {
+      describe_seat(page, {{"session", opening->name}, {"seat", seats[i].name}}, status.seats[i]);
+      for (std::size_t r = 0; r < refused.size(); ++r) refused[r] += status.seats[i].refused[r];
+    }
+    page.gauge("tandem_session_time_seconds", "Session time", {{"session", opening->name}}, status.time);
+    page.count("tandem_audit_events_lost_total",
+               "Events of the session that nobody took in time: they are not in the audit log",
+               {{"session", opening->name}}, static_cast<double>(status.audit_dropped));
+    page.gauge("tandem_session_broken", "1: an invariant that the session's law promises was broken",
+               {{"session", opening->name}}, static_cast<double>(status.violations));
+  }
+  for (std::size_t i = 0; i < sessions.size(); ++i)
+    page.gauge("tandem_sessions", "Sessions by phase", {{"phase", rpc::to_text(static_cast<rpc::SessionPhase>(i))}},
+               static_cast<double>(sessions[i]));
+  for (const Shard* shard : registry.shards()) {
+    const Labels who{{"tick_hz", std::to_string(std::lround(1.0 / seconds(shard->period())))}};
+    page.ticks("tandem_tick_seconds", "Processor time of a tick, all sessions of a shard", who, shard->lengths());
+    page.ticks("tandem_tick_lateness_seconds", "How late ticks began", who, shard->lateness());
+    page.count("tandem_tick_late_total", "Ticks that began more than 1 ms late", who,
+               static_cast<double>(shard->late_ticks()));
+    page.gauge("tandem_tick_load", "Processor time of a tick, 99th percentile of the last 1000, share of the tick", who,
+               shard->load());
+    page.gauge("tandem_core_load", "Processor time of the thread, over the last second, share of one processor", who,
+               shard->cpu_share());
+    page.gauge("tandem_shed_level",
+               "Load-shedding level: 0 none, 1 telemetry, 2-3 observers, 4-5 evaluators, 6 new joins", who,
+               static_cast<double>(shard->load_state().level));
+    page.gauge("tandem_overloaded", "1: the ticks of the thread are late, and all hands of its sessions are released",
+               who, shard->load_state().overloaded ? 1 : 0);
+    stray += shard->unmatched_datagrams();
+  }
+  for (std::size_t r = 0; r < refused.size(); ++r)
+    page.count("tandem_udp_drop_total", "Datagrams refused, by reason, of the connections there are now",
+               {{"reason", to_text(static_cast<transport::DropReason>(r))}}, static_cast<double>(refused[r]));
+  page.count("tandem_udp_drop_total", "", {{"reason", "stray"}}, static_cast<double>(stray));
+  page.count("tandem_aead_fail_total", "Datagrams whose tag was wrong, of the connections there are now", {},
+             static_cast<double>(refused[static_cast<std::size_t>(transport::DropReason::kTag)]));
+  for (std::size_t i = 0; i < kControlEvents; ++i)
+    page.count("tandem_joins_total", "Events of the control connections, by result",
+               {{"result", std::string(to_text(static_cast<ControlEvent>(i)))}},
+               static_cast<double>(plane.count(static_cast<ControlEvent>(i))));
+  page.gauge("tandem_draining", "1: the server rejects new joins", {}, registry.draining() ? 1 : 0);
+  page.count("tandem_audit_lost_total", "Lines that could not be written to the audit log", {},
+             static_cast<double>(audit.lost));
+  page.count("tandem_audit_suppressed_total",
+             "Lines about refused peers that the rate limit of the audit log suppressed", {},
+             static_cast<double>(audit.left_out));
+  page.gauge("tandem_audit_failing", "1: the audit log cannot be written, or not be rotated", {},
+             audit.trouble.empty() ? 0 : 1);
+  page.count("tandem_log_drop_total", "Log lines that could not be written in time", {},
+             static_cast<double>(io::log_dropped()));
+  return page.text();
+}
+
+/// Message about a shard that does not tick; empty if all do.
+std::string stalled_text(const SessionRegistry& registry) {
+  const Time now = io::monotonic_now();
+  for (const Shard* shard : registry.shards())
+    if (now - shard->last_tick() > kTickAgeMax)
+      return "a tick thread has not run for " + std::to_string(seconds(now - shard->last_tick())) + " s\n";
+  return {};
+}
+
+}  // namespace
+
+HttpResponse monitoring_page(std::string_view path, const SessionRegistry& registry, const ControlPlane& plane,
+                             const AuditState& audit) {
+  if (path == "/metrics") return {200, "text/plain; version=0.0.4; charset=utf-8", metrics(registry, plane, audit)};
+  if (path != "/healthz" && path != "/readyz") return {404, "text/plain", "/metrics, /healthz or /readyz\n"};
+  const std::string why = stalled_text(registry);
+  if (!why.empty()) return {503, "text/plain", why};
+  if (path == "/readyz" && registry.draining()) return {503, "text/plain", "draining\n"};
+  if (path == "/readyz" && !audit.trouble.empty())
+    return {503, "text/plain", "the audit log fails; the server's own log says why\n"};
+  return {200, "text/plain", "ok\n"};
+}
+
+}  // namespace tandem::server

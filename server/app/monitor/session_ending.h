@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/base/time.h"
+#include "server/app/monitor/presence_tracker.h"
+
+namespace tandem::server {
+
+/// Why a session ended. kAllLeft: in a scene without an end, all participants left in an orderly way.
+enum class EndReason : std::uint8_t { kScene, kSignal, kStartTimeout, kPeersLost, kAllLeft };
+
+/// Decision to end a session because its participants are absent: reason and event.
+struct SessionEnding {
+  struct Times {
+    Time now{}, began{};         ///< began: start of the server
+    double start_timeout_s = 0;  ///< [s] for the required seats, since the server began; 0: no limit
+    /// Participants of a restored session can resume until then; nullopt: a new session.
+    std::optional<Time> resume_until{};
+  };
+  EndReason why = EndReason::kStartTimeout;
+  PresenceTracker::Event event;
+};
+
+/// Whether the session must end now; nullopt: it continues.
+/// @param news  events of the same `status`
+[[nodiscard]] std::optional<SessionEnding> session_ending(const SessionEnding::Times& when,
+                                                          const PresenceTracker::Events& news,
+                                                          const SessionStatus& status, const SceneSpec& scene);
+
+}  // namespace tandem::server

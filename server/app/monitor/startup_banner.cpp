@@ -1,0 +1,49 @@
+#include "server/app/monitor/startup_banner.h"
+
+#include <cerrno>
+
+#include "common/auth/io/state_directory.h"
+#include "common/base/command_hints.h"
+#include "common/base/format.h"
+#include "common/io/reachable_address.h"
+#include "server/app/control/session_registry.h"
+
+namespace tandem::server {
+namespace {
+
+/// The client command as the user would type it: with a path if this program was started with one.
+std::string client_command() {
+  const std::string own = program_invocation_name;
+  const auto slash = own.rfind('/');
+  return (slash == std::string::npos ? "" : own.substr(0, slash + 1)) + "tandem-client";
+}
+
+}  // namespace
+
+std::string startup_banner(const SessionInstance& run, const io::SocketAddress& at, bool throw_away, bool several,
+                           const std::string& folder, const std::string& read_code) {
+  const SceneSpec& scene = run.options().scene;
+  const std::string &name = run.options().name, dialled = shell_quote(io::reachable_address(at));
+  const bool by_code = !run.code().empty();
+  const std::string which = by_code   ? " --session " + (read_code.empty() ? code_text(run.code()) : "CODE")
+                            : several ? " --session " + name
+                                      : "";
+  std::string text = several ? "session " + name + ": " : "", optional;
+  text += "scene " + scene.name + (scene.endless() ? ", no end; " : format(", %g s; ", scene.duration));
+  if (by_code)
+    text += read_code.empty() ? "session code " + code_text(run.code()) + "; "
+                              : "`" + read_code + "` shows the session's CODE; ";
+  text += throw_away ? "in other terminals type\n" : "on enrolled workstations type\n";
+  for (const SeatSpec& seat : scene.seats) {
+    const bool ticket = !throw_away && (!by_code || seat.role == Role::kInstructor);
+    (seat.required ? text : optional) +=
+        format("  %s join --server %s --seat %s --device sim%s\n", client_command().c_str(), dialled.c_str(),
+               seat.name.c_str(), ticket ? " --ticket-file FILE" : which.c_str());
+  }
+  if (!optional.empty()) text += "and for seats that nobody waits for\n" + optional;
+  return throw_away ? text
+                    : text + "a ticket FILE is written by\n  tandem-server ticket --session " + name +
+                          " --seat SEAT --workstation NAME" + auth::server_state_option(folder) + " > FILE\n";
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,183 @@
+#include "server/app/process/checkpoint_store.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+
+#include <array>
+#include <cctype>
+#include <csignal>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "common/auth/io/state_directory.h"
+
+namespace tandem::server {
+namespace {
+
+/// Pause between two rounds of writing. If several checkpoints arrive in it, only the newest is written.
+constexpr auto kRest = std::chrono::milliseconds(20);
+/// [s] An unchanged checkpoint is written again after this time, so that its file does not look too old.
+constexpr std::int64_t kRefreshS = 60;
+constexpr const char* kEnding = ".checkpoint";
+constexpr const char* kAside = ".unfit";
+
+}  // namespace
+
+CheckpointStore::CheckpointStore(auth::StateDirectory folder, std::string prefix,
+                                 std::function<void(const std::string&)> trouble)
+    : folder_(std::move(folder)),
+      prefix_(std::move(prefix)),
+      on_error_(std::move(trouble)),
+      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+
+CheckpointStore::~CheckpointStore() { stop(); }
+
+std::expected<std::unique_ptr<CheckpointStore>, std::string> CheckpointStore::open(
+    const std::string& path, std::string prefix, std::function<void(const std::string&)> trouble) {
+  auto folder = auth::StateDirectory::open(path, auth::StateDirectory::Missing::kIsMade);
+  if (!folder) return std::unexpected(folder.error());
+  return std::unique_ptr<CheckpointStore>(
+      new CheckpointStore(std::move(*folder), std::move(prefix), std::move(trouble)));
+}
+
+/// Replaces all characters that a file name should not contain by dashes: names come from file names and addresses.
+std::string CheckpointStore::file_of(const std::string& name) const {
+  std::string file = prefix_ + name;
+  for (char& c : file)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
+  return file + kEnding;
+}
+
+CheckpointStore::Found CheckpointStore::find(const std::string& name, const SceneSpec& scene, std::int64_t now,
+                                             bool wanted) const {
+  Found found;
+  const std::string file = file_of(name);
+  if (!folder_.has(file)) return found;
+  const auto bytes = folder_.read(file);
+  if (bytes && !*bytes) return found;
+  if (!bytes) {
+    found.incompatibility = bytes.error();
+  } else if (auto kept = decode_snapshot(std::as_const(**bytes).bytes()); !kept) {
+    found.incompatibility = kept.error();
+  } else {
+    found.incompatibility = wanted ? incompatibility(*kept, name, scene, now) : "--no-restore was given";
+    if (found.incompatibility.empty()) found.snapshot = std::move(*kept);
+  }
+  if (found.snapshot) return found;
+  std::error_code error;
+  std::filesystem::rename(folder_.path_of(file), folder_.path_of(file + kAside), error);
+  found.incompatibility += error ? "; " + folder_.path_of(file) + " cannot be moved aside: " + error.message()
+                                 : "; it was moved aside to " + folder_.path_of(file + kAside);
+  return found;
+}
+
+void CheckpointStore::start() {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([this] { run(); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+std::shared_ptr<CheckpointMailbox> CheckpointStore::add(SessionSnapshot kept) {
+  const std::lock_guard lock{lock_};
+  return entries_.emplace_back(std::make_shared<Entry>(std::move(kept), wake_))->mailbox;
+}
+
+void CheckpointStore::set_removed(const std::string& name, std::vector<std::array<std::byte, 32>> keys) {
+  {
+    const std::lock_guard lock{lock_};
+    for (const auto& page : entries_)
+      if (page->snapshot.name == name && !page->over) page->removed_workstations = keys;
+  }
+  wake();
+}
+
+void CheckpointStore::remove(const std::string& name) {
+  {
+    const std::lock_guard lock{lock_};
+    for (const auto& page : entries_)
+      if (page->snapshot.name == name) page->over = true;
+  }
+  wake();
+}
+
+void CheckpointStore::wake() const noexcept {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
+}
+
+void CheckpointStore::stop() {
+  if (!thread_.joinable()) return;
+  stopping_ = true;
+  wake();
+  thread_.join();
+}
+
+void CheckpointStore::remove_all() noexcept {
+  const std::unique_lock lock{lock_, std::try_to_lock};
+  if (!lock) return;  // the thread uses the entries: leave the files
+  for (const auto& page : entries_) static_cast<void>(folder_.remove(file_of(page->snapshot.name)));
+}
+
+void CheckpointStore::run() {
+  while (true) {
+    pollfd wake{wake_.get(), POLLIN, 0};
+    poll(&wake, 1, -1);
+    std::uint64_t count = 0;
+    [[maybe_unused]] const auto read = ::read(wake_.get(), &count, sizeof count);
+    const bool last = stopping_;  // read before the round, so that the round writes what was published before `stop`
+    std::vector<std::shared_ptr<Entry>> pages;
+    {
+      const std::lock_guard lock{lock_};
+      pages.assign(entries_.begin(), entries_.end());
+    }
+    // In order: the entry of a session that is over precedes the entry of its successor with the same name.
+    for (const auto& page : pages) service_entry(*page);
+    const std::lock_guard lock{lock_};
+    entries_.remove_if([&](const auto& page) { return page->gone; });
+    if (last) return;
+    std::this_thread::sleep_for(kRest);
+  }
+}
+
+void CheckpointStore::service_entry(Entry& page) {
+  if (page.over) {
+    page.gone = true;
+    static_cast<void>(folder_.remove(file_of(page.snapshot.name)));
+    return;
+  }
+  bool others = false;
+  {
+    const std::lock_guard lock{lock_};
+    if (auto newer = std::exchange(page.removed_workstations, std::nullopt)) {
+      page.snapshot.removed_workstations = std::move(*newer);
+      others = true;
+    }
+  }
+  const bool before = !page.written.empty();
+  if (others) page.written.clear();  // so that the same checkpoint is written again
+  if (Checkpoint newest; page.mailbox->take(newest)) {
+    write(page, newest);
+  } else if (others && before) {
+    write(page, Checkpoint{page.snapshot.checkpoint});
+  }
+}
+
+void CheckpointStore::write(Entry& page, const Checkpoint& checkpoint) {
+  std::vector<std::byte> bytes(kCheckpointMax);
+  bytes.resize(encode_checkpoint(checkpoint, bytes));
+  const std::int64_t now = auth::wall_seconds();
+  if (bytes == page.written && now - page.snapshot.written_s < kRefreshS && now >= page.snapshot.written_s) return;
+  page.snapshot.checkpoint = checkpoint;
+  page.snapshot.written_s = now;
+  const std::string problem =
+      folder_.replace(file_of(page.snapshot.name), std::span<const std::byte>(encode_snapshot(page.snapshot)));
+  if (problem.empty()) page.written = std::move(bytes);
+  const bool before = std::exchange(page.failing, !problem.empty());
+  if (!problem.empty() && !before)
+    on_error_("session " + page.snapshot.name + ": " + problem + "; after a crash it would start from the beginning");
+}
+
+}  // namespace tandem::server

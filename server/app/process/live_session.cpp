@@ -1,0 +1,172 @@
+#include "server/app/process/live_session.h"
+
+#include <sys/eventfd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "common/auth/io/state_directory.h"
+#include "server/session/session_invariant_checker.h"
+
+namespace tandem::server {
+namespace {
+
+// Ticks between two updates of one seat's status, and between two published copies.
+constexpr std::uint64_t kStatusInterval = 64;
+constexpr std::uint64_t kStatusIntervalShedding = 4 * kStatusInterval,
+                        kRecordIntervalShedding = 10;  // from ShedLevel::kTelemetry on
+
+constexpr Duration kNeverEchoed = std::chrono::hours(1);  // a longer loop age means that no echo has arrived
+
+constexpr double kCheckpointInterval = 0.5;  // [s]
+// Attempts to publish the last checkpoint. Each fails only while the store copies.
+constexpr int kPublishAttempts = 1000;
+
+/// Whether an event changes what a restart restores.
+constexpr bool triggers_checkpoint(AuditEvent::What what) noexcept {
+  using What = AuditEvent::What;
+  return what == What::kJoin || what == What::kLeave || what == What::kAuthority || what == What::kStop ||
+         what == What::kPause || what == What::kResume || what == What::kFault || what == What::kRestored ||
+         what == What::kAllBack || what == What::kRemoved || what == What::kAuthorityCancelled;
+}
+
+double ms(Duration d) { return seconds(d) * 1e3; }
+
+DirectionReport direction(const transport::SecureChannel& receiver, Time now) {
+  const transport::SecureChannelStats& s = receiver.stats();
+  return {s.loss_percent(), ms(receiver.longest_gap(now)), ms(Duration{s.age.quantile(0.99)})};
+}
+
+}  // namespace
+
+LiveSession::LiveSession(const SceneSpec& scene, LocalSlaves slaves, std::uint8_t slot, TickQueue& records,
+                         const Checkpoint* from)
+    : scene_(&scene),
+      slot_(slot),
+      session_(from == nullptr ? Session(scene, std::move(slaves.devices), slaves.scale)
+                               : Session(scene, std::move(slaves.devices), slaves.scale, *from)),
+      records_(&records),
+      over_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  draw_path_tokens();
+}
+
+/// Tokens come from the kernel, so only a host that receives at the challenged address can know them.
+void LiveSession::draw_path_tokens() noexcept {
+  PathTokens& tokens = session_.path_tokens();
+  std::array<std::uint64_t, PathTokens::kMax> drawn;
+  const auto wanted = std::span{drawn}.first(tokens.free_slots());
+  auth::fill_random(std::as_writable_bytes(wanted));
+  for (const std::uint64_t token : wanted) tokens.add(token);
+}
+
+void LiveSession::persist_to(std::shared_ptr<CheckpointMailbox> mail, std::uint64_t epoch) {
+  mailbox_ = std::move(mail);
+  epoch_ = epoch;
+  checkpoint_interval_ = static_cast<std::uint64_t>(std::lround(kCheckpointInterval * scene_->tick_hz));
+}
+
+SessionStatus LiveSession::status() const {
+  const std::lock_guard lock{published_lock_};
+  return published_;
+}
+
+void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
+  session_.set_load_state(machine.load_state);
+  session_.on_tick(now, missed);
+  while (const auto event = session_.poll_audit()) {
+    audit_.push(*event);
+    checkpoint_due_ = checkpoint_due_ || triggers_checkpoint(event->what);
+  }
+  checkpoint_due_ = checkpoint_due_ || session_.begun() != std::exchange(begun_, session_.begun());
+  if (session_.path_tokens().low()) draw_path_tokens();
+  if (mailbox_ && (checkpoint_due_ || ++since_checkpoint_ >= checkpoint_interval_)) publish_checkpoint();
+  SessionInvariantChecker{}.check(session_, violations_);
+  const bool seldom = machine.load_state.level >= ShedLevel::kTelemetry;
+  if (session_.record().running) {
+    if (++unrecorded_ >= (seldom ? kRecordIntervalShedding : 1)) {
+      records_->push(session_.record());
+      unrecorded_ = 0;
+    } else {
+      ++skipped_records_;
+    }
+  }
+  // One seat per tick: the quantiles of its histograms take microseconds, and all seats in one tick would delay it.
+  const std::uint64_t every = seldom ? kStatusIntervalShedding : kStatusInterval;
+  const std::size_t seat = ticks_ % every;
+  if (seat < scene_->seats.size()) update_seat_status(seat, now);
+  if (++ticks_ % every == 0) publish(now, machine);
+}
+
+void LiveSession::finish(Time now, const MachineStatus& machine) noexcept {
+  for (std::size_t i = 0; i < scene_->seats.size(); ++i) update_seat_status(i, now);
+  publish(now, machine);
+  checkpoint_due_ = true;
+  for (int tries = 0; mailbox_ && checkpoint_due_ && tries < kPublishAttempts; ++tries) publish_checkpoint();
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(over_event_.get(), &one, sizeof one);
+  over_.store(true, std::memory_order_release);  // last, because a reader may then destroy this session
+}
+
+void LiveSession::publish_checkpoint() noexcept {
+  Checkpoint now = session_.checkpoint();
+  now.epoch = epoch_;  // a session that replaced another one has a higher epoch than `Session` counts
+  checkpoint_due_ = !mailbox_->publish(now);
+  if (!checkpoint_due_) since_checkpoint_ = 0;
+}
+
+void LiveSession::update_seat_status(std::size_t i, Time now) noexcept {
+  const SeatEndpoint& port = session_.seat(i);
+  const wire::StateMessage& heard = port.last_state();
+  SeatStatus& seat = status_.seats[i];
+  seat.taken = port.taken();
+  seat.ever_taken = seat.ever_taken || seat.taken;
+  seat.alive = port.alive(now);
+  seat.ready = port.ready(now);
+  seat.gate = heard.gate;
+  seat.alpha = session_.record().seats[i].alpha;
+  seat.margin_j = heard.telemetry.margin_min_j;
+  seat.gate_trips = heard.gate_trips;
+  seat.late_ticks = heard.late_ticks;
+  seat.link.down = {heard.telemetry.down_loss_percent, heard.telemetry.down_longest_gap_ms,
+                    heard.telemetry.down_age_p99_ms};
+  if (const transport::SecureChannel* link = port.link()) {  // the last values of a seat that was left remain
+    seat.link.rtt_p50_ms = ms(link->timing().rtt_p50());
+    seat.link.rtt_p99_ms = ms(Duration{link->timing().rtts().quantile(0.99)});
+    seat.link.up = direction(*link, now);
+    const Duration age = link->timing().loop_age(now);
+    seat.loop_age_s = age < kNeverEchoed ? seconds(age) : 0;
+    seat.accepted = link->stats().accepted;
+    seat.late = link->stats().late;
+    seat.lost = link->stats().lost();
+    seat.refused = link->stats().dropped;
+  }
+}
+
+void LiveSession::publish(Time now, const MachineStatus& machine) noexcept {
+  status_.state = session_.state();
+  status_.time = session_.time();
+  status_.stop = session_.stop_latch();
+  status_.waiting = !session_.begun() || session_.recovering();
+  status_.machine = machine;
+  status_.unmatched_datagrams = session_.unmatched_datagrams();
+  status_.violations = violations_.passed() ? 0 : 1;
+  status_.audit_dropped = session_.audit_dropped() + audit_.dropped();
+  // Flags are updated for all seats at once, so that one status never mixes old and new.
+  for (std::size_t i = 0; i < scene_->seats.size(); ++i) {
+    SeatStatus& seat = status_.seats[i];
+    seat.taken = session_.seat(i).taken();
+    seat.alive = session_.seat(i).alive(now);
+    seat.ready = session_.seat(i).ready(now);
+    seat.stopped = session_.seat(i).last_state().stop;
+    seat.gate = session_.seat(i).last_state().gate;
+    seat.authority_max = i < scene_->masters() ? 0 : 1;
+    for (std::size_t j = 0; i < scene_->masters() && j < scene_->tools.size(); ++j)
+      seat.authority_max = std::max(seat.authority_max, session_.tool(j).authority.requested()[i]);
+  }
+  const std::unique_lock lock{published_lock_, std::try_to_lock};
+  if (lock) published_ = status_;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+
+#include "common/io/fd.h"
+#include "common/io/spsc_queue.h"
+#include "server/app/monitor/session_status.h"
+#include "server/app/process/checkpoint_mailbox.h"
+#include "server/app/process/local_slaves.h"
+#include "server/report/violations.h"
+#include "server/session/session.h"
+
+namespace tandem::server {
+
+using TickQueue = io::SpscQueue<TickRecord>;
+using AuditEventQueue = io::SpscQueue<AuditEvent>;
+
+/// A session as served by a shard: the session, its invariant checker, the queue of its tick records, and a status
+/// copy for other threads.
+class LiveSession {
+ public:
+  /// @param scene    must outlive this
+  /// @param records  receives a record per running tick; if it is full, records are dropped and counted
+  /// @param from     checkpoint to restore; null: a new session
+  /// @pre incompatibility(*from, scene) is empty, and `slaves` have the joint positions of `from`
+  LiveSession(const SceneSpec& scene, LocalSlaves slaves, std::uint8_t slot, TickQueue& records,
+              const Checkpoint* from = nullptr);
+  /// Sets the mailbox for checkpoints, before a shard serves the session. A checkpoint is published twice per second.
+  /// It is published at once when the session begins, and at every event that changes what a restart restores.
+  /// @param epoch  as the clients know it
+  void persist_to(std::shared_ptr<CheckpointMailbox> mail, std::uint64_t epoch);
+
+  // ---- Any thread ----
+  [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
+  [[nodiscard]] const SeatCatalogue& seat_catalogue() const noexcept { return session_.seat_catalogue(); }
+  [[nodiscard]] std::uint8_t slot() const noexcept { return slot_; }
+  /// Recent status, updated every 64 ticks, or every 256 while the shard sheds telemetry.
+  [[nodiscard]] SessionStatus status() const;
+  /// File descriptor that becomes readable when the session is over.
+  [[nodiscard]] int over_fd() const noexcept { return over_event_.get(); }
+  /// No shard serves the session any more. All members may be read, and it may be destroyed.
+  [[nodiscard]] bool over() const noexcept { return over_.load(std::memory_order_acquire); }
+
+  /// Queue of audit events for one reading thread. If it is full, events are dropped and counted.
+  [[nodiscard]] AuditEventQueue& audit() noexcept { return audit_; }
+
+  // ---- The shard's thread ----
+  [[nodiscard]] Session& session() noexcept { return session_; }
+  void tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept;
+  /// Publishes the final status and checkpoint. The shard does not access the session afterwards.
+  void finish(Time now, const MachineStatus& machine) noexcept;
+
+  // ---- After it is over ----
+  [[nodiscard]] const SessionStatus& final_status() const noexcept { return status_; }
+  [[nodiscard]] const Violations& violations() const noexcept { return violations_; }
+  /// Number of ticks that were not recorded because the shard shed load.
+  [[nodiscard]] std::uint64_t skipped_records() const noexcept { return skipped_records_; }
+
+ private:
+  void update_seat_status(std::size_t seat, Time now) noexcept;
+  void publish(Time now, const MachineStatus& machine) noexcept;
+  void publish_checkpoint() noexcept;
+  void draw_path_tokens() noexcept;
+
+  const SceneSpec* scene_;
+  std::uint8_t slot_;
+  Session session_;
+  TickQueue* records_;
+  AuditEventQueue audit_{1024};
+  Violations violations_;
+  std::atomic<bool> over_{false};
+  io::Fd over_event_;
+  std::uint64_t ticks_ = 0, unrecorded_ = 0, skipped_records_ = 0;
+  SessionStatus status_;
+  mutable std::mutex published_lock_;  ///< the shard only tries it
+  SessionStatus published_;
+  std::shared_ptr<CheckpointMailbox> mailbox_;  ///< null: checkpoints are not stored
+  std::uint64_t epoch_ = 1, checkpoint_interval_ = 0, since_checkpoint_ = 0;
+  bool checkpoint_due_ = true, begun_ = false;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/io/log.h"
+#include "common/io/socket_address.h"
+#include "server/app/control/control_plane.h"
+#include "server/app/control/session_registry.h"
+#include "server/app/process/session_instance.h"
+
+namespace tandem::server {
+
+/// Options of a server process, validated: one session (`run`) or several (`serve`).
+struct ServerOptions {
+  const char* command = "run";  ///< name of the command, for messages
+  std::vector<SessionOptions> sessions;
+  io::SocketAddress listen;
+  /// State directory as given. Empty: the default directory, or ephemeral keys on loopback.
+  std::string state;
+  ControlLimits limits{};
+  LoadLimits load_limits{};
+  std::optional<io::SocketAddress> metrics{};
+  std::vector<std::string> metrics_hosts{};  ///< accepted Host names of the metrics endpoint, in addition to addresses
+  auth::AuditLimits audit{};
+  std::optional<io::Level> json_log{};  ///< set: log lines are JSON, of this level and above
+  double start_timeout_s = 0;           ///< [s] for the required seats to get ready; 0: no limit
+  bool quiet = false;
+  bool no_restore = false;       ///< ignores all checkpoints
+  bool sessions_resume = false;  ///< a signal ends the server but keeps its sessions: the next start restores them
+};
+
+/// Warning about a metrics endpoint beyond loopback.
+inline constexpr const char* kUnprotectedMetricsWarning =
+    "warning: everybody who reaches this address reads the metrics, without a password; use 127.0.0.1, or put "
+    "something that has a password in front";
+
+/// Runs a server until all sessions are over and none restarts, or until a signal or a drain. Then new joins are
+/// rejected, all hands are released and reports are written. A second signal, or 3 s, ends the process at once.
+/// Sessions are restored from the checkpoints of a server that failed, or that ended with `sessions_resume`.
+/// @return exit code
+[[nodiscard]] int run_server(const ServerOptions& plan);
+
+}  // namespace tandem::server

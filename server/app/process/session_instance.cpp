@@ -1,0 +1,136 @@
+#include "server/app/process/session_instance.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "common/auth/base32.h"
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "server/app/control/session_registry.h"
+
+namespace tandem::server {
+namespace {
+
+constexpr int kFailed = 1, kTrouble = 1, kWrong = 2;
+/// Two seconds of ticks at 1 kHz: the recorder may be delayed for so long before ticks are dropped and counted.
+constexpr std::size_t kQueueTicks = 2048;
+
+const char* to_text(EndReason end) {
+  constexpr const char* kNames[] = {"scene", "signal", "nobody_came", "peers_lost", "people_left"};
+  return kNames[static_cast<std::size_t>(end)];
+}
+
+double cpu_seconds() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return s(used.ru_utime) + s(used.ru_stime);
+}
+
+/// Report of a run, with the values that only live sessions have.
+std::string report_json(const RunReport& report, EndReason end, std::uint64_t epoch, const SessionSnapshot* kept,
+                        const MachineStatus& machine, const TickQueue& queue, std::uint64_t spared,
+                        const std::string& waited_for) {
+  auto json = nlohmann::ordered_json::parse(to_json(report));
+  json["ended_by"] = to_text(end);
+  json["began"] = report.duration_s > 0;
+  json["waited_for"] = report.duration_s > 0 ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(waited_for);
+  json["epoch"] = epoch;
+  json["resumed_at_tick"] =
+      kept != nullptr ? nlohmann::ordered_json(kept->checkpoint.session_tick) : nlohmann::ordered_json(nullptr);
+  json["machine"] = {{"late_ticks", machine.late_ticks},
+                     {"missed_ticks", machine.missed_ticks},
+                     {"recorder_dropped", queue.dropped()},
+                     {"recorder_spared", spared},
+                     {"realtime", machine.realtime}};
+  return json.dump(2) + "\n";
+}
+
+/// File name such as `contact-20261121T190000Z-0f3a9c11.json`: sorted by time, and unique.
+std::string report_name(const std::string& session, const auth::Id16& id) {
+  const std::time_t now = auth::wall_seconds();
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char when[32];
+  std::strftime(when, sizeof when, "%Y%m%dT%H%M%SZ", &utc);
+  return session + "-" + when + "-" + auth::to_hex(id).substr(0, 8) + ".json";
+}
+
+}  // namespace
+
+SessionInstance::SessionInstance(const SessionOptions& plan, LocalSlaves slaves, std::uint8_t slot,
+                                 const SessionSnapshot* kept)
+    : options_(&plan),
+      id_(kept != nullptr ? kept->id : auth::random_bytes<auth::Id16>()),
+      queue_(kQueueTicks),
+      recorder_(plan.scene, queue_, trace_),
+      live_session_(std::make_unique<LiveSession>(plan.scene, std::move(slaves), slot, queue_,
+                                                  kept != nullptr ? &kept->checkpoint : nullptr)) {}
+
+std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> SessionInstance::open(
+    const SessionOptions& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code, const SessionSnapshot* kept) {
+  const Time now = io::monotonic_now();
+  auto slaves = make_local_slaves(plan.scene, now, kept != nullptr ? &kept->checkpoint : nullptr);
+  if (!slaves) return std::unexpected(OpenError{kWrong, slaves.error()});
+  std::unique_ptr<SessionInstance> run{new SessionInstance(plan, std::move(*slaves), slot, kept)};
+  run->epoch_ = kept != nullptr ? kept->checkpoint.epoch + 1 : epoch;
+  if (kept != nullptr) {
+    run->snapshot_ = *kept;
+    const std::int64_t age_s = std::clamp<std::int64_t>(auth::wall_seconds() - kept->written_s, 0, kResumeLifeS);
+    run->resume_until_ = now + kResumeLife - std::chrono::seconds(age_s);
+  }
+  // A restored session keeps its code, because participants have noted it.
+  if (with_code) run->code_ = kept != nullptr && !kept->code.empty() ? kept->code : make_session_code();
+  if (const auto problem = run->json_.open(plan.json, true); !problem.empty())
+    return std::unexpected(OpenError{kWrong, {"--json: " + problem}});
+  if (const auto problem = run->trace_.open(plan.trace, false); !problem.empty())
+    return std::unexpected(OpenError{kWrong, {"--trace: " + problem}});
+  return run;
+}
+
+std::string SessionInstance::outcome_text(const RunReport& report) const {
+  if (report.duration_s > 0) return format("%s, %.1f s", report.verdict_text(), report.duration_s);
+  return std::string(snapshot_ ? "never went on after the restart" : "never began") +
+         (missing_seats.empty() ? "" : ": it waited for " + missing_seats);
+}
+
+SessionInstance::Verdict SessionInstance::finish() {
+  recorder_.finish();
+  const SessionStatus& last = live_session_->final_status();
+  std::vector<LinkReport> links;
+  for (std::size_t i = 0; i < options_->scene.seats.size(); ++i) links.push_back(last.seats[i].link);
+  Verdict verdict{recorder_.builder().build(links), {}, 0};
+  RunReport& report = verdict.report;
+  report.seed = options_->seed;
+  report.violations = live_session_->violations().list();
+  report.passed = live_session_->violations().passed();
+  report.trace_hash = recorder_.trace_hash();
+  report.cpu_s = cpu_seconds();
+  for (std::size_t i = 0; i < report.seats.size(); ++i)
+    report.seats[i].gate_trips = last.seats[i].gate_trips, report.seats[i].taken = last.seats[i].ever_taken;
+
+  const EndReason why = end.value_or(EndReason::kScene);
+  const std::string text = report_json(report, why, epoch_, snapshot(), last.machine, queue_,
+                                       live_session_->skipped_records(), missing_seats);
+  json_.write(text);
+  io::OutputFile kept;
+  if (!options_->reports.empty()) {
+    verdict.problem = kept.open(options_->reports + "/" + report_name(options_->name, id_), false);
+    if (verdict.problem.empty()) kept.write(text);
+  }
+  for (io::OutputFile* file : {&json_, &trace_, &kept})
+    if (const auto problem = file->close(); !problem.empty() && verdict.problem.empty()) verdict.problem = problem;
+  if (!verdict.problem.empty()) {
+    verdict.code = kTrouble;
+  } else if (why == EndReason::kScene || why == EndReason::kAllLeft) {
+    verdict.code = report.passed ? 0 : kFailed;
+  } else {
+    verdict.code = why == EndReason::kSignal ? 0 : kTrouble;
+  }
+  return verdict;
+}
+
+}  // namespace tandem::server

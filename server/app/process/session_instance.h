@@ -1,0 +1,84 @@
+#pragma once
+
+#include <expected>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/auth/io/server_keystore.h"
+#include "server/app/monitor/presence_tracker.h"
+#include "server/app/monitor/session_ending.h"
+#include "server/app/process/live_session.h"
+#include "server/app/process/recorder.h"
+#include "server/session/session_snapshot.h"
+
+namespace tandem::server {
+
+/// Options of one session, validated.
+struct SessionOptions {
+  std::string name;  ///< for users: 1 to 32 characters of A-Z a-z 0-9 _ -
+  SceneSpec scene;
+  std::string json, trace;  ///< file names; `-` (JSON only) is standard output; empty: none
+  std::string reports;      ///< directory for a report of every run; empty: none
+  std::uint64_t seed = 1;   ///< for the report only: a live session draws nothing from it
+  bool tickets_only = false;
+  bool restart = false;  ///< when the session is over, a new one replaces it
+};
+
+/// One run of a configured session, from its start to its report.
+class SessionInstance {
+ public:
+  struct OpenError {
+    int code = 1;  ///< exit code
+    std::vector<std::string> texts;
+  };
+  /// @param plan  must outlive this
+  /// @param kept  snapshot to restore, with the next epoch; null: a new session
+  /// @return the session, ready to be served in `slot`, or the errors
+  [[nodiscard]] static std::expected<std::unique_ptr<SessionInstance>, OpenError> open(
+      const SessionOptions& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code,
+      const SessionSnapshot* kept = nullptr);
+
+  [[nodiscard]] const SessionOptions& options() const noexcept { return *options_; }
+  [[nodiscard]] LiveSession& live_session() noexcept { return *live_session_; }
+  [[nodiscard]] const auth::Id16& id() const noexcept { return id_; }
+  [[nodiscard]] const std::string& code() const noexcept { return code_; }
+  [[nodiscard]] std::uint64_t epoch() const noexcept { return epoch_; }
+  [[nodiscard]] bool writes_to_stdout() const noexcept { return json_.on_stdout(); }
+
+  /// Snapshot from which the session was restored; null: a new session.
+  [[nodiscard]] const SessionSnapshot* snapshot() const noexcept { return snapshot_ ? &*snapshot_ : nullptr; }
+  /// Time until which former participants can resume. @pre snapshot() is not null
+  [[nodiscard]] Time resume_until() const noexcept { return resume_until_; }
+
+  PresenceTracker presence;
+  std::string missing_seats;     ///< seats it waited for, as of the last check while it waited
+  std::optional<EndReason> end;  ///< set when the server ended the session
+
+  /// Builds the report and writes the files. Call it when the session is over.
+  struct Verdict {
+    RunReport report;
+    std::string problem;  ///< error of a report that could not be written; empty: none
+    int code = 0;         ///< exit code if this were the only session
+  };
+  [[nodiscard]] Verdict finish();
+  /// Outcome in words: `pass, 12.3 s`, or that the session never began and which seats were missing.
+  [[nodiscard]] std::string outcome_text(const RunReport& report) const;
+
+ private:
+  SessionInstance(const SessionOptions& plan, LocalSlaves slaves, std::uint8_t slot, const SessionSnapshot* kept);
+
+  const SessionOptions* options_;
+  auth::Id16 id_;
+  std::string code_;
+  std::uint64_t epoch_ = 1;
+  std::optional<SessionSnapshot> snapshot_;
+  Time resume_until_{};
+  io::OutputFile json_, trace_;
+  TickQueue queue_;
+  Recorder recorder_;
+  std::unique_ptr<LiveSession> live_session_;
+};
+
+}  // namespace tandem::server

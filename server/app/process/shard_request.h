@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "server/session/seat_catalogue.h"
+#include "server/session/session_command.h"
+
+namespace tandem::server {
+
+class LiveSession;
+
+/// Request from the control plane to a shard. The control plane creates, fills and frees it; the shard executes it
+/// between two ticks.
+struct ShardRequest {
+  enum class What : std::uint8_t {
+    kAddSession,      ///< serve `session` from now on, in its slot
+    kQuerySeat,       ///< whether `seat` is available
+    kAdmit,           ///< attach `connection` to `seat`
+    kAdmitLinkTest,   ///< admit `connection.link` as a link-test peer
+    kEndSession,      ///< end the session: release all hands, then send CLOSE
+    kCommand,         ///< execute `command` of a control connection; result in `outcome`
+    kQueryLinkTest,   ///< number of free link-test slots, in `place`
+    kRemoveLinkTest,  ///< remove the link-test peer `cid` in slot `place`
+  };
+  What what = What::kAdmit;
+  LiveSession* session = nullptr;  ///< valid until it is over
+  std::size_t seat = 0;
+  bool same_owner = false;    ///< the client is the seat's owner, who resumes
+  SeatConnection connection;  ///< out: previous contents of the seat, to be freed
+  Duration silence{};         ///< kQuerySeat, out: silence of the seat's client; 0 if the seat is free
+  bool ever_heard = false;    ///< kQuerySeat, out: the client was heard since it took the seat
+  JoinResult result = JoinResult::kSessionOver;
+  SessionCommand command{};
+  CommandOutcome outcome{};  ///< kCommand, out; invalid if `result` is kSessionOver
+  std::size_t place = 0;     ///< link-test slot, or number of free slots; kAdmitLinkTest, out: the peer's slot
+  std::uint32_t cid = 0;
+  std::function<void(ShardRequest&)> done;  ///< called on the control plane's thread
+};
+
+}  // namespace tandem::server

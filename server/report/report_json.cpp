@@ -1,0 +1,127 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "server/report/report.h"
+
+namespace tandem::server {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+const char* text(SeatKind kind) { return kind == SeatKind::kMaster ? "MASTER" : "SLAVE"; }
+
+const char* text(Role role) {
+  switch (role) {
+    case Role::kInstructor:
+      return "INSTRUCTOR";
+    case Role::kTrainee:
+      return "TRAINEE";
+    case Role::kEvaluator:
+      return "EVALUATOR";
+    case Role::kObserver:
+      return "OBSERVER";
+  }
+  return "";
+}
+
+void put(Json& j, const SeatMetrics& m) {
+  j["judged_s"] = number(m.judged_s);
+  j["tracking_rms_m"] = number(m.tracking_rms_m);
+  j["tracking_rms_lag_removed_m"] = number(m.tracking_rms_lag_removed_m);
+  j["transport_lag_rms_m"] = number(m.transport_lag_rms_m);
+  j["joint_rms_rad"] = Json::array();
+  for (const double q : m.joint_rms_rad) j["joint_rms_rad"].push_back(number(q));
+  j["force_error_rms_n"] = number(m.force_error_rms_n);
+  j["force_error_commanded_rms_n"] = number(m.force_error_commanded_rms_n);
+  j["force_error_percent"] = number(m.force_error_percent);
+  j["effort_peak_n"] = number(m.effort_peak_n);
+  j["speed_peak_m_s"] = number(m.speed_peak_m_s);
+  j["leader_offset_rms_m"] = number(m.leader_offset_rms_m);
+}
+
+Json direction(const DirectionReport& d) {
+  return {{"loss_percent", number(d.loss_percent)},
+          {"longest_gap_ms", number(d.longest_gap_ms)},
+          {"age_p99_ms", number(d.age_p99_ms)}};
+}
+
+double joule(const EnergyArray& nj) {
+  double sum = 0;
+  for (const auto e : nj) sum += static_cast<double>(e) * 1e-9;
+  return sum;
+}
+
+Json seat(const SeatReport& s) {
+  Json j;
+  j["name"] = s.name;
+  j["kind"] = text(s.kind);
+  j["role"] = text(s.role);
+  j["alpha_mean"] = number(s.alpha_mean);
+  put(j, s.metrics);
+  j["gate_trips"] = s.gate_trips;
+  j["gate"] = s.gate;
+  j["energy"] = {{"in_j", joule(s.last.e_in)},
+                 {"out_j", joule(s.last.e_out)},
+                 {"dissipated_j", number(s.last.dissipated_j)},
+                 {"refused_j", number(s.last.refused_j)},
+                 {"margin_min_j", number(s.last.margin_min_j)},
+                 {"mfs_j", number(s.mfs_j)},
+                 {"delivered_j", number(s.last.delivered_j)}};
+  j["link"] = {{"rtt_p50_ms", number(s.link.rtt_p50_ms)},
+               {"rtt_p99_ms", number(s.link.rtt_p99_ms)},
+               {"up", direction(s.link.up)},
+               {"down", direction(s.link.down)}};
+  return j;
+}
+
+/// Metrics of all seats in one part of the session.
+Json seats_of(const PhaseReport& part, const RunReport& r) {
+  Json seats = Json::array();
+  for (std::size_t i = 0; i < part.seats.size(); ++i) {
+    Json s{{"name", r.seats[i].name}};
+    put(s, part.seats[i]);
+    seats.push_back(std::move(s));
+  }
+  return seats;
+}
+
+}  // namespace
+
+std::string to_json(const RunReport& r, int indent) {
+  Json j;
+  j["scenario"] = r.scenario;
+  j["seed"] = r.seed;
+  j["duration_s"] = number(r.duration_s);
+  j["stopped_s"] = number(r.stopped_s);
+  j["judged_s"] = number(r.judged_s);
+  j["moved"] = r.moved;
+  j["verdict"] = r.verdict();
+  j["violations"] = Json::array();
+  for (const Violation& v : r.violations)
+    j["violations"].push_back(
+        {{"invariant", v.invariant}, {"seat", v.seat}, {"at_s", v.at_s}, {"expected", v.expected}, {"count", v.count}});
+  j["trace_hash"] = r.trace_hash;
+  j["cpu_s"] = number(r.cpu_s);
+  j["seats"] = Json::array();
+  for (const SeatReport& s : r.seats) j["seats"].push_back(seat(s));
+  j["tools"] = Json::array();
+  for (const ToolReport& t : r.tools)
+    j["tools"].push_back({{"name", t.name},
+                          {"contact_force_rms_n", number(t.contact_force_rms_n)},
+                          {"penetration_max_m", number(t.penetration_max_m)},
+                          {"held_s", number(t.held_s)}});
+  j["phases"] = Json::array();
+  for (const PhaseReport& p : r.phases)
+    j["phases"].push_back({{"name", p.name}, {"from_s", p.from_s}, {"to_s", p.to_s}, {"seats", seats_of(p, r)}});
+  j["outside_phases"] = r.outside ? Json{{"seats", seats_of(*r.outside, r)}} : Json(nullptr);
+  if (!r.feel.empty()) {
+    j["feel"] = Json::object();
+    for (const auto& [key, value] : r.feel) j["feel"][key] = number(value);
+  }
+  return j.dump(indent) + "\n";
+}
+
+}  // namespace tandem::server

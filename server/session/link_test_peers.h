@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "proto/wire/link_test_report.h"
+#include "proto/wire/wire_codec.h"
+#include "server/session/connection.h"
+
+namespace tandem::server {
+
+/// Clients that test their link to this server (proto/wire/link_test_report.h). Their data reaches no seat, tool or
+/// report. The session sends one FORCE per tick to each of them, at its validated address.
+class LinkTestPeers {
+ public:
+  static constexpr std::size_t kMax = 4;
+
+  LinkTestPeers(std::size_t dof, PortSpace port, Duration tick) : codec_(dof, port), tick_(tick) {}
+
+  /// Admits a peer to a free slot.
+  /// @param link  in: the peer's channel; out: the channel that the slot held before
+  /// @return index of the slot; nothing if all slots are in use
+  [[nodiscard]] std::optional<std::size_t> admit(Time now, std::unique_ptr<transport::SecureChannel>& link) noexcept;
+  /// Number of free slots.
+  [[nodiscard]] std::size_t places_free(Time now) const noexcept;
+  /// Removes a peer: it receives CLOSE, then its slot is free. @return false if the slot does not hold connection
+  /// `cid`
+  bool remove(std::size_t place, std::uint32_t cid, wire::CloseReason why) noexcept;
+  /// @return false if `cid` is not a link-test peer's
+  bool on_datagram(Time now, const PeerAddress& from, std::uint32_t cid, std::span<const std::byte> bytes,
+                   PathTokens& tokens) noexcept TANDEM_REALTIME;
+  /// Removes peers that have been silent for more than 2 s, and marks a FORCE as due for the others.
+  void on_tick(Time now) noexcept TANDEM_REALTIME;
+
+  /// Writes the next datagram; nullopt if none is due.
+  /// @param closing  reason to send CLOSE instead, because the session ends
+  [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::uint32_t tick,
+                                                      std::optional<wire::CloseReason> closing,
+                                                      std::span<std::byte> buffer) noexcept TANDEM_REALTIME;
+
+ private:
+  struct Peer {
+    std::optional<Connection> connection;  ///< kept after the peer has left, until another joins
+    bool connected = false, send_due = false;
+    unsigned closes_left = 0;  ///< CLOSE datagrams still to send to a removed peer
+    wire::CloseReason close_reason = wire::CloseReason::kRemoved;
+  };
+  std::array<Peer, kMax> peers_;
+  wire::Codec codec_;
+  Duration tick_;
+};
+
+}  // namespace tandem::server

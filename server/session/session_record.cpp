@@ -1,0 +1,92 @@
+#include "server/session/session_record.h"
+
+#include <algorithm>
+
+namespace tandem::server {
+
+void record_seat(const wire::StateMessage& said, SeatRecord& r) noexcept {
+  r.q = said.telemetry.q;
+  r.x = said.telemetry.x;
+  r.f_cmd = said.telemetry.f_cmd;
+  r.f_out = said.telemetry.f_out;
+  r.e_in = said.port.e_in;
+  r.e_out = said.telemetry.e_out;
+  r.dissipated_j = said.telemetry.dissipated_j;
+  r.refused_j = said.telemetry.refused_j;
+  r.margin_min_j = said.telemetry.margin_min_j;
+  r.delivered_j = said.telemetry.delivered_j;
+  r.gate = said.gate;
+  r.engaged = said.engaged;
+  r.sample_tick = said.seat_tick;
+}
+
+void record_slave(const wire::Telemetry& said, ToolRecord& r) noexcept {
+  r.q = said.q;
+  r.x = said.x;
+  r.f_env = said.f_env;
+  r.f_cmd = said.f_cmd;
+  r.penetration = said.penetration_m;
+}
+
+void record_tick(const Session& session, TickRecord& record) noexcept {
+  const SceneSpec& scene = session.scene();
+  const std::size_t masters = scene.masters();
+  record.tick = session.session_tick();
+  const wire::SessionState state = session.state();
+  const bool stopped = state == wire::SessionState::kPaused || state == wire::SessionState::kStopped ||
+                       state == wire::SessionState::kOverloaded;
+  record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld ||
+                   (stopped && session.begun() && !session.recovering() && !session.clock_stopped());
+  record.stopped_ticks = session.stopped_ticks();
+  record.dropped_ticks = session.dropped_ticks();
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) {
+    const wire::StateMessage& m = session.seat(i).last_state();
+    SeatRecord& r = record.seats[i];
+    r.alpha = session.seat(i).tx.alpha;
+    if (i < masters) {
+      const wire::Ghost& ghost = session.ghost(i);
+      r.leader = ghost.leader;
+      for (std::size_t k = 0; k < 3; ++k) r.ghost[k] = ghost.x[k];
+      r.alpha = 0;
+      for (std::size_t j = 0; j < scene.tools.size() && r.alpha == 0; ++j)
+        if (scene.follow[i][j] > 0) r.alpha = session.tool(j).authority.alpha(i);
+    }
+    record_seat(m, r);
+  }
+  for (std::size_t j = 0; j < scene.tools.size(); ++j) {
+    const Tool& tool = session.tool(j);
+    ToolRecord& r = record.tools[j];
+    for (std::size_t a = 0; a < std::min<std::size_t>(3, scene.dof); ++a) r.x_tool[a] = tool.x(a);
+    if (tool.slave() != nullptr) {
+      const hal::State& s = tool.slave()->state();
+      const hal::Vec3 f = tool.slave_force_commanded();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto e = static_cast<Eigen::Index>(k);
+        r.x[k] = s.x[e];
+        r.f_env[k] = s.f_env[e];
+        r.f_cmd[k] = f[e];
+      }
+      r.q = s.q;
+      r.penetration = s.penetration;
+      r.sample_tick = session.session_tick();
+    } else if (const control::VirtualTool* const body = tool.body(); body != nullptr && !tool.spec().remote) {
+      r.x = r.x_tool;
+      r.f_env = body->surface_force();
+      for (std::size_t k = 0; k < 3; ++k) r.f_cmd[k] = -r.f_env[k];
+      r.penetration = body->penetration();
+      r.sample_tick = session.session_tick();
+    } else {
+      record_slave(session.seat(tool.spec().seat).last_state().telemetry, r);
+      r.sample_tick = session.seat(tool.spec().seat).last_state().seat_tick;
+    }
+    r.held = tool.authority.held();
+    r.mfs_j = tool.sources.granted();
+    r.e_p_j = 0;
+    for (std::size_t a = 0; a < scene.dof; ++a) {
+      r.e_p_j += tool.sources.energy_p(a);
+      if (a < 3) r.e_p_axis_j[a] = tool.sources.energy_p(a);
+    }
+  }
+}
+
+}  // namespace tandem::server

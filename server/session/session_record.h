@@ -1,0 +1,14 @@
+#pragma once
+
+#include "server/session/session.h"
+
+namespace tandem::server {
+
+/// Fill the record of a seat or a slave from the seat's newest STATE.
+void record_seat(const wire::StateMessage& said, SeatRecord& record) noexcept;
+void record_slave(const wire::Telemetry& said, ToolRecord& record) noexcept;
+
+/// Fills the record of this tick for traces and reports. Values of seats are those of their newest STATE.
+void record_tick(const Session& session, TickRecord& record) noexcept;
+
+}  // namespace tandem::server

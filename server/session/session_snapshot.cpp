@@ -1,0 +1,107 @@
+#include "server/session/session_snapshot.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "common/base/raw_bytes.h"
+#include "common/transport/digest.h"
+
+namespace tandem::server {
+namespace {
+
+constexpr std::string_view kMagic = "TKS2";
+constexpr std::size_t kDigest = sizeof(Checkpoint::Hash);
+constexpr std::size_t kTextMaximum = 255;
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
+
+const char* cause(CheckpointError error) noexcept {
+  switch (error) {
+    case CheckpointError::kSize:
+      return "its checkpoint is cut off";
+    case CheckpointError::kVersion:
+      return "its checkpoint has another layout: it was written by another release";
+    case CheckpointError::kDigest:
+      return "its checkpoint is damaged";
+    case CheckpointError::kRange:
+      return "its checkpoint has a number that cannot be meant";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept) {
+  if (kept.name.empty() || kept.name.size() > kTextMaximum || kept.code.size() > kTextMaximum ||
+      kept.removed_workstations.size() > kRemovedWorkstationsMax)
+    return {};
+  std::vector<std::byte> out;
+  const auto put = [&](std::span<const std::byte> bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); };
+  const auto text = [&](const std::string& s) {
+    out.push_back(static_cast<std::byte>(s.size()));
+    put(bytes_of(s));
+  };
+  put(bytes_of(kMagic));
+  put(std::as_bytes(std::span{&kept.written_s, 1}));
+  put(kept.id);
+  text(kept.name);
+  text(kept.code);
+  out.push_back(static_cast<std::byte>(kept.removed_workstations.size()));
+  for (const auto& key : kept.removed_workstations) put(key);
+  std::array<std::byte, kCheckpointMax> checkpoint;
+  put(std::span{checkpoint}.first(encode_checkpoint(kept.checkpoint, checkpoint)));
+  const Checkpoint::Hash digest = transport::sha256(out);
+  put(digest);
+  return out;
+}
+
+std::expected<SessionSnapshot, std::string> decode_snapshot(std::span<const std::byte> bytes) {
+  if (bytes.size() < kMagic.size() + kDigest || bytes.size() > kSnapshotMax)
+    return std::unexpected("it has a size that no such file has");
+  if (text_of(bytes.first(kMagic.size())) != kMagic) return std::unexpected("it is no checkpoint of this release");
+  std::span<const std::byte> rest = bytes.first(bytes.size() - kDigest);
+  const Checkpoint::Hash digest = transport::sha256(rest);
+  if (!std::ranges::equal(digest, bytes.last(kDigest))) return std::unexpected("it is damaged or cut off");
+  bool whole = true;
+  const auto take = [&](std::size_t size) {
+    whole = whole && size <= rest.size();
+    const auto part = rest.first(whole ? size : 0);
+    rest = rest.subspan(part.size());
+    return part;
+  };
+  const auto text = [&] {
+    const auto size = take(1);
+    return std::string(text_of(take(size.empty() ? 0 : std::to_integer<std::size_t>(size[0]))));
+  };
+  SessionSnapshot kept;
+  take(kMagic.size());
+  if (const auto written = take(sizeof kept.written_s); whole)
+    std::memcpy(&kept.written_s, written.data(), written.size());
+  if (const auto id = take(kept.id.size()); whole) std::ranges::copy(id, kept.id.begin());
+  kept.name = text();
+  kept.code = text();
+  const auto count = take(1);
+  const std::size_t keys = count.empty() ? 0 : std::to_integer<std::size_t>(count[0]);
+  if (keys > kRemovedWorkstationsMax) return std::unexpected("it sends more workstations away than can be meant");
+  for (std::size_t i = 0; i < keys && whole; ++i)
+    if (const auto key = take(32); whole) std::ranges::copy(key, kept.removed_workstations.emplace_back().begin());
+  if (!whole || kept.name.empty()) return std::unexpected("it is cut off");
+  const auto checkpoint = decode_checkpoint(rest);
+  if (!checkpoint) return std::unexpected(cause(checkpoint.error()));
+  kept.checkpoint = *checkpoint;
+  return kept;
+}
+
+std::string incompatibility(const SessionSnapshot& kept, std::string_view name, const SceneSpec& scene,
+                            std::int64_t now) {
+  if (kept.name != name) return "it belongs to the session " + kept.name;
+  if (kept.written_s > now && kept.written_s - now > kResumeLifeS)
+    return "it was written in the future: this computer's clock was set back";
+  if (now > kept.written_s && now - kept.written_s > kResumeLifeS)
+    return "it is " + std::to_string((now - kept.written_s) / 60) +
+           " min old, and after 10 min nobody may come back to his seat";
+  return incompatibility(kept.checkpoint, scene);
+}
+
+}  // namespace tandem::server

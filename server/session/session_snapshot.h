@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/time.h"
+#include "proto/rpc/rpc_messages.h"
+#include "server/session/checkpoint.h"
+
+namespace tandem::server {
+
+/// State that a restart needs of a session: its checkpoint, id, name and code. Stored as one file that only its
+/// owner can read: it contains the session's code. It contains no resume secrets, only their hashes.
+struct SessionSnapshot {
+  Checkpoint checkpoint;
+  rpc::Id id{};
+  std::string name;            ///< 1 ... 255 bytes
+  std::string code;            ///< session code, at most 255 bytes; empty: tickets only
+  std::int64_t written_s = 0;  ///< wall-clock time [s since 1970, UTC]
+  /// Fingerprints of removed workstations: the session's code does not admit them again. At most
+  /// kRemovedWorkstationsMax.
+  std::vector<std::array<std::byte, 32>> removed_workstations{};
+};
+
+/// Lifetime of a resume secret after its owner was lost, and of a snapshot after it was written (design notes,
+/// security 1.4).
+inline constexpr std::int64_t kResumeLifeS = 600;
+inline constexpr Duration kResumeLife = std::chrono::seconds(kResumeLifeS);
+
+/// Maximum number of stored removed workstations. Once it is reached the session code admits no clients, and every
+/// join needs a ticket.
+inline constexpr std::size_t kRemovedWorkstationsMax = 128;
+inline constexpr std::size_t kSnapshotMax = kCheckpointMax + 1024 + 32 * kRemovedWorkstationsMax;  ///< [bytes]
+
+/// Writes magic, wall time, id, name, code, number of removed workstations (one byte), their fingerprints, checkpoint,
+/// then the SHA-256 of all that.
+/// @return empty if the name is missing, or if a text or the list is too long
+[[nodiscard]] std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept);
+/// Parses any bytes. @return a snapshot with all numbers in range, or the reason for the rejection, as text for the
+/// log
+[[nodiscard]] std::expected<SessionSnapshot, std::string> decode_snapshot(std::span<const std::byte> bytes);
+
+/// Why a session of this name and scene cannot be restored from it now; empty if it can.
+/// @param now  wall-clock time [s since 1970, UTC]
+[[nodiscard]] std::string incompatibility(const SessionSnapshot& kept, std::string_view name, const SceneSpec& scene,
+                                          std::int64_t now);
+
+}  // namespace tandem::server

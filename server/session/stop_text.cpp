@@ -1,0 +1,41 @@
+#include "server/session/stop_text.h"
+
+#include <algorithm>
+
+namespace tandem::server {
+
+std::string may_end_text(const StopLatch& lane, const SceneSpec& scene, std::uint32_t there) {
+  if (!lane.latched()) return {};
+  const std::string operators = "an operator (`tandem-client control resume`)";
+  if (!lane.pause_ends_by_its_makers())
+    return lane.has_instructor() ? "an instructor (key r) or " + operators : operators;
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) {
+    if ((lane.holders(there) >> i & 1U) == 0) continue;
+    names += (names.empty() ? "" : " and ") + scene.seats[i].name;
+    ++count;
+  }
+  if (count == 0) return "any seat that may pause (key r), as the seat that paused has left, or " + operators;
+  return names + (count == 1 ? " (key r), which paused, or " : " (key r each), which paused, or ") + operators;
+}
+
+std::optional<tandem::rpc::StatusStop> latest_stop(const StopLatch& lane, const SceneSpec& scene, double ago_s,
+                                                   std::uint32_t there) {
+  const StopLatch::Latest& newest = lane.latest();
+  const bool known = newest.level != StopLatch::Level::kNone;
+  if (lane.stops() == 0 || (!known && !lane.latched())) return std::nullopt;
+  tandem::rpc::StatusStop stop;
+  stop.number = lane.stops();
+  stop.kind = (known ? newest.level : lane.level()) == StopLatch::Level::kPaused ? tandem::rpc::StopKind::kPause
+                                                                                 : tandem::rpc::StopKind::kStop;
+  if (newest.by < scene.seats.size()) stop.seat = scene.seats[newest.by].name;
+  if (known && newest.by == StopLatch::kNoSeat) stop.kind = tandem::rpc::StopKind::kFault;
+  if (!known) stop.why = "it was on before the server was restarted";
+  stop.role = newest.role;
+  stop.ago_s = std::max(0.0, ago_s);
+  stop.ends = may_end_text(lane, scene, there);
+  return stop;
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,130 @@
+#include "server/session/tool.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/setup/channel_factory.h"
+#include "server/session/estimated_plane.h"
+
+namespace tandem::server {
+
+namespace {
+constexpr double kBrake = 50;  // [N s/m] at the tip, while HELD
+}
+
+Tool::Tool(const SceneSpec& scene, std::size_t index, std::unique_ptr<hal::SteppedDevice> slave)
+    : authority(scene.masters(), scene.alpha_slew, scene.channel.tank),
+      sources(setup::flow_source_mode(scene.channel.mfs), scene.channel.tank),
+      spec_(&scene.tools[index]),
+      dof_(scene.dof),
+      slave_(std::move(slave)),
+      told_({scene.dof, scene.channel.v_app, scene.coupling.k_c, 1.0 / scene.tick_hz}) {
+  if (spec_->is_virtual) {
+    body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_, setup::contacts(spec_->environment));
+    rest_at({spec_->slave.start.x, spec_->slave.start.y, spec_->slave.start.z});
+  } else if (spec_->remote && scene.channel.law == LawKind::kReplica) {
+    body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_);
+    if (spec_->contacts == ContactsMode::kEstimated) source_ = std::make_unique<EstimatedPlane>(dof_);
+  } else if (slave_) {
+    map_ = hal::PortMap(scene.port, dof_, slave_->caps().joints);
+    scale_ = map_.scale(slave_->state());
+    rest_at(map_.position(slave_->state()));
+  }
+}
+
+void Tool::rest_at(const AxisArray& x) noexcept {
+  if (body_) {
+    told_.clear();
+    body_->set_received_contacts(told_.surfaces());
+    return body_->rest_at(x);
+  }
+  for (std::size_t a = 0; a < dof_; ++a) ipc_[a] = {x[a], 0, 0};
+}
+
+void Tool::update_contacts(ToolView view) noexcept {
+  if (source_ == nullptr || !body_) return;
+  view.axes = dof_;
+  view.x = position();
+  view.v = velocity();
+  LocalContactList wanted;
+  source_->find_contacts(view, wanted);
+  named_.size = 0;
+  for (const LocalContact& contact :
+       std::span{wanted.item}.first(std::min<std::size_t>(wanted.size, kLocalContactsMax))) {
+    const bool known =
+        std::ranges::any_of(named_.all(), [&](const LocalContact& other) { return other.id == contact.id; });
+    if (known || !is_surface(contact, dof_) || !in_range(contact)) {
+      ++contacts_refused_;
+      continue;
+    }
+    named_.add(contact);
+  }
+  told_.update(named_.all());
+  if (told_.step(view.x, nullptr)) body_->set_received_contacts(told_.surfaces());
+}
+
+void Tool::step_body(double dt, const std::array<control::Pull, kAxesMax>& seats, bool braked) noexcept {
+  control::VirtualTool::Pulls pulls{};
+  AxisArray before{};
+  for (std::size_t a = 0; a < dof_; ++a) {
+    pulls[a] = seats[a];
+    if (braked) pulls[a].damper(kBrake, 0);
+    before[a] = body_->x(a);
+  }
+  if (!body_->step(dt, pulls)) ++not_finite_;
+  for (std::size_t a = 0; a < dof_; ++a) {
+    const double v = body_->v(a);
+    moved_[a] = body_->x(a) - before[a];
+    dissipated_[a] = (spec_->b_s + pulls[a].b + 0.5 * pulls[a].k * dt) * v * v * dt;
+  }
+}
+
+void Tool::step(double dt, const std::array<control::Pull, kAxesMax>& seats, bool braked) noexcept {
+  if (body_) return step_body(dt, seats, braked);
+  const AxisArray q = slave_ ? map_.position(slave_->state()) : AxisArray{};
+  for (std::size_t a = 0; a < dof_; ++a) {
+    const control::ToolIpc before = ipc_[a];
+    control::Pull pull = seats[a];
+    if (slave_) pull.spring(spec_->k_s * scale_[a], q[a]);
+    if (braked) pull.damper(kBrake * scale_[a], 0);
+    ipc_[a].step({spec_->m_s * scale_[a], spec_->b_s * scale_[a]}, dt, pull, seats[a].k);
+    if (!std::isfinite(ipc_[a].x) || !std::isfinite(ipc_[a].v)) {  // back to the last position, at rest; counted
+      ipc_[a] = {before.x, 0, 0};
+      ++not_finite_;
+    }
+    moved_[a] = ipc_[a].x - before.x;
+    dissipated_[a] = ipc_[a].dissipated;
+  }
+  if (!slave_) return;
+  const hal::State& s = slave_->state();
+  for (std::size_t a = 0; a < dof_; ++a) {
+    const double pull = spec_->k_s * scale_[a] * (ipc_[a].x - q[a]);
+    slave_effort_[a] = std::isfinite(pull) ? pull : 0;  // a slave with an invalid position gets no force
+  }
+  command_.seq += 1;
+  command_.expires = s.sampled_at + std::chrono::milliseconds(20);
+  command_.kind = hal::CommandKind::kJointEffort;
+  command_.effort = map_.joint_effort(s, slave_effort_);
+}
+
+void Tool::advance_slave(Duration dt) noexcept {
+  if (slave_) slave_->advance(command_, dt);
+}
+
+AxisArray Tool::position() const noexcept {
+  AxisArray x{};
+  for (std::size_t a = 0; a < dof_; ++a) x[a] = this->x(a);
+  return x;
+}
+
+AxisArray Tool::velocity() const noexcept {
+  AxisArray v{};
+  for (std::size_t a = 0; a < dof_; ++a) v[a] = this->v(a);
+  return v;
+}
+
+hal::Vec3 Tool::slave_force_commanded() const noexcept {
+  return slave_ ? map_.tip_force(slave_->state(), slave_effort_) : hal::Vec3::Zero();
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,218 @@
+// Texts that a user reads about the own seat during stops, transfers and device faults.
+#include "client/app/client_status.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "client/app/authority_steps.h"
+#include "client/app/authority_transfer_text.h"
+#include "client/app/seat_screen.h"
+
+namespace tandem::client {
+namespace {
+
+SeatSetup setup() {
+  SeatSetup s;
+  s.seat.name = "trainee";
+  s.seat.role = Role::kTrainee;
+  return s;
+}
+
+/// Three masters may have authority over the tool; the texts are those of the seat `trainee`.
+struct Told {
+  Told() : seat(setup()) {
+    seat.masters = {"trainer", "trainee", "second"};
+    seat.own_master = 1;
+    s.session = wire::SessionState::kRunning;
+    s.transfer = wire::TransferNotice::kGaining;
+    s.transfer_begins_s = 0.049;  // received one tick after it was sent
+    words->seats = {{"trainer", AccessRole::kInstructor, true, true, true},
+                    {"trainee", AccessRole::kTrainee, true, true, true},
+                    {"second", AccessRole::kTrainee, true, true, true}};
+    words->tools = {{"tool", {1, 0, 0}}};
+  }
+  std::string operator()(wire::TransferParties parties, double own_before = 0) {
+    s.transfer_parties = parties;
+    s.transfer_from = own_before;
+    return authority_transfer_text(s, seat, words);
+  }
+  SeatSetup seat;
+  ClientStatus s;
+  std::optional<rpc::Status> words{rpc::Status{}};
+};
+
+TEST(AuthorityTransfer, ReportsGiverReceiverShareStartAndDuration) {
+  Told said;
+  EXPECT_EQ(said({.by = wire::TransferParties::kScene, .to = 2, .percent = 100}),
+            "the scene gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 1.0 s");
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
+            "trainer gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 1.0 s");
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 30}, 0.25),
+            "trainer gives more of the tool to trainee (25 % to 30 %): begins in 50 ms, takes about 0.05 s");
+  EXPECT_EQ(said({.by = wire::TransferParties::kOperator, .to = 2, .percent = 100}),
+            "an operator gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 1.0 s");
+  EXPECT_EQ(said({.by = 1, .to = 0, .percent = 15}, 0.25),
+            "trainer sets new parts of the tool (your part 25 % to 15 %): begins in 50 ms, takes up to 1.0 s");
+  said.seat.alpha_slew = 0.25;
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
+            "trainer gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 4.0 s")
+      << "the scene's slew";
+  said.seat.alpha_slew = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
+            "trainer gives the tool to trainee (0 % to 100 %): in one step in 50 ms");
+}
+
+TEST(AuthorityTransfer, ReportsAnotherSeatsPreviousShareOnlyWhereKnown) {
+  Told said;
+  said.s.transfer = wire::TransferNotice::kLosing;
+  EXPECT_EQ(said({.by = 1, .to = 1, .percent = 100}, 0.75),
+            "trainer takes the tool (25 % to 100 %): begins in 50 ms, takes about 0.8 s");
+  EXPECT_EQ(said({.by = 1, .to = 1, .percent = 75}, 0.5),
+            "trainer takes more of the tool (50 % to 75 %): begins in 50 ms, takes about 0.2 s");
+  said.words->tools[0].alpha = {0.25, 0.5, 0.25};
+  EXPECT_EQ(said({.by = 1, .to = 1, .percent = 75}, 0.5),
+            "trainer takes more of the tool (to 75 %): begins in 50 ms, takes up to 0.8 s")
+      << "a third hand has a part";
+  said.words.reset();
+  EXPECT_EQ(said({.by = 1, .to = 1, .percent = 100}, 0.5),
+            "trainer takes the tool (to 100 %): begins in 50 ms, takes up to 1.0 s")
+      << "the server is not heard";
+  said.seat.masters.pop_back();
+  EXPECT_EQ(said({.by = 1, .to = 1, .percent = 100}, 0.5),
+            "trainer takes the tool (50 % to 100 %): begins in 50 ms, takes about 0.5 s")
+      << "there is no third hand";
+  said.s.session = wire::SessionState::kHeld;
+  EXPECT_EQ(said({.by = 1, .to = 1, .percent = 100}, 0),
+            "trainer takes the tool (to 100 %): begins in 50 ms, takes up to 1.0 s")
+      << "nobody has a part now";
+  said.seat.tools = {"left", "right"};
+  EXPECT_EQ(said({.by = 24, .to = 16, .percent = 100, .tool = 1}),
+            "an operator sets new parts of the tool right (your part to 100 %): begins in 50 ms, takes up to 1.0 s")
+      << "numbers that name nobody";
+}
+
+TEST(AuthorityTransfer, LastsUntilTheAuthorityIsConstant) {
+  Told said;
+  said.s.transfer_begins_s = 0;
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
+            "trainer gives the tool to trainee (0 % to 100 %): under way, takes about 1.0 s");
+  EXPECT_EQ(authority_transfer_brief(said.s), "more authority under way");
+  said.s.transfer_begins_s = -0.7;
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
+            "trainer gives the tool to trainee (0 % to 100 %): under way, takes about 1.0 s");
+  said.s.transfer_done = true;
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}), "trainer gives the tool to trainee (0 % to 100 %): done");
+  EXPECT_EQ(authority_transfer_brief(said.s), "more authority: done");
+  said.s.session = wire::SessionState::kStopped;
+  EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
+            "trainer gives the tool to trainee (to 100 %): when the session goes on");
+  EXPECT_EQ(authority_transfer_brief(said.s), "more authority when the session goes on");
+  said.s.transfer = wire::TransferNotice::kCancelled;
+  EXPECT_EQ(said({}), "hand-over canceled: a seat it concerns is gone, or its link is stale");
+  said.s.transfer = wire::TransferNotice::kNone;
+  EXPECT_EQ(said({}), "");
+}
+
+/// A held key: `a` repeats every 0.1 s, and the server announces each step.
+TEST(AuthorityTransfer, ReportsConsecutiveStepsAsOneCompleteSum) {
+  Told at;
+  at.seat.own_master = 0;  // the trainer's own screen
+  at.seat.seat.name = "trainer";
+  at.s.transfer = wire::TransferNotice::kLosing;
+  AuthorityTransferNotices notes;
+  std::string told;
+  double alpha = 1;
+  for (int ms = 0; ms <= 4000; ms += 50) {
+    const bool pressed = ms % 100 == 0 && ms < 1500;  // 15 steps
+    if (pressed) {
+      ++at.s.transfers;
+      at.s.transfer_from = alpha;
+      alpha -= 0.05;
+      at.s.transfer_parties = {.by = 1, .to = 2, .percent = static_cast<std::uint32_t>(std::lround(100 * (1 - alpha)))};
+    }
+    at.s.transfer_begins_s = pressed ? 0.05 : 0;
+    at.s.transfer_done = ms > 1600;
+    if (ms > 2600) at.s.transfer = wire::TransferNotice::kNone;
+    if (const std::string line = notes.message(1e-3 * ms, at.s, at.seat, at.words); !line.empty()) told += line + "\n";
+  }
+  EXPECT_EQ(told,
+            "trainer gives more of the tool to trainee (0 % to 5 %): begins in 50 ms, takes about 0.05 s\n"
+            "trainer gives more of the tool to trainee (5 % to 55 %): begins in 50 ms, takes about 0.5 s\n"
+            "trainer gives more of the tool to trainee (55 % to 75 %): done\n");
+}
+
+TEST(AuthorityTransfer, ReportsTheLastStepAfterItsNoticeHasEnded) {
+  Told at;
+  AuthorityTransferNotices notes;
+  at.s.transfers = 1;
+  at.s.transfer_parties = {.by = 1, .to = 2, .percent = 10};
+  EXPECT_NE(notes.message(0, at.s, at.seat, at.words), "");
+  at.s.transfers = 2;
+  at.s.transfer_from = 0.1;
+  at.s.transfer_parties.percent = 20;
+  EXPECT_EQ(notes.message(0.1, at.s, at.seat, at.words), "");
+  at.s.transfer = wire::TransferNotice::kNone;
+  EXPECT_EQ(notes.message(5, at.s, at.seat, at.words),
+            "trainer gives more of the tool to trainee (10 % to 20 %): done");
+  EXPECT_EQ(notes.message(9, at.s, at.seat, at.words), "");
+}
+
+TEST(AuthoritySteps, AddUpUntilAnotherSeatDecides) {
+  ClientStatus s;
+  s.alpha = 1;
+  s.authority_version = 7;
+  AuthoritySteps steps;
+  EXPECT_EQ(steps.base(s), 1);
+  for (const double own : {0.95, 0.9, 0.85}) {
+    steps.ask(own, s);
+    EXPECT_EQ(steps.base(s), own) << "what is felt is 1 as yet";
+  }
+  s.authority_version = 10;
+  s.alpha = 0.97;
+  EXPECT_EQ(steps.base(s), 0.85) << "all three were granted";
+  s.authority_version = 11;
+  s.alpha = 0.5;
+  EXPECT_EQ(steps.base(s), 0.5) << "somebody else decided too";
+  steps.ask(0.45, s);
+  s.authority_version = 12;
+  EXPECT_EQ(steps.base(s), 0.45);
+  s.transfer = wire::TransferNotice::kCancelled;
+  EXPECT_EQ(steps.base(s), 0.5) << "the weights stay";
+}
+
+TEST(ClientStatus, ExplainsWhyHotMotorsGiveNoForceAndWhatToDo) {
+  ClientStatus s;
+  EXPECT_EQ(motors_text(s), "");
+  s.motors_hot = true;
+  EXPECT_EQ(motors_text(s), "MOTORS TOO HOT: take your hand off until they are cool");
+  EXPECT_NE(io::join_items(seat_screen(s, setup(), std::nullopt)).find(motors_text(s)), std::string::npos);
+  s.motors_latched = true;
+  EXPECT_NE(motors_text(s).find("press b"), std::string::npos);
+  s.motors_hot = false;
+  EXPECT_EQ(motors_text(s), "motors were too hot three times: press b");
+}
+
+TEST(ClientReport, ReportsHotMotorsAndNothingWhereTemperatureIsUnknown) {
+  ClientReport r;
+  auto motors = nlohmann::json::parse(to_json(r, setup()))["motors"];
+  EXPECT_EQ(motors["too_hot"], 0);
+  EXPECT_TRUE(motors["heat_max"].is_null());
+  r.last.hot_trips = 2;
+  r.last.heat_max = 1.25;
+  motors = nlohmann::json::parse(to_json(r, setup()))["motors"];
+  EXPECT_EQ(motors["too_hot"], 2);
+  EXPECT_EQ(motors["heat_max"], 1.25);
+}
+
+TEST(ClientReport, ReportsTheDistanceToTheLeadersHandOrThatNoneLeads) {
+  ClientReport r;
+  EXPECT_TRUE(nlohmann::json::parse(to_json(r, setup()))["beside_leader_m"].is_null());
+  r.last.offset_from_leader_m = 0.0032;
+  EXPECT_DOUBLE_EQ(nlohmann::json::parse(to_json(r, setup()))["beside_leader_m"].get<double>(), 0.0032);
+}
+
+}  // namespace
+}  // namespace tandem::client

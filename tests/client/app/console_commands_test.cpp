@@ -1,0 +1,219 @@
+// Commands that a user types after `tandem-client control`, and the texts shown.
+#include "client/app/console_commands.h"
+
+#include <gtest/gtest.h>
+
+namespace tandem::client {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::string problem(const Words& words) {
+  const auto wish = parse_command(words);
+  return wish ? "" : wish.error();
+}
+
+rpc::Status lesson() {
+  rpc::Status s;
+  s.session_id[0] = std::byte{0xab};
+  s.name = "lesson";
+  s.phase = rpc::SessionPhase::kStopped;
+  s.stops = 3;
+  s.authority_version = 7;
+  s.time_s = 12.34;
+  s.seats = {{"trainer", AccessRole::kInstructor, true, true, true},
+             {"trainee", AccessRole::kTrainee, true, false, true},
+             {"arm", AccessRole::kObserver, false, false, false}};
+  s.tools = {{"drill", {0.25, 0.75}}};
+  s.stop = {3, rpc::StopKind::kStop, "", "desk", AccessRole::kOperator, "fire drill", 2.5, "an operator", true};
+  return s;
+}
+
+TEST(ConsoleCommands, ParseEveryCommand) {
+  EXPECT_EQ(parse_command(Words{"status"})->kind, ConsoleCommand::Kind::kStatus);
+  EXPECT_EQ(parse_command(Words{"stop", "in", "the", "way"})->why, "in the way");
+  EXPECT_EQ(parse_command(Words{"pause"})->kind, ConsoleCommand::Kind::kPause);
+  EXPECT_EQ(parse_command(Words{"pause", "my", "hand"})->why, "my hand");
+  EXPECT_FALSE(parse_command(Words{"resume"})->stop);
+  EXPECT_EQ(parse_command(Words{"resume", "4"})->stop, 4U);
+  const auto authority = parse_command(Words{"authority", "a=0.25,b=0.75", "version=3", "tool=drill"});
+  ASSERT_TRUE(authority) << authority.error();
+  EXPECT_EQ(authority->weights, (std::vector<std::pair<std::string, double>>{{"a", 0.25}, {"b", 0.75}}));
+  EXPECT_EQ(authority->version, 3U);
+  EXPECT_EQ(authority->tool, "drill");
+  EXPECT_EQ(parse_command(Words{"remove", "trainee", "rude"})->seat, "trainee");
+  EXPECT_EQ(parse_command(Words{"remove", "trainee", "rude"})->why, "rude");
+  EXPECT_EQ(parse_command(Words{"drain"})->grace_s, 0U);
+  EXPECT_EQ(parse_command(Words{"drain", "3600"})->grace_s, 3600U);
+  EXPECT_EQ(parse_command(Words{"quit"})->kind, ConsoleCommand::Kind::kQuit);
+}
+
+TEST(ConsoleCommands, ReportTheExpectedInputForEachMistake) {
+  for (const Words& words : {Words{},
+                             {""},
+                             {"halt"},
+                             {"Stop"},
+                             {"status", "now"},
+                             {"resume", "0"},
+                             {"resume", "-1"},
+                             {"resume", "1", "2"},
+                             {"resume", "4294967296"},
+                             {"authority"},
+                             {"authority", "a"},
+                             {"authority", "=1"},
+                             {"authority", "a=0.5"},
+                             {"authority", "a=0.5,b=0.6"},
+                             {"authority", "a=nan"},
+                             {"authority", "a=-0.5,b=1.5"},
+                             {"authority", "a=0.5,a=0.5"},
+                             {"authority",
+                              "a=1,"
+                              "b"},
+                             {"authority", "a=1", "tools=x"},
+                             {"authority", "a=1", "tool="},
+                             {"authority", "a=1", "version=x"},
+                             {"remove"},
+                             {"drain", "3601"},
+                             {"drain", "soon"},
+                             {"drain", "1", "2"},
+                             {"stop", std::string(481, 'x')}})
+    EXPECT_FALSE(problem(words).empty()) << testing::PrintToString(words);
+  EXPECT_NE(problem({"authority", "a=0.5,b=0.6"}).find("sum to 1.1; they must sum to 1"), std::string::npos);
+}
+
+TEST(ConsoleCommands, RequestTheLeastSufficientRole) {
+  for (const auto what : {ConsoleCommand::Kind::kStatus, ConsoleCommand::Kind::kStop, ConsoleCommand::Kind::kPause,
+                          ConsoleCommand::Kind::kResume, ConsoleCommand::Kind::kRemove, ConsoleCommand::Kind::kDrain})
+    EXPECT_EQ(role_for(what), AccessRole::kOperator);
+  EXPECT_EQ(role_for(ConsoleCommand::Kind::kAuthority), AccessRole::kInstructor);
+}
+
+TEST(ConsoleCommands, SetAuthorityAgainstTheStatusVersionShown) {
+  const rpc::Status now = lesson();
+  const auto frame = authority_frame(*parse_command(Words{"authority", "trainee=1"}), now);
+  ASSERT_TRUE(frame) << frame.error();
+  EXPECT_EQ(*frame, (rpc::SetAuthority{now.session_id, 0, 7, {0, 1}}))
+      << "in the order of the seats, who is not named gets nothing";
+  EXPECT_EQ(authority_frame(*parse_command(Words{"authority", "trainee=1", "version=5", "tool=drill"}), now)->version,
+            5U);
+  EXPECT_NE(
+      authority_frame(*parse_command(Words{"authority", "nobody=1"}), now).error().find("seats: trainer, trainee"),
+      std::string::npos);
+  EXPECT_FALSE(authority_frame(*parse_command(Words{"authority", "arm=1"}), now)) << "leads nothing";
+  EXPECT_NE(
+      authority_frame(*parse_command(Words{"authority", "trainer=1", "tool=saw"}), now).error().find("tools: drill"),
+      std::string::npos);
+  rpc::Status two = now;
+  two.tools.push_back({"saw", {1, 0}});
+  EXPECT_NE(authority_frame(*parse_command(Words{"authority", "trainer=1"}), two).error().find("which tool"),
+            std::string::npos);
+  EXPECT_EQ(authority_frame(*parse_command(Words{"authority", "trainer=1", "tool=saw"}), two)->tool, 1U);
+}
+
+TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
+  EXPECT_EQ(status_text(lesson()),
+            "lesson: stopped, 12.3 s; `resume 3` ends it; authority version 7\n"
+            "  STOPPED by desk (operator at a console): fire drill. It can be ended by: an operator. You may end it\n"
+            "  seat trainer          instructor here\n"
+            "  seat trainee          trainee    SILENT\n"
+            "  seat arm              observer   free\n"
+            "  tool drill            trainer 0.25, trainee 0.75\n");
+  EXPECT_EQ(status_json(lesson()),
+            "{\"session\": \"lesson\", \"id\": \"ab000000000000000000000000000000\", \"phase\": \"stopped\", "
+            "\"time_s\": 12.340, \"stops\": 3, \"authority_version\": 7, "
+            "\"draining\": false, \"shed\": 0, \"seats\": [{\"name\": \"trainer\", \"role\": \"instructor\", "
+            "\"taken\": true, \"heard\": true}, {\"name\": \"trainee\", \"role\": \"trainee\", "
+            "\"taken\": true, \"heard\": false}, {\"name\": \"arm\", \"role\": \"observer\", \"taken\": false, "
+            "\"heard\": false}], \"tools\": [{\"name\": \"drill\", "
+            "\"alpha\": {\"trainer\": 0.25, \"trainee\": 0.75}}], \"stop\": {\"number\": 3, \"kind\": \"stop\", "
+            "\"seat\": \"\", \"workstation\": \"desk\", \"role\": \"operator\", "
+            "\"why\": \"fire drill\", \"ago_s\": 2.500, \"ends\": \"an operator\", \"yours\": true}, \"drain\": null, "
+            "\"held\": null}\n");
+}
+
+TEST(ConsoleCommands, ReportEventsOnceAndOnlyThoseAfterTheFirstStatus) {
+  rpc::Status first = lesson();
+  first.events = {{1, "stop 2 is over: RESUMED by trainer"}};
+  EXPECT_EQ(status_changes_text(rpc::Status{}, first).find("RESUMED"), std::string::npos) << "of the time before";
+  rpc::Status next = first;
+  next.phase = rpc::SessionPhase::kRunning;
+  next.events.push_back({2, "stop 3 is over: RESUMED by desk; force returns over 0.5 s"});
+  next.events.push_back({3, "trainee is REMOVED by desk\x1b[2J"});
+  EXPECT_EQ(status_changes_text(first, next),
+            "stop 3 is over: RESUMED by desk; force returns over 0.5 s\ntrainee is REMOVED by desk\\x1b[2J\n");
+  EXPECT_EQ(status_changes_text(next, next), "");
+  rpc::Status nameless = next;
+  nameless.events = first.events;
+  EXPECT_EQ(status_changes_text(first, nameless), "stop 3 is over: the session is running\n")
+      << "a server that does not know by whom";
+  next.held = "trainer left";
+  EXPECT_NE(status_text(next).find("BRAKED: trainer left"), std::string::npos);
+}
+
+// Text from another console or from a malicious server is sanitised: it contains no control sequences for the terminal
+// and cannot imitate other output.
+TEST(ConsoleCommands, SanitiseTextFromOtherParticipants) {
+  rpc::Status s = lesson();
+  s.stop->why =
+      "\x1b[2Jgone\r\n\x07 \xe2\x80\xae"
+      "evil \xc2\x9b \xff \xc3\xa4";
+  EXPECT_EQ(stop_text(s),
+            "STOPPED by desk (operator at a console): \\x1b[2Jgone\\x0d\\x0a\\x07 \\u202eevil \\u009b \\xff \xc3\xa4. "
+            "It can be ended by: an operator. You may end it");
+  s.stop->why = std::string(600, 'x');
+  EXPECT_NE(stop_text(s).find(std::string(480, 'x') + ".... It can"), std::string::npos) << stop_text(s);
+  s.stop->why = "a \"b\" \\";
+  EXPECT_NE(status_json(s).find("\"why\": \"a \\\"b\\\" \\\\\""), std::string::npos) << status_json(s);
+  s.stop->kind = rpc::StopKind::kFault;
+  s.stop->workstation = s.stop->why = "";
+  s.stop->yours = false;
+  EXPECT_EQ(stop_text(s),
+            "STOPPED by the session itself: its numbers could not be trusted. It can be ended by: an operator");
+}
+
+TEST(ConsoleCommands, ReportNoResumeWhenTheSessionEnds) {
+  rpc::Status before = lesson(), now = lesson();
+  now.phase = rpc::SessionPhase::kEnding;
+  EXPECT_EQ(status_changes_text(before, now), "");
+}
+
+/// A server that ends at once reports a drain with 0 s left, which is not shown.
+TEST(ConsoleCommands, ReportNoDrainWithoutRemainingTime) {
+  rpc::Status before = lesson(), now = lesson();
+  now.drain = rpc::StatusDrain{0, 1, 1};
+  EXPECT_EQ(status_changes_text(before, now), "");
+  now.drain = rpc::StatusDrain{3, 1, 1};
+  EXPECT_EQ(status_changes_text(before, now), "DRAINING: 3 s left, 1 session, 1 person on a seat\n");
+}
+
+TEST(ConsoleCommands, ReportEachStatusChangeOnce) {
+  rpc::Status before = lesson(), now = lesson();
+  EXPECT_EQ(status_changes_text(before, now), "");
+  now.stops = now.stop->number = 4;
+  EXPECT_EQ(status_changes_text(before, now), stop_text(now) + "\n");
+  EXPECT_EQ(status_changes_text({}, before), stop_text(before) + "\n")
+      << "somebody who comes while it is stopped reads it too";
+  rpc::Status over = now;
+  over.phase = rpc::SessionPhase::kRunning;
+  EXPECT_EQ(status_changes_text(now, over), "stop 4 is over: the session is running\n");
+  now = before = over;
+  std::string told;
+  for (std::uint32_t left = 33; left-- > 0; before = now) {
+    now.drain = {left, 2, 3};
+    told += status_changes_text(before, now);
+  }
+  EXPECT_EQ(told,
+            "DRAINING: 32 s left, 2 sessions, 3 people on their seats\nDRAINING: 29 s left, 2 sessions, 3 people on "
+            "their seats\n"
+            "DRAINING: 19 s left, 2 sessions, 3 people on their seats\nDRAINING: 9 s left, 2 sessions, 3 people on "
+            "their seats\n"
+            "DRAINING: 5 s left, 2 sessions, 3 people on their seats\nDRAINING: 4 s left, 2 sessions, 3 people on "
+            "their seats\n"
+            "DRAINING: 3 s left, 2 sessions, 3 people on their seats\nDRAINING: 2 s left, 2 sessions, 3 people on "
+            "their seats\n"
+            "DRAINING: 1 s left, 2 sessions, 3 people on their seats\nDRAINING: 0 s left, 2 sessions, 3 people on "
+            "their seats\n");
+}
+
+}  // namespace
+}  // namespace tandem::client

@@ -1,0 +1,87 @@
+// Server configurations: accepted and rejected input, with the position of every error.
+#include "proto/text/server_config_text.h"
+
+#include <gtest/gtest.h>
+
+namespace tandem {
+namespace {
+
+constexpr const char* kSmall = "version: 1\nlisten: \"127.0.0.1:7000\"\nsession { name: \"a\" scene: \"contact\" }\n";
+
+std::string mistakes_of(const std::string& text) {
+  const auto config = parse_server_config(text, "s.textproto");
+  return config ? "" : to_text(config.error());
+}
+
+TEST(ServerConfig, UsesTheDefaultLimitsForThreeLines) {
+  const auto config = parse_server_config(kSmall, "s.textproto");
+  ASSERT_TRUE(config) << to_text(config.error());
+  EXPECT_EQ(config->listen.text, "127.0.0.1:7000");
+  ASSERT_EQ(config->sessions.size(), 1u);
+  EXPECT_EQ(config->sessions[0].scene.text, "contact");
+  EXPECT_EQ(config->sessions[0].scene.line, 3);
+  EXPECT_TRUE(config->sessions[0].restart);
+  EXPECT_FALSE(config->sessions[0].tickets_only);
+  EXPECT_EQ(config->limits.load_percent, 60);
+  EXPECT_EQ(config->limits.pending, 256u);
+  EXPECT_FALSE(config->log.json);
+}
+
+TEST(ServerConfig, ReportsAllMistakesWithTheirPlaces) {
+  const std::string told = mistakes_of(
+      "version: 1\nlisen: \"127.0.0.1:7000\"\nsession { name: \"a b\" scene: \"contact\" }\nsession { name: \"c\" "
+      "scene: \"\" }\n"
+      "session { name: \"c\" scene: \"contact\" entry: CODES }\nlimits { load_percent: 61 pending: 257 deadline_s: nan "
+      "}\n");
+  for (const char* mistake :
+       {"s.textproto:2:1: lisen", "listen", "s.textproto:3:17: session[0].name", "s.textproto:4:28: session[1].scene",
+        "s.textproto:5:17: session[2].name = \"c\"", "session[2].entry = CODES",
+        "s.textproto:6:24: limits.load_percent = 61", "limits.pending = 257", "limits.deadline_s = nan"})
+    EXPECT_NE(told.find(mistake), std::string::npos) << mistake << " is not in\n" << told;
+}
+
+TEST(ServerConfig, RejectsLimitsLooserThanTheDefaults) {
+  for (const char* limit : {"accepts_per_s: 10.1", "accepts_burst: 101", "accepts_per_s_all: 301", "connections: 2049",
+                            "deadline_s: 5.1", "load_percent: 60.1", "core_percent: 80.1"})
+    EXPECT_NE(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
+  for (const char* limit : {"accepts_per_s: 10", "accepts_burst: 100", "accepts_per_s_all: 300", "connections: 2048",
+                            "deadline_s: 5", "load_percent: 60", "core_percent: 80"})
+    EXPECT_EQ(mistakes_of(std::string(kSmall) + "limits { " + limit + " }"), "") << limit;
+}
+
+TEST(ServerConfig, ReadsSizeAndCountOfTheAuditLog) {
+  const auto config = parse_server_config(kSmall, "s.textproto");
+  ASSERT_TRUE(config);
+  EXPECT_EQ(config->audit.file_mib, 8);
+  EXPECT_EQ(config->audit.older_files, 7u);
+  for (const char* wrong : {"file_mib: 0.06", "file_mib: 1025", "older_files: 0", "older_files: 100"})
+    EXPECT_NE(mistakes_of(std::string(kSmall) + "audit { " + wrong + " }"), "") << wrong;
+  const auto small = parse_server_config(
+      std::string(kSmall) + "audit { file_mib: 0.0625 older_files: 1 } metrics_host: \"monitor.lab\"", "s.textproto");
+  ASSERT_TRUE(small) << to_text(small.error());
+  EXPECT_EQ(small->audit.file_mib, 0.0625);
+  EXPECT_EQ(small->metrics_hosts, std::vector<std::string>{"monitor.lab"});
+  EXPECT_NE(effective_server_config_text(*small).find("audit.older_files"), std::string::npos);
+  for (const char* name : {"", "a:9464", "http://a"})
+    EXPECT_NE(mistakes_of(std::string(kSmall) + "metrics_host: \"" + name + "\"").find("metrics_host[0]"),
+              std::string::npos)
+        << name;
+}
+
+TEST(ServerConfig, RequiresASession) {
+  EXPECT_NE(mistakes_of("version: 1 listen: \"127.0.0.1:7000\"").find("session"), std::string::npos);
+  EXPECT_NE(mistakes_of(""), "");
+}
+
+TEST(ServerConfig, ListsItsEffectiveValues) {
+  const auto config = parse_server_config(
+      std::string(kSmall) + "limits { load_percent: 40 } log { format: JSON } reports: \"r\"", "s.textproto");
+  ASSERT_TRUE(config);
+  const std::string listing = effective_server_config_text(*config);
+  for (const char* key :
+       {"session[0].name", "limits.load_percent", "40", "JSON", "limits.accepts_per_s", "reports", "restart"})
+    EXPECT_NE(listing.find(key), std::string::npos) << key << "\n" << listing;
+}
+
+}  // namespace
+}  // namespace tandem

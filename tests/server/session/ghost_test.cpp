@@ -1,0 +1,139 @@
+// Which hand leads a seat, and where it is: in FORCE and in records.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "server/report/trace_csv.h"
+#include "server/session/leading_hand.h"
+#include "tests/server/session/session_fixture.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace test;
+
+constexpr std::size_t kTrainer = 0, kTrainee = 1;
+
+double distance(const std::array<float, 3>& a, const std::array<double, 3>& b) {
+  double square = 0;
+  for (std::size_t k = 0; k < 3; ++k) square += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(square);
+}
+
+TEST(Ghost, ShowsTheLeadersHandToFollowersOnly) {
+  SessionFixture rig("free_motion");
+  rig.run(4s);
+  const wire::Ghost& told = rig.seats[kTrainee].core->force().ghost;
+  EXPECT_EQ(told.leader, kTrainer + 1);
+  EXPECT_LT(distance(told.x, rig.seats[kTrainer].core->sample().telemetry.x), 0.0005)
+      << "without delay: a tick of 0.16 m/s";
+  EXPECT_EQ(rig.seats[kTrainer].core->force().ghost, wire::Ghost{});
+  const TickRecord& record = rig.session->record();
+  EXPECT_EQ(record.seats[kTrainee].leader, kTrainer + 1);
+  EXPECT_EQ(record.seats[kTrainer].leader, 0u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(record.seats[kTrainee].ghost[k], told.x[k], 0.0005);
+  const TraceCsv csv(rig.scene);
+  EXPECT_NE(csv.header().find(",trainee.leader[1],trainee.ghost_x[m],trainee.ghost_y[m],trainee.ghost_z[m],"),
+            std::string::npos);
+  std::string row;
+  csv.append(record, row);
+  EXPECT_EQ(std::ranges::count(row, ','), std::ranges::count(csv.header(), ','));
+  // Offset that the seat's own screen shows.
+  const auto beside = rig.seats[kTrainee].core->offset_from_leader(rig.now);
+  ASSERT_TRUE(beside);
+  double square = 0;
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double own = rig.seats[kTrainee].core->sample().telemetry.x[i];
+    EXPECT_NEAR((*beside)[k], own - rig.seats[kTrainer].core->sample().telemetry.x[i], 0.0005);
+    square += (*beside)[k] * (*beside)[k];
+  }
+  EXPECT_GT(square, 0);
+  EXPECT_FALSE(rig.seats[kTrainer].core->offset_from_leader(rig.now));
+}
+
+TEST(Ghost, ChangesWithAuthority) {
+  SessionFixture rig("free_motion");  // from 11.5 s on the trainee has all authority
+  rig.run(13s);
+  EXPECT_EQ(rig.seats[kTrainer].core->force().ghost.leader, kTrainee + 1);
+  EXPECT_EQ(rig.seats[kTrainee].core->force().ghost.leader, 0u);
+}
+
+TEST(Ghost, IsRecordedUnderEveryLawAndSentUnderReplicaOnly) {
+  SessionFixture rig("free_motion", 3, {}, 0, [](SceneSpec& scene) { choose_law(scene, LawKind::kSetPosition); });
+  rig.run(4s);
+  EXPECT_EQ(rig.session->record().seats[kTrainee].leader, kTrainer + 1);
+  EXPECT_EQ(rig.seats[kTrainee].core->force().ghost.leader, 0u);
+}
+
+PortSample sample(double x, double v) {
+  PortSample out;
+  out.x[0] = x;
+  out.v[0] = v;
+  return out;
+}
+
+TEST(LeadingHand, ExtrapolatesAFastHandByItsDelay) {
+  LeadingHand hand;
+  for (int i = 0; i < 2000; ++i) hand.step(true, sample(0.2 * i * 1e-3, 0.2), 3, 0.1);
+  const wire::Ghost ghost = hand.ghost(2, {0.4 + 0.01, 0, 0.3});
+  EXPECT_EQ(ghost.leader, 2u);
+  EXPECT_NEAR(ghost.x[0], 0.41 + 0.02, 0.0002) << "the tip, and 100 ms of 0.2 m/s";
+  EXPECT_EQ(ghost.x[2], 0.3f);
+  EXPECT_NEAR(ghost.v[0], 0.2, 1e-3);
+  EXPECT_LT(hand.steady_share(), 0.01) << "nothing of the prediction that is late";
+}
+
+/// A tremor of 0.42 mm at 2.3 Hz with its true velocity, 6 mm/s, after 200 ms.
+TEST(LeadingHand, DampsTheExtrapolationOfAHandHeldStill) {
+  LeadingHand hand;
+  double most = 0, bold = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const double t = i * 1e-3, w = 2 * std::numbers::pi * 2.3, x = 0.42e-3 * std::sin(w * t),
+                 v = 0.42e-3 * w * std::cos(w * t);
+    hand.step(true, sample(x, v), 3, 0.2);
+    if (i < 3000) continue;
+    most = std::max(most, std::abs(hand.steady_x(0)));
+    bold = std::max(bold, std::abs(x + 0.2 * v));
+  }
+  EXPECT_GT(hand.steady_share(), 0.8);
+  EXPECT_GT(bold, 1.2e-3);
+  EXPECT_LT(most, 0.7e-3) << "about half";
+}
+
+TEST(LeadingHand, ReturnsTheReceivedPositionOfFreshData) {
+  LeadingHand hand;
+  for (int i = 0; i < 1000; ++i) hand.step(true, sample(0.01, 0), 3, 0.001);
+  EXPECT_LT(hand.steady_share(), 1e-3);
+  EXPECT_FLOAT_EQ(hand.ghost(1, {0.01, 0, 0}).x[0], 0.01f);
+}
+
+TEST(LeadingHand, RestartsAtThePositionOfANewHand) {
+  LeadingHand hand;
+  for (int i = 0; i < 1000; ++i) hand.step(true, sample(0.1, 0.5), 3, 0.1);
+  hand.step(false, sample(0.1, 0.5), 3, 0.1);
+  EXPECT_FALSE(hand.present());
+  hand.step(true, sample(-0.1, 0), 3, 0.1);
+  EXPECT_NEAR(hand.steady_x(0), -0.1, 1e-9);
+}
+
+TEST(LeadingHand, DoesNotExtrapolateAtAJointPort) {
+  LeadingHand hand;
+  for (int i = 0; i < 1000; ++i) hand.step(true, sample(0.1, 0.5), 0, 0.1);
+  const wire::Ghost ghost = hand.ghost(1, {0.01, 0.02, 0.03});
+  EXPECT_FLOAT_EQ(ghost.x[1], 0.02f);
+  EXPECT_EQ(ghost.v, (std::array<float, 3>{}));
+}
+
+TEST(LeadingHand, StaysWithinTheLimitsOfForceMessages) {
+  LeadingHand hand;
+  for (int i = 0; i < 1000; ++i) hand.step(true, sample(9.99, 100), 3, 10);
+  const wire::Ghost ghost = hand.ghost(1, {9.99, -9.99, 0});
+  EXPECT_LE(ghost.x[0], wire::kPositionMaxM);
+  EXPECT_LE(std::abs(ghost.v[0]), wire::kVelocityMax);
+}
+
+}  // namespace
+}  // namespace tandem::server

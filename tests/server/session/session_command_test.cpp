@@ -1,0 +1,331 @@
+// Commands over control connections, executed by a real session with real client cores at its seats.
+#include "server/session/session_command.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "server/policy/admission_control.h"
+#include "tests/server/session/session_fixture.h"
+#include "tests/support/alloc_guard.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace test;
+using Result = CommandOutcome::Result;
+using What = SessionCommand::What;
+
+constexpr std::size_t kTrainer = 0, kTrainee = 1;
+
+CommandOutcome order(SessionFixture& rig, What what, AccessRole who, std::uint32_t number = 0) {
+  SessionCommand c;
+  c.what = what;
+  c.role = who;
+  c.number = number;
+  return execute_command(*rig.session, rig.now, c);
+}
+
+SessionCommand weights(AccessRole who, std::uint32_t version, std::initializer_list<double> alpha,
+                       std::uint32_t tool = 0) {
+  SessionCommand c;
+  c.what = What::kSetAuthority;
+  c.role = who;
+  c.authority.version = version;
+  c.authority.tool = tool;
+  c.authority.masters = static_cast<std::uint32_t>(alpha.size());
+  std::copy(alpha.begin(), alpha.end(), c.authority.alpha.begin());
+  return c;
+}
+
+SessionCommand removing(std::size_t seat, wire::CloseReason why = wire::CloseReason::kRemoved) {
+  SessionCommand c;
+  c.what = What::kRemove;
+  c.role = AccessRole::kInstructor;
+  c.target_seat = static_cast<std::uint8_t>(seat);
+  c.close_reason = why;
+  return c;
+}
+
+std::vector<AuditEvent> events(Session& session) {
+  std::vector<AuditEvent> out;
+  while (const auto e = session.poll_audit()) out.push_back(*e);
+  return out;
+}
+
+TEST(Commands, LatchAStopAndEndOnlyTheNewest) {
+  SessionFixture rig("free_motion");
+  rig.run(2s);
+  ASSERT_TRUE(rig.seats[kTrainer].core->gate().active());
+  EXPECT_EQ(order(rig, What::kResume, AccessRole::kOperator, 0).result, Result::kNothingToDo) << "nothing is stopped";
+  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).stops, 1U);
+  rig.run(200ms);
+  for (const FixtureSeat& s : rig.seats) EXPECT_FALSE(s.core->gate().active());
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
+  EXPECT_EQ(order(rig, What::kStop, AccessRole::kInstructor).stops, 2U);
+  const CommandOutcome old = order(rig, What::kResume, AccessRole::kOperator, 1);
+  EXPECT_EQ(old.result, Result::kOutdated);
+  EXPECT_EQ(old.stop_latch.level(), StopLatch::Level::kStopped);
+  EXPECT_EQ(order(rig, What::kResume, AccessRole::kRecorder, 2).result, Result::kForbidden)
+      << "the session looks at the role once more";
+  rig.run(100ms);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
+  EXPECT_EQ(order(rig, What::kResume, AccessRole::kOperator, 2).result, Result::kDone);
+  rig.run(1s);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kRunning);
+  EXPECT_TRUE(rig.seats[kTrainer].core->gate().active());
+}
+
+// Two commands between the same two ticks: the reply to the second one already shows the effect of the first.
+TEST(Commands, ReturnTheNewStateBeforeTheNextTick) {
+  SessionFixture waiting, running("free_motion");
+  running.run(2s);
+  for (SessionFixture* rig : {&waiting, &running}) {
+    const wire::SessionState before = rig->session->state();
+    EXPECT_EQ(order(*rig, What::kPause, AccessRole::kTrainee).state, wire::SessionState::kPaused);
+    EXPECT_EQ(order(*rig, What::kStop, AccessRole::kOperator).state, wire::SessionState::kStopped);
+    EXPECT_EQ(order(*rig, What::kResume, AccessRole::kOperator, 2).state, before);
+  }
+  running.session->end(wire::CloseReason::kDone);
+  EXPECT_EQ(order(running, What::kStop, AccessRole::kOperator).state, wire::SessionState::kEnding);
+}
+
+TEST(Commands, PauseForEveryPermittedRoleWithoutWeakeningAStop) {
+  SessionFixture rig;
+  rig.run(1s);
+  EXPECT_EQ(order(rig, What::kPause, AccessRole::kInstructor).stop_latch.level(), StopLatch::Level::kPaused);
+  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).stop_latch.level(), StopLatch::Level::kStopped);
+  EXPECT_EQ(order(rig, What::kPause, AccessRole::kTrainee).stop_latch.level(), StopLatch::Level::kStopped);
+  EXPECT_EQ(order(rig, What::kPause, AccessRole::kObserver).result, Result::kForbidden);
+  EXPECT_EQ(rig.session->stops(), 3U);
+}
+
+// With real clients: the trainee pauses from its seat. An evaluator cannot end the pause, the trainee can.
+TEST(Commands, LetOnlyThePausingSeatEndItsPauseWithoutAnInstructor) {
+  SessionFixture rig("eight_seats");
+  rig.run(2s);
+  ASSERT_TRUE(rig.seats[0].core->gate().active());
+  ASSERT_TRUE(rig.seats[0].core->request_stop_all());
+  rig.run(300ms);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused);
+  for (const FixtureSeat& s : rig.seats) EXPECT_FALSE(s.core->gate().active());
+  rig.seats[1].core->request_resume();
+  rig.run(300ms);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused) << "somebody else's pause";
+  const CommandOutcome look = order(rig, What::kQueryStatus, AccessRole::kRecorder);
+  EXPECT_EQ(look.stop_latch.latest().by, 0);
+  EXPECT_TRUE(look.stop_latch.may_end(AccessRole::kTrainee, 0));
+  EXPECT_GT(look.stop_age, 0.5);
+  rig.seats[0].core->request_resume();
+  rig.run(1s);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kRunning);
+  EXPECT_TRUE(rig.seats[0].core->gate().active());
+  // They cannot end a stop by an operator.
+  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).result, Result::kDone);
+  rig.run(100ms);
+  rig.seats[0].core->request_resume();
+  rig.run(100ms);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
+}
+
+TEST(Commands, AcceptOneOfTwoChangesOfAVersionAndReturnTheCurrentValue) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    SessionFixture rig("free_motion", seed);
+    rig.run(1s);
+    const std::uint32_t version = rig.session->authority_version();
+    const double a = static_cast<double>(seed) / 10;
+    // The order of the two is arbitrary: the seed selects it.
+    const SessionCommand first = weights(AccessRole::kInstructor, version, {a, 1 - a}),
+                         second = weights(AccessRole::kInstructor, version, {1 - a, a});
+    const CommandOutcome won = execute_command(*rig.session, rig.now, seed % 2 == 0 ? first : second),
+                         lost = execute_command(*rig.session, rig.now, seed % 2 == 0 ? second : first);
+    EXPECT_EQ(won.result, Result::kDone);
+    EXPECT_EQ(lost.result, Result::kOutdated);
+    EXPECT_EQ(lost.authority_version, version + 1);
+    EXPECT_EQ(lost.alpha, won.alpha) << "the loser gets what is in force";
+    EXPECT_EQ(won.authority_version, version + 1);
+    EXPECT_NE(won.before, won.alpha[0]);
+    // With the version of the reply the request can be repeated.
+    SessionCommand again = seed % 2 == 0 ? second : first;
+    again.authority.version = lost.authority_version;
+    EXPECT_EQ(execute_command(*rig.session, rig.now, again).result, Result::kDone);
+  }
+}
+
+TEST(Commands, RejectInvalidAuthorityWithoutEffect) {
+  SessionFixture rig("free_motion");
+  rig.run(1s);
+  const std::uint32_t version = rig.session->authority_version();
+  const auto before = rig.session->tool(0).authority.requested();
+  const auto result = [&](const SessionCommand& c) { return execute_command(*rig.session, rig.now, c).result; };
+  EXPECT_EQ(result(weights(AccessRole::kInstructor, version, {1, 0}, 1)), Result::kInvalid) << "no such tool";
+  EXPECT_EQ(result(weights(AccessRole::kInstructor, version, {1})), Result::kInvalid) << "a master is missing";
+  EXPECT_EQ(result(weights(AccessRole::kInstructor, version, {1, 0, 0})), Result::kInvalid);
+  for (const AccessRole who :
+       {AccessRole::kEvaluator, AccessRole::kObserver, AccessRole::kOperator, AccessRole::kRecorder})
+    EXPECT_EQ(result(weights(who, version, {0.5, 0.5})), Result::kForbidden) << to_text(who);
+  EXPECT_EQ(result(weights(AccessRole::kInstructor, version + 1, {0.5, 0.5})), Result::kOutdated)
+      << "nor one that never was";
+  EXPECT_EQ(rig.session->authority_version(), version);
+  EXPECT_EQ(rig.session->tool(0).authority.requested(), before);
+}
+
+TEST(Commands, LetATraineeOnlyReturnAuthority) {
+  SessionFixture rig("free_motion");
+  rig.run(1s);
+  ASSERT_EQ(execute_command(*rig.session, rig.now,
+                            weights(AccessRole::kInstructor, rig.session->authority_version(), {0.4, 0.6}))
+                .result,
+            Result::kDone);
+  SessionCommand c = weights(AccessRole::kTrainee, rig.session->authority_version(), {0.2, 0.8});
+  c.seat = kTrainee;
+  c.cid = rig.session->seat(kTrainee).link()->own_cid();
+  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kForbidden);
+  c.authority.alpha[0] = 0.9;
+  c.authority.alpha[1] = 0.1;
+  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kDone);
+}
+
+TEST(Commands, RejectASenderThatNoLongerHasItsSeat) {
+  SessionFixture rig("free_motion");
+  rig.run(1s);
+  SessionCommand c;
+  c.what = What::kStop;
+  c.role = AccessRole::kInstructor;
+  c.seat = kTrainer;
+  c.cid = rig.session->seat(kTrainer).link()->own_cid() ^ 0x10000U;
+  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost) << "somebody else has it now";
+  c.cid ^= 0x10000U;
+  c.seat = 7;
+  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost);
+  c.seat = kTrainer;
+  ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainer)).result, Result::kDone);
+  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost)
+      << "from the moment on that he is sent away";
+  EXPECT_EQ(rig.session->stops(), 0U);
+}
+
+// One participant is removed: the hand is released, the other hand on the same tool feels no jump, and the client
+// receives the reason.
+TEST(Commands, RemoveAParticipantWithoutAForceStepAndReportTheReason) {
+  for (const auto why : {wire::CloseReason::kRemoved, wire::CloseReason::kRevoked}) {
+    SessionFixture rig("free_motion");
+    rig.run(2s);
+    ASSERT_EQ(execute_command(*rig.session, rig.now,
+                              weights(AccessRole::kInstructor, rig.session->authority_version(), {0.5, 0.5}))
+                  .result,
+              Result::kDone);
+    rig.run(2s);
+    ASSERT_TRUE(rig.seats[kTrainee].core->gate().active());
+    static_cast<void>(events(*rig.session));
+    ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee, why)).result, Result::kDone);
+    EXPECT_TRUE(rig.session->closing_out(kTrainee));
+    EXPECT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee, why)).result, Result::kNothingToDo)
+        << "he is on his way";
+    EXPECT_EQ(rig.session->may_admit(rig.now, kTrainee, false), JoinResult::kSeatTaken) << "until it is let go";
+    const int told_before = rig.forces[2];
+    double step = 0, last = rig.seats[kTrainer].device->state().f_out.norm();
+    std::optional<int> closed_after, let_go_after;
+    for (int ms = 0; ms < 400; ++ms) {
+      rig.tick([] {});
+      const double now = rig.seats[kTrainer].device->state().f_out.norm();
+      step = std::max(step, std::abs(now - last));
+      last = now;
+      const hal::State& let_go =
+          rig.seats[kTrainee]
+              .device->state();  // the rest of the force after the ramp brakes the hand and never pushes it
+      if (!let_go_after && ms > 100 && (let_go.f_out.norm() < 0.01 || let_go.f_out.dot(let_go.dx) <= 0))
+        let_go_after = ms;
+      if (!closed_after && rig.seats[kTrainee].core->closed()) closed_after = ms;
+    }
+    EXPECT_LE(step, 0.2) << "the other hand";
+    ASSERT_TRUE(closed_after && let_go_after);
+    EXPECT_LE(*let_go_after, 130) << "the gate's own ramp";
+    EXPECT_GT(*closed_after, *let_go_after) << "first the hand, then the word";
+    EXPECT_GE(rig.forces[2] - told_before, 100) << "it hears the server while it is let go";
+    EXPECT_EQ(rig.seats[kTrainee].core->close_reason(), why);
+    EXPECT_EQ(rig.seats[kTrainee].core->gate().trips(), 0U);
+    EXPECT_FALSE(rig.session->seat(kTrainee).taken());
+    EXPECT_EQ(rig.session->seat(kTrainee).resume(), (std::array<std::byte, 32>{}))
+        << "nobody comes back by the old secret";
+    EXPECT_NEAR(rig.session->tool(0).authority.alpha(kTrainer), 1, 1e-9);
+    const auto noted = events(*rig.session);
+    EXPECT_EQ(std::ranges::count(noted, AuditEvent::What::kRemoved, &AuditEvent::what), 1);
+    EXPECT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee)).result, Result::kNothingToDo)
+        << "nobody sits there";
+    EXPECT_EQ(rig.session->may_admit(rig.now, kTrainee, false), JoinResult::kAccepted);
+  }
+}
+
+TEST(Commands, IgnoreRequestsOfASeatThatIsBeingRemoved) {
+  SessionFixture rig("free_motion");
+  rig.run(2s);
+  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).result, Result::kDone);
+  rig.run(20ms);
+  ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainer)).result, Result::kDone);
+  const std::uint32_t version = rig.session->authority_version();
+  const std::array alpha{0.5, 0.5};
+  rig.seats[kTrainer].core->request_authority(0, alpha);
+  rig.seats[kTrainer].core->request_resume();
+  rig.run(100ms);
+  EXPECT_EQ(rig.session->authority_version(), version);
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
+}
+
+TEST(Commands, DoNotRemoveTheNextOwnerOfASeat) {
+  SessionFixture rig("free_motion");
+  rig.run(1s);
+  SessionCommand c = removing(kTrainee, wire::CloseReason::kRevoked);
+  c.target_cid = rig.session->seat(kTrainee).link()->own_cid() ^ 0x20000U;
+  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kNothingToDo);
+  EXPECT_FALSE(rig.session->closing_out(kTrainee));
+  c.target_seat = 9;
+  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kInvalid);
+}
+
+TEST(Commands, ReturnTheStatusWithoutChangingTheSession) {
+  SessionFixture rig("free_motion");
+  rig.run(1s);
+  const std::uint64_t before = rig.state_hash();
+  const CommandOutcome look = order(rig, What::kQueryStatus, AccessRole::kRecorder);
+  EXPECT_EQ(rig.state_hash(), before);
+  EXPECT_EQ(look.result, Result::kDone);
+  EXPECT_EQ(look.state, wire::SessionState::kRunning);
+  EXPECT_EQ(look.masters, 2);
+  EXPECT_EQ(look.tools, 1);
+  EXPECT_TRUE(look.seats[kTrainer].taken && look.seats[kTrainer].heard);
+  EXPECT_FALSE(look.seats[2].taken);
+  EXPECT_EQ(look.alpha[0][kTrainer] + look.alpha[0][kTrainee], 1.0);
+}
+
+TEST(Commands, TakeNoHeapBetweenTicks) {
+  SessionFixture rig("free_motion");
+  rig.run(1s);
+  const std::uint32_t version = rig.session->authority_version();
+  const tandem::test::AllocGuard guard;
+  static_cast<void>(order(rig, What::kStop, AccessRole::kOperator));
+  static_cast<void>(order(rig, What::kResume, AccessRole::kOperator, 1));
+  static_cast<void>(execute_command(*rig.session, rig.now, weights(AccessRole::kInstructor, version, {0.5, 0.5})));
+  static_cast<void>(execute_command(*rig.session, rig.now, removing(kTrainee)));
+  static_cast<void>(order(rig, What::kQueryStatus, AccessRole::kRecorder));
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+// ---- Admission control ----
+
+TEST(Admission, RejectsJoinsAbove60PercentOfATickOr80PercentOfAProcessor) {
+  const LoadLimits limits;
+  EXPECT_EQ(limits.tick, 0.6);
+  EXPECT_EQ(limits.core, 0.8);
+  EXPECT_EQ(rejection_reason({0.6, 0.8}, 1.6, 2, limits), "") << "at the limits there is room";
+  EXPECT_NE(rejection_reason({0.61, 0.1}, 0.1, 2, limits).find("ticks take 61 %"), std::string::npos);
+  EXPECT_NE(rejection_reason({0.5, 0.81}, 0.81, 2, limits).find("takes 81 % of a processor"), std::string::npos)
+      << "receiving and sending count too";
+  EXPECT_NE(rejection_reason({0.3, 0.5}, 1.7, 2, limits).find("85 % of its 2 processors"), std::string::npos)
+      << "several threads share them";
+  EXPECT_EQ(rejection_reason({0.3, 0.5}, 9, 0, limits), "") << "a machine that does not tell its processors";
+  EXPECT_NE(rejection_reason({0.3, 0.1}, 0.1, 2, {0.2, 0.8}).find("below 20 %"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tandem::server

@@ -1,0 +1,109 @@
+// A restart reads the snapshot exactly as it was written, or gets an error that an operator understands.
+#include "server/session/session_snapshot.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "common/base/rng.h"
+#include "tests/support/simulation_run.h"
+
+namespace tandem::server {
+namespace {
+
+SessionSnapshot sample(const SceneSpec& scene) {
+  SessionSnapshot kept;
+  Checkpoint& c = kept.checkpoint;
+  c.scene = scene_hash(scene);
+  c.epoch = 7;
+  c.session_tick = 12345;
+  c.begun = true;
+  c.seats_n = static_cast<std::uint8_t>(scene.seats.size());
+  c.masters_n = static_cast<std::uint8_t>(scene.masters());
+  c.tools_n = static_cast<std::uint8_t>(scene.tools.size());
+  c.dof = static_cast<std::uint8_t>(scene.dof);
+  c.tools[0].alpha[0] = 1;
+  c.seats[1].taken = true;
+  c.seats[1].resume[31] = std::byte{9};
+  c.seats[1].force_scale = 0.5;
+  kept.id[3] = std::byte{42};
+  kept.name = "lab";
+  kept.code = "ABCDEFGHJK";
+  kept.written_s = 1'800'000'000;
+  kept.removed_workstations = {{std::byte{1}}, {std::byte{2}, std::byte{3}}};
+  return kept;
+}
+
+TEST(SessionSnapshot, SurvivesEncodingAndDecoding) {
+  const SceneSpec scene = test::shipped("contact");
+  const SessionSnapshot kept = sample(scene);
+  const auto bytes = encode_snapshot(kept);
+  ASSERT_FALSE(bytes.empty());
+  EXPECT_LE(bytes.size(), kSnapshotMax);
+  const auto back = decode_snapshot(bytes);
+  ASSERT_TRUE(back) << back.error();
+  EXPECT_EQ(back->id, kept.id);
+  EXPECT_EQ(back->name, "lab");
+  EXPECT_EQ(back->code, "ABCDEFGHJK");
+  EXPECT_EQ(back->removed_workstations, kept.removed_workstations);
+  EXPECT_EQ(back->written_s, kept.written_s);
+  EXPECT_EQ(back->checkpoint.epoch, 7u);
+  EXPECT_EQ(back->checkpoint.seats[1].resume, kept.checkpoint.seats[1].resume);
+  EXPECT_EQ(back->checkpoint.seats[1].force_scale, 0.5);
+  EXPECT_EQ(encode_snapshot(*back), bytes);
+}
+
+TEST(SessionSnapshot, RejectsEveryTruncationAndEveryFlippedBit) {
+  const auto bytes = encode_snapshot(sample(test::shipped("contact")));
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    ASSERT_FALSE(decode_snapshot(std::span{bytes}.first(size))) << size;
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    auto bad = bytes;
+    bad[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    ASSERT_FALSE(decode_snapshot(bad)) << bit;
+  }
+}
+
+TEST(SessionSnapshot, RandomBytesAreAnError) {
+  RandomStream random{5};
+  std::vector<std::byte> bytes(kSnapshotMax + 8);
+  for (int n = 0; n < 2000; ++n) {
+    for (auto& b : bytes) b = static_cast<std::byte>(random.below(256));
+    ASSERT_FALSE(decode_snapshot(std::span{bytes}.first(random.below(bytes.size() + 1))));
+  }
+}
+
+TEST(SessionSnapshot, IsCompatibleWithItsSceneAndNameForTenMinutes) {
+  SceneSpec scene = test::shipped("contact");
+  const SessionSnapshot kept = sample(scene);
+  const auto why = [&](std::string_view name, std::int64_t later) {
+    return incompatibility(kept, name, scene, kept.written_s + later);
+  };
+  EXPECT_EQ(why("lab", 0), "");
+  EXPECT_EQ(why("lab", 600), "");
+  EXPECT_NE(why("lab", 601).find("10 min old"), std::string::npos) << why("lab", 601);
+  EXPECT_EQ(why("lab", -600), "") << "a clock that was set a little";
+  EXPECT_NE(why("lab", -601).find("in the future"), std::string::npos);
+  EXPECT_NE(why("other", 0), "");
+  scene.channel.k *= 2;
+  EXPECT_NE(why("lab", 0).find("another scene"), std::string::npos);
+}
+
+TEST(SessionSnapshot, NamesThatAreTooLongAreNotWritten) {
+  SessionSnapshot kept = sample(test::shipped("contact"));
+  kept.name = std::string(256, 'x');
+  EXPECT_TRUE(encode_snapshot(kept).empty());
+  kept.name = std::string(255, 'x');
+  kept.removed_workstations.resize(kRemovedWorkstationsMax + 1);
+  EXPECT_TRUE(encode_snapshot(kept).empty());
+  kept.removed_workstations.resize(kRemovedWorkstationsMax);
+  kept.code = std::string(255, 'y');
+  const auto back = decode_snapshot(encode_snapshot(kept));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->name, kept.name);
+  EXPECT_EQ(back->removed_workstations.size(), kRemovedWorkstationsMax);
+  EXPECT_LE(encode_snapshot(kept).size(), kSnapshotMax);
+}
+
+}  // namespace
+}  // namespace tandem::server
