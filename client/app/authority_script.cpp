@@ -88,7 +88,7 @@ std::expected<std::vector<AuthorityScript::Change>, std::string> AuthorityScript
   for (const std::string& seat : seats_) {
     const auto found = std::ranges::find(masters, seat);
     if (found == masters.end()) {
-      std::string text = file_ + ":1: " + seat + " is no seat of a person in this session; there are:";
+      std::string text = file_ + ":1: " + seat + " is not a MASTER seat of this session; seats:";
       for (const std::string& m : masters) text += " " + m;
       return std::unexpected(text);
     }
@@ -101,7 +101,7 @@ std::expected<std::vector<AuthorityScript::Change>, std::string> AuthorityScript
     for (std::size_t c = 0; c < row.weights.size(); ++c) {
       if (row.weights[c] > 0 && (drivers >> place[c] & 1) == 0)
         return std::unexpected(file_ + ":" + std::to_string(row.line) + ": " + seats_[c] +
-                               " evaluates or observes and can never be given authority");
+                               " is an evaluator or observer and cannot have authority");
       change.alpha[place[c]] = row.weights[c];
     }
     changes.push_back(change);

@@ -50,7 +50,7 @@ std::string seconds_text(double s) { return format(s < 0.095 ? "%.2f s" : "%.1f 
 
 /// Returns when the transfer begins and how long it takes, or that it is done.
 std::string course_text(const ClientStatus& s, const SeatSetup& setup, std::optional<double> before) {
-  if (waits_for_the_end_of_a_stop(s)) return "when the session goes on";
+  if (waits_for_the_end_of_a_stop(s)) return "when the session resumes";
   if (s.transfer_done) return "done";
   const std::string ms = format("in %.0f ms", 10 * std::ceil(1e2 * s.transfer_begins_s - 0.5));
   const bool begun = s.transfer_begins_s <= 0;
@@ -69,7 +69,7 @@ std::string authority_transfer_brief(const ClientStatus& s) {
   const bool comes = s.transfer == wire::TransferNotice::kGaining;
   if (!comes && s.transfer != wire::TransferNotice::kLosing) return "";
   const std::string what = comes ? "more authority" : "less authority";
-  if (waits_for_the_end_of_a_stop(s)) return what + " when the session goes on";
+  if (waits_for_the_end_of_a_stop(s)) return what + " when the session resumes";
   if (s.transfer_done) return what + ": done";
   return what + (s.transfer_begins_s > 0 ? format(" in %.0f ms", 10 * std::ceil(1e2 * s.transfer_begins_s - 0.5))
                                          : " under way");
@@ -78,7 +78,7 @@ std::string authority_transfer_brief(const ClientStatus& s) {
 std::string authority_transfer_text(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
   if (s.transfer == wire::TransferNotice::kNone) return "";
   if (s.transfer == wire::TransferNotice::kCancelled)
-    return "hand-over canceled: a seat it concerns is gone, or its link is stale";
+    return "transfer canceled: a seat that it concerns has left, or has a stale link";
   const wire::TransferParties& p = s.transfer_parties;
   const std::string tool_name = name_of(setup.tools, p.tool + 1),
                     tool = tool_name.empty() ? "the tool" : "the tool " + tool_name;
@@ -86,7 +86,7 @@ std::string authority_transfer_text(const ClientStatus& s, const SeatSetup& setu
   const std::optional<double> before = part_before(s, setup, words);
   const std::string parts = (before ? format("%.0f %% ", 100 * *before) : "") + format("to %u %%", p.percent),
                     course = ": " + course_text(s, setup, before);
-  if (to.empty()) return by + " sets new parts of " + tool + " (your part " + parts + ")" + course;
+  if (to.empty()) return by + " sets new authorities over " + tool + " (your authority " + parts + ")" + course;
   const std::string more = p.percent >= 100 ? "" : "more of ";
   if (by == to) return by + " takes " + more + tool + " (" + parts + ")" + course;
   return by + " gives " + more + tool + " to " + to + " (" + parts + ")" + course;

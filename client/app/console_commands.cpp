@@ -130,7 +130,7 @@ std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::st
     case ConsoleCommand::Kind::kAuthority:
       return parse_authority(std::move(wish), rest);
     case ConsoleCommand::Kind::kRemove:
-      if (rest.empty()) return std::unexpected("remove: who? Such as: remove trainee");
+      if (rest.empty()) return std::unexpected("remove: SEAT is missing. Example: remove trainee");
       wish.seat = rest.front();
       wish.why = joined(rest.subspan(1));
       break;
@@ -145,7 +145,8 @@ std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::st
     default:
       if (!rest.empty()) return std::unexpected(name + ": takes no arguments, and got \"" + joined(rest) + "\"");
   }
-  if (wish.why.size() > rpc::kTextMax) return std::unexpected(name + format(": why may have %zu bytes", rpc::kTextMax));
+  if (wish.why.size() > rpc::kTextMax)
+    return std::unexpected(name + format(": WHY must have at most %zu bytes", rpc::kTextMax));
   return wish;
 }
 
@@ -177,7 +178,7 @@ std::expected<rpc::SetAuthority, std::string> authority_frame(const ConsoleComma
   std::string names;
   for (const rpc::StatusTool& t : status.tools) names += (names.empty() ? "" : ", ") + t.name;
   if (wish.tool.empty() && status.tools.size() != 1)
-    return std::unexpected("authority: over which tool? Say tool=NAME; tools: " + names);
+    return std::unexpected("authority: tool=NAME is missing; tools: " + names);
   const auto tool =
       wish.tool.empty() ? status.tools.begin() : std::ranges::find(status.tools, wish.tool, &rpc::StatusTool::name);
   if (tool == status.tools.end()) return std::unexpected("authority: no tool \"" + wish.tool + "\"; tools: " + names);
@@ -193,7 +194,7 @@ std::expected<rpc::SetAuthority, std::string> authority_frame(const ConsoleComma
     frame.alpha.push_back(given == wish.weights.end() ? 0.0 : given->second);
   }
   if (!unknown.empty())
-    return std::unexpected("authority: no seat \"" + unknown.front() + "\" that leads; seats: " + masters);
+    return std::unexpected("authority: no seat \"" + unknown.front() + "\" that can have authority; seats: " + masters);
   return frame;
 }
 
@@ -202,7 +203,7 @@ std::string weights_text(const rpc::Status& status, std::span<const double> alph
   std::size_t k = 0;
   for (const rpc::StatusSeat& s : status.seats)
     if (s.master && k < alpha.size()) text += (text.empty() ? "" : ", ") + s.name + format(" %.3g", alpha[k++]);
-  return text.empty() ? "nobody" : text;
+  return text.empty() ? "none" : text;
 }
 
 bool is_stopped(const rpc::Status& s) noexcept {
@@ -221,7 +222,7 @@ std::string stop_text(const rpc::Status& s) {
 
 std::string drain_text(const rpc::StatusDrain& d) {
   return format("DRAINING: %u s left, %u session%s, %u %s", d.left_s, d.sessions, d.sessions == 1 ? "" : "s",
-                d.participants, d.participants == 1 ? "person on a seat" : "people on their seats");
+                d.participants, d.participants == 1 ? "participant" : "participants");
 }
 
 std::string status_changes_text(const rpc::Status& before, const rpc::Status& now) {
@@ -255,7 +256,7 @@ std::string status_text(const rpc::Status& s) {
   text += s.shed > 0 ? format("; busy, shed level %u of %u\n", s.shed, rpc::kShedMax) : "\n";
   if (is_stopped(s)) text += "  " + stop_text(s) + "\n";
   if (s.stop && !is_stopped(s))
-    text += format("  the last stop, %.0f s ago, was of %s\n", s.stop->ago_s, maker_of(*s.stop).c_str());
+    text += format("  last stop: %.0f s ago, by %s\n", s.stop->ago_s, maker_of(*s.stop).c_str());
   if (!s.held.empty()) text += "  BRAKED: " + sanitize(s.held) + "\n";
   if (s.drain) text += "  " + drain_text(*s.drain) + "\n";
   for (const rpc::StatusSeat& seat : s.seats)

@@ -57,9 +57,9 @@ const char* how_to_home(hal::Homing homing) {
     case hal::Homing::kInkwell:
       return "home the device: put the stylus into the inkwell";
     case hal::Homing::kResetPose:
-      return "the device does not know where it is, and gets no force: end this, put it into its reset pose (all links "
-             "at right angles) "
-             "and start again with `,home=here` after its name, or from a terminal, where you are asked";
+      return "the device has no position reference and gets no force: end this program, put the device into its reset "
+             "pose (all links at right angles) and start again with `,home=here` after its name, or from a terminal, "
+             "where the program asks for the pose";
     case hal::Homing::kAuto:
     case hal::Homing::kNone:
       break;
@@ -72,11 +72,11 @@ std::string why_no_force(const hal::SignFile& signs, const MotorRegistryFile& st
   const auto known = state.find(signs);
   if (known && *known && (*known)->confirmed) return {};
   const std::string what =
-      "no force comes of this device: the directions of its motors come from " + signs.name + ", and ";
-  const std::string why = !known    ? "what was confirmed cannot be read: " + known.error()
-                          : !*known ? "nobody confirmed them on this device (" + signs.device + ") with this file"
+      "this device gives no force: the directions of its motors come from " + signs.name + ", and ";
+  const std::string why = !known    ? "the confirmed motors cannot be read: " + known.error()
+                          : !*known ? "they were never confirmed on this device (" + signs.device + ") with this file"
                                     : "the last `doctor --confirm-motors` on this device (" + signs.device +
-                                          ") did not find all of them right";
+                                          ") did not confirm all of them";
   return what + why + ". Type:\n  " + state.command(device);
 }
 
@@ -147,8 +147,8 @@ std::expected<std::unique_ptr<HardwareDevice>, HardwareDevice::Failure> Hardware
   line.clear();
   if (!held->watchdog_ && core->limits().peak_n > 0)
     line.note(
-        "nobody can speak for this device if this program is killed: then only the device's own watchdog takes its "
-        "force away");
+        "no watchdog process protects this device: if this program is killed, only the device's own watchdog removes "
+        "its force");
   held->note_ = core->id().backend + " " + core->id().key;
   if (!held->no_force_.empty()) held->note_ += ", no force: its motors are not confirmed";
   if (!core->caps().force_calibrated) held->note_ += ", force scale not calibrated: kept to a tenth";

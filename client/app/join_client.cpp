@@ -109,7 +109,8 @@ class JoinAttempt {
     if (!answer) return std::unexpected(answer.error());
     if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return fail(refusal(*refused, options_));
     const auto* welcome = std::get_if<rpc::Welcome>(&*answer);
-    if (welcome == nullptr) return fail("the server answered something else; is it of the same release?");
+    if (welcome == nullptr)
+      return fail("unexpected reply from the server; check that client and server are of the same release");
     return Accepted{std::move(*hello), *welcome};
   }
 
@@ -128,12 +129,12 @@ class JoinAttempt {
                          "). Start " + start_command() + ", and use the address it prints as `listening on`"};
     if (fault.kind == Fault::Kind::kStream && fault.end == auth::StreamErrorCode::kDeadline)
       return {false, "no answer from " + server + " within " + timeout_text(options_.timeout) +
-                         ": is a tandem-server listening there, of this version, and is the network (or tandem-netsim "
-                         "proxy) between up?"};
+                         "; check that a tandem-server of this version listens there, and that the network (or "
+                         "tandem-netsim proxy) is up"};
     if (fault.kind == Fault::Kind::kStream && fault.end == auth::StreamErrorCode::kClosed)
       return {false, fault.text + ", again and again for " + timeout_text(options_.timeout) +
-                         ": too many try to join from this address, or what listens at " + server +
-                         " is no tandem-server"};
+                         ": too many clients join from this address, or the program at " + server +
+                         " is not tandem-server"};
     return {false, complete_commands(fault.text, options_)};
   }
 
@@ -191,7 +192,8 @@ class JoinAttempt {
                                                        const ResumeState& own) {
     const auto* welcome = std::get_if<rpc::Welcome>(&answer);
     if (welcome == nullptr)
-      return std::unexpected(retry_error("the server answered something else; is it of the same release?"));
+      return std::unexpected(
+          retry_error("unexpected reply from the server; check that client and server are of the same release"));
     if (welcome->epoch < own.epoch)
       return std::unexpected(retry_error("an older server answers (epoch " + std::to_string(welcome->epoch) +
                                          ", this seat's was " + std::to_string(own.epoch) + ")"));
@@ -310,7 +312,8 @@ class JoinAttempt {
     if (!answer) return std::unexpected(answer.error());
     if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return fail(refusal(*refused, options_));
     auto* list = std::get_if<rpc::SessionList>(&*answer);
-    if (list == nullptr) return fail("the server answered something else; is it of the same release?");
+    if (list == nullptr)
+      return fail("unexpected reply from the server; check that client and server are of the same release");
     return std::move(*list);
   }
 

@@ -35,7 +35,7 @@ std::string KeyboardControls::help() const {
     text += keyboard_ ? " a/d less/more authority for you, 0/1 none/all;"
                       : " left/right less/more authority for you, 0/1 none/all;";
   if (keyboard_) text += " arrows move right/left and away/towards you, PgUp/PgDn up/down;";
-  return text + " s stops your hand, S everybody's" + (setup_->seat.role == Role::kInstructor ? "" : " (pause)") +
+  return text + " s stops your hand, S all hands" + (setup_->seat.role == Role::kInstructor ? "" : " (pause)") +
          ", r resumes; b clears a force that is latched off; ? shows this; q leaves";
 }
 
@@ -100,7 +100,7 @@ std::string KeyboardControls::resume(const ClientStatus& s, const rpc::Status* w
     return {};  // after a restart, the session resumes without the missing participants
   if (s.session == wire::SessionState::kHeld)
     return "r: your hand is not stopped" +
-           (words != nullptr && !words->held.empty() ? "; the tool is held because: " + sanitize(words->held) : "");
+           (words != nullptr && !words->held.empty() ? "; the tool is braked because: " + sanitize(words->held) : "");
   return "r: nothing is stopped, there is nothing to resume";
 }
 

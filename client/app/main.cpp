@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "`tandem-client try --help`, `join --help`, `doctor --help`, `link-test --help`, `control --help` and `calibrate "
-      "--help` tell more.\n"
+      "--help` show more.\n"
       "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files. Not a medical device.");
 
   std::function<int()> action;

@@ -82,7 +82,7 @@ bool watch(const PulseClient& pulser, int signals) {
 int confirm_motors(const std::string& device, const std::string& state) {
   const MotorRegistryFile book{state};
   if (const std::string unfit = book.storage_error(); !unfit.empty())
-    return fail("--state: the result could not be kept, so nothing was begun: " + unfit);
+    return fail("--state: the result could not be stored, so the check was not started: " + unfit);
   const io::Fd signals = io::make_signalfd();
   io::StatusLine line{false};
   auto held = HardwareDevice::open(device, signals.get(), line, {.state = state, .being_confirmed = true});
@@ -97,7 +97,7 @@ int confirm_motors(const std::string& device, const std::string& state) {
   hal::Device& arm = (*held)->device();
   if (!user_confirms(question(*signs, hal::peak_of(arm.caps())), signals.get())) {
     const std::string by{io::pending_signal()};
-    return fail(by.empty() ? "nobody agreed: no force was given, nothing was confirmed"
+    return fail(by.empty() ? "the answer was not yes: no force was given, nothing was confirmed"
                            : "ended by " + by + ": no force was given, nothing was confirmed");
   }
   PulseClient pulser{arm.caps()};
@@ -119,14 +119,14 @@ int confirm_motors(const std::string& device, const std::string& state) {
   }
   const bool right = pulser.check().finished() && pulser.check().all_right();
   if (const std::string wrong = book.store(*signs, right); !wrong.empty())
-    return fail("the result was not kept, so no force will come: " + wrong);
+    return fail("the result was not stored, so the device gives no force: " + wrong);
   if (right) {
-    io::print_formatted(
-        stdout,
-        "All motors push the way %s says. That is kept for this device (%s) and this very file; forces may come now.\n",
-        signs->name.c_str(), signs->device.c_str());
+    io::print_formatted(stdout,
+                        "All motors push in the directions that %s states. The result is stored for this device (%s) "
+                        "and this exact file; the device may give forces now.\n",
+                        signs->name.c_str(), signs->device.c_str());
   } else {
-    io::print_formatted(stdout, "Not confirmed: no force will come of this device with this file.\n");
+    io::print_formatted(stdout, "Not confirmed: this device gives no force with this file.\n");
   }
   return right ? 0 : kTrouble;
 }

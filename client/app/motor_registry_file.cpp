@@ -22,7 +22,7 @@ std::expected<MotorRegistry, std::string> read_book(const StateDirectory& folder
   auto book = MotorRegistry::parse({reinterpret_cast<const char*>(all.data()), all.size()});
   if (!book)
     return std::unexpected(folder.path_of(MotorRegistryFile::kFile) + ": " + book.error() +
-                           ". Nothing in it counts: remove the file and confirm the motors of your devices again");
+                           ". No entry is used: remove the file and confirm the motors of your devices again");
   return book;
 }
 

@@ -50,8 +50,7 @@ int not_attached(const SeatOptions& plan, const std::string& why, int code = kTr
 std::string unfit(const SeatSetup& setup, const hal::DeviceCaps& caps, bool held) {
   if (constexpr double rate = 1 / seconds(HardwareDevice::kPeriod); held && setup.tick_hz > rate * (1 + 1e-9))
     return format(
-        "the scene's tick_hz is %.0f, a real device is asked %.0f times a second; join a scene with tick_hz 100 to "
-        "%.0f",
+        "the scene's tick_hz is %.0f, a real device is read %.0f times a second; join a scene with tick_hz 100 to %.0f",
         setup.tick_hz, rate, rate);
   const std::size_t has = setup.port == PortSpace::kTip ? caps.tip_axes : caps.joints;
   if (has >= setup.dof) return {};

@@ -98,7 +98,7 @@ io::ScreenItem state_item(const ClientStatus& s, const SeatSetup& setup, const W
 std::string leader_text(const ClientStatus& s, const SeatSetup& setup, const Words& words) {
   using enum wire::SessionState;
   if (s.session == kStopped || s.session == kPaused || s.session == kHeld || s.session == kOverloaded)
-    return "nobody leads";
+    return "no leader";
   const std::size_t tool = static_cast<std::size_t>(setup.seat.tool);
   std::string leader;
   double most = 0, others = 0;  // requested authority
@@ -144,7 +144,7 @@ std::string partners(const SeatSetup& setup, const Words& words) {
     std::string& list = seat.heard ? there : silent;
     list += (list.empty() ? "" : ", ") + sanitize(seat.name);
   }
-  std::string text = there.empty() ? "nobody else is here" : "with " + there;
+  std::string text = there.empty() ? "no partner here" : "with " + there;
   return silent.empty() ? text : text + "; SILENT: " + silent;
 }
 
@@ -152,7 +152,7 @@ std::string partners(const SeatSetup& setup, const Words& words) {
 
 std::string way_out(const SeatSetup& setup, bool paused) {
   if (!is_slave(setup) && setup.seat.role == Role::kInstructor) return "r resumes";
-  if (setup.may_end_pauses) return paused ? "r takes your own pause back; an operator resumes" : "an operator resumes";
+  if (setup.may_end_pauses) return paused ? "r ends your own pause; an operator resumes" : "an operator resumes";
   return "an instructor or operator resumes";
 }
 

@@ -128,9 +128,8 @@ void SeatSupervisor::handle_keys() {
 void SeatSupervisor::check_device() {
   if (o_.device.phase() == hal::Phase::kFault && !std::exchange(fault_reported_, true))
     o_.line.warn(
-        "the device has a fault: it gave no whole answer for 10 ms, or its readings jumped as no hand does. No force "
-        "comes; "
-        "look at it, then press b");
+        "the device has a fault: no complete answer for 10 ms, or its readings jumped faster than a hand moves. It "
+        "gives no force; check the device, then press b");
   if (reset_requested_ && o_.device.phase() == hal::Phase::kReady) {  // only after the user's key
     reset_requested_ = fault_reported_ = false;
     static_cast<void>(o_.device.enable());

@@ -35,10 +35,10 @@ Tutorial::Tutorial(const SeatSetup& setup, bool by_keys, std::vector<std::string
   if (by_keys)
     steps_.push_back({.at = 16,
                       .text = "press s (small): only your own hand is released, no force reaches it; r takes that "
-                              "back. Capital S stops everybody",
+                              "back. Capital S stops all hands",
                       .keys = {"s", " ", "S"},
-                      .happened = "only your hand is stopped; press r to go on",
-                      .early = "s releases your hand, S stops everybody"});
+                      .happened = "only your hand is stopped; press r to resume",
+                      .early = "s releases your hand, S stops all hands"});
   steps_.push_back({.at = kLength,
                     .text = by_keys ? "that was all: go on as you like; q ends everything" : "that was all",
                     .keys = {},
@@ -51,7 +51,7 @@ void Tutorial::add_keys_of_hand() {
                     .text = "press the arrow keys: your hand moves right and left, away and towards you; PgUp and PgDn "
                             "move it up and down",
                     .keys = {"up", "down", "left", "right", "pageup", "pagedown"},
-                    .happened = "the hand with authority moves the tool, and everybody feels it",
+                    .happened = "the hand with authority moves the tool, and all hands feel it",
                     .early = "the arrow keys move your hand"});
 }
 
@@ -78,7 +78,7 @@ void Tutorial::on_key(const std::string& key) {
   for (Step& step : steps_) {
     if (step.pressed || !asks_for(step, key)) continue;
     step.pressed = true;
-    if (key == "S") step.happened = "capital S stopped everybody; press r to go on";
+    if (key == "S") step.happened = "capital S stopped all hands; press r to resume";
   }
 }
 
@@ -91,13 +91,12 @@ std::vector<std::string> Tutorial::messages(double now_s, const ClientStatus& st
     if (!step.pressed_at) step.pressed_at = now_s;
     if (now_s - *step.pressed_at < kAfterKey) continue;
     step.told = true;
-    lines.push_back(
-        "  " + step.happened +
-        format(" (your hand feels %.1f N, your part of the tool is %.0f %%)", status.force_n, 100 * status.alpha));
+    lines.push_back("  " + step.happened +
+                    format(" (your hand feels %.1f N, your authority is %.0f %%)", status.force_n, 100 * status.alpha));
   }
   // A requested key has its described effect only without a stop, so the text asks for a resume first.
   const bool all = status.session == wire::SessionState::kStopped || status.session == wire::SessionState::kPaused;
-  const std::string first = all                 ? "press r first, everybody is stopped; then "
+  const std::string first = all                 ? "press r first, all hands are stopped; then "
                             : status.local_stop ? "press r first, your hand is stopped; then "
                                                 : "";
   for (; next_ < steps_.size() && now_s - *began_ >= steps_[next_].at; ++next_)

@@ -59,7 +59,7 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
   const auto say = [&](Kind kind, std::string words) { all.push_back({kind, std::move(words)}); };
   if (readings_ == 0) {
     say(Kind::kTrouble,
-        "the device is visible but silent: not one whole answer came. Unplug it, wait ten seconds, plug it in; another "
+        "the device is visible but silent: no complete answer came. Unplug it, wait ten seconds, plug it in; another "
         "program may hold it; on a hub with little power, plug it into the machine");
     return all;
   }
@@ -82,18 +82,17 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
                           1e3 * stats.round_trip_p50_s, 1e3 * stats.round_trip_p99_s, 1e3 * stats.round_trip_max_s));
   if (stats.unanswered > 0 || stats.resyncs > 0)
     say(stats.unanswered > stats.ticks / 100 ? Kind::kTrouble : Kind::kNotice,
-        text("%llu exchanges without a whole answer, %llu times the beginning of a frame had to be found again: cable, "
-             "hub, "
-             "or another program on the same device",
+        text("%llu exchanges without a complete answer, %llu searches for the beginning of a frame: check cable and "
+             "hub, and end other programs that use the device",
              static_cast<unsigned long long>(stats.unanswered), static_cast<unsigned long long>(stats.resyncs)));
   if (not_finite_ > 0)
-    say(Kind::kTrouble, text("%llu readings were no numbers: calibration file or kinematics do not fit this device",
+    say(Kind::kTrouble, text("%llu readings were not finite: calibration file or kinematics do not fit this device",
                              static_cast<unsigned long long>(not_finite_)));
   if (own_pace) {
     if (fastest_ > 0) {
       say(Kind::kGood, text("it moves: up to %.2f m/s", fastest_));
     } else {
-      say(Kind::kNotice, "it said nothing but rest: push the cap while it is examined");
+      say(Kind::kNotice, "it reported only rest: push the cap during the examination");
     }
     return all;
   }
@@ -108,12 +107,11 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
   }
   const double way = (high_ - low_).maxCoeff();
   if (moved == 0) {
-    say(Kind::kTrouble,
-        ever_homed_ || caps_.homing == hal::Homing::kNone
-            ? "no encoder moved: either nobody moved the grip, or the firmware does not run (unplug it and "
-              "load the firmware again)"
-            : "the position stands still at the pose of an uncalibrated device: nobody moved the grip, or "
-              "it was never homed since it was plugged in");
+    say(Kind::kTrouble, ever_homed_ || caps_.homing == hal::Homing::kNone
+                            ? "no encoder moved: either the grip was not moved, or the firmware does not run (unplug "
+                              "it and load the firmware again)"
+                            : "the position stays at the pose of an uncalibrated device: the grip was not moved, or "
+                              "the device was not homed since it was plugged in");
   } else if (moved < joints) {
     say(Kind::kTrouble, "the encoder of joint " + frozen +
                             " did not move while the others did: its cable or plug, or the "
@@ -131,19 +129,19 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
         text("the origin was lost %llu times: it was moved faster than it can count, or its power is weak",
              static_cast<unsigned long long>(origin_lost_)));
   } else {
-    say(homed_ ? Kind::kGood : Kind::kNotice, homed_ ? "homed" : "not homed: no force will come before it is");
+    say(homed_ ? Kind::kGood : Kind::kNotice, homed_ ? "homed" : "not homed: it gives no force until it is homed");
   }
   if (std::ranges::none_of(caps_.axis, [](const hal::AxisLimit& axis) { return axis.peak.has_value(); })) {
-    say(Kind::kGood, "no force comes of it: no motors, or it says nothing of what they give");
+    say(Kind::kGood, "it gives no force: it has no motors, or does not report their force");
   } else if (caps_.force_calibrated) {
-    static constexpr const char* kFrom[] = {"nobody knows where from", "the datasheet", "the device itself",
+    static constexpr const char* kFrom[] = {"an unknown source", "the datasheet", "the device itself",
                                             "its calibration file", "its model"};
     say(Kind::kGood,
         text("force scale calibrated; limits from %s", kFrom[static_cast<std::size_t>(caps_.axis[0].from)]));
   } else {
     say(Kind::kNotice,
-        "its force scale was never measured: forces are kept to a tenth of the peak; hal/README.md tells how "
-        "to measure it with a known mass");
+        "its force scale was never measured: forces are limited to a tenth of the peak; hal/README.md shows how to "
+        "measure it with a known mass");
   }
   if (std::ranges::any_of(caps_.axis, [](const hal::AxisLimit& axis) { return axis.peak.value_or(0) > 0; })) {
     const double damping = caps_.damping.value_or(kDampingUnknown),
@@ -225,9 +223,9 @@ std::vector<Finding> ForceTest::findings() const {
                                          ": it pushed the WRONG WAY. Do not use this "
                                          "device: a motor's direction or a cable is wrong"});
     } else if (push.along < kGivesWay) {
-      all.push_back({Kind::kNotice, "force along " + name + ": " + numbers +
-                                        ": nothing gave way; held firmly, at its stop, or "
-                                        "the motors have no power"});
+      all.push_back(
+          {Kind::kNotice, "force along " + name + ": " + numbers +
+                              ": the tip did not move; it is held firmly, at its stop, or the motors have no power"});
     } else if (push.sideways > push.along) {
       all.push_back({Kind::kNotice, "force along " + name + ": " + numbers +
                                         ": more across than along; swapped motors look "

@@ -100,13 +100,13 @@ void judge_machine(const LinkTestResult& f, Judge& judge) {
 }
 
 std::string words(const LinkTestResult& f, LinkGrade grade) {
-  if (server_lost(f)) return "the server was lost before the test was over: what stands here is of the time until then";
+  if (server_lost(f)) return "the server was lost before the test was over: the results cover the time until then";
   switch (grade) {
     case LinkGrade::kGood:
       return *f.rtt_p50 <= kCrisp ? "hands can work together over this link as if it were one room"
                                   : "hands can work together over this link; the delay is felt a little";
     case LinkGrade::kUsable:
-      return "hands can work together over this link, with what is said below";
+      return "hands can work together over this link, with the limits listed below";
     case LinkGrade::kBad:
       return "this link is not fit for hands: forces would be released again and again, or be far too soft";
   }
@@ -138,9 +138,8 @@ LinkVerdict assess_link(const LinkTestResult& f) {
     verdict.grade = LinkGrade::kBad;
     verdict.text = "nothing came back";
     verdict.advice.emplace_back(
-        "the server answered when asked to, then datagrams of a session did not pass: a firewall or a provider that "
-        "drops steady "
-        "UDP? Ask for UDP to the server's port in both directions");
+        "the server accepted the join, but no datagram of the session arrived: a firewall or a provider may drop "
+        "steady UDP. Ask for UDP to the server's port in both directions");
     return verdict;
   }
   judge_delay(f, judge);
@@ -149,13 +148,12 @@ LinkVerdict assess_link(const LinkTestResult& f) {
   // A gap towards the server also matters to the user, because the forces returned then are old.
   const double gap = std::max(f.up->longest_gap, f.down->longest_gap);
   if (server_lost(f)) {
-    judge.note(LinkGrade::kBad, format("nothing came in the last %.1f s of the test: the server, or everything between "
-                                       "here and there, is gone. Look "
-                                       "whether it still runs, then test again",
+    judge.note(LinkGrade::kBad, format("no datagram came in the last %.1f s of the test: the server or the network "
+                                       "failed. Check that the server runs, then test again",
                                        f.silent_at_end));
   } else if (gap > kGone) {
     judge.note(LinkGrade::kBad,
-               format("nothing at all for %.1f s: the server, or everything between here and there, was gone", gap));
+               format("no datagram came for %.1f s: the server or the network failed for that time", gap));
   } else if (gap > f.silence_limit) {
     judge.note(
         gap <= kGapUsable && f.pauses <= std::max(1.0, kPauseShare * f.seconds) ? LinkGrade::kUsable : LinkGrade::kBad,
@@ -167,14 +165,15 @@ LinkVerdict assess_link(const LinkTestResult& f) {
   }
   judge_machine(f, judge);
   if (f.refused > 0)
-    judge.note(LinkGrade::kUsable,
-               format("%llu datagrams from the server's address were not authentic: damaged on the way, or somebody "
-                      "else's",
-                      n(f.refused)));
+    judge.note(
+        LinkGrade::kUsable,
+        format(
+            "%llu datagrams from the server's address were not authentic: damaged on the way, or from another sender",
+            n(f.refused)));
   verdict.text = words(f, verdict.grade);
   if (f.seconds < kLeastSeconds) {
     verdict.grade = std::max(verdict.grade, LinkGrade::kUsable);
-    verdict.text = format("too short to judge: %.1f s say little of a network, take ten", f.seconds);
+    verdict.text = format("too short to judge: the test lasted %.1f s; test for at least 10 s", f.seconds);
   }
   return verdict;
 }

@@ -163,7 +163,7 @@ bool MotorCheck::all_right() const noexcept {
 std::vector<DeviceDiagnostics::Finding> MotorCheck::findings(const std::vector<std::string>& names) const {
   std::vector<DeviceDiagnostics::Finding> all;
   if (motors_ == 0 || !(peak_ > 0))
-    all.push_back({Kind::kTrouble, "the device says nothing of what its motors give: there is nothing to confirm"});
+    all.push_back({Kind::kTrouble, "the device does not report the forces of its motors: there is nothing to confirm"});
   for (std::size_t i = 0; i < motors_ && peak_ > 0; ++i) {
     const Motor& m = motor_[i];
     const std::string name = i < names.size() ? names[i] : "motor " + std::to_string(i + 1);
@@ -171,15 +171,14 @@ std::vector<DeviceDiagnostics::Finding> MotorCheck::findings(const std::vector<s
                                     100 * m.share, m.moved[0], m.moved[1]);
     switch (m.verdict) {
       case Verdict::kRight:
-        all.push_back({Kind::kGood, name + ": pushes the way it is told (" + seen + ")"});
+        all.push_back({Kind::kGood, name + ": pushes in the commanded direction (" + seen + ")"});
         break;
       case Verdict::kReversed:
         all.push_back(
             {Kind::kTrouble,
-             name + ": moved AGAINST its order, so everything was switched off (" + seen +
-                 "). Turn its motor_reversed round in the "
-                 "device's file (write `motor_reversed: true`, or take it out if it is there), and confirm again. "
-                 "If your hand moved the arm, only confirm again"});
+             name + ": moved AGAINST its command, so all motors were switched off (" + seen +
+                 "). Invert its motor_reversed in the device's file (write `motor_reversed: true`, or take it out if "
+                 "it is there), and confirm again. If your hand moved the arm, only confirm again"});
         break;
       case Verdict::kUnconfirmed: {
         const char* const why =
@@ -189,7 +188,7 @@ std::vector<DeviceDiagnostics::Finding> MotorCheck::findings(const std::vector<s
                 ? "hardly any force left this program: the device lost its origin, or the arm is stretched; bring "
                   "it into the middle of its workspace"
             : m.reason == Reason::kOneWayOnly
-                ? "it moved one way only: it stands at a stop, or leans against the hand; bring it into the middle"
+                ? "it moved one way only: it is at a stop, or presses against the hand; bring it into the middle"
                 : "it did not move: jammed, held fast, or the motors have no power";
         all.push_back(
             {Kind::kTrouble, name + ": unconfirmed, " + why + (m.share > 0 ? " (" + seen + ")" : std::string())});

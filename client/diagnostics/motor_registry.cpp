@@ -60,7 +60,7 @@ std::expected<MotorRegistry, std::string> MotorRegistry::parse(std::string_view 
     auto record = record_of(text.substr(0, end));
     if (!record) return wrong(record.error());
     if (book.find(record->device, record->file_sha256) != nullptr)
-      return wrong("is of a device and file that are there already");
+      return wrong("repeats the device and file of an earlier line");
     if (book.records_.size() == kRecordsMax)
       return wrong("is one too many: at most " + std::to_string(kRecordsMax) + " are kept");
     book.records_.push_back(std::move(*record));

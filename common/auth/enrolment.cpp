@@ -62,7 +62,7 @@ std::expected<EnrolmentString, std::string> EnrolmentString::from_text(std::stri
     return std::unexpected("has the wrong length; copy it again, whole");
   const auto check = sha256(bytes.first(bytes.size() - kCheck));
   if (!std::ranges::equal(bytes.last(kCheck), std::span(check).first(kCheck)))
-    return std::unexpected("does not add up: a character was changed; copy it again, whole");
+    return std::unexpected("has a wrong checksum: a character was changed; copy it again, whole");
   EnrolmentString out;
   out.address = text_of(bytes.subspan(kHead, length));
   if (!printable(out.address)) return std::unexpected("names an address that cannot be one");

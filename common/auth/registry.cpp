@@ -36,8 +36,8 @@ void issue_code(std::vector<CodeRow>& codes, const EnrolmentCode& code, std::str
 std::string to_text(EnrollError fault) {
   switch (fault) {
     case EnrollError::kUnknownCode:
-      return "this code is not good: it was used already, replaced by a newer one, or is wrong; ask for a new one with "
-             "`tandem-server enroll NAME`";
+      return "this code is not valid: it was used already, replaced by a newer one, or is wrong; ask for a new one "
+             "with `tandem-server enroll NAME`";
     case EnrollError::kExpired:
       return "this code has expired; ask for a new one with `tandem-server enroll NAME`";
     case EnrollError::kKeyTaken:

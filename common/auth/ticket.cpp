@@ -43,10 +43,10 @@ bool needs_no_seat(AccessRole role) noexcept {
 
 /// Returns the field that is out of range; empty: all are in range.
 std::string wrong_field(const Ticket& t) {
-  if (static_cast<std::uint8_t>(t.role) >= kAccessRoles) return "role is none of the six";
+  if (static_cast<std::uint8_t>(t.role) >= kAccessRoles) return "role must be one of the six";
   if (t.force_scale < 1 || t.force_scale > Ticket::kFullForce) return "force_scale must be in [1, 1000] thousandths";
   if (!legal_seat(t.seat)) return "seat must be at most 32 characters of A-Z a-z 0-9 _ -";
-  if (t.seat.empty() && !needs_no_seat(t.role)) return "seat is missing: this role sits on one";
+  if (t.seat.empty() && !needs_no_seat(t.role)) return "seat is missing: this role needs a seat";
   if (t.not_before < 0 || t.not_after < t.not_before || t.not_after - t.not_before > Ticket::kLifeMax)
     return "not_after must be at most 12 h after not_before, and not before it";
   return {};
@@ -82,21 +82,20 @@ struct Words {
 };
 /// In the order of TicketCheck.
 constexpr std::array<Words, kTicketChecks> kWords{{
-    {"length", "this is no ticket: it has the wrong length; was it cut when it was copied?"},
+    {"length", "this is no ticket: it has the wrong length; copy it again, whole"},
     {"version", "the ticket is of another version of Tandem; ask for a new one"},
     {"key", "the ticket was made by another server, or before this server got new keys; ask for a new one"},
     {"signature", "the ticket was changed after it was made; ask for a new one"},
-    {"content", "the ticket says what no ticket may say; ask for a new one"},
-    {"not_yet", "the ticket is not good yet"},
+    {"content", "the ticket has invalid contents; ask for a new one"},
+    {"not_yet", "the ticket is not valid yet"},
     {"expired", "the ticket has expired; ask for a new one"},
     {"workstation", "the ticket was made for another workstation; use it there, or ask for one for this machine"},
     {"session", "the ticket was made for another session; ask for one for this session"},
     {"epoch", "the ticket is for a later run of this session"},
     {"seat", "the ticket is for another seat"},
     {"role", "the ticket gives another role than this seat has"},
-    {"used", "the ticket has been used already: each is good for one joining; ask for a new one"},
-    {"book_full",
-     "the server remembers as many used tickets as it can; try again when the oldest have expired, within 12 h"},
+    {"used", "the ticket has been used already: each is valid for one join; ask for a new one"},
+    {"book_full", "the server's list of used tickets is full; try again when the oldest have expired, within 12 h"},
 }};
 
 }  // namespace
@@ -162,8 +161,7 @@ std::string to_text(const TicketError& fault) {
     case TicketCheck::kExpired:
       return "the ticket expired " + span_text(fault.seconds) + " ago; ask for a new one";
     case TicketCheck::kNotYet:
-      return "the ticket is good only in " + span_text(fault.seconds) +
-             "; wait, or has the server's clock been set back?";
+      return "the ticket is valid only in " + span_text(fault.seconds) + "; wait, and check the server's clock";
     case TicketCheck::kContent:
       return std::string(kWords[i].text) + " (" + fault.detail + ")";
     case TicketCheck::kSeat:

@@ -56,7 +56,7 @@ namespace tandem {
   const std::string* const nearest = nearest_match(word, known);
   std::string text;
   if (nearest != nullptr) text = "did you mean " + *nearest + "? ";
-  return text + (all.empty() ? "nothing is known here" : "known here: " + all);
+  return text + (all.empty() ? "none is available" : "known here: " + all);
 }
 
 }  // namespace tandem

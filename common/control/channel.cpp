@@ -44,7 +44,7 @@ constexpr ChannelLaw kLaws[] = {
     {"set_position",
      "positions both ways, every move paid from an energy ledger; stiffness, damping and lead follow the delay",
      make<SetPositionEnd>},
-    {"raw", "positions both ways, constant stiffness, no passivity: what happens without", make<RawEnd>},
+    {"raw", "positions both ways, constant stiffness, no passivity: for comparison only", make<RawEnd>},
 };
 
 }  // namespace

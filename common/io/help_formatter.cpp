@@ -19,7 +19,7 @@ constexpr std::size_t kMissing = std::string_view::npos;
 
 /// Groups in display order; others appear between "Options" and "Output".
 constexpr const char* kNeeded = "Needed";
-constexpr const char* kConnection = "Who and where";
+constexpr const char* kConnection = "Connection";
 constexpr const char* kOptions = "Options";
 constexpr const char* kOutput = "Output";
 constexpr const char* kHelp = "Help";

@@ -80,7 +80,7 @@ void write_all(int fd, std::string_view text) noexcept {
     text = e.what();
     code = kThrew;
   } catch (...) {
-    text = "something that is no exception";
+    text = "an unknown exception";
     code = kThrew;
   }
   write_all(result, text);

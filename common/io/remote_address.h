@@ -25,7 +25,7 @@ namespace tandem::io {
     if (c <= ' ' || c > '~' || c == '"' || c == '\\') return wrong("the host holds a character that no address has");
   if (text.size() > 96) return wrong("is longer than 96 characters");
   if (host == "0.0.0.0" || host == "[::]")
-    return wrong("is no address that can be dialled; name the one clients reach this machine by");
+    return wrong("is no address that a client can connect to; name the address by which clients reach this machine");
   return {};
 }
 

@@ -42,7 +42,7 @@ Result<FalconSpec> load_falcon_file(const std::string& file) {
 }
 
 DeviceError wrong_device_kind(const std::string& file, const std::string& kind) {
-  return {Errc::kUnsupported, file + ":1: says nothing of a " + kind + ": write " + kind + " { ... }"};
+  return {Errc::kUnsupported, file + ":1: does not describe a " + kind + ": write " + kind + " { ... }"};
 }
 
 Result<DeviceFileSpec> parse_shipped_preset(const ShippedPreset& preset) {

@@ -43,8 +43,7 @@ Result<DeviceSpec> parse_device_spec(std::string_view spec) {
       if (first) {
         choice.name = part;
       } else {
-        choice.errors.push_back("'" + shown(part) +
-                                "' has no value; the name of a device stands first, then KEY=VALUE");
+        choice.errors.push_back("'" + shown(part) + "' has no value; the name of a device comes first, then KEY=VALUE");
       }
     } else {
       DeviceSpec::Option option{std::string(part.substr(0, equals)), std::string(part.substr(equals + 1))};

@@ -36,7 +36,7 @@ Result<FalconOptions> parse_options(const DeviceSpec& choice) {
   OptionParser judge{choice, {"port", "serial", "firmware", "calibration"}};
   if (!choice.name.empty())
     judge.add_error("'" + choice.name.substr(0, 60) +
-                    "': several are told apart by port=; `tandem-client doctor` lists them");
+                    "': port= selects one of several; `tandem-client doctor` lists them");
   FalconOptions options;
   if (const auto file = choice.find("calibration")) {
     auto spec = load_falcon_file(*file);
@@ -82,9 +82,9 @@ std::string FalconBackend::library() const { return library_of(Bus::kUsb); }
 
 std::vector<DeviceFact> FalconBackend::facts() const {
   return {{"firmware",
-           "lost without power; loaded from firmware=FILE unless it runs already, which is asked when it is opened"},
+           "lost without power; loaded from firmware=FILE unless it runs already; checked when the device is opened"},
           {"rate", "1000 Hz, in lock-step"},
-          {"calibration", "force scale from calibration=FILE, else a guess kept to a tenth"},
+          {"calibration", "force scale from calibration=FILE, else an estimate limited to a tenth"},
           {"homing", "by hand, after power came: out, then in"},
           {"gravity", "no gravity compensation: the user holds the weight of the grip"}};
 }

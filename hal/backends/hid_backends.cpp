@@ -129,7 +129,7 @@ Result<Board> parse_board_options(const DeviceSpec& choice) {
   OptionParser judge{choice, {"preset", "enable_motors", "home", "port", "serial"}};
   if (!choice.name.empty())
     judge.add_error("'" + choice.name.substr(0, 60) +
-                    "': several are told apart by port= or serial=; a mechanism is named by preset=");
+                    "': port= or serial= selects one of several, and preset= selects the mechanism");
   Board board;
   woodenhaptics::WoodenHapticsOptions& options = board.options;
   if (const auto preset = choice.find("preset")) {
@@ -142,9 +142,8 @@ Result<Board> parse_board_options(const DeviceSpec& choice) {
       judge.add_lines(std::move(loaded.error().message));
     }
   } else {
-    judge.add_error(
-        "needs preset=NAME or preset=FILE: which mechanism hangs on the board nobody can see from here; known: " +
-        preset_names());
+    judge.add_error("needs preset=NAME or preset=FILE: the board does not report its mechanism; known: " +
+                    preset_names());
   }
   options.enable_motors = judge.yes_or_no("enable_motors", false);
   options.home_at_start = choice.find("home").has_value() && judge.one_of("home", {"here"}) == "here";
@@ -185,9 +184,9 @@ std::string WoodenHapticsBackend::library() const { return library_of(Bus::kHidr
 std::vector<DeviceFact> WoodenHapticsBackend::facts() const {
   return {{"firmware", "the board keeps its own"},
           {"rate", "1000 Hz; V2 and RAW64 in lock-step, V1 free-running"},
-          {"calibration", "by the preset; without `measured` in it forces are kept to a tenth"},
+          {"calibration", "by the preset; without `measured` in it forces are limited to a tenth"},
           {"motors",
-           "no force before `tandem-client doctor --device ... --confirm-motors` saw each push the way it is told"},
+           "no force before `tandem-client doctor --device ... --confirm-motors` confirmed the direction of each"},
           {"homing", "at every start: calibration pose, then the board's button or home=here"},
           {"gravity", "gravity compensation of the arms, if the preset has weight { carried: true }"}};
 }
@@ -198,7 +197,7 @@ Result<> WoodenHapticsBackend::check(const DeviceSpec& choice) const {
 }
 
 Result<std::vector<FoundDevice>> WoodenHapticsBackend::list() {
-  return found_among(list_hidraw(), "woodenhaptics", "what looks like a WoodenHaptics board (its USB id is not unique)",
+  return found_among(list_hidraw(), "woodenhaptics", "probably a WoodenHaptics board (its USB id is not unique)",
                      is_board);
 }
 
@@ -225,7 +224,7 @@ Result<OpenedDriver> WoodenHapticsBackend::open(const DeviceSpec& choice) {
   if (options.enable_motors) {
     opened.signs = SignFile{name_of(device), understood->preset, understood->sha256, {"base", "shoulder", "elbow"}};
   } else {
-    opened.note = "no current flows without enable_motors=yes: this arm only says where it is";
+    opened.note = "no current flows without enable_motors=yes: this arm only reports its position";
   }
   if (const auto fd = find_open_file(device.node)) {
     ShutdownFrame words;  // report id 0, then a report of zeros: no current
@@ -238,16 +237,16 @@ Result<OpenedDriver> WoodenHapticsBackend::open(const DeviceSpec& choice) {
 
 std::string_view SpaceMouseBackend::help() const noexcept {
   return "  spacemouse[:port=P][,serial=S][,calibration=FILE]\n"
-         "                              3Dconnexion puck: moves the hand's point, feels nothing\n";
+         "                              3Dconnexion SpaceMouse: moves the hand's point, gives no force\n";
 }
 
 std::string SpaceMouseBackend::library() const { return library_of(Bus::kHidraw); }
 
 std::vector<DeviceFact> SpaceMouseBackend::facts() const {
-  return {{"firmware", "the puck keeps its own"},
+  return {{"firmware", "the device keeps its own"},
           {"rate", "62 to 125 reports a second while it is moved, none at rest"},
           {"calibration", "0.1 m/s and 0.5 rad/s at full deflection; calibration=FILE changes that"},
-          {"homing", "needs none: it says how fast, not where"},
+          {"homing", "needs none: it reports velocity, not position"},
           {"gravity", "no motors"},
           {"battery", "wireless ones report it now and then; `doctor --device` shows it"}};
 }

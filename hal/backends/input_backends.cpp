@@ -41,14 +41,12 @@ std::string beyond(const sim::RecordedMotion& motion, const std::string& file) {
   const std::string place = file + ":" + std::to_string(found->line) + ": ";
   if (found->axis < 0)
     return place + format(
-                       "speed from the row before = %.3g m/s at scale %.4g: must be in [0, %g] m/s, which is what a "
-                       "hand does; give scale=auto or "
-                       "a smaller scale, or mend the row",
+                       "speed from the row before = %.3g m/s at scale %.4g: must be in [0, %g] m/s, which is the range "
+                       "of a hand; give scale=auto or a smaller scale, or correct the row",
                        found->value, motion.scale(), speed_max);
   return place + format(
                      "%s of the device = %.4g m at scale %.4g: must be in [%g, %g] m, the workspace; give scale=auto "
-                     "or a smaller scale, or mend "
-                     "the row",
+                     "or a smaller scale, or correct the row",
                      kAxes[found->axis], found->value, motion.scale(), -ReplayDriver::kReach, ReplayDriver::kReach);
 }
 
@@ -84,7 +82,7 @@ Result<std::string> only_mouse() {
         Errc::kNotFound, std::string("mouse: none is attached that the kernel's evdev shows (/dev/input/event*). ") +
                              EvdevMouse::kWithout});
   if (found.size() == 1) return found.front().node;
-  std::string message = "mouse: there are several; say which one:";
+  std::string message = "mouse: there are several; select one:";
   for (const auto& mouse : found)
     message += " mouse:" + mouse.node + " (" + (mouse.description.empty() ? "no permission" : mouse.description) + ")";
   if (std::ranges::all_of(found, [](const auto& mouse) { return !mouse.problem.empty(); }))
@@ -116,7 +114,7 @@ std::vector<DeviceFact> MouseBackend::facts() const {
   return {{"firmware", "the mouse keeps its own"},
           {"rate", "as it reports; asked 1000 times a second"},
           {"calibration", "0.1 mm per count; mm_per_count= changes that"},
-          {"homing", "needs none: it begins in the middle"},
+          {"homing", "needs none: it starts in the middle"},
           {"gravity", "no motors"}};
 }
 

@@ -26,14 +26,14 @@ std::vector<std::string> OpenHapticsBackend::udev_rules() const { return {kSeria
 
 std::string OpenHapticsBackend::library() const {
   const auto library = OpenHapticsLibrary::load();
-  return library ? std::string("libHD.so, installed; it says its version when a device is opened")
+  return library ? std::string("libHD.so, installed; it reports its version when a device is opened")
                  : "libHD.so, not installed";
 }
 
 std::vector<DeviceFact> OpenHapticsBackend::facts() const {
   return {{"firmware", "the device keeps its own"},
           {"rate", "1000 Hz, the vendor's scheduler"},
-          {"calibration", "the vendor's; peak and continuous force are asked of the device when it is opened"},
+          {"calibration", "the vendor's; peak and continuous force are read from the device when it is opened"},
           {"homing",
            "as the device has it: by itself, the stylus into the inkwell, or its reset pose (asked for, or home=here)"},
           {"gravity", "the maker's compensation is on"}};
@@ -52,8 +52,8 @@ Result<std::vector<FoundDevice>> OpenHapticsBackend::list() {
     return std::unexpected(std::move(error));
   }
   return std::vector{FoundDevice{
-      "openhaptics", "the default device of the vendor's set-up tool; the library does not tell which are attached", "",
-      ""}};
+      "openhaptics", "the default device of the vendor's set-up tool; the library does not report which are attached",
+      "", ""}};
 }
 
 Result<OpenedDriver> OpenHapticsBackend::open(const DeviceSpec& choice) {

@@ -114,7 +114,7 @@ Result<> ServoCore::enable() {
       return {};
     case Phase::kUnhomed:
       return std::unexpected(
-          DeviceError{Errc::kNotHomed, id().backend + " " + id().key + ": does not know where it is; home it first"});
+          DeviceError{Errc::kNotHomed, id().backend + " " + id().key + ": has no position reference; home it first"});
     case Phase::kFault:
       return bad_state(id(), "had a fault; reset it first");
     case Phase::kLost:

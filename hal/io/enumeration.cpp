@@ -156,10 +156,10 @@ Result<AttachedDevice> select_device(std::span<const AttachedDevice> attached, c
     message += attached.empty() ? "nothing is" : "there are ";
     for (const AttachedDevice& device : attached)
       message += (&device == &attached.front() ? "" : "; ") + describe(device);
-    message += ". Is it plugged in, and has it power?";
+    message += ". Check its cable and its power";
     return std::unexpected(DeviceError{Errc::kNotFound, std::move(message)});
   }
-  message = std::to_string(fitting.size()) + " devices could be meant by " + said(wanted) + "; say which one:";
+  message = std::to_string(fitting.size()) + " devices match " + said(wanted) + "; select one:";
   for (const AttachedDevice* device : fitting) {
     const bool by_port = !device->port.empty();
     message += std::string(device == fitting.front() ? " " : ", or ") +

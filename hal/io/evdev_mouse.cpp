@@ -78,8 +78,8 @@ std::string EvdevMouse::permission_advice(const std::string& path, std::optional
     advice += "Join";
   }
   return advice +
-         " the group 'input' (`sudo usermod -aG input $USER`, then log in again): whoever is in it can read every "
-         "keyboard, too. " +
+         " the group 'input' (`sudo usermod -aG input $USER`, then log in again): its members can read every keyboard, "
+         "too. " +
          kWithout;
 }
 
@@ -110,8 +110,8 @@ Result<std::unique_ptr<EvdevMouse>> EvdevMouse::open(const std::string& node, bo
     if (why == EACCES || why == EPERM)
       return std::unexpected(
           DeviceError{Errc::kPermission, permission_advice(path, ids_of(path.substr(path.rfind('/') + 1)))});
-    return std::unexpected(
-        DeviceError{Errc::kNotFound, "mouse: " + path + ": " + std::strerror(why) + "; is it plugged in? " + kWithout});
+    return std::unexpected(DeviceError{
+        Errc::kNotFound, "mouse: " + path + ": " + std::strerror(why) + "; check that it is plugged in. " + kWithout});
   }
   auto mouse = std::make_unique<EvdevMouse>(fd);
   if (!is_mouse(fd))

@@ -47,7 +47,7 @@ std::string_view to_text(FrameError error) noexcept {
     case FrameError::kMalformed:
       return "the bytes are no control frame";
     case FrameError::kOutOfRange:
-      return "a value in the frame cannot be meant";
+      return "a value in the frame is out of its range";
   }
   return "?";
 }

@@ -35,7 +35,7 @@ std::string session_list_text(const rpc::SessionList& list, const std::vector<st
       text += format("  %-16s %-10s %s%s\n", seat.name.c_str(), role_of(seat).c_str(), seat.taken ? "taken" : "free",
                      seat.required ? "" : ", optional");
   }
-  if (list.more) text += "and more than fit into one answer\n";
+  if (list.more) text += "and more, which do not fit into one answer\n";
   return text;
 }
 

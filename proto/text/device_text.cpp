@@ -24,9 +24,8 @@ std::optional<double> number(bool given, double value) { return given ? std::opt
 
 FalconMassReading reading_from(const pb::FalconReading& in, MessageValidator& validator, const std::string& key) {
   if (!in.has_encoder()) validator.error(key, "needs encoder { leg_1: ... leg_2: ... leg_3: ... }");
-  if (!in.has_motor_without())
-    validator.error(key, "needs motor_without { ... }: what the motors gave without the mass");
-  if (!in.has_motor_with()) validator.error(key, "needs motor_with { ... }: what the motors gave with the mass");
+  if (!in.has_motor_without()) validator.error(key, "needs motor_without { ... }: the motor commands without the mass");
+  if (!in.has_motor_with()) validator.error(key, "needs motor_with { ... }: the motor commands with the mass");
   const double length = std::hypot(in.up_x(), in.up_y(), in.up_z());
   if (length < 0.1) validator.error(key, "needs up_x, up_y, up_z: the direction against gravity, such as up_z: 1");
   return {.mass = in.mass_kg(),
@@ -65,7 +64,8 @@ FalconSpec falcon_from(const pb::FalconFile& in, MessageValidator& validator, co
     spec.counts_per_nm = {in.force().motor_1_counts_per_nm(), in.force().motor_2_counts_per_nm(),
                           in.force().motor_3_counts_per_nm()};
     if (in.mass_reading_size() > 0) {
-      validator.error(child_path(key, "force"), "not with mass_reading: give the scale, or what it shall be fitted to");
+      validator.error(child_path(key, "force"),
+                      "cannot be combined with mass_reading: give the scale, or the readings to fit it to");
     }
   }
   if (in.mass_reading_size() == 1) {
@@ -77,7 +77,7 @@ FalconSpec falcon_from(const pb::FalconFile& in, MessageValidator& validator, co
   const bool numbers = in.has_force() || in.mass_reading_size() > 0;
   spec.measured = in.measured();
   if (numbers && in.measured().empty()) {
-    validator.error(key, "needs measured: \"who measured this device, when and how\" beside a force scale");
+    validator.error(key, "needs measured: \"name, date and method of the measurement\" beside a force scale");
   }
   spec.peak = number(in.has_peak_n(), in.peak_n());
   spec.continuous = number(in.has_continuous_n(), in.continuous_n());

@@ -147,7 +147,7 @@ ProfileOutage outage_from(const pb::ProfileOutage& in, MessageValidator& validat
   outage.all_links = in.scope() == pb::ProfileOutage::ALL_LINKS;
   if (in.has_scope() && !in.has_mean_gap_s() && !in.has_length_max_ms()) {
     validator.error(child_path(key, "scope"),
-                    "needs mean_gap_s or length_max_ms: what is not drawn hits all clients anyway");
+                    "needs mean_gap_s or length_max_ms: an outage that is not random hits all clients anyway");
   }
   outage.loss_at_start_ms = in.loss_at_start_ms();
   if (outage.length_ms > 0 && outage.loss_at_start_ms > outage.length_ms) {  // otherwise the length is the error

@@ -188,7 +188,7 @@ std::string print_servers(const std::vector<ServerRow>& rows) {
 }
 
 std::string print_serving(const ServingSpec& serving) {
-  std::string out = header("What the running server offers.") + "address: \"" + serving.address + "\"\n";
+  std::string out = header("Sessions of the running server.") + "address: \"" + serving.address + "\"\n";
   for (const OpenSession& s : serving.sessions) {
     out += "session {\n" + row("id", hex_of(s.id)) + (s.code.empty() ? std::string() : row("code", s.code)) +
            row("name", s.name) + row("epoch", s.epoch);

@@ -99,13 +99,13 @@ void limits_from(const google::protobuf::Message& in, const ScenarioLimitSpec& c
     if (range.has_max()) limit.max = range.max();
     if (range.has_min()) validator.check_number(field, range.min(), child_path(metric_key, "min"));
     if (range.has_max()) validator.check_number(field, range.max(), child_path(metric_key, "max"));
-    if (!limit.min && !limit.max) validator.error(metric_key, "needs min, max or both: where must the number lie?");
+    if (!limit.min && !limit.max) validator.error(metric_key, "needs min, max or both: the range of the number");
     if (limit.min && limit.max && *limit.min > *limit.max)
       validator.error(child_path(metric_key, "min"),
                       "is above max = " + text::number_text(*limit.max) + ": nothing can pass");
     out.push_back(std::move(limit));
   }
-  if (!any) validator.error(key, "limits nothing; name what must lie where, such as tracking_rms_m { max: 0.01 }");
+  if (!any) validator.error(key, "limits nothing; name a quantity and its range, such as tracking_rms_m { max: 0.01 }");
 }
 
 void all_limits_from(const pb::Scenario& in, MessageValidator& validator, std::vector<ScenarioLimitSpec>& out) {
@@ -164,7 +164,7 @@ ScenarioReading read_scenario_text(std::string_view text, std::string_view file_
   if (in.has_network()) out.network = network_from(in.network(), validator, "network");
   for (int i = 0; i < in.seat_network_size(); ++i) {
     const std::string key = child_path("", "seat_network", i);
-    if (in.seat_network(i).seat_size() == 0) validator.error(key, "needs seat: whose network is it?");
+    if (in.seat_network(i).seat_size() == 0) validator.error(key, "needs seat: the seat that uses this network");
     out.seat_networks.push_back({names_of(in.seat_network(i).seat(), validator, key, "seat"),
                                  network_from(in.seat_network(i).network(), validator, child_path(key, "network"))});
   }

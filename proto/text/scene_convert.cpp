@@ -268,7 +268,7 @@ void resolve_e0(const pb::Channel& in, const std::string& path, MessageValidator
       least > kE0Max) {  // otherwise every client would reject its SeatSetup
     const std::string cause =
         "force_max_n^2 / (2 k_min_n_m) = " + number_text(least) + " J must be at most " + number_text(kE0Max) +
-        " J: each end of the channel begins with so much energy; lower gate.force_max_n or raise channel.k_min_n_m";
+        " J: each end of the channel begins with this energy; lower gate.force_max_n or raise channel.k_min_n_m";
     const bool by_stiffness = in.has_k_min_n_m();
     validator.error(by_stiffness ? child_path(path, "k_min_n_m") : "gate.force_max_n", cause,
                     number_text(by_stiffness ? out.k_min : gate.force_max));
@@ -297,16 +297,15 @@ void read_seat(const pb::Seat& in, std::size_t dof, const std::string& path, Mes
   read_device(in.device(), dof, child_path(path, "device"), validator, out.device);
   if (out.kind == SeatKind::kMaster) {
     if (in.has_tool())
-      validator.error(child_path(path, "tool"), "is for SLAVE seats; what a master follows is said with follow { }");
+      validator.error(child_path(path, "tool"), "is for SLAVE seats; follow { } names the tools of a master");
     if (in.has_environment())
       validator.error(child_path(path, "environment"), "is for SLAVE seats and for tool { slave { } }");
     read_hand(in.hand(), child_path(path, "hand"), validator, out.hand);
     if (in.has_assist()) out.assist = {in.assist().force_n(), in.assist().in_contact()};
   } else {
-    if (in.has_assist())
-      validator.error(child_path(path, "assist"), "is for MASTER seats: a slave follows nobody's hand");
+    if (in.has_assist()) validator.error(child_path(path, "assist"), "is for MASTER seats: a slave follows no hand");
     if (in.has_role()) validator.error(child_path(path, "role"), "is for MASTER seats: a slave has no role");
-    if (in.has_hand()) validator.error(child_path(path, "hand"), "is for MASTER seats: nobody holds a slave");
+    if (in.has_hand()) validator.error(child_path(path, "hand"), "is for MASTER seats: a slave has no hand");
     read_environment(in.environment(), dof, child_path(path, "environment"), validator, out.environment);
     refuse_friction(in.environment(), child_path(path, "environment"), validator);
   }

@@ -193,9 +193,9 @@ void read_authority(const pb::Scene& in, MessageValidator& validator, SceneSpec&
     const bool named = std::any_of(in.authority().begin(), in.authority().end(),
                                    [&](const auto& a) { return a.tool() == out.tools[t].name; });
     if (!named && !out.tools[t].name.empty()) {
-      validator.error(
-          child_path("", "tool", static_cast<int>(t)),
-          "nobody has authority over it; add authority { tool: " + quoted(out.tools[t].name) + " seat: ... alpha: 1 }");
+      validator.error(child_path("", "tool", static_cast<int>(t)),
+                      "no seat has authority over it; add authority { tool: " + quoted(out.tools[t].name) +
+                          " seat: ... alpha: 1 }");
     }
   }
   for (int i = 0; i < in.timeline_size(); ++i) {
@@ -283,11 +283,11 @@ void check_law(const pb::Scene& in, MessageValidator& validator, const SceneSpec
     if (in.seat(i).assist().force_n() > 0 && scene.channel.law != LawKind::kReplica)
       validator.error(
           child_path(child_path("", "seat", i), "assist"),
-          "needs channel { law: REPLICA }, under which clients know the leader's hand; take it away or say force_n: 0");
+          "needs channel { law: REPLICA }, under which clients know the leader's hand; remove it or write force_n: 0");
   for (int t = 0; t < in.tool_size(); ++t)
     if (in.tool(t).contacts() == pb::Tool::ESTIMATED && scene.channel.law != LawKind::kReplica)
       validator.error(child_path(child_path("", "tool", t), "contacts"),
-                      "needs channel { law: REPLICA }, under which clients simulate the tool; take it away or say NONE",
+                      "needs channel { law: REPLICA }, under which clients simulate the tool; remove it or write NONE",
                       "ESTIMATED");
   for (std::size_t t = 0; t < scene.tools.size() && t < static_cast<std::size_t>(in.tool_size()); ++t)
     if (scene.tools[t].is_virtual && joints)

@@ -72,13 +72,13 @@ std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::s
       not_empty(in.has_metrics(), in.metrics(), validator, "metrics", "write HOST:PORT, or leave the key out");
   out.reports = not_empty(in.has_reports(), in.reports(), validator, "reports", "name a folder, or leave the key out");
   if (in.session_size() == 0 && !validator.is_set("session[0]"))
-    validator.error("session", "is missing: a server without a session serves nobody");
+    validator.error("session", "is missing: a server needs at least one session");
   for (int i = 0; i < in.session_size(); ++i) {
     const std::string key = child_path("", "session", i);
     for (const ConfiguredSessionSpec& other : out.sessions)
       if (!in.session(i).name().empty() && other.name == in.session(i).name())
         validator.error(child_path(key, "name"),
-                        "is the name of another session already; people must be able to tell them apart");
+                        "is the name of another session already; each session needs a name of its own");
     out.sessions.push_back(session_from(in.session(i), validator, key));
   }
   out.limits = limits_from(in.limits());

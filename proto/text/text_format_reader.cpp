@@ -355,7 +355,7 @@ bool read_document(std::string_view text, std::string_view file_name, Message& m
     const auto newline = text.substr(0, before).rfind('\n');  // npos + 1 is 0: the first line
     validator.error_at({static_cast<int>(line), static_cast<int>(before - (newline + 1) + 1), ""}, "",
                        std::string("is not text: it has the byte 0x") + kHex[byte >> 4] + kHex[byte & 15] +
-                           "; was another file meant? Files of this kind are written in an editor");
+                           "; files of this kind are plain text");
     return false;
   }
   if (file_name.ends_with(".json")) {
@@ -367,7 +367,7 @@ bool read_document(std::string_view text, std::string_view file_name, Message& m
   std::vector<const FieldDescriptor*> set;
   message.GetReflection()->ListFields(message, &set);
   if (set.empty()) {
-    if (validator.ok()) validator.error_at({1, 1, ""}, "", "the file says nothing: no key is set");
+    if (validator.ok()) validator.error_at({1, 1, ""}, "", "the file is empty: no key is set");
     return false;
   }
   validator.check_limits(message);

@@ -20,8 +20,8 @@ void check_parts(const pb::WoodenHapticsFile& in, MessageValidator& validator, c
         {in.has_elbow(), "elbow { ... }: its motor"},
         {in.has_arm(), "arm { ... }: its lengths"},
         {in.has_current(),
-         "current { max_a: ... continuous_a: ... firmware_full_scale_a: ... "
-         "amplifier_full_scale_a: ... }: what flows is never guessed; 2, 1, 3, 3 A are cautious"},
+         "current { max_a: ... continuous_a: ... firmware_full_scale_a: ... amplifier_full_scale_a: ... }: currents "
+         "have no defaults; 2, 1, 3, 3 A are cautious"},
         {in.has_limits(), "limits { force_n: ... radius_mm: ... }: the published 5 N and 100 mm, or your own"}}) {
     if (!given) validator.error(key, std::string("needs ") + what);
   }
@@ -29,7 +29,8 @@ void check_parts(const pb::WoodenHapticsFile& in, MessageValidator& validator, c
     validator.error(child_path(key, "protocol"), "must be V1, V2 or RAW64");
   }
   if (in.has_measured() && in.measured().empty()) {
-    validator.error(child_path(key, "measured"), "is empty: say who measured, when and how, or leave it out");
+    validator.error(child_path(key, "measured"),
+                    "is empty: name the author, date and method of the measurement, or leave it out");
   }
   if (in.protocol() == pb::WoodenHapticsFile::V1 && in.stylus_on_encoder_d()) {
     validator.error(child_path(key, "stylus_on_encoder_d"), "a V1 board has no encoder d");

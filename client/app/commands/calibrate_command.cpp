@@ -73,7 +73,7 @@ std::string too_heavy(double mass, const hal::FalconForce& scale, bool supine) {
                 mass * kGravity,
                 scale.calibrated() ? "this device by its calibration" : "a device without a calibration", most,
                 supine ? "supine" : "upright", most / kGravity,
-                scale.calibrated() ? "" : ". Begin with 0.02 and 0.03, then give what came out as calibration=FILE");
+                scale.calibrated() ? "" : ". Begin with 0.02 and 0.03 kg, then give the readings as calibration=FILE");
 }
 
 struct Trouble {
@@ -118,7 +118,8 @@ int calibrate(const CalibrateArguments& arguments, double mass, const hal::Falco
   const auto fail = [](std::string reason) {
     if (reason.empty()) {
       const std::string by{io::pending_signal()};
-      reason = by.empty() ? "nobody is there to press Enter: no reading" : "ended by " + by + ": no reading";
+      reason =
+          by.empty() ? "standard input ended before Enter was pressed: no reading" : "ended by " + by + ": no reading";
     }
     io::print_formatted(stderr, "tandem-client calibrate: %s\n", reason.c_str());
     return kTrouble;
@@ -133,13 +134,14 @@ int calibrate(const CalibrateArguments& arguments, double mass, const hal::Falco
     (*held)->device().close();  // before the destruction of the clients that its thread calls
     return code;
   };
-  if (!wait_for_enter("Leave the empty grip in the middle of its reach and let go; it will hold itself there for 14 s",
-                      signals.get())) {
+  if (!wait_for_enter(
+          "Leave the empty grip in the middle of its reach and release it; it will hold itself there for 14 s",
+          signals.get())) {
     return close(fail({}));
   }
   const auto empty = weigh_once(**held, without, hal::FalconCalibration::Load::kEmptyGrip, signals.get());
   if (!empty) return close(fail(empty.error().reason));
-  if (!wait_for_enter("Hang the mass on the grip, put it in the middle again, let go and let nothing swing",
+  if (!wait_for_enter("Hang the mass on the grip, put it in the middle again, release it and let nothing swing",
                       signals.get())) {
     return close(fail({}));
   }
@@ -152,9 +154,9 @@ int calibrate(const CalibrateArguments& arguments, double mass, const hal::Falco
   print_counts("motor_without", motor_counts(*empty, scale));
   print_counts("motor_with", motor_counts(*loaded, scale));
   std::printf("  }\n");
-  io::print_formatted(stderr,
-                      "Friction took up to %.1f %% of what the mass takes; add the reading to your calibration file.\n",
-                      100 * loaded->friction / std::max(1e-6, std::abs(loaded->torque[0] - empty->torque[0])));
+  io::print_formatted(
+      stderr, "Friction reached %.1f %% of the motor torque for the mass; add the reading to your calibration file.\n",
+      100 * loaded->friction / std::max(1e-6, std::abs(loaded->torque[0] - empty->torque[0])));
   return 0;
 }
 

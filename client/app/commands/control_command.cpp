@@ -179,7 +179,7 @@ class ConsoleClient {
     } else if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) {
       complain("refused: " + refused->text);
     } else {
-      complain("the server answered something else; is it of the same release?");
+      complain("unexpected reply from the server; check that client and server are of the same release");
     }
     return std::nullopt;
   }
@@ -223,8 +223,8 @@ class ConsoleClient {
     const std::string is =
         format("authority over %s, version %u: ", now->tools[frame->tool].name.c_str(), answer->version) +
         weights_text(*now, answer->alpha);
-    if (answer->applied) return say(is + "; announced, it begins in 50 ms");
-    return complain("refused: another change was faster. In force: " + is + ". Check it, then repeat the command");
+    if (answer->applied) return say(is + "; the transfer begins in 50 ms");
+    return complain("refused: another change came first. In force: " + is + ". Check it, then repeat the command");
   }
 
   /// Completes the commands in the server's texts with the options of this console.
@@ -360,9 +360,9 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--session", arguments->session,
                    "name, code or id of the session; default: the ticket's, or the only one there")
       ->option_text("NAME|CODE|ID");
-  add_ticket_options(
-      *command, arguments->ticket,
-      "what `tandem-server ticket --role operator` printed; not needed with a loopback server with ephemeral keys");
+  add_ticket_options(*command, arguments->ticket,
+                     "ticket printed by `tandem-server ticket --role operator`; not needed with a loopback server with "
+                     "ephemeral keys");
   command
       ->add_option("--role", arguments->role,
                    "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")
@@ -381,13 +381,14 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
                    "one of the commands below; none: a console that takes one command per line and stays connected")
       ->option_text("...");
   command->footer(std::string("Commands\n") + console_commands_help() +
-                  "\nA ticket is good for one connection, and used up by the first command that succeeds (`status` "
-                  "too, unless all others are refused).\n"
-                  "For several commands use the console (a pipe will do); it reports stops by others and the progress "
-                  "of a drain. A stop is latched\n"
+                  "\n"
+                  "A ticket is good for one connection, and used up by the first command that succeeds (`status` too, "
+                  "unless all others are refused).\n"
+                  "For several commands use the console (also through a pipe); it reports stops by others and the "
+                  "progress of a drain. A stop is latched\n"
                   "and numbered; a resume names the newest stop, so that an old command never ends a newer stop.\n"
-                  "Exit: 0 done; 1 refused, with the reason, or server not there; 2 wrong arguments. In the console: "
-                  "the greatest code of its commands.\n\n"
+                  "Exit: 0 done; 1 refused, with the reason, or server not reachable; 2 wrong arguments. In the "
+                  "console: the greatest code of its commands.\n\n"
                   "Examples\n"
                   "  tandem-client control --server 127.0.0.1:7000 stop a hand is in the way\n"
                   "  tandem-client control --server lab-server:7000 --ticket-file operator.ticket");

@@ -48,7 +48,7 @@ void print(const hal::DeviceFact& fact) { io::print(stdout, fact_line(fact)); }
 /// Prints which signal ended the examination.
 void print_interruption() {
   const std::string by{io::pending_signal()};
-  io::print_formatted(stdout, "ended by %s: what was seen so far is told and is no clean bill\n", by.c_str());
+  io::print_formatted(stdout, "ended by %s: the findings are incomplete\n", by.c_str());
 }
 
 bool has_fault(const std::vector<DeviceDiagnostics::Finding>& findings) {
@@ -149,7 +149,7 @@ int diagnose(const DoctorArguments& arguments, double seconds) {
     for (auto& finding : client.force_test()->findings()) findings.push_back(std::move(finding));
   }
   if (client.was_lost())
-    findings.push_back({Kind::kTrouble, "it was unplugged, or stopped existing, while it was examined"});
+    findings.push_back({Kind::kTrouble, "the device was unplugged, or disappeared, during the examination"});
   for (const auto& finding : findings) print(finding);
   if (!whole) print_interruption();
   return whole && !has_fault(findings) ? 0 : kTrouble;
@@ -176,10 +176,10 @@ int list_all() {
     }
   }
   if (found == 0) {
-    io::print_formatted(
-        stdout,
-        "No device that Tandem knows is attached. Is it plugged in and powered? `lsusb` tells what the system sees.\n"
-        "Without a device, `--device sim` holds a simulated one.\n");
+    io::print_formatted(stdout,
+                        "No device that Tandem supports is attached. Check cable and power; `lsusb` lists the USB "
+                        "devices that the system sees.\n"
+                        "Without a device, `--device sim` uses a simulated one.\n");
     return kTrouble;
   }
   io::print_formatted(stdout, "`tandem-client doctor --device SPEC` examines one of them.\n");
@@ -210,8 +210,8 @@ int watch_hotplug() {
 
 std::string all_rules() {
   std::string rules =
-      "# Whoever sits at this machine may use the haptic devices that Tandem knows. Written by `tandem-client "
-      "doctor`.\n";
+      "# The user who is logged in at this computer may use the haptic devices that Tandem supports. Written by "
+      "`tandem-client doctor`.\n";
   for (hal::Backend* backend : hal::backends()) {
     for (const std::string& rule : backend->udev_rules()) rules += rule + "\n";
   }
@@ -237,7 +237,7 @@ int install_rules(const std::string& root) {
   io::print_formatted(stdout, "%s is written. %s\n", name.c_str(),
                       root.empty()
                           ? "Now: udevadm control --reload && udevadm trigger, or unplug the device and plug it in."
-                          : "It acts when that system runs.");
+                          : "The rules take effect when that system runs.");
   return 0;
 }
 
@@ -246,31 +246,30 @@ int doctor_command(const DoctorArguments& arguments) {
   if (const std::string problem = io::number_in(0.5, 600, "s")(std::string(arguments.seconds)); !problem.empty())
     mistakes.push_back("--seconds: " + problem);
   if (arguments.force_test && arguments.device.empty())
-    mistakes.push_back("--force-test: needs --device; forces are sent to a device that a person named, to no other");
+    mistakes.push_back("--force-test: needs --device; forces are sent only to a device that the command line names");
   if (arguments.confirm && arguments.device.empty())
     mistakes.push_back(
-        "--confirm-motors: needs --device; forces are sent to a device that a person named, to no other");
+        "--confirm-motors: needs --device; forces are sent only to a device that the command line names");
   if (arguments.confirm && (arguments.force_test || arguments.watch))
-    mistakes.push_back("--confirm-motors: stands without --force-test and --watch; run it first");
+    mistakes.push_back("--confirm-motors: cannot be combined with --force-test or --watch; run it first");
   if (arguments.install && (!arguments.device.empty() || arguments.force_test || arguments.confirm || arguments.watch))
-    mistakes.push_back("--install-udev: stands alone");
+    mistakes.push_back("--install-udev: can be combined only with --root");
   if (!arguments.root.empty() && !arguments.install) mistakes.push_back("--root: needs --install-udev");
   if (arguments.watch && (!arguments.device.empty() || arguments.force_test))
-    mistakes.push_back("--watch: stands alone");
+    mistakes.push_back("--watch: cannot be combined with --device or --force-test");
   if (!arguments.device.empty() && !HardwareDevice::is_hardware_spec(arguments.device))
-    mistakes.push_back("--device: a simulated device needs no doctor");
+    mistakes.push_back("--device: doctor examines real devices, and this one is simulated");
   if (arguments.device.starts_with("replay")) {
-    mistakes.push_back("--device: a recording needs no doctor");
+    mistakes.push_back("--device: doctor examines real devices, and this one is a recording");
   } else if (HardwareDevice::is_hardware_spec(arguments.device) && !arguments.device.empty()) {
     for (std::string& wrong : HardwareDevice::spec_errors(arguments.device)) mistakes.push_back(std::move(wrong));
   }
   if (const auto choice = hal::parse_device_spec(arguments.device); arguments.confirm && mistakes.empty() && choice) {
     if (choice->backend != "woodenhaptics")
       mistakes.push_back("--confirm-motors: '" + choice->backend +
-                         "': only woodenhaptics devices take the directions of their motors from a file");
+                         "': only woodenhaptics devices read the directions of their motors from a file");
     else if (choice->find("enable_motors") != "yes")
-      mistakes.push_back(
-          "--confirm-motors: needs enable_motors=yes in the words of --device: without it no current flows");
+      mistakes.push_back("--confirm-motors: needs enable_motors=yes in --device: without it no current flows");
   }
   for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
   if (!mistakes.empty()) {
@@ -288,27 +287,31 @@ int doctor_command(const DoctorArguments& arguments) {
 
 void add_doctor_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<DoctorArguments>();
-  CLI::App* const command = root.add_subcommand("doctor", "Lists haptic devices and says what ails them.");
-  command->add_option("--device", arguments->device, "examines this one; the words are those of `join --device`")
+  CLI::App* const command =
+      root.add_subcommand("doctor", "Lists haptic devices, reports their problems and the remedies.");
+  command
+      ->add_option("--device", arguments->device, "examines this device; the specification is that of `join --device`")
       ->option_text("SPEC");
   command->add_option("--seconds", arguments->seconds, "how long to watch while you move it; default 5")
       ->option_text("S");
   command->add_flag("--force-test", arguments->force_test,
                     "then pushes your hand softly (0.5 N) along each axis, both ways");
-  command->add_flag("--confirm-motors", arguments->confirm,
-                    "asks you, then gives each motor pulses of at most 30 ms and sees whether it pushes the way the "
-                    "device's file says; a device "
-                    "whose directions come from a file gives no force before");
+  command->add_flag(
+      "--confirm-motors", arguments->confirm,
+      "asks you, then sends each motor pulses of at most 30 ms and checks whether it pushes in the direction that the "
+      "device's file states; before this check, a device whose directions come from a file gives no force");
   command
       ->add_option("--state", arguments->state,
                    "folder where confirmed motors are kept; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
       ->option_text("DIR");
-  command->add_flag("--watch", arguments->watch, "says what is plugged in and out, on USB and among HID devices");
+  command->add_flag("--watch", arguments->watch,
+                    "reports devices that are plugged in and out, on USB and among HID devices");
   command->add_flag("--install-udev", arguments->install,
-                    "writes the udev rules that let whoever sits here use the devices; needs root");
+                    "writes the udev rules that let the logged-in user use the devices; needs root");
   command
-      ->add_option("--root", arguments->root,
-                   "with --install-udev: of another system, such as an image; the file goes to DIR/etc/udev/rules.d")
+      ->add_option(
+          "--root", arguments->root,
+          "with --install-udev: root folder of another system, such as an image; the file goes to DIR/etc/udev/rules.d")
       ->option_text("DIR");
   command->footer(
       "Exit: 0 all is well; 1 trouble was found, or no device; 2 wrong arguments.\n\n"

@@ -34,21 +34,22 @@ int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, c
   const auto judge = [&](const auth::KeyFingerprint& seen) -> std::expected<const auth::Identity*, std::string> {
     if (seen == given.server) return &own->identity();
     return std::unexpected("the server at " + given.address +
-                           " has another key than the string says, so nothing was told to it. Either another machine "
-                           "answers there, or the server was set up "
-                           "again: ask for a new string");
+                           " has another key than the string names, so nothing was sent to it. Either another machine "
+                           "answers there, or the server was set up again: ask for a new string");
   };
   auto client = auth::ControlClient::connect(server, judge, patience, signals.get());
   const auto told = [](const auth::ClientError& fault) {
-    return trouble(fault.kind == auth::ClientError::Kind::kInterrupted ? "ended by Ctrl-C; the string may still be good"
-                                                                       : fault.text);
+    return trouble(fault.kind == auth::ClientError::Kind::kInterrupted
+                       ? "ended by Ctrl-C; the string may still be valid"
+                       : fault.text);
   };
   if (!client) return told(client.error());
   const auto answer = client->ask(rpc::Enroll{given.code}, patience);
   if (!answer) return told(answer.error());
   if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return trouble("refused: " + refused->text);
   const auto* taken = std::get_if<rpc::EnrollAck>(&*answer);
-  if (taken == nullptr) return trouble("the server answered something else; is it of the same release?");
+  if (taken == nullptr)
+    return trouble("unexpected reply from the server; check that client and server are of the same release");
   if (const std::string problem = own->store_server({given.address, given.server.sha256, taken->workstation});
       !problem.empty())
     return trouble("enrolled as " + taken->workstation + ", but " + problem);
@@ -89,11 +90,11 @@ int enroll_command(Arguments arguments) {
 void add_enroll_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* const command = root.add_subcommand(
-      "enroll", "Makes this workstation known to a server, with the string that tandem-server enroll printed there.");
+      "enroll", "Registers this workstation at a server, with the string that tandem-server enroll printed there.");
   command
-      ->add_option(
-          "STRING", arguments->text,
-          "`tandem:` and what follows, whole; `-`: read from standard input, so that it stands in no list of processes")
+      ->add_option("STRING", arguments->text,
+                   "the whole string, which begins with `tandem:`; `-`: read from standard input, so that it appears "
+                   "in no list of processes")
       ->option_text(" ")
       ->required();
   command
@@ -103,9 +104,9 @@ void add_enroll_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--timeout", arguments->patience, "how long to wait for the server [s]; default 5")
       ->option_text("S");
   command->footer(
-      "Makes the workstation's key where there is none yet; it never leaves the folder. The server must run, and must "
+      "Creates the workstation's key if there is none yet; it never leaves the folder. The server must run, and must "
       "have the key that the\n"
-      "string names: any other is refused before it is told anything.\n"
+      "string names: the client sends nothing to any other server.\n"
       "Exit: 0 enrolled; 1 refused, no answer, or the folder cannot be used; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-client enroll tandem:0G6...\n"

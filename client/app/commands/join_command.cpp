@@ -67,7 +67,7 @@ SeatOptions parse_command(const JoinArguments& arguments, Mistakes& mistakes) {
   }
   if (arguments.device.find("keyboard") != std::string::npos && isatty(STDIN_FILENO) == 0)
     mistakes.push_back("--device " + arguments.device +
-                       ": the keys are read from a terminal, and standard input is none");
+                       ": the keys are read from a terminal, and standard input is not a terminal");
   if (!arguments.script.empty()) {
     auto script = AuthorityScript::load(arguments.script);
     if (script) {
@@ -115,14 +115,13 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--seat", arguments->seat, "required: which seat of the scene; the server prints their names")
       ->option_text("NAME")
       ->required();
-  command->add_option("--device", arguments->device, "required: what to hold, see below")
+  command->add_option("--device", arguments->device, "required: device of the seat, see below")
       ->option_text("SPEC")
       ->required();
   command
       ->add_option("--alpha-script", arguments->script,
-                   "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1, asked for 50 ms ahead as "
-                   "that is how long a change "
-                   "is announced; INSTRUCTOR's seat only")
+                   "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; each change is requested 50 "
+                   "ms ahead, because the server announces changes that long; INSTRUCTOR's seat only")
       ->option_text("FILE.csv");
   command->add_option("--trace", arguments->trace, "writes this seat's own samples, one row per servo tick")
       ->option_text("FILE.csv");
@@ -134,19 +133,18 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("FILE|-");
   command
       ->add_option("--duration", arguments->duration,
-                   "leaves after so many seconds at the seat; default: stays to the end")
+                   "leaves after this many seconds at the seat; default: stays to the end")
       ->option_text("S");
   command
       ->add_option("--timeout", arguments->patience,
                    "how long to wait for a server that does not answer [s]; default 5")
       ->option_text("S");
   command
-      ->add_option("--reconnect-timeout", arguments->rejoin,
-                   "how long to try to come back to the seat when the server fell silent, died or moved the network "
-                   "away under it [s]; "
-                   "default 60, at most 600; 0: not at all, and a silence of 60 s counts as a lost server. A server "
-                   "ends a session after the same 60 s "
-                   "in which it heard nobody. Your hand is free meanwhile")
+      ->add_option(
+          "--reconnect-timeout", arguments->rejoin,
+          "how long to try to reconnect to the seat after the server fell silent or ended, or the network changed [s]; "
+          "default 60, at most 600; 0: no attempt, and a silence of 60 s counts as a lost server. A server ends a "
+          "session after the same 60 s without data from any client. Your hand is free meanwhile")
       ->option_text("S");
   command->add_flag("--quiet", arguments->quiet, "no status");
   std::string hardware;
@@ -162,18 +160,17 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       hardware +
       "                              (`tandem-client doctor` lists what is attached; several of a kind need port= or "
       "serial=)\n"
-      "Keys: s (or space) stops your hand, S everybody's (a pause, unless you are the instructor), r resumes (in a "
-      "scene without an\n"
-      "instructor's seat: takes your own pause back); when the session is stopped you read by whom, why and who can "
-      "resume it; the instructor\n"
-      "moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched "
-      "gate;\n"
+      "Keys: s (or space) stops your hand, S all hands (a pause, unless you are the instructor), r resumes (in a scene "
+      "without an\n"
+      "instructor's seat: ends your own pause); when the session is stopped the screen shows the origin, the reason "
+      "and who can resume it; the instructor\n"
+      "moves authority with left/right (a/d with sim:keyboard), 0 and 1; b clears a latched gate;\n"
       "q or Ctrl-C releases the hand and leaves.\n"
       "When the server falls silent the hand is released within 120 ms. After 1 s the client reconnects to its seat, "
       "until\n"
       "--reconnect-timeout is over; the force comes up slowly from zero where the hand is.\n"
-      "Exit: 0 session over or left (verdict pass); 1 refused, server not there, server, seat or device lost (fail), "
-      "or the session\n"
+      "Exit: 0 session over or left (verdict pass); 1 refused, server not reachable, server, seat or device lost "
+      "(fail), or the session\n"
       "never ran, so that there is nothing to judge (not_judged); 2 wrong arguments or files.\n\n"
       "Examples\n"
       "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim\n"

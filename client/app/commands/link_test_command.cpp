@@ -175,11 +175,11 @@ std::string why(Ended ended, const LinkTestResult& findings) {
     case Ended::kDone:
       return "";
     case Ended::kInterrupted:
-      return "ended by " + std::string(io::pending_signal()) + ": what follows is of a shorter test";
+      return "ended by " + std::string(io::pending_signal()) + ": the results are those of a shorter test";
     case Ended::kServerEnded:
-      return "the server ended: what follows is of a shorter test";
+      return "the server ended: the results are those of a shorter test";
     case Ended::kServerLost:
-      return format("the server was lost: nothing came for the last %.1f s. What follows is of the time until then",
+      return format("the server was lost: no datagram came for the last %.1f s. The results cover the time until then",
                     findings.silent_at_end);
   }
   return "";
@@ -283,14 +283,14 @@ void add_link_test_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("S");
   command->add_flag("--quiet", arguments->quiet, "no status");
   command->footer(
-      "Sends and receives what a hand would, at the scene's rate, beside a session that runs or waits; nobody there "
-      "feels it.\n"
+      "Sends and receives the datagrams of a hand, at the scene's rate, beside a session that runs or waits; no "
+      "participant feels it.\n"
       "Ctrl-C or SIGTERM ends it early, with what was found so far.\n"
-      "GOOD: round trip up to 20 ms (99 %), jitter 2 ms, loss 0.1 %, no silence that lets a hand go; USABLE: up to the "
-      "age the scene\n"
+      "GOOD: round trip up to 20 ms (99 %), jitter 2 ms, loss 0.1 %, no silence that releases a hand; USABLE: up to "
+      "the age the scene\n"
       "trusts, jitter 10 ms, loss 10 %, seldom a gap of up to 50 ms; BAD: anything more.\n"
-      "Exit: 0 good or usable, or ended by a signal; 1 not fit for hands, refused, server not there or lost; 2 wrong "
-      "arguments.\n\n"
+      "Exit: 0 good or usable, or ended by a signal; 1 not fit for hands, refused, server not reachable or lost; 2 "
+      "wrong arguments.\n\n"
       "Examples\n"
       "  tandem-client link-test --server 127.0.0.1:7000\n"
       "  tandem-client link-test --server lab-server:7000 --duration 30s --json link.json");

@@ -26,8 +26,8 @@ inline void add_joining_options(CLI::App& command, std::string& session, TicketO
       ->option_text("NAME|CODE|ID");
   if (ticket != nullptr)
     add_ticket_options(command, *ticket,
-                       "what `tandem-server ticket` printed for this workstation; not needed with a session's code, or "
-                       "with a loopback server with ephemeral keys");
+                       "ticket that `tandem-server ticket` printed for this workstation; not needed with a session's "
+                       "code, or with a loopback server with ephemeral keys");
   command
       .add_option("--state", state,
                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")

@@ -65,7 +65,7 @@ void add_sessions_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--json", arguments->json, "for machines");
   command->footer(
       "The workstation must be enrolled there; with a loopback server with ephemeral keys it need not. Exit: 0 done; 1 "
-      "refused, or server not there; 2 wrong\n"
+      "refused, or server not reachable; 2 wrong\n"
       "arguments.\n\n"
       "Examples\n"
       "  tandem-client sessions --server lab-server:7000\n"

@@ -18,9 +18,9 @@ struct TicketOption {
 
 inline void add_ticket_options(CLI::App& command, TicketOption& ticket, const char* what) {
   command
-      .add_option(
-          "--ticket", ticket.text,
-          std::string(what) + "; @FILE: the first line of that file, which nobody reads in the list of processes")
+      .add_option("--ticket", ticket.text,
+                  std::string(what) +
+                      "; @FILE: the first line of that file, so that the ticket appears in no list of processes")
       ->option_text("TICKET|@FILE");
   command.add_option("--ticket-file", ticket.file, "the same as --ticket @FILE; `-`: the first line of standard input")
       ->option_text("FILE");
@@ -29,7 +29,7 @@ inline void add_ticket_options(CLI::App& command, TicketOption& ticket, const ch
 /// Returns the text of the ticket; empty if none is given, or if an error was appended to `mistakes`.
 [[nodiscard]] inline std::string ticket_of(const TicketOption& given, std::vector<std::string>& mistakes) {
   if (!given.text.empty() && !given.file.empty()) {
-    mistakes.push_back("--ticket-file: there is a --ticket too; give one of them");
+    mistakes.push_back("--ticket-file: cannot be combined with --ticket; give one of them");
     return {};
   }
   const bool named = !given.file.empty() || given.text.starts_with('@');

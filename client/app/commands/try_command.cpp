@@ -185,13 +185,13 @@ void add_try_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("NAME");
   command
       ->add_option("--duration", arguments->duration,
-                   "leaves after so many seconds; default: at q or Ctrl-C, and without a terminal after the guidance")
+                   "leaves after this many seconds; default: at q or Ctrl-C, and without a terminal after the guidance")
       ->option_text("S");
   command->footer(
       "Starts tandem-server on a free port of 127.0.0.1, joins it with a simulated hand for every other seat that the "
       "scene requires, and\n"
-      "gives you one seat. Twenty seconds of guidance say what to press and what it did. The end of this command, "
-      "however it comes, ends\n"
+      "gives you one seat. Twenty seconds of guidance show which keys to press and what they did. The end of this "
+      "command, for any reason, ends\n"
       "everything that it started.\n"
       "Exit: 0 left or over; 1 the server or a partner could not be started or failed; 2 wrong arguments or files.\n\n"
       "Examples\n"

@@ -46,7 +46,7 @@ std::expected<ClientKeystore, std::string> ClientKeystore::open_or_make(const st
   }
   auto client = read(std::move(*folder));
   if (!client) return std::unexpected(client.error());
-  if (!*client) return std::unexpected(path + ": the workstation's key went away while it was read");
+  if (!*client) return std::unexpected(path + ": the workstation's key disappeared while it was read");
   return std::move(**client);
 }
 
@@ -61,7 +61,7 @@ std::expected<std::vector<ServerRow>, std::string> ClientKeystore::servers() con
   const auto bytes = folder_.read(kServersFile);
   if (!bytes) return std::unexpected(bytes.error());
   auto rows = parse_servers(*bytes ? text_of((*bytes)->bytes()) : std::string_view{}, folder_.path_of(kServersFile));
-  if (!rows) return std::unexpected(to_text(rows.error()) + "mend or delete that file");
+  if (!rows) return std::unexpected(to_text(rows.error()) + "repair or delete that file");
   return std::move(*rows);
 }
 

@@ -97,10 +97,10 @@ std::expected<ControlClient, ClientError> ControlClient::connect(const io::Socke
   state->context.poll();
   const std::string where = io::to_text(server);
   if (failed)
-    return std::unexpected(
-        ClientError{ClientError::Kind::kUnreachable, StreamErrorCode::kNetwork,
-                    where + (late ? " does not answer; is the address right, does a firewall stand between?"
-                                  : " cannot be reached: " + failed.message() + "; does tandem-server run there?")});
+    return std::unexpected(ClientError{
+        ClientError::Kind::kUnreachable, StreamErrorCode::kNetwork,
+        where + (late ? " does not answer; check the address and the firewalls"
+                      : " cannot be reached: " + failed.message() + "; check that tandem-server runs there")});
   asio::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
   state->stream = ControlStream::make(std::move(socket), state->tls.context(), ControlStream::Side::kClient);
@@ -161,7 +161,7 @@ std::expected<rpc::Body, ClientError> ControlClient::ask(const rpc::Body& body, 
                     (exchange->answer->request == 0 && std::holds_alternative<rpc::ErrorReply>(exchange->answer->body));
   if (!ours)
     return std::unexpected(
-        ClientError{ClientError::Kind::kBadFrame, {}, "the server answered another question than was asked"});
+        ClientError{ClientError::Kind::kBadFrame, {}, "the server's reply does not match the request"});
   return std::move(exchange->answer->body);
 }
 

@@ -42,15 +42,15 @@ void ControlStream::drop() {
 StreamError ControlStream::fault(const asio::error_code& error, bool in_handshake) {
   if (stopped_) return {StreamErrorCode::kStopped, "the connection was closed here"};
   if (late_)
-    return {StreamErrorCode::kDeadline, in_handshake
-                                            ? "no answer in time; is a Tandem server there, and does it still run?"
-                                            : "the other side took too long"};
+    return {StreamErrorCode::kDeadline,
+            in_handshake ? "no answer in time; check that a Tandem server runs there" : "the other side took too long"};
   if (error == asio::error::no_buffer_space && stream_.next_layer().used_up())
     return {StreamErrorCode::kTooMuch, "the other side sent more than it may"};
   const bool tls = error.category() == asio::error::get_ssl_category();
   if (in_handshake && (tls || error == asio::error::eof || error == asio::ssl::error::stream_truncated))
-    return {StreamErrorCode::kHandshake, tls ? "no TLS 1.3 connection as Tandem makes it: " + error.message()
-                                             : "the other side ended the connection before it was safe"};
+    return {StreamErrorCode::kHandshake,
+            tls ? "no TLS 1.3 connection with the parameters of Tandem: " + error.message()
+                : "the other side ended the connection before the TLS handshake was complete"};
   if (error == asio::error::eof || error == asio::ssl::error::stream_truncated ||
       error == asio::error::connection_reset || error == asio::error::broken_pipe)
     return {StreamErrorCode::kClosed, "the other side ended the connection"};

@@ -19,11 +19,10 @@ std::expected<const Identity*, std::string> IdentitySelector::operator()(const K
     return &local_->workstation;
   }
   if (find_server(known, address_) != nullptr)
-    return std::unexpected(
-        address_ +
-        " shows another key than when this workstation was enrolled there. Either another machine answers, or the "
-        "server has new keys: ask its "
-        "admin; if it is true, `tandem-server enroll NAME` there and `tandem-client enroll STRING` here");
+    return std::unexpected(address_ +
+                           " shows another key than when this workstation was enrolled there. Either another machine "
+                           "answers, or the server has new keys: ask its admin; if it has new keys, `tandem-server "
+                           "enroll NAME` there and `tandem-client enroll STRING` here");
   const bool here = address_.starts_with("127.") || address_.starts_with("[::1]") || address_.starts_with("localhost:");
   if (here)
     return std::unexpected("the server at " + address_ +

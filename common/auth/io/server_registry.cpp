@@ -15,7 +15,7 @@ auto book(const StateDirectory& folder, const char* name, Parse parse)
   const auto bytes = folder.read(name);
   if (!bytes) return std::unexpected(bytes.error());
   auto rows = parse(*bytes ? text_of((*bytes)->bytes()) : std::string_view{}, folder.path_of(name));
-  if (!rows) return std::unexpected(to_text(rows.error()) + "mend or delete that file");
+  if (!rows) return std::unexpected(to_text(rows.error()) + "repair or delete that file");
   return std::move(*rows);
 }
 

@@ -49,7 +49,7 @@ std::string make_folders(const std::string& path) {
 std::expected<std::string, std::string> below_home(const char* rest, const char* option) {
   const char* const home = std::getenv("HOME");
   if (home == nullptr || *home != '/')
-    return std::unexpected(std::string("nobody says where state is kept: name a folder with --state or $") + option +
+    return std::unexpected(std::string("no state folder is known: name one with --state or $") + option +
                            " ($HOME is not set)");
   return std::string(home) + rest;
 }

@@ -12,10 +12,9 @@ constexpr double kSaturatedShare = 0.01;
 constexpr const char* kLighter = "use a lighter mass, or calibrate roughly with a light one first";
 constexpr const char* kCounterweight =
     "the empty grip is more than they hold under the small ceiling of a device without a calibration. Calibrate with "
-    "--orientation upright, "
-    "where its weight is across its axis; if that is too much as well, let a counterweight on a thread over a rod "
-    "carry the grip through "
-    "both rounds: it is there without and with the mass, so the reading does not feel it";
+    "--orientation upright, where its weight is across its axis; if that is too much as well, let a counterweight on a "
+    "thread over a rod carry the grip through both rounds: it is there without and with the mass, so it does not "
+    "change the reading";
 
 }  // namespace
 
@@ -83,7 +82,7 @@ std::expected<FalconCalibration::Measurement, std::string> FalconCalibration::me
     }
     if ((mean.x / count - at_).norm() > kStill) {
       return std::unexpected(
-          std::string("the grip did not come to rest at its point: somebody touches it, something swings, or ") +
+          std::string("the grip did not come to rest at its point: it is touched, something swings, or ") +
           (load == Load::kMass ? "the mass is too heavy for the motors: "
                                : "the grip itself is too heavy for the motors: ") +
           (load == Load::kMass ? kLighter : kCounterweight));

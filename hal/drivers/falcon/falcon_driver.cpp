@@ -106,7 +106,7 @@ Result<> FalconDriver::bring_up(BringUp& watcher) {
         Errc::kFirmware,
         std::string(reload_
                         ? "the Falcon's encoders did not change while it was homed: its firmware must be loaded again"
-                        : "the Falcon has no firmware: it forgets it without power") +
+                        : "the Falcon has no firmware: it loses the firmware without power") +
             ". It is Novint's and may not be shipped with other programs: take it from the vendor's driver and give it "
             "as "
             "firmware=FILE"});

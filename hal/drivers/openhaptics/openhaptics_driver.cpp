@@ -40,10 +40,9 @@ Result<> OpenHapticsDriver::bring_up(BringUp& watcher) {
   watcher.progress("opening", 0);
   auto about = group_->add(name_, [&] {
     return std::exchange(home_at_start_, false) ||
-           watcher.request_user_action(
-               "openhaptics " + id_.key +
-               " learns where it is by a reset only: put it into its reset pose (all links at right "
-               "angles, as in its manual), hold it there");
+           watcher.request_user_action("openhaptics " + id_.key +
+                                       " finds its position only by a reset: put it into its reset pose (all links at "
+                                       "right angles, as in its manual), hold it there");
   });
   if (!about) return std::unexpected(std::move(about.error()));
   slot_ = about->slot;

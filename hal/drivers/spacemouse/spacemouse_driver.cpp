@@ -28,7 +28,7 @@ SpaceMouseDriver::SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, con
     : id_(std::move(id)), caps_(puck_caps()), pipe_(pipe), clock_(clock), motion_(scaling, axes) {}
 
 Result<> SpaceMouseDriver::bring_up(BringUp& watcher) {
-  watcher.progress("emptying the queue of the puck", 0.0);
+  watcher.progress("emptying the queue of the SpaceMouse", 0.0);
   lit_.reset();
   light_ordered_ = false;
   // Some units ignore "off" until they have received "on" once.
@@ -42,7 +42,7 @@ Result<> SpaceMouseDriver::bring_up(BringUp& watcher) {
   motion_.reset();
   counts_ = {};
   buttons_ = 0;
-  watcher.progress("emptying the queue of the puck", 1.0);
+  watcher.progress("emptying the queue of the SpaceMouse", 1.0);
   return {};
 }
 

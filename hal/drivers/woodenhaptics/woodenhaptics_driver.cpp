@@ -91,8 +91,8 @@ Result<> WoodenHapticsDriver::bring_up(BringUp& watcher) {
 DeviceError WoodenHapticsDriver::silent_board(bool torn, std::size_t length) const {
   if (!torn) {
     return {Errc::kTimeout,
-            "the board is silent: is it powered, and is it a WoodenHaptics board? (its USB id is used by "
-            "other devices too)"};
+            "the board is silent: check its power, and that it is a WoodenHaptics board (its USB id is used by other "
+            "devices too)"};
   }
   std::string message = "the board sends reports of " + std::to_string(length) + " bytes, the preset expects " +
                         std::to_string(report_size(options_.spec.protocol));
