@@ -109,8 +109,7 @@ class JoinAttempt {
     if (!answer) return std::unexpected(answer.error());
     if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return fail(refusal(*refused, options_));
     const auto* welcome = std::get_if<rpc::Welcome>(&*answer);
-    if (welcome == nullptr)
-      return fail("unexpected reply from the server; check that client and server are of the same release");
+    if (welcome == nullptr) return fail("unexpected reply from the server; use the same release on both");
     return Accepted{std::move(*hello), *welcome};
   }
 
@@ -192,8 +191,7 @@ class JoinAttempt {
                                                        const ResumeState& own) {
     const auto* welcome = std::get_if<rpc::Welcome>(&answer);
     if (welcome == nullptr)
-      return std::unexpected(
-          retry_error("unexpected reply from the server; check that client and server are of the same release"));
+      return std::unexpected(retry_error("unexpected reply from the server; use the same release on both"));
     if (welcome->epoch < own.epoch)
       return std::unexpected(retry_error("an older server answers (epoch " + std::to_string(welcome->epoch) +
                                          ", this seat's was " + std::to_string(own.epoch) + ")"));
@@ -312,8 +310,7 @@ class JoinAttempt {
     if (!answer) return std::unexpected(answer.error());
     if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return fail(refusal(*refused, options_));
     auto* list = std::get_if<rpc::SessionList>(&*answer);
-    if (list == nullptr)
-      return fail("unexpected reply from the server; check that client and server are of the same release");
+    if (list == nullptr) return fail("unexpected reply from the server; use the same release on both");
     return std::move(*list);
   }
 

@@ -257,7 +257,7 @@ Result<> SpaceMouseBackend::check(const DeviceSpec& choice) const {
 }
 
 Result<std::vector<FoundDevice>> SpaceMouseBackend::list() {
-  return found_among(list_hidraw(), "spacemouse", "3Dconnexion puck", is_spacemouse);
+  return found_among(list_hidraw(), "spacemouse", "3Dconnexion SpaceMouse", is_spacemouse);
 }
 
 std::vector<std::string> SpaceMouseBackend::udev_rules() const {
@@ -276,7 +276,7 @@ std::vector<std::string> SpaceMouseBackend::udev_rules() const {
 Result<OpenedDriver> SpaceMouseBackend::open(const DeviceSpec& choice) {
   const auto spec = parse_spacemouse_options(choice);
   if (!spec) return std::unexpected(spec.error());
-  auto opened_pipe = open_pipe(choice, "3Dconnexion puck", is_spacemouse);
+  auto opened_pipe = open_pipe(choice, "3Dconnexion SpaceMouse", is_spacemouse);
   if (!opened_pipe) return std::unexpected(std::move(opened_pipe.error()));
   auto& [device, pipe] = *opened_pipe;
   OpenedDriver opened;

@@ -139,7 +139,7 @@ TEST(Control, AcceptsExactlyOneOfTwoInstructorsChanges) {
       << *first << *second << one.err() << two.err();
   EXPECT_EQ(version(), before + 1);
   Process& loser = first == 0 ? two : one;
-  EXPECT_NE(loser.err().find("another change was faster. In force: authority over tool, version " +
+  EXPECT_NE(loser.err().find("another change came first. In force: authority over tool, version " +
                              std::to_string(before + 1)),
             std::string::npos)
       << loser.err();
@@ -148,7 +148,8 @@ TEST(Control, AcceptsExactlyOneOfTwoInstructorsChanges) {
       << loser.err();
   Process stranger = control(address, {"authority", "trainer=0.5,nobody=0.5"});
   EXPECT_EQ(stranger.wait(), 2);
-  EXPECT_NE(stranger.err().find("no seat \"nobody\" that leads; seats: trainer, trainee"), std::string::npos)
+  EXPECT_NE(stranger.err().find("no seat \"nobody\" that can have authority; seats: trainer, trainee"),
+            std::string::npos)
       << stranger.err();
 }
 

@@ -168,7 +168,7 @@ TEST(TicketFile, IsReadByJoinAndControlAndItsErrorsAreReported) {
     EXPECT_NE(p.err().find(text), std::string::npos) << p.err();
   };
   wrong({"--ticket", "@none"}, "none cannot be read");
-  wrong({"--ticket-file", first, "--ticket", "ticket:x"}, "there is a --ticket too");
+  wrong({"--ticket-file", first, "--ticket", "ticket:x"}, "cannot be combined with --ticket");
   wrong({"--ticket-file", fixture.folder.write("other", "hello\n")}, "its first line is no ticket");
 }
 

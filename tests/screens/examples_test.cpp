@@ -116,7 +116,7 @@ TEST(Help, UsesPlainWords) {
     for (const std::string& command : commands) {
       std::string help = " " + help_of(program, command);
       std::ranges::replace(help, '\n', ' ');
-      for (const char* word : {" anew", "entitled", "  the same, or a recording"})
+      for (const char* word : {" puck", "entitled", "  the same, or a recording"})
         EXPECT_EQ(help.find(word), std::string::npos) << program.name << " " << command << ": " << word;
     }
   }
@@ -134,7 +134,7 @@ TEST(Help, IsGroupedAndWrappedToTheTerminal) {
     EXPECT_EQ(help.wait(), 0);
     EXPECT_TRUE(help.terminal().wraps().empty()) << columns << ": " << help.terminal().wraps().front();
     const std::string text = flat(help.terminal().all());
-    const auto needed = text.find("Needed:"), where = text.find("Who and where:"), output = text.find("Output:"),
+    const auto needed = text.find("Needed:"), where = text.find("Connection:"), output = text.find("Output:"),
                own = text.find("Help:");
     EXPECT_LT(needed, where) << text;
     EXPECT_LT(where, output) << text;

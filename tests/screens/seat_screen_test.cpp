@@ -66,12 +66,13 @@ TEST(SeatScreen, ShowsTheLeaderAndThePresentSeats) {
   EXPECT_NE(at(80, s, setup(), w)[0].find("you lead 80 %"), std::string::npos);
   s.alpha = 0;
   EXPECT_NE(at(80, s)[0].find("trainer leads |"), std::string::npos);
-  EXPECT_NE(at(80, s, setup(), std::nullopt)[0].find("you do not lead"), std::string::npos) << "nobody says who does";
+  EXPECT_NE(at(80, s, setup(), std::nullopt)[0].find("you do not lead"), std::string::npos)
+      << "the status names no leader";
   w.seats[0].heard = false;
-  EXPECT_NE(at(80, s, setup(), w)[1].find("nobody else is here; SILENT: trainer"), std::string::npos)
+  EXPECT_NE(at(80, s, setup(), w)[1].find("no partner here; SILENT: trainer"), std::string::npos)
       << at(80, s, setup(), w)[1];
   w.seats[0].taken = false;
-  EXPECT_NE(at(80, s, setup(), w)[1].find("nobody else is here"), std::string::npos);
+  EXPECT_NE(at(80, s, setup(), w)[1].find("no partner here"), std::string::npos);
 }
 
 /// While all seats are released, no seat leads, independent of the authority after the resume. Every seat shows this.
@@ -83,7 +84,7 @@ TEST(SeatScreen, ShowsNoLeaderWhileStoppedPausedBrakedOrOverloaded) {
       s.session = state;
       s.alpha = 0;  // as in FORCE at every seat
       const auto lines = leader ? at(120, s, setup(Role::kInstructor, "trainer")) : at(120, s);
-      EXPECT_NE(lines[0].find("| nobody leads |"), std::string::npos) << lines[0];
+      EXPECT_NE(lines[0].find("| no leader |"), std::string::npos) << lines[0];
       EXPECT_EQ(lines[0].find("you do not lead"), std::string::npos);
     }
 }
@@ -149,7 +150,7 @@ TEST(SeatScreen, ExplainsABrakedToolInOneSentence) {
   EXPECT_NE(at(80, s, setup(), w)[0].find("BRAKED: stopped by trainer: r there resumes"), std::string::npos);
   s.local_stop = true;
   EXPECT_NE(at(80, s, setup(), w)[0].find("BRAKED: you stopped your hand: r resumes"), std::string::npos)
-      << "what is known here comes first";
+      << "the reason known to the client comes first";
 }
 
 TEST(SeatScreen, NamesTheAuthorOfAStopAndTheKey) {
@@ -169,7 +170,7 @@ TEST(SeatScreen, NamesTheAuthorOfAStopAndTheKey) {
   s.session = wire::SessionState::kPaused;
   SeatSetup own = setup();
   own.may_end_pauses = true;
-  EXPECT_NE(at(100, s, own, w)[0].find("PAUSED by trainer: r takes your own pause back"), std::string::npos)
+  EXPECT_NE(at(100, s, own, w)[0].find("PAUSED by trainer: r ends your own pause"), std::string::npos)
       << at(100, s, own, w)[0];
   s = running();
   s.local_stop = true;

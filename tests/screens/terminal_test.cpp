@@ -36,19 +36,19 @@ bool is_whole(const std::string& piece) {
   static const std::vector<std::regex> kKnown{
       std::regex("(trainer|trainee) [0-9.]+ s( .*)?"),
       std::regex("(trainer|trainee) (engaging|waits for [0-9]+ seats?|waiting for the server|closed|ending).*"),
-      std::regex("you lead [0-9]+ %|you do not lead|nobody leads|you [0-9]+ %, not leading|(trainer|trainee) leads(, "
-                 "you [0-9]+ %)?"),
+      std::regex("you lead [0-9]+ %|you do not lead|no leader|you [0-9]+ %, not leading|(trainer|trainee) leads(, you "
+                 "[0-9]+ %)?"),
       std::regex("force (\\[[#.]{10}\\] )?[0-9.]+ N"),
       std::regex("tool [0-9]+ mm away(, touching)?"),
       std::regex("[0-9.]+ mm beside the leader's hand"),
-      std::regex("with (trainer|trainee)|nobody else is here"),
+      std::regex("with (trainer|trainee)|no partner here"),
       std::regex("force (on|off|rising)|no force before the session runs|force fades"),
       std::regex("rtt [0-9.]+ ms, loss [0-9.]+ %"),
       std::regex("(trips|reconnected|late ticks) [0-9]+"),
       std::regex("margin [-0-9]+ mJ"),
       std::regex("tip [-0-9]+ [-0-9]+ [-0-9]+ mm"),
       std::regex(
-          "(more|less) authority(: done| under way| in [0-9]+ ms)|hand-over .*|.* gives (more of )?the tool to .*")};
+          "(more|less) authority(: done| under way| in [0-9]+ ms)|transfer .*|.* gives (more of )?the tool to .*")};
   return std::ranges::any_of(kKnown, [&](const std::regex& r) { return std::regex_match(piece, r); });
 }
 
@@ -85,8 +85,7 @@ TEST_P(Screens, ShowTwoWholeSeatLinesAtEveryWidthAndResize) {
     return flat(t.screen()).find("force on") != std::string::npos;
   })) << trainee.picture();
   // The first lines, at 80 columns, are wrapped between words.
-  EXPECT_NE(flat(trainee.terminal().all()).find("s stops your hand, S everybody's (pause), r resumes"),
-            std::string::npos)
+  EXPECT_NE(flat(trainee.terminal().all()).find("s stops your hand, S all hands (pause), r resumes"), std::string::npos)
       << trainee.picture();
   for (const std::size_t columns : widths(GetParam())) {
     trainee.resize(columns, 24);
@@ -228,11 +227,11 @@ TEST(AuthorityTransfer, ShowsTransferRequestedDuringStopAndActsAtResume) {
   trial.type("S");
   ASSERT_TRUE(trial.wait_for("STOPPED by instructor: r resumes")) << trial.picture();
   EXPECT_EQ(flat(trial.terminal().all()).find("gives the tool"), std::string::npos)
-      << "nobody ordered anything" << trial.picture();
+      << "no participant requested a change" << trial.picture();
   trial.type("0");
   EXPECT_TRUE(trial.wait_for("instructor gives the tool to trainee (")) << trial.picture();
   EXPECT_TRUE(trial.wait_until([](const Terminal& t) {
-    return flat(status_of(t, "instructor")).find("when the session goes on") != std::string::npos;
+    return flat(status_of(t, "instructor")).find("when the session resumes") != std::string::npos;
   })) << trial.picture();
   trial.type("r");
   EXPECT_TRUE(trial.wait_until([](const Terminal& t) {

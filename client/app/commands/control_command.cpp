@@ -179,7 +179,7 @@ class ConsoleClient {
     } else if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) {
       complain("refused: " + refused->text);
     } else {
-      complain("unexpected reply from the server; check that client and server are of the same release");
+      complain("unexpected reply from the server; use the same release on both");
     }
     return std::nullopt;
   }

@@ -48,8 +48,7 @@ int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, c
   if (!answer) return told(answer.error());
   if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return trouble("refused: " + refused->text);
   const auto* taken = std::get_if<rpc::EnrollAck>(&*answer);
-  if (taken == nullptr)
-    return trouble("unexpected reply from the server; check that client and server are of the same release");
+  if (taken == nullptr) return trouble("unexpected reply from the server; use the same release on both");
   if (const std::string problem = own->store_server({given.address, given.server.sha256, taken->workstation});
       !problem.empty())
     return trouble("enrolled as " + taken->workstation + ", but " + problem);

@@ -54,8 +54,9 @@ TEST(AuthorityTransfer, ReportsGiverReceiverShareStartAndDuration) {
             "trainer gives more of the tool to trainee (25 % to 30 %): begins in 50 ms, takes about 0.05 s");
   EXPECT_EQ(said({.by = wire::TransferParties::kOperator, .to = 2, .percent = 100}),
             "an operator gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 1.0 s");
-  EXPECT_EQ(said({.by = 1, .to = 0, .percent = 15}, 0.25),
-            "trainer sets new parts of the tool (your part 25 % to 15 %): begins in 50 ms, takes up to 1.0 s");
+  EXPECT_EQ(
+      said({.by = 1, .to = 0, .percent = 15}, 0.25),
+      "trainer sets new authorities over the tool (your authority 25 % to 15 %): begins in 50 ms, takes up to 1.0 s");
   said.seat.alpha_slew = 0.25;
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
             "trainer gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 4.0 s")
@@ -87,11 +88,12 @@ TEST(AuthorityTransfer, ReportsAnotherSeatsPreviousShareOnlyWhereKnown) {
   said.s.session = wire::SessionState::kHeld;
   EXPECT_EQ(said({.by = 1, .to = 1, .percent = 100}, 0),
             "trainer takes the tool (to 100 %): begins in 50 ms, takes up to 1.0 s")
-      << "nobody has a part now";
+      << "no hand has authority now";
   said.seat.tools = {"left", "right"};
   EXPECT_EQ(said({.by = 24, .to = 16, .percent = 100, .tool = 1}),
-            "an operator sets new parts of the tool right (your part to 100 %): begins in 50 ms, takes up to 1.0 s")
-      << "numbers that name nobody";
+            "an operator sets new authorities over the tool right (your authority to 100 %): begins in 50 ms, takes up "
+            "to 1.0 s")
+      << "numbers that name no seat";
 }
 
 TEST(AuthorityTransfer, LastsUntilTheAuthorityIsConstant) {
@@ -108,10 +110,10 @@ TEST(AuthorityTransfer, LastsUntilTheAuthorityIsConstant) {
   EXPECT_EQ(authority_transfer_brief(said.s), "more authority: done");
   said.s.session = wire::SessionState::kStopped;
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
-            "trainer gives the tool to trainee (to 100 %): when the session goes on");
-  EXPECT_EQ(authority_transfer_brief(said.s), "more authority when the session goes on");
+            "trainer gives the tool to trainee (to 100 %): when the session resumes");
+  EXPECT_EQ(authority_transfer_brief(said.s), "more authority when the session resumes");
   said.s.transfer = wire::TransferNotice::kCancelled;
-  EXPECT_EQ(said({}), "hand-over canceled: a seat it concerns is gone, or its link is stale");
+  EXPECT_EQ(said({}), "transfer canceled: a seat that it concerns has left, or has a stale link");
   said.s.transfer = wire::TransferNotice::kNone;
   EXPECT_EQ(said({}), "");
 }
@@ -168,14 +170,14 @@ TEST(AuthoritySteps, AddUpUntilAnotherSeatDecides) {
   EXPECT_EQ(steps.base(s), 1);
   for (const double own : {0.95, 0.9, 0.85}) {
     steps.ask(own, s);
-    EXPECT_EQ(steps.base(s), own) << "what is felt is 1 as yet";
+    EXPECT_EQ(steps.base(s), own) << "the authority in force is still 1";
   }
   s.authority_version = 10;
   s.alpha = 0.97;
   EXPECT_EQ(steps.base(s), 0.85) << "all three were granted";
   s.authority_version = 11;
   s.alpha = 0.5;
-  EXPECT_EQ(steps.base(s), 0.5) << "somebody else decided too";
+  EXPECT_EQ(steps.base(s), 0.5) << "another participant decided too";
   steps.ask(0.45, s);
   s.authority_version = 12;
   EXPECT_EQ(steps.base(s), 0.45);

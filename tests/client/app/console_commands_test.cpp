@@ -97,7 +97,7 @@ TEST(ConsoleCommands, SetAuthorityAgainstTheStatusVersionShown) {
   EXPECT_EQ(authority_frame(*parse_command(Words{"authority", "trainee=1", "version=5", "tool=drill"}), now)->version,
             5U);
   EXPECT_NE(
-      authority_frame(*parse_command(Words{"authority", "nobody=1"}), now).error().find("seats: trainer, trainee"),
+      authority_frame(*parse_command(Words{"authority", "nosuch=1"}), now).error().find("seats: trainer, trainee"),
       std::string::npos);
   EXPECT_FALSE(authority_frame(*parse_command(Words{"authority", "arm=1"}), now)) << "leads nothing";
   EXPECT_NE(
@@ -105,7 +105,7 @@ TEST(ConsoleCommands, SetAuthorityAgainstTheStatusVersionShown) {
       std::string::npos);
   rpc::Status two = now;
   two.tools.push_back({"saw", {1, 0}});
-  EXPECT_NE(authority_frame(*parse_command(Words{"authority", "trainer=1"}), two).error().find("which tool"),
+  EXPECT_NE(authority_frame(*parse_command(Words{"authority", "trainer=1"}), two).error().find("tool=NAME is missing"),
             std::string::npos);
   EXPECT_EQ(authority_frame(*parse_command(Words{"authority", "trainer=1", "tool=saw"}), two)->tool, 1U);
 }
@@ -183,7 +183,7 @@ TEST(ConsoleCommands, ReportNoDrainWithoutRemainingTime) {
   now.drain = rpc::StatusDrain{0, 1, 1};
   EXPECT_EQ(status_changes_text(before, now), "");
   now.drain = rpc::StatusDrain{3, 1, 1};
-  EXPECT_EQ(status_changes_text(before, now), "DRAINING: 3 s left, 1 session, 1 person on a seat\n");
+  EXPECT_EQ(status_changes_text(before, now), "DRAINING: 3 s left, 1 session, 1 participant\n");
 }
 
 TEST(ConsoleCommands, ReportEachStatusChangeOnce) {
@@ -192,7 +192,7 @@ TEST(ConsoleCommands, ReportEachStatusChangeOnce) {
   now.stops = now.stop->number = 4;
   EXPECT_EQ(status_changes_text(before, now), stop_text(now) + "\n");
   EXPECT_EQ(status_changes_text({}, before), stop_text(before) + "\n")
-      << "somebody who comes while it is stopped reads it too";
+      << "a participant who joins during the stop reads it too";
   rpc::Status over = now;
   over.phase = rpc::SessionPhase::kRunning;
   EXPECT_EQ(status_changes_text(now, over), "stop 4 is over: the session is running\n");
@@ -203,16 +203,16 @@ TEST(ConsoleCommands, ReportEachStatusChangeOnce) {
     told += status_changes_text(before, now);
   }
   EXPECT_EQ(told,
-            "DRAINING: 32 s left, 2 sessions, 3 people on their seats\nDRAINING: 29 s left, 2 sessions, 3 people on "
-            "their seats\n"
-            "DRAINING: 19 s left, 2 sessions, 3 people on their seats\nDRAINING: 9 s left, 2 sessions, 3 people on "
-            "their seats\n"
-            "DRAINING: 5 s left, 2 sessions, 3 people on their seats\nDRAINING: 4 s left, 2 sessions, 3 people on "
-            "their seats\n"
-            "DRAINING: 3 s left, 2 sessions, 3 people on their seats\nDRAINING: 2 s left, 2 sessions, 3 people on "
-            "their seats\n"
-            "DRAINING: 1 s left, 2 sessions, 3 people on their seats\nDRAINING: 0 s left, 2 sessions, 3 people on "
-            "their seats\n");
+            "DRAINING: 32 s left, 2 sessions, 3 participants\n"
+            "DRAINING: 29 s left, 2 sessions, 3 participants\n"
+            "DRAINING: 19 s left, 2 sessions, 3 participants\n"
+            "DRAINING: 9 s left, 2 sessions, 3 participants\n"
+            "DRAINING: 5 s left, 2 sessions, 3 participants\n"
+            "DRAINING: 4 s left, 2 sessions, 3 participants\n"
+            "DRAINING: 3 s left, 2 sessions, 3 participants\n"
+            "DRAINING: 2 s left, 2 sessions, 3 participants\n"
+            "DRAINING: 1 s left, 2 sessions, 3 participants\n"
+            "DRAINING: 0 s left, 2 sessions, 3 participants\n");
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(SessionStatusPoller, DoesNotWaitForAReplyAfterCancel) {
   words->cancel();
   const auto gone = std::async(std::launch::async, [&] { words.reset(); });
   EXPECT_EQ(gone.wait_for(server::test::kPatience), std::future_status::ready)
-      << "whoever waits for it hears no key meanwhile";
+      << "a caller that waits for it receives no key meanwhile";
   const std::lock_guard lock(door.sessions->mutex);
   for (const auto& answer : door.sessions->unanswered) answer(rpc::Ok{});  // so that a failing test still ends
 }

@@ -51,7 +51,7 @@ TEST(Tutorial, CountsAKeyPressedBeforeItsStep) {
   EXPECT_TRUE(has(step, "3/6  0 gives the tool to the partner: you have done that already")) << step;
   EXPECT_FALSE(has(step, "press 0")) << step;
   l.guidance->on_key("0");
-  EXPECT_FALSE(has(l.until(11), "trainee has the tool now")) << "it is told once";
+  EXPECT_FALSE(has(l.until(11), "trainee has the tool now")) << "the message appears once";
 }
 
 TEST(Tutorial, ReportsNoTakeBackWithoutATransferBefore) {
@@ -66,19 +66,19 @@ TEST(Tutorial, DistinguishesTheSmallSFromTheCapitalS) {
   Lesson small, capital;
   const std::string asked = small.until(17);
   EXPECT_TRUE(has(asked, "press s (small): only your own hand is released")) << asked;
-  EXPECT_TRUE(has(asked, "Capital S stops everybody")) << asked;
+  EXPECT_TRUE(has(asked, "Capital S stops all hands")) << asked;
   small.guidance->on_key("s");
-  EXPECT_TRUE(has(small.until(19), "only your hand is stopped; press r to go on"));
+  EXPECT_TRUE(has(small.until(19), "only your hand is stopped; press r to resume"));
   static_cast<void>(capital.until(17));
   capital.guidance->on_key("S");
-  EXPECT_TRUE(has(capital.until(19), "capital S stopped everybody; press r to go on"));
+  EXPECT_TRUE(has(capital.until(19), "capital S stopped all hands; press r to resume"));
 }
 
 TEST(Tutorial, ReportsThatAKeyActsOnlyAfterAResume) {
   Lesson l;
   static_cast<void>(l.until(6));
   l.status.session = wire::SessionState::kStopped;
-  EXPECT_TRUE(has(l.until(8), "3/6  press r first, everybody is stopped; then press 0: trainee gets the tool"));
+  EXPECT_TRUE(has(l.until(8), "3/6  press r first, all hands are stopped; then press 0: trainee gets the tool"));
   l.status.session = wire::SessionState::kRunning;
   l.status.local_stop = true;
   EXPECT_TRUE(has(l.until(13), "4/6  press r first, your hand is stopped; then press 1: you take the tool back"));

@@ -170,7 +170,7 @@ TEST(DeviceDiagnostics, ReportsTheBatteryOfASpaceMouseAlsoAtRest) {
 
 TEST(DeviceDiagnostics, ReportsCalibrationFirmwareAndMotors) {
   hal::DeviceCaps caps = three_joints();
-  EXPECT_EQ(kind_of(after_a_second(caps, {true, true, true}).findings({}, 1.0), "no force comes of it"), Kind::kGood);
+  EXPECT_EQ(kind_of(after_a_second(caps, {true, true, true}).findings({}, 1.0), "it gives no force"), Kind::kGood);
   for (hal::AxisLimit& axis : caps.axis)
     axis = {.peak = 4.0, .continuous = {}, .resolution = {}, .from = hal::Provenance::kConfig};
   caps.needs_firmware = true;

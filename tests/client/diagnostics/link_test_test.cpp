@@ -266,7 +266,7 @@ TEST(LinkTestPeers, ReceiveOnlyChallengesBeforeAddressValidation) {
   rig.sit();
   const std::unique_ptr<LinkTest> held = std::move(rig.test);
   rig.run(100ms);
-  EXPECT_EQ(rig.server_sent, 0u) << "who said nothing is told nothing";
+  EXPECT_EQ(rig.server_sent, 0u) << "a peer that sent nothing receives nothing";
   std::array<std::byte, transport::kDatagramMax> buffer{};
   held->on_tick(rig.now, 0ms, 0, 0s);
   const auto size = held->poll_transmit(rig.now, buffer);
@@ -290,7 +290,7 @@ TEST(LinkTestPeers, AreBoundedAndAffectNoSeat) {
   caps.simulated = true;
   EXPECT_TRUE(netsim::simulate_join(*rig.session, rig.now, 0, caps, RandomKey{5}, 5));
   rig.run(2001ms);
-  EXPECT_TRUE(rig.visit(78)) << "who never spoke holds no place longer than 2 s";
+  EXPECT_TRUE(rig.visit(78)) << "a silent peer holds no place longer than 2 s";
 }
 
 TEST(LinkTestPeers, AreNotifiedWhenTheServerEnds) {

@@ -55,7 +55,7 @@ TEST(LinkVerdict, NamesEachProblemAndItsRemedy) {
        "400 ms down, 1 time beyond"},
       {"outage up", [](auto& f) { f.up->longest_gap = 0.4; }, LinkGrade::kBad, "up to 400 ms up"},
       {"gone for a while", [](auto& f) { f.down->longest_gap = 2, f.pauses = 1; }, LinkGrade::kBad,
-       "nothing at all for 2.0 s"},
+       "no datagram came for 2.0 s"},
       {"lost", [](auto& f) { f.down->longest_gap = f.silent_at_end = 3, f.pauses = 1; }, LinkGrade::kBad,
        "in the last 3.0 s"},
       {"late", [](auto& f) { f.late_ticks = 100; }, LinkGrade::kUsable, "not the network"},

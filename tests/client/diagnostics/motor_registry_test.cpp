@@ -31,7 +31,7 @@ TEST(MotorRegistry, ReplacesTheOldRecordByTheNewOne) {
   book.put({"serial:0001", kDigest, false, 1'700'000'002});
   EXPECT_EQ(book.records().size(), 2u);
   EXPECT_FALSE(book.find("serial:0001", kDigest)->confirmed)
-      << "what was right and went the wrong way later is not confirmed";
+      << "a motor that was right and went the wrong way later is not confirmed";
 }
 
 TEST(MotorRegistry, IsBoundedAndDropsTheOldest) {

@@ -95,8 +95,8 @@ TEST_F(BackendsTest, NamesTheLineOfContradictoryReadings) {
   const std::string nowhere = write("a.textproto", "falcon {\n measured: \"me\"\n" + reading + reading + "}");
   EXPECT_NE(mistakes("falcon:calibration=" + nowhere).find(nowhere + ":3: falcon: mass_reading 1"), std::string::npos)
       << mistakes("falcon:calibration=" + nowhere);
-  const std::string other = write("b.textproto", "# a puck\nspacemouse { speed_m_s: 0.1 }");
-  EXPECT_NE(mistakes("falcon:calibration=" + other).find(other + ":1: says nothing of a falcon"), std::string::npos);
+  const std::string other = write("b.textproto", "# a SpaceMouse\nspacemouse { speed_m_s: 0.1 }");
+  EXPECT_NE(mistakes("falcon:calibration=" + other).find(other + ":1: does not describe a falcon"), std::string::npos);
 }
 
 TEST_F(BackendsTest, RejectsAReplayOutsideTheWorkspaceWithItsPlace) {
@@ -134,7 +134,7 @@ TEST(UdevRules, MatchEverySpaceMouseAndNoKeyboardOfTheVendor) {
     const std::string no = udev_no_rule({spacemouse::k3Dconnexion, product});
     const auto at = std::ranges::find(rules, no);
     ASSERT_NE(at, rules.end()) << no;
-    EXPECT_GT(at, std::ranges::find(rules, udev_vendor_rule(spacemouse::k3Dconnexion))) << "what comes later wins";
+    EXPECT_GT(at, std::ranges::find(rules, udev_vendor_rule(spacemouse::k3Dconnexion))) << "the later rule wins";
     EXPECT_NE(no.find("TAG-=\"uaccess\""), std::string::npos);
   }
   for (Backend* backend : backends())
@@ -149,7 +149,7 @@ TEST(UdevRules, MatchTheTouchAsSerialPortAndAsHidDevice) {
       << rules[0];
   EXPECT_EQ(rules[1], "SUBSYSTEM==\"hidraw\", KERNELS==\"*:2988:*\", MODE=\"0660\", TAG+=\"uaccess\"");
   for (const std::string& rule : rules)
-    EXPECT_TRUE(rule.ends_with("MODE=\"0660\", TAG+=\"uaccess\"")) << "whoever sits here, nobody else";
+    EXPECT_TRUE(rule.ends_with("MODE=\"0660\", TAG+=\"uaccess\"")) << "only the logged-in user";
 }
 
 TEST(Backends, NameTheirLibraryAndTheFactsOfEveryDevice) {

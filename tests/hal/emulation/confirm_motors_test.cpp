@@ -147,7 +147,7 @@ TEST_F(ConfirmMotors, EnablesForceForTheConfirmedFileOnly) {
       << why;
   EXPECT_EQ(doctor("", "--seconds 0.5 --force-test"), 1) << "a force test is a force, too";
   EXPECT_EQ(doctor("no\n"), 1);
-  EXPECT_EQ(doctor(""), 1) << "nobody is there";
+  EXPECT_EQ(doctor(""), 1) << "without a user";
   EXPECT_EQ(pushed(why), 0.0) << "not agreed, not confirmed";
 
   ASSERT_EQ(doctor("yes\n"), 0) << said;
@@ -157,19 +157,19 @@ TEST_F(ConfirmMotors, EnablesForceForTheConfirmedFileOnly) {
 
   file = folder.write("arm.textproto", folder.read("arm.textproto") + "# changed\n");
   EXPECT_EQ(pushed(why), 0.0) << "the signs in it may be others now";
-  EXPECT_NE(why.find("nobody confirmed them"), std::string::npos) << why;
+  EXPECT_NE(why.find("they were never confirmed"), std::string::npos) << why;
 }
 
 TEST_F(ConfirmMotors, RejectsAReversedMotorDespiteAConfirmation) {
   plug(1);
   confirmed_motors(state, "serial:0001", file);
   EXPECT_EQ(doctor("yes\n"), 1);
-  EXPECT_NE(said.find("base: pushes the way it is told"), std::string::npos) << said;
-  EXPECT_NE(said.find("shoulder: moved AGAINST its order"), std::string::npos) << said;
+  EXPECT_NE(said.find("base: pushes in the commanded direction"), std::string::npos) << said;
+  EXPECT_NE(said.find("shoulder: moved AGAINST its command"), std::string::npos) << said;
   EXPECT_NE(said.find("elbow: not tested"), std::string::npos) << said;
   std::string why;
   EXPECT_EQ(pushed(why), 0.0);
-  EXPECT_NE(why.find("did not find all of them right"), std::string::npos) << why;
+  EXPECT_NE(why.find("did not confirm all of them"), std::string::npos) << why;
 }
 
 TEST_F(ConfirmMotors, SendsZerosAtASignalAndConfirmsNothing) {

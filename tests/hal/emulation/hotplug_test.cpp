@@ -133,10 +133,9 @@ TEST_F(SelectDevice, SelectsNoDefaultAmongSeveral) {
   const auto chosen = hal::select_device(list, falcon);
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, hal::Errc::kBadState);
-  EXPECT_EQ(
-      chosen.error().message,
-      "2 devices could be meant by Novint Falcon; say which one: port=1-1 (0403:cb48 FALCON HAPTIC, serial A, at port "
-      "1-1), or port=1-2 (0403:cb48 FALCON HAPTIC, serial B, at port 1-2)");
+  EXPECT_EQ(chosen.error().message,
+            "2 devices match Novint Falcon; select one: port=1-1 (0403:cb48 FALCON HAPTIC, serial A, at port 1-1), or "
+            "port=1-2 (0403:cb48 FALCON HAPTIC, serial B, at port 1-2)");
   EXPECT_EQ(hal::select_device(std::span(list).subspan(1), falcon)->port, "1-2") << "the only one needs no words";
 }
 
@@ -147,11 +146,9 @@ TEST_F(SelectDevice, ListsTheAttachedDevicesIfNoneMatches) {
   EXPECT_EQ(chosen.error().code, hal::Errc::kNotFound);
   EXPECT_EQ(chosen.error().message,
             "no Novint Falcon at port 2-9 is attached (USB id 0403:cb48); there are 0403:6001 FALCON HAPTIC, serial C, "
-            "at port "
-            "1-3. Is it plugged in, and has it power?");
-  EXPECT_EQ(
-      hal::select_device({}, falcon).error().message,
-      "no Novint Falcon at port 2-9 is attached (USB id 0403:cb48); nothing is. Is it plugged in, and has it power?");
+            "at port 1-3. Check its cable and its power");
+  EXPECT_EQ(hal::select_device({}, falcon).error().message,
+            "no Novint Falcon at port 2-9 is attached (USB id 0403:cb48); nothing is. Check its cable and its power");
 }
 
 TEST_F(SelectDevice, SelectsByUsageWhereIdsAreNotUnique) {

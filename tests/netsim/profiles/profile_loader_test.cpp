@@ -184,7 +184,7 @@ TEST(Profiles, ListEveryMistakeWithItsPlace) {
 }
 
 TEST(Profiles, CheckRulesBetweenNumbers) {
-  EXPECT_NE(mistakes("").find("says nothing"), std::string::npos);
+  EXPECT_NE(mistakes("").find("no key is set"), std::string::npos);
   EXPECT_NE(mistakes("version: 1").find("needs `both"), std::string::npos);
   EXPECT_NE(mistakes("version: 1 up {}").find("needs `both"), std::string::npos);
   EXPECT_NE(mistakes("version: 1 both {} up {}").find("up: both directions"), std::string::npos);

@@ -144,7 +144,7 @@ TEST(BadScene, UsesTheLawsInitialEnergyUnlessTheSceneSetsMore) {
 }
 
 TEST(BadScene, RejectsAnEmptyScene) {
-  for (const char* text : {"@", "@\n\n", "@# nothing but a comment\n"}) expect_one(text, "", "says nothing");
+  for (const char* text : {"@", "@\n\n", "@# nothing but a comment\n"}) expect_one(text, "", "no key is set");
 }
 
 TEST(BadScene, RequiresVersionOne) {

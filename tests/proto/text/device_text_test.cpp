@@ -80,7 +80,8 @@ TEST(DeviceText, RejectsContradictoryValues) {
   const std::string force =
       "force { motor_1_counts_per_nm: 9000 motor_2_counts_per_nm: 9000 motor_3_counts_per_nm: 9000 } ";
   EXPECT_TRUE(says("falcon { " + force + "}", "needs measured"));
-  EXPECT_TRUE(says("falcon { measured: \"me\" " + force + kReading + kReading + "}", "not with mass_reading"));
+  EXPECT_TRUE(
+      says("falcon { measured: \"me\" " + force + kReading + kReading + "}", "cannot be combined with mass_reading"));
   EXPECT_TRUE(says(std::string("falcon { measured: \"me\" ") + kReading + "}", "at least two"));
   EXPECT_TRUE(says("falcon { mass_reading { mass_kg: 0.1 } mass_reading { mass_kg: 0.1 } }", "motor_without"));
   EXPECT_TRUE(says("falcon { peak_n: 2 continuous_n: 3 }", "above peak_n"));

@@ -40,8 +40,8 @@ TEST(AuthCommands, SetUpAServerTwoWorkstationsAndATicket) {
     ASSERT_EQ(taken.code, 0) << taken.err;
     EXPECT_EQ(taken.out, "enrolled at " + address + " as " + name + "\n");
     const Ran again = client({"enroll", line(given.out), "--state", door.folder.path(name)});
-    EXPECT_EQ(again.code, 1) << "a string is good once";
-    EXPECT_NE(again.err.find("refused: this code is not good"), std::string::npos) << again.err;
+    EXPECT_EQ(again.code, 1) << "a string is valid once";
+    EXPECT_NE(again.err.find("refused: this code is not valid"), std::string::npos) << again.err;
   }
   const std::string id = auth::to_hex(door.sessions->session_id);
   const Ran made = server({"ticket", "--session", id, "--seat", "trainee", "--role", "trainee", "--workstation",
@@ -155,7 +155,7 @@ TEST(AuthCommands, SendNothingToAServerWithAnotherKey) {
                               auth::test::secret_from<16>(1)};
   const Ran ran = client({"enroll", wrong.to_text(), "--state", door.folder.path("c")});
   EXPECT_EQ(ran.code, 1);
-  EXPECT_NE(ran.err.find("another key than the string says, so nothing was told to it"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("another key than the string names, so nothing was sent to it"), std::string::npos) << ran.err;
   EXPECT_TRUE(door.told(ControlEvent::kHandshakeFailed));
   EXPECT_EQ(ran.err.find(wrong.to_text().substr(60, 20)), std::string::npos) << "the string is in no message";
 }

@@ -287,7 +287,7 @@ TEST(ControlClient, ReportsThatNoServerListens) {
       kPatience, -1);
   ASSERT_FALSE(client);
   EXPECT_EQ(client.error().kind, auth::ClientError::Kind::kUnreachable);
-  EXPECT_NE(client.error().text.find("does tandem-server run there?"), std::string::npos);
+  EXPECT_NE(client.error().text.find("check that tandem-server runs there"), std::string::npos);
 }
 
 }  // namespace

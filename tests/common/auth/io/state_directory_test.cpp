@@ -126,7 +126,7 @@ TEST(StateDirectory, ReportsTheHolderOfALockThatStaysTaken) {
   auto held = a.lock("l");
   ASSERT_TRUE(held);
   const auto second = b.lock("l", std::chrono::milliseconds(30));
-  ASSERT_FALSE(second) << "it waits no longer than it was told to";
+  ASSERT_FALSE(second) << "it waits no longer than its limit";
   for (const std::string& word :
        {folder.path("l"), std::string("0.03 s"), "process " + std::to_string(getpid()), std::string("then try again")})
     EXPECT_NE(second.error().find(word), std::string::npos) << word << "\n" << second.error();
@@ -171,7 +171,7 @@ TEST(StatePath, UsesTheUsersRuntimeFolderWhereThereIsOne) {
     ASSERT_EQ(unlink(own.c_str()), 0);
     ASSERT_EQ(mkdir(own.c_str(), 0700), 0);
     ASSERT_EQ(chown(own.c_str(), 12345, 12345), 0);
-    EXPECT_EQ(runtime_path(run.path()), shared) << "somebody else's";
+    EXPECT_EQ(runtime_path(run.path()), shared) << "of another user";
   }
   if (!before.empty()) setenv("XDG_RUNTIME_DIR", before.c_str(), 1);
 }
@@ -182,8 +182,8 @@ TEST(StatePath, IsTheOptionThenTheEnvironmentThenTheHome) {
   EXPECT_EQ(client_state_path(""), "/y");
   unsetenv("TANDEM_CLIENT_STATE");
   const std::string home = getenv("HOME") == nullptr ? "" : getenv("HOME");
-  setenv("HOME", "/home/somebody", 1);
-  EXPECT_EQ(client_state_path(""), "/home/somebody/.config/tandem");
+  setenv("HOME", "/home/user", 1);
+  EXPECT_EQ(client_state_path(""), "/home/user/.config/tandem");
   setenv("TANDEM_STATE", "/z", 1);
   EXPECT_EQ(server_state_path(""), "/z");
   EXPECT_EQ(server_state_path("/a"), "/a");

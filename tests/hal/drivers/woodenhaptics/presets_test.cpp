@@ -111,7 +111,7 @@ TEST(WoodenPresets, ReportMistakesWithTheirPlace) {
            BadLine{"force_n: 5 ", "", "limits.force_n: "},
            BadLine{"upper_mm: 205", "upper_mm: 20", "mm from the shoulder"},
            BadLine{"counts_per_turn: 2000", "counts_per_turn: 2000 gear: 3", "gear"},
-           BadLine{"counts_per_turn: 2000", "counts_per_turn: 2000 measured: \"\"", "who measured"},
+           BadLine{"counts_per_turn: 2000", "counts_per_turn: 2000 measured: \"\"", "name the author"},
        }) {
     SCOPED_TRACE(bad.to);
     std::string text = good;
