@@ -222,7 +222,7 @@ std::string stop_text(const rpc::Status& s) {
 
 std::string drain_text(const rpc::StatusDrain& d) {
   return format("DRAINING: %u s left, %u session%s, %u %s", d.left_s, d.sessions, d.sessions == 1 ? "" : "s",
-                d.participants, d.participants == 1 ? "participant" : "participants");
+                d.participants, d.participants == 1 ? "participant on a seat" : "participants on their seats");
 }
 
 std::string status_changes_text(const rpc::Status& before, const rpc::Status& now) {

@@ -154,7 +154,7 @@ Result<Board> parse_board_options(const DeviceSpec& choice) {
 Result<SpaceMouseSpec> parse_spacemouse_options(const DeviceSpec& choice) {
   OptionParser judge{choice, {"port", "serial", "calibration"}};
   if (!choice.name.empty())
-    judge.add_error("'" + choice.name.substr(0, 60) + "': several are told apart by port= or serial=");
+    judge.add_error("'" + choice.name.substr(0, 60) + "': port= or serial= selects one of several");
   SpaceMouseSpec spec;
   if (const auto file = choice.find("calibration")) {
     auto described = load_device_file(*file);

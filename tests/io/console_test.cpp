@@ -146,9 +146,9 @@ TEST(Control, AcceptsExactlyOneOfTwoInstructorsChanges) {
   EXPECT_NE(loser.err().find(first == 0 ? "trainer 0.25, trainee 0.75" : "trainer 0.75, trainee 0.25"),
             std::string::npos)
       << loser.err();
-  Process stranger = control(address, {"authority", "trainer=0.5,nobody=0.5"});
+  Process stranger = control(address, {"authority", "trainer=0.5,absent=0.5"});
   EXPECT_EQ(stranger.wait(), 2);
-  EXPECT_NE(stranger.err().find("no seat \"nobody\" that can have authority; seats: trainer, trainee"),
+  EXPECT_NE(stranger.err().find("no seat \"absent\" that can have authority; seats: trainer, trainee"),
             std::string::npos)
       << stranger.err();
 }

@@ -94,7 +94,7 @@ TEST(ClosedPipe, EndsNeitherAServerNorASeat) {
   }
   const End server =
       into_closed_pipe({TANDEM_SERVER, "run", "one_axis", "--duration", "1", "--start-timeout", "1"}, false, true);
-  EXPECT_GE(server.code, 0) << "it ends by itself, as nobody came, and by no signal";
+  EXPECT_GE(server.code, 0) << "it ends by itself, as no client joined, and by no signal";
 }
 
 }  // namespace

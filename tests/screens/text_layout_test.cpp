@@ -54,30 +54,30 @@ TEST(TextLayout, KeepsAWordThatIsWiderThanTheTerminalWhole) {
 
 TEST(TextLayout, OmitsTheLeastImportantFirst) {
   const std::vector<ScreenItem> items{{"state of it all", "state", 0},
-                                      {"who leads", "", 0},
+                                      {"no leader", "", 0},
                                       {"force 1.2 N", "", 0},
                                       {"tool near", "", 1},
                                       {"rtt 1 ms", "", 1}};
   EXPECT_EQ(lay_out_items(items, 2, 80),
-            (std::vector<std::string>{"state of it all | who leads | force 1.2 N", "tool near | rtt 1 ms"}));
+            (std::vector<std::string>{"state of it all | no leader | force 1.2 N", "tool near | rtt 1 ms"}));
   // Items that do not fit in the upper row precede the items of the lower row.
   EXPECT_EQ(lay_out_items(items, 2, 30),
-            (std::vector<std::string>{"state of it all | who leads", "force 1.2 N | tool near"}));
-  EXPECT_EQ(lay_out_items(items, 1, 30), (std::vector<std::string>{"state of it all | who leads"}));
+            (std::vector<std::string>{"state of it all | no leader", "force 1.2 N | tool near"}));
+  EXPECT_EQ(lay_out_items(items, 1, 30), (std::vector<std::string>{"state of it all | no leader"}));
   EXPECT_EQ(lay_out_items(items, 2, 14).front(), "state") << "the shorter form before anything is cut";
-  EXPECT_EQ(join_items(items), "state of it all | who leads | force 1.2 N | tool near | rtt 1 ms");
+  EXPECT_EQ(join_items(items), "state of it all | no leader | force 1.2 N | tool near | rtt 1 ms");
 }
 
 TEST(TextLayout, CutsTheFirstItemAfterAWordWhenNothingElseHelps) {
-  const std::vector<ScreenItem> items{{"STOPPED by somebody with a long name", "", 0}};
-  EXPECT_EQ(lay_out_items(items, 2, 24), (std::vector<std::string>{"STOPPED by somebody ..."}));
+  const std::vector<ScreenItem> items{{"STOPPED by operator with a long name", "", 0}};
+  EXPECT_EQ(lay_out_items(items, 2, 24), (std::vector<std::string>{"STOPPED by operator ..."}));
   for (std::size_t width = 4; width < 60; ++width)
     for (const std::string& line : lay_out_items(items, 2, width)) EXPECT_LE(display_width(line), width);
 }
 
 constexpr const char* kHelp =
     "Judges the network for as long as it is\n"
-    "told to, and says so.\n"
+    "asked to, and says so.\n"
     "Exit: 0 done, 1 trouble.\n\n"
     "Devices\n"
     "  sim                  simulated, as the scene describes the device of the seat\n"
@@ -90,7 +90,8 @@ constexpr const char* kHelp =
 TEST(HelpFormatter, FillsParagraphsAndKeepsTables) {
   const std::string wide = fill_paragraphs(kHelp, 119);
   EXPECT_NE(
-      wide.find("Judges the network for as long as it is told to, and says so.\nExit: 0 done, 1 trouble.\n\nDevices\n"),
+      wide.find(
+          "Judges the network for as long as it is asked to, and says so.\nExit: 0 done, 1 trouble.\n\nDevices\n"),
       std::string::npos)
       << wide;
   EXPECT_NE(wide.find("  sim                  simulated, as the scene describes the device of the seat and its hand\n"),

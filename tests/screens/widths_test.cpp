@@ -86,7 +86,7 @@ TEST(Widths, FitTheSummaryOfAProxy) {
 }
 
 TEST(Widths, FitMistakes) {
-  expect_whole({TANDEM_NETSIM, "run", "nosuch", "--profile", "nosuch", "--hand", "nobody=x.csv", "--script",
+  expect_whole({TANDEM_NETSIM, "run", "nosuch", "--profile", "nosuch", "--hand", "nosuch=x.csv", "--script",
                 "nosuch.textproto", "--json", "/nosuch/folder/report.json"},
                "nothing was started", 2);
   expect_whole({TANDEM_SERVER, "run", "nosuch", "--listen", "nowhere", "--json", "/nosuch/folder/report.json",

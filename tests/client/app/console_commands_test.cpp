@@ -183,7 +183,7 @@ TEST(ConsoleCommands, ReportNoDrainWithoutRemainingTime) {
   now.drain = rpc::StatusDrain{0, 1, 1};
   EXPECT_EQ(status_changes_text(before, now), "");
   now.drain = rpc::StatusDrain{3, 1, 1};
-  EXPECT_EQ(status_changes_text(before, now), "DRAINING: 3 s left, 1 session, 1 participant\n");
+  EXPECT_EQ(status_changes_text(before, now), "DRAINING: 3 s left, 1 session, 1 participant on a seat\n");
 }
 
 TEST(ConsoleCommands, ReportEachStatusChangeOnce) {
@@ -203,16 +203,16 @@ TEST(ConsoleCommands, ReportEachStatusChangeOnce) {
     told += status_changes_text(before, now);
   }
   EXPECT_EQ(told,
-            "DRAINING: 32 s left, 2 sessions, 3 participants\n"
-            "DRAINING: 29 s left, 2 sessions, 3 participants\n"
-            "DRAINING: 19 s left, 2 sessions, 3 participants\n"
-            "DRAINING: 9 s left, 2 sessions, 3 participants\n"
-            "DRAINING: 5 s left, 2 sessions, 3 participants\n"
-            "DRAINING: 4 s left, 2 sessions, 3 participants\n"
-            "DRAINING: 3 s left, 2 sessions, 3 participants\n"
-            "DRAINING: 2 s left, 2 sessions, 3 participants\n"
-            "DRAINING: 1 s left, 2 sessions, 3 participants\n"
-            "DRAINING: 0 s left, 2 sessions, 3 participants\n");
+            "DRAINING: 32 s left, 2 sessions, 3 participants on their seats\n"
+            "DRAINING: 29 s left, 2 sessions, 3 participants on their seats\n"
+            "DRAINING: 19 s left, 2 sessions, 3 participants on their seats\n"
+            "DRAINING: 9 s left, 2 sessions, 3 participants on their seats\n"
+            "DRAINING: 5 s left, 2 sessions, 3 participants on their seats\n"
+            "DRAINING: 4 s left, 2 sessions, 3 participants on their seats\n"
+            "DRAINING: 3 s left, 2 sessions, 3 participants on their seats\n"
+            "DRAINING: 2 s left, 2 sessions, 3 participants on their seats\n"
+            "DRAINING: 1 s left, 2 sessions, 3 participants on their seats\n"
+            "DRAINING: 0 s left, 2 sessions, 3 participants on their seats\n");
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(ConnectionSlots, CloseAnIdleUnjoinedConnectionAfterTenSeconds) {
   places.set_busy(1, false, kStart + 20s);
   EXPECT_TRUE(closed(places, kStart + 29999ms).empty());
   EXPECT_EQ(closed(places, kStart + 30s, Cause::kIdle), std::vector<Id>{1});
-  EXPECT_TRUE(closed(places, kStart + 24h).empty()) << "who joined stays";
+  EXPECT_TRUE(closed(places, kStart + 24h).empty()) << "a joined connection stays";
   places.set_joined(2, false, kStart + 24h);  // another connection took the seat
   EXPECT_TRUE(closed(places, kStart + 24h + 9s).empty());
   EXPECT_EQ(closed(places, kStart + 24h + 10s, Cause::kIdle), std::vector<Id>{2});
@@ -90,7 +90,7 @@ TEST(ConnectionSlots, EvictUnjoinedConnectionsAndNeverJoinedOnes) {
   EXPECT_EQ(places.size(), 101u) << "one stays for who shows a resume secret";
   places.enter(300, key(3), from(3), kStart + 500ms);
   EXPECT_EQ(closed(places, kStart + 500ms, Cause::kFull), std::vector<Id>{203})
-      << "who waits longest without joining makes room";
+      << "the connection that waits longest without a join makes room";
 }
 
 // For any traffic: joined and busy connections are never closed, and the remaining ones keep the limits.

@@ -195,7 +195,7 @@ TEST(ForceGate, GivesAShakingHandNoMoreThanItsTankAtALateVelocity) {
     d.tick();
   }
   EXPECT_TRUE(d.gate.active());
-  EXPECT_GT(most, 0.01) << "or nobody was pushed";
+  EXPECT_GT(most, 0.01) << "otherwise no hand was pushed";
   EXPECT_LE(most, d.gate.tank_size() + 0.001);
 }
 

@@ -138,7 +138,7 @@ TEST(Prediction, StopsABrakingHandAndNeverReversesIt) {
   EXPECT_NEAR(Prediction::place(brakes, 0.01), 0.01 * (0.1 - 0.35 * (0.005 + Prediction::kFilterDelay) - 0.5 * 2 * t),
               1e-12);
   const double longer = 0.2 + Prediction::kFilterDelay;
-  EXPECT_NEAR(Prediction::rate(brakes, 0.2), -0.35 * longer, 1e-12) << "what is left is what lasts";
+  EXPECT_NEAR(Prediction::rate(brakes, 0.2), -0.35 * longer, 1e-12) << "the remaining part is the lasting one";
   EXPECT_DOUBLE_EQ(Prediction::rate({0, 0.1, -1e9}, 0.2), Prediction::rate(brakes, 0.2)) << "whatever a client says";
   EXPECT_DOUBLE_EQ(Prediction::rate({0, -0.1, 2.35}, 0.2), -Prediction::rate(brakes, 0.2));
 }

@@ -218,7 +218,7 @@ TEST(LocalContacts, MoveOnlyAsFarAsTheBudgetAllows) {
   EXPECT_NEAR(none.tick(0.01), 0, 1e-3);
   EXPECT_NEAR(rich.tick(0.01), -3.92, 0.01);
   EXPECT_EQ(rich.end.refused(), 0);
-  EXPECT_NEAR(0.05 - rich.end.ledger(0).margin(), 0.0196, 0.002) << "what the springs hold now was paid";
+  EXPECT_NEAR(0.05 - rich.end.ledger(0).margin(), 0.0196, 0.002) << "the energy in the springs was paid";
 }
 
 TEST(LocalContacts, SpendFromTheAxesTheyPressAlong) {

@@ -62,7 +62,7 @@ TEST(OverspeedGuard, LatchesAtTheThirdTripUntilTheButton) {
 TEST(OverspeedGuard, TreatsNanAsTooFastAndAllowsSpeedWithoutForce) {
   Drive d;
   d.look(10, 100, false);
-  EXPECT_EQ(d.guard.trips(), 0u) << "nobody pushes it";
+  EXPECT_EQ(d.guard.trips(), 0u) << "no force pushes it";
   d.look(0, 300, false);
   d.look(std::numeric_limits<double>::quiet_NaN(), 3);
   EXPECT_TRUE(d.guard.inhibits());

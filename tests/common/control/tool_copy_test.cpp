@@ -70,7 +70,7 @@ TEST(ToolCopy, RendersContactLocallyToALeader) {
   // Springs in series, 1 / (1/400 + 1/20000) = 392 N/m, over 5 mm.
   EXPECT_NEAR(force, -0.005 / (1 / 400.0 + 1 / 20000.0), 1e-3);
   EXPECT_LT(seat.end.ledger(0).out_nj(), 10'000u)
-      << "who leads alone pays for the damping relative to his own motion only";
+      << "a sole leader pays for the damping relative to its own motion only";
 }
 
 TEST(ToolCopy, ReportsWhereTheHandPulls) {

@@ -70,7 +70,7 @@ TEST(DeviceStiffness, SkipsDevicesWithoutMotorsAndUnsafeScenes) {
 TEST(DeviceStiffness, ReportsAReductionWithCauseAndNumbers) {
   EXPECT_EQ(softened_text(with_limited_stiffness(asking_for(300), device(0.2, 0)), device(0.2, 0)), "");
   EXPECT_EQ(softened_text(with_limited_stiffness(asking_for(400), device(0.2, 0)), device(0.2, 0)), "")
-      << "372 N/m: nobody feels a tenth less";
+      << "372 N/m: a tenth less is not perceptible";
   EXPECT_EQ(softened_text(with_limited_stiffness(asking_for(420), device(0.2, 0)), device(0.2, 0)),
             "k_c_n_m is 372 N/m instead of the scene's 420: this device renders at most 0.93 b / (T/2 + t_d) (damping "
             "b 0.2 N s/m, tick T 1 ms, latency t_d 0 ms)");

@@ -36,7 +36,7 @@ TEST(Ratchet, StepsAtThePacketLimitOnceThePeerEchoed) {
   SecureChannel a{test::client_end(1, rule)}, b{test::server_end(1, rule)};
   for (int i = 0; i < 100; ++i) {
     ASSERT_TRUE(hears(b, a, sealed(a, at(i * 1ms)), at(i * 1ms)));
-    EXPECT_EQ(a.sending_phase(), 0U) << "nobody echoed yet";
+    EXPECT_EQ(a.sending_phase(), 0U) << "no echo yet";
   }
   ASSERT_TRUE(hears(a, b, sealed(b, at(100ms)), at(100ms)));
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(hears(b, a, sealed(a, at(101ms)), at(101ms)));

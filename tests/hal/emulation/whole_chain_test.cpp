@@ -325,7 +325,7 @@ TEST(WholeChain, CouplesAFalconLeaderABoardFollowerAndABoardSlave) {
   std::printf("[  chain   ] %.1f s of session, %zu ms of it judged: all gates ACTIVE for a second and more\n",
               all.seconds, all.lead.size());
   if (all.lead.size() < 2000) {
-    std::printf("[ NOT RUN ] how the boards follow: this machine stood still too often, the gates let go\n");
+    std::printf("[ NOT RUN ] how the boards follow: this machine stood still too often, the gates released\n");
   } else {
     const double of_tool = unlike(all.tool, all.lead), of_board_held = unlike(all.follow, all.lead);
     std::printf(

@@ -96,7 +96,7 @@ struct HardwareTest : testing::Test {
         1e3 * stats.round_trip_p50_s, 1e3 * stats.round_trip_p99_s, 1e3 * stats.round_trip_max_s,
         static_cast<unsigned long long>(stats.late), static_cast<unsigned long long>(stats.missed),
         static_cast<unsigned long long>(stats.unanswered), static_cast<unsigned long long>(stats.resyncs));
-    EXPECT_FALSE(onlooker.pushed()) << "a force was given that nobody ordered";
+    EXPECT_FALSE(onlooker.pushed()) << "a force was given without a command";
     if (until_lost) return onlooker.was_lost();
     EXPECT_FALSE(onlooker.was_lost());
     EXPECT_EQ(phase, hal::Phase::kReady);
@@ -156,7 +156,7 @@ TEST_F(HardwareTest, DetectsUnplugging) {
     SCOPED_TRACE(words);
     std::printf("pull the plug of %s within %.0f s\n", words.c_str(), seconds(kUnplugPatience));
     std::fflush(stdout);
-    EXPECT_TRUE(watch(words, kUnplugPatience, true)) << "nobody pulled it, or nobody noticed";
+    EXPECT_TRUE(watch(words, kUnplugPatience, true)) << "it was not unplugged, or that was not detected";
   }
 }
 

@@ -190,7 +190,7 @@ TEST_P(KilledBoard, PushesUntilItsOwnWatchdogWithoutAWatchdogProcess) {
   ASSERT_NO_FATAL_FAILURE(start(false));
   send(SIGKILL);
   board.join();
-  EXPECT_GT(orders.back().strength, kStrong) << "nobody took it back";
+  EXPECT_GT(orders.back().strength, kStrong) << "the force was not removed";
   const Time heard = model.host_report(0).at;
   model.advance(heard + hal::emulation::WoodenHapticsModel::kWatchdog - 1ms - model.now());
   EXPECT_GT(model.motor_effort().norm(), 0);
@@ -218,7 +218,7 @@ TEST_P(KilledBoard, GetsZerosAndNoStaleForceFromAStoppedProgram) {
   const std::lock_guard hold(mutex);
   std::ptrdiff_t stale = 0;
   for (std::size_t i = before_event; i < before_event + 50; ++i) stale += orders[i].strength > full / 4 ? 1 : 0;
-  EXPECT_LE(stale, 1) << "forces begin anew at zero, but for a report that was being written when it was stopped";
+  EXPECT_LE(stale, 1) << "forces restart at zero, except a report that was being written when it was stopped";
 }
 
 INSTANTIATE_TEST_SUITE_P(Protocols, KilledBoard,

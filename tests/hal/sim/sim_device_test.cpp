@@ -115,7 +115,7 @@ TEST(SimDevice, GravityCompensationHoldsTheTip) {
   run(*without, Vec3::Zero(), 2.0);
   EXPECT_LT(with->ground_truth().x.norm(), 1e-3);
   EXPECT_LT(without->ground_truth().x[2], -0.02);
-  EXPECT_EQ(with->state().f_out, Vec3(0, 0, 0)) << "compensation is nobody's coupling force";
+  EXPECT_EQ(with->state().f_out, Vec3(0, 0, 0)) << "compensation is not a coupling force";
 }
 
 TEST(SimDevice, LimitsTheTipForceKeepingItsDirection) {

@@ -20,7 +20,7 @@ bool survives(const Bytes& in) {
   if (!got) return false;
   EXPECT_EQ(head, (Head{kind_of(*got), got->request}));
   const auto again = encode(*got);
-  EXPECT_TRUE(again) << "what was taken can be sent";
+  EXPECT_TRUE(again) << "an accepted message can be sent";
   if (again) {
     EXPECT_TRUE(std::ranges::equal(again->bytes().subspan(kLengthSize), in));
   }

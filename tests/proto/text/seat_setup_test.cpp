@@ -129,7 +129,7 @@ TEST(SeatSetup, CarriesEachToolThatASeatFollows) {
   EXPECT_EQ(got->further[0].weight, 0.75);
   EXPECT_EQ(got->further[0].m_s, 0.07);
   EXPECT_EQ(got->further[0].environment.wall->at, 0.011);
-  EXPECT_TRUE(seat_setup(two, 1).further.empty()) << "he follows one";
+  EXPECT_TRUE(seat_setup(two, 1).further.empty()) << "the seat follows one tool";
 
   const auto refused = [&](auto&& change) {
     auto wrong = setup;

@@ -152,7 +152,7 @@ TEST(ShippedScenes, HaveNoEndNoTimelineAndFiveSeatsInLesson) {
   for (std::size_t i = 0; i < seats.size(); ++i) {
     EXPECT_EQ(lesson.seats[i].role, seats[i].first);
     EXPECT_EQ(lesson.seats[i].required, seats[i].second);
-    EXPECT_TRUE(std::isinf(lesson.seats[i].hand.until)) << "nobody is relaxed by the clock";
+    EXPECT_TRUE(std::isinf(lesson.seats[i].hand.until)) << "no hand is relaxed by the clock";
     EXPECT_EQ(lesson.seats[i].hand.from, 0);
   }
   EXPECT_TRUE(lesson.gate.latch) << "fit for real devices";

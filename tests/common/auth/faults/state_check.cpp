@@ -59,7 +59,7 @@ void check_tickets(auth::ServerKeystore& trust, const Story& story, const FileFa
     } else if (accepted) {
       wrong.unless(used, which + "was used and is good again");
     } else {
-      wrong.unless(!used || may_stay_used(fault), which + "let nobody in and is used");
+      wrong.unless(!used || may_stay_used(fault), which + "admitted no client and is used");
     }
   }
 }
@@ -67,13 +67,13 @@ void check_tickets(auth::ServerKeystore& trust, const Story& story, const FileFa
 void check_workstations(auth::ServerKeystore& trust, const Story& story, Wrong& wrong) {
   const auto has = [&](unsigned workstation) {
     const auto row = trust.find(story_pin(workstation));
-    wrong.unless(row.has_value(), "the book of workstations cannot be read");
+    wrong.unless(row.has_value(), "the registry of workstations cannot be read");
     return row && row->has_value();
   };
   if (story.revoked == Told::kYes) wrong.unless(!has(0), "w0 was revoked and is there");
   if (story.revoked == Told::kNothing && story.serving != Told::kNothing)
-    wrong.unless(has(0) || story.enrolled != Told::kNothing, "w0 is gone though nobody revoked it");
-  if (story.enrolled == Told::kYes) wrong.unless(has(1), "w1 was told it is enrolled, and is not");
+    wrong.unless(has(0) || story.enrolled != Told::kNothing, "w0 is gone although it was not revoked");
+  if (story.enrolled == Told::kYes) wrong.unless(has(1), "w1 received Enrolled and is not enrolled");
   if (story.code == Told::kYes && story.enrolled != Told::kYes && !has(1)) {
     const auto later = trust.enroll(story_code(), story_pin(1), kNow + 2);
     wrong.unless(later.has_value(),
@@ -93,7 +93,7 @@ void check_audit(const std::string& folder, const Story& story, const FileFault&
       if (!object.is_object()) {
         ++torn;
         wrong.unless(line.starts_with("{\"ts\":") || line.size() < 6,
-                     entry.path().string() + ": what is this: " + line);
+                     entry.path().string() + ": unexpected line: " + line);
         wrong.unless(line.find("}{") == std::string::npos && line.rfind("{\"ts\"") == 0,
                      entry.path().string() + ": two lines were joined: " + line);
         continue;
@@ -148,9 +148,9 @@ void check_workstation(const std::string& folder, const Story& story, Wrong& wro
 /// Checks the rules that hold for every folder. @return all errors collected so far
 std::string checked(const std::string& folder, Wrong& wrong) {
   const std::string unknown = unknown_files(folder);
-  wrong.unless(unknown.empty(),
-               "files that nobody checks: add them to tests/common/auth/faults/state_files.h and their checks here:\n" +
-                   unknown);
+  wrong.unless(
+      unknown.empty(),
+      "files without a check: add them to tests/common/auth/faults/state_files.h and their checks here:\n" + unknown);
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     wrong.unless(written_beside(name).empty(), "left behind after a restart: " + entry.path().string());

@@ -175,8 +175,7 @@ TEST(StateFaults, ReportAFullDiskAndItsRemedy) {
   for (const std::string& text : texts)
     EXPECT_NE(text.find(": the disk is full (No space left on device); free some space there"), std::string::npos)
         << text;
-  EXPECT_EQ(texts[1].find(folder.path_of("book") + " cannot be written"), 0u)
-      << texts[1] << "not a name that nobody knows";
+  EXPECT_EQ(texts[1].find(folder.path_of("book") + " cannot be written"), 0u) << texts[1] << "not an unknown name";
 }
 
 /// kStateFiles contains no file that the stories do not create.

@@ -107,7 +107,7 @@ TEST(AuthCommands, KnowTheRunningServersAddressSessionsAndSeats) {
                 .code,
             2)
       << "the seat is a trainee's";
-  EXPECT_EQ(server({"ticket", "--session", "contact", "--seat", "nobody", "--workstation", "w", "--state", state}).code,
+  EXPECT_EQ(server({"ticket", "--session", "contact", "--seat", "nosuch", "--workstation", "w", "--state", state}).code,
             2);
 }
 

@@ -176,7 +176,8 @@ TEST(ControlPlane, RequiresAJoinBeforeCommandsAndLimitsTheirRate) {
     return done;
   };
   EXPECT_EQ(let_through(rpc::StatusRequest{}, 25), 18) << "20 at once, of which two were spent above";
-  EXPECT_EQ(let_through(rpc::PauseSession{}, 25), 19) << "what stops hands waits for nothing else; one was spent above";
+  EXPECT_EQ(let_through(rpc::PauseSession{}, 25), 19)
+      << "requests that stop hands have a rate limit of their own; one was spent above";
   EXPECT_EQ(let_through(rpc::SetAuthority{{}, 0, 0, {1.0}}, 130), 120) << "has its own allowance";
   EXPECT_EQ(door.plane->count(ControlEvent::kCommandTooFast), 7U + 6U + 10U);
 }
@@ -237,7 +238,7 @@ TEST(ControlPlane, BlocksOnlyTheSourceOfWrongEnrolmentCodes) {
     EXPECT_EQ(reason_of(ask_as(stranger, rpc::Enroll{auth::test::secret_from<16>(100 + i)})), ErrorCode::kCode) << i;
   }
   const auto blocked = ask_as(stranger, rpc::Enroll{code});
-  EXPECT_EQ(reason_of(blocked), ErrorCode::kBlocked) << "the right one too: nobody learns anything";
+  EXPECT_EQ(reason_of(blocked), ErrorCode::kBlocked) << "the right code too, so that the reply reveals nothing";
   EXPECT_NE(std::get<rpc::ErrorReply>(*blocked).text.find("wait 300 s"), std::string::npos)
       << std::get<rpc::ErrorReply>(*blocked).text;
   EXPECT_EQ(std::get<rpc::ErrorReply>(*blocked).retry_after_s, 300u);

@@ -80,13 +80,13 @@ TEST(ControlTls, RejectsAnotherServerKeyBeforeSendingData) {
       [&](const auth::KeyFingerprint& fingerprint) -> std::expected<const auth::Identity*, std::string> {
         asked = true;
         EXPECT_EQ(fingerprint, door.server_fingerprint);
-        return std::unexpected("this is not the key I was told");
+        return std::unexpected("this is not the expected key");
       },
       kPatience, -1);
   ASSERT_FALSE(client);
   EXPECT_TRUE(asked);
   EXPECT_EQ(client.error().kind, auth::ClientError::Kind::kRefusedKey);
-  EXPECT_EQ(client.error().text, "this is not the key I was told");
+  EXPECT_EQ(client.error().text, "this is not the expected key");
   ASSERT_TRUE(door.told(ControlEvent::kHandshakeFailed));
   // The server read and looked up nothing: the handshake did not reach the client's certificate.
   for (const ControlEventRecord& news : door.news())

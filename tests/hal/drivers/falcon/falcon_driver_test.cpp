@@ -78,7 +78,7 @@ TEST_F(FalconDriverTest, RendersTipEffortAtTheTip) {
   ASSERT_TRUE(bench.tick(effort(0, 0, 0, 8)));
   EXPECT_EQ(bench.state.echo_command, 7u);
   EXPECT_NEAR(bench.state.tau_out[0], tau[0], 0.5e-4);
-  EXPECT_NE(bench.state.tau_out[0], tau[0]) << "what was sent is what the integers mean";
+  EXPECT_NE(bench.state.tau_out[0], tau[0]) << "the reported effort is that of the integers";
   EXPECT_LE((bench.state.f_out - wanted).norm(), 0.02);
   ASSERT_TRUE(bench.tick(effort(0, 0, 0, 9)));
   EXPECT_EQ(bench.state.echo_command, 8u);
@@ -258,7 +258,7 @@ TEST_F(FalconDriverTest, DerivesNoMotionFromOldRepliesAfterAStall) {
     const auto how = bench.tick();
     ASSERT_TRUE(how);
     resynced = resynced || how == Exchange::kResynced;
-    ASSERT_TRUE(resynced || how == Exchange::kNothing) << "the first answer that counts begins anew";
+    ASSERT_TRUE(resynced || how == Exchange::kNothing) << "the first valid answer restarts the estimate";
     if (!resynced) continue;
     EXPECT_LT(bench.state.dx.norm(), 0.02) << "the first readings are of now, tick " << i;
     EXPECT_NEAR(bench.state.x[0], bench.model.mechanics().tip()[0], 1e-4);

@@ -20,7 +20,7 @@ TEST_F(OpenHaptics, ReportsTheHottestMotorWhereAvailable) {
     run({{c.get(), &p}, {old.get(), &q}}, 4ms);
     return p.seen.heat.value_or(-1);
   };
-  EXPECT_EQ(heat({0.2, 0.7, 0.4, 0.9, 0.9, 0.9}), 0.7) << "of three motors: what stands behind is of nobody";
+  EXPECT_EQ(heat({0.2, 0.7, 0.4, 0.9, 0.9, 0.9}), 0.7) << "of three motors: the values behind them belong to no motor";
   EXPECT_EQ(heat({1.2, 0, 0, 0, 0, 0}), 1.2);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(heat({nan, 0.5, 0.5, 0, 0, 0})));

@@ -121,7 +121,7 @@ TEST_F(ResetOnly, AcceptsHomeHereOnceWithoutAPrompt) {
   run({{c.get(), &p}}, 200ms);
   EXPECT_EQ(c->phase(), Phase::kReady);
   EXPECT_EQ(d.calibrations, 1u);
-  ASSERT_TRUE(c->bring_up(patient)) << "brought up anew, wherever it stands now";
+  ASSERT_TRUE(c->bring_up(patient)) << "brought up again, at any position";
   EXPECT_EQ(patient.asked.size(), 1u);
   run({{c.get(), &p}}, 200ms);
   EXPECT_EQ(c->phase(), Phase::kUnhomed);
@@ -167,7 +167,7 @@ TEST_F(OpenHaptics, ClampsToTheReportedLimitAndToZeroWithoutOne) {
     State state;
     orders.effort = {1, 0, 0};
     for (int i = 0; i < 60; ++i) ASSERT_TRUE(driver.exchange(orders, state));
-    ASSERT_FALSE(state.homed) << "nobody asked";
+    ASSERT_FALSE(state.homed) << "homing was not requested";
     EXPECT_EQ(state.f_out.norm(), 0) << "no origin, no force";
     orders.effort = {};
     orders.homing = true;
@@ -225,7 +225,7 @@ TEST_F(OpenHaptics, SendsZerosWhileAnotherDeviceIsOpened) {
   ASSERT_NEAR(stub().devices[0].force[0], 1, 1e-9);
   OpenHapticsDriver late{"late", group, clock};
   ASSERT_TRUE(late.bring_up(patient));  // the stub reports whether the scheduler was stopped with a force on
-  EXPECT_EQ(stub().devices[0].force[0], 0) << "nobody ordered anything meanwhile";
+  EXPECT_EQ(stub().devices[0].force[0], 0) << "no command came meanwhile";
 }
 
 TEST_F(OpenHaptics, ServesThreeDevicesAndLosesOnlyTheUnplugged) {
@@ -330,7 +330,7 @@ TEST_F(OpenHaptics, ReportsStartErrors) {
     const char* word;
   };
   const Case cases[] = {
-      {"nobody", [](StubHd& s) { s.devices[0].name = "other"; }, Errc::kNotFound, "plugged in"},
+      {"absent", [](StubHd& s) { s.devices[0].name = "other"; }, Errc::kNotFound, "plugged in"},
       {"licence", [](StubHd& s) { s.devices[0].init_error = 0x0600; }, Errc::kPermission, "licence"},
       {"busy", [](StubHd& s) { s.devices[0].init_error = 0x0301; }, Errc::kBusy, "another program"},
       {"fault", [](StubHd& s) { s.devices[0].init_error = 0x0300; }, Errc::kUnplugged, "fault"},

@@ -157,7 +157,7 @@ TEST(SpaceMouse, SwitchesTheLightOnInUseAndOffAfterwards) {
     ASSERT_TRUE(b.step(1));
     EXPECT_TRUE(b.model.light());
     ASSERT_TRUE(b.step(0));
-    EXPECT_FALSE(b.model.light()) << "who has ordered it on may order it off";
+    EXPECT_FALSE(b.model.light()) << "the program that switched it on may switch it off";
     ASSERT_TRUE(b.step(1));
     b.driver.send_zeros();
     EXPECT_FALSE(b.model.light());

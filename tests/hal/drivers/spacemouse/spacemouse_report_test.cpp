@@ -37,7 +37,7 @@ TEST(SpaceMouseReport, MatchesHandComputedValues) {
   EXPECT_EQ(parsed({3, 0x03, 0x80}).buttons, 0x8003u);
   EXPECT_EQ(parsed({3, 1, 0, 0, 0x80}).buttons, 0x80000001u);
   EXPECT_EQ(parsed({0x17, 93, 1}).battery_percent, 93);
-  EXPECT_EQ(parsed({0x42, 1, 2, 3}), SpaceMouseReport{}) << "an id nobody knows tells nothing";
+  EXPECT_EQ(parsed({0x42, 1, 2, 3}), SpaceMouseReport{}) << "an unknown id reports nothing";
 }
 
 TEST(SpaceMouseReport, ButtonsOfTheEnterpriseAreNumberedAsSpacenavdDoes) {
@@ -58,8 +58,8 @@ TEST(SpaceMouseReport, ButtonsOfTheEnterpriseAreNumberedAsSpacenavdDoes) {
   }
   EXPECT_EQ(all, 0x7fffffffU) << "31 buttons, each once";
   EXPECT_EQ(parsed({0x1C, 13, 0, 78, 0, 176, 0, 0, 0, 0, 0, 0, 0}).buttons, 1U << 0 | 1U << 11 | 1U << 26);
-  EXPECT_EQ(parsed({0x1C, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}).buttons, 0u) << "all were let go";
-  EXPECT_EQ(parsed({0x1C, 0xff, 0xff, 13, 1, 0, 0, 0, 0, 0, 0, 0, 0}).buttons, 0u) << "usages nobody knows";
+  EXPECT_EQ(parsed({0x1C, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}).buttons, 0u) << "all were released";
+  EXPECT_EQ(parsed({0x1C, 0xff, 0xff, 13, 1, 0, 0, 0, 0, 0, 0, 0, 0}).buttons, 0u) << "unknown usages";
   EXPECT_EQ(parsed({0x1D, 13, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), SpaceMouseReport{}) << "its meaning is not confirmed";
 }
 

@@ -179,7 +179,7 @@ TEST(WoodenHoming, WorksThroughoutUnderAServoCore) {
   EXPECT_EQ(core.phase(), Phase::kLost);
   EXPECT_TRUE(client.is_lost);
   model.plug_in();
-  EXPECT_FALSE(run(1)) << "what comes back is another device";
+  EXPECT_FALSE(run(1)) << "the returning device counts as another one";
   EXPECT_FALSE(model.amplifiers_on());
 }
 

@@ -166,7 +166,7 @@ TEST(WoodenCaps, MatchTheKnownValues) {
   EXPECT_EQ(caps.timing, Timing::kLockStep);
   EXPECT_EQ(caps.homing, Homing::kPresetPose);
   EXPECT_EQ(*caps.watchdog, std::chrono::milliseconds(500));
-  EXPECT_FALSE(caps.force_calibrated) << "nobody has held this board against a mass";
+  EXPECT_FALSE(caps.force_calibrated) << "this board was never measured with a mass";
   EXPECT_FALSE(caps.mass.has_value());
   EXPECT_EQ(caps.gravity, GravityCompensation::kNone);
   spec.protocol = WoodenProtocol::kRaw64;

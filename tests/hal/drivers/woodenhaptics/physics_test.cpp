@@ -48,7 +48,7 @@ TEST(WoodenPhysics, ConvertsMotorWorkIntoTipEnergy) {
   }
   const double kinetic = 0.25 * b.model.velocity().squaredNorm();
   EXPECT_GT(kinetic, 5e-3);
-  EXPECT_NEAR(work, kinetic, 0.03 * kinetic) << "what the host books and what the arm got";
+  EXPECT_NEAR(work, kinetic, 0.03 * kinetic) << "work booked by the host and energy of the arm";
 }
 
 TEST(WoodenPhysics, CompensatesGravityOnlyIfThePresetEnablesIt) {
@@ -64,7 +64,7 @@ TEST(WoodenPhysics, CompensatesGravityOnlyIfThePresetEnablesIt) {
     if (gravity) {
       EXPECT_LT(fallen, 5e-4);
       EXPECT_LT(Vec3(b.state.tau_out[0], b.state.tau_out[1], b.state.tau_out[2]).norm(), 1e-3)
-          << "what carries the arms is nobody's effort";
+          << "gravity compensation is not reported as effort";
     } else {
       EXPECT_GT(fallen, 3e-3);
     }
@@ -76,7 +76,7 @@ TEST(WoodenPhysics, EndsGravityCompensationWithTheCommands) {
   ASSERT_TRUE(b.bring_up());
   ASSERT_TRUE(b.home());
   ASSERT_TRUE(b.walk_to(Vec3::Zero()));
-  EXPECT_EQ(b.model.motor_effort(), Vec3::Zero()) << "nobody asked for anything yet";
+  EXPECT_EQ(b.model.motor_effort(), Vec3::Zero()) << "no command yet";
   for (int i = 0; i < 1000; ++i) ASSERT_TRUE(b.step(Vec3(1e-9, 0, 0)));
   ASSERT_GT(b.model.motor_effort().norm(), 0.05);
   for (int i = 0; i < 210; ++i) ASSERT_TRUE(b.step());
@@ -190,7 +190,7 @@ TEST(AdaptiveVelocityEstimator, IgnoresRepeatedTimesAndNonFiniteNumbers) {
   EXPECT_EQ(rate.update(Time{}, 9.0), 0.0);
   EXPECT_EQ(rate.update(Time{} + 1ms, 7.0), 2000.0);
   EXPECT_EQ(rate.update(Time{} + 2ms, std::nan("")), 0.0);
-  EXPECT_EQ(rate.update(Time{} + 3ms, 1e9), 0.0) << "begins anew";
+  EXPECT_EQ(rate.update(Time{} + 3ms, 1e9), 0.0) << "starts again";
 }
 
 }  // namespace
