@@ -151,7 +151,7 @@ std::expected<std::unique_ptr<HardwareDevice>, HardwareDevice::Failure> Hardware
         "its force");
   held->note_ = core->id().backend + " " + core->id().key;
   if (!held->no_force_.empty()) held->note_ += ", no force: its motors are not confirmed";
-  if (!core->caps().force_calibrated) held->note_ += ", force scale not calibrated: kept to a tenth";
+  if (!core->caps().force_calibrated) held->note_ += ", force scale not calibrated: limited to a tenth";
   held->device_ = std::make_unique<hal::DeviceThread>(std::move(core), kPeriod,
                                                       held->watchdog_ ? &held->watchdog_->heartbeat() : nullptr);
   if (auto started = held->device_->start(held->proxy_); !started) return failed(started.error(), false);

@@ -124,7 +124,7 @@ class JoinAttempt {
     if (fault.kind == Fault::Kind::kInterrupted) return interrupted();
     const std::string server = io::to_text(options_.server);
     if (fault.kind == Fault::Kind::kUnreachable)
-      return {false, "no server at " + server + ": nothing listens there (asked for " + timeout_text(options_.timeout) +
+      return {false, "no server at " + server + ": nothing listens there (tried for " + timeout_text(options_.timeout) +
                          "). Start " + start_command() + ", and use the address it prints as `listening on`"};
     if (fault.kind == Fault::Kind::kStream && fault.end == auth::StreamErrorCode::kDeadline)
       return {false, "no answer from " + server + " within " + timeout_text(options_.timeout) +
@@ -199,7 +199,7 @@ class JoinAttempt {
     if (!given) return std::unexpected(retry_error(given.error().reason));
     if (!same_setup(given->setup, own.setup))
       return std::unexpected(
-          ResumeError{ResumeError::Kind::kGone, "the server came back with another scene or other limits", {}});
+          ResumeError{ResumeError::Kind::kGone, "the server returned with another scene or other limits", {}});
     return std::move(*given);
   }
 

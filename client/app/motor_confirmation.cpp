@@ -90,9 +90,8 @@ int confirm_motors(const std::string& device, const std::string& state) {
   const auto& signs = (*held)->signs();
   if (!signs)
     return fail(
-        "--confirm-motors: there is nothing to confirm: the directions of this device's motors come from no file, or "
-        "no current may flow "
-        "(woodenhaptics needs enable_motors=yes)",
+        "--confirm-motors: there is nothing to confirm: the motor directions of this device do not come from a file, "
+        "or its motors are disabled (woodenhaptics needs enable_motors=yes)",
         kWrong);
   hal::Device& arm = (*held)->device();
   if (!user_confirms(question(*signs, hal::peak_of(arm.caps())), signals.get())) {

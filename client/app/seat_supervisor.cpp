@@ -136,7 +136,7 @@ void SeatSupervisor::check_device() {
   }
   if (!leaving_since_ && o_.held != nullptr && o_.held->watchdog_lost())
     leave(
-        "the process tandem-watchdog ended, which sends zero forces if this program dies: releasing the hand; join "
+        "the process tandem-watchdog ended, which sends zero forces if this program fails: releasing the hand; join "
         "again");
 }
 

@@ -227,9 +227,9 @@ std::vector<Finding> ForceTest::findings() const {
           {Kind::kNotice, "force along " + name + ": " + numbers +
                               ": the tip did not move; it is held firmly, at its stop, or the motors have no power"});
     } else if (push.sideways > push.along) {
-      all.push_back({Kind::kNotice, "force along " + name + ": " + numbers +
-                                        ": more across than along; swapped motors look "
-                                        "like this, and so does a hand that leads"});
+      all.push_back(
+          {Kind::kNotice, "force along " + name + ": " + numbers +
+                              ": more across than along; either motors are swapped, or a hand moved the grip"});
     } else {
       all.push_back({Kind::kGood, "force along " + name + ": " + numbers});
     }

@@ -39,7 +39,8 @@ std::expected<MotorRecord, std::string> record_of(std::string_view line) {
   if (!is_word(words[2])) return std::unexpected("names no device");
   if (!is_digest(words[3])) return std::unexpected("has no SHA-256 of 64 hexadecimal digits");
   if (words[4] != "confirmed" && words[4] != "refused")
-    return std::unexpected("says '" + std::string(words[4].substr(0, 20)) + "', not `confirmed` or `refused`");
+    return std::unexpected("has the verdict '" + std::string(words[4].substr(0, 20)) +
+                           "', not `confirmed` or `refused`");
   MotorRecord record{std::string(words[2]), std::string(words[3]), words[4] == "confirmed", 0};
   const auto [end, error] = std::from_chars(words[5].data(), words[5].data() + words[5].size(), record.at);
   if (error != std::errc{} || end != words[5].data() + words[5].size() || record.at < 0)

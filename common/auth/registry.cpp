@@ -43,7 +43,7 @@ std::string to_text(EnrollError fault) {
     case EnrollError::kKeyTaken:
       return "this workstation is enrolled under another name already; `tandem-server revoke` that name first";
     case EnrollError::kBookFull:
-      return "the server knows as many workstations as it can, 4096; revoke some that are gone";
+      return "the server's registry is full with 4096 workstations; revoke those that are no longer used";
   }
   return "?";
 }

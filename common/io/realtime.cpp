@@ -37,7 +37,7 @@ std::string realtime_warning(bool fifo, bool memory, bool awake) {
   };
   add(fifo, "real-time priority");
   add(memory, "locked memory");
-  add(awake, "a processor kept awake");
+  add(awake, "a limit of the CPU's wake-up latency");
   if (missing.empty()) return {};
   return "not permitted here: " + missing +
          "; ticks may come late when the machine is busy (they are counted). Remedy: run as root, or allow `rtprio 80` "

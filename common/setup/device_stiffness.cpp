@@ -48,7 +48,7 @@ std::string softened_text(const SeatSetup& setup, const rpc::DeviceFacts& device
                                         : std::string("b / (T/2 + t_d)");
   words += format(" (damping b %g N s/m%s, tick T %g ms, latency t_d %g ms)", damping_of(device),
                   known ? "" : " assumed as it is not known", 1e3 / setup.tick_hz, 1e3 * device.latency_s);
-  if (!known) words += "; a device file may say damping_n_s_m";
+  if (!known) words += "; a device file may set damping_n_s_m";
   return words;
 }
 

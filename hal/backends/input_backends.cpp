@@ -112,7 +112,7 @@ std::string MouseBackend::library() const { return EvdevMouse::library(); }
 
 std::vector<DeviceFact> MouseBackend::facts() const {
   return {{"firmware", "the mouse keeps its own"},
-          {"rate", "as it reports; asked 1000 times a second"},
+          {"rate", "as it reports; read 1000 times a second"},
           {"calibration", "0.1 mm per count; mm_per_count= changes that"},
           {"homing", "needs none: it starts in the middle"},
           {"gravity", "no motors"}};

@@ -31,12 +31,13 @@ std::string OpenHapticsBackend::library() const {
 }
 
 std::vector<DeviceFact> OpenHapticsBackend::facts() const {
-  return {{"firmware", "the device keeps its own"},
-          {"rate", "1000 Hz, the vendor's scheduler"},
-          {"calibration", "the vendor's; peak and continuous force are read from the device when it is opened"},
-          {"homing",
-           "as the device has it: by itself, the stylus into the inkwell, or its reset pose (asked for, or home=here)"},
-          {"gravity", "the maker's compensation is on"}};
+  return {
+      {"firmware", "the device keeps its own"},
+      {"rate", "1000 Hz, the vendor's scheduler"},
+      {"calibration", "the vendor's; peak and continuous force are read from the device when it is opened"},
+      {"homing",
+       "as the device has it: by itself, the stylus into the inkwell, or its reset pose (on request, or home=here)"},
+      {"gravity", "the maker's compensation is on"}};
 }
 
 Result<> OpenHapticsBackend::check(const DeviceSpec& choice) const {

@@ -212,7 +212,7 @@ std::expected<RecordedMotion, std::string> RecordedMotion::parse(Text csv, const
       }
       if (left) {
         return std::unexpected(std::string(file) + ":" + std::to_string(table->line(row)) + ": recording " +
-                               shown(*rec) + " goes on after another one");
+                               shown(*rec) + " continues after another one");
       }
     }
     const auto stamp = table->number(row, time->index);

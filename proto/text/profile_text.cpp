@@ -146,8 +146,9 @@ ProfileOutage outage_from(const pb::ProfileOutage& in, MessageValidator& validat
   outage.hold_last = in.mode() == pb::ProfileOutage::HOLD_LAST;
   outage.all_links = in.scope() == pb::ProfileOutage::ALL_LINKS;
   if (in.has_scope() && !in.has_mean_gap_s() && !in.has_length_max_ms()) {
-    validator.error(child_path(key, "scope"),
-                    "needs mean_gap_s or length_max_ms: an outage that is not random hits all clients anyway");
+    validator.error(
+        child_path(key, "scope"),
+        "needs mean_gap_s or length_max_ms: an outage without a drawn time or length hits all clients in any case");
   }
   outage.loss_at_start_ms = in.loss_at_start_ms();
   if (outage.length_ms > 0 && outage.loss_at_start_ms > outage.length_ms) {  // otherwise the length is the error

@@ -50,7 +50,7 @@ void check_address(const std::string& address, MessageValidator& validator, cons
 /// Rejects a value that an earlier row has.
 template <class Value>
 void once(std::set<Value>& seen, const Value& value, MessageValidator& validator, const std::string& key) {
-  if (!seen.insert(value).second) validator.error(key, "comes twice; delete one of the two rows");
+  if (!seen.insert(value).second) validator.error(key, "occurs twice; delete one of the two rows");
 }
 
 template <class File>

@@ -66,7 +66,7 @@ TEST(Notice, ShowsTheProgressOfADrainAtConsoleAndServer) {
   ASSERT_TRUE(host.wait_for("the session runs")) << host.err();
   Process drain = control(address, {"drain", "4"});
   EXPECT_EQ(drain.wait(), 0) << drain.err();
-  EXPECT_NE(drain.out().find("s left, 1 session, 2 people on their seats"), std::string::npos) << drain.out();
+  EXPECT_NE(drain.out().find("s left, 1 session, 2 participants on their seats"), std::string::npos) << drain.out();
   EXPECT_NE(drain.out().find("the server has ended"), std::string::npos) << drain.out();
   EXPECT_EQ(host.wait(), 0) << host.err();
   EXPECT_NE(host.err().find(

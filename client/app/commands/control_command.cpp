@@ -382,7 +382,7 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("...");
   command->footer(std::string("Commands\n") + console_commands_help() +
                   "\n"
-                  "A ticket is good for one connection, and used up by the first command that succeeds (`status` too, "
+                  "A ticket is valid for one connection, and used up by the first command that succeeds (`status` too, "
                   "unless all others are refused).\n"
                   "For several commands use the console (also through a pipe); it reports stops by others and the "
                   "progress of a drain. A stop is latched\n"

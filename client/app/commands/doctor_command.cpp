@@ -112,9 +112,9 @@ int diagnose(const DoctorArguments& arguments, double seconds) {
   }
   hal::Device& device = (*held)->device();
   DiagnosticsClient client{device.caps()};
-  io::print_formatted(stdout,
-                      "%s: move the grip in all directions and press its buttons, for %.0f s. No force comes.\n",
-                      (*held)->note().c_str(), seconds);
+  io::print_formatted(
+      stdout, "%s: move the grip in all directions and press its buttons, for %.0f s. The device gives no force.\n",
+      (*held)->note().c_str(), seconds);
   print(hal::DeviceFact{"library", (*held)->library()});
   print(hal::DeviceFact{"permission", "it could be opened"});
   std::fflush(stdout);
@@ -196,11 +196,11 @@ int watch_hotplug() {
   }
   io::print_formatted(stdout, "plug devices in and out; Ctrl-C ends\n");
   for (const hal::AttachedDevice& device : (*watch)->present())
-    io::print_formatted(stdout, "  is there  %s\n", describe(device).c_str());
+    io::print_formatted(stdout, "  present   %s\n", describe(device).c_str());
   std::fflush(stdout);
   do {
     for (const hal::HotplugEvent& change : (*watch)->wait(200ms)) {
-      io::print_formatted(stdout, "  %s  %s\n", change.arrived ? "came    " : "left    ",
+      io::print_formatted(stdout, "  %s  %s\n", change.arrived ? "added   " : "removed ",
                           describe(change.device).c_str());
       std::fflush(stdout);
     }
@@ -302,7 +302,7 @@ void add_doctor_command(CLI::App& root, std::function<int()>& action) {
       "device's file states; before this check, a device whose directions come from a file gives no force");
   command
       ->add_option("--state", arguments->state,
-                   "folder where confirmed motors are kept; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+                   "folder with the record of confirmed motors; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
       ->option_text("DIR");
   command->add_flag("--watch", arguments->watch,
                     "reports devices that are plugged in and out, on USB and among HID devices");

@@ -10,7 +10,7 @@ namespace tandem::auth {
 namespace {
 
 constexpr const char* kUsedHint =
-    "; delete that line (its ticket is then good again), or the file once 12 h have passed";
+    "; delete that line (its ticket is then valid again), or the file once 12 h have passed";
 /// Returns the remedy for a directory without keys.
 std::string init_hint(const std::string& folder) {
   return with_options("run `tandem-server init` first", "tandem-server init", server_state_option(folder));

@@ -148,7 +148,7 @@ std::expected<KeyFingerprint, std::string> authenticated_peer(SSL* connection) {
   SSL_get0_alpn_selected(connection, &protocol, &size);
   if (std::string_view(as_text(static_cast<const std::byte*>(static_cast<const void*>(protocol))), size) != kAlpn)
     return std::unexpected("the other side does not speak " + std::string(kAlpn));
-  if (SSL_version(connection) != TLS1_3_VERSION) return std::unexpected("the other side does not speak TLS 1.3");
+  if (SSL_version(connection) != TLS1_3_VERSION) return std::unexpected("the other side does not use TLS 1.3");
   const X509* const certificate = SSL_get0_peer_certificate(connection);
   if (certificate == nullptr || SSL_get_verify_result(connection) != X509_V_OK)
     return std::unexpected("the other side has not shown a key");

@@ -25,7 +25,7 @@ MouseDriver::MouseDriver(std::string key, std::unique_ptr<MousePipe> pipe, Clock
 
 Result<> MouseDriver::bring_up(BringUp& watcher) {
   if (const auto old = pipe_->read(); !old)  // discards earlier motion
-    return std::unexpected(DeviceError{old.error(), "mouse " + id_.key + " is gone; plug it in again"});
+    return std::unexpected(DeviceError{old.error(), "mouse " + id_.key + " was unplugged; plug it in again"});
   wanted_ = target_ = x_ = v_ = Vec3::Zero();
   before_ = clock_->now();
   watcher.progress("ready", 1);

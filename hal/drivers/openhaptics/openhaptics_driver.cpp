@@ -71,8 +71,8 @@ Result<> OpenHapticsDriver::bring_up(BringUp& watcher) {
   for (const Time end = clock_->now() + kFirstCycle; clock_->now() < end;) {
     if (wait_for_cycle(20ms)) {
       if (group_->sample(*slot_).lost)
-        return std::unexpected(DeviceError{
-            Errc::kUnplugged, "openhaptics: '" + id_.key + "' stopped answering at once; look at its cable"});
+        return std::unexpected(
+            DeviceError{Errc::kUnplugged, "openhaptics: '" + id_.key + "' stopped answering at once; check its cable"});
       watcher.progress("ready", 1);
       return {};
     }

@@ -79,7 +79,7 @@ TEST(DeviceStiffness, ReportsAReductionWithCauseAndNumbers) {
   EXPECT_EQ(unknown,
             "k_c_n_m is 67 N/m instead of the scene's 400: this device renders at most b / (T/2 + t_d) (damping b 0.1 "
             "N s/m assumed as it is not known, tick T 1 ms, "
-            "latency t_d 1 ms); a device file may say damping_n_s_m");
+            "latency t_d 1 ms); a device file may set damping_n_s_m");
 }
 
 // A client with a simulated device receives the device's description from the scene. The server therefore takes the

@@ -43,7 +43,7 @@ TEST(RegistryText, ReportsEveryMistakeWithItsPlace) {
   };
   EXPECT_EQ(messages(row), "");
   EXPECT_NE(messages(row + row).find("w.textproto:2:"), std::string::npos) << messages(row + row);
-  EXPECT_NE(messages(row + row).find("comes twice"), std::string::npos);
+  EXPECT_NE(messages(row + row).find("occurs twice"), std::string::npos);
   EXPECT_NE(
       messages("workstation { name: \"a b\" spki_sha256: \"00\" enrolled_at_s: -1 }").find("64 lower-case hex digits"),
       std::string::npos);
