@@ -218,10 +218,11 @@ TEST(FloodLive, DisconnectsSlowConsumersWithoutDisturbingAHand) {
   const long after = resident_kib(session.host.id());
   for (const std::size_t n : asked) {
     EXPECT_GT(n, 0U) << "never let in";
-    EXPECT_LT(n, kMost) << "nobody let go of him";
+    EXPECT_LT(n, kMost) << "the server did not close the connection";
   }
   std::printf(
-      "[ hostile  ] readers who do not read asked %zu, %zu, %zu, %zu times before they were let go; memory of the "
+      "[ hostile  ] clients that do not read sent %zu, %zu, %zu, %zu requests before they were disconnected; memory of "
+      "the "
       "server %ld KiB more; %s\n",
       asked[0], asked[1], asked[2], asked[3], after - before, session.lateness(0.999).c_str());
   EXPECT_LE(after - before, 4 * 1024);

@@ -156,7 +156,7 @@ void lose(Grip grip, const char* name) {
     const double target = target_of(c, grip == Grip::kHolding ? 135 : 1000);
     const Loss loss = loss_of(Trace(folder.read(std::string(c.seat) + ".csv")), c, target);
     EXPECT_LE(loss.energy_j, tank(c.mass_kg) + kBelowTank);
-    EXPECT_LE(loss.left_n, 0.05) << "what is left only damps";
+    EXPECT_LE(loss.left_n, 0.05) << "the remaining force is damping only";
     if (grip == Grip::kHolding && c.mass_kg <= kOvershootKg) {
       EXPECT_LE(loss.beyond_m, kOvershoot);
     }

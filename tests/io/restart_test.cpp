@@ -201,11 +201,11 @@ TEST_F(Restart, RestoresAllSeatsWithoutAForceStepAfterAKillInContact) {
   EXPECT_EQ(report["violations"].size(), 0U) << report["violations"];
   EXPECT_EQ(report["epoch"], restarts + 1);
   ASSERT_FALSE(back.empty());
-  print("let go to wholly active [s], asked <= 3", back);
+  print("release to wholly active [s], asked <= 3", back);
   print("force in the first tick [N], asked <= 0.05", first);
   print("farthest between two ticks of the ramp [mm]", jump);
   print("first 500 ms beyond the force before [N]", beyond);
-  print("way of the hand when let go [mm], asked <= 6", forward);
+  print("way of the hand after the release [mm], asked <= 6", forward);
   std::printf("[  figures ] tool, before and after a restart: at most %.3f mm apart\n", tool_jump_mm);
 }
 

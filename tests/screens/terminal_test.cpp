@@ -112,7 +112,7 @@ TEST_P(Screens, ShowTwoWholeSeatLinesAtEveryWidthAndResize) {
 TEST_P(Screens, ShowTheWholeServerSessionAtEveryWidth) {
   TerminalProcess host({TANDEM_SERVER, "run", "free_motion", "--duration", "600"}, 80, 24, GetParam());
   ASSERT_TRUE(host.wait_until([](const Terminal& t) {
-    return flat(t.screen()).find("waiting for trainer (nobody joined), trainee (nobody joined)") != std::string::npos;
+    return flat(t.screen()).find("waiting for trainer (not joined), trainee (not joined)") != std::string::npos;
   })) << host.picture();
   const std::string all = flat(host.terminal().all());
   const auto at = all.find("listening on ");

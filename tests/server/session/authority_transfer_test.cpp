@@ -72,7 +72,7 @@ TEST(AuthorityTransfer, BeginsFiftyTicksAfterTheDecisionAndNotifiesBothSeatsMean
   Lesson l;
   const std::uint32_t version = l.session->authority_version(), tick = l.session->session_tick();
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
-  EXPECT_EQ(l.session->authority_version(), version + 1) << "who wins is settled now";
+  EXPECT_EQ(l.session->authority_version(), version + 1) << "the winner is settled now";
   EXPECT_EQ(l.decided(), kToTrainee);
   EXPECT_EQ(l.noted(What::kAuthority), 1);
   EXPECT_EQ(l.last.tick, tick);
@@ -173,7 +173,7 @@ TEST(AuthorityTransfer, IsCancelledWhenTheGainingSeatIsSilentAtItsTick) {
   old.ticks_without(kTrainee, 21);
   EXPECT_EQ(old.requested(), kToTrainer) << "21 ms";
   EXPECT_EQ(old.decided(), kToTrainer);
-  EXPECT_EQ(old.session->authority_version(), version + 2) << "what version + 1 stood for is not so";
+  EXPECT_EQ(old.session->authority_version(), version + 2) << "the change of version + 1 is void";
   EXPECT_EQ(old.noted(What::kAuthorityCancelled), 1);
   EXPECT_EQ(old.last.party, kTrainee);
   EXPECT_EQ(old.last.before, kToTrainee);
@@ -239,7 +239,7 @@ TEST(AuthorityTransfer, ExecutesEachDecisionAfterItsOwnDelay) {
 TEST(AuthorityTransfer, AppliesTheLaterOfTwoDecisionsOfOneTick) {
   Lesson l;
   ASSERT_EQ(l.order({0.4, 0.6}), Result::kDone);
-  ASSERT_EQ(l.order({0.3, 0.7}), Result::kDone) << "he named the version of the first";
+  ASSERT_EQ(l.order({0.3, 0.7}), Result::kDone) << "the request has the version of the first one";
   l.ticks(50);
   EXPECT_EQ(l.requested(), (control::MasterArray{0.3, 0.7}));
 }
@@ -250,7 +250,7 @@ TEST(AuthorityTransfer, IsAnnouncedDuringAStopAndActsAfterTheResume) {
   l.ticks(300);
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
   l.ticks(1);
-  EXPECT_EQ(l.told(kTrainee).transfer, kGaining) << "else the trainee's hand leads after the stop and nobody said so";
+  EXPECT_EQ(l.told(kTrainee).transfer, kGaining) << "else the trainee's hand leads after the stop without a notice";
   EXPECT_EQ(l.told(kTrainer).transfer, wire::TransferNotice::kLosing);
   l.ticks(60);
   EXPECT_EQ(l.told(kTrainee).transfer, kNone);
@@ -309,7 +309,7 @@ TEST(AuthorityTransfer, DefersATimelineChangeUntilTheGainingSeatResponds) {
           static_cast<int>(l.session->session_tick()));
   l.ticks_without(kTrainee, 230);
   EXPECT_EQ(l.requested(), kToTrainer);
-  EXPECT_EQ(l.alpha(kTrainer), 1) << "the tool is not left to nobody";
+  EXPECT_EQ(l.alpha(kTrainer), 1) << "the tool keeps a seat with authority";
   EXPECT_EQ(l.noted(What::kAuthorityDeferred), 1) << "told once";
   EXPECT_EQ(l.decided(), kToTrainee);
   l.ticks(2000);
@@ -322,7 +322,8 @@ TEST(AuthorityTransfer, IsStoredInTheCheckpointOnceDecided) {
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
   l.ticks(3);
   EXPECT_EQ(l.requested(), kToTrainer);
-  EXPECT_EQ(l.session->checkpoint().tools[0].alpha, kToTrainee) << "after a restart nobody would say it again";
+  EXPECT_EQ(l.session->checkpoint().tools[0].alpha, kToTrainee)
+      << "after a restart the scene would not repeat the change";
 }
 
 // A request that is not granted within a second is dropped: it would take effect much later, unexpectedly.

@@ -120,7 +120,7 @@ TEST(SessionClock, StopsDuringTheCloseOutSoThatARestartSkipsNothing) {
     EXPECT_EQ(last.session_tick, ended_at);
 
     Session next = restored(s.scene, last);
-    ASSERT_TRUE(next.resume(s.now, AccessRole::kInstructor, next.stops())) << "goes on without anybody";
+    ASSERT_TRUE(next.resume(s.now, AccessRole::kInstructor, next.stops())) << "resumes without participants";
     ASSERT_TRUE(!stopped || next.resume(s.now, AccessRole::kInstructor, next.stops()))
         << "it was stopped, and still is";
     for (int n = 0; n < 200; ++n, s.now += 1ms) next.on_tick(s.now, 0);

@@ -46,7 +46,7 @@ std::string texts(const PresenceTracker::Events& news) {
 /// The last ten seconds of a session without an end are announced when they begin: once, and again after a participant
 /// came back.
 TEST(PresenceTracker, AnnouncesTheEndOfASessionThatAllParticipantsLeft) {
-  const std::string wanted = "everybody left: the session ends in 10 s, unless a client joins it again\n";
+  const std::string wanted = "all participants left: the session ends in 10 s, unless a client joins it again\n";
   Running lesson;
   lesson.leave(0);
   EXPECT_EQ(texts(lesson.attendance.update(lesson.now, lesson.status, lesson.scene)), "instructor left\n")
@@ -56,7 +56,7 @@ TEST(PresenceTracker, AnnouncesTheEndOfASessionThatAllParticipantsLeft) {
   EXPECT_EQ(texts(lesson.after(5s)), "") << "once";
   lesson.status.seats[0].taken = lesson.status.seats[0].alive = true;
   EXPECT_EQ(texts(lesson.attendance.update(lesson.now, lesson.status, lesson.scene)), "instructor joined\n")
-      << "somebody is there again";
+      << "a participant is present again";
   lesson.leave(0);
   EXPECT_EQ(texts(lesson.attendance.update(lesson.now, lesson.status, lesson.scene)), "instructor left\n" + wanted);
 
@@ -118,7 +118,7 @@ TEST(PresenceTracker, WarnsOfASeatThatFellSilentAndNotOfOneThatLeft) {
   s.leave(0);
   s.fall_silent(1);
   const PresenceTracker::Events news = s.after(11s);
-  EXPECT_FALSE(says(news, "gone", s.scene.seats[0].name)) << "its person left, and that was told";
+  EXPECT_FALSE(says(news, "gone", s.scene.seats[0].name)) << "its participant left, which was reported";
   EXPECT_TRUE(says(news, "gone", s.scene.seats[1].name));
 }
 
@@ -175,7 +175,7 @@ TEST(SessionEnding, KeepsARestoredSessionWhileAParticipantIsConnected) {
   s.status.seats[1].taken = s.status.seats[1].ever_taken = true;
   EXPECT_FALSE(s.after_restart(11min)) << "it waits for the others";
   s.leave(1);
-  EXPECT_TRUE(s.after_restart(11min)) << "who came has left, and the session still waits";
+  EXPECT_TRUE(s.after_restart(11min)) << "the only participant has left, and the session still waits";
   s.status.state = wire::SessionState::kRunning;
   EXPECT_FALSE(s.after_restart(11min)) << "it went on, and ends as every session does";
 }
