@@ -102,7 +102,7 @@ TEST(ReadSamples, KeepTheSessionAndMatchTheRowsOfTheTrace) {
   }
   const auto own = read_samples(text);
   ASSERT_TRUE(own) << own.error();
-  EXPECT_EQ(own->t.size(), 3u) << "what came before the session is left out";
+  EXPECT_EQ(own->t.size(), 3u) << "rows before the session are omitted";
   SeatTrace seat;
   for (Column3* c : {&seat.q, &seat.x, &seat.f_cmd, &seat.f_out}) c->fill(Column(4, 7.0));
   put_samples({0.0, 0.001, 0.002, 0.9}, *own, seat);

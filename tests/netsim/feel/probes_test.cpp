@@ -105,7 +105,7 @@ TEST(FeelFree, MeasuresDragOfADampedMassAsDamperAndMass) {
   const double by_parts =
       std::hypot(v.at("drag_05hz_n_s_m"), v.at("apparent_mass_05hz_kg") * 2 * std::numbers::pi * 0.5) * speed;
   EXPECT_NEAR(by_parts, v.at("drag_05hz_n"), 0.2 * v.at("drag_05hz_n"))
-      << "along x alone; what gravity compensation leaves over is in the RMS";
+      << "along x alone; the remainder of gravity compensation is in the RMS";
 }
 
 TEST(FeelGain, FindsTheResonanceMeasuredIndependently) {
