@@ -258,7 +258,7 @@ TEST(MultiClientControl, RemovesOnlyTheSeatOfARevokedWorkstation) {
   EXPECT_EQ(revoked.wait(), 0) << revoked.err();
   EXPECT_EQ(trainee.wait(), 1) << trainee.err();
   EXPECT_NE(trainee.err().find("this workstation was revoked on the server"), std::string::npos) << trainee.err();
-  EXPECT_TRUE(visitor.wait()) << "its visit ends too";
+  EXPECT_TRUE(visitor.wait()) << "its link test ends too";
   EXPECT_TRUE(written(fixture, "\"event\":\"revoked_seat\",\"name\":\"desk-2\",\"detail\":\"a trainee tick"));
   Process status = control(
       fixture.address, {"--state", fixture.own, "--ticket", operator_ticket(fixture, "operator"), "--json", "status"});

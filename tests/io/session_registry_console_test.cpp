@@ -111,7 +111,7 @@ TEST(Consoles, ConsumeATicketOnlyByAnAcceptedCommandOrJoin) {
            reason_of(office.ask(rpc::ResumeSession{kId, 9})) == ErrorCode::kOutdated;
   }));
   std::this_thread::sleep_for(200ms);
-  EXPECT_EQ(reason_of(come(ticket).welcome), ErrorCode::kTicket) << "an order was carried out";
+  EXPECT_EQ(reason_of(come(ticket).welcome), ErrorCode::kTicket) << "a command was applied";
   const auto looks = live_server.ticket(key, AccessRole::kRecorder);
   {
     JoinedClient archive = come(looks);

@@ -257,8 +257,7 @@ TEST(Revocation, RemovesOnlySeatAndConnectionsOfThatWorkstation) {
   ASSERT_TRUE(live_server.beside().revoke("desk-2"));
   live_server.look_for_revoked();
   EXPECT_TRUE(comes_true([&] { return !status_of(trainer).seats[1].taken; }));
-  EXPECT_TRUE(live_server.told(ControlEvent::kNotEnrolled, "desk-2"))
-      << "its connection was ended, though it said nothing";
+  EXPECT_TRUE(live_server.told(ControlEvent::kNotEnrolled, "desk-2")) << "its idle connection was closed";
   const auto next = trainee.ask(rpc::StatusRequest{kId});
   EXPECT_TRUE(!next || reason_of(next) == ErrorCode::kNotEnrolled) << text_of(next);
   EXPECT_TRUE(status_of(office).seats[0].taken);

@@ -230,7 +230,7 @@ TEST(LiveSession, ReconnectsAClientWhoseDatagramsDoNotArrive) {
   Process cut(Words{TANDEM_NETSIM, "control", folder.file("p.sock"), "loss", "100", "up"});
   ASSERT_EQ(cut.wait(), 0) << cut.err();
   EXPECT_TRUE(trainer.wait_for("the server fell silent"))
-      << trainer.err() << "once a second it says that it hears nothing";
+      << trainer.err() << "once a second it reports that it receives nothing";
   Process mended(Words{TANDEM_NETSIM, "control", folder.file("p.sock"), "loss", "0", "up"});
   ASSERT_EQ(mended.wait(), 0) << mended.err();
   EXPECT_TRUE(trainer.wait_for("the server is back")) << trainer.err();

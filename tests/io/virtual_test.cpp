@@ -214,7 +214,7 @@ TEST(NetsimSwarm, ReportsNetworkAndClocksOfASingleSession) {
     EXPECT_NE(scene.out().find("delay "), std::string::npos);
     clocks = clocks || scene.out().find(" ppm, wakes ") != std::string::npos;
   }
-  EXPECT_TRUE(clocks) << "none of 20 sessions told its clocks";
+  EXPECT_TRUE(clocks) << "none of 20 sessions printed its clocks";
 }
 
 TEST(Demo, ComparesAndWritesAReportInVirtualTime) {

@@ -45,7 +45,7 @@ TEST(FailureTable, ReleasesATooFastHandAndLatchesItTheThirdTime) {
     EXPECT_EQ(life.simulation->seat(kTrainee)->overspeed_guard().trips(), static_cast<unsigned>(n));
     EXPECT_TRUE(life.active(kTrainer));
     life.until(std::chrono::milliseconds(4900 + 4000 * n));
-    EXPECT_EQ(life.active(kTrainee), n < 3) << "calm again";
+    EXPECT_EQ(life.active(kTrainee), n < 3) << "at rest again";
   }
   EXPECT_EQ(life.simulation->seat(kTrainee)->sample().gate, wire::GateState::kLatched)
       << "the client asks the participant to press the button";

@@ -129,7 +129,7 @@ TEST(FailureTable, LimitsAPartitionToTheIsolatedSide) {
     EXPECT_LE(let_go, direction == netsim::Direction::kUp ? 26ms : 22ms);
     const bool downward_only = direction == netsim::Direction::kDown;
     const Duration gone = life.time_to([&] { return life.alpha(kTrainee) == 0; }, 500ms);
-    EXPECT_LE(let_go + gone, downward_only ? 140ms : 222ms) << "a STATE that says so is seen sooner than silence";
+    EXPECT_LE(let_go + gone, downward_only ? 140ms : 222ms) << "a STATE with this flag is detected sooner than silence";
     life.until(5900ms);
     EXPECT_LE(life.steps[kTrainer], kFelt);
     EXPECT_TRUE(life.active(kTrainer));
@@ -202,7 +202,7 @@ TEST(FailureTable, LatchesALocalStopUntilItsUserResumes) {
   EXPECT_EQ(life.audit[What::kLocalStop], 1);
   life.simulation->seat(kTrainer)->request_resume();
   life.until(9s);
-  EXPECT_FALSE(life.active(kTrainee)) << "another person's button";
+  EXPECT_FALSE(life.active(kTrainee)) << "another participant's button";
   life.simulation->seat(kTrainee)->request_resume();
   life.until(12s);
   EXPECT_TRUE(life.active(kTrainee));

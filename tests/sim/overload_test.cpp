@@ -96,7 +96,7 @@ TEST(Overload, DoesNotEndAStop) {
   EXPECT_EQ(busy.state(), wire::SessionState::kStopped) << "in the overload and after it";
   EXPECT_FALSE(busy.active(kTrainee));
   busy.until(9s);
-  EXPECT_EQ(busy.state(), wire::SessionState::kRunning) << "a person resumed";
+  EXPECT_EQ(busy.state(), wire::SessionState::kRunning) << "a participant resumed";
   EXPECT_EQ(busy.audit[What::kOverloadCleared], 1);
   busy.expect_nothing_broken();
 }

@@ -148,7 +148,8 @@ TEST(ForceStep, IsTheLargestOfBothHandsWhileAlphaMoves) {
   EXPECT_NEAR(force_step(d), 0.15, 1e-12);
   d.trainer_own.t = {12.0, 12.001, 12.002};
   d.trainer_own.f_cmd = {Column{0, 0.05, 0.1}, Column(3), Column(3)};
-  EXPECT_NEAR(force_step(d), 0.05, 1e-12) << "a workstation's own samples are better than what the server heard";
+  EXPECT_NEAR(force_step(d), 0.05, 1e-12)
+      << "a workstation's own samples are better than those that the server received";
 }
 
 TEST(JointTorques, AreThoseOfVirtualWork) {

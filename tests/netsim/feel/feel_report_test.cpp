@@ -142,7 +142,7 @@ TEST(FeelKeys, MatchTheKeysOfProbes) {
       EXPECT_TRUE(all.contains(std::string(key.key))) << key.key << " is in the report and no probe measures it";
       ++count;
     }
-  EXPECT_EQ(all.size(), count) << "something is measured and not told";
+  EXPECT_EQ(all.size(), count) << "a number is measured and not reported";
 }
 
 TEST(Noticeable, AppliesToForceStepsAndForceDelay) {

@@ -101,7 +101,7 @@ TEST(AuthorityTransfer, NamesTheDecidingRoleAndTheGainingSeat) {
   const wire::TransferParties by_operator{.by = wire::TransferParties::kOperator, .to = kTrainee + 1, .percent = 100};
   EXPECT_EQ(both(), std::pair(by_operator, by_operator));
   l.ticks(1500);
-  EXPECT_EQ(both(), std::pair(wire::TransferParties{}, wire::TransferParties{})) << "it was carried out";
+  EXPECT_EQ(both(), std::pair(wire::TransferParties{}, wire::TransferParties{})) << "it was applied";
   ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.25, 0.75}));
   l.ticks(5);
   const wire::TransferParties by_trainer{.by = kTrainer + 1, .to = kTrainer + 1, .percent = 25};
@@ -156,7 +156,7 @@ TEST(AuthorityTransfer, IsRejectedWhileALinkOfAPartyIsOlderThan20Milliseconds) {
     EXPECT_EQ(old.last.party, mute);
     EXPECT_EQ(old.noted(What::kAuthority), 0);
     old.ticks(1500);  // the age of the loop made the seat's own gate release too
-    EXPECT_EQ(old.order(kToTrainee), Result::kDone) << "heard from again";
+    EXPECT_EQ(old.order(kToTrainee), Result::kDone) << "its datagrams arrive again";
   }
 }
 
@@ -310,7 +310,7 @@ TEST(AuthorityTransfer, DefersATimelineChangeUntilTheGainingSeatResponds) {
   l.ticks_without(kTrainee, 230);
   EXPECT_EQ(l.requested(), kToTrainer);
   EXPECT_EQ(l.alpha(kTrainer), 1) << "the tool keeps a seat with authority";
-  EXPECT_EQ(l.noted(What::kAuthorityDeferred), 1) << "told once";
+  EXPECT_EQ(l.noted(What::kAuthorityDeferred), 1) << "reported once";
   EXPECT_EQ(l.decided(), kToTrainee);
   l.ticks(2000);
   EXPECT_EQ(l.requested(), kToTrainee);

@@ -244,7 +244,7 @@ TEST(StopLatch, TakesARisingEdgeOncePerSeatAndAResumeOfTheNewestStopOnly) {
   EXPECT_EQ(rig.session->stops(), 2u);
   rig.state.resume_stop = 1;
   rig.live(50ms);
-  EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "an old wish never undoes a newer stop";
+  EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "an old request never ends a newer stop";
   EXPECT_TRUE(rig.session->resume(rig.now, AccessRole::kOperator, 1))
       << "the role may, but the named stop is not the newest";
   rig.live(5ms);

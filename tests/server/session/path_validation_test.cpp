@@ -103,7 +103,7 @@ TEST(PathValidation, ChallengesTheClientWhileAnUnknownPeerSendsCopies) {
   proof.on_datagram_from(at(2ms), address(8), tokens);  // a third address is not challenged at once
   EXPECT_FALSE(proof.challenge_due(at(2ms)));
   proof.on_datagram_from(at(50ms), address(8), tokens);
-  EXPECT_FALSE(proof.on_response(address(9), 7)) << "the longest asked made room";
+  EXPECT_FALSE(proof.on_response(address(9), 7)) << "the oldest challenge was replaced";
   EXPECT_TRUE(proof.on_response(address(1), 8));
   EXPECT_FALSE(proof.on_response(address(8), 9)) << "the address that answered first is validated";
 }

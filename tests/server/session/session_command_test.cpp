@@ -315,13 +315,13 @@ TEST(Admission, RejectsJoinsAbove60PercentOfATickOr80PercentOfAProcessor) {
   const LoadLimits limits;
   EXPECT_EQ(limits.tick, 0.6);
   EXPECT_EQ(limits.core, 0.8);
-  EXPECT_EQ(rejection_reason({0.6, 0.8}, 1.6, 2, limits), "") << "at the limits there is room";
+  EXPECT_EQ(rejection_reason({0.6, 0.8}, 1.6, 2, limits), "") << "joins at the limits are accepted";
   EXPECT_NE(rejection_reason({0.61, 0.1}, 0.1, 2, limits).find("ticks take 61 %"), std::string::npos);
   EXPECT_NE(rejection_reason({0.5, 0.81}, 0.81, 2, limits).find("takes 81 % of a processor"), std::string::npos)
       << "receiving and sending count too";
   EXPECT_NE(rejection_reason({0.3, 0.5}, 1.7, 2, limits).find("85 % of its 2 processors"), std::string::npos)
       << "several threads share them";
-  EXPECT_EQ(rejection_reason({0.3, 0.5}, 9, 0, limits), "") << "a machine that does not tell its processors";
+  EXPECT_EQ(rejection_reason({0.3, 0.5}, 9, 0, limits), "") << "a machine that does not report its processors";
   EXPECT_NE(rejection_reason({0.3, 0.1}, 0.1, 2, {0.2, 0.8}).find("below 20 %"), std::string::npos);
 }
 

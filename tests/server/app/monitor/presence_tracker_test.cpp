@@ -137,7 +137,7 @@ TEST(PresenceTracker, CountsASessionThatIsStoppedWhileItWaitsAsWaiting) {
   s.fall_silent(0);
   s.leave(1);
   const PresenceTracker::Events news = s.after(61s);
-  EXPECT_FALSE(news.all_lost) << "else it ends as peers_lost while people have 10 min to come back";
+  EXPECT_FALSE(news.all_lost) << "else it ends as peers_lost while participants have 10 min to come back";
   EXPECT_FALSE(says(news, "gone", s.scene.seats[0].name));
   s.leave(0);
   EXPECT_FALSE(s.after(61s).all_left);
@@ -167,7 +167,7 @@ TEST(SessionEnding, EndsARestoredSessionWithoutParticipantsAfterTheTimeout) {
   EXPECT_EQ(over->why, EndReason::kStartTimeout);
   EXPECT_TRUE(over->event.warning);
   s.when.resume_until.reset();
-  EXPECT_FALSE(s.after_restart(11min)) << "a new session waits as long as people like";
+  EXPECT_FALSE(s.after_restart(11min)) << "a new session waits for participants without a limit";
 }
 
 TEST(SessionEnding, KeepsARestoredSessionWhileAParticipantIsConnected) {
@@ -211,7 +211,7 @@ TEST(SessionEnding, ReturnsOneReasonAtATime) {
   s.scene.duration = 60;
   EXPECT_EQ(session_ending(s.when, {.events = {}, .all_lost = true, .all_left = true}, s.status, s.scene)->why,
             EndReason::kPeersLost)
-      << "a scene with an end waits for its people";
+      << "a scene with an end waits for its participants";
 }
 
 }  // namespace
