@@ -33,7 +33,7 @@ int control_command(const ControlArguments& arguments) {
     return 1;
   }
   if (answer->empty()) {
-    SignalWatcher::report("control", "the command was sent; whether the proxy carried it out, `status --json` shows");
+    SignalWatcher::report("control", "the command was sent; `status --json` shows whether the proxy applied it");
     return SignalWatcher::kInterrupted;
   }
   const int code = answer->front() == '0' ? 0 : answer->front() == '1' ? 1 : 2;
@@ -46,11 +46,11 @@ int control_command(const ControlArguments& arguments) {
 void add_control_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<ControlArguments>();
   CLI::App* const command =
-      root.add_subcommand("control", "Changes the network of a running proxy, or asks how it is.");
+      root.add_subcommand("control", "Changes the network of a running proxy, or shows its status.");
   command->add_option("path", arguments->path, "the socket given to `proxy --control`")
       ->option_text("PATH")
       ->required();
-  command->add_option("command", arguments->words, "what to do; quotes around it are not needed")
+  command->add_option("command", arguments->words, "the command; quotes around it are not needed")
       ->option_text("COMMAND...")
       ->required();
   command->prefix_command();
@@ -60,7 +60,7 @@ void add_control_command(CLI::App& root, std::function<int()>& action) {
                   "  tandem-netsim control /tmp/proxy.sock delay 20 loss 2 client 2 up\n"
                   "  tandem-netsim control /tmp/proxy.sock outage 400ms\n"
                   "  tandem-netsim control /tmp/proxy.sock status --json\n\n"
-                  "Exit: 0 done, 1 no proxy there, it could not do it, or interrupted, 2 a wrong command or file.");
+                  "Exit: 0 done, 1 no proxy there, the command failed, or interrupted, 2 a wrong command or file.");
   command->callback([arguments, &action, command] {
     for (const std::string& word : command->remaining()) arguments->words.push_back(word);
     action = [arguments] { return control_command(*arguments); };

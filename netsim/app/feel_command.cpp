@@ -116,7 +116,7 @@ std::string set_contacts(const FeelArguments& a, SceneSpec& scene) {
 
 /// @return the error; empty if there is none
 std::string set_assist(const FeelArguments& a, SceneSpec& scene) {
-  if (a.assist < 0) return a.assist_in_contact ? "--assist-in-contact: needs --assist, the pull's bound" : "";
+  if (a.assist < 0) return a.assist_in_contact ? "--assist-in-contact: needs --assist, the largest force" : "";
   if (a.assist > 0 && scene.channel.law != LawKind::kReplica)
     return "--assist: is for law REPLICA, under which clients know the leader's hand; add --channel replica";
   for (SeatSpec& seat : scene.seats)
@@ -243,25 +243,26 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--plain-hands", a->plain, "hands without tremor and noise, all with the same impedance");
   command
       ->add_option("--channel", a->channel,
-                   "channel law instead of the scene's: replica (what scenes have that name none), set_position, raw")
+                   "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command
       ->add_option("--contacts", a->contacts,
-                   "how hands feel what a SLAVE seat's device touches, instead of the scene's tool { contacts }: "
+                   "how hands feel contacts of a SLAVE seat's device, instead of the scene's tool { contacts }: "
                    "estimated, none")
       ->transform(CLI::IsMember({"estimated", "none"}, CLI::ignore_case));
   command
-      ->add_option("--assist", a->assist,
-                   "bound of the pull of hands that follow towards the leader's, instead of the scene's seat { assist "
-                   "}; 0: none")
+      ->add_option(
+          "--assist", a->assist,
+          "largest force that pulls following hands towards the leader's, instead of the scene's seat { assist "
+          "}; 0: none")
       ->check(io::number_in(0, 3, "N"))
       ->option_text("N");
-  command->add_flag("--assist-in-contact", a->assist_in_contact, "that pull acts in contact too");
+  command->add_flag("--assist-in-contact", a->assist_in_contact, "applies that force in contact too");
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
   command
       ->add_option("--limit", a->limits,
-                   "what must hold of a mean, in SI; the worst seed may be 1.5 times worse: KEY<=NUMBER or "
+                   "limit of a mean, in SI units; the worst seed may be 1.5 times worse: KEY<=NUMBER or "
                    "KEY>=NUMBER; may be repeated")
       ->option_text("LIMIT")
       ->allow_extra_args(false);

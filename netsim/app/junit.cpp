@@ -97,7 +97,7 @@ void put_case(const Scenario& scenario, const SeedOutcome& s, bool cut, std::str
   if (cut) {
     out += "      <error" +
            attribute("message",
-                     "interrupted: this seed and those skipped after it were not run, nothing is known of them") +
+                     "interrupted: this seed and those skipped after it were not run, so their results are unknown") +
            attribute("type", "interrupted") + "/>\n";
   } else if (s.state == State::kNotRun) {
     out += "      <skipped" + attribute("message", "not run") + "/>\n";

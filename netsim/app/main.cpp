@@ -15,14 +15,16 @@
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "tandem-netsim plays networks to control traffic: delay, jitter that keeps order, loss that comes in bursts,\n"
-      "stalls, outages. The same engine sits in front of live UDP (`proxy`) and runs whole sessions in virtual time;\n"
+      "tandem-netsim applies simulated networks to control traffic: delay, jitter that keeps order, loss that comes in "
+      "bursts,\n"
+      "stalls, outages. The same engine runs in front of live UDP (`proxy`) and runs whole sessions in virtual time;\n"
       "the same seed gives the same network.",
       "tandem-netsim"};
   app.set_version_flag("--version", "tandem-netsim " TANDEM_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "`tandem-netsim COMMAND --help` tells more. Exit: 0 done, 1 trouble while running or interrupted,\n2 wrong "
+      "`tandem-netsim COMMAND --help` shows the options. Exit: 0 done, 1 trouble while running or interrupted,\n2 "
+      "wrong "
       "arguments or files.");
 
   std::function<int()> action;

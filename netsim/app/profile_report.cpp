@@ -79,7 +79,7 @@ std::string measured_text(const ProfileSource& subject, const ProfilePreview& po
     if (const std::string causes = causes_of(way); !causes.empty()) text += "    dropped: " + causes + "\n";
   }
   if (subject.profile.checks.empty() && !subject.recording)
-    text += "  no quantiles promised: nothing to hold these against\n";
+    text += "  no quantiles promised: nothing to compare these with\n";
   return text;
 }
 

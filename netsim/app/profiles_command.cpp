@@ -150,9 +150,10 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
       ->transform(io::number_in(0.001, 60'000, "ms"))
       ->option_text("MS");
   command->add_flag("--ascii", arguments->ascii,
-                    "pictures of plain letters; so it is anyway where the terminal does not speak UTF-8");
+                    "draws pictures with ASCII characters; default on a terminal without UTF-8");
   command->footer(
-      "Each profile promises quantiles of its delay (`check` in its file); they stand beside those measured now.\n"
+      "Each profile promises quantiles of its delay (`check` in its file); the table shows them beside the measured "
+      "ones.\n"
       "Green, amber and red are what force feedback needs: round trip p99 20 / 100 ms, jitter (p99 - p50) 2 / 10 ms,\n"
       "loss 0.1 / 10 %, no gap above 5 / 50 ms, judged in every 100 ms, 1 s and 10 s.\n\n"
       "Examples\n"

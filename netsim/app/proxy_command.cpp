@@ -152,8 +152,9 @@ int proxy_command(const ProxyArguments& arguments) {
                       network->description.c_str(), static_cast<unsigned long long>(options.seed));
   for (const std::string& note : network->notes) io::print_formatted(people, "note: %s\n", note.c_str());
   if (!joining)
-    io::print_formatted(people, "note: nobody can join a Tandem session through here, only datagrams pass: %s\n",
-                        joining.error().c_str());
+    io::print_formatted(
+        people, "note: no client can join a Tandem session through this proxy, which forwards datagrams only: %s\n",
+        joining.error().c_str());
   std::fflush(people);
 
   std::optional<TcpRelay> relay;
@@ -223,9 +224,8 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("PATH");
   command
       ->add_option("--log", arguments->log,
-                   "writes every decision as CSV: when it came in, what became of it, when it was due to leave; the "
-                   "proxy left it later by "
-                   "its own lateness, which the report tells")
+                   "writes every decision as CSV: arrival time, verdict, scheduled departure; the real departure is "
+                   "later by the lateness of the proxy, which the report shows")
       ->option_text("FILE");
   const std::string timing = "How exact";
   command
@@ -251,14 +251,14 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("US")
       ->group(timing);
   command
-      ->add_flag(
-          "--realtime", arguments->realtime,
-          "asks for real-time priority, locked memory and a processor that stays awake; says what was not granted")
+      ->add_flag("--realtime", arguments->realtime,
+                 "asks for real-time priority, locked memory and a processor that stays awake; reports each one that "
+                 "was not granted")
       ->group(timing);
   command->footer(
       "Clients send to --listen instead of the server. Each client (address and port) gets its own link and its own\n"
-      "socket towards the server; up is client to server. At most 64 clients; a client silent for 60 s is forgotten,\n"
-      "and one that calls from another port of its host after 2 s of silence has reconnected: it keeps its number.\n"
+      "socket towards the server; up is client to server. At most 64 clients; a client silent for 60 s is removed,\n"
+      "and one that sends from another port of its host after 2 s of silence has reconnected: it keeps its number.\n"
       "Datagrams above 1500 bytes are dropped and counted. Prints `listening on HOST:PORT` first. On a terminal it "
       "shows\n"
       "each client's rate, delay and loss, and takes commands (`tandem-netsim control --help` lists them); elsewhere "

@@ -54,7 +54,7 @@ void understand_network(const RunArguments& arguments, SimulationConfig& setup, 
   }
   if (arguments.replay.empty()) return;
   for (const std::string& other : arguments.network.all_given())
-    mistakes.add("--replay excludes " + other + ": the log decides what becomes of every datagram");
+    mistakes.add("--replay excludes " + other + ": the log sets the verdict of every datagram");
   const auto replay = load_replay(arguments.replay);
   if (!replay) {
     mistakes.add("--replay: " + replay.error());
@@ -75,7 +75,8 @@ std::string replay_summary(const Simulation& world) {
       sent += world.network().counters(link, direction).in;
       own += world.network().replayed(link, direction);
     }
-  return "replay: " + std::to_string(own) + " of " + std::to_string(sent) + " datagrams met their own recorded fate" +
+  return "replay: " + std::to_string(own) + " of " + std::to_string(sent) +
+         " datagrams got their own recorded verdict" +
          (own == sent ? "\n" : ", the others that of the last one recorded before them\n");
 }
 
@@ -269,9 +270,9 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       ->allow_extra_args(false);
   command
       ->add_option("--channel", arguments->channel,
-                   "channel law instead of the scene's: replica (every client simulates the tool; what scenes have "
+                   "channel law instead of the scene's: replica (every client simulates the tool; default of scenes "
                    "that name none), set_position (springs between hand and tool, held passive by a ledger at both "
-                   "ends), raw (what happens without)")
+                   "ends), raw (without passivity control)")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command
       ->add_option(
@@ -289,26 +290,27 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--trace", arguments->trace, "writes one row per tick; the same seed and build give the same bytes")
       ->option_text("FILE.csv");
   command
-      ->add_option("--log", arguments->log,
-                   "writes the fate of every datagram and copy: t_in_ns,link,dir,flow,idx,size,verdict,t_out_ns,cause")
+      ->add_option(
+          "--log", arguments->log,
+          "writes the verdict of every datagram and copy: t_in_ns,link,dir,flow,idx,size,verdict,t_out_ns,cause")
       ->option_text("FILE.csv");
   command
-      ->add_option("--replay", arguments->replay,
-                   "a --log file is the network: the same run meets the same fates, another one those of the last "
-                   "datagram recorded "
-                   "before, from the start again after the end; excludes what says what the network is like")
+      ->add_option(
+          "--replay", arguments->replay,
+          "replays the network of a --log file: the same run gets the same verdicts; another run gets those of the "
+          "last datagram recorded before, and after the end those of the start; excludes the other network options")
       ->option_text("LOG.csv");
   command->add_flag("--check", arguments->check,
                     "only checks scene and network and prints every value in force, with units");
-  command->add_flag("--verbose", arguments->verbose,
-                    "the network of every seat in words and numbers, not only of the worst");
+  command->add_flag("--verbose", arguments->verbose, "shows the network quality of every seat, not only of the worst");
   command->add_flag("--no-quality", arguments->no_quality, "does not judge the network");
   command->add_flag("--quiet", arguments->quiet, "no progress, and no summary beside --json -");
   command->footer(
       "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then. "
       "It is\n"
       "`not judged` when no hand moved or no errors could be measured.\n"
-      "The network is judged apart, by what force feedback needs (green, amber, red; loss, gaps and jitter in every\n"
+      "The network is judged separately, by the needs of force feedback (green, amber, red; loss, gaps and jitter in "
+      "every\n"
       "100 ms, 1 s and 10 s of the session, round trips): it never changes the verdict.\n\n"
       "Exit: 0 pass or not judged, 1 fail or interrupted, 2 wrong arguments or files.\n\n"
       "Examples\n"

@@ -45,7 +45,7 @@ std::string RunLog::close() {
     network_->log_in_flight();
     write(Time::max());
     network_->log_to(nullptr);
-    if (log_.missed() > 0) return std::to_string(log_.missed()) + " decisions found no room in the log";
+    if (log_.missed() > 0) return std::to_string(log_.missed()) + " decisions did not fit into the log";
   }
   return file_.close();
 }

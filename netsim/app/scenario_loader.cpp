@@ -58,7 +58,7 @@ class Folder {
     std::vector<std::string> names;
     for (const ShippedScene& s : shipped_scenes()) names.emplace_back(s.name);
     return std::unexpected(
-        blame("no scene is called so; " + suggest(word, names) + "; a file needs its ending, such as my.textproto"));
+        blame("no scene has this name; " + suggest(word, names) + "; a file needs its ending, such as my.textproto"));
   }
 
   [[nodiscard]] std::expected<ScenarioLink, InputErrors> network(const ScenarioNetworkSpec& spec) const {

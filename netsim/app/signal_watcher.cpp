@@ -18,10 +18,11 @@ bool SignalWatcher::signalled() const noexcept {
 
 void SignalWatcher::report(std::string_view command, const std::string& done) {
   const std::string_view by = io::pending_signal();
-  io::print_formatted(stderr,
-                      "tandem-netsim %.*s: interrupted after %s%s%.*s. What was done so far is told and is no pass\n",
-                      static_cast<int>(command.size()), command.data(), done.c_str(), by.empty() ? "" : " by ",
-                      static_cast<int>(by.size()), by.data());
+  io::print_formatted(
+      stderr,
+      "tandem-netsim %.*s: interrupted after %s%s%.*s. The results so far are reported and do not count as a pass\n",
+      static_cast<int>(command.size()), command.data(), done.c_str(), by.empty() ? "" : " by ",
+      static_cast<int>(by.size()), by.data());
 }
 
 }  // namespace tandem::netsim

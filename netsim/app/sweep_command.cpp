@@ -167,7 +167,7 @@ void add_sweep_command(CLI::App& root, std::function<int()>& action) {
       ->option_text("S");
   command
       ->add_option("--channel", a->channel,
-                   "channel law instead of the scene's: replica (what scenes have that name none), set_position, raw")
+                   "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
       ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
   command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
       ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));

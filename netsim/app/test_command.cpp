@@ -154,7 +154,7 @@ int test_command(const TestArguments& a) {
 
 void add_test_command(CLI::App& root, std::function<int()>& action) {
   const auto a = std::make_shared<TestArguments>();
-  CLI::App* const command = root.add_subcommand("test", "Runs scenarios over many seeds and passes a verdict: for CI.");
+  CLI::App* const command = root.add_subcommand("test", "Runs scenarios over many seeds and gives a verdict, for CI.");
   command
       ->add_option("SCENARIO", a->scenarios,
                    "scenario files, folders of them, names of shipped ones (--list), or `shipped`: all of these")
@@ -177,7 +177,7 @@ void add_test_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--json", a->json,
                    "writes the verdicts; `-`: to standard output. Equal but for the keys cpu_s for equal seeds")
       ->option_text("FILE|-");
-  command->add_flag("--reports", a->reports, "adds to --json what `run --json` says of each seed");
+  command->add_flag("--reports", a->reports, "adds the report of `run --json` for each seed to --json");
   command->add_option("--trace", a->trace, "writes one row per tick; of one seed only")->option_text("FILE.csv");
   command->add_flag("--fail-fast", a->fail_fast,
                     "runs nothing after the first seed that fails, in the order of the table");
@@ -187,7 +187,7 @@ void add_test_command(CLI::App& root, std::function<int()>& action) {
   command->add_flag("--quiet", a->quiet, "no progress, and no table beside --json -");
   command->footer(
       "A seed passes when no promised invariant is broken (as `run` judges) and every limit of its scenario holds.\n"
-      "For each failure the one command is printed that runs that seed again, to the same trace_hash, with its "
+      "For each failure the report has the command that repeats the seed, with the same trace_hash, with its "
       "trace.\n\n"
       "Exit: 0 all passed, 1 something failed or was not run (Ctrl-C too), 2 wrong arguments or files.\n\n"
       "Examples\n"

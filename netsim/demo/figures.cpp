@@ -74,7 +74,7 @@ CaptionedFigure figure_6(const TraceData& d) {
   CaptionedFigure f{
       "fig6",
       "Figure 6: path in free motion",
-      "Tips of both hands and of the slave in space. In a the trainee pulls away while he follows, in b the trainer; "
+      "Tips of both hands and of the slave in space. In a the trainee pulls away while following, in b the trainer; "
       "their devices lead them back.",
       {"Path of trainer, trainee and slave in three projections", 3, {}}};
   for (const Plane& plane : kPlanes) f.figure.panels.push_back(path_panel(d, plane));
@@ -85,12 +85,11 @@ CaptionedFigure figure_6(const TraceData& d) {
 }
 
 CaptionedFigure figure_7(const TraceData& d, double duration) {
-  CaptionedFigure f{
-      "fig7",
-      "Figure 7: joint angles in free motion",
-      "θ3 is measured against the vertical, as the device reports it. While somebody follows his curve may leave the "
-      "others by what his hand resists.",
-      {"Joint angles of trainer, trainee and slave over time", 1, {}}};
+  CaptionedFigure f{"fig7",
+                    "Figure 7: joint angles in free motion",
+                    "θ3 is measured against the vertical, as the device reports it. The curve of a following hand may "
+                    "deviate from the others by the resistance of that hand.",
+                    {"Joint angles of trainer, trainee and slave over time", 1, {}}};
   for (std::size_t j = 0; j < 3; ++j) {
     Panel p{.x_label = j == 2 ? kTimeAxis : "",
             .y_label = "θ" + std::to_string(j + 1) + " [rad]",
@@ -133,7 +132,7 @@ CaptionedFigure energy(const RunPlan& plan, const TraceData& d, const std::strin
       anchor,
       title,
       "Eₚ of the paper’s equation 3, with its sign: it falls while the sources give energy to the follower. They are "
-      "open here and Eₚ is only watched; what keeps hands safe is the energy ledger of each spring.",
+      "open here and Eₚ is only watched; the energy ledger of each spring keeps hands safe.",
       {"Energy of the flow sources over time, per axis", 1, {}}};
   const bool milli = plan.task == Task::kContact;  // the motion in contact is small
   Panel p{.x_label = kTimeAxis, .y_label = milli ? "Eₚ [mJ]" : "Eₚ [J]", .height = 200};
@@ -166,12 +165,11 @@ CaptionedFigure figure_10(const TraceData& d) {
 }
 
 CaptionedFigure figure_11(const TraceData& d, double duration) {
-  CaptionedFigure f{
-      "fig11",
-      "Figure 11: position and force along x in contact",
-      "Forces are those that press towards the block: commanded to each device, and delivered (of the slave: what "
-      "the block bears). A Touch delivers 3.3 N at most.",
-      {"Position along x, commanded and delivered force along x, over time", 1, {}}};
+  CaptionedFigure f{"fig11",
+                    "Figure 11: position and force along x in contact",
+                    "Forces are those that press towards the block: commanded to each device, and delivered (of the "
+                    "slave: the load of the block). A Touch delivers 3.3 N at most.",
+                    {"Position along x, commanded and delivered force along x, over time", 1, {}}};
   Panel x{
       .y_label = "x [mm]", .curves = three(d, d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMm, kMm), .height = 170};
   x.horizontals = {{0, "wall"}};

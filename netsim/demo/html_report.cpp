@@ -77,7 +77,7 @@ std::string first_screen(const Headline& headline, const RunInfo& where) {
 
 std::string introduction(const RunInfo& where) {
   std::string text =
-      "<p>Tandem couples several people, each with a haptic device at their own workstation, to the same tool. A "
+      "<p>Tandem couples several participants, each with a haptic device at their own workstation, to the same tool. A "
       "server "
       "shares the authority α among the hands, and every hand feels the tool’s forces. This page repeats the two "
       "experiments of Licona, Liu, Lelevé, Eberard and Pham, “Collaborative Hands-on Training on Haptic Simulators” "

@@ -90,13 +90,13 @@ constexpr FeelKey kFollow[] = {
     {"follower_offset_m", "relaxed follower beside the leader's hand, RMS", "mm", 1e3},
     {"follower_offset_still_m", "  2 s after a step of 42 mm, leader still", "mm", 1e3},
     {"follower_offset_slow_m", "  leader at 13 mm/s", "mm", 1e3},
-    {"follower_wander_m", "  what comes and goes within a second, still", "mm", 1e3},
+    {"follower_wander_m", "  variation within a second, leader still", "mm", 1e3},
     {"follower_offset_contact_m", "leader presses 10 mm into bone", "mm", 1e3},
 };
 constexpr FeelKey kExposure[] = {
     {"engaged_share", "time in which the leader was engaged", "%", 100, true},
-    {"held_share", "time in which the tool stood braked", "%", 100},
-    {"trips_per_min", "losses of the hand (gate trips)", "1/min"},
+    {"held_share", "time in which the tool was braked", "%", 100},
+    {"trips_per_min", "releases of the hand (gate trips)", "1/min"},
     {"saturated_share", "time at the motors' limit", "%", 100},
     {"delivered_error_n", "commanded minus delivered force, RMS", "N"},
 };

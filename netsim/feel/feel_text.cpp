@@ -66,7 +66,7 @@ std::string feel_text(const FeelReport& r) {
     if (!rows.empty()) out += std::string(section.title) + "\n" + rows;
   }
   const std::vector<std::string> words = noticeable_text(r.spec, r.numbers, r.one_way_s);
-  if (!words.empty()) out += "What a person notices (a step is a just-noticeable difference)\n";
+  if (!words.empty()) out += "Perception by a person (a step is a just-noticeable difference)\n";
   for (const std::string& sentence : words) out += wrapped_lines(sentence, "  ");
   for (const std::string& trouble : r.troubles) out += wrapped_lines("could not be measured: " + trouble, "");
   for (const FeelLimit* limit : r.broken()) {

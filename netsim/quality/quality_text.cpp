@@ -61,14 +61,15 @@ std::string way_words(const char* name, const DirectionSummary& way, const std::
     add(what + format(", %s in all", share_text(way.lost_share()).c_str()));
   }
   if (way.longest_gap > kGapLimits.green) {
-    add("nothing came for " + delay_text(seconds(way.longest_gap)) + format(" from %.2f s", at_s(way.longest_gap_at)));
+    add("nothing received for " + delay_text(seconds(way.longest_gap)) +
+        format(" from %.2f s", at_s(way.longest_gap_at)));
   }
   const MeasureSummary& jitter = windows.of(Measure::kJitter);
   if (seen_beyond_green(jitter)) {
     add("jitter " + delay_text(jitter.worst) +
         format(" in the %s to %.2f s", unit_of(windows).c_str(), at_s(jitter.worst_at)));
   }
-  if (way.arrived == 0) add("nothing ever came");
+  if (way.arrived == 0) add("nothing was received");
   return text + worst;
 }
 
@@ -153,7 +154,7 @@ double badness(const LinkSummary& link) noexcept {
 const char* verdict_name(const std::optional<Band>& verdict) noexcept { return verdict ? name(*verdict) : "too short"; }
 
 const char* meaning(const std::optional<Band>& verdict) noexcept {
-  if (!verdict) return "nobody can tell";
+  if (!verdict) return "no verdict";
   switch (*verdict) {
     case Band::kGreen:
       return "usable for stiff contact and fast motion";
@@ -162,7 +163,7 @@ const char* meaning(const std::optional<Band>& verdict) noexcept {
     case Band::kRed:
       break;
   }
-  return "for more than 1 % of the time worse than force feedback should have";
+  return "for more than 1 % of the time outside the limits for force feedback";
 }
 
 std::string quality_text(const LinkSummary& link, const std::string& indent) {
@@ -209,7 +210,7 @@ std::string quality_report(std::vector<NamedLink> links, bool all) {
   }
   if (!worst) return "  network: too short to judge\n";
   if (worst == Band::kGreen) {
-    return format("  network: green for %s, %s\n", links.size() == 1 ? links.front().name.c_str() : "everybody",
+    return format("  network: green for %s, %s\n", links.size() == 1 ? links.front().name.c_str() : "all links",
                   meaning(worst));
   }
   text = headline(links.front()) + quality_text(links.front().link, "    ");

@@ -44,19 +44,19 @@ struct FaultName {
   std::string_view what;  ///< description for reports
 };
 inline constexpr std::array<FaultName, 14> kFaultNames{{
-    {Fault::Kind::kPause, "PAUSE", "the client's program stands still"},
-    {Fault::Kind::kRestart, "RESTART", "the client's program dies and is started again"},
+    {Fault::Kind::kPause, "PAUSE", "the client's program is suspended"},
+    {Fault::Kind::kRestart, "RESTART", "the client's program dies and restarts"},
     {Fault::Kind::kNotANumber, "NOT_A_NUMBER", "the device's readings are NaN"},
     {Fault::Kind::kOutOfRange, "OUT_OF_RANGE", "the device's readings are absurd"},
     {Fault::Kind::kFrozen, "FROZEN", "the device repeats its last reading"},
-    {Fault::Kind::kReplay, "REPLAY", "old datagrams come once more"},
+    {Fault::Kind::kReplay, "REPLAY", "old datagrams are replayed"},
     {Fault::Kind::kJunk, "JUNK", "random bytes arrive"},
     {Fault::Kind::kLiar, "LIAR", "the client's energy account runs backwards"},
-    {Fault::Kind::kServerLate, "SERVER_LATE", "the server's thread stands still"},
-    {Fault::Kind::kServerRestart, "SERVER_RESTART", "the server dies and goes on from its checkpoint"},
-    {Fault::Kind::kStopHand, "STOP_HAND", "the person stops his own hand"},
-    {Fault::Kind::kStopAll, "STOP_ALL", "the person stops the session"},
-    {Fault::Kind::kHostile, "HOSTILE", "the client sends what nobody may"},
+    {Fault::Kind::kServerLate, "SERVER_LATE", "the server's thread is suspended"},
+    {Fault::Kind::kServerRestart, "SERVER_RESTART", "the server dies and resumes from its checkpoint"},
+    {Fault::Kind::kStopHand, "STOP_HAND", "the participant stops their own hand"},
+    {Fault::Kind::kStopAll, "STOP_ALL", "the participant stops the session"},
+    {Fault::Kind::kHostile, "HOSTILE", "the client sends forbidden messages"},
     {Fault::Kind::kHot, "HOT", "the device's motors are too hot"},
 }};
 [[nodiscard]] constexpr bool of_server(Fault::Kind kind) noexcept {

@@ -20,7 +20,8 @@ std::string not_engaged_reason(const SceneSpec& scene, std::size_t i, const clie
   const double age_max = 1e3 * scene.gate.loop_age_max, silence_max = 1e3 * scene.gate.silence_limit;
   if (!down.heard())
     return name +
-           " never heard the server: every datagram to it is lost; look at the network's loss, size and outage keys";
+           " received nothing from the server: every datagram to it is lost; check the network's loss, size and outage "
+           "keys";
   if (down.rtt_samples() == 0)
     return name + format(
                       " measured no round trip: none of its datagrams was answered within %.0f ms, and "
@@ -42,7 +43,7 @@ std::string not_engaged_reason(const SceneSpec& scene, std::size_t i, const clie
                       core->gate().trips(), gap, silence_max);
   if (core->locally_stopped()) return name + " stopped its own hand";
   if (!session.seat(i).ready(now))
-    return name + format(" is not ready: the server last heard it %.0f ms ago",
+    return name + format(" is not ready: its last datagram reached the server %.0f ms ago",
                          session.seat(i).taken() ? ms(session.seat(i).silence(now)) : 0.0);
   return name + " is ready and waits for the others";
 }

@@ -55,9 +55,8 @@ std::string missed(const EventTime& event, const SessionSpan& span) {
 /// that the network carried. After the change the two counts differ, and both are correct.
 std::string rebind_note(const NetworkEvent& event, const std::string& seat) {
   return format(
-      "%s has a new address from %g s on: the server asks there before it sends forces there, so what it sends "
-      "meanwhile goes to the old "
-      "address and is lost from %g s on; the hand is released for that time",
+      "%s has a new address from %g s on: the server validates it before it sends forces there, so its datagrams "
+      "meanwhile go to the old address and are lost from %g s on; the hand is released for that time",
       seat.c_str(), seconds(event.at), seconds(event.at + event.rebind->dead_after));
 }
 

@@ -14,14 +14,15 @@
 int main(int argc, char** argv) {
   tandem::io::harden_process();
   CLI::App app{
-      "tandem-server hosts sessions in which several people hold the same tool over a network. It couples all hands to "
+      "tandem-server hosts sessions in which several participants hold the same tool over a network. It couples all "
+      "hands to "
       "the\n"
-      "tools of a scene, shares authority between them, and reports how well it went.",
+      "tools of a scene, shares authority between them, and reports the quality of the session.",
       "tandem-server"};
   app.set_version_flag("--version", "tandem-server " TANDEM_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "`tandem-server COMMAND --help` tells more; a first session: `tandem-server run free_motion`.\n"
+      "`tandem-server COMMAND --help` shows the options; a first session: `tandem-server run free_motion`.\n"
       "Exit: 0 done, 1 trouble while running or verdict fail, 2 wrong arguments or files. Not a medical device.");
 
   std::function<int()> action;

@@ -26,14 +26,14 @@ struct LoadLimits {
 /// @param processors  number of processors for them
 [[nodiscard]] inline std::string rejection_reason(const Load& own, double all_cores, unsigned processors,
                                                   const LoadLimits& limits) {
-  constexpr const char* kRemedy = "; try again when others have left, or on another server";
-  const std::string begin = "this server has no room for more: ";
+  constexpr const char* kRemedy = "; try again when participants have left, or on another server";
+  const std::string begin = "this server rejects new joins: ";
   if (own.tick > limits.tick)
     return begin +
            format("its ticks take %.0f %% of their time (p99), and new joins are accepted below %.0f %%",
                   100 * own.tick, 100 * limits.tick) +
            kRemedy;
-  if (own.fully_shed) return begin + "its ticks are full although it sheds all load that it can" + kRemedy;
+  if (own.fully_shed) return begin + "its ticks are full although all optional load is shed" + kRemedy;
   if (own.core > limits.core)
     return begin +
            format("the session's thread takes %.0f %% of a processor, and new joins are accepted below %.0f %%",

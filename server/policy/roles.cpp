@@ -37,7 +37,7 @@ constexpr std::array<Need, 7> kNeeds{{
     {rpc::Kind::kPauseSession, Right::kStopSession, Grant::kPart, "pause the session"},
     {rpc::Kind::kResumeSession, Right::kEndPause, Grant::kPart, "resume the session"},
     {rpc::Kind::kSetAuthority, Right::kAuthority, Grant::kPart, "move authority"},
-    {rpc::Kind::kRemoveParticipant, Right::kManageSeats, Grant::kYes, "remove a person"},
+    {rpc::Kind::kRemoveParticipant, Right::kManageSeats, Grant::kYes, "remove a participant"},
     {rpc::Kind::kDrain, Right::kManageServer, Grant::kYes, "drain the server"},
     {rpc::Kind::kStatusRequest, Right::kTelemetry, Grant::kPart, "see the session's status"},
 }};

@@ -119,16 +119,17 @@ std::string report_summary(const RunReport& r, const SceneSpec& scene) {
   for (std::size_t j = 0; j < r.tools.size(); ++j)
     if (r.tools[j].held_s > 0.01)
       put(out,
-          "  %s: braked (HELD) for %.1f s: no seat with authority over it, or not its own slave, was there; no hand "
-          "was guided\n",
+          "  %s: braked (HELD) for %.1f s: no seat with authority over it, or not its own slave, was connected; no "
+          "hand was guided\n",
           scene.tools[j].name.c_str(), r.tools[j].held_s);
-  if (r.stopped_s > 0) put(out, "  the session was stopped for %.1f s, in which its clock stood still\n", r.stopped_s);
+  if (r.stopped_s > 0)
+    put(out, "  the session was stopped for %.1f s, in which its clock did not advance\n", r.stopped_s);
   if (r.duration_s <= 0) {
     out += "  not judged: the session never ran\n";
   } else if (r.judged_s <= 0) {
     out += "  not judged: no seat was engaged for more than a second, undisturbed, so no errors could be measured\n";
   } else if (!r.moved) {
-    put(out, "  not judged: no hand moved by more than %.0f mm; the figures above tell nothing about tracking\n",
+    put(out, "  not judged: no hand moved by more than %.0f mm; the figures above do not measure tracking\n",
         ReportBuilder::kMoved * 1e3);
   } else {
     put(out,

@@ -158,7 +158,7 @@ std::string incompatibility(const Checkpoint& c, const SceneSpec& scene) {
     return "the checkpoint belongs to another scene, or to this one before it was changed";
   if (c.seats_n != scene.seats.size() || c.masters_n != scene.masters() || c.tools_n != scene.tools.size() ||
       c.dof != scene.dof)
-    return "the checkpoint counts other seats, tools or axes than the scene";
+    return "the checkpoint has other numbers of seats, tools or axes than the scene";
   return {};
 }
 

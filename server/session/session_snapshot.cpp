@@ -25,7 +25,7 @@ const char* cause(CheckpointError error) noexcept {
     case CheckpointError::kDigest:
       return "its checkpoint is damaged";
     case CheckpointError::kRange:
-      return "its checkpoint has a number that cannot be meant";
+      return "its checkpoint has a number out of range";
   }
   return "";
 }
@@ -58,7 +58,7 @@ std::vector<std::byte> encode_snapshot(const SessionSnapshot& kept) {
 
 std::expected<SessionSnapshot, std::string> decode_snapshot(std::span<const std::byte> bytes) {
   if (bytes.size() < kMagic.size() + kDigest || bytes.size() > kSnapshotMax)
-    return std::unexpected("it has a size that no such file has");
+    return std::unexpected("its size is out of range");
   if (text_of(bytes.first(kMagic.size())) != kMagic) return std::unexpected("it is no checkpoint of this release");
   std::span<const std::byte> rest = bytes.first(bytes.size() - kDigest);
   const Checkpoint::Hash digest = transport::sha256(rest);
@@ -83,7 +83,7 @@ std::expected<SessionSnapshot, std::string> decode_snapshot(std::span<const std:
   kept.code = text();
   const auto count = take(1);
   const std::size_t keys = count.empty() ? 0 : std::to_integer<std::size_t>(count[0]);
-  if (keys > kRemovedWorkstationsMax) return std::unexpected("it sends more workstations away than can be meant");
+  if (keys > kRemovedWorkstationsMax) return std::unexpected("it lists too many removed workstations");
   for (std::size_t i = 0; i < keys && whole; ++i)
     if (const auto key = take(32); whole) std::ranges::copy(key, kept.removed_workstations.emplace_back().begin());
   if (!whole || kept.name.empty()) return std::unexpected("it is cut off");
@@ -99,8 +99,7 @@ std::string incompatibility(const SessionSnapshot& kept, std::string_view name, 
   if (kept.written_s > now && kept.written_s - now > kResumeLifeS)
     return "it was written in the future: this computer's clock was set back";
   if (now > kept.written_s && now - kept.written_s > kResumeLifeS)
-    return "it is " + std::to_string((now - kept.written_s) / 60) +
-           " min old, and after 10 min nobody may come back to his seat";
+    return "it is " + std::to_string((now - kept.written_s) / 60) + " min old; a checkpoint can be used for 10 min";
   return incompatibility(kept.checkpoint, scene);
 }
 

@@ -193,7 +193,7 @@ int main(int count, char** arguments) {
       kSize, kRounds, kMeasured,
       counter >= 0 ? "the kernel's counter (perf_event_open)"
       : valgrind   ? "valgrind --tool=callgrind"
-                   : "nobody: 0");
+                   : "none: 0");
   if (counter < 0 && !valgrind)
     std::printf("[ NOT RUN  ] instructions per datagram: no counter for us (perf_event_open) and no valgrind\n");
   return 0;

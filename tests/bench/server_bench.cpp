@@ -126,7 +126,7 @@ std::optional<double> per_client_tick(const std::string& self, const std::string
 void count_instructions(const std::string& self) {
   std::printf(
       "user-space instructions per sealed client-tick (callgrind; asked: at most 7000)\n%-18s %8s %14s %10s  %s\n",
-      "scene", "seats", "instructions", "its arms'", "what the server does besides");
+      "scene", "seats", "instructions", "its arms'", "other work of the server");
   const struct {
     const char *scene, *besides;
     bool arms;

@@ -107,7 +107,7 @@ TEST(TwoMachines, InitEnrolServeAndJoinAcrossACable) {
                                           "sim", "--state", folder.file("desk-2")});
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
-  EXPECT_EQ(host.wait(), 0) << "its only session is over and does not begin anew\n" << host.err();
+  EXPECT_EQ(host.wait(), 0) << "its only session is over and does not restart\n" << host.err();
   Json report;
   for (const auto& entry : fs::directory_iterator(folder.file("reports")))
     report = folder.json("reports/" + entry.path().filename().string());

@@ -90,7 +90,7 @@ Verdict join_under_siege(bool same_network, std::size_t joins) {
     }
     std::ranges::sort(verdict.took);
     std::printf(
-        "[ hostile  ] %zu of %zu joins let in while 64 addresses of %s network opened %zu silent connections (%llu "
+        "[ hostile  ] %zu of %zu joins accepted while 64 addresses of %s network opened %zu silent connections (%llu "
         "accepted, %llu evicted, %llu too slow); "
         "each took %.3f s (median), at most %.3f s\n",
         verdict.joined, joins, same_network ? "the same" : "other", attackers.tried(),
@@ -99,7 +99,7 @@ Verdict join_under_siege(bool same_network, std::size_t joins) {
         static_cast<unsigned long long>(door.plane->count(ControlEvent::kDeadline)),
         verdict.took.empty() ? 0.0 : verdict.took[verdict.took.size() / 2],
         verdict.took.empty() ? 0.0 : verdict.took.back());
-    EXPECT_GT(door.plane->count(ControlEvent::kAccepted), attackers.tried() / 2) << "the attack reached the door";
+    EXPECT_GT(door.plane->count(ControlEvent::kAccepted), attackers.tried() / 2) << "the attack reached the server";
   }
   return verdict;
 }

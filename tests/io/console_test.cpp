@@ -70,7 +70,7 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
   EXPECT_EQ(early.wait(), 1);
   EXPECT_NE(early.err().find("nothing is stopped"), std::string::npos) << early.err();
 
-  Process stop = control(address, {"stop", "somebody", "is", "in", "the", "way"});
+  Process stop = control(address, {"stop", "someone", "is", "in", "the", "way"});
   EXPECT_EQ(stop.wait(), 0) << stop.err();
   EXPECT_NE(stop.out().find("STOPPED: all hands are released; `resume 1` ends it"), std::string::npos) << stop.out();
   EXPECT_TRUE(host.wait_for("STOPPED")) << host.err();
@@ -79,7 +79,7 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
   EXPECT_EQ(again.wait(), 0) << again.err();
   Process old = control(address, {"resume", "1"});
   EXPECT_EQ(old.wait(), 1) << old.out();
-  EXPECT_NE(old.err().find("stop 1 is not the newest: stop 2 came since"), std::string::npos) << old.err();
+  EXPECT_NE(old.err().find("stop 1 is not the newest: stop 2 followed"), std::string::npos) << old.err();
   Process status = control(address, {"status", "--json"});
   EXPECT_EQ(status.wait(), 0) << status.err();
   const Json now = Json::parse(status.out(), nullptr, false);
@@ -91,7 +91,7 @@ TEST(Control, AnOperatorStopsARunningSessionAndOnlyTheNewestStopIsEnded) {
   Process resume = control(address, {"resume", "2"});
   EXPECT_EQ(resume.wait(), 0) << resume.err();
   ASSERT_TRUE(host.wait_for("the session runs again")) << host.err();
-  EXPECT_TRUE(both_show("A-A")) << "active, let go, active again; " << phases_of(folder.read("trainer.csv")) << ' '
+  EXPECT_TRUE(both_show("A-A")) << "active, released, active again; " << phases_of(folder.read("trainer.csv")) << ' '
                                 << phases_of(folder.read("trainee.csv"));
 
   Process drain = control(address, {"drain"});
@@ -240,7 +240,7 @@ TEST(MultiClientControl, AdmitsAnOperatorByASingleUseTicketAndAuditsEveryCommand
   EXPECT_NE(recorder.err().find("the role recorder may not stop the session"), std::string::npos) << recorder.err();
   Process seatless =
       server({"ticket", "--session", "a", "--role", "trainee", "--workstation", "desk", "--state", fixture.state});
-  EXPECT_EQ(seatless.wait(), 2) << "who works in a session sits on a seat";
+  EXPECT_EQ(seatless.wait(), 2) << "a trainee needs a seat";
   Process seated = server({"ticket", "--session", "a", "--role", "operator", "--seat", "trainee", "--workstation",
                            "desk", "--state", fixture.state});
   EXPECT_EQ(seated.wait(), 2);
@@ -259,7 +259,7 @@ TEST(MultiClientControl, RemovesOnlyTheSeatOfARevokedWorkstation) {
   EXPECT_EQ(revoked.wait(), 0) << revoked.err();
   EXPECT_EQ(trainee.wait(), 1) << trainee.err();
   EXPECT_NE(trainee.err().find("this workstation was revoked on the server"), std::string::npos) << trainee.err();
-  EXPECT_TRUE(visitor.wait()) << "its visit ends too";
+  EXPECT_TRUE(visitor.wait()) << "its link test ends too";
   EXPECT_TRUE(written(fixture, "\"event\":\"revoked_seat\",\"name\":\"desk-2\",\"detail\":\"a trainee tick"));
   Process status = control(
       fixture.address, {"--state", fixture.own, "--ticket", operator_ticket(fixture, "operator"), "--json", "status"});

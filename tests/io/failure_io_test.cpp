@@ -112,7 +112,7 @@ TEST(FailureLive, ChangesNoForceWhenWallClocksJump) {
       most = std::max(most, r.gate_force);
     }
     std::printf("[ failure  ] %s: %.4f to %.4f N while wall clocks jump by +-1 h and +-10 y\n", seat, least, most);
-    EXPECT_GT(std::abs(least), 0.5) << "nobody was pressed";
+    EXPECT_GT(std::abs(least), 0.5) << "no hand was pressed";
     if (late > 0) {
       std::printf(
           "[ NOT RUN ] FailureLive.ChangesNoForceWhenWallClocksJump, force of the %s: threads of this machine woke up "
@@ -160,7 +160,7 @@ TEST(FailureLive, ReleasesAPausedClientFirstAndAppliesNoBacklog) {
       EXPECT_LE(rows[again].gate_force * speed > 0 ? std::abs(rows[again].gate_force) : 0, 0.05) << rows[again].t;
     }
     ASSERT_LT(again, rows.size()) << "never engaged again";
-    EXPECT_LE(std::abs(rows[again].gate_force), 0.05) << "begins anew at zero";
+    EXPECT_LE(std::abs(rows[again].gate_force), 0.05) << "starts again at zero";
   }
   EXPECT_EQ(seen, pauses);
   EXPECT_GE(folder.json("trainee.json")["gate"]["trips"].get<std::size_t>(), pauses);

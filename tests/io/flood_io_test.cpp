@@ -49,7 +49,7 @@ struct Running {
   }
   void expect_undisturbed() {
     Process still({TANDEM_CLIENT, "sessions", "--server", address_of(host)});
-    EXPECT_EQ(still.wait(), 0) << "the door is still open for others: " << still.err();
+    EXPECT_EQ(still.wait(), 0) << "the server still accepts other clients: " << still.err();
     host.signal(SIGINT);
     EXPECT_EQ(host.wait(), 0) << host.err();
     EXPECT_EQ(trainer.wait(), 0) << trainer.err();
@@ -129,7 +129,7 @@ TEST(FloodLive, TwoThousandConnectionsASecondDisturbNoHandAndTakeLittleMemory) {
   open.clear();
   most = std::max(most, resident_kib(session.host.id()));
   std::printf(
-      "[ hostile  ] %zu connections in %zu s, %zu said hello; memory of the server %ld KiB, at most %ld KiB more\n",
+      "[ hostile  ] %zu connections in %zu s, %zu sent HELLO; memory of the server %ld KiB, at most %ld KiB more\n",
       tried, length, reached, before, most - before);
   std::printf("[ hostile  ] ticks: quiet %s; with the flood %s\n", quiet.c_str(), session.lateness(0.999).c_str());
   EXPECT_EQ(tried, 2000 * length);
@@ -217,11 +217,12 @@ TEST(FloodLive, DisconnectsSlowConsumersWithoutDisturbingAHand) {
   for (std::thread& t : threads) t.join();
   const long after = resident_kib(session.host.id());
   for (const std::size_t n : asked) {
-    EXPECT_GT(n, 0U) << "never let in";
-    EXPECT_LT(n, kMost) << "nobody let go of him";
+    EXPECT_GT(n, 0U) << "never accepted";
+    EXPECT_LT(n, kMost) << "the server did not close the connection";
   }
   std::printf(
-      "[ hostile  ] readers who do not read asked %zu, %zu, %zu, %zu times before they were let go; memory of the "
+      "[ hostile  ] clients that do not read sent %zu, %zu, %zu, %zu requests before they were disconnected; memory of "
+      "the "
       "server %ld KiB more; %s\n",
       asked[0], asked[1], asked[2], asked[3], after - before, session.lateness(0.999).c_str());
   EXPECT_LE(after - before, 4 * 1024);

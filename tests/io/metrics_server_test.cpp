@@ -80,7 +80,7 @@ TEST(MetricsServer, AcceptsOnlyAddressesAndItsOwnNamesAsHost) {
 TEST(MetricsServer, DisconnectsSlowReadersAtTheDeadline) {
   const Looked server(std::chrono::milliseconds(100));
   const io::Fd slow = server.visitor(kAsk), silent = server.visitor("GET /met");
-  EXPECT_TRUE(ends(silent)) << "also who does not finish asking";
+  EXPECT_TRUE(ends(silent)) << "also a client that does not finish its request";
   EXPECT_TRUE(ends(slow));
   const auto got = read_to_end(slow);
   ASSERT_TRUE(got);
@@ -94,7 +94,7 @@ TEST(MetricsServer, AnswersWhileSlowReadersFillAllConnections) {
   const auto got = read_to_end(server.visitor(kAsk));
   ASSERT_TRUE(got);
   EXPECT_GT(*got, 64U << 20);
-  EXPECT_TRUE(ends(slow.front())) << "the oldest made room";
+  EXPECT_TRUE(ends(slow.front())) << "the oldest connection was closed";
 }
 
 }  // namespace

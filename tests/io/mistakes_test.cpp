@@ -150,8 +150,8 @@ TEST(ClientErrors, ReportARejectionByTheServer) {
   expect_refused(client(address, "trainee", {"--alpha-script", script}), 1, {"only the INSTRUCTOR", "trainee"});
   trainer.signal(SIGINT);
   EXPECT_EQ(trainer.wait(), 1) << "the session never ran: nothing to judge";
-  const std::string strange = folder.write("b.csv", "t_s[s],nobody[1]\n0,1\n");
-  expect_refused(client(address, "trainer", {"--alpha-script", strange}), 2, {"b.csv:1", "nobody", "trainer trainee"});
+  const std::string strange = folder.write("b.csv", "t_s[s],absent[1]\n0,1\n");
+  expect_refused(client(address, "trainer", {"--alpha-script", strange}), 2, {"b.csv:1", "absent", "trainer trainee"});
   host.signal(SIGINT);
   EXPECT_EQ(host.wait(), 0) << host.err();
 }

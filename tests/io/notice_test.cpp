@@ -97,14 +97,14 @@ TEST(Notice, NamesTheMissingSeatOfASessionThatNeverBegan) {
   Process host = hosting("free_motion", {"--json", folder.file("r.json")});
   Process trainer = client(address_of(host), "trainer");
   ASSERT_TRUE(host.wait_for("trainer joined")) << host.err();
-  ASSERT_TRUE(host.wait_for("waiting for trainee (nobody joined)")) << host.err();
+  ASSERT_TRUE(host.wait_for("waiting for trainee (not joined)")) << host.err();
   host.signal(SIGINT);
   EXPECT_EQ(host.wait(), 0) << host.err();
-  EXPECT_NE(host.out().find("never began: it waited for trainee (nobody joined)"), std::string::npos) << host.out();
+  EXPECT_NE(host.out().find("never began: it waited for trainee (not joined)"), std::string::npos) << host.out();
   EXPECT_EQ(host.out().find("pass"), std::string::npos) << host.out();
   const Json report = folder.json("r.json");
   EXPECT_EQ(report["began"], false);
-  EXPECT_EQ(report["waited_for"], "trainee (nobody joined)");
+  EXPECT_EQ(report["waited_for"], "trainee (not joined)");
 }
 
 // ---- On the server's own computer ----
@@ -126,7 +126,8 @@ TEST(Stop, EndsTheServerOfAStateDirectoryAndReportsItsProgress) {
   EXPECT_EQ(wrong.wait(), 2) << wrong.err();
   Process stop = server({"stop", "--grace", "2", "--state", fixture.state});
   EXPECT_EQ(stop.wait(), 0) << stop.err();
-  EXPECT_NE(stop.out().find("DRAINING: 2 s left, 1 session, 2 people on their seats"), std::string::npos) << stop.out();
+  EXPECT_NE(stop.out().find("DRAINING: 2 s left, 1 session, 2 participants on their seats"), std::string::npos)
+      << stop.out();
   EXPECT_NE(stop.out().find("the server has ended"), std::string::npos) << stop.out();
   EXPECT_EQ(fixture.host.wait(), 0) << fixture.host.err();
   EXPECT_NE(fixture.host.err().find("requested by `tandem-server stop` on this computer"), std::string::npos)
@@ -151,7 +152,7 @@ TEST(TicketFile, IsReadByJoinAndControlAndItsErrorsAreReported) {
       server({"ticket", "--session", "a", "--role", "operator", "--workstation", "desk", "--state", fixture.state});
   EXPECT_EQ(made.wait(), 0);
   const std::string third = fixture.folder.write("operator.ticket", made.out());
-  Process refused = control(fixture.address, {"--state", fixture.own, "--ticket-file", third, "remove", "nobody"});
+  Process refused = control(fixture.address, {"--state", fixture.own, "--ticket-file", third, "remove", "absent"});
   EXPECT_EQ(refused.wait(), 1) << refused.err();
   for (int i = 0; i < 100; ++i) {  // the ticket becomes valid again shortly after that connection has ended
     Process status = control(fixture.address, {"--state", fixture.own, "--ticket-file", third, "remove", "trainee"});
@@ -193,7 +194,8 @@ TEST(Removal, PersistsAfterARestart) {
     ASSERT_NE(fixture.host.err().find("RESTORED"), std::string::npos) << fixture.host.err();
     Process again = client(address_of(fixture.host), "trainee", {"--session", code, "--state", fixture.own});
     EXPECT_EQ(again.wait(), 1) << again.err();
-    EXPECT_NE(again.err().find("was removed from the session; a ticket lets it in again"), std::string::npos)
+    EXPECT_NE(again.err().find("was removed from the session; to join again, ask an operator for a ticket"),
+              std::string::npos)
         << again.err();
   }
   Process own = server({"status", "--state", fixture.state});
@@ -216,7 +218,7 @@ TEST(PrintedCommands, WorkAsPrintedForAServerOnAllAddresses) {
   const std::string out = host.out(), mark = "--server ";
   EXPECT_EQ(out.find(mark + "0.0.0.0"), std::string::npos) << out;
   EXPECT_NE(out.find("--seat instructor --device sim --ticket-file FILE\n"), std::string::npos)
-      << out << "a ticket on a command line is seen by everybody";
+      << out << "all users can see a ticket on a command line";
   EXPECT_EQ(out.find('#'), std::string::npos) << out << "not every shell takes comments";
   const auto at = out.find(mark);
   ASSERT_NE(at, std::string::npos) << out;

@@ -103,7 +103,7 @@ Loss loss_of(const Trace& t, const Case& c, double target) {
   loss.seen_s = t.at(seen, "silence");
   loss.ticks = static_cast<int>(seen - fresh);
   loss.hands_s = t.at(fresh, "t_s") - kHandsChange;
-  EXPECT_LT(t.at(seen - 1, "silence"), kSilence) << "the tick before; the age of the loop may tell earlier";
+  EXPECT_LT(t.at(seen - 1, "silence"), kSilence) << "the tick before; the age of the loop may show it earlier";
   double given = 0;
   for (std::size_t i = fresh; i + 1 < t.size(); ++i) {
     const double x = t.at(i, "x"), next = t.at(i + 1, "x");
@@ -156,7 +156,7 @@ void lose(Grip grip, const char* name) {
     const double target = target_of(c, grip == Grip::kHolding ? 135 : 1000);
     const Loss loss = loss_of(Trace(folder.read(std::string(c.seat) + ".csv")), c, target);
     EXPECT_LE(loss.energy_j, tank(c.mass_kg) + kBelowTank);
-    EXPECT_LE(loss.left_n, 0.05) << "what is left only damps";
+    EXPECT_LE(loss.left_n, 0.05) << "the remaining force is damping only";
     if (grip == Grip::kHolding && c.mass_kg <= kOvershootKg) {
       EXPECT_LE(loss.beyond_m, kOvershoot);
     }

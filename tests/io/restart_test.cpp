@@ -163,7 +163,7 @@ TEST_F(Restart, RestoresAllSeatsWithoutAForceStepAfterAKillInContact) {
   EXPECT_EQ(host.wait(), 0) << host.err();
   EXPECT_EQ(trainer.wait(), 0) << trainer.err();
   EXPECT_EQ(trainee.wait(), 0) << trainee.err();
-  EXPECT_EQ(kept(), "") << "a person ended it";
+  EXPECT_EQ(kept(), "") << "a participant ended it";
 
   for (std::size_t n = 1; n <= restarts; ++n) {
     const Trace before(folder.read(std::to_string(n - 1) + ".csv")), after(folder.read(std::to_string(n) + ".csv"));
@@ -174,7 +174,7 @@ TEST_F(Restart, RestoresAllSeatsWithoutAForceStepAfterAKillInContact) {
     EXPECT_GT(after.at(0, "t_s"), before.at(before.size() - 1, "t_s") - 0.6)
         << "session time goes on where the checkpoint was";
   }
-  EXPECT_LE(tool_jump_mm, 1) << "it stands where it was, but for what the wall gives";
+  EXPECT_LE(tool_jump_mm, 1) << "the tool rests at its old position, within the compliance of the wall";
   std::vector<double> back, first, jump, beyond, forward;
   for (const char* seat : {"a", "b"}) {
     SCOPED_TRACE(seat);
@@ -201,11 +201,11 @@ TEST_F(Restart, RestoresAllSeatsWithoutAForceStepAfterAKillInContact) {
   EXPECT_EQ(report["violations"].size(), 0U) << report["violations"];
   EXPECT_EQ(report["epoch"], restarts + 1);
   ASSERT_FALSE(back.empty());
-  print("let go to wholly active [s], asked <= 3", back);
+  print("release to wholly active [s], asked <= 3", back);
   print("force in the first tick [N], asked <= 0.05", first);
   print("farthest between two ticks of the ramp [mm]", jump);
   print("first 500 ms beyond the force before [N]", beyond);
-  print("way of the hand when let go [mm], asked <= 6", forward);
+  print("way of the hand after the release [mm], asked <= 6", forward);
   std::printf("[  figures ] tool, before and after a restart: at most %.3f mm apart\n", tool_jump_mm);
 }
 
@@ -272,7 +272,7 @@ TEST_F(Restart, ReportsAnIncompatibleSnapshotAndMovesItAside) {
   host.signal(SIGINT);
   EXPECT_EQ(host.wait(), 0);
   host = hosting("one_axis", {"--listen", address, "--duration", "5"});
-  EXPECT_EQ(host.err().find("RESTORED"), std::string::npos) << "a person had ended it\n" << host.err();
+  EXPECT_EQ(host.err().find("RESTORED"), std::string::npos) << "a participant had ended it\n" << host.err();
 }
 
 /// The client was stopped for so long that another client got the seat.

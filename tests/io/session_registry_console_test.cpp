@@ -100,7 +100,7 @@ TEST(Consoles, ConsumeATicketOnlyByAnAcceptedCommandOrJoin) {
   {
     JoinedClient office = come(ticket);
     ASSERT_TRUE(office.welcomed());
-    EXPECT_EQ(reason_of(come(ticket).welcome), ErrorCode::kTicket) << "while he is there it is his alone";
+    EXPECT_EQ(reason_of(come(ticket).welcome), ErrorCode::kTicket) << "a ticket in use admits no second console";
     static_cast<void>(status_of(office));
     EXPECT_EQ(reason_of(office.ask(rpc::ResumeSession{kId, 7})), ErrorCode::kOutdated);
     EXPECT_EQ(reason_of(office.ask(rpc::SetAuthority{kId, 0, 1, {0.5, 0.5}})), ErrorCode::kNotAllowed);
@@ -111,7 +111,7 @@ TEST(Consoles, ConsumeATicketOnlyByAnAcceptedCommandOrJoin) {
            reason_of(office.ask(rpc::ResumeSession{kId, 9})) == ErrorCode::kOutdated;
   }));
   std::this_thread::sleep_for(200ms);
-  EXPECT_EQ(reason_of(come(ticket).welcome), ErrorCode::kTicket) << "an order was carried out";
+  EXPECT_EQ(reason_of(come(ticket).welcome), ErrorCode::kTicket) << "a command was applied";
   const auto looks = live_server.ticket(key, AccessRole::kRecorder);
   {
     JoinedClient archive = come(looks);
@@ -119,7 +119,7 @@ TEST(Consoles, ConsumeATicketOnlyByAnAcceptedCommandOrJoin) {
     EXPECT_EQ(reason_of(archive.ask(rpc::StopSession{kId, ""})), ErrorCode::kNotAllowed);
   }
   std::this_thread::sleep_for(200ms);
-  EXPECT_EQ(reason_of(come(looks).welcome), ErrorCode::kTicket) << "who only may look has looked";
+  EXPECT_EQ(reason_of(come(looks).welcome), ErrorCode::kTicket) << "a status query uses the ticket of a recorder";
   // A failed join uses no ticket.
   const auto seat = live_server.ticket(key, AccessRole::kTrainee, "trainee");
   EXPECT_EQ(reason_of(come(seat, "trainer").welcome), ErrorCode::kTicket) << "another seat than it is for";

@@ -31,7 +31,7 @@ void expect_good_report(const Json& report, const std::string& scene, std::size_
     SCOPED_TRACE(seat["name"]);
     ASSERT_TRUE(seat["tracking_rms_m"].is_number());  // NaN would become null
     EXPECT_LT(seat["tracking_rms_m"].get<double>(), 0.05);
-    EXPECT_GT(seat["speed_peak_m_s"].get<double>(), 0.01) << "nobody moved";
+    EXPECT_GT(seat["speed_peak_m_s"].get<double>(), 0.01) << "no hand moved";
     EXPECT_GT(seat["link"]["rtt_p50_ms"].get<double>(), 0);
     EXPECT_GT(seat["energy"]["in_j"].get<double>() + seat["energy"]["out_j"].get<double>(), 0);
   }
@@ -230,7 +230,7 @@ TEST(LiveSession, ReconnectsAClientWhoseDatagramsDoNotArrive) {
   Process cut(Words{TANDEM_NETSIM, "control", folder.file("p.sock"), "loss", "100", "up"});
   ASSERT_EQ(cut.wait(), 0) << cut.err();
   EXPECT_TRUE(trainer.wait_for("the server fell silent"))
-      << trainer.err() << "once a second it says that it hears nothing";
+      << trainer.err() << "once a second it reports that it receives nothing";
   Process mended(Words{TANDEM_NETSIM, "control", folder.file("p.sock"), "loss", "0", "up"});
   ASSERT_EQ(mended.wait(), 0) << mended.err();
   EXPECT_TRUE(trainer.wait_for("the server is back")) << trainer.err();
@@ -244,7 +244,7 @@ TEST(LiveSession, WaitsForRequiredSeatsUntilTheStartTimeout) {
   Process host = hosting("free_motion", {"--start-timeout", "1"});
   Process trainer = client(address_of(host), "trainer");
   EXPECT_EQ(host.wait(), 1);
-  EXPECT_NE(host.err().find("trainee (nobody joined)"), std::string::npos) << host.err();
+  EXPECT_NE(host.err().find("trainee (not joined)"), std::string::npos) << host.err();
   EXPECT_EQ(trainer.wait(), 1) << "nothing ran, nothing is judged";
 }
 

@@ -59,7 +59,7 @@ TEST(NetsimRun, ReportsErrorsAndStartsNothing) {
            {{"run", bad}, "bad.textproto:3"},
            {{"run", "free_motion", "--delay", "-5"}, "60000"},
            {{"run", "free_motion", "--loss", "101"}, "100"},
-           {{"run", "free_motion", "--hand", "nobody=x.csv"}, "trainee"},
+           {{"run", "free_motion", "--hand", "absent=x.csv"}, "trainee"},
            {{"run", "free_motion", "--hand", "trainer=/no/such.csv"}, "such.csv"},
            {{"run", "free_motion", "--channel", "magic"}, "set_position"},
            {{"run", "free_motion", "--json", "/no/such/folder/x.json"}, "cannot be written"}}) {
@@ -130,9 +130,9 @@ TEST(NetsimRun, ReportsWhySeatAndNetworkDifferAfterANewAddress) {
   auto run = netsim({"run", "free_motion", "--script", script, "--duration", "5"});
   ASSERT_EQ(run.wait(), 0) << run.err();
   EXPECT_NE(run.out().find("network: green"), std::string::npos) << "the network carried on: " << run.out();
-  EXPECT_NE(
-      run.out().find("note: trainee has a new address from 3 s on: the server asks there before it sends forces there"),
-      std::string::npos)
+  EXPECT_NE(run.out().find(
+                "note: trainee has a new address from 3 s on: the server validates it before it sends forces there"),
+            std::string::npos)
       << run.out();
   EXPECT_NE(run.out().find("lost from 3.1 s on"), std::string::npos) << run.out();
 }
@@ -141,7 +141,7 @@ TEST(NetsimRun, CountsEveryErrorAndRejectsASeedWithAReplay) {
   const Folder folder;
   const std::string script = folder.write(
       "s.textproto", "event { at_s: 1 client: \"traine\" outage_ms: 0 }\nevent { at_s: -1 profile: \"nix\" }\n");
-  auto run = netsim({"run", "free_motion", "--script", script, "--hand", "nobody=x.csv"});
+  auto run = netsim({"run", "free_motion", "--script", script, "--hand", "absent=x.csv"});
   EXPECT_EQ(run.wait(), 2);
   EXPECT_NE(run.err().find("5 mistakes; nothing was started"), std::string::npos) << run.err();
   auto logged = netsim({"run", "one_axis", "--duration", "1", "--seed", "4", "--log", folder.file("l.csv")});
@@ -162,7 +162,8 @@ TEST(NetsimRun, DoesNotPassWhenInterrupted) {
     run.signal(signal);
     EXPECT_EQ(run.wait(), 1) << run.err();
     EXPECT_NE(run.err().find("tandem-netsim run: interrupted after "), std::string::npos) << run.err();
-    EXPECT_NE(run.err().find("What was done so far is told and is no pass"), std::string::npos) << run.err();
+    EXPECT_NE(run.err().find("The results so far are reported and do not count as a pass"), std::string::npos)
+        << run.err();
     EXPECT_NE(run.out().find("one_axis: interrupted, "), std::string::npos) << run.out();
     EXPECT_EQ(folder.json("r.json")["verdict"], "fail");
     EXPECT_EQ(folder.json("r.json")["interrupted"], true);
@@ -192,7 +193,8 @@ TEST(NetsimInterrupt, HasOneWordingAndOneExitCodeForAllCommands) {
     EXPECT_EQ(process.wait(), 1) << one.arguments[0] << process.err();
     EXPECT_NE(process.err().find("tandem-netsim " + one.arguments[0] + ": interrupted after "), std::string::npos)
         << process.err();
-    EXPECT_NE(process.err().find("What was done so far is told and is no pass"), std::string::npos) << process.err();
+    EXPECT_NE(process.err().find("The results so far are reported and do not count as a pass"), std::string::npos)
+        << process.err();
     EXPECT_NE(process.out().find(one.reports), std::string::npos) << one.reports << " not in\n" << process.out();
   }
 }
@@ -212,7 +214,7 @@ TEST(NetsimSwarm, ReportsNetworkAndClocksOfASingleSession) {
     EXPECT_NE(scene.out().find("delay "), std::string::npos);
     clocks = clocks || scene.out().find(" ppm, wakes ") != std::string::npos;
   }
-  EXPECT_TRUE(clocks) << "none of 20 sessions told its clocks";
+  EXPECT_TRUE(clocks) << "none of 20 sessions printed its clocks";
 }
 
 TEST(Demo, ComparesAndWritesAReportInVirtualTime) {

@@ -80,7 +80,7 @@ void live_with_drift(SceneSpec scene) {
       ASSERT_TRUE(life.active(i)) << "seat " << i << " at " << seconds(life.at()) << " s";
     }
   }
-  EXPECT_GT(way, 0.01 * seconds(planned.length)) << "nobody moved [m]";
+  EXPECT_GT(way, 0.01 * seconds(planned.length)) << "no hand moved [m]";
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(life.simulation->seat(i)->gate().trips(), 0u);
     std::printf(

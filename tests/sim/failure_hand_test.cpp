@@ -40,15 +40,15 @@ TEST(FailureTable, ReleasesATooFastHandAndLatchesItTheThirdTime) {
     life.until(std::chrono::seconds(1 + 4 * n));
     ASSERT_TRUE(life.active(kTrainee));
     life.time_to([&] { return speed(life, kTrainee) > control::OverspeedGuard::kSpeedMax; }, 500ms);
-    ASSERT_GT(speed(life, kTrainee), control::OverspeedGuard::kSpeedMax) << "nobody was fast: nothing is tried";
+    ASSERT_GT(speed(life, kTrainee), control::OverspeedGuard::kSpeedMax) << "no hand was fast: the test proves nothing";
     EXPECT_LE(life.time_to([&] { return !life.active(kTrainee); }, 100ms), 3ms);
     EXPECT_EQ(life.simulation->seat(kTrainee)->overspeed_guard().trips(), static_cast<unsigned>(n));
     EXPECT_TRUE(life.active(kTrainer));
     life.until(std::chrono::milliseconds(4900 + 4000 * n));
-    EXPECT_EQ(life.active(kTrainee), n < 3) << "calm again";
+    EXPECT_EQ(life.active(kTrainee), n < 3) << "at rest again";
   }
   EXPECT_EQ(life.simulation->seat(kTrainee)->sample().gate, wire::GateState::kLatched)
-      << "the person is told to press the button";
+      << "the client asks the participant to press the button";
   life.simulation->seat(kTrainee)->request_gate_reset();
   life.until(20s);
   EXPECT_TRUE(life.active(kTrainee));
@@ -76,7 +76,7 @@ TEST(FailureTable, ReleasesAHandWithHotMotorsAndLatchesItTheThirdTime) {
     EXPECT_EQ(life.active(kTrainee), n < 3) << "cool again";
   }
   EXPECT_EQ(life.simulation->seat(kTrainee)->sample().gate, wire::GateState::kLatched)
-      << "the person is told to press the button";
+      << "the client asks the participant to press the button";
   life.simulation->seat(kTrainee)->request_gate_reset();
   life.until(20s);
   EXPECT_TRUE(life.active(kTrainee));
@@ -95,7 +95,7 @@ TEST(FailureTable, AnEvaluatorGetsHalfTheForceAndHalfTheTank) {
   while (life.at() < 10s && life.step()) felt = std::max(felt, life.before[kTrainee].norm());
   const double most = 0.5 * scene.gate.force_max;
   EXPECT_LE(felt, most * (1 + 1e-9));
-  EXPECT_GT(felt, 0.9 * most) << "he never felt the clamp";
+  EXPECT_GT(felt, 0.9 * most) << "the hand never felt the clamp";
   EXPECT_DOUBLE_EQ(life.simulation->seat(kTrainee)->gate().tank_size(),
                    0.5 * life.simulation->seat(kTrainer)->gate().tank_size());
   EXPECT_EQ(life.alpha(kTrainee), 0);

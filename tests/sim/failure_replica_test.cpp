@@ -54,7 +54,7 @@ TEST(FailureReplica, DoesNotDisturbOtherHandsWhenAClientDiesInContact) {
     EXPECT_EQ(life.alpha(kTrainer), 1);
     EXPECT_TRUE(life.active(kTrainer));
     life.until(at + 5s);
-    EXPECT_TRUE(life.active(kTrainee)) << "he is back";
+    EXPECT_TRUE(life.active(kTrainee)) << "the trainee is back";
     EXPECT_NEAR(life.alpha(kTrainee), 0.5, 1e-9);
     EXPECT_GE(life.audit[What::kLoss], 1);
     life.expect_nothing_broken();
@@ -148,7 +148,7 @@ TEST(FailureReplica, ReleasesAllHandsWithinARoundTripAndATickOfAnInstructorsStop
     ASSERT_TRUE(life.active(kTrainer) && life.active(kTrainee));
     ASSERT_TRUE(life.simulation->seat(kTrainer)->request_stop_all());
     const Duration all = life.time_to([&] { return !life.active(kTrainer) && !life.active(kTrainee); }, 500ms);
-    EXPECT_LE(all, std::chrono::milliseconds(2 * one_way) + 2ms) << "a tick, and the one in which he pressed";
+    EXPECT_LE(all, std::chrono::milliseconds(2 * one_way) + 2ms) << "a tick, and the one of the key press";
     EXPECT_TRUE(life.simulation->session().tool(0).authority.held());
     life.until(8s);
     life.simulation->seat(kTrainer)->request_resume();
@@ -176,11 +176,11 @@ TEST(FailureReplica, QuarantinesAHostileClientWithoutDisturbingOtherHands) {
     life.until(5990ms);
     EXPECT_LE(life.steps[kTrainer], kFelt);
     EXPECT_LE((life.before[kTrainer] - force).norm(), trainer == 1 ? 0.01 : 3.3)
-        << "of somebody without authority nothing is felt";
+        << "a hand without authority is not felt";
     EXPECT_TRUE(life.active(kTrainer));
     EXPECT_FALSE(life.active(kTrainee));
     life.until(10s);
-    EXPECT_TRUE(life.active(kTrainee)) << "he behaves again";
+    EXPECT_TRUE(life.active(kTrainee)) << "the trainee behaves again";
     life.expect_nothing_broken();
   }
 }

@@ -44,7 +44,7 @@ TEST(FailureTable, DoesNotDisturbOtherHandsWhenAClientDiesInContact) {
     EXPECT_EQ(life.alpha(kTrainer), 1);
     EXPECT_TRUE(life.active(kTrainer));
     life.until(at + 5s);
-    EXPECT_TRUE(life.active(kTrainee)) << "he is back";
+    EXPECT_TRUE(life.active(kTrainee)) << "the trainee is back";
     EXPECT_NEAR(life.alpha(kTrainee), 0.5, 1e-9);
     EXPECT_GE(life.audit[What::kLoss], 1);
     life.expect_nothing_broken();
@@ -129,7 +129,7 @@ TEST(FailureTable, LimitsAPartitionToTheIsolatedSide) {
     EXPECT_LE(let_go, direction == netsim::Direction::kUp ? 26ms : 22ms);
     const bool downward_only = direction == netsim::Direction::kDown;
     const Duration gone = life.time_to([&] { return life.alpha(kTrainee) == 0; }, 500ms);
-    EXPECT_LE(let_go + gone, downward_only ? 140ms : 222ms) << "a STATE that says so is seen sooner than silence";
+    EXPECT_LE(let_go + gone, downward_only ? 140ms : 222ms) << "a STATE with this flag is detected sooner than silence";
     life.until(5900ms);
     EXPECT_LE(life.steps[kTrainer], kFelt);
     EXPECT_TRUE(life.active(kTrainer));
@@ -202,7 +202,7 @@ TEST(FailureTable, LatchesALocalStopUntilItsUserResumes) {
   EXPECT_EQ(life.audit[What::kLocalStop], 1);
   life.simulation->seat(kTrainer)->request_resume();
   life.until(9s);
-  EXPECT_FALSE(life.active(kTrainee)) << "another person's button";
+  EXPECT_FALSE(life.active(kTrainee)) << "another participant's button";
   life.simulation->seat(kTrainee)->request_resume();
   life.until(12s);
   EXPECT_TRUE(life.active(kTrainee));
@@ -221,14 +221,14 @@ TEST(FailureTable, ReleasesAllHandsWithinARoundTripAndATickOfAnInstructorsStop) 
     ASSERT_TRUE(life.active(kTrainer) && life.active(kTrainee));
     ASSERT_TRUE(life.simulation->seat(kTrainer)->request_stop_all());
     const Duration all = life.time_to([&] { return !life.active(kTrainer) && !life.active(kTrainee); }, 500ms);
-    EXPECT_LE(all, std::chrono::milliseconds(2 * one_way) + 2ms) << "a tick, and the one in which he pressed";
+    EXPECT_LE(all, std::chrono::milliseconds(2 * one_way) + 2ms) << "a tick, and the one of the key press";
     EXPECT_EQ(life.state(), wire::SessionState::kStopped);
     EXPECT_TRUE(life.simulation->session().tool(0).authority.held());
     life.until(8s);
     EXPECT_FALSE(life.active(kTrainer) || life.active(kTrainee)) << "latched";
     life.simulation->seat(kTrainee)->request_resume();
     life.until(9s);
-    EXPECT_EQ(life.state(), wire::SessionState::kStopped) << "not his to end";
+    EXPECT_EQ(life.state(), wire::SessionState::kStopped) << "the trainee may not end it";
     life.simulation->seat(kTrainer)->request_resume();
     life.time_to([&] { return life.active(kTrainer) && life.active(kTrainee); }, 2s);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_LE(life.before[i].norm(), 0.05) << "bumpless";
@@ -278,12 +278,12 @@ TEST(FailureTable, QuarantinesAHostileClientWithoutDisturbingOtherHands) {
     EXPECT_EQ(life.simulation->session().authority_version(), version);
     EXPECT_LE(life.steps[kTrainer], kFelt);
     EXPECT_LE((life.before[kTrainer] - force).norm(), trainer == 1 ? kFelt : 3.3)
-        << "of somebody without authority nothing is felt";
+        << "a hand without authority is not felt";
     EXPECT_TRUE(life.active(kTrainer));
     EXPECT_FALSE(life.active(kTrainee));
     EXPECT_GE(life.audit[What::kQuarantined], 1);
     life.until(10s);
-    EXPECT_TRUE(life.active(kTrainee)) << "he behaves again";
+    EXPECT_TRUE(life.active(kTrainee)) << "the trainee behaves again";
     life.expect_nothing_broken();
   }
 }

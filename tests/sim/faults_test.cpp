@@ -73,7 +73,7 @@ TEST(Faults, ReleaseTheHandOfAPausedProgramAndEngageItAgain) {
   EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 0u) << "the others are not to suffer";
   EXPECT_EQ(run.world->device(kTrainee).counts().expired, 496u)
       << "the command of 4.999 s lives until 5.004 s, the next comes at 5.500 s";
-  EXPECT_GE(let_go_after, 500ms) << "nobody was there to let go before";
+  EXPECT_GE(let_go_after, 500ms) << "no client ran that could have released the hand before";
 }
 
 TEST(Faults, RestoreSeatAndEngagementOfARestartedProgram) {
@@ -225,7 +225,7 @@ TEST(Clocks, ALateWakeUpShiftsItsDatagramToTheNanosecond) {
   EXPECT_GT(late.size(), 2900u);
   EXPECT_TRUE(std::ranges::none_of(late, [&](Time t) { return t.time_since_epoch() % tick == Duration{}; }));
   EXPECT_TRUE(std::ranges::all_of(sent.in[kTrainer], [&](Time t) { return t.time_since_epoch() % tick == Duration{}; }))
-      << "who is not late works at the ticks";
+      << "a client that is not late works at the ticks";
 }
 
 // If the Simulation ran seats out of order, a datagram on a shared link would wait for a newer one.
@@ -269,7 +269,7 @@ TEST(Clocks, ALateWakeUpReadsTheDeviceAtItsOwnMoment) {
     before = now;
   });
   expect_nothing_broken(*run.world);
-  EXPECT_GT(off_if_at_tick, 0.05) << "[m] in all: nobody moved";
+  EXPECT_GT(off_if_at_tick, 0.05) << "[m] in all: no hand moved";
   EXPECT_LT(off, 0.1 * off_if_at_tick);
 }
 
@@ -283,10 +283,10 @@ TEST(Clocks, ReleaseTheHandOnceForAStepOfASecond) {
 
 TEST(Faults, AreRejectedForAnUnknownSeat) {
   netsim::SimulationConfig setup{.scene = calm_scene()};
-  setup.faults = {{Fault::Kind::kPause, "nobody", 1s, 1s}};
+  setup.faults = {{Fault::Kind::kPause, "absent", 1s, 1s}};
   const auto made = netsim::Simulation::make(setup);
   ASSERT_FALSE(made);
-  EXPECT_NE(made.error().find("nobody"), std::string::npos);
+  EXPECT_NE(made.error().find("absent"), std::string::npos);
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST(FreshSeeds, LimitTheSpringOfALostSeatWhenOthersMoveTheTool) {
     pull = std::max(pull, end.k[0] * std::abs(end.ref[0] - (tool.x(0) - tool.moved()[0])));
     way = std::max(way, std::abs(tool.x(0) - before));
   }
-  EXPECT_GT(way, 0.005) << "else nobody took the tool away";
+  EXPECT_GT(way, 0.005) << "else no hand moved the tool away";
   EXPECT_LE(pull, 3.3 * (1 + 1e-9)) << "no motor of this scene pulls harder";
   life.until(6s);
   life.expect_nothing_broken();

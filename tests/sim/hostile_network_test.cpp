@@ -59,7 +59,7 @@ Held attacked(const netsim::SimulationConfig& setup, Duration ends) {
     if (into == 0ms) {
       EXPECT_TRUE(seat->gate().active());
       out.pressed_n = world.device(kTrainer).state().f_out.norm();
-      EXPECT_GE(out.pressed_n, kPressed) << "nobody was in contact";
+      EXPECT_GE(out.pressed_n, kPressed) << "no hand was in contact";
     }
     if (into > 400ms && into < ends) out.active_meanwhile |= seat->gate().active();
     if (into > 0ms && world.session().state() == wire::SessionState::kRunning) out.active_after = seat->gate().active();

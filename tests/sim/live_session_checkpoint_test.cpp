@@ -96,7 +96,7 @@ TEST(LiveSession, ReportsThatItWaitsWhileItIsStopped) {
   ASSERT_TRUE(restored.session().stop(now, AccessRole::kOperator));
   const server::SessionStatus stopped = look();
   EXPECT_EQ(stopped.state, wire::SessionState::kStopped);
-  EXPECT_TRUE(stopped.waiting) << "it gathers";
+  EXPECT_TRUE(stopped.waiting) << "it waits for the required seats";
   ASSERT_TRUE(restored.session().resume(now, AccessRole::kOperator, restored.session().stops()));
   ASSERT_TRUE(restored.session().resume(now, AccessRole::kOperator,
                                         restored.session().stops()));  // resumes without the missing seats

@@ -146,7 +146,7 @@ void judge(Grip grip, bool replayed) {
         EXPECT_LE(loss.seen, limit + 3ms);
         EXPECT_LE(loss.energy_j, tank(c.mass_kg) + kBelowTank);
         EXPECT_LE(loss.counted_j, tank(c.mass_kg) + kBelowTank);
-        EXPECT_LE(loss.left_n, 0.05) << "what is left only damps";
+        EXPECT_LE(loss.left_n, 0.05) << "the remaining force is damping only";
         most = std::max(most, loss.energy_j);
         beyond = std::max(beyond, loss.beyond_m);
         pressed = loss.pressed_n;

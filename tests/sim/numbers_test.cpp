@@ -57,7 +57,7 @@ TEST(Numbers, ContactForceIsFeltWithinTwoTenthsOfANewton) {
   ASSERT_TRUE(r.report.passed);
   EXPECT_LE(r.phase("alignment", "trainer").force_error_rms_n, 0.2);
   EXPECT_LE(r.phase("alignment", "trainee").force_error_rms_n, 0.1);
-  EXPECT_GT(r.report.tools[0].contact_force_rms_n, 1.0) << "nobody pressed";
+  EXPECT_GT(r.report.tools[0].contact_force_rms_n, 1.0) << "no hand pressed";
   EXPECT_LE(r.seat("trainer").metrics.effort_peak_n, 3.3);
 }
 
@@ -77,7 +77,7 @@ TEST(Numbers, ContactUnderTheDefaultLawIsFeltWithinAFiftiethOfANewton) {
       EXPECT_LE(r.phase("alignment", seat).force_error_rms_n, 0.05) << seat << " " << ms;
     EXPECT_LE(depth / ticks, 0.008) << ms;
     EXPECT_GE(force / depth, 360) << ms;
-    EXPECT_GT(r.report.tools[0].contact_force_rms_n, 2.0) << "nobody pressed";
+    EXPECT_GT(r.report.tools[0].contact_force_rms_n, 2.0) << "no hand pressed";
     EXPECT_LE(r.seat("trainer").metrics.effort_peak_n, 3.3);
   }
 }

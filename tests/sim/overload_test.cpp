@@ -56,7 +56,8 @@ TEST(Overload, StartsAtTheThirdLateTickAndEndsByItself) {
   EXPECT_EQ(life.audit[What::kOverload], 1);
   EXPECT_LE(life.time_to([&] { return !life.active(kTrainer) && !life.active(kTrainee); }, 100ms), 2ms);
   life.until(life.at() + 100ms);
-  for (const std::size_t i : {kTrainer, kTrainee}) EXPECT_LT(life.before[i].norm(), 0.5) << "what is left is damping";
+  for (const std::size_t i : {kTrainer, kTrainee})
+    EXPECT_LT(life.before[i].norm(), 0.5) << "the remaining force is damping";
   EXPECT_TRUE(life.simulation->session().tool(0).authority.held()) << "the tool is braked";
   life.until(4s + 950ms);
   EXPECT_EQ(life.state(), wire::SessionState::kOverloaded);
@@ -70,8 +71,7 @@ TEST(Overload, StartsAtTheThirdLateTickAndEndsByItself) {
   EXPECT_GT(life.before[kTrainee].norm(), 0.5) << "pressing again";
   for (const std::size_t i : {kTrainer, kTrainee}) {
     EXPECT_LE(life.steps[i], 0.2) << "[N/ms] felt by " << i;
-    EXPECT_EQ(life.simulation->seat(i)->gate().trips(), 0u)
-        << "asked to let go: no loss, so that nothing can be latched by it";
+    EXPECT_EQ(life.simulation->seat(i)->gate().trips(), 0u) << "a requested release is no loss, so it latches nothing";
   }
   life.expect_nothing_broken();
 }
@@ -96,7 +96,7 @@ TEST(Overload, DoesNotEndAStop) {
   EXPECT_EQ(busy.state(), wire::SessionState::kStopped) << "in the overload and after it";
   EXPECT_FALSE(busy.active(kTrainee));
   busy.until(9s);
-  EXPECT_EQ(busy.state(), wire::SessionState::kRunning) << "a person resumed";
+  EXPECT_EQ(busy.state(), wire::SessionState::kRunning) << "a participant resumed";
   EXPECT_EQ(busy.audit[What::kOverloadCleared], 1);
   busy.expect_nothing_broken();
 }

@@ -138,7 +138,7 @@ TEST(ReplicaStiffness, EachSeatHasTheSpringOfItsOwnDevice) {
   EXPECT_NEAR(life.simulation->seat(1)->setup().coupling.k_c, 2 * k, 1e-9);
   EXPECT_NEAR(life.simulation->session().tool(0).body()->surface_force()[0],
               life.simulation->device(0).state().f_out[0], 0.05)
-      << "the tool presses as hard as he feels";
+      << "the tool presses as hard as the hand feels";
   life.expect_nothing_broken();
 }
 

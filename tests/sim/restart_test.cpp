@@ -172,7 +172,7 @@ TEST(ServerRestart, PreservesAStop) {
   world.seat(1)->request_resume();  // its own hand; otherwise the session waits for it
   until(8s);
   EXPECT_EQ(world.session().state(), wire::SessionState::kStopped);
-  EXPECT_GT(world.session().stops(), stops) << "under a new number: an old wish to resume is void";
+  EXPECT_GT(world.session().stops(), stops) << "under a new number: an old request to resume is void";
   for (std::size_t i = 0; i < 2; ++i) EXPECT_FALSE(world.seat(i)->gate().active());
   world.seat(0)->request_resume();
   until(11s);

@@ -120,10 +120,10 @@ TEST(Simulation, SeatsAreRefusedWhenTakenOrUnknown) {
   };
   EXPECT_EQ(ask("trainer", 5ms), server::JoinResult::kAccepted);
   EXPECT_EQ(ask("trainer", 6ms), server::JoinResult::kSeatTaken);
-  EXPECT_EQ(ask("trainer", 7ms, true), server::JoinResult::kAccepted) << "he himself, again";
+  EXPECT_EQ(ask("trainer", 7ms, true), server::JoinResult::kAccepted) << "the same owner, again";
   EXPECT_EQ(ask("trainer", 2007ms), server::JoinResult::kSeatTaken);
   EXPECT_EQ(ask("trainer", 2008ms), server::JoinResult::kAccepted) << "its owner was silent for two seconds";
-  EXPECT_EQ(ask("nobody", 5ms), server::JoinResult::kNoSuchSeat);
+  EXPECT_EQ(ask("absent", 5ms), server::JoinResult::kNoSuchSeat);
   EXPECT_EQ(session.seat_catalogue().seat_names(), "trainer");
   caps.joints = caps.tip_axes = 0;
   EXPECT_EQ(ask("trainer", 3000ms), server::JoinResult::kDeviceUnfit);

@@ -63,7 +63,7 @@ TEST(SeveralTools, ARelaxedHandGoesToTheirWeightedMean) {
     SessionDriver life{over(std::move(scene), delay)};
     life.until(12s);
     EXPECT_NEAR(life.simulation->device(0).ground_truth().x[0], 10 * kMm, 0.5 * kMm) << delay << " ms";
-    EXPECT_NEAR(life.simulation->session().tool(0).x(0), -20 * kMm, 0.5 * kMm) << "what follows takes no tool along";
+    EXPECT_NEAR(life.simulation->session().tool(0).x(0), -20 * kMm, 0.5 * kMm) << "a follower moves no tool";
     EXPECT_NEAR(life.simulation->session().tool(1).x(0), 20 * kMm, 0.5 * kMm);
     life.expect_nothing_broken();
   }
@@ -157,7 +157,7 @@ TEST(SeveralTools, LimitThePullOfALeaderThatDoesNotFollowTheTool) {
     before = x;
   }
   EXPECT_NEAR(life.simulation->session().tool(1).x(0), life.simulation->device(0).ground_truth().x[0], 1 * kMm)
-      << "it comes to his hand, 40 mm away";
+      << "it comes to the hand, 40 mm away";
   EXPECT_LE(most, 3.3 * 400 / 370 + 1e-6);
   EXPECT_LE(speed, 1) << "[m/s]";
   life.expect_nothing_broken();

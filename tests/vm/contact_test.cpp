@@ -226,12 +226,12 @@ TEST_P(Contact, LeavesTheDevicesOwnWatchdogWhenClientAndWatchdogAreKilled) {
   EXPECT_EQ(trainer.wait(), -SIGKILL);
   const Time at = desk.begin_anew();
   std::this_thread::sleep_for(400ms);
-  EXPECT_TRUE(desk.seen().empty()) << "nobody is left to order anything";
+  EXPECT_TRUE(desk.seen().empty()) << "no program is left to command it";
   EXPECT_GT(desk.plug->force(), kContact / 2) << "it still pushes";
   const Duration watchdog = desk.plug->watchdog();
   if (watchdog > Duration::zero()) {
     EXPECT_TRUE(within(watchdog, [&] { return desk.plug->force() == 0; }));
-    std::printf("[  guest   ] kill -9 of both: the board's own watchdog let go after %.0f ms\n",
+    std::printf("[  guest   ] kill -9 of both: the board's own watchdog ended the force after %.0f ms\n",
                 ms(desk.plug->now() - at));
     EXPECT_LE(ms(desk.plug->now() - at), ms(watchdog) + 20);
     return;
@@ -241,7 +241,8 @@ TEST_P(Contact, LeavesTheDevicesOwnWatchdogWhenClientAndWatchdogAreKilled) {
   std::printf("[  guest   ] kill -9 of both: the device still pushes with %.2f N after %.0f ms\n", desk.plug->force(),
               ms(desk.plug->now() - at));
   trainer = join();
-  EXPECT_TRUE(within(5s, [&] { return desk.plug->force() == 0; })) << "whoever opens it next takes the force away";
+  EXPECT_TRUE(within(5s, [&] { return desk.plug->force() == 0; }))
+      << "the next program that opens it removes the force";
 }
 
 struct ContactOfTwo : Contact {};

@@ -108,7 +108,7 @@ TEST_F(Guest, FalconBootsThroughUsbfsServesAtOneKilohertzAndIsUnplugged) {
   const auto device = settle(*watch, hal::Bus::kUsb, kFalcon, true);
   ASSERT_TRUE(device);
   EXPECT_FALSE(device->port.empty());
-  EXPECT_EQ(rights(device->node), 0660u) << "the rule we tell people to install does what it says";
+  EXPECT_EQ(rights(device->node), 0660u) << "the documented udev rule sets the rights";
   auto pipe = hal::LibusbPipe::open(*device, {0, hal::kFalconIn, hal::kFalconOut});
   ASSERT_TRUE(pipe) << pipe.error().message;
   const auto second = hal::LibusbPipe::open(*device);
@@ -170,7 +170,7 @@ TEST_F(Guest, BoardOverHidrawServesAtOneKilohertzAndIsUnplugged) {
   const auto device = settle(*watch, hal::Bus::kHidraw, ids, true);
   ASSERT_TRUE(device);
   EXPECT_EQ(device->serial, model.serial());
-  EXPECT_EQ(rights(device->node), 0660u) << "the rule we tell people to install does what it says";
+  EXPECT_EQ(rights(device->node), 0660u) << "the documented udev rule sets the rights";
   auto pipe = hal::HidrawPipe::open(*device);
   ASSERT_TRUE(pipe) << pipe.error().message;
 

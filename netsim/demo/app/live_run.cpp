@@ -87,8 +87,7 @@ bool LiveRunProcesses::wait_for_address(std::size_t index, std::string& address)
     if (!child.running())
       return set_error(
           child, "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " before it listened");
-    if (monotonic_seconds() - begin > kStartPatience)
-      return set_error(child, "did not say where it listens within 10 s");
+    if (monotonic_seconds() - begin > kStartPatience) return set_error(child, "did not print its address within 10 s");
     std::this_thread::sleep_for(kLook);
   }
 }

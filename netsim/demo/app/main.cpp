@@ -50,8 +50,7 @@ int main(int argc, char** argv) {
   tandem::netsim::demo::DemoOptions plan;
   std::string list;
   bool live = false;
-  app.add_flag("--live", live,
-               "all runs in real time, about two minutes: what ./demo does when it is given nothing else");
+  app.add_flag("--live", live, "all runs in real time, about two minutes; default of ./demo");
   app.add_flag("--quick", plan.quick, "virtual time: the same runs in one process, in seconds, without sockets");
   app.add_option(
          "--runs", list,

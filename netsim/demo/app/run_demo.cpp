@@ -145,7 +145,7 @@ int run_demo(const DemoOptions& plan) {
   if (!plan.quick) {
     const std::string missing = missing_programs(places);
     if (!missing.empty())
-      return trouble("not there: " + missing + ". Build them, or use --quick: virtual time needs no other program");
+      return trouble("missing: " + missing + ". Build them, or use --quick: virtual time needs no other program");
   }
   io::print_formatted(
       stdout, "Tandem: two people, one tool. %zu run%s %s.\n", plan.runs.size(), plan.runs.size() == 1 ? "" : "s",

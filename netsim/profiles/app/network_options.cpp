@@ -91,7 +91,7 @@ std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {
 
 void NetworkOptions::add_to(CLI::App& command) {
   command_ = &command;
-  const std::string group = "What the network is like (each direction)";
+  const std::string group = "Network (each direction)";
   const auto number = [&](const char* option, double& value, double hi, const std::string& unit, const char* help) {
     command.add_option(option, value, help)
         ->transform(io::number_in(0, hi, unit))
@@ -106,7 +106,7 @@ void NetworkOptions::add_to(CLI::App& command) {
   number("--reorder", reorder_percent_, 100, "%", "datagrams that arrive after three later ones [%], 0 to 100");
   command
       .add_option("--outage", outages_,
-                  "the link is down from START for LENGTH, again every PERIOD [s]; what is sent meanwhile is lost; "
+                  "the link is down from START for LENGTH, again every PERIOD [s]; datagrams sent meanwhile are lost; "
                   "may be given several times")
       ->option_text("START,LENGTH[,PERIOD]")
       ->allow_extra_args(false)
@@ -140,7 +140,7 @@ void NetworkOptions::add_to(CLI::App& command) {
       ->group(group);
   command
       .add_option("--script", script_,
-                  "what changes while it runs: outages, other networks, other addresses at their times; a .textproto "
+                  "schedule of changes: outages, other networks, other addresses at given times; a .textproto "
                   "file of `event { at_s: 12 client: \"trainee\" outage_ms: 400 }`, schema proto/schema/script.proto")
       ->option_text("FILE")
       ->group(group);

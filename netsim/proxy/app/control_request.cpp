@@ -43,7 +43,7 @@ class ControlRequestParser {
   explicit ControlRequestParser(std::vector<std::string_view> words) : words_(std::move(words)) {}
 
   std::expected<ControlRequest, std::string> read() {
-    if (words_.empty()) return std::unexpected(std::string("nothing was asked; `help` lists the commands"));
+    if (words_.empty()) return std::unexpected(std::string("the command is empty; `help` lists the commands"));
     if (const std::string wrong = first(); !wrong.empty()) return std::unexpected(wrong);
     while (at_ < words_.size()) {
       if (const std::string wrong = next(); !wrong.empty()) return std::unexpected(wrong);
@@ -186,15 +186,15 @@ std::optional<Duration> parse_length(std::string_view text) noexcept {
 const char* control_help() noexcept {
   return "  profile NAME|FILE    another network; `tandem-netsim profiles` lists them\n"
          "  delay MS             one-way delay\n"
-         "  jitter MS            up to so much more, by chance\n"
+         "  jitter MS            random additional delay up to MS\n"
          "  loss PERCENT         lost datagrams; numbers in one line change at one moment\n"
          "  duplicate PERCENT    datagrams that come twice\n"
          "  reorder PERCENT      datagrams that come out of order\n"
-         "  outage LENGTH        the link is down from now on; what is sent is lost\n"
-         "  outage LENGTH hold   the same; it comes afterwards\n"
-         "  outage LENGTH last   the same; only the newest comes afterwards\n"
-         "  reset                the network of the start\n"
-         "  rebind [LENGTH]      a new address towards the server; the old one is heard\n"
+         "  outage LENGTH        the link is down from now on; datagrams are lost\n"
+         "  outage LENGTH hold   the same; datagrams arrive afterwards\n"
+         "  outage LENGTH last   the same; only the newest arrives afterwards\n"
+         "  reset                the network at the start\n"
+         "  rebind [LENGTH]      a new address towards the server; the old one receives\n"
          "                       for LENGTH more\n"
          "  ... client N [N...]  any of these for some clients, in order of arrival\n"
          "  ... up, ... down     any of these for one direction\n"

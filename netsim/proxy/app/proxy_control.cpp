@@ -32,7 +32,7 @@ std::string missing(const std::vector<std::uint64_t>& asked, const std::set<std:
     if (present.contains(number)) continue;
     std::string there;
     for (const std::uint64_t n : present) there += (there.empty() ? "" : ", ") + std::to_string(n);
-    return "there is no client " + std::to_string(number) + "; present: " + (there.empty() ? "nobody" : there);
+    return "there is no client " + std::to_string(number) + "; present: " + (there.empty() ? "none" : there);
   }
   return {};
 }
@@ -159,7 +159,7 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
 ProxyControl::Answer ProxyControl::rebind(const ControlRequest& request, const std::string& line) {
   const std::set<std::uint64_t> present = present_of(proxy_.status());
   if (std::string who = missing(request.clients, present); !who.empty()) return wrong(std::move(who));
-  if (present.empty()) return trouble("nobody is there whose address could change");
+  if (present.empty()) return trouble("no client is present whose address could change");
   ProxyRequest& order = requests_.emplace_back();
   order.rebind.dead_after = request.dead_after;
   if (request.clients.empty()) {
@@ -177,7 +177,7 @@ std::string ProxyControl::post(ProxyRequest& order) {
   // Completed requests can be freed; the caller still reads the newest one.
   std::erase_if(requests_,
                 [&](const ProxyRequest& old) { return &old != &order && old.done.load(std::memory_order_acquire); });
-  if (!proxy_.post(order)) return "the proxy has too much to do";
+  if (!proxy_.post(order)) return "the proxy is overloaded; repeat the command";
   for (int waited = 0; waited < kPatienceMs; ++waited) {
     if (order.done.load(std::memory_order_acquire)) return {};
     ::poll(nullptr, 0, 1);

@@ -14,7 +14,7 @@ constexpr int kPassesMax = 16;
 /// Silence after which a new port of the same host counts as a reconnect. A client sends hundreds of datagrams per
 /// second, so a longer silence means that it closed its socket. A server frees a seat after the same time.
 constexpr Duration kReconnects{2'000'000'000};
-static_assert(io::ReceiveBatch::kSlotBytes == kSlotBytes, "what can be received can be kept");
+static_assert(io::ReceiveBatch::kSlotBytes == kSlotBytes, "the buffer holds every datagram that can be received");
 
 }  // namespace
 

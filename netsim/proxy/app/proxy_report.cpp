@@ -80,9 +80,9 @@ std::string troubles_text(const ProxyErrors& t) {
       {t.too_many_clients, "datagrams of clients beyond the 64th were dropped"},
       {t.too_long, "datagrams above 1500 bytes were dropped"},
       {t.kernel_drops,
-       "datagrams were dropped by the kernel before the proxy saw them: more came than this computer carries"},
-      {t.no_room, "datagrams found no room in the kernel's send buffer"},
-      {t.refused, "times nobody listened at the other end"},
+       "datagrams were dropped by the kernel before the proxy saw them: more arrived than this computer can handle"},
+      {t.no_room, "datagrams did not fit into the kernel's send buffer"},
+      {t.refused, "times no program listened at the other end"},
       {t.other, "other socket errors"},
   };
   std::string text;
@@ -210,12 +210,12 @@ std::string summary_text(const Proxy& proxy, const ProxyReportNotes& notes) {
   }
   if (notes.lateness_max && !judged(proxy, notes)) {
     text +=
-        "  NOTHING WAS JUDGED: nobody sent anything that the proxy could have passed on late; --max-lateness is not "
-        "kept\n";
+        "  NOTHING WAS JUDGED: no client sent a datagram that the proxy could have passed on late; --max-lateness is "
+        "not met\n";
   } else if (!in_time(proxy, notes)) {
     text += format(
-        "  TOO LATE: p99 %.1f us is above --max-lateness %.0f us. This computer was too busy for that: what\n"
-        "    was measured over this network says little. Remedy: --realtime, fewer programs, --coalesce 0\n",
+        "  TOO LATE: p99 %.1f us is above --max-lateness %.0f us. This computer was too busy:\n"
+        "    measurements over this network are not reliable. Remedy: --realtime, fewer programs, --coalesce 0\n",
         us(0.99), static_cast<double>(notes.lateness_max->count()) / 1e3);
   }
   if (notes.log_missed > 0) {

@@ -38,7 +38,7 @@ int enroll_command(const EnrollArguments& arguments) {
     if (!serving) return print_error("enroll", serving.error());
     if (!*serving)
       return print_usage_errors("enroll", {"--address is required: no server runs from " + state->folder()->path() +
-                                           " that could tell where it listens"});
+                                           ", so its address is unknown"});
     out.address = (*serving)->address;
     if (const auto problem = io::remote_address_error(out.address); !problem.empty())
       return print_usage_errors("enroll", {"--address is required: the running server listens on " + problem});
@@ -53,10 +53,8 @@ int enroll_command(const EnrollArguments& arguments) {
   std::string text = out.to_text();
   std::printf("%s\n", text.c_str());
   wipe(text);
-  std::fprintf(
-      stderr,
-      "type on %s, within %s h: tandem-client enroll STRING\nthe string is a secret until then, and good once\n",
-      arguments.name.c_str(), hours.c_str());
+  std::fprintf(stderr, "type on %s, within %s h: tandem-client enroll STRING\nthe string is secret and valid once\n",
+               arguments.name.c_str(), hours.c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
@@ -64,22 +62,22 @@ int enroll_command(const EnrollArguments& arguments) {
 
 void add_enroll_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<EnrollArguments>();
-  CLI::App* const command = root.add_subcommand(
-      "enroll", "Gives out a one-time string with which one workstation becomes known to this server.");
-  command->add_option("NAME", arguments->name, "what the workstation shall be called here, such as touch-07")
+  CLI::App* const command =
+      root.add_subcommand("enroll", "Issues a one-time string that enrols one workstation at this server.");
+  command->add_option("NAME", arguments->name, "name of the workstation, such as touch-07")
       ->option_text(" ")
       ->required();
   command
       ->add_option("--address", arguments->address,
                    "where workstations reach this server; default: where the running server listens")
       ->option_text("HOST:PORT");
-  command->add_option("--hours", arguments->hours, "how long the string is good [h], 0.01 to 720; default 24")
+  command->add_option("--hours", arguments->hours, "validity of the string [h], 0.01 to 720; default 24")
       ->option_text("H");
   add_state_option(*command, arguments->state);
   command->footer(
-      "Prints one string to standard output: the server's address, its key's SHA-256 and a code of 128 bits, of which "
-      "the server keeps a\n"
-      "hash only. A second string for the same name makes the first one void. The server may run meanwhile.\n"
+      "Prints one string to standard output: the server's address, the SHA-256 of its key and a code of 128 bits. "
+      "The server stores\n"
+      "only a hash of it. A second string for the same name makes the first one void. The server may run meanwhile.\n"
       "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-server enroll touch-07 --address lab-server:7000\n"

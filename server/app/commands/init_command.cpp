@@ -30,8 +30,9 @@ int rotate_ticket_key(const std::string& state) {
   if (const std::string problem = auth::ServerKeystore::rotate_ticket_key(*path, auth::wall_seconds());
       !problem.empty())
     return print_error("init", problem);
-  std::printf("state folder %s\nnew ticket key: every ticket given out before is void; workstations and codes stay\n",
-              path->c_str());
+  std::printf(
+      "state folder %s\nnew ticket key: every ticket issued before is void; workstations and codes stay valid\n",
+      path->c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
@@ -40,16 +41,16 @@ int rotate_ticket_key(const std::string& state) {
 void add_init_command(CLI::App& root, std::function<int()>& action) {
   const auto state = std::make_shared<std::string>();
   CLI::App* const command = root.add_subcommand(
-      "init", "Makes a server's keys and empty books, once; needed before it may listen on a network.");
+      "init", "Creates a server's keys and empty registries, once; required before it may listen on a network.");
   add_state_option(*command, *state);
   const auto tickets = std::make_shared<bool>(false);
   command->add_flag("--new-ticket-key", *tickets,
-                    "replaces only the key that signs tickets, in a folder that was set up: every ticket given out "
-                    "before is void; no server may run from it");
+                    "replaces only the key that signs tickets, in an existing folder: every ticket issued before is "
+                    "void; no server may run from it");
   command->footer(
-      "The folder gets mode 0700, its files 0600; whoever can read them can be this server. Run it as the user the "
-      "server runs as.\n"
-      "Prints the SHA-256 of the server's key, by which workstations know it.\n"
+      "The folder gets mode 0700, its files 0600; a user who can read them can impersonate this server. Run this "
+      "command as the user of the server.\n"
+      "Prints the SHA-256 of the server's key, by which workstations recognise it.\n"
       "Exit: 0 done; 1 it exists already or cannot be written; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-server init\n"

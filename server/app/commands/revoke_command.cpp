@@ -24,7 +24,7 @@ int revoke_command(const RevokeArguments& arguments) {
   state->audit(auth::wall_seconds(), "revoked", arguments.name);
   warn_audit_failure("revoke", *state);
   std::printf("%s: %s%s\n", arguments.name.c_str(),
-              gone->workstations > 0 ? "its key is refused from now on" : "was not enrolled",
+              gone->workstations > 0 ? "the server rejects its key from now on" : "was not enrolled",
               gone->codes > 0 ? "; its enrolment string is void" : "");
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
@@ -34,14 +34,14 @@ int revoke_command(const RevokeArguments& arguments) {
 void add_revoke_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<RevokeArguments>();
   CLI::App* const command =
-      root.add_subcommand("revoke", "Makes a workstation unknown: its key, and an enrolment string not used yet.");
+      root.add_subcommand("revoke", "Revokes a workstation: its key, and its unused enrolment string.");
   command->add_option("NAME", arguments->name, "the workstation, as it was enrolled")->option_text(" ")->required();
   add_state_option(*command, arguments->state);
   command->footer(
-      "A running server refuses the workstation at its next word, tickets made for it included, and within a second "
+      "A running server rejects the next message of the workstation, and tickets issued for it. Within a second it "
       "releases the\n"
-      "hand at a seat it has, and ends its other connections.\n"
-      "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments, or nobody of this name.\n\n"
+      "hand at its seat, and closes its other connections.\n"
+      "Exit: 0 done; 1 the state folder cannot be used; 2 wrong arguments, or an unknown name.\n\n"
       "Examples\n"
       "  tandem-server revoke touch-07\n"
       "  tandem-server revoke touch-07 --state ./state");

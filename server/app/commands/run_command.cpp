@@ -114,10 +114,10 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       ->option_text(" ")
       ->required();
   command
-      ->add_option(
-          "--listen", arguments->listen,
-          "where clients join, UDP and TCP; port 0 takes one that is free; default 127.0.0.1:0. Any other address than "
-          "loopback needs `tandem-server init` and an enrolled workstation")
+      ->add_option("--listen", arguments->listen,
+                   "address at which clients join, UDP and TCP; port 0 takes a free one; default 127.0.0.1:0. Any "
+                   "other address than "
+                   "loopback needs `tandem-server init` and an enrolled workstation")
       ->option_text("HOST:PORT");
   command
       ->add_option("--state", arguments->state,
@@ -137,7 +137,7 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
   command->add_option("--trace", arguments->trace, "writes one row per tick of the session")->option_text("FILE.csv");
   command
       ->add_option("--metrics", arguments->metrics,
-                   "answers /metrics (Prometheus), /healthz and /readyz there, over HTTP; default: nowhere")
+                   "serves /metrics (Prometheus), /healthz and /readyz at this address over HTTP; default: off")
       ->option_text("HOST:PORT");
   command->add_option("--log", arguments->log, "text, or json: one object per line on standard error; default text")
       ->option_text("FORMAT");
@@ -156,7 +156,8 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       "Prints `listening on HOST:PORT` first, then the command of each seat to type. The session begins when all "
       "required\n"
       "seats are ready. Ctrl-C releases all hands, notifies the clients, writes the reports and ends with 0.\n"
-      "Exit: 0 done and verdict pass; 1 verdict fail, port in use, nobody came, peers lost; 2 wrong arguments or "
+      "Exit: 0 done and verdict pass; 1 verdict fail, port in use, required seats missing, peers lost; 2 wrong "
+      "arguments or "
       "files.\n\n"
       "Examples\n"
       "  tandem-server run free_motion\n"

@@ -42,7 +42,7 @@ std::string scene_file(const ServerConfigSpec& config, const std::string& named)
 
 std::string folder_error(const std::string& path) {
   std::error_code error;
-  if (!fs::is_directory(path, error)) return "is not a folder; make it first";
+  if (!fs::is_directory(path, error)) return "is not a folder; create it first";
   return ::access(path.c_str(), W_OK | X_OK) == 0 ? "" : "is not writable for this user";
 }
 
@@ -61,9 +61,9 @@ SessionOptions session_options_from(const ServerConfigSpec& config, const Config
     for (const InputError& error : scene.error()) errors.push_back(in.scene.error(config.file, to_text(error)));
   }
   if (auth::canonical_session_code(in.name))
-    errors.push_back(in.placed_name.error(
-        config.file,
-        "reads as a session's code (10 letters and digits), so nobody could join by this name; choose a shorter one"));
+    errors.push_back(in.placed_name.error(config.file,
+                                          "has the form of a session code (10 letters and digits), so no client could "
+                                          "join by this name; choose a shorter one"));
   if (in.duration_s > 0) out.scene.duration = in.duration_s;
   return out;
 }
@@ -141,7 +141,7 @@ int serve_command(const ServeArguments& arguments) {
 void add_serve_command(CLI::App& root, std::function<int()>& action) {
   const auto arguments = std::make_shared<ServeArguments>();
   CLI::App* const command =
-      root.add_subcommand("serve", "Hosts all sessions of a configuration, until it is told to end.");
+      root.add_subcommand("serve", "Hosts all sessions of a configuration until a signal or a stop command.");
   command
       ->add_option("CONFIG", arguments->config,
                    "a file of proto/schema/server_config.proto; server/README.md has the table of its keys")
@@ -151,12 +151,12 @@ void add_serve_command(CLI::App& root, std::function<int()>& action) {
                     "only checks everything, the state folder too, and prints every value in force, with units");
   command->add_flag("--quiet", arguments->quiet, "no status and no summaries");
   command->footer(
-      "Prints `listening on HOST:PORT` first, then the commands that people type; on a terminal with each session's "
+      "Prints `listening on HOST:PORT` first, then the commands for participants; on a terminal with each session's "
       "code, elsewhere\n"
-      "`tandem-server sessions` shows the codes. A session that is over opens again, with another code, unless\n"
-      "`restart: false`. SIGTERM or Ctrl-C: new joins are rejected, all hands are released, reports are written, the "
-      "end within 3 s; a second\n"
-      "one ends at once. Started again within 10 min, however it ended, every session goes on where it was, with the "
+      "`tandem-server sessions` shows the codes. A session that is over restarts with a new code, unless\n"
+      "`restart: false`. SIGTERM or Ctrl-C: new joins are rejected, all hands are released, reports are written, and "
+      "the server ends within 3 s; a second\n"
+      "signal ends it at once. If the server restarts within 10 min, however it ended, every session resumes with the "
       "same code, and its\n"
       "clients reconnect to their seats automatically. Sessions of different tick rates have threads of their own, "
       "behind one port.\n"

@@ -54,7 +54,7 @@ void add_sessions_command(CLI::App& root, std::function<int()>& action) {
   add_state_option(*command, arguments->state);
   command->add_flag("--json", arguments->json, "for machines");
   command->footer(
-      "`status` is the same. What it says is at most a second old. Exit: 0 done; 1 no server runs from this folder, or "
+      "`status` is an alias. The list is at most a second old. Exit: 0 done; 1 no server runs from this folder, or "
       "it cannot be read; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-server sessions --json\n"

@@ -35,7 +35,7 @@ inline void add_state_option(CLI::App& command, std::string& state) {
 /// Warns, after a command has succeeded, if the audit log could not record it.
 inline void warn_audit_failure(const char* command, const auth::ServerKeystore& state) {
   if (const std::string& what = state.audit_log().error(); !what.empty())
-    std::fprintf(stderr, "tandem-server %s: it is done, but the audit log does not say so: %s\n", command,
+    std::fprintf(stderr, "tandem-server %s: the command is done, but the audit log has no record of it: %s\n", command,
                  what.c_str());
 }
 

@@ -30,7 +30,7 @@ std::string participants_text(const ServingSpec& serving) {
     for (const OpenSeat& seat : s.seats) people += seat.taken ? 1 : 0;
   }
   return format("%zu session%s, %zu %s", sessions, sessions == 1 ? "" : "s", people,
-                people == 1 ? "person on a seat" : "people on their seats");
+                people == 1 ? "participant on a seat" : "participants on their seats");
 }
 
 /// Waits until the server has ended. Prints the progress every ten seconds, and every second in the last five.
@@ -49,7 +49,7 @@ int wait_for_drain(const auth::ServerKeystore& state, std::uint32_t grace_s) {
     told = left;
     if (now > due + kLate)
       return print_error("stop",
-                         "the server is still there 10 s after it should have ended: does it stand still (SIGSTOP, a "
+                         "the server still runs 10 s after it should have ended: is it suspended (SIGSTOP, a "
                          "debugger)? `kill -KILL` ends it; each client releases its own hand");
     std::this_thread::sleep_for(kLook);
   }
@@ -93,11 +93,11 @@ void add_stop_command(CLI::App& root, std::function<int()>& action) {
                    "until all hands are released [s], 0 to 3600, whole seconds; default 0: at once")
       ->option_text("S");
   command->add_flag("--no-wait", arguments->no_wait,
-                    "returns at once; else it shows how far the server is until it has ended");
+                    "returns at once; default: shows the progress until the server has ended");
   command->footer(
-      "Sessions of `serve` are kept: started again within 10 min, it goes on with them. Ctrl-C ends this command, not "
-      "what it asked for.\n"
-      "The same without a grace: `kill -TERM PID`, Ctrl-C where it runs, or, as a service, `systemctl stop "
+      "Sessions of `serve` are kept: started again within 10 min, it resumes them. Ctrl-C ends this command; the "
+      "server still ends.\n"
+      "To stop without a grace period: `kill -TERM PID`, Ctrl-C where it runs, or, as a service, `systemctl stop "
       "tandem-server`. From another\n"
       "computer: `tandem-client control drain`.\n"
       "Exit: 0 the server has ended (--no-wait: it was asked to); 1 no server runs from this folder, or it does not "

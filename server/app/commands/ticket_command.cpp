@@ -41,7 +41,7 @@ std::expected<OpenSession, std::string> find_session(const std::string& typed,
   if (is_id) return OpenSession{id, "", "", 0, {}};  // an id of a future session: its seats are unknown
   if (!serving)
     return std::unexpected(
-        "--session: no server runs from this state folder, so only an id of 32 hex digits can be understood");
+        "--session: no server runs from this state folder, so only an id of 32 hex digits is accepted");
   return std::unexpected("--session: \"" + typed + "\" is neither id, code nor name of a session; " +
                          (names.empty() ? "the server has none" : suggest(typed, names)));
 }
@@ -58,8 +58,8 @@ std::optional<AccessRole> find_role(const TicketArguments& arguments, const Open
   const bool sits = !arguments.seat.empty();
   if (role && (sits ? *role == AccessRole::kOperator || *role == AccessRole::kRecorder : !may_join_console(*role))) {
     mistakes.push_back(!sits ? "--seat is required: the role " + std::string(to_text(*role)) +
-                                   " sits on one; without a seat: instructor, operator, recorder"
-                             : "--seat: the role " + std::string(to_text(*role)) + " sits on none");
+                                   " needs one; without a seat: instructor, operator, recorder"
+                             : "--seat: the role " + std::string(to_text(*role)) + " has none");
     return role;
   }
   if (arguments.seat.empty() || session.seats.empty()) {
@@ -129,8 +129,8 @@ int ticket_command(const TicketArguments& arguments) {
                                ? "control --server " + address
                                : "join --server " + address + " --seat " + arguments.seat + " --device sim";
   std::fprintf(stderr,
-               "good once, for %s h, on %s only; write it to FILE there, then type\n  tandem-client %s --ticket-file "
-               "FILE\n(--ticket TICKET is seen by everybody on that computer)\n",
+               "valid once, for %s h, on %s only; write it to FILE there, then type\n  tandem-client %s --ticket-file "
+               "FILE\n(every user of that computer can read --ticket TICKET)\n",
                hours.c_str(), workstation->name.c_str(), what.c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
@@ -158,7 +158,7 @@ void add_ticket_command(CLI::App& root, std::function<int()>& action) {
       ->add_option("--role", arguments->role,
                    "instructor, trainee, evaluator, observer, operator, recorder; default: the seat's")
       ->option_text("ROLE");
-  command->add_option("--hours", arguments->hours, "how long it is good [h], 0.01 to 12; default 4")->option_text("H");
+  command->add_option("--hours", arguments->hours, "validity [h], 0.01 to 12; default 4")->option_text("H");
   command->add_option("--force", arguments->force, "of the scene's force limit [%], 0.1 to 100; default 100")
       ->option_text("PERCENT");
   add_state_option(*command, arguments->state);

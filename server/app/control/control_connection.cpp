@@ -16,8 +16,8 @@ using rpc::ErrorCode;
 using rpc::Kind;
 
 constexpr std::string_view kUnknown =
-    "this workstation is not enrolled here, or was revoked; ask for `tandem-server enroll NAME` and type what it "
-    "prints";
+    "this workstation is not enrolled here, or was revoked; ask its administrator for `tandem-server enroll NAME` and "
+    "run the command that it prints";
 
 std::uint32_t whole_seconds(Duration d) noexcept {
   return static_cast<std::uint32_t>(std::clamp(seconds(d) + 1.0, 1.0, 86400.0));
@@ -85,15 +85,17 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
     plane_.record_event(ControlEvent::kBadFrame, address_);
     const bool version = !head && head.error() == rpc::FrameError::kVersion;
     return refuse(version ? ErrorCode::kVersion : ErrorCode::kBadFrame,
-                  version ? "this server speaks version 1 of Tandem's control frames; use a client of the same release"
-                          : "the server does not understand this",
+                  version
+                      ? "this server supports version 1 of Tandem's control frames; use a client of the same release"
+                      : "the server cannot parse this message",
                   true);
   }
   auto row = plane_.trust_.find(pin_);
   if (!row) {
     plane_.record_event(ControlEvent::kTrouble, address_, "", row.error());
     return refuse(ErrorCode::kInternal,
-                  "the server cannot read its book of workstations, so it lets nobody in; its log says more", true);
+                  "the server cannot read its registry of workstations, so it rejects all joins; its log has the cause",
+                  true);
   }
   workstation_ = std::move(*row);
   if (!workstation_ && head->kind != Kind::kEnroll) {
@@ -103,7 +105,7 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
   const Time now = plane_.clocks_.monotonic();
   if (!bucket_of(head->kind).take(now)) {
     plane_.record_event(ControlEvent::kCommandTooFast, address_, workstation_ ? workstation_->name : "");
-    return refuse(ErrorCode::kTooFast, "too many requests; ask more slowly", pending_, 1);
+    return refuse(ErrorCode::kTooFast, "too many requests; send them more slowly", pending_, 1);
   }
   const auto role = welcome_ ? std::optional(welcome_->role) : std::nullopt;
   if (!allowed(role, head->kind)) {
@@ -166,7 +168,8 @@ void ControlConnection::on_enrol(const rpc::Enroll& enrol) {
   }
   if (!row.error().fault) {
     plane_.record_event(ControlEvent::kTrouble, address_, "", row.error().text);
-    return refuse(ErrorCode::kInternal, "the server cannot write its book of workstations; its log says more", true);
+    return refuse(ErrorCode::kInternal, "the server cannot write its registry of workstations; its log has the cause",
+                  true);
   }
   plane_.record_event(ControlEvent::kCodeRefused, address_, "", row.error().text);
   const auto fault = *row.error().fault;
@@ -179,8 +182,8 @@ void ControlConnection::on_hello(rpc::Hello hello) {
   const auto common = std::ranges::find_if(hello.versions, [](std::uint32_t v) { return v == rpc::kProtocolVersion; });
   if (common == hello.versions.end())
     return refuse(ErrorCode::kVersion,
-                  "this server speaks version " + std::to_string(rpc::kProtocolVersion) +
-                      " of the protocol, this client none of it; install the same release on both",
+                  "this server supports version " + std::to_string(rpc::kProtocolVersion) +
+                      " of the protocol, this client supports none of it; install the same release on both",
                   true);
   // Only codes can be guessed, so a block of the source or the key applies to them only. A resume secret is checked
   // against the key only: if it names its session by the code, it costs the key's own attempts.
@@ -192,9 +195,8 @@ void ControlConnection::on_hello(rpc::Hello hello) {
                                             : plane_.attempts_.blocked_for(source_, pin_, now)))
     return;
   if (!plane_.places_.may_join(by_resume)) {
-    const std::string full =
-        "all " + std::to_string(plane_.limits_.connections) +
-        " places of this server's control connections are taken by those who joined; try again later";
+    const std::string full = "all " + std::to_string(plane_.limits_.connections) +
+                             " control connections of this server are in use by joined clients; try again later";
     plane_.record_event(ControlEvent::kRefused, address_, workstation_->name, full);
     return refuse(ErrorCode::kFull, full, true, 5);
   }
@@ -224,7 +226,8 @@ void ControlConnection::on_join_reply(const std::shared_ptr<JoinRequest>& reques
   if (!secrets) {
     plane_.record_event(ControlEvent::kTrouble, address_, request->workstation.name, secrets.error());
     plane_.join_handler_.on_join_failed(welcome);
-    return refuse(ErrorCode::kInternal, "the server could not make this connection's keys; its log says more", true);
+    return refuse(ErrorCode::kInternal, "the server could not create this connection's keys; its log has the cause",
+                  true);
   }
   plane_.join_handler_.on_joined(*request, welcome, *secrets);
   plane_.record_event(ControlEvent::kWelcomed, address_, request->workstation.name, welcome.seat);

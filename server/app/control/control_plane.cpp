@@ -212,7 +212,7 @@ void ControlPlane::on_first_byte(Id id) {
   if (size < 0 && (errno == EAGAIN || errno == EINTR)) return wait_for_first_byte(id);
   if (size <= 0) {
     record_event(ControlEvent::kHandshakeFailed, found->second->address, "",
-                 "the other side ended the connection before it was safe");
+                 "the peer closed the connection before the TLS handshake");
     waiting_.erase(found);
     pending_.leave(id);
   } else {

@@ -34,8 +34,9 @@ std::expected<auth::ServerKeystore, std::string> keys_of(const io::SocketAddress
   const auto codes = trust->pending_codes(now);
   if (!codes) return std::unexpected(codes.error());
   if (!listen.loopback() && book->empty() && *codes == 0)
-    return std::unexpected("nobody could join: no workstation is enrolled in " + *path + ". Run `tandem-server enroll" +
-                           auth::server_state_option(*path) + " NAME --address HOST:PORT` for each, then start again");
+    return std::unexpected("no client could join: no workstation is enrolled in " + *path +
+                           ". Run `tandem-server enroll" + auth::server_state_option(*path) +
+                           " NAME --address HOST:PORT` for each, then start again");
   return trust;
 }
 
@@ -134,11 +135,12 @@ std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(c
         },
         plan.metrics_hosts);
     if (std::string trouble = door->metrics_->listen(*plan.metrics); !trouble.empty())
-      return std::unexpected("metrics: " + trouble + "; choose another address or port for them, or end what uses it");
+      return std::unexpected("metrics: " + trouble +
+                             "; choose another address or port for them, or end the program that uses it");
   }
   if (door->ephemeral_keys()) {
     auto local = auth::publish_local_keys(door->trust_, auth::runtime_path(), auth::wall_seconds());
-    if (!local) return std::unexpected("clients on this machine could not be told how to join: " + local.error());
+    if (!local) return std::unexpected("the keys for clients on this machine could not be published: " + local.error());
     door->local_.emplace(std::move(*local));
   }
   return door;
@@ -192,7 +194,7 @@ void ControlServer::schedule_serving_file() {
     if (!std::exchange(serving_fails_, !problem.empty()) && !problem.empty() && on_event_)
       on_event_(
           {ControlEvent::kTrouble, "", "",
-           problem + "; `tandem-server sessions" + auth::server_state_option(folder()) + "` shows what was so before"});
+           problem + "; `tandem-server sessions" + auth::server_state_option(folder()) + "` shows the previous state"});
     service_audit_log();
     schedule_serving_file();
   });

@@ -58,7 +58,7 @@ class JoinHandler {
 [[nodiscard]] inline rpc::ErrorReply ticket_error_reply(const auth::ServerKeystore::RedeemFailure& trouble) {
   if (trouble.fault) return {rpc::ErrorCode::kTicket, trouble.text, 0};
   return {rpc::ErrorCode::kInternal,
-          "the server cannot record that a ticket is used, so it accepts no tickets; the ticket stays good. Ask the "
+          "the server cannot record that a ticket is used, so it accepts no tickets; the ticket stays valid. Ask the "
           "administrator of the server: its log has the cause",
           0};
 }

@@ -75,13 +75,13 @@ ErrorReply ticket_error_reply(const SessionCommand& command, const CommandOutcom
         return {ErrorCode::kOutdated,
                 format("there is no stop %u; the newest is stop %u", command.number, outcome.stops), 0};
       return {ErrorCode::kOutdated,
-              format("stop %u is not the newest: stop %u came since. Look why, then resume that one", command.number,
-                     outcome.stops),
+              format("stop %u is not the newest: stop %u followed; check its reason, then resume that stop",
+                     command.number, outcome.stops),
               0};
     case Result::kHeldByOthers:
       return {ErrorCode::kNotAllowed,
-              "your pause is taken back; still paused: " +
-                  may_end_text(outcome.stop_latch, scene, outcome.connected_seats) + " ends it",
+              "your pause is withdrawn; still paused: " +
+                  may_end_text(outcome.stop_latch, scene, outcome.connected_seats) + " can end it",
               0};
     case Result::kNothingToDo:
       if (command.what == SessionCommand::What::kRemove)
@@ -94,13 +94,13 @@ ErrorReply ticket_error_reply(const SessionCommand& command, const CommandOutcom
               0};
     case Result::kStaleLink:
       return {ErrorCode::kNotNow,
-              "a seat whose authority this changes is not there, or its link is stale; the audit log "
-              "names the seat. Look, then say it again",
+              "a seat whose authority would change is not connected, or its link is stale; the audit log names the "
+              "seat. Check the status, then repeat the command",
               0};
     case Result::kDone:
       break;
   }
-  return {ErrorCode::kInternal, "the server does not know what became of this", 0};
+  return {ErrorCode::kInternal, "internal error: the server has no result of this command", 0};
 }
 
 std::vector<double> weights_of(const CommandOutcome& outcome, std::size_t tool) {
@@ -164,7 +164,7 @@ void SessionRegistry::join_console(SessionEntry& room, const JoinRequest& reques
                           " --role operator --workstation " + request.workstation.name + "`";
   if (ticket == nullptr)
     return answer(ErrorReply{ErrorCode::kNoSeat,
-                             "who joins without a seat needs a ticket, such as of " + how +
+                             "a join without a seat needs a ticket, such as from " + how +
                                  "; seats: " + room.registration.session->seat_catalogue().seat_names(),
                              0});
   const auto role = auth::claimed_role(ticket->bytes);
@@ -236,11 +236,10 @@ void SessionRegistry::release_console(SessionEntry& room, const rpc::Welcome& st
 void SessionRegistry::join_link_test(SessionEntry& room, const JoinRequest& request,
                                      std::function<void(JoinReply)> answer) {
   // Any enrolled workstation may test its link, because that touches no seat. The number of peers is limited.
-  const ErrorReply full{
-      ErrorCode::kFull,
-      format("all %zu places for those who judge their link to this session are taken; try again in %u s",
-             LinkTestPeers::kMax, kLinkTestRetryS),
-      kLinkTestRetryS};
+  const ErrorReply full{ErrorCode::kFull,
+                        format("all %zu link-test slots of this session are taken; try again in %u s",
+                               LinkTestPeers::kMax, kLinkTestRetryS),
+                        kLinkTestRetryS};
   if (room.link_tests_joining >= LinkTestPeers::kMax) return answer(full);
   ++room.link_tests_joining;
   ShardRequest order;
@@ -277,9 +276,9 @@ void SessionRegistry::command(const rpc::Welcome& standing, const WorkstationRow
   }
   const rpc::Id* const id = session_of(body);
   if (id == nullptr || *id != standing.session_id)
-    return answer(ErrorReply{ErrorCode::kNotAllowed,
-                             "this connection joined the session " + standing.session_name + " and speaks for no other",
-                             0});
+    return answer(ErrorReply{
+        ErrorCode::kNotAllowed,
+        "this connection joined the session " + standing.session_name + " and cannot act for another one", 0});
   SessionEntry* const found = find_entry(*id);
   if (found == nullptr) return answer(ErrorReply{ErrorCode::kSessionOver, "this session is over", 0});
   SessionEntry& room = *found;
@@ -437,7 +436,7 @@ std::string SessionRegistry::seat_lost_text(const SessionEntry& room, const rpc:
   const SeatReservation& claim = room.reservations[place_of(standing.server_cid) - std::size_t{1}];
   const std::string how =
       claim.lost_cid == standing.server_cid && !claim.lost_why.empty() ? " (" + claim.lost_why + ")" : "";
-  return truncate_utf8("the seat that this connection joined for is not yours any more" + how, rpc::kTextMax);
+  return truncate_utf8("this connection no longer holds its seat" + how, rpc::kTextMax);
 }
 
 bool SessionRegistry::is_removed(const SessionEntry& room, const WorkstationRow& workstation) {

@@ -147,7 +147,7 @@ std::variant<SessionRegistry::SessionEntry*, ErrorReply> SessionRegistry::resolv
       if (!r.on_closed && !r.registration.session->over()) found = &r;
   } else if (!open.empty()) {
     return ErrorReply{ErrorCode::kNoSession,
-                      "this server has several sessions: " + names_of(open) + "; say which with --session", 0};
+                      "this server has several sessions: " + names_of(open) + "; choose one with --session", 0};
   }
   if (found == nullptr && open.empty())
     return ErrorReply{ErrorCode::kNoSession, "no session is open on this server", 0};
@@ -156,8 +156,9 @@ std::variant<SessionRegistry::SessionEntry*, ErrorReply> SessionRegistry::resolv
     // A request that names a session by its code is an attempt at the code, whatever other credential it has.
     return ErrorReply{
         by_code ? ErrorCode::kCode : ErrorCode::kNoSession,
-        (by_code ? "no session here has this code (a session that starts again has another: ask for it); open: "
-                 : "there is no such session here; open: ") +
+        (by_code
+             ? "no session on this server has this code (a restarted session has a new code: ask its operator); open: "
+             : "this server has no such session; open: ") +
             names_of(open),
         0};
   }
@@ -169,9 +170,9 @@ void SessionRegistry::admit(const JoinRequest& request, std::function<void(JoinR
   // A console operates sessions, so it may join while the server drains.
   const bool stands = request.hello.seat.empty() && !request.hello.link_test;
   if (draining_ && !stands)
-    return answer(
-        ErrorReply{ErrorCode::kDraining,
-                   "this server is about to end and lets nobody in; wait until it is back, or ask its operator", 10});
+    return answer(ErrorReply{
+        ErrorCode::kDraining,
+        "this server is draining and rejects new joins; wait until it has restarted, or ask its operator", 10});
   const auto found = resolve_session(request);
   if (const auto* refused = std::get_if<ErrorReply>(&found)) return answer(*refused);
   SessionEntry& room = *std::get<SessionEntry*>(found);
@@ -211,7 +212,8 @@ void SessionRegistry::join_seat(SessionEntry& room, const JoinRequest& request, 
   const ErrorReply taken{ErrorCode::kSeatTaken, "this seat is taken already", 2};
   if (claim.joining) return answer(taken);
   if (!same_owner && reserved_for_owner(claim))
-    return answer(ErrorReply{ErrorCode::kSeatTaken, "it is kept for who sat there when the server died, for 2 s", 2});
+    return answer(ErrorReply{ErrorCode::kSeatTaken,
+                             "this seat is reserved for 2 s for the client that had it when the server died", 2});
 
   claim.joining = true;
   ShardRequest order;
@@ -264,7 +266,9 @@ std::optional<ErrorReply> SessionRegistry::check_credential(SessionEntry& room, 
   if (const auto* code = std::get_if<rpc::CodeCredential>(&request.hello.credential)) {
     if (is_removed(room, request.workstation))
       return ErrorReply{ErrorCode::kNotAllowed,
-                        "whoever sat at this workstation was removed from the session; a ticket lets it in again", 0};
+                        "the participant of this workstation was removed from the session; to join again, ask an "
+                        "operator for a ticket",
+                        0};
     if (room.registration.code.empty() || code->code != room.registration.code)
       return ErrorReply{ErrorCode::kCode, "this is not the session's code", 0};
     if (role == AccessRole::kInstructor)

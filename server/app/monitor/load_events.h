@@ -27,8 +27,8 @@ class LoadEvents {
       std::string what = now == ShedLevel::kNone ? "sheds no load" : "sheds: ";
       for (auto rung = ShedLevel::kTelemetry; rung <= now; rung = static_cast<ShedLevel>(static_cast<int>(rung) + 1))
         what += std::string(rung == ShedLevel::kTelemetry ? "" : ", ") + to_text(rung);
-      news.push_back({now > before, format("the thread of %ld Hz %s %s (level %d)", hz,
-                                           now > before ? "is overloaded or late, and" : "has time again, and",
+      news.push_back({now > before, format("the %ld Hz thread %s %s (level %d)", hz,
+                                           now > before ? "is overloaded or late, and" : "has capacity again, and",
                                            what.c_str(), static_cast<int>(now))});
     }
     return news;

@@ -30,7 +30,7 @@ class MessageQueue {
   [[nodiscard]] std::vector<Line> take() {
     const std::lock_guard lock{lock_};
     if (const std::size_t dropped = std::exchange(dropped_, 0); dropped > 0)
-      lines_.push_back({Severity::kWarning, std::to_string(dropped) + " more lines came at once and are left out"});
+      lines_.push_back({Severity::kWarning, std::to_string(dropped) + " more lines arrived at once and are omitted"});
     return std::exchange(lines_, {});
   }
 

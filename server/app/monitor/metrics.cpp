@@ -77,12 +77,12 @@ void describe_seat(Families& page, const Labels& who, const SeatStatus& seat) {
   page.gauge("tandem_energy_joules", "Least unspent energy of the seat's ledger so far", with("port", "margin"),
              seat.margin_j);
   if (!seat.taken) return;  // the other metrics are per connection
-  page.gauge("tandem_loop_age_seconds", "How old the newest echo of the seat is", who, seat.loop_age_s);
+  page.gauge("tandem_loop_age_seconds", "Age of the newest echo of the seat", who, seat.loop_age_s);
   page.gauge("tandem_rtt_seconds", "Round trip including the wait for the next tick", with("quantile", "0.5"),
              1e-3 * seat.link.rtt_p50_ms);
   page.gauge("tandem_rtt_seconds", "", with("quantile", "0.99"), 1e-3 * seat.link.rtt_p99_ms);
-  page.count("tandem_udp_accepted_total", "Datagrams that acted", who, static_cast<double>(seat.accepted));
-  page.count("tandem_udp_late_total", "Authentic datagrams older than one that had acted", who,
+  page.count("tandem_udp_accepted_total", "Datagrams that were applied", who, static_cast<double>(seat.accepted));
+  page.count("tandem_udp_late_total", "Authentic datagrams older than one that was applied", who,
              static_cast<double>(seat.late));
   page.count("tandem_udp_lost_total", "Datagrams that did not arrive", who, static_cast<double>(seat.lost));
   page.count("tandem_client_tick_late_total", "Late servo ticks of the client's machine", who, seat.late_ticks);
@@ -104,7 +104,7 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
     }
     page.gauge("tandem_session_time_seconds", "Session time", {{"session", opening->name}}, status.time);
     page.count("tandem_audit_events_lost_total",
-               "Events of the session that nobody took in time: they are not in the audit log",
+               "Events of the session lost because its queue was full: they are not in the audit log",
                {{"session", opening->name}}, static_cast<double>(status.audit_dropped));
     page.gauge("tandem_session_broken", "1: an invariant that the session's law promises was broken",
                {{"session", opening->name}}, static_cast<double>(status.violations));
@@ -115,7 +115,7 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
   for (const Shard* shard : registry.shards()) {
     const Labels who{{"tick_hz", std::to_string(std::lround(1.0 / seconds(shard->period())))}};
     page.ticks("tandem_tick_seconds", "Processor time of a tick, all sessions of a shard", who, shard->lengths());
-    page.ticks("tandem_tick_lateness_seconds", "How late ticks began", who, shard->lateness());
+    page.ticks("tandem_tick_lateness_seconds", "Lateness of the start of ticks", who, shard->lateness());
     page.count("tandem_tick_late_total", "Ticks that began more than 1 ms late", who,
                static_cast<double>(shard->late_ticks()));
     page.gauge("tandem_tick_load", "Processor time of a tick, 99th percentile of the last 1000, share of the tick", who,
@@ -130,10 +130,10 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
     stray += shard->unmatched_datagrams();
   }
   for (std::size_t r = 0; r < refused.size(); ++r)
-    page.count("tandem_udp_drop_total", "Datagrams refused, by reason, of the connections there are now",
+    page.count("tandem_udp_drop_total", "Rejected datagrams of the current connections, by reason",
                {{"reason", to_text(static_cast<transport::DropReason>(r))}}, static_cast<double>(refused[r]));
   page.count("tandem_udp_drop_total", "", {{"reason", "stray"}}, static_cast<double>(stray));
-  page.count("tandem_aead_fail_total", "Datagrams whose tag was wrong, of the connections there are now", {},
+  page.count("tandem_aead_fail_total", "Datagrams of the current connections whose tag was wrong", {},
              static_cast<double>(refused[static_cast<std::size_t>(transport::DropReason::kTag)]));
   for (std::size_t i = 0; i < kControlEvents; ++i)
     page.count("tandem_joins_total", "Events of the control connections, by result",
@@ -171,7 +171,7 @@ HttpResponse monitoring_page(std::string_view path, const SessionRegistry& regis
   if (!why.empty()) return {503, "text/plain", why};
   if (path == "/readyz" && registry.draining()) return {503, "text/plain", "draining\n"};
   if (path == "/readyz" && !audit.trouble.empty())
-    return {503, "text/plain", "the audit log fails; the server's own log says why\n"};
+    return {503, "text/plain", "the audit log fails; the server's own log has the cause\n"};
   return {200, "text/plain", "ok\n"};
 }
 

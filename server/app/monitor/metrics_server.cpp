@@ -131,8 +131,8 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
       return answer({400, "text/plain", "one Host header is needed\n"}, true);
     if (!hosts.empty() && !host_is_ours(hosts.front(), server_.names_))
       return answer({421, "text/plain",
-                     "this server is not asked for by that name: use its address, or add the name to metrics_host of "
-                     "its configuration\n"},
+                     "the Host header names an unknown host: use the address of the server, or add the name to "
+                     "metrics_host of its configuration\n"},
                     true);
     std::string path = line.substr(method_end + 1, path_end - method_end - 1);
     path = path.substr(0, path.find('?'));

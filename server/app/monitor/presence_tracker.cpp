@@ -76,7 +76,7 @@ PresenceTracker::Events PresenceTracker::update(Time now, const SessionStatus& s
   if (deserted && !std::exchange(all_left_before_, deserted) && scene.endless())
     news.events.push_back(
         {"everybody_left", "",
-         format("everybody left: the session ends in %.0f s, unless a client joins it again", seconds(kLost))});
+         format("all participants left: the session ends in %.0f s, unless a client joins it again", seconds(kLost))});
   all_left_before_ = deserted;
   news.all_lost = runs && came > 0 && lost == came;
   news.all_left = runs && came > 0 && left == came;

@@ -22,12 +22,13 @@ bool none_returned(const SessionStatus& status, const SceneSpec& scene) {
 std::optional<SessionEnding> session_ending(const SessionEnding::Times& when, const PresenceTracker::Events& news,
                                             const SessionStatus& status, const SceneSpec& scene) {
   if (news.all_left && scene.endless())
-    return SessionEnding{EndReason::kAllLeft, {"people_left", "", "everybody left 10 s ago; the session ends"}};
+    return SessionEnding{EndReason::kAllLeft, {"people_left", "", "all participants left 10 s ago; the session ends"}};
   if (news.all_lost)
     return SessionEnding{
         EndReason::kPeersLost,
         {"peers_lost", "",
-         format("peers lost: nobody was heard for %.0f s; the session ends", seconds(kSessionTimeout)), true}};
+         format("peers lost: no datagram from any client for %.0f s; the session ends", seconds(kSessionTimeout)),
+         true}};
   if (when.start_timeout_s > 0 && status.state == wire::SessionState::kWaiting &&
       seconds(when.now - when.began) > when.start_timeout_s)
     return SessionEnding{EndReason::kStartTimeout,
@@ -36,9 +37,10 @@ std::optional<SessionEnding> session_ending(const SessionEnding::Times& when, co
                               format(" within %g s (--start-timeout); the session ends", when.start_timeout_s),
                           true}};
   if (when.resume_until && when.now > *when.resume_until && none_returned(status, scene))
-    return SessionEnding{EndReason::kStartTimeout,
-                         {"nobody_came_back", "",
-                          "nobody came back within 10 min after the server had ended; the session is over", true}};
+    return SessionEnding{
+        EndReason::kStartTimeout,
+        {"nobody_came_back", "",
+         "no participant came back within 10 min after the server had ended; the session is over", true}};
   return std::nullopt;
 }
 

@@ -62,7 +62,7 @@ std::string leaders(const SessionStatus& status, const SceneSpec& scene) {
 
 /// Why this seat is not ready; empty if it is.
 std::string not_ready_text(const SeatStatus& seat, const SeatSpec& spec) {
-  if (!seat.taken) return seat.ever_taken ? spec.name + " left" : "nobody joined as " + spec.name;
+  if (!seat.taken) return seat.ever_taken ? spec.name + " left" : "no client joined as " + spec.name;
   if (!seat.alive) return spec.name + " is silent: its link is lost";
   if (seat.stopped) return "stopped by " + spec.name + ": r there resumes";
   if (seat.gate == wire::GateState::kLatched) return spec.name + "'s force is latched off: b there switches it on";
@@ -85,9 +85,7 @@ std::string waiting_for(const SessionStatus& status, const SceneSpec& scene) {
     const SeatStatus& seat = status.seats[i];
     if (!scene.seats[i].required || seat.ready) continue;
     text += (text.empty() ? "" : ", ") + scene.seats[i].name;
-    text += !seat.taken  ? (seat.ever_taken ? " (left)" : " (nobody joined)")
-            : seat.alive ? " (not ready)"
-                         : " (silent)";
+    text += !seat.taken ? (seat.ever_taken ? " (left)" : " (not joined)") : seat.alive ? " (not ready)" : " (silent)";
   }
   return text;
 }

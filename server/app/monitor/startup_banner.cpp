@@ -40,7 +40,7 @@ std::string startup_banner(const SessionInstance& run, const io::SocketAddress& 
         format("  %s join --server %s --seat %s --device sim%s\n", client_command().c_str(), dialled.c_str(),
                seat.name.c_str(), ticket ? " --ticket-file FILE" : which.c_str());
   }
-  if (!optional.empty()) text += "and for seats that nobody waits for\n" + optional;
+  if (!optional.empty()) text += "and for optional seats\n" + optional;
   return throw_away ? text
                     : text + "a ticket FILE is written by\n  tandem-server ticket --session " + name +
                           " --seat SEAT --workstation NAME" + auth::server_state_option(folder) + " > FILE\n";

@@ -303,7 +303,7 @@ class ServerProcess {
     const std::string_view by = io::pending_signal();
     signalfd_siginfo taken;
     [[maybe_unused]] const auto got = ::read(signals_.get(), &taken, sizeof taken);
-    if (drain_began_) exit_now("a second signal came");
+    if (drain_began_) exit_now("received a second signal");
     drain("ended by " + std::string(by.empty() ? "Ctrl-C" : by));
   }
 

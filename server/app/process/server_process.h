@@ -33,8 +33,8 @@ struct ServerOptions {
 
 /// Warning about a metrics endpoint beyond loopback.
 inline constexpr const char* kUnprotectedMetricsWarning =
-    "warning: everybody who reaches this address reads the metrics, without a password; use 127.0.0.1, or put "
-    "something that has a password in front";
+    "warning: any host that reaches this address can read the metrics without a password; use 127.0.0.1, or put a "
+    "proxy with a password in front";
 
 /// Runs a server until all sessions are over and none restarts, or until a signal or a drain. Then new joins are
 /// rejected, all hands are released and reports are written. A second signal, or 3 s, ends the process at once.

@@ -93,7 +93,7 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
 
 std::string SessionInstance::outcome_text(const RunReport& report) const {
   if (report.duration_s > 0) return format("%s, %.1f s", report.verdict_text(), report.duration_s);
-  return std::string(snapshot_ ? "never went on after the restart" : "never began") +
+  return std::string(snapshot_ ? "did not resume after the restart" : "never began") +
          (missing_seats.empty() ? "" : ": it waited for " + missing_seats);
 }
 

@@ -55,7 +55,7 @@ TEST_F(RunLog, ReplaysARunIdentically) {
   EXPECT_GT(log.size(), 100'000U);
   EXPECT_TRUE(log == read("b.csv"));
   EXPECT_TRUE(read("a_trace.csv") == read("b_trace.csv"));
-  EXPECT_NE(out.find("datagrams met their own recorded fate\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("datagrams got their own recorded verdict\n"), std::string::npos) << out;
 }
 
 TEST_F(RunLog, AppliesAScriptToTheNamedSeat) {

@@ -102,7 +102,7 @@ TEST(ReadSamples, KeepTheSessionAndMatchTheRowsOfTheTrace) {
   }
   const auto own = read_samples(text);
   ASSERT_TRUE(own) << own.error();
-  EXPECT_EQ(own->t.size(), 3u) << "what came before the session is left out";
+  EXPECT_EQ(own->t.size(), 3u) << "rows before the session are omitted";
   SeatTrace seat;
   for (Column3* c : {&seat.q, &seat.x, &seat.f_cmd, &seat.f_out}) c->fill(Column(4, 7.0));
   put_samples({0.0, 0.001, 0.002, 0.9}, *own, seat);
@@ -148,7 +148,8 @@ TEST(ForceStep, IsTheLargestOfBothHandsWhileAlphaMoves) {
   EXPECT_NEAR(force_step(d), 0.15, 1e-12);
   d.trainer_own.t = {12.0, 12.001, 12.002};
   d.trainer_own.f_cmd = {Column{0, 0.05, 0.1}, Column(3), Column(3)};
-  EXPECT_NEAR(force_step(d), 0.05, 1e-12) << "a workstation's own samples are better than what the server heard";
+  EXPECT_NEAR(force_step(d), 0.05, 1e-12)
+      << "a workstation's own samples are better than those that the server received";
 }
 
 TEST(JointTorques, AreThoseOfVirtualWork) {

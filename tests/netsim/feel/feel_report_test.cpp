@@ -92,7 +92,7 @@ TEST(FeelReport, FitsEightyColumnsAndMarksNoticeableValues) {
   r.limits = {{"stiffness_felt_n_m", 360, true}};
   r.troubles = {
       "seed 1, probe press: the session never ran because of a reason that needs more than one line of a terminal to "
-      "be told in full"};
+      "be shown in full"};
   std::istringstream lines(feel_text(r));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   EXPECT_NE(feel_text(r).find("FAIL stiffness_felt_n_m"), std::string::npos);
@@ -139,10 +139,10 @@ TEST(FeelKeys, MatchTheKeysOfProbes) {
   std::size_t count = 0;
   for (const FeelSection& section : feel_sections())
     for (const FeelKey& key : section.keys) {
-      EXPECT_TRUE(all.contains(std::string(key.key))) << key.key << " is in the report and nobody measures it";
+      EXPECT_TRUE(all.contains(std::string(key.key))) << key.key << " is in the report and no probe measures it";
       ++count;
     }
-  EXPECT_EQ(all.size(), count) << "something is measured and not told";
+  EXPECT_EQ(all.size(), count) << "a number is measured and not reported";
 }
 
 TEST(Noticeable, AppliesToForceStepsAndForceDelay) {

@@ -105,7 +105,7 @@ TEST(FeelFree, MeasuresDragOfADampedMassAsDamperAndMass) {
   const double by_parts =
       std::hypot(v.at("drag_05hz_n_s_m"), v.at("apparent_mass_05hz_kg") * 2 * std::numbers::pi * 0.5) * speed;
   EXPECT_NEAR(by_parts, v.at("drag_05hz_n"), 0.2 * v.at("drag_05hz_n"))
-      << "along x alone; what gravity compensation leaves over is in the RMS";
+      << "along x alone; the remainder of gravity compensation is in the RMS";
 }
 
 TEST(FeelGain, FindsTheResonanceMeasuredIndependently) {
@@ -155,7 +155,7 @@ TEST(FeelFollow, KeepsAnAssistedHandNearerWithLessVibration) {
   EXPECT_GT(none.at("follower_offset_slow_m"), 0.35e-3) << "the probe sees what friction and damping leave";
   EXPECT_LT(near.at("follower_offset_m"), 0.25e-3);
   EXPECT_LT(far.at("follower_offset_still_m"), 0.25e-3);
-  EXPECT_GT(far_none.at("follower_wander_m"), 2.5e-3) << "and that a leader who holds still shakes a hand 100 ms away";
+  EXPECT_GT(far_none.at("follower_wander_m"), 2.5e-3) << "and a leader that holds still shakes a hand 100 ms away";
   EXPECT_LT(far.at("follower_wander_m"), 1.5e-3);
   EXPECT_NEAR(near.at("follower_offset_contact_m"), none.at("follower_offset_contact_m"), 0.3e-3)
       << "in contact only where that is wanted";

@@ -33,7 +33,7 @@ TEST(ProfilePreview, CountsEveryDatagramOnce) {
   link.up.outages = {{.start = 1s, .length = 400ms, .period = 2s}};
   const ProfilePreview p = preview_profile({.link = link, .length = 10s, .shown = 4s});
   EXPECT_EQ(p.ways[0].delays.size(), 10'000U - 5 * 400);
-  EXPECT_EQ(p.ways[1].delays.size(), 10'000U) << "what is under way at the end still comes; copies are none";
+  EXPECT_EQ(p.ways[1].delays.size(), 10'000U) << "datagrams under way at the end still arrive; there are no copies";
   EXPECT_EQ(p.ways[0].fates[static_cast<std::size_t>(Outcome::kOutage)], 2000U);
   EXPECT_EQ(p.ways[0].quantile(0), 10ms);
   EXPECT_EQ(p.ways[0].quantile(1), 10ms);
@@ -155,7 +155,7 @@ TEST(ProfilePreview, FigureShadesOutagesAndMarksEveryLoss) {
   EXPECT_DOUBLE_EQ(figure.panels[0].bands[0].from, 3.2);
   EXPECT_DOUBLE_EQ(figure.panels[0].bands[0].to, 3.3);
   EXPECT_EQ(figure.panels[0].rug.size(), 50U + 1 + 1);
-  EXPECT_EQ(figure.panels[2].notes.size(), 1U) << "what is below the median stands on the edge";
+  EXPECT_EQ(figure.panels[2].notes.size(), 1U) << "values below the median are drawn at the edge";
   EXPECT_DOUBLE_EQ(figure.panels[2].notes[0].at.x, 2);
   const std::string svg = plot::to_svg_file(figure);
   EXPECT_TRUE(svg.starts_with("<?xml"));

@@ -26,7 +26,7 @@ TEST(Script, SortsChangesAndAppliesThemPerDirection) {
                                  {.at = 10s, .direction = Direction::kUp, .link = delayed(30ms)},
                                  {.at = 20s, .direction = Direction::kDown, .link = delayed(70ms)},
                                  {.at = 5s, .rebind = Rebind{100ms}}};
-  const LinkSchedule schedule = schedule_for(delayed(10ms), events, "anybody");
+  const LinkSchedule schedule = schedule_for(delayed(10ms), events, "client");
   ASSERT_EQ(schedule.changes.size(), 2U);
   EXPECT_EQ(schedule.changes[0].at, 10s);
   EXPECT_EQ(schedule.changes[0].link.up.floor, 30ms);

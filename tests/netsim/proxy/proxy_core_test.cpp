@@ -231,13 +231,13 @@ TEST(ProxyCore, ReportsTheWaitInTheRateQueue) {
       for (int i = 0; i < 10; ++i) core.ingress(Time{1s}, 0, Direction::kUp, bytes);
       EXPECT_EQ(core.queue_wait(Time{1s}, 0, Direction::kUp), 10ms);
       EXPECT_EQ(core.queue_wait(Time{1s}, 1, Direction::kUp), shared ? 10ms : 0ms);
-      EXPECT_FALSE(core.take(Time{1s + 4ms})) << "what left the queue has 50 ms to go";
+      EXPECT_FALSE(core.take(Time{1s + 4ms})) << "a datagram that left the queue arrives 50 ms later";
       EXPECT_EQ(core.queue_wait(Time{1s + 4ms}, 0, Direction::kUp), 6ms);
       EXPECT_FALSE(core.take(Time{1s + 10ms}));
       EXPECT_EQ(core.queue_wait(Time{1s + 10ms}, 0, Direction::kUp), 0ms);
       EXPECT_EQ(core.counters(0, Direction::kUp).in_flight(), 10u) << "all of them are still under way";
       EXPECT_EQ(core.queue_wait(Time{1s}, 0, Direction::kDown), 0ms) << "no rate, no queue";
-      EXPECT_EQ(core.queue_wait(Time{1s}, 7, Direction::kUp), 0ms) << "nobody there";
+      EXPECT_EQ(core.queue_wait(Time{1s}, 7, Direction::kUp), 0ms) << "no such client";
     }
   }
 }

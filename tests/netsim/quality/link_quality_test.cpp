@@ -115,7 +115,7 @@ TEST(SeenNumbers, ForgetsNumbersOfThePreviousRound) {
   EXPECT_EQ(seen.insert(kRound + 3), SeenNumbers::Kind::kReordered);
   EXPECT_EQ(seen.insert(kRound + 3), SeenNumbers::Kind::kAgain);
   EXPECT_EQ(seen.insert(10), SeenNumbers::Kind::kAgain) << "the oldest remembered";
-  EXPECT_EQ(seen.insert(9), SeenNumbers::Kind::kReordered) << "older than that: nobody knows";
+  EXPECT_EQ(seen.insert(9), SeenNumbers::Kind::kReordered) << "older numbers: unknown";
   EXPECT_EQ(seen.insert(10 * kRound), SeenNumbers::Kind::kNewest);
   for (std::uint64_t n = 9 * kRound + 1; n < 10 * kRound; n += 997)
     ASSERT_EQ(seen.insert(n), SeenNumbers::Kind::kReordered);

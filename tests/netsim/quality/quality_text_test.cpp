@@ -30,7 +30,7 @@ TEST(QualityText, RequiresNinetyNineOfAHundredSecondsForAVerdict) {
   EXPECT_EQ(verdict(brief), Band::kAmber) << "shorter than a second: judged by its tenths";
   LinkSummary link;
   link.up.windows = seconds_in(100, 0, 0);
-  EXPECT_EQ(verdict(link), Band::kGreen) << "what was too short has no say";
+  EXPECT_EQ(verdict(link), Band::kGreen) << "a link that was too short has no verdict";
   link.round_trip.windows = seconds_in(0, 0, 100);
   EXPECT_EQ(verdict(link), Band::kRed);
 }
@@ -62,7 +62,7 @@ TEST(QualityText, NamesTheCauseAndTheTime) {
   const std::string text = quality_text(link, "");
   EXPECT_NE(text.find("up: red; "), std::string::npos) << text;
   EXPECT_NE(text.find("\n  worst: 12 % lost in the second to 30.12 s (100 % in 100 ms), 0.20 % in all; "
-                      "nothing came for 121 ms from 30.00 s\n"),
+                      "nothing received for 121 ms from 30.00 s\n"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("down: green; all of its seconds are green\n"), std::string::npos) << text;
@@ -84,7 +84,7 @@ TEST(QualityText, ListsTheWorstFirstAndTheOthersByName) {
   EXPECT_LT(all.find("bert"), all.find("anna"));
   EXPECT_NE(all.find("windows of"), std::string::npos);
   EXPECT_EQ(quality_report({{"anna", good}, {"bert", good}}, false),
-            "  network: green for everybody, usable for stiff contact and fast motion\n");
+            "  network: green for all links, usable for stiff contact and fast motion\n");
   EXPECT_EQ(quality_report({{"anna", LinkSummary{}}}, false), "  network: too short to judge\n");
   EXPECT_EQ(quality_report({}, true), "");
 }

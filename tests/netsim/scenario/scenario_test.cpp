@@ -170,7 +170,7 @@ TEST(Scenario, ReportsMistakesOfAllKindsTogetherAndOnce) {
       "network { profile: \"unknown\" loss_percent: 101 }\n"
       "event { at_s: 1 client: \"traine\" outage_ms: 5 directoin: UP }\n"
       "event { at_s: 2 outage_ms: 0 }\n"
-      "fault { kind: PAUSE seat: \"nobody\" at_s: 1 for_ms: 0 }\n"
+      "fault { kind: PAUSE seat: \"absent\" at_s: 1 for_ms: 0 }\n"
       "endpoint { wake: UNIFORM late_max_ms: x }\n"
       "endpoint { drift_ppm: 1e9 }\n"
       "seat_limits { trackin_rms_m { max: 1 } }\n"
@@ -182,7 +182,7 @@ TEST(Scenario, ReportsMistakesOfAllKindsTogetherAndOnce) {
                                       "5:25: event[0].client[0] = \"traine\": no seat",
                                       "5:47: event[0].directoin: unknown key",
                                       "6:28: event[1].outage_ms = 0: must be",
-                                      "7:27: fault[0].seat[0] = \"nobody\": no seat",
+                                      "7:27: fault[0].seat[0] = \"absent\": no seat",
                                       "7:52: fault[0].for_ms = 0: must be",
                                       "8:39: endpoint[0].late_max_ms = x: must be a number",
                                       "9:23: endpoint[1].drift_ppm = 1e9: must be",
@@ -200,7 +200,7 @@ TEST(Scenario, ChecksNamesAgainstTheScene) {
       "seat_network { seat: \"trainee\" network { } }\n"
       "hand { seat: \"trainr\" motion: \"a.csv\" }\n"
       "hand { seat: \"trainer\" motion: \"a.csv\" }\n"
-      "fault { kind: PAUSE seat: \"nobody\" at_s: 1 for_ms: 1 }\n"
+      "fault { kind: PAUSE seat: \"absent\" at_s: 1 for_ms: 1 }\n"
       "endpoint { offset_ms: 1 } endpoint { seat: \"trainee\" }\n"
       "seat_limits { seat: \"trianee\" gate_trips { max: 1 } }\n"
       "seat_limits { phase: \"demo\" tracking_rms_m { max: 1 } }\n"
@@ -212,7 +212,7 @@ TEST(Scenario, ChecksNamesAgainstTheScene) {
        {"some.textproto:3:20: network.profile = \"unknown\": no such network", "other.textproto:3:1: x: is wrong",
         "5:22: seat_network[1].seat[0] = \"trainee\": has a network already",
         "6:14: hand[0].seat = \"trainr\": no MASTER seat of scene free_motion is called so; did you mean trainer?",
-        "7:32: hand[1].motion = \"a.csv\": no motion a.csv", "8:27: fault[0].seat[0] = \"nobody\"",
+        "7:32: hand[1].motion = \"a.csv\": no motion a.csv", "8:27: fault[0].seat[0] = \"absent\"",
         "9:27: endpoint[1]: seat trainee has a clock already",
         "10:21: seat_limits[0].seat[0] = \"trianee\": no seat of scene free_motion is called so; did you mean trainee?",
         "11:22: seat_limits[1].phase = \"demo\"",
@@ -226,7 +226,7 @@ TEST(Scenario, ChecksNamesAgainstTheScene) {
   EXPECT_EQ(
       mistakes("version: 1 scene: \"none\" seat_limits { seat: \"x\" gate_trips { max: 1 } }").find("seat_limits"),
       std::string::npos)
-      << "without a scene nobody knows whether seats exist";
+      << "without a scene the existence of seats is unknown";
   EXPECT_NE(mistakes("version: 1 scene: \"free_motion\" duration_s: 12 seat_limits { phase: \"evaluation\" "
                      "effort_peak_n { max: 1 } }")
                 .find("begins at 12 s, when the run of 12 s is over"),
@@ -315,7 +315,7 @@ TEST(Scenario, JudgesFeelLimits) {
   EXPECT_EQ(hold(390, 0.5), std::pair(true, true));
   EXPECT_EQ(hold(45, 0.5), std::pair(false, true));
   EXPECT_EQ(hold(390, 24), std::pair(true, false));
-  EXPECT_EQ(hold(kNaN, 0), std::pair(false, true)) << "nobody pressed";
+  EXPECT_EQ(hold(kNaN, 0), std::pair(false, true)) << "no hand pressed";
   EXPECT_NE(mistakes("version: 1 scene: \"contact\" feel { stiffness { min: 360 } }"), "");
   EXPECT_NE(mistakes("version: 1 scene: \"contact\" feel { engaged_share { min: 2 } }"), "");
 }

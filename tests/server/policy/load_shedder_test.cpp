@@ -58,7 +58,7 @@ TEST(LoadShedder, StopsBelowTheLevelWhoseThresholdIsNotReached) {
     EXPECT_EQ(full.full(share, 2s).level, rung) << share;
     for (int n = 0; n < 2000; ++n) late.tick(from_seconds(5e-3 * share), 0ms);
     EXPECT_EQ(late.ladder.load_state().level, std::min(rung, ShedLevel::kEvaluatorsEvery3rd))
-        << "late by " << share << " of 5 ms: others' work sends nobody away";
+        << "late by " << share << " of 5 ms: load of other programs removes no evaluator";
   }
 }
 
@@ -160,7 +160,7 @@ TEST(LoadShedder, TakesNoHeap) {
 TEST(LoadShedder, RejectsJoinsAtItsLastLevelAtTheLimitOfAdmissionControl) {
   EXPECT_NEAR(LoadShedder::threshold(ShedLevel::kNewJoins), LoadLimits{}.tick, 1e-12);
   EXPECT_EQ(rejection_reason({0.1, 0.1, false}, 0.1, 2, {}), "");
-  EXPECT_NE(rejection_reason({0.1, 0.1, true}, 0.1, 2, {}).find("sheds all load that it can"), std::string::npos);
+  EXPECT_NE(rejection_reason({0.1, 0.1, true}, 0.1, 2, {}).find("all optional load is shed"), std::string::npos);
 }
 
 }  // namespace

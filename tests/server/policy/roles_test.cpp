@@ -24,7 +24,7 @@ constexpr std::array<Row, kRights> kDesign{{
     {Right::kRaiseLimits, {"no", "no", "no", "no", "no", "no"}},
     {Right::kStopOwnHand, {"yes", "yes", "yes", "no", "no", "no"}},
     {Right::kStopSession, {"yes", "pause", "pause", "no", "yes", "no"}},
-    {Right::kEndPause, {"yes", "own, where nobody leads", "own, where nobody leads", "no", "yes", "no"}},
+    {Right::kEndPause, {"yes", "own, without instructor", "own, without instructor", "no", "yes", "no"}},
     {Right::kRecord, {"yes", "no", "no", "no", "no", "writes"}},
     {Right::kManageSeats, {"yes", "no", "no", "no", "yes", "no"}},
     {Right::kManageServer, {"no", "no", "no", "no", "yes", "no"}},

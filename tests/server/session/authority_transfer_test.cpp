@@ -72,7 +72,7 @@ TEST(AuthorityTransfer, BeginsFiftyTicksAfterTheDecisionAndNotifiesBothSeatsMean
   Lesson l;
   const std::uint32_t version = l.session->authority_version(), tick = l.session->session_tick();
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
-  EXPECT_EQ(l.session->authority_version(), version + 1) << "who wins is settled now";
+  EXPECT_EQ(l.session->authority_version(), version + 1) << "the winner is settled now";
   EXPECT_EQ(l.decided(), kToTrainee);
   EXPECT_EQ(l.noted(What::kAuthority), 1);
   EXPECT_EQ(l.last.tick, tick);
@@ -101,7 +101,7 @@ TEST(AuthorityTransfer, NamesTheDecidingRoleAndTheGainingSeat) {
   const wire::TransferParties by_operator{.by = wire::TransferParties::kOperator, .to = kTrainee + 1, .percent = 100};
   EXPECT_EQ(both(), std::pair(by_operator, by_operator));
   l.ticks(1500);
-  EXPECT_EQ(both(), std::pair(wire::TransferParties{}, wire::TransferParties{})) << "it was carried out";
+  EXPECT_EQ(both(), std::pair(wire::TransferParties{}, wire::TransferParties{})) << "it was applied";
   ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.25, 0.75}));
   l.ticks(5);
   const wire::TransferParties by_trainer{.by = kTrainer + 1, .to = kTrainer + 1, .percent = 25};
@@ -156,7 +156,7 @@ TEST(AuthorityTransfer, IsRejectedWhileALinkOfAPartyIsOlderThan20Milliseconds) {
     EXPECT_EQ(old.last.party, mute);
     EXPECT_EQ(old.noted(What::kAuthority), 0);
     old.ticks(1500);  // the age of the loop made the seat's own gate release too
-    EXPECT_EQ(old.order(kToTrainee), Result::kDone) << "heard from again";
+    EXPECT_EQ(old.order(kToTrainee), Result::kDone) << "its datagrams arrive again";
   }
 }
 
@@ -173,7 +173,7 @@ TEST(AuthorityTransfer, IsCancelledWhenTheGainingSeatIsSilentAtItsTick) {
   old.ticks_without(kTrainee, 21);
   EXPECT_EQ(old.requested(), kToTrainer) << "21 ms";
   EXPECT_EQ(old.decided(), kToTrainer);
-  EXPECT_EQ(old.session->authority_version(), version + 2) << "what version + 1 stood for is not so";
+  EXPECT_EQ(old.session->authority_version(), version + 2) << "the change of version + 1 is void";
   EXPECT_EQ(old.noted(What::kAuthorityCancelled), 1);
   EXPECT_EQ(old.last.party, kTrainee);
   EXPECT_EQ(old.last.before, kToTrainee);
@@ -239,7 +239,7 @@ TEST(AuthorityTransfer, ExecutesEachDecisionAfterItsOwnDelay) {
 TEST(AuthorityTransfer, AppliesTheLaterOfTwoDecisionsOfOneTick) {
   Lesson l;
   ASSERT_EQ(l.order({0.4, 0.6}), Result::kDone);
-  ASSERT_EQ(l.order({0.3, 0.7}), Result::kDone) << "he named the version of the first";
+  ASSERT_EQ(l.order({0.3, 0.7}), Result::kDone) << "the request has the version of the first one";
   l.ticks(50);
   EXPECT_EQ(l.requested(), (control::MasterArray{0.3, 0.7}));
 }
@@ -250,7 +250,7 @@ TEST(AuthorityTransfer, IsAnnouncedDuringAStopAndActsAfterTheResume) {
   l.ticks(300);
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
   l.ticks(1);
-  EXPECT_EQ(l.told(kTrainee).transfer, kGaining) << "else the trainee's hand leads after the stop and nobody said so";
+  EXPECT_EQ(l.told(kTrainee).transfer, kGaining) << "else the trainee's hand leads after the stop without a notice";
   EXPECT_EQ(l.told(kTrainer).transfer, wire::TransferNotice::kLosing);
   l.ticks(60);
   EXPECT_EQ(l.told(kTrainee).transfer, kNone);
@@ -309,8 +309,8 @@ TEST(AuthorityTransfer, DefersATimelineChangeUntilTheGainingSeatResponds) {
           static_cast<int>(l.session->session_tick()));
   l.ticks_without(kTrainee, 230);
   EXPECT_EQ(l.requested(), kToTrainer);
-  EXPECT_EQ(l.alpha(kTrainer), 1) << "the tool is not left to nobody";
-  EXPECT_EQ(l.noted(What::kAuthorityDeferred), 1) << "told once";
+  EXPECT_EQ(l.alpha(kTrainer), 1) << "the tool keeps a seat with authority";
+  EXPECT_EQ(l.noted(What::kAuthorityDeferred), 1) << "reported once";
   EXPECT_EQ(l.decided(), kToTrainee);
   l.ticks(2000);
   EXPECT_EQ(l.requested(), kToTrainee);
@@ -322,7 +322,8 @@ TEST(AuthorityTransfer, IsStoredInTheCheckpointOnceDecided) {
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
   l.ticks(3);
   EXPECT_EQ(l.requested(), kToTrainer);
-  EXPECT_EQ(l.session->checkpoint().tools[0].alpha, kToTrainee) << "after a restart nobody would say it again";
+  EXPECT_EQ(l.session->checkpoint().tools[0].alpha, kToTrainee)
+      << "after a restart the scene would not repeat the change";
 }
 
 // A request that is not granted within a second is dropped: it would take effect much later, unexpectedly.

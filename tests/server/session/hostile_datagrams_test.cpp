@@ -130,7 +130,7 @@ TEST(HostileDatagrams, RandomBytesOfAnySizeAreNeitherAcceptedNorAnswered) {
   EXPECT_GT(rig.session->unmatched_datagrams(), count / 4);
   rig.run(100ms);
   twin.run(100ms);
-  EXPECT_EQ(rig.told.value, twin.told.value) << "the server said something else than it would have";
+  EXPECT_EQ(rig.told.value, twin.told.value) << "the server sent other datagrams than without the attack";
   EXPECT_EQ(rig.state_hash(), twin.state_hash());
 }
 

@@ -244,11 +244,11 @@ TEST(StopLatch, TakesARisingEdgeOncePerSeatAndAResumeOfTheNewestStopOnly) {
   EXPECT_EQ(rig.session->stops(), 2u);
   rig.state.resume_stop = 1;
   rig.live(50ms);
-  EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "an old wish never undoes a newer stop";
+  EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "an old request never ends a newer stop";
   EXPECT_TRUE(rig.session->resume(rig.now, AccessRole::kOperator, 1))
-      << "he may, but the stop he names is not the newest";
+      << "the role may, but the named stop is not the newest";
   rig.live(5ms);
-  EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "nor does one of somebody without a seat";
+  EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "nor does a request of a console";
   rig.state.resume_stop = 2;
   rig.live(5ms);
   EXPECT_NE(rig.force.session, wire::SessionState::kStopped);
@@ -276,7 +276,8 @@ TEST(StopLatch, LetsAPausingRoleNeitherEndAPauseNorWeakenAStop) {
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped);
   EXPECT_TRUE(rig.session->resume(rig.now, AccessRole::kOperator, rig.session->stops()));
   rig.live(5ms);
-  EXPECT_EQ(rig.force.session, wire::SessionState::kPaused) << "he still wishes it: anew, and that is only a pause";
+  EXPECT_EQ(rig.force.session, wire::SessionState::kPaused)
+      << "the trainee still requests it: again, which is only a pause";
 }
 
 TEST(Audit, AFullQueueDropsTheNewestAndCounts) {

@@ -75,7 +75,7 @@ TEST(Insider, CountsAsSilentWhileItSendsInvalidNumbers) {
         return std::vector<Bytes>{liar.say(transport::read_header(honest)->counter, wire::Type::kState, preamble, m)};
       });
       expect_only_he_is_isolated(f);
-      EXPECT_LE(f.worst_n, 1e-9) << "exactly as if he were silent";
+      EXPECT_LE(f.worst_n, 1e-9) << "exactly as if that seat were silent";
       EXPECT_EQ(f.refused, 500U);
     }
 }

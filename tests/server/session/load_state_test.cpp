@@ -1,4 +1,4 @@
-// What a session sheds at each shed level. Seats with a tool never get less frequent FORCE.
+// Data that a session sheds at each shed level. Seats with a tool never get less frequent FORCE.
 #include <gtest/gtest.h>
 
 #include "server/policy/load_shedder.h"
@@ -51,7 +51,7 @@ TEST(LoadState, ShedsObserversThenEvaluatorsAndNeverSeatsThatHoldATool) {
     SCOPED_TRACE(to_text(rung));
     auto told = eight.told_on(rung);
     EXPECT_EQ(told[kTrainee], 1000);
-    EXPECT_EQ(told[kRequired], 1000) << "an evaluator who is waited for";
+    EXPECT_EQ(told[kRequired], 1000) << "a required evaluator";
     EXPECT_NEAR(told[kEvaluator], evaluator, 1);
     EXPECT_NEAR(told[kObserver], observer, 1);
   }

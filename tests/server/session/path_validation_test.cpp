@@ -34,7 +34,7 @@ TEST(PathTokens, GivesEachTokenOnceAndNoneWhenEmpty) {
   EXPECT_FALSE(tokens.take());
   PathValidation proof;
   proof.on_datagram_from(at(0ms), address(1), tokens);
-  EXPECT_FALSE(proof.challenge_due(at(0ms))) << "without a token nobody is asked";
+  EXPECT_FALSE(proof.challenge_due(at(0ms))) << "without a token no challenge is sent";
   tokens.add(5);
   proof.on_datagram_from(at(1ms), address(1), tokens);
   EXPECT_EQ(proof.challenge_due(at(1ms))->token, 5U);
@@ -89,7 +89,7 @@ TEST(PathValidation, AcceptsALateResponse) {
     proof.on_datagram_from(at(t), address(1), tokens);
     asked += proof.challenge_due(at(t)) ? 1 : 0;
   }
-  EXPECT_EQ(asked, 20) << "five in 250 ms, again and again while he is heard there";
+  EXPECT_EQ(asked, 20) << "five in 250 ms, repeated while datagrams arrive from there";
   EXPECT_TRUE(proof.on_response(address(1), 7)) << "a second later: the first challenge is still good";
 }
 
@@ -103,9 +103,9 @@ TEST(PathValidation, ChallengesTheClientWhileAnUnknownPeerSendsCopies) {
   proof.on_datagram_from(at(2ms), address(8), tokens);  // a third address is not challenged at once
   EXPECT_FALSE(proof.challenge_due(at(2ms)));
   proof.on_datagram_from(at(50ms), address(8), tokens);
-  EXPECT_FALSE(proof.on_response(address(9), 7)) << "the longest asked made room";
+  EXPECT_FALSE(proof.on_response(address(9), 7)) << "the oldest challenge was replaced";
   EXPECT_TRUE(proof.on_response(address(1), 8));
-  EXPECT_FALSE(proof.on_response(address(8), 9)) << "who answered first is it";
+  EXPECT_FALSE(proof.on_response(address(8), 9)) << "the address that answered first is validated";
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST(SessionClock, StopsDuringTheCloseOutSoThatARestartSkipsNothing) {
     EXPECT_EQ(last.session_tick, ended_at);
 
     Session next = restored(s.scene, last);
-    ASSERT_TRUE(next.resume(s.now, AccessRole::kInstructor, next.stops())) << "goes on without anybody";
+    ASSERT_TRUE(next.resume(s.now, AccessRole::kInstructor, next.stops())) << "resumes without participants";
     ASSERT_TRUE(!stopped || next.resume(s.now, AccessRole::kInstructor, next.stops()))
         << "it was stopped, and still is";
     for (int n = 0; n < 200; ++n, s.now += 1ms) next.on_tick(s.now, 0);
@@ -136,9 +136,9 @@ TEST(SessionClock, DoesNotRunInReportsBeforeARestoredSessionResumes) {
     next.on_tick(s.now += 1ms, 0);
     return next.record().running;
   };
-  EXPECT_FALSE(runs()) << "it gathers";
+  EXPECT_FALSE(runs()) << "it waits for the required seats";
   ASSERT_TRUE(next.stop(s.now, AccessRole::kInstructor));
-  EXPECT_FALSE(runs()) << "it gathers, and is stopped";
+  EXPECT_FALSE(runs()) << "it waits for the required seats, and is stopped";
   ASSERT_TRUE(next.recovering());
   ASSERT_TRUE(next.resume(s.now, AccessRole::kInstructor, next.stops()));  // ends the stop
   ASSERT_TRUE(next.resume(s.now, AccessRole::kInstructor, next.stops()));  // ends the recovery
@@ -159,7 +159,7 @@ TEST(SessionClock, AgreesWithAClientThatMissedAStop) {
   for (int n = 0; n < 300; ++n) server_only();
   s.resume();
   s.until(2.5);
-  EXPECT_NEAR(s.time_of(kTrainer), s.session->time(), 0.0021) << "although no FORCE said STOPPED";
+  EXPECT_NEAR(s.time_of(kTrainer), s.session->time(), 0.0021) << "although no FORCE contained STOPPED";
 }
 
 TEST(SessionClock, ExcludesStopsFromDurationsAndSpeedsOfAReport) {
@@ -174,7 +174,7 @@ TEST(SessionClock, ExcludesStopsFromDurationsAndSpeedsOfAReport) {
   EXPECT_NEAR(r.stopped_s, 2, 0.01);
   EXPECT_LT(r.judged_s, r.duration_s - 1.9) << "a second after the beginning and one after the stop are not judged";
   EXPECT_GT(r.judged_s, 1.5);
-  EXPECT_LT(r.seats[kTrainer].metrics.speed_peak_m_s, 0.6) << "where the clock stood still a difference is no speed";
+  EXPECT_LT(r.seats[kTrainer].metrics.speed_peak_m_s, 0.6) << "while the clock is stopped a difference is no speed";
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST(Commands, LetOnlyThePausingSeatEndItsPauseWithoutAnInstructor) {
   for (const FixtureSeat& s : rig.seats) EXPECT_FALSE(s.core->gate().active());
   rig.seats[1].core->request_resume();
   rig.run(300ms);
-  EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused) << "somebody else's pause";
+  EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused) << "a pause of another participant";
   const CommandOutcome look = order(rig, What::kQueryStatus, AccessRole::kRecorder);
   EXPECT_EQ(look.stop_latch.latest().by, 0);
   EXPECT_TRUE(look.stop_latch.may_end(AccessRole::kTrainee, 0));
@@ -194,14 +194,13 @@ TEST(Commands, RejectASenderThatNoLongerHasItsSeat) {
   c.role = AccessRole::kInstructor;
   c.seat = kTrainer;
   c.cid = rig.session->seat(kTrainer).link()->own_cid() ^ 0x10000U;
-  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost) << "somebody else has it now";
+  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost) << "another client has it now";
   c.cid ^= 0x10000U;
   c.seat = 7;
   EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost);
   c.seat = kTrainer;
   ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainer)).result, Result::kDone);
-  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost)
-      << "from the moment on that he is sent away";
+  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost) << "from the moment of the removal on";
   EXPECT_EQ(rig.session->stops(), 0U);
 }
 
@@ -221,8 +220,8 @@ TEST(Commands, RemoveAParticipantWithoutAForceStepAndReportTheReason) {
     ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee, why)).result, Result::kDone);
     EXPECT_TRUE(rig.session->closing_out(kTrainee));
     EXPECT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee, why)).result, Result::kNothingToDo)
-        << "he is on his way";
-    EXPECT_EQ(rig.session->may_admit(rig.now, kTrainee, false), JoinResult::kSeatTaken) << "until it is let go";
+        << "the removal is in progress";
+    EXPECT_EQ(rig.session->may_admit(rig.now, kTrainee, false), JoinResult::kSeatTaken) << "until the hand is released";
     const int told_before = rig.forces[2];
     double step = 0, last = rig.seats[kTrainer].device->state().f_out.norm();
     std::optional<int> closed_after, let_go_after;
@@ -241,18 +240,17 @@ TEST(Commands, RemoveAParticipantWithoutAForceStepAndReportTheReason) {
     EXPECT_LE(step, 0.2) << "the other hand";
     ASSERT_TRUE(closed_after && let_go_after);
     EXPECT_LE(*let_go_after, 130) << "the gate's own ramp";
-    EXPECT_GT(*closed_after, *let_go_after) << "first the hand, then the word";
-    EXPECT_GE(rig.forces[2] - told_before, 100) << "it hears the server while it is let go";
+    EXPECT_GT(*closed_after, *let_go_after) << "first the release, then the notice";
+    EXPECT_GE(rig.forces[2] - told_before, 100) << "it receives datagrams during the release";
     EXPECT_EQ(rig.seats[kTrainee].core->close_reason(), why);
     EXPECT_EQ(rig.seats[kTrainee].core->gate().trips(), 0U);
     EXPECT_FALSE(rig.session->seat(kTrainee).taken());
-    EXPECT_EQ(rig.session->seat(kTrainee).resume(), (std::array<std::byte, 32>{}))
-        << "nobody comes back by the old secret";
+    EXPECT_EQ(rig.session->seat(kTrainee).resume(), (std::array<std::byte, 32>{})) << "the old secret resumes no seat";
     EXPECT_NEAR(rig.session->tool(0).authority.alpha(kTrainer), 1, 1e-9);
     const auto noted = events(*rig.session);
     EXPECT_EQ(std::ranges::count(noted, AuditEvent::What::kRemoved, &AuditEvent::what), 1);
     EXPECT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee)).result, Result::kNothingToDo)
-        << "nobody sits there";
+        << "the seat is free";
     EXPECT_EQ(rig.session->may_admit(rig.now, kTrainee, false), JoinResult::kAccepted);
   }
 }
@@ -317,13 +315,13 @@ TEST(Admission, RejectsJoinsAbove60PercentOfATickOr80PercentOfAProcessor) {
   const LoadLimits limits;
   EXPECT_EQ(limits.tick, 0.6);
   EXPECT_EQ(limits.core, 0.8);
-  EXPECT_EQ(rejection_reason({0.6, 0.8}, 1.6, 2, limits), "") << "at the limits there is room";
+  EXPECT_EQ(rejection_reason({0.6, 0.8}, 1.6, 2, limits), "") << "joins at the limits are accepted";
   EXPECT_NE(rejection_reason({0.61, 0.1}, 0.1, 2, limits).find("ticks take 61 %"), std::string::npos);
   EXPECT_NE(rejection_reason({0.5, 0.81}, 0.81, 2, limits).find("takes 81 % of a processor"), std::string::npos)
       << "receiving and sending count too";
   EXPECT_NE(rejection_reason({0.3, 0.5}, 1.7, 2, limits).find("85 % of its 2 processors"), std::string::npos)
       << "several threads share them";
-  EXPECT_EQ(rejection_reason({0.3, 0.5}, 9, 0, limits), "") << "a machine that does not tell its processors";
+  EXPECT_EQ(rejection_reason({0.3, 0.5}, 9, 0, limits), "") << "a machine that does not report its processors";
   EXPECT_NE(rejection_reason({0.3, 0.1}, 0.1, 2, {0.2, 0.8}).find("below 20 %"), std::string::npos);
 }
 

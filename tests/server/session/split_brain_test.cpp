@@ -23,7 +23,7 @@ std::unique_ptr<Session> take_over(SessionFixture& rig, std::uint64_t key) {
   for (std::size_t i = 0; i < rig.seats.size(); ++i) {
     FixtureSeat& s = rig.seats[i];
     const auto joined = netsim::simulate_join(*rig.session, rig.now, i, s.device->caps(), RandomKey{key}, i + 1);
-    if (!joined) throw std::runtime_error("the new owner lets nobody in");
+    if (!joined) throw std::runtime_error("the new owner rejects all joins");
     s.params = joined->channel_params;
     s.core->reconnect(s.params);
   }
@@ -38,7 +38,7 @@ TEST(SplitBrain, LeavesTheFormerServerWithoutEffect) {
     SCOPED_TRACE(hears);
     SessionFixture rig("free_motion"), twin("free_motion");
     for (SessionFixture* r : {&rig, &twin}) r->run(2s);
-    ASSERT_TRUE(rig.seats[0].core->gate().active()) << "nobody was engaged: nothing could be obeyed";
+    ASSERT_TRUE(rig.seats[0].core->gate().active()) << "no hand was engaged: the test proves nothing";
     const auto old = take_over(rig, 77);
     const auto gone = take_over(twin, 77);
     ASSERT_EQ(rig.session->epoch(), old->epoch() + 1);
@@ -81,8 +81,8 @@ TEST(SplitBrain, LeavesTheFormerServerWithoutEffect) {
       twin.to_clients(twin.server_tick());
       twin.now += 1ms;
     }
-    EXPECT_GT(from_old, 3900U)
-        << "the old owner said nothing in the two seconds in which it speaks to a silent client: nothing was tried";
+    EXPECT_GT(from_old, 3900U) << "the old owner sent nothing in the two seconds in which it sends to a silent client: "
+                                  "the test proves nothing";
     EXPECT_EQ(to_old > 5000U, hears);
     EXPECT_EQ(generations(), acted) << "0 datagrams of the new epoch act at the old owner";
     EXPECT_EQ(rig.told.value, twin.told.value);

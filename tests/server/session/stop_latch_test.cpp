@@ -82,8 +82,8 @@ TEST(StopText, NamesTheRolesThatMayEndAStopAndTheCommand) {
   EXPECT_EQ(may_end_text(lane, scene, kAll),
             "trainee (key r), which paused, or an operator (`tandem-client control resume`)");
   EXPECT_TRUE(lane.may_be_ended_by(AccessRole::kTrainee, 0, kAll));
-  EXPECT_FALSE(lane.may_be_ended_by(AccessRole::kEvaluator, 2, kAll)) << "who paused nothing is not told that he may";
-  EXPECT_TRUE(lane.may_be_ended_by(AccessRole::kEvaluator, 2, 1U << 2)) << "nobody else is there any more";
+  EXPECT_FALSE(lane.may_be_ended_by(AccessRole::kEvaluator, 2, kAll)) << "a seat that paused nothing may not end it";
+  EXPECT_TRUE(lane.may_be_ended_by(AccessRole::kEvaluator, 2, 1U << 2)) << "no other seat is connected";
   EXPECT_TRUE(lane.may_be_ended_by(AccessRole::kOperator, StopLatch::kNoSeat, kAll));
   EXPECT_NE(may_end_text(lane, scene, 0).find("any seat that may pause (key r)"), std::string::npos);
   static_cast<void>(lane.request(Time{}, AccessRole::kEvaluator, 2));

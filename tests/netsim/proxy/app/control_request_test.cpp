@@ -41,8 +41,8 @@ TEST(ControlRequests, ParseTypedInput) {
 
 TEST(ControlRequests, NameTheWrongWordAndTheAllowedOnes) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "nothing was asked"},
-      {"   \n", "nothing was asked"},
+      {"", "the command is empty"},
+      {"   \n", "the command is empty"},
       {"fly", "\"fly\" is not a command"},
       {"delay", "a number in [0, 60000] ms"},
       {"delay 20kg", "delay \"20kg\""},

@@ -146,7 +146,7 @@ TEST(Proxy, ToleratesAServerThatStartsLater) {
   UdpPeer client;
   Running proxy{to, {}};
   client.connect(proxy->listening());
-  ASSERT_TRUE(client.send("nobody"));
+  ASSERT_TRUE(client.send("lost"));
   ASSERT_TRUE(client.send("home"));
   ASSERT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.errors.refused > 0; }));
   UdpPeer server{io::to_text(to)};
@@ -297,7 +297,7 @@ TEST(Proxy, AcceptsBothAddressesUntilTheOldOneExpires) {
   ProxyRequest again;
   again.rebinds = {0};
   ASSERT_TRUE(proxy.carry_out(again));  // dead at once
-  ASSERT_TRUE(server.send_to(after->from, "nobody there"));
+  ASSERT_TRUE(server.send_to(after->from, "to the old address"));
   ASSERT_TRUE(client.send("3"));
   const auto third = server.receive();
   ASSERT_TRUE(third);

@@ -40,7 +40,7 @@ TEST(ProxyEvents, ReportAppliedNoTargetAndNotReached) {
   EXPECT_EQ(all[0].fate, Fate::kApplied);
   EXPECT_EQ(all[1].fate, Fate::kNoTarget);
   EXPECT_EQ(all[1].reason, "client 2 connected later, at 1.800 s");
-  EXPECT_EQ(all[2].fate, Fate::kApplied) << "a network stays for whoever comes later";
+  EXPECT_EQ(all[2].fate, Fate::kApplied) << "a network stays for later clients";
   EXPECT_EQ(all[3].fate, Fate::kNoTarget) << "a new address does not";
   EXPECT_EQ(all[4].reason, "client 3 never connected");
   EXPECT_EQ(all[5].fate, Fate::kStillActive);

@@ -317,7 +317,7 @@ TEST(ProxyStatusView, ShowsQueuedAndInFlightDatagramsPerClient) {
   const ProxyStatus status = proxy->status();
   EXPECT_GT(status.client[0].queue[0], Duration{}) << "100 datagrams wait for the rate";
   EXPECT_LE(status.client[0].queue[0], std::chrono::milliseconds(100 * 232));
-  EXPECT_LT(status.client[1].queue[0], status.client[0].queue[0]) << "a queue of his own";
+  EXPECT_LT(status.client[1].queue[0], status.client[0].queue[0]) << "a queue of its own";
   EXPECT_EQ(status.client[0].queue[1], Duration{}) << "no rate down";
   EXPECT_NE(status_text(status).find("waiting in the queue now: up "), std::string::npos) << status_text(status);
   const auto json = nlohmann::json::parse(status_json(status, {}));

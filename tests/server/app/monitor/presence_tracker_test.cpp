@@ -46,7 +46,7 @@ std::string texts(const PresenceTracker::Events& news) {
 /// The last ten seconds of a session without an end are announced when they begin: once, and again after a participant
 /// came back.
 TEST(PresenceTracker, AnnouncesTheEndOfASessionThatAllParticipantsLeft) {
-  const std::string wanted = "everybody left: the session ends in 10 s, unless a client joins it again\n";
+  const std::string wanted = "all participants left: the session ends in 10 s, unless a client joins it again\n";
   Running lesson;
   lesson.leave(0);
   EXPECT_EQ(texts(lesson.attendance.update(lesson.now, lesson.status, lesson.scene)), "instructor left\n")
@@ -56,7 +56,7 @@ TEST(PresenceTracker, AnnouncesTheEndOfASessionThatAllParticipantsLeft) {
   EXPECT_EQ(texts(lesson.after(5s)), "") << "once";
   lesson.status.seats[0].taken = lesson.status.seats[0].alive = true;
   EXPECT_EQ(texts(lesson.attendance.update(lesson.now, lesson.status, lesson.scene)), "instructor joined\n")
-      << "somebody is there again";
+      << "a participant is present again";
   lesson.leave(0);
   EXPECT_EQ(texts(lesson.attendance.update(lesson.now, lesson.status, lesson.scene)), "instructor left\n" + wanted);
 
@@ -118,7 +118,7 @@ TEST(PresenceTracker, WarnsOfASeatThatFellSilentAndNotOfOneThatLeft) {
   s.leave(0);
   s.fall_silent(1);
   const PresenceTracker::Events news = s.after(11s);
-  EXPECT_FALSE(says(news, "gone", s.scene.seats[0].name)) << "its person left, and that was told";
+  EXPECT_FALSE(says(news, "gone", s.scene.seats[0].name)) << "its participant left, which was reported";
   EXPECT_TRUE(says(news, "gone", s.scene.seats[1].name));
 }
 
@@ -137,7 +137,7 @@ TEST(PresenceTracker, CountsASessionThatIsStoppedWhileItWaitsAsWaiting) {
   s.fall_silent(0);
   s.leave(1);
   const PresenceTracker::Events news = s.after(61s);
-  EXPECT_FALSE(news.all_lost) << "else it ends as peers_lost while people have 10 min to come back";
+  EXPECT_FALSE(news.all_lost) << "else it ends as peers_lost while participants have 10 min to come back";
   EXPECT_FALSE(says(news, "gone", s.scene.seats[0].name));
   s.leave(0);
   EXPECT_FALSE(s.after(61s).all_left);
@@ -167,7 +167,7 @@ TEST(SessionEnding, EndsARestoredSessionWithoutParticipantsAfterTheTimeout) {
   EXPECT_EQ(over->why, EndReason::kStartTimeout);
   EXPECT_TRUE(over->event.warning);
   s.when.resume_until.reset();
-  EXPECT_FALSE(s.after_restart(11min)) << "a new session waits as long as people like";
+  EXPECT_FALSE(s.after_restart(11min)) << "a new session waits for participants without a limit";
 }
 
 TEST(SessionEnding, KeepsARestoredSessionWhileAParticipantIsConnected) {
@@ -175,7 +175,7 @@ TEST(SessionEnding, KeepsARestoredSessionWhileAParticipantIsConnected) {
   s.status.seats[1].taken = s.status.seats[1].ever_taken = true;
   EXPECT_FALSE(s.after_restart(11min)) << "it waits for the others";
   s.leave(1);
-  EXPECT_TRUE(s.after_restart(11min)) << "who came has left, and the session still waits";
+  EXPECT_TRUE(s.after_restart(11min)) << "the only participant has left, and the session still waits";
   s.status.state = wire::SessionState::kRunning;
   EXPECT_FALSE(s.after_restart(11min)) << "it went on, and ends as every session does";
 }
@@ -211,7 +211,7 @@ TEST(SessionEnding, ReturnsOneReasonAtATime) {
   s.scene.duration = 60;
   EXPECT_EQ(session_ending(s.when, {.events = {}, .all_lost = true, .all_left = true}, s.status, s.scene)->why,
             EndReason::kPeersLost)
-      << "a scene with an end waits for its people";
+      << "a scene with an end waits for its participants";
 }
 
 }  // namespace
