@@ -61,9 +61,9 @@ hal::Command SeatRunner::tick(const hal::State& state) noexcept {
   receive(now);
   apply_user_input();
   apply_script(now);
-  const auto session = seat_->session_time(now);
+  const auto session = seat_->clock().session_time(now);
   // While the session clock is halted, a simulated device holds its position.
-  if (sim_ != nullptr) sim_->set_session_time(seat_->clock_stopped() ? std::nullopt : session);
+  if (sim_ != nullptr) sim_->set_session_time(seat_->clock().stopped() ? std::nullopt : session);
   seat_->set_late_ticks(snapshot_.late_ticks);
   command_ = seat_->on_servo(now, state);
   send(now);
@@ -72,8 +72,9 @@ hal::Command SeatRunner::tick(const hal::State& state) noexcept {
   const wire::Telemetry& t = seat_->sample().telemetry;
   snapshot_.force_peak_n = std::max(snapshot_.force_peak_n, norm(t.f_out));
   if (samples_ != nullptr)
-    samples_->push({session.value_or(-seconds(now - began_)), t.q, t.x, t.f_cmd, triple(seat_->tip_force()), t.f_out,
-                    seat_->sample().gate, seat_->authority(),
+    samples_->push({session.value_or(-seconds(now - began_)), t.q, t.x, t.f_cmd,
+                    triple(seat_->device().tip_force(seat_->effort())), t.f_out, seat_->sample().gate,
+                    seat_->tools().authority(),
                     seat_->link().timing().heard() ? seconds(seat_->link().timing().silence(now)) : -1});
   if (ticks_ % kSnapshotEvery == 1 || seat_->closed()) snapshot(now);
   if (seat_->closed() && !std::exchange(close_signalled_, true)) {
@@ -129,13 +130,14 @@ void SeatRunner::receive(Time now) noexcept {
 
 void SeatRunner::apply_user_input() noexcept {
   if (reset_.exchange(false, std::memory_order_relaxed)) seat_->request_gate_reset();
-  if (resume_.exchange(false, std::memory_order_relaxed)) seat_->request_resume();
+  if (resume_.exchange(false, std::memory_order_relaxed)) seat_->requests().resume();
   if (stop_.exchange(false, std::memory_order_relaxed))
-    seat_->request_local_stop();  // after resume: stop takes precedence
-  if (stop_all_.exchange(false, std::memory_order_relaxed)) static_cast<void>(seat_->request_stop_all());
+    seat_->requests().stop_locally();  // after resume: stop takes precedence
+  if (stop_all_.exchange(false, std::memory_order_relaxed)) static_cast<void>(seat_->requests().stop_all());
   if (leave_.load(std::memory_order_relaxed)) seat_->leave();
   while (const control::MasterArray* request = authority_requests_.front()) {
-    seat_->request_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool), std::span{*request}.first(masters_));
+    seat_->requests().change_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool),
+                                       std::span{*request}.first(masters_));
     script_requested_.reset();
     authority_requests_.pop();
   }
@@ -149,7 +151,7 @@ void SeatRunner::apply_script(Time now) noexcept {
   if (script_requested_ && seat_->force().transfer == wire::TransferNotice::kCancelled &&
       now - *script_requested_ > kScriptAgain && now - *script_requested_ < kScriptStands)
     request_scripted_authority(now);
-  const auto t = seat_->server_time(now);
+  const auto t = seat_->clock().server_time(now);
   const double due = t.value_or(0) + wire::kTransferNoticeTicks / seat_->setup().tick_hz;
   if (!t || next_change_ >= script_.size() || script_[next_change_].at > due) return;
   while (next_change_ + 1 < script_.size() && script_[next_change_ + 1].at <= due) ++next_change_;
@@ -160,8 +162,8 @@ void SeatRunner::apply_script(Time now) noexcept {
 /// Requests the authority of the newest due script row.
 void SeatRunner::request_scripted_authority(Time now) noexcept {
   script_requested_ = now;
-  seat_->request_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool),
-                           std::span{script_[next_change_ - 1].alpha}.first(masters_));
+  seat_->requests().change_authority(static_cast<std::uint32_t>(seat_->setup().seat.tool),
+                                     std::span{script_[next_change_ - 1].alpha}.first(masters_));
 }
 
 void SeatRunner::send(Time now) noexcept {
@@ -213,13 +215,13 @@ void SeatRunner::snapshot(Time now) noexcept {
   p.close_reason = seat_->close_reason();
   p.stops = seat_->force().stops;
   p.missing = seat_->force().missing;
-  if (const auto time = seat_->server_time(now))
+  if (const auto time = seat_->clock().server_time(now))
     p.session_time = *time;  // without a running session, e.g. after a server restart, the last value stays
   p.silence_s = seconds(f.heard() ? f.unanswered_for(now) : now - connected_);
-  p.alpha = seat_->authority();
+  p.alpha = seat_->tools().authority();
   p.authority_version = seat_->force().authority_version;
   p.touching = seat_->force().touching;
-  p.local_stop = seat_->locally_stopped();
+  p.local_stop = seat_->requests().locally_stopped();
   p.distance_m.reset();
   if (seat_->setup().port == PortSpace::kTip && f.heard()) p.distance_m = distance_to_tool();
   const auto beside = seat_->offset_from_leader(now);
@@ -240,10 +242,10 @@ void SeatRunner::snapshot(Time now) noexcept {
   p.margin_min_j = t.margin_min_j;
   p.given_after_loss_max_j = seat_->gate().given_after_loss_max();
   p.gate_trips = sample.gate_trips;
-  p.motors_hot = seat_->overtemperature_guard().hot();
-  p.motors_latched = seat_->overtemperature_guard().latched();
-  p.hot_trips = seat_->overtemperature_guard().trips_total();
-  if (seat_->heat() && !(p.heat_max >= seat_->heat())) p.heat_max = seat_->heat();
+  p.motors_hot = seat_->guards().overtemperature().hot();
+  p.motors_latched = seat_->guards().overtemperature().latched();
+  p.hot_trips = seat_->guards().overtemperature().trips_total();
+  if (const auto& heat = seat_->device().reading().heat; heat && !(p.heat_max >= heat)) p.heat_max = heat;
   const Counts all = counts();
   p.sent = all.sent;
   p.accepted = all.accepted;

@@ -147,7 +147,7 @@ void InvariantChecker::check_role(std::size_t i, const SimulatedClient& station,
   const client::Seat* seat = station.seat();
   if (seat == nullptr || !station.ran_in_tick()) return;
   if (watches && tip_norm(seat->effort(), seat->setup().axis_scale, scene_->dof) > 0) note("observer_force", i);
-  if (seat->locally_stopped() && seat->gate().active()) note("own_stop", i);
+  if (seat->requests().locally_stopped() && seat->gate().active()) note("own_stop", i);
 }
 
 /// Checks the restart barrier: after a restart of the server no seat engages before all seats with authority are back.
@@ -180,7 +180,7 @@ void InvariantChecker::check_sensor(std::size_t i, const SimulatedClient& statio
   const client::Seat& seat = *station.seat();
   SeatState::Frozen& was = seats_[i].frozen;
   const Time now = station.last_run();
-  const AxisArray& ref = seat.channel().state().ref;
+  const AxisArray& ref = seat.tools().end(0).state().ref;
   const bool frozen = scene_->seats[i].kind == SeatKind::kMaster && seat.gate().active() &&
                       station.has_fault(Fault::Kind::kFrozen, now) && !station.invalid_reading();
   if (!frozen || !was.on) was = {now, ref, seat.effort(), frozen};
@@ -253,9 +253,9 @@ void InvariantChecker::check_silence(Time own, std::size_t i, const SimulatedCli
     const bool hand = scene_->seats[i].kind == SeatKind::kMaster;
     // The longest limit since the last fresh datagram applies. A client that loses authority or its server during a
     // silence releases from that moment.
-    s.silence_limit =
-        std::max(s.silence_limit, hand ? silence_limits(scene_->gate, scene_->channel.law, seat.authority()).most
-                                       : scene_->gate.silence_limit);
+    s.silence_limit = std::max(s.silence_limit,
+                               hand ? silence_limits(scene_->gate, scene_->channel.law, seat.tools().authority()).most
+                                    : scene_->gate.silence_limit);
     const double limit = s.silence_limit;
     if (seat.gate().active() && silence > limit + half_tick) note("silence_ramps", i);
     if (silence > limit + kRampOut + 3 * half_tick) {
@@ -265,7 +265,7 @@ void InvariantChecker::check_silence(Time own, std::size_t i, const SimulatedCli
     }
   }
   const bool replica = scene_->channel.law == LawKind::kReplica && scene_->seats[i].kind == SeatKind::kMaster;
-  const double patience = replica ? silence_limits(scene_->gate, LawKind::kReplica, seat.authority()).most : 0;
+  const double patience = replica ? silence_limits(scene_->gate, LawKind::kReplica, seat.tools().authority()).most : 0;
   if (seat.gate().active() && seconds(fresh.loop_age(own)) > scene_->gate.loop_age_max + patience + 1e-9)
     note("loop_age", i);
 }

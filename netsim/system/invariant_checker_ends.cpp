@@ -103,12 +103,12 @@ void InvariantChecker::check_server_ends(std::size_t i, const server::Session& s
 void InvariantChecker::check_client_ends(std::size_t i, const client::Seat& seat, const server::Session& session,
                                          bool slave) {
   SeatState& s = seats_[i];
-  for (std::size_t k = 0; k < seat.ties(); ++k) {
+  for (std::size_t k = 0; k < seat.tools().size(); ++k) {
     AxisArray x = seat.sent(k).x;
     if (const control::VirtualTool* const copy = seat.coupling().tool_copy(k))
       for (std::size_t a = 0; a < scene_->dof; ++a) x[a] = copy->x(a);
-    check_end(i, seat.channel(k), s.client[k], seat.setup().axis_scale,
-              {seat.received(k).port, x, slave ? x : s.client[k].x, offset_of(i, session),
+    check_end(i, seat.tools().end(k), s.client[k], seat.setup().axis_scale,
+              {seat.tools().received(k).port, x, slave ? x : s.client[k].x, offset_of(i, session),
                s.was_active && seat.gate().active(),
                scene_->channel.law == LawKind::kReplica && !slave ? kFollowGainsSpeed : 0});
   }

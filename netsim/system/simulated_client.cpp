@@ -176,18 +176,18 @@ void SimulatedClient::rejoin(Time now, server::Session& session) {
 /// Returns the time that the simulated hand follows; nullopt while the session clock is stopped, and the hand then
 /// waits.
 std::optional<double> SimulatedClient::hand_time(Time own) const noexcept {
-  return seat_->clock_stopped() ? std::nullopt : seat_->session_time(own);
+  return seat_->clock().stopped() ? std::nullopt : seat_->clock().session_time(own);
 }
 
 /// Applies the key presses of the user that the faults require.
 void SimulatedClient::apply_stop_faults(Time now) noexcept {
   if (faults_.empty()) return;
   const bool stop = has_fault(Fault::Kind::kStopHand, now);
-  if (stop && !stopped_) seat_->request_local_stop();
-  if (!stop && stopped_) seat_->request_resume();
+  if (stop && !stopped_) seat_->requests().stop_locally();
+  if (!stop && stopped_) seat_->requests().resume();
   stopped_ = stop;
   const bool wish = has_fault(Fault::Kind::kStopAll, now);
-  if (wish && !stop_all_requested_) static_cast<void>(seat_->request_stop_all());
+  if (wish && !stop_all_requested_) static_cast<void>(seat_->requests().stop_all());
   stop_all_requested_ = wish;
 }
 

@@ -302,7 +302,7 @@ void Simulation::apply_resume_requests() {
     if (now_ >= Time{} + f.at + f.length && now_ - tick_ < Time{} + f.at + f.length)
       for (std::size_t i = 0; i < clients_.size(); ++i)
         if (clients_[i].seat() != nullptr && setup_.scene.seats[i].role == Role::kInstructor)
-          clients_[i].seat()->request_resume();
+          clients_[i].seat()->requests().resume();
 }
 
 void Simulation::inject_attacks() {

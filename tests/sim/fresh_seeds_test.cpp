@@ -182,7 +182,7 @@ TEST(FreshSeeds, KeepTheApproachSpeedWhenAFrozenSlaveSensorMovesAgain) {
   const double frozen = life.simulation->seat(1)->sample().port.x[0];
   ASSERT_TRUE(life.active(1));
   life.until(2302ms);
-  const double reach = 3.3 / life.simulation->seat(1)->channel().state().k[0];
+  const double reach = 3.3 / life.simulation->seat(1)->tools().end(0).state().k[0];
   ASSERT_GT(std::abs(life.simulation->seat(1)->sample().port.x[0] - frozen), reach)
       << "else the reference need not follow its hand at once";
   life.until(6s);

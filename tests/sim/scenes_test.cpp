@@ -142,8 +142,8 @@ TEST(Simulation, GivesNoAuthorityToAnEvaluator) {
     if (w.session().time() < 2 || w.session().time() > 3.9) return;
     std::array<double, 8> alpha{};
     alpha[3] = 1;
-    asked |= w.seat(0)->request_authority(0, alpha);
-    asked_by_evaluator |= w.seat(3)->request_authority(0, alpha);
+    asked |= w.seat(0)->requests().change_authority(0, alpha);
+    asked_by_evaluator |= w.seat(3)->requests().change_authority(0, alpha);
     EXPECT_EQ(w.session().tool(0).authority.alpha(3), 0);
     EXPECT_EQ(w.session().tool(0).authority.alpha(0), 1);
   });
@@ -162,8 +162,8 @@ TEST(Simulation, LetsAnInstructorMoveAuthorityFromTheSeat) {
     const double t = w.session().time();
     if (t >= 3 && t < 3.0015) {
       const std::array<double, 2> half{0.5, 0.5};
-      EXPECT_TRUE(w.seat(0)->request_authority(0, half));
-      EXPECT_TRUE(w.seat(1)->request_authority(0, std::array{0.0, 1.0}))
+      EXPECT_TRUE(w.seat(0)->requests().change_authority(0, half));
+      EXPECT_TRUE(w.seat(1)->requests().change_authority(0, std::array{0.0, 1.0}))
           << "a trainee may ask, and only to give back: the server decides";
       at_three = w.session().tool(0).authority.alpha(0);
     }

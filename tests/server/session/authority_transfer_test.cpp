@@ -102,12 +102,12 @@ TEST(AuthorityTransfer, NamesTheDecidingRoleAndTheGainingSeat) {
   EXPECT_EQ(both(), std::pair(by_operator, by_operator));
   l.ticks(1500);
   EXPECT_EQ(both(), std::pair(wire::TransferParties{}, wire::TransferParties{})) << "it was applied";
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.25, 0.75}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.25, 0.75}));
   l.ticks(5);
   const wire::TransferParties by_trainer{.by = kTrainer + 1, .to = kTrainer + 1, .percent = 25};
   EXPECT_EQ(both(), std::pair(by_trainer, by_trainer));
   l.ticks(1500);
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{1.0, 0.0}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{1.0, 0.0}));
   while (l.session->time() < 11.46) l.ticks(1);
   const wire::TransferParties by_scene{.by = wire::TransferParties::kScene, .to = kTrainee + 1, .percent = 100};
   EXPECT_EQ(both(), std::pair(by_scene, by_scene)) << "the scene's own change at 11.5 s";
@@ -118,11 +118,11 @@ TEST(AuthorityTransfer, NamesTheDecidingRoleAndTheGainingSeat) {
 TEST(AuthorityTransfer, AppliesAllStepsThatASeatRequestsBeforeTheFirstReply) {
   Lesson l;
   const std::uint32_t version = l.session->authority_version();
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.95, 0.05}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.95, 0.05}));
   for (const Bytes& d : l.client_tick(kTrainer)) l.session->on_datagram(l.now, address(l.seats[kTrainer].at), d);
   ASSERT_EQ(l.session->authority_version(), version + 1);
   ASSERT_EQ(l.told(kTrainer).authority_version, version) << "not known to the seat yet";
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.9, 0.1}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.9, 0.1}));
   l.ticks(1500);
   EXPECT_EQ(l.session->authority_version(), version + 2);
   EXPECT_NEAR(l.requested()[kTrainer], 0.9, 1e-12);
@@ -132,10 +132,10 @@ TEST(AuthorityTransfer, AppliesAllStepsThatASeatRequestsBeforeTheFirstReply) {
 /// meanwhile.
 TEST(AuthorityTransfer, DropsARequestThatAnOperatorsDecisionOvertook) {
   Lesson l;
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.95, 0.05}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.95, 0.05}));
   const auto on_their_way = l.client_tick(kTrainer);
   ASSERT_EQ(l.order({0.5, 0.5}), Result::kDone);
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.9, 0.1}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.9, 0.1}));
   for (const Bytes& d : on_their_way) l.session->on_datagram(l.now, address(l.seats[kTrainer].at), d);
   l.ticks(1500);
   EXPECT_NEAR(l.requested()[kTrainer], 0.5, 1e-12);
@@ -330,7 +330,7 @@ TEST(AuthorityTransfer, IsStoredInTheCheckpointOnceDecided) {
 TEST(AuthorityTransfer, DropsARequestThatIsNotGrantedWithinASecond) {
   Lesson l;
   l.ticks_without(kTrainee, 300);
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.0, 1.0}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.0, 1.0}));
   l.ticks_without(kTrainee, 1);
   EXPECT_EQ(l.told(kTrainer).transfer, kCancelled);
   l.ticks_without(kTrainee, 1100);

@@ -35,7 +35,7 @@ struct Stoppable : SessionFixture {
   }
   void resume() { ASSERT_TRUE(session->resume(now, AccessRole::kInstructor, session->stops())); }
   [[nodiscard]] bool to_trainee() const { return session->tool(0).authority.requested()[kTrainee] == 1; }
-  [[nodiscard]] double time_of(std::size_t i) const { return seats[i].core->server_time(now).value_or(-1); }
+  [[nodiscard]] double time_of(std::size_t i) const { return seats[i].core->clock().server_time(now).value_or(-1); }
   [[nodiscard]] RunReport report() const { return builder.build(std::vector<LinkReport>(scene.seats.size())); }
 
   ReportBuilder builder{scene};
@@ -57,7 +57,7 @@ TEST(SessionClock, StopsWithItsTimelineWhileTheSessionIsStopped) {
     EXPECT_EQ(s.session->checkpoint().session_tick, stood_at);
     for (const std::size_t i : {kTrainer, kTrainee}) {
       EXPECT_DOUBLE_EQ(s.time_of(i), stood_at * 1e-3) << "clients show the same time";
-      EXPECT_DOUBLE_EQ(*s.seats[i].core->session_time(s.now), stood_at * 1e-3);
+      EXPECT_DOUBLE_EQ(*s.seats[i].core->clock().session_time(s.now), stood_at * 1e-3);
     }
     s.resume();
     s.until(2.9);

@@ -105,25 +105,25 @@ TEST(Commands, LetOnlyThePausingSeatEndItsPauseWithoutAnInstructor) {
   SessionFixture rig("eight_seats");
   rig.run(2s);
   ASSERT_TRUE(rig.seats[0].core->gate().active());
-  ASSERT_TRUE(rig.seats[0].core->request_stop_all());
+  ASSERT_TRUE(rig.seats[0].core->requests().stop_all());
   rig.run(300ms);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused);
   for (const FixtureSeat& s : rig.seats) EXPECT_FALSE(s.core->gate().active());
-  rig.seats[1].core->request_resume();
+  rig.seats[1].core->requests().resume();
   rig.run(300ms);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused) << "a pause of another participant";
   const CommandOutcome look = order(rig, What::kQueryStatus, AccessRole::kRecorder);
   EXPECT_EQ(look.stop_latch.latest().by, 0);
   EXPECT_TRUE(look.stop_latch.may_end(AccessRole::kTrainee, 0));
   EXPECT_GT(look.stop_age, 0.5);
-  rig.seats[0].core->request_resume();
+  rig.seats[0].core->requests().resume();
   rig.run(1s);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kRunning);
   EXPECT_TRUE(rig.seats[0].core->gate().active());
   // They cannot end a stop by an operator.
   EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).result, Result::kDone);
   rig.run(100ms);
-  rig.seats[0].core->request_resume();
+  rig.seats[0].core->requests().resume();
   rig.run(100ms);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
 }
@@ -263,8 +263,8 @@ TEST(Commands, IgnoreRequestsOfASeatThatIsBeingRemoved) {
   ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainer)).result, Result::kDone);
   const std::uint32_t version = rig.session->authority_version();
   const std::array alpha{0.5, 0.5};
-  rig.seats[kTrainer].core->request_authority(0, alpha);
-  rig.seats[kTrainer].core->request_resume();
+  rig.seats[kTrainer].core->requests().change_authority(0, alpha);
+  rig.seats[kTrainer].core->requests().resume();
   rig.run(100ms);
   EXPECT_EQ(rig.session->authority_version(), version);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);

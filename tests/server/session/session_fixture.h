@@ -82,7 +82,7 @@ class SessionFixture {
   std::vector<Bytes> client_tick(std::size_t i = 0) {
     FixtureSeat& s = seats[i];
     if (ticked_) s.device->advance(s.command, 1ms);
-    s.device->set_session_time(s.core->session_time(now));
+    s.device->set_session_time(s.core->clock().session_time(now));
     s.command = s.core->on_servo(now, s.device->state());
     std::vector<Bytes> out;
     std::array<std::byte, transport::kDatagramMax> buffer;
