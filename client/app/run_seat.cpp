@@ -135,22 +135,22 @@ int run_seat(const SeatOptions& plan) {
     line.note(softer);
   Seat seat{setup, caps, given->link};
   io::UdpSocket kept = io::duplicate(*socket);
-  const auto pump = std::make_unique<SeatRunner>(std::move(*socket), seat, live.sim, std::move(script),
-                                                 writer ? &writer->queue() : nullptr,
-                                                 held ? HardwareDevice::kPeriod : Duration::zero());
+  const auto runner = std::make_unique<SeatRunner>(std::move(*socket), seat, live.sim, std::move(script),
+                                                   writer ? &writer->queue() : nullptr,
+                                                   held ? HardwareDevice::kPeriod : Duration::zero());
   const bool by_keys = live.sim != nullptr && live.sim->hand().model() == HandModel::kKeyboard;
-  KeyboardControls person{*pump, setup, by_keys ? live.sim->hand().keyboard() : nullptr};
+  KeyboardControls keyboard{runner->commands(), setup, by_keys ? live.sim->hand().keyboard() : nullptr};
   const io::CpuLatencyRequest awake;
   const bool memory = io::lock_memory();
   if (held) {
-    held->attach(*pump);  // the device calls it until `device.close()`
+    held->attach(*runner);  // the device calls it until `device.close()`
   } else {
-    if (auto ok = device.start(*pump); !ok) return trouble(ok.error().message);
+    if (auto ok = device.start(*runner); !ok) return trouble(ok.error().message);
     if (auto ok = device.enable(); !ok) return trouble(ok.error().message);
   }
 
   const Time begin = io::monotonic_now();
-  SeatSupervisor vigil{{plan, wish, *given, seat, *pump, person, device, held.get(), signals.get(), line},
+  SeatSupervisor vigil{{plan, wish, *given, seat, *runner, keyboard, device, held.get(), signals.get(), line},
                        std::move(kept)};
   const ExitReason end = vigil.run();
   ClientReport report;
@@ -163,7 +163,7 @@ int run_seat(const SeatOptions& plan) {
   report.server = server;
   report.device_note = note;
   report.end = end;
-  report.last = pump->final_status();
+  report.last = runner->final_status();
   report.device = device.stats();
   report.histograms = device.histograms();
   report.trace_dropped = writer ? writer->queue().dropped() : 0;

@@ -54,25 +54,25 @@ void SeatSupervisor::leave(const std::string& why) {
   o_.line.note(why);
   leaving_since_ = io::monotonic_now();
   reconnector_.reset();
-  o_.pump.leave();
+  o_.runner.commands().leave();
 }
 
 ExitReason SeatSupervisor::run() {
-  if (keys_.interactive()) o_.line.note(o_.person.help());
+  if (keys_.interactive()) o_.line.note(o_.keyboard.help());
   if (o_.plan.observer != nullptr) o_.plan.observer->on_joined(o_.seat.setup());
   status_poller_ = std::make_unique<SessionStatusPoller>(connection_, resume_state_.session);
   while (true) {
     // poll() ignores negative file descriptors, which mark absent files.
-    pollfd files[] = {{o_.pump.finished_fd(), POLLIN, 0},
+    pollfd files[] = {{o_.runner.finished_fd(), POLLIN, 0},
                       {o_.signals, POLLIN, 0},
                       {keys_.fd(), POLLIN, 0},
                       {reconnector_ ? reconnector_->done_fd() : -1, POLLIN, 0},
                       {status_poller_ ? status_poller_->status_fd() : -1, POLLIN, 0}};
     poll(files, std::size(files), kPollIntervalMs);
-    const ClientStatus status = o_.pump.status();
+    const ClientStatus status = o_.runner.status();
     if (files[0].revents != 0) {
-      if (o_.pump.device_lost() || !server_restarts(status) || !may_reconnect()) break;
-      o_.pump.clear_finished();
+      if (o_.runner.device_lost() || !server_restarts(status) || !may_reconnect()) break;
+      o_.runner.clear_finished();
     }
     if (files[1].revents != 0) {
       const std::string by{io::pending_signal()};
@@ -93,8 +93,8 @@ ExitReason SeatSupervisor::run() {
     show(status);
   }
   status_poller_.reset();  // query_removal_reason needs the connection for itself
-  if (o_.pump.device_lost()) return ExitReason::kDeviceLost;
-  const ClientStatus last = o_.pump.status();
+  if (o_.runner.device_lost()) return ExitReason::kDeviceLost;
+  const ClientStatus last = o_.runner.status();
   if (leaving_since_ || last.close_reason == wire::CloseReason::kLeaving) return ExitReason::kLeft;
   if (last.close_reason == wire::CloseReason::kRemoved || last.close_reason == wire::CloseReason::kRevoked) {
     const std::string why = last.close_reason == wire::CloseReason::kRemoved
@@ -114,7 +114,7 @@ void SeatSupervisor::handle_keys() {
     if (key == "b" && o_.device.phase() == hal::Phase::kFault) reset_requested_ = o_.device.reset().has_value();
     if (o_.plan.observer != nullptr) o_.plan.observer->on_key(key);
     const KeyboardControls::KeyResult pressed =
-        o_.person.on_key(key, o_.pump.status(), last_status_ ? &*last_status_ : nullptr);
+        o_.keyboard.on_key(key, o_.runner.status(), last_status_ ? &*last_status_ : nullptr);
     if (pressed.leaves) leave("releasing the hand");
     const Time now = io::monotonic_now();
     if (pressed.why.empty() || (pressed.why == key_message_ && now - key_message_at_ < kBetweenKeys))
@@ -145,7 +145,7 @@ std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& statu
   // A stall of this program is not a silence of the server.
   if (now - checked_at_ > kStandstill) heard_at_ += now - checked_at_;
   checked_at_ = now;
-  static_cast<void>(o_.pump.take_old_connection());
+  static_cast<void>(o_.runner.connections().take_old());
   const bool there = status.heard && !status.closed && status.silence_s < kSilenceMax;
   if (there) {
     if (std::exchange(in_outage_, false)) {
@@ -166,7 +166,7 @@ std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& statu
         server_restarts(status) ? "the server ended and keeps your seat for its next start" : "the server fell silent",
         o_.plan.reconnect_timeout_s));
   backoff_ = initial_backoff();
-  reconnector_ = std::make_unique<Reconnector>(o_.asked, resume_state_, o_.seat, o_.pump, socket_);
+  reconnector_ = std::make_unique<Reconnector>(o_.asked, resume_state_, o_.seat, o_.runner, socket_);
   return std::nullopt;
 }
 
@@ -174,7 +174,7 @@ std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
   auto back = reconnector_->take();
   if (!back) {
     reconnector_.reset();
-    const ClientStatus status = o_.pump.status();
+    const ClientStatus status = o_.runner.status();
     if (back.error().kind != ResumeError::Kind::kGone || (!status.closed && status.silence_s < kSilenceMax))
       return std::nullopt;
     exit_detail_ = back.error().reason + "; join again";
@@ -182,7 +182,7 @@ std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
   }
   // The servo thread gets its connection first, so that nothing below delays it.
   socket_ = io::duplicate(back->swap->socket);
-  o_.pump.swap_connection(std::move(back->swap));
+  o_.runner.connections().offer(std::move(back->swap));
   connection_swapped_at_ = io::monotonic_now();
   const rpc::Welcome& welcome = back->joined.welcome;
   o_.line.note(welcome.epoch > resume_state_.epoch ? "the server was restarted and gave the seat back"
@@ -230,11 +230,11 @@ void SeatSupervisor::update_observer(const ClientStatus& status) {
 }
 
 void SeatSupervisor::show(ClientStatus status) {
-  if (std::exchange(motors_hot_, status.motors_hot) != status.motors_hot) {
-    if (status.motors_hot) {
+  if (std::exchange(motors_hot_, status.motors.hot) != status.motors.hot) {
+    if (status.motors.hot) {
       o_.line.warn(motors_text(status));
     } else {
-      o_.line.note(status.motors_latched ? motors_text(status) : "the motors are cool again");
+      o_.line.note(status.motors.latched ? motors_text(status) : "the motors are cool again");
     }
   }
   // The status from the server reports the end of a stop, with the participant who ended it.
@@ -255,7 +255,7 @@ void SeatSupervisor::show(ClientStatus status) {
   if (now - shown_at_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_at_ = now;
   status.reconnecting = reconnector_ != nullptr;
-  status.keys_m = o_.person.keys();
+  status.keys_m = o_.keyboard.keys();
   o_.line.show(seat_screen(status, o_.seat.setup(), last_status_));
 }
 

@@ -25,8 +25,8 @@ class SeatSupervisor {
     const JoinOptions& asked;  ///< options of the join
     const JoinedSeat& given;   ///< result of the join
     const Seat& seat;
-    SeatRunner& pump;
-    KeyboardControls& person;
+    SeatRunner& runner;
+    KeyboardControls& keyboard;
     hal::Device& device;
     HardwareDevice* held;  ///< null: simulated device
     int signals;           ///< signalfd (common/io/signals.h)

@@ -17,7 +17,9 @@ SeatRequests::SeatRequests(const SeatSetup& setup) noexcept
       ends_stops_(setup.seat.role == Role::kInstructor && setup.seat.kind == SeatKind::kMaster),
       ends_pauses_(setup.may_end_pauses),
       // Trainees may only return their own authority.
-      may_change_authority_(setup.seat.role == Role::kInstructor || setup.seat.role == Role::kTrainee) {
+      may_change_authority_(setup.seat.role == Role::kInstructor || setup.seat.role == Role::kTrainee),
+      own_tool_(static_cast<std::uint32_t>(setup.seat.tool)),
+      masters_(setup.masters.size()) {
   if (setup.seat.kind == SeatKind::kMaster) own_number_ = static_cast<std::uint32_t>(setup.own_master) + 1;
 }
 

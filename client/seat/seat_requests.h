@@ -7,6 +7,7 @@
 
 #include "common/base/axes.h"
 #include "common/base/time.h"
+#include "common/control/authority.h"
 #include "proto/text/seat_setup.h"
 #include "proto/wire/wire_messages.h"
 
@@ -36,6 +37,10 @@ class SeatRequests {
   /// @param alpha  authority of each master seat, in [0, 1], sum 1
   /// @return       false for other roles, or for more than `kMastersMax` values
   bool change_authority(std::uint32_t tool, std::span<const double> alpha) noexcept;
+  /// The same for the tool that this seat follows. @param alpha  used up to the number of masters
+  bool change_own_tool(const control::MasterArray& alpha) noexcept {
+    return change_authority(own_tool_, std::span{alpha}.first(masters_));
+  }
 
   /// Drops the requests that a newer FORCE shows as settled.
   void on_force(const wire::ForceMessage& force) noexcept TANDEM_REALTIME;
@@ -58,6 +63,8 @@ class SeatRequests {
   void renew_authority(const wire::ForceMessage& force) noexcept;
 
   bool may_stop_all_, ends_stops_, ends_pauses_, may_change_authority_;
+  std::uint32_t own_tool_;
+  std::size_t masters_;
   std::optional<std::uint32_t> own_number_;  ///< as `wire::TransferParties::by`; empty: SLAVE seat
 
   // As in the newest FORCE of this connection; zero before it.
