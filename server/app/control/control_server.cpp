@@ -65,15 +65,15 @@ ControlServer::ControlServer(auth::ServerKeystore trust, const Options& plan)
     : trust_(std::move(trust)),
       on_event_(plan.on_event),
       on_message_(plan.on_message),
-      registry_(thread_.context(), trust_, plan.load_limits),
-      plane_(thread_.context(), trust_, registry_, plan.limits, {},
+      registry_(thread_.context()),
+      commands_(registry_, trust_, plan.on_message),
+      joins_(registry_, commands_, trust_, plan.load_limits, plan.on_message),
+      plane_(thread_.context(), trust_, joins_, plan.limits, {},
              [this](const ControlEventRecord& news) {
                if (record_event(news) && on_event_) on_event_(news);
              }),
       serving_timer_(thread_.context()),
-      revocation_timer_(thread_.context()) {
-  registry_.on_message(plan.on_message);
-}
+      revocation_timer_(thread_.context()) {}
 
 ControlServer::~ControlServer() { stop(); }
 
@@ -148,7 +148,7 @@ std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(c
 
 std::string ControlServer::folder() const { return trust_.on_disk() ? trust_.folder()->path() : auth::runtime_path(); }
 
-void ControlServer::add_session(SessionRegistry::Registration opening) { registry_.add(std::move(opening)); }
+void ControlServer::add_session(SessionRegistration opening) { registry_.add(std::move(opening)); }
 
 void ControlServer::on_thread(const std::function<void()>& what) {
   std::promise<void> done;
@@ -165,16 +165,16 @@ void ControlServer::close_session(const auth::Id16& id) {
   gone.get_future().wait();
 }
 
-void ControlServer::add_running_session(SessionRegistry::Registration opening) {
+void ControlServer::add_running_session(SessionRegistration opening) {
   on_thread([&] { registry_.add_running(std::move(opening)); });
 }
 
 void ControlServer::end_session(const auth::Id16& id) {
-  on_thread([&] { registry_.end_session(id); });
+  on_thread([&] { registry_.end(id); });
 }
 
 void ControlServer::drain() {
-  on_thread([&] { registry_.drain(); });
+  on_thread([&] { registry_.drain().begin(); });
 }
 
 std::string ControlServer::write_serving_file() {
@@ -204,10 +204,10 @@ void ControlServer::schedule_revocation_check() {
   revocation_timer_.expires_after(kRevocationCheckInterval);
   revocation_timer_.async_wait([this](const asio::error_code& cancelled) {
     if (cancelled) return;
-    registry_.disconnect_revoked();
+    commands_.disconnect_revoked();
     plane_.disconnect_revoked();
     if (const auto grace = trust_.requested_shutdown())
-      registry_.drain_in(*grace, "`tandem-server stop` on this computer");
+      commands_.drain(*grace, "`tandem-server stop` on this computer");
     schedule_revocation_check();
   });
 }
@@ -230,7 +230,7 @@ void ControlServer::stop() {
     revocation_timer_.cancel();
     if (metrics_) metrics_->stop();
     plane_.stop();
-    registry_.stop_watching();
+    registry_.requests().stop_watching();
     close_audit_log();
   });
 }

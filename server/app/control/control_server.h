@@ -11,7 +11,7 @@
 #include "common/auth/io/server_keystore.h"
 #include "common/io/udp_socket.h"
 #include "server/app/control/control_plane.h"
-#include "server/app/control/session_registry.h"
+#include "server/app/control/session_joins.h"
 #include "server/app/monitor/metrics_server.h"
 
 namespace tandem::server {
@@ -56,8 +56,8 @@ class ControlServer {
   [[nodiscard]] bool ephemeral_keys() const noexcept { return !trust_.on_disk(); }
 
   /// Registers a session, before `start`.
-  void add_session(SessionRegistry::Registration opening);
-  void watch(Shard& shard) { registry_.watch_completions(shard); }
+  void add_session(SessionRegistration opening);
+  void watch(Shard& shard) { registry_.requests().watch(shard); }
   /// Begins to reply. @return the error; empty if there is none
   [[nodiscard]] std::string start();
 
@@ -65,13 +65,13 @@ class ControlServer {
   /// Removes a session that is over. Afterwards the control thread does not access it.
   void close_session(const auth::Id16& id);
   /// Registers a session in place of one that ended, in a free slot of its shard.
-  void add_running_session(SessionRegistry::Registration opening);
+  void add_running_session(SessionRegistration opening);
   /// Ends a session: all hands are released first.
   void end_session(const auth::Id16& id);
   /// From now on join requests are rejected, because the server is about to end.
   void drain();
   /// Time at which all hands are to be released, as an operator requested; nullopt without a request. Does not wait.
-  [[nodiscard]] std::optional<Time> drain_due() const noexcept { return registry_.drain_due(); }
+  [[nodiscard]] std::optional<Time> drain_due() const noexcept { return registry_.drain().due(); }
   /// Bound address of the metrics endpoint; nullopt without one.
   [[nodiscard]] std::optional<io::SocketAddress> metrics_address() const {
     return metrics_ ? std::optional(metrics_->address()) : std::nullopt;
@@ -106,6 +106,8 @@ class ControlServer {
   bool audit_fails_ = false;         ///< a failure was reported
   ControlThread thread_;
   SessionRegistry registry_;
+  SessionCommands commands_;
+  SessionJoins joins_;
   ControlPlane plane_;
   std::optional<MetricsServer> metrics_;
   asio::steady_timer serving_timer_, revocation_timer_;

@@ -221,16 +221,16 @@ class ServerProcess {
     return std::unexpected(made.error().code);
   }
 
-  SessionRegistry::Registration registration_of(SessionInstance& r) {
-    SessionRegistry::Registration o{r.options().name,
-                                    r.id(),
-                                    r.code(),
-                                    r.epoch(),
-                                    &r.live_session(),
-                                    &shard_pool_.of_slot(r.live_session().slot()),
-                                    r.snapshot(),
-                                    {},
-                                    r.snapshot() != nullptr ? r.resume_until() : Time{}};
+  SessionRegistration registration_of(SessionInstance& r) {
+    SessionRegistration o{r.options().name,
+                          r.id(),
+                          r.code(),
+                          r.epoch(),
+                          &r.live_session(),
+                          &shard_pool_.of_slot(r.live_session().slot()),
+                          r.snapshot(),
+                          {},
+                          r.snapshot() != nullptr ? r.resume_until() : Time{}};
     if (checkpoint_store_)
       o.on_removed = [book = checkpoint_store_.get(), name = r.options().name](const auto& keys) {
         book->set_removed(name, keys);

@@ -190,6 +190,11 @@ void Shard::execute_requests(Time now, ShardRequest& order) noexcept {
       order.outcome = tandem::server::execute_command(hosted->session(), now, order.command);
       order.result = JoinResult::kAccepted;
       break;
+    case ShardRequest::What::kRevokeSeat:
+      order.outcome.result = remove_client(hosted->session(), order.seat, order.cid, wire::CloseReason::kRevoked);
+      order.outcome.tick = hosted->session().session_tick();
+      order.result = JoinResult::kAccepted;
+      break;
     case ShardRequest::What::kQueryLinkTest:
       order.place = hosted->session().link_test_places_free(now);
       order.result = JoinResult::kAccepted;

@@ -36,13 +36,10 @@ struct Lesson : SessionFixture {
   [[nodiscard]] double alpha(std::size_t i) const { return session->tool(0).authority.alpha(i); }
   [[nodiscard]] const wire::ForceMessage& told(std::size_t i) const { return seats[i].core->force(); }
 
-  Result order(const control::MasterArray& weights) {
-    SessionCommand c;
-    c.what = SessionCommand::What::kSetAuthority;
-    c.role = AccessRole::kInstructor;
-    c.authority = {.version = session->authority_version(), .tool = 0, .masters = 2, .alpha = weights};
-    return execute_command(*session, now, c).result;
+  [[nodiscard]] SessionCommand command(const control::MasterArray& weights) const {
+    return {rpc::SetAuthority{{}, 0, session->authority_version(), {weights[0], weights[1]}}, AccessRole::kInstructor};
   }
+  Result order(const control::MasterArray& weights) { return execute_command(*session, now, command(weights)).result; }
   void ticks(int n) { run(std::chrono::milliseconds(n)); }
   /// Runs ticks in which the server receives nothing from one seat.
   void ticks_without(std::size_t mute, int n) {
@@ -350,8 +347,9 @@ TEST(AuthorityTransfer, TakesNoHeap) {
       for (const Bytes& d : sent) l.session->on_datagram(l.now, address(l.seats[i].at), d);
       EXPECT_EQ(guard.count(), 0u);
     }
+    const SessionCommand command = l.command(n % 2 == 0 ? kToTrainee : kToTrainer);
     const tandem::test::AllocGuard guard;
-    if (n % 7 == 0) static_cast<void>(l.order(n % 2 == 0 ? kToTrainee : kToTrainer));
+    if (n % 7 == 0) static_cast<void>(execute_command(*l.session, l.now, command));
     l.session->on_tick(l.now, 0);
     while (l.session->poll_transmit(l.now, buffer)) {
     }
