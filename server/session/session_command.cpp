@@ -13,7 +13,7 @@ using Result = CommandOutcome::Result;
 /// A command for a seat is valid only while the connection still owns that seat.
 bool holds_seat(const Session& session, const SessionCommand& command) noexcept {
   if (command.seat == AuditEvent::kNoSeat) return true;
-  if (command.seat >= session.scene().seats.size() || session.closing_out(command.seat)) return false;
+  if (command.seat >= session.scene().seats.size() || session.participants().removing(command.seat)) return false;
   const transport::SecureChannel* const link = session.seat(command.seat).link();
   return link != nullptr && link->own_cid() == command.cid;
 }
@@ -26,18 +26,21 @@ struct Execution {
   CommandOutcome& out;
 
   Result operator()(const rpc::StatusRequest&) const noexcept { return Result::kDone; }
-  Result operator()(const rpc::StopSession&) const noexcept {
-    return session.stop(now, command.role, command.seat) ? Result::kDone : Result::kForbidden;
-  }
-  Result operator()(const rpc::PauseSession&) const noexcept {
-    return session.pause(now, command.role, command.seat) ? Result::kDone : Result::kForbidden;
-  }
+  Result operator()(const rpc::StopSession&) const noexcept { return stop(StopLatch::Level::kStopped); }
+  Result operator()(const rpc::PauseSession&) const noexcept { return stop(StopLatch::Level::kPaused); }
   Result operator()(const rpc::ResumeSession& resume) const noexcept {
-    const bool stopped = session.stop_level() != StopLatch::Level::kNone;
-    if (!stopped && !session.recovering()) return Result::kNothingToDo;
-    if (resume.stop != session.stops()) return Result::kOutdated;
-    if (!session.resume(now, command.role, resume.stop, command.seat)) return Result::kForbidden;
-    return session.stop_latch().latched() && resume.stop == session.stops() ? Result::kHeldByOthers : Result::kDone;
+    if (!session.stop_latch().latched() && !session.start_condition().recovering()) return Result::kNothingToDo;
+    switch (session.resume(now, requester(), resume.stop)) {
+      case StopLatch::Resume::kEnded:
+        return Result::kDone;
+      case StopLatch::Resume::kHeldByOthers:
+        return Result::kHeldByOthers;
+      case StopLatch::Resume::kForbidden:
+        return Result::kForbidden;
+      case StopLatch::Resume::kOutdated:
+        break;
+    }
+    return Result::kOutdated;
   }
   Result operator()(const rpc::SetAuthority& wanted) const noexcept {
     if (wanted.tool >= session.scene().tools.size() || wanted.alpha.size() != session.scene().masters())
@@ -48,16 +51,16 @@ struct Execution {
     message.version = wanted.version;
     message.masters = static_cast<std::uint32_t>(wanted.alpha.size());
     std::ranges::copy(wanted.alpha, message.alpha.begin());
-    switch (session.set_authority(now, command.role, command.seat, AuditEvent::kControlPlane, message)) {
-      case Session::AuthorityResult::kScheduled:
+    switch (session.authority().request(now, requester(), message)) {
+      case AuthorityControl::Result::kScheduled:
         return Result::kDone;
-      case Session::AuthorityResult::kOutdated:
+      case AuthorityControl::Result::kOutdated:
         return Result::kOutdated;
-      case Session::AuthorityResult::kForbidden:
+      case AuthorityControl::Result::kForbidden:
         return Result::kForbidden;
-      case Session::AuthorityResult::kStaleLink:
+      case AuthorityControl::Result::kStaleLink:
         return Result::kStaleLink;
-      case Session::AuthorityResult::kInvalid:
+      case AuthorityControl::Result::kInvalid:
         break;
     }
     return Result::kInvalid;
@@ -72,6 +75,12 @@ struct Execution {
   Result operator()(const Other&) const noexcept {
     return Result::kInvalid;
   }
+
+ private:
+  [[nodiscard]] Requester requester() const noexcept { return {command.role, command.seat}; }
+  [[nodiscard]] Result stop(StopLatch::Level wanted) const noexcept {
+    return session.stop_control().request(now, requester(), wanted) ? Result::kDone : Result::kForbidden;
+  }
 };
 
 }  // namespace
@@ -80,7 +89,7 @@ Result remove_client(Session& session, std::size_t seat, std::uint32_t cid, wire
   if (seat >= session.scene().seats.size()) return Result::kNoSuchSeat;
   const transport::SecureChannel* const link = session.seat(seat).link();
   if (link == nullptr || (cid != 0 && link->own_cid() != cid)) return Result::kNothingToDo;
-  return session.remove_seat(seat, why) ? Result::kDone : Result::kNothingToDo;
+  return session.participants().remove(seat, why) ? Result::kDone : Result::kNothingToDo;
 }
 
 CommandOutcome execute_command(Session& session, Time now, const SessionCommand& command) noexcept {
@@ -92,12 +101,12 @@ CommandOutcome execute_command(Session& session, Time now, const SessionCommand&
   out.stop_latch = session.stop_latch();
   out.stop_age =
       out.stop_latch.latest().level == StopLatch::Level::kNone ? 0 : seconds(now - out.stop_latch.latest().at);
-  out.connected_seats = session.connected_seats(now);
-  out.recovering = session.recovering();
-  out.stops = session.stops();
-  out.authority_version = session.authority_version();
-  out.tick = session.session_tick();
-  out.time = session.time();
+  out.connected_seats = session.participants().connected(now);
+  out.recovering = session.start_condition().recovering();
+  out.stops = out.stop_latch.stops();
+  out.authority_version = session.authority().version();
+  out.tick = session.clock().session_tick();
+  out.time = session.clock().time();
   out.masters = static_cast<std::uint8_t>(session.scene().masters());
   out.tools = static_cast<std::uint8_t>(session.scene().tools.size());
   for (std::size_t j = 0; j < out.tools; ++j) out.alpha[j] = session.tool(j).transfer.scheduled();
