@@ -1,21 +1,19 @@
-#include "netsim/app/feel_command.h"
-
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 
 #include "common/base/format.h"
 #include "common/base/suggestions.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/terminal.h"
 #include "common/setup/channel_factory.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/feel_measure.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/test_progress.h"
 #include "netsim/app/usage_errors.h"
@@ -209,68 +207,64 @@ int feel_command(const FeelArguments& a) {
 
 }  // namespace
 
-void add_feel_command(CLI::App& root, std::function<int()>& action) {
-  const auto a = std::make_shared<FeelArguments>();
-  CLI::App* const command = root.add_subcommand(
-      "feel", "Measures what hands feel with a scene's settings over a network: stiffness, drag, errors, oscillation.");
+void add_feel_command(const io::Command& root) {
+  const auto [command, a] = root.add_command(
+      "feel", "Measures what hands feel with a scene's settings over a network: stiffness, drag, errors, oscillation.",
+      feel_command);
   command
-      ->add_option(
-          "scene", a->scene,
+      .add_option(
+          "scene", a.scene,
           "a scene file, or the name of a shipped scene; its channel, coupling, gate, devices and first tool are used")
-      ->option_text(" ")
-      ->required();
-  a->network.add_to(*command);
-  command->add_option("--seeds", a->seeds, "how many seeds, from --seed on; each has other hands; default 20")
-      ->check(io::number_in(1, 10'000, ""))
-      ->check(io::whole_number())
-      ->option_text("N");
-  command->add_option("--jobs", a->jobs, "probes at a time; default: one per core. No number depends on it")
-      ->check(io::number_in(1, 256, ""))
-      ->check(io::whole_number())
-      ->option_text("N");
+      .value_name(" ")
+      .required();
+  a.network.add_to(command);
+  command.add_option("--seeds", a.seeds, "how many seeds, from --seed on; each has other hands; default 20")
+      .check(io::whole_number_in(1, 10'000))
+      .value_name("N");
+  command.add_option("--jobs", a.jobs, "probes at a time; default: one per core. No number depends on it")
+      .check(io::whole_number_in(1, 256))
+      .value_name("N");
   command
-      ->add_option("--probe", a->probes,
-                   "only these: press, free, gain, rest, release, handover, share, follow; default: all")
-      ->option_text("NAME,...");
+      .add_option("--probe", a.probes,
+                  "only these: press, free, gain, rest, release, handover, share, follow; default: all")
+      .value_name("NAME,...");
   command
-      ->add_option(
-          "--hand", a->hands,
+      .add_option(
+          "--hand", a.hands,
           "a recorded motion for the probe `free`: FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]; may be repeated")
-      ->option_text("FILE...")
-      ->allow_extra_args(false);
-  command->add_option("--recordings", a->recordings, "a folder: every motion_*.csv in it that needs no options")
-      ->option_text("DIR");
-  command->add_flag("--plain-hands", a->plain, "hands without tremor and noise, all with the same impedance");
+      .value_name("FILE...")
+      .one_value();
+  command.add_option("--recordings", a.recordings, "a folder: every motion_*.csv in it that needs no options")
+      .value_name("DIR");
+  command.add_flag("--plain-hands", a.plain, "hands without tremor and noise, all with the same impedance");
   command
-      ->add_option("--channel", a->channel,
-                   "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
-      ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
+      .add_option("--channel", a.channel,
+                  "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
+      .check(io::one_of({"replica", "set_position", "raw"}));
   command
-      ->add_option("--contacts", a->contacts,
-                   "how hands feel contacts of a SLAVE seat's device, instead of the scene's tool { contacts }: "
-                   "estimated, none")
-      ->transform(CLI::IsMember({"estimated", "none"}, CLI::ignore_case));
+      .add_option("--contacts", a.contacts,
+                  "how hands feel contacts of a SLAVE seat's device, instead of the scene's tool { contacts }: "
+                  "estimated, none")
+      .check(io::one_of({"estimated", "none"}));
   command
-      ->add_option(
-          "--assist", a->assist,
-          "largest force that pulls following hands towards the leader's, instead of the scene's seat { assist "
-          "}; 0: none")
-      ->check(io::number_in(0, 3, "N"))
-      ->option_text("N");
-  command->add_flag("--assist-in-contact", a->assist_in_contact, "applies that force in contact too");
-  command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
-      ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
+      .add_option("--assist", a.assist,
+                  "largest force that pulls following hands towards the leader's, instead of the scene's seat { assist "
+                  "}; 0: none")
+      .check(io::number_in(0, 3, "N"))
+      .value_name("N");
+  command.add_flag("--assist-in-contact", a.assist_in_contact, "applies that force in contact too");
+  command.add_option("--mfs", a.mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
+      .check(io::one_of({"open", "tank", "seed", "seed_signed"}));
   command
-      ->add_option("--limit", a->limits,
-                   "limit of a mean, in SI units; the worst seed may be 1.5 times worse: KEY<=NUMBER or "
-                   "KEY>=NUMBER; may be repeated")
-      ->option_text("LIMIT")
-      ->allow_extra_args(false);
-  command->add_option("--json", a->json, "writes all numbers and seeds; `-`: to standard output")
-      ->option_text("FILE|-");
-  command->add_option("--csv", a->csv, "writes one row per number; `-`: to standard output")->option_text("FILE|-");
-  command->add_flag("--quiet", a->quiet, "no progress, and no table beside --json - or --csv -");
-  command->footer(
+      .add_option("--limit", a.limits,
+                  "limit of a mean, in SI units; the worst seed may be 1.5 times worse: KEY<=NUMBER or "
+                  "KEY>=NUMBER; may be repeated")
+      .value_name("LIMIT")
+      .one_value();
+  command.add_option("--json", a.json, "writes all numbers and seeds; `-`: to standard output").value_name("FILE|-");
+  command.add_option("--csv", a.csv, "writes one row per number; `-`: to standard output").value_name("FILE|-");
+  command.add_flag("--quiet", a.quiet, "no progress, and no table beside --json - or --csv -");
+  command.footer(
       "Every number is the mean and the worst over the seeds. Hands have drawn tremor (8 to 12 Hz), intention noise "
       "(0.3 mm RMS\n"
       "about 2.3 Hz) and impedance. The probes do not know the law.\n\n"
@@ -283,7 +277,6 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim feel contact --delay 100 --limit 'stiffness_felt_n_m>=360' --limit 'drag_1hz_n<=0.15'\n"
       "  tandem-netsim feel contact_remote --channel replica --contacts none --delay 50 --probe press\n"
       "  tandem-netsim feel contact --delay 20 --probe free --hand motion.csv,columns=baton");
-  command->callback([a, &action] { action = [a] { return feel_command(*a); }; });
 }
 
 }  // namespace tandem::netsim

@@ -1,23 +1,21 @@
-#include "netsim/app/proxy_command.h"
-
 #include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <expected>
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include "common/base/format.h"
+#include "common/io/command_line.h"
 #include "common/io/fd.h"
-#include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/realtime.h"
 #include "common/io/socket_address.h"
 #include "common/io/tcp_listener.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/usage_errors.h"
 #include "netsim/profiles/app/network_options.h"
@@ -200,62 +198,61 @@ int proxy_command(const ProxyArguments& arguments) {
 
 }  // namespace
 
-void add_proxy_command(CLI::App& root, std::function<int()>& action) {
+void add_proxy_command(const io::Command& root) {
   // The options of the program refer to it; it lives as long as they do.
-  const auto arguments = std::make_shared<ProxyArguments>();
-  CLI::App* const command = root.add_subcommand("proxy", "Plays a network between live UDP clients and a server.");
+  const auto [command, arguments] =
+      root.add_command("proxy", "Plays a network between live UDP clients and a server.", proxy_command);
   command
-      ->add_option("--listen", arguments->listen, "where clients send to; port 0 takes a free one; default 127.0.0.1:0")
-      ->option_text("HOST:PORT");
-  command->add_option("--to", arguments->to, "the server")->option_text("HOST:PORT")->required();
-  arguments->network.add_to(*command);
-  command->add_option("--duration", arguments->duration_s, "ends after so many seconds; default: at Ctrl-C")
-      ->transform(io::number_in(0.001, 3e6, "s"))
-      ->option_text("S");
+      .add_option("--listen", arguments.listen, "where clients send to; port 0 takes a free one; default 127.0.0.1:0")
+      .value_name("HOST:PORT");
+  command.add_option("--to", arguments.to, "the server").value_name("HOST:PORT").required();
+  arguments.network.add_to(command);
+  command.add_option("--duration", arguments.duration_s, "ends after so many seconds; default: at Ctrl-C")
+      .check(io::number_in(0.001, 3e6, "s"))
+      .value_name("S");
   command
-      ->add_option("--json", arguments->json,
-                   "writes the summary as JSON; `-`: to standard output, and everything else to standard error")
-      ->option_text("FILE|-");
+      .add_option("--json", arguments.json,
+                  "writes the summary as JSON; `-`: to standard output, and everything else to standard error")
+      .value_name("FILE|-");
   command
-      ->add_option(
-          "--control", arguments->control,
+      .add_option(
+          "--control", arguments.control,
           "a socket for `tandem-netsim control PATH ...`, which changes the network while it runs; only you may "
           "use it")
-      ->option_text("PATH");
+      .value_name("PATH");
   command
-      ->add_option("--log", arguments->log,
-                   "writes every decision as CSV: arrival time, verdict, scheduled departure; the real departure is "
-                   "later by the lateness of the proxy, which the report shows")
-      ->option_text("FILE");
+      .add_option("--log", arguments.log,
+                  "writes every decision as CSV: arrival time, verdict, scheduled departure; the real departure is "
+                  "later by the lateness of the proxy, which the report shows")
+      .value_name("FILE");
   const std::string timing = "How exact";
   command
-      ->add_option("--max-lateness", arguments->lateness_max_us,
-                   "exit code 1 when the 99th percentile of the proxy's own lateness is above so many microseconds; "
-                   "counted from the moment each datagram was due by the kernel's time of its arrival")
-      ->transform(io::number_in(1, 1e7, "us"))
-      ->option_text("US")
-      ->group(timing);
+      .add_option("--max-lateness", arguments.lateness_max_us,
+                  "exit code 1 when the 99th percentile of the proxy's own lateness is above so many microseconds; "
+                  "counted from the moment each datagram was due by the kernel's time of its arrival")
+      .check(io::number_in(1, 1e7, "us"))
+      .value_name("US")
+      .group(timing);
   command
-      ->add_option(
-          "--coalesce", arguments->coalesce_us,
-          "datagrams due less than so many microseconds after others left may leave together, so late at most: "
-          "saves wake-ups when there are many clients; default 80, 0: each at its own moment")
-      ->transform(io::number_in(0, 1000, "us"))
-      ->option_text("US")
-      ->group(timing);
+      .add_option("--coalesce", arguments.coalesce_us,
+                  "datagrams due less than so many microseconds after others left may leave together, so late at most: "
+                  "saves wake-ups when there are many clients; default 80, 0: each at its own moment")
+      .check(io::number_in(0, 1000, "us"))
+      .value_name("US")
+      .group(timing);
   command
-      ->add_option("--spin", arguments->spin_us,
-                   "watches the clock instead of sleeping for the last so many microseconds before a datagram is due; "
-                   "costs up to a whole core; default 0")
-      ->transform(io::number_in(0, 1000, "us"))
-      ->option_text("US")
-      ->group(timing);
+      .add_option("--spin", arguments.spin_us,
+                  "watches the clock instead of sleeping for the last so many microseconds before a datagram is due; "
+                  "costs up to a whole core; default 0")
+      .check(io::number_in(0, 1000, "us"))
+      .value_name("US")
+      .group(timing);
   command
-      ->add_flag("--realtime", arguments->realtime,
-                 "asks for real-time priority, locked memory and a processor that stays awake; reports each one that "
-                 "was not granted")
-      ->group(timing);
-  command->footer(
+      .add_flag("--realtime", arguments.realtime,
+                "asks for real-time priority, locked memory and a processor that stays awake; reports each one that "
+                "was not granted")
+      .group(timing);
+  command.footer(
       "Clients send to --listen instead of the server. Each client (address and port) gets its own link and its own\n"
       "socket towards the server; up is client to server. At most 64 clients; a client silent for 60 s is removed,\n"
       "and one that sends from another port of its host after 2 s of silence has reconnected: it keeps its number.\n"
@@ -272,7 +269,6 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       "Exit: 0 done, 1 trouble (port in use), later than --max-lateness, nothing sent that it could judge, or "
       "interrupted\n"
       "before --duration was over (without --duration Ctrl-C is its end), 2 wrong arguments or files.");
-  command->callback([arguments, &action] { action = [arguments] { return proxy_command(*arguments); }; });
 }
 
 }  // namespace tandem::netsim

@@ -1,17 +1,15 @@
-#include "netsim/app/run_command.h"
-
 #include <unistd.h>
 
 #include <cstdio>
 #include <ctime>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "common/base/format.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "hal/io/motion_file.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/run_log.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/usage_errors.h"
@@ -254,58 +252,56 @@ int run_command(const RunArguments& arguments) {
 
 }  // namespace
 
-void add_run_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* const command =
-      root.add_subcommand("run", "Runs a whole session in virtual time: the same server and client cores, seeded.");
-  command->add_option("scene", arguments->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
-      ->option_text(" ")
-      ->required();
-  arguments->network.add_to(*command);
+void add_run_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "run", "Runs a whole session in virtual time: the same server and client cores, seeded.", run_command);
+  command.add_option("scene", arguments.scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
+      .value_name(" ")
+      .required();
+  arguments.network.add_to(command);
   command
-      ->add_option("--hand", arguments->hands,
-                   "a recorded motion moves this seat's hand: SEAT=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]"
-                   "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
-      ->option_text("SEAT=FILE...")
-      ->allow_extra_args(false);
+      .add_option("--hand", arguments.hands,
+                  "a recorded motion moves this seat's hand: SEAT=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]"
+                  "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
+      .value_name("SEAT=FILE...")
+      .one_value();
   command
-      ->add_option("--channel", arguments->channel,
-                   "channel law instead of the scene's: replica (every client simulates the tool; default of scenes "
-                   "that name none), set_position (springs between hand and tool, held passive by a ledger at both "
-                   "ends), raw (without passivity control)")
-      ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
+      .add_option("--channel", arguments.channel,
+                  "channel law instead of the scene's: replica (every client simulates the tool; default of scenes "
+                  "that name none), set_position (springs between hand and tool, held passive by a ledger at both "
+                  "ends), raw (without passivity control)")
+      .check(io::one_of({"replica", "set_position", "raw"}));
   command
-      ->add_option(
-          "--mfs", arguments->mfs,
+      .add_option(
+          "--mfs", arguments.mfs,
           "flow sources instead of the scene's: open (followers get what they need), tank (only what was dissipated), "
           "seed, seed_signed (two readings of the source paper's equation 3)")
-      ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
+      .check(io::one_of({"open", "tank", "seed", "seed_signed"}));
   command
-      ->add_option("--duration", arguments->duration_s,
-                   "session time instead of the scene's; a scene without an end (no duration_s) needs it")
-      ->transform(io::number_in(0.1, 3e6, "s"))
-      ->option_text("S");
-  command->add_option("--json", arguments->json, "writes the report; `-`: to standard output")->option_text("FILE|-");
+      .add_option("--duration", arguments.duration_s,
+                  "session time instead of the scene's; a scene without an end (no duration_s) needs it")
+      .check(io::number_in(0.1, 3e6, "s"))
+      .value_name("S");
+  command.add_option("--json", arguments.json, "writes the report; `-`: to standard output").value_name("FILE|-");
+  command.add_option("--trace", arguments.trace, "writes one row per tick; the same seed and build give the same bytes")
+      .value_name("FILE.csv");
   command
-      ->add_option("--trace", arguments->trace, "writes one row per tick; the same seed and build give the same bytes")
-      ->option_text("FILE.csv");
-  command
-      ->add_option(
-          "--log", arguments->log,
+      .add_option(
+          "--log", arguments.log,
           "writes the verdict of every datagram and copy: t_in_ns,link,dir,flow,idx,size,verdict,t_out_ns,cause")
-      ->option_text("FILE.csv");
+      .value_name("FILE.csv");
   command
-      ->add_option(
-          "--replay", arguments->replay,
+      .add_option(
+          "--replay", arguments.replay,
           "replays the network of a --log file: the same run gets the same verdicts; another run gets those of the "
           "last datagram recorded before, and after the end those of the start; excludes the other network options")
-      ->option_text("LOG.csv");
-  command->add_flag("--check", arguments->check,
-                    "only checks scene and network and prints every value in force, with units");
-  command->add_flag("--verbose", arguments->verbose, "shows the network quality of every seat, not only of the worst");
-  command->add_flag("--no-quality", arguments->no_quality, "does not judge the network");
-  command->add_flag("--quiet", arguments->quiet, "no progress, and no summary beside --json -");
-  command->footer(
+      .value_name("LOG.csv");
+  command.add_flag("--check", arguments.check,
+                   "only checks scene and network and prints every value in force, with units");
+  command.add_flag("--verbose", arguments.verbose, "shows the network quality of every seat, not only of the worst");
+  command.add_flag("--no-quality", arguments.no_quality, "does not judge the network");
+  command.add_flag("--quiet", arguments.quiet, "no progress, and no summary beside --json -");
+  command.footer(
       "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then. "
       "It is\n"
       "`not judged` when no hand moved or no errors could be measured.\n"
@@ -321,7 +317,6 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim run contact --replay net.csv --channel raw\n"
       "  tandem-netsim run contact --delay 10 --script bad_day.textproto\n"
       "  tandem-netsim run free_motion --hand trainer=motion.csv,columns=baton");
-  command->callback([arguments, &action] { action = [arguments] { return run_command(*arguments); }; });
 }
 
 }  // namespace tandem::netsim

@@ -1,22 +1,20 @@
-#include "client/app/commands/calibrate_command.h"
-
 #include <poll.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/hardware_device.h"
 #include "client/app/terminal_prompt.h"
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
 #include "common/io/clock.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
 #include "hal/backends/device_spec_parser.h"
@@ -162,7 +160,8 @@ int calibrate(const CalibrateArguments& arguments, double mass, const hal::Falco
 
 int calibrate_command(const CalibrateArguments& arguments) {
   std::vector<std::string> mistakes;
-  if (const std::string problem = io::number_in(0.005, 1, "kg")(std::string(arguments.mass)); !problem.empty())
+  std::string mass = arguments.mass;
+  if (const std::string problem = io::number_in(0.005, 1, "kg")(mass); !problem.empty())
     mistakes.push_back("--mass: " + problem);
   if (arguments.orientation != "upright" && arguments.orientation != "supine")
     mistakes.push_back("--orientation: \"" + sanitize(arguments.orientation) +
@@ -182,22 +181,20 @@ int calibrate_command(const CalibrateArguments& arguments) {
 
 }  // namespace
 
-void add_calibrate_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<CalibrateArguments>();
-  CLI::App* const command =
-      root.add_subcommand("calibrate", "Measures the force scale of a Falcon's motors with a known mass.");
+void add_calibrate_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "calibrate", "Measures the force scale of a Falcon's motors with a known mass.", calibrate_command);
+  command.add_option("--device", arguments.device, "required: the Falcon; the specification is that of `join --device`")
+      .value_name("SPEC")
+      .required();
+  command.add_option("--mass", arguments.mass, "required: the mass that you hang on the grip [kg]")
+      .value_name("KG")
+      .required();
   command
-      ->add_option("--device", arguments->device, "required: the Falcon; the specification is that of `join --device`")
-      ->option_text("SPEC")
-      ->required();
-  command->add_option("--mass", arguments->mass, "required: the mass that you hang on the grip [kg]")
-      ->option_text("KG")
-      ->required();
-  command
-      ->add_option("--orientation", arguments->orientation,
-                   "upright: the device stands; supine: it lies on its back, with its grip upwards; default upright")
-      ->option_text("upright|supine");
-  command->footer(
+      .add_option("--orientation", arguments.orientation,
+                  "upright: the device stands; supine: it lies on its back, with its grip upwards; default upright")
+      .value_name("upright|supine");
+  command.footer(
       "Prints one `mass_reading { ... }` for the file of `calibration=`. The file needs at least two readings; six are "
       "better.\n"
       "Begin with the device supine and 20 to 30 g: without a calibration the motors give little force. With that file "
@@ -207,7 +204,6 @@ void add_calibrate_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-client calibrate --device falcon:firmware=falcon.bin --mass 0.02 --orientation supine\n"
       "  tandem-client calibrate --device falcon:firmware=falcon.bin --mass 0.05kg");
-  command->callback([arguments, &action] { action = [arguments] { return calibrate_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

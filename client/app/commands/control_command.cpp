@@ -1,23 +1,21 @@
-#include "client/app/commands/control_command.h"
-
 #include <poll.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstdio>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/commands/server_option.h"
 #include "client/app/console_commands.h"
 #include "client/app/join_client.h"
 #include "common/auth/io/control_client.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
-#include "common/io/help_formatter.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/help_text.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
 
@@ -348,51 +346,48 @@ int control_command(const Arguments& arguments) {
 
 }  // namespace
 
-void add_control_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = root.add_subcommand(
-      "control", "Operates a session from a console: stops, resumes, moves authority, removes clients.");
+void add_control_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "control", "Operates a session from a console: stops, resumes, moves authority, removes clients.",
+      control_command);
+  command.add_option("--server", arguments.server, "required: the address that tandem-server prints as `listening on`")
+      .value_name("HOST:PORT")
+      .required();
   command
-      ->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
-      ->option_text("HOST:PORT")
-      ->required();
-  command
-      ->add_option("--session", arguments->session,
-                   "name, code or id of the session; default: the ticket's, or the only one there")
-      ->option_text("NAME|CODE|ID");
-  add_ticket_options(*command, arguments->ticket,
+      .add_option("--session", arguments.session,
+                  "name, code or id of the session; default: the ticket's, or the only one there")
+      .value_name("NAME|CODE|ID");
+  add_ticket_options(command, arguments.ticket,
                      "ticket printed by `tandem-server ticket --role operator`; not needed with a loopback server with "
                      "ephemeral keys");
   command
-      ->add_option("--role", arguments->role,
-                   "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")
-      ->option_text("ROLE");
+      .add_option("--role", arguments.role,
+                  "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")
+      .value_name("ROLE");
   command
-      ->add_option("--state", arguments->state,
-                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      ->option_text("DIR");
+      .add_option("--state", arguments.state,
+                  "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      .value_name("DIR");
   command
-      ->add_option("--timeout", arguments->patience,
-                   "how long to wait for a server that does not answer [s]; default 5")
-      ->option_text("S");
-  command->add_flag("--json", arguments->json, "status for machines");
+      .add_option("--timeout", arguments.patience, "how long to wait for a server that does not answer [s]; default 5")
+      .value_name("S");
+  command.add_flag("--json", arguments.json, "status for machines");
   command
-      ->add_option("COMMAND", arguments->words,
-                   "one of the commands below; none: a console that takes one command per line and stays connected")
-      ->option_text("...");
-  command->footer(std::string("Commands\n") + console_commands_help() +
-                  "\n"
-                  "A ticket is valid for one connection, and used up by the first command that succeeds (`status` too, "
-                  "unless all others are refused).\n"
-                  "For several commands use the console (also through a pipe); it reports stops by others and the "
-                  "progress of a drain. A stop is latched\n"
-                  "and numbered; a resume names the newest stop, so that an old command never ends a newer stop.\n"
-                  "Exit: 0 done; 1 refused, with the reason, or server not reachable; 2 wrong arguments. In the "
-                  "console: the greatest code of its commands.\n\n"
-                  "Examples\n"
-                  "  tandem-client control --server 127.0.0.1:7000 stop a hand is in the way\n"
-                  "  tandem-client control --server lab-server:7000 --ticket-file operator.ticket");
-  command->callback([arguments, &action] { action = [arguments] { return control_command(*arguments); }; });
+      .add_option("COMMAND", arguments.words,
+                  "one of the commands below; none: a console that takes one command per line and stays connected")
+      .value_name("...");
+  command.footer(std::string("Commands\n") + console_commands_help() +
+                 "\n"
+                 "A ticket is valid for one connection, and used up by the first command that succeeds (`status` too, "
+                 "unless all others are refused).\n"
+                 "For several commands use the console (also through a pipe); it reports stops by others and the "
+                 "progress of a drain. A stop is latched\n"
+                 "and numbered; a resume names the newest stop, so that an old command never ends a newer stop.\n"
+                 "Exit: 0 done; 1 refused, with the reason, or server not reachable; 2 wrong arguments. In the "
+                 "console: the greatest code of its commands.\n\n"
+                 "Examples\n"
+                 "  tandem-client control --server 127.0.0.1:7000 stop a hand is in the way\n"
+                 "  tandem-client control --server lab-server:7000 --ticket-file operator.ticket");
 }
 
 }  // namespace tandem::client

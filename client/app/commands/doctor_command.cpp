@@ -1,5 +1,3 @@
-#include "client/app/commands/doctor_command.h"
-
 #include <poll.h>
 #include <unistd.h>
 
@@ -9,15 +7,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <optional>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/device_list.h"
 #include "client/app/hardware_device.h"
 #include "client/app/motor_confirmation.h"
 #include "client/diagnostics/device_diagnostics.h"
 #include "common/io/clock.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
@@ -243,7 +241,8 @@ int install_rules(const std::string& root) {
 
 int doctor_command(const DoctorArguments& arguments) {
   std::vector<std::string> mistakes;
-  if (const std::string problem = io::number_in(0.5, 600, "s")(std::string(arguments.seconds)); !problem.empty())
+  std::string seconds_text = arguments.seconds;
+  if (const std::string problem = io::number_in(0.5, 600, "s")(seconds_text); !problem.empty())
     mistakes.push_back("--seconds: " + problem);
   if (arguments.force_test && arguments.device.empty())
     mistakes.push_back("--force-test: needs --device; forces are sent only to a device that the command line names");
@@ -285,35 +284,32 @@ int doctor_command(const DoctorArguments& arguments) {
 
 }  // namespace
 
-void add_doctor_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<DoctorArguments>();
-  CLI::App* const command =
-      root.add_subcommand("doctor", "Lists haptic devices, reports their problems and the remedies.");
-  command
-      ->add_option("--device", arguments->device, "examines this device; the specification is that of `join --device`")
-      ->option_text("SPEC");
-  command->add_option("--seconds", arguments->seconds, "how long to watch while you move it; default 5")
-      ->option_text("S");
-  command->add_flag("--force-test", arguments->force_test,
-                    "then pushes your hand softly (0.5 N) along each axis, both ways");
-  command->add_flag(
-      "--confirm-motors", arguments->confirm,
+void add_doctor_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("doctor", "Lists haptic devices, reports their problems and the remedies.", doctor_command);
+  command.add_option("--device", arguments.device, "examines this device; the specification is that of `join --device`")
+      .value_name("SPEC");
+  command.add_option("--seconds", arguments.seconds, "how long to watch while you move it; default 5").value_name("S");
+  command.add_flag("--force-test", arguments.force_test,
+                   "then pushes your hand softly (0.5 N) along each axis, both ways");
+  command.add_flag(
+      "--confirm-motors", arguments.confirm,
       "asks you, then sends each motor pulses of at most 30 ms and checks whether it pushes in the direction that the "
       "device's file states; before this check, a device whose directions come from a file gives no force");
   command
-      ->add_option("--state", arguments->state,
-                   "folder with the record of confirmed motors; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      ->option_text("DIR");
-  command->add_flag("--watch", arguments->watch,
-                    "reports devices that are plugged in and out, on USB and among HID devices");
-  command->add_flag("--install-udev", arguments->install,
-                    "writes the udev rules that let the logged-in user use the devices; needs root");
+      .add_option("--state", arguments.state,
+                  "folder with the record of confirmed motors; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      .value_name("DIR");
+  command.add_flag("--watch", arguments.watch,
+                   "reports devices that are plugged in and out, on USB and among HID devices");
+  command.add_flag("--install-udev", arguments.install,
+                   "writes the udev rules that let the logged-in user use the devices; needs root");
   command
-      ->add_option(
-          "--root", arguments->root,
+      .add_option(
+          "--root", arguments.root,
           "with --install-udev: root folder of another system, such as an image; the file goes to DIR/etc/udev/rules.d")
-      ->option_text("DIR");
-  command->footer(
+      .value_name("DIR");
+  command.footer(
       "Exit: 0 all is well; 1 trouble was found, or no device; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-client doctor\n"
@@ -321,7 +317,6 @@ void add_doctor_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-client doctor --device woodenhaptics:preset=mine.textproto,enable_motors=yes,home=here "
       "--confirm-motors\n"
       "  sudo tandem-client doctor --install-udev");
-  command->callback([arguments, &action] { action = [arguments] { return doctor_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

@@ -1,15 +1,13 @@
-#include "client/app/commands/enroll_command.h"
-
 #include <cstdio>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "client/app/commands/client_commands.h"
 #include "common/auth/enrolment.h"
 #include "common/auth/io/client_keystore.h"
 #include "common/auth/io/control_client.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
 #include "common/io/socket_address.h"
@@ -56,14 +54,15 @@ int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, c
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
-int enroll_command(Arguments arguments) {
+int enroll_command(const Arguments& arguments) {
   std::vector<std::string> mistakes;
-  if (arguments.text == "-") {
-    arguments.text.clear();
-    std::getline(std::cin, arguments.text);
+  std::string text = arguments.text;
+  if (text == "-") {
+    text.clear();
+    std::getline(std::cin, text);
   }
-  auto given = auth::EnrolmentString::from_text(arguments.text);
-  wipe(arguments.text);
+  auto given = auth::EnrolmentString::from_text(text);
+  wipe(text);
   std::expected<io::SocketAddress, std::string> server = std::unexpected(std::string());
   if (!given) {
     mistakes.push_back("STRING: " + given.error());
@@ -86,23 +85,22 @@ int enroll_command(Arguments arguments) {
 
 }  // namespace
 
-void add_enroll_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = root.add_subcommand(
-      "enroll", "Registers this workstation at a server, with the string that tandem-server enroll printed there.");
+void add_enroll_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "enroll", "Registers this workstation at a server, with the string that tandem-server enroll printed there.",
+      enroll_command);
   command
-      ->add_option("STRING", arguments->text,
-                   "the whole string, which begins with `tandem:`; `-`: read from standard input, so that it appears "
-                   "in no list of processes")
-      ->option_text(" ")
-      ->required();
+      .add_option("STRING", arguments.text,
+                  "the whole string, which begins with `tandem:`; `-`: read from standard input, so that it appears "
+                  "in no list of processes")
+      .value_name(" ")
+      .required();
   command
-      ->add_option("--state", arguments->state,
-                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      ->option_text("DIR");
-  command->add_option("--timeout", arguments->patience, "how long to wait for the server [s]; default 5")
-      ->option_text("S");
-  command->footer(
+      .add_option("--state", arguments.state,
+                  "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      .value_name("DIR");
+  command.add_option("--timeout", arguments.patience, "how long to wait for the server [s]; default 5").value_name("S");
+  command.footer(
       "Creates the workstation's key if there is none yet; it never leaves the folder. The server must run, and must "
       "have the key that the\n"
       "string names: the client sends nothing to any other server.\n"
@@ -110,7 +108,6 @@ void add_enroll_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-client enroll tandem:0G6...\n"
       "  tandem-client enroll - < enrolment.txt");
-  command->callback([arguments, &action] { action = [arguments] { return enroll_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

@@ -1,15 +1,13 @@
-#include "client/app/commands/join_command.h"
-
 #include <unistd.h>
 
 #include <cstdio>
-#include <memory>
 #include <sstream>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/commands/server_option.h"
 #include "client/app/hardware_device.h"
 #include "client/app/run_seat.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "hal/backends/backend.h"
@@ -103,53 +101,50 @@ int join_command(const JoinArguments& arguments) {
 
 }  // namespace
 
-void add_join_command(CLI::App& root, std::function<int()>& action) {
-  // Shared, because the program's options refer to it.
-  const auto arguments = std::make_shared<JoinArguments>();
-  CLI::App* const command = root.add_subcommand("join", "Attaches one device to one seat of a session.");
+void add_join_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("join", "Attaches one device to one seat of a session.", join_command);
+  command.add_option("--server", arguments.server, "required: the address that tandem-server prints as `listening on`")
+      .value_name("HOST:PORT")
+      .required();
+  add_joining_options(command, arguments.session, &arguments.ticket, arguments.state);
+  command.add_option("--seat", arguments.seat, "required: which seat of the scene; the server prints their names")
+      .value_name("NAME")
+      .required();
+  command.add_option("--device", arguments.device, "required: device of the seat, see below")
+      .value_name("SPEC")
+      .required();
   command
-      ->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
-      ->option_text("HOST:PORT")
-      ->required();
-  add_joining_options(*command, arguments->session, &arguments->ticket, arguments->state);
-  command->add_option("--seat", arguments->seat, "required: which seat of the scene; the server prints their names")
-      ->option_text("NAME")
-      ->required();
-  command->add_option("--device", arguments->device, "required: device of the seat, see below")
-      ->option_text("SPEC")
-      ->required();
+      .add_option("--alpha-script", arguments.script,
+                  "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; each change is requested 50 "
+                  "ms ahead, because the server announces changes that long; INSTRUCTOR's seat only")
+      .value_name("FILE.csv");
+  command.add_option("--trace", arguments.trace, "writes this seat's own samples, one row per servo tick")
+      .value_name("FILE.csv");
   command
-      ->add_option("--alpha-script", arguments->script,
-                   "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; each change is requested 50 "
-                   "ms ahead, because the server announces changes that long; INSTRUCTOR's seat only")
-      ->option_text("FILE.csv");
-  command->add_option("--trace", arguments->trace, "writes this seat's own samples, one row per servo tick")
-      ->option_text("FILE.csv");
+      .add_option("--json", arguments.json,
+                  "writes verdict, link statistics, gate trips, energies, and the device's periods and round trips as "
+                  "histograms; `-`: "
+                  "to standard output")
+      .value_name("FILE|-");
   command
-      ->add_option("--json", arguments->json,
-                   "writes verdict, link statistics, gate trips, energies, and the device's periods and round trips as "
-                   "histograms; `-`: "
-                   "to standard output")
-      ->option_text("FILE|-");
+      .add_option("--duration", arguments.duration,
+                  "leaves after this many seconds at the seat; default: stays to the end")
+      .value_name("S");
   command
-      ->add_option("--duration", arguments->duration,
-                   "leaves after this many seconds at the seat; default: stays to the end")
-      ->option_text("S");
+      .add_option("--timeout", arguments.patience, "how long to wait for a server that does not answer [s]; default 5")
+      .value_name("S");
   command
-      ->add_option("--timeout", arguments->patience,
-                   "how long to wait for a server that does not answer [s]; default 5")
-      ->option_text("S");
-  command
-      ->add_option(
-          "--reconnect-timeout", arguments->rejoin,
+      .add_option(
+          "--reconnect-timeout", arguments.rejoin,
           "how long to try to reconnect to the seat after the server fell silent or ended, or the network changed [s]; "
           "default 60, at most 600; 0: no attempt, and a silence of 60 s counts as a lost server. A server ends a "
           "session after the same 60 s without data from any client. Your hand is free meanwhile")
-      ->option_text("S");
-  command->add_flag("--quiet", arguments->quiet, "no status");
+      .value_name("S");
+  command.add_flag("--quiet", arguments.quiet, "no status");
   std::string hardware;
   for (const hal::Backend* backend : hal::backends()) hardware += backend->help();
-  command->footer(
+  command.footer(
       "Devices\n"
       "  sim                         simulated, as the scene describes the seat's device and hand\n"
       "  sim:hand=NAME               another hand: none leader relaxed resting letting_go tremor keyboard\n"
@@ -177,7 +172,6 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-client join --server 127.0.0.1:7000 --seat trainee --device sim:keyboard\n"
       "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim:motion=baton.csv,columns=baton\n"
       "      --alpha-script handover.csv --json trainer.json");
-  command->callback([arguments, &action] { action = [arguments] { return join_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

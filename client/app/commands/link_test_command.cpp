@@ -1,21 +1,19 @@
-#include "client/app/commands/link_test_command.h"
-
 #include <poll.h>
 #include <spdlog/spdlog.h>
 
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/commands/server_option.h"
 #include "client/app/join_client.h"
 #include "client/diagnostics/link_verdict.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/command_line.h"
 #include "common/io/datagram_batch.h"
-#include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/realtime.h"
@@ -265,24 +263,23 @@ int link_test_command(const Arguments& arguments) {
 
 }  // namespace
 
-void add_link_test_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = root.add_subcommand(
+void add_link_test_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
       "link-test",
-      "Judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks.");
-  command->add_option("--server", arguments->server, "required: address the server printed")
-      ->option_text("HOST:PORT")
-      ->required();
-  add_joining_options(*command, arguments->session, nullptr, arguments->state);
-  command->add_option("--duration", arguments->duration, "how long [s], 1 to 3600; default 10")->option_text("S");
-  command->add_option("--json", arguments->json, "writes all findings; `-`: to standard output, instead of the text")
-      ->option_text("FILE|-");
+      "Judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks.",
+      link_test_command);
+  command.add_option("--server", arguments.server, "required: address the server printed")
+      .value_name("HOST:PORT")
+      .required();
+  add_joining_options(command, arguments.session, nullptr, arguments.state);
+  command.add_option("--duration", arguments.duration, "how long [s], 1 to 3600; default 10").value_name("S");
+  command.add_option("--json", arguments.json, "writes all findings; `-`: to standard output, instead of the text")
+      .value_name("FILE|-");
   command
-      ->add_option("--timeout", arguments->patience,
-                   "how long to wait for a server that does not answer [s]; default 5")
-      ->option_text("S");
-  command->add_flag("--quiet", arguments->quiet, "no status");
-  command->footer(
+      .add_option("--timeout", arguments.patience, "how long to wait for a server that does not answer [s]; default 5")
+      .value_name("S");
+  command.add_flag("--quiet", arguments.quiet, "no status");
+  command.footer(
       "Sends and receives the datagrams of a hand, at the scene's rate, beside a session that runs or waits; no "
       "participant feels it.\n"
       "Ctrl-C or SIGTERM ends it early, with what was found so far.\n"
@@ -294,7 +291,6 @@ void add_link_test_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-client link-test --server 127.0.0.1:7000\n"
       "  tandem-client link-test --server lab-server:7000 --duration 30s --json link.json");
-  command->callback([arguments, &action] { action = [arguments] { return link_test_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,9 +20,10 @@ namespace tandem::client {
 }
 
 /// Adds `--session`, the ticket options and `--state`. @param ticket  null: no ticket options
-inline void add_joining_options(CLI::App& command, std::string& session, TicketOption* ticket, std::string& state) {
+inline void add_joining_options(const io::Command& command, std::string& session, TicketOption* ticket,
+                                std::string& state) {
   command.add_option("--session", session, "name, code or id of the session; default: the only one there")
-      ->option_text("NAME|CODE|ID");
+      .value_name("NAME|CODE|ID");
   if (ticket != nullptr)
     add_ticket_options(command, *ticket,
                        "ticket that `tandem-server ticket` printed for this workstation; not needed with a session's "
@@ -31,7 +31,7 @@ inline void add_joining_options(CLI::App& command, std::string& session, TicketO
   command
       .add_option("--state", state,
                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      ->option_text("DIR");
+      .value_name("DIR");
 }
 
 }  // namespace tandem::client

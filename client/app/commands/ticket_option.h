@@ -1,12 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
+
+#include "common/io/command_line.h"
 
 /// Options that give a ticket. All users of the computer can read a command line (ps), so a file is preferable.
 namespace tandem::client {
@@ -16,14 +17,14 @@ struct TicketOption {
   std::string file;  ///< file name, or `-` for standard input
 };
 
-inline void add_ticket_options(CLI::App& command, TicketOption& ticket, const char* what) {
+inline void add_ticket_options(const io::Command& command, TicketOption& ticket, const char* what) {
   command
       .add_option("--ticket", ticket.text,
                   std::string(what) +
                       "; @FILE: the first line of that file, so that the ticket appears in no list of processes")
-      ->option_text("TICKET|@FILE");
+      .value_name("TICKET|@FILE");
   command.add_option("--ticket-file", ticket.file, "the same as --ticket @FILE; `-`: the first line of standard input")
-      ->option_text("FILE");
+      .value_name("FILE");
 }
 
 /// Returns the text of the ticket; empty if none is given, or if an error was appended to `mistakes`.

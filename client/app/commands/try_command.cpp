@@ -1,18 +1,16 @@
-#include "client/app/commands/try_command.h"
-
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 
 #include "client/app/child_program.h"
+#include "client/app/commands/client_commands.h"
 #include "client/app/run_seat.h"
 #include "client/app/seat_observer.h"
 #include "client/app/tutorial.h"
 #include "common/base/suggestions.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
 #include "hal/io/open_sim_device.h"
@@ -171,23 +169,23 @@ int try_command(const TryArguments& arguments) {
 
 }  // namespace
 
-void add_try_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<TryArguments>();
-  CLI::App* const command = root.add_subcommand(
-      "try", "Shows a session on this computer: a server, a simulated partner, and your hand moved by keys.");
+void add_try_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "try", "Shows a session on this computer: a server, a simulated partner, and your hand moved by keys.",
+      try_command);
   command
-      ->add_option("SCENE", arguments->scene,
-                   "a scene file, or the name of a shipped scene (tandem-server scenes); default lesson")
-      ->option_text(" ");
+      .add_option("SCENE", arguments.scene,
+                  "a scene file, or the name of a shipped scene (tandem-server scenes); default lesson")
+      .value_name(" ");
   command
-      ->add_option("--seat", arguments->seat,
-                   "which seat is yours; default: the instructor's, else the first with authority")
-      ->option_text("NAME");
+      .add_option("--seat", arguments.seat,
+                  "which seat is yours; default: the instructor's, else the first with authority")
+      .value_name("NAME");
   command
-      ->add_option("--duration", arguments->duration,
-                   "leaves after this many seconds; default: at q or Ctrl-C, and without a terminal after the guidance")
-      ->option_text("S");
-  command->footer(
+      .add_option("--duration", arguments.duration,
+                  "leaves after this many seconds; default: at q or Ctrl-C, and without a terminal after the guidance")
+      .value_name("S");
+  command.footer(
       "Starts tandem-server on a free port of 127.0.0.1, joins it with a simulated hand for every other seat that the "
       "scene requires, and\n"
       "gives you one seat. Twenty seconds of guidance show which keys to press and what they did. The end of this "
@@ -197,7 +195,6 @@ void add_try_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-client try\n"
       "  tandem-client try contact --seat trainee");
-  command->callback([arguments, &action] { action = [arguments] { return try_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

@@ -1,7 +1,6 @@
 #include <cstdio>
-#include <memory>
 
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "proto/io/scene_file.h"
@@ -105,54 +104,52 @@ int run_command(const RunArguments& arguments) {
 
 }  // namespace
 
-void add_run_command(CLI::App& root, std::function<int()>& action) {
-  // Shared, because the program's options refer to it after this function returns.
-  const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* const command =
-      root.add_subcommand("run", "Hosts a session: waits for the scene's seats, runs it, reports.");
-  command->add_option("SCENE", arguments->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
-      ->option_text(" ")
-      ->required();
+void add_run_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("run", "Hosts a session: waits for the scene's seats, runs it, reports.", run_command);
+  command.add_option("SCENE", arguments.scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
+      .value_name(" ")
+      .required();
   command
-      ->add_option("--listen", arguments->listen,
-                   "address at which clients join, UDP and TCP; port 0 takes a free one; default 127.0.0.1:0. Any "
-                   "other address than "
-                   "loopback needs `tandem-server init` and an enrolled workstation")
-      ->option_text("HOST:PORT");
+      .add_option("--listen", arguments.listen,
+                  "address at which clients join, UDP and TCP; port 0 takes a free one; default 127.0.0.1:0. Any "
+                  "other address than "
+                  "loopback needs `tandem-server init` and an enrolled workstation")
+      .value_name("HOST:PORT");
   command
-      ->add_option("--state", arguments->state,
-                   "folder of keys and enrolled workstations; default on loopback: ephemeral keys, for this user on "
-                   "this computer; "
-                   "else $TANDEM_STATE, /var/lib/tandem where this user may write, ~/.local/state/tandem")
-      ->option_text("DIR");
-  command->add_option("--duration", arguments->duration, "session time instead of the scene's [s]")->option_text("S");
+      .add_option("--state", arguments.state,
+                  "folder of keys and enrolled workstations; default on loopback: ephemeral keys, for this user on "
+                  "this computer; "
+                  "else $TANDEM_STATE, /var/lib/tandem where this user may write, ~/.local/state/tandem")
+      .value_name("DIR");
+  command.add_option("--duration", arguments.duration, "session time instead of the scene's [s]").value_name("S");
   command
-      ->add_option("--start-timeout", arguments->wait,
-                   "ends when the required seats are not ready after so many seconds; default: waits until Ctrl-C")
-      ->option_text("S");
+      .add_option("--start-timeout", arguments.wait,
+                  "ends when the required seats are not ready after so many seconds; default: waits until Ctrl-C")
+      .value_name("S");
   command
-      ->add_option("--json", arguments->json,
-                   "writes the report; `-`: to standard output, and everything else to standard error")
-      ->option_text("FILE|-");
-  command->add_option("--trace", arguments->trace, "writes one row per tick of the session")->option_text("FILE.csv");
+      .add_option("--json", arguments.json,
+                  "writes the report; `-`: to standard output, and everything else to standard error")
+      .value_name("FILE|-");
+  command.add_option("--trace", arguments.trace, "writes one row per tick of the session").value_name("FILE.csv");
   command
-      ->add_option("--metrics", arguments->metrics,
-                   "serves /metrics (Prometheus), /healthz and /readyz at this address over HTTP; default: off")
-      ->option_text("HOST:PORT");
-  command->add_option("--log", arguments->log, "text, or json: one object per line on standard error; default text")
-      ->option_text("FORMAT");
-  command->add_flag("--check", arguments->check, "only checks everything and prints every value in force, with units");
+      .add_option("--metrics", arguments.metrics,
+                  "serves /metrics (Prometheus), /healthz and /readyz at this address over HTTP; default: off")
+      .value_name("HOST:PORT");
+  command.add_option("--log", arguments.log, "text, or json: one object per line on standard error; default text")
+      .value_name("FORMAT");
+  command.add_flag("--check", arguments.check, "only checks everything and prints every value in force, with units");
   command
-      ->add_option("--seed", arguments->seed,
-                   "a number for the report, to name the run; default 1 (a live session draws nothing)")
-      ->option_text("N");
-  command->add_flag(
-      "--no-restore", arguments->fresh,
+      .add_option("--seed", arguments.seed,
+                  "a number for the report, to name the run; default 1 (a live session draws nothing)")
+      .value_name("N");
+  command.add_flag(
+      "--no-restore", arguments.fresh,
       "ignores the checkpoint of a server of this scene that ended here less than 10 min ago; default: restores the "
       "session, "
       "and its clients reconnect automatically (not with port 0 on loopback, where no client would find it)");
-  command->add_flag("--quiet", arguments->quiet, "no status and no summary");
-  command->footer(
+  command.add_flag("--quiet", arguments.quiet, "no status and no summary");
+  command.footer(
       "Prints `listening on HOST:PORT` first, then the command of each seat to type. The session begins when all "
       "required\n"
       "seats are ready. Ctrl-C releases all hands, notifies the clients, writes the reports and ends with 0.\n"
@@ -163,7 +160,6 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-server run free_motion\n"
       "  tandem-server run contact --listen 127.0.0.1:7000 --json report.json --trace contact.csv\n"
       "  tandem-server run mine.textproto --check");
-  command->callback([arguments, &action] { action = [arguments] { return run_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

@@ -1,11 +1,10 @@
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "common/auth/enrolment.h"
+#include "common/io/command_line.h"
 #include "common/io/print.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/server_config_text.h"
@@ -138,19 +137,18 @@ int serve_command(const ServeArguments& arguments) {
 
 }  // namespace
 
-void add_serve_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<ServeArguments>();
-  CLI::App* const command =
-      root.add_subcommand("serve", "Hosts all sessions of a configuration until a signal or a stop command.");
+void add_serve_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "serve", "Hosts all sessions of a configuration until a signal or a stop command.", serve_command);
   command
-      ->add_option("CONFIG", arguments->config,
-                   "a file of proto/schema/server_config.proto; server/README.md has the table of its keys")
-      ->option_text(" ")
-      ->required();
-  command->add_flag("--check", arguments->check,
-                    "only checks everything, the state folder too, and prints every value in force, with units");
-  command->add_flag("--quiet", arguments->quiet, "no status and no summaries");
-  command->footer(
+      .add_option("CONFIG", arguments.config,
+                  "a file of proto/schema/server_config.proto; server/README.md has the table of its keys")
+      .value_name(" ")
+      .required();
+  command.add_flag("--check", arguments.check,
+                   "only checks everything, the state folder too, and prints every value in force, with units");
+  command.add_flag("--quiet", arguments.quiet, "no status and no summaries");
+  command.footer(
       "Prints `listening on HOST:PORT` first, then the commands for participants; on a terminal with each session's "
       "code, elsewhere\n"
       "`tandem-server sessions` shows the codes. A session that is over restarts with a new code, unless\n"
@@ -169,7 +167,6 @@ void add_serve_command(CLI::App& root, std::function<int()>& action) {
       "  version: 1\n"
       "  listen: \"0.0.0.0:7000\"\n"
       "  session { name: \"lab\" scene: \"free_motion\" }");
-  command->callback([arguments, &action] { action = [arguments] { return serve_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

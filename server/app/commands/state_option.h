@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -8,16 +7,17 @@
 
 #include "common/auth/io/server_keystore.h"
 #include "common/base/suggestions.h"
+#include "common/io/command_line.h"
 
 /// Shared by the commands that use a server's state directory.
 namespace tandem::server {
 
-inline void add_state_option(CLI::App& command, std::string& state) {
+inline void add_state_option(const io::Command& command, std::string& state) {
   command
       .add_option("--state", state,
                   "the server's state folder; default: $TANDEM_STATE, else /var/lib/tandem where this user may write, "
                   "else ~/.local/state/tandem")
-      ->option_text("DIR");
+      .value_name("DIR");
 }
 
 /// Prints all usage errors. @return exit code 2

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include "common/auth/enrolment.h"
 #include "common/auth/ticket.h"
 #include "common/base/command_hints.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/reachable_address.h"
-#include "server/app/commands/auth_commands.h"
+#include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
 #include "server/policy/roles.h"
 
@@ -137,32 +136,33 @@ int ticket_command(const TicketArguments& arguments) {
 
 }  // namespace
 
-void add_ticket_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<TicketArguments>();
-  CLI::App* const command = root.add_subcommand("ticket",
-                                                "Writes a join ticket: the right of one workstation to take one seat "
-                                                "of one session, or to operate it from a console, once.");
+void add_ticket_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("ticket",
+                       "Writes a join ticket: the right of one workstation to take one seat "
+                       "of one session, or to operate it from a console, once.",
+                       ticket_command);
   command
-      ->add_option("--session", arguments->session,
-                   "required: id (32 hex digits), code (10 characters) or name of the session")
-      ->option_text("ID|CODE|NAME")
-      ->required();
+      .add_option("--session", arguments.session,
+                  "required: id (32 hex digits), code (10 characters) or name of the session")
+      .value_name("ID|CODE|NAME")
+      .required();
   command
-      ->add_option("--seat", arguments->seat,
-                   "the seat's name; none for an operator, a recorder, or an instructor at a console")
-      ->option_text("SEAT");
-  command->add_option("--workstation", arguments->workstation, "required: the only workstation that may use it")
-      ->option_text("NAME")
-      ->required();
+      .add_option("--seat", arguments.seat,
+                  "the seat's name; none for an operator, a recorder, or an instructor at a console")
+      .value_name("SEAT");
+  command.add_option("--workstation", arguments.workstation, "required: the only workstation that may use it")
+      .value_name("NAME")
+      .required();
   command
-      ->add_option("--role", arguments->role,
-                   "instructor, trainee, evaluator, observer, operator, recorder; default: the seat's")
-      ->option_text("ROLE");
-  command->add_option("--hours", arguments->hours, "validity [h], 0.01 to 12; default 4")->option_text("H");
-  command->add_option("--force", arguments->force, "of the scene's force limit [%], 0.1 to 100; default 100")
-      ->option_text("PERCENT");
-  add_state_option(*command, arguments->state);
-  command->footer(
+      .add_option("--role", arguments.role,
+                  "instructor, trainee, evaluator, observer, operator, recorder; default: the seat's")
+      .value_name("ROLE");
+  command.add_option("--hours", arguments.hours, "validity [h], 0.01 to 12; default 4").value_name("H");
+  command.add_option("--force", arguments.force, "of the scene's force limit [%], 0.1 to 100; default 100")
+      .value_name("PERCENT");
+  add_state_option(command, arguments.state);
+  command.footer(
       "Prints the ticket to standard output. It cannot be changed, used twice or used on another workstation. Codes "
       "and names, and the\n"
       "role of a seat, are known while the server runs.\n"
@@ -171,7 +171,6 @@ void add_ticket_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-server ticket --session contact --seat trainee --workstation touch-07\n"
       "  tandem-server ticket --session contact --role operator --workstation office     # for `tandem-client "
       "control`");
-  command->callback([arguments, &action] { action = [arguments] { return ticket_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

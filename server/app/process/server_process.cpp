@@ -14,7 +14,7 @@
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
 #include "common/io/clock.h"
-#include "common/io/help_formatter.h"
+#include "common/io/help_text.h"
 #include "common/io/print.h"
 #include "common/io/reachable_address.h"
 #include "common/io/realtime.h"

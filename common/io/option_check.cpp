@@ -1,18 +1,14 @@
-#pragma once
+#include "common/io/option_check.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
-#include <string>
 #include <string_view>
 
 namespace tandem::io {
 
-/// Validates a decimal number in [lo, hi]: whole text, finite. CLI11's own ranges accept `nan`. Where the unit is
-/// fixed, it may follow the number (`20`, `20ms`, `20 ms`). Another unit is an error, because nothing is converted. The
-/// text becomes the bare number: pass the validator to `Option::transform` (`check` would leave the unit in the text).
-[[nodiscard]] inline CLI::Validator number_in(double lo, double hi, const std::string& unit) {
+OptionCheck number_in(double lo, double hi, const std::string& unit) {
   std::ostringstream range;
   range.precision(12);  // 3000000, not 3e+06
   range << "[" << lo << ", " << hi << "]" << (unit.empty() ? "" : " " + unit);
@@ -35,8 +31,7 @@ namespace tandem::io {
   return {check, "in " + allowed};
 }
 
-/// Validates a whole number from 0 to 2^64 - 1.
-[[nodiscard]] inline CLI::Validator whole_number() {
+OptionCheck whole_number() {
   const auto check = [](std::string& text) {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -44,6 +39,15 @@ namespace tandem::io {
     return "\"" + text + "\" is not a whole number in [0, 18446744073709551615]";
   };
   return {check, "whole number"};
+}
+
+OptionCheck whole_number_in(double lo, double hi) {
+  const OptionCheck range = number_in(lo, hi, ""), whole = whole_number();
+  const auto check = [range, whole](std::string& text) {
+    std::string error = range(text);
+    return error.empty() ? whole(text) : error;
+  };
+  return {check, range.allowed()};
 }
 
 }  // namespace tandem::io
