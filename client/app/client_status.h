@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "client/seat/seat.h"
 #include "hal/core/device.h"
 #include "proto/text/seat_setup.h"
+#include "proto/wire/wire_messages.h"
 
 namespace tandem::client {
 
