@@ -13,9 +13,6 @@
 
 namespace tandem::netsim {
 
-/// Maximum datagram size of the stores [bytes]: an Ethernet payload.
-inline constexpr std::size_t kSlotBytes = 1500;
-
 /// Store of datagrams until they are due, ordered by (due time, order of entry). The constructor allocates a fixed
 /// number of slots; the kernel backs only pages that are used. The virtual network uses one queue per path; the live
 /// proxy uses one for all paths.

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "netsim/engine/delay_queue.h"
+#include "netsim/engine/link_direction.h"
+#include "netsim/engine/replay.h"
+#include "netsim/engine/submit.h"
+
 namespace tandem::netsim {
 namespace {
 
@@ -18,10 +23,20 @@ bool alike(const LinkSchedule& a, const LinkSchedule& b) {
 
 }  // namespace
 
-std::optional<Time> Network::StoredDirection::next_due() const noexcept {
-  const auto due = queue.next_due(), settle = path.next_resolve();
-  return due && settle ? std::min(*due, *settle) : due ? due : settle;
-}
+struct Network::StoredDirection {
+  StoredDirection(LinkDirection&& with, std::size_t slots) : path(std::move(with)), queue(slots) {
+    path.attach_queue(queue);
+  }
+  [[nodiscard]] std::optional<Time> next_due() const noexcept {
+    const auto due = queue.next_due(), settle = path.next_resolve();
+    return due && settle ? std::min(*due, *settle) : due ? due : settle;
+  }
+  LinkDirection path;
+  DelayQueue queue;
+};
+
+Network::Network(std::uint64_t seed) noexcept : seed_(seed) {}
+Network::~Network() = default;
 
 std::uint32_t Network::add_link(const LinkSpec& spec) { return add_link(spec, links()); }
 

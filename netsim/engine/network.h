@@ -11,15 +11,16 @@
 #include "common/base/axes.h"
 #include "common/base/time.h"
 #include "netsim/engine/addresses.h"
-#include "netsim/engine/delay_queue.h"
-#include "netsim/engine/link_direction.h"
-#include "netsim/engine/path.h"
-#include "netsim/engine/replay.h"
+#include "netsim/engine/path_counters.h"
 #include "netsim/engine/schedule.h"
-#include "netsim/engine/submit.h"
 #include "netsim/models/path_spec.h"
 
 namespace tandem::netsim {
+
+class DecisionSink;
+class LinkMonitor;
+class LinkTimeline;
+class Replay;
 
 /// Delivered datagram.
 struct Delivery {
@@ -37,7 +38,8 @@ struct Delivery {
 /// changes. Equal seed, specs and calls give equal deliveries.
 class Network {
  public:
-  explicit Network(std::uint64_t seed) noexcept : seed_(seed) {}
+  explicit Network(std::uint64_t seed) noexcept;
+  ~Network();
 
   /// Adds a client's link. Setup only.
   /// @param name  key of the link's randomness, so that other links do not affect it; default: the link's number
@@ -105,14 +107,7 @@ class Network {
   [[nodiscard]] std::uint64_t replayed(std::uint32_t link, Direction direction) const noexcept;
 
  private:
-  struct StoredDirection {
-    StoredDirection(LinkDirection&& with, std::size_t slots) : path(std::move(with)), queue(slots) {
-      path.attach_queue(queue);
-    }
-    [[nodiscard]] std::optional<Time> next_due() const noexcept;
-    LinkDirection path;
-    DelayQueue queue;
-  };
+  struct StoredDirection;
   /// Link shared by several clients.
   struct Shared {
     LinkSchedule schedule;

@@ -9,6 +9,9 @@
 
 namespace tandem::netsim {
 
+/// Maximum datagram size of the stores [bytes]: an Ethernet payload.
+inline constexpr std::size_t kSlotBytes = 1500;
+
 /// Verdict on a datagram: delivery, or the reason of its drop.
 enum class Outcome : std::uint8_t {
   kDeliver,     ///< arrives at `Verdict::at`

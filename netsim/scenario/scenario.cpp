@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/base/suggestions.h"
+#include "hal/sim/recorded_motion.h"
 #include "netsim/profiles/schedule_loader.h"
 #include "netsim/system/session_notes.h"
 #include "proto/text/scene_text.h"

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "hal/sim/recorded_motion.h"
-#include "netsim/engine/replay.h"
 #include "netsim/engine/schedule.h"
 #include "netsim/models/endpoint_clock.h"
 #include "netsim/models/path_spec.h"
@@ -16,7 +14,13 @@
 #include "proto/spec/scene_spec.h"
 #include "server/session/contact_source.h"
 
+namespace tandem::hal::sim {
+class RecordedMotion;
+}
+
 namespace tandem::netsim {
+
+class Replay;
 
 /// Configuration of one session in virtual time: scene, networks, faults and clocks.
 struct SimulationConfig {

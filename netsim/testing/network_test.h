@@ -14,7 +14,7 @@
 
 #include "netsim/engine/network.h"
 #include "netsim/profiles/profile_loader.h"
-#include "netsim/testing/scene_run.h"
+#include "netsim/system/scene_run.h"
 
 namespace tandem::netsim {
 

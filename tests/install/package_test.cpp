@@ -3,53 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
 
-#include "tests/support/process.h"
+#include "tests/install/installed_package.h"
 
 namespace tandem::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr int kPatienceTimes = 12;  // [Process::kPatience] time-out of a command: a build on a busy machine is slow
-
-struct Done {
-  int code = -1;
-  std::string text;  ///< stdout and stderr
-};
-
-Done shell(const std::string& command) {
-  Process process{{"/bin/sh", "-c", command + " 2>&1"}};
-  std::optional<int> code;
-  for (int i = 0; i < kPatienceTimes && !code; ++i) code = process.wait();
-  return {code.value_or(-1), process.out()};
-}
-
-std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-const fs::path kPlace = fs::path{TANDEM_BINARY_DIR} / "package";
-
-/// Installs into a folder, moves the folder and returns its new path.
-fs::path installed_and_moved() {
-  const fs::path first = kPlace / "first", moved = kPlace / "moved";
-  fs::remove_all(kPlace);
-  const Done install =
-      shell(quoted(TANDEM_CMAKE) + " --install " + quoted(TANDEM_BINARY_DIR) + " --prefix " + quoted(first));
-  EXPECT_EQ(install.code, 0) << install.text;
-  fs::rename(first, moved);
-  return moved;
-}
+const fs::path kPlace = package_folder("sample");
 
 void check_texts(const fs::path& prefix) {
   std::size_t scripts = 0;
@@ -63,49 +23,63 @@ void check_texts(const fs::path& prefix) {
   EXPECT_GE(scripts, 5U);
 }
 
-/// Checks that the installed headers find all their includes and compile without warnings (-Wall -Wextra -Wpedantic).
+/// Checks that the public headers are the only ones outside tandem/detail. Checks that each installed header finds all
+/// its includes and compiles without warnings (-Wall -Wextra -Wpedantic), with the folder `include` alone.
 void check_headers(const fs::path& include) {
   std::ofstream all(kPlace / "all_headers.cpp");
+  std::vector<std::string> shown;
   std::size_t headers = 0;
   for (const auto& entry : fs::recursive_directory_iterator(include)) {
     if (!entry.is_regular_file()) continue;
     const std::string name = fs::relative(entry.path(), include).string();
     EXPECT_TRUE(name.ends_with(".h")) << name;
-    for (const std::string folder : {"/app/", "/io/", "/demo/", ".pb.h"})
+    for (const std::string folder : {"/demo/", "/proxy/", ".pb.h", "/server/app/", "/common/io/", "/common/auth/"})
       EXPECT_EQ(name.find(folder), std::string::npos) << name;
+    if (!name.starts_with("tandem/detail/")) shown.push_back(name);
     all << "#include \"" << name << "\"\n";
     ++headers;
   }
   all.close();
+  std::ranges::sort(shown);
+  EXPECT_EQ(shown, (std::vector<std::string>{"tandem/client.h", "tandem/control.h", "tandem/hal.h", "tandem/netsim.h",
+                                             "tandem/testing.h"}));
   EXPECT_GT(headers, 20U);
+  EXPECT_LE(headers, 80U) << "the public headers show more of the sources than before";
   const Done done =
       shell(std::string(TANDEM_COMPILER) + " -std=c++23 -fsyntax-only -Wall -Wextra -Wpedantic -Werror -I " +
             quoted(include) + " -isystem /usr/include/eigen3 " + quoted(kPlace / "all_headers.cpp"));
   EXPECT_EQ(done.code, 0) << done.text;
 }
 
+/// Writes a project that calls find_package with `arguments`, requires the targets in `targets` and prints all imported
+/// targets of Tandem. @return its output
+Done find_package(const std::string& arguments, const fs::path& prefix) {
+  const fs::path project = kPlace / "find";
+  fs::remove_all(project);
+  fs::create_directories(project);
+  std::ofstream{project / "CMakeLists.txt"} << "cmake_minimum_required(VERSION 3.25)\nproject(Find LANGUAGES CXX)\n"
+                                               "find_package(Tandem "
+                                            << arguments
+                                            << ")\nget_property(all DIRECTORY PROPERTY IMPORTED_TARGETS)\n"
+                                               "list(FILTER all INCLUDE REGEX [Tt]andem)\nlist(SORT all)\n"
+                                               "message(STATUS \"targets: ${all}.\")\n";
+  return shell(configure_command(project, project / "build", prefix));
+}
+
 TEST(Package, WorksForAnotherProjectAfterItWasMoved) {
   if (std::string_view{TANDEM_SANITIZE} != "") GTEST_SKIP() << "a build with sanitizers is not for installing";
-  const fs::path prefix = installed_and_moved();
+  const fs::path prefix = installed_and_moved(kPlace);
   ASSERT_FALSE(HasFailure());
   check_texts(prefix);
-  check_headers(prefix / "include" / "tandem");
+  check_headers(prefix / "include");
   for (const char* program : {"tandem-server", "tandem-client", "tandem-netsim", "tandem-demo"}) {
     const Done version = shell(quoted(prefix / "bin" / program) + " --version");
     EXPECT_EQ(version.code, 0) << program << version.text;
     EXPECT_NE(version.text.find(TANDEM_VERSION), std::string::npos) << program << version.text;
   }
 
-  const fs::path build = kPlace / "sample";
-  const std::string generator = quoted(TANDEM_GENERATOR);
-  const Done configured =
-      shell(quoted(TANDEM_CMAKE) + " -G " + generator + " -S " +
-            quoted(fs::path{TANDEM_SOURCE_DIR} / "tests/install/sample") + " -B " + quoted(build) +
-            " -DCMAKE_CXX_COMPILER=" + TANDEM_COMPILER + " -DCMAKE_CXX_COMPILER_LAUNCHER=" + quoted(TANDEM_LAUNCHER) +
-            " -DCMAKE_PREFIX_PATH=" + quoted(prefix));
-  ASSERT_EQ(configured.code, 0) << configured.text;
-  const Done built = shell(quoted(TANDEM_CMAKE) + " --build " + quoted(build));
-  ASSERT_EQ(built.code, 0) << built.text;
+  const fs::path build = kPlace / "build";
+  ASSERT_NO_FATAL_FAILURE(build_project(fs::path{TANDEM_SOURCE_DIR} / "tests/install/sample", build, prefix));
   const Done tested = shell(quoted(TANDEM_CTEST) + " --output-on-failure --test-dir " + quoted(build));
   EXPECT_EQ(tested.code, 0) << tested.text;
   EXPECT_NE(tested.text.find("100% tests passed, 0 tests failed out of 5"), std::string::npos) << tested.text;
@@ -121,11 +95,21 @@ TEST(Package, WorksForAnotherProjectAfterItWasMoved) {
   EXPECT_EQ(again, "TANDEM_SEED=3 ./toy_test --gtest_filter=Toy.FailsWhenAskedTo");
   EXPECT_EQ(shell("cd " + quoted(build) + " && TOY_FAILS=1 " + again).code, 1);
 
+  // The package exports the public targets and no other. A component brings those that it links.
+  for (const auto& [components, targets] :
+       {std::pair{"REQUIRED", "Tandem::client;Tandem::control;Tandem::hal;Tandem::netsim;Tandem::testing"},
+        std::pair{"REQUIRED COMPONENTS control", "Tandem::control"},
+        std::pair{"REQUIRED COMPONENTS hal", "Tandem::control;Tandem::hal"},
+        std::pair{"REQUIRED COMPONENTS client", "Tandem::client;Tandem::control;Tandem::hal"}}) {
+    const Done found = find_package(components, prefix);
+    EXPECT_EQ(found.code, 0) << found.text;
+    EXPECT_NE(found.text.find("targets: " + std::string(targets) + "."), std::string::npos) << found.text;
+  }
+  const Done unknown = find_package("REQUIRED COMPONENTS server", prefix);
+  EXPECT_NE(unknown.code, 0) << unknown.text;
+  EXPECT_NE(unknown.text.find("no component server"), std::string::npos) << unknown.text;
   // find_package rejects a request for another version.
-  std::ofstream{kPlace / "CMakeLists.txt"} << "cmake_minimum_required(VERSION 3.25)\nproject(Late LANGUAGES CXX)\n"
-                                              "find_package(Tandem 99.0 REQUIRED)\n";
-  const Done late = shell(quoted(TANDEM_CMAKE) + " -G " + generator + " -S " + quoted(kPlace) + " -B " +
-                          quoted(kPlace / "late") + " -DCMAKE_PREFIX_PATH=" + quoted(prefix));
+  const Done late = find_package("99.0 REQUIRED", prefix);
   EXPECT_NE(late.code, 0) << late.text;
   EXPECT_NE(late.text.find("99.0"), std::string::npos) << late.text;
 }

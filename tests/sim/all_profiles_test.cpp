@@ -10,7 +10,8 @@
 
 #include "hal/sim/recorded_motion.h"
 #include "netsim/profiles/profile_loader.h"
-#include "netsim/testing/scene_run.h"
+#include "netsim/system/run_simulation.h"
+#include "netsim/system/scene_run.h"
 #include "tests/support/simulation_run.h"
 
 namespace tandem {
@@ -84,13 +85,14 @@ TEST(AllProfiles, KeepEverySessionPassiveAndMatchTheReportedLink) {
           rate.trace = std::make_shared<const netsim::CapacityTrace>(std::move(capacity));
         }
         if (recorded) setup->motions = {{"trainer", hand}};
-        const auto report = netsim::run_simulation(*setup);
-        ASSERT_TRUE(report) << report.error();
+        const netsim::SimulationResult result = netsim::run_simulation(*setup);
+        ASSERT_EQ(result.trouble, "");
+        const server::RunReport& report = result.report;
         ++ran;
-        EXPECT_TRUE(report->passed);
-        for (const server::Violation& v : report->violations)
+        EXPECT_TRUE(report.passed);
+        for (const server::Violation& v : report.violations)
           EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s << " s";
-        for (const server::SeatReport& seat : report->seats) {
+        for (const server::SeatReport& seat : report.seats) {
           expect_true(seat.link.up, setup->network.up, run.duration_s);
           expect_true(seat.link.down, setup->network.down, run.duration_s);
           for (const double rtt_ms : {seat.link.rtt_p50_ms, seat.link.rtt_p99_ms})

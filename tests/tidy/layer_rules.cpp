@@ -40,11 +40,12 @@ constexpr std::array<Library, 22> kLibraries{{{"Eigen/", "Eigen"},
                                               {"boost/", "boost"}}};
 constexpr std::string_view kSystem = "system";
 
-constexpr std::array<std::string_view, 7> kTopFolders{"client/", "common/", "hal/",  "netsim/",
-                                                      "proto/",  "server/", "tests/"};
+constexpr std::array<std::string_view, 8> kTopFolders{"client/", "common/", "hal/",    "netsim/",
+                                                      "proto/",  "server/", "tandem/", "tests/"};
 
 bool is_pump(std::string_view path) {
-  return has_folder(path, "app") || has_folder(path, "io") || is_within(path, "hal/backends");
+  return has_folder(path, "app") || has_folder(path, "io") || is_within(path, "hal/backends") ||
+         is_within(path, "tandem");
 }
 
 bool is_free(std::string_view path, std::span<const std::string_view> folders) {
@@ -83,12 +84,15 @@ std::string_view top_folder(std::string_view path) { return path.substr(0, path.
 std::optional<std::string> trouble_with_ours(const SourceFile& file, const Room& room, const Include& include) {
   const std::string& path = include.path;
   const bool test = is_within(file.path, "tests");
+  if (test && is_within(path, "tandem")) return std::nullopt;  // as other projects do, with <>
   if (!include.quoted) return "our own headers are included with quotes";
   if (path.ends_with(".pb.h") && !may_see_protobuf(file.path)) return std::string(kGeneratedReason);
   if (test) return std::nullopt;
   if (is_within(path, "tests")) return "programs do not know their tests";
   if (is_pump(path) && !is_pump(file.path)) return "a core does not know what is in an app or io folder";
-  if (has_folder(path, "app") && top_folder(path) != "common" && top_folder(path) != top_folder(file.path)) {
+  if (is_within(path, "tandem") && !is_within(file.path, "tandem")) return "only other projects include the public API";
+  if (has_folder(path, "app") && top_folder(path) != "common" && top_folder(path) != top_folder(file.path) &&
+      !is_within(file.path, "tandem")) {
     return "an app folder serves its own program";
   }
   if (is_within(path, "hal/backends") && top_folder(file.path) != "hal" && top_folder(file.path) != "client") {
@@ -224,6 +228,7 @@ std::vector<Finding> check_top_level(const std::filesystem::path& root) {
                               "proto",
                               "hal",
                               "netsim",
+                              "tandem",
                               "tests",
                               ".ci",
                               ".clang-format",

@@ -10,7 +10,7 @@ namespace {
 
 /// Mirrors "Layers and allowed dependencies" of ARCHITECTURE.md. The row with the longest `folder` that the path begins
 /// with decides.
-const std::array<Room, 40> kRooms{{
+const std::array<Room, 41> kRooms{{
     {"common/base", {"common/base"}, {}, "common/base is plain C++: no Eigen, asio, spdlog, protobuf, clock"},
     {"common/control",
      {"common/base", "common/control"},
@@ -151,8 +151,8 @@ const std::array<Room, 40> kRooms{{
      {"Eigen", "json"},
      "what hands feel is measured in the simulation: no files, clocks or threads; those belong to netsim/app"},
     {"netsim/scenario",
-     {"common/base", "netsim/feel/observed_feel.h", "netsim/profiles", "netsim/scenario", "netsim/system", "proto",
-      "server"},
+     {"common/base", "hal/sim/recorded_motion.h", "netsim/feel/observed_feel.h", "netsim/profiles", "netsim/scenario",
+      "netsim/system", "proto", "server"},
      {},
      "scenarios check text against a scene and judge reports: no JSON, no files; those belong to netsim/app"},
     {"netsim/testing",
@@ -163,7 +163,13 @@ const std::array<Room, 40> kRooms{{
      {"common/base", "netsim/demo", "netsim/plot"},
      {},
      "the demo's report is made from plain numbers; files, processes and clocks belong to netsim/demo/app"},
-    {"netsim", {}, {}, "only netsim/app, netsim/package and the folders named above lie here"},
+    {"netsim", {}, {}, "only netsim/app and the folders named above lie here"},
+    {"tandem",
+     {"client/app/client_status.h", "client/app/live_seat.h", "common/base", "common/control", "hal/core", "hal/io",
+      "hal/sim", "netsim/engine", "netsim/models", "netsim/profiles", "netsim/system", "netsim/testing", "proto/spec",
+      "proto/text", "proto/wire", "server/report", "tandem"},
+     {},
+     "tandem is the public API: headers that gather what other projects may use, no code"},
     {"common", {"common"}, {}, "common knows no layer above it"},
     {"tests", {}, {}, "tests may include everything; nothing is checked"},
 }};

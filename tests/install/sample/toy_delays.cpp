@@ -1,9 +1,8 @@
 // Prints the mean delay and the number of arrivals of a thousand datagrams on a named network.
+#include <tandem/netsim.h>
+
 #include <array>
 #include <cstdio>
-
-#include "netsim/engine/network.h"
-#include "netsim/profiles/profile_loader.h"
 
 int main(int, char** arguments) {
   using namespace tandem;

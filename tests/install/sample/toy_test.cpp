@@ -1,8 +1,8 @@
 // Example of another project that tests its own protocol over Tandem's simulated networks, in virtual time.
+#include <tandem/testing.h>
+
 #include <cstdlib>
 #include <numeric>
-
-#include "netsim/testing/network_test.h"
 
 using namespace std::chrono_literals;
 using tandem::netsim::Direction;

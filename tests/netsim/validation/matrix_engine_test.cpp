@@ -5,6 +5,7 @@
 #include <map>
 
 #include "netsim/engine/network.h"
+#include "netsim/engine/replay.h"
 #include "netsim/models/link_rate.h"
 #include "netsim/profiles/decision_csv.h"
 #include "tests/common/base/counts.h"

@@ -4,7 +4,7 @@
 #include <expected>
 #include <string>
 
-#include "netsim/system/simulation.h"
+#include "netsim/system/simulation_config.h"
 #include "server/report/report.h"
 
 namespace tandem::netsim {
@@ -21,12 +21,9 @@ struct SceneRun {
 /// Error: all errors of the names and values, one per line.
 [[nodiscard]] std::expected<SimulationConfig, std::string> simulation_config(const SceneRun& run);
 
-/// Runs a session to its end and returns its report. The same setup gives the same report and `trace_hash`. That hash
-/// is the SHA-256 of the rows that `tandem-netsim run --trace` writes. Error: the session could not be made or did not
-/// begin.
-[[nodiscard]] std::expected<server::RunReport, std::string> run_simulation(const SimulationConfig& setup);
-
-/// Calls `simulation_config` and `run_simulation`. Error: as of these two.
+/// Runs a session to its end and returns its report. The same run gives the same report and `trace_hash`. That hash is
+/// the SHA-256 of the rows that `tandem-netsim run --trace` writes. Error: all errors of the names and values, or why
+/// the session did not begin.
 [[nodiscard]] std::expected<server::RunReport, std::string> run_scene(const SceneRun& run);
 
 /// Returns the shell command that repeats the run and writes every tick to a file.

@@ -1,14 +1,13 @@
-#include "netsim/testing/scene_run.h"
+#include "netsim/system/scene_run.h"
 
 #include <sstream>
+#include <utility>
 
-#include "common/transport/digest.h"
 #include "netsim/profiles/profile_loader.h"
+#include "netsim/system/run_simulation.h"
 #include "netsim/system/session_notes.h"
-#include "netsim/system/simulation_report.h"
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
-#include "server/report/trace_csv.h"
 
 namespace tandem::netsim {
 
@@ -40,33 +39,12 @@ std::expected<SimulationConfig, std::string> simulation_config(const SceneRun& r
   return setup;
 }
 
-std::expected<server::RunReport, std::string> run_simulation(const SimulationConfig& setup) {
-  auto made = Simulation::make(setup);
-  if (!made) return std::unexpected(made.error());
-  Simulation& world = **made;
-  server::ReportBuilder builder{world.scene()};
-  const server::TraceCsv csv{world.scene()};
-  transport::Digest digest;
-  std::string row = csv.header();
-  digest.add(row);
-  while (world.step()) {
-    const server::TickRecord& record = world.record();
-    builder.add(record);
-    if (!record.running) continue;
-    row.clear();
-    csv.append(record, row);
-    digest.add(row);
-  }
-  if (!world.trouble().empty()) return std::unexpected(world.trouble());
-  server::RunReport report = simulation_report(world, builder, setup.seed);
-  report.trace_hash = digest.hex();
-  return report;
-}
-
 std::expected<server::RunReport, std::string> run_scene(const SceneRun& run) {
   const auto setup = simulation_config(run);
   if (!setup) return std::unexpected(setup.error());
-  return run_simulation(*setup);
+  SimulationResult result = run_simulation(*setup);
+  if (!result.trouble.empty()) return std::unexpected(std::move(result.trouble));
+  return std::move(result.report);
 }
 
 std::string replay_command(const SceneRun& run) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "client/app/client_status.h"
+#include "client/app/live_seat.h"
+#include "proto/text/seat_setup.h"
+#include "proto/wire/wire_messages.h"
+#include "tandem/hal.h"
+
+/// @file
+/// A seat of a session in one's own program. CMake target `Tandem::client`.
+///
+/// tandem::client::LiveSeat joins a running server over the network. A device calls it once per exchange, on the
+/// device's own thread. Everything that protects the hand runs there: reference clamp, guards, force gate. The program
+/// reads tandem::client::ClientStatus and requests stops, resumes and the end. Example:
+/// tests/examples/03_client_seat.cpp.
+namespace tandem::client {
+
+using wire::CloseReason;
+using wire::GateState;
+using wire::SessionState;
+
+}  // namespace tandem::client
