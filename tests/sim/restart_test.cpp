@@ -136,7 +136,7 @@ TEST(ServerRestart, EngagesNoHandUntilAuthorityHoldersReturnOrTheInstructorResum
     EXPECT_TRUE(world.session().start_condition().recovering());
     EXPECT_EQ(world.session().state(), wire::SessionState::kWaiting);
     EXPECT_FALSE(world.seat(0)->gate().active());
-    EXPECT_EQ(world.session().missing(world.now()), (std::vector<std::size_t>{1}));
+    EXPECT_EQ(world.session().start_condition().missing(world.now()), (std::vector<std::size_t>{1}));
     if (goes_on) world.seat(0)->requests().resume();
     while (world.now() < Time{} + 8s && world.step()) {
     }

@@ -192,7 +192,7 @@ void Shard::execute_requests(Time now, ShardRequest& order) noexcept {
       break;
     case ShardRequest::What::kRevokeSeat:
       order.outcome.result = remove_client(hosted->session(), order.seat, order.cid, wire::CloseReason::kRevoked);
-      order.outcome.tick = hosted->session().session_tick();
+      order.outcome.tick = hosted->session().clock().session_tick();
       order.result = JoinResult::kAccepted;
       break;
     case ShardRequest::What::kQueryLinkTest:
