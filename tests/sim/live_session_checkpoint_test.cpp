@@ -98,9 +98,9 @@ TEST(LiveSession, ReportsThatItWaitsWhileItIsStopped) {
   EXPECT_EQ(stopped.state, wire::SessionState::kStopped);
   EXPECT_TRUE(stopped.waiting) << "it waits for the required seats";
   ASSERT_EQ(restored.session().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
-            StopLatch::Resume::kEnded);
+            server::StopLatch::Resume::kEnded);
   ASSERT_EQ(restored.session().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
-            StopLatch::Resume::kEnded);  // resumes without the missing seats
+            server::StopLatch::Resume::kEnded);  // resumes without the missing seats
   EXPECT_FALSE(look().waiting);
 }
 
@@ -115,7 +115,7 @@ TEST(LiveSession, CountsEventsThatWereNotTakenInTime) {
     for (int n = 0; n < many; ++n) {
       ASSERT_TRUE(hosted.session().stop_control().request(now, {AccessRole::kInstructor}));
       ASSERT_EQ(hosted.session().resume(now, {AccessRole::kInstructor}, hosted.session().stop_latch().stops()),
-                StopLatch::Resume::kEnded);
+                server::StopLatch::Resume::kEnded);
     }
   };
   const auto told = [&] {
