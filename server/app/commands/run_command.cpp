@@ -6,7 +6,7 @@
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
 #include "server/app/commands/server_commands.h"
-#include "server/app/control/control_server.h"
+#include "server/app/control/server_keys.h"
 #include "server/app/process/server_process.h"
 
 namespace tandem::server {
@@ -43,8 +43,8 @@ ServerOptions parse_options(const RunArguments& arguments, Mistakes& mistakes) {
   }
   if (const auto listen = io::parse_address(arguments.listen, 0)) {
     plan.listen = *listen;
-    if (const std::string problem = ControlServer::problem_with_keys(*listen, arguments.state); !problem.empty())
-      mistakes.push_back("--listen " + arguments.listen + ": " + problem);
+    if (const auto keys = open_server_keys(*listen, arguments.state); !keys)
+      mistakes.push_back("--listen " + arguments.listen + ": " + keys.error());
   } else {
     mistakes.push_back("--listen: " + listen.error());
   }

@@ -9,7 +9,7 @@
 #include "proto/io/scene_file.h"
 #include "proto/text/server_config_text.h"
 #include "server/app/commands/server_commands.h"
-#include "server/app/control/control_server.h"
+#include "server/app/control/server_keys.h"
 #include "server/app/process/server_process.h"
 
 namespace tandem::server {
@@ -74,10 +74,10 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
   plan.state = path_beside_config(config, config.state.text);
   if (const auto listen = io::parse_address(config.listen.text, 0)) {
     plan.listen = *listen;
-    if (const std::string problem = ControlServer::problem_with_address(*listen); !problem.empty())
+    if (const std::string problem = problem_with_address(*listen); !problem.empty())
       errors.push_back(config.listen.error(config.file, problem));
     const LocatedText& keys = config.state.text.empty() ? config.listen : config.state;
-    for (const std::string& problem : ControlServer::problems_with_keys(*listen, plan.state))
+    for (const std::string& problem : problems_with_keys(*listen, plan.state))
       errors.push_back(keys.error(config.file, problem));
   } else if (!config.listen.text.empty()) {
     errors.push_back(config.listen.error(config.file, listen.error()));
@@ -85,7 +85,7 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
   if (!config.metrics.text.empty()) {
     if (const auto metrics = io::parse_address(config.metrics.text, 0)) {
       plan.metrics = *metrics;
-      if (const std::string problem = ControlServer::problem_with_address(*metrics); !problem.empty())
+      if (const std::string problem = problem_with_address(*metrics); !problem.empty())
         errors.push_back(config.metrics.error(config.file, problem));
     } else {
       errors.push_back(config.metrics.error(config.file, metrics.error()));

@@ -1,3 +1,5 @@
+#include "server/app/control/audit_writer.h"
+
 #include <netinet/in.h>
 
 #include <asio/post.hpp>
@@ -7,9 +9,7 @@
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/log.h"
-#include "server/app/control/control_server.h"
 
-/// Writes control events to the audit log: all joins, and rejections up to a limit per source.
 namespace tandem::server {
 namespace {
 
@@ -27,7 +27,7 @@ std::string source_of(const ControlEventRecord& news) {
 
 }  // namespace
 
-bool ControlServer::record_event(const ControlEventRecord& news) {
+bool AuditWriter::record(const ControlEventRecord& news) {
   if (!trust_.on_disk()) return true;  // no log: all clients are on this computer
   switch (news.event) {
     case ControlEvent::kForbidden:
@@ -48,7 +48,7 @@ bool ControlServer::record_event(const ControlEventRecord& news) {
   }
 }
 
-void ControlServer::service_audit_log() {
+void AuditWriter::service() {
   const std::int64_t now = auth::wall_seconds();
   if (const auto left = throttle_.summary(io::monotonic_now())) {
     trust_.audit(now, "suppressed", "", *left);
@@ -59,7 +59,7 @@ void ControlServer::service_audit_log() {
   const auth::AuditLog& log = trust_.audit_log();
   const bool fails = !log.error().empty();
   const std::uint64_t lost = log.lost() - std::exchange(lost_reported_, log.lost());
-  if (fails != std::exchange(audit_fails_, fails)) {
+  if (fails != std::exchange(fails_, fails)) {
     if (fails && on_event_)
       on_event_(
           {ControlEvent::kTrouble, "", "", "the audit log fails, and /readyz is 503 until it works: " + log.error()});
@@ -72,16 +72,21 @@ void ControlServer::service_audit_log() {
   }
 }
 
-void ControlServer::close_audit_log() {
+void AuditWriter::close() {
   if (const auto left = throttle_.last_summary()) trust_.audit(auth::wall_seconds(), "suppressed", "", *left);
   trust_.retry_audit(auth::wall_seconds());
 }
 
-void ControlServer::audit(std::string_view event, std::string session, std::string detail) {
+void AuditWriter::post(std::string_view event, std::string session, std::string detail) {
   if (!trust_.on_disk()) return;
-  asio::post(thread_.context(), [this, event, session = std::move(session), detail = std::move(detail)] {
+  asio::post(context_, [this, event, session = std::move(session), detail = std::move(detail)] {
     trust_.audit(auth::wall_seconds(), event, session, detail);
   });
+}
+
+AuditState AuditWriter::state() const {
+  const auth::AuditLog& log = trust_.audit_log();
+  return {log.error(), log.lost(), throttle_.suppressed()};
 }
 
 }  // namespace tandem::server
