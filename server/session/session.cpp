@@ -17,8 +17,13 @@ constexpr double kObserverHz = 60;                              // FORCE rate to
 // Isolated losses must not trip a gate: at 5 % random loss, five in a row occur every day or two.
 constexpr double kIntervalsOfSilence = 6;
 constexpr std::uint32_t kCloseRepeats = 20;  // ticks in which CLOSE is sent, because single datagrams may be lost
-// Ticks between two updates of the leaders, for laws that only record them.
-constexpr std::uint32_t kGhostRecordInterval = 16;
+
+std::vector<SeatEndpoint> make_seats(const SceneSpec& scene, const AxisArray& scale) {
+  std::vector<SeatEndpoint> seats;
+  seats.reserve(scene.seats.size());
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) seats.emplace_back(scene, i, scale);
+  return seats;
+}
 }  // namespace
 
 Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves,
@@ -26,22 +31,18 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
     : scene_(&scene),
       dt_(1.0 / scene.tick_hz),
       tick_length_(from_seconds(dt_)),
-      scale_(scale),
       masters_(scene.masters()),
       replica_(scene.channel.law == LawKind::kReplica),
       observer_interval_(static_cast<std::uint32_t>(std::ceil(scene.tick_hz / kObserverHz))),
       evaluator_interval_max_(
           static_cast<std::uint32_t>(std::max(1.0, scene.gate.silence_limit * scene.tick_hz / kIntervalsOfSilence))),
+      seats_(make_seats(scene, scale)),
+      control_(scene, std::move(slaves), scale, seats_, present_),
+      leading_hands_(scene, dt_),
       seat_catalogue_(scene, scale),
       link_test_peers_(scene.dof, scene.port, tick_length_),
       stop_latch_(scene.has_instructor()) {
-  for (std::size_t a = 0; a < kAxesMax; ++a) root_scale_[a] = std::sqrt(scale_[a]);
   last_interval_.fill(~0u);
-  leading_hands_.fill(LeadingHand(dt_));
-  seats_.reserve(scene.seats.size());
-  for (std::size_t i = 0; i < scene.seats.size(); ++i) seats_.emplace_back(scene, i, scale);
-  tools_.reserve(scene.tools.size());
-  for (std::size_t j = 0; j < scene.tools.size(); ++j) tools_.emplace_back(scene, j, std::move(slaves[j]));
   for (const AuthorityRow& row : scene.authority) set_initial_authority(row.tool, weights_of(row));
   authority_version_ += static_cast<std::uint32_t>(scene.authority.size());
   scene_hash_ = scene_hash(scene);
@@ -50,10 +51,10 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
 Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves,
                  const AxisArray& scale, const Checkpoint& from)
     : Session(scene, std::move(slaves), scale) {
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
+  for (std::size_t j = 0; j < tools().size(); ++j) {
     set_initial_authority(j, from.tools[j].alpha);
     // A tool with its own slave starts at the slave's position, so that the spring between them starts without force.
-    if (tools_[j].slave() == nullptr) tools_[j].rest_at(from.tools[j].x);
+    if (tools()[j].slave() == nullptr) control_.rest_tool(j, from.tools[j].x);
   }
   epoch_ = from.epoch + 1;
   session_tick_ = from.session_tick;
@@ -73,7 +74,7 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
     ++next_event_;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     bool has_weight = false;
-    for (std::size_t j = 0; j < tools_.size(); ++j) {
+    for (std::size_t j = 0; j < tools().size(); ++j) {
       const auto& alpha = from.tools[j].alpha;
       // A slave seat counts as having authority over its tool.
       has_weight = has_weight || (i < masters_ ? alpha[i] > 0 : scene.seats[i].tool == j);
@@ -84,8 +85,8 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
 }
 
 bool Session::set_contact_source(std::size_t tool, std::unique_ptr<ContactSource> source) {
-  if (!replica_ || tool >= tools_.size() || tools_[tool].body() == nullptr) return false;
-  tools_[tool].set_contact_source(std::move(source));
+  if (!replica_ || tool >= tools().size() || tools()[tool].body() == nullptr) return false;
+  tools()[tool].set_contact_source(std::move(source));
   return true;
 }
 
@@ -100,14 +101,14 @@ Checkpoint Session::checkpoint() const noexcept {
   c.begun = begun();
   c.seats_n = static_cast<std::uint8_t>(seats_.size());
   c.masters_n = static_cast<std::uint8_t>(masters_);
-  c.tools_n = static_cast<std::uint8_t>(tools_.size());
+  c.tools_n = static_cast<std::uint8_t>(tools().size());
   c.dof = static_cast<std::uint8_t>(scene_->dof);
   for (std::size_t i = 0; i < seats_.size(); ++i)
     c.seats[i] = {seats_[i].taken() || required_for_resume_[i], seats_[i].resume(), seats_[i].force_scale()};
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
-    c.tools[j].alpha = tools_[j].transfer.scheduled();
-    c.tools[j].x = tools_[j].position();
-    if (const hal::SteppedDevice* slave = tools_[j].slave()) c.tools[j].slave = slave->state().q;
+  for (std::size_t j = 0; j < tools().size(); ++j) {
+    c.tools[j].alpha = tools()[j].transfer.scheduled();
+    c.tools[j].x = tools()[j].position();
+    if (const hal::SteppedDevice* slave = tools()[j].slave()) c.tools[j].slave = slave->state().q;
   }
   return c;
 }
@@ -194,19 +195,18 @@ bool Session::send_turn_begins(std::size_t i) noexcept {
 }
 
 void Session::run_one_tick(Time now) noexcept {
-  for (auto& tool : tools_) tool.advance_slave(elapsed_any_ ? tick_length_ : Duration{0});
+  for (auto& tool : tools()) tool.advance_slave(elapsed_any_ ? tick_length_ : Duration{0});
   elapsed_any_ = true;
   update_state(now);
   if (over_) return;
   advance_transfers();
   schedule_timeline_events(now);
   execute_transfers(now);
-  step_authority();
-  update_couplings();
-  move_references(now);
-  step_tools();
-  if (replica_ || tick_ % kGhostRecordInterval == 0) update_leaders();
-  step_targets();
+  control_.step_authority(state_ == wire::SessionState::kEnding || disengages_all());
+  control_.move_references(now);
+  control_.step_tools(time());
+  leading_hands_.step(tick_, present_, seats_, tools());
+  control_.step_targets(tick_, leading_hands_);
   record_tick(*this, record_);
 }
 
@@ -231,7 +231,7 @@ void Session::update_state(Time now) noexcept {
     } else {
       ++session_tick_;
     }
-    held_ = std::ranges::all_of(tools_, [](const Tool& t) { return t.authority.held(); });
+    held_ = std::ranges::all_of(tools(), [](const Tool& t) { return t.authority.held(); });
   }
   derive_session_state();
   if (begun_ && time() >= scene_->duration) end(wire::CloseReason::kDone);
@@ -276,9 +276,9 @@ void Session::finish_close_out(Time now) noexcept {
 /// Whether the slave of a tool is in contact, as far as its device reports contact.
 bool Session::touching(Time now, std::size_t j) const noexcept {
   constexpr double kTouchN = 0.05;  // [N] noise level of a force sensor
-  if (const hal::SteppedDevice* const slave = tools_[j].slave())
+  if (const hal::SteppedDevice* const slave = tools()[j].slave())
     return slave->state().penetration > 0 || slave->state().f_env.squaredNorm() > kTouchN * kTouchN;
-  if (const control::VirtualTool* const body = tools_[j].body(); body != nullptr && !scene_->tools[j].remote)
+  if (const control::VirtualTool* const body = tools()[j].body(); body != nullptr && !scene_->tools[j].remote)
     return body->penetration() > 0;
   if (!scene_->tools[j].remote || !seats_[scene_->tools[j].seat].alive(now)) return false;
   const wire::Telemetry& heard = seats_[scene_->tools[j].seat].last_state().telemetry;
@@ -293,10 +293,10 @@ void Session::fill_force_messages(Time now) noexcept {
     missing_now += is_required(i) && !ready[i] ? 1 : 0;
   }
   std::array<bool, kToolsMax> entitled{}, touches{};
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
+  for (std::size_t j = 0; j < tools().size(); ++j) {
     const bool slave_ready = !scene_->tools[j].remote || ready[scene_->tools[j].seat];
     for (std::size_t i = 0; i < masters_; ++i)
-      entitled[j] |= slave_ready && tools_[j].authority.requested()[i] > 0 && ready[i];
+      entitled[j] |= slave_ready && tools()[j].authority.requested()[i] > 0 && ready[i];
     touches[j] = touching(now, j);
   }
   const bool engage = engage_ && state_ != wire::SessionState::kEnding && !disengages_all();
@@ -306,20 +306,15 @@ void Session::fill_force_messages(Time now) noexcept {
     m.session = state_;
     m.engage = engage && seats_[i].receives_force() && !seats_[i].misbehaviour().quarantined(now) && !closing_out(i);
     m.touching = false;
-    for (std::size_t j = 0; j < tools_.size(); ++j) {
-      const Coupling& tie = couplings_[i][j];
-      m.engage = m.engage && (tie.share == 0 || entitled[j]);
-      m.touching = m.touching || (tie.share > 0 && touches[j]);
+    for (std::size_t j = 0; j < tools().size(); ++j) {
+      const double share = control_.hub().coupling(i, j).share;
+      m.engage = m.engage && (share == 0 || entitled[j]);
+      m.touching = m.touching || (share > 0 && touches[j]);
     }
     m.session_tick = session_tick_;
     m.authority_version = authority_version_;
     m.missing = missing_now;
     m.stops = stop_latch_.stops();
-    if (uses_other_hands(i)) {
-      fill_coupling_messages(i);
-    } else {
-      fill_tool_message(i);
-    }
     fill_transfer_message(i, m);
   }
 }

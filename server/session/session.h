@@ -6,20 +6,19 @@
 #include <vector>
 
 #include "common/base/time.h"
-#include "common/control/esc_hub.h"
 #include "proto/spec/scene_spec.h"
 #include "proto/wire/wire_codec.h"
 #include "server/policy/load_shedder.h"
 #include "server/report/audit_event.h"
 #include "server/report/tick_record.h"
 #include "server/session/checkpoint.h"
-#include "server/session/leading_hand.h"
+#include "server/session/leading_hands.h"
 #include "server/session/link_test_peers.h"
 #include "server/session/path_tokens.h"
 #include "server/session/seat_catalogue.h"
 #include "server/session/seat_endpoint.h"
+#include "server/session/shared_control.h"
 #include "server/session/stop_latch.h"
-#include "server/session/tool.h"
 
 namespace tandem::server {
 
@@ -160,9 +159,10 @@ class Session {
   [[nodiscard]] const TickRecord& record() const noexcept { return record_; }
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
   [[nodiscard]] const SeatEndpoint& seat(std::size_t i) const noexcept { return seats_[i]; }
-  [[nodiscard]] const Tool& tool(std::size_t j) const noexcept { return tools_[j]; }
+  [[nodiscard]] const control::EscHub& hub() const noexcept { return control_.hub(); }
+  [[nodiscard]] const Tool& tool(std::size_t j) const noexcept { return tools()[j]; }
   /// The hand that leads this seat, as of the last tick; its `leader` is 0 if there is none. @pre a master's seat
-  [[nodiscard]] const wire::Ghost& ghost(std::size_t master) const noexcept { return ghosts_[master]; }
+  [[nodiscard]] const wire::Ghost& ghost(std::size_t master) const noexcept { return leading_hands_.ghost(master); }
   [[nodiscard]] std::vector<std::size_t> missing(Time now) const;  ///< required seats that are not ready
   /// Datagrams without a valid header, or for no current connection.
   [[nodiscard]] std::uint64_t unmatched_datagrams() const noexcept { return unmatched_datagrams_; }
@@ -214,46 +214,26 @@ class Session {
                             std::size_t party = AuditEvent::kNoSeat) noexcept;
   [[nodiscard]] control::MasterArray weights_of(const AuthorityRow& row) const noexcept;
 
-  [[nodiscard]] bool slave_present(std::size_t tool) const noexcept;
   void run_one_tick(Time now) noexcept TANDEM_REALTIME;
   void update_state(Time now) noexcept;
   void derive_session_state() noexcept;
-  void step_authority() noexcept TANDEM_REALTIME;
-  void update_couplings() noexcept TANDEM_REALTIME;
-  void move_references(Time now) noexcept TANDEM_REALTIME;
-  void move_predictions(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
-  void step_reengage_offset(std::size_t seat, bool engaged) noexcept TANDEM_REALTIME;
-  void settle_energy(std::size_t seat) noexcept TANDEM_REALTIME;
-  void step_tools() noexcept TANDEM_REALTIME;
-  void update_contacts(std::size_t tool) noexcept TANDEM_REALTIME;
-  [[nodiscard]] double slave_spring_share(std::size_t seat, std::size_t tool) const noexcept TANDEM_REALTIME;
-  void step_targets() noexcept TANDEM_REALTIME;
-  void update_targets(std::size_t seat) noexcept TANDEM_REALTIME;
-  [[nodiscard]] bool uses_other_hands(std::size_t i) const noexcept { return replica_ && i < masters_; }
-  void grant_follower_energy(std::size_t i) noexcept TANDEM_REALTIME;
-  void update_targets_from_hands(std::size_t i) noexcept TANDEM_REALTIME;
-  void update_targets_from_hands(std::size_t i, std::size_t j, wire::ToolForce& told) const noexcept TANDEM_REALTIME;
-  void fill_coupling_messages(std::size_t i) noexcept TANDEM_REALTIME;
-  void fill_tool_message(std::size_t i) noexcept TANDEM_REALTIME;
   [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept TANDEM_REALTIME;
-  void update_leaders() noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t leader_of(std::size_t seat) const noexcept TANDEM_REALTIME;
-  [[nodiscard]] bool leads(std::size_t master) const noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
+  [[nodiscard]] std::span<Tool> tools() noexcept { return control_.tools(); }
+  [[nodiscard]] std::span<const Tool> tools() const noexcept { return control_.tools(); }
 
   const SceneSpec* scene_;
   double dt_;
   Duration tick_length_;
-  AxisArray scale_;
-  AxisArray root_scale_{};
-  std::vector<SeatEndpoint> seats_;
-  std::vector<Tool> tools_;
   std::size_t masters_;
   bool replica_;                     ///< law `replica`: masters receive the other hands' motion, not the tool's
   std::uint32_t observer_interval_;  ///< ticks between two FORCEs to a seat that receives no force
   /// Upper bound for evaluators: six intervals fit into the gates' silence limit.
   std::uint32_t evaluator_interval_max_;
+  std::array<bool, kSeatsMax> present_{};
+  std::vector<SeatEndpoint> seats_;
+  SharedControl control_;
+  LeadingHands leading_hands_;
   LoadState load_state_;
   bool overloaded_ = false;  ///< as of the last audit event
   SeatCatalogue seat_catalogue_;
@@ -294,24 +274,6 @@ class Session {
   /// Ticks for which FORCE still reports the cancellation.
   std::array<std::uint32_t, kSeatsMax> cancelled_transfer_ticks_{};
   std::optional<Time> refused_at_;  ///< time of the last audit event of a rejected transfer
-  /// Coupling of a seat to a tool during this tick, all in [0, 1]. A slave's seat is fully coupled to its own tool.
-  struct Coupling {
-    double alpha = 0;   ///< authority
-    double follow = 0;  ///< C_ij: share of the tool's motion in the seat's target
-    double share = 0;   ///< max(alpha, follow): share of the seat's spring
-  };
-  std::array<std::array<Coupling, kToolsMax>, kSeatsMax> couplings_{};
-  std::array<AxisArray, kSeatsMax> seat_targets_{};     ///< y_i: target of each seat
-  std::array<AxisArray, kSeatsMax> offset_{};           ///< re-engage offset: hand minus tool, decays to 0
-  std::array<std::uint32_t, kSeatsMax> engaged_for_{};  ///< ticks since the seat engaged
-  std::array<AxisArray, kSeatsMax> offset_step_{};      ///< change of `offset_` in this tick
-  std::array<AxisArray, kSeatsMax> reference_before_{};
-  std::array<SeatEndpoint::NearEnd, kToolsMax> near_ends_{};  ///< scratch space of `move_predictions`
-  /// Generation of the SLAVE seat's newest sample that the contact source received.
-  std::array<std::uint64_t, kToolsMax> slave_heard_{};
-  std::array<bool, kSeatsMax> present_{};
-  std::array<LeadingHand, kMastersMax> leading_hands_{};
-  std::array<wire::Ghost, kMastersMax> ghosts_{};
   TickRecord record_{};
 
   std::array<bool, kSeatsMax> send_due_{};

@@ -29,9 +29,9 @@ void Session::handle_authority_request(Time now, std::size_t i, const wire::Auth
 
 Session::AuthorityResult Session::set_authority(Time now, AccessRole who, std::size_t seat, std::uint8_t noted,
                                                 const wire::AuthorityMessage& wish) noexcept {
-  if (wish.tool >= tools_.size() || wish.masters != masters_) return AuthorityResult::kInvalid;
+  if (wish.tool >= tools().size() || wish.masters != masters_) return AuthorityResult::kInvalid;
   const Grant grant = allowed(who, Right::kAuthority);
-  const control::MasterArray& before = tools_[wish.tool].transfer.scheduled();
+  const control::MasterArray& before = tools()[wish.tool].transfer.scheduled();
   bool may = grant != Grant::kNo;
   // The server checks which seats may drive; it does not rely on the client.
   for (std::size_t k = 0; k < masters_; ++k) {
@@ -47,7 +47,7 @@ Session::AuthorityResult Session::set_authority(Time now, AccessRole who, std::s
   if (wish.version != authority_version_)
     return AuthorityResult::kOutdated;  // another change was faster: FORCE carries the newer authority
   if (!may) return AuthorityResult::kForbidden;
-  const auto weights = tools_[wish.tool].authority.normalised(wish.alpha);
+  const auto weights = tools()[wish.tool].authority.normalised(wish.alpha);
   if (!weights) return AuthorityResult::kInvalid;
   if (const auto party = stale_party(now, wish.tool, *weights, TransferStage::kScheduling)) {
     reject_authority(now, noted, wish.tool, *weights, *party);
@@ -58,8 +58,8 @@ Session::AuthorityResult Session::set_authority(Time now, AccessRole who, std::s
 }
 
 void Session::set_initial_authority(std::size_t tool, const control::MasterArray& wanted) noexcept {
-  static_cast<void>(tools_[tool].authority.request(wanted));
-  tools_[tool].transfer.set_initial(tools_[tool].authority.requested());
+  static_cast<void>(tools()[tool].authority.request(wanted));
+  tools()[tool].transfer.set_initial(tools()[tool].authority.requested());
 }
 
 /// @param who    seat, AuditEvent::kControlPlane or AuditEvent::kTimeline
@@ -67,7 +67,7 @@ void Session::set_initial_authority(std::size_t tool, const control::MasterArray
 /// @pre `wanted` can be normalised
 void Session::schedule_authority(Time now, std::uint8_t who, std::size_t tool, const control::MasterArray& wanted,
                                  std::uint32_t ahead) noexcept {
-  Tool& of = tools_[tool];
+  Tool& of = tools()[tool];
   const control::MasterArray before = of.transfer.scheduled();
   of.transfer.schedule(of.authority.normalised(wanted).value_or(before), {.wanted = wanted, .by = who}, ahead);
   ++authority_version_;
@@ -90,18 +90,18 @@ void Session::schedule_timeline_events(Time now) noexcept {
 /// While the clock is stopped, an announced change of the timeline waits. A change by a participant or an operator is
 /// still executed after its 50 ticks.
 void Session::advance_transfers() noexcept {
-  for (Tool& tool : tools_)
+  for (Tool& tool : tools())
     if (!clock_stopped() || tool.transfer.latest_by() != AuditEvent::kTimeline) tool.transfer.tick();
 }
 
 /// Executes the changes that are due. If a link became stale since the announcement, the authority stays as it is,
 /// under a new version. A change of the timeline is deferred instead, because the scene requests it only once.
 void Session::execute_transfers(Time now) noexcept {
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
-    AuthorityTransfer& handover = tools_[j].transfer;
+  for (std::size_t j = 0; j < tools().size(); ++j) {
+    AuthorityTransfer& handover = tools()[j].transfer;
     const AuthorityTransfer::Change* const due = handover.due();
     if (due == nullptr) continue;
-    control::ToolAuthority& row = tools_[j].authority;
+    control::ToolAuthority& row = tools()[j].authority;
     const control::MasterArray weights = row.normalised(due->wanted).value_or(row.requested());
     const auto party = stale_party(now, j, weights, TransferStage::kExecution);
     if (!party) {
@@ -132,7 +132,7 @@ void Session::execute_transfers(Time now) noexcept {
 /// tool is braked no authority moves, so no link is checked.
 std::optional<std::size_t> Session::stale_party(Time now, std::size_t tool, const control::MasterArray& weights,
                                                 TransferStage moment) const noexcept {
-  const control::ToolAuthority& row = tools_[tool].authority;
+  const control::ToolAuthority& row = tools()[tool].authority;
   if (row.held()) return std::nullopt;
   const Duration limit = from_seconds(scene_->gate.silence_limit);
   for (std::size_t i = 0; i < masters_; ++i) {
@@ -151,7 +151,7 @@ void Session::reject_authority(Time now, std::uint8_t who, std::size_t tool, con
   if (who < masters_) report_cancelled_transfer(who);
   if (refused_at_ && now - *refused_at_ < kRejectionEventInterval) return;
   refused_at_ = now;
-  emit_authority_event(now, AuditEvent::What::kAuthorityRejected, who, tool, tools_[tool].transfer.scheduled(), wanted,
+  emit_authority_event(now, AuditEvent::What::kAuthorityRejected, who, tool, tools()[tool].transfer.scheduled(), wanted,
                        party);
 }
 
@@ -178,8 +178,8 @@ void Session::emit_authority_event(Time now, AuditEvent::What what, std::uint8_t
 
 /// The parties of the last scheduled change over a tool, for the notice to seat `i`.
 wire::TransferParties Session::transfer_parties(std::size_t j, std::size_t i) const noexcept {
-  const AuthorityTransfer& handover = tools_[j].transfer;
-  const control::MasterArray &after = handover.scheduled(), &before = tools_[j].authority.requested();
+  const AuthorityTransfer& handover = tools()[j].transfer;
+  const control::MasterArray &after = handover.scheduled(), &before = tools()[j].authority.requested();
   const std::uint8_t by = handover.latest_by();
   wire::TransferParties p{.by = wire::TransferParties::kOperator, .tool = static_cast<std::uint32_t>(j)};
   if (by == AuditEvent::kTimeline) p.by = wire::TransferParties::kScene;
@@ -202,8 +202,8 @@ void Session::fill_transfer_message(std::size_t i, wire::ForceMessage& m) noexce
     m.transfer = wire::TransferNotice::kCancelled;
   }
   if (i >= masters_ || !begun_) return;
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
-    const Tool& tool = tools_[j];
+  for (std::size_t j = 0; j < tools().size(); ++j) {
+    const Tool& tool = tools()[j];
     // During a stop no authority moves. The seats are notified at once of changes that act after the resume; changes
     // of the timeline wait with the clock.
     const bool waits = clock_stopped() && tool.transfer.latest_by() == AuditEvent::kTimeline;

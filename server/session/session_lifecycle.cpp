@@ -146,7 +146,7 @@ void Session::monitor_seats(Time now) noexcept {
   }
   for (std::size_t i = 0; i < seats_.size(); ++i) monitor_seat(now, i);
   std::uint64_t not_finite = 0;
-  for (const Tool& tool : tools_) not_finite += tool.not_finite();
+  for (const Tool& tool : tools()) not_finite += tool.not_finite();
   if (not_finite == not_finite_) return;
   not_finite_ = not_finite;
   // One non-finite result may be a bad reading. Two within a second show a fault, so the session stops.
