@@ -27,7 +27,7 @@ void Session::step_authority() noexcept {
     control::ToolAuthority::Input in;
     in.dt = dt_;
     for (std::size_t i = 0; i < masters_; ++i) {
-      in.present[i] = present_[i] && slave_present(j) && state_ != wire::SessionState::kEnding && !disengages_all();
+      in.present[i] = present_[i] && slave_present(j) && !disengages_all();
       const control::EndState& end = seats_[i].end(j).state();
       for (std::size_t a = 0; a < scene_->dof; ++a) {
         const double e = end.ref[a] - tool.x(a);
@@ -212,7 +212,7 @@ void Session::step_tools() noexcept {
 void Session::update_contacts(std::size_t j) noexcept {
   ToolView view;
   view.dt = dt_;
-  view.time = time();
+  view.time = clock_.time();
   if (scene_->tools[j].remote) {
     const SeatEndpoint& seat = seats_[scene_->tools[j].seat];
     view.slave = slave_present(j) && elapsed_any_;
@@ -329,10 +329,10 @@ void Session::update_targets_from_hands(std::size_t i) noexcept {
 /// Fills the rest of each coupling's message. If the surfaces near all tools do not fit into a datagram, the tools
 /// take turns. Each is sent again long before the client drops its surfaces.
 void Session::fill_coupling_messages(std::size_t i) noexcept {
-  seats_[i].tx.ghost = ghosts_[i];
+  seats_[i].tx.ghost = leading_hands_.ghost(i);
   const std::span<const std::size_t> tools = seats_[i].coupled_tools();
   std::size_t room = wire::contacts_room(scene_->dof, tools.size() - 1);
-  const std::size_t first = tick_ % tools.size();
+  const std::size_t first = clock_.tick() % tools.size();
   for (std::size_t n = 0; n < tools.size(); ++n) {
     const std::size_t k = (first + n) % tools.size(), j = tools[k];
     wire::ToolForce& told = seats_[i].coupling_force(k);
