@@ -56,8 +56,8 @@ struct NearEnd {
 ///
 /// F_ri is the effort of the seat's spring on its IPC. The springs act on the tool at the end of its step, therefore
 /// F_rs,j is a `Pull` of springs A_ji k_i at p_i. Flows are positions wherever no gate cuts them, so that no target
-/// drifts: y_i = sum_j C_ji x_j. Credit takes the place of power: what the authority of a seat does not pay for, the
-/// flow sources are asked for (design notes, control 4, "MFS as energy grants").
+/// drifts: y_i = sum_j C_ji x_j. Credit takes the place of power: the flow sources are asked for the part that the
+/// authority of a seat does not pay for (design notes, control 4, "MFS as energy grants").
 ///
 /// Seats below `masters` are masters, the others SLAVE seats. Indices are in range. Real-time safe.
 class EscHub {

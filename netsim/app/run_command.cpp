@@ -151,7 +151,7 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
 
 /// Shows the progress on a terminal, some times per virtual second.
 void show_progress(const Simulation& world) {
-  std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", world.session().time(), world.scene().duration);
+  std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", world.session().clock().time(), world.scene().duration);
   std::fflush(stderr);
 }
 

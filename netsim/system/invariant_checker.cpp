@@ -86,7 +86,7 @@ void InvariantChecker::note(std::string_view invariant, std::size_t seat, bool e
 
 void InvariantChecker::check(std::uint32_t lived, const server::Session& session,
                              const std::vector<SimulatedClient>& stations) {
-  t_ = session.time();
+  t_ = session.clock().time();
   server::SessionInvariantChecker{}.check(session, violations_);
   check_restart_barrier(session);
   check_authority(lived, session);
@@ -166,7 +166,7 @@ void InvariantChecker::check_restart_barrier(const server::Session& session) {
     s.led = false;
     for (std::size_t j = 0; i < scene_->masters() && j < scene_->tools.size(); ++j)
       s.led |= session.tool(j).transfer.scheduled()[i] > 0 && session.seat(i).taken() && !recovering_ &&
-               session.session_tick() > 0;
+               session.clock().session_tick() > 0;
     s.led |= recovering_ && s.required_for_resume;
   }
   participant_missing_ = away;
@@ -348,7 +348,7 @@ void InvariantChecker::check_authority(std::uint32_t lived, const server::Sessio
     for (std::size_t i = 0; i < scene_->masters(); ++i) {
       const double alpha = row.alpha(i);
       const bool refused =
-          session.seat(i).last_state().stop || session.seat(i).misbehaviour().quarantined(session.last_tick());
+          session.seat(i).last_state().stop || session.seat(i).misbehaviour().quarantined(session.clock().last_tick());
       if (refused && lived == 1 && !held_[j] && alpha > alpha_[j][i] + 1e-9) note("refused_gains_weight", i);
       if (alpha > 0 && seats_[i].stopped_s > kStoppedMax) note("stop_takes_weight", i);
       const Role role = scene_->seats[i].role;

@@ -134,8 +134,9 @@ void Simulation::restart_server() {
 void Simulation::update_checkpoint(bool people_changed) {
   constexpr Duration kEvery = std::chrono::milliseconds(500);
   if (!people_changed && now_ - checkpoint_at_ < kEvery &&
-      session_->authority_version() == checkpoint_.authority_version && session_->stops() == checkpoint_.stops &&
-      session_->epoch() == checkpoint_.epoch && session_->begun() == checkpoint_.begun)
+      session_->authority().version() == checkpoint_.authority_version &&
+      session_->stop_latch().stops() == checkpoint_.stops && session_->epoch() == checkpoint_.epoch &&
+      session_->begun() == checkpoint_.begun)
     return;
   checkpoint_ = session_->checkpoint();
   checkpoint_at_ = now_;
@@ -277,7 +278,7 @@ void Simulation::step_server() {
     ++sent;
     const std::size_t to = seat_of(out->to);
     if (to >= clients_.size()) {
-      checker_.on_reply_to_unknown_peer(session_->time());
+      checker_.on_reply_to_unknown_peer(session_->clock().time());
       continue;
     }
     network_.send_to(now_, static_cast<std::uint32_t>(to), address_of(out->to), std::span{buffer_}.first(out->size));
@@ -288,7 +289,7 @@ void Simulation::step_server() {
     busy_until_ = now_ + tick_used_;
   }
   bool people_changed = false;
-  while (const auto event = session_->poll_audit()) {
+  while (const auto event = session_->audit().poll()) {
     people_changed |= event->what == server::AuditEvent::What::kJoin || event->what == server::AuditEvent::What::kLeave;
     checker_.on_audit_event(*event);
     if (on_audit) on_audit(*event);

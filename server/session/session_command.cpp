@@ -10,32 +10,43 @@ using Result = CommandOutcome::Result;
 /// A command for a seat is valid only while the connection still owns that seat.
 bool holds_seat(const Session& session, const SessionCommand& command) noexcept {
   if (command.seat == AuditEvent::kNoSeat) return true;
-  if (command.seat >= session.scene().seats.size() || session.closing_out(command.seat)) return false;
+  if (command.seat >= session.scene().seats.size() || session.participants().removing(command.seat)) return false;
   const transport::SecureChannel* const link = session.seat(command.seat).link();
   return link != nullptr && link->own_cid() == command.cid;
 }
 
+Requester requester(const SessionCommand& command) noexcept { return {command.role, command.seat}; }
+
+Result stop(Session& session, Time now, const SessionCommand& command, StopLatch::Level wanted) noexcept {
+  return session.stop_control().request(now, requester(command), wanted) ? Result::kDone : Result::kForbidden;
+}
+
 Result resume(Session& session, Time now, const SessionCommand& command) noexcept {
-  const bool stopped = session.stop_level() != StopLatch::Level::kNone;
-  if (!stopped && !session.recovering()) return Result::kNothingToDo;
-  if (command.number != session.stops()) return Result::kOutdated;
-  if (!session.resume(now, command.role, command.number, command.seat)) return Result::kForbidden;
-  return session.stop_latch().latched() && command.number == session.stops() ? Result::kHeldByOthers : Result::kDone;
+  if (!session.stop_latch().latched() && !session.start_condition().recovering()) return Result::kNothingToDo;
+  switch (session.resume(now, requester(command), command.number)) {
+    case StopLatch::Resume::kEnded:
+      return Result::kDone;
+    case StopLatch::Resume::kHeldByOthers:
+      return Result::kHeldByOthers;
+    case StopLatch::Resume::kForbidden:
+      return Result::kForbidden;
+    case StopLatch::Resume::kOutdated:
+      break;
+  }
+  return Result::kOutdated;
 }
 
 Result set_authority(Session& session, Time now, const SessionCommand& command) noexcept {
-  if (command.authority.tool >= session.scene().tools.size() || command.authority.masters != session.scene().masters())
-    return Result::kInvalid;
-  switch (session.set_authority(now, command.role, command.seat, AuditEvent::kControlPlane, command.authority)) {
-    case Session::AuthorityResult::kScheduled:
+  switch (session.authority().request(now, requester(command), command.authority)) {
+    case AuthorityControl::Result::kScheduled:
       return Result::kDone;
-    case Session::AuthorityResult::kOutdated:
+    case AuthorityControl::Result::kOutdated:
       return Result::kOutdated;
-    case Session::AuthorityResult::kForbidden:
+    case AuthorityControl::Result::kForbidden:
       return Result::kForbidden;
-    case Session::AuthorityResult::kStaleLink:
+    case AuthorityControl::Result::kStaleLink:
       return Result::kStaleLink;
-    case Session::AuthorityResult::kInvalid:
+    case AuthorityControl::Result::kInvalid:
       break;
   }
   return Result::kInvalid;
@@ -46,7 +57,8 @@ Result remove(Session& session, const SessionCommand& command) noexcept {
   const transport::SecureChannel* const link = session.seat(command.target_seat).link();
   if (link == nullptr || (command.target_cid != 0 && link->own_cid() != command.target_cid))
     return Result::kNothingToDo;
-  return session.remove_seat(command.target_seat, command.close_reason) ? Result::kDone : Result::kNothingToDo;
+  return session.participants().remove(command.target_seat, command.close_reason) ? Result::kDone
+                                                                                  : Result::kNothingToDo;
 }
 
 Result dispatch(Session& session, Time now, const SessionCommand& command) noexcept {
@@ -54,9 +66,9 @@ Result dispatch(Session& session, Time now, const SessionCommand& command) noexc
     case SessionCommand::What::kQueryStatus:
       return Result::kDone;
     case SessionCommand::What::kStop:
-      return session.stop(now, command.role, command.seat) ? Result::kDone : Result::kForbidden;
+      return stop(session, now, command, StopLatch::Level::kStopped);
     case SessionCommand::What::kPause:
-      return session.pause(now, command.role, command.seat) ? Result::kDone : Result::kForbidden;
+      return stop(session, now, command, StopLatch::Level::kPaused);
     case SessionCommand::What::kResume:
       return resume(session, now, command);
     case SessionCommand::What::kSetAuthority:
@@ -79,12 +91,12 @@ CommandOutcome execute_command(Session& session, Time now, const SessionCommand&
   out.stop_latch = session.stop_latch();
   out.stop_age =
       out.stop_latch.latest().level == StopLatch::Level::kNone ? 0 : seconds(now - out.stop_latch.latest().at);
-  out.connected_seats = session.connected_seats(now);
-  out.recovering = session.recovering();
-  out.stops = session.stops();
-  out.authority_version = session.authority_version();
-  out.tick = session.session_tick();
-  out.time = session.time();
+  out.connected_seats = session.participants().connected(now);
+  out.recovering = session.start_condition().recovering();
+  out.stops = out.stop_latch.stops();
+  out.authority_version = session.authority().version();
+  out.tick = session.clock().session_tick();
+  out.time = session.clock().time();
   out.masters = static_cast<std::uint8_t>(session.scene().masters());
   out.tools = static_cast<std::uint8_t>(session.scene().tools.size());
   for (std::size_t j = 0; j < out.tools; ++j) out.alpha[j] = session.tool(j).transfer.scheduled();

@@ -1,5 +1,6 @@
 #include "server/session/shared_control.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -53,6 +54,17 @@ SharedControl::SharedControl(const SceneSpec& scene, std::vector<std::unique_ptr
 void SharedControl::rest_tool(std::size_t j, const AxisArray& x) noexcept {
   tools_[j].rest_at(x);
   hub_.set_tool(j, tools_[j].port());
+}
+
+bool SharedControl::touching(Time now, std::size_t j) const noexcept {
+  constexpr double kTouchN = 0.05;  // [N] noise level of a force sensor
+  if (const hal::SteppedDevice* const slave = tools_[j].slave())
+    return slave->state().penetration > 0 || slave->state().f_env.squaredNorm() > kTouchN * kTouchN;
+  if (!scene_->tools[j].remote) return tools_[j].body() != nullptr && tools_[j].body()->penetration() > 0;
+  const SeatEndpoint& seat = seats_[scene_->tools[j].seat];
+  if (!seat.alive(now)) return false;
+  const wire::Telemetry& heard = seat.last_state().telemetry;
+  return heard.penetration_m > 0 || std::ranges::any_of(heard.f_env, [](double f) { return std::abs(f) > kTouchN; });
 }
 
 bool SharedControl::slave_present(std::size_t j) const noexcept {

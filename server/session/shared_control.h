@@ -28,6 +28,8 @@ class SharedControl {
   [[nodiscard]] std::span<Tool> tools() noexcept { return tools_; }
   [[nodiscard]] std::span<const Tool> tools() const noexcept { return tools_; }
   [[nodiscard]] const control::EscHub& hub() const noexcept { return hub_; }
+  /// Whether the slave of a tool is in contact, as far as its device reports contact.
+  [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept TANDEM_REALTIME;
   /// Places the virtual mass of a tool at `x`, at rest.
   void rest_tool(std::size_t tool, const AxisArray& x) noexcept;
 

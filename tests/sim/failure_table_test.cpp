@@ -76,13 +76,13 @@ TEST(FailureTable, ChangesNoForceForALostInstructorAndWarnsAfterTenSeconds) {
   life.until(5s);
   life.forget_steps();
   const hal::Vec3 force = life.before[kTrainee];
-  const std::uint32_t version = life.simulation->session().authority_version();
+  const std::uint32_t version = life.simulation->session().authority().version();
   life.until(14s);
   EXPECT_EQ(life.audit[What::kInstructorAway], 0);
   life.until(16s);
   EXPECT_EQ(life.audit[What::kInstructorAway], 1);
   EXPECT_EQ(life.alpha(kTrainee), 1);
-  EXPECT_EQ(life.simulation->session().authority_version(), version);
+  EXPECT_EQ(life.simulation->session().authority().version(), version);
   EXPECT_LE((life.before[kTrainee] - force).norm(), 0.1);
   EXPECT_LE(life.steps[kTrainee], 0.05);
   life.expect_nothing_broken();
@@ -94,11 +94,11 @@ TEST(FailureTable, AcceptsExactlyOneOfTwoConcurrentInstructorChanges) {
   scene.seats[1].role = Role::kInstructor;
   SessionDriver life{with(scene)};
   life.until(4s);
-  const std::uint32_t version = life.simulation->session().authority_version();
+  const std::uint32_t version = life.simulation->session().authority().version();
   ASSERT_TRUE(life.simulation->seat(0)->request_authority(0, std::array{1.0, 0.0}));
   ASSERT_TRUE(life.simulation->seat(1)->request_authority(0, std::array{0.0, 1.0}));
   life.until(6s);
-  EXPECT_EQ(life.simulation->session().authority_version(), version + 1);
+  EXPECT_EQ(life.simulation->session().authority().version(), version + 1);
   EXPECT_EQ(life.audit[What::kAuthority], 1);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->seat(i)->force().authority_version, version + 1);
   EXPECT_TRUE(life.alpha(0) == 1 || life.alpha(1) == 1);
@@ -249,7 +249,7 @@ TEST(FailureTable, ATraineePausesAndTheInstructorResumes) {
   ASSERT_TRUE(life.simulation->seat(kTrainee)->request_stop_all());
   life.until(7s);
   EXPECT_EQ(life.state(), wire::SessionState::kPaused);
-  EXPECT_EQ(life.simulation->session().stops(), 1u) << "repeated, and one stop";
+  EXPECT_EQ(life.simulation->session().stop_latch().stops(), 1u) << "repeated, and one stop";
   life.simulation->seat(kTrainer)->request_resume();
   life.until(8s);
   EXPECT_NE(life.state(), wire::SessionState::kPaused);
@@ -265,7 +265,7 @@ TEST(FailureTable, QuarantinesAHostileClientWithoutDisturbingOtherHands) {
     SessionDriver life{with(contact(trainer), {{Fault::Kind::kHostile, "trainee", 5s, 1s}})};
     life.until(5s);
     const hal::Vec3 force = life.before[kTrainer];
-    const std::uint32_t version = life.simulation->session().authority_version();
+    const std::uint32_t version = life.simulation->session().authority().version();
     life.forget_steps();
     // One of six kinds of attack is drawn each tick; a request for authority is not a malformed message.
     EXPECT_LE(life.time_to(
@@ -275,7 +275,7 @@ TEST(FailureTable, QuarantinesAHostileClientWithoutDisturbingOtherHands) {
                   100ms),
               5ms);
     life.until(5990ms);
-    EXPECT_EQ(life.simulation->session().authority_version(), version);
+    EXPECT_EQ(life.simulation->session().authority().version(), version);
     EXPECT_LE(life.steps[kTrainer], kFelt);
     EXPECT_LE((life.before[kTrainer] - force).norm(), trainer == 1 ? kFelt : 3.3)
         << "a hand without authority is not felt";

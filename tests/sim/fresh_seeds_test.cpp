@@ -159,7 +159,7 @@ TEST(FreshSeeds, ASessionThatHasJustBegunIsInTheCheckpoint) {
     ASSERT_EQ(life.state(), wire::SessionState::kRunning);
     EXPECT_TRUE(life.simulation->checkpoint().begun);
     life.until(335ms);
-    EXPECT_TRUE(life.simulation->session().recovering());
+    EXPECT_TRUE(life.simulation->session().start_condition().recovering());
     life.until(4s);
     EXPECT_EQ(life.state(), wire::SessionState::kRunning);
     life.expect_nothing_broken();

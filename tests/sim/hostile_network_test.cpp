@@ -36,7 +36,7 @@ SceneSpec in_contact() {
   netsim::Simulation& rehearsal = **made;
   while (rehearsal.now() < Time{} + kAttack && rehearsal.step()) {
   }
-  scene.seats[kTrainer].hand.until = rehearsal.session().time();
+  scene.seats[kTrainer].hand.until = rehearsal.session().clock().time();
   return scene;
 }
 

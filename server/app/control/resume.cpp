@@ -5,8 +5,8 @@
 namespace tandem::server {
 namespace {
 
-/// As long as the session reserves the seat of a silent owner (Session::may_admit): without a server the owner could
-/// not send.
+/// As long as the session reserves the seat of a silent owner (Participants::may_admit): without a server the owner
+/// could not send.
 constexpr Duration kReservedAfterRestart = std::chrono::seconds(2);
 
 }  // namespace

@@ -75,7 +75,7 @@ SessionStatus LiveSession::status() const {
 void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
   session_.set_load_state(machine.load_state);
   session_.on_tick(now, missed);
-  while (const auto event = session_.poll_audit()) {
+  while (const auto event = session_.audit().poll()) {
     audit_.push(*event);
     checkpoint_due_ = checkpoint_due_ || triggers_checkpoint(event->what);
   }
@@ -146,13 +146,13 @@ void LiveSession::update_seat_status(std::size_t i, Time now) noexcept {
 
 void LiveSession::publish(Time now, const MachineStatus& machine) noexcept {
   status_.state = session_.state();
-  status_.time = session_.time();
+  status_.time = session_.clock().time();
   status_.stop = session_.stop_latch();
-  status_.waiting = !session_.begun() || session_.recovering();
+  status_.waiting = !session_.begun() || session_.start_condition().recovering();
   status_.machine = machine;
   status_.unmatched_datagrams = session_.unmatched_datagrams();
   status_.violations = violations_.passed() ? 0 : 1;
-  status_.audit_dropped = session_.audit_dropped() + audit_.dropped();
+  status_.audit_dropped = session_.audit().dropped() + audit_.dropped();
   // Flags are updated for all seats at once, so that one status never mixes old and new.
   for (std::size_t i = 0; i < scene_->seats.size(); ++i) {
     SeatStatus& seat = status_.seats[i];

@@ -173,7 +173,7 @@ void Shard::execute_requests(Time now, ShardRequest& order) noexcept {
   if (place != hosted) return;
   switch (order.what) {
     case ShardRequest::What::kQuerySeat:
-      order.result = hosted->session().may_admit(now, order.seat, order.same_owner);
+      order.result = hosted->session().participants().may_admit(now, order.seat, order.same_owner);
       if (order.result == JoinResult::kAccepted) {
         const SeatEndpoint& seat = hosted->session().seat(order.seat);
         order.silence = seat.taken() ? seat.silence(now) : Duration::zero();
@@ -191,11 +191,12 @@ void Shard::execute_requests(Time now, ShardRequest& order) noexcept {
       order.result = JoinResult::kAccepted;
       break;
     case ShardRequest::What::kQueryLinkTest:
-      order.place = hosted->session().link_test_places_free(now);
+      order.place = hosted->session().link_test_peers().places_free(now);
       order.result = JoinResult::kAccepted;
       break;
     case ShardRequest::What::kRemoveLinkTest:
-      static_cast<void>(hosted->session().remove_link_test_peer(order.place, order.cid, wire::CloseReason::kRevoked));
+      static_cast<void>(
+          hosted->session().link_test_peers().remove(order.place, order.cid, wire::CloseReason::kRevoked));
       break;
     case ShardRequest::What::kEndSession:
       hosted->session().end(wire::CloseReason::kServerStops);

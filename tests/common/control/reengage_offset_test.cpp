@@ -34,7 +34,7 @@ TEST(ReengageOffset, EndsAtZero) {
   EXPECT_EQ(offset[0], 0);
   EXPECT_EQ(offset.decay(0, 1), 0);
   offset.set(0, 0.01);
-  EXPECT_EQ(offset.last_step()[0], 0) << "what is set is no step";
+  EXPECT_EQ(offset.last_step()[0], 0) << "a set offset is no step";
 }
 
 TEST(ReengageOffset, ScalesItsSpeedToTheAxis) {

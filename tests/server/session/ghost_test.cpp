@@ -6,7 +6,9 @@
 
 #include "common/control/leading_hand.h"
 #include "server/report/trace_csv.h"
+#include "server/session/leading_hands.h"
 #include "tests/server/session/session_fixture.h"
+#include "tests/server/session/session_parts.h"
 
 namespace tandem::server {
 namespace {
@@ -75,6 +77,45 @@ TEST(LeadingHand, StaysWithinTheLimitsOfForceMessages) {
   for (int i = 0; i < 1000; ++i) hand.step(true, heard, 3, 10);
   EXPECT_LE(static_cast<float>(hand.shown_x(0, 9.99)), wire::kPositionMaxM);
   EXPECT_LE(std::abs(static_cast<float>(hand.shown_v(0))), wire::kVelocityMax);
+}
+
+/// Authority of three masters over one tool, without clients.
+TEST(LeadingHands, NamesThePresentHandWithTheMostAuthority) {
+  for (const LawKind law : {LawKind::kReplica, LawKind::kSetPosition}) {
+    SessionParts parts("eight_seats");
+    parts.scene.channel.law = law;
+    LeadingHands hands(parts.scene, parts.clock.dt());
+    const auto leaders = [&](std::initializer_list<double> alpha, std::initializer_list<std::size_t> present) {
+      parts.present = {};
+      for (const std::size_t i : present) parts.present[i] = true;
+      control::MasterArray wanted{};
+      std::ranges::copy(alpha, wanted.begin());
+      EXPECT_TRUE(parts.tools[0].authority.request(wanted));
+      for (int n = 0; n < 10'000; ++n) parts.step_authority();
+      hands.step(0, parts.present, parts.seats, parts.tools);
+      return std::array{hands.ghost(0).leader, hands.ghost(1).leader, hands.ghost(2).leader};
+    };
+    using Leaders = std::array<std::uint32_t, 3>;
+    EXPECT_EQ(leaders({1, 0, 0}, {0, 1, 2}), (Leaders{0, 1, 1})) << "seat 0 leads; numbers count from 1";
+    EXPECT_EQ(leaders({0.2, 0.5, 0.3}, {0, 1, 2}), (Leaders{2, 0, 2}));
+    EXPECT_EQ(leaders({0, 0.5, 0.5}, {0, 1, 2}), (Leaders{2, 0, 0})) << "among equals the first; none leads an equal";
+    EXPECT_EQ(leaders({1, 0, 0}, {1, 2}), (Leaders{0, 0, 0})) << "an absent hand leads no seat";
+  }
+}
+
+TEST(LeadingHands, AreUpdatedEverySixteenthTickIfTheyAreOnlyRecorded) {
+  SessionParts parts("eight_seats");
+  parts.scene.channel.law = LawKind::kSetPosition;
+  LeadingHands hands(parts.scene, parts.clock.dt());
+  parts.present[0] = true;
+  ASSERT_TRUE(parts.tools[0].authority.request({1}));
+  for (int n = 0; n < 10'000; ++n) parts.step_authority();
+  for (std::uint32_t tick = 1; tick < 16; ++tick) {
+    hands.step(tick, parts.present, parts.seats, parts.tools);
+    ASSERT_EQ(hands.ghost(1).leader, 0u) << tick;
+  }
+  hands.step(16, parts.present, parts.seats, parts.tools);
+  EXPECT_EQ(hands.ghost(1).leader, 1u);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ SessionCommand removing(std::size_t seat, wire::CloseReason why = wire::CloseRea
 
 std::vector<AuditEvent> events(Session& session) {
   std::vector<AuditEvent> out;
-  while (const auto e = session.poll_audit()) out.push_back(*e);
+  while (const auto e = session.audit().poll()) out.push_back(*e);
   return out;
 }
 
@@ -97,7 +97,7 @@ TEST(Commands, PauseForEveryPermittedRoleWithoutWeakeningAStop) {
   EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).stop_latch.level(), StopLatch::Level::kStopped);
   EXPECT_EQ(order(rig, What::kPause, AccessRole::kTrainee).stop_latch.level(), StopLatch::Level::kStopped);
   EXPECT_EQ(order(rig, What::kPause, AccessRole::kObserver).result, Result::kForbidden);
-  EXPECT_EQ(rig.session->stops(), 3U);
+  EXPECT_EQ(rig.session->stop_latch().stops(), 3U);
 }
 
 // With real clients: the trainee pauses from its seat. An evaluator cannot end the pause, the trainee can.
@@ -132,7 +132,7 @@ TEST(Commands, AcceptOneOfTwoChangesOfAVersionAndReturnTheCurrentValue) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SessionFixture rig("free_motion", seed);
     rig.run(1s);
-    const std::uint32_t version = rig.session->authority_version();
+    const std::uint32_t version = rig.session->authority().version();
     const double a = static_cast<double>(seed) / 10;
     // The order of the two is arbitrary: the seed selects it.
     const SessionCommand first = weights(AccessRole::kInstructor, version, {a, 1 - a}),
@@ -155,7 +155,7 @@ TEST(Commands, AcceptOneOfTwoChangesOfAVersionAndReturnTheCurrentValue) {
 TEST(Commands, RejectInvalidAuthorityWithoutEffect) {
   SessionFixture rig("free_motion");
   rig.run(1s);
-  const std::uint32_t version = rig.session->authority_version();
+  const std::uint32_t version = rig.session->authority().version();
   const auto before = rig.session->tool(0).authority.requested();
   const auto result = [&](const SessionCommand& c) { return execute_command(*rig.session, rig.now, c).result; };
   EXPECT_EQ(result(weights(AccessRole::kInstructor, version, {1, 0}, 1)), Result::kInvalid) << "no such tool";
@@ -166,7 +166,7 @@ TEST(Commands, RejectInvalidAuthorityWithoutEffect) {
     EXPECT_EQ(result(weights(who, version, {0.5, 0.5})), Result::kForbidden) << to_text(who);
   EXPECT_EQ(result(weights(AccessRole::kInstructor, version + 1, {0.5, 0.5})), Result::kOutdated)
       << "nor one that never was";
-  EXPECT_EQ(rig.session->authority_version(), version);
+  EXPECT_EQ(rig.session->authority().version(), version);
   EXPECT_EQ(rig.session->tool(0).authority.requested(), before);
 }
 
@@ -174,10 +174,10 @@ TEST(Commands, LetATraineeOnlyReturnAuthority) {
   SessionFixture rig("free_motion");
   rig.run(1s);
   ASSERT_EQ(execute_command(*rig.session, rig.now,
-                            weights(AccessRole::kInstructor, rig.session->authority_version(), {0.4, 0.6}))
+                            weights(AccessRole::kInstructor, rig.session->authority().version(), {0.4, 0.6}))
                 .result,
             Result::kDone);
-  SessionCommand c = weights(AccessRole::kTrainee, rig.session->authority_version(), {0.2, 0.8});
+  SessionCommand c = weights(AccessRole::kTrainee, rig.session->authority().version(), {0.2, 0.8});
   c.seat = kTrainee;
   c.cid = rig.session->seat(kTrainee).link()->own_cid();
   EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kForbidden);
@@ -201,7 +201,7 @@ TEST(Commands, RejectASenderThatNoLongerHasItsSeat) {
   c.seat = kTrainer;
   ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainer)).result, Result::kDone);
   EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost) << "from the moment of the removal on";
-  EXPECT_EQ(rig.session->stops(), 0U);
+  EXPECT_EQ(rig.session->stop_latch().stops(), 0U);
 }
 
 // One participant is removed: the hand is released, the other hand on the same tool feels no jump, and the client
@@ -211,17 +211,18 @@ TEST(Commands, RemoveAParticipantWithoutAForceStepAndReportTheReason) {
     SessionFixture rig("free_motion");
     rig.run(2s);
     ASSERT_EQ(execute_command(*rig.session, rig.now,
-                              weights(AccessRole::kInstructor, rig.session->authority_version(), {0.5, 0.5}))
+                              weights(AccessRole::kInstructor, rig.session->authority().version(), {0.5, 0.5}))
                   .result,
               Result::kDone);
     rig.run(2s);
     ASSERT_TRUE(rig.seats[kTrainee].core->gate().active());
     static_cast<void>(events(*rig.session));
     ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee, why)).result, Result::kDone);
-    EXPECT_TRUE(rig.session->closing_out(kTrainee));
+    EXPECT_TRUE(rig.session->participants().removing(kTrainee));
     EXPECT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee, why)).result, Result::kNothingToDo)
         << "the removal is in progress";
-    EXPECT_EQ(rig.session->may_admit(rig.now, kTrainee, false), JoinResult::kSeatTaken) << "until the hand is released";
+    EXPECT_EQ(rig.session->participants().may_admit(rig.now, kTrainee, false), JoinResult::kSeatTaken)
+        << "until the hand is released";
     const int told_before = rig.forces[2];
     double step = 0, last = rig.seats[kTrainer].device->state().f_out.norm();
     std::optional<int> closed_after, let_go_after;
@@ -251,7 +252,7 @@ TEST(Commands, RemoveAParticipantWithoutAForceStepAndReportTheReason) {
     EXPECT_EQ(std::ranges::count(noted, AuditEvent::What::kRemoved, &AuditEvent::what), 1);
     EXPECT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee)).result, Result::kNothingToDo)
         << "the seat is free";
-    EXPECT_EQ(rig.session->may_admit(rig.now, kTrainee, false), JoinResult::kAccepted);
+    EXPECT_EQ(rig.session->participants().may_admit(rig.now, kTrainee, false), JoinResult::kAccepted);
   }
 }
 
@@ -261,12 +262,12 @@ TEST(Commands, IgnoreRequestsOfASeatThatIsBeingRemoved) {
   EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).result, Result::kDone);
   rig.run(20ms);
   ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainer)).result, Result::kDone);
-  const std::uint32_t version = rig.session->authority_version();
+  const std::uint32_t version = rig.session->authority().version();
   const std::array alpha{0.5, 0.5};
   rig.seats[kTrainer].core->request_authority(0, alpha);
   rig.seats[kTrainer].core->request_resume();
   rig.run(100ms);
-  EXPECT_EQ(rig.session->authority_version(), version);
+  EXPECT_EQ(rig.session->authority().version(), version);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
 }
 
@@ -276,7 +277,7 @@ TEST(Commands, DoNotRemoveTheNextOwnerOfASeat) {
   SessionCommand c = removing(kTrainee, wire::CloseReason::kRevoked);
   c.target_cid = rig.session->seat(kTrainee).link()->own_cid() ^ 0x20000U;
   EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kNothingToDo);
-  EXPECT_FALSE(rig.session->closing_out(kTrainee));
+  EXPECT_FALSE(rig.session->participants().removing(kTrainee));
   c.target_seat = 9;
   EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kInvalid);
 }
@@ -299,7 +300,7 @@ TEST(Commands, ReturnTheStatusWithoutChangingTheSession) {
 TEST(Commands, TakeNoHeapBetweenTicks) {
   SessionFixture rig("free_motion");
   rig.run(1s);
-  const std::uint32_t version = rig.session->authority_version();
+  const std::uint32_t version = rig.session->authority().version();
   const tandem::test::AllocGuard guard;
   static_cast<void>(order(rig, What::kStop, AccessRole::kOperator));
   static_cast<void>(order(rig, What::kResume, AccessRole::kOperator, 1));

@@ -108,7 +108,7 @@ TEST(ServerTime, ExcludesTheOutageOfAResumedSession) {
   rig.run(2s);
   for (const FixtureSeat& s : rig.seats) {
     ASSERT_TRUE(s.core->server_time(rig.now));
-    EXPECT_NEAR(*s.core->server_time(rig.now), rig.session->time(), 0.003);
+    EXPECT_NEAR(*s.core->server_time(rig.now), rig.session->clock().time(), 0.003);
     EXPECT_GT(*s.core->session_time(rig.now), *s.core->server_time(rig.now) + 4.9);
   }
 }
