@@ -380,7 +380,7 @@ void InvariantChecker::check_felt_authority(std::size_t j, const server::Session
     if (scene_->channel.law != LawKind::kReplica && !serves_only(j, i, session)) return;
     const control::EndState& spring = session.seat(i).end(j).state();
     for (std::size_t a = 0; a < scene_->dof; ++a)
-      change[a] += by * spring.k[a] * (spring.ref[a] - (tool.x(a) - tool.moved()[a]));
+      change[a] += by * spring.k[a] * (spring.ref[a] - (tool.x(a) - tool.port().moved[a]));
   }
   const double ms = 1e3 / scene_->tick_hz;
   if (tip_norm(change, scale_, scene_->dof) > kFeltMax * ms)

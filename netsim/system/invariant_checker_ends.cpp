@@ -66,7 +66,7 @@ AxisArray InvariantChecker::coupled_position(std::size_t i, std::size_t tool,
   AxisArray x = session.tool(tool).position();
   if (scene_->seats[i].kind == SeatKind::kSlave)
     for (std::size_t a = 0; a < scene_->dof; ++a)
-      x[a] = session.tool(tool).slave_goal(a, session.seat(i).end().state().k[a]);
+      x[a] = session.tool(tool).port().slave_goal(a, session.seat(i).end().state().k[a]);
   return x;
 }
 

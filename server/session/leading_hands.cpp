@@ -7,13 +7,25 @@ namespace tandem::server {
 namespace {
 constexpr double kLeadingAuthorityMin = 1e-9;  // authority above which a hand leads
 constexpr std::uint32_t kRecordInterval = 16;  // ticks between two steps, for laws that only record the leaders
+
+/// @param number  of the master, from 1
+/// @param tip     received tip position [m]
+wire::Ghost ghost_of(const control::LeadingHand& hand, std::uint32_t number,
+                     const std::array<double, 3>& tip) noexcept {
+  wire::Ghost out{.leader = number};
+  for (std::size_t a = 0; a < 3; ++a) {
+    out.x[a] = static_cast<float>(hand.shown_x(a, tip[a]));
+    out.v[a] = static_cast<float>(hand.shown_v(a));
+  }
+  return out;
+}
 }  // namespace
 
 LeadingHands::LeadingHands(const SceneSpec& scene, double dt) noexcept
     : predicts_(scene.channel.law == LawKind::kReplica),
       masters_(scene.masters()),
       axes_(scene.port == PortSpace::kTip ? scene.dof : 0) {
-  hands_.fill(LeadingHand(dt));
+  hands_.fill(control::LeadingHand(dt));
 }
 
 void LeadingHands::step(std::uint32_t tick, const std::array<bool, kSeatsMax>& present,
@@ -30,8 +42,8 @@ void LeadingHands::step(std::uint32_t tick, const std::array<bool, kSeatsMax>& p
   }
   for (std::size_t i = 0; i < masters_; ++i) {
     const std::size_t leader = leader_of(i, tools[seats[i].coupled_tools().front()].authority);
-    ghosts_[i] = leader < masters_ ? hands_[leader].ghost(static_cast<std::uint32_t>(leader + 1),
-                                                          seats[leader].last_state().telemetry.x)
+    ghosts_[i] = leader < masters_ ? ghost_of(hands_[leader], static_cast<std::uint32_t>(leader + 1),
+                                              seats[leader].last_state().telemetry.x)
                                    : wire::Ghost{};
   }
 }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "common/control/leading_hand.h"
 #include "proto/spec/scene_spec.h"
-#include "server/session/leading_hand.h"
 #include "server/session/seat_endpoint.h"
 #include "server/session/tool.h"
 
@@ -27,14 +27,14 @@ class LeadingHands {
   /// The hand that leads this seat, as of the last step; its `leader` is 0 if there is none. @pre a master's seat
   [[nodiscard]] const wire::Ghost& ghost(std::size_t master) const noexcept { return ghosts_[master]; }
   /// A master's hand, as of the last step.
-  [[nodiscard]] const LeadingHand& operator[](std::size_t master) const noexcept { return hands_[master]; }
+  [[nodiscard]] const control::LeadingHand& operator[](std::size_t master) const noexcept { return hands_[master]; }
 
  private:
   [[nodiscard]] std::size_t leader_of(std::size_t seat, const control::ToolAuthority& row) const noexcept;
 
   bool predicts_;  ///< law `replica`
   std::size_t masters_, axes_;
-  std::array<LeadingHand, kMastersMax> hands_{};
+  std::array<control::LeadingHand, kMastersMax> hands_{};
   std::array<wire::Ghost, kMastersMax> ghosts_{};
 };
 

@@ -18,36 +18,25 @@ std::vector<SeatEndpoint> make_seats(const SceneSpec& scene, const AxisArray& sc
   return seats;
 }
 
-std::vector<Tool> make_tools(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves) {
-  std::vector<Tool> tools;
-  tools.reserve(scene.tools.size());
-  for (std::size_t j = 0; j < scene.tools.size(); ++j) tools.emplace_back(scene, j, std::move(slaves[j]));
-  return tools;
-}
-
 }  // namespace
 
 Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves,
                  const AxisArray& scale)
     : scene_(&scene),
-      dt_(1.0 / scene.tick_hz),
       masters_(scene.masters()),
-      replica_(scene.channel.law == LawKind::kReplica),
       seats_(make_seats(scene, scale)),
-      tools_(make_tools(scene, std::move(slaves))),
       seat_catalogue_(scene, scale),
-      link_test_peers_(scene.dof, scene.port, from_seconds(dt_)),
+      link_test_peers_(scene.dof, scene.port, from_seconds(1.0 / scene.tick_hz)),
       clock_(scene.tick_hz),
       audit_(clock_),
       participants_(seats_, clock_, audit_),
+      control_(scene, std::move(slaves), scale, seats_, participants_.present()),
       start_(scene, seats_, participants_.present(), clock_),
       stop_(scene, start_, audit_),
-      authority_(scene, clock_, tools_, seats_, participants_.present(), audit_),
-      leading_hands_(scene, dt_),
+      authority_(scene, clock_, control_.tools(), seats_, participants_.present(), audit_),
+      leading_hands_(scene, clock_.dt()),
       send_(scene, seats_),
-      scene_hash_(scene_hash(scene)) {
-  for (std::size_t a = 0; a < kAxesMax; ++a) root_scale_[a] = std::sqrt(scale[a]);
-}
+      scene_hash_(scene_hash(scene)) {}
 
 Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves,
                  const AxisArray& scale, const Checkpoint& from)
@@ -59,15 +48,17 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
   stop_.restore(from);
   for (std::size_t i = 0; i < seats_.size(); ++i) seats_[i].set_resume(from.seats[i].resume, from.seats[i].force_scale);
   // A tool with its own slave starts at the slave's position, so that the spring between them starts without force.
-  for (std::size_t j = 0; j < tools_.size(); ++j)
-    if (tools_[j].slave() == nullptr) tools_[j].rest_at(from.tools[j].x);
+  for (std::size_t j = 0; j < control_.tools().size(); ++j)
+    if (control_.tools()[j].slave() == nullptr) control_.rest_tool(j, from.tools[j].x);
   if (start_.recovering())
     audit_.emit(Time{}, AuditEvent::What::kRestored, AuditEvent::kNoSeat, static_cast<std::uint32_t>(epoch_));
 }
 
 bool Session::set_contact_source(std::size_t tool, std::unique_ptr<ContactSource> source) {
-  if (!replica_ || tool >= tools_.size() || tools_[tool].body() == nullptr) return false;
-  tools_[tool].set_contact_source(std::move(source));
+  if (scene_->channel.law != LawKind::kReplica || tool >= control_.tools().size() ||
+      control_.tools()[tool].body() == nullptr)
+    return false;
+  control_.tools()[tool].set_contact_source(std::move(source));
   return true;
 }
 
@@ -82,14 +73,14 @@ Checkpoint Session::checkpoint() const noexcept {
   c.begun = begun();
   c.seats_n = static_cast<std::uint8_t>(seats_.size());
   c.masters_n = static_cast<std::uint8_t>(masters_);
-  c.tools_n = static_cast<std::uint8_t>(tools_.size());
+  c.tools_n = static_cast<std::uint8_t>(control_.tools().size());
   c.dof = static_cast<std::uint8_t>(scene_->dof);
   for (std::size_t i = 0; i < seats_.size(); ++i)
     c.seats[i] = {seats_[i].taken() || start_.awaited(i), seats_[i].resume(), seats_[i].force_scale()};
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
-    c.tools[j].alpha = tools_[j].transfer.scheduled();
-    c.tools[j].x = tools_[j].position();
-    if (const hal::SteppedDevice* slave = tools_[j].slave()) c.tools[j].slave = slave->state().q;
+  for (std::size_t j = 0; j < control_.tools().size(); ++j) {
+    c.tools[j].alpha = control_.tools()[j].transfer.scheduled();
+    c.tools[j].x = control_.tools()[j].position();
+    if (const hal::SteppedDevice* slave = control_.tools()[j].slave()) c.tools[j].slave = slave->state().q;
   }
   return c;
 }
@@ -159,18 +150,17 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
 }
 
 void Session::run_one_tick(Time now) noexcept {
-  for (Tool& tool : tools_) tool.advance_slave(elapsed_any_ ? clock_.tick_length() : Duration{0});
+  for (Tool& tool : control_.tools()) tool.advance_slave(elapsed_any_ ? clock_.tick_length() : Duration{0});
   elapsed_any_ = true;
   step_participants(now);
   step_clock(now);
   if (over()) return;
   authority_.step(now, clock_stopped());
-  step_authority();
-  update_couplings();
-  move_references(now);
-  step_tools();
-  leading_hands_.step(clock_.tick(), present_, seats_, tools_);
-  step_targets();
+  control_.step_authority(disengages_all());
+  control_.move_references(now);
+  control_.step_tools(clock_.time());
+  leading_hands_.step(clock_.tick(), participants_.present(), seats_, control_.tools());
+  control_.step_targets(clock_.tick(), leading_hands_);
   record_tick(*this, record_);
 }
 
@@ -183,7 +173,7 @@ void Session::step_participants(Time now) noexcept {
   }
   participants_.step(now);
   std::uint64_t not_finite = 0;
-  for (const Tool& tool : tools_) not_finite += tool.not_finite();
+  for (const Tool& tool : control_.tools()) not_finite += tool.not_finite();
   if (faults_.faulty(now, not_finite)) stop_.stop_for_fault(now);
 }
 
@@ -196,7 +186,7 @@ void Session::step_clock(Time now) noexcept {
       start_.recovering() ? stop_.resume_after_restart(now, AuditEvent::kNoSeat, 0) : start_.begin(now);
   } else {
     clock_.advance(clock_stopped());
-    held_ = std::ranges::all_of(tools_, [](const Tool& t) { return t.authority.held(); });
+    held_ = std::ranges::all_of(control_.tools(), [](const Tool& t) { return t.authority.held(); });
   }
   if (clock_.begun() && clock_.time() >= scene_->duration) end(wire::CloseReason::kDone);
 }
@@ -211,18 +201,6 @@ wire::SessionState Session::state() const noexcept {
                                   : wire::SessionState::kRunning;
 }
 
-/// Whether the slave of a tool is in contact, as far as its device reports contact.
-bool Session::touching(Time now, std::size_t j) const noexcept {
-  constexpr double kTouchN = 0.05;  // [N] noise level of a force sensor
-  if (const hal::SteppedDevice* const slave = tools_[j].slave())
-    return slave->state().penetration > 0 || slave->state().f_env.squaredNorm() > kTouchN * kTouchN;
-  if (const control::VirtualTool* const body = tools_[j].body(); body != nullptr && !scene_->tools[j].remote)
-    return body->penetration() > 0;
-  if (!scene_->tools[j].remote || !seats_[scene_->tools[j].seat].alive(now)) return false;
-  const wire::Telemetry& heard = seats_[scene_->tools[j].seat].last_state().telemetry;
-  return heard.penetration_m > 0 || std::ranges::any_of(heard.f_env, [](double f) { return std::abs(f) > kTouchN; });
-}
-
 void Session::fill_force_messages(Time now) noexcept {
   std::array<bool, kSeatsMax> ready{};
   std::uint32_t missing_now = 0;
@@ -231,11 +209,11 @@ void Session::fill_force_messages(Time now) noexcept {
     missing_now += start_.required(i) && !ready[i] ? 1 : 0;
   }
   std::array<bool, kToolsMax> entitled{}, touches{};
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
+  for (std::size_t j = 0; j < control_.tools().size(); ++j) {
     const bool slave_ready = !scene_->tools[j].remote || ready[scene_->tools[j].seat];
     for (std::size_t i = 0; i < masters_; ++i)
-      entitled[j] |= slave_ready && tools_[j].authority.requested()[i] > 0 && ready[i];
-    touches[j] = touching(now, j);
+      entitled[j] |= slave_ready && control_.tools()[j].authority.requested()[i] > 0 && ready[i];
+    touches[j] = control_.touching(now, j);
   }
   const bool engage = start_.may_engage() && !disengages_all(), timeline_waits = clock_stopped();
   const wire::SessionState state_now = state();
@@ -246,20 +224,15 @@ void Session::fill_force_messages(Time now) noexcept {
     m.engage = engage && seats_[i].receives_force() && !seats_[i].misbehaviour().quarantined(now) &&
                !participants_.removing(i);
     m.touching = false;
-    for (std::size_t j = 0; j < tools_.size(); ++j) {
-      const Coupling& tie = couplings_[i][j];
-      m.engage = m.engage && (tie.share == 0 || entitled[j]);
-      m.touching = m.touching || (tie.share > 0 && touches[j]);
+    for (std::size_t j = 0; j < control_.tools().size(); ++j) {
+      const double share = control_.hub().coupling(i, j).share;
+      m.engage = m.engage && (share == 0 || entitled[j]);
+      m.touching = m.touching || (share > 0 && touches[j]);
     }
     m.session_tick = clock_.session_tick();
     m.authority_version = authority_.version();
     m.missing = missing_now;
     m.stops = stop_.latch().stops();
-    if (uses_other_hands(i)) {
-      fill_coupling_messages(i);
-    } else {
-      fill_tool_message(i);
-    }
     authority_.fill_notice(i, timeline_waits, m);
   }
 }

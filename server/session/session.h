@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "common/base/time.h"
-#include "common/control/esc_hub.h"
 #include "proto/spec/scene_spec.h"
 #include "proto/wire/wire_codec.h"
 #include "server/policy/load_shedder.h"
@@ -24,9 +23,9 @@
 #include "server/session/seat_endpoint.h"
 #include "server/session/send_schedule.h"
 #include "server/session/session_clock.h"
+#include "server/session/shared_control.h"
 #include "server/session/start_condition.h"
 #include "server/session/stop_control.h"
-#include "server/session/tool.h"
 
 namespace tandem::server {
 
@@ -116,7 +115,8 @@ class Session {
   [[nodiscard]] const TickRecord& record() const noexcept { return record_; }
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
   [[nodiscard]] const SeatEndpoint& seat(std::size_t i) const noexcept { return seats_[i]; }
-  [[nodiscard]] const Tool& tool(std::size_t j) const noexcept { return tools_[j]; }
+  [[nodiscard]] const Tool& tool(std::size_t j) const noexcept { return control_.tools()[j]; }
+  [[nodiscard]] const control::EscHub& hub() const noexcept { return control_.hub(); }
   /// Datagrams without a valid header, or for no current connection.
   [[nodiscard]] std::uint64_t unmatched_datagrams() const noexcept { return unmatched_datagrams_; }
 
@@ -127,46 +127,22 @@ class Session {
   void step_participants(Time now) noexcept TANDEM_REALTIME;
   void step_clock(Time now) noexcept TANDEM_REALTIME;
   void fill_force_messages(Time now) noexcept TANDEM_REALTIME;
-  [[nodiscard]] bool touching(Time now, std::size_t tool) const noexcept TANDEM_REALTIME;
   [[nodiscard]] bool ending() const noexcept { return participants_.closing().session.begun(); }
   /// No seat may be engaged now: the session is ending, stopped, paused or overloaded.
   [[nodiscard]] bool disengages_all() const noexcept {
     return ending() || stop_.latch().latched() || load_state_.overloaded;
   }
 
-  [[nodiscard]] bool slave_present(std::size_t tool) const noexcept;
-  void step_authority() noexcept TANDEM_REALTIME;
-  void update_couplings() noexcept TANDEM_REALTIME;
-  void move_references(Time now) noexcept TANDEM_REALTIME;
-  void move_predictions(Time now, std::size_t seat) noexcept TANDEM_REALTIME;
-  void step_reengage_offset(std::size_t seat, bool engaged) noexcept TANDEM_REALTIME;
-  void settle_energy(std::size_t seat) noexcept TANDEM_REALTIME;
-  void step_tools() noexcept TANDEM_REALTIME;
-  void update_contacts(std::size_t tool) noexcept TANDEM_REALTIME;
-  [[nodiscard]] double slave_spring_share(std::size_t seat, std::size_t tool) const noexcept TANDEM_REALTIME;
-  void step_targets() noexcept TANDEM_REALTIME;
-  void update_targets(std::size_t seat) noexcept TANDEM_REALTIME;
-  [[nodiscard]] bool uses_other_hands(std::size_t i) const noexcept { return replica_ && i < masters_; }
-  void grant_follower_energy(std::size_t i) noexcept TANDEM_REALTIME;
-  void update_targets_from_hands(std::size_t i) noexcept TANDEM_REALTIME;
-  void update_targets_from_hands(std::size_t i, std::size_t j, wire::ToolForce& told) const noexcept TANDEM_REALTIME;
-  void fill_coupling_messages(std::size_t i) noexcept TANDEM_REALTIME;
-  void fill_tool_message(std::size_t i) noexcept TANDEM_REALTIME;
-  [[nodiscard]] std::size_t first_tool(std::size_t seat) const noexcept;
-
   const SceneSpec* scene_;
-  double dt_;
-  AxisArray root_scale_{};
   std::size_t masters_;
-  bool replica_;  ///< law `replica`: masters receive the other hands' motion, not the tool's
   std::vector<SeatEndpoint> seats_;
-  std::vector<Tool> tools_;
   SeatCatalogue seat_catalogue_;
   LinkTestPeers link_test_peers_;
   PathTokens path_tokens_;
   SessionClock clock_;
   AuditTrail audit_;
   Participants participants_;
+  SharedControl control_;
   StartCondition start_;
   StopControl stop_;
   AuthorityControl authority_;
@@ -181,23 +157,6 @@ class Session {
   std::uint64_t epoch_ = 1;
   std::uint64_t unmatched_datagrams_ = 0;
   TickRecord record_{};
-  const std::array<bool, kSeatsMax>& present_ = participants_.present();
-
-  /// Coupling of a seat to a tool during this tick, all in [0, 1]. A slave's seat is fully coupled to its own tool.
-  struct Coupling {
-    double alpha = 0;   ///< authority
-    double follow = 0;  ///< C_ij: share of the tool's motion in the seat's target
-    double share = 0;   ///< max(alpha, follow): share of the seat's spring
-  };
-  std::array<std::array<Coupling, kToolsMax>, kSeatsMax> couplings_{};
-  std::array<AxisArray, kSeatsMax> seat_targets_{};     ///< y_i: target of each seat
-  std::array<AxisArray, kSeatsMax> offset_{};           ///< re-engage offset: hand minus tool, decays to 0
-  std::array<std::uint32_t, kSeatsMax> engaged_for_{};  ///< ticks since the seat engaged
-  std::array<AxisArray, kSeatsMax> offset_step_{};      ///< change of `offset_` in this tick
-  std::array<AxisArray, kSeatsMax> reference_before_{};
-  std::array<SeatEndpoint::NearEnd, kToolsMax> near_ends_{};  ///< scratch space of `move_predictions`
-  /// Generation of the SLAVE seat's newest sample that the contact source received.
-  std::array<std::uint64_t, kToolsMax> slave_heard_{};
 };
 
 }  // namespace tandem::server

@@ -47,9 +47,7 @@ void record_tick(const Session& session, TickRecord& record) noexcept {
       const wire::Ghost& ghost = session.leading_hands().ghost(i);
       r.leader = ghost.leader;
       for (std::size_t k = 0; k < 3; ++k) r.ghost[k] = ghost.x[k];
-      r.alpha = 0;
-      for (std::size_t j = 0; j < scene.tools.size() && r.alpha == 0; ++j)
-        if (scene.follow[i][j] > 0) r.alpha = session.tool(j).authority.alpha(i);
+      r.alpha = session.hub().authority(i);
     }
     record_seat(m, r);
   }
@@ -80,11 +78,12 @@ void record_tick(const Session& session, TickRecord& record) noexcept {
       r.sample_tick = session.seat(tool.spec().seat).last_state().seat_tick;
     }
     r.held = tool.authority.held();
-    r.mfs_j = tool.sources.granted();
+    const control::FlowSources& sources = session.hub().sources(j);
+    r.mfs_j = sources.granted();
     r.e_p_j = 0;
     for (std::size_t a = 0; a < scene.dof; ++a) {
-      r.e_p_j += tool.sources.energy_p(a);
-      if (a < 3) r.e_p_axis_j[a] = tool.sources.energy_p(a);
+      r.e_p_j += sources.energy_p(a);
+      if (a < 3) r.e_p_axis_j[a] = sources.energy_p(a);
     }
   }
 }

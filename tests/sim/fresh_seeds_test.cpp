@@ -130,7 +130,7 @@ TEST(FreshSeeds, LimitTheSpringOfALostSeatWhenOthersMoveTheTool) {
     if (life.alpha(1) <= 0) continue;
     // The reference moves before the tool does: it may be farther than the pull limit by the tool's motion in one tick.
     const auto& tool = life.simulation->session().tool(0);
-    pull = std::max(pull, end.k[0] * std::abs(end.ref[0] - (tool.x(0) - tool.moved()[0])));
+    pull = std::max(pull, end.k[0] * std::abs(end.ref[0] - (tool.x(0) - tool.port().moved[0])));
     way = std::max(way, std::abs(tool.x(0) - before));
   }
   EXPECT_GT(way, 0.005) << "else no hand moved the tool away";

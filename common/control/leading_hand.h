@@ -4,13 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include "common/base/axes.h"
+#include "common/base/port_sample.h"
 #include "common/control/hand_motion.h"
-#include "proto/wire/wire_messages.h"
 
-namespace tandem::server {
+namespace tandem::control {
 
 /// Motion of one hand for display (ghost) and for seats with `assist`: its position now, predicted over the age of its
 /// newest sample.
@@ -26,7 +25,7 @@ class LeadingHand {
  public:
   LeadingHand() noexcept : LeadingHand(0.001) {}
   /// @param dt  tick [s]
-  explicit LeadingHand(double dt) noexcept : dt_(dt), part_(1 - std::exp(-2 * std::numbers::pi * kHz * dt)) {}
+  explicit LeadingHand(double dt) noexcept : dt_(dt), part_(pole_part(kHz, dt)) {}
 
   /// Advances the prediction by one tick.
   /// @param present  false: the hand is forgotten
@@ -44,8 +43,7 @@ class LeadingHand {
         slow_v_[a] = quick_v_[a] = 0;
       }
       quick_v_[a] +=
-          part_ *
-          (std::clamp(heard.v[a], -control::Prediction::kVelocityMax, control::Prediction::kVelocityMax) - quick_v_[a]);
+          part_ * (std::clamp(heard.v[a], -Prediction::kVelocityMax, Prediction::kVelocityMax) - quick_v_[a]);
       const double behind = heard.x[a] - slow_[a];
       slow_[a] += (slow_v_[a] + 2 * kSlowPole * behind) * dt_;
       slow_v_[a] += kSlowPole * kSlowPole * behind * dt_;
@@ -54,8 +52,8 @@ class LeadingHand {
     const double speed = square / (kSlow * kSlow);
     share_ = age * age / ((age * age + kAge * kAge) * (1 + speed * speed));
     for (std::size_t a = 0; a < axes; ++a) {
-      steady_x_[a] = control::Prediction::place_for_hand(slow_[a], slow_v_[a], age);
-      const double quick = control::Prediction::place_for_hand(heard.x[a], quick_v_[a], age);
+      steady_x_[a] = Prediction::place_for_hand(slow_[a], slow_v_[a], age);
+      const double quick = Prediction::place_for_hand(heard.x[a], quick_v_[a], age);
       moved_[a] = quick + share_ * (steady_x_[a] - quick) - heard.x[a];
       shown_v_[a] = quick_v_[a] + share_ * (slow_v_[a] - quick_v_[a]);
     }
@@ -70,25 +68,19 @@ class LeadingHand {
   /// a TIP port
   [[nodiscard]] double steady_x(std::size_t axis) const noexcept { return steady_x_[axis]; }
   [[nodiscard]] double steady_v(std::size_t axis) const noexcept { return slow_v_[axis]; }
-  /// The part of FORCE that shows this hand.
-  /// @param number  of the master, from 1
-  /// @param tip     received tip position [m]; with a motor at its limit it is beyond the position where the hand
-  /// pulls
-  [[nodiscard]] wire::Ghost ghost(std::uint32_t number,
-                                  const std::array<double, 3>& tip) const noexcept TANDEM_REALTIME {
-    wire::Ghost out{.leader = number};
-    for (std::size_t a = 0; a < 3; ++a) {
-      out.x[a] = static_cast<float>(std::clamp(tip[a] + moved_[a], -kTipMax, kTipMax));
-      out.v[a] = static_cast<float>(shown_v_[a]);
-    }
-    return out;
+  /// Position at which the hand is shown [m].
+  /// @param tip  received tip position [m]; with a motor at its limit it is beyond the position where the hand pulls
+  [[nodiscard]] double shown_x(std::size_t axis, double tip) const noexcept {
+    return std::clamp(tip + moved_[axis], -kTipMax, kTipMax);
   }
+  /// Velocity with which the hand is shown [m/s].
+  [[nodiscard]] double shown_v(std::size_t axis) const noexcept { return shown_v_[axis]; }
 
   static constexpr double kHz = 2.5;      ///< [Hz]
   static constexpr double kSlowPole = 8;  ///< w0 [1/s]
   static constexpr double kSlow = 0.010;  ///< [m/s]
   static constexpr double kAge = 0.05;    ///< [s]
-  static constexpr double kTipMax = 10;   ///< bound of a position in FORCE [m]
+  static constexpr double kTipMax = 10;   ///< bound of a shown position [m]
 
  private:
   double dt_, part_;
@@ -97,4 +89,4 @@ class LeadingHand {
   std::array<double, 3> slow_{}, slow_v_{}, quick_v_{}, steady_x_{}, shown_v_{}, moved_{};
 };
 
-}  // namespace tandem::server
+}  // namespace tandem::control
