@@ -299,7 +299,8 @@ SwarmResult run_swarm_case(const SwarmCase& which, const std::function<void(Simu
   if (result.trouble.empty() && result.recovered_s == 0) result.trouble = who_is_not_active(world);
   for (const server::Violation& violation : world.violations().list())
     if (!violation.expected) result.violations.push_back(violation);
-  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) result.gate_trips += world.gate_trips(i);
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
+    result.gate_trips += world.client(i).program().gate_trips();
   result.links = link_qualities(world);
   return result;
 }

@@ -52,7 +52,7 @@ TEST(FailureTable, ReleasesATooFastHandAndLatchesItTheThirdTime) {
   life.simulation->seat(kTrainee)->request_gate_reset();
   life.until(20s);
   EXPECT_TRUE(life.active(kTrainee));
-  EXPECT_EQ(life.simulation->gate_trips(kTrainer), 0u);
+  EXPECT_EQ(life.simulation->client(kTrainer).program().gate_trips(), 0u);
   life.expect_nothing_broken();
 }
 
@@ -80,7 +80,7 @@ TEST(FailureTable, ReleasesAHandWithHotMotorsAndLatchesItTheThirdTime) {
   life.simulation->seat(kTrainee)->request_gate_reset();
   life.until(20s);
   EXPECT_TRUE(life.active(kTrainee));
-  EXPECT_EQ(life.simulation->gate_trips(kTrainer), 0u);
+  EXPECT_EQ(life.simulation->client(kTrainer).program().gate_trips(), 0u);
   life.expect_nothing_broken();
 }
 

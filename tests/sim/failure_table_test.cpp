@@ -148,7 +148,7 @@ TEST(FailureTable, TripsNoGateOnRandomLossButOnTwentyLossesInARow) {
     setup.network = netsim::link_from(test::delayed(5, 0, percent));
     SessionDriver life{setup};
     life.until(15s);
-    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->gate_trips(i), 0u) << percent;
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->client(i).program().gate_trips(), 0u) << percent;
     life.expect_nothing_broken();
   }
   auto setup = with(contact());
@@ -161,7 +161,7 @@ TEST(FailureTable, TripsNoGateOnRandomLossButOnTwentyLossesInARow) {
   setup.events = {cut};
   SessionDriver life{setup};
   life.until(8s);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->gate_trips(i), 1u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->client(i).program().gate_trips(), 1u);
   life.expect_nothing_broken();
 }
 
@@ -182,7 +182,7 @@ TEST(FailureTable, DetectsAFrozenSensorWhereMotionIsExpected) {
   EXPECT_TRUE(life.active(kTrainer));
   life.until(10s);
   EXPECT_TRUE(life.active(kTrainee)) << "the reading moves again";
-  EXPECT_EQ(life.simulation->gate_trips(kTrainer), 0u);
+  EXPECT_EQ(life.simulation->client(kTrainer).program().gate_trips(), 0u);
   life.expect_nothing_broken();
 }
 

@@ -22,13 +22,13 @@ class ClientPool {
 
   /// Resources of one future client.
   struct PreparedClient {
-    ProxyCore::PreparedClient place;
+    PreparedLink link;
     std::unique_ptr<LinkMonitor> monitor;  ///< null: quality is not monitored
   };
 
   /// Creates the first kReady clients.
   /// @param core  must outlive the pool
-  ClientPool(const ProxyCore& core, const LinkSpec& link, bool watch);
+  ClientPool(const ProxyCore& core, const LinkSpec& link, bool monitor);
   ~ClientPool();
   ClientPool(const ClientPool&) = delete;
   ClientPool& operator=(const ClientPool&) = delete;
@@ -47,7 +47,7 @@ class ClientPool {
   /// Returns the prepared client for the next arrival; null if none is ready. Return it with `give_back` after using
   /// its contents.
   [[nodiscard]] PreparedClient* next() noexcept;
-  void give_back(PreparedClient* newcomer) noexcept;
+  void give_back(PreparedClient* prepared) noexcept;
   /// Gives back clients prepared for a previous network.
   void drop_outdated() noexcept;
   /// Returns the number of clients for which none was ready. Any thread.
