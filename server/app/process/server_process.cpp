@@ -14,6 +14,7 @@
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
 #include "common/io/clock.h"
+#include "common/io/exit_code.h"
 #include "common/io/help_text.h"
 #include "common/io/print.h"
 #include "common/io/reachable_address.h"
@@ -33,7 +34,6 @@
 namespace tandem::server {
 namespace {
 
-constexpr int kTrouble = 1;  // error while running
 constexpr int kPollIntervalMs = 250;
 constexpr Duration kDrainMax = std::chrono::seconds(3);
 
@@ -108,7 +108,7 @@ class ServerProcess {
  private:
   int trouble(const std::string& what) {
     spdlog::error("{}: {}", options_.command, what);
-    return kTrouble;
+    return io::kExitTrouble;
   }
 
   /// Messages go to standard error if a JSON report goes to standard output.
@@ -328,7 +328,7 @@ class ServerProcess {
     if (checkpoint_store_ && !sessions_will_resume()) checkpoint_store_->remove_all();
     line_.clear();
     std::fprintf(stderr, "tandem-server: %s; ends at once\n", why);
-    ::_exit(kTrouble);
+    ::_exit(io::kExitTrouble);
   }
 
   /// Sends the systemd watchdog signal if the shard with the fewest punctual ticks has new ones.
