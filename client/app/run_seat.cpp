@@ -1,7 +1,5 @@
 #include "client/app/run_seat.h"
 
-#include <spdlog/spdlog.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -17,6 +15,7 @@
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/exit_code.h"
+#include "common/io/log.h"
 #include "common/io/output_file.h"
 #include "common/io/realtime.h"
 #include "common/io/signals.h"
@@ -28,13 +27,13 @@ namespace tandem::client {
 namespace {
 
 int trouble(const std::string& what, int code = io::kExitTrouble) {
-  spdlog::error("join: {}", what);
+  io::log(io::Level::kError, "join: " + what);
   return code;
 }
 
 /// Reports a failed join in the log and in the JSON report. @return `code`
 int not_attached(const SeatOptions& plan, const std::string& why, int code = io::kExitTrouble) {
-  spdlog::error("join: {}", why);
+  io::log(io::Level::kError, "join: " + why);
   io::OutputFile json;
   if (const auto problem = json.open(plan.json, true); !problem.empty())
     return trouble("--json: " + problem, io::kExitUsage);
@@ -173,7 +172,7 @@ int run_seat(const SeatOptions& plan) {
     line.note(std::to_string(report.last.late_ticks) + " late ticks; " + notice);
   report.outage_longest_s = vigil.outage_longest_s();
   if (verdict_of(report) == SeatVerdict::kFail) {
-    spdlog::error("join: {}", vigil.exit_message(end));
+    io::log(io::Level::kError, "join: " + vigil.exit_message(end));
   } else {
     line.note(vigil.exit_message(end));
   }

@@ -1,7 +1,5 @@
 #include "client/app/seat_runner.h"
 
-#include <sys/eventfd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -39,7 +37,6 @@ double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1
 SeatRunner::SeatRunner(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* sim,
                        std::vector<AuthorityScript::Change> script, SampleQueue* samples, Duration exchange)
     : socket_(std::move(socket)),
-      finished_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       seat_(&seat),
       sim_(sim),
       script_(std::move(script)),
@@ -76,23 +73,16 @@ hal::Command SeatRunner::tick(const hal::State& state) noexcept {
                     seat_->sample().gate, seat_->authority(),
                     seat_->link().timing().heard() ? seconds(seat_->link().timing().silence(now)) : -1});
   if (ticks_ % kSnapshotEvery == 1 || seat_->closed()) snapshot(now);
-  if (seat_->closed() && !std::exchange(close_signalled_, true)) {
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(finished_.get(), &one, sizeof one);
-  }
+  if (seat_->closed() && !std::exchange(close_signalled_, true)) finished_.signal();
   return command_;
 }
 
 void SeatRunner::lost(hal::Errc) noexcept {
   lost_.store(true, std::memory_order_release);
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(finished_.get(), &one, sizeof one);
+  finished_.signal();
 }
 
-void SeatRunner::clear_finished() noexcept {
-  std::uint64_t count = 0;
-  [[maybe_unused]] const auto read = ::read(finished_.get(), &count, sizeof count);
-}
+void SeatRunner::clear_finished() noexcept { finished_.clear(); }
 
 void SeatRunner::change_connection(Time now) noexcept {
   if (next_.load(std::memory_order_relaxed) == nullptr) return;
@@ -249,8 +239,7 @@ void SeatRunner::snapshot(Time now) noexcept {
   p.accepted = all.accepted;
   p.late_datagrams = all.late;
   p.refused_datagrams = all.refused;
-  const std::unique_lock lock{published_lock_, std::try_to_lock};
-  if (lock) published_ = p;
+  published_.publish(p);
 }
 
 /// Returns the distance between the port position sent and the tool position received last [m], over up to 3 axes.
@@ -263,9 +252,6 @@ double SeatRunner::distance_to_tool() const noexcept {
   return std::sqrt(square);
 }
 
-ClientStatus SeatRunner::status() const {
-  const std::lock_guard lock{published_lock_};
-  return published_;
-}
+ClientStatus SeatRunner::status() const { return published_.read(); }
 
 }  // namespace tandem::client

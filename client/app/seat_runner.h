@@ -12,6 +12,8 @@
 #include "client/seat/seat.h"
 #include "client/seat/tick_decimator.h"
 #include "common/io/datagram_batch.h"
+#include "common/io/event_fd.h"
+#include "common/io/published.h"
 #include "common/io/spsc_queue.h"
 #include "common/io/udp_socket.h"
 #include "hal/sim/sim_device.h"
@@ -93,7 +95,7 @@ class SeatRunner final : public hal::ServoClient {
   [[nodiscard]] double distance_to_tool() const noexcept;
 
   io::UdpSocket socket_;
-  io::Fd finished_;
+  io::EventFd finished_;
   Seat* seat_;
   hal::sim::SimDevice* sim_;
   std::vector<AuthorityScript::Change> script_;
@@ -127,8 +129,7 @@ class SeatRunner final : public hal::ServoClient {
                 transfer_moved_ = 0;  ///< tick counts; transfer_moved_: last change of the own authority
   double transfer_alpha_ = 0;         ///< own authority at the previous tick
   ClientStatus snapshot_;
-  mutable std::mutex published_lock_;  ///< the servo thread only uses try_lock
-  ClientStatus published_;
+  io::Published<ClientStatus> published_;
 };
 
 }  // namespace tandem::client

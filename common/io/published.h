@@ -28,7 +28,7 @@ class Published {
 
  private:
   mutable std::mutex lock_;  ///< the publishing thread only tries it
-  T value_{};
+  T value_ = T();
 };
 
 }  // namespace tandem::io

@@ -1,4 +1,3 @@
-#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -9,6 +8,7 @@
 
 #include "common/base/format.h"
 #include "common/io/command_line.h"
+#include "common/io/event_fd.h"
 #include "common/io/exit_code.h"
 #include "common/io/fd.h"
 #include "common/io/output_file.h"
@@ -120,7 +120,7 @@ int proxy_command(const ProxyArguments& arguments) {
   if (arguments.lateness_max_us > 0) options.late_limit = microseconds(arguments.lateness_max_us);
   options.sink = arguments.log.empty() ? nullptr : &log;
   const SignalWatcher interruption;
-  const io::Fd finished{eventfd(0, EFD_CLOEXEC)};
+  const io::EventFd finished;
   auto proxy = Proxy::open(options);
   if (!proxy) return trouble(proxy.error());
   auto joining = io::listen_tcp((*proxy)->listening());
@@ -155,8 +155,7 @@ int proxy_command(const ProxyArguments& arguments) {
     ask_for_machine(arguments.realtime, notice);
     if (!notice.empty()) io::print_formatted(stderr, "tandem-netsim proxy: %s\n", notice.c_str());
     (*proxy)->run();
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(finished.get(), &one, sizeof one);
+    finished.signal();
   });
   ProxyControl control{**proxy, options.link, find_network(arguments.network)};
   run_control_loop(**proxy, control, socket, interruption.fd(), finished.get());

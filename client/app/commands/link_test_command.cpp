@@ -1,5 +1,4 @@
 #include <poll.h>
-#include <spdlog/spdlog.h>
 
 #include <cerrno>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include "common/io/command_line.h"
 #include "common/io/datagram_batch.h"
 #include "common/io/exit_code.h"
+#include "common/io/log.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/realtime.h"
@@ -190,7 +190,7 @@ const char* to_text(Ended ended) noexcept {
 }
 
 int trouble(const std::string& what, int code = io::kExitTrouble) {
-  spdlog::error("link-test: {}", what);
+  io::log(io::Level::kError, "link-test: " + what);
   return code;
 }
 

@@ -1,4 +1,3 @@
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "common/base/suggestions.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
+#include "common/io/log.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
 #include "common/io/usage_errors.h"
@@ -70,7 +70,7 @@ class TrySession final : public SeatObserver {
 };
 
 int trouble(const std::string& what, int code = io::kExitTrouble) {
-  spdlog::error("try: {}", what);
+  io::log(io::Level::kError, "try: " + what);
   return code;
 }
 

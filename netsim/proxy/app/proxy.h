@@ -12,7 +12,9 @@
 #include "common/base/histogram.h"
 #include "common/base/time.h"
 #include "common/io/datagram_batch.h"
+#include "common/io/event_fd.h"
 #include "common/io/fd.h"
+#include "common/io/published.h"
 #include "common/io/socket_address.h"
 #include "common/io/spsc_queue.h"
 #include "netsim/proxy/app/arrival_buffer.h"
@@ -86,7 +88,7 @@ class Proxy {
     std::uint64_t number = 0;
     std::unique_ptr<LinkMonitor> monitor;
   };
-  Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake);
+  Proxy(const ProxyOptions& options, ProxyClients clients, io::EventFd wake);
 
   // Main loop: proxy.cpp
   [[nodiscard]] Duration since_start() const noexcept;
@@ -117,7 +119,7 @@ class Proxy {
 
   ProxyOptions options_;
   ProxyClients clients_;
-  io::Fd wake_;  ///< written by other threads
+  io::EventFd wake_;  ///< written by other threads
   std::atomic<bool> stopping_{false};
   io::SpscQueue<ProxyRequest*> requests_;
   ProxyCore core_;
@@ -144,8 +146,7 @@ class Proxy {
   bool busy_ = false;         ///< recent arrivals, or datagrams in flight
   std::vector<ProxyClientStatus> departed_;
   std::uint64_t departed_drops_ = 0;  ///< kernel drops of clients that left
-  mutable std::mutex published_lock_;
-  ProxyStatus published_;
+  io::Published<ProxyStatus> published_;
 };
 
 }  // namespace tandem::netsim

@@ -1,4 +1,3 @@
-#include <sys/eventfd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -22,14 +21,14 @@ constexpr std::size_t kOrdersMax = 64;
 std::expected<std::unique_ptr<Proxy>, std::string> Proxy::open(const ProxyOptions& options) {
   auto clients = ProxyClients::open(options.listen, options.to);
   if (!clients) return std::unexpected(clients.error());
-  io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  io::EventFd wake;
   if (!wake.open() || !clients->watch(wake.get(), {ProxySource::Kind::kWake, 0})) {
     return std::unexpected(std::string("the system gives no file descriptors: ") + std::strerror(errno));
   }
   return std::unique_ptr<Proxy>(new Proxy(options, std::move(*clients), std::move(wake)));
 }
 
-Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake)
+Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::EventFd wake)
     : options_(options),
       clients_(std::move(clients)),
       wake_(std::move(wake)),
@@ -49,8 +48,7 @@ Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake)
 
 void Proxy::stop() noexcept {
   stopping_.store(true, std::memory_order_release);
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
+  wake_.signal();
 }
 
 bool Proxy::post(ProxyRequest& order) noexcept {
@@ -60,8 +58,7 @@ bool Proxy::post(ProxyRequest& order) noexcept {
   }
   if (!requests_.push(&order)) return false;
   for (const LinkSpec& link : for_new) client_pool_.set_next_link(link);
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
+  wake_.signal();
   return true;
 }
 
@@ -164,14 +161,10 @@ ProxyStatus Proxy::final_status() const {
 
 void Proxy::publish() noexcept {
   // A reading thread must not delay packets. If the lock is taken, this update is skipped.
-  const std::unique_lock lock{published_lock_, std::try_to_lock};
-  if (lock) fill(published_);
+  published_.update([this](ProxyStatus& status) { fill(status); });
 }
 
-ProxyStatus Proxy::status() const {
-  const std::lock_guard lock{published_lock_};
-  return published_;
-}
+ProxyStatus Proxy::status() const { return published_.read(); }
 
 std::vector<ProxyClientStatus> Proxy::client_reports() const {
   std::vector<ProxyClientStatus> reports = departed_;

@@ -1,7 +1,6 @@
 #include "server/app/process/server_process.h"
 
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -107,7 +106,7 @@ class ServerProcess {
 
  private:
   int trouble(const std::string& what) {
-    spdlog::error("{}: {}", options_.command, what);
+    io::log(io::Level::kError, std::string(options_.command) + ": " + what);
     return io::kExitTrouble;
   }
 
@@ -295,7 +294,7 @@ class ServerProcess {
       if (line.severity == MessageQueue::Severity::kWarning) line_.warn(line.text);
       if (line.severity != MessageQueue::Severity::kError) continue;
       line_.clear();
-      spdlog::error(line.text);
+      io::log(io::Level::kError, line.text);
     }
   }
 
