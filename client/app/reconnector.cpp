@@ -1,7 +1,6 @@
 #include "client/app/reconnector.h"
 
 #include <poll.h>
-#include <sys/eventfd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -33,11 +32,6 @@ bool same_host(const io::SocketAddress& a, const io::SocketAddress& b) {
   return x.substr(0, x.rfind(':')) == y.substr(0, y.rfind(':'));
 }
 
-void raise(const io::Fd& event) {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
-}
-
 }  // namespace
 
 Duration initial_backoff() { return draw(kBefore, kBeforeSpread); }
@@ -48,15 +42,13 @@ Reconnector::Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, 
       resume_state_(std::move(own)),
       seat_(&seat),
       runner_(&runner),
-      socket_(&kept),
-      cancel_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      done_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+      socket_(&kept) {
   options_.signals = cancel_.get();
   thread_ = std::thread([this] { work(); });
 }
 
 Reconnector::~Reconnector() {
-  if (!done()) raise(cancel_);  // once done, the signal would disturb the connection in the result
+  if (!done()) cancel_.signal();  // once done, the signal would disturb the connection in the result
   thread_.join();
   if (result_ && *result_ && (*result_)->swap)
     release_seat((*result_)->swap->socket, (*result_)->joined, options_.caps);
@@ -80,7 +72,7 @@ void Reconnector::work() {
     }
   }
   done_.store(true, std::memory_order_release);
-  raise(done_event_);
+  done_event_.signal();
 }
 
 std::expected<Reconnector::Resumed, ResumeError> Reconnector::attempt(Duration timeout) {

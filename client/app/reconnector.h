@@ -8,6 +8,7 @@
 
 #include "client/app/join_client.h"
 #include "client/app/seat_runner.h"
+#include "common/io/event_fd.h"
 #include "common/io/fd.h"
 
 namespace tandem::client {
@@ -48,7 +49,7 @@ class Reconnector {
   const Seat* seat_;
   const SeatRunner* runner_;
   const io::UdpSocket* socket_;
-  io::Fd cancel_, done_event_;
+  io::EventFd cancel_, done_event_;
   std::optional<std::expected<Resumed, ResumeError>> result_;
   std::atomic<bool> done_{false};
   std::thread thread_;

@@ -1,7 +1,5 @@
 #include "client/app/seat_runner.h"
 
-#include <sys/eventfd.h>
-
 #include <utility>
 
 #include "common/io/clock.h"
@@ -22,7 +20,6 @@ SeatRunner::SeatRunner(io::UdpSocket socket, Seat& seat, hal::sim::SimDevice* si
       sim_(sim),
       samples_(samples),
       pace_(from_seconds(1.0 / seat.setup().tick_hz), exchange),
-      finished_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       recorder_(seat.setup().tick_hz) {}
 
 hal::Command SeatRunner::tick(const hal::State& state) noexcept {
@@ -40,7 +37,7 @@ hal::Command SeatRunner::tick(const hal::State& state) noexcept {
   command_ = seat_->on_servo(now, state);
   socket_.send(now, *seat_);
   record(now, session_time);
-  if (seat_->closed() && !std::exchange(close_signalled_, true)) signal_finished();
+  if (seat_->closed() && !std::exchange(close_signalled_, true)) finished_.signal();
   return command_;
 }
 
@@ -77,29 +74,15 @@ void SeatRunner::record(Time now, const std::optional<double>& session_time) noe
                     timing.heard() ? seconds(timing.silence(now)) : -1});
   }
   if (ticks_ % kPublishEvery != 1 && !seat_->closed()) return;
-  const ClientStatus& status = recorder_.update(now, *seat_);
-  const std::unique_lock lock{published_lock_, std::try_to_lock};
-  if (lock) published_ = status;
+  published_.publish(recorder_.update(now, *seat_));
 }
 
 void SeatRunner::lost(hal::Errc) noexcept {
   lost_.store(true, std::memory_order_release);
-  signal_finished();
+  finished_.signal();
 }
 
-void SeatRunner::signal_finished() noexcept {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(finished_.get(), &one, sizeof one);
-}
+void SeatRunner::clear_finished() noexcept { finished_.clear(); }
 
-void SeatRunner::clear_finished() noexcept {
-  std::uint64_t count = 0;
-  [[maybe_unused]] const auto read = ::read(finished_.get(), &count, sizeof count);
-}
-
-ClientStatus SeatRunner::status() const {
-  const std::lock_guard lock{published_lock_};
-  return published_;
-}
 
 }  // namespace tandem::client

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -14,7 +13,8 @@
 #include "client/app/user_commands.h"
 #include "client/seat/seat.h"
 #include "client/seat/tick_decimator.h"
-#include "common/io/fd.h"
+#include "common/io/event_fd.h"
+#include "common/io/published.h"
 #include "hal/sim/sim_device.h"
 
 namespace tandem::client {
@@ -41,7 +41,7 @@ class SeatRunner final : public hal::ServoClient {
   [[nodiscard]] UserCommands& commands() noexcept { return commands_; }
   /// The servo thread takes an offered connection with its next tick.
   [[nodiscard]] ConnectionSwapper& connections() noexcept { return connections_; }
-  [[nodiscard]] ClientStatus status() const;
+  [[nodiscard]] ClientStatus status() const { return published_.read(); }
   /// Readable once the session is closed or the device is lost.
   [[nodiscard]] int finished_fd() const noexcept { return finished_.get(); }
   /// Clears `finished_fd` before a reconnect of a closed session.
@@ -55,7 +55,6 @@ class SeatRunner final : public hal::ServoClient {
   void swap_connection(Time now) noexcept;
   void request_scripted_authority(Time now) noexcept;
   void record(Time now, const std::optional<double>& session_time) noexcept;
-  void signal_finished() noexcept;
 
   Seat* seat_;
   SeatSocket socket_;
@@ -68,12 +67,11 @@ class SeatRunner final : public hal::ServoClient {
   hal::Command command_{};  ///< command of the last tick
   std::uint64_t ticks_ = 0;
   Time first_tick_{};
-  io::Fd finished_;
+  io::EventFd finished_;
   bool close_signalled_ = false;
   std::atomic<bool> lost_{false};
   SeatStatusRecorder recorder_;
-  mutable std::mutex published_lock_;  ///< the servo thread only uses try_lock
-  ClientStatus published_;
+  io::Published<ClientStatus> published_;
 };
 
 }  // namespace tandem::client

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/print.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
@@ -33,7 +34,7 @@ int control_command(const ControlArguments& arguments) {
   }
   if (answer->empty()) {
     SignalWatcher::report("control", "the command was sent; `status --json` shows whether the proxy applied it");
-    return SignalWatcher::kInterrupted;
+    return io::kExitTrouble;
   }
   const int code = answer->front() == '0' ? 0 : answer->front() == '1' ? 1 : 2;
   std::fprintf(code == 0 ? stdout : stderr, "%s%s", code == 0 ? "" : "tandem-netsim control: ", answer->c_str() + 1);

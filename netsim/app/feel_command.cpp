@@ -7,16 +7,17 @@
 #include "common/base/format.h"
 #include "common/base/suggestions.h"
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/terminal.h"
+#include "common/io/usage_errors.h"
 #include "common/setup/channel_factory.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/feel_measure.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/test_progress.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/profiles/app/network_options.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
@@ -25,7 +26,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kGood = 0, kFailed = 1;
 constexpr std::size_t kRecordingsMax = 8;
 
 struct FeelArguments {
@@ -38,7 +38,7 @@ struct FeelArguments {
   NetworkOptions network;
 };
 
-std::vector<Probe> probes_named(const std::string& text, UsageErrors& mistakes) {
+std::vector<Probe> probes_named(const std::string& text, io::UsageErrors& mistakes) {
   std::vector<Probe> out;
   std::vector<std::string> known;
   for (const ProbeName& one : kProbes) known.emplace_back(one.name);
@@ -59,7 +59,7 @@ std::vector<Probe> probes_named(const std::string& text, UsageErrors& mistakes) 
   return out;
 }
 
-void add_recording(const std::string& text, FeelSetup& setup, UsageErrors& mistakes, const char* option) {
+void add_recording(const std::string& text, FeelSetup& setup, io::UsageErrors& mistakes, const char* option) {
   const auto options = hal::sim::parse_motion_options(text);
   if (!options) return mistakes.add(std::string(option) + ": " + options.error());
   auto motion = hal::load_motion(*options);
@@ -68,7 +68,7 @@ void add_recording(const std::string& text, FeelSetup& setup, UsageErrors& mista
 }
 
 /// Adds every recording of a folder that needs no further options; names the others in `notes`.
-void add_folder(const FeelArguments& a, FeelSetup& setup, UsageErrors& mistakes, std::vector<std::string>& notes) {
+void add_folder(const FeelArguments& a, FeelSetup& setup, io::UsageErrors& mistakes, std::vector<std::string>& notes) {
   if (a.recordings.empty()) return;
   std::error_code error;
   std::vector<std::string> files;
@@ -123,7 +123,7 @@ std::string set_assist(const FeelArguments& a, SceneSpec& scene) {
 }
 
 int feel_command(const FeelArguments& a) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   FeelSetup feel{.scene = {}};
   FeelReport report;
   feel.hands = a.plain ? HandKind::kPlain : HandKind::kDrawn;
@@ -160,20 +160,18 @@ int feel_command(const FeelArguments& a) {
     }
   }
   for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
-    if (!file->empty() && *file != "-")
-      if (const auto problem = io::OutputFile::problem(*file); !problem.empty())
-        mistakes.add(std::string(option) + ": " + problem);
+    mistakes.output_file(option, *file);
   if (!a.json.empty() && a.json == a.csv) mistakes.add("--csv: is the same file as --json");
   for (const std::string& other : a.network.all_given())
     if (other == "--script") mistakes.add("--script: a probe is too short for a script; name one network");
-  if (!mistakes.empty()) return mistakes.report("feel");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim feel");
 
   const SignalWatcher interruption;
   io::OutputFile json_file, csv_file;
   if (const auto problem = json_file.open(a.json, true); !problem.empty())
-    return report_usage_error("feel", "--json: " + problem);
+    return io::report_usage_error("tandem-netsim feel", "--json: " + problem);
   if (const auto problem = csv_file.open(a.csv, true); !problem.empty())
-    return report_usage_error("feel", "--csv: " + problem);
+    return io::report_usage_error("tandem-netsim feel", "--csv: " + problem);
   report.scene = a.scene;
   report.spec = feel.scene;
   report.channel = setup::law_name(feel.scene.channel.law);
@@ -196,11 +194,11 @@ int feel_command(const FeelArguments& a) {
   if (interrupted) SignalWatcher::report("feel", format("%zu of %.0f seeds", report.seeds.size(), a.seeds));
   json_file.write(feel_json(report));
   csv_file.write(feel_csv(report));
-  int code = interrupted ? SignalWatcher::kInterrupted : report.passed() ? kGood : kFailed;
+  int code = !interrupted && report.passed() ? io::kExitDone : io::kExitTrouble;
   for (const auto& problem : {json_file.close(), csv_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim feel: %s\n", problem.c_str());
-      code = kFailed;
+      code = io::kExitTrouble;
     }
   return code;
 }

@@ -7,20 +7,20 @@
 
 #include "common/base/format.h"
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/terminal.h"
+#include "common/io/usage_errors.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/profile_report.h"
 #include "netsim/app/profile_source.h"
 #include "netsim/app/signal_watcher.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/profiles/profile_loader.h"
 
 namespace tandem::netsim {
 namespace {
 
-constexpr int kTrouble = 1;
 constexpr std::size_t kPipeWidth = 100;  ///< columns, if the output has no known width
 
 struct ProfilesArguments {
@@ -31,7 +31,7 @@ struct ProfilesArguments {
   bool json = false, text = false, ascii = false;
 };
 
-int wrong(const std::string& message) { return report_usage_error("profiles", message); }
+int wrong(const std::string& message) { return io::report_usage_error("tandem-netsim profiles", message); }
 
 /// Returns whether the terminal uses UTF-8. As in the C library, the first of these variables that is set names the
 /// encoding.
@@ -72,12 +72,10 @@ int show(const ProfilesArguments& arguments) {
     std::fputs(subject->text.c_str(), stdout);
     return 0;
   }
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   mistakes.add(complete(*subject, arguments.capacity));
-  if (!arguments.svg.empty())
-    if (const std::string problem = io::OutputFile::problem(arguments.svg); !problem.empty())
-      mistakes.add("--svg: " + problem);
-  if (!mistakes.empty()) return mistakes.report("profiles");
+  if (!arguments.svg.empty()) mistakes.add("--svg", io::OutputFile::problem(arguments.svg));
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim profiles");
   const SignalWatcher interruption;
   bool interrupted = false;
   if (!arguments.json) {
@@ -111,9 +109,9 @@ int show(const ProfilesArguments& arguments) {
   if (interrupted)
     SignalWatcher::report("profiles",
                           format("%.2f of %g virtual minutes", seconds(portrait.length) / 60, arguments.minutes));
-  if (problem.empty()) return interrupted ? SignalWatcher::kInterrupted : 0;
+  if (problem.empty()) return interrupted ? io::kExitTrouble : io::kExitDone;
   io::print_formatted(stderr, "tandem-netsim profiles: --svg: %s\n", problem.c_str());
-  return kTrouble;
+  return io::kExitTrouble;
 }
 
 int profiles_command(const ProfilesArguments& arguments) {

@@ -1,4 +1,3 @@
-#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -9,15 +8,17 @@
 
 #include "common/base/format.h"
 #include "common/io/command_line.h"
+#include "common/io/event_fd.h"
+#include "common/io/exit_code.h"
 #include "common/io/fd.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/realtime.h"
 #include "common/io/socket_address.h"
 #include "common/io/tcp_listener.h"
+#include "common/io/usage_errors.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/profiles/app/network_options.h"
 #include "netsim/proxy/app/control_socket.h"
 #include "netsim/proxy/app/decision_writer.h"
@@ -30,7 +31,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kTrouble = 1;  // exit code: failed while running
 constexpr int kPriority = 50;
 constexpr int kPortsTried = 20;  // attempts to find a port that is free for UDP and TCP
 
@@ -48,17 +48,10 @@ Duration microseconds(double us) { return from_seconds(us * 1e-6); }
 
 int trouble(const std::string& message) {
   io::print_formatted(stderr, "tandem-netsim proxy: %s\n", message.c_str());
-  return kTrouble;
+  return io::kExitTrouble;
 }
 
-int wrong(const std::string& message) { return report_usage_error("proxy", message); }
-
-/// Returns why an output file cannot be written; checked before the proxy starts.
-std::string output_problem(const char* option, const std::string& name) {
-  if (name.empty() || name == "-") return {};
-  const std::string problem = io::OutputFile::problem(name);
-  return problem.empty() ? problem : std::string(option) + ": " + problem;
-}
+int wrong(const std::string& message) { return io::report_usage_error("tandem-netsim proxy", message); }
 
 /// Returns the function that finds a network named while the proxy runs.
 ProxyControl::FindNetwork find_network(const NetworkOptions& networks) {
@@ -92,7 +85,7 @@ std::expected<io::SocketAddress, std::string> own_address(const std::string& opt
 }
 
 int proxy_command(const ProxyArguments& arguments) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   const auto listen = own_address("--listen", arguments.listen, 0);
   const auto to = own_address("--to", arguments.to, 1);
   for (const auto* address : {&listen, &to})
@@ -109,10 +102,10 @@ int proxy_command(const ProxyArguments& arguments) {
   }
   // The check happens here, the file is opened at the first output. A run that never starts leaves an older file
   // unchanged.
-  mistakes.add(output_problem("--json", arguments.json));
+  mistakes.output_file("--json", arguments.json);
   if (arguments.log == "-") mistakes.add("--log needs a file");
-  mistakes.add(output_problem("--log", arguments.log));
-  if (!mistakes.empty()) return mistakes.report("proxy");
+  mistakes.output_file("--log", arguments.log);
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim proxy");
 
   DecisionWriter log;
   ProxyOptions options;
@@ -127,7 +120,7 @@ int proxy_command(const ProxyArguments& arguments) {
   if (arguments.lateness_max_us > 0) options.late_limit = microseconds(arguments.lateness_max_us);
   options.sink = arguments.log.empty() ? nullptr : &log;
   const SignalWatcher interruption;
-  const io::Fd finished{eventfd(0, EFD_CLOEXEC)};
+  const io::EventFd finished;
   auto proxy = Proxy::open(options);
   if (!proxy) return trouble(proxy.error());
   auto joining = io::listen_tcp((*proxy)->listening());
@@ -162,8 +155,7 @@ int proxy_command(const ProxyArguments& arguments) {
     ask_for_machine(arguments.realtime, notice);
     if (!notice.empty()) io::print_formatted(stderr, "tandem-netsim proxy: %s\n", notice.c_str());
     (*proxy)->run();
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(finished.get(), &one, sizeof one);
+    finished.signal();
   });
   ProxyControl control{**proxy, options.link, find_network(arguments.network)};
   run_control_loop(**proxy, control, socket, interruption.fd(), finished.get());
@@ -192,8 +184,7 @@ int proxy_command(const ProxyArguments& arguments) {
   if (problem.empty()) problem = json.close();
   if (!problem.empty()) return trouble("--json: " + problem);
   if (!log_problem.empty()) return trouble("--log: " + log_problem);
-  if (notes.interrupted) return SignalWatcher::kInterrupted;
-  return in_time(**proxy, notes) ? 0 : kTrouble;
+  return !notes.interrupted && in_time(**proxy, notes) ? io::kExitDone : io::kExitTrouble;
 }
 
 }  // namespace

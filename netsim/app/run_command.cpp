@@ -6,13 +6,14 @@
 
 #include "common/base/format.h"
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/run_log.h"
 #include "netsim/app/signal_watcher.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/profiles/app/network_options.h"
 #include "netsim/quality/quality_json.h"
 #include "netsim/system/run_simulation.h"
@@ -26,8 +27,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kFailed = 1, kTrouble = 1;
-
 struct RunArguments {
   std::string scene, channel, mfs, json, trace, log, replay;
   std::vector<std::string> hands;
@@ -36,12 +35,12 @@ struct RunArguments {
   NetworkOptions network;
 };
 
-int wrong(const std::string& mistake) { return report_usage_error("run", mistake); }
+int wrong(const std::string& mistake) { return io::report_usage_error("tandem-netsim run", mistake); }
 
 /// Adds the parts that depend on the seats: scripts and recordings name them.
 /// @param notes  receives facts about the script's networks for the report
 void understand_network(const RunArguments& arguments, SimulationConfig& setup, std::vector<std::string>& notes,
-                        UsageErrors& mistakes) {
+                        io::UsageErrors& mistakes) {
   std::vector<std::string> seats;
   for (const SeatSpec& seat : setup.scene.seats) seats.push_back(seat.name);
   if (auto script = arguments.network.events(seats)) {
@@ -78,17 +77,14 @@ std::string replay_summary(const Simulation& world) {
          (own == sent ? "\n" : ", the others that of the last one recorded before them\n");
 }
 
-void check_outputs(const RunArguments& arguments, UsageErrors& mistakes) {
+void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
   for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
-    if (!file.empty() && !(file == "-" && file == arguments.json))
-      if (const auto problem = io::OutputFile::problem(file); !problem.empty())
-        mistakes.add(std::string(option) + ": " + problem);
+    if (!file.empty() && !(file == "-" && file == arguments.json)) mistakes.add(option, io::OutputFile::problem(file));
   if (arguments.trace == "-") mistakes.add("--trace: standard output is for --json; name a file");
   if (!arguments.trace.empty() && arguments.trace == arguments.json)
     mistakes.add("--trace: is the same file as --json");
   if (!arguments.log.empty()) {
-    if (const auto problem = io::OutputFile::problem(arguments.log); !problem.empty())
-      mistakes.add("--log: " + problem);
+    mistakes.add("--log", io::OutputFile::problem(arguments.log));
     if (arguments.log == "-") mistakes.add("--log: standard output is for --json; name a file");
     if (arguments.log == arguments.json || arguments.log == arguments.trace)
       mistakes.add("--log: is the same file as another result");
@@ -97,7 +93,7 @@ void check_outputs(const RunArguments& arguments, UsageErrors& mistakes) {
 }
 
 /// Makes the configuration from the arguments; collects all errors.
-SimulationConfig understand(const RunArguments& arguments, std::vector<std::string>& notes, UsageErrors& mistakes) {
+SimulationConfig understand(const RunArguments& arguments, std::vector<std::string>& notes, io::UsageErrors& mistakes) {
   SimulationConfig setup;
   if (auto scene = load_scene(arguments.scene)) {
     setup.scene = std::move(*scene);
@@ -181,12 +177,12 @@ int check(const RunArguments& arguments, const SimulationConfig& setup, const Ne
 }
 
 int run_command(const RunArguments& arguments) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   auto network = arguments.network.resolve();
   if (!network) mistakes.add(network.error());
   std::vector<std::string> script_notes;
   SimulationConfig setup = understand(arguments, script_notes, mistakes);
-  if (!mistakes.empty()) return mistakes.report("run");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim run");
   add_notes(network->notes, script_notes);
   setup.network = network->link;
   setup.monitor_quality = !arguments.no_quality;
@@ -217,7 +213,7 @@ int run_command(const RunArguments& arguments) {
   if (progress) std::fprintf(stderr, "\r\x1b[K");
   if (!run.trouble.empty()) {
     io::print_formatted(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
-    return kTrouble;
+    return io::kExitTrouble;
   }
 
   server::RunReport& report = run.report;
@@ -244,10 +240,9 @@ int run_command(const RunArguments& arguments) {
   for (const auto& problem : {trace_file.close(), log.close(), json_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim run: %s\n", problem.c_str());
-      return kTrouble;
+      return io::kExitTrouble;
     }
-  if (interrupted) return SignalWatcher::kInterrupted;
-  return report.passed ? 0 : kFailed;
+  return !interrupted && report.passed ? io::kExitDone : io::kExitTrouble;
 }
 
 }  // namespace

@@ -8,13 +8,14 @@
 #include "common/base/format.h"
 #include "common/base/heap_count.h"
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/parallel_jobs.h"
 #include "common/io/print.h"
 #include "common/io/terminal.h"
+#include "common/io/usage_errors.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/quality/quality_json.h"
 #include "netsim/system/session_notes.h"
 #include "netsim/system/swarm.h"
@@ -25,7 +26,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFailed = 1, kTrouble = 1;
 /// Failures that are listed; the rest is counted.
 constexpr std::size_t kShown = 20;
 
@@ -185,14 +185,12 @@ int print_scene(const SwarmArguments& arguments) {
 }
 
 int swarm_command(const SwarmArguments& arguments) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   if (!arguments.trace.empty() && arguments.seeds != 1) mistakes.add("--trace is of one session; add --seeds 1");
   for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
-    if (!file.empty() && file != "-")
-      if (const auto problem = io::OutputFile::problem(file); !problem.empty())
-        mistakes.add(std::string(option) + ": " + problem);
+    mistakes.output_file(option, file);
   if (arguments.trace == "-") mistakes.add("--trace: standard output is for --json; name a file");
-  if (!mistakes.empty()) return mistakes.report("swarm");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim swarm");
   if (arguments.scene) return print_scene(arguments);
 
   const SignalWatcher interruption;
@@ -242,10 +240,9 @@ int swarm_command(const SwarmArguments& arguments) {
   if (problem.empty()) problem = json.close();
   if (!problem.empty()) {
     io::print_formatted(stderr, "tandem-netsim swarm: --json: %s\n", problem.c_str());
-    return kTrouble;
+    return io::kExitTrouble;
   }
-  if (interrupted) return SignalWatcher::kInterrupted;
-  return sum.failed == 0 && sum.not_run == 0 ? 0 : kFailed;
+  return !interrupted && sum.failed == 0 && sum.not_run == 0 ? io::kExitDone : io::kExitTrouble;
 }
 
 }  // namespace

@@ -3,13 +3,14 @@
 
 #include "common/base/format.h"
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/sweep.h"
 #include "netsim/app/test_progress.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/system/session_notes.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
@@ -18,8 +19,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kGood = 0, kFailed = 1;
-
 struct SweepArguments {
   std::string scene, delay, jitter, loss, metric = "tracking_rms_m", channel, mfs, json, csv;
   std::uint64_t seed = 1;
@@ -27,10 +26,10 @@ struct SweepArguments {
   bool quiet = false;
 };
 
-int wrong(const std::string& mistake) { return report_usage_error("sweep", mistake); }
+int wrong(const std::string& mistake) { return io::report_usage_error("tandem-netsim sweep", mistake); }
 
 /// Makes the sweep from the arguments; collects all errors.
-SweepSpec understand(const SweepArguments& a, UsageErrors& mistakes) {
+SweepSpec understand(const SweepArguments& a, io::UsageErrors& mistakes) {
   SweepSpec spec;
   spec.scene_name = a.scene;
   spec.metric = a.metric;
@@ -90,14 +89,12 @@ SweepSpec understand(const SweepArguments& a, UsageErrors& mistakes) {
 }
 
 int sweep_command(const SweepArguments& a) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   SweepSpec spec = understand(a, mistakes);
   for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
-    if (!file->empty() && *file != "-")
-      if (const auto problem = io::OutputFile::problem(*file); !problem.empty())
-        mistakes.add(std::string(option) + ": " + problem);
+    mistakes.output_file(option, *file);
   if (!a.json.empty() && a.json == a.csv) mistakes.add("--csv: is the same file as --json");
-  if (!mistakes.empty()) return mistakes.report("sweep");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim sweep");
 
   const SignalWatcher interruption;
   io::OutputFile json_file, csv_file;
@@ -120,11 +117,11 @@ int sweep_command(const SweepArguments& a) {
                                        std::to_string(sweep.runs.all()) + " runs");
   json_file.write(sweep_json(sweep));
   csv_file.write(sweep_csv(sweep));
-  int code = interrupted ? SignalWatcher::kInterrupted : sweep.good() ? kGood : kFailed;
+  int code = !interrupted && sweep.good() ? io::kExitDone : io::kExitTrouble;
   for (const auto& problem : {json_file.close(), csv_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim sweep: %s\n", problem.c_str());
-      code = kFailed;
+      code = io::kExitTrouble;
     }
   return code;
 }

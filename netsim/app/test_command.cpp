@@ -3,21 +3,21 @@
 #include <limits>
 
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "netsim/app/netsim_commands.h"
 #include "netsim/app/scenario_loader.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/test_progress.h"
 #include "netsim/app/test_report.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/scenario/shipped_scenarios.h"
 #include "netsim/system/session_notes.h"
 
 namespace tandem::netsim {
 namespace {
 
-constexpr int kPass = 0, kFailed = 1;
 constexpr double kJobsMax = 256, kSeedsMax = 100'000;
 
 struct TestArguments {
@@ -29,7 +29,7 @@ struct TestArguments {
   bool fail_fast = false, list = false, check = false, reports = false, quiet = false;
 };
 
-int wrong(const std::string& mistake) { return report_usage_error("test", mistake); }
+int wrong(const std::string& mistake) { return io::report_usage_error("tandem-netsim test", mistake); }
 
 void list(const std::vector<Scenario>& scenarios) {
   std::size_t width = 0;
@@ -40,7 +40,7 @@ void list(const std::vector<Scenario>& scenarios) {
 }
 
 /// Checks the options that depend on the scenarios.
-void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, UsageErrors& mistakes) {
+void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, io::UsageErrors& mistakes) {
   std::uint64_t runs = 0;
   for (const Scenario& s : scenarios) {
     const std::uint64_t seeds = a.command.given("--seeds") ? static_cast<std::uint64_t>(a.seeds) : s.seeds;
@@ -55,7 +55,7 @@ void check_together(const TestArguments& a, const std::vector<Scenario>& scenari
                  "; add --seeds 1 and name one");
 }
 
-void check_outputs(const TestArguments& a, UsageErrors& mistakes) {
+void check_outputs(const TestArguments& a, io::UsageErrors& mistakes) {
   const std::array<std::pair<const char*, const std::string*>, 3> files{
       {{"--json", &a.json}, {"--junit", &a.junit}, {"--trace", &a.trace}}};
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -63,8 +63,8 @@ void check_outputs(const TestArguments& a, UsageErrors& mistakes) {
     if (file->empty() || (*file == "-" && i == 0)) continue;
     if (*file == "-") {
       mistakes.add(std::string(option) + ": standard output is for --json; name a file");
-    } else if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) {
-      mistakes.add(std::string(option) + ": " + problem);
+    } else {
+      mistakes.add(option, io::OutputFile::problem(*file));
     }
     for (std::size_t k = 0; k < i; ++k)
       if (*files[k].second == *file) mistakes.add(std::string(option) + ": is the same file as " + files[k].first);
@@ -72,7 +72,7 @@ void check_outputs(const TestArguments& a, UsageErrors& mistakes) {
 }
 
 int test_command(const TestArguments& a) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   check_outputs(a, mistakes);
   std::vector<std::string> names = a.scenarios;
   if (names.empty() && a.list) names.emplace_back(kAllShipped);
@@ -94,7 +94,7 @@ int test_command(const TestArguments& a) {
   } else {
     for (const InputError& error : scenarios.error()) mistakes.add(to_text(error));
   }
-  if (!mistakes.empty()) return mistakes.report("test");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim test");
   for (const std::string& note : left_out) io::print_formatted(stderr, "note: %s\n", note.c_str());
   for (Scenario& s : *scenarios) {  // the options now replace the scenario's values
     if (a.command.given("--seed")) s.seed = a.seed;
@@ -102,7 +102,7 @@ int test_command(const TestArguments& a) {
   }
   if (a.list) {
     list(*scenarios);
-    return kPass;
+    return io::kExitDone;
   }
   if (a.check) {
     for (const Scenario& s : *scenarios) {
@@ -112,7 +112,7 @@ int test_command(const TestArguments& a) {
     }
     std::printf("# OK: %zu scenario%s without a mistake; nothing was started\n", scenarios->size(),
                 scenarios->size() == 1 ? "" : "s");
-    return kPass;
+    return io::kExitDone;
   }
   const SignalWatcher interruption;
   io::OutputFile json_file, junit_file;
@@ -139,11 +139,11 @@ int test_command(const TestArguments& a) {
         "test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
   json_file.write(test_json(result));
   junit_file.write(junit_xml(result));
-  int code = result.interrupted ? SignalWatcher::kInterrupted : result.passed() ? kPass : kFailed;
+  int code = !result.interrupted && result.passed() ? io::kExitDone : io::kExitTrouble;
   for (const auto& problem : {json_file.close(), junit_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim test: %s\n", problem.c_str());
-      code = kFailed;
+      code = io::kExitTrouble;
     }
   return code;
 }

@@ -28,11 +28,11 @@ void AuthorityChecker::check(std::uint32_t lived, const server::Session& session
     const control::ToolAuthority& authority = session.tool(j).authority;
     const std::string& name = scene_->tools[j].name;
     if (disengages_all(session.state()) && lived > 0 && !authority.held())
-      violations.add("stop_holds_tools", name, session.time(), false);
+      violations.add("stop_holds_tools", name, session.clock().time(), false);
     check_seats(j, lived, session, violations);
     if (lived == 1 && !authority.held() &&
         tip_norm(force_step(j, session), scale, scene_->dof) > kFeltMax * 1e3 / scene_->tick_hz)
-      violations.add("authority_felt", name, session.time(), false);
+      violations.add("authority_felt", name, session.clock().time(), false);
     for (std::size_t i = 0; i < scene_->masters(); ++i) tools_[j].alpha[i] = authority.alpha(i);
     tools_[j].braked = authority.held();
   }
@@ -45,7 +45,7 @@ void AuthorityChecker::check_seats(std::size_t tool, std::uint32_t lived, const 
   const double step = std::max(scene_->alpha_slew, kLossSlew) * lived / scene_->tick_hz + 1e-9;
   for (std::size_t i = 0; i < scene_->masters(); ++i) {
     const auto reject_if = [&](bool violated, std::string_view invariant) {
-      if (violated) violations.add(invariant, scene_->seats[i].name, session.time(), false);
+      if (violated) violations.add(invariant, scene_->seats[i].name, session.clock().time(), false);
     };
     const double alpha = authority.alpha(i);
     const server::SeatEndpoint& seat = session.seat(i);

@@ -18,7 +18,7 @@ AxisArray coupled_position(const ObservedSeat& seat, std::size_t tool) noexcept 
   const server::Tool& coupled = seat.session.tool(tool);
   AxisArray x = coupled.position();
   for (std::size_t a = 0; seat.slave() && a < seat.scene.dof; ++a)
-    x[a] = coupled.slave_goal(a, seat.endpoint().end().state().k[a]);
+    x[a] = coupled.port().slave_goal(a, seat.endpoint().end().state().k[a]);
   return x;
 }
 
@@ -88,13 +88,13 @@ void SeatEndsChecker::check_server(const ObservedSeat& seat) {
 void SeatEndsChecker::check_client(const ObservedSeat& seat) {
   const client::Seat& core = seat.core();
   const AxisArray offset = offset_of(seat);
-  for (std::size_t k = 0; k < core.ties(); ++k) {
+  for (std::size_t k = 0; k < core.tools().size(); ++k) {
     AxisArray x = core.sent(k).x;
     if (const control::VirtualTool* const copy = core.coupling().tool_copy(k))
       for (std::size_t a = 0; a < seat.scene.dof; ++a) x[a] = copy->x(a);
-    client_[k].check(seat, {.end = core.channel(k),
+    client_[k].check(seat, {.end = core.tools().end(k),
                             .scale = core.setup().axis_scale,
-                            .received = core.received(k).port,
+                            .received = core.tools().received(k).port,
                             .x = x,
                             .coupled = seat.slave() ? std::optional{x} : std::nullopt,
                             .offset = offset,

@@ -44,12 +44,12 @@ double HandEnergyBalance::excess(const Sample& sample) noexcept {
     moved2 += (t.x[a] - q_[a]) * (t.x[a] - q_[a]);
   }
   const bool whole = std::sqrt(given2) >= kWhole * std::min(sample.motor_max, std::sqrt(wanted2));
-  const bool several = seat.ties() > 1, clipped = wanted2 > kWhole * kWhole * sample.motor_max * sample.motor_max;
+  const bool several = seat.tools().size() > 1, clipped = wanted2 > kWhole * kWhole * sample.motor_max * sample.motor_max;
   const bool active = seat.gate().phase() == control::GatePhase::kActive && (active_ || whole) && !(several && clipped);
   double stored = several ? 0 : stored_in_spring(wanted2, k_c, sample.motor_max);
-  for (std::size_t k = 0; k < seat.ties(); ++k) {
+  for (std::size_t k = 0; k < seat.tools().size(); ++k) {
     const control::VirtualTool& copy = *seat.coupling().tool_copy(k);
-    const control::ChannelEnd& end = seat.channel(k);
+    const control::ChannelEnd& end = seat.tools().end(k);
     const double weight = k == 0 ? setup.weight : setup.further[k - 1].weight;
     const std::int64_t spent = net_spent(end), before = std::exchange(spent_nj_[k], spent);
     if (known_ && active && active_ && !sample.account_restarted)

@@ -36,7 +36,7 @@ bool InvariantChecker::begin_recovery_phase() noexcept {
 
 void InvariantChecker::check(std::uint32_t lived, const server::Session& session,
                              const std::vector<SimulatedClient>& clients) {
-  t_ = session.time();
+  t_ = session.clock().time();
   server::SessionInvariantChecker{}.check(session, violations_);
   restart_barrier_.check(session, violations_);
   authority_.check(lived, session, scale_, violations_);

@@ -50,7 +50,7 @@ struct ObservedSeat {
   [[nodiscard]] bool frozen() const noexcept { return client.faults().active(Fault::Kind::kFrozen, client.last_run()); }
 
   void violated(std::string_view invariant, bool expected = false) const {
-    violations.add(invariant, spec().name, session.time(), expected);
+    violations.add(invariant, spec().name, session.clock().time(), expected);
   }
 };
 

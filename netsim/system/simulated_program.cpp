@@ -62,11 +62,11 @@ std::string SimulatedProgram::join_failed(server::JoinResult why, Time now, cons
 
 void SimulatedProgram::apply_stop_faults(Time now, const FaultSchedule& faults) noexcept {
   const bool stop = faults.active(Fault::Kind::kStopHand, now);
-  if (stop && !stopped_) seat_->request_local_stop();
-  if (!stop && stopped_) seat_->request_resume();
+  if (stop && !stopped_) seat_->requests().stop_locally();
+  if (!stop && stopped_) seat_->requests().resume();
   stopped_ = stop;
   const bool stop_all = faults.active(Fault::Kind::kStopAll, now);
-  if (stop_all && !stop_all_requested_) static_cast<void>(seat_->request_stop_all());
+  if (stop_all && !stop_all_requested_) static_cast<void>(seat_->requests().stop_all());
   stop_all_requested_ = stop_all;
 }
 

@@ -208,7 +208,7 @@ std::size_t Simulation::send_from_server() {
     ++sent;
     const std::size_t to = seat_of(out->to);
     if (to >= clients_.size()) {
-      checker_.on_reply_to_unknown_peer(session().time());
+      checker_.on_reply_to_unknown_peer(session().clock().time());
       continue;
     }
     network_.send_to(now_, static_cast<std::uint32_t>(to), address_of(out->to), std::span{buffer_}.first(out->size));
@@ -221,7 +221,7 @@ void Simulation::request_resumes() {
   if (!faults_.ended(Fault::Kind::kStopAll, now_ - tick_, now_)) return;
   for (std::size_t i = 0; i < clients_.size(); ++i)
     if (clients_[i].seat() != nullptr && setup_.scene.seats[i].role == Role::kInstructor)
-      clients_[i].seat()->request_resume();
+      clients_[i].seat()->requests().resume();
 }
 
 void Simulation::inject_attacks() {

@@ -13,6 +13,7 @@
 #include "common/io/reachable_address.h"
 #include "common/io/remote_address.h"
 #include "common/io/udp_socket.h"
+#include "common/io/usage_errors.h"
 
 namespace tandem::io {
 namespace {
@@ -116,6 +117,35 @@ TEST(Program, ReportsUsageErrorsWithExitCode2) {
   EXPECT_NE(text.find("--law: x not in {raw,replica}"), std::string::npos) << text;
   EXPECT_NE(text.find("--seeds: Value 10 not in range 1 to 9"), std::string::npos) << text;
   EXPECT_NE(text.find("2 mistakes; nothing was started"), std::string::npos) << text;
+}
+
+TEST(UsageErrors, CollectsLinesAndIgnoresMissingProblems) {
+  UsageErrors errors;
+  errors.add("");
+  errors.add("--json", "");
+  errors.output_file("--json", "-");
+  EXPECT_TRUE(errors.empty());
+  errors.add("as a scene:\nfirst\nsecond\n");
+  errors.add("--trace", "is the same file as --json");
+  EXPECT_EQ(errors.count(), 3U) << "a line that ends in a colon belongs to the next";
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(errors.report("tandem-x y", "nothing was sent"), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "as a scene:\nfirst\nsecond\n--trace: is the same file as --json\ntandem-x y: 3 mistakes, nothing was "
+            "sent\n");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(report_usage_error("tandem-x", "bad"), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "tandem-x: bad\n1 mistake; nothing was started\n");
+}
+
+TEST(UsageErrors, ReadsNumbers) {
+  UsageErrors errors;
+  EXPECT_EQ(errors.number("--timeout", "1.5 s", 0, 2, "s"), 1.5);
+  EXPECT_EQ(errors.optional_number("--timeout", "", 0, 2, "s"), 0);
+  EXPECT_TRUE(errors.empty());
+  EXPECT_EQ(errors.number("--timeout", "", 0, 2, "s"), 0);
+  EXPECT_EQ(errors.optional_number("--timeout", "3", 0, 2, "s"), 0);
+  EXPECT_EQ(errors.count(), 2U);
 }
 
 TEST(Unit, IsStrippedOnlyAfterADigit) {

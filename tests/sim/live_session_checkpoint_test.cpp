@@ -1,6 +1,5 @@
 // The checkpoint that a live session writes for a restart, in virtual time.
 #include <gtest/gtest.h>
-#include <sys/eventfd.h>
 
 #include "client/seat/seat.h"
 #include "hal/sim/sim_device.h"
@@ -20,7 +19,7 @@ TEST(LiveSessionCheckpoint, ContainsASessionFromItsFirstTickOn) {
   ASSERT_TRUE(slaves);
   server::TickQueue records{64};
   server::LiveSession hosted(scene, std::move(*slaves), 0, records);
-  const io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  const io::EventFd wake;
   const auto mail = std::make_shared<server::CheckpointMailbox>(wake);
   hosted.persist_to(mail, 1);
 

@@ -176,7 +176,7 @@ const std::array<Room, 41> kRooms{{
 
 const std::vector<std::string_view> kPumps{"app", "io", "tests", "hal/backends"};
 
-const std::array<Ban, 9> kBans{{
+const std::array<Ban, 10> kBans{{
     {Ban::In::kCode,
      {"steady_clock", "system_clock", "high_resolution_clock", "utc_clock", "clock_gettime", "gettimeofday",
       "timespec_get", "timerfd_create", "sleep_for", "sleep_until", "usleep", "nanosleep"},
@@ -210,6 +210,12 @@ const std::array<Ban, 9> kBans{{
      {},
      {"common/io/command_line.cpp"},  // the only source that compiles the library
      "CLI11 takes seconds to compile; common/io/command_line.h has its interface"},
+    {Ban::In::kInclude,
+     {"spdlog/spdlog.h"},
+     {"client/app", "common/io", "netsim/app", "server/app"},
+     {},
+     {"common/io/log.cpp"},  // the only source that compiles the library
+     "log lines go through common/io/log.h"},
     {Ban::In::kCode,
      {"std::rand", "srand", "drand48", "random_device", "mt19937", "mt19937_64"},
      {},

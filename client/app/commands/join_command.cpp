@@ -10,6 +10,7 @@
 #include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "hal/backends/backend.h"
 #include "hal/io/open_sim_device.h"
 #include "proto/wire/wire_messages.h"
@@ -17,70 +18,53 @@
 namespace tandem::client {
 namespace {
 
-constexpr int kWrong = 2;
-
 /// Arguments as typed. Numbers remain text until parse_command, so that all errors are reported together.
 struct JoinArguments {
   TicketOption ticket;
-  std::string server, session, state, seat, device, script, trace, json, duration, patience = "5", rejoin = "60";
+  std::string server, session, state, seat, device, script, trace, json, duration, timeout = "5", rejoin = "60";
   bool quiet = false;
 };
 
-using Mistakes = std::vector<std::string>;
-
-double number(const char* option, std::string text, double lo, double hi, Mistakes& mistakes) {
-  if (text.empty()) return 0;
-  if (const std::string problem = io::number_in(lo, hi, "s")(text); !problem.empty()) {
-    mistakes.push_back(std::string(option) + ": " + problem);
-    return 0;
-  }
-  return std::stod(text);
-}
-
-void check_files(const JoinArguments& arguments, Mistakes& mistakes) {
-  if (!arguments.json.empty() && arguments.json != "-")
-    if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty())
-      mistakes.push_back("--json: " + problem);
-  if (!arguments.trace.empty())
-    if (const auto problem = io::OutputFile::problem(arguments.trace); !problem.empty())
-      mistakes.push_back("--trace: " + problem);
+void check_files(const JoinArguments& arguments, io::UsageErrors& errors) {
+  errors.output_file("--json", arguments.json);
+  if (!arguments.trace.empty()) errors.add("--trace", io::OutputFile::problem(arguments.trace));
   if (!arguments.trace.empty() && arguments.trace == arguments.json)
-    mistakes.push_back("--trace: is the same file as --json");
+    errors.add("--trace", "is the same file as --json");
 }
 
-/// Returns the options, and appends all errors to `mistakes`.
-SeatOptions parse_command(const JoinArguments& arguments, Mistakes& mistakes) {
+/// Returns the options, and adds all errors.
+SeatOptions parse_command(const JoinArguments& arguments, io::UsageErrors& errors) {
   SeatOptions plan;
-  if (const auto server = server_option(arguments.server, mistakes)) plan.server = *server;
+  if (const auto server = server_option(arguments.server, errors)) plan.server = *server;
   if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
-    mistakes.push_back("--seat: a name has 1 to 32 characters");
+    errors.add("--seat: a name has 1 to 32 characters");
   if (HardwareDevice::is_hardware_spec(arguments.device)) {
-    for (std::string& wrong : HardwareDevice::spec_errors(arguments.device)) mistakes.push_back(std::move(wrong));
+    errors.add(HardwareDevice::spec_errors(arguments.device));
   } else if (const auto device = hal::open_sim_device(arguments.device, SimDeviceSpec{}, HandSpec{})) {
     plan.caps = known_caps(device->device->caps());
   } else {
     std::istringstream lines(device.error().message);
     for (std::string line; std::getline(lines, line);)
-      mistakes.push_back("--device: " + line.substr(line.starts_with("device: ") ? 8 : 0));
+      errors.add("--device: " + line.substr(line.starts_with("device: ") ? 8 : 0));
   }
   if (arguments.device.find("keyboard") != std::string::npos && isatty(STDIN_FILENO) == 0)
-    mistakes.push_back("--device " + arguments.device +
-                       ": the keys are read from a terminal, and standard input is not a terminal");
+    errors.add("--device " + arguments.device +
+               ": the keys are read from a terminal, and standard input is not a terminal");
   if (!arguments.script.empty()) {
     auto script = AuthorityScript::load(arguments.script);
     if (script) {
       plan.script = std::move(*script);
     } else {
-      mistakes.insert(mistakes.end(), script.error().begin(), script.error().end());
+      errors.add(script.error());
     }
   }
-  check_files(arguments, mistakes);
-  plan.duration_s = number("--duration", arguments.duration, 0.1, 3e6, mistakes);
-  plan.timeout_s = number("--timeout", arguments.patience, 0.1, 3600, mistakes);
-  plan.reconnect_timeout_s = number("--reconnect-timeout", arguments.rejoin, 0, 600, mistakes);
+  check_files(arguments, errors);
+  plan.duration_s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s");
+  plan.timeout_s = errors.optional_number("--timeout", arguments.timeout, 0.1, 3600, "s");
+  plan.reconnect_timeout_s = errors.optional_number("--reconnect-timeout", arguments.rejoin, 0, 600, "s");
   plan.seat = arguments.seat;
   plan.session = arguments.session;
-  plan.ticket = ticket_of(arguments.ticket, mistakes);
+  plan.ticket = ticket_of(arguments.ticket, errors);
   plan.state = arguments.state;
   plan.device = arguments.device;
   plan.trace = arguments.trace;
@@ -90,13 +74,9 @@ SeatOptions parse_command(const JoinArguments& arguments, Mistakes& mistakes) {
 }
 
 int join_command(const JoinArguments& arguments) {
-  Mistakes mistakes;
-  const SeatOptions plan = parse_command(arguments, mistakes);
-  if (mistakes.empty()) return run_seat(plan);
-  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-  io::print_formatted(stderr, "tandem-client join: %zu mistake%s, nothing was started\n", mistakes.size(),
-                      mistakes.size() == 1 ? "" : "s");
-  return kWrong;
+  io::UsageErrors errors;
+  const SeatOptions plan = parse_command(arguments, errors);
+  return errors.empty() ? run_seat(plan) : errors.report("tandem-client join");
 }
 
 }  // namespace
@@ -132,7 +112,7 @@ void add_join_command(const io::Command& root) {
                   "leaves after this many seconds at the seat; default: stays to the end")
       .value_name("S");
   command
-      .add_option("--timeout", arguments.patience, "how long to wait for a server that does not answer [s]; default 5")
+      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
       .value_name("S");
   command
       .add_option(

@@ -2,20 +2,19 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "client/app/commands/ticket_option.h"
 #include "common/io/socket_address.h"
+#include "common/io/usage_errors.h"
 
 /// Options shared by the commands that connect to a server.
 namespace tandem::client {
 
-/// Returns the address given as `--server`; nullopt, and an error appended to `mistakes`, if it is invalid.
-[[nodiscard]] inline std::optional<io::SocketAddress> server_option(const std::string& text,
-                                                                    std::vector<std::string>& mistakes) {
+/// Returns the address given as `--server`; nullopt, and adds an error, if it is invalid.
+[[nodiscard]] inline std::optional<io::SocketAddress> server_option(const std::string& text, io::UsageErrors& errors) {
   const auto server = io::parse_address(text, 1);
   if (server) return *server;
-  mistakes.push_back("--server: " + server.error());
+  errors.add("--server", server.error());
   return std::nullopt;
 }
 

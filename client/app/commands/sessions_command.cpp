@@ -6,32 +6,28 @@
 #include "client/app/commands/server_option.h"
 #include "client/app/join_client.h"
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
+#include "common/io/usage_errors.h"
 #include "proto/rpc/session_list_text.h"
 
 namespace tandem::client {
 namespace {
 
 struct Arguments {
-  std::string server, state, patience = "5";
+  std::string server, state, timeout = "5";
   bool json = false;
 };
 
 int sessions_command(const Arguments& arguments) {
-  std::vector<std::string> mistakes;
+  io::UsageErrors errors;
   JoinOptions asking;
-  if (const auto server = server_option(arguments.server, mistakes)) asking.server = *server;
-  std::string patience = arguments.patience;
-  if (const auto problem = io::number_in(0.1, 3600, "s")(patience); !problem.empty())
-    mistakes.push_back("--timeout: " + problem);
-  if (!mistakes.empty()) {
-    for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-    return 2;
-  }
+  if (const auto server = server_option(arguments.server, errors)) asking.server = *server;
+  asking.timeout = from_seconds(errors.number("--timeout", arguments.timeout, 0.1, 3600, "s"));
+  if (!errors.empty()) return errors.print("");
   const io::Fd signals = io::make_signalfd();
   asking.state = arguments.state;
-  asking.timeout = from_seconds(std::stod(patience));
   asking.signals = signals.get();
   const auto list = list_sessions(asking);
   if (!list) {
@@ -55,7 +51,7 @@ void add_sessions_command(const io::Command& root) {
                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
       .value_name("DIR");
   command
-      .add_option("--timeout", arguments.patience, "how long to wait for a server that does not answer [s]; default 5")
+      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
       .value_name("S");
   command.add_flag("--json", arguments.json, "for machines");
   command.footer(

@@ -1,4 +1,3 @@
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,8 +10,11 @@
 #include "client/app/tutorial.h"
 #include "common/base/suggestions.h"
 #include "common/io/command_line.h"
+#include "common/io/exit_code.h"
+#include "common/io/log.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
+#include "common/io/usage_errors.h"
 #include "hal/io/open_sim_device.h"
 #include "proto/io/scene_file.h"
 
@@ -21,7 +23,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kTrouble = 1, kWrong = 2;
 constexpr Duration kServerStarts = 20s;
 constexpr double kAfterTutorial = 2;  // [s] time after the tutorial until a trial without terminal ends
 
@@ -68,8 +69,8 @@ class TrySession final : public SeatObserver {
   std::optional<double> tutorial_over_since_;
 };
 
-int trouble(const std::string& what, int code = kTrouble) {
-  spdlog::error("try: {}", what);
+int trouble(const std::string& what, int code = io::kExitTrouble) {
+  io::log(io::Level::kError, "try: " + what);
   return code;
 }
 
@@ -142,29 +143,19 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
 }
 
 int try_command(const TryArguments& arguments) {
-  std::vector<std::string> mistakes;
-  double duration_s = 0;
-  if (std::string text = arguments.duration; !text.empty()) {
-    if (const std::string problem = io::number_in(0.1, 3e6, "s")(text); !problem.empty()) {
-      mistakes.push_back("--duration: " + problem);
-    } else {
-      duration_s = std::stod(text);
-    }
-  }
+  io::UsageErrors errors;
+  const double duration_s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s");
   const auto scene = load_scene(arguments.scene);
   const SeatSpec* own = nullptr;
   if (scene) {
     std::string why;
     own = seat_for_person(*scene, arguments.seat, why);
-    if (own == nullptr) mistakes.push_back(why);
+    if (own == nullptr) errors.add(why);
   } else {
-    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
+    errors.add(to_text(scene.error()));
   }
-  if (mistakes.empty()) return try_scene(*scene, arguments.scene, *own, duration_s);
-  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-  io::print_formatted(stderr, "tandem-client try: %zu mistake%s, nothing was started\n", mistakes.size(),
-                      mistakes.size() == 1 ? "" : "s");
-  return kWrong;
+  if (errors.empty()) return try_scene(*scene, arguments.scene, *own, duration_s);
+  return errors.report("tandem-client try");
 }
 
 }  // namespace

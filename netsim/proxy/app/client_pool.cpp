@@ -1,8 +1,5 @@
 #include "netsim/proxy/app/client_pool.h"
 
-#include <sys/eventfd.h>
-#include <unistd.h>
-
 #include <algorithm>
 
 namespace tandem::netsim {
@@ -12,8 +9,7 @@ ClientPool::ClientPool(const ProxyCore& core, const LinkSpec& link, bool monitor
       monitor_(monitor),
       link_(link),
       ready_(kReady),
-      returned_(2 * kReady),
-      wanted_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+      returned_(2 * kReady) {
   refill();
 }
 
@@ -27,8 +23,7 @@ ClientPool::~ClientPool() {
 }
 
 void ClientPool::refill() {
-  std::uint64_t times = 0;
-  [[maybe_unused]] const auto got = ::read(wanted_.get(), &times, sizeof times);
+  wanted_.clear();
   while (PreparedClient* const* prepared = returned_.front()) {
     delete *prepared;
     returned_.pop();
@@ -75,8 +70,7 @@ ClientPool::PreparedClient* ClientPool::next() noexcept {
 
 void ClientPool::give_back(PreparedClient* prepared) noexcept {
   [[maybe_unused]] const bool pushed = returned_.push(prepared);  // never full
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(wanted_.get(), &one, sizeof one);
+  wanted_.signal();
 }
 
 }  // namespace tandem::netsim

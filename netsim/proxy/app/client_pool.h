@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "common/io/event_fd.h"
 #include "common/io/fd.h"
 #include "common/io/spsc_queue.h"
 #include "netsim/proxy/proxy_core.h"
@@ -60,7 +61,7 @@ class ClientPool {
   std::uint64_t version_ = 0, made_ = 0;  ///< version of the link; number of clients prepared so far
   std::size_t outstanding_ = 0;           ///< held by the packet thread or in a queue
   io::SpscQueue<PreparedClient*> ready_, returned_;
-  io::Fd wanted_;
+  io::EventFd wanted_;
   std::atomic<std::uint64_t> arrived_{0};  ///< number of clients that joined
   std::atomic<std::uint64_t> misses_{0};
 };

@@ -1,7 +1,6 @@
 #include "netsim/proxy/app/proxy.h"
 
 #include <sys/epoll.h>
-#include <sys/eventfd.h>
 #include <sys/prctl.h>
 
 #include <algorithm>
@@ -24,14 +23,14 @@ constexpr std::size_t kRequestsMax = 64;
 std::expected<std::unique_ptr<Proxy>, std::string> Proxy::open(const ProxyOptions& options) {
   auto clients = ProxyClients::open(options.listen, options.to);
   if (!clients) return std::unexpected(clients.error());
-  io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  io::EventFd wake;
   if (!wake.open() || !clients->watch(wake.get(), {ProxySource::Kind::kWake, 0})) {
     return std::unexpected(std::string("the system gives no file descriptors: ") + std::strerror(errno));
   }
   return std::unique_ptr<Proxy>(new Proxy(options, std::move(*clients), std::move(wake)));
 }
 
-Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake)
+Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::EventFd wake)
     : options_(options),
       clients_(std::move(clients)),
       wake_(std::move(wake)),
@@ -101,8 +100,7 @@ std::size_t Proxy::read_ready(Duration wait) noexcept {
   for (int i = 0; i < ready; ++i) {
     const ProxySource source = ProxySource::of(events[static_cast<std::size_t>(i)].data.u64);
     if (source.kind == ProxySource::Kind::kWake) {
-      std::uint64_t times = 0;
-      [[maybe_unused]] const auto got = ::read(wake_.get(), &times, sizeof times);
+      wake_.clear();
       continue;
     }
     // One batch per source: a client with heavy traffic waits for the others.
@@ -139,7 +137,7 @@ void Proxy::send_due() noexcept {
 
 void Proxy::stop() noexcept {
   stopping_.store(true, std::memory_order_release);
-  wake();
+  wake_.signal();
 }
 
 bool Proxy::post(ProxyRequest& request) noexcept {
@@ -149,13 +147,8 @@ bool Proxy::post(ProxyRequest& request) noexcept {
   }
   if (!requests_.push(&request)) return false;
   for (const LinkSpec& link : for_new) pool().set_next_link(link);
-  wake();
+  wake_.signal();
   return true;
-}
-
-void Proxy::wake() noexcept {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
 }
 
 void Proxy::process_requests() noexcept {
@@ -203,13 +196,9 @@ ProxyStatus Proxy::final_status() const {
 
 void Proxy::publish() noexcept {
   // A reading thread must not delay packets. If the lock is taken, this update is skipped.
-  const std::unique_lock lock{published_lock_, std::try_to_lock};
-  if (lock) fill(published_);
+  published_.update([this](ProxyStatus& status) { fill(status); });
 }
 
-ProxyStatus Proxy::status() const {
-  const std::lock_guard lock{published_lock_};
-  return published_;
-}
+ProxyStatus Proxy::status() const { return published_.read(); }
 
 }  // namespace tandem::netsim

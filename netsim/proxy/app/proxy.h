@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "common/base/time.h"
+#include "common/io/event_fd.h"
 #include "common/io/fd.h"
+#include "common/io/published.h"
 #include "common/io/socket_address.h"
 #include "common/io/spsc_queue.h"
 #include "netsim/proxy/app/client_registry.h"
@@ -72,21 +74,20 @@ class Proxy {
   [[nodiscard]] std::vector<ProxyClientQuality> qualities() const { return registry_.qualities(); }
 
  private:
-  Proxy(const ProxyOptions& options, ProxyClients clients, io::Fd wake);
+  Proxy(const ProxyOptions& options, ProxyClients clients, io::EventFd wake);
 
   void run_round() noexcept;
   [[nodiscard]] std::size_t read_ready(Duration wait) noexcept;
   void send_due() noexcept;
   void process_requests() noexcept;
   void execute(ProxyRequest& request) noexcept;
-  void wake() noexcept;
   void fill(ProxyStatus& status) const noexcept;
   void publish() noexcept;
 
   ProxyOptions options_;
   ProxyErrors errors_;
   ProxyClients clients_;
-  io::Fd wake_;  ///< written by other threads
+  io::EventFd wake_;  ///< written by other threads
   std::atomic<bool> stopping_{false};
   io::SpscQueue<ProxyRequest*> requests_;
   ProxyCore core_;
@@ -101,8 +102,7 @@ class Proxy {
   Duration tried_until_{};  ///< all datagrams due by then that could leave were sent
   Duration last_read_{}, next_maintenance_{};
   bool busy_ = false;  ///< recent arrivals, or datagrams in flight
-  mutable std::mutex published_lock_;
-  ProxyStatus published_;
+  io::Published<ProxyStatus> published_;
 };
 
 }  // namespace tandem::netsim

@@ -17,16 +17,13 @@ struct EnrollArguments {
 constexpr double kHoursMax = 720;
 
 int enroll_command(const EnrollArguments& arguments) {
-  std::vector<std::string> mistakes;
+  io::UsageErrors errors;
   if (!auth::is_valid_name(arguments.name))
-    mistakes.push_back("NAME: \"" + arguments.name + "\" must have 1 to 32 characters of A-Z a-z 0-9 _ -");
+    errors.add("NAME", "\"" + arguments.name + "\" must have 1 to 32 characters of A-Z a-z 0-9 _ -");
   std::string hours = arguments.hours;
-  if (const auto problem = io::number_in(0.01, kHoursMax, "h")(hours); !problem.empty())
-    mistakes.push_back("--hours: " + problem);
-  if (!arguments.address.empty())
-    if (const auto problem = io::remote_address_error(arguments.address); !problem.empty())
-      mistakes.push_back("--address: " + problem);
-  if (!mistakes.empty()) return print_usage_errors("enroll", mistakes);
+  errors.add("--hours", io::number_in(0.01, kHoursMax, "h")(hours));
+  if (!arguments.address.empty()) errors.add("--address", io::remote_address_error(arguments.address));
+  if (!errors.empty()) return print_usage_errors("enroll", errors);
 
   auto state = open_state(arguments.state);
   if (!state) return print_error("enroll", state.error());
@@ -36,11 +33,11 @@ int enroll_command(const EnrollArguments& arguments) {
     const auto serving = state->read_serving();
     if (!serving) return print_error("enroll", serving.error());
     if (!*serving)
-      return print_usage_errors("enroll", {"--address is required: no server runs from " + state->folder()->path() +
-                                           ", so its address is unknown"});
+      return print_usage_error("enroll", "--address is required: no server runs from " + state->folder()->path() +
+                                             ", so its address is unknown");
     out.address = (*serving)->address;
     if (const auto problem = io::remote_address_error(out.address); !problem.empty())
-      return print_usage_errors("enroll", {"--address is required: the running server listens on " + problem});
+      return print_usage_error("enroll", "--address is required: the running server listens on " + problem);
   }
   out.server = state->identity().fingerprint();
   auth::fill_random(out.code.bytes);

@@ -15,7 +15,7 @@ struct InitArguments {
 
 int make_state(const std::string& state) {
   const auto path = auth::server_state_path(state);
-  if (!path) return print_usage_errors("init", {path.error()});
+  if (!path) return print_usage_error("init", path.error());
   const std::int64_t now = auth::wall_seconds();
   const auto fingerprint = auth::ServerKeystore::init(*path, now);
   if (!fingerprint) return print_error("init", fingerprint.error());
@@ -31,7 +31,7 @@ int make_state(const std::string& state) {
 
 int rotate_ticket_key(const std::string& state) {
   const auto path = auth::server_state_path(state);
-  if (!path) return print_usage_errors("init", {path.error()});
+  if (!path) return print_usage_error("init", path.error());
   if (const std::string problem = auth::ServerKeystore::rotate_ticket_key(*path, auth::wall_seconds());
       !problem.empty())
     return print_error("init", problem);

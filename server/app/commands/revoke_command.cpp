@@ -19,8 +19,8 @@ int revoke_command(const RevokeArguments& arguments) {
   const auto gone = state->revoke(arguments.name);
   if (!gone) return print_error("revoke", gone.error());
   if (gone->workstations + gone->codes == 0)
-    return print_usage_errors("revoke",
-                              {"NAME: " + unknown_workstation_text(arguments.name, *book, state->folder()->path())});
+    return print_usage_error("revoke",
+                             "NAME: " + unknown_workstation_text(arguments.name, *book, state->folder()->path()));
   state->audit(auth::wall_seconds(), "revoked", arguments.name);
   warn_audit_failure("revoke", *state);
   std::printf("%s: %s%s\n", arguments.name.c_str(),

@@ -3,6 +3,7 @@
 #include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
 #include "server/app/commands/server_commands.h"
@@ -12,88 +13,63 @@
 namespace tandem::server {
 namespace {
 
-constexpr int kWrong = 2;
-
 /// Arguments as given. Numbers stay text until `parse_options`, so that all errors are reported together.
 struct RunArguments {
   std::string scene, listen = "127.0.0.1:0", state, duration, wait, seed = "1", json, trace, metrics, log = "text";
   bool check = false, quiet = false, fresh = false;
 };
 
-using Mistakes = std::vector<std::string>;
-
-double number(const char* option, std::string text, double lo, double hi, const char* unit, Mistakes& mistakes) {
-  if (text.empty()) return 0;
-  if (const std::string problem = io::number_in(lo, hi, unit)(text); !problem.empty()) {
-    mistakes.push_back(std::string(option) + ": " + problem);
-    return 0;
-  }
-  return std::stod(text);
-}
-
-/// Converts the arguments and appends all errors to `mistakes`.
-ServerOptions parse_options(const RunArguments& arguments, Mistakes& mistakes) {
+/// Converts the arguments; adds all errors.
+ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& errors) {
   ServerOptions plan;
   SessionOptions& session = plan.sessions.emplace_back();
   if (auto scene = load_scene(arguments.scene)) {
     session.scene = std::move(*scene);
     session.name = session.scene.name;
   } else {
-    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
+    errors.add(to_text(scene.error()));
   }
   if (const auto listen = io::parse_address(arguments.listen, 0)) {
     plan.listen = *listen;
     if (const auto keys = open_server_keys(*listen, arguments.state); !keys)
-      mistakes.push_back("--listen " + arguments.listen + ": " + keys.error());
+      errors.add("--listen " + arguments.listen, keys.error());
   } else {
-    mistakes.push_back("--listen: " + listen.error());
+    errors.add("--listen", listen.error());
   }
   if (!arguments.metrics.empty()) {
     if (const auto metrics = io::parse_address(arguments.metrics, 0)) {
       plan.metrics = *metrics;
     } else {
-      mistakes.push_back("--metrics: " + metrics.error());
+      errors.add("--metrics", metrics.error());
     }
   }
   if (arguments.log == "json") {
     plan.json_log = io::Level::kInfo;
   } else if (arguments.log != "text") {
-    mistakes.push_back("--log: \"" + arguments.log + "\" must be text or json");
+    errors.add("--log", "\"" + arguments.log + "\" must be text or json");
   }
-  if (const double s = number("--duration", arguments.duration, 0.1, 3e6, "s", mistakes); s > 0)
+  if (const double s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s"); s > 0)
     session.scene.duration = s;
-  plan.start_timeout_s = number("--start-timeout", arguments.wait, 0.1, 3e6, "s", mistakes);
+  plan.start_timeout_s = errors.optional_number("--start-timeout", arguments.wait, 0.1, 3e6, "s");
   std::string seed = arguments.seed;
-  if (const std::string problem = io::whole_number()(seed); problem.empty()) {
-    session.seed = std::stoull(seed);
-  } else {
-    mistakes.push_back("--seed: " + problem);
-  }
+  const std::string problem = io::whole_number()(seed);
+  errors.add("--seed", problem);
+  if (problem.empty()) session.seed = std::stoull(seed);
   plan.state = arguments.state;
   session.json = arguments.json;
   session.trace = arguments.trace;
   plan.quiet = arguments.quiet;
   plan.no_restore = arguments.fresh;
-  if (!session.json.empty() && session.json != "-")
-    if (const auto problem = io::OutputFile::problem(session.json); !problem.empty())
-      mistakes.push_back("--json: " + problem);
-  if (!session.trace.empty())
-    if (const auto problem = io::OutputFile::problem(session.trace); !problem.empty())
-      mistakes.push_back("--trace: " + problem);
-  if (!session.trace.empty() && session.trace == session.json)
-    mistakes.push_back("--trace: is the same file as --json");
+  errors.output_file("--json", session.json);
+  if (!session.trace.empty()) errors.add("--trace", io::OutputFile::problem(session.trace));
+  if (!session.trace.empty() && session.trace == session.json) errors.add("--trace", "is the same file as --json");
   return plan;
 }
 
 int run_command(const RunArguments& arguments) {
-  Mistakes mistakes;
-  const ServerOptions plan = parse_options(arguments, mistakes);
-  if (!mistakes.empty()) {
-    for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-    io::print_formatted(stderr, "tandem-server run: %zu mistake%s, nothing was started\n", mistakes.size(),
-                        mistakes.size() == 1 ? "" : "s");
-    return kWrong;
-  }
+  io::UsageErrors errors;
+  const ServerOptions plan = parse_options(arguments, errors);
+  if (!errors.empty()) return errors.report("tandem-server run");
   if (plan.metrics && !plan.metrics->loopback())
     io::print_formatted(stderr, "--metrics %s: %s\n", arguments.metrics.c_str(), kUnprotectedMetricsWarning);
   if (!arguments.check) return run_server(plan);

@@ -6,6 +6,7 @@
 #include "common/auth/enrolment.h"
 #include "common/io/command_line.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/server_config_text.h"
 #include "server/app/commands/server_commands.h"
@@ -16,8 +17,6 @@ namespace tandem::server {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kWrong = 2;
 
 struct ServeArguments {
   std::string config;
@@ -109,10 +108,9 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
 }
 
 int refuse(const InputErrors& errors) {
-  io::print(stderr, to_text(errors));
-  io::print_formatted(stderr, "tandem-server serve: %zu mistake%s, nothing was started\n", errors.size(),
-                      errors.size() == 1 ? "" : "s");
-  return kWrong;
+  io::UsageErrors usage;
+  usage.add(to_text(errors));
+  return usage.report("tandem-server serve");
 }
 
 int serve_command(const ServeArguments& arguments) {

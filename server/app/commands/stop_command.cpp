@@ -57,10 +57,9 @@ int wait_for_drain(const auth::ServerKeystore& state, std::uint32_t grace_s) {
 }
 
 int stop_command(const StopArguments& arguments) {
-  std::string grace = arguments.grace;
-  if (const auto problem = io::number_in(0, 3600, "s")(grace); !problem.empty())
-    return print_usage_errors("stop", {"--grace: " + problem});
-  const auto grace_s = static_cast<std::uint32_t>(std::stod(grace));
+  io::UsageErrors errors;
+  const auto grace_s = static_cast<std::uint32_t>(errors.number("--grace", arguments.grace, 0, 3600, "s"));
+  if (!errors.empty()) return print_usage_errors("stop", errors);
   auto state = open_state(arguments.state);
   if (!state) return print_error("stop", state.error());
   const auto serving = state->read_serving();

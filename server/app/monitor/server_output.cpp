@@ -1,6 +1,5 @@
 #include "server/app/monitor/server_output.h"
 
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include "common/base/sanitize.h"
@@ -23,7 +22,7 @@ void ServerOutput::report(io::Level level, const io::LogEvent& event, const std:
   line_.note(text);
 }
 
-void ServerOutput::error(const std::string& what) const { spdlog::error("{}: {}", command_, what); }
+void ServerOutput::error(const std::string& what) const { io::log(io::Level::kError, command_ + ": " + what); }
 
 void ServerOutput::post_control_event(const ControlEventRecord& news) {
   const bool trouble = news.event == ControlEvent::kTrouble;
@@ -63,7 +62,7 @@ void ServerOutput::print_posted() {
     if (line.severity == MessageQueue::Severity::kWarning) line_.warn(line.text);
     if (line.severity != MessageQueue::Severity::kError) continue;
     line_.clear();
-    spdlog::error(line.text);
+    io::log(io::Level::kError, line.text);
   }
 }
 

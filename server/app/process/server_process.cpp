@@ -11,6 +11,7 @@
 
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/exit_code.h"
 #include "common/io/realtime.h"
 #include "common/io/signals.h"
 #include "common/io/systemd_notify.h"
@@ -20,7 +21,6 @@
 namespace tandem::server {
 namespace {
 
-constexpr int kTrouble = 1;  // error while running
 constexpr int kPollIntervalMs = 250;
 constexpr Duration kDrainMax = std::chrono::seconds(3);
 
@@ -64,7 +64,7 @@ class ServerProcess {
  private:
   int trouble(const std::string& what) {
     output_.error(what);
-    return kTrouble;
+    return io::kExitTrouble;
   }
 
   int open() {
@@ -168,7 +168,7 @@ class ServerProcess {
     if (checkpoints_ && !sessions_->will_resume()) checkpoints_->remove_all();
     output_.clear();
     std::fprintf(stderr, "tandem-server: %s; ends at once\n", why);
-    ::_exit(kTrouble);
+    ::_exit(io::kExitTrouble);
   }
 
   /// Sends the systemd watchdog signal if the shard with the fewest punctual ticks has new ones.

@@ -1,7 +1,6 @@
 #include "server/app/process/shard.h"
 
 #include <poll.h>
-#include <sys/eventfd.h>
 
 #include <algorithm>
 
@@ -24,21 +23,10 @@ constexpr Duration kReadingMax = 200us;  // limit of receiving per tick, so that
 constexpr std::size_t kRequestsMax = 256;
 constexpr std::uint64_t kLoadTicks = 1000;
 
-void signal_event(const io::Fd& event) noexcept {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
-}
-void clear_event(const io::Fd& event) noexcept {
-  std::uint64_t count = 0;
-  [[maybe_unused]] const auto read = ::read(event.get(), &count, sizeof count);
-}
-
 }  // namespace
 
 Shard::Shard(io::UdpSocket socket, double tick_hz)
     : socket_(std::move(socket)),
-      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      completions_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       period_(from_seconds(1.0 / tick_hz)),
       requests_(kRequestsMax),
       completed_(2 * kRequestsMax),
@@ -54,12 +42,12 @@ bool Shard::add_session(LiveSession& session) noexcept {
 void Shard::stop(wire::CloseReason why) noexcept {
   stop_reason_.store(why, std::memory_order_relaxed);
   stop_.store(true, std::memory_order_release);
-  signal_event(wake_);
+  wake_.signal();
 }
 
 bool Shard::post(ShardRequest& order) noexcept {
   if (!requests_.push(&order)) return false;
-  signal_event(wake_);
+  wake_.signal();
   return true;
 }
 
@@ -71,7 +59,7 @@ ShardRequest* Shard::next_completed() noexcept {
   return order;
 }
 
-void Shard::clear_completions() noexcept { clear_event(completions_); }
+void Shard::clear_completions() noexcept { completions_.clear(); }
 
 void Shard::run() noexcept {
   machine_.realtime = io::request_realtime(kPriority);
@@ -110,7 +98,7 @@ void Shard::run() noexcept {
     due += (missed + 1) * period_;
   }
   execute_requests(io::monotonic_now());  // reply to pending requests that the session is over
-  signal_event(completions_);
+  completions_.signal();
 }
 
 /// Waits until `due`, or until a request or `stop` arrives. Datagrams do not wake the thread: no session needs them
@@ -119,7 +107,7 @@ void Shard::wait_until(Time due) noexcept {
   pollfd wake{wake_.get(), POLLIN, 0};
   const timespec rest = io::to_timespec(due - io::monotonic_now());
   ppoll(&wake, 1, &rest, nullptr);
-  if (wake.revents != 0) clear_event(wake_);
+  if (wake.revents != 0) wake_.clear();
 }
 
 void Shard::receive() noexcept {
@@ -157,7 +145,7 @@ void Shard::execute_requests(Time now) noexcept {
     execute_requests(now, *order);
     any = completed_.push(order) || any;
   }
-  if (any) signal_event(completions_);
+  if (any) completions_.signal();
 }
 
 void Shard::execute_requests(Time now, ShardRequest& order) noexcept {
@@ -224,7 +212,7 @@ void Shard::tick(Time now, std::uint32_t missed) noexcept {
     ended = true;
   }
   flush();
-  if (ended) signal_event(completions_);
+  if (ended) completions_.signal();
 }
 
 void Shard::send(Time now, Session& session) noexcept {
