@@ -37,7 +37,8 @@ struct Lesson : SessionFixture {
   [[nodiscard]] const wire::ForceMessage& told(std::size_t i) const { return seats[i].core->force(); }
 
   [[nodiscard]] SessionCommand command(const control::MasterArray& weights) const {
-    return {rpc::SetAuthority{{}, 0, session->authority().version(), {weights[0], weights[1]}}, AccessRole::kInstructor};
+    return {rpc::SetAuthority{{}, 0, session->authority().version(), {weights[0], weights[1]}},
+            AccessRole::kInstructor};
   }
   Result order(const control::MasterArray& weights) { return execute_command(*session, now, command(weights)).result; }
   void ticks(int n) { run(std::chrono::milliseconds(n)); }
