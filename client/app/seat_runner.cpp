@@ -238,7 +238,7 @@ void SeatRunner::snapshot(Time now) noexcept {
   p.refused_j = t.refused_j;
   p.delivered_j = t.delivered_j;
   p.margin_min_j = t.margin_min_j;
-  p.given_after_loss_max_j = seat_->gate().given_after_loss_max();
+  p.given_after_loss_max_j = seat_->gate().tank().given_max();
   p.gate_trips = sample.gate_trips;
   p.motors_hot = seat_->overtemperature_guard().hot();
   p.motors_latched = seat_->overtemperature_guard().latched();
