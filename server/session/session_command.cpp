@@ -23,7 +23,7 @@ Result stop(Session& session, Time now, const SessionCommand& command, StopLatch
 
 Result resume(Session& session, Time now, const SessionCommand& command) noexcept {
   if (!session.stop_latch().latched() && !session.start_condition().recovering()) return Result::kNothingToDo;
-  switch (session.resume(now, requester(command), command.number)) {
+  switch (session.stop_control().resume(now, requester(command), command.number)) {
     case StopLatch::Resume::kEnded:
       return Result::kDone;
     case StopLatch::Resume::kHeldByOthers:

@@ -313,7 +313,7 @@ TEST(LinkTestAdmission, WelcomesNoMorePeersThanItServes) {
       for (std::size_t i = 0; i < LinkTestPeers::kMax; ++i)
         EXPECT_TRUE(std::holds_alternative<rpc::Welcome>(*answers[i])) << i;
       ASSERT_EQ(reason_of(answers.back()), ErrorCode::kFull) << "one more";
-      EXPECT_NE(text_of(answers.back()).find("all 4 places"), std::string::npos) << text_of(answers.back());
+      EXPECT_NE(text_of(answers.back()).find("all 4 link-test slots"), std::string::npos) << text_of(answers.back());
       EXPECT_EQ(std::get<rpc::ErrorReply>(*answers.back()).retry_after_s, 3U);
     }
     // None of the peers sends anything: their slots become free after 2 s.
