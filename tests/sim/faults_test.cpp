@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "netsim/engine/decision_log.h"
 #include "tests/support/simulation_run.h"
 
 namespace tandem {
