@@ -11,6 +11,40 @@
 
 namespace tandem::client {
 
+/// Last transfer of authority over the tool of a seat.
+struct TransferStatus {
+  wire::TransferNotice notice = wire::TransferNotice::kNone;  ///< kept for 1000 ticks and while the authority changes
+  std::uint32_t count = 0;                                    ///< number of transfer notices so far
+  double begins_s = 0;            ///< time until the transfer begins [s]; negative: it began
+  double from = 0;                ///< own authority at the notice
+  bool done = false;              ///< the transfer began and the own authority is constant again
+  wire::TransferParties parties;  ///< seat that decided the transfer, and master that gains
+};
+
+/// Datagrams of a seat over all its connections.
+struct DatagramCounts {
+  std::uint64_t sent = 0, accepted = 0, late = 0, refused = 0;
+};
+
+struct LinkStatus {
+  double rtt_ms = 0, rtt_p50_ms = 0, rtt_p99_ms = 0;
+  double down_loss_percent = 0, down_longest_gap_ms = 0, down_age_p99_ms = 0;  ///< from server to client
+  DatagramCounts datagrams;
+};
+
+/// Energies of a seat [J], cumulative; `margin_min_j` and `given_after_loss_max_j` are extremes so far.
+struct EnergyStatus {
+  double in_j = 0, out_j = 0, dissipated_j = 0, refused_j = 0, delivered_j = 0, margin_min_j = 0;
+  double given_after_loss_max_j = 0;
+};
+
+struct MotorStatus {
+  bool hot = false;                ///< the seat is released because of hot motors
+  bool latched = false;            ///< only the user's reset re-engages the seat
+  std::uint32_t hot_trips = 0;     ///< number of releases because of hot motors
+  std::optional<double> heat_max;  ///< largest heat of the hottest motor so far, 1: too hot; empty: not reported
+};
+
 /// Status of one seat for the user: plain data, copied out of the servo thread every 64 ticks.
 struct ClientStatus {
   wire::SessionState session = wire::SessionState::kWaiting;
@@ -32,28 +66,16 @@ struct ClientStatus {
       offset_from_leader_m{};  ///< distance between the leader's tip and the own tip [m]; empty: no other leader
   std::uint32_t authority_version = 0;
   double alpha = 0;  ///< own authority [0, 1]
-  wire::TransferNotice transfer =
-      wire::TransferNotice::kNone;  ///< last transfer notice, kept for 1000 ticks and while the authority changes
-  std::uint32_t transfers = 0;      ///< number of transfer notices so far
-  double transfer_begins_s = 0;     ///< time until the transfer begins [s]; negative: it began
-  double transfer_from = 0;         ///< own authority at the notice
-  bool transfer_done = false;       ///< the transfer began and the own authority is constant again
-  wire::TransferParties transfer_parties;  ///< seat that decided the transfer, and master that gains
-  double force_n = 0;                      ///< delivered at the tip [N]
-  std::array<double, 3> x{};               ///< tip [m]
-  double rtt_ms = 0, rtt_p50_ms = 0, rtt_p99_ms = 0;
-  double down_loss_percent = 0, down_longest_gap_ms = 0, down_age_p99_ms = 0;
-  double energy_in_j = 0, energy_out_j = 0, dissipated_j = 0, refused_j = 0, delivered_j = 0, margin_min_j = 0;
-  double given_after_loss_max_j = 0;
-  double force_peak_n = 0;  ///< largest delivered force so far [N]
+  TransferStatus transfer;
+  double force_n = 0;         ///< delivered at the tip [N]
+  double force_peak_n = 0;    ///< largest delivered force so far [N]
+  std::array<double, 3> x{};  ///< tip [m]
+  LinkStatus link;
+  EnergyStatus energy;
+  MotorStatus motors;
   std::uint32_t gate_trips = 0, late_ticks = 0;
-  bool motors_hot = false,
-       motors_latched = false;  ///< seat released because of hot motors; latched: only the user's reset re-engages it
-  std::uint32_t hot_trips = 0;  ///< number of releases because of hot motors
-  std::optional<double> heat_max;  ///< largest heat of the hottest motor so far, 1: too hot; empty: not reported
-  std::uint32_t reconnects = 0;    ///< number of connections after the first
-  bool reconnecting = false;       ///< a Reconnector is active
-  std::uint64_t sent = 0, accepted = 0, late_datagrams = 0, refused_datagrams = 0;
+  std::uint32_t reconnects = 0;  ///< number of connections after the first
+  bool reconnecting = false;     ///< a Reconnector is active
 };
 
 /// Reason for which a seat ended.
