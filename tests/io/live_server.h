@@ -18,6 +18,7 @@
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
 #include "server/app/control/control_plane.h"
+#include "server/app/control/control_thread.h"
 #include "server/app/control/session_joins.h"
 #include "tests/common/auth/io/temporary_folder.h"
 

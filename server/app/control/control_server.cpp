@@ -11,6 +11,7 @@
 #include "common/base/format.h"
 #include "common/io/log.h"
 #include "server/app/control/server_keys.h"
+#include "server/app/monitor/metrics.h"
 
 namespace tandem::server {
 namespace {

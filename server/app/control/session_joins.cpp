@@ -93,10 +93,10 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
 
 std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) const {
   double all = 0;
-  for (const Shard* shard : registry_.requests().shards()) all += shard->cpu_share();
-  const Shard& own = *entry.registration.shard;
-  std::string why = rejection_reason({own.load(), own.cpu_share(), own.load_state().level == ShedLevel::kNewJoins}, all,
-                                     std::thread::hardware_concurrency(), limits_);
+  for (const Shard* shard : registry_.requests().shards()) all += shard->load().cpu_share();
+  const ShardLoad& own = entry.registration.shard->load();
+  std::string why = rejection_reason({own.tick_share(), own.cpu_share(), own.state().level == ShedLevel::kNewJoins},
+                                     all, std::thread::hardware_concurrency(), limits_);
   if (why.empty()) return std::nullopt;
   return ErrorReply{ErrorCode::kFull, std::move(why), 5};
 }

@@ -17,6 +17,7 @@
 #include "common/auth/io/client_keystore.h"
 #include "common/auth/io/control_client.h"
 #include "server/app/control/control_plane.h"
+#include "server/app/control/control_thread.h"
 #include "tests/common/auth/io/temporary_folder.h"
 #include "tests/common/auth/support.h"
 
