@@ -82,7 +82,7 @@ std::vector<std::string> noticeable_text(const SceneSpec& scene, const std::map<
                                               : "noticed even in a mass (72 ms)";
     const bool local = scene.channel.law == LawKind::kReplica;
     out.push_back(
-        format(local ? "What other hands do is felt %.0f ms late: %s. A hand's own contact does not cross the network."
+        format(local ? "A hand feels the other hands %.0f ms late: %s. Its own contact does not cross the network."
                      : "A force that goes round the network is %.0f ms late: %s.",
                1e3 * round, what));
   }

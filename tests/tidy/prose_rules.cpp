@@ -161,6 +161,12 @@ bool matches(const std::vector<Word>& words, std::size_t first, const std::vecto
   return true;
 }
 
+/// Returns whether the word is a whole string literal: a key of JSON.
+bool is_key(std::string_view prose, const Word& word) {
+  const std::size_t end = word.at + word.text.size();
+  return word.at > 0 && prose[word.at - 1] == '"' && end < prose.size() && prose[end] == '"';
+}
+
 /// Returns whether the sentence that begins at `at` ends with a question mark.
 bool is_question(std::string_view prose, std::size_t at) {
   const std::size_t end = prose.find_first_of(".?!|", at);
@@ -205,7 +211,7 @@ std::vector<Finding> check_prose(const SourceFile& file) {
       if (matches(words, w, phrases[p])) report(kPhrases[p].phrase, kPhrases[p].instead);
     }
     if (words[w].begins_sentence && (words[w].text == "who" || words[w].text == "what") &&
-        !is_question(prose, words[w].at)) {
+        !is_question(prose, words[w].at) && !is_key(prose, words[w])) {
       report("a sentence that begins with " + words[w].text, kActor);
     }
   }

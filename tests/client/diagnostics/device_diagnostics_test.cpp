@@ -87,7 +87,7 @@ TEST(DeviceDiagnostics, NamesTheFrozenEncoder) {
 TEST(DeviceDiagnostics, ReportsThePoseOfAnUncalibratedDevice) {
   const auto unhomed = after_a_second(three_joints(hal::Homing::kManual), {}, false).findings({}, 1.0);
   EXPECT_EQ(kind_of(unhomed, "pose of an uncalibrated device"), Kind::kTrouble);
-  EXPECT_EQ(kind_of(unhomed, "not homed"), Kind::kNotice);
+  EXPECT_EQ(kind_of(unhomed, "not homed: it gives no force until it is homed"), Kind::kNotice);
   const auto homed = after_a_second(three_joints(hal::Homing::kManual), {}, true).findings({}, 1.0);
   EXPECT_EQ(kind_of(homed, "no encoder moved"), Kind::kTrouble);
 }

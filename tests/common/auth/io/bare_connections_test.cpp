@@ -91,7 +91,7 @@ TEST(UnjoinedConnections, AreEvictedFirstAndJoinedOnesNever) {
   const auto refused = fourth->ask(hello_with(door.ticket(me, 4)), kPatience);
   EXPECT_EQ(reason_of(refused), ErrorCode::kFull);
   EXPECT_TRUE(door.told(ControlEvent::kRefused, 1)) << "the operator reads that places are short";
-  EXPECT_NE(std::get<rpc::ErrorReply>(*refused).text.find("all 3 places"), std::string::npos);
+  EXPECT_NE(std::get<rpc::ErrorReply>(*refused).text.find("all 3 control connections"), std::string::npos);
   auto back = door.connect(me);
   ASSERT_TRUE(back);
   rpc::Hello resume = hello_with(door.ticket(me, 5));
