@@ -47,7 +47,7 @@ void ControlConnection::start(std::chrono::milliseconds deadline) {
     if (self->finished_) return;
     self->pin_ = *peer;
     // An unknown workstation may enrol. Until then its connection competes with all other unknown ones.
-    if (const auto row = self->services_.trust.find(self->pin_); row && *row) self->on_key_proved();
+    if (const auto row = self->services_.trust.registry().find(self->pin_); row && *row) self->on_key_proved();
     self->read_next();
   });
 }
@@ -93,7 +93,7 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
                       : "the server cannot parse this message",
                   true);
   }
-  auto row = services_.trust.find(pin_);
+  auto row = services_.trust.registry().find(pin_);
   if (!row) {
     services_.events.record(ControlEvent::kTrouble, address_, "", row.error());
     return refuse(ErrorCode::kInternal,
@@ -136,7 +136,7 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
 /// without.
 void ControlConnection::disconnect_if_revoked() {
   if (finished_ || !workstation_) return;
-  const auto row = services_.trust.find(pin_);
+  const auto row = services_.trust.registry().find(pin_);
   if (!row || *row) return;  // an unreadable registry closes no connection
   record(ControlEvent::kNotEnrolled, "revoked: its connection is closed");
   if (writing_) return finish();
@@ -157,7 +157,7 @@ bool ControlConnection::reply_if_blocked(Duration left) {
 
 void ControlConnection::on_enrol(const rpc::Enroll& enrol) {
   if (reply_if_blocked(services_.attempts.blocked_for(source_, enrolled_key(), services_.now()))) return;
-  const auto row = services_.trust.enroll(enrol.code, pin_, services_.clocks.wall());
+  const auto row = services_.trust.registry().enroll(enrol.code, pin_, services_.clocks.wall());
   if (row) {
     services_.events.record(ControlEvent::kEnrolled, address_, row->name, pin_.hex());
     accepted();
