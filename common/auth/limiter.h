@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "common/auth/origin.h"
 #include "common/base/time.h"
 
 /// Rate limits, as functions of the time passed in.
@@ -48,8 +48,12 @@ struct Source {
   bool v6 = false;
   bool loopback = false;
 
-  [[nodiscard]] static Source v4(std::uint32_t address) noexcept { return {address, false, (address >> 24) == 127}; }
-  [[nodiscard]] static Source of_v6(const std::array<std::uint8_t, 16>& address) noexcept;
+  /// Source of a connection. ::1 counts as alone in its 64-bit prefix.
+  [[nodiscard]] static constexpr Source of(const Origin& origin) noexcept {
+    const std::uint64_t network = origin.network.prefix;
+    if (origin.network.v6) return {network, true, network == 0 && origin.host == 1};
+    return {network << 8 | origin.host, false, network >> 16 == 127};
+  }
   friend auto operator<=>(const Source&, const Source&) = default;
 };
 

@@ -18,6 +18,7 @@
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
 #include "server/app/control/control_plane.h"
+#include "server/app/control/control_thread.h"
 #include "server/app/control/session_joins.h"
 #include "tests/common/auth/io/temporary_folder.h"
 
@@ -89,7 +90,7 @@ class LiveServer {
     std::array<std::byte, 16> serial{};
     auth::fill_random(serial);
     auth::Identity made = auth::Identity::make(name, serial, auth::wall_seconds());
-    EXPECT_EQ(beside().enroll_without_code({name, made.fingerprint().sha256, auth::wall_seconds()}), "");
+    EXPECT_EQ(beside().registry().enroll_without_code({name, made.fingerprint().sha256, auth::wall_seconds()}), "");
     return made;
   }
   [[nodiscard]] rpc::Credential ticket(const auth::Identity& workstation, AccessRole role,

@@ -254,7 +254,7 @@ TEST(Revocation, RemovesOnlySeatAndConnectionsOfThatWorkstation) {
   ASSERT_TRUE(trainer.welcomed() && trainee.welcomed() && office.welcomed());
   live_server.look_for_revoked();
   EXPECT_TRUE(status_of(trainer).seats[1].taken) << "enrolled workstations stay connected";
-  ASSERT_TRUE(live_server.beside().revoke("desk-2"));
+  ASSERT_TRUE(live_server.beside().registry().revoke("desk-2"));
   live_server.look_for_revoked();
   EXPECT_TRUE(comes_true([&] { return !status_of(trainer).seats[1].taken; }));
   EXPECT_TRUE(live_server.told(ControlEvent::kNotEnrolled, "desk-2")) << "its idle connection was closed";
@@ -265,7 +265,7 @@ TEST(Revocation, RemovesOnlySeatAndConnectionsOfThatWorkstation) {
             std::string::npos)
       << live_server.audit();
   live_server.look_for_revoked();
-  ASSERT_TRUE(live_server.beside().revoke("office"));
+  ASSERT_TRUE(live_server.beside().registry().revoke("office"));
   live_server.look_for_revoked();
   const auto gone = office.ask(rpc::StopSession{kId, ""});
   EXPECT_TRUE(!gone || reason_of(gone) == ErrorCode::kNotEnrolled);
@@ -276,10 +276,10 @@ TEST(Revocation, RemovesNoSeatWhenTheRegistryIsUnreadable) {
   LiveServer live_server;
   JoinedClient trainer = joined(live_server, "desk-1", AccessRole::kInstructor, "trainer"),
                office = joined(live_server, "office", AccessRole::kOperator);
-  const std::string book = live_server.folder.read(std::string("server/") + auth::ServerKeystore::kWorkstationsFile);
-  live_server.folder.write(std::string("server/") + auth::ServerKeystore::kWorkstationsFile, "nonsense {");
+  const std::string book = live_server.folder.read(std::string("server/") + auth::ServerRegistry::kWorkstationsFile);
+  live_server.folder.write(std::string("server/") + auth::ServerRegistry::kWorkstationsFile, "nonsense {");
   live_server.look_for_revoked();
-  live_server.folder.write(std::string("server/") + auth::ServerKeystore::kWorkstationsFile, book);
+  live_server.folder.write(std::string("server/") + auth::ServerRegistry::kWorkstationsFile, book);
   EXPECT_TRUE(status_of(office).seats[0].taken);
   live_server.look_for_revoked();
   EXPECT_TRUE(status_of(trainer).seats[0].taken);
@@ -355,8 +355,9 @@ TEST(LinkTestAdmission, WelcomesNoMoreConcurrentPeersThanItHasSlots) {
 
 TEST(Admission, RejectsJoinsOnAThreadAboveItsProcessorLimit) {
   LiveServer live_server("eight_seats", {0.6, 1e-9});
-  ASSERT_TRUE(comes_true([&] { return live_server.shard().cpu_share() > 0; })) << "measured within a second or so";
-  EXPECT_LT(live_server.shard().cpu_share(), 1.01);
+  ASSERT_TRUE(comes_true([&] { return live_server.shard().load().cpu_share() > 0; }))
+      << "measured within a second or so";
+  EXPECT_LT(live_server.shard().load().cpu_share(), 1.01);
   JoinedClient late = joined(live_server, "desk-1", AccessRole::kInstructor, "trainer");
   EXPECT_EQ(reason_of(late.welcome), ErrorCode::kFull);
   EXPECT_NE(text_of(late.welcome).find("of a processor"), std::string::npos) << text_of(late.welcome);

@@ -37,7 +37,8 @@ std::expected<RuntimeDirectory, std::string> publish_local_keys(ServerKeystore& 
                                                                 std::int64_t now) {
   const auto serial = random_bytes<std::array<std::byte, 16>>();
   LocalKeys keys{Identity::make("tandem workstation, local", serial, now), server.ticket_key()};
-  if (std::string problem = server.enroll_without_code({"local", keys.workstation.fingerprint().sha256, now});
+  if (std::string problem =
+          server.registry().enroll_without_code({"local", keys.workstation.fingerprint().sha256, now});
       !problem.empty())
     return std::unexpected(std::move(problem));
   return RuntimeDirectory::publish(runtime, server.identity().fingerprint(), keys);

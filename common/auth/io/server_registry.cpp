@@ -1,16 +1,17 @@
-#include <algorithm>
+#include "common/auth/io/server_registry.h"
 
-#include "common/auth/io/server_keystore.h"
+#include <algorithm>
+#include <utility>
+
 #include "common/base/raw_bytes.h"
 #include "proto/text/registry_text.h"
 
-/// Lists of a server that commands change too: workstations, codes, and the description of the running server.
 namespace tandem::auth {
 namespace {
 
 /// Reads a list; a missing file means an empty list.
 template <class Parse>
-auto book(const StateDirectory& folder, const char* name, Parse parse)
+auto read_list(const StateDirectory& folder, const char* name, Parse parse)
     -> std::expected<typename decltype(parse("", ""))::value_type, std::string> {
   const auto bytes = folder.read(name);
   if (!bytes) return std::unexpected(bytes.error());
@@ -21,119 +22,114 @@ auto book(const StateDirectory& folder, const char* name, Parse parse)
 
 }  // namespace
 
-std::expected<ServerKeystore::Books, std::string> ServerKeystore::read_books() const {
-  if (!folder_) return books_;
-  auto workstations = book(*folder_, kWorkstationsFile, parse_workstations);
+std::expected<ServerRegistry::Lists, std::string> ServerRegistry::read() const {
+  if (!folder_) return lists_;
+  auto workstations = read_list(*folder_, kWorkstationsFile, parse_workstations);
   if (!workstations) return std::unexpected(workstations.error());
-  auto codes = book(*folder_, kCodesFile, parse_codes);
+  auto codes = read_list(*folder_, kCodesFile, parse_codes);
   if (!codes) return std::unexpected(codes.error());
-  return Books{std::move(*workstations), std::move(*codes)};
+  return Lists{std::move(*workstations), std::move(*codes)};
 }
 
 template <class Change>
-std::string ServerKeystore::change_books(Change change) {
+std::string ServerRegistry::modify(Change change) {
   StateDirectory::Lock held;
   if (folder_) {
     auto lock = folder_->lock(kLock);
     if (!lock) return lock.error();
     held = std::move(*lock);
   }
-  auto books = read_books();
-  if (!books) return books.error();
-  const Books before = *books;
-  change(*books);
+  auto lists = read();
+  if (!lists) return lists.error();
+  const Lists before = *lists;
+  change(*lists);
   if (!folder_) {
-    books_ = std::move(*books);
+    lists_ = std::move(*lists);
     return {};
   }
   // Workstations first: after a crash in between, a code may be used twice for the same name, but no confirmed
   // workstation is lost.
   std::string problem;
-  if (books->workstations != before.workstations)
-    problem = folder_->replace(kWorkstationsFile, std::string_view(print_workstations(books->workstations)));
-  if (problem.empty() && books->codes != before.codes)
-    problem = folder_->replace(kCodesFile, std::string_view(print_codes(books->codes)));
+  if (lists->workstations != before.workstations)
+    problem = folder_->replace(kWorkstationsFile, std::string_view(print_workstations(lists->workstations)));
+  if (problem.empty() && lists->codes != before.codes)
+    problem = folder_->replace(kCodesFile, std::string_view(print_codes(lists->codes)));
   return problem;
 }
 
-std::expected<std::vector<WorkstationRow>, std::string> ServerKeystore::workstations() {
-  if (!folder_) return books_.workstations;
+std::string ServerRegistry::problem() const {
+  const auto lists = read();
+  return lists ? std::string{} : lists.error();
+}
+
+void ServerRegistry::audit(std::int64_t now, std::string_view event, std::string_view name, std::string_view detail) {
+  if (folder_) audit_->write(*folder_, now, event, name, detail);
+}
+
+std::expected<std::vector<WorkstationRow>, std::string> ServerRegistry::workstations() {
+  if (!folder_) return lists_.workstations;
   // The stamp is taken first, so that the next look-up sees a change made between the two.
   const StateDirectory::Stamp now = folder_->stamp(kWorkstationsFile);
-  if (now == seen_ && now != StateDirectory::Stamp{}) return books_.workstations;
-  auto rows = book(*folder_, kWorkstationsFile, parse_workstations);
+  if (now == seen_ && now != StateDirectory::Stamp{}) return lists_.workstations;
+  auto rows = read_list(*folder_, kWorkstationsFile, parse_workstations);
   if (!rows) {
     seen_ = {};
     return rows;
   }
-  books_.workstations = *rows;
+  lists_.workstations = *rows;
   seen_ = now;
   return rows;
 }
 
-std::expected<std::size_t, std::string> ServerKeystore::pending_codes(std::int64_t now) const {
+std::expected<std::size_t, std::string> ServerRegistry::pending_codes(std::int64_t now) const {
   if (!folder_)
     return static_cast<std::size_t>(
-        std::ranges::count_if(books_.codes, [&](const CodeRow& c) { return now <= c.not_after; }));
-  const auto books = read_books();
-  if (!books) return std::unexpected(books.error());
+        std::ranges::count_if(lists_.codes, [&](const CodeRow& c) { return now <= c.not_after; }));
+  const auto lists = read();
+  if (!lists) return std::unexpected(lists.error());
   return static_cast<std::size_t>(
-      std::ranges::count_if(books->codes, [&](const CodeRow& c) { return now <= c.not_after; }));
+      std::ranges::count_if(lists->codes, [&](const CodeRow& c) { return now <= c.not_after; }));
 }
 
-std::expected<std::optional<WorkstationRow>, std::string> ServerKeystore::find(const KeyFingerprint& workstation) {
+std::expected<std::optional<WorkstationRow>, std::string> ServerRegistry::find(const KeyFingerprint& workstation) {
   const auto rows = workstations();
   if (!rows) return std::unexpected(rows.error());
   const WorkstationRow* const row = find_workstation(*rows, workstation);
   return row == nullptr ? std::nullopt : std::optional(*row);
 }
 
-std::expected<WorkstationRow, ServerKeystore::EnrollFailure> ServerKeystore::enroll(const EnrolmentCode& code,
+std::expected<WorkstationRow, ServerRegistry::EnrollFailure> ServerRegistry::enroll(const EnrolmentCode& code,
                                                                                     const KeyFingerprint& fingerprint,
                                                                                     std::int64_t now) {
   std::expected<WorkstationRow, EnrollError> made = std::unexpected(EnrollError::kUnknownCode);
   std::string problem =
-      change_books([&](Books& books) { made = auth::enroll(books.workstations, books.codes, code, fingerprint, now); });
+      modify([&](Lists& lists) { made = auth::enroll(lists.workstations, lists.codes, code, fingerprint, now); });
   if (!problem.empty()) return std::unexpected(EnrollFailure{std::nullopt, std::move(problem)});
   if (!made) return std::unexpected(EnrollFailure{made.error(), to_text(made.error())});
   audit(now, "enrolled", made->name, fingerprint.hex());
   return *made;
 }
 
-std::string ServerKeystore::issue_code(const EnrolmentCode& code, std::string_view workstation, std::int64_t now,
+std::string ServerRegistry::issue_code(const EnrolmentCode& code, std::string_view workstation, std::int64_t now,
                                        std::int64_t not_after) {
-  std::string problem =
-      change_books([&](Books& books) { auth::issue_code(books.codes, code, workstation, now, not_after); });
+  std::string problem = modify([&](Lists& lists) { auth::issue_code(lists.codes, code, workstation, now, not_after); });
   if (problem.empty()) audit(now, "code_given_out", workstation);
   return problem;
 }
 
-std::expected<Revoked, std::string> ServerKeystore::revoke(std::string_view name) {
+std::expected<Revoked, std::string> ServerRegistry::revoke(std::string_view name) {
   Revoked gone;
-  std::string problem = change_books([&](Books& books) { gone = auth::revoke(books.workstations, books.codes, name); });
+  std::string problem = modify([&](Lists& lists) { gone = auth::revoke(lists.workstations, lists.codes, name); });
   if (!problem.empty()) return std::unexpected(std::move(problem));
   return gone;
 }
 
-std::string ServerKeystore::enroll_without_code(const WorkstationRow& row) {
-  return change_books([&](Books& books) {
-    std::erase_if(books.workstations,
+std::string ServerRegistry::enroll_without_code(const WorkstationRow& row) {
+  return modify([&](Lists& lists) {
+    std::erase_if(lists.workstations,
                   [&](const WorkstationRow& old) { return old.name == row.name || old.spki == row.spki; });
-    books.workstations.push_back(row);
+    lists.workstations.push_back(row);
   });
-}
-
-std::expected<std::optional<ServingSpec>, std::string> ServerKeystore::read_serving() const {
-  if (!folder_ || !folder_->has(kServingFile)) return std::nullopt;
-  const auto books = folder_->lock(kLock);
-  if (!books) return std::unexpected(books.error());
-  // Left by a server that was killed: no process holds its lock.
-  const auto lock = folder_->try_lock(kServingLock);
-  if (!lock) return std::unexpected(lock.error());
-  if (*lock) return std::nullopt;
-  auto serving = book(*folder_, kServingFile, parse_serving);
-  if (!serving) return std::unexpected(serving.error());
-  return std::move(*serving);
 }
 
 }  // namespace tandem::auth

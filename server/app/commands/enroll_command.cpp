@@ -30,7 +30,7 @@ int enroll_command(const EnrollArguments& arguments) {
   auth::EnrolmentString out;
   out.address = arguments.address;
   if (out.address.empty()) {
-    const auto serving = state->read_serving();
+    const auto serving = state->serving().read();
     if (!serving) return print_error("enroll", serving.error());
     if (!*serving)
       return print_usage_error("enroll", "--address is required: no server runs from " + state->folder()->path() +
@@ -43,7 +43,8 @@ int enroll_command(const EnrollArguments& arguments) {
   auth::fill_random(out.code.bytes);
   const std::int64_t now = auth::wall_seconds();
   const auto life = static_cast<std::int64_t>(std::stod(hours) * 3600.0);
-  if (const std::string problem = state->issue_code(out.code, arguments.name, now, now + life); !problem.empty())
+  if (const std::string problem = state->registry().issue_code(out.code, arguments.name, now, now + life);
+      !problem.empty())
     return print_error("enroll", problem);
   warn_audit_failure("enroll", *state);
   std::string text = out.to_text();

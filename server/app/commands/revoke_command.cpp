@@ -14,9 +14,9 @@ struct RevokeArguments {
 int revoke_command(const RevokeArguments& arguments) {
   auto state = open_state(arguments.state);
   if (!state) return print_error("revoke", state.error());
-  const auto book = state->workstations();
+  const auto book = state->registry().workstations();
   if (!book) return print_error("revoke", book.error());
-  const auto gone = state->revoke(arguments.name);
+  const auto gone = state->registry().revoke(arguments.name);
   if (!gone) return print_error("revoke", gone.error());
   if (gone->workstations + gone->codes == 0)
     return print_usage_error("revoke",

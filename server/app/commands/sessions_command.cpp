@@ -23,7 +23,7 @@ rpc::SessionPhase phase_named(const std::string& name) {
 int sessions_command(const SessionsArguments& arguments) {
   const auto state = open_state(arguments.state);
   if (!state) return print_error("sessions", state.error());
-  const auto serving = state->read_serving();
+  const auto serving = state->serving().read();
   if (!serving) return print_error("sessions", serving.error());
   if (!*serving)
     return print_error("sessions",

@@ -37,7 +37,7 @@ int wait_for_drain(const auth::ServerKeystore& state, std::uint32_t grace_s) {
   const auto due = Clock::now() + std::chrono::seconds(grace_s);
   long told = static_cast<long>(grace_s) + 10;
   while (true) {
-    const auto serving = state.read_serving();
+    const auto serving = state.serving().read();
     if (!serving) return print_error("stop", serving.error());
     if (!*serving) break;
     const auto now = Clock::now();
@@ -62,13 +62,13 @@ int stop_command(const StopArguments& arguments) {
   if (!errors.empty()) return print_usage_errors("stop", errors);
   auto state = open_state(arguments.state);
   if (!state) return print_error("stop", state.error());
-  const auto serving = state->read_serving();
+  const auto serving = state->serving().read();
   if (!serving) return print_error("stop", serving.error());
   if (!*serving)
     return print_error("stop", "no server runs from " + state->folder()->path() +
                                    "; a loopback server with ephemeral keys has no folder: Ctrl-C where it runs, or "
                                    "`tandem-client control --server HOST:PORT drain`");
-  if (const std::string problem = state->request_shutdown(grace_s); !problem.empty())
+  if (const std::string problem = state->serving().request_shutdown(grace_s); !problem.empty())
     return print_error("stop", problem);
   state->audit(auth::wall_seconds(), "stop_requested", "", format("in %u s", grace_s));
   warn_audit_failure("stop", *state);

@@ -88,9 +88,9 @@ int ticket_command(const TicketArguments& arguments) {
   const double force_percent = errors.number("--force", arguments.force, 0.1, 100, "%");
   auto state = open_state(arguments.state);
   if (!state) return errors.empty() ? print_error("ticket", state.error()) : print_usage_errors("ticket", errors);
-  const auto serving = state->read_serving();
+  const auto serving = state->serving().read();
   if (!serving) return print_error("ticket", serving.error());
-  const auto book = state->workstations();
+  const auto book = state->registry().workstations();
   if (!book) return print_error("ticket", book.error());
   const WorkstationRow* const workstation = auth::find_workstation(*book, arguments.workstation);
   if (workstation == nullptr)

@@ -9,6 +9,7 @@
 #include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/log.h"
+#include "common/io/socket_address.h"
 
 namespace tandem::server {
 namespace {

@@ -8,10 +8,16 @@
 
 #include "common/auth/audit_throttle.h"
 #include "common/auth/io/server_keystore.h"
-#include "server/app/control/control_plane.h"
-#include "server/app/monitor/metrics.h"
+#include "server/app/control/control_event.h"
 
 namespace tandem::server {
+
+/// State of the audit log.
+struct AuditState {
+  std::string_view trouble{};  ///< current write error; empty: none
+  std::uint64_t lost = 0;      ///< lines that could not be written
+  std::uint64_t left_out = 0;  ///< lines about rejected peers that the throttle suppressed
+};
 
 /// Writer of a server's audit log: all joins, rejections up to a limit per source, and the events of sessions. It
 /// reports when the log fails and when it recovers. Without a state directory nothing is written. All members except

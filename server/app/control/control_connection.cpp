@@ -25,27 +25,29 @@ std::uint32_t whole_seconds(Duration d) noexcept {
 
 }  // namespace
 
-ControlConnection::ControlConnection(ControlPlane& plane, auth::PendingSlots::Id id, asio::ip::tcp::socket socket,
-                                     const auth::Origin& origin, const auth::Source& source, std::string address)
-    : plane_(plane),
+ControlConnection::ControlConnection(ControlServices& services, auth::PendingSlots::Id id, asio::ip::tcp::socket socket,
+                                     const auth::Origin& origin, std::string address, OnConnectionChange on_change)
+    : services_(services),
       id_(id),
-      stream_(auth::ControlStream::make(std::move(socket), plane.tls_, auth::ControlStream::Side::kServer)),
+      stream_(auth::ControlStream::make(std::move(socket), services.tls, auth::ControlStream::Side::kServer)),
       origin_(origin),
-      source_(source),
+      source_(auth::Source::of(origin)),
       address_(std::move(address)),
-      commands_(rpc::RateLimits{}.commands_per_s, rpc::RateLimits{}.commands_burst),
-      stops_(commands_),
-      authority_(rpc::RateLimits{}.authority_per_s, rpc::RateLimits{}.authority_burst) {}
+      on_change_(std::move(on_change)) {}
+
+void ControlConnection::record(ControlEvent event, std::string detail) const {
+  services_.events.record(event, address_, workstation_ ? workstation_->name : "", std::move(detail));
+}
 
 void ControlConnection::start(std::chrono::milliseconds deadline) {
   set_deadline(deadline);
-  stream_->allow_input(plane_.limits_.input_before_auth);
+  stream_->allow_input(services_.limits.input_before_auth);
   stream_->handshake([self = shared_from_this()](auth::ControlStream::Peer peer) {
     if (!peer) return self->on_stream_fault(peer.error());
     if (self->finished_) return;
     self->pin_ = *peer;
     // An unknown workstation may enrol. Until then its connection competes with all other unknown ones.
-    if (const auto row = self->plane_.trust_.find(self->pin_); row && *row) self->on_key_proved();
+    if (const auto row = self->services_.trust.registry().find(self->pin_); row && *row) self->on_key_proved();
     self->read_next();
   });
 }
@@ -54,20 +56,21 @@ void ControlConnection::stop() { finish(); }
 
 void ControlConnection::close(ControlEvent why) {
   if (finished_) return;
-  plane_.record_event(why, address_, workstation_ ? workstation_->name : "");
+  record(why);
   finish();
 }
 
 void ControlConnection::on_key_proved() {
   if (std::exchange(proved_, true)) return;
-  plane_.on_key_proved(*this);
+  on_change_(*this, ConnectionChange::kKeyProved);
 }
 
 void ControlConnection::read_next() {
   if (finished_) return;
-  const std::size_t frame_max = pending_ ? std::min(plane_.limits_.input_before_auth, rpc::kFrameMax) : rpc::kFrameMax;
+  const std::size_t frame_max =
+      pending_ ? std::min(services_.limits.input_before_auth, rpc::kFrameMax) : rpc::kFrameMax;
   const auto frame_deadline =
-      pending_ ? auth::ControlStream::Duration::zero() : auth::ControlStream::Duration(plane_.limits_.frame_deadline);
+      pending_ ? auth::ControlStream::Duration::zero() : auth::ControlStream::Duration(services_.limits.frame_deadline);
   stream_->read(frame_max, frame_deadline, [self = shared_from_this()](auth::ControlStream::Bytes bytes) {
     if (!bytes) return self->on_stream_fault(bytes.error());
     self->on_frame(std::move(*bytes));
@@ -76,13 +79,13 @@ void ControlConnection::read_next() {
 
 void ControlConnection::on_frame(SecretBuffer bytes) {
   if (finished_) return;
-  plane_.set_busy(*this, true);
+  services_.slots.set_busy(id_, true, services_.now());
   const auto raw = std::as_const(bytes).bytes();
   // The role is checked before the payload is parsed.
   const auto head = rpc::peek(raw);
   request_ = head ? head->request : 0;
   if (!head || !is_client_message(head->kind)) {
-    plane_.record_event(ControlEvent::kBadFrame, address_);
+    record(ControlEvent::kBadFrame);
     const bool version = !head && head.error() == rpc::FrameError::kVersion;
     return refuse(version ? ErrorCode::kVersion : ErrorCode::kBadFrame,
                   version
@@ -90,58 +93,52 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
                       : "the server cannot parse this message",
                   true);
   }
-  auto row = plane_.trust_.find(pin_);
+  auto row = services_.trust.registry().find(pin_);
   if (!row) {
-    plane_.record_event(ControlEvent::kTrouble, address_, "", row.error());
+    services_.events.record(ControlEvent::kTrouble, address_, "", row.error());
     return refuse(ErrorCode::kInternal,
                   "the server cannot read its registry of workstations, so it rejects all joins; its log has the cause",
                   true);
   }
   workstation_ = std::move(*row);
   if (!workstation_ && head->kind != Kind::kEnroll) {
-    plane_.record_event(ControlEvent::kNotEnrolled, address_, "", pin_.hex());
+    record(ControlEvent::kNotEnrolled, pin_.hex());
     return refuse(ErrorCode::kNotEnrolled, std::string(kUnknown), true);
   }
-  const Time now = plane_.clocks_.monotonic();
-  if (!bucket_of(head->kind).take(now)) {
-    plane_.record_event(ControlEvent::kCommandTooFast, address_, workstation_ ? workstation_->name : "");
+  const Time now = services_.now();
+  if (!rates_.take(head->kind, now)) {
+    record(ControlEvent::kCommandTooFast);
     return refuse(ErrorCode::kTooFast, "too many requests; send them more slowly", pending_, 1);
   }
   const auto role = welcome_ ? std::optional(welcome_->role) : std::nullopt;
   if (!allowed(role, head->kind)) {
     std::string why = forbidden_text(role, head->kind);
-    plane_.record_event(ControlEvent::kForbidden, address_, workstation_ ? workstation_->name : "",
-                        forbidden_events_.take(now) ? why : "");
+    record(ControlEvent::kForbidden, forbidden_events_.take(now) ? why : "");
     return refuse(ErrorCode::kNotAllowed, std::move(why), pending_);
   }
   auto frame = rpc::decode(raw);
   if (!frame) {
-    plane_.record_event(ControlEvent::kBadFrame, address_, workstation_ ? workstation_->name : "");
+    record(ControlEvent::kBadFrame);
     return refuse(ErrorCode::kBadFrame, std::string(rpc::to_text(frame.error())), true);
   }
   if (const auto* enrol = std::get_if<rpc::Enroll>(&frame->body)) return on_enrol(*enrol);
   if (auto* hello = std::get_if<rpc::Hello>(&frame->body)) return on_hello(std::move(*hello));
   if (const auto* ping = std::get_if<rpc::Ping>(&frame->body)) return answer(rpc::Pong{ping->nonce});
   if (std::holds_alternative<rpc::SessionListRequest>(frame->body)) {
-    rpc::SessionList list = plane_.join_handler_.list(*workstation_);
+    rpc::SessionList list = services_.join_handler.list(*workstation_);
     accepted();
     return answer(std::move(list));
   }
   on_command(std::move(frame->body));
 }
 
-auth::TokenBucket& ControlConnection::bucket_of(Kind kind) noexcept {
-  if (kind == Kind::kSetAuthority) return authority_;
-  return kind == Kind::kStopSession || kind == Kind::kPauseSession ? stops_ : commands_;
-}
-
 /// A connection that waits for a request receives an unsolicited error reply. One that is being answered is closed
 /// without.
 void ControlConnection::disconnect_if_revoked() {
   if (finished_ || !workstation_) return;
-  const auto row = plane_.trust_.find(pin_);
+  const auto row = services_.trust.registry().find(pin_);
   if (!row || *row) return;  // an unreadable registry closes no connection
-  plane_.record_event(ControlEvent::kNotEnrolled, address_, workstation_->name, "revoked: its connection is closed");
+  record(ControlEvent::kNotEnrolled, "revoked: its connection is closed");
   if (writing_) return finish();
   request_ = 0;
   refuse(ErrorCode::kNotEnrolled, std::string(kUnknown), true);
@@ -149,7 +146,7 @@ void ControlConnection::disconnect_if_revoked() {
 
 bool ControlConnection::reply_if_blocked(Duration left) {
   if (left <= Duration::zero()) return false;
-  plane_.record_event(ControlEvent::kBlocked, address_, workstation_ ? workstation_->name : "");
+  record(ControlEvent::kBlocked);
   const std::uint32_t wait = whole_seconds(left);
   refuse(ErrorCode::kBlocked,
          "too many wrong codes came from this workstation or address; wait " + std::to_string(wait) +
@@ -159,22 +156,22 @@ bool ControlConnection::reply_if_blocked(Duration left) {
 }
 
 void ControlConnection::on_enrol(const rpc::Enroll& enrol) {
-  if (reply_if_blocked(plane_.attempts_.blocked_for(source_, enrolled_key(), plane_.clocks_.monotonic()))) return;
-  const auto row = plane_.trust_.enroll(enrol.code, pin_, plane_.clocks_.wall());
+  if (reply_if_blocked(services_.attempts.blocked_for(source_, enrolled_key(), services_.now()))) return;
+  const auto row = services_.trust.registry().enroll(enrol.code, pin_, services_.clocks.wall());
   if (row) {
-    plane_.record_event(ControlEvent::kEnrolled, address_, row->name, pin_.hex());
+    services_.events.record(ControlEvent::kEnrolled, address_, row->name, pin_.hex());
     accepted();
     return answer(rpc::EnrollAck{row->name});
   }
   if (!row.error().fault) {
-    plane_.record_event(ControlEvent::kTrouble, address_, "", row.error().text);
+    services_.events.record(ControlEvent::kTrouble, address_, "", row.error().text);
     return refuse(ErrorCode::kInternal, "the server cannot write its registry of workstations; its log has the cause",
                   true);
   }
-  plane_.record_event(ControlEvent::kCodeRefused, address_, "", row.error().text);
+  services_.events.record(ControlEvent::kCodeRefused, address_, "", row.error().text);
   const auto fault = *row.error().fault;
   if (fault == auth::EnrollError::kUnknownCode)
-    plane_.attempts_.record_failure(source_, enrolled_key(), plane_.clocks_.monotonic());
+    services_.attempts.record_failure(source_, enrolled_key(), services_.now());
   refuse(fault == auth::EnrollError::kBookFull ? ErrorCode::kFull : ErrorCode::kCode, row.error().text, true);
 }
 
@@ -190,22 +187,22 @@ void ControlConnection::on_hello(rpc::Hello hello) {
   const bool by_resume = std::holds_alternative<rpc::ResumeCredential>(hello.credential);
   const bool by_code = std::holds_alternative<std::string>(hello.session) ||
                        std::holds_alternative<rpc::CodeCredential>(hello.credential);
-  const Time now = plane_.clocks_.monotonic();
-  if (by_code && reply_if_blocked(by_resume ? plane_.attempts_.blocked_for(pin_, now)
-                                            : plane_.attempts_.blocked_for(source_, pin_, now)))
+  const Time now = services_.now();
+  if (by_code && reply_if_blocked(by_resume ? services_.attempts.blocked_for(pin_, now)
+                                            : services_.attempts.blocked_for(source_, pin_, now)))
     return;
-  if (!plane_.places_.may_join(by_resume)) {
-    const std::string full = "all " + std::to_string(plane_.limits_.connections) +
+  if (!services_.slots.may_join(by_resume)) {
+    const std::string full = "all " + std::to_string(services_.limits.connections) +
                              " control connections of this server are in use by joined clients; try again later";
-    plane_.record_event(ControlEvent::kRefused, address_, workstation_->name, full);
+    record(ControlEvent::kRefused, full);
     return refuse(ErrorCode::kFull, full, true, 5);
   }
   const auto request =
       std::make_shared<JoinRequest>(JoinRequest{std::move(hello), *common, *workstation_, source_, address_});
-  if (!pending_) set_deadline(plane_.limits_.frame_deadline);
+  if (!pending_) set_deadline(services_.limits.frame_deadline);
   // The reply may come from another thread, or after this connection has ended.
-  plane_.join_handler_.admit(*request, [weak = weak_from_this(), request, &context = plane_.context_,
-                                        &admissions = plane_.join_handler_](JoinReply admission) {
+  services_.join_handler.admit(*request, [weak = weak_from_this(), request, &context = services_.context,
+                                          &admissions = services_.join_handler](JoinReply admission) {
     asio::dispatch(context, [weak, request, &admissions, admission = std::move(admission)]() mutable {
       if (const auto self = weak.lock(); self && !self->finished_)
         return self->on_join_reply(request, std::move(admission));
@@ -216,40 +213,40 @@ void ControlConnection::on_hello(rpc::Hello hello) {
 
 void ControlConnection::on_join_reply(const std::shared_ptr<JoinRequest>& request, JoinReply admission) {
   if (auto* refused = std::get_if<rpc::ErrorReply>(&admission)) {
-    if (refused->code == ErrorCode::kCode) plane_.attempts_.record_failure(source_, pin_, plane_.clocks_.monotonic());
-    plane_.record_event(ControlEvent::kRefused, address_, request->workstation.name, refused->text);
+    if (refused->code == ErrorCode::kCode) services_.attempts.record_failure(source_, pin_, services_.now());
+    record(ControlEvent::kRefused, refused->text);
     return answer(std::move(*refused), true);
   }
   rpc::Welcome& welcome = std::get<rpc::Welcome>(admission);
   const auto secrets =
       stream_->export_secrets({welcome.session_id, welcome.epoch, welcome.server_cid, welcome.role, welcome.seat});
   if (!secrets) {
-    plane_.record_event(ControlEvent::kTrouble, address_, request->workstation.name, secrets.error());
-    plane_.join_handler_.on_join_failed(welcome);
+    record(ControlEvent::kTrouble, secrets.error());
+    services_.join_handler.on_join_failed(welcome);
     return refuse(ErrorCode::kInternal, "the server could not create this connection's keys; its log has the cause",
                   true);
   }
-  plane_.join_handler_.on_joined(*request, welcome, *secrets);
-  plane_.record_event(ControlEvent::kWelcomed, address_, request->workstation.name, welcome.seat);
+  services_.join_handler.on_joined(*request, welcome, *secrets);
+  record(ControlEvent::kWelcomed, welcome.seat);
   welcome_ = welcome;
   accepted();
-  plane_.on_joined(*this, welcome);
+  on_change_(*this, ConnectionChange::kJoined);
   answer(std::move(welcome));
 }
 
 void ControlConnection::on_command(rpc::Body command) {
-  plane_.record_event(ControlEvent::kCommand, address_, workstation_->name);
-  set_deadline(plane_.limits_.frame_deadline);
-  plane_.join_handler_.command(*welcome_, *workstation_, std::move(command),
-                               [weak = weak_from_this(), &context = plane_.context_](rpc::Body body) {
-                                 asio::dispatch(context, [weak, body = std::move(body)]() mutable {
-                                   const auto self = weak.lock();
-                                   if (!self || self->finished_) return;
-                                   self->acted_ = self->acted_ || !(std::holds_alternative<rpc::ErrorReply>(body) ||
-                                                                    std::holds_alternative<rpc::Status>(body));
-                                   self->answer(std::move(body));
+  record(ControlEvent::kCommand);
+  set_deadline(services_.limits.frame_deadline);
+  services_.join_handler.command(*welcome_, *workstation_, std::move(command),
+                                 [weak = weak_from_this(), &context = services_.context](rpc::Body body) {
+                                   asio::dispatch(context, [weak, body = std::move(body)]() mutable {
+                                     const auto self = weak.lock();
+                                     if (!self || self->finished_) return;
+                                     self->acted_ = self->acted_ || !(std::holds_alternative<rpc::ErrorReply>(body) ||
+                                                                      std::holds_alternative<rpc::Status>(body));
+                                     self->answer(std::move(body));
+                                   });
                                  });
-                               });
 }
 
 void ControlConnection::set_deadline(std::chrono::milliseconds time) {
@@ -274,27 +271,26 @@ void ControlConnection::answer(rpc::Body body, bool last) {
   if (finished_ || writing_) return;  // the last reply is being written already
   // Unknown peers get no information about this computer.
   if (auto* const refused = std::get_if<rpc::ErrorReply>(&body);
-      refused != nullptr && workstation_ && plane_.trust_.on_disk()) {
+      refused != nullptr && workstation_ && services_.trust.on_disk()) {
     std::string text = with_options(refused->text, "tandem-server", {"ticket", "enroll", "revoke"},
-                                    auth::server_state_option(plane_.trust_.folder()->path()));
+                                    auth::server_state_option(services_.trust.folder()->path()));
     if (text.size() <= rpc::kTextMax) refused->text = std::move(text);
   }
   refused_ = refused_ || (welcome_ && std::holds_alternative<rpc::ErrorReply>(body));
   auto frame = rpc::encode({request_, std::move(body)});
   if (!frame) {  // the server's own error: the reply exceeds the limits
-    plane_.record_event(ControlEvent::kTrouble, address_, workstation_ ? workstation_->name : "",
-                        "an answer could not be written");
+    record(ControlEvent::kTrouble, "an answer could not be written");
     return finish();
   }
   // A client that does not read its reply is disconnected.
-  if (!pending_) set_deadline(plane_.limits_.answer_deadline);
+  if (!pending_) set_deadline(services_.limits.answer_deadline);
   writing_ = true;
   stream_->write(std::move(*frame), [self = shared_from_this(), last](std::expected<void, auth::StreamError> written) {
     self->writing_ = false;
     if (!written) return self->on_stream_fault(written.error());
     if (!self->pending_) self->stream_->clear_deadline();
     if (last) return self->finish();
-    self->plane_.set_busy(*self, false);
+    self->services_.slots.set_busy(self->id_, false, self->services_.now());
     self->read_next();
   });
 }
@@ -303,16 +299,16 @@ void ControlConnection::on_stream_fault(const auth::StreamError& fault) {
   if (finished_) return;
   switch (fault.end) {
     case StreamErrorCode::kDeadline:
-      plane_.record_event(ControlEvent::kDeadline, address_, workstation_ ? workstation_->name : "");
+      record(ControlEvent::kDeadline);
       break;
     case StreamErrorCode::kTooMuch:
-      plane_.record_event(ControlEvent::kTooMuchInput, address_);
+      record(ControlEvent::kTooMuchInput);
       break;
     case StreamErrorCode::kLength:
-      plane_.record_event(ControlEvent::kBadFrame, address_, workstation_ ? workstation_->name : "", fault.text);
+      record(ControlEvent::kBadFrame, fault.text);
       return refuse(ErrorCode::kBadFrame, fault.text, true);
     case StreamErrorCode::kHandshake:
-      plane_.record_event(ControlEvent::kHandshakeFailed, address_, "", fault.text);
+      record(ControlEvent::kHandshakeFailed, fault.text);
       break;
     case StreamErrorCode::kClosed:
     case StreamErrorCode::kStopped:
@@ -327,8 +323,8 @@ void ControlConnection::finish() {
   finished_ = true;
   const auto self = shared_from_this();
   stream_->close();
-  if (welcome_) plane_.join_handler_.on_disconnected(*welcome_, refused_ && !acted_);
-  plane_.on_ended(*self);
+  if (welcome_) services_.join_handler.on_disconnected(*welcome_, refused_ && !acted_);
+  on_change_(*this, ConnectionChange::kEnded);
 }
 
 }  // namespace tandem::server

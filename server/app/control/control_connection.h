@@ -6,17 +6,28 @@
 #include <string>
 
 #include "common/auth/io/control_stream.h"
-#include "server/app/control/control_plane.h"
+#include "common/auth/origin.h"
+#include "common/auth/pending_slots.h"
+#include "server/app/control/command_rates.h"
+#include "server/app/control/control_services.h"
 
 namespace tandem::server {
+
+class ControlConnection;
+
+/// Change that a connection reports to its owner.
+enum class ConnectionChange : std::uint8_t { kKeyProved, kJoined, kEnded };
+using OnConnectionChange = std::function<void(const ControlConnection&, ConnectionChange)>;
 
 /// One control connection: TLS handshake, then one frame at a time. Each frame is answered before the next one is
 /// read. Until the first accepted request it has a deadline and a limit of input bytes. The workstation is looked up
 /// for every frame, so a revoked workstation is rejected at its next frame.
 class ControlConnection : public std::enable_shared_from_this<ControlConnection> {
  public:
-  ControlConnection(ControlPlane& plane, auth::PendingSlots::Id id, asio::ip::tcp::socket socket,
-                    const auth::Origin& origin, const auth::Source& source, std::string address);
+  /// @param services  must outlive this
+  /// @param address   of the peer, for logs
+  ControlConnection(ControlServices& services, auth::PendingSlots::Id id, asio::ip::tcp::socket socket,
+                    const auth::Origin& origin, std::string address, OnConnectionChange on_change);
   /// @param deadline  for the first accepted request
   void start(std::chrono::milliseconds deadline);
   void stop();
@@ -24,7 +35,6 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   void close(ControlEvent why);
   [[nodiscard]] auth::PendingSlots::Id id() const noexcept { return id_; }
   [[nodiscard]] const auth::Origin& origin() const noexcept { return origin_; }
-  [[nodiscard]] const auth::Source& source() const noexcept { return source_; }
   [[nodiscard]] const auth::KeyFingerprint& fingerprint() const noexcept { return pin_; }
   /// The Welcome that was sent; null before a join.
   [[nodiscard]] const rpc::Welcome* welcome() const noexcept { return welcome_ ? &*welcome_ : nullptr; }
@@ -55,19 +65,21 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
     return workstation_ ? std::optional(pin_) : std::nullopt;
   }
 
-  ControlPlane& plane_;
+  /// Records an event of this connection.
+  void record(ControlEvent event, std::string detail = {}) const;
+
+  ControlServices& services_;
   auth::PendingSlots::Id id_;
   std::shared_ptr<auth::ControlStream> stream_;
   auth::Origin origin_;
   auth::Source source_;
   std::string address_;
+  OnConnectionChange on_change_;
   auth::KeyFingerprint pin_;
   std::optional<WorkstationRow> workstation_;
   std::optional<rpc::Welcome> welcome_;
-  [[nodiscard]] auth::TokenBucket& bucket_of(rpc::Kind kind) noexcept;
-
-  auth::TokenBucket commands_, stops_, authority_;  ///< separate, so that a stop is never delayed by other commands
-  auth::TokenBucket forbidden_events_{1, 1};        ///< audit events of forbidden commands
+  CommandRates rates_;
+  auth::TokenBucket forbidden_events_{1, 1};  ///< audit events of forbidden commands
   std::uint32_t request_ = 0;
   bool acted_ = false, refused_ = false;  ///< a command was executed; a command was rejected
   bool pending_ = true, proved_ = false, finished_ = false, writing_ = false;

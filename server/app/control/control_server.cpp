@@ -11,6 +11,7 @@
 #include "common/base/format.h"
 #include "common/io/log.h"
 #include "server/app/control/server_keys.h"
+#include "server/app/monitor/metrics.h"
 
 namespace tandem::server {
 namespace {
@@ -111,7 +112,7 @@ std::string ControlServer::write_serving_file() {
   ServingSpec now = registry_.serving();
   now.address = io::to_text(address_);
   if (now == serving_) return {};
-  std::string problem = trust_.write_serving(now);
+  std::string problem = trust_.serving().write(now);
   if (problem.empty()) serving_ = std::move(now);  // on an error the next round tries again
   return problem;
 }
@@ -136,7 +137,7 @@ void ControlServer::schedule_revocation_check() {
     if (cancelled) return;
     commands_.disconnect_revoked();
     plane_.disconnect_revoked();
-    if (const auto grace = trust_.requested_shutdown())
+    if (const auto grace = trust_.serving().requested_shutdown())
       commands_.drain(*grace, "`tandem-server stop` on this computer");
     schedule_revocation_check();
   });

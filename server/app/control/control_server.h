@@ -11,6 +11,7 @@
 #include "common/io/udp_socket.h"
 #include "server/app/control/audit_writer.h"
 #include "server/app/control/control_plane.h"
+#include "server/app/control/control_thread.h"
 #include "server/app/control/session_joins.h"
 #include "server/app/monitor/metrics_server.h"
 

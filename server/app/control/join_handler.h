@@ -25,8 +25,8 @@ using JoinReply = std::variant<rpc::Welcome, rpc::ErrorReply>;
 
 /// Decides about sessions and seats. All calls come from the control plane's thread; none may block. A reply may come
 /// at once or later, from any thread, exactly once, and only while the control plane's io_context exists. Tickets are
-/// redeemed by `ServerKeystore::redeem` on the control plane's thread, as late as possible. A redeemed ticket is used,
-/// unless `ServerKeystore::restore_ticket` makes it valid again after a failed join.
+/// redeemed by `TicketRedeemer::redeem` on the control plane's thread, as late as possible. A redeemed ticket is used,
+/// unless `TicketRedeemer::restore` makes it valid again after a failed join.
 class JoinHandler {
  public:
   virtual ~JoinHandler() = default;
@@ -56,7 +56,7 @@ class JoinHandler {
 };
 
 /// Reply to a rejected ticket.
-[[nodiscard]] inline rpc::ErrorReply ticket_error_reply(const auth::ServerKeystore::RedeemFailure& failure) {
+[[nodiscard]] inline rpc::ErrorReply ticket_error_reply(const auth::TicketRedeemer::Failure& failure) {
   if (failure.fault) return {rpc::ErrorCode::kTicket, failure.text, 0};
   return {rpc::ErrorCode::kInternal,
           "the server cannot record that a ticket is used, so it accepts no tickets; the ticket stays valid. Ask the "

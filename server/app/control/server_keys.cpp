@@ -12,9 +12,9 @@ std::expected<auth::ServerKeystore, std::string> open_server_keys(const io::Sock
   if (!path) return std::unexpected("--state: " + path.error());
   auto trust = auth::ServerKeystore::open(*path);
   if (!trust) return std::unexpected(trust.error());
-  const auto book = trust->workstations();
+  const auto book = trust->registry().workstations();
   if (!book) return std::unexpected(book.error());
-  const auto codes = trust->pending_codes(now);
+  const auto codes = trust->registry().pending_codes(now);
   if (!codes) return std::unexpected(codes.error());
   if (!listen.loopback() && book->empty() && *codes == 0)
     return std::unexpected("no client could join: no workstation is enrolled in " + *path +

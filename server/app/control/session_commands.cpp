@@ -154,7 +154,7 @@ void SessionCommands::drain(std::uint32_t grace_s, const std::string& who) {
 // ---- Revocation ----
 
 void SessionCommands::disconnect_revoked() {
-  const auto workstations = audit_.workstations();
+  const auto workstations = audit_.registry().workstations();
   if (!workstations) return;  // an unreadable registry takes no seat
   const auto revoked = [&](const std::optional<WorkstationRow>& owner) {
     return owner && auth::find_workstation(*workstations, auth::KeyFingerprint{owner->spki}) == nullptr;

@@ -93,10 +93,10 @@ void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinRepl
 
 std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) const {
   double all = 0;
-  for (const Shard* shard : registry_.requests().shards()) all += shard->cpu_share();
-  const Shard& own = *entry.registration.shard;
-  std::string why = rejection_reason({own.load(), own.cpu_share(), own.load_state().level == ShedLevel::kNewJoins}, all,
-                                     std::thread::hardware_concurrency(), limits_);
+  for (const Shard* shard : registry_.requests().shards()) all += shard->load().cpu_share();
+  const ShardLoad& own = entry.registration.shard->load();
+  std::string why = rejection_reason({own.tick_share(), own.cpu_share(), own.state().level == ShedLevel::kNewJoins},
+                                     all, std::thread::hardware_concurrency(), limits_);
   if (why.empty()) return std::nullopt;
   return ErrorReply{ErrorCode::kFull, std::move(why), 5};
 }
@@ -185,8 +185,8 @@ std::expected<auth::Ticket, ErrorReply> SessionJoins::redeem(const SessionEntry&
                                                              const rpc::TicketCredential& ticket,
                                                              std::optional<AccessRole> role) {
   auto redeemed =
-      trust_.redeem(ticket.bytes, {entry.registration.id, entry.registration.epoch, request.hello.seat, role,
-                                   auth::KeyFingerprint{request.workstation.spki}, auth::wall_seconds()});
+      trust_.tickets().redeem(ticket.bytes, {entry.registration.id, entry.registration.epoch, request.hello.seat, role,
+                                             auth::KeyFingerprint{request.workstation.spki}, auth::wall_seconds()});
   if (redeemed) return std::move(*redeemed);
   if (!redeemed.error().fault) {  // a failure of the server itself
     if (on_message_) on_message_("no ticket can be used: " + redeemed.error().text);
@@ -197,7 +197,7 @@ std::expected<auth::Ticket, ErrorReply> SessionJoins::redeem(const SessionEntry&
 
 void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry) {
   if (!ticket) return;
-  const std::string problem = trust_.restore_ticket(*ticket);
+  const std::string problem = trust_.tickets().restore(*ticket);
   trust_.audit(auth::wall_seconds(), "ticket_unused", entry.registration.name,
                auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem));
 }

@@ -21,7 +21,7 @@ class LoadEvents {
     std::vector<Event> news;
     reported_.resize(shards.size(), ShedLevel::kNone);
     for (std::size_t i = 0; i < shards.size(); ++i) {
-      const ShedLevel now = shards[i]->load_state().level, before = std::exchange(reported_[i], now);
+      const ShedLevel now = shards[i]->load().state().level, before = std::exchange(reported_[i], now);
       if (now == before) continue;
       const auto hz = static_cast<long>(1.0 / seconds(shards[i]->period()) + 0.5);
       std::string what = now == ShedLevel::kNone ? "sheds no load" : "sheds: ";

@@ -116,19 +116,20 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
                static_cast<double>(sessions[i]));
   for (const Shard* shard : registry.requests().shards()) {
     const Labels who{{"tick_hz", std::to_string(std::lround(1.0 / seconds(shard->period())))}};
-    page.ticks("tandem_tick_seconds", "Processor time of a tick, all sessions of a shard", who, shard->lengths());
-    page.ticks("tandem_tick_lateness_seconds", "Lateness of the start of ticks", who, shard->lateness());
+    page.ticks("tandem_tick_seconds", "Processor time of a tick, all sessions of a shard", who,
+               shard->load().lengths());
+    page.ticks("tandem_tick_lateness_seconds", "Lateness of the start of ticks", who, shard->load().lateness());
     page.count("tandem_tick_late_total", "Ticks that began more than 1 ms late", who,
-               static_cast<double>(shard->late_ticks()));
+               static_cast<double>(shard->load().late_ticks()));
     page.gauge("tandem_tick_load", "Processor time of a tick, 99th percentile of the last 1000, share of the tick", who,
-               shard->load());
+               shard->load().tick_share());
     page.gauge("tandem_core_load", "Processor time of the thread, over the last second, share of one processor", who,
-               shard->cpu_share());
+               shard->load().cpu_share());
     page.gauge("tandem_shed_level",
                "Load-shedding level: 0 none, 1 telemetry, 2-3 observers, 4-5 evaluators, 6 new joins", who,
-               static_cast<double>(shard->load_state().level));
+               static_cast<double>(shard->load().state().level));
     page.gauge("tandem_overloaded", "1: the ticks of the thread are late, and all hands of its sessions are released",
-               who, shard->load_state().overloaded ? 1 : 0);
+               who, shard->load().state().overloaded ? 1 : 0);
     stray += shard->unmatched_datagrams();
   }
   for (std::size_t r = 0; r < refused.size(); ++r)
@@ -158,8 +159,8 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
 std::string stalled_text(const SessionRegistry& registry) {
   const Time now = io::monotonic_now();
   for (const Shard* shard : registry.requests().shards())
-    if (now - shard->last_tick() > kTickAgeMax)
-      return "a tick thread has not run for " + std::to_string(seconds(now - shard->last_tick())) + " s\n";
+    if (now - shard->load().last_tick() > kTickAgeMax)
+      return "a tick thread has not run for " + std::to_string(seconds(now - shard->load().last_tick())) + " s\n";
   return {};
 }
 

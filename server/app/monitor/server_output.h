@@ -6,7 +6,7 @@
 
 #include "common/io/log.h"
 #include "common/io/terminal.h"
-#include "server/app/control/control_plane.h"
+#include "server/app/control/control_event.h"
 #include "server/app/monitor/message_queue.h"
 #include "server/app/monitor/session_status.h"
 

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
+#include <span>
 
 #include "common/auth/io/state_directory.h"
 #include "server/session/session_invariant_checker.h"
@@ -17,18 +16,6 @@ constexpr std::uint64_t kStatusIntervalShedding = 4 * kStatusInterval,
                         kRecordIntervalShedding = 10;  // from ShedLevel::kTelemetry on
 
 constexpr Duration kNeverEchoed = std::chrono::hours(1);  // a longer loop age means that no echo has arrived
-
-constexpr double kCheckpointInterval = 0.5;  // [s]
-// Attempts to publish the last checkpoint. Each fails only while the store copies.
-constexpr int kPublishAttempts = 1000;
-
-/// Whether an event changes what a restart restores.
-constexpr bool triggers_checkpoint(AuditEvent::What what) noexcept {
-  using What = AuditEvent::What;
-  return what == What::kJoin || what == What::kLeave || what == What::kAuthority || what == What::kStop ||
-         what == What::kPause || what == What::kResume || what == What::kFault || what == What::kRestored ||
-         what == What::kAllBack || what == What::kRemoved || what == What::kAuthorityCancelled;
-}
 
 double ms(Duration d) { return seconds(d) * 1e3; }
 
@@ -58,12 +45,6 @@ void LiveSession::draw_path_tokens() noexcept {
   for (const std::uint64_t token : wanted) tokens.add(token);
 }
 
-void LiveSession::persist_to(std::shared_ptr<CheckpointMailbox> mail, std::uint64_t epoch) {
-  mailbox_ = std::move(mail);
-  epoch_ = epoch;
-  checkpoint_interval_ = static_cast<std::uint64_t>(std::lround(kCheckpointInterval * scene_->tick_hz));
-}
-
 SessionStatus LiveSession::status() const { return published_.read(); }
 
 void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
@@ -71,11 +52,10 @@ void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& mach
   session_.on_tick(now, missed);
   while (const auto event = session_.audit().poll()) {
     audit_.push(*event);
-    checkpoint_due_ = checkpoint_due_ || triggers_checkpoint(event->what);
+    checkpoints_.note(event->what);
   }
-  checkpoint_due_ = checkpoint_due_ || session_.begun() != std::exchange(begun_, session_.begun());
   if (session_.path_tokens().low()) draw_path_tokens();
-  if (mailbox_ && (checkpoint_due_ || ++since_checkpoint_ >= checkpoint_interval_)) publish_checkpoint();
+  checkpoints_.step(session_);
   SessionInvariantChecker{}.check(session_, violations_);
   const bool seldom = machine.load_state.level >= ShedLevel::kTelemetry;
   if (session_.record().running) {
@@ -96,17 +76,9 @@ void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& mach
 void LiveSession::finish(Time now, const MachineStatus& machine) noexcept {
   for (std::size_t i = 0; i < scene_->seats.size(); ++i) update_seat_status(i, now);
   publish(now, machine);
-  checkpoint_due_ = true;
-  for (int tries = 0; mailbox_ && checkpoint_due_ && tries < kPublishAttempts; ++tries) publish_checkpoint();
+  checkpoints_.finish(session_);
   over_event_.signal();
   over_.store(true, std::memory_order_release);  // last, because a reader may then destroy this session
-}
-
-void LiveSession::publish_checkpoint() noexcept {
-  Checkpoint now = session_.checkpoint();
-  now.epoch = epoch_;  // a session that replaced another one has a higher epoch than `Session` counts
-  checkpoint_due_ = !mailbox_->publish(now);
-  if (!checkpoint_due_) since_checkpoint_ = 0;
 }
 
 void LiveSession::update_seat_status(std::size_t i, Time now) noexcept {

@@ -5,14 +5,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
+#include <utility>
 
 #include "common/io/event_fd.h"
 #include "common/io/fd.h"
 #include "common/io/published.h"
 #include "common/io/spsc_queue.h"
 #include "server/app/monitor/session_status.h"
-#include "server/app/process/checkpoint_mailbox.h"
+#include "server/app/process/checkpoint_publisher.h"
 #include "server/app/process/local_slaves.h"
 #include "server/report/violations.h"
 #include "server/session/session.h"
@@ -32,10 +32,11 @@ class LiveSession {
   /// @pre incompatibility(*from, scene) is empty, and `slaves` have the joint positions of `from`
   LiveSession(const SceneSpec& scene, LocalSlaves slaves, std::uint8_t slot, TickQueue& records,
               const Checkpoint* from = nullptr);
-  /// Sets the mailbox for checkpoints, before a shard serves the session. A checkpoint is published twice per second.
-  /// It is published at once when the session begins, and at every event that changes what a restart restores.
+  /// Sets the mailbox for checkpoints, before a shard serves the session.
   /// @param epoch  as the clients know it
-  void persist_to(std::shared_ptr<CheckpointMailbox> mail, std::uint64_t epoch);
+  void persist_to(std::shared_ptr<CheckpointMailbox> mailbox, std::uint64_t epoch) {
+    checkpoints_.attach(std::move(mailbox), epoch, scene_->tick_hz);
+  }
 
   // ---- Any thread ----
   [[nodiscard]] const SceneSpec& scene() const noexcept { return *scene_; }
@@ -66,7 +67,6 @@ class LiveSession {
  private:
   void update_seat_status(std::size_t seat, Time now) noexcept;
   void publish(Time now, const MachineStatus& machine) noexcept;
-  void publish_checkpoint() noexcept;
   void draw_path_tokens() noexcept;
 
   const SceneSpec* scene_;
@@ -80,9 +80,7 @@ class LiveSession {
   std::uint64_t ticks_ = 0, unrecorded_ = 0, skipped_records_ = 0;
   SessionStatus status_;
   io::Published<SessionStatus> published_;
-  std::shared_ptr<CheckpointMailbox> mailbox_;  ///< null: checkpoints are not stored
-  std::uint64_t epoch_ = 1, checkpoint_interval_ = 0, since_checkpoint_ = 0;
-  bool checkpoint_due_ = true, begun_ = false;
+  CheckpointPublisher checkpoints_;
 };
 
 }  // namespace tandem::server

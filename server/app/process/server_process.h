@@ -6,7 +6,7 @@
 
 #include "common/io/log.h"
 #include "common/io/socket_address.h"
-#include "server/app/control/control_plane.h"
+#include "server/app/control/control_services.h"
 #include "server/app/control/session_registry.h"
 #include "server/app/process/session_instance.h"
 

@@ -53,7 +53,7 @@ std::uint64_t ShardPool::punctual() const noexcept {
   for (const auto& shard : shards_) {
     std::uint64_t in_time = 0;
     for (std::size_t i = 0; i < TickHistogram::kBounds.size() && TickHistogram::kBounds[i] <= kPunctual; ++i)
-      in_time += shard->lateness().count(i);
+      in_time += shard->load().lateness().count(i);
     fewest = std::min(fewest, in_time);
   }
   return fewest;

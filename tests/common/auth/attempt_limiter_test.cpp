@@ -15,7 +15,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Time kStart{1h};
-const Source kA = Source::v4(0x0a000001), kB = Source::v4(0x0a000002), kLocal = Source::v4(0x7f000001);
+const Source kA = Source::of(Origin::v4(0x0a000001)), kB = Source::of(Origin::v4(0x0a000002)),
+             kLocal = Source::of(Origin::v4(0x7f000001));
 const std::optional<KeyFingerprint> kStranger;
 
 KeyFingerprint key(unsigned number) {
@@ -29,8 +30,8 @@ void fail(AttemptLimiter& attempts, const Source& source, const std::optional<Ke
   for (int i = 0; i < times; ++i) attempts.record_failure(source, who, now);
 }
 Source v6(std::uint32_t site, std::uint8_t subnet) {
-  return Source::of_v6({0x20, 1, static_cast<std::uint8_t>(site >> 16), static_cast<std::uint8_t>(site >> 8),
-                        static_cast<std::uint8_t>(site), 0, 0, subnet, 0, 0, 0, 0, 0, 0, 0, 1});
+  return Source::of(Origin::of_v6({0x20, 1, static_cast<std::uint8_t>(site >> 16), static_cast<std::uint8_t>(site >> 8),
+                                   static_cast<std::uint8_t>(site), 0, 0, subnet, 0, 0, 0, 0, 0, 0, 0, 1}));
 }
 
 TEST(AttemptLimiter, BlocksForFiveMinutesAfterTenInTwoMinutes) {
@@ -69,7 +70,7 @@ TEST(AttemptLimiter, CountsPerKeyAndPerSource) {
     attempts.record_failure(kB, key(1), kStart);
   }
   EXPECT_GT(attempts.blocked_for(kA, key(1), kStart), 0s) << "ten of the key";
-  EXPECT_GT(attempts.blocked_for(Source::v4(0x0b000001), key(1), kStart), 0s) << "wherever it comes from";
+  EXPECT_GT(attempts.blocked_for(Source::of(Origin::v4(0x0b000001)), key(1), kStart), 0s) << "wherever it comes from";
   EXPECT_EQ(attempts.blocked_for(kA, key(2), kStart), 0s) << "five of each source";
   for (unsigned i = 0; i < 5; ++i) attempts.record_failure(kA, key(10 + i), kStart);
   EXPECT_GT(attempts.blocked_for(kA, key(2), kStart), 0s) << "ten of the source";
@@ -92,7 +93,7 @@ TEST(AttemptLimiter, KeepsABlockUnderAttemptsFromOtherSources) {
     AttemptLimiter attempts;
     fail(attempts, kA, kStranger, kStart);
     for (std::uint32_t i = 0; i < 3 * AttemptLimiter::kSources; ++i)
-      fail(attempts, Source::v4(0x0b000000U + i * 256), kStranger, kStart + 1s, each);
+      fail(attempts, Source::of(Origin::v4(0x0b000000U + i * 256)), kStranger, kStart + 1s, each);
     EXPECT_EQ(attempts.blocked_for(kA, kStranger, kStart + 2s), 298s) << each;
     EXPECT_LE(attempts.tracked(), AttemptLimiter::kSources + AttemptLimiter::kNetworks);
   }
@@ -102,13 +103,14 @@ TEST(AttemptLimiter, BlocksANetworkFullOfBlockedSourcesAsAWhole) {
   AttemptLimiter attempts;
   fail(attempts, kA, kStranger, kStart);
   for (std::uint32_t i = 0; i < 2 * AttemptLimiter::kSources; ++i)
-    fail(attempts, Source::v4(0x0b000000U + i), kStranger, kStart + 1s);
+    fail(attempts, Source::of(Origin::v4(0x0b000000U + i)), kStranger, kStart + 1s);
   EXPECT_LE(attempts.tracked(), AttemptLimiter::kSources + AttemptLimiter::kNetworks);
   for (std::uint32_t i = 0; i < 2 * AttemptLimiter::kSources; ++i)
-    ASSERT_EQ(attempts.blocked_for(Source::v4(0x0b000000U + i), kStranger, kStart + 2s), 299s) << i;
+    ASSERT_EQ(attempts.blocked_for(Source::of(Origin::v4(0x0b000000U + i)), kStranger, kStart + 2s), 299s) << i;
   EXPECT_EQ(attempts.blocked_for(kA, kStranger, kStart + 2s), 298s);
-  EXPECT_EQ(attempts.blocked_for(Source::v4(0x0c000001U), kStranger, kStart + 2s), 0s) << "another network";
-  EXPECT_EQ(attempts.blocked_for(Source::v4(0x0b000001U), kStranger, kStart + 301s), 0s) << "and its time is over";
+  EXPECT_EQ(attempts.blocked_for(Source::of(Origin::v4(0x0c000001U)), kStranger, kStart + 2s), 0s) << "another network";
+  EXPECT_EQ(attempts.blocked_for(Source::of(Origin::v4(0x0b000001U)), kStranger, kStart + 301s), 0s)
+      << "and its time is over";
   AttemptLimiter sites;
   for (std::uint32_t i = 0; i < AttemptLimiter::kSources + 1; ++i)
     fail(sites, v6(i / 64, static_cast<std::uint8_t>(i % 64)), kStranger, kStart);
@@ -118,10 +120,11 @@ TEST(AttemptLimiter, BlocksANetworkFullOfBlockedSourcesAsAWhole) {
 TEST(AttemptLimiter, CountsOverflowSourcesTogetherButEnrolledKeysSeparately) {
   AttemptLimiter attempts;
   for (std::uint32_t i = 0; i < AttemptLimiter::kSources; ++i)
-    fail(attempts, Source::v4(0x0b000000U + i * 256), kStranger, kStart);
-  const Source late = Source::v4(0x0a000001U);
+    fail(attempts, Source::of(Origin::v4(0x0b000000U + i * 256)), kStranger, kStart);
+  const Source late = Source::of(Origin::v4(0x0a000001U));
   EXPECT_EQ(attempts.blocked_for(late, kStranger, kStart), 0s);
-  for (std::uint32_t i = 0; i < 10; ++i) attempts.record_failure(Source::v4(0x0a000100U + i * 256), kStranger, kStart);
+  for (std::uint32_t i = 0; i < 10; ++i)
+    attempts.record_failure(Source::of(Origin::v4(0x0a000100U + i * 256)), kStranger, kStart);
   EXPECT_EQ(attempts.blocked_for(late, kStranger, kStart), 300s);
   EXPECT_EQ(attempts.blocked_for(late, key(1), kStart), 0s) << "an enrolled key has a count of its own";
 }
@@ -138,8 +141,8 @@ TEST(AttemptLimiter, KeepsAReportedBlockUntilItExpires) {
     for (int step = 0; step < 30'000; ++step) {
       now += Duration{static_cast<std::int64_t>(random.below(20'000'000))};
       const std::uint32_t network = static_cast<std::uint32_t>(random.below(6000));
-      const Source source =
-          Source::v4(0x0b000000U + network * 256 + static_cast<std::uint32_t>(random.below(network % 7 == 0 ? 64 : 1)));
+      const Source source = Source::of(Origin::v4(0x0b000000U + network * 256 +
+                                                  static_cast<std::uint32_t>(random.below(network % 7 == 0 ? 64 : 1))));
       fail(attempts, source, kStranger, now, random.below(3) == 0 ? 1 : 10);
       if (const Duration left = attempts.blocked_for(source, kStranger, now); left > 0s) until[source] = now + left;
       if (step % 3000 != 2999) continue;

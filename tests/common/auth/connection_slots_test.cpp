@@ -23,7 +23,7 @@ KeyFingerprint key(std::uint64_t number) {
   fingerprint.sha256[0] = static_cast<std::byte>(number);
   return fingerprint;
 }
-Source from(std::uint64_t number) { return Source::v4(static_cast<std::uint32_t>(0x0a000000U + number)); }
+Source from(std::uint64_t number) { return Source::of(Origin::v4(static_cast<std::uint32_t>(0x0a000000U + number))); }
 
 /// Returns the connections that must be closed now, in this order.
 std::vector<Id> closed(ConnectionSlots& places, Time now, std::optional<Cause> all = {}) {

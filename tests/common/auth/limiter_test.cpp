@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const Source kA = Source::v4(0x0a000001), kB = Source::v4(0x0a000002);
+const Source kA = Source::of(Origin::v4(0x0a000001)), kB = Source::of(Origin::v4(0x0a000002));
 
 TEST(TokenBucket, AllowsABurstThenItsRate) {
   TokenBucket bucket(10, 100);
@@ -26,14 +26,14 @@ TEST(TokenBucket, AllowsABurstThenItsRate) {
 TEST(Source, IsTheAddressOrTheFirst64BitsOfIpv6) {
   std::array<std::uint8_t, 16> a{0x20, 1, 0xd, 0xb8, 0, 0, 0, 1, 1, 2, 3, 4, 5, 6, 7, 8}, b = a;
   b[15] = 99;
-  EXPECT_EQ(Source::of_v6(a), Source::of_v6(b));
+  EXPECT_EQ(Source::of(Origin::of_v6(a)), Source::of(Origin::of_v6(b)));
   b[7] = 2;
-  EXPECT_NE(Source::of_v6(a), Source::of_v6(b));
-  EXPECT_FALSE(Source::of_v6(a).loopback);
-  EXPECT_EQ(Source::of_v6({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 10, 0, 0, 1}), kA);
-  EXPECT_TRUE(Source::of_v6({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 127, 0, 0, 1}).loopback);
-  EXPECT_TRUE(Source::of_v6({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}).loopback);
-  EXPECT_TRUE(Source::v4(0x7f000102).loopback);
+  EXPECT_NE(Source::of(Origin::of_v6(a)), Source::of(Origin::of_v6(b)));
+  EXPECT_FALSE(Source::of(Origin::of_v6(a)).loopback);
+  EXPECT_EQ(Source::of(Origin::of_v6({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 10, 0, 0, 1})), kA);
+  EXPECT_TRUE(Source::of(Origin::of_v6({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 127, 0, 0, 1})).loopback);
+  EXPECT_TRUE(Source::of(Origin::of_v6({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1})).loopback);
+  EXPECT_TRUE(Source::of(Origin::v4(0x7f000102)).loopback);
   EXPECT_FALSE(kA.loopback);
 }
 
@@ -50,11 +50,12 @@ TEST(SourceTable, IsBoundedAndEvictsTheLeastRecentSource) {
   SourceTable<int> table;
   const Time t0{1h};
   table.at(kA, t0, 0) = 7;
-  for (std::uint32_t i = 0; i < SourceTable<int>::kMax - 1; ++i) table.at(Source::v4(i), t0 + 1s + i * 1ms, 0) = 1;
+  for (std::uint32_t i = 0; i < SourceTable<int>::kMax - 1; ++i)
+    table.at(Source::of(Origin::v4(i)), t0 + 1s + i * 1ms, 0) = 1;
   EXPECT_EQ(table.at(kA, t0 + 10s, 0), 7) << "heard of again";
   table.at(kB, t0 + 11s, 0) = 9;
   EXPECT_EQ(table.size(), SourceTable<int>::kMax);
-  EXPECT_EQ(table.find(Source::v4(0)), nullptr);
+  EXPECT_EQ(table.find(Source::of(Origin::v4(0))), nullptr);
   ASSERT_NE(table.find(kA), nullptr);
   EXPECT_EQ(*table.find(kA), 7);
   EXPECT_EQ(*table.find(kB), 9);

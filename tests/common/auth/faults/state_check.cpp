@@ -49,7 +49,7 @@ void check_tickets(auth::ServerKeystore& trust, const Story& story, const FileFa
     if (!fault.lasting && !dies(fault))
       wrong.unless(accepted || story.ticket[i] == Told::kNothing, which + "refused twice though the disk failed once");
     const auth::Ticket ticket = story_ticket(i);
-    const auto again = trust.redeem(*auth::sign_ticket(ticket, trust.ticket_key()), story_use(ticket));
+    const auto again = trust.tickets().redeem(*auth::sign_ticket(ticket, trust.ticket_key()), story_use(ticket));
     const bool used = !again && again.error().fault && again.error().fault->rule == auth::TicketCheck::kUsed;
     wrong.unless(again || used, which + "neither good nor used: " + (again ? "" : again.error().text));
     if (i == Story::kGivenBack && story.given_back != Told::kNothing) {
@@ -66,7 +66,7 @@ void check_tickets(auth::ServerKeystore& trust, const Story& story, const FileFa
 
 void check_workstations(auth::ServerKeystore& trust, const Story& story, Wrong& wrong) {
   const auto has = [&](unsigned workstation) {
-    const auto row = trust.find(story_pin(workstation));
+    const auto row = trust.registry().find(story_pin(workstation));
     wrong.unless(row.has_value(), "the registry of workstations cannot be read");
     return row && row->has_value();
   };
@@ -75,7 +75,7 @@ void check_workstations(auth::ServerKeystore& trust, const Story& story, Wrong& 
     wrong.unless(has(0) || story.enrolled != Told::kNothing, "w0 is gone although it was not revoked");
   if (story.enrolled == Told::kYes) wrong.unless(has(1), "w1 received Enrolled and is not enrolled");
   if (story.code == Told::kYes && story.enrolled != Told::kYes && !has(1)) {
-    const auto later = trust.enroll(story_code(), story_pin(1), kNow + 2);
+    const auto later = trust.registry().enroll(story_code(), story_pin(1), kNow + 2);
     wrong.unless(later.has_value(),
                  "w1 is not enrolled, and its code is used up: " + (later ? "" : later.error().text));
   }
@@ -127,12 +127,12 @@ void check_server(const std::string& folder, const Story& story, const FileFault
   const std::string trouble = trust->begin_serving(kNow + 20);
   wrong.unless(trouble.empty(), "cannot serve again: " + trouble);
   if (!trouble.empty()) return;
-  wrong.unless(!trust->requested_shutdown(), "an order to end from before the restart ends this server");
+  wrong.unless(!trust->serving().requested_shutdown(), "an order to end from before the restart ends this server");
   check_workstations(*trust, story, wrong);
   check_tickets(*trust, story, fault, wrong);
   wrong.unless(trust->audit(kNow + 30, "told", "after").empty(), "the audit log cannot be written");
   check_audit(folder, story, fault, wrong);
-  wrong.unless(trust->write_serving({"127.0.0.1:1", {}}).empty(), "serving.textproto cannot be written");
+  wrong.unless(trust->serving().write({"127.0.0.1:1", {}}).empty(), "serving.textproto cannot be written");
 }
 
 void check_workstation(const std::string& folder, const Story& story, Wrong& wrong) {

@@ -165,7 +165,7 @@ TEST(StateFaults, ReportAFullDiskAndItsRemedy) {
   ASSERT_EQ(folder.append("lines", "first\n"), "");
   inject(begin.path(), {Kind::kNoSpace, 0, true});
   const auto made = auth::ServerKeystore::init(begin.path() + "/another", 1);
-  const std::string texts[] = {trust->enroll_without_code({"desk", {}, 1}),
+  const std::string texts[] = {trust->registry().enroll_without_code({"desk", {}, 1}),
                                folder.replace("book", "text"),
                                folder.append("lines", "second\n"),
                                folder.append("new", "line\n"),

@@ -36,7 +36,7 @@ void prepare(const std::string& folder) {
   ASSERT_TRUE(auth::ServerKeystore::init(folder + "/server", kNow));
   auto trust = auth::ServerKeystore::open(folder + "/server");
   ASSERT_TRUE(trust) << trust.error();
-  ASSERT_EQ(trust->enroll_without_code({"w0", story_pin(0).sha256, kNow}), "");
+  ASSERT_EQ(trust->registry().enroll_without_code({"w0", story_pin(0).sha256, kNow}), "");
 }
 
 bool first_start(const std::string& folder) { return auth::ServerKeystore::init(folder + "/fresh", kNow).has_value(); }
@@ -46,24 +46,24 @@ void live_server(const std::string& folder, Story& story) {
   if (!trust || !told(story.serving, trust->begin_serving(kNow).empty())) return;
   // Small files, and more files than the story fills: the log rotates and loses no line.
   trust->enable_audit_rotation({.file_max = 400, .older = 9});
-  told(story.code, trust->issue_code(story_code(), "w1", kNow, kNow + 1000).empty());
-  told(story.enrolled, trust->enroll(story_code(), story_pin(1), kNow + 1).has_value());
+  told(story.code, trust->registry().issue_code(story_code(), "w1", kNow, kNow + 1000).empty());
+  told(story.enrolled, trust->registry().enroll(story_code(), story_pin(1), kNow + 1).has_value());
   for (std::size_t i = 0; i < Story::kTickets; ++i) {
     const auth::Ticket ticket = story_ticket(i);
     const auto bytes = *auth::sign_ticket(ticket, trust->ticket_key());
-    if (told(story.ticket[i], trust->redeem(bytes, story_use(ticket)).has_value())) continue;
-    told(story.again[i], trust->redeem(bytes, story_use(ticket)).has_value());
+    if (told(story.ticket[i], trust->tickets().redeem(bytes, story_use(ticket)).has_value())) continue;
+    told(story.again[i], trust->tickets().redeem(bytes, story_use(ticket)).has_value());
   }
   const std::size_t back = Story::kGivenBack;
   if (story.ticket[back] == Told::kYes)
-    told(story.given_back, trust->restore_ticket(story_ticket(back).ticket_id).empty());
+    told(story.given_back, trust->tickets().restore(story_ticket(back).ticket_id).empty());
   for (std::size_t i = 0; i < Story::kLines; ++i)
     told(story.line[i], trust->audit(kNow + static_cast<std::int64_t>(i), "told", story_line(i)).empty());
   (void)trust->retry_audit(kNow + 20);  // as a server does every second
-  (void)trust->write_serving({"127.0.0.1:7000", {}});
-  (void)trust->request_shutdown(30);
-  (void)trust->requested_shutdown();
-  told(story.revoked, trust->revoke("w0").has_value());
+  (void)trust->serving().write({"127.0.0.1:7000", {}});
+  (void)trust->serving().request_shutdown(30);
+  (void)trust->serving().requested_shutdown();
+  told(story.revoked, trust->registry().revoke("w0").has_value());
 }
 
 void live_session(const std::string& folder, Story& story) {

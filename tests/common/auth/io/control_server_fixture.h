@@ -17,6 +17,7 @@
 #include "common/auth/io/client_keystore.h"
 #include "common/auth/io/control_client.h"
 #include "server/app/control/control_plane.h"
+#include "server/app/control/control_thread.h"
 #include "tests/common/auth/io/temporary_folder.h"
 #include "tests/common/auth/support.h"
 
@@ -98,7 +99,7 @@ class OneSession : public JoinHandler {
     const auth::TicketUse use{
         session_id, 7, request.hello.seat, AccessRole::kTrainee, auth::KeyFingerprint{request.workstation.spki},
         wall_()};
-    const auto redeemed = trust_.redeem(ticket->bytes, use);
+    const auto redeemed = trust_.tickets().redeem(ticket->bytes, use);
     if (!redeemed) return ticket_error_reply(redeemed.error());
     return welcome(request.hello.seat);
   }
@@ -162,7 +163,7 @@ class ControlServerFixture {
   /// Enrolls a workstation with this name. @return its identity
   auth::Identity enrolled(const std::string& name) const {
     auth::Identity made = auth::Identity::make(name, auth::test::counting<16>(), kNow);
-    EXPECT_EQ(beside().enroll_without_code({name, made.fingerprint().sha256, kNow}), "");
+    EXPECT_EQ(beside().registry().enroll_without_code({name, made.fingerprint().sha256, kNow}), "");
     return made;
   }
   std::expected<auth::ControlClient, auth::ClientError> connect(const auth::Identity& as, int signals = -1) const {

@@ -13,7 +13,7 @@ using rpc::ErrorCode;
 TEST(ControlPlane, EnrolsAWorkstationByCodeAndRecognisesItAfterwards) {
   ControlServerFixture door;
   const auto code = auth::test::secret_from<16>(1);
-  ASSERT_EQ(door.beside().issue_code(code, "touch-07", kNow, kNow + 10), "");
+  ASSERT_EQ(door.beside().registry().issue_code(code, "touch-07", kNow, kNow + 10), "");
   const auto me = auth::Identity::make("me", auth::test::counting<16>(), kNow);
   auto client = door.connect(me);
   ASSERT_TRUE(client) << client.error().text;
@@ -23,7 +23,7 @@ TEST(ControlPlane, EnrolsAWorkstationByCodeAndRecognisesItAfterwards) {
   const auto* ack = std::get_if<rpc::EnrollAck>(&*answer);
   ASSERT_NE(ack, nullptr);
   EXPECT_EQ(ack->workstation, "touch-07");
-  EXPECT_EQ(door.beside().find(me.fingerprint())->value().name, "touch-07");
+  EXPECT_EQ(door.beside().registry().find(me.fingerprint())->value().name, "touch-07");
   const auto list = client->ask(rpc::SessionListRequest{}, kPatience);
   ASSERT_TRUE(list);
   EXPECT_EQ(std::get<rpc::SessionList>(*list).sessions.at(0).name, "contact");
@@ -35,7 +35,7 @@ TEST(ControlPlane, EnrolsAWorkstationByCodeAndRecognisesItAfterwards) {
 TEST(ControlPlane, RejectsCodesOneBitOffOrOneSecondTooOld) {
   ControlServerFixture door;
   const auto code = auth::test::secret_from<16>(1);
-  ASSERT_EQ(door.beside().issue_code(code, "touch-07", kNow, kNow + 10), "");
+  ASSERT_EQ(door.beside().registry().issue_code(code, "touch-07", kNow, kNow + 10), "");
   const auto me = auth::Identity::make("me", auth::test::counting<16>(), kNow);
   const auto try_code = [&](const auth::EnrolmentCode& c) {
     auto client = door.connect(me);
@@ -50,7 +50,7 @@ TEST(ControlPlane, RejectsCodesOneBitOffOrOneSecondTooOld) {
   const auto late = try_code(code);
   ASSERT_EQ(reason_of(late), ErrorCode::kCode);
   EXPECT_NE(std::get<rpc::ErrorReply>(*late).text.find("expired"), std::string::npos);
-  EXPECT_FALSE(door.beside().find(me.fingerprint())->has_value());
+  EXPECT_FALSE(door.beside().registry().find(me.fingerprint())->has_value());
 }
 
 TEST(ControlPlane, AllowsUnenrolledClientsOnlyToEnrol) {
@@ -72,7 +72,7 @@ TEST(ControlPlane, RejectsTheNextRequestOfARevokedWorkstation) {
   auto open = door.connect(me);
   ASSERT_TRUE(open);
   ASSERT_FALSE(reason_of(open->ask(rpc::SessionListRequest{}, kPatience)));
-  ASSERT_TRUE(door.beside().revoke("me"));
+  ASSERT_TRUE(door.beside().registry().revoke("me"));
   EXPECT_EQ(reason_of(open->ask(rpc::SessionListRequest{}, kPatience)), ErrorCode::kNotEnrolled);
   auto again = door.connect(me);
   ASSERT_TRUE(again);
@@ -223,7 +223,7 @@ TEST(ControlPlane, BlocksOnlyTheSourceOfWrongEnrolmentCodes) {
   limits.loopback_exempt = false;
   ControlServerFixture door(limits);
   const auto code = auth::test::secret_from<16>(1);
-  ASSERT_EQ(door.beside().issue_code(code, "touch-07", kNow, kNow + 10), "");
+  ASSERT_EQ(door.beside().registry().issue_code(code, "touch-07", kNow, kNow + 10), "");
   const auto me = door.enrolled("me");
   const auto stranger = auth::Identity::make("x", auth::test::counting<16>(), kNow);
   const auto ask_as = [&](const auth::Identity& who, const rpc::Body& what) {
@@ -248,7 +248,7 @@ TEST(ControlPlane, BlocksOnlyTheSourceOfWrongEnrolmentCodes) {
 TEST(ControlPlane, RevealsNoSecrets) {
   ControlServerFixture door;
   const auto code = auth::test::secret_from<16>(1);
-  ASSERT_EQ(door.beside().issue_code(code, "touch-07", kNow, kNow + 10), "");
+  ASSERT_EQ(door.beside().registry().issue_code(code, "touch-07", kNow, kNow + 10), "");
   const auto me = auth::Identity::make("me", auth::test::counting<16>(), kNow);
   auto client = door.connect(me);
   ASSERT_TRUE(client && client->ask(rpc::Enroll{code}, kPatience));

@@ -34,7 +34,7 @@ TEST(IdentitySelector, MatchesServerKeysThenTheRuntimeDirectory) {
     const auto [shown, is_local, error] = choose(fingerprint);
     EXPECT_EQ(error, "");
     EXPECT_TRUE(is_local);
-    EXPECT_EQ(server.find(shown)->value().name, "local") << "the server knows the key that is shown";
+    EXPECT_EQ(server.registry().find(shown)->value().name, "local") << "the server knows the key that is shown";
   }
   EXPECT_NE(std::get<2>(choose(fingerprint)), "") << "gone with the server";
   ASSERT_EQ(client->store_server({"elsewhere:2", fingerprint.sha256, "me"}), "");
@@ -51,9 +51,9 @@ TEST(ServerKeystore, CreatesDistinctEphemeralKeysThatRedeemTickets) {
   ASSERT_EQ(a.begin_serving(kNow), "");
   const Ticket ticket = test::sample_ticket();
   const auto bytes = sign_ticket(ticket, a.ticket_key());
-  EXPECT_TRUE(a.redeem(*bytes, test::sample_use(ticket)));
-  EXPECT_FALSE(a.redeem(*bytes, test::sample_use(ticket)));
-  EXPECT_EQ(b.redeem(*bytes, test::sample_use(ticket)).error().fault->rule, TicketCheck::kKey);
+  EXPECT_TRUE(a.tickets().redeem(*bytes, test::sample_use(ticket)));
+  EXPECT_FALSE(a.tickets().redeem(*bytes, test::sample_use(ticket)));
+  EXPECT_EQ(b.tickets().redeem(*bytes, test::sample_use(ticket)).error().fault->rule, TicketCheck::kKey);
 }
 
 }  // namespace

@@ -207,7 +207,7 @@ TEST(ServerKeystore, InitialisesOnceAndReopens) {
   ASSERT_TRUE(trust) << trust.error();
   EXPECT_EQ(trust->identity().fingerprint(), *fingerprint);
   for (const char* name : {ServerKeystore::kKeyFile, ServerKeystore::kCertificateFile, ServerKeystore::kTicketKeyFile,
-                           ServerKeystore::kWorkstationsFile, ServerKeystore::kCodesFile})
+                           ServerRegistry::kWorkstationsFile, ServerRegistry::kCodesFile})
     EXPECT_EQ(mode_of(folder.path(std::string("s/") + name)), 0600u) << name;
 }
 
@@ -217,7 +217,7 @@ TEST(ServerKeystore, KeepsCodesAsHashesOnly) {
   auto trust = ServerKeystore::open(folder.path());
   ASSERT_TRUE(trust);
   const auto code = test::secret_from<16>(77);
-  ASSERT_EQ(trust->issue_code(code, "touch-07", kNow, kNow + 10), "");
+  ASSERT_EQ(trust->registry().issue_code(code, "touch-07", kNow, kNow + 10), "");
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     const std::string text = folder.read(entry.path().filename().string());
     EXPECT_EQ(text.find(to_hex(code.bytes)), std::string::npos) << entry.path();
@@ -232,12 +232,12 @@ TEST(ServerKeystore, SeesChangesByAnotherProcessAtTheNextLookUp) {
   auto running = ServerKeystore::open(folder.path()), command = ServerKeystore::open(folder.path());
   ASSERT_TRUE(running && command);
   const KeyFingerprint fingerprint{test::counting<32>(5)};
-  EXPECT_FALSE(*running->find(fingerprint));
+  EXPECT_FALSE(*running->registry().find(fingerprint));
   for (int i = 0; i < 50; ++i) {  // also within one tick of the file system's clock
-    ASSERT_EQ(command->enroll_without_code({"w", fingerprint.sha256, kNow}), "");
-    ASSERT_TRUE(*running->find(fingerprint)) << i;
-    ASSERT_TRUE(command->revoke("w"));
-    ASSERT_FALSE(*running->find(fingerprint)) << i;
+    ASSERT_EQ(command->registry().enroll_without_code({"w", fingerprint.sha256, kNow}), "");
+    ASSERT_TRUE(*running->registry().find(fingerprint)) << i;
+    ASSERT_TRUE(command->registry().revoke("w"));
+    ASSERT_FALSE(*running->registry().find(fingerprint)) << i;
   }
 }
 
@@ -247,13 +247,13 @@ TEST(ServerKeystore, RejectsAllClientsIfAFileIsUnreadable) {
   auto trust = ServerKeystore::open(folder.path());
   ASSERT_TRUE(trust);
   const KeyFingerprint fingerprint{test::counting<32>(5)};
-  ASSERT_EQ(trust->enroll_without_code({"w", fingerprint.sha256, kNow}), "");
-  ASSERT_TRUE(*trust->find(fingerprint));
+  ASSERT_EQ(trust->registry().enroll_without_code({"w", fingerprint.sha256, kNow}), "");
+  ASSERT_TRUE(*trust->registry().find(fingerprint));
   folder.write("workstations.textproto", "workstation { nam: \"w\" }");
-  const auto row = trust->find(fingerprint);
+  const auto row = trust->registry().find(fingerprint);
   ASSERT_FALSE(row);
   EXPECT_NE(row.error().find("workstations.textproto:1:"), std::string::npos) << row.error();
-  EXPECT_FALSE(trust->find(fingerprint)) << "not the last good one either";
+  EXPECT_FALSE(trust->registry().find(fingerprint)) << "not the last good one either";
 }
 
 TEST(ServerKeystore, RedeemsATicketOnceAcrossRestarts) {
@@ -265,15 +265,15 @@ TEST(ServerKeystore, RedeemsATicketOnceAcrossRestarts) {
     auto trust = ServerKeystore::open(folder.path());
     ASSERT_TRUE(trust);
     bytes = *sign_ticket(ticket, trust->ticket_key());
-    EXPECT_FALSE(trust->redeem(bytes, test::sample_use(ticket))) << "not serving yet";
+    EXPECT_FALSE(trust->tickets().redeem(bytes, test::sample_use(ticket))) << "not serving yet";
     ASSERT_EQ(trust->begin_serving(kNow), "");
-    ASSERT_TRUE(trust->redeem(bytes, test::sample_use(ticket)));
-    EXPECT_EQ(trust->redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketCheck::kUsed);
+    ASSERT_TRUE(trust->tickets().redeem(bytes, test::sample_use(ticket)));
+    EXPECT_EQ(trust->tickets().redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketCheck::kUsed);
   }
   auto trust = ServerKeystore::open(folder.path());
   ASSERT_TRUE(trust);
   ASSERT_EQ(trust->begin_serving(kNow), "");
-  EXPECT_EQ(trust->redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketCheck::kUsed);
+  EXPECT_EQ(trust->tickets().redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketCheck::kUsed);
 }
 
 /// If the registry cannot be written, the server rejects before it uses anything up. A failed write damages neither the
@@ -289,13 +289,13 @@ TEST(ServerKeystore, KeepsATicketValidIfItsUseCannotBeWritten) {
   std::filesystem::rename(folder.path("used_tickets"), folder.path("aside"));
   ASSERT_EQ(mkdir(folder.path("used_tickets").c_str(), 0700), 0);
   for (int i = 0; i < 2; ++i) {
-    const auto refused = trust->redeem(bytes, test::sample_use(ticket));
+    const auto refused = trust->tickets().redeem(bytes, test::sample_use(ticket));
     ASSERT_FALSE(refused);
     EXPECT_FALSE(refused.error().fault) << "the server's trouble, not the ticket's: " << refused.error().text;
   }
   ASSERT_EQ(rmdir(folder.path("used_tickets").c_str()), 0);
-  EXPECT_TRUE(trust->redeem(bytes, test::sample_use(ticket)));
-  EXPECT_EQ(trust->redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketCheck::kUsed);
+  EXPECT_TRUE(trust->tickets().redeem(bytes, test::sample_use(ticket)));
+  EXPECT_EQ(trust->tickets().redeem(bytes, test::sample_use(ticket)).error().fault->rule, TicketCheck::kUsed);
 }
 
 TEST(ServerKeystore, AllowsOneServerPerFolderAndReportsWhetherOneRuns) {
@@ -308,12 +308,12 @@ TEST(ServerKeystore, AllowsOneServerPerFolderAndReportsWhetherOneRuns) {
     auto first = ServerKeystore::open(folder.path()), second = ServerKeystore::open(folder.path());
     ASSERT_EQ(first->begin_serving(kNow), "");
     EXPECT_NE(second->begin_serving(kNow).find("another server runs"), std::string::npos);
-    ASSERT_EQ(first->write_serving(serving), "");
-    EXPECT_EQ(*command->read_serving(), serving);
+    ASSERT_EQ(first->serving().write(serving), "");
+    EXPECT_EQ(*command->serving().read(), serving);
   }
-  EXPECT_EQ(*command->read_serving(), std::nullopt);
+  EXPECT_EQ(*command->serving().read(), std::nullopt);
   folder.write("serving.textproto", print_serving(serving));  // as a killed server leaves it
-  EXPECT_EQ(*command->read_serving(), std::nullopt);
+  EXPECT_EQ(*command->serving().read(), std::nullopt);
 }
 
 TEST(ClientKeystore, CreatesItsKeyOnceAndStoresServers) {

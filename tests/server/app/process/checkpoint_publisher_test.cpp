@@ -1,0 +1,71 @@
+// When the checkpoints of a session are published.
+#include "server/app/process/checkpoint_publisher.h"
+
+#include <gtest/gtest.h>
+#include <sys/eventfd.h>
+
+#include "tests/server/session/session_fixture.h"
+
+namespace tandem::server {
+namespace {
+
+using namespace test;
+
+/// A session that runs, and a publisher that it has not begun to use.
+struct Publishing {
+  Publishing() {
+    fixture.run(1s);
+    publisher.attach(mailbox, 7, 1000);
+  }
+  /// Steps the publisher. @return number of checkpoints that the store found
+  int steps(int ticks) {
+    int found = 0;
+    for (int i = 0; i < ticks; ++i) {
+      publisher.step(*fixture.session);
+      found += mailbox->take(last) ? 1 : 0;
+    }
+    return found;
+  }
+  SessionFixture fixture{"free_motion"};
+  io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  std::shared_ptr<CheckpointMailbox> mailbox = std::make_shared<CheckpointMailbox>(wake);
+  CheckpointPublisher publisher;
+  Checkpoint last;
+};
+
+TEST(CheckpointPublisher, PublishesTwicePerSecondAndFirstAtOnce) {
+  Publishing p;
+  EXPECT_EQ(p.steps(2), 2) << "the first, and one because the session has begun";
+  EXPECT_EQ(p.last.epoch, 7U) << "the epoch that the clients know";
+  EXPECT_EQ(p.last.session_tick, p.fixture.session->session_tick());
+  EXPECT_EQ(p.steps(499), 0);
+  EXPECT_EQ(p.steps(1), 1);
+  EXPECT_EQ(p.steps(1000), 2);
+}
+
+TEST(CheckpointPublisher, PublishesAtOnceAfterAnEventThatARestartRestores) {
+  Publishing p;
+  static_cast<void>(p.steps(2));
+  p.publisher.note(AuditEvent::What::kStop);
+  EXPECT_EQ(p.steps(1), 1);
+  p.publisher.note(AuditEvent::What::kQuarantined);
+  EXPECT_EQ(p.steps(1), 0) << "no part of a checkpoint";
+}
+
+TEST(CheckpointPublisher, PublishesTheLastCheckpointWhenTheSessionEnds) {
+  Publishing p;
+  static_cast<void>(p.steps(2));
+  p.publisher.finish(*p.fixture.session);
+  EXPECT_TRUE(p.mailbox->take(p.last));
+}
+
+TEST(CheckpointPublisher, DoesNothingWithoutAMailbox) {
+  SessionFixture fixture("free_motion");
+  CheckpointPublisher publisher;
+  publisher.note(AuditEvent::What::kStop);
+  publisher.step(*fixture.session);
+  publisher.finish(*fixture.session);
+}
+
+}  // namespace
+}  // namespace tandem::server
