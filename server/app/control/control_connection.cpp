@@ -130,7 +130,7 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
   on_command(frame->body);
 }
 
-auth::TokenBucket& ControlConnection::bucket_of(Kind kind) noexcept {
+TokenBucket& ControlConnection::bucket_of(Kind kind) noexcept {
   if (kind == Kind::kSetAuthority) return authority_;
   return kind == Kind::kStopSession || kind == Kind::kPauseSession ? stops_ : commands_;
 }

@@ -64,10 +64,10 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   auth::KeyFingerprint pin_;
   std::optional<WorkstationRow> workstation_;
   std::optional<rpc::Welcome> welcome_;
-  [[nodiscard]] auth::TokenBucket& bucket_of(rpc::Kind kind) noexcept;
+  [[nodiscard]] TokenBucket& bucket_of(rpc::Kind kind) noexcept;
 
-  auth::TokenBucket commands_, stops_, authority_;  ///< separate, so that a stop is never delayed by other commands
-  auth::TokenBucket forbidden_events_{1, 1};        ///< audit events of forbidden commands
+  TokenBucket commands_, stops_, authority_;  ///< separate, so that a stop is never delayed by other commands
+  TokenBucket forbidden_events_{1, 1};        ///< audit events of forbidden commands
   std::uint32_t request_ = 0;
   bool acted_ = false, refused_ = false;  ///< a command was executed; a command was rejected
   bool pending_ = true, proved_ = false, finished_ = false, writing_ = false;

@@ -169,7 +169,7 @@ class ControlPlane {
   ControlClocks clocks_;
   std::function<void(const ControlEventRecord&)> on_event_;
   asio::ssl::context tls_;
-  auth::TokenBucket accept_rate_;  ///< limits the cost of accepting alone
+  TokenBucket accept_rate_;  ///< limits the cost of accepting alone
   auth::AcceptLimiter accepts_;
   auth::AttemptLimiter attempts_;
   auth::PendingSlots pending_;

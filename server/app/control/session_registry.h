@@ -141,7 +141,7 @@ class SessionRegistry final : public JoinHandler {
     StopReason stop_reason{};
     StatusNotices notices{};
     std::vector<ConsoleTicket> consoles{};
-    auth::TokenBucket forbidden_events{1, 5};  ///< audit events of forbidden commands
+    TokenBucket forbidden_events{1, 5};  ///< audit events of forbidden commands
   };
   struct WatchedShard {
     Shard* shard;
