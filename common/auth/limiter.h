@@ -10,36 +10,10 @@
 
 #include "common/auth/origin.h"
 #include "common/base/time.h"
+#include "common/base/token_bucket.h"
 
 /// Rate limits, as functions of the time passed in.
 namespace tandem::auth {
-
-/// Token bucket: allows `rate` per second, and up to `burst` at once after a pause. Starts full.
-class TokenBucket {
- public:
-  constexpr TokenBucket(double rate, double burst) noexcept : rate_(rate), burst_(burst), tokens_(burst) {}
-
-  [[nodiscard]] constexpr bool take(Time now) noexcept {
-    fill(now);
-    if (tokens_ < 1.0) return false;
-    tokens_ -= 1.0;
-    return true;
-  }
-  /// Returns the time until a token is available; zero: now.
-  [[nodiscard]] constexpr Duration wait(Time now) noexcept {
-    fill(now);
-    return tokens_ >= 1.0 ? Duration::zero() : from_seconds((1.0 - tokens_) / rate_) + Duration{1};
-  }
-
- private:
-  constexpr void fill(Time now) noexcept {
-    if (now <= last_) return;
-    tokens_ = std::min(burst_, tokens_ + rate_ * seconds(now - last_));
-    last_ = now;
-  }
-  double rate_, burst_, tokens_;
-  Time last_{};
-};
 
 /// Origin of a connection for rate limits: an IPv4 address, or the first 64 bits of an IPv6 address, because a site
 /// controls that many. An IPv4 address inside IPv6 (::ffff:a.b.c.d) is the IPv4 one.

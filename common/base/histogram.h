@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+
+#include "common/base/log_scale.h"
 
 namespace tandem {
 
-/// Counts durations in bins whose width grows with the value: exact below 64 ns, then 32 bins per octave. A quantile is
-/// therefore at most 1/32 (3.2 %) above the true value. Covers 0 to 2^63 ns in fixed memory (15 KiB); accepts any
-/// value, no heap, real-time safe. The idea is that of HdrHistogram [Tene 2012].
+/// Counts durations in the bins of LogScale [ns]. A quantile is at most 1/32 (3.2 %) above the true value. Covers 0 to
+/// 2^63 ns in fixed memory (15 KiB); accepts any value, no heap, real-time safe.
 class Histogram {
  public:
   /// @param ns  duration [ns]; negative counts as 0
   constexpr void add(std::int64_t ns) noexcept {
     const std::int64_t value = std::max<std::int64_t>(ns, 0);
-    ++bins_[bin_of(static_cast<std::uint64_t>(value))];
+    ++bins_[LogScale::bin_of(static_cast<std::uint64_t>(value))];
     ++count_;
     max_ = std::max(max_, value);
     sum_ += static_cast<double>(value);
@@ -33,7 +32,7 @@ class Histogram {
     std::uint64_t below = 0;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       below += bins_[bin];
-      if (below > 0 && static_cast<double>(below) >= wanted) return std::min(last_of(bin), max_);
+      if (below > 0 && static_cast<double>(below) >= wanted) return std::min(LogScale::last_of(bin), max_);
     }
     return max_;
   }
@@ -52,7 +51,9 @@ class Histogram {
     for (std::size_t bin = 0; bin < kBins; bin += kBinsPerBucket) {
       std::uint64_t held = 0;
       for (std::size_t i = bin; i < bin + kBinsPerBucket; ++i) held += bins_[i];
-      if (held > 0) bucket(bin == 0 ? std::int64_t{0} : last_of(bin - 1) + 1, last_of(bin + kBinsPerBucket - 1), held);
+      if (held > 0)
+        bucket(bin == 0 ? std::int64_t{0} : LogScale::last_of(bin - 1) + 1, LogScale::last_of(bin + kBinsPerBucket - 1),
+               held);
     }
   }
 
@@ -67,26 +68,9 @@ class Histogram {
   }
 
  private:
-  static constexpr int kSubBits = 5;  ///< 2^5 bins per octave
-  static constexpr std::uint64_t kExact = std::uint64_t{2} << kSubBits;
-  static constexpr std::size_t kBins = static_cast<std::size_t>(64 - kSubBits) << kSubBits;
-  static constexpr std::size_t kBinsPerBucket = std::size_t{1} << (kSubBits - 2);
-  static_assert(kBins % kBinsPerBucket == 0 && kExact % kBinsPerBucket == 0);
-
-  /// Returns the bin: the octave of the value, followed by its top kSubBits + 1 bits.
-  static constexpr std::size_t bin_of(std::uint64_t value) noexcept {
-    if (value < kExact) return static_cast<std::size_t>(value);
-    const int shift = static_cast<int>(std::bit_width(value)) - kSubBits - 1;
-    return (static_cast<std::size_t>(shift) << kSubBits) + static_cast<std::size_t>(value >> shift);
-  }
-  /// Returns the largest value of a bin.
-  static constexpr std::int64_t last_of(std::size_t bin) noexcept {
-    if (bin < kExact) return static_cast<std::int64_t>(bin);
-    const int shift = static_cast<int>(bin >> kSubBits) - 1;
-    const std::uint64_t top = (bin & ((std::size_t{1} << kSubBits) - 1)) | (std::uint64_t{1} << kSubBits);
-    return static_cast<std::int64_t>((((top + 1) << shift) - 1) &
-                                     std::uint64_t{std::numeric_limits<std::int64_t>::max()});
-  }
+  static constexpr std::size_t kBins = LogScale::kBins;
+  static constexpr std::size_t kBinsPerBucket = std::size_t{1} << (LogScale::kSubBits - 2);
+  static_assert(kBins % kBinsPerBucket == 0 && LogScale::kExact % kBinsPerBucket == 0);
 
   std::array<std::uint64_t, kBins> bins_{};
   std::uint64_t count_ = 0;

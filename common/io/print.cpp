@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdarg>
 
+#include "common/base/format.h"
 #include "common/io/help_text.h"
 #include "common/io/screen_block.h"
 #include "common/io/text_layout.h"
@@ -39,15 +40,10 @@ std::string wrap_for_terminal(std::string_view text, std::FILE* file) {
 void print(std::FILE* file, std::string_view text) { std::fputs(wrap_for_terminal(text, file).c_str(), file); }
 
 void print_formatted(std::FILE* file, const char* format, ...) {
-  va_list arguments, again;
+  va_list arguments;
   va_start(arguments, format);
-  va_copy(again, arguments);
-  const int size = std::vsnprintf(nullptr, 0, format, arguments);
+  print(file, format_list(format, arguments));
   va_end(arguments);
-  std::string text(size > 0 ? static_cast<std::size_t>(size) : 0, ' ');
-  std::vsnprintf(text.data(), text.size() + 1, format, again);
-  va_end(again);
-  print(file, text);
 }
 
 bool reader_closed(std::FILE* file) noexcept {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "common/base/time.h"
+#include "common/base/token_bucket.h"
 
 namespace tandem::server {
 
-/// Token bucket for the datagrams of one client: a mean rate and a burst of at most `kBurst`. It counts only datagrams
+/// Limit of the datagrams of one client: a mean rate and a burst of at most `kBurst`. It counts only datagrams
 /// that opened under the client's keys. A sender that merely knows the connection id cannot use up the rate.
 class RateLimit {
  public:
@@ -14,14 +14,10 @@ class RateLimit {
   static constexpr Duration kWarnAfter = std::chrono::seconds(2);
 
   /// @param tick  nominal interval between two datagrams; 25 % more are allowed (1250/s at 1 kHz)
-  explicit RateLimit(Duration tick) noexcept : each_(std::max(Duration{1}, tick * 4 / 5)) {}
+  explicit RateLimit(Duration tick) noexcept : bucket_(each(tick), each(tick) * kBurst - Duration{1}) {}
 
   [[nodiscard]] bool allow(Time now) noexcept {
-    due_ = std::max(due_, now);
-    if (due_ - now < each_ * kBurst) {
-      due_ += each_;
-      return true;
-    }
+    if (bucket_.take(now)) return true;
     if (now - last_excess_ > kQuiet) {
       excess_since_ = now;
       warned_ = false;
@@ -37,8 +33,10 @@ class RateLimit {
 
  private:
   static constexpr Duration kQuiet = std::chrono::milliseconds(200);
-  Duration each_;
-  Time due_{}, last_excess_ = Time{} - kQuiet - kQuiet, excess_since_{};
+  static constexpr Duration each(Duration tick) noexcept { return std::max(Duration{1}, tick * 4 / 5); }
+
+  TokenBucket bucket_;
+  Time last_excess_ = Time{} - kQuiet - kQuiet, excess_since_{};
   bool warned_ = true;
 };
 

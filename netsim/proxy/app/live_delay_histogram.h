@@ -2,23 +2,23 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 
+#include "common/base/log_scale.h"
+#include "common/base/single_writer_counter.h"
 #include "common/base/time.h"
 #include "netsim/proxy/client_table.h"
 
 namespace tandem::netsim {
 
 /// Histogram of delays of one direction of one client. The packet thread writes; other threads read without a lock.
-/// Each number is consistent, but a snapshot may miss the newest delays. Bins are at most 1/32 wide; delays below 1 us
-/// share one bin.
+/// Each number is consistent, but a snapshot may miss the newest delays. Bins are those of LogScale in units of
+/// 1.024 us.
 class LiveDelayHistogram {
  public:
-  static constexpr std::size_t kBins = 36 * 32;
+  static constexpr std::size_t kBins = 36 * 32;  ///< the last one also holds all longer delays
   /// Copy of the histogram. The difference of two copies gives the delays in between.
   struct Snapshot {
     std::array<std::uint32_t, kBins> bins{};
@@ -46,48 +46,35 @@ class LiveDelayHistogram {
   /// Adds a delay. Only for the one writing thread.
   void add(Duration delay) noexcept {
     const std::int64_t ns = std::max<std::int64_t>(delay.count(), 0);
-    bump(bins_[bin_of(static_cast<std::uint64_t>(ns) >> kUnitBits)], 1U);
-    bump(sum_ns_, ns);
-    bump(count_, std::uint64_t{1});
+    bins_[bin_of(static_cast<std::uint64_t>(ns) >> kUnitBits)].add(1);
+    sum_ns_.add(ns);
+    count_.add(1);
   }
   void clear() noexcept {
-    for (auto& bin : bins_) bin.store(0, std::memory_order_relaxed);
-    sum_ns_.store(0, std::memory_order_relaxed);
-    count_.store(0, std::memory_order_relaxed);
+    for (auto& bin : bins_) bin.reset();
+    sum_ns_.reset();
+    count_.reset();
   }
   /// Copies the histogram. Any thread.
   void read(Snapshot& picture) const noexcept {
-    for (std::size_t i = 0; i < kBins; ++i) picture.bins[i] = bins_[i].load(std::memory_order_relaxed);
-    picture.sum_ns = sum_ns_.load(std::memory_order_relaxed);
-    picture.count = count_.load(std::memory_order_relaxed);
+    for (std::size_t i = 0; i < kBins; ++i) picture.bins[i] = bins_[i].get();
+    picture.sum_ns = sum_ns_.get();
+    picture.count = count_.get();
   }
 
  private:
   static constexpr int kUnitBits = 10;  ///< 1.024 us
-  static constexpr int kSubBits = 5;
 
-  template <class T>
-  static void bump(std::atomic<T>& number, T by) noexcept {  // one writer: no locked instruction needed
-    number.store(number.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
-  }
   static constexpr std::size_t bin_of(std::uint64_t units) noexcept {
-    if (units < (std::uint64_t{2} << kSubBits)) return static_cast<std::size_t>(units);
-    const int shift = static_cast<int>(std::bit_width(units)) - kSubBits - 1;
-    const auto bin = (static_cast<std::size_t>(shift) << kSubBits) + static_cast<std::size_t>(units >> shift);
-    return std::min(bin, kBins - 1);
+    return std::min(LogScale::bin_of(units), kBins - 1);
   }
   static constexpr Duration end_of(std::size_t bin) noexcept {
-    std::uint64_t units = bin;
-    if (bin >= (std::uint64_t{2} << kSubBits)) {
-      const int shift = static_cast<int>(bin >> kSubBits) - 1;
-      units = ((((bin & ((1U << kSubBits) - 1)) | (1U << kSubBits)) + std::uint64_t{1}) << shift) - 1;
-    }
-    return Duration{static_cast<std::int64_t>(((units + 1) << kUnitBits) - 1)};
+    return Duration{((LogScale::last_of(bin) + 1) << kUnitBits) - 1};
   }
 
-  std::array<std::atomic<std::uint32_t>, kBins> bins_{};
-  std::atomic<std::int64_t> sum_ns_{0};
-  std::atomic<std::uint64_t> count_{0};
+  std::array<SingleWriterCounter<std::uint32_t>, kBins> bins_{};
+  SingleWriterCounter<std::int64_t> sum_ns_;
+  SingleWriterCounter<std::uint64_t> count_;
 };
 
 /// Measured (not scheduled) delays of all clients of a proxy, by place and direction. The constructor allocates all

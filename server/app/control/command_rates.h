@@ -18,8 +18,8 @@ class CommandRates {
 
  private:
   static constexpr rpc::RateLimits kLimits{};
-  auth::TokenBucket others_{kLimits.commands_per_s, kLimits.commands_burst}, stops_ = others_;
-  auth::TokenBucket authority_{kLimits.authority_per_s, kLimits.authority_burst};
+  TokenBucket others_{kLimits.commands_per_s, kLimits.commands_burst}, stops_ = others_;
+  TokenBucket authority_{kLimits.authority_per_s, kLimits.authority_burst};
 };
 
 }  // namespace tandem::server

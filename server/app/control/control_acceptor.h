@@ -42,7 +42,7 @@ class ControlAcceptor {
   asio::io_context& context_;
   std::function<Time()> clock_;
   Handlers handlers_;
-  auth::TokenBucket rate_;
+  TokenBucket rate_;
   std::list<Listener> listeners_;
   bool stopped_ = false;
 };

@@ -79,7 +79,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   std::optional<WorkstationRow> workstation_;
   std::optional<rpc::Welcome> welcome_;
   CommandRates rates_;
-  auth::TokenBucket forbidden_events_{1, 1};  ///< audit events of forbidden commands
+  TokenBucket forbidden_events_{1, 1};  ///< audit events of forbidden commands
   std::uint32_t request_ = 0;
   bool acted_ = false, refused_ = false;  ///< a command was executed; a command was rejected
   bool pending_ = true, proved_ = false, finished_ = false, writing_ = false;

@@ -57,7 +57,7 @@ struct SessionEntry {
   ConsoleTickets consoles;
   RemovedWorkstations removed;
   StatusNotices notices;
-  auth::TokenBucket forbidden_events{1, 5};  ///< audit events of forbidden commands
+  TokenBucket forbidden_events{1, 5};  ///< audit events of forbidden commands
 };
 
 }  // namespace tandem::server

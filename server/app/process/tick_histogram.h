@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
+#include "common/base/single_writer_counter.h"
 #include "common/base/time.h"
 
 namespace tandem::server {
@@ -19,23 +19,17 @@ class TickHistogram {
   void add(Duration d) noexcept {
     std::size_t i = 0;
     while (i < kBounds.size() && seconds(d) > kBounds[i]) ++i;
-    bump(counts_[i], 1);
-    bump(sum_ns_, static_cast<std::uint64_t>(d.count()));
+    counts_[i].add(1);
+    sum_ns_.add(static_cast<std::uint64_t>(d.count()));
   }
   /// Count of bin `i`, not cumulative.
-  [[nodiscard]] std::uint64_t count(std::size_t i) const noexcept { return counts_[i].load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t count(std::size_t i) const noexcept { return counts_[i].get(); }
   /// Sum of all durations [s].
-  [[nodiscard]] double sum() const noexcept {
-    return 1e-9 * static_cast<double>(sum_ns_.load(std::memory_order_relaxed));
-  }
+  [[nodiscard]] double sum() const noexcept { return 1e-9 * static_cast<double>(sum_ns_.get()); }
 
  private:
-  /// With a single writer no atomic read-modify-write is needed.
-  static void bump(std::atomic<std::uint64_t>& count, std::uint64_t by) noexcept {
-    count.store(count.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
-  }
-  std::array<std::atomic<std::uint64_t>, kBounds.size() + 1> counts_{};
-  std::atomic<std::uint64_t> sum_ns_{0};
+  std::array<SingleWriterCounter<std::uint64_t>, kBounds.size() + 1> counts_{};
+  SingleWriterCounter<std::uint64_t> sum_ns_;
 };
 
 }  // namespace tandem::server
