@@ -17,33 +17,13 @@ nlohmann::ordered_json number(double v) {
 }  // namespace
 
 const char* to_text(ExitReason end) noexcept {
-  switch (end) {
-    case ExitReason::kDone:
-      return "done";
-    case ExitReason::kServerStopped:
-      return "server_stopped";
-    case ExitReason::kLeft:
-      return "left";
-    case ExitReason::kServerLost:
-      return "server_lost";
-    case ExitReason::kDeviceLost:
-      return "device_lost";
-    case ExitReason::kSeatGone:
-      return "seat_gone";
-  }
-  return "";
+  constexpr const char* kNames[] = {"done", "server_stopped", "left", "server_lost", "device_lost", "seat_gone"};
+  return kNames[static_cast<std::size_t>(end)];
 }
 
 const char* to_text(SeatVerdict verdict) noexcept {
-  switch (verdict) {
-    case SeatVerdict::kPass:
-      return "pass";
-    case SeatVerdict::kFail:
-      return "fail";
-    case SeatVerdict::kNotJudged:
-      return "not_judged";
-  }
-  return "";
+  constexpr const char* kNames[] = {"pass", "fail", "not_judged"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 SeatVerdict verdict_of(const ClientReport& report) noexcept {
@@ -54,17 +34,8 @@ SeatVerdict verdict_of(const ClientReport& report) noexcept {
 }
 
 const char* to_text(Role role) noexcept {
-  switch (role) {
-    case Role::kInstructor:
-      return "INSTRUCTOR";
-    case Role::kTrainee:
-      return "TRAINEE";
-    case Role::kEvaluator:
-      return "EVALUATOR";
-    case Role::kObserver:
-      return "OBSERVER";
-  }
-  return "";
+  constexpr const char* kNames[] = {"INSTRUCTOR", "TRAINEE", "EVALUATOR", "OBSERVER"};
+  return kNames[static_cast<std::size_t>(role)];
 }
 
 std::string motors_text(const ClientStatus& s) {

@@ -209,6 +209,18 @@ TEST(ClientReport, ReportsHotMotorsAndNothingWhereTemperatureIsUnknown) {
   EXPECT_EQ(motors["heat_max"], 1.25);
 }
 
+TEST(ClientReport, NamesEveryReasonVerdictAndRole) {
+  EXPECT_STREQ(to_text(ExitReason::kDone), "done");
+  EXPECT_STREQ(to_text(ExitReason::kSeatGone), "seat_gone");
+  EXPECT_STREQ(to_text(ExitReason::kServerLost), "server_lost");
+  EXPECT_STREQ(to_text(SeatVerdict::kPass), "pass");
+  EXPECT_STREQ(to_text(SeatVerdict::kNotJudged), "not_judged");
+  EXPECT_STREQ(to_text(Role::kInstructor), "INSTRUCTOR");
+  EXPECT_STREQ(to_text(Role::kTrainee), "TRAINEE");
+  EXPECT_STREQ(to_text(Role::kEvaluator), "EVALUATOR");
+  EXPECT_STREQ(to_text(Role::kObserver), "OBSERVER");
+}
+
 TEST(ClientReport, ReportsTheDistanceToTheLeadersHandOrThatNoneLeads) {
   ClientReport r;
   EXPECT_TRUE(nlohmann::json::parse(to_json(r, setup()))["beside_leader_m"].is_null());
