@@ -43,22 +43,22 @@ std::expected<SimulationConfig, std::string> simulation_config(const SceneRun& r
 std::expected<server::RunReport, std::string> run_simulation(const SimulationConfig& setup) {
   auto made = Simulation::make(setup);
   if (!made) return std::unexpected(made.error());
-  Simulation& world = **made;
-  server::ReportBuilder builder{world.scene()};
-  const server::TraceCsv csv{world.scene()};
+  Simulation& simulation = **made;
+  server::ReportBuilder builder{simulation.scene()};
+  const server::TraceCsv csv{simulation.scene()};
   transport::Digest digest;
   std::string row = csv.header();
   digest.add(row);
-  while (world.step()) {
-    const server::TickRecord& record = world.record();
+  while (simulation.step()) {
+    const server::TickRecord& record = simulation.record();
     builder.add(record);
     if (!record.running) continue;
     row.clear();
     csv.append(record, row);
     digest.add(row);
   }
-  if (!world.trouble().empty()) return std::unexpected(world.trouble());
-  server::RunReport report = simulation_report(world, builder, setup.seed);
+  if (!simulation.trouble().empty()) return std::unexpected(simulation.trouble());
+  server::RunReport report = simulation_report(simulation, builder, setup.seed);
   report.trace_hash = digest.hex();
   return report;
 }
