@@ -65,12 +65,12 @@ void understand_network(const RunArguments& arguments, SimulationConfig& setup, 
 }
 
 /// Returns how many datagrams of a replay had a recorded decision of their own, for reports.
-std::string replay_summary(const Simulation& world) {
+std::string replay_summary(const Simulation& simulation) {
   std::uint64_t sent = 0, own = 0;
-  for (std::uint32_t link = 0; link < world.network().links(); ++link)
+  for (std::uint32_t link = 0; link < simulation.network().links(); ++link)
     for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-      sent += world.network().counters(link, direction).in;
-      own += world.network().replayed(link, direction);
+      sent += simulation.network().counters(link, direction).in;
+      own += simulation.network().replayed(link, direction);
     }
   return "replay: " + std::to_string(own) + " of " + std::to_string(sent) +
          " datagrams got their own recorded verdict" +
@@ -144,8 +144,8 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
 }
 
 /// Shows the progress on a terminal, some times per virtual second.
-void show_progress(const Simulation& world) {
-  std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", world.session().clock().time(), world.scene().duration);
+void show_progress(const Simulation& simulation) {
+  std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", simulation.session().clock().time(), simulation.scene().duration);
   std::fflush(stderr);
 }
 
@@ -194,22 +194,22 @@ int run_command(const RunArguments& arguments) {
   if (const auto problem = json_file.open(arguments.json, true); !problem.empty()) return wrong("--json: " + problem);
   if (const auto problem = trace_file.open(arguments.trace, false); !problem.empty())
     return wrong("--trace: " + problem);
-  Simulation& world = **made;
+  Simulation& simulation = **made;
   RunLog log;
   if (const auto problem = log.open(arguments.log); !problem.empty()) return wrong("--log: " + problem);
-  log.attach(world.network());
+  log.attach(simulation.network());
 
   const SignalWatcher interruption;
   const bool progress = !arguments.quiet && isatty(STDERR_FILENO) != 0;
   const std::clock_t begin = std::clock();
-  SimulationResult run = run_simulation(world, setup.seed,
+  SimulationResult run = run_simulation(simulation, setup.seed,
                                         {.keep_running =
                                              [&](double) {
-                                               if (progress) show_progress(world);
+                                               if (progress) show_progress(simulation);
                                                return !interruption.signalled();
                                              },
                                          .trace = [&](std::string_view rows) { trace_file.write(rows); },
-                                         .tick = [&](Simulation&) { log.on_tick(world.now()); }});
+                                         .tick = [&](Simulation&) { log.on_tick(simulation.now()); }});
   if (progress) std::fprintf(stderr, "\r\x1b[K");
   if (!run.trouble.empty()) {
     io::print_formatted(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
@@ -223,7 +223,7 @@ int run_command(const RunArguments& arguments) {
   const std::vector<NamedLink>& links = run.links;
   std::vector<std::string> notes;
   if (!setup.replay) notes = network->notes;
-  for (std::string& note : session_notes(setup, session_span(world))) notes.push_back(std::move(note));
+  for (std::string& note : session_notes(setup, session_span(simulation))) notes.push_back(std::move(note));
   std::string words;
   for (const std::string& note : notes) words += "note: " + note + "\n";
   if (!arguments.quiet || !json_on_stdout)
@@ -232,8 +232,8 @@ int run_command(const RunArguments& arguments) {
         report.scenario.c_str(), interrupted && !broken ? "interrupted" : report.verdict_text(), report.duration_s,
         setup.replay ? ("replay of " + arguments.replay).c_str() : network->description.c_str(),
         static_cast<unsigned long long>(report.seed), report.cpu_s > 0 ? report.duration_s / report.cpu_s : 0.0,
-        server::report_summary(report, world.scene()).c_str(), quality_report(links, arguments.verbose).c_str(),
-        setup.replay ? replay_summary(world).c_str() : "", words.c_str());
+        server::report_summary(report, simulation.scene()).c_str(), quality_report(links, arguments.verbose).c_str(),
+        setup.replay ? replay_summary(simulation).c_str() : "", words.c_str());
   if (interrupted)
     SignalWatcher::report("run", format("%.3f of %g s of the session", report.duration_s, setup.scene.duration));
   if (json_file.is_open()) json_file.write(report_json(report, links, notes, interrupted));

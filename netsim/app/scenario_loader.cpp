@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "common/base/milliseconds.h"
 #include "common/base/suggestions.h"
 #include "hal/io/motion_file.h"
 #include "netsim/profiles/app/capacity_file.h"
@@ -73,9 +74,8 @@ class Folder {
       out = std::move(*found);
       add(out.description);
     }
-    const auto ms = [](double value) { return Duration{std::llround(value * 1e6)}; };
-    const LinkSpec numbers = link_from({.delay = ms(spec.delay_ms.value_or(0)),
-                                        .jitter = ms(spec.jitter_ms.value_or(0)),
+    const LinkSpec numbers = link_from({.delay = from_milliseconds(spec.delay_ms.value_or(0)),
+                                        .jitter = from_milliseconds(spec.jitter_ms.value_or(0)),
                                         .loss = spec.loss_percent.value_or(0) / 100,
                                         .duplicate = spec.duplicate_percent.value_or(0) / 100,
                                         .reorder = spec.reorder_percent.value_or(0) / 100,

@@ -28,7 +28,7 @@ std::string_view name(State state) noexcept {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRunObserver& watch) {
+SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRunObserver& observer) {
   SeedOutcome out;
   out.seed = seed;
   SimulationConfig setup = scenario.setup;
@@ -36,10 +36,10 @@ SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRun
   setup.monitor_quality = true;
   const double begun = cpu_now();
   const auto go_on = [&](double session_s) {
-    if (watch.progress) watch.progress(session_s / setup.scene.duration);
+    if (observer.progress) observer.progress(session_s / setup.scene.duration);
     return true;
   };
-  SimulationResult run = run_simulation(setup, {.keep_running = go_on, .trace = watch.trace});
+  SimulationResult run = run_simulation(setup, {.keep_running = go_on, .trace = observer.trace});
   out.cpu_s = cpu_now() - begun;
   out.violations = run.report.violations;
   out.trace_hash = run.report.trace_hash;
@@ -55,7 +55,7 @@ SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRun
     good = good && holds(limit, out.values.back());
   }
   out.state = !out.trouble.empty() ? State::kTrouble : good ? State::kPass : State::kFail;
-  if (watch.report) {
+  if (observer.report) {
     Json report = Json::parse(server::to_json(run.report));
     report.erase("cpu_s");
     out.report = report.dump();

@@ -49,7 +49,7 @@ struct SeedRunObserver {
 };
 
 /// Runs one seed to its end and judges invariants and limits.
-[[nodiscard]] SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRunObserver& watch);
+[[nodiscard]] SeedOutcome run_seed(const Scenario& scenario, std::uint64_t seed, const SeedRunObserver& observer);
 
 /// Encodes an outcome for transfer from one process to another.
 [[nodiscard]] std::string to_bytes(const SeedOutcome& outcome);

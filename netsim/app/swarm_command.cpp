@@ -86,10 +86,10 @@ std::string live_seed(const SwarmArguments& arguments, std::uint64_t seed, io::J
     throw std::runtime_error("--trace: " + problem);
   const server::TraceCsv csv{which.setup.scene};
   std::string rows = csv.header();
-  const SwarmResult result = run_swarm_case(which, [&](Simulation& world) {
-    share.set(seconds(world.now() - Time{}) / whole);
+  const SwarmResult result = run_swarm_case(which, [&](Simulation& simulation) {
+    share.set(seconds(simulation.now() - Time{}) / whole);
     if (!trace.is_open()) return;
-    csv.append(world.record(), rows);
+    csv.append(simulation.record(), rows);
     if (rows.size() < 60'000) return;
     trace.write(rows);
     rows.clear();

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/base/format.h"
+#include "common/base/milliseconds.h"
 #include "common/base/suggestions.h"
 #include "common/base/unit_suffix.h"
 
@@ -159,9 +160,8 @@ Sweep run_sweep(SweepSpec spec, const TestOptions& options) {
     for (const double delay : spec.delays_ms)
       for (const double loss : spec.losses_percent) {
         grid.push_back({.delay_ms = delay, .jitter_ms = jitter, .loss_percent = loss});
-        const auto ms = [](double value) { return Duration{std::llround(value * 1e6)}; };
-        base.setup.network = link_from({.delay = ms(delay),
-                                        .jitter = ms(jitter),
+        base.setup.network = link_from({.delay = from_milliseconds(delay),
+                                        .jitter = from_milliseconds(jitter),
                                         .loss = loss / 100,
                                         .duplicate = 0,
                                         .reorder = 0,

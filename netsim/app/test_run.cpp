@@ -28,9 +28,9 @@ std::string run_in_child(const Scenario& scenario, std::uint64_t seed, const Tes
                          io::JobProgressReporter share) {
   io::OutputFile trace;
   if (const std::string problem = trace.open(options.trace, false); !problem.empty()) throw std::runtime_error(problem);
-  SeedRunObserver watch{.progress = [&](double part) { share.set(part); }, .report = options.reports};
-  if (trace.is_open()) watch.trace = [&](std::string_view rows) { trace.write(rows); };
-  const SeedOutcome outcome = run_seed(scenario, seed, watch);
+  SeedRunObserver observer{.progress = [&](double part) { share.set(part); }, .report = options.reports};
+  if (trace.is_open()) observer.trace = [&](std::string_view rows) { trace.write(rows); };
+  const SeedOutcome outcome = run_seed(scenario, seed, observer);
   if (const std::string problem = trace.close(); !problem.empty()) throw std::runtime_error(problem);
   return to_bytes(outcome);
 }

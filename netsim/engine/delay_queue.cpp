@@ -23,18 +23,18 @@ DelayQueue::DelayQueue(std::size_t slots, std::size_t lanes) : slots_(slots) {
   std::iota(free_.rbegin(), free_.rend(), 0U);  // slot 0 first, to touch as few pages as possible
 }
 
-DelayQueue::Entered DelayQueue::enter(const Verdict& verdict, Time sent, std::uint32_t lane,
+DelayQueue::Entered DelayQueue::enter(const Verdict& verdict, Time sent, std::uint32_t path_index,
                                       std::span<const std::byte> bytes, std::uint32_t tag) noexcept {
   const bool waits = verdict.outcome == Outcome::kWaiting;
   const auto slot = store({.sent = sent,
                            .index = verdict.index,
-                           .path_index = lane,
+                           .path_index = path_index,
                            .tag = tag,
                            .size_in = static_cast<std::uint32_t>(bytes.size()),
                            .waiting = waits},
                           bytes);
   if (!slot) {
-    release(verdict, lane);
+    release(verdict, path_index);
     return Entered::kNo;
   }
   newest_ = *slot;
@@ -55,9 +55,9 @@ void DelayQueue::revoke(std::uint32_t slot) noexcept {
   recycle(slot);
 }
 
-void DelayQueue::discard_waiting(std::uint32_t lane) noexcept {
+void DelayQueue::discard_waiting(std::uint32_t path_index) noexcept {
   for (std::uint32_t slot = 0; waiting_ > 0 && slot < meta_.size(); ++slot) {
-    if (!meta_[slot].waiting || meta_[slot].path_index != lane) continue;
+    if (!meta_[slot].waiting || meta_[slot].path_index != path_index) continue;
     revoke(slot);
   }
 }
@@ -87,10 +87,10 @@ DelayQueue::Entered DelayQueue::admit(std::uint32_t slot, const Verdict& verdict
   return entered;
 }
 
-void DelayQueue::release(const Verdict& verdict, std::uint32_t lane) noexcept {
+void DelayQueue::release(const Verdict& verdict, std::uint32_t path_index) noexcept {
   for (const Release& release : verdict.released) {
     const auto found = std::find_if(held_.begin(), held_.end(), [&](const HeldEntry& held) {
-      return meta_[held.slot].index == release.index && meta_[held.slot].path_index == lane;
+      return meta_[held.slot].index == release.index && meta_[held.slot].path_index == path_index;
     });
     if (found != held_.end()) release_held(static_cast<std::size_t>(found - held_.begin()), release.at, next_order_++);
   }

@@ -75,9 +75,9 @@ std::uint32_t Network::add_flow(std::uint32_t shared, std::uint64_t name,
   Shared& link = shared_.at(shared);
   if (link.flows == 0) link.first = static_cast<std::uint32_t>(links());
   const auto make = [&](Direction direction) {
-    const auto& course = link.timelines[static_cast<std::size_t>(direction)];
-    course->join(link.flows, name);
-    return std::make_unique<StoredDirection>(LinkDirection(course, link.flows), slots_for(link.schedule, direction));
+    const auto& timeline = link.timelines[static_cast<std::size_t>(direction)];
+    timeline->join(link.flows, name);
+    return std::make_unique<StoredDirection>(LinkDirection(timeline, link.flows), slots_for(link.schedule, direction));
   };
   auto up = make(Direction::kUp);
   auto down = make(Direction::kDown);
@@ -202,9 +202,9 @@ const PathCounters& Network::counters(std::uint32_t link, Direction direction) c
   return of == nullptr ? kNothing : of->path.counters;
 }
 
-void Network::attach_monitor(std::uint32_t link, LinkMonitor* watch) noexcept {
+void Network::attach_monitor(std::uint32_t link, LinkMonitor* monitor) noexcept {
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    if (StoredDirection* const of = stored(link, direction)) of->path.tap.monitor = watch;
+    if (StoredDirection* const of = stored(link, direction)) of->path.tap.monitor = monitor;
   }
 }
 

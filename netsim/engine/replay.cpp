@@ -122,8 +122,7 @@ Verdict ReplayPath::send(Time now) noexcept {
     if (fate == nullptr) return verdict;  // nothing to imitate: the datagram passes
   }
   last_in_ = std::max(last_in_, now);
-  // An undecided datagram stays undecided for its own match. Another datagram would wait without end, so it is dropped.
-  verdict.outcome = !matched && fate->outcome == Outcome::kWaiting ? Outcome::kReplaced : fate->outcome;
+  verdict.outcome = fate->outcome;  // kWaiting only for the recorded datagram itself: `at` returns decided fates
   verdict.copied = fate->copied;
   verdict.copy_delay = fate->copy_delay;
   verdict.copy_outcome = fate->copy_outcome;

@@ -19,8 +19,8 @@ SimDeviceSpec placed(SimDeviceSpec device, const ProbeRun& run) {
 
 hal::Vec3 vector_of(const server::Triple& v) { return {v[0], v[1], v[2]}; }
 
-void add_row(FeelTrace& trace, const Simulation& world) {
-  const server::TickRecord& record = world.record();
+void add_row(FeelTrace& trace, const Simulation& simulation) {
+  const server::TickRecord& record = simulation.record();
   trace.t.push_back(record.tick / trace.tick_hz);
   for (std::size_t i = 0; i < trace.hands.size(); ++i) {
     const server::SeatRecord& seat = record.seats[i];
@@ -29,7 +29,7 @@ void add_row(FeelTrace& trace, const Simulation& world) {
     hand.f.push_back(vector_of(seat.f_out));
     hand.f_cmd.push_back(vector_of(seat.f_cmd));
     hand.engaged.push_back(seat.engaged ? 1 : 0);
-    hand.trips.push_back(world.client(i).program().gate_trips());
+    hand.trips.push_back(simulation.client(i).program().gate_trips());
   }
   const server::ToolRecord& tool = record.tools[0];
   trace.tool.push_back(vector_of(tool.x));
@@ -103,7 +103,7 @@ FeelTrace run_probe(const FeelSetup& setup, const ProbeRun& run, std::uint64_t s
     trace.trouble = made.error();
     return trace;
   }
-  Simulation& world = **made;
+  Simulation& simulation = **made;
   trace.hands.resize(run.hands.size());
   for (std::size_t i = 0; i < trace.hands.size(); ++i) {
     const SeatSpec& seat = simulation_config.scene.seats[i];
@@ -111,18 +111,18 @@ FeelTrace run_probe(const FeelSetup& setup, const ProbeRun& run, std::uint64_t s
         std::min(seat.device.force_peak, simulation_config.scene.gate.force_max * share_of_force(seat.role));
   }
   std::vector<ProbePush> pushes = run.pushes;
-  while (world.step()) {
-    if (!world.record().running) continue;
-    add_row(trace, world);
+  while (simulation.step()) {
+    if (!simulation.record().running) continue;
+    add_row(trace, simulation);
     std::erase_if(pushes, [&](const ProbePush& push) {
       if (trace.t.back() < push.at) return false;
-      world.device(push.hand).push(push.force, push.length);
+      simulation.device(push.hand).push(push.force, push.length);
       return true;
     });
   }
-  trace.trouble = world.trouble();
+  trace.trouble = simulation.trouble();
   if (trace.rows() == 0 && trace.trouble.empty()) trace.trouble = "the session never ran";
-  trace.one_way_s = std::max(0.0, 0.5 * (link_reports(world)[0].rtt_p50_ms * 1e-3 - 1 / trace.tick_hz));
+  trace.one_way_s = std::max(0.0, 0.5 * (link_reports(simulation)[0].rtt_p50_ms * 1e-3 - 1 / trace.tick_hz));
   return trace;
 }
 

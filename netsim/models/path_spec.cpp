@@ -212,7 +212,7 @@ Duration delay_max(const PathSpec& spec) noexcept {
 LinkSpec link_from(const SimpleNetwork& numbers) {
   PathSpec path;
   path.floor = numbers.delay;
-  if (numbers.jitter > Duration::zero()) {
+  if (numbers.jitter != Duration::zero()) {  // a negative one is an error of the spec
     path.body.kind = BodySpec::Kind::kUniform;
     path.body.high = numbers.jitter;
   }

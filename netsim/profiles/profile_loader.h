@@ -1,45 +1,14 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <expected>
-#include <optional>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "netsim/models/path_spec.h"
 #include "proto/spec/input_error.h"
-
-namespace tandem {
-struct ProfileOutage;
-}
+#include "proto/spec/profile_spec.h"
 
 /// Named networks. A profile is a text file (proto/schema/profile.proto) with parameters, their sources and a version.
 namespace tandem::netsim {
-
-/// Expected one-way delay quantiles of one direction of a profile, for 128-byte datagrams at 1 kHz.
-struct ProfileCheck {
-  Direction direction = Direction::kUp;
-  std::array<double, 4> delay_ms{};  ///< p5, p50, p95, p99 [ms]
-};
-
-/// Parsed and validated profile.
-struct Profile {
-  std::string name;  ///< file name without folder and extension
-  std::uint32_t version = 0;
-  std::string summary;
-  std::vector<std::string> sources;
-  LinkSpec link;
-  std::vector<ProfileCheck> checks;
-  /// Set if rates marked `recorded` need a recorded capacity before the link can be simulated (`supply_capacity`). The
-  /// value is the file named by the profile; empty if the user must name one.
-  std::optional<std::string> capacity_file = {};
-};
-
-/// Converts an outage from a profile's units to the engine's specification.
-[[nodiscard]] OutageSpec outage_from(const ProfileOutage& in);
 
 /// Inserts a recorded capacity (netsim/profiles/capacity_csv.h) into the recorded rates of a link.
 /// @return true if the link has a recorded rate

@@ -21,18 +21,18 @@ Duration ProfilePreviewDirection::quantile(double q) const noexcept {
 }
 
 ProfilePreview preview_profile(const ProfilePreviewOptions& setup, const std::function<bool(double)>& progress) {
-  ProfilePreview portrait;
-  portrait.length = setup.length;
-  portrait.shown = std::min(setup.shown, setup.length);
+  ProfilePreview preview;
+  preview.length = setup.length;
+  preview.shown = std::min(setup.shown, setup.length);
   const auto count = static_cast<std::uint64_t>(setup.length / kPeriod);
-  const auto shown = static_cast<std::size_t>(portrait.shown / kPeriod);
+  const auto shown = static_cast<std::size_t>(preview.shown / kPeriod);
 
   Network network{setup.seed};
   network.add_link(setup.link);
-  const auto watch = std::make_unique<LinkMonitor>();
-  network.attach_monitor(0, watch.get());
+  const auto monitor = std::make_unique<LinkMonitor>();
+  network.attach_monitor(0, monitor.get());
   std::array<std::vector<bool>, kDirections> came{std::vector<bool>(count), std::vector<bool>(count)};
-  for (ProfilePreviewDirection& way : portrait.ways) {
+  for (ProfilePreviewDirection& way : preview.ways) {
     way.delays.reserve(count);
     way.shown.assign(shown, ProfilePreviewDirection::kLost);
   }
@@ -43,9 +43,9 @@ ProfilePreview preview_profile(const ProfilePreviewOptions& setup, const std::fu
       if (delivery->index >= count || came[d][delivery->index]) continue;  // duplicate
       came[d][delivery->index] = true;
       const Duration delay = delivery->at - delivery->sent;
-      portrait.ways[d].delays.push_back(delay);
+      preview.ways[d].delays.push_back(delay);
       if (delivery->index < shown) {
-        portrait.ways[d].shown[delivery->index] =
+        preview.ways[d].shown[delivery->index] =
             static_cast<std::int32_t>(std::min<std::int64_t>(delay.count() / 1000, INT32_MAX));
       }
     }
@@ -58,19 +58,19 @@ ProfilePreview preview_profile(const ProfilePreviewOptions& setup, const std::fu
       empty(now, direction);
     }
     if (!progress || i % kTellEvery != 0 || progress(static_cast<double>(i) / static_cast<double>(count))) continue;
-    portrait.length = kPeriod * static_cast<std::int64_t>(i + 1);
-    portrait.shown = std::min(portrait.shown, portrait.length);
-    for (ProfilePreviewDirection& way : portrait.ways) way.shown.resize(std::min<std::size_t>(shown, i + 1));
+    preview.length = kPeriod * static_cast<std::int64_t>(i + 1);
+    preview.shown = std::min(preview.shown, preview.length);
+    for (ProfilePreviewDirection& way : preview.ways) way.shown.resize(std::min<std::size_t>(shown, i + 1));
     break;
   }
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     empty(Time{setup.length + std::chrono::hours(24)}, direction);  // datagrams still in flight
-    ProfilePreviewDirection& way = portrait.ways[static_cast<std::size_t>(direction)];
+    ProfilePreviewDirection& way = preview.ways[static_cast<std::size_t>(direction)];
     way.fates = network.counters(0, direction).by_outcome;
     std::sort(way.delays.begin(), way.delays.end());
   }
-  portrait.quality = watch->summary();
-  return portrait;
+  preview.quality = monitor->summary();
+  return preview;
 }
 
 }  // namespace tandem::netsim

@@ -1,19 +1,15 @@
 #include "netsim/profiles/schedule_loader.h"
 
-#include <cmath>
-
+#include "common/base/milliseconds.h"
 #include "proto/text/script_text.h"
 
 namespace tandem::netsim {
 namespace {
 
-Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
-
 NetworkEvent event_from(const ScriptEventSpec& in) {
-  NetworkEvent event{.at = milliseconds(in.at_s * 1e3), .clients = in.clients};
+  NetworkEvent event{.at = from_milliseconds(in.at_s * 1e3), .clients = in.clients, .outage = in.outage};
   if (!in.up || !in.down) event.direction = in.up ? Direction::kUp : Direction::kDown;
-  if (in.outage) event.outage = outage_from(*in.outage);
-  if (in.rebind) event.rebind = Rebind{milliseconds(in.rebind->dead_after_ms)};
+  if (in.rebind) event.rebind = Rebind{from_milliseconds(in.rebind->dead_after_ms)};
   return event;
 }
 

@@ -5,24 +5,6 @@
 
 namespace tandem::netsim {
 
-SeenNumbers::Kind SeenNumbers::insert(std::uint64_t number) noexcept {
-  const auto word = [this](std::uint64_t n) -> std::uint64_t& { return words_[(n % kNumbers) / 64]; };
-  const std::uint64_t bit = std::uint64_t{1} << (number % 64);
-  if (!any_ || number > newest_) {
-    // Numbers in between were not seen; their old marks, from one round earlier, are cleared.
-    const std::uint64_t between = any_ ? std::min(number - newest_ - 1, kNumbers - 1) : 0;
-    for (std::uint64_t n = number - between; n < number; ++n) word(n) &= ~(std::uint64_t{1} << (n % 64));
-    word(number) |= bit;
-    newest_ = number;
-    any_ = true;
-    return Kind::kNewest;
-  }
-  if (newest_ - number >= kNumbers) return Kind::kReordered;
-  if ((word(number) & bit) != 0) return Kind::kAgain;
-  word(number) |= bit;
-  return Kind::kReordered;
-}
-
 LinkQuality::LinkQuality(Time from)
     : from_(from),
       steps_(kStepsKept),
@@ -43,12 +25,12 @@ void LinkQuality::sent(Time at, std::uint64_t /*index*/) noexcept {
     talked_ = true;
     counts_.from = at;
   }
-  if (counts_.sent == 0 || at - last_sent_ > kPause) {
+  if (counts_.sent == 0 || at - last_sent_ > PauseTracker::kPause) {
     if (counts_.sent > 0) {
       ++counts_.pauses;
       counts_.paused += at - last_sent_;
     }
-    resumes_[resume_count_++ % kResumesKept] = {at, counts_.sent > 0 ? last_sent_ : at};
+    pauses_.add({at, counts_.sent > 0 ? last_sent_ : at});
     step.resumed = true;
     step.resume = at;
   }
@@ -93,32 +75,10 @@ void LinkQuality::arrived(Time sent, Time at, std::uint64_t index) noexcept {
 /// Returns the start of the silence that ends with the datagram sent at `sent`. It is the previous arrival, or the
 /// earliest possible arrival of the first datagram after a pause of the sender.
 Time LinkQuality::silent_since(Time sent) const noexcept {
-  const Resume* const resume = last_resume_in(newest_sent_, sent);
+  const PauseTracker::Resume* const resume = pauses_.last_in(newest_arrived(), sent);
   if (resume == nullptr) return last_arrival_;
   const Time due = resume->at + delay_min_;
   return heard_ ? std::max(last_arrival_, due) : due;
-}
-
-/// Returns the oldest stored resume with after < at <= until; nullptr if there is none.
-const LinkQuality::Resume* LinkQuality::first_resume_in(Time after, Time until) const noexcept {
-  const Resume* found = nullptr;
-  const std::uint64_t kept = std::min<std::uint64_t>(resume_count_, kResumesKept);
-  for (std::uint64_t back = 1; back <= kept; ++back) {
-    const Resume& resume = resumes_[(resume_count_ - back) % kResumesKept];
-    if (heard_ && resume.at <= after) break;
-    if (resume.at <= until) found = &resume;
-  }
-  return found;
-}
-
-const LinkQuality::Resume* LinkQuality::last_resume_in(Time after, Time until) const noexcept {
-  const std::uint64_t kept = std::min<std::uint64_t>(resume_count_, kResumesKept);
-  for (std::uint64_t back = 1; back <= kept; ++back) {
-    const Resume& resume = resumes_[(resume_count_ - back) % kResumesKept];
-    if (heard_ && resume.at <= after) break;
-    if (resume.at <= until) return &resume;
-  }
-  return nullptr;
 }
 
 void LinkQuality::count_gap(Time from, Time until) noexcept {
@@ -135,7 +95,7 @@ void LinkQuality::count_gap(Time from, Time until) noexcept {
 /// Adds the age of the datagram sent at `newest_sent_` up to now. Pauses of the sender do not increase the age.
 void LinkQuality::count_age(Time sent, Time at) noexcept {
   if (heard_) {
-    const Resume* const resume = first_resume_in(newest_sent_, sent);
+    const PauseTracker::Resume* const resume = pauses_.first_in(newest_sent_, sent);
     const Time end = resume == nullptr ? at : std::clamp(resume->last_before, age_from_, at);
     age_.add(age_from_ - newest_sent_, end - newest_sent_, end);
   }
@@ -145,17 +105,10 @@ void LinkQuality::count_age(Time sent, Time at) noexcept {
 
 void LinkQuality::close(std::int64_t step) noexcept {
   Step& closed = steps_[static_cast<std::size_t>(step) % kStepsKept];
-  if (closed.talked) talked_until_ = closed.last_sent;
-  if (closed.heard) {
-    silence_known_ = true;
-    silence_from_ = closed.last_heard;
-  }
-  if (closed.resumed) due_ = closed.resume + delay_min_;
-  const Time silent = std::max(silence_from_, due_);
-  const Duration gap = silence_known_ ? std::max(closed.gap, talked_until_ - silent) : closed.gap;
+  const auto [gap, since] = gaps_.close(closed, delay_min_);
   if (gap > counts_.longest_gap) {  // gaps that ended were counted at their arrival
     counts_.longest_gap = gap;
-    counts_.longest_gap_at = silent;
+    counts_.longest_gap_at = since;
   }
   delays_.close(step);
   for (std::size_t w = 0; w < kWindows; ++w) {

@@ -65,7 +65,7 @@ struct DirectionSummary {
   AgeSummary age;
   Duration longest_gap{};    ///< longest time without an arrival while the sender was sending
   Time longest_gap_at;       ///< start of the longest gap
-  std::uint64_t pauses = 0;  ///< pauses of the sender longer than LinkQuality::kPause; not caused by the network
+  std::uint64_t pauses = 0;  ///< pauses of the sender longer than PauseTracker::kPause; not caused by the network
   Duration paused{};
   WindowSummaries windows;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/base/milliseconds.h"
 #include "common/base/suggestions.h"
 #include "hal/sim/recorded_motion.h"
 #include "netsim/profiles/schedule_loader.h"
@@ -12,8 +13,6 @@
 
 namespace tandem::netsim {
 namespace {
-
-Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
 
 class ScenarioBuilder {
  public:
@@ -176,15 +175,16 @@ class ScenarioBuilder {
         continue;
       }
       for (const std::string& seat : named(fault.seats, {""}))
-        out_.setup.faults.push_back({kind->kind, seat, milliseconds(fault.at_s * 1e3), milliseconds(fault.for_ms)});
+        out_.setup.faults.push_back(
+            {kind->kind, seat, from_milliseconds(fault.at_s * 1e3), from_milliseconds(fault.for_ms)});
     }
   }
   void endpoints() {
     for (const ScenarioEndpointSpec& in : spec_.endpoints) {
-      EndpointSpec endpoint{.offset = milliseconds(in.offset_ms), .drift_ppm = in.drift_ppm};
+      EndpointSpec endpoint{.offset = from_milliseconds(in.offset_ms), .drift_ppm = in.drift_ppm};
       for (const auto& step : in.steps)
-        endpoint.steps.push_back({milliseconds(step.at_s * 1e3), milliseconds(step.by_ms)});
-      endpoint.wake = {static_cast<WakeSpec::Kind>(in.wake), milliseconds(in.late_max_ms)};
+        endpoint.steps.push_back({from_milliseconds(step.at_s * 1e3), from_milliseconds(step.by_ms)});
+      endpoint.wake = {static_cast<WakeSpec::Kind>(in.wake), from_milliseconds(in.late_max_ms)};
       for (const SpecError& p : problems(endpoint)) add(in.place, p.key + ": " + p.message);
       for (const std::string& seat : named(in.seats, seats_))
         if (!out_.setup.endpoints.emplace(seat, endpoint).second)

@@ -4,11 +4,11 @@
 
 namespace tandem::netsim {
 
-std::vector<NamedLink> link_qualities(const Simulation& world) {
+std::vector<NamedLink> link_qualities(const Simulation& simulation) {
   std::vector<NamedLink> links;
-  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
-    if (const LinkMonitor* const watch = world.link_monitor(i))
-      links.push_back({world.scene().seats[i].name, watch->summary()});
+  for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i) {
+    if (const LinkMonitor* const monitor = simulation.link_monitor(i))
+      links.push_back({simulation.scene().seats[i].name, monitor->summary()});
   }
   return links;
 }

@@ -27,46 +27,46 @@ std::expected<std::unique_ptr<Simulation>, std::string> make(const SimulationCon
 
 }  // namespace
 
-SimulationResult run_simulation(const SimulationConfig& setup, const SimulationObserver& watch) {
+SimulationResult run_simulation(const SimulationConfig& setup, const SimulationObserver& observer) {
   const auto made = make(setup);
   SimulationResult run;
   if (!made) {
     run.trouble = made.error();
     return run;
   }
-  run = run_simulation(**made, setup.seed, watch);
+  run = run_simulation(**made, setup.seed, observer);
   if (run.trouble.empty()) run.notes = session_notes(setup, session_span(**made));
   return run;
 }
 
-SimulationResult run_simulation(Simulation& world, std::uint64_t seed, const SimulationObserver& watch) {
+SimulationResult run_simulation(Simulation& simulation, std::uint64_t seed, const SimulationObserver& observer) {
   SimulationResult run;
-  server::ReportBuilder builder{world.scene()};
-  ObservedFeel feel{world.scene()};
-  const server::TraceCsv csv{world.scene()};
+  server::ReportBuilder builder{simulation.scene()};
+  ObservedFeel feel{simulation.scene()};
+  const server::TraceCsv csv{simulation.scene()};
   transport::Digest digest;
   std::string rows = csv.header();
   const auto flush = [&] {
     digest.add(rows);
-    if (watch.trace) watch.trace(rows);
+    if (observer.trace) observer.trace(rows);
     rows.clear();
   };
-  for (std::uint64_t n = 0; world.step(); ++n) {
-    if (watch.tick) watch.tick(world);
-    const server::TickRecord& record = world.record();
+  for (std::uint64_t n = 0; simulation.step(); ++n) {
+    if (observer.tick) observer.tick(simulation);
+    const server::TickRecord& record = simulation.record();
     builder.add(record);
     feel.add(record);
     if (record.running) csv.append(record, rows);
     if (rows.size() > kRowsAtOnce) flush();
-    if (n % kTicksPerLook == 0 && watch.keep_running && !watch.keep_running(world.session().clock().time())) {
+    if (n % kTicksPerLook == 0 && observer.keep_running && !observer.keep_running(simulation.session().clock().time())) {
       run.interrupted = true;
       break;
     }
   }
   flush();
-  run.trouble = world.trouble();
-  run.links = link_qualities(world);
-  run.report = simulation_report(world, builder, seed);
+  run.trouble = simulation.trouble();
+  run.links = link_qualities(simulation);
+  run.report = simulation_report(simulation, builder, seed);
   run.report.trace_hash = digest.hex();
   std::vector<std::uint32_t> trips;
   for (const server::SeatReport& seat : run.report.seats) trips.push_back(seat.gate_trips);

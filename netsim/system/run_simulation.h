@@ -21,7 +21,7 @@ struct SimulationObserver {
   /// Receives the rows of the trace (server/report/trace_csv.h), header first, in pieces.
   std::function<void(std::string_view rows)> trace = {};
   /// Called after every tick.
-  std::function<void(Simulation& world)> tick = {};
+  std::function<void(Simulation& simulation)> tick = {};
 };
 
 struct SimulationResult {
@@ -34,11 +34,11 @@ struct SimulationResult {
 
 /// Runs a session in virtual time to its end and returns its report. The same setup and build give the same report,
 /// `trace_hash` included. It has no global state: several threads may call it at the same time.
-[[nodiscard]] SimulationResult run_simulation(const SimulationConfig& setup, const SimulationObserver& watch = {});
+[[nodiscard]] SimulationResult run_simulation(const SimulationConfig& setup, const SimulationObserver& observer = {});
 /// Runs a simulation that has just been made. The caller, which has the setup, adds the notes
 /// (netsim/system/session_notes.h).
 /// @param seed  seed of the setup, for the report
-[[nodiscard]] SimulationResult run_simulation(Simulation& world, std::uint64_t seed,
-                                              const SimulationObserver& watch = {});
+[[nodiscard]] SimulationResult run_simulation(Simulation& simulation, std::uint64_t seed,
+                                              const SimulationObserver& observer = {});
 
 }  // namespace tandem::netsim

@@ -14,7 +14,7 @@ class Simulation;
 struct SessionSpan {
   Duration begin{}, end{};
 };
-[[nodiscard]] SessionSpan session_span(const Simulation& world);
+[[nodiscard]] SessionSpan session_span(const Simulation& simulation);
 
 /// Returns facts needed to understand the report, one line each. They name the events, outages and faults outside the
 /// session, and the effect of a change of address on a seat.

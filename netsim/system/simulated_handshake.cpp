@@ -45,26 +45,26 @@ std::expected<SimulatedJoin, server::JoinResult> simulate_join(server::Session& 
                                                                std::uint64_t number, bool same_owner,
                                                                std::uint8_t slot) {
   fill_path_tokens(session, key.derive(number).derive(3), 0);
-  const server::SeatCatalogue& reception = session.seat_catalogue();
-  if (seat >= reception.scene().seats.size()) return std::unexpected(server::JoinResult::kNoSuchSeat);
-  if (!reception.device_incompatibility(client::device_facts(caps)).empty())
+  const server::SeatCatalogue& catalogue = session.seat_catalogue();
+  if (seat >= catalogue.scene().seats.size()) return std::unexpected(server::JoinResult::kNoSuchSeat);
+  if (!catalogue.device_incompatibility(client::device_facts(caps)).empty())
     return std::unexpected(server::JoinResult::kDeviceUnfit);
-  const transport::SecureChannel::Params client = client_end(key.derive(number), slot, seat + 1, reception.tick());
-  server::SeatConnection entry = reception.make_connection(seat, server_end(client), client::device_facts(caps));
+  const transport::SecureChannel::Params client = client_end(key.derive(number), slot, seat + 1, catalogue.tick());
+  server::SeatConnection entry = catalogue.make_connection(seat, server_end(client), client::device_facts(caps));
   const server::JoinResult result = session.admit(now, seat, entry, same_owner);
   if (result != server::JoinResult::kAccepted) return std::unexpected(result);
-  return SimulatedJoin{reception.setup_for(seat, client::device_facts(caps)), client};
+  return SimulatedJoin{catalogue.setup_for(seat, client::device_facts(caps)), client};
 }
 
 std::expected<SimulatedJoin, server::JoinResult> simulate_link_test_join(server::Session& session, Time now,
                                                                          RandomKey key, std::uint64_t number) {
   fill_path_tokens(session, key.derive(number).derive(3), 0);
-  const server::SeatCatalogue& reception = session.seat_catalogue();
-  const transport::SecureChannel::Params client = client_end(key.derive(number), 0, kSeatsMax + 1, reception.tick());
+  const server::SeatCatalogue& catalogue = session.seat_catalogue();
+  const transport::SecureChannel::Params client = client_end(key.derive(number), 0, kSeatsMax + 1, catalogue.tick());
   auto link = std::make_unique<transport::SecureChannel>(server_end(client));
   const server::JoinResult result = session.admit_link_test_peer(now, link);
   if (result != server::JoinResult::kAccepted) return std::unexpected(result);
-  return SimulatedJoin{reception.setup(0), client};
+  return SimulatedJoin{catalogue.setup(0), client};
 }
 
 }  // namespace tandem::netsim

@@ -13,27 +13,28 @@ server::DirectionReport direction(const transport::SecureChannel& receiver, Time
 
 }  // namespace
 
-std::vector<server::LinkReport> link_reports(const Simulation& world) {
-  std::vector<server::LinkReport> reports(world.scene().seats.size());
+std::vector<server::LinkReport> link_reports(const Simulation& simulation) {
+  std::vector<server::LinkReport> reports(simulation.scene().seats.size());
   for (std::size_t i = 0; i < reports.size(); ++i) {
-    const client::Seat* seat = world.seat(i);
-    const transport::SecureChannel* server_end = world.session().seat(i).link();
+    const client::Seat* seat = simulation.seat(i);
+    const transport::SecureChannel* server_end = simulation.session().seat(i).link();
     if (seat == nullptr || server_end == nullptr) continue;
     reports[i].rtt_p50_ms = seconds(seat->link().timing().rtt_p50()) * kMs;
     reports[i].rtt_p99_ms = seconds(Duration{seat->link().timing().rtts().quantile(0.99)}) * kMs;
-    reports[i].up = direction(*server_end, world.now());
-    reports[i].down = direction(seat->link(), world.client(i).own_time(world.now()));
+    reports[i].up = direction(*server_end, simulation.now());
+    reports[i].down = direction(seat->link(), simulation.client(i).own_time(simulation.now()));
   }
   return reports;
 }
 
-server::RunReport simulation_report(const Simulation& world, const server::ReportBuilder& builder, std::uint64_t seed) {
-  server::RunReport report = builder.build(link_reports(world));
+server::RunReport simulation_report(const Simulation& simulation, const server::ReportBuilder& builder,
+                                    std::uint64_t seed) {
+  server::RunReport report = builder.build(link_reports(simulation));
   report.seed = seed;
-  report.violations = world.violations().list();
-  report.passed = world.violations().passed();
+  report.violations = simulation.violations().list();
+  report.passed = simulation.violations().passed();
   for (std::size_t i = 0; i < report.seats.size(); ++i)
-    report.seats[i].gate_trips = world.client(i).program().gate_trips();
+    report.seats[i].gate_trips = simulation.client(i).program().gate_trips();
   return report;
 }
 

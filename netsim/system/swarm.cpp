@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/base/format.h"
+#include "common/base/milliseconds.h"
 #include "netsim/profiles/profile_loader.h"
 #include "netsim/system/link_qualities.h"
 #include "netsim/system/scene_generator.h"
@@ -17,8 +18,6 @@ namespace tandem::netsim {
 namespace {
 
 enum Purpose : std::uint64_t { kScene = 1, kTimes, kLinks, kFaults, kClocks };
-
-Duration ms(double value) { return Duration{std::llround(value * 1e6)}; }
 
 /// Random draws of one purpose.
 class RandomDraws {
@@ -36,29 +35,29 @@ class RandomDraws {
 /// Draws one direction; every impairment has its own probability.
 PathSpec draw_path(RandomDraws& d) {
   PathSpec path;
-  path.floor = ms(d.chance(0.3) ? 0 : d.log_between(0.05, 200));
+  path.floor = from_milliseconds(d.chance(0.3) ? 0 : d.log_between(0.05, 200));
   if (d.chance(0.5)) {
     path.body.kind = BodySpec::Kind::kUniform;
-    path.body.high = ms(d.log_between(0.1, 60));
-    if (d.chance(0.5)) path.body.tau = ms(d.log_between(1, 300));
+    path.body.high = from_milliseconds(d.log_between(0.1, 60));
+    if (d.chance(0.5)) path.body.tau = from_milliseconds(d.log_between(1, 300));
   }
   if (d.chance(0.3)) path.loss.probability = d.log_between(0.001, 0.6);
   if (d.chance(0.3)) {
-    const Duration good = ms(d.log_between(50, 5000)), bad = ms(d.log_between(1, 300));
+    const Duration good = from_milliseconds(d.log_between(50, 5000)), bad = from_milliseconds(d.log_between(1, 300));
     path.loss.periods = BadPeriodsSpec{good, bad, 0, d.between(0.3, 1)};
   }
   if (d.chance(0.3)) {
     path.stall.rate_per_s = d.between(0.05, 2);
-    path.stall.length_min = ms(d.log_between(2, 100));
-    path.stall.cap = path.stall.length_min + ms(d.log_between(1, 600));
+    path.stall.length_min = from_milliseconds(d.log_between(2, 100));
+    path.stall.cap = path.stall.length_min + from_milliseconds(d.log_between(1, 600));
   }
   if (d.chance(0.25)) {
     path.rate.bits_per_s = static_cast<std::uint64_t>(d.log_between(2e6, 1e8));
-    path.rate.queue_wait = ms(d.log_between(5, 500));
+    path.rate.queue_wait = from_milliseconds(d.log_between(5, 500));
   }
   if (d.chance(0.2)) path.reorder.probability = d.log_between(0.001, 0.3);
   if (d.chance(0.2)) path.order = Order::kFree;
-  if (d.chance(0.3)) path.duplicate = {d.log_between(0.001, 0.5), ms(d.log_between(0.01, 50))};
+  if (d.chance(0.3)) path.duplicate = {d.log_between(0.001, 0.5), from_milliseconds(d.log_between(0.01, 50))};
   if (d.chance(0.1)) path.corruption.probability = d.log_between(0.001, 0.1);
   return path;
 }
@@ -88,25 +87,25 @@ NetworkEvent change(Duration at, const LinkSpec& link, const std::string& client
 void draw_network(SwarmCase& out) {
   RandomDraws d(out.seed, kLinks);
   LinkSpec clean;
-  clean.up.floor = clean.down.floor = ms(d.chance(0.3) ? 0 : d.log_between(0.05, 60));
+  clean.up.floor = clean.down.floor = from_milliseconds(d.chance(0.3) ? 0 : d.log_between(0.05, 60));
   std::string words;
   const LinkSpec bad = draw_link(d, words);
-  const Duration begin = d.chance(0.4) ? Duration{} : ms(d.between(100, 2000));
+  const Duration begin = d.chance(0.4) ? Duration{} : from_milliseconds(d.between(100, 2000));
   out.setup.network = begin == Duration{} ? bad : clean;
   if (begin > Duration{} && begin < out.recovery_start) out.setup.events.push_back(change(begin, bad));
   for (const SeatSpec& seat : out.setup.scene.seats) {
     if (d.chance(0.2)) {
       std::string own;
-      const Duration at = ms(d.between(0, 1e3 * seconds(out.recovery_start)));
+      const Duration at = from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start)));
       if (at > begin && at < out.recovery_start) out.setup.events.push_back(change(at, draw_link(d, own), seat.name));
     }
     for (std::size_t n = d.chance(0.4) ? 1 + d.below(4) : 0; n > 0; --n) {
       NetworkEvent event;
-      event.at = ms(d.between(0, 1e3 * seconds(out.recovery_start)));
+      event.at = from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start)));
       event.clients = {seat.name};
       if (d.chance(0.3)) event.direction = d.chance(0.5) ? Direction::kUp : Direction::kDown;
       OutageSpec outage;
-      outage.length = std::min(ms(d.log_between(1, 3000)), out.recovery_start - event.at);
+      outage.length = std::min(from_milliseconds(d.log_between(1, 3000)), out.recovery_start - event.at);
       outage.mode = d.chance(0.5) ? OutageSpec::Mode::kDrop : OutageSpec::Mode::kHold;
       event.outage = outage;
       if (outage.length > Duration{}) out.setup.events.push_back(event);
@@ -134,8 +133,8 @@ void draw_faults(SwarmCase& out) {
     const Choice& c = kChoices[d.below(kChoices.size())];
     Fault fault{c.kind,
                 {},
-                ms(d.between(0, 1e3 * seconds(out.recovery_start))),
-                ms(d.log_between(c.shortest_ms, c.longest_ms))};
+                from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start))),
+                from_milliseconds(d.log_between(c.shortest_ms, c.longest_ms))};
     if (!of_server(fault.kind) && !d.chance(0.1))
       fault.seat = out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name;
     fault.length = std::min(fault.length, out.recovery_start - fault.at);
@@ -151,7 +150,8 @@ void draw_faults(SwarmCase& out) {
   // Drawn last, so that older faults of a seed do not change when this kind is added.
   for (std::size_t n = d.chance(0.15) ? 1 + d.below(4) : 0; n > 0; --n) {
     Fault hot{Fault::Kind::kHot, out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name,
-              ms(d.between(0, 1e3 * seconds(out.recovery_start))), ms(d.log_between(2, 2000))};
+              from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start))),
+              from_milliseconds(d.log_between(2, 2000))};
     hot.length = std::min(hot.length, out.recovery_start - hot.at);
     if (hot.length <= Duration{}) continue;
     out.description += format(", %s", std::string(name(hot.kind)).c_str());
@@ -164,12 +164,13 @@ void draw_clocks(SwarmCase& out) {
   for (const SeatSpec& seat : out.setup.scene.seats) {
     if (!d.chance(0.3)) continue;
     EndpointSpec endpoint;
-    endpoint.offset = ms(d.between(-8e7, 8e7));
+    endpoint.offset = from_milliseconds(d.between(-8e7, 8e7));
     endpoint.drift_ppm = d.between(-200, 200);
     if (d.chance(0.2))
-      endpoint.steps = {{ms(d.between(0, 1e3 * seconds(out.recovery_start))), ms(d.log_between(1, 1e6))}};
+      endpoint.steps = {{from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start))),
+                         from_milliseconds(d.log_between(1, 1e6))}};
     if (d.chance(0.3))
-      endpoint.wake = {WakeSpec::Kind::kUniform, ms(d.log_between(0.1, 5))};
+      endpoint.wake = {WakeSpec::Kind::kUniform, from_milliseconds(d.log_between(0.1, 5))};
     else if (d.chance(0.3))
       endpoint.wake.kind = WakeSpec::Kind::kMeasured;
     out.setup.endpoints[seat.name] = endpoint;
@@ -183,9 +184,9 @@ std::uint64_t mixed(std::uint64_t into, double value) noexcept {
 /// Lets a simulated user reset every latched device, at intervals. If the client reports a stuck sensor, the user also
 /// pushes the handle, because only a new reading ends that state. A hand at the end of its arm's travel, or in a pose
 /// where the motors have no lever, counts as a frozen sensor.
-void press_buttons(Simulation& world) {
-  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
-    client::Seat* const seat = world.seat(i);
+void press_buttons(Simulation& simulation) {
+  for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i) {
+    client::Seat* const seat = simulation.seat(i);
     if (seat == nullptr) continue;
     const auto phase = seat->gate().phase();
     if (phase == control::GatePhase::kLatched || phase == control::GatePhase::kFault ||
@@ -194,8 +195,8 @@ void press_buttons(Simulation& world) {
     const wire::SessionState session = seat->force().session;
     if (seat->guards().stuck_sensor().stuck()) {
       constexpr double kPush = 2, kPushLength = 0.05;  // [N], [s]
-      const hal::Vec3 from_home = world.device(i).ground_truth().x;
-      world.device(i).push(kPush * from_home.unaryExpr([](double x) { return x > 0 ? -1.0 : 1.0; }), kPushLength);
+      const hal::Vec3 from_home = simulation.device(i).ground_truth().x;
+      simulation.device(i).push(kPush * from_home.unaryExpr([](double x) { return x > 0 ? -1.0 : 1.0; }), kPushLength);
     }
     if (seat->requests().locally_stopped() || session == wire::SessionState::kPaused ||
         session == wire::SessionState::kStopped)
@@ -204,9 +205,9 @@ void press_buttons(Simulation& world) {
 }
 
 /// Returns whether the seat is an observer with a client. An observer's hand is never engaged and counts as active.
-bool watches(const Simulation& world, std::size_t i) {
-  return world.scene().seats[i].kind == SeatKind::kMaster && world.scene().seats[i].role == Role::kObserver &&
-         world.seat(i) != nullptr;
+bool watches(const Simulation& simulation, std::size_t i) {
+  return simulation.scene().seats[i].kind == SeatKind::kMaster && simulation.scene().seats[i].role == Role::kObserver &&
+         simulation.seat(i) != nullptr;
 }
 
 const char* gate_words(control::GatePhase phase) {
@@ -215,24 +216,24 @@ const char* gate_words(control::GatePhase phase) {
   return wire::to_text(static_cast<wire::GateState>(phase));
 }
 
-bool everybody_active(const Simulation& world) {
-  if (world.session().state() != wire::SessionState::kRunning) return false;
-  for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
-    if (!watches(world, i) &&
-        (world.seat(i) == nullptr || world.seat(i)->gate().phase() != control::GatePhase::kActive))
+bool everybody_active(const Simulation& simulation) {
+  if (simulation.session().state() != wire::SessionState::kRunning) return false;
+  for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i)
+    if (!watches(simulation, i) &&
+        (simulation.seat(i) == nullptr || simulation.seat(i)->gate().phase() != control::GatePhase::kActive))
       return false;
   return true;
 }
 
-std::string who_is_not_active(const Simulation& world) {
+std::string who_is_not_active(const Simulation& simulation) {
   std::string text = format("recovery phase: not every seat was active again after %g s:", kRecoveryLimit);
-  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
-    const client::Seat* const seat = world.seat(i);
-    if (watches(world, i) || (seat != nullptr && seat->gate().phase() == control::GatePhase::kActive)) continue;
-    text += " " + world.scene().seats[i].name + " " +
+  for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i) {
+    const client::Seat* const seat = simulation.seat(i);
+    if (watches(simulation, i) || (seat != nullptr && seat->gate().phase() == control::GatePhase::kActive)) continue;
+    text += " " + simulation.scene().seats[i].name + " " +
             (seat == nullptr ? "has no seat" : gate_words(seat->gate().phase())) + ";";
   }
-  if (world.session().state() != wire::SessionState::kRunning) text += " the session does not run";
+  if (simulation.session().state() != wire::SessionState::kRunning) text += " the session does not run";
   return text;
 }
 
@@ -242,7 +243,7 @@ SwarmCase generate_swarm_case(std::uint64_t seed, double safety_max, LawKind law
   SwarmCase out;
   out.seed = seed;
   RandomDraws d(seed, kTimes);
-  out.recovery_start = ms(1e3 * d.between(1, std::max(2.0, safety_max)));
+  out.recovery_start = from_milliseconds(1e3 * d.between(1, std::max(2.0, safety_max)));
   out.scene_text = generate_scene_text(RandomKey{seed}.derive(0x5a).derive(kScene),
                                        std::ceil(seconds(out.recovery_start)) + 2 * kRecoveryLimit, law);
   auto scene = parse_scene(out.scene_text, format("swarm-%llu.textproto", static_cast<unsigned long long>(seed)));
@@ -265,43 +266,44 @@ SwarmResult run_swarm_case(const SwarmCase& which, const std::function<void(Simu
     result.trouble = made.error();
     return result;
   }
-  Simulation& world = **made;
+  Simulation& simulation = **made;
   const Time calm = Time{} + which.recovery_start;
   Time end = calm + from_seconds(kRecoveryLimit);
   Time buttons = calm;
   // A datagram of the fault phase is still under way. A link that keeps order delivers nothing newer before it.
   bool held_back = true;
-  while (world.now() < end) {
-    if (world.now() >= buttons) {
-      press_buttons(world);
-      buttons += ms(500);
+  while (simulation.now() < end) {
+    if (simulation.now() >= buttons) {
+      press_buttons(simulation);
+      buttons += from_milliseconds(500);
     }
-    const bool goes_on = world.step();
-    for (std::size_t i = 0; i < world.scene().seats.size(); ++i) {
-      if (world.seat(i) != nullptr) result.fingerprint = mixed(result.fingerprint, world.seat(i)->effort()[0]);
-      result.fingerprint = mixed(result.fingerprint, world.device(i).ground_truth().x[0]);
+    const bool goes_on = simulation.step();
+    for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i) {
+      if (simulation.seat(i) != nullptr)
+        result.fingerprint = mixed(result.fingerprint, simulation.seat(i)->effort()[0]);
+      result.fingerprint = mixed(result.fingerprint, simulation.device(i).ground_truth().x[0]);
     }
-    if (each_tick) each_tick(world);
+    if (each_tick) each_tick(simulation);
     if (!goes_on) break;
-    if (held_back && world.now() > calm) {
-      const auto oldest = world.network().oldest_in_flight();
+    if (held_back && simulation.now() > calm) {
+      const auto oldest = simulation.network().oldest_in_flight();
       held_back = oldest && *oldest < calm;
-      end = world.now() + from_seconds(kRecoveryLimit);
+      end = simulation.now() + from_seconds(kRecoveryLimit);
     }
-    if (result.recovered_s == 0 && world.now() > calm && everybody_active(world)) {
-      result.recovered_s = seconds(world.now() - calm);
-      if (!world.begin_recovery_phase()) break;
-      end = world.now() + from_seconds(kOrdinaryMotionDuration);
+    if (result.recovered_s == 0 && simulation.now() > calm && everybody_active(simulation)) {
+      result.recovered_s = seconds(simulation.now() - calm);
+      if (!simulation.begin_recovery_phase()) break;
+      end = simulation.now() + from_seconds(kOrdinaryMotionDuration);
     }
   }
-  result.lived_s = seconds(world.now() - Time{});
-  result.trouble = world.trouble();
-  if (result.trouble.empty() && result.recovered_s == 0) result.trouble = who_is_not_active(world);
-  for (const server::Violation& violation : world.violations().list())
+  result.lived_s = seconds(simulation.now() - Time{});
+  result.trouble = simulation.trouble();
+  if (result.trouble.empty() && result.recovered_s == 0) result.trouble = who_is_not_active(simulation);
+  for (const server::Violation& violation : simulation.violations().list())
     if (!violation.expected) result.violations.push_back(violation);
-  for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
-    result.gate_trips += world.client(i).program().gate_trips();
-  result.links = link_qualities(world);
+  for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i)
+    result.gate_trips += simulation.client(i).program().gate_trips();
+  result.links = link_qualities(simulation);
   return result;
 }
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "proto/spec/profile_spec.h"
+#include "netsim/models/path_spec.h"
 #include "proto/text/message_validator.h"
 
 namespace tandem::pb {
@@ -10,9 +10,9 @@ class NetworkPath;
 }
 
 /// Private to proto/text/profile*.cpp: the loss models of one direction.
-namespace tandem {
+namespace tandem::netsim {
 
-/// Reads the loss models into `path`. Errors between numbers go to `validator` under `key`.
-void loss_from(const pb::NetworkPath& in, ProfilePath& path, text::MessageValidator& validator, const std::string& key);
+/// Reads the loss models of a direction. Errors between numbers go to `validator` under `key`.
+[[nodiscard]] LossSpec loss_from(const pb::NetworkPath& in, text::MessageValidator& validator, const std::string& key);
 
-}  // namespace tandem
+}  // namespace tandem::netsim

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "proto/spec/profile_spec.h"
+#include "netsim/models/path_spec.h"
 #include "proto/text/message_validator.h"
 
 namespace tandem::pb {
@@ -10,10 +10,10 @@ class ProfileOutage;
 }
 
 /// Private to proto/text: an outage of a profile or a script.
-namespace tandem {
+namespace tandem::netsim {
 
 /// Converts an outage. Errors between numbers go to `validator` under `key`.
-[[nodiscard]] ProfileOutage outage_from(const pb::ProfileOutage& in, text::MessageValidator& validator,
-                                        const std::string& key);
+[[nodiscard]] OutageSpec outage_from(const pb::ProfileOutage& in, text::MessageValidator& validator,
+                                     const std::string& key);
 
-}  // namespace tandem
+}  // namespace tandem::netsim

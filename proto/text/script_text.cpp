@@ -40,14 +40,14 @@ void check_clients(const pb::ScriptEvent& in, MessageValidator& validator, const
   }
 }
 
-ProfileOutage script_outage_from(const pb::ScriptEvent& in, MessageValidator& validator, const std::string& key) {
+netsim::OutageSpec script_outage_from(const pb::ScriptEvent& in, MessageValidator& validator, const std::string& key) {
   pb::ProfileOutage outage;
   outage.set_start_s(in.at_s());
   outage.set_length_ms(in.outage_ms());
   if (in.has_mode()) outage.set_mode(in.mode());
   if (in.has_direction()) outage.set_direction(in.direction());
   if (in.has_hold_bytes()) outage.set_hold_bytes(in.hold_bytes());
-  return outage_from(outage, validator, key);
+  return netsim::outage_from(outage, validator, key);
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ std::string last_lines(const std::string& text, std::size_t count) {
 /// All processes of one run, which end together.
 class LiveRunProcesses {
  public:
-  LiveRunProcesses(const RunPlan& plan, const DemoPaths& places, const RunObserver& watch)
-      : plan_(plan), places_(places), watch_(watch) {}
+  LiveRunProcesses(const RunPlan& plan, const DemoPaths& places, const RunObserver& observer)
+      : plan_(plan), places_(places), observer_(observer) {}
 
   std::expected<RawRun, std::string> play();
 
@@ -56,7 +56,7 @@ class LiveRunProcesses {
 
   const RunPlan& plan_;
   const DemoPaths& places_;
-  const RunObserver& watch_;
+  const RunObserver& observer_;
   std::vector<ChildProcess> children_;  // server, netsim, trainer, trainee
   std::string trouble_;
 };
@@ -83,7 +83,7 @@ bool LiveRunProcesses::wait_for_address(std::size_t index, std::string& address)
   while (true) {
     address = listening_address(child.output());
     if (!address.empty()) return true;
-    if (watch_.stop->load()) return trouble_ = kInterrupted, false;
+    if (observer_.stop->load()) return trouble_ = kInterrupted, false;
     if (!child.running())
       return set_error(
           child, "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " before it listened");
@@ -99,7 +99,7 @@ bool LiveRunProcesses::wait_for_end() {
   ChildProcess& server = children_.front();
   while (server.running()) {
     const double elapsed = monotonic_seconds() - begin;
-    if (watch_.stop->load()) return trouble_ = kInterrupted, false;
+    if (observer_.stop->load()) return trouble_ = kInterrupted, false;
     for (std::size_t k = 1; k < children_.size(); ++k) {
       ChildProcess& child = children_[k];
       if (child.running() || (child.exit_code() == 0 && elapsed > plan_.duration_s)) continue;
@@ -110,7 +110,7 @@ bool LiveRunProcesses::wait_for_end() {
           child, "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " while the session ran");
     }
     if (elapsed > plan_.duration_s + kEndPatience) return set_error(server, "did not end the session in time");
-    watch_.progress(elapsed);
+    observer_.progress(elapsed);
     std::this_thread::sleep_for(kLook);
   }
   return true;
@@ -202,8 +202,8 @@ std::string missing_programs(const DemoPaths& places) {
   return missing;
 }
 
-std::expected<RawRun, std::string> live_run(const RunPlan& plan, const DemoPaths& places, const RunObserver& watch) {
-  return LiveRunProcesses(plan, places, watch).play();
+std::expected<RawRun, std::string> live_run(const RunPlan& plan, const DemoPaths& places, const RunObserver& observer) {
+  return LiveRunProcesses(plan, places, observer).play();
 }
 
 }  // namespace tandem::netsim::demo

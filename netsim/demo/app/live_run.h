@@ -21,7 +21,7 @@ struct DemoPaths {
 /// All processes have ended when this function returns, also after an error.
 /// @return report and trace, or the error with the last lines of the log that explains it
 [[nodiscard]] std::expected<RawRun, std::string> live_run(const RunPlan& plan, const DemoPaths& places,
-                                                          const RunObserver& watch);
+                                                          const RunObserver& observer);
 
 /// Returns the address in a line `listening on HOST:PORT`; empty if there is no such complete line yet.
 [[nodiscard]] std::string listening_address(const std::string& output);

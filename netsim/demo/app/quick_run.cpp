@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "common/base/milliseconds.h"
 #include "common/transport/digest.h"
 #include "netsim/demo/app/network_series.h"
 #include "netsim/system/simulation_report.h"
@@ -14,8 +15,6 @@
 
 namespace tandem::netsim::demo {
 namespace {
-
-Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
 
 /// Capacity of the decision log: two seats, both directions, 1000 decisions per second each, and a reserve for the
 /// joins.
@@ -41,7 +40,7 @@ Springs springs_of(const RunPlan& plan) {
           scene->tools.front().is_virtual ? kNone : scene->tools.front().k_s};
 }
 
-std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunObserver& watch) {
+std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunObserver& observer) {
   auto scene = scene_of(plan);
   if (!scene) return std::unexpected(scene.error());
 
@@ -49,33 +48,34 @@ std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunObser
   setup.scene = std::move(*scene);
   setup.seed = kSeedNumber;
   if (plan.setting == Setting::kBadNetwork)
-    setup.network = link_from(
-        {.delay = milliseconds(kBadDelayMs), .jitter = milliseconds(kBadJitterMs), .loss = kBadLossPercent / 100});
+    setup.network = link_from({.delay = from_milliseconds(kBadDelayMs),
+                               .jitter = from_milliseconds(kBadJitterMs),
+                               .loss = kBadLossPercent / 100});
   const std::clock_t begin = std::clock();
   auto made = Simulation::make(setup);
   if (!made) return std::unexpected(made.error());
-  Simulation& world = **made;
+  Simulation& simulation = **made;
   const bool bad = plan.setting == Setting::kBadNetwork;
   DecisionLog decisions{bad ? static_cast<std::size_t>(kDecisionsPerSecond * (plan.duration_s + kJoining)) : 0};
-  if (bad) world.network().log_to(&decisions);
+  if (bad) simulation.network().log_to(&decisions);
   std::optional<Time> begun;
-  server::ReportBuilder builder{world.scene()};
-  const server::TraceCsv csv{world.scene()};
+  server::ReportBuilder builder{simulation.scene()};
+  const server::TraceCsv csv{simulation.scene()};
 
   RawRun run;
   run.trace = csv.header();
-  for (std::uint64_t n = 0; world.step(); ++n) {
-    builder.add(world.record());
-    if (world.record().running) {
-      csv.append(world.record(), run.trace);
-      if (!begun) begun = world.now();
+  for (std::uint64_t n = 0; simulation.step(); ++n) {
+    builder.add(simulation.record());
+    if (simulation.record().running) {
+      csv.append(simulation.record(), run.trace);
+      if (!begun) begun = simulation.now();
     }
     if (n % 250 != 0) continue;
-    if (watch.stop->load()) return std::unexpected(kInterrupted);
-    watch.progress(world.session().clock().time());
+    if (observer.stop->load()) return std::unexpected(kInterrupted);
+    observer.progress(simulation.session().clock().time());
   }
-  if (!world.trouble().empty()) return std::unexpected(world.trouble());
-  server::RunReport report = simulation_report(world, builder, setup.seed);
+  if (!simulation.trouble().empty()) return std::unexpected(simulation.trouble());
+  server::RunReport report = simulation_report(simulation, builder, setup.seed);
   transport::Digest digest;
   digest.add(run.trace);
   report.trace_hash = digest.hex();

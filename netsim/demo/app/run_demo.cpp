@@ -152,7 +152,7 @@ int run_demo(const DemoOptions& plan) {
                  : "in real time over UDP on loopback: a server, two clients and the network simulator");
 
   Progress progress(plan.runs, plan.quick ? 60 : 1);
-  const RunObserver watch{[&](double session_s) { progress.at(session_s); }, &stop};
+  const RunObserver observer{[&](double session_s) { progress.at(session_s); }, &stop};
   const char* search_path = std::getenv("PATH");
   const std::string prefix =
       program_prefix(places.programs, fs::current_path(), search_path == nullptr ? "" : search_path);
@@ -160,7 +160,7 @@ int run_demo(const DemoOptions& plan) {
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const RunPlan& run = *plan.runs[k];
     progress.begin(k);
-    const auto raw = plan.quick ? quick_run(run, watch) : live_run(run, places, watch);
+    const auto raw = plan.quick ? quick_run(run, observer) : live_run(run, places, observer);
     if (!raw) {
       progress.clear();
       if (stop) {

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/base/milliseconds.h"
 #include "common/base/unit_suffix.h"
 #include "common/io/command_line.h"
 #include "netsim/profiles/app/capacity_file.h"
@@ -22,8 +23,6 @@ namespace {
 
 constexpr std::uintmax_t kFileMax = 64U << 20;
 constexpr std::array kNumbers{"--delay", "--jitter", "--loss", "--duplicate", "--reorder", "--outage"};
-
-Duration milliseconds(double ms) { return Duration{std::llround(ms * 1e6)}; }
 
 /// Returns whether a name denotes a file: an existing file, or a name with a slash or a dot.
 bool is_file(const std::string& name) {
@@ -119,7 +118,7 @@ std::expected<NetworkChoice, std::string> named_network(const std::string& name_
     return choice;
   }
   if (!name_or_file.ends_with(".csv")) return from_profile(parse_profile(*text, name_or_file), name_or_file, capacity);
-  const auto recorded = parse_network_csv(*text, name_or_file, milliseconds(trace_interval_ms));
+  const auto recorded = parse_network_csv(*text, name_or_file, from_milliseconds(trace_interval_ms));
   if (!recorded) return std::unexpected(lines_of(recorded.error()));
   choice.link = recorded->link;
   std::ostringstream words;
@@ -245,8 +244,8 @@ std::expected<NetworkChoice, std::string> NetworkOptions::network() const {
     if (!outage) return std::unexpected(outage.error());
     outages.push_back(*outage);
   }
-  const LinkSpec numbers = link_from({.delay = milliseconds(delay_ms_),
-                                      .jitter = milliseconds(jitter_ms_),
+  const LinkSpec numbers = link_from({.delay = from_milliseconds(delay_ms_),
+                                      .jitter = from_milliseconds(jitter_ms_),
                                       .loss = loss_percent_ / 100,
                                       .duplicate = duplicate_percent_ / 100,
                                       .reorder = reorder_percent_ / 100,

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/base/format.h"
+#include "common/base/milliseconds.h"
 #include "netsim/proxy/app/proxy_report.h"
 
 namespace tandem::netsim {
@@ -38,9 +39,8 @@ std::string missing(const std::vector<std::uint64_t>& asked, const std::set<std:
 }
 
 void apply(const ControlRequest& request, const std::optional<LinkSpec>& network, LinkSpec& link) {
-  const auto ms = [](double value) { return Duration{std::llround(value * 1e6)}; };
-  const LinkSpec numbers = link_from({.delay = ms(request.delay_ms.value_or(0)),
-                                      .jitter = ms(request.jitter_ms.value_or(0)),
+  const LinkSpec numbers = link_from({.delay = from_milliseconds(request.delay_ms.value_or(0)),
+                                      .jitter = from_milliseconds(request.jitter_ms.value_or(0)),
                                       .loss = request.loss_percent.value_or(0) / 100,
                                       .duplicate = request.duplicate_percent.value_or(0) / 100,
                                       .reorder = request.reorder_percent.value_or(0) / 100,

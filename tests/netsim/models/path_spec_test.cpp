@@ -61,6 +61,12 @@ TEST(PathSpec, ContradictionsAreNamed) {
   EXPECT_EQ(keys(trace), "trace.steps[1].delay trace.steps[2].at trace.period ");
 }
 
+TEST(PathSpec, RejectsANegativeJitterOrDelayOfASimpleNetwork) {
+  EXPECT_EQ(keys(link_from({.jitter = -1ms}).up), "body.high body.low ");
+  EXPECT_EQ(keys(link_from({.delay = -1ms}).up), "floor ");
+  EXPECT_EQ(keys(link_from({.delay = 1ms, .jitter = 1ms}).up), "");
+}
+
 TEST(PathSpec, RejectsSpecsThatCannotBeSimulated) {
   PathSpec bad;
   bad.loss.probability = 1.5;
