@@ -41,6 +41,19 @@ fs::path package(const std::string& name) {
   return {};
 }
 
+/// Checks the package of C++ libraries for other projects.
+void check_development_package() {
+  const fs::path deb = package("tandem-dev"), root = kPlace / "root-tandem-dev";
+  ASSERT_EQ(shell("dpkg-deb -x " + quoted(deb) + " " + quoted(root)).code, 0);
+  for (const char* file : {"usr/include/tandem/client.h", "usr/include/tandem/control.h", "usr/lib/libtandem_netsim.a",
+                           "usr/lib/cmake/Tandem/TandemConfig.cmake", "usr/share/doc/tandem-dev/copyright"})
+    EXPECT_TRUE(fs::exists(root / file)) << file << "\n" << shell("dpkg-deb -c " + quoted(deb)).text;
+  EXPECT_FALSE(fs::exists(root / "usr/bin")) << "the programs have packages of their own";
+  const std::string depends = shell("dpkg-deb -f " + quoted(deb) + " Depends").text;
+  for (const char* needed : {"libeigen3-dev", "libprotobuf-dev", "libspdlog-dev", "libssl-dev", "libsodium-dev"})
+    EXPECT_NE(depends.find(needed), std::string::npos) << needed << " is not in " << depends;
+}
+
 TEST(DebianPackages, ContainTheirFilesAndRunFromAnUnpackedRoot) {
   if (const std::string& why = packages(); !why.empty()) GTEST_SKIP() << why;
   for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
@@ -75,6 +88,7 @@ TEST(DebianPackages, ContainTheirFilesAndRunFromAnUnpackedRoot) {
   for (const char* script : {"postinst", "prerm", "postrm"})
     EXPECT_EQ(shell("sh -n " + quoted(control / script)).code, 0) << script;
   EXPECT_TRUE(fs::exists(root / "lib/systemd/system/tandem-server.service"));
+  ASSERT_NO_FATAL_FAILURE(check_development_package());
 
   // The installed configuration, but with a state directory that this test may write.
   const fs::path state = kPlace / "state", config = kPlace / "server.textproto";
@@ -99,7 +113,7 @@ TEST(DebianPackages, PassLintian) {
     GTEST_SKIP() << "belongs to ./test --full (TANDEM_COUNTS=full), which installs lintian";
   if (!there("lintian")) GTEST_SKIP() << "lintian is not installed (./test --full installs it)";
   if (const std::string& why = packages(); !why.empty()) GTEST_SKIP() << why;
-  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim"}) {
+  for (const std::string name : {"tandem-server", "tandem-client", "tandem-netsim", "tandem-dev"}) {
     const Done judged =
         shell("lintian --allow-root --tag-display-limit 0 --fail-on error,warning " + quoted(package(name)));
     EXPECT_EQ(judged.code, 0) << judged.text;
@@ -265,11 +279,12 @@ TEST(DebianPackages, InstallOnAFreshDebian) {
   if (made.code != 0)
     GTEST_SKIP() << "debootstrap failed: " << made.text.substr(made.text.size() > 300 ? made.text.size() - 300 : 0);
   // /opt, because the systemd that boots there empties /tmp.
-  ASSERT_EQ(shell("cp " + quoted(kPlace) + "/*.deb " + quoted(root) + "/opt/ && cp /etc/apt/sources.list.d/* " +
-                  quoted(root) + "/etc/apt/sources.list.d/ 2>/dev/null; cp /etc/apt/apt.conf.d/* " + quoted(root) +
-                  "/etc/apt/apt.conf.d/ 2>/dev/null; true")
-                .code,
-            0);
+  ASSERT_EQ(
+      shell("cp " + quoted(kPlace) + "/tandem-[!d]*.deb " + quoted(root) + "/opt/ && cp /etc/apt/sources.list.d/* " +
+            quoted(root) + "/etc/apt/sources.list.d/ 2>/dev/null; cp /etc/apt/apt.conf.d/* " + quoted(root) +
+            "/etc/apt/apt.conf.d/ 2>/dev/null; true")
+          .code,
+      0);
   const std::string in = "chroot " + quoted(root) + " ";
   const Done installed = shell(in +
                                "sh -c 'export DEBIAN_FRONTEND=noninteractive; apt-get -qq update; apt-get install -y "

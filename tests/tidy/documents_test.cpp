@@ -114,6 +114,16 @@ TEST(Contributing, EveryCommandFileAndTestItNamesExists) {
   }
 }
 
+TEST(Examples, ReadmeNamesCommandsFilesAndTestsThatExist) {
+  const auto files = read_repository(kRoot);
+  const SourceFile* document = find_document(files, "tests/examples/README.md");
+  ASSERT_NE(document, nullptr);
+  const Known known = known_things(files);
+  EXPECT_TRUE(check_commands(*document, known).empty()) << to_string(check_commands(*document, known));
+  EXPECT_TRUE(check_references(*document, known, kRoot).empty())
+      << to_string(check_references(*document, known, kRoot));
+}
+
 TEST(ValidationMatrix, EveryRowNamesTestsThatExist) {
   const auto files = read_repository(kRoot);
   if (const SourceFile* document = find_document(files, "tests/netsim/validation/MATRIX.md")) {
