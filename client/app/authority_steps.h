@@ -16,7 +16,7 @@ class AuthoritySteps {
   [[nodiscard]] double base(const ClientStatus& now) const noexcept { return counts(now) ? asked_ : now.alpha; }
   /// True if `base` is the authority requested last.
   [[nodiscard]] bool counts(const ClientStatus& now) const noexcept {
-    return first_version_ && now.transfer != wire::TransferNotice::kCancelled &&
+    return first_version_ && now.transfer.notice != wire::TransferNotice::kCancelled &&
            now.authority_version - *first_version_ <= asks_;
   }
   /// Records that `own` is requested now.

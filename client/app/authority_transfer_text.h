@@ -29,8 +29,8 @@ class AuthorityTransferNotices {
                                     const std::optional<rpc::Status>& words);
 
  private:
-  std::optional<ClientStatus> untold_;
-  std::optional<double> told_at_s_;
+  std::optional<ClientStatus> pending_;
+  std::optional<double> shown_at_s_;
   std::uint32_t seen_ = 0;
 };
 

@@ -68,10 +68,10 @@ const char* to_text(Role role) noexcept {
 }
 
 std::string motors_text(const ClientStatus& s) {
-  if (s.motors_hot)
-    return s.motors_latched ? "MOTORS TOO HOT for the third time: take your hand off; once they are cool, press b"
+  if (s.motors.hot)
+    return s.motors.latched ? "MOTORS TOO HOT for the third time: take your hand off; once they are cool, press b"
                             : "MOTORS TOO HOT: take your hand off until they are cool";
-  return s.motors_latched ? "motors were too hot three times: press b" : "";
+  return s.motors.latched ? "motors were too hot three times: press b" : "";
 }
 
 std::string to_json(const ClientReport& r, const SeatSetup& setup) {
@@ -91,22 +91,25 @@ std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   j["alpha"] = number(s.alpha);
   j["beside_leader_m"] = s.offset_from_leader_m ? number(*s.offset_from_leader_m) : nlohmann::ordered_json(nullptr);
   j["effort_peak_n"] = number(s.force_peak_n);
-  j["gate"] = {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.given_after_loss_max_j)}};
-  j["motors"] = {{"too_hot", s.hot_trips},
-                 {"heat_max", s.heat_max ? number(*s.heat_max) : nlohmann::ordered_json(nullptr)}};
-  j["energy"] = {{"in_j", number(s.energy_in_j)},          {"out_j", number(s.energy_out_j)},
-                 {"dissipated_j", number(s.dissipated_j)}, {"refused_j", number(s.refused_j)},
-                 {"margin_min_j", number(s.margin_min_j)}, {"delivered_j", number(s.delivered_j)}};
-  j["link"] = {{"rtt_p50_ms", number(s.rtt_p50_ms)},
-               {"rtt_p99_ms", number(s.rtt_p99_ms)},
-               {"sent", s.sent},
-               {"accepted", s.accepted},
-               {"late", s.late_datagrams},
-               {"refused", s.refused_datagrams},
+  j["gate"] = {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.energy.given_after_loss_max_j)}};
+  j["motors"] = {{"too_hot", s.motors.hot_trips},
+                 {"heat_max", s.motors.heat_max ? number(*s.motors.heat_max) : nlohmann::ordered_json(nullptr)}};
+  j["energy"] = {{"in_j", number(s.energy.in_j)},
+                 {"out_j", number(s.energy.out_j)},
+                 {"dissipated_j", number(s.energy.dissipated_j)},
+                 {"refused_j", number(s.energy.refused_j)},
+                 {"margin_min_j", number(s.energy.margin_min_j)},
+                 {"delivered_j", number(s.energy.delivered_j)}};
+  j["link"] = {{"rtt_p50_ms", number(s.link.rtt_p50_ms)},
+               {"rtt_p99_ms", number(s.link.rtt_p99_ms)},
+               {"sent", s.link.datagrams.sent},
+               {"accepted", s.link.datagrams.accepted},
+               {"late", s.link.datagrams.late},
+               {"refused", s.link.datagrams.refused},
                {"down",
-                {{"loss_percent", number(s.down_loss_percent)},
-                 {"longest_gap_ms", number(s.down_longest_gap_ms)},
-                 {"age_p99_ms", number(s.down_age_p99_ms)}}}};
+                {{"loss_percent", number(s.link.down_loss_percent)},
+                 {"longest_gap_ms", number(s.link.down_longest_gap_ms)},
+                 {"age_p99_ms", number(s.link.down_age_p99_ms)}}}};
   j["machine"] = {{"ticks", r.device.ticks},
                   {"late_ticks", s.late_ticks},
                   {"missed_ticks", r.device.missed},

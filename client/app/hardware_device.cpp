@@ -154,7 +154,7 @@ std::expected<std::unique_ptr<HardwareDevice>, HardwareDevice::Failure> Hardware
   if (!core->caps().force_calibrated) held->note_ += ", force scale not calibrated: limited to a tenth";
   held->device_ = std::make_unique<hal::DeviceThread>(std::move(core), kPeriod,
                                                       held->watchdog_ ? &held->watchdog_->heartbeat() : nullptr);
-  if (auto started = held->device_->start(held->proxy_); !started) return failed(started.error(), false);
+  if (auto started = held->device_->start(held->client_); !started) return failed(started.error(), false);
   if (auto homed = held->wait_until_homed(signals, line); !homed) return std::unexpected(homed.error());
   return held;
 }
@@ -167,7 +167,7 @@ std::expected<void, HardwareDevice::Failure> HardwareDevice::wait_until_homed(in
   const Time begin = io::monotonic_now();
   bool asked = false;
   while (device_->phase() != hal::Phase::kReady) {
-    if (proxy_.was_lost) return std::unexpected(Failure{.reason = note_ + ": unplugged while it was being homed"});
+    if (client_.was_lost()) return std::unexpected(Failure{.reason = note_ + ": unplugged while it was being homed"});
     if (device_->phase() == hal::Phase::kFault)
       return std::unexpected(
           Failure{.reason = note_ + ": stopped answering while it was being homed; unplug it, plug it in, try again"});
@@ -186,12 +186,5 @@ hal::DeviceCaps HardwareDevice::caps() const {
 }
 
 bool HardwareDevice::watchdog_lost() { return watchdog_ && !watchdog_->alive(); }
-
-void HardwareDevice::attach(hal::ServoClient& client) {
-  if (device_->caps().input == hal::InputKind::kRate)
-    rate_adapter_ = std::make_unique<RateControlAdapter>(client, device_->caps());
-  proxy_.to.store(rate_adapter_ ? static_cast<hal::ServoClient*>(rate_adapter_.get()) : &client,
-                  std::memory_order_release);
-}
 
 }  // namespace tandem::client

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <expected>
 #include <memory>
 #include <optional>
@@ -8,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "client/seat/rate_control_adapter.h"
+#include "client/app/servo_client_switch.h"
 #include "common/io/terminal.h"
 #include "hal/backends/backend.h"
 #include "hal/core/device.h"
@@ -63,34 +62,19 @@ class HardwareDevice {
   [[nodiscard]] bool watchdog_lost();
 
   /// Calls `client` with the device's own states from now on.
-  void observe(hal::ServoClient& client) { proxy_.to.store(&client, std::memory_order_release); }
+  void observe(hal::ServoClient& client) { client_.connect(client); }
   /// Calls `client` with the states that a seat sees, after the rate control adapter if there is one.
-  /// @param client  must outlive `device().close()`
-  void attach(hal::ServoClient& client);
+  /// @param client  must outlive `device().close()`  @pre `observe` was not called
+  void attach(hal::ServoClient& client) { client_.connect_seat(client, device_->caps()); }
 
  private:
-  /// Forwards to `to`; returns no force while `to` is null.
-  struct ServoClientProxy final : hal::ServoClient {
-    std::atomic<hal::ServoClient*> to{nullptr};
-    std::atomic<bool> was_lost{false};
-    hal::Command tick(const hal::State& state) noexcept override {
-      hal::ServoClient* client = to.load(std::memory_order_acquire);
-      return client != nullptr ? client->tick(state) : hal::Command{};
-    }
-    void lost(hal::Errc why) noexcept override {
-      was_lost = true;
-      if (hal::ServoClient* client = to.load(std::memory_order_acquire)) client->lost(why);
-    }
-  };
-
   HardwareDevice() = default;
   [[nodiscard]] std::expected<void, Failure> wait_until_homed(int signals, io::StatusLine& line);
 
   std::shared_ptr<void> bus_;
   std::unique_ptr<hal::WatchdogProcess> watchdog_;  ///< must outlive device_: ends cleanly after the device is closed
-  ServoClientProxy proxy_;
+  ServoClientSwitch client_;
   std::unique_ptr<hal::Device> device_;
-  std::unique_ptr<RateControlAdapter> rate_adapter_;
   std::optional<hal::SignFile> signs_;
   std::string note_, library_, no_force_;
 };

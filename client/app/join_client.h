@@ -64,10 +64,10 @@ struct JoinError {
 /// Joins a seat, or starts a link test, over a TLS connection. Both ends prove their keys. The client presents a ticket
 /// or a code, or on the server's own computer a ticket signed with the key in the user's runtime directory. The
 /// datagram secrets are exported from the connection. Blocks until the reply.
-[[nodiscard]] std::expected<JoinedSeat, JoinError> join_seat(const JoinOptions& asking);
+[[nodiscard]] std::expected<JoinedSeat, JoinError> join_seat(const JoinOptions& options);
 
-/// Joins without a seat, by a ticket. @pre asking.console, no asking.seat
-[[nodiscard]] std::expected<Console, JoinError> join_console(const JoinOptions& asking);
+/// Joins without a seat, by a ticket. @pre options.console, no options.seat
+[[nodiscard]] std::expected<Console, JoinError> join_console(const JoinOptions& options);
 
 /// Credentials and facts that a client needs to resume its seat.
 struct ResumeState {
@@ -90,21 +90,21 @@ struct ResumeError {
   Duration wait{};     ///< kAgain: shortest wait before the next attempt
 };
 /// Tries once to resume a seat over a new TLS connection. Accepts only the same server, with the same or a higher
-/// epoch. Each secret gets one connection; `asking.timeout` limits each connect and each reply. A readable
-/// `asking.signals` file cancels the attempt.
+/// epoch. Each secret gets one connection; `options.timeout` limits each connect and each reply. A readable
+/// `options.signals` file cancels the attempt.
 /// @param wanted  called just before the request, because the request invalidates the old connection; false cancels
-[[nodiscard]] std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& asking, const ResumeState& own,
+[[nodiscard]] std::expected<JoinedSeat, ResumeError> resume_seat(const JoinOptions& options, const ResumeState& own,
                                                                  const std::function<bool()>& wanted);
 
 /// Returns `text` with the options of this connection appended to each `tandem-client control` and `enroll` command in
 /// it, so that the user can paste the command.
 /// @param session    name of the joined session; empty: none
 /// @param by_ticket  true: the commands also need a ticket file
-[[nodiscard]] std::string complete_commands(std::string text, const JoinOptions& asking,
+[[nodiscard]] std::string complete_commands(std::string text, const JoinOptions& options,
                                             const std::string& session = {}, bool by_ticket = false);
 
 /// Returns the open sessions of the server.
-[[nodiscard]] std::expected<rpc::SessionList, JoinError> list_sessions(const JoinOptions& asking);
+[[nodiscard]] std::expected<rpc::SessionList, JoinError> list_sessions(const JoinOptions& options);
 
 /// Sends CLOSE for a seat that was just joined and will not be used, so that other clients can join it at once.
 void release_seat(const io::UdpSocket& socket, const JoinedSeat& given, const hal::DeviceCaps& caps);

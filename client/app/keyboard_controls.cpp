@@ -15,9 +15,9 @@ constexpr double kHandStep = 0.005;  // [m] per key
 constexpr double kHandReach = 0.06;  // [m] largest distance from the start, per axis
 }  // namespace
 
-KeyboardControls::KeyboardControls(SeatRunner& pump, const SeatSetup& setup,
+KeyboardControls::KeyboardControls(UserCommands& commands, const SeatSetup& setup,
                                    std::shared_ptr<hal::sim::KeyboardTarget> keyboard)
-    : pump_(&pump), setup_(&setup), keyboard_(std::move(keyboard)) {
+    : commands_(&commands), setup_(&setup), keyboard_(std::move(keyboard)) {
   if (keyboard_) home_ = keyboard_->get();
   // Authority that the user gives up goes in equal shares to all other masters that may have authority.
   double drivers = 0;
@@ -51,7 +51,7 @@ KeyboardControls::KeyResult KeyboardControls::on_key(const std::string& key, con
   if (key == "?" || key == "h") return {false, help()};
   if (key == "b") return {false, reset(status)};
   if (key == "s" || key == " ") {
-    pump_->stop();
+    commands_->stop();
     return {false, status.local_stop ? "s: your hand is stopped already; r resumes" : ""};
   }
   if (key == "S") return {false, stop_all(status)};
@@ -68,10 +68,10 @@ KeyboardControls::KeyResult KeyboardControls::on_key(const std::string& key, con
 }
 
 std::string KeyboardControls::reset(const ClientStatus& s) {
-  const bool waits = s.gate == wire::GateState::kLatched || s.gate == wire::GateState::kFault || s.motors_latched;
-  pump_->request_gate_reset();
+  const bool waits = s.gate == wire::GateState::kLatched || s.gate == wire::GateState::kFault || s.motors.latched;
+  commands_->reset_gate();
   return waits          ? ""
-         : s.motors_hot ? "b: the motors are too hot; take your hand off until they are cool"
+         : s.motors.hot ? "b: the motors are too hot; take your hand off until they are cool"
                         : "b: nothing is latched off, there is nothing to clear";
 }
 
@@ -79,13 +79,13 @@ std::string KeyboardControls::stop_all(const ClientStatus& s) {
   if (setup_->seat.role == Role::kObserver)
     return "S: an observer may not stop the session; an instructor or operator may";
   if (setup_->seat.kind == SeatKind::kSlave) return "S: a slave's seat may not stop the session; s stops this device";
-  pump_->stop_all();
+  commands_->stop_all();
   return s.session == wire::SessionState::kStopped ? "S: the session is stopped already" : "";
 }
 
 /// Requests a resume. If the server would reject it, returns the reason.
 std::string KeyboardControls::resume(const ClientStatus& s, const rpc::Status* words) {
-  pump_->resume();
+  commands_->resume();
   if (s.local_stop) return {};
   const bool leads = setup_->seat.role == Role::kInstructor && setup_->seat.kind == SeatKind::kMaster;
   const bool paused = s.session == wire::SessionState::kPaused, stopped = s.session == wire::SessionState::kStopped;
@@ -125,16 +125,16 @@ std::string KeyboardControls::change_authority(const std::string& key, const Cli
 std::string KeyboardControls::set_authority(double own, const ClientStatus& status) {
   // Rounds to the grid of 0.05, because repeated addition would not return to exactly 1.
   own = std::round(std::clamp(own, 0.0, 1.0) / kAlphaStep) * kAlphaStep;
-  const bool anybody = std::ranges::any_of(others_, [](double share) { return share > 0; });
-  const bool nobody_else = !anybody && own < 1;
-  if (!anybody) own = 1;
+  const bool alone = std::ranges::none_of(others_, [](double share) { return share > 0; });
+  const bool stays = alone && own < 1;
+  if (alone) own = 1;
   const bool same = steps_.counts(status) && own == steps_.base(status);
   if (!same) steps_.ask(own, status);
   control::MasterArray alpha{};
   for (std::size_t i = 0; i < setup_->masters.size(); ++i)
     alpha[i] = i == setup_->own_master ? own : (1 - own) * others_[i];
-  pump_->request_authority(alpha);
-  if (nobody_else) return "no other seat may have authority: it stays with you";
+  commands_->change_authority(alpha);
+  if (stays) return "no other seat may have authority: it stays with you";
   return !same      ? ""
          : own >= 1 ? "you have all authority already"
          : own <= 0 ? "you gave all authority away already"
@@ -149,8 +149,8 @@ std::string KeyboardControls::move_hand(int axis, double distance, const ClientS
   if (target[axis] == before)
     return format("the keyboard's hand reaches %.0f mm from its start, no farther", 1e3 * kHandReach);
   const bool follows = status.session != wire::SessionState::kRunning || status.alpha >= 0.5;
-  const bool told = std::exchange(told_of_other_leader_, !follows);
-  return follows || told ? "" : "another hand leads: your keys pull at the tool, and it hardly follows you";
+  const bool reported = std::exchange(other_leader_reported_, !follows);
+  return follows || reported ? "" : "another hand leads: your keys pull at the tool, and it hardly follows you";
 }
 
 }  // namespace tandem::client

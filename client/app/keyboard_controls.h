@@ -6,7 +6,8 @@
 #include <string>
 
 #include "client/app/authority_steps.h"
-#include "client/app/seat_runner.h"
+#include "client/app/client_status.h"
+#include "client/app/user_commands.h"
 #include "hal/sim/hand.h"
 #include "proto/rpc/rpc_messages.h"
 
@@ -17,7 +18,7 @@ namespace tandem::client {
 class KeyboardControls {
  public:
   /// @param keyboard  target of a simulated device that keys move; null for all other devices
-  KeyboardControls(SeatRunner& pump, const SeatSetup& setup, std::shared_ptr<hal::sim::KeyboardTarget> keyboard);
+  KeyboardControls(UserCommands& commands, const SeatSetup& setup, std::shared_ptr<hal::sim::KeyboardTarget> keyboard);
 
   /// Returns the effect of all keys in one line.
   [[nodiscard]] std::string help() const;
@@ -43,13 +44,13 @@ class KeyboardControls {
   [[nodiscard]] std::string set_authority(double own, const ClientStatus& status);
   [[nodiscard]] std::string move_hand(int axis, double distance, const ClientStatus& status);
 
-  SeatRunner* pump_;
+  UserCommands* commands_;
   const SeatSetup* setup_;
   std::shared_ptr<hal::sim::KeyboardTarget> keyboard_;
   hal::Vec3 home_ = hal::Vec3::Zero();
   AuthoritySteps steps_;
-  bool told_of_other_leader_ = false;  ///< reported since the last motion by keys
-  control::MasterArray others_{};      ///< distribution of the remaining authority over the other masters, sum 1, own 0
+  bool other_leader_reported_ = false;  ///< since the last motion by keys
+  control::MasterArray others_{};  ///< distribution of the remaining authority over the other masters, sum 1, own 0
 };
 
 }  // namespace tandem::client

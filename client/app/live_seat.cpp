@@ -49,10 +49,10 @@ bool LiveSeat::wait_until_closed(Duration timeout) const {
   return ::poll(&closed, 1, static_cast<int>(timeout / std::chrono::milliseconds(1))) > 0;
 }
 
-void LiveSeat::leave() noexcept { parts_->runner.leave(); }
-void LiveSeat::stop() noexcept { parts_->runner.stop(); }
-void LiveSeat::stop_all() noexcept { parts_->runner.stop_all(); }
-void LiveSeat::resume() noexcept { parts_->runner.resume(); }
-void LiveSeat::reset_gate() noexcept { parts_->runner.request_gate_reset(); }
+void LiveSeat::leave() noexcept { parts_->runner.commands().leave(); }
+void LiveSeat::stop() noexcept { parts_->runner.commands().stop(); }
+void LiveSeat::stop_all() noexcept { parts_->runner.commands().stop_all(); }
+void LiveSeat::resume() noexcept { parts_->runner.commands().resume(); }
+void LiveSeat::reset_gate() noexcept { parts_->runner.commands().reset_gate(); }
 
 }  // namespace tandem::client

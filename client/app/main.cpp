@@ -1,17 +1,7 @@
-#include <CLI/CLI.hpp>
-#include <functional>
-
-#include "client/app/commands/calibrate_command.h"
-#include "client/app/commands/control_command.h"
-#include "client/app/commands/doctor_command.h"
-#include "client/app/commands/enroll_command.h"
-#include "client/app/commands/join_command.h"
-#include "client/app/commands/link_test_command.h"
-#include "client/app/commands/sessions_command.h"
-#include "client/app/commands/try_command.h"
+#include "client/app/commands/client_commands.h"
+#include "common/io/command_line.h"
 #include "common/io/log.h"
 #include "common/io/process_hardening.h"
-#include "common/io/program.h"
 
 #ifndef TANDEM_VERSION
 #define TANDEM_VERSION "unknown"
@@ -19,27 +9,25 @@
 
 int main(int argc, char** argv) {
   tandem::io::harden_process();
-  CLI::App app{
+  tandem::io::Program program(
+      "tandem-client", TANDEM_VERSION,
       "tandem-client attaches a haptic device to a session of tandem-server: your hand and the hands of others hold "
       "the same\n"
-      "tool. The force that reaches your hand is limited here, whatever the network or the server does.",
-      "tandem-client"};
-  app.set_version_flag("--version", "tandem-client " TANDEM_VERSION);
-  app.require_subcommand(1);
-  app.footer(
+      "tool. The force that reaches your hand is limited here, whatever the network or the server does.");
+  const tandem::io::Command root = program.root();
+  root.footer(
       "`tandem-client try --help`, `join --help`, `doctor --help`, `link-test --help`, `control --help` and `calibrate "
       "--help` show more.\n"
       "Exit: 0 done, 1 trouble while running, 2 wrong arguments or files. Not a medical device.");
 
-  std::function<int()> action;
-  tandem::client::add_try_command(app, action);
-  tandem::client::add_join_command(app, action);
-  tandem::client::add_doctor_command(app, action);
-  tandem::client::add_link_test_command(app, action);
-  tandem::client::add_calibrate_command(app, action);
-  tandem::client::add_enroll_command(app, action);
-  tandem::client::add_sessions_command(app, action);
-  tandem::client::add_control_command(app, action);
+  tandem::client::add_try_command(root);
+  tandem::client::add_join_command(root);
+  tandem::client::add_doctor_command(root);
+  tandem::client::add_link_test_command(root);
+  tandem::client::add_calibrate_command(root);
+  tandem::client::add_enroll_command(root);
+  tandem::client::add_sessions_command(root);
+  tandem::client::add_control_command(root);
   tandem::io::log_to_stderr("tandem-client");
-  return tandem::io::run_program(app, action, argc, argv);
+  return program.run({argv + 1, argv + argc});
 }

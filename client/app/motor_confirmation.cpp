@@ -12,6 +12,7 @@
 #include "client/diagnostics/motor_check.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/exit_code.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
 #include "hal/core/driver_guard.h"
@@ -21,12 +22,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kTrouble = 1, kWrong = 2;
 constexpr Duration kCheckLimit = 90s;  ///< longer than the check of all motors can take
 constexpr Duration kOrderLife =
     3ms;  ///< lifetime of a command, so that a stall of this program does not extend a pulse
 
-int fail(const std::string& why, int code = kTrouble) {
+int fail(const std::string& why, int code = io::kExitTrouble) {
   io::print_formatted(stderr, "tandem-client doctor: %s\n", why.c_str());
   return code;
 }
@@ -86,13 +86,13 @@ int confirm_motors(const std::string& device, const std::string& state) {
   const io::Fd signals = io::make_signalfd();
   io::StatusLine line{false};
   auto held = HardwareDevice::open(device, signals.get(), line, {.state = state, .being_confirmed = true});
-  if (!held) return fail(held.error().reason, held.error().invalid_spec ? kWrong : kTrouble);
+  if (!held) return fail(held.error().reason, held.error().invalid_spec ? io::kExitUsage : io::kExitTrouble);
   const auto& signs = (*held)->signs();
   if (!signs)
     return fail(
         "--confirm-motors: there is nothing to confirm: the motor directions of this device do not come from a file, "
         "or its motors are disabled (woodenhaptics needs enable_motors=yes)",
-        kWrong);
+        io::kExitUsage);
   hal::Device& arm = (*held)->device();
   if (!user_confirms(question(*signs, hal::peak_of(arm.caps())), signals.get())) {
     const std::string by{io::pending_signal()};
@@ -127,7 +127,7 @@ int confirm_motors(const std::string& device, const std::string& state) {
   } else {
     io::print_formatted(stdout, "Not confirmed: this device gives no force with this file.\n");
   }
-  return right ? 0 : kTrouble;
+  return right ? 0 : io::kExitTrouble;
 }
 
 }  // namespace tandem::client

@@ -1,7 +1,6 @@
 #include "client/app/reconnector.h"
 
 #include <poll.h>
-#include <sys/eventfd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -33,45 +32,38 @@ bool same_host(const io::SocketAddress& a, const io::SocketAddress& b) {
   return x.substr(0, x.rfind(':')) == y.substr(0, y.rfind(':'));
 }
 
-void raise(const io::Fd& event) {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
-}
-
 }  // namespace
 
 Duration initial_backoff() { return draw(kBefore, kBeforeSpread); }
 
-Reconnector::Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, const SeatRunner& pump,
+Reconnector::Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, const SeatRunner& runner,
                          const io::UdpSocket& kept)
     : options_(std::move(asking)),
       resume_state_(std::move(own)),
       seat_(&seat),
-      pump_(&pump),
-      socket_(&kept),
-      cancel_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      done_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+      runner_(&runner),
+      socket_(&kept) {
   options_.signals = cancel_.get();
   thread_ = std::thread([this] { work(); });
 }
 
 Reconnector::~Reconnector() {
-  if (!done()) raise(cancel_);  // once done, the signal would disturb the connection in the result
+  if (!done()) cancel_.signal();  // once done, the signal would disturb the connection in the result
   thread_.join();
   if (result_ && *result_ && (*result_)->swap)
     release_seat((*result_)->swap->socket, (*result_)->joined, options_.caps);
 }
 
 void Reconnector::work() {
-  Duration patience = kTimeoutFirst;
+  Duration timeout = kTimeoutFirst;
   while (true) {
     const Time began = io::monotonic_now();
-    auto back = attempt(patience);
+    auto back = attempt(timeout);
     if (back || back.error().kind != ResumeError::Kind::kAgain) {
       result_ = std::move(back);
       break;
     }
-    if (io::monotonic_now() - began >= patience) patience = std::min(2 * patience, kTimeoutMax);
+    if (io::monotonic_now() - began >= timeout) timeout = std::min(2 * timeout, kTimeoutMax);
     const Duration wait = std::max(back.error().wait, draw(kAgain, kAgainSpread));
     pollfd cancelled{cancel_.get(), POLLIN, 0};
     if (poll(&cancelled, 1, static_cast<int>(wait / 1ms)) > 0) {
@@ -80,13 +72,13 @@ void Reconnector::work() {
     }
   }
   done_.store(true, std::memory_order_release);
-  raise(done_event_);
+  done_event_.signal();
 }
 
-std::expected<Reconnector::Resumed, ResumeError> Reconnector::attempt(Duration patience) {
-  options_.timeout = patience;
+std::expected<Reconnector::Resumed, ResumeError> Reconnector::attempt(Duration timeout) {
+  options_.timeout = timeout;
   auto given = resume_seat(options_, resume_state_, [this] {
-    const ClientStatus now = pump_->status();
+    const ClientStatus now = runner_->status();
     return now.closed || now.silence_s > kSilenceMax;
   });
   if (!given) return std::unexpected(given.error());
@@ -96,9 +88,8 @@ std::expected<Reconnector::Resumed, ResumeError> Reconnector::attempt(Duration p
   if (!socket) return std::unexpected(ResumeError{ResumeError::Kind::kAgain, socket.error(), {}});
   if (same_host(socket->local, socket_->local))
     if (auto again = io::duplicate(*socket_); again.fd.open()) *socket = std::move(again);
-  auto handover = std::make_unique<SeatRunner::ConnectionSwap>(
-      SeatRunner::ConnectionSwap{std::move(*socket), seat_->prepare(given->link)});
-  return Resumed{std::move(*given), std::move(handover)};
+  auto swap = std::make_unique<ConnectionSwap>(std::move(*socket), seat_->prepare(given->link));
+  return Resumed{std::move(*given), std::move(swap)};
 }
 
 }  // namespace tandem::client

@@ -8,6 +8,7 @@
 
 #include "client/app/join_client.h"
 #include "client/app/seat_runner.h"
+#include "common/io/event_fd.h"
 #include "common/io/fd.h"
 
 namespace tandem::client {
@@ -19,10 +20,11 @@ class Reconnector {
  public:
   /// Starts the thread.
   /// @param asking      options of the join; the Reconnector sets its own timeout and signals
-  /// @param seat, pump  must outlive this object
+  /// @param seat, runner  must outlive this object
   /// @param kept        the socket in use. It is reused while this host has the same address, so that a NAT or the
   ///                    netsim proxy recognises the client.
-  Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, const SeatRunner& pump, const io::UdpSocket& kept);
+  Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, const SeatRunner& runner,
+              const io::UdpSocket& kept);
   /// Cancels the attempt. A seat that was resumed but not taken is released at the server.
   ~Reconnector();
   Reconnector(const Reconnector&) = delete;
@@ -33,21 +35,21 @@ class Reconnector {
   [[nodiscard]] int done_fd() const noexcept { return done_event_.get(); }
   struct Resumed {
     JoinedSeat joined;
-    std::unique_ptr<SeatRunner::ConnectionSwap> swap;
+    std::unique_ptr<ConnectionSwap> swap;
   };
   /// Returns the result. Call once. @pre done()
   [[nodiscard]] std::expected<Resumed, ResumeError> take() { return std::move(*result_); }
 
  private:
   void work();
-  [[nodiscard]] std::expected<Resumed, ResumeError> attempt(Duration patience);
+  [[nodiscard]] std::expected<Resumed, ResumeError> attempt(Duration timeout);
 
   JoinOptions options_;
   ResumeState resume_state_;
   const Seat* seat_;
-  const SeatRunner* pump_;
+  const SeatRunner* runner_;
   const io::UdpSocket* socket_;
-  io::Fd cancel_, done_event_;
+  io::EventFd cancel_, done_event_;
   std::optional<std::expected<Resumed, ResumeError>> result_;
   std::atomic<bool> done_{false};
   std::thread thread_;

@@ -1,7 +1,5 @@
 #include "client/app/run_seat.h"
 
-#include <spdlog/spdlog.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -16,6 +14,8 @@
 #include "client/seat/device_facts.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/exit_code.h"
+#include "common/io/log.h"
 #include "common/io/output_file.h"
 #include "common/io/realtime.h"
 #include "common/io/signals.h"
@@ -26,19 +26,17 @@
 namespace tandem::client {
 namespace {
 
-constexpr int kTrouble = 1;  // exit code: error while running
-constexpr int kWrong = 2;    // exit code: invalid arguments or files
-
-int trouble(const std::string& what, int code = kTrouble) {
-  spdlog::error("join: {}", what);
+int trouble(const std::string& what, int code = io::kExitTrouble) {
+  io::log(io::Level::kError, "join: " + what);
   return code;
 }
 
 /// Reports a failed join in the log and in the JSON report. @return `code`
-int not_attached(const SeatOptions& plan, const std::string& why, int code = kTrouble) {
-  spdlog::error("join: {}", why);
+int not_attached(const SeatOptions& plan, const std::string& why, int code = io::kExitTrouble) {
+  io::log(io::Level::kError, "join: " + why);
   io::OutputFile json;
-  if (const auto problem = json.open(plan.json, true); !problem.empty()) return trouble("--json: " + problem, kWrong);
+  if (const auto problem = json.open(plan.json, true); !problem.empty())
+    return trouble("--json: " + problem, io::kExitUsage);
   json.write(join_failure_json(plan.seat, io::to_text(plan.server), plan.device, why));
   if (const auto problem = json.close(); !problem.empty()) return trouble(problem);
   return code;
@@ -78,7 +76,7 @@ int run_seat(const SeatOptions& plan) {
     auto taken = HardwareDevice::open(plan.device, signals.get(), line, {.state = plan.state});
     if (!taken)
       return not_attached(plan, (taken.error().interrupted ? "" : "--device: ") + taken.error().reason,
-                          taken.error().invalid_spec ? kWrong : kTrouble);
+                          taken.error().invalid_spec ? io::kExitUsage : io::kExitTrouble);
     held = std::move(*taken);
   }
   const hal::DeviceCaps asking = held ? held->caps() : plan.caps;
@@ -100,33 +98,34 @@ int run_seat(const SeatOptions& plan) {
     if (setup.seat.role != Role::kInstructor || setup.seat.kind != SeatKind::kMaster)
       return refuse("--alpha-script: only the INSTRUCTOR moves authority, and " + setup.seat.name + " is " +
                         to_text(setup.seat.role) + "; give the script to the instructor's client",
-                    kTrouble);
+                    io::kExitTrouble);
     auto changes = plan.script->for_session(setup.masters, setup.driver_mask);
-    if (!changes) return refuse("--alpha-script: " + changes.error(), kWrong);
+    if (!changes) return refuse("--alpha-script: " + changes.error(), io::kExitUsage);
     script = std::move(*changes);
   }
   hal::LiveSim live;
   if (!held) {
     auto opened = hal::open_sim_device(plan.device, setup.seat.device, setup.seat.hand, setup.seat.environment,
                                        io::monotonic_now());
-    if (!opened) return refuse("--device: " + opened.error().message, kWrong);
+    if (!opened) return refuse("--device: " + opened.error().message, io::kExitUsage);
     live = hal::make_live(std::move(*opened), from_seconds(1.0 / setup.tick_hz));
   }
   hal::Device& device = held ? held->device() : *live.device;
   const std::string note = held ? held->note() : live.note;
   const hal::DeviceCaps caps = held ? held->caps() : device.caps();
   if (const std::string why = unfit(setup, caps, held != nullptr); !why.empty())
-    return refuse("the device does not fit this scene: " + why, kTrouble);
+    return refuse("the device does not fit this scene: " + why, io::kExitTrouble);
 
   io::OutputFile json, trace;
-  if (const auto problem = json.open(plan.json, true); !problem.empty()) return refuse("--json: " + problem, kWrong);
+  if (const auto problem = json.open(plan.json, true); !problem.empty())
+    return refuse("--json: " + problem, io::kExitUsage);
   if (const auto problem = trace.open(plan.trace, false); !problem.empty())
-    return refuse("--trace: " + problem, kWrong);
+    return refuse("--trace: " + problem, io::kExitUsage);
   std::optional<SampleTrace> writer;
   if (trace.is_open()) writer.emplace(trace, caps.joints, caps.prismatic);
 
   if (held) {
-    if (auto ok = device.enable(); !ok) return refuse("--device: " + ok.error().message, kTrouble);
+    if (auto ok = device.enable(); !ok) return refuse("--device: " + ok.error().message, io::kExitTrouble);
   }
   line.note("seat " + setup.seat.name + " at " + server + ", " + note);
   if (const std::string softer =
@@ -135,22 +134,22 @@ int run_seat(const SeatOptions& plan) {
     line.note(softer);
   Seat seat{setup, caps, given->link};
   io::UdpSocket kept = io::duplicate(*socket);
-  const auto pump = std::make_unique<SeatRunner>(std::move(*socket), seat, live.sim, std::move(script),
-                                                 writer ? &writer->queue() : nullptr,
-                                                 held ? HardwareDevice::kPeriod : Duration::zero());
+  const auto runner = std::make_unique<SeatRunner>(std::move(*socket), seat, live.sim, std::move(script),
+                                                   writer ? &writer->queue() : nullptr,
+                                                   held ? HardwareDevice::kPeriod : Duration::zero());
   const bool by_keys = live.sim != nullptr && live.sim->hand().model() == HandModel::kKeyboard;
-  KeyboardControls person{*pump, setup, by_keys ? live.sim->hand().keyboard() : nullptr};
+  KeyboardControls keyboard{runner->commands(), setup, by_keys ? live.sim->hand().keyboard() : nullptr};
   const io::CpuLatencyRequest awake;
   const bool memory = io::lock_memory();
   if (held) {
-    held->attach(*pump);  // the device calls it until `device.close()`
+    held->attach(*runner);  // the device calls it until `device.close()`
   } else {
-    if (auto ok = device.start(*pump); !ok) return trouble(ok.error().message);
+    if (auto ok = device.start(*runner); !ok) return trouble(ok.error().message);
     if (auto ok = device.enable(); !ok) return trouble(ok.error().message);
   }
 
   const Time begin = io::monotonic_now();
-  SeatSupervisor vigil{{plan, wish, *given, seat, *pump, person, device, held.get(), signals.get(), line},
+  SeatSupervisor vigil{{plan, wish, *given, seat, *runner, keyboard, device, held.get(), signals.get(), line},
                        std::move(kept)};
   const ExitReason end = vigil.run();
   ClientReport report;
@@ -163,7 +162,7 @@ int run_seat(const SeatOptions& plan) {
   report.server = server;
   report.device_note = note;
   report.end = end;
-  report.last = pump->final_status();
+  report.last = runner->final_status();
   report.device = device.stats();
   report.histograms = device.histograms();
   report.trace_dropped = writer ? writer->queue().dropped() : 0;
@@ -173,7 +172,7 @@ int run_seat(const SeatOptions& plan) {
     line.note(std::to_string(report.last.late_ticks) + " late ticks; " + notice);
   report.outage_longest_s = vigil.outage_longest_s();
   if (verdict_of(report) == SeatVerdict::kFail) {
-    spdlog::error("join: {}", vigil.exit_message(end));
+    io::log(io::Level::kError, "join: " + vigil.exit_message(end));
   } else {
     line.note(vigil.exit_message(end));
   }
@@ -183,7 +182,7 @@ int run_seat(const SeatOptions& plan) {
   json.write(to_json(report, setup));
   for (io::OutputFile* file : {&json, &trace})
     if (const auto problem = file->close(); !problem.empty()) return trouble(problem);
-  return verdict == SeatVerdict::kPass ? 0 : kTrouble;
+  return verdict == SeatVerdict::kPass ? 0 : io::kExitTrouble;
 }
 
 }  // namespace tandem::client

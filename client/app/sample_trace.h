@@ -4,7 +4,7 @@
 #include <string>
 #include <thread>
 
-#include "client/app/seat_runner.h"
+#include "client/app/sample.h"
 #include "common/io/output_file.h"
 
 namespace tandem::client {

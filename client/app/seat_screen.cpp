@@ -191,7 +191,7 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   items.push_back(state_item(s, setup, words));
   if (words && words->drain && words->drain->left_s > 0) add(format("DRAINING: %u s left", words->drain->left_s), 0);
   if (const std::string why = motors_text(s); !why.empty()) {
-    add(why, 0, s.motors_latched ? "MOTORS TOO HOT: press b" : "MOTORS TOO HOT");
+    add(why, 0, s.motors.latched ? "MOTORS TOO HOT: press b" : "MOTORS TOO HOT");
   } else if (latched) {
     add(gate_text(s), 0);
   }
@@ -207,11 +207,11 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   add(keys_text(s), 1);
   add(partners(setup, words), 1);
   if (!latched) add(gate_text(s), 1);
-  add(format("rtt %.1f ms, loss %.1f %%", s.rtt_ms, s.down_loss_percent), 1);
+  add(format("rtt %.1f ms, loss %.1f %%", s.link.rtt_ms, s.link.down_loss_percent), 1);
   if (s.gate_trips > 0) add(format("trips %u", s.gate_trips), 1);
   if (s.reconnects > 0) add(format("reconnected %u", s.reconnects), 1);
   add(format("late ticks %u", s.late_ticks), 1);
-  add(format("margin %.0f mJ", s.margin_min_j * 1e3), 1);
+  add(format("margin %.0f mJ", s.energy.margin_min_j * 1e3), 1);
   add(format("tip %.0f %.0f %.0f mm", s.x[0] * 1e3, s.x[1] * 1e3, s.x[2] * 1e3), 1);
   return items;
 }

@@ -3,7 +3,6 @@
 #include <poll.h>
 #include <sys/signalfd.h>
 
-#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -23,56 +22,49 @@ constexpr double kServerLost = seconds(kSessionTimeout);  // [s] silence after w
 constexpr double kSilenceMax = 0.5;                       // [s] silence up to which the server counts as present
 constexpr Duration kLeaveMax = 2s;                        // time for the gate to ramp out and for CLOSE to be sent
 constexpr int kPollIntervalMs = 100;
-constexpr Duration kStandstill = 400ms;  // time between two checks that shows a stall of this program
 constexpr std::size_t kSecretsKept = 2;
-constexpr Duration kBetweenKeys = 1s;
+constexpr Duration kBetweenKeyMessages = 1s;
 
-ResumeState resume_state(const JoinedSeat& given) {
-  return {given.welcome.session_id,
-          given.welcome.epoch,
-          {given.welcome.resume_secret},
-          given.setup,
-          given.server,
-          given.local};
+ResumeState resume_state(const JoinedSeat& seat) {
+  return {
+      seat.welcome.session_id, seat.welcome.epoch, {seat.welcome.resume_secret}, seat.setup, seat.server, seat.local};
 }
 
 }  // namespace
 
-SeatSupervisor::SeatSupervisor(const Context& over, io::UdpSocket socket)
-    : o_(over),
+SeatSupervisor::SeatSupervisor(const Context& context, io::UdpSocket socket)
+    : o_(context),
       socket_(std::move(socket)),
-      resume_state_(resume_state(over.given)),
-      connection_(over.given.connection),
+      resume_state_(resume_state(context.joined)),
+      connection_(context.joined.connection),
       begin_(io::monotonic_now()),
       shown_at_(begin_),
-      heard_at_(begin_),
-      checked_at_(begin_),
-      backoff_(initial_backoff()) {}
+      server_(begin_, initial_backoff()) {}
 
 void SeatSupervisor::leave(const std::string& why) {
   if (leaving_since_) return;
   o_.line.note(why);
   leaving_since_ = io::monotonic_now();
   reconnector_.reset();
-  o_.pump.leave();
+  o_.runner.commands().leave();
 }
 
 ExitReason SeatSupervisor::run() {
-  if (keys_.interactive()) o_.line.note(o_.person.help());
-  if (o_.plan.observer != nullptr) o_.plan.observer->on_joined(o_.seat.setup());
+  if (keys_.interactive()) o_.line.note(o_.keyboard.help());
+  if (o_.options.observer != nullptr) o_.options.observer->on_joined(o_.seat.setup());
   status_poller_ = std::make_unique<SessionStatusPoller>(connection_, resume_state_.session);
   while (true) {
     // poll() ignores negative file descriptors, which mark absent files.
-    pollfd files[] = {{o_.pump.finished_fd(), POLLIN, 0},
+    pollfd files[] = {{o_.runner.finished_fd(), POLLIN, 0},
                       {o_.signals, POLLIN, 0},
                       {keys_.fd(), POLLIN, 0},
                       {reconnector_ ? reconnector_->done_fd() : -1, POLLIN, 0},
                       {status_poller_ ? status_poller_->status_fd() : -1, POLLIN, 0}};
     poll(files, std::size(files), kPollIntervalMs);
-    const ClientStatus status = o_.pump.status();
+    const ClientStatus status = o_.runner.status();
     if (files[0].revents != 0) {
-      if (o_.pump.device_lost() || !server_restarts(status) || !may_reconnect()) break;
-      o_.pump.clear_finished();
+      if (o_.runner.device_lost() || !server_restarts(status) || !may_reconnect()) break;
+      o_.runner.clear_finished();
     }
     if (files[1].revents != 0) {
       const std::string by{io::pending_signal()};
@@ -84,7 +76,7 @@ ExitReason SeatSupervisor::run() {
     check_device();
     const Time now = io::monotonic_now();
     if (leaving_since_ && (status.closed || now - *leaving_since_ > kLeaveMax)) break;  // no server receives CLOSE
-    if (o_.plan.duration_s > 0 && seconds(now - begin_) > o_.plan.duration_s)
+    if (o_.options.duration_s > 0 && seconds(now - begin_) > o_.options.duration_s)
       leave("the time given by --duration is over: releasing the hand");
     if (!leaving_since_)
       if (const auto end = check_server(status)) return *end;
@@ -93,8 +85,8 @@ ExitReason SeatSupervisor::run() {
     show(status);
   }
   status_poller_.reset();  // query_removal_reason needs the connection for itself
-  if (o_.pump.device_lost()) return ExitReason::kDeviceLost;
-  const ClientStatus last = o_.pump.status();
+  if (o_.runner.device_lost()) return ExitReason::kDeviceLost;
+  const ClientStatus last = o_.runner.status();
   if (leaving_since_ || last.close_reason == wire::CloseReason::kLeaving) return ExitReason::kLeft;
   if (last.close_reason == wire::CloseReason::kRemoved || last.close_reason == wire::CloseReason::kRevoked) {
     const std::string why = last.close_reason == wire::CloseReason::kRemoved
@@ -112,12 +104,12 @@ ExitReason SeatSupervisor::run() {
 void SeatSupervisor::handle_keys() {
   for (std::string key = keys_.next(); !key.empty(); key = keys_.next()) {
     if (key == "b" && o_.device.phase() == hal::Phase::kFault) reset_requested_ = o_.device.reset().has_value();
-    if (o_.plan.observer != nullptr) o_.plan.observer->on_key(key);
+    if (o_.options.observer != nullptr) o_.options.observer->on_key(key);
     const KeyboardControls::KeyResult pressed =
-        o_.person.on_key(key, o_.pump.status(), last_status_ ? &*last_status_ : nullptr);
+        o_.keyboard.on_key(key, o_.runner.status(), last_status_ ? &*last_status_ : nullptr);
     if (pressed.leaves) leave("releasing the hand");
     const Time now = io::monotonic_now();
-    if (pressed.why.empty() || (pressed.why == key_message_ && now - key_message_at_ < kBetweenKeys))
+    if (pressed.why.empty() || (pressed.why == key_message_ && now - key_message_at_ < kBetweenKeyMessages))
       continue;  // a key that is held repeats
     key_message_ = pressed.why;
     key_message_at_ = now;
@@ -134,7 +126,7 @@ void SeatSupervisor::check_device() {
     reset_requested_ = fault_reported_ = false;
     static_cast<void>(o_.device.enable());
   }
-  if (!leaving_since_ && o_.held != nullptr && o_.held->watchdog_lost())
+  if (!leaving_since_ && o_.hardware != nullptr && o_.hardware->watchdog_lost())
     leave(
         "the process tandem-watchdog ended, which sends zero forces if this program fails: releasing the hand; join "
         "again");
@@ -142,58 +134,48 @@ void SeatSupervisor::check_device() {
 
 std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& status) {
   const Time now = io::monotonic_now();
-  // A stall of this program is not a silence of the server.
-  if (now - checked_at_ > kStandstill) heard_at_ += now - checked_at_;
-  checked_at_ = now;
-  static_cast<void>(o_.pump.take_old_connection());
-  const bool there = status.heard && !status.closed && status.silence_s < kSilenceMax;
-  if (there) {
-    if (std::exchange(in_outage_, false)) {
-      outage_longest_s_ = std::max(outage_longest_s_, seconds(now - heard_at_));
-      o_.line.note(format("the server is back after %.1f s; the force comes up slowly", seconds(now - heard_at_)));
-    }
-    heard_at_ = now;
-  }
-  if (o_.plan.reconnect_timeout_s <= 0)
+  static_cast<void>(o_.runner.connections().take_old());
+  if (const auto outage = server_.update(now, status.heard && !status.closed && status.silence_s < kSilenceMax))
+    o_.line.note(format("the server is back after %.1f s; the force comes up slowly", *outage));
+  if (o_.options.reconnect_timeout_s <= 0)
     return status.silence_s > kServerLost ? std::optional(ExitReason::kServerLost) : std::nullopt;
   if (reconnector_ && reconnector_->done()) return finish_reconnect();
-  if (seconds(now - heard_at_) > o_.plan.reconnect_timeout_s) return ExitReason::kServerLost;
-  // The force gate already released the force after the silence limit. A new connection gets time for its first FORCE.
-  if (there || reconnector_ || now - std::max(heard_at_, connection_swapped_at_) < backoff_) return std::nullopt;
-  if (!std::exchange(in_outage_, true))
+  if (server_.absence(now) > o_.options.reconnect_timeout_s) return ExitReason::kServerLost;
+  // The force gate already released the force after the silence limit.
+  if (reconnector_ || !server_.reconnect_due(now)) return std::nullopt;
+  if (server_.on_reconnect(initial_backoff()))
     o_.line.note(format(
         "%s; your hand is free. Reconnecting, for up to %.0f s (--reconnect-timeout); q or Ctrl-C ends it",
         server_restarts(status) ? "the server ended and keeps your seat for its next start" : "the server fell silent",
-        o_.plan.reconnect_timeout_s));
-  backoff_ = initial_backoff();
-  reconnector_ = std::make_unique<Reconnector>(o_.asked, resume_state_, o_.seat, o_.pump, socket_);
+        o_.options.reconnect_timeout_s));
+  reconnector_ = std::make_unique<Reconnector>(o_.join_options, resume_state_, o_.seat, o_.runner, socket_);
   return std::nullopt;
 }
 
 std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
-  auto back = reconnector_->take();
-  if (!back) {
+  auto resumed = reconnector_->take();
+  if (!resumed) {
     reconnector_.reset();
-    const ClientStatus status = o_.pump.status();
-    if (back.error().kind != ResumeError::Kind::kGone || (!status.closed && status.silence_s < kSilenceMax))
+    const ClientStatus status = o_.runner.status();
+    if (resumed.error().kind != ResumeError::Kind::kGone || (!status.closed && status.silence_s < kSilenceMax))
       return std::nullopt;
-    exit_detail_ = back.error().reason + "; join again";
+    exit_detail_ = resumed.error().reason + "; join again";
     return ExitReason::kSeatGone;
   }
   // The servo thread gets its connection first, so that nothing below delays it.
-  socket_ = io::duplicate(back->swap->socket);
-  o_.pump.swap_connection(std::move(back->swap));
-  connection_swapped_at_ = io::monotonic_now();
-  const rpc::Welcome& welcome = back->joined.welcome;
+  socket_ = io::duplicate(resumed->swap->socket);
+  o_.runner.connections().offer(std::move(resumed->swap));
+  server_.on_connected(io::monotonic_now());
+  const rpc::Welcome& welcome = resumed->joined.welcome;
   o_.line.note(welcome.epoch > resume_state_.epoch ? "the server was restarted and gave the seat back"
                                                    : "the server gave the seat back");
   resume_state_.epoch = welcome.epoch;
-  resume_state_.server = back->joined.server;
+  resume_state_.server = resumed->joined.server;
   resume_state_.secrets.insert(resume_state_.secrets.begin(), welcome.resume_secret);
   if (resume_state_.secrets.size() > kSecretsKept) resume_state_.secrets.resize(kSecretsKept);
   if (status_poller_) status_poller_->cancel();  // the old server may not answer any more
   status_poller_.reset();
-  connection_ = back->joined.connection;
+  connection_ = resumed->joined.connection;
   last_status_.reset();
   status_poller_ = std::make_unique<SessionStatusPoller>(connection_, resume_state_.session);
   reconnector_.reset();
@@ -202,15 +184,16 @@ std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
 
 void SeatSupervisor::show_status_changes(const ClientStatus& status) {
   if (!status_poller_) return;
-  if (auto said = status_poller_->take()) {
-    if (said->stop) said->stop->ends = complete_commands(said->stop->ends, o_.asked, said->name, !o_.given.local);
-    const std::string news = status_changes_text(last_status_.value_or(rpc::Status{}), *said);
-    for (std::size_t at = 0; at < news.size();) {
-      const std::size_t end = news.find('\n', at);
-      o_.line.note(news.substr(at, end - at));
+  if (auto newer = status_poller_->take()) {
+    if (newer->stop)
+      newer->stop->ends = complete_commands(newer->stop->ends, o_.join_options, newer->name, !o_.joined.local);
+    const std::string lines = status_changes_text(last_status_.value_or(rpc::Status{}), *newer);
+    for (std::size_t at = 0; at < lines.size();) {
+      const std::size_t end = lines.find('\n', at);
+      o_.line.note(lines.substr(at, end - at));
       at = end + 1;
     }
-    last_status_ = std::move(*said);
+    last_status_ = std::move(*newer);
   }
   if (status_poller_->ended()) last_status_.reset();
   const bool changed = status.session != status_at_poll_.session || status.stops != status_at_poll_.stops ||
@@ -222,40 +205,40 @@ void SeatSupervisor::show_status_changes(const ClientStatus& status) {
 }
 
 void SeatSupervisor::update_observer(const ClientStatus& status) {
-  SeatObserver* const companion = o_.plan.observer;
-  if (companion == nullptr || leaving_since_) return;
-  for (const std::string& text : companion->messages(seconds(io::monotonic_now().time_since_epoch()), status))
+  SeatObserver* const observer = o_.options.observer;
+  if (observer == nullptr || leaving_since_) return;
+  for (const std::string& text : observer->messages(seconds(io::monotonic_now().time_since_epoch()), status))
     o_.line.note(text);
-  if (const std::string why = companion->leave_reason(); !why.empty()) leave(why);
+  if (const std::string why = observer->leave_reason(); !why.empty()) leave(why);
 }
 
 void SeatSupervisor::show(ClientStatus status) {
-  if (std::exchange(motors_hot_, status.motors_hot) != status.motors_hot) {
-    if (status.motors_hot) {
+  if (std::exchange(motors_hot_, status.motors.hot) != status.motors.hot) {
+    if (status.motors.hot) {
       o_.line.warn(motors_text(status));
     } else {
-      o_.line.note(status.motors_latched ? motors_text(status) : "the motors are cool again");
+      o_.line.note(status.motors.latched ? motors_text(status) : "the motors are cool again");
     }
   }
   // The status from the server reports the end of a stop, with the participant who ended it.
-  const bool words_tell =
+  const bool reported =
       status_poller_ && !status_poller_->ended() &&
       (session_before_ == wire::SessionState::kStopped || session_before_ == wire::SessionState::kPaused);
-  if (status.session != session_before_ && status.session == wire::SessionState::kRunning && !words_tell)
+  if (status.session != session_before_ && status.session == wire::SessionState::kRunning && !reported)
     o_.line.note("the session runs");
   if (status.session != session_before_ && status.session == wire::SessionState::kOverloaded)
     o_.line.note(
         "OVERLOADED: the server is too busy to keep time; the hand is released, and engaged again automatically");
   session_before_ = status.session;
   const Time now = io::monotonic_now();
-  if (const std::string told =
+  if (const std::string transfer =
           transfer_notices_.message(seconds(now.time_since_epoch()), status, o_.seat.setup(), last_status_);
-      !told.empty())
-    o_.line.note(told);
+      !transfer.empty())
+    o_.line.note(transfer);
   if (now - shown_at_ < std::chrono::milliseconds(o_.line.interval_ms())) return;
   shown_at_ = now;
   status.reconnecting = reconnector_ != nullptr;
-  status.keys_m = o_.person.keys();
+  status.keys_m = o_.keyboard.keys();
   o_.line.show(seat_screen(status, o_.seat.setup(), last_status_));
 }
 
@@ -271,7 +254,7 @@ std::string SeatSupervisor::exit_message(ExitReason end) const {
       return format(
           "server lost: no news for %.0f s; the force was released after the first losses. Check the network and the "
           "server, then join again",
-          o_.plan.reconnect_timeout_s > 0 ? o_.plan.reconnect_timeout_s : kServerLost);
+          o_.options.reconnect_timeout_s > 0 ? o_.options.reconnect_timeout_s : kServerLost);
     case ExitReason::kDeviceLost:
       return "device lost: it is unplugged or stopped answering; plug it in and join again";
     case ExitReason::kSeatGone:

@@ -11,6 +11,7 @@
 #include "client/app/reconnector.h"
 #include "client/app/run_seat.h"
 #include "client/app/seat_runner.h"
+#include "client/app/server_watch.h"
 #include "client/app/session_status_poller.h"
 #include "common/io/terminal.h"
 
@@ -21,26 +22,26 @@ namespace tandem::client {
 class SeatSupervisor {
  public:
   struct Context {
-    const SeatOptions& plan;
-    const JoinOptions& asked;  ///< options of the join
-    const JoinedSeat& given;   ///< result of the join
+    const SeatOptions& options;
+    const JoinOptions& join_options;
+    const JoinedSeat& joined;
     const Seat& seat;
-    SeatRunner& pump;
-    KeyboardControls& person;
+    SeatRunner& runner;
+    KeyboardControls& keyboard;
     hal::Device& device;
-    HardwareDevice* held;  ///< null: simulated device
-    int signals;           ///< signalfd (common/io/signals.h)
+    HardwareDevice* hardware;  ///< null: simulated device
+    int signals;               ///< signalfd (common/io/signals.h)
     io::StatusLine& line;
   };
   /// @param socket  duplicate of the SeatRunner's socket
-  SeatSupervisor(const Context& over, io::UdpSocket socket);
+  SeatSupervisor(const Context& context, io::UdpSocket socket);
 
   /// Runs until the seat ends. @return the reason
   [[nodiscard]] ExitReason run();
   /// Returns one sentence for the user about the end of the seat.
   [[nodiscard]] std::string exit_message(ExitReason end) const;
   /// Longest outage of the server that ended [s].
-  [[nodiscard]] double outage_longest_s() const noexcept { return outage_longest_s_; }
+  [[nodiscard]] double outage_longest_s() const noexcept { return server_.longest_s(); }
 
  private:
   void leave(const std::string& why);
@@ -58,7 +59,7 @@ class SeatSupervisor {
   [[nodiscard]] static bool server_restarts(const ClientStatus& status) noexcept {
     return status.closed && status.close_reason == wire::CloseReason::kServerReturns;
   }
-  [[nodiscard]] bool may_reconnect() const noexcept { return o_.plan.reconnect_timeout_s > 0 && !leaving_since_; }
+  [[nodiscard]] bool may_reconnect() const noexcept { return o_.options.reconnect_timeout_s > 0 && !leaving_since_; }
 
   Context o_;
   io::UdpSocket socket_;  ///< duplicate of the SeatRunner's socket
@@ -71,16 +72,14 @@ class SeatSupervisor {
   ClientStatus status_at_poll_;             ///< client status at the last immediate poll
   std::string key_message_;                 ///< last shown reason why a key had no effect
   Time key_message_at_{};
-  std::string exit_detail_;                        ///< reason of ExitReason::kSeatGone
-  Time begin_, shown_at_, heard_at_, checked_at_;  ///< heard_at_: newest time at which the server was present
-  Time connection_swapped_at_{};                   ///< time of the last new connection
-  Duration backoff_;                               ///< silence before the next reconnect
+  std::string exit_detail_;  ///< reason of ExitReason::kSeatGone
+  Time begin_, shown_at_;
+  ServerWatch server_;
   std::optional<Time> leaving_since_;
   wire::SessionState session_before_ = wire::SessionState::kWaiting;
   AuthorityTransferNotices transfer_notices_;
   bool motors_hot_ = false;
-  bool fault_reported_ = false, reset_requested_ = false, in_outage_ = false;
-  double outage_longest_s_ = 0;
+  bool fault_reported_ = false, reset_requested_ = false;
 };
 
 }  // namespace tandem::client

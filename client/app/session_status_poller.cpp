@@ -2,9 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdint>
@@ -18,24 +16,13 @@ namespace {
 constexpr int kEveryMs = 1000;
 constexpr int kLeastMs = 150;  // pause between two requests, because a server answers ten per second
 
-void raise(const io::Fd& event) {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
-}
-void lower(const io::Fd& event) {
-  std::uint64_t count = 0;
-  [[maybe_unused]] const auto read = ::read(event.get(), &count, sizeof count);
-}
-
 }  // namespace
 
 SessionStatusPoller::SessionStatusPoller(std::shared_ptr<auth::ControlClient> connection, const rpc::Id& session,
                                          std::chrono::milliseconds patience)
     : connection_(std::move(connection)),
       patience_(patience),
-      socket_(connection_ ? ::fcntl(connection_->fd(), F_DUPFD_CLOEXEC, 0) : -1),
-      news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+      socket_(connection_ ? ::fcntl(connection_->fd(), F_DUPFD_CLOEXEC, 0) : -1) {
   if (connection_) thread_ = std::thread([this, session] { work(session); });
 }
 
@@ -47,10 +34,10 @@ SessionStatusPoller::~SessionStatusPoller() {
 
 void SessionStatusPoller::cancel() noexcept { ::shutdown(socket_.get(), SHUT_RDWR); }
 
-void SessionStatusPoller::poll_now() noexcept { raise(wake_); }
+void SessionStatusPoller::poll_now() noexcept { wake_.signal(); }
 
 std::optional<rpc::Status> SessionStatusPoller::take() {
-  lower(news_);
+  news_.clear();
   const std::lock_guard lock{lock_};
   return std::exchange(newest_, std::nullopt);
 }
@@ -67,13 +54,13 @@ void SessionStatusPoller::work(const rpc::Id& session) {
         const std::lock_guard lock{lock_};
         newest_ = std::move(*status);
       }
-      raise(news_);
+      news_.signal();
     }
     pollfd nothing{-1, 0, 0};
     if (!over_.load(std::memory_order_relaxed)) poll(&nothing, 1, kLeastMs);
     pollfd wake{wake_.get(), POLLIN, 0};
     poll(&wake, 1, kEveryMs - kLeastMs);
-    lower(wake_);
+    wake_.clear();
   }
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "common/auth/io/control_client.h"
+#include "common/io/event_fd.h"
 #include "common/io/fd.h"
 #include "proto/rpc/rpc_messages.h"
 
@@ -47,7 +48,7 @@ class SessionStatusPoller {
   std::shared_ptr<auth::ControlClient> connection_;
   std::chrono::milliseconds patience_;
   io::Fd socket_;  ///< duplicate of the connection's socket, which the thread may close at any time
-  io::Fd news_, wake_;
+  io::EventFd news_, wake_;
   std::mutex lock_;
   std::optional<rpc::Status> newest_;
   std::atomic<bool> over_{false}, ended_{false};

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
-#include "common/base/histogram.h"
+#include "client/diagnostics/tick_statistics.h"
+#include "client/diagnostics/transit_time.h"
 #include "common/base/time.h"
 #include "common/transport/secure_channel.h"
 #include "proto/text/seat_setup.h"
@@ -75,8 +75,6 @@ class LinkTest {
   [[nodiscard]] LinkTestResult findings(Time now) const;
 
  private:
-  void take_transit(Time arrived, std::uint32_t server_tick) noexcept;
-
   SeatSetup setup_;
   Duration tick_length_;
   transport::SecureChannel link_;
@@ -96,20 +94,11 @@ class LinkTest {
   std::optional<wire::LinkTestReport> report_;
   std::uint64_t echo_newest_ = 0;  ///< echoed counter in the FORCE of `report_`
   Duration echo_age_max_{}, rtt_min_ = Duration::max();
-  std::optional<Time> news_;  ///< arrival of the newest FORCE
+  std::optional<Time> newest_;  ///< arrival of the newest FORCE
   std::uint32_t pauses_ = 0;
 
-  // Transit time: arrival at the client minus the server's tick time. It contains an unknown constant.
-  Histogram transit_;  ///< transit time minus the minimum so far [ns]
-  std::int64_t transit_floor_ = 0;
-  std::vector<std::int64_t> second_floors_;  ///< minimum of each whole second [ns]
-  std::int64_t second_floor_ = 0;
-  std::optional<Time> second_began_;
-
-  std::optional<Duration> wall_offset_;
-  Duration wall_step_{};
-  Histogram wakes_;
-  std::uint64_t ticks_ = 0, late_ticks_ = 0, missed_ticks_ = 0;
+  TransitTime transit_;
+  TickStatistics ticks_;
 };
 
 }  // namespace tandem::client

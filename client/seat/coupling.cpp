@@ -20,15 +20,15 @@ SpringCoupling::SpringCoupling(const SeatSetup& setup)
 
 void SpringCoupling::reset(const Input& in, bool) noexcept {
   for (std::size_t a = 0; a < dof_; ++a) ipc_[a].rest_at(in.q[a]);
-  in.ties[0].end->engage(in.q, in.age);
+  in.tools[0].end->engage(in.q, in.age);
 }
 
 AxisArray SpringCoupling::step(const Input& in) noexcept {
-  control::ChannelEnd& end = *in.ties[0].end;
+  control::ChannelEnd& end = *in.tools[0].end;
   control::EndInput move;
   move.dt = in.dt;
   move.age = in.age;
-  move.rx = in.ties[0].received->port;
+  move.rx = in.tools[0].received->port;
   for (std::size_t a = 0; a < dof_; ++a) {
     move.x[a] = master_ ? ipc_[a].x : in.q[a];
     move.dissipated[a] = master_ ? ipc_[a].dissipated : 0;
@@ -50,7 +50,7 @@ AxisArray SpringCoupling::step(const Input& in) noexcept {
 }
 
 void SpringCoupling::fill_sample(std::size_t, const Input& in, bool engaged, PortSample& out) const noexcept {
-  const control::EndState& state = in.ties[0].end->state();
+  const control::EndState& state = in.tools[0].end->state();
   for (std::size_t a = 0; a < dof_; ++a) {
     out.x[a] = master_ ? ipc_[a].x : in.q[a];
     out.v[a] = engaged && master_ ? ipc_[a].v : in.v[a];
@@ -84,51 +84,51 @@ CopyCoupling::CopyCoupling(const SeatSetup& setup) : dof_(setup.dof) {
   copies_.reserve(1 + setup.further.size());
   copies_.push_back({.tool = control::ToolCopy(copy_params(setup, {setup.m_s, setup.b_s}, setup.environment)),
                      .weight = setup.weight});
-  for (const CoupledTool& tie : setup.further)
+  for (const CoupledTool& tool : setup.further)
     copies_.push_back(
-        {.tool = control::ToolCopy(copy_params(setup, {tie.m_s, tie.b_s}, tie.environment)), .weight = tie.weight});
+        {.tool = control::ToolCopy(copy_params(setup, {tool.m_s, tool.b_s}, tool.environment)), .weight = tool.weight});
 }
 
-void CopyCoupling::reset(const Input& in, bool told) noexcept {
+void CopyCoupling::reset(const Input& in, bool heard) noexcept {
   for (std::size_t k = 0; k < copies_.size(); ++k) {
-    const AxisArray& tool = told ? in.ties[k].received->port.f : in.q;
+    const AxisArray& tool = heard ? in.tools[k].received->port.f : in.q;
     copies_[k].tool.rest_at(tool, in.q);
-    in.ties[k].end->engage(tool, in.age);
+    in.tools[k].end->engage(tool, in.age);
     copies_[k].effort = {};
   }
   share_ = 0;
 }
 
-const AxisArray& CopyCoupling::wanted_of(Copy& copy, const Tie& tie, const Input& in) noexcept {
+const AxisArray& CopyCoupling::wanted_of(Copy& copy, const Tool& tool, const Input& in) noexcept {
   control::EndInput move;
   move.dt = in.dt;
   move.age = in.age;
-  move.authority = tie.received->alpha;
-  move.slave_pull = tie.received->slave_pull;
-  move.rx = tie.received->port;
+  move.authority = tool.received->alpha;
+  move.slave_pull = tool.received->slave_pull;
+  move.rx = tool.received->port;
   for (std::size_t a = 0; a < dof_; ++a) {
     move.x[a] = copy.tool.tool().x(a);
     move.dissipated[a] = copy.tool.dissipated(a);
     dissipated_ += copy.weight * move.dissipated[a];
   }
-  tie.end->move(move);
+  tool.end->move(move);
   if (&copy == &copies_[0] && in.ghost != nullptr && in.ghost->leader != 0 && copy.tool.assist().on()) {
     AxisArray x{}, v{};
     for (std::size_t a = 0; a < dof_; ++a) {
       v[a] = in.ghost->v[a];
       x[a] = control::Prediction::place_for_hand(in.ghost->x[a], v[a], in.age);
     }
-    copy.tool.set_leader(x, v, tie.received->slave_pull > 0);
+    copy.tool.set_leader(x, v, tool.received->slave_pull > 0);
   }
-  return copy.tool.step(in.q, move.authority, *tie.end);
+  return copy.tool.step(in.q, move.authority, *tool.end);
 }
 
 AxisArray CopyCoupling::step(const Input& in) noexcept {
-  if (copies_.size() == 1) return wanted_of(copies_[0], in.ties[0], in);
+  if (copies_.size() == 1) return wanted_of(copies_[0], in.tools[0], in);
   wanted_ = {};
   for (std::size_t k = 0; k < copies_.size(); ++k) {
     Copy& copy = copies_[k];
-    const AxisArray& wanted = wanted_of(copy, in.ties[k], in);
+    const AxisArray& wanted = wanted_of(copy, in.tools[k], in);
     for (std::size_t a = 0; a < dof_; ++a) {
       copy.wanted[a] = wanted[a];
       wanted_[a] += copy.weight * wanted[a];

@@ -19,8 +19,8 @@ namespace tandem::client {
 class Coupling {
  public:
   /// Coupling of the seat to one tool: this client's channel end and the newest received values. Law `replica` has one
-  /// tie for each tool that the seat follows, the other laws have one in total.
-  struct Tie {
+  /// for each tool that the seat follows, the other laws have one in total.
+  struct Tool {
     control::ChannelEnd* end = nullptr;
     const wire::ToolForce* received = nullptr;
   };
@@ -29,24 +29,24 @@ class Coupling {
     double age = 0;                      ///< age of the received values [s]
     const AxisArray& q;                  ///< position of the device's port
     const AxisArray& v;                  ///< velocity of the device's port
-    std::span<const Tie> ties;           ///< 1 + SeatSetup::further.size()
+    std::span<const Tool> tools;         ///< 1 + SeatSetup::further.size()
     const wire::Ghost* ghost = nullptr;  ///< received leader of the first tool
   };
   virtual ~Coupling() = default;
   /// Restarts the coupling without elongation; called while the seat is not engaged.
-  /// @param told  true once a FORCE arrived, so that the received tool positions are valid
-  virtual void reset(const Input& in, bool told) noexcept TANDEM_REALTIME = 0;
+  /// @param heard true once a FORCE arrived, so that the received tool positions are valid
+  virtual void reset(const Input& in, bool heard) noexcept TANDEM_REALTIME = 0;
   /// Advances by one tick. @return the effort wanted on the device, before the gate
   [[nodiscard]] virtual AxisArray step(const Input& in) noexcept TANDEM_REALTIME = 0;
-  /// Sets the contact surfaces that the server sent for the tool of tie k. @pre each is_surface and in_range
+  /// Sets the contact surfaces that the server sent for tool k. @pre each is_surface and in_range
   virtual void set_contacts(std::size_t, std::span<const LocalContact>) noexcept TANDEM_REALTIME {}
   /// Sets the part of the effort from `step` that passed the gate.
   virtual void set_delivered(const AxisArray&) noexcept TANDEM_REALTIME {}
-  /// Writes position, velocity, force and acceleration of tie k into the sample for the server.
+  /// Writes position, velocity, force and acceleration of tool k into the sample for the server.
   /// @param engaged  false: the sample contains the motion of the device itself
   virtual void fill_sample(std::size_t k, const Input& in, bool engaged,
                            PortSample& out) const noexcept TANDEM_REALTIME = 0;
-  /// Local copy of the tool of tie k; nullptr for laws without copies.
+  /// Local copy of tool k; nullptr for laws without copies.
   [[nodiscard]] virtual const control::VirtualTool* tool_copy(std::size_t = 0) const noexcept { return nullptr; }
   /// Assist force towards the leader [N]; 0 without one.
   [[nodiscard]] virtual double assist_force() const noexcept { return 0; }
@@ -64,7 +64,7 @@ class Coupling {
 class SpringCoupling final : public Coupling {
  public:
   explicit SpringCoupling(const SeatSetup& setup);
-  void reset(const Input& in, bool told) noexcept override;
+  void reset(const Input& in, bool heard) noexcept override;
   AxisArray step(const Input& in) noexcept override;
   void fill_sample(std::size_t k, const Input& in, bool engaged, PortSample& out) const noexcept override;
 
@@ -81,7 +81,7 @@ class SpringCoupling final : public Coupling {
 class CopyCoupling final : public Coupling {
  public:
   explicit CopyCoupling(const SeatSetup& setup);
-  void reset(const Input& in, bool told) noexcept override;
+  void reset(const Input& in, bool heard) noexcept override;
   AxisArray step(const Input& in) noexcept override;
   void set_contacts(std::size_t k, std::span<const LocalContact> contacts) noexcept override {
     copies_[k].tool.update_contacts(contacts);
@@ -102,7 +102,7 @@ class CopyCoupling final : public Coupling {
     AxisArray wanted{};  ///< wanted effort of this copy alone [N]
     AxisArray effort{};  ///< delivered part of it [N]
   };
-  [[nodiscard]] const AxisArray& wanted_of(Copy& copy, const Tie& tie, const Input& in) noexcept;
+  [[nodiscard]] const AxisArray& wanted_of(Copy& copy, const Tool& tool, const Input& in) noexcept;
 
   std::size_t dof_;
   std::vector<Copy> copies_;

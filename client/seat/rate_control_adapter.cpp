@@ -11,7 +11,7 @@ constexpr double kStepMax = 0.005;
 
 }  // namespace
 
-RateControlAdapter::RateControlAdapter(hal::ServoClient& seat, const hal::DeviceCaps& caps) noexcept : seat_(&seat) {
+RateControlAdapter::RateControlAdapter(const hal::DeviceCaps& caps) noexcept {
   for (int i = 0; i < 3; ++i) {
     const auto a = static_cast<std::size_t>(i);
     const bool known = caps.workspace_max[a] > caps.workspace_min[a];
@@ -29,7 +29,7 @@ hal::DeviceCaps RateControlAdapter::adapted_caps(const hal::DeviceCaps& device) 
   return caps;
 }
 
-hal::Command RateControlAdapter::tick(const hal::State& state) noexcept {
+hal::State RateControlAdapter::integrate(const hal::State& state) noexcept {
   const double dt = begun_ ? std::clamp(seconds(state.sampled_at - before_), 0.0, kStepMax) : 0.0;
   begun_ = true;
   before_ = state.sampled_at;
@@ -49,8 +49,7 @@ hal::Command RateControlAdapter::tick(const hal::State& state) noexcept {
   }
   seen.tau_out = {};
   seen.f_out.setZero();
-  seat_->tick(seen);
-  return {};
+  return seen;
 }
 
 }  // namespace tandem::client

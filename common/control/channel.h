@@ -68,6 +68,16 @@ struct EndState {
   AxisArray absorbed{};  ///< energy that this move returned [J]; the owner decides how much becomes credit
   AxisArray paid{};      ///< energy that this move cost [J]
   AxisArray passed{};    ///< heat of this end that was passed to the other end [J]
+
+  /// Returns the energy stored in the spring whose near end is at `x` [J].
+  [[nodiscard]] double stored(const AxisArray& x, std::size_t axes) const noexcept {
+    double energy = 0;
+    for (std::size_t a = 0; a < axes; ++a) {
+      const double e = ref[a] - x[a];
+      energy += 0.5 * k[a] * e * e;
+    }
+    return energy;
+  }
 };
 
 /// One end of a channel: holds the reference, the gain schedule and one energy ledger per axis.

@@ -20,7 +20,7 @@ enum class FlowSourceMode : std::uint8_t {
 class FlowSources {
  public:
   /// @param tank_initial  initial level of the tank [J]; kTank only
-  FlowSources(FlowSourceMode mode, double tank_initial) noexcept
+  explicit FlowSources(FlowSourceMode mode = FlowSourceMode::kOpen, double tank_initial = 0.05) noexcept
       : mode_(mode), tank_(tank_initial), tank_initial_(tank_initial) {}
 
   /// Requests energy for a seat's credit beyond the energy that the tool really paid [J] >= 0. @return the granted

@@ -144,6 +144,8 @@ void log_to_stderr(const char* program) {
   spdlog::set_default_logger(std::move(logger));
 }
 
+void log(Level level, const std::string& text) { spdlog::log(level_of(level), text); }
+
 void log_as_json(Level least) {
   // The writing thread must inherit the signal mask, so call this after make_signalfd().
   spdlog::init_thread_pool(kLinesMax, 1);

@@ -4,13 +4,17 @@
 #include <optional>
 #include <string>
 
+/// Logging of all programs. Only log.cpp includes spdlog.
 namespace tandem::io {
+
+enum class Level : std::uint8_t { kInfo, kWarn, kError };
 
 /// Makes the default logger write to standard error, with the program's name before each line: standard output is for
 /// results. For non-real-time threads only, because spdlog takes a lock.
 void log_to_stderr(const char* program);
 
-enum class Level : std::uint8_t { kInfo, kWarn, kError };
+/// Logs a line for users.
+void log(Level level, const std::string& text);
 
 /// Switches to one JSON object per line on standard error, for a journal. Members: `ts` (UTC), `mono` [s of
 /// CLOCK_MONOTONIC], `level`, `event`, and where known `session`, `seat`, `cid`, `tick`, `text`. A separate thread

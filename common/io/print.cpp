@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdarg>
 
-#include "common/io/help_formatter.h"
+#include "common/io/help_text.h"
 #include "common/io/screen_block.h"
 #include "common/io/text_layout.h"
 

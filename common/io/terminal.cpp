@@ -1,7 +1,6 @@
 #include "common/io/terminal.h"
 
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/io/log.h"
 #include "common/io/screen_block.h"
 
 namespace tandem::io {
@@ -92,12 +92,12 @@ void StatusLine::clear() {
 
 void StatusLine::note(const std::string& text) {
   clear();
-  if (!quiet_) spdlog::info(text);
+  if (!quiet_) log(Level::kInfo, text);
 }
 
 void StatusLine::warn(const std::string& text) {
   clear();
-  spdlog::warn(text);
+  log(Level::kWarn, text);
 }
 
 }  // namespace tandem::io

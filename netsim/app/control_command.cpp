@@ -1,11 +1,11 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/print.h"
-#include "netsim/app/proxy_command.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/proxy/app/control_request.h"
 #include "netsim/proxy/app/control_socket.h"
@@ -34,7 +34,7 @@ int control_command(const ControlArguments& arguments) {
   }
   if (answer->empty()) {
     SignalWatcher::report("control", "the command was sent; `status --json` shows whether the proxy applied it");
-    return SignalWatcher::kInterrupted;
+    return io::kExitTrouble;
   }
   const int code = answer->front() == '0' ? 0 : answer->front() == '1' ? 1 : 2;
   std::fprintf(code == 0 ? stdout : stderr, "%s%s", code == 0 ? "" : "tandem-netsim control: ", answer->c_str() + 1);
@@ -43,28 +43,21 @@ int control_command(const ControlArguments& arguments) {
 
 }  // namespace
 
-void add_control_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<ControlArguments>();
-  CLI::App* const command =
-      root.add_subcommand("control", "Changes the network of a running proxy, or shows its status.");
-  command->add_option("path", arguments->path, "the socket given to `proxy --control`")
-      ->option_text("PATH")
-      ->required();
-  command->add_option("command", arguments->words, "the command; quotes around it are not needed")
-      ->option_text("COMMAND...")
-      ->required();
-  command->prefix_command();
-  command->footer(std::string("Commands, also in the proxy's terminal\n") + control_help() +
-                  "\nExamples\n"
-                  "  tandem-netsim control /tmp/proxy.sock profile wifi-busy\n"
-                  "  tandem-netsim control /tmp/proxy.sock delay 20 loss 2 client 2 up\n"
-                  "  tandem-netsim control /tmp/proxy.sock outage 400ms\n"
-                  "  tandem-netsim control /tmp/proxy.sock status --json\n\n"
-                  "Exit: 0 done, 1 no proxy there, the command failed, or interrupted, 2 a wrong command or file.");
-  command->callback([arguments, &action, command] {
-    for (const std::string& word : command->remaining()) arguments->words.push_back(word);
-    action = [arguments] { return control_command(*arguments); };
-  });
+void add_control_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("control", "Changes the network of a running proxy, or shows its status.", control_command);
+  command.add_option("path", arguments.path, "the socket given to `proxy --control`").value_name("PATH").required();
+  command.add_option("command", arguments.words, "the command; quotes around it are not needed")
+      .value_name("COMMAND...")
+      .required();
+  command.take_rest(arguments.words);
+  command.footer(std::string("Commands, also in the proxy's terminal\n") + control_help() +
+                 "\nExamples\n"
+                 "  tandem-netsim control /tmp/proxy.sock profile wifi-busy\n"
+                 "  tandem-netsim control /tmp/proxy.sock delay 20 loss 2 client 2 up\n"
+                 "  tandem-netsim control /tmp/proxy.sock outage 400ms\n"
+                 "  tandem-netsim control /tmp/proxy.sock status --json\n\n"
+                 "Exit: 0 done, 1 no proxy there, the command failed, or interrupted, 2 a wrong command or file.");
 }
 
 }  // namespace tandem::netsim

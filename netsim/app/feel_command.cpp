@@ -1,24 +1,23 @@
-#include "netsim/app/feel_command.h"
-
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 
 #include "common/base/format.h"
 #include "common/base/suggestions.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/terminal.h"
+#include "common/io/usage_errors.h"
 #include "common/setup/channel_factory.h"
 #include "hal/io/motion_file.h"
 #include "netsim/app/feel_measure.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/test_progress.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/profiles/app/network_options.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
@@ -27,7 +26,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kGood = 0, kFailed = 1;
 constexpr std::size_t kRecordingsMax = 8;
 
 struct FeelArguments {
@@ -40,7 +38,7 @@ struct FeelArguments {
   NetworkOptions network;
 };
 
-std::vector<Probe> probes_named(const std::string& text, UsageErrors& mistakes) {
+std::vector<Probe> probes_named(const std::string& text, io::UsageErrors& mistakes) {
   std::vector<Probe> out;
   std::vector<std::string> known;
   for (const ProbeName& one : kProbes) known.emplace_back(one.name);
@@ -61,7 +59,7 @@ std::vector<Probe> probes_named(const std::string& text, UsageErrors& mistakes) 
   return out;
 }
 
-void add_recording(const std::string& text, FeelSetup& setup, UsageErrors& mistakes, const char* option) {
+void add_recording(const std::string& text, FeelSetup& setup, io::UsageErrors& mistakes, const char* option) {
   const auto options = hal::sim::parse_motion_options(text);
   if (!options) return mistakes.add(std::string(option) + ": " + options.error());
   auto motion = hal::load_motion(*options);
@@ -70,7 +68,7 @@ void add_recording(const std::string& text, FeelSetup& setup, UsageErrors& mista
 }
 
 /// Adds every recording of a folder that needs no further options; names the others in `notes`.
-void add_folder(const FeelArguments& a, FeelSetup& setup, UsageErrors& mistakes, std::vector<std::string>& notes) {
+void add_folder(const FeelArguments& a, FeelSetup& setup, io::UsageErrors& mistakes, std::vector<std::string>& notes) {
   if (a.recordings.empty()) return;
   std::error_code error;
   std::vector<std::string> files;
@@ -125,7 +123,7 @@ std::string set_assist(const FeelArguments& a, SceneSpec& scene) {
 }
 
 int feel_command(const FeelArguments& a) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   FeelSetup feel{.scene = {}};
   FeelReport report;
   feel.hands = a.plain ? HandKind::kPlain : HandKind::kDrawn;
@@ -162,20 +160,18 @@ int feel_command(const FeelArguments& a) {
     }
   }
   for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
-    if (!file->empty() && *file != "-")
-      if (const auto problem = io::OutputFile::problem(*file); !problem.empty())
-        mistakes.add(std::string(option) + ": " + problem);
+    mistakes.output_file(option, *file);
   if (!a.json.empty() && a.json == a.csv) mistakes.add("--csv: is the same file as --json");
   for (const std::string& other : a.network.all_given())
     if (other == "--script") mistakes.add("--script: a probe is too short for a script; name one network");
-  if (!mistakes.empty()) return mistakes.report("feel");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim feel");
 
   const SignalWatcher interruption;
   io::OutputFile json_file, csv_file;
   if (const auto problem = json_file.open(a.json, true); !problem.empty())
-    return report_usage_error("feel", "--json: " + problem);
+    return io::report_usage_error("tandem-netsim feel", "--json: " + problem);
   if (const auto problem = csv_file.open(a.csv, true); !problem.empty())
-    return report_usage_error("feel", "--csv: " + problem);
+    return io::report_usage_error("tandem-netsim feel", "--csv: " + problem);
   report.scene = a.scene;
   report.spec = feel.scene;
   report.channel = setup::law_name(feel.scene.channel.law);
@@ -198,79 +194,75 @@ int feel_command(const FeelArguments& a) {
   if (interrupted) SignalWatcher::report("feel", format("%zu of %.0f seeds", report.seeds.size(), a.seeds));
   json_file.write(feel_json(report));
   csv_file.write(feel_csv(report));
-  int code = interrupted ? SignalWatcher::kInterrupted : report.passed() ? kGood : kFailed;
+  int code = !interrupted && report.passed() ? io::kExitDone : io::kExitTrouble;
   for (const auto& problem : {json_file.close(), csv_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim feel: %s\n", problem.c_str());
-      code = kFailed;
+      code = io::kExitTrouble;
     }
   return code;
 }
 
 }  // namespace
 
-void add_feel_command(CLI::App& root, std::function<int()>& action) {
-  const auto a = std::make_shared<FeelArguments>();
-  CLI::App* const command = root.add_subcommand(
-      "feel", "Measures what hands feel with a scene's settings over a network: stiffness, drag, errors, oscillation.");
+void add_feel_command(const io::Command& root) {
+  const auto [command, a] = root.add_command(
+      "feel", "Measures what hands feel with a scene's settings over a network: stiffness, drag, errors, oscillation.",
+      feel_command);
   command
-      ->add_option(
-          "scene", a->scene,
+      .add_option(
+          "scene", a.scene,
           "a scene file, or the name of a shipped scene; its channel, coupling, gate, devices and first tool are used")
-      ->option_text(" ")
-      ->required();
-  a->network.add_to(*command);
-  command->add_option("--seeds", a->seeds, "how many seeds, from --seed on; each has other hands; default 20")
-      ->check(io::number_in(1, 10'000, ""))
-      ->check(io::whole_number())
-      ->option_text("N");
-  command->add_option("--jobs", a->jobs, "probes at a time; default: one per core. No number depends on it")
-      ->check(io::number_in(1, 256, ""))
-      ->check(io::whole_number())
-      ->option_text("N");
+      .value_name(" ")
+      .required();
+  a.network.add_to(command);
+  command.add_option("--seeds", a.seeds, "how many seeds, from --seed on; each has other hands; default 20")
+      .check(io::whole_number_in(1, 10'000))
+      .value_name("N");
+  command.add_option("--jobs", a.jobs, "probes at a time; default: one per core. No number depends on it")
+      .check(io::whole_number_in(1, 256))
+      .value_name("N");
   command
-      ->add_option("--probe", a->probes,
-                   "only these: press, free, gain, rest, release, handover, share, follow; default: all")
-      ->option_text("NAME,...");
+      .add_option("--probe", a.probes,
+                  "only these: press, free, gain, rest, release, handover, share, follow; default: all")
+      .value_name("NAME,...");
   command
-      ->add_option(
-          "--hand", a->hands,
+      .add_option(
+          "--hand", a.hands,
           "a recorded motion for the probe `free`: FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]; may be repeated")
-      ->option_text("FILE...")
-      ->allow_extra_args(false);
-  command->add_option("--recordings", a->recordings, "a folder: every motion_*.csv in it that needs no options")
-      ->option_text("DIR");
-  command->add_flag("--plain-hands", a->plain, "hands without tremor and noise, all with the same impedance");
+      .value_name("FILE...")
+      .one_value();
+  command.add_option("--recordings", a.recordings, "a folder: every motion_*.csv in it that needs no options")
+      .value_name("DIR");
+  command.add_flag("--plain-hands", a.plain, "hands without tremor and noise, all with the same impedance");
   command
-      ->add_option("--channel", a->channel,
-                   "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
-      ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
+      .add_option("--channel", a.channel,
+                  "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
+      .check(io::one_of({"replica", "set_position", "raw"}));
   command
-      ->add_option("--contacts", a->contacts,
-                   "how hands feel contacts of a SLAVE seat's device, instead of the scene's tool { contacts }: "
-                   "estimated, none")
-      ->transform(CLI::IsMember({"estimated", "none"}, CLI::ignore_case));
+      .add_option("--contacts", a.contacts,
+                  "how hands feel contacts of a SLAVE seat's device, instead of the scene's tool { contacts }: "
+                  "estimated, none")
+      .check(io::one_of({"estimated", "none"}));
   command
-      ->add_option(
-          "--assist", a->assist,
-          "largest force that pulls following hands towards the leader's, instead of the scene's seat { assist "
-          "}; 0: none")
-      ->check(io::number_in(0, 3, "N"))
-      ->option_text("N");
-  command->add_flag("--assist-in-contact", a->assist_in_contact, "applies that force in contact too");
-  command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
-      ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
+      .add_option("--assist", a.assist,
+                  "largest force that pulls following hands towards the leader's, instead of the scene's seat { assist "
+                  "}; 0: none")
+      .check(io::number_in(0, 3, "N"))
+      .value_name("N");
+  command.add_flag("--assist-in-contact", a.assist_in_contact, "applies that force in contact too");
+  command.add_option("--mfs", a.mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
+      .check(io::one_of({"open", "tank", "seed", "seed_signed"}));
   command
-      ->add_option("--limit", a->limits,
-                   "limit of a mean, in SI units; the worst seed may be 1.5 times worse: KEY<=NUMBER or "
-                   "KEY>=NUMBER; may be repeated")
-      ->option_text("LIMIT")
-      ->allow_extra_args(false);
-  command->add_option("--json", a->json, "writes all numbers and seeds; `-`: to standard output")
-      ->option_text("FILE|-");
-  command->add_option("--csv", a->csv, "writes one row per number; `-`: to standard output")->option_text("FILE|-");
-  command->add_flag("--quiet", a->quiet, "no progress, and no table beside --json - or --csv -");
-  command->footer(
+      .add_option("--limit", a.limits,
+                  "limit of a mean, in SI units; the worst seed may be 1.5 times worse: KEY<=NUMBER or "
+                  "KEY>=NUMBER; may be repeated")
+      .value_name("LIMIT")
+      .one_value();
+  command.add_option("--json", a.json, "writes all numbers and seeds; `-`: to standard output").value_name("FILE|-");
+  command.add_option("--csv", a.csv, "writes one row per number; `-`: to standard output").value_name("FILE|-");
+  command.add_flag("--quiet", a.quiet, "no progress, and no table beside --json - or --csv -");
+  command.footer(
       "Every number is the mean and the worst over the seeds. Hands have drawn tremor (8 to 12 Hz), intention noise "
       "(0.3 mm RMS\n"
       "about 2.3 Hz) and impedance. The probes do not know the law.\n\n"
@@ -283,7 +275,6 @@ void add_feel_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim feel contact --delay 100 --limit 'stiffness_felt_n_m>=360' --limit 'drag_1hz_n<=0.15'\n"
       "  tandem-netsim feel contact_remote --channel replica --contacts none --delay 50 --probe press\n"
       "  tandem-netsim feel contact --delay 20 --probe free --hand motion.csv,columns=baton");
-  command->callback([a, &action] { action = [a] { return feel_command(*a); }; });
 }
 
 }  // namespace tandem::netsim

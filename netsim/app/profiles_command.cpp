@@ -2,36 +2,36 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "common/base/format.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/terminal.h"
+#include "common/io/usage_errors.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/profile_report.h"
 #include "netsim/app/profile_source.h"
-#include "netsim/app/proxy_command.h"
 #include "netsim/app/signal_watcher.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/profiles/profile_loader.h"
 
 namespace tandem::netsim {
 namespace {
 
-constexpr int kTrouble = 1;
 constexpr std::size_t kPipeWidth = 100;  ///< columns, if the output has no known width
 
 struct ProfilesArguments {
+  io::Command command;
   std::string name, svg, capacity;
   double minutes = 30, shown_s = 60, interval_ms = 0;
   std::uint64_t seed = 1;
   bool json = false, text = false, ascii = false;
 };
 
-int wrong(const std::string& message) { return report_usage_error("profiles", message); }
+int wrong(const std::string& message) { return io::report_usage_error("tandem-netsim profiles", message); }
 
 /// Returns whether the terminal uses UTF-8. As in the C library, the first of these variables that is set names the
 /// encoding.
@@ -72,12 +72,10 @@ int show(const ProfilesArguments& arguments) {
     std::fputs(subject->text.c_str(), stdout);
     return 0;
   }
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   mistakes.add(complete(*subject, arguments.capacity));
-  if (!arguments.svg.empty())
-    if (const std::string problem = io::OutputFile::problem(arguments.svg); !problem.empty())
-      mistakes.add("--svg: " + problem);
-  if (!mistakes.empty()) return mistakes.report("profiles");
+  if (!arguments.svg.empty()) mistakes.add("--svg", io::OutputFile::problem(arguments.svg));
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim profiles");
   const SignalWatcher interruption;
   bool interrupted = false;
   if (!arguments.json) {
@@ -111,47 +109,49 @@ int show(const ProfilesArguments& arguments) {
   if (interrupted)
     SignalWatcher::report("profiles",
                           format("%.2f of %g virtual minutes", seconds(portrait.length) / 60, arguments.minutes));
-  if (problem.empty()) return interrupted ? SignalWatcher::kInterrupted : 0;
+  if (problem.empty()) return interrupted ? io::kExitTrouble : io::kExitDone;
   io::print_formatted(stderr, "tandem-netsim profiles: --svg: %s\n", problem.c_str());
-  return kTrouble;
+  return io::kExitTrouble;
 }
 
-int profiles_command(const ProfilesArguments& arguments, bool measured) {
+int profiles_command(const ProfilesArguments& arguments) {
   if (!arguments.name.empty()) return show(arguments);
-  if (measured) return wrong("--text, --svg, --capacity, --minutes, --seconds, --seed and --trace-interval need NAME");
+  for (const char* option : {"--text", "--svg", "--capacity", "--minutes", "--seconds", "--seed", "--trace-interval"})
+    if (arguments.command.given(option))
+      return wrong("--text, --svg, --capacity, --minutes, --seconds, --seed and --trace-interval need NAME");
   return list(arguments.json);
 }
 
 }  // namespace
 
-void add_profiles_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<ProfilesArguments>();
-  CLI::App* const command =
-      root.add_subcommand("profiles", "Lists the named networks, or shows what one does: measured, judged and drawn.");
-  command->add_option("NAME", arguments->name, "a profile to show, or a file: a .textproto profile, a .csv recording");
-  command->add_flag("--json", arguments->json,
-                    "for machines: name, version, summary, sources, checks; with NAME also what was measured");
-  command->add_flag("--text", arguments->text, "only prints the profile as text: a start for a file of your own");
-  command->add_option("--svg", arguments->svg, "also draws it into this file")->option_text("FILE.svg");
-  command->add_option("--capacity", arguments->capacity, "the recorded capacity that the profile plays (4g-trace)")
-      ->option_text("FILE");
-  command->add_option("--minutes", arguments->minutes, "virtual time to measure; default 30")
-      ->transform(io::number_in(0.05, 1440, "min"))
-      ->option_text("M");
-  command->add_option("--seconds", arguments->shown_s, "how much of the beginning the pictures show; default 60")
-      ->transform(io::number_in(1, 600, "s"))
-      ->option_text("S");
-  command->add_option("--seed", arguments->seed, "the same seed gives the same network; default 1")
-      ->check(io::whole_number())
-      ->option_text("N");
+void add_profiles_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "profiles", "Lists the named networks, or shows what one does: measured, judged and drawn.", profiles_command);
+  arguments.command = command;
+  command.add_option("NAME", arguments.name, "a profile to show, or a file: a .textproto profile, a .csv recording");
+  command.add_flag("--json", arguments.json,
+                   "for machines: name, version, summary, sources, checks; with NAME also what was measured");
+  command.add_flag("--text", arguments.text, "only prints the profile as text: a start for a file of your own");
+  command.add_option("--svg", arguments.svg, "also draws it into this file").value_name("FILE.svg");
+  command.add_option("--capacity", arguments.capacity, "the recorded capacity that the profile plays (4g-trace)")
+      .value_name("FILE");
+  command.add_option("--minutes", arguments.minutes, "virtual time to measure; default 30")
+      .check(io::number_in(0.05, 1440, "min"))
+      .value_name("M");
+  command.add_option("--seconds", arguments.shown_s, "how much of the beginning the pictures show; default 60")
+      .check(io::number_in(1, 600, "s"))
+      .value_name("S");
+  command.add_option("--seed", arguments.seed, "the same seed gives the same network; default 1")
+      .check(io::whole_number())
+      .value_name("N");
   command
-      ->add_option("--trace-interval", arguments->interval_ms,
-                   "time between the rows of a recording without a time column [ms]")
-      ->transform(io::number_in(0.001, 60'000, "ms"))
-      ->option_text("MS");
-  command->add_flag("--ascii", arguments->ascii,
-                    "draws pictures with ASCII characters; default on a terminal without UTF-8");
-  command->footer(
+      .add_option("--trace-interval", arguments.interval_ms,
+                  "time between the rows of a recording without a time column [ms]")
+      .check(io::number_in(0.001, 60'000, "ms"))
+      .value_name("MS");
+  command.add_flag("--ascii", arguments.ascii,
+                   "draws pictures with ASCII characters; default on a terminal without UTF-8");
+  command.footer(
       "Each profile promises quantiles of its delay (`check` in its file); the table shows them beside the measured "
       "ones.\n"
       "Green, amber and red are what force feedback needs: round trip p99 20 / 100 ms, jitter (p99 - p50) 2 / 10 ms,\n"
@@ -163,14 +163,6 @@ void add_profiles_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim profiles mine.textproto --minutes 5\n"
       "  tandem-netsim profiles 4g-trace --capacity lte.csv\n\n"
       "Exit: 0 done, 1 trouble while running or interrupted, 2 wrong arguments or files.");
-  command->callback([arguments, command, &action] {
-    bool measured = false;
-    for (const char* option :
-         {"--text", "--svg", "--capacity", "--minutes", "--seconds", "--seed", "--trace-interval"}) {
-      measured = measured || command->get_option(option)->count() > 0;
-    }
-    action = [arguments, measured] { return profiles_command(*arguments, measured); };
-  });
 }
 
 }  // namespace tandem::netsim

@@ -1,25 +1,24 @@
-#include "netsim/app/proxy_command.h"
-
-#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <expected>
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include "common/base/format.h"
+#include "common/io/command_line.h"
+#include "common/io/event_fd.h"
+#include "common/io/exit_code.h"
 #include "common/io/fd.h"
-#include "common/io/number_option.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/realtime.h"
 #include "common/io/socket_address.h"
 #include "common/io/tcp_listener.h"
+#include "common/io/usage_errors.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/profiles/app/network_options.h"
 #include "netsim/proxy/app/control_socket.h"
 #include "netsim/proxy/app/decision_writer.h"
@@ -32,7 +31,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kTrouble = 1;  // exit code: failed while running
 constexpr int kPriority = 50;
 constexpr int kPortsTried = 20;  // attempts to find a port that is free for UDP and TCP
 
@@ -50,17 +48,10 @@ Duration microseconds(double us) { return from_seconds(us * 1e-6); }
 
 int trouble(const std::string& message) {
   io::print_formatted(stderr, "tandem-netsim proxy: %s\n", message.c_str());
-  return kTrouble;
+  return io::kExitTrouble;
 }
 
-int wrong(const std::string& message) { return report_usage_error("proxy", message); }
-
-/// Returns why an output file cannot be written; checked before the proxy starts.
-std::string output_problem(const char* option, const std::string& name) {
-  if (name.empty() || name == "-") return {};
-  const std::string problem = io::OutputFile::problem(name);
-  return problem.empty() ? problem : std::string(option) + ": " + problem;
-}
+int wrong(const std::string& message) { return io::report_usage_error("tandem-netsim proxy", message); }
 
 /// Returns the function that finds a network named while the proxy runs.
 ProxyControl::FindNetwork find_network(const NetworkOptions& networks) {
@@ -94,7 +85,7 @@ std::expected<io::SocketAddress, std::string> own_address(const std::string& opt
 }
 
 int proxy_command(const ProxyArguments& arguments) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   const auto listen = own_address("--listen", arguments.listen, 0);
   const auto to = own_address("--to", arguments.to, 1);
   for (const auto* address : {&listen, &to})
@@ -111,10 +102,10 @@ int proxy_command(const ProxyArguments& arguments) {
   }
   // The check happens here, the file is opened at the first output. A run that never starts leaves an older file
   // unchanged.
-  mistakes.add(output_problem("--json", arguments.json));
+  mistakes.output_file("--json", arguments.json);
   if (arguments.log == "-") mistakes.add("--log needs a file");
-  mistakes.add(output_problem("--log", arguments.log));
-  if (!mistakes.empty()) return mistakes.report("proxy");
+  mistakes.output_file("--log", arguments.log);
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim proxy");
 
   DecisionWriter log;
   ProxyOptions options;
@@ -129,7 +120,7 @@ int proxy_command(const ProxyArguments& arguments) {
   if (arguments.lateness_max_us > 0) options.late_limit = microseconds(arguments.lateness_max_us);
   options.sink = arguments.log.empty() ? nullptr : &log;
   const SignalWatcher interruption;
-  const io::Fd finished{eventfd(0, EFD_CLOEXEC)};
+  const io::EventFd finished;
   auto proxy = Proxy::open(options);
   if (!proxy) return trouble(proxy.error());
   auto joining = io::listen_tcp((*proxy)->listening());
@@ -164,8 +155,7 @@ int proxy_command(const ProxyArguments& arguments) {
     ask_for_machine(arguments.realtime, notice);
     if (!notice.empty()) io::print_formatted(stderr, "tandem-netsim proxy: %s\n", notice.c_str());
     (*proxy)->run();
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(finished.get(), &one, sizeof one);
+    finished.signal();
   });
   ProxyControl control{**proxy, options.link, find_network(arguments.network)};
   run_control_loop(**proxy, control, socket, interruption.fd(), finished.get());
@@ -194,68 +184,66 @@ int proxy_command(const ProxyArguments& arguments) {
   if (problem.empty()) problem = json.close();
   if (!problem.empty()) return trouble("--json: " + problem);
   if (!log_problem.empty()) return trouble("--log: " + log_problem);
-  if (notes.interrupted) return SignalWatcher::kInterrupted;
-  return in_time(**proxy, notes) ? 0 : kTrouble;
+  return !notes.interrupted && in_time(**proxy, notes) ? io::kExitDone : io::kExitTrouble;
 }
 
 }  // namespace
 
-void add_proxy_command(CLI::App& root, std::function<int()>& action) {
+void add_proxy_command(const io::Command& root) {
   // The options of the program refer to it; it lives as long as they do.
-  const auto arguments = std::make_shared<ProxyArguments>();
-  CLI::App* const command = root.add_subcommand("proxy", "Plays a network between live UDP clients and a server.");
+  const auto [command, arguments] =
+      root.add_command("proxy", "Plays a network between live UDP clients and a server.", proxy_command);
   command
-      ->add_option("--listen", arguments->listen, "where clients send to; port 0 takes a free one; default 127.0.0.1:0")
-      ->option_text("HOST:PORT");
-  command->add_option("--to", arguments->to, "the server")->option_text("HOST:PORT")->required();
-  arguments->network.add_to(*command);
-  command->add_option("--duration", arguments->duration_s, "ends after so many seconds; default: at Ctrl-C")
-      ->transform(io::number_in(0.001, 3e6, "s"))
-      ->option_text("S");
+      .add_option("--listen", arguments.listen, "where clients send to; port 0 takes a free one; default 127.0.0.1:0")
+      .value_name("HOST:PORT");
+  command.add_option("--to", arguments.to, "the server").value_name("HOST:PORT").required();
+  arguments.network.add_to(command);
+  command.add_option("--duration", arguments.duration_s, "ends after so many seconds; default: at Ctrl-C")
+      .check(io::number_in(0.001, 3e6, "s"))
+      .value_name("S");
   command
-      ->add_option("--json", arguments->json,
-                   "writes the summary as JSON; `-`: to standard output, and everything else to standard error")
-      ->option_text("FILE|-");
+      .add_option("--json", arguments.json,
+                  "writes the summary as JSON; `-`: to standard output, and everything else to standard error")
+      .value_name("FILE|-");
   command
-      ->add_option(
-          "--control", arguments->control,
+      .add_option(
+          "--control", arguments.control,
           "a socket for `tandem-netsim control PATH ...`, which changes the network while it runs; only you may "
           "use it")
-      ->option_text("PATH");
+      .value_name("PATH");
   command
-      ->add_option("--log", arguments->log,
-                   "writes every decision as CSV: arrival time, verdict, scheduled departure; the real departure is "
-                   "later by the lateness of the proxy, which the report shows")
-      ->option_text("FILE");
+      .add_option("--log", arguments.log,
+                  "writes every decision as CSV: arrival time, verdict, scheduled departure; the real departure is "
+                  "later by the lateness of the proxy, which the report shows")
+      .value_name("FILE");
   const std::string timing = "How exact";
   command
-      ->add_option("--max-lateness", arguments->lateness_max_us,
-                   "exit code 1 when the 99th percentile of the proxy's own lateness is above so many microseconds; "
-                   "counted from the moment each datagram was due by the kernel's time of its arrival")
-      ->transform(io::number_in(1, 1e7, "us"))
-      ->option_text("US")
-      ->group(timing);
+      .add_option("--max-lateness", arguments.lateness_max_us,
+                  "exit code 1 when the 99th percentile of the proxy's own lateness is above so many microseconds; "
+                  "counted from the moment each datagram was due by the kernel's time of its arrival")
+      .check(io::number_in(1, 1e7, "us"))
+      .value_name("US")
+      .group(timing);
   command
-      ->add_option(
-          "--coalesce", arguments->coalesce_us,
-          "datagrams due less than so many microseconds after others left may leave together, so late at most: "
-          "saves wake-ups when there are many clients; default 80, 0: each at its own moment")
-      ->transform(io::number_in(0, 1000, "us"))
-      ->option_text("US")
-      ->group(timing);
+      .add_option("--coalesce", arguments.coalesce_us,
+                  "datagrams due less than so many microseconds after others left may leave together, so late at most: "
+                  "saves wake-ups when there are many clients; default 80, 0: each at its own moment")
+      .check(io::number_in(0, 1000, "us"))
+      .value_name("US")
+      .group(timing);
   command
-      ->add_option("--spin", arguments->spin_us,
-                   "watches the clock instead of sleeping for the last so many microseconds before a datagram is due; "
-                   "costs up to a whole core; default 0")
-      ->transform(io::number_in(0, 1000, "us"))
-      ->option_text("US")
-      ->group(timing);
+      .add_option("--spin", arguments.spin_us,
+                  "watches the clock instead of sleeping for the last so many microseconds before a datagram is due; "
+                  "costs up to a whole core; default 0")
+      .check(io::number_in(0, 1000, "us"))
+      .value_name("US")
+      .group(timing);
   command
-      ->add_flag("--realtime", arguments->realtime,
-                 "asks for real-time priority, locked memory and a processor that stays awake; reports each one that "
-                 "was not granted")
-      ->group(timing);
-  command->footer(
+      .add_flag("--realtime", arguments.realtime,
+                "asks for real-time priority, locked memory and a processor that stays awake; reports each one that "
+                "was not granted")
+      .group(timing);
+  command.footer(
       "Clients send to --listen instead of the server. Each client (address and port) gets its own link and its own\n"
       "socket towards the server; up is client to server. At most 64 clients; a client silent for 60 s is removed,\n"
       "and one that sends from another port of its host after 2 s of silence has reconnected: it keeps its number.\n"
@@ -272,7 +260,6 @@ void add_proxy_command(CLI::App& root, std::function<int()>& action) {
       "Exit: 0 done, 1 trouble (port in use), later than --max-lateness, nothing sent that it could judge, or "
       "interrupted\n"
       "before --duration was over (without --duration Ctrl-C is its end), 2 wrong arguments or files.");
-  command->callback([arguments, &action] { action = [arguments] { return proxy_command(*arguments); }; });
 }
 
 }  // namespace tandem::netsim

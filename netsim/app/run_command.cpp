@@ -1,20 +1,19 @@
-#include "netsim/app/run_command.h"
-
 #include <unistd.h>
 
 #include <cstdio>
 #include <ctime>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "common/base/format.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "hal/io/motion_file.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/run_log.h"
 #include "netsim/app/signal_watcher.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/profiles/app/network_options.h"
 #include "netsim/quality/quality_json.h"
 #include "netsim/system/run_simulation.h"
@@ -28,8 +27,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kFailed = 1, kTrouble = 1;
-
 struct RunArguments {
   std::string scene, channel, mfs, json, trace, log, replay;
   std::vector<std::string> hands;
@@ -38,12 +35,12 @@ struct RunArguments {
   NetworkOptions network;
 };
 
-int wrong(const std::string& mistake) { return report_usage_error("run", mistake); }
+int wrong(const std::string& mistake) { return io::report_usage_error("tandem-netsim run", mistake); }
 
 /// Adds the parts that depend on the seats: scripts and recordings name them.
 /// @param notes  receives facts about the script's networks for the report
 void understand_network(const RunArguments& arguments, SimulationConfig& setup, std::vector<std::string>& notes,
-                        UsageErrors& mistakes) {
+                        io::UsageErrors& mistakes) {
   std::vector<std::string> seats;
   for (const SeatSpec& seat : setup.scene.seats) seats.push_back(seat.name);
   if (auto script = arguments.network.events(seats)) {
@@ -80,17 +77,14 @@ std::string replay_summary(const Simulation& world) {
          (own == sent ? "\n" : ", the others that of the last one recorded before them\n");
 }
 
-void check_outputs(const RunArguments& arguments, UsageErrors& mistakes) {
+void check_outputs(const RunArguments& arguments, io::UsageErrors& mistakes) {
   for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
-    if (!file.empty() && !(file == "-" && file == arguments.json))
-      if (const auto problem = io::OutputFile::problem(file); !problem.empty())
-        mistakes.add(std::string(option) + ": " + problem);
+    if (!file.empty() && !(file == "-" && file == arguments.json)) mistakes.add(option, io::OutputFile::problem(file));
   if (arguments.trace == "-") mistakes.add("--trace: standard output is for --json; name a file");
   if (!arguments.trace.empty() && arguments.trace == arguments.json)
     mistakes.add("--trace: is the same file as --json");
   if (!arguments.log.empty()) {
-    if (const auto problem = io::OutputFile::problem(arguments.log); !problem.empty())
-      mistakes.add("--log: " + problem);
+    mistakes.add("--log", io::OutputFile::problem(arguments.log));
     if (arguments.log == "-") mistakes.add("--log: standard output is for --json; name a file");
     if (arguments.log == arguments.json || arguments.log == arguments.trace)
       mistakes.add("--log: is the same file as another result");
@@ -99,7 +93,7 @@ void check_outputs(const RunArguments& arguments, UsageErrors& mistakes) {
 }
 
 /// Makes the configuration from the arguments; collects all errors.
-SimulationConfig understand(const RunArguments& arguments, std::vector<std::string>& notes, UsageErrors& mistakes) {
+SimulationConfig understand(const RunArguments& arguments, std::vector<std::string>& notes, io::UsageErrors& mistakes) {
   SimulationConfig setup;
   if (auto scene = load_scene(arguments.scene)) {
     setup.scene = std::move(*scene);
@@ -151,7 +145,7 @@ SimulationConfig understand(const RunArguments& arguments, std::vector<std::stri
 
 /// Shows the progress on a terminal, some times per virtual second.
 void show_progress(const Simulation& world) {
-  std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", world.session().time(), world.scene().duration);
+  std::fprintf(stderr, "\r\x1b[K%5.1f / %.1f s", world.session().clock().time(), world.scene().duration);
   std::fflush(stderr);
 }
 
@@ -183,12 +177,12 @@ int check(const RunArguments& arguments, const SimulationConfig& setup, const Ne
 }
 
 int run_command(const RunArguments& arguments) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   auto network = arguments.network.resolve();
   if (!network) mistakes.add(network.error());
   std::vector<std::string> script_notes;
   SimulationConfig setup = understand(arguments, script_notes, mistakes);
-  if (!mistakes.empty()) return mistakes.report("run");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim run");
   add_notes(network->notes, script_notes);
   setup.network = network->link;
   setup.monitor_quality = !arguments.no_quality;
@@ -219,7 +213,7 @@ int run_command(const RunArguments& arguments) {
   if (progress) std::fprintf(stderr, "\r\x1b[K");
   if (!run.trouble.empty()) {
     io::print_formatted(stderr, "tandem-netsim run: %s\n", run.trouble.c_str());
-    return kTrouble;
+    return io::kExitTrouble;
   }
 
   server::RunReport& report = run.report;
@@ -246,66 +240,63 @@ int run_command(const RunArguments& arguments) {
   for (const auto& problem : {trace_file.close(), log.close(), json_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim run: %s\n", problem.c_str());
-      return kTrouble;
+      return io::kExitTrouble;
     }
-  if (interrupted) return SignalWatcher::kInterrupted;
-  return report.passed ? 0 : kFailed;
+  return !interrupted && report.passed ? io::kExitDone : io::kExitTrouble;
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* const command =
-      root.add_subcommand("run", "Runs a whole session in virtual time: the same server and client cores, seeded.");
-  command->add_option("scene", arguments->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
-      ->option_text(" ")
-      ->required();
-  arguments->network.add_to(*command);
+void add_run_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "run", "Runs a whole session in virtual time: the same server and client cores, seeded.", run_command);
+  command.add_option("scene", arguments.scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
+      .value_name(" ")
+      .required();
+  arguments.network.add_to(command);
   command
-      ->add_option("--hand", arguments->hands,
-                   "a recorded motion moves this seat's hand: SEAT=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]"
-                   "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
-      ->option_text("SEAT=FILE...")
-      ->allow_extra_args(false);
+      .add_option("--hand", arguments.hands,
+                  "a recorded motion moves this seat's hand: SEAT=FILE.csv[,columns=PREFIX][,rec=N][,scale=auto|S]"
+                  "[,axes=+x+y+z][,end=hold|loop]; may be repeated")
+      .value_name("SEAT=FILE...")
+      .one_value();
   command
-      ->add_option("--channel", arguments->channel,
-                   "channel law instead of the scene's: replica (every client simulates the tool; default of scenes "
-                   "that name none), set_position (springs between hand and tool, held passive by a ledger at both "
-                   "ends), raw (without passivity control)")
-      ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
+      .add_option("--channel", arguments.channel,
+                  "channel law instead of the scene's: replica (every client simulates the tool; default of scenes "
+                  "that name none), set_position (springs between hand and tool, held passive by a ledger at both "
+                  "ends), raw (without passivity control)")
+      .check(io::one_of({"replica", "set_position", "raw"}));
   command
-      ->add_option(
-          "--mfs", arguments->mfs,
+      .add_option(
+          "--mfs", arguments.mfs,
           "flow sources instead of the scene's: open (followers get what they need), tank (only what was dissipated), "
           "seed, seed_signed (two readings of the source paper's equation 3)")
-      ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
+      .check(io::one_of({"open", "tank", "seed", "seed_signed"}));
   command
-      ->add_option("--duration", arguments->duration_s,
-                   "session time instead of the scene's; a scene without an end (no duration_s) needs it")
-      ->transform(io::number_in(0.1, 3e6, "s"))
-      ->option_text("S");
-  command->add_option("--json", arguments->json, "writes the report; `-`: to standard output")->option_text("FILE|-");
+      .add_option("--duration", arguments.duration_s,
+                  "session time instead of the scene's; a scene without an end (no duration_s) needs it")
+      .check(io::number_in(0.1, 3e6, "s"))
+      .value_name("S");
+  command.add_option("--json", arguments.json, "writes the report; `-`: to standard output").value_name("FILE|-");
+  command.add_option("--trace", arguments.trace, "writes one row per tick; the same seed and build give the same bytes")
+      .value_name("FILE.csv");
   command
-      ->add_option("--trace", arguments->trace, "writes one row per tick; the same seed and build give the same bytes")
-      ->option_text("FILE.csv");
-  command
-      ->add_option(
-          "--log", arguments->log,
+      .add_option(
+          "--log", arguments.log,
           "writes the verdict of every datagram and copy: t_in_ns,link,dir,flow,idx,size,verdict,t_out_ns,cause")
-      ->option_text("FILE.csv");
+      .value_name("FILE.csv");
   command
-      ->add_option(
-          "--replay", arguments->replay,
+      .add_option(
+          "--replay", arguments.replay,
           "replays the network of a --log file: the same run gets the same verdicts; another run gets those of the "
           "last datagram recorded before, and after the end those of the start; excludes the other network options")
-      ->option_text("LOG.csv");
-  command->add_flag("--check", arguments->check,
-                    "only checks scene and network and prints every value in force, with units");
-  command->add_flag("--verbose", arguments->verbose, "shows the network quality of every seat, not only of the worst");
-  command->add_flag("--no-quality", arguments->no_quality, "does not judge the network");
-  command->add_flag("--quiet", arguments->quiet, "no progress, and no summary beside --json -");
-  command->footer(
+      .value_name("LOG.csv");
+  command.add_flag("--check", arguments.check,
+                   "only checks scene and network and prints every value in force, with units");
+  command.add_flag("--verbose", arguments.verbose, "shows the network quality of every seat, not only of the worst");
+  command.add_flag("--no-quality", arguments.no_quality, "does not judge the network");
+  command.add_flag("--quiet", arguments.quiet, "no progress, and no summary beside --json -");
+  command.footer(
       "The verdict fails when an invariant is broken that the chosen law and flow source mode promise, and only then. "
       "It is\n"
       "`not judged` when no hand moved or no errors could be measured.\n"
@@ -321,7 +312,6 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim run contact --replay net.csv --channel raw\n"
       "  tandem-netsim run contact --delay 10 --script bad_day.textproto\n"
       "  tandem-netsim run free_motion --hand trainer=motion.csv,columns=baton");
-  command->callback([arguments, &action] { action = [arguments] { return run_command(*arguments); }; });
 }
 
 }  // namespace tandem::netsim

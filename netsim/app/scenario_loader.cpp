@@ -1,6 +1,5 @@
 #include "netsim/app/scenario_loader.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -127,13 +126,8 @@ class Folder {
     }
     const auto path = file(word);
     if (!path) return std::unexpected(path.error());
-    CLI::App command;
-    NetworkOptions options;
-    options.add_to(command);
-    std::vector<std::string> arguments;
-    if (spec.trace_interval_ms) arguments.push_back("--trace-interval=" + std::to_string(*spec.trace_interval_ms));
-    command.parse(arguments);
-    const auto choice = options.named(path->find('/') == std::string::npos ? "./" + *path : *path);
+    const auto choice = named_network(path->find('/') == std::string::npos ? "./" + *path : *path, "",
+                                      spec.trace_interval_ms.value_or(0));
     if (!choice) return std::unexpected(blame(choice.error()));
     if (spec.trace_interval_ms && !choice->plays_interval)
       return std::unexpected(blame(

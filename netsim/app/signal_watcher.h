@@ -8,12 +8,10 @@
 namespace tandem::netsim {
 
 /// Collects SIGINT (Ctrl-C), SIGTERM and SIGHUP for a command. Every command then reports what is done so far, prints
-/// one common message and exits with kInterrupted. An interrupted run is not a pass, because part of it was not judged.
-/// The exception is a proxy without a time limit, which a signal ends normally.
+/// one common message and exits with io::kExitTrouble. An interrupted run is not a pass, because part of it was not
+/// judged. The exception is a proxy without a time limit, which a signal ends normally.
 class SignalWatcher {
  public:
-  static constexpr int kInterrupted = 1;
-
   /// Blocks the signals and queues them. Construct it before any thread starts.
   SignalWatcher();
 

@@ -1,22 +1,21 @@
-#include "netsim/app/swarm_command.h"
-
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <exception>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "common/base/format.h"
 #include "common/base/heap_count.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/parallel_jobs.h"
 #include "common/io/print.h"
 #include "common/io/terminal.h"
+#include "common/io/usage_errors.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/quality/quality_json.h"
 #include "netsim/system/session_notes.h"
 #include "netsim/system/swarm.h"
@@ -27,18 +26,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFailed = 1, kTrouble = 1;
 /// Failures that are listed; the rest is counted.
 constexpr std::size_t kShown = 20;
 
 struct SwarmArguments {
   std::uint64_t first = 1, seeds = 500;
   double fault_phase_max_s = 40;
-  LawKind law = LawKind::kReplica;
   std::size_t jobs = 0;
   bool fail_fast = false, scene = false;
-  std::string json, trace;
+  std::string law = "replica", json, trace;
 };
+
+LawKind law_of(const SwarmArguments& arguments) {
+  return arguments.law == "replica" ? LawKind::kReplica : LawKind::kSetPosition;
+}
 
 std::string replay_command(const SwarmArguments& arguments, std::uint64_t seed) {
   std::string text = format("tandem-netsim swarm --first %llu --seeds 1", static_cast<unsigned long long>(seed));
@@ -75,7 +76,7 @@ Json to_json(const SwarmCase& which, const SwarmResult& result, double cpu_s) {
 /// Runs one seed in the process of its job.
 std::string live_seed(const SwarmArguments& arguments, std::uint64_t seed, io::JobProgressReporter share) {
   const std::clock_t begin = std::clock();
-  SwarmCase which = generate_swarm_case(seed, arguments.fault_phase_max_s, arguments.law);
+  SwarmCase which = generate_swarm_case(seed, arguments.fault_phase_max_s, law_of(arguments));
   which.setup.keep_record = !arguments.trace.empty();
   which.setup.monitor_quality = arguments.seeds == 1;
   which.setup.heap_count = heap_allocations;
@@ -173,7 +174,7 @@ std::string summary(const SwarmArguments& arguments, const SwarmSum& sum, double
 }
 
 int print_scene(const SwarmArguments& arguments) {
-  const SwarmCase which = generate_swarm_case(arguments.first, arguments.fault_phase_max_s, arguments.law);
+  const SwarmCase which = generate_swarm_case(arguments.first, arguments.fault_phase_max_s, law_of(arguments));
   std::printf("# seed %llu: %s\n%s", static_cast<unsigned long long>(which.seed), which.description.c_str(),
               which.scene_text.c_str());
   for (const Fault& f : which.setup.faults)
@@ -184,14 +185,12 @@ int print_scene(const SwarmArguments& arguments) {
 }
 
 int swarm_command(const SwarmArguments& arguments) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   if (!arguments.trace.empty() && arguments.seeds != 1) mistakes.add("--trace is of one session; add --seeds 1");
   for (const auto& [option, file] : {std::pair{"--json", arguments.json}, std::pair{"--trace", arguments.trace}})
-    if (!file.empty() && file != "-")
-      if (const auto problem = io::OutputFile::problem(file); !problem.empty())
-        mistakes.add(std::string(option) + ": " + problem);
+    mistakes.output_file(option, file);
   if (arguments.trace == "-") mistakes.add("--trace: standard output is for --json; name a file");
-  if (!mistakes.empty()) return mistakes.report("swarm");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim swarm");
   if (arguments.scene) return print_scene(arguments);
 
   const SignalWatcher interruption;
@@ -241,46 +240,42 @@ int swarm_command(const SwarmArguments& arguments) {
   if (problem.empty()) problem = json.close();
   if (!problem.empty()) {
     io::print_formatted(stderr, "tandem-netsim swarm: --json: %s\n", problem.c_str());
-    return kTrouble;
+    return io::kExitTrouble;
   }
-  if (interrupted) return SignalWatcher::kInterrupted;
-  return sum.failed == 0 && sum.not_run == 0 ? 0 : kFailed;
+  return !interrupted && sum.failed == 0 && sum.not_run == 0 ? io::kExitDone : io::kExitTrouble;
 }
 
 }  // namespace
 
-void add_swarm_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<SwarmArguments>();
-  CLI::App* const command = root.add_subcommand("swarm",
-                                                "Runs random sessions: seats, tools, hands, networks and faults from "
-                                                "one seed each, every invariant checked in every tick.");
-  command->add_option("--first", arguments->first, "first seed; default 1")
-      ->check(io::whole_number())
-      ->option_text("N");
-  command->add_option("--seeds", arguments->seeds, "how many sessions; default 500")
-      ->check(CLI::Range(1, 10'000'000))
-      ->option_text("N");
+void add_swarm_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("swarm",
+                       "Runs random sessions: seats, tools, hands, networks and faults from "
+                       "one seed each, every invariant checked in every tick.",
+                       swarm_command);
+  command.add_option("--first", arguments.first, "first seed; default 1").check(io::whole_number()).value_name("N");
+  command.add_option("--seeds", arguments.seeds, "how many sessions; default 500")
+      .check(io::integer_in(1, 10'000'000))
+      .value_name("N");
   command
-      ->add_option("--law", arguments->law,
-                   "law of the hands: replica (default) or set_position; all else is drawn alike")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, LawKind>{{"set_position", LawKind::kSetPosition}, {"replica", LawKind::kReplica}},
-          CLI::ignore_case))
-      ->option_text("LAW");
+      .add_option("--law", arguments.law,
+                  "law of the hands: replica (default) or set_position; all else is drawn alike")
+      .check(io::one_of({"replica", "set_position"}))
+      .value_name("LAW");
   command
-      ->add_option("--fault-phase", arguments->fault_phase_max_s,
-                   "longest fault phase [s], in which networks, clients and devices fail; default 40")
-      ->transform(io::number_in(2, 3600, "s"))
-      ->option_text("S");
-  command->add_option("--jobs", arguments->jobs, "sessions at a time; default one per core")
-      ->check(CLI::Range(1, 1024))
-      ->option_text("N");
-  command->add_flag("--fail-fast", arguments->fail_fast, "stops at the first session that fails");
-  command->add_flag("--scene", arguments->scene, "only prints the scene, faults, clocks and network of the first seed");
-  command->add_option("--json", arguments->json, "writes every session's result; `-`: to standard output")
-      ->option_text("FILE|-");
-  command->add_option("--trace", arguments->trace, "with --seeds 1: writes one row per tick")->option_text("FILE.csv");
-  command->footer(
+      .add_option("--fault-phase", arguments.fault_phase_max_s,
+                  "longest fault phase [s], in which networks, clients and devices fail; default 40")
+      .check(io::number_in(2, 3600, "s"))
+      .value_name("S");
+  command.add_option("--jobs", arguments.jobs, "sessions at a time; default one per core")
+      .check(io::integer_in(1, 1024))
+      .value_name("N");
+  command.add_flag("--fail-fast", arguments.fail_fast, "stops at the first session that fails");
+  command.add_flag("--scene", arguments.scene, "only prints the scene, faults, clocks and network of the first seed");
+  command.add_option("--json", arguments.json, "writes every session's result; `-`: to standard output")
+      .value_name("FILE|-");
+  command.add_option("--trace", arguments.trace, "with --seeds 1: writes one row per tick").value_name("FILE.csv");
+  command.footer(
       "A session has a fault phase, with every fault drawn for it, and a recovery phase: the network is good, nothing "
       "fails,\n"
       "and simulated users reset every latched gate. In the recovery phase every seat must be active again within 10 "
@@ -291,7 +286,6 @@ void add_swarm_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim swarm --first 17 --seeds 1 --trace trace.csv\n"
       "  tandem-netsim swarm --first 17 --scene\n\n"
       "Exit: 0 all passed, 1 something failed or was interrupted, 2 wrong arguments or files.");
-  command->callback([arguments, &action] { action = [arguments] { return swarm_command(*arguments); }; });
 }
 
 }  // namespace tandem::netsim

@@ -1,17 +1,16 @@
-#include "netsim/app/sweep_command.h"
-
 #include <array>
 #include <cstdio>
-#include <memory>
 
 #include "common/base/format.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/sweep.h"
 #include "netsim/app/test_progress.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/system/session_notes.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
@@ -20,8 +19,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kGood = 0, kFailed = 1;
-
 struct SweepArguments {
   std::string scene, delay, jitter, loss, metric = "tracking_rms_m", channel, mfs, json, csv;
   std::uint64_t seed = 1;
@@ -29,10 +26,10 @@ struct SweepArguments {
   bool quiet = false;
 };
 
-int wrong(const std::string& mistake) { return report_usage_error("sweep", mistake); }
+int wrong(const std::string& mistake) { return io::report_usage_error("tandem-netsim sweep", mistake); }
 
 /// Makes the sweep from the arguments; collects all errors.
-SweepSpec understand(const SweepArguments& a, UsageErrors& mistakes) {
+SweepSpec understand(const SweepArguments& a, io::UsageErrors& mistakes) {
   SweepSpec spec;
   spec.scene_name = a.scene;
   spec.metric = a.metric;
@@ -92,14 +89,12 @@ SweepSpec understand(const SweepArguments& a, UsageErrors& mistakes) {
 }
 
 int sweep_command(const SweepArguments& a) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   SweepSpec spec = understand(a, mistakes);
   for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
-    if (!file->empty() && *file != "-")
-      if (const auto problem = io::OutputFile::problem(*file); !problem.empty())
-        mistakes.add(std::string(option) + ": " + problem);
+    mistakes.output_file(option, *file);
   if (!a.json.empty() && a.json == a.csv) mistakes.add("--csv: is the same file as --json");
-  if (!mistakes.empty()) return mistakes.report("sweep");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim sweep");
 
   const SignalWatcher interruption;
   io::OutputFile json_file, csv_file;
@@ -122,59 +117,55 @@ int sweep_command(const SweepArguments& a) {
                                        std::to_string(sweep.runs.all()) + " runs");
   json_file.write(sweep_json(sweep));
   csv_file.write(sweep_csv(sweep));
-  int code = interrupted ? SignalWatcher::kInterrupted : sweep.good() ? kGood : kFailed;
+  int code = !interrupted && sweep.good() ? io::kExitDone : io::kExitTrouble;
   for (const auto& problem : {json_file.close(), csv_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim sweep: %s\n", problem.c_str());
-      code = kFailed;
+      code = io::kExitTrouble;
     }
   return code;
 }
 
 }  // namespace
 
-void add_sweep_command(CLI::App& root, std::function<int()>& action) {
-  const auto a = std::make_shared<SweepArguments>();
-  CLI::App* const command =
-      root.add_subcommand("sweep", "Runs a scene over a grid of networks and prints a map of one number.");
-  command->add_option("scene", a->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
-      ->option_text(" ")
-      ->required();
-  command->add_option("--delay", a->delay, "constant delays, each direction [ms], 0 to 60000")
-      ->option_text("MS,MS,...");
+void add_sweep_command(const io::Command& root) {
+  const auto [command, a] =
+      root.add_command("sweep", "Runs a scene over a grid of networks and prints a map of one number.", sweep_command);
+  command.add_option("scene", a.scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
+      .value_name(" ")
+      .required();
+  command.add_option("--delay", a.delay, "constant delays, each direction [ms], 0 to 60000").value_name("MS,MS,...");
   command
-      ->add_option("--jitter", a->jitter,
-                   "delays uniform in [0, MS] added to every datagram [ms], 0 to 60000; order is kept")
-      ->option_text("MS,MS,...");
-  command->add_option("--loss", a->loss, "datagrams lost, each alone [%], 0 to 100")->option_text("PERCENT,...");
+      .add_option("--jitter", a.jitter,
+                  "delays uniform in [0, MS] added to every datagram [ms], 0 to 60000; order is kept")
+      .value_name("MS,MS,...");
+  command.add_option("--loss", a.loss, "datagrams lost, each alone [%], 0 to 100").value_name("PERCENT,...");
   command
-      ->add_option("--metric", a->metric,
-                   "the number of the map, as in `run --json`: tracking_rms_m (default), force_error_rms_n, "
-                   "effort_peak_n, gate_trips, "
-                   "held_s, ...; the worst seat or tool over all seeds counts")
-      ->option_text("NAME");
-  command->add_option("--seeds", a->seeds, "how many seeds of each point; default 1")
-      ->check(io::number_in(1, 10'000, ""))
-      ->check(io::whole_number())
-      ->option_text("N");
-  command->add_option("--seed", a->seed, "the first seed; default 1")->check(io::whole_number())->option_text("FIRST");
-  command->add_option("--jobs", a->jobs, "runs at a time; default: one per core. No result depends on it")
-      ->check(io::number_in(1, 256, ""))
-      ->check(io::whole_number())
-      ->option_text("N");
-  command->add_option("--duration", a->duration_s, "session time instead of the scene's")
-      ->transform(io::number_in(0.1, 3e6, "s"))
-      ->option_text("S");
+      .add_option("--metric", a.metric,
+                  "the number of the map, as in `run --json`: tracking_rms_m (default), force_error_rms_n, "
+                  "effort_peak_n, gate_trips, "
+                  "held_s, ...; the worst seat or tool over all seeds counts")
+      .value_name("NAME");
+  command.add_option("--seeds", a.seeds, "how many seeds of each point; default 1")
+      .check(io::whole_number_in(1, 10'000))
+      .value_name("N");
+  command.add_option("--seed", a.seed, "the first seed; default 1").check(io::whole_number()).value_name("FIRST");
+  command.add_option("--jobs", a.jobs, "runs at a time; default: one per core. No result depends on it")
+      .check(io::whole_number_in(1, 256))
+      .value_name("N");
+  command.add_option("--duration", a.duration_s, "session time instead of the scene's")
+      .check(io::number_in(0.1, 3e6, "s"))
+      .value_name("S");
   command
-      ->add_option("--channel", a->channel,
-                   "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
-      ->transform(CLI::IsMember({"replica", "set_position", "raw"}, CLI::ignore_case));
-  command->add_option("--mfs", a->mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
-      ->transform(CLI::IsMember({"open", "tank", "seed", "seed_signed"}, CLI::ignore_case));
-  command->add_option("--json", a->json, "writes all points and seeds; `-`: to standard output")->option_text("FILE|-");
-  command->add_option("--csv", a->csv, "writes one row per point; `-`: to standard output")->option_text("FILE|-");
-  command->add_flag("--quiet", a->quiet, "no progress, and no map beside --json - or --csv -");
-  command->footer(
+      .add_option("--channel", a.channel,
+                  "channel law instead of the scene's: replica (default of scenes that name none), set_position, raw")
+      .check(io::one_of({"replica", "set_position", "raw"}));
+  command.add_option("--mfs", a.mfs, "flow sources instead of the scene's: open, tank, seed, seed_signed")
+      .check(io::one_of({"open", "tank", "seed", "seed_signed"}));
+  command.add_option("--json", a.json, "writes all points and seeds; `-`: to standard output").value_name("FILE|-");
+  command.add_option("--csv", a.csv, "writes one row per point; `-`: to standard output").value_name("FILE|-");
+  command.add_flag("--quiet", a.quiet, "no progress, and no map beside --json - or --csv -");
+  command.footer(
       "Exit: 0 no promised invariant was broken anywhere, 1 one was, a run could not begin, or it was interrupted, 2 "
       "wrong arguments or files.\n\n"
       "Examples\n"
@@ -182,7 +173,6 @@ void add_sweep_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim sweep contact --delay 0,10,20,40 --jitter 0,5 --metric force_error_rms_n --seeds 5 --csv "
       "map.csv\n"
       "  tandem-netsim sweep contact --delay 0,50,100,200 --channel raw");
-  command->callback([a, &action] { action = [a] { return sweep_command(*a); }; });
 }
 
 }  // namespace tandem::netsim

@@ -1,37 +1,35 @@
-#include "netsim/app/test_command.h"
-
 #include <array>
 #include <cstdio>
 #include <limits>
-#include <memory>
 
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
+#include "netsim/app/netsim_commands.h"
 #include "netsim/app/scenario_loader.h"
 #include "netsim/app/signal_watcher.h"
 #include "netsim/app/test_progress.h"
 #include "netsim/app/test_report.h"
-#include "netsim/app/usage_errors.h"
 #include "netsim/scenario/shipped_scenarios.h"
 #include "netsim/system/session_notes.h"
 
 namespace tandem::netsim {
 namespace {
 
-constexpr int kPass = 0, kFailed = 1;
 constexpr double kJobsMax = 256, kSeedsMax = 100'000;
 
 struct TestArguments {
+  io::Command command;
   std::vector<std::string> scenarios;
   std::uint64_t seed = 1;
   double seeds = 1, jobs = 0;
   std::string junit, json, trace;
-  bool seed_given = false, seeds_given = false;
   bool fail_fast = false, list = false, check = false, reports = false, quiet = false;
 };
 
-int wrong(const std::string& mistake) { return report_usage_error("test", mistake); }
+int wrong(const std::string& mistake) { return io::report_usage_error("tandem-netsim test", mistake); }
 
 void list(const std::vector<Scenario>& scenarios) {
   std::size_t width = 0;
@@ -42,11 +40,11 @@ void list(const std::vector<Scenario>& scenarios) {
 }
 
 /// Checks the options that depend on the scenarios.
-void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, UsageErrors& mistakes) {
+void check_together(const TestArguments& a, const std::vector<Scenario>& scenarios, io::UsageErrors& mistakes) {
   std::uint64_t runs = 0;
   for (const Scenario& s : scenarios) {
-    const std::uint64_t seeds = a.seeds_given ? static_cast<std::uint64_t>(a.seeds) : s.seeds;
-    const std::uint64_t first = a.seed_given ? a.seed : s.seed;
+    const std::uint64_t seeds = a.command.given("--seeds") ? static_cast<std::uint64_t>(a.seeds) : s.seeds;
+    const std::uint64_t first = a.command.given("--seed") ? a.seed : s.seed;
     runs += seeds;
     if (first > std::numeric_limits<std::uint64_t>::max() - (seeds - 1))
       mistakes.add(s.name + ": seed " + std::to_string(first) + " and " + std::to_string(seeds - 1) +
@@ -57,7 +55,7 @@ void check_together(const TestArguments& a, const std::vector<Scenario>& scenari
                  "; add --seeds 1 and name one");
 }
 
-void check_outputs(const TestArguments& a, UsageErrors& mistakes) {
+void check_outputs(const TestArguments& a, io::UsageErrors& mistakes) {
   const std::array<std::pair<const char*, const std::string*>, 3> files{
       {{"--json", &a.json}, {"--junit", &a.junit}, {"--trace", &a.trace}}};
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -65,8 +63,8 @@ void check_outputs(const TestArguments& a, UsageErrors& mistakes) {
     if (file->empty() || (*file == "-" && i == 0)) continue;
     if (*file == "-") {
       mistakes.add(std::string(option) + ": standard output is for --json; name a file");
-    } else if (const auto problem = io::OutputFile::problem(*file); !problem.empty()) {
-      mistakes.add(std::string(option) + ": " + problem);
+    } else {
+      mistakes.add(option, io::OutputFile::problem(*file));
     }
     for (std::size_t k = 0; k < i; ++k)
       if (*files[k].second == *file) mistakes.add(std::string(option) + ": is the same file as " + files[k].first);
@@ -74,7 +72,7 @@ void check_outputs(const TestArguments& a, UsageErrors& mistakes) {
 }
 
 int test_command(const TestArguments& a) {
-  UsageErrors mistakes;
+  io::UsageErrors mistakes;
   check_outputs(a, mistakes);
   std::vector<std::string> names = a.scenarios;
   if (names.empty() && a.list) names.emplace_back(kAllShipped);
@@ -96,15 +94,15 @@ int test_command(const TestArguments& a) {
   } else {
     for (const InputError& error : scenarios.error()) mistakes.add(to_text(error));
   }
-  if (!mistakes.empty()) return mistakes.report("test");
+  if (!mistakes.empty()) return mistakes.report_each("tandem-netsim test");
   for (const std::string& note : left_out) io::print_formatted(stderr, "note: %s\n", note.c_str());
   for (Scenario& s : *scenarios) {  // the options now replace the scenario's values
-    if (a.seed_given) s.seed = a.seed;
-    if (a.seeds_given) s.seeds = static_cast<std::uint32_t>(a.seeds);
+    if (a.command.given("--seed")) s.seed = a.seed;
+    if (a.command.given("--seeds")) s.seeds = static_cast<std::uint32_t>(a.seeds);
   }
   if (a.list) {
     list(*scenarios);
-    return kPass;
+    return io::kExitDone;
   }
   if (a.check) {
     for (const Scenario& s : *scenarios) {
@@ -114,7 +112,7 @@ int test_command(const TestArguments& a) {
     }
     std::printf("# OK: %zu scenario%s without a mistake; nothing was started\n", scenarios->size(),
                 scenarios->size() == 1 ? "" : "s");
-    return kPass;
+    return io::kExitDone;
   }
   const SignalWatcher interruption;
   io::OutputFile json_file, junit_file;
@@ -127,8 +125,8 @@ int test_command(const TestArguments& a) {
                       .reports = a.reports,
                       .trace = a.trace,
                       .stop_fd = interruption.fd()};
-  if (a.seed_given) options.seed = a.seed;
-  if (a.seeds_given) options.seeds = static_cast<std::uint64_t>(a.seeds);
+  if (a.command.given("--seed")) options.seed = a.seed;
+  if (a.command.given("--seeds")) options.seeds = static_cast<std::uint64_t>(a.seeds);
   options.on_progress = [&](const io::JobProgress& p, std::size_t failed) { progress.show(p, failed); };
   TestResult result = run_tests(std::move(*scenarios), options);
   progress.end();
@@ -141,51 +139,48 @@ int test_command(const TestArguments& a) {
         "test", std::to_string(result.all() - result.not_run()) + " of " + std::to_string(result.all()) + " seeds");
   json_file.write(test_json(result));
   junit_file.write(junit_xml(result));
-  int code = result.interrupted ? SignalWatcher::kInterrupted : result.passed() ? kPass : kFailed;
+  int code = !result.interrupted && result.passed() ? io::kExitDone : io::kExitTrouble;
   for (const auto& problem : {json_file.close(), junit_file.close()})
     if (!problem.empty()) {
       io::print_formatted(stderr, "tandem-netsim test: %s\n", problem.c_str());
-      code = kFailed;
+      code = io::kExitTrouble;
     }
   return code;
 }
 
 }  // namespace
 
-void add_test_command(CLI::App& root, std::function<int()>& action) {
-  const auto a = std::make_shared<TestArguments>();
-  CLI::App* const command = root.add_subcommand("test", "Runs scenarios over many seeds and gives a verdict, for CI.");
+void add_test_command(const io::Command& root) {
+  const auto [command, a] =
+      root.add_command("test", "Runs scenarios over many seeds and gives a verdict, for CI.", test_command);
+  a.command = command;
   command
-      ->add_option("SCENARIO", a->scenarios,
-                   "scenario files, folders of them, names of shipped ones (--list), or `shipped`: all of these")
-      ->option_text(" ");
-  CLI::Option* const seeds =
-      command->add_option("--seeds", a->seeds, "how many seeds of each scenario, instead of its own number")
-          ->check(io::number_in(1, kSeedsMax, ""))
-          ->check(io::whole_number())
-          ->option_text("N");
-  CLI::Option* const seed = command->add_option("--seed", a->seed, "the first seed, instead of the scenario's")
-                                ->check(io::whole_number())
-                                ->option_text("FIRST");
-  command->add_option("--jobs", a->jobs, "seeds that run at a time; default: one per core. No result depends on it")
-      ->check(io::number_in(1, kJobsMax, ""))
-      ->check(io::whole_number())
-      ->option_text("N");
-  command->add_option("--junit", a->junit, "writes JUnit XML: one testsuite per scenario, one testcase per seed")
-      ->option_text("FILE");
+      .add_option("SCENARIO", a.scenarios,
+                  "scenario files, folders of them, names of shipped ones (--list), or `shipped`: all of these")
+      .value_name(" ");
+  command.add_option("--seeds", a.seeds, "how many seeds of each scenario, instead of its own number")
+      .check(io::whole_number_in(1, kSeedsMax))
+      .value_name("N");
+  command.add_option("--seed", a.seed, "the first seed, instead of the scenario's")
+      .check(io::whole_number())
+      .value_name("FIRST");
+  command.add_option("--jobs", a.jobs, "seeds that run at a time; default: one per core. No result depends on it")
+      .check(io::whole_number_in(1, kJobsMax))
+      .value_name("N");
+  command.add_option("--junit", a.junit, "writes JUnit XML: one testsuite per scenario, one testcase per seed")
+      .value_name("FILE");
   command
-      ->add_option("--json", a->json,
-                   "writes the verdicts; `-`: to standard output. Equal but for the keys cpu_s for equal seeds")
-      ->option_text("FILE|-");
-  command->add_flag("--reports", a->reports, "adds the report of `run --json` for each seed to --json");
-  command->add_option("--trace", a->trace, "writes one row per tick; of one seed only")->option_text("FILE.csv");
-  command->add_flag("--fail-fast", a->fail_fast,
-                    "runs nothing after the first seed that fails, in the order of the table");
-  command->add_flag("--list", a->list,
-                    "only lists scenarios: seeds, length, summary; without SCENARIO the shipped ones");
-  command->add_flag("--check", a->check, "only checks the files and prints every value in force, with units");
-  command->add_flag("--quiet", a->quiet, "no progress, and no table beside --json -");
-  command->footer(
+      .add_option("--json", a.json,
+                  "writes the verdicts; `-`: to standard output. Equal but for the keys cpu_s for equal seeds")
+      .value_name("FILE|-");
+  command.add_flag("--reports", a.reports, "adds the report of `run --json` for each seed to --json");
+  command.add_option("--trace", a.trace, "writes one row per tick; of one seed only").value_name("FILE.csv");
+  command.add_flag("--fail-fast", a.fail_fast,
+                   "runs nothing after the first seed that fails, in the order of the table");
+  command.add_flag("--list", a.list, "only lists scenarios: seeds, length, summary; without SCENARIO the shipped ones");
+  command.add_flag("--check", a.check, "only checks the files and prints every value in force, with units");
+  command.add_flag("--quiet", a.quiet, "no progress, and no table beside --json -");
+  command.footer(
       "A seed passes when no promised invariant is broken (as `run` judges) and every limit of its scenario holds.\n"
       "For each failure the report has the command that repeats the seed, with the same trace_hash, with its "
       "trace.\n\n"
@@ -195,11 +190,6 @@ void add_test_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-netsim test shipped --junit verdict.xml\n"
       "  tandem-netsim test my-scenarios/ --seeds 100 --jobs 8 --json -\n"
       "  tandem-netsim test outage-one-seat --seed 17 --seeds 1 --trace out.csv");
-  command->callback([a, seed, seeds, &action] {
-    a->seed_given = seed->count() > 0;
-    a->seeds_given = seeds->count() > 0;
-    action = [a] { return test_command(*a); };
-  });
 }
 
 }  // namespace tandem::netsim

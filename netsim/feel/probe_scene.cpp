@@ -29,7 +29,7 @@ void add_row(FeelTrace& trace, const Simulation& world) {
     hand.f.push_back(vector_of(seat.f_out));
     hand.f_cmd.push_back(vector_of(seat.f_cmd));
     hand.engaged.push_back(seat.engaged ? 1 : 0);
-    hand.trips.push_back(world.gate_trips(i));
+    hand.trips.push_back(world.client(i).program().gate_trips());
   }
   const server::ToolRecord& tool = record.tools[0];
   trace.tool.push_back(vector_of(tool.x));

@@ -27,17 +27,17 @@ class AuthorityTransferChecker {
   /// @param lived  ticks that the session ran since the last call
   void check(std::uint32_t lived, const server::Session& session, server::Violations& violations) {
     ticks_run_ += lived;
-    session_tick_ = session.session_tick();
+    session_tick_ = session.clock().session_tick();
     for (std::size_t j = 0; j < before_.size(); ++j) {
       const control::ToolAuthority& row = session.tool(j).authority;
       const control::MasterArray& now = row.requested();
       const bool felt = !row.held() && !held_[j] && now != before_[j];
-      if (felt && session.session_tick() > kNotice && !announced(j, now))
-        violations.add("handover_announced", scene_->tools[j].name, session.time(), false);
+      if (felt && session.clock().session_tick() > kNotice && !announced(j, now))
+        violations.add("handover_announced", scene_->tools[j].name, session.clock().time(), false);
       // A late server runs many ticks in one call. The link's state in the tick of the change is then unknown.
       for (std::size_t i = 0; felt && lived == 1 && i < scene_->masters(); ++i)
         if (now[i] > before_[j][i] + 1e-9 && link_is_stale(session, i))
-          violations.add("handover_link", scene_->seats[i].name, session.time(), false);
+          violations.add("handover_link", scene_->seats[i].name, session.clock().time(), false);
       before_[j] = now;
       held_[j] = row.held();
     }
@@ -55,7 +55,7 @@ class AuthorityTransferChecker {
   }
   [[nodiscard]] bool link_is_stale(const server::Session& session, std::size_t i) const {
     const server::SeatEndpoint& seat = session.seat(i);
-    return !seat.taken() || seconds(seat.silence(session.last_tick())) > scene_->gate.silence_limit + 1e-9;
+    return !seat.taken() || seconds(seat.silence(session.clock().last_tick())) > scene_->gate.silence_limit + 1e-9;
   }
 
   struct Decision {

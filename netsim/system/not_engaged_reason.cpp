@@ -41,7 +41,7 @@ std::string not_engaged_reason(const SceneSpec& scene, std::size_t i, const clie
                       "gate.silence_limit_ms = %.0f; "
                       "raise that key or send over a network that loses and holds less",
                       core->gate().trips(), gap, silence_max);
-  if (core->locally_stopped()) return name + " stopped its own hand";
+  if (core->requests().locally_stopped()) return name + " stopped its own hand";
   if (!session.seat(i).ready(now))
     return name + format(" is not ready: its last datagram reached the server %.0f ms ago",
                          session.seat(i).taken() ? ms(session.seat(i).silence(now)) : 0.0);

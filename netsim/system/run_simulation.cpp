@@ -58,7 +58,7 @@ SimulationResult run_simulation(Simulation& world, std::uint64_t seed, const Sim
     feel.add(record);
     if (record.running) csv.append(record, rows);
     if (rows.size() > kRowsAtOnce) flush();
-    if (n % kTicksPerLook == 0 && watch.keep_running && !watch.keep_running(world.session().time())) {
+    if (n % kTicksPerLook == 0 && watch.keep_running && !watch.keep_running(world.session().clock().time())) {
       run.interrupted = true;
       break;
     }

@@ -75,7 +75,8 @@ std::string softened_note(const SceneSpec& scene, std::size_t seat) {
 SessionSpan session_span(const Simulation& world) {
   const Duration end = world.now() - Time{};
   const auto& session = world.session();
-  return {end - from_seconds(session.time() + static_cast<double>(session.stopped_ticks()) / world.scene().tick_hz),
+  return {end - from_seconds(session.clock().time() +
+                             static_cast<double>(session.clock().stopped_ticks()) / world.scene().tick_hz),
           end};
 }
 

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "client/seat/seat.h"
 #include "hal/sim/sim_device.h"
 #include "netsim/engine/network.h"
 #include "netsim/models/endpoint_clock.h"
 #include "netsim/system/attacker.h"
-#include "netsim/system/fault.h"
+#include "netsim/system/fault_schedule.h"
 #include "netsim/system/first_seen_filter.h"
-#include "netsim/system/simulated_handshake.h"
+#include "netsim/system/sensor_faults.h"
+#include "netsim/system/simulated_program.h"
 #include "proto/spec/scene_spec.h"
 
 namespace tandem::netsim {
@@ -45,15 +45,13 @@ class SimulatedClient {
   };
   [[nodiscard]] AttackDatagrams attack_datagrams(Time now) noexcept;
 
-  [[nodiscard]] const client::Seat* seat() const noexcept { return seat_.get(); }
-  [[nodiscard]] client::Seat* seat() noexcept { return seat_.get(); }
+  [[nodiscard]] const SimulatedProgram& program() const noexcept { return program_; }
+  [[nodiscard]] const client::Seat* seat() const noexcept { return program_.seat(); }
+  [[nodiscard]] client::Seat* seat() noexcept { return program_.seat(); }
   [[nodiscard]] const hal::sim::SimDevice& device() const noexcept { return *device_; }
   [[nodiscard]] hal::sim::SimDevice& device() noexcept { return *device_; }
+  [[nodiscard]] const FaultSchedule& faults() const noexcept { return faults_; }
 
-  /// Returns how often the gate has released the hand, including programs that ended.
-  [[nodiscard]] std::uint32_t gate_trips() const noexcept {
-    return trips_before_ + (seat_ ? seat_->gate().trips() : 0);
-  }
   /// Returns `now` on the program's own clock.
   [[nodiscard]] Time own_time(Time now) const noexcept;
   /// Stores a datagram that the server received, for a later replay attack.
@@ -65,58 +63,41 @@ class SimulatedClient {
   /// to order the clients.
   [[nodiscard]] Time wake_time(Time now) const noexcept;
 
-  /// Values of the last step, for the checker: datagrams that the core received for the first time; whether the core
-  /// ran, and whether its reading was invalid. Also the number of starts of the program.
+  // Values of the last step, for the checkers.
+
+  /// Returns the number of datagrams that the core received for the first time.
   [[nodiscard]] std::uint64_t new_datagrams() const noexcept { return new_datagrams_; }
+  /// Returns whether the core ran, and when it last ran.
   [[nodiscard]] bool ran_in_tick() const noexcept { return ran_in_tick_; }
-  /// When the core last ran, and the energy that the motor delivered during the last step [J].
   [[nodiscard]] Time last_run() const noexcept { return last_run_; }
+  /// Returns the energy that the motor delivered [J].
   [[nodiscard]] double motor_work() const noexcept { return motor_work_; }
-  [[nodiscard]] bool invalid_reading() const noexcept { return invalid_reading_; }
-  [[nodiscard]] std::uint32_t starts() const noexcept { return starts_; }
-  /// Returns the number of connections so far.
-  [[nodiscard]] std::uint32_t joins() const noexcept { return joins_; }
-  [[nodiscard]] bool has_fault(Fault::Kind kind, Time now) const noexcept;
-  [[nodiscard]] bool ever_has_fault(Fault::Kind kind) const noexcept;
+  [[nodiscard]] bool invalid_reading() const noexcept { return sensors_.invalid(); }
 
  private:
   void advance_device(Duration length) noexcept;
   [[nodiscard]] std::string run_program(Time now, bool awake, server::Session* session, Network& network,
                                         std::span<std::byte> buffer);
-  void rejoin(Time now, server::Session& session);
-  [[nodiscard]] Duration rejoin_backoff(std::uint64_t epoch) const noexcept;
-  void apply_stop_faults(Time now) noexcept;
   void receive(Time now, Network& network, std::span<std::byte> buffer);
-  [[nodiscard]] std::string join(Time now, server::Session& session);
   [[nodiscard]] std::optional<double> hand_time(Time own) const noexcept;
   void run_seat(Time now, Network& network, std::span<std::byte> buffer);
   void deliver(Time now, std::span<const std::byte> bytes) noexcept;
-  [[nodiscard]] const hal::State& reading(Time now) noexcept;
 
-  const SceneSpec* scene_;
-  std::size_t seat_index_;
+  std::uint32_t link_;  ///< its link on the network: the number of its seat
   Duration tick_;
-  RandomKey key_;
   std::optional<EndpointClock> clock_;
   std::optional<WakeUps> wake_;
-  std::vector<Fault> faults_;
+  FaultSchedule faults_;
   std::unique_ptr<hal::sim::SimDevice> device_;
-  std::unique_ptr<client::Seat> seat_;
+  SensorFaults sensors_;
+  SimulatedProgram program_;
   std::unique_ptr<Attacker> attacker_;  ///< only where a fault needs it
-  std::uint32_t server_cid_ = 0;
   hal::Command command_{};
-  hal::State reading_{};  ///< replaces the device's state during a fault of the sensor
-  bool frozen_ = false, down_ = true, ran_in_tick_ = false, invalid_reading_ = false;
-  bool stopped_ = false, stop_all_requested_ = false;  ///< by a fault: the user's own hand, the session
-  std::uint64_t known_epoch_ = 0;                      ///< of the newest server it knows of
-  std::uint64_t epoch_ = 0;                            ///< of the session it joined
-  std::uint32_t joins_ = 0, starts_ = 0, trips_before_ = 0;
+  bool ran_in_tick_ = false;
   std::uint64_t new_datagrams_ = 0;
   Time last_run_{};
   double motor_work_ = 0;
   FirstSeenFilter first_seen_;
-  Time retry_at_{};
-  std::uint64_t join_attempts_ = 0;
 };
 
 }  // namespace tandem::netsim

@@ -9,8 +9,10 @@
 
 #include "netsim/engine/network.h"
 #include "netsim/quality/link_monitor.h"
+#include "netsim/system/fault_schedule.h"
 #include "netsim/system/invariant_checker.h"
 #include "netsim/system/simulated_client.h"
+#include "netsim/system/simulated_server.h"
 #include "netsim/system/simulation_config.h"
 #include "server/report/violations.h"
 #include "server/session/session.h"
@@ -31,18 +33,16 @@ class Simulation {
 
   [[nodiscard]] Time now() const noexcept { return now_; }
   /// Returns whether the server runs. While it does not, `session` has the state in which the server died.
-  [[nodiscard]] bool server_up() const noexcept { return server_up_; }
+  [[nodiscard]] bool server_up() const noexcept { return server_.up(); }
   /// Returns the checkpoint from which a server would restart now.
-  [[nodiscard]] const server::Checkpoint& checkpoint() const noexcept { return checkpoint_; }
+  [[nodiscard]] const server::Checkpoint& checkpoint() const noexcept { return server_.checkpoint(); }
   /// Returns the session of the running server; each restart of the server makes another session.
-  [[nodiscard]] const server::Session& session() const noexcept { return *session_; }
+  [[nodiscard]] const server::Session& session() const noexcept { return server_.session(); }
   [[nodiscard]] const client::Seat* seat(std::size_t i) const noexcept { return clients_[i].seat(); }
   [[nodiscard]] client::Seat* seat(std::size_t i) noexcept { return clients_[i].seat(); }
   [[nodiscard]] const hal::sim::SimDevice& device(std::size_t i) const noexcept { return clients_[i].device(); }
   [[nodiscard]] hal::sim::SimDevice& device(std::size_t i) noexcept { return clients_[i].device(); }
-  [[nodiscard]] std::uint32_t gate_trips(std::size_t i) const noexcept { return clients_[i].gate_trips(); }
-  /// Returns the current time on the clock of this seat's program.
-  [[nodiscard]] Time client_time(std::size_t i) const noexcept { return clients_[i].own_time(now_); }
+  [[nodiscard]] const SimulatedClient& client(std::size_t i) const noexcept { return clients_[i]; }
   /// Returns the session's record with every seat's values of this tick, without the network's delay.
   [[nodiscard]] const server::TickRecord& record() const noexcept { return record_; }
   [[nodiscard]] const server::Violations& violations() const noexcept { return checker_.violations(); }
@@ -67,25 +67,22 @@ class Simulation {
       : setup_(setup),
         network_(setup.seed),
         tick_(from_seconds(1.0 / setup.scene.tick_hz)),
-        load_shedder_(tick_),
+        now_(Time{} + tick_),
+        server_(setup_),
+        faults_(setup.faults),
         checker_(setup_.scene) {}
+  [[nodiscard]] std::string config_error() const;
   [[nodiscard]] std::string add_client(std::size_t seat);
   void step_clients();
   [[nodiscard]] bool wakes_before(std::size_t a, std::size_t b) const noexcept;
   void step_server();
-  [[nodiscard]] std::expected<std::vector<std::unique_ptr<hal::SteppedDevice>>, std::string> make_local_slaves(
-      const server::Checkpoint* from) const;
-  void attach_contact_sources();
-  /// Ends or restarts the server where the faults require it.
-  void apply_server_restart();
-  void restart_server();
-  void update_checkpoint(bool people_changed);
+  void receive_at_server();
+  std::size_t send_from_server();
   void inject_attacks();
-  void apply_resume_requests();
+  void request_resumes();
   [[nodiscard]] std::uint64_t heap_taken() const noexcept {
     return setup_.heap_count != nullptr ? setup_.heap_count() : 0;
   }
-  [[nodiscard]] bool server_paused() const noexcept;
   void check_start_timeout();
   void update_record();
   void start_link_monitors();
@@ -93,20 +90,11 @@ class Simulation {
   SimulationConfig setup_;
   Network network_;
   Duration tick_;
-  server::LoadShedder load_shedder_;
-  Duration tick_used_{};  ///< processor time of the server's last tick, on the virtual processor
-  Time busy_until_{};
-  Time now_{};
-  std::unique_ptr<server::Session> session_;
-  bool server_up_ = true;
-  server::Checkpoint checkpoint_{};  ///< from which a restart resumes
-  Time checkpoint_at_{};
-  AxisArray scale_{};
+  Time now_;  ///< Time{} is the network's zero; the simulation begins one tick later: no time stamp is the empty one
+  SimulatedServer server_;
   std::vector<SimulatedClient> clients_;
   std::vector<std::size_t> order_;  ///< order of clients within a tick; empty: all at the tick's end, by number
-  std::vector<Fault> server_faults_, session_stop_faults_;
-  std::uint64_t token_draws_ = 0;
-  std::uint32_t server_missed_ = 0;  ///< ticks that the server missed while its thread was suspended
+  FaultSchedule faults_;            ///< of all seats and of the server
   std::array<std::byte, transport::kDatagramMax> buffer_{};
   server::TickRecord record_{};
   InvariantChecker checker_;

@@ -22,7 +22,7 @@ std::vector<server::LinkReport> link_reports(const Simulation& world) {
     reports[i].rtt_p50_ms = seconds(seat->link().timing().rtt_p50()) * kMs;
     reports[i].rtt_p99_ms = seconds(Duration{seat->link().timing().rtts().quantile(0.99)}) * kMs;
     reports[i].up = direction(*server_end, world.now());
-    reports[i].down = direction(seat->link(), world.client_time(i));
+    reports[i].down = direction(seat->link(), world.client(i).own_time(world.now()));
   }
   return reports;
 }
@@ -32,7 +32,8 @@ server::RunReport simulation_report(const Simulation& world, const server::Repor
   report.seed = seed;
   report.violations = world.violations().list();
   report.passed = world.violations().passed();
-  for (std::size_t i = 0; i < report.seats.size(); ++i) report.seats[i].gate_trips = world.gate_trips(i);
+  for (std::size_t i = 0; i < report.seats.size(); ++i)
+    report.seats[i].gate_trips = world.client(i).program().gate_trips();
   return report;
 }
 

@@ -189,16 +189,17 @@ void press_buttons(Simulation& world) {
     if (seat == nullptr) continue;
     const auto phase = seat->gate().phase();
     if (phase == control::GatePhase::kLatched || phase == control::GatePhase::kFault ||
-        seat->overspeed_guard().latched() || seat->overtemperature_guard().latched())
+        seat->guards().overspeed().latched() || seat->guards().overtemperature().latched())
       seat->request_gate_reset();
     const wire::SessionState session = seat->force().session;
-    if (seat->sensor_stuck()) {
+    if (seat->guards().stuck_sensor().stuck()) {
       constexpr double kPush = 2, kPushLength = 0.05;  // [N], [s]
       const hal::Vec3 from_home = world.device(i).ground_truth().x;
       world.device(i).push(kPush * from_home.unaryExpr([](double x) { return x > 0 ? -1.0 : 1.0; }), kPushLength);
     }
-    if (seat->locally_stopped() || session == wire::SessionState::kPaused || session == wire::SessionState::kStopped)
-      seat->request_resume();
+    if (seat->requests().locally_stopped() || session == wire::SessionState::kPaused ||
+        session == wire::SessionState::kStopped)
+      seat->requests().resume();
   }
 }
 
@@ -298,7 +299,8 @@ SwarmResult run_swarm_case(const SwarmCase& which, const std::function<void(Simu
   if (result.trouble.empty() && result.recovered_s == 0) result.trouble = who_is_not_active(world);
   for (const server::Violation& violation : world.violations().list())
     if (!violation.expected) result.violations.push_back(violation);
-  for (std::size_t i = 0; i < world.scene().seats.size(); ++i) result.gate_trips += world.gate_trips(i);
+  for (std::size_t i = 0; i < world.scene().seats.size(); ++i)
+    result.gate_trips += world.client(i).program().gate_trips();
   result.links = link_qualities(world);
   return result;
 }

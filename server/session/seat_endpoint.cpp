@@ -156,14 +156,14 @@ bool SeatEndpoint::jumps(const PortSample& next, const PortSample& last) noexcep
   return !near;
 }
 
-void SeatEndpoint::hold(std::span<const NearEnd> near) noexcept {
+void SeatEndpoint::hold(std::span<const control::NearEnd> near) noexcept {
   if (was_present_) ++outages_;
   was_present_ = false;
   was_engaged_ = {};
   for (std::size_t k = 0; k < ends_.size(); ++k) ends_[k]->clamp_reference(near[k].x);
 }
 
-void SeatEndpoint::move(Time now, double dt, std::span<const NearEnd> near) noexcept {
+void SeatEndpoint::move(Time now, double dt, std::span<const control::NearEnd> near) noexcept {
   input_.age = age_ = taken_ ? seconds(connection_->link().timing().age(now)) : 0;
   input_.dt = dt;
   bool present = false;
@@ -175,7 +175,7 @@ void SeatEndpoint::move(Time now, double dt, std::span<const NearEnd> near) noex
   was_present_ = present;
 }
 
-void SeatEndpoint::move(std::size_t k, const NearEnd& near) noexcept {
+void SeatEndpoint::move(std::size_t k, const control::NearEnd& near) noexcept {
   if (!near.engaged || !was_engaged_[k]) {
     was_engaged_[k] = near.engaged;
     return ends_[k]->engage(near.x, age_);

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "common/control/channel.h"
+#include "common/control/esc_hub.h"
 #include "proto/spec/scene_spec.h"
 #include "proto/wire/wire_codec.h"
 #include "server/policy/roles.h"
@@ -61,22 +61,13 @@ class SeatEndpoint {
     return alive(now) && rx_->engaged && !rx_->stop && !misbehaviour_.quarantined(now) && !one_way();
   }
 
-  /// Where the near end of a spring is attached, in port axes.
-  struct NearEnd {
-    bool engaged = false;    ///< false: the near end rests, with zero elongation
-    AxisArray x{};           ///< position of the tool; a weighted mean where one end serves several tools
-    AxisArray offset{};      ///< hand minus tool, subtracted from received positions
-    AxisArray dissipated{};  ///< energy dissipated at the tools that this seat may spend [J]
-    double weight = 0;       ///< number of such springs that a motion loads
-    double heat_share = 1;  ///< share of the dissipated energy that is passed on to the client if it is not needed here
-  };
   /// Moves the references of all ends. @param near one per end
-  void move(Time now, double dt, std::span<const NearEnd> near) noexcept TANDEM_REALTIME;
+  void move(Time now, double dt, std::span<const control::NearEnd> near) noexcept TANDEM_REALTIME;
   /// Holds the references while the seat is lost and its authority moves to other seats, so that no force at the tool
   /// jumps. If other seats move the tool farther than this seat's motor could pull, the reference is clamped to the
   /// tool.
   /// @param near  as for `move`
-  void hold(std::span<const NearEnd> near) noexcept TANDEM_REALTIME;
+  void hold(std::span<const control::NearEnd> near) noexcept TANDEM_REALTIME;
 
   /// This seat's end of the spring to a tool. Master seats under law `replica` have one end per tool, all other seats
   /// have one.
@@ -133,7 +124,7 @@ class SeatEndpoint {
   }
 
  private:
-  void move(std::size_t end, const NearEnd& near) noexcept TANDEM_REALTIME;
+  void move(std::size_t end, const control::NearEnd& near) noexcept TANDEM_REALTIME;
   /// Whether a position moved by more than 1 m or 5 rad between two samples. Also records if a received energy fell.
   [[nodiscard]] bool jumps(const PortSample& next, const PortSample& last) noexcept;
 

@@ -10,82 +10,55 @@
 namespace tandem::server {
 
 namespace {
-constexpr std::uint32_t kCatchUpMax = 50;                       // ticks that are run after a stall; more are skipped
-constexpr double kCloseOutTime = 0.15;                          // [s] for the gates to ramp out before CLOSE
-constexpr Duration kOwnerSilenceMax = std::chrono::seconds(2);  // after this silence another client can take the seat
-constexpr double kObserverHz = 60;                              // FORCE rate to seats that receive no force
-// Isolated losses must not trip a gate: at 5 % random loss, five in a row occur every day or two.
-constexpr double kIntervalsOfSilence = 6;
-constexpr std::uint32_t kCloseRepeats = 20;  // ticks in which CLOSE is sent, because single datagrams may be lost
-// Ticks between two updates of the leaders, for laws that only record them.
-constexpr std::uint32_t kGhostRecordInterval = 16;
+
+std::vector<SeatEndpoint> make_seats(const SceneSpec& scene, const AxisArray& scale) {
+  std::vector<SeatEndpoint> seats;
+  seats.reserve(scene.seats.size());
+  for (std::size_t i = 0; i < scene.seats.size(); ++i) seats.emplace_back(scene, i, scale);
+  return seats;
+}
+
 }  // namespace
 
 Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves,
                  const AxisArray& scale)
     : scene_(&scene),
-      dt_(1.0 / scene.tick_hz),
-      tick_length_(from_seconds(dt_)),
-      scale_(scale),
       masters_(scene.masters()),
-      replica_(scene.channel.law == LawKind::kReplica),
-      observer_interval_(static_cast<std::uint32_t>(std::ceil(scene.tick_hz / kObserverHz))),
-      evaluator_interval_max_(
-          static_cast<std::uint32_t>(std::max(1.0, scene.gate.silence_limit * scene.tick_hz / kIntervalsOfSilence))),
+      seats_(make_seats(scene, scale)),
       seat_catalogue_(scene, scale),
-      link_test_peers_(scene.dof, scene.port, tick_length_),
-      stop_latch_(scene.has_instructor()) {
-  for (std::size_t a = 0; a < kAxesMax; ++a) root_scale_[a] = std::sqrt(scale_[a]);
-  last_interval_.fill(~0u);
-  leading_hands_.fill(LeadingHand(dt_));
-  seats_.reserve(scene.seats.size());
-  for (std::size_t i = 0; i < scene.seats.size(); ++i) seats_.emplace_back(scene, i, scale);
-  tools_.reserve(scene.tools.size());
-  for (std::size_t j = 0; j < scene.tools.size(); ++j) tools_.emplace_back(scene, j, std::move(slaves[j]));
-  for (const AuthorityRow& row : scene.authority) set_initial_authority(row.tool, weights_of(row));
-  authority_version_ += static_cast<std::uint32_t>(scene.authority.size());
-  scene_hash_ = scene_hash(scene);
-}
+      link_test_peers_(scene.dof, scene.port, from_seconds(1.0 / scene.tick_hz)),
+      clock_(scene.tick_hz),
+      audit_(clock_),
+      participants_(seats_, clock_, audit_),
+      control_(scene, std::move(slaves), scale, seats_, participants_.present()),
+      start_(scene, seats_, participants_.present(), clock_),
+      stop_(scene, start_, audit_),
+      authority_(scene, clock_, control_.tools(), seats_, participants_.present(), audit_),
+      leading_hands_(scene, clock_.dt()),
+      send_(scene, seats_),
+      scene_hash_(scene_hash(scene)) {}
 
 Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves,
                  const AxisArray& scale, const Checkpoint& from)
     : Session(scene, std::move(slaves), scale) {
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
-    set_initial_authority(j, from.tools[j].alpha);
-    // A tool with its own slave starts at the slave's position, so that the spring between them starts without force.
-    if (tools_[j].slave() == nullptr) tools_[j].rest_at(from.tools[j].x);
-  }
   epoch_ = from.epoch + 1;
-  session_tick_ = from.session_tick;
-  authority_version_ = from.authority_version + 1;
-  stop_before_ = from.stop;
-  recovering_ = from.begun;
+  clock_.restore(from.session_tick);
+  authority_.restore(from);
+  start_.restore(from);
+  stop_.restore(from);
   for (std::size_t i = 0; i < seats_.size(); ++i) seats_[i].set_resume(from.seats[i].resume, from.seats[i].force_scale);
-  if (!recovering_) {
-    stop_latch_.restore(from.stop, from.stops);
-    return;
-  }
-  // A new number, which an instructor can name to resume without the missing seats.
-  stop_latch_.restore(StopLatch::Level::kNone, from.stops + 1);
-  // The checkpoint contains the result of the changes that were announced when it was made.
-  while (next_event_ < scene.timeline.size() &&
-         scene.timeline[next_event_].at <= time() + (AuthorityTransfer::kNotice + 0.5) * dt_)
-    ++next_event_;
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    bool has_weight = false;
-    for (std::size_t j = 0; j < tools_.size(); ++j) {
-      const auto& alpha = from.tools[j].alpha;
-      // A slave seat counts as having authority over its tool.
-      has_weight = has_weight || (i < masters_ ? alpha[i] > 0 : scene.seats[i].tool == j);
-    }
-    required_for_resume_[i] = from.seats[i].taken && (has_weight || seats_[i].role() == AccessRole::kInstructor);
-  }
-  emit_event(Time{}, AuditEvent::What::kRestored, AuditEvent::kNoSeat, static_cast<std::uint32_t>(epoch_));
+  // A tool with its own slave starts at the slave's position, so that the spring between them starts without force.
+  for (std::size_t j = 0; j < control_.tools().size(); ++j)
+    if (control_.tools()[j].slave() == nullptr) control_.rest_tool(j, from.tools[j].x);
+  if (start_.recovering())
+    audit_.emit(Time{}, AuditEvent::What::kRestored, AuditEvent::kNoSeat, static_cast<std::uint32_t>(epoch_));
 }
 
 bool Session::set_contact_source(std::size_t tool, std::unique_ptr<ContactSource> source) {
-  if (!replica_ || tool >= tools_.size() || tools_[tool].body() == nullptr) return false;
-  tools_[tool].set_contact_source(std::move(source));
+  if (scene_->channel.law != LawKind::kReplica || tool >= control_.tools().size() ||
+      control_.tools()[tool].body() == nullptr)
+    return false;
+  control_.tools()[tool].set_contact_source(std::move(source));
   return true;
 }
 
@@ -93,23 +66,37 @@ Checkpoint Session::checkpoint() const noexcept {
   Checkpoint c;
   c.scene = scene_hash_;
   c.epoch = epoch_;
-  c.session_tick = session_tick_;
-  c.authority_version = authority_version_;
-  c.stops = stop_latch_.stops();
-  c.stop = recovering_ ? std::max(stop_before_, stop_latch_.level()) : stop_latch_.level();
+  c.session_tick = clock_.session_tick();
+  c.authority_version = authority_.version();
+  c.stops = stop_.latch().stops();
+  c.stop = stop_.level_to_restore();
   c.begun = begun();
   c.seats_n = static_cast<std::uint8_t>(seats_.size());
   c.masters_n = static_cast<std::uint8_t>(masters_);
-  c.tools_n = static_cast<std::uint8_t>(tools_.size());
+  c.tools_n = static_cast<std::uint8_t>(control_.tools().size());
   c.dof = static_cast<std::uint8_t>(scene_->dof);
   for (std::size_t i = 0; i < seats_.size(); ++i)
-    c.seats[i] = {seats_[i].taken() || required_for_resume_[i], seats_[i].resume(), seats_[i].force_scale()};
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
-    c.tools[j].alpha = tools_[j].transfer.scheduled();
-    c.tools[j].x = tools_[j].position();
-    if (const hal::SteppedDevice* slave = tools_[j].slave()) c.tools[j].slave = slave->state().q;
+    c.seats[i] = {seats_[i].taken() || start_.awaited(i), seats_[i].resume(), seats_[i].force_scale()};
+  for (std::size_t j = 0; j < control_.tools().size(); ++j) {
+    c.tools[j].alpha = control_.tools()[j].transfer.scheduled();
+    c.tools[j].x = control_.tools()[j].position();
+    if (const hal::SteppedDevice* slave = control_.tools()[j].slave()) c.tools[j].slave = slave->state().q;
   }
   return c;
+}
+
+JoinResult Session::admit(Time now, std::size_t i, SeatConnection& entry, bool same_owner) noexcept {
+  const JoinResult result = participants_.admit(now, i, entry, same_owner);
+  if (result == JoinResult::kAccepted) stop_.clear_seat(i);
+  return result;
+}
+
+JoinResult Session::admit_link_test_peer(Time now, std::unique_ptr<transport::SecureChannel>& link,
+                                         std::size_t* place) noexcept {
+  if (ending()) return JoinResult::kSessionOver;
+  const auto taken = link_test_peers_.admit(now, link);
+  if (taken && place != nullptr) *place = *taken;
+  return taken ? JoinResult::kAccepted : JoinResult::kSeatTaken;
 }
 
 void Session::on_datagram(Time now, const PeerAddress& from, std::span<const std::byte> bytes) noexcept {
@@ -126,163 +113,92 @@ void Session::on_datagram(Time now, const PeerAddress& from, std::span<const std
   handle_message(now, i, seats_[i].on_datagram(now, from, bytes, path_tokens_));
 }
 
-JoinResult Session::may_admit(Time now, std::size_t i, bool same_owner) const noexcept {
-  if (over_ || state_ == wire::SessionState::kEnding) return JoinResult::kSessionOver;
-  if (i >= seats_.size()) return JoinResult::kNoSuchSeat;
-  if (seats_[i].taken() && !same_owner && seats_[i].silence(now) <= kOwnerSilenceMax) return JoinResult::kSeatTaken;
-  return JoinResult::kAccepted;
+void Session::handle_message(Time now, std::size_t i, const SeatEndpoint::Received& heard) noexcept {
+  if (heard.forbidden) participants_.reject_forbidden(now, i);
+  if (heard.accepted_state) handle_requests(now, i);
+  if (heard.authority != nullptr && !participants_.removing(i) &&
+      authority_.request(now, requester_at(i, seats_[i].role()), *heard.authority) ==
+          AuthorityControl::Result::kForbidden)
+    participants_.reject_forbidden(now, i);
+  if (heard.close) participants_.leave(now, i);
 }
 
-JoinResult Session::admit(Time now, std::size_t i, SeatConnection& entry, bool same_owner) noexcept {
-  const JoinResult may = may_admit(now, i, same_owner);
-  if (may != JoinResult::kAccepted) return may;
-  seats_[i].attach(now, entry);
-  close_outs_[i] = {};
-  stop_latch_.clear_seat(i);
-  seat_monitor_[i] = {};
-  emit_event(now, AuditEvent::What::kJoin, i);
-  return may;
+/// A participant who is being removed may stop the session, and request nothing else.
+void Session::handle_requests(Time now, std::size_t i) noexcept {
+  const wire::StateMessage& state = seats_[i].last_state();
+  const Requester by = requester_at(i, seats_[i].role());
+  if (stop_.rising_edge(i, state.stop_all) && !stop_.request(now, by)) participants_.reject_forbidden(now, i);
+  if (state.resume_stop != 0 && !participants_.removing(i) &&
+      resume(now, by, state.resume_stop) == StopLatch::Resume::kForbidden)
+    participants_.reject_forbidden(now, i);
 }
 
-JoinResult Session::admit_link_test_peer(Time now, std::unique_ptr<transport::SecureChannel>& link,
-                                         std::size_t* place) noexcept {
-  if (over_ || state_ == wire::SessionState::kEnding) return JoinResult::kSessionOver;
-  const auto taken = link_test_peers_.admit(now, link);
-  if (taken && place != nullptr) *place = *taken;
-  return taken ? JoinResult::kAccepted : JoinResult::kSeatTaken;
+StopLatch::Resume Session::resume(Time now, const Requester& by, std::uint32_t number) noexcept {
+  return stop_.resume(now, by, number, participants_.connected(now));
 }
 
 void Session::on_tick(Time now, std::uint32_t missed) noexcept {
-  if (over_) return;
-  if (!ticked_) {
-    ticked_ = true;
-    started_ = now;
-  }
-  last_tick_ = now;
-  tick_ = static_cast<std::uint32_t>(std::llround(seconds(now - started_) / dt_));
-  const std::uint32_t live = std::min(missed, kCatchUpMax);
-  dropped_ticks_ += missed - live;
-  for (std::uint32_t i = 0; i <= live && !over_; ++i) run_one_tick(now);
-  finish_close_out(now);
+  if (over()) return;
+  const std::uint32_t catch_up = clock_.begin_tick(now, missed);
+  for (std::uint32_t i = 0; i <= catch_up && !over(); ++i) run_one_tick(now);
+  participants_.step_removals(now);
   fill_force_messages(now);
-  next_send_ = 0;
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    if (auto* l = seats_[i].link()) l->tick(now);
-    const bool due = send_turn_begins(i) && seats_[i].reachable();
-    send_due_[i] = due && (sends_close(i) ? !seats_[i].expired(now) : seats_[i].may_send(now));
-  }
+  for (SeatEndpoint& seat : seats_)
+    if (auto* link = seat.link()) link->tick(now);
+  send_.begin_tick(now, clock_.tick(), load_state_.level, participants_.closing());
   link_test_peers_.on_tick(now);
 }
 
-std::uint32_t Session::send_interval(std::size_t i) const noexcept {
-  const SeatEndpoint& seat = seats_[i];
-  const auto spared = [&](ShedLevel rung) { return load_state_.level >= rung; };
-  if (!seat.receives_force())
-    return observer_interval_ * (spared(ShedLevel::kObservers10Hz) ? 6 : spared(ShedLevel::kObservers20Hz) ? 3 : 1);
-  if (seat.role() != AccessRole::kEvaluator || i >= masters_ || scene_->seats[i].required) return 1;
-  return std::min(evaluator_interval_max_, spared(ShedLevel::kEvaluatorsEvery3rd)   ? 3u
-                                           : spared(ShedLevel::kEvaluatorsEvery2nd) ? 2u
-                                                                                    : 1u);
-}
-
-/// Whether a new send interval of the seat begins; true once per interval, even after missed ticks. Sends to
-/// evaluators are staggered over ticks, so that no single tick carries all of them.
-bool Session::send_turn_begins(std::size_t i) noexcept {
-  const std::uint32_t turn =
-      (tick_ + (seats_[i].receives_force() ? static_cast<std::uint32_t>(i) : 0)) / send_interval(i);
-  return turn != std::exchange(last_interval_[i], turn);
-}
-
 void Session::run_one_tick(Time now) noexcept {
-  for (auto& tool : tools_) tool.advance_slave(elapsed_any_ ? tick_length_ : Duration{0});
+  for (Tool& tool : control_.tools()) tool.advance_slave(elapsed_any_ ? clock_.tick_length() : Duration{0});
   elapsed_any_ = true;
-  update_state(now);
-  if (over_) return;
-  advance_transfers();
-  schedule_timeline_events(now);
-  execute_transfers(now);
-  step_authority();
-  update_couplings();
-  move_references(now);
-  step_tools();
-  if (replica_ || tick_ % kGhostRecordInterval == 0) update_leaders();
-  step_targets();
+  step_participants(now);
+  step_clock(now);
+  if (over()) return;
+  authority_.step(now, clock_stopped());
+  control_.step_authority(disengages_all());
+  control_.move_references(now);
+  control_.step_tools(clock_.time());
+  leading_hands_.step(clock_.tick(), participants_.present(), seats_, control_.tools());
+  control_.step_targets(clock_.tick(), leading_hands_);
   record_tick(*this, record_);
 }
 
-void Session::update_state(Time now) noexcept {
-  for (std::size_t i = 0; i < seats_.size(); ++i)
-    present_[i] = seats_[i].receives_force() && seats_[i].present(now) && !closing_out(i);
-  monitor_seats(now);
-  // The session clock is stopped, so that a restart resumes at the time when the end began.
-  if (state_ == wire::SessionState::kEnding) {
-    if (ending_ticks_left_ > 0) {
-      --ending_ticks_left_;
-    } else {
-      over_ = true;
-    }
-    return;
+/// Updates the presence of participants, and monitors overload, the seats and the control step.
+void Session::step_participants(Time now) noexcept {
+  if (clock_.begun() && load_state_.overloaded != overloaded_) {
+    overloaded_ = load_state_.overloaded;
+    audit_.emit(now, overloaded_ ? AuditEvent::What::kOverload : AuditEvent::What::kOverloadCleared,
+                AuditEvent::kNoSeat);
   }
-  if (!begun_) {
-    check_start_condition(now);
+  participants_.step(now);
+  std::uint64_t not_finite = 0;
+  for (const Tool& tool : control_.tools()) not_finite += tool.not_finite();
+  if (faults_.faulty(now, not_finite)) stop_.stop_for_fault(now);
+}
+
+/// Begins the session, counts its time, or advances its end. In ENDING the clock is stopped, so that a restart resumes
+/// at the time when the end began.
+void Session::step_clock(Time now) noexcept {
+  if (ending()) return participants_.step_end();
+  if (!clock_.begun()) {
+    if (start_.step(now, disengages_all()))
+      start_.recovering() ? stop_.resume_after_restart(now, AuditEvent::kNoSeat, 0) : start_.begin(now);
   } else {
-    if (clock_stopped()) {
-      ++stopped_ticks_;
-    } else {
-      ++session_tick_;
-    }
-    held_ = std::ranges::all_of(tools_, [](const Tool& t) { return t.authority.held(); });
+    clock_.advance(clock_stopped());
+    held_ = std::ranges::all_of(control_.tools(), [](const Tool& t) { return t.authority.held(); });
   }
-  derive_session_state();
-  if (begun_ && time() >= scene_->duration) end(wire::CloseReason::kDone);
+  if (clock_.begun() && clock_.time() >= scene_->duration) end(wire::CloseReason::kDone);
 }
 
-/// Called after a tick and after a command, so that the next query returns the new state.
-void Session::derive_session_state() noexcept {
-  if (state_ == wire::SessionState::kEnding) return;
-  state_ = !begun_                  ? wire::SessionState::kWaiting
-           : load_state_.overloaded ? wire::SessionState::kOverloaded
-           : held_                  ? wire::SessionState::kHeld
-                                    : wire::SessionState::kRunning;
-  if (stop_latch_.level() == StopLatch::Level::kPaused) state_ = wire::SessionState::kPaused;
-  if (stop_latch_.level() == StopLatch::Level::kStopped) state_ = wire::SessionState::kStopped;
-}
-
-void Session::end(wire::CloseReason why) noexcept {
-  if (state_ == wire::SessionState::kEnding) return;
-  state_ = wire::SessionState::kEnding;
-  close_reason_ = why;
-  ending_ticks_left_ = static_cast<std::uint32_t>(std::lround(kCloseOutTime / dt_)) + kCloseRepeats;
-}
-
-bool Session::remove_seat(std::size_t i, wire::CloseReason why) noexcept {
-  if (i >= seats_.size() || !seats_[i].taken() || closing_out(i)) return false;
-  close_outs_[i] = {static_cast<std::uint32_t>(std::lround(kCloseOutTime / dt_)) + kCloseRepeats + 1, why};
-  return true;
-}
-
-/// After the last CLOSE the seat is free. The old resume secret is deleted, so that the removed participant cannot
-/// resume.
-void Session::finish_close_out(Time now) noexcept {
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    if (!closing_out(i) || --close_outs_[i].ticks_left > 0) continue;
-    if (!seats_[i].taken()) continue;  // the client left on its own during the close-out
-    seats_[i].release();
-    seats_[i].set_resume({}, 1);
-    emit_event(now, AuditEvent::What::kRemoved, i);
-  }
-}
-
-/// Whether the slave of a tool is in contact, as far as its device reports contact.
-bool Session::touching(Time now, std::size_t j) const noexcept {
-  constexpr double kTouchN = 0.05;  // [N] noise level of a force sensor
-  if (const hal::SteppedDevice* const slave = tools_[j].slave())
-    return slave->state().penetration > 0 || slave->state().f_env.squaredNorm() > kTouchN * kTouchN;
-  if (const control::VirtualTool* const body = tools_[j].body(); body != nullptr && !scene_->tools[j].remote)
-    return body->penetration() > 0;
-  if (!scene_->tools[j].remote || !seats_[scene_->tools[j].seat].alive(now)) return false;
-  const wire::Telemetry& heard = seats_[scene_->tools[j].seat].last_state().telemetry;
-  return heard.penetration_m > 0 || std::ranges::any_of(heard.f_env, [](double f) { return std::abs(f) > kTouchN; });
+wire::SessionState Session::state() const noexcept {
+  if (ending()) return wire::SessionState::kEnding;
+  if (stop_.latch().level() == StopLatch::Level::kStopped) return wire::SessionState::kStopped;
+  if (stop_.latch().level() == StopLatch::Level::kPaused) return wire::SessionState::kPaused;
+  return !clock_.begun()          ? wire::SessionState::kWaiting
+         : load_state_.overloaded ? wire::SessionState::kOverloaded
+         : held_                  ? wire::SessionState::kHeld
+                                  : wire::SessionState::kRunning;
 }
 
 void Session::fill_force_messages(Time now) noexcept {
@@ -290,68 +206,43 @@ void Session::fill_force_messages(Time now) noexcept {
   std::uint32_t missing_now = 0;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     ready[i] = seats_[i].ready(now);
-    missing_now += is_required(i) && !ready[i] ? 1 : 0;
+    missing_now += start_.required(i) && !ready[i] ? 1 : 0;
   }
   std::array<bool, kToolsMax> entitled{}, touches{};
-  for (std::size_t j = 0; j < tools_.size(); ++j) {
+  for (std::size_t j = 0; j < control_.tools().size(); ++j) {
     const bool slave_ready = !scene_->tools[j].remote || ready[scene_->tools[j].seat];
     for (std::size_t i = 0; i < masters_; ++i)
-      entitled[j] |= slave_ready && tools_[j].authority.requested()[i] > 0 && ready[i];
-    touches[j] = touching(now, j);
+      entitled[j] |= slave_ready && control_.tools()[j].authority.requested()[i] > 0 && ready[i];
+    touches[j] = control_.touching(now, j);
   }
-  const bool engage = engage_ && state_ != wire::SessionState::kEnding && !disengages_all();
+  const bool engage = start_.may_engage() && !disengages_all(), timeline_waits = clock_stopped();
+  const wire::SessionState state_now = state();
 
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     wire::ForceMessage& m = seats_[i].tx;
-    m.session = state_;
-    m.engage = engage && seats_[i].receives_force() && !seats_[i].misbehaviour().quarantined(now) && !closing_out(i);
+    m.session = state_now;
+    m.engage = engage && seats_[i].receives_force() && !seats_[i].misbehaviour().quarantined(now) &&
+               !participants_.removing(i);
     m.touching = false;
-    for (std::size_t j = 0; j < tools_.size(); ++j) {
-      const Coupling& tie = couplings_[i][j];
-      m.engage = m.engage && (tie.share == 0 || entitled[j]);
-      m.touching = m.touching || (tie.share > 0 && touches[j]);
+    for (std::size_t j = 0; j < control_.tools().size(); ++j) {
+      const double share = control_.hub().coupling(i, j).share;
+      m.engage = m.engage && (share == 0 || entitled[j]);
+      m.touching = m.touching || (share > 0 && touches[j]);
     }
-    m.session_tick = session_tick_;
-    m.authority_version = authority_version_;
+    m.session_tick = clock_.session_tick();
+    m.authority_version = authority_.version();
     m.missing = missing_now;
-    m.stops = stop_latch_.stops();
-    if (uses_other_hands(i)) {
-      fill_coupling_messages(i);
-    } else {
-      fill_tool_message(i);
-    }
-    fill_transfer_message(i, m);
+    m.stops = stop_.latch().stops();
+    authority_.fill_notice(i, timeline_waits, m);
   }
-}
-
-bool Session::sends_close() const noexcept {
-  return over_ || (state_ == wire::SessionState::kEnding && ending_ticks_left_ < kCloseRepeats);
-}
-bool Session::sends_close(std::size_t i) const noexcept {
-  return sends_close() || (closing_out(i) && close_outs_[i].ticks_left <= kCloseRepeats);
 }
 
 std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
-  const bool all = sends_close();
-  for (; next_send_ < seats_.size(); ++next_send_) {
-    const std::size_t i = next_send_;
-    if (const auto challenge = seats_[i].transmit_challenge(now, tick_, buffer)) return challenge;
-    if (!std::exchange(send_due_[i], false)) continue;
-    const Transmit out = sends_close(i)
-                             ? seats_[i].transmit_close(now, tick_, all ? close_reason_ : close_outs_[i].why, buffer)
-                             : seats_[i].transmit(now, tick_, buffer);
-    if (out.size > 0) return out;
-  }
-  const auto out =
-      link_test_peers_.poll_transmit(now, tick_, all ? std::optional{close_reason_} : std::nullopt, buffer);
-  if (!out) next_send_ = 0;
-  return out;
-}
-
-std::vector<std::size_t> Session::missing(Time now) const {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < seats_.size(); ++i)
-    if (is_required(i) && !seats_[i].ready(now)) out.push_back(i);
+  if (const auto out = send_.poll(now, clock_.tick(), participants_.closing(), buffer)) return out;
+  const CloseOut& end = participants_.closing().session;
+  const auto out = link_test_peers_.poll_transmit(
+      now, clock_.tick(), end.sends_close() ? std::optional{end.reason()} : std::nullopt, buffer);
+  if (!out) send_.rewind();
   return out;
 }
 

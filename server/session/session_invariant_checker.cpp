@@ -20,7 +20,7 @@ std::string_view mfs_name(MfsMode mode) noexcept {
 
 void SessionInvariantChecker::check(const Session& session, Violations& out) {
   const SceneSpec& scene = session.scene();
-  const double t = session.time();
+  const double t = session.clock().time();
   for (std::size_t j = 0; j < scene.tools.size(); ++j) {
     const Tool& tool = session.tool(j);
     double sum = 0;

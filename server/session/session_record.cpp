@@ -31,25 +31,23 @@ void record_slave(const wire::Telemetry& said, ToolRecord& r) noexcept {
 void record_tick(const Session& session, TickRecord& record) noexcept {
   const SceneSpec& scene = session.scene();
   const std::size_t masters = scene.masters();
-  record.tick = session.session_tick();
+  record.tick = session.clock().session_tick();
   const wire::SessionState state = session.state();
   const bool stopped = state == wire::SessionState::kPaused || state == wire::SessionState::kStopped ||
                        state == wire::SessionState::kOverloaded;
   record.running = state == wire::SessionState::kRunning || state == wire::SessionState::kHeld ||
-                   (stopped && session.begun() && !session.recovering() && !session.clock_stopped());
-  record.stopped_ticks = session.stopped_ticks();
-  record.dropped_ticks = session.dropped_ticks();
+                   (stopped && session.clock().begun() && !session.clock_stopped());
+  record.stopped_ticks = session.clock().stopped_ticks();
+  record.dropped_ticks = session.clock().dropped_ticks();
   for (std::size_t i = 0; i < scene.seats.size(); ++i) {
     const wire::StateMessage& m = session.seat(i).last_state();
     SeatRecord& r = record.seats[i];
     r.alpha = session.seat(i).tx.alpha;
     if (i < masters) {
-      const wire::Ghost& ghost = session.ghost(i);
+      const wire::Ghost& ghost = session.leading_hands().ghost(i);
       r.leader = ghost.leader;
       for (std::size_t k = 0; k < 3; ++k) r.ghost[k] = ghost.x[k];
-      r.alpha = 0;
-      for (std::size_t j = 0; j < scene.tools.size() && r.alpha == 0; ++j)
-        if (scene.follow[i][j] > 0) r.alpha = session.tool(j).authority.alpha(i);
+      r.alpha = session.hub().authority(i);
     }
     record_seat(m, r);
   }
@@ -68,23 +66,24 @@ void record_tick(const Session& session, TickRecord& record) noexcept {
       }
       r.q = s.q;
       r.penetration = s.penetration;
-      r.sample_tick = session.session_tick();
+      r.sample_tick = session.clock().session_tick();
     } else if (const control::VirtualTool* const body = tool.body(); body != nullptr && !tool.spec().remote) {
       r.x = r.x_tool;
       r.f_env = body->surface_force();
       for (std::size_t k = 0; k < 3; ++k) r.f_cmd[k] = -r.f_env[k];
       r.penetration = body->penetration();
-      r.sample_tick = session.session_tick();
+      r.sample_tick = session.clock().session_tick();
     } else {
       record_slave(session.seat(tool.spec().seat).last_state().telemetry, r);
       r.sample_tick = session.seat(tool.spec().seat).last_state().seat_tick;
     }
     r.held = tool.authority.held();
-    r.mfs_j = tool.sources.granted();
+    const control::FlowSources& sources = session.hub().sources(j);
+    r.mfs_j = sources.granted();
     r.e_p_j = 0;
     for (std::size_t a = 0; a < scene.dof; ++a) {
-      r.e_p_j += tool.sources.energy_p(a);
-      if (a < 3) r.e_p_axis_j[a] = tool.sources.energy_p(a);
+      r.e_p_j += sources.energy_p(a);
+      if (a < 3) r.e_p_axis_j[a] = sources.energy_p(a);
     }
   }
 }

@@ -14,11 +14,10 @@ constexpr double kBrake = 50;  // [N s/m] at the tip, while HELD
 
 Tool::Tool(const SceneSpec& scene, std::size_t index, std::unique_ptr<hal::SteppedDevice> slave)
     : authority(scene.masters(), scene.alpha_slew, scene.channel.tank),
-      sources(setup::flow_source_mode(scene.channel.mfs), scene.channel.tank),
       spec_(&scene.tools[index]),
       dof_(scene.dof),
       slave_(std::move(slave)),
-      told_({scene.dof, scene.channel.v_app, scene.coupling.k_c, 1.0 / scene.tick_hz}) {
+      received_contacts_({scene.dof, scene.channel.v_app, scene.coupling.k_c, 1.0 / scene.tick_hz}) {
   if (spec_->is_virtual) {
     body_.emplace(control::VirtualTool::Gains{spec_->m_s, spec_->b_s}, dof_, setup::contacts(spec_->environment));
     rest_at({spec_->slave.start.x, spec_->slave.start.y, spec_->slave.start.z});
@@ -33,12 +32,15 @@ Tool::Tool(const SceneSpec& scene, std::size_t index, std::unique_ptr<hal::Stepp
 }
 
 void Tool::rest_at(const AxisArray& x) noexcept {
-  if (body_) {
-    told_.clear();
-    body_->set_received_contacts(told_.surfaces());
-    return body_->rest_at(x);
+  for (std::size_t a = 0; a < dof_; ++a) port_.x[a] = x[a];
+  port_.v = port_.surface_force = {};
+  if (!body_) {
+    for (std::size_t a = 0; a < dof_; ++a) ipc_[a] = {x[a], 0, 0};
+    return;
   }
-  for (std::size_t a = 0; a < dof_; ++a) ipc_[a] = {x[a], 0, 0};
+  received_contacts_.clear();
+  body_->set_received_contacts(received_contacts_.surfaces());
+  body_->rest_at(x);
 }
 
 void Tool::update_contacts(ToolView view) noexcept {
@@ -48,52 +50,55 @@ void Tool::update_contacts(ToolView view) noexcept {
   view.v = velocity();
   LocalContactList wanted;
   source_->find_contacts(view, wanted);
-  named_.size = 0;
+  contacts_.size = 0;
   for (const LocalContact& contact :
        std::span{wanted.item}.first(std::min<std::size_t>(wanted.size, kLocalContactsMax))) {
     const bool known =
-        std::ranges::any_of(named_.all(), [&](const LocalContact& other) { return other.id == contact.id; });
+        std::ranges::any_of(contacts_.all(), [&](const LocalContact& other) { return other.id == contact.id; });
     if (known || !is_surface(contact, dof_) || !in_range(contact)) {
       ++contacts_refused_;
       continue;
     }
-    named_.add(contact);
+    contacts_.add(contact);
   }
-  told_.update(named_.all());
-  if (told_.step(view.x, nullptr)) body_->set_received_contacts(told_.surfaces());
+  received_contacts_.update(contacts_.all());
+  if (received_contacts_.step(view.x, nullptr)) body_->set_received_contacts(received_contacts_.surfaces());
 }
 
-void Tool::step_body(double dt, const std::array<control::Pull, kAxesMax>& seats, bool braked) noexcept {
+void Tool::step_body(double dt, const control::EscHub::Efforts& seats, bool braked) noexcept {
   control::VirtualTool::Pulls pulls{};
-  AxisArray before{};
   for (std::size_t a = 0; a < dof_; ++a) {
     pulls[a] = seats[a];
     if (braked) pulls[a].damper(kBrake, 0);
-    before[a] = body_->x(a);
   }
   if (!body_->step(dt, pulls)) ++not_finite_;
   for (std::size_t a = 0; a < dof_; ++a) {
     const double v = body_->v(a);
-    moved_[a] = body_->x(a) - before[a];
-    dissipated_[a] = (spec_->b_s + pulls[a].b + 0.5 * pulls[a].k * dt) * v * v * dt;
+    port_.moved[a] = body_->x(a) - port_.x[a];
+    port_.x[a] = body_->x(a);
+    port_.v[a] = v;
+    port_.dissipated[a] = (spec_->b_s + pulls[a].b + 0.5 * pulls[a].k * dt) * v * v * dt;
+    port_.surface_force[a] = body_->surface_force()[a];
   }
 }
 
-void Tool::step(double dt, const std::array<control::Pull, kAxesMax>& seats, bool braked) noexcept {
+void Tool::step(double dt, const control::EscHub::Efforts& seats, bool braked) noexcept {
   if (body_) return step_body(dt, seats, braked);
   const AxisArray q = slave_ ? map_.position(slave_->state()) : AxisArray{};
   for (std::size_t a = 0; a < dof_; ++a) {
-    const control::ToolIpc before = ipc_[a];
+    control::ToolIpc& ipc = ipc_[a];
     control::Pull pull = seats[a];
     if (slave_) pull.spring(spec_->k_s * scale_[a], q[a]);
     if (braked) pull.damper(kBrake * scale_[a], 0);
-    ipc_[a].step({spec_->m_s * scale_[a], spec_->b_s * scale_[a]}, dt, pull, seats[a].k);
-    if (!std::isfinite(ipc_[a].x) || !std::isfinite(ipc_[a].v)) {  // back to the last position, at rest; counted
-      ipc_[a] = {before.x, 0, 0};
+    ipc.step({spec_->m_s * scale_[a], spec_->b_s * scale_[a]}, dt, pull, seats[a].k);
+    if (!std::isfinite(ipc.x) || !std::isfinite(ipc.v)) {  // back to the last position, at rest; counted
+      ipc = {port_.x[a], 0, 0};
       ++not_finite_;
     }
-    moved_[a] = ipc_[a].x - before.x;
-    dissipated_[a] = ipc_[a].dissipated;
+    port_.moved[a] = ipc.x - port_.x[a];
+    port_.x[a] = ipc.x;
+    port_.v[a] = ipc.v;
+    port_.dissipated[a] = ipc.dissipated;
   }
   if (!slave_) return;
   const hal::State& s = slave_->state();
@@ -109,18 +114,6 @@ void Tool::step(double dt, const std::array<control::Pull, kAxesMax>& seats, boo
 
 void Tool::advance_slave(Duration dt) noexcept {
   if (slave_) slave_->advance(command_, dt);
-}
-
-AxisArray Tool::position() const noexcept {
-  AxisArray x{};
-  for (std::size_t a = 0; a < dof_; ++a) x[a] = this->x(a);
-  return x;
-}
-
-AxisArray Tool::velocity() const noexcept {
-  AxisArray v{};
-  for (std::size_t a = 0; a < dof_; ++a) v[a] = this->v(a);
-  return v;
 }
 
 hal::Vec3 Tool::slave_force_commanded() const noexcept {

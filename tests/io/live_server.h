@@ -18,7 +18,7 @@
 #include "proto/text/scene_text.h"
 #include "proto/text/scenes_embedded.h"
 #include "server/app/control/control_plane.h"
-#include "server/app/control/session_registry.h"
+#include "server/app/control/session_joins.h"
 #include "tests/common/auth/io/temporary_folder.h"
 
 namespace tandem::server::test {
@@ -44,20 +44,21 @@ class LiveServer {
     hosted_ = std::make_unique<LiveSession>(scene_, *make_local_slaves(scene_, Time{}), 0, queue_);
     shard_ = std::make_unique<Shard>(std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0))), scene_.tick_hz);
     EXPECT_TRUE(shard_->add_session(*hosted_));
-    registry_.emplace(thread_.context(), *trust_, load);
+    registry_.emplace(thread_.context());
+    commands_.emplace(*registry_, *trust_);
+    joins_.emplace(*registry_, *commands_, *trust_, load);
     const auto left = kept ? std::optional(kept(*this)) : std::nullopt;
-    SessionRegistry::Registration opening{kName, kId, kCode, 1, hosted_.get(), shard_.get()};
+    SessionRegistration opening{kName, kId, kCode, 1, hosted_.get(), shard_.get()};
     if (left) {
       opening.snapshot = &*left;
       opening.resume_until = io::monotonic_now() + kResumeLife;
     }
     registry_->add(std::move(opening));
-    registry_->watch_completions(*shard_);
-    plane_.emplace(thread_.context(), *trust_, *registry_, door, ControlClocks{},
-                   [this](const ControlEventRecord& news) {
-                     const std::lock_guard lock(mutex_);
-                     news_.push_back(news);
-                   });
+    registry_->requests().watch(*shard_);
+    plane_.emplace(thread_.context(), *trust_, *joins_, door, ControlClocks{}, [this](const ControlEventRecord& news) {
+      const std::lock_guard lock(mutex_);
+      news_.push_back(news);
+    });
     address = *plane_->listen(*io::parse_address("127.0.0.1:0", 0));
     pin_ = trust_->identity().fingerprint();
     thread_.start();
@@ -66,7 +67,7 @@ class LiveServer {
   ~LiveServer() {
     thread_.stop([this] {
       plane_->stop();
-      registry_->stop_watching();
+      registry_->requests().stop_watching();
     });
     shard_->stop();
     ticking_.join();
@@ -134,12 +135,12 @@ class LiveServer {
   /// Checks for revoked workstations, as the control server does several times per second.
   void look_for_revoked() {
     on_thread([&] {
-      registry_->disconnect_revoked();
+      commands_->disconnect_revoked();
       plane_->disconnect_revoked();
     });
   }
   void drain() {
-    on_thread([&] { registry_->drain(); });
+    on_thread([&] { registry_->drain().begin(); });
   }
   [[nodiscard]] SessionRegistry& registry() { return *registry_; }
   [[nodiscard]] Shard& shard() { return *shard_; }
@@ -167,6 +168,8 @@ class LiveServer {
   std::unique_ptr<Shard> shard_;
   ControlThread thread_;  // outlives the users of its context
   std::optional<SessionRegistry> registry_;
+  std::optional<SessionCommands> commands_;
+  std::optional<SessionJoins> joins_;
   std::optional<ControlPlane> plane_;
   auth::KeyFingerprint pin_;
   std::thread ticking_;

@@ -199,7 +199,7 @@ TEST(ConsoleCommands, RejectCountAndAuditInstructorCommandsOfATrainee) {
   rpc::Status after = status_of(trainer);
   after.time_s = before.time_s;
   EXPECT_EQ(after, before) << "nothing moved";
-  EXPECT_FALSE(live_server.registry().drain_due());
+  EXPECT_FALSE(live_server.registry().drain().due());
   const std::string audit = live_server.audit();
   EXPECT_NE(audit.find("\"event\":\"forbidden\",\"name\":\"lesson\",\"detail\":\"desk-2 (trainee, seat trainee)"),
             std::string::npos)
@@ -225,9 +225,9 @@ TEST(ConsoleCommands, LetAnOperatorDrainTheServerAndStillQueryIt) {
   JoinedClient office = joined(live_server, "office", AccessRole::kOperator),
                trainer = joined(live_server, "desk-1", AccessRole::kInstructor, "trainer");
   EXPECT_EQ(reason_of(trainer.ask(rpc::Drain{0})), ErrorCode::kNotAllowed);
-  EXPECT_FALSE(live_server.registry().drain_due());
+  EXPECT_FALSE(live_server.registry().drain().due());
   EXPECT_TRUE(done(office.ask(rpc::Drain{3600})));
-  const auto first = live_server.registry().drain_due();
+  const auto first = live_server.registry().drain().due();
   ASSERT_TRUE(first);
   EXPECT_GT(*first, io::monotonic_now());
   JoinedClient late = joined(live_server, "desk-2", AccessRole::kTrainee, "trainee");
@@ -236,9 +236,9 @@ TEST(ConsoleCommands, LetAnOperatorDrainTheServerAndStillQueryIt) {
   ASSERT_TRUE(second.welcomed()) << "an operator may join while the server drains";
   EXPECT_TRUE(status_of(second).draining);
   EXPECT_TRUE(done(second.ask(rpc::Drain{0})));
-  EXPECT_LT(*live_server.registry().drain_due(), *first) << "sooner, never later";
+  EXPECT_LT(*live_server.registry().drain().due(), *first) << "sooner, never later";
   EXPECT_TRUE(done(office.ask(rpc::Drain{3600})));
-  EXPECT_LT(*live_server.registry().drain_due(), *first);
+  EXPECT_LT(*live_server.registry().drain().due(), *first);
   EXPECT_NE(live_server.audit().find("\"event\":\"drain\",\"name\":\"\",\"detail\":\"office (operator) in 3600 s\""),
             std::string::npos)
       << live_server.audit();

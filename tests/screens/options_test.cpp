@@ -8,11 +8,12 @@
 
 #include "common/base/command_hints.h"
 #include "common/base/unit_suffix.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/reachable_address.h"
 #include "common/io/remote_address.h"
 #include "common/io/udp_socket.h"
+#include "common/io/usage_errors.h"
 
 namespace tandem::io {
 namespace {
@@ -53,13 +54,98 @@ TEST(NumberOption, RejectsNonNumbersAndNumbersOutOfRange) {
   EXPECT_EQ(number_in(0, 100, "ms")(value), "\"200ms\" is out of range: must be in [0, 100] ms");
 }
 
-TEST(NumberOption, WorksAsAnOptionOfCli) {
-  CLI::App app;
+TEST(NumberOption, WorksAsAnOptionOfAProgram) {
+  Program program("test", "1", "", [] { return 0; });
   double delay = 0;
-  app.add_option("--delay", delay)->transform(number_in(0, 100, "ms"));
-  app.parse("--delay 20ms", false);
+  program.root().add_option("--delay", delay, "").check(number_in(0, 100, "ms"));
+  EXPECT_EQ(program.run({"--delay", "20ms"}), 0);
   EXPECT_EQ(delay, 20);
-  EXPECT_THROW(app.parse("--delay 20s", false), CLI::ParseError);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(program.run({"--delay", "20s"}), 2);
+  EXPECT_TRUE(testing::internal::GetCapturedStderr().starts_with("--delay: \"20s\" has the unit s"));
+}
+
+TEST(NumberOption, AcceptsWholeNumbersOnlyInTheirRange) {
+  std::string value = "3";
+  EXPECT_EQ(whole_number_in(1, 9)(value), "");
+  value = "2.5";
+  EXPECT_EQ(whole_number_in(1, 9)(value), "\"2.5\" is not a whole number in [0, 18446744073709551615]");
+  value = "10";
+  EXPECT_EQ(whole_number_in(1, 9)(value), "\"10\" is out of range: must be in [1, 9]");
+}
+
+struct Arguments {
+  std::string law, file = "none";
+  std::vector<std::string> rest;
+  Command command;
+};
+
+/// Program with one command `go`. `run` returns 10 for a law, 20 for a given --file, plus the count of other words.
+int exit_code(const std::vector<std::string>& words) {
+  Program program("test", "1", "");
+  const auto [command, arguments] = program.root().add_command(
+      "go", "", +[](const Arguments& a) {
+        return (a.law == "raw"  ? 10
+                : a.law.empty() ? 0
+                                : 40) +
+               (a.command.given("--file") ? 20 : 0) + static_cast<int>(a.rest.size());
+      });
+  arguments.command = command;
+  command.add_option("--law", arguments.law, "").check(one_of({"raw", "replica"}));
+  std::uint64_t seeds = 0;
+  command.add_option("--seeds", seeds, "").check(integer_in(1, 9));
+  command.add_option("--file", arguments.file, "");
+  command.take_rest(arguments.rest);
+  return program.run(words);
+}
+
+TEST(Program, PassesArgumentsToTheChosenCommand) {
+  EXPECT_EQ(exit_code({"go"}), 0);
+  EXPECT_EQ(exit_code({"go", "--law", "RAW"}), 10) << "the text becomes the name";
+  EXPECT_EQ(exit_code({"go", "--file", "none"}), 20) << "given, though it equals the default";
+  EXPECT_EQ(exit_code({"go", "--seeds", "9"}), 0);
+  EXPECT_EQ(exit_code({"go", "word", "--unknown", "x"}), 3);
+}
+
+TEST(Program, ReportsUsageErrorsWithExitCode2) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(exit_code({}), 2) << "it requires a command";
+  EXPECT_EQ(exit_code({"og"}), 2);
+  EXPECT_EQ(exit_code({"go", "--law", "x", "--seeds", "10"}), 2);
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_NE(text.find("no command is called \"og\"; did you mean go?"), std::string::npos) << text;
+  EXPECT_NE(text.find("--law: x not in {raw,replica}"), std::string::npos) << text;
+  EXPECT_NE(text.find("--seeds: Value 10 not in range 1 to 9"), std::string::npos) << text;
+  EXPECT_NE(text.find("2 mistakes; nothing was started"), std::string::npos) << text;
+}
+
+TEST(UsageErrors, CollectsLinesAndIgnoresMissingProblems) {
+  UsageErrors errors;
+  errors.add("");
+  errors.add("--json", "");
+  errors.output_file("--json", "-");
+  EXPECT_TRUE(errors.empty());
+  errors.add("as a scene:\nfirst\nsecond\n");
+  errors.add("--trace", "is the same file as --json");
+  EXPECT_EQ(errors.count(), 3U) << "a line that ends in a colon belongs to the next";
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(errors.report("tandem-x y", "nothing was sent"), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "as a scene:\nfirst\nsecond\n--trace: is the same file as --json\ntandem-x y: 3 mistakes, nothing was "
+            "sent\n");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(report_usage_error("tandem-x", "bad"), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "tandem-x: bad\n1 mistake; nothing was started\n");
+}
+
+TEST(UsageErrors, ReadsNumbers) {
+  UsageErrors errors;
+  EXPECT_EQ(errors.number("--timeout", "1.5 s", 0, 2, "s"), 1.5);
+  EXPECT_EQ(errors.optional_number("--timeout", "", 0, 2, "s"), 0);
+  EXPECT_TRUE(errors.empty());
+  EXPECT_EQ(errors.number("--timeout", "", 0, 2, "s"), 0);
+  EXPECT_EQ(errors.optional_number("--timeout", "3", 0, 2, "s"), 0);
+  EXPECT_EQ(errors.count(), 2U);
 }
 
 TEST(Unit, IsStrippedOnlyAfterADigit) {

@@ -27,7 +27,7 @@ ClientStatus running() {
   s.force_n = 1.2;
   s.distance_m = 0.012;
   s.touching = true;
-  s.rtt_ms = 4.1;
+  s.link.rtt_ms = 4.1;
   return s;
 }
 
@@ -187,7 +187,7 @@ TEST(SeatScreen, ShowsALatchedForceAndADrainBeforeTheNumbers) {
   w.drain = rpc::StatusDrain{0, 1, 2};
   EXPECT_EQ(at(80, s, setup(), w)[0].find("DRAINING"), std::string::npos) << "there is nothing left to wait for";
   s.gate = wire::GateState::kActive;
-  s.motors_hot = true;
+  s.motors.hot = true;
   EXPECT_NE(at(80, s)[0].find("MOTORS TOO HOT"), std::string::npos);
 }
 
@@ -219,7 +219,7 @@ TEST(SeatScreen, CutsNoWordAtAnyWidthInAnyState) {
         ClientStatus s = running();
         s.session = static_cast<wire::SessionState>(state);
         s.gate = static_cast<wire::GateState>(gate);
-        s.transfer = wire::TransferNotice::kGaining;
+        s.transfer.notice = wire::TransferNotice::kGaining;
         s.gate_trips = 3;
         s.reconnects = 1;
         rpc::Status w = words("trainer", name);

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "common/base/rng.h"
-#include "common/io/help_formatter.h"
+#include "common/io/help_text.h"
 
 namespace tandem::io {
 namespace {

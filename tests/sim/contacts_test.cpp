@@ -52,7 +52,7 @@ netsim::SimulationConfig held(double delay_ms, MovingPlane::Place place, float k
   return setup;
 }
 void until_session(SessionDriver& life, double t) {
-  while (life.simulation->session().time() < t && life.step()) {
+  while (life.simulation->session().clock().time() < t && life.step()) {
   }
 }
 double force_x(const SessionDriver& life) { return life.simulation->device(0).state().f_out[0]; }

@@ -70,7 +70,7 @@ void live_with_drift(SceneSpec scene) {
       Part& p = parts[part][i];
       const server::SeatRecord& seat = record.seats[i];
       const transport::LinkTiming& freshness = life.simulation->seat(i)->link().timing();
-      const Time own = life.simulation->client_time(i);
+      const Time own = life.simulation->client(i).own_time(life.simulation->now());
       p.loop_age_max = std::max(p.loop_age_max, freshness.loop_age(own));
       p.age_max = std::max(p.age_max, freshness.age(own));
       p.gap_max = std::max(

@@ -42,7 +42,7 @@ netsim::SimulationConfig remote(double k_surface, double delay_ms, ContactsMode 
   return setup;
 }
 void until_session(SessionDriver& life, double t) {
-  while (life.simulation->session().time() < t && life.step()) {
+  while (life.simulation->session().clock().time() < t && life.step()) {
   }
 }
 
@@ -93,7 +93,7 @@ TEST(EstimatedPlane, AppearsAndDisappearsWithoutAForceStep) {
     life.until(1500ms);
     life.forget_steps();
     bool known = false;
-    while (life.simulation->session().time() < 9) {
+    while (life.simulation->session().clock().time() < 9) {
       life.step();
       known = known || life.simulation->session().tool(0).contacts().size > 0;
     }

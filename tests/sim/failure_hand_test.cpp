@@ -42,7 +42,7 @@ TEST(FailureTable, ReleasesATooFastHandAndLatchesItTheThirdTime) {
     life.time_to([&] { return speed(life, kTrainee) > control::OverspeedGuard::kSpeedMax; }, 500ms);
     ASSERT_GT(speed(life, kTrainee), control::OverspeedGuard::kSpeedMax) << "no hand was fast: the test proves nothing";
     EXPECT_LE(life.time_to([&] { return !life.active(kTrainee); }, 100ms), 3ms);
-    EXPECT_EQ(life.simulation->seat(kTrainee)->overspeed_guard().trips(), static_cast<unsigned>(n));
+    EXPECT_EQ(life.simulation->seat(kTrainee)->guards().overspeed().trips(), static_cast<unsigned>(n));
     EXPECT_TRUE(life.active(kTrainer));
     life.until(std::chrono::milliseconds(4900 + 4000 * n));
     EXPECT_EQ(life.active(kTrainee), n < 3) << "at rest again";
@@ -52,7 +52,7 @@ TEST(FailureTable, ReleasesATooFastHandAndLatchesItTheThirdTime) {
   life.simulation->seat(kTrainee)->request_gate_reset();
   life.until(20s);
   EXPECT_TRUE(life.active(kTrainee));
-  EXPECT_EQ(life.simulation->gate_trips(kTrainer), 0u);
+  EXPECT_EQ(life.simulation->client(kTrainer).program().gate_trips(), 0u);
   life.expect_nothing_broken();
 }
 
@@ -68,7 +68,7 @@ TEST(FailureTable, ReleasesAHandWithHotMotorsAndLatchesItTheThirdTime) {
     EXPECT_LE(life.time_to([&] { return !life.active(kTrainee); }, 100ms), 3ms);
     EXPECT_EQ(life.simulation->seat(kTrainee)->gate().phase(), control::GatePhase::kReleasing)
         << "damped, and no fault";
-    EXPECT_EQ(life.simulation->seat(kTrainee)->overtemperature_guard().trips(), static_cast<unsigned>(n));
+    EXPECT_EQ(life.simulation->seat(kTrainee)->guards().overtemperature().trips(), static_cast<unsigned>(n));
     life.until(std::chrono::milliseconds(1990 + 4000 * n));
     EXPECT_FALSE(life.active(kTrainee)) << "still hot";
     EXPECT_TRUE(life.active(kTrainer));
@@ -80,7 +80,7 @@ TEST(FailureTable, ReleasesAHandWithHotMotorsAndLatchesItTheThirdTime) {
   life.simulation->seat(kTrainee)->request_gate_reset();
   life.until(20s);
   EXPECT_TRUE(life.active(kTrainee));
-  EXPECT_EQ(life.simulation->gate_trips(kTrainer), 0u);
+  EXPECT_EQ(life.simulation->client(kTrainer).program().gate_trips(), 0u);
   life.expect_nothing_broken();
 }
 

@@ -76,13 +76,13 @@ TEST(FailureTable, ChangesNoForceForALostInstructorAndWarnsAfterTenSeconds) {
   life.until(5s);
   life.forget_steps();
   const hal::Vec3 force = life.before[kTrainee];
-  const std::uint32_t version = life.simulation->session().authority_version();
+  const std::uint32_t version = life.simulation->session().authority().version();
   life.until(14s);
   EXPECT_EQ(life.audit[What::kInstructorAway], 0);
   life.until(16s);
   EXPECT_EQ(life.audit[What::kInstructorAway], 1);
   EXPECT_EQ(life.alpha(kTrainee), 1);
-  EXPECT_EQ(life.simulation->session().authority_version(), version);
+  EXPECT_EQ(life.simulation->session().authority().version(), version);
   EXPECT_LE((life.before[kTrainee] - force).norm(), 0.1);
   EXPECT_LE(life.steps[kTrainee], 0.05);
   life.expect_nothing_broken();
@@ -94,11 +94,11 @@ TEST(FailureTable, AcceptsExactlyOneOfTwoConcurrentInstructorChanges) {
   scene.seats[1].role = Role::kInstructor;
   SessionDriver life{with(scene)};
   life.until(4s);
-  const std::uint32_t version = life.simulation->session().authority_version();
-  ASSERT_TRUE(life.simulation->seat(0)->request_authority(0, std::array{1.0, 0.0}));
-  ASSERT_TRUE(life.simulation->seat(1)->request_authority(0, std::array{0.0, 1.0}));
+  const std::uint32_t version = life.simulation->session().authority().version();
+  ASSERT_TRUE(life.simulation->seat(0)->requests().change_authority(0, std::array{1.0, 0.0}));
+  ASSERT_TRUE(life.simulation->seat(1)->requests().change_authority(0, std::array{0.0, 1.0}));
   life.until(6s);
-  EXPECT_EQ(life.simulation->session().authority_version(), version + 1);
+  EXPECT_EQ(life.simulation->session().authority().version(), version + 1);
   EXPECT_EQ(life.audit[What::kAuthority], 1);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->seat(i)->force().authority_version, version + 1);
   EXPECT_TRUE(life.alpha(0) == 1 || life.alpha(1) == 1);
@@ -148,7 +148,7 @@ TEST(FailureTable, TripsNoGateOnRandomLossButOnTwentyLossesInARow) {
     setup.network = netsim::link_from(test::delayed(5, 0, percent));
     SessionDriver life{setup};
     life.until(15s);
-    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->gate_trips(i), 0u) << percent;
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->client(i).program().gate_trips(), 0u) << percent;
     life.expect_nothing_broken();
   }
   auto setup = with(contact());
@@ -161,7 +161,7 @@ TEST(FailureTable, TripsNoGateOnRandomLossButOnTwentyLossesInARow) {
   setup.events = {cut};
   SessionDriver life{setup};
   life.until(8s);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->gate_trips(i), 1u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(life.simulation->client(i).program().gate_trips(), 1u);
   life.expect_nothing_broken();
 }
 
@@ -178,11 +178,11 @@ TEST(FailureTable, DetectsAFrozenSensorWhereMotionIsExpected) {
   const Duration found = life.time_to([&] { return !life.active(kTrainee); }, 700ms);
   EXPECT_GT(found, 100ms);
   EXPECT_LE(found, 160ms) << "at 0.157 m/s 5 mm take 32 ms";
-  EXPECT_TRUE(life.simulation->seat(kTrainee)->sensor_stuck());
+  EXPECT_TRUE(life.simulation->seat(kTrainee)->guards().stuck_sensor().stuck());
   EXPECT_TRUE(life.active(kTrainer));
   life.until(10s);
   EXPECT_TRUE(life.active(kTrainee)) << "the reading moves again";
-  EXPECT_EQ(life.simulation->gate_trips(kTrainer), 0u);
+  EXPECT_EQ(life.simulation->client(kTrainer).program().gate_trips(), 0u);
   life.expect_nothing_broken();
 }
 
@@ -191,7 +191,7 @@ TEST(FailureTable, LatchesALocalStopUntilItsUserResumes) {
   SessionDriver life{with(contact())};
   life.until(5s);
   life.forget_steps();
-  life.simulation->seat(kTrainee)->request_local_stop();
+  life.simulation->seat(kTrainee)->requests().stop_locally();
   EXPECT_LE(life.time_to([&] { return !life.active(kTrainee); }, 100ms), 5ms);
   EXPECT_LE(life.time_to([&] { return life.alpha(kTrainee) == 0; }, 500ms), 220ms);
   life.until(8s);
@@ -200,10 +200,10 @@ TEST(FailureTable, LatchesALocalStopUntilItsUserResumes) {
   EXPECT_EQ(life.state(), wire::SessionState::kRunning);
   EXPECT_LE(life.steps[kTrainer], kFelt);
   EXPECT_EQ(life.audit[What::kLocalStop], 1);
-  life.simulation->seat(kTrainer)->request_resume();
+  life.simulation->seat(kTrainer)->requests().resume();
   life.until(9s);
   EXPECT_FALSE(life.active(kTrainee)) << "another participant's button";
-  life.simulation->seat(kTrainee)->request_resume();
+  life.simulation->seat(kTrainee)->requests().resume();
   life.until(12s);
   EXPECT_TRUE(life.active(kTrainee));
   EXPECT_EQ(life.audit[What::kLocalResume], 1);
@@ -219,17 +219,17 @@ TEST(FailureTable, ReleasesAllHandsWithinARoundTripAndATickOfAnInstructorsStop) 
     SessionDriver life{setup};
     life.until(5s);
     ASSERT_TRUE(life.active(kTrainer) && life.active(kTrainee));
-    ASSERT_TRUE(life.simulation->seat(kTrainer)->request_stop_all());
+    ASSERT_TRUE(life.simulation->seat(kTrainer)->requests().stop_all());
     const Duration all = life.time_to([&] { return !life.active(kTrainer) && !life.active(kTrainee); }, 500ms);
     EXPECT_LE(all, std::chrono::milliseconds(2 * one_way) + 2ms) << "a tick, and the one of the key press";
     EXPECT_EQ(life.state(), wire::SessionState::kStopped);
     EXPECT_TRUE(life.simulation->session().tool(0).authority.held());
     life.until(8s);
     EXPECT_FALSE(life.active(kTrainer) || life.active(kTrainee)) << "latched";
-    life.simulation->seat(kTrainee)->request_resume();
+    life.simulation->seat(kTrainee)->requests().resume();
     life.until(9s);
     EXPECT_EQ(life.state(), wire::SessionState::kStopped) << "the trainee may not end it";
-    life.simulation->seat(kTrainer)->request_resume();
+    life.simulation->seat(kTrainer)->requests().resume();
     life.time_to([&] { return life.active(kTrainer) && life.active(kTrainee); }, 2s);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_LE(life.before[i].norm(), 0.05) << "bumpless";
     life.until(13s);
@@ -246,11 +246,11 @@ TEST(FailureTable, ATraineePausesAndTheInstructorResumes) {
   setup.network = netsim::link_from(test::delayed(10, 5, 20));  // requests are repeated until the server confirms them
   SessionDriver life{setup};
   life.until(6s);
-  ASSERT_TRUE(life.simulation->seat(kTrainee)->request_stop_all());
+  ASSERT_TRUE(life.simulation->seat(kTrainee)->requests().stop_all());
   life.until(7s);
   EXPECT_EQ(life.state(), wire::SessionState::kPaused);
-  EXPECT_EQ(life.simulation->session().stops(), 1u) << "repeated, and one stop";
-  life.simulation->seat(kTrainer)->request_resume();
+  EXPECT_EQ(life.simulation->session().stop_latch().stops(), 1u) << "repeated, and one stop";
+  life.simulation->seat(kTrainer)->requests().resume();
   life.until(8s);
   EXPECT_NE(life.state(), wire::SessionState::kPaused);
   EXPECT_EQ(life.audit[What::kPause], 1);
@@ -265,7 +265,7 @@ TEST(FailureTable, QuarantinesAHostileClientWithoutDisturbingOtherHands) {
     SessionDriver life{with(contact(trainer), {{Fault::Kind::kHostile, "trainee", 5s, 1s}})};
     life.until(5s);
     const hal::Vec3 force = life.before[kTrainer];
-    const std::uint32_t version = life.simulation->session().authority_version();
+    const std::uint32_t version = life.simulation->session().authority().version();
     life.forget_steps();
     // One of six kinds of attack is drawn each tick; a request for authority is not a malformed message.
     EXPECT_LE(life.time_to(
@@ -275,7 +275,7 @@ TEST(FailureTable, QuarantinesAHostileClientWithoutDisturbingOtherHands) {
                   100ms),
               5ms);
     life.until(5990ms);
-    EXPECT_EQ(life.simulation->session().authority_version(), version);
+    EXPECT_EQ(life.simulation->session().authority().version(), version);
     EXPECT_LE(life.steps[kTrainer], kFelt);
     EXPECT_LE((life.before[kTrainer] - force).norm(), trainer == 1 ? kFelt : 3.3)
         << "a hand without authority is not felt";

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "netsim/engine/decision_log.h"
 #include "tests/support/simulation_run.h"
 
 namespace tandem {
@@ -133,7 +134,7 @@ TEST(Faults, GainNoEnergyByADecreasingAccount) {
       seen |= v.invariant == "energy_monotone" && v.seat == "trainee" && v.expected;
     EXPECT_EQ(seen, law == LawKind::kSetPosition)
         << "under law replica no end at the server lives on a follower's account";
-    EXPECT_GT(honest.world->session().time(), 11.9);
+    EXPECT_GT(honest.world->session().clock().time(), 11.9);
   }
 }
 
@@ -142,7 +143,8 @@ TEST(Faults, ReleaseHandsDuringAServerPauseAndDropExcessTicks) {
   expect_nothing_broken(*run.world);
   EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 1u);
   EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
-  EXPECT_EQ(run.world->session().dropped_ticks(), 550u) << "it lives through 50 missed ticks, gives up the rest";
+  EXPECT_EQ(run.world->session().clock().dropped_ticks(), 550u)
+      << "it lives through 50 missed ticks, gives up the rest";
 }
 
 // A motion of 46 mm while the session time was paused appears as 9 m/s.
@@ -260,7 +262,7 @@ TEST(Clocks, ALateWakeUpReadsTheDeviceAtItsOwnMoment) {
     const hal::Vec3 now = w.device(kTrainer).ground_truth().x;
     const Time end = w.now() - 1ms;  // of the previous tick
     const auto woke = meant.upper_bound(end - 1ms);
-    if (w.session().time() > 1 && woke != meant.end() && *woke < end) {
+    if (w.session().clock().time() > 1 && woke != meant.end() && *woke < end) {
       const auto& read = w.seat(kTrainer)->sample().telemetry.x;
       const hal::Vec3 x{read[0], read[1], read[2]};
       off += (x - (before + seconds(*woke - (end - 1ms)) / 1e-3 * (now - before))).norm();

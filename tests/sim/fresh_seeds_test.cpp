@@ -130,7 +130,7 @@ TEST(FreshSeeds, LimitTheSpringOfALostSeatWhenOthersMoveTheTool) {
     if (life.alpha(1) <= 0) continue;
     // The reference moves before the tool does: it may be farther than the pull limit by the tool's motion in one tick.
     const auto& tool = life.simulation->session().tool(0);
-    pull = std::max(pull, end.k[0] * std::abs(end.ref[0] - (tool.x(0) - tool.moved()[0])));
+    pull = std::max(pull, end.k[0] * std::abs(end.ref[0] - (tool.x(0) - tool.port().moved[0])));
     way = std::max(way, std::abs(tool.x(0) - before));
   }
   EXPECT_GT(way, 0.005) << "else no hand moved the tool away";
@@ -159,7 +159,7 @@ TEST(FreshSeeds, ASessionThatHasJustBegunIsInTheCheckpoint) {
     ASSERT_EQ(life.state(), wire::SessionState::kRunning);
     EXPECT_TRUE(life.simulation->checkpoint().begun);
     life.until(335ms);
-    EXPECT_TRUE(life.simulation->session().recovering());
+    EXPECT_TRUE(life.simulation->session().start_condition().recovering());
     life.until(4s);
     EXPECT_EQ(life.state(), wire::SessionState::kRunning);
     life.expect_nothing_broken();
@@ -182,7 +182,7 @@ TEST(FreshSeeds, KeepTheApproachSpeedWhenAFrozenSlaveSensorMovesAgain) {
   const double frozen = life.simulation->seat(1)->sample().port.x[0];
   ASSERT_TRUE(life.active(1));
   life.until(2302ms);
-  const double reach = 3.3 / life.simulation->seat(1)->channel().state().k[0];
+  const double reach = 3.3 / life.simulation->seat(1)->tools().end(0).state().k[0];
   ASSERT_GT(std::abs(life.simulation->seat(1)->sample().port.x[0] - frozen), reach)
       << "else the reference need not follow its hand at once";
   life.until(6s);

@@ -36,7 +36,7 @@ SceneSpec in_contact() {
   netsim::Simulation& rehearsal = **made;
   while (rehearsal.now() < Time{} + kAttack && rehearsal.step()) {
   }
-  scene.seats[kTrainer].hand.until = rehearsal.session().time();
+  scene.seats[kTrainer].hand.until = rehearsal.session().clock().time();
   return scene;
 }
 
@@ -67,7 +67,7 @@ Held attacked(const netsim::SimulationConfig& setup, Duration ends) {
     before = x;
     if (into > ends + 3s) break;
   }
-  out.trips = world.gate_trips(kTrainer);
+  out.trips = world.client(kTrainer).program().gate_trips();
   for (const auto& v : world.violations().list())
     EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
   return out;

@@ -1,6 +1,5 @@
 // The checkpoint that a live session writes for a restart, in virtual time.
 #include <gtest/gtest.h>
-#include <sys/eventfd.h>
 
 #include "client/seat/seat.h"
 #include "hal/sim/sim_device.h"
@@ -20,7 +19,7 @@ TEST(LiveSessionCheckpoint, ContainsASessionFromItsFirstTickOn) {
   ASSERT_TRUE(slaves);
   server::TickQueue records{64};
   server::LiveSession hosted(scene, std::move(*slaves), 0, records);
-  const io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  const io::EventFd wake;
   const auto mail = std::make_shared<server::CheckpointMailbox>(wake);
   hosted.persist_to(mail, 1);
 
@@ -93,13 +92,14 @@ TEST(LiveSession, ReportsThatItWaitsWhileItIsStopped) {
     return restored.status();
   };
   EXPECT_TRUE(look().waiting);
-  ASSERT_TRUE(restored.session().stop(now, AccessRole::kOperator));
+  ASSERT_TRUE(restored.session().stop_control().request(now, {AccessRole::kOperator}));
   const server::SessionStatus stopped = look();
   EXPECT_EQ(stopped.state, wire::SessionState::kStopped);
   EXPECT_TRUE(stopped.waiting) << "it waits for the required seats";
-  ASSERT_TRUE(restored.session().resume(now, AccessRole::kOperator, restored.session().stops()));
-  ASSERT_TRUE(restored.session().resume(now, AccessRole::kOperator,
-                                        restored.session().stops()));  // resumes without the missing seats
+  ASSERT_EQ(restored.session().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
+            server::StopLatch::Resume::kEnded);
+  ASSERT_EQ(restored.session().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
+            server::StopLatch::Resume::kEnded);  // resumes without the missing seats
   EXPECT_FALSE(look().waiting);
 }
 
@@ -112,8 +112,9 @@ TEST(LiveSession, CountsEventsThatWereNotTakenInTime) {
   Time now = Time{} + 1ms;
   const auto stops = [&](int many) {  // each stop and its end are one event each
     for (int n = 0; n < many; ++n) {
-      ASSERT_TRUE(hosted.session().stop(now, AccessRole::kInstructor));
-      ASSERT_TRUE(hosted.session().resume(now, AccessRole::kInstructor, hosted.session().stops()));
+      ASSERT_TRUE(hosted.session().stop_control().request(now, {AccessRole::kInstructor}));
+      ASSERT_EQ(hosted.session().resume(now, {AccessRole::kInstructor}, hosted.session().stop_latch().stops()),
+                server::StopLatch::Resume::kEnded);
     }
   };
   const auto told = [&] {

@@ -85,7 +85,7 @@ Loss lose(LawKind law, const Case& c, Grip grip, Duration cut, bool replayed) {
   {  // session time at the cut
     SessionDriver rehearsal{test::with(scene)};
     rehearsal.until(cut);
-    opens = rehearsal.simulation->session().time();
+    opens = rehearsal.simulation->session().clock().time();
   }
   scene = scene_of(law, c, grip, opens);
   const double limit = silence_limits(scene.gate, law, 1).most;

@@ -67,7 +67,7 @@ TEST(Numbers, ContactUnderTheDefaultLawIsFeltWithinAFiftiethOfANewton) {
   for (const double ms : {0.0, 20.0, 100.0}) {
     double depth = 0, force = 0, ticks = 0;
     const auto r = run(shipped("contact"), delayed(ms), 1, [&](netsim::Simulation& w) {
-      if (w.session().time() < 8 || w.session().time() > 11) return;
+      if (w.session().clock().time() < 8 || w.session().clock().time() > 11) return;
       depth += w.device(0).ground_truth().x.x();
       force -= w.device(0).state().f_out.x();
       ++ticks;
@@ -116,7 +116,7 @@ TEST(Numbers, TheSeedRendersTwoHundredFiftyNewtonPerMetre) {
   }
   double force = 0, depth = 0;
   const auto r = run(scene, {}, 1, [&](netsim::Simulation& w) {
-    if (w.session().time() < 10 || w.session().time() > 11) return;
+    if (w.session().clock().time() < 10 || w.session().clock().time() > 11) return;
     force += -w.seat(std::size_t{0})->sample().telemetry.f_cmd[0];
     depth += w.device(0).ground_truth().x.x() - w.record().tools[0].penetration;
   });

@@ -46,7 +46,7 @@ TEST_P(ReplicaTickRates, GiveTheForceOfTheSpringsInSeries) {
     double force = 0, tool = 0;
     std::size_t n = 0;
     while (life.step()) {
-      if (!press.rests(life.simulation->session().time())) continue;
+      if (!press.rests(life.simulation->session().clock().time())) continue;
       ++n;
       force -= life.simulation->device(0).state().f_out[0];
       tool += life.simulation->session().tool(0).x(0);

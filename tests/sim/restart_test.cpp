@@ -133,19 +133,19 @@ TEST(ServerRestart, EngagesNoHandUntilAuthorityHoldersReturnOrTheInstructorResum
     netsim::Simulation& world = **made;
     while (world.now() < Time{} + 7s && world.step()) {
     }
-    EXPECT_TRUE(world.session().recovering());
+    EXPECT_TRUE(world.session().start_condition().recovering());
     EXPECT_EQ(world.session().state(), wire::SessionState::kWaiting);
     EXPECT_FALSE(world.seat(0)->gate().active());
-    EXPECT_EQ(world.session().missing(world.now()), (std::vector<std::size_t>{1}));
-    if (goes_on) world.seat(0)->request_resume();
+    EXPECT_EQ(world.session().start_condition().missing(world.now()), (std::vector<std::size_t>{1}));
+    if (goes_on) world.seat(0)->requests().resume();
     while (world.now() < Time{} + 8s && world.step()) {
     }
-    EXPECT_EQ(world.session().recovering(), !goes_on);
+    EXPECT_EQ(world.session().start_condition().recovering(), !goes_on);
     EXPECT_EQ(world.seat(0)->gate().active(), goes_on);
     EXPECT_EQ(world.session().tool(0).authority.alpha(0), goes_on ? 1 : 0);
     while (world.now() < Time{} + 12s && world.step()) {
     }
-    EXPECT_FALSE(world.session().recovering());
+    EXPECT_FALSE(world.session().start_condition().recovering());
     for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(world.seat(i)->gate().active()) << i;
     EXPECT_NEAR(world.session().tool(0).authority.alpha(1), 0.5, 1e-9);
     EXPECT_TRUE(world.violations().passed());
@@ -163,18 +163,18 @@ TEST(ServerRestart, PreservesAStop) {
     }
   };
   until(4s);
-  ASSERT_TRUE(world.seat(0)->request_stop_all());
-  world.seat(1)->request_local_stop();
+  ASSERT_TRUE(world.seat(0)->requests().stop_all());
+  world.seat(1)->requests().stop_locally();
   until(4900ms);
-  const std::uint32_t stops = world.session().stops();
+  const std::uint32_t stops = world.session().stop_latch().stops();
   EXPECT_EQ(stops, 1u);
   until(6s);
-  world.seat(1)->request_resume();  // its own hand; otherwise the session waits for it
+  world.seat(1)->requests().resume();  // its own hand; otherwise the session waits for it
   until(8s);
   EXPECT_EQ(world.session().state(), wire::SessionState::kStopped);
-  EXPECT_GT(world.session().stops(), stops) << "under a new number: an old request to resume is void";
+  EXPECT_GT(world.session().stop_latch().stops(), stops) << "under a new number: an old request to resume is void";
   for (std::size_t i = 0; i < 2; ++i) EXPECT_FALSE(world.seat(i)->gate().active());
-  world.seat(0)->request_resume();
+  world.seat(0)->requests().resume();
   until(11s);
   EXPECT_EQ(world.session().state(), wire::SessionState::kRunning);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(world.seat(i)->gate().active());

@@ -139,11 +139,11 @@ TEST(Simulation, GivesNoAuthorityToAnEvaluator) {
   scene.phases = {{"work", 1, 4, false}};
   bool asked = false, asked_by_evaluator = false;
   const auto r = run(scene, {}, 1, [&](netsim::Simulation& w) {
-    if (w.session().time() < 2 || w.session().time() > 3.9) return;
+    if (w.session().clock().time() < 2 || w.session().clock().time() > 3.9) return;
     std::array<double, 8> alpha{};
     alpha[3] = 1;
-    asked |= w.seat(0)->request_authority(0, alpha);
-    asked_by_evaluator |= w.seat(3)->request_authority(0, alpha);
+    asked |= w.seat(0)->requests().change_authority(0, alpha);
+    asked_by_evaluator |= w.seat(3)->requests().change_authority(0, alpha);
     EXPECT_EQ(w.session().tool(0).authority.alpha(3), 0);
     EXPECT_EQ(w.session().tool(0).authority.alpha(0), 1);
   });
@@ -159,11 +159,11 @@ TEST(Simulation, LetsAnInstructorMoveAuthorityFromTheSeat) {
   scene.phases = {{"run", 1, 6, false}};
   double at_three = 1, at_end = 1;
   const auto r = run(scene, delayed(20, 5, 20), 1, [&](netsim::Simulation& w) {
-    const double t = w.session().time();
+    const double t = w.session().clock().time();
     if (t >= 3 && t < 3.0015) {
       const std::array<double, 2> half{0.5, 0.5};
-      EXPECT_TRUE(w.seat(0)->request_authority(0, half));
-      EXPECT_TRUE(w.seat(1)->request_authority(0, std::array{0.0, 1.0}))
+      EXPECT_TRUE(w.seat(0)->requests().change_authority(0, half));
+      EXPECT_TRUE(w.seat(1)->requests().change_authority(0, std::array{0.0, 1.0}))
           << "a trainee may ask, and only to give back: the server decides";
       at_three = w.session().tool(0).authority.alpha(0);
     }
@@ -183,7 +183,7 @@ TEST(Simulation, RandomBytesOnThePortChangeNothing) {
     std::string trace;
     std::array<std::byte, 1300> bytes{};
     while (world.step()) {
-      if (noise && world.session().time() < 2) {
+      if (noise && world.session().clock().time() < 2) {
         for (int i = 0; i < 20; ++i) {
           const std::size_t size = random.below(bytes.size());
           for (std::size_t b = 0; b < size; ++b) bytes[b] = static_cast<std::byte>(random.bits());

@@ -110,11 +110,11 @@ TEST(SeveralTools, AThousandChangesOfAuthorityAreNotFelt) {
   SessionDriver life{with(std::move(scene))};
   life.until(4s);
   life.forget_steps();
-  const std::uint32_t first = life.simulation->session().authority_version();
+  const std::uint32_t first = life.simulation->session().authority().version();
   double apart = 1;
   while (life.at() < 29s && life.step())
     apart = std::min(apart, life.simulation->session().tool(1).x(0) - life.simulation->session().tool(0).x(0));
-  EXPECT_GE(life.simulation->session().authority_version() - first, 1900u);
+  EXPECT_GE(life.simulation->session().authority().version() - first, 1900u);
   EXPECT_GT(apart, 40 * kMm);
   for (const double step : life.steps) EXPECT_LE(step, 0.2) << "[N] per ms";
   life.expect_nothing_broken();

@@ -36,7 +36,7 @@ Pressed pressed(const PressScene& press, double delay_ms = 0) {
   Pressed out;
   std::size_t n = 0;
   while (world->step()) {
-    if (!press.rests(world->session().time())) continue;
+    if (!press.rests(world->session().clock().time())) continue;
     ++n;
     out.force -= world->device(0).state().f_out[0];
     out.commanded -= world->seat(0)->sample().telemetry.f_cmd[0];
@@ -71,7 +71,7 @@ TEST_P(TickRates, EngageOverALoopOfOneSecond) {
   while (world->step() && world->now() < Time{} + 20s) engaged = engaged || world->seat(0)->gate().active();
   EXPECT_EQ(world->trouble(), "");
   EXPECT_TRUE(engaged);
-  EXPECT_GT(world->session().time(), 0.4);
+  EXPECT_GT(world->session().clock().time(), 0.4);
   EXPECT_NEAR(seconds(world->seat(0)->link().timing().rtt_p50()), 1.0, 0.05);
 }
 
@@ -99,7 +99,7 @@ TEST(TickRate, EngagesAt10kHzOverTheOldestPermittedLoop) {
   while (world->step() && world->now() < Time{} + 20s) {
   }
   EXPECT_EQ(world->trouble(), "");
-  EXPECT_GT(world->session().time(), 0.1);
+  EXPECT_GT(world->session().clock().time(), 0.1);
 }
 
 /// Returns why a session does not begin within the start timeout.

@@ -120,7 +120,7 @@ TEST(Twins, MatchTheMonolithicSystemWithoutNetworkDelay) {
   double square = 0, square_twin = 0, square_once = 0;
   const auto r = run(scene, {}, 1, [&](netsim::Simulation& w) {
     if (!w.record().running) return;
-    const double t = w.session().time();
+    const double t = w.session().clock().time();
     twin.step(t, {1, 0});
     simultaneous.step(t, {1, 0});
     if (t < 5) return;  // the ramp-in is part of the gate, not of the law

@@ -1,24 +1,24 @@
-#include "client/app/commands/calibrate_command.h"
-
 #include <poll.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/hardware_device.h"
 #include "client/app/terminal_prompt.h"
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
 #include "common/io/clock.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
+#include "common/io/usage_errors.h"
 #include "hal/backends/device_spec_parser.h"
 #include "hal/drivers/falcon/falcon_calibration.h"
 #include "hal/drivers/falcon/falcon_force.h"
@@ -30,24 +30,22 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kTrouble = 1, kWrong = 2;
-
 struct CalibrateArguments {
   std::string device, mass;
   std::string orientation = "upright";
 };
 
 /// Returns the force scale that the driver will use: from its calibration file, or the default. For an invalid device,
-/// appends an error to `mistakes` and returns nullopt.
-std::optional<hal::FalconForce> present_scale(const std::string& device, std::vector<std::string>& mistakes) {
+/// adds an error and returns nullopt.
+std::optional<hal::FalconForce> present_scale(const std::string& device, io::UsageErrors& errors) {
   const std::string kind = device.substr(0, device.find(':'));
   if (kind != "falcon") {
-    mistakes.push_back("--device: only a falcon is calibrated, not '" + kind.substr(0, 60) +
-                       "': other devices report what their motors give");
+    errors.add("--device: only a falcon is calibrated, not '" + kind.substr(0, 60) +
+               "': other devices report what their motors give");
     return std::nullopt;
   }
-  auto wrong = HardwareDevice::spec_errors(device);
-  mistakes.insert(mistakes.end(), wrong.begin(), wrong.end());
+  const auto wrong = HardwareDevice::spec_errors(device);
+  errors.add(wrong);
   if (!wrong.empty()) return std::nullopt;
   const auto file = hal::parse_device_spec(device)->find("calibration");
   if (!file) return hal::FalconForce{};
@@ -56,7 +54,7 @@ std::optional<hal::FalconForce> present_scale(const std::string& device, std::ve
   const auto spec = parse_device_text(text.value_or(""), *file);
   const auto force = hal::FalconForce::from(spec && spec->falcon ? *spec->falcon : FalconSpec{});
   if (text && spec && force) return *force;
-  mistakes.push_back("--device: " + *file + ": changed while it was read");
+  errors.add("--device: " + *file + ": changed while it was read");
   return std::nullopt;
 }
 
@@ -122,11 +120,11 @@ int calibrate(const CalibrateArguments& arguments, double mass, const hal::Falco
           by.empty() ? "standard input ended before Enter was pressed: no reading" : "ended by " + by + ": no reading";
     }
     io::print_formatted(stderr, "tandem-client calibrate: %s\n", reason.c_str());
-    return kTrouble;
+    return io::kExitTrouble;
   };
   if (!held) {
     (void)fail(held.error().reason);
-    return held.error().invalid_spec ? kWrong : kTrouble;
+    return held.error().invalid_spec ? io::kExitUsage : io::kExitTrouble;
   }
   const hal::Vec3 up = up_of(is_supine(arguments));
   hal::FalconCalibration without(hal::Vec3::Zero(), up), with(hal::Vec3::Zero(), up);
@@ -161,43 +159,33 @@ int calibrate(const CalibrateArguments& arguments, double mass, const hal::Falco
 }
 
 int calibrate_command(const CalibrateArguments& arguments) {
-  std::vector<std::string> mistakes;
-  if (const std::string problem = io::number_in(0.005, 1, "kg")(std::string(arguments.mass)); !problem.empty())
-    mistakes.push_back("--mass: " + problem);
+  io::UsageErrors errors;
+  const double mass = errors.number("--mass", arguments.mass, 0.005, 1, "kg");
   if (arguments.orientation != "upright" && arguments.orientation != "supine")
-    mistakes.push_back("--orientation: \"" + sanitize(arguments.orientation) +
-                       "\" is not an orientation: must be upright or supine");
-  const bool weight_known = mistakes.empty();
-  const auto scale = present_scale(arguments.device, mistakes);
-  if (weight_known && scale) {
-    if (std::string heavy = too_heavy(std::stod(arguments.mass), *scale, is_supine(arguments)); !heavy.empty())
-      mistakes.push_back(std::move(heavy));
-  }
-  if (mistakes.empty()) return calibrate(arguments, std::stod(arguments.mass), *scale);
-  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-  io::print_formatted(stderr, "tandem-client calibrate: %zu mistake%s, nothing was started\n", mistakes.size(),
-                      mistakes.size() == 1 ? "" : "s");
-  return kWrong;
+    errors.add("--orientation: \"" + sanitize(arguments.orientation) +
+               "\" is not an orientation: must be upright or supine");
+  const bool weight_known = errors.empty();
+  const auto scale = present_scale(arguments.device, errors);
+  if (weight_known && scale) errors.add(too_heavy(mass, *scale, is_supine(arguments)));
+  return errors.empty() ? calibrate(arguments, mass, *scale) : errors.report("tandem-client calibrate");
 }
 
 }  // namespace
 
-void add_calibrate_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<CalibrateArguments>();
-  CLI::App* const command =
-      root.add_subcommand("calibrate", "Measures the force scale of a Falcon's motors with a known mass.");
+void add_calibrate_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "calibrate", "Measures the force scale of a Falcon's motors with a known mass.", calibrate_command);
+  command.add_option("--device", arguments.device, "required: the Falcon; the specification is that of `join --device`")
+      .value_name("SPEC")
+      .required();
+  command.add_option("--mass", arguments.mass, "required: the mass that you hang on the grip [kg]")
+      .value_name("KG")
+      .required();
   command
-      ->add_option("--device", arguments->device, "required: the Falcon; the specification is that of `join --device`")
-      ->option_text("SPEC")
-      ->required();
-  command->add_option("--mass", arguments->mass, "required: the mass that you hang on the grip [kg]")
-      ->option_text("KG")
-      ->required();
-  command
-      ->add_option("--orientation", arguments->orientation,
-                   "upright: the device stands; supine: it lies on its back, with its grip upwards; default upright")
-      ->option_text("upright|supine");
-  command->footer(
+      .add_option("--orientation", arguments.orientation,
+                  "upright: the device stands; supine: it lies on its back, with its grip upwards; default upright")
+      .value_name("upright|supine");
+  command.footer(
       "Prints one `mass_reading { ... }` for the file of `calibration=`. The file needs at least two readings; six are "
       "better.\n"
       "Begin with the device supine and 20 to 30 g: without a calibration the motors give little force. With that file "
@@ -207,7 +195,6 @@ void add_calibrate_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-client calibrate --device falcon:firmware=falcon.bin --mass 0.02 --orientation supine\n"
       "  tandem-client calibrate --device falcon:firmware=falcon.bin --mass 0.05kg");
-  command->callback([arguments, &action] { action = [arguments] { return calibrate_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

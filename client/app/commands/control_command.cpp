@@ -1,35 +1,34 @@
-#include "client/app/commands/control_command.h"
-
 #include <poll.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstdio>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/commands/server_option.h"
 #include "client/app/console_commands.h"
 #include "client/app/join_client.h"
 #include "common/auth/io/control_client.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
-#include "common/io/help_formatter.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
+#include "common/io/help_text.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
+#include "common/io/usage_errors.h"
 
 namespace tandem::client {
 namespace {
 
-constexpr int kDone = 0, kRefused = 1, kWrong = 2;
 constexpr int kPollIntervalMs = 1000;  // between two polls of the session status
 
 struct Arguments {
   TicketOption ticket;
-  std::string server, session, state, role, patience = "5";
+  std::string server, session, state, role, timeout = "5";
   std::vector<std::string> words;
   bool json = false;
 };
@@ -83,7 +82,7 @@ class ConsoleClient {
   ConsoleClient(Console console, const JoinOptions& asked, bool json)
       : console_(std::move(console)),
         asked_(asked),
-        patience_(std::chrono::duration_cast<std::chrono::milliseconds>(asked.timeout)),
+        timeout_(std::chrono::duration_cast<std::chrono::milliseconds>(asked.timeout)),
         json_(json) {}
 
   [[nodiscard]] const rpc::Welcome& welcome() const { return console_.welcome; }
@@ -92,7 +91,7 @@ class ConsoleClient {
   /// kTold: a change of the session status was printed. kGone: the connection is lost.
   enum class PollResult { kNothing, kTold, kGone };
   PollResult poll_status() {
-    const auto answer = console_.connection->ask(rpc::StatusRequest{console_.welcome.session_id}, patience_);
+    const auto answer = console_.connection->ask(rpc::StatusRequest{console_.welcome.session_id}, timeout_);
     if (!answer) return PollResult::kGone;
     const auto* said = std::get_if<rpc::Status>(&*answer);
     if (said == nullptr) return PollResult::kNothing;  // rate limit or end of the session; the next command reports it
@@ -124,15 +123,15 @@ class ConsoleClient {
       case ConsoleCommand::Kind::kStatus:
         return show_status();
       case ConsoleCommand::Kind::kStop:
-        return order(rpc::StopSession{id, wish.why}) ? tell_stop("STOPPED") : kRefused;
+        return order(rpc::StopSession{id, wish.why}) ? tell_stop("STOPPED") : io::kExitTrouble;
       case ConsoleCommand::Kind::kPause:
-        return order(rpc::PauseSession{id, wish.why}) ? tell_stop("PAUSED") : kRefused;
+        return order(rpc::PauseSession{id, wish.why}) ? tell_stop("PAUSED") : io::kExitTrouble;
       case ConsoleCommand::Kind::kResume:
         return resume(wish);
       case ConsoleCommand::Kind::kAuthority:
         return authority(wish);
       case ConsoleCommand::Kind::kRemove:
-        if (!order(rpc::RemoveParticipant{id, wish.seat, wish.why})) return kRefused;
+        if (!order(rpc::RemoveParticipant{id, wish.seat, wish.why})) return io::kExitTrouble;
         return say(
             wish.seat +
             ": released; the seat is free in a moment, and that workstation cannot join again with the session's code");
@@ -140,7 +139,7 @@ class ConsoleClient {
         const Time due =
             io::monotonic_now() +
             std::chrono::seconds(wish.grace_s);  // computed before the request, so the server never ends earlier
-        if (!order(rpc::Drain{wish.grace_s})) return kRefused;
+        if (!order(rpc::Drain{wish.grace_s})) return io::kExitTrouble;
         if (!drain_due_ || due < *drain_due_) drain_due_ = due;
         return say(
             wish.grace_s == 0
@@ -151,9 +150,9 @@ class ConsoleClient {
       case ConsoleCommand::Kind::kHelp:
         return say(console_commands_help());
       case ConsoleCommand::Kind::kQuit:
-        return kDone;
+        return io::kExitDone;
     }
-    return kWrong;
+    return io::kExitUsage;
   }
 
  private:
@@ -161,9 +160,9 @@ class ConsoleClient {
     const std::string line = text.ends_with('\n') ? text : text + "\n";
     std::fputs(text.starts_with('{') ? line.c_str() : io::wrap_for_terminal(line, stdout).c_str(),
                stdout);  // JSON is not wrapped
-    return std::fflush(stdout) == 0 ? kDone : kRefused;
+    return std::fflush(stdout) == 0 ? io::kExitDone : io::kExitTrouble;
   }
-  static int complain(const std::string& text, int code = kRefused) {
+  static int complain(const std::string& text, int code = io::kExitTrouble) {
     io::print(stderr, "tandem-client control: " + text + "\n");
     return code;
   }
@@ -171,7 +170,7 @@ class ConsoleClient {
   /// Returns the reply if it has this type; otherwise prints the error.
   template <class Answer>
   std::optional<Answer> ask(const rpc::Body& question) {
-    const auto answer = console_.connection->ask(question, patience_);
+    const auto answer = console_.connection->ask(question, timeout_);
     if (!answer) {
       complain(answer.error().text);
     } else if (const auto* good = std::get_if<Answer>(&*answer)) {
@@ -192,7 +191,7 @@ class ConsoleClient {
 
   int show_status() {
     const auto now = status();
-    return now ? say(json_ ? status_json(*now) : status_text(*now)) : kRefused;
+    return now ? say(json_ ? status_json(*now) : status_text(*now)) : io::kExitTrouble;
   }
 
   int tell_stop(const char* what) {
@@ -206,20 +205,20 @@ class ConsoleClient {
     std::uint32_t stop = wish.stop.value_or(0);
     if (!wish.stop) {
       const auto now = status();
-      if (!now) return kRefused;
+      if (!now) return io::kExitTrouble;
       stop = now->stops;
     }
-    if (!order(rpc::ResumeSession{console_.welcome.session_id, stop})) return kRefused;
+    if (!order(rpc::ResumeSession{console_.welcome.session_id, stop})) return io::kExitTrouble;
     return say(format("RESUMED: stop %u is over", stop));
   }
 
   int authority(const ConsoleCommand& wish) {
     const auto now = status();
-    if (!now) return kRefused;
+    if (!now) return io::kExitTrouble;
     const auto frame = authority_frame(wish, *now);
-    if (!frame) return complain(frame.error(), kWrong);
+    if (!frame) return complain(frame.error(), io::kExitUsage);
     const auto answer = ask<rpc::AuthorityReply>(*frame);
-    if (!answer) return kRefused;
+    if (!answer) return io::kExitTrouble;
     const std::string is =
         format("authority over %s, version %u: ", now->tools[frame->tool].name.c_str(), answer->version) +
         weights_text(*now, answer->alpha);
@@ -237,7 +236,7 @@ class ConsoleClient {
   JoinOptions asked_;
   std::optional<rpc::Status> seen_;
   std::optional<Time> drain_due_;  ///< earliest drain requested on this console
-  std::chrono::milliseconds patience_;
+  std::chrono::milliseconds timeout_;
   bool json_;
 };
 
@@ -255,7 +254,7 @@ int tell_gone(bool person, int worst) {
       "rights.\n"
       "To continue, start again, with a new ticket if you joined with one (`tandem-server ticket` on the server)\n",
       person ? "\n" : "");
-  return std::max(worst, kRefused);
+  return std::max(worst, io::kExitTrouble);
 }
 
 /// Executes the commands of standard input line by line. @return the largest exit code
@@ -265,7 +264,7 @@ int converse(ConsoleClient& attendant, int signals) {
       attendant.welcome().session_name + " (" + std::string(to_text(attendant.welcome().role)) + ")> ";
   if (person) std::printf("the connection stays open until you quit; `help` lists the commands\n");
   Lines lines(signals, attendant.connection());
-  int worst = kDone;
+  int worst = io::kExitDone;
   bool waiting = false;  // the prompt is already shown
   while (true) {
     if (person && !waiting) std::printf("%s", prompt.c_str());
@@ -286,7 +285,7 @@ int converse(ConsoleClient& attendant, int signals) {
     const auto words = words_of(*line);
     if (words.empty()) continue;
     const auto wish = parse_command(words);
-    int code = kWrong;
+    int code = io::kExitUsage;
     if (wish) {
       if (wish->kind == ConsoleCommand::Kind::kQuit) return worst;
       code = attendant.execute(*wish);
@@ -298,19 +297,17 @@ int converse(ConsoleClient& attendant, int signals) {
 }
 
 int control_command(const Arguments& arguments) {
-  std::vector<std::string> mistakes;
+  io::UsageErrors errors;
   JoinOptions asking;
-  if (const auto server = server_option(arguments.server, mistakes)) asking.server = *server;
-  std::string patience = arguments.patience;
-  if (const auto problem = io::number_in(0.1, 3600, "s")(patience); !problem.empty())
-    mistakes.push_back("--timeout: " + problem);
+  if (const auto server = server_option(arguments.server, errors)) asking.server = *server;
+  asking.timeout = from_seconds(errors.number("--timeout", arguments.timeout, 0.1, 3600, "s"));
   std::optional<ConsoleCommand> wish;
   if (!arguments.words.empty()) {
     auto understood = parse_command(arguments.words);
     if (understood) {
       wish = std::move(*understood);
     } else {
-      mistakes.push_back(understood.error());
+      errors.add(understood.error());
     }
   }
   asking.console = wish ? role_for(wish->kind) : AccessRole::kOperator;
@@ -318,81 +315,74 @@ int control_command(const Arguments& arguments) {
     const auto role = access_role_named(arguments.role);
     const bool stands =
         role && (*role == AccessRole::kInstructor || *role == AccessRole::kOperator || *role == AccessRole::kRecorder);
-    if (!stands) mistakes.push_back("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
+    if (!stands) errors.add("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
     if (stands) asking.console = *role;
   }
-  asking.ticket = ticket_of(arguments.ticket, mistakes);
-  if (!mistakes.empty()) {
-    for (const std::string& mistake : mistakes)
-      io::print_formatted(stderr, "tandem-client control: %s\n", mistake.c_str());
-    return kWrong;
-  }
+  asking.ticket = ticket_of(arguments.ticket, errors);
+  if (!errors.empty()) return errors.print("tandem-client control: ");
   if (wish && wish->kind == ConsoleCommand::Kind::kHelp)
-    return std::fputs(console_commands_help(), stdout) < 0 ? kRefused : kDone;
-  if (wish && wish->kind == ConsoleCommand::Kind::kQuit) return kDone;
+    return std::fputs(console_commands_help(), stdout) < 0 ? io::kExitTrouble : io::kExitDone;
+  if (wish && wish->kind == ConsoleCommand::Kind::kQuit) return io::kExitDone;
   const io::Fd signals = io::make_signalfd();
   asking.session = arguments.session;
   asking.state = arguments.state;
-  asking.timeout = from_seconds(std::stod(patience));
   asking.signals = signals.get();
   auto console = join_console(asking);
   if (!console) {
     io::print_formatted(stderr, "tandem-client control: %s\n", console.error().reason.c_str());
-    return kRefused;
+    return io::kExitTrouble;
   }
   ConsoleClient attendant(std::move(*console), asking, arguments.json);
   if (!wish) return converse(attendant, signals.get());
   const int code = attendant.execute(*wish);
-  return code == kDone && wish->kind == ConsoleCommand::Kind::kDrain ? attendant.follow_drain(signals.get()) : code;
+  return code == io::kExitDone && wish->kind == ConsoleCommand::Kind::kDrain ? attendant.follow_drain(signals.get())
+                                                                             : code;
 }
 
 }  // namespace
 
-void add_control_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = root.add_subcommand(
-      "control", "Operates a session from a console: stops, resumes, moves authority, removes clients.");
+void add_control_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "control", "Operates a session from a console: stops, resumes, moves authority, removes clients.",
+      control_command);
+  command.add_option("--server", arguments.server, "required: the address that tandem-server prints as `listening on`")
+      .value_name("HOST:PORT")
+      .required();
   command
-      ->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
-      ->option_text("HOST:PORT")
-      ->required();
-  command
-      ->add_option("--session", arguments->session,
-                   "name, code or id of the session; default: the ticket's, or the only one there")
-      ->option_text("NAME|CODE|ID");
-  add_ticket_options(*command, arguments->ticket,
+      .add_option("--session", arguments.session,
+                  "name, code or id of the session; default: the ticket's, or the only one there")
+      .value_name("NAME|CODE|ID");
+  add_ticket_options(command, arguments.ticket,
                      "ticket printed by `tandem-server ticket --role operator`; not needed with a loopback server with "
                      "ephemeral keys");
   command
-      ->add_option("--role", arguments->role,
-                   "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")
-      ->option_text("ROLE");
+      .add_option("--role", arguments.role,
+                  "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")
+      .value_name("ROLE");
   command
-      ->add_option("--state", arguments->state,
-                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      ->option_text("DIR");
+      .add_option("--state", arguments.state,
+                  "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      .value_name("DIR");
   command
-      ->add_option("--timeout", arguments->patience,
-                   "how long to wait for a server that does not answer [s]; default 5")
-      ->option_text("S");
-  command->add_flag("--json", arguments->json, "status for machines");
+      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
+      .value_name("S");
+  command.add_flag("--json", arguments.json, "status for machines");
   command
-      ->add_option("COMMAND", arguments->words,
-                   "one of the commands below; none: a console that takes one command per line and stays connected")
-      ->option_text("...");
-  command->footer(std::string("Commands\n") + console_commands_help() +
-                  "\n"
-                  "A ticket is valid for one connection, and used up by the first command that succeeds (`status` too, "
-                  "unless all others are refused).\n"
-                  "For several commands use the console (also through a pipe); it reports stops by others and the "
-                  "progress of a drain. A stop is latched\n"
-                  "and numbered; a resume names the newest stop, so that an old command never ends a newer stop.\n"
-                  "Exit: 0 done; 1 refused, with the reason, or server not reachable; 2 wrong arguments. In the "
-                  "console: the greatest code of its commands.\n\n"
-                  "Examples\n"
-                  "  tandem-client control --server 127.0.0.1:7000 stop a hand is in the way\n"
-                  "  tandem-client control --server lab-server:7000 --ticket-file operator.ticket");
-  command->callback([arguments, &action] { action = [arguments] { return control_command(*arguments); }; });
+      .add_option("COMMAND", arguments.words,
+                  "one of the commands below; none: a console that takes one command per line and stays connected")
+      .value_name("...");
+  command.footer(std::string("Commands\n") + console_commands_help() +
+                 "\n"
+                 "A ticket is valid for one connection, and used up by the first command that succeeds (`status` too, "
+                 "unless all others are refused).\n"
+                 "For several commands use the console (also through a pipe); it reports stops by others and the "
+                 "progress of a drain. A stop is latched\n"
+                 "and numbered; a resume names the newest stop, so that an old command never ends a newer stop.\n"
+                 "Exit: 0 done; 1 refused, with the reason, or server not reachable; 2 wrong arguments. In the "
+                 "console: the greatest code of its commands.\n\n"
+                 "Examples\n"
+                 "  tandem-client control --server 127.0.0.1:7000 stop a hand is in the way\n"
+                 "  tandem-client control --server lab-server:7000 --ticket-file operator.ticket");
 }
 
 }  // namespace tandem::client

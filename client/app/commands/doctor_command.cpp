@@ -1,5 +1,3 @@
-#include "client/app/commands/doctor_command.h"
-
 #include <poll.h>
 #include <unistd.h>
 
@@ -9,18 +7,20 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <optional>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/device_list.h"
 #include "client/app/hardware_device.h"
 #include "client/app/motor_confirmation.h"
 #include "client/diagnostics/device_diagnostics.h"
 #include "common/io/clock.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
+#include "common/io/usage_errors.h"
 #include "hal/backends/backend.h"
 #include "hal/io/hotplug.h"
 #include "hal/io/udev_rule.h"
@@ -30,8 +30,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using Kind = DeviceDiagnostics::Finding::Kind;
-
-constexpr int kTrouble = 1, kWrong = 2;
 
 struct DoctorArguments {
   std::string device, seconds = "5", root, state;
@@ -108,7 +106,7 @@ int diagnose(const DoctorArguments& arguments, double seconds) {
   auto held = HardwareDevice::open(arguments.device, signals.get(), line, {.state = arguments.state});
   if (!held) {
     io::print_formatted(stderr, "tandem-client doctor: %s\n", held.error().reason.c_str());
-    return held.error().invalid_spec ? kWrong : kTrouble;
+    return held.error().invalid_spec ? io::kExitUsage : io::kExitTrouble;
   }
   hal::Device& device = (*held)->device();
   DiagnosticsClient client{device.caps()};
@@ -152,7 +150,7 @@ int diagnose(const DoctorArguments& arguments, double seconds) {
     findings.push_back({Kind::kTrouble, "the device was unplugged, or disappeared, during the examination"});
   for (const auto& finding : findings) print(finding);
   if (!whole) print_interruption();
-  return whole && !has_fault(findings) ? 0 : kTrouble;
+  return whole && !has_fault(findings) ? 0 : io::kExitTrouble;
 }
 
 int list_all() {
@@ -180,10 +178,10 @@ int list_all() {
                         "No device that Tandem supports is attached. Check cable and power; `lsusb` lists the USB "
                         "devices that the system sees.\n"
                         "Without a device, `--device sim` uses a simulated one.\n");
-    return kTrouble;
+    return io::kExitTrouble;
   }
   io::print_formatted(stdout, "`tandem-client doctor --device SPEC` examines one of them.\n");
-  return trouble ? kTrouble : 0;
+  return trouble ? io::kExitTrouble : 0;
 }
 
 /// Prints attached and removed devices until a signal arrives.
@@ -192,7 +190,7 @@ int watch_hotplug() {
   auto watch = hal::HotplugMonitor::open();
   if (!watch) {
     io::print_formatted(stderr, "tandem-client doctor: %s\n", watch.error().message.c_str());
-    return kTrouble;
+    return io::kExitTrouble;
   }
   io::print_formatted(stdout, "plug devices in and out; Ctrl-C ends\n");
   for (const hal::AttachedDevice& device : (*watch)->present())
@@ -232,7 +230,7 @@ int install_rules(const std::string& root) {
         stderr, "tandem-client doctor: %s\n%sIt would contain:\n", problem.c_str(),
         root.empty() && geteuid() != 0 ? "Run it as root: sudo tandem-client doctor --install-udev\n" : "");
     std::fputs(rules.c_str(), stderr);  // byte for byte, not wrapped
-    return kTrouble;
+    return io::kExitTrouble;
   }
   io::print_formatted(stdout, "%s is written. %s\n", name.c_str(),
                       root.empty()
@@ -242,78 +240,68 @@ int install_rules(const std::string& root) {
 }
 
 int doctor_command(const DoctorArguments& arguments) {
-  std::vector<std::string> mistakes;
-  if (const std::string problem = io::number_in(0.5, 600, "s")(std::string(arguments.seconds)); !problem.empty())
-    mistakes.push_back("--seconds: " + problem);
+  io::UsageErrors errors;
+  const double seconds = errors.number("--seconds", arguments.seconds, 0.5, 600, "s");
   if (arguments.force_test && arguments.device.empty())
-    mistakes.push_back("--force-test: needs --device; forces are sent only to a device that the command line names");
+    errors.add("--force-test: needs --device; forces are sent only to a device that the command line names");
   if (arguments.confirm && arguments.device.empty())
-    mistakes.push_back(
-        "--confirm-motors: needs --device; forces are sent only to a device that the command line names");
+    errors.add("--confirm-motors: needs --device; forces are sent only to a device that the command line names");
   if (arguments.confirm && (arguments.force_test || arguments.watch))
-    mistakes.push_back("--confirm-motors: cannot be combined with --force-test or --watch; run it first");
+    errors.add("--confirm-motors: cannot be combined with --force-test or --watch; run it first");
   if (arguments.install && (!arguments.device.empty() || arguments.force_test || arguments.confirm || arguments.watch))
-    mistakes.push_back("--install-udev: can be combined only with --root");
-  if (!arguments.root.empty() && !arguments.install) mistakes.push_back("--root: needs --install-udev");
+    errors.add("--install-udev: can be combined only with --root");
+  if (!arguments.root.empty() && !arguments.install) errors.add("--root: needs --install-udev");
   if (arguments.watch && (!arguments.device.empty() || arguments.force_test))
-    mistakes.push_back("--watch: cannot be combined with --device or --force-test");
+    errors.add("--watch: cannot be combined with --device or --force-test");
   if (!arguments.device.empty() && !HardwareDevice::is_hardware_spec(arguments.device))
-    mistakes.push_back("--device: doctor examines real devices, and this one is simulated");
+    errors.add("--device: doctor examines real devices, and this one is simulated");
   if (arguments.device.starts_with("replay")) {
-    mistakes.push_back("--device: doctor examines real devices, and this one is a recording");
+    errors.add("--device: doctor examines real devices, and this one is a recording");
   } else if (HardwareDevice::is_hardware_spec(arguments.device) && !arguments.device.empty()) {
-    for (std::string& wrong : HardwareDevice::spec_errors(arguments.device)) mistakes.push_back(std::move(wrong));
+    errors.add(HardwareDevice::spec_errors(arguments.device));
   }
-  if (const auto choice = hal::parse_device_spec(arguments.device); arguments.confirm && mistakes.empty() && choice) {
+  if (const auto choice = hal::parse_device_spec(arguments.device); arguments.confirm && errors.empty() && choice) {
     if (choice->backend != "woodenhaptics")
-      mistakes.push_back("--confirm-motors: '" + choice->backend +
-                         "': only woodenhaptics devices read the directions of their motors from a file");
+      errors.add("--confirm-motors: '" + choice->backend +
+                 "': only woodenhaptics devices read the directions of their motors from a file");
     else if (choice->find("enable_motors") != "yes")
-      mistakes.push_back("--confirm-motors: needs enable_motors=yes in --device: without it no current flows");
+      errors.add("--confirm-motors: needs enable_motors=yes in --device: without it no current flows");
   }
-  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-  if (!mistakes.empty()) {
-    io::print_formatted(stderr, "tandem-client doctor: %zu mistake%s, nothing was started\n", mistakes.size(),
-                        mistakes.size() == 1 ? "" : "s");
-    return kWrong;
-  }
+  if (!errors.empty()) return errors.report("tandem-client doctor");
   if (arguments.install) return install_rules(arguments.root);
   if (arguments.watch) return watch_hotplug();
   if (arguments.confirm) return confirm_motors(arguments.device, arguments.state);
-  return arguments.device.empty() ? list_all() : diagnose(arguments, std::stod(arguments.seconds));
+  return arguments.device.empty() ? list_all() : diagnose(arguments, seconds);
 }
 
 }  // namespace
 
-void add_doctor_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<DoctorArguments>();
-  CLI::App* const command =
-      root.add_subcommand("doctor", "Lists haptic devices, reports their problems and the remedies.");
-  command
-      ->add_option("--device", arguments->device, "examines this device; the specification is that of `join --device`")
-      ->option_text("SPEC");
-  command->add_option("--seconds", arguments->seconds, "how long to watch while you move it; default 5")
-      ->option_text("S");
-  command->add_flag("--force-test", arguments->force_test,
-                    "then pushes your hand softly (0.5 N) along each axis, both ways");
-  command->add_flag(
-      "--confirm-motors", arguments->confirm,
+void add_doctor_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("doctor", "Lists haptic devices, reports their problems and the remedies.", doctor_command);
+  command.add_option("--device", arguments.device, "examines this device; the specification is that of `join --device`")
+      .value_name("SPEC");
+  command.add_option("--seconds", arguments.seconds, "how long to watch while you move it; default 5").value_name("S");
+  command.add_flag("--force-test", arguments.force_test,
+                   "then pushes your hand softly (0.5 N) along each axis, both ways");
+  command.add_flag(
+      "--confirm-motors", arguments.confirm,
       "asks you, then sends each motor pulses of at most 30 ms and checks whether it pushes in the direction that the "
       "device's file states; before this check, a device whose directions come from a file gives no force");
   command
-      ->add_option("--state", arguments->state,
-                   "folder with the record of confirmed motors; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      ->option_text("DIR");
-  command->add_flag("--watch", arguments->watch,
-                    "reports devices that are plugged in and out, on USB and among HID devices");
-  command->add_flag("--install-udev", arguments->install,
-                    "writes the udev rules that let the logged-in user use the devices; needs root");
+      .add_option("--state", arguments.state,
+                  "folder with the record of confirmed motors; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      .value_name("DIR");
+  command.add_flag("--watch", arguments.watch,
+                   "reports devices that are plugged in and out, on USB and among HID devices");
+  command.add_flag("--install-udev", arguments.install,
+                   "writes the udev rules that let the logged-in user use the devices; needs root");
   command
-      ->add_option(
-          "--root", arguments->root,
+      .add_option(
+          "--root", arguments.root,
           "with --install-udev: root folder of another system, such as an image; the file goes to DIR/etc/udev/rules.d")
-      ->option_text("DIR");
-  command->footer(
+      .value_name("DIR");
+  command.footer(
       "Exit: 0 all is well; 1 trouble was found, or no device; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-client doctor\n"
@@ -321,7 +309,6 @@ void add_doctor_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-client doctor --device woodenhaptics:preset=mine.textproto,enable_motors=yes,home=here "
       "--confirm-motors\n"
       "  sudo tandem-client doctor --install-udev");
-  command->callback([arguments, &action] { action = [arguments] { return doctor_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

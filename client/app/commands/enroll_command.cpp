@@ -1,33 +1,33 @@
-#include "client/app/commands/enroll_command.h"
-
 #include <cstdio>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "client/app/commands/client_commands.h"
 #include "common/auth/enrolment.h"
 #include "common/auth/io/client_keystore.h"
 #include "common/auth/io/control_client.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
 #include "common/io/socket_address.h"
+#include "common/io/usage_errors.h"
 
 namespace tandem::client {
 namespace {
 
 struct Arguments {
-  std::string text, state, patience = "5";
+  std::string text, state, timeout = "5";
 };
 
 int trouble(const std::string& what) {
   io::print_formatted(stderr, "tandem-client enroll: %s\n", what.c_str());
-  return 1;
+  return io::kExitTrouble;
 }
 
 int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, const std::string& state,
-          std::chrono::milliseconds patience) {
+          std::chrono::milliseconds timeout) {
   const io::Fd signals = io::make_signalfd();
   const auto own = auth::ClientKeystore::open_or_make(state, auth::wall_seconds());
   if (!own) return trouble(own.error());
@@ -37,14 +37,14 @@ int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, c
                            " has another key than the string names, so nothing was sent to it. Either another machine "
                            "answers there, or the server was set up again: ask for a new string");
   };
-  auto client = auth::ControlClient::connect(server, judge, patience, signals.get());
+  auto client = auth::ControlClient::connect(server, judge, timeout, signals.get());
   const auto told = [](const auth::ClientError& fault) {
     return trouble(fault.kind == auth::ClientError::Kind::kInterrupted
                        ? "ended by Ctrl-C; the string may still be valid"
                        : fault.text);
   };
   if (!client) return told(client.error());
-  const auto answer = client->ask(rpc::Enroll{given.code}, patience);
+  const auto answer = client->ask(rpc::Enroll{given.code}, timeout);
   if (!answer) return told(answer.error());
   if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return trouble("refused: " + refused->text);
   const auto* taken = std::get_if<rpc::EnrollAck>(&*answer);
@@ -56,53 +56,47 @@ int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, c
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
-int enroll_command(Arguments arguments) {
-  std::vector<std::string> mistakes;
-  if (arguments.text == "-") {
-    arguments.text.clear();
-    std::getline(std::cin, arguments.text);
+int enroll_command(const Arguments& arguments) {
+  io::UsageErrors errors;
+  std::string text = arguments.text;
+  if (text == "-") {
+    text.clear();
+    std::getline(std::cin, text);
   }
-  auto given = auth::EnrolmentString::from_text(arguments.text);
-  wipe(arguments.text);
+  auto given = auth::EnrolmentString::from_text(text);
+  wipe(text);
   std::expected<io::SocketAddress, std::string> server = std::unexpected(std::string());
   if (!given) {
-    mistakes.push_back("STRING: " + given.error());
+    errors.add("STRING: " + given.error());
   } else if (server = io::parse_address(given->address, 1); !server) {
-    mistakes.push_back("STRING: its server " + server.error());
+    errors.add("STRING: its server " + server.error());
   }
-  std::string patience = arguments.patience;
-  if (const auto problem = io::number_in(0.1, 3600, "s")(patience); !problem.empty())
-    mistakes.push_back("--timeout: " + problem);
+  const double timeout_s = errors.number("--timeout", arguments.timeout, 0.1, 3600, "s");
   const auto state = auth::client_state_path(arguments.state);
-  if (!state) mistakes.push_back(state.error());
-  if (mistakes.empty())
-    return enrol(*given, *server, *state,
-                 std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * std::stod(patience))));
-  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-  io::print_formatted(stderr, "tandem-client enroll: %zu mistake%s, nothing was sent\n", mistakes.size(),
-                      mistakes.size() == 1 ? "" : "s");
-  return 2;
+  if (!state) errors.add(state.error());
+  if (errors.empty())
+    return enrol(*given, *server, *state, std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * timeout_s)));
+  return errors.report("tandem-client enroll", "nothing was sent");
 }
 
 }  // namespace
 
-void add_enroll_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = root.add_subcommand(
-      "enroll", "Registers this workstation at a server, with the string that tandem-server enroll printed there.");
+void add_enroll_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "enroll", "Registers this workstation at a server, with the string that tandem-server enroll printed there.",
+      enroll_command);
   command
-      ->add_option("STRING", arguments->text,
-                   "the whole string, which begins with `tandem:`; `-`: read from standard input, so that it appears "
-                   "in no list of processes")
-      ->option_text(" ")
-      ->required();
+      .add_option("STRING", arguments.text,
+                  "the whole string, which begins with `tandem:`; `-`: read from standard input, so that it appears "
+                  "in no list of processes")
+      .value_name(" ")
+      .required();
   command
-      ->add_option("--state", arguments->state,
-                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      ->option_text("DIR");
-  command->add_option("--timeout", arguments->patience, "how long to wait for the server [s]; default 5")
-      ->option_text("S");
-  command->footer(
+      .add_option("--state", arguments.state,
+                  "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      .value_name("DIR");
+  command.add_option("--timeout", arguments.timeout, "how long to wait for the server [s]; default 5").value_name("S");
+  command.footer(
       "Creates the workstation's key if there is none yet; it never leaves the folder. The server must run, and must "
       "have the key that the\n"
       "string names: the client sends nothing to any other server.\n"
@@ -110,7 +104,6 @@ void add_enroll_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-client enroll tandem:0G6...\n"
       "  tandem-client enroll - < enrolment.txt");
-  command->callback([arguments, &action] { action = [arguments] { return enroll_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

@@ -1,17 +1,16 @@
-#include "client/app/commands/join_command.h"
-
 #include <unistd.h>
 
 #include <cstdio>
-#include <memory>
 #include <sstream>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/commands/server_option.h"
 #include "client/app/hardware_device.h"
 #include "client/app/run_seat.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "hal/backends/backend.h"
 #include "hal/io/open_sim_device.h"
 #include "proto/wire/wire_messages.h"
@@ -19,70 +18,53 @@
 namespace tandem::client {
 namespace {
 
-constexpr int kWrong = 2;
-
 /// Arguments as typed. Numbers remain text until parse_command, so that all errors are reported together.
 struct JoinArguments {
   TicketOption ticket;
-  std::string server, session, state, seat, device, script, trace, json, duration, patience = "5", rejoin = "60";
+  std::string server, session, state, seat, device, script, trace, json, duration, timeout = "5", rejoin = "60";
   bool quiet = false;
 };
 
-using Mistakes = std::vector<std::string>;
-
-double number(const char* option, std::string text, double lo, double hi, Mistakes& mistakes) {
-  if (text.empty()) return 0;
-  if (const std::string problem = io::number_in(lo, hi, "s")(text); !problem.empty()) {
-    mistakes.push_back(std::string(option) + ": " + problem);
-    return 0;
-  }
-  return std::stod(text);
-}
-
-void check_files(const JoinArguments& arguments, Mistakes& mistakes) {
-  if (!arguments.json.empty() && arguments.json != "-")
-    if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty())
-      mistakes.push_back("--json: " + problem);
-  if (!arguments.trace.empty())
-    if (const auto problem = io::OutputFile::problem(arguments.trace); !problem.empty())
-      mistakes.push_back("--trace: " + problem);
+void check_files(const JoinArguments& arguments, io::UsageErrors& errors) {
+  errors.output_file("--json", arguments.json);
+  if (!arguments.trace.empty()) errors.add("--trace", io::OutputFile::problem(arguments.trace));
   if (!arguments.trace.empty() && arguments.trace == arguments.json)
-    mistakes.push_back("--trace: is the same file as --json");
+    errors.add("--trace", "is the same file as --json");
 }
 
-/// Returns the options, and appends all errors to `mistakes`.
-SeatOptions parse_command(const JoinArguments& arguments, Mistakes& mistakes) {
+/// Returns the options, and adds all errors.
+SeatOptions parse_command(const JoinArguments& arguments, io::UsageErrors& errors) {
   SeatOptions plan;
-  if (const auto server = server_option(arguments.server, mistakes)) plan.server = *server;
+  if (const auto server = server_option(arguments.server, errors)) plan.server = *server;
   if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
-    mistakes.push_back("--seat: a name has 1 to 32 characters");
+    errors.add("--seat: a name has 1 to 32 characters");
   if (HardwareDevice::is_hardware_spec(arguments.device)) {
-    for (std::string& wrong : HardwareDevice::spec_errors(arguments.device)) mistakes.push_back(std::move(wrong));
+    errors.add(HardwareDevice::spec_errors(arguments.device));
   } else if (const auto device = hal::open_sim_device(arguments.device, SimDeviceSpec{}, HandSpec{})) {
     plan.caps = known_caps(device->device->caps());
   } else {
     std::istringstream lines(device.error().message);
     for (std::string line; std::getline(lines, line);)
-      mistakes.push_back("--device: " + line.substr(line.starts_with("device: ") ? 8 : 0));
+      errors.add("--device: " + line.substr(line.starts_with("device: ") ? 8 : 0));
   }
   if (arguments.device.find("keyboard") != std::string::npos && isatty(STDIN_FILENO) == 0)
-    mistakes.push_back("--device " + arguments.device +
-                       ": the keys are read from a terminal, and standard input is not a terminal");
+    errors.add("--device " + arguments.device +
+               ": the keys are read from a terminal, and standard input is not a terminal");
   if (!arguments.script.empty()) {
     auto script = AuthorityScript::load(arguments.script);
     if (script) {
       plan.script = std::move(*script);
     } else {
-      mistakes.insert(mistakes.end(), script.error().begin(), script.error().end());
+      errors.add(script.error());
     }
   }
-  check_files(arguments, mistakes);
-  plan.duration_s = number("--duration", arguments.duration, 0.1, 3e6, mistakes);
-  plan.timeout_s = number("--timeout", arguments.patience, 0.1, 3600, mistakes);
-  plan.reconnect_timeout_s = number("--reconnect-timeout", arguments.rejoin, 0, 600, mistakes);
+  check_files(arguments, errors);
+  plan.duration_s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s");
+  plan.timeout_s = errors.optional_number("--timeout", arguments.timeout, 0.1, 3600, "s");
+  plan.reconnect_timeout_s = errors.optional_number("--reconnect-timeout", arguments.rejoin, 0, 600, "s");
   plan.seat = arguments.seat;
   plan.session = arguments.session;
-  plan.ticket = ticket_of(arguments.ticket, mistakes);
+  plan.ticket = ticket_of(arguments.ticket, errors);
   plan.state = arguments.state;
   plan.device = arguments.device;
   plan.trace = arguments.trace;
@@ -92,64 +74,57 @@ SeatOptions parse_command(const JoinArguments& arguments, Mistakes& mistakes) {
 }
 
 int join_command(const JoinArguments& arguments) {
-  Mistakes mistakes;
-  const SeatOptions plan = parse_command(arguments, mistakes);
-  if (mistakes.empty()) return run_seat(plan);
-  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-  io::print_formatted(stderr, "tandem-client join: %zu mistake%s, nothing was started\n", mistakes.size(),
-                      mistakes.size() == 1 ? "" : "s");
-  return kWrong;
+  io::UsageErrors errors;
+  const SeatOptions plan = parse_command(arguments, errors);
+  return errors.empty() ? run_seat(plan) : errors.report("tandem-client join");
 }
 
 }  // namespace
 
-void add_join_command(CLI::App& root, std::function<int()>& action) {
-  // Shared, because the program's options refer to it.
-  const auto arguments = std::make_shared<JoinArguments>();
-  CLI::App* const command = root.add_subcommand("join", "Attaches one device to one seat of a session.");
+void add_join_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("join", "Attaches one device to one seat of a session.", join_command);
+  command.add_option("--server", arguments.server, "required: the address that tandem-server prints as `listening on`")
+      .value_name("HOST:PORT")
+      .required();
+  add_joining_options(command, arguments.session, &arguments.ticket, arguments.state);
+  command.add_option("--seat", arguments.seat, "required: which seat of the scene; the server prints their names")
+      .value_name("NAME")
+      .required();
+  command.add_option("--device", arguments.device, "required: device of the seat, see below")
+      .value_name("SPEC")
+      .required();
   command
-      ->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
-      ->option_text("HOST:PORT")
-      ->required();
-  add_joining_options(*command, arguments->session, &arguments->ticket, arguments->state);
-  command->add_option("--seat", arguments->seat, "required: which seat of the scene; the server prints their names")
-      ->option_text("NAME")
-      ->required();
-  command->add_option("--device", arguments->device, "required: device of the seat, see below")
-      ->option_text("SPEC")
-      ->required();
+      .add_option("--alpha-script", arguments.script,
+                  "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; each change is requested 50 "
+                  "ms ahead, because the server announces changes that long; INSTRUCTOR's seat only")
+      .value_name("FILE.csv");
+  command.add_option("--trace", arguments.trace, "writes this seat's own samples, one row per servo tick")
+      .value_name("FILE.csv");
   command
-      ->add_option("--alpha-script", arguments->script,
-                   "authority over session time: CSV `t_s[s],SEAT[1],...`, rows sum to 1; each change is requested 50 "
-                   "ms ahead, because the server announces changes that long; INSTRUCTOR's seat only")
-      ->option_text("FILE.csv");
-  command->add_option("--trace", arguments->trace, "writes this seat's own samples, one row per servo tick")
-      ->option_text("FILE.csv");
+      .add_option("--json", arguments.json,
+                  "writes verdict, link statistics, gate trips, energies, and the device's periods and round trips as "
+                  "histograms; `-`: "
+                  "to standard output")
+      .value_name("FILE|-");
   command
-      ->add_option("--json", arguments->json,
-                   "writes verdict, link statistics, gate trips, energies, and the device's periods and round trips as "
-                   "histograms; `-`: "
-                   "to standard output")
-      ->option_text("FILE|-");
+      .add_option("--duration", arguments.duration,
+                  "leaves after this many seconds at the seat; default: stays to the end")
+      .value_name("S");
   command
-      ->add_option("--duration", arguments->duration,
-                   "leaves after this many seconds at the seat; default: stays to the end")
-      ->option_text("S");
+      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
+      .value_name("S");
   command
-      ->add_option("--timeout", arguments->patience,
-                   "how long to wait for a server that does not answer [s]; default 5")
-      ->option_text("S");
-  command
-      ->add_option(
-          "--reconnect-timeout", arguments->rejoin,
+      .add_option(
+          "--reconnect-timeout", arguments.rejoin,
           "how long to try to reconnect to the seat after the server fell silent or ended, or the network changed [s]; "
           "default 60, at most 600; 0: no attempt, and a silence of 60 s counts as a lost server. A server ends a "
           "session after the same 60 s without data from any client. Your hand is free meanwhile")
-      ->option_text("S");
-  command->add_flag("--quiet", arguments->quiet, "no status");
+      .value_name("S");
+  command.add_flag("--quiet", arguments.quiet, "no status");
   std::string hardware;
   for (const hal::Backend* backend : hal::backends()) hardware += backend->help();
-  command->footer(
+  command.footer(
       "Devices\n"
       "  sim                         simulated, as the scene describes the seat's device and hand\n"
       "  sim:hand=NAME               another hand: none leader relaxed resting letting_go tremor keyboard\n"
@@ -177,7 +152,6 @@ void add_join_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-client join --server 127.0.0.1:7000 --seat trainee --device sim:keyboard\n"
       "  tandem-client join --server 127.0.0.1:7000 --seat trainer --device sim:motion=baton.csv,columns=baton\n"
       "      --alpha-script handover.csv --json trainer.json");
-  command->callback([arguments, &action] { action = [arguments] { return join_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

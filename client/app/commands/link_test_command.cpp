@@ -1,40 +1,39 @@
-#include "client/app/commands/link_test_command.h"
-
 #include <poll.h>
-#include <spdlog/spdlog.h>
 
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/commands/server_option.h"
 #include "client/app/join_client.h"
 #include "client/diagnostics/link_verdict.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/command_line.h"
 #include "common/io/datagram_batch.h"
-#include "common/io/number_option.h"
+#include "common/io/exit_code.h"
+#include "common/io/log.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "common/io/realtime.h"
 #include "common/io/signals.h"
 #include "common/io/terminal.h"
+#include "common/io/usage_errors.h"
 
 namespace tandem::client {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kTrouble = 1, kWrong = 2;
 constexpr int kPriority = 60;         // real-time priority of a device's thread, so that its lateness is measured
 constexpr Duration kSilentMax = 10s;  // silence of the server that ends the test
 constexpr Duration kRefusedMax = 1s;  // the same after ECONNREFUSED
 constexpr int kRounds = 4;
 
 struct Arguments {
-  std::string server, session, state, json, duration = "10", patience = "5";
+  std::string server, session, state, json, duration = "10", timeout = "5";
   bool quiet = false;
 };
 
@@ -190,22 +189,22 @@ const char* to_text(Ended ended) noexcept {
   return kWords[static_cast<std::size_t>(ended)];
 }
 
-int trouble(const std::string& what, int code = kTrouble) {
-  spdlog::error("link-test: {}", what);
+int trouble(const std::string& what, int code = io::kExitTrouble) {
+  io::log(io::Level::kError, "link-test: " + what);
   return code;
 }
 
-int test_link(const Arguments& arguments, const io::SocketAddress& address, double duration_s, double patience_s) {
+int test_link(const Arguments& arguments, const io::SocketAddress& address, double duration_s, double timeout_s) {
   const io::Fd signals = io::make_signalfd();
   io::OutputFile json;
   if (const auto problem = json.open(arguments.json, true); !problem.empty())
-    return trouble("--json: " + problem, kWrong);
+    return trouble("--json: " + problem, io::kExitUsage);
   const std::string server = io::to_text(address);
   hal::DeviceCaps nobody;  // a link-test peer has no device, but Hello requires plausible capabilities
   nobody.joints = nobody.tip_axes = 1;
   nobody.simulated = true;
   const auto given =
-      join_seat({address, {}, arguments.session, {}, arguments.state, nobody, from_seconds(patience_s), signals.get()});
+      join_seat({address, {}, arguments.session, {}, arguments.state, nobody, from_seconds(timeout_s), signals.get()});
   if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
   auto socket = io::connect_udp(given->udp);
   if (!socket) return trouble("--server: " + socket.error());
@@ -240,49 +239,38 @@ int test_link(const Arguments& arguments, const io::SocketAddress& address, doub
   json.write(to_json(findings, verdict, server, to_text(ended), ended == Ended::kDone));
   if (const auto problem = json.close(); !problem.empty()) return trouble(problem);
   if (ended == Ended::kInterrupted) return 0;
-  return verdict.grade == LinkGrade::kBad || ended != Ended::kDone ? kTrouble : 0;
+  return verdict.grade == LinkGrade::kBad || ended != Ended::kDone ? io::kExitTrouble : 0;
 }
 
 int link_test_command(const Arguments& arguments) {
-  std::vector<std::string> mistakes;
-  const auto server = server_option(arguments.server, mistakes);
-  const auto number = [&](const char* option, std::string text, double lo, double hi) {
-    const std::string problem = io::number_in(lo, hi, "s")(text);
-    if (!problem.empty()) mistakes.push_back(std::string(option) + ": " + problem);
-    return problem.empty() ? std::stod(text) : 0.0;
-  };
-  const double duration = number("--duration", arguments.duration, 1, 3600);
-  const double patience = number("--timeout", arguments.patience, 0.1, 3600);
-  if (!arguments.json.empty() && arguments.json != "-")
-    if (const auto problem = io::OutputFile::problem(arguments.json); !problem.empty())
-      mistakes.push_back("--json: " + problem);
-  if (mistakes.empty()) return test_link(arguments, *server, duration, patience);
-  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-  io::print_formatted(stderr, "tandem-client link-test: %zu mistake%s, nothing was started\n", mistakes.size(),
-                      mistakes.size() == 1 ? "" : "s");
-  return kWrong;
+  io::UsageErrors errors;
+  const auto server = server_option(arguments.server, errors);
+  const double duration = errors.number("--duration", arguments.duration, 1, 3600, "s");
+  const double timeout = errors.number("--timeout", arguments.timeout, 0.1, 3600, "s");
+  errors.output_file("--json", arguments.json);
+  if (errors.empty()) return test_link(arguments, *server, duration, timeout);
+  return errors.report("tandem-client link-test");
 }
 
 }  // namespace
 
-void add_link_test_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = root.add_subcommand(
+void add_link_test_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
       "link-test",
-      "Judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks.");
-  command->add_option("--server", arguments->server, "required: address the server printed")
-      ->option_text("HOST:PORT")
-      ->required();
-  add_joining_options(*command, arguments->session, nullptr, arguments->state);
-  command->add_option("--duration", arguments->duration, "how long [s], 1 to 3600; default 10")->option_text("S");
-  command->add_option("--json", arguments->json, "writes all findings; `-`: to standard output, instead of the text")
-      ->option_text("FILE|-");
+      "Judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks.",
+      link_test_command);
+  command.add_option("--server", arguments.server, "required: address the server printed")
+      .value_name("HOST:PORT")
+      .required();
+  add_joining_options(command, arguments.session, nullptr, arguments.state);
+  command.add_option("--duration", arguments.duration, "how long [s], 1 to 3600; default 10").value_name("S");
+  command.add_option("--json", arguments.json, "writes all findings; `-`: to standard output, instead of the text")
+      .value_name("FILE|-");
   command
-      ->add_option("--timeout", arguments->patience,
-                   "how long to wait for a server that does not answer [s]; default 5")
-      ->option_text("S");
-  command->add_flag("--quiet", arguments->quiet, "no status");
-  command->footer(
+      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
+      .value_name("S");
+  command.add_flag("--quiet", arguments.quiet, "no status");
+  command.footer(
       "Sends and receives the datagrams of a hand, at the scene's rate, beside a session that runs or waits; no "
       "participant feels it.\n"
       "Ctrl-C or SIGTERM ends it early, with what was found so far.\n"
@@ -294,7 +282,6 @@ void add_link_test_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-client link-test --server 127.0.0.1:7000\n"
       "  tandem-client link-test --server lab-server:7000 --duration 30s --json link.json");
-  command->callback([arguments, &action] { action = [arguments] { return link_test_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

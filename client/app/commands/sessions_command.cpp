@@ -1,39 +1,33 @@
-#include "client/app/commands/sessions_command.h"
-
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "client/app/commands/client_commands.h"
 #include "client/app/commands/server_option.h"
 #include "client/app/join_client.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
+#include "common/io/usage_errors.h"
 #include "proto/rpc/session_list_text.h"
 
 namespace tandem::client {
 namespace {
 
 struct Arguments {
-  std::string server, state, patience = "5";
+  std::string server, state, timeout = "5";
   bool json = false;
 };
 
 int sessions_command(const Arguments& arguments) {
-  std::vector<std::string> mistakes;
+  io::UsageErrors errors;
   JoinOptions asking;
-  if (const auto server = server_option(arguments.server, mistakes)) asking.server = *server;
-  std::string patience = arguments.patience;
-  if (const auto problem = io::number_in(0.1, 3600, "s")(patience); !problem.empty())
-    mistakes.push_back("--timeout: " + problem);
-  if (!mistakes.empty()) {
-    for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-    return 2;
-  }
+  if (const auto server = server_option(arguments.server, errors)) asking.server = *server;
+  asking.timeout = from_seconds(errors.number("--timeout", arguments.timeout, 0.1, 3600, "s"));
+  if (!errors.empty()) return errors.print("");
   const io::Fd signals = io::make_signalfd();
   asking.state = arguments.state;
-  asking.timeout = from_seconds(std::stod(patience));
   asking.signals = signals.get();
   const auto list = list_sessions(asking);
   if (!list) {
@@ -46,31 +40,27 @@ int sessions_command(const Arguments& arguments) {
 
 }  // namespace
 
-void add_sessions_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command =
-      root.add_subcommand("sessions", "Lists the sessions of a server: phases, seats free and taken, roles.");
+void add_sessions_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "sessions", "Lists the sessions of a server: phases, seats free and taken, roles.", sessions_command);
+  command.add_option("--server", arguments.server, "required: the address that tandem-server prints as `listening on`")
+      .value_name("HOST:PORT")
+      .required();
   command
-      ->add_option("--server", arguments->server, "required: the address that tandem-server prints as `listening on`")
-      ->option_text("HOST:PORT")
-      ->required();
+      .add_option("--state", arguments.state,
+                  "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
+      .value_name("DIR");
   command
-      ->add_option("--state", arguments->state,
-                   "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      ->option_text("DIR");
-  command
-      ->add_option("--timeout", arguments->patience,
-                   "how long to wait for a server that does not answer [s]; default 5")
-      ->option_text("S");
-  command->add_flag("--json", arguments->json, "for machines");
-  command->footer(
+      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
+      .value_name("S");
+  command.add_flag("--json", arguments.json, "for machines");
+  command.footer(
       "The workstation must be enrolled there; with a loopback server with ephemeral keys it need not. Exit: 0 done; 1 "
       "refused, or server not reachable; 2 wrong\n"
       "arguments.\n\n"
       "Examples\n"
       "  tandem-client sessions --server lab-server:7000\n"
       "  tandem-client sessions --server 127.0.0.1:7000 --json");
-  command->callback([arguments, &action] { action = [arguments] { return sessions_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <string>
-#include <vector>
+
+#include "common/io/command_line.h"
+#include "common/io/usage_errors.h"
 
 /// Options that give a ticket. All users of the computer can read a command line (ps), so a file is preferable.
 namespace tandem::client {
@@ -16,20 +17,20 @@ struct TicketOption {
   std::string file;  ///< file name, or `-` for standard input
 };
 
-inline void add_ticket_options(CLI::App& command, TicketOption& ticket, const char* what) {
+inline void add_ticket_options(const io::Command& command, TicketOption& ticket, const char* what) {
   command
       .add_option("--ticket", ticket.text,
                   std::string(what) +
                       "; @FILE: the first line of that file, so that the ticket appears in no list of processes")
-      ->option_text("TICKET|@FILE");
+      .value_name("TICKET|@FILE");
   command.add_option("--ticket-file", ticket.file, "the same as --ticket @FILE; `-`: the first line of standard input")
-      ->option_text("FILE");
+      .value_name("FILE");
 }
 
-/// Returns the text of the ticket; empty if none is given, or if an error was appended to `mistakes`.
-[[nodiscard]] inline std::string ticket_of(const TicketOption& given, std::vector<std::string>& mistakes) {
+/// Returns the text of the ticket; empty if none is given, or if an error was added to `errors`.
+[[nodiscard]] inline std::string ticket_of(const TicketOption& given, io::UsageErrors& errors) {
   if (!given.text.empty() && !given.file.empty()) {
-    mistakes.push_back("--ticket-file: cannot be combined with --ticket; give one of them");
+    errors.add("--ticket-file: cannot be combined with --ticket; give one of them");
     return {};
   }
   const bool named = !given.file.empty() || given.text.starts_with('@');
@@ -48,14 +49,14 @@ inline void add_ticket_options(CLI::App& command, TicketOption& ticket, const ch
     if (!named) return name;  // not a file: join_seat reports the expected form
     const std::string why =
         file.is_open() || named_stdin ? " is empty" : std::string(" cannot be read: ") + std::strerror(error);
-    mistakes.push_back(std::string(option) + ": " +
-                       (name.empty() ? "@ needs a file's name"
-                                     : name + why + "; write the ticket to it: tandem-server ticket ... > FILE"));
+    errors.add(std::string(option) + ": " +
+               (name.empty() ? "@ needs a file's name"
+                             : name + why + "; write the ticket to it: tandem-server ticket ... > FILE"));
     return {};
   }
   if (!line.empty() && line.back() == '\r') line.pop_back();
   if (line.starts_with("ticket:")) return line;
-  mistakes.push_back(std::string(option) + ": " + name + ": its first line is no ticket, which begins with `ticket:`");
+  errors.add(std::string(option) + ": " + name + ": its first line is no ticket, which begins with `ticket:`");
   return {};
 }
 

@@ -1,20 +1,20 @@
-#include "client/app/commands/try_command.h"
-
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 
 #include "client/app/child_program.h"
+#include "client/app/commands/client_commands.h"
 #include "client/app/run_seat.h"
 #include "client/app/seat_observer.h"
 #include "client/app/tutorial.h"
 #include "common/base/suggestions.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
+#include "common/io/log.h"
 #include "common/io/print.h"
 #include "common/io/signals.h"
+#include "common/io/usage_errors.h"
 #include "hal/io/open_sim_device.h"
 #include "proto/io/scene_file.h"
 
@@ -23,7 +23,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kTrouble = 1, kWrong = 2;
 constexpr Duration kServerStarts = 20s;
 constexpr double kAfterTutorial = 2;  // [s] time after the tutorial until a trial without terminal ends
 
@@ -70,8 +69,8 @@ class TrySession final : public SeatObserver {
   std::optional<double> tutorial_over_since_;
 };
 
-int trouble(const std::string& what, int code = kTrouble) {
-  spdlog::error("try: {}", what);
+int trouble(const std::string& what, int code = io::kExitTrouble) {
+  io::log(io::Level::kError, "try: " + what);
   return code;
 }
 
@@ -144,50 +143,40 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
 }
 
 int try_command(const TryArguments& arguments) {
-  std::vector<std::string> mistakes;
-  double duration_s = 0;
-  if (std::string text = arguments.duration; !text.empty()) {
-    if (const std::string problem = io::number_in(0.1, 3e6, "s")(text); !problem.empty()) {
-      mistakes.push_back("--duration: " + problem);
-    } else {
-      duration_s = std::stod(text);
-    }
-  }
+  io::UsageErrors errors;
+  const double duration_s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s");
   const auto scene = load_scene(arguments.scene);
   const SeatSpec* own = nullptr;
   if (scene) {
     std::string why;
     own = seat_for_person(*scene, arguments.seat, why);
-    if (own == nullptr) mistakes.push_back(why);
+    if (own == nullptr) errors.add(why);
   } else {
-    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
+    errors.add(to_text(scene.error()));
   }
-  if (mistakes.empty()) return try_scene(*scene, arguments.scene, *own, duration_s);
-  for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-  io::print_formatted(stderr, "tandem-client try: %zu mistake%s, nothing was started\n", mistakes.size(),
-                      mistakes.size() == 1 ? "" : "s");
-  return kWrong;
+  if (errors.empty()) return try_scene(*scene, arguments.scene, *own, duration_s);
+  return errors.report("tandem-client try");
 }
 
 }  // namespace
 
-void add_try_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<TryArguments>();
-  CLI::App* const command = root.add_subcommand(
-      "try", "Shows a session on this computer: a server, a simulated partner, and your hand moved by keys.");
+void add_try_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "try", "Shows a session on this computer: a server, a simulated partner, and your hand moved by keys.",
+      try_command);
   command
-      ->add_option("SCENE", arguments->scene,
-                   "a scene file, or the name of a shipped scene (tandem-server scenes); default lesson")
-      ->option_text(" ");
+      .add_option("SCENE", arguments.scene,
+                  "a scene file, or the name of a shipped scene (tandem-server scenes); default lesson")
+      .value_name(" ");
   command
-      ->add_option("--seat", arguments->seat,
-                   "which seat is yours; default: the instructor's, else the first with authority")
-      ->option_text("NAME");
+      .add_option("--seat", arguments.seat,
+                  "which seat is yours; default: the instructor's, else the first with authority")
+      .value_name("NAME");
   command
-      ->add_option("--duration", arguments->duration,
-                   "leaves after this many seconds; default: at q or Ctrl-C, and without a terminal after the guidance")
-      ->option_text("S");
-  command->footer(
+      .add_option("--duration", arguments.duration,
+                  "leaves after this many seconds; default: at q or Ctrl-C, and without a terminal after the guidance")
+      .value_name("S");
+  command.footer(
       "Starts tandem-server on a free port of 127.0.0.1, joins it with a simulated hand for every other seat that the "
       "scene requires, and\n"
       "gives you one seat. Twenty seconds of guidance show which keys to press and what they did. The end of this "
@@ -197,7 +186,6 @@ void add_try_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-client try\n"
       "  tandem-client try contact --seat trainee");
-  command->callback([arguments, &action] { action = [arguments] { return try_command(*arguments); }; });
 }
 
 }  // namespace tandem::client

@@ -25,10 +25,8 @@ constexpr int kPresetTolerance = 100;  ///< the user's hand may move the arm whi
 constexpr Duration kApart = std::chrono::microseconds{750};
 /// Largest drum speed by a hand [rad/s], and largest error of one reading [rad].
 constexpr double kSpeedMax = 60.0, kJump = 0.05;
-constexpr double kHoldingIn = 2.0, kHoldingOut = 10.0;  ///< [1/s]
-constexpr Duration kHoldingAfter = milliseconds{100};   ///< without a commanded effort
 
-bool asks(const ServoCommand& orders) noexcept {
+bool has_effort(const ServoCommand& orders) noexcept {
   return std::any_of(orders.effort.begin(), orders.effort.begin() + 3, [](double e) { return e != 0.0; });
 }
 
@@ -50,11 +48,9 @@ WoodenHapticsDriver::WoodenHapticsDriver(DeviceId id, HidPipe& pipe, Clock& cloc
 Result<> WoodenHapticsDriver::bring_up(BringUp& watcher) {
   homed_ = false;
   presets_left_ = 0;
-  holding_ = 0.0;
-  ever_asked_ = false;
-  acting_ = acted_sum_ = Vec3::Zero();
-  acted_for_ = 0;
-  booked_until_ = clock_.now();
+  gravity_.restart();
+  acting_ = Vec3::Zero();
+  acted_.restart(clock_.now());
   if (!kinematics_.inverse(Vec3::Zero())) {
     return std::unexpected(DeviceError{Errc::kLimit,
                                        "the preset puts the workspace's origin out of the arm's reach: "
@@ -83,7 +79,7 @@ Result<> WoodenHapticsDriver::bring_up(BringUp& watcher) {
   if (!taken.newest) return std::unexpected(silent_board(torn || before.torn, odd_length_));
   settle_at(*taken.newest, false);
   if (std::exchange(options_.home_at_start, false)) preset_counters(true);
-  home_asked_.store(false);
+  home_requested_.store(false);
   watcher.progress("waiting for the board's first report", 1.0);
   return {};
 }
@@ -105,7 +101,7 @@ DeviceError WoodenHapticsDriver::silent_board(bool torn, std::size_t length) con
 
 std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const ServoCommand& orders, State& state) noexcept {
   const Time now = clock_.now();
-  if (home_asked_.exchange(false) && !asks(orders)) preset_counters(true);
+  if (home_requested_.exchange(false) && !has_effort(orders)) preset_counters(true);
   if (!homed_ && latched_ && presets_left_ == 0) preset_counters(button_armed_);
   const bool presetting = presets_left_ > 0 && has_presets(options_.spec.protocol);
   MotorCommand motors;
@@ -123,7 +119,7 @@ std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const ServoCommand& 
   saturated_ = motors.saturated;
   sent_at_ = now;
   const Time left = clock_.now();
-  book(acted, left);
+  acted_.add(acted, left);
   // The next report is awaited also from a board that sends unprompted. A queued report is up to a period old, and its
   // force would act yet another period later.
   // A spring with this delay feeds energy into an arm that is not held.
@@ -136,7 +132,7 @@ std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const ServoCommand& 
   // A board that replies samples on arrival of the command; one that sends unprompted samples after the command has
   // acted for a while.
   const Time at = taken.newest ? clock_.now() : left;
-  if (taken.newest && by_itself) book(acting_, at);
+  if (taken.newest && by_itself) acted_.add(acting_, at);
   if (!taken.newest) taken.newest = old;
   if (!taken.newest) {
     if (taken.torn) return std::unexpected(Errc::kFraming);
@@ -148,36 +144,17 @@ std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const ServoCommand& 
   return jumped || taken.torn ? Exchange::kResynced : Exchange::kFresh;
 }
 
-/// Adds `effort`, acting until `until`, to the mean effort of this reading.
-void WoodenHapticsDriver::book(const Vec3& effort, Time until) noexcept {
-  const double dt = std::max(0.0, seconds(until - booked_until_));
-  acted_sum_ += dt * effort;
-  acted_for_ += dt;
-  booked_until_ = until;
-}
-
 MotorCommand WoodenHapticsDriver::motors_for(const ServoCommand& orders, Time now) noexcept {
-  const bool asked = asks(orders);
+  const bool wanted = has_effort(orders);
   if (!homed_ || !options_.enable_motors || orders.homing) {
-    holding_ = 0.0;
+    gravity_.release();
     MotorCommand none;
-    none.saturated = asked;
+    none.saturated = wanted;
     return none;
   }
-  const double share = holding_share(asked, now);
+  const double share = options_.spec.gravity ? gravity_.update(now, wanted, now - sent_at_) : 0.0;
   const Vec3 effort(orders.effort[0], orders.effort[1], orders.effort[2]);
   return motors_.to_command(effort, share * kinematics_.holding_effort(q_));
-}
-
-/// Returns the share of gravity to compensate. Commands without effort get no current, so the compensation fades in and
-/// out with commands that have effort.
-double WoodenHapticsDriver::holding_share(bool asked, Time now) noexcept {
-  if (!options_.spec.gravity) return 0.0;
-  if (asked) asked_at_ = now, ever_asked_ = true;
-  const double dt = std::clamp(seconds(now - sent_at_), 0.0, 0.01);
-  const bool carry = ever_asked_ && now - asked_at_ <= kHoldingAfter;
-  holding_ = std::clamp(holding_ + dt * (carry ? kHoldingIn : -kHoldingOut), 0.0, 1.0);
-  return holding_;
 }
 
 void WoodenHapticsDriver::preset_counters(bool then_homed) noexcept {
@@ -242,9 +219,7 @@ bool WoodenHapticsDriver::follow(const BoardReport& report, Time at) noexcept {
 void WoodenHapticsDriver::fill(const BoardReport& report, Time at, bool jumped, State& state) noexcept {
   q_ = kinematics_.angles({counters_[0].total(), counters_[1].total(), counters_[2].total()});
   const Eigen::Matrix3d j = kinematics_.jacobian(q_);
-  const Vec3 tau = acted_for_ > 0 ? Vec3(acted_sum_ / acted_for_) : acting_;
-  acted_sum_ = Vec3::Zero();
-  acted_for_ = 0;
+  const Vec3 tau = acted_.take(acting_);
   Vec3 dq;
   state.seq = ++readings_;
   state.sampled_at = at;
@@ -304,8 +279,7 @@ BoardCommand WoodenHapticsDriver::preset_order() const noexcept {
 }
 
 void WoodenHapticsDriver::send_zeros() noexcept {
-  holding_ = 0.0;
-  ever_asked_ = false;
+  gravity_.restart();
   for (int i = 0; i < 3; ++i) {
     if (const auto ok = send({}); !ok && ok.error() == Errc::kUnplugged) break;
   }

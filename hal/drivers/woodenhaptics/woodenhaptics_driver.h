@@ -11,7 +11,9 @@
 #include "hal/core/pipes.h"
 #include "hal/core/reply_deadline.h"
 #include "hal/drivers/woodenhaptics/board_report.h"
+#include "hal/drivers/woodenhaptics/gravity_fade.h"
 #include "hal/drivers/woodenhaptics/kinematics.h"
+#include "hal/drivers/woodenhaptics/mean_effort.h"
 #include "hal/drivers/woodenhaptics/motors.h"
 #include "hal/drivers/woodenhaptics/unwrapped_counter.h"
 
@@ -54,7 +56,7 @@ class WoodenHapticsDriver final : public Driver {
 
   /// Confirms that the arm is in its calibration pose now. From any thread.
   /// Acts at the next exchange if that one commands no effort, otherwise it is discarded.
-  void home_here() noexcept { home_asked_.store(true); }
+  void home_here() noexcept { home_requested_.store(true); }
   [[nodiscard]] bool homed() const noexcept { return homed_; }
 
  private:
@@ -65,9 +67,7 @@ class WoodenHapticsDriver final : public Driver {
   std::expected<void, Errc> take_reports(Duration timeout, Taken& taken) noexcept;
   std::expected<void, Errc> send(const BoardCommand& order) noexcept;
   [[nodiscard]] BoardCommand preset_order() const noexcept;
-  void book(const Vec3& effort, Time until) noexcept;
   [[nodiscard]] MotorCommand motors_for(const ServoCommand& orders, Time now) noexcept;
-  [[nodiscard]] double holding_share(bool asked, Time now) noexcept;
   /// Tracks the counters with a new report. @return whether positions may have jumped
   bool follow(const BoardReport& report, Time at) noexcept;
   void preset_counters(bool then_homed) noexcept;
@@ -94,18 +94,14 @@ class WoodenHapticsDriver final : public Driver {
   bool homed_by_preset_ = false;  ///< false: they only clear the button's latch
   bool latched_ = false;          ///< calibration button, as in the board's last report
   bool button_armed_ = false;     ///< the button was released since the arm became unhomed: the next press is intended
-  std::atomic<bool> home_asked_{false};
+  std::atomic<bool> home_requested_{false};
 
   std::uint64_t readings_ = 0;
   std::size_t odd_length_ = 0;  ///< length of the last report with a wrong length [bytes]
   Time read_at_{}, sent_at_{};
-  double holding_ = 0;  ///< share of gravity that the motors carry, 0..1
-  Time asked_at_{};     ///< time of the last command with an effort
-  bool ever_asked_ = false;
-  Vec3 acting_ = Vec3::Zero();     ///< joint effort of the command the board has
-  Vec3 acted_sum_ = Vec3::Zero();  ///< effort times time [N m s] since the last reading
-  double acted_for_ = 0;           ///< duration of that sum [s]
-  Time booked_until_{};
+  GravityFade gravity_;
+  Vec3 acting_ = Vec3::Zero();  ///< joint effort of the command the board has
+  MeanEffort acted_;            ///< since the last reading
   ReplyDeadline pace_;
   std::uint64_t acting_seq_ = 0;
   bool saturated_ = false;

@@ -1,13 +1,11 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "common/io/command_line.h"
 #include "common/io/print.h"
-#include "common/io/program.h"
 #include "netsim/demo/app/child_process.h"
 #include "netsim/demo/app/run_demo.h"
 
@@ -39,40 +37,9 @@ std::vector<const RunPlan*> chosen_runs(const std::string& list, std::string& mi
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "tandem-demo repeats the two experiments of Licona et al. (ICVARS 2019) with a real server, two real clients "
-      "with\n"
-      "simulated devices and the network simulator between them, all over UDP on this machine; prints the paper's "
-      "numbers\n"
-      "beside ours and draws the paper's figures 6 to 12 into report.html.",
-      "tandem-demo"};
-  app.set_version_flag("--version", "tandem-demo " TANDEM_VERSION);
   tandem::netsim::demo::DemoOptions plan;
   std::string list;
   bool live = false;
-  app.add_flag("--live", live, "all runs in real time, about two minutes; default of ./demo");
-  app.add_flag("--quick", plan.quick, "virtual time: the same runs in one process, in seconds, without sockets");
-  app.add_option(
-         "--runs", list,
-         "only these, separated by commas: seed_free_motion, free_motion, free_motion_bad, seed_contact, contact,\n"
-         "contact_bad; default: all, in this order")
-      ->option_text("LIST");
-  app.add_option("--out", plan.out,
-                 "folder for report.html, traces, JSON reports and logs; default: report.html here, the rest in "
-                 "./demo-output,\n"
-                 "which is removed at the end")
-      ->option_text("DIR");
-  app.add_flag("--keep", plan.keep, "leaves ./demo-output (10 MB per run)");
-  app.footer(
-      "In real time the six runs take about two minutes. Late ticks and gate trips that a busy machine causes are "
-      "counted\n"
-      "and shown, never a failure.\n"
-      "Exit: 0 done, 1 trouble (a program fails, a promised invariant is broken), 2 wrong arguments, 130 "
-      "interrupted.\n\n"
-      "Examples\n"
-      "  tandem-demo --live\n"
-      "  tandem-demo --quick --out /tmp/demo\n"
-      "  tandem-demo --runs free_motion,free_motion_bad --keep");
   const auto action = [&] {
     std::string mistakes;
     plan.runs = chosen_runs(list, mistakes);
@@ -89,9 +56,38 @@ int main(int argc, char** argv) {
     }());
     return tandem::netsim::demo::run_demo(plan);
   };
+  tandem::io::Program program(
+      "tandem-demo", TANDEM_VERSION,
+      "tandem-demo repeats the two experiments of Licona et al. (ICVARS 2019) with a real server, two real clients "
+      "with\n"
+      "simulated devices and the network simulator between them, all over UDP on this machine; prints the paper's "
+      "numbers\n"
+      "beside ours and draws the paper's figures 6 to 12 into report.html.",
+      action);
+  const tandem::io::Command root = program.root();
+  root.add_flag("--live", live, "all runs in real time, about two minutes; default of ./demo");
+  root.add_flag("--quick", plan.quick, "virtual time: the same runs in one process, in seconds, without sockets");
+  root.add_option(
+          "--runs", list,
+          "only these, separated by commas: seed_free_motion, free_motion, free_motion_bad, seed_contact, contact,\n"
+          "contact_bad; default: all, in this order")
+      .value_name("LIST");
+  root.add_option("--out", plan.out,
+                  "folder for report.html, traces, JSON reports and logs; default: report.html here, the rest in "
+                  "./demo-output,\n"
+                  "which is removed at the end")
+      .value_name("DIR");
+  root.add_flag("--keep", plan.keep, "leaves ./demo-output (10 MB per run)");
+  root.footer(
+      "In real time the six runs take about two minutes. Late ticks and gate trips that a busy machine causes are "
+      "counted\n"
+      "and shown, never a failure.\n"
+      "Exit: 0 done, 1 trouble (a program fails, a promised invariant is broken), 2 wrong arguments, 130 "
+      "interrupted.\n\n"
+      "Examples\n"
+      "  tandem-demo --live\n"
+      "  tandem-demo --quick --out /tmp/demo\n"
+      "  tandem-demo --runs free_motion,free_motion_bad --keep");
   // Without arguments the program prints its help, because the experiments take two minutes.
-  std::string help = "--help";
-  std::array<char*, 3> with_help{argv[0], help.data(), nullptr};
-  return argc > 1 ? tandem::io::run_program(app, action, argc, argv)
-                  : tandem::io::run_program(app, action, 2, with_help.data());
+  return program.run(argc > 1 ? std::vector<std::string>{argv + 1, argv + argc} : std::vector<std::string>{"--help"});
 }

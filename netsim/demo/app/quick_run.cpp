@@ -72,7 +72,7 @@ std::expected<RawRun, std::string> quick_run(const RunPlan& plan, const RunObser
     }
     if (n % 250 != 0) continue;
     if (watch.stop->load()) return std::unexpected(kInterrupted);
-    watch.progress(world.session().time());
+    watch.progress(world.session().clock().time());
   }
   if (!world.trouble().empty()) return std::unexpected(world.trouble());
   server::RunReport report = simulation_report(world, builder, setup.seed);

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/io/exit_code.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
 #include "netsim/demo/animation.h"
@@ -32,8 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDone = 0, kTrouble = 1, kInterruptedCode = 130;
-
 std::atomic<bool> stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
@@ -46,7 +45,7 @@ void watch_signals() {
 
 int trouble(const std::string& what) {
   io::print_formatted(stderr, "tandem-demo: %s\n", what.c_str());
-  return kTrouble;
+  return io::kExitTrouble;
 }
 
 /// Returns the files of a run that the demo or its programs wrote.
@@ -167,7 +166,7 @@ int run_demo(const DemoOptions& plan) {
       if (stop) {
         io::print_formatted(stderr, "tandem-demo: interrupted; every program it started has ended\n");
         if (folders->temporary) remove_files(plan, *folders);
-        return kInterruptedCode;
+        return io::kExitInterrupted;
       }
       return trouble(title_of(run) + ": " + raw.error());
     }
@@ -202,7 +201,7 @@ int run_demo(const DemoOptions& plan) {
     io::print_formatted(stdout, "Traces and reports of the runs: %s\n", folders->files.string().c_str());
   }
   std::printf("%s\n", file_link(folders->report).c_str());
-  return failed == 0 ? kDone : kTrouble;
+  return failed == 0 ? io::kExitDone : io::kExitTrouble;
 }
 
 }  // namespace tandem::netsim::demo

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "common/base/unit_suffix.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "netsim/profiles/app/capacity_file.h"
 #include "netsim/profiles/network_csv.h"
 #include "netsim/profiles/profile_loader.h"
@@ -34,6 +34,21 @@ std::string lines_of(const InputErrors& errors) {
   std::string text = to_text(errors);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
+}
+
+/// @param file  file of the profile; empty: shipped profile
+std::expected<NetworkChoice, std::string> from_profile(std::expected<Profile, InputErrors> profile,
+                                                       const std::string& file, const std::string& capacity_file) {
+  if (!profile) return std::unexpected(lines_of(profile.error()));
+  const auto capacity = complete_capacity(*profile, file, capacity_file);
+  if (!capacity) return std::unexpected(capacity.error());
+  NetworkChoice choice;
+  choice.name = profile->name;
+  choice.description = "profile " + (file.empty() ? profile->name : file) + " (version " +
+                       std::to_string(profile->version) + ")" + (capacity->empty() ? "" : ", " + *capacity);
+  choice.link = std::move(profile->link);
+  choice.plays_capacity = !capacity->empty();
+  return choice;
 }
 
 }  // namespace
@@ -89,14 +104,41 @@ std::expected<OutageSpec, std::string> parse_outage(const std::string& text) {
   return outage;
 }
 
-void NetworkOptions::add_to(CLI::App& command) {
-  command_ = &command;
+std::expected<NetworkChoice, std::string> named_network(const std::string& name_or_file, const std::string& capacity,
+                                                        double trace_interval_ms) {
+  NetworkChoice choice;
+  if (!is_file(name_or_file)) return from_profile(shipped_profile(name_or_file), "", capacity);
+  const auto text = read_network_file(name_or_file);
+  if (!text) return std::unexpected(text.error());
+  choice.name = std::filesystem::path(name_or_file).stem().string();
+  if (looks_like_capacity(*text)) {
+    auto recorded = parse_capacity_file(*text, name_or_file);
+    if (!recorded) return std::unexpected(recorded.error());
+    choice.link = std::move(recorded->link);
+    choice.description = std::move(recorded->description);
+    return choice;
+  }
+  if (!name_or_file.ends_with(".csv")) return from_profile(parse_profile(*text, name_or_file), name_or_file, capacity);
+  const auto recorded = parse_network_csv(*text, name_or_file, milliseconds(trace_interval_ms));
+  if (!recorded) return std::unexpected(lines_of(recorded.error()));
+  choice.link = recorded->link;
+  std::ostringstream words;
+  words << "recording " << name_or_file << ": " << recorded->rows << " rows, " << recorded->lost << " lost, "
+        << seconds(recorded->length) << " s, then from the start again";
+  choice.description = words.str();
+  choice.notes = notes_of(*recorded, name_or_file);
+  choice.plays_interval = !recorded->timed;
+  return choice;
+}
+
+void NetworkOptions::add_to(const io::Command& command) {
+  command_ = command;
   const std::string group = "Network (each direction)";
   const auto number = [&](const char* option, double& value, double hi, const std::string& unit, const char* help) {
     command.add_option(option, value, help)
-        ->transform(io::number_in(0, hi, unit))
-        ->option_text(unit == "ms" ? "MS" : "PERCENT")
-        ->group(group);
+        .check(io::number_in(0, hi, unit))
+        .value_name(unit == "ms" ? "MS" : "PERCENT")
+        .group(group);
   };
   number("--delay", delay_ms_, 60'000, "ms", "constant delay [ms], 0 to 60000; default 0");
   number("--jitter", jitter_ms_, 60'000, "ms",
@@ -108,46 +150,46 @@ void NetworkOptions::add_to(CLI::App& command) {
       .add_option("--outage", outages_,
                   "the link is down from START for LENGTH, again every PERIOD [s]; datagrams sent meanwhile are lost; "
                   "may be given several times")
-      ->option_text("START,LENGTH[,PERIOD]")
-      ->allow_extra_args(false)
-      ->group(group);
+      .value_name("START,LENGTH[,PERIOD]")
+      .one_value()
+      .group(group);
   command
       .add_option("--profile", profile_,
                   "a named network (`tandem-netsim profiles` lists them) or a .textproto file; numbers given beside "
                   "it replace its own")
-      ->option_text("NAME|FILE")
-      ->group(group);
+      .value_name("NAME|FILE")
+      .group(group);
   command
       .add_option(
           "--capacity", capacity_,
           "the recorded capacity that the profile plays (4g-trace): mahimahi's file, one millisecond per line and "
           "opportunity to send 1500 bytes, or a table direction,t_ms,opportunities")
-      ->option_text("FILE")
-      ->group(group);
+      .value_name("FILE")
+      .group(group);
   command
       .add_option("--network", network_,
                   "a profile or a file, as --profile takes, or a recording: .csv with a column rtt_ms or delay_ms "
                   "(empty: lost) and t_s or t_send_s; "
                   "or a recorded capacity: mahimahi's file, or .csv with direction,t_ms,opportunities; excludes the "
                   "numbers")
-      ->option_text("NAME|FILE")
-      ->group(group);
+      .value_name("NAME|FILE")
+      .group(group);
   command
       .add_option("--trace-interval", trace_interval_ms_,
                   "time between the rows of a recording without a time column [ms]")
-      ->transform(io::number_in(0.001, 60'000, "ms"))
-      ->option_text("MS")
-      ->group(group);
+      .check(io::number_in(0.001, 60'000, "ms"))
+      .value_name("MS")
+      .group(group);
   command
       .add_option("--script", script_,
                   "schedule of changes: outages, other networks, other addresses at given times; a .textproto "
                   "file of `event { at_s: 12 client: \"trainee\" outage_ms: 400 }`, schema proto/schema/script.proto")
-      ->option_text("FILE")
-      ->group(group);
+      .value_name("FILE")
+      .group(group);
   command.add_option("--seed", seed_, "the same seed gives the same network; default 1")
-      ->check(io::whole_number())
-      ->option_text("N")
-      ->group(group);
+      .check(io::whole_number())
+      .value_name("N")
+      .group(group);
 }
 
 std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
@@ -158,13 +200,12 @@ std::expected<NetworkChoice, std::string> NetworkOptions::resolve() const {
   return choice;
 }
 
-bool NetworkOptions::given(const char* option) const { return command_->get_option(option)->count() > 0; }
+bool NetworkOptions::given(const char* option) const { return command_.given(option); }
 
 std::string NetworkOptions::interval_problem(const NetworkChoice& choice) const {
   if (!given("--trace-interval") || choice.plays_interval) return {};
   // With --control, the user may name such a recording while the proxy runs.
-  const CLI::Option* const control = command_->get_option_no_throw("--control");
-  if (control != nullptr && control->count() > 0) return {};
+  if (given("--control")) return {};
   return "--trace-interval: is for a recording without a column of times, and " + choice.description +
          " is none; leave it out";
 }
@@ -179,7 +220,7 @@ std::expected<NetworkChoice, std::string> NetworkOptions::network() const {
       if (given(option)) mistakes += std::string(mistakes.empty() ? "" : "\n") + "--network excludes " + option;
     }
     if (!mistakes.empty()) return std::unexpected(mistakes);
-    return from_file(network_);
+    return named(network_);
   }
 
   if (given("--capacity") && !given("--profile")) {
@@ -190,7 +231,7 @@ std::expected<NetworkChoice, std::string> NetworkOptions::network() const {
   NetworkChoice choice;
   choice.name = "custom";
   if (given("--profile")) {
-    auto profile = from_file(profile_);
+    auto profile = named(profile_);
     if (!profile) return profile;
     if (given("--capacity") && !profile->plays_capacity) {
       return std::unexpected("--capacity: profile " + profile->name +
@@ -248,7 +289,7 @@ std::expected<ScriptChoice, std::string> NetworkOptions::events(std::span<const 
   const auto find = [&](const std::string& name) -> std::expected<LinkSpec, InputErrors> {
     const bool file = name.find_first_of("/.") != std::string::npos;
     const bool beside = file && !std::filesystem::path(name).is_absolute();
-    auto choice = from_file(beside ? (std::filesystem::path(script_).parent_path() / name).string() : name);
+    auto choice = named(beside ? (std::filesystem::path(script_).parent_path() / name).string() : name);
     if (choice) {
       plays_interval = plays_interval || choice->plays_interval;
       add_notes(script.notes, choice->notes);
@@ -277,46 +318,6 @@ std::vector<std::string> NetworkOptions::all_given() const {
   for (const char* option : {"--profile", "--capacity", "--network", "--trace-interval", "--script", "--seed"})
     look(option);
   return all;
-}
-
-std::expected<NetworkChoice, std::string> NetworkOptions::from_file(const std::string& name_or_file) const {
-  NetworkChoice choice;
-  if (!is_file(name_or_file)) return from_profile(shipped_profile(name_or_file), "");
-  const auto text = read_network_file(name_or_file);
-  if (!text) return std::unexpected(text.error());
-  choice.name = std::filesystem::path(name_or_file).stem().string();
-  if (looks_like_capacity(*text)) {
-    auto recorded = parse_capacity_file(*text, name_or_file);
-    if (!recorded) return std::unexpected(recorded.error());
-    choice.link = std::move(recorded->link);
-    choice.description = std::move(recorded->description);
-    return choice;
-  }
-  if (!name_or_file.ends_with(".csv")) return from_profile(parse_profile(*text, name_or_file), name_or_file);
-  const auto recorded = parse_network_csv(*text, name_or_file, milliseconds(trace_interval_ms_));
-  if (!recorded) return std::unexpected(lines_of(recorded.error()));
-  choice.link = recorded->link;
-  std::ostringstream words;
-  words << "recording " << name_or_file << ": " << recorded->rows << " rows, " << recorded->lost << " lost, "
-        << seconds(recorded->length) << " s, then from the start again";
-  choice.description = words.str();
-  choice.notes = notes_of(*recorded, name_or_file);
-  choice.plays_interval = !recorded->timed;
-  return choice;
-}
-
-std::expected<NetworkChoice, std::string> NetworkOptions::from_profile(std::expected<Profile, InputErrors> profile,
-                                                                       const std::string& file) const {
-  if (!profile) return std::unexpected(lines_of(profile.error()));
-  const auto capacity = complete_capacity(*profile, file, capacity_);
-  if (!capacity) return std::unexpected(capacity.error());
-  NetworkChoice choice;
-  choice.name = profile->name;
-  choice.description = "profile " + (file.empty() ? profile->name : file) + " (version " +
-                       std::to_string(profile->version) + ")" + (capacity->empty() ? "" : ", " + *capacity);
-  choice.link = std::move(profile->link);
-  choice.plays_capacity = !capacity->empty();
-  return choice;
 }
 
 }  // namespace tandem::netsim

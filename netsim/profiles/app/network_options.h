@@ -6,14 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "common/io/command_line.h"
 #include "netsim/engine/schedule.h"
 #include "netsim/models/path_spec.h"
 #include "netsim/profiles/profile_loader.h"
 #include "proto/spec/input_error.h"
-
-namespace CLI {
-class App;
-}
 
 namespace tandem::netsim {
 
@@ -33,21 +30,28 @@ struct ScriptChoice {
   std::vector<std::string> notes;  ///< notes that a report must contain about the named networks
 };
 
+/// Returns a network by name or file, as --profile and --network accept it.
+/// @param capacity           file of the recorded capacity that the profile plays; empty: none
+/// @param trace_interval_ms  time between the rows of a recording without a time column; 0: not given
+/// @return network, or errors
+[[nodiscard]] std::expected<NetworkChoice, std::string> named_network(const std::string& name_or_file,
+                                                                      const std::string& capacity,
+                                                                      double trace_interval_ms);
+
 /// Command-line options of the network, shared by `proxy` and `run`: --delay --jitter --loss --duplicate --reorder
 /// --outage --profile --capacity --network --trace-interval --script --seed. Must live as long as the command, which
 /// stores references to it.
 class NetworkOptions {
  public:
-  void add_to(CLI::App& command);
+  void add_to(const io::Command& command);
 
   /// Reads the named files and combines all options. Options given beside --profile replace the profile's parameters.
   /// @return network, or errors, one per line
   [[nodiscard]] std::expected<NetworkChoice, std::string> resolve() const;
 
-  /// Returns a network by name or file, as --profile and --network accept it.
-  /// @return network, or errors
+  /// Returns a network by name or file, with the given --capacity and --trace-interval.
   [[nodiscard]] std::expected<NetworkChoice, std::string> named(const std::string& name_or_file) const {
-    return from_file(name_or_file);
+    return named_network(name_or_file, capacity_, trace_interval_ms_);
   }
 
   /// Reads --script, the scheduled changes. The networks it names are shipped profiles, or files relative to the
@@ -67,13 +71,9 @@ class NetworkOptions {
   [[nodiscard]] std::expected<NetworkChoice, std::string> network() const;
   /// Returns why --trace-interval does not apply to this network; empty if it applies or was not given.
   [[nodiscard]] std::string interval_problem(const NetworkChoice& choice) const;
-  [[nodiscard]] std::expected<NetworkChoice, std::string> from_file(const std::string& name_or_file) const;
-  /// @param file  file of the profile; empty: shipped profile
-  [[nodiscard]] std::expected<NetworkChoice, std::string> from_profile(std::expected<Profile, InputErrors> profile,
-                                                                       const std::string& file) const;
   [[nodiscard]] bool given(const char* option) const;
 
-  CLI::App* command_ = nullptr;
+  io::Command command_;
   double delay_ms_ = 0, jitter_ms_ = 0, loss_percent_ = 0, duplicate_percent_ = 0, reorder_percent_ = 0;
   double trace_interval_ms_ = 0;
   std::vector<std::string> outages_;

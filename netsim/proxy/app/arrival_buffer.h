@@ -33,7 +33,7 @@ class ArrivalBuffer {
   /// Calls `take(client, stamp, bytes)` for all datagrams in order of arrival, and empties the buffer. Equal stamps:
   /// order of reading.
   template <typename Take>
-  void empty(Take&& take) noexcept {
+  void flush(Take&& take) noexcept {
     const std::span all{waiting_.data(), count_};
     std::ranges::sort(all, [](const Waiting& a, const Waiting& b) {
       return a.stamp != b.stamp ? a.stamp < b.stamp : a.slot < b.slot;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "common/io/event_fd.h"
 #include "common/io/fd.h"
 #include "common/io/spsc_queue.h"
 #include "netsim/proxy/proxy_core.h"
@@ -22,13 +23,13 @@ class ClientPool {
 
   /// Resources of one future client.
   struct PreparedClient {
-    ProxyCore::PreparedClient place;
+    PreparedLink link;
     std::unique_ptr<LinkMonitor> monitor;  ///< null: quality is not monitored
   };
 
   /// Creates the first kReady clients.
   /// @param core  must outlive the pool
-  ClientPool(const ProxyCore& core, const LinkSpec& link, bool watch);
+  ClientPool(const ProxyCore& core, const LinkSpec& link, bool monitor);
   ~ClientPool();
   ClientPool(const ClientPool&) = delete;
   ClientPool& operator=(const ClientPool&) = delete;
@@ -47,7 +48,7 @@ class ClientPool {
   /// Returns the prepared client for the next arrival; null if none is ready. Return it with `give_back` after using
   /// its contents.
   [[nodiscard]] PreparedClient* next() noexcept;
-  void give_back(PreparedClient* newcomer) noexcept;
+  void give_back(PreparedClient* prepared) noexcept;
   /// Gives back clients prepared for a previous network.
   void drop_outdated() noexcept;
   /// Returns the number of clients for which none was ready. Any thread.
@@ -60,7 +61,7 @@ class ClientPool {
   std::uint64_t version_ = 0, made_ = 0;  ///< version of the link; number of clients prepared so far
   std::size_t outstanding_ = 0;           ///< held by the packet thread or in a queue
   io::SpscQueue<PreparedClient*> ready_, returned_;
-  io::Fd wanted_;
+  io::EventFd wanted_;
   std::atomic<std::uint64_t> arrived_{0};  ///< number of clients that joined
   std::atomic<std::uint64_t> misses_{0};
 };

@@ -6,8 +6,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "common/base/time.h"
+#include "netsim/proxy/client_table.h"
 
 namespace tandem::netsim {
 
@@ -86,6 +88,27 @@ class LiveDelayHistogram {
   std::array<std::atomic<std::uint32_t>, kBins> bins_{};
   std::atomic<std::int64_t> sum_ns_{0};
   std::atomic<std::uint64_t> count_{0};
+};
+
+/// Measured (not scheduled) delays of all clients of a proxy, by place and direction. The constructor allocates all
+/// memory.
+class ClientDelays {
+ public:
+  ClientDelays() : delays_(std::make_unique<std::array<LiveDelayHistogram, kDirections>[]>(ClientTable::kMax)) {}
+
+  [[nodiscard]] LiveDelayHistogram& of(std::uint32_t place, Direction direction) noexcept {
+    return delays_[place][static_cast<std::size_t>(direction)];
+  }
+  [[nodiscard]] const LiveDelayHistogram& of(std::uint32_t place, Direction direction) const noexcept {
+    return delays_[place][static_cast<std::size_t>(direction)];
+  }
+  /// Clears the delays of a place, for its next client.
+  void clear(std::uint32_t place) noexcept {
+    for (LiveDelayHistogram& delays : delays_[place]) delays.clear();
+  }
+
+ private:
+  std::unique_ptr<std::array<LiveDelayHistogram, kDirections>[]> delays_;
 };
 
 }  // namespace tandem::netsim

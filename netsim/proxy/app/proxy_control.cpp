@@ -13,7 +13,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr int kPatienceMs = 2'000;
+constexpr int kAnswerTimeoutMs = 2'000;
 constexpr std::size_t kNotesMax = 1'000;
 
 ProxyControl::Answer wrong(std::string text) {
@@ -94,7 +94,7 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
     notes = std::move(found->notes);
   }
   const std::set<std::uint64_t> present = present_of(proxy_.status());
-  if (std::string who = missing(request.clients, present); !who.empty()) return wrong(std::move(who));
+  if (std::string error = missing(request.clients, present); !error.empty()) return wrong(std::move(error));
   std::erase_if(own_links_, [&](const auto& entry) { return !present.contains(entry.first); });
 
   // Works on copies, which are discarded if the change fails.
@@ -126,60 +126,60 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
     std::swap(outages_, outages);
   };
 
-  ProxyRequest& order = requests_.emplace_back();
+  ProxyRequest& posted = requests_.emplace_back();
   try {
     if (request.clients.empty()) {
-      std::vector<std::uint64_t> everybody;
-      for (const std::uint64_t number : present) everybody.push_back(number - 1);
-      order.links.push_back(proxy_.core().prepare(with_outages(common_link_, 0), everybody, true));
+      std::vector<std::uint64_t> all_clients;
+      for (const std::uint64_t number : present) all_clients.push_back(number - 1);
+      posted.changes.push_back(proxy_.links().prepare_change(with_outages(common_link_, 0), all_clients, true));
     }
     for (const std::uint64_t number : present) {
       const bool asked = std::ranges::find(request.clients, number) != request.clients.end();
       const bool meant = request.clients.empty() ? has_own(number) : asked;
       if (!meant) continue;
       const std::uint64_t by_arrival[] = {number - 1};
-      order.links.push_back(proxy_.core().prepare(with_outages(link_of(number), number), by_arrival, false));
+      posted.changes.push_back(proxy_.links().prepare_change(with_outages(link_of(number), number), by_arrival, false));
     }
   } catch (const std::invalid_argument& problem) {
     requests_.pop_back();
     undo();
     return wrong(problem.what());
   }
-  if (std::string why = post(order); !why.empty()) {
+  if (std::string error = post(posted); !error.empty()) {
     undo();
-    return trouble(std::move(why));
+    return trouble(std::move(error));
   }
-  std::string text = format("done at %.3f s\n", seconds(order.at));
+  std::string text = format("done at %.3f s\n", seconds(posted.at));
   for (const std::string& one : notes) text += "note: " + one + "\n";
-  record_change(order.at, line, std::move(notes));
-  order.links.clear();
+  record_change(posted.at, line, std::move(notes));
+  posted.changes.clear();
   return {.text = std::move(text)};
 }
 
 ProxyControl::Answer ProxyControl::rebind(const ControlRequest& request, const std::string& line) {
   const std::set<std::uint64_t> present = present_of(proxy_.status());
-  if (std::string who = missing(request.clients, present); !who.empty()) return wrong(std::move(who));
+  if (std::string error = missing(request.clients, present); !error.empty()) return wrong(std::move(error));
   if (present.empty()) return trouble("no client is present whose address could change");
-  ProxyRequest& order = requests_.emplace_back();
-  order.rebind.dead_after = request.dead_after;
+  ProxyRequest& posted = requests_.emplace_back();
+  posted.rebind.dead_after = request.dead_after;
   if (request.clients.empty()) {
-    for (const std::uint64_t number : present) order.rebinds.push_back(number - 1);
+    for (const std::uint64_t number : present) posted.rebinds.push_back(number - 1);
   } else {
-    for (const std::uint64_t number : request.clients) order.rebinds.push_back(number - 1);
+    for (const std::uint64_t number : request.clients) posted.rebinds.push_back(number - 1);
   }
-  if (std::string why = post(order); !why.empty()) return trouble(std::move(why));
-  if (!order.succeeded) return trouble("a client left meanwhile, or changed its address a thousand times already");
-  record_change(order.at, line);
-  return {.text = format("done at %.3f s\n", seconds(order.at))};
+  if (std::string error = post(posted); !error.empty()) return trouble(std::move(error));
+  if (!posted.succeeded) return trouble("a client left meanwhile, or changed its address a thousand times already");
+  record_change(posted.at, line);
+  return {.text = format("done at %.3f s\n", seconds(posted.at))};
 }
 
-std::string ProxyControl::post(ProxyRequest& order) {
+std::string ProxyControl::post(ProxyRequest& posted) {
   // Completed requests can be freed; the caller still reads the newest one.
   std::erase_if(requests_,
-                [&](const ProxyRequest& old) { return &old != &order && old.done.load(std::memory_order_acquire); });
-  if (!proxy_.post(order)) return "the proxy is overloaded; repeat the command";
-  for (int waited = 0; waited < kPatienceMs; ++waited) {
-    if (order.done.load(std::memory_order_acquire)) return {};
+                [&](const ProxyRequest& old) { return &old != &posted && old.done.load(std::memory_order_acquire); });
+  if (!proxy_.post(posted)) return "the proxy is overloaded; repeat the command";
+  for (int waited = 0; waited < kAnswerTimeoutMs; ++waited) {
+    if (posted.done.load(std::memory_order_acquire)) return {};
     ::poll(nullptr, 0, 1);
   }
   return "the proxy did not answer within 2 s; it may have ended";

@@ -57,7 +57,7 @@ class ProxyControl {
   Answer change(const ControlRequest& request, const std::string& line);
   Answer rebind(const ControlRequest& request, const std::string& line);
   /// Posts a request. Returns an error, or empty if it was executed.
-  std::string post(ProxyRequest& order);
+  std::string post(ProxyRequest& request);
   [[nodiscard]] bool has_own(std::uint64_t number) const;
   [[nodiscard]] LinkSpec link_of(std::uint64_t number) const;
   [[nodiscard]] LinkSpec with_outages(LinkSpec link, std::uint64_t number) const;

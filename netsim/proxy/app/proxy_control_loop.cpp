@@ -100,7 +100,7 @@ void run_control_loop(Proxy& proxy, ProxyControl& control, ControlSocket& socket
                                {finished, POLLIN, 0},
                                {socket.fd(), POLLIN, 0},
                                {keys.fd(), POLLIN, 0},
-                               {proxy.wanted_fd(), POLLIN, 0}}};
+                               {proxy.pool().wanted_fd(), POLLIN, 0}}};
     const Duration left = std::max(next - io::read_clock(CLOCK_MONOTONIC), Duration{});
     ::poll(fds.data(), fds.size(), static_cast<int>(left.count() / 1'000'000) + 1);
     if (fds[0].revents != 0 || fds[1].revents != 0) break;
@@ -111,7 +111,7 @@ void run_control_loop(Proxy& proxy, ProxyControl& control, ControlSocket& socket
         return control_reply_text(answer);
       });
     }
-    if (fds[4].revents != 0) proxy.refill();
+    if (fds[4].revents != 0) proxy.pool().refill();
     bool typed = false;
     for (std::string key = keys.next(); !key.empty(); key = keys.next()) {
       typed = true;

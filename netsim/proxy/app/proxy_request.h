@@ -14,7 +14,7 @@ namespace tandem::netsim {
 /// Request to the packet thread, executed between two datagrams. The posting thread creates it, waits for `done` and
 /// frees it, so that the packet thread allocates and frees nothing.
 struct ProxyRequest {
-  std::vector<LinkChange> links = {};       ///< new links, applied in order at the same time
+  std::vector<LinkChange> changes = {};     ///< new links, applied in order at the same time
   std::vector<std::uint64_t> rebinds = {};  ///< clients by order of arrival, from 0, whose address changes
   Rebind rebind = {};
   Duration at{};          ///< result: time of execution since the proxy's start

@@ -44,14 +44,14 @@ constexpr std::size_t kAddressWidth = 21;  // IPv4 address and port
 
 void ProxyStatusView::take_snapshot() {
   if (snapshots_.size() == kSnapshots) snapshots_.erase(snapshots_.begin());
-  Snapshot& picture = snapshots_.emplace_back();
-  picture.status = proxy_.status();
-  proxy_.live_lateness().read(picture.late);
-  for (std::size_t i = 0; i < picture.status.clients; ++i) {
-    const ProxyClientStatus& client = picture.status.client[i];
-    Lanes& lanes = picture.delays[client.number];
+  Snapshot& snapshot = snapshots_.emplace_back();
+  snapshot.status = proxy_.status();
+  proxy_.live_lateness().read(snapshot.late);
+  for (std::size_t i = 0; i < snapshot.status.clients; ++i) {
+    const ProxyClientStatus& client = snapshot.status.client[i];
+    Directions& directions = snapshot.delays[client.number];
     for (const Direction d : {Direction::kUp, Direction::kDown}) {
-      proxy_.delays(client.place, d).read(lanes[static_cast<std::size_t>(d)]);
+      proxy_.delays().of(client.place, d).read(directions[static_cast<std::size_t>(d)]);
     }
   }
 }
@@ -96,11 +96,11 @@ std::vector<std::string> ProxyStatusView::row(const ProxyClientStatus& now, Dire
   // Oldest snapshot that contains this client.
   const Snapshot* before = &snapshots_.back();
   const ProxyClientStatus* then = &now;
-  for (const Snapshot& picture : snapshots_) {
-    const auto end = picture.status.client.begin() + static_cast<std::ptrdiff_t>(picture.status.clients);
-    const auto found = std::ranges::find(picture.status.client.begin(), end, now.number, &ProxyClientStatus::number);
+  for (const Snapshot& snapshot : snapshots_) {
+    const auto end = snapshot.status.client.begin() + static_cast<std::ptrdiff_t>(snapshot.status.clients);
+    const auto found = std::ranges::find(snapshot.status.client.begin(), end, now.number, &ProxyClientStatus::number);
     if (found == end) continue;
-    before = &picture;
+    before = &snapshot;
     then = &*found;
     break;
   }

@@ -32,11 +32,11 @@ class ProxyStatusView {
 
  private:
   static constexpr std::size_t kSnapshots = 3;  ///< taken half a second apart
-  using Lanes = std::array<LiveDelayHistogram::Snapshot, kDirections>;
+  using Directions = std::array<LiveDelayHistogram::Snapshot, kDirections>;
   struct Snapshot {
     ProxyStatus status;
     LiveDelayHistogram::Snapshot late;
-    std::map<std::uint64_t, Lanes> delays;  ///< by client number
+    std::map<std::uint64_t, Directions> delays;  ///< by client number
   };
   [[nodiscard]] std::vector<std::string> row(const ProxyClientStatus& now, Direction direction,
                                              std::size_t address_width) const;

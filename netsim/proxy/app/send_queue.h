@@ -46,7 +46,7 @@ class SendQueue {
   };
   /// Calls `send(group)` for every socket, and empties the queue.
   template <class Send>
-  void empty(const Send& send) noexcept {
+  void flush(const Send& send) noexcept {
     for (std::size_t i = 0; i < leads_count_; ++i) {
       const std::uint8_t lead = leads_[i];
       send(Group{*this, lead, through_[lead]});

@@ -1,11 +1,10 @@
 #include <cstdio>
-#include <memory>
 
 #include "common/auth/enrolment.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/remote_address.h"
 #include "common/io/socket_address.h"
-#include "server/app/commands/auth_commands.h"
+#include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
 
 namespace tandem::server {
@@ -18,16 +17,13 @@ struct EnrollArguments {
 constexpr double kHoursMax = 720;
 
 int enroll_command(const EnrollArguments& arguments) {
-  std::vector<std::string> mistakes;
+  io::UsageErrors errors;
   if (!auth::is_valid_name(arguments.name))
-    mistakes.push_back("NAME: \"" + arguments.name + "\" must have 1 to 32 characters of A-Z a-z 0-9 _ -");
+    errors.add("NAME", "\"" + arguments.name + "\" must have 1 to 32 characters of A-Z a-z 0-9 _ -");
   std::string hours = arguments.hours;
-  if (const auto problem = io::number_in(0.01, kHoursMax, "h")(hours); !problem.empty())
-    mistakes.push_back("--hours: " + problem);
-  if (!arguments.address.empty())
-    if (const auto problem = io::remote_address_error(arguments.address); !problem.empty())
-      mistakes.push_back("--address: " + problem);
-  if (!mistakes.empty()) return print_usage_errors("enroll", mistakes);
+  errors.add("--hours", io::number_in(0.01, kHoursMax, "h")(hours));
+  if (!arguments.address.empty()) errors.add("--address", io::remote_address_error(arguments.address));
+  if (!errors.empty()) return print_usage_errors("enroll", errors);
 
   auto state = open_state(arguments.state);
   if (!state) return print_error("enroll", state.error());
@@ -37,11 +33,11 @@ int enroll_command(const EnrollArguments& arguments) {
     const auto serving = state->read_serving();
     if (!serving) return print_error("enroll", serving.error());
     if (!*serving)
-      return print_usage_errors("enroll", {"--address is required: no server runs from " + state->folder()->path() +
-                                           ", so its address is unknown"});
+      return print_usage_error("enroll", "--address is required: no server runs from " + state->folder()->path() +
+                                             ", so its address is unknown");
     out.address = (*serving)->address;
     if (const auto problem = io::remote_address_error(out.address); !problem.empty())
-      return print_usage_errors("enroll", {"--address is required: the running server listens on " + problem});
+      return print_usage_error("enroll", "--address is required: the running server listens on " + problem);
   }
   out.server = state->identity().fingerprint();
   auth::fill_random(out.code.bytes);
@@ -60,21 +56,17 @@ int enroll_command(const EnrollArguments& arguments) {
 
 }  // namespace
 
-void add_enroll_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<EnrollArguments>();
-  CLI::App* const command =
-      root.add_subcommand("enroll", "Issues a one-time string that enrols one workstation at this server.");
-  command->add_option("NAME", arguments->name, "name of the workstation, such as touch-07")
-      ->option_text(" ")
-      ->required();
+void add_enroll_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "enroll", "Issues a one-time string that enrols one workstation at this server.", enroll_command);
+  command.add_option("NAME", arguments.name, "name of the workstation, such as touch-07").value_name(" ").required();
   command
-      ->add_option("--address", arguments->address,
-                   "where workstations reach this server; default: where the running server listens")
-      ->option_text("HOST:PORT");
-  command->add_option("--hours", arguments->hours, "validity of the string [h], 0.01 to 720; default 24")
-      ->option_text("H");
-  add_state_option(*command, arguments->state);
-  command->footer(
+      .add_option("--address", arguments.address,
+                  "where workstations reach this server; default: where the running server listens")
+      .value_name("HOST:PORT");
+  command.add_option("--hours", arguments.hours, "validity of the string [h], 0.01 to 720; default 24").value_name("H");
+  add_state_option(command, arguments.state);
+  command.footer(
       "Prints one string to standard output: the server's address, the SHA-256 of its key and a code of 128 bits. "
       "The server stores\n"
       "only a hash of it. A second string for the same name makes the first one void. The server may run meanwhile.\n"
@@ -82,7 +74,6 @@ void add_enroll_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-server enroll touch-07 --address lab-server:7000\n"
       "  tandem-server enroll touch-08 --address lab-server:7000 --hours 2 > touch-08.txt");
-  command->callback([arguments, &action] { action = [arguments] { return enroll_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

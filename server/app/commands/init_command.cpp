@@ -1,16 +1,21 @@
 #include <cstdio>
-#include <memory>
 
+#include "common/io/command_line.h"
 #include "common/io/print.h"
-#include "server/app/commands/auth_commands.h"
+#include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
 
 namespace tandem::server {
 namespace {
 
-int init_command(const std::string& state) {
+struct InitArguments {
+  std::string state;
+  bool new_ticket_key = false;
+};
+
+int make_state(const std::string& state) {
   const auto path = auth::server_state_path(state);
-  if (!path) return print_usage_errors("init", {path.error()});
+  if (!path) return print_usage_error("init", path.error());
   const std::int64_t now = auth::wall_seconds();
   const auto fingerprint = auth::ServerKeystore::init(*path, now);
   if (!fingerprint) return print_error("init", fingerprint.error());
@@ -26,7 +31,7 @@ int init_command(const std::string& state) {
 
 int rotate_ticket_key(const std::string& state) {
   const auto path = auth::server_state_path(state);
-  if (!path) return print_usage_errors("init", {path.error()});
+  if (!path) return print_usage_error("init", path.error());
   if (const std::string problem = auth::ServerKeystore::rotate_ticket_key(*path, auth::wall_seconds());
       !problem.empty())
     return print_error("init", problem);
@@ -36,18 +41,21 @@ int rotate_ticket_key(const std::string& state) {
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
+int init_command(const InitArguments& arguments) {
+  return arguments.new_ticket_key ? rotate_ticket_key(arguments.state) : make_state(arguments.state);
+}
+
 }  // namespace
 
-void add_init_command(CLI::App& root, std::function<int()>& action) {
-  const auto state = std::make_shared<std::string>();
-  CLI::App* const command = root.add_subcommand(
-      "init", "Creates a server's keys and empty registries, once; required before it may listen on a network.");
-  add_state_option(*command, *state);
-  const auto tickets = std::make_shared<bool>(false);
-  command->add_flag("--new-ticket-key", *tickets,
-                    "replaces only the key that signs tickets, in an existing folder: every ticket issued before is "
-                    "void; no server may run from it");
-  command->footer(
+void add_init_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "init", "Creates a server's keys and empty registries, once; required before it may listen on a network.",
+      init_command);
+  add_state_option(command, arguments.state);
+  command.add_flag("--new-ticket-key", arguments.new_ticket_key,
+                   "replaces only the key that signs tickets, in an existing folder: every ticket issued before is "
+                   "void; no server may run from it");
+  command.footer(
       "The folder gets mode 0700, its files 0600; a user who can read them can impersonate this server. Run this "
       "command as the user of the server.\n"
       "Prints the SHA-256 of the server's key, by which workstations recognise it.\n"
@@ -55,9 +63,6 @@ void add_init_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-server init\n"
       "  tandem-server init --state ./state");
-  command->callback([state, tickets, &action] {
-    action = [state, tickets] { return *tickets ? rotate_ticket_key(*state) : init_command(*state); };
-  });
 }
 
 }  // namespace tandem::server

@@ -1,7 +1,7 @@
 #include <cstdio>
-#include <memory>
 
-#include "server/app/commands/auth_commands.h"
+#include "common/io/command_line.h"
+#include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
 
 namespace tandem::server {
@@ -19,8 +19,8 @@ int revoke_command(const RevokeArguments& arguments) {
   const auto gone = state->revoke(arguments.name);
   if (!gone) return print_error("revoke", gone.error());
   if (gone->workstations + gone->codes == 0)
-    return print_usage_errors("revoke",
-                              {"NAME: " + unknown_workstation_text(arguments.name, *book, state->folder()->path())});
+    return print_usage_error("revoke",
+                             "NAME: " + unknown_workstation_text(arguments.name, *book, state->folder()->path()));
   state->audit(auth::wall_seconds(), "revoked", arguments.name);
   warn_audit_failure("revoke", *state);
   std::printf("%s: %s%s\n", arguments.name.c_str(),
@@ -31,13 +31,12 @@ int revoke_command(const RevokeArguments& arguments) {
 
 }  // namespace
 
-void add_revoke_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<RevokeArguments>();
-  CLI::App* const command =
-      root.add_subcommand("revoke", "Revokes a workstation: its key, and its unused enrolment string.");
-  command->add_option("NAME", arguments->name, "the workstation, as it was enrolled")->option_text(" ")->required();
-  add_state_option(*command, arguments->state);
-  command->footer(
+void add_revoke_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("revoke", "Revokes a workstation: its key, and its unused enrolment string.", revoke_command);
+  command.add_option("NAME", arguments.name, "the workstation, as it was enrolled").value_name(" ").required();
+  add_state_option(command, arguments.state);
+  command.footer(
       "A running server rejects the next message of the workstation, and tickets issued for it. Within a second it "
       "releases the\n"
       "hand at its seat, and closes its other connections.\n"
@@ -45,7 +44,6 @@ void add_revoke_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-server revoke touch-07\n"
       "  tandem-server revoke touch-07 --state ./state");
-  command->callback([arguments, &action] { action = [arguments] { return revoke_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

@@ -1,19 +1,17 @@
 #include <cstdio>
-#include <memory>
 
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/output_file.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/scene_text.h"
 #include "server/app/commands/server_commands.h"
-#include "server/app/control/control_server.h"
+#include "server/app/control/server_keys.h"
 #include "server/app/process/server_process.h"
 
 namespace tandem::server {
 namespace {
-
-constexpr int kWrong = 2;
 
 /// Arguments as given. Numbers stay text until `parse_options`, so that all errors are reported together.
 struct RunArguments {
@@ -21,80 +19,57 @@ struct RunArguments {
   bool check = false, quiet = false, fresh = false;
 };
 
-using Mistakes = std::vector<std::string>;
-
-double number(const char* option, std::string text, double lo, double hi, const char* unit, Mistakes& mistakes) {
-  if (text.empty()) return 0;
-  if (const std::string problem = io::number_in(lo, hi, unit)(text); !problem.empty()) {
-    mistakes.push_back(std::string(option) + ": " + problem);
-    return 0;
-  }
-  return std::stod(text);
-}
-
-/// Converts the arguments and appends all errors to `mistakes`.
-ServerOptions parse_options(const RunArguments& arguments, Mistakes& mistakes) {
+/// Converts the arguments; adds all errors.
+ServerOptions parse_options(const RunArguments& arguments, io::UsageErrors& errors) {
   ServerOptions plan;
   SessionOptions& session = plan.sessions.emplace_back();
   if (auto scene = load_scene(arguments.scene)) {
     session.scene = std::move(*scene);
     session.name = session.scene.name;
   } else {
-    for (const InputError& error : scene.error()) mistakes.push_back(to_text(error));
+    errors.add(to_text(scene.error()));
   }
   if (const auto listen = io::parse_address(arguments.listen, 0)) {
     plan.listen = *listen;
-    if (const std::string problem = ControlServer::problem_with_keys(*listen, arguments.state); !problem.empty())
-      mistakes.push_back("--listen " + arguments.listen + ": " + problem);
+    if (const auto keys = open_server_keys(*listen, arguments.state); !keys)
+      errors.add("--listen " + arguments.listen, keys.error());
   } else {
-    mistakes.push_back("--listen: " + listen.error());
+    errors.add("--listen", listen.error());
   }
   if (!arguments.metrics.empty()) {
     if (const auto metrics = io::parse_address(arguments.metrics, 0)) {
       plan.metrics = *metrics;
     } else {
-      mistakes.push_back("--metrics: " + metrics.error());
+      errors.add("--metrics", metrics.error());
     }
   }
   if (arguments.log == "json") {
     plan.json_log = io::Level::kInfo;
   } else if (arguments.log != "text") {
-    mistakes.push_back("--log: \"" + arguments.log + "\" must be text or json");
+    errors.add("--log", "\"" + arguments.log + "\" must be text or json");
   }
-  if (const double s = number("--duration", arguments.duration, 0.1, 3e6, "s", mistakes); s > 0)
+  if (const double s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s"); s > 0)
     session.scene.duration = s;
-  plan.start_timeout_s = number("--start-timeout", arguments.wait, 0.1, 3e6, "s", mistakes);
+  plan.start_timeout_s = errors.optional_number("--start-timeout", arguments.wait, 0.1, 3e6, "s");
   std::string seed = arguments.seed;
-  if (const std::string problem = io::whole_number()(seed); problem.empty()) {
-    session.seed = std::stoull(seed);
-  } else {
-    mistakes.push_back("--seed: " + problem);
-  }
+  const std::string problem = io::whole_number()(seed);
+  errors.add("--seed", problem);
+  if (problem.empty()) session.seed = std::stoull(seed);
   plan.state = arguments.state;
   session.json = arguments.json;
   session.trace = arguments.trace;
   plan.quiet = arguments.quiet;
   plan.no_restore = arguments.fresh;
-  if (!session.json.empty() && session.json != "-")
-    if (const auto problem = io::OutputFile::problem(session.json); !problem.empty())
-      mistakes.push_back("--json: " + problem);
-  if (!session.trace.empty())
-    if (const auto problem = io::OutputFile::problem(session.trace); !problem.empty())
-      mistakes.push_back("--trace: " + problem);
-  if (!session.trace.empty() && session.trace == session.json)
-    mistakes.push_back("--trace: is the same file as --json");
+  errors.output_file("--json", session.json);
+  if (!session.trace.empty()) errors.add("--trace", io::OutputFile::problem(session.trace));
+  if (!session.trace.empty() && session.trace == session.json) errors.add("--trace", "is the same file as --json");
   return plan;
 }
 
 int run_command(const RunArguments& arguments) {
-  Mistakes mistakes;
-  const ServerOptions plan = parse_options(arguments, mistakes);
-  if (!mistakes.empty()) {
-    for (const std::string& mistake : mistakes) io::print_formatted(stderr, "%s\n", mistake.c_str());
-    io::print_formatted(stderr, "tandem-server run: %zu mistake%s, nothing was started\n", mistakes.size(),
-                        mistakes.size() == 1 ? "" : "s");
-    return kWrong;
-  }
+  io::UsageErrors errors;
+  const ServerOptions plan = parse_options(arguments, errors);
+  if (!errors.empty()) return errors.report("tandem-server run");
   if (plan.metrics && !plan.metrics->loopback())
     io::print_formatted(stderr, "--metrics %s: %s\n", arguments.metrics.c_str(), kUnprotectedMetricsWarning);
   if (!arguments.check) return run_server(plan);
@@ -105,54 +80,52 @@ int run_command(const RunArguments& arguments) {
 
 }  // namespace
 
-void add_run_command(CLI::App& root, std::function<int()>& action) {
-  // Shared, because the program's options refer to it after this function returns.
-  const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* const command =
-      root.add_subcommand("run", "Hosts a session: waits for the scene's seats, runs it, reports.");
-  command->add_option("SCENE", arguments->scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
-      ->option_text(" ")
-      ->required();
+void add_run_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("run", "Hosts a session: waits for the scene's seats, runs it, reports.", run_command);
+  command.add_option("SCENE", arguments.scene, "a scene file, or the name of a shipped scene (tandem-server scenes)")
+      .value_name(" ")
+      .required();
   command
-      ->add_option("--listen", arguments->listen,
-                   "address at which clients join, UDP and TCP; port 0 takes a free one; default 127.0.0.1:0. Any "
-                   "other address than "
-                   "loopback needs `tandem-server init` and an enrolled workstation")
-      ->option_text("HOST:PORT");
+      .add_option("--listen", arguments.listen,
+                  "address at which clients join, UDP and TCP; port 0 takes a free one; default 127.0.0.1:0. Any "
+                  "other address than "
+                  "loopback needs `tandem-server init` and an enrolled workstation")
+      .value_name("HOST:PORT");
   command
-      ->add_option("--state", arguments->state,
-                   "folder of keys and enrolled workstations; default on loopback: ephemeral keys, for this user on "
-                   "this computer; "
-                   "else $TANDEM_STATE, /var/lib/tandem where this user may write, ~/.local/state/tandem")
-      ->option_text("DIR");
-  command->add_option("--duration", arguments->duration, "session time instead of the scene's [s]")->option_text("S");
+      .add_option("--state", arguments.state,
+                  "folder of keys and enrolled workstations; default on loopback: ephemeral keys, for this user on "
+                  "this computer; "
+                  "else $TANDEM_STATE, /var/lib/tandem where this user may write, ~/.local/state/tandem")
+      .value_name("DIR");
+  command.add_option("--duration", arguments.duration, "session time instead of the scene's [s]").value_name("S");
   command
-      ->add_option("--start-timeout", arguments->wait,
-                   "ends when the required seats are not ready after so many seconds; default: waits until Ctrl-C")
-      ->option_text("S");
+      .add_option("--start-timeout", arguments.wait,
+                  "ends when the required seats are not ready after so many seconds; default: waits until Ctrl-C")
+      .value_name("S");
   command
-      ->add_option("--json", arguments->json,
-                   "writes the report; `-`: to standard output, and everything else to standard error")
-      ->option_text("FILE|-");
-  command->add_option("--trace", arguments->trace, "writes one row per tick of the session")->option_text("FILE.csv");
+      .add_option("--json", arguments.json,
+                  "writes the report; `-`: to standard output, and everything else to standard error")
+      .value_name("FILE|-");
+  command.add_option("--trace", arguments.trace, "writes one row per tick of the session").value_name("FILE.csv");
   command
-      ->add_option("--metrics", arguments->metrics,
-                   "serves /metrics (Prometheus), /healthz and /readyz at this address over HTTP; default: off")
-      ->option_text("HOST:PORT");
-  command->add_option("--log", arguments->log, "text, or json: one object per line on standard error; default text")
-      ->option_text("FORMAT");
-  command->add_flag("--check", arguments->check, "only checks everything and prints every value in force, with units");
+      .add_option("--metrics", arguments.metrics,
+                  "serves /metrics (Prometheus), /healthz and /readyz at this address over HTTP; default: off")
+      .value_name("HOST:PORT");
+  command.add_option("--log", arguments.log, "text, or json: one object per line on standard error; default text")
+      .value_name("FORMAT");
+  command.add_flag("--check", arguments.check, "only checks everything and prints every value in force, with units");
   command
-      ->add_option("--seed", arguments->seed,
-                   "a number for the report, to name the run; default 1 (a live session draws nothing)")
-      ->option_text("N");
-  command->add_flag(
-      "--no-restore", arguments->fresh,
+      .add_option("--seed", arguments.seed,
+                  "a number for the report, to name the run; default 1 (a live session draws nothing)")
+      .value_name("N");
+  command.add_flag(
+      "--no-restore", arguments.fresh,
       "ignores the checkpoint of a server of this scene that ended here less than 10 min ago; default: restores the "
       "session, "
       "and its clients reconnect automatically (not with port 0 on loopback, where no client would find it)");
-  command->add_flag("--quiet", arguments->quiet, "no status and no summary");
-  command->footer(
+  command.add_flag("--quiet", arguments.quiet, "no status and no summary");
+  command.footer(
       "Prints `listening on HOST:PORT` first, then the command of each seat to type. The session begins when all "
       "required\n"
       "seats are ready. Ctrl-C releases all hands, notifies the clients, writes the reports and ends with 0.\n"
@@ -163,7 +136,6 @@ void add_run_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-server run free_motion\n"
       "  tandem-server run contact --listen 127.0.0.1:7000 --json report.json --trace contact.csv\n"
       "  tandem-server run mine.textproto --check");
-  command->callback([arguments, &action] { action = [arguments] { return run_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

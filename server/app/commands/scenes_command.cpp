@@ -1,9 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "common/base/suggestions.h"
+#include "common/io/command_line.h"
 #include "common/io/print.h"
 #include "proto/text/scenes_embedded.h"
 #include "server/app/commands/server_commands.h"
@@ -51,18 +50,16 @@ int scenes_command(const ScenesArguments& arguments) {
 
 }  // namespace
 
-void add_scenes_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<ScenesArguments>();
-  CLI::App* const command = root.add_subcommand(
-      "scenes", "Lists the shipped scenes, or prints one as text: a start for a scene of your own.");
-  command->add_option("--print", arguments->print, "the scene to print")->option_text("NAME");
-  command->add_flag("--json", arguments->json, "for machines: name and summary, with --print also the text");
-  command->footer(
+void add_scenes_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "scenes", "Lists the shipped scenes, or prints one as text: a start for a scene of your own.", scenes_command);
+  command.add_option("--print", arguments.print, "the scene to print").value_name("NAME");
+  command.add_flag("--json", arguments.json, "for machines: name and summary, with --print also the text");
+  command.footer(
       "Examples\n"
       "  tandem-server scenes\n"
       "  tandem-server scenes --print free_motion > mine.textproto\n"
       "  tandem-server run mine.textproto --check");
-  command->callback([arguments, &action] { action = [arguments] { return scenes_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

@@ -1,24 +1,22 @@
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "common/auth/enrolment.h"
+#include "common/io/command_line.h"
 #include "common/io/print.h"
+#include "common/io/usage_errors.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/server_config_text.h"
 #include "server/app/commands/server_commands.h"
-#include "server/app/control/control_server.h"
+#include "server/app/control/server_keys.h"
 #include "server/app/process/server_process.h"
 
 namespace tandem::server {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kWrong = 2;
 
 struct ServeArguments {
   std::string config;
@@ -75,10 +73,10 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
   plan.state = path_beside_config(config, config.state.text);
   if (const auto listen = io::parse_address(config.listen.text, 0)) {
     plan.listen = *listen;
-    if (const std::string problem = ControlServer::problem_with_address(*listen); !problem.empty())
+    if (const std::string problem = problem_with_address(*listen); !problem.empty())
       errors.push_back(config.listen.error(config.file, problem));
     const LocatedText& keys = config.state.text.empty() ? config.listen : config.state;
-    for (const std::string& problem : ControlServer::problems_with_keys(*listen, plan.state))
+    for (const std::string& problem : problems_with_keys(*listen, plan.state))
       errors.push_back(keys.error(config.file, problem));
   } else if (!config.listen.text.empty()) {
     errors.push_back(config.listen.error(config.file, listen.error()));
@@ -86,7 +84,7 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
   if (!config.metrics.text.empty()) {
     if (const auto metrics = io::parse_address(config.metrics.text, 0)) {
       plan.metrics = *metrics;
-      if (const std::string problem = ControlServer::problem_with_address(*metrics); !problem.empty())
+      if (const std::string problem = problem_with_address(*metrics); !problem.empty())
         errors.push_back(config.metrics.error(config.file, problem));
     } else {
       errors.push_back(config.metrics.error(config.file, metrics.error()));
@@ -110,10 +108,9 @@ ServerOptions parse_options(const ServerConfigSpec& config, InputErrors& errors)
 }
 
 int refuse(const InputErrors& errors) {
-  io::print(stderr, to_text(errors));
-  io::print_formatted(stderr, "tandem-server serve: %zu mistake%s, nothing was started\n", errors.size(),
-                      errors.size() == 1 ? "" : "s");
-  return kWrong;
+  io::UsageErrors usage;
+  usage.add(to_text(errors));
+  return usage.report("tandem-server serve");
 }
 
 int serve_command(const ServeArguments& arguments) {
@@ -138,19 +135,18 @@ int serve_command(const ServeArguments& arguments) {
 
 }  // namespace
 
-void add_serve_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<ServeArguments>();
-  CLI::App* const command =
-      root.add_subcommand("serve", "Hosts all sessions of a configuration until a signal or a stop command.");
+void add_serve_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "serve", "Hosts all sessions of a configuration until a signal or a stop command.", serve_command);
   command
-      ->add_option("CONFIG", arguments->config,
-                   "a file of proto/schema/server_config.proto; server/README.md has the table of its keys")
-      ->option_text(" ")
-      ->required();
-  command->add_flag("--check", arguments->check,
-                    "only checks everything, the state folder too, and prints every value in force, with units");
-  command->add_flag("--quiet", arguments->quiet, "no status and no summaries");
-  command->footer(
+      .add_option("CONFIG", arguments.config,
+                  "a file of proto/schema/server_config.proto; server/README.md has the table of its keys")
+      .value_name(" ")
+      .required();
+  command.add_flag("--check", arguments.check,
+                   "only checks everything, the state folder too, and prints every value in force, with units");
+  command.add_flag("--quiet", arguments.quiet, "no status and no summaries");
+  command.footer(
       "Prints `listening on HOST:PORT` first, then the commands for participants; on a terminal with each session's "
       "code, elsewhere\n"
       "`tandem-server sessions` shows the codes. A session that is over restarts with a new code, unless\n"
@@ -169,7 +165,6 @@ void add_serve_command(CLI::App& root, std::function<int()>& action) {
       "  version: 1\n"
       "  listen: \"0.0.0.0:7000\"\n"
       "  session { name: \"lab\" scene: \"free_motion\" }");
-  command->callback([arguments, &action] { action = [arguments] { return serve_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

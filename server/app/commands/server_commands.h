@@ -1,18 +1,22 @@
 #pragma once
 
-#include <functional>
-
-namespace CLI {
-class App;
+namespace tandem::io {
+class Command;
 }
 
+/// The commands of tandem-server. Each function adds one to the program.
 namespace tandem::server {
 
-/// Add the other subcommands. Each sets `action` when it is chosen.
-void add_run_command(CLI::App& root, std::function<int()>& action);
-void add_serve_command(CLI::App& root, std::function<int()>& action);
-void add_sessions_command(CLI::App& root, std::function<int()>& action);
-void add_stop_command(CLI::App& root, std::function<int()>& action);
-void add_scenes_command(CLI::App& root, std::function<int()>& action);
+void add_run_command(const io::Command& root);       ///< hosts one session
+void add_serve_command(const io::Command& root);     ///< hosts all sessions of a configuration
+void add_sessions_command(const io::Command& root);  ///< lists the sessions of the running server
+void add_stop_command(const io::Command& root);      ///< asks the running server to end
+void add_scenes_command(const io::Command& root);    ///< lists or prints the shipped scenes
+
+// Administration of the state folder: keys, workstations, codes and tickets.
+void add_init_command(const io::Command& root);    ///< creates the keys, or replaces the one that signs tickets
+void add_enroll_command(const io::Command& root);  ///< issues the one-time string that enrols a workstation
+void add_ticket_command(const io::Command& root);  ///< writes a ticket
+void add_revoke_command(const io::Command& root);  ///< revokes a workstation
 
 }  // namespace tandem::server

@@ -1,6 +1,6 @@
 #include <cstdio>
-#include <memory>
 
+#include "common/io/command_line.h"
 #include "proto/rpc/session_list_text.h"
 #include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
@@ -46,20 +46,18 @@ int sessions_command(const SessionsArguments& arguments) {
 
 }  // namespace
 
-void add_sessions_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<SessionsArguments>();
-  CLI::App* const command =
-      root.add_subcommand("sessions", "Lists the sessions of the running server: codes, phases, seats.");
-  command->alias("status");
-  add_state_option(*command, arguments->state);
-  command->add_flag("--json", arguments->json, "for machines");
-  command->footer(
+void add_sessions_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("sessions", "Lists the sessions of the running server: codes, phases, seats.", sessions_command);
+  command.alias("status");
+  add_state_option(command, arguments.state);
+  command.add_flag("--json", arguments.json, "for machines");
+  command.footer(
       "`status` is an alias. The list is at most a second old. Exit: 0 done; 1 no server runs from this folder, or "
       "it cannot be read; 2 wrong arguments.\n\n"
       "Examples\n"
       "  tandem-server sessions --json\n"
       "  tandem-server sessions --state ./state");
-  command->callback([arguments, &action] { action = [arguments] { return sessions_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -8,28 +7,33 @@
 
 #include "common/auth/io/server_keystore.h"
 #include "common/base/suggestions.h"
+#include "common/io/command_line.h"
+#include "common/io/exit_code.h"
+#include "common/io/usage_errors.h"
 
 /// Shared by the commands that use a server's state directory.
 namespace tandem::server {
 
-inline void add_state_option(CLI::App& command, std::string& state) {
+inline void add_state_option(const io::Command& command, std::string& state) {
   command
       .add_option("--state", state,
                   "the server's state folder; default: $TANDEM_STATE, else /var/lib/tandem where this user may write, "
                   "else ~/.local/state/tandem")
-      ->option_text("DIR");
+      .value_name("DIR");
 }
 
-/// Prints all usage errors. @return exit code 2
-[[nodiscard]] inline int print_usage_errors(const char* command, const std::vector<std::string>& mistakes) {
-  for (const std::string& mistake : mistakes) std::fprintf(stderr, "%s\n", mistake.c_str());
-  std::fprintf(stderr, "tandem-server %s: %zu mistake%s, nothing was done\n", command, mistakes.size(),
-               mistakes.size() == 1 ? "" : "s");
-  return 2;
+/// Prints the usage errors of a command. @return exit code 2
+[[nodiscard]] inline int print_usage_errors(const std::string& command, const io::UsageErrors& errors) {
+  return errors.report("tandem-server " + command, "nothing was done");
+}
+[[nodiscard]] inline int print_usage_error(const std::string& command, const std::string& what) {
+  io::UsageErrors errors;
+  errors.add(what);
+  return print_usage_errors(command, errors);
 }
 [[nodiscard]] inline int print_error(const char* command, const std::string& what) {
   std::fprintf(stderr, "tandem-server %s: %s\n", command, what.c_str());
-  return 1;
+  return io::kExitTrouble;
 }
 
 /// Warns, after a command has succeeded, if the audit log could not record it.

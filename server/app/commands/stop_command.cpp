@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <memory>
 #include <thread>
 
 #include "common/base/format.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/print.h"
 #include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
@@ -58,10 +57,9 @@ int wait_for_drain(const auth::ServerKeystore& state, std::uint32_t grace_s) {
 }
 
 int stop_command(const StopArguments& arguments) {
-  std::string grace = arguments.grace;
-  if (const auto problem = io::number_in(0, 3600, "s")(grace); !problem.empty())
-    return print_usage_errors("stop", {"--grace: " + problem});
-  const auto grace_s = static_cast<std::uint32_t>(std::stod(grace));
+  io::UsageErrors errors;
+  const auto grace_s = static_cast<std::uint32_t>(errors.number("--grace", arguments.grace, 0, 3600, "s"));
+  if (!errors.empty()) return print_usage_errors("stop", errors);
   auto state = open_state(arguments.state);
   if (!state) return print_error("stop", state.error());
   const auto serving = state->read_serving();
@@ -83,18 +81,17 @@ int stop_command(const StopArguments& arguments) {
 
 }  // namespace
 
-void add_stop_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<StopArguments>();
-  CLI::App* const command = root.add_subcommand(
-      "stop", "Ends the server that runs on this computer: rejects new joins and releases all hands.");
-  add_state_option(*command, arguments->state);
+void add_stop_command(const io::Command& root) {
+  const auto [command, arguments] = root.add_command(
+      "stop", "Ends the server that runs on this computer: rejects new joins and releases all hands.", stop_command);
+  add_state_option(command, arguments.state);
   command
-      ->add_option("--grace", arguments->grace,
-                   "until all hands are released [s], 0 to 3600, whole seconds; default 0: at once")
-      ->option_text("S");
-  command->add_flag("--no-wait", arguments->no_wait,
-                    "returns at once; default: shows the progress until the server has ended");
-  command->footer(
+      .add_option("--grace", arguments.grace,
+                  "until all hands are released [s], 0 to 3600, whole seconds; default 0: at once")
+      .value_name("S");
+  command.add_flag("--no-wait", arguments.no_wait,
+                   "returns at once; default: shows the progress until the server has ended");
+  command.footer(
       "Sessions of `serve` are kept: started again within 10 min, it resumes them. Ctrl-C ends this command; the "
       "server still ends.\n"
       "To stop without a grace period: `kill -TERM PID`, Ctrl-C where it runs, or, as a service, `systemctl stop "
@@ -105,7 +102,6 @@ void add_stop_command(CLI::App& root, std::function<int()>& action) {
       "Examples\n"
       "  tandem-server stop --grace 60\n"
       "  tandem-server stop --state ./state --no-wait");
-  command->callback([arguments, &action] { action = [arguments] { return stop_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

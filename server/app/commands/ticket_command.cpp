@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include "common/auth/enrolment.h"
 #include "common/auth/ticket.h"
 #include "common/base/command_hints.h"
-#include "common/io/number_option.h"
+#include "common/io/command_line.h"
 #include "common/io/reachable_address.h"
-#include "server/app/commands/auth_commands.h"
+#include "server/app/commands/server_commands.h"
 #include "server/app/commands/state_option.h"
 #include "server/policy/roles.h"
 
@@ -47,66 +46,63 @@ std::expected<OpenSession, std::string> find_session(const std::string& typed,
 }
 
 std::optional<AccessRole> find_role(const TicketArguments& arguments, const OpenSession& session,
-                                    std::vector<std::string>& mistakes) {
+                                    io::UsageErrors& errors) {
   std::optional<AccessRole> role;
   if (!arguments.role.empty()) {
     role = access_role_named(arguments.role);
     if (!role)
-      mistakes.push_back("--role: \"" + arguments.role +
-                         "\" must be instructor, trainee, evaluator, observer, operator or recorder");
+      errors.add("--role: \"" + arguments.role +
+                 "\" must be instructor, trainee, evaluator, observer, operator or recorder");
   }
   const bool sits = !arguments.seat.empty();
   if (role && (sits ? *role == AccessRole::kOperator || *role == AccessRole::kRecorder : !may_join_console(*role))) {
-    mistakes.push_back(!sits ? "--seat is required: the role " + std::string(to_text(*role)) +
-                                   " needs one; without a seat: instructor, operator, recorder"
-                             : "--seat: the role " + std::string(to_text(*role)) + " has none");
+    errors.add(!sits ? "--seat is required: the role " + std::string(to_text(*role)) +
+                           " needs one; without a seat: instructor, operator, recorder"
+                     : "--seat: the role " + std::string(to_text(*role)) + " has none");
     return role;
   }
   if (arguments.seat.empty() || session.seats.empty()) {
     if (arguments.role.empty())
-      mistakes.push_back(arguments.seat.empty()
-                             ? "--seat is required, or a --role that needs none: operator, recorder, instructor"
-                             : "--role is required: the session's seats are not known here");
+      errors.add(arguments.seat.empty()
+                     ? "--seat is required, or a --role that needs none: operator, recorder, instructor"
+                     : "--role is required: the session's seats are not known here");
     return role;
   }
   const auto seat = std::ranges::find(session.seats, arguments.seat, &OpenSeat::name);
   if (seat == session.seats.end()) {
     std::vector<std::string> names;
     for (const OpenSeat& s : session.seats) names.push_back(s.name);
-    mistakes.push_back("--seat: the session has no seat \"" + arguments.seat + "\"; " + suggest(arguments.seat, names));
+    errors.add("--seat: the session has no seat \"" + arguments.seat + "\"; " + suggest(arguments.seat, names));
     return role;
   }
   if (role && *role != seat->role)
-    mistakes.push_back("--role: seat " + seat->name + " is one for " + std::string(to_text(seat->role)) + ", not for " +
-                       std::string(to_text(*role)));
+    errors.add("--role: seat " + seat->name + " is one for " + std::string(to_text(seat->role)) + ", not for " +
+               std::string(to_text(*role)));
   return seat->role;
 }
 
 int ticket_command(const TicketArguments& arguments) {
-  std::vector<std::string> mistakes;
-  std::string hours = arguments.hours, force = arguments.force;
-  if (const auto problem = io::number_in(0.01, 12, "h")(hours); !problem.empty())
-    mistakes.push_back("--hours: " + problem);
-  if (const auto problem = io::number_in(0.1, 100, "%")(force); !problem.empty())
-    mistakes.push_back("--force: " + problem);
+  io::UsageErrors errors;
+  std::string hours = arguments.hours;
+  errors.add("--hours", io::number_in(0.01, 12, "h")(hours));
+  const double force_percent = errors.number("--force", arguments.force, 0.1, 100, "%");
   auto state = open_state(arguments.state);
-  if (!state) return mistakes.empty() ? print_error("ticket", state.error()) : print_usage_errors("ticket", mistakes);
+  if (!state) return errors.empty() ? print_error("ticket", state.error()) : print_usage_errors("ticket", errors);
   const auto serving = state->read_serving();
   if (!serving) return print_error("ticket", serving.error());
   const auto book = state->workstations();
   if (!book) return print_error("ticket", book.error());
   const WorkstationRow* const workstation = auth::find_workstation(*book, arguments.workstation);
   if (workstation == nullptr)
-    mistakes.push_back("--workstation: " +
-                       unknown_workstation_text(arguments.workstation, *book, state->folder()->path()));
+    errors.add("--workstation: " + unknown_workstation_text(arguments.workstation, *book, state->folder()->path()));
   const auto session = find_session(arguments.session, *serving);
   std::optional<AccessRole> role;
   if (session) {
-    role = find_role(arguments, *session, mistakes);
+    role = find_role(arguments, *session, errors);
   } else {
-    mistakes.push_back(session.error());
+    errors.add(session.error());
   }
-  if (!mistakes.empty() || !role) return print_usage_errors("ticket", mistakes);
+  if (!errors.empty() || !role) return print_usage_errors("ticket", errors);
 
   auth::Ticket ticket;
   auth::fill_random(ticket.ticket_id);
@@ -114,12 +110,12 @@ int ticket_command(const TicketArguments& arguments) {
   ticket.seat = arguments.seat;
   ticket.role = *role;
   ticket.workstation.sha256 = workstation->spki;
-  ticket.force_scale = static_cast<std::uint16_t>(std::lround(std::stod(force) * 10.0));
+  ticket.force_scale = static_cast<std::uint16_t>(std::lround(force_percent * 10.0));
   ticket.not_before = auth::wall_seconds();
   ticket.not_after = ticket.not_before + static_cast<std::int64_t>(std::stod(hours) * 3600.0);
   ticket.epoch_min = session->epoch;
   const auto bytes = auth::sign_ticket(ticket, state->ticket_key());
-  if (!bytes) return print_usage_errors("ticket", {"the ticket cannot be made: " + bytes.error()});
+  if (!bytes) return print_usage_error("ticket", "the ticket cannot be made: " + bytes.error());
   state->audit(ticket.not_before, "ticket", workstation->name,
                auth::to_hex(ticket.ticket_id) + " " + ticket.seat + " " + std::string(to_text(ticket.role)));
   warn_audit_failure("ticket", *state);
@@ -137,32 +133,33 @@ int ticket_command(const TicketArguments& arguments) {
 
 }  // namespace
 
-void add_ticket_command(CLI::App& root, std::function<int()>& action) {
-  const auto arguments = std::make_shared<TicketArguments>();
-  CLI::App* const command = root.add_subcommand("ticket",
-                                                "Writes a join ticket: the right of one workstation to take one seat "
-                                                "of one session, or to operate it from a console, once.");
+void add_ticket_command(const io::Command& root) {
+  const auto [command, arguments] =
+      root.add_command("ticket",
+                       "Writes a join ticket: the right of one workstation to take one seat "
+                       "of one session, or to operate it from a console, once.",
+                       ticket_command);
   command
-      ->add_option("--session", arguments->session,
-                   "required: id (32 hex digits), code (10 characters) or name of the session")
-      ->option_text("ID|CODE|NAME")
-      ->required();
+      .add_option("--session", arguments.session,
+                  "required: id (32 hex digits), code (10 characters) or name of the session")
+      .value_name("ID|CODE|NAME")
+      .required();
   command
-      ->add_option("--seat", arguments->seat,
-                   "the seat's name; none for an operator, a recorder, or an instructor at a console")
-      ->option_text("SEAT");
-  command->add_option("--workstation", arguments->workstation, "required: the only workstation that may use it")
-      ->option_text("NAME")
-      ->required();
+      .add_option("--seat", arguments.seat,
+                  "the seat's name; none for an operator, a recorder, or an instructor at a console")
+      .value_name("SEAT");
+  command.add_option("--workstation", arguments.workstation, "required: the only workstation that may use it")
+      .value_name("NAME")
+      .required();
   command
-      ->add_option("--role", arguments->role,
-                   "instructor, trainee, evaluator, observer, operator, recorder; default: the seat's")
-      ->option_text("ROLE");
-  command->add_option("--hours", arguments->hours, "validity [h], 0.01 to 12; default 4")->option_text("H");
-  command->add_option("--force", arguments->force, "of the scene's force limit [%], 0.1 to 100; default 100")
-      ->option_text("PERCENT");
-  add_state_option(*command, arguments->state);
-  command->footer(
+      .add_option("--role", arguments.role,
+                  "instructor, trainee, evaluator, observer, operator, recorder; default: the seat's")
+      .value_name("ROLE");
+  command.add_option("--hours", arguments.hours, "validity [h], 0.01 to 12; default 4").value_name("H");
+  command.add_option("--force", arguments.force, "of the scene's force limit [%], 0.1 to 100; default 100")
+      .value_name("PERCENT");
+  add_state_option(command, arguments.state);
+  command.footer(
       "Prints the ticket to standard output. It cannot be changed, used twice or used on another workstation. Codes "
       "and names, and the\n"
       "role of a seat, are known while the server runs.\n"
@@ -171,7 +168,6 @@ void add_ticket_command(CLI::App& root, std::function<int()>& action) {
       "  tandem-server ticket --session contact --seat trainee --workstation touch-07\n"
       "  tandem-server ticket --session contact --role operator --workstation office     # for `tandem-client "
       "control`");
-  command->callback([arguments, &action] { action = [arguments] { return ticket_command(*arguments); }; });
 }
 
 }  // namespace tandem::server

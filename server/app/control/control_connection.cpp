@@ -127,7 +127,7 @@ void ControlConnection::on_frame(SecretBuffer bytes) {
     accepted();
     return answer(std::move(list));
   }
-  on_command(frame->body);
+  on_command(std::move(frame->body));
 }
 
 auth::TokenBucket& ControlConnection::bucket_of(Kind kind) noexcept {
@@ -237,19 +237,19 @@ void ControlConnection::on_join_reply(const std::shared_ptr<JoinRequest>& reques
   answer(std::move(welcome));
 }
 
-void ControlConnection::on_command(const rpc::Body& command) {
+void ControlConnection::on_command(rpc::Body command) {
   plane_.record_event(ControlEvent::kCommand, address_, workstation_->name);
   set_deadline(plane_.limits_.frame_deadline);
-  plane_.join_handler_.command(
-      *welcome_, *workstation_, command, [weak = weak_from_this(), &context = plane_.context_](rpc::Body body) {
-        asio::dispatch(context, [weak, body = std::move(body)]() mutable {
-          const auto self = weak.lock();
-          if (!self || self->finished_) return;
-          self->acted_ = self->acted_ ||
-                         !(std::holds_alternative<rpc::ErrorReply>(body) || std::holds_alternative<rpc::Status>(body));
-          self->answer(std::move(body));
-        });
-      });
+  plane_.join_handler_.command(*welcome_, *workstation_, std::move(command),
+                               [weak = weak_from_this(), &context = plane_.context_](rpc::Body body) {
+                                 asio::dispatch(context, [weak, body = std::move(body)]() mutable {
+                                   const auto self = weak.lock();
+                                   if (!self || self->finished_) return;
+                                   self->acted_ = self->acted_ || !(std::holds_alternative<rpc::ErrorReply>(body) ||
+                                                                    std::holds_alternative<rpc::Status>(body));
+                                   self->answer(std::move(body));
+                                 });
+                               });
 }
 
 void ControlConnection::set_deadline(std::chrono::milliseconds time) {

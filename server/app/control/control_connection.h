@@ -36,7 +36,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   void on_frame(SecretBuffer bytes);
   void on_enrol(const rpc::Enroll& enrol);
   void on_hello(rpc::Hello hello);
-  void on_command(const rpc::Body& command);
+  void on_command(rpc::Body command);
   void on_join_reply(const std::shared_ptr<JoinRequest>& request, JoinReply admission);
   /// Sends a reply, then reads the next frame, or ends the connection if `last`.
   void answer(rpc::Body body, bool last = false);

@@ -10,7 +10,7 @@
 #include "common/auth/io/identity_selector.h"
 #include "common/base/format.h"
 #include "common/io/log.h"
-#include "server/app/monitor/metrics.h"
+#include "server/app/control/server_keys.h"
 
 namespace tandem::server {
 namespace {
@@ -19,26 +19,6 @@ constexpr auto kServingFileInterval = std::chrono::seconds(1);  // between two w
 // With the close-out of a seat (0.2 s) a revocation acts within a second.
 constexpr auto kRevocationCheckInterval = std::chrono::milliseconds(250);
 constexpr int kPortsTried = 20;  // ports that are tried until one is free for UDP and TCP
-
-/// Keys of a directory made by `init`, or ephemeral keys. Beyond loopback at least one workstation must be able to
-/// join.
-std::expected<auth::ServerKeystore, std::string> keys_of(const io::SocketAddress& listen, const std::string& state) {
-  const std::int64_t now = auth::wall_seconds();
-  if (state.empty() && listen.loopback()) return auth::ServerKeystore::ephemeral(now);
-  const auto path = auth::server_state_path(state);
-  if (!path) return std::unexpected("--state: " + path.error());
-  auto trust = auth::ServerKeystore::open(*path);
-  if (!trust) return std::unexpected(trust.error());
-  const auto book = trust->workstations();
-  if (!book) return std::unexpected(book.error());
-  const auto codes = trust->pending_codes(now);
-  if (!codes) return std::unexpected(codes.error());
-  if (!listen.loopback() && book->empty() && *codes == 0)
-    return std::unexpected("no client could join: no workstation is enrolled in " + *path +
-                           ". Run `tandem-server enroll" + auth::server_state_option(*path) +
-                           " NAME --address HOST:PORT` for each, then start again");
-  return trust;
-}
 
 /// Raises the limit of open files to all connections that the limits allow and the program's own files. A login shell
 /// often permits 1024 only.
@@ -61,120 +41,70 @@ void permit_descriptors(const ControlLimits& limits) {
 
 }  // namespace
 
-ControlServer::ControlServer(auth::ServerKeystore trust, const Options& plan)
+ControlServer::ControlServer(auth::ServerKeystore trust, const Options& options)
     : trust_(std::move(trust)),
-      on_event_(plan.on_event),
-      on_message_(plan.on_message),
-      registry_(thread_.context(), trust_, plan.load_limits),
-      plane_(thread_.context(), trust_, registry_, plan.limits, {},
+      on_event_(options.on_event),
+      audit_(thread_.context(), trust_, options.on_event, options.on_message),
+      registry_(thread_.context()),
+      commands_(registry_, trust_, options.on_message),
+      joins_(registry_, commands_, trust_, options.load_limits, options.on_message),
+      plane_(thread_.context(), trust_, joins_, options.limits, {},
              [this](const ControlEventRecord& news) {
-               if (record_event(news) && on_event_) on_event_(news);
+               if (audit_.record(news) && on_event_) on_event_(news);
              }),
       serving_timer_(thread_.context()),
-      revocation_timer_(thread_.context()) {
-  registry_.on_message(plan.on_message);
-}
+      revocation_timer_(thread_.context()) {}
 
 ControlServer::~ControlServer() { stop(); }
 
-std::string ControlServer::problem_with_keys(const io::SocketAddress& listen, const std::string& state) {
-  const auto trust = keys_of(listen, state);
-  return trust ? std::string() : trust.error();
-}
-
-std::vector<std::string> ControlServer::problems_with_keys(const io::SocketAddress& listen, const std::string& state) {
-  if (state.empty() && listen.loopback()) return {};
-  const auto path = auth::server_state_path(state);
-  if (!path) return {path.error()};
-  auto wrong = auth::ServerKeystore::find_errors(*path);
-  if (!wrong.empty()) return wrong;
-  std::string who = problem_with_keys(listen, state);
-  return who.empty() ? std::vector<std::string>{} : std::vector{std::move(who)};
-}
-
-/// Tries a free port, because a running server may use the configured one.
-std::string ControlServer::problem_with_address(const io::SocketAddress& listen) {
-  const std::string host = io::to_text(listen);
-  const auto free = io::parse_address(host.substr(0, host.rfind(':')) + ":0", 0);
-  if (!free) return free.error();
-  const auto socket = io::bind_udp(*free);
-  return socket ? std::string()
-                : "this computer cannot listen there: " + socket.error() +
-                      "; use one of its own addresses (`ip address`), 0.0.0.0 for all, or 127.0.0.1";
-}
-
-std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(const Options& plan) {
-  auto trust = keys_of(plan.listen, plan.state);
+std::expected<std::unique_ptr<ControlServer>, std::string> ControlServer::open(const Options& options) {
+  auto trust = open_server_keys(options.listen, options.state);
   if (!trust) return std::unexpected(trust.error());
   if (trust->on_disk())
     if (std::string problem = trust->begin_serving(auth::wall_seconds()); !problem.empty())
       return std::unexpected(std::move(problem));
-  trust->enable_audit_rotation(plan.audit);
-  permit_descriptors(plan.limits);
-  std::unique_ptr<ControlServer> door{new ControlServer(std::move(*trust), plan)};
+  trust->enable_audit_rotation(options.audit);
+  permit_descriptors(options.limits);
+  std::unique_ptr<ControlServer> server{new ControlServer(std::move(*trust), options)};
   std::string problem;
   for (int attempt = 0; attempt < kPortsTried; ++attempt) {
-    auto sockets = io::bind_udp_steered(plan.listen, plan.steering);
+    auto sockets = io::bind_udp_steered(options.listen, options.steering);
     if (!sockets) return std::unexpected("--listen: " + sockets.error());
-    auto listening = door->plane_.listen(sockets->front().local);
+    auto listening = server->plane_.listen(sockets->front().local);
     if (listening) {
-      door->address_ = *listening;
-      door->sockets_ = std::move(*sockets);
+      server->address_ = *listening;
+      server->sockets_ = std::move(*sockets);
       break;
     }
     problem = "--listen: " + listening.error();
-    if (plan.listen.port() != 0) break;  // a chosen port may be in use for TCP: try the next one
+    if (options.listen.port() != 0) break;  // a chosen port may be in use for TCP: try the next one
   }
-  if (door->sockets_.empty()) return std::unexpected(problem);
-  if (plan.metrics) {
-    door->metrics_.emplace(
-        door->thread_.context(),
-        [d = door.get()](std::string_view path) {
-          const auth::AuditLog& log = d->trust_.audit_log();
-          return monitoring_page(path, d->registry_, d->plane_, {log.error(), log.lost(), d->throttle_.suppressed()});
+  if (server->sockets_.empty()) return std::unexpected(problem);
+  if (options.metrics) {
+    server->metrics_.emplace(
+        server->thread_.context(),
+        [s = server.get()](std::string_view path) {
+          return monitoring_page(path, s->registry_, s->plane_, s->audit_.state());
         },
-        plan.metrics_hosts);
-    if (std::string trouble = door->metrics_->listen(*plan.metrics); !trouble.empty())
+        options.metrics_hosts);
+    if (std::string trouble = server->metrics_->listen(*options.metrics); !trouble.empty())
       return std::unexpected("metrics: " + trouble +
                              "; choose another address or port for them, or end the program that uses it");
   }
-  if (door->ephemeral_keys()) {
-    auto local = auth::publish_local_keys(door->trust_, auth::runtime_path(), auth::wall_seconds());
+  if (server->ephemeral_keys()) {
+    auto local = auth::publish_local_keys(server->trust_, auth::runtime_path(), auth::wall_seconds());
     if (!local) return std::unexpected("the keys for clients on this machine could not be published: " + local.error());
-    door->local_.emplace(std::move(*local));
+    server->local_.emplace(std::move(*local));
   }
-  return door;
+  return server;
 }
 
 std::string ControlServer::folder() const { return trust_.on_disk() ? trust_.folder()->path() : auth::runtime_path(); }
 
-void ControlServer::add_session(SessionRegistry::Registration opening) { registry_.add(std::move(opening)); }
-
-void ControlServer::on_thread(const std::function<void()>& what) {
+void ControlServer::change(const std::function<void(SessionRegistry&, std::function<void()> done)>& change) {
   std::promise<void> done;
-  asio::post(thread_.context(), [&] {
-    what();
-    done.set_value();
-  });
+  asio::post(thread_.context(), [&] { change(registry_, [&] { done.set_value(); }); });
   done.get_future().wait();
-}
-
-void ControlServer::close_session(const auth::Id16& id) {
-  std::promise<void> gone;
-  asio::post(thread_.context(), [&] { registry_.remove(id, [&] { gone.set_value(); }); });
-  gone.get_future().wait();
-}
-
-void ControlServer::add_running_session(SessionRegistry::Registration opening) {
-  on_thread([&] { registry_.add_running(std::move(opening)); });
-}
-
-void ControlServer::end_session(const auth::Id16& id) {
-  on_thread([&] { registry_.end_session(id); });
-}
-
-void ControlServer::drain() {
-  on_thread([&] { registry_.drain(); });
 }
 
 std::string ControlServer::write_serving_file() {
@@ -195,7 +125,7 @@ void ControlServer::schedule_serving_file() {
       on_event_(
           {ControlEvent::kTrouble, "", "",
            problem + "; `tandem-server sessions" + auth::server_state_option(folder()) + "` shows the previous state"});
-    service_audit_log();
+    audit_.service();
     schedule_serving_file();
   });
 }
@@ -204,10 +134,10 @@ void ControlServer::schedule_revocation_check() {
   revocation_timer_.expires_after(kRevocationCheckInterval);
   revocation_timer_.async_wait([this](const asio::error_code& cancelled) {
     if (cancelled) return;
-    registry_.disconnect_revoked();
+    commands_.disconnect_revoked();
     plane_.disconnect_revoked();
     if (const auto grace = trust_.requested_shutdown())
-      registry_.drain_in(*grace, "`tandem-server stop` on this computer");
+      commands_.drain(*grace, "`tandem-server stop` on this computer");
     schedule_revocation_check();
   });
 }
@@ -230,8 +160,8 @@ void ControlServer::stop() {
     revocation_timer_.cancel();
     if (metrics_) metrics_->stop();
     plane_.stop();
-    registry_.stop_watching();
-    close_audit_log();
+    registry_.requests().stop_watching();
+    audit_.close();
   });
 }
 

@@ -44,19 +44,20 @@ class JoinHandler {
 
   /// Executes a command of a joined connection: stop, pause, resume, authority, remove, status, drain. Replies with
   /// Ok, Status, AuthorityReply or ErrorReply.
-  virtual void command(const rpc::Welcome& standing, const WorkstationRow& workstation, const rpc::Body& command,
+  /// @param joined  the Welcome of the connection
+  virtual void command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
                        std::function<void(rpc::Body)> answer) = 0;
   /// Whether a Welcome is still valid: the seat was not resumed elsewhere or taken away, and the session is not over.
   /// Otherwise the connection counts as one that never joined.
-  [[nodiscard]] virtual bool is_current(const rpc::Welcome& standing) const = 0;
+  [[nodiscard]] virtual bool is_current(const rpc::Welcome& joined) const = 0;
   /// The control connection of a joined client has ended. A seat stays occupied while its datagrams arrive.
   /// @param in_vain  all its commands except status queries were rejected, so its ticket may become valid again
-  virtual void on_disconnected(const rpc::Welcome& standing, bool in_vain) = 0;
+  virtual void on_disconnected(const rpc::Welcome& joined, bool in_vain) = 0;
 };
 
 /// Reply to a rejected ticket.
-[[nodiscard]] inline rpc::ErrorReply ticket_error_reply(const auth::ServerKeystore::RedeemFailure& trouble) {
-  if (trouble.fault) return {rpc::ErrorCode::kTicket, trouble.text, 0};
+[[nodiscard]] inline rpc::ErrorReply ticket_error_reply(const auth::ServerKeystore::RedeemFailure& failure) {
+  if (failure.fault) return {rpc::ErrorCode::kTicket, failure.text, 0};
   return {rpc::ErrorCode::kInternal,
           "the server cannot record that a ticket is used, so it accepts no tickets; the ticket stays valid. Ask the "
           "administrator of the server: its log has the cause",

@@ -1,29 +1,45 @@
+#include "server/app/control/status_notices.h"
+
 #include <utility>
 
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
-#include "server/app/control/session_registry.h"
 
-/// Notices of resumes and removals for all participants of a session (rpc::StatusEvent).
 namespace tandem::server {
 
-void SessionRegistry::add_notice(SessionEntry& room, const std::string& text) {
-  if (room.notices.list.size() == rpc::kStatusEventsMax) room.notices.list.erase(room.notices.list.begin());
-  room.notices.list.push_back({++room.notices.count, truncate_utf8(text, rpc::kTextMax)});
+void StatusNotices::add(std::string_view text) {
+  if (events_.size() == rpc::kStatusEventsMax) events_.erase(events_.begin());
+  events_.push_back({++count_, truncate_utf8(text, rpc::kTextMax)});
 }
 
-/// Adds a notice for a stop that ended. A key at a seat may have ended it, which only the session's stop latch
-/// records.
-void SessionRegistry::report_resume(SessionEntry& room, const CommandOutcome& outcome) {
-  const StopLatch::Ended& ended = outcome.stop_latch.ended();
-  if (ended.number == 0 || ended.number == std::exchange(room.notices.resume_reported, ended.number)) return;
-  const SceneSpec& scene = room.registration.session->scene();
+void StatusNotices::set_stop(std::uint32_t number, std::string workstation, std::string why) {
+  stop_ = number;
+  stop_workstation_ = std::move(workstation);
+  stop_why_ = std::move(why);
+}
+
+void StatusNotices::set_resume(std::uint32_t number, std::string who) {
+  resumed_ = number;
+  resumer_ = std::move(who);
+}
+
+void StatusNotices::update(const StopLatch& latch, const SceneSpec& scene) {
+  const StopLatch::Ended& ended = latch.ended();
+  if (ended.number == 0 || ended.number == std::exchange(resume_reported_, ended.number)) return;
   std::string who = ended.by < scene.seats.size()
                         ? scene.seats[ended.by].name + " (" + std::string(to_text(ended.role)) + ")"
                         : "a console";
-  if (room.notices.resumed == ended.number) who = room.notices.resumer;
-  add_notice(room, format("stop %u is over: RESUMED by ", ended.number) + who +
-                       format("; force returns over %.1f s", scene.gate.ramp_in));
+  if (resumed_ == ended.number) who = resumer_;
+  add(format("stop %u is over: RESUMED by ", ended.number) + who +
+      format("; force returns over %.1f s", scene.gate.ramp_in));
+}
+
+void StatusNotices::complete(rpc::Status& status) const {
+  status.events = events_;
+  if (!status.stop || status.stop->number != stop_) return;
+  if (status.stop->seat.empty() && status.stop->kind != rpc::StopKind::kFault)
+    status.stop->workstation = stop_workstation_;
+  status.stop->why = stop_why_;
 }
 
 }  // namespace tandem::server

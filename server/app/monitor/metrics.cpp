@@ -93,26 +93,28 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
   std::array<std::uint64_t, static_cast<std::size_t>(transport::DropReason::kCount)> refused{};
   std::array<std::size_t, static_cast<std::size_t>(rpc::SessionPhase::kOverloaded) + 1> sessions{};
   std::uint64_t stray = 0;
-  for (const SessionRegistry::Registration* opening : registry.registrations()) {
-    const SessionStatus status = opening->session->status();
-    ++sessions[static_cast<std::size_t>(SessionRegistry::phase_of(status.state))];
+  for (const SessionEntry& entry : registry.entries()) {
+    if (entry.closing) continue;
+    const SessionStatus status = entry.session().status();
+    ++sessions[static_cast<std::size_t>(phase_of(status.state))];
     stray += status.unmatched_datagrams;
-    const auto& seats = opening->session->scene().seats;
+    const auto& seats = entry.scene().seats;
+    const std::string& name = entry.registration.name;
     for (std::size_t i = 0; i < seats.size(); ++i) {
-      describe_seat(page, {{"session", opening->name}, {"seat", seats[i].name}}, status.seats[i]);
+      describe_seat(page, {{"session", name}, {"seat", seats[i].name}}, status.seats[i]);
       for (std::size_t r = 0; r < refused.size(); ++r) refused[r] += status.seats[i].refused[r];
     }
-    page.gauge("tandem_session_time_seconds", "Session time", {{"session", opening->name}}, status.time);
+    page.gauge("tandem_session_time_seconds", "Session time", {{"session", name}}, status.time);
     page.count("tandem_audit_events_lost_total",
                "Events of the session lost because its queue was full: they are not in the audit log",
-               {{"session", opening->name}}, static_cast<double>(status.audit_dropped));
+               {{"session", name}}, static_cast<double>(status.audit_dropped));
     page.gauge("tandem_session_broken", "1: an invariant that the session's law promises was broken",
-               {{"session", opening->name}}, static_cast<double>(status.violations));
+               {{"session", name}}, static_cast<double>(status.violations));
   }
   for (std::size_t i = 0; i < sessions.size(); ++i)
     page.gauge("tandem_sessions", "Sessions by phase", {{"phase", rpc::to_text(static_cast<rpc::SessionPhase>(i))}},
                static_cast<double>(sessions[i]));
-  for (const Shard* shard : registry.shards()) {
+  for (const Shard* shard : registry.requests().shards()) {
     const Labels who{{"tick_hz", std::to_string(std::lround(1.0 / seconds(shard->period())))}};
     page.ticks("tandem_tick_seconds", "Processor time of a tick, all sessions of a shard", who, shard->lengths());
     page.ticks("tandem_tick_lateness_seconds", "Lateness of the start of ticks", who, shard->lateness());
@@ -139,7 +141,7 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
     page.count("tandem_joins_total", "Events of the control connections, by result",
                {{"result", std::string(to_text(static_cast<ControlEvent>(i)))}},
                static_cast<double>(plane.count(static_cast<ControlEvent>(i))));
-  page.gauge("tandem_draining", "1: the server rejects new joins", {}, registry.draining() ? 1 : 0);
+  page.gauge("tandem_draining", "1: the server rejects new joins", {}, registry.drain().active() ? 1 : 0);
   page.count("tandem_audit_lost_total", "Lines that could not be written to the audit log", {},
              static_cast<double>(audit.lost));
   page.count("tandem_audit_suppressed_total",
@@ -155,7 +157,7 @@ std::string metrics(const SessionRegistry& registry, const ControlPlane& plane, 
 /// Message about a shard that does not tick; empty if all do.
 std::string stalled_text(const SessionRegistry& registry) {
   const Time now = io::monotonic_now();
-  for (const Shard* shard : registry.shards())
+  for (const Shard* shard : registry.requests().shards())
     if (now - shard->last_tick() > kTickAgeMax)
       return "a tick thread has not run for " + std::to_string(seconds(now - shard->last_tick())) + " s\n";
   return {};
@@ -169,7 +171,7 @@ HttpResponse monitoring_page(std::string_view path, const SessionRegistry& regis
   if (path != "/healthz" && path != "/readyz") return {404, "text/plain", "/metrics, /healthz or /readyz\n"};
   const std::string why = stalled_text(registry);
   if (!why.empty()) return {503, "text/plain", why};
-  if (path == "/readyz" && registry.draining()) return {503, "text/plain", "draining\n"};
+  if (path == "/readyz" && registry.drain().active()) return {503, "text/plain", "draining\n"};
   if (path == "/readyz" && !audit.trouble.empty())
     return {503, "text/plain", "the audit log fails; the server's own log has the cause\n"};
   return {200, "text/plain", "ok\n"};

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <mutex>
 
-#include "common/io/fd.h"
+#include "common/io/event_fd.h"
 #include "server/session/checkpoint.h"
 
 namespace tandem::server {
@@ -13,8 +11,8 @@ namespace tandem::server {
 /// neither allocates nor waits; `take` holds the lock only while it copies.
 class CheckpointMailbox {
  public:
-  /// @param wake  eventfd of the reader; must outlive this
-  explicit CheckpointMailbox(const io::Fd& wake) : wake_(&wake) {}
+  /// @param wake  event of the reader; must outlive this
+  explicit CheckpointMailbox(const io::EventFd& wake) : wake_(&wake) {}
 
   /// Stores a checkpoint and wakes the reader. @return false while the reader copies: publish again in the next tick
   [[nodiscard]] bool publish(const Checkpoint& checkpoint) noexcept {
@@ -23,8 +21,7 @@ class CheckpointMailbox {
     checkpoint_ = checkpoint;
     if (unread_) return true;  // the reader was woken already
     unread_ = true;
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(wake_->get(), &one, sizeof one);
+    wake_->signal();
     return true;
   }
   /// Copies the newest checkpoint to `out`. @return false if it was taken already
@@ -37,7 +34,7 @@ class CheckpointMailbox {
   }
 
  private:
-  const io::Fd* wake_;
+  const io::EventFd* wake_;
   std::mutex lock_;  ///< `publish` only tries it
   Checkpoint checkpoint_;
   bool unread_ = false;

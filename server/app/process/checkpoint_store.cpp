@@ -1,7 +1,6 @@
 #include "server/app/process/checkpoint_store.h"
 
 #include <poll.h>
-#include <sys/eventfd.h>
 
 #include <array>
 #include <cctype>
@@ -26,10 +25,7 @@ constexpr const char* kAside = ".unfit";
 
 CheckpointStore::CheckpointStore(auth::StateDirectory folder, std::string prefix,
                                  std::function<void(const std::string&)> trouble)
-    : folder_(std::move(folder)),
-      prefix_(std::move(prefix)),
-      on_error_(std::move(trouble)),
-      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+    : folder_(std::move(folder)), prefix_(std::move(prefix)), on_error_(std::move(trouble)) {}
 
 CheckpointStore::~CheckpointStore() { stop(); }
 
@@ -91,7 +87,7 @@ void CheckpointStore::set_removed(const std::string& name, std::vector<std::arra
     for (const auto& page : entries_)
       if (page->snapshot.name == name && !page->over) page->removed_workstations = keys;
   }
-  wake();
+  wake_.signal();
 }
 
 void CheckpointStore::remove(const std::string& name) {
@@ -100,18 +96,13 @@ void CheckpointStore::remove(const std::string& name) {
     for (const auto& page : entries_)
       if (page->snapshot.name == name) page->over = true;
   }
-  wake();
-}
-
-void CheckpointStore::wake() const noexcept {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
+  wake_.signal();
 }
 
 void CheckpointStore::stop() {
   if (!thread_.joinable()) return;
   stopping_ = true;
-  wake();
+  wake_.signal();
   thread_.join();
 }
 
@@ -125,8 +116,7 @@ void CheckpointStore::run() {
   while (true) {
     pollfd wake{wake_.get(), POLLIN, 0};
     poll(&wake, 1, -1);
-    std::uint64_t count = 0;
-    [[maybe_unused]] const auto read = ::read(wake_.get(), &count, sizeof count);
+    wake_.clear();
     const bool last = stopping_;  // read before the round, so that the round writes what was published before `stop`
     std::vector<std::shared_ptr<Entry>> pages;
     {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/auth/io/state_directory.h"
+#include "common/io/event_fd.h"
 #include "server/app/process/checkpoint_mailbox.h"
 #include "server/session/session_snapshot.h"
 
@@ -56,7 +57,7 @@ class CheckpointStore {
 
  private:
   struct Entry {
-    explicit Entry(SessionSnapshot first, const io::Fd& wake)
+    explicit Entry(SessionSnapshot first, const io::EventFd& wake)
         : snapshot(std::move(first)), mailbox(std::make_shared<CheckpointMailbox>(wake)) {}
     SessionSnapshot snapshot;  ///< as last written
     std::shared_ptr<CheckpointMailbox> mailbox;
@@ -72,12 +73,11 @@ class CheckpointStore {
   void run();
   void service_entry(Entry& page);
   void write(Entry& page, const Checkpoint& checkpoint);
-  void wake() const noexcept;
 
   auth::StateDirectory folder_;
   std::string prefix_;
   std::function<void(const std::string&)> on_error_;
-  io::Fd wake_;
+  io::EventFd wake_;
   std::mutex lock_;  ///< guards `entries_`; not held during a write
   std::list<std::shared_ptr<Entry>> entries_;
   std::atomic<bool> stopping_{false};

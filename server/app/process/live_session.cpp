@@ -1,7 +1,5 @@
 #include "server/app/process/live_session.h"
 
-#include <sys/eventfd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,8 +45,7 @@ LiveSession::LiveSession(const SceneSpec& scene, LocalSlaves slaves, std::uint8_
       slot_(slot),
       session_(from == nullptr ? Session(scene, std::move(slaves.devices), slaves.scale)
                                : Session(scene, std::move(slaves.devices), slaves.scale, *from)),
-      records_(&records),
-      over_event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+      records_(&records) {
   draw_path_tokens();
 }
 
@@ -67,15 +64,12 @@ void LiveSession::persist_to(std::shared_ptr<CheckpointMailbox> mail, std::uint6
   checkpoint_interval_ = static_cast<std::uint64_t>(std::lround(kCheckpointInterval * scene_->tick_hz));
 }
 
-SessionStatus LiveSession::status() const {
-  const std::lock_guard lock{published_lock_};
-  return published_;
-}
+SessionStatus LiveSession::status() const { return published_.read(); }
 
 void LiveSession::tick(Time now, std::uint32_t missed, const MachineStatus& machine) noexcept {
   session_.set_load_state(machine.load_state);
   session_.on_tick(now, missed);
-  while (const auto event = session_.poll_audit()) {
+  while (const auto event = session_.audit().poll()) {
     audit_.push(*event);
     checkpoint_due_ = checkpoint_due_ || triggers_checkpoint(event->what);
   }
@@ -104,8 +98,7 @@ void LiveSession::finish(Time now, const MachineStatus& machine) noexcept {
   publish(now, machine);
   checkpoint_due_ = true;
   for (int tries = 0; mailbox_ && checkpoint_due_ && tries < kPublishAttempts; ++tries) publish_checkpoint();
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(over_event_.get(), &one, sizeof one);
+  over_event_.signal();
   over_.store(true, std::memory_order_release);  // last, because a reader may then destroy this session
 }
 
@@ -146,13 +139,13 @@ void LiveSession::update_seat_status(std::size_t i, Time now) noexcept {
 
 void LiveSession::publish(Time now, const MachineStatus& machine) noexcept {
   status_.state = session_.state();
-  status_.time = session_.time();
+  status_.time = session_.clock().time();
   status_.stop = session_.stop_latch();
-  status_.waiting = !session_.begun() || session_.recovering();
+  status_.waiting = !session_.begun() || session_.start_condition().recovering();
   status_.machine = machine;
   status_.unmatched_datagrams = session_.unmatched_datagrams();
   status_.violations = violations_.passed() ? 0 : 1;
-  status_.audit_dropped = session_.audit_dropped() + audit_.dropped();
+  status_.audit_dropped = session_.audit().dropped() + audit_.dropped();
   // Flags are updated for all seats at once, so that one status never mixes old and new.
   for (std::size_t i = 0; i < scene_->seats.size(); ++i) {
     SeatStatus& seat = status_.seats[i];
@@ -165,8 +158,7 @@ void LiveSession::publish(Time now, const MachineStatus& machine) noexcept {
     for (std::size_t j = 0; i < scene_->masters() && j < scene_->tools.size(); ++j)
       seat.authority_max = std::max(seat.authority_max, session_.tool(j).authority.requested()[i]);
   }
-  const std::unique_lock lock{published_lock_, std::try_to_lock};
-  if (lock) published_ = status_;
+  published_.publish(status_);
 }
 
 }  // namespace tandem::server

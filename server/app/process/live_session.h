@@ -7,7 +7,9 @@
 #include <optional>
 #include <span>
 
+#include "common/io/event_fd.h"
 #include "common/io/fd.h"
+#include "common/io/published.h"
 #include "common/io/spsc_queue.h"
 #include "server/app/monitor/session_status.h"
 #include "server/app/process/checkpoint_mailbox.h"
@@ -74,11 +76,10 @@ class LiveSession {
   AuditEventQueue audit_{1024};
   Violations violations_;
   std::atomic<bool> over_{false};
-  io::Fd over_event_;
+  io::EventFd over_event_;
   std::uint64_t ticks_ = 0, unrecorded_ = 0, skipped_records_ = 0;
   SessionStatus status_;
-  mutable std::mutex published_lock_;  ///< the shard only tries it
-  SessionStatus published_;
+  io::Published<SessionStatus> published_;
   std::shared_ptr<CheckpointMailbox> mailbox_;  ///< null: checkpoints are not stored
   std::uint64_t epoch_ = 1, checkpoint_interval_ = 0, since_checkpoint_ = 0;
   bool checkpoint_due_ = true, begun_ = false;

@@ -40,6 +40,6 @@ inline constexpr const char* kUnprotectedMetricsWarning =
 /// rejected, all hands are released and reports are written. A second signal, or 3 s, ends the process at once.
 /// Sessions are restored from the checkpoints of a server that failed, or that ended with `sessions_resume`.
 /// @return exit code
-[[nodiscard]] int run_server(const ServerOptions& plan);
+[[nodiscard]] int run_server(const ServerOptions& options);
 
 }  // namespace tandem::server

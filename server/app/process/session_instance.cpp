@@ -9,12 +9,12 @@
 #include "common/auth/base32.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
+#include "common/io/exit_code.h"
 #include "server/app/control/session_registry.h"
 
 namespace tandem::server {
 namespace {
 
-constexpr int kFailed = 1, kTrouble = 1, kWrong = 2;
 /// Two seconds of ticks at 1 kHz: the recorder may be delayed for so long before ticks are dropped and counted.
 constexpr std::size_t kQueueTicks = 2048;
 
@@ -74,7 +74,7 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
     const SessionOptions& plan, std::uint8_t slot, std::uint64_t epoch, bool with_code, const SessionSnapshot* kept) {
   const Time now = io::monotonic_now();
   auto slaves = make_local_slaves(plan.scene, now, kept != nullptr ? &kept->checkpoint : nullptr);
-  if (!slaves) return std::unexpected(OpenError{kWrong, slaves.error()});
+  if (!slaves) return std::unexpected(OpenError{io::kExitUsage, slaves.error()});
   std::unique_ptr<SessionInstance> run{new SessionInstance(plan, std::move(*slaves), slot, kept)};
   run->epoch_ = kept != nullptr ? kept->checkpoint.epoch + 1 : epoch;
   if (kept != nullptr) {
@@ -85,9 +85,9 @@ std::expected<std::unique_ptr<SessionInstance>, SessionInstance::OpenError> Sess
   // A restored session keeps its code, because participants have noted it.
   if (with_code) run->code_ = kept != nullptr && !kept->code.empty() ? kept->code : make_session_code();
   if (const auto problem = run->json_.open(plan.json, true); !problem.empty())
-    return std::unexpected(OpenError{kWrong, {"--json: " + problem}});
+    return std::unexpected(OpenError{io::kExitUsage, {"--json: " + problem}});
   if (const auto problem = run->trace_.open(plan.trace, false); !problem.empty())
-    return std::unexpected(OpenError{kWrong, {"--trace: " + problem}});
+    return std::unexpected(OpenError{io::kExitUsage, {"--trace: " + problem}});
   return run;
 }
 
@@ -124,11 +124,11 @@ SessionInstance::Verdict SessionInstance::finish() {
   for (io::OutputFile* file : {&json_, &trace_, &kept})
     if (const auto problem = file->close(); !problem.empty() && verdict.problem.empty()) verdict.problem = problem;
   if (!verdict.problem.empty()) {
-    verdict.code = kTrouble;
+    verdict.code = io::kExitTrouble;
   } else if (why == EndReason::kScene || why == EndReason::kAllLeft) {
-    verdict.code = report.passed ? 0 : kFailed;
+    verdict.code = report.passed ? 0 : io::kExitTrouble;
   } else {
-    verdict.code = why == EndReason::kSignal ? 0 : kTrouble;
+    verdict.code = why == EndReason::kSignal ? 0 : io::kExitTrouble;
   }
   return verdict;
 }

@@ -1,7 +1,6 @@
 #include "server/app/process/shard.h"
 
 #include <poll.h>
-#include <sys/eventfd.h>
 
 #include <algorithm>
 
@@ -24,21 +23,10 @@ constexpr Duration kReadingMax = 200us;  // limit of receiving per tick, so that
 constexpr std::size_t kRequestsMax = 256;
 constexpr std::uint64_t kLoadTicks = 1000;
 
-void signal_event(const io::Fd& event) noexcept {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
-}
-void clear_event(const io::Fd& event) noexcept {
-  std::uint64_t count = 0;
-  [[maybe_unused]] const auto read = ::read(event.get(), &count, sizeof count);
-}
-
 }  // namespace
 
 Shard::Shard(io::UdpSocket socket, double tick_hz)
     : socket_(std::move(socket)),
-      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      completions_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       period_(from_seconds(1.0 / tick_hz)),
       requests_(kRequestsMax),
       completed_(2 * kRequestsMax),
@@ -54,12 +42,12 @@ bool Shard::add_session(LiveSession& session) noexcept {
 void Shard::stop(wire::CloseReason why) noexcept {
   stop_reason_.store(why, std::memory_order_relaxed);
   stop_.store(true, std::memory_order_release);
-  signal_event(wake_);
+  wake_.signal();
 }
 
 bool Shard::post(ShardRequest& order) noexcept {
   if (!requests_.push(&order)) return false;
-  signal_event(wake_);
+  wake_.signal();
   return true;
 }
 
@@ -71,7 +59,7 @@ ShardRequest* Shard::next_completed() noexcept {
   return order;
 }
 
-void Shard::clear_completions() noexcept { clear_event(completions_); }
+void Shard::clear_completions() noexcept { completions_.clear(); }
 
 void Shard::run() noexcept {
   machine_.realtime = io::request_realtime(kPriority);
@@ -110,7 +98,7 @@ void Shard::run() noexcept {
     due += (missed + 1) * period_;
   }
   execute_requests(io::monotonic_now());  // reply to pending requests that the session is over
-  signal_event(completions_);
+  completions_.signal();
 }
 
 /// Waits until `due`, or until a request or `stop` arrives. Datagrams do not wake the thread: no session needs them
@@ -119,7 +107,7 @@ void Shard::wait_until(Time due) noexcept {
   pollfd wake{wake_.get(), POLLIN, 0};
   const timespec rest = io::to_timespec(due - io::monotonic_now());
   ppoll(&wake, 1, &rest, nullptr);
-  if (wake.revents != 0) clear_event(wake_);
+  if (wake.revents != 0) wake_.clear();
 }
 
 void Shard::receive() noexcept {
@@ -157,7 +145,7 @@ void Shard::execute_requests(Time now) noexcept {
     execute_requests(now, *order);
     any = completed_.push(order) || any;
   }
-  if (any) signal_event(completions_);
+  if (any) completions_.signal();
 }
 
 void Shard::execute_requests(Time now, ShardRequest& order) noexcept {
@@ -173,7 +161,7 @@ void Shard::execute_requests(Time now, ShardRequest& order) noexcept {
   if (place != hosted) return;
   switch (order.what) {
     case ShardRequest::What::kQuerySeat:
-      order.result = hosted->session().may_admit(now, order.seat, order.same_owner);
+      order.result = hosted->session().participants().may_admit(now, order.seat, order.same_owner);
       if (order.result == JoinResult::kAccepted) {
         const SeatEndpoint& seat = hosted->session().seat(order.seat);
         order.silence = seat.taken() ? seat.silence(now) : Duration::zero();
@@ -190,12 +178,18 @@ void Shard::execute_requests(Time now, ShardRequest& order) noexcept {
       order.outcome = tandem::server::execute_command(hosted->session(), now, order.command);
       order.result = JoinResult::kAccepted;
       break;
+    case ShardRequest::What::kRevokeSeat:
+      order.outcome.result = remove_client(hosted->session(), order.seat, order.cid, wire::CloseReason::kRevoked);
+      order.outcome.tick = hosted->session().clock().session_tick();
+      order.result = JoinResult::kAccepted;
+      break;
     case ShardRequest::What::kQueryLinkTest:
-      order.place = hosted->session().link_test_places_free(now);
+      order.place = hosted->session().link_test_peers().places_free(now);
       order.result = JoinResult::kAccepted;
       break;
     case ShardRequest::What::kRemoveLinkTest:
-      static_cast<void>(hosted->session().remove_link_test_peer(order.place, order.cid, wire::CloseReason::kRevoked));
+      static_cast<void>(
+          hosted->session().link_test_peers().remove(order.place, order.cid, wire::CloseReason::kRevoked));
       break;
     case ShardRequest::What::kEndSession:
       hosted->session().end(wire::CloseReason::kServerStops);
@@ -218,7 +212,7 @@ void Shard::tick(Time now, std::uint32_t missed) noexcept {
     ended = true;
   }
   flush();
-  if (ended) signal_event(completions_);
+  if (ended) completions_.signal();
 }
 
 void Shard::send(Time now, Session& session) noexcept {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "common/io/datagram_batch.h"
+#include "common/io/event_fd.h"
 #include "common/io/spsc_queue.h"
 #include "common/io/udp_socket.h"
 #include "server/app/process/live_session.h"
@@ -76,7 +77,7 @@ class Shard {
   void measure_core(Time now, Duration used) noexcept;
 
   io::UdpSocket socket_;
-  io::Fd wake_, completions_;
+  io::EventFd wake_, completions_;
   Duration period_;
   std::array<LiveSession*, kSessionsMax> sessions_{};
   std::atomic<bool> stop_{false};

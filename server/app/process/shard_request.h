@@ -20,22 +20,23 @@ struct ShardRequest {
     kAdmitLinkTest,   ///< admit `connection.link` as a link-test peer
     kEndSession,      ///< end the session: release all hands, then send CLOSE
     kCommand,         ///< execute `command` of a control connection; result in `outcome`
+    kRevokeSeat,      ///< remove the client `cid` from `seat`; result and tick in `outcome`
     kQueryLinkTest,   ///< number of free link-test slots, in `place`
     kRemoveLinkTest,  ///< remove the link-test peer `cid` in slot `place`
   };
   What what = What::kAdmit;
   LiveSession* session = nullptr;  ///< valid until it is over
   std::size_t seat = 0;
-  bool same_owner = false;    ///< the client is the seat's owner, who resumes
-  SeatConnection connection;  ///< out: previous contents of the seat, to be freed
-  Duration silence{};         ///< kQuerySeat, out: silence of the seat's client; 0 if the seat is free
-  bool ever_heard = false;    ///< kQuerySeat, out: the client was heard since it took the seat
+  bool same_owner = false;      ///< the client is the seat's owner, who resumes
+  SeatConnection connection{};  ///< out: previous contents of the seat, to be freed
+  Duration silence{};           ///< kQuerySeat, out: silence of the seat's client; 0 if the seat is free
+  bool ever_heard = false;      ///< kQuerySeat, out: the client was heard since it took the seat
   JoinResult result = JoinResult::kSessionOver;
   SessionCommand command{};
-  CommandOutcome outcome{};  ///< kCommand, out; invalid if `result` is kSessionOver
+  CommandOutcome outcome{};  ///< out; invalid if `result` is kSessionOver
   std::size_t place = 0;     ///< link-test slot, or number of free slots; kAdmitLinkTest, out: the peer's slot
   std::uint32_t cid = 0;
-  std::function<void(ShardRequest&)> done;  ///< called on the control plane's thread
+  std::function<void(ShardRequest&)> done = [](ShardRequest&) {};  ///< called on the control plane's thread
 };
 
 }  // namespace tandem::server

@@ -27,16 +27,16 @@ struct Told {
     seat.masters = {"trainer", "trainee", "second"};
     seat.own_master = 1;
     s.session = wire::SessionState::kRunning;
-    s.transfer = wire::TransferNotice::kGaining;
-    s.transfer_begins_s = 0.049;  // received one tick after it was sent
+    s.transfer.notice = wire::TransferNotice::kGaining;
+    s.transfer.begins_s = 0.049;  // received one tick after it was sent
     words->seats = {{"trainer", AccessRole::kInstructor, true, true, true},
                     {"trainee", AccessRole::kTrainee, true, true, true},
                     {"second", AccessRole::kTrainee, true, true, true}};
     words->tools = {{"tool", {1, 0, 0}}};
   }
   std::string operator()(wire::TransferParties parties, double own_before = 0) {
-    s.transfer_parties = parties;
-    s.transfer_from = own_before;
+    s.transfer.parties = parties;
+    s.transfer.from = own_before;
     return authority_transfer_text(s, seat, words);
   }
   SeatSetup seat;
@@ -68,7 +68,7 @@ TEST(AuthorityTransfer, ReportsGiverReceiverShareStartAndDuration) {
 
 TEST(AuthorityTransfer, ReportsAnotherSeatsPreviousShareOnlyWhereKnown) {
   Told said;
-  said.s.transfer = wire::TransferNotice::kLosing;
+  said.s.transfer.notice = wire::TransferNotice::kLosing;
   EXPECT_EQ(said({.by = 1, .to = 1, .percent = 100}, 0.75),
             "trainer takes the tool (25 % to 100 %): begins in 50 ms, takes about 0.8 s");
   EXPECT_EQ(said({.by = 1, .to = 1, .percent = 75}, 0.5),
@@ -98,23 +98,23 @@ TEST(AuthorityTransfer, ReportsAnotherSeatsPreviousShareOnlyWhereKnown) {
 
 TEST(AuthorityTransfer, LastsUntilTheAuthorityIsConstant) {
   Told said;
-  said.s.transfer_begins_s = 0;
+  said.s.transfer.begins_s = 0;
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
             "trainer gives the tool to trainee (0 % to 100 %): under way, takes about 1.0 s");
   EXPECT_EQ(authority_transfer_brief(said.s), "more authority under way");
-  said.s.transfer_begins_s = -0.7;
+  said.s.transfer.begins_s = -0.7;
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
             "trainer gives the tool to trainee (0 % to 100 %): under way, takes about 1.0 s");
-  said.s.transfer_done = true;
+  said.s.transfer.done = true;
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}), "trainer gives the tool to trainee (0 % to 100 %): done");
   EXPECT_EQ(authority_transfer_brief(said.s), "more authority: done");
   said.s.session = wire::SessionState::kStopped;
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
             "trainer gives the tool to trainee (to 100 %): when the session resumes");
   EXPECT_EQ(authority_transfer_brief(said.s), "more authority when the session resumes");
-  said.s.transfer = wire::TransferNotice::kCancelled;
+  said.s.transfer.notice = wire::TransferNotice::kCancelled;
   EXPECT_EQ(said({}), "transfer canceled: a seat that it concerns has left, or has a stale link");
-  said.s.transfer = wire::TransferNotice::kNone;
+  said.s.transfer.notice = wire::TransferNotice::kNone;
   EXPECT_EQ(said({}), "");
 }
 
@@ -123,21 +123,21 @@ TEST(AuthorityTransfer, ReportsConsecutiveStepsAsOneCompleteSum) {
   Told at;
   at.seat.own_master = 0;  // the trainer's own screen
   at.seat.seat.name = "trainer";
-  at.s.transfer = wire::TransferNotice::kLosing;
+  at.s.transfer.notice = wire::TransferNotice::kLosing;
   AuthorityTransferNotices notes;
   std::string told;
   double alpha = 1;
   for (int ms = 0; ms <= 4000; ms += 50) {
     const bool pressed = ms % 100 == 0 && ms < 1500;  // 15 steps
     if (pressed) {
-      ++at.s.transfers;
-      at.s.transfer_from = alpha;
+      ++at.s.transfer.count;
+      at.s.transfer.from = alpha;
       alpha -= 0.05;
-      at.s.transfer_parties = {.by = 1, .to = 2, .percent = static_cast<std::uint32_t>(std::lround(100 * (1 - alpha)))};
+      at.s.transfer.parties = {.by = 1, .to = 2, .percent = static_cast<std::uint32_t>(std::lround(100 * (1 - alpha)))};
     }
-    at.s.transfer_begins_s = pressed ? 0.05 : 0;
-    at.s.transfer_done = ms > 1600;
-    if (ms > 2600) at.s.transfer = wire::TransferNotice::kNone;
+    at.s.transfer.begins_s = pressed ? 0.05 : 0;
+    at.s.transfer.done = ms > 1600;
+    if (ms > 2600) at.s.transfer.notice = wire::TransferNotice::kNone;
     if (const std::string line = notes.message(1e-3 * ms, at.s, at.seat, at.words); !line.empty()) told += line + "\n";
   }
   EXPECT_EQ(told,
@@ -149,14 +149,14 @@ TEST(AuthorityTransfer, ReportsConsecutiveStepsAsOneCompleteSum) {
 TEST(AuthorityTransfer, ReportsTheLastStepAfterItsNoticeHasEnded) {
   Told at;
   AuthorityTransferNotices notes;
-  at.s.transfers = 1;
-  at.s.transfer_parties = {.by = 1, .to = 2, .percent = 10};
+  at.s.transfer.count = 1;
+  at.s.transfer.parties = {.by = 1, .to = 2, .percent = 10};
   EXPECT_NE(notes.message(0, at.s, at.seat, at.words), "");
-  at.s.transfers = 2;
-  at.s.transfer_from = 0.1;
-  at.s.transfer_parties.percent = 20;
+  at.s.transfer.count = 2;
+  at.s.transfer.from = 0.1;
+  at.s.transfer.parties.percent = 20;
   EXPECT_EQ(notes.message(0.1, at.s, at.seat, at.words), "");
-  at.s.transfer = wire::TransferNotice::kNone;
+  at.s.transfer.notice = wire::TransferNotice::kNone;
   EXPECT_EQ(notes.message(5, at.s, at.seat, at.words),
             "trainer gives more of the tool to trainee (10 % to 20 %): done");
   EXPECT_EQ(notes.message(9, at.s, at.seat, at.words), "");
@@ -181,19 +181,19 @@ TEST(AuthoritySteps, AddUpUntilAnotherSeatDecides) {
   steps.ask(0.45, s);
   s.authority_version = 12;
   EXPECT_EQ(steps.base(s), 0.45);
-  s.transfer = wire::TransferNotice::kCancelled;
+  s.transfer.notice = wire::TransferNotice::kCancelled;
   EXPECT_EQ(steps.base(s), 0.5) << "the weights stay";
 }
 
 TEST(ClientStatus, ExplainsWhyHotMotorsGiveNoForceAndWhatToDo) {
   ClientStatus s;
   EXPECT_EQ(motors_text(s), "");
-  s.motors_hot = true;
+  s.motors.hot = true;
   EXPECT_EQ(motors_text(s), "MOTORS TOO HOT: take your hand off until they are cool");
   EXPECT_NE(io::join_items(seat_screen(s, setup(), std::nullopt)).find(motors_text(s)), std::string::npos);
-  s.motors_latched = true;
+  s.motors.latched = true;
   EXPECT_NE(motors_text(s).find("press b"), std::string::npos);
-  s.motors_hot = false;
+  s.motors.hot = false;
   EXPECT_EQ(motors_text(s), "motors were too hot three times: press b");
 }
 
@@ -202,8 +202,8 @@ TEST(ClientReport, ReportsHotMotorsAndNothingWhereTemperatureIsUnknown) {
   auto motors = nlohmann::json::parse(to_json(r, setup()))["motors"];
   EXPECT_EQ(motors["too_hot"], 0);
   EXPECT_TRUE(motors["heat_max"].is_null());
-  r.last.hot_trips = 2;
-  r.last.heat_max = 1.25;
+  r.last.motors.hot_trips = 2;
+  r.last.motors.heat_max = 1.25;
   motors = nlohmann::json::parse(to_json(r, setup()))["motors"];
   EXPECT_EQ(motors["too_hot"], 2);
   EXPECT_EQ(motors["heat_max"], 1.25);

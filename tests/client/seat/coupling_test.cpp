@@ -29,23 +29,24 @@ SeatSetup leader() {
 
 /// A device with the client part of its control loop; the gate limits the wanted force to 3.3 N.
 struct Hand {
-  explicit Hand(const SeatSetup& s) : coupling(make_coupling(s)), told(1 + s.further.size()), ties(told.size()) {
-    for (std::size_t k = 0; k < ties.size(); ++k) {
+  explicit Hand(const SeatSetup& s)
+      : coupling(make_coupling(s)), received(1 + s.further.size()), tools(received.size()) {
+    for (std::size_t k = 0; k < tools.size(); ++k) {
       ends.push_back(setup::make_channel(s.channel, control::Side::kClient, s.dof, s.axis_scale, s.gate.force_max,
                                          s.coupling.k_c, true, std::nullopt));
-      ties[k] = {ends[k].get(), &told[k]};
+      tools[k] = {ends[k].get(), &received[k]};
     }
   }
-  void rest(const AxisArray& q) { coupling->reset({.age = 0.005, .q = q, .v = kStill, .ties = ties}, false); }
+  void rest(const AxisArray& q) { coupling->reset({.age = 0.005, .q = q, .v = kStill, .tools = tools}, false); }
   AxisArray tick(double x, double v, double authority, const PortSample& rx, double age) {
-    told[0].alpha = authority;
-    told[0].port = rx;
+    received[0].alpha = authority;
+    received[0].port = rx;
     return tick(x, v, age);
   }
-  /// Advances by one tick with the received values of each tie in `told`.
+  /// Advances by one tick with the received values of each tool in `received`.
   AxisArray tick(double x, double v, double age) {
     const AxisArray place{x}, speed{v};
-    AxisArray effort = coupling->step({.dt = kT, .age = age, .q = place, .v = speed, .ties = ties});
+    AxisArray effort = coupling->step({.dt = kT, .age = age, .q = place, .v = speed, .tools = tools});
     const double norm = std::hypot(effort[0], effort[1], effort[2]);
     for (double& f : effort) f *= norm > 3.3 ? 3.3 / norm : 1;
     coupling->set_delivered(effort);
@@ -53,13 +54,13 @@ struct Hand {
   }
   [[nodiscard]] PortSample tells(std::size_t k = 0) const {
     PortSample out;
-    coupling->fill_sample(k, {.q = kStill, .v = kStill, .ties = ties}, true, out);
+    coupling->fill_sample(k, {.q = kStill, .v = kStill, .tools = tools}, true, out);
     return out;
   }
   std::vector<std::unique_ptr<control::ChannelEnd>> ends;
   std::unique_ptr<Coupling> coupling;
-  std::vector<wire::ToolForce> told;
-  std::vector<Coupling::Tie> ties;
+  std::vector<wire::ToolForce> received;
+  std::vector<Coupling::Tool> tools;
 };
 
 /// Random values that a server can send about other participants, plausible or not.
@@ -77,7 +78,7 @@ PortSample said(RandomKey key, std::uint64_t number) {
 }
 
 struct Differences {
-  int felt = 0, told = 0;
+  int force = 0, sample = 0;
 };
 /// Runs two devices with the same motion and different received values, in free motion and in contact. Returns the
 /// number of ticks at which their forces, or their samples, differ in any bit.
@@ -99,8 +100,8 @@ Differences between_two_servers(double authority, std::uint64_t seed) {
     const double age = 0.005 + 0.25 * key.derive(1).uniform(i);
     const AxisArray a = one.tick(x, v, authority, quiet, 0.005), b = other.tick(x, v, authority, wild, age);
     const PortSample tells_a = one.tells(), tells_b = other.tells();
-    d.felt += a != b ? 1 : 0;
-    d.told +=
+    d.force += a != b ? 1 : 0;
+    d.sample +=
         tells_a.x != tells_b.x || tells_a.v != tells_b.v || tells_a.a != tells_b.a || tells_a.f != tells_b.f ? 1 : 0;
   }
   return d;
@@ -111,10 +112,10 @@ Differences between_two_servers(double authority, std::uint64_t seed) {
 TEST(CopyCoupling, IgnoresServerReferencesAtASeatThatLeadsAlone) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Differences d = between_two_servers(1, seed);
-    EXPECT_EQ(d.felt, 0) << seed;
-    EXPECT_EQ(d.told, 0) << seed;
+    EXPECT_EQ(d.force, 0) << seed;
+    EXPECT_EQ(d.sample, 0) << seed;
   }
-  EXPECT_GT(between_two_servers(0.9, 1).felt, 1000) << "else the comparison would see nothing";
+  EXPECT_GT(between_two_servers(0.9, 1).force, 1000) << "else the comparison would see nothing";
 }
 
 /// The seat above, which also follows a second tool, heavier and without a wall.
@@ -146,8 +147,8 @@ TEST(CopyCoupling, RendersTwoToolsInProportionToTheirShares) {
   start[0] = -0.002;
   hand.rest(start);
   alone.rest(start);
-  for (wire::ToolForce& told : hand.told) told.alpha = 1;
-  alone.told[0].alpha = 1;
+  for (wire::ToolForce& received : hand.received) received.alpha = 1;
+  alone.received[0].alpha = 1;
   AxisArray felt{}, full{};
   for (int i = 0; i < 6000; ++i) {
     const double x = std::min(-0.002 + 0.01 * kT * i, 0.005);
@@ -177,14 +178,14 @@ TEST(CopyCoupling, SimulatesCopiesOfSeveralToolsIndependently) {
                  v = 0.006 * w * std::sin(w * t);  // small enough that the gate clips neither tool alone
     if (i % 50 == 0)
       for (std::size_t k = 0; k < 2; ++k) {
-        PortSample& port = hand.told[k].port;
+        PortSample& port = hand.received[k].port;
         for (std::size_t a = 0; a < 3; ++a)
           port.x[a] = 0.004 * (key.derive(k).uniform(3 * i + a) - 0.5) + (a == 0 ? x : 0);
         for (std::size_t a = 0; a < 3; ++a) port.e_in[a] += 1'000'000;
-        hand.told[k].alpha = i < 2000 ? 0.6 : 0;
+        hand.received[k].alpha = i < 2000 ? 0.6 : 0;
       }
-    first.told[0] = hand.told[0];
-    second.told[0] = hand.told[1];
+    first.received[0] = hand.received[0];
+    second.received[0] = hand.received[1];
     const AxisArray felt = hand.tick(x, v, 0.03), one = first.tick(x, v, 0.03), other = second.tick(x, v, 0.03);
     for (std::size_t a = 0; a < 3; ++a) ASSERT_NEAR(felt[a], 0.3 * one[a] + 0.7 * other[a], 1e-12) << i;
     ASSERT_EQ(hand.tells(0).x, first.tells().x) << i;
@@ -208,9 +209,9 @@ TEST(CopyCoupling, PullsEachOfSeveralToolsNoHarderThanTheMotor) {
   for (int i = 0; i < 8000; ++i) {
     const double way = std::min(0.05, 0.02 * kT * i);
     for (std::size_t k = 0; k < 2; ++k) {
-      hand.told[k].port.x[0] = k == 0 ? way : -way;
+      hand.received[k].port.x[0] = k == 0 ? way : -way;
       for (std::size_t a = 0; a < 3; ++a)
-        hand.told[k].port.e_in[a] += 2'000'000;  // 2 mJ per tick: the ledger refuses nothing
+        hand.received[k].port.e_in[a] += 2'000'000;  // 2 mJ per tick: the ledger refuses nothing
     }
     sum = std::abs(hand.tick(0, 0, 0.005)[0]);
     felt = std::max(felt, std::abs(hand.tells(0).f[0]));

@@ -6,14 +6,15 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include <iterator>
+#include <sstream>
 #include <thread>
 
-#include "client/app/commands/doctor_command.h"
+#include "client/app/commands/client_commands.h"
 #include "client/app/hardware_device.h"
 #include "client/app/motor_registry_file.h"
 #include "common/io/clock.h"
+#include "common/io/command_line.h"
 #include "common/io/signals.h"
 #include "hal/backends/device_files.h"
 #include "proto/text/presets_embedded.h"
@@ -101,12 +102,13 @@ class ConfirmMotors : public testing::Test {
     rest();
     const Typed person(typed);
     const std::jthread hand([this](const std::stop_token& stop) { carry(stop); });
-    CLI::App app;
-    std::function<int()> action;
-    client::add_doctor_command(app, action);
-    app.parse("doctor --device " + words + " " + more + " --state '" + state + "'");
+    io::Program program("tandem-client", "", "");
+    client::add_doctor_command(program.root());
+    std::vector<std::string> typed_words{"doctor", "--device", words, "--state", state};
+    std::istringstream rest(more);
+    std::copy(std::istream_iterator<std::string>(rest), {}, std::back_inserter(typed_words));
     testing::internal::CaptureStdout();
-    const int code = action();
+    const int code = program.run(typed_words);
     said = testing::internal::GetCapturedStdout();
     return code;
   }

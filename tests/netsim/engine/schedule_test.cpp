@@ -289,8 +289,8 @@ TEST(ProxyChange, IsLikeAnEventAndTakesNoHeapOnThePacketPath) {
     DecisionLog log{50'000};
     core.log_to(&log);
     for (int i = 0; i < 2; ++i) EXPECT_TRUE(core.add_client());
-    const std::uint64_t numbers[] = {*core.number(0), *core.number(1)};
-    LinkChange change = core.prepare(after, numbers, true);
+    const std::uint64_t numbers[] = {*core.clients().number(0), *core.clients().number(1)};
+    LinkChange change = core.links().prepare_change(after, numbers, true);
     const auto bytes = datagram(1);
     const tandem::test::AllocGuard guard;
     for (int i = 0; i < 3'000; ++i) {
@@ -322,7 +322,7 @@ TEST(ProxyChange, AppliesToOneClientOrToAllPresentAndFutureOnes) {
     return *due - Time{at};
   };
   const std::uint64_t second[] = {1};
-  LinkChange one = core.prepare(link_from({.delay = 5ms}), second, false);
+  LinkChange one = core.links().prepare_change(link_from({.delay = 5ms}), second, false);
   core.change(Time{10ms}, one);
   EXPECT_EQ(delay(0, 10ms), 1ms);
   EXPECT_EQ(delay(1, 20ms), 5ms);
@@ -330,12 +330,13 @@ TEST(ProxyChange, AppliesToOneClientOrToAllPresentAndFutureOnes) {
   EXPECT_EQ(delay(2, 30ms), 1ms);
 
   const std::uint64_t known[] = {0, 1};
-  LinkChange all = core.prepare(link_from({.delay = 9ms}), known, true);  // the third joined since
+  LinkChange all = core.links().prepare_change(link_from({.delay = 9ms}), known, true);  // the third joined since
   core.change(Time{40ms}, all);
   for (const std::uint32_t client : {0U, 1U, 2U}) EXPECT_EQ(delay(client, 50ms + client * 20ms), 9ms) << client;
   ASSERT_EQ(core.add_client(), 3U);
   EXPECT_EQ(delay(3, 150ms), 9ms);
-  EXPECT_THROW(static_cast<void>(core.prepare(both({.floor = 61s}), known, true)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(core.links().prepare_change(both({.floor = 61s}), known, true)),
+               std::invalid_argument);
 }
 
 TEST(ProxyChange, ChangesTheAddressOfTheClientOnly) {
@@ -353,10 +354,10 @@ TEST(ProxyChange, ChangesTheAddressOfTheClientOnly) {
   EXPECT_EQ(through(0, Direction::kUp, 12ms, 7), 0);
   EXPECT_EQ(through(1, Direction::kUp, 12ms, 7), 1);
   EXPECT_EQ(core.address(Time{12ms}, 1), 1U);
-  EXPECT_FALSE(core.dead(Time{14ms}, 1, 0));
+  EXPECT_FALSE(core.clients().dead(Time{14ms}, 1, 0));
   EXPECT_EQ(through(1, Direction::kDown, 12ms, 0), 0);
   EXPECT_EQ(through(1, Direction::kDown, 13ms, 0), -1);
-  EXPECT_TRUE(core.dead(Time{15ms}, 1, 0));
+  EXPECT_TRUE(core.clients().dead(Time{15ms}, 1, 0));
   EXPECT_EQ(through(1, Direction::kDown, 13ms, 1), 1);
   EXPECT_TRUE(core.rebind(Time{20ms}, 0, {1ms}));
   EXPECT_FALSE(core.rebind(Time{20ms}, 9, {1ms}));

@@ -317,8 +317,8 @@ TEST(SharedLink, ChangesForAllItsClientsAtOnce) {
   for (const std::uint32_t client : {0U, 1U, 0U}) core.ingress(Time{}, client, Direction::kUp, datagram(1));
   PathSpec fast;
   fast.floor = 1ms;
-  EXPECT_THROW(static_cast<void>(core.prepare({fast, fast}, {}, false)), std::invalid_argument);
-  auto change = core.prepare({fast, fast}, {}, true);
+  EXPECT_THROW(static_cast<void>(core.links().prepare_change({fast, fast}, {}, false)), std::invalid_argument);
+  auto change = core.links().prepare_change({fast, fast}, {}, true);
   core.change(Time{500us}, change);
   core.ingress(Time{600us}, 1, Direction::kUp, datagram(1));
   std::vector<std::pair<std::uint32_t, Time>> out;

@@ -124,9 +124,9 @@ TEST(ProxyCore, AcceptsSixtyFourClientsAndReusesSlots) {
   for (std::uint32_t i = 0; i < ProxyCore::kClientsMax; ++i) ASSERT_EQ(core.add_client(), i);
   EXPECT_EQ(core.add_client(), std::nullopt);
   core.remove_client(5);
-  EXPECT_EQ(core.clients(), 63U);
+  EXPECT_EQ(core.clients().size(), 63U);
   EXPECT_EQ(core.add_client(), 5U);
-  EXPECT_EQ(core.clients_seen(), 65U);
+  EXPECT_EQ(core.clients().seen(), 65U);
 }
 
 // Two clients join, the second after a change. With prepared resources no memory is allocated, and decisions equal
@@ -139,13 +139,13 @@ TEST(ProxyCore, AddsAPreparedClientWithoutHeapOnTheSameLink) {
     const auto bytes = datagram(1);
     const auto run = [&](bool beforehand) {
       ProxyCore core{link, 9};
-      std::optional<ProxyCore::PreparedClient> first = core.prepare_client(link, 0, 0),
-                                               outdated = core.prepare_client(link, 0, 1),
-                                               second = core.prepare_client(other, 1, 1);
-      LinkChange change = core.prepare(other, {}, true);
+      std::optional<PreparedLink> first = core.links().prepare_client(link, 0, 0),
+                                  outdated = core.links().prepare_client(link, 0, 1),
+                                  second = core.links().prepare_client(other, 1, 1);
+      LinkChange change = core.links().prepare_change(other, {}, true);
       std::vector<std::pair<Time, std::uint64_t>> out;
       std::size_t taken = 0;
-      const auto join = [&](std::optional<ProxyCore::PreparedClient>& made) {
+      const auto join = [&](std::optional<PreparedLink>& made) {
         EXPECT_TRUE(core.fits(*made));
         const tandem::test::AllocGuard guard;
         EXPECT_TRUE(core.add_client(beforehand ? &*made : nullptr));
@@ -160,7 +160,7 @@ TEST(ProxyCore, AddsAPreparedClientWithoutHeapOnTheSameLink) {
           EXPECT_FALSE(core.fits(*outdated)) << "made for the network that was";
           join(second);
         }
-        for (std::uint32_t c = 0; c < core.clients(); ++c) core.ingress(now, c, Direction::kUp, bytes);
+        for (std::uint32_t c = 0; c < core.clients().size(); ++c) core.ingress(now, c, Direction::kUp, bytes);
         while (const auto e = core.take(now)) {
           out.emplace_back(e->item.at, e->item.index);
           core.done(*e);

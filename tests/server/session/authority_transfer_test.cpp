@@ -36,13 +36,10 @@ struct Lesson : SessionFixture {
   [[nodiscard]] double alpha(std::size_t i) const { return session->tool(0).authority.alpha(i); }
   [[nodiscard]] const wire::ForceMessage& told(std::size_t i) const { return seats[i].core->force(); }
 
-  Result order(const control::MasterArray& weights) {
-    SessionCommand c;
-    c.what = SessionCommand::What::kSetAuthority;
-    c.role = AccessRole::kInstructor;
-    c.authority = {.version = session->authority_version(), .tool = 0, .masters = 2, .alpha = weights};
-    return execute_command(*session, now, c).result;
+  [[nodiscard]] SessionCommand command(const control::MasterArray& weights) const {
+    return {rpc::SetAuthority{{}, 0, session->authority().version(), {weights[0], weights[1]}}, AccessRole::kInstructor};
   }
+  Result order(const control::MasterArray& weights) { return execute_command(*session, now, command(weights)).result; }
   void ticks(int n) { run(std::chrono::milliseconds(n)); }
   /// Runs ticks in which the server receives nothing from one seat.
   void ticks_without(std::size_t mute, int n) {
@@ -55,7 +52,7 @@ struct Lesson : SessionFixture {
     }
   }
   void drain() {
-    while (const auto e = session->poll_audit()) {
+    while (const auto e = session->audit().poll()) {
       ++audit[e->what];
       last = *e;
     }
@@ -70,9 +67,9 @@ struct Lesson : SessionFixture {
 
 TEST(AuthorityTransfer, BeginsFiftyTicksAfterTheDecisionAndNotifiesBothSeatsMeanwhile) {
   Lesson l;
-  const std::uint32_t version = l.session->authority_version(), tick = l.session->session_tick();
+  const std::uint32_t version = l.session->authority().version(), tick = l.session->clock().session_tick();
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
-  EXPECT_EQ(l.session->authority_version(), version + 1) << "the winner is settled now";
+  EXPECT_EQ(l.session->authority().version(), version + 1) << "the winner is settled now";
   EXPECT_EQ(l.decided(), kToTrainee);
   EXPECT_EQ(l.noted(What::kAuthority), 1);
   EXPECT_EQ(l.last.tick, tick);
@@ -86,11 +83,11 @@ TEST(AuthorityTransfer, BeginsFiftyTicksAfterTheDecisionAndNotifiesBothSeatsMean
     for (const std::size_t i : {kTrainer, kTrainee}) EXPECT_EQ(l.told(i).transfer_ticks, 50 - n);
   }
   l.ticks(1);
-  EXPECT_EQ(l.session->session_tick(), tick + 50);
+  EXPECT_EQ(l.session->clock().session_tick(), tick + 50);
   EXPECT_EQ(l.requested(), kToTrainee);
   EXPECT_NEAR(l.alpha(kTrainee), l.scene.alpha_slew * 1e-3, 1e-9) << "with the slew there is";
   for (const std::size_t i : {kTrainer, kTrainee}) EXPECT_EQ(l.told(i).transfer, kNone);
-  EXPECT_EQ(l.session->authority_version(), version + 1);
+  EXPECT_EQ(l.session->authority().version(), version + 1);
 }
 
 TEST(AuthorityTransfer, NamesTheDecidingRoleAndTheGainingSeat) {
@@ -102,13 +99,13 @@ TEST(AuthorityTransfer, NamesTheDecidingRoleAndTheGainingSeat) {
   EXPECT_EQ(both(), std::pair(by_operator, by_operator));
   l.ticks(1500);
   EXPECT_EQ(both(), std::pair(wire::TransferParties{}, wire::TransferParties{})) << "it was applied";
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.25, 0.75}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.25, 0.75}));
   l.ticks(5);
   const wire::TransferParties by_trainer{.by = kTrainer + 1, .to = kTrainer + 1, .percent = 25};
   EXPECT_EQ(both(), std::pair(by_trainer, by_trainer));
   l.ticks(1500);
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{1.0, 0.0}));
-  while (l.session->time() < 11.46) l.ticks(1);
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{1.0, 0.0}));
+  while (l.session->clock().time() < 11.46) l.ticks(1);
   const wire::TransferParties by_scene{.by = wire::TransferParties::kScene, .to = kTrainee + 1, .percent = 100};
   EXPECT_EQ(both(), std::pair(by_scene, by_scene)) << "the scene's own change at 11.5 s";
 }
@@ -117,14 +114,14 @@ TEST(AuthorityTransfer, NamesTheDecidingRoleAndTheGainingSeat) {
 /// is known.
 TEST(AuthorityTransfer, AppliesAllStepsThatASeatRequestsBeforeTheFirstReply) {
   Lesson l;
-  const std::uint32_t version = l.session->authority_version();
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.95, 0.05}));
+  const std::uint32_t version = l.session->authority().version();
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.95, 0.05}));
   for (const Bytes& d : l.client_tick(kTrainer)) l.session->on_datagram(l.now, address(l.seats[kTrainer].at), d);
-  ASSERT_EQ(l.session->authority_version(), version + 1);
+  ASSERT_EQ(l.session->authority().version(), version + 1);
   ASSERT_EQ(l.told(kTrainer).authority_version, version) << "not known to the seat yet";
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.9, 0.1}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.9, 0.1}));
   l.ticks(1500);
-  EXPECT_EQ(l.session->authority_version(), version + 2);
+  EXPECT_EQ(l.session->authority().version(), version + 2);
   EXPECT_NEAR(l.requested()[kTrainer], 0.9, 1e-12);
 }
 
@@ -132,10 +129,10 @@ TEST(AuthorityTransfer, AppliesAllStepsThatASeatRequestsBeforeTheFirstReply) {
 /// meanwhile.
 TEST(AuthorityTransfer, DropsARequestThatAnOperatorsDecisionOvertook) {
   Lesson l;
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.95, 0.05}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.95, 0.05}));
   const auto on_their_way = l.client_tick(kTrainer);
   ASSERT_EQ(l.order({0.5, 0.5}), Result::kDone);
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.9, 0.1}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.9, 0.1}));
   for (const Bytes& d : on_their_way) l.session->on_datagram(l.now, address(l.seats[kTrainer].at), d);
   l.ticks(1500);
   EXPECT_NEAR(l.requested()[kTrainer], 0.5, 1e-12);
@@ -148,9 +145,9 @@ TEST(AuthorityTransfer, IsRejectedWhileALinkOfAPartyIsOlderThan20Milliseconds) {
     young.ticks_without(mute, 19);  // plus the current millisecond
     EXPECT_EQ(young.order(kToTrainee), Result::kDone) << "20 ms";
     old.ticks_without(mute, 20);
-    const std::uint32_t version = old.session->authority_version();
+    const std::uint32_t version = old.session->authority().version();
     for (int n = 0; n < 50; ++n) EXPECT_EQ(old.order(kToTrainee), Result::kStaleLink) << "21 ms";
-    EXPECT_EQ(old.session->authority_version(), version);
+    EXPECT_EQ(old.session->authority().version(), version);
     EXPECT_EQ(old.decided(), kToTrainer);
     EXPECT_EQ(old.noted(What::kAuthorityRejected), 1) << "a client repeats what it asks for: once a second is enough";
     EXPECT_EQ(old.last.party, mute);
@@ -167,13 +164,13 @@ TEST(AuthorityTransfer, IsCancelledWhenTheGainingSeatIsSilentAtItsTick) {
   young.ticks_without(kTrainee, 20);
   EXPECT_EQ(young.requested(), kToTrainee) << "20 ms";
 
-  const std::uint32_t version = old.session->authority_version();
+  const std::uint32_t version = old.session->authority().version();
   ASSERT_EQ(old.order(kToTrainee), Result::kDone);
   old.ticks(29);
   old.ticks_without(kTrainee, 21);
   EXPECT_EQ(old.requested(), kToTrainer) << "21 ms";
   EXPECT_EQ(old.decided(), kToTrainer);
-  EXPECT_EQ(old.session->authority_version(), version + 2) << "the change of version + 1 is void";
+  EXPECT_EQ(old.session->authority().version(), version + 2) << "the change of version + 1 is void";
   EXPECT_EQ(old.noted(What::kAuthorityCancelled), 1);
   EXPECT_EQ(old.last.party, kTrainee);
   EXPECT_EQ(old.last.before, kToTrainee);
@@ -246,7 +243,7 @@ TEST(AuthorityTransfer, AppliesTheLaterOfTwoDecisionsOfOneTick) {
 
 TEST(AuthorityTransfer, IsAnnouncedDuringAStopAndActsAfterTheResume) {
   Lesson l;
-  ASSERT_TRUE(l.session->stop(l.now, AccessRole::kInstructor));
+  ASSERT_TRUE(l.session->stop_control().request(l.now, {AccessRole::kInstructor}));
   l.ticks(300);
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
   l.ticks(1);
@@ -255,7 +252,8 @@ TEST(AuthorityTransfer, IsAnnouncedDuringAStopAndActsAfterTheResume) {
   l.ticks(60);
   EXPECT_EQ(l.told(kTrainee).transfer, kNone);
   EXPECT_EQ(l.alpha(kTrainee), 0);
-  ASSERT_TRUE(l.session->resume(l.now, AccessRole::kInstructor, l.session->stops()));
+  ASSERT_EQ(l.session->resume(l.now, {AccessRole::kInstructor}, l.session->stop_latch().stops()),
+            StopLatch::Resume::kEnded);
   l.ticks(1000);
   EXPECT_EQ(l.alpha(kTrainee), 1);
 }
@@ -263,9 +261,9 @@ TEST(AuthorityTransfer, IsAnnouncedDuringAStopAndActsAfterTheResume) {
 TEST(AuthorityTransfer, WithdrawsTheNoticeOfATimelineChangeDuringAStop) {
   Lesson l;
   l.ticks(static_cast<int>(std::lround(l.scene.timeline[0].at * l.scene.tick_hz)) - 30 -
-          static_cast<int>(l.session->session_tick()));
+          static_cast<int>(l.session->clock().session_tick()));
   ASSERT_EQ(l.told(kTrainee).transfer, kGaining);
-  ASSERT_TRUE(l.session->stop(l.now, AccessRole::kInstructor));
+  ASSERT_TRUE(l.session->stop_control().request(l.now, {AccessRole::kInstructor}));
   l.ticks(2);
   EXPECT_EQ(l.told(kTrainee).transfer, kNone);
 }
@@ -274,14 +272,15 @@ TEST(AuthorityTransfer, MovesNoAuthorityDuringAStop) {
   Lesson l;
   ASSERT_EQ(l.order(kToTrainee), Result::kDone);
   l.ticks(10);
-  ASSERT_TRUE(l.session->stop(l.now, AccessRole::kInstructor));
+  ASSERT_TRUE(l.session->stop_control().request(l.now, {AccessRole::kInstructor}));
   l.ticks(1);
   EXPECT_TRUE(l.session->tool(0).authority.held()) << "a stop takes all weight at once";
   l.ticks(39);
   EXPECT_EQ(l.requested(), kToTrainee) << "on paper";
   EXPECT_EQ(l.alpha(kTrainee), 0);
   EXPECT_TRUE(l.session->tool(0).authority.held());
-  ASSERT_TRUE(l.session->resume(l.now, AccessRole::kInstructor, l.session->stops()));
+  ASSERT_EQ(l.session->resume(l.now, {AccessRole::kInstructor}, l.session->stop_latch().stops()),
+            StopLatch::Resume::kEnded);
   l.ticks(1000);
   EXPECT_EQ(l.alpha(kTrainee), 1) << "as it was decided before the stop";
 }
@@ -290,7 +289,7 @@ TEST(AuthorityTransfer, AnnouncesATimelineChangeAndBeginsItOnTime) {
   Lesson l;
   ASSERT_EQ(l.scene.timeline.size(), 1u);
   const auto at = static_cast<std::uint32_t>(std::lround(l.scene.timeline[0].at * l.scene.tick_hz));
-  l.ticks(static_cast<int>(at - 51 - l.session->session_tick()));
+  l.ticks(static_cast<int>(at - 51 - l.session->clock().session_tick()));
   EXPECT_EQ(l.decided(), kToTrainer);
   l.ticks(1);
   EXPECT_EQ(l.decided(), kToTrainee);
@@ -299,14 +298,14 @@ TEST(AuthorityTransfer, AnnouncesATimelineChangeAndBeginsItOnTime) {
   l.ticks(49);
   EXPECT_EQ(l.requested(), kToTrainer);
   l.ticks(1);
-  EXPECT_EQ(l.session->session_tick(), at);
+  EXPECT_EQ(l.session->clock().session_tick(), at);
   EXPECT_EQ(l.requested(), kToTrainee);
 }
 
 TEST(AuthorityTransfer, DefersATimelineChangeUntilTheGainingSeatResponds) {
   Lesson l;
   l.ticks(static_cast<int>(std::lround(l.scene.timeline[0].at * l.scene.tick_hz)) - 30 -
-          static_cast<int>(l.session->session_tick()));
+          static_cast<int>(l.session->clock().session_tick()));
   l.ticks_without(kTrainee, 230);
   EXPECT_EQ(l.requested(), kToTrainer);
   EXPECT_EQ(l.alpha(kTrainer), 1) << "the tool keeps a seat with authority";
@@ -330,7 +329,7 @@ TEST(AuthorityTransfer, IsStoredInTheCheckpointOnceDecided) {
 TEST(AuthorityTransfer, DropsARequestThatIsNotGrantedWithinASecond) {
   Lesson l;
   l.ticks_without(kTrainee, 300);
-  ASSERT_TRUE(l.seats[kTrainer].core->request_authority(0, std::array{0.0, 1.0}));
+  ASSERT_TRUE(l.seats[kTrainer].core->requests().change_authority(0, std::array{0.0, 1.0}));
   l.ticks_without(kTrainee, 1);
   EXPECT_EQ(l.told(kTrainer).transfer, kCancelled);
   l.ticks_without(kTrainee, 1100);
@@ -350,8 +349,9 @@ TEST(AuthorityTransfer, TakesNoHeap) {
       for (const Bytes& d : sent) l.session->on_datagram(l.now, address(l.seats[i].at), d);
       EXPECT_EQ(guard.count(), 0u);
     }
+    const SessionCommand command = l.command(n % 2 == 0 ? kToTrainee : kToTrainer);
     const tandem::test::AllocGuard guard;
-    if (n % 7 == 0) static_cast<void>(l.order(n % 2 == 0 ? kToTrainee : kToTrainer));
+    if (n % 7 == 0) static_cast<void>(execute_command(*l.session, l.now, command));
     l.session->on_tick(l.now, 0);
     while (l.session->poll_transmit(l.now, buffer)) {
     }

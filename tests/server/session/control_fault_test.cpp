@@ -52,7 +52,7 @@ struct Rig {
     for (int n = 0; n < ticks; ++n, now += 1ms) {
       session->on_tick(now, 0);
       for (const double x : session->tool(0).position()) ASSERT_TRUE(std::isfinite(x));
-      while (const auto e = session->poll_audit()) faults += e->what == AuditEvent::What::kFault ? 1 : 0;
+      while (const auto e = session->audit().poll()) faults += e->what == AuditEvent::What::kFault ? 1 : 0;
     }
   }
   void fall_sick_for(int ticks) {
@@ -90,7 +90,8 @@ TEST(ControlFault, StopsTheSessionAtTheSecondFaultWithinASecond) {
   EXPECT_EQ(rig.faults, 1);
   rig.live(3000);
   EXPECT_TRUE(rig.stopped()) << "latched";
-  EXPECT_TRUE(rig.session->resume(rig.now, AccessRole::kInstructor, rig.session->stops()));
+  EXPECT_EQ(rig.session->resume(rig.now, {AccessRole::kInstructor}, rig.session->stop_latch().stops()),
+            StopLatch::Resume::kEnded);
   rig.live(2);
   EXPECT_FALSE(rig.stopped());
   EXPECT_TRUE(rig.slave->finite());

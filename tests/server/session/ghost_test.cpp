@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "common/control/leading_hand.h"
 #include "server/report/trace_csv.h"
-#include "server/session/leading_hand.h"
+#include "server/session/leading_hands.h"
 #include "tests/server/session/session_fixture.h"
+#include "tests/server/session/session_parts.h"
 
 namespace tandem::server {
 namespace {
@@ -68,71 +69,53 @@ TEST(Ghost, IsRecordedUnderEveryLawAndSentUnderReplicaOnly) {
   EXPECT_EQ(rig.seats[kTrainee].core->force().ghost.leader, 0u);
 }
 
-PortSample sample(double x, double v) {
-  PortSample out;
-  out.x[0] = x;
-  out.v[0] = v;
-  return out;
-}
-
-TEST(LeadingHand, ExtrapolatesAFastHandByItsDelay) {
-  LeadingHand hand;
-  for (int i = 0; i < 2000; ++i) hand.step(true, sample(0.2 * i * 1e-3, 0.2), 3, 0.1);
-  const wire::Ghost ghost = hand.ghost(2, {0.4 + 0.01, 0, 0.3});
-  EXPECT_EQ(ghost.leader, 2u);
-  EXPECT_NEAR(ghost.x[0], 0.41 + 0.02, 0.0002) << "the tip, and 100 ms of 0.2 m/s";
-  EXPECT_EQ(ghost.x[2], 0.3f);
-  EXPECT_NEAR(ghost.v[0], 0.2, 1e-3);
-  EXPECT_LT(hand.steady_share(), 0.01) << "nothing of the prediction that is late";
-}
-
-/// A tremor of 0.42 mm at 2.3 Hz with its true velocity, 6 mm/s, after 200 ms.
-TEST(LeadingHand, DampsTheExtrapolationOfAHandHeldStill) {
-  LeadingHand hand;
-  double most = 0, bold = 0;
-  for (int i = 0; i < 6000; ++i) {
-    const double t = i * 1e-3, w = 2 * std::numbers::pi * 2.3, x = 0.42e-3 * std::sin(w * t),
-                 v = 0.42e-3 * w * std::cos(w * t);
-    hand.step(true, sample(x, v), 3, 0.2);
-    if (i < 3000) continue;
-    most = std::max(most, std::abs(hand.steady_x(0)));
-    bold = std::max(bold, std::abs(x + 0.2 * v));
-  }
-  EXPECT_GT(hand.steady_share(), 0.8);
-  EXPECT_GT(bold, 1.2e-3);
-  EXPECT_LT(most, 0.7e-3) << "about half";
-}
-
-TEST(LeadingHand, ReturnsTheReceivedPositionOfFreshData) {
-  LeadingHand hand;
-  for (int i = 0; i < 1000; ++i) hand.step(true, sample(0.01, 0), 3, 0.001);
-  EXPECT_LT(hand.steady_share(), 1e-3);
-  EXPECT_FLOAT_EQ(hand.ghost(1, {0.01, 0, 0}).x[0], 0.01f);
-}
-
-TEST(LeadingHand, RestartsAtThePositionOfANewHand) {
-  LeadingHand hand;
-  for (int i = 0; i < 1000; ++i) hand.step(true, sample(0.1, 0.5), 3, 0.1);
-  hand.step(false, sample(0.1, 0.5), 3, 0.1);
-  EXPECT_FALSE(hand.present());
-  hand.step(true, sample(-0.1, 0), 3, 0.1);
-  EXPECT_NEAR(hand.steady_x(0), -0.1, 1e-9);
-}
-
-TEST(LeadingHand, DoesNotExtrapolateAtAJointPort) {
-  LeadingHand hand;
-  for (int i = 0; i < 1000; ++i) hand.step(true, sample(0.1, 0.5), 0, 0.1);
-  const wire::Ghost ghost = hand.ghost(1, {0.01, 0.02, 0.03});
-  EXPECT_FLOAT_EQ(ghost.x[1], 0.02f);
-  EXPECT_EQ(ghost.v, (std::array<float, 3>{}));
-}
-
 TEST(LeadingHand, StaysWithinTheLimitsOfForceMessages) {
-  LeadingHand hand;
-  for (int i = 0; i < 1000; ++i) hand.step(true, sample(9.99, 100), 3, 10);
-  const wire::Ghost ghost = hand.ghost(1, {9.99, -9.99, 0});
-  EXPECT_LE(ghost.x[0], wire::kPositionMaxM);
-  EXPECT_LE(std::abs(ghost.v[0]), wire::kVelocityMax);
+  control::LeadingHand hand;
+  PortSample heard;
+  heard.x[0] = 9.99;
+  heard.v[0] = 100;
+  for (int i = 0; i < 1000; ++i) hand.step(true, heard, 3, 10);
+  EXPECT_LE(static_cast<float>(hand.shown_x(0, 9.99)), wire::kPositionMaxM);
+  EXPECT_LE(std::abs(static_cast<float>(hand.shown_v(0))), wire::kVelocityMax);
+}
+
+/// Authority of three masters over one tool, without clients.
+TEST(LeadingHands, NamesThePresentHandWithTheMostAuthority) {
+  for (const LawKind law : {LawKind::kReplica, LawKind::kSetPosition}) {
+    SessionParts parts("eight_seats");
+    parts.scene.channel.law = law;
+    LeadingHands hands(parts.scene, parts.clock.dt());
+    const auto leaders = [&](std::initializer_list<double> alpha, std::initializer_list<std::size_t> present) {
+      parts.present = {};
+      for (const std::size_t i : present) parts.present[i] = true;
+      control::MasterArray wanted{};
+      std::ranges::copy(alpha, wanted.begin());
+      EXPECT_TRUE(parts.tools[0].authority.request(wanted));
+      for (int n = 0; n < 10'000; ++n) parts.step_authority();
+      hands.step(0, parts.present, parts.seats, parts.tools);
+      return std::array{hands.ghost(0).leader, hands.ghost(1).leader, hands.ghost(2).leader};
+    };
+    using Leaders = std::array<std::uint32_t, 3>;
+    EXPECT_EQ(leaders({1, 0, 0}, {0, 1, 2}), (Leaders{0, 1, 1})) << "seat 0 leads; numbers count from 1";
+    EXPECT_EQ(leaders({0.2, 0.5, 0.3}, {0, 1, 2}), (Leaders{2, 0, 2}));
+    EXPECT_EQ(leaders({0, 0.5, 0.5}, {0, 1, 2}), (Leaders{2, 0, 0})) << "among equals the first; none leads an equal";
+    EXPECT_EQ(leaders({1, 0, 0}, {1, 2}), (Leaders{0, 0, 0})) << "an absent hand leads no seat";
+  }
+}
+
+TEST(LeadingHands, AreUpdatedEverySixteenthTickIfTheyAreOnlyRecorded) {
+  SessionParts parts("eight_seats");
+  parts.scene.channel.law = LawKind::kSetPosition;
+  LeadingHands hands(parts.scene, parts.clock.dt());
+  parts.present[0] = true;
+  ASSERT_TRUE(parts.tools[0].authority.request({1}));
+  for (int n = 0; n < 10'000; ++n) parts.step_authority();
+  for (std::uint32_t tick = 1; tick < 16; ++tick) {
+    hands.step(tick, parts.present, parts.seats, parts.tools);
+    ASSERT_EQ(hands.ghost(1).leader, 0u) << tick;
+  }
+  hands.step(16, parts.present, parts.seats, parts.tools);
+  EXPECT_EQ(hands.ghost(1).leader, 1u);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ struct Rig {
         ++forces;
       }
     }
-    while (const auto e = session->poll_audit()) ++audit[e->what];
+    while (const auto e = session->audit().poll()) ++audit[e->what];
     now += 1ms;
   }
   void live(Duration length) {
@@ -144,13 +144,13 @@ TEST(Hostile, ChangesNothingWithAnotherRolesMessagesAndIsAuditedOncePerSecond) {
     Rig rig{1, role};
     if (role != Role::kTrainee) rig.scene.authority[0].alpha = {1, 0};
     rig.live(300ms);
-    const std::uint32_t version = rig.session->authority_version();
+    const std::uint32_t version = rig.session->authority().version();
     wire::AuthorityMessage grab{.version = version, .tool = 0, .masters = 2, .alpha = {0.1, 0.9}};
     for (int n = 0; n < 500; ++n) {
       rig.send(wire::Type::kAuthority, grab);
       rig.live(4ms);
     }
-    EXPECT_EQ(rig.session->authority_version(), version);
+    EXPECT_EQ(rig.session->authority().version(), version);
     EXPECT_GE(rig.audit[AuditEvent::What::kForbidden], 2);
     EXPECT_LE(rig.audit[AuditEvent::What::kForbidden], 3);
     EXPECT_EQ(rig.refused(transport::DropReason::kRole), role == Role::kTrainee ? 0u : 500u)
@@ -163,11 +163,11 @@ TEST(Hostile, TakesNoAuthorityAsATraineeAndMayReturnItsOwn) {
   rig.state.engaged = false;  // the tool is braked now, so the absent instructor blocks no transfer
   rig.live(300ms);
   const auto ask = [&](double a, double b, std::uint32_t older = 0) {
-    const std::uint32_t version = rig.session->authority_version();
+    const std::uint32_t version = rig.session->authority().version();
     rig.send(wire::Type::kAuthority,
              wire::AuthorityMessage{.version = version - older, .tool = 0, .masters = 2, .alpha = {a, b}});
     rig.live(2ms);
-    return rig.session->authority_version() != version;
+    return rig.session->authority().version() != version;
   };
   EXPECT_FALSE(ask(0.3, 0.7)) << "takes";
   EXPECT_FALSE(ask(0.9, 0.1, 1)) << "of an older version";
@@ -235,25 +235,25 @@ TEST(StopLatch, TakesARisingEdgeOncePerSeatAndAResumeOfTheNewestStopOnly) {
   rig.live(200ms);
   rig.state.stop_all = true;
   rig.live(50ms);
-  EXPECT_EQ(rig.session->stops(), 1u) << "a level that lasts is one stop";
+  EXPECT_EQ(rig.session->stop_latch().stops(), 1u) << "a level that lasts is one stop";
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped);
   EXPECT_EQ(rig.force.stops, 1u);
   rig.state.stop_all = false;
   rig.live(5ms);
-  EXPECT_TRUE(rig.session->stop(rig.now, AccessRole::kOperator));
-  EXPECT_EQ(rig.session->stops(), 2u);
+  EXPECT_TRUE(rig.session->stop_control().request(rig.now, {AccessRole::kOperator}));
+  EXPECT_EQ(rig.session->stop_latch().stops(), 2u);
   rig.state.resume_stop = 1;
   rig.live(50ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "an old request never ends a newer stop";
-  EXPECT_TRUE(rig.session->resume(rig.now, AccessRole::kOperator, 1))
+  EXPECT_EQ(rig.session->resume(rig.now, {AccessRole::kOperator}, 1), StopLatch::Resume::kOutdated)
       << "the role may, but the named stop is not the newest";
   rig.live(5ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "nor does a request of a console";
   rig.state.resume_stop = 2;
   rig.live(5ms);
   EXPECT_NE(rig.force.session, wire::SessionState::kStopped);
-  EXPECT_FALSE(rig.session->stop(rig.now, AccessRole::kObserver));
-  EXPECT_FALSE(rig.session->stop(rig.now, AccessRole::kRecorder));
+  EXPECT_FALSE(rig.session->stop_control().request(rig.now, {AccessRole::kObserver}));
+  EXPECT_FALSE(rig.session->stop_control().request(rig.now, {AccessRole::kRecorder}));
   EXPECT_EQ(rig.audit[AuditEvent::What::kStop], 2);
   EXPECT_EQ(rig.audit[AuditEvent::What::kResume], 1);
 }
@@ -270,11 +270,12 @@ TEST(StopLatch, LetsAPausingRoleNeitherEndAPauseNorWeakenAStop) {
   EXPECT_EQ(rig.force.session, wire::SessionState::kPaused);
   EXPECT_EQ(rig.audit[AuditEvent::What::kForbidden], 1);
   rig.state.resume_stop = 0;
-  EXPECT_TRUE(rig.session->stop(rig.now, AccessRole::kInstructor));
+  EXPECT_TRUE(rig.session->stop_control().request(rig.now, {AccessRole::kInstructor}));
   rig.state.stop_all = true;
   rig.live(5ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped);
-  EXPECT_TRUE(rig.session->resume(rig.now, AccessRole::kOperator, rig.session->stops()));
+  EXPECT_EQ(rig.session->resume(rig.now, {AccessRole::kOperator}, rig.session->stop_latch().stops()),
+            StopLatch::Resume::kEnded);
   rig.live(5ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kPaused)
       << "the trainee still requests it: again, which is only a pause";

@@ -107,8 +107,8 @@ TEST(LoadState, KeepsTheSendRateOfSlowSessions) {
     AxisArray scale;
     scale.fill(1);
     Session session{scene, std::move(slaves), scale};
-    session.set_load_state({ShedLevel::kEvaluatorsEvery3rd, false});
-    EXPECT_EQ(session.send_interval(kEvaluator), most) << "six intervals fit into 20 ms at " << hz;
+    EXPECT_EQ(session.send_schedule().interval(kEvaluator, ShedLevel::kEvaluatorsEvery3rd), most)
+        << "six intervals fit into 20 ms at " << hz;
   }
 }
 

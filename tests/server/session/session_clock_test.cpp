@@ -23,8 +23,8 @@ struct Stoppable : SessionFixture {
     s.duration = 60;
   }
   void until(double t) {
-    for (int n = 0; session->time() < t && n < 20'000; ++n) step();
-    ASSERT_GE(session->time(), t);
+    for (int n = 0; session->clock().time() < t && n < 20'000; ++n) step();
+    ASSERT_GE(session->clock().time(), t);
   }
   void step() {
     tick([] {});
@@ -33,9 +33,12 @@ struct Stoppable : SessionFixture {
   void steps(int n) {
     for (int i = 0; i < n; ++i) step();
   }
-  void resume() { ASSERT_TRUE(session->resume(now, AccessRole::kInstructor, session->stops())); }
+  void resume() {
+    ASSERT_EQ(session->resume(now, {AccessRole::kInstructor}, session->stop_latch().stops()),
+              StopLatch::Resume::kEnded);
+  }
   [[nodiscard]] bool to_trainee() const { return session->tool(0).authority.requested()[kTrainee] == 1; }
-  [[nodiscard]] double time_of(std::size_t i) const { return seats[i].core->server_time(now).value_or(-1); }
+  [[nodiscard]] double time_of(std::size_t i) const { return seats[i].core->clock().server_time(now).value_or(-1); }
   [[nodiscard]] RunReport report() const { return builder.build(std::vector<LinkReport>(scene.seats.size())); }
 
   ReportBuilder builder{scene};
@@ -46,38 +49,39 @@ TEST(SessionClock, StopsWithItsTimelineWhileTheSessionIsStopped) {
     SCOPED_TRACE(paused ? "paused" : "stopped");
     Stoppable s;
     s.until(2.5);
-    ASSERT_TRUE(paused ? s.session->pause(s.now, AccessRole::kInstructor)
-                       : s.session->stop(s.now, AccessRole::kInstructor));
+    ASSERT_TRUE(paused ? s.session->stop_control().request(s.now, {AccessRole::kInstructor}, StopLatch::Level::kPaused)
+                       : s.session->stop_control().request(s.now, {AccessRole::kInstructor}));
     s.step();
-    const std::uint32_t stood_at = s.session->session_tick();
+    const std::uint32_t stood_at = s.session->clock().session_tick();
     s.steps(2000);  // past 3 s, where the timeline moves the authority
-    EXPECT_EQ(s.session->session_tick(), stood_at);
+    EXPECT_EQ(s.session->clock().session_tick(), stood_at);
     EXPECT_TRUE(s.session->clock_stopped());
     EXPECT_FALSE(s.to_trainee());
     EXPECT_EQ(s.session->checkpoint().session_tick, stood_at);
     for (const std::size_t i : {kTrainer, kTrainee}) {
       EXPECT_DOUBLE_EQ(s.time_of(i), stood_at * 1e-3) << "clients show the same time";
-      EXPECT_DOUBLE_EQ(*s.seats[i].core->session_time(s.now), stood_at * 1e-3);
+      EXPECT_DOUBLE_EQ(*s.seats[i].core->clock().session_time(s.now), stood_at * 1e-3);
     }
     s.resume();
     s.until(2.9);
     EXPECT_FALSE(s.to_trainee());
-    EXPECT_NEAR(s.time_of(kTrainee), s.session->time(), 0.0021) << "the clients' clocks go on with the server's";
+    EXPECT_NEAR(s.time_of(kTrainee), s.session->clock().time(), 0.0021)
+        << "the clients' clocks go on with the server's";
     s.until(3.01);
     EXPECT_TRUE(s.to_trainee()) << "at its time on the session clock";
-    EXPECT_NEAR(static_cast<double>(s.session->stopped_ticks()), 2001, 2);
+    EXPECT_NEAR(static_cast<double>(s.session->clock().stopped_ticks()), 2001, 2);
   }
 }
 
 TEST(SessionClock, ContinuesDuringAStopIfTheSceneRequestsIt) {
   Stoppable s{true};
   s.until(2.5);
-  ASSERT_TRUE(s.session->stop(s.now, AccessRole::kInstructor));
+  ASSERT_TRUE(s.session->stop_control().request(s.now, {AccessRole::kInstructor}));
   s.steps(2000);
-  EXPECT_NEAR(s.session->time(), 4.5, 0.002);
+  EXPECT_NEAR(s.session->clock().time(), 4.5, 0.002);
   EXPECT_TRUE(s.to_trainee());
-  EXPECT_NEAR(s.time_of(kTrainer), s.session->time(), 0.0021);
-  EXPECT_EQ(s.session->stopped_ticks(), 0u);
+  EXPECT_NEAR(s.time_of(kTrainer), s.session->clock().time(), 0.0021);
+  EXPECT_EQ(s.session->clock().stopped_ticks(), 0u);
 }
 
 TEST(SessionClock, DefersAnAnnouncedTimelineChangeButNoParticipantsRequest) {
@@ -85,13 +89,14 @@ TEST(SessionClock, DefersAnAnnouncedTimelineChangeButNoParticipantsRequest) {
   s.until(2.97);  // 30 ms before the scene's change, which is announced now
   ASSERT_EQ(s.session->tool(0).transfer.latest_by(), AuditEvent::kTimeline);
   const std::uint32_t left = s.session->tool(0).transfer.ticks_left();
-  ASSERT_TRUE(s.session->stop(s.now, AccessRole::kInstructor));
+  ASSERT_TRUE(s.session->stop_control().request(s.now, {AccessRole::kInstructor}));
   s.steps(500);
   EXPECT_EQ(s.session->tool(0).transfer.ticks_left(), left);
   EXPECT_FALSE(s.to_trainee());
-  wire::AuthorityMessage wish{.version = s.session->authority_version(), .tool = 0, .masters = 2, .alpha = {0.5, 0.5}};
-  ASSERT_EQ(s.session->set_authority(s.now, AccessRole::kInstructor, kTrainer, 0, wish),
-            Session::AuthorityResult::kScheduled);
+  wire::AuthorityMessage wish{
+      .version = s.session->authority().version(), .tool = 0, .masters = 2, .alpha = {0.5, 0.5}};
+  ASSERT_EQ(s.session->authority().request(s.now, {AccessRole::kInstructor, kTrainer, 0}, wish),
+            AuthorityControl::Result::kScheduled);
   s.steps(51);
   EXPECT_EQ(s.session->tool(0).authority.requested()[kTrainee], 0.5) << "the newest decision is the last to act";
 }
@@ -109,10 +114,10 @@ TEST(SessionClock, StopsDuringTheCloseOutSoThatARestartSkipsNothing) {
     Stoppable s;
     s.until(2.9);
     if (stopped) {
-      ASSERT_TRUE(s.session->stop(s.now, AccessRole::kInstructor));
+      ASSERT_TRUE(s.session->stop_control().request(s.now, {AccessRole::kInstructor}));
       s.steps(100);
     }
-    const std::uint32_t ended_at = s.session->session_tick();
+    const std::uint32_t ended_at = s.session->clock().session_tick();
     s.session->end(wire::CloseReason::kServerReturns);
     for (int n = 0; n < 1000 && !s.session->over(); ++n) s.step();
     ASSERT_TRUE(s.session->over());
@@ -120,9 +125,12 @@ TEST(SessionClock, StopsDuringTheCloseOutSoThatARestartSkipsNothing) {
     EXPECT_EQ(last.session_tick, ended_at);
 
     Session next = restored(s.scene, last);
-    ASSERT_TRUE(next.resume(s.now, AccessRole::kInstructor, next.stops())) << "resumes without participants";
-    ASSERT_TRUE(!stopped || next.resume(s.now, AccessRole::kInstructor, next.stops()))
-        << "it was stopped, and still is";
+    ASSERT_EQ(next.resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()), StopLatch::Resume::kEnded)
+        << "resumes without participants";
+    if (stopped) {
+      ASSERT_EQ(next.resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()), StopLatch::Resume::kEnded)
+          << "it was stopped, and still is";
+    }
     for (int n = 0; n < 200; ++n, s.now += 1ms) next.on_tick(s.now, 0);
     EXPECT_EQ(next.tool(0).transfer.scheduled()[kTrainee], 1) << "the scene's change at 3 s was still to come";
   }
@@ -137,13 +145,15 @@ TEST(SessionClock, DoesNotRunInReportsBeforeARestoredSessionResumes) {
     return next.record().running;
   };
   EXPECT_FALSE(runs()) << "it waits for the required seats";
-  ASSERT_TRUE(next.stop(s.now, AccessRole::kInstructor));
+  ASSERT_TRUE(next.stop_control().request(s.now, {AccessRole::kInstructor}));
   EXPECT_FALSE(runs()) << "it waits for the required seats, and is stopped";
-  ASSERT_TRUE(next.recovering());
-  ASSERT_TRUE(next.resume(s.now, AccessRole::kInstructor, next.stops()));  // ends the stop
-  ASSERT_TRUE(next.resume(s.now, AccessRole::kInstructor, next.stops()));  // ends the recovery
+  ASSERT_TRUE(next.start_condition().recovering());
+  ASSERT_EQ(next.resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
+            StopLatch::Resume::kEnded);  // ends the stop
+  ASSERT_EQ(next.resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
+            StopLatch::Resume::kEnded);  // ends the recovery
   EXPECT_TRUE(runs());
-  ASSERT_FALSE(next.recovering());
+  ASSERT_FALSE(next.start_condition().recovering());
 }
 
 TEST(SessionClock, AgreesWithAClientThatMissedAStop) {
@@ -155,17 +165,17 @@ TEST(SessionClock, AgreesWithAClientThatMissedAStop) {
     static_cast<void>(s.server_tick());  // its datagrams are not delivered to the clients
     s.now += 1ms;
   };
-  ASSERT_TRUE(s.session->stop(s.now, AccessRole::kInstructor));
+  ASSERT_TRUE(s.session->stop_control().request(s.now, {AccessRole::kInstructor}));
   for (int n = 0; n < 300; ++n) server_only();
   s.resume();
   s.until(2.5);
-  EXPECT_NEAR(s.time_of(kTrainer), s.session->time(), 0.0021) << "although no FORCE contained STOPPED";
+  EXPECT_NEAR(s.time_of(kTrainer), s.session->clock().time(), 0.0021) << "although no FORCE contained STOPPED";
 }
 
 TEST(SessionClock, ExcludesStopsFromDurationsAndSpeedsOfAReport) {
   Stoppable s;
   s.until(2.5);
-  ASSERT_TRUE(s.session->stop(s.now, AccessRole::kInstructor));
+  ASSERT_TRUE(s.session->stop_control().request(s.now, {AccessRole::kInstructor}));
   s.steps(2000);
   s.resume();
   s.until(5);
@@ -175,6 +185,56 @@ TEST(SessionClock, ExcludesStopsFromDurationsAndSpeedsOfAReport) {
   EXPECT_LT(r.judged_s, r.duration_s - 1.9) << "a second after the beginning and one after the stop are not judged";
   EXPECT_GT(r.judged_s, 1.5);
   EXPECT_LT(r.seats[kTrainer].metrics.speed_peak_m_s, 0.6) << "while the clock is stopped a difference is no speed";
+}
+
+// ---- The clock alone ----
+
+TEST(SessionTicks, FollowTheTimeAndDropMissedTicksAboveFifty) {
+  SessionClock clock(500);
+  EXPECT_EQ(clock.tick_length(), 2ms);
+  const Time start{1h};
+  EXPECT_EQ(clock.begin_tick(start, 0), 0u);
+  EXPECT_EQ(clock.tick(), 0u);
+  EXPECT_EQ(clock.begin_tick(start + 100ms, 49), 49u);
+  EXPECT_EQ(clock.tick(), 50u);
+  EXPECT_EQ(clock.dropped_ticks(), 0u);
+  EXPECT_EQ(clock.begin_tick(start + 300ms, 99), 50u);
+  EXPECT_EQ(clock.tick(), 150u);
+  EXPECT_EQ(clock.dropped_ticks(), 49u);
+  EXPECT_EQ(clock.last_tick(), start + 300ms);
+  EXPECT_EQ(clock.session_tick(), 0u) << "the session has not begun";
+}
+
+TEST(SessionTicks, CountRunningAndStoppedTicksApart) {
+  SessionClock clock(500);
+  clock.restore(100);
+  EXPECT_FALSE(clock.begun());
+  EXPECT_EQ(clock.time(), 0.2);
+  clock.resume();
+  for (const bool stopped : {false, true, true, false, false}) clock.advance(stopped);
+  EXPECT_TRUE(clock.begun());
+  EXPECT_EQ(clock.session_tick(), 103u);
+  EXPECT_EQ(clock.stopped_ticks(), 2u);
+  clock.begin();
+  EXPECT_EQ(clock.session_tick(), 0u);
+}
+
+TEST(AuditTrail, StampsEventsWithTheSessionsTick) {
+  SessionClock clock(1000);
+  AuditTrail audit(clock);
+  clock.restore(41);
+  clock.resume();
+  clock.advance(false);
+  audit.emit(Time{3s}, AuditEvent::What::kStop, 2, 9);
+  const auto event = audit.poll();
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->tick, 42u);
+  EXPECT_EQ(event->at, Time{3s});
+  EXPECT_EQ(event->seat, 2);
+  EXPECT_EQ(event->version, 9u);
+  EXPECT_FALSE(audit.poll());
+  for (std::size_t n = 0; n < AuditQueue::kCapacity + 3; ++n) audit.emit(Time{}, AuditEvent::What::kLoss, 0);
+  EXPECT_EQ(audit.dropped(), 3u);
 }
 
 }  // namespace

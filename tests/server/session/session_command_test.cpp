@@ -14,42 +14,36 @@ namespace {
 
 using namespace test;
 using Result = CommandOutcome::Result;
-using What = SessionCommand::What;
 
 constexpr std::size_t kTrainer = 0, kTrainee = 1;
 
-CommandOutcome order(SessionFixture& rig, What what, AccessRole who, std::uint32_t number = 0) {
-  SessionCommand c;
-  c.what = what;
-  c.role = who;
-  c.number = number;
-  return execute_command(*rig.session, rig.now, c);
+CommandOutcome execute(SessionFixture& rig, const SessionCommand& command) {
+  return execute_command(*rig.session, rig.now, command);
+}
+CommandOutcome execute(SessionFixture& rig, rpc::Body body, AccessRole role) {
+  return execute(rig, SessionCommand{std::move(body), role});
+}
+CommandOutcome stop(SessionFixture& rig, AccessRole role) { return execute(rig, rpc::StopSession{}, role); }
+CommandOutcome pause(SessionFixture& rig, AccessRole role) { return execute(rig, rpc::PauseSession{}, role); }
+CommandOutcome resume(SessionFixture& rig, AccessRole role, std::uint32_t number) {
+  return execute(rig, rpc::ResumeSession{{}, number}, role);
+}
+CommandOutcome status(SessionFixture& rig) { return execute(rig, rpc::StatusRequest{}, AccessRole::kRecorder); }
+
+SessionCommand weights(AccessRole role, std::uint32_t version, std::vector<double> alpha, std::uint32_t tool = 0) {
+  return {rpc::SetAuthority{{}, tool, version, std::move(alpha)}, role};
 }
 
-SessionCommand weights(AccessRole who, std::uint32_t version, std::initializer_list<double> alpha,
-                       std::uint32_t tool = 0) {
-  SessionCommand c;
-  c.what = What::kSetAuthority;
-  c.role = who;
-  c.authority.version = version;
-  c.authority.tool = tool;
-  c.authority.masters = static_cast<std::uint32_t>(alpha.size());
-  std::copy(alpha.begin(), alpha.end(), c.authority.alpha.begin());
-  return c;
-}
-
-SessionCommand removing(std::size_t seat, wire::CloseReason why = wire::CloseReason::kRemoved) {
-  SessionCommand c;
-  c.what = What::kRemove;
-  c.role = AccessRole::kInstructor;
-  c.target_seat = static_cast<std::uint8_t>(seat);
-  c.close_reason = why;
-  return c;
+/// Removes the client of a seat: by an instructor's command, or because its workstation was revoked.
+Result remove(SessionFixture& rig, std::size_t seat, wire::CloseReason why = wire::CloseReason::kRemoved) {
+  if (why == wire::CloseReason::kRevoked) return remove_client(*rig.session, seat, 0, why);
+  return execute(rig, rpc::RemoveParticipant{{}, rig.session->scene().seats[seat].name, ""}, AccessRole::kInstructor)
+      .result;
 }
 
 std::vector<AuditEvent> events(Session& session) {
   std::vector<AuditEvent> out;
-  while (const auto e = session.poll_audit()) out.push_back(*e);
+  while (const auto e = session.audit().poll()) out.push_back(*e);
   return out;
 }
 
@@ -57,20 +51,20 @@ TEST(Commands, LatchAStopAndEndOnlyTheNewest) {
   SessionFixture rig("free_motion");
   rig.run(2s);
   ASSERT_TRUE(rig.seats[kTrainer].core->gate().active());
-  EXPECT_EQ(order(rig, What::kResume, AccessRole::kOperator, 0).result, Result::kNothingToDo) << "nothing is stopped";
-  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).stops, 1U);
+  EXPECT_EQ(resume(rig, AccessRole::kOperator, 0).result, Result::kNothingToDo) << "nothing is stopped";
+  EXPECT_EQ(stop(rig, AccessRole::kOperator).stops, 1U);
   rig.run(200ms);
   for (const FixtureSeat& s : rig.seats) EXPECT_FALSE(s.core->gate().active());
   EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
-  EXPECT_EQ(order(rig, What::kStop, AccessRole::kInstructor).stops, 2U);
-  const CommandOutcome old = order(rig, What::kResume, AccessRole::kOperator, 1);
+  EXPECT_EQ(stop(rig, AccessRole::kInstructor).stops, 2U);
+  const CommandOutcome old = resume(rig, AccessRole::kOperator, 1);
   EXPECT_EQ(old.result, Result::kOutdated);
   EXPECT_EQ(old.stop_latch.level(), StopLatch::Level::kStopped);
-  EXPECT_EQ(order(rig, What::kResume, AccessRole::kRecorder, 2).result, Result::kForbidden)
+  EXPECT_EQ(resume(rig, AccessRole::kRecorder, 2).result, Result::kForbidden)
       << "the session looks at the role once more";
   rig.run(100ms);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
-  EXPECT_EQ(order(rig, What::kResume, AccessRole::kOperator, 2).result, Result::kDone);
+  EXPECT_EQ(resume(rig, AccessRole::kOperator, 2).result, Result::kDone);
   rig.run(1s);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kRunning);
   EXPECT_TRUE(rig.seats[kTrainer].core->gate().active());
@@ -82,22 +76,22 @@ TEST(Commands, ReturnTheNewStateBeforeTheNextTick) {
   running.run(2s);
   for (SessionFixture* rig : {&waiting, &running}) {
     const wire::SessionState before = rig->session->state();
-    EXPECT_EQ(order(*rig, What::kPause, AccessRole::kTrainee).state, wire::SessionState::kPaused);
-    EXPECT_EQ(order(*rig, What::kStop, AccessRole::kOperator).state, wire::SessionState::kStopped);
-    EXPECT_EQ(order(*rig, What::kResume, AccessRole::kOperator, 2).state, before);
+    EXPECT_EQ(pause(*rig, AccessRole::kTrainee).state, wire::SessionState::kPaused);
+    EXPECT_EQ(stop(*rig, AccessRole::kOperator).state, wire::SessionState::kStopped);
+    EXPECT_EQ(resume(*rig, AccessRole::kOperator, 2).state, before);
   }
   running.session->end(wire::CloseReason::kDone);
-  EXPECT_EQ(order(running, What::kStop, AccessRole::kOperator).state, wire::SessionState::kEnding);
+  EXPECT_EQ(stop(running, AccessRole::kOperator).state, wire::SessionState::kEnding);
 }
 
 TEST(Commands, PauseForEveryPermittedRoleWithoutWeakeningAStop) {
   SessionFixture rig;
   rig.run(1s);
-  EXPECT_EQ(order(rig, What::kPause, AccessRole::kInstructor).stop_latch.level(), StopLatch::Level::kPaused);
-  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).stop_latch.level(), StopLatch::Level::kStopped);
-  EXPECT_EQ(order(rig, What::kPause, AccessRole::kTrainee).stop_latch.level(), StopLatch::Level::kStopped);
-  EXPECT_EQ(order(rig, What::kPause, AccessRole::kObserver).result, Result::kForbidden);
-  EXPECT_EQ(rig.session->stops(), 3U);
+  EXPECT_EQ(pause(rig, AccessRole::kInstructor).stop_latch.level(), StopLatch::Level::kPaused);
+  EXPECT_EQ(stop(rig, AccessRole::kOperator).stop_latch.level(), StopLatch::Level::kStopped);
+  EXPECT_EQ(pause(rig, AccessRole::kTrainee).stop_latch.level(), StopLatch::Level::kStopped);
+  EXPECT_EQ(pause(rig, AccessRole::kObserver).result, Result::kForbidden);
+  EXPECT_EQ(rig.session->stop_latch().stops(), 3U);
 }
 
 // With real clients: the trainee pauses from its seat. An evaluator cannot end the pause, the trainee can.
@@ -105,25 +99,25 @@ TEST(Commands, LetOnlyThePausingSeatEndItsPauseWithoutAnInstructor) {
   SessionFixture rig("eight_seats");
   rig.run(2s);
   ASSERT_TRUE(rig.seats[0].core->gate().active());
-  ASSERT_TRUE(rig.seats[0].core->request_stop_all());
+  ASSERT_TRUE(rig.seats[0].core->requests().stop_all());
   rig.run(300ms);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused);
   for (const FixtureSeat& s : rig.seats) EXPECT_FALSE(s.core->gate().active());
-  rig.seats[1].core->request_resume();
+  rig.seats[1].core->requests().resume();
   rig.run(300ms);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kPaused) << "a pause of another participant";
-  const CommandOutcome look = order(rig, What::kQueryStatus, AccessRole::kRecorder);
+  const CommandOutcome look = status(rig);
   EXPECT_EQ(look.stop_latch.latest().by, 0);
   EXPECT_TRUE(look.stop_latch.may_end(AccessRole::kTrainee, 0));
   EXPECT_GT(look.stop_age, 0.5);
-  rig.seats[0].core->request_resume();
+  rig.seats[0].core->requests().resume();
   rig.run(1s);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kRunning);
   EXPECT_TRUE(rig.seats[0].core->gate().active());
   // They cannot end a stop by an operator.
-  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).result, Result::kDone);
+  EXPECT_EQ(stop(rig, AccessRole::kOperator).result, Result::kDone);
   rig.run(100ms);
-  rig.seats[0].core->request_resume();
+  rig.seats[0].core->requests().resume();
   rig.run(100ms);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
 }
@@ -132,13 +126,13 @@ TEST(Commands, AcceptOneOfTwoChangesOfAVersionAndReturnTheCurrentValue) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SessionFixture rig("free_motion", seed);
     rig.run(1s);
-    const std::uint32_t version = rig.session->authority_version();
+    const std::uint32_t version = rig.session->authority().version();
     const double a = static_cast<double>(seed) / 10;
     // The order of the two is arbitrary: the seed selects it.
     const SessionCommand first = weights(AccessRole::kInstructor, version, {a, 1 - a}),
                          second = weights(AccessRole::kInstructor, version, {1 - a, a});
-    const CommandOutcome won = execute_command(*rig.session, rig.now, seed % 2 == 0 ? first : second),
-                         lost = execute_command(*rig.session, rig.now, seed % 2 == 0 ? second : first);
+    const CommandOutcome won = execute(rig, seed % 2 == 0 ? first : second),
+                         lost = execute(rig, seed % 2 == 0 ? second : first);
     EXPECT_EQ(won.result, Result::kDone);
     EXPECT_EQ(lost.result, Result::kOutdated);
     EXPECT_EQ(lost.authority_version, version + 1);
@@ -147,17 +141,17 @@ TEST(Commands, AcceptOneOfTwoChangesOfAVersionAndReturnTheCurrentValue) {
     EXPECT_NE(won.before, won.alpha[0]);
     // With the version of the reply the request can be repeated.
     SessionCommand again = seed % 2 == 0 ? second : first;
-    again.authority.version = lost.authority_version;
-    EXPECT_EQ(execute_command(*rig.session, rig.now, again).result, Result::kDone);
+    std::get<rpc::SetAuthority>(again.body).version = lost.authority_version;
+    EXPECT_EQ(execute(rig, again).result, Result::kDone);
   }
 }
 
 TEST(Commands, RejectInvalidAuthorityWithoutEffect) {
   SessionFixture rig("free_motion");
   rig.run(1s);
-  const std::uint32_t version = rig.session->authority_version();
+  const std::uint32_t version = rig.session->authority().version();
   const auto before = rig.session->tool(0).authority.requested();
-  const auto result = [&](const SessionCommand& c) { return execute_command(*rig.session, rig.now, c).result; };
+  const auto result = [&](const SessionCommand& c) { return execute(rig, c).result; };
   EXPECT_EQ(result(weights(AccessRole::kInstructor, version, {1, 0}, 1)), Result::kInvalid) << "no such tool";
   EXPECT_EQ(result(weights(AccessRole::kInstructor, version, {1})), Result::kInvalid) << "a master is missing";
   EXPECT_EQ(result(weights(AccessRole::kInstructor, version, {1, 0, 0})), Result::kInvalid);
@@ -166,42 +160,39 @@ TEST(Commands, RejectInvalidAuthorityWithoutEffect) {
     EXPECT_EQ(result(weights(who, version, {0.5, 0.5})), Result::kForbidden) << to_text(who);
   EXPECT_EQ(result(weights(AccessRole::kInstructor, version + 1, {0.5, 0.5})), Result::kOutdated)
       << "nor one that never was";
-  EXPECT_EQ(rig.session->authority_version(), version);
+  EXPECT_EQ(rig.session->authority().version(), version);
   EXPECT_EQ(rig.session->tool(0).authority.requested(), before);
 }
 
 TEST(Commands, LetATraineeOnlyReturnAuthority) {
   SessionFixture rig("free_motion");
   rig.run(1s);
-  ASSERT_EQ(execute_command(*rig.session, rig.now,
-                            weights(AccessRole::kInstructor, rig.session->authority_version(), {0.4, 0.6}))
-                .result,
+  ASSERT_EQ(execute(rig, weights(AccessRole::kInstructor, rig.session->authority().version(), {0.4, 0.6})).result,
             Result::kDone);
-  SessionCommand c = weights(AccessRole::kTrainee, rig.session->authority_version(), {0.2, 0.8});
+  SessionCommand c = weights(AccessRole::kTrainee, rig.session->authority().version(), {0.2, 0.8});
   c.seat = kTrainee;
   c.cid = rig.session->seat(kTrainee).link()->own_cid();
-  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kForbidden);
-  c.authority.alpha[0] = 0.9;
-  c.authority.alpha[1] = 0.1;
-  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kDone);
+  EXPECT_EQ(execute(rig, c).result, Result::kForbidden);
+  std::get<rpc::SetAuthority>(c.body).alpha = {0.9, 0.1};
+  EXPECT_EQ(execute(rig, c).result, Result::kDone);
 }
 
 TEST(Commands, RejectASenderThatNoLongerHasItsSeat) {
   SessionFixture rig("free_motion");
   rig.run(1s);
   SessionCommand c;
-  c.what = What::kStop;
+  c.body = rpc::StopSession{};
   c.role = AccessRole::kInstructor;
   c.seat = kTrainer;
   c.cid = rig.session->seat(kTrainer).link()->own_cid() ^ 0x10000U;
-  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost) << "another client has it now";
+  EXPECT_EQ(execute(rig, c).result, Result::kSeatLost) << "another client has it now";
   c.cid ^= 0x10000U;
   c.seat = 7;
-  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost);
+  EXPECT_EQ(execute(rig, c).result, Result::kSeatLost);
   c.seat = kTrainer;
-  ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainer)).result, Result::kDone);
-  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kSeatLost) << "from the moment of the removal on";
-  EXPECT_EQ(rig.session->stops(), 0U);
+  ASSERT_EQ(remove(rig, kTrainer), Result::kDone);
+  EXPECT_EQ(execute(rig, c).result, Result::kSeatLost) << "from the moment of the removal on";
+  EXPECT_EQ(rig.session->stop_latch().stops(), 0U);
 }
 
 // One participant is removed: the hand is released, the other hand on the same tool feels no jump, and the client
@@ -210,18 +201,15 @@ TEST(Commands, RemoveAParticipantWithoutAForceStepAndReportTheReason) {
   for (const auto why : {wire::CloseReason::kRemoved, wire::CloseReason::kRevoked}) {
     SessionFixture rig("free_motion");
     rig.run(2s);
-    ASSERT_EQ(execute_command(*rig.session, rig.now,
-                              weights(AccessRole::kInstructor, rig.session->authority_version(), {0.5, 0.5}))
-                  .result,
+    ASSERT_EQ(execute(rig, weights(AccessRole::kInstructor, rig.session->authority().version(), {0.5, 0.5})).result,
               Result::kDone);
     rig.run(2s);
     ASSERT_TRUE(rig.seats[kTrainee].core->gate().active());
     static_cast<void>(events(*rig.session));
-    ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee, why)).result, Result::kDone);
-    EXPECT_TRUE(rig.session->closing_out(kTrainee));
-    EXPECT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee, why)).result, Result::kNothingToDo)
-        << "the removal is in progress";
-    EXPECT_EQ(rig.session->may_admit(rig.now, kTrainee, false), JoinResult::kSeatTaken) << "until the hand is released";
+    ASSERT_EQ(remove(rig, kTrainee, why), Result::kDone);
+    EXPECT_TRUE(rig.session->participants().removing(kTrainee));
+    EXPECT_EQ(remove(rig, kTrainee, why), Result::kNothingToDo) << "the removal is in progress";
+    EXPECT_EQ(rig.session->participants().may_admit(rig.now, kTrainee, false), JoinResult::kSeatTaken) << "until the hand is released";
     const int told_before = rig.forces[2];
     double step = 0, last = rig.seats[kTrainer].device->state().f_out.norm();
     std::optional<int> closed_after, let_go_after;
@@ -249,43 +237,41 @@ TEST(Commands, RemoveAParticipantWithoutAForceStepAndReportTheReason) {
     EXPECT_NEAR(rig.session->tool(0).authority.alpha(kTrainer), 1, 1e-9);
     const auto noted = events(*rig.session);
     EXPECT_EQ(std::ranges::count(noted, AuditEvent::What::kRemoved, &AuditEvent::what), 1);
-    EXPECT_EQ(execute_command(*rig.session, rig.now, removing(kTrainee)).result, Result::kNothingToDo)
-        << "the seat is free";
-    EXPECT_EQ(rig.session->may_admit(rig.now, kTrainee, false), JoinResult::kAccepted);
+    EXPECT_EQ(remove(rig, kTrainee), Result::kNothingToDo) << "the seat is free";
+    EXPECT_EQ(rig.session->participants().may_admit(rig.now, kTrainee, false), JoinResult::kAccepted);
   }
 }
 
 TEST(Commands, IgnoreRequestsOfASeatThatIsBeingRemoved) {
   SessionFixture rig("free_motion");
   rig.run(2s);
-  EXPECT_EQ(order(rig, What::kStop, AccessRole::kOperator).result, Result::kDone);
+  EXPECT_EQ(stop(rig, AccessRole::kOperator).result, Result::kDone);
   rig.run(20ms);
-  ASSERT_EQ(execute_command(*rig.session, rig.now, removing(kTrainer)).result, Result::kDone);
-  const std::uint32_t version = rig.session->authority_version();
+  ASSERT_EQ(remove(rig, kTrainer), Result::kDone);
+  const std::uint32_t version = rig.session->authority().version();
   const std::array alpha{0.5, 0.5};
-  rig.seats[kTrainer].core->request_authority(0, alpha);
-  rig.seats[kTrainer].core->request_resume();
+  rig.seats[kTrainer].core->requests().change_authority(0, alpha);
+  rig.seats[kTrainer].core->requests().resume();
   rig.run(100ms);
-  EXPECT_EQ(rig.session->authority_version(), version);
+  EXPECT_EQ(rig.session->authority().version(), version);
   EXPECT_EQ(rig.session->state(), wire::SessionState::kStopped);
 }
 
 TEST(Commands, DoNotRemoveTheNextOwnerOfASeat) {
   SessionFixture rig("free_motion");
   rig.run(1s);
-  SessionCommand c = removing(kTrainee, wire::CloseReason::kRevoked);
-  c.target_cid = rig.session->seat(kTrainee).link()->own_cid() ^ 0x20000U;
-  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kNothingToDo);
-  EXPECT_FALSE(rig.session->closing_out(kTrainee));
-  c.target_seat = 9;
-  EXPECT_EQ(execute_command(*rig.session, rig.now, c).result, Result::kInvalid);
+  const std::uint32_t former = rig.session->seat(kTrainee).link()->own_cid() ^ 0x20000U;
+  EXPECT_EQ(remove_client(*rig.session, kTrainee, former, wire::CloseReason::kRevoked), Result::kNothingToDo);
+  EXPECT_FALSE(rig.session->participants().removing(kTrainee));
+  EXPECT_EQ(remove_client(*rig.session, 9, 0, wire::CloseReason::kRevoked), Result::kNoSuchSeat);
+  EXPECT_EQ(execute(rig, rpc::RemoveParticipant{{}, "absent", ""}, AccessRole::kOperator).result, Result::kNoSuchSeat);
 }
 
 TEST(Commands, ReturnTheStatusWithoutChangingTheSession) {
   SessionFixture rig("free_motion");
   rig.run(1s);
   const std::uint64_t before = rig.state_hash();
-  const CommandOutcome look = order(rig, What::kQueryStatus, AccessRole::kRecorder);
+  const CommandOutcome look = status(rig);
   EXPECT_EQ(rig.state_hash(), before);
   EXPECT_EQ(look.result, Result::kDone);
   EXPECT_EQ(look.state, wire::SessionState::kRunning);
@@ -299,13 +285,14 @@ TEST(Commands, ReturnTheStatusWithoutChangingTheSession) {
 TEST(Commands, TakeNoHeapBetweenTicks) {
   SessionFixture rig("free_motion");
   rig.run(1s);
-  const std::uint32_t version = rig.session->authority_version();
+  const std::uint32_t version = rig.session->authority().version();
+  const std::array<SessionCommand, 5> commands{{{rpc::StopSession{}, AccessRole::kOperator},
+                                                {rpc::ResumeSession{{}, 1}, AccessRole::kOperator},
+                                                weights(AccessRole::kInstructor, version, {0.5, 0.5}),
+                                                {rpc::RemoveParticipant{{}, "trainee", ""}, AccessRole::kInstructor},
+                                                {rpc::StatusRequest{}, AccessRole::kRecorder}}};
   const tandem::test::AllocGuard guard;
-  static_cast<void>(order(rig, What::kStop, AccessRole::kOperator));
-  static_cast<void>(order(rig, What::kResume, AccessRole::kOperator, 1));
-  static_cast<void>(execute_command(*rig.session, rig.now, weights(AccessRole::kInstructor, version, {0.5, 0.5})));
-  static_cast<void>(execute_command(*rig.session, rig.now, removing(kTrainee)));
-  static_cast<void>(order(rig, What::kQueryStatus, AccessRole::kRecorder));
+  for (const SessionCommand& command : commands) EXPECT_EQ(execute(rig, command).result, Result::kDone);
   EXPECT_EQ(guard.count(), 0U);
 }
 

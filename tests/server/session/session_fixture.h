@@ -82,7 +82,7 @@ class SessionFixture {
   std::vector<Bytes> client_tick(std::size_t i = 0) {
     FixtureSeat& s = seats[i];
     if (ticked_) s.device->advance(s.command, 1ms);
-    s.device->set_session_time(s.core->session_time(now));
+    s.device->set_session_time(s.core->clock().session_time(now));
     s.command = s.core->on_servo(now, s.device->state());
     std::vector<Bytes> out;
     std::array<std::byte, transport::kDatagramMax> buffer;
@@ -140,8 +140,8 @@ class SessionFixture {
     Fingerprint digest;
     const auto add = [&](const auto& value) { digest.add(std::as_bytes(std::span{&value, 1})); };
     add(session->state());
-    add(session->session_tick());
-    add(session->authority_version());
+    add(session->clock().session_tick());
+    add(session->authority().version());
     for (std::size_t j = 0; j < scene.tools.size(); ++j) {
       add(session->tool(j).position());
       for (std::size_t k = 0; k < scene.masters(); ++k) add(session->tool(j).authority.alpha(k));

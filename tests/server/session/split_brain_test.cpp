@@ -101,15 +101,17 @@ TEST(SplitBrain, LeavesTheFormerServerWithoutEffect) {
 TEST(ServerTime, ExcludesTheOutageOfAResumedSession) {
   SessionFixture rig("free_motion");
   rig.run(2s);
-  for (const FixtureSeat& s : rig.seats) EXPECT_EQ(s.core->server_time(rig.now), s.core->session_time(rig.now));
+  for (const FixtureSeat& s : rig.seats)
+    EXPECT_EQ(s.core->clock().server_time(rig.now), s.core->clock().session_time(rig.now));
   rig.now += 5s;  // no server runs
   const auto old = take_over(rig, 78);
-  for (const FixtureSeat& s : rig.seats) EXPECT_EQ(s.core->server_time(rig.now), std::nullopt) << "it does not run yet";
+  for (const FixtureSeat& s : rig.seats)
+    EXPECT_EQ(s.core->clock().server_time(rig.now), std::nullopt) << "it does not run yet";
   rig.run(2s);
   for (const FixtureSeat& s : rig.seats) {
-    ASSERT_TRUE(s.core->server_time(rig.now));
-    EXPECT_NEAR(*s.core->server_time(rig.now), rig.session->time(), 0.003);
-    EXPECT_GT(*s.core->session_time(rig.now), *s.core->server_time(rig.now) + 4.9);
+    ASSERT_TRUE(s.core->clock().server_time(rig.now));
+    EXPECT_NEAR(*s.core->clock().server_time(rig.now), rig.session->clock().time(), 0.003);
+    EXPECT_GT(*s.core->clock().session_time(rig.now), *s.core->clock().server_time(rig.now) + 4.9);
   }
 }
 

@@ -60,8 +60,7 @@ class OneSession : public JoinHandler {
   rpc::SessionList list(const WorkstationRow&) override {
     return {{{session_id, "contact", rpc::SessionPhase::kWaiting, {{"trainee"}}}}, false};
   }
-  void command(const rpc::Welcome&, const WorkstationRow&, const rpc::Body&,
-               std::function<void(rpc::Body)> answer) override {
+  void command(const rpc::Welcome&, const WorkstationRow&, rpc::Body, std::function<void(rpc::Body)> answer) override {
     const std::lock_guard lock(mutex);
     if (mute) return unanswered.push_back(std::move(answer)), changed.notify_all();
     answer(rpc::Ok{});

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 // Recorded capacities on the command line: detection, messages, rejections.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -33,24 +32,23 @@ class CapacityOptions : public ::testing::Test {
   }
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  static std::expected<NetworkChoice, std::string> resolve(std::vector<std::string> arguments) {
-    CLI::App app;
+  /// Parses a command line and returns what `read` makes of its options.
+  template <class Read>
+  static auto parse(const std::vector<std::string>& arguments, Read read) {
+    io::Program program("test", "", "", [] { return 0; });
     NetworkOptions options;
-    options.add_to(app);
-    std::ranges::reverse(arguments);  // CLI11 expects a reversed list
-    app.parse(arguments);
-    return options.resolve();
+    options.add_to(program.root());
+    EXPECT_EQ(program.run(arguments), 0);
+    return read(options);
   }
-  static std::expected<ScriptChoice, std::string> events(std::vector<std::string> arguments) {
-    CLI::App app;
-    NetworkOptions options;
-    options.add_to(app);
-    std::ranges::reverse(arguments);
-    app.parse(arguments);
-    return options.events();
+  static std::expected<NetworkChoice, std::string> resolve(const std::vector<std::string>& arguments) {
+    return parse(arguments, [](const NetworkOptions& options) { return options.resolve(); });
   }
-  static std::string mistake(std::vector<std::string> arguments) {
-    const auto choice = resolve(std::move(arguments));
+  static std::expected<ScriptChoice, std::string> events(const std::vector<std::string>& arguments) {
+    return parse(arguments, [](const NetworkOptions& options) { return options.events(); });
+  }
+  static std::string mistake(const std::vector<std::string>& arguments) {
+    const auto choice = resolve(arguments);
     return choice ? "none" : choice.error();
   }
 

@@ -334,21 +334,21 @@ TEST(Proxy, AcceptsClientsWithoutHeap) {
       EXPECT_TRUE(clients.back()->send("x"));
     }
     EXPECT_TRUE(seen(clients.size()));
-    proxy->refill();
+    proxy->pool().refill();
   };
   join(ClientPool::kReady);  // all at once
   join(10);                  // prepared again after the first ones
   std::vector<std::uint64_t> present(clients.size());
   std::iota(present.begin(), present.end(), std::uint64_t{0});
   ProxyRequest order;
-  order.links.push_back(proxy->core().prepare(link_from({.delay = 2ms}), present, true));
+  order.changes.push_back(proxy->links().prepare_change(link_from({.delay = 2ms}), present, true));
   EXPECT_TRUE(proxy->post(order));
   for (int i = 0; i < UdpPeer::kPatienceMs / 10 && !order.done.load(); ++i) ::poll(nullptr, 0, 10);
-  proxy->refill();
+  proxy->pool().refill();
   join(10);  // with the present network
   proxy->stop();
   packets.join();
-  EXPECT_EQ(proxy->pool_misses(), 0U);
+  EXPECT_EQ(proxy->pool().misses(), 0U);
   EXPECT_EQ(taken, 0U);
 }
 
@@ -362,7 +362,7 @@ TEST(Proxy, AcceptsAndCountsClientsBeyondThePool) {
     ASSERT_TRUE(clients.back()->send("x"));
   }
   EXPECT_TRUE(proxy.wait_until([](const ProxyStatus& s) { return s.total[0].out == ClientPool::kReady + 3; }));
-  EXPECT_EQ(proxy->pool_misses(), 3U);
+  EXPECT_EQ(proxy->pool().misses(), 3U);
 }
 
 TEST(Proxy, ReportsACommandForAnAbsentClient) {

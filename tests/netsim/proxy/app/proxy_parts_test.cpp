@@ -10,6 +10,7 @@
 #include "netsim/proxy/app/live_delay_histogram.h"
 #include "netsim/proxy/app/proxy_events.h"
 #include "netsim/proxy/app/proxy_status_view.h"
+#include "netsim/proxy/app/reading_interval.h"
 #include "netsim/proxy/app/send_queue.h"
 
 namespace tandem::netsim {
@@ -50,6 +51,36 @@ TEST(ProxyEvents, ReportAppliedNoTargetAndNotReached) {
             "  event at 1.000 s: outage of 100 ms, for client 2: no-target; client 2 connected later, at 1.800 s\n");
   EXPECT_EQ(events_text(std::span(all).last(1)),
             "  event at 9.000 s: outage of 100 ms: not-reached; the proxy ended before it, at 5.000 s\n");
+}
+
+TEST(ReadingInterval, IsHalfOfTheLeastDelayWithinItsRange) {
+  const auto interval = [](std::initializer_list<LinkSpec> links) {
+    ReadingInterval reading;
+    for (const LinkSpec& link : links) reading.add(link);
+    return reading.value();
+  };
+  EXPECT_EQ(interval({link_from({.delay = 3ms})}), 1500us);
+  EXPECT_EQ(interval({link_from({.delay = 80ms})}), 2ms) << "the kernel's buffers limit it";
+  EXPECT_EQ(interval({link_from({.delay = 150us})}), 0ms) << "not worth a separate wake-up";
+  EXPECT_EQ(interval({link_from({.delay = 2ms}), link_from({.delay = 80ms})}), 1ms);
+  LinkSpec shared = link_from({.delay = 80ms});
+  shared.shared = true;
+  EXPECT_EQ(interval({shared, link_from({.delay = 80ms})}), 0ms);
+  EXPECT_EQ(interval({link_from({.delay = 80ms, .reorder = 0.1})}), 0ms);
+}
+
+TEST(ClientDelays, ClearsThePlaceOfOneClient) {
+  ClientDelays delays;
+  delays.of(3, Direction::kUp).add(1ms);
+  delays.of(4, Direction::kUp).add(1ms);
+  delays.clear(3);
+  const auto count = [&](std::uint32_t place) {
+    const auto snapshot = std::make_unique<LiveDelayHistogram::Snapshot>();
+    delays.of(place, Direction::kUp).read(*snapshot);
+    return snapshot->count;
+  };
+  EXPECT_EQ(count(3), 0u);
+  EXPECT_EQ(count(4), 1u);
 }
 
 TEST(LiveDelayHistogram, ReportsMeanAndQuantilesSinceTheLastReading) {
@@ -103,7 +134,7 @@ TEST(SendQueue, GroupsBySocketAndKeepsTheOrderOfEach) {
     EXPECT_EQ(box.full(), count == SendQueue::kMax);
     std::uint64_t seen = 0;
     std::vector<std::uint64_t> sockets;
-    box.empty([&](const SendQueue::Group& group) {
+    box.flush([&](const SendQueue::Group& group) {
       const std::uint64_t socket = group.through.as_number();
       EXPECT_EQ(std::ranges::count(sockets, socket), 0) << "one call per socket";
       sockets.push_back(socket);

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <expected>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "client/app/join_client.h"
+#include "common/auth/io/control_client.h"
+#include "common/auth/io/identity_selector.h"
+#include "proto/rpc/rpc_messages.h"
+
+namespace tandem::client {
+
+[[nodiscard]] inline std::unexpected<JoinError> join_failure(std::string reason) {
+  return std::unexpected(JoinError{false, std::move(reason)});
+}
+
+/// Control connection from a client to the server of its options, before it becomes that of a seat or console: keys,
+/// connect, requests. All calls block, at most for the timeout of the options. Errors name cause and remedy.
+class ServerConnection {
+ public:
+  /// @param options  must outlive this object
+  explicit ServerConnection(const JoinOptions& options) : options_(options) {}
+
+  /// Selects the keys and connects. Repeats until the timeout while the server is not started yet or too busy.
+  [[nodiscard]] std::expected<void, JoinError> connect();
+  /// Connects once, only to the server that gave the seat `own`: a server with the same key. If that key was ephemeral,
+  /// the server's key must be in this user's runtime directory.
+  [[nodiscard]] std::expected<void, ResumeError> connect_to(const ResumeState& own);
+
+  // @pre connected
+  /// Sends a request and returns the reply, which may be an ErrorReply.
+  [[nodiscard]] std::expected<rpc::Body, JoinError> ask(const rpc::Body& request);
+  /// Sends a request and returns the reply of type `Reply`. Error also for an ErrorReply.
+  template <class Reply>
+  [[nodiscard]] std::expected<Reply, JoinError> request(const rpc::Body& body) {
+    auto reply = ask(body);
+    if (!reply) return std::unexpected(reply.error());
+    if (const auto* rejected = std::get_if<rpc::ErrorReply>(&*reply)) return join_failure(rejection_text(*rejected));
+    if (auto* expected = std::get_if<Reply>(&*reply)) return std::move(*expected);
+    return join_failure(kUnexpectedReply);
+  }
+  [[nodiscard]] auth::ControlClient& client() noexcept { return *client_; }
+  /// Returns the connection for the time after the join. Call once.
+  [[nodiscard]] std::shared_ptr<auth::ControlClient> release() {
+    return std::make_shared<auth::ControlClient>(std::move(*client_));
+  }
+
+  [[nodiscard]] const JoinOptions& options() const noexcept { return options_; }
+  /// Keys of the server from this user's runtime directory; null: the server is known by enrolment.
+  [[nodiscard]] const auth::LocalKeys* local() const noexcept { return keys_->local(); }
+  /// Returns the instruction that starts a server at the address of the options.
+  [[nodiscard]] std::string start_command() const;
+
+  static constexpr const char* kUnexpectedReply = "unexpected reply from the server; use the same release on both";
+
+ private:
+  [[nodiscard]] std::expected<void, JoinError> select_keys();
+  [[nodiscard]] JoinError to_join_error(const auth::ClientError& error) const;
+  [[nodiscard]] std::string rejection_text(const rpc::ErrorReply& reply) const;
+
+  const JoinOptions& options_;
+  std::optional<auth::IdentitySelector> keys_;
+  std::optional<auth::ControlClient> client_;
+};
+
+}  // namespace tandem::client

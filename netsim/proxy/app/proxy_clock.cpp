@@ -1,0 +1,56 @@
+#include "netsim/proxy/app/proxy_clock.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include "common/io/clock.h"
+
+namespace tandem::netsim {
+namespace {
+
+/// Upper bound of a datagram's wait in the kernel, in case the wall clock jumps.
+constexpr Duration kAgeMax{1'000'000'000};
+
+/// Returns CLOCK_REALTIME minus CLOCK_MONOTONIC. Up to three attempts avoid a reading distorted by a pause of this
+/// thread.
+Duration wall_ahead() noexcept {
+  Duration ahead{};
+  for (int i = 0; i < 3; ++i) {
+    const Duration before = io::read_clock(CLOCK_MONOTONIC);
+    const Duration wall = io::read_clock(CLOCK_REALTIME);
+    const Duration after = io::read_clock(CLOCK_MONOTONIC);
+    ahead = wall - (before + (after - before) / 2);
+    if (after - before < Duration{2'000}) break;
+  }
+  return ahead;
+}
+
+}  // namespace
+
+void ProxyClock::start() noexcept { started_ = io::read_clock(CLOCK_MONOTONIC); }
+
+Duration ProxyClock::now() const noexcept {
+  return io::read_clock(CLOCK_MONOTONIC) - started_.load(std::memory_order_relaxed);
+}
+
+void ProxyClock::wait_until(Duration moment, Duration spin) const noexcept {
+  if (moment - now() > std::max(spin, kShorterThanSleep)) {
+    const timespec at = io::to_timespec(started_.load(std::memory_order_relaxed) + moment - spin);
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+  }
+  while (now() < moment) {
+  }
+}
+
+void ProxyClock::update_wall_clock() noexcept {
+  wall_at_start_ = wall_ahead() + started_.load(std::memory_order_relaxed);
+}
+
+Time ProxyClock::arrival(Duration stamp, Duration now) const noexcept {
+  if (stamp == Duration{}) return Time{now};
+  // Datagrams that arrived between opening the socket and the first round count as arrived at the start.
+  const Duration oldest = std::max(now - kAgeMax, Duration::zero());
+  return Time{std::clamp(stamp - wall_at_start_, oldest, now + Duration{1'000'000})};
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,63 @@
+#include "netsim/system/silence_checker.h"
+
+#include <algorithm>
+
+namespace tandem::netsim {
+namespace {
+
+constexpr double kRampOut = 0.1;                                      // [s]
+constexpr double kTankPerKg = 0.18, kTankMin = 0.02, kTankMax = 0.1;  // [J/kg], [J]
+constexpr double kTankSlack = 1e-3;  // [J] that a hand pulling along overdraws within one tick
+constexpr double kUnseen = 1.6e-4;  // [m] that the gate cannot see, because it measures by encoders: two of their steps
+constexpr double kLatePower = 1;    // [W] that a hand at 2 m/s overdraws while its program wakes up late
+
+}  // namespace
+
+void SilenceChecker::check_energy(const ObservedSeat& seat) {
+  if (seat.client.seat() == nullptr || fresh_ == Time{}) return;
+  if (seat.core().gate().active() && !seat.was_active) given_ = 0;
+  given_ += seat.client.motor_work();
+  // An effort acts until the program wakes up again; the gate cannot take it back earlier.
+  late_ = ran_in_previous_ ? 0 : late_ + seat.tick();
+  ran_in_previous_ = seat.client.ran_in_tick();
+  const double tank =
+      seat.force_share() * std::clamp(kTankPerKg * seat.client.device().caps().mass.value_or(0), kTankMin, kTankMax);
+  const double unseen = seat.force_share() * seat.scene.gate.force_max * kUnseen;
+  if (given_ > tank + kTankSlack + unseen + kLatePower * late_) seat.violated("loss_energy");
+}
+
+void SilenceChecker::check(const ObservedSeat& seat) {
+  const Time now = seat.client.last_run();
+  const client::Seat& core = seat.core();
+  const GateSpec& gate = seat.scene.gate;
+  const bool active = core.gate().active();
+  const transport::LinkTiming& link = core.link().timing();
+  if (link.heard() && link.arrived() != arrived_) {
+    arrived_ = link.arrived();
+    limit_ = 0;
+    fresh_ = now;
+    // A datagram that makes the gate release also restarts the sum, except one so old that it ended the link.
+    if (active || (seat.was_active && core.gate().trips() == trips_)) given_ = 0;
+  }
+  trips_ = core.gate().trips();
+  const double half_tick = 0.5 * seat.tick();
+  if (fresh_ != Time{}) {
+    const double silence = seconds(now - fresh_);
+    // The longest limit since the last fresh datagram applies. A client that loses authority or its server during a
+    // silence releases from that moment.
+    limit_ = std::max(limit_, seat.slave() ? gate.silence_limit
+                                           : silence_limits(gate, seat.scene.channel.law, core.authority()).most);
+    if (active && silence > limit_ + half_tick) seat.violated("silence_ramps");
+    if (silence > limit_ + kRampOut + 3 * half_tick) {
+      double power = 0;  // the remaining force may brake a hand and never push it
+      for (std::size_t a = 0; a < seat.scene.dof; ++a) power += core.effort()[a] * core.sample().port.v[a];
+      if (power > 1e-9) seat.violated("silence_brakes");
+    }
+  }
+  const double extra =
+      seat.master_of_law_replica() ? silence_limits(gate, LawKind::kReplica, core.authority()).most : 0;
+  if (active && seconds(link.loop_age(seat.client.own_time(now))) > gate.loop_age_max + extra + 1e-9)
+    seat.violated("loop_age");
+}
+
+}  // namespace tandem::netsim

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/system/observed_seat.h"
+
+namespace tandem::netsim {
+
+/// Checks that one client alone releases its hand when the server falls silent, or when its loop is too old. During a
+/// silence the motor delivers no more energy than the tank of its gate. The energy is the motor's work, not the gate's
+/// own account.
+class SilenceChecker {
+ public:
+  /// Checks the energy of a tick, whether or not the client ran in it. Call it before `check`.
+  void check_energy(const ObservedSeat& seat);
+  /// Checks the gate after a tick in which the client ran.
+  void check(const ObservedSeat& seat);
+
+ private:
+  std::uint64_t trips_ = 0;      ///< of its gate
+  Time arrived_{}, fresh_{};     ///< when the last fresh datagram arrived: on the seat's clock, on the simulation's
+  double limit_ = 0;             ///< longest silence limit since then [s]
+  double given_ = 0;             ///< energy that the motor delivered since then and since the gate's release [J]
+  double late_ = 0;              ///< time since its program last ran, beyond one tick [s]
+  bool ran_in_previous_ = true;  ///< tick
+};
+
+}  // namespace tandem::netsim

@@ -1,0 +1,113 @@
+#include "netsim/system/simulated_server.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "hal/sim/sim_device.h"
+#include "netsim/system/simulated_handshake.h"
+
+namespace tandem::netsim {
+namespace {
+
+/// Derives the key of path-challenge tokens from the seed; seats use 1000 and above (simulated_client.cpp).
+constexpr std::uint64_t kTokenKey = 999;
+
+FaultSchedule faults_of_server(const std::vector<Fault>& all) {
+  std::vector<Fault> faults;
+  std::ranges::copy_if(all, std::back_inserter(faults), [](const Fault& f) { return of_server(f.kind); });
+  return FaultSchedule{std::move(faults)};
+}
+
+}  // namespace
+
+SimulatedServer::SimulatedServer(const SimulationConfig& config)
+    : config_(&config),
+      faults_(faults_of_server(config.faults)),
+      tick_(from_seconds(1.0 / config.scene.tick_hz)),
+      load_shedder_(tick_) {}
+
+std::string SimulatedServer::start(Time now, const AxisArray& scale) {
+  scale_ = scale;
+  auto slaves = make_local_slaves(now, nullptr);
+  if (!slaves) return slaves.error();
+  session_ = std::make_unique<server::Session>(config_->scene, std::move(*slaves), scale_);
+  attach_contact_sources();
+  checkpoint_ = session_->checkpoint();
+  return {};
+}
+
+/// The checkpoint is encoded and decoded as for a file. All other state is lost.
+std::string SimulatedServer::apply_restarts(Time now) {
+  const bool dead = faults_.active(Fault::Kind::kServerRestart, now);
+  up_ = up_ && !dead;
+  if (up_ || dead) return {};
+  std::array<std::byte, server::kCheckpointMax> bytes;
+  const std::size_t size = server::encode_checkpoint(checkpoint_, bytes);
+  const auto read = server::decode_checkpoint(std::span{bytes}.first(size));
+  if (!read || !server::incompatibility(*read, config_->scene).empty()) return "the checkpoint cannot be read back";
+  auto slaves = make_local_slaves(now, &*read);
+  if (!slaves) return "after a restart: " + slaves.error();
+  session_ = std::make_unique<server::Session>(config_->scene, std::move(*slaves), scale_, *read);
+  attach_contact_sources();
+  missed_ = 0;
+  up_ = true;
+  return {};
+}
+
+std::uint32_t SimulatedServer::due_ticks(Time now) noexcept {
+  if (now >= busy_until_ && !faults_.active(Fault::Kind::kServerLate, now)) return missed_ + 1;
+  ++missed_;
+  return 0;
+}
+
+void SimulatedServer::run(Time now) noexcept {
+  session_->set_load_state(load_shedder_.step(now, missed_ * tick_, tick_used_));
+  session_->on_tick(now, missed_);
+  if (session_->path_tokens().low())
+    fill_path_tokens(*session_, RandomKey{config_->seed}.derive(kTokenKey), token_draws_ += server::PathTokens::kMax);
+  missed_ = 0;
+}
+
+void SimulatedServer::finish(Time now, std::size_t sent) {
+  if (!config_->tick_cost) return;
+  tick_used_ = config_->tick_cost(now, sent);
+  busy_until_ = now + tick_used_;
+}
+
+void SimulatedServer::update_checkpoint(Time now, bool participants_changed) {
+  constexpr Duration kEvery = std::chrono::milliseconds(500);
+  if (!participants_changed && now - checkpoint_at_ < kEvery &&
+      session_->authority_version() == checkpoint_.authority_version && session_->stops() == checkpoint_.stops &&
+      session_->epoch() == checkpoint_.epoch && session_->begun() == checkpoint_.begun)
+    return;
+  checkpoint_ = session_->checkpoint();
+  checkpoint_at_ = now;
+}
+
+/// @param from  positions of the slaves; null: those of the scene
+std::expected<SimulatedServer::Slaves, std::string> SimulatedServer::make_local_slaves(
+    Time now, const server::Checkpoint* from) const {
+  Slaves slaves;
+  for (std::size_t j = 0; j < config_->scene.tools.size(); ++j) {
+    const ToolSpec& tool = config_->scene.tools[j];
+    slaves.emplace_back();
+    if (tool.remote || tool.is_virtual) continue;
+    hal::sim::SimSetup sim{tool.slave, HandSpec{}, tool.environment, nullptr, now};
+    if (from != nullptr) sim.joints = from->tools[j].slave;
+    auto slave = hal::sim::SimDevice::make(sim);
+    if (!slave) return std::unexpected("tool " + tool.name + ": " + slave.error().message);
+    slaves.back() = std::move(*slave);
+  }
+  return slaves;
+}
+
+void SimulatedServer::attach_contact_sources() {
+  if (!config_->contact_source) return;
+  for (std::size_t j = 0; j < config_->scene.tools.size(); ++j)
+    session_->set_contact_source(j, config_->contact_source(j));
+}
+
+}  // namespace tandem::netsim

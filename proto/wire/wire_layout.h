@@ -1,0 +1,167 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "proto/wire/force_flags.h"
+#include "proto/wire/wire_codec.h"
+#include "proto/wire/wire_fields.h"
+
+/// Layout of the bodies of all messages: the fields in the order of their numbers (proto/schema/wire.proto), with the
+/// range that a receiver accepts. Each function visits one message with a FieldWriter or a FieldReader, so that both
+/// directions have the same layout. Private to wire_codec.cpp: internal linkage keeps the functions inlined there.
+namespace tandem::wire::layout {
+
+/// Largest cumulative energy in telemetry [J]; larger values are implausible.
+inline constexpr double kJouleMax = 1e9;
+/// Largest gap and age of a link [ms]: eleven days.
+inline constexpr double kMillisecondsMax = 1e9;
+
+inline constexpr std::integral_constant<std::size_t, 3> kThree;
+
+/// Calls `work` with the number of axes, as a compile-time constant for the usual number.
+template <class Work>
+static decltype(auto) with_axes(std::size_t axes, Work&& work) noexcept {
+  return axes == kThree ? work(kThree) : work(axes);
+}
+
+/// Enumerators and flags of a message in their wire form.
+struct StateWords {
+  std::uint32_t gate = 0, flags = 0;
+};
+struct ForceWords {
+  std::uint32_t session = 0, flags = 0, surfaces = 0;
+  bool surfaces_present = false;
+  bool ghost = false;
+};
+
+template <class Values, class Message, class Words, class Axes>
+static void walk_state(Values& v, Message& s, Words& words, Axes axes, double position_max) noexcept {
+  v.doubles(1, s.port.x, axes, position_max);
+  v.doubles(2, s.port.v, axes, kVelocityMax);
+  v.doubles(3, s.port.f, axes, kEffortMax);
+  v.energies(4, s.port.e_in, axes, kEnergyMax);
+  v.floats(5, s.telemetry.q, axes, kPositionMaxRad);
+  v.floats(6, s.telemetry.x, kThree, kPositionMaxM);
+  v.floats(7, s.telemetry.f_cmd, kThree, kEffortMax);
+  v.floats(8, s.telemetry.f_out, kThree, kEffortMax);
+  v.energies(9, s.telemetry.e_out, axes, kEnergyMax);
+  v.number32(10, s.telemetry.dissipated_j, -kJouleMax, kJouleMax);
+  v.number32(11, s.telemetry.refused_j, -kJouleMax, kJouleMax);
+  v.number32(12, s.telemetry.delivered_j, -kJouleMax, kJouleMax);
+  v.number32(13, s.telemetry.margin_min_j, -kJouleMax, kJouleMax);
+  v.word(14, words.gate, static_cast<std::uint32_t>(GateState::kFault));
+  v.word(15, words.flags, 15);
+  v.word(16, s.gate_trips);
+  v.word(17, s.late_ticks);
+  v.word(18, s.seat_tick);
+  v.floats(19, s.telemetry.f_env, kThree, kEffortMax);
+  v.number32(20, s.telemetry.penetration_m, -kPositionMaxM, kPositionMaxM);
+  v.number32(21, s.telemetry.down_loss_percent, 0, 100);
+  v.number32(22, s.telemetry.down_longest_gap_ms, 0, kMillisecondsMax);
+  v.number32(23, s.telemetry.down_age_p99_ms, 0, kMillisecondsMax);
+  v.word(24, s.resume_stop);
+  v.floats(25, s.port.a, axes, kAccelerationMax);
+}
+
+template <class Values, class Sample>
+static void walk_further_sample(Values& v, Sample& s, std::size_t axes, double position_max) noexcept {
+  v.message(26, tool_state_body(axes));
+  v.doubles(1, s.x, axes, position_max);
+  v.floats(2, s.v, axes, kVelocityMax);
+  v.floats(3, s.f, axes, kEffortMax);
+  v.floats(4, s.a, axes, kAccelerationMax);
+  v.energies(5, s.e_in, axes, kEnergyMax);
+}
+
+template <class Values, class Contact>
+static void walk_contact(Values& v, Contact& c) noexcept {
+  v.message(17, kContactBody);
+  v.word(1, c.id);
+  v.singles(2, c.point, LocalContact::kPointMax);
+  v.singles(3, c.normal, 2);
+  v.single(4, c.k, LocalContact::kStiffnessMax);
+  v.single(5, c.b, LocalContact::kDampingMax);
+  v.single(6, c.mu, LocalContact::kFrictionMax);
+}
+/// Whether all contacts are valid surfaces with distinct ids.
+static bool are_surfaces(const LocalContactList& contacts, std::size_t axes) noexcept {
+  for (std::uint32_t c = 0; c < contacts.size; ++c) {
+    if (!is_surface(contacts.item[c], axes)) return false;
+    for (std::uint32_t before = 0; before < c; ++before)
+      if (contacts.item[before].id == contacts.item[c].id) return false;
+  }
+  return true;
+}
+
+template <class Values, class Force, class Word>
+static void walk_further_force(Values& v, Force& t, Word& word, std::size_t axes, double position_max) noexcept {
+  v.message(13, tool_force_body(axes));
+  v.doubles(1, t.port.x, axes, position_max);
+  v.floats(2, t.port.v, axes, kVelocityMax);
+  v.floats(3, t.port.f, axes, kEffortMax);
+  v.energies(4, t.port.e_in, axes, kEnergyMax);
+  v.number32(5, t.alpha, 0, 1);
+  v.word(6, word, kSurfacesMax);
+}
+
+template <class Values, class Message, class Words, class Axes>
+[[gnu::always_inline]] static inline void walk_force(Values& v, Message& f, Words& words, Axes axes,
+                                                     double position_max) noexcept {
+  v.doubles(1, f.port.x, axes, position_max);
+  v.doubles(2, f.port.v, axes, kVelocityMax);
+  v.doubles(3, f.port.f, axes, kEffortMax);
+  v.energies(4, f.port.e_in, axes, kEnergyMax);
+  v.word(5, words.session, static_cast<std::uint32_t>(SessionState::kOverloaded));
+  v.word(6, words.flags, kForceFlagsMax);
+  v.word(7, f.session_tick);
+  v.word(8, f.authority_version);
+  v.word(9, f.missing, kSeatsMax);
+  v.number64(10, f.alpha, 0, 1);
+  v.word(11, f.stops);
+  if (words.surfaces_present) [[unlikely]]
+    v.word(12, words.surfaces, kSurfacesMax);
+}
+template <class Values, class Message>
+static void walk_ghost(Values& v, Message& f) noexcept {
+  v.word(14, f.ghost.leader, kMastersMax);
+  v.singles(15, f.ghost.x, kPositionMaxM);
+  v.singles(16, f.ghost.v, kVelocityMax);
+}
+
+template <class Values, class Message>
+static void walk_authority(Values& v, Message& a) noexcept {
+  v.word(1, a.version);
+  v.word(2, a.tool, kToolsMax - 1);
+  v.word(3, a.masters, kMastersMax);
+  v.doubles(4, a.alpha, std::integral_constant<std::size_t, kMastersMax>{}, 1);
+}
+
+template <class Axes>
+static void read_state(FieldReader& values, StateMessage& out, Axes axes, double position_max) noexcept {
+  StateWords words;
+  walk_state(values, out, words, axes, position_max);
+  out.gate = static_cast<GateState>(words.gate);
+  out.ready = (words.flags & 1U) != 0;
+  out.engaged = (words.flags & 2U) != 0;
+  out.stop = (words.flags & 4U) != 0;
+  out.stop_all = (words.flags & 8U) != 0;
+}
+
+/// Decodes a surfaces word: number of contacts of this tool that follow, and relative stiffness of its slave's spring.
+/// @param left  contacts in this FORCE not yet claimed by a word; bounds the count, whatever the word says
+static void read_surfaces(FieldReader& values, std::uint32_t word, std::size_t& left, ToolForce& out) noexcept {
+  const std::uint32_t count = word & kCount;
+  const bool good = count <= kLocalContactsMax && count <= left && (word & ~(kCount | kPull << kPullAt)) == 0;
+  values.require(good);
+  out.contacts.size = good ? count : 0;
+  left -= out.contacts.size;
+  out.slave_pull = static_cast<double>(word >> kPullAt & kPull) / kPull;
+}
+static void read_contacts(FieldReader& values, std::size_t axes, LocalContactList& out) noexcept {
+  for (std::uint32_t c = 0; c < out.size; ++c) walk_contact(values, out.item[c]);
+  values.require(are_surfaces(out, axes));
+}
+
+}  // namespace tandem::wire::layout

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "common/base/axes.h"
+#include "proto/spec/registry_spec.h"
+#include "server/session/link_test_peers.h"
+
+namespace tandem::server {
+
+/// Link tests of a session as the control plane knows them: joins in progress and the workstation in each slot. The
+/// session knows which slots are free.
+///
+/// A join is `begin_join`, then `admit` or `cancel_join`. Joins in progress never exceed the number of slots.
+class LinkTestSlots {
+ public:
+  static constexpr std::size_t kMax = LinkTestPeers::kMax;
+  struct Slot {
+    std::optional<WorkstationRow> owner{};  ///< last admitted peer; nullopt: none, or removed
+    std::uint32_t cid = 0;                  ///< connection id of its datagrams
+  };
+
+  /// @return false if as many joins as slots are in progress
+  [[nodiscard]] bool begin_join() noexcept {
+    if (joining_ >= kMax) return false;
+    ++joining_;
+    return true;
+  }
+  /// Whether the free slots of the session suffice for all joins in progress.
+  [[nodiscard]] bool enough(std::size_t free_slots) const noexcept { return free_slots >= joining_; }
+  void cancel_join() noexcept { --joining_; }
+  /// The session has admitted the peer to this slot.
+  void admit(std::size_t slot, const WorkstationRow& owner, std::uint32_t cid) {
+    --joining_;
+    slots_[slot] = {owner, cid};
+  }
+
+  /// Place in the connection id of the next peer. The places behind the seats are assigned in turn.
+  [[nodiscard]] std::uint8_t next_place() noexcept {
+    return static_cast<std::uint8_t>(kSeatsMax + 1 + next_place_++ % kPlaces);
+  }
+  [[nodiscard]] bool contains(std::uint32_t cid) const noexcept {
+    return std::ranges::any_of(slots_, [cid](const Slot& s) { return s.cid == cid && s.owner; });
+  }
+  [[nodiscard]] const std::array<Slot, kMax>& slots() const noexcept { return slots_; }
+  void remove(std::size_t slot) noexcept { slots_[slot].owner.reset(); }
+
+ private:
+  static constexpr std::uint8_t kPlaces = 64;
+  std::size_t joining_ = 0;
+  std::uint8_t next_place_ = 0;
+  std::array<Slot, kMax> slots_{};
+};
+
+}  // namespace tandem::server

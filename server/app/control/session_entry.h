@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/auth/limiter.h"
+#include "server/app/control/console_tickets.h"
+#include "server/app/control/link_test_slots.h"
+#include "server/app/control/removed_workstations.h"
+#include "server/app/control/seat_reservation.h"
+#include "server/app/control/status_notices.h"
+#include "server/app/process/live_session.h"
+#include "server/app/process/shard.h"
+
+namespace tandem::server {
+
+/// Session that clients can join.
+struct SessionRegistration {
+  std::string name;  ///< for users: 1 to 32 characters of A-Z a-z 0-9 _ -
+  auth::Id16 id{};
+  /// Session code, 10 characters of 0-9 A-Z, with which enrolled workstations may join. Empty: tickets only.
+  std::string code;
+  std::uint64_t epoch = 1;
+  LiveSession* session = nullptr;             ///< valid until the session is over
+  Shard* shard = nullptr;                     ///< serves the session, or will
+  const SessionSnapshot* snapshot = nullptr;  ///< source of the restore, read when it is added; null: a new session
+  /// Receives the full list of removed workstations whenever one is added; null: the list is not stored.
+  std::function<void(const std::vector<RemovedWorkstations::Key>&)> on_removed{};
+  Time resume_until{};  ///< former participants can resume until then; only with `snapshot`
+};
+
+/// A registered session, and what the control plane alone knows about its clients.
+struct SessionEntry {
+  /// @param now  of the monotonic clock
+  SessionEntry(SessionRegistration opening, Time now) : registration(std::move(opening)) {
+    seats.resize(scene().seats.size());
+    const SessionSnapshot* const from = std::exchange(registration.snapshot, nullptr);  // the caller may destroy it
+    removed =
+        RemovedWorkstations(from == nullptr ? std::vector<RemovedWorkstations::Key>{} : from->removed_workstations,
+                            registration.on_removed);
+    for (std::size_t i = 0; from != nullptr && i < seats.size(); ++i)
+      seats[i].restore(from->checkpoint.seats[i], registration.resume_until, now);
+  }
+
+  [[nodiscard]] LiveSession& session() const noexcept { return *registration.session; }
+  [[nodiscard]] const SceneSpec& scene() const noexcept { return registration.session->scene(); }
+  /// Neither removed nor over.
+  [[nodiscard]] bool open() const noexcept { return !closing && !registration.session->over(); }
+
+  SessionRegistration registration;
+  bool closing = false;                ///< the session is over and being removed: it gets no more requests
+  std::vector<SeatReservation> seats;  ///< one per seat
+  LinkTestSlots link_tests;
+  ConsoleTickets consoles;
+  RemovedWorkstations removed;
+  StatusNotices notices;
+  auth::TokenBucket forbidden_events{1, 5};  ///< audit events of forbidden commands
+};
+
+}  // namespace tandem::server

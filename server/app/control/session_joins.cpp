@@ -1,0 +1,335 @@
+#include "server/app/control/session_joins.h"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+#include <utility>
+
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "common/io/log.h"
+#include "proto/text/seat_setup.h"
+#include "server/policy/roles.h"
+#include "server/session/connection_id.h"
+
+namespace tandem::server {
+namespace {
+
+using rpc::ErrorCode;
+using rpc::ErrorReply;
+using ResumeMatch = SeatReservation::ResumeMatch;
+
+constexpr std::uint32_t kLinkTestRetryS = 3;  // a silent peer's slot is free by then
+constexpr std::uint8_t kConsolePlace = 0;     // no seat has it, so no datagram opens under a console's keys
+
+bool is_console(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) == kConsolePlace; }
+std::size_t seat_of(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) - std::size_t{1}; }
+
+std::string ticket_command(const SessionEntry& entry, const std::string& what, const std::string& workstation) {
+  return "`tandem-server ticket --session " + entry.registration.name + " " + what + " --workstation " + workstation +
+         "`";
+}
+
+/// A Welcome with fresh connection id and resume secret, without setup.
+rpc::Welcome make_welcome(const SessionEntry& entry, std::uint8_t place, AccessRole role, bool has_aes) {
+  rpc::Welcome w;
+  w.session_id = entry.registration.id;
+  w.session_name = entry.registration.name;
+  w.epoch = entry.registration.epoch;
+  const auto drawn = auth::random_bytes<std::array<std::byte, 2>>();
+  w.server_cid = connection_id(
+      static_cast<std::uint16_t>(std::to_integer<unsigned>(drawn[0]) << 8 | std::to_integer<unsigned>(drawn[1])),
+      entry.session().slot(), place);
+  const bool aes = has_aes && transport::fastest_cipher() == transport::Cipher::kAes256Gcm;
+  w.cipher = aes ? rpc::Cipher::kAes256Gcm : rpc::Cipher::kChaCha20Poly1305;
+  w.role = role;
+  w.udp_port = entry.registration.shard->address().port();
+  w.resume_secret = Secret<32>{auth::random_bytes<std::array<std::byte, 32>>()};
+  return w;
+}
+
+std::vector<std::byte> encoded(const SeatSetup& setup) {
+  std::array<char, wire::kSetupMax> text;
+  const auto bytes = std::as_bytes(std::span{text}.first(encode_seat_setup(setup, text)));
+  return {bytes.begin(), bytes.end()};
+}
+
+/// Key to which the resume secrets of this workstation are bound. Ephemeral keys are shared by all clients and change
+/// with each start.
+SeatReservation::Hash resume_binding(const auth::ServerKeystore& trust, const WorkstationRow& workstation) {
+  return trust.on_disk() ? workstation.spki : SeatReservation::Hash{};
+}
+
+ErrorReply session_ends() { return {ErrorCode::kSessionOver, "the session is ending", 0}; }
+ErrorReply seat_taken() { return {ErrorCode::kSeatTaken, "this seat is taken already", 2}; }
+ErrorReply nothing_to_resume() {
+  return {ErrorCode::kResume,
+          "nothing to resume: the seat was given to another client, or the resume secret has expired", 0};
+}
+
+}  // namespace
+
+SessionJoins::SessionJoins(SessionRegistry& registry, SessionCommands& commands, auth::ServerKeystore& trust,
+                           const LoadLimits& limits, std::function<void(const std::string&)> on_message)
+    : registry_(registry), commands_(commands), trust_(trust), limits_(limits), on_message_(std::move(on_message)) {}
+
+void SessionJoins::admit(const JoinRequest& request, std::function<void(JoinReply)> answer) {
+  // A console operates sessions, so it may join while the server drains.
+  const bool console = request.hello.seat.empty() && !request.hello.link_test;
+  if (registry_.drain().active() && !console)
+    return answer(ErrorReply{
+        ErrorCode::kDraining,
+        "this server is draining and rejects new joins; wait until it has restarted, or ask its operator", 10});
+  const auto found = registry_.choose(request.hello.session);
+  if (const auto* refused = std::get_if<ErrorReply>(&found)) return answer(*refused);
+  SessionEntry& entry = *std::get<SessionEntry*>(found);
+  if (console) return join_console(entry, request, answer);
+  if (const auto busy = overload_reply(entry);
+      busy && !std::holds_alternative<rpc::ResumeCredential>(request.hello.credential))
+    return answer(*busy);
+  if (request.hello.link_test) return join_link_test(entry, request, std::move(answer));
+  join_seat(entry, request, std::move(answer));
+}
+
+std::optional<ErrorReply> SessionJoins::overload_reply(const SessionEntry& entry) const {
+  double all = 0;
+  for (const Shard* shard : registry_.requests().shards()) all += shard->cpu_share();
+  const Shard& own = *entry.registration.shard;
+  std::string why = rejection_reason({own.load(), own.cpu_share(), own.load_state().level == ShedLevel::kNewJoins}, all,
+                                     std::thread::hardware_concurrency(), limits_);
+  if (why.empty()) return std::nullopt;
+  return ErrorReply{ErrorCode::kFull, std::move(why), 5};
+}
+
+// ---- Seats ----
+
+void SessionJoins::join_seat(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer) {
+  const SeatCatalogue& catalogue = entry.session().seat_catalogue();
+  const auto seat = catalogue.seat_named(request.hello.seat);
+  if (!seat) return answer(ErrorReply{ErrorCode::kNoSeat, "no seat of this name; seats: " + catalogue.seat_names(), 0});
+  if (const std::string why = catalogue.device_incompatibility(request.hello.device); !why.empty())
+    return answer(ErrorReply{ErrorCode::kDeviceUnfit, why, 0});
+  SeatReservation& reservation = entry.seats[*seat];
+  const auto* resume = std::get_if<rpc::ResumeCredential>(&request.hello.credential);
+  const ResumeMatch match = resume == nullptr
+                                ? ResumeMatch::kNone
+                                : reservation.match(resume->secret, resume_binding(trust_, request.workstation));
+  if (resume != nullptr && match == ResumeMatch::kNone) return answer(nothing_to_resume());
+  if (reservation.joining()) return answer(seat_taken());
+  if (resume == nullptr && reservation.reserved(io::monotonic_now()))
+    return answer(ErrorReply{ErrorCode::kSeatTaken,
+                             "this seat is reserved for 2 s for the client that had it when the server died", 2});
+
+  reservation.begin_join();
+  ShardRequest query{.what = ShardRequest::What::kQuerySeat, .seat = *seat, .same_owner = resume != nullptr};
+  query.done = [this, &entry, request, match, answer = std::move(answer)](ShardRequest& asked) {
+    JoinReply reply = decide_seat(entry, request, match, asked);
+    if (std::holds_alternative<ErrorReply>(reply)) entry.seats[asked.seat].end_join();
+    answer(std::move(reply));
+  };
+  registry_.post(entry, std::move(query));
+}
+
+JoinReply SessionJoins::decide_seat(SessionEntry& entry, const JoinRequest& request, ResumeMatch match,
+                                    const ShardRequest& asked) {
+  if (asked.result == JoinResult::kSessionOver) return session_ends();
+  if (asked.result == JoinResult::kSeatTaken) return seat_taken();
+  SeatReservation& reservation = entry.seats[asked.seat];
+  if (asked.same_owner && !reservation.may_resume(match, asked.silence, asked.ever_heard, io::monotonic_now()))
+    return nothing_to_resume();
+  const SeatSpec& seat = entry.scene().seats[asked.seat];
+  const AccessRole role = access_role(seat.role);
+  // A ticket can only lower the force. A resume has no ticket and keeps the stored scale.
+  double force_scale = asked.same_owner ? reservation.force_scale() : 1;
+  std::optional<auth::Id16> used;
+  if (const auto* ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential)) {
+    const auto redeemed = redeem(entry, request, *ticket, role);
+    if (!redeemed) return redeemed.error();
+    force_scale = static_cast<double>(redeemed->force_scale) / auth::Ticket::kFullForce;
+    used = redeemed->ticket_id;
+  } else if (const auto* code = std::get_if<rpc::CodeCredential>(&request.hello.credential)) {
+    if (auto refused = check_code(entry, request, code->code, role)) return std::move(*refused);
+  } else if (!asked.same_owner) {
+    return ErrorReply{ErrorCode::kTicket,
+                      "a ticket or the session's code is needed; ask for " +
+                          ticket_command(entry, "--seat " + request.hello.seat, request.workstation.name),
+                      0};
+  }
+  reservation.offer(match, asked.ever_heard, force_scale, used);
+  rpc::Welcome w = make_welcome(entry, static_cast<std::uint8_t>(asked.seat + 1), role, request.hello.has_aes);
+  w.seat = seat.name;
+  SeatSetup own = entry.session().seat_catalogue().setup_for(asked.seat, request.hello.device);
+  own.gate.force_max *= force_scale;
+  w.setup = encoded(own);
+  return w;
+}
+
+std::optional<ErrorReply> SessionJoins::check_code(const SessionEntry& entry, const JoinRequest& request,
+                                                   const std::string& code, AccessRole role) {
+  if (entry.removed.contains(request.workstation.spki))
+    return ErrorReply{ErrorCode::kNotAllowed,
+                      "the participant of this workstation was removed from the session; to join again, ask an "
+                      "operator for a ticket",
+                      0};
+  if (entry.registration.code.empty() || code != entry.registration.code)
+    return ErrorReply{ErrorCode::kCode, "this is not the session's code", 0};
+  if (role == AccessRole::kInstructor)
+    return ErrorReply{ErrorCode::kNotAllowed,
+                      "the instructor's seat needs a ticket: on the server, " +
+                          ticket_command(entry, "--seat " + request.hello.seat, request.workstation.name),
+                      0};
+  return std::nullopt;
+}
+
+std::expected<auth::Ticket, ErrorReply> SessionJoins::redeem(const SessionEntry& entry, const JoinRequest& request,
+                                                             const rpc::TicketCredential& ticket,
+                                                             std::optional<AccessRole> role) {
+  auto redeemed =
+      trust_.redeem(ticket.bytes, {entry.registration.id, entry.registration.epoch, request.hello.seat, role,
+                                   auth::KeyFingerprint{request.workstation.spki}, auth::wall_seconds()});
+  if (redeemed) return std::move(*redeemed);
+  if (!redeemed.error().fault) {  // a failure of the server itself
+    if (on_message_) on_message_("no ticket can be used: " + redeemed.error().text);
+    io::log_event(io::Level::kError, {.event = "error", .text = redeemed.error().text});
+  }
+  return std::unexpected(ticket_error_reply(redeemed.error()));
+}
+
+void SessionJoins::restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry) {
+  if (!ticket) return;
+  const std::string problem = trust_.restore_ticket(*ticket);
+  trust_.audit(auth::wall_seconds(), "ticket_unused", entry.registration.name,
+               auth::to_hex(*ticket) + (problem.empty() ? "" : ": " + problem));
+}
+
+// ---- Consoles and link tests ----
+
+void SessionJoins::join_console(SessionEntry& entry, const JoinRequest& request,
+                                const std::function<void(JoinReply)>& answer) {
+  const auto* ticket = std::get_if<rpc::TicketCredential>(&request.hello.credential);
+  if (ticket == nullptr)
+    return answer(ErrorReply{ErrorCode::kNoSeat,
+                             "a join without a seat needs a ticket, such as from " +
+                                 ticket_command(entry, "--role operator", request.workstation.name) +
+                                 "; seats: " + entry.session().seat_catalogue().seat_names(),
+                             0});
+  const auto role = auth::claimed_role(ticket->bytes);
+  if (role && !may_join_console(*role))
+    return answer(ErrorReply{ErrorCode::kNotAllowed,
+                             "the role " + std::string(to_text(*role)) +
+                                 " needs a seat; a console has the role instructor, operator or recorder",
+                             0});
+  const auto redeemed = redeem(entry, request, *ticket, std::nullopt);
+  if (!redeemed) return answer(redeemed.error());
+  rpc::Welcome w = make_welcome(entry, kConsolePlace, redeemed->role, request.hello.has_aes);
+  entry.consoles.add(w.resume_secret, redeemed->ticket_id);
+  answer(std::move(w));
+}
+
+/// Any enrolled workstation may test its link, because that touches no seat. The number of peers is limited.
+void SessionJoins::join_link_test(SessionEntry& entry, const JoinRequest& request,
+                                  std::function<void(JoinReply)> answer) {
+  const ErrorReply full{ErrorCode::kFull,
+                        format("all %zu link-test slots of this session are taken; try again in %u s",
+                               LinkTestSlots::kMax, kLinkTestRetryS),
+                        kLinkTestRetryS};
+  if (!entry.link_tests.begin_join()) return answer(full);
+  ShardRequest query{.what = ShardRequest::What::kQueryLinkTest};
+  query.done = [&entry, full, has_aes = request.hello.has_aes, answer = std::move(answer)](ShardRequest& asked) {
+    const bool accepted = asked.result == JoinResult::kAccepted;
+    if (!accepted || !entry.link_tests.enough(asked.place)) {
+      entry.link_tests.cancel_join();
+      return answer(accepted ? full : session_ends());
+    }
+    rpc::Welcome w = make_welcome(entry, entry.link_tests.next_place(), AccessRole::kObserver, has_aes);
+    w.setup = encoded(entry.session().seat_catalogue().setup(0));
+    answer(std::move(w));
+  };
+  registry_.post(entry, std::move(query));
+}
+
+// ---- Joined connections ----
+
+void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& welcome,
+                             const Secret<auth::kExportSize>& secrets) {
+  SessionEntry* const entry = registry_.find(welcome.session_id);
+  if (entry == nullptr) return;
+  if (is_console(welcome))
+    return io::log_event(io::Level::kInfo, {.event = "console-joined",
+                                            .session = welcome.session_name,
+                                            .text = request.address + " " + std::string(to_text(welcome.role))});
+  const auto log = [&welcome](const char* event, std::string text) {
+    io::log_event(io::Level::kInfo, {.event = event,
+                                     .session = welcome.session_name,
+                                     .seat = welcome.seat,
+                                     .cid = welcome.server_cid,
+                                     .text = std::move(text)});
+  };
+  const SeatCatalogue& catalogue = entry->session().seat_catalogue();
+  transport::SecureChannel::Params params;
+  params.outgoing = transport::Direction::kToClient;
+  params.own_cid = welcome.server_cid;
+  params.peer_cid = request.hello.client_cid;
+  params.secrets = transport::secrets_from_exporter(secrets.bytes, welcome.cipher == rpc::Cipher::kAes256Gcm
+                                                                       ? transport::Cipher::kAes256Gcm
+                                                                       : transport::Cipher::kChaCha20Poly1305);
+  ShardRequest joins;
+  if (request.hello.link_test) {
+    params.tick = catalogue.tick();
+    joins.what = ShardRequest::What::kAdmitLinkTest;
+    joins.connection.link = std::make_unique<transport::SecureChannel>(params);
+    joins.done = [entry, by = request.workstation, cid = welcome.server_cid](ShardRequest& asked) {
+      if (asked.result != JoinResult::kAccepted) return entry->link_tests.cancel_join();
+      entry->link_tests.admit(asked.place, by, cid);
+    };
+  } else {
+    const std::size_t seat = seat_of(welcome);
+    SeatReservation& reservation = entry->seats[seat];
+    const auto secret = resume_hash(welcome.resume_secret.bytes, resume_binding(trust_, request.workstation));
+    reservation.admit(request.workstation, welcome.server_cid, secret);
+    joins.what = ShardRequest::What::kAdmit;
+    joins.seat = seat;
+    joins.same_owner = true;  // the query succeeded, and the seat has been reserved since
+    joins.connection = catalogue.make_connection(seat, params, request.hello.device);
+    joins.connection.resume = secret;
+    joins.connection.force_scale = reservation.force_scale();
+    joins.done = [&reservation](ShardRequest&) { reservation.end_join(); };
+    if (std::string softer = catalogue.softened_spring_text(seat, request.hello.device); !softer.empty())
+      log("stiffness_reduced", std::move(softer));
+  }
+  log(request.hello.link_test ? "link-test-joined" : "seat-joined", request.address);
+  registry_.post(*entry, std::move(joins));
+}
+
+void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
+  SessionEntry* const entry = registry_.find(welcome.session_id);
+  if (entry == nullptr) return;
+  if (!welcome.seat.empty()) return restore_ticket(entry->seats[seat_of(welcome)].end_join(), *entry);
+  if (!is_console(welcome)) return entry->link_tests.cancel_join();
+  restore_ticket(entry->consoles.take(welcome.resume_secret), *entry);
+}
+
+rpc::SessionList SessionJoins::list(const WorkstationRow&) { return registry_.list(); }
+
+void SessionJoins::command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
+                           std::function<void(rpc::Body)> answer) {
+  commands_.execute(joined, workstation, std::move(command), std::move(answer));
+}
+
+bool SessionJoins::is_current(const rpc::Welcome& joined) const {
+  const SessionEntry* const entry = std::as_const(registry_).find(joined.session_id);
+  if (entry == nullptr) return false;
+  if (!joined.seat.empty()) return entry->seats[seat_of(joined)].owned_by(joined.server_cid);
+  return is_console(joined) ? entry->consoles.contains(joined.resume_secret)
+                            : entry->link_tests.contains(joined.server_cid);
+}
+
+/// Recorders only query status, so their ticket counts as used.
+void SessionJoins::on_disconnected(const rpc::Welcome& joined, bool in_vain) {
+  SessionEntry* const entry = registry_.find(joined.session_id);
+  if (entry == nullptr || !is_console(joined)) return;
+  const auto ticket = entry->consoles.take(joined.resume_secret);
+  if (in_vain && allowed(joined.role, Right::kStopSession) != Grant::kNo) restore_ticket(ticket, *entry);
+}
+
+}  // namespace tandem::server

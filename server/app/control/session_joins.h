@@ -1,0 +1,61 @@
+#pragma once
+
+#include <expected>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "server/app/control/join_handler.h"
+#include "server/app/control/session_commands.h"
+#include "server/app/control/session_registry.h"
+#include "server/policy/admission_control.h"
+
+namespace tandem::server {
+
+/// Decides joins of seats, consoles and link tests, and passes the commands of joined connections on. All members run
+/// on the control plane's thread. The state of seats and slots is queried from the shard; that reply comes later.
+class SessionJoins final : public JoinHandler {
+ public:
+  /// @param trust       redeems tickets
+  /// @param limits      load of a shard above which its sessions reject new joins
+  /// @param on_message  receives failures of the server itself, one line each, for its operator
+  SessionJoins(SessionRegistry& registry, SessionCommands& commands, auth::ServerKeystore& trust,
+               const LoadLimits& limits = {}, std::function<void(const std::string&)> on_message = {});
+
+  void admit(const JoinRequest& request, std::function<void(JoinReply)> answer) override;
+  void on_joined(const JoinRequest& request, const rpc::Welcome& welcome,
+                 const Secret<auth::kExportSize>& secrets) override;
+  void on_join_failed(const rpc::Welcome& welcome) override;
+  [[nodiscard]] rpc::SessionList list(const WorkstationRow& workstation) override;
+  void command(const rpc::Welcome& joined, const WorkstationRow& workstation, rpc::Body command,
+               std::function<void(rpc::Body)> answer) override;
+  [[nodiscard]] bool is_current(const rpc::Welcome& joined) const override;
+  void on_disconnected(const rpc::Welcome& joined, bool in_vain) override;
+
+ private:
+  void join_console(SessionEntry& entry, const JoinRequest& request, const std::function<void(JoinReply)>& answer);
+  void join_link_test(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
+  void join_seat(SessionEntry& entry, const JoinRequest& request, std::function<void(JoinReply)> answer);
+  /// Decides after the session has reported the state of the seat. A ticket is redeemed last, because it is then used.
+  [[nodiscard]] JoinReply decide_seat(SessionEntry& entry, const JoinRequest& request,
+                                      SeatReservation::ResumeMatch match, const ShardRequest& asked);
+  /// Error reply if the session's code does not admit to a seat of this role; nullopt if it does.
+  [[nodiscard]] static std::optional<rpc::ErrorReply> check_code(const SessionEntry& entry, const JoinRequest& request,
+                                                                 const std::string& code, AccessRole role);
+  /// @param role  of the seat; nullopt: any role, for a console
+  [[nodiscard]] std::expected<auth::Ticket, rpc::ErrorReply> redeem(const SessionEntry& entry,
+                                                                    const JoinRequest& request,
+                                                                    const rpc::TicketCredential& ticket,
+                                                                    std::optional<AccessRole> role);
+  void restore_ticket(const std::optional<auth::Id16>& ticket, const SessionEntry& entry);
+  /// Error reply if the shard or the machine is too busy for a new join; nullopt if not.
+  [[nodiscard]] std::optional<rpc::ErrorReply> overload_reply(const SessionEntry& entry) const;
+
+  SessionRegistry& registry_;
+  SessionCommands& commands_;
+  auth::ServerKeystore& trust_;
+  LoadLimits limits_;
+  std::function<void(const std::string&)> on_message_;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <asio/posix/stream_descriptor.hpp>
+#include <functional>
+#include <list>
+#include <vector>
+
+#include "server/app/process/shard.h"
+
+namespace tandem::server {
+
+/// Requests of the control plane to the shards, from `post` to their completion. It owns each request while a shard
+/// executes it. All members run on the control plane's thread.
+class ShardRequests {
+ public:
+  explicit ShardRequests(asio::io_context& context) : context_(context) {}
+
+  /// Waits for completed requests of the shard.
+  void watch(Shard& shard);
+  /// Stops waiting for all shards, so that the context can end.
+  void stop_watching() { watched_.clear(); }
+  /// The watched shards.
+  [[nodiscard]] std::vector<const Shard*> shards() const;
+
+  /// Posts a request. Its `done` is called after a shard has executed it, or now, with JoinResult::kSessionOver, if the
+  /// queue of the shard is full.
+  void post(Shard& shard, ShardRequest request);
+  /// Calls `then` once no request of the session is in progress.
+  void when_idle(const LiveSession& session, std::function<void()> then);
+
+ private:
+  struct Watched {
+    Shard* shard;
+    asio::posix::stream_descriptor completions;
+  };
+  struct Waiting {
+    const LiveSession* session;
+    std::function<void()> then;
+  };
+  void await_completions(Watched& watched);
+  void complete(ShardRequest& request);
+  [[nodiscard]] bool idle(const LiveSession& session) const;
+
+  asio::io_context& context_;
+  std::list<Watched> watched_;
+  std::list<ShardRequest> requests_;  ///< in progress
+  std::list<Waiting> waiting_;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,232 @@
+#include "server/app/process/session_table.h"
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+#include "common/base/format.h"
+#include "common/io/clock.h"
+#include "server/app/monitor/startup_banner.h"
+#include "server/report/audit_text.h"
+#include "server/report/report_summary.h"
+
+namespace tandem::server {
+
+SessionTable::SessionTable(const ServerOptions& options, ShardPool& shards, ControlServer& control,
+                           CheckpointStore* checkpoints, ServerOutput& output)
+    : options_(options),
+      shards_(shards),
+      control_(control),
+      checkpoints_(checkpoints),
+      output_(output),
+      hints_(control.address(), control.folder(), control.ephemeral_keys(), options.sessions.size() > 1) {}
+
+int SessionTable::open() {
+  for (std::size_t slot = 0; slot < options_.sessions.size(); ++slot) {
+    const SessionOptions& session = options_.sessions[slot];
+    CheckpointStore::Found found;
+    if (checkpoints_ != nullptr)
+      found = checkpoints_->find(session.name, session.scene, auth::wall_seconds(), !options_.no_restore);
+    auto made = open_session(session, slot, 1, found.snapshot ? &*found.snapshot : nullptr);
+    if (!made) return made.error();
+    sessions_.push_back(std::move(*made));
+    report_restored(*sessions_.back(), found);
+  }
+  return 0;
+}
+
+void SessionTable::begin() {
+  began_ = io::monotonic_now();
+  for (const auto& s : sessions_) {
+    shards_.of_slot(s->live_session().slot()).add_session(s->live_session());
+    control_.registry().add(registration_of(*s));
+  }
+}
+
+std::expected<std::unique_ptr<SessionInstance>, int> SessionTable::open_session(const SessionOptions& options,
+                                                                                std::size_t slot, std::uint64_t epoch,
+                                                                                const SessionSnapshot* snapshot) {
+  auto made = SessionInstance::open(options, static_cast<std::uint8_t>(slot), epoch,
+                                    !control_.ephemeral_keys() && !options.tickets_only, snapshot);
+  if (!made) {
+    for (const std::string& text : made.error().texts) output_.error(text);
+    return std::unexpected(made.error().code);
+  }
+  SessionInstance& session = **made;
+  if (checkpoints_ != nullptr)
+    session.live_session().persist_to(
+        checkpoints_->add(
+            {{},
+             session.id(),
+             options.name,
+             session.code(),
+             0,
+             snapshot != nullptr ? snapshot->removed_workstations : decltype(snapshot->removed_workstations){}}),
+        session.epoch());
+  return std::move(*made);
+}
+
+void SessionTable::report_restored(const SessionInstance& session, const CheckpointStore::Found& found) {
+  const std::string& name = session.options().name;
+  if (!found.incompatibility.empty()) {
+    const std::string text =
+        "session " + name + " starts from the beginning: its checkpoint is not used: " + found.incompatibility;
+    output_.report(io::Level::kWarn, {.event = "checkpoint_unfit", .session = name, .text = text}, text);
+  }
+  if (!found.snapshot) return;
+  const Checkpoint& from = found.snapshot->checkpoint;
+  std::string text =
+      format("session %s RESTORED from its checkpoint, %lld s old: at %.1f s, epoch %llu", name.c_str(),
+             static_cast<long long>(std::max<std::int64_t>(0, auth::wall_seconds() - found.snapshot->written_s)),
+             from.session_tick / session.options().scene.tick_hz, static_cast<unsigned long long>(session.epoch()));
+  if (from.begun)
+    text +=
+        "; it waits until the instructors and all seats with authority are back, or an instructor (key r) or "
+        "operator (`tandem-client control" +
+        hints_.client_options(name) + " resume`) resumes without them";
+  if (from.stop != StopLatch::Level::kNone)
+    text += "; it was stopped, and stays stopped until an instructor or operator resumes it";
+  output_.report(io::Level::kInfo,
+                 {.event = "session_restored", .session = name, .tick = from.session_tick, .text = text},
+                 text + (options_.sessions_resume ? "" : "; --no-restore starts it from the beginning"));
+}
+
+SessionRegistration SessionTable::registration_of(SessionInstance& session) {
+  SessionRegistration made{session.options().name,
+                           session.id(),
+                           session.code(),
+                           session.epoch(),
+                           &session.live_session(),
+                           &shards_.of_slot(session.live_session().slot()),
+                           session.snapshot(),
+                           {},
+                           session.snapshot() != nullptr ? session.resume_until() : Time{}};
+  if (checkpoints_ != nullptr)
+    made.on_removed = [store = checkpoints_, name = session.options().name](const auto& keys) {
+      store->set_removed(name, keys);
+    };
+  return made;
+}
+
+void SessionTable::announce_all() const {
+  for (const auto& session : sessions_) announce(*session);
+}
+
+void SessionTable::announce(const SessionInstance& session) const {
+  // Others may read what is stored, so codes are shown on terminals only.
+  output_.print(startup_banner(session, control_.address(), control_.ephemeral_keys(), options_.sessions.size() > 1,
+                               control_.ephemeral_keys() ? "" : control_.folder(),
+                               output_.may_be_stored() ? hints_.list_command() : ""));
+  io::log_event(io::Level::kInfo,
+                {.event = "session_opened", .session = session.options().name, .text = session.options().scene.name});
+}
+
+std::vector<SessionScreenEntry> SessionTable::screen_entries() const {
+  std::vector<SessionScreenEntry> entries;
+  for (const auto& s : sessions_)
+    entries.push_back(
+        {s->options().name, s->live_session().status(), &s->options().scene, hints_.client_options(s->options().name)});
+  return entries;
+}
+
+void SessionTable::service(Time now) {
+  for (std::size_t i = 0; i < sessions_.size();) {
+    if (!sessions_[i]->live_session().over()) {
+      service_session(*sessions_[i++], now);
+    } else if (!finish(sessions_[i])) {
+      sessions_.erase(sessions_.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+}
+
+void SessionTable::service_session(SessionInstance& session, Time now) {
+  write_audit_events(session);
+  const SessionStatus status = session.live_session().status();
+  const SceneSpec& scene = session.options().scene;
+  const PresenceTracker::Events news = session.presence.update(now, status, scene);
+  for (const PresenceTracker::Event& event : news.events) report(session, status, event);
+  if (status.state == wire::SessionState::kWaiting) session.missing_seats = waiting_for(status, scene);
+  if (session.end) return;
+  const SessionEnding::Times when{now, began_, options_.start_timeout_s,
+                                  session.snapshot() != nullptr ? std::optional{session.resume_until()} : std::nullopt};
+  if (const auto ending = session_ending(when, news, status, scene)) {
+    report(session, status, ending->event);
+    session.end = ending->why;
+    control_.change([&](SessionRegistry& registry, const auto& done) {
+      registry.end(session.id());
+      done();
+    });
+  }
+}
+
+void SessionTable::report(const SessionInstance& session, const SessionStatus& status,
+                          const PresenceTracker::Event& event) {
+  const std::string& name = session.options().name;
+  const auto tick = static_cast<std::uint64_t>(status.time * session.options().scene.tick_hz + 0.5);
+  output_.report(event.warning ? io::Level::kWarn : io::Level::kInfo,
+                 {.event = event.event, .session = name, .seat = event.seat, .tick = tick, .text = event.text},
+                 hints_.prefix(name) + with_options(event.text, "tandem-client control", hints_.client_options(name)));
+}
+
+/// Joins, leaves, authority changes, stops and resumes. Commands of consoles are logged with names by SessionCommands.
+void SessionTable::write_audit_events(SessionInstance& session) {
+  AuditEventQueue& events = session.live_session().audit();
+  for (const AuditEvent* e = events.front(); e != nullptr; e = events.front()) {
+    if (e->seat != AuditEvent::kControlPlane || e->party != AuditEvent::kNoSeat)
+      control_.audit().post(to_text(e->what), session.options().name, audit_text(*e, session.options().scene));
+    events.pop();
+  }
+}
+
+void SessionTable::drain() {
+  draining_ = true;
+  for (const auto& s : sessions_)
+    if (!s->end) s->end = EndReason::kSignal;
+}
+
+bool SessionTable::finish(std::unique_ptr<SessionInstance>& place) {
+  SessionInstance& session = *place;
+  const std::string& name = session.options().name;
+  // During a drain the shards end too and complete no requests. The session then stays registered until the control
+  // server stops.
+  if (!draining_)
+    control_.change([&](SessionRegistry& registry, const auto& done) { registry.remove(session.id(), done); });
+  if (checkpoints_ != nullptr && !(draining_ && will_resume())) checkpoints_->remove(name);
+  write_audit_events(session);
+  const auto slot = session.live_session().slot();
+  const SessionInstance::Verdict verdict = session.finish();
+  if (!options_.quiet && !io::logs_json()) summarize(verdict.report, session);
+  io::log_event(verdict.report.passed ? io::Level::kInfo : io::Level::kError,
+                {.event = "session_over", .session = name, .text = session.outcome_text(verdict.report)});
+  if (!verdict.problem.empty()) output_.error(verdict.problem);
+  if (!session.options().restart || draining_ || control_.registry().drain().due()) {
+    exit_code_ = std::max(exit_code_, verdict.code);
+    if (draining_) finished_.push_back(std::move(place));
+    return false;
+  }
+  auto next = open_session(session.options(), slot, session.epoch() + 1);
+  if (!next) {
+    exit_code_ = std::max(exit_code_, next.error());
+    return false;
+  }
+  place = std::move(*next);
+  control_.change([&](SessionRegistry& registry, const auto& done) {
+    registry.add_running(registration_of(*place));
+    done();
+  });
+  announce(*place);
+  return true;
+}
+
+void SessionTable::summarize(const RunReport& report, SessionInstance& session) {
+  const bool began = report.duration_s > 0;
+  std::string text = hints_.prefix(session.options().name) + report.scenario + ": " + session.outcome_text(report) +
+                     (began ? "," : ";") +
+                     format(" ticks more than 1 ms late on this machine: %llu\n",
+                            static_cast<unsigned long long>(session.live_session().final_status().machine.late_ticks));
+  if (began) text += report_summary(report, session.options().scene);
+  output_.clear();
+  output_.print(text);
+}
+
+}  // namespace tandem::server

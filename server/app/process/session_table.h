@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "server/app/control/control_server.h"
+#include "server/app/monitor/server_hints.h"
+#include "server/app/monitor/server_output.h"
+#include "server/app/process/checkpoint_store.h"
+#include "server/app/process/server_process.h"
+#include "server/app/process/shard_pool.h"
+
+namespace tandem::server {
+
+/// The sessions of a server process: opened or restored, announced, serviced while they run, then finished with a
+/// report and perhaps replaced. All members belong to the thread of the main loop.
+class SessionTable {
+ public:
+  /// @param checkpoints  null: no client could resume after a restart
+  /// All references must outlive this.
+  SessionTable(const ServerOptions& options, ShardPool& shards, ControlServer& control, CheckpointStore* checkpoints,
+               ServerOutput& output);
+
+  /// Opens all sessions, and restores those that the last server left. @return exit code; 0: no error
+  [[nodiscard]] int open();
+  /// Passes the sessions to the shards and the control server, before either runs.
+  void begin();
+  /// Prints how to join the sessions.
+  void announce_all() const;
+
+  /// Sessions that are running, or over but not yet completed.
+  [[nodiscard]] const std::vector<std::unique_ptr<SessionInstance>>& all() const noexcept { return sessions_; }
+  [[nodiscard]] const ServerHints& hints() const noexcept { return hints_; }
+  /// Sessions for the status line.
+  [[nodiscard]] std::vector<SessionScreenEntry> screen_entries() const;
+  /// Reports the events of all sessions, ends those without participants, and finishes those that are over.
+  void service(Time now);
+  /// The server ends: all sessions count as ended by a signal, and none is replaced.
+  void drain();
+  /// Greatest exit code of the sessions that were not replaced.
+  [[nodiscard]] int exit_code() const noexcept { return exit_code_; }
+  /// Whether the next start of this server restores the sessions.
+  [[nodiscard]] bool will_resume() const noexcept { return options_.sessions_resume && checkpoints_ != nullptr; }
+
+ private:
+  [[nodiscard]] std::expected<std::unique_ptr<SessionInstance>, int> open_session(
+      const SessionOptions& options, std::size_t slot, std::uint64_t epoch, const SessionSnapshot* snapshot = nullptr);
+  void report_restored(const SessionInstance& session, const CheckpointStore::Found& found);
+  [[nodiscard]] SessionRegistration registration_of(SessionInstance& session);
+  void announce(const SessionInstance& session) const;
+  void service_session(SessionInstance& session, Time now);
+  /// Reports an event of a session with the time of its status.
+  void report(const SessionInstance& session, const SessionStatus& status, const PresenceTracker::Event& event);
+  void write_audit_events(SessionInstance& session);
+  /// Completes a session that is over. @return true if another one replaced it
+  [[nodiscard]] bool finish(std::unique_ptr<SessionInstance>& place);
+  void summarize(const RunReport& report, SessionInstance& session);
+
+  const ServerOptions& options_;
+  ShardPool& shards_;
+  ControlServer& control_;
+  CheckpointStore* checkpoints_;
+  ServerOutput& output_;
+  ServerHints hints_;
+  std::vector<std::unique_ptr<SessionInstance>> sessions_;
+  std::vector<std::unique_ptr<SessionInstance>> finished_;  ///< completed, but still registered
+  Time began_{};
+  bool draining_ = false;
+  int exit_code_ = 0;
+};
+
+}  // namespace tandem::server

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "common/base/time.h"
+
+namespace tandem::server {
+
+/// Two counts of ticks. The server's ticks follow the time that the caller passes. The session's ticks begin when all
+/// required seats are engaged, and rest while the session is stopped.
+class SessionClock {
+ public:
+  static constexpr std::uint32_t kCatchUpMax = 50;  ///< missed ticks that are run after a stall; more are dropped
+
+  /// @param tick_hz  ticks per second, positive
+  explicit SessionClock(double tick_hz) noexcept : dt_(1.0 / tick_hz), tick_length_(from_seconds(dt_)) {}
+
+  [[nodiscard]] double dt() const noexcept { return dt_; }  ///< tick [s]
+  [[nodiscard]] Duration tick_length() const noexcept { return tick_length_; }
+
+  /// Begins the server's tick at `now`.
+  /// @param missed  ticks whose time passed without a call
+  /// @return number of missed ticks to run now, at most kCatchUpMax
+  std::uint32_t begin_tick(Time now, std::uint32_t missed) noexcept {
+    if (!started_) started_ = now;
+    last_tick_ = now;
+    tick_ = static_cast<std::uint32_t>(std::llround(seconds(now - *started_) / dt_));
+    const std::uint32_t run = std::min(missed, kCatchUpMax);
+    dropped_ticks_ += missed - run;
+    return run;
+  }
+  /// Number of the server's tick; 0 for the first.
+  [[nodiscard]] std::uint32_t tick() const noexcept { return tick_; }
+  [[nodiscard]] Time last_tick() const noexcept { return last_tick_; }
+  /// Missed ticks that were not run.
+  [[nodiscard]] std::uint64_t dropped_ticks() const noexcept { return dropped_ticks_; }
+
+  /// Sets the session's tick, from a checkpoint. The clock does not run yet.
+  void restore(std::uint32_t session_tick) noexcept { session_tick_ = session_tick; }
+  /// Lets the session's ticks run: from 0, or on from the restored tick.
+  void begin() noexcept {
+    begun_ = true;
+    session_tick_ = 0;
+  }
+  void resume() noexcept { begun_ = true; }
+  /// Counts one tick. @pre begun()
+  void advance(bool stopped) noexcept {
+    if (stopped) {
+      ++stopped_ticks_;
+    } else {
+      ++session_tick_;
+    }
+  }
+  [[nodiscard]] bool begun() const noexcept { return begun_; }
+  [[nodiscard]] std::uint32_t session_tick() const noexcept { return session_tick_; }
+  /// Session time [s]: ticks since `begin`, without those for which the clock was stopped.
+  [[nodiscard]] double time() const noexcept { return session_tick_ * dt_; }
+  /// Ticks of this epoch for which the clock was stopped.
+  [[nodiscard]] std::uint64_t stopped_ticks() const noexcept { return stopped_ticks_; }
+
+ private:
+  double dt_;
+  Duration tick_length_;
+  std::optional<Time> started_;  ///< first tick
+  Time last_tick_{};
+  std::uint32_t tick_ = 0, session_tick_ = 0;
+  std::uint64_t dropped_ticks_ = 0, stopped_ticks_ = 0;
+  bool begun_ = false;
+};
+
+}  // namespace tandem::server

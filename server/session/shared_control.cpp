@@ -1,0 +1,277 @@
+#include "server/session/shared_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/control/mix_minus.h"
+#include "common/setup/channel_factory.h"
+
+namespace tandem::server {
+
+namespace {
+
+control::EscHub::Params hub_params(const SceneSpec& scene) {
+  return {.axes = scene.dof,
+          .masters = scene.masters(),
+          .tools = scene.tools.size(),
+          .mfs = setup::flow_source_mode(scene.channel.mfs),
+          .tank = scene.channel.tank,
+          .eta = scene.channel.eta,
+          .b_rel = scene.channel.b_rel,
+          .dt = 1.0 / scene.tick_hz};
+}
+
+control::ReengageOffset offset_of(const SceneSpec& scene, const AxisArray& scale) {
+  control::ReengageOffset::Params p{
+      .axes = scene.dof, .hold = scene.gate.ramp_in, .v_app = scene.channel.v_app, .dt = 1.0 / scene.tick_hz};
+  for (std::size_t a = 0; a < kAxesMax; ++a) p.root_scale[a] = std::sqrt(scale[a]);
+  return control::ReengageOffset(p);
+}
+
+}  // namespace
+
+SharedControl::SharedControl(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves,
+                             const AxisArray& scale, std::span<SeatEndpoint> seats,
+                             const std::array<bool, kSeatsMax>& present)
+    : scene_(&scene),
+      dt_(1.0 / scene.tick_hz),
+      seats_(seats),
+      present_(present),
+      masters_(scene.masters()),
+      replica_(scene.channel.law == LawKind::kReplica),
+      hub_(hub_params(scene)) {
+  offsets_.fill(offset_of(scene, scale));
+  tools_.reserve(scene.tools.size());
+  for (std::size_t j = 0; j < scene.tools.size(); ++j) {
+    tools_.emplace_back(scene, j, std::move(slaves[j]));
+    hub_.set_tool(j, tools_[j].port());
+    for (std::size_t i = 0; i < masters_; ++i) hub_.set_follow(i, j, scene.follow[i][j]);
+  }
+  for (std::size_t i = masters_; i < scene.seats.size(); ++i) hub_.couple_slave(i, scene.seats[i].tool);
+}
+
+void SharedControl::rest_tool(std::size_t j, const AxisArray& x) noexcept {
+  tools_[j].rest_at(x);
+  hub_.set_tool(j, tools_[j].port());
+}
+
+bool SharedControl::touching(Time now, std::size_t j) const noexcept {
+  constexpr double kTouchN = 0.05;  // [N] noise level of a force sensor
+  if (const hal::SteppedDevice* const slave = tools_[j].slave())
+    return slave->state().penetration > 0 || slave->state().f_env.squaredNorm() > kTouchN * kTouchN;
+  if (!scene_->tools[j].remote) return tools_[j].body() != nullptr && tools_[j].body()->penetration() > 0;
+  const SeatEndpoint& seat = seats_[scene_->tools[j].seat];
+  if (!seat.alive(now)) return false;
+  const wire::Telemetry& heard = seat.last_state().telemetry;
+  return heard.penetration_m > 0 || std::ranges::any_of(heard.f_env, [](double f) { return std::abs(f) > kTouchN; });
+}
+
+bool SharedControl::slave_present(std::size_t j) const noexcept {
+  return !scene_->tools[j].remote || present_[scene_->tools[j].seat];
+}
+
+void SharedControl::step_authority(bool released) noexcept {
+  for (std::size_t j = 0; j < tools_.size(); ++j) {
+    Tool& tool = tools_[j];
+    const bool driven = !released && slave_present(j);
+    control::ToolAuthority::Input in;
+    in.dt = dt_;
+    for (std::size_t i = 0; i < masters_; ++i) {
+      in.present[i] = driven && present_[i];
+      in.stored[i] = seats_[i].end(j).state().stored(tool.port().x, scene_->dof);
+    }
+    for (std::size_t a = 0; a < scene_->dof; ++a)
+      in.dissipated += (1 - scene_->channel.eta) * tool.port().dissipated[a];
+    tool.authority.step(in);
+    hub_.set_authority(j, tool.authority.weights(), tool.authority.held());
+  }
+}
+
+void SharedControl::move_references(Time now) noexcept {
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    if (has_copies(i)) {
+      move_predictions(now, i);
+    } else {
+      move_spring(now, i);
+    }
+  }
+}
+
+/// Moves the reference of a seat whose one end serves all its tools.
+void SharedControl::move_spring(Time now, std::size_t i) noexcept {
+  SeatEndpoint& seat = seats_[i];
+  const bool master = i < masters_, present = present_[i];
+  if (!master && !present && seat.alive(now)) rest_tool(scene_->seats[i].tool, seat.last_state().port.x);
+  control::ChannelEnd& end = seat.end();
+  control::NearEnd near = hub_.near_end(i, end.state().k);
+  const bool braked = master && hub_.meets_brake(i);
+  near.engaged = present && !braked;
+  step_offset(i, near.engaged);
+  near.offset = offsets_[i].all();
+  // No energy is paid or credited while the seat's authority moves to other seats.
+  if (master && !present && !braked && hub_.has_authority(i)) return seat.hold(std::span{&near, 1});
+  const AxisArray before = end.state().ref;
+  seat.move(now, dt_, std::span{&near, 1});
+  hub_.settle(i, before, offsets_[i].last_step(), end);
+}
+
+/// Moves the references under law `replica`, with one end per tool.
+void SharedControl::move_predictions(Time now, std::size_t i) noexcept {
+  SeatEndpoint& seat = seats_[i];
+  const bool present = present_[i];
+  for (std::size_t j = 0; j < seat.ends(); ++j) {
+    near_ends_[j].engaged = present && hub_.coupling(i, j).share > 0 && !hub_.braked(j);
+    for (std::size_t a = 0; a < scene_->dof; ++a) near_ends_[j].x[a] = hub_.tool(j).x[a];
+  }
+  const std::span<const control::NearEnd> all{near_ends_.data(), seat.ends()};
+  if (!present && hub_.has_authority(i) && !hub_.meets_brake(i)) return seat.hold(all);
+  seat.move(now, dt_, all);
+}
+
+void SharedControl::step_offset(std::size_t i, bool engaged) noexcept {
+  const SeatEndpoint& seat = seats_[i];
+  control::ReengageOffset& offset = offsets_[i];
+  engaged_ticks_[i] = engaged ? engaged_ticks_[i] + 1 : 0;
+  const double pace = offset.pace(engaged_ticks_[i] * dt_);
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    if (engaged) {
+      offset.move(a, offset.decay(a, pace));
+    } else {
+      offset.set(a, seat.ever_heard() ? seat.last_state().port.x[a] - hub_.target(i)[a] : 0);
+    }
+  }
+}
+
+void SharedControl::step_tools(double time) noexcept {
+  for (std::size_t j = 0; j < tools_.size(); ++j) {
+    Tool& tool = tools_[j];
+    control::EscHub::Efforts pull{};
+    const control::VirtualTool* const body = replica_ ? tool.body() : nullptr;
+    for (std::size_t i = 0; i < masters_; ++i) hub_.add_effort(i, j, seats_[i].end(j).state(), body, pull);
+    const double share = scene_->tools[j].remote && slave_present(j) ? tool.slave_share() : 0;
+    if (share > 0) hub_.add_slave_effort(share, seats_[scene_->tools[j].seat].end().state(), pull);
+    if (tool.has_contact_source()) update_contacts(j, time);
+    tool.step(dt_, pull, tool.authority.held());
+    hub_.set_tool(j, tool.port());
+    hub_.fill_tank(j);
+  }
+}
+
+void SharedControl::update_contacts(std::size_t j, double time) noexcept {
+  ToolView view;
+  view.dt = dt_;
+  view.time = time;
+  if (scene_->tools[j].remote) {
+    const SeatEndpoint& seat = seats_[scene_->tools[j].seat];
+    const PortSample& heard = seat.last_state().port;
+    view.slave = slave_present(j);
+    view.fresh = std::exchange(slave_generation_[j], seat.generation()) != seat.generation();
+    view.slave_x = heard.x;
+    view.slave_v = heard.v;
+    for (std::size_t a = 0; a < scene_->dof; ++a)
+      view.slave_f[a] = heard.f[a] + seat.end().state().b[a] * view.slave_v[a];
+  }
+  tools_[j].update_contacts(view);
+}
+
+void SharedControl::step_targets(std::uint32_t tick, const LeadingHands& hands) noexcept {
+  for (std::size_t j = 0; j < tools_.size(); ++j) {
+    AxisArray injected{};
+    for (std::size_t i = 0; i < masters_; ++i)
+      if (present_[i]) hub_.add_injected(i, j, seats_[i].last_sample(j).f, injected);
+    hub_.observe(j, injected);
+  }
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    if (!has_copies(i)) {
+      fill_tool_target(i);
+      fill_account(i, 0, i < masters_ ? hub_.authority(i) : 0, seats_[i].tx);
+      continue;
+    }
+    if (present_[i]) grant_following(i);
+    SeatEndpoint& seat = seats_[i];
+    const std::span<const std::size_t> tools = seat.coupled_tools();
+    for (std::size_t k = 0; k < tools.size(); ++k) {
+      fill_hand_target(i, tools[k], hands, seat.coupling_force(k));
+      fill_account(i, tools[k], hub_.coupling(i, tools[k]).alpha, seat.coupling_force(k));
+    }
+    fill_contacts(seat, tick);
+    seat.tx.ghost = hands.ghost(i);
+  }
+}
+
+void SharedControl::grant_following(std::size_t i) noexcept {
+  const double effort_max = scene_->gate.force_max * share_of_force(scene_->seats[i].role);
+  for (std::size_t j = 0; j < tools_.size(); ++j)
+    hub_.grant_following(i, j, seats_[i].last_sample(j).x, effort_max, seats_[i].end(j));
+}
+
+/// Share of the slave's spring that acts on this hand; 0 without one.
+double SharedControl::slave_share(std::size_t i, std::size_t j) const noexcept {
+  const double share = tools_[j].slave_share();
+  if (!scene_->tools[j].remote || !slave_present(j) || share <= 0) return 0;
+  return control::MixMinus::slave_share(share, seats_[i].end(j).schedule(),
+                                        seats_[scene_->tools[j].seat].end().schedule(), scene_->channel.k_delay,
+                                        seats_[i].end().state().k[0]);
+}
+
+void SharedControl::fill_hand_target(std::size_t i, std::size_t j, const LeadingHands& hands,
+                                     wire::ToolForce& out) const noexcept {
+  out.slave_pull = slave_share(i, j);
+  for (std::size_t a = 0; a < scene_->dof; ++a) out.port.f[a] = hub_.tool(j).x[a];
+  control::MixMinus mix(hub_, i, j, out.port.x, out.port.v);
+  for (std::size_t h = 0; mix.led() && h < masters_; ++h) {
+    const double part = mix.part(h);
+    if (part == 0) continue;
+    const SeatEndpoint& other = seats_[h];
+    if (mix.shares() && present_[h]) {
+      mix.add_measured(part, other.last_sample(j));
+    } else {
+      const control::LeadingHand& lead = hands[h];
+      mix.add_predicted(part, other.end(j).state(), lead, scene_->seats[i].assist.force > 0 ? lead.steady_share() : 0,
+                        present_[h]);
+    }
+  }
+  if (!(out.slave_pull > 0)) return;
+  const SeatEndpoint& slave = seats_[scene_->tools[j].seat];
+  mix.add_slave(out.slave_pull, slave.end().state().ref, slave.last_state().port.v);
+}
+
+void SharedControl::fill_tool_target(std::size_t i) noexcept {
+  SeatEndpoint& seat = seats_[i];
+  const bool present = present_[i];
+  const control::EndState& end = seat.end().state();
+  const AxisArray flow = hub_.step_target(i, present, end.k);
+  PortSample& out = seat.tx.port;
+  for (std::size_t a = 0; a < scene_->dof; ++a) {
+    out.x[a] = hub_.target(i)[a] + offsets_[i][a];
+    // Until the seat is present, the target moves with its own hand, so that nothing pulls.
+    out.v[a] = present ? flow[a] + offsets_[i].last_step()[a] / dt_ : seat.last_state().port.v[a];
+    out.f[a] = end.k[a] * (end.ref[a] - out.x[a]);
+  }
+}
+
+void SharedControl::fill_account(std::size_t i, std::size_t j, double alpha, wire::ToolForce& out) const noexcept {
+  const control::ChannelEnd& end = seats_[i].end(j);
+  for (std::size_t a = 0; a < scene_->dof; ++a) out.port.e_in[a] = end.ledger(a).in_nj();
+  out.alpha = alpha;
+}
+
+/// If the surfaces near all tools do not fit into a datagram, the tools take turns. Each is sent again long before the
+/// client drops its surfaces.
+void SharedControl::fill_contacts(SeatEndpoint& seat, std::uint32_t tick) const noexcept {
+  const std::span<const std::size_t> tools = seat.coupled_tools();
+  std::size_t space = wire::contacts_room(scene_->dof, tools.size() - 1);
+  const std::size_t first = tick % tools.size();
+  for (std::size_t n = 0; n < tools.size(); ++n) {
+    const std::size_t k = (first + n) % tools.size();
+    LocalContactList& out = seat.coupling_force(k).contacts;
+    const LocalContactList& surfaces = tools_[tools[k]].contacts();
+    out.size = 0;
+    if (surfaces.size == 0 || surfaces.size > space) continue;
+    out = surfaces;
+    space -= surfaces.size;
+  }
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,47 @@
+#include "server/session/stop_control.h"
+
+namespace tandem::server {
+
+void StopControl::restore(const Checkpoint& from) noexcept {
+  if (start_->recovering()) {
+    // A new number, which an instructor can name to resume without the missing seats.
+    latch_.restore(StopLatch::Level::kNone, from.stops + 1);
+  } else {
+    latch_.restore(from.stop, from.stops);
+  }
+}
+
+std::optional<StopLatch::Level> StopControl::request(Time now, const Requester& by, StopLatch::Level wanted) noexcept {
+  const auto level = latch_.request(now, by.role, by.seat < seats_ ? by.seat : AuditEvent::kControlPlane, wanted);
+  if (level)
+    audit_->emit(now, *level == StopLatch::Level::kStopped ? AuditEvent::What::kStop : AuditEvent::What::kPause,
+                 by.audited_as, latch_.stops());
+  return level;
+}
+
+StopLatch::Resume StopControl::resume(Time now, const Requester& by, std::uint32_t number,
+                                      std::uint32_t connected) noexcept {
+  if (start_->recovering() && !latch_.latched() && number == latch_.stops()) {
+    if (!StopLatch::may_resume(by.role)) return StopLatch::Resume::kForbidden;
+    resume_after_restart(now, by.audited_as, number);
+    return StopLatch::Resume::kEnded;
+  }
+  const StopLatch::Resume became = latch_.resume(by.role, by.seat, number, connected);
+  if (became == StopLatch::Resume::kEnded) audit_->emit(now, AuditEvent::What::kResume, by.audited_as, number);
+  return became;
+}
+
+void StopControl::resume_after_restart(Time now, std::uint8_t seat, std::uint32_t number) noexcept {
+  audit_->emit(now, AuditEvent::What::kAllBack, seat, number);
+  start_->begin(now);
+  if (start_->stop_before() != StopLatch::Level::kNone) latch_.raise(start_->stop_before(), {});
+}
+
+void StopControl::stop_for_fault(Time now) noexcept {
+  if (latch_.level() == StopLatch::Level::kStopped) return;
+  latch_.raise(StopLatch::Level::kStopped,
+               {StopLatch::Level::kStopped, StopLatch::kNoSeat, AccessRole::kObserver, now});
+  audit_->emit(now, AuditEvent::What::kFault, AuditEvent::kNoSeat, latch_.stops());
+}
+
+}  // namespace tandem::server

@@ -1,0 +1,80 @@
+// Requests of the control plane to a shard, from posting to completion.
+#include "server/app/control/shard_requests.h"
+
+#include <gtest/gtest.h>
+
+#include "common/io/udp_socket.h"
+#include "proto/text/scene_text.h"
+#include "proto/text/scenes_embedded.h"
+
+namespace tandem::server {
+namespace {
+
+/// A shard without a thread: its requests wait until `run_shard`.
+struct Rig {
+  Rig() { requests.watch(shard); }
+  void post(std::function<void(ShardRequest&)> done) {
+    requests.post(shard, {.what = ShardRequest::What::kEndSession, .session = &session, .done = std::move(done)});
+  }
+  /// Ends the shard, which replies to all requests that the session is over, and completes them.
+  void run_shard() {
+    shard.stop();
+    shard.run();
+    context.poll();
+  }
+
+  SceneSpec scene = *parse_scene(find_shipped_scene("free_motion")->text, "free_motion.textproto");
+  TickQueue records{16};
+  LiveSession session{scene, *make_local_slaves(scene, Time{}), 0, records};
+  Shard shard{std::move(*io::bind_udp(*io::parse_address("127.0.0.1:0", 0))), 1000};
+  asio::io_context context;
+  ShardRequests requests{context};
+};
+
+TEST(ShardRequests, CompleteInOrderWithTheResultOfTheShard) {
+  Rig rig;
+  std::vector<int> done;
+  for (int i = 0; i < 3; ++i)
+    rig.post([&done, i](ShardRequest& r) {
+      EXPECT_EQ(r.result, JoinResult::kSessionOver) << "the shard does not serve the session";
+      done.push_back(i);
+    });
+  EXPECT_TRUE(done.empty());
+  rig.run_shard();
+  EXPECT_EQ(done, (std::vector<int>{0, 1, 2}));
+}
+
+TEST(ShardRequests, AreIdleAfterTheLastRequestOfASession) {
+  Rig rig;
+  bool idle = false;
+  rig.requests.when_idle(rig.session, [&] { idle = true; });
+  EXPECT_TRUE(idle) << "no request is in progress";
+  idle = false;
+  int done = 0;
+  for (int i = 0; i < 2; ++i)
+    rig.post([&](ShardRequest&) {
+      EXPECT_FALSE(idle);
+      ++done;
+    });
+  rig.requests.when_idle(rig.session, [&] { idle = true; });
+  EXPECT_FALSE(idle);
+  rig.run_shard();
+  EXPECT_EQ(done, 2);
+  EXPECT_TRUE(idle);
+}
+
+TEST(ShardRequests, CompleteAtOnceWhenTheQueueIsFull) {
+  Rig rig;
+  int done = 0, posted = 0;
+  while (done == 0 && ++posted < 10000)
+    rig.post([&done](ShardRequest& r) {
+      EXPECT_EQ(r.result, JoinResult::kSessionOver);
+      ++done;
+    });
+  EXPECT_EQ(done, 1) << "after " << posted;
+  rig.run_shard();
+  EXPECT_EQ(done, posted);
+}
+
+}  // namespace
+}  // namespace tandem::server

@@ -1,0 +1,133 @@
+// One path for stop, pause and resume, whichever connection asks. StopLatch's own rules: stop_latch_test.cpp.
+#include "server/session/stop_control.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/server/session/session_parts.h"
+
+namespace tandem::server {
+namespace {
+
+using test::SessionParts;
+using Level = StopLatch::Level;
+using Resume = StopLatch::Resume;
+using What = AuditEvent::What;
+
+constexpr Time kNow{};
+constexpr Requester kInstructorSeat = requester_at(0, AccessRole::kInstructor),
+                    kTraineeSeat = requester_at(1, AccessRole::kTrainee), kOperator{AccessRole::kOperator},
+                    kObserver{AccessRole::kObserver};
+
+struct Stoppable : SessionParts {
+  explicit Stoppable(const std::string& scene_name = "free_motion") : SessionParts(scene_name) {}
+  /// The only event since the last call.
+  AuditEvent event() {
+    const auto all = events();
+    EXPECT_EQ(all.size(), 1u);
+    return all.empty() ? AuditEvent{} : all.back();
+  }
+  StartCondition start{scene, seats, present, clock};
+  StopControl stop{scene, start, audit};
+};
+
+TEST(StopControl, RecordsTheSeatInTheLatchAndTheConnectionInTheEvent) {
+  Stoppable s;
+  EXPECT_EQ(s.stop.request(kNow, kInstructorSeat), Level::kStopped);
+  AuditEvent e = s.event();
+  EXPECT_TRUE(e.what == What::kStop && e.seat == 0 && e.version == 1);
+  EXPECT_EQ(s.stop.latch().latest().by, 0);
+
+  EXPECT_EQ(s.stop.request(kNow, {AccessRole::kInstructor, 0}), Level::kStopped) << "the same seat, by its console";
+  e = s.event();
+  EXPECT_TRUE(e.what == What::kStop && e.seat == AuditEvent::kControlPlane && e.version == 2);
+  EXPECT_EQ(s.stop.latch().latest().by, 0);
+
+  EXPECT_EQ(s.stop.request(kNow, kOperator, Level::kPaused), Level::kPaused);
+  EXPECT_EQ(s.event().what, What::kPause);
+  EXPECT_EQ(s.stop.latch().latest().by, AuditEvent::kControlPlane) << "a console has no seat";
+  EXPECT_EQ(s.stop.latch().level(), Level::kStopped) << "a pause weakens no stop";
+}
+
+TEST(StopControl, GivesARoleThatMayOnlyPauseAPauseAndOthersNothing) {
+  Stoppable s;
+  EXPECT_EQ(s.stop.request(kNow, kTraineeSeat), Level::kPaused);
+  EXPECT_EQ(s.event().what, What::kPause);
+  EXPECT_EQ(s.stop.request(kNow, kObserver), std::nullopt);
+  EXPECT_TRUE(s.events().empty());
+  EXPECT_EQ(s.stop.latch().stops(), 1u);
+}
+
+TEST(StopControl, EndsOnlyTheNewestStopAndOnlyForPermittedRoles) {
+  Stoppable s;
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, 0, 0), Resume::kOutdated) << "nothing is stopped";
+  s.stop.request(kNow, kOperator);
+  s.stop.request(kNow, kInstructorSeat);
+  static_cast<void>(s.events());
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, 1, 0), Resume::kOutdated);
+  EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 2, 0), Resume::kForbidden);
+  EXPECT_TRUE(s.events().empty());
+  EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 2, 0), Resume::kEnded);
+  const AuditEvent e = s.event();
+  EXPECT_TRUE(e.what == What::kResume && e.seat == 0 && e.version == 2);
+}
+
+TEST(StopControl, StopsOnceForAFault) {
+  Stoppable s;
+  s.stop.stop_for_fault(kNow);
+  const AuditEvent e = s.event();
+  EXPECT_TRUE(e.what == What::kFault && e.seat == AuditEvent::kNoSeat && e.version == 1);
+  EXPECT_EQ(s.stop.latch().latest().by, StopLatch::kNoSeat);
+  s.stop.stop_for_fault(kNow);
+  EXPECT_TRUE(s.events().empty());
+  EXPECT_EQ(s.stop.latch().stops(), 1u);
+}
+
+TEST(StopControl, ResumesAfterARestartWithoutTheMissingSeatsAndRaisesTheOldStopAgain) {
+  for (const Level before : {Level::kNone, Level::kStopped}) {
+    Stoppable s;
+    Checkpoint from;
+    from.begun = true;
+    from.stop = before;
+    from.stops = 6;
+    s.start.restore(from);
+    s.stop.restore(from);
+    EXPECT_EQ(s.stop.latch().level(), Level::kNone) << "the waiting itself engages no hand";
+    EXPECT_EQ(s.stop.level_to_restore(), before) << "a second restart restores the same";
+    EXPECT_EQ(s.stop.resume(kNow, kOperator, 6, 0), Resume::kOutdated) << "the number of the time before";
+    EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 7, 0), Resume::kForbidden);
+    EXPECT_TRUE(s.start.recovering());
+    EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 7, 0), Resume::kEnded);
+    const AuditEvent e = s.event();
+    EXPECT_TRUE(e.what == What::kAllBack && e.seat == 0 && e.version == 7);
+    EXPECT_FALSE(s.start.recovering());
+    EXPECT_EQ(s.stop.latch().level(), before);
+    EXPECT_EQ(s.stop.latch().stops(), before == Level::kNone ? 7u : 8u);
+  }
+}
+
+TEST(StopControl, EndsAStopOfTheRecoveryBeforeTheRecovery) {
+  Stoppable s;
+  Checkpoint from;
+  from.begun = true;
+  s.start.restore(from);
+  s.stop.restore(from);
+  s.stop.request(kNow, kOperator);
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops(), 0), Resume::kEnded);
+  EXPECT_TRUE(s.start.recovering());
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops(), 0), Resume::kEnded);
+  EXPECT_FALSE(s.start.recovering());
+}
+
+TEST(StopControl, KeepsTheStopOfASessionThatHadNotBegun) {
+  Stoppable s;
+  Checkpoint from;
+  from.stop = Level::kPaused;
+  from.stops = 3;
+  s.start.restore(from);
+  s.stop.restore(from);
+  EXPECT_EQ(s.stop.latch().level(), Level::kPaused);
+  EXPECT_EQ(s.stop.latch().stops(), 3u);
+}
+
+}  // namespace
+}  // namespace tandem::server
