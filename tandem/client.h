@@ -18,8 +18,8 @@ namespace tandem::client {
 using wire::CloseReason;
 /// State of the force gate: `kOff`, `kZero`, `kRampIn`, `kActive`, `kReleasing`, `kLatched`, `kFault`.
 using wire::GateState;
-/// State of the session: `kWaiting` for seats, `kRunning`, `kHeld` (no authorised seat), `kPaused`, `kStopped`, `kEnding`,
-/// `kOverloaded`.
+/// State of the session: `kWaiting` for seats, `kRunning`, `kHeld` (no authorised seat), `kPaused`, `kStopped`,
+/// `kEnding`, `kOverloaded`.
 using wire::SessionState;
 
 }  // namespace tandem::client
