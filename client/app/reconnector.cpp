@@ -38,11 +38,7 @@ Duration initial_backoff() { return draw(kBefore, kBeforeSpread); }
 
 Reconnector::Reconnector(JoinOptions asking, ResumeState own, const Seat& seat, const SeatRunner& runner,
                          const io::UdpSocket& kept)
-    : options_(std::move(asking)),
-      resume_state_(std::move(own)),
-      seat_(&seat),
-      runner_(&runner),
-      socket_(&kept) {
+    : options_(std::move(asking)), resume_state_(std::move(own)), seat_(&seat), runner_(&runner), socket_(&kept) {
   options_.signals = cancel_.get();
   thread_ = std::thread([this] { work(); });
 }

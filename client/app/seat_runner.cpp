@@ -84,5 +84,4 @@ void SeatRunner::lost(hal::Errc) noexcept {
 
 void SeatRunner::clear_finished() noexcept { finished_.clear(); }
 
-
 }  // namespace tandem::client

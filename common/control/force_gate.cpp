@@ -9,17 +9,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kRampOut = 100ms;
 constexpr Duration kDampOut = 500ms;  // duration of damping alone after the link is lost
 constexpr Duration kMargin = 20ms;    // a loop may exceed its learned p99 by this much
 constexpr double kAgeSlew = 0.010;    // the limit follows the learned RTT by at most 10 ms per s
 constexpr double kSlewActive = 1000;  // [N/s] = 1 N/ms
 constexpr double kSlewRampIn = 10;    // [N/s]
 constexpr double kDamping = 5;        // [N s/m] in kReleasing and kLatched
-constexpr Duration kLatchWindow = 10s;
-constexpr double kPaceMemory = 1;  // [s] in which a long step is forgotten
-
-double tank_for(double mass) noexcept { return 1e-3 * std::min(100.0, std::max(20.0, 180.0 * mass)); }
 
 bool all_finite(const AxisArray& v, std::size_t dof) noexcept {
   for (std::size_t a = 0; a < dof; ++a)
@@ -29,7 +24,8 @@ bool all_finite(const AxisArray& v, std::size_t dof) noexcept {
 
 }  // namespace
 
-ForceGate::ForceGate(const GateParams& p) noexcept : p_(p), tank_size_(p.tank_share * tank_for(p.mass)) {}
+ForceGate::ForceGate(const GateParams& p) noexcept
+    : p_(p), tank_({.dof = p.dof, .scale = p.scale, .mass = p.mass, .share = p.tank_share}) {}
 
 ForceGate::Output ForceGate::step(const Input& in) noexcept {
   Output out;
@@ -37,25 +33,17 @@ ForceGate::Output ForceGate::step(const Input& in) noexcept {
     started_ = true;
     since_ = last_fresh_ = last_step_ = in.now;
     age_limit_ = std::min(p_.loop_age_max, std::max(kMargin, in.rtt_p99 + kMargin));
-    q_ = in.q;
+    tank_.start_at(in.q);
   }
-  if (all_finite(in.q, p_.dof)) {
-    double given = 0;
-    for (std::size_t a = 0; a < p_.dof; ++a) given += effort_[a] * (in.q[a] - q_[a]);
-    // After a standstill of this program the device had dropped the effort long before. The energy given may be less
-    // than this product, and energy that the hand seemed to return was never absorbed.
-    if (in.now - last_step_ > p_.command_lifetime) given = std::max(0.0, given);
-    if (std::isfinite(given)) given_ += given;
-    for (std::size_t a = 0; a < p_.dof; ++a) moved_[a] = in.q[a] - q_[a];
-    q_ = in.q;
-  }
+  // After a standstill of this program the device had dropped the effort long before. The energy given may be less than
+  // effort times motion, and energy that the hand seemed to return was never absorbed.
+  tank_.measure(effort_, in.q, in.now - last_step_ <= p_.command_lifetime);
   // The driver has dropped the effort: no ramp begins from it.
   if (in.now - last_step_ > p_.command_lifetime + kCommandFade) effort_.fill(0);
   const double step = std::clamp(seconds(in.now - last_step_), 0.0, seconds(p_.command_lifetime));
-  pace_ = std::max(step, pace_ - step * pace_ / kPaceMemory);
+  tank_.set_pace(step);
   change_phase(in, out);
-  if (phase_ == GatePhase::kReleasing || phase_ == GatePhase::kLatched || active())
-    given_max_ = std::max(given_max_, given_);
+  if (phase_ == GatePhase::kReleasing || phase_ == GatePhase::kLatched || active()) tank_.note_loss();
   limit(in, out);
   effort_ = out.effort;
   last_step_ = in.now;
@@ -90,7 +78,7 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
     heard_ = true;
     // A ramp that has begun or begins now still holds the stale force. Its account closes when the gate engages again,
     // not with the next datagram.
-    if (phase_ != GatePhase::kReleasing && phase_ != GatePhase::kLatched && !stood_still) given_ = 0;
+    if (phase_ != GatePhase::kReleasing && phase_ != GatePhase::kLatched && !stood_still) tank_.refill();
   }
   const bool silent = in.now - last_fresh_ >= silence_limit_ || !heard_ || stood_still;
 
@@ -100,7 +88,7 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
       if (in.engage && in.fresh && !silent && !too_old) {
         phase_ = GatePhase::kRampIn;
         since_ = in.now;
-        given_ = 0;
+        tank_.refill();
         out.engaged_now = true;
       }
       break;
@@ -112,14 +100,14 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
         lose(in, out);
       } else if (!in.engage) {  // requested release: the same ramp, but not counted as a loss
         phase_ = GatePhase::kReleasing;
-        since_ = ramp_since_ = in.now;
-        at_loss_ = effort_;
+        since_ = in.now;
+        ramp_.begin(in.now, effort_);
       }
       break;
     case GatePhase::kReleasing:
       // Damping stays until the seat may engage again or the hand has come to rest: the hand is fastest when the ramp
       // ends.
-      if (in.now - since_ >= (renewed_ && in.engage ? kRampOut : kDampOut)) phase_ = GatePhase::kZero;
+      if (in.now - since_ >= (renewed_ && in.engage ? ReleaseRamp::kTime : kDampOut)) phase_ = GatePhase::kZero;
       break;
     case GatePhase::kLatched:
     case GatePhase::kFault:
@@ -130,16 +118,12 @@ void ForceGate::change_phase(const Input& in, Output& out) noexcept {
 
 void ForceGate::lose(const Input& in, Output& out) noexcept {
   out.tripped = true;
-  ++trips_;
   phase_ = GatePhase::kReleasing;
   since_ = in.now;
   // A client that wakes up late notices the silence late. The ramp begins at the time the limit passed, so that it ends
   // in time.
-  ramp_since_ = std::min(in.now, std::max(last_step_, last_fresh_ + silence_limit_));
-  at_loss_ = effort_;
-  losses_[trips_ % 3] = in.now;
-  // Without the latch a flapping link would release a full tank at every loss.
-  if (p_.latch && trips_ >= 3 && in.now - losses_[(trips_ + 1) % 3] <= kLatchWindow) phase_ = GatePhase::kLatched;
+  ramp_.begin(std::min(in.now, std::max(last_step_, last_fresh_ + silence_limit_)), effort_);
+  if (losses_.record(in.now) && p_.latch) phase_ = GatePhase::kLatched;
 }
 
 void ForceGate::limit(const Input& in, Output& out) noexcept {
@@ -160,10 +144,10 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
     for (std::size_t a = 0; a < p_.dof; ++a)
       f[a] = gain * in.wanted[a] - (std::isfinite(in.v[a]) ? (1.0 - gain) * kDamping * p_.scale[a] * in.v[a] : 0.0);
   } else if (phase_ == GatePhase::kReleasing || phase_ == GatePhase::kLatched) {
-    const double left = std::max(0.0, 1.0 - seconds(in.now - ramp_since_) / seconds(kRampOut));
+    const double left = ramp_.left(in.now);
     for (std::size_t a = 0; a < p_.dof; ++a) {
       const double v = std::isfinite(in.v[a]) ? in.v[a] : 0;
-      f[a] = left * at_loss_[a] - kDamping * p_.scale[a] * v * (phase_ == GatePhase::kLatched ? 1.0 : 1.0 - left);
+      f[a] = left * ramp_.from(a) - kDamping * p_.scale[a] * v * (phase_ == GatePhase::kLatched ? 1.0 : 1.0 - left);
     }
   } else {
     return;
@@ -192,28 +176,7 @@ void ForceGate::limit(const Input& in, Output& out) noexcept {
       for (std::size_t a = 0; a < p_.dof; ++a) f[a] = effort_[a] + share * (f[a] - effort_[a]);
     }
   }
-  if (!renewed_ || phase_ == GatePhase::kReleasing) limit_to_tank(in, f);
-}
-
-/// Passes the effort only while |f| (|v| + |f| dt / m) dt is at most the rest of the tank, else sets it to 0. Without a
-/// fresh datagram the motor then gives at most the tank. Braking is free: effort against the motion takes energy out of
-/// the hand. A device's velocity lags: for a hand that shakes at 12 Hz, effort along its motion looks like braking half
-/// of the time. Therefore the displacement of the last tick must also show braking. The longest recent step is used for
-/// dt. In an irregularly scheduled program an effort may act for longer than the last step.
-void ForceGate::limit_to_tank(const Input& in, AxisArray& f) noexcept {
-  const double dt = std::max(1e-3, pace_);
-  double force2 = 0, speed2 = 0, power = 0, work = 0;
-  for (std::size_t a = 0; a < p_.dof; ++a) {
-    const double v = std::isfinite(in.v[a]) ? in.v[a] : 0;
-    force2 += f[a] * f[a] / p_.scale[a];
-    speed2 += v * v * p_.scale[a];
-    power += f[a] * v;
-    work += f[a] * moved_[a];
-  }
-  const double force = std::sqrt(force2);
-  const double next = force * (std::sqrt(speed2) + force * dt / p_.mass) * dt;
-  const bool braking = power < 0 && work <= 0 && -power * dt >= force2 * dt * dt / p_.mass;
-  if (!braking && next > tank_size_ - given_) f.fill(0);
+  if ((!renewed_ || phase_ == GatePhase::kReleasing) && !tank_.allows(f, in.v)) f.fill(0);
 }
 
 }  // namespace tandem::control

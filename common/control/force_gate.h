@@ -6,6 +6,9 @@
 #include "common/base/axes.h"
 #include "common/base/command_lifetime.h"
 #include "common/base/time.h"
+#include "common/control/loss_latch.h"
+#include "common/control/release_ramp.h"
+#include "common/control/silence_tank.h"
 
 namespace tandem::control {
 
@@ -73,40 +76,31 @@ class ForceGate {
   /// True if the controller's effort may reach the hand, at least in part.
   [[nodiscard]] bool active() const noexcept { return phase_ == GatePhase::kRampIn || phase_ == GatePhase::kActive; }
   /// Number of losses so far.
-  [[nodiscard]] std::uint32_t trips() const noexcept { return trips_; }
+  [[nodiscard]] std::uint32_t trips() const noexcept { return losses_.trips(); }
   /// Number of steps with an effort that was not finite.
   [[nodiscard]] std::uint64_t not_finite() const noexcept { return not_finite_; }
   /// Present limit of the loop age.
   [[nodiscard]] Duration loop_age_limit() const noexcept { return age_limit_; }
-  [[nodiscard]] double tank_size() const noexcept { return tank_size_; }  ///< [J]
-  /// Energy given to the hand since the last fresh datagram [J].
-  [[nodiscard]] double given_since_fresh() const noexcept { return given_; }
-  /// Largest energy given during one loss so far [J].
-  [[nodiscard]] double given_after_loss_max() const noexcept { return given_max_; }
+  /// Bounds the energy given to the hand since the last fresh datagram.
+  [[nodiscard]] const SilenceTank& tank() const noexcept { return tank_; }
 
  private:
   void change_phase(const Input& in, Output& out) noexcept;
   void lose(const Input& in, Output& out) noexcept;
   void limit(const Input& in, Output& out) noexcept;
-  void limit_to_tank(const Input& in, AxisArray& effort) noexcept;
 
   GateParams p_;
-  double tank_size_;
+  SilenceTank tank_;
+  ReleaseRamp ramp_;  ///< of kReleasing and kLatched
+  LossLatch losses_;
   GatePhase phase_ = GatePhase::kZero;
-  Time since_{};       ///< start of the phase
-  Time ramp_since_{};  ///< start of the ramp to zero force; earlier than `since_` if a silence was noticed late
+  Time since_{};  ///< start of the phase
   Time last_fresh_{}, last_step_{};
-  double pace_ = 0;  ///< longest recent time between two steps; an effort may act for this long [s]
   bool started_ = false, heard_ = false;
   bool renewed_ = false;  ///< in this tick a fresh datagram arrived whose loop age is within the limit
   Duration age_limit_{};
   Duration silence_limit_{};  ///< silence limit in force
   AxisArray effort_{};        ///< effort that the motor holds
-  AxisArray at_loss_{};       ///< effort when kReleasing began
-  AxisArray q_{}, moved_{};   ///< position, and its change in the last step
-  double given_ = 0, given_max_ = 0;
-  std::uint32_t trips_ = 0;
-  std::array<Time, 3> losses_{};  ///< times of the last three losses
   std::uint64_t not_finite_ = 0;
 };
 

@@ -6,8 +6,6 @@
 namespace tandem::control {
 
 namespace {
-constexpr double kUpToSpeed = 0.3;  // [s] ramp from rest to the speed at which an offset decays
-
 Assist::Params assist_of(const ToolCopy::Params& p) noexcept {
   Assist::Params own = p.assist;
   own.axes = p.axes;
@@ -21,7 +19,8 @@ ToolCopy::ToolCopy(const Params& params) noexcept
     : p_(params),
       tool_(params.tool, params.axes, params.contacts),
       received_contacts_({params.axes, params.v_app, params.k_c, params.dt}),
-      assist_(assist_of(params)) {
+      assist_(assist_of(params)),
+      offset_({.axes = params.axes, .hold = params.offset_hold, .v_app = params.v_app, .dt = params.dt}) {
   hand_.fill(HandVelocity(params.dt));
   anchor_.fill(HandMotionFilter(params.dt));
 }
@@ -32,7 +31,7 @@ void ToolCopy::rest_at(const AxisArray& tool, const AxisArray& hand) noexcept {
   tool_.set_received_contacts(received_contacts_.surfaces());
   for (std::size_t a = 0; a < p_.axes; ++a) {
     shown_[a] = tool[a];
-    offset_[a] = hand[a] - tool[a];
+    offset_.set(a, hand[a] - tool[a]);
     hand_[a].rest_at(hand[a]);
     anchor_[a].rest_at(tool[a]);
     wanted_[a] = dissipated_[a] = lag_[a] = 0;
@@ -88,17 +87,10 @@ const AxisArray& ToolCopy::step(const AxisArray& hand, double authority, Channel
 /// on would wind up the spring of a hand that is hardly pulled yet. Released at full force, a relaxed hand reached 0.9
 /// m/s. Energy that the spring loses here is dropped and never credited.
 void ToolCopy::grow_offset(const AxisArray& hand) noexcept {
-  if (engaged_for_ >= p_.offset_hold) return;
-  const double reach = p_.force_max / p_.k_c;
+  if (!offset_.stays(engaged_for_)) return;
   AxisArray wound{};
-  double square = 0;
-  for (std::size_t a = 0; a < p_.axes; ++a) {
-    wound[a] = shown_[a] - place(hand, a);
-    square += wound[a] * wound[a];
-  }
-  if (!(square > reach * reach)) return;
-  const double beyond = 1 - reach / std::sqrt(square);
-  for (std::size_t a = 0; a < p_.axes; ++a) offset_[a] -= beyond * wound[a];
+  for (std::size_t a = 0; a < p_.axes; ++a) wound[a] = shown_[a] - place(hand, a);
+  offset_.absorb(wound, p_.force_max / p_.k_c);
 }
 
 void ToolCopy::apply_received_contacts(ChannelEnd& end) noexcept {
@@ -106,14 +98,11 @@ void ToolCopy::apply_received_contacts(ChannelEnd& end) noexcept {
   if (received_contacts_.step(x, &end)) tool_.set_received_contacts(received_contacts_.surfaces());
 }
 
-/// Decays the offset. It stays until the gate has ramped in, because a growing spring does not move a hand that holds
-/// still. Its speed is then ramped up over kUpToSpeed.
 void ToolCopy::decay_offset(ChannelEnd& end) noexcept {
-  const double pace = std::clamp((engaged_for_ - p_.offset_hold) / kUpToSpeed, 0.0, 1.0);
-  const double most = pace * p_.v_app * p_.dt;
+  const double pace = offset_.pace(engaged_for_);
   for (std::size_t a = 0; a < p_.axes; ++a) {
-    const double step = -std::clamp(offset_[a], -most, most);
-    if (step != 0 && end.pay(a, share_ * wanted_[a] * step)) offset_[a] += step;
+    const double step = offset_.decay(a, pace);
+    if (step != 0 && end.pay(a, share_ * wanted_[a] * step)) offset_.move(a, step);
   }
 }
 
@@ -122,7 +111,7 @@ void ToolCopy::decay_offset(ChannelEnd& end) noexcept {
 /// that the pull stays within its bound.
 void ToolCopy::apply_assist(const AxisArray& hand, double authority, ChannelEnd& end) noexcept {
   if (!assist_.on()) return;
-  leader_.led = leader_.led && engaged_for_ >= p_.offset_hold;
+  leader_.led = leader_.led && !offset_.stays(engaged_for_);
   leader_.authority = authority;
   leader_.touching |= tool_.penetration() > 0;
   for (std::size_t a = 0; a < p_.axes; ++a) leader_.ahead[a] -= hand[a] - offset_[a];
@@ -179,7 +168,7 @@ void ToolCopy::show(std::size_t axis, double hand, double others, ChannelEnd& en
 /// would return it with the next datagram as a step of force with unpaid energy.
 void ToolCopy::release_spring() noexcept {
   for (std::size_t a = 0; a < p_.axes; ++a) {
-    offset_[a] -= wanted_[a] / p_.k_c - lag_[a];  // also of what the hand was not shown
+    offset_.set(a, offset_[a] - (wanted_[a] / p_.k_c - lag_[a]));  // also of what the hand was not shown
     shown_[a] = tool_.x(a);
     wanted_[a] = lag_[a] = 0;
   }

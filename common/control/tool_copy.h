@@ -6,6 +6,7 @@
 #include "common/control/channel.h"
 #include "common/control/hand_motion.h"
 #include "common/control/local_contacts.h"
+#include "common/control/reengage_offset.h"
 #include "common/control/virtual_tool.h"
 
 namespace tandem::control {
@@ -104,7 +105,8 @@ class ToolCopy {
   Assist::Input leader_;  ///< of this tick
   std::array<HandVelocity, kAxes> hand_;
   std::array<HandMotionFilter, kAxes> anchor_;
-  AxisArray shown_{}, offset_{}, wanted_{}, dissipated_{};
+  ReengageOffset offset_;
+  AxisArray shown_{}, wanted_{}, dissipated_{};
   AxisArray lag_{};   ///< y - x: motion that the hand is not shown because it is not paid [m]
   double share_ = 0;  ///< share of the wanted effort that the gate passed last [0, 1]
   double pull_ =

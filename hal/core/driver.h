@@ -51,11 +51,12 @@ struct Driver {
   /// Brings the device up: reset, firmware, calibration, first reading. Leaves zero effort.
   /// May take seconds; may be called again after an error. Error: message with cause and remedy.
   virtual Result<> bring_up(BringUp& watcher) = 0;
-  /// Sends `orders` and receives the newest reading, within about one period.
+  /// Sends `command` and receives the newest reading, within about one period.
   /// Sets in `state`: seq, echo_command, sampled_at, q, dq, x, dx, J, raw, buttons, homed, saturated; heat if the
   /// device reports it. Also tau_out and f_out, computed from the effort sent after integer encoding.
   /// Error: kUnplugged ends the device; kFraming, kProtocol and kTimeout count against the miss limit.
-  virtual std::expected<Exchange, Errc> exchange(const ServoCommand& orders, State& state) noexcept TANDEM_REALTIME = 0;
+  virtual std::expected<Exchange, Errc> exchange(const ServoCommand& command,
+                                                 State& state) noexcept TANDEM_REALTIME = 0;
   /// Sends at least three frames with zero effort if the device is reachable. May be called again and after any error.
   virtual void send_zeros() noexcept = 0;
 };

@@ -51,19 +51,19 @@ bool ServoCore::step(Time now, ServoClient& client) noexcept {
   stepped_at_ = now;
   acted_ = phase;
 
-  ServoCommand orders;
-  orders.homing = phase == Phase::kUnhomed;
+  ServoCommand command;
+  command.homing = phase == Phase::kUnhomed;
   if (phase == Phase::kEnabled) {
     const DriverGuard::Output out = guard_.limit(now, command_, state_);
-    orders.effort = out.effort;
-    orders.seq = command_.seq;
+    command.effort = out.effort;
+    command.seq = command_.seq;
     using Verdict = DriverGuard::Verdict;
     stats_.expired += out.verdict == Verdict::kExpired ? 1 : 0;
     stats_.rejected += out.verdict == Verdict::kNotFinite ? 1 : 0;
     stats_.clamped += out.verdict == Verdict::kClamped || out.verdict == Verdict::kInhibited ? 1 : 0;
   }
   state_.stale = false;  // a driver of a device that sends only on motion sets this itself
-  const auto exchanged = driver_->exchange(orders, state_);
+  const auto exchanged = driver_->exchange(command, state_);
   ++stats_.ticks;
   if (!exchanged && exchanged.error() == Errc::kUnplugged) {
     phase_.store(Phase::kLost, std::memory_order_release);

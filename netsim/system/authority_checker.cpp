@@ -49,7 +49,7 @@ void AuthorityChecker::check_seats(std::size_t tool, std::uint32_t lived, const 
     };
     const double alpha = authority.alpha(i);
     const server::SeatEndpoint& seat = session.seat(i);
-    const bool refused = seat.last_state().stop || seat.misbehaviour().quarantined(session.last_tick());
+    const bool refused = seat.last_state().stop || seat.misbehaviour().quarantined(session.clock().last_tick());
     const Role role = scene_->seats[i].role;
     reject_if(refused && lived == 1 && !before.braked && alpha > before.alpha[i] + 1e-9, "refused_gains_weight");
     reject_if(alpha > 0 && stopped_s_[i] > kStoppedMax, "stop_takes_weight");
@@ -81,7 +81,7 @@ AxisArray AuthorityChecker::force_step(std::size_t j, const server::Session& ses
     if (scene_->channel.law != LawKind::kReplica && pulls_elsewhere(i, j, session)) return {};
     const control::EndState& spring = session.seat(i).end(j).state();
     for (std::size_t a = 0; a < scene_->dof; ++a)
-      change[a] += by * spring.k[a] * (spring.ref[a] - (tool.x(a) - tool.moved()[a]));
+      change[a] += by * spring.k[a] * (spring.ref[a] - (tool.x(a) - tool.port().moved[a]));
   }
   return change;
 }

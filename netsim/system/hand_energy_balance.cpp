@@ -44,7 +44,8 @@ double HandEnergyBalance::excess(const Sample& sample) noexcept {
     moved2 += (t.x[a] - q_[a]) * (t.x[a] - q_[a]);
   }
   const bool whole = std::sqrt(given2) >= kWhole * std::min(sample.motor_max, std::sqrt(wanted2));
-  const bool several = seat.tools().size() > 1, clipped = wanted2 > kWhole * kWhole * sample.motor_max * sample.motor_max;
+  const bool several = seat.tools().size() > 1,
+             clipped = wanted2 > kWhole * kWhole * sample.motor_max * sample.motor_max;
   const bool active = seat.gate().phase() == control::GatePhase::kActive && (active_ || whole) && !(several && clipped);
   double stored = several ? 0 : stored_in_spring(wanted2, k_c, sample.motor_max);
   for (std::size_t k = 0; k < seat.tools().size(); ++k) {

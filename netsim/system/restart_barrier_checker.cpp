@@ -17,7 +17,8 @@ void RestartBarrierChecker::check(const server::Session& session, server::Violat
     engages |= session.seat(i).tx.engage;
     seat.led = recovering_ && seat.required;
     for (std::size_t j = 0; i < scene_->masters() && j < scene_->tools.size(); ++j)
-      seat.led |= session.tool(j).transfer.scheduled()[i] > 0 && taken && !recovering_ && session.clock().session_tick() > 0;
+      seat.led |=
+          session.tool(j).transfer.scheduled()[i] > 0 && taken && !recovering_ && session.clock().session_tick() > 0;
   }
   if (recovering_ && participant_missing_ && engages) violations.add("gathering", "", session.clock().time(), false);
 }

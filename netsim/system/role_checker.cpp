@@ -9,7 +9,7 @@ void check_role(const ObservedSeat& seat) {
   if (disengages_all(force.session) && force.engage) seat.violated("stop_engages_nobody");
   if (seat.client.seat() == nullptr || !seat.client.ran_in_tick()) return;
   if (observer && seat.force() > 0) seat.violated("observer_force");
-  if (seat.core().locally_stopped() && seat.core().gate().active()) seat.violated("own_stop");
+  if (seat.core().requests().locally_stopped() && seat.core().gate().active()) seat.violated("own_stop");
 }
 
 void check_role(const server::AuditEvent& event, const SceneSpec& scene, double t, server::Violations& violations) {

@@ -45,8 +45,9 @@ void SilenceChecker::check(const ObservedSeat& seat) {
     const double silence = seconds(now - fresh_);
     // The longest limit since the last fresh datagram applies. A client that loses authority or its server during a
     // silence releases from that moment.
-    limit_ = std::max(limit_, seat.slave() ? gate.silence_limit
-                                           : silence_limits(gate, seat.scene.channel.law, core.authority()).most);
+    limit_ =
+        std::max(limit_, seat.slave() ? gate.silence_limit
+                                      : silence_limits(gate, seat.scene.channel.law, core.tools().authority()).most);
     if (active && silence > limit_ + half_tick) seat.violated("silence_ramps");
     if (silence > limit_ + kRampOut + 3 * half_tick) {
       double power = 0;  // the remaining force may brake a hand and never push it
@@ -55,7 +56,7 @@ void SilenceChecker::check(const ObservedSeat& seat) {
     }
   }
   const double extra =
-      seat.master_of_law_replica() ? silence_limits(gate, LawKind::kReplica, core.authority()).most : 0;
+      seat.master_of_law_replica() ? silence_limits(gate, LawKind::kReplica, core.tools().authority()).most : 0;
   if (active && seconds(link.loop_age(seat.client.own_time(now))) > gate.loop_age_max + extra + 1e-9)
     seat.violated("loop_age");
 }

@@ -102,7 +102,7 @@ void SimulatedClient::deliver(Time now, std::span<const std::byte> bytes) noexce
 /// Returns the time that the simulated hand follows; nullopt while the session clock is stopped, and the hand then
 /// waits.
 std::optional<double> SimulatedClient::hand_time(Time own) const noexcept {
-  return seat()->clock_stopped() ? std::nullopt : seat()->session_time(own);
+  return seat()->clock().stopped() ? std::nullopt : seat()->clock().session_time(own);
 }
 
 void SimulatedClient::run_seat(Time now, Network& network, std::span<std::byte> buffer) {

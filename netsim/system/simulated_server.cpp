@@ -80,8 +80,9 @@ void SimulatedServer::finish(Time now, std::size_t sent) {
 void SimulatedServer::update_checkpoint(Time now, bool participants_changed) {
   constexpr Duration kEvery = std::chrono::milliseconds(500);
   if (!participants_changed && now - checkpoint_at_ < kEvery &&
-      session_->authority_version() == checkpoint_.authority_version && session_->stops() == checkpoint_.stops &&
-      session_->epoch() == checkpoint_.epoch && session_->begun() == checkpoint_.begun)
+      session_->authority().version() == checkpoint_.authority_version &&
+      session_->stop_latch().stops() == checkpoint_.stops && session_->epoch() == checkpoint_.epoch &&
+      session_->begun() == checkpoint_.begun)
     return;
   checkpoint_ = session_->checkpoint();
   checkpoint_at_ = now;

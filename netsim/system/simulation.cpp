@@ -181,7 +181,7 @@ void Simulation::step_server() {
   if (heap_taken() != taken) checker_.note_heap_violation();
   server_.finish(now_, sent);
   bool participants_changed = false;
-  while (const auto event = server_.session().poll_audit()) {
+  while (const auto event = server_.session().audit().poll()) {
     participants_changed |=
         event->what == server::AuditEvent::What::kJoin || event->what == server::AuditEvent::What::kLeave;
     checker_.on_audit_event(*event);

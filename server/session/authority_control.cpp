@@ -43,6 +43,11 @@ void AuthorityControl::restore(const Checkpoint& from) noexcept {
     ++next_event_;
 }
 
+void AuthorityControl::save(Checkpoint& to) const noexcept {
+  to.authority_version = version_;
+  for (std::size_t j = 0; j < tools_.size(); ++j) to.tools[j].alpha = tools_[j].transfer.scheduled();
+}
+
 void AuthorityControl::set_initial(std::size_t tool, const control::MasterArray& wanted) noexcept {
   static_cast<void>(tools_[tool].authority.request(wanted));
   tools_[tool].transfer.set_initial(tools_[tool].authority.requested());

@@ -43,6 +43,8 @@ class AuthorityControl {
   /// Sets authority and version of a checkpoint, without notice. Changes of the timeline that the checkpoint contains
   /// are skipped. @pre the clock is restored
   void restore(const Checkpoint& from) noexcept;
+  /// Writes version and scheduled authority.
+  void save(Checkpoint& to) const noexcept TANDEM_REALTIME;
 
   /// Schedules new authority over a tool. Instructors may set the authority of all seats. Roles with a partial right
   /// may only give up their own, to instructors; all other authorities must stay.

@@ -32,7 +32,7 @@ Session::Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::Steppe
       participants_(seats_, clock_, audit_),
       control_(scene, std::move(slaves), scale, seats_, participants_.present()),
       start_(scene, seats_, participants_.present(), clock_),
-      stop_(scene, start_, audit_),
+      stop_(scene, participants_, start_, audit_),
       authority_(scene, clock_, control_.tools(), seats_, participants_.present(), audit_),
       leading_hands_(scene, clock_.dt()),
       send_(scene, seats_),
@@ -67,18 +67,18 @@ Checkpoint Session::checkpoint() const noexcept {
   c.scene = scene_hash_;
   c.epoch = epoch_;
   c.session_tick = clock_.session_tick();
-  c.authority_version = authority_.version();
-  c.stops = stop_.latch().stops();
-  c.stop = stop_.level_to_restore();
-  c.begun = begun();
   c.seats_n = static_cast<std::uint8_t>(seats_.size());
   c.masters_n = static_cast<std::uint8_t>(masters_);
   c.tools_n = static_cast<std::uint8_t>(control_.tools().size());
   c.dof = static_cast<std::uint8_t>(scene_->dof);
-  for (std::size_t i = 0; i < seats_.size(); ++i)
-    c.seats[i] = {seats_[i].taken() || start_.awaited(i), seats_[i].resume(), seats_[i].force_scale()};
+  authority_.save(c);
+  start_.save(c);
+  stop_.save(c);
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    c.seats[i].resume = seats_[i].resume();
+    c.seats[i].force_scale = seats_[i].force_scale();
+  }
   for (std::size_t j = 0; j < control_.tools().size(); ++j) {
-    c.tools[j].alpha = control_.tools()[j].transfer.scheduled();
     c.tools[j].x = control_.tools()[j].position();
     if (const hal::SteppedDevice* slave = control_.tools()[j].slave()) c.tools[j].slave = slave->state().q;
   }
@@ -129,12 +129,8 @@ void Session::handle_requests(Time now, std::size_t i) noexcept {
   const Requester by = requester_at(i, seats_[i].role());
   if (stop_.rising_edge(i, state.stop_all) && !stop_.request(now, by)) participants_.reject_forbidden(now, i);
   if (state.resume_stop != 0 && !participants_.removing(i) &&
-      resume(now, by, state.resume_stop) == StopLatch::Resume::kForbidden)
+      stop_.resume(now, by, state.resume_stop) == StopLatch::Resume::kForbidden)
     participants_.reject_forbidden(now, i);
-}
-
-StopLatch::Resume Session::resume(Time now, const Requester& by, std::uint32_t number) noexcept {
-  return stop_.resume(now, by, number, participants_.connected(now));
 }
 
 void Session::on_tick(Time now, std::uint32_t missed) noexcept {
@@ -150,8 +146,8 @@ void Session::on_tick(Time now, std::uint32_t missed) noexcept {
 }
 
 void Session::run_one_tick(Time now) noexcept {
-  for (Tool& tool : control_.tools()) tool.advance_slave(elapsed_any_ ? clock_.tick_length() : Duration{0});
-  elapsed_any_ = true;
+  const Duration elapsed = clock_.begin_step();
+  for (Tool& tool : control_.tools()) tool.advance_slave(elapsed);
   step_participants(now);
   step_clock(now);
   if (over()) return;
@@ -238,10 +234,11 @@ void Session::fill_force_messages(Time now) noexcept {
 }
 
 std::optional<Transmit> Session::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
-  if (const auto out = send_.poll(now, clock_.tick(), participants_.closing(), buffer)) return out;
+  auto out = send_.poll(now, clock_.tick(), participants_.closing(), buffer);
+  if (out) return out;
   const CloseOut& end = participants_.closing().session;
-  const auto out = link_test_peers_.poll_transmit(
-      now, clock_.tick(), end.sends_close() ? std::optional{end.reason()} : std::nullopt, buffer);
+  out = link_test_peers_.poll_transmit(now, clock_.tick(),
+                                       end.sends_close() ? std::optional{end.reason()} : std::nullopt, buffer);
   if (!out) send_.rewind();
   return out;
 }

@@ -41,7 +41,7 @@ class Session {
 
   /// Restores the session that a failed server left behind, with the next epoch. All clients have to join again. No
   /// seat is engaged until all required seats are ready: taken instructors' seats and taken seats with authority. An
-  /// instructor can resume earlier, without the missing seats (`resume_stop` in STATE, or `resume`).
+  /// instructor can resume earlier, without the missing seats (StopControl::resume).
   /// @param slaves  at the joint positions of `from` (Checkpoint::Tool::slave)
   /// @pre incompatibility(from, scene) is empty
   Session(const SceneSpec& scene, std::vector<std::unique_ptr<hal::SteppedDevice>> slaves, const AxisArray& scale,
@@ -55,7 +55,7 @@ class Session {
   [[nodiscard]] std::uint64_t epoch() const noexcept { return epoch_; }
   /// True once session time runs, or if it ran before a restart. A session restored from a checkpoint with `begun`
   /// false requires no seats to come back.
-  [[nodiscard]] bool begun() const noexcept { return clock_.begun() || start_.recovering(); }
+  [[nodiscard]] bool begun() const noexcept { return start_.begun(); }
 
   /// Sets the source of surfaces near a tool, in addition to the scene's own (server/session/contact_source.h). Call
   /// it before the first tick, or between ticks.
@@ -88,8 +88,6 @@ class Session {
   /// Writes the next datagram into `buffer`. @return its destination and size; nullopt when nothing is due
   [[nodiscard]] std::optional<Transmit> poll_transmit(Time now, std::span<std::byte> buffer) noexcept;
 
-  /// Ends the stop of this number, or ends the waiting after a restart (StopControl::resume).
-  StopLatch::Resume resume(Time now, const Requester& by, std::uint32_t number) noexcept;
   /// Ends the session: all gates ramp out, then every client receives CLOSE.
   void end(wire::CloseReason why) noexcept { participants_.end(why); }
   /// All clients have received CLOSE: no tick does anything any more.
@@ -109,7 +107,6 @@ class Session {
   [[nodiscard]] AuthorityControl& authority() noexcept { return authority_; }
   [[nodiscard]] const AuthorityControl& authority() const noexcept { return authority_; }
   [[nodiscard]] const LeadingHands& leading_hands() const noexcept { return leading_hands_; }
-  [[nodiscard]] const SendSchedule& send_schedule() const noexcept { return send_; }
   [[nodiscard]] const SessionClock& clock() const noexcept { return clock_; }
   [[nodiscard]] AuditTrail& audit() noexcept { return audit_; }
   [[nodiscard]] const TickRecord& record() const noexcept { return record_; }
@@ -150,9 +147,8 @@ class Session {
   SendSchedule send_;
   FaultMonitor faults_;
   LoadState load_state_;
-  bool overloaded_ = false;   ///< as of the last audit event
-  bool held_ = false;         ///< no present seat has authority over any tool, since the session began
-  bool elapsed_any_ = false;  ///< a tick has been run
+  bool overloaded_ = false;  ///< as of the last audit event
+  bool held_ = false;        ///< no present seat has authority over any tool, since the session began
   Checkpoint::Hash scene_hash_;
   std::uint64_t epoch_ = 1;
   std::uint64_t unmatched_datagrams_ = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "common/base/time.h"
 
@@ -32,6 +33,8 @@ class SessionClock {
     dropped_ticks_ += missed - run;
     return run;
   }
+  /// Begins one of the ticks to run. @return time since the one before; 0 for the first
+  [[nodiscard]] Duration begin_step() noexcept { return std::exchange(step_, tick_length_); }
   /// Number of the server's tick; 0 for the first.
   [[nodiscard]] std::uint32_t tick() const noexcept { return tick_; }
   [[nodiscard]] Time last_tick() const noexcept { return last_tick_; }
@@ -63,7 +66,7 @@ class SessionClock {
 
  private:
   double dt_;
-  Duration tick_length_;
+  Duration tick_length_, step_{0};
   std::optional<Time> started_;  ///< first tick
   Time last_tick_{};
   std::uint32_t tick_ = 0, session_tick_ = 0;

@@ -30,7 +30,7 @@ struct Execution {
   Result operator()(const rpc::PauseSession&) const noexcept { return stop(StopLatch::Level::kPaused); }
   Result operator()(const rpc::ResumeSession& resume) const noexcept {
     if (!session.stop_latch().latched() && !session.start_condition().recovering()) return Result::kNothingToDo;
-    switch (session.resume(now, requester(), resume.stop)) {
+    switch (session.stop_control().resume(now, requester(), resume.stop)) {
       case StopLatch::Resume::kEnded:
         return Result::kDone;
       case StopLatch::Resume::kHeldByOthers:

@@ -23,6 +23,11 @@ void StartCondition::restore(const Checkpoint& from) noexcept {
   }
 }
 
+void StartCondition::save(Checkpoint& to) const noexcept {
+  to.begun = begun();
+  for (std::size_t i = 0; i < seats_.size(); ++i) to.seats[i].taken = seats_[i].taken() || required_for_resume_[i];
+}
+
 bool StartCondition::step(Time now, bool disengaged) noexcept {
   bool all_ready = true, all_engaged = true;
   for (std::size_t i = 0; i < seats_.size(); ++i) {

@@ -26,6 +26,8 @@ class StartCondition {
                  SessionClock& clock) noexcept;
   /// Waits for the required seats of the checkpoint, if its session had begun.
   void restore(const Checkpoint& from) noexcept;
+  /// Writes whether the session had begun, and the seats that a restart may wait for: those that are taken or awaited.
+  void save(Checkpoint& to) const noexcept TANDEM_REALTIME;
 
   /// Updates `may_engage`. @pre the session has not begun
   /// @param disengaged  no seat may be engaged now
@@ -38,10 +40,10 @@ class StartCondition {
   [[nodiscard]] bool required(std::size_t seat) const noexcept {
     return recovering_ ? required_for_resume_[seat] : scene_->seats[seat].required;
   }
-  /// The seat was taken before a restart, and the session waits for its client to come back.
-  [[nodiscard]] bool awaited(std::size_t seat) const noexcept { return required_for_resume_[seat]; }
   /// Required seats that are not ready.
   [[nodiscard]] std::vector<std::size_t> missing(Time now) const;
+  /// True once session time runs, or if it ran before a restart.
+  [[nodiscard]] bool begun() const noexcept { return clock_->begun() || recovering_; }
   /// True after a restore until all required seats are ready, or until an instructor or operator resumes without them.
   [[nodiscard]] bool recovering() const noexcept { return recovering_; }
   /// All required seats are ready: springs may be loaded.

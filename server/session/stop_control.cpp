@@ -1,5 +1,7 @@
 #include "server/session/stop_control.h"
 
+#include <algorithm>
+
 namespace tandem::server {
 
 void StopControl::restore(const Checkpoint& from) noexcept {
@@ -11,6 +13,11 @@ void StopControl::restore(const Checkpoint& from) noexcept {
   }
 }
 
+void StopControl::save(Checkpoint& to) const noexcept {
+  to.stops = latch_.stops();
+  to.stop = start_->recovering() ? std::max(start_->stop_before(), latch_.level()) : latch_.level();
+}
+
 std::optional<StopLatch::Level> StopControl::request(Time now, const Requester& by, StopLatch::Level wanted) noexcept {
   const auto level = latch_.request(now, by.role, by.seat < seats_ ? by.seat : AuditEvent::kControlPlane, wanted);
   if (level)
@@ -19,14 +26,13 @@ std::optional<StopLatch::Level> StopControl::request(Time now, const Requester& 
   return level;
 }
 
-StopLatch::Resume StopControl::resume(Time now, const Requester& by, std::uint32_t number,
-                                      std::uint32_t connected) noexcept {
+StopLatch::Resume StopControl::resume(Time now, const Requester& by, std::uint32_t number) noexcept {
   if (start_->recovering() && !latch_.latched() && number == latch_.stops()) {
     if (!StopLatch::may_resume(by.role)) return StopLatch::Resume::kForbidden;
     resume_after_restart(now, by.audited_as, number);
     return StopLatch::Resume::kEnded;
   }
-  const StopLatch::Resume became = latch_.resume(by.role, by.seat, number, connected);
+  const StopLatch::Resume became = latch_.resume(by.role, by.seat, number, participants_->connected(now));
   if (became == StopLatch::Resume::kEnded) audit_->emit(now, AuditEvent::What::kResume, by.audited_as, number);
   return became;
 }

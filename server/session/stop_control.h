@@ -1,12 +1,12 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include "server/session/audit_trail.h"
 #include "server/session/checkpoint.h"
+#include "server/session/participants.h"
 #include "server/session/requester.h"
 #include "server/session/start_condition.h"
 #include "server/session/stop_latch.h"
@@ -18,13 +18,19 @@ namespace tandem::server {
 /// restart, and emits the audit events.
 class StopControl {
  public:
-  /// @param start  of the session
   /// All arguments must outlive this.
-  StopControl(const SceneSpec& scene, StartCondition& start, AuditTrail& audit) noexcept
-      : seats_(scene.seats.size()), start_(&start), audit_(&audit), latch_(scene.has_instructor()) {}
+  StopControl(const SceneSpec& scene, const Participants& participants, StartCondition& start,
+              AuditTrail& audit) noexcept
+      : seats_(scene.seats.size()),
+        participants_(&participants),
+        start_(&start),
+        audit_(&audit),
+        latch_(scene.has_instructor()) {}
   /// Restores the stop of a checkpoint. A session that waits for its seats raises it again when it resumes.
   /// @pre the start condition is restored
   void restore(const Checkpoint& from) noexcept;
+  /// Writes number and level of the stop that a restart restores.
+  void save(Checkpoint& to) const noexcept TANDEM_REALTIME;
 
   /// Stops all hands. A role that may only pause pauses them.
   /// @param wanted  highest level
@@ -32,10 +38,9 @@ class StopControl {
   std::optional<StopLatch::Level> request(Time now, const Requester& by,
                                           StopLatch::Level wanted = StopLatch::Level::kStopped) noexcept;
   /// Ends the stop, or ends the waiting after a restart.
-  /// @param number     number of the stop to end, see StopLatch::stops
-  /// @param connected  connected seats, bit i for seat i
+  /// @param number  number of the stop to end, see StopLatch::stops
   /// @return kEnded also if the session resumed into the stop that was on before a restart
-  StopLatch::Resume resume(Time now, const Requester& by, std::uint32_t number, std::uint32_t connected) noexcept;
+  StopLatch::Resume resume(Time now, const Requester& by, std::uint32_t number) noexcept;
   /// Resumes after a restart. Time continues from the checkpoint; a stop that was on then is raised again, under a new
   /// number. @param seat  origin of the audit event, @param number  its version
   void resume_after_restart(Time now, std::uint8_t seat, std::uint32_t number) noexcept;
@@ -47,13 +52,10 @@ class StopControl {
   /// Another client has taken the seat.
   void clear_seat(std::size_t seat) noexcept { latch_.clear_seat(seat); }
   [[nodiscard]] const StopLatch& latch() const noexcept { return latch_; }
-  /// Level that a restart restores.
-  [[nodiscard]] StopLatch::Level level_to_restore() const noexcept {
-    return start_->recovering() ? std::max(start_->stop_before(), latch_.level()) : latch_.level();
-  }
 
  private:
   std::size_t seats_;
+  const Participants* participants_;
   StartCondition* start_;
   AuditTrail* audit_;
   StopLatch latch_;

@@ -78,7 +78,7 @@ TEST(LiveSeat, RunsUntilTheServerEndsTheSession) {
   ASSERT_TRUE(own.reaches(runs)) << server.err();
   ASSERT_TRUE(own.seat->wait_until_closed(kPatience));
   EXPECT_EQ(own.seat->status().close_reason, wire::CloseReason::kDone);
-  EXPECT_GT(own.seat->status().accepted, 100U);
+  EXPECT_GT(own.seat->status().link.datagrams.accepted, 100U);
   EXPECT_EQ(server.wait(), 0) << server.err();
 }
 

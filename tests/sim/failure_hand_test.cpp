@@ -96,8 +96,8 @@ TEST(FailureTable, AnEvaluatorGetsHalfTheForceAndHalfTheTank) {
   const double most = 0.5 * scene.gate.force_max;
   EXPECT_LE(felt, most * (1 + 1e-9));
   EXPECT_GT(felt, 0.9 * most) << "the hand never felt the clamp";
-  EXPECT_DOUBLE_EQ(life.simulation->seat(kTrainee)->gate().tank_size(),
-                   0.5 * life.simulation->seat(kTrainer)->gate().tank_size());
+  EXPECT_DOUBLE_EQ(life.simulation->seat(kTrainee)->gate().tank().size(),
+                   0.5 * life.simulation->seat(kTrainer)->gate().tank().size());
   EXPECT_EQ(life.alpha(kTrainee), 0);
   life.expect_nothing_broken();
 }
@@ -122,7 +122,7 @@ TEST(FailureTable, GivesALostEvaluatorAtMostItsOwnTank) {
     life.until(7s);
     const control::ForceGate& gate = life.simulation->seat(kTrainee)->gate();
     EXPECT_GE(gate.trips(), 1u);
-    EXPECT_LE(gate.given_after_loss_max(), 0.010 + 1e-3) << "half of 20 mJ";
+    EXPECT_LE(gate.tank().given_max(), 0.010 + 1e-3) << "half of 20 mJ";
     life.expect_nothing_broken();
   }
 }

@@ -133,8 +133,8 @@ TEST(FailureTable, LimitsAPartitionToTheIsolatedSide) {
     life.until(5900ms);
     EXPECT_LE(life.steps[kTrainer], kFelt);
     EXPECT_TRUE(life.active(kTrainer));
-    EXPECT_LE(life.simulation->seat(kTrainee)->gate().given_after_loss_max(),
-              life.simulation->seat(kTrainee)->gate().tank_size() + kBelowTank);
+    EXPECT_LE(life.simulation->seat(kTrainee)->gate().tank().given_max(),
+              life.simulation->seat(kTrainee)->gate().tank().size() + kBelowTank);
     life.until(9s);
     EXPECT_TRUE(life.active(kTrainee));
     life.expect_nothing_broken();

@@ -63,7 +63,7 @@ Held attacked(const netsim::SimulationConfig& setup, Duration ends) {
     }
     if (into > 400ms && into < ends) out.active_meanwhile |= seat->gate().active();
     if (into > 0ms && world.session().state() == wire::SessionState::kRunning) out.active_after = seat->gate().active();
-    out.tank_j = seat != nullptr ? seat->gate().tank_size() : 0;
+    out.tank_j = seat != nullptr ? seat->gate().tank().size() : 0;
     before = x;
     if (into > ends + 3s) break;
   }

@@ -96,10 +96,12 @@ TEST(LiveSession, ReportsThatItWaitsWhileItIsStopped) {
   const server::SessionStatus stopped = look();
   EXPECT_EQ(stopped.state, wire::SessionState::kStopped);
   EXPECT_TRUE(stopped.waiting) << "it waits for the required seats";
-  ASSERT_EQ(restored.session().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
-            server::StopLatch::Resume::kEnded);
-  ASSERT_EQ(restored.session().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
-            server::StopLatch::Resume::kEnded);  // resumes without the missing seats
+  ASSERT_EQ(
+      restored.session().stop_control().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
+      server::StopLatch::Resume::kEnded);
+  ASSERT_EQ(
+      restored.session().stop_control().resume(now, {AccessRole::kOperator}, restored.session().stop_latch().stops()),
+      server::StopLatch::Resume::kEnded);  // resumes without the missing seats
   EXPECT_FALSE(look().waiting);
 }
 
@@ -113,8 +115,9 @@ TEST(LiveSession, CountsEventsThatWereNotTakenInTime) {
   const auto stops = [&](int many) {  // each stop and its end are one event each
     for (int n = 0; n < many; ++n) {
       ASSERT_TRUE(hosted.session().stop_control().request(now, {AccessRole::kInstructor}));
-      ASSERT_EQ(hosted.session().resume(now, {AccessRole::kInstructor}, hosted.session().stop_latch().stops()),
-                server::StopLatch::Resume::kEnded);
+      ASSERT_EQ(
+          hosted.session().stop_control().resume(now, {AccessRole::kInstructor}, hosted.session().stop_latch().stops()),
+          server::StopLatch::Resume::kEnded);
     }
   };
   const auto told = [&] {

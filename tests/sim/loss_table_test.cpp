@@ -120,7 +120,7 @@ Loss lose(LawKind law, const Case& c, Grip grip, Duration cut, bool replayed) {
     if (seconds(into) > limit + kRamp + 0.003)
       out.left_n = std::max(out.left_n, std::abs(life.before[0][0]) - kDamping * v);
   }
-  out.counted_j = life.simulation->seat(0)->gate().given_after_loss_max();
+  out.counted_j = life.simulation->seat(0)->gate().tank().given_max();
   // A hand that the motor and 3 N accelerate too much is released for its speed, before its silence counts as a loss.
   EXPECT_EQ(life.simulation->seat(0)->gate().trips(), out.seen < from_seconds(limit) && out.speed > kTooFast ? 0u : 1u);
   life.expect_nothing_broken();

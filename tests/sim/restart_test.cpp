@@ -114,7 +114,7 @@ TEST(ServerRestart, RestoresAllHandsWithoutAForceStepAtAnyTickOfAContact) {
       EXPECT_LE(hands[i].first, kFirst);
       EXPECT_LE(hands[i].beyond, kBeyond);
       EXPECT_LE(hands[i].injected, kInjected);
-      EXPECT_LE(world.seat(i)->gate().given_after_loss_max(), world.seat(i)->gate().tank_size() + 1e-3);
+      EXPECT_LE(world.seat(i)->gate().tank().given_max(), world.seat(i)->gate().tank().size() + 1e-3);
     }
     EXPECT_GT(back, 0s);
     EXPECT_LE(back, 3s);

@@ -127,17 +127,18 @@ void FalconDriver::first_reading(const FalconReply& reply) noexcept {
   (void)take(state, clock_->now());  // the first exchange reports counts without a pose
 }
 
-FalconCommand FalconDriver::frame_for(const ServoCommand& orders, SentCommand& order) noexcept {
-  order = {.seq = orders.seq};
-  FalconCommand frame{.lights = static_cast<std::uint8_t>(orders.leds & 7u)};
-  const bool may_push = homing_.homed() && pose_ && !orders.homing && !reload_;
-  frame.homing = homing_.bit(orders.homing);
+FalconCommand FalconDriver::frame_for(const ServoCommand& command, SentCommand& next) noexcept {
+  next = {.seq = command.seq};
+  FalconCommand frame{.lights = static_cast<std::uint8_t>(command.leds & 7u)};
+  const bool may_push = homing_.homed() && pose_ && !command.homing && !reload_;
+  frame.homing = homing_.bit(command.homing);
   if (!may_push) return frame;
   const double share = falcon_effort_share(pose_->condition);
-  const FalconForce::Sent sent = force_.counts_for(share * Vec3(orders.effort[0], orders.effort[1], orders.effort[2]));
+  const FalconForce::Sent sent =
+      force_.counts_for(share * Vec3(command.effort[0], command.effort[1], command.effort[2]));
   frame.motor = sent.motor;
-  order.tau = sent.tau;
-  order.saturated = sent.saturated || share < 1;
+  next.tau = sent.tau;
+  next.saturated = sent.saturated || share < 1;
   return frame;
 }
 
@@ -197,7 +198,7 @@ std::expected<void, Errc> FalconDriver::forget_old_answers() noexcept {
   return {};
 }
 
-std::expected<Exchange, Errc> FalconDriver::exchange(const ServoCommand& orders, State& state) noexcept {
+std::expected<Exchange, Errc> FalconDriver::exchange(const ServoCommand& command, State& state) noexcept {
   const Time began = clock_->now();
   if (pace_.stalled(began, kStoodStill)) {
     if (auto forgotten = forget_old_answers(); !forgotten) return std::unexpected(forgotten.error());
@@ -215,10 +216,10 @@ std::expected<Exchange, Errc> FalconDriver::exchange(const ServoCommand& orders,
   const bool had_late = reply_.has_value();
   const bool late_resynced = had_late && state.resynced;
 
-  SentCommand order;
-  const FalconCommand frame = frame_for(orders, order);
+  SentCommand next;
+  const FalconCommand frame = frame_for(command, next);
   if (auto sent = send(frame); !sent) return std::unexpected(sent.error());
-  acting_ = std::exchange(sent_, order);
+  acting_ = std::exchange(sent_, next);
 
   reply_.reset();
   const auto read = receive(std::clamp(pace_.next(began) - clock_->now(), Duration{0}, Duration{kReplyWait}));

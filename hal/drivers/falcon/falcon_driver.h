@@ -39,7 +39,7 @@ class FalconDriver final : public Driver {
   [[nodiscard]] const DeviceId& id() const noexcept override { return id_; }
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
   Result<> bring_up(BringUp& watcher) override;
-  std::expected<Exchange, Errc> exchange(const ServoCommand& orders, State& state) noexcept TANDEM_REALTIME override;
+  std::expected<Exchange, Errc> exchange(const ServoCommand& command, State& state) noexcept TANDEM_REALTIME override;
   void send_zeros() noexcept override;
 
   /// Returns the number of attempts of the last loading; 0: the firmware ran already.
@@ -55,7 +55,7 @@ class FalconDriver final : public Driver {
 
   FalconDriver(DeviceId id, UsbPipe& pipe, Clock& clock, FalconOptions options, const FalconForce& force);
   void first_reading(const FalconReply& reply) noexcept;
-  [[nodiscard]] FalconCommand frame_for(const ServoCommand& orders, SentCommand& order) noexcept;
+  [[nodiscard]] FalconCommand frame_for(const ServoCommand& command, SentCommand& next) noexcept;
   [[nodiscard]] std::expected<void, Errc> send(const FalconCommand& frame) noexcept;
   /// Receives into `reply_`: waits for one reply, or reads all queued replies if `wait` is 0.
   [[nodiscard]] std::expected<void, Errc> receive(Duration wait) noexcept;

@@ -49,12 +49,12 @@ std::expected<Fields, FrameError> fields_of(std::span<const std::byte, kFalconFr
 
 }  // namespace
 
-FalconBytes encode(const FalconCommand& order, const FalconFlagBits& bits) noexcept {
-  unsigned flags = order.homing ? bits.homing : 0u;
+FalconBytes encode(const FalconCommand& command, const FalconFlagBits& bits) noexcept {
+  unsigned flags = command.homing ? bits.homing : 0u;
   for (std::size_t i = 0; i < 3; ++i) {
-    if ((order.lights >> i & 1) != 0) flags |= bits.light[i];
+    if ((command.lights >> i & 1) != 0) flags |= bits.light[i];
   }
-  return frame_of(order.motor, flags & 0x7F);
+  return frame_of(command.motor, flags & 0x7F);
 }
 
 FalconBytes encode(const FalconReply& reply) noexcept {
@@ -65,11 +65,11 @@ std::expected<FalconCommand, FrameError> decode_command(std::span<const std::byt
                                                         const FalconFlagBits& bits) noexcept {
   const auto fields = fields_of(bytes);
   if (!fields) return std::unexpected(fields.error());
-  FalconCommand order{.motor = fields->numbers, .homing = (fields->flags & bits.homing) != 0};
+  FalconCommand command{.motor = fields->numbers, .homing = (fields->flags & bits.homing) != 0};
   for (unsigned i = 0; i < 3; ++i) {
-    if ((fields->flags & bits.light[i]) != 0) order.lights = static_cast<std::uint8_t>(order.lights | 1u << i);
+    if ((fields->flags & bits.light[i]) != 0) command.lights = static_cast<std::uint8_t>(command.lights | 1u << i);
   }
-  return order;
+  return command;
 }
 
 std::expected<FalconReply, FrameError> decode_reply(std::span<const std::byte, kFalconFrame> bytes) noexcept {

@@ -46,7 +46,7 @@ inline constexpr std::uint8_t kFalconAllHomed = 0x07;
 
 enum class FrameError : std::uint8_t { kBrackets, kNibble, kFlags };
 
-[[nodiscard]] FalconBytes encode(const FalconCommand& order, const FalconFlagBits& bits = {}) noexcept;
+[[nodiscard]] FalconBytes encode(const FalconCommand& command, const FalconFlagBits& bits = {}) noexcept;
 [[nodiscard]] FalconBytes encode(const FalconReply& reply) noexcept;
 [[nodiscard]] std::expected<FalconCommand, FrameError> decode_command(std::span<const std::byte, kFalconFrame> bytes,
                                                                       const FalconFlagBits& bits = {}) noexcept;

@@ -32,7 +32,7 @@ Result<> MouseDriver::bring_up(BringUp& watcher) {
   return {};
 }
 
-std::expected<Exchange, Errc> MouseDriver::exchange(const ServoCommand& orders, State& state) noexcept {
+std::expected<Exchange, Errc> MouseDriver::exchange(const ServoCommand& command, State& state) noexcept {
   const auto moved = pipe_->read();
   if (!moved) return std::unexpected(moved.error());
   const double forward = params_.metres_per_count * moved->forward, wheel = kPerDetent * moved->wheel;
@@ -44,7 +44,7 @@ std::expected<Exchange, Errc> MouseDriver::exchange(const ServoCommand& orders, 
   before_ = now;
 
   ++state.seq;
-  state.echo_command = orders.seq;
+  state.echo_command = command.seq;
   state.sampled_at = now;
   state.x = x_;
   state.dx = v_;

@@ -95,20 +95,20 @@ bool OpenHapticsDriver::wait_for_cycle(Duration limit) noexcept {
   return true;
 }
 
-std::expected<Exchange, Errc> OpenHapticsDriver::exchange(const ServoCommand& orders, State& state) noexcept {
+std::expected<Exchange, Errc> OpenHapticsDriver::exchange(const ServoCommand& command, State& state) noexcept {
   if (!slot_) return std::unexpected(Errc::kBadState);
-  TouchCommand order;
-  order.number = ++orders_;
-  order.seq = orders.seq;
-  for (std::size_t i = 0; i < 3; ++i) order.force[i] = orders.effort[i];  // q = tip, J = 1
-  order.homing = orders.homing;
-  group_->set_command(*slot_, order);
+  TouchCommand touch;
+  touch.number = ++commands_;
+  touch.seq = command.seq;
+  for (std::size_t i = 0; i < 3; ++i) touch.force[i] = command.effort[i];  // q = tip, J = 1
+  touch.homing = command.homing;
+  group_->set_command(*slot_, touch);
   if (!wait_for_cycle(kCycleMax)) return Exchange::kNothing;
 
   const Sample& s = group_->sample(*slot_);
   if (s.lost) return std::unexpected(Errc::kUnplugged);
   ++state.seq;
-  state.echo_command = s.order;
+  state.echo_command = s.command_seq;
   state.sampled_at = clock_->now();
   state.J.setZero();
   for (int i = 0; i < 3; ++i) {
@@ -130,7 +130,7 @@ void OpenHapticsDriver::send_zeros() noexcept {
   if (!slot_) return;
   for (int i = 0; i < 3; ++i) {
     TouchCommand zeros;
-    zeros.number = ++orders_;
+    zeros.number = ++commands_;
     group_->set_command(*slot_, zeros);
     if (!wait_for_cycle(5ms) || group_->sample(*slot_).lost) return;
   }

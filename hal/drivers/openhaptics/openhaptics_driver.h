@@ -25,7 +25,7 @@ class OpenHapticsDriver final : public Driver {
   [[nodiscard]] const DeviceId& id() const noexcept override { return id_; }
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
   Result<> bring_up(BringUp& watcher) override;
-  std::expected<Exchange, Errc> exchange(const ServoCommand& orders, State& state) noexcept TANDEM_REALTIME override;
+  std::expected<Exchange, Errc> exchange(const ServoCommand& command, State& state) noexcept TANDEM_REALTIME override;
   void send_zeros() noexcept override;
 
  private:
@@ -40,7 +40,7 @@ class OpenHapticsDriver final : public Driver {
   Clock* clock_;
   DeviceCaps caps_;
   std::optional<std::size_t> slot_;
-  std::uint64_t orders_ = 0, cycle_ = 0;
+  std::uint64_t commands_ = 0, cycle_ = 0;
 };
 
 }  // namespace tandem::hal::openhaptics

@@ -188,9 +188,9 @@ Result<TouchGroup::DeviceInfo> TouchGroup::add(const std::string& name, const st
   slot.motors = about.motors;
   slot.warm = 0;
   slot.last = {};
-  slot.order_number = 0;
-  slot.order_age = kOrderCycles;
-  slot.orders.write({});
+  slot.command_number = 0;
+  slot.command_age = kCommandCycles;
+  slot.commands.write({});
   slot.samples.write({});
   if (auto ok = start(); !ok) {
     remove(about.slot);
@@ -222,7 +222,7 @@ void TouchGroup::stop() noexcept {
   api_->unschedule(*scheduled_);
   scheduled_.reset();
   forget_errors();
-  for (Slot& slot : slots_) slot.order_age = kOrderCycles;  // commands from before the stop must not act after it
+  for (Slot& slot : slots_) slot.command_age = kCommandCycles;  // commands from before the stop must not act after it
 }
 
 Result<> TouchGroup::start() {
@@ -265,7 +265,7 @@ void TouchGroup::serve(Slot& slot) noexcept {
     api_->get_int(id::kEncoders, encoders);
     api_->get_int(id::kButtons, &buttons);
     take_errors(slot);
-    const TouchCommand& order = slot.orders.read();
+    const TouchCommand& command = slot.commands.read();
     if (!s.lost) {
       to_hal(x, s.x.data());
       to_hal(v, s.v.data());
@@ -276,8 +276,8 @@ void TouchGroup::serve(Slot& slot) noexcept {
       }
       s.buttons = static_cast<std::uint32_t>(buttons);
       feel_heat(slot);
-      home(slot, order.homing);
-      s.force = force_for(slot, order);
+      home(slot, command.homing);
+      s.force = force_for(slot, command);
       double force[3];
       to_hd(s.force.data(), force);
       api_->set_double(id::kForce, force);
@@ -309,19 +309,19 @@ void TouchGroup::feel_heat(Slot& slot) noexcept {
   if (!s.heat || *s.heat < 1) s.heat = 1;
 }
 
-std::array<double, 3> TouchGroup::force_for(Slot& slot, const TouchCommand& order) noexcept {
+std::array<double, 3> TouchGroup::force_for(Slot& slot, const TouchCommand& command) noexcept {
   Sample& s = slot.last;
-  slot.order_age = order.number == slot.order_number ? std::min(slot.order_age + 1, kOrderCycles) : 0;
-  slot.order_number = order.number;
-  s.order = 0;
+  slot.command_age = command.number == slot.command_number ? std::min(slot.command_age + 1, kCommandCycles) : 0;
+  slot.command_number = command.number;
+  s.command_seq = 0;
   // The commanding thread may have ended while this cycle, on the vendor's thread, continues.
-  if (slot.order_age >= kOrderCycles || quiet_.load(std::memory_order_acquire) || !s.homed || s.error != 0 ||
-      !finite(order.force) || !finite(s.x)) {
+  if (slot.command_age >= kCommandCycles || quiet_.load(std::memory_order_acquire) || !s.homed || s.error != 0 ||
+      !finite(command.force) || !finite(s.x)) {
     s.limited = s.limited || s.error != 0;
     return {};
   }
-  s.order = order.seq;
-  std::array<double, 3> f = order.force;
+  s.command_seq = command.seq;
+  std::array<double, 3> f = command.force;
   const double n = std::hypot(f[0], f[1], f[2]);
   if (n > slot.force_max) {
     s.limited = true;

@@ -18,7 +18,7 @@ namespace tandem::hal::openhaptics {
 /// Reading of one device in the vendor's servo cycle.
 struct Sample {
   std::uint64_t cycle = 0;         ///< number of the cycle; 0: no reading yet
-  std::uint64_t order = 0;         ///< sequence number of the command behind `force`
+  std::uint64_t command_seq = 0;   ///< sequence number of the command behind `force`
   std::array<double, 3> x{}, v{};  ///< HAL frame [m], [m/s]
   std::array<double, 3> force{};   ///< set in this cycle, HAL frame [N]
   std::array<std::int32_t, 3> encoders{};
@@ -47,7 +47,7 @@ struct TouchCommand {
 class TouchGroup {
  public:
   static constexpr std::size_t kMax = 4;
-  static constexpr unsigned kOrderCycles = 10;  ///< cycles for which a command is obeyed
+  static constexpr unsigned kCommandCycles = 10;  ///< cycles for which a command is obeyed
 
   /// @param api    complete function table; must outlive this object, as must `clock`
   TouchGroup(const Api& api, Clock& clock) noexcept : api_(&api), clock_(&clock) {}
@@ -72,7 +72,7 @@ class TouchGroup {
   Result<DeviceInfo> add(const std::string& name, const std::function<bool()>& rests_there);
   void remove(std::size_t slot) noexcept;
 
-  void set_command(std::size_t slot, const TouchCommand& order) noexcept { slots_[slot].orders.write(order); }
+  void set_command(std::size_t slot, const TouchCommand& command) noexcept { slots_[slot].commands.write(command); }
   [[nodiscard]] const Sample& sample(std::size_t slot) noexcept { return slots_[slot].samples.read(); }
   /// Performs one cycle of all devices; the vendor's scheduler calls it.
   void cycle() noexcept TANDEM_REALTIME;
@@ -85,12 +85,12 @@ class TouchGroup {
     bool reset = false;  ///< the user had its encoders reset in this opening
     double force_max = 0;
     std::size_t motors = 0;  ///< number of motors with a temperature; 0: none
-    Latest<TouchCommand> orders;
+    Latest<TouchCommand> commands;
     Latest<Sample> samples;
     // Used by the callback only.
     Sample last;
-    std::uint64_t order_number = 0;
-    unsigned order_age = 0;
+    std::uint64_t command_number = 0;
+    unsigned command_age = 0;
     unsigned warm = 0;  ///< remaining cycles for which a warm-motor report counts
   };
   void serve(Slot& slot) noexcept TANDEM_REALTIME;
@@ -99,7 +99,7 @@ class TouchGroup {
   /// Removes all errors from the stack. Each is assigned to the device it names, otherwise to `current`.
   void take_errors(Slot& current) noexcept;
   void forget_errors() noexcept;
-  [[nodiscard]] std::array<double, 3> force_for(Slot& slot, const TouchCommand& order) noexcept;
+  [[nodiscard]] std::array<double, 3> force_for(Slot& slot, const TouchCommand& command) noexcept;
   void stop() noexcept;
   Result<> start();
   [[nodiscard]] std::optional<double> ask(std::uint32_t what) noexcept;

@@ -20,13 +20,13 @@ Result<> ReplayDriver::bring_up(BringUp& watcher) {
   return {};
 }
 
-std::expected<Exchange, Errc> ReplayDriver::exchange(const ServoCommand& orders, State& state) noexcept {
+std::expected<Exchange, Errc> ReplayDriver::exchange(const ServoCommand& command, State& state) noexcept {
   const Time now = clock_->now();
   if (!playing_) began_ = now;
-  playing_ = playing_ || orders.seq != 0;
+  playing_ = playing_ || command.seq != 0;
   const sim::MotionPoint at = motion_->at(seconds(now - began_), cursor_);
   ++state.seq;
-  state.echo_command = orders.seq;
+  state.echo_command = command.seq;
   state.sampled_at = now;
   state.x = at.x;
   state.dx = playing_ ? at.v : Vec3::Zero();

@@ -24,7 +24,7 @@ class ReplayDriver final : public Driver {
   [[nodiscard]] const DeviceId& id() const noexcept override { return id_; }
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
   Result<> bring_up(BringUp& watcher) override;
-  std::expected<Exchange, Errc> exchange(const ServoCommand& orders, State& state) noexcept TANDEM_REALTIME override;
+  std::expected<Exchange, Errc> exchange(const ServoCommand& command, State& state) noexcept TANDEM_REALTIME override;
   void send_zeros() noexcept override {}
 
  private:

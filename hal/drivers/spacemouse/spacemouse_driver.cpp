@@ -30,7 +30,7 @@ SpaceMouseDriver::SpaceMouseDriver(DeviceId id, HidPipe& pipe, Clock& clock, con
 Result<> SpaceMouseDriver::bring_up(BringUp& watcher) {
   watcher.progress("emptying the queue of the SpaceMouse", 0.0);
   lit_.reset();
-  light_ordered_ = false;
+  light_commanded_ = false;
   // Some units ignore "off" until they have received "on" once.
   for (const bool emptied : {false, true}) {
     const auto ok = emptied ? light(true) : take_reports();
@@ -46,16 +46,16 @@ Result<> SpaceMouseDriver::bring_up(BringUp& watcher) {
   return {};
 }
 
-std::expected<Exchange, Errc> SpaceMouseDriver::exchange(const ServoCommand& orders, State& state) noexcept {
+std::expected<Exchange, Errc> SpaceMouseDriver::exchange(const ServoCommand& command, State& state) noexcept {
   if (const auto ok = take_reports(); !ok) return std::unexpected(ok.error());
-  light_ordered_ = light_ordered_ || orders.leds != 0;
-  if (light_ordered_) {
-    if (const auto ok = light((orders.leds & 1u) != 0); !ok) return std::unexpected(ok.error());
+  light_commanded_ = light_commanded_ || command.leds != 0;
+  if (light_commanded_) {
+    if (const auto ok = light((command.leds & 1u) != 0); !ok) return std::unexpected(ok.error());
   }
   const Time now = clock_.now();
   const Vec3 velocity = motion_.velocity(now), turning = motion_.angular_velocity(now);
   state.seq = ++readings_;
-  state.echo_command = orders.seq;
+  state.echo_command = command.seq;
   state.sampled_at = now;
   state.q = {};
   state.tau_out = {};
@@ -74,7 +74,7 @@ std::expected<Exchange, Errc> SpaceMouseDriver::exchange(const ServoCommand& ord
   state.stale = motion_.stale(now);
   state.resynced = false;
   state.homed = true;
-  state.saturated = std::any_of(orders.effort.begin(), orders.effort.end(), [](double e) { return e != 0.0; });
+  state.saturated = std::any_of(command.effort.begin(), command.effort.end(), [](double e) { return e != 0.0; });
   return Exchange::kFresh;
 }
 

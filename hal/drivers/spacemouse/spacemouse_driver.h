@@ -29,7 +29,7 @@ class SpaceMouseDriver final : public Driver {
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
   /// Discards queued reports and switches the light on. Does not wait for a report: a SpaceMouse at rest sends none.
   Result<> bring_up(BringUp& watcher) override;
-  std::expected<Exchange, Errc> exchange(const ServoCommand& orders, State& state) noexcept TANDEM_REALTIME override;
+  std::expected<Exchange, Errc> exchange(const ServoCommand& command, State& state) noexcept TANDEM_REALTIME override;
   /// Switches the light off; the device has no motors.
   void send_zeros() noexcept override { (void)light(false); }
 
@@ -51,7 +51,7 @@ class SpaceMouseDriver final : public Driver {
   std::uint32_t buttons_ = 0;
   std::optional<std::uint8_t> battery_;
   std::optional<bool> lit_;  ///< last state sent; empty: none yet
-  bool light_ordered_ = false;
+  bool light_commanded_ = false;
   std::uint64_t readings_ = 0, odd_reports_ = 0;
 };
 

@@ -39,16 +39,16 @@ std::expected<BoardReport, Errc> parse_report(WoodenProtocol protocol, bool styl
   return report;
 }
 
-std::size_t write_command(WoodenProtocol protocol, const BoardCommand& order,
+std::size_t write_command(WoodenProtocol protocol, const BoardCommand& command,
                           std::span<std::byte, kReportMax> into) noexcept {
   std::ranges::fill(into, std::byte{0});
-  if (!order.preset) {
-    for (std::size_t i = 0; i < 3; ++i) put_word(into, i, order.current_ma[i]);
+  if (!command.preset) {
+    for (std::size_t i = 0; i < 3; ++i) put_word(into, i, command.current_ma[i]);
   } else if (has_presets(protocol)) {
     // In this command the fields of the currents carry the gimbal's counts and drive no motor.
-    for (std::size_t i = 0; i < 3; ++i) put_word(into, i, order.counts[3 + i]);
+    for (std::size_t i = 0; i < 3; ++i) put_word(into, i, command.counts[3 + i]);
     put_word(into, 3, kPresetCounters);
-    for (std::size_t i = 0; i < 3; ++i) put_word(into, 4 + i, order.counts[i]);
+    for (std::size_t i = 0; i < 3; ++i) put_word(into, 4 + i, command.counts[i]);
   }
   return report_size(protocol);
 }

@@ -51,7 +51,7 @@ struct BoardCommand {
 
 /// Writes a command into `into`.
 /// @return the bytes written, `report_size(protocol)`. A v1 board has no preset command: its frame is then all zero.
-std::size_t write_command(WoodenProtocol protocol, const BoardCommand& order,
+std::size_t write_command(WoodenProtocol protocol, const BoardCommand& command,
                           std::span<std::byte, kReportMax> into) noexcept TANDEM_REALTIME;
 
 }  // namespace tandem::hal::woodenhaptics

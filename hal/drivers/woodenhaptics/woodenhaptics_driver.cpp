@@ -26,8 +26,8 @@ constexpr Duration kApart = std::chrono::microseconds{750};
 /// Largest drum speed by a hand [rad/s], and largest error of one reading [rad].
 constexpr double kSpeedMax = 60.0, kJump = 0.05;
 
-bool has_effort(const ServoCommand& orders) noexcept {
-  return std::any_of(orders.effort.begin(), orders.effort.begin() + 3, [](double e) { return e != 0.0; });
+bool has_effort(const ServoCommand& command) noexcept {
+  return std::any_of(command.effort.begin(), command.effort.begin() + 3, [](double e) { return e != 0.0; });
 }
 
 }  // namespace
@@ -99,22 +99,22 @@ DeviceError WoodenHapticsDriver::silent_board(bool torn, std::size_t length) con
   return {Errc::kProtocol, message};
 }
 
-std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const ServoCommand& orders, State& state) noexcept {
+std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const ServoCommand& command, State& state) noexcept {
   const Time now = clock_.now();
-  if (home_requested_.exchange(false) && !has_effort(orders)) preset_counters(true);
+  if (home_requested_.exchange(false) && !has_effort(command)) preset_counters(true);
   if (!homed_ && latched_ && presets_left_ == 0) preset_counters(button_armed_);
   const bool presetting = presets_left_ > 0 && has_presets(options_.spec.protocol);
   MotorCommand motors;
-  if (!presetting) motors = motors_for(orders, now);
+  if (!presetting) motors = motors_for(command, now);
 
   Taken taken;  // late or unprompted reports
   auto trouble = take_reports(Duration{0}, taken);
   if (!trouble) return std::unexpected(trouble.error());
-  if (trouble = send(presetting ? preset_order() : BoardCommand{.current_ma = motors.current_ma}); !trouble) {
+  if (trouble = send(presetting ? preset_command() : BoardCommand{.current_ma = motors.current_ma}); !trouble) {
     return std::unexpected(trouble.error());
   }
   const Vec3 acted = acting_;
-  const std::uint64_t acted_seq = std::exchange(acting_seq_, orders.seq);
+  const std::uint64_t acted_seq = std::exchange(acting_seq_, command.seq);
   acting_ = motors.effort;
   saturated_ = motors.saturated;
   sent_at_ = now;
@@ -144,16 +144,16 @@ std::expected<Exchange, Errc> WoodenHapticsDriver::exchange(const ServoCommand& 
   return jumped || taken.torn ? Exchange::kResynced : Exchange::kFresh;
 }
 
-MotorCommand WoodenHapticsDriver::motors_for(const ServoCommand& orders, Time now) noexcept {
-  const bool wanted = has_effort(orders);
-  if (!homed_ || !options_.enable_motors || orders.homing) {
+MotorCommand WoodenHapticsDriver::motors_for(const ServoCommand& command, Time now) noexcept {
+  const bool wanted = has_effort(command);
+  if (!homed_ || !options_.enable_motors || command.homing) {
     gravity_.release();
     MotorCommand none;
     none.saturated = wanted;
     return none;
   }
   const double share = options_.spec.gravity ? gravity_.update(now, wanted, now - sent_at_) : 0.0;
-  const Vec3 effort(orders.effort[0], orders.effort[1], orders.effort[2]);
+  const Vec3 effort(command.effort[0], command.effort[1], command.effort[2]);
   return motors_.to_command(effort, share * kinematics_.holding_effort(q_));
 }
 
@@ -264,18 +264,18 @@ std::expected<void, Errc> WoodenHapticsDriver::take_reports(Duration timeout, Ta
   return {};
 }
 
-std::expected<void, Errc> WoodenHapticsDriver::send(const BoardCommand& order) noexcept {
+std::expected<void, Errc> WoodenHapticsDriver::send(const BoardCommand& command) noexcept {
   std::array<std::byte, kReportMax> bytes;
-  const std::size_t size = write_command(options_.spec.protocol, order, bytes);
+  const std::size_t size = write_command(options_.spec.protocol, command, bytes);
   const Moved moved = pipe_.write(std::span(bytes).first(size));
   if (!moved) return std::unexpected(moved.error());
   return {};
 }
 
-BoardCommand WoodenHapticsDriver::preset_order() const noexcept {
-  BoardCommand order{.preset = true};
-  std::ranges::copy(options_.spec.calibration_counts, order.counts.begin());
-  return order;
+BoardCommand WoodenHapticsDriver::preset_command() const noexcept {
+  BoardCommand command{.preset = true};
+  std::ranges::copy(options_.spec.calibration_counts, command.counts.begin());
+  return command;
 }
 
 void WoodenHapticsDriver::send_zeros() noexcept {

@@ -51,7 +51,7 @@ class WoodenHapticsDriver final : public Driver {
   [[nodiscard]] const DeviceId& id() const noexcept override { return id_; }
   [[nodiscard]] const DeviceCaps& caps() const noexcept override { return caps_; }
   Result<> bring_up(BringUp& watcher) override;
-  std::expected<Exchange, Errc> exchange(const ServoCommand& orders, State& state) noexcept TANDEM_REALTIME override;
+  std::expected<Exchange, Errc> exchange(const ServoCommand& command, State& state) noexcept TANDEM_REALTIME override;
   void send_zeros() noexcept override;
 
   /// Confirms that the arm is in its calibration pose now. From any thread.
@@ -65,9 +65,9 @@ class WoodenHapticsDriver final : public Driver {
     bool torn = false;  ///< reports of a wrong length arrived too
   };
   std::expected<void, Errc> take_reports(Duration timeout, Taken& taken) noexcept;
-  std::expected<void, Errc> send(const BoardCommand& order) noexcept;
-  [[nodiscard]] BoardCommand preset_order() const noexcept;
-  [[nodiscard]] MotorCommand motors_for(const ServoCommand& orders, Time now) noexcept;
+  std::expected<void, Errc> send(const BoardCommand& command) noexcept;
+  [[nodiscard]] BoardCommand preset_command() const noexcept;
+  [[nodiscard]] MotorCommand motors_for(const ServoCommand& command, Time now) noexcept;
   /// Tracks the counters with a new report. @return whether positions may have jumped
   bool follow(const BoardReport& report, Time at) noexcept;
   void preset_counters(bool then_homed) noexcept;

@@ -5,11 +5,7 @@
 namespace tandem::netsim {
 
 ClientPool::ClientPool(const ProxyCore& core, const LinkSpec& link, bool monitor)
-    : core_(&core),
-      monitor_(monitor),
-      link_(link),
-      ready_(kReady),
-      returned_(2 * kReady) {
+    : core_(&core), monitor_(monitor), link_(link), ready_(kReady), returned_(2 * kReady) {
   refill();
 }
 

@@ -244,6 +244,33 @@ TEST(EscHub, CreditsWhatAuthorityPaidAndAsksTheSourcesForTheRest) {
   EXPECT_NEAR(tank.sources(0).granted(), 0.01, 1e-12);
 }
 
+TEST(EscHub, AsksTheSourcesOfEachToolForItsOwnShare) {
+  EscHub hub = hub_of(2, 2);
+  hub.set_follow(0, 0, 0.5);
+  hub.set_follow(0, 1, 0.5);
+  hub.set_authority(0, {0.25, 0.75}, false);
+  hub.set_authority(1, {0, 1}, false);
+  const auto end = absorbed_50_mj();
+  hub.settle(0, {0.01}, {}, *end);
+  EXPECT_NEAR(hub.sources(0).granted(), (0.5 - 0.25) * 0.05, 1e-12);
+  EXPECT_NEAR(hub.sources(1).granted(), 0.5 * 0.05, 1e-12);
+}
+
+TEST(EscHub, PaysTheDecayOfAnOffsetWithoutAuthority) {
+  // The reference is 10 mm ahead of the tool and the offset decays by 0.1 mm away from it: 1000 N/m 10 mm 0.1 mm.
+  EscHub hub = hub_of(2, 1);
+  hub.set_follow(0, 0, 1);
+  hub.set_authority(0, {0.25, 0.75}, false);
+  ChannelParams p;
+  p.side = Side::kServer;
+  p.dof = 1;
+  p.schedule.k = 1000;
+  const auto end = make_channel_end("set_position", p);
+  end->engage({0.01}, 0);
+  hub.settle(0, {0.01}, {-0.0001}, *end);
+  EXPECT_NEAR(hub.sources(0).granted(), 0.75 * 0.001, 1e-12);
+}
+
 TEST(EscHub, CreditsASlaveSeatInFull) {
   EscHub hub = hub_of(1, 1, FlowSourceMode::kTank, 0);
   hub.couple_slave(1, 0);

@@ -58,10 +58,10 @@ Fall fall(double mass, double force, double hand_mass, const Hand& hand, Loss lo
     d.in.q[0] = x;
     d.in.v[0] = v;
     d.tick();
-    f.counted = std::max(f.counted, d.gate.given_since_fresh());
+    f.counted = std::max(f.counted, d.gate.tank().given());
     if (ms >= 119) f.power_late = std::max(f.power_late, d.out.effort[0] * v);
   }
-  EXPECT_GE(d.gate.given_after_loss_max(), f.counted - 1e-12);
+  EXPECT_GE(d.gate.tank().given_max(), f.counted - 1e-12);
   return f;
 }
 
@@ -87,7 +87,7 @@ TEST(ForceGate, GivesAReleasedOrRestingHandNoMoreThanItsTank) {
         SCOPED_TRACE(std::string(grip.name) + ", " + std::to_string(c.force) + " N, " + std::to_string(c.mass) +
                      " kg, " + (old ? "old datagrams" : "silence"));
         const Fall f = fall(c.mass, c.force, grip.hand_mass, grip.hand(c.force), {.old = old});
-        const double tank = ForceGate({.mass = c.mass}).tank_size();
+        const double tank = ForceGate({.mass = c.mass}).tank().size();
         // The rule predicts the motor's own acceleration for a whole tick, but not the hand's. The hand adds at most
         // 1/2 F_hand F dt^2 / m.
         const double unforeseen = grip.hand_mass > 0 ? 0 : 0.5 * 3 * c.force * 1e-6 / c.mass;
@@ -100,10 +100,10 @@ TEST(ForceGate, GivesAReleasedOrRestingHandNoMoreThanItsTank) {
 }
 
 TEST(ForceGate, HasATankThatFitsItsDevice) {
-  EXPECT_DOUBLE_EQ(ForceGate({.mass = 0.05}).tank_size(), 0.020);
-  EXPECT_DOUBLE_EQ(ForceGate({.mass = 0.1}).tank_size(), 0.020);
-  EXPECT_DOUBLE_EQ(ForceGate({.mass = 0.4}).tank_size(), 0.072);
-  EXPECT_DOUBLE_EQ(ForceGate({.mass = 5}).tank_size(), 0.100);
+  EXPECT_DOUBLE_EQ(ForceGate({.mass = 0.05}).tank().size(), 0.020);
+  EXPECT_DOUBLE_EQ(ForceGate({.mass = 0.1}).tank().size(), 0.020);
+  EXPECT_DOUBLE_EQ(ForceGate({.mass = 0.4}).tank().size(), 0.072);
+  EXPECT_DOUBLE_EQ(ForceGate({.mass = 5}).tank().size(), 0.100);
 }
 
 // A gate that drops to zero at once allows 7.6 and 18 mm.
@@ -128,7 +128,7 @@ TEST(ForceGate, AbsorbsEnergyFromAHandWithoutCost) {  // the tank never rejects 
     d.in.q[0] -= 0.0005;
     ASSERT_NEAR(d.tick().effort[0], 3, 0.1) << ms;
   }
-  EXPECT_LT(d.gate.given_since_fresh(), 0);
+  EXPECT_LT(d.gate.tank().given(), 0);
 }
 
 TEST(ForceGate, KeepsItsEnergyAccountBetweenTicksOfASlowScene) {
@@ -142,7 +142,7 @@ TEST(ForceGate, KeepsItsEnergyAccountBetweenTicksOfASlowScene) {
   d.in.q[0] += 0.001;
   d.in.fresh = false;
   d.tick();
-  EXPECT_NEAR(d.gate.given_since_fresh(), -0.003, 1e-9);
+  EXPECT_NEAR(d.gate.tank().given(), -0.003, 1e-9);
   // Longer than the command is valid: the device may have released, so nothing is credited.
   GateDrive late(p);
   late.hold(-3);
@@ -150,7 +150,7 @@ TEST(ForceGate, KeepsItsEnergyAccountBetweenTicksOfASlowScene) {
   late.in.q[0] += 0.001;
   late.in.fresh = false;
   late.tick();
-  EXPECT_GE(late.gate.given_since_fresh(), 0);
+  EXPECT_GE(late.gate.tank().given(), 0);
 }
 
 TEST(ForceGate, CreditsNothingAfterTheDeviceDroppedItsCommand) {
@@ -162,7 +162,7 @@ TEST(ForceGate, CreditsNothingAfterTheDeviceDroppedItsCommand) {
   d.in.q[0] += 0.006;
   d.in.fresh = false;
   d.tick();
-  EXPECT_GE(d.gate.given_since_fresh(), 0);
+  EXPECT_GE(d.gate.tank().given(), 0);
   // In the other direction the account counts the energy as given, which is the safe side.
   GateDrive other;
   other.hold(-3);
@@ -170,7 +170,7 @@ TEST(ForceGate, CreditsNothingAfterTheDeviceDroppedItsCommand) {
   other.in.q[0] -= 0.006;
   other.in.fresh = false;
   other.tick();
-  EXPECT_NEAR(other.gate.given_since_fresh(), 0.018, 1e-9);
+  EXPECT_NEAR(other.gate.tank().given(), 0.018, 1e-9);
 }
 
 /// A released handle oscillates at 12 Hz, as it can on the spring to a moving tool, and the effort always acts along
@@ -196,7 +196,7 @@ TEST(ForceGate, GivesAShakingHandNoMoreThanItsTankAtALateVelocity) {
   }
   EXPECT_TRUE(d.gate.active());
   EXPECT_GT(most, 0.01) << "otherwise no hand was pushed";
-  EXPECT_LE(most, d.gate.tank_size() + 0.001);
+  EXPECT_LE(most, d.gate.tank().size() + 0.001);
 }
 
 /// The device drops the force of a stalled program. Datagrams that arrive when the program resumes do not restore it.

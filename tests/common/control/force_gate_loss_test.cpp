@@ -90,8 +90,8 @@ TEST(ForceGate, GivesNoMoreThanItsTankAtIrregularWakeUps) {
     d.in.fresh = false;
     for (int n = 400 + silence; n < 600; ++n) wake(n);
     EXPECT_EQ(d.out.effort[0], -5 * 0.65) << "damping is left";
-    EXPECT_GT(most, 0.5 * d.gate.tank_size()) << silence;
-    EXPECT_LE(most, d.gate.tank_size() + 1e-5) << silence;
+    EXPECT_GT(most, 0.5 * d.gate.tank().size()) << silence;
+    EXPECT_LE(most, d.gate.tank().size() + 1e-5) << silence;
   }
 }
 

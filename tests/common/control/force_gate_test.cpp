@@ -46,7 +46,7 @@ TEST(ForceGate, StaysFiniteAndWithinTheMotorForEveryInput) {
       const auto out = d.tick();
       for (const double f : out.effort) ASSERT_TRUE(std::isfinite(f)) << "tick " << i;
       ASSERT_LE(test::norm(out.effort, p), p.force_max * (1 + 1e-9)) << "tick " << i;
-      ASSERT_FALSE(std::isnan(d.gate.given_since_fresh()));
+      ASSERT_FALSE(std::isnan(d.gate.tank().given()));
     }
   }
 }
@@ -191,11 +191,11 @@ TEST(ForceGate, KeepsTheEnergyAccountOfALossUntilItReengages) {
   ASSERT_EQ(d.gate.phase(), GatePhase::kReleasing);
   d.in.q[0] += 0.002;  // the motor pushes the hand: 3 N over 2 mm
   d.tick();
-  const double given = d.gate.given_since_fresh();
+  const double given = d.gate.tank().given();
   ASSERT_GT(given, 0.003);
   d.in.fresh = true;
   d.tick();
-  EXPECT_GE(d.gate.given_since_fresh(), given);
+  EXPECT_GE(d.gate.tank().given(), given);
 }
 
 TEST(ForceGate, FaultsAtOnceAndUntilReset) {

@@ -47,8 +47,8 @@ TEST(ReengageOffset, ScalesItsSpeedToTheAxis) {
 
 TEST(ReengageOffset, AbsorbsAnElongationBeyondItsReach) {
   ReengageOffset offset({.axes = 2});
-  offset.absorb({0.003, 0.004}, 0.005);
-  EXPECT_EQ(offset[0], 0) << "at the reach nothing is absorbed";
+  offset.absorb({0.0015, 0.002}, 0.005);
+  EXPECT_EQ(offset[0], 0) << "within the reach nothing is absorbed";
   offset.absorb({0.006, 0.008}, 0.005);
   EXPECT_NEAR(offset[0], -0.003, 1e-15) << "half of 10 mm";
   EXPECT_NEAR(offset[1], -0.004, 1e-15);

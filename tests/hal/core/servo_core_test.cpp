@@ -35,8 +35,8 @@ struct FakeDriver final : Driver {
   const DeviceId& id() const noexcept override { return name; }
   const DeviceCaps& caps() const noexcept override { return what; }
   Result<> bring_up(BringUp&) override { return up; }
-  std::expected<Exchange, Errc> exchange(const ServoCommand& orders, State& state) noexcept override {
-    if (sent.size() < sent.capacity()) sent.push_back(orders);
+  std::expected<Exchange, Errc> exchange(const ServoCommand& command, State& state) noexcept override {
+    if (sent.size() < sent.capacity()) sent.push_back(command);
     if (how && *how != Exchange::kNothing) state = next;
     return how;
   }

@@ -37,8 +37,8 @@ struct FalconSeat {
     Watcher watcher;
     return driver->bring_up(watcher);
   }
-  std::expected<Exchange, Errc> tick(const hal::ServoCommand& orders = {}) {
-    const auto result = driver->exchange(orders, state);
+  std::expected<Exchange, Errc> tick(const hal::ServoCommand& command = {}) {
+    const auto result = driver->exchange(command, state);
     clock.wait_until(clock.now() + 1ms);
     return result;
   }

@@ -250,7 +250,7 @@ TEST(StarvationChecker, ReportsAReferenceThatRestsFor300Milliseconds) {
   run.run(3);
   run.judged.gate.force_max = 1e6;  // no motor limits the elongation
   const ObservedSeat seat = run.observed(0);
-  const control::ChannelEnd& end = seat.core().channel();
+  const control::ChannelEnd& end = seat.core().tools().end(0);
   const AxisArray ref = end.state().ref;
   PortSample far;
   AxisArray x = ref;

@@ -120,11 +120,11 @@ TEST(SimulatedProgram, AppliesTheKeyPressesOfFaults) {
   ASSERT_EQ(program.connect(at(1ms), served.server.session(), served.device->caps(), nullptr), "");
   const FaultSchedule faults{{{.kind = Kind::kStopHand, .seat = "", .at = 1s, .length = 1s}}};
   program.apply_stop_faults(at(0s), faults);
-  EXPECT_FALSE(program.seat()->locally_stopped());
+  EXPECT_FALSE(program.seat()->requests().locally_stopped());
   program.apply_stop_faults(at(1s), faults);
-  EXPECT_TRUE(program.seat()->locally_stopped());
+  EXPECT_TRUE(program.seat()->requests().locally_stopped());
   program.apply_stop_faults(at(2s), faults);
-  EXPECT_FALSE(program.seat()->locally_stopped());
+  EXPECT_FALSE(program.seat()->requests().locally_stopped());
 }
 
 TEST(SimulatedServer, RunsMissedTicksAtOnce) {

@@ -152,6 +152,10 @@ TEST(AuthorityControl, RestoresACheckpointAndSkipsItsPastTimeline) {
     EXPECT_EQ(l.control.version(), 10u);
     EXPECT_EQ(l.requested()[kTrainee], 0.5);
     EXPECT_EQ(l.tools[0].transfer.scheduled()[kTrainee], 0.5);
+    Checkpoint again;
+    l.control.save(again);
+    EXPECT_EQ(again.authority_version, 10u);
+    EXPECT_EQ(again.tools[0].alpha, from.tools[0].alpha);
     l.clock.resume();
     l.ticks(200);
     EXPECT_EQ(l.requested()[kTrainee], tick == 11'449 ? 1 : 0.5) << "announced 50 ticks ahead, at tick 11 450";

@@ -37,7 +37,8 @@ struct Lesson : SessionFixture {
   [[nodiscard]] const wire::ForceMessage& told(std::size_t i) const { return seats[i].core->force(); }
 
   [[nodiscard]] SessionCommand command(const control::MasterArray& weights) const {
-    return {rpc::SetAuthority{{}, 0, session->authority().version(), {weights[0], weights[1]}}, AccessRole::kInstructor};
+    return {rpc::SetAuthority{{}, 0, session->authority().version(), {weights[0], weights[1]}},
+            AccessRole::kInstructor};
   }
   Result order(const control::MasterArray& weights) { return execute_command(*session, now, command(weights)).result; }
   void ticks(int n) { run(std::chrono::milliseconds(n)); }
@@ -252,7 +253,7 @@ TEST(AuthorityTransfer, IsAnnouncedDuringAStopAndActsAfterTheResume) {
   l.ticks(60);
   EXPECT_EQ(l.told(kTrainee).transfer, kNone);
   EXPECT_EQ(l.alpha(kTrainee), 0);
-  ASSERT_EQ(l.session->resume(l.now, {AccessRole::kInstructor}, l.session->stop_latch().stops()),
+  ASSERT_EQ(l.session->stop_control().resume(l.now, {AccessRole::kInstructor}, l.session->stop_latch().stops()),
             StopLatch::Resume::kEnded);
   l.ticks(1000);
   EXPECT_EQ(l.alpha(kTrainee), 1);
@@ -279,7 +280,7 @@ TEST(AuthorityTransfer, MovesNoAuthorityDuringAStop) {
   EXPECT_EQ(l.requested(), kToTrainee) << "on paper";
   EXPECT_EQ(l.alpha(kTrainee), 0);
   EXPECT_TRUE(l.session->tool(0).authority.held());
-  ASSERT_EQ(l.session->resume(l.now, {AccessRole::kInstructor}, l.session->stop_latch().stops()),
+  ASSERT_EQ(l.session->stop_control().resume(l.now, {AccessRole::kInstructor}, l.session->stop_latch().stops()),
             StopLatch::Resume::kEnded);
   l.ticks(1000);
   EXPECT_EQ(l.alpha(kTrainee), 1) << "as it was decided before the stop";

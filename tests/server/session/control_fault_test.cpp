@@ -90,7 +90,7 @@ TEST(ControlFault, StopsTheSessionAtTheSecondFaultWithinASecond) {
   EXPECT_EQ(rig.faults, 1);
   rig.live(3000);
   EXPECT_TRUE(rig.stopped()) << "latched";
-  EXPECT_EQ(rig.session->resume(rig.now, {AccessRole::kInstructor}, rig.session->stop_latch().stops()),
+  EXPECT_EQ(rig.session->stop_control().resume(rig.now, {AccessRole::kInstructor}, rig.session->stop_latch().stops()),
             StopLatch::Resume::kEnded);
   rig.live(2);
   EXPECT_FALSE(rig.stopped());

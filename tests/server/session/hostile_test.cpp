@@ -245,7 +245,7 @@ TEST(StopLatch, TakesARisingEdgeOncePerSeatAndAResumeOfTheNewestStopOnly) {
   rig.state.resume_stop = 1;
   rig.live(50ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "an old request never ends a newer stop";
-  EXPECT_EQ(rig.session->resume(rig.now, {AccessRole::kOperator}, 1), StopLatch::Resume::kOutdated)
+  EXPECT_EQ(rig.session->stop_control().resume(rig.now, {AccessRole::kOperator}, 1), StopLatch::Resume::kOutdated)
       << "the role may, but the named stop is not the newest";
   rig.live(5ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped) << "nor does a request of a console";
@@ -274,7 +274,7 @@ TEST(StopLatch, LetsAPausingRoleNeitherEndAPauseNorWeakenAStop) {
   rig.state.stop_all = true;
   rig.live(5ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kStopped);
-  EXPECT_EQ(rig.session->resume(rig.now, {AccessRole::kOperator}, rig.session->stop_latch().stops()),
+  EXPECT_EQ(rig.session->stop_control().resume(rig.now, {AccessRole::kOperator}, rig.session->stop_latch().stops()),
             StopLatch::Resume::kEnded);
   rig.live(5ms);
   EXPECT_EQ(rig.force.session, wire::SessionState::kPaused)

@@ -4,6 +4,7 @@
 #include "server/policy/load_shedder.h"
 #include "server/report/report.h"
 #include "tests/server/session/session_fixture.h"
+#include "tests/server/session/session_parts.h"
 #include "tests/support/alloc_guard.h"
 
 namespace tandem::server {
@@ -98,16 +99,11 @@ TEST(LoadState, ServesEverySeatWhenTicksAreMissed) {
 }
 
 TEST(LoadState, KeepsTheSendRateOfSlowSessions) {
-  SceneSpec scene = *parse_scene(find_shipped_scene("eight_seats")->text, "eight_seats.textproto");
   for (const auto& [hz, most] : {std::pair{1000.0, 3u}, {500.0, 1u}, {4000.0, 3u}}) {
-    scene.tick_hz = hz;
-    std::vector<std::unique_ptr<hal::SteppedDevice>> slaves;
-    slaves.push_back(
-        std::move(*hal::sim::SimDevice::make({scene.tools[0].slave, {}, scene.tools[0].environment, nullptr, Time{}})));
-    AxisArray scale;
-    scale.fill(1);
-    Session session{scene, std::move(slaves), scale};
-    EXPECT_EQ(session.send_schedule().interval(kEvaluator, ShedLevel::kEvaluatorsEvery3rd), most)
+    test::SessionParts parts("eight_seats");
+    parts.scene.tick_hz = hz;
+    const SendSchedule schedule(parts.scene, parts.seats);
+    EXPECT_EQ(schedule.interval(kEvaluator, ShedLevel::kEvaluatorsEvery3rd), most)
         << "six intervals fit into 20 ms at " << hz;
   }
 }

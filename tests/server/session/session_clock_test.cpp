@@ -34,7 +34,7 @@ struct Stoppable : SessionFixture {
     for (int i = 0; i < n; ++i) step();
   }
   void resume() {
-    ASSERT_EQ(session->resume(now, {AccessRole::kInstructor}, session->stop_latch().stops()),
+    ASSERT_EQ(session->stop_control().resume(now, {AccessRole::kInstructor}, session->stop_latch().stops()),
               StopLatch::Resume::kEnded);
   }
   [[nodiscard]] bool to_trainee() const { return session->tool(0).authority.requested()[kTrainee] == 1; }
@@ -125,10 +125,12 @@ TEST(SessionClock, StopsDuringTheCloseOutSoThatARestartSkipsNothing) {
     EXPECT_EQ(last.session_tick, ended_at);
 
     Session next = restored(s.scene, last);
-    ASSERT_EQ(next.resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()), StopLatch::Resume::kEnded)
+    ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
+              StopLatch::Resume::kEnded)
         << "resumes without participants";
     if (stopped) {
-      ASSERT_EQ(next.resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()), StopLatch::Resume::kEnded)
+      ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
+                StopLatch::Resume::kEnded)
           << "it was stopped, and still is";
     }
     for (int n = 0; n < 200; ++n, s.now += 1ms) next.on_tick(s.now, 0);
@@ -148,9 +150,9 @@ TEST(SessionClock, DoesNotRunInReportsBeforeARestoredSessionResumes) {
   ASSERT_TRUE(next.stop_control().request(s.now, {AccessRole::kInstructor}));
   EXPECT_FALSE(runs()) << "it waits for the required seats, and is stopped";
   ASSERT_TRUE(next.start_condition().recovering());
-  ASSERT_EQ(next.resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
+  ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
             StopLatch::Resume::kEnded);  // ends the stop
-  ASSERT_EQ(next.resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
+  ASSERT_EQ(next.stop_control().resume(s.now, {AccessRole::kInstructor}, next.stop_latch().stops()),
             StopLatch::Resume::kEnded);  // ends the recovery
   EXPECT_TRUE(runs());
   ASSERT_FALSE(next.start_condition().recovering());
@@ -203,6 +205,8 @@ TEST(SessionTicks, FollowTheTimeAndDropMissedTicksAboveFifty) {
   EXPECT_EQ(clock.dropped_ticks(), 49u);
   EXPECT_EQ(clock.last_tick(), start + 300ms);
   EXPECT_EQ(clock.session_tick(), 0u) << "the session has not begun";
+  EXPECT_EQ(clock.begin_step(), 0ms) << "nothing precedes the first tick";
+  EXPECT_EQ(clock.begin_step(), 2ms);
 }
 
 TEST(SessionTicks, CountRunningAndStoppedTicksApart) {

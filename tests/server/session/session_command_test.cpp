@@ -209,7 +209,8 @@ TEST(Commands, RemoveAParticipantWithoutAForceStepAndReportTheReason) {
     ASSERT_EQ(remove(rig, kTrainee, why), Result::kDone);
     EXPECT_TRUE(rig.session->participants().removing(kTrainee));
     EXPECT_EQ(remove(rig, kTrainee, why), Result::kNothingToDo) << "the removal is in progress";
-    EXPECT_EQ(rig.session->participants().may_admit(rig.now, kTrainee, false), JoinResult::kSeatTaken) << "until the hand is released";
+    EXPECT_EQ(rig.session->participants().may_admit(rig.now, kTrainee, false), JoinResult::kSeatTaken)
+        << "until the hand is released";
     const int told_before = rig.forces[2];
     double step = 0, last = rig.seats[kTrainer].device->state().f_out.norm();
     std::optional<int> closed_after, let_go_after;

@@ -55,7 +55,10 @@ TEST(StartCondition, WaitsAfterARestartForTakenSeatsWithAuthorityAndInstructors)
     EXPECT_TRUE(session.start.recovering());
     EXPECT_TRUE(session.start.required(0)) << "an instructor's seat, also without authority";
     EXPECT_EQ(session.start.required(1), trainee);
-    EXPECT_EQ(session.start.awaited(1), trainee);
+    Checkpoint again;
+    session.start.save(again);
+    EXPECT_TRUE(again.begun);
+    EXPECT_EQ(again.seats[1].taken, trainee) << "a second restart waits for the same seats";
     EXPECT_TRUE(session.start.required(2)) << "the slave of a tool";
   }
 }
@@ -69,7 +72,9 @@ TEST(StartCondition, ContinuesFromTheCheckpointsTick) {
   EXPECT_EQ(session.clock.session_tick(), 4321u);
   EXPECT_FALSE(session.start.recovering());
   EXPECT_TRUE(session.start.may_engage());
-  EXPECT_FALSE(session.start.awaited(0));
+  Checkpoint again;
+  session.start.save(again);
+  EXPECT_FALSE(again.seats[0].taken) << "it is not awaited any more";
 }
 
 TEST(StartCondition, EngagesNoSeatBeforeItResumesIntoAStop) {

@@ -26,8 +26,9 @@ struct Stoppable : SessionParts {
     EXPECT_EQ(all.size(), 1u);
     return all.empty() ? AuditEvent{} : all.back();
   }
+  Participants participants{seats, clock, audit};
   StartCondition start{scene, seats, present, clock};
-  StopControl stop{scene, start, audit};
+  StopControl stop{scene, participants, start, audit};
 };
 
 TEST(StopControl, RecordsTheSeatInTheLatchAndTheConnectionInTheEvent) {
@@ -59,14 +60,14 @@ TEST(StopControl, GivesARoleThatMayOnlyPauseAPauseAndOthersNothing) {
 
 TEST(StopControl, EndsOnlyTheNewestStopAndOnlyForPermittedRoles) {
   Stoppable s;
-  EXPECT_EQ(s.stop.resume(kNow, kOperator, 0, 0), Resume::kOutdated) << "nothing is stopped";
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, 0), Resume::kOutdated) << "nothing is stopped";
   s.stop.request(kNow, kOperator);
   s.stop.request(kNow, kInstructorSeat);
   static_cast<void>(s.events());
-  EXPECT_EQ(s.stop.resume(kNow, kOperator, 1, 0), Resume::kOutdated);
-  EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 2, 0), Resume::kForbidden);
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, 1), Resume::kOutdated);
+  EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 2), Resume::kForbidden);
   EXPECT_TRUE(s.events().empty());
-  EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 2, 0), Resume::kEnded);
+  EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 2), Resume::kEnded);
   const AuditEvent e = s.event();
   EXPECT_TRUE(e.what == What::kResume && e.seat == 0 && e.version == 2);
 }
@@ -92,11 +93,14 @@ TEST(StopControl, ResumesAfterARestartWithoutTheMissingSeatsAndRaisesTheOldStopA
     s.start.restore(from);
     s.stop.restore(from);
     EXPECT_EQ(s.stop.latch().level(), Level::kNone) << "the waiting itself engages no hand";
-    EXPECT_EQ(s.stop.level_to_restore(), before) << "a second restart restores the same";
-    EXPECT_EQ(s.stop.resume(kNow, kOperator, 6, 0), Resume::kOutdated) << "the number of the time before";
-    EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 7, 0), Resume::kForbidden);
+    Checkpoint again;
+    s.stop.save(again);
+    EXPECT_EQ(again.stop, before) << "a second restart restores the same";
+    EXPECT_EQ(again.stops, 7u);
+    EXPECT_EQ(s.stop.resume(kNow, kOperator, 6), Resume::kOutdated) << "the number of the time before";
+    EXPECT_EQ(s.stop.resume(kNow, kTraineeSeat, 7), Resume::kForbidden);
     EXPECT_TRUE(s.start.recovering());
-    EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 7, 0), Resume::kEnded);
+    EXPECT_EQ(s.stop.resume(kNow, kInstructorSeat, 7), Resume::kEnded);
     const AuditEvent e = s.event();
     EXPECT_TRUE(e.what == What::kAllBack && e.seat == 0 && e.version == 7);
     EXPECT_FALSE(s.start.recovering());
@@ -112,9 +116,9 @@ TEST(StopControl, EndsAStopOfTheRecoveryBeforeTheRecovery) {
   s.start.restore(from);
   s.stop.restore(from);
   s.stop.request(kNow, kOperator);
-  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops(), 0), Resume::kEnded);
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops()), Resume::kEnded);
   EXPECT_TRUE(s.start.recovering());
-  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops(), 0), Resume::kEnded);
+  EXPECT_EQ(s.stop.resume(kNow, kOperator, s.stop.latch().stops()), Resume::kEnded);
   EXPECT_FALSE(s.start.recovering());
 }
 

@@ -14,11 +14,11 @@ using falcon::FalconFixture;
 using falcon::Watcher;
 
 ServoCommand effort(double a, double b, double c, std::uint64_t seq = 1) {
-  ServoCommand orders{.seq = seq};
-  orders.effort[0] = a;
-  orders.effort[1] = b;
-  orders.effort[2] = c;
-  return orders;
+  ServoCommand command{.seq = seq};
+  command.effort[0] = a;
+  command.effort[1] = b;
+  command.effort[2] = c;
+  return command;
 }
 
 struct FalconDriverTest : testing::Test {
@@ -122,9 +122,9 @@ TEST_F(FalconDriverTest, ReportsAJumpAtANewOriginAndGivesNoForceWhileHoming) {
   for (const double y : {-0.06, 0.03, 0.0}) {
     for (int i = 0; i < 300; ++i) {
       bench.model.mechanics().set_pull({.k = 300, .b = 10, .m = 0.2, .x = Vec3(0, y, 0)});
-      ServoCommand orders = effort(0.1, 0.1, 0.1);
-      orders.homing = true;
-      const auto result = bench.tick(orders);
+      ServoCommand command = effort(0.1, 0.1, 0.1);
+      command.homing = true;
+      const auto result = bench.tick(command);
       ASSERT_TRUE(result);
       resynced += *result == Exchange::kResynced ? 1 : 0;
       ASSERT_EQ(bench.model.order().motor, (std::array<std::int16_t, 3>{}));
@@ -270,9 +270,9 @@ TEST_F(FalconDriverTest, ForwardsButtonsAndLights) {
   FalconFixture bench = ready();
   up(bench);
   bench.model.set_buttons(0b1010);
-  ServoCommand orders;
-  orders.leds = 0b101;
-  ASSERT_TRUE(bench.tick(orders));
+  ServoCommand command;
+  command.leds = 0b101;
+  ASSERT_TRUE(bench.tick(command));
   EXPECT_EQ(bench.state.buttons, 0b1010u);
   EXPECT_EQ(bench.model.order().lights, 0b101);
 }

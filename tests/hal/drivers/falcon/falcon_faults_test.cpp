@@ -241,9 +241,9 @@ TEST(FalconFaultSwarm, NeverPushesBlindlyAndAlwaysRecovers) {
         default:
           break;
       }
-      ServoCommand orders{.seq = static_cast<std::uint64_t>(i)};
-      for (std::size_t k = 0; k < 3; ++k) orders.effort[k] = random.uniform(-0.02, 0.02);
-      const auto result = bench.tick(orders);
+      ServoCommand command{.seq = static_cast<std::uint64_t>(i)};
+      for (std::size_t k = 0; k < 3; ++k) command.effort[k] = random.uniform(-0.02, 0.02);
+      const auto result = bench.tick(command);
       if (result) {
         ASSERT_TRUE(bench.state.x.allFinite() && bench.state.dx.allFinite() && bench.state.f_out.allFinite() &&
                     bench.state.J.allFinite());

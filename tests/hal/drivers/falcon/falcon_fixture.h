@@ -53,8 +53,8 @@ struct FalconFixture {
                                    {spec, with_firmware ? std::optional(some_firmware()) : std::nullopt})) {}
 
   /// Performs one exchange of the servo, starting on the millisecond.
-  std::expected<Exchange, Errc> tick(const ServoCommand& orders = {}) {
-    const auto result = driver.exchange(orders, state);
+  std::expected<Exchange, Errc> tick(const ServoCommand& command = {}) {
+    const auto result = driver.exchange(command, state);
     next += std::chrono::milliseconds(1);
     if (next < clock.now()) next = clock.now();
     clock.wait_until(next);

@@ -103,10 +103,10 @@ TEST(MouseDriver, SurvivesAStalledThread) {
 
 TEST(MouseDriver, DeclaresNoForce) {
   Rig rig;
-  ServoCommand orders;
-  orders.seq = 9;
-  orders.effort = {1, 2, 3};
-  ASSERT_TRUE(rig.driver.exchange(orders, rig.state));
+  ServoCommand command;
+  command.seq = 9;
+  command.effort = {1, 2, 3};
+  ASSERT_TRUE(rig.driver.exchange(command, rig.state));
   EXPECT_EQ(rig.state.f_out, Vec3(Vec3::Zero()));
   EXPECT_EQ(rig.state.echo_command, 9u);
   for (const AxisLimit& axis : rig.driver.caps().axis) EXPECT_FALSE(axis.peak);

@@ -163,19 +163,19 @@ TEST_F(OpenHaptics, ClampsToTheReportedLimitAndToZeroWithoutOne) {
     stub().devices[0].force_max = said;
     OpenHapticsDriver driver{"Default Device", group, clock};
     ASSERT_TRUE(driver.bring_up(patient));
-    ServoCommand orders;
+    ServoCommand command;
     State state;
-    orders.effort = {1, 0, 0};
-    for (int i = 0; i < 60; ++i) ASSERT_TRUE(driver.exchange(orders, state));
+    command.effort = {1, 0, 0};
+    for (int i = 0; i < 60; ++i) ASSERT_TRUE(driver.exchange(command, state));
     ASSERT_FALSE(state.homed) << "homing was not requested";
     EXPECT_EQ(state.f_out.norm(), 0) << "no origin, no force";
-    orders.effort = {};
-    orders.homing = true;
-    for (int i = 0; i < 60; ++i) ASSERT_TRUE(driver.exchange(orders, state));
+    command.effort = {};
+    command.homing = true;
+    for (int i = 0; i < 60; ++i) ASSERT_TRUE(driver.exchange(command, state));
     ASSERT_TRUE(state.homed);
-    orders.homing = false;
-    orders.effort = {30, -40, 0};
-    for (int i = 0; i < 5; ++i) ASSERT_TRUE(driver.exchange(orders, state));
+    command.homing = false;
+    command.effort = {30, -40, 0};
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(driver.exchange(command, state));
     const double most = said > 0 ? said : 0;
     EXPECT_NEAR(state.f_out.norm(), most, 1e-9);
     EXPECT_NEAR(state.f_out[0], 0.6 * most, 1e-9);
@@ -193,7 +193,7 @@ TEST_F(OpenHaptics, ReleasesWhenCommandsStopDespiteTheVendorsServo) {
   ASSERT_TRUE(c->enable());
   run({{c.get(), &p}}, 1s);
   ASSERT_NEAR(stub().devices[0].force[0], 1, 1e-9);
-  for (unsigned i = 0; i < TouchGroup::kOrderCycles + 1; ++i) stub().cycle();  // Tandem's thread sleeps
+  for (unsigned i = 0; i < TouchGroup::kCommandCycles + 1; ++i) stub().cycle();  // Tandem's thread sleeps
   EXPECT_EQ(stub().devices[0].force[0], 0);
 }
 

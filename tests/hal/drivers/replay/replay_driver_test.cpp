@@ -39,12 +39,12 @@ TEST(ReplayDriver, RestsUntilTheSeatJoinsThenPlaysInRealTime) {
     EXPECT_NEAR(state.x[0], -0.01, 1e-12);
     EXPECT_EQ(state.dx[0], 0);
   }
-  ServoCommand orders;
-  orders.effort = {5, 5, 5};
+  ServoCommand command;
+  command.effort = {5, 5, 5};
   const Time begin = clock.at;
   for (int i = 0; i < 1500; ++i) {
-    orders.seq = static_cast<std::uint64_t>(i + 1);
-    ASSERT_TRUE(driver.exchange(orders, state));
+    command.seq = static_cast<std::uint64_t>(i + 1);
+    ASSERT_TRUE(driver.exchange(command, state));
     const double t = seconds(clock.at - begin);
     EXPECT_NEAR(state.x[0], t < 1 ? -0.01 + 0.02 * t : 0.01, 1e-9) << t;
     EXPECT_EQ(state.f_out, Vec3(Vec3::Zero())) << "it has no motors";

@@ -145,10 +145,10 @@ TEST(WoodenDriver, BoundsCurrentsForAnyBusInputAndGivesNoneUnhomed) {
     for (int i = 0; i < 1000; ++i) {
       if (r.below(50) == 0) driver.home_here();
       const bool homed = driver.homed();
-      ServoCommand orders{.seq = static_cast<std::uint64_t>(i)};
-      if (r.below(3) != 0) orders.effort = {r.uniform(-9, 9), r.uniform(-9, 9), r.uniform(-9, 9)};
+      ServoCommand command{.seq = static_cast<std::uint64_t>(i)};
+      if (r.below(3) != 0) command.effort = {r.uniform(-9, 9), r.uniform(-9, 9), r.uniform(-9, 9)};
       pipe.pushed = false;
-      (void)driver.exchange(orders, state);
+      (void)driver.exchange(command, state);
       ASSERT_FALSE(pipe.pushed && !homed) << seed << " " << i;
       pushes += pipe.pushed ? 1 : 0;
       ASSERT_TRUE(state.x.allFinite() && state.dx.allFinite() && state.f_out.allFinite());

@@ -36,8 +36,8 @@ struct WoodenHapticsFixture {
   std::expected<hal::Exchange, hal::Errc> step(const hal::Vec3& effort = hal::Vec3::Zero(), bool homing = false) {
     next = std::max(next + std::chrono::milliseconds{1}, time.now());
     time.wait_until(next);
-    hal::ServoCommand orders{.seq = ++seq, .effort = {effort[0], effort[1], effort[2]}, .homing = homing};
-    return driver.exchange(orders, state);
+    hal::ServoCommand command{.seq = ++seq, .effort = {effort[0], effort[1], effort[2]}, .homing = homing};
+    return driver.exchange(command, state);
   }
   /// Homes the board by its calibration button, as the user does.
   bool home() {
