@@ -86,7 +86,7 @@ const ClientStatus& SeatStatusRecorder::update(Time now, const Seat& seat) noexc
               .refused_j = t.refused_j,
               .delivered_j = t.delivered_j,
               .margin_min_j = t.margin_min_j,
-              .given_after_loss_max_j = seat.gate().given_after_loss_max()};
+              .given_after_loss_max_j = seat.gate().tank().given_max()};
   s.gate_trips = sample.gate_trips;
   const control::OvertemperatureGuard& guard = seat.guards().overtemperature();
   s.motors.hot = guard.hot();
