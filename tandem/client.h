@@ -3,7 +3,6 @@
 #include "client/app/client_status.h"
 #include "client/app/live_seat.h"
 #include "proto/text/seat_setup.h"
-#include "proto/wire/wire_messages.h"
 #include "tandem/hal.h"
 
 /// @file
@@ -15,8 +14,12 @@
 /// tests/examples/03_client_seat.cpp.
 namespace tandem::client {
 
+/// Reason for which the server or the client closed the seat, such as `kDone` or `kServerStops`.
 using wire::CloseReason;
+/// State of the force gate: `kOff`, `kZero`, `kRampIn`, `kActive`, `kReleasing`, `kLatched`, `kFault`.
 using wire::GateState;
+/// State of the session: `kWaiting` for seats, `kRunning`, `kHeld` (no authorised seat), `kPaused`, `kStopped`,
+/// `kEnding`, `kOverloaded`.
 using wire::SessionState;
 
 }  // namespace tandem::client

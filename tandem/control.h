@@ -21,7 +21,7 @@
 /// | energy account of one axis | tandem::control::EnergyLedger |
 /// | last limit before the motor | tandem::control::ForceGate |
 /// | authority and its tank | tandem::control::ToolAuthority, tandem::control::AuthorityTank |
-/// | Energy Shared Control of n masters and m tools | tandem::control::hub |
+/// | Energy Shared Control of n masters and m tools | tandem::control::EscHub |
 ///
 /// To write a law, derive from tandem::control::EnergyBoundedEnd and implement `move`. The base class moves the
 /// reference only as far as the ledger pays, so the law is passive for any target. The functions of a tick take no

@@ -23,21 +23,35 @@ struct TransferStatus {
 
 /// Datagrams of a seat over all its connections.
 struct DatagramCounts {
-  std::uint64_t sent = 0, accepted = 0, late = 0, refused = 0;
+  std::uint64_t sent = 0,  ///< sent
+      accepted = 0,        ///< received and accepted
+      late = 0,            ///< received, but out of date
+      refused = 0;         ///< received and refused
 };
 
+/// Link between a seat and its server.
 struct LinkStatus {
-  double rtt_ms = 0, rtt_p50_ms = 0, rtt_p99_ms = 0;
-  double down_loss_percent = 0, down_longest_gap_ms = 0, down_age_p99_ms = 0;  ///< from server to client
-  DatagramCounts datagrams;
+  double rtt_ms = 0,             ///< newest round-trip time [ms]
+      rtt_p50_ms = 0,            ///< its median [ms]
+      rtt_p99_ms = 0;            ///< its 99th percentile [ms]
+  double down_loss_percent = 0,  ///< datagrams lost from the server [%]
+      down_longest_gap_ms = 0,   ///< longest time without a datagram of the server [ms]
+      down_age_p99_ms = 0;       ///< 99th percentile of the age of the newest one [ms]
+  DatagramCounts datagrams;      ///< counters
 };
 
 /// Energies of a seat [J], cumulative; `margin_min_j` and `given_after_loss_max_j` are extremes so far.
 struct EnergyStatus {
-  double in_j = 0, out_j = 0, dissipated_j = 0, refused_j = 0, delivered_j = 0, margin_min_j = 0;
-  double given_after_loss_max_j = 0;
+  double in_j = 0,                    ///< absorbed by the channel
+      out_j = 0,                      ///< paid by the ledger
+      dissipated_j = 0,               ///< turned into heat at the hand's end
+      refused_j = 0,                  ///< refused by the ledger
+      delivered_j = 0,                ///< given to the hand by the motor
+      margin_min_j = 0;               ///< smallest margin of the ledger
+  double given_after_loss_max_j = 0;  ///< largest energy that the motor gave during one loss of the link
 };
 
+/// Heat of the motors of a seat's device.
 struct MotorStatus {
   bool hot = false;                ///< the seat is released because of hot motors
   bool latched = false;            ///< only the user's reset re-engages the seat
@@ -47,14 +61,14 @@ struct MotorStatus {
 
 /// Status of one seat for the user: plain data, copied out of the servo thread every 64 ticks.
 struct ClientStatus {
-  wire::SessionState session = wire::SessionState::kWaiting;
-  wire::GateState gate = wire::GateState::kOff;
-  bool heard = false;  ///< a FORCE arrived on this connection
-  bool closed = false;
-  wire::CloseReason close_reason = wire::CloseReason::kDone;
-  std::uint32_t stops = 0;    ///< number of stops so far
-  std::uint32_t missing = 0;  ///< required seats that are not ready
-  double session_time = -1;   ///< session time [s]; negative before the session began
+  wire::SessionState session = wire::SessionState::kWaiting;  ///< state of the session
+  wire::GateState gate = wire::GateState::kOff;               ///< state of the own force gate
+  bool heard = false;                                         ///< a FORCE arrived on this connection
+  bool closed = false;                                        ///< either end has closed the seat
+  wire::CloseReason close_reason = wire::CloseReason::kDone;  ///< reason, once closed
+  std::uint32_t stops = 0;                                    ///< number of stops so far
+  std::uint32_t missing = 0;                                  ///< required seats that are not ready
+  double session_time = -1;                                   ///< session time [s]; negative before the session began
   double silence_s = 0;  ///< time since the server last acknowledged a newer datagram of this seat [s]; a server that
                          ///< sends but receives nothing counts as silent
   bool local_stop = false;  ///< the user stopped this seat
@@ -64,18 +78,19 @@ struct ClientStatus {
   std::optional<double> distance_m{};  ///< between device and tool [m]; only for TIP ports
   std::optional<double>
       offset_from_leader_m{};  ///< distance between the leader's tip and the own tip [m]; empty: no other leader
-  std::uint32_t authority_version = 0;
-  double alpha = 0;  ///< own authority [0, 1]
-  TransferStatus transfer;
-  double force_n = 0;         ///< delivered at the tip [N]
-  double force_peak_n = 0;    ///< largest delivered force so far [N]
-  std::array<double, 3> x{};  ///< tip [m]
-  LinkStatus link;
-  EnergyStatus energy;
-  MotorStatus motors;
-  std::uint32_t gate_trips = 0, late_ticks = 0;
-  std::uint32_t reconnects = 0;  ///< number of connections after the first
-  bool reconnecting = false;     ///< a Reconnector is active
+  std::uint32_t authority_version = 0;  ///< version of the authority in force
+  double alpha = 0;                     ///< own authority [0, 1]
+  TransferStatus transfer;              ///< last transfer of authority
+  double force_n = 0;                   ///< delivered at the tip [N]
+  double force_peak_n = 0;              ///< largest delivered force so far [N]
+  std::array<double, 3> x{};            ///< tip [m]
+  LinkStatus link;                      ///< link to the server
+  EnergyStatus energy;                  ///< energies of channel and motor
+  MotorStatus motors;                   ///< heat of the motors
+  std::uint32_t gate_trips = 0,         ///< losses of the link that released the hand
+      late_ticks = 0;                   ///< ticks that began more than 1 ms late
+  std::uint32_t reconnects = 0;         ///< number of connections after the first
+  bool reconnecting = false;            ///< a Reconnector is active
 };
 
 /// Reason for which a seat ended.
@@ -93,15 +108,16 @@ enum class SeatVerdict : std::uint8_t { kPass, kFail, kNotJudged };
 
 /// Report of one run of a seat, for the JSON output.
 struct ClientReport {
-  std::string server, device_note;
-  double seconds = 0;           ///< time at the seat [s]
-  double outage_longest_s = 0;  ///< longest outage of the server that ended [s]
-  ExitReason end = ExitReason::kDone;
-  ClientStatus last;
-  hal::DeviceStats device;
-  hal::DeviceHistograms histograms;
-  std::uint64_t trace_dropped = 0;
-  bool realtime = false;
+  std::string server,                  ///< address of the server
+      device_note;                     ///< description of the device
+  double seconds = 0;                  ///< time at the seat [s]
+  double outage_longest_s = 0;         ///< longest outage of the server that ended [s]
+  ExitReason end = ExitReason::kDone;  ///< reason of the end
+  ClientStatus last;                   ///< status at the end
+  hal::DeviceStats device;             ///< statistics of the device
+  hal::DeviceHistograms histograms;    ///< periods and round trips of the device
+  std::uint64_t trace_dropped = 0;     ///< samples that the trace lacks
+  bool realtime = false;               ///< the servo thread had real-time priority
 };
 [[nodiscard]] SeatVerdict verdict_of(const ClientReport& report) noexcept;
 [[nodiscard]] std::string to_json(const ClientReport& report, const SeatSetup& setup);

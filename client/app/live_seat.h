@@ -34,6 +34,7 @@ struct LiveSeatOptions {
 class LiveSeat final : public hal::ServoClient {
  public:
   /// Joins a seat. Blocks until the server has replied, at most about twice `options.timeout`.
+  /// @param options  server and seat
   /// @param caps  capabilities of the device that will call `tick`; the server and the seat derive limits from them
   /// @return the seat, or the cause and remedy as text: address, server, name, ticket or device
   /// @throws std::runtime_error if the crypto library lacks a cipher.

@@ -11,7 +11,9 @@ namespace tandem {
 
 /// Bounds of a scene. All per-tick data are arrays of these sizes, used up to the scene's own count.
 inline constexpr std::size_t kAxesMax = 7;
+/// Largest number of MASTER seats.
 inline constexpr std::size_t kMastersMax = 16;
+/// Largest number of tools.
 inline constexpr std::size_t kToolsMax = 8;
 /// Masters plus the slaves that have seats of their own.
 inline constexpr std::size_t kSeatsMax = kMastersMax + kToolsMax;

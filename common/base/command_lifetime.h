@@ -14,8 +14,11 @@ namespace tandem {
 /// bound: three ticks of the slowest permitted session (100 Hz, proto/schema/scene.proto). No command acts longer than
 /// that, for any lifetime it contains.
 inline constexpr int kCommandTicks = 3;
+/// Shortest lifetime of a command.
 inline constexpr Duration kCommandLifetimeMin = std::chrono::milliseconds(5);
+/// Longest lifetime of a command.
 inline constexpr Duration kCommandLifetimeMax = std::chrono::milliseconds(30);
+/// Time from the last effort to zero after the lifetime.
 inline constexpr Duration kCommandFade = std::chrono::milliseconds(20);
 
 /// @param tick  time between two commands, positive  @return 5 ms at 600 Hz and above, 15 ms at 200 Hz, 30 ms at 100 Hz

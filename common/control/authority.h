@@ -37,7 +37,9 @@ using MasterArray = std::array<double, kMastersMax>;
 /// present (HELD: the tool is braked).
 class ToolAuthority {
  public:
-  /// @param slew  largest |d alpha / dt| [1/s]; infinity: changes take effect at once.
+  /// @param masters  number of masters, at most kMastersMax
+  /// @param slew     largest |d alpha / dt| [1/s]; infinity: changes take effect at once
+  /// @param tank     initial level of the authority tank [J]
   ToolAuthority(std::size_t masters, double slew, double tank) noexcept;
 
   /// Sets the authority that the instructor requests. It is ignored unless all values are finite, >= 0 and sum to 1
@@ -49,7 +51,7 @@ class ToolAuthority {
 
   /// Input of one tick.
   struct Input {
-    double dt = 0.001;
+    double dt = 0.001;  ///< duration of a tick [s]
     std::array<bool, kMastersMax>
         present{};          ///< engaged, with recent datagrams; the authority of absent masters ramps to those present
     MasterArray stored{};   ///< V_i: energy in each seat's spring at this tool [J]
@@ -60,6 +62,7 @@ class ToolAuthority {
 
   /// Authority of one master [0, 1].
   [[nodiscard]] double alpha(std::size_t master) const noexcept { return now_[master]; }
+  /// Returns the authority of each master, of sum 1 or 0.
   [[nodiscard]] const MasterArray& weights() const noexcept { return now_; }
   /// Authorities requested last, of sum 1.
   [[nodiscard]] const MasterArray& requested() const noexcept { return wanted_; }

@@ -21,7 +21,7 @@ enum class Side : std::uint8_t { kClient, kServer };
 
 /// Parameters of one end of a channel.
 struct ChannelParams {
-  Side side = Side::kClient;
+  Side side = Side::kClient;             ///< machine on which this end runs
   std::size_t dof = 3;                   ///< number of axes in use, 1 to kAxesMax
   GainScheduleParams schedule;           ///< gains at the tip; `scale` converts them to this port
   AxisArray scale{1, 1, 1, 1, 1, 1, 1};  ///< per axis: diag(J^T J) for joint ports, else 1
@@ -83,12 +83,14 @@ struct EndState {
 /// One end of a channel: holds the reference, the gain schedule and one energy ledger per axis.
 class ChannelEnd {
  public:
+  /// Starts with all references at 0. @param params  parameters of this end; `dof` is at most kAxesMax
   explicit ChannelEnd(const ChannelParams& params);
   virtual ~ChannelEnd() = default;
   ChannelEnd(const ChannelEnd&) = delete;
   ChannelEnd& operator=(const ChannelEnd&) = delete;
 
   /// Starts or restarts with zero elongation at `x`. Energy stored in the spring is dropped and never credited.
+  /// @param x    position of the near end, per axis
   /// @param age  delay known at this time [s]
   virtual void engage(const AxisArray& x, double age) noexcept TANDEM_REALTIME;
   /// Replaces `move` while the other end is silent and this end still pulls. The reference stays where it is, but
@@ -112,7 +114,9 @@ class ChannelEnd {
   void note_refused(double joule) noexcept { refused_ += joule; }
   /// Result of the last `move`.
   [[nodiscard]] const EndState& state() const noexcept { return state_; }
+  /// Returns the energy account of one axis.
   [[nodiscard]] const EnergyLedger& ledger(std::size_t axis) const noexcept { return ledger_[axis]; }
+  /// Returns the gains at the present delay.
   [[nodiscard]] const GainSchedule& schedule() const noexcept { return schedule_; }
   /// Energy of moves that were refused [J], cumulative.
   [[nodiscard]] double refused() const noexcept { return refused_; }
@@ -139,19 +143,20 @@ class ChannelEnd {
     return mix ? 0.5 * ahead + 0.5 * (in.x[a] + in.rx.f[a] / k) : ahead;
   }
 
-  ChannelParams params_;
-  GainSchedule schedule_;
-  EndState state_;
-  std::array<EnergyLedger, kAxesMax> ledger_{};
-  double refused_ = 0;
-  double margin_min_ = 0;
+  ChannelParams params_;                         ///< parameters of this end
+  GainSchedule schedule_;                        ///< gains at the present delay
+  EndState state_;                               ///< result of the last tick
+  std::array<EnergyLedger, kAxesMax> ledger_{};  ///< one energy account per axis
+  double refused_ = 0;                           ///< energy of refused moves [J]
+  double margin_min_ = 0;                        ///< smallest margin so far [J]
 };
 
 /// A law that users select by name. A new law needs a file with its class, a line in channel.cpp and a row in the
 /// comparison table.
 struct ChannelLaw {
-  std::string_view name;
-  std::string_view summary;
+  std::string_view name;     ///< name that users type
+  std::string_view summary;  ///< one line for help texts
+  /// Makes one end of a channel of this law.
   std::unique_ptr<ChannelEnd> (*make)(const ChannelParams&);
 };
 /// Returns all laws that users can select.

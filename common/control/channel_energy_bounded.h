@@ -13,12 +13,16 @@ namespace tandem::control {
 /// A change of k charges or credits 1/2 (k' - k)(r - x)^2 in the same way.
 class EnergyBoundedEnd : public ChannelEnd {
  public:
+  /// Starts as ChannelEnd does. @param params  parameters of this end
   explicit EnergyBoundedEnd(const ChannelParams& params);
   void clamp_reference(const AxisArray& x) noexcept TANDEM_REALTIME override;
 
  protected:
-  /// Sets the stiffness of an axis to `k` if the ledger pays, else keeps it. @param x  near end of the spring  @param
-  /// weight  number of springs
+  /// Sets the stiffness of an axis if the ledger pays, else keeps it.
+  /// @param axis    axis of the port, below dof()
+  /// @param k       wanted stiffness [N/m or N m/rad]
+  /// @param x       near end of the spring
+  /// @param weight  number of springs
   void change_stiffness(std::size_t axis, double k, double x, double weight) noexcept;
   /// Moves the reference of an axis towards `wanted` as far as the ledger pays. Ignores values that are not finite.
   void move_reference(std::size_t axis, double wanted, double x, double weight) noexcept;

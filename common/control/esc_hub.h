@@ -62,19 +62,21 @@ struct NearEnd {
 /// Seats below `masters` are masters, the others SLAVE seats. Indices are in range. Real-time safe.
 class EscHub {
  public:
+  /// Parameters of a hub.
   struct Params {
-    std::size_t axes = 3;     ///< of the port, 1 to kAxesMax
-    std::size_t masters = 1;  ///< 1 to kMastersMax
-    std::size_t tools = 1;    ///< 1 to kToolsMax
-    FlowSourceMode mfs = FlowSourceMode::kOpen;
-    double tank = 0.05;  ///< initial level of the flow sources' tank of each tool [J]
-    double eta = 0.9;    ///< share of the dissipated energy that may be spent [0, 1]
-    double b_rel = 14;   ///< damping relative to the hands' motion [N s/m at the tip]
-    double dt = 0.001;   ///< duration of a tick [s]
+    std::size_t axes = 3;                        ///< of the port, 1 to kAxesMax
+    std::size_t masters = 1;                     ///< 1 to kMastersMax
+    std::size_t tools = 1;                       ///< 1 to kToolsMax
+    FlowSourceMode mfs = FlowSourceMode::kOpen;  ///< modulation of the flow sources
+    double tank = 0.05;                          ///< initial level of the flow sources' tank of each tool [J]
+    double eta = 0.9;                            ///< share of the dissipated energy that may be spent [0, 1]
+    double b_rel = 14;                           ///< damping relative to the hands' motion [N s/m at the tip]
+    double dt = 0.001;                           ///< duration of a tick [s]
   };
   /// Efforts on a tool, per axis.
   using Efforts = std::array<Pull, kAxesMax>;
 
+  /// Starts without authority. @param params  within their ranges
   explicit EscHub(const Params& params) noexcept;
 
   /// Sets C_ji of a master.
@@ -82,6 +84,8 @@ class EscHub {
   /// Couples a SLAVE seat fully to its own tool.
   void couple_slave(std::size_t seat, std::size_t tool) noexcept { couplings_[seat][tool] = {1, 1, 1}; }
   /// Takes over A_ji of all masters over a tool; called once per tick.
+  /// @param tool    number of the tool
+  /// @param alpha   authority of each master [0, 1]
   /// @param braked  no present seat has authority over the tool
   void set_authority(std::size_t tool, const MasterArray& alpha, bool braked) noexcept TANDEM_REALTIME {
     braked_[tool] = braked;
@@ -94,11 +98,15 @@ class EscHub {
   /// Takes over the port of a tool, after each of its steps and when it is placed.
   void set_tool(std::size_t tool, const ToolPort& port) noexcept TANDEM_REALTIME { tools_[tool] = port; }
 
+  /// Returns the weights of a seat at a tool.
   [[nodiscard]] const Coupling& coupling(std::size_t seat, std::size_t tool) const noexcept {
     return couplings_[seat][tool];
   }
+  /// Returns the port of a tool.
   [[nodiscard]] const ToolPort& tool(std::size_t j) const noexcept { return tools_[j]; }
+  /// Returns the flow sources of a tool.
   [[nodiscard]] const FlowSources& sources(std::size_t tool) const noexcept { return sources_[tool]; }
+  /// Returns the parameters.
   [[nodiscard]] const Params& params() const noexcept { return p_; }
   /// Target y_i of a seat: the position that its reference follows. @pre `step_target` was called for the seat
   [[nodiscard]] const AxisArray& target(std::size_t seat) const noexcept { return targets_[seat]; }
@@ -114,10 +122,12 @@ class EscHub {
   [[nodiscard]] bool has_authority(std::size_t master) const noexcept;
 
   /// Near end of the spring of a seat whose one spring serves all its tools.
-  /// @param k  stiffness of the spring
+  /// @param seat  number of the seat
+  /// @param k     stiffness of the spring
   [[nodiscard]] NearEnd near_end(std::size_t seat, const AxisArray& k) const noexcept TANDEM_REALTIME;
   /// Credits the energy that the tools really paid when the seat's spring moved, as alpha_i dE. The flow sources are
   /// asked for the rest.
+  /// @param seat         number of the seat
   /// @param before       reference before the move
   /// @param offset_step  change of the seat's re-engage offset in this tick
   /// @param end          the seat's end, already moved
@@ -125,7 +135,11 @@ class EscHub {
               ChannelEnd& end) noexcept TANDEM_REALTIME;
 
   /// Eq. 1: adds the effort of a master on a tool.
-  /// @param body  limits the relative damping at surfaces; null: it acts in full
+  /// @param master  number of the master
+  /// @param tool    number of the tool
+  /// @param end     the master's end at this tool, already moved
+  /// @param body    limits the relative damping at surfaces; null: it acts in full
+  /// @param out     sum of efforts on the tool
   void add_effort(std::size_t master, std::size_t tool, const EndState& end, const VirtualTool* body,
                   Efforts& out) const noexcept TANDEM_REALTIME;
   /// Adds the given share of the spring of a SLAVE seat.
@@ -142,19 +156,26 @@ class EscHub {
   }
 
   /// Eq. 3: adds the energy that the sources of a tool gave to a master during the tool's last step, per axis [J].
-  /// @param effort  -F_ri, as the client sends it
+  /// @param master    number of the master
+  /// @param tool      number of the tool
+  /// @param effort    -F_ri, as the client sends it
+  /// @param injected  sum over the masters so far
   void add_injected(std::size_t master, std::size_t tool, const AxisArray& effort,
                     AxisArray& injected) const noexcept TANDEM_REALTIME {
     const Coupling& c = couplings_[master][tool];
     const double unpaid = c.follow - c.alpha;
     for (std::size_t a = 0; a < p_.axes; ++a) injected[a] -= unpaid * effort[a] * tools_[tool].moved[a];
   }
-  /// Eq. 3: integrates the observer of a tool. @param injected  sum of `add_injected` over the present masters
+  /// Eq. 3: integrates the observer of a tool.
+  /// @param tool      number of the tool
+  /// @param injected  sum of `add_injected` over the present masters
   void observe(std::size_t tool, const AxisArray& injected) noexcept TANDEM_REALTIME {
     for (std::size_t a = 0; a < p_.axes; ++a) sources_[tool].observe(a, injected[a] / p_.dt, p_.dt);
   }
   /// Law `replica`: asks the flow sources for the energy that the other hands' motion adds beyond this hand's own
   /// authority, along the tool's path.
+  /// @param master      number of the master
+  /// @param tool        number of the tool
   /// @param hand        newest position of the hand at this tool
   /// @param effort_max  largest pull of the seat's motor [N]
   /// @param end         the seat's end at this tool
@@ -162,6 +183,7 @@ class EscHub {
                        ChannelEnd& end) noexcept TANDEM_REALTIME;
   /// Eq. 2 and 4: moves the target y_i of a seat. Gates act on it as increments g v_rs dt; without a gate the target is
   /// absolute and cannot drift.
+  /// @param seat     number of the seat
   /// @param present  false: the target is absolute, whatever the gates
   /// @param k        stiffness of the seat's spring
   /// @return flow v_ri

@@ -44,7 +44,7 @@ class ForceGate {
  public:
   /// Input of one step. Arrays are per axis of the port.
   struct Input {
-    Time now{};
+    Time now{};                    ///< time of the tick
     bool fresh = false;            ///< a strictly newer valid datagram arrived since the last call
     Duration loop_age{};           ///< age of the own counter that the peer echoed, on the own clock
     Duration rtt_p99{};            ///< learned 99th percentile of the round-trip time
@@ -59,16 +59,19 @@ class ForceGate {
   };
   /// Result of one step.
   struct Output {
-    AxisArray effort{};                        ///< effort for the motor [N or N m]
-    bool clipped = false, not_finite = false;  ///< the norm was clamped; the wanted effort was not finite and became 0
-    bool tripped = false;                      ///< a loss of the link began in this step
+    AxisArray effort{};        ///< effort for the motor [N or N m]
+    bool clipped = false,      ///< the norm was clamped
+        not_finite = false;    ///< the wanted effort was not finite and became 0
+    bool tripped = false;      ///< a loss of the link began in this step
     bool engaged_now = false;  ///< kRampIn began in this step: the owner starts the controller without a bump
   };
 
+  /// Starts in kZero. @param p  limits; see GateParams
   explicit ForceGate(const GateParams& p) noexcept;
   /// Limits the wanted effort; called once per tick. Accepts any input.
   [[nodiscard]] Output step(const Input& in) noexcept TANDEM_REALTIME;
 
+  /// Returns the present phase.
   [[nodiscard]] GatePhase phase() const noexcept { return phase_; }
   /// True if the controller's effort may reach the hand, at least in part.
   [[nodiscard]] bool active() const noexcept { return phase_ == GatePhase::kRampIn || phase_ == GatePhase::kActive; }

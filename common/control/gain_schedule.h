@@ -9,20 +9,24 @@ namespace tandem::control {
 /// Gains of a channel as a function of the delay (design notes, control 4). The P+d condition [Nuno et al., IJRR 28(7)
 /// 2009] requires that k d stays small.
 struct GainScheduleParams {
-  double k = 1000, k_min = 60;         ///< [N/m]
-  double k_delay = 5;                  ///< k <= k_delay / d [N s/m]
-  double b_delay = 0.25;               ///< damping = b_delay k d
-  double lead_max = 0.1;               ///< [s]
-  double k_rise = 500, k_fall = 4000;  ///< slew of k [N/m per s]; a fall returns energy, a rise is paid
+  double k = 1000,        ///< stiffness without delay [N/m]
+      k_min = 60;         ///< smallest stiffness at any delay [N/m]
+  double k_delay = 5;     ///< k <= k_delay / d [N s/m]
+  double b_delay = 0.25;  ///< damping = b_delay k d
+  double lead_max = 0.1;  ///< [s]
+  double k_rise = 500,    ///< largest rise of k, which is paid [N/m per s]
+      k_fall = 4000;      ///< largest fall of k, which returns energy [N/m per s]
 };
 
 /// Computes stiffness, damping and lead from the delay. Stiffness is slewed so that no change is felt as a step.
 class GainSchedule {
  public:
+  /// Starts with the stiffness of no delay. @param p  gains and slews
   explicit GainSchedule(const GainScheduleParams& p = {}) noexcept : p_(p), k_(p.k) {}
 
   /// @param age  age of the datagram in use [s] >= 0: RTT/2 without synchronised clocks, plus the wait since its
   /// arrival.
+  /// @param dt   duration of a tick [s]
   void step(double age, double dt) noexcept TANDEM_REALTIME {
     const double tau = age > delay_ ? kRiseTime : kDecayTime;
     delay_ += (age - delay_) * std::min(1.0, dt / tau);

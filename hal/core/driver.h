@@ -11,8 +11,11 @@ namespace tandem::hal {
 /// Observer of a device's bring-up: receives progress, can cancel, and relays requests to the user.
 struct BringUp {
   virtual ~BringUp() = default;
-  /// Reports progress. @param fraction  of this step [0, 1]
+  /// Reports progress.
+  /// @param step      text for the user
+  /// @param fraction  of this step [0, 1]
   virtual void progress(std::string_view step, double fraction) = 0;
+  /// Returns whether the bring-up should end early.
   [[nodiscard]] virtual bool cancelled() const noexcept = 0;
   /// Asks the user for an action and waits for their confirmation.
   /// @return false: no user can answer, or the user gave up
@@ -41,6 +44,7 @@ enum class Exchange : std::uint8_t {
 /// The phases, the guard and the statistics are in ServoCore, shared by all drivers.
 struct Driver {
   virtual ~Driver() = default;
+  /// Returns the identity.
   [[nodiscard]] virtual const DeviceId& id() const noexcept = 0;
   /// Constant after `bring_up` has succeeded.
   [[nodiscard]] virtual const DeviceCaps& caps() const noexcept = 0;

@@ -15,12 +15,12 @@ namespace tandem::hal {
 struct GuardLimits {
   double peak_n = 0;                   ///< largest force; 0: no force at all
   std::optional<double> continuous_n;  ///< force the motors sustain without time limit; empty: same as the peak
-  Duration heat_time = std::chrono::seconds(10);  ///< thermal time constant of the motors
-  double speed_max_m_s = 3;                       ///< above this tip speed no force is given
-  double jump_max_m = 0.02;                       ///< larger steps between two exchanges count as wrong readings
-  Duration soft_start = std::chrono::milliseconds(500);
-  Duration fade_time = kCommandFade;                    ///< from the last effort to zero after a command expired
-  Duration miss_limit = std::chrono::milliseconds(10);  ///< longest time of exchanges without a complete reply
+  Duration heat_time = std::chrono::seconds(10);         ///< thermal time constant of the motors
+  double speed_max_m_s = 3;                              ///< above this tip speed no force is given
+  double jump_max_m = 0.02;                              ///< larger steps between two exchanges count as wrong readings
+  Duration soft_start = std::chrono::milliseconds(500);  ///< duration of the ramp from zero force
+  Duration fade_time = kCommandFade;                     ///< from the last effort to zero after a command expired
+  Duration miss_limit = std::chrono::milliseconds(10);   ///< longest time of exchanges without a complete reply
 };
 
 /// Knowledge of a device's motor directions. Relevant only for devices whose signs come from a file.
@@ -29,6 +29,7 @@ enum class MotorSigns : std::uint8_t {
   kBeingConfirmed,  ///< up to kConfirmingShare of the peak, in pulses that the user agreed to
   kConfirmed,       ///< each motor was observed to push in the configured direction, on this device with this file
 };
+/// Share of the peak force that is allowed while motor directions are confirmed.
 inline constexpr double kConfirmingShare = 0.3;
 
 /// Returns the least peak force of the axes [N]; 0: the device gives no peak force.
@@ -47,19 +48,27 @@ inline constexpr double kConfirmingShare = 0.3;
 /// does not extend this. Then its effort fades to zero within `fade_time`.
 class DriverGuard {
  public:
+  /// Result of a limit; kInhibited: a reading or the soft start allows no force.
   enum class Verdict : std::uint8_t { kPassed, kClamped, kExpired, kNotFinite, kInhibited };
+  /// Effort for the motors, and what was done to the command.
   struct Output {
-    AxisArray effort{};
-    Verdict verdict = Verdict::kPassed;
+    AxisArray effort{};                  ///< joint effort, finite [N m or N]
+    Verdict verdict = Verdict::kPassed;  ///< reason of a change
   };
 
+  /// Starts without a reading: the first efforts are zero.
+  /// @param limits  limits of the motors
+  /// @param joints  number of joints in use
   DriverGuard(const GuardLimits& limits, std::size_t joints) noexcept;
 
   /// Restarts the soft start: forces begin at zero.
   void start(Time now) noexcept;
   /// Takes a new reading.
+  /// @param now         time of the reading
+  /// @param state       the reading
   /// @param continuous  false: the position may have jumped for a known reason; forces restart at zero
   void observe(Time now, const State& state, bool continuous) noexcept TANDEM_REALTIME;
+  /// Returns the effort that the motors may get now.
   [[nodiscard]] Output limit(Time now, const Command& command, const State& state) noexcept TANDEM_REALTIME;
 
   /// Returns the number of implausible readings since the last `start`.

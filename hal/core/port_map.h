@@ -31,10 +31,14 @@ class PortMap {
   /// `dof` is limited to 3 for kTip and to `joints` for kJoint.
   PortMap(PortSpace space, std::size_t dof, std::size_t joints) noexcept;
 
+  /// Returns the space of the port.
   [[nodiscard]] PortSpace space() const noexcept { return space_; }
+  /// Returns the number of axes of the port.
   [[nodiscard]] std::size_t dof() const noexcept { return dof_; }
 
+  /// Returns the position of the port [m or rad].
   [[nodiscard]] AxisArray position(const State& state) const noexcept TANDEM_REALTIME;
+  /// Returns the velocity of the port [m/s or rad/s].
   [[nodiscard]] AxisArray velocity(const State& state) const noexcept TANDEM_REALTIME;
   /// Returns the effort the motors delivered during the last period, in port axes.
   [[nodiscard]] AxisArray delivered(const State& state) const noexcept TANDEM_REALTIME;

@@ -23,14 +23,20 @@ namespace tandem::hal {
 /// Threads: `bring_up` and `step` on the device's thread; `enable`, `disable`, `reset`, `phase` from any thread.
 class ServoCore {
  public:
+  /// @param driver  not yet brought up
   /// @param limits  replace the limits that follow from the device's capabilities
   explicit ServoCore(std::unique_ptr<Driver> driver, std::optional<GuardLimits> limits = {});
+  /// @param driver  not yet brought up
   /// @param signs  knowledge of its motor directions
   ServoCore(std::unique_ptr<Driver> driver, MotorSigns signs);
 
+  /// Returns the identity of the device.
   [[nodiscard]] const DeviceId& id() const noexcept { return driver_->id(); }
+  /// Returns the capabilities of the device.
   [[nodiscard]] const DeviceCaps& caps() const noexcept { return driver_->caps(); }
+  /// Returns the limits of the guard.
   [[nodiscard]] const GuardLimits& limits() const noexcept { return limits_; }
+  /// Returns the present phase. Thread-safe.
   [[nodiscard]] Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
 
   /// Brings the device up, from Absent, Fault, Lost or Booting to Unhomed or Ready. Error: that of the driver; the
@@ -46,12 +52,18 @@ class ServoCore {
   /// Records the duration of the last exchange for the statistics: the core reads no clock.
   void record_round_trip(Duration round_trip) noexcept { round_trips_.add(round_trip.count()); }
 
+  /// Lets commands reach the motors. Error: kBadState unless Ready.
   Result<> enable();
+  /// Keeps commands from the motors: Enabled -> Ready.
   void disable() noexcept;
+  /// Leaves Fault. Error: kBadState if the device is Lost.
   Result<> reset();
 
+  /// Returns the newest reading.
   [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// Returns the counters so far.
   [[nodiscard]] const DeviceStats& counts() const noexcept { return stats_; }
+  /// Returns the durations that `record_round_trip` received [ns].
   [[nodiscard]] const Histogram& round_trips() const noexcept { return round_trips_; }
 
  private:

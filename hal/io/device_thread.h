@@ -18,6 +18,7 @@ namespace tandem::hal {
 class DeviceThread final : public Device {
  public:
   /// @param core   already brought up
+  /// @param period  of the exchanges, above 0
   /// @param pulse  heartbeat for a WatchdogProcess, beats while forces may be on; outlives this object; nullptr: no
   ///           watchdog
   DeviceThread(std::unique_ptr<ServoCore> core, Duration period, Heartbeat* pulse = nullptr);

@@ -12,16 +12,16 @@ namespace tandem::hal {
 
 /// A simulated device whose time the caller advances.
 struct OpenedSim {
-  DeviceId id;
-  std::unique_ptr<sim::SimDevice> device;
-  std::string note;  ///< text for the user: hand, recording, scale factor applied to it
+  DeviceId id;                             ///< identity
+  std::unique_ptr<sim::SimDevice> device;  ///< the device
+  std::string note;                        ///< text for the user: hand, recording, scale factor applied to it
 };
 
 /// A simulated device with its own thread. `sim` is valid as long as `device`; call only its thread-safe functions.
 struct LiveSim {
-  std::unique_ptr<Device> device;
-  sim::SimDevice* sim = nullptr;
-  std::string note;
+  std::unique_ptr<Device> device;  ///< the device with its thread
+  sim::SimDevice* sim = nullptr;   ///< the same device inside its thread
+  std::string note;                ///< text for the user
 };
 
 /// Opens the simulated device named by `--device`:
@@ -33,6 +33,7 @@ struct LiveSim {
 ///
 /// A hand other than the scene's uses the impedance of its own model. A hand moved by a user (keyboard, recording) also
 /// ignores the scene's script for that hand.
+/// @param spec                     words after `--device`
 /// @param base, hand, environment  the seat's settings in the scene
 /// @param start                    `State::sampled_at` of the first reading
 /// Error: names the invalid word, the nearest valid one and all valid ones, or the problem of the recording.

@@ -19,6 +19,8 @@ namespace tandem::hal {
 /// close() only requests the thread's end.
 class SimServo final : public Device {
  public:
+  /// Takes a device that is not yet stepped. @param device  stepped by the servo thread only  @param id  identity for
+  /// the user  @param period  of the exchanges, above 0
   SimServo(std::unique_ptr<SteppedDevice> device, DeviceId id, Duration period);
   ~SimServo() override { close(); }
 

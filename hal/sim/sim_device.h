@@ -27,15 +27,17 @@ struct GroundTruth {
   double penetration = 0;      ///< deepest of wall and tissue [m], 0: no contact
 };
 
+/// Counters of a simulated device.
 struct SimCounts {
-  std::uint64_t ticks = 0;
+  std::uint64_t ticks = 0;      ///< calls of `advance`
   std::uint64_t expired = 0;    ///< periods during which a command had expired
   std::uint64_t rejected = 0;   ///< commands with a non-finite effort
   std::uint64_t saturated = 0;  ///< commands reduced to the motors' limit
 };
 
+/// Everything from which a simulated device is made.
 struct SimSetup {
-  SimDeviceSpec device;
+  SimDeviceSpec device;                          ///< kind and parameters
   HandSpec hand;                                 ///< model kNone: no hand holds the device
   EnvironmentSpec environment;                   ///< surfaces, for simulated slaves
   std::shared_ptr<const RecordedMotion> motion;  ///< recording for HandModel::kRecorded
@@ -63,8 +65,11 @@ class SimDevice final : public SteppedDevice {
 
   /// See Hand::set_session_time. Thread-safe.
   void set_session_time(std::optional<double> t) noexcept TANDEM_REALTIME { hand_.set_session_time(t); }
+  /// Returns the hand that holds the device.
   [[nodiscard]] const Hand& hand() const noexcept { return hand_; }
+  /// Returns the state of the plant itself.
   [[nodiscard]] const GroundTruth& ground_truth() const noexcept { return ground_truth_; }
+  /// Returns the counters so far.
   [[nodiscard]] const SimCounts& counts() const noexcept { return counts_; }
   /// Sets the pressed buttons: `State::buttons` from the next reading on. Thread-safe.
   void press(unsigned mask) noexcept { buttons_.store(mask, std::memory_order_relaxed); }

@@ -24,13 +24,13 @@ class Replay;
 
 /// Delivered datagram.
 struct Delivery {
-  std::uint32_t link = 0;
-  Direction direction = Direction::kUp;
-  Time sent;
-  Time at;
-  std::uint64_t index = 0;    ///< index on its path; a copy has the index of its original
-  std::size_t size = 0;       ///< full size [bytes], also if a smaller buffer truncated the data
-  std::uint32_t address = 0;  ///< the client's address number; up: sender, down: destination
+  std::uint32_t link = 0;                ///< number of the link
+  Direction direction = Direction::kUp;  ///< direction on the link
+  Time sent;                             ///< time of sending
+  Time at;                               ///< time of arrival
+  std::uint64_t index = 0;               ///< index on its path; a copy has the index of its original
+  std::size_t size = 0;                  ///< full size [bytes], also if a smaller buffer truncated the data
+  std::uint32_t address = 0;             ///< the client's address number; up: sender, down: destination
 };
 
 /// Virtual network of links. Datagrams enter with `send` and come out of `poll` when the caller's time reaches their
@@ -38,14 +38,17 @@ struct Delivery {
 /// changes. Equal seed, specs and calls give equal deliveries.
 class Network {
  public:
+  /// Starts without links. @param seed  of all random draws
   explicit Network(std::uint64_t seed) noexcept;
   ~Network();
 
-  /// Adds a client's link. Setup only.
-  /// @param name  key of the link's randomness, so that other links do not affect it; default: the link's number
+  /// Adds a client's link, with the link's number as key of its randomness. Setup only.
   /// @return number of the link: 0, 1, ...
   /// @throws std::invalid_argument listing all errors of the spec.
   std::uint32_t add_link(const LinkSpec& spec);
+  /// The same with another key.
+  /// @param spec  both directions of the link
+  /// @param name  key of the link's randomness, so that other links do not affect it
   std::uint32_t add_link(const LinkSpec& spec, std::uint64_t name);
   /// The same with scheduled changes. Each takes effect at its own time, independent of the traffic.
   std::uint32_t add_link(const LinkSchedule& schedule, std::uint64_t name);
@@ -53,9 +56,12 @@ class Network {
   /// with equal specs and changes on one link.
   /// @return number among the shared links: 0, 1, ...; the key of its time processes
   std::uint32_t add_shared(const LinkSchedule& schedule);
+  /// The same without scheduled changes.
   std::uint32_t add_shared(const LinkSpec& spec) { return add_shared(LinkSchedule{.initial = spec}); }
   /// Adds a client to a shared link.
-  /// @param name  key of the client's per-datagram draws
+  /// @param shared   number of the shared link
+  /// @param name     key of the client's per-datagram draws
+  /// @param rebinds  changes of the client's address
   /// @return number of the link, as from `add_link`
   std::uint32_t add_flow(std::uint32_t shared, std::uint64_t name,
                          const std::vector<LinkSchedule::AddressChange>& rebinds = {});
@@ -98,8 +104,10 @@ class Network {
   /// Returns the next time at which a datagram is due or a waiting one is decided, on this link and direction or on
   /// any. The decision may be earlier than the due time.
   [[nodiscard]] std::optional<Time> next_due(std::uint32_t link, Direction direction) const noexcept;
+  /// The same on any link and direction.
   [[nodiscard]] std::optional<Time> next_due() const noexcept;
 
+  /// Returns the counters of one direction; zeros for an unknown link.
   [[nodiscard]] const PathCounters& counters(std::uint32_t link, Direction direction) const noexcept;
   /// Reports later events of this link to `watch`, which must outlive the attachment; nullptr detaches.
   void attach_monitor(std::uint32_t link, LinkMonitor* watch) noexcept;

@@ -17,12 +17,14 @@ namespace tandem::netsim {
 
 /// Direction from the client's point of view: up is client to server.
 enum class Direction : std::uint8_t { kUp, kDown };
+/// Number of directions of a link.
 inline constexpr std::size_t kDirections = 2;
 /// Returns `up` or `down`.
 [[nodiscard]] constexpr const char* name(Direction d) noexcept { return d == Direction::kUp ? "up" : "down"; }
 
 /// Outage: the link is down for `length` from `start`, and again every `period`.
 struct OutageSpec {
+  /// Fate of datagrams sent during an outage.
   enum class Mode : std::uint8_t {
     kDrop,      ///< datagrams sent during the outage are lost
     kHold,      ///< datagrams sent during the outage leave in order, all at once, when it ends
@@ -34,24 +36,25 @@ struct OutageSpec {
     kLink,  ///< every link has its own random outages
     kAll,   ///< all links of the network are down simultaneously
   };
-  Duration start{};   ///< from Time{} [0, 30 d]
-  Duration length{};  ///< (0, 1 h]
-  Duration period{};  ///< 0: one outage; else longer than `length`
-  Mode mode = Mode::kDrop;
+  Duration start{};              ///< from Time{} [0, 30 d]
+  Duration length{};             ///< (0, 1 h]
+  Duration period{};             ///< 0: one outage; else longer than `length`
+  Mode mode = Mode::kDrop;       ///< fate of datagrams sent during the outage
   std::uint64_t hold_bytes = 0;  ///< kHold: datagrams beyond this many bytes are dropped; 0: no limit
   /// Above 0: outages begin as a Poisson process with this mean gap, instead of at `start` and `period`. Each lasts
   /// uniformly [`length`, `length_max`], at the same times in both directions of a link. length_max <= 32 mean_gap.
   Duration mean_gap{};
   /// Upper bound of random lengths: required for random outages; with a `period`, lengths are random if it is not 0.
-  Duration length_max{};  ///< 0 or [length, 1 h]; below `period`
-  Scope scope = Scope::kLink;
-  Duration loss_at_start{};  ///< datagrams sent within this time after the start are lost in every mode [0, length]
+  Duration length_max{};       ///< 0 or [length, 1 h]; below `period`
+  Scope scope = Scope::kLink;  ///< links that share the random times
+  Duration loss_at_start{};    ///< datagrams sent within this time after the start are lost in every mode [0, length]
 
   friend bool operator==(const OutageSpec&, const OutageSpec&) = default;
 };
 
 /// Recorded capacity: number of opportunities of 1500 bytes per millisecond. The recording repeats after `period`.
 struct CapacityTrace {
+  /// Opportunities of one millisecond.
   struct Entry {
     std::int64_t ms = 0;              ///< ascending from 0
     std::uint64_t opportunities = 1;  ///< at least 1
@@ -76,17 +79,19 @@ struct RateSpec {
   std::optional<Duration> queue_wait = {};  ///< longest wait before a datagram's first bit is sent [0, 1 h]
   /// A TCP flow shares the queue: in every `competing_period` it fills the queue to a wait of `competing_peak` and then
   /// lets it drain. The period is above the peak and at most 1 h; 0: no competing flow.
-  Duration competing_peak{}, competing_period{};
-  std::uint32_t queue_datagrams = 0;  ///< limit of unsent datagrams, the new one included; 0: no limit; at most 65536
-  std::optional<CoDelSpec> codel = {};
+  Duration competing_peak{},            ///< longest wait due to a competing TCP flow
+      competing_period{};               ///< its period
+  std::uint32_t queue_datagrams = 0;    ///< limit of unsent datagrams, the new one included; 0: no limit; at most 65536
+  std::optional<CoDelSpec> codel = {};  ///< empty: no controlled delay
   std::shared_ptr<const CapacityTrace> trace = {};  ///< replaces bits_per_s; null: none
   /// Datagrams to drop when the queue is full.
   enum class Drop : std::uint8_t {
     kTail,  ///< the new datagram
     kHead,  ///< the longest-waiting datagrams, until the new one fits; never the one being sent. Excludes CoDel and a
             ///< competing flow
-  } drop = Drop::kTail;
+  } drop = Drop::kTail;   ///< datagrams to drop when the queue is full
   bool recorded = false;  ///< plays a recording: `trace` must be set before the spec can be simulated
+  /// Returns whether the link has a rate.
   [[nodiscard]] bool present() const noexcept { return bits_per_s != 0 || trace != nullptr; }
 
   friend bool operator==(const RateSpec&, const RateSpec&) = default;
@@ -94,10 +99,11 @@ struct RateSpec {
 
 /// Recorded delay as a function of time. Each step holds until the next one; the recording repeats with `period`.
 struct DelayTrace {
+  /// Delay from one time on.
   struct Step {
-    Duration at{};     ///< time from the start of the recording, ascending, first 0
-    Duration delay{};  ///< [0, 60 s]
-    bool lost = false;
+    Duration at{};      ///< time from the start of the recording, ascending, first 0
+    Duration delay{};   ///< [0, 60 s]
+    bool lost = false;  ///< datagrams of this step are lost
   };
   std::vector<Step> steps = {};  ///< at least one
   Duration period{};             ///< longer than the last `at`
@@ -139,20 +145,22 @@ struct DuplicateSpec {
 
 /// Corruption on the link; the datagram still uses the queue. Each fragment of a fragmented datagram can be corrupted.
 struct CorruptionSpec {
+  /// Effect of a corruption.
   enum class Mode : std::uint8_t {
     kChecksum,  ///< the UDP checksum detects the error and the receiver drops the datagram, the usual case
     kBitFlips,  ///< `bits` distinct bits of the payload are inverted, at random positions
     kTruncate,  ///< the payload is truncated to a length uniform in [0, size - 1]
   };
-  double probability = 0;  ///< [0, 1]
-  Mode mode = Mode::kChecksum;
-  std::uint32_t bits = 1;  ///< kBitFlips [1, 64]
+  double probability = 0;       ///< [0, 1]
+  Mode mode = Mode::kChecksum;  ///< effect
+  std::uint32_t bits = 1;       ///< kBitFlips [1, 64]
 
   friend bool operator==(const CorruptionSpec&, const CorruptionSpec&) = default;
 };
 
 /// Treatment of datagrams longer than the link's MTU. The size includes the overhead of the rate.
 struct MtuSpec {
+  /// Fate of longer datagrams.
   enum class Above : std::uint8_t {
     kDrop,
     /// Splits the datagram into as many fragments as needed, each with the overhead. Loss, queue and delay apply to
@@ -160,41 +168,44 @@ struct MtuSpec {
     /// keeps fragments together.
     kFragment,
   };
-  std::uint32_t bytes = 0;  ///< 0: no limit; else above the overhead, with kFragment by at least 8
-  Above above = Above::kDrop;
+  std::uint32_t bytes = 0;     ///< 0: no limit; else above the overhead, with kFragment by at least 8
+  Above above = Above::kDrop;  ///< fate of longer datagrams
 
   friend bool operator==(const MtuSpec&, const MtuSpec&) = default;
 };
 
 /// One direction of one link.
 struct PathSpec {
-  std::vector<OutageSpec> outages = {};  ///< at most 64
-  LossSpec loss = {};
-  RateSpec rate = {};
+  std::vector<OutageSpec> outages = {};          ///< at most 64
+  LossSpec loss = {};                            ///< random loss
+  RateSpec rate = {};                            ///< rate and queue
   Duration floor{};                              ///< propagation delay, the minimum of every datagram [0, 60 s]
   std::shared_ptr<const DelayTrace> trace = {};  ///< recorded delay added to the floor; null: none
-  BodySpec body = {};
-  std::vector<RegimeSpec> regimes = {};  ///< empty, or 2 to 16 regimes
-  BoundarySpec boundary = {};
-  StallSpec stall = {};
-  SlotsSpec slots = {};  ///< requires Order::kFifo
-  Order order = Order::kFifo;
-  ReorderSpec reorder = {};
-  DuplicateSpec duplicate = {};
-  CorruptionSpec corruption = {};
-  MtuSpec mtu = {};
+  BodySpec body = {};                            ///< random delay added to the floor
+  std::vector<RegimeSpec> regimes = {};          ///< empty, or 2 to 16 regimes
+  BoundarySpec boundary = {};                    ///< transmission at periodic times only
+  StallSpec stall = {};                          ///< random stalls
+  SlotsSpec slots = {};                          ///< requires Order::kFifo
+  Order order = Order::kFifo;                    ///< order of arrivals
+  ReorderSpec reorder = {};                      ///< reordering
+  DuplicateSpec duplicate = {};                  ///< duplication
+  CorruptionSpec corruption = {};                ///< corruption
+  MtuSpec mtu = {};                              ///< longest datagram
 
   friend bool operator==(const PathSpec&, const PathSpec&) = default;
 };
 
 /// Both directions of one client's link, or of a link that all clients share.
 struct LinkSpec {
-  PathSpec up = {}, down = {};
+  PathSpec up = {},  ///< client to server
+      down = {};     ///< server to client
   /// True: all clients with this spec use one link, for example one access point or uplink. Queue, order, outages,
   /// stalls and every other time process are common. Per-datagram draws and counts are separate for each client.
   bool shared = false;
 
+  /// Returns one direction.
   [[nodiscard]] const PathSpec& operator[](Direction d) const noexcept { return d == Direction::kUp ? up : down; }
+  /// Returns one direction.
   [[nodiscard]] PathSpec& operator[](Direction d) noexcept { return d == Direction::kUp ? up : down; }
   friend bool operator==(const LinkSpec&, const LinkSpec&) = default;
 };
@@ -213,12 +224,12 @@ struct LinkSpec {
 /// Network of the shared command-line options, equal in both directions. `delay` is the floor; `jitter` adds an
 /// independent uniform delay in [0, jitter] to every datagram. The order is fifo.
 struct SimpleNetwork {
-  Duration delay{};      ///< [0, 60 s]
-  Duration jitter{};     ///< [0, 60 s]
-  double loss = 0;       ///< probability [0, 1]
-  double duplicate = 0;  ///< probability [0, 1]
-  double reorder = 0;    ///< probability of arriving after three later datagrams [0, 1]
-  std::vector<OutageSpec> outages = {};
+  Duration delay{};                      ///< [0, 60 s]
+  Duration jitter{};                     ///< [0, 60 s]
+  double loss = 0;                       ///< probability [0, 1]
+  double duplicate = 0;                  ///< probability [0, 1]
+  double reorder = 0;                    ///< probability of arriving after three later datagrams [0, 1]
+  std::vector<OutageSpec> outages = {};  ///< of both directions
 };
 /// Returns the link of a simple network.
 [[nodiscard]] LinkSpec link_from(const SimpleNetwork& numbers);

@@ -15,6 +15,7 @@ namespace tandem::netsim {
 bool supply_capacity(LinkSpec& link, const LinkSpec& recorded);
 
 /// Parses and validates the text of a profile.
+/// @param text       whole file
 /// @param file_name  used in error messages and for the profile's name
 /// @return profile, or all errors in file order
 [[nodiscard]] std::expected<Profile, InputErrors> parse_profile(std::string_view text, std::string_view file_name);
@@ -22,7 +23,7 @@ bool supply_capacity(LinkSpec& link, const LinkSpec& recorded);
 /// Profile of netsim/profiles, embedded in the program.
 struct ShippedProfile {
   std::string_view name;  ///< file name without `.textproto`
-  std::string_view text;
+  std::string_view text;  ///< content of the file
 };
 /// Returns all shipped profiles, sorted by name.
 [[nodiscard]] std::span<const ShippedProfile> shipped_profiles() noexcept;

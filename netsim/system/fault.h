@@ -13,6 +13,7 @@ namespace tandem::netsim {
 /// A fault at an end of the network (client, device, user or server), as soak tests and scenarios inject it. Faults of
 /// the network itself are in netsim/models.
 struct Fault {
+  /// Kinds of faults.
   enum class Kind : std::uint8_t {
     kPause,       ///< the client's process is suspended (VM, SIGSTOP) and continues later; its device goes on
     kRestart,     ///< the client's process dies at `at` and starts again after `length`; it then joins its seat again
@@ -30,19 +31,21 @@ struct Fault {
     kHostile,        ///< the client sends, under its own keys, STATE that no client may send or no hand can produce
     kHot,            ///< the device reports that its motors are too hot
   };
-  Kind kind = Kind::kPause;
-  std::string seat;   ///< empty: every seat
-  Duration at{};      ///< from the start of the network [0, 30 d]
-  Duration length{};  ///< (0, 1 h]
+  Kind kind = Kind::kPause;  ///< kind of the fault
+  std::string seat;          ///< empty: every seat
+  Duration at{};             ///< from the start of the network [0, 30 d]
+  Duration length{};         ///< (0, 1 h]
 
   friend bool operator==(const Fault&, const Fault&) = default;
 };
 
+/// Name of one kind.
 struct FaultName {
-  Fault::Kind kind;
+  Fault::Kind kind;       ///< the kind
   std::string_view name;  ///< as scenarios spell it
   std::string_view what;  ///< description for reports
 };
+/// All kinds in order.
 inline constexpr std::array<FaultName, 14> kFaultNames{{
     {Fault::Kind::kPause, "PAUSE", "the client's program is suspended"},
     {Fault::Kind::kRestart, "RESTART", "the client's program dies and restarts"},
@@ -59,9 +62,11 @@ inline constexpr std::array<FaultName, 14> kFaultNames{{
     {Fault::Kind::kHostile, "HOSTILE", "the client sends forbidden messages"},
     {Fault::Kind::kHot, "HOT", "the device's motors are too hot"},
 }};
+/// Whether the fault concerns the server and no seat.
 [[nodiscard]] constexpr bool of_server(Fault::Kind kind) noexcept {
   return kind == Fault::Kind::kServerLate || kind == Fault::Kind::kServerRestart;
 }
+/// Returns the name of a kind, as scenarios spell it.
 [[nodiscard]] constexpr std::string_view name(Fault::Kind kind) noexcept {
   return kFaultNames[static_cast<std::size_t>(kind)].name;
 }

@@ -24,6 +24,7 @@ struct SimulationObserver {
   std::function<void(Simulation& simulation)> tick = {};
 };
 
+/// Result of a run.
 struct SimulationResult {
   server::RunReport report;        ///< the caller sets `cpu_s`, because the cores read no clock
   std::vector<NamedLink> links;    ///< of every seat, if the setup requested them (`monitor_quality`)
@@ -37,7 +38,9 @@ struct SimulationResult {
 [[nodiscard]] SimulationResult run_simulation(const SimulationConfig& setup, const SimulationObserver& observer = {});
 /// Runs a simulation that has just been made. The caller, which has the setup, adds the notes
 /// (netsim/system/session_notes.h).
-/// @param seed  seed of the setup, for the report
+/// @param simulation  has not yet taken a step
+/// @param seed        seed of the setup, for the report
+/// @param observer    callbacks, each may be empty
 [[nodiscard]] SimulationResult run_simulation(Simulation& simulation, std::uint64_t seed,
                                               const SimulationObserver& observer = {});
 

@@ -13,8 +13,8 @@ namespace tandem::netsim {
 struct SceneRun {
   std::string scene;              ///< name of a shipped scene, see `tandem-server scenes`
   std::string profile = "ideal";  ///< name of a shipped network, see `tandem-netsim profiles`
-  std::uint64_t seed = 1;
-  double duration_s = 0;  ///< length of the session [s], [0, 3e6]; 0: the scene's own
+  std::uint64_t seed = 1;         ///< seed of all random draws
+  double duration_s = 0;          ///< length of the session [s], [0, 3e6]; 0: the scene's own
 };
 
 /// Returns the configuration of a run, which the caller may change before `run_simulation`.

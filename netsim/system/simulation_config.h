@@ -24,9 +24,9 @@ class Replay;
 
 /// Configuration of one session in virtual time: scene, networks, faults and clocks.
 struct SimulationConfig {
-  SceneSpec scene;
-  LinkSpec network = {};  ///< every seat has its own link with this specification
-  std::uint64_t seed = 1;
+  SceneSpec scene;         ///< scene of the session
+  LinkSpec network = {};   ///< every seat has its own link with this specification
+  std::uint64_t seed = 1;  ///< seed of all random draws
   std::map<std::string, std::shared_ptr<const hal::sim::RecordedMotion>> motions = {};  ///< by seat
   std::map<std::string, LinkSpec> seat_networks = {};  ///< by seat, instead of `network`
   std::vector<NetworkEvent> events = {};               ///< in network time

@@ -20,9 +20,11 @@ namespace tandem::netsim {
 
 /// A datagram that the network delivered.
 struct Received {
-  std::vector<std::byte> bytes;
-  Time sent, at;            ///< of sending and of delivery
+  std::vector<std::byte> bytes;  ///< content
+  Time sent,                     ///< time of sending
+      at;                        ///< time of delivery
   std::uint64_t index = 0;  ///< number of the sent datagram on this link and direction, from 0; the same for a copy
+  /// Returns the time from sending to delivery.
   [[nodiscard]] Duration delay() const noexcept { return at - sent; }
   /// Returns the bytes as characters.
   [[nodiscard]] std::string text() const;
@@ -58,6 +60,7 @@ class NetworkTest : public ::testing::Test {
   /// @throws std::invalid_argument listing all problems of the resulting link.
   void use_numbers(const SimpleNetwork& numbers) { use_link(link_from(numbers), "own numbers"); }
   /// Uses a link specification. @throws std::invalid_argument listing all problems of the specification.
+  /// @param link         both directions of each link
   /// @param description  name of the network in the text of a failing test
   void use_link(const LinkSpec& link, std::string description = "own numbers");
   /// Uses this seed, or TANDEM_SEED if that is set.
@@ -87,7 +90,9 @@ class NetworkTest : public ::testing::Test {
   /// Advances the clock to the next delivery. @return false if no datagram is under way
   bool advance_to_next();
   /// Calls `body()` at now, now + step, ... for `length`; afterwards the clock is at the end of that interval.
-  /// @param step  above 0
+  /// @param length  duration, 0 or more
+  /// @param step    above 0
+  /// @param body    callable without arguments
   template <typename Body>
   void run_for(Duration length, Duration step, Body body) {
     const Time end = now_ + length;
@@ -99,9 +104,13 @@ class NetworkTest : public ::testing::Test {
   }
 
   // ---- Datagrams, each of at most 1500 bytes.
-  /// Sends a datagram at `now`. @param link  0, or a result of `add_link`
+  /// Sends a datagram at `now`.
+  /// @param direction  from the client (kUp) or from the server (kDown)
+  /// @param bytes      content
+  /// @param link       0, or a result of `add_link`
   /// @return the decision about the datagram; an unknown link drops it (kOverflow)
   Outcome send(Direction direction, std::span<const std::byte> bytes, std::uint32_t link = 0);
+  /// The same with characters.
   Outcome send(Direction direction, std::string_view text, std::uint32_t link = 0);
   /// Returns the next datagram delivered by now, in order of arrival; nullopt if there is none.
   [[nodiscard]] std::optional<Received> receive(Direction direction, std::uint32_t link = 0);

@@ -13,30 +13,35 @@
 /// creates it.
 namespace tandem {
 
+/// Space of a port: the tip in Cartesian axes, or the joints of the device.
 enum class PortSpace : std::uint8_t { kTip, kJoint };
+/// Channel laws of a scene.
 enum class LawKind : std::uint8_t { kSetPosition, kRaw, kReplica };
+/// Modulation of the flow sources of law SET_POSITION: none, by a tank, or as in the source paper.
 enum class MfsMode : std::uint8_t { kOpen, kTank, kSeed, kSeedSigned };
+/// A hand, or a slave with a seat of its own.
 enum class SeatKind : std::uint8_t { kMaster, kSlave };
+/// Rights of a participant (server/policy/roles.h).
 enum class Role : std::uint8_t { kInstructor, kTrainee, kEvaluator, kObserver };
 
 /// Parameters of the channel between a seat and the server (design notes, control 4). Gains are tip gains; joint ports
 /// scale them by diag(J^T J).
 struct ChannelSpec {
-  LawKind law = LawKind::kReplica;
-  MfsMode mfs = MfsMode::kOpen;
-  double k = 1500;          ///< stiffness without delay [N/m]
-  double k_min = 60;        ///< smallest stiffness at any delay [N/m]
-  double k_delay = 5;       ///< k <= k_delay / d [N s/m]
-  double b_delay = 0.25;    ///< added damping = b_delay k d [1]
-  double lead_max = 0.1;    ///< longest extrapolation [s]; 0: none
-  bool effort_half = true;  ///< the server's target includes the effort
-  double e0 = 0.05;         ///< initial energy of each axis at each end [J]
-  bool e0_given = false;    ///< the scene sets e0; otherwise the law does, see `choose_law`
-  double eta = 0.9;         ///< share of the dissipation that the ledger may spend
-  double margin_max = 0.1;  ///< unspent energy above this is forfeited [J]
-  double v_app = 0.1;       ///< approach speed after an outage [m/s]
-  double b_rel = 14;        ///< REPLICA: damping of the tool relative to the reference that drives it [N s/m]
-  double tank = 0.05;       ///< MFS tank and authority tank, initial [J]
+  LawKind law = LawKind::kReplica;  ///< channel law
+  MfsMode mfs = MfsMode::kOpen;     ///< modulation of the flow sources
+  double k = 1500;                  ///< stiffness without delay [N/m]
+  double k_min = 60;                ///< smallest stiffness at any delay [N/m]
+  double k_delay = 5;               ///< k <= k_delay / d [N s/m]
+  double b_delay = 0.25;            ///< added damping = b_delay k d [1]
+  double lead_max = 0.1;            ///< longest extrapolation [s]; 0: none
+  bool effort_half = true;          ///< the server's target includes the effort
+  double e0 = 0.05;                 ///< initial energy of each axis at each end [J]
+  bool e0_given = false;            ///< the scene sets e0; otherwise the law does, see `choose_law`
+  double eta = 0.9;                 ///< share of the dissipation that the ledger may spend
+  double margin_max = 0.1;          ///< unspent energy above this is forfeited [J]
+  double v_app = 0.1;               ///< approach speed after an outage [m/s]
+  double b_rel = 14;                ///< REPLICA: damping of the tool relative to the reference that drives it [N s/m]
+  double tank = 0.05;               ///< MFS tank and authority tank, initial [J]
 };
 
 /// Coupling of a master's device to its virtual mass (design notes, control 3).
@@ -46,22 +51,25 @@ struct CouplingSpec {
   double m_c = 0.02;  ///< [kg]
 };
 
+/// Parameters of the force gate of each seat (common/control/force_gate.h).
 struct GateSpec {
   double silence_limit = 0.020;  ///< [s]
   double local_hold = 0.45;      ///< REPLICA: longest silence that a seat leading alone tolerates [s]
   double follow_hold = 0.45;  ///< REPLICA: the same for the other seats; the energy tank bounds the force meanwhile [s]
   double loop_age_max = 0.100;  ///< [s]
-  bool latch = true;
-  double ramp_in = 0.5;    ///< [s]
-  double force_max = 3.3;  ///< [N]; never above the limit that the device declares
+  bool latch = true;            ///< three losses within 10 s latch the gate
+  double ramp_in = 0.5;         ///< [s]
+  double force_max = 3.3;       ///< [N]; never above the limit that the device declares
 };
 /// Authority from which a seat counts as leading alone.
 inline constexpr double kLeadsAlone = 0.98;
 /// Time for which a seat may receive force without new datagrams: `least` on a link without gaps, `most` on any link
 /// [s].
 struct SilenceLimits {
-  double least = 0, most = 0;
+  double least = 0,  ///< on a link without gaps [s]
+      most = 0;      ///< on any link [s]
 };
+/// Returns the limits of a seat with this authority.
 [[nodiscard]] constexpr SilenceLimits silence_limits(const GateSpec& gate, LawKind law, double authority) noexcept {
   constexpr double kLocalLeast = 0.25, kFollowLeast = 0.1;
   if (law != LawKind::kReplica) return {gate.silence_limit, gate.silence_limit};
@@ -75,56 +83,67 @@ struct SilenceLimits {
 /// half (design notes, security 1.5: a separate lower clamp and tank).
 [[nodiscard]] constexpr double share_of_force(Role role) noexcept { return role == Role::kEvaluator ? 0.5 : 1.0; }
 
+/// Position [m] or force [N] in the HAL frame.
 struct Point {
-  double x = 0, y = 0, z = 0;
+  double x = 0,  ///< right
+      y = 0,     ///< away from the user
+      z = 0;     ///< up
 };
 
+/// Simulated devices: Touch with three joints, or one prismatic axis.
 enum class DeviceModel : std::uint8_t { kTouch, kLinear };
 /// A simulated device (design notes, control 8).
 struct SimDeviceSpec {
-  DeviceModel model = DeviceModel::kTouch;
-  double friction = 0.1;  ///< Coulomb, at the tip [N]
-  double damping = 0.2;   ///< b_device at the tip [N s/m]
-  bool gravity = true;
-  bool gravity_compensation = true;
-  bool friction_feedforward = false;
-  double force_peak = 3.3;  ///< [N]
-  double encoder = 4.1e-4;  ///< joint resolution [rad], 0: exact; LINEAR: default 5.5e-5 [m]
-  double mass = 0.1;        ///< LINEAR only [kg]
-  Point start;              ///< tip position at the start [m]
+  DeviceModel model = DeviceModel::kTouch;  ///< kind of device
+  double friction = 0.1;                    ///< Coulomb, at the tip [N]
+  double damping = 0.2;                     ///< b_device at the tip [N s/m]
+  bool gravity = true;                      ///< the device has weight
+  bool gravity_compensation = true;         ///< its motors balance the weight
+  bool friction_feedforward = false;        ///< its motors compensate friction
+  double force_peak = 3.3;                  ///< [N]
+  double encoder = 4.1e-4;                  ///< joint resolution [rad], 0: exact; LINEAR: default 5.5e-5 [m]
+  double mass = 0.1;                        ///< LINEAR only [kg]
+  Point start;                              ///< tip position at the start [m]
 };
 
+/// Simulated hands.
 enum class HandModel : std::uint8_t { kNone, kLeader, kRelaxed, kResting, kLettingGo, kTremor, kKeyboard, kRecorded };
 /// Whether a human operator moves this hand, now or when it was recorded. Then no scene defines when it is relaxed.
 [[nodiscard]] constexpr bool moved_by_person(HandModel model) noexcept {
   return model == HandModel::kKeyboard || model == HandModel::kRecorded;
 }
 struct Waypoint {
-  double at = 0;
-  Point p;
+  double at = 0;  ///< session time [s]
+  Point p;        ///< tip [m]
 };  ///< minimum jerk between waypoints, held before the first and after the last
 struct Deviation {
-  double at = 0, length = 0;
-  Point force;
+  double at = 0,   ///< begin in session time [s]
+      length = 0;  ///< duration [s]
+  Point force;     ///< force [N]
 };  ///< extra force of the operator [N]
+/// Intended motion of a hand.
 struct Trajectory {
-  enum class Kind : std::uint8_t { kCircle, kWaypoints } kind = Kind::kCircle;
-  Point center;
-  double radius = 0.05;    ///< [m]
-  double frequency = 0.5;  ///< [Hz]
-  char plane = 'y';        ///< axis normal to the circle's plane: 'x', 'y' or 'z'; LINEAR devices use x only
-  double ramp = 1.0;       ///< radius grows smoothly from 0 in this time [s]
-  std::vector<Waypoint> waypoints;
+  /// Forms of a motion.
+  enum class Kind : std::uint8_t { kCircle, kWaypoints } kind = Kind::kCircle;  ///< form of this motion
+  Point center;                                                                 ///< center of the circle [m]
+  double radius = 0.05;                                                         ///< [m]
+  double frequency = 0.5;                                                       ///< [Hz]
+  char plane = 'y';                 ///< axis normal to the circle's plane: 'x', 'y' or 'z'; LINEAR devices use x only
+  double ramp = 1.0;                ///< radius grows smoothly from 0 in this time [s]
+  std::vector<Waypoint> waypoints;  ///< kWaypoints: ascending in time
 };
+/// A simulated hand.
 struct HandSpec {
-  HandModel model = HandModel::kNone;
-  double k = 0, b = 0, m = 0;  ///< values of the model unless the scene sets them [N/m, N s/m, kg]
-  Trajectory trajectory;
-  std::vector<Deviation> deviations;
-  double release_at = 5;            ///< LETTING_GO: time at which the hand releases the device [s]
-  Point drags;                      ///< LETTING_GO: force that still acts on the handle after release [N]
-  double tremor_amplitude = 0.002;  ///< [m]
-  double tremor_frequency = 9;      ///< [Hz]
+  HandModel model = HandModel::kNone;  ///< kind of hand
+  double k = 0,                        ///< stiffness, unless the scene sets it that of the model [N/m]
+      b = 0,                           ///< damping, likewise [N s/m]
+      m = 0;                           ///< mass, likewise [kg]
+  Trajectory trajectory;               ///< intended motion
+  std::vector<Deviation> deviations;   ///< pushes of the operator
+  double release_at = 5;               ///< LETTING_GO: time at which the hand releases the device [s]
+  Point drags;                         ///< LETTING_GO: force that still acts on the handle after release [N]
+  double tremor_amplitude = 0.002;     ///< [m]
+  double tremor_frequency = 9;         ///< [Hz]
   double from = 0;  ///< before this time the hand is RELAXED (scene contact: the trainee aligns from 12 s) [s]
   double until =
       std::numeric_limits<double>::infinity();  ///< from this time on it is RELAXED again; a leader then follows [s]
@@ -142,26 +161,31 @@ struct HandSpec {
   return own;
 }
 
+/// A stiff wall normal to one axis.
 struct WallSpec {
-  int axis = 0;
-  double at = 0;
-  double k = 20000;
-  double b = 5;
-  bool from_below = true;
+  int axis = 0;            ///< normal: 0 x, 1 y, 2 z
+  double at = 0;           ///< position [m]
+  double k = 20000;        ///< stiffness [N/m]
+  double b = 5;            ///< damping [N s/m]
+  bool from_below = true;  ///< the free side is below `at`
+  /// Coulomb friction [1]
   double mu = 0;
 };
+/// A soft surface whose stiffness grows with the depth.
 struct TissueSpec {
-  int axis = 2;
-  double at = 0;
-  double k = 300;
-  double k3 = 1e6;
-  double b = 3;
-  bool from_below = false;
+  int axis = 2;             ///< normal: 0 x, 1 y, 2 z
+  double at = 0;            ///< position [m]
+  double k = 300;           ///< stiffness [N/m]
+  double k3 = 1e6;          ///< cubic stiffness [N/m^3]
+  double b = 3;             ///< damping [N s/m]
+  bool from_below = false;  ///< the free side is below `at`
+  /// Coulomb friction [1]
   double mu = 0;
 };
+/// Surfaces that a tool or a slave touches.
 struct EnvironmentSpec {
-  std::optional<WallSpec> wall;
-  std::optional<TissueSpec> tissue;
+  std::optional<WallSpec> wall;      ///< empty: none
+  std::optional<TissueSpec> tissue;  ///< empty: none
 };
 
 /// A force that pulls a following seat towards the leading seat, law REPLICA.
@@ -170,16 +194,17 @@ struct AssistSpec {
   bool in_contact = false;  ///< also while the tool touches a surface
 };
 
+/// A seat of the scene.
 struct SeatSpec {
-  std::string name;
-  SeatKind kind = SeatKind::kMaster;
-  Role role = Role::kTrainee;
-  bool required = true;
-  std::size_t tool = 0;  ///< SLAVE seats: the tool whose slave this is
-  SimDeviceSpec device;
-  HandSpec hand;                ///< masters
-  AssistSpec assist;            ///< masters
-  EnvironmentSpec environment;  ///< SLAVE seats
+  std::string name;                   ///< name, unique in the scene
+  SeatKind kind = SeatKind::kMaster;  ///< hand or slave
+  Role role = Role::kTrainee;         ///< rights of its participant
+  bool required = true;               ///< the session waits for this seat
+  std::size_t tool = 0;               ///< SLAVE seats: the tool whose slave this is
+  SimDeviceSpec device;               ///< simulated device
+  HandSpec hand;                      ///< masters
+  AssistSpec assist;                  ///< masters
+  EnvironmentSpec environment;        ///< SLAVE seats
 };
 
 /// Mass of a virtual tool [kg]. It is small so that the hand's own spring does not resonate with it. With 0.05 kg a
@@ -192,55 +217,62 @@ enum class ContactsMode : std::uint8_t {
   kNone,       ///< nothing: masters receive the slave's force through a spring over the network
   kEstimated,  ///< a plane, once one is estimated from motion and effort of the slave
 };
+/// A tool of the scene.
 struct ToolSpec {
-  std::string name;
+  std::string name;               ///< name, unique in the scene
   double k_s = 400;               ///< spring between tool and slave device; unused for a virtual tool [N/m]
   double m_s = kVirtualToolMass;  ///< [kg]
   double b_s = 0.2;               ///< [N s/m]
   bool is_virtual = true;         ///< no slave device: the tool itself touches the environment
   bool remote = false;            ///< its slave is a SLAVE seat
   std::size_t seat = 0;           ///< index of that seat if remote
-  SimDeviceSpec slave;
-  EnvironmentSpec environment;
+  SimDeviceSpec slave;            ///< simulated slave device
+  EnvironmentSpec environment;    ///< surfaces at the slave
   ContactsMode contacts = ContactsMode::kEstimated;  ///< remote tools
 };
 
 /// Authority of all masters (index = seat) over one tool; sum 1.
 struct AuthorityRow {
-  std::size_t tool = 0;
-  std::array<double, kSeatsMax> alpha{};
+  std::size_t tool = 0;                   ///< index of the tool
+  std::array<double, kSeatsMax> alpha{};  ///< authority of each master [0, 1]
 };
+/// A change of authority in the scene's timeline.
 struct TimedAuthority {
-  double at = 0;
-  AuthorityRow row;
+  double at = 0;     ///< session time [s]
+  AuthorityRow row;  ///< authority from then on
 };
+/// Time span that the report evaluates by itself.
 struct PhaseSpec {
-  std::string name;
-  double from = 0, to = 0;
-  bool contact = false;
+  std::string name;      ///< name in the report
+  double from = 0,       ///< begin on the session clock [s]
+      to = 0;            ///< end on the session clock [s]
+  bool contact = false;  ///< the report evaluates contact forces
 };
 
+/// A validated scene.
 struct SceneSpec {
-  std::string name;
-  double tick_hz = 1000;
-  std::size_t dof = 3;
-  PortSpace port = PortSpace::kTip;
+  std::string name;                                           ///< name
+  double tick_hz = 1000;                                      ///< rate of server and clients [Hz]
+  std::size_t dof = 3;                                        ///< number of axes of a port
+  PortSpace port = PortSpace::kTip;                           ///< space of the ports
   double duration = std::numeric_limits<double>::infinity();  ///< of the session clock [s]; infinity: no scheduled end
   bool clock_runs_while_stopped = false;  ///< false: clock and timeline do not advance while STOPPED or PAUSED
   double alpha_slew = 1;                  ///< [1/s]; infinity: authority changes in one step
-  bool unsafe_gains = false;
-  bool commanded_force = false;  ///< force errors refer to commanded instead of delivered force
-  ChannelSpec channel;
-  CouplingSpec coupling;
-  GateSpec gate;
-  std::vector<SeatSpec> seats;  ///< masters first, then slaves
-  std::vector<ToolSpec> tools;
-  std::vector<AuthorityRow> authority;                            ///< one per tool
+  bool unsafe_gains = false;              ///< springs may exceed their passivity limit
+  bool commanded_force = false;           ///< force errors refer to commanded instead of delivered force
+  ChannelSpec channel;                    ///< channel of every seat
+  CouplingSpec coupling;                  ///< coupling of every master's device
+  GateSpec gate;                          ///< force gate of every seat
+  std::vector<SeatSpec> seats;            ///< masters first, then slaves
+  std::vector<ToolSpec> tools;            ///< at least one
+  std::vector<AuthorityRow> authority;    ///< one per tool
   std::array<std::array<double, kToolsMax>, kSeatsMax> follow{};  ///< C_ji as [seat][tool]; each seat's row sums to 1
   std::vector<TimedAuthority> timeline;                           ///< ascending in time
   std::vector<PhaseSpec> phases;                                  ///< empty: the report covers the whole session
 
+  /// Whether the session has no scheduled end.
   [[nodiscard]] bool endless() const noexcept { return !(duration < std::numeric_limits<double>::infinity()); }
+  /// Returns the number of MASTER seats.
   [[nodiscard]] std::size_t masters() const noexcept {
     std::size_t n = 0;
     for (const auto& s : seats) n += s.kind == SeatKind::kMaster ? 1 : 0;

@@ -12,6 +12,7 @@
 /// in .json).
 namespace tandem {
 
+/// One error in a scene.
 using SceneError = InputError;
 
 /// Parses a scene and validates it completely: every value is finite and in range, and every name is resolved. Every
@@ -32,6 +33,7 @@ struct LawProblem {
   std::string key;    ///< key in the scene
   std::string words;  ///< message that follows the key
 };
+/// Returns the first conflict of a scene; empty if there is none.
 [[nodiscard]] std::optional<LawProblem> law_problem(const SceneSpec& scene);
 
 /// Every value in force, including defaults, one per line: key, value and unit in three aligned columns. For `--check`.

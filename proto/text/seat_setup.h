@@ -18,32 +18,34 @@ namespace tandem {
 
 /// One of several tools that a master is coupled to, as its client simulates it.
 struct CoupledTool {
-  std::size_t tool = 0;          ///< index of the tool
-  double weight = 0;             ///< weight of its force in the force on the seat, C_ji (0, 1)
-  double m_s = 0.02, b_s = 0.2;  ///< mass and damping [kg, N s/m]
-  EnvironmentSpec environment;
+  std::size_t tool = 0;         ///< index of the tool
+  double weight = 0;            ///< weight of its force in the force on the seat, C_ji (0, 1)
+  double m_s = 0.02,            ///< mass [kg]
+      b_s = 0.2;                ///< damping [N s/m]
+  EnvironmentSpec environment;  ///< surfaces of the tool
 };
 
 /// Parameters of a seat that the server sends to its client in Welcome: all that a seat core needs, no more.
 struct SeatSetup {
-  double tick_hz = 1000;  ///< 100 ... 10000 [Hz]
-  std::size_t dof = 3;    ///< 1 ... 3
-  PortSpace port = PortSpace::kTip;
+  double tick_hz = 1000;                                      ///< 100 ... 10000 [Hz]
+  std::size_t dof = 3;                                        ///< 1 ... 3
+  PortSpace port = PortSpace::kTip;                           ///< space of the port
   double duration = std::numeric_limits<double>::infinity();  ///< of the session clock [s]; infinity: no scheduled end
-  bool clock_runs_while_stopped = false;
-  bool unsafe_gains = false;  ///< springs may command more than a motor delivers
-  ChannelSpec channel;        ///< tip gains
-  CouplingSpec coupling;      ///< MASTER seats
-  double k_s = 400;           ///< SLAVE seats: spring between tool and slave at the tip [N/m]
+  bool clock_runs_while_stopped = false;  ///< the session clock advances while the session is stopped
+  bool unsafe_gains = false;              ///< springs may command more than a motor delivers
+  ChannelSpec channel;                    ///< tip gains
+  CouplingSpec coupling;                  ///< MASTER seats
+  double k_s = 400;                       ///< SLAVE seats: spring between tool and slave at the tip [N/m]
   /// Stiffness that the scene requests for the spring on the device, coupling.k_c or k_s [N/m]. It is larger than the
   /// value in use if the device renders less.
   double stiffness_asked = 400;
-  double m_s = 0.02, b_s = 0.2;      ///< mass and damping of the tool this seat follows [kg, N s/m]
+  double m_s = 0.02,                 ///< mass of the tool this seat follows [kg]
+      b_s = 0.2;                     ///< damping of that tool [N s/m]
   EnvironmentSpec environment;       ///< of that tool: a master of law REPLICA simulates it
   double weight = 1;                 ///< weight of that tool's force in the force on this seat, C_ji (0, 1]
   std::vector<CoupledTool> further;  ///< masters of law REPLICA: the other tools, in the scene's order
-  GateSpec gate;
-  SeatSpec seat;
+  GateSpec gate;                     ///< force gate of this seat
+  SeatSpec seat;                     ///< the scene's entry of this seat
   std::array<double, kAxesMax> axis_scale{1, 1, 1, 1,
                                           1, 1, 1};  ///< tip gain -> port gain, per axis: diag(J^T J), 1 at a TIP port
   std::vector<std::string> masters;                  ///< names of all MASTER seats in the order of the authority vector

@@ -14,60 +14,78 @@
 
 namespace tandem::server {
 
+/// One direction of a link.
 struct DirectionReport {
-  double loss_percent = 0, longest_gap_ms = 0, age_p99_ms = 0;
+  double loss_percent = 0,  ///< lost datagrams [%]
+      longest_gap_ms = 0,   ///< longest time without a datagram [ms]
+      age_p99_ms = 0;       ///< 99th percentile of the age of the newest one [ms]
 };
+/// Link of one seat, as both ends measured it.
 struct LinkReport {
-  double rtt_p50_ms = 0, rtt_p99_ms = 0;
-  DirectionReport up, down;
+  double rtt_p50_ms = 0,  ///< median round-trip time [ms]
+      rtt_p99_ms = 0;     ///< its 99th percentile [ms]
+  DirectionReport up,     ///< client to server
+      down;               ///< server to client
 };
 /// Tracking and force errors of one seat and its slave. NaN if a value does not exist (no contact phase, no leader).
 struct SeatMetrics {
-  double judged_s = 0;  ///< session time in which tracking and joint errors were evaluated [s]
-  double tracking_rms_m = 0, tracking_rms_lag_removed_m = 0, transport_lag_rms_m = 0;
-  std::vector<double> joint_rms_rad;
-  double force_error_rms_n = 0, force_error_commanded_rms_n = 0, force_error_percent = 0;
-  double effort_peak_n = 0, speed_peak_m_s = 0;
+  double judged_s = 0;                  ///< session time in which tracking and joint errors were evaluated [s]
+  double tracking_rms_m = 0,            ///< distance between hand and slave, RMS [m]
+      tracking_rms_lag_removed_m = 0,   ///< the same without the network's lag [m]
+      transport_lag_rms_m = 0;          ///< part that is due to the lag [m]
+  std::vector<double> joint_rms_rad;    ///< difference between the joints of both devices, RMS [rad]
+  double force_error_rms_n = 0,         ///< error of the delivered contact force, RMS [N]
+      force_error_commanded_rms_n = 0,  ///< error of the commanded one [N]
+      force_error_percent = 0;          ///< share of the force [%]
+  double effort_peak_n = 0,             ///< largest force of the motor [N]
+      speed_peak_m_s = 0;               ///< largest speed of the hand [m/s]
   /// Distance from the leading hand at the same session tick; NaN if no other seat led.
   double leader_offset_rms_m = 0;
 };
+/// Results of one seat.
 struct SeatReport {
-  std::string name;
-  SeatKind kind = SeatKind::kMaster;
-  Role role = Role::kTrainee;
-  double alpha_mean = 0;
-  SeatMetrics metrics;
-  SeatRecord last;  ///< cumulative energies
-  double mfs_j = 0;
-  LinkReport link;
-  std::uint32_t gate_trips = 0;
-  std::string gate;   ///< state at the end, for display
-  bool taken = true;  ///< a client took the seat
+  std::string name;                   ///< name in the scene
+  SeatKind kind = SeatKind::kMaster;  ///< hand or slave
+  Role role = Role::kTrainee;         ///< role of its participant
+  double alpha_mean = 0;              ///< mean authority [0, 1]
+  SeatMetrics metrics;                ///< errors over the whole session
+  SeatRecord last;                    ///< cumulative energies
+  double mfs_j = 0;                   ///< energy of the modulated flow sources [J]
+  LinkReport link;                    ///< its link
+  std::uint32_t gate_trips = 0;       ///< losses of the link that released the hand
+  std::string gate;                   ///< state at the end, for display
+  bool taken = true;                  ///< a client took the seat
 };
+/// Results of one tool.
 struct ToolReport {
-  std::string name;
-  double contact_force_rms_n = 0, penetration_max_m = 0;
-  double held_s = 0;  ///< time without an authorised seat: the tool was braked [s]
+  std::string name;                ///< name in the scene
+  double contact_force_rms_n = 0,  ///< contact force of the slave, RMS [N]
+      penetration_max_m = 0;       ///< its deepest penetration [m]
+  double held_s = 0;               ///< time without an authorised seat: the tool was braked [s]
 };
+/// Results of one phase of the scene.
 struct PhaseReport {
-  std::string name;
-  double from_s = 0, to_s = 0;
-  std::vector<SeatMetrics> seats;
+  std::string name;                ///< name in the scene
+  double from_s = 0,               ///< begin on the session clock [s]
+      to_s = 0;                    ///< end on the session clock [s]
+  std::vector<SeatMetrics> seats;  ///< metrics of each seat
 };
+/// Results of one session.
 struct RunReport {
-  std::string scenario;
-  std::uint64_t seed = 0;
-  double duration_s = 0;  ///< of the session clock
-  double stopped_s = 0;   ///< time in which the session was stopped and its clock did not advance; not in `duration_s`
-  double judged_s = 0;    ///< session time in which the metrics of at least one MASTER seat were evaluated
-  bool moved = false;     ///< a hand moved by more than ReportBuilder::kMoved while its seat was engaged
-  std::vector<Violation> violations;
-  bool passed = true;
+  std::string scenario;    ///< name of the scene
+  std::uint64_t seed = 0;  ///< seed of the run
+  double duration_s = 0;   ///< of the session clock
+  double stopped_s = 0;    ///< time in which the session was stopped and its clock did not advance; not in `duration_s`
+  double judged_s = 0;     ///< session time in which the metrics of at least one MASTER seat were evaluated
+  bool moved = false;      ///< a hand moved by more than ReportBuilder::kMoved while its seat was engaged
+  std::vector<Violation> violations;  ///< violated invariants
+  bool passed = true;                 ///< no violation but expected ones
+  /// SHA-256 of the trace
   std::string trace_hash;
-  double cpu_s = 0;
-  std::vector<SeatReport> seats;
-  std::vector<ToolReport> tools;
-  std::vector<PhaseReport> phases;
+  double cpu_s = 0;                 ///< processor time of the run [s]; 0: not measured
+  std::vector<SeatReport> seats;    ///< one per seat, in the scene's order
+  std::vector<ToolReport> tools;    ///< one per tool
+  std::vector<PhaseReport> phases;  ///< one per phase
   /// Metrics of haptic quality by key (netsim/feel/observed_feel.h). NaN if the run does not produce a value; empty:
   /// not evaluated.
   std::vector<std::pair<std::string, double>> feel;
@@ -91,8 +109,10 @@ class ReportBuilder {
   static constexpr std::size_t kSlotsMax =
       1'200'000;  ///< samples kept per seat: 20 min at 1 kHz; of longer runs every 2nd, 4th, ...
   static constexpr double kMoved = 0.002;  ///< smallest extent of a hand's path along an axis that counts as motion [m]
+  /// @param scene      must outlive the builder
   /// @param slots_max  as kSlotsMax, for tests
   explicit ReportBuilder(const SceneSpec& scene, std::size_t slots_max = kSlotsMax);
+  /// Adds the record of one tick, in order of time.
   void add(const TickRecord& record);
   /// @param links  one per seat
   [[nodiscard]] RunReport build(const std::vector<LinkReport>& links) const;

@@ -34,6 +34,7 @@ fi
 # shellcheck disable=SC2034
 TANDEM_PACKAGES_TEST=(
   "clang-format-19: compares the sources with .clang-format"
+  "doxygen: API documents of the public headers"
 )
 
 # Further packages of ./test --full, --nightly and --bench. Without them the default ./test lists what it did not run.
