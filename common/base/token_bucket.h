@@ -14,7 +14,7 @@ class TokenBucket {
   /// @param rate   [1/s], positive
   /// @param burst  at least 1
   constexpr TokenBucket(double rate, double burst) noexcept
-      : TokenBucket(from_seconds(1 / rate), from_seconds((burst - 1) / rate)) {}
+      : TokenBucket(Duration{static_cast<Duration::rep>(1e9 / rate)}, burst) {}
   /// @param each       time per event
   /// @param tolerance  how much earlier than due an event may come
   constexpr TokenBucket(Duration each, Duration tolerance) noexcept : each_(each), tolerance_(tolerance) {}
@@ -31,6 +31,10 @@ class TokenBucket {
   }
 
  private:
+  // The time per event is rounded down and the tolerance is a multiple of it: `burst` events always fit at once.
+  constexpr TokenBucket(Duration each, double burst) noexcept
+      : TokenBucket(each, Duration{static_cast<Duration::rep>((burst - 1) * static_cast<double>(each.count()))}) {}
+
   Duration each_, tolerance_;
   Time due_{};
 };

@@ -58,7 +58,8 @@ SimulationResult run_simulation(Simulation& simulation, std::uint64_t seed, cons
     feel.add(record);
     if (record.running) csv.append(record, rows);
     if (rows.size() > kRowsAtOnce) flush();
-    if (n % kTicksPerLook == 0 && observer.keep_running && !observer.keep_running(simulation.session().clock().time())) {
+    if (n % kTicksPerLook == 0 && observer.keep_running &&
+        !observer.keep_running(simulation.session().clock().time())) {
       run.interrupted = true;
       break;
     }

@@ -75,9 +75,9 @@ std::string softened_note(const SceneSpec& scene, std::size_t seat) {
 SessionSpan session_span(const Simulation& simulation) {
   const Duration end = simulation.now() - Time{};
   const auto& session = simulation.session();
-  return {
-      end - from_seconds(session.clock().time() + static_cast<double>(session.clock().stopped_ticks()) / simulation.scene().tick_hz),
-      end};
+  return {end - from_seconds(session.clock().time() +
+                             static_cast<double>(session.clock().stopped_ticks()) / simulation.scene().tick_hz),
+          end};
 }
 
 std::vector<std::string> session_notes(const SimulationConfig& setup, const SessionSpan& span) {

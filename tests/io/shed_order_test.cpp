@@ -72,7 +72,7 @@ class Crowded {
       }
     }
   }
-  [[nodiscard]] ShedLevel rung() const { return shard_->load_state().level; }
+  [[nodiscard]] ShedLevel rung() const { return shard_->load().state().level; }
   [[nodiscard]] std::uint64_t forces(std::size_t client) const { return clients_[client]->forces(); }
   [[nodiscard]] bool engaged() const { return clients_[kTrainee]->settled() && clients_[kEvaluator]->settled(); }
 

@@ -21,6 +21,18 @@ TEST(TokenBucket, AllowsABurstThenItsRate) {
   EXPECT_FALSE(bucket.take(t0)) << "time that goes back gives nothing";
 }
 
+// 1/60 s is no whole number of nanoseconds.
+TEST(TokenBucket, AllowsTheWholeBurstAtAnyRate) {
+  TokenBucket bucket(60, 120);
+  const auto allowed = [&](Time now) {
+    int count = 0;
+    while (bucket.take(now)) ++count;
+    return count;
+  };
+  EXPECT_EQ(allowed(Time{} + 1h), 120);
+  EXPECT_EQ(allowed(Time{} + 1h + 1s), 60);
+}
+
 TEST(TokenBucket, NamesTheTimeUntilTheNextEvent) {
   TokenBucket bucket(4, 2);
   const Time t0{1h};

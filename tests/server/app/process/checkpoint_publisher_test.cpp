@@ -2,7 +2,6 @@
 #include "server/app/process/checkpoint_publisher.h"
 
 #include <gtest/gtest.h>
-#include <sys/eventfd.h>
 
 #include "tests/server/session/session_fixture.h"
 
@@ -27,7 +26,7 @@ struct Publishing {
     return found;
   }
   SessionFixture fixture{"free_motion"};
-  io::Fd wake{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  io::EventFd wake;
   std::shared_ptr<CheckpointMailbox> mailbox = std::make_shared<CheckpointMailbox>(wake);
   CheckpointPublisher publisher;
   Checkpoint last;
@@ -37,7 +36,7 @@ TEST(CheckpointPublisher, PublishesTwicePerSecondAndFirstAtOnce) {
   Publishing p;
   EXPECT_EQ(p.steps(2), 2) << "the first, and one because the session has begun";
   EXPECT_EQ(p.last.epoch, 7U) << "the epoch that the clients know";
-  EXPECT_EQ(p.last.session_tick, p.fixture.session->session_tick());
+  EXPECT_EQ(p.last.session_tick, p.fixture.session->clock().session_tick());
   EXPECT_EQ(p.steps(499), 0);
   EXPECT_EQ(p.steps(1), 1);
   EXPECT_EQ(p.steps(1000), 2);
