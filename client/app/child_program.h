@@ -28,7 +28,7 @@ class ChildProgram {
   ~ChildProgram();  ///< calls `stop`
 
   /// Waits for a line of standard output that begins with `mark`.
-  /// @param patience   longest wait
+  /// @param patience   timeout
   /// @param interrupt  file that ends the wait when it becomes readable; -1: none
   /// @return           the rest of the line; nullopt if the child ended before, or after a timeout or an interrupt
   [[nodiscard]] std::optional<std::string> wait_for_line(std::string_view mark, Duration patience, int interrupt);

@@ -42,7 +42,8 @@ struct ConsoleCommand {
 /// True if the session is paused or stopped.
 [[nodiscard]] bool is_stopped(const rpc::Status& status) noexcept;
 /// Returns the origin and reason of a stop and the ways to end it in one line: `STOPPED by desk (operator): fire drill.
-/// It can be ended by: ...`. Texts of other participants are sanitised.  @pre is_stopped(status)
+/// It can be ended by: ...`. Texts of other participants are sanitised.
+/// @pre is_stopped(status)
 [[nodiscard]] std::string stop_text(const rpc::Status& status);
 /// Returns the progress of a drain: `DRAINING: 27 s left, 2 sessions, 3 people on their seats`
 [[nodiscard]] std::string drain_text(const rpc::StatusDrain& drain);

@@ -4,7 +4,7 @@
 #include "common/control/pull.h"
 
 /// Virtual coupling masses: the intrinsically passive controllers (IPC) of one axis [Stramigioli, LNCIS 266, 2001].
-/// They are stepped implicitly: the virtual mass sees the springs at the END of the step. No step therefore creates
+/// Their steps are implicit: the springs act on the virtual mass at the END of the step. No step therefore creates
 /// energy, for any stiffness, mass and sample time (design notes, control 3).
 namespace tandem::control {
 

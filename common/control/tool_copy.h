@@ -17,7 +17,7 @@ namespace tandem::control {
 ///     m x'' = a k_c (q - x) + (1 - a) k_x (r - x) + b_rel (v_in - v) - b v + F_env(x)      one implicit step
 ///     F     = k_c (y - q)                                  on the hand; y = x as far as paid
 ///
-/// Where y lags x, the copy is pulled by the same force: a k_c (q - (y - x) - x).
+/// Where y lags x, the hand's spring pulls the copy by the same force: a k_c (q - (y - x) - x).
 ///
 /// The storage is
 ///

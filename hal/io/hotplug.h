@@ -28,7 +28,7 @@ class HotplugMonitor {
 
   /// Returns the devices of the last listing.
   [[nodiscard]] const std::vector<AttachedDevice>& present() const noexcept;
-  /// Waits until a device changed, at most `patience`. Removals come before arrivals.
+  /// Waits until a device changed, or until the timeout. Removals come before arrivals.
   /// A device that was unplugged and plugged in again between two listings appears in both.
   [[nodiscard]] std::vector<HotplugEvent> wait(Duration patience);
 

@@ -58,7 +58,7 @@ class DelayQueue {
   void revoke(std::uint32_t slot) noexcept TANDEM_REALTIME;
   /// Returns the waiting item of this slot with `at` as its due time.
   [[nodiscard]] Item peek(std::uint32_t slot, Time at) const noexcept { return item_of(at, slot); }
-  /// Discards all waiting datagrams of a lane.
+  /// Discards all waiting datagrams of one path.
   void discard_waiting(std::uint32_t lane) noexcept;
 
   /// Removes and returns the first item due at `now`; empty if there is none. Its bytes stay valid until

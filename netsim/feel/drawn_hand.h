@@ -10,7 +10,7 @@
 
 namespace tandem::netsim {
 
-/// Whether each run has its own random hands, or all runs have the same ideal hand.
+/// Kind of simulated hands: random for each run, or the same ideal hand in all runs.
 enum class HandKind : std::uint8_t {
   kDrawn,  ///< impedance, tremor and intention noise drawn from the seed
   kPlain,  ///< impedance of the model, without tremor and noise: for numbers that can be computed by hand

@@ -23,7 +23,7 @@ struct Limit {
   std::optional<double> min, max;    ///< ends included
 };
 
-/// Where a metric exists.
+/// Traits of a metric: the phases in which it exists.
 struct MetricTraits {
   bool by_phase = false;       ///< exists for a single phase
   bool needs_contact = false;  ///< exists only in phases marked `contact`

@@ -12,8 +12,8 @@
 
 namespace tandem::server {
 
-/// Which hand leads each master's seat, and its motion: for display, records and the pull of `assist`. Laws other than
-/// `replica` send it to no client; their records contain the received position.
+/// The hand that leads each master's seat, and that hand's motion: for display, records and the pull of `assist`. Laws
+/// other than `replica` send it to no client; their records contain the received position.
 class LeadingHands {
  public:
   /// @param dt  tick [s]

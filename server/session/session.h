@@ -32,7 +32,8 @@ namespace tandem::server {
 /// One session: seats share tools, coupled by springs under an authority that may change. `on_tick` advances it once
 /// per tick of 1 / `tick_hz`. Sans-I/O: the session receives times and bytes only. The same code runs over UDP and in
 /// the simulation. Its parts have the state; this class routes datagrams to them and calls them in the order of a tick:
-/// participants, authority, references of all seats, tools, targets, FORCE messages (design notes, control 4).
+/// slaves at the server, participants, session clock, authority, references of all seats, tools, leading hands, targets
+/// (design notes, control 4). `on_tick` then fills the FORCE messages once, also after ticks that it catches up.
 class Session {
  public:
   /// @param slaves  one per tool; null for a tool whose slave is a seat, and for a tool without a slave
@@ -148,7 +149,7 @@ class Session {
   FaultMonitor faults_;
   LoadState load_state_;
   bool overloaded_ = false;  ///< as of the last audit event
-  bool held_ = false;        ///< no present seat has authority over any tool, since the session began
+  bool held_ = false;        ///< no tool has a present seat with authority over it; false before the session begins
   Checkpoint::Hash scene_hash_;
   std::uint64_t epoch_ = 1;
   std::uint64_t unmatched_datagrams_ = 0;

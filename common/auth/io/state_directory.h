@@ -69,8 +69,8 @@ class StateDirectory {
   /// Locks `name` against other processes as long as it exists.
   using Lock = io::Fd;
   static constexpr std::chrono::milliseconds kLockTimeout{5000};
-  /// Waits for the lock, at most `patience`; then the error names the process that holds it, if the system reports
-  /// that.
+  /// Waits for the lock. After a timeout the error names the process that holds it, if the system reports that.
+  /// @param patience  timeout
   [[nodiscard]] std::expected<Lock, std::string> lock(const std::string& name,
                                                       std::chrono::milliseconds patience = kLockTimeout) const;
   /// @return nullopt if another process holds the lock

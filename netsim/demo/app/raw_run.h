@@ -8,7 +8,7 @@
 
 namespace tandem::netsim::demo {
 
-/// Unparsed results of a run.
+/// Texts that the programs of one demo run wrote: report, traces and network, not parsed yet.
 struct RawRun {
   std::string json, trace;                 ///< as written by the programs
   std::string trainer, trainee;            ///< traces of the clients; empty in virtual time

@@ -25,7 +25,7 @@ struct AuditState {
 class AuditWriter {
  public:
   /// @param on_event    receives failures of the log
-  /// @param on_message  receives other news of the log, one line each, for the operator of the server
+  /// @param on_message  receives other messages about the log, one line each, for the operator of the server
   AuditWriter(asio::io_context& context, auth::ServerKeystore& trust,
               const std::function<void(const ControlEventRecord&)>& on_event,
               const std::function<void(const std::string&)>& on_message)

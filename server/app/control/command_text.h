@@ -20,7 +20,7 @@ namespace tandem::server {
                                        const CommandOutcome& outcome, const SceneSpec& scene);
 /// Message for the operator of the server about an executed command; empty: no message.
 [[nodiscard]] std::string operator_message(const std::string& who, const rpc::Body& command);
-/// Whether the client may not do this, which is recorded.
+/// Whether the sender may not give this command: its role lacks the right, or the client lost its seat.
 [[nodiscard]] bool is_forbidden(const CommandOutcome& outcome) noexcept;
 /// Reply to the client of any command except a status request: Ok, AuthorityReply or ErrorReply.
 [[nodiscard]] rpc::Body command_reply(const rpc::Body& command, AccessRole role, const CommandOutcome& outcome,

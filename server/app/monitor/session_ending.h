@@ -23,7 +23,7 @@ struct SessionEnding {
   PresenceTracker::Event event;
 };
 
-/// Whether the session must end now; nullopt: it continues.
+/// Returns why the session must end now; nullopt: it continues.
 /// @param news  events of the same `status`
 [[nodiscard]] std::optional<SessionEnding> session_ending(const SessionEnding::Times& when,
                                                           const PresenceTracker::Events& news,
