@@ -91,7 +91,7 @@ class Crowded {
   }
 
   SceneSpec scene_ = watched(), work_ = [] {
-    SceneSpec scene = test::shipped("two_by_two");
+    SceneSpec scene = test::shipped("eight_seats");
     scene.tick_hz = kTickHz;
     return scene;
   }();
