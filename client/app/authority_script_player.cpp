@@ -5,7 +5,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kSilenceMax = 200ms;
+constexpr Duration kToolSilenceMax = 200ms;
 constexpr Duration kRetryAfter = 200ms;
 constexpr Duration kRejectionMax = 1500ms;  // a rejection later than this belongs to another participant's request
 
@@ -13,7 +13,7 @@ constexpr Duration kRejectionMax = 1500ms;  // a rejection later than this belon
 
 const control::MasterArray* AuthorityScriptPlayer::due(Time now, Duration silence, wire::TransferNotice transfer,
                                                        const std::optional<double>& time) noexcept {
-  if (silence > kSilenceMax) return nullptr;
+  if (silence > kToolSilenceMax) return nullptr;
   // A user sees a rejected request and can repeat it. A script request is repeated here.
   bool request = requested_ && transfer == wire::TransferNotice::kCancelled && now - *requested_ > kRetryAfter &&
                  now - *requested_ < kRejectionMax;

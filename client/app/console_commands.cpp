@@ -86,7 +86,7 @@ std::expected<ConsoleCommand, std::string> parse_authority(ConsoleCommand wish, 
 }
 
 /// Returns the sanitised text as a JSON string.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : sanitize(text)) {
     if (c == '"' || c == '\\') out += '\\';
@@ -299,7 +299,7 @@ std::string status_json(const rpc::Status& s) {
         "{\"number\": %u, \"kind\": \"%s\", \"seat\": \"%s\", \"workstation\": \"%s\", \"role\": \"%s\", \"why\": ",
         s.stop->number, kKinds[static_cast<int>(s.stop->kind)], s.stop->seat.c_str(), s.stop->workstation.c_str(),
         std::string(to_text(s.stop->role)).c_str());
-    text += quoted(s.stop->why) + format(", \"ago_s\": %.3f, \"ends\": ", s.stop->ago_s) + quoted(s.stop->ends) +
+    text += in_quotes(s.stop->why) + format(", \"ago_s\": %.3f, \"ends\": ", s.stop->ago_s) + in_quotes(s.stop->ends) +
             (s.stop->yours ? ", \"yours\": true}" : ", \"yours\": false}");
   } else {
     text += "null";
@@ -308,7 +308,7 @@ std::string status_json(const rpc::Status& s) {
   text += s.drain ? format("{\"left_s\": %u, \"sessions\": %u, \"people\": %u}", s.drain->left_s, s.drain->sessions,
                            s.drain->participants)
                   : "null";
-  return text + ", \"held\": " + (s.held.empty() ? "null" : quoted(s.held)) + "}\n";
+  return text + ", \"held\": " + (s.held.empty() ? "null" : in_quotes(s.held)) + "}\n";
 }
 
 }  // namespace tandem::client

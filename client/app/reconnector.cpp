@@ -19,7 +19,7 @@ constexpr Duration kAgain = 100ms, kAgainSpread = 150ms;  // pause between two a
 // Timeout of the first attempt, doubled after each timeout up to the largest. Short first attempts detect a recovered
 // network sooner.
 constexpr Duration kTimeoutFirst = 1s, kTimeoutMax = 5s;
-constexpr double kSilenceMax = 0.5;  // [s] silence up to which the old connection counts as alive
+constexpr double kConnectionSilenceMax = 0.5;  // [s] silence up to which the old connection counts as alive
 
 Duration draw(Duration least, Duration spread) {
   const auto random = auth::random_bytes<std::array<std::byte, 2>>();
@@ -75,7 +75,7 @@ std::expected<Reconnector::Resumed, ResumeError> Reconnector::attempt(Duration t
   options_.timeout = timeout;
   auto given = resume_seat(options_, resume_state_, [this] {
     const ClientStatus now = runner_->status();
-    return now.closed || now.silence_s > kSilenceMax;
+    return now.closed || now.silence_s > kConnectionSilenceMax;
   });
   if (!given) return std::unexpected(given.error());
   auto socket = io::connect_udp(given->udp);

@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double kServerLost = seconds(kSessionTimeout);  // [s] silence after which a seat without reconnect ends
-constexpr double kSilenceMax = 0.5;                       // [s] silence up to which the server counts as present
+constexpr double kServerSilenceMax = 0.5;                 // [s] silence up to which the server counts as present
 constexpr Duration kLeaveMax = 2s;                        // time for the gate to ramp out and for CLOSE to be sent
 constexpr int kPollIntervalMs = 100;
 constexpr std::size_t kSecretsKept = 2;
@@ -135,7 +135,7 @@ void SeatSupervisor::check_device() {
 std::optional<ExitReason> SeatSupervisor::check_server(const ClientStatus& status) {
   const Time now = io::monotonic_now();
   static_cast<void>(o_.runner.connections().take_old());
-  if (const auto outage = server_.update(now, status.heard && !status.closed && status.silence_s < kSilenceMax))
+  if (const auto outage = server_.update(now, status.heard && !status.closed && status.silence_s < kServerSilenceMax))
     o_.line.note(format("the server is back after %.1f s; the force comes up slowly", *outage));
   if (o_.options.reconnect_timeout_s <= 0)
     return status.silence_s > kServerLost ? std::optional(ExitReason::kServerLost) : std::nullopt;
@@ -157,7 +157,7 @@ std::optional<ExitReason> SeatSupervisor::finish_reconnect() {
   if (!resumed) {
     reconnector_.reset();
     const ClientStatus status = o_.runner.status();
-    if (resumed.error().kind != ResumeError::Kind::kGone || (!status.closed && status.silence_s < kSilenceMax))
+    if (resumed.error().kind != ResumeError::Kind::kGone || (!status.closed && status.silence_s < kServerSilenceMax))
       return std::nullopt;
     exit_detail_ = resumed.error().reason + "; join again";
     return ExitReason::kSeatGone;
@@ -231,8 +231,7 @@ void SeatSupervisor::show(ClientStatus status) {
         "OVERLOADED: the server is too busy to keep time; the hand is released, and engaged again automatically");
   session_before_ = status.session;
   const Time now = io::monotonic_now();
-  if (const std::string transfer =
-          transfer_notices_.message(seconds(now.time_since_epoch()), status, o_.seat.setup(), last_status_);
+  if (const std::string transfer = transfer_notices_.message(seconds(now), status, o_.seat.setup(), last_status_);
       !transfer.empty())
     o_.line.note(transfer);
   if (now - shown_at_ < std::chrono::milliseconds(o_.line.interval_ms())) return;

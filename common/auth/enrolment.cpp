@@ -9,7 +9,7 @@
 namespace tandem::auth {
 namespace {
 
-constexpr std::string_view kPrefix = "tandem:";
+constexpr std::string_view kEnrolmentPrefix = "tandem:";
 constexpr std::byte kVersion{1};
 constexpr std::size_t kHead = 2, kPin = 32, kCode = 16, kCheck = 4;
 constexpr std::size_t kSessionCode = 10;
@@ -44,15 +44,15 @@ std::string EnrolmentString::to_text() const {
   add(code.bytes);
   const auto check = sha256(all.bytes);
   add(std::span(check).first(kCheck));
-  return std::string(kPrefix) + to_base32(all.bytes);
+  return std::string(kEnrolmentPrefix) + to_base32(all.bytes);
 }
 
 std::expected<EnrolmentString, std::string> EnrolmentString::from_text(std::string_view text) {
-  std::string prefix(text.substr(0, kPrefix.size()));
+  std::string prefix(text.substr(0, kEnrolmentPrefix.size()));
   std::ranges::transform(prefix, prefix.begin(),
                          [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  if (prefix != kPrefix) return std::unexpected("begins with `tandem:`, as tandem-server enroll prints it");
-  auto decoded = from_base32(text.substr(kPrefix.size()));
+  if (prefix != kEnrolmentPrefix) return std::unexpected("begins with `tandem:`, as tandem-server enroll prints it");
+  auto decoded = from_base32(text.substr(kEnrolmentPrefix.size()));
   if (!decoded) return std::unexpected("a character is wrong or missing; copy it again, whole");
   const Wiped all{std::move(*decoded)};
   const std::span<const std::byte> bytes = all.bytes;

@@ -16,7 +16,7 @@ static_assert(kSeatAt + Ticket::kSeatMax == kNotBeforeAt && kEpochAt + 8 == kSig
               kSigned + sizeof(Signature) == kTicketSize);
 /// Domain separation: a signature under this key can only mean a ticket. The zero ends the label.
 constexpr std::string_view kDomain{"tandem ticket v1\0", 17};
-constexpr std::string_view kPrefix = "ticket:";
+constexpr std::string_view kTicketPrefix = "ticket:";
 
 template <class T>
 void put(std::span<std::byte> out, std::size_t at, T value) noexcept {
@@ -124,12 +124,12 @@ std::expected<TicketBytes, std::string> sign_ticket(const Ticket& ticket, const 
   return out;
 }
 
-std::string ticket_text(const TicketBytes& ticket) { return std::string(kPrefix) + to_base32(ticket); }
+std::string ticket_text(const TicketBytes& ticket) { return std::string(kTicketPrefix) + to_base32(ticket); }
 
 std::expected<TicketBytes, std::string> ticket_from_text(std::string_view text) {
-  if (!text.starts_with(kPrefix))
+  if (!text.starts_with(kTicketPrefix))
     return std::unexpected("a ticket begins with `ticket:`, as tandem-server ticket prints it");
-  const auto bytes = from_base32(text.substr(kPrefix.size()));
+  const auto bytes = from_base32(text.substr(kTicketPrefix.size()));
   if (!bytes) return std::unexpected("a character of the ticket is wrong or missing; copy it again, whole");
   if (bytes->size() != kTicketSize)
     return std::unexpected(format("the ticket has %zu of %zu bytes; copy it again, whole", bytes->size(), kTicketSize));

@@ -24,6 +24,9 @@ using Time = Clock::time_point;
 /// Converts to seconds as double, for laws and reports; exact to the nanosecond up to 2^53 ns (104 days).
 [[nodiscard]] constexpr double seconds(Duration d) noexcept { return std::chrono::duration<double>(d).count(); }
 
+/// Returns the time since the start of the caller's clock in seconds.
+[[nodiscard]] constexpr double seconds(Time t) noexcept { return seconds(t.time_since_epoch()); }
+
 /// Returns the nanosecond nearest to `s` seconds. Valid for |s| < 9e9.
 [[nodiscard]] constexpr Duration from_seconds(double s) noexcept {
   return Duration{static_cast<std::int64_t>(s * 1e9 + (s < 0 ? -0.5 : 0.5))};

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/control/vector3.h"
+
 namespace tandem::control {
 
 namespace {
 
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector unit(Vector v) noexcept {
+Vector3 unit(Vector3 v) noexcept {
   const double length = std::sqrt(dot(v, v));
   for (double& part : v) part /= length;
   return v;
@@ -19,7 +18,7 @@ Vector unit(Vector v) noexcept {
 /// Converts a received surface; its normal has length 1 to double precision.
 Contact surface_of(const LocalContact& told) noexcept {
   Contact out{.k = told.k, .b = told.b, .mu = told.mu};
-  const Vector point{told.point[0], told.point[1], told.point[2]};
+  const Vector3 point{told.point[0], told.point[1], told.point[2]};
   out.normal = unit({told.normal[0], told.normal[1], told.normal[2]});
   out.at = dot(out.normal, point);
   return out;
@@ -61,7 +60,7 @@ void LocalContacts::update(std::span<const LocalContact> told) noexcept {
 
 bool LocalContacts::step(const AxisArray& x, ChannelEnd* end) noexcept {
   if (used_ == 0 && surfaces_.size() == 0) return false;
-  const Vector here{x[0], p_.axes > 1 ? x[1] : 0, p_.axes > 2 ? x[2] : 0};
+  const Vector3 here{x[0], p_.axes > 1 ? x[1] : 0, p_.axes > 2 ? x[2] : 0};
   surfaces_.keep(0);
   for (Slot& slot : slots_) {
     if (!slot.used) continue;
@@ -75,7 +74,7 @@ bool LocalContacts::step(const AxisArray& x, ChannelEnd* end) noexcept {
   return true;
 }
 
-void LocalContacts::follow(Slot& slot, const Vector& x, ChannelEnd* end) noexcept {
+void LocalContacts::follow(Slot& slot, const Vector3& x, ChannelEnd* end) noexcept {
   Contact& now = slot.now;
   const double before = now.penetration(x);
   settle(slot, before, end);
@@ -133,7 +132,7 @@ void LocalContacts::settle(Slot& slot, double depth, ChannelEnd* end) const noex
 
 /// Turns the surface about the tool: penetration and stored energy stay the same.
 void LocalContacts::turn(Contact& now, const Contact& told) const noexcept {
-  Vector way{};
+  Vector3 way{};
   for (std::size_t a = 0; a < way.size(); ++a) way[a] = told.normal[a] - now.normal[a];
   const double length = std::sqrt(dot(way, way)), most = kTurn * p_.dt;
   if (length <= most) {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "common/control/vector3.h"
+
 namespace tandem::control {
 
 namespace {
-
-using Vector = std::array<double, 3>;
 
 constexpr double kSmooth = 0.01;       // time constant of forces [s]
 constexpr double kPersist = 0.02;      // a touch begins or ends after its condition held for this time [s]
@@ -22,9 +22,8 @@ constexpr double kSpread = 0.05;       // spread of forces below which they do n
 constexpr double kTouchedMin = 0.05;   // [s]
 constexpr double kHand = 1 / 400.0;    // compliance of a hand's spring [m/N]
 
-double dot(const Vector& a, const Vector& b) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double norm(const Vector& v) noexcept { return std::sqrt(dot(v, v)); }
-Vector scaled(const Vector& v, double by) noexcept { return {v[0] * by, v[1] * by, v[2] * by}; }
+double norm(const Vector3& v) noexcept { return std::sqrt(dot(v, v)); }
+Vector3 scaled(const Vector3& v, double by) noexcept { return {v[0] * by, v[1] * by, v[2] * by}; }
 
 }  // namespace
 
@@ -36,7 +35,7 @@ void PlaneEstimator::reset() noexcept {
 
 /// Ends the touch and discards what was learned about its surface.
 void PlaneEstimator::leave() noexcept {
-  const Vector force = force_, x = x_, v = v_, a = a_;
+  const Vector3 force = force_, x = x_, v = v_, a = a_;
   reset();
   force_ = force;
   x_ = x;
@@ -45,8 +44,8 @@ void PlaneEstimator::leave() noexcept {
   heard_ = true;
 }
 
-Vector PlaneEstimator::point() const noexcept {
-  Vector out = origin_;
+Vector3 PlaneEstimator::point() const noexcept {
+  Vector3 out = origin_;
   for (std::size_t a = 0; a < out.size(); ++a) out[a] -= place_ * normal_[a];
   return out;
 }
@@ -100,7 +99,7 @@ void PlaneEstimator::turn(double dt, const Sample& sample) noexcept {
   double slip = 0;
   for (std::size_t a = 0; a < axes_; ++a) slip += std::pow(sample.v[a] - into * normal_[a], 2);
   if (strength < kTouchForce || slip > kSlip * kSlip) return;
-  Vector way{};
+  Vector3 way{};
   for (std::size_t a = 0; a < axes_; ++a) way[a] = force_[a] / strength - normal_[a];
   const double angle = norm(way);
   if (angle == 0) return;

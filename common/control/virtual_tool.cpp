@@ -3,20 +3,19 @@
 #include <cmath>
 #include <utility>
 
+#include "common/control/vector3.h"
+
 namespace tandem::control {
 
 namespace {
 
-using Vector = std::array<double, VirtualTool::kAxes>;
-using Matrix = std::array<Vector, VirtualTool::kAxes>;
+using Matrix = std::array<Vector3, VirtualTool::kAxes>;
 
 /// Static friction is modelled as damping so large that the tool creeps by 0.01 mm/s under 1 kN [N s/m].
 constexpr double kHolds = 1e8;
 
-double dot(const Vector& a, const Vector& b) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// Solves a symmetric, positive definite system by elimination; three unknowns need no pivot.
-Vector solved(Matrix m, Vector r) noexcept {
+Vector3 solved(Matrix m, Vector3 r) noexcept {
   for (std::size_t i = 0; i < r.size(); ++i) {
     for (std::size_t j = i + 1; j < r.size(); ++j) {
       const double factor = m[j][i] / m[i][i];
@@ -41,7 +40,7 @@ void VirtualTool::rest_at(const AxisArray& x) noexcept {
 
 bool VirtualTool::step(double dt, const Pulls& pulls) noexcept {
   Equations free;
-  Vector velocity{};
+  Vector3 velocity{};
   for (std::size_t a = 0; a < kAxes; ++a) {
     free.matrix[a][a] = 1;
     if (a >= axes_) continue;
@@ -70,7 +69,7 @@ void VirtualTool::set_received_contacts(const ContactSet& told) noexcept {
 
 /// Determines the touched surfaces by rounds: a surface that the step would enter is added; one that would have to pull
 /// is removed.
-void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector& velocity) noexcept {
+void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector3& velocity) noexcept {
   surface_force_ = surface_k_ = surface_b_ = {};
   if (contacts_.size() == 0) return;
   Surfaces surfaces{};
@@ -112,10 +111,10 @@ void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector& veloci
   if (!settled) velocity = {};
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (!surfaces[c].met) continue;
-    const Vector& n = contacts_[c].normal;
+    const Vector3& n = contacts_[c].normal;
     const double force = std::max(0.0, surfaces[c].force - surfaces[c].gain * dot(n, velocity));
     const double slope = contacts_[c].slope(contacts_[c].penetration(x_));
-    const Vector slip = surfaces[c].drag > 0 ? across(contacts_[c], velocity) : Vector{};
+    const Vector3 slip = surfaces[c].drag > 0 ? across(contacts_[c], velocity) : Vector3{};
     for (std::size_t a = 0; a < axes_; ++a) {
       surface_force_[a] += force * n[a] - surfaces[c].drag * slip[a];
       surface_k_[a] += slope * n[a] * n[a];
@@ -124,10 +123,10 @@ void VirtualTool::meet_surfaces(double dt, const Equations& free, Vector& veloci
   }
 }
 
-Vector VirtualTool::with_surfaces(double dt, Equations equations, const Surfaces& surfaces) const noexcept {
+Vector3 VirtualTool::with_surfaces(double dt, Equations equations, const Surfaces& surfaces) const noexcept {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (!surfaces[c].met) continue;
-    const Vector& n = contacts_[c].normal;
+    const Vector3& n = contacts_[c].normal;
     for (std::size_t i = 0; i < axes_; ++i) {
       equations.rhs[i] += dt * surfaces[c].force * n[i];
       for (std::size_t j = 0; j < axes_; ++j)
@@ -143,7 +142,7 @@ Vector VirtualTool::with_surfaces(double dt, Equations equations, const Surfaces
 /// and no chatter. One round is exact where one surface is touched and all axes are alike; other cases take a few
 /// rounds.
 void VirtualTool::apply_friction(double dt, const Equations& free, Surfaces& surfaces,
-                                 Vector& velocity) const noexcept {
+                                 Vector3& velocity) const noexcept {
   for (std::size_t c = 0; c < contacts_.size(); ++c)
     surfaces[c].drag = surfaces[c].met && contacts_[c].mu > 0 ? kHolds : 0;
   velocity = with_surfaces(dt, free, surfaces);
@@ -154,7 +153,7 @@ void VirtualTool::apply_friction(double dt, const Equations& free, Surfaces& sur
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       Met& surface = surfaces[c];
       if (surface.drag == 0) continue;
-      const Vector slip = across(contacts_[c], velocity);
+      const Vector3 slip = across(contacts_[c], velocity);
       const double rate = std::sqrt(dot(slip, slip));
       const double most =
           contacts_[c].mu * std::max(0.0, surface.force - surface.gain * dot(contacts_[c].normal, velocity));
@@ -170,9 +169,9 @@ void VirtualTool::apply_friction(double dt, const Equations& free, Surfaces& sur
 }
 
 /// Returns the part of a vector that lies in the surface, in the axes of this tool.
-Vector VirtualTool::across(const Contact& contact, const Vector& vector) const noexcept {
+Vector3 VirtualTool::across(const Contact& contact, const Vector3& vector) const noexcept {
   const double along = dot(contact.normal, vector);
-  Vector out{};
+  Vector3 out{};
   for (std::size_t a = 0; a < axes_; ++a) out[a] = vector[a] - along * contact.normal[a];
   return out;
 }

@@ -82,7 +82,7 @@ class JsonLines final : public spdlog::formatter {
         1e-6 *
         static_cast<double>(
             std::chrono::duration_cast<std::chrono::microseconds>(read_clock(CLOCK_REALTIME) - since_epoch).count());
-    const double mono = seconds(monotonic_now().time_since_epoch()) - ago;
+    const double mono = seconds(monotonic_now()) - ago;
     char head[128];
     std::snprintf(head, sizeof head, "{\"ts\":\"%04d-%02d-%02dT%02d:%02d:%02d.%06ldZ\",\"mono\":%.6f,\"level\":\"%s\",",
                   utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,

@@ -32,7 +32,7 @@ DeviceFilter wanted(const DeviceSpec& choice) {
 }
 
 /// Returns the options of the specification and its files, or all their errors.
-Result<FalconOptions> parse_options(const DeviceSpec& choice) {
+Result<FalconOptions> parse_falcon_options(const DeviceSpec& choice) {
   OptionParser judge{choice, {"port", "serial", "firmware", "calibration"}};
   if (!choice.name.empty())
     judge.add_error("'" + choice.name.substr(0, 60) +
@@ -90,7 +90,7 @@ std::vector<DeviceFact> FalconBackend::facts() const {
 }
 
 Result<> FalconBackend::check(const DeviceSpec& choice) const {
-  auto understood = parse_options(choice);
+  auto understood = parse_falcon_options(choice);
   return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
 }
 
@@ -108,7 +108,7 @@ Result<std::vector<FoundDevice>> FalconBackend::list() {
 std::vector<std::string> FalconBackend::udev_rules() const { return {udev_rule(Bus::kUsb, kFalcon)}; }
 
 Result<OpenedDriver> FalconBackend::open(const DeviceSpec& choice) {
-  auto understood = parse_options(choice);
+  auto understood = parse_falcon_options(choice);
   if (!understood) return std::unexpected(std::move(understood.error()));
   FalconOptions& options = *understood;
   const auto attached = list_usb();

@@ -13,7 +13,7 @@ constexpr const char* kSerialTouch =
 constexpr std::uint16_t k3dSystems = 0x2988;
 
 /// Returns whether home=here states that the device rests in its reset pose, or all errors of the specification.
-Result<bool> parse_options(const DeviceSpec& choice) {
+Result<bool> parse_openhaptics_options(const DeviceSpec& choice) {
   OptionParser judge{choice, {"library", "home"}};
   const bool home = choice.find("home").has_value() && judge.one_of("home", {"here"}) == "here";
   if (auto fine = judge.result(); !fine) return std::unexpected(std::move(fine.error()));
@@ -41,7 +41,7 @@ std::vector<DeviceFact> OpenHapticsBackend::facts() const {
 }
 
 Result<> OpenHapticsBackend::check(const DeviceSpec& choice) const {
-  auto understood = parse_options(choice);
+  auto understood = parse_openhaptics_options(choice);
   return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
 }
 
@@ -58,7 +58,7 @@ Result<std::vector<FoundDevice>> OpenHapticsBackend::list() {
 }
 
 Result<OpenedDriver> OpenHapticsBackend::open(const DeviceSpec& choice) {
-  const auto home = parse_options(choice);
+  const auto home = parse_openhaptics_options(choice);
   if (!home) return std::unexpected(home.error());
   const std::string file = choice.find("library").value_or(OpenHapticsLibrary::kFile);
   if (library_ && file_ != file)

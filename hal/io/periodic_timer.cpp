@@ -7,17 +7,13 @@
 #include <cerrno>
 #include <ctime>
 
+#include "hal/io/monotonic.h"
+
 namespace tandem::hal {
 namespace {
 
 constexpr int kPriority = 60;
 constexpr Duration kLateLimit = std::chrono::milliseconds(1);
-
-Time monotonic_now() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return Time{} + std::chrono::seconds(t.tv_sec) + std::chrono::nanoseconds(t.tv_nsec);
-}
 
 }  // namespace
 

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 /// Longest gap that the plant is stepped through; longer gaps (suspended machine) are cut to it.
 constexpr Duration kCatchUpMax = 250ms;
-constexpr std::uint64_t kPublishEvery = 64;  // ticks between copies for readers
+constexpr std::uint64_t kSimPublishEvery = 64;  // ticks between copies for readers
 
 bool finite(const Command& command) noexcept {
   return std::all_of(command.effort.begin(), command.effort.end(), [](double e) { return std::isfinite(e); });
@@ -92,7 +92,7 @@ void SimServo::count(bool expired, bool rejected) noexcept {
   ++stats_.ticks;
   stats_.expired += expired ? 1 : 0;
   stats_.rejected += rejected ? 1 : 0;
-  if (stats_.ticks % kPublishEvery == 1 && stats_lock_.try_lock()) {
+  if (stats_.ticks % kSimPublishEvery == 1 && stats_lock_.try_lock()) {
     publish();
     stats_lock_.unlock();
   }

@@ -7,23 +7,17 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "hal/io/monotonic.h"
 #include "hal/io/udev_rule.h"
 
 namespace tandem::hal {
 namespace {
 
 constexpr std::uint8_t kVendorOut = 0x40;  ///< bmRequestType: host to device, vendor, device
-
-Time now() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return Time{std::chrono::seconds(t.tv_sec) + Duration{t.tv_nsec}};
-}
 
 Errc from_call(int code) noexcept {
   switch (code) {
@@ -182,7 +176,7 @@ struct LibusbPipe::Impl {
 
   /// @return whether the transfer ended within `timeout`
   bool wait(Slot& slot, Duration timeout) noexcept {
-    const Time until = now() + timeout;
+    const Time until = monotonic_now() + timeout;
     Duration left = timeout;
     while (slot.done == 0) {  // may have ended during the wait for another transfer
       const auto whole = std::chrono::duration_cast<std::chrono::seconds>(std::max(left, Duration::zero()));
@@ -194,7 +188,7 @@ struct LibusbPipe::Impl {
         libusb_handle_events_timeout_completed(context, &no_wait, &slot.done);
       }
       if (slot.done == 0 && left <= Duration::zero()) return false;
-      left = until - now();
+      left = until - monotonic_now();
     }
     slot.under_way = false;
     return true;

@@ -31,7 +31,7 @@ constexpr int kRounds = 100;          // one per millisecond
 constexpr unsigned kUsbTimeout = 20;  // [ms]
 constexpr std::size_t kDevicesMax = 8;
 constexpr rlim_t kFilesMax = 1U << 20;  // the kernel's default limit of descriptors
-constexpr int kPriority = 61;
+constexpr int kWatchdogPriority = 61;
 constexpr int kShutdownPolls = 500;  // [ms]
 
 struct WatchedDevices {
@@ -114,7 +114,7 @@ bool supervise(WatchedDevices& watched, int line, const Heartbeat& pulse) noexce
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP}) ::signal(signal, SIG_IGN);
   ::setsid();  // own session: signals to the client's process group or terminal do not reach this process
   ::prctl(PR_SET_NAME, "tandem-watchdog");
-  const sched_param priority{kPriority};
+  const sched_param priority{kWatchdogPriority};
   ::sched_setscheduler(0, SCHED_FIFO,
                        &priority);  // priority above the servo; if the system refuses, the default priority remains
   close_all_but(watched, line);

@@ -9,9 +9,9 @@
 namespace tandem::hal::sim {
 namespace {
 
-constexpr double kForceMax = 1000.0, kTravelMax = 10.0, kSpeedMax = 100.0, kSpeedMin = 1e-30;
+constexpr double kHandForceMax = 1000.0, kTravelMax = 10.0, kSpeedMax = 100.0, kSpeedMin = 1e-30;
 
-double bounded(double v) noexcept { return std::isfinite(v) ? std::clamp(v, -kForceMax, kForceMax) : 0.0; }
+double bounded(double v) noexcept { return std::isfinite(v) ? std::clamp(v, -kHandForceMax, kHandForceMax) : 0.0; }
 
 }  // namespace
 

@@ -18,7 +18,7 @@ constexpr double kM23 = kM3 * kL1 * kR3;
 constexpr double kG2 = (kM2 * kR2 + kM3 * kL1) * kG;
 constexpr double kG3 = kM3 * kR3 * kG;
 
-constexpr double kEffortMax = 10.0, kForceMax = 1000.0, kRateMax = 200.0, kRateMin = 1e-30;
+constexpr double kEffortMax = 10.0, kForceMax = 1000.0, kRateMax = 200.0, kJointRateMin = 1e-30;
 
 // Mechanical stops (assumed: somewhat outside the reachable part of the vendor's workspace).
 // A stop is a stiff implicit spring and damper. Beyond kStopSoft the joint is held, so that q is bounded under every
@@ -214,7 +214,7 @@ void TouchPlant::substep(const Vec3& tau, const HandPull& hand, const Vec3& inte
   if (!dq.allFinite()) dq.setZero();
   // Values that decay without end would become denormal. Then a resting device would cost ten times as much as a moving
   // one.
-  dq = (dq.array().abs() < kRateMin).select(0.0, dq);
+  dq = (dq.array().abs() < kJointRateMin).select(0.0, dq);
   dq = dq.cwiseMax(-kRateMax).cwiseMin(kRateMax);
   f_hand_ += pull - hand.b * v;
   q_ += 0.5 * h * (dq_ + dq);

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kShares{0.05, 0.50, 0.95, 0.99};
+constexpr std::array kReportShares{0.05, 0.50, 0.95, 0.99};
 constexpr std::array kShareNames{"p5", "p50", "p95", "p99"};
 
 const ProfilePreviewDirection& way_of(const ProfilePreview& portrait, Direction direction) {
@@ -57,7 +57,7 @@ std::string causes_of(const ProfilePreviewDirection& way) {
 
 std::array<double, 4> quantiles_ms(const ProfilePreviewDirection& way) {
   std::array<double, 4> q{};
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] = seconds(way.quantile(kShares[i])) * 1e3;
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = seconds(way.quantile(kReportShares[i])) * 1e3;
   return q;
 }
 
@@ -68,11 +68,10 @@ std::string measured_text(const ProfileSource& subject, const ProfilePreview& po
   for (const Direction direction : {Direction::kUp, Direction::kDown}) {
     const ProfilePreviewDirection& way = way_of(portrait, direction);
     const DirectionSummary& quality = quality_of(portrait, direction);
-    text +=
-        measured_row(name(direction), quantiles_ms(way),
-                     format(" %8s %9s  %s at %.1f s", ms_cell(seconds(way.quantile(1)) * 1e3).c_str(),
-                            share_text(quality.lost_share()).c_str(), delay_text(seconds(quality.longest_gap)).c_str(),
-                            seconds(quality.longest_gap_at.time_since_epoch())));
+    text += measured_row(name(direction), quantiles_ms(way),
+                         format(" %8s %9s  %s at %.1f s", ms_cell(seconds(way.quantile(1)) * 1e3).c_str(),
+                                share_text(quality.lost_share()).c_str(),
+                                delay_text(seconds(quality.longest_gap)).c_str(), seconds(quality.longest_gap_at)));
     for (const ProfileCheck& check : subject.profile.checks) {
       if (check.direction == direction) text += measured_row("  promised", check.delay_ms, "");
     }
@@ -159,8 +158,8 @@ Json profile_json(const ProfileSource& subject, const ProfilePreview& portrait) 
 plot::Figure profile_figure(const ProfileSource& subject, const ProfilePreview& portrait) {
   std::vector<ExpectedQuantile> promised;
   for (const ProfileCheck& check : subject.profile.checks) {
-    for (std::size_t i = 0; i < kShares.size(); ++i)
-      promised.push_back({check.direction, kShares[i], check.delay_ms[i]});
+    for (std::size_t i = 0; i < kReportShares.size(); ++i)
+      promised.push_back({check.direction, kReportShares[i], check.delay_ms[i]});
   }
   return profile_preview_figure(portrait, subject.profile.name, promised);
 }

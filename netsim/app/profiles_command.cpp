@@ -31,7 +31,9 @@ struct ProfilesArguments {
   bool json = false, text = false, ascii = false;
 };
 
-int wrong(const std::string& message) { return io::report_usage_error("tandem-netsim profiles", message); }
+int profiles_usage_error(const std::string& message) {
+  return io::report_usage_error("tandem-netsim profiles", message);
+}
 
 /// Returns whether the terminal uses UTF-8. As in the C library, the first of these variables that is set names the
 /// encoding.
@@ -63,12 +65,13 @@ int list(bool json) {
 
 int show(const ProfilesArguments& arguments) {
   auto subject = load_profile_source(arguments.name, from_seconds(arguments.interval_ms * 1e-3));
-  if (!subject) return wrong(subject.error());
+  if (!subject) return profiles_usage_error(subject.error());
   if (arguments.interval_ms > 0 && !subject->plays_interval)
-    return wrong("--trace-interval: is for a recording without a column of times, and " + arguments.name +
-                 " is none; leave it out");
+    return profiles_usage_error("--trace-interval: is for a recording without a column of times, and " +
+                                arguments.name + " is none; leave it out");
   if (arguments.text) {
-    if (subject->recording) return wrong("--text: " + arguments.name + " is a recording and has no text of a profile");
+    if (subject->recording)
+      return profiles_usage_error("--text: " + arguments.name + " is a recording and has no text of a profile");
     std::fputs(subject->text.c_str(), stdout);
     return 0;
   }
@@ -118,7 +121,8 @@ int profiles_command(const ProfilesArguments& arguments) {
   if (!arguments.name.empty()) return show(arguments);
   for (const char* option : {"--text", "--svg", "--capacity", "--minutes", "--seconds", "--seed", "--trace-interval"})
     if (arguments.command.given(option))
-      return wrong("--text, --svg, --capacity, --minutes, --seconds, --seed and --trace-interval need NAME");
+      return profiles_usage_error(
+          "--text, --svg, --capacity, --minutes, --seconds, --seed and --trace-interval need NAME");
   return list(arguments.json);
 }
 

@@ -51,7 +51,7 @@ int trouble(const std::string& message) {
   return io::kExitTrouble;
 }
 
-int wrong(const std::string& message) { return io::report_usage_error("tandem-netsim proxy", message); }
+int proxy_usage_error(const std::string& message) { return io::report_usage_error("tandem-netsim proxy", message); }
 
 /// Returns the function that finds a network named while the proxy runs.
 ProxyControl::FindNetwork find_network(const NetworkOptions& networks) {
@@ -132,7 +132,7 @@ int proxy_command(const ProxyArguments& arguments) {
   ControlSocket socket;
   if (!arguments.control.empty()) {
     if (const std::string problem = socket.open(arguments.control); !problem.empty())
-      return wrong("--control: " + problem);
+      return proxy_usage_error("--control: " + problem);
   }
   if (const std::string problem = log.open(arguments.log); !problem.empty()) return trouble("--log: " + problem);
 

@@ -35,7 +35,7 @@ struct RunArguments {
   NetworkOptions network;
 };
 
-int wrong(const std::string& mistake) { return io::report_usage_error("tandem-netsim run", mistake); }
+int run_usage_error(const std::string& mistake) { return io::report_usage_error("tandem-netsim run", mistake); }
 
 /// Adds the parts that depend on the seats: scripts and recordings name them.
 /// @param notes  receives facts about the script's networks for the report
@@ -188,15 +188,16 @@ int run_command(const RunArguments& arguments) {
   setup.monitor_quality = !arguments.no_quality;
   if (arguments.check) return check(arguments, setup, *network);
   auto made = Simulation::make(setup);
-  if (!made) return wrong(made.error());
+  if (!made) return run_usage_error(made.error());
   const bool json_on_stdout = arguments.json == "-";
   io::OutputFile json_file, trace_file;
-  if (const auto problem = json_file.open(arguments.json, true); !problem.empty()) return wrong("--json: " + problem);
+  if (const auto problem = json_file.open(arguments.json, true); !problem.empty())
+    return run_usage_error("--json: " + problem);
   if (const auto problem = trace_file.open(arguments.trace, false); !problem.empty())
-    return wrong("--trace: " + problem);
+    return run_usage_error("--trace: " + problem);
   Simulation& simulation = **made;
   RunLog log;
-  if (const auto problem = log.open(arguments.log); !problem.empty()) return wrong("--log: " + problem);
+  if (const auto problem = log.open(arguments.log); !problem.empty()) return run_usage_error("--log: " + problem);
   log.attach(simulation.network());
 
   const SignalWatcher interruption;

@@ -26,7 +26,7 @@ struct SweepArguments {
   bool quiet = false;
 };
 
-int wrong(const std::string& mistake) { return io::report_usage_error("tandem-netsim sweep", mistake); }
+int sweep_usage_error(const std::string& mistake) { return io::report_usage_error("tandem-netsim sweep", mistake); }
 
 /// Makes the sweep from the arguments; collects all errors.
 SweepSpec understand(const SweepArguments& a, io::UsageErrors& mistakes) {
@@ -98,8 +98,9 @@ int sweep_command(const SweepArguments& a) {
 
   const SignalWatcher interruption;
   io::OutputFile json_file, csv_file;
-  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong("--json: " + problem);
-  if (const auto problem = csv_file.open(a.csv, true); !problem.empty()) return wrong("--csv: " + problem);
+  if (const auto problem = json_file.open(a.json, true); !problem.empty())
+    return sweep_usage_error("--json: " + problem);
+  if (const auto problem = csv_file.open(a.csv, true); !problem.empty()) return sweep_usage_error("--csv: " + problem);
   TestProgress progress(a.quiet);
   TestOptions options{.seed = a.seed,
                       .seeds = static_cast<std::uint64_t>(a.seeds),

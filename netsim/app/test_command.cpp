@@ -29,7 +29,7 @@ struct TestArguments {
   bool fail_fast = false, list = false, check = false, reports = false, quiet = false;
 };
 
-int wrong(const std::string& mistake) { return io::report_usage_error("tandem-netsim test", mistake); }
+int test_usage_error(const std::string& mistake) { return io::report_usage_error("tandem-netsim test", mistake); }
 
 void list(const std::vector<Scenario>& scenarios) {
   std::size_t width = 0;
@@ -116,8 +116,10 @@ int test_command(const TestArguments& a) {
   }
   const SignalWatcher interruption;
   io::OutputFile json_file, junit_file;
-  if (const auto problem = json_file.open(a.json, true); !problem.empty()) return wrong("--json: " + problem);
-  if (const auto problem = junit_file.open(a.junit, false); !problem.empty()) return wrong("--junit: " + problem);
+  if (const auto problem = json_file.open(a.json, true); !problem.empty())
+    return test_usage_error("--json: " + problem);
+  if (const auto problem = junit_file.open(a.junit, false); !problem.empty())
+    return test_usage_error("--junit: " + problem);
 
   TestProgress progress(a.quiet);
   TestOptions options{.jobs = static_cast<std::size_t>(a.jobs),

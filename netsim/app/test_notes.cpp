@@ -5,7 +5,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr std::size_t kSeedsShown = 5;
+constexpr std::size_t kNoteSeedsShown = 5;
 
 /// Notes of one kind. Sessions of different seeds begin at different times; the number after the last comma differs.
 struct Kind {
@@ -24,9 +24,10 @@ std::string seeds_text(const Kind& kind, std::size_t all) {
            : kind.note == kind.head ? " (every seed)"
                                     : " (seed " + std::to_string(kind.seeds.front()) + ", the others alike)";
   std::string text;
-  for (std::size_t i = 0; i < kind.seeds.size() && i < kSeedsShown; ++i)
+  for (std::size_t i = 0; i < kind.seeds.size() && i < kNoteSeedsShown; ++i)
     text += (i == 0 ? "" : ", ") + std::to_string(kind.seeds[i]);
-  if (kind.seeds.size() > kSeedsShown) text += " and " + std::to_string(kind.seeds.size() - kSeedsShown) + " more";
+  if (kind.seeds.size() > kNoteSeedsShown)
+    text += " and " + std::to_string(kind.seeds.size() - kNoteSeedsShown) + " more";
   return (kind.seeds.size() == 1 ? " (seed " : " (seeds ") + text + ")";
 }
 

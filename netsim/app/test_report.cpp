@@ -18,7 +18,7 @@ using State = SeedOutcome::State;
 constexpr std::size_t kSeedsShown = 40;     // marks per line of the table
 constexpr std::size_t kFailuresShown = 20;  // with causes; the others by seed only
 
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+Json json_number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 /// Value of a limit that is nearest to breaking it, or exceeds it most.
 struct Worst {
@@ -220,9 +220,9 @@ std::string test_json(const TestResult& result) {
              {"scene", s.scene},
              {"network", s.network},
              {"seat_networks", Json::array()},
-             {"duration_s", number(s.setup.scene.duration)},
+             {"duration_s", json_number(s.setup.scene.duration)},
              {"verdict", r.passed() ? "pass" : "fail"},
-             {"cpu_s", number(scenario_cpu)}};
+             {"cpu_s", json_number(scenario_cpu)}};
     for (const auto& [seat, network] : s.seat_networks)
       one["seat_networks"].push_back({{"seat", seat}, {"network", network}});
     one["notes"] = s.notes;
@@ -234,17 +234,17 @@ std::string test_json(const TestResult& result) {
           {{"subject", limit.subject},
            {"metric", limit.metric},
            {"unit", limit.unit},
-           {"min", limit.min ? number(*limit.min) : Json(nullptr)},
-           {"max", limit.max ? number(*limit.max) : Json(nullptr)},
-           {"worst", worst ? number(worst->value) : Json(nullptr)},
+           {"min", limit.min ? json_number(*limit.min) : Json(nullptr)},
+           {"max", limit.max ? json_number(*limit.max) : Json(nullptr)},
+           {"worst", worst ? json_number(worst->value) : Json(nullptr)},
            {"worst_seed", worst ? Json(worst->seed) : Json(nullptr)},
-           {"margin_percent", worst ? number(margin_percent(limit, worst->value)) : Json(nullptr)}});
+           {"margin_percent", worst ? json_number(margin_percent(limit, worst->value)) : Json(nullptr)}});
     }
     one["seeds"] = Json::array();
     for (const SeedOutcome& o : r.seeds) {
       Json seed{{"seed", o.seed}, {"verdict", name(o.state)}, {"causes", causes(s, o)}};
       seed["values"] = Json::array();
-      for (const double value : o.values) seed["values"].push_back(number(value));
+      for (const double value : o.values) seed["values"].push_back(json_number(value));
       seed["violations"] = Json::array();
       for (const server::Violation& v : o.violations)
         seed["violations"].push_back({{"invariant", v.invariant},
@@ -255,9 +255,9 @@ std::string test_json(const TestResult& result) {
       seed["network"] = Json::array();
       for (const auto& [seat, band] : o.bands) seed["network"].push_back({{"seat", seat}, {"band", band}});
       seed["notes"] = o.notes;
-      seed["duration_s"] = number(o.duration_s);
+      seed["duration_s"] = json_number(o.duration_s);
       seed["trace_hash"] = o.trace_hash;
-      seed["cpu_s"] = number(o.cpu_s);
+      seed["cpu_s"] = json_number(o.cpu_s);
       seed["replay"] = replay_command(s, o.seed);
       if (!o.report.empty()) seed["report"] = Json::parse(o.report);
       one["seeds"].push_back(std::move(seed));
@@ -270,7 +270,7 @@ std::string test_json(const TestResult& result) {
   j["seeds_run"] = seeds - result.not_run();
   j["seeds_failed"] = failed;
   j["seeds_not_run"] = result.not_run();
-  j["cpu_s"] = number(cpu);
+  j["cpu_s"] = json_number(cpu);
   j["scenarios"] = std::move(scenarios);
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

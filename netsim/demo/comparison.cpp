@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "netsim/demo/comparison_notes.h"
+#include "netsim/demo/plot_axes.h"
 #include "netsim/plot/ticks.h"
 
 namespace tandem::netsim::demo {
@@ -12,7 +13,6 @@ using namespace plot;
 
 namespace {
 
-constexpr double kMilli = 1e3;
 constexpr Limit kNothing{};
 constexpr double kAlignedFrom = 13;  // [s], when the trainee has aligned
 Limit at_least(double v) { return {.least = v, .most = std::numeric_limits<double>::infinity()}; }

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "netsim/demo/plot_axes.h"
+
 namespace tandem::netsim::demo {
 
 using namespace plot;
 
 namespace {
-
-constexpr double kMm = 1e3, kMilli = 1e3;
-const char* const kTimeAxis = "time [s]";
 
 Curve curve(const std::string& label, const std::string& ink, const Column& x, const Column& y, double x_scale,
             double y_scale, bool path) {
@@ -61,13 +60,13 @@ Panel path_panel(const TraceData& d, const Plane& plane) {
   Panel p{.title = plane.title, .x_label = plane.x_label, .y_label = plane.y_label, .equal_scale = true, .height = 280};
   for (const auto& [label, x] :
        {std::pair{"slave", &d.tool.x}, std::pair{"trainer", &d.trainer.x}, std::pair{"trainee", &d.trainee.x}})
-    p.curves.push_back(curve(label, label, (*x)[plane.across], (*x)[plane.up], kMm, kMm, true));
+    p.curves.push_back(curve(label, label, (*x)[plane.across], (*x)[plane.up], kMilli, kMilli, true));
   return p;
 }
 
 Note note_at(const TraceData& d, const Plane& plane, const Column3& x, double t, const char* label) {
   const std::size_t k = row_at(d, t);
-  return {{kMm * x[plane.across][k], kMm * x[plane.up][k]}, label};
+  return {{kMilli * x[plane.across][k], kMilli * x[plane.up][k]}, label};
 }
 
 CaptionedFigure figure_6(const TraceData& d) {
@@ -170,8 +169,9 @@ CaptionedFigure figure_11(const TraceData& d, double duration) {
                     "Forces are those that press towards the block: commanded to each device, and delivered (of the "
                     "slave: the load of the block). A Touch delivers 3.3 N at most.",
                     {"Position along x, commanded and delivered force along x, over time", 1, {}}};
-  Panel x{
-      .y_label = "x [mm]", .curves = three(d, d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMm, kMm), .height = 170};
+  Panel x{.y_label = "x [mm]",
+          .curves = three(d, d.tool.x[0], d.trainer.x[0], d.trainee.x[0], kMilli, kMilli),
+          .height = 170};
   x.horizontals = {{0, "wall"}};
   mark_contact(x, duration, true);
   Panel cmd{.y_label = "commanded [N]",

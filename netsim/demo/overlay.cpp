@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "netsim/demo/plot_axes.h"
+
 namespace tandem::netsim::demo {
 
 using namespace plot;
 
 namespace {
 
-constexpr double kMm = 1e3;
 constexpr double kPathStep = 0.2;  ///< smallest distance of two kept points of a path [mm]
-const char* const kTimeAxis = "time [s]";
 
 /// Returns the distance of two tips in space [mm].
 double distance(const Column3& a, const Column3& b, std::size_t k) {
-  return kMm * std::hypot(a[0][k] - b[0][k], a[1][k] - b[1][k], a[2][k] - b[2][k]);
+  return kMilli * std::hypot(a[0][k] - b[0][k], a[1][k] - b[1][k], a[2][k] - b[2][k]);
 }
 double norm(const Column3& a, std::size_t k) { return std::hypot(a[0][k], a[1][k], a[2][k]); }
 
@@ -38,10 +38,10 @@ constexpr std::array<Subject, 3> kFreeMotion{{
      [](const TraceData& d, std::size_t k) { return norm(d.trainer.f_out, k); }},
 }};
 constexpr std::array<Subject, 3> kContact{{
-    {"position of the slave along x", "x [mm]", [](const TraceData& d, std::size_t k) { return kMm * d.tool.x[0][k]; },
-     0, "wall"},
+    {"position of the slave along x", "x [mm]",
+     [](const TraceData& d, std::size_t k) { return kMilli * d.tool.x[0][k]; }, 0, "wall"},
     {"position of the trainer’s hand along x", "x [mm]",
-     [](const TraceData& d, std::size_t k) { return kMm * d.trainer.x[0][k]; }, 0, "wall"},
+     [](const TraceData& d, std::size_t k) { return kMilli * d.trainer.x[0][k]; }, 0, "wall"},
     {"force the trainer feels along x", "force [N]",
      [](const TraceData& d, std::size_t k) { return -d.trainer.f_out[0][k]; }},
 }};
@@ -136,7 +136,8 @@ OverlaySeries overlay_series(const RunPlan& plan, const TraceData& trace) {
     series.push_back(downsample_extremes(points, kCurvePointsMax));
   }
   if (plan.task == Task::kFreeMotion) {
-    for (std::size_t k = 0; k < trace.rows(); ++k) points[k] = {kMm * trace.tool.x[0][k], kMm * trace.tool.x[2][k]};
+    for (std::size_t k = 0; k < trace.rows(); ++k)
+      points[k] = {kMilli * trace.tool.x[0][k], kMilli * trace.tool.x[2][k]};
     series.push_back(downsample_path(points, kPathStep, kCurvePointsMax));
   }
   return series;

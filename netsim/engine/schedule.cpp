@@ -7,7 +7,7 @@ namespace tandem::netsim {
 namespace {
 
 constexpr std::size_t kEventsMax = 256;
-constexpr Duration kTimeMax = std::chrono::hours(24 * 30);
+constexpr Duration kEventTimeMax = std::chrono::hours(24 * 30);
 
 bool concerns(const NetworkEvent& event, std::string_view client) {
   return event.clients.empty() || std::ranges::find(event.clients, client) != event.clients.end();
@@ -66,7 +66,7 @@ LinkSchedule schedule_for(const LinkSpec& base, std::span<const NetworkEvent> ev
 
 std::vector<SpecError> problems(const NetworkEvent& event) {
   SpecErrors found;
-  found.range<Duration>("at", event.at, Duration::zero(), kTimeMax);
+  found.range<Duration>("at", event.at, Duration::zero(), kEventTimeMax);
   const int kinds = (event.outage ? 1 : 0) + (event.link ? 1 : 0) + (event.rebind ? 1 : 0);
   if (kinds != 1) found.add("event", "needs exactly one of outage, link, rebind");
   if (event.rebind) {
@@ -111,15 +111,17 @@ std::vector<SpecError> problems(const LinkSchedule& schedule) {
     const std::string key = "changes[" + std::to_string(i) + "]";
     const Duration at = schedule.changes[i].at;
     const Duration before = i == 0 ? Duration::zero() : schedule.changes[i - 1].at;
-    if (at <= before || at > kTimeMax) all.push_back({key + ".at", "is not after the one before, or above 30 days"});
+    if (at <= before || at > kEventTimeMax)
+      all.push_back({key + ".at", "is not after the one before, or above 30 days"});
     check_link(schedule.changes[i].link, key + ".", all);
   }
   for (std::size_t i = 0; i < schedule.rebinds.size(); ++i) {
     const auto& [at, rebind] = schedule.rebinds[i];
     const std::string key = "rebinds[" + std::to_string(i) + "]";
     const Duration before = i == 0 ? Duration::zero() : schedule.rebinds[i - 1].at;
-    if (at < before || at > kTimeMax) all.push_back({key + ".at", "is before the one before, or out of [0, 30 d]"});
-    NetworkEvent event{.at = std::clamp(at, Duration::zero(), kTimeMax), .rebind = rebind};
+    if (at < before || at > kEventTimeMax)
+      all.push_back({key + ".at", "is before the one before, or out of [0, 30 d]"});
+    NetworkEvent event{.at = std::clamp(at, Duration::zero(), kEventTimeMax), .rebind = rebind};
     for (const SpecError& problem : problems(event)) all.push_back({key + "." + problem.key, problem.message});
   }
   return all;

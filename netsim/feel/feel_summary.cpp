@@ -6,11 +6,11 @@
 #include <set>
 
 #include "common/base/suggestions.h"
+#include "netsim/feel/meters.h"
 
 namespace tandem::netsim {
 
 std::map<std::string, FeelNumber> summarised(const std::vector<FeelSeed>& seeds) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   std::set<std::string> keys;
   for (const FeelSeed& seed : seeds)
     for (const auto& [key, value] : seed.values) keys.insert(key);

@@ -10,7 +10,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kSlopeRowsMin = 50, kWaveRowsMin = 8;
 
 /// One axis without its straight line, times a Hann window; and the window's mean square.

@@ -2,6 +2,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "hal/core/device.h"
@@ -9,6 +10,8 @@
 /// Numbers from columns of samples. The functions are pure: they use no scene and no session. A number that does not
 /// exist is NaN.
 namespace tandem::netsim {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 using Series = std::span<const hal::Vec3>;
 

@@ -12,20 +12,19 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRowHz = 100;
 constexpr std::size_t kRowsMax = 240'000;
 constexpr double kBegin = 1;  // [s] of session time
 constexpr double kAlone = 0.99, kSaturated = 0.99;
-constexpr double kAfterHandOver = 0.5;                                  // [s]
-constexpr double kContact = 0.05, kSpringLow = 0.2, kSpringHigh = 0.9;  // [N, N, share of the motor's]
-constexpr double kDepthMin = 1e-3;                                      // [m] smallest change of depth of a press
-constexpr double kSpeedMin = 0.02;                                      // [m/s]
-constexpr double kGainHand = 0.2e-3;                                    // [m] RMS of the hand in a line of the spectrum
-constexpr std::size_t kGainRows = 400;                                  // 4 s: lines of 0.25 Hz
-constexpr std::size_t kGainLines = 40;                                  // up to 10 Hz
-constexpr std::size_t kBoxRows = 100, kRestRows = 200;                  // 1 s, 2 s
-constexpr double kBoxMin = 0.01, kRestMax = 0.002;                      // [m]
+constexpr double kAfterHandOver = 0.5;                                          // [s]
+constexpr double kContactForceMin = 0.05, kSpringLow = 0.2, kSpringHigh = 0.9;  // [N, N, share of the motor's]
+constexpr double kDepthMin = 1e-3;                      // [m] smallest change of depth of a press
+constexpr double kSpeedMin = 0.02;                      // [m/s]
+constexpr double kGainHand = 0.2e-3;                    // [m] RMS of the hand in a line of the spectrum
+constexpr std::size_t kGainRows = 400;                  // 4 s: lines of 0.25 Hz
+constexpr std::size_t kGainLines = 40;                  // up to 10 Hz
+constexpr std::size_t kBoxRows = 100, kRestRows = 200;  // 1 s, 2 s
+constexpr double kBoxMin = 0.01, kRestMax = 0.002;      // [m]
 constexpr std::array<std::string_view, 12> kKeys{
     "stiffness_felt_n_m", "drag_n",        "gain_max",   "overshoot",       "limit_cycle_n", "handover_bump_n",
     "handover_step_n_ms", "engaged_share", "held_share", "saturated_share", "trips_per_min", "delivered_error_n"};
@@ -117,7 +116,7 @@ double ObservedFeel::stiffness(const Seat& seat) const {
   std::array<std::vector<double>, 6> depth, force;
   for (std::size_t r = 0; r < seat.x.size(); ++r) {
     Eigen::Index axis = 0;
-    if (seat.alone[r] == 0 || seat.f_env[r].cwiseAbs().maxCoeff(&axis) < kContact) continue;
+    if (seat.alone[r] == 0 || seat.f_env[r].cwiseAbs().maxCoeff(&axis) < kContactForceMin) continue;
     const double side = seat.f_env[r][axis] > 0 ? 1 : -1;
     const auto place = static_cast<std::size_t>(2 * axis + (side > 0 ? 1 : 0));
     depth[place].push_back(-side * seat.x[r][axis]);

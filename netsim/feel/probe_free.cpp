@@ -8,8 +8,8 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kSettle = 3;                                 // [s] before anything is measured
-constexpr double kStepAt = 2, kStepFor = 0.15, kStep = 0.02;  // [s, s, m]
+constexpr double kSettle = 3;                                     // [s] before anything is measured
+constexpr double kStepAt = 2, kStepFor = 0.15, kFreeStep = 0.02;  // [s, s, m]
 constexpr double kStepEnd = 5.5;
 constexpr double kRecordingMax = 20;  // [s], longest part of a recording that is played
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -96,8 +96,9 @@ ProbeResult probe_free(const FeelSetup& setup, std::uint64_t seed) {
     put_errors(trace, kSettle, circle.end, circle.name, result.values);
     put_follower(trace, circle, result.values);
   }
-  const FeelTrace step = go(
-      [](double t) { return hal::Vec3(kStep * hal::sim::min_jerk((t - kStepAt) / kStepFor).value, 0, 0); }, kStepEnd);
+  const FeelTrace step =
+      go([](double t) { return hal::Vec3(kFreeStep * hal::sim::min_jerk((t - kStepAt) / kStepFor).value, 0, 0); },
+         kStepEnd);
   put_overshoot(step, result.values);
   put_errors(step, kStepAt, kStepEnd, "step", result.values);
 

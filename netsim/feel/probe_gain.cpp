@@ -15,7 +15,7 @@ namespace tandem::netsim {
 namespace {
 
 constexpr double kRadius = 0.003, kEdge = 0.5, kBegin = 1.5;  // [m, s, s]
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kGainTurn = 2 * std::numbers::pi;
 
 struct Dwell {
   double hz = 0, from = 0, measure = 0, fade = 0, end = 0;  ///< [Hz, s]
@@ -39,7 +39,7 @@ hal::Vec3 position(const std::vector<Dwell>& plan, double t) {
     if (t < d.from || t >= d.end) continue;
     const double r =
         kRadius * hal::sim::min_jerk((t - d.from) / kEdge).value * hal::sim::min_jerk((d.end - t) / kEdge).value;
-    const double phase = kTurn * d.hz * (t - d.from);
+    const double phase = kGainTurn * d.hz * (t - d.from);
     return {r * std::cos(phase), 0, r * std::sin(phase)};
   }
   return hal::Vec3::Zero();

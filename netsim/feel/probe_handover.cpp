@@ -8,9 +8,9 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kFront = 0.010, kDepth = 0.006;           // [m]
-constexpr double kTouch = 2, kPressed = 4, kHandOver = 7;  // [s]
-constexpr double kEnd = 11;
+constexpr double kHandoverFront = 0.010, kHandoverDepth = 0.006;                   // [m]
+constexpr double kHandoverTouch = 2, kHandoverPressed = 4, kHandoverHandOver = 7;  // [s]
+constexpr double kHandoverEnd = 11;
 
 }  // namespace
 
@@ -19,21 +19,22 @@ ProbeResult probe_handover(const FeelSetup& setup, std::uint64_t seed) {
   const DrawnHand steady{HandKind::kPlain, seed, 0};  // 0.3 mm of intention noise alone cause 0.1 N
   const auto path = [](double t) {
     const double approach = hal::sim::min_jerk(t - 1).value,
-                 press = hal::sim::min_jerk((t - kTouch) / (kPressed - kTouch)).value;
-    return hal::Vec3(kFront * (approach - 1) + kDepth * press, 0, 0);
+                 press = hal::sim::min_jerk((t - kHandoverTouch) / (kHandoverPressed - kHandoverTouch)).value;
+    return hal::Vec3(kHandoverFront * (approach - 1) + kHandoverDepth * press, 0, 0);
   };
   ProbeRun run;
-  run.length = kEnd;
-  run.start_x = -kFront;
+  run.length = kHandoverEnd;
+  run.start_x = -kHandoverFront;
   run.environment = wall_of(kBone);
-  run.hand_over_at = kHandOver;
+  run.hand_over_at = kHandoverHandOver;
   for (std::size_t i = 0; i < 2; ++i) {
     const DrawnHand hand{setup.hands, seed, i};
-    run.hands.push_back({hand.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM), steady.move(path, kEnd)});
+    run.hands.push_back(
+        {hand.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM), steady.move(path, kHandoverEnd)});
   }
   const FeelTrace trace = run_part(setup, run, seed, result);
-  const auto [before, at] = trace.window(kHandOver - 1, kHandOver);
-  const auto [from, end] = trace.window(kHandOver, kEnd);
+  const auto [before, at] = trace.window(kHandoverHandOver - 1, kHandoverHandOver);
+  const auto [from, end] = trace.window(kHandoverHandOver, kHandoverEnd);
   double bump = 0, step = 0, step_before = 0;
   for (const FeelTrace::Hand& hand : trace.hands) {
     const Series quiet = Series{hand.f}.subspan(before, at - before), during = Series{hand.f}.subspan(from, end - from);

@@ -12,7 +12,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kFront = 0.010, kDepthMin = 0.003, kDepthMax = 0.020, kDeep = 0.050;                   // [m]
+constexpr double kFront = 0.010, kDepthMin = 0.003, kDepthMax = 0.020, kPressDeep = 0.050;              // [m]
 constexpr double kTouch = 2, kPressed = 8, kSlowly = 16, kSteady = 10, kBoneEnd = 20, kTissueEnd = 14;  // [s]
 constexpr double kReserve = 0.85;  // of the motor's force
 constexpr double kSlopeLow = 0.15,
@@ -88,9 +88,9 @@ ProbeResult probe_press(const FeelSetup& setup, std::uint64_t seed) {
   const Held bone_held = held(bone, kBoneEnd), tissue_held = held(tissue, kTissueEnd);
   FeelValues& v = result.values;
   v["stiffness_felt_n_m"] =
-      stiffness(run_part(setup, press(setup, seed, kBone, kDeep, kSlowly, kSlowly), seed, result));
+      stiffness(run_part(setup, press(setup, seed, kBone, kPressDeep, kSlowly, kSlowly), seed, result));
   v["stiffness_tissue_n_m"] =
-      stiffness(run_part(setup, press(setup, seed, kTissue, kDeep, kSlowly, kSlowly), seed, result));
+      stiffness(run_part(setup, press(setup, seed, kTissue, kPressDeep, kSlowly, kSlowly), seed, result));
   v["stiffness_bone_held_n_m"] = bone_held.stiffness;
   v["stiffness_tissue_held_n_m"] = tissue_held.stiffness;
   v["force_got_n"] = bone_held.felt;

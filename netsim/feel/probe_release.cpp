@@ -14,9 +14,9 @@ namespace {
 constexpr double kPress = 0.004, kRelease = 4, kPull = 1;  // [m, s, N]
 // The device's damping, minus the effect of the sampled spring, lets the handle settle. On bone, at 0.93 of the
 // stiffness that a Touch renders, the time constant is 9 s.
-constexpr double kMeasure = 30, kEnd = 34;  // [s]
-constexpr double kBand = 0.5;               // [Hz]; below it is the drift of the pose under gravity compensation
-constexpr double kSettled = 1e-4;           // [m] RMS; an encoder step of a Touch is 5.5e-5
+constexpr double kReleaseMeasure = 30, kReleaseEnd = 34;  // [s]
+constexpr double kReleaseBand = 0.5;  // [Hz]; below it is the drift of the pose under gravity compensation
+constexpr double kSettled = 1e-4;     // [m] RMS; an encoder step of a Touch is 5.5e-5
 
 }  // namespace
 
@@ -26,7 +26,7 @@ ProbeResult probe_release(const FeelSetup& setup, std::uint64_t seed) {
   double most = 0;
   for (const double k : kReleaseK) {
     ProbeRun run;
-    run.length = kEnd;
+    run.length = kReleaseEnd;
     run.frictionless = true;
     run.environment = wall_of(k);
     run.hands = {{hand.with_impedance(HandModel::kLettingGo, kFirmK, kFirmB, kFirmM)}};
@@ -36,8 +36,9 @@ ProbeResult probe_release(const FeelSetup& setup, std::uint64_t seed) {
     opens.trajectory.kind = Trajectory::Kind::kWaypoints;
     opens.trajectory.waypoints = {{1, {0, 0, 0}}, {3, {kPress, 0, 0}}};
     const FeelTrace trace = run_part(setup, run, seed, result);
-    const auto [first, end] = trace.window(kMeasure, kEnd);
-    const double amplitude = rms_above(Series{trace.hands[0].x}.subspan(first, end - first), kBand, trace.tick_hz);
+    const auto [first, end] = trace.window(kReleaseMeasure, kReleaseEnd);
+    const double amplitude =
+        rms_above(Series{trace.hands[0].x}.subspan(first, end - first), kReleaseBand, trace.tick_hz);
     result.values[format("released_%g_m", k)] = amplitude;
     most = std::isnan(amplitude) || std::isnan(most) ? std::numeric_limits<double>::quiet_NaN()
                                                      : std::max(most, amplitude);

@@ -12,30 +12,29 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kAway = 0.03, kMove = 0.3, kOut = 1, kBack = 2;  // [m, s, s, s]
-constexpr double kMeasure = 7.5, kEnd = 12.5;                     // [s]
-constexpr double kBand = 1;                                       // [Hz]
+constexpr double kShareAway = 0.03, kShareMove = 0.3, kShareOut = 1, kShareBack = 2;  // [m, s, s, s]
+constexpr double kShareMeasure = 7.5, kShareEnd = 12.5;                               // [s]
+constexpr double kShareBand = 1;                                                      // [Hz]
 
 }  // namespace
 
 ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   ProbeResult result;
   const DrawnHand steady{HandKind::kPlain, seed, 0};  // moves without tremor
   const auto kick = steady.move(
       [](double t) {
-        return hal::Vec3(
-            kAway * (hal::sim::min_jerk((t - kOut) / kMove).value - hal::sim::min_jerk((t - kBack) / kMove).value), 0,
-            0);
+        return hal::Vec3(kShareAway * (hal::sim::min_jerk((t - kShareOut) / kShareMove).value -
+                                       hal::sim::min_jerk((t - kShareBack) / kShareMove).value),
+                         0, 0);
       },
-      kEnd);
-  const auto still = steady.move([](double) { return hal::Vec3(0, 0, 0); }, kEnd);
+      kShareEnd);
+  const auto still = steady.move([](double) { return hal::Vec3(0, 0, 0); }, kShareEnd);
   double most = 0;
   for (const double share : kShares) {
     double worst = 0;
     for (const bool soft : {false, true}) {
       ProbeRun run;
-      run.length = kEnd;
+      run.length = kShareEnd;
       run.share = share;
       for (std::size_t i = 0; i < 2; ++i) {
         const DrawnHand hand{setup.hands, seed, i};
@@ -44,9 +43,9 @@ ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed) {
                              i == 0 ? kick : still});
       }
       const FeelTrace trace = run_part(setup, run, seed, result);
-      const auto [first, end] = trace.window(kMeasure, kEnd);
+      const auto [first, end] = trace.window(kShareMeasure, kShareEnd);
       for (const FeelTrace::Hand& hand : trace.hands) {
-        const double force = rms_above(Series{hand.f}.subspan(first, end - first), kBand, trace.tick_hz);
+        const double force = rms_above(Series{hand.f}.subspan(first, end - first), kShareBand, trace.tick_hz);
         worst = std::isnan(force) || std::isnan(worst) ? kNaN : std::max(worst, force);
       }
     }

@@ -8,7 +8,7 @@ namespace tandem::netsim {
 namespace {
 
 using Kind = BodySpec::Kind;
-enum Purpose : std::uint64_t { kPerDatagram = 1, kProcess };
+enum BodyPurpose : std::uint64_t { kPerDatagram = 1, kProcess };
 
 double nanoseconds(Duration d) noexcept { return static_cast<double>(d.count()); }
 

@@ -7,7 +7,7 @@
 namespace tandem::netsim {
 namespace {
 
-enum Purpose : std::uint64_t { kState = 1, kLength, kBody };
+enum DelayPurpose : std::uint64_t { kDelayState = 1, kDelayLength, kDelayBody };
 enum BoundaryPurpose : std::uint64_t { kBoundaryLoss = 1, kBoundaryStall, kBoundaryFloor };
 
 constexpr std::int64_t kCycles = 256;
@@ -19,11 +19,11 @@ Duration between(Duration lo, Duration hi, double u) noexcept {
 }  // namespace
 
 Regimes::Regimes(const std::vector<RegimeSpec>& specs, RandomKey key)
-    : state_key_(key.derive(kState)), length_key_(key.derive(kLength)) {
+    : state_key_(key.derive(kDelayState)), length_key_(key.derive(kDelayLength)) {
   for (std::size_t i = 0; i < specs.size(); ++i) {
     const double mean = static_cast<double>(specs[i].mean.count());
     mean_sum_ += mean;
-    regimes_.push_back({mean, specs[i].floor, BodyDelay{specs[i].body, key.derive(kBody).derive(i)}});
+    regimes_.push_back({mean, specs[i].floor, BodyDelay{specs[i].body, key.derive(kDelayBody).derive(i)}});
   }
   block_length_ = Duration{std::max<std::int64_t>(1, static_cast<std::int64_t>(mean_sum_) * kCycles)};
 }

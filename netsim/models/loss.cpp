@@ -7,7 +7,7 @@
 namespace tandem::netsim {
 namespace {
 
-enum Purpose : std::uint64_t {
+enum LossPurpose : std::uint64_t {
   kAlone = 1,
   kInPeriod,
   kPeriods,

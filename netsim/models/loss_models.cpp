@@ -8,7 +8,7 @@
 namespace tandem::netsim {
 namespace {
 
-enum Purpose : std::uint64_t { kState = 1, kLoss, kFirst };
+enum LossModelPurpose : std::uint64_t { kLossState = 1, kLoss, kLossFirst };
 
 constexpr double kMillisecond = 1e6;  // [ns]
 
@@ -29,7 +29,10 @@ LengthLaw law_of(const LossBurstsSpec& spec) noexcept {
 }  // namespace
 
 GilbertElliott::GilbertElliott(const GilbertElliottSpec& spec, RandomKey key, std::uint64_t salt) noexcept
-    : spec_(spec), state_key_(key.derive(kState)), loss_key_(key.derive(kLoss)), first_key_(key.derive(kFirst)) {
+    : spec_(spec),
+      state_key_(key.derive(kLossState)),
+      loss_key_(key.derive(kLoss)),
+      first_key_(key.derive(kLossFirst)) {
   begin(salt);
 }
 

@@ -5,7 +5,7 @@
 namespace tandem::netsim {
 namespace {
 
-enum Purpose : std::uint64_t { kStart = 1, kLength };
+enum IntervalPurpose : std::uint64_t { kIntervalStart = 1, kIntervalLength };
 
 /// Returns the slot length. It is at least the longest interval, so that intervals of at most two slots cover any time.
 Duration slot_length(double rate_per_s, double cap) noexcept {
@@ -33,8 +33,8 @@ PoissonIntervals::PoissonIntervals(double rate_per_s, const LengthLaw& length, R
     : rate_(rate_per_s),
       length_(length),
       slot_length_(slot_length(rate_per_s, length.cap)),
-      start_key_(key.derive(kStart)),
-      length_key_(key.derive(kLength)) {}
+      start_key_(key.derive(kIntervalStart)),
+      length_key_(key.derive(kIntervalLength)) {}
 
 const PoissonIntervals::Slot& PoissonIntervals::slot(std::int64_t number) noexcept {
   Slot& slot = slots_[static_cast<std::size_t>(number) % kSlotsCached];

@@ -12,13 +12,12 @@ namespace tandem::netsim {
 namespace {
 
 constexpr std::int64_t kMsMax = 10'000'000'000;
-constexpr std::size_t kErrorsMax = 50;
 
 class UsageErrors {
  public:
   explicit UsageErrors(std::string_view file) : file_(file) {}
   void add(std::size_t line, std::size_t column, std::string key, std::string_view value, std::string message) {
-    if (all_.size() < kErrorsMax) {
+    if (all_.size() < kCsvErrorsMax) {
       all_.push_back({file_, static_cast<int>(line), static_cast<int>(column), std::move(key),
                       std::string(value.substr(0, 40)), std::move(message)});
     }

@@ -12,7 +12,6 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr std::size_t kErrorsMax = 50;
 enum Column : std::size_t { kIn, kLink, kDirection, kFlow, kIndex, kSize, kVerdict, kOut, kCause, kColumns };
 constexpr std::array<const char*, kColumns> kNames{"t_in_ns", "link",    "dir",      "flow", "idx",
                                                    "size",    "verdict", "t_out_ns", "cause"};
@@ -55,7 +54,7 @@ class DecisionCsvReader {
 
  private:
   void mistake(InputError error) {
-    if (errors_.size() < kErrorsMax) errors_.push_back(std::move(error));
+    if (errors_.size() < kCsvErrorsMax) errors_.push_back(std::move(error));
   }
   void mistake(std::size_t row, Column c, std::string message) {
     mistake({std::string(file_), static_cast<int>(table_.line(row)), static_cast<int>(column_[c] + 1), kNames[c],
@@ -112,7 +111,7 @@ class DecisionCsvReader {
     constexpr std::uint64_t kTime = std::uint64_t{1} << 62;
     constexpr std::uint64_t kNumber = std::numeric_limits<std::uint32_t>::max();
     rows_.reserve(table_.rows());
-    for (std::size_t row = 0; row < table_.rows() && errors_.size() < kErrorsMax; ++row) {
+    for (std::size_t row = 0; row < table_.rows() && errors_.size() < kCsvErrorsMax; ++row) {
       Decision d;
       d.in = Time{Duration{static_cast<std::int64_t>(whole(row, kIn, kTime))}};
       d.out = Time{Duration{static_cast<std::int64_t>(whole(row, kOut, kTime))}};

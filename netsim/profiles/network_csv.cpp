@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kDelayMaxMs = 60'000;
 constexpr double kTimeMaxS = 1e7;
-constexpr std::size_t kErrorsMax = 50;
 
 class NetworkCsvReader {
  public:
@@ -37,7 +36,7 @@ class NetworkCsvReader {
 
  private:
   void mistake(std::size_t line, std::size_t column, std::string key, std::string_view value, std::string message) {
-    if (errors_.size() < kErrorsMax) {
+    if (errors_.size() < kCsvErrorsMax) {
       errors_.push_back({std::string(file_), static_cast<int>(line), static_cast<int>(column), std::move(key),
                          std::string(value.substr(0, 40)), std::move(message)});
     }

@@ -11,7 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double ms(Duration d) { return static_cast<double>(d.count()) / 1e6; }
-double at_s(Time t) { return seconds(t.time_since_epoch()); }
 
 void put_delay(Json& json, const DelaySummary& d, const std::string& prefix) {
   json[prefix + "mean_ms"] = d.mean_s * 1e3;
@@ -39,7 +38,7 @@ Json windows_json(const WindowSummaries& all, std::initializer_list<Measure> mea
         of[name(band)] = m.windows[static_cast<std::size_t>(band)];
       }
       of[measure == Measure::kLoss ? "worst_percent" : "worst_ms"] = m.worst * (measure == Measure::kLoss ? 100 : 1e3);
-      of["worst_to_s"] = at_s(m.worst_at);
+      of["worst_to_s"] = seconds(m.worst_at);
       one[measure == Measure::kRoundTrip ? "round_trip_p99" : name(measure)] = of;
     }
     list.push_back(one);
@@ -52,8 +51,8 @@ Json windows_json(const WindowSummaries& all, std::initializer_list<Measure> mea
 Json quality_json(const DirectionSummary& way) {
   Json json;
   json["verdict"] = verdict_name(verdict(way.windows));
-  json["from_s"] = at_s(way.from);
-  json["until_s"] = at_s(way.until);
+  json["from_s"] = seconds(way.from);
+  json["until_s"] = seconds(way.until);
   json["sent"] = way.sent;
   json["lost"] = way.lost;
   json["lost_percent"] = 100 * way.lost_share();
@@ -68,9 +67,9 @@ Json quality_json(const DirectionSummary& way) {
   json["age_p50_ms"] = ms(way.age.p50);
   json["age_p99_ms"] = ms(way.age.p99);
   json["age_max_ms"] = ms(way.age.max);
-  json["age_max_at_s"] = at_s(way.age.max_at);
+  json["age_max_at_s"] = seconds(way.age.max_at);
   json["longest_gap_ms"] = ms(way.longest_gap);
-  json["longest_gap_at_s"] = at_s(way.longest_gap_at);
+  json["longest_gap_at_s"] = seconds(way.longest_gap_at);
   json["sender_pauses"] = way.pauses;
   json["sender_paused_s"] = seconds(way.paused);
   json["windows"] = windows_json(way.windows, {Measure::kLoss, Measure::kGap, Measure::kJitter});

@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::size_t kSecond = 1;  ///< index of the 1-s windows, which decide verdicts
 
-double at_s(Time t) { return seconds(t.time_since_epoch()); }
-
 std::string length_text(Duration length) {
   return length < std::chrono::seconds(1) ? format("%.0f ms", seconds(length) * 1e3)
                                           : format("%.0f s", seconds(length));
@@ -54,7 +52,7 @@ std::string way_words(const char* name, const DirectionSummary& way, const std::
   const MeasureSummary& loss = windows.of(Measure::kLoss);
   if (seen_beyond_green(loss)) {
     std::string what =
-        share_text(loss.worst) + " lost in the " + unit_of(windows) + format(" to %.2f s", at_s(loss.worst_at));
+        share_text(loss.worst) + " lost in the " + unit_of(windows) + format(" to %.2f s", seconds(loss.worst_at));
     const MeasureSummary& briefly = way.windows[0].of(Measure::kLoss);
     const bool hidden = windows.length != way.windows[0].length && briefly.worst > 2 * loss.worst;
     if (hidden) what += format(" (%s in 100 ms)", share_text(briefly.worst).c_str());
@@ -62,12 +60,12 @@ std::string way_words(const char* name, const DirectionSummary& way, const std::
   }
   if (way.longest_gap > kGapLimits.green) {
     add("nothing received for " + delay_text(seconds(way.longest_gap)) +
-        format(" from %.2f s", at_s(way.longest_gap_at)));
+        format(" from %.2f s", seconds(way.longest_gap_at)));
   }
   const MeasureSummary& jitter = windows.of(Measure::kJitter);
   if (seen_beyond_green(jitter)) {
     add("jitter " + delay_text(jitter.worst) +
-        format(" in the %s to %.2f s", unit_of(windows).c_str(), at_s(jitter.worst_at)));
+        format(" in the %s to %.2f s", unit_of(windows).c_str(), seconds(jitter.worst_at)));
   }
   if (way.arrived == 0) add("nothing was received");
   return text + worst;
@@ -82,7 +80,7 @@ std::string round_trip_words(const RoundTripSummary& trip, const std::string& ne
   const MeasureSummary& p99 = windows.of(Measure::kRoundTrip);
   if (p99.windows[2] > 0) {
     text += "\n" + next + "worst: p99 " + delay_text(p99.worst) +
-            format(" in the %s to %.2f s", unit_of(windows).c_str(), at_s(p99.worst_at));
+            format(" in the %s to %.2f s", unit_of(windows).c_str(), seconds(p99.worst_at));
   }
   return text;
 }
@@ -97,14 +95,14 @@ std::string way_row(const char* name, const DirectionSummary& w) {
                 ms_cell(w.delay.mean_s).c_str(), ms_cell(w.delay.p50).c_str(), ms_cell(w.delay.p99).c_str(),
                 ms_cell(w.delay.max).c_str(), ms_cell(w.age.mean_s).c_str(), ms_cell(w.age.p50).c_str(),
                 ms_cell(w.age.p99).c_str(), ms_cell(w.age.max).c_str(),
-                (delay_text(seconds(w.longest_gap)) + format(" from %.2f s", at_s(w.longest_gap_at))).c_str());
+                (delay_text(seconds(w.longest_gap)) + format(" from %.2f s", seconds(w.longest_gap_at))).c_str());
 }
 
 std::string worst_cell(const WindowSummary& windows, Measure measure) {
   const MeasureSummary& m = windows.of(measure);
   if (m.windows[0] + m.windows[1] + m.windows[2] == 0) return "-";
   const std::string value = measure == Measure::kLoss ? share_text(m.worst) : delay_text(m.worst);
-  return m.worst > 0 ? value + format(" to %.2f s", at_s(m.worst_at)) : value;
+  return m.worst > 0 ? value + format(" to %.2f s", seconds(m.worst_at)) : value;
 }
 
 std::string window_rows(const char* name, const WindowSummaries& all, bool round_trip, const std::string& indent) {

@@ -3,11 +3,11 @@
 namespace tandem {
 namespace {
 
-ShippedPreset shipped_table[] = {
+ShippedPreset preset_table[] = {
 #include "presets_embedded_data.inc"
 };
 
-std::string_view first_comment(std::string_view text) {
+std::string_view first_preset_comment(std::string_view text) {
   if (!text.starts_with('#')) return {};
   text = text.substr(0, text.find('\n'));
   const auto start = text.find_first_not_of("# ");
@@ -15,8 +15,8 @@ std::string_view first_comment(std::string_view text) {
 }
 
 std::span<const ShippedPreset> summarised() noexcept {
-  for (auto& preset : shipped_table) preset.summary = first_comment(preset.text);
-  return shipped_table;
+  for (auto& preset : preset_table) preset.summary = first_preset_comment(preset.text);
+  return preset_table;
 }
 
 }  // namespace

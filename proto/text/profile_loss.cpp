@@ -11,8 +11,6 @@ namespace {
 using text::child_path;
 using text::MessageValidator;
 
-double probability(double percent) { return percent / 100; }
-
 BadPeriodsSpec from(const pb::BadPeriods& in) {
   return {.good_mean = from_milliseconds(in.good_mean_s() * 1e3),
           .bad_mean = from_milliseconds(in.bad_mean_ms()),

@@ -18,8 +18,6 @@ using text::MessageValidator;
 
 std::uint64_t whole(double value) { return static_cast<std::uint64_t>(std::llround(value)); }
 
-double probability(double percent) { return percent / 100; }
-
 StallSpec stall_from(const pb::Stall& in, MessageValidator& validator, const std::string& key) {
   if (in.cap_ms() < in.length_min_ms()) validator.error(child_path(key, "cap_ms"), "is below length_min_ms");
   if (in.rate_per_s() * in.cap_ms() > 32e3) {

@@ -3,11 +3,11 @@
 namespace tandem {
 namespace {
 
-ShippedScene shipped_table[] = {
+ShippedScene scene_table[] = {
 #include "scenes_embedded_data.inc"
 };
 
-std::string_view first_comment(std::string_view text) {
+std::string_view first_scene_comment(std::string_view text) {
   if (!text.starts_with('#')) return {};
   text = text.substr(0, text.find('\n'));
   const auto start = text.find_first_not_of("# ");
@@ -15,8 +15,8 @@ std::string_view first_comment(std::string_view text) {
 }
 
 std::span<const ShippedScene> summarised() noexcept {
-  for (auto& scene : shipped_table) scene.summary = first_comment(scene.text);
-  return shipped_table;
+  for (auto& scene : scene_table) scene.summary = first_scene_comment(scene.text);
+  return scene_table;
 }
 
 }  // namespace

@@ -7,22 +7,22 @@ namespace tandem::server {
 
 namespace {
 
-constexpr Grant no = Grant::kNo, part = Grant::kPart, yes = Grant::kYes;
+using enum Grant;
 
 // Rows: rights. Columns: instructor, trainee, evaluator, observer, operator, recorder.
 constexpr std::array<std::array<Grant, kAccessRoles>, kRights> kTable{{
-    /* drive         */ {yes, part, no, no, no, no},
-    /* force         */ {yes, yes, part, no, no, no},
-    /* telemetry     */ {yes, part, yes, part, part, yes},
-    /* authority     */ {yes, part, no, no, no, no},
-    /* lower limits  */ {yes, part, part, no, no, no},
-    /* raise limits  */ {no, no, no, no, no, no},
-    /* stop own hand */ {yes, yes, yes, no, no, no},
-    /* stop session  */ {yes, part, part, no, yes, no},
-    /* end a pause   */ {yes, part, part, no, yes, no},
-    /* record        */ {yes, no, no, no, no, part},
-    /* manage seats  */ {yes, no, no, no, yes, no},
-    /* manage server */ {no, no, no, no, yes, no},
+    /* drive         */ {kYes, kPart, kNo, kNo, kNo, kNo},
+    /* force         */ {kYes, kYes, kPart, kNo, kNo, kNo},
+    /* telemetry     */ {kYes, kPart, kYes, kPart, kPart, kYes},
+    /* authority     */ {kYes, kPart, kNo, kNo, kNo, kNo},
+    /* lower limits  */ {kYes, kPart, kPart, kNo, kNo, kNo},
+    /* raise limits  */ {kNo, kNo, kNo, kNo, kNo, kNo},
+    /* stop own hand */ {kYes, kYes, kYes, kNo, kNo, kNo},
+    /* stop session  */ {kYes, kPart, kPart, kNo, kYes, kNo},
+    /* end a pause   */ {kYes, kPart, kPart, kNo, kYes, kNo},
+    /* record        */ {kYes, kNo, kNo, kNo, kNo, kPart},
+    /* manage seats  */ {kYes, kNo, kNo, kNo, kYes, kNo},
+    /* manage server */ {kNo, kNo, kNo, kNo, kYes, kNo},
 }};
 
 /// Permission that a frame requires: at least `least` of `right`.

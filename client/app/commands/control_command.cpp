@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kPollIntervalMs = 1000;  // between two polls of the session status
 
-struct Arguments {
+struct ControlArguments {
   TicketOption ticket;
   std::string server, session, state, role, timeout = "5";
   std::vector<std::string> words;
@@ -296,7 +296,7 @@ int converse(ConsoleClient& attendant, int signals) {
   }
 }
 
-int control_command(const Arguments& arguments) {
+int control_command(const ControlArguments& arguments) {
   io::UsageErrors errors;
   JoinOptions asking;
   if (const auto server = server_option(arguments.server, errors)) asking.server = *server;

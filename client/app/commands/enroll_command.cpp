@@ -17,11 +17,11 @@
 namespace tandem::client {
 namespace {
 
-struct Arguments {
+struct EnrollArguments {
   std::string text, state, timeout = "5";
 };
 
-int trouble(const std::string& what) {
+int enroll_trouble(const std::string& what) {
   io::print_formatted(stderr, "tandem-client enroll: %s\n", what.c_str());
   return io::kExitTrouble;
 }
@@ -30,7 +30,7 @@ int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, c
           std::chrono::milliseconds timeout) {
   const io::Fd signals = io::make_signalfd();
   const auto own = auth::ClientKeystore::open_or_make(state, auth::wall_seconds());
-  if (!own) return trouble(own.error());
+  if (!own) return enroll_trouble(own.error());
   const auto judge = [&](const auth::KeyFingerprint& seen) -> std::expected<const auth::Identity*, std::string> {
     if (seen == given.server) return &own->identity();
     return std::unexpected("the server at " + given.address +
@@ -39,24 +39,24 @@ int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, c
   };
   auto client = auth::ControlClient::connect(server, judge, timeout, signals.get());
   const auto told = [](const auth::ClientError& fault) {
-    return trouble(fault.kind == auth::ClientError::Kind::kInterrupted
-                       ? "ended by Ctrl-C; the string may still be valid"
-                       : fault.text);
+    return enroll_trouble(fault.kind == auth::ClientError::Kind::kInterrupted
+                              ? "ended by Ctrl-C; the string may still be valid"
+                              : fault.text);
   };
   if (!client) return told(client.error());
   const auto answer = client->ask(rpc::Enroll{given.code}, timeout);
   if (!answer) return told(answer.error());
-  if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return trouble("refused: " + refused->text);
+  if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return enroll_trouble("refused: " + refused->text);
   const auto* taken = std::get_if<rpc::EnrollAck>(&*answer);
-  if (taken == nullptr) return trouble("unexpected reply from the server; use the same release on both");
+  if (taken == nullptr) return enroll_trouble("unexpected reply from the server; use the same release on both");
   if (const std::string problem = own->store_server({given.address, given.server.sha256, taken->workstation});
       !problem.empty())
-    return trouble("enrolled as " + taken->workstation + ", but " + problem);
+    return enroll_trouble("enrolled as " + taken->workstation + ", but " + problem);
   std::printf("enrolled at %s as %s\n", given.address.c_str(), taken->workstation.c_str());
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
-int enroll_command(const Arguments& arguments) {
+int enroll_command(const EnrollArguments& arguments) {
   io::UsageErrors errors;
   std::string text = arguments.text;
   if (text == "-") {

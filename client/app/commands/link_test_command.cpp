@@ -32,7 +32,7 @@ constexpr Duration kSilentMax = 10s;  // silence of the server that ends the tes
 constexpr Duration kRefusedMax = 1s;  // the same after ECONNREFUSED
 constexpr int kRounds = 4;
 
-struct Arguments {
+struct LinkTestArguments {
   std::string server, session, state, json, duration = "10", timeout = "5";
   bool quiet = false;
 };
@@ -189,25 +189,26 @@ const char* to_text(Ended ended) noexcept {
   return kWords[static_cast<std::size_t>(ended)];
 }
 
-int trouble(const std::string& what, int code = io::kExitTrouble) {
+int link_test_trouble(const std::string& what, int code = io::kExitTrouble) {
   io::log(io::Level::kError, "link-test: " + what);
   return code;
 }
 
-int test_link(const Arguments& arguments, const io::SocketAddress& address, double duration_s, double timeout_s) {
+int test_link(const LinkTestArguments& arguments, const io::SocketAddress& address, double duration_s,
+              double timeout_s) {
   const io::Fd signals = io::make_signalfd();
   io::OutputFile json;
   if (const auto problem = json.open(arguments.json, true); !problem.empty())
-    return trouble("--json: " + problem, io::kExitUsage);
+    return link_test_trouble("--json: " + problem, io::kExitUsage);
   const std::string server = io::to_text(address);
   hal::DeviceCaps nobody;  // a link-test peer has no device, but Hello requires plausible capabilities
   nobody.joints = nobody.tip_axes = 1;
   nobody.simulated = true;
   const auto given =
       join_seat({address, {}, arguments.session, {}, arguments.state, nobody, from_seconds(timeout_s), signals.get()});
-  if (!given) return given.error().interrupted ? 0 : trouble(given.error().reason);
+  if (!given) return given.error().interrupted ? 0 : link_test_trouble(given.error().reason);
   auto socket = io::connect_udp(given->udp);
-  if (!socket) return trouble("--server: " + socket.error());
+  if (!socket) return link_test_trouble("--server: " + socket.error());
 
   const auto test = std::make_unique<LinkTest>(given->setup, given->link);
   const auto prober = std::make_unique<Prober>(*socket, *test, given->setup.tick_hz, signals.get());
@@ -237,12 +238,12 @@ int test_link(const Arguments& arguments, const io::SocketAddress& address, doub
     std::fputs(io::wrap_for_terminal(text, stdout).c_str(), stdout);
   }
   json.write(to_json(findings, verdict, server, to_text(ended), ended == Ended::kDone));
-  if (const auto problem = json.close(); !problem.empty()) return trouble(problem);
+  if (const auto problem = json.close(); !problem.empty()) return link_test_trouble(problem);
   if (ended == Ended::kInterrupted) return 0;
   return verdict.grade == LinkGrade::kBad || ended != Ended::kDone ? io::kExitTrouble : 0;
 }
 
-int link_test_command(const Arguments& arguments) {
+int link_test_command(const LinkTestArguments& arguments) {
   io::UsageErrors errors;
   const auto server = server_option(arguments.server, errors);
   const double duration = errors.number("--duration", arguments.duration, 1, 3600, "s");

@@ -15,12 +15,12 @@
 namespace tandem::client {
 namespace {
 
-struct Arguments {
+struct SessionsArguments {
   std::string server, state, timeout = "5";
   bool json = false;
 };
 
-int sessions_command(const Arguments& arguments) {
+int sessions_command(const SessionsArguments& arguments) {
   io::UsageErrors errors;
   JoinOptions asking;
   if (const auto server = server_option(arguments.server, errors)) asking.server = *server;

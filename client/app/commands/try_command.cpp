@@ -69,7 +69,7 @@ class TrySession final : public SeatObserver {
   std::optional<double> tutorial_over_since_;
 };
 
-int trouble(const std::string& what, int code = io::kExitTrouble) {
+int try_trouble(const std::string& what, int code = io::kExitTrouble) {
   io::log(io::Level::kError, "try: " + what);
   return code;
 }
@@ -99,7 +99,7 @@ const SeatSpec* seat_for_person(const SceneSpec& scene, const std::string& wante
 int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatSpec& own, double duration_s) {
   const std::string server_path = program_path("tandem-server"), client_path = program_path("tandem-client");
   if (server_path.empty())
-    return trouble(
+    return try_trouble(
         "it needs the program tandem-server, which is neither beside tandem-client nor in $PATH; install the package "
         "tandem-server "
         "(apt install ./tandem-server_*.deb), or join a server on another computer with `tandem-client join`");
@@ -113,18 +113,19 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
 
   auto server =
       ChildProgram::start("the server", {server_path, "run", scene_text, "--listen", "127.0.0.1:0", "--quiet"});
-  if (!server) return trouble(server.error());
+  if (!server) return try_trouble(server.error());
   const auto address = server->wait_for_line("listening on ", kServerStarts, signals.get());
   if (!address) {
     if (!io::pending_signal().empty()) return 0;
-    return trouble("the server did not start" + (server->last_output().empty() ? "" : ": " + server->last_output()));
+    return try_trouble("the server did not start" +
+                       (server->last_output().empty() ? "" : ": " + server->last_output()));
   }
   trial.add(std::move(*server));
   for (const std::string& partner : partners) {
     auto child =
         ChildProgram::start("the simulated " + partner, {client_path, "join", "--server", *address, "--seat", partner,
                                                          "--device", "sim", "--quiet", "--reconnect-timeout", "0"});
-    if (!child) return trouble(child.error());
+    if (!child) return try_trouble(child.error());
     trial.add(std::move(*child));
   }
 
@@ -137,7 +138,7 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
   plan.observer = &trial;
   const int code = run_seat(plan);
   trial.stop();
-  if (!trial.failed.empty()) return trouble(trial.failed);
+  if (!trial.failed.empty()) return try_trouble(trial.failed);
   io::print_formatted(stderr, "the server and the simulated hands were ended as well\n");
   return code;
 }

@@ -15,7 +15,7 @@
 namespace tandem::auth {
 namespace {
 
-constexpr mode_t kOwnFile = 0600;
+constexpr mode_t kAppendedFileMode = 0600;
 constexpr int kOpenedAgainMax = 8;  // attempts while other processes rotate
 
 /// @return the length of the file's whole lines; nullopt: it cannot be read
@@ -38,7 +38,7 @@ std::optional<off_t> whole_lines(int fd, off_t size) {
 std::expected<io::Fd, std::string> StateDirectory::open_to_append(const std::string& name, TornLine torn) const {
   for (int i = 0; i < kOpenedAgainMax; ++i) {
     io::Fd file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC,
-                       kOwnFile)};
+                       kAppendedFileMode)};
     if (!file.open()) return std::unexpected(trouble(name, "opened"));
     if (std::string wrong =
             wrong_with(file.get(), name, torn == TornLine::kCut ? kFileMax : std::numeric_limits<std::uint64_t>::max());

@@ -17,7 +17,7 @@
 namespace tandem::auth {
 namespace {
 
-constexpr mode_t kOwnFile = 0600;
+constexpr mode_t kLockFileMode = 0600;
 constexpr auto kLookEvery = std::chrono::milliseconds(10);
 
 }  // namespace
@@ -33,7 +33,7 @@ bool StateDirectory::wait_for(int fd, std::chrono::milliseconds patience) noexce
 
 std::expected<StateDirectory::Lock, std::string> StateDirectory::lock(const std::string& name,
                                                                       std::chrono::milliseconds patience) const {
-  Lock file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
+  Lock file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kLockFileMode)};
   if (!file.open()) return std::unexpected(trouble(name, "opened"));
   if (wait_for(file.get(), patience)) return file;
   if (errno != EWOULDBLOCK && errno != EINTR) return std::unexpected(trouble(name, "locked"));
@@ -44,7 +44,7 @@ std::expected<StateDirectory::Lock, std::string> StateDirectory::lock(const std:
 
 std::expected<std::optional<StateDirectory::Lock>, std::string> StateDirectory::try_lock(
     const std::string& name) const {
-  Lock file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
+  Lock file{openat(folder_.get(), name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kLockFileMode)};
   if (!file.open()) return std::unexpected(trouble(name, "opened"));
   if (flock(file.get(), LOCK_EX | LOCK_NB) == 0) return file;
   if (errno == EWOULDBLOCK) return std::nullopt;

@@ -20,7 +20,7 @@ constexpr Duration kGreetingWait = 100ms;
 constexpr Duration kCtsWait = 50ms;  // some devices never raise CTS; then the loader continues without it
 constexpr Duration kReadyWait = 100ms;
 constexpr Duration kEchoWait = 200ms;
-constexpr Duration kWriteWait = 200ms;
+constexpr Duration kBootWriteWait = 200ms;
 constexpr Duration kReadSlice = 5ms;
 constexpr Duration kRest = 20ms;  // pause between two attempts
 constexpr int kProbeFrames = 10;
@@ -100,7 +100,7 @@ std::expected<std::optional<FalconReply>, Errc> FalconBoot::probe() noexcept {
 }
 
 FalconBoot::Step FalconBoot::write(std::span<const std::byte> bytes) noexcept {
-  const Moved moved = pipe_.write(bytes, kWriteWait);
+  const Moved moved = pipe_.write(bytes, kBootWriteWait);
   if (!moved) return std::unexpected(Trouble{moved.error(), "writing failed"});
   if (*moved != bytes.size()) return std::unexpected(Trouble{Errc::kTimeout, "not all bytes could be written"});
   return {};

@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLook = 20ms;
+constexpr auto kChildPoll = 20ms;
 /// Signal and time limit of one step. The limit is long, because a session first ramps its forces to zero and ends its
 /// connections.
 struct Step {
@@ -123,7 +123,8 @@ void end_all(std::span<ChildProcess> children) noexcept {
   for (const Step& step : kSteps) {
     if (!any()) return;
     for (ChildProcess& c : children) c.signal(step.signal);
-    for (auto waited = 0ms; waited < step.patience && any(); waited += kLook) std::this_thread::sleep_for(kLook);
+    for (auto waited = 0ms; waited < step.patience && any(); waited += kChildPoll)
+      std::this_thread::sleep_for(kChildPoll);
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLook = 25ms;
+constexpr auto kRunPoll = 25ms;
 constexpr double kStartPatience = 10;  // [s] until a program prints its address
 constexpr double kEndPatience = 30;    // [s] beyond the session's length
 constexpr std::size_t kLogLines = 12;
@@ -88,7 +88,7 @@ bool LiveRunProcesses::wait_for_address(std::size_t index, std::string& address)
       return set_error(
           child, "ended with exit code " + std::to_string(child.exit_code().value_or(-1)) + " before it listened");
     if (monotonic_seconds() - begin > kStartPatience) return set_error(child, "did not print its address within 10 s");
-    std::this_thread::sleep_for(kLook);
+    std::this_thread::sleep_for(kRunPoll);
   }
 }
 
@@ -111,7 +111,7 @@ bool LiveRunProcesses::wait_for_end() {
     }
     if (elapsed > plan_.duration_s + kEndPatience) return set_error(server, "did not end the session in time");
     observer_.progress(elapsed);
-    std::this_thread::sleep_for(kLook);
+    std::this_thread::sleep_for(kRunPoll);
   }
   return true;
 }
@@ -150,7 +150,7 @@ std::expected<RawRun, std::string> LiveRunProcesses::play() {
   if (fine) {
     // The clients have received the end of the session. They need the network until they exit.
     for (int n = 0; n < 80 && (children_[2].running() || children_[3].running()); ++n)
-      std::this_thread::sleep_for(kLook);
+      std::this_thread::sleep_for(kRunPoll);
   }
   end_all(children_);
   if (!fine) return std::unexpected(trouble_);

@@ -12,7 +12,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr std::size_t kLineMax = 4096;
+constexpr std::size_t kCommandMax = 4096;
 constexpr Duration kOutageMax = std::chrono::hours(1);
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -167,7 +167,7 @@ class ControlRequestParser {
 }  // namespace
 
 std::expected<ControlRequest, std::string> parse_control_request(std::string_view line) {
-  if (line.size() > kLineMax) return std::unexpected(std::string("a command has at most 4096 characters"));
+  if (line.size() > kCommandMax) return std::unexpected(std::string("a command has at most 4096 characters"));
   return ControlRequestParser(words_of(line)).read();
 }
 

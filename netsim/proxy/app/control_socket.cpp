@@ -13,7 +13,7 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr std::size_t kLineMax = 8192;
+constexpr std::size_t kRequestBytesMax = 8192;
 constexpr std::size_t kAnswerMax = 1 << 20;
 constexpr int kAskerMs = 1'000;
 constexpr int kAnswerMs = 10'000;
@@ -91,7 +91,7 @@ void ControlSocket::serve(const std::function<std::string(const std::string& lin
   while (true) {
     const io::Fd asker{::accept4(fd_.get(), nullptr, nullptr, SOCK_CLOEXEC)};
     if (!asker.open()) return;
-    const auto line = read_until(asker.get(), '\n', kLineMax, kAskerMs);
+    const auto line = read_until(asker.get(), '\n', kRequestBytesMax, kAskerMs);
     if (line) write_all(asker.get(), answer(*line));
   }
 }

@@ -22,7 +22,7 @@ namespace {
 
 constexpr Duration kEveryOnTerminal{500'000'000};
 constexpr Duration kEveryLine{5'000'000'000};
-constexpr std::size_t kCommandMax = 200;
+constexpr std::size_t kTypedCommandMax = 200;
 
 /// Command being typed, completed by Enter.
 class CommandLine {
@@ -39,7 +39,7 @@ class CommandLine {
       if (!text_.empty()) text_.pop_back();
     } else if (key == "\x15") {  // Ctrl-U
       text_.clear();
-    } else if (key.size() == 1 && static_cast<unsigned char>(key[0]) >= ' ' && text_.size() < kCommandMax) {
+    } else if (key.size() == 1 && static_cast<unsigned char>(key[0]) >= ' ' && text_.size() < kTypedCommandMax) {
       text_ += key;
     }
     return std::nullopt;

@@ -9,15 +9,15 @@
 namespace tandem::netsim {
 namespace {
 
-double count(std::uint64_t n) { return static_cast<double>(n); }
+double as_double(std::uint64_t n) { return static_cast<double>(n); }
 double ms(Duration d) { return seconds(d) * 1e3; }
 
-double per_second(std::uint64_t now, std::uint64_t before, double s) { return s > 0 ? count(now - before) / s : 0; }
+double per_second(std::uint64_t now, std::uint64_t before, double s) { return s > 0 ? as_double(now - before) / s : 0; }
 
 /// Returns the percentage of datagrams dropped by the network since `before`.
 double lost_percent(const PathCounters& now, const PathCounters& before) {
   const std::uint64_t in = now.in - before.in;
-  return in > 0 ? 100 * count(now.dropped() - before.dropped()) / count(in) : 0;
+  return in > 0 ? 100 * as_double(now.dropped() - before.dropped()) / as_double(in) : 0;
 }
 
 /// Formats a number; wide numbers lose their decimals so that the column width stays.
@@ -118,7 +118,7 @@ std::vector<std::string> ProxyStatusView::row(const ProxyClientStatus& now, Dire
           " " + fixed(ms(delays.quantile_since(delays_then, 0.99)), 6, 2),
           " " + fixed(ms(now.queue[d]), 6, 2),
           " " + fixed(lost_percent(c, then->counters[d]), 5, 2),
-          " " + fixed(count(c.in_flight()), 6, 0)};
+          " " + fixed(as_double(c.in_flight()), 6, 0)};
 }
 
 }  // namespace tandem::netsim

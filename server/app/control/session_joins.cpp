@@ -23,7 +23,7 @@ constexpr std::uint32_t kLinkTestRetryS = 3;  // a silent peer's slot is free by
 constexpr std::uint8_t kConsolePlace = 0;     // no seat has it, so no datagram opens under a console's keys
 
 bool is_console(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) == kConsolePlace; }
-std::size_t seat_of(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) - std::size_t{1}; }
+std::size_t seat_index(const rpc::Welcome& joined) noexcept { return place_of(joined.server_cid) - std::size_t{1}; }
 
 std::string ticket_command(const SessionEntry& entry, const std::string& what, const std::string& workstation) {
   return "`tandem-server ticket --session " + entry.registration.name + " " + what + " --workstation " + workstation +
@@ -283,7 +283,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
       entry->link_tests.admit(asked.place, by, cid);
     };
   } else {
-    const std::size_t seat = seat_of(welcome);
+    const std::size_t seat = seat_index(welcome);
     SeatReservation& reservation = entry->seats[seat];
     const auto secret = resume_hash(welcome.resume_secret.bytes, resume_binding(trust_, request.workstation));
     reservation.admit(request.workstation, welcome.server_cid, secret);
@@ -304,7 +304,7 @@ void SessionJoins::on_joined(const JoinRequest& request, const rpc::Welcome& wel
 void SessionJoins::on_join_failed(const rpc::Welcome& welcome) {
   SessionEntry* const entry = registry_.find(welcome.session_id);
   if (entry == nullptr) return;
-  if (!welcome.seat.empty()) return restore_ticket(entry->seats[seat_of(welcome)].end_join(), *entry);
+  if (!welcome.seat.empty()) return restore_ticket(entry->seats[seat_index(welcome)].end_join(), *entry);
   if (!is_console(welcome)) return entry->link_tests.cancel_join();
   restore_ticket(entry->consoles.take(welcome.resume_secret), *entry);
 }
@@ -319,7 +319,7 @@ void SessionJoins::command(const rpc::Welcome& joined, const WorkstationRow& wor
 bool SessionJoins::is_current(const rpc::Welcome& joined) const {
   const SessionEntry* const entry = std::as_const(registry_).find(joined.session_id);
   if (entry == nullptr) return false;
-  if (!joined.seat.empty()) return entry->seats[seat_of(joined)].owned_by(joined.server_cid);
+  if (!joined.seat.empty()) return entry->seats[seat_index(joined)].owned_by(joined.server_cid);
   return is_console(joined) ? entry->consoles.contains(joined.resume_secret)
                             : entry->link_tests.contains(joined.server_cid);
 }
