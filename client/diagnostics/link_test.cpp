@@ -125,13 +125,14 @@ LinkTestResult LinkTest::findings(Time now) const {
     f.down = LinkTestResult::Direction{l.newest - l.first + 1, l.lost(), l.late,
                                        seconds(stopped_ ? gap_until_stop_ : link_.longest_gap(now))};
     if (report_ && report_->acted > 0) {
-      LinkTestResult::Direction& up = f.up.emplace();
+      LinkTestResult::Direction up;
       up.sent =
           echo_newest_ + 1 - std::min(path_answers_, echo_newest_);  // counters also count PATH_RESPONSE datagrams
       up.reordered = report_->late;
       const std::uint64_t arrived = std::uint64_t{report_->acted} + report_->late;
       up.lost = up.sent > arrived ? up.sent - arrived : 0;
       up.longest_gap = seconds(echo_age_max_);
+      f.up = up;
     }
     f.jitter = transit_.jitter();
   }

@@ -64,7 +64,7 @@ std::expected<WorkstationRow, EnrollError> enroll(std::vector<WorkstationRow>& b
   const std::string name = given->workstation;
   const auto old = std::ranges::find(book, name, &WorkstationRow::name);
   if (old == book.end() && book.size() >= kRowsMax) return std::unexpected(EnrollError::kBookFull);
-  const WorkstationRow row{name, fingerprint.sha256, now};
+  WorkstationRow row{name, fingerprint.sha256, now};
   if (old == book.end()) {
     book.push_back(row);
   } else {

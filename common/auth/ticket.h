@@ -22,7 +22,7 @@ using Id16 = std::array<std::byte, 16>;
 struct Ticket {
   static constexpr std::uint8_t kVersion = 1;
   static constexpr std::size_t kSeatMax = 32;
-  static constexpr std::int64_t kLifeMax = 12 * 3600;  ///< [s]
+  static constexpr std::int64_t kLifeMax = std::int64_t{12} * 3600;  ///< [s]
   static constexpr std::uint16_t kFullForce = 1000;
 
   Id16 ticket_id{};  ///< random; makes the ticket single-use

@@ -10,7 +10,7 @@
 namespace tandem::io {
 
 std::string write_error_text(int error) {
-  const std::string said = std::strerror(error);
+  std::string said = std::strerror(error);
   switch (error) {
     case ENOSPC:
       return "the disk is full (" + said + "); free some space there, then repeat";

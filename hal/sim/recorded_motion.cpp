@@ -133,13 +133,13 @@ std::expected<void, std::string> set_motion_option(MotionOptions& options, Text 
   } else if (name == "rec") {
     const auto n = parse_number(value);
     if (!n) return std::unexpected(whole + ": the number of a recording");
-    options.rec = *n;
+    options.rec = n;
   } else if (name == "scale") {
     options.scale.reset();
     if (value == "auto") return {};
     const auto s = parse_number(value);
     if (!s || !(*s > 0.0) || *s > kScaleMax) return std::unexpected(whole + ": auto or a factor above 0, at most 1000");
-    options.scale = *s;
+    options.scale = s;
   } else if (name == "axes") {
     auto axes = parse_axes(value);
     if (!axes) return std::unexpected(std::move(axes.error()));

@@ -140,7 +140,7 @@ void SimDevice::make_caps() {
 void SimDevice::read_truth() noexcept {
   std::visit(
       [this](const auto& plant) {
-        const Vec3 q = plant.q(), dq = plant.dq();
+        const Vec3 &q = plant.q(), &dq = plant.dq();
         for (std::size_t i = 0; i < caps_.joints; ++i) {
           ground_truth_.q[i] = q[static_cast<int>(i)];
           ground_truth_.dq[i] = dq[static_cast<int>(i)];

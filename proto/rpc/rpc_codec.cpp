@@ -82,7 +82,7 @@ std::expected<Head, FrameError> peek(std::span<const std::byte> in) noexcept {
 std::expected<Frame, FrameError> decode(std::span<const std::byte> in) {
   if (const auto head = peek(in); !head) return std::unexpected(head.error());
   WipedFrame read;
-  google::protobuf::io::CodedInputStream stream(static_cast<const std::uint8_t*>(static_cast<const void*>(in.data())),
+  google::protobuf::io::CodedInputStream stream(reinterpret_cast<const std::uint8_t*>(in.data()),
                                                 static_cast<int>(in.size()));
   stream.SetRecursionLimit(kRecursionMax);
   if (!read.frame.ParseFromCodedStream(&stream) || !stream.ConsumedEntireMessage())

@@ -24,7 +24,10 @@ class CloseOut {
     ticks_left_ = static_cast<std::uint32_t>(std::lround(kRampTime / dt)) + kRepeats + 1;
   }
   /// Advances by one tick. @return true in the tick that ends the close-out
-  bool step() noexcept { return ticks_left_ > 0 && --ticks_left_ == 0; }
+  bool step() noexcept {
+    if (ticks_left_ == 0) return false;
+    return --ticks_left_ == 0;
+  }
 
   [[nodiscard]] bool begun() const noexcept { return begun_; }
   [[nodiscard]] bool over() const noexcept { return begun_ && ticks_left_ == 0; }

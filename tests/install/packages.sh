@@ -34,6 +34,7 @@ fi
 # shellcheck disable=SC2034
 TANDEM_PACKAGES_TEST=(
   "clang-format-19: compares the sources with .clang-format"
+  "clang-tidy-19: checks the sources for frequent mistakes"
   "doxygen: API documents of the public headers"
 )
 

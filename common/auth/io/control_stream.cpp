@@ -69,7 +69,7 @@ void ControlStream::handshake(std::function<void(Peer)> done) {
   });
 }
 
-void ControlStream::read(std::size_t frame_max, Duration frame_deadline, std::function<void(Bytes)> done) {
+void ControlStream::read(std::size_t frame_max, Duration frame_deadline, const std::function<void(Bytes)>& done) {
   // The first byte may arrive at any time; the frame deadline applies to the rest of the frame.
   auto body = [self = shared_from_this(), frame_max, done](const asio::error_code& error, std::size_t) {
     if (error) {

@@ -56,7 +56,7 @@ class ControlStream : public std::enable_shared_from_this<ControlStream> {
   void handshake(std::function<void(Peer)> done);
   /// Reads one frame; the result excludes its length. `frame_max`: longer frames end the stream before they are read.
   /// @param frame_deadline  for the rest of a frame after its first bytes; zero: only `set_deadline` applies
-  void read(std::size_t frame_max, Duration frame_deadline, std::function<void(Bytes)> done);
+  void read(std::size_t frame_max, Duration frame_deadline, const std::function<void(Bytes)>& done);
   /// @param frame  with its length, as the codec encodes it
   void write(SecretBuffer frame, std::function<void(std::expected<void, StreamError>)> done);
   /// Sends the end of the stream if that is possible without waiting, and closes.

@@ -55,7 +55,7 @@ std::expected<std::optional<StateDirectory::Lock>, std::string> StateDirectory::
 /// `->` before the kind. The device is not compared, because layered file systems report another one there than to
 /// stat.
 std::string StateDirectory::holder_of(const std::string& name) const {
-  const std::string unknown = "another process";
+  std::string unknown = "another process";
   struct stat s{};
   if (fstatat(folder_.get(), name.c_str(), &s, AT_SYMLINK_NOFOLLOW) != 0) return unknown;
   std::ifstream locks("/proc/locks");

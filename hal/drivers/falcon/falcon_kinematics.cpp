@@ -118,7 +118,8 @@ std::optional<FalconPose> newton(const Vec3& theta, Vec3 p) noexcept {
     if (length < 1e-14) return pose_of(p, *legs);
     std::optional<Legs> next;
     for (int halving = 0; halving < kHalvingsMax; ++halving, step *= 0.5) {
-      if ((next = legs_at(p + step))) break;
+      next = legs_at(p + step);
+      if (next) break;
     }
     if (!next) return std::nullopt;
     p += step;
