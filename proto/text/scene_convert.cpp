@@ -130,8 +130,7 @@ void write_trajectory(const Trajectory& in, pb::Trajectory& out) {
   }
 }
 
-/// Sets the impedance of a simulated hand (design notes, control 8): a leader's grip is tight, a relaxed hand only adds
-/// mass and damping.
+/// Sets the impedance of a simulated hand: a leader's grip is tight, a relaxed hand only adds mass and damping.
 void set_model(HandModel model, HandSpec& out) {
   out.model = model;
   switch (model) {
