@@ -4,16 +4,11 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <ctime>
+
+#include "common/io/clock.h"
 
 namespace tandem::hal {
 namespace {
-
-Time now() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return Time{std::chrono::seconds(t.tv_sec) + Duration{t.tv_nsec}};
-}
 
 std::vector<AttachedDevice> look() {
   std::vector<AttachedDevice> all = list_usb();
@@ -60,7 +55,7 @@ struct HotplugMonitor::Impl {
 
   std::vector<HotplugEvent> difference() {
     std::vector<AttachedDevice> fresh = look();
-    looked_at = now();
+    looked_at = io::monotonic_now();
     std::vector<HotplugEvent> changes;
     for (const AttachedDevice& a : present) {
       if (!holds(fresh, a)) changes.push_back({false, a});
@@ -89,14 +84,14 @@ Result<std::unique_ptr<HotplugMonitor>> HotplugMonitor::open() {
 const std::vector<AttachedDevice>& HotplugMonitor::present() const noexcept { return impl_->present; }
 
 std::vector<HotplugEvent> HotplugMonitor::wait(Duration patience) {
-  const Time until = now() + patience;
+  const Time until = io::monotonic_now() + patience;
   for (;;) {
     const Time next = std::min(until, impl_->looked_at + kLookAnyway);
-    const bool woken = impl_->drain(next - now());
-    if (woken || now() >= impl_->looked_at + kLookAnyway) {
+    const bool woken = impl_->drain(next - io::monotonic_now());
+    if (woken || io::monotonic_now() >= impl_->looked_at + kLookAnyway) {
       if (auto changes = impl_->difference(); !changes.empty()) return changes;
     }
-    if (now() >= until) return {};
+    if (io::monotonic_now() >= until) return {};
   }
 }
 
