@@ -4,6 +4,7 @@
 #include <span>
 #include <system_error>
 
+#include "common/auth/io/directory_lock.h"
 #include "common/auth/io/state_directory.h"
 #include "common/base/command_hints.h"
 
@@ -57,7 +58,7 @@ std::string MotorRegistryFile::storage_error() const {
 std::string MotorRegistryFile::store(const hal::SignFile& signs, bool confirmed) const {
   const auto folder = open_folder(option_, StateDirectory::Missing::kIsMade);
   if (!folder) return folder.error();
-  const auto alone = folder->lock(kLock);
+  const auto alone = auth::DirectoryLock::wait(*folder, kLock);
   if (!alone) return alone.error();
   auto book = read_book(*folder);
   if (!book) return book.error();

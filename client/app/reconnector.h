@@ -55,8 +55,8 @@ class Reconnector {
   std::thread thread_;
 };
 
-/// Returns the randomised silence of the server before a client reconnects, 1 s to 1.5 s (design notes, security 4).
-/// Short outages then need no reconnect, and many clients do not reconnect at the same time.
+/// Returns the randomised silence of the server before a client reconnects, 1 s to 1.5 s. Short outages then need no
+/// reconnect, and many clients do not reconnect at the same time.
 [[nodiscard]] Duration initial_backoff();
 
 }  // namespace tandem::client

@@ -10,9 +10,9 @@
 
 namespace tandem::client {
 
-/// Detects known device faults from the readings of a device that receives zero force while a user moves it. Symptoms
-/// (design notes, peers 3): a position fixed at the pose of an uncalibrated device, encoders without motion, late or
-/// torn replies, a lost origin. Sans-I/O; `update` uses no heap.
+/// Detects known device faults from the readings of a device that receives zero force while a user moves it. Symptoms:
+/// a position fixed at the pose of an uncalibrated device, encoders without motion, late or torn replies, a lost
+/// origin. Sans-I/O; `update` uses no heap.
 class DeviceDiagnostics {
  public:
   explicit DeviceDiagnostics(const hal::DeviceCaps& caps) noexcept : caps_(caps) {}

@@ -19,9 +19,9 @@ struct LinkVerdict {
 /// True if the server or the network was already gone when the test stopped. Such a test is incomplete.
 [[nodiscard]] bool server_lost(const LinkTestResult& findings) noexcept;
 
-/// Returns the grade of a link with reasons. Limits of silence and loop age are those of the scene. All others are the
-/// bands of the design notes (network, 2.4). Good: up to 20 ms round trip, 2 ms jitter, 0.1 % loss. Usable: up to 10 ms
-/// jitter, 10 % loss, gaps of 50 ms. Else bad.
+/// Returns the grade of a link with reasons. Limits of silence and loop age are those of the scene. All others are
+/// fixed bands. Good: up to 20 ms round trip, 2 ms jitter, 0.1 % loss. Usable: up to 10 ms jitter, 10 % loss, gaps of
+/// 50 ms. Else bad.
 [[nodiscard]] LinkVerdict assess_link(const LinkTestResult& findings);
 
 [[nodiscard]] const char* to_text(LinkGrade grade) noexcept;

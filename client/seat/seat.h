@@ -24,7 +24,8 @@ namespace tandem::client {
 
 /// The client core of one seat: takes device states, returns device commands, receives and sends datagrams.
 /// The same core runs on a device's servo thread and in virtual time. Order within a tick: move the reference towards
-/// the received values as far as the law permits, virtual coupling (IPC), force gate, send (design notes, control 4).
+/// the received values as far as the law permits, virtual coupling (IPC), force gate, send (ARCHITECTURE.md, "Order
+/// within a tick").
 ///
 /// After construction: no heap, no lock, no clock; `prepare` and the `reconnect` that calls it allocate.
 class Seat {

@@ -5,6 +5,7 @@
 
 #include "common/auth/base32.h"
 #include "common/base/raw_bytes.h"
+#include "common/transport/digest.h"
 
 namespace tandem::auth {
 namespace {
@@ -27,7 +28,7 @@ struct Wiped {
 }  // namespace
 
 CodeHash hash_of(const EnrolmentCode& code) noexcept {
-  return sha256(bytes_of("tandem enrolment code v1"), code.bytes);
+  return transport::sha256(bytes_of("tandem enrolment code v1"), code.bytes);
 }
 
 std::string EnrolmentString::to_text() const {
@@ -42,7 +43,7 @@ std::string EnrolmentString::to_text() const {
   add(bytes_of(address));
   add(server.sha256);
   add(code.bytes);
-  const auto check = sha256(all.bytes);
+  const auto check = transport::sha256(all.bytes);
   add(std::span(check).first(kCheck));
   return std::string(kEnrolmentPrefix) + to_base32(all.bytes);
 }
@@ -60,7 +61,7 @@ std::expected<EnrolmentString, std::string> EnrolmentString::from_text(std::stri
   const std::size_t length = bytes.size() < kHead ? 0 : std::to_integer<std::size_t>(bytes[1]);
   if (length == 0 || length > kAddressMax || bytes.size() != kHead + length + kPin + kCode + kCheck)
     return std::unexpected("has the wrong length; copy it again, whole");
-  const auto check = sha256(bytes.first(bytes.size() - kCheck));
+  const auto check = transport::sha256(bytes.first(bytes.size() - kCheck));
   if (!std::ranges::equal(bytes.last(kCheck), std::span(check).first(kCheck)))
     return std::unexpected("has a wrong checksum: a character was changed; copy it again, whole");
   EnrolmentString out;

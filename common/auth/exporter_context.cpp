@@ -4,6 +4,7 @@
 
 #include "common/auth/key_fingerprint.h"
 #include "common/base/raw_bytes.h"
+#include "common/transport/digest.h"
 
 namespace tandem::auth {
 
@@ -15,7 +16,7 @@ std::array<std::byte, 32> digest_of(const ExporterContext& c) noexcept {
   const std::string_view seat = c.seat.substr(0, 255);
   head[28] = static_cast<std::byte>(c.role);
   head[29] = static_cast<std::byte>(seat.size());
-  return sha256(head, bytes_of(seat));
+  return transport::sha256(head, bytes_of(seat));
 }
 
 }  // namespace tandem::auth

@@ -1,32 +1,6 @@
 #include "common/auth/key_fingerprint.h"
 
-#include <sodium.h>
-
-#include "common/base/raw_bytes.h"
-
 namespace tandem::auth {
-
-std::array<std::byte, 32> sha256(std::span<const std::byte> first, std::span<const std::byte> second) noexcept {
-  std::array<std::byte, 32> out;
-  crypto_hash_sha256_state state;
-  crypto_hash_sha256_init(&state);
-  crypto_hash_sha256_update(&state, raw(first.data()), first.size());
-  crypto_hash_sha256_update(&state, raw(second.data()), second.size());
-  crypto_hash_sha256_final(&state, raw(out.data()));
-  sodium_memzero(&state, sizeof state);
-  return out;
-}
-
-std::string to_hex(std::span<const std::byte> bytes) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  text.reserve(2 * bytes.size());
-  for (const std::byte b : bytes) {
-    text += kDigits[std::to_integer<std::size_t>(b >> 4)];
-    text += kDigits[std::to_integer<std::size_t>(b & std::byte{15})];
-  }
-  return text;
-}
 
 bool from_hex(std::string_view text, std::span<std::byte> out) noexcept {
   if (text.size() != 2 * out.size()) return false;

@@ -8,14 +8,11 @@
 #include <string>
 #include <string_view>
 
+#include "common/base/hex.h"
+
 namespace tandem::auth {
 
-/// Returns the SHA-256 of the parts, one after the other.
-[[nodiscard]] std::array<std::byte, 32> sha256(std::span<const std::byte> first,
-                                               std::span<const std::byte> second = {}) noexcept;
-
-/// Returns lower-case hex, two characters per byte.
-[[nodiscard]] std::string to_hex(std::span<const std::byte> bytes);
+using tandem::to_hex;
 /// @return whether `text` is exactly the hex (either case) of out.size() bytes
 [[nodiscard]] bool from_hex(std::string_view text, std::span<std::byte> out) noexcept;
 

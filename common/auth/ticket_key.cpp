@@ -7,6 +7,7 @@
 
 #include "common/auth/key_fingerprint.h"
 #include "common/base/raw_bytes.h"
+#include "common/transport/digest.h"
 
 namespace tandem::auth {
 namespace {
@@ -22,7 +23,7 @@ bool TicketVerifier::verifies(std::span<const std::byte> message, const Signatur
 
 TicketKey::TicketKey(const Secret<32>& seed) noexcept : seed_(seed) {
   crypto_sign_seed_keypair(raw(verifier_.key.data()), raw(expanded_.bytes.data()), raw(seed.bytes.data()));
-  const auto hash = sha256(verifier_.key);
+  const auto hash = transport::sha256(verifier_.key);
   for (std::size_t i = 0; i < 4; ++i) verifier_.kid |= std::to_integer<std::uint32_t>(hash[i]) << (8 * i);
 }
 

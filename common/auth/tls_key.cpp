@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/base/raw_bytes.h"
+#include "common/transport/digest.h"
 
 namespace tandem::auth {
 namespace {
@@ -57,7 +58,7 @@ std::expected<KeyFingerprint, std::string> fingerprint_of_key(X509_PUBKEY* key) 
   const std::unique_ptr<unsigned char, void (*)(unsigned char*)> owner{der, [](unsigned char* p) { OPENSSL_free(p); }};
   std::vector<std::byte> bytes(static_cast<std::size_t>(size));
   std::transform(der, der + size, bytes.begin(), [](unsigned char c) { return std::byte{c}; });
-  return KeyFingerprint{sha256(bytes)};
+  return KeyFingerprint{transport::sha256(bytes)};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace tandem::control {
 namespace {
 /// Slew of authority after a loss [1/s]. For any slew of the scene, the authority of a lost seat is 0 within 100 ms
 /// after the server declares the loss. The server declares it 100 ms after the last datagram, which meets the 220 ms of
-/// the design notes, security 2.4. A ramp from the first missing tick at half the slew would remove authority at every
+/// invariant 38 in ARCHITECTURE.md. A ramp from the first missing tick at half the slew would remove authority at every
 /// gap of a wireless network.
 constexpr double kLossSlew = 10.0;
 }  // namespace

@@ -10,8 +10,7 @@
 namespace tandem::control {
 
 /// Tank that pays for the energy injected by changes of authority. The weighted storage is V = sum alpha_i V_i. A
-/// change of alpha adds sum alpha'_i V_i to it, for any state of the flow sources (design notes, control 2, "weighted
-/// passivity").
+/// change of alpha adds sum alpha'_i V_i to it, for any state of the flow sources.
 class AuthorityTank {
  public:
   /// @param initial  initial level [J]; the capacity is twice that

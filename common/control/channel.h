@@ -12,8 +12,8 @@
 #include "common/control/gain_schedule.h"
 
 /// Interface of the channel laws. The network is cut at the reference port: every seat is a spring whose two ends run
-/// on two machines (design notes, control 4). A channel law computes the reference of one end in every tick, whether or
-/// not a datagram has arrived.
+/// on two machines (ARCHITECTURE.md, "The channel, as built"). A channel law computes the reference of one end in every
+/// tick, whether or not a datagram has arrived.
 namespace tandem::control {
 
 /// The machine on which an end runs.
@@ -133,7 +133,7 @@ class ChannelEnd {
   [[nodiscard]] EnergyArray e_out() const noexcept;
 
  protected:
-  /// The reference before the ledger limits it (design notes, control 4, "lead" and "effort half").
+  /// The reference before the ledger limits it.
   [[nodiscard]] double target(const EndInput& in, std::size_t a, double k) const noexcept {
     const double ahead = in.rx.x[a] + schedule_.lead(in.age) * in.rx.v[a];
     const double d = schedule_.delay();

@@ -4,9 +4,10 @@
 
 namespace tandem::control {
 
-/// Set-position modulation with an energy ledger (design notes, control 4; in the spirit of [Lee & Huang, T-RO 26(2)
-/// 2010]). A received position is a target, and the reference moves as far towards it as the ledger pays. The distance
-/// from x stays within the strongest motor's force divided by k: the reference yields to a hand that pushes harder.
+/// Set-position modulation with an energy ledger (ARCHITECTURE.md, "Law `set_position`"; in the spirit of [Lee & Huang,
+/// T-RO 26(2) 2010]). A received position is a target, and the reference moves as far towards it as the ledger pays.
+/// The distance from x stays within the strongest motor's force divided by k: the reference yields to a hand that
+/// pushes harder.
 class SetPositionEnd final : public EnergyBoundedEnd {
  public:
   using EnergyBoundedEnd::EnergyBoundedEnd;

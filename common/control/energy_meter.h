@@ -8,8 +8,8 @@
 namespace tandem::control {
 
 /// Measures the energy that a sampled motor gives to the hand. The effort held between two samples does exactly the
-/// work F(k-1) (q(k) - q(k-1)) (design notes, control 6). F v T with a filtered velocity is wrong. For a sampled spring
-/// of 1000 N/m moved 10 mm at 5 Hz it yields -4.9 mJ per cycle; the true value is +4.9 mJ.
+/// work F(k-1) (q(k) - q(k-1)). F v T with a filtered velocity is wrong. For a sampled spring of 1000 N/m moved 10 mm
+/// at 5 Hz it yields -4.9 mJ per cycle; the true value is +4.9 mJ.
 class EnergyMeter {
  public:
   /// @param q  present position.  @param effort_held  effort that the motor really held since the last call, saturated.

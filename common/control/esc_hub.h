@@ -47,7 +47,7 @@ struct NearEnd {
 
 /// The hub of Energy Shared Control: the power-conserving interconnection of n masters and m tools, with the modulated
 /// flow sources of each tool. Each session has one; `server::SharedControl` calls it. F_ri and v_ri are effort and flow
-/// at the port of master i, F_rs,j and v_rs,j those at the port of tool j. Per axis (design notes, control 2):
+/// at the port of master i, F_rs,j and v_rs,j those at the port of tool j. Per axis:
 ///
 ///     F_rs,j = - sum_i A_ji F_ri          v_ri = sum_j [A_ji + g_ji (C_ji - A_ji)] v_rs,j
 ///     P_inj  = sum of all port powers = sum_ij g_ji (C_ji - A_ji) F_ri v_rs,j
@@ -58,7 +58,7 @@ struct NearEnd {
 /// F_ri is the effort of the seat's spring on its IPC. The springs act on the tool at the end of its step, therefore
 /// F_rs,j is a `Pull` of springs A_ji k_i at p_i. Flows are positions wherever no gate cuts them, so that no target
 /// drifts: y_i = sum_j C_ji x_j. The hub grants energy in place of power: it asks the flow sources for the part that
-/// the authority of a seat does not pay for (design notes, control 4, "MFS as energy grants").
+/// the authority of a seat does not pay for.
 ///
 /// Seats below `masters` are masters, the others SLAVE seats. Indices are in range. Real-time safe.
 class EscHub {

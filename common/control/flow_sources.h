@@ -9,7 +9,7 @@ namespace tandem::control {
 
 /// Rule by which the flow sources of a tool are limited.
 enum class FlowSourceMode : std::uint8_t {
-  kOpen,  ///< every grant is given; stable by weighted passivity (design notes, control 2)
+  kOpen,  ///< every grant is given; stable by weighted passivity
   kTank,  ///< grants come from a tank of dissipated energy: absolutely passive, but a following hand receives little
   kSeed,  ///< velocity gate by E_p exactly as printed in [Licona et al. 2019] eq. 3-4
   kSeedSigned  ///< the same with the sign that makes the printed rule passive

@@ -37,9 +37,8 @@ struct GateParams {
   Duration command_lifetime = kCommandLifetimeMin;  ///< the device drops an effort that is not renewed within this time
 };
 
-/// Last safety stage before the motor, on the client; it trusts neither the server nor the controller (design notes,
-/// control 7; design notes, security 2.3). Stages in order: finite check, clamp, slew limit, silence and loop age,
-/// energy tank, latch.
+/// Last safety stage before the motor, on the client; it trusts neither the server nor the controller (ARCHITECTURE.md,
+/// invariants 3 to 5). Stages in order: finite check, clamp, slew limit, silence and loop age, energy tank, latch.
 class ForceGate {
  public:
   /// Input of one step. Arrays are per axis of the port.

@@ -6,8 +6,8 @@
 
 namespace tandem::control {
 
-/// Gains of a channel as a function of the delay (design notes, control 4). The P+d condition [Nuno et al., IJRR 28(7)
-/// 2009] requires that k d stays small.
+/// Gains of a channel as a function of the delay. The P+d condition [Nuno et al., IJRR 28(7) 2009] requires that k d
+/// stays small.
 struct GainScheduleParams {
   double k = 1000,        ///< stiffness without delay [N/m]
       k_min = 60;         ///< smallest stiffness at any delay [N/m]

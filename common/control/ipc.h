@@ -5,7 +5,7 @@
 
 /// Virtual coupling masses: the intrinsically passive controllers (IPC) of one axis [Stramigioli, LNCIS 266, 2001].
 /// Their steps are implicit: the springs act on the virtual mass at the END of the step. No step therefore creates
-/// energy, for any stiffness, mass and sample time (design notes, control 3).
+/// energy, for any stiffness, mass and sample time (ARCHITECTURE.md, invariant 9).
 namespace tandem::control {
 
 /// Virtual mass between a device (stiffness k_c) and a reference (stiffness k). All gains are of this axis.

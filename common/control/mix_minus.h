@@ -11,7 +11,7 @@
 namespace tandem::control {
 
 /// Mix-minus of law `replica`, as in a telephone conference: the target of one seat for one tool is where the other
-/// hands pull at the tool, without this hand's own echo (design notes, replica 2):
+/// hands pull at the tool, without this hand's own echo:
 ///
 ///     r_i = sum_{h != i} A_jh p_h / sum_{h != i} A_jh        the tool itself where no other hand has authority
 ///

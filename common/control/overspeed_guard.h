@@ -8,9 +8,9 @@
 
 namespace tandem::control {
 
-/// Releases a hand that moves faster than any intended motion (design notes, security 2.3 and 2.4). Damping replaces
-/// force. After the third trip only the participant at the device can enable it again. The driver's guard has its own,
-/// higher limit.
+/// Releases a hand that moves faster than any intended motion (ARCHITECTURE.md, invariant 48). Damping replaces force.
+/// After the third trip only the participant at the device can enable it again. The driver's guard has its own, higher
+/// limit.
 class OverspeedGuard {
  public:
   static constexpr double kSpeedMax = 1.5;  ///< of the tip [m/s]

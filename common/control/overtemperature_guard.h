@@ -6,11 +6,11 @@
 
 namespace tandem::control {
 
-/// Releases a hand whose motors are too hot (design notes, security 2.4). Damping replaces force until the motors have
-/// cooled; after the third trip only the participant at the device can enable it again. The input is the temperature
-/// that the device itself reports. The thermal model of the driver's guard, which lowers the force earlier, acts in
-/// addition. A device without temperature reports never trips. A reported value that is not a number counts as hot,
-/// because the temperature is then unknown.
+/// Releases a hand whose motors are too hot (ARCHITECTURE.md, invariant 54). Damping replaces force until the motors
+/// have cooled; after the third trip only the participant at the device can enable it again. The input is the
+/// temperature that the device itself reports. The thermal model of the driver's guard, which lowers the force earlier,
+/// acts in addition. A device without temperature reports never trips. A reported value that is not a number counts as
+/// hot, because the temperature is then unknown.
 class OvertemperatureGuard {
  public:
   static constexpr double kHot = 1.0;       ///< share of the motors' permitted heat (hal::State::heat)

@@ -6,7 +6,7 @@
 
 namespace tandem::control {
 
-/// Bounds the energy that the motor gives a hand after the last fresh datagram (design notes, security 2.3). Measures
+/// Bounds the energy that the motor gives a hand after the last fresh datagram (ARCHITECTURE.md, invariant 5). Measures
 /// the work of the held effort along the way of the hand. Arrays are per axis of the port.
 class SilenceTank {
  public:

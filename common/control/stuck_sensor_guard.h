@@ -10,10 +10,10 @@
 
 namespace tandem::control {
 
-/// Detects a sensor whose reading is constant although the hand is being moved (design notes, security 2.4). A
-/// participant can hold a handle so still that not one count changes, so a constant reading alone proves nothing. The
-/// sensor is stuck if for 100 ms not one bit of the reading changes while two conditions hold. The reference has moved
-/// away by 5 mm, and the motor's pull has changed by more than friction hides. No grip is that stiff.
+/// Detects a sensor whose reading is constant although the hand is being moved. A participant can hold a handle so
+/// still that not one count changes, so a constant reading alone proves nothing. The sensor is stuck if for 100 ms not
+/// one bit of the reading changes while two conditions hold. The reference has moved away by 5 mm, and the motor's pull
+/// has changed by more than friction hides. No grip is that stiff.
 class StuckSensorGuard {
  public:
   static constexpr Duration kSuspectAfter = std::chrono::milliseconds(100);

@@ -69,8 +69,7 @@ std::unique_ptr<control::ChannelEnd> make_channel(const ChannelSpec& spec, contr
   p.schedule.b_delay = stiffness ? kSlaveDamping * spec.b_delay : spec.b_delay;
   p.schedule.lead_max = spec.lead_max;
   p.effort_half = spec.effort_half;
-  // Below F^2 / 2k the channel would dead-lock at its start: the first full force could not be paid (design notes,
-  // control 4).
+  // Below F^2 / 2k the channel would dead-lock at its start: the first full force could not be paid.
   p.e0 = std::max(spec.e0, force_max * force_max / (2 * p.schedule.k_min));
   p.eta = spec.eta;
   p.margin_max = std::max(spec.margin_max, p.e0);

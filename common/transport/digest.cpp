@@ -2,9 +2,10 @@
 
 #include <openssl/evp.h>
 
-#include <array>
-#include <bit>
 #include <stdexcept>
+
+#include "common/base/hex.h"
+#include "common/base/raw_bytes.h"
 
 namespace tandem::transport {
 
@@ -26,23 +27,21 @@ Digest& Digest::operator=(Digest&&) noexcept = default;
 
 void Digest::add(std::string_view bytes) noexcept { EVP_DigestUpdate(context_->evp, bytes.data(), bytes.size()); }
 
-std::array<std::byte, 32> sha256(std::span<const std::byte> bytes) noexcept {
-  std::array<unsigned char, 32> hash{};
-  unsigned size = 0;
-  EVP_Digest(bytes.data(), bytes.size(), hash.data(), &size, EVP_sha256(), nullptr);
-  return std::bit_cast<std::array<std::byte, 32>>(hash);
+std::string Digest::hex() {
+  std::array<std::byte, 32> hash{};
+  EVP_DigestFinal_ex(context_->evp, raw(hash.data()), nullptr);
+  return to_hex(hash);
 }
 
-std::string Digest::hex() {
-  std::array<unsigned char, 32> hash{};
-  unsigned size = 0;
-  EVP_DigestFinal_ex(context_->evp, hash.data(), &size);
-  std::string out;
-  for (const unsigned char byte : hash) {
-    out += "0123456789abcdef"[byte >> 4];
-    out += "0123456789abcdef"[byte & 15];
-  }
-  return out;
+std::array<std::byte, 32> sha256(std::span<const std::byte> first, std::span<const std::byte> second) noexcept {
+  std::array<std::byte, 32> hash{};
+  EVP_MD_CTX* const context = EVP_MD_CTX_new();
+  EVP_DigestInit_ex(context, EVP_sha256(), nullptr);
+  EVP_DigestUpdate(context, first.data(), first.size());
+  EVP_DigestUpdate(context, second.data(), second.size());
+  EVP_DigestFinal_ex(context, raw(hash.data()), nullptr);
+  EVP_MD_CTX_free(context);
+  return hash;
 }
 
 }  // namespace tandem::transport

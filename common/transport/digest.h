@@ -25,7 +25,8 @@ class Digest {
   std::unique_ptr<Context> context_;
 };
 
-/// Returns the SHA-256 of complete data.
-[[nodiscard]] std::array<std::byte, 32> sha256(std::span<const std::byte> bytes) noexcept;
+/// Returns the SHA-256 of the parts, one after the other.
+[[nodiscard]] std::array<std::byte, 32> sha256(std::span<const std::byte> first,
+                                               std::span<const std::byte> second = {}) noexcept;
 
 }  // namespace tandem::transport

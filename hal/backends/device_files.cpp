@@ -5,6 +5,8 @@
 #include <iterator>
 #include <system_error>
 
+#include "common/base/hex.h"
+#include "common/base/raw_bytes.h"
 #include "common/transport/digest.h"
 #include "proto/io/scene_file.h"
 #include "proto/text/device_text.h"
@@ -66,10 +68,8 @@ Result<FalconFirmware> load_firmware(const std::string& file) {
   }
   FalconFirmware firmware;
   firmware.file = file;
-  for (const char c : bytes) firmware.image.push_back(static_cast<std::byte>(c));
-  transport::Digest digest;
-  digest.add(bytes);
-  firmware.sha256 = digest.hex();
+  firmware.image.assign(bytes_of(bytes).begin(), bytes_of(bytes).end());
+  firmware.sha256 = to_hex(transport::sha256(bytes_of(bytes)));
   return firmware;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hal/core/device.h"
@@ -48,10 +49,22 @@ class OptionParser {
   [[nodiscard]] bool valid() const noexcept { return mistakes_.empty(); }
   /// Returns success, or error kUnsupported with one line per error.
   [[nodiscard]] Result<> result() const;
+  /// Returns `value`, or the error of `result()`.
+  template <class T>
+  [[nodiscard]] Result<T> result_with(T value) const {
+    if (auto fine = result(); !fine) return std::unexpected(std::move(fine.error()));
+    return value;
+  }
 
  private:
   const DeviceSpec* choice_;
   std::vector<std::string> mistakes_;
 };
+
+/// Returns the error of parsed options, if any, without their value.
+template <class T>
+[[nodiscard]] Result<> without_value(const Result<T>& parsed) {
+  return parsed ? Result<>{} : std::unexpected(parsed.error());
+}
 
 }  // namespace tandem::hal

@@ -56,8 +56,7 @@ Result<FalconOptions> parse_falcon_options(const DeviceSpec& choice) {
       options.firmware = std::move(*firmware);
     }
   }
-  if (auto fine = judge.result(); !fine) return std::unexpected(std::move(fine.error()));
-  return options;
+  return judge.result_with(std::move(options));
 }
 
 ShutdownFrame last_words(int fd) {
@@ -89,10 +88,7 @@ std::vector<DeviceFact> FalconBackend::facts() const {
           {"gravity", "no gravity compensation: the user holds the weight of the grip"}};
 }
 
-Result<> FalconBackend::check(const DeviceSpec& choice) const {
-  auto understood = parse_falcon_options(choice);
-  return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
-}
+Result<> FalconBackend::check(const DeviceSpec& choice) const { return without_value(parse_falcon_options(choice)); }
 
 Result<std::vector<FoundDevice>> FalconBackend::list() {
   std::vector<FoundDevice> found;

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "common/base/format.h"
+#include "common/base/hex.h"
+#include "common/base/raw_bytes.h"
 #include "common/transport/digest.h"
 #include "hal/backends/device_files.h"
 #include "hal/drivers/spacemouse/products.h"
@@ -103,9 +105,7 @@ Result<Preset> load_preset(const std::string& name) {
   auto file = parse_device_file(text, name);
   if (!file) return std::unexpected(std::move(file.error()));
   if (!file->woodenhaptics) return std::unexpected(wrong_device_kind(name, "woodenhaptics"));
-  transport::Digest digest;
-  digest.add(text);
-  return Preset{*file->woodenhaptics, digest.hex()};
+  return Preset{*file->woodenhaptics, to_hex(transport::sha256(bytes_of(text)))};
 }
 
 /// Settings of a board from the device specification and its files.
@@ -147,8 +147,7 @@ Result<Board> parse_board_options(const DeviceSpec& choice) {
   }
   options.enable_motors = judge.yes_or_no("enable_motors", false);
   options.home_at_start = choice.find("home").has_value() && judge.one_of("home", {"here"}) == "here";
-  if (auto fine = judge.result(); !fine) return std::unexpected(std::move(fine.error()));
-  return board;
+  return judge.result_with(std::move(board));
 }
 
 Result<SpaceMouseSpec> parse_spacemouse_options(const DeviceSpec& choice) {
@@ -166,8 +165,7 @@ Result<SpaceMouseSpec> parse_spacemouse_options(const DeviceSpec& choice) {
       spec = *described->spacemouse;
     }
   }
-  if (auto fine = judge.result(); !fine) return std::unexpected(std::move(fine.error()));
-  return spec;
+  return judge.result_with(std::move(spec));
 }
 
 }  // namespace
@@ -192,8 +190,7 @@ std::vector<DeviceFact> WoodenHapticsBackend::facts() const {
 }
 
 Result<> WoodenHapticsBackend::check(const DeviceSpec& choice) const {
-  auto understood = parse_board_options(choice);
-  return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
+  return without_value(parse_board_options(choice));
 }
 
 Result<std::vector<FoundDevice>> WoodenHapticsBackend::list() {
@@ -252,8 +249,7 @@ std::vector<DeviceFact> SpaceMouseBackend::facts() const {
 }
 
 Result<> SpaceMouseBackend::check(const DeviceSpec& choice) const {
-  auto understood = parse_spacemouse_options(choice);
-  return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
+  return without_value(parse_spacemouse_options(choice));
 }
 
 Result<std::vector<FoundDevice>> SpaceMouseBackend::list() {

@@ -28,8 +28,7 @@ Result<MouseOptions> parse_mouse_options(const DeviceSpec& choice) {
   words.params.plane = judge.one_of("plane", {"vertical", "table"}) == "table" ? MouseDriver::Plane::kTable
                                                                                : MouseDriver::Plane::kVertical;
   words.grab = judge.yes_or_no("grab", false);
-  if (auto fine = judge.result(); !fine) return std::unexpected(std::move(fine.error()));
-  return words;
+  return judge.result_with(std::move(words));
 }
 
 /// Returns where the recording exceeds the limits of every device; empty: it does not.
@@ -70,8 +69,7 @@ Result<std::shared_ptr<const sim::RecordedMotion>> parse_replay_options(const De
   } else {
     motion = std::move(*loaded);
   }
-  if (auto fine = judge.result(); !fine) return std::unexpected(std::move(fine.error()));
-  return motion;
+  return judge.result_with(std::move(motion));
 }
 
 /// Returns the node of the only mouse, or why there is none.
@@ -96,10 +94,7 @@ std::string ReplayBackend::library() const { return "none: a file"; }
 
 std::vector<DeviceFact> ReplayBackend::facts() const { return {}; }
 
-Result<> ReplayBackend::check(const DeviceSpec& choice) const {
-  auto motion = parse_replay_options(choice);
-  return motion ? Result<>{} : std::unexpected(std::move(motion.error()));
-}
+Result<> ReplayBackend::check(const DeviceSpec& choice) const { return without_value(parse_replay_options(choice)); }
 
 Result<OpenedDriver> ReplayBackend::open(const DeviceSpec& choice) {
   auto motion = parse_replay_options(choice);
@@ -118,10 +113,7 @@ std::vector<DeviceFact> MouseBackend::facts() const {
           {"gravity", "no motors"}};
 }
 
-Result<> MouseBackend::check(const DeviceSpec& choice) const {
-  const auto words = parse_mouse_options(choice);
-  return words ? Result<>{} : std::unexpected(words.error());
-}
+Result<> MouseBackend::check(const DeviceSpec& choice) const { return without_value(parse_mouse_options(choice)); }
 
 Result<std::vector<FoundDevice>> MouseBackend::list() {
   std::vector<FoundDevice> devices;

@@ -16,8 +16,7 @@ constexpr std::uint16_t k3dSystems = 0x2988;
 Result<bool> parse_openhaptics_options(const DeviceSpec& choice) {
   OptionParser judge{choice, {"library", "home"}};
   const bool home = choice.find("home").has_value() && judge.one_of("home", {"here"}) == "here";
-  if (auto fine = judge.result(); !fine) return std::unexpected(std::move(fine.error()));
-  return home;
+  return judge.result_with(home);
 }
 
 }  // namespace
@@ -40,10 +39,7 @@ std::vector<DeviceFact> OpenHapticsBackend::facts() const {
       {"gravity", "the maker's compensation is on"}};
 }
 
-Result<> OpenHapticsBackend::check(const DeviceSpec& choice) const {
-  auto understood = parse_openhaptics_options(choice);
-  return understood ? Result<>{} : std::unexpected(std::move(understood.error()));
-}
+Result<> OpenHapticsBackend::check(const DeviceSpec& choice) const { return without_value(parse_openhaptics_options(choice)); }
 
 Result<std::vector<FoundDevice>> OpenHapticsBackend::list() {
   if (auto library = OpenHapticsLibrary::load(); !library) {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "hal/io/monotonic.h"
+#include "common/io/clock.h"
 
 namespace tandem::hal {
 namespace {
@@ -55,7 +55,7 @@ struct HotplugMonitor::Impl {
 
   std::vector<HotplugEvent> difference() {
     std::vector<AttachedDevice> fresh = look();
-    looked_at = monotonic_now();
+    looked_at = io::monotonic_now();
     std::vector<HotplugEvent> changes;
     for (const AttachedDevice& a : present) {
       if (!holds(fresh, a)) changes.push_back({false, a});
@@ -84,14 +84,14 @@ Result<std::unique_ptr<HotplugMonitor>> HotplugMonitor::open() {
 const std::vector<AttachedDevice>& HotplugMonitor::present() const noexcept { return impl_->present; }
 
 std::vector<HotplugEvent> HotplugMonitor::wait(Duration patience) {
-  const Time until = monotonic_now() + patience;
+  const Time until = io::monotonic_now() + patience;
   for (;;) {
     const Time next = std::min(until, impl_->looked_at + kLookAnyway);
-    const bool woken = impl_->drain(next - monotonic_now());
-    if (woken || monotonic_now() >= impl_->looked_at + kLookAnyway) {
+    const bool woken = impl_->drain(next - io::monotonic_now());
+    if (woken || io::monotonic_now() >= impl_->looked_at + kLookAnyway) {
       if (auto changes = impl_->difference(); !changes.empty()) return changes;
     }
-    if (monotonic_now() >= until) return {};
+    if (io::monotonic_now() >= until) return {};
   }
 }
 

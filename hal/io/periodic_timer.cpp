@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <ctime>
 
-#include "hal/io/monotonic.h"
+#include "common/io/clock.h"
 
 namespace tandem::hal {
 namespace {
@@ -17,7 +17,7 @@ constexpr Duration kLateLimit = std::chrono::milliseconds(1);
 
 }  // namespace
 
-Time MonotonicClock::now() noexcept { return monotonic_now(); }
+Time MonotonicClock::now() noexcept { return io::monotonic_now(); }
 
 void MonotonicClock::wait_until(Time at) noexcept {
   const auto ns = at.time_since_epoch().count();
@@ -32,12 +32,12 @@ bool request_realtime() noexcept {
   return pthread_setschedparam(pthread_self(), SCHED_FIFO, &p) == 0;
 }
 
-void PeriodicTimer::begin() noexcept { due_ = last_ = monotonic_now(); }
+void PeriodicTimer::begin() noexcept { due_ = last_ = io::monotonic_now(); }
 
 PeriodicTimer::WakeUp PeriodicTimer::next() noexcept {
   due_ += period_;
   MonotonicClock{}.wait_until(due_);
-  const Time now = monotonic_now();
+  const Time now = io::monotonic_now();
   const Duration late = now - due_;
   const auto missed = late > Duration::zero() ? static_cast<std::uint64_t>(late / period_) : 0;
   due_ += missed * period_;

@@ -11,7 +11,8 @@
 #include <string>
 #include <utility>
 
-#include "hal/io/monotonic.h"
+#include "common/base/raw_bytes.h"
+#include "common/io/clock.h"
 #include "hal/io/udev_rule.h"
 
 namespace tandem::hal {
@@ -74,8 +75,6 @@ struct Slot {
 };
 
 void LIBUSB_CALL on_done(libusb_transfer* transfer) noexcept { static_cast<Slot*>(transfer->user_data)->done = 1; }
-
-unsigned char* raw(std::byte* bytes) noexcept { return reinterpret_cast<unsigned char*>(bytes); }
 
 /// Returns the packet size of the IN endpoint [bytes] if the interface has both bulk endpoints.
 std::optional<std::size_t> packet_size(libusb_device* device, const UsbInterface& wanted) {
@@ -176,19 +175,16 @@ struct LibusbPipe::Impl {
 
   /// @return whether the transfer ended within `timeout`
   bool wait(Slot& slot, Duration timeout) noexcept {
-    const Time until = monotonic_now() + timeout;
+    const Time until = io::monotonic_now() + timeout;
     Duration left = timeout;
     while (slot.done == 0) {  // may have ended during the wait for another transfer
-      const auto whole = std::chrono::duration_cast<std::chrono::seconds>(std::max(left, Duration::zero()));
-      timespec rest{};
-      rest.tv_sec = whole.count();
-      rest.tv_nsec = (std::max(left, Duration::zero()) - whole).count();
+      const timespec rest = io::to_timespec(left);
       if (ppoll(wakers.data(), waker_count, &rest, nullptr) > 0) {
         timeval no_wait{};
         libusb_handle_events_timeout_completed(context, &no_wait, &slot.done);
       }
       if (slot.done == 0 && left <= Duration::zero()) return false;
-      left = until - monotonic_now();
+      left = until - io::monotonic_now();
     }
     slot.under_way = false;
     return true;

@@ -37,8 +37,7 @@ class KeyboardTarget {
 /// Returns stiffness, damping and mass of a model. A zero in HandSpec selects the model's value.
 [[nodiscard]] HandPull impedance_of(HandModel model) noexcept;
 
-/// Simulated hand of an operator: an impedance about an intended motion (design notes, control 8), driven by session
-/// time.
+/// Simulated hand of an operator: an impedance about an intended motion, driven by session time.
 /// - Not engaged (no session time): holds the pose with k 300 N/m and b 10 N s/m, so that nothing drifts.
 /// - Engaged: fades within 0.5 s into its model, without a jump of the intended position or of the stiffness.
 /// - `HandSpec::from`: RELAXED before. Then the hand fades within 0.5 s into its own model and moves there with minimum

@@ -46,12 +46,10 @@ struct SimSetup {
   std::optional<AxisArray> joints = {};
 };
 
-/// A simulated device, Touch or one axis (design notes, control 8), with a hand or an environment at its tip.
-/// State is what a host measures: q is quantised by the encoder, dq is its filtered difference; x, dx and J follow from
-/// these.
-/// The effort of a command is limited to `force_peak` at the tip. Gravity compensation and friction feed-forward are
-/// added internally and not reported, as a host does.
-/// Deterministic; no heap after make(); total: every input leaves a finite state.
+/// A simulated device, Touch or one axis, with a hand or an environment at its tip. State is what a host measures: q is
+/// quantised by the encoder, dq is its filtered difference; x, dx and J follow from these. The effort of a command is
+/// limited to `force_peak` at the tip. Gravity compensation and friction feed-forward are added internally and not
+/// reported, as a host does. Deterministic; no heap after make(); total: every input leaves a finite state.
 class SimDevice final : public SteppedDevice {
  public:
   /// Returns a new device. Error: a number that is not finite or out of range, or a start pose out of reach.

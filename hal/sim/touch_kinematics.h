@@ -5,9 +5,9 @@
 
 #include "hal/core/device.h"
 
-/// Kinematics of the simulated Touch (design notes, control 8): three actuated joints.
-/// q3 is absolute: measured against gravity, not against link 2. Joint vectors are (q1, q2, q3) [rad].
-/// Positions and forces are in the HAL frame: vendor (x, y, z) is HAL (x, -z, y).
+/// Kinematics of the simulated Touch: three actuated joints. q3 is absolute: measured against gravity, not against link
+/// 2. Joint vectors are (q1, q2, q3) [rad]. Positions and forces are in the HAL frame: vendor (x, y, z) is HAL (x, -z,
+/// y).
 namespace tandem::hal::sim {
 
 inline constexpr double kTouchL1 = 0.13335;  ///< upper link [m]

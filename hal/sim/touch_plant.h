@@ -13,7 +13,7 @@ inline constexpr double kSubstepMax = 0.25e-3;
 /// Tip speed over which Coulomb friction is smoothed [m/s].
 inline constexpr double kFrictionSpeed = 1e-3;
 
-/// Dynamics of the simulated Touch with a hand and an environment at its tip (design notes, control 8):
+/// Dynamics of the simulated Touch with a hand and an environment at its tip:
 ///   (M(q) + m_h J^T J) ddq + C(q, dq) dq + G(q) + friction + J^T b J dq = tau + J^T (F_hand + F_environment).
 /// Scheme: midpoint pose, linearly implicit; stable for any stiffness, damping and friction.
 /// - Springs are trapezoidal (they conserve energy).

@@ -17,7 +17,7 @@ struct WakeSpec {
     kExact,    ///< the loop runs on every tick
     kUniform,  ///< absolute deadlines: wake-up n occurs uniformly in [0, late_max] after n ticks
     /// Relative sleeping, as measured on a recorded 1 kHz robot logger. The step between wake-ups has median 1.02, p99
-    /// 1.92 and max 2.77 ticks (network.md 3.4). Such a loop runs slower than its nominal rate.
+    /// 1.92 and max 2.77 ticks. Such a loop runs slower than its nominal rate.
     kMeasured,
   };
   Kind kind = Kind::kExact;

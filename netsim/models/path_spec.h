@@ -11,8 +11,8 @@
 #include "netsim/models/loss_spec.h"
 #include "netsim/models/spec_errors.h"
 
-/// Specification of one direction of a link. The order of the members is the order in which they affect a datagram
-/// (design notes, network 3.1). All models are off by default; a disabled model costs nothing per packet.
+/// Specification of one direction of a link. The order of the members is the order in which they affect a datagram. All
+/// models are off by default; a disabled model costs nothing per packet.
 namespace tandem::netsim {
 
 /// Direction from the client's point of view: up is client to server.

@@ -6,7 +6,7 @@
 namespace tandem::netsim {
 namespace {
 
-// Limits of the force gate (design notes, control 7).
+// Limits of the force gate (ARCHITECTURE.md, invariants 3 to 5).
 constexpr double kSlewActive = 1000, kSlewRampIn = 10;  // [N/s]
 constexpr double kGateStepMax = 0.01;                   // [s], lateness that the slew limit makes up for
 constexpr double kLifeTicks = 3, kLifeMin = 0.005, kLifeMax = 0.03,

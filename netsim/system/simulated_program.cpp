@@ -28,8 +28,8 @@ bool SimulatedProgram::die() noexcept {
 std::string SimulatedProgram::connect(Time now, server::Session& session, const hal::DeviceCaps& caps,
                                       Attacker* attacker) {
   if (seat_ && session.epoch() == epoch_) return {};
-  // A delay of up to half a second spreads the joins of many programs after a restart (design notes, security 4). No
-  // seat may be engaged meanwhile.
+  // A delay of up to half a second spreads the joins of many programs after a restart. No seat may be engaged
+  // meanwhile.
   if (seat_ && std::exchange(known_epoch_, session.epoch()) != session.epoch())
     retry_at_ = now + std::chrono::milliseconds(key_.derive(6).bits(session.epoch()) % 501);
   if (now < retry_at_) return {};

@@ -10,8 +10,8 @@
 
 namespace tandem::netsim {
 
-/// A random session, drawn from one number: seats, roles, tools, gains, hands, environments, links, faults (design
-/// notes, security 2.6). Faults occur only in the fault phase, which ends at `recovery_start`.
+/// A random session, drawn from one number: seats, roles, tools, gains, hands, environments, links, faults.
+/// Faults occur only in the fault phase, which ends at `recovery_start`.
 struct SwarmCase {
   std::uint64_t seed = 0;
   std::string scene_text;   ///< the scene file, so that a user can edit it and run it again

@@ -1,7 +1,9 @@
 #include "proto/rpc/rpc_convert.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <variant>
 
 #include "proto/rpc/rpc_bounds.h"
 
@@ -9,6 +11,7 @@ namespace tandem::rpc {
 namespace {
 
 namespace wire_pb = pb::rpc;
+using Pb = wire_pb::ControlFrame;
 
 bool read(const wire_pb::Device& in, DeviceFacts& out) {
   out = {in.joints(),       in.tip_axes(),      in.simulated(), in.prismatic(),
@@ -43,7 +46,7 @@ bool read(const wire_pb::Hello& in, Hello& out) {
   return in.has_device() && read(in.device(), out.device) && good;
 }
 void write(const Hello& in, wire_pb::Hello& out) {
-  for (const std::uint32_t v : in.versions) out.add_versions(v);
+  out.mutable_versions()->Add(in.versions.begin(), in.versions.end());
   if (const auto* id = std::get_if<Id>(&in.session)) out.set_session_id(text_of(*id));
   if (const auto* code = std::get_if<std::string>(&in.session)) out.set_session_code(*code);
   out.set_seat(in.seat);
@@ -163,13 +166,27 @@ void write(const SessionList& in, wire_pb::SessionList& out) {
   }
 }
 
-bool read(const wire_pb::StopSession& in, StopSession& out) {
+/// Stops and pauses: a session and a reason.
+template <class Wire, class Command>
+bool read_command(const Wire& in, Command& out) {
   out.why = in.why();
   return take(in.session_id(), out.session_id) && is_text(in.why());
 }
-void write(const StopSession& in, wire_pb::StopSession& out) {
+template <class Command, class Wire>
+void write_command(const Command& in, Wire& out) {
   out.set_session_id(text_of(in.session_id));
   out.set_why(in.why);
+}
+bool read(const wire_pb::StopSession& in, StopSession& out) { return read_command(in, out); }
+void write(const StopSession& in, wire_pb::StopSession& out) { write_command(in, out); }
+bool read(const wire_pb::PauseSession& in, PauseSession& out) { return read_command(in, out); }
+void write(const PauseSession& in, wire_pb::PauseSession& out) { write_command(in, out); }
+bool read(const wire_pb::RemoveParticipant& in, RemoveParticipant& out) {
+  return read_command(in, out) && take_name(in.seat(), out.seat);
+}
+void write(const RemoveParticipant& in, wire_pb::RemoveParticipant& out) {
+  write_command(in, out);
+  out.set_seat(in.seat);
 }
 bool read(const wire_pb::ResumeSession& in, ResumeSession& out) {
   out.stop = in.stop();
@@ -179,37 +196,34 @@ void write(const ResumeSession& in, wire_pb::ResumeSession& out) {
   out.set_session_id(text_of(in.session_id));
   out.set_stop(in.stop);
 }
-bool read(const wire_pb::PauseSession& in, PauseSession& out) {
-  out.why = in.why();
-  return take(in.session_id(), out.session_id) && is_text(out.why);
-}
-void write(const PauseSession& in, wire_pb::PauseSession& out) {
-  out.set_session_id(text_of(in.session_id));
-  out.set_why(in.why);
-}
 
-bool read(const wire_pb::SetAuthority& in, SetAuthority& out) {
-  out.tool = in.tool();
-  out.version = in.version();
-  return take(in.session_id(), out.session_id) && in.tool() < kToolsMax && take_weights(in.alpha(), out.alpha);
-}
-void write(const SetAuthority& in, wire_pb::SetAuthority& out) {
-  out.set_session_id(text_of(in.session_id));
-  out.set_tool(in.tool);
-  out.set_version(in.version);
-  for (const double a : in.alpha) out.add_alpha(a);
-}
-bool read(const wire_pb::AuthorityReply& in, AuthorityReply& out) {
-  out.applied = in.applied();
+/// The authority over one tool, in a request and in its reply.
+template <class Wire, class Message>
+bool read_authority(const Wire& in, Message& out) {
   out.tool = in.tool();
   out.version = in.version();
   return in.tool() < kToolsMax && take_weights(in.alpha(), out.alpha);
 }
-void write(const AuthorityReply& in, wire_pb::AuthorityReply& out) {
-  out.set_applied(in.applied);
+template <class Message, class Wire>
+void write_authority(const Message& in, Wire& out) {
   out.set_tool(in.tool);
   out.set_version(in.version);
-  for (const double a : in.alpha) out.add_alpha(a);
+  out.mutable_alpha()->Add(in.alpha.begin(), in.alpha.end());
+}
+bool read(const wire_pb::SetAuthority& in, SetAuthority& out) {
+  return read_authority(in, out) && take(in.session_id(), out.session_id);
+}
+void write(const SetAuthority& in, wire_pb::SetAuthority& out) {
+  write_authority(in, out);
+  out.set_session_id(text_of(in.session_id));
+}
+bool read(const wire_pb::AuthorityReply& in, AuthorityReply& out) {
+  out.applied = in.applied();
+  return read_authority(in, out);
+}
+void write(const AuthorityReply& in, wire_pb::AuthorityReply& out) {
+  write_authority(in, out);
+  out.set_applied(in.applied);
 }
 
 bool read(const wire_pb::Drain& in, Drain& out) {
@@ -230,15 +244,6 @@ void write(const Pong& in, wire_pb::Pong& out) { out.set_nonce(in.nonce); }
 bool read(const wire_pb::Ok&, Ok&) { return true; }
 void write(const Ok&, wire_pb::Ok&) {}
 
-bool read(const wire_pb::RemoveParticipant& in, RemoveParticipant& out) {
-  out.why = in.why();
-  return take(in.session_id(), out.session_id) && take_name(in.seat(), out.seat) && is_text(in.why());
-}
-void write(const RemoveParticipant& in, wire_pb::RemoveParticipant& out) {
-  out.set_session_id(text_of(in.session_id));
-  out.set_seat(in.seat);
-  out.set_why(in.why);
-}
 bool read(const wire_pb::StatusRequest& in, StatusRequest& out) { return take(in.session_id(), out.session_id); }
 void write(const StatusRequest& in, wire_pb::StatusRequest& out) { out.set_session_id(text_of(in.session_id)); }
 
@@ -316,7 +321,7 @@ void write(const Status& in, wire_pb::Status& out) {
   for (const StatusTool& t : in.tools) {
     auto& tool = *out.add_tool();
     tool.set_name(t.name);
-    for (const double a : t.alpha) tool.add_alpha(a);
+    tool.mutable_alpha()->Add(t.alpha.begin(), t.alpha.end());
   }
   if (in.stop) write(*in.stop, *out.mutable_stop());
   out.set_held(in.held);
@@ -331,89 +336,54 @@ void write(const Status& in, wire_pb::Status& out) {
   out.mutable_drain()->set_people(in.drain->participants);
 }
 
-void wipe_text(std::string& text) noexcept { wipe(text); }
+/// How one kind of message gets out of a ControlFrame and into it.
+struct Conversion {
+  bool (*read)(const Pb& in, Body& out);
+  void (*write)(const Body& in, Pb& out);
+};
+/// @tparam get, mutate  accessors of the message in a ControlFrame
+template <class Message, auto get, auto mutate>
+constexpr Conversion conversion() {
+  return {[](const Pb& in, Body& out) { return read((in.*get)(), out.emplace<Message>()); },
+          [](const Body& in, Pb& out) { write(std::get<Message>(in), *(out.*mutate)()); }};
+}
+/// One row per message, in the order of Body.
+constexpr std::array<Conversion, kKinds> kConversions{
+    conversion<Hello, &Pb::hello, &Pb::mutable_hello>(),
+    conversion<Welcome, &Pb::welcome, &Pb::mutable_welcome>(),
+    conversion<ErrorReply, &Pb::error_reply, &Pb::mutable_error_reply>(),
+    conversion<Enroll, &Pb::enroll, &Pb::mutable_enroll>(),
+    conversion<EnrollAck, &Pb::enroll_ack, &Pb::mutable_enroll_ack>(),
+    conversion<SessionListRequest, &Pb::session_list_request, &Pb::mutable_session_list_request>(),
+    conversion<SessionList, &Pb::session_list, &Pb::mutable_session_list>(),
+    conversion<StopSession, &Pb::stop_session, &Pb::mutable_stop_session>(),
+    conversion<ResumeSession, &Pb::resume_session, &Pb::mutable_resume_session>(),
+    conversion<PauseSession, &Pb::pause_session, &Pb::mutable_pause_session>(),
+    conversion<SetAuthority, &Pb::set_authority, &Pb::mutable_set_authority>(),
+    conversion<AuthorityReply, &Pb::authority_reply, &Pb::mutable_authority_reply>(),
+    conversion<Drain, &Pb::drain, &Pb::mutable_drain>(),
+    conversion<Ping, &Pb::ping, &Pb::mutable_ping>(),
+    conversion<Pong, &Pb::pong, &Pb::mutable_pong>(),
+    conversion<Ok, &Pb::ok, &Pb::mutable_ok>(),
+    conversion<RemoveParticipant, &Pb::remove_participant, &Pb::mutable_remove_participant>(),
+    conversion<StatusRequest, &Pb::status_request, &Pb::mutable_status_request>(),
+    conversion<Status, &Pb::status, &Pb::mutable_status>(),
+};
 
 }  // namespace
 
-bool from_pb(const wire_pb::ControlFrame& in, Body& out) {
-  using Case = wire_pb::ControlFrame;
-  switch (in.body_case()) {
-    case Case::kHello:
-      return read(in.hello(), out.emplace<Hello>());
-    case Case::kWelcome:
-      return read(in.welcome(), out.emplace<Welcome>());
-    case Case::kErrorReply:
-      return read(in.error_reply(), out.emplace<ErrorReply>());
-    case Case::kEnroll:
-      return read(in.enroll(), out.emplace<Enroll>());
-    case Case::kEnrollAck:
-      return read(in.enroll_ack(), out.emplace<EnrollAck>());
-    case Case::kSessionListRequest:
-      return read(in.session_list_request(), out.emplace<SessionListRequest>());
-    case Case::kSessionList:
-      return read(in.session_list(), out.emplace<SessionList>());
-    case Case::kStopSession:
-      return read(in.stop_session(), out.emplace<StopSession>());
-    case Case::kResumeSession:
-      return read(in.resume_session(), out.emplace<ResumeSession>());
-    case Case::kPauseSession:
-      return read(in.pause_session(), out.emplace<PauseSession>());
-    case Case::kSetAuthority:
-      return read(in.set_authority(), out.emplace<SetAuthority>());
-    case Case::kAuthorityReply:
-      return read(in.authority_reply(), out.emplace<AuthorityReply>());
-    case Case::kDrain:
-      return read(in.drain(), out.emplace<Drain>());
-    case Case::kPing:
-      return read(in.ping(), out.emplace<Ping>());
-    case Case::kPong:
-      return read(in.pong(), out.emplace<Pong>());
-    case Case::kOk:
-      return read(in.ok(), out.emplace<Ok>());
-    case Case::kRemoveParticipant:
-      return read(in.remove_participant(), out.emplace<RemoveParticipant>());
-    case Case::kStatusRequest:
-      return read(in.status_request(), out.emplace<StatusRequest>());
-    case Case::kStatus:
-      return read(in.status(), out.emplace<Status>());
-    case Case::BODY_NOT_SET:
-      return false;
-  }
-  return false;
+bool from_pb(const Pb& in, Body& out) {
+  const auto row = static_cast<std::size_t>(in.body_case()) - static_cast<std::size_t>(Kind::kHello);
+  return row < kKinds && kConversions[row].read(in, out);
 }
 
-void to_pb(const Body& in, wire_pb::ControlFrame& out) {
-  struct Writer {
-    wire_pb::ControlFrame& out;
-    void operator()(const Hello& m) const { write(m, *out.mutable_hello()); }
-    void operator()(const Welcome& m) const { write(m, *out.mutable_welcome()); }
-    void operator()(const ErrorReply& m) const { write(m, *out.mutable_error_reply()); }
-    void operator()(const Enroll& m) const { write(m, *out.mutable_enroll()); }
-    void operator()(const EnrollAck& m) const { write(m, *out.mutable_enroll_ack()); }
-    void operator()(const SessionListRequest& m) const { write(m, *out.mutable_session_list_request()); }
-    void operator()(const SessionList& m) const { write(m, *out.mutable_session_list()); }
-    void operator()(const StopSession& m) const { write(m, *out.mutable_stop_session()); }
-    void operator()(const ResumeSession& m) const { write(m, *out.mutable_resume_session()); }
-    void operator()(const PauseSession& m) const { write(m, *out.mutable_pause_session()); }
-    void operator()(const SetAuthority& m) const { write(m, *out.mutable_set_authority()); }
-    void operator()(const AuthorityReply& m) const { write(m, *out.mutable_authority_reply()); }
-    void operator()(const Drain& m) const { write(m, *out.mutable_drain()); }
-    void operator()(const Ping& m) const { write(m, *out.mutable_ping()); }
-    void operator()(const Pong& m) const { write(m, *out.mutable_pong()); }
-    void operator()(const Ok& m) const { write(m, *out.mutable_ok()); }
-    void operator()(const RemoveParticipant& m) const { write(m, *out.mutable_remove_participant()); }
-    void operator()(const StatusRequest& m) const { write(m, *out.mutable_status_request()); }
-    void operator()(const Status& m) const { write(m, *out.mutable_status()); }
-  };
-  std::visit(Writer{out}, in);
-}
+void to_pb(const Body& in, Pb& out) { kConversions[in.index()].write(in, out); }
 
-void wipe_secrets(wire_pb::ControlFrame& frame) noexcept {
-  if (frame.has_hello() && frame.hello().has_ticket()) wipe_text(*frame.mutable_hello()->mutable_ticket());
-  if (frame.has_hello() && frame.hello().has_resume_secret())
-    wipe_text(*frame.mutable_hello()->mutable_resume_secret());
-  if (frame.has_welcome()) wipe_text(*frame.mutable_welcome()->mutable_resume_secret());
-  if (frame.has_enroll()) wipe_text(*frame.mutable_enroll()->mutable_code());
+void wipe_secrets(Pb& frame) noexcept {
+  if (frame.has_hello() && frame.hello().has_ticket()) wipe(*frame.mutable_hello()->mutable_ticket());
+  if (frame.has_hello() && frame.hello().has_resume_secret()) wipe(*frame.mutable_hello()->mutable_resume_secret());
+  if (frame.has_welcome()) wipe(*frame.mutable_welcome()->mutable_resume_secret());
+  if (frame.has_enroll()) wipe(*frame.mutable_enroll()->mutable_code());
 }
 
 }  // namespace tandem::rpc

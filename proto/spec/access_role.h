@@ -9,7 +9,7 @@
 
 namespace tandem {
 
-/// Role of a participant or console in a session (design notes, security 1.5). The first four are the roles of a
+/// Role of a participant or console in a session (rights: server/policy/roles.cpp). The first four are the roles of a
 /// scene's seats, with the same numbers; the other two have no seat. The number is a byte of tickets and of the
 /// key-derivation context: append-only.
 enum class AccessRole : std::uint8_t { kInstructor, kTrainee, kEvaluator, kObserver, kOperator, kRecorder };

@@ -24,8 +24,8 @@ enum class SeatKind : std::uint8_t { kMaster, kSlave };
 /// Rights of a participant (server/policy/roles.h).
 enum class Role : std::uint8_t { kInstructor, kTrainee, kEvaluator, kObserver };
 
-/// Parameters of the channel between a seat and the server (design notes, control 4). Gains are tip gains; joint ports
-/// scale them by diag(J^T J).
+/// Parameters of the channel between a seat and the server (ARCHITECTURE.md, "The channel, as built"). Gains are tip
+/// gains; joint ports scale them by diag(J^T J).
 struct ChannelSpec {
   LawKind law = LawKind::kReplica;  ///< channel law
   MfsMode mfs = MfsMode::kOpen;     ///< modulation of the flow sources
@@ -44,7 +44,7 @@ struct ChannelSpec {
   double tank = 0.05;               ///< MFS tank and authority tank, initial [J]
 };
 
-/// Coupling of a master's device to its virtual mass (design notes, control 3).
+/// Coupling of a master's device to its virtual mass (common/control/ipc.h).
 struct CouplingSpec {
   double k_c = 400;   ///< [N/m]
   double b = 0.5;     ///< [N s/m]
@@ -80,7 +80,7 @@ struct SilenceLimits {
 }
 
 /// Share of the force limit and of the energy after a loss that a role may receive. Evaluators, which never lead, get
-/// half (design notes, security 1.5: a separate lower clamp and tank).
+/// half (ARCHITECTURE.md, invariant 49).
 [[nodiscard]] constexpr double share_of_force(Role role) noexcept { return role == Role::kEvaluator ? 0.5 : 1.0; }
 
 /// Position [m] or force [N] in the HAL frame.
@@ -92,7 +92,7 @@ struct Point {
 
 /// Simulated devices: Touch with three joints, or one prismatic axis.
 enum class DeviceModel : std::uint8_t { kTouch, kLinear };
-/// A simulated device (design notes, control 8).
+/// A simulated device (hal/sim/sim_device.h).
 struct SimDeviceSpec {
   DeviceModel model = DeviceModel::kTouch;  ///< kind of device
   double friction = 0.1;                    ///< Coulomb, at the tip [N]

@@ -4,6 +4,7 @@
 #include <set>
 #include <span>
 
+#include "common/base/hex.h"
 #include "proto/schema/registry.pb.h"
 #include "proto/text/text_format_reader.h"
 
@@ -26,15 +27,6 @@ std::array<std::byte, N> bytes_from(const std::string& hex, MessageValidator& va
   }
   if (!good && validator.is_set(key))
     validator.error(key, "must be " + std::to_string(2 * N) + " lower-case hex digits");
-  return out;
-}
-
-std::string hex_of(std::span<const std::byte> bytes) {
-  std::string out;
-  for (const std::byte b : bytes) {
-    out += kHexDigits[std::to_integer<std::size_t>(b >> 4)];
-    out += kHexDigits[std::to_integer<std::size_t>(b & std::byte{15})];
-  }
   return out;
 }
 
@@ -167,7 +159,7 @@ std::expected<ServingSpec, InputErrors> parse_serving(std::string_view text, std
 std::string print_workstations(const std::vector<WorkstationRow>& rows) {
   std::string out = header("Enrolled workstations; to revoke one, `tandem-server revoke NAME` or delete its row.");
   for (const WorkstationRow& r : rows)
-    out += "workstation {\n" + row("name", r.name) + row("spki_sha256", hex_of(r.spki)) +
+    out += "workstation {\n" + row("name", r.name) + row("spki_sha256", to_hex(r.spki)) +
            row("enrolled_at_s", r.enrolled_at) + "}\n";
   return out;
 }
@@ -175,7 +167,7 @@ std::string print_workstations(const std::vector<WorkstationRow>& rows) {
 std::string print_codes(const std::vector<CodeRow>& rows) {
   std::string out = header("Hashes of one-time enrolment codes that were not used yet.");
   for (const CodeRow& r : rows)
-    out += "code {\n" + row("sha256", hex_of(r.hash)) + row("workstation", r.workstation) +
+    out += "code {\n" + row("sha256", to_hex(r.hash)) + row("workstation", r.workstation) +
            row("not_after_s", r.not_after) + "}\n";
   return out;
 }
@@ -183,14 +175,14 @@ std::string print_codes(const std::vector<CodeRow>& rows) {
 std::string print_servers(const std::vector<ServerRow>& rows) {
   std::string out = header("Servers this workstation was enrolled at.");
   for (const ServerRow& r : rows)
-    out += "server {\n" + row("address", r.address) + row("spki_sha256", hex_of(r.spki)) + row("name", r.name) + "}\n";
+    out += "server {\n" + row("address", r.address) + row("spki_sha256", to_hex(r.spki)) + row("name", r.name) + "}\n";
   return out;
 }
 
 std::string print_serving(const ServingSpec& serving) {
   std::string out = header("Sessions of the running server.") + "address: \"" + serving.address + "\"\n";
   for (const OpenSession& s : serving.sessions) {
-    out += "session {\n" + row("id", hex_of(s.id)) + (s.code.empty() ? std::string() : row("code", s.code)) +
+    out += "session {\n" + row("id", to_hex(s.id)) + (s.code.empty() ? std::string() : row("code", s.code)) +
            row("name", s.name) + row("epoch", s.epoch);
     if (!s.phase.empty()) out += row("phase", s.phase);
     for (const OpenSeat& seat : s.seats)

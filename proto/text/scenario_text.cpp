@@ -6,6 +6,7 @@
 #include "proto/schema/limits.pb.h"
 #include "proto/schema/scenario.pb.h"
 #include "proto/schema/script.pb.h"
+#include "proto/text/message_keys.h"
 #include "proto/text/script_events.h"
 #include "proto/text/text_format_reader.h"
 
@@ -13,7 +14,16 @@ namespace tandem {
 namespace {
 
 using text::child_path;
+using text::MessageKey;
 using text::MessageValidator;
+
+using Network = ScenarioNetworkSpec;
+constexpr std::array<MessageKey<Network>, 6> kNetworkKeys{{{"delay_ms", &Network::delay_ms},
+                                                           {"jitter_ms", &Network::jitter_ms},
+                                                           {"loss_percent", &Network::loss_percent},
+                                                           {"duplicate_percent", &Network::duplicate_percent},
+                                                           {"reorder_percent", &Network::reorder_percent},
+                                                           {"trace_interval_ms", &Network::trace_interval_ms}}};
 
 ScenarioLocation place_of(const MessageValidator& validator, const std::string& key) {
   const text::SourceLocation place = validator.location(key);
@@ -39,16 +49,9 @@ ScenarioNetworkSpec network_from(const pb::ScenarioNetwork& in, MessageValidator
     out.profile = name_of(in.profile(), validator, child_path(key, "profile"));
     if (in.profile().empty()) validator.error(child_path(key, "profile"), "is empty; name a profile or a file");
   }
-  if (in.has_delay_ms()) out.delay_ms = in.delay_ms();
-  if (in.has_jitter_ms()) out.jitter_ms = in.jitter_ms();
-  if (in.has_loss_percent()) out.loss_percent = in.loss_percent();
-  if (in.has_duplicate_percent()) out.duplicate_percent = in.duplicate_percent();
-  if (in.has_reorder_percent()) out.reorder_percent = in.reorder_percent();
-  if (in.has_trace_interval_ms()) {
-    out.trace_interval_ms = in.trace_interval_ms();
-    if (!in.profile().ends_with(".csv"))
-      validator.error(child_path(key, "trace_interval_ms"), "is for a profile that is a recording, a .csv file");
-  }
+  text::read_keys(in, kNetworkKeys, out);
+  if (in.has_trace_interval_ms() && !in.profile().ends_with(".csv"))
+    validator.error(child_path(key, "trace_interval_ms"), "is for a profile that is a recording, a .csv file");
   return out;
 }
 

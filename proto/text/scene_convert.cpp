@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "proto/text/message_keys.h"
+
 namespace tandem {
 namespace {
 
 using text::child_path;
+using text::MessageKey;
 using text::MessageValidator;
 using text::number_text;
+using text::read_keys;
+using text::write_keys;
 
 // Enumerators are converted by number; the assertion on the last of each pair fails if one side gains an enumerator.
 static_assert(static_cast<int>(LawKind::kReplica) == pb::Channel::REPLICA &&
@@ -24,18 +29,45 @@ static_assert(static_cast<int>(HandModel::kRecorded) == pb::Hand::RECORDED &&
 static_assert(static_cast<int>(HandModel::kLettingGo) == pb::Hand::LETTING_GO);
 static_assert(static_cast<int>(PortSpace::kJoint) == pb::Scene::JOINT && pb::Scene::Port_MAX == pb::Scene::JOINT);
 
-template <class Message>
-void read_point(const Message& in, Point& out) {
-  if (in.has_x()) out.x = in.x();
-  if (in.has_y()) out.y = in.y();
-  if (in.has_z()) out.z = in.z();
-}
-template <class Message>
-void write_point(const Point& in, Message& out) {
-  out.set_x(in.x);
-  out.set_y(in.y);
-  out.set_z(in.z);
-}
+constexpr std::array<MessageKey<ChannelSpec>, 12> kChannelKeys{{{"k_n_m", &ChannelSpec::k},
+                                                                {"k_min_n_m", &ChannelSpec::k_min},
+                                                                {"k_delay_n_s_m", &ChannelSpec::k_delay},
+                                                                {"b_delay", &ChannelSpec::b_delay},
+                                                                {"lead_max_ms", &ChannelSpec::lead_max, 1e3},
+                                                                {"effort_half", &ChannelSpec::effort_half},
+                                                                {"e0_j", &ChannelSpec::e0},
+                                                                {"eta", &ChannelSpec::eta},
+                                                                {"margin_max_j", &ChannelSpec::margin_max},
+                                                                {"v_app_m_s", &ChannelSpec::v_app},
+                                                                {"tank_j", &ChannelSpec::tank},
+                                                                {"b_rel_n_s_m", &ChannelSpec::b_rel}}};
+constexpr std::array<MessageKey<CouplingSpec>, 3> kCouplingKeys{
+    {{"k_c_n_m", &CouplingSpec::k_c}, {"b_n_s_m", &CouplingSpec::b}, {"m_c_kg", &CouplingSpec::m_c}}};
+constexpr std::array<MessageKey<GateSpec>, 7> kGateKeys{{{"silence_limit_ms", &GateSpec::silence_limit, 1e3},
+                                                         {"local_hold_ms", &GateSpec::local_hold, 1e3},
+                                                         {"follow_hold_ms", &GateSpec::follow_hold, 1e3},
+                                                         {"loop_age_max_ms", &GateSpec::loop_age_max, 1e3},
+                                                         {"latch", &GateSpec::latch},
+                                                         {"ramp_in_ms", &GateSpec::ramp_in, 1e3},
+                                                         {"force_max_n", &GateSpec::force_max}}};
+constexpr std::array<MessageKey<Point>, 3> kPointKeys{{{"x", &Point::x}, {"y", &Point::y}, {"z", &Point::z}}};
+/// Of Device and of Slave.
+constexpr std::array<MessageKey<SimDeviceSpec>, 6> kDeviceKeys{
+    {{"friction_n", &SimDeviceSpec::friction},
+     {"damping_n_s_m", &SimDeviceSpec::damping},
+     {"gravity", &SimDeviceSpec::gravity},
+     {"gravity_compensation", &SimDeviceSpec::gravity_compensation},
+     {"friction_feedforward", &SimDeviceSpec::friction_feedforward},
+     {"force_peak_n", &SimDeviceSpec::force_peak}}};
+constexpr std::array<MessageKey<Trajectory>, 3> kCircleKeys{
+    {{"radius_m", &Trajectory::radius}, {"frequency_hz", &Trajectory::frequency}, {"ramp_s", &Trajectory::ramp}}};
+/// Keys of every hand.
+constexpr std::array<MessageKey<HandSpec>, 4> kHandKeys{{{"k_n_m", &HandSpec::k},
+                                                         {"b_n_s_m", &HandSpec::b},
+                                                         {"m_kg", &HandSpec::m},
+                                                         {"relaxed_b_n_s_m", &HandSpec::relaxed_b}}};
+constexpr std::array<MessageKey<HandSpec>, 2> kTremorKeys{
+    {{"tremor_amplitude_m", &HandSpec::tremor_amplitude}, {"tremor_frequency_hz", &HandSpec::tremor_frequency}}};
 
 /// Reads Device or Slave. They have the same numbers; `slave { model ... }` avoids another level in the text.
 template <class Message>
@@ -59,14 +91,9 @@ void read_device(const Message& in, std::size_t dof, const std::string& path, Me
     validator.error(child_path(path, "mass_kg"), "is for LINEAR devices; a TOUCH's links are fixed");
   if (linear && in.has_encoder_m()) out.encoder = in.encoder_m();
   if (!linear && in.has_encoder_rad()) out.encoder = in.encoder_rad();
-  if (in.has_friction_n()) out.friction = in.friction_n();
-  if (in.has_damping_n_s_m()) out.damping = in.damping_n_s_m();
-  if (in.has_gravity()) out.gravity = in.gravity();
-  if (in.has_gravity_compensation()) out.gravity_compensation = in.gravity_compensation();
-  if (in.has_friction_feedforward()) out.friction_feedforward = in.friction_feedforward();
-  if (in.has_force_peak_n()) out.force_peak = in.force_peak_n();
+  read_keys(in, kDeviceKeys, out);
   if (in.has_mass_kg()) out.mass = in.mass_kg();
-  if (in.has_start_m()) read_point(in.start_m(), out.start);
+  read_keys(in.start_m(), kPointKeys, out.start);
   if (linear && (out.start.y != 0 || out.start.z != 0)) {
     validator.error(child_path(path, "start_m"), "a LINEAR device moves along x only");
   }
@@ -75,19 +102,14 @@ template <class Message>
 void write_device(const SimDeviceSpec& in, Message& out) {
   const bool linear = in.model == DeviceModel::kLinear;
   out.set_model(linear ? pb::LINEAR : pb::TOUCH);
-  out.set_friction_n(in.friction);
-  out.set_damping_n_s_m(in.damping);
-  out.set_gravity(in.gravity);
-  out.set_gravity_compensation(in.gravity_compensation);
-  out.set_friction_feedforward(in.friction_feedforward);
-  out.set_force_peak_n(in.force_peak);
+  write_keys(in, kDeviceKeys, out);
   if (linear) {
     out.set_encoder_m(in.encoder);
     out.set_mass_kg(in.mass);
   } else {
     out.set_encoder_rad(in.encoder);
   }
-  write_point(in.start, *out.mutable_start_m());
+  write_keys(in.start, kPointKeys, *out.mutable_start_m());
 }
 
 void read_trajectory(const pb::Trajectory& in, const std::string& path, MessageValidator& validator, Trajectory& out) {
@@ -96,11 +118,9 @@ void read_trajectory(const pb::Trajectory& in, const std::string& path, MessageV
   }
   if (in.has_circle()) {
     const auto& c = in.circle();
-    if (c.has_center_m()) read_point(c.center_m(), out.center);
-    if (c.has_radius_m()) out.radius = c.radius_m();
-    if (c.has_frequency_hz()) out.frequency = c.frequency_hz();
+    read_keys(c.center_m(), kPointKeys, out.center);
+    read_keys(c, kCircleKeys, out);
     if (c.has_normal()) out.plane = "xyz"[std::clamp(static_cast<int>(c.normal()), 0, 2)];
-    if (c.has_ramp_s()) out.ramp = c.ramp_s();
   }
   if (in.waypoint_size() > 0) out.kind = Trajectory::Kind::kWaypoints;
   for (int i = 0; i < in.waypoint_size(); ++i) {
@@ -114,11 +134,9 @@ void read_trajectory(const pb::Trajectory& in, const std::string& path, MessageV
 void write_trajectory(const Trajectory& in, pb::Trajectory& out) {
   if (in.kind == Trajectory::Kind::kCircle) {
     auto& circle = *out.mutable_circle();
-    write_point(in.center, *circle.mutable_center_m());
-    circle.set_radius_m(in.radius);
-    circle.set_frequency_hz(in.frequency);
+    write_keys(in.center, kPointKeys, *circle.mutable_center_m());
+    write_keys(in, kCircleKeys, circle);
     circle.set_normal(in.plane == 'x' ? pb::X : in.plane == 'y' ? pb::Y : pb::Z);
-    circle.set_ramp_s(in.ramp);
     return;
   }
   for (const auto& w : in.waypoints) {
@@ -130,8 +148,7 @@ void write_trajectory(const Trajectory& in, pb::Trajectory& out) {
   }
 }
 
-/// Sets the impedance of a simulated hand (design notes, control 8): a leader's grip is tight, a relaxed hand only adds
-/// mass and damping.
+/// Sets the impedance of a simulated hand: a leader's grip is tight, a relaxed hand only adds mass and damping.
 void set_model(HandModel model, HandSpec& out) {
   out.model = model;
   switch (model) {
@@ -155,20 +172,16 @@ bool moves_along_trajectory(HandModel model) {
 
 void read_hand(const pb::Hand& in, const std::string& path, MessageValidator& validator, HandSpec& out) {
   set_model(static_cast<HandModel>(in.model()), out);
-  if (in.has_k_n_m()) out.k = in.k_n_m();
-  if (in.has_b_n_s_m()) out.b = in.b_n_s_m();
-  if (in.has_m_kg()) out.m = in.m_kg();
+  read_keys(in, kHandKeys, out);
   if (in.has_release_at_s()) out.release_at = in.release_at_s();
   if (in.has_drags_n()) {
     if (out.model != HandModel::kLettingGo)
       validator.error(child_path(path, "drags_n"), "is for hands that open: LETTING_GO");
-    read_point(in.drags_n(), out.drags);
+    read_keys(in.drags_n(), kPointKeys, out.drags);
   }
-  if (in.has_tremor_amplitude_m()) out.tremor_amplitude = in.tremor_amplitude_m();
-  if (in.has_tremor_frequency_hz()) out.tremor_frequency = in.tremor_frequency_hz();
+  read_keys(in, kTremorKeys, out);
   if (in.has_from_s()) out.from = in.from_s();
   if (in.has_until_s()) out.until = in.until_s();
-  if (in.has_relaxed_b_n_s_m()) out.relaxed_b = in.relaxed_b_n_s_m();
   if (moved_by_person(out.model))
     for (const auto& [given, key] : {std::pair{in.has_from_s(), "from_s"}, std::pair{in.has_until_s(), "until_s"}})
       if (given)
@@ -185,32 +198,26 @@ void read_hand(const pb::Hand& in, const std::string& path, MessageValidator& va
   }
   for (const auto& d : in.deviation()) {
     auto& deviation = out.deviations.emplace_back(Deviation{d.at_s(), d.for_s(), {}});
-    if (d.has_force_n()) read_point(d.force_n(), deviation.force);
+    read_keys(d.force_n(), kPointKeys, deviation.force);
   }
 }
 void write_hand(const HandSpec& in, pb::Hand& out) {
   out.set_model(static_cast<pb::Hand::Model>(in.model));
-  out.set_k_n_m(in.k);
-  out.set_b_n_s_m(in.b);
-  out.set_m_kg(in.m);
+  write_keys(in, kHandKeys, out);
   if (moves_along_trajectory(in.model)) write_trajectory(in.trajectory, *out.mutable_trajectory());
   for (const auto& d : in.deviations) {
     auto& deviation = *out.add_deviation();
     deviation.set_at_s(d.at);
     deviation.set_for_s(d.length);
-    write_point(d.force, *deviation.mutable_force_n());
+    write_keys(d.force, kPointKeys, *deviation.mutable_force_n());
   }
   if (in.model == HandModel::kLettingGo) {
     out.set_release_at_s(in.release_at);
-    write_point(in.drags, *out.mutable_drags_n());
+    write_keys(in.drags, kPointKeys, *out.mutable_drags_n());
   }
-  if (in.model == HandModel::kTremor) {
-    out.set_tremor_amplitude_m(in.tremor_amplitude);
-    out.set_tremor_frequency_hz(in.tremor_frequency);
-  }
+  if (in.model == HandModel::kTremor) write_keys(in, kTremorKeys, out);
   if (!moved_by_person(in.model)) out.set_from_s(in.from);
   if (!moved_by_person(in.model) && std::isfinite(in.until)) out.set_until_s(in.until);
-  out.set_relaxed_b_n_s_m(in.relaxed_b);
 }
 
 }  // namespace
@@ -218,39 +225,17 @@ void write_hand(const HandSpec& in, pb::Hand& out) {
 void read_channel(const pb::Channel& in, const std::string& path, MessageValidator& validator, ChannelSpec& out) {
   if (in.has_law()) out.law = static_cast<LawKind>(in.law());
   out.mfs = static_cast<MfsMode>(in.mfs());
-  if (in.has_k_n_m()) out.k = in.k_n_m();
+  read_keys(in, kChannelKeys, out);
   // The default k_min is reduced to k of a softer channel; a written k_min above k is an error.
-  out.k_min = in.has_k_min_n_m() ? in.k_min_n_m() : std::min(out.k_min, out.k);
+  if (!in.has_k_min_n_m()) out.k_min = std::min(out.k_min, out.k);
   if (out.k_min > out.k)
     validator.error(child_path(path, "k_min_n_m"), "must not be above k_n_m = " + number_text(out.k));
-  if (in.has_k_delay_n_s_m()) out.k_delay = in.k_delay_n_s_m();
-  if (in.has_b_delay()) out.b_delay = in.b_delay();
-  if (in.has_lead_max_ms()) out.lead_max = in.lead_max_ms() / 1e3;
-  if (in.has_effort_half()) out.effort_half = in.effort_half();
   out.e0_given = in.has_e0_j();
-  if (in.has_e0_j()) out.e0 = in.e0_j();
-  if (in.has_eta()) out.eta = in.eta();
-  if (in.has_margin_max_j()) out.margin_max = in.margin_max_j();
-  if (in.has_v_app_m_s()) out.v_app = in.v_app_m_s();
-  if (in.has_tank_j()) out.tank = in.tank_j();
-  if (in.has_b_rel_n_s_m()) out.b_rel = in.b_rel_n_s_m();
 }
 
-void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out) {
-  if (in.has_k_c_n_m()) out.k_c = in.k_c_n_m();
-  if (in.has_b_n_s_m()) out.b = in.b_n_s_m();
-  if (in.has_m_c_kg()) out.m_c = in.m_c_kg();
-}
+void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out) { read_keys(in, kCouplingKeys, out); }
 
-void read_gate(const pb::Gate& in, GateSpec& out) {
-  if (in.has_silence_limit_ms()) out.silence_limit = in.silence_limit_ms() / 1e3;
-  if (in.has_local_hold_ms()) out.local_hold = in.local_hold_ms() / 1e3;
-  if (in.has_follow_hold_ms()) out.follow_hold = in.follow_hold_ms() / 1e3;
-  if (in.has_loop_age_max_ms()) out.loop_age_max = in.loop_age_max_ms() / 1e3;
-  if (in.has_latch()) out.latch = in.latch();
-  if (in.has_ramp_in_ms()) out.ramp_in = in.ramp_in_ms() / 1e3;
-  if (in.has_force_max_n()) out.force_max = in.force_max_n();
-}
+void read_gate(const pb::Gate& in, GateSpec& out) { read_keys(in, kGateKeys, out); }
 
 double e0_min(const ChannelSpec& channel, const GateSpec& gate) noexcept {
   return channel.k_min > 0 ? gate.force_max * gate.force_max / (2 * channel.k_min) : 0;
@@ -321,35 +306,14 @@ void read_slave(const pb::Slave& in, std::size_t dof, const std::string& path, M
 void write_channel(const ChannelSpec& in, pb::Channel& out) {
   out.set_law(static_cast<pb::Channel::Law>(in.law));
   out.set_mfs(static_cast<pb::Channel::Mfs>(in.mfs));
-  out.set_k_n_m(in.k);
-  out.set_k_min_n_m(in.k_min);
-  out.set_k_delay_n_s_m(in.k_delay);
-  out.set_b_delay(in.b_delay);
-  out.set_lead_max_ms(in.lead_max * 1e3);
-  out.set_effort_half(in.effort_half);
-  out.set_e0_j(in.e0);
-  out.set_eta(in.eta);
-  out.set_margin_max_j(in.margin_max);
-  out.set_v_app_m_s(in.v_app);
-  out.set_tank_j(in.tank);
-  out.set_b_rel_n_s_m(in.b_rel);
+  write_keys(in, kChannelKeys, out);
 }
 
-void write_coupling(const CouplingSpec& in, pb::DeviceCoupling& out) {
-  out.set_k_c_n_m(in.k_c);
-  out.set_b_n_s_m(in.b);
-  out.set_m_c_kg(in.m_c);
-}
+void write_coupling(const CouplingSpec& in, pb::DeviceCoupling& out) { write_keys(in, kCouplingKeys, out); }
 
-void write_gate(const GateSpec& in, pb::Gate& out) {
-  out.set_silence_limit_ms(in.silence_limit * 1e3);
-  out.set_local_hold_ms(in.local_hold * 1e3);
-  out.set_follow_hold_ms(in.follow_hold * 1e3);
-  out.set_loop_age_max_ms(in.loop_age_max * 1e3);
-  out.set_latch(in.latch);
-  out.set_ramp_in_ms(in.ramp_in * 1e3);
-  out.set_force_max_n(in.force_max);
-}
+void write_gate(const GateSpec& in, pb::Gate& out) { write_keys(in, kGateKeys, out); }
+
+void write_point(const Point& in, pb::PointM& out) { write_keys(in, kPointKeys, out); }
 
 void write_seat(const SeatSpec& in, pb::Seat& out) {
   out.set_name(in.name);

@@ -16,8 +16,7 @@ void read_channel(const pb::Channel& in, const std::string& path, text::MessageV
 void read_coupling(const pb::DeviceCoupling& in, CouplingSpec& out);
 void read_gate(const pb::Gate& in, GateSpec& out);
 constexpr double kE0Max = 10;  ///< largest e0 in the schemas of scene and seat [J]
-/// Smallest initial ledger energy that does not deadlock the channel at its start: F_max^2 / (2 k_min) [J] (design
-/// notes, control 4).
+/// Smallest initial ledger energy that does not deadlock the channel at its start: F_max^2 / (2 k_min) [J].
 [[nodiscard]] double e0_min(const ChannelSpec& channel, const GateSpec& gate) noexcept;
 /// Default of e0 for the law of `channel` [J].
 [[nodiscard]] double e0_by_law(const ChannelSpec& channel, const GateSpec& gate) noexcept;
@@ -41,6 +40,7 @@ void read_environment(const pb::Environment& in, std::size_t dof, const std::str
 /// Rejects friction of surfaces that a simulated device touches.
 void refuse_friction(const pb::Environment& in, const std::string& path, text::MessageValidator& validator);
 
+void write_point(const Point& in, pb::PointM& out);
 void write_environment(const EnvironmentSpec& in, pb::Environment& out);
 void write_channel(const ChannelSpec& in, pb::Channel& out);
 void write_coupling(const CouplingSpec& in, pb::DeviceCoupling& out);

@@ -2,15 +2,29 @@
 #include <string>
 #include <tuple>
 
+#include "proto/text/message_keys.h"
 #include "proto/text/scene_convert.h"
 
 /// Environments of tools, and virtual tools, which touch them directly.
 namespace tandem {
 
 using text::child_path;
+using text::MessageKey;
 using text::MessageValidator;
 
 namespace {
+
+constexpr std::array<MessageKey<WallSpec>, 5> kWallKeys{{{"at_m", &WallSpec::at},
+                                                         {"k_n_m", &WallSpec::k},
+                                                         {"b_n_s_m", &WallSpec::b},
+                                                         {"from_below", &WallSpec::from_below},
+                                                         {"friction", &WallSpec::mu}}};
+constexpr std::array<MessageKey<TissueSpec>, 6> kTissueKeys{{{"at_m", &TissueSpec::at},
+                                                             {"k_n_m", &TissueSpec::k},
+                                                             {"k3_n_m3", &TissueSpec::k3},
+                                                             {"b_n_s_m", &TissueSpec::b},
+                                                             {"from_below", &TissueSpec::from_below},
+                                                             {"friction", &TissueSpec::mu}}};
 
 int axis_in(bool given, pb::Axis axis, int fallback, std::size_t dof, const std::string& path,
             MessageValidator& validator) {
@@ -29,22 +43,13 @@ void read_environment(const pb::Environment& in, std::size_t dof, const std::str
     const auto& w = in.wall();
     auto& wall = out.wall.emplace();
     wall.axis = axis_in(w.has_axis(), w.axis(), wall.axis, dof, child_path(path, "wall"), validator);
-    if (w.has_at_m()) wall.at = w.at_m();
-    if (w.has_k_n_m()) wall.k = w.k_n_m();
-    if (w.has_b_n_s_m()) wall.b = w.b_n_s_m();
-    if (w.has_from_below()) wall.from_below = w.from_below();
-    if (w.has_friction()) wall.mu = w.friction();
+    text::read_keys(w, kWallKeys, wall);
   }
   if (in.has_tissue()) {
     const auto& t = in.tissue();
     auto& tissue = out.tissue.emplace();
     tissue.axis = axis_in(t.has_axis(), t.axis(), tissue.axis, dof, child_path(path, "tissue"), validator);
-    if (t.has_at_m()) tissue.at = t.at_m();
-    if (t.has_k_n_m()) tissue.k = t.k_n_m();
-    if (t.has_k3_n_m3()) tissue.k3 = t.k3_n_m3();
-    if (t.has_b_n_s_m()) tissue.b = t.b_n_s_m();
-    if (t.has_from_below()) tissue.from_below = t.from_below();
-    if (t.has_friction()) tissue.mu = t.friction();
+    text::read_keys(t, kTissueKeys, tissue);
   }
 }
 
@@ -59,23 +64,12 @@ void refuse_friction(const pb::Environment& in, const std::string& path, Message
 
 void write_environment(const EnvironmentSpec& in, pb::Environment& out) {
   if (in.wall) {
-    auto& wall = *out.mutable_wall();
-    wall.set_axis(static_cast<pb::Axis>(in.wall->axis));
-    wall.set_at_m(in.wall->at);
-    wall.set_k_n_m(in.wall->k);
-    wall.set_b_n_s_m(in.wall->b);
-    wall.set_from_below(in.wall->from_below);
-    wall.set_friction(in.wall->mu);
+    out.mutable_wall()->set_axis(static_cast<pb::Axis>(in.wall->axis));
+    text::write_keys(*in.wall, kWallKeys, *out.mutable_wall());
   }
   if (in.tissue) {
-    auto& tissue = *out.mutable_tissue();
-    tissue.set_axis(static_cast<pb::Axis>(in.tissue->axis));
-    tissue.set_at_m(in.tissue->at);
-    tissue.set_k_n_m(in.tissue->k);
-    tissue.set_k3_n_m3(in.tissue->k3);
-    tissue.set_b_n_s_m(in.tissue->b);
-    tissue.set_from_below(in.tissue->from_below);
-    tissue.set_friction(in.tissue->mu);
+    out.mutable_tissue()->set_axis(static_cast<pb::Axis>(in.tissue->axis));
+    text::write_keys(*in.tissue, kTissueKeys, *out.mutable_tissue());
   }
 }
 

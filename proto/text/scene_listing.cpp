@@ -48,9 +48,7 @@ pb::Scene to_proto(const SceneSpec& scene) {
     t.set_b_s_n_s_m(tool.b_s);
     if (tool.is_virtual) {
       t.mutable_slave()->set_model(pb::VIRTUAL);
-      t.mutable_slave()->mutable_start_m()->set_x(tool.slave.start.x);
-      t.mutable_slave()->mutable_start_m()->set_y(tool.slave.start.y);
-      t.mutable_slave()->mutable_start_m()->set_z(tool.slave.start.z);
+      write_point(tool.slave.start, *t.mutable_slave()->mutable_start_m());
       write_environment(tool.environment, *t.mutable_slave()->mutable_environment());
       continue;
     }

@@ -4,12 +4,28 @@
 
 #include <cmath>
 
+#include "proto/text/message_keys.h"
 #include "proto/text/scene_convert.h"
 
 namespace tandem {
 namespace {
 
+using text::MessageKey;
 using text::MessageValidator;
+
+constexpr std::array<MessageKey<SeatSetup>, 10> kSetupKeys{
+    {{"tick_hz", &SeatSetup::tick_hz},
+     {"unsafe_gains", &SeatSetup::unsafe_gains},
+     {"clock_runs_while_stopped", &SeatSetup::clock_runs_while_stopped},
+     {"k_s_n_m", &SeatSetup::k_s},
+     {"m_s_kg", &SeatSetup::m_s},
+     {"b_s_n_s_m", &SeatSetup::b_s},
+     {"stiffness_asked_n_m", &SeatSetup::stiffness_asked},
+     {"weight", &SeatSetup::weight},
+     {"drivers", &SeatSetup::driver_mask},
+     {"ends_pauses", &SeatSetup::may_end_pauses}}};
+constexpr std::array<MessageKey<CoupledTool>, 3> kCoupledToolKeys{
+    {{"weight", &CoupledTool::weight}, {"m_s_kg", &CoupledTool::m_s}, {"b_s_n_s_m", &CoupledTool::b_s}}};
 
 void check_scale(const pb::SeatSetup& in, MessageValidator& validator) {
   if (static_cast<std::uint32_t>(in.axis_scale_size()) != in.dof()) {
@@ -20,7 +36,6 @@ void check_scale(const pb::SeatSetup& in, MessageValidator& validator) {
 /// Reads further tools. Only masters of law REPLICA simulate several tools, each once and in order; the weights of
 /// their forces sum to 1.
 void read_ties(const pb::SeatSetup& in, MessageValidator& validator, SeatSetup& out) {
-  out.weight = in.weight();
   double sum = out.weight;
   std::size_t before = out.seat.tool;
   for (int k = 0; k < in.further_size(); ++k) {
@@ -28,9 +43,7 @@ void read_ties(const pb::SeatSetup& in, MessageValidator& validator, SeatSetup& 
     const std::string path = text::child_path("", "further", k);
     CoupledTool& read = out.further.emplace_back();
     read.tool = tie.tool_index();
-    read.weight = tie.weight();
-    read.m_s = tie.m_s_kg();
-    read.b_s = tie.b_s_n_s_m();
+    text::read_keys(tie, kCoupledToolKeys, read);
     read_environment(tie.environment(), out.dof, text::child_path(path, "environment"), validator, read.environment);
     if (read.tool <= before)
       validator.error(text::child_path(path, "tool_index"),
@@ -98,36 +111,25 @@ SeatSetup seat_setup(const SceneSpec& scene, std::size_t seat) {
 
 std::size_t encode_seat_setup(const SeatSetup& setup, std::span<char> out) {
   pb::SeatSetup message;
-  message.set_tick_hz(setup.tick_hz);
+  text::write_keys(setup, kSetupKeys, message);
   message.set_dof(static_cast<std::uint32_t>(setup.dof));
   message.set_port(static_cast<pb::Scene::Port>(setup.port));
   if (std::isfinite(setup.duration)) message.set_duration_s(setup.duration);
-  message.set_unsafe_gains(setup.unsafe_gains);
   write_channel(setup.channel, *message.mutable_channel());
   write_coupling(setup.coupling, *message.mutable_device_coupling());
   write_gate(setup.gate, *message.mutable_gate());
   write_seat(setup.seat, *message.mutable_seat());
-  message.set_k_s_n_m(setup.k_s);
   message.set_tool_index(static_cast<std::uint32_t>(setup.seat.tool));
   for (std::size_t axis = 0; axis < setup.dof && axis < kAxesMax; ++axis)
     message.add_axis_scale(setup.axis_scale[axis]);
   for (const std::string& name : setup.masters) message.add_master(name);
   for (const std::string& name : setup.tools) message.add_tool_name(name);
-  message.set_clock_runs_while_stopped(setup.clock_runs_while_stopped);
   message.set_own_master(static_cast<std::uint32_t>(setup.own_master));
-  message.set_drivers(setup.driver_mask);
-  message.set_ends_pauses(setup.may_end_pauses);
   write_environment(setup.environment, *message.mutable_environment());
-  message.set_m_s_kg(setup.m_s);
-  message.set_b_s_n_s_m(setup.b_s);
-  message.set_stiffness_asked_n_m(setup.stiffness_asked);
-  message.set_weight(setup.weight);
   for (const CoupledTool& tie : setup.further) {
     pb::CoupledTool& out_tie = *message.add_further();
     out_tie.set_tool_index(static_cast<std::uint32_t>(tie.tool));
-    out_tie.set_weight(tie.weight);
-    out_tie.set_m_s_kg(tie.m_s);
-    out_tie.set_b_s_n_s_m(tie.b_s);
+    text::write_keys(tie, kCoupledToolKeys, out_tie);
     write_environment(tie.environment, *out_tie.mutable_environment());
   }
   message.set_alpha_slew_per_s(std::isfinite(setup.alpha_slew) ? setup.alpha_slew : 0);
@@ -149,12 +151,10 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
   check_scale(in, validator);
   SeatSetup out;
   if (validator.ok()) {  // numbers are in range here; only contradictions are left
-    out.tick_hz = in.tick_hz();
+    text::read_keys(in, kSetupKeys, out);
     out.dof = in.dof();
     out.port = static_cast<PortSpace>(in.port());
     if (in.has_duration_s()) out.duration = in.duration_s();
-    out.clock_runs_while_stopped = in.clock_runs_while_stopped();
-    out.unsafe_gains = in.unsafe_gains();
     read_channel(in.channel(), "channel", validator, out.channel);
     read_coupling(in.device_coupling(), out.coupling);
     read_gate(in.gate(), out.gate);
@@ -164,18 +164,12 @@ std::expected<SeatSetup, InputErrors> decode_seat_setup(std::span<const char> by
     check_gate(out.gate, out.tick_hz, "gate", validator);
     read_seat(in.seat(), out.dof, "seat", validator, out.seat);
     out.seat.tool = in.tool_index();
-    out.k_s = in.k_s_n_m();
-    out.m_s = in.m_s_kg();
-    out.b_s = in.b_s_n_s_m();
-    out.stiffness_asked = in.stiffness_asked_n_m();
     read_environment(in.environment(), out.dof, "environment", validator, out.environment);
     read_ties(in, validator, out);
     for (std::size_t axis = 0; axis < out.dof; ++axis) out.axis_scale[axis] = in.axis_scale(static_cast<int>(axis));
     out.masters.assign(in.master().begin(), in.master().end());
     out.tools.assign(in.tool_name().begin(), in.tool_name().end());
     out.own_master = in.own_master();
-    out.driver_mask = in.drivers();
-    out.may_end_pauses = in.ends_pauses();
     out.alpha_slew = in.alpha_slew_per_s() > 0 ? in.alpha_slew_per_s() : std::numeric_limits<double>::infinity();
     if (!out.masters.empty() && out.own_master >= out.masters.size())
       validator.error("own_master", "is not one of the masters");

@@ -1,13 +1,27 @@
 #include "proto/text/server_config_text.h"
 
 #include "proto/schema/server_config.pb.h"
+#include "proto/text/message_keys.h"
 #include "proto/text/text_format_reader.h"
 
 namespace tandem {
 namespace {
 
 using text::child_path;
+using text::MessageKey;
 using text::MessageValidator;
+
+using Limits = ConnectionLimitsSpec;
+constexpr std::array<MessageKey<Limits>, 8> kLimitKeys{{{"accepts_per_s", &Limits::accepts_per_s},
+                                                        {"accepts_burst", &Limits::accepts_burst},
+                                                        {"accepts_per_s_all", &Limits::accepts_per_s_all},
+                                                        {"pending", &Limits::pending},
+                                                        {"connections", &Limits::connections},
+                                                        {"deadline_s", &Limits::deadline_s},
+                                                        {"load_percent", &Limits::load_percent},
+                                                        {"core_percent", &Limits::core_percent}}};
+constexpr std::array<MessageKey<AuditSpec>, 2> kAuditKeys{
+    {{"file_mib", &AuditSpec::file_mib}, {"older_files", &AuditSpec::older_files}}};
 
 LocatedText placed(const std::string& value, const MessageValidator& validator, const std::string& key) {
   const text::SourceLocation place = validator.location(key);
@@ -31,19 +45,6 @@ ConfiguredSessionSpec session_from(const pb::ConfiguredSession& in, MessageValid
   out.tickets_only = in.entry() == pb::ConfiguredSession::TICKETS;
   if (in.has_restart()) out.restart = in.restart();
   out.duration_s = in.duration_s();
-  return out;
-}
-
-ConnectionLimitsSpec limits_from(const pb::DoorLimits& in) {
-  ConnectionLimitsSpec out;
-  if (in.has_accepts_per_s()) out.accepts_per_s = in.accepts_per_s();
-  if (in.has_accepts_burst()) out.accepts_burst = in.accepts_burst();
-  if (in.has_accepts_per_s_all()) out.accepts_per_s_all = in.accepts_per_s_all();
-  if (in.has_pending()) out.pending = in.pending();
-  if (in.has_connections()) out.connections = in.connections();
-  if (in.has_deadline_s()) out.deadline_s = in.deadline_s();
-  if (in.has_load_percent()) out.load_percent = in.load_percent();
-  if (in.has_core_percent()) out.core_percent = in.core_percent();
   return out;
 }
 
@@ -81,7 +82,7 @@ std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::s
                         "is the name of another session already; each session needs a name of its own");
     out.sessions.push_back(session_from(in.session(i), validator, key));
   }
-  out.limits = limits_from(in.limits());
+  text::read_keys(in.limits(), kLimitKeys, out.limits);
   for (int i = 0; i < in.metrics_host_size(); ++i) {
     const std::string& name = in.metrics_host(i);
     if (name.empty() || name.size() > 253 || name.find_first_of(": /[]\t") != std::string::npos)
@@ -89,8 +90,7 @@ std::optional<ServerConfigSpec> read_server_config(std::string_view text, std::s
                       "must be a computer's name, 1 to 253 characters, without a port");
     out.metrics_hosts.push_back(name);
   }
-  if (in.audit().has_file_mib()) out.audit.file_mib = in.audit().file_mib();
-  if (in.audit().has_older_files()) out.audit.older_files = in.audit().older_files();
+  text::read_keys(in.audit(), kAuditKeys, out.audit);
   out.log.json = in.log().format() == pb::LogConfig::JSON;
   out.log.level = static_cast<LogSpec::Level>(in.log().level());
   add_unexplained(errors, validator.take());
@@ -110,22 +110,13 @@ std::string effective_server_config_text(const ServerConfigSpec& config) {
     session.set_restart(s.restart);
     if (s.duration_s > 0) session.set_duration_s(s.duration_s);
   }
-  auto& limits = *out.mutable_limits();
-  limits.set_accepts_per_s(config.limits.accepts_per_s);
-  limits.set_accepts_burst(config.limits.accepts_burst);
-  limits.set_accepts_per_s_all(config.limits.accepts_per_s_all);
-  limits.set_pending(config.limits.pending);
-  limits.set_connections(config.limits.connections);
-  limits.set_deadline_s(config.limits.deadline_s);
-  limits.set_load_percent(config.limits.load_percent);
-  limits.set_core_percent(config.limits.core_percent);
+  text::write_keys(config.limits, kLimitKeys, *out.mutable_limits());
   out.mutable_log()->set_format(config.log.json ? pb::LogConfig::JSON : pb::LogConfig::TEXT);
   out.mutable_log()->set_level(static_cast<pb::LogConfig::Level>(config.log.level));
   if (!config.metrics.text.empty()) out.set_metrics(config.metrics.text);
   for (const std::string& name : config.metrics_hosts) out.add_metrics_host(name);
   if (!config.reports.text.empty()) out.set_reports(config.reports.text);
-  out.mutable_audit()->set_file_mib(config.audit.file_mib);
-  out.mutable_audit()->set_older_files(config.audit.older_files);
+  text::write_keys(config.audit, kAuditKeys, *out.mutable_audit());
   return text::listing(out);
 }
 

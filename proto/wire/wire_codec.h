@@ -14,7 +14,7 @@
 /// proto/schema/wire.proto.
 namespace tandem::wire {
 
-/// Largest datagram, and size of header and tag around a plaintext [bytes] (design notes, security 1.4).
+/// Largest datagram, and size of header and tag around a plaintext [bytes] (common/transport/FORMAT.md).
 inline constexpr std::size_t kDatagramMax = 1200;
 inline constexpr std::size_t kDatagramOverhead = 32;
 inline constexpr std::size_t kPlaintextMax = kDatagramMax - kDatagramOverhead;

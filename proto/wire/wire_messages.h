@@ -71,7 +71,8 @@ struct StateMessage {
 /// them.
 enum class SessionState : std::uint8_t { kWaiting, kRunning, kHeld, kPaused, kStopped, kEnding, kOverloaded };
 
-/// Notice to a seat about a decided change of its authority that is pending (design notes, security 2.5) or cancelled.
+/// Notice to a seat about a decided change of its authority that is pending (ARCHITECTURE.md, invariant 53) or
+/// cancelled.
 enum class TransferNotice : std::uint8_t { kNone, kGaining, kLosing, kCancelled };
 inline constexpr std::uint32_t kTransferNoticeTicks = 50;  ///< ticks from the decision until authority begins to move
 /// Origin and main receiver of a change of authority, for display. Zeros unless a change is pending.

@@ -15,7 +15,7 @@ struct Load {
   bool fully_shed = false;  ///< highest shed level reached (load_shedder.h): overloaded although everything is shed
 };
 
-/// Loads above which new joins are rejected [design notes, reliability 2.4].
+/// Loads above which new joins are rejected.
 struct LoadLimits {
   double tick = 0.6;
   double core = 0.8;

@@ -10,9 +10,9 @@
 
 namespace tandem::server {
 
-/// Shed level of a tick thread: the work that it omits while overloaded. Each level includes the ones before it, in the
-/// order of the design notes (reliability 2.4). Their level "compression" does not exist, because nothing is
-/// compressed. Masters, trainees, instructors, slaves and required seats get FORCE at every tick on every level.
+/// Shed level of a tick thread: the work that it omits while overloaded. Each level includes the ones before it. No
+/// level is about compression, because nothing is compressed. Masters, trainees, instructors, slaves and required seats
+/// get FORCE at every tick on every level.
 enum class ShedLevel : std::uint8_t {
   kNone,                ///< nothing is shed
   kTelemetry,           ///< records of every 10th tick only; display snapshots at a quarter of the rate

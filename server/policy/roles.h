@@ -11,7 +11,7 @@
 
 namespace tandem::server {
 
-/// Rights in a session, one per row of the table in the design notes (security 1.5).
+/// Rights in a session, one per row of the table in roles.cpp (ARCHITECTURE.md, invariant 34).
 enum class Right : std::uint8_t {
   kDrive,        ///< have authority over a tool; kPart: if it is given
   kForce,        ///< be engaged; kPart: with a lower force clamp and energy tank

@@ -19,7 +19,7 @@
 namespace tandem::server {
 
 /// Changes of authority over the tools of a session: permission, schedule, execution, cancellation and the notice to
-/// the seats (design notes, security 2.5).
+/// the seats (ARCHITECTURE.md, invariants 46 and 53).
 ///
 /// A request is a compare-and-set: it names the version that it changes. An accepted change is announced to its parties
 /// and takes effect `AuthorityTransfer::kNotice` ticks later. It is cancelled if a seat that gains authority has a

@@ -10,10 +10,10 @@
 namespace tandem::server {
 
 /// Scheduled changes of the authority over one tool. Between the decision and the tick that executes it pass `kNotice`
-/// ticks, in which the parties are notified (design notes, security 2.5). The decision settles the outcome:
+/// ticks, in which the parties are notified (ARCHITECTURE.md, invariant 53). The decision settles the outcome:
 /// `scheduled` is what the session's authority version stands for. Several decisions within the notice period are
-/// executed in order, each after its own notice, so that a ramp stays a ramp. A later decision removes those that
-/// would be executed at the same tick as it or after it. So the last decision is executed last.
+/// executed in order, each after its own notice, so that a ramp stays a ramp. A later decision removes those that would
+/// be executed at the same tick as it or after it. So the last decision is executed last.
 class AuthorityTransfer {
  public:
   static constexpr std::uint32_t kNotice = wire::kTransferNoticeTicks;

@@ -15,8 +15,8 @@
 namespace tandem::server {
 
 /// State from which a new server process restores a session: owners of the seats, authority, tool positions, stop
-/// level. It contains no velocities, stored energies or forces, so a restore cannot push a hand (design notes,
-/// security 2.5).
+/// level. It contains no velocities, stored energies or forces, so a restore cannot push a hand (ARCHITECTURE.md,
+/// invariant 39).
 struct Checkpoint {
   using Hash = std::array<std::byte, 32>;
   struct Seat {

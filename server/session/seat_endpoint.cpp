@@ -9,7 +9,7 @@ namespace tandem::server {
 namespace {
 /// Silence for which a seat keeps its end of the spring. Then its authority moves to other seats, or the tool is
 /// braked. With the ramp-down of a lost holder's authority (`common/control/authority.cpp`, 100 ms) this ends within
-/// 220 ms (design notes, security 2.4).
+/// 220 ms (ARCHITECTURE.md, invariant 38).
 constexpr Duration kHoldLimit = std::chrono::milliseconds(100);
 /// Margin added to the silence limit of the client's gate: a client that reports more silence receives nothing.
 constexpr Duration kDeafMargin = std::chrono::milliseconds(10);

@@ -33,7 +33,8 @@ namespace tandem::server {
 /// per tick of 1 / `tick_hz`. Sans-I/O: the session receives times and bytes only. The same code runs over UDP and in
 /// the simulation. Its parts have the state; this class routes datagrams to them and calls them in the order of a tick:
 /// slaves at the server, participants, session clock, authority, references of all seats, tools, leading hands, targets
-/// (design notes, control 4). `on_tick` then fills the FORCE messages once, also after ticks that it catches up.
+/// (ARCHITECTURE.md, "Order within a tick"). `on_tick` then fills the FORCE messages once, also after ticks that it
+/// catches up.
 class Session {
  public:
   /// @param slaves  one per tool; null for a tool whose slave is a seat, and for a tool without a slave

@@ -28,8 +28,8 @@ struct SessionSnapshot {
   std::vector<std::array<std::byte, 32>> removed_workstations{};
 };
 
-/// Lifetime of a resume secret after its owner was lost, and of a snapshot after it was written (design notes,
-/// security 1.4).
+/// Lifetime of a resume secret after its owner was lost, and of a snapshot after it was written (ARCHITECTURE.md,
+/// invariant 45).
 inline constexpr std::int64_t kResumeLifeS = 600;
 inline constexpr Duration kResumeLife = std::chrono::seconds(kResumeLifeS);
 

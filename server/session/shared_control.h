@@ -16,7 +16,7 @@ namespace tandem::server {
 
 /// The tools of a session and their couplings to its seats: connects the ends of the seats and the tools with the hub
 /// of Energy Shared Control (`control::EscHub`), once per tick. The functions of a tick are called in the order of
-/// their declaration (design notes, control 4). All quantities are in the axes of the port, SI units.
+/// their declaration (ARCHITECTURE.md, "Order within a tick"). All quantities are in the axes of the port, SI units.
 class SharedControl {
  public:
   /// @param slaves  one per tool; null for a tool whose slave is a seat, and for a tool without a slave

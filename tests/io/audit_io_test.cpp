@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <thread>
 
+#include "common/auth/io/append_file.h"
 #include "common/auth/io/control_client.h"
+#include "common/auth/io/directory_lock.h"
 #include "common/auth/io/state_directory.h"
 #include "tests/common/auth/faults/state_files.h"
 #include "tests/io/metrics_page.h"
@@ -91,19 +93,20 @@ TEST(StateDirectoryLive, ServesWithAnOversizedTruncatedAuditLogAndLogsNoCode) {
   EXPECT_EQ(again.wait(), 0) << again.err();
 }
 
-// A writer waits for the lock for at most StateDirectory::kLockTimeout, then continues without the line.
+// A writer waits for the lock for at most DirectoryLock::kTimeout, then continues without the line.
 TEST(StateDirectoryLive, DropsALineWhileAnotherProgramLocksTheFile) {
   const Folder folder;
   const auto state = auth::StateDirectory::open(folder.file("state"), auth::StateDirectory::Missing::kIsMade);
   ASSERT_TRUE(state) << state.error();
-  ASSERT_EQ(state->append("audit.log", "one\n"), "");
+  const auth::AppendFile log(*state, "audit.log");
+  ASSERT_EQ(log.append("one\n"), "");
   {
-    const auto held = state->lock("audit.log");
+    const auto held = auth::DirectoryLock::wait(*state, "audit.log");
     ASSERT_TRUE(held) << held.error();
-    const std::string problem = state->append("audit.log", "two\n");
+    const std::string problem = log.append("two\n");
     EXPECT_NE(problem.find("is held by process " + std::to_string(::getpid())), std::string::npos) << problem;
   }
-  EXPECT_EQ(state->append("audit.log", "three\n"), "");
+  EXPECT_EQ(log.append("three\n"), "");
   EXPECT_EQ(folder.read("state/audit.log"), "one\nthree\n");
 }
 

@@ -1,5 +1,4 @@
-// Rows of the failure table (design notes, security 2.4) with real programs on loopback. Outcomes are asserted, never
-// durations.
+// Rows of the failure table (tests/FAILURES.md) with real programs on loopback. Outcomes are asserted, never durations.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -1,5 +1,4 @@
-// Connection floods by unknown senders, and clients that do not read (design notes, security 1.8 and 2.4), against a
-// running session.
+// Connection floods by unknown senders, and clients that do not read (tests/FAILURES.md), against a running session.
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>

@@ -1,5 +1,5 @@
-// Unknown senders and insiders against real programs on loopback (design notes, security 1.8). Outcomes are asserted,
-// durations are printed.
+// Unknown senders and insiders against real programs on loopback (tests/FAILURES.md). Outcomes are asserted, durations
+// are printed.
 #include <gtest/gtest.h>
 #include <netinet/tcp.h>
 #include <openssl/ssl.h>

@@ -1,5 +1,5 @@
-// Overload (design notes, reliability 2.4) with real programs: a server that the machine runs only intermittently.
-// States, counts and order are asserted, never durations.
+// Overload (ARCHITECTURE.md, invariants 51 and 52) with real programs: a server that the machine runs only
+// intermittently. States, counts and order are asserted, never durations.
 #include <gtest/gtest.h>
 #include <signal.h>
 

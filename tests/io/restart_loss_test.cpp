@@ -1,6 +1,6 @@
-// The table of link loss in contact (design notes, security 2.3; control 7) with a server that is really killed. Five
-// devices at a time press against a wall with their own force each, with different hands. Everything is judged by the
-// clients' own ticks and clocks.
+// The table of link loss in contact (tests/FAILURES.md) with a server that is really killed. Five devices at a time
+// press against a wall with their own force each, with different hands. Everything is judged by the clients' own ticks
+// and clocks.
 #include <gtest/gtest.h>
 #include <signal.h>
 

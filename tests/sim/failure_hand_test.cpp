@@ -1,4 +1,4 @@
-// Rows of the failure table (design notes, security 2.4, and the role table of 1.5) about one hand and its force.
+// Rows of the failure table (tests/FAILURES.md) about one hand and its force.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Rows of the failure table (design notes, security 2.4) under law `replica`, whose hands tolerate longer silences. The
-// tool waits for a hand as long as that hand's gate tolerates, 450 ms at most. Its authority then decays in 100 ms, as
-// under the other law.
+// Rows of the failure table (tests/FAILURES.md) under law `replica`, whose hands tolerate longer silences. The tool
+// waits for a hand as long as that hand's gate tolerates, 450 ms at most. Its authority then decays in 100 ms, as under
+// the other law.
 #include <gtest/gtest.h>
 
 #include <array>

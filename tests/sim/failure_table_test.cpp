@@ -1,6 +1,6 @@
-// The failure table of the design notes, security 2.4: the rows marked Sim about participants, seats and the server,
-// each with its behaviour and its bound. Other rows: readings and clocks in faults_test.cpp, networks in
-// robustness_test.cpp, bytes in tests/common/transport.
+// The failure table (tests/FAILURES.md), in virtual time: the rows about participants, seats and the server, each with
+// its behaviour and its bound. Other rows: readings and clocks in faults_test.cpp, networks in robustness_test.cpp,
+// bytes in tests/common/transport.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// A switch that holds datagrams back, in a whole session in contact (design notes, security 1.8: hold-and-release).
+// A switch that holds datagrams back, in a whole session in contact (tests/FAILURES.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>

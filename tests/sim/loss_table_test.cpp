@@ -1,6 +1,6 @@
-// The table of link loss in contact (design notes, security 2.3): five forces and devices, three kinds of hands, both
-// laws. Law `replica` continues its force through a gap that its gate tolerates; its loss is therefore detected later.
-// The limit of energy after the last fresh datagram is the same tank. The same table with a killed server:
+// The table of link loss in contact (tests/FAILURES.md): five forces and devices, three kinds of hands, both laws. Law
+// `replica` continues its force through a gap that its gate tolerates; its loss is therefore detected later. The limit
+// of energy after the last fresh datagram is the same tank. The same table with a killed server:
 // tests/io/restart_loss_test.cpp.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Overload (design notes, reliability 2.4) with a virtual processor. The tests check the order in which load is shed,
-// and that seats with authority keep 1 kHz. The third consecutive tick that is more than 5 ms late disengages the
+// Overload (ARCHITECTURE.md, invariants 51 and 52) with a virtual processor. The tests check the order in which load is
+// shed, and that seats with authority keep 1 kHz. The third consecutive tick that is more than 5 ms late disengages the
 // hands; they engage again without a user.
 #include <gtest/gtest.h>
 

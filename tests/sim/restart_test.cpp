@@ -1,5 +1,5 @@
-// The server dies and restarts from its checkpoint (design notes, security 2.4 and 2.5): no abrupt force, no jump, and
-// all seats return.
+// The server dies and restarts from its checkpoint (ARCHITECTURE.md, invariant 39): no abrupt force, no jump, and all
+// seats return.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -28,8 +28,8 @@ TEST(Twins, SameSeedSameTrace) {
   }
 }
 
-/// Energy Shared Control in one loop, without datagrams, ledgers and gate: springs and masses of design notes, control
-/// 3, in the order of one tick. With `one_tick`, hands see the tool one tick late, as over the network; otherwise all
+/// Energy Shared Control in one loop, without datagrams, ledgers and gate: springs and masses of common/control/ipc.h,
+/// in the order of one tick. With `one_tick`, hands see the tool one tick late, as over the network; otherwise all
 /// springs act at once.
 class Monolith {
  public:

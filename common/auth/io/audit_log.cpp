@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/auth/io/append_file.h"
 #include "common/base/sanitize.h"
 
 namespace tandem::auth {
@@ -41,6 +42,7 @@ std::string AuditLog::retry(const StateDirectory& folder, std::int64_t now) {
 }
 
 std::string AuditLog::put(const StateDirectory& folder, std::int64_t now, const std::string& line) {
+  const AppendFile file(folder, kFile, AppendFile::TornLine::kEnded);
   std::string text, rotation;
   if (owed_ > 0)
     text = line_of(now, "audit_lost", "", "since " + std::to_string(lost_since_) + ": " + error_,
@@ -48,13 +50,13 @@ std::string AuditLog::put(const StateDirectory& folder, std::int64_t now, const 
   text += line;
   if (const std::uint64_t size = folder.stamp(kFile).size;
       limits_ && size > 0 && size + text.size() > limits_->file_max) {
-    const auto moved = folder.rotate(kFile, limits_->file_max - std::min<std::uint64_t>(text.size(), limits_->file_max),
-                                     limits_->older);
+    const auto moved =
+        file.rotate(limits_->file_max - std::min<std::uint64_t>(text.size(), limits_->file_max), limits_->older);
     if (!moved) rotation = moved.error();
     if (moved && *moved > 0)
       text = line_of(now, "audit_rotated", "", std::to_string(*moved) + " bytes are in " + kFile + ".1") + text;
   }
-  std::string problem = text.empty() ? std::string{} : folder.append(kFile, text, StateDirectory::TornLine::kEnded);
+  std::string problem = text.empty() ? std::string{} : file.append(text);
   if (problem.empty()) owed_ = 0;
   error_ = problem.empty() ? rotation : problem;
   return problem;

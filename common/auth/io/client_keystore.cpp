@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "common/auth/io/directory_lock.h"
 #include "common/base/raw_bytes.h"
 #include "proto/text/registry_text.h"
 
@@ -33,7 +34,7 @@ std::expected<std::optional<ClientKeystore>, std::string> ClientKeystore::read(S
 std::expected<ClientKeystore, std::string> ClientKeystore::open_or_make(const std::string& path, std::int64_t now) {
   auto folder = StateDirectory::open(path, StateDirectory::Missing::kIsMade);
   if (!folder) return std::unexpected(folder.error());
-  const auto lock = folder->lock(kLock);
+  const auto lock = DirectoryLock::wait(*folder, kLock);
   if (!lock) return std::unexpected(lock.error());
   folder->remove_leftovers();
   if (!folder->has(kKeyFile)) {
@@ -66,7 +67,7 @@ std::expected<std::vector<ServerRow>, std::string> ClientKeystore::servers() con
 }
 
 std::string ClientKeystore::store_server(const ServerRow& server) const {
-  const auto lock = folder_.lock(kLock);
+  const auto lock = DirectoryLock::wait(folder_, kLock);
   if (!lock) return lock.error();
   auto rows = servers();
   if (!rows) return rows.error();

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "common/auth/io/append_file.h"
+#include "common/auth/io/directory_lock.h"
 #include "common/base/command_hints.h"
 #include "common/base/raw_bytes.h"
 #include "proto/text/registry_text.h"
@@ -40,7 +42,7 @@ TicketKey random_ticket_key() {
 std::expected<KeyFingerprint, std::string> ServerKeystore::init(const std::string& path, std::int64_t now) {
   const auto folder = StateDirectory::open(path, StateDirectory::Missing::kIsMade);
   if (!folder) return std::unexpected(folder.error());
-  const auto lock = folder->lock(ServerRegistry::kLock);
+  const auto lock = DirectoryLock::wait(*folder, ServerRegistry::kLock);
   if (!lock) return std::unexpected(lock.error());
   folder->remove_leftovers();
   for (const char* name : {kKeyFile, kCertificateFile, kTicketKeyFile})
@@ -101,7 +103,7 @@ std::vector<std::string> ServerKeystore::find_errors(const std::string& path) {
        {ServerRegistry::kWorkstationsFile, ServerRegistry::kCodesFile, TicketRedeemer::kFile, ServingFile::kFile})
     if (const auto file = folder->read(name); !file) wrong.push_back(file.error());
   if (folder->has(kAuditFile))
-    if (std::string trouble = folder->append_problem(kAuditFile, StateDirectory::TornLine::kEnded); !trouble.empty())
+    if (std::string trouble = AppendFile(*folder, kAuditFile, AppendFile::TornLine::kEnded).problem(); !trouble.empty())
       wrong.push_back(std::move(trouble));
   if (std::string trouble = folder->write_problem(); !trouble.empty()) wrong.push_back(std::move(trouble));
   if (!wrong.empty()) return wrong;
@@ -128,7 +130,7 @@ ServerKeystore::ServerKeystore(Identity identity, TicketKey ticket_key, std::sha
 std::string ServerKeystore::begin_serving(std::int64_t now) {
   if (!folder_) return {};
   // A command that checks for a running server must not be mistaken for one.
-  const auto lists = folder_->lock(ServerRegistry::kLock);
+  const auto lists = DirectoryLock::wait(*folder_, ServerRegistry::kLock);
   if (!lists) return lists.error();
   if (std::string problem = serving_.begin(); !problem.empty()) return problem;
   folder_->remove_leftovers();

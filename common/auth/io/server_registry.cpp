@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/auth/io/directory_lock.h"
 #include "common/base/raw_bytes.h"
 #include "proto/text/registry_text.h"
 
@@ -33,9 +34,9 @@ std::expected<ServerRegistry::Lists, std::string> ServerRegistry::read() const {
 
 template <class Change>
 std::string ServerRegistry::modify(Change change) {
-  StateDirectory::Lock held;
+  DirectoryLock held;
   if (folder_) {
-    auto lock = folder_->lock(kLock);
+    auto lock = DirectoryLock::wait(*folder_, kLock);
     if (!lock) return lock.error();
     held = std::move(*lock);
   }

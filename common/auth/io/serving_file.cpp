@@ -10,14 +10,14 @@
 namespace tandem::auth {
 
 ServingFile::~ServingFile() {
-  if (folder_ && serving_.open()) (void)folder_->remove(kFile);
+  if (folder_ && serving_.held()) (void)folder_->remove(kFile);
 }
 
 std::string ServingFile::begin() {
-  auto lock = folder_->try_lock(kLock);
+  auto lock = DirectoryLock::attempt(*folder_, kLock);
   if (!lock) return lock.error();
   if (!*lock)
-    return folder_->path() + ": another server runs from this folder: " + folder_->holder_of(kLock) +
+    return folder_->path() + ": another server runs from this folder: " + DirectoryLock::holder_of(*folder_, kLock) +
            "; stop it first, or give this one a folder of its own (`run --state`, `state` in a configuration)";
   serving_ = std::move(**lock);
   return folder_->has(kEndFile) ? folder_->remove(kEndFile) : std::string{};  // meant for the previous server
@@ -29,10 +29,10 @@ std::string ServingFile::write(const ServingSpec& serving) const {
 
 std::expected<std::optional<ServingSpec>, std::string> ServingFile::read() const {
   if (!folder_ || !folder_->has(kFile)) return std::nullopt;
-  const auto lists = folder_->lock(lists_lock_);
+  const auto lists = DirectoryLock::wait(*folder_, lists_lock_);
   if (!lists) return std::unexpected(lists.error());
   // Left by a server that was killed: no process holds its lock.
-  const auto lock = folder_->try_lock(kLock);
+  const auto lock = DirectoryLock::attempt(*folder_, kLock);
   if (!lock) return std::unexpected(lock.error());
   if (*lock) return std::nullopt;
   const auto bytes = folder_->read(kFile);
@@ -44,7 +44,7 @@ std::expected<std::optional<ServingSpec>, std::string> ServingFile::read() const
 
 std::string ServingFile::request_shutdown(std::uint32_t grace_s) const {
   if (!folder_) return "this server has no folder";
-  const auto lists = folder_->lock(lists_lock_);
+  const auto lists = DirectoryLock::wait(*folder_, lists_lock_);
   if (!lists) return lists.error();
   return folder_->replace(kEndFile, std::string_view(std::to_string(grace_s) + "\n"));
 }

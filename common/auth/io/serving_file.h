@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "common/auth/io/directory_lock.h"
 #include "common/auth/io/state_directory.h"
 #include "proto/spec/registry_spec.h"
 
@@ -44,7 +45,7 @@ class ServingFile {
  private:
   std::shared_ptr<const StateDirectory> folder_;  ///< null: no directory
   const char* lists_lock_;
-  StateDirectory::Lock serving_;  ///< held by the serving process
+  DirectoryLock serving_;  ///< held by the serving process
 };
 
 }  // namespace tandem::auth

@@ -20,7 +20,7 @@
 namespace tandem::auth {
 namespace {
 
-constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600, kOthers = 0077;
+constexpr mode_t kOwnFolder = 0700, kOthers = 0077;
 
 std::string owner_remedy(const std::string& path, uid_t owner) {
   return path + " belongs to user " + std::to_string(owner) + ", but this program runs as user " +
@@ -85,13 +85,13 @@ std::expected<StateDirectory, std::string> StateDirectory::open(const std::strin
   return StateDirectory(path, std::move(folder));
 }
 
-std::string StateDirectory::trouble(const std::string& name, std::string_view doing) const {
+std::string StateDirectory::call_error(const std::string& name, std::string_view doing) const {
   return path_of(name) + " cannot be " + std::string(doing) + ": " + why(errno);
 }
 
-std::string StateDirectory::wrong_with(int fd, const std::string& name, std::uint64_t size_max) const {
+std::string StateDirectory::file_problem(int fd, const std::string& name, std::uint64_t size_max) const {
   struct stat s{};
-  if (fstat(fd, &s) != 0) return trouble(name, "looked at");
+  if (fstat(fd, &s) != 0) return call_error(name, "looked at");
   if (!S_ISREG(s.st_mode)) return path_of(name) + " must be a file";
   if (s.st_uid != geteuid()) return owner_remedy(path_of(name), s.st_uid);
   if ((s.st_mode & kOthers) != 0)
@@ -110,16 +110,16 @@ std::expected<std::optional<SecretBuffer>, std::string> StateDirectory::read(con
   if (!file.open()) {
     if (errno == ENOENT) return std::nullopt;
     if (errno == ELOOP) return std::unexpected(path_of(name) + " must be a file, not a link");
-    return std::unexpected(trouble(name, "opened"));
+    return std::unexpected(call_error(name, "opened"));
   }
-  if (std::string wrong = wrong_with(file.get(), name); !wrong.empty()) return std::unexpected(std::move(wrong));
+  if (std::string wrong = file_problem(file.get(), name); !wrong.empty()) return std::unexpected(std::move(wrong));
   struct stat s{};
-  if (fstat(file.get(), &s) != 0) return std::unexpected(trouble(name, "looked at"));
+  if (fstat(file.get(), &s) != 0) return std::unexpected(call_error(name, "looked at"));
   SecretBuffer bytes(static_cast<std::size_t>(s.st_size));
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t n = ::read(file.get(), bytes.bytes().data() + done, bytes.size() - done);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return std::unexpected(trouble(name, "read"));
+    if (n < 0) return std::unexpected(call_error(name, "read"));
     if (n == 0) return std::unexpected(path_of(name) + " became shorter while it was read");
     done += static_cast<std::size_t>(n);
   }
@@ -131,20 +131,20 @@ std::string StateDirectory::replace(const std::string& name, std::span<const std
   unlinkat(folder_.get(), beside.c_str(), 0);  // of a process that died here
   {
     const io::Fd file{
-        openat(folder_.get(), beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnFile)};
-    if (!file.open()) return trouble(name, "written");
+        openat(folder_.get(), beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kFileMode)};
+    if (!file.open()) return call_error(name, "written");
     if (!write_all(file.get(), bytes) || fsync(file.get()) != 0) {
-      std::string text = trouble(name, "written");
+      std::string text = call_error(name, "written");
       unlinkat(folder_.get(), beside.c_str(), 0);
       return text;
     }
   }
   if (renameat(folder_.get(), beside.c_str(), folder_.get(), name.c_str()) != 0) {
-    std::string text = trouble(name, "replaced");
+    std::string text = call_error(name, "replaced");
     unlinkat(folder_.get(), beside.c_str(), 0);
     return text;
   }
-  return fsync(folder_.get()) == 0 ? std::string{} : trouble(name, "synced");
+  return fsync(folder_.get()) == 0 ? std::string{} : call_error(name, "synced");
 }
 
 std::string StateDirectory::replace(const std::string& name, std::string_view text) const {
@@ -157,7 +157,7 @@ std::string StateDirectory::write_problem() const {
 }
 
 std::string StateDirectory::remove(const std::string& name) const {
-  return unlinkat(folder_.get(), name.c_str(), 0) == 0 || errno == ENOENT ? std::string{} : trouble(name, "removed");
+  return unlinkat(folder_.get(), name.c_str(), 0) == 0 || errno == ENOENT ? std::string{} : call_error(name, "removed");
 }
 
 StateDirectory::Stamp StateDirectory::stamp(const std::string& name) const noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <chrono>
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <expected>
@@ -36,24 +37,8 @@ class StateDirectory {
   /// @return the error, empty if the data are on disk
   [[nodiscard]] std::string replace(const std::string& name, std::span<const std::byte> bytes) const;
   [[nodiscard]] std::string replace(const std::string& name, std::string_view text) const;
-  /// Treatment of a last line without line feed, which a crash left. It is cut off (its write was never confirmed), or
-  /// ended so that it is a readable line of its own. Appended text always begins on a new line.
-  enum class TornLine { kCut, kEnded };
-  /// Appends whole lines and syncs them, under a lock on the file, so that several processes may append. A partial
-  /// write is undone. A file with TornLine::kCut stays below kFileMax; the other kind grows until `rotate`.
-  /// @return the error, empty if the lines are on disk
-  [[nodiscard]] std::string append(const std::string& name, std::string_view lines,
-                                   TornLine torn = TornLine::kCut) const;
-  /// Renames `name` to `name.1`, that to `name.2`, and so on, if it has more than `size_max` bytes. Removes files
-  /// beyond `name.older`.
-  /// @param older  rotated files kept, at least 1  @return number of bytes moved, 0: the file is small enough; or the
-  /// error
-  [[nodiscard]] std::expected<std::uint64_t, std::string> rotate(const std::string& name, std::uint64_t size_max,
-                                                                 std::uint32_t older) const;
-  /// Returns why no file could be created here, or why `name` could not be appended to; empty: it could. Nothing is
-  /// written.
+  /// Returns why no file could be created here; empty: it could. Nothing is written.
   [[nodiscard]] std::string write_problem() const;
-  [[nodiscard]] std::string append_problem(const std::string& name, TornLine torn = TornLine::kCut) const;
   [[nodiscard]] std::string remove(const std::string& name) const;
   /// Removes temporary files of processes that died during a replacement. Call under the lock of such processes.
   void remove_leftovers() const noexcept;
@@ -66,27 +51,17 @@ class StateDirectory {
   };
   [[nodiscard]] Stamp stamp(const std::string& name) const noexcept;
 
-  /// Locks `name` against other processes as long as it exists.
-  using Lock = io::Fd;
-  static constexpr std::chrono::milliseconds kLockTimeout{5000};
-  /// Waits for the lock. After a timeout the error names the process that holds it, if the system reports that.
-  /// @param patience  timeout
-  [[nodiscard]] std::expected<Lock, std::string> lock(const std::string& name,
-                                                      std::chrono::milliseconds patience = kLockTimeout) const;
-  /// @return nullopt if another process holds the lock
-  [[nodiscard]] std::expected<std::optional<Lock>, std::string> try_lock(const std::string& name) const;
-  /// Returns the process that holds `name`, for users: `process 1234 (tandem-server)`, or `another process` if the
-  /// system does not report it.
-  [[nodiscard]] std::string holder_of(const std::string& name) const;
+  // ---- For the classes of files in the directory ----
+  static constexpr mode_t kFileMode = 0600;
+  /// Returns the open directory.
+  [[nodiscard]] int fd() const noexcept { return folder_.get(); }
+  /// Returns the text for a failed call on `name`: `doing` is what failed, errno the reason.
+  [[nodiscard]] std::string call_error(const std::string& name, std::string_view doing) const;
+  /// Returns why an open file must not be used: its kind, owner, mode or size; empty: it may be.
+  [[nodiscard]] std::string file_problem(int fd, const std::string& name, std::uint64_t size_max = kFileMax) const;
 
  private:
   StateDirectory(std::string path, io::Fd folder) : path_(std::move(path)), folder_(std::move(folder)) {}
-  [[nodiscard]] std::string trouble(const std::string& name, std::string_view doing) const;
-  [[nodiscard]] std::string wrong_with(int fd, const std::string& name, std::uint64_t size_max = kFileMax) const;
-  /// Opens and locks a file; creates it if it is missing.
-  [[nodiscard]] std::expected<io::Fd, std::string> open_to_append(const std::string& name, TornLine torn) const;
-  /// @return false: it was not free in time
-  [[nodiscard]] static bool wait_for(int fd, std::chrono::milliseconds patience) noexcept;
 
   std::string path_;
   io::Fd folder_;

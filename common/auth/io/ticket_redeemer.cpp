@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/auth/io/append_file.h"
 #include "common/base/raw_bytes.h"
 
 namespace tandem::auth {
@@ -35,7 +36,7 @@ std::string TicketRedeemer::write(const Id16& ticket, std::int64_t not_after, st
   if (!folder_) return {};
   // Lines are appended until enough have expired to rewrite the file, or until its content is uncertain.
   if (unsure_ || ++appended_ > RedeemedTickets::kMax) return rewrite(now);
-  std::string problem = folder_->append(kFile, RedeemedTickets::line(ticket, not_after));
+  std::string problem = AppendFile(*folder_, kFile).append(RedeemedTickets::line(ticket, not_after));
   unsure_ = !problem.empty();
   return problem;
 }

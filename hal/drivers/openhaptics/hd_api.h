@@ -3,8 +3,8 @@
 #include <cstdint>
 
 /// The calls of the vendor's HDAPI that Tandem uses, with its C interface on 64-bit Linux.
-/// The declarations are Tandem's own, from published facts (design notes, hal 2.4). This tree contains nothing of the
-/// vendor and builds without it.
+/// The declarations are Tandem's own, from published facts. This tree contains nothing of the vendor and builds without
+/// it.
 namespace tandem::hal::openhaptics {
 
 using Handle = std::uint32_t;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/auth/key_fingerprint.h"
+#include "common/transport/digest.h"
 #include "tests/common/auth/support.h"
 
 namespace tandem::auth {
@@ -75,8 +76,8 @@ TEST(Hex, ReadsAndWrites) {
 TEST(Sha256, IsFips180OfAbcInOneOrTwoPieces) {
   const auto abc = bytes({'a', 'b', 'c'});
   const char* known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-  EXPECT_EQ(to_hex(sha256(abc)), known);
-  EXPECT_EQ(to_hex(sha256(std::span(abc).first(1), std::span(abc).subspan(1))), known);
+  EXPECT_EQ(to_hex(transport::sha256(abc)), known);
+  EXPECT_EQ(to_hex(transport::sha256(std::span(abc).first(1), std::span(abc).subspan(1))), known);
 }
 
 TEST(Secret, IsComparedByValueAndWiped) {

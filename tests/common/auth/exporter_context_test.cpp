@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/transport/digest.h"
 #include "tests/common/auth/support.h"
 
 namespace tandem::auth {
@@ -14,7 +15,7 @@ TEST(ExporterContext, DependsOnEachPartAndHasTheDocumentedLayout) {
   for (const unsigned b : {8u, 7u, 6u, 5u, 4u, 3u, 2u, 1u, 0x0du, 0x0cu, 0x0bu, 0x0au, 2u, 4u, unsigned{'s'},
                            unsigned{'e'}, unsigned{'a'}, unsigned{'t'}})
     by_hand.push_back(static_cast<std::byte>(b));
-  EXPECT_EQ(digest_of(context), sha256(by_hand));
+  EXPECT_EQ(digest_of(context), transport::sha256(by_hand));
   const auto other = [&](auto change) {
     ExporterContext c = context;
     change(c);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/auth/base32.h"
+#include "common/transport/digest.h"
 #include "tests/common/auth/support.h"
 
 namespace tandem::auth {
@@ -52,7 +53,7 @@ TEST(Ticket, HasTheDocumentedLayout) {
   EXPECT_EQ(at(104, 8), "00d2496b00000000");  // 1 800 000 000
   EXPECT_EQ(at(120, 8), "0700000000000000");
   // The first test key of RFC 8032 has other bytes; our key is identified by the SHA-256 of its public key.
-  const auto hash = sha256(key.verifier().key);
+  const auto hash = transport::sha256(key.verifier().key);
   EXPECT_EQ(at(4, 4), to_hex(std::span(hash).first(4)));
 }
 

@@ -12,7 +12,7 @@
 #include "common/control/ipc.h"
 #include "tests/common/base/counts.h"
 
-/// Oracle 6 of the design notes (control 10): two ends of a channel whose network is hostile.
+/// Invariant 6 of ARCHITECTURE.md: two ends of a channel whose network is hostile.
 namespace tandem::control {
 namespace {
 

@@ -9,8 +9,7 @@
 namespace tandem::control {
 namespace {
 
-TEST(EnergyMeter, MeasuresTheEnergyThatASampledSpringCreates) {  // 1000 N/m, 10 mm, 5 Hz, 1 kHz: 4.9 mJ a cycle (design
-                                                                 // notes, control 6)
+TEST(EnergyMeter, MeasuresTheEnergyThatASampledSpringCreates) {  // 1000 N/m, 10 mm, 5 Hz, 1 kHz: 4.9 mJ a cycle
   EnergyMeter meter;
   AxisArray q{}, held{};
   double wrong = 0, q_old = 0;

@@ -55,8 +55,8 @@ double injected(EscHub& hub, std::size_t tool, const std::vector<double>& F_r) {
   return gate * (before - hub.sources(tool).energy_p(0)) / kDt;
 }
 
-/// Oracle 1 of the design notes (control 10), for any A, C and gates. The sum of all port powers equals the power
-/// injected by the flow sources.
+/// Invariant 8 of ARCHITECTURE.md, for any A, C and gates. The sum of all port powers equals the power injected by the
+/// flow sources.
 void balances(std::size_t n, std::size_t m, RandomStream& random) {
   EscHub hub = hub_of(n, m, FlowSourceMode::kSeedSigned);
   std::vector<MasterArray> A(m);

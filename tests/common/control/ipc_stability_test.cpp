@@ -42,7 +42,7 @@ double least_device_damping(const MasterIpc::Gains& g, double k) {
   return worst;
 }
 
-TEST(MasterIpc, RequiresTheDampingOfColgateAndSchenkel) {  // design notes, control 10, oracle 4
+TEST(MasterIpc, RequiresTheDampingOfColgateAndSchenkel) {
   for (const double k_c : {100.0, 400.0, 750.0}) {
     const double needed = least_device_damping({k_c, 1, 0.02}, 1000);
     EXPECT_NEAR(needed, 0.5 * k_c * kT, 0.03 * 0.5 * k_c * kT) << "k_c = " << k_c;
@@ -55,7 +55,7 @@ TEST(MasterIpc, RequiresNoMoreDampingForAStiffReference) {
   EXPECT_NEAR(stiff, 0.2, 0.006);
 }
 
-TEST(SampledWall, IsStableUpToGilAndHulinsStiffness) {  // design notes, control 10, oracle 5
+TEST(SampledWall, IsStableUpToGilAndHulinsStiffness) {
   struct Row {
     int delay;
     double limit;

@@ -37,7 +37,7 @@ TEST(MasterIpc, NeverCreatesEnergyForAnyGains) {
       const double supplied = g.k_c * (q - x) * dq + move;
       ASSERT_TRUE(std::isfinite(ipc.x) && std::isfinite(ipc.v) && std::isfinite(ipc.dissipated));
       const double scale = std::abs(before) + std::abs(after) + std::abs(move) + std::abs(g.k_c * (q - x) * dq);
-      ASSERT_LE(after - before, supplied + 1e-12 * scale) << "step " << step;  // design notes, control 10, oracle 2
+      ASSERT_LE(after - before, supplied + 1e-12 * scale) << "step " << step;  // ARCHITECTURE.md, invariant 9
       ASSERT_LE(after - before, supplied - ipc.dissipated + 1e-12 * scale)
           << "step " << step;  // the reported heat is lost
       ASSERT_GE(ipc.dissipated, 0);

@@ -68,7 +68,7 @@ Monolith random_monolith(RandomStream& random) {
   return m;
 }
 
-TEST(WeightedStorage, NeverGrowsWithPassiveEndsAndConstantAuthority) {  // design notes, control 10, oracle 8
+TEST(WeightedStorage, NeverGrowsWithPassiveEndsAndConstantAuthority) {
   const std::uint64_t last = test::seeds(300);
   for (std::uint64_t seed = 1; seed <= last; ++seed) {
     SCOPED_TRACE(seed);

@@ -96,8 +96,8 @@ TEST(Ratchet, AdvancesOnlyOnAuthenticDatagrams) {
   EXPECT_TRUE(hears(b, a, sealed(a, at(0s)), at(0s)));
 }
 
-// Design notes, security 1.8: key changes forced at every packet boundary, under loss, duplication and reordering.
-// Every datagram that is new enough to act opens, so a key change loses nothing.
+// Key changes forced at every packet boundary, under loss, duplication and reordering. Every datagram that is new
+// enough to act opens, so a key change loses nothing.
 TEST(Ratchet, ChangesKeysAtEveryDatagramOnAnyNetwork) {
   const std::uint64_t last = tandem::test::seeds(20);
   for (std::uint64_t seed = 1; seed <= last; ++seed) {

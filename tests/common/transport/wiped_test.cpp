@@ -1,5 +1,4 @@
-// "Keys in memory: zeroise on close" (design notes, security 1.8): searches the memory of a destroyed connection for
-// its keys.
+// "Keys in memory: zeroise on close" (tests/FAILURES.md): searches the memory of a destroyed connection for its keys.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -51,7 +51,7 @@ TEST(Matrix, BernoulliLossIsBinomialInGeometricRuns) {
 }
 
 // netem's "loss 5% 25%": a uniform value compressed to its middle, x = (1 - c) u + c x. The actual loss shares were
-// computed separately (network.md 0); the loss-rate test must reject all of them.
+// computed separately; the loss-rate test must reject all of them.
 TEST(Matrix, NetemsCorrelatedLossFailsTheLossRateTest) {
   struct Case {
     double p, c, really, within;

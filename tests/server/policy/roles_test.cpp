@@ -10,7 +10,7 @@
 namespace tandem::server {
 namespace {
 
-// As in the table of design notes, security 1.5, in its words: yes, no, or a description of a partial right.
+// One row per right in words: yes, no, or a description of a partial right.
 struct Row {
   Right right;
   std::array<std::string_view, kAccessRoles> words;  // instructor, trainee, evaluator, observer, operator, recorder

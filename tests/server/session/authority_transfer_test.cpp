@@ -1,4 +1,4 @@
-// Announced changes of authority (design notes, security 2.5): scheduled at tick k, announced to both parties,
+// Announced changes of authority (ARCHITECTURE.md, invariant 53): scheduled at tick k, announced to both parties,
 // executed at tick k + 50, or cancelled.
 #include "server/session/authority_transfer.h"
 

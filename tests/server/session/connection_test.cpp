@@ -1,5 +1,5 @@
-// A seat of a real session and a real client core, with an attacker on the path between them (design notes, security
-// 1.4, 1.8).
+// A seat of a real session and a real client core, with an attacker on the path between them (ARCHITECTURE.md,
+// invariants 10 and 11).
 #include <gtest/gtest.h>
 
 #include <map>

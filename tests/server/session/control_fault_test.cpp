@@ -1,5 +1,5 @@
-// NaN inside the server's control step (design notes, security 2.4): the tool goes one tick back, at rest. Two faults
-// within a second stop the session.
+// NaN inside the server's control step (tests/FAILURES.md): the tool goes one tick back, at rest. Two faults within a
+// second stop the session.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,5 +1,5 @@
-// Unknown senders on the port of a real session: the requirements of design notes, security 1.8 for datagrams. Each
-// test quotes its row.
+// Unknown senders on the port of a real session: the requirements for datagrams (tests/FAILURES.md). Each test quotes
+// its row.
 #include <gtest/gtest.h>
 
 #include <algorithm>

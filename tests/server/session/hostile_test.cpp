@@ -1,4 +1,4 @@
-// A client with a seat and its keys that misbehaves (design notes, security 1.8): its effects, and the audit events.
+// A client with a seat and its keys that misbehaves (tests/FAILURES.md): its effects, and the audit events.
 #include <gtest/gtest.h>
 
 #include <cmath>

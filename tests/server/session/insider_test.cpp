@@ -1,6 +1,6 @@
-// An insider that holds a seat's keys and sends false messages (design notes, security 1.8: hostile authenticated
-// client). The force on the other hand is compared with a twin session whose same seat fell silent at the same time:
-// false messages must have no more effect than silence.
+// An insider that holds a seat's keys and sends false messages (tests/FAILURES.md). The force on the other hand is
+// compared with a twin session whose same seat fell silent at the same time: false messages must have no more effect
+// than silence.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,6 +1,6 @@
-// "Keys in memory: zeroise on close, checked by a grep of a forced dump" (design notes, security 1.8). After a session
-// is destroyed, the test searches all writable memory of this process for the keys of its connections. A core dump
-// would contain the same memory.
+// "Keys in memory: zeroise on close, checked by a grep of a forced dump" (tests/FAILURES.md). After a session is
+// destroyed, the test searches all writable memory of this process for the keys of its connections. A core dump would
+// contain the same memory.
 #include <gtest/gtest.h>
 #include <sodium.h>
 

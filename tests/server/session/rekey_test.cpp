@@ -1,4 +1,4 @@
-// Frequent key changes in a whole session over a bad network (design notes, security 1.8: rekey).
+// Frequent key changes in a whole session over a bad network (tests/FAILURES.md).
 #include <gtest/gtest.h>
 
 #include <cstdio>

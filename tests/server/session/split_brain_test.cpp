@@ -1,5 +1,5 @@
-// Split brain (design notes, security 2.4): the former server of a session does not know that there is a new one, and
-// continues to send.
+// Split brain (ARCHITECTURE.md, invariant 50): the former server of a session does not know that there is a new one,
+// and continues to send.
 #include <gtest/gtest.h>
 
 #include "tests/server/session/session_fixture.h"

@@ -12,6 +12,7 @@
 #include <new>
 #include <set>
 
+#include "common/auth/io/append_file.h"
 #include "common/auth/io/client_keystore.h"
 #include "common/auth/io/server_keystore.h"
 #include "tests/common/auth/faults/state_check.h"
@@ -162,13 +163,13 @@ TEST(StateFaults, ReportAFullDiskAndItsRemedy) {
   auto trust = auth::ServerKeystore::open(path);
   ASSERT_TRUE(trust) << trust.error();
   const auth::StateDirectory& folder = *trust->folder();
-  ASSERT_EQ(folder.append("lines", "first\n"), "");
+  ASSERT_EQ(auth::AppendFile(folder, "lines").append("first\n"), "");
   inject(begin.path(), {Kind::kNoSpace, 0, true});
   const auto made = auth::ServerKeystore::init(begin.path() + "/another", 1);
   const std::string texts[] = {trust->registry().enroll_without_code({"desk", {}, 1}),
                                folder.replace("book", "text"),
-                               folder.append("lines", "second\n"),
-                               folder.append("new", "line\n"),
+                               auth::AppendFile(folder, "lines").append("second\n"),
+                               auth::AppendFile(folder, "new").append("line\n"),
                                made ? "" : made.error(),
                                auth::ClientKeystore::open_or_make(begin.path() + "/own", 1).error()};
   no_faults();

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/auth/io/append_file.h"
 #include "common/auth/io/client_keystore.h"
 #include "common/auth/io/server_keystore.h"
 #include "common/base/raw_bytes.h"
@@ -39,14 +40,14 @@ TEST(StateDirectory, KeepsFilesPrivateAndReplacesThemAtomically) {
   EXPECT_EQ(mode_of(folder.path("a/b")), 0700u);
   const mode_t before = umask(0);
   EXPECT_EQ(state->replace("x", std::string_view("one")), "");
-  EXPECT_EQ(state->append("log", "first\n"), "");
+  EXPECT_EQ(AppendFile(*state, "log").append("first\n"), "");
   umask(before);
   EXPECT_EQ(mode_of(folder.path("a/b/x")), 0600u);
   EXPECT_EQ(mode_of(folder.path("a/b/log")), 0600u);
   const auto stamp = state->stamp("x");
   EXPECT_EQ(state->replace("x", std::string_view("two")), "");
   EXPECT_NE(state->stamp("x"), stamp);
-  EXPECT_EQ(state->append("log", "second\n"), "");
+  EXPECT_EQ(AppendFile(*state, "log").append("second\n"), "");
   EXPECT_EQ(folder.read("a/b/x"), "two");
   EXPECT_EQ(folder.read("a/b/log"), "first\nsecond\n");
   for (const auto& entry : std::filesystem::directory_iterator(folder.path("a/b")))
@@ -66,7 +67,7 @@ TEST(StateDirectory, RejectsFilesReadableByOthersAndNamesTheRemedy) {
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().find("chmod 0600"), std::string::npos) << read.error();
   EXPECT_NE(read.error().find("0640"), std::string::npos) << read.error();
-  EXPECT_NE(opened(folder).append("x", "more"), "");
+  EXPECT_NE(AppendFile(opened(folder), "x").append("more"), "");
   ASSERT_EQ(chmod(folder.path().c_str(), 0750), 0);
   const auto state = StateDirectory::open(folder.path(), StateDirectory::Missing::kIsAnError);
   ASSERT_FALSE(state);
@@ -82,7 +83,7 @@ TEST(StateDirectory, RefusesLinksFoldersAndPipesInPlaceOfFiles) {
   ASSERT_EQ(mkfifo(folder.path("pipe").c_str(), 0600), 0);
   const StateDirectory state = opened(folder);
   for (const char* name : {"link", "folder", "pipe"}) EXPECT_FALSE(state.read(name)) << name;
-  EXPECT_NE(state.append("link", "x"), "");
+  EXPECT_NE(AppendFile(state, "link").append("x"), "");
   EXPECT_EQ(state.replace("link", std::string_view("new")), "") << "replaced is the link, not what it names";
   EXPECT_EQ(folder.read("real"), "x");
 }
@@ -104,52 +105,6 @@ TEST(StateDirectory, RefusesAnotherOwner) {
   EXPECT_TRUE(StateDirectory::open(links.path("own"), StateDirectory::Missing::kIsAnError)) << "root's own link";
   ASSERT_EQ(lchown(links.path("own").c_str(), 12345, 12345), 0);
   EXPECT_FALSE(StateDirectory::open(links.path("own"), StateDirectory::Missing::kIsAnError)) << "a stranger's";
-}
-
-TEST(StateDirectory, LocksForOneHolder) {
-  const Folder folder;
-  const StateDirectory a = opened(folder), b = opened(folder);
-  auto held = a.try_lock("l");
-  ASSERT_TRUE(held && *held);
-  const auto second = b.try_lock("l");
-  ASSERT_TRUE(second);
-  EXPECT_FALSE(*second);
-  held->reset();
-  const auto third = b.try_lock("l");
-  ASSERT_TRUE(third);
-  EXPECT_TRUE(*third);
-}
-
-TEST(StateDirectory, ReportsTheHolderOfALockThatStaysTaken) {
-  const Folder folder;
-  const StateDirectory a = opened(folder), b = opened(folder);
-  auto held = a.lock("l");
-  ASSERT_TRUE(held);
-  const auto second = b.lock("l", std::chrono::milliseconds(30));
-  ASSERT_FALSE(second) << "it waits no longer than its limit";
-  for (const std::string& word :
-       {folder.path("l"), std::string("0.03 s"), "process " + std::to_string(getpid()), std::string("then try again")})
-    EXPECT_NE(second.error().find(word), std::string::npos) << word << "\n" << second.error();
-  held->reset();
-  EXPECT_TRUE(b.lock("l", std::chrono::milliseconds(30)));
-}
-
-TEST(StateDirectory, NeverAppendsToALineThatACrashLeftIncomplete) {
-  const Folder folder;
-  const StateDirectory state = opened(folder);
-  for (const std::string& torn : {std::string("to"), std::string(5000, 't')}) {
-    folder.write("x", "one\n" + torn);
-    EXPECT_EQ(state.append("x", "two\n"), "");
-    EXPECT_EQ(folder.read("x"), "one\ntwo\n");
-    folder.write("x", "one\n" + torn);
-    EXPECT_EQ(state.append("x", "two\n", StateDirectory::TornLine::kEnded), "");
-    EXPECT_EQ(folder.read("x"), "one\n" + torn + "\ntwo\n");
-  }
-  folder.write("x", "nothing but a piece");
-  EXPECT_EQ(state.append("x", "two\n"), "");
-  EXPECT_EQ(folder.read("x"), "two\n");
-  folder.write("x", std::string(StateDirectory::kFileMax - 1, 'x') + "\n");
-  EXPECT_NE(state.append("x", "two\n"), "") << "no longer than what can be read again";
 }
 
 TEST(StatePath, UsesTheUsersRuntimeFolderWhereThereIsOne) {

@@ -110,7 +110,7 @@ TEST(FalconCalibration, NamesTheRemedyForATooHeavyGrip) {
 
 TEST(FalconCalibration, PredictsTheLargestWeightTheMotorsHold) {
   const Vec3 lying(0, -1, 0), standing(0, 0, 1);
-  // At the middle 1 N along the axis is 0.0249 N m per leg (hal.md). 120 counts of the guess, 0.06 N m, hold 2.41 N.
+  // At the middle 1 N along the axis is 0.0249 N m per leg. 120 counts of the guess, 0.06 N m, hold 2.41 N.
   EXPECT_NEAR(FalconCalibration::weight_max(FalconForce{}, Vec3::Zero(), lying), 0.06 / 0.0249, 0.05);
   // 4095 counts at 10000 per N m hold 16 N; the result is limited to kForceMax.
   EXPECT_EQ(FalconCalibration::weight_max(*FalconForce::from(falcon::calibrated()), Vec3::Zero(), lying),
