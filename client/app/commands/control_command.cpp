@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "client/app/commands/client_commands.h"
-#include "client/app/commands/server_option.h"
+#include "client/app/commands/connection_options.h"
 #include "client/app/console_commands.h"
-#include "client/app/join_client.h"
 #include "common/auth/io/control_client.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
@@ -27,8 +26,8 @@ namespace {
 constexpr int kPollIntervalMs = 1000;  // between two polls of the session status
 
 struct Arguments {
-  TicketOption ticket;
-  std::string server, session, state, role, timeout = "5";
+  ConnectionArguments connection;
+  std::string role;
   std::vector<std::string> words;
   bool json = false;
 };
@@ -298,9 +297,8 @@ int converse(ConsoleClient& attendant, int signals) {
 
 int control_command(const Arguments& arguments) {
   io::UsageErrors errors;
-  JoinOptions asking;
-  if (const auto server = server_option(arguments.server, errors)) asking.server = *server;
-  asking.timeout = from_seconds(errors.number("--timeout", arguments.timeout, 0.1, 3600, "s"));
+  JoinOptions asking = connection_of(arguments.connection, errors);
+  asking.timeout = timeout_of(arguments.connection.timeout, errors);
   std::optional<ConsoleCommand> wish;
   if (!arguments.words.empty()) {
     auto understood = parse_command(arguments.words);
@@ -318,14 +316,12 @@ int control_command(const Arguments& arguments) {
     if (!stands) errors.add("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
     if (stands) asking.console = *role;
   }
-  asking.ticket = ticket_of(arguments.ticket, errors);
+  asking.ticket = ticket_of(arguments.connection.ticket, errors);
   if (!errors.empty()) return errors.print("tandem-client control: ");
   if (wish && wish->kind == ConsoleCommand::Kind::kHelp)
     return std::fputs(console_commands_help(), stdout) < 0 ? io::kExitTrouble : io::kExitDone;
   if (wish && wish->kind == ConsoleCommand::Kind::kQuit) return io::kExitDone;
   const io::Fd signals = io::make_signalfd();
-  asking.session = arguments.session;
-  asking.state = arguments.state;
   asking.signals = signals.get();
   auto console = join_console(asking);
   if (!console) {
@@ -345,27 +341,18 @@ void add_control_command(const io::Command& root) {
   const auto [command, arguments] = root.add_command(
       "control", "Operates a session from a console: stops, resumes, moves authority, removes clients.",
       control_command);
-  command.add_option("--server", arguments.server, "required: the address that tandem-server prints as `listening on`")
-      .value_name("HOST:PORT")
-      .required();
-  command
-      .add_option("--session", arguments.session,
-                  "name, code or id of the session; default: the ticket's, or the only one there")
-      .value_name("NAME|CODE|ID");
-  add_ticket_options(command, arguments.ticket,
+  add_server_option(command, arguments.connection);
+  add_session_option(command, arguments.connection,
+                     "name, code or id of the session; default: the ticket's, or the only one there");
+  add_ticket_options(command, arguments.connection.ticket,
                      "ticket printed by `tandem-server ticket --role operator`; not needed with a loopback server with "
                      "ephemeral keys");
   command
       .add_option("--role", arguments.role,
                   "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")
       .value_name("ROLE");
-  command
-      .add_option("--state", arguments.state,
-                  "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      .value_name("DIR");
-  command
-      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
-      .value_name("S");
+  add_state_option(command, arguments.connection.state);
+  add_timeout_option(command, arguments.connection.timeout);
   command.add_flag("--json", arguments.json, "status for machines");
   command
       .add_option("COMMAND", arguments.words,

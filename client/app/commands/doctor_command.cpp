@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "client/app/commands/client_commands.h"
+#include "client/app/commands/connection_options.h"
 #include "client/app/device_list.h"
 #include "client/app/hardware_device.h"
 #include "client/app/motor_confirmation.h"
@@ -288,10 +289,7 @@ void add_doctor_command(const io::Command& root) {
       "--confirm-motors", arguments.confirm,
       "asks you, then sends each motor pulses of at most 30 ms and checks whether it pushes in the direction that the "
       "device's file states; before this check, a device whose directions come from a file gives no force");
-  command
-      .add_option("--state", arguments.state,
-                  "folder with the record of confirmed motors; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      .value_name("DIR");
+  add_state_option(command, arguments.state, "folder with the record of confirmed motors");
   command.add_flag("--watch", arguments.watch,
                    "reports devices that are plugged in and out, on USB and among HID devices");
   command.add_flag("--install-udev", arguments.install,

@@ -128,13 +128,10 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
     trial.add(std::move(*child));
   }
 
-  SeatOptions plan;
-  plan.server = *io::parse_address(*address, 0);
-  plan.seat = own.name;
-  plan.device = by_keys ? "sim:keyboard" : "sim";
-  plan.caps = known_caps((*hal::open_sim_device(plan.device, SimDeviceSpec{}, HandSpec{})).device->caps());
-  plan.duration_s = duration_s;
-  plan.observer = &trial;
+  SeatOptions plan{.device = by_keys ? "sim:keyboard" : "sim", .duration_s = duration_s, .observer = &trial};
+  plan.join.server = *io::parse_address(*address, 0);
+  plan.join.seat = own.name;
+  plan.join.caps = known_caps((*hal::open_sim_device(plan.device, SimDeviceSpec{}, HandSpec{})).device->caps());
   const int code = run_seat(plan);
   trial.stop();
   if (!trial.failed.empty()) return trouble(trial.failed);
