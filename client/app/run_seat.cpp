@@ -151,32 +151,32 @@ int run_seat(const SeatOptions& plan) {
   SeatSupervisor vigil{{plan, options, *given, seat, *runner, keyboard, device, held.get(), signals.get(), line},
                        std::move(kept)};
   const ExitReason end = vigil.run();
-  ClientReport report;
-  report.seconds = seconds(io::monotonic_now() - begin);
+  const double duration_s = seconds(io::monotonic_now() - begin);
   device.disable();
   device.close();
   line.clear();
   if (writer) writer->finish();
 
-  report.server = server;
-  report.device_note = note;
-  report.end = end;
-  report.last = runner->final_status();
-  report.device = device.stats();
-  report.histograms = device.histograms();
-  report.trace_dropped = writer ? writer->queue().dropped() : 0;
-  report.realtime = device.realtime();
+  const ClientReport report{.server = server,
+                            .device_note = note,
+                            .seconds = duration_s,
+                            .outage_longest_s = vigil.outage_longest_s(),
+                            .end = end,
+                            .last = runner->final_status(),
+                            .device = device.stats(),
+                            .histograms = device.histograms(),
+                            .trace_dropped = writer ? writer->queue().dropped() : 0,
+                            .realtime = device.realtime()};
   if (const std::string notice = io::realtime_warning(report.realtime, memory, awake.granted());
       !notice.empty() && report.last.late_ticks > 0)
     line.note(std::to_string(report.last.late_ticks) + " late ticks; " + notice);
-  report.outage_longest_s = vigil.outage_longest_s();
-  if (verdict_of(report) == SeatVerdict::kFail) {
+  const SeatVerdict verdict = verdict_of(report);
+  if (verdict == SeatVerdict::kFail) {
     io::log(io::Level::kError, "join: " + vigil.exit_message(end));
   } else {
     line.note(vigil.exit_message(end));
   }
   for (const std::string& words : summary(report.device, report.histograms)) line.note(words);
-  const SeatVerdict verdict = verdict_of(report);
   if (verdict == SeatVerdict::kNotJudged) line.note("not judged: the session never ran while this seat was taken");
   json.write(to_json(report, setup));
   for (io::OutputFile* file : {&json, &trace})

@@ -138,34 +138,35 @@ Json way(const std::optional<LinkTestResult::Direction>& w) {
           {"longest_gap_ms", 1e3 * w->longest_gap}};
 }
 
+/// @param ended_by  reason of the end  @param complete  the test ran to its end and the server was present until then
 std::string to_json(const LinkTestResult& f, const LinkVerdict& verdict, const std::string& server,
                     const char* ended_by, bool complete) {
-  Json j;
-  j["server"] = server;
-  j["verdict"] = to_text(verdict.grade);
-  j["words"] = verdict.text;
-  j["advice"] = verdict.advice;
-  j["complete"] = complete;  // ran to its end and the server was present until then
-  j["ended_by"] = ended_by;
-  j["duration_s"] = f.seconds;
-  j["rate_hz"] = f.tick_hz;
-  j["rtt_min_ms"] = milliseconds(f.rtt_min);
-  j["rtt_p50_ms"] = milliseconds(f.rtt_p50);
-  j["rtt_p99_ms"] = milliseconds(f.rtt_p99);
-  j["rtt_max_ms"] = milliseconds(f.rtt_max);
-  j["jitter_p99_ms"] = milliseconds(f.jitter);
-  j["up"] = way(f.up);
-  j["down"] = way(f.down);
-  j["duplicates"] = f.duplicates;
-  j["refused"] = f.refused;
-  j["pauses"] = f.pauses;
-  j["clock_step_ms"] = milliseconds(f.clock_step);
-  j["transit_step_ms"] = milliseconds(f.transit_step);
-  j["machine"] = {{"ticks", f.ticks},
-                  {"late_ticks", f.late_ticks},
-                  {"missed_ticks", f.missed_ticks},
-                  {"wake_p99_ms", 1e3 * f.wake_p99},
-                  {"wake_max_ms", 1e3 * f.wake_max}};
+  const Json j = {{"server", server},
+                  {"verdict", to_text(verdict.grade)},
+                  {"words", verdict.text},
+                  {"advice", verdict.advice},
+                  {"complete", complete},
+                  {"ended_by", ended_by},
+                  {"duration_s", f.seconds},
+                  {"rate_hz", f.tick_hz},
+                  {"rtt_min_ms", milliseconds(f.rtt_min)},
+                  {"rtt_p50_ms", milliseconds(f.rtt_p50)},
+                  {"rtt_p99_ms", milliseconds(f.rtt_p99)},
+                  {"rtt_max_ms", milliseconds(f.rtt_max)},
+                  {"jitter_p99_ms", milliseconds(f.jitter)},
+                  {"up", way(f.up)},
+                  {"down", way(f.down)},
+                  {"duplicates", f.duplicates},
+                  {"refused", f.refused},
+                  {"pauses", f.pauses},
+                  {"clock_step_ms", milliseconds(f.clock_step)},
+                  {"transit_step_ms", milliseconds(f.transit_step)},
+                  {"machine",
+                   {{"ticks", f.ticks},
+                    {"late_ticks", f.late_ticks},
+                    {"missed_ticks", f.missed_ticks},
+                    {"wake_p99_ms", 1e3 * f.wake_p99},
+                    {"wake_max_ms", 1e3 * f.wake_max}}}};
   return j.dump(2) + "\n";
 }
 
