@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "common/base/csv.h"
+#include "common/base/format.h"
 #include "proto/io/scene_file.h"
 
 namespace tandem::client {
@@ -12,11 +12,7 @@ namespace {
 
 constexpr double kSumTolerance = 1e-6;  // the server's tolerance for a sum of 1
 
-std::string short_number(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", v);
-  return text;
-}
+std::string short_number(double v) { return format("%.9g", v); }
 
 }  // namespace
 
@@ -40,8 +36,7 @@ std::expected<AuthorityScript, std::vector<std::string>> AuthorityScript::parse(
   if (table->rows() == 0) mistakes.push_back(file + ": has no rows");
   for (std::size_t r = 0; r < table->rows(); ++r) {
     const std::string place = file + ":" + std::to_string(table->line(r)) + ": ";
-    Row row;
-    row.line = table->line(r);
+    Row row{.line = table->line(r)};
     double sum = 0;
     bool readable = true;
     for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -96,8 +91,7 @@ std::expected<std::vector<AuthorityScript::Change>, std::string> AuthorityScript
   }
   std::vector<Change> changes;
   for (const Row& row : rows_) {
-    Change change;
-    change.at = row.at;
+    Change change{.at = row.at};
     for (std::size_t c = 0; c < row.weights.size(); ++c) {
       if (row.weights[c] > 0 && (drivers >> place[c] & 1) == 0)
         return std::unexpected(file_ + ":" + std::to_string(row.line) + ": " + seats_[c] +

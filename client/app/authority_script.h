@@ -15,9 +15,9 @@ namespace tandem::client {
 class AuthorityScript {
  public:
   struct Row {
-    double at = 0;                ///< session time [s]
-    std::vector<double> weights;  ///< authority of each named seat [0, 1]
-    std::size_t line = 0;         ///< line of the file
+    double at = 0;                  ///< session time [s]
+    std::vector<double> weights{};  ///< authority of each named seat [0, 1]
+    std::size_t line = 0;           ///< line of the file
   };
   /// Parses the text of a script. @param file  name for messages  @return the script, or all errors as `FILE:LINE: ...`
   [[nodiscard]] static std::expected<AuthorityScript, std::vector<std::string>> parse(const std::string& text,

@@ -49,7 +49,7 @@ bool waits_for_the_end_of_a_stop(const ClientStatus& s) {
 std::string seconds_text(double s) { return format(s < 0.095 ? "%.2f s" : "%.1f s", s); }
 
 /// Returns when the transfer begins and how long it takes, or that it is done.
-std::string course_text(const ClientStatus& s, const SeatSetup& setup, std::optional<double> before) {
+std::string progress_text(const ClientStatus& s, const SeatSetup& setup, std::optional<double> before) {
   if (waits_for_the_end_of_a_stop(s)) return "when the session resumes";
   if (s.transfer.done) return "done";
   const std::string ms = format("in %.0f ms", 10 * std::ceil(1e2 * s.transfer.begins_s - 0.5));
@@ -85,11 +85,11 @@ std::string authority_transfer_text(const ClientStatus& s, const SeatSetup& setu
   const std::string by = giver(p.by, setup), to = name_of(setup.masters, p.to);
   const std::optional<double> before = part_before(s, setup, words);
   const std::string parts = (before ? format("%.0f %% ", 100 * *before) : "") + format("to %u %%", p.percent),
-                    course = ": " + course_text(s, setup, before);
-  if (to.empty()) return by + " sets new authorities over " + tool + " (your authority " + parts + ")" + course;
+                    progress = ": " + progress_text(s, setup, before);
+  if (to.empty()) return by + " sets new authorities over " + tool + " (your authority " + parts + ")" + progress;
   const std::string more = p.percent >= 100 ? "" : "more of ";
-  if (by == to) return by + " takes " + more + tool + " (" + parts + ")" + course;
-  return by + " gives " + more + tool + " to " + to + " (" + parts + ")" + course;
+  if (by == to) return by + " takes " + more + tool + " (" + parts + ")" + progress;
+  return by + " gives " + more + tool + " to " + to + " (" + parts + ")" + progress;
 }
 
 std::string AuthorityTransferNotices::message(double now_s, const ClientStatus& s, const SeatSetup& setup,

@@ -92,8 +92,8 @@ ChildProgram& ChildProgram::operator=(ChildProgram&& other) noexcept {
 
 ChildProgram::~ChildProgram() { stop(); }
 
-std::optional<std::string> ChildProgram::wait_for_line(std::string_view mark, Duration patience, int interrupt) {
-  const Time until = io::monotonic_now() + patience;
+std::optional<std::string> ChildProgram::wait_for_line(std::string_view mark, Duration limit, int interrupt) {
+  const Time until = io::monotonic_now() + limit;
   while (true) {
     std::istringstream lines(said_);
     for (std::string line; std::getline(lines, line) && !lines.eof();)

@@ -28,10 +28,10 @@ class ChildProgram {
   ~ChildProgram();  ///< calls `stop`
 
   /// Waits for a line of standard output that begins with `mark`.
-  /// @param patience   timeout
+  /// @param limit      longest time to wait
   /// @param interrupt  file that ends the wait when it becomes readable; -1: none
   /// @return           the rest of the line; nullopt if the child ended before, or after a timeout or an interrupt
-  [[nodiscard]] std::optional<std::string> wait_for_line(std::string_view mark, Duration patience, int interrupt);
+  [[nodiscard]] std::optional<std::string> wait_for_line(std::string_view mark, Duration limit, int interrupt);
   /// True if the child still runs.
   [[nodiscard]] bool running() noexcept;
   /// True if the child ended with another exit code than 0.

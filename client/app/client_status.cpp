@@ -10,9 +10,9 @@
 namespace tandem::client {
 namespace {
 
-nlohmann::ordered_json number(double v) {
-  return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
-}
+using ReportJson = nlohmann::ordered_json;
+
+ReportJson number(double v) { return std::isfinite(v) ? ReportJson(v) : ReportJson(nullptr); }
 
 }  // namespace
 
@@ -47,63 +47,66 @@ std::string motors_text(const ClientStatus& s) {
 
 std::string to_json(const ClientReport& r, const SeatSetup& setup) {
   const ClientStatus& s = r.last;
-  nlohmann::ordered_json j;
-  j["seat"] = setup.seat.name;
-  j["kind"] = setup.seat.kind == SeatKind::kMaster ? "MASTER" : "SLAVE";
-  j["role"] = to_text(setup.seat.role);
-  j["server"] = r.server;
-  j["device"] = r.device_note;
-  j["verdict"] = to_text(verdict_of(r));
-  j["ended_by"] = to_text(r.end);
-  j["seconds"] = number(r.seconds);
-  j["rejoins"] = s.reconnects;
-  j["away_longest_s"] = number(r.outage_longest_s);
-  j["session_s"] = number(std::max(0.0, s.session_time));
-  j["alpha"] = number(s.alpha);
-  j["beside_leader_m"] = s.offset_from_leader_m ? number(*s.offset_from_leader_m) : nlohmann::ordered_json(nullptr);
-  j["effort_peak_n"] = number(s.force_peak_n);
-  j["gate"] = {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.energy.given_after_loss_max_j)}};
-  j["motors"] = {{"too_hot", s.motors.hot_trips},
-                 {"heat_max", s.motors.heat_max ? number(*s.motors.heat_max) : nlohmann::ordered_json(nullptr)}};
-  j["energy"] = {{"in_j", number(s.energy.in_j)},
-                 {"out_j", number(s.energy.out_j)},
-                 {"dissipated_j", number(s.energy.dissipated_j)},
-                 {"refused_j", number(s.energy.refused_j)},
-                 {"margin_min_j", number(s.energy.margin_min_j)},
-                 {"delivered_j", number(s.energy.delivered_j)}};
-  j["link"] = {{"rtt_p50_ms", number(s.link.rtt_p50_ms)},
-               {"rtt_p99_ms", number(s.link.rtt_p99_ms)},
-               {"sent", s.link.datagrams.sent},
-               {"accepted", s.link.datagrams.accepted},
-               {"late", s.link.datagrams.late},
-               {"refused", s.link.datagrams.refused},
-               {"down",
-                {{"loss_percent", number(s.link.down_loss_percent)},
-                 {"longest_gap_ms", number(s.link.down_longest_gap_ms)},
-                 {"age_p99_ms", number(s.link.down_age_p99_ms)}}}};
-  j["machine"] = {{"ticks", r.device.ticks},
-                  {"late_ticks", s.late_ticks},
-                  {"missed_ticks", r.device.missed},
-                  {"expired_commands", r.device.expired},
-                  {"period_p50_ms", number(r.device.period_p50_s * 1e3)},
-                  {"period_p99_ms", number(r.device.period_p99_s * 1e3)},
-                  {"period_max_ms", number(r.device.period_max_s * 1e3)},
-                  {"trace_dropped", r.trace_dropped},
-                  {"realtime", r.realtime}};
-  j["device_statistics"] = to_json(r.device, r.histograms);
+  const ReportJson j = {
+      {"seat", setup.seat.name},
+      {"kind", setup.seat.kind == SeatKind::kMaster ? "MASTER" : "SLAVE"},
+      {"role", to_text(setup.seat.role)},
+      {"server", r.server},
+      {"device", r.device_note},
+      {"verdict", to_text(verdict_of(r))},
+      {"ended_by", to_text(r.end)},
+      {"seconds", number(r.seconds)},
+      {"rejoins", s.reconnects},
+      {"away_longest_s", number(r.outage_longest_s)},
+      {"session_s", number(std::max(0.0, s.session_time))},
+      {"alpha", number(s.alpha)},
+      {"beside_leader_m", s.offset_from_leader_m ? number(*s.offset_from_leader_m) : ReportJson(nullptr)},
+      {"effort_peak_n", number(s.force_peak_n)},
+      {"gate", {{"trips", s.gate_trips}, {"given_after_loss_max_j", number(s.energy.given_after_loss_max_j)}}},
+      {"motors",
+       {{"too_hot", s.motors.hot_trips},
+        {"heat_max", s.motors.heat_max ? number(*s.motors.heat_max) : ReportJson(nullptr)}}},
+      {"energy",
+       {{"in_j", number(s.energy.in_j)},
+        {"out_j", number(s.energy.out_j)},
+        {"dissipated_j", number(s.energy.dissipated_j)},
+        {"refused_j", number(s.energy.refused_j)},
+        {"margin_min_j", number(s.energy.margin_min_j)},
+        {"delivered_j", number(s.energy.delivered_j)}}},
+      {"link",
+       {{"rtt_p50_ms", number(s.link.rtt_p50_ms)},
+        {"rtt_p99_ms", number(s.link.rtt_p99_ms)},
+        {"sent", s.link.datagrams.sent},
+        {"accepted", s.link.datagrams.accepted},
+        {"late", s.link.datagrams.late},
+        {"refused", s.link.datagrams.refused},
+        {"down",
+         {{"loss_percent", number(s.link.down_loss_percent)},
+          {"longest_gap_ms", number(s.link.down_longest_gap_ms)},
+          {"age_p99_ms", number(s.link.down_age_p99_ms)}}}}},
+      {"machine",
+       {{"ticks", r.device.ticks},
+        {"late_ticks", s.late_ticks},
+        {"missed_ticks", r.device.missed},
+        {"expired_commands", r.device.expired},
+        {"period_p50_ms", number(r.device.period_p50_s * 1e3)},
+        {"period_p99_ms", number(r.device.period_p99_s * 1e3)},
+        {"period_max_ms", number(r.device.period_max_s * 1e3)},
+        {"trace_dropped", r.trace_dropped},
+        {"realtime", r.realtime}}},
+      {"device_statistics", to_json(r.device, r.histograms)}};
   return j.dump(2) + "\n";
 }
 
 std::string join_failure_json(const std::string& seat, const std::string& server, const std::string& device,
                               const std::string& why) {
-  nlohmann::ordered_json j;
-  j["seat"] = seat;
-  j["server"] = server;
-  j["device"] = device;
-  j["verdict"] = to_text(SeatVerdict::kNotJudged);
-  j["ended_by"] = "never_attached";
-  j["reason"] = why;
-  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  const ReportJson j = {{"seat", seat},
+                        {"server", server},
+                        {"device", device},
+                        {"verdict", to_text(SeatVerdict::kNotJudged)},
+                        {"ended_by", "never_attached"},
+                        {"reason", why}};
+  return j.dump(2, ' ', false, ReportJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace tandem::client

@@ -14,19 +14,8 @@ namespace {
 
 constexpr double kSumSlack = 1e-9;  // tolerance for authority with sum 1
 
-struct CommandName {
-  std::string_view word;
-  ConsoleCommand::Kind what;
-};
-constexpr std::array<CommandName, 9> kCommandNames{{{"status", ConsoleCommand::Kind::kStatus},
-                                                    {"stop", ConsoleCommand::Kind::kStop},
-                                                    {"pause", ConsoleCommand::Kind::kPause},
-                                                    {"resume", ConsoleCommand::Kind::kResume},
-                                                    {"authority", ConsoleCommand::Kind::kAuthority},
-                                                    {"remove", ConsoleCommand::Kind::kRemove},
-                                                    {"drain", ConsoleCommand::Kind::kDrain},
-                                                    {"help", ConsoleCommand::Kind::kHelp},
-                                                    {"quit", ConsoleCommand::Kind::kQuit}}};
+using ParsedCommand = std::expected<ConsoleCommand, std::string>;
+using CommandWords = std::span<const std::string>;  // the name of the command and its arguments
 
 template <class Number>
 std::optional<Number> number(std::string_view text) {
@@ -64,26 +53,78 @@ std::expected<std::vector<std::pair<std::string, double>>, std::string> weights(
   return out;
 }
 
-std::expected<ConsoleCommand, std::string> parse_authority(ConsoleCommand wish, std::span<const std::string> words) {
-  if (words.empty())
+/// Parses a command without arguments.
+template <class Command>
+ParsedCommand parse_bare(CommandWords words) {
+  if (words.size() == 1) return Command{};
+  return std::unexpected(words.front() + ": takes no arguments, and got \"" + joined(words.subspan(1)) + "\"");
+}
+
+/// Adds the reason that begins at word `first` to a command.
+template <class Command>
+ParsedCommand with_reason(Command command, CommandWords words, std::size_t first) {
+  command.why = joined(words.subspan(first));
+  if (command.why.size() <= rpc::kTextMax) return command;
+  return std::unexpected(words.front() + format(": WHY must have at most %zu bytes", rpc::kTextMax));
+}
+
+ParsedCommand parse_stop(CommandWords words) { return with_reason(rpc::StopSession{}, words, 1); }
+ParsedCommand parse_pause(CommandWords words) { return with_reason(rpc::PauseSession{}, words, 1); }
+
+ParsedCommand parse_resume(CommandWords words) {
+  if (words.size() == 1) return rpc::ResumeSession{};
+  const auto stop = number<std::uint32_t>(words[1]);
+  if (stop && *stop != 0 && words.size() == 2) return rpc::ResumeSession{.stop = *stop};
+  return std::unexpected("resume: \"" + joined(words.subspan(1)) +
+                         "\" must be the number of a stop, as `status` shows it");
+}
+
+ParsedCommand parse_authority(CommandWords words) {
+  if (words.size() == 1)
     return std::unexpected("authority: SEAT=AUTHORITY is missing. Example: authority trainer=0.5,trainee=0.5");
-  auto given = weights(words.front());
+  auto given = weights(words[1]);
   if (!given) return std::unexpected(given.error());
-  wish.weights = std::move(*given);
-  for (const std::string& word : words.subspan(1)) {
+  AuthorityCommand command{.weights = std::move(*given)};
+  for (const std::string& word : words.subspan(2)) {
     if (word.starts_with("tool=") && word.size() > 5) {
-      wish.tool = word.substr(5);
+      command.tool = word.substr(5);
     } else if (const auto version = word.starts_with("version=")
                                         ? number<std::uint32_t>(std::string_view(word).substr(8))
                                         : std::nullopt) {
-      wish.version = version;
+      command.version = version;
     } else {
       return std::unexpected("authority: \"" + word +
                              "\" must be tool=NAME or version=N; values are separated by commas, without spaces");
     }
   }
-  return wish;
+  return command;
 }
+
+ParsedCommand parse_remove(CommandWords words) {
+  if (words.size() == 1) return std::unexpected("remove: SEAT is missing. Example: remove trainee");
+  return with_reason(rpc::RemoveParticipant{.seat = words[1], .why = {}}, words, 2);
+}
+
+ParsedCommand parse_drain(CommandWords words) {
+  if (words.size() == 1) return rpc::Drain{};
+  const auto grace = number<std::uint32_t>(strip_unit(words[1], "s"));
+  if (grace && *grace <= 3600 && words.size() == 2) return rpc::Drain{*grace};
+  return std::unexpected("drain: \"" + joined(words.subspan(1)) + "\" must be seconds in [0, 3600]");
+}
+
+struct CommandName {
+  std::string_view word;
+  ParsedCommand (*parse)(CommandWords words);
+};
+constexpr std::array<CommandName, 9> kCommandNames{{{"status", parse_bare<rpc::StatusRequest>},
+                                                    {"stop", parse_stop},
+                                                    {"pause", parse_pause},
+                                                    {"resume", parse_resume},
+                                                    {"authority", parse_authority},
+                                                    {"remove", parse_remove},
+                                                    {"drain", parse_drain},
+                                                    {"help", parse_bare<HelpCommand>},
+                                                    {"quit", parse_bare<QuitCommand>}}};
 
 /// Returns the sanitised text as a JSON string.
 std::string in_quotes(std::string_view text) {
@@ -112,42 +153,7 @@ std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::st
   if (found == kCommandNames.end())
     return std::unexpected("\"" + (words.empty() ? std::string() : words.front()) +
                            "\" is no command; commands: status, stop, pause, resume, authority, remove, drain");
-  ConsoleCommand wish;
-  wish.kind = found->what;
-  const auto rest = words.subspan(1);
-  const std::string name{found->word};
-  switch (wish.kind) {
-    case ConsoleCommand::Kind::kStop:
-    case ConsoleCommand::Kind::kPause:
-      wish.why = joined(rest);
-      break;
-    case ConsoleCommand::Kind::kResume:
-      if (rest.empty()) return wish;
-      wish.stop = number<std::uint32_t>(rest.front());
-      if (!wish.stop || *wish.stop == 0 || rest.size() > 1)
-        return std::unexpected("resume: \"" + joined(rest) + "\" must be the number of a stop, as `status` shows it");
-      return wish;
-    case ConsoleCommand::Kind::kAuthority:
-      return parse_authority(std::move(wish), rest);
-    case ConsoleCommand::Kind::kRemove:
-      if (rest.empty()) return std::unexpected("remove: SEAT is missing. Example: remove trainee");
-      wish.seat = rest.front();
-      wish.why = joined(rest.subspan(1));
-      break;
-    case ConsoleCommand::Kind::kDrain: {
-      if (rest.empty()) return wish;
-      const auto grace = number<std::uint32_t>(strip_unit(rest.front(), "s"));
-      if (!grace || *grace > 3600 || rest.size() > 1)
-        return std::unexpected("drain: \"" + joined(rest) + "\" must be seconds in [0, 3600]");
-      wish.grace_s = *grace;
-      return wish;
-    }
-    default:
-      if (!rest.empty()) return std::unexpected(name + ": takes no arguments, and got \"" + joined(rest) + "\"");
-  }
-  if (wish.why.size() > rpc::kTextMax)
-    return std::unexpected(name + format(": WHY must have at most %zu bytes", rpc::kTextMax));
-  return wish;
+  return found->parse(words);
 }
 
 const char* console_commands_help() noexcept {
@@ -167,14 +173,11 @@ const char* console_commands_help() noexcept {
          "  help, quit                                in the console\n";
 }
 
-AccessRole role_for(ConsoleCommand::Kind what) noexcept {
-  return what == ConsoleCommand::Kind::kAuthority ? AccessRole::kInstructor : AccessRole::kOperator;
+AccessRole role_for(const ConsoleCommand& command) noexcept {
+  return std::holds_alternative<AuthorityCommand>(command) ? AccessRole::kInstructor : AccessRole::kOperator;
 }
 
-std::expected<rpc::SetAuthority, std::string> authority_frame(const ConsoleCommand& wish, const rpc::Status& status) {
-  rpc::SetAuthority frame;
-  frame.session_id = status.session_id;
-  frame.version = wish.version.value_or(status.authority_version);
+std::expected<rpc::SetAuthority, std::string> authority_frame(const AuthorityCommand& wish, const rpc::Status& status) {
   std::string names;
   for (const rpc::StatusTool& t : status.tools) names += (names.empty() ? "" : ", ") + t.name;
   if (wish.tool.empty() && status.tools.size() != 1)
@@ -182,7 +185,10 @@ std::expected<rpc::SetAuthority, std::string> authority_frame(const ConsoleComma
   const auto tool =
       wish.tool.empty() ? status.tools.begin() : std::ranges::find(status.tools, wish.tool, &rpc::StatusTool::name);
   if (tool == status.tools.end()) return std::unexpected("authority: no tool \"" + wish.tool + "\"; tools: " + names);
-  frame.tool = static_cast<std::uint32_t>(tool - status.tools.begin());
+  rpc::SetAuthority frame{.session_id = status.session_id,
+                          .tool = static_cast<std::uint32_t>(tool - status.tools.begin()),
+                          .version = wish.version.value_or(status.authority_version),
+                          .alpha = {}};
   std::string masters;
   std::vector<std::string> unknown;
   for (const auto& [seat, weight] : wish.weights) unknown.push_back(seat);
@@ -228,22 +234,22 @@ std::string drain_text(const rpc::StatusDrain& d) {
 std::string status_changes_text(const rpc::Status& before, const rpc::Status& now) {
   std::string text;
   const std::uint32_t seen = before.events.empty() ? 0 : before.events.back().number;
-  bool told = false;
+  bool reported = false;
   if (!before.name.empty())  // events before the first status are not reported
     for (const rpc::StatusEvent& n : now.events)
       if (n.number > seen) {
         text += sanitize(n.text) + "\n";
-        told = true;
+        reported = true;
       }
   if (is_stopped(now) && (now.stops != before.stops || !is_stopped(before))) text += stop_text(now) + "\n";
   const bool ends = now.phase == rpc::SessionPhase::kEnding;
-  if (is_stopped(before) && !is_stopped(now) && !told && !ends)
+  if (is_stopped(before) && !is_stopped(now) && !reported && !ends)
     text += format("stop %u is over: the session is %s\n", now.stops, rpc::to_text(now.phase));
   // A server that ends at once, as after Ctrl-C, reports a drain with 0 s left.
   if (!now.drain || (now.drain->left_s == 0 && !before.drain)) return text;
   const bool first = !before.drain, last = now.drain->left_s <= 5,
              ten = !first && before.drain->left_s / 10 != now.drain->left_s / 10;
-  if ((first && !told) || ((last || ten) && before.drain != now.drain)) text += drain_text(*now.drain) + "\n";
+  if ((first && !reported) || ((last || ten) && before.drain != now.drain)) text += drain_text(*now.drain) + "\n";
   return text;
 }
 

@@ -6,35 +6,38 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "proto/rpc/rpc_messages.h"
 
 namespace tandem::client {
 
-/// A command of the operator console, given after `control` or on a line of standard input.
-struct ConsoleCommand {
-  enum class Kind : std::uint8_t { kStatus, kStop, kPause, kResume, kAuthority, kRemove, kDrain, kHelp, kQuit };
-  Kind kind = Kind::kStatus;
-  std::string why;                                      ///< kStop, kPause, kRemove: reason
-  std::optional<std::uint32_t> stop;                    ///< kResume: number of the stop; empty: the present one
-  std::vector<std::pair<std::string, double>> weights;  ///< kAuthority: authority by seat; seats not named get 0
-  std::string tool;                                     ///< kAuthority: name of the tool; empty: the only one
-  std::optional<std::uint32_t> version;                 ///< kAuthority: version it replaces; empty: the present one
-  std::string seat;                                     ///< kRemove
-  std::uint32_t grace_s = 0;                            ///< kDrain
+/// Command `authority`. It names seats and tools, which `authority_frame` translates to the numbers of a SetAuthority.
+struct AuthorityCommand {
+  std::vector<std::pair<std::string, double>> weights;  ///< authority by seat; seats not named get 0
+  std::string tool = {};                                ///< name of the tool; empty: the only one
+  std::optional<std::uint32_t> version = {};            ///< version it replaces; empty: the present one
 };
+/// Commands that only the console executes.
+struct HelpCommand {};
+struct QuitCommand {};
+
+/// A command of the operator console, given after `control` or on a line of standard input: the request that the server
+/// receives. The sender adds the id of the session, and the number of the present stop to a ResumeSession of stop 0.
+using ConsoleCommand = std::variant<rpc::StatusRequest, rpc::StopSession, rpc::PauseSession, rpc::ResumeSession,
+                                    AuthorityCommand, rpc::RemoveParticipant, rpc::Drain, HelpCommand, QuitCommand>;
 
 /// Parses a console command. @return the command, or the error with the expected form
 [[nodiscard]] std::expected<ConsoleCommand, std::string> parse_command(std::span<const std::string> words);
 /// Returns all commands with their arguments, one per line.
 [[nodiscard]] const char* console_commands_help() noexcept;
 /// Returns the lowest role that may execute the command. On the server's own computer, the client requests this role.
-[[nodiscard]] AccessRole role_for(ConsoleCommand::Kind what) noexcept;
+[[nodiscard]] AccessRole role_for(const ConsoleCommand& command) noexcept;
 
-/// Returns the SetAuthority message for a kAuthority command, based on the present status. Error: an unknown seat or
+/// Returns the SetAuthority message for an `authority` command, based on the present status. Error: an unknown seat or
 /// tool, or authority whose sum is not 1.
-[[nodiscard]] std::expected<rpc::SetAuthority, std::string> authority_frame(const ConsoleCommand& wish,
+[[nodiscard]] std::expected<rpc::SetAuthority, std::string> authority_frame(const AuthorityCommand& wish,
                                                                             const rpc::Status& status);
 
 /// Returns the authority of all master seats as text, e.g. `trainer 0.5, trainee 0.5`.

@@ -8,6 +8,11 @@ std::string fact_line(const hal::DeviceFact& fact) {
   return format("            %-13s ", fact.topic.c_str()) + fact.text + "\n";
 }
 
+std::string finding_line(const DeviceDiagnostics::Finding& finding) {
+  static constexpr const char* kMarks[] = {"  ok      ", "  notice  ", "  TROUBLE "};
+  return kMarks[static_cast<std::size_t>(finding.kind)] + finding.text + "\n";
+}
+
 std::string describe(const hal::Backend& backend, const hal::FoundDevice& device) {
   std::string text = device.description + "\n            --device " + device.spec + "\n";
   if (!device.problem.empty()) text += "            " + device.problem + "\n";

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "client/diagnostics/device_diagnostics.h"
 #include "hal/backends/backend.h"
 
 namespace tandem::client {
@@ -12,5 +13,8 @@ namespace tandem::client {
 
 /// Returns one fact as such a line, with line feed.
 [[nodiscard]] std::string fact_line(const hal::DeviceFact& fact);
+
+/// Returns a finding about a device as one line with its mark, with line feed.
+[[nodiscard]] std::string finding_line(const DeviceDiagnostics::Finding& finding);
 
 }  // namespace tandem::client

@@ -28,7 +28,6 @@ std::expected<Accepted, JoinError> request_join(ServerConnection& server) {
 
 std::expected<JoinedSeat, JoinError> make_seat(ServerConnection& server, const rpc::Welcome& welcome,
                                                const rpc::Hello& hello) {
-  JoinedSeat seat;
   const auto text = std::span{reinterpret_cast<const char*>(welcome.setup.data()), welcome.setup.size()};
   auto setup = decode_seat_setup(text);
   if (!setup)
@@ -37,18 +36,18 @@ std::expected<JoinedSeat, JoinError> make_seat(ServerConnection& server, const r
   const auto secrets = server.client().export_secrets(
       {welcome.session_id, welcome.epoch, welcome.server_cid, welcome.role, welcome.seat});
   if (!secrets) return join_failure(secrets.error());
-  seat.setup = std::move(*setup);
-  seat.welcome = welcome;
-  seat.udp = server.options().server;
-  seat.server = server.client().server();
-  seat.local = server.local() != nullptr;
-  seat.link.outgoing = transport::Direction::kToServer;
-  seat.link.own_cid = hello.client_cid;
-  seat.link.peer_cid = welcome.server_cid;
+  const transport::Cipher cipher =
+      welcome.cipher == rpc::Cipher::kAes256Gcm ? transport::Cipher::kAes256Gcm : transport::Cipher::kChaCha20Poly1305;
+  JoinedSeat seat{.setup = std::move(*setup),
+                  .link = {.outgoing = transport::Direction::kToServer,
+                           .own_cid = hello.client_cid,
+                           .peer_cid = welcome.server_cid,
+                           .secrets = transport::secrets_from_exporter(secrets->bytes, cipher)},
+                  .udp = server.options().server,
+                  .welcome = welcome,
+                  .server = server.client().server(),
+                  .local = server.local() != nullptr};
   seat.link.tick = from_seconds(1.0 / seat.setup.tick_hz);
-  const bool aes = welcome.cipher == rpc::Cipher::kAes256Gcm;
-  seat.link.secrets = transport::secrets_from_exporter(
-      secrets->bytes, aes ? transport::Cipher::kAes256Gcm : transport::Cipher::kChaCha20Poly1305);
   if (!hello.link_test) seat.connection = server.release();
   return seat;
 }

@@ -41,14 +41,14 @@ std::expected<rpc::Credential, JoinError> issue_local_ticket(const rpc::ListedSe
     for (const rpc::ListedSeat& s : session.seats) names += " " + s.name;
     return join_failure("--seat " + options.seat + ": no seat of this name; seats:" + names);
   }
-  auth::Ticket ticket;
+  const std::int64_t now = auth::wall_seconds();
+  auth::Ticket ticket{.session_id = session.id,
+                      .seat = options.seat,
+                      .role = options.console ? *options.console : seat->role,
+                      .workstation = keys.workstation.fingerprint(),
+                      .not_before = now - 1,
+                      .not_after = now + 59};
   auth::fill_random(ticket.ticket_id);
-  ticket.session_id = session.id;
-  ticket.seat = options.seat;
-  ticket.role = options.console ? *options.console : seat->role;
-  ticket.workstation = keys.workstation.fingerprint();
-  ticket.not_before = auth::wall_seconds() - 1;
-  ticket.not_after = ticket.not_before + 60;
   const auto bytes = auth::sign_ticket(ticket, keys.ticket_key);
   if (!bytes) return join_failure("a ticket cannot be made: " + bytes.error());
   return rpc::TicketCredential{{bytes->begin(), bytes->end()}};

@@ -1,12 +1,12 @@
 #include "client/app/motor_confirmation.h"
 
-#include <poll.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 
+#include "client/app/device_list.h"
 #include "client/app/hardware_device.h"
+#include "client/app/interruptible_wait.h"
 #include "client/app/motor_registry_file.h"
 #include "client/app/terminal_prompt.h"
 #include "client/diagnostics/motor_check.h"
@@ -67,16 +67,6 @@ std::string question(const hal::SignFile& signs, double peak) {
       signs.device.c_str(), hal::kConfirmingShare * peak);
 }
 
-/// Waits until the check ends. @return false if a signal arrived
-bool watch(const PulseClient& pulser, int signals) {
-  const Time end = io::monotonic_now() + kCheckLimit;
-  while (!pulser.ended() && !pulser.was_lost() && io::monotonic_now() < end) {
-    pollfd file{signals, POLLIN, 0};
-    if (poll(&file, 1, 20) > 0) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 int confirm_motors(const std::string& device, const std::string& state) {
@@ -105,17 +95,15 @@ int confirm_motors(const std::string& device, const std::string& state) {
     arm.close();
     return fail(enabled.error().message);
   }
-  const bool whole = watch(pulser, signals.get());
+  const bool whole =
+      wait_unless_interrupted(kCheckLimit, signals.get(), [&] { return pulser.ended() || pulser.was_lost(); });
   pulser.end();
   arm.disable();
   arm.close();  // sends zeros; the device thread no longer calls `pulser`
   if (!whole) return fail("ended by " + std::string(io::pending_signal()) + ": nothing was confirmed");
   if (pulser.was_lost()) return fail("the device was unplugged: nothing was confirmed");
 
-  for (const auto& finding : pulser.check().findings(signs->motors)) {
-    static constexpr const char* kMarks[] = {"  ok      ", "  notice  ", "  TROUBLE "};
-    io::print_formatted(stdout, "%s%s\n", kMarks[static_cast<std::size_t>(finding.kind)], finding.text.c_str());
-  }
+  for (const auto& finding : pulser.check().findings(signs->motors)) io::print(stdout, finding_line(finding));
   const bool right = pulser.check().finished() && pulser.check().all_right();
   if (const std::string wrong = book.store(*signs, right); !wrong.empty())
     return fail("the result was not stored, so the device gives no force: " + wrong);

@@ -37,7 +37,7 @@ int not_attached(const SeatOptions& plan, const std::string& why, int code = io:
   io::OutputFile json;
   if (const auto problem = json.open(plan.json, true); !problem.empty())
     return trouble("--json: " + problem, io::kExitUsage);
-  json.write(join_failure_json(plan.seat, io::to_text(plan.server), plan.device, why));
+  json.write(join_failure_json(plan.join.seat, io::to_text(plan.join.server), plan.device, why));
   if (const auto problem = json.close(); !problem.empty()) return trouble(problem);
   return code;
 }
@@ -68,29 +68,28 @@ hal::DeviceCaps known_caps(const hal::DeviceCaps& opened) {
 
 int run_seat(const SeatOptions& plan) {
   const io::Fd signals = io::make_signalfd();
-  const std::string server = io::to_text(plan.server);
+  const std::string server = io::to_text(plan.join.server);
   io::StatusLine line{plan.quiet};
   // Hardware is opened before the join, because homing takes the user's time and must not reserve a seat meanwhile.
   std::unique_ptr<HardwareDevice> held;
   if (HardwareDevice::is_hardware_spec(plan.device)) {
-    auto taken = HardwareDevice::open(plan.device, signals.get(), line, {.state = plan.state});
+    auto taken = HardwareDevice::open(plan.device, signals.get(), line, {.state = plan.join.state});
     if (!taken)
       return not_attached(plan, (taken.error().interrupted ? "" : "--device: ") + taken.error().reason,
                           taken.error().invalid_spec ? io::kExitUsage : io::kExitTrouble);
     held = std::move(*taken);
   }
-  const hal::DeviceCaps asking = held ? held->caps() : plan.caps;
-  const JoinOptions wish{
-      plan.server,  plan.seat, plan.session, plan.ticket, plan.state, asking, from_seconds(plan.timeout_s),
-      signals.get()};
-  auto given = join_seat(wish);
+  JoinOptions options = plan.join;
+  options.signals = signals.get();
+  if (held) options.caps = held->caps();
+  auto given = join_seat(options);
   if (!given) return not_attached(plan, given.error().reason);
   auto socket = io::connect_udp(given->udp);
   if (!socket) return trouble("--server: " + socket.error());
   const SeatSetup& setup = given->setup;
 
   const auto refuse = [&](const std::string& why, int code) {
-    release_seat(*socket, *given, asking);
+    release_seat(*socket, *given, options.caps);
     return not_attached(plan, why, code);
   };
   std::vector<AuthorityScript::Change> script;
@@ -149,35 +148,35 @@ int run_seat(const SeatOptions& plan) {
   }
 
   const Time begin = io::monotonic_now();
-  SeatSupervisor vigil{{plan, wish, *given, seat, *runner, keyboard, device, held.get(), signals.get(), line},
+  SeatSupervisor vigil{{plan, options, *given, seat, *runner, keyboard, device, held.get(), signals.get(), line},
                        std::move(kept)};
   const ExitReason end = vigil.run();
-  ClientReport report;
-  report.seconds = seconds(io::monotonic_now() - begin);
+  const double duration_s = seconds(io::monotonic_now() - begin);
   device.disable();
   device.close();
   line.clear();
   if (writer) writer->finish();
 
-  report.server = server;
-  report.device_note = note;
-  report.end = end;
-  report.last = runner->final_status();
-  report.device = device.stats();
-  report.histograms = device.histograms();
-  report.trace_dropped = writer ? writer->queue().dropped() : 0;
-  report.realtime = device.realtime();
+  const ClientReport report{.server = server,
+                            .device_note = note,
+                            .seconds = duration_s,
+                            .outage_longest_s = vigil.outage_longest_s(),
+                            .end = end,
+                            .last = runner->final_status(),
+                            .device = device.stats(),
+                            .histograms = device.histograms(),
+                            .trace_dropped = writer ? writer->queue().dropped() : 0,
+                            .realtime = device.realtime()};
   if (const std::string notice = io::realtime_warning(report.realtime, memory, awake.granted());
       !notice.empty() && report.last.late_ticks > 0)
     line.note(std::to_string(report.last.late_ticks) + " late ticks; " + notice);
-  report.outage_longest_s = vigil.outage_longest_s();
-  if (verdict_of(report) == SeatVerdict::kFail) {
+  const SeatVerdict verdict = verdict_of(report);
+  if (verdict == SeatVerdict::kFail) {
     io::log(io::Level::kError, "join: " + vigil.exit_message(end));
   } else {
     line.note(vigil.exit_message(end));
   }
   for (const std::string& words : summary(report.device, report.histograms)) line.note(words);
-  const SeatVerdict verdict = verdict_of(report);
   if (verdict == SeatVerdict::kNotJudged) line.note("not judged: the session never ran while this seat was taken");
   json.write(to_json(report, setup));
   for (io::OutputFile* file : {&json, &trace})

@@ -4,23 +4,22 @@
 #include <string>
 
 #include "client/app/authority_script.h"
+#include "client/app/join_client.h"
 #include "client/app/seat_observer.h"
-#include "common/io/socket_address.h"
 #include "hal/core/device.h"
 
 namespace tandem::client {
 
 /// Options of `join`. Each value is validated; values that depend on the session are not.
 struct SeatOptions {
-  io::SocketAddress server;
-  std::string session, ticket, state;  ///< unparsed; see JoinOptions
-  std::string seat, device;
-  hal::DeviceCaps caps;  ///< known capabilities of a simulated device before the scene is known
-  std::optional<AuthorityScript> script;
-  std::string trace, json;          ///< file names; `-` (JSON only) is standard output; empty: none
-  double duration_s = 0;            ///< time at the seat [s]; 0: until the session ends
-  double timeout_s = 5;             ///< connect timeout [s]
-  double reconnect_timeout_s = 60;  ///< longest time for reconnects to a silent server [s]; 0: no reconnect
+  /// Seat and server. Its capabilities are those of a simulated device that are known before the scene; `run_seat`
+  /// replaces those of hardware, and sets the signals.
+  JoinOptions join{.timeout = std::chrono::seconds(5)};
+  std::string device = {};
+  std::optional<AuthorityScript> script = {};
+  std::string trace = {}, json = {};  ///< file names; `-` (JSON only) is standard output; empty: none
+  double duration_s = 0;              ///< time at the seat [s]; 0: until the session ends
+  double reconnect_timeout_s = 60;    ///< longest time for reconnects to a silent server [s]; 0: no reconnect
   bool quiet = false;
   SeatObserver* observer = nullptr;  ///< must outlive `run_seat`; null: none
 };

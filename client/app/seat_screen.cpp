@@ -195,8 +195,8 @@ std::vector<io::ScreenItem> seat_screen(const ClientStatus& s, const SeatSetup& 
   } else if (latched) {
     add(gate_text(s), 0);
   }
-  if (const std::string told = authority_transfer_text(s, setup, words); !told.empty())
-    add(told, 0, authority_transfer_brief(s));
+  if (const std::string transfer = authority_transfer_text(s, setup, words); !transfer.empty())
+    add(transfer, 0, authority_transfer_brief(s));
   add(leader_text(s, setup, words), 0);
   add("force " + force_bar(s.force_n, setup.gate.force_max * share_of_force(setup.seat.role)), 0,
       format("force %.1f N", s.force_n));

@@ -68,7 +68,7 @@ const ClientStatus& SeatStatusRecorder::update(Time now, const Seat& seat) noexc
   s.local_stop = seat.requests().locally_stopped();
   s.distance_m.reset();
   if (seat.setup().port == PortSpace::kTip && timing.heard()) s.distance_m = distance_to_tool(seat);
-  const auto offset = seat.offset_from_leader(now);
+  const auto offset = offset_from_leader(seat, now);
   s.offset_from_leader_m = offset ? std::optional{offset->norm()} : std::nullopt;
   s.transfer = transfer_.status();
   s.force_n = norm(t.f_out);
@@ -89,9 +89,8 @@ const ClientStatus& SeatStatusRecorder::update(Time now, const Seat& seat) noexc
               .given_after_loss_max_j = seat.gate().tank().given_max()};
   s.gate_trips = sample.gate_trips;
   const control::OvertemperatureGuard& guard = seat.guards().overtemperature();
-  s.motors.hot = guard.hot();
-  s.motors.latched = guard.latched();
-  s.motors.hot_trips = guard.trips_total();
+  s.motors = {
+      .hot = guard.hot(), .latched = guard.latched(), .hot_trips = guard.trips_total(), .heat_max = s.motors.heat_max};
   const std::optional<double>& heat = seat.device().reading().heat;
   if (heat && !(s.motors.heat_max >= heat)) s.motors.heat_max = heat;
   return s;

@@ -3,8 +3,8 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <cstdio>
 
+#include "common/base/format.h"
 #include "common/io/clock.h"
 #include "common/io/signals.h"
 
@@ -16,12 +16,6 @@ using Kind = auth::ClientError::Kind;
 using std::chrono::milliseconds;
 
 constexpr int kRetryMs = 100;  // pause between attempts, for a server that is about to start
-
-std::string timeout_text(Duration timeout) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g s", seconds(timeout));
-  return text;
-}
 
 JoinError interrupted() { return {true, "ended by " + std::string(io::pending_signal()) + " before it had a seat"}; }
 
@@ -110,7 +104,7 @@ std::string ServerConnection::start_command() const {
 
 JoinError ServerConnection::to_join_error(const auth::ClientError& error) const {
   if (error.kind == Kind::kInterrupted) return interrupted();
-  const std::string server = io::to_text(options_.server), timeout = timeout_text(options_.timeout);
+  const std::string server = io::to_text(options_.server), timeout = format("%g s", seconds(options_.timeout));
   if (error.kind == Kind::kUnreachable)
     return {false, "no server at " + server + ": nothing listens there (tried for " + timeout + "). Start " +
                        start_command() + ", and use the address it prints as `listening on`"};

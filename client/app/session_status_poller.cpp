@@ -19,9 +19,9 @@ constexpr int kLeastMs = 150;  // pause between two requests, because a server a
 }  // namespace
 
 SessionStatusPoller::SessionStatusPoller(std::shared_ptr<auth::ControlClient> connection, const rpc::Id& session,
-                                         std::chrono::milliseconds patience)
+                                         std::chrono::milliseconds reply_timeout)
     : connection_(std::move(connection)),
-      patience_(patience),
+      reply_timeout_(reply_timeout),
       socket_(connection_ ? ::fcntl(connection_->fd(), F_DUPFD_CLOEXEC, 0) : -1) {
   if (connection_) thread_ = std::thread([this, session] { work(session); });
 }
@@ -44,7 +44,7 @@ std::optional<rpc::Status> SessionStatusPoller::take() {
 
 void SessionStatusPoller::work(const rpc::Id& session) {
   while (!over_.load(std::memory_order_relaxed)) {
-    auto answer = connection_->ask(rpc::StatusRequest{session}, patience_);
+    auto answer = connection_->ask(rpc::StatusRequest{session}, reply_timeout_);
     if (!answer) {
       ended_.store(true, std::memory_order_release);
       return;
@@ -66,7 +66,7 @@ void SessionStatusPoller::work(const rpc::Id& session) {
 
 std::string query_removal_reason(auth::ControlClient* connection, const rpc::Id& session) {
   if (connection == nullptr) return {};
-  const auto answer = connection->ask(rpc::StatusRequest{session}, SessionStatusPoller::kPatience);
+  const auto answer = connection->ask(rpc::StatusRequest{session}, SessionStatusPoller::kReplyTimeout);
   const auto* refused = answer ? std::get_if<rpc::ErrorReply>(&*answer) : nullptr;
   return refused == nullptr ? std::string() : sanitize(refused->text);
 }

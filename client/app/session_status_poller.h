@@ -20,12 +20,12 @@ namespace tandem::client {
 /// the connection is lost.
 class SessionStatusPoller {
  public:
-  static constexpr std::chrono::milliseconds kPatience{2000};
+  static constexpr std::chrono::milliseconds kReplyTimeout{2000};
   /// Starts the thread.
   /// @param connection  control connection of the join, used only by this object during its lifetime; null: no status
-  /// @param patience    timeout of each reply
+  /// @param reply_timeout  timeout of each reply
   SessionStatusPoller(std::shared_ptr<auth::ControlClient> connection, const rpc::Id& session,
-                      std::chrono::milliseconds patience = kPatience);
+                      std::chrono::milliseconds reply_timeout = kReplyTimeout);
   /// Waits for a pending reply, at most for the reply timeout.
   ~SessionStatusPoller();
   SessionStatusPoller(const SessionStatusPoller&) = delete;
@@ -46,7 +46,7 @@ class SessionStatusPoller {
   void work(const rpc::Id& session);
 
   std::shared_ptr<auth::ControlClient> connection_;
-  std::chrono::milliseconds patience_;
+  std::chrono::milliseconds reply_timeout_;
   io::Fd socket_;  ///< duplicate of the connection's socket, which the thread may close at any time
   io::EventFd news_, wake_;
   std::mutex lock_;

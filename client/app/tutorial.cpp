@@ -87,10 +87,10 @@ std::vector<std::string> Tutorial::messages(double now_s, const ClientStatus& st
   if (!began_ && status.session == wire::SessionState::kRunning && status.session_time >= 0) began_ = now_s;
   if (!began_) return lines;
   for (Step& step : steps_) {
-    if (!step.pressed || step.told || step.happened.empty()) continue;
+    if (!step.pressed || step.reported || step.happened.empty()) continue;
     if (!step.pressed_at) step.pressed_at = now_s;
     if (now_s - *step.pressed_at < kAfterKey) continue;
-    step.told = true;
+    step.reported = true;
     lines.push_back("  " + step.happened +
                     format(" (your hand feels %.1f N, your authority is %.0f %%)", status.force_n, 100 * status.alpha));
   }

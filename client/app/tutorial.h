@@ -32,7 +32,7 @@ class Tutorial {
     std::vector<std::string> keys;  ///< keys that the text requests
     std::string happened;           ///< effect, shown once, 1.5 s after one of the keys was pressed
     std::string early;              ///< effect, shown instead of the text if one of the keys was pressed before
-    bool pressed = false, told = false;
+    bool pressed = false, reported = false;
     std::optional<double> pressed_at{};
   };
   void add_keys_of_hand();

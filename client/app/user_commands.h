@@ -25,7 +25,7 @@ class UserCommands {
 
   /// Passes the commands that arrived to `seat`. For the servo thread. @return true if one changes authority
   bool apply(Seat& seat) noexcept TANDEM_REALTIME {
-    if (reset_.exchange(false, std::memory_order_relaxed)) seat.request_gate_reset();
+    if (reset_.exchange(false, std::memory_order_relaxed)) seat.requests().reset_gate();
     if (resume_.exchange(false, std::memory_order_relaxed)) seat.requests().resume();
     if (stop_.exchange(false, std::memory_order_relaxed))
       seat.requests().stop_locally();  // after resume: stop takes precedence

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "common/base/format.h"
 #include "common/base/stiffness_limit.h"
 
 namespace tandem::client {
@@ -18,12 +18,6 @@ constexpr unsigned kBatteryLow = 20;       ///< [%]
 constexpr double kRateGood = 0.97;         ///< smallest good rate, as a share of the nominal rate
 constexpr double kGivesWay = 0.0005;       ///< [m] smallest displacement that counts as motion along a push
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
-
-std::string text(const char* format, auto... values) {
-  std::array<char, 400> out;
-  std::snprintf(out.data(), out.size(), format, values...);
-  return out.data();
-}
 
 }  // namespace
 
@@ -66,31 +60,31 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
   if (caps_.needs_firmware) say(Kind::kGood, "its firmware runs");
   if (battery_)
     say(*battery_ < kBatteryLow ? Kind::kNotice : Kind::kGood,
-        text(*battery_ < kBatteryLow ? "battery %u %%: charge it" : "battery %u %%", unsigned{*battery_}));
+        format(*battery_ < kBatteryLow ? "battery %u %%: charge it" : "battery %u %%", unsigned{*battery_}));
   const double rate = seconds > 0 ? static_cast<double>(readings_) / seconds : 0;
   const bool own_pace = caps_.input == hal::InputKind::kRate;
   if (own_pace || rate >= kRateGood * caps_.nominal_hz) {
-    say(Kind::kGood, text("%.0f readings a second (nominal %.0f)", rate, caps_.nominal_hz));
+    say(Kind::kGood, format("%.0f readings a second (nominal %.0f)", rate, caps_.nominal_hz));
   } else {
     say(Kind::kTrouble,
-        text("only %.0f readings a second of %.0f: the machine is busy, or the device hangs on a slow hub; "
-             "real-time priority helps (README, real-time)",
-             rate, caps_.nominal_hz));
+        format("only %.0f readings a second of %.0f: the machine is busy, or the device hangs on a slow hub; "
+               "real-time priority helps (README, real-time)",
+               rate, caps_.nominal_hz));
   }
   if (stats.round_trip_p50_s > 0)
-    say(Kind::kGood, text("an exchange takes %.2f ms (p50), %.2f ms (p99), %.2f ms at most",
-                          1e3 * stats.round_trip_p50_s, 1e3 * stats.round_trip_p99_s, 1e3 * stats.round_trip_max_s));
+    say(Kind::kGood, format("an exchange takes %.2f ms (p50), %.2f ms (p99), %.2f ms at most",
+                            1e3 * stats.round_trip_p50_s, 1e3 * stats.round_trip_p99_s, 1e3 * stats.round_trip_max_s));
   if (stats.unanswered > 0 || stats.resyncs > 0)
     say(stats.unanswered > stats.ticks / 100 ? Kind::kTrouble : Kind::kNotice,
-        text("%llu exchanges without a complete answer, %llu searches for the beginning of a frame: check cable and "
-             "hub, and end other programs that use the device",
-             static_cast<unsigned long long>(stats.unanswered), static_cast<unsigned long long>(stats.resyncs)));
+        format("%llu exchanges without a complete answer, %llu searches for the beginning of a frame: check cable and "
+               "hub, and end other programs that use the device",
+               static_cast<unsigned long long>(stats.unanswered), static_cast<unsigned long long>(stats.resyncs)));
   if (not_finite_ > 0)
-    say(Kind::kTrouble, text("%llu readings were not finite: calibration file or kinematics do not fit this device",
-                             static_cast<unsigned long long>(not_finite_)));
+    say(Kind::kTrouble, format("%llu readings were not finite: calibration file or kinematics do not fit this device",
+                               static_cast<unsigned long long>(not_finite_)));
   if (own_pace) {
     if (fastest_ > 0) {
-      say(Kind::kGood, text("it moves: up to %.2f m/s", fastest_));
+      say(Kind::kGood, format("it moves: up to %.2f m/s", fastest_));
     } else {
       say(Kind::kNotice, "it reported only rest: push the cap during the examination");
     }
@@ -117,8 +111,8 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
                             " did not move while the others did: its cable or plug, or the "
                             "grip was moved along the others only: move it in all directions and examine again");
   } else {
-    say(Kind::kGood, text("all %zu encoders move; the tip went %.0f x %.0f x %.0f mm", joints,
-                          1e3 * (high_[0] - low_[0]), 1e3 * (high_[1] - low_[1]), 1e3 * (high_[2] - low_[2])));
+    say(Kind::kGood, format("all %zu encoders move; the tip went %.0f x %.0f x %.0f mm", joints,
+                            1e3 * (high_[0] - low_[0]), 1e3 * (high_[1] - low_[1]), 1e3 * (high_[2] - low_[2])));
     if (way < kMoved)
       say(Kind::kNotice, "the tip moved less than a centimetre: move it further to be sure of its calibration");
   }
@@ -126,8 +120,8 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
     say(Kind::kGood, "needs no homing");
   } else if (origin_lost_ > 0) {
     say(Kind::kTrouble,
-        text("the origin was lost %llu times: it was moved faster than it can count, or its power is weak",
-             static_cast<unsigned long long>(origin_lost_)));
+        format("the origin was lost %llu times: it was moved faster than it can count, or its power is weak",
+               static_cast<unsigned long long>(origin_lost_)));
   } else {
     say(homed_ ? Kind::kGood : Kind::kNotice, homed_ ? "homed" : "not homed: it gives no force until it is homed");
   }
@@ -137,7 +131,7 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
     static constexpr const char* kFrom[] = {"an unknown source", "the datasheet", "the device itself",
                                             "its calibration file", "its model"};
     say(Kind::kGood,
-        text("force scale calibrated; limits from %s", kFrom[static_cast<std::size_t>(caps_.axis[0].from)]));
+        format("force scale calibrated; limits from %s", kFrom[static_cast<std::size_t>(caps_.axis[0].from)]));
   } else {
     say(Kind::kNotice,
         "its force scale was never measured: forces are limited to a tenth of the peak; hal/README.md shows how to "
@@ -147,20 +141,20 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
     const double damping = caps_.damping.value_or(kDampingUnknown),
                  latency = caps_.latency.value_or(caps_.simulated ? 0 : kLatencyUnknown);
     say(caps_.damping ? Kind::kGood : Kind::kNotice,
-        text("renders springs up to %.0f N/m at 1000 Hz: b / (T/2 + t_d) of its damping b %g N s/m%s and its latency "
-             "t_d %g ms%s",
-             stiffness_limit(damping, latency, 1e-3), damping, caps_.damping ? "" : ", assumed as it is not known",
-             1e3 * latency, caps_.latency ? "" : ", assumed as it is not known"));
+        format("renders springs up to %.0f N/m at 1000 Hz: b / (T/2 + t_d) of its damping b %g N s/m%s and its latency "
+               "t_d %g ms%s",
+               stiffness_limit(damping, latency, 1e-3), damping, caps_.damping ? "" : ", assumed as it is not known",
+               1e3 * latency, caps_.latency ? "" : ", assumed as it is not known"));
   }
   static constexpr const char* kGravity[] = {"no gravity compensation", "gravity is compensated by this program",
                                              "the device compensates gravity itself"};
   say(Kind::kGood, kGravity[static_cast<std::size_t>(caps_.gravity)]);
   if (std::ranges::any_of(caps_.axis, [](const hal::AxisLimit& axis) { return axis.peak.value_or(0) > 0; })) {
     if (caps_.watchdog)
-      say(Kind::kNotice, text("if this program and its watchdog process are both killed, the device itself releases "
-                              "the force after %lld ms: too late for a hand; "
-                              "keep its power switch within reach",
-                              static_cast<long long>(caps_.watchdog->count())));
+      say(Kind::kNotice, format("if this program and its watchdog process are both killed, the device itself releases "
+                                "the force after %lld ms: too late for a hand; "
+                                "keep its power switch within reach",
+                                static_cast<long long>(caps_.watchdog->count())));
     else
       say(Kind::kNotice,
           "nothing is known of a watchdog in the device: if this program and its watchdog process are both killed, or "
@@ -169,7 +163,7 @@ std::vector<Finding> DeviceDiagnostics::findings(const hal::DeviceStats& stats, 
   }
   if (caps_.buttons > 0)
     say(pressed_ != 0 ? Kind::kGood : Kind::kNotice, pressed_ != 0
-                                                         ? text("buttons seen: mask 0x%x", pressed_)
+                                                         ? format("buttons seen: mask 0x%x", pressed_)
                                                          : std::string("no button was pressed while it was examined"));
   return all;
 }
@@ -212,8 +206,8 @@ std::vector<Finding> ForceTest::findings() const {
     const Push& push = push_[i];
     const std::string name = std::string(i % 2 == 0 ? "+" : "-") + kAxisNames[i / 2];
     const double given = push.samples > 0 ? push.given / static_cast<double>(push.samples) : 0;
-    const std::string numbers = text("%.2f N were sent, the tip went %.1f mm along and %.1f mm across", given,
-                                     1e3 * push.along, 1e3 * push.sideways);
+    const std::string numbers = format("%.2f N were sent, the tip went %.1f mm along and %.1f mm across", given,
+                                       1e3 * push.along, 1e3 * push.sideways);
     if (given < kForce / 10) {
       all.push_back({Kind::kTrouble, "force along " + name + ": " + numbers +
                                          ": hardly any force left this program; is the "

@@ -6,11 +6,12 @@
 
 #include "client/diagnostics/tick_statistics.h"
 #include "client/diagnostics/transit_time.h"
+#include "client/seat/client_channel.h"
 #include "common/base/time.h"
 #include "common/transport/secure_channel.h"
 #include "proto/text/seat_setup.h"
 #include "proto/wire/link_test_report.h"
-#include "proto/wire/wire_codec.h"
+#include "proto/wire/wire_messages.h"
 
 namespace tandem::client {
 
@@ -29,20 +30,20 @@ struct LinkTestResult {
       return sent == 0 ? 0 : 100 * static_cast<double>(lost) / static_cast<double>(sent);
     }
   };
-  std::optional<Direction> up, down;  ///< to the server, from the server; absent: no reply arrived
-  std::uint64_t duplicates = 0;       ///< duplicates from the server
-  std::uint64_t refused = 0;          ///< received, but not authentic or not of this connection
+  std::optional<Direction> up{}, down{};  ///< to the server, from the server; absent: no reply arrived
+  std::uint64_t duplicates = 0;           ///< duplicates from the server
+  std::uint64_t refused = 0;              ///< received, but not authentic or not of this connection
 
-  std::optional<double> rtt_min, rtt_p50, rtt_p99,
-      rtt_max;                   ///< round trip without the time either end waits for its tick [s]
-  std::optional<double> jitter;  ///< 99th percentile of the delay of a FORCE relative to the fastest one [s]
-  std::uint32_t pauses = 0;      ///< silences longer than the gate's limit; each would have released the force
-  double silent_at_end = 0;      ///< time since the newest datagram when the test stopped [s]
+  std::optional<double> rtt_min{}, rtt_p50{}, rtt_p99{},
+      rtt_max{};                   ///< round trip without the time either end waits for its tick [s]
+  std::optional<double> jitter{};  ///< 99th percentile of the delay of a FORCE relative to the fastest one [s]
+  std::uint32_t pauses = 0;        ///< silences longer than the gate's limit; each would have released the force
+  double silent_at_end = 0;        ///< time since the newest datagram when the test stopped [s]
   double silence_limit = 0, loop_age_max = 0;  ///< limits of the scene's gate [s]
 
-  std::optional<double> clock_step;  ///< largest change between this machine's wall clock and its monotonic clock [s]
+  std::optional<double> clock_step{};  ///< largest change between this machine's wall clock and its monotonic clock [s]
   std::optional<double>
-      transit_step;  ///< largest lasting change of the minimum transit time down: new route or server clock [s]
+      transit_step{};  ///< largest lasting change of the minimum transit time down: new route or server clock [s]
 
   std::uint64_t ticks = 0, late_ticks = 0, missed_ticks = 0;  ///< of this client; late: by more than 1 ms
   double wake_p99 = 0, wake_max = 0;                          ///< lateness of this client's ticks [s]
@@ -77,8 +78,7 @@ class LinkTest {
  private:
   SeatSetup setup_;
   Duration tick_length_;
-  transport::SecureChannel link_;
-  wire::Codec codec_;
+  ClientChannel channel_;
   wire::StateMessage state_{};
   std::optional<Time> began_;
   std::uint32_t tick_ = 0;
@@ -87,8 +87,7 @@ class LinkTest {
   std::optional<Time> stopped_;
   Duration gap_until_stop_{};
   unsigned close_due_ = 0;
-  std::optional<wire::PathMessage> path_answer_;  ///< reply due to a PATH_CHALLENGE (address validation)
-  std::uint64_t path_answers_ = 0;
+  std::uint64_t path_answers_ = 0;  ///< PATH_RESPONSE datagrams sent
 
   // Received from the server.
   std::optional<wire::LinkTestReport> report_;

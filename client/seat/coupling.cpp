@@ -62,20 +62,17 @@ namespace {
 
 control::ToolCopy::Params copy_params(const SeatSetup& setup, const control::VirtualTool::Gains& gains,
                                       const EnvironmentSpec& environment) {
-  control::ToolCopy::Params p;
-  p.tool = gains;
-  p.axes = setup.dof;
-  p.contacts = setup::contacts(environment);
-  p.k_c = setup.coupling.k_c;
-  p.b_rel = setup.channel.b_rel;
-  p.v_app = setup.channel.v_app;
-  p.offset_hold = setup.gate.ramp_in;
-  p.force_max = setup.gate.force_max * share_of_force(setup.seat.role);
-  p.of_several = !setup.further.empty();
-  p.dt = 1.0 / setup.tick_hz;
-  p.assist.force = setup.seat.assist.force;
-  p.assist.in_contact = setup.seat.assist.in_contact;
-  return p;
+  return {.tool = gains,
+          .axes = setup.dof,
+          .contacts = setup::contacts(environment),
+          .k_c = setup.coupling.k_c,
+          .b_rel = setup.channel.b_rel,
+          .v_app = setup.channel.v_app,
+          .offset_hold = setup.gate.ramp_in,
+          .force_max = setup.gate.force_max * share_of_force(setup.seat.role),
+          .of_several = !setup.further.empty(),
+          .dt = 1.0 / setup.tick_hz,
+          .assist = {.force = setup.seat.assist.force, .in_contact = setup.seat.assist.in_contact}};
 }
 
 }  // namespace

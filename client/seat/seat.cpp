@@ -41,8 +41,7 @@ Seat::Seat(const SeatSetup& setup, const hal::DeviceCaps& caps, const transport:
     : setup_(setup::with_limited_stiffness(setup, device_facts(caps))),  // the client limits it, whatever it receives
       dt_(1.0 / setup.tick_hz),
       command_life_(command_lifetime(from_seconds(dt_))),
-      link_(std::make_unique<transport::SecureChannel>(link)),
-      codec_(setup.dof, setup.port, setup.further.size()),
+      channel_(link, wire::Codec{setup.dof, setup.port, setup.further.size()}),
       tools_(setup_),
       coupling_(make_coupling(setup_)),
       gate_(gate_params(setup, caps)),
@@ -61,7 +60,7 @@ void Seat::reconnect(const transport::SecureChannel::Params& link) {
 }
 
 void Seat::reconnect(Connection& next) noexcept {
-  std::swap(link_, next.link);
+  channel_.swap_link(next.link);
   tools_.swap_ends(next.ends);
   rest();
   tools_.clear_received();
@@ -70,75 +69,71 @@ void Seat::reconnect(Connection& next) noexcept {
   close_out_.on_reconnect();
   state_.seat_tick = 0;
   fresh_ = false;
-  path_answer_.reset();
 }
 
 void Seat::on_datagram(Time now, std::span<const std::byte> bytes) noexcept {
-  const auto opened = link_->open(now, bytes);
+  transport::SecureChannel& link = channel_.link();
+  const auto opened = link.open(now, bytes);
   if (!opened) return;
   if (opened->type == wire::Type::kForce) {
     on_force(now, *opened);
   } else if (opened->type == wire::Type::kClose) {
-    const auto decoded = codec_.decode_close(opened->plaintext);
-    if (!decoded) return link_->drop_body();
+    const auto decoded = channel_.codec().decode_close(opened->plaintext);
+    if (!decoded) return link.drop_body();
     close_out_.on_close(decoded->message.reason);
   } else if (opened->type == wire::Type::kPathChallenge) {
-    const auto decoded = codec_.decode_path(opened->plaintext);
-    if (!decoded) return link_->drop_body();
-    link_->accept_other();
-    path_answer_ = decoded->message;
+    channel_.on_path_challenge(opened->plaintext);
   } else {
-    link_->drop_body();
+    link.drop_body();
   }
 }
 
 void Seat::on_force(Time now, const transport::SecureChannel::Opened& datagram) noexcept {
-  const auto decoded = codec_.decode_force(datagram.plaintext, tools_.further_next());
-  if (!decoded) return link_->drop_body();
+  transport::SecureChannel& link = channel_.link();
+  const auto decoded = channel_.codec().decode_force(datagram.plaintext, tools_.further_next());
+  if (!decoded) return link.drop_body();
   if (!datagram.newer) return;  // a datagram older than the newest one must not act
-  link_->accept(now, datagram, decoded->preamble);
+  link.accept(now, datagram, decoded->preamble);
   if (force().session == wire::SessionState::kWaiting && decoded->message.session == wire::SessionState::kRunning)
-    link_->restart_statistics(now);
+    link.restart_statistics(now);
   tools_.receive(decoded->message);
   fresh_ = true;
   for (std::size_t k = 0; k < tools_.size(); ++k)
     if (const LocalContactList& contacts = tools_.received(k).contacts; contacts.size > 0)
       coupling_->set_contacts(k, contacts.all());
-  clock_.on_force(force(), now - link_->timing().age(now));
+  clock_.on_force(force(), now - link.timing().age(now));
   requests_.on_force(force());
 }
 
 hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   if (!first_tick_) first_tick_ = now;
   tick_ = static_cast<std::uint32_t>(std::llround(seconds(now - *first_tick_) / dt_));
-  link_->tick(now);
+  channel_.link().tick(now);
   if (tick_ % 256 == 0)
-    age_p99_ms_ = 1e3 * seconds(Duration{link_->stats().age.quantile(0.99)});  // iterates over bins: too slow per tick
+    age_p99_ms_ = 1e3 * seconds(Duration{link().stats().age.quantile(0.99)});  // iterates over bins: too slow per tick
 
   const bool was_active = gate_.active();
-  control::ForceGate::Input in;
-  in.now = now;
-  in.reading_valid = device_.update(device);
-  in.q = device_.q();
-  in.v = device_.v();
+  control::ForceGate::Input in{.now = now,
+                               .fresh = std::exchange(fresh_, false),
+                               .loop_age = link().timing().loop_age(now),
+                               .rtt_p99 = link().timing().rtt_p99(),
+                               .reset = requests_.take_gate_reset(),
+                               .reading_valid = device_.update(device),
+                               .q = device_.q(),
+                               .v = device_.v()};
   if (was_active) {
-    in.wanted = coupling_->step(coupling_input(seconds(link_->timing().age(now))));
+    in.wanted = coupling_->step(coupling_input(seconds(link().timing().age(now))));
   } else {
     rest();
   }
-  in.fresh = fresh_;
-  in.loop_age = link_->timing().loop_age(now);
-  in.rtt_p99 = link_->timing().rtt_p99();
   if (setup_.channel.law == LawKind::kReplica && setup_.seat.kind == SeatKind::kMaster) {
     const SilenceLimits limits = silence_limits(setup_.gate, LawKind::kReplica, tools_.authority());
-    in.silence_allowance = link_->timing().gaps().silence_limit(from_seconds(limits.least), from_seconds(limits.most));
+    in.silence_allowance = link().timing().gaps().silence_limit(from_seconds(limits.least), from_seconds(limits.most));
   }
-  if (reset_) guards_.reset();
+  if (in.reset) guards_.reset();
   guards_.update(now, device_.reading(), tools_.end(0).state().ref, effort_, was_active);
   in.engage = may_engage();
-  in.reset = reset_;
   effort_ = gate_.step(in).effort;
-  fresh_ = reset_ = false;
   if (was_active) coupling_->set_delivered(effort_);
   if (was_active != gate_.active()) rest();
 
@@ -146,12 +141,10 @@ hal::Command Seat::on_servo(Time now, const hal::State& device) noexcept {
   if (!gate_.active() && gate_.phase() != control::GatePhase::kReleasing) close_out_.on_released();
   state_due_ = true;
 
-  hal::Command command;
-  command.seq = ++command_seq_;
-  command.expires = now + command_life_;
-  command.kind = hal::CommandKind::kJointEffort;
-  command.effort = device_.joint_effort(effort_);
-  return command;
+  return {.seq = ++command_seq_,
+          .expires = now + command_life_,
+          .kind = hal::CommandKind::kJointEffort,
+          .effort = device_.joint_effort(effort_)};
 }
 
 bool Seat::may_engage() const noexcept {
@@ -167,18 +160,18 @@ Coupling::Input Seat::coupling_input(double age) const noexcept {
   return {.dt = dt_, .age = age, .q = device_.q(), .v = device_.v(), .tools = tools_.all(), .ghost = &force().ghost};
 }
 
-std::optional<hal::Vec3> Seat::offset_from_leader(Time now) const noexcept {
-  const wire::Ghost& ghost = force().ghost;
-  if (!tools_.heard() || ghost.leader == 0) return std::nullopt;
-  const double age = seconds(link_->timing().age(now));
-  hal::Vec3 offset = device_.reading().x;
+std::optional<hal::Vec3> offset_from_leader(const Seat& seat, Time now) noexcept {
+  const wire::Ghost& ghost = seat.force().ghost;
+  if (!seat.tools().heard() || ghost.leader == 0) return std::nullopt;
+  const double age = seconds(seat.link().timing().age(now));
+  hal::Vec3 offset = seat.device().reading().x;
   for (std::size_t k = 0; k < 3; ++k)
     offset[static_cast<Eigen::Index>(k)] -= control::Prediction::place_for_hand(ghost.x[k], ghost.v[k], age);
   return offset;
 }
 
 void Seat::rest() noexcept {
-  const auto& f = link_->timing();
+  const transport::LinkTiming& f = link().timing();
   coupling_->reset(coupling_input(f.heard() ? std::max(0.0, 0.5 * seconds(f.rtt_p50()) - 0.5 * dt_) : 0),
                    tools_.heard());
 }
@@ -194,19 +187,19 @@ void Seat::fill_state(Time now, bool homed, const AxisArray& wanted) noexcept {
   wire::Telemetry& t = state_.telemetry;
   device_.fill(wanted, t);
   tools_.fill(t);
-  const transport::SecureChannelStats& down = link_->stats();
+  const transport::SecureChannelStats& down = link().stats();
   t.down_loss_percent = down.loss_percent();
   t.down_longest_gap_ms = 1e3 * seconds(down.longest_gap);
   t.down_age_p99_ms = age_p99_ms_;
   t.dissipated_j = coupling_->dissipated();
   const control::GatePhase phase = gate_.phase();
   const bool guard_latched = guards_.latched() && phase == control::GatePhase::kZero;
-  state_.gate = wire_state(guard_latched ? control::GatePhase::kLatched : phase);  // both wait for request_gate_reset
+  state_.gate = wire_state(guard_latched ? control::GatePhase::kLatched : phase);  // both wait for a reset of the gate
   state_.gate_trips = gate_.trips();
   state_.engaged = engaged;
   state_.ready = homed && phase != control::GatePhase::kLatched && phase != control::GatePhase::kFault &&
                  !guards_.inhibit() && !close_out_.leaving() && !requests_.locally_stopped() &&
-                 link_->timing().rtt_samples() >= kLearnSamples;
+                 link().timing().rtt_samples() >= kLearnSamples;
   requests_.fill(state_);
   // The client receives a stop late, so its clock is ahead of the server's halted one. seat_tick then holds its value:
   // it never decreases.
@@ -216,13 +209,10 @@ void Seat::fill_state(Time now, bool homed, const AxisArray& wanted) noexcept {
 
 std::optional<std::size_t> Seat::poll_transmit(Time now, std::span<std::byte> buffer) noexcept {
   if (buffer.size() < transport::kHeaderSize) return std::nullopt;
-  const auto body = buffer.subspan(transport::kHeaderSize);
-  const auto seal = [&](wire::Type type, const auto& message) -> std::optional<std::size_t> {
-    const std::size_t plain = codec_.encode(link_->preamble(now, tick_), message, body);
-    const std::size_t size = plain == 0 ? 0 : link_->seal(now, type, buffer, plain);
-    return size == 0 ? std::nullopt : std::optional{size};
+  const auto seal = [&](wire::Type type, const auto& message) {
+    return channel_.seal(now, tick_, type, message, buffer);
   };
-  if (path_answer_) return seal(wire::Type::kPathResponse, *std::exchange(path_answer_, std::nullopt));
+  if (channel_.answer_due()) return channel_.seal_answer(now, tick_, buffer);
   if (state_due_ && !closed()) {
     state_due_ = false;
     const std::span<const PortSample> further = tools_.further_samples();

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "client/seat/client_channel.h"
 #include "client/seat/close_out.h"
 #include "client/seat/coupling.h"
 #include "client/seat/device_port.h"
@@ -18,7 +19,7 @@
 #include "common/transport/secure_channel.h"
 #include "hal/core/device.h"
 #include "proto/text/seat_setup.h"
-#include "proto/wire/wire_codec.h"
+#include "proto/wire/wire_messages.h"
 
 namespace tandem::client {
 
@@ -65,8 +66,6 @@ class Seat {
   /// Requests of the user of this seat.
   [[nodiscard]] SeatRequests& requests() noexcept { return requests_; }
   [[nodiscard]] const SeatRequests& requests() const noexcept { return requests_; }
-  /// Clears a latched gate and latched guards with the next tick.
-  void request_gate_reset() noexcept { reset_ = true; }
   /// Sets the number of ticks of this client that began late so far. The seat sends it to the server for its status.
   void set_late_ticks(std::uint32_t total) noexcept { state_.late_ticks = total; }
   /// Leaves the session: the gate ramps the force to zero, then the seat sends three CLOSE datagrams.
@@ -83,7 +82,7 @@ class Seat {
     return tool == 0 ? state_.port : tools_.further_samples()[tool - 1];
   }
   [[nodiscard]] const SeatSetup& setup() const noexcept { return setup_; }
-  [[nodiscard]] const transport::SecureChannel& link() const noexcept { return *link_; }
+  [[nodiscard]] const transport::SecureChannel& link() const noexcept { return channel_.link(); }
   [[nodiscard]] const ToolChannels& tools() const noexcept { return tools_; }
   [[nodiscard]] const Coupling& coupling() const noexcept { return *coupling_; }
   [[nodiscard]] const control::ForceGate& gate() const noexcept { return gate_; }
@@ -91,9 +90,6 @@ class Seat {
   [[nodiscard]] const SeatGuards& guards() const noexcept { return guards_; }
   [[nodiscard]] const SessionClock& clock() const noexcept { return clock_; }
   [[nodiscard]] const AxisArray& effort() const noexcept { return effort_; }  ///< after the gate, port axes [N or N m]
-  /// Position of this seat's tip minus that of the leader [m], 3x1, HAL frame. The leader's position is extrapolated to
-  /// `now`. nullopt if no other seat leads, or if the law sends no leader.
-  [[nodiscard]] std::optional<hal::Vec3> offset_from_leader(Time now) const noexcept;
 
  private:
   void on_force(Time now, const transport::SecureChannel::Opened& datagram) noexcept TANDEM_REALTIME;
@@ -107,8 +103,7 @@ class Seat {
   SeatSetup setup_;
   double dt_;
   Duration command_life_;
-  std::unique_ptr<transport::SecureChannel> link_;
-  wire::Codec codec_;
+  ClientChannel channel_;
   ToolChannels tools_;
   std::unique_ptr<Coupling> coupling_;
   control::ForceGate gate_;
@@ -120,12 +115,15 @@ class Seat {
   wire::StateMessage state_{};
   AxisArray effort_{};
   bool fresh_ = false;  ///< a newer FORCE arrived since the last servo tick
-  bool reset_ = false, state_due_ = false;
-  std::optional<wire::PathMessage> path_answer_;  ///< reply due to a PATH_CHALLENGE (address validation)
+  bool state_due_ = false;
   std::optional<Time> first_tick_;
   std::uint32_t tick_ = 0;
   double age_p99_ms_ = 0;
   std::uint64_t command_seq_ = 0;
 };
+
+/// Position of a seat's tip minus that of the leader [m], 3x1, HAL frame. The leader's position is extrapolated to
+/// `now`. nullopt if no other seat leads, or if the law sends no leader.
+[[nodiscard]] std::optional<hal::Vec3> offset_from_leader(const Seat& seat, Time now) noexcept;
 
 }  // namespace tandem::client

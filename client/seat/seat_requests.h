@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "common/base/axes.h"
 #include "common/base/time.h"
@@ -42,9 +43,14 @@ class SeatRequests {
     return change_authority(own_tool_, std::span{alpha}.first(masters_));
   }
 
+  /// Clears a latched gate and latched guards with the next tick.
+  void reset_gate() noexcept { reset_gate_ = true; }
+  /// Returns whether gate and guards are to be cleared now.
+  [[nodiscard]] bool take_gate_reset() noexcept { return std::exchange(reset_gate_, false); }
+
   /// Drops the requests that a newer FORCE shows as settled.
   void on_force(const wire::ForceMessage& force) noexcept TANDEM_REALTIME;
-  /// The next FORCE belongs to a new connection. Only stops persist.
+  /// The next FORCE belongs to a new connection. Only stops and a reset of the gate persist.
   void on_reconnect() noexcept TANDEM_REALTIME;
 
   /// Writes the requests that STATE carries into `out`.
@@ -72,7 +78,7 @@ class SeatRequests {
   wire::SessionState session_ = wire::SessionState::kWaiting;
   std::uint32_t stops_ = 0, authority_version_ = 0;
 
-  bool local_stop_ = false, stop_all_ = false;
+  bool local_stop_ = false, stop_all_ = false, reset_gate_ = false;
   std::optional<std::uint32_t> stops_at_request_;  ///< number of stops at the request; empty: no FORCE received since
   std::uint32_t resume_stop_ = 0;                  ///< number of the stop to end; 0: no request
   std::optional<PendingAuthority> authority_;

@@ -191,7 +191,7 @@ void press_buttons(Simulation& simulation) {
     const auto phase = seat->gate().phase();
     if (phase == control::GatePhase::kLatched || phase == control::GatePhase::kFault ||
         seat->guards().overspeed().latched() || seat->guards().overtemperature().latched())
-      seat->request_gate_reset();
+      seat->requests().reset_gate();
     const wire::SessionState session = seat->force().session;
     if (seat->guards().stuck_sensor().stuck()) {
       constexpr double kPush = 2, kPushLength = 0.05;  // [N], [s]

@@ -1,5 +1,3 @@
-#include <poll.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,10 +8,10 @@
 
 #include "client/app/commands/client_commands.h"
 #include "client/app/hardware_device.h"
+#include "client/app/interruptible_wait.h"
 #include "client/app/terminal_prompt.h"
 #include "common/base/format.h"
 #include "common/base/sanitize.h"
-#include "common/io/clock.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
 #include "common/io/print.h"
@@ -83,15 +81,10 @@ std::expected<hal::FalconCalibration::Measurement, Trouble> weigh_once(HardwareD
                                                                        hal::FalconCalibration::Load load, int signals) {
   held.observe(calibration);
   if (auto enabled = held.device().enable(); !enabled) return std::unexpected(Trouble{enabled.error().message});
-  const Time end = io::monotonic_now() + hal::FalconCalibration::length() + 5s;
-  while (!calibration.finished() && !calibration.was_lost() && io::monotonic_now() < end) {
-    pollfd file{signals, POLLIN, 0};
-    if (poll(&file, 1, 50) > 0) {
-      held.device().disable();
-      return std::unexpected(Trouble{});
-    }
-  }
+  const bool whole = wait_unless_interrupted(hal::FalconCalibration::length() + 5s, signals,
+                                             [&] { return calibration.finished() || calibration.was_lost(); });
   held.device().disable();
+  if (!whole) return std::unexpected(Trouble{});
   if (calibration.was_lost()) return std::unexpected(Trouble{"the device was unplugged"});
   auto result = calibration.measurement(load);
   if (!result) return std::unexpected(Trouble{result.error()});

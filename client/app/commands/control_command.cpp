@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "client/app/commands/client_commands.h"
-#include "client/app/commands/server_option.h"
+#include "client/app/commands/connection_options.h"
 #include "client/app/console_commands.h"
-#include "client/app/join_client.h"
 #include "common/auth/io/control_client.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
@@ -27,8 +26,8 @@ namespace {
 constexpr int kPollIntervalMs = 1000;  // between two polls of the session status
 
 struct ControlArguments {
-  TicketOption ticket;
-  std::string server, session, state, role, timeout = "5";
+  ConnectionArguments connection;
+  std::string role;
   std::vector<std::string> words;
   bool json = false;
 };
@@ -88,8 +87,8 @@ class ConsoleClient {
   [[nodiscard]] const rpc::Welcome& welcome() const { return console_.welcome; }
   [[nodiscard]] int connection() const { return console_.connection->fd(); }
 
-  /// kTold: a change of the session status was printed. kGone: the connection is lost.
-  enum class PollResult { kNothing, kTold, kGone };
+  /// kChanged: a change of the session status was printed. kGone: the connection is lost.
+  enum class PollResult { kNothing, kChanged, kGone };
   PollResult poll_status() {
     const auto answer = console_.connection->ask(rpc::StatusRequest{console_.welcome.session_id}, timeout_);
     if (!answer) return PollResult::kGone;
@@ -100,7 +99,7 @@ class ConsoleClient {
     seen_ = now;
     if (news.empty()) return PollResult::kNothing;
     say((isatty(STDIN_FILENO) == 1 ? "\n" : "") + news);  // on its own line, not after the prompt
-    return PollResult::kTold;
+    return PollResult::kChanged;
   }
 
   /// Shows the progress of a drain until the server has ended or a signal arrives. @return exit code
@@ -117,42 +116,14 @@ class ConsoleClient {
   /// True if a drain requested on this console is due, so that an end of the connection is expected.
   [[nodiscard]] bool drained() const { return drain_due_ && io::monotonic_now() >= *drain_due_; }
 
-  int execute(const ConsoleCommand& wish) {
-    const rpc::Id& id = console_.welcome.session_id;
-    switch (wish.kind) {
-      case ConsoleCommand::Kind::kStatus:
-        return show_status();
-      case ConsoleCommand::Kind::kStop:
-        return order(rpc::StopSession{id, wish.why}) ? tell_stop("STOPPED") : io::kExitTrouble;
-      case ConsoleCommand::Kind::kPause:
-        return order(rpc::PauseSession{id, wish.why}) ? tell_stop("PAUSED") : io::kExitTrouble;
-      case ConsoleCommand::Kind::kResume:
-        return resume(wish);
-      case ConsoleCommand::Kind::kAuthority:
-        return authority(wish);
-      case ConsoleCommand::Kind::kRemove:
-        if (!order(rpc::RemoveParticipant{id, wish.seat, wish.why})) return io::kExitTrouble;
-        return say(
-            wish.seat +
-            ": released; the seat is free in a moment, and that workstation cannot join again with the session's code");
-      case ConsoleCommand::Kind::kDrain: {
-        const Time due =
-            io::monotonic_now() +
-            std::chrono::seconds(wish.grace_s);  // computed before the request, so the server never ends earlier
-        if (!order(rpc::Drain{wish.grace_s})) return io::kExitTrouble;
-        if (!drain_due_ || due < *drain_due_) drain_due_ = due;
-        return say(
-            wish.grace_s == 0
-                ? std::string("draining: all hands are released, then the server ends")
-                : format("draining: new joins are rejected; all hands are released in %u s, then the server ends",
-                         wish.grace_s));
-      }
-      case ConsoleCommand::Kind::kHelp:
-        return say(console_commands_help());
-      case ConsoleCommand::Kind::kQuit:
-        return io::kExitDone;
-    }
-    return io::kExitUsage;
+  /// Executes a command. @return exit code
+  int execute(const ConsoleCommand& command) {
+    return std::visit(
+        [this](auto request) {
+          if constexpr (requires { request.session_id; }) request.session_id = welcome().session_id;
+          return run(request);
+        },
+        command);
   }
 
  private:
@@ -189,11 +160,6 @@ class ConsoleClient {
     return now;
   }
 
-  int show_status() {
-    const auto now = status();
-    return now ? say(json_ ? status_json(*now) : status_text(*now)) : io::kExitTrouble;
-  }
-
   int tell_stop(const char* what) {
     const auto now = status();
     if (!now)
@@ -201,21 +167,27 @@ class ConsoleClient {
     return say(format("%s: all hands are released; `resume %u` ends it", what, now->stops));
   }
 
-  int resume(const ConsoleCommand& wish) {
-    std::uint32_t stop = wish.stop.value_or(0);
-    if (!wish.stop) {
+  int run(const rpc::StatusRequest&) {
+    const auto now = status();
+    return now ? say(json_ ? status_json(*now) : status_text(*now)) : io::kExitTrouble;
+  }
+  int run(const rpc::StopSession& request) { return order(request) ? tell_stop("STOPPED") : io::kExitTrouble; }
+  int run(const rpc::PauseSession& request) { return order(request) ? tell_stop("PAUSED") : io::kExitTrouble; }
+
+  int run(rpc::ResumeSession request) {
+    if (request.stop == 0) {
       const auto now = status();
       if (!now) return io::kExitTrouble;
-      stop = now->stops;
+      request.stop = now->stops;
     }
-    if (!order(rpc::ResumeSession{console_.welcome.session_id, stop})) return io::kExitTrouble;
-    return say(format("RESUMED: stop %u is over", stop));
+    if (!order(request)) return io::kExitTrouble;
+    return say(format("RESUMED: stop %u is over", request.stop));
   }
 
-  int authority(const ConsoleCommand& wish) {
+  int run(const AuthorityCommand& command) {
     const auto now = status();
     if (!now) return io::kExitTrouble;
-    const auto frame = authority_frame(wish, *now);
+    const auto frame = authority_frame(command, *now);
     if (!frame) return complain(frame.error(), io::kExitUsage);
     const auto answer = ask<rpc::AuthorityReply>(*frame);
     if (!answer) return io::kExitTrouble;
@@ -225,6 +197,27 @@ class ConsoleClient {
     if (answer->applied) return say(is + "; the transfer begins in 50 ms");
     return complain("refused: another change came first. In force: " + is + ". Check it, then repeat the command");
   }
+
+  int run(const rpc::RemoveParticipant& request) {
+    if (!order(request)) return io::kExitTrouble;
+    return say(request.seat +
+               ": released; the seat is free in a moment, and that workstation cannot join again with the session's "
+               "code");
+  }
+
+  int run(const rpc::Drain& request) {
+    // Computed before the request, so the server never ends earlier.
+    const Time due = io::monotonic_now() + std::chrono::seconds(request.grace_s);
+    if (!order(request)) return io::kExitTrouble;
+    drain_due_ = std::min(due, drain_due_.value_or(due));
+    return say(request.grace_s == 0
+                   ? std::string("draining: all hands are released, then the server ends")
+                   : format("draining: new joins are rejected; all hands are released in %u s, then the server ends",
+                            request.grace_s));
+  }
+
+  int run(const HelpCommand&) { return say(console_commands_help()); }
+  int run(const QuitCommand&) { return io::kExitDone; }
 
   /// Completes the commands in the server's texts with the options of this console.
   [[nodiscard]] rpc::Status completed(rpc::Status status) const {
@@ -287,7 +280,7 @@ int converse(ConsoleClient& attendant, int signals) {
     const auto wish = parse_command(words);
     int code = io::kExitUsage;
     if (wish) {
-      if (wish->kind == ConsoleCommand::Kind::kQuit) return worst;
+      if (std::holds_alternative<QuitCommand>(*wish)) return worst;
       code = attendant.execute(*wish);
     } else {
       io::print_formatted(stderr, "tandem-client control: %s\n", wish.error().c_str());
@@ -298,9 +291,8 @@ int converse(ConsoleClient& attendant, int signals) {
 
 int control_command(const ControlArguments& arguments) {
   io::UsageErrors errors;
-  JoinOptions asking;
-  if (const auto server = server_option(arguments.server, errors)) asking.server = *server;
-  asking.timeout = from_seconds(errors.number("--timeout", arguments.timeout, 0.1, 3600, "s"));
+  JoinOptions asking = connection_of(arguments.connection, errors);
+  asking.timeout = timeout_of(arguments.connection.timeout, errors);
   std::optional<ConsoleCommand> wish;
   if (!arguments.words.empty()) {
     auto understood = parse_command(arguments.words);
@@ -310,7 +302,7 @@ int control_command(const ControlArguments& arguments) {
       errors.add(understood.error());
     }
   }
-  asking.console = wish ? role_for(wish->kind) : AccessRole::kOperator;
+  asking.console = wish ? role_for(*wish) : AccessRole::kOperator;
   if (!arguments.role.empty()) {
     const auto role = access_role_named(arguments.role);
     const bool stands =
@@ -318,14 +310,12 @@ int control_command(const ControlArguments& arguments) {
     if (!stands) errors.add("--role: \"" + arguments.role + "\" must be operator, instructor or recorder");
     if (stands) asking.console = *role;
   }
-  asking.ticket = ticket_of(arguments.ticket, errors);
+  asking.ticket = ticket_of(arguments.connection.ticket, errors);
   if (!errors.empty()) return errors.print("tandem-client control: ");
-  if (wish && wish->kind == ConsoleCommand::Kind::kHelp)
+  if (wish && std::holds_alternative<HelpCommand>(*wish))
     return std::fputs(console_commands_help(), stdout) < 0 ? io::kExitTrouble : io::kExitDone;
-  if (wish && wish->kind == ConsoleCommand::Kind::kQuit) return io::kExitDone;
+  if (wish && std::holds_alternative<QuitCommand>(*wish)) return io::kExitDone;
   const io::Fd signals = io::make_signalfd();
-  asking.session = arguments.session;
-  asking.state = arguments.state;
   asking.signals = signals.get();
   auto console = join_console(asking);
   if (!console) {
@@ -335,8 +325,8 @@ int control_command(const ControlArguments& arguments) {
   ConsoleClient attendant(std::move(*console), asking, arguments.json);
   if (!wish) return converse(attendant, signals.get());
   const int code = attendant.execute(*wish);
-  return code == io::kExitDone && wish->kind == ConsoleCommand::Kind::kDrain ? attendant.follow_drain(signals.get())
-                                                                             : code;
+  const bool drains = code == io::kExitDone && std::holds_alternative<rpc::Drain>(*wish);
+  return drains ? attendant.follow_drain(signals.get()) : code;
 }
 
 }  // namespace
@@ -345,27 +335,18 @@ void add_control_command(const io::Command& root) {
   const auto [command, arguments] = root.add_command(
       "control", "Operates a session from a console: stops, resumes, moves authority, removes clients.",
       control_command);
-  command.add_option("--server", arguments.server, "required: the address that tandem-server prints as `listening on`")
-      .value_name("HOST:PORT")
-      .required();
-  command
-      .add_option("--session", arguments.session,
-                  "name, code or id of the session; default: the ticket's, or the only one there")
-      .value_name("NAME|CODE|ID");
-  add_ticket_options(command, arguments.ticket,
+  add_server_option(command, arguments.connection);
+  add_session_option(command, arguments.connection,
+                     "name, code or id of the session; default: the ticket's, or the only one there");
+  add_ticket_options(command, arguments.connection.ticket,
                      "ticket printed by `tandem-server ticket --role operator`; not needed with a loopback server with "
                      "ephemeral keys");
   command
       .add_option("--role", arguments.role,
                   "without a ticket: operator, instructor or recorder; default: operator, for `authority` instructor")
       .value_name("ROLE");
-  command
-      .add_option("--state", arguments.state,
-                  "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      .value_name("DIR");
-  command
-      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
-      .value_name("S");
+  add_state_option(command, arguments.connection.state);
+  add_timeout_option(command, arguments.connection.timeout);
   command.add_flag("--json", arguments.json, "status for machines");
   command
       .add_option("COMMAND", arguments.words,

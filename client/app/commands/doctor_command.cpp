@@ -1,4 +1,3 @@
-#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,8 +9,10 @@
 #include <optional>
 
 #include "client/app/commands/client_commands.h"
+#include "client/app/commands/connection_options.h"
 #include "client/app/device_list.h"
 #include "client/app/hardware_device.h"
+#include "client/app/interruptible_wait.h"
 #include "client/app/motor_confirmation.h"
 #include "client/diagnostics/device_diagnostics.h"
 #include "common/io/clock.h"
@@ -36,10 +37,7 @@ struct DoctorArguments {
   bool force_test = false, confirm = false, install = false, watch = false;
 };
 
-void print(const DeviceDiagnostics::Finding& finding) {
-  static constexpr const char* kMarks[] = {"  ok      ", "  notice  ", "  TROUBLE "};
-  io::print_formatted(stdout, "%s%s\n", kMarks[static_cast<std::size_t>(finding.kind)], finding.text.c_str());
-}
+void print(const DeviceDiagnostics::Finding& finding) { io::print(stdout, finding_line(finding)); }
 
 void print(const hal::DeviceFact& fact) { io::print(stdout, fact_line(fact)); }
 
@@ -90,16 +88,6 @@ class DiagnosticsClient final : public hal::ServoClient {
   std::uint64_t seq_ = 0;
 };
 
-/// Waits for `time` or until `enough()`. @return false if a signal arrived
-bool wait(Duration time, int signals, const std::function<bool()>& enough) {
-  const Time end = io::monotonic_now() + time;
-  while (io::monotonic_now() < end && !enough()) {
-    pollfd file{signals, POLLIN, 0};
-    if (poll(&file, 1, 20) > 0) return false;
-  }
-  return true;
-}
-
 int diagnose(const DoctorArguments& arguments, double seconds) {
   const io::Fd signals = io::make_signalfd();
   io::StatusLine line{false};
@@ -118,7 +106,7 @@ int diagnose(const DoctorArguments& arguments, double seconds) {
   std::fflush(stdout);
   const Time begin = io::monotonic_now();
   (*held)->observe(client);
-  bool whole = wait(from_seconds(seconds), signals.get(), [&] { return client.was_lost(); });
+  bool whole = wait_unless_interrupted(from_seconds(seconds), signals.get(), [&] { return client.was_lost(); });
   const double watched = tandem::seconds(io::monotonic_now() - begin);
   client.end_watch();
   const hal::DeviceStats stats = device.stats();
@@ -134,9 +122,10 @@ int diagnose(const DoctorArguments& arguments, double seconds) {
     if (auto ok = device.enable(); !ok) {
       findings.push_back({Kind::kTrouble, "force test: " + ok.error().message});
     } else {
-      whole = wait(1s, signals.get(), [&] { return client.was_lost(); });
+      whole = wait_unless_interrupted(1s, signals.get(), [&] { return client.was_lost(); });
       client.push();
-      whole = whole && wait(10s, signals.get(), [&] { return client.pushed() || client.was_lost(); });
+      whole =
+          whole && wait_unless_interrupted(10s, signals.get(), [&] { return client.pushed() || client.was_lost(); });
       device.disable();
     }
   }
@@ -202,7 +191,7 @@ int watch_hotplug() {
                           describe(change.device).c_str());
       std::fflush(stdout);
     }
-  } while (wait(1ms, signals.get(), [] { return false; }));
+  } while (wait_unless_interrupted(1ms, signals.get(), [] { return false; }));
   return 0;
 }
 
@@ -288,10 +277,7 @@ void add_doctor_command(const io::Command& root) {
       "--confirm-motors", arguments.confirm,
       "asks you, then sends each motor pulses of at most 30 ms and checks whether it pushes in the direction that the "
       "device's file states; before this check, a device whose directions come from a file gives no force");
-  command
-      .add_option("--state", arguments.state,
-                  "folder with the record of confirmed motors; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      .value_name("DIR");
+  add_state_option(command, arguments.state, "folder with the record of confirmed motors");
   command.add_flag("--watch", arguments.watch,
                    "reports devices that are plugged in and out, on USB and among HID devices");
   command.add_flag("--install-udev", arguments.install,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "client/app/commands/client_commands.h"
+#include "client/app/commands/connection_options.h"
 #include "common/auth/enrolment.h"
 #include "common/auth/io/client_keystore.h"
 #include "common/auth/io/control_client.h"
@@ -38,14 +39,14 @@ int enrol(const auth::EnrolmentString& given, const io::SocketAddress& server, c
                            "answers there, or the server was set up again: ask for a new string");
   };
   auto client = auth::ControlClient::connect(server, judge, timeout, signals.get());
-  const auto told = [](const auth::ClientError& fault) {
+  const auto failed = [](const auth::ClientError& fault) {
     return enroll_trouble(fault.kind == auth::ClientError::Kind::kInterrupted
-                              ? "ended by Ctrl-C; the string may still be valid"
-                              : fault.text);
+                       ? "ended by Ctrl-C; the string may still be valid"
+                       : fault.text);
   };
-  if (!client) return told(client.error());
+  if (!client) return failed(client.error());
   const auto answer = client->ask(rpc::Enroll{given.code}, timeout);
-  if (!answer) return told(answer.error());
+  if (!answer) return failed(answer.error());
   if (const auto* refused = std::get_if<rpc::ErrorReply>(&*answer)) return enroll_trouble("refused: " + refused->text);
   const auto* taken = std::get_if<rpc::EnrollAck>(&*answer);
   if (taken == nullptr) return enroll_trouble("unexpected reply from the server; use the same release on both");
@@ -71,11 +72,11 @@ int enroll_command(const EnrollArguments& arguments) {
   } else if (server = io::parse_address(given->address, 1); !server) {
     errors.add("STRING: its server " + server.error());
   }
-  const double timeout_s = errors.number("--timeout", arguments.timeout, 0.1, 3600, "s");
+  const Duration timeout = timeout_of(arguments.timeout, errors);
   const auto state = auth::client_state_path(arguments.state);
   if (!state) errors.add(state.error());
   if (errors.empty())
-    return enrol(*given, *server, *state, std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * timeout_s)));
+    return enrol(*given, *server, *state, std::chrono::duration_cast<std::chrono::milliseconds>(timeout));
   return errors.report("tandem-client enroll", "nothing was sent");
 }
 
@@ -91,11 +92,8 @@ void add_enroll_command(const io::Command& root) {
                   "in no list of processes")
       .value_name(" ")
       .required();
-  command
-      .add_option("--state", arguments.state,
-                  "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      .value_name("DIR");
-  command.add_option("--timeout", arguments.timeout, "how long to wait for the server [s]; default 5").value_name("S");
+  add_state_option(command, arguments.state);
+  add_timeout_option(command, arguments.timeout, "how long to wait for the server [s]; default 5");
   command.footer(
       "Creates the workstation's key if there is none yet; it never leaves the folder. The server must run, and must "
       "have the key that the\n"

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "client/app/commands/client_commands.h"
-#include "client/app/commands/server_option.h"
+#include "client/app/commands/connection_options.h"
 #include "client/app/hardware_device.h"
 #include "client/app/run_seat.h"
 #include "common/io/command_line.h"
@@ -20,8 +20,8 @@ namespace {
 
 /// Arguments as typed. Numbers remain text until parse_command, so that all errors are reported together.
 struct JoinArguments {
-  TicketOption ticket;
-  std::string server, session, state, seat, device, script, trace, json, duration, timeout = "5", rejoin = "60";
+  ConnectionArguments connection;
+  std::string seat, device, script, trace, json, duration, reconnect_timeout = "60";
   bool quiet = false;
 };
 
@@ -34,14 +34,16 @@ void check_files(const JoinArguments& arguments, io::UsageErrors& errors) {
 
 /// Returns the options, and adds all errors.
 SeatOptions parse_command(const JoinArguments& arguments, io::UsageErrors& errors) {
-  SeatOptions plan;
-  if (const auto server = server_option(arguments.server, errors)) plan.server = *server;
+  SeatOptions plan{
+      .device = arguments.device, .trace = arguments.trace, .json = arguments.json, .quiet = arguments.quiet};
+  plan.join = connection_of(arguments.connection, errors);
+  plan.join.seat = arguments.seat;
   if (arguments.seat.empty() || arguments.seat.size() > wire::kSeatNameMax)
     errors.add("--seat: a name has 1 to 32 characters");
   if (HardwareDevice::is_hardware_spec(arguments.device)) {
     errors.add(HardwareDevice::spec_errors(arguments.device));
   } else if (const auto device = hal::open_sim_device(arguments.device, SimDeviceSpec{}, HandSpec{})) {
-    plan.caps = known_caps(device->device->caps());
+    plan.join.caps = known_caps(device->device->caps());
   } else {
     std::istringstream lines(device.error().message);
     for (std::string line; std::getline(lines, line);)
@@ -60,16 +62,9 @@ SeatOptions parse_command(const JoinArguments& arguments, io::UsageErrors& error
   }
   check_files(arguments, errors);
   plan.duration_s = errors.optional_number("--duration", arguments.duration, 0.1, 3e6, "s");
-  plan.timeout_s = errors.optional_number("--timeout", arguments.timeout, 0.1, 3600, "s");
-  plan.reconnect_timeout_s = errors.optional_number("--reconnect-timeout", arguments.rejoin, 0, 600, "s");
-  plan.seat = arguments.seat;
-  plan.session = arguments.session;
-  plan.ticket = ticket_of(arguments.ticket, errors);
-  plan.state = arguments.state;
-  plan.device = arguments.device;
-  plan.trace = arguments.trace;
-  plan.json = arguments.json;
-  plan.quiet = arguments.quiet;
+  plan.join.timeout = from_seconds(errors.optional_number("--timeout", arguments.connection.timeout, 0.1, 3600, "s"));
+  plan.reconnect_timeout_s = errors.optional_number("--reconnect-timeout", arguments.reconnect_timeout, 0, 600, "s");
+  plan.join.ticket = ticket_of(arguments.connection.ticket, errors);
   return plan;
 }
 
@@ -84,10 +79,12 @@ int join_command(const JoinArguments& arguments) {
 void add_join_command(const io::Command& root) {
   const auto [command, arguments] =
       root.add_command("join", "Attaches one device to one seat of a session.", join_command);
-  command.add_option("--server", arguments.server, "required: the address that tandem-server prints as `listening on`")
-      .value_name("HOST:PORT")
-      .required();
-  add_joining_options(command, arguments.session, &arguments.ticket, arguments.state);
+  add_server_option(command, arguments.connection);
+  add_session_option(command, arguments.connection);
+  add_ticket_options(command, arguments.connection.ticket,
+                     "ticket that `tandem-server ticket` printed for this workstation; not needed with a session's "
+                     "code, or with a loopback server with ephemeral keys");
+  add_state_option(command, arguments.connection.state);
   command.add_option("--seat", arguments.seat, "required: which seat of the scene; the server prints their names")
       .value_name("NAME")
       .required();
@@ -111,12 +108,10 @@ void add_join_command(const io::Command& root) {
       .add_option("--duration", arguments.duration,
                   "leaves after this many seconds at the seat; default: stays to the end")
       .value_name("S");
-  command
-      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
-      .value_name("S");
+  add_timeout_option(command, arguments.connection.timeout);
   command
       .add_option(
-          "--reconnect-timeout", arguments.rejoin,
+          "--reconnect-timeout", arguments.reconnect_timeout,
           "how long to try to reconnect to the seat after the server fell silent or ended, or the network changed [s]; "
           "default 60, at most 600; 0: no attempt, and a silence of 60 s counts as a lost server. A server ends a "
           "session after the same 60 s without data from any client. Your hand is free meanwhile")

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/app/commands/client_commands.h"
-#include "client/app/commands/server_option.h"
-#include "client/app/join_client.h"
+#include "client/app/commands/connection_options.h"
 #include "client/diagnostics/link_verdict.h"
 #include "common/base/format.h"
 #include "common/io/clock.h"
@@ -33,7 +32,8 @@ constexpr Duration kRefusedMax = 1s;  // the same after ECONNREFUSED
 constexpr int kRounds = 4;
 
 struct LinkTestArguments {
-  std::string server, session, state, json, duration = "10", timeout = "5";
+  ConnectionArguments connection;
+  std::string json, duration = "10";
   bool quiet = false;
 };
 
@@ -138,34 +138,35 @@ Json way(const std::optional<LinkTestResult::Direction>& w) {
           {"longest_gap_ms", 1e3 * w->longest_gap}};
 }
 
+/// @param ended_by  reason of the end  @param complete  the test ran to its end and the server was present until then
 std::string to_json(const LinkTestResult& f, const LinkVerdict& verdict, const std::string& server,
                     const char* ended_by, bool complete) {
-  Json j;
-  j["server"] = server;
-  j["verdict"] = to_text(verdict.grade);
-  j["words"] = verdict.text;
-  j["advice"] = verdict.advice;
-  j["complete"] = complete;  // ran to its end and the server was present until then
-  j["ended_by"] = ended_by;
-  j["duration_s"] = f.seconds;
-  j["rate_hz"] = f.tick_hz;
-  j["rtt_min_ms"] = milliseconds(f.rtt_min);
-  j["rtt_p50_ms"] = milliseconds(f.rtt_p50);
-  j["rtt_p99_ms"] = milliseconds(f.rtt_p99);
-  j["rtt_max_ms"] = milliseconds(f.rtt_max);
-  j["jitter_p99_ms"] = milliseconds(f.jitter);
-  j["up"] = way(f.up);
-  j["down"] = way(f.down);
-  j["duplicates"] = f.duplicates;
-  j["refused"] = f.refused;
-  j["pauses"] = f.pauses;
-  j["clock_step_ms"] = milliseconds(f.clock_step);
-  j["transit_step_ms"] = milliseconds(f.transit_step);
-  j["machine"] = {{"ticks", f.ticks},
-                  {"late_ticks", f.late_ticks},
-                  {"missed_ticks", f.missed_ticks},
-                  {"wake_p99_ms", 1e3 * f.wake_p99},
-                  {"wake_max_ms", 1e3 * f.wake_max}};
+  const Json j = {{"server", server},
+                  {"verdict", to_text(verdict.grade)},
+                  {"words", verdict.text},
+                  {"advice", verdict.advice},
+                  {"complete", complete},
+                  {"ended_by", ended_by},
+                  {"duration_s", f.seconds},
+                  {"rate_hz", f.tick_hz},
+                  {"rtt_min_ms", milliseconds(f.rtt_min)},
+                  {"rtt_p50_ms", milliseconds(f.rtt_p50)},
+                  {"rtt_p99_ms", milliseconds(f.rtt_p99)},
+                  {"rtt_max_ms", milliseconds(f.rtt_max)},
+                  {"jitter_p99_ms", milliseconds(f.jitter)},
+                  {"up", way(f.up)},
+                  {"down", way(f.down)},
+                  {"duplicates", f.duplicates},
+                  {"refused", f.refused},
+                  {"pauses", f.pauses},
+                  {"clock_step_ms", milliseconds(f.clock_step)},
+                  {"transit_step_ms", milliseconds(f.transit_step)},
+                  {"machine",
+                   {{"ticks", f.ticks},
+                    {"late_ticks", f.late_ticks},
+                    {"missed_ticks", f.missed_ticks},
+                    {"wake_p99_ms", 1e3 * f.wake_p99},
+                    {"wake_max_ms", 1e3 * f.wake_max}}}};
   return j.dump(2) + "\n";
 }
 
@@ -194,18 +195,17 @@ int link_test_trouble(const std::string& what, int code = io::kExitTrouble) {
   return code;
 }
 
-int test_link(const LinkTestArguments& arguments, const io::SocketAddress& address, double duration_s,
-              double timeout_s) {
+/// Runs the test. @param options  without device and signals  @return exit code
+int test_link(const LinkTestArguments& arguments, JoinOptions options, double duration_s) {
   const io::Fd signals = io::make_signalfd();
   io::OutputFile json;
   if (const auto problem = json.open(arguments.json, true); !problem.empty())
     return link_test_trouble("--json: " + problem, io::kExitUsage);
-  const std::string server = io::to_text(address);
-  hal::DeviceCaps nobody;  // a link-test peer has no device, but Hello requires plausible capabilities
-  nobody.joints = nobody.tip_axes = 1;
-  nobody.simulated = true;
-  const auto given =
-      join_seat({address, {}, arguments.session, {}, arguments.state, nobody, from_seconds(timeout_s), signals.get()});
+  // A link-test peer has no device, but Hello requires plausible capabilities.
+  options.caps.joints = options.caps.tip_axes = 1;
+  options.caps.simulated = true;
+  options.signals = signals.get();
+  const auto given = join_seat(options);
   if (!given) return given.error().interrupted ? 0 : link_test_trouble(given.error().reason);
   auto socket = io::connect_udp(given->udp);
   if (!socket) return link_test_trouble("--server: " + socket.error());
@@ -237,7 +237,7 @@ int test_link(const LinkTestArguments& arguments, const io::SocketAddress& addre
       text += "- " + notice + "\n";
     std::fputs(io::wrap_for_terminal(text, stdout).c_str(), stdout);
   }
-  json.write(to_json(findings, verdict, server, to_text(ended), ended == Ended::kDone));
+  json.write(to_json(findings, verdict, io::to_text(options.server), to_text(ended), ended == Ended::kDone));
   if (const auto problem = json.close(); !problem.empty()) return link_test_trouble(problem);
   if (ended == Ended::kInterrupted) return 0;
   return verdict.grade == LinkGrade::kBad || ended != Ended::kDone ? io::kExitTrouble : 0;
@@ -245,11 +245,11 @@ int test_link(const LinkTestArguments& arguments, const io::SocketAddress& addre
 
 int link_test_command(const LinkTestArguments& arguments) {
   io::UsageErrors errors;
-  const auto server = server_option(arguments.server, errors);
+  JoinOptions options = connection_of(arguments.connection, errors);
   const double duration = errors.number("--duration", arguments.duration, 1, 3600, "s");
-  const double timeout = errors.number("--timeout", arguments.timeout, 0.1, 3600, "s");
+  options.timeout = timeout_of(arguments.connection.timeout, errors);
   errors.output_file("--json", arguments.json);
-  if (errors.empty()) return test_link(arguments, *server, duration, timeout);
+  if (errors.empty()) return test_link(arguments, std::move(options), duration);
   return errors.report("tandem-client link-test");
 }
 
@@ -260,16 +260,13 @@ void add_link_test_command(const io::Command& root) {
       "link-test",
       "Judges the network to a running server, without taking a seat: delay, jitter, loss, order, gaps, clocks.",
       link_test_command);
-  command.add_option("--server", arguments.server, "required: address the server printed")
-      .value_name("HOST:PORT")
-      .required();
-  add_joining_options(command, arguments.session, nullptr, arguments.state);
+  add_server_option(command, arguments.connection, "required: address the server printed");
+  add_session_option(command, arguments.connection);
+  add_state_option(command, arguments.connection.state);
   command.add_option("--duration", arguments.duration, "how long [s], 1 to 3600; default 10").value_name("S");
   command.add_option("--json", arguments.json, "writes all findings; `-`: to standard output, instead of the text")
       .value_name("FILE|-");
-  command
-      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
-      .value_name("S");
+  add_timeout_option(command, arguments.connection.timeout);
   command.add_flag("--quiet", arguments.quiet, "no status");
   command.footer(
       "Sends and receives the datagrams of a hand, at the scene's rate, beside a session that runs or waits; no "

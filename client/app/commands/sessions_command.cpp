@@ -3,8 +3,7 @@
 #include <vector>
 
 #include "client/app/commands/client_commands.h"
-#include "client/app/commands/server_option.h"
-#include "client/app/join_client.h"
+#include "client/app/commands/connection_options.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
 #include "common/io/print.h"
@@ -16,18 +15,16 @@ namespace tandem::client {
 namespace {
 
 struct SessionsArguments {
-  std::string server, state, timeout = "5";
+  ConnectionArguments connection;
   bool json = false;
 };
 
 int sessions_command(const SessionsArguments& arguments) {
   io::UsageErrors errors;
-  JoinOptions asking;
-  if (const auto server = server_option(arguments.server, errors)) asking.server = *server;
-  asking.timeout = from_seconds(errors.number("--timeout", arguments.timeout, 0.1, 3600, "s"));
+  JoinOptions asking = connection_of(arguments.connection, errors);
+  asking.timeout = timeout_of(arguments.connection.timeout, errors);
   if (!errors.empty()) return errors.print("");
   const io::Fd signals = io::make_signalfd();
-  asking.state = arguments.state;
   asking.signals = signals.get();
   const auto list = list_sessions(asking);
   if (!list) {
@@ -43,16 +40,9 @@ int sessions_command(const SessionsArguments& arguments) {
 void add_sessions_command(const io::Command& root) {
   const auto [command, arguments] = root.add_command(
       "sessions", "Lists the sessions of a server: phases, seats free and taken, roles.", sessions_command);
-  command.add_option("--server", arguments.server, "required: the address that tandem-server prints as `listening on`")
-      .value_name("HOST:PORT")
-      .required();
-  command
-      .add_option("--state", arguments.state,
-                  "folder of this workstation's key; default: $TANDEM_CLIENT_STATE, else ~/.config/tandem")
-      .value_name("DIR");
-  command
-      .add_option("--timeout", arguments.timeout, "how long to wait for a server that does not answer [s]; default 5")
-      .value_name("S");
+  add_server_option(command, arguments.connection);
+  add_state_option(command, arguments.connection.state);
+  add_timeout_option(command, arguments.connection.timeout);
   command.add_flag("--json", arguments.json, "for machines");
   command.footer(
       "The workstation must be enrolled there; with a loopback server with ephemeral keys it need not. Exit: 0 done; 1 "

@@ -6,8 +6,7 @@
 #include "client/app/child_program.h"
 #include "client/app/commands/client_commands.h"
 #include "client/app/run_seat.h"
-#include "client/app/seat_observer.h"
-#include "client/app/tutorial.h"
+#include "client/app/try_session.h"
 #include "common/base/suggestions.h"
 #include "common/io/command_line.h"
 #include "common/io/exit_code.h"
@@ -24,49 +23,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kServerStarts = 20s;
-constexpr double kAfterTutorial = 2;  // [s] time after the tutorial until a trial without terminal ends
 
 struct TryArguments {
   std::string scene = "lesson", seat, duration;
-};
-
-/// The child processes of a trial, and the tutorial for the user.
-class TrySession final : public SeatObserver {
- public:
-  TrySession(bool by_keys, std::vector<std::string> partners) : by_keys_(by_keys), partners_(std::move(partners)) {}
-
-  void add(ChildProgram child) { children_.push_back(std::move(child)); }
-  /// Ends the partners before the server, so that each can leave its seat cleanly.
-  void stop() noexcept {
-    while (!children_.empty()) children_.pop_back();
-  }
-
-  void on_joined(const SeatSetup& setup) override { tutorial_.emplace(setup, by_keys_, partners_); }
-  void on_key(const std::string& key) override { tutorial_->on_key(key); }
-  [[nodiscard]] std::vector<std::string> messages(double now_s, const ClientStatus& status) override {
-    std::vector<std::string> lines = tutorial_->messages(now_s, status);
-    if (tutorial_->finished() && !tutorial_over_since_) tutorial_over_since_ = now_s;
-    over_ = !by_keys_ && ends_by_itself && tutorial_over_since_ && now_s - *tutorial_over_since_ > kAfterTutorial;
-    return lines;
-  }
-  [[nodiscard]] std::string leave_reason() override {
-    for (ChildProgram& child : children_)
-      if (child.failed()) {
-        failed = child.name() + " ended by itself" + (child.last_output().empty() ? "" : ": " + child.last_output());
-        return failed;
-      }
-    return over_ ? "the guidance is over: releasing the hand" : "";
-  }
-
-  bool ends_by_itself = false;
-  std::string failed;  ///< why the trial ended early; empty: it did not
-
- private:
-  bool by_keys_, over_ = false;
-  std::vector<std::string> partners_;
-  std::vector<ChildProgram> children_;  ///< server at index 0, then the partners
-  std::optional<Tutorial> tutorial_;
-  std::optional<double> tutorial_over_since_;
 };
 
 int try_trouble(const std::string& what, int code = io::kExitTrouble) {
@@ -108,8 +67,7 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
   std::vector<std::string> partners;
   for (const SeatSpec& s : scene.seats)
     if (&s != &own && s.required) partners.push_back(s.name);
-  TrySession trial{by_keys, partners};
-  trial.ends_by_itself = duration_s <= 0;
+  TrySession trial{by_keys, duration_s <= 0, partners};
 
   auto server =
       ChildProgram::start("the server", {server_path, "run", scene_text, "--listen", "127.0.0.1:0", "--quiet"});
@@ -117,8 +75,7 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
   const auto address = server->wait_for_line("listening on ", kServerStarts, signals.get());
   if (!address) {
     if (!io::pending_signal().empty()) return 0;
-    return try_trouble("the server did not start" +
-                       (server->last_output().empty() ? "" : ": " + server->last_output()));
+    return try_trouble("the server did not start" + (server->last_output().empty() ? "" : ": " + server->last_output()));
   }
   trial.add(std::move(*server));
   for (const std::string& partner : partners) {
@@ -129,16 +86,13 @@ int try_scene(const SceneSpec& scene, const std::string& scene_text, const SeatS
     trial.add(std::move(*child));
   }
 
-  SeatOptions plan;
-  plan.server = *io::parse_address(*address, 0);
-  plan.seat = own.name;
-  plan.device = by_keys ? "sim:keyboard" : "sim";
-  plan.caps = known_caps((*hal::open_sim_device(plan.device, SimDeviceSpec{}, HandSpec{})).device->caps());
-  plan.duration_s = duration_s;
-  plan.observer = &trial;
+  SeatOptions plan{.device = by_keys ? "sim:keyboard" : "sim", .duration_s = duration_s, .observer = &trial};
+  plan.join.server = *io::parse_address(*address, 0);
+  plan.join.seat = own.name;
+  plan.join.caps = known_caps((*hal::open_sim_device(plan.device, SimDeviceSpec{}, HandSpec{})).device->caps());
   const int code = run_seat(plan);
   trial.stop();
-  if (!trial.failed.empty()) return try_trouble(trial.failed);
+  if (!trial.failure().empty()) return try_trouble(trial.failure());
   io::print_formatted(stderr, "the server and the simulated hands were ended as well\n");
   return code;
 }

@@ -22,8 +22,8 @@ SeatSetup setup() {
 }
 
 /// Three masters may have authority over the tool; the texts are those of the seat `trainee`.
-struct Told {
-  Told() : seat(setup()) {
+struct ScreenTexts {
+  ScreenTexts() : seat(setup()) {
     seat.masters = {"trainer", "trainee", "second"};
     seat.own_master = 1;
     s.session = wire::SessionState::kRunning;
@@ -45,7 +45,7 @@ struct Told {
 };
 
 TEST(AuthorityTransfer, ReportsGiverReceiverShareStartAndDuration) {
-  Told said;
+  ScreenTexts said;
   EXPECT_EQ(said({.by = wire::TransferParties::kScene, .to = 2, .percent = 100}),
             "the scene gives the tool to trainee (0 % to 100 %): begins in 50 ms, takes about 1.0 s");
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
@@ -67,7 +67,7 @@ TEST(AuthorityTransfer, ReportsGiverReceiverShareStartAndDuration) {
 }
 
 TEST(AuthorityTransfer, ReportsAnotherSeatsPreviousShareOnlyWhereKnown) {
-  Told said;
+  ScreenTexts said;
   said.s.transfer.notice = wire::TransferNotice::kLosing;
   EXPECT_EQ(said({.by = 1, .to = 1, .percent = 100}, 0.75),
             "trainer takes the tool (25 % to 100 %): begins in 50 ms, takes about 0.8 s");
@@ -97,7 +97,7 @@ TEST(AuthorityTransfer, ReportsAnotherSeatsPreviousShareOnlyWhereKnown) {
 }
 
 TEST(AuthorityTransfer, LastsUntilTheAuthorityIsConstant) {
-  Told said;
+  ScreenTexts said;
   said.s.transfer.begins_s = 0;
   EXPECT_EQ(said({.by = 1, .to = 2, .percent = 100}),
             "trainer gives the tool to trainee (0 % to 100 %): under way, takes about 1.0 s");
@@ -120,12 +120,12 @@ TEST(AuthorityTransfer, LastsUntilTheAuthorityIsConstant) {
 
 /// A held key: `a` repeats every 0.1 s, and the server announces each step.
 TEST(AuthorityTransfer, ReportsConsecutiveStepsAsOneCompleteSum) {
-  Told at;
+  ScreenTexts at;
   at.seat.own_master = 0;  // the trainer's own screen
   at.seat.seat.name = "trainer";
   at.s.transfer.notice = wire::TransferNotice::kLosing;
   AuthorityTransferNotices notes;
-  std::string told;
+  std::string lines;
   double alpha = 1;
   for (int ms = 0; ms <= 4000; ms += 50) {
     const bool pressed = ms % 100 == 0 && ms < 1500;  // 15 steps
@@ -138,16 +138,16 @@ TEST(AuthorityTransfer, ReportsConsecutiveStepsAsOneCompleteSum) {
     at.s.transfer.begins_s = pressed ? 0.05 : 0;
     at.s.transfer.done = ms > 1600;
     if (ms > 2600) at.s.transfer.notice = wire::TransferNotice::kNone;
-    if (const std::string line = notes.message(1e-3 * ms, at.s, at.seat, at.words); !line.empty()) told += line + "\n";
+    if (const std::string line = notes.message(1e-3 * ms, at.s, at.seat, at.words); !line.empty()) lines += line + "\n";
   }
-  EXPECT_EQ(told,
+  EXPECT_EQ(lines,
             "trainer gives more of the tool to trainee (0 % to 5 %): begins in 50 ms, takes about 0.05 s\n"
             "trainer gives more of the tool to trainee (5 % to 55 %): begins in 50 ms, takes about 0.5 s\n"
             "trainer gives more of the tool to trainee (55 % to 75 %): done\n");
 }
 
 TEST(AuthorityTransfer, ReportsTheLastStepAfterItsNoticeHasEnded) {
-  Told at;
+  ScreenTexts at;
   AuthorityTransferNotices notes;
   at.s.transfer.count = 1;
   at.s.transfer.parties = {.by = 1, .to = 2, .percent = 10};

@@ -13,6 +13,12 @@ std::string problem(const Words& words) {
   return wish ? "" : wish.error();
 }
 
+/// Parses a command of this type. A wrong command or type throws, which fails the test.
+template <class Command>
+Command parsed(const Words& words) {
+  return std::get<Command>(parse_command(words).value());
+}
+
 rpc::Status lesson() {
   rpc::Status s;
   s.session_id[0] = std::byte{0xab};
@@ -30,22 +36,22 @@ rpc::Status lesson() {
 }
 
 TEST(ConsoleCommands, ParseEveryCommand) {
-  EXPECT_EQ(parse_command(Words{"status"})->kind, ConsoleCommand::Kind::kStatus);
-  EXPECT_EQ(parse_command(Words{"stop", "in", "the", "way"})->why, "in the way");
-  EXPECT_EQ(parse_command(Words{"pause"})->kind, ConsoleCommand::Kind::kPause);
-  EXPECT_EQ(parse_command(Words{"pause", "my", "hand"})->why, "my hand");
-  EXPECT_FALSE(parse_command(Words{"resume"})->stop);
-  EXPECT_EQ(parse_command(Words{"resume", "4"})->stop, 4U);
-  const auto authority = parse_command(Words{"authority", "a=0.25,b=0.75", "version=3", "tool=drill"});
-  ASSERT_TRUE(authority) << authority.error();
-  EXPECT_EQ(authority->weights, (std::vector<std::pair<std::string, double>>{{"a", 0.25}, {"b", 0.75}}));
-  EXPECT_EQ(authority->version, 3U);
-  EXPECT_EQ(authority->tool, "drill");
-  EXPECT_EQ(parse_command(Words{"remove", "trainee", "rude"})->seat, "trainee");
-  EXPECT_EQ(parse_command(Words{"remove", "trainee", "rude"})->why, "rude");
-  EXPECT_EQ(parse_command(Words{"drain"})->grace_s, 0U);
-  EXPECT_EQ(parse_command(Words{"drain", "3600"})->grace_s, 3600U);
-  EXPECT_EQ(parse_command(Words{"quit"})->kind, ConsoleCommand::Kind::kQuit);
+  EXPECT_TRUE(std::holds_alternative<rpc::StatusRequest>(*parse_command(Words{"status"})));
+  EXPECT_EQ(parsed<rpc::StopSession>({"stop", "in", "the", "way"}), (rpc::StopSession{{}, "in the way"}));
+  EXPECT_EQ(parsed<rpc::PauseSession>({"pause"}), rpc::PauseSession{});
+  EXPECT_EQ(parsed<rpc::PauseSession>({"pause", "my", "hand"}), (rpc::PauseSession{{}, "my hand"}));
+  EXPECT_EQ(parsed<rpc::ResumeSession>({"resume"}).stop, 0U) << "the present stop";
+  EXPECT_EQ(parsed<rpc::ResumeSession>({"resume", "4"}).stop, 4U);
+  const auto authority = parsed<AuthorityCommand>({"authority", "a=0.25,b=0.75", "version=3", "tool=drill"});
+  EXPECT_EQ(authority.weights, (std::vector<std::pair<std::string, double>>{{"a", 0.25}, {"b", 0.75}}));
+  EXPECT_EQ(authority.version, 3U);
+  EXPECT_EQ(authority.tool, "drill");
+  EXPECT_EQ(parsed<rpc::RemoveParticipant>({"remove", "trainee", "rude"}),
+            (rpc::RemoveParticipant{{}, "trainee", "rude"}));
+  EXPECT_EQ(parsed<rpc::Drain>({"drain"}).grace_s, 0U);
+  EXPECT_EQ(parsed<rpc::Drain>({"drain", "3600"}).grace_s, 3600U);
+  EXPECT_TRUE(std::holds_alternative<HelpCommand>(*parse_command(Words{"help"})));
+  EXPECT_TRUE(std::holds_alternative<QuitCommand>(*parse_command(Words{"quit"})));
 }
 
 TEST(ConsoleCommands, ReportTheExpectedInputForEachMistake) {
@@ -82,32 +88,34 @@ TEST(ConsoleCommands, ReportTheExpectedInputForEachMistake) {
 }
 
 TEST(ConsoleCommands, RequestTheLeastSufficientRole) {
-  for (const auto what : {ConsoleCommand::Kind::kStatus, ConsoleCommand::Kind::kStop, ConsoleCommand::Kind::kPause,
-                          ConsoleCommand::Kind::kResume, ConsoleCommand::Kind::kRemove, ConsoleCommand::Kind::kDrain})
-    EXPECT_EQ(role_for(what), AccessRole::kOperator);
-  EXPECT_EQ(role_for(ConsoleCommand::Kind::kAuthority), AccessRole::kInstructor);
+  for (const Words& words : {Words{"status"}, {"stop"}, {"pause"}, {"resume"}, {"remove", "trainee"}, {"drain"}})
+    EXPECT_EQ(role_for(*parse_command(words)), AccessRole::kOperator) << words.front();
+  EXPECT_EQ(role_for(*parse_command(Words{"authority", "a=1"})), AccessRole::kInstructor);
 }
 
 TEST(ConsoleCommands, SetAuthorityAgainstTheStatusVersionShown) {
   const rpc::Status now = lesson();
-  const auto frame = authority_frame(*parse_command(Words{"authority", "trainee=1"}), now);
+  const auto frame = authority_frame(parsed<AuthorityCommand>({"authority", "trainee=1"}), now);
   ASSERT_TRUE(frame) << frame.error();
   EXPECT_EQ(*frame, (rpc::SetAuthority{now.session_id, 0, 7, {0, 1}}))
       << "in the order of the seats, who is not named gets nothing";
-  EXPECT_EQ(authority_frame(*parse_command(Words{"authority", "trainee=1", "version=5", "tool=drill"}), now)->version,
-            5U);
+  EXPECT_EQ(
+      authority_frame(parsed<AuthorityCommand>({"authority", "trainee=1", "version=5", "tool=drill"}), now)->version,
+      5U);
   EXPECT_NE(
-      authority_frame(*parse_command(Words{"authority", "nosuch=1"}), now).error().find("seats: trainer, trainee"),
+      authority_frame(parsed<AuthorityCommand>({"authority", "nosuch=1"}), now).error().find("seats: trainer, trainee"),
       std::string::npos);
-  EXPECT_FALSE(authority_frame(*parse_command(Words{"authority", "arm=1"}), now)) << "leads nothing";
-  EXPECT_NE(
-      authority_frame(*parse_command(Words{"authority", "trainer=1", "tool=saw"}), now).error().find("tools: drill"),
-      std::string::npos);
+  EXPECT_FALSE(authority_frame(parsed<AuthorityCommand>({"authority", "arm=1"}), now)) << "leads nothing";
+  EXPECT_NE(authority_frame(parsed<AuthorityCommand>({"authority", "trainer=1", "tool=saw"}), now)
+                .error()
+                .find("tools: drill"),
+            std::string::npos);
   rpc::Status two = now;
   two.tools.push_back({"saw", {1, 0}});
-  EXPECT_NE(authority_frame(*parse_command(Words{"authority", "trainer=1"}), two).error().find("tool=NAME is missing"),
-            std::string::npos);
-  EXPECT_EQ(authority_frame(*parse_command(Words{"authority", "trainer=1", "tool=saw"}), two)->tool, 1U);
+  EXPECT_NE(
+      authority_frame(parsed<AuthorityCommand>({"authority", "trainer=1"}), two).error().find("tool=NAME is missing"),
+      std::string::npos);
+  EXPECT_EQ(authority_frame(parsed<AuthorityCommand>({"authority", "trainer=1", "tool=saw"}), two)->tool, 1U);
 }
 
 TEST(ConsoleCommands, FormatAStatusAsTextAndAsJson) {
@@ -197,12 +205,12 @@ TEST(ConsoleCommands, ReportEachStatusChangeOnce) {
   over.phase = rpc::SessionPhase::kRunning;
   EXPECT_EQ(status_changes_text(now, over), "stop 4 is over: the session is running\n");
   now = before = over;
-  std::string told;
+  std::string text;
   for (std::uint32_t left = 33; left-- > 0; before = now) {
     now.drain = {left, 2, 3};
-    told += status_changes_text(before, now);
+    text += status_changes_text(before, now);
   }
-  EXPECT_EQ(told,
+  EXPECT_EQ(text,
             "DRAINING: 32 s left, 2 sessions, 3 participants on their seats\n"
             "DRAINING: 29 s left, 2 sessions, 3 participants on their seats\n"
             "DRAINING: 19 s left, 2 sessions, 3 participants on their seats\n"

@@ -39,5 +39,12 @@ TEST(HardwareDevice, ReportsEachMistakeOnItsOwnLine) {
   EXPECT_TRUE(HardwareDevice::spec_errors("mouse").empty());
 }
 
+TEST(DeviceList, MarksEachFindingByItsKind) {
+  using Kind = DeviceDiagnostics::Finding::Kind;
+  EXPECT_EQ(finding_line({Kind::kGood, "homed"}), "  ok      homed\n");
+  EXPECT_EQ(finding_line({Kind::kNotice, "battery 5 %"}), "  notice  battery 5 %\n");
+  EXPECT_EQ(finding_line({Kind::kTrouble, "silent"}), "  TROUBLE silent\n");
+}
+
 }  // namespace
 }  // namespace tandem::client

@@ -165,7 +165,7 @@ TEST(DeviceDiagnostics, ReportsTheBatteryOfASpaceMouseAlsoAtRest) {
   }
   DeviceDiagnostics unknown{caps};
   unknown.update({});
-  EXPECT_EQ(find(unknown.findings({}, 1.0), "battery"), nullptr) << "unknown is never told as a number";
+  EXPECT_EQ(find(unknown.findings({}, 1.0), "battery"), nullptr) << "an unknown charge is never reported as a number";
 }
 
 TEST(DeviceDiagnostics, ReportsCalibrationFirmwareAndMotors) {

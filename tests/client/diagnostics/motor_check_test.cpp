@@ -30,14 +30,14 @@ struct Board {
     int strongest = 0;  ///< [mA]
     bool positive = false;
   };
-  /// @param told   content of the device file on the host
+  /// @param stated content of the device file on the host
   /// @param truth  actual properties of the emulated device
-  Board(const WoodenHapticsSpec& told, const WoodenHapticsSpec& truth,
+  Board(const WoodenHapticsSpec& stated, const WoodenHapticsSpec& truth,
         const hal::emulation::WoodenHapticsModelParams& params, bool held)
       : model(test::WoodenHapticsFixture::at_calibration(truth, params)), time(model), pipe(model, time) {
     auto driver = std::make_unique<WoodenHapticsDriver>(
         hal::DeviceId{"woodenhaptics", "0001"}, pipe, time,
-        hal::woodenhaptics::WoodenHapticsOptions{.spec = told, .enable_motors = true, .home_at_start = true});
+        hal::woodenhaptics::WoodenHapticsOptions{.spec = stated, .enable_motors = true, .home_at_start = true});
     model.place(model.tip());
     core = std::make_unique<hal::ServoCore>(std::move(driver), hal::MotorSigns::kBeingConfirmed);
     test::QuietBringUp quiet;
@@ -153,7 +153,7 @@ TEST_P(EveryBoard, FindsAReversedMotorAndSwitchesItOffAtOnce) {
     }
     expect_promised(board);
     EXPECT_EQ(board.pulses.back().motor, static_cast<int>(wrong)) << "no pulse after it";
-    EXPECT_EQ(pulser.check.motor(wrong).moved[1], 0) << "the first pulse told; there was no second";
+    EXPECT_EQ(pulser.check.motor(wrong).moved[1], 0) << "the first pulse showed it; there was no second";
     EXPECT_GE(pulser.check.motor(wrong).moved[0], -3 * MotorCheck::kCounts) << "at once";
   }
 }

@@ -118,10 +118,10 @@ struct Person {
   Person(const Folder& folder, const std::string& server, const std::string& seat, const std::string& device,
          double stays_s, const std::string& state) {
     client::SeatOptions plan;
-    plan.server = *io::parse_address(server, 1);
-    plan.seat = seat;
+    plan.join.server = *io::parse_address(server, 1);
+    plan.join.seat = seat;
     plan.device = device;
-    plan.state = state;
+    plan.join.state = state;
     plan.json = folder.file(seat + ".json");
     plan.trace = folder.file(seat + ".csv");
     plan.duration_s = stays_s;

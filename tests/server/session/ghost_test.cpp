@@ -42,7 +42,7 @@ TEST(Ghost, ShowsTheLeadersHandToFollowersOnly) {
   csv.append(record, row);
   EXPECT_EQ(std::ranges::count(row, ','), std::ranges::count(csv.header(), ','));
   // Offset that the seat's own screen shows.
-  const auto beside = rig.seats[kTrainee].core->offset_from_leader(rig.now);
+  const auto beside = offset_from_leader(*rig.seats[kTrainee].core, rig.now);
   ASSERT_TRUE(beside);
   double square = 0;
   for (int k = 0; k < 3; ++k) {
@@ -52,7 +52,7 @@ TEST(Ghost, ShowsTheLeadersHandToFollowersOnly) {
     square += (*beside)[k] * (*beside)[k];
   }
   EXPECT_GT(square, 0);
-  EXPECT_FALSE(rig.seats[kTrainer].core->offset_from_leader(rig.now));
+  EXPECT_FALSE(offset_from_leader(*rig.seats[kTrainer].core, rig.now));
 }
 
 TEST(Ghost, ChangesWithAuthority) {

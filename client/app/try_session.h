@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/app/child_program.h"
+#include "client/app/seat_observer.h"
+#include "client/app/tutorial.h"
+
+namespace tandem::client {
+
+/// The child processes of a trial, and the tutorial for the user.
+class TrySession final : public SeatObserver {
+ public:
+  /// @param by_keys         the user moves the hand by keys
+  /// @param ends_by_itself  a trial without keys ends after the tutorial
+  /// @param partners        names of the simulated participants
+  TrySession(bool by_keys, bool ends_by_itself, std::vector<std::string> partners)
+      : by_keys_(by_keys), ends_by_itself_(ends_by_itself), partners_(std::move(partners)) {}
+  TrySession(const TrySession&) = delete;
+  TrySession& operator=(const TrySession&) = delete;
+  ~TrySession() override { stop(); }
+
+  /// Takes a child process: the server first, then the partners.
+  void add(ChildProgram child) { children_.push_back(std::move(child)); }
+  /// Ends the partners before the server, so that each can leave its seat cleanly.
+  void stop() noexcept {
+    while (!children_.empty()) children_.pop_back();
+  }
+  /// Returns why the trial ended early; empty: it did not.
+  [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
+
+  void on_joined(const SeatSetup& setup) override { tutorial_.emplace(setup, by_keys_, partners_); }
+  void on_key(const std::string& key) override { tutorial_->on_key(key); }
+  [[nodiscard]] std::vector<std::string> messages(double now_s, const ClientStatus& status) override {
+    std::vector<std::string> lines = tutorial_->messages(now_s, status);
+    if (tutorial_->finished() && !tutorial_over_since_) tutorial_over_since_ = now_s;
+    over_ = !by_keys_ && ends_by_itself_ && tutorial_over_since_ && now_s - *tutorial_over_since_ > kAfterTutorial;
+    return lines;
+  }
+  [[nodiscard]] std::string leave_reason() override {
+    for (ChildProgram& child : children_)
+      if (child.failed()) {
+        failure_ = child.name() + " ended by itself" + (child.last_output().empty() ? "" : ": " + child.last_output());
+        return failure_;
+      }
+    return over_ ? "the guidance is over: releasing the hand" : "";
+  }
+
+ private:
+  static constexpr double kAfterTutorial = 2;  ///< [s] time after the tutorial until a trial without terminal ends
+
+  bool by_keys_, ends_by_itself_, over_ = false;
+  std::vector<std::string> partners_;
+  std::vector<ChildProgram> children_;  ///< server at index 0, then the partners
+  std::string failure_;
+  std::optional<Tutorial> tutorial_;
+  std::optional<double> tutorial_over_since_;
+};
+
+}  // namespace tandem::client
