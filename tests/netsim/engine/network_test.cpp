@@ -157,8 +157,8 @@ TEST(Network, ChangesNoOtherDecisionWhenAModelIsEnabled) {
   more.loss = plain.loss;
   more.outages.clear();
   more.rate = {};
-  const auto a = verdicts(path_of(plain), 20'000);
-  const auto b = verdicts(path_of(more), 20'000);
+  const auto a = decisions(path_of(plain), 20'000);
+  const auto b = decisions(path_of(more), 20'000);
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].outcome == Outcome::kLost, b[i].outcome == Outcome::kLost) << i;
   }
@@ -176,7 +176,7 @@ TEST(Network, StreamsAreIndependent) {
     Path path{own, Path::key_for(1, link, direction)};
     std::vector<double> x;
     for (std::size_t i = 0; i < n; ++i) {
-      const Verdict v = path.send(Time{}, kSize);
+      const PathDecision v = path.send(Time{}, kSize);
       x.push_back((copies ? v.copied : v.outcome == Outcome::kLost) ? 1 : -1);
     }
     return x;
