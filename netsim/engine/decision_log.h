@@ -8,7 +8,7 @@
 
 #include "common/base/axes.h"
 #include "common/base/time.h"
-#include "netsim/engine/verdict.h"
+#include "netsim/engine/path_decision.h"
 #include "netsim/models/corruption.h"
 #include "netsim/models/path_spec.h"
 
@@ -16,7 +16,7 @@
 /// replayed (netsim/engine/replay.h). netsim/profiles/decision_csv.h reads the text form.
 namespace tandem::netsim {
 
-/// Final verdict on one datagram or one copy.
+/// Final decision on one datagram or one copy.
 struct Decision {
   Time in;                  ///< time of entering the network; copy: that of its original
   Time out;                 ///< due time at the receiver; dropped: time of the decision.
@@ -34,7 +34,7 @@ struct Decision {
   friend bool operator==(const Decision&, const Decision&) = default;
 };
 
-/// Receiver of decisions. `decided` is called once per datagram and once per copy, as soon as the verdict is final
+/// Receiver of decisions. `decided` is called once per datagram and once per copy, as soon as the decision is final
 /// (drop or delivery). Implementations run on the packet path: no heap, lock or clock.
 class DecisionSink {
  public:

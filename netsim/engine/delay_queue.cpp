@@ -23,30 +23,30 @@ DelayQueue::DelayQueue(std::size_t slots, std::size_t lanes) : slots_(slots) {
   std::iota(free_.rbegin(), free_.rend(), 0U);  // slot 0 first, to touch as few pages as possible
 }
 
-DelayQueue::Entered DelayQueue::enter(const Verdict& verdict, Time sent, std::uint32_t path_index,
+DelayQueue::Entered DelayQueue::enter(const PathDecision& decision, Time sent, std::uint32_t path_index,
                                       std::span<const std::byte> bytes, std::uint32_t tag) noexcept {
-  const bool waits = verdict.outcome == Outcome::kWaiting;
+  const bool waits = decision.outcome == Outcome::kWaiting;
   const auto slot = store({.sent = sent,
-                           .index = verdict.index,
+                           .index = decision.index,
                            .path_index = path_index,
                            .tag = tag,
                            .size_in = static_cast<std::uint32_t>(bytes.size()),
                            .waiting = waits},
                           bytes);
   if (!slot) {
-    release(verdict, path_index);
+    release(decision, path_index);
     return Entered::kNo;
   }
   newest_ = *slot;
-  if (!waits) return admit(*slot, verdict);
+  if (!waits) return admit(*slot, decision);
   ++waiting_;
   return Entered::kYes;
 }
 
-DelayQueue::Entered DelayQueue::decide(std::uint32_t slot, const Verdict& verdict) noexcept {
+DelayQueue::Entered DelayQueue::decide(std::uint32_t slot, const PathDecision& decision) noexcept {
   meta_[slot].waiting = false;
   --waiting_;
-  return admit(slot, verdict);
+  return admit(slot, decision);
 }
 
 void DelayQueue::revoke(std::uint32_t slot) noexcept {
@@ -62,33 +62,33 @@ void DelayQueue::discard_waiting(std::uint32_t path_index) noexcept {
   }
 }
 
-DelayQueue::Entered DelayQueue::admit(std::uint32_t slot, const Verdict& verdict) noexcept {
-  Slot& about = meta_[slot];
-  about.held_back = verdict.outcome == Outcome::kHeldBack;
-  if (verdict.corruption.kind != Corruption::Kind::kNone) {
-    about.corruption = verdict.corruption;
-    about.size = static_cast<std::uint32_t>(apply_corruption(verdict.corruption, room(slot)));
+DelayQueue::Entered DelayQueue::admit(std::uint32_t slot, const PathDecision& decision) noexcept {
+  Item& about = meta_[slot];
+  about.held_back = decision.outcome == Outcome::kHeldBack;
+  if (decision.corruption.kind != Corruption::Kind::kNone) {
+    about.corruption = decision.corruption;
+    about.size = static_cast<std::uint32_t>(apply_corruption(decision.corruption, room(slot)));
   }
   Entered entered = Entered::kYes;
   std::uint32_t copy = kNoSlot;
-  if (verdict.copied && !dropped(verdict.copy_outcome)) {
-    Slot second = about;
+  if (decision.copied && !dropped(decision.copy_outcome)) {
+    Item second = about;
     second.copy = true;
     if (const auto stored = store(second, room(slot))) copy = *stored;
     if (copy == kNoSlot) entered = Entered::kNoCopy;
   }
-  if (verdict.outcome == Outcome::kHeldBack && held_.size() < held_.capacity()) {
-    held_.push_back({verdict.at, next_order_++, slot, copy, verdict.copy_delay});
+  if (decision.outcome == Outcome::kHeldBack && held_.size() < held_.capacity()) {
+    held_.push_back({decision.at, next_order_++, slot, copy, decision.copy_delay});
   } else {
-    push(verdict.at, next_order_++, slot);
-    if (copy != kNoSlot) push(verdict.at + verdict.copy_delay, next_order_++, copy);
+    push(decision.at, next_order_++, slot);
+    if (copy != kNoSlot) push(decision.at + decision.copy_delay, next_order_++, copy);
   }
-  release(verdict, about.path_index);
+  release(decision, about.path_index);
   return entered;
 }
 
-void DelayQueue::release(const Verdict& verdict, std::uint32_t path_index) noexcept {
-  for (const Release& release : verdict.released) {
+void DelayQueue::release(const PathDecision& decision, std::uint32_t path_index) noexcept {
+  for (const Release& release : decision.released) {
     const auto found = std::find_if(held_.begin(), held_.end(), [&](const HeldEntry& held) {
       return meta_[held.slot].index == release.index && meta_[held.slot].path_index == path_index;
     });
@@ -106,9 +106,9 @@ std::optional<DelayQueue::Item> DelayQueue::take(Time now, Time known) noexcept 
 }
 
 DelayQueue::Item DelayQueue::item_of(Time at, std::uint32_t slot) const noexcept {
-  const Slot& about = meta_[slot];
-  return {at,         about.sent,      about.index,   about.path_index, slot, about.tag, about.size_in,
-          about.copy, about.held_back, about.waiting, about.corruption};
+  Item item = meta_[slot];
+  item.at = at;
+  return item;
 }
 
 std::span<const std::byte> DelayQueue::bytes(const Item& item) const noexcept {
@@ -124,12 +124,13 @@ std::optional<Time> DelayQueue::next_due() const noexcept {
   return next;
 }
 
-std::optional<std::uint32_t> DelayQueue::store(const Slot& about, std::span<const std::byte> bytes) noexcept {
+std::optional<std::uint32_t> DelayQueue::store(const Item& about, std::span<const std::byte> bytes) noexcept {
   if (free_.empty() || bytes.size() > kSlotBytes) return std::nullopt;
   const std::uint32_t slot = free_.back();
   free_.pop_back();
   meta_[slot] = about;
   meta_[slot].size = static_cast<std::uint32_t>(bytes.size());
+  meta_[slot].slot = slot;
   if (!bytes.empty()) std::memcpy(data_.get() + std::size_t{slot} * kSlotBytes, bytes.data(), bytes.size());
   return slot;
 }

@@ -20,17 +20,18 @@ class DelayQueue {
  public:
   /// Stored datagram.
   struct Item {
-    Time at;  ///< due time
     Time sent;
     std::uint64_t index = 0;       ///< index on its path
     std::uint32_t path_index = 0;  ///< the caller's number of the path
-    std::uint32_t slot = 0;        ///< storage location of the bytes
     std::uint32_t tag = 0;         ///< defined by the caller
     std::uint32_t size_in = 0;     ///< size as sent [bytes]; corruption may truncate the datagram
     bool copy = false;             ///< true: a copy made by duplication
     bool held_back = false;        ///< true: held back for reordering
-    bool waiting = false;          ///< true: verdict is open and `at` is the time of sending
+    bool waiting = false;          ///< true: decision is open and `at` is the time of sending
     Corruption corruption = {};    ///< corruption applied to the bytes
+    std::uint32_t size = 0;        ///< size of the bytes
+    std::uint32_t slot = 0;        ///< storage location of the bytes
+    Time at = {};                  ///< due time
   };
   /// Result of storing a datagram.
   enum class Entered : std::uint8_t {
@@ -43,17 +44,17 @@ class DelayQueue {
   /// @param lanes  number of paths that share the queue; each may hold back 64 datagrams for reordering
   explicit DelayQueue(std::size_t slots, std::size_t lanes = 1);
 
-  /// Stores a datagram according to its verdict (kDeliver, kHeldBack or kWaiting) and releases the datagrams listed in
-  /// the verdict.
+  /// Stores a datagram according to its decision (kDeliver, kHeldBack or kWaiting) and releases the datagrams listed in
+  /// the decision.
   /// @param bytes  at most kSlotBytes
   /// @param tag    returned with the item
-  Entered enter(const Verdict& verdict, Time sent, std::uint32_t lane, std::span<const std::byte> bytes,
+  Entered enter(const PathDecision& decision, Time sent, std::uint32_t lane, std::span<const std::byte> bytes,
                 std::uint32_t tag = 0) noexcept TANDEM_REALTIME;
 
   /// Returns the slot of the newest datagram that `enter` stored.
   [[nodiscard]] std::uint32_t newest() const noexcept { return newest_; }
-  /// Schedules the waiting datagram of this slot according to the verdict (kDeliver or kHeldBack).
-  Entered decide(std::uint32_t slot, const Verdict& verdict) noexcept TANDEM_REALTIME;
+  /// Schedules the waiting datagram of this slot according to the decision (kDeliver or kHeldBack).
+  Entered decide(std::uint32_t slot, const PathDecision& decision) noexcept TANDEM_REALTIME;
   /// Discards the waiting datagram of this slot and frees the slot.
   void revoke(std::uint32_t slot) noexcept TANDEM_REALTIME;
   /// Returns the waiting item of this slot with `at` as its due time.
@@ -94,16 +95,6 @@ class DelayQueue {
     std::uint64_t order = 0;
     std::uint32_t slot = 0;
   };
-  struct Slot {
-    Time sent;
-    std::uint64_t index = 0;
-    std::uint32_t path_index = 0;
-    std::uint32_t size = 0;
-    std::uint32_t tag = 0;
-    std::uint32_t size_in = 0;
-    bool copy = false, held_back = false, waiting = false;
-    Corruption corruption = {};
-  };
   static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
   struct HeldEntry {
     Time limit;
@@ -113,9 +104,9 @@ class DelayQueue {
     Duration copy_delay{};
   };
 
-  std::optional<std::uint32_t> store(const Slot& about, std::span<const std::byte> bytes) noexcept;
-  void release(const Verdict& verdict, std::uint32_t lane) noexcept;
-  Entered admit(std::uint32_t slot, const Verdict& verdict) noexcept;
+  std::optional<std::uint32_t> store(const Item& about, std::span<const std::byte> bytes) noexcept;
+  void release(const PathDecision& decision, std::uint32_t lane) noexcept;
+  Entered admit(std::uint32_t slot, const PathDecision& decision) noexcept;
   [[nodiscard]] std::span<std::byte> room(std::uint32_t slot) noexcept {
     return {data_.get() + std::size_t{slot} * kSlotBytes, meta_[slot].size};
   }
@@ -132,7 +123,7 @@ class DelayQueue {
   std::vector<Entry> heap_;      ///< binary heap, memory reserved by the constructor
   std::vector<HeldEntry> held_;  ///< datagrams held back for reordering; few
   std::vector<std::uint32_t> free_;
-  std::vector<Slot> meta_;
+  std::vector<Item> meta_;  ///< by slot, without the due time
   std::unique_ptr<std::byte[]> data_;
 };
 

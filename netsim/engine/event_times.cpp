@@ -17,6 +17,16 @@ std::string outage_words(const OutageSpec& outage) {
   return "outage of " + ms_text(outage.length) + kModes[static_cast<std::size_t>(outage.mode)];
 }
 
+/// Returns the outages of a link with the text of their direction, which is empty for those of both.
+std::vector<std::pair<OutageSpec, std::string>> outages_of(const LinkSpec& link) {
+  std::vector<std::pair<OutageSpec, std::string>> all;
+  const bool both = link.up.outages == link.down.outages;
+  for (const OutageSpec& outage : link.up.outages) all.emplace_back(outage, both ? "" : ", up");
+  if (both) return all;
+  for (const OutageSpec& outage : link.down.outages) all.emplace_back(outage, ", down");
+  return all;
+}
+
 bool has_one_moment(const OutageSpec& outage) noexcept {
   return outage.period == Duration::zero() && outage.mean_gap == Duration::zero();
 }
@@ -46,17 +56,9 @@ std::vector<EventTime> event_times(const LinkSpec& base, std::span<const Network
                                 : "the rebind",
                    event_text(event)});
   }
-  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    for (const OutageSpec& outage : base[direction].outages) {
-      const bool both = base.up.outages == base.down.outages;
-      if (!has_one_moment(outage) || (both && direction == Direction::kDown)) continue;
-      all.push_back({outage.start,
-                     outage.start + outage.length,
-                     {},
-                     false,
-                     "the outage",
-                     outage_words(outage) + (both ? "" : std::string(", ") + name(direction))});
-    }
+  for (const auto& [outage, way] : outages_of(base)) {
+    if (!has_one_moment(outage)) continue;
+    all.push_back({outage.start, outage.start + outage.length, {}, false, "the outage", outage_words(outage) + way});
   }
   std::ranges::stable_sort(all, {}, &EventTime::at);
   return all;
@@ -64,18 +66,15 @@ std::vector<EventTime> event_times(const LinkSpec& base, std::span<const Network
 
 std::vector<EventTime> first_of_repeated(const LinkSpec& base) {
   std::vector<EventTime> all;
-  const bool both = base.up.outages == base.down.outages;
-  for (const Direction direction : {Direction::kUp, Direction::kDown})
-    for (const OutageSpec& outage : base[direction].outages) {
-      if (outage.period == Duration::zero() || (both && direction == Direction::kDown)) continue;
-      const std::string way = both ? "" : std::string(", ") + name(direction);
-      all.push_back({outage.start,
-                     Duration::max(),
-                     {},
-                     false,
-                     "the first periodic outage",
-                     outage_words(outage) + " every " + ms_text(outage.period) + way});
-    }
+  for (const auto& [outage, way] : outages_of(base)) {
+    if (outage.period == Duration::zero()) continue;
+    all.push_back({outage.start,
+                   Duration::max(),
+                   {},
+                   false,
+                   "the first periodic outage",
+                   outage_words(outage) + " every " + ms_text(outage.period) + way});
+  }
   return all;
 }
 

@@ -5,9 +5,9 @@
 
 namespace tandem::netsim {
 
-Outcome LinkDirection::enter(const Verdict& verdict, DelayQueue& queue, const Ingress& entrance,
+Outcome LinkDirection::enter(const PathDecision& decision, DelayQueue& queue, const Ingress& entrance,
                              std::span<const std::byte> bytes) noexcept {
-  const Outcome outcome = submit(verdict, queue, counters, tap, entrance, bytes);
+  const Outcome outcome = submit(decision, queue, counters, tap, entrance, bytes);
   if (outcome == Outcome::kWaiting && timeline_) timeline_->defer(entrance.now, flow_, queue.newest());
   return outcome;
 }

@@ -35,13 +35,13 @@ class LinkDirection {
   void attach_queue(DelayQueue& queue) noexcept {
     if (timeline_) timeline_->attach(flow_, this, &queue);
   }
-  /// Detaches the client, which has left. The object receives no further verdicts.
+  /// Detaches the client, which has left. The object receives no further decisions.
   void detach() noexcept {
     if (timeline_) timeline_->detach(flow_);
   }
 
-  /// Returns the verdict on one datagram. Applies schedule changes that are due first.
-  Verdict send(Time now, std::size_t size) noexcept TANDEM_REALTIME {
+  /// Returns the decision on one datagram. Applies schedule changes that are due first.
+  PathDecision send(Time now, std::size_t size) noexcept TANDEM_REALTIME {
     return replay_ ? replay_->send(now) : timeline_->send(now, flow_, size);
   }
 
@@ -71,8 +71,8 @@ class LinkDirection {
   Outcome enter(DelayQueue& queue, const Ingress& entrance, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME {
     return enter(send(entrance.now, bytes.size()), queue, entrance, bytes);
   }
-  /// The same with a given verdict.
-  Outcome enter(const Verdict& verdict, DelayQueue& queue, const Ingress& entrance,
+  /// The same with a given decision.
+  Outcome enter(const PathDecision& decision, DelayQueue& queue, const Ingress& entrance,
                 std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
 
   PathCounters counters = {};

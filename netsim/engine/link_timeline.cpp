@@ -50,7 +50,7 @@ void LinkTimeline::dispatch(const Path::Resolved& settled) noexcept {
   if (settled.flow == Path::kNoFlow || settled.ticket == InTransit::kNoTicket) return;
   const Client& member = clients_[settled.flow];
   if (member.direction != nullptr) {
-    netsim::resolve(settled.verdict, settled.ticket, *member.queue, member.direction->counters, member.direction->tap);
+    netsim::resolve(settled.decision, settled.ticket, *member.queue, member.direction->counters, member.direction->tap);
   }
 }
 

@@ -16,7 +16,7 @@ namespace tandem::netsim {
 class LinkDirection;
 
 /// One direction of one link over time: the active path, the planned paths and the clients. One or more clients use the
-/// link. It forwards deferred verdicts to the LinkDirection of their client. The constructor and `join` allocate all
+/// link. It forwards deferred decisions to the LinkDirection of their client. The constructor and `join` allocate all
 /// memory.
 class LinkTimeline {
  public:
@@ -35,23 +35,24 @@ class LinkTimeline {
   /// @param flow  at most the number of clients so far, below the maximum
   /// @param name  key of the client's per-datagram draws
   void join(std::uint32_t flow, std::uint64_t name);
-  /// Sets the receiver of deferred verdicts. Both objects must keep their addresses until `detach`.
+  /// Sets the receiver of deferred decisions. Both objects must keep their addresses until `detach`.
   void attach(std::uint32_t flow, LinkDirection* lane, DelayQueue* queue) noexcept { clients_[flow] = {lane, queue}; }
-  /// Detaches the client of a flow. Its datagrams still use the link; their verdicts are discarded.
+  /// Detaches the client of a flow. Its datagrams still use the link; their decisions are discarded.
   void detach(std::uint32_t flow) noexcept;
 
-  /// Returns the verdict on one datagram. Applies schedule changes that are due first.
-  Verdict send(Time now, std::uint32_t flow, std::size_t size) noexcept TANDEM_REALTIME {
+  /// Returns the decision on one datagram. Applies schedule changes that are due first.
+  PathDecision send(Time now, std::uint32_t flow, std::size_t size) noexcept TANDEM_REALTIME {
     apply_due_changes(now);
     if (path_->defers()) dispatch_resolved(now);
     return path_->send(now, flow, size);
   }
-  /// Registers the slot of the datagram just sent, whose verdict is open. Then dispatches the verdicts known by `now`.
+  /// Registers the slot of the datagram just sent, whose decision is open. Then dispatches the decisions known by
+  /// `now`.
   void defer(Time now, std::uint32_t flow, std::uint32_t slot) noexcept TANDEM_REALTIME {
     path_->set_ticket(flow, slot);
     dispatch_resolved(now);
   }
-  /// Dispatches the verdicts that are final at `now`.
+  /// Dispatches the decisions that are final at `now`.
   void resolve(Time now) noexcept TANDEM_REALTIME {
     if (!path_->defers()) return;
     apply_due_changes(now);

@@ -38,6 +38,19 @@ struct Network::StoredDirection {
 Network::Network(std::uint64_t seed) noexcept : seed_(seed) {}
 Network::~Network() = default;
 
+template <typename Make>
+std::uint32_t Network::add(const Make& make, const std::vector<LinkSchedule::AddressChange>& rebinds,
+                           std::optional<std::uint32_t> logged_link) {
+  const auto number = static_cast<std::uint32_t>(links());
+  std::array<std::unique_ptr<StoredDirection>, kDirections> both{make(Direction::kUp), make(Direction::kDown)};
+  addresses_.emplace_back(rebinds);
+  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
+    auto& stored = directions_.emplace_back(std::move(both[static_cast<std::size_t>(direction)]));
+    stored->path.tap = {.sink = sink_, .link = logged_link.value_or(number), .flow = number, .direction = direction};
+  }
+  return number;
+}
+
 std::uint32_t Network::add_link(const LinkSpec& spec) { return add_link(spec, links()); }
 
 std::uint32_t Network::add_link(const LinkSpec& spec, std::uint64_t name) {
@@ -55,8 +68,7 @@ std::uint32_t Network::add_link(const LinkSchedule& schedule, std::uint64_t name
     return std::make_unique<StoredDirection>(LinkDirection(schedule, direction, seed_, name),
                                              slots_for(schedule, direction));
   };
-  auto up = make(Direction::kUp);
-  return add(std::move(up), make(Direction::kDown), schedule.rebinds);
+  return add(make, schedule.rebinds);
 }
 
 std::uint32_t Network::add_shared(const LinkSchedule& schedule) {
@@ -79,13 +91,8 @@ std::uint32_t Network::add_flow(std::uint32_t shared, std::uint64_t name,
     timeline->join(link.flows, name);
     return std::make_unique<StoredDirection>(LinkDirection(timeline, link.flows), slots_for(link.schedule, direction));
   };
-  auto up = make(Direction::kUp);
-  auto down = make(Direction::kDown);
+  const std::uint32_t number = add(make, rebinds, link.first);
   ++link.flows;
-  const std::uint32_t number = add(std::move(up), std::move(down), rebinds);
-  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    stored(number, direction)->path.tap.link = link.first;
-  }
   return number;
 }
 
@@ -94,26 +101,8 @@ std::uint32_t Network::add_replay(std::shared_ptr<const Replay> replay, std::uin
     return std::make_unique<StoredDirection>(LinkDirection(replay, flow, direction),
                                              slots_for(replay->delay_max(flow, direction), 1));
   };
-  auto up = make(Direction::kUp);
-  const std::uint32_t number = add(std::move(up), make(Direction::kDown), {});
-  if (number != flow) return number;
   // A flow that is replayed under its own number keeps the recorded link number, also of a shared link.
-  for (const Direction direction : {Direction::kUp, Direction::kDown}) {
-    stored(number, direction)->path.tap.link = replay->link(flow);
-  }
-  return number;
-}
-
-std::uint32_t Network::add(std::unique_ptr<StoredDirection> up, std::unique_ptr<StoredDirection> down,
-                           const std::vector<LinkSchedule::AddressChange>& rebinds) {
-  const auto link = static_cast<std::uint32_t>(links());
-  addresses_.emplace_back(rebinds);
-  up->path.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kUp};
-  down->path.tap = {.sink = sink_, .link = link, .flow = link, .direction = Direction::kDown};
-  directions_.reserve(directions_.size() + kDirections);
-  directions_.push_back(std::move(up));
-  directions_.push_back(std::move(down));
-  return link;
+  return add(make, {}, links() == flow ? std::optional{replay->link(flow)} : std::nullopt);
 }
 
 void Network::log_to(DecisionSink* sink) noexcept {

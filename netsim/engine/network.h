@@ -123,8 +123,11 @@ class Network {
     std::uint32_t flows = 0;
     std::uint32_t first = 0;  ///< its first client, which is the link's number in the log
   };
-  std::uint32_t add(std::unique_ptr<StoredDirection> up, std::unique_ptr<StoredDirection> down,
-                    const std::vector<LinkSchedule::AddressChange>& rebinds);
+  /// Adds a client whose directions `make(direction)` returns.
+  /// @param logged_link  link number in the log; empty: the client's number
+  template <typename Make>
+  std::uint32_t add(const Make& make, const std::vector<LinkSchedule::AddressChange>& rebinds,
+                    std::optional<std::uint32_t> logged_link = {});
   [[nodiscard]] StoredDirection* stored(std::uint32_t link, Direction direction) const noexcept;
   Outcome enter(Time now, std::uint32_t link, Direction direction, std::uint32_t address,
                 std::span<const std::byte> bytes) noexcept;

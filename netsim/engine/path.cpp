@@ -27,11 +27,8 @@ constexpr Time kTimeMax{Duration{std::int64_t{1} << 62}};
 
 /// Validates the spec. Path initializes this member first, so that no model sees an invalid number.
 const PathSpec& checked(const PathSpec& spec) {
-  const auto found = problems(spec);
-  if (found.empty()) return spec;
-  std::string message = "network path:";
-  for (const SpecError& problem : found) message += "\n  " + problem.key + ": " + problem.message;
-  throw std::invalid_argument(message);
+  throw_if_any("network path", problems(spec));
+  return spec;
 }
 
 /// Returns the salt of a name. Indices stay below 2^40; above them, a name below 2^23 is used as it is and a larger one
@@ -110,55 +107,46 @@ void Path::replace(Path& before, Time at) noexcept {
   }
 }
 
-Verdict Path::send(Time now, std::uint32_t flow, std::size_t size) noexcept {
+PathDecision Path::send(Time now, std::uint32_t flow, std::size_t size) noexcept {
   Flow& from = flows_[flow];
   now = std::clamp(now, last_in_, kTimeMax);
   last_in_ = now;
-  Verdict verdict;
-  const std::uint64_t index = from.count++, packet = from.packets;
-  verdict.index = index;
-  verdict.at = now;
-  std::uint32_t pieces = 1;
-  if (size > payload_max_ && spec_.mtu.above == MtuSpec::Above::kFragment) {
-    pieces = static_cast<std::uint32_t>((size + payload_max_ - 1) / payload_max_);
-  }
-  from.packets += pieces;
+  InTransit datagram{.flow = flow, .index = from.count++, .packet = from.packets, .size = size, .sent = now};
+  if (size > payload_max_ && spec_.mtu.above == MtuSpec::Above::kFragment)
+    datagram.pieces = static_cast<std::uint32_t>((size + payload_max_ - 1) / payload_max_);
+  from.packets += datagram.pieces;
+  PathDecision decision{.index = datagram.index, .at = now};
+  decision.outcome = enter(from, datagram, decision);
+  return decision;
+}
 
+/// Decides what happens to the datagram up to the queue, and behind it where that is known at once.
+inline Outcome Path::enter(Flow& from, InTransit& datagram, PathDecision& decision) noexcept {
+  const Time now = datagram.sent;
+  const std::uint64_t packet = datagram.packet;
   // Loss models run also during an outage: they count every datagram, and outages must not affect their draws.
   bool lost = from.loss.lost(now, packet);
   if (boundary_.lost(now, packet | from.salt)) lost = true;
-  for (std::uint64_t each = packet + 1; each < packet + pieces; ++each) {
+  for (std::uint64_t each = packet + 1; each < packet + datagram.pieces; ++each) {
     if (from.loss.lost(now, each)) lost = true;
     if (boundary_.lost(now, each | from.salt)) lost = true;
   }
-  const OutageGate::Passage passage = outages_.enter(now, size);
-  if (passage.state == OutageGate::State::kDropped || passage.state == OutageGate::State::kHoldFull) {
-    verdict.outcome = passage.state == OutageGate::State::kDropped ? Outcome::kOutage : Outcome::kHoldFull;
-    return verdict;
-  }
+  const OutageGate::Passage passage = outages_.enter(now, datagram.size);
+  if (passage.state == OutageGate::State::kDropped) return Outcome::kOutage;
+  if (passage.state == OutageGate::State::kHoldFull) return Outcome::kHoldFull;
   // Loss is decided at the time of sending, also for held datagrams. Otherwise a released burst would meet a single
   // state.
   DelayTrace::Step recorded;
   if (trace_.present()) recorded = trace_.at(now);
-  if (recorded.lost || lost) {
-    verdict.outcome = Outcome::kLost;
-    return verdict;
-  }
+  if (recorded.lost || lost) return Outcome::kLost;
+  datagram.recorded = recorded.delay;
   if (passage.state == OutageGate::State::kNewest) {
-    keep_newest({flow, pieces, index, packet, size, now, recorded.delay}, passage.at);
-    verdict.outcome = Outcome::kWaiting;
-    return verdict;
+    keep_newest(datagram, passage.at);
+    return Outcome::kWaiting;
   }
-  if (plain_queue_ && pieces == 1 && size <= payload_max_) {  // the usual case
-    if (const auto sent = rate_.serve(passage.at, size)) {
-      leave_queue(from, packet, size, recorded.delay, *sent, is_corrupted(from, packet, 1), verdict);
-    } else {
-      verdict.outcome = Outcome::kQueueFull;
-    }
-    return verdict;
-  }
-  reach_queue({flow, pieces, index, packet, size, now, recorded.delay}, passage.at, verdict);
-  return verdict;
+  if (plain_queue_ && datagram.pieces == 1 && datagram.size <= payload_max_)  // the usual case
+    return send_whole(from, datagram, passage.at, decision);
+  return reach_queue(datagram, passage.at, decision);
 }
 
 Duration Path::queue_wait(Time now) noexcept {
@@ -171,81 +159,60 @@ void Path::keep_newest(const InTransit& datagram, Time until) noexcept {
                                    [&](const Newest& newest) { return newest.datagram.flow == datagram.flow; });
   if (before != newest_.end()) {
     const InTransit& old = before->datagram;
-    replaced_ = Resolved{old.flow, old.ticket, {}};
-    replaced_->verdict.outcome = Outcome::kReplaced;
-    replaced_->verdict.index = old.index;
-    replaced_->verdict.at = datagram.sent;
+    replaced_ =
+        Resolved{old.flow, old.ticket, {.outcome = Outcome::kReplaced, .index = old.index, .at = datagram.sent}};
     newest_.erase(before);
   }
   newest_.push_back({datagram, until});
 }
 
-void Path::reach_queue(const InTransit& datagram, Time at, Verdict& verdict) noexcept {
+Outcome Path::reach_queue(const InTransit& datagram, Time at, PathDecision& decision) noexcept {
   Flow& from = flows_[datagram.flow];
   if (from.loss.depends_on_queue()) {
     const Duration wait = head_ ? head_->waiting(rate_, at) : rate_.waiting(at);
-    if (from.loss.lost_in_queue(wait, datagram.packet)) {
-      verdict.outcome = Outcome::kLost;
-      return;
-    }
+    if (from.loss.lost_in_queue(wait, datagram.packet)) return Outcome::kLost;
   }
-  if (datagram.size > payload_max_ && datagram.pieces == 1) {
-    verdict.outcome = Outcome::kAboveMtu;
-    return;
-  }
-  if (head_) {
-    verdict.outcome = head_->enter(rate_, at, datagram) ? Outcome::kWaiting : Outcome::kQueueFull;
-    return;
-  }
-  if (datagram.pieces > 1) return reach_queue_in_pieces(datagram, at, verdict);
-  if (const auto sent = rate_.serve(at, datagram.size)) {
-    leave_queue(from, datagram.packet, datagram.size, datagram.recorded, *sent, is_corrupted(from, datagram.packet, 1),
-                verdict);
-  } else {
-    verdict.outcome = Outcome::kQueueFull;
-  }
+  if (datagram.size > payload_max_ && datagram.pieces == 1) return Outcome::kAboveMtu;
+  if (head_) return head_->enter(rate_, at, datagram) ? Outcome::kWaiting : Outcome::kQueueFull;
+  return datagram.pieces > 1 ? send_in_pieces(from, datagram, at, decision) : send_whole(from, datagram, at, decision);
 }
 
-void Path::reach_queue_in_pieces(const InTransit& datagram, Time at, Verdict& verdict) noexcept {
-  Flow& from = flows_[datagram.flow];
+inline Outcome Path::send_whole(Flow& from, const InTransit& datagram, Time at, PathDecision& decision) noexcept {
+  const auto sent = rate_.serve(at, datagram.size);
+  return sent ? leave_queue(from, datagram, *sent, decision) : Outcome::kQueueFull;
+}
+
+Outcome Path::send_in_pieces(Flow& from, const InTransit& datagram, Time at, PathDecision& decision) noexcept {
   // Remaining fragments of an incomplete datagram still use the link, because the sender does not know of the drop.
+  Outcome outcome = Outcome::kDeliver;
   std::size_t left = datagram.size;
   Time last{};
-  const bool hit = is_corrupted(from, datagram.packet, datagram.pieces);
   for (std::uint64_t packet = datagram.packet; packet < datagram.packet + datagram.pieces; ++packet) {
     const std::size_t size = std::min<std::size_t>(left, payload_max_);
     left -= size;
     const auto sent = rate_.serve(at, size);
     if (!sent) {
-      verdict.outcome = Outcome::kQueueFull;
+      outcome = Outcome::kQueueFull;
       continue;
     }
     const auto arrived = travel(from, packet, size, datagram.recorded, *sent);
-    if (!arrived && verdict.outcome == Outcome::kDeliver) verdict.outcome = Outcome::kLost;
+    if (!arrived && outcome == Outcome::kDeliver) outcome = Outcome::kLost;
     last = std::max(last, arrived.value_or(Time{}));
   }
-  if (dropped(verdict.outcome)) return;
-  if (hit && spec_.corruption.mode == CorruptionSpec::Mode::kChecksum) {
-    verdict.outcome = Outcome::kCorrupted;
-    return;
-  }
-  verdict.at = last;
-  if (!plain_end_ || from.held_count > 0) arrive(from, datagram.size, hit, verdict);
+  if (dropped(outcome)) return outcome;
+  const bool hit = is_corrupted(from, datagram.packet, datagram.pieces);
+  if (hit && spec_.corruption.mode == CorruptionSpec::Mode::kChecksum) return Outcome::kCorrupted;
+  decision.at = last;
+  return arrive(from, datagram.size, hit, decision);
 }
 
-inline void Path::leave_queue(Flow& from, std::uint64_t packet, std::size_t size, Duration recorded, Time sent,
-                              bool hit, Verdict& verdict) noexcept {
-  if (hit && spec_.corruption.mode == CorruptionSpec::Mode::kChecksum) {
-    verdict.outcome = Outcome::kCorrupted;
-    return;
-  }
-  const auto at = travel(from, packet, size, recorded, sent);
-  if (!at) {
-    verdict.outcome = Outcome::kLost;
-    return;
-  }
-  verdict.at = *at;
-  if (!plain_end_ || from.held_count > 0) arrive(from, size, hit, verdict);
+inline Outcome Path::leave_queue(Flow& from, const InTransit& datagram, Time sent, PathDecision& decision) noexcept {
+  const bool hit = is_corrupted(from, datagram.packet, datagram.pieces);
+  if (hit && spec_.corruption.mode == CorruptionSpec::Mode::kChecksum) return Outcome::kCorrupted;
+  const auto at = travel(from, datagram.packet, datagram.size, datagram.recorded, sent);
+  if (!at) return Outcome::kLost;
+  decision.at = *at;
+  return arrive(from, datagram.size, hit, decision);
 }
 
 inline bool Path::is_corrupted(const Flow& from, std::uint64_t packet, std::uint32_t pieces) const noexcept {
@@ -265,40 +232,42 @@ inline std::optional<Time> Path::travel(Flow& from, std::uint64_t packet, std::s
       sent + spec_.floor + recorded + body_.at(sent, draw) + regimes_.at(sent, draw) + boundary_.floor(sent);
   Time at = stalls_.release(boundary_.release(due));
   if (at > due && from.loss.lost_in_stall(packet)) return std::nullopt;
-  if (spec_.order == Order::kFifo) at = slots_.release(std::max(at, last_out_), size);
+  if (spec_.order == ArrivalOrder::kFifo) at = slots_.release(std::max(at, last_out_), size);
   last_out_ = std::max(last_out_, at);
   return at;
 }
 
-void Path::arrive(Flow& from, std::size_t size, bool hit, Verdict& verdict) noexcept {
-  const Time at = verdict.at;
-  const std::uint64_t draw = verdict.index | from.salt;
+/// Applies corruption, duplication and reordering to a datagram that arrives.
+Outcome Path::arrive(Flow& from, std::size_t size, bool hit, PathDecision& decision) noexcept {
+  if (plain_end_ && from.held_count == 0) return Outcome::kDeliver;
+  const Time at = decision.at;
+  const std::uint64_t draw = decision.index | from.salt;
   if (hit && size > 0) {
     if (spec_.corruption.mode == CorruptionSpec::Mode::kBitFlips) {
-      verdict.corruption = {
+      decision.corruption = {
           .kind = Corruption::Kind::kBitFlips, .bits = spec_.corruption.bits, .seed = place_key_.bits(draw)};
     } else {
       const double length = place_key_.uniform(draw) * static_cast<double>(size);
-      verdict.corruption = {.kind = Corruption::Kind::kTruncated, .length = static_cast<std::uint32_t>(length)};
+      decision.corruption = {.kind = Corruption::Kind::kTruncated, .length = static_cast<std::uint32_t>(length)};
     }
   }
   const DuplicateSpec& duplicate = spec_.duplicate;
   if (duplicate.probability > 0 && duplicate_key_.uniform(draw) < duplicate.probability) {
-    verdict.copied = true;
+    decision.copied = true;
     const double longest = static_cast<double>(duplicate.delay_max.count()) + 1;
-    verdict.copy_delay = Duration{static_cast<std::int64_t>(copy_key_.uniform(draw) * longest)};
+    decision.copy_delay = Duration{static_cast<std::int64_t>(copy_key_.uniform(draw) * longest)};
   }
   const ReorderSpec& reorder = spec_.reorder;
   if (reorder.probability > 0 || from.held_count > 0) {  // held datagrams may predate the present spec
     if (from.held_count > 0) remove_expired(from, last_in_);
     if (from.held_count < kHeldMax && reorder_key_.uniform(draw) < reorder.probability) {
-      verdict.outcome = Outcome::kHeldBack;
-      verdict.at = at + reorder.hold_limit;
-      from.held[from.held_count++] = {verdict.index, at, verdict.at, reorder.displacement};
-    } else if (from.held_count > 0) {
-      verdict.released = pass(from, at);
+      decision.at = at + reorder.hold_limit;
+      from.held[from.held_count++] = {decision.index, at, decision.at, reorder.displacement};
+      return Outcome::kHeldBack;
     }
+    if (from.held_count > 0) decision.released = pass(from, at);
   }
+  return Outcome::kDeliver;
 }
 
 void Path::set_ticket(std::uint32_t flow, std::uint32_t ticket) noexcept {
@@ -313,17 +282,12 @@ void Path::set_ticket(std::uint32_t flow, std::uint32_t ticket) noexcept {
 
 Path::Resolved Path::decided(const HeadDropQueue::Decided& left) noexcept {
   const InTransit& datagram = left.datagram;
-  Resolved settled{datagram.flow, datagram.ticket, {}};
+  Resolved settled{datagram.flow, datagram.ticket, {.index = datagram.index, .at = datagram.sent}};
   if (left.dropped) {
-    settled.verdict.outcome = Outcome::kPushedOut;
-    settled.verdict.index = datagram.index;
-    settled.verdict.at = left.at;
+    settled.decision.outcome = Outcome::kPushedOut;
+    settled.decision.at = left.at;
   } else if (datagram.flow != kNoFlow) {
-    settled.verdict.index = datagram.index;
-    settled.verdict.at = datagram.sent;
-    Flow& from = flows_[datagram.flow];
-    const bool hit = is_corrupted(from, datagram.packet, datagram.pieces);
-    leave_queue(from, datagram.packet, datagram.size, datagram.recorded, left.at, hit, settled.verdict);
+    settled.decision.outcome = leave_queue(flows_[datagram.flow], datagram, left.at, settled.decision);
   }
   return settled;
 }
@@ -339,12 +303,11 @@ std::optional<Path::Resolved> Path::resolve(Time now) noexcept {
     if (!lets_go) return std::nullopt;
     const Newest first = newest_.front();
     newest_.erase(newest_.begin());
-    Resolved settled{first.datagram.flow, first.datagram.ticket, {}};
+    Resolved settled{
+        first.datagram.flow, first.datagram.ticket, {.index = first.datagram.index, .at = first.datagram.sent}};
     if (settled.flow == kNoFlow) return settled;
-    settled.verdict.index = first.datagram.index;
-    settled.verdict.at = first.datagram.sent;
-    reach_queue(first.datagram, first.until, settled.verdict);
-    if (settled.verdict.outcome != Outcome::kWaiting) return settled;
+    settled.decision.outcome = reach_queue(first.datagram, first.until, settled.decision);
+    if (settled.decision.outcome != Outcome::kWaiting) return settled;
     head_->set_ticket(first.datagram.ticket);
   }
 }

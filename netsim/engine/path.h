@@ -10,7 +10,7 @@
 #include "common/base/axes.h"
 #include "common/base/rng.h"
 #include "common/base/time.h"
-#include "netsim/engine/verdict.h"
+#include "netsim/engine/path_decision.h"
 #include "netsim/models/body_delay.h"
 #include "netsim/models/delay_models.h"
 #include "netsim/models/delay_trace_player.h"
@@ -34,8 +34,8 @@ namespace tandem::netsim {
 /// Several flows (clients) may share the link. Time, queue, outages, order and all time processes are common.
 /// Per-datagram counts and draws are separate for each flow, so that other flows do not affect its draws.
 ///
-/// A later datagram can change the verdict on an earlier one in a drop-head queue, or in an outage that keeps the
-/// newest. Such a verdict is kWaiting, and `resolve` returns the final one.
+/// A later datagram can change the decision on an earlier one in a drop-head queue, or in an outage that keeps the
+/// newest. Such a decision is kWaiting, and `resolve` returns the final one.
 class Path {
  public:
   /// Keys of the randomness of a path.
@@ -70,33 +70,33 @@ class Path {
   void set_flow(std::uint32_t flow, std::uint64_t name);
   [[nodiscard]] std::uint32_t flows() const noexcept { return static_cast<std::uint32_t>(flows_.size()); }
 
-  /// Returns the verdict on one datagram. If `defers()`, call `resolve` until it returns empty before and after this
+  /// Returns the decision on one datagram. If `defers()`, call `resolve` until it returns empty before and after this
   /// call.
   /// @param now   time of sending; a time before an earlier call's is replaced by that one
   /// @param flow  below flows()
   /// @param size  payload [bytes]
-  Verdict send(Time now, std::uint32_t flow, std::size_t size) noexcept TANDEM_REALTIME;
-  Verdict send(Time now, std::size_t size) noexcept TANDEM_REALTIME { return send(now, 0, size); }
+  PathDecision send(Time now, std::uint32_t flow, std::size_t size) noexcept TANDEM_REALTIME;
+  PathDecision send(Time now, std::size_t size) noexcept TANDEM_REALTIME { return send(now, 0, size); }
 
-  /// Returns whether verdicts can be kWaiting.
+  /// Returns whether decisions can be kWaiting.
   [[nodiscard]] bool defers() const noexcept { return head_.has_value() || keeps_newest_ || !newest_.empty(); }
-  /// Sets the caller's storage location of the datagram just sent, whose verdict was kWaiting.
+  /// Sets the caller's storage location of the datagram just sent, whose decision was kWaiting.
   void set_ticket(std::uint32_t flow, std::uint32_t ticket) noexcept TANDEM_REALTIME;
-  /// Final verdict on a datagram that waited.
+  /// Final decision on a datagram that waited.
   struct Resolved {
     std::uint32_t flow = 0;  ///< kNoFlow: the client left; only the ticket is valid
     std::uint32_t ticket = InTransit::kNoTicket;
-    Verdict verdict;  ///< never kWaiting
+    PathDecision decision;  ///< never kWaiting
   };
   static constexpr std::uint32_t kNoFlow = ~std::uint32_t{0};
-  /// Returns the next waiting datagram whose verdict is final at `now`; empty if there is none.
+  /// Returns the next waiting datagram whose decision is final at `now`; empty if there is none.
   std::optional<Resolved> resolve(Time now) noexcept TANDEM_REALTIME;
   /// Returns the next time at which `resolve` has a result if nothing is sent before.
   [[nodiscard]] std::optional<Time> next_resolve() noexcept;
   /// Removes the flow of a client that left. Its waiting datagrams stay in the queue, as those of kNoFlow.
   void remove_flow(std::uint32_t flow) noexcept TANDEM_REALTIME;
 
-  /// Returns the next datagram waiting in the queue, with the verdict of this path. Returns empty if `next` has an
+  /// Returns the next datagram waiting in the queue, with the decision of this path. Returns empty if `next` has an
   /// equal queue and takes it over.
   std::optional<Resolved> flush(const Path& next) noexcept TANDEM_REALTIME;
   /// Takes over from `before`, which is not used afterwards. Datagram counts continue, order is kept across the change,
@@ -139,13 +139,15 @@ class Path {
 
   void keep_newest(const InTransit& datagram, Time until) noexcept;
   Resolved decided(const HeadDropQueue::Decided& left) noexcept;
-  void reach_queue(const InTransit& datagram, Time at, Verdict& verdict) noexcept;
-  void reach_queue_in_pieces(const InTransit& datagram, Time at, Verdict& verdict) noexcept;
-  void leave_queue(Flow& from, std::uint64_t packet, std::size_t size, Duration recorded, Time sent, bool hit,
-                   Verdict& verdict) noexcept;
+  // These return the outcome and set the arrival time and the rest of the decision.
+  Outcome enter(Flow& from, InTransit& datagram, PathDecision& decision) noexcept;
+  Outcome reach_queue(const InTransit& datagram, Time at, PathDecision& decision) noexcept;
+  Outcome send_whole(Flow& from, const InTransit& datagram, Time at, PathDecision& decision) noexcept;
+  Outcome send_in_pieces(Flow& from, const InTransit& datagram, Time at, PathDecision& decision) noexcept;
+  Outcome leave_queue(Flow& from, const InTransit& datagram, Time sent, PathDecision& decision) noexcept;
+  Outcome arrive(Flow& from, std::size_t size, bool hit, PathDecision& decision) noexcept;
   [[nodiscard]] bool is_corrupted(const Flow& from, std::uint64_t packet, std::uint32_t pieces) const noexcept;
   std::optional<Time> travel(Flow& from, std::uint64_t packet, std::size_t size, Duration recorded, Time sent) noexcept;
-  void arrive(Flow& from, std::size_t size, bool hit, Verdict& verdict) noexcept;
 
   static void remove_expired(Flow& flow, Time now) noexcept;
   std::span<const Release> pass(Flow& flow, Time at) noexcept;

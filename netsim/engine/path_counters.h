@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "netsim/engine/verdict.h"
+#include "netsim/engine/path_decision.h"
 
 namespace tandem::netsim {
 
@@ -13,7 +13,7 @@ struct PathCounters {
   std::uint64_t in = 0;      ///< datagrams sent into it
   std::uint64_t copies = 0;  ///< copies made by duplication
   std::uint64_t out = 0;     ///< datagrams delivered to the receiver
-  /// Verdicts on datagrams, by outcome. A datagram dropped after acceptance counts twice: as delivered and as dropped.
+  /// Decisions on datagrams, by outcome. A datagram dropped after acceptance counts twice: as delivered and as dropped.
   /// A copy counts only when it is dropped.
   std::array<std::uint64_t, kOutcomes> by_outcome{};
   std::uint64_t bytes_in = 0;

@@ -36,31 +36,29 @@ std::expected<Replay, std::string> Replay::make(std::span<const Decision> rows) 
                       original->index == d.index;
     if (d.copy) {
       if (!same) return std::unexpected(place(d) + ": a copy without its original");
-      Fate& fate = track.fates.back();
-      if (fate.copied) return std::unexpected(place(d) + ": two copies; one can be played");
-      if (netsim::dropped(fate.outcome) && !netsim::dropped(d.outcome)) {
+      PathDecision& decision = track.fates.back().decision;
+      if (decision.copied) return std::unexpected(place(d) + ": two copies; one can be played");
+      if (netsim::dropped(decision.outcome) && !netsim::dropped(d.outcome)) {
         return std::unexpected(place(d) + ": its copy arrived, it did not");
       }
-      fate.copied = true;
-      fate.copy_delay = d.out - original->out;
-      if (netsim::dropped(d.outcome)) fate.copy_outcome = d.outcome;
+      decision.copied = true;
+      decision.copy_delay = d.out - original->out;
+      if (netsim::dropped(d.outcome)) decision.copy_outcome = d.outcome;
       continue;
     }
     if (same) return std::unexpected(place(d) + ": is there twice");
     original = &d;
     const Time clock = track.fates.empty() ? d.in : std::max(track.fates.back().clock, d.in);
-    track.fates.push_back({.in = d.in,
-                           .clock = clock,
-                           .index = d.index,
-                           .delay = d.out - d.in,
-                           .outcome = d.outcome,
-                           .corruption = d.corruption});
+    track.fates.push_back(
+        {.in = d.in,
+         .clock = clock,
+         .decision = {.outcome = d.outcome, .index = d.index, .at = d.out, .corruption = d.corruption}});
   }
   for (auto& [number, flow] : replay.flows_) {
     for (Track& track : flow.tracks) {
       track.period = period_of(track.fates);
       for (std::uint32_t i = 0; i < track.fates.size(); ++i) {
-        if (track.fates[i].outcome != Outcome::kWaiting) track.decided.push_back(i);
+        if (track.fates[i].decision.outcome != Outcome::kWaiting) track.decided.push_back(i);
       }
     }
   }
@@ -87,15 +85,15 @@ std::uint32_t Replay::link(std::uint32_t flow) const noexcept {
 Duration Replay::delay_max(std::uint32_t flow, Direction direction) const noexcept {
   Duration longest{};
   for (const Fate& fate : track(flow, direction).fates) {
-    longest = std::max(longest, fate.delay + std::max(fate.copy_delay, Duration::zero()));
+    longest = std::max(longest, fate.delay() + std::max(fate.decision.copy_delay, Duration::zero()));
   }
   return longest;
 }
 
 const Replay::Fate* ReplayPath::own(Time now, std::uint64_t index) const noexcept {
   const auto& fates = track_->fates;
-  const auto found = std::ranges::lower_bound(fates, index, {}, &Replay::Fate::index);
-  return found != fates.end() && found->index == index && found->in == now ? &*found : nullptr;
+  const auto found = std::ranges::lower_bound(fates, index, {}, [](const Replay::Fate& f) { return f.decision.index; });
+  return found != fates.end() && found->decision.index == index && found->in == now ? &*found : nullptr;
 }
 
 const Replay::Fate* ReplayPath::at(Time now) const noexcept {
@@ -108,31 +106,27 @@ const Replay::Fate* ReplayPath::at(Time now) const noexcept {
   return &fates[after == decided.begin() ? *after : *std::prev(after)];
 }
 
-Verdict ReplayPath::send(Time now) noexcept {
-  Verdict verdict;
-  verdict.index = count_++;
-  verdict.at = now;
-  if (track_->fates.empty()) return verdict;
-  const Replay::Fate* fate = own(now, verdict.index);
+PathDecision ReplayPath::send(Time now) noexcept {
+  PathDecision decision{.index = count_++, .at = now};
+  if (track_->fates.empty()) return decision;
+  const std::uint64_t index = decision.index;
+  const Replay::Fate* fate = own(now, index);
   const bool matched = fate != nullptr;
   if (matched) ++matched_;
   if (!matched) {
     now = std::max(now, last_in_);
     fate = at(now);
-    if (fate == nullptr) return verdict;  // nothing to imitate: the datagram passes
+    if (fate == nullptr) return decision;  // nothing to imitate: the datagram passes
   }
   last_in_ = std::max(last_in_, now);
-  verdict.outcome = fate->outcome;  // kWaiting only for the recorded datagram itself: `at` returns decided fates
-  verdict.copied = fate->copied;
-  verdict.copy_delay = fate->copy_delay;
-  verdict.copy_outcome = fate->copy_outcome;
-  verdict.corruption = fate->corruption;
-  verdict.at = now + fate->delay;
-  if (fate->outcome == Outcome::kDeliver) {
-    if (!matched) verdict.at = std::max(verdict.at, last_out_);
-    last_out_ = std::max(last_out_, verdict.at);
+  decision = fate->decision;  // kWaiting only for the recorded datagram itself: `at` returns decided fates
+  decision.index = index;
+  decision.at = now + fate->delay();
+  if (decision.outcome == Outcome::kDeliver) {
+    if (!matched) decision.at = std::max(decision.at, last_out_);
+    last_out_ = std::max(last_out_, decision.at);
   }
-  return verdict;
+  return decision;
 }
 
 }  // namespace tandem::netsim

@@ -30,17 +30,12 @@ namespace tandem::netsim {
 /// Recorded fates of all flows. Immutable; several ReplayPath objects can share it.
 class Replay {
  public:
-  /// Recorded verdict on one datagram and its copy.
+  /// Recorded decision on one datagram and its copy.
   struct Fate {
-    Time in;     ///< recorded time of sending
-    Time clock;  ///< maximum of `in` up to this fate
-    std::uint64_t index = 0;
-    Duration delay{};       ///< out - in
-    Duration copy_delay{};  ///< delay of the copy after the original
-    Outcome outcome = Outcome::kDeliver;
-    Outcome copy_outcome = Outcome::kDeliver;
-    bool copied = false;
-    Corruption corruption = {};
+    Time in;                ///< recorded time of sending
+    Time clock;             ///< maximum of `in` up to this fate
+    PathDecision decision;  ///< recorded, with the recorded time of arrival
+    [[nodiscard]] Duration delay() const noexcept { return decision.at - in; }
   };
   /// One direction of one flow, in index order.
   struct Track {
@@ -77,8 +72,8 @@ class ReplayPath {
   ReplayPath(std::shared_ptr<const Replay> replay, std::uint32_t flow, Direction direction) noexcept
       : replay_(std::move(replay)), track_(&replay_->track(flow, direction)) {}
 
-  /// Returns the verdict on one datagram, as Path::send does; the size has no effect.
-  Verdict send(Time now) noexcept TANDEM_REALTIME;
+  /// Returns the decision on one datagram, as Path::send does; the size has no effect.
+  PathDecision send(Time now) noexcept TANDEM_REALTIME;
 
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }      ///< datagrams decided
   [[nodiscard]] std::uint64_t matched() const noexcept { return matched_; }  ///< datagrams with their own recorded fate

@@ -1,7 +1,8 @@
 #include "netsim/engine/schedule.h"
 
 #include <algorithm>
-#include <sstream>
+
+#include "common/base/format.h"
 
 namespace tandem::netsim {
 namespace {
@@ -93,11 +94,9 @@ std::string sharing_problem(const LinkSpec& base, std::span<const NetworkEvent> 
   if (!base.shared) return {};
   for (const NetworkEvent& event : events) {
     if (event.clients.empty() || event.rebind) continue;
-    std::ostringstream text;
-    text << "the event at " << seconds(event.at) << " s is for " << event.clients.front()
-         << (event.clients.size() > 1 ? " and others" : "")
-         << ", but all clients share one link: it changes for all of them, so name none";
-    return text.str();
+    return format("the event at %g s is for ", seconds(event.at)) + event.clients.front() +
+           (event.clients.size() > 1 ? " and others" : "") +
+           ", but all clients share one link: it changes for all of them, so name none";
   }
   return {};
 }

@@ -21,11 +21,11 @@ Decision about(const DelayQueue::Item& item, const DecisionTap& tap) noexcept {
           .corruption = item.corruption};
 }
 
-void let_in(const Verdict& verdict, PathCounters& counters) noexcept {
-  counters.count(verdict.outcome);
-  if (verdict.copied && !dropped(verdict.copy_outcome)) ++counters.copies;
-  if (verdict.corruption.kind == Corruption::Kind::kBitFlips) ++counters.flipped;
-  if (verdict.corruption.kind == Corruption::Kind::kTruncated) ++counters.truncated;
+void let_in(const PathDecision& decision, PathCounters& counters) noexcept {
+  counters.count(decision.outcome);
+  if (decision.copied && !dropped(decision.copy_outcome)) ++counters.copies;
+  if (decision.corruption.kind == Corruption::Kind::kBitFlips) ++counters.flipped;
+  if (decision.corruption.kind == Corruption::Kind::kTruncated) ++counters.truncated;
 }
 
 }  // namespace
@@ -38,58 +38,50 @@ std::uint64_t PathCounters::dropped() const noexcept {
   return sum;
 }
 
-Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters, const DecisionTap& tap,
+Outcome submit(const PathDecision& decision, DelayQueue& queue, PathCounters& counters, const DecisionTap& tap,
                const Ingress& entrance, std::span<const std::byte> bytes) noexcept {
   ++counters.in;
   counters.bytes_in += bytes.size();
-  if (tap.monitor != nullptr) tap.monitor->sent(tap.direction, entrance.now, verdict.index);
+  if (tap.monitor != nullptr) tap.monitor->sent(tap.direction, entrance.now, decision.index);
   const auto drop = [&](Outcome reason, bool copy, Time at) {
-    counters.count(reason);
-    if (tap.monitor != nullptr && !copy) tap.monitor->lost(tap.direction, entrance.now, verdict.index);
-    if (tap.sink == nullptr) return;
-    tap.sink->decided({.in = entrance.now,
-                       .out = at,
-                       .index = verdict.index,
-                       .link = tap.link,
-                       .flow = tap.flow,
-                       .size = static_cast<std::uint32_t>(bytes.size()),
-                       .direction = tap.direction,
-                       .outcome = reason,
-                       .copy = copy,
-                       .in_flight = false,
-                       .corruption = {}});
+    leave({.sent = entrance.now,
+           .index = decision.index,
+           .size_in = static_cast<std::uint32_t>(bytes.size()),
+           .copy = copy,
+           .at = at},
+          bytes.size(), reason, counters, tap);
   };
-  if (verdict.copied && dropped(verdict.copy_outcome)) {
+  if (decision.copied && dropped(decision.copy_outcome)) {
     ++counters.copies;
-    drop(verdict.copy_outcome, true, verdict.at + verdict.copy_delay);
+    drop(decision.copy_outcome, true, decision.at + decision.copy_delay);
   }
-  if (dropped(verdict.outcome)) {
-    drop(verdict.outcome, false, verdict.at);
-    return verdict.outcome;
+  if (dropped(decision.outcome)) {
+    drop(decision.outcome, false, decision.at);
+    return decision.outcome;
   }
-  const auto entered = queue.enter(verdict, entrance.now, entrance.path_index, bytes, entrance.tag);
+  const auto entered = queue.enter(decision, entrance.now, entrance.path_index, bytes, entrance.tag);
   if (entered == DelayQueue::Entered::kNo) {
     const Outcome reason = bytes.size() > kSlotBytes ? Outcome::kTooLong : Outcome::kOverflow;
     drop(reason, false, entrance.now);
     return reason;
   }
-  if (verdict.outcome == Outcome::kWaiting) return verdict.outcome;
-  let_in(verdict, counters);
+  if (decision.outcome == Outcome::kWaiting) return decision.outcome;
+  let_in(decision, counters);
   if (entered == DelayQueue::Entered::kNoCopy) drop(Outcome::kOverflow, true, entrance.now);
-  return verdict.outcome;
+  return decision.outcome;
 }
 
-void resolve(const Verdict& verdict, std::uint32_t slot, DelayQueue& queue, PathCounters& counters,
+void resolve(const PathDecision& decision, std::uint32_t slot, DelayQueue& queue, PathCounters& counters,
              const DecisionTap& tap) noexcept {
-  const DelayQueue::Item item = queue.peek(slot, verdict.at);
+  const DelayQueue::Item item = queue.peek(slot, decision.at);
   const std::size_t size = queue.bytes(item).size();
-  if (dropped(verdict.outcome)) {
-    leave(item, size, verdict.outcome, counters, tap);
+  if (dropped(decision.outcome)) {
+    leave(item, size, decision.outcome, counters, tap);
     queue.revoke(slot);
     return;
   }
-  const auto entered = queue.decide(slot, verdict);
-  let_in(verdict, counters);
+  const auto entered = queue.decide(slot, decision);
+  let_in(decision, counters);
   if (entered != DelayQueue::Entered::kNoCopy) return;
   DelayQueue::Item copy = item;
   copy.copy = true;

@@ -23,11 +23,11 @@ struct Ingress {
 /// Enters a datagram into the network: counts, stores and logs it. The live and the virtual network use no other entry.
 /// Several paths may share `queue`.
 /// @return outcome; kOverflow or kTooLong if the queue could not store a datagram to be delivered
-Outcome submit(const Verdict& verdict, DelayQueue& queue, PathCounters& counters, const DecisionTap& tap,
+Outcome submit(const PathDecision& decision, DelayQueue& queue, PathCounters& counters, const DecisionTap& tap,
                const Ingress& entrance, std::span<const std::byte> bytes) noexcept TANDEM_REALTIME;
 
-/// Applies the final verdict on the datagram that waits in `slot`: counts, schedules or frees it, and logs.
-void resolve(const Verdict& verdict, std::uint32_t slot, DelayQueue& queue, PathCounters& counters,
+/// Applies the final decision on the datagram that waits in `slot`: counts, schedules or frees it, and logs.
+void resolve(const PathDecision& decision, std::uint32_t slot, DelayQueue& queue, PathCounters& counters,
              const DecisionTap& tap) noexcept TANDEM_REALTIME;
 
 /// Records the end of an item taken from the queue: delivered, or dropped on arrival. The network has no other exit.

@@ -15,7 +15,12 @@ Time CapacityTracePlayer::at(const Place& place) const noexcept {
   return Time{trace_->period * place.cycle + kMillisecond * trace_->entries[place.entry].ms};
 }
 
+/// Begins the entry of `place`; behind the last one the recording begins again.
 void CapacityTracePlayer::enter(Place& place) const noexcept {
+  if (place.entry == trace_->entries.size()) {
+    place.entry = 0;
+    ++place.cycle;
+  }
   place.left = trace_->entries[place.entry].opportunities * kOpportunityBytes;
 }
 
@@ -30,18 +35,11 @@ Time CapacityTracePlayer::offer(Time now, std::uint64_t bytes) noexcept {
         std::lower_bound(entries.begin(), entries.end(), into,
                          [](const CapacityTrace::Entry& entry, std::int64_t ms) { return entry.ms < ms; });
     offered_.entry = static_cast<std::size_t>(found - entries.begin());
-    if (offered_.entry == entries.size()) {
-      offered_.entry = 0;
-      ++offered_.cycle;
-    }
     enter(offered_);
   }
   while (bytes > offered_.left) {
     bytes -= offered_.left;
-    if (++offered_.entry == entries.size()) {
-      offered_.entry = 0;
-      ++offered_.cycle;
-    }
+    ++offered_.entry;
     enter(offered_);
   }
   offered_.left -= bytes;

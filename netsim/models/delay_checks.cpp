@@ -113,7 +113,7 @@ void check_delay_models(const PathSpec& spec, SpecErrors& found) {
   }
   if (spec.slots != SlotsSpec{}) {
     found.range<Duration>("slots.period", spec.slots.period, microseconds(1), std::chrono::seconds(10));
-    if (spec.order != Order::kFifo) found.add("slots.period", "a grid of slots keeps the order");
+    if (spec.order != ArrivalOrder::kFifo) found.add("slots.period", "a grid of slots keeps the order");
   }
 }
 

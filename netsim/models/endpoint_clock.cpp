@@ -21,13 +21,6 @@ void check_wake(const WakeSpec& wake, SpecErrors& found) {
   }
 }
 
-void report_usage_error(const std::vector<SpecError>& found) {
-  if (found.empty()) return;
-  std::string message = "endpoint:";
-  for (const SpecError& problem : found) message += "\n  " + problem.key + ": " + problem.message;
-  throw std::invalid_argument(message);
-}
-
 }  // namespace
 
 std::vector<SpecError> problems(const EndpointSpec& spec) {
@@ -46,17 +39,17 @@ std::vector<SpecError> problems(const EndpointSpec& spec) {
 }
 
 EndpointClock::EndpointClock(const EndpointSpec& spec) : offset_(spec.offset), drift_e12_(0), steps_(spec.steps) {
-  report_usage_error(problems(spec));
+  throw_if_any("endpoint", problems(spec));
   drift_e12_ = std::llround(spec.drift_ppm * 1e6);
 }
 
-Time EndpointClock::at(Time world) const noexcept {
-  const Wide product = Wide{world.time_since_epoch().count()} * drift_e12_;
+Time EndpointClock::at(Time now) const noexcept {
+  const Wide product = Wide{now.time_since_epoch().count()} * drift_e12_;
   Wide drift = product / kE12;
   if (product % kE12 < 0) --drift;  // rounds down also below zero; otherwise time would stop around zero drift
-  Time own = world + offset_ + Duration{static_cast<std::int64_t>(drift)};
+  Time own = now + offset_ + Duration{static_cast<std::int64_t>(drift)};
   for (const EndpointSpec::Step& step : steps_) {
-    if (step.at > world.time_since_epoch()) break;
+    if (step.at > now.time_since_epoch()) break;
     own += step.by;
   }
   return own;
@@ -67,7 +60,7 @@ WakeUps::WakeUps(const WakeSpec& spec, Duration tick, Time start, RandomKey key)
   SpecErrors found;
   check_wake(spec, found);
   found.above<Duration>("tick", tick, Duration::zero(), std::chrono::seconds(1));
-  report_usage_error(found.take());
+  throw_if_any("endpoint", found.take());
   next_ = spec_.kind == WakeSpec::Kind::kMeasured ? start_ : deadline(0);
 }
 

@@ -53,9 +53,9 @@ class EndpointClock {
   /// @throws std::invalid_argument listing all errors of the spec.
   explicit EndpointClock(const EndpointSpec& spec);
 
-  /// Returns world + offset + drift (rounded down to the nanosecond) + all steps with step.at <= world.
-  /// @param world  simulation time [Time{}, Time{} + 100 years]
-  [[nodiscard]] Time at(Time world) const noexcept;
+  /// Returns now + offset + drift (rounded down to the nanosecond) + all steps with step.at <= now.
+  /// @param now  simulation time [Time{}, Time{} + 100 years]
+  [[nodiscard]] Time at(Time now) const noexcept;
 
  private:
   Duration offset_;

@@ -27,12 +27,7 @@ bool HeadDropQueue::enter(LinkRate& rate, Time at, const InTransit& datagram) no
   const std::uint64_t bytes = datagram.size + datagram.pieces * overhead_;
   if (size() == ring_.size() || !fits(rate, at, bytes, 0, 0)) return false;
   while (!fits(rate, at, bytes, waiting_, waiting_bytes_)) {
-    Entry& head = entry(decided_);
-    head.dropped = true;
-    head.at = at;
-    waiting_bytes_ -= head.bytes;
-    ++decided_;
-    --waiting_;
+    decide(true, at);
   }
   entry(decided_ + waiting_) = {datagram, bytes, at, false};
   ++waiting_;
@@ -43,18 +38,24 @@ bool HeadDropQueue::enter(LinkRate& rate, Time at, const InTransit& datagram) no
 
 void HeadDropQueue::advance(LinkRate& rate, Time now) noexcept {
   while (waiting_ > 0) {
-    Entry& head = entry(decided_);
+    const Entry& head = entry(decided_);
     if (rate.begins(head.at, 0) > now) return;
     const InTransit& datagram = head.datagram;
     const auto sent = rate.serve(head.at, datagram.size + (datagram.pieces - 1) * overhead_);
-    head.dropped = !sent;  // cannot happen: no datagram waits for an hour
-    head.at = sent.value_or(now);
-    last_sent_ = head.at;
+    last_sent_ = sent.value_or(now);
     last_bytes_ = head.bytes;
-    waiting_bytes_ -= head.bytes;
-    ++decided_;
-    --waiting_;
+    decide(!sent, last_sent_);  // always sent: no datagram waits for an hour
   }
+}
+
+/// Decides the longest-waiting datagram at `at`.
+void HeadDropQueue::decide(bool dropped, Time at) noexcept {
+  Entry& head = entry(decided_);
+  head.dropped = dropped;
+  head.at = at;
+  waiting_bytes_ -= head.bytes;
+  ++decided_;
+  --waiting_;
 }
 
 std::optional<HeadDropQueue::Decided> HeadDropQueue::next(LinkRate& rate, Time now) noexcept {

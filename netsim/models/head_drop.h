@@ -11,7 +11,7 @@
 
 namespace tandem::netsim {
 
-/// Datagram inside a path whose verdict is still open.
+/// Datagram inside a path whose decision is still open.
 struct InTransit {
   static constexpr std::uint32_t kNoTicket = ~std::uint32_t{0};
   std::uint32_t flow = 0;
@@ -36,7 +36,7 @@ class HeadDropQueue {
   /// @param spec  has Drop::kHead and at least one limit
   explicit HeadDropQueue(const RateSpec& spec);
 
-  /// Datagram with a final verdict of the queue.
+  /// Datagram with a final decision of the queue.
   struct Decided {
     InTransit datagram;
     bool dropped = false;
@@ -48,7 +48,7 @@ class HeadDropQueue {
   /// @return whether the queue accepted the datagram
   bool enter(LinkRate& rate, Time at, const InTransit& datagram) noexcept;
 
-  /// Returns the next datagram whose verdict is final at `now`, in order of arrival.
+  /// Returns the next datagram whose decision is final at `now`, in order of arrival.
   std::optional<Decided> next(LinkRate& rate, Time now) noexcept;
 
   /// Returns the latest time at which `next` has a result if no further datagram arrives.
@@ -74,6 +74,7 @@ class HeadDropQueue {
   [[nodiscard]] Entry& entry(std::size_t place) noexcept { return ring_[(first_ + place) % ring_.size()]; }
   [[nodiscard]] const Entry& entry(std::size_t place) const noexcept { return ring_[(first_ + place) % ring_.size()]; }
   void advance(LinkRate& rate, Time now) noexcept;
+  void decide(bool dropped, Time at) noexcept;
   [[nodiscard]] bool fits(LinkRate& rate, Time at, std::uint64_t bytes, std::size_t waiting,
                           std::uint64_t waiting_bytes) const noexcept;
 

@@ -11,41 +11,37 @@ double ms(Duration d) { return seconds(d) * 1e3; }
 double percent(double share) { return share * 100; }
 unsigned long long number(std::uint64_t n) { return n; }
 
-std::string body_words(const BodySpec& body) {
+std::string distribution_words(const BodySpec& body) {
   using Kind = BodySpec::Kind;
-  std::string text;
   switch (body.kind) {
     case Kind::kNone:
-      return {};
+      break;
     case Kind::kUniform:
-      text = format("uniform %g to %g ms", ms(body.low), ms(body.high));
-      break;
+      return format("uniform %g to %g ms", ms(body.low), ms(body.high));
     case Kind::kLogNormal:
-      text = format("log-normal, median %g ms, shape %g", ms(body.scale), body.shape);
-      break;
+      return format("log-normal, median %g ms, shape %g", ms(body.scale), body.shape);
     case Kind::kLogLogistic:
-      text = format("log-logistic, median %g ms, shape %g", ms(body.scale), body.shape);
-      break;
+      return format("log-logistic, median %g ms, shape %g", ms(body.scale), body.shape);
     case Kind::kTruncatedNormal:
-      text = format("normal, mean %g ms, sd %g ms", ms(body.scale), ms(body.sd));
-      break;
+      return format("normal, mean %g ms, sd %g ms", ms(body.scale), ms(body.sd));
     case Kind::kExponential:
-      text = format("exponential, mean %g ms", ms(body.scale));
-      break;
+      return format("exponential, mean %g ms", ms(body.scale));
     case Kind::kGamma:
-      text = format("gamma, shape %g, scale %g ms", body.shape, ms(body.scale));
-      break;
+      return format("gamma, shape %g, scale %g ms", body.shape, ms(body.scale));
     case Kind::kHyperExponential:
-      text = format("one of %zu exponentials", body.phases.size());
-      break;
+      return format("one of %zu exponentials", body.phases.size());
     case Kind::kPareto:
-      text = format("Pareto, least %g ms, shape %g", ms(body.scale), body.shape);
-      break;
+      return format("Pareto, least %g ms, shape %g", ms(body.scale), body.shape);
     case Kind::kEmpirical:
-      text = format("empirical, %zu quantiles", body.quantiles.size());
-      break;
+      return format("empirical, %zu quantiles", body.quantiles.size());
   }
-  if (body.kind != Kind::kUniform) text += format(", at most %g ms", ms(body.longest()));
+  return {};
+}
+
+std::string body_words(const BodySpec& body) {
+  std::string text = distribution_words(body);
+  if (text.empty()) return text;
+  if (body.kind != BodySpec::Kind::kUniform) text += format(", at most %g ms", ms(body.longest()));
   if (body.tau > Duration::zero()) text += format(", correlated over %g ms", ms(body.tau));
   return text;
 }
@@ -124,7 +120,7 @@ void add_delay(const PathSpec& path, Line& line) {
   if (const StallSpec& s = path.stall; s.rate_per_s > 0)
     line.add(format("stalls %g per s of at least %g, at most %g ms", s.rate_per_s, ms(s.length_min), ms(s.cap)));
   if (path.slots.period > Duration::zero()) line.add(format("leaves in slots every %g ms", ms(path.slots.period)));
-  if (path.order == Order::kFree) line.add("overtaking allowed");
+  if (path.order == ArrivalOrder::kFree) line.add("overtaking allowed");
 }
 
 }  // namespace

@@ -41,22 +41,21 @@ bool GilbertElliott::lost(std::uint64_t index) noexcept {
   return loss_key_.uniform(index) >= (bad_ ? spec_.h : spec_.k);
 }
 
-bool FourState::lost(std::uint64_t index) noexcept {
-  const double u = key_.uniform(index);
+int FourState::next(double u) const noexcept {
   switch (state_) {
     case 1:
-      state_ = u < spec_.p14 ? 4 : u < spec_.p14 + spec_.p13 ? 3 : 1;
-      break;
+      return u < spec_.p14 ? 4 : u < spec_.p14 + spec_.p13 ? 3 : 1;
     case 2:
-      state_ = u < spec_.p23 ? 3 : 2;
-      break;
+      return u < spec_.p23 ? 3 : 2;
     case 3:
-      state_ = u < spec_.p32 ? 2 : u < spec_.p32 + spec_.p31 ? 1 : 3;
-      break;
+      return u < spec_.p32 ? 2 : u < spec_.p32 + spec_.p31 ? 1 : 3;
     default:
-      state_ = 1;
-      break;
+      return 1;
   }
+}
+
+bool FourState::lost(std::uint64_t index) noexcept {
+  state_ = next(key_.uniform(index));
   return state_ >= 3;
 }
 

@@ -37,6 +37,9 @@ class FourState {
   [[nodiscard]] int state() const noexcept { return state_; }  ///< state that decided the last datagram, 1 to 4
 
  private:
+  /// Returns the state after `state_` for a draw in [0, 1).
+  [[nodiscard]] int next(double u) const noexcept;
+
   FourStateSpec spec_;
   RandomKey key_;
   int state_ = 1;

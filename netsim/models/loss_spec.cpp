@@ -30,11 +30,8 @@ void check(const GilbertElliottSpec& ge, SpecErrors& found) {
 }
 
 void check(const FourStateSpec& s, SpecErrors& found) {
-  found.range("loss.four_state.p13", s.p13, 0.0, 1.0);
-  found.range("loss.four_state.p31", s.p31, 0.0, 1.0);
-  found.range("loss.four_state.p32", s.p32, 0.0, 1.0);
-  found.range("loss.four_state.p23", s.p23, 0.0, 1.0);
-  found.range("loss.four_state.p14", s.p14, 0.0, 1.0);
+  for (const auto& [key, p] : {std::pair{"p13", s.p13}, {"p31", s.p31}, {"p32", s.p32}, {"p23", s.p23}, {"p14", s.p14}})
+    found.range(std::string("loss.four_state.") + key, p, 0.0, 1.0);
   if (s.p13 + s.p14 > 1) found.add("loss.four_state.p13", "p13 + p14 is above 1");
   if (s.p31 + s.p32 > 1) found.add("loss.four_state.p31", "p31 + p32 is above 1");
   if (s.p13 > 0 && s.p31 == 0) found.add("loss.four_state.p31", "is 0: a burst would never end");

@@ -95,6 +95,16 @@ struct LossTrace {
   friend bool operator==(const LossTrace&, const LossTrace&) = default;
 };
 
+/// A recording that several specs share; null: none. Recordings with the same content are equal, because each reading
+/// of a file makes another one.
+template <typename Recording>
+struct SharedRecording : std::shared_ptr<const Recording> {
+  using std::shared_ptr<const Recording>::shared_ptr;
+  friend bool operator==(const SharedRecording& a, const SharedRecording& b) {
+    return a.get() == b.get() || (a && b && *a == *b);
+  }
+};
+
 /// All loss models of one direction; absent members are off.
 struct LossSpec {
   double probability = 0;  ///< Bernoulli, per datagram [0, 1]
@@ -104,7 +114,7 @@ struct LossSpec {
   std::optional<LossBurstsSpec> bursts = {};
   std::optional<LossPatternSpec> pattern = {};
   std::optional<CongestionLossSpec> congestion = {};
-  std::shared_ptr<const LossTrace> trace = {};  ///< null: none
+  SharedRecording<LossTrace> trace = {};  ///< null: none
 
   friend bool operator==(const LossSpec&, const LossSpec&) = default;
 };

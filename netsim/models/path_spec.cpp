@@ -108,12 +108,14 @@ void check_rate(const RateSpec& rate, SpecErrors& found) {
     return check_capacity(rate, found);
   }
   if (rate.bits_per_s == 0) {
-    if (rate.drop == RateSpec::Drop::kHead) found.add("rate.drop", "a queue needs a rate");
-    if (rate.queue_bytes != 0) found.add("rate.queue_bytes", "a queue needs a rate");
-    if (rate.queue_datagrams != 0) found.add("rate.queue_datagrams", "a queue needs a rate");
-    if (rate.codel) found.add("rate.codel", "a queue needs a rate");
-    if (rate.queue_wait) found.add("rate.queue_wait", "a queue needs a rate");
-    if (rate.competing_peak != Duration::zero()) found.add("rate.competing_peak", "a queue needs a rate");
+    const std::pair<const char*, bool> parts[] = {{"rate.drop", rate.drop == RateSpec::Drop::kHead},
+                                                  {"rate.queue_bytes", rate.queue_bytes != 0},
+                                                  {"rate.queue_datagrams", rate.queue_datagrams != 0},
+                                                  {"rate.codel", rate.codel.has_value()},
+                                                  {"rate.queue_wait", rate.queue_wait.has_value()},
+                                                  {"rate.competing_peak", rate.competing_peak != Duration::zero()}};
+    for (const auto& [key, present] : parts)
+      if (present) found.add(key, "a queue needs a rate");
     return;
   }
   found.range("rate.bits_per_s", static_cast<double>(rate.bits_per_s), 100.0, 1e12);

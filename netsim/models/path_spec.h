@@ -120,8 +120,8 @@ struct StallSpec {
   friend bool operator==(const StallSpec&, const StallSpec&) = default;
 };
 
-/// Order policy of arrivals.
-enum class Order : std::uint8_t {
+/// Order of arrivals.
+enum class ArrivalOrder : std::uint8_t {
   kFifo,  ///< arrival times never decrease: jitter delays datagrams but never reorders them
   kFree,  ///< every datagram has an independent delay, as in netem; at 1 kHz even 1 ms of jitter reorders
 };
@@ -185,8 +185,8 @@ struct PathSpec {
   std::vector<RegimeSpec> regimes = {};          ///< empty, or 2 to 16 regimes
   BoundarySpec boundary = {};                    ///< transmission at periodic times only
   StallSpec stall = {};                          ///< random stalls
-  SlotsSpec slots = {};                          ///< requires Order::kFifo
-  Order order = Order::kFifo;                    ///< order of arrivals
+  SlotsSpec slots = {};                          ///< requires ArrivalOrder::kFifo
+  ArrivalOrder order = ArrivalOrder::kFifo;      ///< order of arrivals
   ReorderSpec reorder = {};                      ///< reordering
   DuplicateSpec duplicate = {};                  ///< duplication
   CorruptionSpec corruption = {};                ///< corruption
@@ -213,9 +213,9 @@ struct LinkSpec {
 /// Returns all errors of the spec; empty if the spec is valid.
 [[nodiscard]] std::vector<SpecError> problems(const PathSpec& spec);
 
-/// Returns whether verdicts may become final after sending, see Path.
+/// Returns whether decisions may become final after sending, see Path.
 [[nodiscard]] bool defers(const PathSpec& spec) noexcept;
-/// Returns whether later datagrams can change the arrival time or the verdict of earlier ones.
+/// Returns whether later datagrams can change the arrival time or the decision of earlier ones.
 [[nodiscard]] bool waits_for_others(const PathSpec& spec) noexcept;
 
 /// Returns the maximum delay of the spec, excluding the queue of its rate and the order policy. Used to size stores.

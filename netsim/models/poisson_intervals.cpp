@@ -57,28 +57,17 @@ const PoissonIntervals::Slot& PoissonIntervals::slot(std::int64_t number) noexce
 
 bool PoissonIntervals::begun_within(Time t, Duration window) noexcept {
   if (!(rate_ > 0) || window == Duration::zero()) return false;
-  const std::int64_t here = t.time_since_epoch() / slot_length_;
-  for (std::int64_t number = std::max<std::int64_t>(here - 1, 0); number <= here; ++number) {
-    const Slot& candidates = slot(number);
-    for (std::size_t i = 0; i < candidates.count && candidates.intervals[i].start <= t; ++i) {
-      if (t - candidates.intervals[i].start < window) return true;
-    }
-  }
-  return false;
+  bool any = false;
+  begun(t - window, t, [&any](const Interval&) { any = true; });
+  return any;
 }
 
 Time PoissonIntervals::chain_end(Time t) noexcept {
   // Follows chains of overlapping intervals. The bound of 64 is safe: rate * cap <= 32 makes longer chains practically
   // impossible. A truncated chain only ends a little earlier.
   for (int step = 0; step < 64; ++step) {
-    const std::int64_t here = t.time_since_epoch() / slot_length_;
-    Time end = t;
-    for (std::int64_t number = std::max<std::int64_t>(here - 1, 0); number <= here; ++number) {
-      const Slot& candidates = slot(number);
-      for (std::size_t i = 0; i < candidates.count && candidates.intervals[i].start <= t; ++i) {
-        end = std::max(end, candidates.intervals[i].end);
-      }
-    }
+    Time end = t;  // an interval is at most as long as a slot: older ones ended by now
+    begun(t - slot_length_, t, [&end](const Interval& interval) { end = std::max(end, interval.end); });
     if (end == t) break;
     t = end;
   }

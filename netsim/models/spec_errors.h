@@ -1,10 +1,11 @@
 #pragma once
 
-#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/base/format.h"
 #include "common/base/time.h"
 #include "netsim/models/loss_spec.h"
 
@@ -20,16 +21,8 @@ struct SpecError {
 class SpecErrors {
  public:
   /// Formats a duration in the unit of profiles and options: "1.5 ms".
-  [[nodiscard]] static std::string text(Duration d) {
-    std::ostringstream out;
-    out << static_cast<double>(d.count()) / 1e6 << " ms";
-    return out.str();
-  }
-  [[nodiscard]] static std::string text(double value) {
-    std::ostringstream out;
-    out << value;
-    return out.str();
-  }
+  [[nodiscard]] static std::string text(Duration d) { return format("%g ms", static_cast<double>(d.count()) / 1e6); }
+  [[nodiscard]] static std::string text(double value) { return format("%g", value); }
 
   template <typename T>
   void range(std::string_view key, T value, T lo, T hi) {
@@ -47,6 +40,16 @@ class SpecErrors {
  private:
   std::vector<SpecError> errors_;
 };
+
+/// Reports the errors of a spec that a constructor received.
+/// @param subject  of the message
+/// @throws std::invalid_argument with one line per error, if there is one
+inline void throw_if_any(const std::string& subject, const std::vector<SpecError>& errors) {
+  if (errors.empty()) return;
+  std::string message = subject + ":";
+  for (const SpecError& error : errors) message += "\n  " + error.key + ": " + error.message;
+  throw std::invalid_argument(message);
+}
 
 /// Checks a loss spec.
 /// @param has_rate, has_stall  whether the path has the rate and the stalls that congestion loss needs

@@ -134,11 +134,11 @@ Outcome ProxyCore::ingress(Time now, std::uint32_t client, Direction direction, 
   const std::uint64_t free = queue_.slots() - std::min(queue_.slots(), queue_.size());
   // A flooding client must not use the space of others.
   if (link->counters.in_flight() >= std::min(kPerDirectionMax, free)) {
-    Verdict verdict = link->send(now, bytes.size());  // takes its index and uses the link
-    verdict.outcome = Outcome::kOverflow;
-    verdict.at = now;
-    verdict.copied = false;
-    return link->enter(verdict, queue_, {now}, bytes);
+    PathDecision decision = link->send(now, bytes.size());  // takes its index and uses the link
+    decision.outcome = Outcome::kOverflow;
+    decision.at = now;
+    decision.copied = false;
+    return link->enter(decision, queue_, {now}, bytes);
   }
   if (direction == Direction::kUp) address = clients_[client].addresses.current(now);
   return link->enter(queue_, {now, clients_.path_index(client, direction), address}, bytes);

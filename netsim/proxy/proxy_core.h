@@ -15,7 +15,8 @@
 namespace tandem::netsim {
 
 /// Proxy logic without sockets and clock: datagrams in, scheduled datagrams out. It uses the same Path and `submit` as
-/// the virtual network. Equal seed, client number, times and sizes therefore give equal verdicts; a test verifies this.
+/// the virtual network. Equal seed, client number, times and sizes therefore give equal decisions; a test verifies
+/// this.
 class ProxyCore {
  public:
   static constexpr std::size_t kClientsMax = ClientTable::kMax;
@@ -77,7 +78,7 @@ class ProxyCore {
     std::uint32_t address = 0;  ///< address number of the client; up: sender, down: destination
   };
   /// Returns the next datagram due at `now`, in the order (time, arrival).
-  /// @param known  all datagrams that arrived up to this time went through `ingress` [<= now]. Verdicts that later
+  /// @param known  all datagrams that arrived up to this time went through `ingress` [<= now]. Decisions that later
   /// arrivals can change are decided up to this time.
   std::optional<Egress> take(Time now, Time known) noexcept TANDEM_REALTIME;
   std::optional<Egress> take(Time now) noexcept TANDEM_REALTIME { return take(now, now); }
@@ -107,7 +108,7 @@ class ProxyCore {
   LinkSpec spec_;  ///< link of new clients
   LinkFactory links_;
   std::array<std::shared_ptr<LinkTimeline>, kDirections> shared_ = {};  ///< link of all clients, if they share it
-  bool may_defer_ = false;                                              ///< true: some verdicts may be deferred
+  bool may_defer_ = false;                                              ///< true: some decisions may be deferred
   DecisionSink* sink_ = nullptr;
   DelayQueue queue_;
   ClientTable clients_;

@@ -53,15 +53,13 @@ Duration AgeOfInformation::quantile(double share) const noexcept {
 }
 
 AgeSummary AgeOfInformation::summary() const noexcept {
-  AgeSummary s;
-  s.watched = observed_;
-  if (observed_ == Duration::zero()) return s;
-  s.mean_s = integral_ / seconds(observed_);
-  s.p50 = std::min(quantile(0.5), max_);
-  s.p99 = std::min(quantile(0.99), max_);
-  s.max = max_;
-  s.max_at = max_at_;
-  return s;
+  if (observed_ == Duration::zero()) return {};
+  return {.watched = observed_,
+          .mean_s = integral_ / seconds(observed_),
+          .p50 = std::min(quantile(0.5), max_),
+          .p99 = std::min(quantile(0.99), max_),
+          .max = max_,
+          .max_at = max_at_};
 }
 
 }  // namespace tandem::netsim

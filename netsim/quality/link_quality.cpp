@@ -86,10 +86,13 @@ void LinkQuality::count_gap(Time from, Time until) noexcept {
   if (gap <= Duration::zero()) return;
   Step& step = step_at(until);
   step.gap = std::max(step.gap, gap);
-  if (gap > counts_.longest_gap) {
-    counts_.longest_gap = gap;
-    counts_.longest_gap_at = from;
-  }
+  note_gap(gap, from);
+}
+
+void LinkQuality::note_gap(Duration gap, Time from) noexcept {
+  if (gap <= counts_.longest_gap) return;
+  counts_.longest_gap = gap;
+  counts_.longest_gap_at = from;
 }
 
 /// Adds the age of the datagram sent at `newest_sent_` up to now. Pauses of the sender do not increase the age.
@@ -106,10 +109,7 @@ void LinkQuality::count_age(Time sent, Time at) noexcept {
 void LinkQuality::close(std::int64_t step) noexcept {
   Step& closed = steps_[static_cast<std::size_t>(step) % kStepsKept];
   const auto [gap, since] = gaps_.close(closed, delay_min_);
-  if (gap > counts_.longest_gap) {  // gaps that ended were counted at their arrival
-    counts_.longest_gap = gap;
-    counts_.longest_gap_at = since;
-  }
+  note_gap(gap, since);  // gaps that ended were counted at their arrival
   delays_.close(step);
   for (std::size_t w = 0; w < kWindows; ++w) {
     Window& window = windows_[w];

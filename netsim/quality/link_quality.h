@@ -50,6 +50,7 @@ class LinkQuality {
   [[nodiscard]] Time silent_since(Time sent) const noexcept;
   [[nodiscard]] Time newest_arrived() const noexcept { return heard_ ? newest_sent_ : Time::min(); }
   void count_gap(Time from, Time until) noexcept;
+  void note_gap(Duration gap, Time from) noexcept;
   void count_age(Time sent, Time at) noexcept;
   void close(std::int64_t step) noexcept;
   void judge(std::size_t window, std::int64_t step, Duration gap) noexcept;

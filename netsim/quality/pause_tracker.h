@@ -21,10 +21,16 @@ class PauseTracker {
   /// Records that the sender resumed.
   void add(const Resume& resume) noexcept TANDEM_REALTIME { resumes_[count_++ % kKept] = resume; }
   /// Returns the oldest or newest remembered resume with after < at <= until; nullptr if there is none.
-  [[nodiscard]] const Resume* first_in(Time after, Time until) const noexcept TANDEM_REALTIME;
-  [[nodiscard]] const Resume* last_in(Time after, Time until) const noexcept TANDEM_REALTIME;
+  [[nodiscard]] const Resume* first_in(Time after, Time until) const noexcept TANDEM_REALTIME {
+    return find(after, until, false);
+  }
+  [[nodiscard]] const Resume* last_in(Time after, Time until) const noexcept TANDEM_REALTIME {
+    return find(after, until, true);
+  }
 
  private:
+  [[nodiscard]] const Resume* find(Time after, Time until, bool newest) const noexcept;
+
   static constexpr std::size_t kKept = 64;
   std::array<Resume, kKept> resumes_{};
   std::uint64_t count_ = 0;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "netsim/quality/quality_text.h"
 
@@ -24,10 +25,7 @@ void put_delay(Json& json, const DelaySummary& d, const std::string& prefix) {
 Json windows_json(const WindowSummaries& all, std::initializer_list<Measure> measures) {
   Json list = Json::array();
   for (const WindowSummary& w : all) {
-    Json one;
-    one["length_s"] = seconds(w.length);
-    one["step_s"] = seconds(kWindowStep);
-    one["judged"] = w.windows;
+    Json one{{"length_s", seconds(w.length)}, {"step_s", seconds(kWindowStep)}, {"judged", w.windows}};
     for (const Band band : {Band::kGreen, Band::kAmber, Band::kRed}) {
       one[std::string(name(band)) + "_percent"] = 100 * w.share(band);
     }
@@ -49,44 +47,41 @@ Json windows_json(const WindowSummaries& all, std::initializer_list<Measure> mea
 }  // namespace
 
 Json quality_json(const DirectionSummary& way) {
-  Json json;
-  json["verdict"] = verdict_name(verdict(way.windows));
-  json["from_s"] = seconds(way.from);
-  json["until_s"] = seconds(way.until);
-  json["sent"] = way.sent;
-  json["lost"] = way.lost;
-  json["lost_percent"] = 100 * way.lost_share();
-  json["arrived"] = way.arrived;
-  json["duplicates"] = way.duplicates;
-  json["reordered"] = way.reordered;
-  json["reordered_percent"] = 100 * way.reordered_share();
-  json["reordered_by_max"] = way.reordered_by_max;
+  Json json{{"verdict", verdict_name(verdict(way.windows))},
+            {"from_s", seconds(way.from)},
+            {"until_s", seconds(way.until)},
+            {"sent", way.sent},
+            {"lost", way.lost},
+            {"lost_percent", 100 * way.lost_share()},
+            {"arrived", way.arrived},
+            {"duplicates", way.duplicates},
+            {"reordered", way.reordered},
+            {"reordered_percent", 100 * way.reordered_share()},
+            {"reordered_by_max", way.reordered_by_max}};
   put_delay(json, way.delay, "delay_");
-  json["jitter_ms"] = ms(way.delay.jitter());
-  json["age_mean_ms"] = way.age.mean_s * 1e3;
-  json["age_p50_ms"] = ms(way.age.p50);
-  json["age_p99_ms"] = ms(way.age.p99);
-  json["age_max_ms"] = ms(way.age.max);
-  json["age_max_at_s"] = seconds(way.age.max_at);
-  json["longest_gap_ms"] = ms(way.longest_gap);
-  json["longest_gap_at_s"] = seconds(way.longest_gap_at);
-  json["sender_pauses"] = way.pauses;
-  json["sender_paused_s"] = seconds(way.paused);
-  json["windows"] = windows_json(way.windows, {Measure::kLoss, Measure::kGap, Measure::kJitter});
+  json.update(Json{{"jitter_ms", ms(way.delay.jitter())},
+                   {"age_mean_ms", way.age.mean_s * 1e3},
+                   {"age_p50_ms", ms(way.age.p50)},
+                   {"age_p99_ms", ms(way.age.p99)},
+                   {"age_max_ms", ms(way.age.max)},
+                   {"age_max_at_s", seconds(way.age.max_at)},
+                   {"longest_gap_ms", ms(way.longest_gap)},
+                   {"longest_gap_at_s", seconds(way.longest_gap_at)},
+                   {"sender_pauses", way.pauses},
+                   {"sender_paused_s", seconds(way.paused)},
+                   {"windows", windows_json(way.windows, {Measure::kLoss, Measure::kGap, Measure::kJitter})}});
   return json;
 }
 
 Json quality_json(const LinkSummary& link) {
-  Json json;
-  json["verdict"] = verdict_name(verdict(link));
-  json["up"] = quality_json(link.up);
-  json["down"] = quality_json(link.down);
-  Json& trip = json["round_trip"];
-  trip["verdict"] = verdict_name(verdict(link.round_trip.windows));
-  trip["count"] = link.round_trip.delay.count;
-  put_delay(trip, link.round_trip.delay, "");
-  trip["windows"] = windows_json(link.round_trip.windows, {Measure::kRoundTrip});
-  return json;
+  const RoundTripSummary& round_trip = link.round_trip;
+  Json trip{{"verdict", verdict_name(verdict(round_trip.windows))}, {"count", round_trip.delay.count}};
+  put_delay(trip, round_trip.delay, "");
+  trip["windows"] = windows_json(round_trip.windows, {Measure::kRoundTrip});
+  return {{"verdict", verdict_name(verdict(link))},
+          {"up", quality_json(link.up)},
+          {"down", quality_json(link.down)},
+          {"round_trip", std::move(trip)}};
 }
 
 }  // namespace tandem::netsim

@@ -52,16 +52,14 @@ void SlidingDelays::drop_until(Window& window, std::uint64_t position) noexcept 
 }
 
 DelaySummary SlidingDelays::summary() const noexcept {
-  DelaySummary s;
-  s.count = all_.count();
-  if (s.count == 0) return s;
-  s.mean_s = sum_s_ / static_cast<double>(s.count);
-  s.p5 = all_.quantile(5);
-  s.p50 = all_.quantile(50);
-  s.p95 = all_.quantile(95);
-  s.p99 = all_.quantile(99);
-  s.max = max_;
-  return s;
+  if (all_.count() == 0) return {};
+  return {.count = all_.count(),
+          .mean_s = sum_s_ / static_cast<double>(all_.count()),
+          .p5 = all_.quantile(5),
+          .p50 = all_.quantile(50),
+          .p95 = all_.quantile(95),
+          .p99 = all_.quantile(99),
+          .max = max_};
 }
 
 Band note(MeasureSummary& summary, Band band, double value, Time end) noexcept {

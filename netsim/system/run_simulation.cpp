@@ -4,7 +4,6 @@
 
 #include "common/transport/digest.h"
 #include "netsim/feel/observed_feel.h"
-#include "netsim/system/link_qualities.h"
 #include "netsim/system/session_notes.h"
 #include "netsim/system/simulation.h"
 #include "netsim/system/simulation_report.h"
@@ -66,7 +65,7 @@ SimulationResult run_simulation(Simulation& simulation, std::uint64_t seed, cons
   }
   flush();
   run.trouble = simulation.trouble();
-  run.links = link_qualities(simulation);
+  run.links = simulation.link_qualities();
   run.report = simulation_report(simulation, builder, seed);
   run.report.trace_hash = digest.hex();
   std::vector<std::uint32_t> trips;

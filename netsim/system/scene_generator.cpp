@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/format.h"
+#include "netsim/system/random_draws.h"
 
 namespace tandem::netsim {
 
@@ -15,7 +16,7 @@ namespace {
 class SceneGenerator {
  public:
   SceneGenerator(RandomKey key, double duration_s, LawKind law)
-      : random_(key),
+      : draws_(key),
         replica_draws_(key.derive(kReplicaDraws)),
         assist_draws_(key.derive(kAssistDraws)),
         replica_(law == LawKind::kReplica),
@@ -33,131 +34,127 @@ class SceneGenerator {
   }
 
  private:
-  bool chance(double p) { return random_.uniform() < p; }
-  double between(double lo, double hi) { return random_.uniform(lo, hi); }
-  double log_between(double lo, double hi) { return std::exp(between(std::log(lo), std::log(hi))); }
-  template <std::size_t N>
-  std::size_t choose(const std::array<double, N>& weight) {
-    double sum = 0, drawn = random_.uniform();
-    for (const double w : weight) sum += w;
-    for (std::size_t i = 0; i + 1 < N; ++i)
-      if ((drawn -= weight[i] / sum) < 0) return i;
-    return N - 1;
-  }
-
   void draw_size() {
-    axes_ = chance(0.3) ? 1 : 3;
-    masters_ = 1 + choose(std::array{0.20, 0.36, 0.18, 0.10, 0.06, 0.04, 0.03, 0.03});
-    tools_ = std::min(masters_, 1 + choose(std::array{0.70, 0.18, 0.07, 0.05}));
+    axes_ = draws_.chance(0.3) ? 1 : 3;
+    masters_ = 1 + draws_.choose(std::array{0.20, 0.36, 0.18, 0.10, 0.06, 0.04, 0.03, 0.03});
+    tools_ = std::min(masters_, 1 + draws_.choose(std::array{0.70, 0.18, 0.07, 0.05}));
     // Seats that may lead come first; every tool gets one of them.
-    leaders_ = tools_ + (masters_ > tools_ ? random_.below(masters_ - tools_ + 1) : 0);
-    tick_hz_ = std::array{1000.0, 500.0, 2000.0}[choose(std::array{0.85, 0.1, 0.05})];
-    damping_ = chance(0.7) ? 0.2 : between(0.2, 2);
+    leaders_ = tools_ + (masters_ > tools_ ? draws_.below(masters_ - tools_ + 1) : 0);
+    tick_hz_ = std::array{1000.0, 500.0, 2000.0}[draws_.choose(std::array{0.85, 0.1, 0.05})];
+    damping_ = draws_.chance(0.7) ? 0.2 : draws_.between(0.2, 2);
   }
 
   void header() {
     const double limit = std::min(400.0, 2 * 0.2 * tick_hz_);
     out_ += format("version: 1  tick_hz: %g  dof: %zu  duration_s: %g  port: %s  ", tick_hz_, axes_, duration_s_,
-                   axes_ == 3 && chance(0.25) && !replica_ ? "JOINT" : "TIP");
-    out_ += chance(0.1) ? "alpha_step: true\n"
-                        : format("alpha_slew_per_s: %.3g\n", chance(0.5) ? 1.0 : log_between(0.1, 100));
-    const char* const mfs = std::array{"OPEN", "TANK", "SEED", "SEED_SIGNED"}[choose(std::array{0.7, 0.1, 0.1, 0.1})];
+                   axes_ == 3 && draws_.chance(0.25) && !replica_ ? "JOINT" : "TIP");
+    out_ += draws_.chance(0.1)
+                ? "alpha_step: true\n"
+                : format("alpha_slew_per_s: %.3g\n", draws_.chance(0.5) ? 1.0 : draws_.log_between(0.1, 100));
+    const char* const mfs =
+        std::array{"OPEN", "TANK", "SEED", "SEED_SIGNED"}[draws_.choose(std::array{0.7, 0.1, 0.1, 0.1})];
     const bool seeds = mfs[0] == 'S';  // these sources cut a velocity, which law REPLICA does not send
     out_ +=
         format("channel { law: %s mfs: %s", replica_ ? "REPLICA" : "SET_POSITION", replica_ && seeds ? "OPEN" : mfs);
-    if (chance(0.4)) out_ += format(" k_n_m: %.4g", log_between(100, 3000));
-    const double force_max = chance(0.6) ? 3.3 : between(0.5, 6);
+    if (draws_.chance(0.4)) out_ += format(" k_n_m: %.4g", draws_.log_between(100, 3000));
+    const double force_max = draws_.chance(0.6) ? 3.3 : draws_.between(0.5, 6);
     constexpr double kMin =
         60;  // a smaller initial energy than the full pull of the softest spring would dead-lock a start
-    if (chance(0.5)) {
+    if (draws_.chance(0.5)) {
       const double written = std::strtod(format("%.3g", force_max).c_str(), nullptr);  // as printed, perhaps rounded up
-      const double drawn = 1.001 * force_max * force_max / (2 * kMin) * log_between(1, 5);
+      const double drawn = 1.001 * force_max * force_max / (2 * kMin) * draws_.log_between(1, 5);
       out_ += format(" e0_j: %.4g", std::max(drawn, 1.001 * written * written / (2 * kMin)));
     }
-    if (chance(0.3)) out_ += format(" eta: %.3g", between(0, 1));
-    if (chance(0.3)) out_ += format(" margin_max_j: %.3g", log_between(0.005, 1));
-    if (chance(0.3)) out_ += format(" v_app_m_s: %.3g", log_between(0.02, 0.5));
-    if (chance(0.2)) out_ += " effort_half: false";
-    if (chance(0.3)) out_ += format(" lead_max_ms: %.3g", between(0, 100));
-    out_ += format(" }\ndevice_coupling { k_c_n_m: %.4g b_n_s_m: %.3g m_c_kg: %.3g }\n",
-                   chance(0.6) ? limit : between(50, limit), chance(0.7) ? 0.5 : between(0, 2),
-                   chance(0.7) ? 0.02 : log_between(0.005, 0.2));
+    if (draws_.chance(0.3)) out_ += format(" eta: %.3g", draws_.between(0, 1));
+    if (draws_.chance(0.3)) out_ += format(" margin_max_j: %.3g", draws_.log_between(0.005, 1));
+    if (draws_.chance(0.3)) out_ += format(" v_app_m_s: %.3g", draws_.log_between(0.02, 0.5));
+    if (draws_.chance(0.2)) out_ += " effort_half: false";
+    if (draws_.chance(0.3)) out_ += format(" lead_max_ms: %.3g", draws_.between(0, 100));
     out_ +=
-        format("gate { silence_limit_ms: %.3g loop_age_max_ms: %.5g latch: %s ramp_in_ms: %.4g force_max_n: %.3g }\n",
-               chance(0.6) ? 20.0 : between(10, 100), chance(0.5) ? 2500.0 : between(300, 2500),
-               chance(0.3) ? "true" : "false", chance(0.6) ? 500.0 : log_between(50, 1500), force_max);
+        format(" }\ndevice_coupling { k_c_n_m: %.4g b_n_s_m: %.3g m_c_kg: %.3g }\n",
+               draws_.chance(0.6) ? limit : draws_.between(50, limit), draws_.chance(0.7) ? 0.5 : draws_.between(0, 2),
+               draws_.chance(0.7) ? 0.02 : draws_.log_between(0.005, 0.2));
+    out_ += format(
+        "gate { silence_limit_ms: %.3g loop_age_max_ms: %.5g latch: %s ramp_in_ms: %.4g force_max_n: %.3g }\n",
+        draws_.chance(0.6) ? 20.0 : draws_.between(10, 100), draws_.chance(0.5) ? 2500.0 : draws_.between(300, 2500),
+        draws_.chance(0.3) ? "true" : "false", draws_.chance(0.6) ? 500.0 : draws_.log_between(50, 1500), force_max);
   }
 
   std::string device() {
     std::string text = format("damping_n_s_m: %.4g", damping_);
-    if (chance(0.5)) text += format(" friction_n: %.3g", between(0, 0.3));
-    if (chance(0.3)) text += " friction_feedforward: true";
-    if (axes_ == 3 && chance(0.2)) text += " gravity_compensation: false";
-    if (axes_ == 1 && chance(0.5)) text += format(" mass_kg: %.3g", log_between(0.05, 0.5));
-    if (chance(0.3))
-      text += format(" start_m { x: %.3g%s }", between(-0.02, 0.02),
-                     axes_ == 3 ? format(" z: %.3g", between(-0.02, 0.02)).c_str() : "");
+    if (draws_.chance(0.5)) text += format(" friction_n: %.3g", draws_.between(0, 0.3));
+    if (draws_.chance(0.3)) text += " friction_feedforward: true";
+    if (axes_ == 3 && draws_.chance(0.2)) text += " gravity_compensation: false";
+    if (axes_ == 1 && draws_.chance(0.5)) text += format(" mass_kg: %.3g", draws_.log_between(0.05, 0.5));
+    if (draws_.chance(0.3))
+      text += format(" start_m { x: %.3g%s }", draws_.between(-0.02, 0.02),
+                     axes_ == 3 ? format(" z: %.3g", draws_.between(-0.02, 0.02)).c_str() : "");
     return text;
   }
 
   std::string hand() {
     constexpr std::array kModels{"LEADER", "RELAXED", "RESTING", "LETTING_GO", "TREMOR", "NONE"};
-    const std::size_t model = choose(std::array{0.4, 0.25, 0.12, 0.1, 0.08, 0.05});
+    const std::size_t model = draws_.choose(std::array{0.4, 0.25, 0.12, 0.1, 0.08, 0.05});
     std::string text = format("hand { model: %s", kModels[model]);
     if (model == 0 || model == 3 || model == 4) {
-      if (chance(0.6)) {
-        text += format(" trajectory { circle { radius_m: %.3g frequency_hz: %.3g } }", between(0.005, 0.05),
-                       log_between(0.1, 2));
+      if (draws_.chance(0.6)) {
+        text += format(" trajectory { circle { radius_m: %.3g frequency_hz: %.3g } }", draws_.between(0.005, 0.05),
+                       draws_.log_between(0.1, 2));
       } else {
         text += " trajectory {";
         double at = 0.2;
-        for (std::size_t n = 2 + random_.below(8); n > 0; --n, at += between(0.2, 3))
-          text += format(" waypoint { at_s: %.3f x_m: %.4f }", at, between(-0.04, 0.04));
+        for (std::size_t n = 2 + draws_.below(8); n > 0; --n, at += draws_.between(0.2, 3))
+          text += format(" waypoint { at_s: %.3f x_m: %.4f }", at, draws_.between(-0.04, 0.04));
         text += " }";
       }
-      if (model == 3) text += format(" release_at_s: %.3g", between(0.5, 20));
-      if (chance(0.3)) text += format(" from_s: %.3g", between(0, 5));
+      if (model == 3) text += format(" release_at_s: %.3g", draws_.between(0.5, 20));
+      if (draws_.chance(0.3)) text += format(" from_s: %.3g", draws_.between(0, 5));
     }
-    double at = between(0, 5);
-    for (std::size_t n = chance(0.4) ? 1 + random_.below(4) : 0; n > 0; --n, at += between(1, 6))
-      text += format(" deviation { at_s: %.3f for_s: %.3g force_n { x: %.3g } }", at, between(0.05, 2), between(-5, 5));
+    double at = draws_.between(0, 5);
+    for (std::size_t n = draws_.chance(0.4) ? 1 + draws_.below(4) : 0; n > 0; --n, at += draws_.between(1, 6))
+      text += format(" deviation { at_s: %.3f for_s: %.3g force_n { x: %.3g } }", at, draws_.between(0.05, 2),
+                     draws_.between(-5, 5));
     return text + " }";
   }
 
   std::string environment() {
-    const std::size_t kind = choose(std::array{0.4, 0.35, 0.25});
+    const std::size_t kind = draws_.choose(std::array{0.4, 0.35, 0.25});
     if (kind == 0) return {};
-    const char* const axis = axes_ == 3 && chance(0.4) ? "Z" : "X";
-    const double at = between(-0.01, 0.03);
+    const char* const axis = axes_ == 3 && draws_.chance(0.4) ? "Z" : "X";
+    const double at = draws_.between(-0.01, 0.03);
     if (kind == 1)
-      return format("environment { wall { axis: %s at_m: %.3g k_n_m: %.4g } }", axis, at, log_between(300, 20000));
+      return format("environment { wall { axis: %s at_m: %.3g k_n_m: %.4g } }", axis, at,
+                    draws_.log_between(300, 20000));
     return format("environment { tissue { axis: %s at_m: %.3g k_n_m: %.4g from_below: true } }", axis, at,
-                  log_between(50, 1000));
+                  draws_.log_between(50, 1000));
   }
 
   void seat(std::size_t i) {
-    const char* const role = i == 0 ? "INSTRUCTOR" : i < leaders_ ? "TRAINEE" : chance(0.7) ? "EVALUATOR" : "OBSERVER";
+    const char* const role = i == 0               ? "INSTRUCTOR"
+                             : i < leaders_       ? "TRAINEE"
+                             : draws_.chance(0.7) ? "EVALUATOR"
+                                                  : "OBSERVER";
     out_ += format("seat { name: \"seat%zu\" kind: MASTER role: %s required: %s", i, role,
-                   i < tools_ || chance(0.7) ? "true" : "false");
+                   i < tools_ || draws_.chance(0.7) ? "true" : "false");
     out_ += " device { " + device() + " } " + hand();
-    if (replica_ && assist_draws_.uniform() < kAssisted)
-      out_ += format(" assist { force_n: %.3g in_contact: %s }", assist_draws_.uniform(0, 3),
-                     assist_draws_.uniform() < 0.5 ? "true" : "false");
+    if (replica_ && assist_draws_.chance(kAssisted))
+      out_ += format(" assist { force_n: %.3g in_contact: %s }", assist_draws_.between(0, 3),
+                     assist_draws_.chance(0.5) ? "true" : "false");
     out_ += " }\n";
   }
 
   void tool(std::size_t j) {
     const std::string ipc = format("k_s_n_m: %.4g m_s_kg: %.3g", std::min(400.0, 2 * 0.2 * tick_hz_),
-                                   chance(0.7) ? 0.05 : log_between(0.02, 0.3));
-    if (chance(0.2)) {
+                                   draws_.chance(0.7) ? 0.05 : draws_.log_between(0.02, 0.3));
+    if (draws_.chance(0.2)) {
       out_ += format("tool { name: \"tool%zu\" %s }\n", j, ipc.c_str());
       out_ += format("seat { name: \"slave%zu\" kind: SLAVE tool: \"tool%zu\" required: true", j, j);
       out_ += " device { " + device() + " } " + environment() + " }\n";
       return;
     }
     const std::string slave = device(), surfaces = environment();
-    if (replica_ && replica_draws_.uniform() < kVirtual) {
-      const double mass = std::exp(replica_draws_.uniform(std::log(0.005), std::log(0.1)));
+    if (replica_ && replica_draws_.chance(kVirtual)) {
+      const double mass = replica_draws_.log_between(0.005, 0.1);
       out_ +=
           format("tool { name: \"tool%zu\" m_s_kg: %.3g slave { model: VIRTUAL %s } }\n", j, mass, surfaces.c_str());
     } else {
@@ -169,7 +166,7 @@ class SceneGenerator {
 
   /// Couples half of the hands to several tools; the shares sum to 1 exactly as printed.
   void follow(std::size_t seat) {
-    if (replica_draws_.uniform() < 0.5) return;
+    if (replica_draws_.chance(0.5)) return;
     int left = 1000;
     for (std::size_t j = 0; j < tools_ && left > 0; ++j) {
       const int share =
@@ -183,12 +180,12 @@ class SceneGenerator {
   /// Returns a row of authority over one tool that sums to 1 exactly as printed: thousandths, the last takes the rest.
   std::string weights(std::size_t tool) {
     std::vector<int> share(leaders_, 0);
-    if (chance(0.4)) {
+    if (draws_.chance(0.4)) {
       share[tool < leaders_ ? tool : 0] = 1000;
     } else {
       int left = 1000;
       for (std::size_t i = 0; i + 1 < leaders_; ++i)
-        left -= share[i] = static_cast<int>(random_.below(static_cast<std::uint64_t>(left) + 1));
+        left -= share[i] = static_cast<int>(draws_.below(static_cast<std::uint64_t>(left) + 1));
       share[leaders_ - 1] = left;
     }
     std::string text;
@@ -199,17 +196,17 @@ class SceneGenerator {
   }
 
   void timeline() {
-    double at = between(0.2, 4);
-    for (std::size_t n = random_.below(12); n > 0 && at < duration_s_; --n, at += log_between(0.05, 6))
-      out_ += format("timeline { at_s: %.4f ", at) + weights(random_.below(tools_)) + "}\n";
+    double at = draws_.between(0.2, 4);
+    for (std::size_t n = draws_.below(12); n > 0 && at < duration_s_; --n, at += draws_.log_between(0.05, 6))
+      out_ += format("timeline { at_s: %.4f ", at) + weights(draws_.below(tools_)) + "}\n";
   }
 
   static constexpr std::uint64_t kReplicaDraws = 0x72, kAssistDraws = 0x61;
   static constexpr double kVirtual = 0.75;  ///< share of the tools that the server simulates
   static constexpr double kAssisted = 0.4;  ///< share of the hands with assistance
 
-  RandomStream random_;
-  RandomStream replica_draws_,
+  RandomDraws draws_;
+  RandomDraws replica_draws_,
       assist_draws_;  ///< separate, so that a seed draws the same seats, tools and motions for every law
   bool replica_;
   double duration_s_;

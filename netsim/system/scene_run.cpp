@@ -1,8 +1,8 @@
 #include "netsim/system/scene_run.h"
 
-#include <sstream>
 #include <utility>
 
+#include "common/base/format.h"
 #include "netsim/profiles/profile_loader.h"
 #include "netsim/system/run_simulation.h"
 #include "netsim/system/session_notes.h"
@@ -48,11 +48,8 @@ std::expected<server::RunReport, std::string> run_scene(const SceneRun& run) {
 }
 
 std::string replay_command(const SceneRun& run) {
-  std::ostringstream command;
-  command << "tandem-netsim run " << run.scene << " --profile " << run.profile << " --seed " << run.seed;
-  if (run.duration_s > 0) command << " --duration " << run.duration_s;
-  command << " --trace trace.csv";
-  return command.str();
+  return "tandem-netsim run " + run.scene + " --profile " + run.profile + " --seed " + std::to_string(run.seed) +
+         (run.duration_s > 0 ? format(" --duration %g", run.duration_s) : "") + " --trace trace.csv";
 }
 
 }  // namespace tandem::netsim

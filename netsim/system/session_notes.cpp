@@ -37,17 +37,13 @@ std::vector<EventTime> asked_for(const SimulationConfig& setup) {
 }
 
 std::string missed(const EventTime& event, const SessionSpan& span) {
-  switch (fate_of(event, span.begin, span.end)) {
-    case EventFate::kNotReached:
-      return format("%s at %g s came after the end of the run, %.3f s", event.kind.c_str(), seconds(event.at),
-                    seconds(span.end));
-    case EventFate::kBeforeStart:
-      return format("%s at %g s was over before the session began, at %.3f s of network time", event.kind.c_str(),
-                    seconds(event.at), seconds(span.begin));
-    case EventFate::kApplied:
-    case EventFate::kStillActive:
-      break;
-  }
+  const EventFate fate = fate_of(event, span.begin, span.end);
+  if (fate == EventFate::kNotReached)
+    return format("%s at %g s came after the end of the run, %.3f s", event.kind.c_str(), seconds(event.at),
+                  seconds(span.end));
+  if (fate == EventFate::kBeforeStart)
+    return format("%s at %g s was over before the session began, at %.3f s of network time", event.kind.c_str(),
+                  seconds(event.at), seconds(span.begin));
   return {};
 }
 

@@ -16,15 +16,14 @@ transport::Secret drawn_secret(RandomKey key) noexcept {
 
 /// Returns the client's end of a connection; the server's end has the two ids exchanged.
 transport::SecureChannel::Params client_end(RandomKey key, std::uint8_t slot, std::size_t place, Duration tick) {
-  transport::SecureChannel::Params p;
-  p.outgoing = transport::Direction::kToServer;
-  p.own_cid = static_cast<std::uint32_t>(key.bits(0) | 1);
-  p.peer_cid = server::connection_id(static_cast<std::uint16_t>(key.bits(1)), slot, static_cast<std::uint8_t>(place));
-  p.tick = tick;
-  p.secrets.cipher = transport::fastest_cipher();
-  p.secrets.to_server = drawn_secret(key.derive(1));
-  p.secrets.to_client = drawn_secret(key.derive(2));
-  return p;
+  return {.outgoing = transport::Direction::kToServer,
+          .own_cid = static_cast<std::uint32_t>(key.bits(0) | 1),
+          .peer_cid =
+              server::connection_id(static_cast<std::uint16_t>(key.bits(1)), slot, static_cast<std::uint8_t>(place)),
+          .tick = tick,
+          .secrets = {.cipher = transport::fastest_cipher(),
+                      .to_server = drawn_secret(key.derive(1)),
+                      .to_client = drawn_secret(key.derive(2))}};
 }
 
 transport::SecureChannel::Params server_end(transport::SecureChannel::Params p) {

@@ -31,10 +31,7 @@ SimulatedServer::SimulatedServer(const SimulationConfig& config)
 
 std::string SimulatedServer::start(Time now, const AxisArray& scale) {
   scale_ = scale;
-  auto slaves = make_local_slaves(now, nullptr);
-  if (!slaves) return slaves.error();
-  session_ = std::make_unique<server::Session>(config_->scene, std::move(*slaves), scale_);
-  attach_contact_sources();
+  if (std::string error = make_session(now, nullptr); !error.empty()) return error;
   checkpoint_ = session_->checkpoint();
   return {};
 }
@@ -48,10 +45,7 @@ std::string SimulatedServer::apply_restarts(Time now) {
   const std::size_t size = server::encode_checkpoint(checkpoint_, bytes);
   const auto read = server::decode_checkpoint(std::span{bytes}.first(size));
   if (!read || !server::incompatibility(*read, config_->scene).empty()) return "the checkpoint cannot be read back";
-  auto slaves = make_local_slaves(now, &*read);
-  if (!slaves) return "after a restart: " + slaves.error();
-  session_ = std::make_unique<server::Session>(config_->scene, std::move(*slaves), scale_, *read);
-  attach_contact_sources();
+  if (std::string error = make_session(now, &*read); !error.empty()) return "after a restart: " + error;
   missed_ = 0;
   up_ = true;
   return {};
@@ -105,10 +99,15 @@ std::expected<SimulatedServer::Slaves, std::string> SimulatedServer::make_local_
   return slaves;
 }
 
-void SimulatedServer::attach_contact_sources() {
-  if (!config_->contact_source) return;
-  for (std::size_t j = 0; j < config_->scene.tools.size(); ++j)
+std::string SimulatedServer::make_session(Time now, const server::Checkpoint* from) {
+  auto slaves = make_local_slaves(now, from);
+  if (!slaves) return slaves.error();
+  const auto& scene = config_->scene;
+  session_ = from == nullptr ? std::make_unique<server::Session>(scene, std::move(*slaves), scale_)
+                             : std::make_unique<server::Session>(scene, std::move(*slaves), scale_, *from);
+  for (std::size_t j = 0; config_->contact_source && j < scene.tools.size(); ++j)
     session_->set_contact_source(j, config_->contact_source(j));
+  return {};
 }
 
 }  // namespace tandem::netsim

@@ -49,7 +49,10 @@ class SimulatedServer {
  private:
   using Slaves = std::vector<std::unique_ptr<hal::SteppedDevice>>;
   [[nodiscard]] std::expected<Slaves, std::string> make_local_slaves(Time now, const server::Checkpoint* from) const;
-  void attach_contact_sources();
+  /// Makes the session and its slaves.
+  /// @param from  where they continue; null: at the beginning
+  /// @return an error: a slave that cannot be made; empty: none
+  [[nodiscard]] std::string make_session(Time now, const server::Checkpoint* from);
 
   const SimulationConfig* config_;
   FaultSchedule faults_;

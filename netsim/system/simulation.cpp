@@ -1,7 +1,6 @@
 #include "netsim/system/simulation.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "hal/core/port_map.h"
@@ -32,40 +31,67 @@ std::uint32_t address_of(const server::PeerAddress& e) {
   return std::to_integer<std::uint32_t>(e.bytes[1]) | std::to_integer<std::uint32_t>(e.bytes[2]) << 8;
 }
 
+/// Returns the first fault or endpoint of a seat that the scene does not have, or an invalid endpoint; empty: none.
+std::string config_error(const SimulationConfig& setup) {
+  const auto known = [&](const std::string& seat) {
+    return std::ranges::find(setup.scene.seats, seat, &SeatSpec::name) != setup.scene.seats.end();
+  };
+  for (const Fault& fault : setup.faults)
+    if (!fault.seat.empty() && !known(fault.seat)) return "a fault of seat " + fault.seat + ", which the scene has not";
+  for (const auto& [seat, endpoint] : setup.endpoints) {
+    if (!known(seat)) return "a clock of seat " + seat + ", which the scene has not";
+    for (const SpecError& p : problems(endpoint)) return "seat " + seat + ": " + p.key + ": " + p.message;
+  }
+  return {};
+}
+
+/// Returns why a session did not begin in time, by seat.
+std::string start_timeout_text(const SceneSpec& scene, const server::Session& session,
+                               const std::vector<SimulatedClient>& clients, Time now) {
+  std::string text = "the session did not begin within " + std::to_string(kStartTimeout / std::chrono::seconds(1)) +
+                     " s of virtual time";
+  for (std::size_t i = 0; i < clients.size(); ++i) {
+    const client::Seat* seat = clients[i].seat();
+    if (seat == nullptr || !seat->gate().active())
+      text += "; " + not_engaged_reason(scene, i, seat, session, clients[i].own_time(now), now);
+  }
+  return text;
+}
+
+/// Sets the record of the session with the values of every seat in this tick, without the delay of the network.
+void update_record(const SceneSpec& scene, const server::Session& session, const std::vector<SimulatedClient>& clients,
+                   server::TickRecord& record) {
+  record = session.record();
+  for (std::size_t i = 0; i < clients.size(); ++i) {
+    const client::Seat* seat = clients[i].seat();
+    if (seat == nullptr) continue;
+    server::record_seat(seat->sample(), record.seats[i]);
+    if (clients[i].ran_in_tick()) record.seats[i].sample_tick = record.tick;  // else of the program's last tick
+  }
+  for (std::size_t j = 0; j < scene.tools.size(); ++j) {
+    const ToolSpec& tool = scene.tools[j];
+    if (!tool.remote) continue;
+    const client::Seat* seat = clients[tool.seat].seat();
+    if (seat != nullptr) server::record_slave(seat->sample().telemetry, record.tools[j]);
+    record.tools[j].sample_tick = record.tick;
+  }
+}
+
 }  // namespace
 
 std::expected<std::unique_ptr<Simulation>, std::string> Simulation::make(const SimulationConfig& setup) {
   std::unique_ptr<Simulation> made{new Simulation(setup)};
   Simulation& simulation = *made;
   const SceneSpec& scene = simulation.setup_.scene;
-  if (std::string error = simulation.config_error(); !error.empty()) return std::unexpected(std::move(error));
+  if (std::string error = config_error(setup); !error.empty()) return std::unexpected(std::move(error));
   simulation.clients_.reserve(scene.seats.size());
   for (std::size_t i = 0; i < scene.seats.size(); ++i)
     if (std::string trouble = simulation.add_client(i); !trouble.empty()) return std::unexpected(trouble);
-  if (std::ranges::any_of(setup.endpoints,
-                          [](const auto& e) { return e.second.wake.kind != WakeSpec::Kind::kExact; })) {
-    simulation.order_.resize(scene.seats.size());
-    std::iota(simulation.order_.begin(), simulation.order_.end(), std::size_t{0});
-  }
   const hal::SteppedDevice& first = simulation.clients_[0].device();
   const AxisArray scale = hal::PortMap(scene.port, scene.dof, first.caps().joints).scale(first.state());
   if (std::string error = simulation.server_.start(simulation.now_, scale); !error.empty())
     return std::unexpected(std::move(error));
   return made;
-}
-
-/// Returns the first fault or endpoint of a seat that the scene does not have, or an invalid endpoint; empty: none.
-std::string Simulation::config_error() const {
-  const auto known = [&](const std::string& seat) {
-    return std::ranges::find(setup_.scene.seats, seat, &SeatSpec::name) != setup_.scene.seats.end();
-  };
-  for (const Fault& fault : setup_.faults)
-    if (!fault.seat.empty() && !known(fault.seat)) return "a fault of seat " + fault.seat + ", which the scene has not";
-  for (const auto& [seat, endpoint] : setup_.endpoints) {
-    if (!known(seat)) return "a clock of seat " + seat + ", which the scene has not";
-    for (const SpecError& p : problems(endpoint)) return "seat " + seat + ": " + p.key + ": " + p.message;
-  }
-  return {};
 }
 
 std::string Simulation::add_client(std::size_t i) {
@@ -119,66 +145,40 @@ bool Simulation::step() {
     lived = server_.due_ticks(now_);
     if (lived > 0) step_server();
   }
-  if (setup_.keep_record) update_record();
+  if (setup_.keep_record) update_record(setup_.scene, session(), clients_, record_);
   checker_.check(lived, session(), clients_);
-  check_start_timeout();
-  if (setup_.monitor_quality && link_monitors_.empty() && session().state() == wire::SessionState::kRunning)
-    start_link_monitors();
+  // Without a limit, a simulation whose session does not begin would never end.
+  if (session().state() == wire::SessionState::kWaiting && now_ - Time{} >= kStartTimeout)
+    trouble_ = start_timeout_text(setup_.scene, session(), clients_, now_);
+  if (setup_.monitor_quality && !link_monitors_.started() && session().state() == wire::SessionState::kRunning)
+    link_monitors_.start(now_, network_);
   now_ += tick_;
   return !session().over() && trouble_.empty();
 }
 
-/// Starts the link statistics when the session begins. Joins are slower and wait for participants, so that their
-/// datagrams are not judged.
-void Simulation::start_link_monitors() {
-  for (std::size_t i = 0; i < clients_.size(); ++i) {
-    link_monitors_.push_back(std::make_unique<LinkMonitor>(now_));
-    network_.attach_monitor(static_cast<std::uint32_t>(i), link_monitors_.back().get());
-  }
-}
-
-/// Sets the reason why a session did not begin; otherwise the simulation would never end.
-void Simulation::check_start_timeout() {
-  if (session().state() != wire::SessionState::kWaiting || now_ - Time{} < kStartTimeout) return;
-  trouble_ = "the session did not begin within " + std::to_string(kStartTimeout / std::chrono::seconds(1)) +
-             " s of virtual time";
-  for (std::size_t i = 0; i < clients_.size(); ++i) {
-    const client::Seat* seat = clients_[i].seat();
-    if (seat == nullptr || !seat->gate().active())
-      trouble_ += "; " + not_engaged_reason(setup_.scene, i, seat, session(), clients_[i].own_time(now_), now_);
-  }
-}
-
 void Simulation::step_clients() {
-  // Clients send in the order in which they wake up. On a shared link no datagram may enter before an older one.
-  for (std::size_t i = 1; i < order_.size(); ++i)
-    for (std::size_t j = i; j > 0 && wakes_before(order_[j], order_[j - 1]); --j) std::swap(order_[j], order_[j - 1]);
-  for (std::size_t n = 0; n < clients_.size(); ++n) {
-    const std::size_t i = order_.empty() ? n : order_[n];
+  for (const std::size_t i : order_.sort([this](std::size_t client) { return clients_[client].wake_time(now_); })) {
     SimulatedClient& client = clients_[i];
     const client::Seat* const before = client.seat();
     const std::uint32_t joins = client.program().joins();
-    const std::uint64_t taken = heap_taken();
+    const std::uint64_t taken = setup_.heap_taken();
     if (std::string trouble = client.step(now_, server_.up() ? &server_.session() : nullptr, network_, buffer_);
         !trouble.empty())
       trouble_ = std::move(trouble);
     // A program that starts, joins or dies does not run a tick here.
-    if (before != nullptr && before == client.seat() && joins == client.program().joins() && heap_taken() != taken)
+    if (before != nullptr && before == client.seat() && joins == client.program().joins() &&
+        setup_.heap_taken() != taken)
       checker_.note_heap_violation(i);
   }
 }
 
-bool Simulation::wakes_before(std::size_t a, std::size_t b) const noexcept {
-  return std::pair{clients_[a].wake_time(now_), a} < std::pair{clients_[b].wake_time(now_), b};
-}
-
 void Simulation::step_server() {
-  const std::uint64_t taken = heap_taken();
+  const std::uint64_t taken = setup_.heap_taken();
   receive_at_server();
   inject_attacks();
   server_.run(now_);
   const std::size_t sent = send_from_server();
-  if (heap_taken() != taken) checker_.note_heap_violation();
+  if (setup_.heap_taken() != taken) checker_.note_heap_violation();
   server_.finish(now_, sent);
   bool participants_changed = false;
   while (const auto event = server_.session().audit().poll()) {
@@ -232,23 +232,6 @@ void Simulation::inject_attacks() {
       if (!forged.replayed.empty()) server_.session().on_datagram(now_, endpoint_of(from), forged.replayed);
       if (!forged.junk.empty()) server_.session().on_datagram(now_, endpoint_of(from), forged.junk);
     }
-  }
-}
-
-void Simulation::update_record() {
-  record_ = session().record();
-  for (std::size_t i = 0; i < clients_.size(); ++i) {
-    const client::Seat* seat = clients_[i].seat();
-    if (seat == nullptr) continue;
-    server::record_seat(seat->sample(), record_.seats[i]);
-    if (clients_[i].ran_in_tick()) record_.seats[i].sample_tick = record_.tick;  // else of the program's last tick
-  }
-  for (std::size_t j = 0; j < setup_.scene.tools.size(); ++j) {
-    const ToolSpec& tool = setup_.scene.tools[j];
-    if (!tool.remote) continue;
-    const client::Seat* seat = clients_[tool.seat].seat();
-    if (seat != nullptr) server::record_slave(seat->sample().telemetry, record_.tools[j]);
-    record_.tools[j].sample_tick = record_.tick;
   }
 }
 

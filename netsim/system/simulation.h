@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "netsim/engine/network.h"
-#include "netsim/quality/link_monitor.h"
 #include "netsim/system/fault_schedule.h"
 #include "netsim/system/invariant_checker.h"
+#include "netsim/system/session_link_monitors.h"
 #include "netsim/system/simulated_client.h"
 #include "netsim/system/simulated_server.h"
 #include "netsim/system/simulation_config.h"
+#include "netsim/system/wake_order.h"
 #include "server/report/violations.h"
 #include "server/session/session.h"
 
@@ -32,10 +33,8 @@ class Simulation {
   bool step();
 
   [[nodiscard]] Time now() const noexcept { return now_; }
-  /// Returns whether the server runs. While it does not, `session` has the state in which the server died.
-  [[nodiscard]] bool server_up() const noexcept { return server_.up(); }
-  /// Returns the checkpoint from which a server would restart now.
-  [[nodiscard]] const server::Checkpoint& checkpoint() const noexcept { return server_.checkpoint(); }
+  /// Returns the server's process. While it does not run, `session` has the state in which the server died.
+  [[nodiscard]] const SimulatedServer& server() const noexcept { return server_; }
   /// Returns the session of the running server; each restart of the server makes another session.
   [[nodiscard]] const server::Session& session() const noexcept { return server_.session(); }
   [[nodiscard]] const client::Seat* seat(std::size_t i) const noexcept { return clients_[i].seat(); }
@@ -48,10 +47,9 @@ class Simulation {
   [[nodiscard]] const server::Violations& violations() const noexcept { return checker_.violations(); }
   [[nodiscard]] const Network& network() const noexcept { return network_; }
   [[nodiscard]] Network& network() noexcept { return network_; }
-  /// Returns the link statistics of this seat since the session began; null unless the setup requested them.
-  [[nodiscard]] const LinkMonitor* link_monitor(std::size_t i) const noexcept {
-    return i < link_monitors_.size() ? link_monitors_[i].get() : nullptr;
-  }
+  /// Returns the link quality of every seat during the session, in the order of the scene. Empty unless the setup
+  /// requested it (`monitor_quality`) and the session began.
+  [[nodiscard]] std::vector<NamedLink> link_qualities() const { return link_monitors_.qualities(setup_.scene); }
   /// Starts the recovery phase: the caller guarantees that all faults are over. From then on the checker also judges
   /// invariants that hold only for ordinary motion.
   /// @return whether the hands of this scene move in such a way
@@ -69,23 +67,16 @@ class Simulation {
         tick_(from_seconds(1.0 / setup.scene.tick_hz)),
         now_(Time{} + tick_),
         server_(setup_),
+        order_(setup.scene.seats.size()),
         faults_(setup.faults),
         checker_(setup_.scene) {}
-  [[nodiscard]] std::string config_error() const;
   [[nodiscard]] std::string add_client(std::size_t seat);
   void step_clients();
-  [[nodiscard]] bool wakes_before(std::size_t a, std::size_t b) const noexcept;
   void step_server();
   void receive_at_server();
   std::size_t send_from_server();
   void inject_attacks();
   void request_resumes();
-  [[nodiscard]] std::uint64_t heap_taken() const noexcept {
-    return setup_.heap_count != nullptr ? setup_.heap_count() : 0;
-  }
-  void check_start_timeout();
-  void update_record();
-  void start_link_monitors();
 
   SimulationConfig setup_;
   Network network_;
@@ -93,12 +84,12 @@ class Simulation {
   Time now_;  ///< Time{} is the network's zero; the simulation begins one tick later: no time stamp is the empty one
   SimulatedServer server_;
   std::vector<SimulatedClient> clients_;
-  std::vector<std::size_t> order_;  ///< order of clients within a tick; empty: all at the tick's end, by number
-  FaultSchedule faults_;            ///< of all seats and of the server
+  WakeOrder order_;
+  FaultSchedule faults_;  ///< of all seats and of the server
   std::array<std::byte, transport::kDatagramMax> buffer_{};
   server::TickRecord record_{};
   InvariantChecker checker_;
-  std::vector<std::unique_ptr<LinkMonitor>> link_monitors_;  ///< by seat
+  SessionLinkMonitors link_monitors_;
   std::string trouble_;
 };
 

@@ -33,7 +33,7 @@ struct SimulationConfig {
   std::shared_ptr<const Replay> replay = {};  ///< replaces every network and event: seat i is flow i of the recording
   std::vector<Fault> faults = {};             ///< in any order
   std::map<std::string, EndpointSpec> endpoints = {};  ///< by seat: clock errors and wake-up times of its program
-  bool monitor_quality = false;  ///< judges every seat's link from the session's begin on: Simulation::link_monitor
+  bool monitor_quality = false;  ///< judges every seat's link from the session's begin on: Simulation::link_qualities
   /// Returns the processor time of the server's tick at `now`, which sends `sent` datagrams. If it exceeds a tick, the
   /// server misses the next ticks and runs them later. Empty: ticks take no time.
   std::function<Duration(Time now, std::size_t sent)> tick_cost = {};
@@ -43,6 +43,7 @@ struct SimulationConfig {
   /// Makes the source of contacts of a tool (server/session/contact_source.h) when a session is made, law REPLICA.
   /// Null: the tool has only the scene's surfaces.
   std::function<std::unique_ptr<server::ContactSource>(std::size_t tool)> contact_source = {};
+  [[nodiscard]] std::uint64_t heap_taken() const noexcept { return heap_count != nullptr ? heap_count() : 0; }
   bool keep_record = true;  ///< false: Simulation::record() stays empty; for runs that only judge invariants
 };
 

@@ -9,7 +9,7 @@
 #include "common/base/format.h"
 #include "common/base/milliseconds.h"
 #include "netsim/profiles/profile_loader.h"
-#include "netsim/system/link_qualities.h"
+#include "netsim/system/random_draws.h"
 #include "netsim/system/scene_generator.h"
 #include "proto/text/scene_text.h"
 
@@ -19,18 +19,7 @@ namespace {
 
 enum Purpose : std::uint64_t { kScene = 1, kTimes, kLinks, kFaults, kClocks };
 
-/// Random draws of one purpose.
-class RandomDraws {
- public:
-  RandomDraws(std::uint64_t seed, Purpose purpose) : random_(RandomKey{seed}.derive(0x5a).derive(purpose)) {}
-  bool chance(double p) { return random_.uniform() < p; }
-  double between(double lo, double hi) { return random_.uniform(lo, hi); }
-  double log_between(double lo, double hi) { return std::exp(between(std::log(lo), std::log(hi))); }
-  std::size_t below(std::size_t n) { return random_.below(n); }
-
- private:
-  RandomStream random_;
-};
+RandomKey key_of(std::uint64_t seed, Purpose purpose) { return RandomKey{seed}.derive(0x5a).derive(purpose); }
 
 /// Draws one direction; every impairment has its own probability.
 PathSpec draw_path(RandomDraws& d) {
@@ -56,7 +45,7 @@ PathSpec draw_path(RandomDraws& d) {
     path.rate.queue_wait = from_milliseconds(d.log_between(5, 500));
   }
   if (d.chance(0.2)) path.reorder.probability = d.log_between(0.001, 0.3);
-  if (d.chance(0.2)) path.order = Order::kFree;
+  if (d.chance(0.2)) path.order = ArrivalOrder::kFree;
   if (d.chance(0.3)) path.duplicate = {d.log_between(0.001, 0.5), from_milliseconds(d.log_between(0.01, 50))};
   if (d.chance(0.1)) path.corruption.probability = d.log_between(0.001, 0.1);
   return path;
@@ -77,15 +66,16 @@ LinkSpec draw_link(RandomDraws& d, std::string& words) {
 }
 
 NetworkEvent change(Duration at, const LinkSpec& link, const std::string& client = {}) {
-  NetworkEvent event;
-  event.at = at;
-  event.link = link;
-  if (!client.empty()) event.clients = {client};
-  return event;
+  return {.at = at, .clients = client.empty() ? std::vector<std::string>{} : std::vector{client}, .link = link};
+}
+
+/// Draws a time in the fault phase.
+Duration draw_moment(RandomDraws& d, const SwarmCase& out) {
+  return from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start)));
 }
 
 void draw_network(SwarmCase& out) {
-  RandomDraws d(out.seed, kLinks);
+  RandomDraws d(key_of(out.seed, kLinks));
   LinkSpec clean;
   clean.up.floor = clean.down.floor = from_milliseconds(d.chance(0.3) ? 0 : d.log_between(0.05, 60));
   std::string words;
@@ -96,19 +86,16 @@ void draw_network(SwarmCase& out) {
   for (const SeatSpec& seat : out.setup.scene.seats) {
     if (d.chance(0.2)) {
       std::string own;
-      const Duration at = from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start)));
+      const Duration at = draw_moment(d, out);
       if (at > begin && at < out.recovery_start) out.setup.events.push_back(change(at, draw_link(d, own), seat.name));
     }
     for (std::size_t n = d.chance(0.4) ? 1 + d.below(4) : 0; n > 0; --n) {
-      NetworkEvent event;
-      event.at = from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start)));
-      event.clients = {seat.name};
+      NetworkEvent event{.at = draw_moment(d, out), .clients = {seat.name}};
       if (d.chance(0.3)) event.direction = d.chance(0.5) ? Direction::kUp : Direction::kDown;
-      OutageSpec outage;
-      outage.length = std::min(from_milliseconds(d.log_between(1, 3000)), out.recovery_start - event.at);
-      outage.mode = d.chance(0.5) ? OutageSpec::Mode::kDrop : OutageSpec::Mode::kHold;
-      event.outage = outage;
-      if (outage.length > Duration{}) out.setup.events.push_back(event);
+      event.outage =
+          OutageSpec{.length = std::min(from_milliseconds(d.log_between(1, 3000)), out.recovery_start - event.at),
+                     .mode = d.chance(0.5) ? OutageSpec::Mode::kDrop : OutageSpec::Mode::kHold};
+      if (event.outage->length > Duration{}) out.setup.events.push_back(event);
     }
   }
   out.setup.events.push_back(change(out.recovery_start, clean));
@@ -116,8 +103,18 @@ void draw_network(SwarmCase& out) {
   out.description += ", " + words;
 }
 
+/// Adds the part of a fault that lies in the fault phase.
+/// @return false: no part does
+bool add_fault(SwarmCase& out, Fault fault) {
+  fault.length = std::min(fault.length, out.recovery_start - fault.at);
+  if (fault.length <= Duration{}) return false;
+  out.description += ", " + std::string(name(fault.kind));
+  out.setup.faults.push_back(std::move(fault));
+  return true;
+}
+
 void draw_faults(SwarmCase& out) {
-  RandomDraws d(out.seed, kFaults);
+  RandomDraws d(key_of(out.seed, kFaults));
   struct Choice {
     Fault::Kind kind;
     double shortest_ms, longest_ms;
@@ -131,44 +128,28 @@ void draw_faults(SwarmCase& out) {
                                 Choice{Fault::Kind::kHostile, 5, 3000}};
   for (std::size_t n = d.below(5); n > 0; --n) {
     const Choice& c = kChoices[d.below(kChoices.size())];
-    Fault fault{c.kind,
-                {},
-                from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start))),
-                from_milliseconds(d.log_between(c.shortest_ms, c.longest_ms))};
+    Fault fault{c.kind, {}, draw_moment(d, out), from_milliseconds(d.log_between(c.shortest_ms, c.longest_ms))};
     if (!of_server(fault.kind) && !d.chance(0.1))
       fault.seat = out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name;
-    fault.length = std::min(fault.length, out.recovery_start - fault.at);
-    if (fault.length <= Duration{}) continue;
-    out.description += format(", %s", std::string(name(fault.kind)).c_str());
-    out.setup.faults.push_back(fault);
+    if (!add_fault(out, fault)) continue;
     // The attacker meets a stop of the instructor, which the attacker may not end.
-    if (c.kind == Fault::Kind::kHostile && d.chance(0.5)) {
-      out.setup.faults.push_back({Fault::Kind::kStopAll, out.setup.scene.seats[0].name, fault.at, fault.length});
-      out.description += format(", %s", std::string(name(Fault::Kind::kStopAll)).c_str());
-    }
+    if (c.kind == Fault::Kind::kHostile && d.chance(0.5))
+      add_fault(out, {Fault::Kind::kStopAll, out.setup.scene.seats[0].name, fault.at, fault.length});
   }
   // Drawn last, so that older faults of a seed do not change when this kind is added.
   for (std::size_t n = d.chance(0.15) ? 1 + d.below(4) : 0; n > 0; --n) {
-    Fault hot{Fault::Kind::kHot, out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name,
-              from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start))),
-              from_milliseconds(d.log_between(2, 2000))};
-    hot.length = std::min(hot.length, out.recovery_start - hot.at);
-    if (hot.length <= Duration{}) continue;
-    out.description += format(", %s", std::string(name(hot.kind)).c_str());
-    out.setup.faults.push_back(hot);
+    const Fault hot{Fault::Kind::kHot, out.setup.scene.seats[d.below(out.setup.scene.seats.size())].name,
+                    draw_moment(d, out), from_milliseconds(d.log_between(2, 2000))};
+    add_fault(out, hot);
   }
 }
 
 void draw_clocks(SwarmCase& out) {
-  RandomDraws d(out.seed, kClocks);
+  RandomDraws d(key_of(out.seed, kClocks));
   for (const SeatSpec& seat : out.setup.scene.seats) {
     if (!d.chance(0.3)) continue;
-    EndpointSpec endpoint;
-    endpoint.offset = from_milliseconds(d.between(-8e7, 8e7));
-    endpoint.drift_ppm = d.between(-200, 200);
-    if (d.chance(0.2))
-      endpoint.steps = {{from_milliseconds(d.between(0, 1e3 * seconds(out.recovery_start))),
-                         from_milliseconds(d.log_between(1, 1e6))}};
+    EndpointSpec endpoint{.offset = from_milliseconds(d.between(-8e7, 8e7)), .drift_ppm = d.between(-200, 200)};
+    if (d.chance(0.2)) endpoint.steps = {{draw_moment(d, out), from_milliseconds(d.log_between(1, 1e6))}};
     if (d.chance(0.3))
       endpoint.wake = {WakeSpec::Kind::kUniform, from_milliseconds(d.log_between(0.1, 5))};
     else if (d.chance(0.3))
@@ -204,10 +185,13 @@ void press_buttons(Simulation& simulation) {
   }
 }
 
-/// Returns whether the seat is an observer with a client. An observer's hand is never engaged and counts as active.
-bool watches(const Simulation& simulation, std::size_t i) {
-  return simulation.scene().seats[i].kind == SeatKind::kMaster && simulation.scene().seats[i].role == Role::kObserver &&
-         simulation.seat(i) != nullptr;
+/// Returns whether the seat is active. An observer's hand is never engaged; an observer with a client counts as active.
+bool active(const Simulation& simulation, std::size_t i) {
+  const client::Seat* const seat = simulation.seat(i);
+  if (seat == nullptr) return false;
+  const SeatSpec& spec = simulation.scene().seats[i];
+  return (spec.kind == SeatKind::kMaster && spec.role == Role::kObserver) ||
+         seat->gate().phase() == control::GatePhase::kActive;
 }
 
 const char* gate_words(control::GatePhase phase) {
@@ -219,17 +203,15 @@ const char* gate_words(control::GatePhase phase) {
 bool everybody_active(const Simulation& simulation) {
   if (simulation.session().state() != wire::SessionState::kRunning) return false;
   for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i)
-    if (!watches(simulation, i) &&
-        (simulation.seat(i) == nullptr || simulation.seat(i)->gate().phase() != control::GatePhase::kActive))
-      return false;
+    if (!active(simulation, i)) return false;
   return true;
 }
 
-std::string who_is_not_active(const Simulation& simulation) {
+std::string inactive_seats_text(const Simulation& simulation) {
   std::string text = format("recovery phase: not every seat was active again after %g s:", kRecoveryLimit);
   for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i) {
+    if (active(simulation, i)) continue;
     const client::Seat* const seat = simulation.seat(i);
-    if (watches(simulation, i) || (seat != nullptr && seat->gate().phase() == control::GatePhase::kActive)) continue;
     text += " " + simulation.scene().seats[i].name + " " +
             (seat == nullptr ? "has no seat" : gate_words(seat->gate().phase())) + ";";
   }
@@ -242,10 +224,10 @@ std::string who_is_not_active(const Simulation& simulation) {
 SwarmCase generate_swarm_case(std::uint64_t seed, double safety_max, LawKind law) {
   SwarmCase out;
   out.seed = seed;
-  RandomDraws d(seed, kTimes);
+  RandomDraws d(key_of(seed, kTimes));
   out.recovery_start = from_milliseconds(1e3 * d.between(1, std::max(2.0, safety_max)));
-  out.scene_text = generate_scene_text(RandomKey{seed}.derive(0x5a).derive(kScene),
-                                       std::ceil(seconds(out.recovery_start)) + 2 * kRecoveryLimit, law);
+  out.scene_text =
+      generate_scene_text(key_of(seed, kScene), std::ceil(seconds(out.recovery_start)) + 2 * kRecoveryLimit, law);
   auto scene = parse_scene(out.scene_text, format("swarm-%llu.textproto", static_cast<unsigned long long>(seed)));
   if (!scene) throw std::logic_error("swarm: seed " + std::to_string(seed) + ": " + to_text(scene.error()));
   out.description =
@@ -298,12 +280,12 @@ SwarmResult run_swarm_case(const SwarmCase& which, const std::function<void(Simu
   }
   result.lived_s = seconds(simulation.now() - Time{});
   result.trouble = simulation.trouble();
-  if (result.trouble.empty() && result.recovered_s == 0) result.trouble = who_is_not_active(simulation);
+  if (result.trouble.empty() && result.recovered_s == 0) result.trouble = inactive_seats_text(simulation);
   for (const server::Violation& violation : simulation.violations().list())
     if (!violation.expected) result.violations.push_back(violation);
   for (std::size_t i = 0; i < simulation.scene().seats.size(); ++i)
     result.gate_trips += simulation.client(i).program().gate_trips();
-  result.links = link_qualities(simulation);
+  result.links = simulation.link_qualities();
   return result;
 }
 

@@ -116,7 +116,7 @@ PathSpec path_from(const pb::NetworkPath& in, MessageValidator& validator, const
   path.corruption = corruption_from(in, validator, key);
   path.mtu = mtu_from(in, path.rate.overhead_bytes, validator, key);
   if (in.has_stall()) path.stall = stall_from(in.stall(), validator, child_path(key, "stall"));
-  path.order = in.order() == pb::NetworkPath::FREE ? Order::kFree : Order::kFifo;
+  path.order = in.order() == pb::NetworkPath::FREE ? ArrivalOrder::kFree : ArrivalOrder::kFifo;
   path.reorder.probability = probability(in.reorder().probability_percent());
   if (in.reorder().has_displacement()) path.reorder.displacement = in.reorder().displacement();
   if (in.reorder().has_hold_limit_ms()) path.reorder.hold_limit = from_milliseconds(in.reorder().hold_limit_ms());

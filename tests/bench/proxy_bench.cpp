@@ -99,7 +99,7 @@ void one_round(const Case& c, Row& row, Duration length) {
   row.ours.push_back(ours.cpu_ns);
   row.ratio.push_back(ours.cpu_ns / reference.cpu_ns);
   row.share = std::max(row.share, ours.share);
-  row.late.merge((*proxy)->lateness());
+  row.late.merge((*proxy)->sender().lateness());
   row.bare_missing += reference.counts.sent - reference.counts.up - reference.counts.down;
   if (c.lossless) row.missing += ours.counts.sent - ours.counts.up - ours.counts.down;
   row.drops += end.errors.kernel_drops + end.errors.no_room + end.errors.refused + end.errors.other;

@@ -28,19 +28,19 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 Cost measure(const std::string& name, const netsim::SimpleNetwork& net, int ticks, bool traced) {
   netsim::SimulationConfig setup{.scene = test::shipped(name), .network = netsim::link_from(net)};
   setup.keep_record = traced;
-  auto world = std::move(*netsim::Simulation::make(setup));
-  const server::TraceCsv csv{world->scene()};
+  auto simulation = std::move(*netsim::Simulation::make(setup));
+  const server::TraceCsv csv{simulation->scene()};
   transport::Digest digest;
   std::string row;
   row.reserve(1 << 16);
-  for (int k = 0; k < 2000; ++k) world->step();
+  for (int k = 0; k < 2000; ++k) simulation->step();
   test::AllocGuard guard;
   const double begin = cpu_seconds();
   for (int k = 0; k < ticks; ++k) {
-    world->step();
+    simulation->step();
     if (!traced) continue;
     row.clear();
-    csv.append(world->record(), row);
+    csv.append(simulation->record(), row);
     digest.add(row);
   }
   return {1e6 * (cpu_seconds() - begin) / ticks, static_cast<double>(guard.count()) / ticks};

@@ -33,8 +33,9 @@ inline Path path_of(const PathSpec& spec, std::uint64_t seed = 7, std::uint64_t 
 }
 
 /// Returns the verdicts of a path on `count` datagrams sent every `period` from time 0.
-inline std::vector<Verdict> verdicts(Path path, std::size_t count, Duration period = 1ms, std::size_t size = kSize) {
-  std::vector<Verdict> all;
+inline std::vector<PathDecision> decisions(Path path, std::size_t count, Duration period = 1ms,
+                                           std::size_t size = kSize) {
+  std::vector<PathDecision> all;
   all.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     all.push_back(path.send(Time{period * static_cast<std::int64_t>(i)}, size));
@@ -43,13 +44,13 @@ inline std::vector<Verdict> verdicts(Path path, std::size_t count, Duration peri
   return all;
 }
 
-inline std::size_t count_of(const std::vector<Verdict>& all, Outcome outcome) {
+inline std::size_t count_of(const std::vector<PathDecision>& all, Outcome outcome) {
   return static_cast<std::size_t>(
-      std::count_if(all.begin(), all.end(), [outcome](const Verdict& v) { return v.outcome == outcome; }));
+      std::count_if(all.begin(), all.end(), [outcome](const PathDecision& v) { return v.outcome == outcome; }));
 }
 
 /// Returns the delays of delivered datagrams [ns], for datagrams sent every `period`.
-inline std::vector<double> delays(const std::vector<Verdict>& all, Duration period = 1ms) {
+inline std::vector<double> delays(const std::vector<PathDecision>& all, Duration period = 1ms) {
   std::vector<double> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (dropped(all[i].outcome)) continue;
@@ -102,7 +103,7 @@ inline PathSpec everything() {
 class Digest {
  public:
   void add(std::uint64_t value) noexcept { state_ = mix64(state_ ^ value); }
-  void add(const Verdict& v) noexcept {
+  void add(const PathDecision& v) noexcept {
     add(v.index);
     add(static_cast<std::uint64_t>(v.outcome));
     add(static_cast<std::uint64_t>(v.at.time_since_epoch().count()));

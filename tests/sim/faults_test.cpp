@@ -27,7 +27,7 @@ SceneSpec calm_scene(LawKind law = LawKind::kReplica) {
 }
 
 struct Lived {
-  std::unique_ptr<netsim::Simulation> world;
+  std::unique_ptr<netsim::Simulation> simulation;
   std::uint64_t fingerprint = 0;  ///< hash of the position of every hand at every tick
   std::uint64_t faulted_ticks = 0;
 };
@@ -36,10 +36,11 @@ Lived live(netsim::SimulationConfig setup, const test::Observer& observer = {}) 
   auto made = netsim::Simulation::make(setup);
   if (!made) throw std::runtime_error(made.error());
   Lived out{std::move(*made)};
-  while (out.world->step()) {
-    for (std::size_t i = 0; i < out.world->scene().seats.size(); ++i)
-      out.fingerprint = mix64(out.fingerprint ^ std::bit_cast<std::uint64_t>(out.world->device(i).ground_truth().x[0]));
-    if (observer) observer(*out.world);
+  while (out.simulation->step()) {
+    for (std::size_t i = 0; i < out.simulation->scene().seats.size(); ++i)
+      out.fingerprint =
+          mix64(out.fingerprint ^ std::bit_cast<std::uint64_t>(out.simulation->device(i).ground_truth().x[0]));
+    if (observer) observer(*out.simulation);
   }
   return out;
 }
@@ -51,9 +52,9 @@ netsim::SimulationConfig with_fault(Fault::Kind kind, Duration length, const std
   return setup;
 }
 
-void expect_nothing_broken(const netsim::Simulation& world) {
-  EXPECT_EQ(world.trouble(), "");
-  for (const auto& v : world.violations().list())
+void expect_nothing_broken(const netsim::Simulation& simulation) {
+  EXPECT_EQ(simulation.trouble(), "");
+  for (const auto& v : simulation.violations().list())
     EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
 }
 
@@ -69,10 +70,10 @@ TEST(Faults, ReleaseTheHandOfAPausedProgramAndEngageItAgain) {
     }
     if (let_go_after == Duration{} && into > 0s && !w.seat(kTrainee)->gate().active()) let_go_after = into;
   });
-  expect_nothing_broken(*run.world);
-  EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
-  EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 0u) << "the others are not to suffer";
-  EXPECT_EQ(run.world->device(kTrainee).counts().expired, 496u)
+  expect_nothing_broken(*run.simulation);
+  EXPECT_EQ(run.simulation->seat(kTrainee)->gate().trips(), 1u);
+  EXPECT_EQ(run.simulation->seat(kTrainer)->gate().trips(), 0u) << "the others are not to suffer";
+  EXPECT_EQ(run.simulation->device(kTrainee).counts().expired, 496u)
       << "the command of 4.999 s lives until 5.004 s, the next comes at 5.500 s";
   EXPECT_GE(let_go_after, 500ms) << "no client ran that could have released the hand before";
 }
@@ -83,7 +84,7 @@ TEST(Faults, RestoreSeatAndEngagementOfARestartedProgram) {
     gone |= w.seat(kTrainee) == nullptr;
     back |= gone && w.seat(kTrainee) != nullptr && w.seat(kTrainee)->gate().phase() == control::GatePhase::kActive;
   });
-  expect_nothing_broken(*run.world);
+  expect_nothing_broken(*run.simulation);
   EXPECT_TRUE(gone);
   EXPECT_TRUE(back);
 }
@@ -91,19 +92,19 @@ TEST(Faults, RestoreSeatAndEngagementOfARestartedProgram) {
 TEST(Faults, WrongReadingsAreHeldForThreeSamplesThenFaultOneSeat) {
   for (const auto kind : {Fault::Kind::kNotANumber, Fault::Kind::kOutOfRange}) {
     const Lived shortly = live(with_fault(kind, 3ms));
-    expect_nothing_broken(*shortly.world);
-    EXPECT_EQ(shortly.world->seat(kTrainee)->gate().phase(), control::GatePhase::kReleasing)
+    expect_nothing_broken(*shortly.simulation);
+    EXPECT_EQ(shortly.simulation->seat(kTrainee)->gate().phase(), control::GatePhase::kReleasing)
         << "the session's end, not FAULT";
-    EXPECT_EQ(shortly.world->seat(kTrainee)->gate().trips(), 0u);
+    EXPECT_EQ(shortly.simulation->seat(kTrainee)->gate().trips(), 0u);
 
     Duration faulted{};
     const Lived longer = live(with_fault(kind, 10ms), [&](netsim::Simulation& w) {
       const auto phase = w.seat(kTrainee) ? w.seat(kTrainee)->gate().phase() : control::GatePhase::kOff;
       if (faulted == Duration{} && phase == control::GatePhase::kFault) faulted = w.now() - (Time{} + 5s);
     });
-    expect_nothing_broken(*longer.world);
-    EXPECT_EQ(longer.world->seat(kTrainee)->gate().phase(), control::GatePhase::kFault);
-    EXPECT_EQ(longer.world->seat(kTrainer)->gate().trips(), 0u);
+    expect_nothing_broken(*longer.simulation);
+    EXPECT_EQ(longer.simulation->seat(kTrainee)->gate().phase(), control::GatePhase::kFault);
+    EXPECT_EQ(longer.simulation->seat(kTrainer)->gate().trips(), 0u);
     EXPECT_EQ(faulted, 4ms) << "the fourth wrong sample, seen after its tick";
   }
 }
@@ -114,11 +115,11 @@ TEST(Faults, ReplayedAndRandomDatagramsChangeNothingAtAll) {
   netsim::SimulationConfig attacked = clean;
   attacked.faults = {{Fault::Kind::kReplay, "", 1s, 9s}, {Fault::Kind::kJunk, "", 1s, 9s}};
   const Lived quiet = live(clean), loud = live(attacked);
-  expect_nothing_broken(*loud.world);
+  expect_nothing_broken(*loud.simulation);
   EXPECT_EQ(quiet.fingerprint, loud.fingerprint) << "a hand moved by what an attacker sent";
-  EXPECT_EQ(quiet.world->session().unmatched_datagrams(), 0u);
-  EXPECT_GT(loud.world->session().unmatched_datagrams(), 18'000u) << "nothing was sent";
-  const auto& refused = loud.world->session().seat(kTrainee).link()->stats().dropped;
+  EXPECT_EQ(quiet.simulation->session().unmatched_datagrams(), 0u);
+  EXPECT_GT(loud.simulation->session().unmatched_datagrams(), 18'000u) << "nothing was sent";
+  const auto& refused = loud.simulation->session().seat(kTrainee).link()->stats().dropped;
   EXPECT_GT(refused[static_cast<std::size_t>(transport::DropReason::kDuplicate)] +
                 refused[static_cast<std::size_t>(transport::DropReason::kTooOld)],
             8000u);
@@ -128,22 +129,22 @@ TEST(Faults, GainNoEnergyByADecreasingAccount) {
   for (const LawKind law : {LawKind::kSetPosition, LawKind::kReplica}) {
     const Lived honest = live(with_fault(Fault::Kind::kLiar, 1ms, "trainee", law));
     const Lived run = live(with_fault(Fault::Kind::kLiar, 5s, "trainee", law));
-    expect_nothing_broken(*run.world);
+    expect_nothing_broken(*run.simulation);
     bool seen = false;
-    for (const auto& v : run.world->violations().list())
+    for (const auto& v : run.simulation->violations().list())
       seen |= v.invariant == "energy_monotone" && v.seat == "trainee" && v.expected;
     EXPECT_EQ(seen, law == LawKind::kSetPosition)
         << "under law replica no end at the server lives on a follower's account";
-    EXPECT_GT(honest.world->session().clock().time(), 11.9);
+    EXPECT_GT(honest.simulation->session().clock().time(), 11.9);
   }
 }
 
 TEST(Faults, ReleaseHandsDuringAServerPauseAndDropExcessTicks) {
   const Lived run = live(with_fault(Fault::Kind::kServerLate, 600ms, ""));
-  expect_nothing_broken(*run.world);
-  EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 1u);
-  EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
-  EXPECT_EQ(run.world->session().clock().dropped_ticks(), 550u)
+  expect_nothing_broken(*run.simulation);
+  EXPECT_EQ(run.simulation->seat(kTrainer)->gate().trips(), 1u);
+  EXPECT_EQ(run.simulation->seat(kTrainee)->gate().trips(), 1u);
+  EXPECT_EQ(run.simulation->session().clock().dropped_ticks(), 550u)
       << "it lives through 50 missed ticks, gives up the rest";
 }
 
@@ -155,7 +156,7 @@ TEST(Faults, ReportNoHandSpeedFromDroppedTicks) {
     if (!judge) judge.emplace(w.session().scene());
     judge->add(w.record());
   });
-  const auto report = judge->build(std::vector<server::LinkReport>(run.world->session().scene().seats.size()));
+  const auto report = judge->build(std::vector<server::LinkReport>(run.simulation->session().scene().seats.size()));
   EXPECT_GT(report.seats[kTrainer].metrics.speed_peak_m_s, 0.05);
   EXPECT_LT(report.seats[kTrainer].metrics.speed_peak_m_s, 0.6);
   EXPECT_LT(report.seats[kTrainee].metrics.speed_peak_m_s, 0.6);
@@ -167,7 +168,7 @@ TEST(Clocks, AnOffsetOfADayChangesNothingAtAll) {
   other.endpoints["trainee"].offset = std::chrono::hours(24);
   other.endpoints["trainer"].offset = -std::chrono::hours(24);
   const Lived a = live(same), b = live(other);
-  expect_nothing_broken(*b.world);
+  expect_nothing_broken(*b.simulation);
   EXPECT_EQ(a.fingerprint, b.fingerprint);
 }
 
@@ -177,9 +178,9 @@ TEST(Clocks, ReleaseNoHandUnderDriftAndLateWakeUps) {
   setup.endpoints["trainer"] = {.drift_ppm = -200,
                                 .wake = {.kind = netsim::WakeSpec::Kind::kUniform, .late_max = 900us}};
   const Lived run = live(setup);
-  expect_nothing_broken(*run.world);
-  EXPECT_EQ(run.world->seat(kTrainer)->gate().trips(), 0u);
-  EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 0u);
+  expect_nothing_broken(*run.simulation);
+  EXPECT_EQ(run.simulation->seat(kTrainer)->gate().trips(), 0u);
+  EXPECT_EQ(run.simulation->seat(kTrainee)->gate().trips(), 0u);
 }
 
 /// Send times by seat, and the transit times of the datagrams.
@@ -270,7 +271,7 @@ TEST(Clocks, ALateWakeUpReadsTheDeviceAtItsOwnMoment) {
     }
     before = now;
   });
-  expect_nothing_broken(*run.world);
+  expect_nothing_broken(*run.simulation);
   EXPECT_GT(off_if_at_tick, 0.05) << "[m] in all: no hand moved";
   EXPECT_LT(off, 0.1 * off_if_at_tick);
 }
@@ -279,8 +280,8 @@ TEST(Clocks, ReleaseTheHandOnceForAStepOfASecond) {
   netsim::SimulationConfig setup{.scene = calm_scene()};
   setup.endpoints["trainee"].steps = {{5s, 1s}};
   const Lived run = live(setup);
-  expect_nothing_broken(*run.world);
-  EXPECT_EQ(run.world->seat(kTrainee)->gate().trips(), 1u);
+  expect_nothing_broken(*run.simulation);
+  EXPECT_EQ(run.simulation->seat(kTrainee)->gate().trips(), 1u);
 }
 
 TEST(Faults, AreRejectedForAnUnknownSeat) {

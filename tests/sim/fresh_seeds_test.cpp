@@ -157,7 +157,7 @@ TEST(FreshSeeds, ASessionThatHasJustBegunIsInTheCheckpoint) {
     test::SessionDriver life(setup);
     life.until(299ms);
     ASSERT_EQ(life.state(), wire::SessionState::kRunning);
-    EXPECT_TRUE(life.simulation->checkpoint().begun);
+    EXPECT_TRUE(life.simulation->server().checkpoint().begun);
     life.until(335ms);
     EXPECT_TRUE(life.simulation->session().start_condition().recovering());
     life.until(4s);

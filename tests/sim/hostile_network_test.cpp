@@ -43,32 +43,33 @@ SceneSpec in_contact() {
 Held attacked(const netsim::SimulationConfig& setup, Duration ends) {
   auto made = netsim::Simulation::make(setup);
   EXPECT_TRUE(made);
-  netsim::Simulation& world = **made;
+  netsim::Simulation& simulation = **made;
   Held out;
   double given = 0;
   hal::Vec3 before = hal::Vec3::Zero();
-  while (world.step()) {
-    const Duration into = world.now() - (Time{} + kAttack);
-    const client::Seat* seat = world.seat(kTrainer);
-    const hal::Vec3 x = world.device(kTrainer).ground_truth().x;
+  while (simulation.step()) {
+    const Duration into = simulation.now() - (Time{} + kAttack);
+    const client::Seat* seat = simulation.seat(kTrainer);
+    const hal::Vec3 x = simulation.device(kTrainer).ground_truth().x;
     if (into >= 0ms && out.seen == Duration{} && !seat->gate().active()) out.seen = into;
     if (into >= 0ms && into < 400ms) {
-      given += world.device(kTrainer).state().f_out.dot(x - before);
+      given += simulation.device(kTrainer).state().f_out.dot(x - before);
       out.given_j = std::max(out.given_j, given);
     }
     if (into == 0ms) {
       EXPECT_TRUE(seat->gate().active());
-      out.pressed_n = world.device(kTrainer).state().f_out.norm();
+      out.pressed_n = simulation.device(kTrainer).state().f_out.norm();
       EXPECT_GE(out.pressed_n, kPressed) << "no hand was in contact";
     }
     if (into > 400ms && into < ends) out.active_meanwhile |= seat->gate().active();
-    if (into > 0ms && world.session().state() == wire::SessionState::kRunning) out.active_after = seat->gate().active();
+    if (into > 0ms && simulation.session().state() == wire::SessionState::kRunning)
+      out.active_after = seat->gate().active();
     out.tank_j = seat != nullptr ? seat->gate().tank().size() : 0;
     before = x;
     if (into > ends + 3s) break;
   }
-  out.trips = world.client(kTrainer).program().gate_trips();
-  for (const auto& v : world.violations().list())
+  out.trips = simulation.client(kTrainer).program().gate_trips();
+  for (const auto& v : simulation.violations().list())
     EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
   return out;
 }

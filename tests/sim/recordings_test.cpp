@@ -69,10 +69,10 @@ void expect_followed(const std::string& csv, const Recording& r, const std::stri
                                         1,
                                         {{"trainer", std::make_shared<hal::sim::RecordedMotion>(std::move(*motion))}}});
   ASSERT_TRUE(made) << made.error();
-  netsim::Simulation& world = **made;
-  server::ReportBuilder builder{world.scene()};
-  while (world.step()) builder.add(world.record());
-  const auto report = netsim::simulation_report(world, builder, 1);
+  netsim::Simulation& simulation = **made;
+  server::ReportBuilder builder{simulation.scene()};
+  while (simulation.step()) builder.add(simulation.record());
+  const auto report = netsim::simulation_report(simulation, builder, 1);
   EXPECT_TRUE(report.passed) << name;
   EXPECT_GT(report.seats[0].metrics.speed_peak_m_s, 0.01) << name << " did not move the hand";
   EXPECT_LE(report.seats[0].metrics.tracking_rms_m, 0.005) << name;

@@ -23,18 +23,18 @@ constexpr double kInjected = 0.005;  // [J] in that time
 class Engagement {
  public:
   /// @param environment  force on the tool [N]
-  void look(const netsim::Simulation& world, std::size_t seat, double environment) {
-    const bool active = world.seat(seat) != nullptr && world.seat(seat)->gate().active();
-    const hal::Vec3 x = world.device(seat).ground_truth().x;
-    const double force = world.device(seat).state().f_out.norm();
+  void look(const netsim::Simulation& simulation, std::size_t seat, double environment) {
+    const bool active = simulation.seat(seat) != nullptr && simulation.seat(seat)->gate().active();
+    const hal::Vec3 x = simulation.device(seat).ground_truth().x;
+    const double force = simulation.device(seat).state().f_out.norm();
     if (active && !was_active_) {
-      since_ = world.now();
+      since_ = simulation.now();
       first = force;
       ++count;
     }
-    if (active && count > 0 && world.now() - since_ < 500ms) {
+    if (active && count > 0 && simulation.now() - since_ < 500ms) {
       beyond = std::max(beyond, force - environment);
-      energy_ += world.device(seat).state().f_out.dot(x - x_);
+      energy_ += simulation.device(seat).state().f_out.dot(x - x_);
       injected = std::max(injected, energy_);
     }
     was_active_ = active;
@@ -72,41 +72,41 @@ TEST(ServerRestart, RestoresAllHandsWithoutAForceStepAtAnyTickOfAContact) {
     setup.faults = {{Fault::Kind::kServerRestart, "", at, down}};
     auto made = netsim::Simulation::make(setup);
     ASSERT_TRUE(made);
-    netsim::Simulation& world = **made;
+    netsim::Simulation& simulation = **made;
     std::map<server::AuditEvent::What, int> audit;
-    world.on_audit = [&](const server::AuditEvent& e) { ++audit[e.what]; };
+    simulation.on_audit = [&](const server::AuditEvent& e) { ++audit[e.what]; };
     std::array<Engagement, 2> hands;
     server::Checkpoint left{};
     bool restarted = false;
     Duration back{};
     std::array<Duration, 2> let_go{};
-    while (world.now() < Time{} + at + down + 5s && world.step()) {
-      const Duration now = world.now() - Time{};
-      if (world.server_up() && !restarted && now <= at) left = world.checkpoint();
-      if (world.server_up() && now > at && !restarted) {  // the first tick of the new server
+    while (simulation.now() < Time{} + at + down + 5s && simulation.step()) {
+      const Duration now = simulation.now() - Time{};
+      if (simulation.server().up() && !restarted && now <= at) left = simulation.server().checkpoint();
+      if (simulation.server().up() && now > at && !restarted) {  // the first tick of the new server
         restarted = true;
-        EXPECT_EQ(world.session().epoch(), left.epoch + 1);
-        EXPECT_EQ(world.session().tool(0).slave()->state().q, left.tools[0].slave) << "to the encoder's count";
-        for (const double e : world.session().tool(0).velocity()) EXPECT_EQ(e, 0);
+        EXPECT_EQ(simulation.session().epoch(), left.epoch + 1);
+        EXPECT_EQ(simulation.session().tool(0).slave()->state().q, left.tools[0].slave) << "to the encoder's count";
+        for (const double e : simulation.session().tool(0).velocity()) EXPECT_EQ(e, 0);
       }
       if (now <= at) continue;
       for (std::size_t i = 0; i < 2; ++i) {
-        const auto& gate = world.seat(i)->gate();
+        const auto& gate = simulation.seat(i)->gate();
         if (let_go[i] == Duration{} && !gate.active()) let_go[i] = now - at;
-        hands[i].look(world, i, world.session().tool(0).slave()->state().f_env.norm());
+        hands[i].look(simulation, i, simulation.session().tool(0).slave()->state().f_env.norm());
         if (now > at + 125ms && now < at + down) {  // the remaining force may brake a hand and never push it
-          const double power = world.device(i).state().f_out.dot(world.device(i).ground_truth().dx);
+          const double power = simulation.device(i).state().f_out.dot(simulation.device(i).ground_truth().dx);
           EXPECT_LE(power, 1e-4) << now.count();
         }
       }
       if (back == Duration{} && restarted && hands[0].count > 0 && hands[1].count > 0 &&
-          world.seat(0)->gate().phase() == control::GatePhase::kActive &&
-          world.seat(1)->gate().phase() == control::GatePhase::kActive)
+          simulation.seat(0)->gate().phase() == control::GatePhase::kActive &&
+          simulation.seat(1)->gate().phase() == control::GatePhase::kActive)
         back = now - at - down;
     }
-    EXPECT_EQ(world.trouble(), "");
-    EXPECT_TRUE(world.violations().passed());
-    for (const auto& v : world.violations().list())
+    EXPECT_EQ(simulation.trouble(), "");
+    EXPECT_TRUE(simulation.violations().passed());
+    for (const auto& v : simulation.violations().list())
       EXPECT_TRUE(v.expected) << v.invariant << " " << v.seat << " at " << v.at_s;
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_LE(let_go[i], 22ms);
@@ -114,13 +114,13 @@ TEST(ServerRestart, RestoresAllHandsWithoutAForceStepAtAnyTickOfAContact) {
       EXPECT_LE(hands[i].first, kFirst);
       EXPECT_LE(hands[i].beyond, kBeyond);
       EXPECT_LE(hands[i].injected, kInjected);
-      EXPECT_LE(world.seat(i)->gate().tank().given_max(), world.seat(i)->gate().tank().size() + 1e-3);
+      EXPECT_LE(simulation.seat(i)->gate().tank().given_max(), simulation.seat(i)->gate().tank().size() + 1e-3);
     }
     EXPECT_GT(back, 0s);
     EXPECT_LE(back, 3s);
     EXPECT_EQ(audit[server::AuditEvent::What::kRestored], 1);
     EXPECT_EQ(audit[server::AuditEvent::What::kAllBack], 1);
-    EXPECT_EQ(world.session().tool(0).authority.requested()[0], 0.5);
+    EXPECT_EQ(simulation.session().tool(0).authority.requested()[0], 0.5);
   }
 }
 
@@ -130,25 +130,25 @@ TEST(ServerRestart, EngagesNoHandUntilAuthorityHoldersReturnOrTheInstructorResum
     setup.faults = {{Fault::Kind::kServerRestart, "", 4s, 500ms}, {Fault::Kind::kRestart, "trainee", 4100ms, 4s}};
     auto made = netsim::Simulation::make(setup);
     ASSERT_TRUE(made);
-    netsim::Simulation& world = **made;
-    while (world.now() < Time{} + 7s && world.step()) {
+    netsim::Simulation& simulation = **made;
+    while (simulation.now() < Time{} + 7s && simulation.step()) {
     }
-    EXPECT_TRUE(world.session().start_condition().recovering());
-    EXPECT_EQ(world.session().state(), wire::SessionState::kWaiting);
-    EXPECT_FALSE(world.seat(0)->gate().active());
-    EXPECT_EQ(world.session().start_condition().missing(world.now()), (std::vector<std::size_t>{1}));
-    if (goes_on) world.seat(0)->requests().resume();
-    while (world.now() < Time{} + 8s && world.step()) {
+    EXPECT_TRUE(simulation.session().start_condition().recovering());
+    EXPECT_EQ(simulation.session().state(), wire::SessionState::kWaiting);
+    EXPECT_FALSE(simulation.seat(0)->gate().active());
+    EXPECT_EQ(simulation.session().start_condition().missing(simulation.now()), (std::vector<std::size_t>{1}));
+    if (goes_on) simulation.seat(0)->requests().resume();
+    while (simulation.now() < Time{} + 8s && simulation.step()) {
     }
-    EXPECT_EQ(world.session().start_condition().recovering(), !goes_on);
-    EXPECT_EQ(world.seat(0)->gate().active(), goes_on);
-    EXPECT_EQ(world.session().tool(0).authority.alpha(0), goes_on ? 1 : 0);
-    while (world.now() < Time{} + 12s && world.step()) {
+    EXPECT_EQ(simulation.session().start_condition().recovering(), !goes_on);
+    EXPECT_EQ(simulation.seat(0)->gate().active(), goes_on);
+    EXPECT_EQ(simulation.session().tool(0).authority.alpha(0), goes_on ? 1 : 0);
+    while (simulation.now() < Time{} + 12s && simulation.step()) {
     }
-    EXPECT_FALSE(world.session().start_condition().recovering());
-    for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(world.seat(i)->gate().active()) << i;
-    EXPECT_NEAR(world.session().tool(0).authority.alpha(1), 0.5, 1e-9);
-    EXPECT_TRUE(world.violations().passed());
+    EXPECT_FALSE(simulation.session().start_condition().recovering());
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(simulation.seat(i)->gate().active()) << i;
+    EXPECT_NEAR(simulation.session().tool(0).authority.alpha(1), 0.5, 1e-9);
+    EXPECT_TRUE(simulation.violations().passed());
   }
 }
 
@@ -157,28 +157,28 @@ TEST(ServerRestart, PreservesAStop) {
   setup.faults = {{Fault::Kind::kServerRestart, "", 5s, 500ms}};
   auto made = netsim::Simulation::make(setup);
   ASSERT_TRUE(made);
-  netsim::Simulation& world = **made;
+  netsim::Simulation& simulation = **made;
   const auto until = [&](Duration end) {
-    while (world.now() < Time{} + end && world.step()) {
+    while (simulation.now() < Time{} + end && simulation.step()) {
     }
   };
   until(4s);
-  ASSERT_TRUE(world.seat(0)->requests().stop_all());
-  world.seat(1)->requests().stop_locally();
+  ASSERT_TRUE(simulation.seat(0)->requests().stop_all());
+  simulation.seat(1)->requests().stop_locally();
   until(4900ms);
-  const std::uint32_t stops = world.session().stop_latch().stops();
+  const std::uint32_t stops = simulation.session().stop_latch().stops();
   EXPECT_EQ(stops, 1u);
   until(6s);
-  world.seat(1)->requests().resume();  // its own hand; otherwise the session waits for it
+  simulation.seat(1)->requests().resume();  // its own hand; otherwise the session waits for it
   until(8s);
-  EXPECT_EQ(world.session().state(), wire::SessionState::kStopped);
-  EXPECT_GT(world.session().stop_latch().stops(), stops) << "under a new number: an old request to resume is void";
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_FALSE(world.seat(i)->gate().active());
-  world.seat(0)->requests().resume();
+  EXPECT_EQ(simulation.session().state(), wire::SessionState::kStopped);
+  EXPECT_GT(simulation.session().stop_latch().stops(), stops) << "under a new number: an old request to resume is void";
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_FALSE(simulation.seat(i)->gate().active());
+  simulation.seat(0)->requests().resume();
   until(11s);
-  EXPECT_EQ(world.session().state(), wire::SessionState::kRunning);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(world.seat(i)->gate().active());
-  EXPECT_TRUE(world.violations().passed());
+  EXPECT_EQ(simulation.session().state(), wire::SessionState::kRunning);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(simulation.seat(i)->gate().active());
+  EXPECT_TRUE(simulation.violations().passed());
 }
 
 // Bumpless re-attach: the hand moved 0 to 150 mm while its program was down, and holds still there.

@@ -94,10 +94,10 @@ TEST(ManyHands, AnyNumberOnAnyNumberOfToolsKeepsTheInvariants) {
 TEST(Simulation, TakesNoHeapBelowATickOnEitherSide) {
   auto made = netsim::Simulation::make({shipped("free_motion"), netsim::link_from(delayed(20, 5, 5)), 1, {}});
   ASSERT_TRUE(made);
-  netsim::Simulation& world = **made;
-  for (int k = 0; k < 3000; ++k) ASSERT_TRUE(world.step());
+  netsim::Simulation& simulation = **made;
+  for (int k = 0; k < 3000; ++k) ASSERT_TRUE(simulation.step());
   test::AllocGuard guard;
-  for (int k = 0; k < 10'000; ++k) world.step();
+  for (int k = 0; k < 10'000; ++k) simulation.step();
   EXPECT_EQ(guard.count(), 0u);
 }
 
@@ -177,13 +177,13 @@ TEST(Simulation, LetsAnInstructorMoveAuthorityFromTheSeat) {
 TEST(Simulation, RandomBytesOnThePortChangeNothing) {
   const auto trace_with_noise = [](bool noise) {
     auto made = netsim::Simulation::make({shipped("one_axis"), {}, 1, {}});
-    netsim::Simulation& world = **made;
-    server::TraceCsv csv{world.scene()};
+    netsim::Simulation& simulation = **made;
+    server::TraceCsv csv{simulation.scene()};
     RandomStream random{99};
     std::string trace;
     std::array<std::byte, 1300> bytes{};
-    while (world.step()) {
-      if (noise && world.session().clock().time() < 2) {
+    while (simulation.step()) {
+      if (noise && simulation.session().clock().time() < 2) {
         for (int i = 0; i < 20; ++i) {
           const std::size_t size = random.below(bytes.size());
           for (std::size_t b = 0; b < size; ++b) bytes[b] = static_cast<std::byte>(random.bits());
@@ -192,10 +192,11 @@ TEST(Simulation, RandomBytesOnThePortChangeNothing) {
           server::PeerAddress from;
           from.bytes[0] = static_cast<std::byte>(random.below(3));
           from.size = 1;
-          const_cast<server::Session&>(world.session()).on_datagram(world.now(), from, std::span{bytes}.first(size));
+          const_cast<server::Session&>(simulation.session())
+              .on_datagram(simulation.now(), from, std::span{bytes}.first(size));
         }
       }
-      if (world.record().running) csv.append(world.record(), trace);
+      if (simulation.record().running) csv.append(simulation.record(), trace);
     }
     return trace;
   };

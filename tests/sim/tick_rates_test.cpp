@@ -32,19 +32,19 @@ struct Pressed {
 };
 
 Pressed pressed(const PressScene& press, double delay_ms = 0) {
-  const auto world = simulation_config_of(press, delay_ms);
+  const auto simulation = simulation_config_of(press, delay_ms);
   Pressed out;
   std::size_t n = 0;
-  while (world->step()) {
-    if (!press.rests(world->session().clock().time())) continue;
+  while (simulation->step()) {
+    if (!press.rests(simulation->session().clock().time())) continue;
     ++n;
-    out.force -= world->device(0).state().f_out[0];
-    out.commanded -= world->seat(0)->sample().telemetry.f_cmd[0];
+    out.force -= simulation->device(0).state().f_out[0];
+    out.commanded -= simulation->seat(0)->sample().telemetry.f_cmd[0];
   }
   out.force /= static_cast<double>(std::max<std::size_t>(n, 1));
   out.commanded /= static_cast<double>(std::max<std::size_t>(n, 1));
-  out.expired = world->device(0).counts().expired;
-  out.trouble = world->trouble();
+  out.expired = simulation->device(0).counts().expired;
+  out.trouble = simulation->trouble();
   return out;
 }
 
@@ -66,13 +66,14 @@ TEST_P(TickRates, EngageOverALoopOfOneSecond) {
   PressScene press;
   press.tick_hz = GetParam();
   press.duration_s = 0.5;
-  const auto world = simulation_config_of(press, 500);
+  const auto simulation = simulation_config_of(press, 500);
   bool engaged = false;
-  while (world->step() && world->now() < Time{} + 20s) engaged = engaged || world->seat(0)->gate().active();
-  EXPECT_EQ(world->trouble(), "");
+  while (simulation->step() && simulation->now() < Time{} + 20s)
+    engaged = engaged || simulation->seat(0)->gate().active();
+  EXPECT_EQ(simulation->trouble(), "");
   EXPECT_TRUE(engaged);
-  EXPECT_GT(world->session().clock().time(), 0.4);
-  EXPECT_NEAR(seconds(world->seat(0)->link().timing().rtt_p50()), 1.0, 0.05);
+  EXPECT_GT(simulation->session().clock().time(), 0.4);
+  EXPECT_NEAR(seconds(simulation->seat(0)->link().timing().rtt_p50()), 1.0, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TickRates,
@@ -83,11 +84,11 @@ INSTANTIATE_TEST_SUITE_P(All, TickRates,
 TEST(TickRate, RunsASimulatedDeviceOnTheSimulationsClock) {
   PressScene press;
   press.tick_hz = 100;
-  const auto world = simulation_config_of(press);
+  const auto simulation = simulation_config_of(press);
   for (int i = 0; i < 100; ++i) {
-    const Time tick = world->now();
-    ASSERT_TRUE(world->step());
-    ASSERT_EQ(world->device(0).state().sampled_at, tick) << i;
+    const Time tick = simulation->now();
+    ASSERT_TRUE(simulation->step());
+    ASSERT_EQ(simulation->device(0).state().sampled_at, tick) << i;
   }
 }
 
@@ -95,11 +96,11 @@ TEST(TickRate, EngagesAt10kHzOverTheOldestPermittedLoop) {
   PressScene press;
   press.tick_hz = 10000;
   press.duration_s = 0.2;
-  const auto world = simulation_config_of(press, 1200);
-  while (world->step() && world->now() < Time{} + 20s) {
+  const auto simulation = simulation_config_of(press, 1200);
+  while (simulation->step() && simulation->now() < Time{} + 20s) {
   }
-  EXPECT_EQ(world->trouble(), "");
-  EXPECT_GT(world->session().clock().time(), 0.1);
+  EXPECT_EQ(simulation->trouble(), "");
+  EXPECT_GT(simulation->session().clock().time(), 0.1);
 }
 
 /// Returns why a session does not begin within the start timeout.
@@ -108,10 +109,10 @@ std::string refusal(int loop_age_ms, double delay_ms) {
   press.tick_hz = 100;
   press.loop_age_ms = loop_age_ms;
   press.duration_s = 1;
-  const auto world = simulation_config_of(press, delay_ms);
-  while (world->step()) {
+  const auto simulation = simulation_config_of(press, delay_ms);
+  while (simulation->step()) {
   }
-  return world->trouble();
+  return simulation->trouble();
 }
 
 TEST(TickRate, AnErrorNamesTheKeyThatForbidsTheLoopAndWhatWasMeasured) {
@@ -130,12 +131,12 @@ TEST(TickRate, AnErrorNamesTheSilenceLimitWhereDatagramsComeTooSeldom) {
   auto made = netsim::Simulation::make(
       {parsed(press), netsim::link_from(test::with_outages(test::delayed(5), 0.06, 1.5)), 1, {}});
   ASSERT_TRUE(made);
-  netsim::Simulation& world = **made;
-  while (world.step() && (world.seat(0) == nullptr || world.seat(0)->gate().trips() == 0)) {
+  netsim::Simulation& simulation = **made;
+  while (simulation.step() && (simulation.seat(0) == nullptr || simulation.seat(0)->gate().trips() == 0)) {
   }
-  for (int i = 0; i < 200; ++i) world.step();
-  const std::string why =
-      netsim::not_engaged_reason(world.scene(), 0, world.seat(0), world.session(), world.now(), world.now());
+  for (int i = 0; i < 200; ++i) simulation.step();
+  const std::string why = netsim::not_engaged_reason(simulation.scene(), 0, simulation.seat(0), simulation.session(),
+                                                     simulation.now(), simulation.now());
   EXPECT_NE(why.find("gate.silence_limit_ms = 20"), std::string::npos) << why;
   EXPECT_NE(why.find("up to 6"), std::string::npos) << why;
   EXPECT_EQ(why.find("loop_age"), std::string::npos) << why;

@@ -71,9 +71,9 @@ const server::SeatMetrics& RunResult::phase(const std::string& phase, const std:
 RunResult run(const SceneSpec& scene, const netsim::SimpleNetwork& net, std::uint64_t seed, const Observer& observer) {
   auto made = netsim::Simulation::make({scene, netsim::link_from(net), seed, {}});
   if (!made) throw std::runtime_error(made.error());
-  netsim::Simulation& world = **made;
-  server::ReportBuilder builder{world.scene()};
-  const server::TraceCsv csv{world.scene()};
+  netsim::Simulation& simulation = **made;
+  server::ReportBuilder builder{simulation.scene()};
+  const server::TraceCsv csv{simulation.scene()};
   transport::Digest digest;
   std::string row = csv.header();
   digest.add(row);
@@ -82,9 +82,9 @@ RunResult run(const SceneSpec& scene, const netsim::SimpleNetwork& net, std::uin
   bool force_known = false;
   // Bounds a session that cannot begin: the scene's duration plus 20 s of virtual time.
   const auto most = static_cast<std::uint64_t>((scene.duration + 20) * scene.tick_hz);
-  while (world.step() && result.ticks < most) {
+  while (simulation.step() && result.ticks < most) {
     ++result.ticks;
-    const server::TickRecord& record = world.record();
+    const server::TickRecord& record = simulation.record();
     builder.add(record);
     if (record.running) {
       row.clear();
@@ -95,23 +95,24 @@ RunResult run(const SceneSpec& scene, const netsim::SimpleNetwork& net, std::uin
         const bool pushed = std::ranges::any_of(scene.seats[i].hand.deviations, [&](const Deviation& d) {
           return t >= d.at - 0.05 && t <= d.at + d.length + 0.5;
         });
-        if (!pushed) result.hand_speed_max = std::max(result.hand_speed_max, world.device(i).ground_truth().dx.norm());
-        const hal::Vec3 f = world.device(i).state().f_out;
+        if (!pushed)
+          result.hand_speed_max = std::max(result.hand_speed_max, simulation.device(i).ground_truth().dx.norm());
+        const hal::Vec3 f = simulation.device(i).state().f_out;
         if (force_known) result.force_step_max = std::max(result.force_step_max, (f - force[i]).norm());
         force[i] = f;
       }
       force_known = true;
       for (std::size_t j = 0; j < scene.tools.size(); ++j) {
         double sum = 0;
-        for (std::size_t i = 0; i < scene.masters(); ++i) sum += world.session().tool(j).authority.alpha(i);
-        if (!world.session().tool(j).authority.held())
+        for (std::size_t i = 0; i < scene.masters(); ++i) sum += simulation.session().tool(j).authority.alpha(i);
+        if (!simulation.session().tool(j).authority.held())
           result.authority_error_max = std::max(result.authority_error_max, std::abs(sum - 1));
       }
     }
-    if (observer) observer(world);
+    if (observer) observer(simulation);
   }
-  result.trouble = world.trouble();
-  result.report = netsim::simulation_report(world, builder, seed);
+  result.trouble = simulation.trouble();
+  result.report = netsim::simulation_report(simulation, builder, seed);
   result.report.trace_hash = digest.hex();
   return result;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "netsim/engine/verdict.h"
+#include "netsim/engine/path_decision.h"
 
 namespace tandem::netsim::demo {
 namespace {

@@ -16,25 +16,22 @@ namespace {
 
 constexpr int kRoundsOfSending = 8;
 constexpr Duration kMaintenanceInterval{200'000'000};
-constexpr std::size_t kRequestsMax = 64;
 
 }  // namespace
 
 std::expected<std::unique_ptr<Proxy>, std::string> Proxy::open(const ProxyOptions& options) {
   auto clients = ProxyClients::open(options.listen, options.to);
   if (!clients) return std::unexpected(clients.error());
-  io::EventFd wake;
-  if (!wake.open() || !clients->watch(wake.get(), {ProxySource::Kind::kWake, 0})) {
+  std::unique_ptr<Proxy> proxy{new Proxy(options, std::move(*clients))};
+  if (!proxy->inbox_.open() || !proxy->clients_.watch(proxy->inbox_.fd(), {ProxySource::Kind::kWake, 0})) {
     return std::unexpected(std::string("the system gives no file descriptors: ") + std::strerror(errno));
   }
-  return std::unique_ptr<Proxy>(new Proxy(options, std::move(*clients), std::move(wake)));
+  return proxy;
 }
 
-Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::EventFd wake)
+Proxy::Proxy(const ProxyOptions& options, ProxyClients clients)
     : options_(options),
       clients_(std::move(clients)),
-      wake_(std::move(wake)),
-      requests_(kRequestsMax),
       core_(options.link, options.seed, options.events),
       registry_(core_, clients_, delays_, errors_, options),
       receiver_(core_, clients_, registry_, clock_, errors_),
@@ -49,7 +46,7 @@ Proxy::Proxy(const ProxyOptions& options, ProxyClients clients, io::EventFd wake
 void Proxy::run() {
   prctl(PR_SET_TIMERSLACK, 1UL);  // otherwise the kernel may wake this thread 50 us late to save power
   clock_.start();
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!inbox_.stopping()) {
     now_ = clock_.now();
     if (now_ >= next_maintenance_) {
       registry_.maintain(now_);
@@ -100,7 +97,7 @@ std::size_t Proxy::read_ready(Duration wait) noexcept {
   for (int i = 0; i < ready; ++i) {
     const ProxySource source = ProxySource::of(events[static_cast<std::size_t>(i)].data.u64);
     if (source.kind == ProxySource::Kind::kWake) {
-      wake_.clear();
+      inbox_.clear();
       continue;
     }
     // One batch per source: a client with heavy traffic waits for the others.
@@ -135,29 +132,22 @@ void Proxy::send_due() noexcept {
   }
 }
 
-void Proxy::stop() noexcept {
-  stopping_.store(true, std::memory_order_release);
-  wake_.signal();
-}
-
 bool Proxy::post(ProxyRequest& request) noexcept {
   std::vector<LinkSpec> for_new;  // copied before posting; afterwards the packet thread owns the request
   for (const LinkChange& change : request.changes) {
     if (change.for_new) for_new.push_back(*change.for_new);
   }
-  if (!requests_.push(&request)) return false;
+  if (!inbox_.post(request)) return false;
   for (const LinkSpec& link : for_new) pool().set_next_link(link);
-  wake_.signal();
   return true;
 }
 
 void Proxy::process_requests() noexcept {
-  if (requests_.front() == nullptr) return;
+  if (inbox_.empty()) return;
   // Datagrams that arrived before the request still use the previous network.
   [[maybe_unused]] const std::size_t count = read_ready(Duration{});
-  while (ProxyRequest* const* waiting = requests_.front()) {
-    ProxyRequest& request = **waiting;
-    requests_.pop();
+  while (!inbox_.empty()) {
+    ProxyRequest& request = inbox_.take();
     execute(request);
     request.done.store(true, std::memory_order_release);
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <expected>
 #include <memory>
@@ -9,14 +8,13 @@
 #include <vector>
 
 #include "common/base/time.h"
-#include "common/io/event_fd.h"
 #include "common/io/fd.h"
 #include "common/io/published.h"
 #include "common/io/socket_address.h"
-#include "common/io/spsc_queue.h"
 #include "netsim/proxy/app/client_registry.h"
 #include "netsim/proxy/app/proxy_clients.h"
 #include "netsim/proxy/app/proxy_clock.h"
+#include "netsim/proxy/app/proxy_inbox.h"
 #include "netsim/proxy/app/proxy_receiver.h"
 #include "netsim/proxy/app/proxy_request.h"
 #include "netsim/proxy/app/proxy_sender.h"
@@ -41,7 +39,7 @@ class Proxy {
   /// Runs until `stop`, or until the configured duration ends.
   void run();
   /// Stops the proxy. Any thread or signal handler.
-  void stop() noexcept;
+  void stop() noexcept { inbox_.stop(); }
 
   /// Passes a request to the packet thread. One posting thread only. The request must live until `done`, or until `run`
   /// returns.
@@ -59,22 +57,22 @@ class Proxy {
   [[nodiscard]] ProxyStatus status() const;
   /// Returns the measured delays of the clients. Any thread.
   [[nodiscard]] const ClientDelays& delays() const noexcept { return delays_; }
-  /// Returns the lateness of sent datagrams. Any thread.
-  [[nodiscard]] const LiveDelayHistogram& live_lateness() const noexcept { return sender_.live_lateness(); }
+  /// Returns the sender, which measures the lateness of sent datagrams. Any thread may read its `live_lateness`; read
+  /// all else after `run`.
+  [[nodiscard]] const ProxySender& sender() const noexcept { return sender_; }
   [[nodiscard]] Duration late_limit() const noexcept { return options_.late_limit; }
 
   /// After `run`: logs all datagrams in flight.
   void log_in_flight() const noexcept { core_.log_in_flight(); }
-  /// After `run`: returns the complete status; `lateness` compares sending times with the schedule [ns].
+  /// After `run`: returns the complete status.
   [[nodiscard]] ProxyStatus final_status() const;
-  [[nodiscard]] const Histogram& lateness() const noexcept { return sender_.lateness(); }
   /// After `run`: returns all connected clients and the first 1024 clients that left, and the link quality of the first
   /// ProxyCore::kClientsMax clients.
   [[nodiscard]] std::vector<ProxyClientStatus> client_reports() const { return registry_.reports(now_); }
   [[nodiscard]] std::vector<ProxyClientQuality> qualities() const { return registry_.qualities(); }
 
  private:
-  Proxy(const ProxyOptions& options, ProxyClients clients, io::EventFd wake);
+  Proxy(const ProxyOptions& options, ProxyClients clients);
 
   void run_round() noexcept;
   [[nodiscard]] std::size_t read_ready(Duration wait) noexcept;
@@ -87,9 +85,7 @@ class Proxy {
   ProxyOptions options_;
   ProxyErrors errors_;
   ProxyClients clients_;
-  io::EventFd wake_;  ///< written by other threads
-  std::atomic<bool> stopping_{false};
-  io::SpscQueue<ProxyRequest*> requests_;
+  ProxyInbox inbox_;
   ProxyCore core_;
   ProxyClock clock_;
   ClientDelays delays_;

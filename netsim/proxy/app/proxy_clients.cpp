@@ -125,13 +125,13 @@ bool ProxyClients::add(std::uint32_t place, std::uint64_t number, const io::Peer
   io::Fd up = connect_upside();
   if (!down.open() || !up.open() || !watch(up.get(), {ProxySource::Kind::kUpside, place})) return false;
   Client& client = clients_[place];
-  client = Client{};
-  client.downside = std::move(down);
-  client.upside = std::move(up);
-  client.address = peer;
-  client.key = key;
-  client.number = number;
-  client.present = true;
+  client = {.downside = std::move(down),
+            .upside = std::move(up),
+            .former = {},
+            .address = peer,
+            .key = key,
+            .number = number,
+            .present = true};
   pending_[pending_count_++] = place;
   index();
   return true;
@@ -149,10 +149,7 @@ bool ProxyClients::change_address(std::uint32_t place, std::uint32_t number) noe
   Client& client = clients_[place];
   io::Fd up = connect_upside();
   if (!up.open()) return false;
-  epoll_event event{};
-  event.events = EPOLLIN;
-  event.data.u64 = ProxySource{ProxySource::Kind::kFormer, place}.as_number();
-  if (epoll_ctl(poll_.get(), EPOLL_CTL_MOD, client.upside.get(), &event) != 0 ||
+  if (!watch(client.upside.get(), {ProxySource::Kind::kFormer, place}, EPOLL_CTL_MOD) ||
       !watch(up.get(), {ProxySource::Kind::kUpside, place})) {
     return false;
   }
@@ -182,11 +179,11 @@ void ProxyClients::listen_to_pending() noexcept {
   pending_count_ = 0;
 }
 
-bool ProxyClients::watch(int fd, ProxySource source) noexcept {
-  epoll_event event{};
-  event.events = EPOLLIN;
-  event.data.u64 = source.as_number();
-  return epoll_ctl(poll_.get(), EPOLL_CTL_ADD, fd, &event) == 0;
+bool ProxyClients::watch(int fd, ProxySource source) noexcept { return watch(fd, source, EPOLL_CTL_ADD); }
+
+bool ProxyClients::watch(int fd, ProxySource source, int operation) noexcept {
+  epoll_event event{.events = EPOLLIN, .data = {.u64 = source.as_number()}};
+  return epoll_ctl(poll_.get(), operation, fd, &event) == 0;
 }
 
 io::Fd ProxyClients::connect_downside(const io::SocketAddress& address, const io::LocalAddress& local) noexcept {

@@ -110,6 +110,7 @@ class ProxyClients {
 
   [[nodiscard]] io::Fd connect_downside(const io::SocketAddress& address, const io::LocalAddress& local) noexcept;
   [[nodiscard]] io::Fd connect_upside() noexcept;
+  bool watch(int fd, ProxySource source, int operation) noexcept;
   void share_port(bool on) noexcept;
   void index() noexcept;
   [[nodiscard]] static std::size_t hash(const io::PeerKey& key) noexcept;

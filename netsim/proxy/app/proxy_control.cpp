@@ -61,7 +61,7 @@ void apply(const ControlRequest& request, const std::optional<LinkSpec>& network
 }  // namespace
 
 ProxyControl::ProxyControl(Proxy& proxy, const LinkSpec& start, FindNetwork find)
-    : proxy_(proxy), start_(start), find_network_(std::move(find)), common_link_(start) {}
+    : proxy_(proxy), start_(start), find_network_(std::move(find)), links_{.common = start} {}
 
 ProxyControl::Answer ProxyControl::execute(const std::string& line) {
   const auto request = parse_control_request(line);
@@ -95,43 +95,35 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
   }
   const std::set<std::uint64_t> present = present_of(proxy_.status());
   if (std::string error = missing(request.clients, present); !error.empty()) return wrong(std::move(error));
-  std::erase_if(own_links_, [&](const auto& entry) { return !present.contains(entry.first); });
+  std::erase_if(links_.own, [&](const auto& entry) { return !present.contains(entry.first); });
 
-  // Works on copies, which are discarded if the change fails.
-  LinkSpec all = common_link_;
-  std::map<std::uint64_t, LinkSpec> own = own_links_;
-  std::vector<Outage> outages = outages_;
+  // Works on a copy, which is discarded if the change fails.
+  Links next = links_;
   const Duration now = proxy_.now();
-  std::erase_if(outages, [&](const Outage& o) { return o.spec.start + o.spec.length + Duration{1'000'000'000} < now; });
+  std::erase_if(next.outages,
+                [&](const Outage& o) { return o.spec.start + o.spec.length + Duration{1'000'000'000} < now; });
   if (request.outage) {
-    outages.push_back(
+    next.outages.push_back(
         {{.start = now, .length = *request.outage, .mode = request.outage_mode}, request.direction, request.clients});
   }
   const bool numbers = network || request.delay_ms || request.jitter_ms || request.loss_percent ||
                        request.duplicate_percent || request.reorder_percent;
   if (numbers && request.clients.empty()) {
-    apply(request, network, all);
-    for (auto& [number, link] : own) apply(request, network, link);
-    if (reset && !request.direction) own.clear();
+    apply(request, network, next.common);
+    for (auto& [number, link] : next.own) apply(request, network, link);
+    if (reset && !request.direction) next.own.clear();
   } else if (numbers) {
     for (const std::uint64_t number : request.clients)
-      apply(request, network, own.try_emplace(number, all).first->second);
+      apply(request, network, next.own.try_emplace(number, next.common).first->second);
   }
-  std::swap(common_link_, all);
-  std::swap(own_links_, own);
-  std::swap(outages_, outages);
-  const auto undo = [&] {
-    std::swap(common_link_, all);
-    std::swap(own_links_, own);
-    std::swap(outages_, outages);
-  };
+  std::swap(links_, next);
 
   ProxyRequest& posted = requests_.emplace_back();
   try {
     if (request.clients.empty()) {
       std::vector<std::uint64_t> all_clients;
       for (const std::uint64_t number : present) all_clients.push_back(number - 1);
-      posted.changes.push_back(proxy_.links().prepare_change(with_outages(common_link_, 0), all_clients, true));
+      posted.changes.push_back(proxy_.links().prepare_change(with_outages(links_.common, 0), all_clients, true));
     }
     for (const std::uint64_t number : present) {
       const bool asked = std::ranges::find(request.clients, number) != request.clients.end();
@@ -142,11 +134,11 @@ ProxyControl::Answer ProxyControl::change(const ControlRequest& request, const s
     }
   } catch (const std::invalid_argument& problem) {
     requests_.pop_back();
-    undo();
+    std::swap(links_, next);
     return wrong(problem.what());
   }
   if (std::string error = post(posted); !error.empty()) {
-    undo();
+    std::swap(links_, next);
     return trouble(std::move(error));
   }
   std::string text = format("done at %.3f s\n", seconds(posted.at));
@@ -162,11 +154,9 @@ ProxyControl::Answer ProxyControl::rebind(const ControlRequest& request, const s
   if (present.empty()) return trouble("no client is present whose address could change");
   ProxyRequest& posted = requests_.emplace_back();
   posted.rebind.dead_after = request.dead_after;
-  if (request.clients.empty()) {
-    for (const std::uint64_t number : present) posted.rebinds.push_back(number - 1);
-  } else {
-    for (const std::uint64_t number : request.clients) posted.rebinds.push_back(number - 1);
-  }
+  posted.rebinds = request.clients;
+  if (request.clients.empty()) posted.rebinds.assign(present.begin(), present.end());
+  for (std::uint64_t& number : posted.rebinds) --number;
   if (std::string error = post(posted); !error.empty()) return trouble(std::move(error));
   if (!posted.succeeded) return trouble("a client left meanwhile, or changed its address a thousand times already");
   record_change(posted.at, line);
@@ -189,16 +179,16 @@ bool ProxyControl::has_own(std::uint64_t number) const {
   const auto names = [&](const Outage& outage) {
     return std::ranges::find(outage.clients, number) != outage.clients.end();
   };
-  return own_links_.contains(number) || std::ranges::any_of(outages_, names);
+  return links_.own.contains(number) || std::ranges::any_of(links_.outages, names);
 }
 
 LinkSpec ProxyControl::link_of(std::uint64_t number) const {
-  const auto own = own_links_.find(number);
-  return own == own_links_.end() ? common_link_ : own->second;
+  const auto own = links_.own.find(number);
+  return own == links_.own.end() ? links_.common : own->second;
 }
 
 LinkSpec ProxyControl::with_outages(LinkSpec link, std::uint64_t number) const {
-  for (const Outage& outage : outages_) {
+  for (const Outage& outage : links_.outages) {
     const bool meant = outage.clients.empty() || std::ranges::find(outage.clients, number) != outage.clients.end();
     if (!meant) continue;
     for (const Direction direction : {Direction::kUp, Direction::kDown}) {

@@ -54,6 +54,12 @@ class ProxyControl {
     std::optional<Direction> direction;
     std::vector<std::uint64_t> clients;  ///< empty: all
   };
+  /// Links as commands have set them.
+  struct Links {
+    LinkSpec common;                             ///< link of clients without an own link
+    std::map<std::uint64_t, LinkSpec> own = {};  ///< by number from 1
+    std::vector<Outage> outages = {};            ///< requested by commands and not over yet
+  };
   Answer change(const ControlRequest& request, const std::string& line);
   Answer rebind(const ControlRequest& request, const std::string& line);
   /// Posts a request. Returns an error, or empty if it was executed.
@@ -66,10 +72,8 @@ class ProxyControl {
   Proxy& proxy_;
   const LinkSpec start_;
   FindNetwork find_network_;
-  LinkSpec common_link_;                         ///< link of clients without an own link
-  std::map<std::uint64_t, LinkSpec> own_links_;  ///< by number from 1
-  std::vector<Outage> outages_;                  ///< requested by commands and not over yet
-  std::list<ProxyRequest> requests_;             ///< unfinished requests must keep their addresses
+  Links links_;
+  std::list<ProxyRequest> requests_;  ///< unfinished requests must keep their addresses
   std::vector<Change> changes_;
 };
 

@@ -23,12 +23,7 @@ double delay_mean_ms(const PathCounters& c) {
 }
 
 Json path_json(const PathCounters& c) {
-  Json json;
-  json["in"] = c.in;
-  json["out"] = c.out;
-  json["copies"] = c.copies;
-  json["dropped"] = c.dropped();
-  json["in_flight"] = c.in_flight();
+  Json json{{"in", c.in}, {"out", c.out}, {"copies", c.copies}, {"dropped", c.dropped()}, {"in_flight", c.in_flight()}};
   for (std::size_t i = 0; i < kOutcomes; ++i) {
     const auto outcome = static_cast<Outcome>(i);
     if (!dropped(outcome)) continue;
@@ -36,13 +31,13 @@ Json path_json(const PathCounters& c) {
     for (char& letter : key) letter = letter == ' ' ? '_' : letter;
     json[key] = c.of(outcome);
   }
-  json["bits_flipped"] = c.flipped;
-  json["truncated"] = c.truncated;
-  json["reordered"] = c.of(Outcome::kHeldBack);
-  json["bytes_in"] = c.bytes_in;
-  json["bytes_out"] = c.bytes_out;
-  json["lost_percent"] = lost_percent(c);
-  json["delay_mean_ms"] = delay_mean_ms(c);
+  json.update(Json{{"bits_flipped", c.flipped},
+                   {"truncated", c.truncated},
+                   {"reordered", c.of(Outcome::kHeldBack)},
+                   {"bytes_in", c.bytes_in},
+                   {"bytes_out", c.bytes_out},
+                   {"lost_percent", lost_percent(c)},
+                   {"delay_mean_ms", delay_mean_ms(c)}});
   return json;
 }
 
@@ -55,23 +50,16 @@ std::string direction_text(const char* title, const PathCounters& c, double dura
                             static_cast<unsigned long long>(c.in), rate.c_str(), static_cast<unsigned long long>(c.out),
                             lost_percent(c), delay_mean_ms(c));
   std::string causes;
-  for (std::size_t i = 0; i < kOutcomes; ++i) {
-    const auto outcome = static_cast<Outcome>(i);
-    if (outcome == Outcome::kDeliver || c.of(outcome) == 0) continue;
-    causes += format("%s%llu %s", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(c.of(outcome)),
-                     name(outcome));
-  }
-  for (const auto& [number, what] : {std::pair{c.flipped, "with wrong bits"}, std::pair{c.truncated, "truncated"}}) {
-    if (number == 0) continue;
-    causes += format("%s%llu %s", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(number), what);
-  }
-  if (c.copies > 0) {
-    causes += format("%s%llu duplicated", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(c.copies));
-  }
-  if (c.in_flight() > 0) {
-    causes += format("%s%llu under way%s", causes.empty() ? "    " : ", ",
-                     static_cast<unsigned long long>(c.in_flight()), ended ? " at the end" : "");
-  }
+  const auto add = [&causes](std::uint64_t number, const std::string& what) {
+    if (number > 0)
+      causes += format("%s%llu ", causes.empty() ? "    " : ", ", static_cast<unsigned long long>(number)) + what;
+  };
+  for (std::size_t i = 0; i < kOutcomes; ++i)
+    if (const auto outcome = static_cast<Outcome>(i); outcome != Outcome::kDeliver) add(c.of(outcome), name(outcome));
+  add(c.flipped, "with wrong bits");
+  add(c.truncated, "truncated");
+  add(c.copies, "duplicated");
+  add(c.in_flight(), ended ? "under way at the end" : "under way");
   return causes.empty() ? text : text + causes + "\n";
 }
 
@@ -145,12 +133,12 @@ Json events_json(std::span<const ProxyEvent> events) {
 }  // namespace
 
 bool judged(const Proxy& proxy, const ProxyReportNotes& notes) {
-  return notes.lateness_max && proxy.lateness().count() > 0;
+  return notes.lateness_max && proxy.sender().lateness().count() > 0;
 }
 
 bool in_time(const Proxy& proxy, const ProxyReportNotes& notes) {
   return !notes.lateness_max ||
-         (judged(proxy, notes) && proxy.lateness().quantile(0.99) <= notes.lateness_max->count());
+         (judged(proxy, notes) && proxy.sender().lateness().quantile(0.99) <= notes.lateness_max->count());
 }
 
 std::string status_text(const ProxyStatus& status) {
@@ -171,17 +159,17 @@ std::string status_text(const ProxyStatus& status) {
 }
 
 std::string status_json(const ProxyStatus& status, std::span<const ProxyControl::Change> changes) {
-  Json json;
-  json["time_s"] = seconds(status.since_start);
-  json["clients_seen"] = status.clients_seen;
-  json["up"] = path_json(status.total[0]);
-  json["down"] = path_json(status.total[1]);
-  json["clients"] = Json::array();
-  for (std::size_t i = 0; i < status.clients; ++i) json["clients"].push_back(client_json(status.client[i]));
-  json["changes"] = changes_json(changes);
-  json["released"] = status.released;
-  json["released_late"] = status.late;
-  json["troubles"] = troubles_json(status.errors);
+  Json clients = Json::array();
+  for (std::size_t i = 0; i < status.clients; ++i) clients.push_back(client_json(status.client[i]));
+  const Json json{{"time_s", seconds(status.since_start)},
+                  {"clients_seen", status.clients_seen},
+                  {"up", path_json(status.total[0])},
+                  {"down", path_json(status.total[1])},
+                  {"clients", clients},
+                  {"changes", changes_json(changes)},
+                  {"released", status.released},
+                  {"released_late", status.late},
+                  {"troubles", troubles_json(status.errors)}};
   return json.dump() + "\n";
 }
 
@@ -198,7 +186,7 @@ std::string summary_text(const Proxy& proxy, const ProxyReportNotes& notes) {
     text += format("  at %.3f s: %s\n", seconds(change.at), change.command.c_str());
     for (const std::string& note : change.notes) text += "    note: " + note + "\n";
   }
-  const Histogram& late = proxy.lateness();
+  const Histogram& late = proxy.sender().lateness();
   const auto us = [&late](double q) { return static_cast<double>(late.quantile(q)) / 1e3; };
   if (late.count() > 0) {
     text += format("  own error: sent later than scheduled by p50 %.1f us, p99 %.1f us, at most %.1f us;\n", us(0.5),
@@ -228,36 +216,37 @@ std::string summary_text(const Proxy& proxy, const ProxyReportNotes& notes) {
 std::string summary_json(const Proxy& proxy, const ProxyOptions& options, const NetworkChoice& network,
                          const ProxyReportNotes& notes) {
   const ProxyStatus status = proxy.final_status();
-  Json json;
-  json["program"] = "tandem-netsim proxy";
-  json["listen"] = io::to_text(proxy.listening());
-  json["to"] = io::to_text(options.to);
-  json["network"] = network.name;
-  json["description"] = network.description;
-  json["notes"] = network.notes;
-  json["seed"] = options.seed;
-  json["duration_s"] = seconds(status.since_start);
-  json["clients_seen"] = status.clients_seen;
-  json["up"] = path_json(status.total[0]);
-  json["down"] = path_json(status.total[1]);
-  json["clients"] = Json::array();
-  for (const ProxyClientStatus& client : proxy.client_reports()) json["clients"].push_back(client_json(client));
-  json["quality"] = Json::object();
-  for (const NamedLink& one : named(notes.qualities)) json["quality"][one.name] = quality_json(one.link);
-  json["interrupted"] = notes.interrupted;
-  json["events"] = events_json(notes.events);
-  json["changes"] = changes_json(notes.changes);
-  const Histogram& late = proxy.lateness();
-  json["lateness"] = {{"count", late.count()},
-                      {"p50_us", static_cast<double>(late.quantile(0.5)) / 1e3},
-                      {"p99_us", static_cast<double>(late.quantile(0.99)) / 1e3},
-                      {"max_us", static_cast<double>(late.max()) / 1e3},
-                      {"late_limit_us", static_cast<double>(proxy.late_limit().count()) / 1e3},
-                      {"late", status.late},
-                      {"judged", judged(proxy, notes)},
-                      {"in_time", in_time(proxy, notes)}};
-  json["log"] = {{"rows", notes.log_rows}, {"missed", notes.log_missed}};
-  json["troubles"] = troubles_json(status.errors);
+  Json clients = Json::array(), quality = Json::object();
+  for (const ProxyClientStatus& client : proxy.client_reports()) clients.push_back(client_json(client));
+  for (const NamedLink& one : named(notes.qualities)) quality[one.name] = quality_json(one.link);
+  const Histogram& late = proxy.sender().lateness();
+  const Json json{{"program", "tandem-netsim proxy"},
+                  {"listen", io::to_text(proxy.listening())},
+                  {"to", io::to_text(options.to)},
+                  {"network", network.name},
+                  {"description", network.description},
+                  {"notes", network.notes},
+                  {"seed", options.seed},
+                  {"duration_s", seconds(status.since_start)},
+                  {"clients_seen", status.clients_seen},
+                  {"up", path_json(status.total[0])},
+                  {"down", path_json(status.total[1])},
+                  {"clients", clients},
+                  {"quality", quality},
+                  {"interrupted", notes.interrupted},
+                  {"events", events_json(notes.events)},
+                  {"changes", changes_json(notes.changes)},
+                  {"lateness",
+                   {{"count", late.count()},
+                    {"p50_us", static_cast<double>(late.quantile(0.5)) / 1e3},
+                    {"p99_us", static_cast<double>(late.quantile(0.99)) / 1e3},
+                    {"max_us", static_cast<double>(late.max()) / 1e3},
+                    {"late_limit_us", static_cast<double>(proxy.late_limit().count()) / 1e3},
+                    {"late", status.late},
+                    {"judged", judged(proxy, notes)},
+                    {"in_time", in_time(proxy, notes)}}},
+                  {"log", {{"rows", notes.log_rows}, {"missed", notes.log_missed}}},
+                  {"troubles", troubles_json(status.errors)}};
   return json.dump(2) + "\n";
 }
 

@@ -46,7 +46,7 @@ void ProxyStatusView::take_snapshot() {
   if (snapshots_.size() == kSnapshots) snapshots_.erase(snapshots_.begin());
   Snapshot& snapshot = snapshots_.emplace_back();
   snapshot.status = proxy_.status();
-  proxy_.live_lateness().read(snapshot.late);
+  proxy_.sender().live_lateness().read(snapshot.late);
   for (std::size_t i = 0; i < snapshot.status.clients; ++i) {
     const ProxyClientStatus& client = snapshot.status.client[i];
     Directions& directions = snapshot.delays[client.number];

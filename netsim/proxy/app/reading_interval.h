@@ -14,7 +14,7 @@ class ReadingInterval {
   /// Takes a link into account that clients have or will have.
   void add(const LinkSpec& link) noexcept {
     least_delay_ = std::min({least_delay_, link.up.floor, link.down.floor});
-    // Two cases require reading in order of arrival, without interval: a shared link, and verdicts that wait for later
+    // Two cases require reading in order of arrival, without interval: a shared link, and decisions that wait for later
     // datagrams.
     immediately_ = immediately_ || link.shared || waits_for_others(link.up) || waits_for_others(link.down);
   }

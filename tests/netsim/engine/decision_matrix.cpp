@@ -161,7 +161,7 @@ std::vector<MatrixEntry> decision_matrix() {
   all.push_back({"everything", [] { return log_with(both(everything())); }});
   all.push_back({"everything, seed 2", [] { return log_with(both(everything()), 2); }});
   PathSpec free = everything();
-  free.order = Order::kFree;
+  free.order = ArrivalOrder::kFree;
   all.push_back({"everything, free order", [free] { return log_with(both(free)); }});
   all.push_back({"late decisions", [] { return log_with(both(late_decisions())); }});
   PathSpec cut = late_decisions();

@@ -66,8 +66,8 @@ int main(int count, char** arguments) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     RandomStream random{seed};
     LinkSpec spec;
-    spec.up = test::random_path(random, seed % 3 == 0 ? Order::kFree : Order::kFifo);
-    spec.down = test::random_path(random, seed % 4 == 0 ? Order::kFree : Order::kFifo);
+    spec.up = test::random_path(random, seed % 3 == 0 ? ArrivalOrder::kFree : ArrivalOrder::kFifo);
+    spec.down = test::random_path(random, seed % 4 == 0 ? ArrivalOrder::kFree : ArrivalOrder::kFifo);
     show("random", seed, hash_of(spec, seed, others));
   }
   std::printf("all %016" PRIx64 "\n", all);

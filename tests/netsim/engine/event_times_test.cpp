@@ -91,7 +91,7 @@ TEST(LinkText, OmitsNoModel) {
                                    {.boundary = {.period = 15s}},
                                    {.stall = {.rate_per_s = 1, .length_min = 1ms, .cap = 2ms}},
                                    {.slots = {.period = 1ms}},
-                                   {.order = Order::kFree},
+                                   {.order = ArrivalOrder::kFree},
                                    {.reorder = {.probability = 0.1}},
                                    {.duplicate = {.probability = 0.1}},
                                    {.corruption = {.probability = 0.1}},

@@ -117,7 +117,7 @@ TEST(Network, ConservesDatagramsAtEveryInstant) {
 TEST(Network, IsIndependentOfThePollTimes) { EXPECT_EQ(arrivals(everything(), 1), arrivals(everything(), 500)); }
 
 /// Returns a digest of all decisions of link 0 while `others` more links are busy.
-std::uint64_t decisions(std::uint64_t seed, std::size_t others, std::size_t other_size = 64) {
+std::uint64_t decision_digest(std::uint64_t seed, std::size_t others, std::size_t other_size = 64) {
   Network network{seed};
   for (std::size_t i = 0; i <= others; ++i) network.add_link({everything(), everything()});
   Digest digest;
@@ -139,15 +139,15 @@ std::uint64_t decisions(std::uint64_t seed, std::size_t others, std::size_t othe
 }
 
 TEST(Network, RepeatsDecisionsOfASeedDespiteOtherFlows) {
-  const std::uint64_t alone = decisions(42, 0);
-  EXPECT_EQ(decisions(42, 0), alone);
-  EXPECT_EQ(decisions(42, 2), alone);
-  EXPECT_EQ(decisions(42, 2, 999), alone);
-  EXPECT_NE(decisions(43, 0), alone);
+  const std::uint64_t alone = decision_digest(42, 0);
+  EXPECT_EQ(decision_digest(42, 0), alone);
+  EXPECT_EQ(decision_digest(42, 2), alone);
+  EXPECT_EQ(decision_digest(42, 2, 999), alone);
+  EXPECT_NE(decision_digest(43, 0), alone);
 }
 
 // Changes only if a model or the derivation of keys changes; stored seeds then give other networks.
-TEST(Network, KeepsTheRecordedDecisionsOfASeed) { EXPECT_EQ(decisions(1, 0), 0x200c91e72e528129ULL); }
+TEST(Network, KeepsTheRecordedDecisionsOfASeed) { EXPECT_EQ(decision_digest(1, 0), 0x200c91e72e528129ULL); }
 
 TEST(Network, ChangesNoOtherDecisionWhenAModelIsEnabled) {
   // Loss verdicts do not depend on the delay; delays do not depend on models enabled after them.
@@ -157,8 +157,8 @@ TEST(Network, ChangesNoOtherDecisionWhenAModelIsEnabled) {
   more.loss = plain.loss;
   more.outages.clear();
   more.rate = {};
-  const auto a = verdicts(path_of(plain), 20'000);
-  const auto b = verdicts(path_of(more), 20'000);
+  const auto a = decisions(path_of(plain), 20'000);
+  const auto b = decisions(path_of(more), 20'000);
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].outcome == Outcome::kLost, b[i].outcome == Outcome::kLost) << i;
   }
@@ -176,7 +176,7 @@ TEST(Network, StreamsAreIndependent) {
     Path path{own, Path::key_for(1, link, direction)};
     std::vector<double> x;
     for (std::size_t i = 0; i < n; ++i) {
-      const Verdict v = path.send(Time{}, kSize);
+      const PathDecision v = path.send(Time{}, kSize);
       x.push_back((copies ? v.copied : v.outcome == Outcome::kLost) ? 1 : -1);
     }
     return x;

@@ -98,10 +98,10 @@ TEST(Reorder, ReleasesTheLastDatagramAtTheHoldLimit) {
 TEST(Reorder, NeverDeliversBeforeItsDelayEvenWhenOrderIsFree) {
   PathSpec plain;
   plain.body = {.kind = BodySpec::Kind::kUniform, .high = 40ms};
-  plain.order = Order::kFree;
+  plain.order = ArrivalOrder::kFree;
   PathSpec with = plain;
   with.reorder = {.probability = 0.1, .displacement = 2};
-  const auto own = verdicts(path_of(plain), 10'000);
+  const auto own = decisions(path_of(plain), 10'000);
   Path path = path_of(with);
   std::size_t released = 0;
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -119,8 +119,8 @@ TEST(Reorder, DoesNotChangeOtherDatagrams) {
   plain.body = {.kind = BodySpec::Kind::kUniform, .high = 4ms};
   PathSpec with = plain;
   with.reorder.probability = 0.1;
-  const auto a = verdicts(path_of(plain), 10'000);
-  const auto b = verdicts(path_of(with), 10'000);
+  const auto a = decisions(path_of(plain), 10'000);
+  const auto b = decisions(path_of(with), 10'000);
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_TRUE(b[i].outcome == Outcome::kHeldBack || a[i].at == b[i].at) << i;
   }

@@ -40,7 +40,7 @@ TEST(Replay, ReproducesTheLogForTheSameTraffic) {
     Network original{21};
     original.add_link({everything(), everything()});
     PathSpec other = everything();
-    other.order = Order::kFree;
+    other.order = ArrivalOrder::kFree;
     other.reorder.displacement = 9;
     original.add_link({other, everything()});
     auto rows = log_of(original, traffic);
@@ -129,7 +129,7 @@ TEST(Replay, UsesTheLastRecordedOutcomeForOtherTimes) {
   ReplayPath path =
       path_from({row(0, 0ms, 5ms), row(1, 10ms, 10ms, Outcome::kLost), row(2, 20ms, 28ms), row(3, 30ms, 32ms)});
   const auto expect = [&](Duration sent, Outcome outcome, Duration at) {
-    const Verdict v = path.send(Time{sent});
+    const PathDecision v = path.send(Time{sent});
     EXPECT_EQ(v.outcome, outcome) << sent.count();
     EXPECT_EQ(v.at, Time{at}) << sent.count();
   };
@@ -169,7 +169,7 @@ TEST(Replay, ReproducesCopiesAndReorderedDatagrams) {
                                    row(1, 1ms, 8ms, Outcome::kDeliver, true), row(2, 2ms, 7ms),
                                    row(2, 2ms, 2ms, Outcome::kOverflow, true)};
   ReplayPath path = path_from(rows);
-  Verdict v = path.send(Time{0ms});
+  PathDecision v = path.send(Time{0ms});
   EXPECT_EQ(v.outcome, Outcome::kHeldBack);
   EXPECT_EQ(v.at, Time{9ms});
   v = path.send(Time{1ms});
@@ -237,7 +237,7 @@ TEST(Replay, KeepsOrderAndTimeForAnyTraffic) {
     std::size_t lost = 0;
     for (int i = 0; i < 10'000; ++i) {
       now += Duration{static_cast<std::int64_t>(random.below(3'000'000))};
-      const Verdict v = path.send(now);
+      const PathDecision v = path.send(now);
       ASSERT_GE(v.at, now);
       lost += dropped(v.outcome) ? 1 : 0;
       if (dropped(v.outcome)) continue;

@@ -1,6 +1,8 @@
 // Several clients on one link: common time processes, separate draws for each client.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "netsim/engine/network.h"
 #include "netsim/profiles/profile_loader.h"
 #include "netsim/proxy/proxy_core.h"
@@ -95,19 +97,19 @@ TEST(SharedLink, SharesBadPeriodsOutagesAndStalls) {
   spec.loss.periods = BadPeriodsSpec{.good_mean = 500ms, .bad_mean = 50ms, .loss_good = 0, .loss_bad = 1};
   spec.body = {.kind = BodySpec::Kind::kLogNormal, .scale = 4ms, .shape = 0.8, .cap = 60ms, .tau = 20ms};
   spec.stall = {.rate_per_s = 1, .length_min = 10ms, .alpha = 1.5, .cap = 200ms};
-  spec.order = Order::kFree;
+  spec.order = ArrivalOrder::kFree;
   Path path{spec, Path::shared_keys(5, 0, Direction::kUp)};
   path.set_flow(0, 10);
   path.set_flow(1, 20);
   Path alone{spec, Path::shared_keys(5, 0, Direction::kUp)};
   std::size_t lost = 0;
   for (int i = 0; i < 50'000; ++i) {
-    const Verdict a = path.send(Time{i * 1ms}, 0, kSize), b = path.send(Time{i * 1ms}, 1, kSize);
+    const PathDecision a = path.send(Time{i * 1ms}, 0, kSize), b = path.send(Time{i * 1ms}, 1, kSize);
     ASSERT_EQ(a.outcome, b.outcome) << i;
     ASSERT_EQ(a.at, b.at) << i;
     ASSERT_EQ(a.index, static_cast<std::uint64_t>(i));
     lost += dropped(a.outcome) ? 1 : 0;
-    const Verdict c = alone.send(Time{i * 1ms}, kSize);
+    const PathDecision c = alone.send(Time{i * 1ms}, kSize);
     ASSERT_EQ(a.outcome, c.outcome) << i;
     ASSERT_EQ(a.at, c.at) << i;
   }
@@ -122,7 +124,7 @@ PathSpec drawn() {
   spec.loss.gilbert_elliott = GilbertElliottSpec{.p = 0.01, .r = 0.3};
   spec.loss.pattern = LossPatternSpec{.lost = 2, .of = 17};
   spec.body = {.kind = BodySpec::Kind::kUniform, .high = 20ms};
-  spec.order = Order::kFree;
+  spec.order = ArrivalOrder::kFree;
   spec.duplicate = {.probability = 0.2, .delay_max = 3ms};
   spec.corruption = {.probability = 0.1, .mode = CorruptionSpec::Mode::kBitFlips};
   return spec;
@@ -136,7 +138,7 @@ TEST(SharedLink, KeepsTheDrawsOfAClientDespiteOthers) {
     Digest digest;
     for (int i = 0; i < 20'000; ++i) {
       for (std::uint32_t other = 1; other <= others; ++other) path.send(Time{i * 1ms}, other, size);
-      const Verdict v = path.send(Time{i * 1ms}, 0, kSize);
+      const PathDecision v = path.send(Time{i * 1ms}, 0, kSize);
       digest.add(v);
       digest.add(v.corruption.seed);
     }
@@ -336,6 +338,24 @@ TEST(SharedLink, IsReadFromAProfile) {
   ASSERT_TRUE(profile) << to_text(profile.error());
   EXPECT_TRUE(profile->link.shared);
   EXPECT_FALSE(parse_profile("version: 1 both {}", "p.textproto")->link.shared);
+}
+
+TEST(SharedLink, ClientsWithEqualRecordingsShareOneLink) {
+  const auto shared = [](bool first_lost) {
+    PathSpec path;
+    path.loss.trace = std::make_shared<LossTrace>(LossTrace{{first_lost, false}, {}});
+    return LinkSpec{.up = path, .down = path, .shared = true};
+  };
+  Network network{1};
+  DecisionLog log{3};
+  network.log_to(&log);
+  for (const bool first_lost : {false, false, true}) network.add_link(shared(first_lost));
+  const std::array<std::byte, 8> bytes{};
+  for (std::uint32_t client = 0; client < 3; ++client) network.send(Time{}, client, Direction::kUp, bytes);
+  network.log_in_flight();
+  std::map<std::uint32_t, std::uint32_t> link_of;
+  for (const Decision& d : log.rows()) link_of[d.flow] = d.link;
+  EXPECT_EQ(link_of, (std::map<std::uint32_t, std::uint32_t>{{0, 0}, {1, 0}, {2, 2}}));
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST(Capacity, MatchesTheReferenceForTheRecordedLteLink) {
     // The reference stops at the end of the recording; datagrams still queued at that time do not count.
     const auto length = static_cast<std::size_t>(spec.rate.trace->period / 1ms);
     std::vector<double> ms;
-    const auto all = verdicts(path_of(spec), length, 1ms, answer.size);
+    const auto all = decisions(path_of(spec), length, 1ms, answer.size);
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (all[i].at < Time{spec.rate.trace->period}) ms.push_back(seconds(all[i].at - Time{i * 1ms}) * 1e3);
     }
@@ -261,9 +261,9 @@ TEST(CoDel, DropsAtTheTimesOfItsControlLaw) {
 TEST(CoDel, KeepsTheWaitLowWhereATailDropDoesNot) {
   PathSpec spec;
   spec.rate = {.bits_per_s = 1'000'000, .queue_wait = 1s};  // 1.248 ms of work every 1 ms
-  const double tail = quantile(delays(verdicts(path_of(spec), 100'000)), 0.5);
+  const double tail = quantile(delays(decisions(path_of(spec), 100'000)), 0.5);
   spec.rate.codel = CoDelSpec{};
-  const auto all = verdicts(path_of(spec), 100'000);
+  const auto all = decisions(path_of(spec), 100'000);
   EXPECT_GT(tail, 900e6);
   EXPECT_LT(quantile(delays(all), 0.5), 300e6);
   EXPECT_NEAR(static_cast<double>(count_of(all, Outcome::kQueueFull)) / 100'000, 1 - 1 / 1.248, 0.02);
@@ -276,10 +276,10 @@ TEST(Path, DropsDatagramsAboveTheMtuAndCorruptedOnes) {
   EXPECT_EQ(path_of(mtu).send(Time{}, 501).outcome, Outcome::kAboveMtu);
   PathSpec damage;
   damage.corruption.probability = 0.03;
-  const auto all = verdicts(path_of(damage), 300'000);
+  const auto all = decisions(path_of(damage), 300'000);
   EXPECT_TRUE(binomial_fits(count_of(all, Outcome::kCorrupted), all.size(), 0.03));
   damage.loss.probability = mtu.loss.probability = 0.1;
-  const auto a = verdicts(path_of(damage), 20'000), b = verdicts(path_of(mtu), 20'000);
+  const auto a = decisions(path_of(damage), 20'000), b = decisions(path_of(mtu), 20'000);
   EXPECT_EQ(count_of(a, Outcome::kLost), count_of(b, Outcome::kLost));
 }
 

@@ -126,9 +126,9 @@ TEST(Corruption, TruncatesToADrawnLength) {
 TEST(Corruption, HitsTheSameDatagramsInEveryMode) {
   PathSpec spec;
   spec.corruption.probability = 0.1;
-  const auto dropped_ones = verdicts(path_of(spec), 5000);
+  const auto dropped_ones = decisions(path_of(spec), 5000);
   spec.corruption.mode = Mode::kBitFlips;
-  const auto flipped = verdicts(path_of(spec), 5000);
+  const auto flipped = decisions(path_of(spec), 5000);
   for (std::size_t i = 0; i < 5000; ++i) {
     ASSERT_EQ(dropped_ones[i].outcome == Outcome::kCorrupted,
               flipped[i].corruption.kind == Corruption::Kind::kBitFlips);
@@ -193,16 +193,16 @@ TEST(Fragments, LoseTheDatagramIfOneIsLost) {
   PathSpec spec;
   spec.mtu = {.bytes = 100, .above = MtuSpec::Above::kFragment};
   spec.loss.probability = 0.1;
-  const auto lost = verdicts(path_of(spec), n, 1ms, 200);
+  const auto lost = decisions(path_of(spec), n, 1ms, 200);
   EXPECT_TRUE(binomial_fits(count_of(lost, Outcome::kLost), n, 1 - 0.9 * 0.9 * 0.9));
   spec.loss.probability = 0;
   spec.corruption.probability = 0.1;
-  const auto hit = verdicts(path_of(spec), n, 1ms, 200);
+  const auto hit = decisions(path_of(spec), n, 1ms, 200);
   EXPECT_TRUE(binomial_fits(count_of(hit, Outcome::kCorrupted), n, 1 - 0.9 * 0.9 * 0.9));
   // Packet counts include fragments: of every six packets, the fourth is the first of the second datagram.
   spec.corruption = {};
   spec.loss.pattern = LossPatternSpec{.indices = {0, 5, 6}};
-  const auto by_number = verdicts(path_of(spec), 4, 1ms, 200);
+  const auto by_number = decisions(path_of(spec), 4, 1ms, 200);
   EXPECT_EQ(by_number[0].outcome, Outcome::kLost);
   EXPECT_EQ(by_number[1].outcome, Outcome::kLost);
   EXPECT_EQ(by_number[2].outcome, Outcome::kLost);
@@ -215,8 +215,8 @@ TEST(Fragments, ArriveWithTheLastFragment) {
   PathSpec spec;
   spec.mtu = {.bytes = 100, .above = MtuSpec::Above::kFragment};
   spec.body = {.kind = BodySpec::Kind::kUniform, .high = 100ms};
-  spec.order = Order::kFree;
-  const auto ns = delays(verdicts(path_of(spec), n, 1ms, 200));
+  spec.order = ArrivalOrder::kFree;
+  const auto ns = delays(decisions(path_of(spec), n, 1ms, 200));
   double sum = 0;
   for (const double d : ns) sum += d / 100e6;
   EXPECT_NEAR(sum / static_cast<double>(n), 0.75, 5 * 0.194 / std::sqrt(static_cast<double>(n)));
@@ -224,9 +224,9 @@ TEST(Fragments, ArriveWithTheLastFragment) {
 
 TEST(Fragments, LeaveDatagramsBelowTheMtuUnchanged) {
   PathSpec spec = everything();
-  const auto without = verdicts(path_of(spec), 5000);
+  const auto without = decisions(path_of(spec), 5000);
   spec.mtu = {.bytes = kSize + 28, .above = MtuSpec::Above::kFragment};
-  const auto with = verdicts(path_of(spec), 5000);
+  const auto with = decisions(path_of(spec), 5000);
   for (std::size_t i = 0; i < with.size(); ++i) {
     ASSERT_EQ(with[i].outcome, without[i].outcome);
     ASSERT_EQ(with[i].at, without[i].at);
@@ -242,8 +242,8 @@ TEST(Fragments, StayTogetherWhereTheHeadIsDropped) {
   std::vector<Time> times;
   const auto settle = [&](Time now) {
     while (const auto s = path.resolve(now)) {
-      fates.emplace_back(s->verdict.index, s->verdict.outcome);
-      times.push_back(s->verdict.at);
+      fates.emplace_back(s->decision.index, s->decision.outcome);
+      times.push_back(s->decision.at);
     }
   };
   for (int i = 0; i < 3; ++i) path.send(Time{}, 200), settle(Time{});

@@ -47,13 +47,13 @@ std::vector<Case> cases() {
   };
 }
 
-/// Returns delays in milliseconds with Order::kFree, so that datagrams do not affect each other.
+/// Returns delays in milliseconds with ArrivalOrder::kFree, so that datagrams do not affect each other.
 std::vector<double> drawn(BodySpec body, std::size_t n, Duration tau, Duration period, std::uint64_t seed) {
   PathSpec spec;
   body.tau = tau;
   spec.body = body;
-  spec.order = Order::kFree;
-  auto all = delays(verdicts(path_of(spec, seed), n, period), period);
+  spec.order = ArrivalOrder::kFree;
+  auto all = delays(decisions(path_of(spec, seed), n, period), period);
   for (double& d : all) d /= 1e6;
   return all;
 }
@@ -105,11 +105,11 @@ TEST(QuantileTable, MatchesPublishedGammaTables) {
 
 TEST(Regimes, SpendTheirShareAndAddTheirFloor) {
   PathSpec spec;
-  spec.order = Order::kFree;
+  spec.order = ArrivalOrder::kFree;
   spec.regimes = {{.mean = 100ms}, {.mean = 300ms, .floor = 5ms}, {.mean = 600ms, .floor = 9ms}};
   std::map<double, double> share;
   constexpr std::size_t n = 4'000'000;
-  for (const double d : delays(verdicts(path_of(spec), n))) share[d / 1e6] += 1.0 / n;
+  for (const double d : delays(decisions(path_of(spec), n))) share[d / 1e6] += 1.0 / n;
   ASSERT_EQ(share.size(), 3U);
   EXPECT_NEAR(share[0], 0.1, 0.01);
   EXPECT_NEAR(share[5], 0.3, 0.02);
@@ -135,21 +135,21 @@ TEST(Boundary, HoldsLosesAndShiftsAtItsTimes) {
   PathSpec spec;
   spec.floor = 10ms;
   spec.boundary = {.period = 1s, .phase = 500ms, .stall_low = 40ms, .stall_high = 40ms};
-  const auto all = verdicts(path_of(spec), 2000);
+  const auto all = decisions(path_of(spec), 2000);
   EXPECT_EQ(all[489].at, Time{499ms});                                         // leaves just before the stall
   for (std::size_t i = 490; i <= 530; ++i) ASSERT_EQ(all[i].at, Time{540ms});  // all at the end of the stall
   EXPECT_EQ(all[531].at, Time{541ms});
   EXPECT_EQ(all[1490].at, Time{1540ms});
   spec.boundary = {.period = 1s, .phase = 500ms, .loss_window = 20ms, .loss = 1};
-  const auto lossy = verdicts(path_of(spec), 2000);
+  const auto lossy = decisions(path_of(spec), 2000);
   for (std::size_t i = 0; i < lossy.size(); ++i) {
     const bool inside = (i >= 500 && i < 520) || (i >= 1500 && i < 1520);
     ASSERT_EQ(lossy[i].outcome == Outcome::kLost, inside) << i;
   }
   spec.boundary = {.period = 100ms, .floor_high = 20ms};
-  spec.order = Order::kFree;
+  spec.order = ArrivalOrder::kFree;
   std::set<double> floors;
-  for (const double d : delays(verdicts(path_of(spec), 100'000))) floors.insert(d / 1e6);
+  for (const double d : delays(decisions(path_of(spec), 100'000))) floors.insert(d / 1e6);
   EXPECT_EQ(floors.size(), 1000U);  // one value per period
   EXPECT_LT(ks_distance({floors.begin(), floors.end()}, [](double x) { return (x - 10) / 20; }), 2.7 / std::sqrt(1000));
 }
@@ -157,7 +157,7 @@ TEST(Boundary, HoldsLosesAndShiftsAtItsTimes) {
 TEST(Slots, PutALimitedNumberOfDeparturesOnEachGridPoint) {
   PathSpec spec;
   spec.slots = {.period = 5ms};
-  const auto free = verdicts(path_of(spec), 20);
+  const auto free = decisions(path_of(spec), 20);
   for (std::size_t i = 0; i < free.size(); ++i) {
     EXPECT_EQ(free[i].at, Time{5ms * static_cast<std::int64_t>((i + 4) / 5)}) << i;
   }
@@ -198,7 +198,7 @@ TEST(DelayModels, KeepFloorAndOrderTogetherAndTakeNoHeap) {
   const tandem::test::AllocGuard guard;
   Time last{};
   for (std::int64_t i = 0; i < 50'000; ++i) {
-    const Verdict v = path.send(Time{i * 700us}, kSize);
+    const PathDecision v = path.send(Time{i * 700us}, kSize);
     if (dropped(v.outcome)) continue;
     ASSERT_GE(v.at, Time{i * 700us} + 5ms);
     ASSERT_GE(v.at, last);
@@ -213,7 +213,7 @@ TEST(DelayModels, ChangeNoOtherDecision) {
   less.regimes.clear();
   less.body = {};
   less.slots = {};
-  const auto a = verdicts(path_of(more), 20'000), b = verdicts(path_of(less), 20'000);
+  const auto a = decisions(path_of(more), 20'000), b = decisions(path_of(less), 20'000);
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i].outcome, b[i].outcome) << i;
 }
 
@@ -223,7 +223,7 @@ TEST(DelayModels, NameMistakes) {
   spec.regimes = {{.mean = 0ms, .body = {.kind = Kind::kEmpirical, .quantiles = {{0, 2ms}, {0.5, 1ms}}}}};
   spec.boundary = {.period = 1s, .phase = 1s, .stall_high = 2s, .loss = 0.5};
   spec.slots = {.datagrams = 1};
-  spec.order = Order::kFree;
+  spec.order = ArrivalOrder::kFree;
   spec.rate = {.bits_per_s = 1000, .competing_peak = 5ms, .competing_period = 5ms};
   std::string keys;
   for (const SpecError& problem : problems(spec)) keys += problem.key + " ";

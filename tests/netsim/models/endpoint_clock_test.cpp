@@ -30,10 +30,10 @@ TEST(EndpointClock, SlowClocksRoundDownTooAndNeverGoBack) {
     const EndpointClock any{{.drift_ppm = ppm}};
     Time last = any.at(Time{});
     RandomStream random{4};
-    Time world{};
+    Time now{};
     for (int i = 0; i < 20'000; ++i) {
-      world += Duration{static_cast<std::int64_t>(random.below(3000))};
-      const Time own = any.at(world);
+      now += Duration{static_cast<std::int64_t>(random.below(3000))};
+      const Time own = any.at(now);
       ASSERT_GE(own, last);
       last = own;
     }

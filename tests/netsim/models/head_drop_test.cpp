@@ -33,12 +33,12 @@ std::map<std::uint64_t, std::optional<Time>> fates(const PathSpec& spec, const s
   std::map<std::uint64_t, std::optional<Time>> fate;
   const auto settle = [&](Time now) {
     while (const auto s = path.resolve(now)) {
-      fate[s->verdict.index] = dropped(s->verdict.outcome) ? std::nullopt : std::optional{s->verdict.at};
+      fate[s->decision.index] = dropped(s->decision.outcome) ? std::nullopt : std::optional{s->decision.at};
     }
   };
   for (const Time now : times) {
     settle(now);
-    const Verdict v = path.send(now, size);
+    const PathDecision v = path.send(now, size);
     if (v.outcome != Outcome::kWaiting) fate[v.index] = std::nullopt;
     settle(now);
   }
@@ -77,7 +77,7 @@ TEST(HeadDrop, CountsBytesAsTheTailDoes) {
   std::vector<std::uint64_t> gone;
   const auto settle = [&](Time now) {
     while (const auto s = path.resolve(now)) {
-      if (s->verdict.outcome == Outcome::kPushedOut) gone.push_back(s->verdict.index);
+      if (s->decision.outcome == Outcome::kPushedOut) gone.push_back(s->decision.index);
     }
   };
   for (int i = 0; i < 3; ++i) path.send(Time{}, 100), settle(Time{});
@@ -132,21 +132,21 @@ TEST(HeadDrop, MatchesTailDropWhenNothingIsDropped) {
   PathSpec head = tail;
   head.rate.drop = RateSpec::Drop::kHead;
   for (const Duration period : {Duration{1ms}, Duration{700us}}) {
-    std::map<std::uint64_t, Verdict> late;
+    std::map<std::uint64_t, PathDecision> late;
     Path path = path_of(head);
     const auto settle = [&](Time now) {
-      while (auto s = path.resolve(now)) late[s->verdict.index] = s->verdict;
+      while (auto s = path.resolve(now)) late[s->decision.index] = s->decision;
     };
-    const auto all = verdicts(path_of(tail), 20'000, period);
+    const auto all = decisions(path_of(tail), 20'000, period);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Time now{period * static_cast<std::int64_t>(i)};
       settle(now);
-      const Verdict v = path.send(now, kSize);
+      const PathDecision v = path.send(now, kSize);
       if (v.outcome != Outcome::kWaiting) late[v.index] = v;
       settle(now);
     }
     settle(Time{1h});
-    for (const Verdict& v : all) {
+    for (const PathDecision& v : all) {
       ASSERT_EQ(late.at(v.index).outcome, v.outcome) << v.index;
       ASSERT_EQ(late.at(v.index).at, v.at) << v.index;
       ASSERT_EQ(late.at(v.index).copy_delay, v.copy_delay) << v.index;

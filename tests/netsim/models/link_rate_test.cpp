@@ -64,7 +64,7 @@ TEST(LinkRate, PropagationDoesNotFillTheQueue) {
   PathSpec spec;
   spec.rate = {.bits_per_s = 10'000'000, .queue_bytes = 1000};
   spec.floor = 5s;
-  const auto all = verdicts(path_of(spec), 20'000);
+  const auto all = decisions(path_of(spec), 20'000);
   EXPECT_EQ(count_of(all, Outcome::kDeliver), 20'000U);
 }
 

@@ -25,7 +25,8 @@ std::vector<bool> losses(const LossSpec& loss, std::size_t count, Duration perio
   PathSpec spec;
   spec.loss = loss;
   std::vector<bool> lost;
-  for (const Verdict& v : verdicts(path_of(spec, seed), count, period)) lost.push_back(v.outcome == Outcome::kLost);
+  for (const PathDecision& v : decisions(path_of(spec, seed), count, period))
+    lost.push_back(v.outcome == Outcome::kLost);
   return lost;
 }
 
@@ -197,7 +198,7 @@ TEST(CongestionLoss, GrowsWithTheQueue) {
   PathSpec spec;
   spec.rate.bits_per_s = 1'000'000;
   spec.loss.congestion = CongestionLossSpec{.wait_low = 10ms, .wait_high = 20ms, .probability = 1};
-  const auto all = verdicts(path_of(spec), 100'000);
+  const auto all = decisions(path_of(spec), 100'000);
   // Waits up to 10 ms cause no loss: 0.248 i <= 10 for i <= 40.
   for (std::size_t i = 0; i <= 40; ++i) ASSERT_EQ(all[i].outcome, Outcome::kDeliver) << i;
   // In equilibrium the sender is always busy and passes 1/1.248. The wait settles where 19.9 % are lost, at 12 ms.
@@ -209,9 +210,9 @@ TEST(CongestionLoss, GrowsWithTheQueue) {
 TEST(CongestionLoss, DropsItsShareOfDatagramsInAStall) {
   PathSpec spec;
   spec.stall = {.rate_per_s = 2, .length_min = 50ms, .alpha = 3, .cap = 100ms};
-  const auto free = verdicts(path_of(spec), 200'000);
+  const auto free = decisions(path_of(spec), 200'000);
   spec.loss.congestion = CongestionLossSpec{.in_stall = 0.5};
-  const auto lossy = verdicts(path_of(spec), 200'000);
+  const auto lossy = decisions(path_of(spec), 200'000);
   std::size_t held = 0, lost = 0;
   for (std::size_t i = 0; i < free.size(); ++i) {
     const bool in_stall = free[i].at > Time{static_cast<std::int64_t>(i) * 1ms};
@@ -259,7 +260,7 @@ TEST(LossModels, KeepTheirDecisionsUnderAnOutage) {
   PathSpec plain, down;
   plain.loss = down.loss = all_models();
   down.outages = {{.start = 1s, .length = 500ms, .period = 2s}};
-  const auto a = verdicts(path_of(plain), 20'000), b = verdicts(path_of(down), 20'000);
+  const auto a = decisions(path_of(plain), 20'000), b = decisions(path_of(down), 20'000);
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (b[i].outcome != Outcome::kOutage) {
       ASSERT_EQ(a[i].outcome, b[i].outcome) << i;

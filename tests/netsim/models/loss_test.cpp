@@ -19,19 +19,19 @@ PathSpec bernoulli(double p) {
 }
 
 TEST(Loss, NoneAndAllAreExact) {
-  EXPECT_EQ(count_of(verdicts(path_of(bernoulli(0)), 100'000), Outcome::kLost), 0U);
-  EXPECT_EQ(count_of(verdicts(path_of(bernoulli(1)), 100'000), Outcome::kLost), 100'000U);
+  EXPECT_EQ(count_of(decisions(path_of(bernoulli(0)), 100'000), Outcome::kLost), 0U);
+  EXPECT_EQ(count_of(decisions(path_of(bernoulli(1)), 100'000), Outcome::kLost), 100'000U);
 }
 
 TEST(Loss, BernoulliLosesItsShareInGeometricRuns) {
   constexpr std::size_t n = 1'000'000;
   const double p = 0.05;
-  const auto all = verdicts(path_of(bernoulli(p), 3), n);
+  const auto all = decisions(path_of(bernoulli(p), 3), n);
   EXPECT_TRUE(binomial_fits(count_of(all, Outcome::kLost), n, p));
   // Number of loss runs of length k: n (1-p)^2 p^k.
   std::array<double, 4> runs{};
   std::size_t run = 0;
-  for (const Verdict& v : all) {
+  for (const PathDecision& v : all) {
     if (v.outcome == Outcome::kLost) {
       ++run;
     } else {
@@ -140,8 +140,20 @@ TEST(BadPeriods, LoseTheirOwnShareInEachState) {
   PathSpec spec;
   spec.loss.periods = BadPeriodsSpec{.good_mean = 100ms, .bad_mean = 100ms, .loss_good = 0.1, .loss_bad = 0.7};
   constexpr std::size_t n = 400'000;
-  const double share = static_cast<double>(count_of(verdicts(path_of(spec), n), Outcome::kLost)) / n;
+  const double share = static_cast<double>(count_of(decisions(path_of(spec), n), Outcome::kLost)) / n;
   EXPECT_NEAR(share, 0.4, 0.01);  // n_eff = 400 s / 0.1 s periods: sigma 0.3 * sqrt(1/4000) = 0.005
+}
+
+TEST(LossSpec, EqualRecordingsAreEqualWhereverTheyWereRead) {
+  const auto read = [](std::vector<bool> lost) {
+    return LossSpec{.trace = std::make_shared<LossTrace>(LossTrace{std::move(lost), 1ms})};
+  };
+  EXPECT_EQ(read({false, true}), read({false, true}));
+  EXPECT_NE(read({false, true}), read({true, false}));
+  EXPECT_NE(read({false, true}), LossSpec{});
+  EXPECT_NE(LossSpec{}, read({false, true}));
+  const LossSpec one = read({true}), copy = one;
+  EXPECT_EQ(one, copy);
 }
 
 }  // namespace

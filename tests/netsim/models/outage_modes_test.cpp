@@ -72,12 +72,12 @@ TEST(OutageHoldLast, HoldsWhileAnotherOutageBegins) {
   EXPECT_EQ(path.send(Time{25ms}, 1).outcome, Outcome::kWaiting);
   const auto first = path.resolve(Time{25ms});
   ASSERT_TRUE(first);
-  EXPECT_EQ(first->verdict.outcome, Outcome::kReplaced);
-  EXPECT_EQ(first->verdict.index, 0U);
+  EXPECT_EQ(first->decision.outcome, Outcome::kReplaced);
+  EXPECT_EQ(first->decision.index, 0U);
   EXPECT_FALSE(path.resolve(Time{30ms - 1ns}));
   const auto second = path.resolve(Time{30ms});
   ASSERT_TRUE(second);
-  EXPECT_EQ(second->verdict.at, Time{30ms});
+  EXPECT_EQ(second->decision.at, Time{30ms});
 }
 
 /// Returns which of `n` datagrams, one per millisecond, fell into an outage.
@@ -137,10 +137,10 @@ TEST(OutageScope, DrawsTheLengthOfScheduledOutages) {
 TEST(OutageLossAtStart, LosesDatagramsRightAfterTheStartAndHoldsTheRest) {
   PathSpec spec = holding(OutageSpec::Mode::kHold);
   spec.outages[0].loss_at_start = 20ms;
-  const auto all = verdicts(path_of(spec), 400);
+  const auto all = decisions(path_of(spec), 400);
   for (int ms = 0; ms < 400; ++ms) {
     const int into = (ms - 100 + 200) % 200;
-    const Verdict& v = all[static_cast<std::size_t>(ms)];
+    const PathDecision& v = all[static_cast<std::size_t>(ms)];
     ASSERT_EQ(v.outcome == Outcome::kOutage, ms >= 100 && into < 20) << ms;
     if (ms >= 100 && into >= 20 && into < 50) {
       ASSERT_EQ(v.at, Time{(ms - into + 50) * 1ms + 10ms}) << ms;
@@ -153,7 +153,7 @@ TEST(OutageLossAtStart, IsTiedToRandomMoments) {
   PathSpec spec;
   spec.outages = {
       {.length = 50ms, .mode = OutageSpec::Mode::kHold, .mean_gap = 20s, .length_max = 250ms, .loss_at_start = 20ms}};
-  const auto all = verdicts(path_of(spec), 2'000'000);
+  const auto all = decisions(path_of(spec), 2'000'000);
   std::size_t outages = 0;
   for (std::size_t i = 1; i < all.size(); ++i) {
     const bool held = all[i].outcome == Outcome::kDeliver && all[i].at > Time{static_cast<std::int64_t>(i) * 1ms};

@@ -34,7 +34,7 @@ TEST(Outage, HoldReleasesEverythingAtItsEnd) {
   PathSpec spec;
   spec.outages = {{.start = 1s, .length = 400ms, .mode = OutageSpec::Mode::kHold}};
   spec.floor = 10ms;
-  const auto all = verdicts(path_of(spec), 2000);
+  const auto all = decisions(path_of(spec), 2000);
   for (int ms = 0; ms < 2000; ++ms) {
     const bool held = ms >= 1000 && ms < 1400;
     ASSERT_EQ(all[static_cast<std::size_t>(ms)].at, Time{(held ? 1400 : ms) * 1ms + 10ms}) << ms;

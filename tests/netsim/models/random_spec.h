@@ -7,7 +7,7 @@ namespace tandem::netsim::test {
 
 /// Returns a valid random path: each model is on or off, with parameters that take effect within seconds.
 /// @param order  fifo or free; slots require fifo and are off otherwise
-[[nodiscard]] inline PathSpec random_path(RandomStream& random, Order order) {
+[[nodiscard]] inline PathSpec random_path(RandomStream& random, ArrivalOrder order) {
   const auto on = [&] { return random.uniform() < 0.4; };
   const auto ms = [&](double lo, double hi) { return from_seconds(1e-3 * random.uniform(lo, hi)); };
   const auto body = [&] {
@@ -86,7 +86,7 @@ namespace tandem::netsim::test {
     spec.stall = {.rate_per_s = random.uniform(0.2, 3), .length_min = ms(2, 20), .alpha = 1.5, .cap = ms(30, 400)};
     if (on()) loss.congestion = CongestionLossSpec{.in_stall = 0.3};
   }
-  if (order == Order::kFifo && on())
+  if (order == ArrivalOrder::kFifo && on())
     spec.slots = {.period = ms(0.5, 8), .datagrams = static_cast<std::uint32_t>(random.below(20))};
   if (on())
     spec.reorder = {.probability = random.uniform(0, 0.1),

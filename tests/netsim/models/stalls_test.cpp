@@ -30,7 +30,7 @@ TEST(Stalls, HoldForTheirLengthAndReleaseAtOneInstant) {
   PathSpec spec;
   spec.stall = kEighty;
   Path path = path_of(spec, 5);
-  const auto all = verdicts(path, 20'000);
+  const auto all = decisions(path, 20'000);
   // Groups by release: a stall of 80 ms at 1 kHz releases exactly the 80 datagrams sent during it. Groups of 82 or more
   // come from two overlapping stalls. Delays decrease by 1 ms.
   std::size_t stalls_seen = 0;

@@ -74,7 +74,7 @@ TEST(Profiles, MatchTheirPromisedQuantiles) {
       Path path{profile->link[check.direction], Path::key_for(1, 0, check.direction)};
       std::vector<double> all;
       for (std::int64_t i = 0; i < 1'800'000; ++i) {
-        const Verdict v = path.send(Time{i * 1ms}, kSize);
+        const PathDecision v = path.send(Time{i * 1ms}, kSize);
         if (!dropped(v.outcome)) all.push_back(static_cast<double>((v.at - Time{i * 1ms}).count()));
       }
       const std::array q{0.05, 0.50, 0.95, 0.99};
@@ -97,7 +97,7 @@ TEST(Profiles, LoseTheShareInTheirName) {
     const auto profile = shipped_profile(name);
     ASSERT_TRUE(profile);
     constexpr std::size_t n = 1'800'000;
-    const double lost = static_cast<double>(count_of(verdicts(path_of(profile->link.up), n), Outcome::kLost)) / n;
+    const double lost = static_cast<double>(count_of(decisions(path_of(profile->link.up), n), Outcome::kLost)) / n;
     EXPECT_NEAR(lost, share, 0.05 * share);
   }
 }
@@ -107,8 +107,8 @@ TEST(Profiles, HaveTheMeanInTheNameOfTelesurgery) {
        {std::pair{"telesurgery-100", 100.0}, {"telesurgery-300", 300.0}, {"telesurgery-500", 500.0}}) {
     auto profile = shipped_profile(name);
     ASSERT_TRUE(profile);
-    profile->link.up.order = Order::kFree;  // the parameters describe the raw process; fifo order adds delay
-    const auto all = delays(verdicts(path_of(profile->link.up), 1'800'000));
+    profile->link.up.order = ArrivalOrder::kFree;  // the parameters describe the raw process; fifo order adds delay
+    const auto all = delays(decisions(path_of(profile->link.up), 1'800'000));
     double sum = 0;
     for (const double d : all) sum += d / 1e6;
     EXPECT_NEAR(sum / static_cast<double>(all.size()), mean_ms, 0.05 * mean_ms) << name;
@@ -150,7 +150,7 @@ TEST(Profiles, MapEveryKeyToItsSpec) {
   up.floor = 1500us;
   up.body = {.kind = BodySpec::Kind::kLogLogistic, .scale = 750us, .shape = 2.4, .cap = 25ms, .tau = 8ms};
   up.stall = {.rate_per_s = 0.6, .length_min = 8ms, .alpha = 1.35, .cap = 400ms};
-  up.order = Order::kFree;
+  up.order = ArrivalOrder::kFree;
   up.reorder = {.probability = 0.01, .displacement = 4, .hold_limit = 70ms};
   up.duplicate = {.probability = 0.02, .delay_max = 5ms};
   EXPECT_EQ(profile->link.up, up);

@@ -51,7 +51,7 @@ TEST(ProfilePreview, MeasuresQuantilesLikeTheProfileChecks) {
   ASSERT_TRUE(profile);
   const ProfilePreview p = preview_profile({.link = profile->link, .length = 60s});
   Path path{profile->link.down, Path::key_for(1, 0, Direction::kDown)};
-  auto all = delays(verdicts(path, 60'000));
+  auto all = delays(decisions(path, 60'000));
   std::sort(all.begin(), all.end());
   ASSERT_EQ(p.ways[1].delays.size(), all.size());
   for (const double q : {0.05, 0.5, 0.95, 0.99}) {

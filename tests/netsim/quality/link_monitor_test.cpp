@@ -105,10 +105,10 @@ TEST(LinkMonitor, DoesNotCountADroppedCopyAsLoss) {
   DecisionTap tap;
   tap.monitor = &watch;
   const auto bytes = datagram(1);
-  const Verdict copy_lost{
+  const PathDecision copy_lost{
       .index = 0, .at = Time{1ms}, .copied = true, .copy_delay = 1ms, .copy_outcome = Outcome::kLost, .released = {}};
   submit(copy_lost, queue, counters, tap, {.now = Time{}}, bytes);
-  const Verdict lost{.outcome = Outcome::kLost, .index = 1, .at = Time{}, .released = {}};
+  const PathDecision lost{.outcome = Outcome::kLost, .index = 1, .at = Time{}, .released = {}};
   submit(lost, queue, counters, tap, {.now = Time{}}, bytes);
   const auto item = queue.take(Time{1ms});
   ASSERT_TRUE(item);

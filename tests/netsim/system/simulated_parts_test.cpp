@@ -1,12 +1,17 @@
 // Parts of a simulation: faults over time, sensors with faults, a client's program, the server's process.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "hal/sim/sim_device.h"
+#include "netsim/system/random_draws.h"
 #include "netsim/system/sensor_faults.h"
+#include "netsim/system/session_link_monitors.h"
 #include "netsim/system/simulated_program.h"
 #include "netsim/system/simulated_server.h"
+#include "netsim/system/wake_order.h"
 #include "tests/support/simulation_run.h"
 
 namespace tandem::netsim {
@@ -179,6 +184,66 @@ TEST(SimulatedServer, UpdatesItsCheckpointTwiceASecondOrWhenParticipantsChange) 
   join(1);
   EXPECT_FALSE(taken(1, 502ms, false));
   EXPECT_TRUE(taken(1, 503ms, false));
+}
+
+TEST(WakeOrder, SortsByTimeThenByNumber) {
+  WakeOrder order{4};
+  const auto sorted = [&order](std::array<Duration, 4> times) {
+    return order.sort([&](std::size_t client) { return at(times[client]); });
+  };
+  using Order = std::vector<std::size_t>;
+  EXPECT_EQ(sorted({1ms, 1ms, 1ms, 1ms}), (Order{0, 1, 2, 3}));
+  EXPECT_EQ(sorted({4ms, 2ms, 3ms, 1ms}), (Order{3, 1, 2, 0}));
+  EXPECT_EQ(sorted({2ms, 1ms, 2ms, 1ms}), (Order{1, 3, 0, 2}));
+  EXPECT_EQ(sorted({1ms, 1ms, 1ms, 1ms}), (Order{0, 1, 2, 3})) << "an earlier order has no effect";
+}
+
+TEST(RandomDraws, AreReproducibleAndStayInTheirRanges) {
+  RandomDraws one{RandomKey{7}}, same{RandomKey{7}}, other{RandomKey{8}};
+  std::array<int, 3> chosen{};
+  int differs = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double a = one.between(-2, 3), b = one.log_between(0.01, 100);
+    EXPECT_TRUE(a >= -2 && a < 3 && b >= 0.01 * (1 - 1e-12) && b < 100 * (1 + 1e-12));
+    EXPECT_EQ(same.between(-2, 3), a);
+    EXPECT_EQ(same.log_between(0.01, 100), b);
+    differs += other.between(-2, 3) != a ? 1 : 0;
+    EXPECT_LT(one.below(5), 5u);
+    same.below(5);
+    EXPECT_TRUE(one.chance(1));
+    EXPECT_FALSE(same.chance(0));
+    ++chosen[one.choose(std::array{0.5, 0.0, 1.5})];
+    same.choose(std::array{0.5, 0.0, 1.5});
+  }
+  EXPECT_GT(differs, 990);
+  EXPECT_EQ(chosen[1], 0);
+  EXPECT_NEAR(chosen[2], 750, 60);  // 4 sigma of a binomial distribution: 55
+}
+
+TEST(SessionLinkMonitors, SummariseEverySeatFromTheirStart) {
+  Network network{1};
+  SceneSpec scene;
+  for (const char* name : {"a", "b"}) {
+    network.add_link(LinkSpec{});
+    scene.seats.emplace_back().name = name;
+  }
+  SessionLinkMonitors monitors;
+  const std::array<std::byte, 8> bytes{};
+  network.send(at(1ms), 0, Direction::kUp, bytes);
+  EXPECT_FALSE(monitors.started());
+  EXPECT_TRUE(monitors.qualities(scene).empty());
+  monitors.start(at(2ms), network);
+  EXPECT_TRUE(monitors.started());
+  network.send(at(3ms), 0, Direction::kUp, bytes);
+  network.send(at(3ms), 0, Direction::kDown, bytes);
+  network.send(at(4ms), 0, Direction::kUp, bytes);
+  const std::vector<NamedLink> links = monitors.qualities(scene);
+  ASSERT_EQ(links.size(), 2u);
+  EXPECT_EQ(links[0].name, "a");
+  EXPECT_EQ(links[0].link.up.sent, 2u);
+  EXPECT_EQ(links[0].link.down.sent, 1u);
+  EXPECT_EQ(links[1].name, "b");
+  EXPECT_EQ(links[1].link.up.sent, 0u);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ std::vector<Law> laws() {
   };
 }
 
-/// Returns milliseconds of one body, sampled every `period`, with Order::kFree (the process that the parameters
+/// Returns milliseconds of one body, sampled every `period`, with ArrivalOrder::kFree (the process that the parameters
 /// describe).
 std::vector<double> drawn(BodySpec spec, std::size_t n, Duration tau, Duration period, std::uint64_t seed) {
   spec.tau = tau;
@@ -154,7 +154,7 @@ TEST(Matrix, DecaysCorrelationWithItsTime) {
 /// 1 kHz datagrams and a stall from `begin` for `length`: ceil(length / 1 ms) datagrams leave at its end. Their delays
 /// are length, length - 1 ms, ... if the first is sent exactly at the begin.
 void expect_sawtooth(const PathSpec& spec, Time begin, Duration length) {
-  const auto all = verdicts(path_of(spec), 3000);
+  const auto all = decisions(path_of(spec), 3000);
   const auto first = static_cast<std::size_t>((begin - Time{}) / 1ms);
   const auto held = static_cast<std::size_t>((length + 1ms - 1ns) / 1ms);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -181,7 +181,7 @@ TEST(Matrix, ReleasesARandomStallAtOneInstant) {
   PathSpec spec;
   spec.stall = {.rate_per_s = 0.2, .length_min = 80'400us, .alpha = 1, .cap = 80'400us};
   for (std::uint64_t seed = 1, last = tandem::test::seeds(3); seed <= last; ++seed) {
-    const auto all = verdicts(path_of(spec, seed), 200'000);
+    const auto all = decisions(path_of(spec, seed), 200'000);
     std::size_t stalls = 0, joined = 0;
     for (std::size_t i = 0; i < all.size();) {
       const Time sent{1ms * static_cast<std::int64_t>(i)}, end = all[i].at;

@@ -68,7 +68,7 @@ TEST(Matrix, ExcludesDatagramsUnderWayFromTheQueue) {
     spec.rate = limit;
     spec.rate.bits_per_s = 2'000'000;
     spec.floor = 5s;  // 5000 in flight at 1 kHz
-    EXPECT_EQ(count_of(verdicts(path_of(spec), 20'000), Outcome::kDeliver), 20'000U);
+    EXPECT_EQ(count_of(decisions(path_of(spec), 20'000), Outcome::kDeliver), 20'000U);
   }
 }
 
@@ -89,12 +89,12 @@ std::map<std::string, std::vector<double>> coins(std::uint64_t seed, std::size_t
       loss.loss.probability = copy.duplicate.probability = damage.corruption.probability = 0.5;
       reorder.reorder = {.probability = 0.5, .displacement = 1};
       body.body = {.kind = BodySpec::Kind::kUniform, .high = 1ms};
-      body.order = Order::kFree;
-      stream("loss", loss, [](const Verdict& v) { return v.outcome == Outcome::kLost; });
-      stream("copy", copy, [](const Verdict& v) { return v.copied; });
-      stream("damage", damage, [](const Verdict& v) { return v.outcome == Outcome::kCorrupted; });
-      stream("reorder", reorder, [](const Verdict& v) { return v.outcome == Outcome::kHeldBack; });
-      stream("delay", body, [](const Verdict& v) { return v.at < Time{500us}; });
+      body.order = ArrivalOrder::kFree;
+      stream("loss", loss, [](const PathDecision& v) { return v.outcome == Outcome::kLost; });
+      stream("copy", copy, [](const PathDecision& v) { return v.copied; });
+      stream("damage", damage, [](const PathDecision& v) { return v.outcome == Outcome::kCorrupted; });
+      stream("reorder", reorder, [](const PathDecision& v) { return v.outcome == Outcome::kHeldBack; });
+      stream("delay", body, [](const PathDecision& v) { return v.at < Time{500us}; });
     }
   }
   return all;
@@ -144,8 +144,8 @@ TEST(Matrix, ReplaysALogToAnIdenticalLog) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     RandomStream random{seed};
     LinkSpec spec;
-    spec.up = random_path(random, seed % 3 == 0 ? Order::kFree : Order::kFifo);
-    spec.down = random_path(random, Order::kFifo);
+    spec.up = random_path(random, seed % 3 == 0 ? ArrivalOrder::kFree : ArrivalOrder::kFifo);
+    spec.down = random_path(random, ArrivalOrder::kFifo);
     Network live{seed}, again{seed + 1};
     live.add_link(spec);
     const std::string log = log_of(live, seed);

@@ -153,7 +153,7 @@ TEST(Matrix, ReorderingHasExactlyItsRatioAndExtent) {
     std::vector<bool> is_chosen(n);
     for (std::size_t i = 0; i < n; ++i) {
       const Time now{1ms * static_cast<std::int64_t>(i)};
-      const Verdict v = path.send(now, kSize);
+      const PathDecision v = path.send(now, kSize);
       is_chosen[i] = v.outcome == Outcome::kHeldBack;
       chosen += is_chosen[i] ? 1 : 0;
       passed[i] = (i == 0 ? 0 : passed[i - 1]) + (is_chosen[i] ? 0 : 1);
@@ -179,7 +179,7 @@ TEST(Matrix, CopiesABinomialShareOfDeliveredDatagramsNeverEarly) {
     std::uint64_t delivered = 0, copies = 0;
     std::vector<double> delays;
     for (std::size_t i = 0; i < kMillion; ++i) {
-      const Verdict v = path.send(Time{1ms * static_cast<std::int64_t>(i)}, kSize);
+      const PathDecision v = path.send(Time{1ms * static_cast<std::int64_t>(i)}, kSize);
       ASSERT_FALSE(v.copied && dropped(v.outcome)) << i;
       delivered += dropped(v.outcome) ? 0 : 1;
       if (!v.copied) continue;

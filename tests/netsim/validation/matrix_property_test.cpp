@@ -23,7 +23,7 @@ void for_random_paths(std::uint64_t reduced, Body body) {
   for (std::uint64_t seed = 1; seed <= seeds && !::testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     RandomStream random{seed};
-    const PathSpec spec = random_path(random, seed % 3 == 0 ? Order::kFree : Order::kFifo);
+    const PathSpec spec = random_path(random, seed % 3 == 0 ? ArrivalOrder::kFree : ArrivalOrder::kFifo);
     const auto wrong = problems(spec);
     ASSERT_TRUE(wrong.empty()) << wrong.front().key << ": " << wrong.front().message;
     body(spec, seed, random);
@@ -64,7 +64,7 @@ TEST(Matrix, DeliversNothingBeforeTheFloor) {
 TEST(Matrix, KeepsOrderWithFifo) {
   std::size_t checked = 0;
   for_random_paths(300, [&](const PathSpec& spec, std::uint64_t seed, RandomStream& random) {
-    if (spec.order != Order::kFifo) return;
+    if (spec.order != ArrivalOrder::kFifo) return;
     Time last{};
     for (const Decision& row : decisions(spec, seed, random)) {
       if (row.outcome != Outcome::kDeliver || row.copy) continue;  // datagrams held back for reordering are exempt

@@ -57,9 +57,9 @@ Exchanges generated(const std::string& profile_name, Duration interval, std::uin
   Path down{profile->link.down, Path::keys_for(seed, 0, Direction::kDown)};
   Exchanges all;
   for (Time now{}; now < Time{30min}; now += interval) {
-    const Verdict request = up.send(now, kSize);
+    const PathDecision request = up.send(now, kSize);
     if (dropped(request.outcome)) continue;
-    const Verdict answer = down.send(request.at, kSize);
+    const PathDecision answer = down.send(request.at, kSize);
     if (dropped(answer.outcome)) continue;
     all.sent_ms.push_back(1e3 * seconds(now.time_since_epoch()));
     all.rtt_ms.push_back(1e3 * seconds(answer.at - now));

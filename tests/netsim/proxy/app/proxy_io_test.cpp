@@ -49,7 +49,7 @@ TEST(Proxy, ForwardsBothDirectionsPerClient) {
     EXPECT_EQ(direction.out, 400U);
     EXPECT_EQ(direction.dropped(), 0U);
   }
-  EXPECT_EQ(proxy->lateness().count(), 800U);
+  EXPECT_EQ(proxy->sender().lateness().count(), 800U);
   EXPECT_EQ(proxy->client_reports().size(), 2U);
 }
 
@@ -114,7 +114,7 @@ TEST(Proxy, DropsAndCopiesAsTheEngineDecides) {
   std::multiset<std::string> expected, got;
   for (int i = 0; i < 500; ++i) {
     const std::string bytes = std::to_string(i);
-    const Verdict v = path.send(Time{}, bytes.size());
+    const PathDecision v = path.send(Time{}, bytes.size());
     if (v.outcome == Outcome::kDeliver) expected.insert(bytes);
     if (v.copied) expected.insert(bytes);
     ASSERT_TRUE(client.send(bytes));

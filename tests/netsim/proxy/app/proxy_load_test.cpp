@@ -60,11 +60,11 @@ void carry(const LinkSpec& link, Duration length) {
   EXPECT_EQ(counts.up, end.total[0].out);
   EXPECT_EQ(counts.down, end.total[1].out);
   EXPECT_EQ(end.released, end.total[0].out + end.total[1].out);
-  EXPECT_EQ(proxy->lateness().count(), end.released);
+  EXPECT_EQ(proxy->sender().lateness().count(), end.released);
   std::printf("[   load   ] %llu datagrams in %.0f s, late p50 %.0f us, p99 %.0f us\n",
               static_cast<unsigned long long>(counts.sent), seconds(length),
-              static_cast<double>(proxy->lateness().quantile(0.5)) / 1e3,
-              static_cast<double>(proxy->lateness().quantile(0.99)) / 1e3);
+              static_cast<double>(proxy->sender().lateness().quantile(0.5)) / 1e3,
+              static_cast<double>(proxy->sender().lateness().quantile(0.99)) / 1e3);
 }
 
 Duration load_length() { return 1s * static_cast<std::int64_t>(std::min<std::uint64_t>(tandem::test::seeds(2), 60)); }

@@ -1,5 +1,6 @@
 // Parts of the live proxy that need neither socket nor clock.
 #include <gtest/gtest.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "common/base/rng.h"
 #include "netsim/proxy/app/live_delay_histogram.h"
 #include "netsim/proxy/app/proxy_events.h"
+#include "netsim/proxy/app/proxy_inbox.h"
 #include "netsim/proxy/app/proxy_status_view.h"
 #include "netsim/proxy/app/reading_interval.h"
 #include "netsim/proxy/app/send_queue.h"
@@ -177,6 +179,40 @@ TEST(ProxySource, RoundTripsAsANumber) {
       EXPECT_EQ(again.place, source.place);
     }
   }
+}
+
+TEST(ProxyInbox, KeepsRequestsInOrderAndRejectsThoseBeyondItsCapacity) {
+  ProxyInbox inbox;
+  ASSERT_TRUE(inbox.open());
+  EXPECT_TRUE(inbox.empty());
+  std::vector<std::unique_ptr<ProxyRequest>> requests;
+  for (std::size_t i = 0; i < ProxyInbox::kRequestsMax; ++i)
+    ASSERT_TRUE(inbox.post(*requests.emplace_back(std::make_unique<ProxyRequest>())));
+  ProxyRequest late;
+  EXPECT_FALSE(inbox.post(late));
+  EXPECT_EQ(&inbox.take(), requests[0].get());
+  EXPECT_TRUE(inbox.post(late));
+  for (std::size_t i = 1; i < requests.size(); ++i) EXPECT_EQ(&inbox.take(), requests[i].get());
+  EXPECT_EQ(&inbox.take(), &late);
+  EXPECT_TRUE(inbox.empty());
+}
+
+TEST(ProxyInbox, WakesThePacketThreadForEachMessage) {
+  ProxyInbox inbox;
+  const auto readable = [&inbox] {
+    pollfd ready{inbox.fd(), POLLIN, 0};
+    return ::poll(&ready, 1, 0) == 1;
+  };
+  EXPECT_FALSE(readable());
+  ProxyRequest request;
+  ASSERT_TRUE(inbox.post(request));
+  EXPECT_TRUE(readable());
+  inbox.clear();
+  EXPECT_FALSE(readable());
+  EXPECT_FALSE(inbox.stopping());
+  inbox.stop();
+  EXPECT_TRUE(inbox.stopping());
+  EXPECT_TRUE(readable());
 }
 
 }  // namespace
