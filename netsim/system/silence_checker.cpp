@@ -2,28 +2,33 @@
 
 #include <algorithm>
 
+#include "common/base/command_lifetime.h"
+
 namespace tandem::netsim {
 namespace {
 
 constexpr double kRampOut = 0.1;                                      // [s]
 constexpr double kTankPerKg = 0.18, kTankMin = 0.02, kTankMax = 0.1;  // [J/kg], [J]
-constexpr double kTankSlack = 1e-3;  // [J] that a hand pulling along overdraws within one tick
 constexpr double kUnseen = 1.6e-4;  // [m] that the gate cannot see, because it measures by encoders: two of their steps
-constexpr double kLatePower = 1;    // [W] that a hand at 2 m/s overdraws while its program wakes up late
 
 }  // namespace
 
 void SilenceChecker::check_energy(const ObservedSeat& seat) {
   if (seat.client.seat() == nullptr || fresh_ == Time{}) return;
-  if (seat.core().gate().active() && !seat.was_active) given_ = 0;
-  given_ += seat.client.motor_work();
-  // An effort acts until the program wakes up again; the gate cannot take it back earlier.
-  late_ = ran_in_previous_ ? 0 : late_ + seat.tick();
-  ran_in_previous_ = seat.client.ran_in_tick();
+  if (seat.core().gate().active() && !seat.was_active) energy_.restart();
+  const double later_work = seat.client.motor_work_after_run();
+  energy_.add(seat.client.motor_work() - later_work);
+  if (!seat.client.ran_in_tick()) return;  // its gate can act only when the program wakes up
   const double tank =
       seat.force_share() * std::clamp(kTankPerKg * seat.client.device().caps().mass.value_or(0), kTankMin, kTankMax);
   const double unseen = seat.force_share() * seat.scene.gate.force_max * kUnseen;
-  if (given_ > tank + kTankSlack + unseen + kLatePower * late_) seat.violated("loss_energy");
+  const Time now = seat.client.last_run();
+  const SilenceEnergy::Bound bound{.tank = tank + unseen,
+                                   .step_max = seconds(command_lifetime(from_seconds(seat.tick())))};
+  const double step = ran_ == Time{} ? 0 : seconds(now - ran_);
+  if (!energy_.wake_up(step, bound)) seat.violated("loss_energy");
+  ran_ = now;
+  energy_.add(later_work);
 }
 
 void SilenceChecker::check(const ObservedSeat& seat) {
@@ -37,7 +42,10 @@ void SilenceChecker::check(const ObservedSeat& seat) {
     limit_ = 0;
     fresh_ = now;
     // A datagram that makes the gate release also restarts the sum, except one so old that it ended the link.
-    if (active || (seat.was_active && core.gate().trips() == trips_)) given_ = 0;
+    if (active || (seat.was_active && core.gate().trips() == trips_)) {
+      energy_.restart();
+      energy_.add(seat.client.motor_work_after_run());
+    }
   }
   trips_ = core.gate().trips();
   const double half_tick = 0.5 * seat.tick();

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "netsim/system/observed_seat.h"
+#include "netsim/system/silence_energy.h"
 
 namespace tandem::netsim {
 
@@ -17,12 +18,11 @@ class SilenceChecker {
   void check(const ObservedSeat& seat);
 
  private:
-  std::uint64_t trips_ = 0;      ///< of its gate
-  Time arrived_{}, fresh_{};     ///< when the last fresh datagram arrived: on the seat's clock, on the simulation's
-  double limit_ = 0;             ///< longest silence limit since then [s]
-  double given_ = 0;             ///< energy that the motor delivered since then and since the gate's release [J]
-  double late_ = 0;              ///< time since its program last ran, beyond one tick [s]
-  bool ran_in_previous_ = true;  ///< tick
+  std::uint64_t trips_ = 0;   ///< of its gate
+  Time arrived_{}, fresh_{};  ///< when the last fresh datagram arrived: on the seat's clock, on the simulation's
+  double limit_ = 0;          ///< longest silence limit since then [s]
+  SilenceEnergy energy_;      ///< that the motor delivered since then and since the gate's release
+  Time ran_{};                ///< when its program last ran
 };
 
 }  // namespace tandem::netsim

@@ -56,7 +56,9 @@ std::string SimulatedClient::step(Time now, server::Session* session, Network& n
   const Time woke = wakes.value_or(now);
   if (woke > now - tick_) advance_device(woke - (now - tick_));
   std::string trouble = run_program(woke, wakes.has_value(), session, network, buffer);
+  const double before_run = motor_work_;
   if (woke < now) advance_device(now - woke);
+  motor_work_after_run_ = ran_in_tick_ ? motor_work_ - before_run : 0;
   return trouble;
 }
 

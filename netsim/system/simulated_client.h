@@ -72,6 +72,8 @@ class SimulatedClient {
   [[nodiscard]] Time last_run() const noexcept { return last_run_; }
   /// Returns the energy that the motor delivered [J].
   [[nodiscard]] double motor_work() const noexcept { return motor_work_; }
+  /// Returns the part of `motor_work` after the core ran [J]; 0 if it did not run.
+  [[nodiscard]] double motor_work_after_run() const noexcept { return motor_work_after_run_; }
   [[nodiscard]] bool invalid_reading() const noexcept { return sensors_.invalid(); }
 
  private:
@@ -96,7 +98,7 @@ class SimulatedClient {
   bool ran_in_tick_ = false;
   std::uint64_t new_datagrams_ = 0;
   Time last_run_{};
-  double motor_work_ = 0;
+  double motor_work_ = 0, motor_work_after_run_ = 0;
   FirstSeenFilter first_seen_;
 };
 

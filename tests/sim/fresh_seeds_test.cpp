@@ -281,7 +281,7 @@ INSTANTIATE_TEST_SUITE_P(Approach, FreshSeed, testing::Values(700724, 700883, 70
 INSTANTIATE_TEST_SUITE_P(Starved, FreshSeed,
                          testing::Values(5034, 701260, 700655, 801467, 801859, 910000060, 910000272, 910002480,
                                          910005248, 910007677, 910015128));
-INSTANTIATE_TEST_SUITE_P(LossEnergy, FreshSeed, testing::Values(910002606, 910009057, 910016151));
+INSTANTIATE_TEST_SUITE_P(LossEnergy, FreshSeed, testing::Values(910002606, 910009057, 910016151, 318546188308));
 INSTANTIATE_TEST_SUITE_P(HandoverLink, FreshSeed, testing::Values(910015457));
 INSTANTIATE_TEST_SUITE_P(ManyNames, FreshSeed, testing::Values(910001536));
 INSTANTIATE_TEST_SUITE_P(Gathering, FreshSeed, testing::Values(800394));
