@@ -8,35 +8,21 @@
 namespace tandem::netsim {
 namespace {
 
-constexpr double kFront = 0.010, kDepth = 0.006;           // [m]
-constexpr double kTouch = 2, kPressed = 4, kHandOver = 7;  // [s]
-constexpr double kEnd = 11;
+constexpr double kDepth = 0.006;                          // [m]
+constexpr double kPressed = 4, kHandOver = 7, kEnd = 11;  // [s]
 
 }  // namespace
 
 ProbeResult probe_handover(const FeelSetup& setup, std::uint64_t seed) {
   ProbeResult result;
   const DrawnHand steady{HandKind::kPlain, seed, 0};  // 0.3 mm of intention noise alone cause 0.1 N
-  const auto path = [](double t) {
-    const double approach = hal::sim::min_jerk(t - 1).value,
-                 press = hal::sim::min_jerk((t - kTouch) / (kPressed - kTouch)).value;
-    return hal::Vec3(kFront * (approach - 1) + kDepth * press, 0, 0);
-  };
-  ProbeRun run;
-  run.length = kEnd;
-  run.start_x = -kFront;
-  run.environment = wall_of(kBone);
-  run.hand_over_at = kHandOver;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const DrawnHand hand{setup.hands, seed, i};
-    run.hands.push_back({hand.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM), steady.move(path, kEnd)});
-  }
+  const auto motion = steady.move(press_path(kDepth, kPressed), kEnd);
+  ProbeRun run{.length = kEnd, .start_x = -kPressFront, .environment = wall_of(kBone), .hand_over_at = kHandOver};
+  for (std::size_t i = 0; i < 2; ++i) run.hands.push_back({firm(DrawnHand{setup.hands, seed, i}), motion});
   const FeelTrace trace = run_part(setup, run, seed, result);
-  const auto [before, at] = trace.window(kHandOver - 1, kHandOver);
-  const auto [from, end] = trace.window(kHandOver, kEnd);
   double bump = 0, step = 0, step_before = 0;
   for (const FeelTrace::Hand& hand : trace.hands) {
-    const Series quiet = Series{hand.f}.subspan(before, at - before), during = Series{hand.f}.subspan(from, end - from);
+    const Series quiet = trace.part(hand.f, kHandOver - 1, kHandOver), during = trace.part(hand.f, kHandOver, kEnd);
     bump = std::max(bump, largest_distance(during, mean(quiet)));
     step = std::max(step, largest_step_per_ms(during, trace.tick_hz));
     step_before = std::max(step_before, largest_step_per_ms(quiet, trace.tick_hz));

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "common/base/format.h"
 #include "netsim/feel/meters.h"
 #include "netsim/feel/probes.h"
@@ -10,48 +6,27 @@
 /// has 2 to 98 % of the authority; it moves 30 mm within 0.3 s and back. Then both rest without tremor. Both hands are
 /// firm in one run and soft in the next.
 namespace tandem::netsim {
-namespace {
-
-constexpr double kAway = 0.03, kMove = 0.3, kOut = 1, kBack = 2;  // [m, s, s, s]
-constexpr double kMeasure = 7.5, kEnd = 12.5;                     // [s]
-constexpr double kBand = 1;                                       // [Hz]
-
-}  // namespace
 
 ProbeResult probe_share(const FeelSetup& setup, std::uint64_t seed) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   ProbeResult result;
   const DrawnHand steady{HandKind::kPlain, seed, 0};  // moves without tremor
-  const auto kick = steady.move(
-      [](double t) {
-        return hal::Vec3(
-            kAway * (hal::sim::min_jerk((t - kOut) / kMove).value - hal::sim::min_jerk((t - kBack) / kMove).value), 0,
-            0);
-      },
-      kEnd);
-  const auto still = steady.move([](double) { return hal::Vec3(0, 0, 0); }, kEnd);
+  const auto kick = steady.move(kick_path, kCycleEnd);
+  const auto still = steady.move([](double) { return hal::Vec3(0, 0, 0); }, kCycleEnd);
   double most = 0;
   for (const double share : kShares) {
     double worst = 0;
     for (const bool soft : {false, true}) {
-      ProbeRun run;
-      run.length = kEnd;
-      run.share = share;
+      ProbeRun run{.length = kCycleEnd, .share = share};
       for (std::size_t i = 0; i < 2; ++i) {
         const DrawnHand hand{setup.hands, seed, i};
-        run.hands.push_back({soft ? hand.with_impedance(HandModel::kRecorded, 50, 1, 0.2)
-                                  : hand.with_impedance(HandModel::kRecorded, kFirmK, kFirmB, kFirmM),
-                             i == 0 ? kick : still});
+        run.hands.push_back(
+            {soft ? hand.with_impedance(HandModel::kRecorded, 50, 1, 0.2) : firm(hand), i == 0 ? kick : still});
       }
       const FeelTrace trace = run_part(setup, run, seed, result);
-      const auto [first, end] = trace.window(kMeasure, kEnd);
-      for (const FeelTrace::Hand& hand : trace.hands) {
-        const double force = rms_above(Series{hand.f}.subspan(first, end - first), kBand, trace.tick_hz);
-        worst = std::isnan(force) || std::isnan(worst) ? kNaN : std::max(worst, force);
-      }
+      for (const FeelTrace::Hand& hand : trace.hands) worst = larger(worst, limit_cycle(trace, hand));
     }
     result.values[format("shared_cycle_%g_n", 100 * share)] = worst;
-    most = std::isnan(worst) || std::isnan(most) ? kNaN : std::max(most, worst);
+    most = larger(most, worst);
   }
   result.values["shared_cycle_n"] = most;
   return result;
