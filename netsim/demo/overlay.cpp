@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "netsim/demo/experiment_times.h"
+
 namespace tandem::netsim::demo {
 
 using namespace plot;
@@ -47,6 +49,9 @@ constexpr std::array<Subject, 3> kContact{{
 }};
 constexpr std::span<const Subject> subjects(Task task) { return task == Task::kFreeMotion ? kFreeMotion : kContact; }
 
+constexpr TimeLabels kOverlayLabels{"trainee pushes", "trainer pushes", "α moves", "reaches the wall",
+                                    "trainee aligned"};
+
 struct Ink {
   const char *label, *ink;
 };
@@ -58,16 +63,6 @@ Curve curve_of(const RunResult& run, std::size_t index, bool path) {
   return {ink.label, ink.ink, index < run.overlay.size() ? run.overlay[index] : std::vector<Point2>{}, path};
 }
 
-void mark_times(Panel& panel, Task task, double duration, bool named) {
-  panel.x = Range{0, duration};
-  if (task == Task::kFreeMotion) {
-    panel.bands = {{7, 8.5, named ? "trainee pushes" : ""}, {14, 15.5, named ? "trainer pushes" : ""}};
-    panel.verticals = {{11.5, named ? "α moves" : ""}};
-  } else {
-    panel.verticals = {{3, named ? "reaches the wall" : ""}, {13, named ? "trainee aligned" : ""}};
-  }
-}
-
 Panel network_panel(const NetworkSeries& network, std::size_t way, Task task, double duration) {
   Panel p{.title = way == 0 ? "bad network, to the server: delay" : "bad network, from the server: delay",
           .x_label = way == 1 ? kTimeAxis : "",
@@ -75,7 +70,7 @@ Panel network_panel(const NetworkSeries& network, std::size_t way, Task task, do
           .curves = {{"", way == 0 ? "up" : "down", network.delay[way]}},
           .rug = network.lost[way],
           .height = 90};
-  mark_times(p, task, duration, false);
+  mark_times(p, task, duration, {});
   const Range range = range_of(p.curves, true, 1);
   p.y = Range{0, std::max(1.0, range.hi)};
   return p;
@@ -107,7 +102,7 @@ CaptionedFigure overlay_of(Task task, std::span<const RunResult> runs) {
     for (const RunResult& run : runs)
       if (run.plan->task == task) p.curves.push_back(curve_of(run, s, false));
     if (std::isfinite(rows[s].mark)) p.horizontals = {{rows[s].mark, rows[s].mark_label}};
-    mark_times(p, task, duration, s == 0);
+    mark_times(p, task, duration, s == 0 ? kOverlayLabels : TimeLabels{});
     if (s + 1 == rows.size() && network == nullptr) p.x_label = kTimeAxis;
     f.figure.panels.push_back(std::move(p));
   }
